@@ -1,0 +1,36 @@
+# fathom_module(NAME SOURCES ... [PUBLIC ...] [PRIVATE ...])
+#
+# One static library `fathom_NAME`, alias `fathom::NAME`, per module of the design. PUBLIC and
+# PRIVATE are exactly the edges that the module may have.
+function(fathom_module name)
+  cmake_parse_arguments(arg "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  add_library(fathom_${name} STATIC ${arg_SOURCES})
+  add_library(fathom::${name} ALIAS fathom_${name})
+  target_include_directories(fathom_${name} PUBLIC
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
+    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  target_link_libraries(fathom_${name} PUBLIC ${arg_PUBLIC} PRIVATE ${arg_PRIVATE})
+  target_compile_features(fathom_${name} PUBLIC cxx_std_20)
+  set_target_properties(fathom_${name} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
+  fathom_own_target(fathom_${name})
+  set_property(GLOBAL APPEND PROPERTY FATHOM_MODULES fathom_${name})
+endfunction()
+
+# Warnings and sanitizers of a target of ours; never of a user's.
+function(fathom_own_target target)
+  target_compile_options(${target} PRIVATE
+    -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -Wcast-qual
+    -Wformat=2 -Wimplicit-fallthrough)
+  # g++ 12 warns of its own std::string operator+ when it is inlined (GCC bug 105651).
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+    target_compile_options(${target} PRIVATE -Wno-restrict)
+  endif()
+  if(FATHOM_WARNINGS_AS_ERRORS)
+    target_compile_options(${target} PRIVATE -Werror)
+  endif()
+  if(FATHOM_SANITIZE)
+    target_compile_options(${target} PRIVATE -fsanitize=${FATHOM_SANITIZE} -fno-omit-frame-pointer
+                                             -fno-sanitize-recover=all)
+    target_link_options(${target} PUBLIC -fsanitize=${FATHOM_SANITIZE})
+  endif()
+endfunction()

@@ -1,0 +1,102 @@
+#include "estimators/ceres_pose_graph/ceres_pose_graph.hpp"
+
+#include <vector>
+
+#include "estimators/ceres_pose_graph/graph.hpp"
+
+namespace fathom {
+
+void CeresPoseGraphOptions::describe(OptionTable& table) {
+  table.integer("max_iterations", max_iterations, Range::at_least(1), "",
+                "Levenberg-Marquardt iterations of one solve at most");
+  table.real("tolerance", tolerance, Range::positive(), "",
+             "a solve has converged when cost or poses change by a smaller share");
+  table.real("initial_trust_region", initial_trust_region, Range::positive(), "",
+             "initial radius; very large is Gauss-Newton until a step fails");
+  table.enumeration("loss", loss,
+                    {{"none", Loss::none}, {"huber", Loss::huber}, {"cauchy", Loss::cauchy}},
+                    "robust loss on registrations; dead reckoning has none");
+  table.real("loss_scale", loss_scale, Range::positive(), "sigma",
+             "whitened residual at which the loss sets in");
+  gate.describe(table);
+}
+
+void CeresPoseGraphOptions::check(const EstimatorSetup& setup) const {
+  if (setup.mode == SolveMode::batch && gate.probability) {
+    throw InputError(
+        "gate_probability: a batch solve has no innovation to gate; use the incremental mode, or a "
+        "loss");
+  }
+}
+
+CeresPoseGraph::CeresPoseGraph(const EstimatorSetup& setup, const CeresPoseGraphOptions& options)
+    : options_(options),
+      mode_(setup.mode),
+      gate_(options.gate),
+      graph_(std::make_unique<Graph>(setup.origin, options)) {}
+
+CeresPoseGraph::~CeresPoseGraph() = default;
+
+std::size_t CeresPoseGraph::size() const {
+  return graph_->size();
+}
+
+Pose CeresPoseGraph::pose(std::size_t k) const {
+  return graph_->pose(k);
+}
+
+void CeresPoseGraph::add_keyframe(const RelativePose& step) {
+  graph_->add_keyframe(step);
+}
+
+UpdateReport CeresPoseGraph::close_loops(std::span<const RelativePose> registrations) {
+  UpdateReport report;
+  if (registrations.empty()) return report;
+  std::vector<RelativePose> forward;
+  for (const RelativePose& z : registrations) {
+    forward.push_back(z.forward());
+    report.loops.push_back({z.from, z.to, true, std::nullopt});
+  }
+  std::optional<std::vector<Eigen::Matrix3d>> S;
+  if (gate_.is_on()) S = graph_->innovation_covariances(forward);
+  bool accepted = false;
+  for (std::size_t j = 0; j < forward.size(); ++j) {
+    LoopDecision& decision = report.loops[j];
+    if (gate_.is_on()) {
+      const Pose h = between(pose(forward[j].from), pose(forward[j].to));
+      Eigen::Vector3d nu = forward[j].motion.vector() - h.vector();
+      nu.z() = wrap_angle(nu.z());
+      if (S) decision.nis = normalised_innovation_squared(nu, (*S)[j]);
+      decision.accepted = decision.nis && gate_.passes(*decision.nis);
+    }
+    if (!decision.accepted) continue;
+    graph_->add_registration(registrations[j]);
+    accepted = true;
+  }
+  if (gate_.is_on() && !S) report.outcome = Outcome::numerical_failure;
+  if (!accepted || mode_ == SolveMode::batch) return report;
+  const UpdateReport solved = graph_->solve();
+  report.outcome = worse(report.outcome, solved.outcome);
+  report.iterations = solved.iterations;
+  return report;
+}
+
+UpdateReport CeresPoseGraph::finish(std::span<const Pose> start) {
+  if (mode_ != SolveMode::batch || graph_->size() < 2) return {};
+  if (!start.empty()) graph_->set_poses(start);
+  return graph_->solve();
+}
+
+std::optional<Eigen::Matrix3d> CeresPoseGraph::covariance(std::size_t k) {
+  return graph_->marginal(k);
+}
+
+EstimatorEntry ceres_pose_graph_entry() {
+  return make_entry<CeresPoseGraphOptions>(
+      "ceres_pose_graph", "pose-graph least squares with Ceres, incremental or batch", true,
+      [](const EstimatorSetup& setup, const CeresPoseGraphOptions& options) {
+        return std::make_unique<CeresPoseGraph>(setup, options);
+      });
+}
+
+}  // namespace fathom

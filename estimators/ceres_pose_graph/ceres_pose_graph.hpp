@@ -1,0 +1,56 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "fathom/estimation/estimator.hpp"
+#include "fathom/estimation/gate.hpp"
+#include "fathom/estimation/registry.hpp"
+
+namespace fathom {
+
+struct CeresPoseGraphOptions {
+  enum class Loss { none, huber, cauchy };
+
+  int max_iterations = 100;
+  double tolerance = 1e-10;
+  double initial_trust_region = 1e16;
+  Loss loss = Loss::none;
+  double loss_scale = 1.0;
+  GateOptions gate;
+
+  void describe(OptionTable& table);
+  /// A batch solve has no innovation to gate.
+  void check(const EstimatorSetup& setup) const;
+};
+
+/// Pose-graph least squares with Ceres: Levenberg-Marquardt over all keyframe poses, sparse
+/// Cholesky of SuiteSparse. Incremental: warm-started whenever loops arrive.
+/// docs/estimators/ceres_pose_graph.md.
+class CeresPoseGraph final : public Estimator {
+ public:
+  CeresPoseGraph(const EstimatorSetup& setup, const CeresPoseGraphOptions& options);
+  ~CeresPoseGraph() override;
+
+  void add_keyframe(const RelativePose& step) override;
+  UpdateReport close_loops(std::span<const RelativePose> registrations) override;
+  UpdateReport finish(std::span<const Pose> start) override;
+
+  /// From the Gauss-Newton Hessian at the estimate, the loss applied as a weight; a rejected
+  /// registration has no part in it.
+  std::optional<Eigen::Matrix3d> covariance(std::size_t k) override;
+  std::size_t size() const override;
+  Pose pose(std::size_t k) const override;
+
+ private:
+  class Graph;  // keeps Ceres out of this header
+
+  CeresPoseGraphOptions options_;
+  SolveMode mode_;
+  Gate gate_;
+  std::unique_ptr<Graph> graph_;
+};
+
+EstimatorEntry ceres_pose_graph_entry();
+
+}  // namespace fathom

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <array>
+#include <deque>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+#include <ceres/problem.h>
+
+#include "estimators/ceres_pose_graph/ceres_pose_graph.hpp"
+
+namespace fathom {
+
+/// The Ceres problem: one 3-vector block a keyframe, one EdgeCost a measurement.
+class CeresPoseGraph::Graph {
+ public:
+  Graph(const Pose& origin, const CeresPoseGraphOptions& options);
+
+  std::size_t size() const { return poses_.size(); }
+  Pose pose(std::size_t k) const;
+  void set_poses(std::span<const Pose> poses);
+
+  /// A keyframe at the newest one ⊕ the step.
+  void add_keyframe(const RelativePose& step);
+  void add_registration(const RelativePose& registration);
+
+  /// Solves from the present poses; keeps them as they were if it fails.
+  UpdateReport solve();
+
+  /// Covariance of ν = z − h(x) for each of these registrations, from the joint marginals of their
+  /// keyframes; nothing where they cannot be computed.
+  std::optional<std::vector<Eigen::Matrix3d>> innovation_covariances(
+      std::span<const RelativePose> forward_loops);
+
+  std::optional<Eigen::Matrix3d> marginal(std::size_t k);
+
+ private:
+  using Block = std::array<double, 3>;
+  using BlockPair = std::pair<const double*, const double*>;
+
+  double* block(std::size_t k) { return poses_[k].data(); }
+  void changed() { marginals_.reset(); }
+  bool compute_marginals();
+
+  CeresPoseGraphOptions options_;
+  std::deque<Block> poses_;  ///< a deque keeps the addresses that the problem knows
+  ceres::Problem problem_;
+  /// Of all keyframes; absent: to be computed, empty: could not be.
+  std::optional<std::vector<Eigen::Matrix3d>> marginals_;
+};
+
+}  // namespace fathom

@@ -1,0 +1,177 @@
+#include "estimators/ekf/ekf.hpp"
+
+#include <cmath>
+#include <memory>
+
+#include <Eigen/Cholesky>
+
+#include "fathom/geometry/covariance.hpp"
+
+namespace fathom {
+namespace {
+
+// Block of keyframe k in the state; keyframe 0 has none.
+Eigen::Index block_of(std::size_t k) {
+  return static_cast<Eigen::Index>(k) - 1;
+}
+
+// An update that ends at so many times the cost of leaving the state alone has diverged.
+constexpr double kDivergence = 10.0;
+
+}  // namespace
+
+/// One registration against the present state: ν = z − h(x), h = ⊖X_from ⊕ X_to.
+struct Ekf::Innovation {
+  std::size_t from = 0;
+  std::size_t to = 0;
+  Pose motion;
+  Eigen::Vector3d nu;
+  Eigen::Matrix3d H_from;
+  Eigen::Matrix3d H_to;
+  Eigen::Matrix3d R;
+};
+
+void EkfOptions::describe(OptionTable& table) {
+  table.integer("max_iterations", max_iterations, Range::at_least(1), "",
+                "linearisations of one update at most; an EKF always makes one");
+  table.real("tolerance", tolerance, Range::positive(), "m, rad",
+             "for estimators that iterate; of no effect here");
+  gate.describe(table);
+}
+
+Ekf::Ekf(const EstimatorSetup& setup, const EkfOptions& options)
+    : gate_(options.gate), poses_{setup.origin} {}
+
+void Ekf::add_keyframe(const RelativePose& step) {
+  const RelativePose u = step.forward();
+  Eigen::Matrix3d J_last;
+  Eigen::Matrix3d J_motion;
+  const Pose next = compose(poses_.back(), u.motion, &J_last, &J_motion);
+  const Eigen::Matrix3d added = transport(J_motion, u.covariance());
+  if (poses_.size() == 1) {
+    P_.append(added);
+  } else {
+    const Eigen::Matrix3Xd cross = J_last * P_.column(block_of(poses_.size() - 1)).transpose();
+    P_.append(cross, transport(J_last,
+                               P_.block(block_of(poses_.size() - 1), block_of(poses_.size() - 1))) +
+                         added);
+  }
+  poses_.push_back(next);
+}
+
+Eigen::Vector3d Ekf::innovation_of(std::size_t from, std::size_t to, const Pose& motion) const {
+  Eigen::Vector3d nu = motion.vector() - between(poses_[from], poses_[to]).vector();
+  nu.z() = wrap_angle(nu.z());
+  return nu;
+}
+
+Ekf::Innovation Ekf::innovate(const RelativePose& z) const {
+  Innovation innovation;
+  innovation.from = z.from;
+  innovation.to = z.to;
+  innovation.motion = z.motion;
+  between(poses_[z.from], poses_[z.to], &innovation.H_from, &innovation.H_to);
+  innovation.nu = innovation_of(z.from, z.to, z.motion);
+  innovation.R = z.covariance();
+  return innovation;
+}
+
+Eigen::MatrixX3d Ekf::covariance_times_transposed(const Innovation& innovation) const {
+  Eigen::MatrixX3d PHt = P_.column(block_of(innovation.to)) * innovation.H_to.transpose();
+  if (innovation.from > 0) {
+    PHt += P_.column(block_of(innovation.from)) * innovation.H_from.transpose();
+  }
+  return PHt;
+}
+
+UpdateReport Ekf::close_loops(std::span<const RelativePose> registrations) {
+  UpdateReport report;
+  report.iterations = 1;
+  std::vector<Innovation> accepted;
+  for (const RelativePose& registration : registrations) {
+    const Innovation innovation = innovate(registration.forward());
+    const Eigen::MatrixX3d PHt = covariance_times_transposed(innovation);
+    const Eigen::Matrix3d S = projected(std::span(&innovation, 1), PHt) + innovation.R;
+    const double nis = normalised_innovation_squared(innovation.nu, S);
+    const bool passes = !gate_.is_on() || gate_.passes(nis);
+    report.loops.push_back({registration.from, registration.to, passes, nis});
+    if (passes) accepted.push_back(innovation);
+  }
+  if (accepted.empty()) return report;
+  report.outcome = update(accepted);
+  if (!is_done(report.outcome)) {
+    for (LoopDecision& loop : report.loops) loop.accepted = false;
+  }
+  return report;
+}
+
+// H P Hᵀ of the stacked registrations, from P Hᵀ.
+Eigen::MatrixXd Ekf::projected(std::span<const Innovation> stack, const Eigen::MatrixXd& PHt) {
+  Eigen::MatrixXd HPHt(PHt.cols(), PHt.cols());
+  for (std::size_t j = 0; j < stack.size(); ++j) {
+    const Innovation& z = stack[j];
+    const auto row = static_cast<Eigen::Index>(3 * j);
+    HPHt.middleRows<3>(row) = z.H_to * PHt.middleRows<3>(3 * block_of(z.to));
+    if (z.from > 0) {
+      HPHt.middleRows<3>(row) += z.H_from * PHt.middleRows<3>(3 * block_of(z.from));
+    }
+  }
+  return HPHt;
+}
+
+Outcome Ekf::update(std::span<const Innovation> accepted) {
+  const auto rows = static_cast<Eigen::Index>(3 * accepted.size());
+  Eigen::MatrixXd PHt(P_.size(), rows);
+  Eigen::VectorXd nu(rows);
+  for (Eigen::Index j = 0; j < rows; j += 3) {
+    const Innovation& innovation = accepted[static_cast<std::size_t>(j / 3)];
+    PHt.middleCols<3>(j) = covariance_times_transposed(innovation);
+    nu.segment<3>(j) = innovation.nu;
+  }
+  const Eigen::MatrixXd HPHt = projected(accepted, PHt);
+  Eigen::MatrixXd S = HPHt;
+  double prior_cost = 0.0;
+  for (Eigen::Index j = 0; j < rows; j += 3) {
+    const Innovation& innovation = accepted[static_cast<std::size_t>(j / 3)];
+    S.block<3, 3>(j, j) += innovation.R;
+    prior_cost += normalised_innovation_squared(innovation.nu, innovation.R);
+  }
+  const Eigen::LLT<Eigen::MatrixXd> llt(S);
+  if (!nu.allFinite() || llt.info() != Eigen::Success) return Outcome::numerical_failure;
+  const Eigen::VectorXd lambda = llt.solve(nu);
+  const Eigen::VectorXd dx = PHt * lambda;
+  const Eigen::MatrixXd W = llt.matrixL().solve(PHt.transpose());
+  if (!dx.allFinite() || !W.allFinite()) return Outcome::numerical_failure;
+
+  const std::vector<Pose> before = poses_;
+  for (std::size_t k = 1; k < poses_.size(); ++k) {
+    const Eigen::Vector3d moved = poses_[k].vector() + dx.segment<3>(3 * block_of(k));
+    poses_[k] = {moved.x(), moved.y(), wrap_angle(moved.z())};
+  }
+  // dxᵀ P⁻¹ dx = λᵀ H P Hᵀ λ, so the cost of the update needs no inverse of P.
+  double cost = lambda.dot(HPHt * lambda);
+  for (const Innovation& z : accepted) {
+    cost += normalised_innovation_squared(innovation_of(z.from, z.to, z.motion), z.R);
+  }
+  if (cost > kDivergence * prior_cost) {
+    poses_ = before;
+    return Outcome::diverged;
+  }
+  P_.downdate(W);
+  return Outcome::converged;
+}
+
+std::optional<Eigen::Matrix3d> Ekf::covariance(std::size_t k) {
+  if (k == 0) return Eigen::Matrix3d::Zero();
+  return P_.block(block_of(k), block_of(k));
+}
+
+EstimatorEntry ekf_entry() {
+  return make_entry<EkfOptions>(
+      "ekf", "plain EKF on absolute keyframe poses (delayed state), one linearisation", false,
+      [](const EstimatorSetup& setup, const EkfOptions& options) {
+        return std::make_unique<Ekf>(setup, options);
+      });
+}
+
+}  // namespace fathom

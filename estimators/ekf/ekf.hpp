@@ -1,0 +1,53 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "fathom/estimation/estimator.hpp"
+#include "fathom/estimation/filter_covariance.hpp"
+#include "fathom/estimation/gate.hpp"
+#include "fathom/estimation/registry.hpp"
+
+namespace fathom {
+
+/// `max_iterations` and `tolerance` are keys that every estimator's configuration shares, so that
+/// changing the back end is changing one word. One linearisation is within any limit, and there is
+/// nothing that a tolerance could end.
+struct EkfOptions {
+  int max_iterations = 1;
+  double tolerance = 1e-6;
+  GateOptions gate;
+
+  void describe(OptionTable& table);
+};
+
+/// The plain delayed-state EKF: the state is the stack of absolute keyframe poses 1 … n (keyframe 0
+/// is fixed and has no entry), each update linearised once. docs/estimators/ekf.md.
+class Ekf final : public Estimator {
+ public:
+  Ekf(const EstimatorSetup& setup, const EkfOptions& options);
+
+  void add_keyframe(const RelativePose& step) override;
+  UpdateReport close_loops(std::span<const RelativePose> registrations) override;
+  std::optional<Eigen::Matrix3d> covariance(std::size_t k) override;
+  std::size_t size() const override { return poses_.size(); }
+  Pose pose(std::size_t k) const override { return poses_[k]; }
+
+ private:
+  struct Innovation;
+
+  Innovation innovate(const RelativePose& z) const;
+  Eigen::MatrixX3d covariance_times_transposed(const Innovation& innovation) const;
+  static Eigen::MatrixXd projected(std::span<const Innovation> stack, const Eigen::MatrixXd& PHt);
+  Eigen::Vector3d innovation_of(std::size_t from, std::size_t to, const Pose& motion) const;
+  Outcome update(std::span<const Innovation> accepted);
+
+  Gate gate_;
+  std::vector<Pose> poses_;
+  FilterCovariance P_;
+};
+
+EstimatorEntry ekf_entry();
+
+}  // namespace fathom

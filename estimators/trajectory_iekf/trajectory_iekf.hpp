@@ -1,0 +1,68 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "fathom/estimation/estimator.hpp"
+#include "fathom/estimation/filter_covariance.hpp"
+#include "fathom/estimation/gate.hpp"
+#include "fathom/estimation/registry.hpp"
+
+namespace fathom {
+
+struct TrajectoryIekfOptions {
+  int max_iterations = 10;
+  double tolerance = 1e-6;
+  bool safeguard = false;
+  GateOptions gate;
+
+  void describe(OptionTable& table);
+};
+
+/// The trajectory-based iterated EKF of Burguera, Bonin-Font and Oliver, section 3: the state is
+/// the stack of relative motions between consecutive keyframes, X = [x₁⁰; x₂¹; …], so that one loop
+/// corrects every motion in it. docs/estimators/trajectory_iekf.md.
+class TrajectoryIekf final : public Estimator {
+ public:
+  TrajectoryIekf(const EstimatorSetup& setup, const TrajectoryIekfOptions& options);
+
+  /// State augmentation: the dead-reckoning motion and its covariance block.
+  void add_keyframe(const RelativePose& step) override;
+
+  /// One iterated update with all registrations stacked (Bar-Shalom, Li, Kirubarajan).
+  UpdateReport close_loops(std::span<const RelativePose> registrations) override;
+
+  std::optional<Eigen::Matrix3d> covariance(std::size_t k) override;
+  std::size_t size() const override { return poses_.size(); }
+  Pose pose(std::size_t k) const override { return poses_[k]; }
+
+ private:
+  struct Linearisation;
+  struct Iterate;
+
+  Linearisation linearise(std::span<const RelativePose> loops, std::size_t first,
+                          const Eigen::VectorXd& delta) const;
+  Linearisation linearise_prior(std::span<const RelativePose> loops) const;
+  std::vector<bool> gate_loops(const Linearisation& prior,
+                               std::span<const RelativePose> registrations,
+                               UpdateReport& report) const;
+  Outcome iterate(std::span<const RelativePose> loops, Linearisation at, UpdateReport& report);
+  double cost(std::span<const RelativePose> loops, std::size_t first, const Iterate& at) const;
+  bool step_back(std::span<const RelativePose> loops, std::size_t first, const Iterate& from,
+                 Iterate& to) const;
+  bool apply(const Linearisation& last, const Iterate& end);
+  void recompose();
+  void compute_covariances();
+
+  TrajectoryIekfOptions options_;
+  Gate gate_;
+  std::vector<Pose> motions_;  ///< x_k of keyframe k stands at k − 1
+  std::vector<Pose> poses_;    ///< their composition
+  FilterCovariance P_;
+  std::vector<Eigen::Matrix3d> covariances_;  ///< of the poses; empty: to be computed
+};
+
+EstimatorEntry trajectory_iekf_entry();
+
+}  // namespace fathom

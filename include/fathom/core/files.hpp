@@ -1,0 +1,36 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace fathom {
+
+/// The file's bytes; throws InputError naming the file if it cannot be read.
+std::string read_file(const std::filesystem::path& path);
+
+/// Writes a whole file or nothing: into a neighbour first, then renamed. Throws InputError.
+void write_file(const std::filesystem::path& path, std::string_view content);
+
+/// An output folder that appears whole or not at all. Files are written below `path()`; `commit`
+/// moves them to the target, replacing entries of the same name and leaving others alone. Without
+/// commit nothing of them, nor a folder made for them, is left.
+class StagedFolder {
+ public:
+  explicit StagedFolder(std::filesystem::path target);
+  ~StagedFolder();
+  StagedFolder(const StagedFolder&) = delete;
+  StagedFolder& operator=(const StagedFolder&) = delete;
+
+  const std::filesystem::path& path() const { return staging_; }
+  const std::filesystem::path& target() const { return target_; }
+  void commit();
+
+ private:
+  std::filesystem::path target_;
+  std::filesystem::path staging_;
+  std::filesystem::path first_created_;  ///< topmost folder made for the target, or empty
+  bool committed_ = false;
+};
+
+}  // namespace fathom

@@ -1,0 +1,124 @@
+#pragma once
+
+#include <functional>
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "fathom/core/input_error.hpp"
+
+namespace fathom {
+
+/// Bounds of a number, both included unless said.
+struct Range {
+  double minimum = -std::numeric_limits<double>::infinity();
+  double maximum = std::numeric_limits<double>::infinity();
+  bool minimum_excluded = false;
+
+  static Range any() { return {}; }
+  static Range at_least(double bound) { return {bound}; }
+  static Range positive() { return {0.0, std::numeric_limits<double>::infinity(), true}; }
+  static Range between(double low, double high) { return {low, high}; }
+
+  bool contains(double value) const;
+  std::string text() const;
+};
+
+/// What is known of one option: the only place where its name, unit, default and bounds stand.
+/// Help, validation and documentation are made from it.
+struct OptionDescription {
+  std::string key;            ///< dotted, for example "ransac.max_error_m"
+  std::string type;           ///< "integer", "real", "boolean", "text", "list of real"
+  std::string unit;           ///< "m", "rad", "frames"; empty for a pure number
+  std::string default_value;  ///< as one would write it in a config
+  std::string range;          ///< bounds or choices, in words
+  std::string help;           ///< one line
+};
+
+/// A value as a config gives it: one scalar, or a list of them.
+struct OptionValue {
+  std::vector<std::string> items;
+  bool is_list = false;
+
+  static OptionValue scalar(std::string text) { return {{std::move(text)}, false}; }
+};
+
+/// Binds the fields of option structs to described keys. Every option struct has a member
+/// `void describe(OptionTable&)`; the default of an option is the initialiser of its field.
+/// The table refers to the fields: it must not outlive them.
+class OptionTable {
+ public:
+  void boolean(const std::string& key, bool& field, const std::string& help);
+  void integer(const std::string& key, int& field, Range range, const std::string& unit,
+               const std::string& help);
+  void real(const std::string& key, double& field, Range range, const std::string& unit,
+            const std::string& help);
+  /// A number or the word `off`.
+  void real_or_off(const std::string& key, std::optional<double>& field, Range range,
+                   const std::string& unit, const std::string& help);
+  void text(const std::string& key, std::string& field, const std::string& help);
+  void choice(const std::string& key, std::string& field, const std::vector<std::string>& choices,
+              const std::string& help);
+  /// A list of numbers, `[a, b, c]`; nested lists are read as one.
+  void reals(const std::string& key, std::vector<double>& field, std::size_t multiple_of,
+             const std::string& unit, const std::string& help);
+
+  template <class Enum>
+  void enumeration(const std::string& key, Enum& field,
+                   const std::vector<std::pair<std::string, Enum>>& names,
+                   const std::string& help) {
+    std::vector<std::string> choices;
+    std::string current;
+    for (const auto& [name, value] : names) {
+      choices.push_back(name);
+      if (value == field) current = name;
+    }
+    add_choice(key, current, choices, help, [&field, names](const std::string& given) {
+      for (const auto& [name, value] : names) {
+        if (name == given) field = value;
+      }
+    });
+  }
+
+  /// The options of a part, under `name.`.
+  template <class Options>
+  void group(const std::string& name, Options& options) {
+    const std::string outer = prefix_;
+    prefix_ += name + ".";
+    options.describe(*this);
+    prefix_ = outer;
+  }
+
+  /// Sets the field behind a key. Throws InputError with the key, what was given and what would be
+  /// right; an unknown key names the nearest known one.
+  void set(const std::string& key, const OptionValue& value);
+
+  const std::vector<OptionDescription>& descriptions() const { return descriptions_; }
+  std::vector<std::string> keys() const;
+  bool has(const std::string& key) const;
+  /// The field's present value, as text. Throws InputError on an unknown key.
+  std::string value(const std::string& key) const;
+
+ private:
+  using Setter = std::function<void(const OptionValue&)>;
+  using Getter = std::function<std::string()>;
+
+  std::string add(const std::string& key, OptionDescription description, Setter setter,
+                  Getter getter);
+  void add_choice(const std::string& key, const std::string& current,
+                  const std::vector<std::string>& choices, const std::string& help,
+                  std::function<void(const std::string&)> assign);
+  std::size_t index_of(const std::string& key) const;
+
+  std::string prefix_;
+  std::vector<OptionDescription> descriptions_;
+  std::vector<Setter> setters_;
+  std::vector<Getter> getters_;
+};
+
+/// "; did you mean 'x'?" or nothing.
+std::string suggestion(const std::string& word, const std::vector<std::string>& among);
+
+}  // namespace fathom

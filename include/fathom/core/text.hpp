@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace fathom {
+
+/// Splits at any run of the separators; no empty pieces.
+std::vector<std::string_view> split(std::string_view text, std::string_view separators = " \t\r");
+
+/// Splits at every comma and trims blanks; empty fields are kept, as CSV has them.
+std::vector<std::string_view> split_csv(std::string_view text);
+
+std::string_view trim(std::string_view text);
+
+/// The whole text as a finite number, or nothing: "1.5x", "nan" and "inf" are nothing.
+std::optional<double> parse_real(std::string_view text);
+std::optional<std::int64_t> parse_integer(std::string_view text);
+
+/// What a file says, fit for a one-line message: in quotes, unprintable bytes as `?`, cut when
+/// long.
+std::string quoted(std::string_view text);
+
+/// 17 significant digits: reads back to the same bits.
+std::string exact(double value);
+
+/// Nanoseconds as decimal seconds, digit by digit: a double would lose them.
+std::string seconds_text(std::int64_t nanoseconds);
+
+/// The candidate with the least edit distance, if it is near enough to be a misspelling.
+std::optional<std::string> nearest(std::string_view word, const std::vector<std::string>& among);
+
+}  // namespace fathom

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "fathom/geometry/trajectory.hpp"
+#include "fathom/measurements/relative_pose.hpp"
+
+namespace fathom {
+
+/// How an update or a solve ended. Ordered by how bad it is: `worse` takes the later.
+enum class Outcome { converged, iteration_limit, diverged, numerical_failure };
+
+std::string name_of(Outcome outcome);
+Outcome worse(Outcome a, Outcome b);
+/// Converged, or stopped at its iteration limit: the estimate can be used.
+bool is_done(Outcome outcome);
+
+/// What became of one registration.
+struct LoopDecision {
+  std::size_t from = 0;
+  std::size_t to = 0;
+  bool accepted = true;
+  /// Normalised innovation squared νᵀ S⁻¹ ν (3 degrees of freedom) before the update; absent where
+  /// the estimator did not need it.
+  std::optional<double> nis;
+};
+
+/// The report of one update or solve.
+struct UpdateReport {
+  Outcome outcome = Outcome::converged;
+  /// Linearisations made.
+  int iterations = 0;
+  /// One per registration given, in the order given.
+  std::vector<LoopDecision> loops;
+};
+
+/// A SLAM back end. The same calls for a filter and for a graph:
+///
+///     add_keyframe(step)        once per keyframe, in order
+///     close_loops(registrations)  with all registrations that end at the newest keyframe, if any
+///     finish()                    once, at the end of the log
+///
+/// Contract, tested over every registered estimator (tests/estimators/conformance_test.cpp):
+/// - Keyframe 0 is there from the start, fixed at the origin given to the factory.
+/// - `pose(k)` is in the world frame, heading wrapped; the view is valid after every call.
+/// - Registrations may be written either way round; those of one call form one update.
+/// - The same calls give the same estimate, to the last bit.
+/// - Failure is reported, never thrown, and leaves the estimate as it was before the call.
+class Estimator : public TrajectoryView {
+ public:
+  /// Appends the next keyframe by its motion from the newest one.
+  virtual void add_keyframe(const RelativePose& step) = 0;
+
+  /// Uses registrations between the newest keyframe and earlier ones.
+  virtual UpdateReport close_loops(std::span<const RelativePose> registrations) = 0;
+
+  /// Ends the log. In batch mode this is where the whole graph is solved, from `start` (a pose per
+  /// keyframe) or, without one, from dead reckoning; else there is nothing left to do.
+  virtual UpdateReport finish(std::span<const Pose> start = {}) {
+    (void)start;
+    return {};
+  }
+
+  /// The 3×3 covariance of (x, y, θ) of keyframe k: world axes, first order, keyframe 0 fixed (its
+  /// own is zero). Nothing where it cannot be computed. Not part of the cost of an update.
+  virtual std::optional<Eigen::Matrix3d> covariance(std::size_t k) = 0;
+};
+
+}  // namespace fathom

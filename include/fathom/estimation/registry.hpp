@@ -1,0 +1,73 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "fathom/core/options.hpp"
+#include "fathom/estimation/estimator.hpp"
+
+namespace fathom {
+
+/// `incremental`: an estimate after every keyframe. `batch`: one solve, in finish().
+enum class SolveMode { incremental, batch };
+
+/// What an estimator is told beside its options.
+struct EstimatorSetup {
+  Pose origin;  ///< where keyframe 0 is fixed
+  SolveMode mode = SolveMode::incremental;
+};
+
+/// Values by option key, without the `estimator.` of the configuration.
+using EstimatorValues = std::map<std::string, OptionValue>;
+
+struct EstimatorEntry {
+  std::string name;
+  std::string help;  ///< one line
+  bool can_batch = false;
+  std::vector<OptionDescription> options;
+  /// Throws InputError on an unknown key or a bad value.
+  std::function<std::unique_ptr<Estimator>(const EstimatorSetup&, const EstimatorValues&)> create;
+};
+
+/// Name → factory and described options: the one place from which `fathom list`, the configuration
+/// checks and the documentation are made.
+class EstimatorRegistry {
+ public:
+  void add(EstimatorEntry entry);
+  const std::vector<EstimatorEntry>& entries() const { return entries_; }
+  /// Throws InputError naming the nearest known estimator.
+  const EstimatorEntry& find(const std::string& name) const;
+
+ private:
+  std::vector<EstimatorEntry> entries_;
+};
+
+/// Makes the entry of an estimator from its option struct (which has `describe(OptionTable&)` and,
+/// where options depend on one another or on the setup, `check(const EstimatorSetup&)` throwing
+/// InputError).
+template <class Options, class Make>
+EstimatorEntry make_entry(std::string name, std::string help, bool can_batch, Make make) {
+  EstimatorEntry entry;
+  entry.name = std::move(name);
+  entry.help = std::move(help);
+  entry.can_batch = can_batch;
+  Options defaults;
+  OptionTable table;
+  defaults.describe(table);
+  entry.options = table.descriptions();
+  entry.create = [make](const EstimatorSetup& setup, const EstimatorValues& values) {
+    Options options;
+    OptionTable bound;
+    options.describe(bound);
+    for (const auto& [key, value] : values) bound.set(key, value);
+    if constexpr (requires { options.check(setup); }) options.check(setup);
+    return std::unique_ptr<Estimator>(make(setup, options));
+  };
+  return entry;
+}
+
+}  // namespace fathom

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <span>
+
+#include <Eigen/Core>
+
+#include "fathom/geometry/pose.hpp"
+
+namespace fathom {
+
+/// A pose or motion with the 3×3 covariance of its (x, y, θ): additive perturbations, in the axes
+/// that x and y are given in; m², m·rad, rad².
+struct UncertainPose {
+  Pose mean;
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+};
+
+/// X ⊕ Y of independent X and Y, first order.
+UncertainPose compose(const UncertainPose& X, const UncertainPose& Y);
+
+/// ⊖X, first order.
+UncertainPose inverse(const UncertainPose& X);
+
+/// ⊖A ⊕ B of independent A and B, first order.
+UncertainPose between(const UncertainPose& A, const UncertainPose& B);
+
+/// The composition of independent motions in their order: the pose of the last frame in the first.
+/// Of none: the exact identity.
+UncertainPose compose_chain(std::span<const UncertainPose> motions);
+
+/// J C Jᵀ, symmetric to the last bit.
+Eigen::Matrix3d transport(const Eigen::Matrix3d& J, const Eigen::Matrix3d& covariance);
+
+/// Whether a symmetric matrix is positive definite whatever the units of its rows: it is scaled to
+/// a unit diagonal first, so that headings known to 1e-8 rad beside metres do no harm. NaN is not.
+bool is_positive_definite(const Eigen::Matrix3d& matrix);
+
+/// The inverse of a positive definite matrix, symmetric to the last bit.
+Eigen::Matrix3d symmetric_inverse(const Eigen::Matrix3d& matrix);
+
+}  // namespace fathom

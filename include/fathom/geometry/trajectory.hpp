@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "fathom/geometry/pose.hpp"
+
+namespace fathom {
+
+/// Read-only view of an estimate: the poses of all keyframes so far, in the world frame.
+class TrajectoryView {
+ public:
+  virtual ~TrajectoryView() = default;
+  virtual std::size_t size() const = 0;
+  /// k < size().
+  virtual Pose pose(std::size_t k) const = 0;
+};
+
+struct StampedPose {
+  /// Nanoseconds; of a pose graph, the vertex id in whole seconds.
+  std::int64_t time_ns = 0;
+  Pose pose;
+};
+
+/// The poses of a whole view, in order.
+std::vector<Pose> poses_of(const TrajectoryView& view);
+
+/// Composes motions from `origin` on: one pose more than motions.
+std::vector<Pose> compose_trajectory(const Pose& origin, std::span<const Pose> motions);
+
+/// A trajectory in TUM format, `t x y z qx qy qz qw` a line with t in seconds, z = 0 and the
+/// heading as a rotation about z. Numbers read back to the same bits, but for the heading, which
+/// goes through half-angle sine and cosine (1e-16 relative).
+std::string to_tum(std::span<const StampedPose> trajectory);
+
+/// Reads a TUM file; `#` opens a comment. The heading is the yaw of the quaternion. Throws
+/// InputError with file and line on a malformed line, a quaternion far from unit length, or time
+/// that does not rise.
+std::vector<StampedPose> read_tum(const std::filesystem::path& path);
+
+}  // namespace fathom

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+
+#include <Eigen/Core>
+
+#include "fathom/geometry/pose.hpp"
+
+namespace fathom {
+
+/// A measured motion between two keyframes: z is the pose of keyframe `to` in the frame of `from`.
+/// A dead-reckoning step and a registration are both one of these.
+///
+/// Two equivalent forms of its uncertainty (docs/conventions.md):
+/// - `information` Ω weighs the residual e = t2v(Z⁻¹ · X_from⁻¹ · X_to), in the frame of `to` as
+///   measured, as g2o's EDGE_SE2 has it. It is the one that is stored: F is Σ eᵀ Ω e on the edges
+///   as written.
+/// - `covariance()` R = Rot(θ_z) Ω⁻¹ Rot(θ_z)ᵀ is that of ν = z − h(x), in the frame of `from`,
+///   which is what a filter uses and what registration gives.
+struct RelativePose {
+  std::size_t from = 0;
+  std::size_t to = 0;
+  Pose motion;
+  Eigen::Matrix3d information = Eigen::Matrix3d::Identity();
+  /// Matches that support a registration; none for dead reckoning, or where not known.
+  std::optional<int> inliers;
+
+  /// Of a covariance of ν; it must be positive definite.
+  static RelativePose from_covariance(std::size_t from, std::size_t to, const Pose& motion,
+                                      const Eigen::Matrix3d& covariance);
+
+  Eigen::Matrix3d covariance() const;
+
+  /// The later of its two keyframes: a registration arrives with it.
+  std::size_t newest() const { return from > to ? from : to; }
+
+  /// The same measurement with from < to: as it is, or turned round (⊖z, covariance transported to
+  /// first order).
+  RelativePose forward() const;
+};
+
+/// e = t2v(Z⁻¹ · A⁻¹ · B) for the poses A of `from` and B of `to`; heading wrapped. Optional 3×3
+/// Jacobians with respect to (x, y, θ) of A and B.
+Eigen::Vector3d residual(const Pose& motion, const Pose& A, const Pose& B,
+                         Eigen::Matrix3d* residual_A = nullptr,
+                         Eigen::Matrix3d* residual_B = nullptr);
+
+/// eᵀ Ω e of one measurement.
+double chi2(const RelativePose& measurement, const Pose& A, const Pose& B);
+
+}  // namespace fathom

@@ -1,0 +1,79 @@
+#include "fathom/core/files.hpp"
+
+#include <fstream>
+#include <sstream>
+#include <system_error>
+#include <unistd.h>
+#include <utility>
+
+#include "fathom/core/input_error.hpp"
+
+namespace fathom {
+
+namespace fs = std::filesystem;
+
+std::string read_file(const fs::path& path) {
+  std::error_code error;
+  if (fs::is_directory(path, error)) throw InputError(path.string(), "is a folder, not a file");
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw InputError(path.string(), "cannot be opened; does it exist?");
+  std::ostringstream content;
+  content << file.rdbuf();
+  if (file.bad()) throw InputError(path.string(), "cannot be read to its end");
+  return std::move(content).str();
+}
+
+void write_file(const fs::path& path, std::string_view content) {
+  const fs::path partial = path.string() + ".partial-" + std::to_string(::getpid());
+  std::ofstream file(partial, std::ios::binary | std::ios::trunc);
+  file.write(content.data(), static_cast<std::streamsize>(content.size()));
+  file.close();
+  std::error_code error;
+  if (file) {
+    fs::rename(partial, path, error);
+    if (!error) return;
+  }
+  std::error_code ignored;
+  fs::remove(partial, ignored);
+  throw InputError(path.string(), "cannot be written; is the folder there, writable and not full?");
+}
+
+StagedFolder::StagedFolder(fs::path target) : target_(fs::absolute(std::move(target))) {
+  std::error_code error;
+  if (fs::exists(target_, error) && !fs::is_directory(target_, error)) {
+    throw InputError(target_.string(), "is a file; --out takes a folder");
+  }
+  for (fs::path folder = target_; !folder.empty() && !fs::exists(folder, error);
+       folder = folder.parent_path()) {
+    first_created_ = folder;
+  }
+  staging_ = target_ / (".partial-" + std::to_string(::getpid()));
+  fs::create_directories(staging_, error);
+  if (error) {
+    std::error_code ignored;
+    if (!first_created_.empty()) fs::remove_all(first_created_, ignored);
+    throw InputError(target_.string(), "cannot be made: " + error.message());
+  }
+}
+
+StagedFolder::~StagedFolder() {
+  if (committed_) return;
+  std::error_code ignored;
+  fs::remove_all(first_created_.empty() ? staging_ : first_created_, ignored);
+}
+
+void StagedFolder::commit() {
+  try {
+    for (const fs::directory_entry& entry : fs::directory_iterator(staging_)) {
+      const fs::path destination = target_ / entry.path().filename();
+      fs::remove_all(destination);
+      fs::rename(entry.path(), destination);
+    }
+    fs::remove(staging_);
+  } catch (const fs::filesystem_error& error) {
+    throw InputError(target_.string(), "cannot be written: " + error.code().message());
+  }
+  committed_ = true;
+}
+
+}  // namespace fathom

@@ -1,0 +1,222 @@
+#include "fathom/core/options.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <memory>
+
+#include "fathom/core/text.hpp"
+
+namespace fathom {
+namespace {
+
+// Shortest text that reads back to the same number: 0.1 stays "0.1".
+std::string number_text(double value) {
+  char buffer[32];
+  const auto result = std::to_chars(buffer, buffer + sizeof buffer, value);
+  return {buffer, result.ptr};
+}
+
+std::string joined(const std::vector<std::string>& words, const std::string& separator) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : separator) + word;
+  return text;
+}
+
+[[noreturn]] void refuse(const std::string& key, const std::string& expected,
+                         const OptionValue& value) {
+  const std::string given = value.is_list         ? "[" + joined(value.items, ", ") + "]"
+                            : value.items.empty() ? ""
+                                                  : value.items.front();
+  throw InputError(key + ": expected " + expected + ", got '" + given + "'");
+}
+
+double checked_real(const std::string& key, const Range& range, const std::string& unit,
+                    const OptionValue& value, const std::string& alternative = "") {
+  const std::string what = "a number" + (unit.empty() ? "" : " in " + unit) +
+                           (range.text().empty() ? "" : " " + range.text()) + alternative;
+  if (value.is_list || value.items.size() != 1) refuse(key, what, value);
+  const auto number = parse_real(value.items.front());
+  if (!number || !range.contains(*number)) refuse(key, what, value);
+  return *number;
+}
+
+std::string list_text(const std::vector<double>& values) {
+  std::vector<std::string> words;
+  for (const double value : values) words.push_back(number_text(value));
+  return "[" + joined(words, ", ") + "]";
+}
+
+}  // namespace
+
+bool Range::contains(double value) const {
+  return (minimum_excluded ? value > minimum : value >= minimum) && value <= maximum;
+}
+
+std::string Range::text() const {
+  std::vector<std::string> bounds;
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  if (minimum > -kInfinity)
+    bounds.push_back((minimum_excluded ? "> " : ">= ") + number_text(minimum));
+  if (maximum < kInfinity) bounds.push_back("<= " + number_text(maximum));
+  return joined(bounds, ", ");
+}
+
+std::string suggestion(const std::string& word, const std::vector<std::string>& among) {
+  const auto near = nearest(word, among);
+  return near ? "; did you mean '" + *near + "'?" : "";
+}
+
+std::string OptionTable::add(const std::string& key, OptionDescription description, Setter setter,
+                             Getter getter) {
+  description.key = prefix_ + key;
+  description.default_value = getter();
+  descriptions_.push_back(std::move(description));
+  setters_.push_back(std::move(setter));
+  getters_.push_back(std::move(getter));
+  return descriptions_.back().key;
+}
+
+void OptionTable::boolean(const std::string& key, bool& field, const std::string& help) {
+  const std::string full = prefix_ + key;
+  add(
+      key, {"", "boolean", "", "", "true or false", help},
+      [&field, full](const OptionValue& value) {
+        const std::string given = value.items.size() == 1 ? value.items.front() : "";
+        if (value.is_list || (given != "true" && given != "false")) {
+          refuse(full, "true or false", value);
+        }
+        field = given == "true";
+      },
+      [&field] { return std::string(field ? "true" : "false"); });
+}
+
+void OptionTable::integer(const std::string& key, int& field, Range range, const std::string& unit,
+                          const std::string& help) {
+  const std::string full = prefix_ + key;
+  add(
+      key, {"", "integer", unit, "", range.text(), help},
+      [&field, full, range](const OptionValue& value) {
+        const auto number = value.is_list || value.items.size() != 1
+                                ? std::nullopt
+                                : parse_integer(value.items.front());
+        if (!number || !range.contains(static_cast<double>(*number)) ||
+            *number > std::numeric_limits<int>::max() ||
+            *number < std::numeric_limits<int>::min()) {
+          refuse(full, "a whole number" + (range.text().empty() ? "" : " " + range.text()), value);
+        }
+        field = static_cast<int>(*number);
+      },
+      [&field] { return std::to_string(field); });
+}
+
+void OptionTable::real(const std::string& key, double& field, Range range, const std::string& unit,
+                       const std::string& help) {
+  const std::string full = prefix_ + key;
+  add(
+      key, {"", "real", unit, "", range.text(), help},
+      [&field, full, range, unit](const OptionValue& value) {
+        field = checked_real(full, range, unit, value);
+      },
+      [&field] { return number_text(field); });
+}
+
+void OptionTable::real_or_off(const std::string& key, std::optional<double>& field, Range range,
+                              const std::string& unit, const std::string& help) {
+  const std::string full = prefix_ + key;
+  add(
+      key, {"", "real or off", unit, "", range.text() + " or off", help},
+      [&field, full, range, unit](const OptionValue& value) {
+        if (!value.is_list && value.items.size() == 1 && value.items.front() == "off") {
+          field.reset();
+        } else {
+          field = checked_real(full, range, unit, value, " or off");
+        }
+      },
+      [&field] { return field ? number_text(*field) : std::string("off"); });
+}
+
+void OptionTable::text(const std::string& key, std::string& field, const std::string& help) {
+  const std::string full = prefix_ + key;
+  add(
+      key, {"", "text", "", "", "", help},
+      [&field, full](const OptionValue& value) {
+        if (value.is_list || value.items.size() != 1) refuse(full, "a text", value);
+        field = value.items.front();
+      },
+      [&field] { return field; });
+}
+
+void OptionTable::choice(const std::string& key, std::string& field,
+                         const std::vector<std::string>& choices, const std::string& help) {
+  add_choice(key, field, choices, help, [&field](const std::string& given) { field = given; });
+}
+
+void OptionTable::add_choice(const std::string& key, const std::string& current,
+                             const std::vector<std::string>& choices, const std::string& help,
+                             std::function<void(const std::string&)> assign) {
+  const std::string full = prefix_ + key;
+  auto present = std::make_shared<std::string>(current);
+  add(
+      key, {"", "text", "", "", joined(choices, " | "), help},
+      [full, choices, present, assign = std::move(assign)](const OptionValue& value) {
+        for (const std::string& name : choices) {
+          if (!value.is_list && value.items.size() == 1 && value.items.front() == name) {
+            *present = name;
+            assign(name);
+            return;
+          }
+        }
+        refuse(full, "one of " + joined(choices, ", "), value);
+      },
+      [present] { return *present; });
+}
+
+void OptionTable::reals(const std::string& key, std::vector<double>& field, std::size_t multiple_of,
+                        const std::string& unit, const std::string& help) {
+  const std::string full = prefix_ + key;
+  const std::string length =
+      multiple_of > 1 ? "a multiple of " + std::to_string(multiple_of) + " numbers" : "";
+  add(
+      key, {"", "list of real", unit, "", length, help},
+      [&field, full, multiple_of, length](const OptionValue& value) {
+        std::vector<double> numbers;
+        for (const std::string& item : value.items) {
+          const auto number = parse_real(item);
+          if (!number) refuse(full, "a list of numbers", value);
+          numbers.push_back(*number);
+        }
+        if (!value.is_list || numbers.size() % multiple_of != 0) {
+          refuse(full, "a list of " + (length.empty() ? std::string("numbers") : length), value);
+        }
+        field = std::move(numbers);
+      },
+      [&field] { return list_text(field); });
+}
+
+std::vector<std::string> OptionTable::keys() const {
+  std::vector<std::string> names;
+  for (const OptionDescription& description : descriptions_) names.push_back(description.key);
+  return names;
+}
+
+std::size_t OptionTable::index_of(const std::string& key) const {
+  for (std::size_t i = 0; i < descriptions_.size(); ++i) {
+    if (descriptions_[i].key == key) return i;
+  }
+  throw InputError("unknown key '" + key + "'" + suggestion(key, keys()));
+}
+
+bool OptionTable::has(const std::string& key) const {
+  return std::any_of(descriptions_.begin(), descriptions_.end(),
+                     [&](const OptionDescription& description) { return description.key == key; });
+}
+
+void OptionTable::set(const std::string& key, const OptionValue& value) {
+  setters_[index_of(key)](value);
+}
+
+std::string OptionTable::value(const std::string& key) const {
+  return getters_[index_of(key)]();
+}
+
+}  // namespace fathom

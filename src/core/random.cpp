@@ -1,0 +1,50 @@
+#include "fathom/core/random.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace fathom {
+namespace {
+
+// The finaliser of SplitMix64 (Steele, Lea, Flood 2014): each input bit reaches each output bit.
+std::uint64_t mix(std::uint64_t value) {
+  value += 0x9e3779b97f4a7c15ULL;
+  value = (value ^ (value >> 30)) * 0xbf58476d1ce4e5b9ULL;
+  value = (value ^ (value >> 27)) * 0x94d049bb133111ebULL;
+  return value ^ (value >> 31);
+}
+
+}  // namespace
+
+std::uint64_t stream_seed(std::uint64_t base_seed, std::string_view stream, std::uint64_t trial) {
+  std::uint64_t hash = mix(base_seed);
+  for (const char letter : stream) hash = mix(hash ^ static_cast<unsigned char>(letter));
+  return mix(hash ^ mix(trial));
+}
+
+double RandomStream::uniform() {
+  return static_cast<double>(engine_() >> 11) * 0x1.0p-53;
+}
+
+double RandomStream::normal() {
+  if (has_spare_normal_) {
+    has_spare_normal_ = false;
+    return spare_normal_;
+  }
+  // Box and Muller; 1 − u keeps the logarithm's argument above zero.
+  const double radius = std::sqrt(-2.0 * std::log(1.0 - uniform()));
+  const double angle = 2.0 * std::numbers::pi * uniform();
+  spare_normal_ = radius * std::sin(angle);
+  has_spare_normal_ = true;
+  return radius * std::cos(angle);
+}
+
+std::uint64_t RandomStream::index(std::uint64_t count) {
+  // Draws past the last whole multiple of count would favour small indices.
+  const std::uint64_t limit = std::mt19937_64::max() - std::mt19937_64::max() % count;
+  std::uint64_t draw = engine_();
+  while (draw >= limit) draw = engine_();
+  return draw % count;
+}
+
+}  // namespace fathom

@@ -1,0 +1,123 @@
+#include "fathom/core/text.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <numeric>
+
+namespace fathom {
+
+std::vector<std::string_view> split(std::string_view text, std::string_view separators) {
+  std::vector<std::string_view> pieces;
+  std::size_t begin = text.find_first_not_of(separators);
+  while (begin != std::string_view::npos) {
+    const std::size_t end = std::min(text.find_first_of(separators, begin), text.size());
+    pieces.push_back(text.substr(begin, end - begin));
+    begin = text.find_first_not_of(separators, end);
+  }
+  return pieces;
+}
+
+std::string_view trim(std::string_view text) {
+  const std::size_t begin = text.find_first_not_of(" \t\r\n");
+  if (begin == std::string_view::npos) return {};
+  return text.substr(begin, text.find_last_not_of(" \t\r\n") - begin + 1);
+}
+
+std::vector<std::string_view> split_csv(std::string_view text) {
+  std::vector<std::string_view> fields;
+  std::size_t begin = 0;
+  while (true) {
+    const std::size_t comma = text.find(',', begin);
+    if (comma == std::string_view::npos) break;
+    fields.push_back(trim(text.substr(begin, comma - begin)));
+    begin = comma + 1;
+  }
+  fields.push_back(trim(text.substr(begin)));
+  return fields;
+}
+
+namespace {
+
+template <class Number>
+std::optional<Number> parse_whole(std::string_view text) {
+  if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
+  Number value{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+}  // namespace
+
+std::optional<double> parse_real(std::string_view text) {
+  const auto value = parse_whole<double>(text);
+  return value && std::isfinite(*value) ? value : std::nullopt;
+}
+
+std::optional<std::int64_t> parse_integer(std::string_view text) {
+  return parse_whole<std::int64_t>(text);
+}
+
+std::string quoted(std::string_view text) {
+  std::size_t length = std::min<std::size_t>(text.size(), 60);
+  // Never inside a UTF-8 character.
+  while (length > 0 && length < text.size() && (text[length] & 0xC0) == 0x80) --length;
+  std::string shown(text.substr(0, length));
+  for (char& letter : shown) {
+    if (static_cast<unsigned char>(letter) < 0x20 || letter == 0x7f) letter = '?';
+  }
+  return "'" + shown + (text.size() > length ? "…'" : "'");
+}
+
+std::string exact(double value) {
+  char buffer[40];
+  const int length = std::snprintf(buffer, sizeof buffer, "%.17g", value);
+  return {buffer, static_cast<std::size_t>(length)};
+}
+
+std::string seconds_text(std::int64_t nanoseconds) {
+  constexpr std::int64_t kPerSecond = 1'000'000'000;
+  const std::int64_t fraction = std::abs(nanoseconds % kPerSecond);
+  char buffer[48];
+  std::snprintf(buffer, sizeof buffer, "%s%lld.%09lld",
+                nanoseconds < 0 && nanoseconds > -kPerSecond ? "-" : "",
+                static_cast<long long>(nanoseconds / kPerSecond), static_cast<long long>(fraction));
+  return buffer;
+}
+
+namespace {
+
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t substituted = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+      diagonal = row[j];
+      row[j] = std::min({substituted, row[j] + 1, row[j - 1] + 1});
+    }
+  }
+  return row[b.size()];
+}
+
+}  // namespace
+
+std::optional<std::string> nearest(std::string_view word, const std::vector<std::string>& among) {
+  std::optional<std::string> best;
+  // Beyond two letters in five it is another word, not a misspelt one.
+  std::size_t best_distance = std::max<std::size_t>(2, word.size() * 2 / 5) + 1;
+  for (const std::string& candidate : among) {
+    const std::size_t distance = edit_distance(word, candidate);
+    if (distance < best_distance) {
+      best_distance = distance;
+      best = candidate;
+    }
+  }
+  return best;
+}
+
+}  // namespace fathom

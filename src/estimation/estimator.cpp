@@ -1,0 +1,29 @@
+#include "fathom/estimation/estimator.hpp"
+
+#include <algorithm>
+
+namespace fathom {
+
+std::string name_of(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::converged:
+      return "converged";
+    case Outcome::iteration_limit:
+      return "iteration_limit";
+    case Outcome::diverged:
+      return "diverged";
+    case Outcome::numerical_failure:
+      break;
+  }
+  return "numerical_failure";
+}
+
+Outcome worse(Outcome a, Outcome b) {
+  return std::max(a, b);
+}
+
+bool is_done(Outcome outcome) {
+  return outcome <= Outcome::iteration_limit;
+}
+
+}  // namespace fathom

@@ -1,0 +1,31 @@
+#include "fathom/estimation/gate.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include <Eigen/Cholesky>
+
+#include "fathom/core/chi_squared.hpp"
+
+namespace fathom {
+
+void GateOptions::describe(OptionTable& table) {
+  table.real_or_off("gate_probability", probability, Range{1e-6, 1.0 - 1e-12}, "",
+                    "chi-squared gate: share of right registrations that passes");
+}
+
+Gate::Gate(const GateOptions& options) {
+  if (options.probability) threshold_ = chi_squared_quantile(*options.probability, 3.0);
+}
+
+bool Gate::passes(double nis) const {
+  return !std::isnan(nis) && (!threshold_ || nis <= *threshold_);
+}
+
+double normalised_innovation_squared(const Eigen::Vector3d& innovation, const Eigen::Matrix3d& S) {
+  const Eigen::LLT<Eigen::Matrix3d> llt(S);
+  if (llt.info() != Eigen::Success) return std::numeric_limits<double>::quiet_NaN();
+  return innovation.dot(llt.solve(innovation));
+}
+
+}  // namespace fathom

@@ -1,0 +1,55 @@
+#include "fathom/measurements/relative_pose.hpp"
+
+#include "fathom/geometry/covariance.hpp"
+
+namespace fathom {
+namespace {
+
+// Rot(θ) on (x, y), identity on the heading.
+Eigen::Matrix3d planar_rotation(double theta_rad) {
+  Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
+  R.topLeftCorner<2, 2>() = rotation(theta_rad);
+  return R;
+}
+
+}  // namespace
+
+RelativePose RelativePose::from_covariance(std::size_t from, std::size_t to, const Pose& motion,
+                                           const Eigen::Matrix3d& covariance) {
+  const Eigen::Matrix3d R = planar_rotation(motion.theta);
+  RelativePose measurement;
+  measurement.from = from;
+  measurement.to = to;
+  measurement.motion = motion;
+  measurement.information = symmetric_inverse(transport(R.transpose(), covariance));
+  return measurement;
+}
+
+Eigen::Matrix3d RelativePose::covariance() const {
+  return transport(planar_rotation(motion.theta), symmetric_inverse(information));
+}
+
+RelativePose RelativePose::forward() const {
+  if (from <= to) return *this;
+  const UncertainPose turned = inverse(UncertainPose{motion, covariance()});
+  RelativePose measurement = from_covariance(to, from, turned.mean, turned.covariance);
+  measurement.inliers = inliers;
+  return measurement;
+}
+
+Eigen::Vector3d residual(const Pose& motion, const Pose& A, const Pose& B,
+                         Eigen::Matrix3d* residual_A, Eigen::Matrix3d* residual_B) {
+  Eigen::Matrix3d error_prediction;
+  const Pose prediction = between(A, B, residual_A, residual_B);
+  const Pose error = between(motion, prediction, nullptr, &error_prediction);
+  if (residual_A != nullptr) *residual_A = error_prediction * *residual_A;
+  if (residual_B != nullptr) *residual_B = error_prediction * *residual_B;
+  return error.vector();
+}
+
+double chi2(const RelativePose& measurement, const Pose& A, const Pose& B) {
+  const Eigen::Vector3d e = residual(measurement.motion, A, B);
+  return e.dot(measurement.information * e);
+}
+
+}  // namespace fathom
