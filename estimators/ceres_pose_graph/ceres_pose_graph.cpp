@@ -1,5 +1,6 @@
 #include "estimators/ceres_pose_graph/ceres_pose_graph.hpp"
 
+#include <cmath>
 #include <vector>
 
 #include "estimators/ceres_pose_graph/graph.hpp"
@@ -89,6 +90,21 @@ UpdateReport CeresPoseGraph::finish(std::span<const Pose> start) {
 
 std::optional<Eigen::Matrix3d> CeresPoseGraph::covariance(std::size_t k) {
   return graph_->marginal(k);
+}
+
+// Huber: s up to a², then 2 a √s − a². Cauchy: a² ln(1 + s / a²). With the whitened residual's
+// squared norm s and the scale a; as Ceres defines them.
+double CeresPoseGraph::loss(double chi2) const {
+  const double a = options_.loss_scale;
+  switch (options_.loss) {
+    case CeresPoseGraphOptions::Loss::huber:
+      return chi2 <= a * a ? chi2 : 2.0 * a * std::sqrt(chi2) - a * a;
+    case CeresPoseGraphOptions::Loss::cauchy:
+      return a * a * std::log1p(chi2 / (a * a));
+    case CeresPoseGraphOptions::Loss::none:
+      break;
+  }
+  return chi2;
 }
 
 EstimatorEntry ceres_pose_graph_entry() {

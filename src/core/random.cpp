@@ -1,5 +1,6 @@
 #include "fathom/core/random.hpp"
 
+#include <cassert>
 #include <cmath>
 #include <numbers>
 
@@ -17,6 +18,7 @@ std::uint64_t mix(std::uint64_t value) {
 }  // namespace
 
 std::uint64_t stream_seed(std::uint64_t base_seed, std::string_view stream, std::uint64_t trial) {
+  assert(!stream.empty());
   std::uint64_t hash = mix(base_seed);
   for (const char letter : stream) hash = mix(hash ^ static_cast<unsigned char>(letter));
   return mix(hash ^ mix(trial));

@@ -60,7 +60,7 @@ std::optional<std::int64_t> parse_integer(std::string_view text) {
   return parse_whole<std::int64_t>(text);
 }
 
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
   std::size_t length = std::min<std::size_t>(text.size(), 60);
   // Never inside a UTF-8 character.
   while (length > 0 && length < text.size() && (text[length] & 0xC0) == 0x80) --length;

@@ -77,11 +77,11 @@ class TumReader {
     std::array<double, 8> v{};
     for (std::size_t i = 0; i < v.size(); ++i) {
       const auto number = parse_real(fields[i]);
-      if (!number) fail(quoted(fields[i]) + " is not a finite number");
+      if (!number) fail(in_quotes(fields[i]) + " is not a finite number");
       v[i] = *number;
     }
     const auto time_ns = parse_nanoseconds(fields[0]);
-    if (!time_ns) fail("the time stamp " + quoted(fields[0]) + " is not in seconds");
+    if (!time_ns) fail("the time stamp " + in_quotes(fields[0]) + " is not in seconds");
     if (!trajectory_.empty() && *time_ns <= trajectory_.back().time_ns) {
       fail("time stamps must rise from line to line");
     }

@@ -7,7 +7,8 @@
 namespace fathom {
 
 /// The seed of one noise stream: a hash of the base seed, the stream's name and the trial, so that
-/// no stream's draws depend on how many another one takes.
+/// no stream's draws depend on how many another one takes. The name must not be empty (asserted):
+/// it keeps base seed and trial apart.
 std::uint64_t stream_seed(std::uint64_t base_seed, std::string_view stream, std::uint64_t trial);
 
 /// A noise stream. Same seed, same numbers, whatever the standard library.

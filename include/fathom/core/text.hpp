@@ -22,7 +22,7 @@ std::optional<std::int64_t> parse_integer(std::string_view text);
 
 /// What a file says, fit for a one-line message: in quotes, unprintable bytes as `?`, cut when
 /// long.
-std::string quoted(std::string_view text);
+std::string in_quotes(std::string_view text);
 
 /// 17 significant digits: reads back to the same bits.
 std::string exact(double value);

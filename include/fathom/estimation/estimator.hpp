@@ -70,6 +70,10 @@ class Estimator : public TrajectoryView {
   /// The 3×3 covariance of (x, y, θ) of keyframe k: world axes, first order, keyframe 0 fixed (its
   /// own is zero). Nothing where it cannot be computed. Not part of the cost of an update.
   virtual std::optional<Eigen::Matrix3d> covariance(std::size_t k) = 0;
+
+  /// ρ(eᵀ Ω e): what a registration counts in the cost that this estimator minimises. The identity
+  /// without a robust loss.
+  virtual double loss(double chi2) const { return chi2; }
 };
 
 }  // namespace fathom

@@ -1,0 +1,167 @@
+// fathom check: what is in a file or folder, and what is wrong with it.
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+#include "apps/command.hpp"
+#include "apps/common.hpp"
+#include "fathom/datasets/folder_summary.hpp"
+#include "fathom/datasets/image_folder.hpp"
+#include "fathom/estimators/builtin.hpp"
+#include "fathom/measurements/g2o.hpp"
+#include "fathom/measurements/graph_check.hpp"
+#include "fathom/report/table.hpp"
+#include "fathom/study/replay.hpp"
+
+namespace fathom {
+namespace {
+
+std::string plural(std::size_t count, const std::string& noun) {
+  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
+}
+
+void print_graph(const GraphSummary& graph) {
+  const auto sigma = [](double value) { return format_number(value, 3); };
+  std::printf("pose graph\n");
+  std::printf("  poses        %zu%s\n", graph.poses,
+              graph.vertices == 0 ? ", the file defines no vertices" : "");
+  std::printf("  edges        %zu\n", graph.edges);
+  std::printf("  odometry     %zu\n", graph.odometry_edges);
+  std::printf("  loops        %zu", graph.loops);
+  if (graph.backward_loops > 0) std::printf(", %zu written backwards", graph.backward_loops);
+  std::printf("\n  components   %zu\n", graph.components);
+  if (graph.edges == 0) return;
+  std::printf("  sigma        %s to %s m, %s to %s rad\n", sigma(graph.smallest_sigma_m).c_str(),
+              sigma(graph.largest_sigma_m).c_str(), sigma(graph.smallest_sigma_rad).c_str(),
+              sigma(graph.largest_sigma_rad).c_str());
+}
+
+// A batch solve tells how large the residuals of this graph are; it is quick.
+std::vector<std::string> judge_information(const MeasurementLog& log) {
+  std::vector<std::string> warnings;
+  const EstimatorEntry& solver = builtin_estimators().find("ceres_pose_graph");
+  ReplayOptions options;
+  options.mode = SolveMode::batch;
+  options.covariances = false;
+  const Replay solved = replay(log, solver, {}, options);
+  if (!is_done(solved.outcome)) return warnings;
+  const auto scale = information_scale(log, solved.trajectory);
+  if (!scale) return warnings;
+  std::printf(
+      "  F            %.10g where a batch solve from odometry ends, %s per degree of "
+      "freedom\n",
+      chi2(log, solved.trajectory), format_number(scale->per_degree_of_freedom, 3).c_str());
+  if (scale->looks_like_square_roots) {
+    warnings.push_back(
+        "the information values look like square roots of the right ones: F per degree of freedom "
+        "is " +
+        format_number(scale->per_degree_of_freedom, 3) + ", with their squares it would be " +
+        format_number(scale->squared, 3) + ", and 1 is expected");
+  } else if (scale->per_degree_of_freedom < 0.1) {
+    warnings.push_back("the information values look too small: F per degree of freedom is " +
+                       format_number(scale->per_degree_of_freedom, 3) +
+                       ", and 1 is expected; covariances will be too large");
+  } else if (scale->per_degree_of_freedom > 10.0) {
+    warnings.push_back("F per degree of freedom is " +
+                       format_number(scale->per_degree_of_freedom, 3) +
+                       ", and 1 is expected: wrong loops, information values that are too large, "
+                       "or a start that ends in a wrong minimum");
+  }
+  return warnings;
+}
+
+void print_warnings(const std::vector<std::string>& warnings) {
+  if (warnings.empty()) std::printf("nothing looks wrong\n");
+  for (const std::string& warning : warnings) std::printf("warning: %s\n", warning.c_str());
+}
+
+void check_graph(const std::string& path) {
+  const GraphSummary graph = summarise_graph(path);
+  print_graph(graph);
+  if (!graph.faults.empty()) {
+    constexpr std::size_t kShown = 20;
+    for (std::size_t i = 0; i < std::min(graph.faults.size(), kShown); ++i) {
+      std::printf("fault: %s\n", graph.faults[i].c_str());
+    }
+    if (graph.faults.size() > kShown) {
+      std::printf("and %zu faults more\n", graph.faults.size() - kShown);
+    }
+    throw InputError(graph.faults.front() + " (" + plural(graph.faults.size(), "fault") +
+                     " in all)");
+  }
+  const MeasurementLog log = read_g2o(path);
+  if (log.guess) std::printf("  F            %.10g at the file's guess\n", chi2(log, *log.guess));
+  std::printf("  F            %.10g at odometry\n", chi2(log, log.odometry()));
+  std::vector<std::string> warnings = judge_information(log);
+  if (graph.badly_conditioned > 0) {
+    warnings.push_back(plural(graph.badly_conditioned, "edge") +
+                       " with badly conditioned information (above 1e8)");
+  }
+  if (graph.loops == 0) warnings.push_back("no loops: nothing can correct the dead reckoning");
+  print_warnings(warnings);
+}
+
+void check_folder(const std::string& path) {
+  const ImageFolder folder(path);
+  const FolderSummary summary = summarise_frames(folder);
+  std::printf("image folder\n");
+  for (const std::string& fact : summary.facts) std::printf("  %s\n", fact.c_str());
+  print_warnings(summary.warnings);
+}
+
+void check_configuration(const std::string& path) {
+  const Settings settings = read_settings(path);
+  const bool comparison = settings.find("estimators.0.type") != nullptr;
+  const Configuration configuration =
+      configure(settings, comparison ? ConfigurationKind::comparison : ConfigurationKind::single,
+                builtin_estimators());
+  std::printf("configuration for '%s'\n", comparison ? "compare" : "run");
+  for (const auto& [key, value] : configuration.in_force) {
+    std::printf("  %s: %s\n", key.c_str(), value.c_str());
+  }
+  for (const EstimatorConfiguration& estimator : configuration.estimators) {
+    std::printf("  estimator %s: %s\n", estimator.name.c_str(), estimator.type.c_str());
+  }
+  std::printf("every key is known and every value within its bounds\n");
+}
+
+void check_trajectory(const std::string& path) {
+  const std::vector<StampedPose> trajectory = read_tum(path);
+  if (trajectory.empty()) throw InputError(path, "holds no pose");
+  double length_m = 0.0;
+  for (std::size_t i = 1; i < trajectory.size(); ++i) {
+    length_m += (trajectory[i].pose.position() - trajectory[i - 1].pose.position()).norm();
+  }
+  std::printf("trajectory\n  poses        %zu\n  path         %s m\n", trajectory.size(),
+              format_number(length_m, 4).c_str());
+}
+
+void check(const std::string& path, Context& context) {
+  const std::string ending = std::filesystem::path(path).extension().string();
+  context.status = kDone;
+  if (std::filesystem::is_directory(path)) {
+    check_folder(path);
+  } else if (ending == ".yaml" || ending == ".yml") {
+    check_configuration(path);
+  } else if (ending == ".tum" || ending == ".txt") {
+    check_trajectory(path);
+  } else {
+    check_graph(path);
+  }
+}
+
+}  // namespace
+
+void add_check(CLI::App& app, Context& context) {
+  auto path = std::make_shared<std::string>();
+  CLI::App* command =
+      app.add_subcommand("check", "Say what is in a file or folder and what is wrong with it");
+  command->footer(
+      "Example: fathom check intel.g2o\n"
+      "A folder is an image folder, .yaml a configuration, .tum a trajectory, else a pose graph.");
+  command->add_option("path", *path, "File or folder")->required();
+  command->callback([path, &context] { check(*path, context); });
+}
+
+}  // namespace fathom

@@ -1,0 +1,63 @@
+#include "apps/common.hpp"
+
+#include <cstdio>
+#include <filesystem>
+#include <unistd.h>
+#include <utility>
+
+namespace fathom {
+
+void CommonFlags::add_settings_to(CLI::App& command) {
+  command.add_option("--set", overrides, "Override a setting, for example estimator.type=ekf")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+  command.add_option("--seed", seed, "Base seed of all noise and of RANSAC")->type_name("N");
+  command.add_flag("--quiet", quiet, "No output but errors");
+}
+
+void CommonFlags::add_out_to(CLI::App& command, const std::string& what) {
+  command.add_option("--out", out, what)->type_name("DIR");
+}
+
+Settings CommonFlags::settings(const std::string& path) const {
+  Settings settings;
+  if (!path.empty()) settings = read_settings(path);
+  for (const std::string& text : overrides) settings.put(parse_override(text));
+  if (seed) settings.put({"seed", OptionValue::scalar(std::to_string(*seed)), "--seed"});
+  return settings;
+}
+
+std::string CommonFlags::folder_or(const std::string& name) const {
+  return out.empty() ? "runs/" + name : out;
+}
+
+std::string stem_of(const std::string& path) {
+  const std::string stem = std::filesystem::path(path).stem().string();
+  return stem.empty() ? "run" : stem;
+}
+
+ProgressLine::ProgressLine(std::string what, bool quiet)
+    : what_(std::move(what)), enabled_(!quiet && ::isatty(STDERR_FILENO) != 0) {}
+
+ProgressLine::~ProgressLine() {
+  if (shown_) std::fprintf(stderr, "\r\033[K");
+}
+
+Progress ProgressLine::callback() {
+  if (!enabled_) return {};
+  return [this](std::size_t done, std::size_t of) { show(done, of); };
+}
+
+void ProgressLine::show(std::size_t done, std::size_t of) {
+  const auto now = Clock::now();
+  const std::chrono::duration<double> since_last = now - last_;
+  if (since_last.count() < 0.2 && done < of) return;
+  last_ = now;
+  shown_ = true;
+  const double elapsed_s = std::chrono::duration<double>(now - start_).count();
+  const double left_s =
+      done == 0 ? 0.0 : elapsed_s * static_cast<double>(of - done) / static_cast<double>(done);
+  std::fprintf(stderr, "\r\033[K%s: %zu of %zu, %.0f s left", what_.c_str(), done, of, left_s);
+}
+
+}  // namespace fathom

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "fathom/study/configuration.hpp"
+#include "fathom/study/recording.hpp"
+
+namespace fathom {
+
+/// The flags of all commands that read a configuration or run an estimator.
+struct CommonFlags {
+  std::vector<std::string> overrides;  ///< --set KEY=VALUE
+  std::optional<int> seed;
+  bool quiet = false;
+  std::string out;
+
+  void add_settings_to(CLI::App& command);
+  void add_out_to(CLI::App& command, const std::string& what);
+
+  /// The file's settings (none for an empty path), then --set, then --seed.
+  Settings settings(const std::string& path) const;
+  /// --out, or `runs/` and a name of its own.
+  std::string folder_or(const std::string& name) const;
+};
+
+/// The name of a file without folder and ending.
+std::string stem_of(const std::string& path);
+
+/// Progress on the terminal with an estimate of what is left; silent when quiet or when standard
+/// error is no terminal.
+class ProgressLine {
+ public:
+  ProgressLine(std::string what, bool quiet);
+  ~ProgressLine();
+  ProgressLine(const ProgressLine&) = delete;
+  ProgressLine& operator=(const ProgressLine&) = delete;
+
+  Progress callback();
+
+ private:
+  void show(std::size_t done, std::size_t of);
+
+  using Clock = std::chrono::steady_clock;
+  std::string what_;
+  bool shown_ = false;
+  bool enabled_;
+  Clock::time_point start_ = Clock::now();
+  Clock::time_point last_ = start_;
+};
+
+}  // namespace fathom

@@ -1,0 +1,66 @@
+// fathom list: what there is to choose from, with every option.
+
+#include <cstdio>
+#include <memory>
+
+#include "apps/command.hpp"
+#include "fathom/core/input_error.hpp"
+#include "fathom/estimators/builtin.hpp"
+#include "fathom/report/table.hpp"
+#include "fathom/study/configuration.hpp"
+
+namespace fathom {
+namespace {
+
+void print_options(const std::string& prefix, const std::vector<OptionDescription>& options) {
+  if (options.empty()) return;
+  Table table({"  key", "default", "unit", "allowed", "meaning"});
+  for (const OptionDescription& option : options) {
+    const std::string allowed = option.range.empty() ? option.type : option.range;
+    table.add_row(
+        {"  " + prefix + option.key, option.default_value, option.unit, allowed, option.help});
+  }
+  std::printf("%s\n", table.text().c_str());
+}
+
+void print_heading(const std::string& name, const std::string& help) {
+  std::printf("%s: %s\n", name.c_str(), help.c_str());
+}
+
+void list(const std::string& what, Context& context) {
+  context.status = kDone;
+  if (what == "estimators") {
+    for (const EstimatorEntry& entry : builtin_estimators().entries()) {
+      print_heading(entry.name, entry.help);
+      print_options("estimator.", entry.options);
+    }
+  } else if (what == "detectors") {
+    for (const DetectorEntry& entry : detectors()) print_heading(entry.name, entry.help);
+    std::printf("\n");
+    FrontEndOptions front_end;
+    OptionTable table;
+    front_end.describe(table);
+    print_options("front_end.", table.descriptions());
+  } else {
+    for (const DatasetEntry& entry : datasets()) {
+      print_heading(entry.name, entry.help);
+      print_options("dataset.", entry.options);
+    }
+  }
+}
+
+}  // namespace
+
+void add_list(CLI::App& app, Context& context) {
+  auto what = std::make_shared<std::string>();
+  CLI::App* command =
+      app.add_subcommand("list", "List estimators, detectors or datasets with their options");
+  command->footer("Example: fathom list estimators");
+  command->add_option("what", *what, "estimators, detectors or datasets")
+      ->required()
+      ->check(CLI::IsMember({"estimators", "detectors", "datasets"}))
+      ->type_name("WHAT");
+  command->callback([what, &context] { list(*what, context); });
+}
+
+}  // namespace fathom

@@ -1,0 +1,92 @@
+// The command line. Every command is a file of its own; input errors become one line and status 2.
+
+#include <cblas.h>
+#include <cstdio>
+#include <exception>
+#include <glog/logging.h>
+#include <omp.h>
+
+#include "apps/command.hpp"
+#include "fathom/core/options.hpp"
+#include "fathom/study/manifest.hpp"
+
+namespace fathom {
+namespace {
+
+// Cost is compared on one thread. CHOLMOD 5.12 opens an OpenMP team of its own whatever
+// OMP_NUM_THREADS says; without active levels it cannot.
+void pin_threads() {
+  omp_set_max_active_levels(0);
+  openblas_set_num_threads(1);
+}
+
+// Ceres reports failed factorisations on standard error; here they are outcomes.
+void silence_ceres() {
+  FLAGS_minloglevel = google::GLOG_FATAL;
+}
+
+std::string joined(int argc, char** argv) {
+  std::string line = "fathom";
+  for (int i = 1; i < argc; ++i) line += std::string(" ") + argv[i];
+  return line;
+}
+
+int bad_input(const std::string& message) {
+  std::fprintf(stderr, "fathom: error: %s\n", message.c_str());
+  return kBadInput;
+}
+
+std::string parse_error_text(const CLI::App& app, const CLI::ParseError& error, int argc,
+                             char** argv) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+  if (argc > 1 && argv[1][0] != '-' && app.get_subcommands().empty()) {
+    return "unknown command '" + std::string(argv[1]) + "'" + suggestion(argv[1], names) +
+           " (fathom --help lists them)";
+  }
+  std::string text = error.what();
+  while (!text.empty() && text.back() == '\n') text.pop_back();
+  for (char& letter : text) {
+    if (letter == '\n') letter = ' ';
+  }
+  return text + " (see --help)";
+}
+
+int main_function(int argc, char** argv) {
+  pin_threads();
+  silence_ceres();
+  Context context;
+  context.command_line = joined(argc, argv);
+  CLI::App app("Fathom: which SLAM back end should I use on my data?", "fathom");
+  app.set_version_flag("--version", "fathom " + version());
+  app.require_subcommand(1);
+  app.footer("Each command has its own --help. Exit status: 0 done, 1 failed, 2 bad input.");
+  for (const auto add : {add_run, add_compare, add_solve, add_register, add_simulate, add_evaluate,
+                         add_list, add_check}) {
+    add(app, context);
+  }
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);
+    return bad_input(parse_error_text(app, error, argc, argv));
+  } catch (const InputError& error) {
+    return bad_input(error.what());
+  } catch (const std::bad_alloc&) {
+    std::fprintf(stderr, "fathom: error: out of memory\n");
+    return kFailed;
+  }
+  return context.status;
+}
+
+}  // namespace
+}  // namespace fathom
+
+int main(int argc, char** argv) {
+  try {
+    return fathom::main_function(argc, argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "fathom: internal error: %s\n", error.what());
+    return fathom::kFailed;
+  }
+}

@@ -1,0 +1,129 @@
+// fathom register: two pictures.
+
+#include <cmath>
+#include <cstdio>
+#include <memory>
+
+#include "apps/command.hpp"
+#include "apps/common.hpp"
+#include "fathom/core/files.hpp"
+#include "fathom/datasets/image_folder.hpp"
+#include "fathom/datasets/picture_file.hpp"
+#include "fathom/estimators/builtin.hpp"
+#include "fathom/front_end/pair_seed.hpp"
+#include "fathom/report/match_picture.hpp"
+#include "fathom/report/picture.hpp"
+#include "fathom/vision/registration.hpp"
+
+namespace fathom {
+namespace {
+
+struct RegisterFlags {
+  CommonFlags common;
+  std::string a;
+  std::string b;
+  std::string config;
+  double altitude_a_m = 0.0;
+  double altitude_b_m = 0.0;
+};
+
+Camera camera_of(const Configuration& configuration) {
+  if (configuration.dataset == DatasetType::image_folder && !configuration.dataset_path.empty()) {
+    return ImageFolder(configuration.dataset_path).camera();
+  }
+  return Camera(configuration.simulation.camera.model("dataset.camera."));
+}
+
+cv::Mat picture_for(const Camera& camera, const std::string& path) {
+  cv::Mat picture = read_grey_picture(path);
+  const CameraModel& model = camera.model();
+  if (picture.cols != model.width || picture.rows != model.height) {
+    throw InputError(path, "is " + std::to_string(picture.cols) + " x " +
+                               std::to_string(picture.rows) + " pixels, the camera of --config " +
+                               std::to_string(model.width) + " x " + std::to_string(model.height));
+  }
+  return picture;
+}
+
+MatchPicture match_picture(const RegisterFlags& flags, const cv::Mat& a, const cv::Mat& b,
+                           const FloorFeatures& features_a, const FloorFeatures& features_b,
+                           const Registration& registration) {
+  MatchPicture picture{a, b, flags.a, flags.b, {}, {}};
+  for (const Match& match : registration.matches) {
+    picture.matches.push_back({features_a.features.pixels[static_cast<std::size_t>(match.from)],
+                               features_b.features.pixels[static_cast<std::size_t>(match.to)]});
+  }
+  for (const int i : registration.inliers) picture.inliers.push_back(static_cast<std::size_t>(i));
+  return picture;
+}
+
+void print(const Registration& registration) {
+  std::printf("%zu matches, %zu agree\n", registration.matches.size(), registration.inliers.size());
+  if (!registration.found) {
+    std::printf("not found: %s\n", registration.reason.c_str());
+    return;
+  }
+  const Pose& z = registration.motion;
+  const auto sigma = [&](int i) { return std::sqrt(registration.covariance(i, i)); };
+  std::printf("found: pose of B in the frame of A\n");
+  std::printf("  x      %9.4f m   +- %.4f\n", z.x, sigma(0));
+  std::printf("  y      %9.4f m   +- %.4f\n", z.y, sigma(1));
+  std::printf("  theta  %9.4f rad +- %.4f\n", z.theta, sigma(2));
+  std::printf("  RMS of the inliers %.4f m\n", registration.rms_m);
+}
+
+void register_pictures(const RegisterFlags& flags, Context& context) {
+  const Configuration configuration = configure(flags.common.settings(flags.config),
+                                                ConfigurationKind::single, builtin_estimators());
+  const Camera camera = camera_of(configuration);
+  const cv::Mat a = picture_for(camera, flags.a);
+  const cv::Mat b = picture_for(camera, flags.b);
+  StagedFolder folder(flags.common.folder_or("register"));
+  const FeatureExtractor extractor(configuration.front_end.features);
+  const FloorFeatures features_a = on_floor(extractor.extract(a), camera, flags.altitude_a_m);
+  const FloorFeatures features_b = on_floor(extractor.extract(b), camera, flags.altitude_b_m);
+  const Registration registration =
+      register_pair(features_a, features_b, configuration.front_end.registration,
+                    pair_seed(static_cast<std::uint64_t>(configuration.seed), 0, 1));
+  write_file(folder.path() / "matches.png",
+             encode_png(render(match_picture(flags, a, b, features_a, features_b, registration))));
+  if (registration.found) {
+    write_file(folder.path() / "overlay.png",
+               encode_png(render_overlay({a, camera, flags.altitude_a_m},
+                                         {b, camera, flags.altitude_b_m}, registration.motion)));
+  }
+  folder.commit();
+  context.status = registration.found ? kDone : kFailed;
+  if (flags.common.quiet) return;
+  std::printf("%zu features in A, %zu in B, ", features_a.size(), features_b.size());
+  print(registration);
+  std::printf("\nwrote %s\n", (folder.target() / "matches.png").c_str());
+  if (registration.found) std::printf("      %s\n", (folder.target() / "overlay.png").c_str());
+}
+
+}  // namespace
+
+void add_register(CLI::App& app, Context& context) {
+  auto flags = std::make_shared<RegisterFlags>();
+  CLI::App* command = app.add_subcommand("register", "Register two pictures of the floor");
+  command->footer(
+      "Example: fathom register a.png b.png --config configs/quickstart.yaml --altitude-a 2 "
+      "--altitude-b 2.1\nExit status 1 where the pictures do not match.");
+  command->add_option("a", flags->a, "Picture A")->required();
+  command->add_option("b", flags->b, "Picture B")->required();
+  command->add_option("--config", flags->config, "Configuration: its camera and front end")
+      ->type_name("FILE");
+  command->add_option("--altitude-a", flags->altitude_a_m, "Height of A over the floor (m)")
+      ->type_name("M")
+      ->check(CLI::PositiveNumber)
+      ->required();
+  command->add_option("--altitude-b", flags->altitude_b_m, "Height of B over the floor (m)")
+      ->type_name("M")
+      ->check(CLI::PositiveNumber)
+      ->required();
+  flags->common.add_settings_to(*command);
+  flags->common.add_out_to(*command, "Output folder (default: runs/register)");
+  command->callback([flags, &context] { register_pictures(*flags, context); });
+}
+
+}  // namespace fathom

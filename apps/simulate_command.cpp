@@ -1,0 +1,72 @@
+// fathom simulate: a simulated survey, written as an image folder.
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+#include "apps/command.hpp"
+#include "apps/common.hpp"
+#include "fathom/core/files.hpp"
+#include "fathom/datasets/image_folder.hpp"
+#include "fathom/estimators/builtin.hpp"
+#include "fathom/study/survey.hpp"
+
+namespace fathom {
+namespace {
+
+struct SimulateFlags {
+  CommonFlags common;
+  std::string config;
+};
+
+// A configuration that runs the folder as the simulation would have been: same front end and seed.
+std::string folder_configuration(const Configuration& configuration, const std::string& folder) {
+  std::string text = "# The survey in this folder, with the front end it was simulated with.\n";
+  const auto add = [&text](const std::string& key, const std::string& value) {
+    text += key + ": " + value + "\n";
+  };
+  add("dataset.type", "image_folder");
+  add("dataset.path", "'" + folder + "'");
+  for (const auto& [key, value] : configuration.in_force) {
+    if (key == "seed" || key == "evaluation.alignment" || key.starts_with("front_end.")) {
+      add(key, value);
+    }
+  }
+  add("estimator.type", configuration.estimators.front().type);
+  for (const auto& [key, value] : configuration.estimators.front().values) {
+    add("estimator." + key, value.items.front());
+  }
+  return text;
+}
+
+void simulate(const SimulateFlags& flags, Context& context) {
+  const Configuration configuration = configure(flags.common.settings(flags.config),
+                                                ConfigurationKind::single, builtin_estimators());
+  if (configuration.dataset != DatasetType::simulated) {
+    throw InputError(flags.config, "dataset.type: 'simulate' takes simulated");
+  }
+  const Survey survey(configuration);
+  StagedFolder folder(flags.common.folder_or(stem_of(flags.config) + "-data"));
+  write_image_folder(survey.frames(), folder.path());
+  write_file(folder.path() / "run.yaml",
+             folder_configuration(configuration, folder.target().string()));
+  folder.commit();
+  context.status = kDone;
+  if (flags.common.quiet) return;
+  std::printf("wrote %zu frames to %s\nrun them with: fathom run %s\n", survey.frames().size(),
+              (folder.target() / "mav0").c_str(), (folder.target() / "run.yaml").c_str());
+}
+
+}  // namespace
+
+void add_simulate(CLI::App& app, Context& context) {
+  auto flags = std::make_shared<SimulateFlags>();
+  CLI::App* command = app.add_subcommand("simulate", "Write a simulated survey as an image folder");
+  command->footer("Example: fathom simulate configs/quickstart.yaml --out survey");
+  command->add_option("config", flags->config, "Configuration (YAML)")->required();
+  flags->common.add_settings_to(*command);
+  flags->common.add_out_to(*command, "Output folder (default: runs/CONFIG's name-data)");
+  command->callback([flags, &context] { simulate(*flags, context); });
+}
+
+}  // namespace fathom

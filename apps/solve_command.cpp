@@ -1,0 +1,145 @@
+// fathom solve: a pose graph from a g2o file.
+
+#include <cstdio>
+#include <memory>
+
+#include "apps/command.hpp"
+#include "apps/common.hpp"
+#include "apps/memory_meter.hpp"
+#include "apps/pictures.hpp"
+#include "fathom/core/files.hpp"
+#include "fathom/estimators/builtin.hpp"
+#include "fathom/study/manifest.hpp"
+#include "fathom/study/run_folder.hpp"
+
+namespace fathom {
+namespace {
+
+struct SolveFlags {
+  CommonFlags common;
+  std::string graph;
+  std::string estimator;
+  std::string mode;
+  std::string init = "odometry";
+  std::string ground_truth;
+};
+
+EstimatorConfiguration estimator_of(const SolveFlags& flags, const Settings& settings,
+                                    SolveMode& mode) {
+  std::string type = flags.estimator;
+  for (const Setting& setting : settings.all()) {
+    if (setting.key == "estimator.type") {
+      if (!flags.estimator.empty()) refuse(setting, "--estimator says it already");
+      type = setting.value.items.front();
+    } else if (!setting.key.starts_with("estimator.") && setting.key != "seed") {
+      refuse(setting, "unknown key '" + setting.key + "': 'solve' takes estimator.… alone");
+    }
+  }
+  const EstimatorEntry& entry = builtin_estimators().find(type.empty() ? "ceres_pose_graph" : type);
+  mode = flags.mode == "batch" || (flags.mode.empty() && entry.can_batch) ? SolveMode::batch
+                                                                          : SolveMode::incremental;
+  if (mode == SolveMode::batch && !entry.can_batch) {
+    throw InputError("--mode batch: " + entry.name +
+                     " is a filter, which takes a log in its order; use --mode incremental");
+  }
+  if (mode == SolveMode::incremental && flags.init == "file") {
+    throw InputError("--init file: only a batch solve has a start; use --mode batch");
+  }
+  Settings own;
+  const Settings given = settings.below("estimator.");
+  for (const Setting& setting : given.all()) {
+    if (setting.key != "type") own.put(setting);
+  }
+  return {entry.name, entry.name, estimator_values(own, entry, {{}, mode}, "estimator.")};
+}
+
+// Ground truth by vertex id, all keyframes or none.
+void attach_ground_truth(Recording& recording, const std::string& path) {
+  const std::vector<StampedPose> truth = read_tum(path);
+  recording.ground_truth.emplace();
+  std::size_t next = 0;
+  for (const std::int64_t time_ns : recording.keyframe_times_ns) {
+    while (next < truth.size() && truth[next].time_ns < time_ns) ++next;
+    if (next == truth.size() || truth[next].time_ns != time_ns) {
+      throw InputError(path, "has no pose for vertex " + std::to_string(time_ns / 1'000'000'000));
+    }
+    recording.ground_truth->push_back(truth[next].pose);
+  }
+}
+
+void print(const SolveFlags& flags, const Recording& recording, const Result& result) {
+  std::printf("%s: %zu poses, %zu edges, %zu of them loop closures\n", flags.graph.c_str(),
+              recording.log.size(), recording.log.size() - 1 + recording.log.registration_count(),
+              recording.log.registration_count());
+  std::printf("%s, %s: %s after %d iterations\n", result.estimator.type.c_str(),
+              result.mode == SolveMode::batch ? "batch" : "incremental",
+              name_of(result.replay.outcome).c_str(), result.replay.iterations);
+  std::printf("chi2 %.10g, from %.10g at the start\n\n", result.chi2, result.chi2_initial);
+  std::printf("%s", result_table(recording, {result}, Alignment::origin).c_str());
+}
+
+void solve(const SolveFlags& flags, Context& context) {
+  SolveMode mode = SolveMode::incremental;
+  const EstimatorConfiguration estimator = estimator_of(flags, flags.common.settings(""), mode);
+  Recording recording = record_graph(flags.graph);
+  if (!flags.ground_truth.empty()) attach_ground_truth(recording, flags.ground_truth);
+  ReplayOptions options;
+  options.mode = mode;
+  if (flags.init == "file") {
+    if (!recording.log.guess) {
+      throw InputError(flags.graph, "has no vertices to start from; use --init odometry");
+    }
+    options.start = *recording.log.guess;
+  }
+  StagedFolder folder(flags.common.folder_or(stem_of(flags.graph) + "-" + estimator.type));
+  const auto meter = make_memory_meter();
+  options.memory = meter.get();
+  ProgressLine line(estimator.type + ", keyframe", flags.common.quiet);
+  options.progress = line.callback();
+  const Result result =
+      evaluate(recording, estimator, builtin_estimators(), Alignment::origin, options);
+  const std::vector<std::pair<std::string, std::string>> configuration{{"graph", flags.graph},
+                                                                       {"init", flags.init}};
+  write_run(
+      folder.path(), recording, result,
+      manifest_json(context.command_line, configuration, recording, result, builtin_estimators()));
+  write_trajectory_picture(folder.path() / "trajectory.png",
+                           stem_of(flags.graph) + ", " + estimator.type, recording, {result});
+  folder.commit();
+  context.status = result.is_done() ? kDone : kFailed;
+  if (flags.common.quiet) return;
+  print(flags, recording, result);
+  std::printf("\nwrote %s\n", (folder.target() / "trajectory.png").c_str());
+}
+
+}  // namespace
+
+void add_solve(CLI::App& app, Context& context) {
+  auto flags = std::make_shared<SolveFlags>();
+  CLI::App* command = app.add_subcommand("solve", "Solve a pose graph");
+  command->footer(
+      "Example: fathom solve intel.g2o --estimator ceres_pose_graph --mode batch\n"
+      "         fathom solve ring.g2o --estimator trajectory_iekf --set "
+      "estimator.max_iterations=3");
+  command->add_option("graph", flags->graph, "Pose graph (g2o)")->required();
+  command->add_option("--estimator", flags->estimator, "Estimator (default: ceres_pose_graph)")
+      ->type_name("NAME");
+  command
+      ->add_option("--mode", flags->mode,
+                   "incremental: keyframe by keyframe; batch: one solve (default where it can)")
+      ->check(CLI::IsMember({"incremental", "batch"}))
+      ->type_name("MODE");
+  command->add_option("--init", flags->init, "Where a batch solve starts: odometry or file")
+      ->check(CLI::IsMember({"odometry", "file"}))
+      ->type_name("START")
+      ->capture_default_str();
+  command
+      ->add_option("--ground-truth", flags->ground_truth,
+                   "True poses (TUM, vertex ids as time stamps), to judge by")
+      ->type_name("FILE");
+  flags->common.add_settings_to(*command);
+  flags->common.add_out_to(*command, "Output folder (default: runs/GRAPH-ESTIMATOR)");
+  command->callback([flags, &context] { solve(*flags, context); });
+}
+
+}  // namespace fathom

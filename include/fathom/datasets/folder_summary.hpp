@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "fathom/datasets/frame_source.hpp"
+
+namespace fathom {
+
+/// What `fathom check DIR` says of an image folder; one line each, no final full stop.
+struct FolderSummary {
+  std::vector<std::string> facts;
+  std::vector<std::string> warnings;
+};
+
+/// Sums up a survey and looks for what is legal but probably wrong. Every picture is decoded; one
+/// that cannot be is a warning.
+FolderSummary summarise_frames(const FrameSource& source);
+
+}  // namespace fathom

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <opencv2/core.hpp>
+
+#include "fathom/geometry/covariance.hpp"
+#include "fathom/vision/camera.hpp"
+
+namespace fathom {
+
+/// All that is known of one frame but its picture.
+struct FrameInfo {
+  std::int64_t time_ns = 0;
+  double altitude_m = 0.0;  ///< as measured, > 0
+  /// Dead reckoning: the motion since the frame before, in that frame, with its covariance. Absent
+  /// at the first frame, and where the source has no odometry.
+  std::optional<UncertainPose> motion;
+  std::optional<Pose> ground_truth;
+};
+
+/// A recorded or simulated survey: frames in the order of time.
+class FrameSource {
+ public:
+  virtual ~FrameSource() = default;
+
+  virtual const Camera& camera() const = 0;
+  virtual std::size_t size() const = 0;
+
+  /// Frame i < size(); cheap.
+  virtual const FrameInfo& info(std::size_t i) const = 0;
+
+  /// The picture of frame i, 8-bit, one channel. May be called from several threads at once.
+  /// Throws InputError naming the file where it is missing, unreadable or of the wrong size.
+  virtual cv::Mat image(std::size_t i) const = 0;
+
+  /// Whether every frame after the first has its motion.
+  virtual bool has_odometry() const = 0;
+  virtual bool has_ground_truth() const = 0;
+};
+
+}  // namespace fathom

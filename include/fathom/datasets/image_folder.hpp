@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <vector>
+
+#include "fathom/datasets/frame_source.hpp"
+
+namespace fathom {
+
+/// A recorded survey in the EuRoC/ASL folder layout (docs/formats.md).
+///
+/// Frames are the rows of `cam0/data.csv`. Other sensors may run at other rates: a reading with a
+/// picture's own time stamp is taken as it is, else the two around it are interpolated, if they are
+/// no further apart than `kMaxInterpolationGapNs`.
+/// - `altimeter0`: needed at every picture.
+/// - `odometry0`: optional, else needed at every picture. The covariance of a frame's motion is
+///   composed of the steps since the frame before; of a step cut by a picture, each part takes its
+///   share of the covariance by time.
+/// - `state_groundtruth_estimate0`: optional, absent at frames that it does not cover; the yaw of
+///   its quaternion is the heading.
+class ImageFolder : public FrameSource {
+ public:
+  static constexpr std::int64_t kMaxInterpolationGapNs = 2'000'000'000;
+
+  /// `path`: the folder with `mav0` in it, or `mav0` itself. Pictures must be there, but are
+  /// decoded only when asked for, except for the first, whose size is checked. Throws InputError
+  /// with file and line.
+  explicit ImageFolder(const std::filesystem::path& path);
+
+  const Camera& camera() const override { return camera_; }
+  std::size_t size() const override { return infos_.size(); }
+  const FrameInfo& info(std::size_t i) const override { return infos_[i]; }
+  /// Colour is turned to grey; a rotation tag of the file is ignored, as the camera's calibration
+  /// is that of the sensor.
+  cv::Mat image(std::size_t i) const override;
+  bool has_odometry() const override { return has_odometry_; }
+  /// Whether every frame has ground truth.
+  bool has_ground_truth() const override { return has_ground_truth_; }
+
+ private:
+  void read_frames(const std::filesystem::path& mav0);
+  void read_altitudes(const std::filesystem::path& mav0);
+  void read_odometry(const std::filesystem::path& mav0);
+  void read_ground_truth(const std::filesystem::path& mav0);
+
+  Camera camera_;
+  std::vector<FrameInfo> infos_;
+  std::vector<std::filesystem::path> pictures_;
+  bool has_odometry_ = false;
+  bool has_ground_truth_ = false;
+};
+
+/// Writes a survey as an image folder: PNG pictures named by their time stamps, numbers with 17
+/// digits, `odometry0` with the covariances xy, xt, yt after the variances. ImageFolder reads back
+/// the same frames and bit-identical pictures. `folder/mav0` is written whole or not at all; an
+/// older one is replaced. Throws InputError.
+void write_image_folder(const FrameSource& source, const std::filesystem::path& folder);
+
+}  // namespace fathom

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <filesystem>
+
+#include <opencv2/core.hpp>
+
+namespace fathom {
+
+/// A picture as 8-bit grey, in the rows and columns of the sensor: a rotation tag is ignored.
+/// Throws InputError naming the file.
+cv::Mat read_grey_picture(const std::filesystem::path& path);
+
+/// Writes an 8-bit PNG. Throws InputError naming the file.
+void write_png(const std::filesystem::path& path, const cv::Mat& picture);
+
+}  // namespace fathom

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "fathom/core/options.hpp"
+#include "fathom/datasets/camera_options.hpp"
+#include "fathom/datasets/floor_renderer.hpp"
+#include "fathom/datasets/frame_source.hpp"
+#include "fathom/datasets/mission.hpp"
+#include "fathom/datasets/motion_noise.hpp"
+#include "fathom/datasets/world.hpp"
+
+namespace fathom {
+
+/// Altitude over the floor: base + amplitude · sin(2π t / period), measured with noise.
+struct AltitudeOptions {
+  double base_m = 2.0;
+  double amplitude_m = 0.0;
+  double period_s = 30.0;
+  double altimeter_sigma_m = 0.01;
+
+  void describe(OptionTable& table);
+};
+
+struct SimulatedSurveyOptions {
+  WorldOptions world;
+  MissionOptions mission;
+  AltitudeOptions altitude;
+  CameraOptions camera;
+  OdometryOptions odometry;
+
+  /// In a config these keys stand under `dataset.`.
+  void describe(OptionTable& table);
+};
+
+/// A survey of a flat floor by a robot that knows nothing of its truth but what is measured. The
+/// pose of frame 0 is the identity. Pictures are rendered when asked for.
+class SimulatedSurvey : public FrameSource {
+ public:
+  /// The floor depends on the seed alone, the noise on seed and trial; each kind of noise has its
+  /// stream ("altimeter", "dead_reckoning"). Throws InputError naming the key, with `dataset.` in
+  /// front: an option out of its bounds, an altitude that reaches zero, a covariance that is not
+  /// positive definite, a frame that sees beyond the world's picture.
+  explicit SimulatedSurvey(const SimulatedSurveyOptions& options, std::uint64_t seed,
+                           std::uint64_t trial = 0);
+
+  const Camera& camera() const override { return camera_; }
+  std::size_t size() const override { return infos_.size(); }
+  const FrameInfo& info(std::size_t i) const override { return infos_[i]; }
+  cv::Mat image(std::size_t i) const override;
+
+  /// False where visual odometry is to make the motions: then no frame has one.
+  bool has_odometry() const override { return has_odometry_; }
+  bool has_ground_truth() const override { return true; }
+
+  const World& world() const { return renderer_->world(); }
+  double true_altitude_m(std::size_t i) const { return true_altitudes_m_[i]; }
+
+ private:
+  void measure(const SimulatedSurveyOptions& options, std::uint64_t seed, std::uint64_t trial);
+  void render_from(const WorldOptions& options, std::uint64_t seed);
+
+  Camera camera_;
+  std::vector<FrameInfo> infos_;
+  std::vector<double> true_altitudes_m_;
+  std::unique_ptr<const FloorRenderer> renderer_;
+  bool has_odometry_ = false;
+};
+
+}  // namespace fathom

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "fathom/datasets/frame_source.hpp"
+#include "fathom/front_end/feature_store.hpp"
+#include "fathom/front_end/options.hpp"
+#include "fathom/geometry/trajectory.hpp"
+#include "fathom/measurements/relative_pose.hpp"
+
+namespace fathom {
+
+/// A keyframe as the front end hands it on.
+struct Keyframe {
+  std::size_t index = 0;  ///< among the keyframes
+  std::size_t frame = 0;
+  std::int64_t time_ns = 0;
+  /// Dead reckoning from the keyframe before; absent at keyframe 0.
+  std::optional<RelativePose> step;
+};
+
+/// Where a frame is: so much further than its keyframe. The robot's pose at any frame is the last
+/// keyframe's ⊕ the dead reckoning since.
+struct FramePlace {
+  std::int64_t time_ns = 0;
+  std::size_t keyframe = 0;
+  Pose motion_since_keyframe;
+};
+
+/// Turns frames into keyframe events: the paper's section 2. Use:
+///
+///     while (auto keyframe = front_end.next_keyframe()) {
+///       if (keyframe->step) estimator.add_keyframe(*keyframe->step);
+///       estimator.close_loops(front_end.register_newest(estimator));
+///     }
+///
+/// A registration that fails never stops the run: dead reckoning carries it.
+class FrontEnd {
+ public:
+  /// Source and store must outlive it; the store must be of the same pictures. The source must have
+  /// odometry (VisualOdometry gives it to one that has none); throws InputError otherwise.
+  FrontEnd(const FrameSource& source, FeatureStore& features, const FrontEndOptions& options,
+           std::uint64_t seed);
+
+  /// The next keyframe: frame 0, then one every `separation_frames`. Nothing at the end.
+  std::optional<Keyframe> next_keyframe();
+
+  /// Registers the newest keyframe with every candidate: the earlier keyframes within
+  /// `max_distance_m` of it in the given trajectory, which must hold all keyframes so far. What was
+  /// found, by rising `from`.
+  std::vector<RelativePose> register_newest(const TrajectoryView& trajectory);
+
+  const std::vector<Keyframe>& keyframes() const { return keyframes_; }
+  /// Of all frames passed so far, the ones after the last keyframe included.
+  const std::vector<FramePlace>& frames() const { return frames_; }
+  std::size_t registrations_tried() const { return tried_; }
+  std::size_t registrations_found() const { return found_; }
+
+ private:
+  std::vector<std::size_t> candidates(const TrajectoryView& trajectory) const;
+
+  const FrameSource& source_;
+  FeatureStore& store_;
+  FrontEndOptions options_;
+  std::uint64_t seed_;
+  std::vector<Keyframe> keyframes_;
+  std::vector<std::shared_ptr<const FloorFeatures>> features_;  ///< of the keyframes
+  std::vector<FramePlace> frames_;
+  std::size_t tried_ = 0;
+  std::size_t found_ = 0;
+};
+
+}  // namespace fathom

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "fathom/core/options.hpp"
+#include "fathom/vision/features.hpp"
+#include "fathom/vision/registration.hpp"
+
+namespace fathom {
+
+/// What visual odometry says of a motion where consecutive pictures do not register: the last
+/// motion again, this uncertain.
+struct VisualOdometryFallback {
+  double sigma_m = 0.3;
+  double sigma_rad = 0.1;
+};
+
+struct FrontEndOptions {
+  int separation_frames = 10;   ///< a keyframe every so many frames
+  double max_distance_m = 3.0;  ///< loop candidates: keyframes so near the newest, as estimated
+  FeatureOptions features;
+  RegistrationOptions registration;
+  VisualOdometryFallback visual_odometry;
+
+  /// In a config these keys stand under `front_end.`.
+  void describe(OptionTable& table);
+};
+
+}  // namespace fathom

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "fathom/core/random.hpp"
+#include "fathom/datasets/frame_source.hpp"
+#include "fathom/datasets/motion_noise.hpp"
+#include "fathom/front_end/feature_store.hpp"
+#include "fathom/front_end/options.hpp"
+
+namespace fathom {
+
+/// Noise that a study adds to visual odometry, per frame, as in the paper's experiments.
+struct AddedNoise {
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  std::uint64_t seed = 0;
+  std::uint64_t trial = 0;
+};
+
+/// A survey whose dead reckoning is the registration of each frame with the one before. The
+/// covariance of a motion is the registration's plus that of the added noise. Where consecutive
+/// pictures do not register, the last motion is repeated with the fallback's uncertainty.
+///
+/// Motions are made when first asked for, in order, so ask in rising order; `info` is for one
+/// thread, `image` for several.
+class VisualOdometry : public FrameSource {
+ public:
+  /// The source and the store, which must be of that source, must outlive this.
+  VisualOdometry(const FrameSource& source, FeatureStore& features, const FrontEndOptions& options,
+                 std::uint64_t seed, const AddedNoise& noise = {});
+
+  const Camera& camera() const override { return source_.camera(); }
+  std::size_t size() const override { return source_.size(); }
+  const FrameInfo& info(std::size_t i) const override;
+  cv::Mat image(std::size_t i) const override { return source_.image(i); }
+  bool has_odometry() const override { return true; }
+  bool has_ground_truth() const override { return source_.has_ground_truth(); }
+
+  /// Frames so far that did not register with the one before.
+  std::size_t failures() const { return failures_; }
+
+ private:
+  UncertainPose next_motion() const;
+
+  const FrameSource& source_;
+  FeatureStore& features_;
+  FrontEndOptions options_;
+  std::uint64_t seed_;
+  AddedNoise noise_;
+  MotionNoise draws_;
+  mutable RandomStream stream_;
+  mutable Pose last_motion_;
+  mutable std::vector<FrameInfo> infos_;
+  mutable std::size_t failures_ = 0;
+};
+
+}  // namespace fathom

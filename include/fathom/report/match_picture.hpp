@@ -1,0 +1,49 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+#include <opencv2/core.hpp>
+
+#include "fathom/geometry/pose.hpp"
+#include "fathom/vision/camera.hpp"
+
+namespace fathom {
+
+/// The pixels (u right, v down) at which two pictures show the same feature.
+struct PixelPair {
+  Eigen::Vector2d a;
+  Eigen::Vector2d b;
+};
+
+/// Two pictures and their matches: figures 1 and 3 of the paper.
+struct MatchPicture {
+  cv::Mat a;  ///< 8-bit, one or three channels
+  cv::Mat b;
+  std::string name_a;
+  std::string name_b;
+  std::vector<PixelPair> matches;    ///< all, before RANSAC
+  std::vector<std::size_t> inliers;  ///< indices into `matches`; none where no motion was found
+};
+
+/// The pictures side by side, twice: above with every match (those RANSAC refused in another
+/// colour), below with its inliers alone. 8-bit BGR, at most 1640 pixels wide.
+/// Throws InputError on an empty picture, another type, or an inlier that is no match.
+cv::Mat render(const MatchPicture& picture);
+
+/// A picture of the floor with what is needed to lay it there.
+struct FloorPicture {
+  cv::Mat image;  ///< 8-bit, one or three channels, undistorted or not, of the camera's size
+  Camera camera;
+  double altitude_m = 0.0;
+};
+
+/// Both pictures on the floor at the motion found, in the body frame of A, x up and y to the left:
+/// A in orange and B in blue, which add up to grey where they agree. 8-bit BGR, at most 1600 pixels
+/// wide or high. `motion_a_b` is the pose of B's body in A's.
+/// Throws InputError on pictures as above, of another size than their camera's, on an altitude that
+/// is not positive, or a motion that is not finite or so far that the pictures would be specks.
+cv::Mat render_overlay(const FloorPicture& a, const FloorPicture& b, const Pose& motion_a_b);
+
+}  // namespace fathom

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "fathom/core/options.hpp"
+
+namespace fathom {
+
+/// One setting of a configuration and where it came from.
+struct Setting {
+  std::string key;  ///< dotted, for example "front_end.ransac.iterations"
+  OptionValue value;
+  std::string origin;  ///< "FILE:LINE" or "--set KEY=VALUE", for messages
+};
+
+/// The settings of a configuration, each key once; later ones replace earlier ones.
+class Settings {
+ public:
+  void put(Setting setting);
+  const Setting* find(const std::string& key) const;
+  const std::vector<Setting>& all() const { return settings_; }
+
+  /// The settings under `prefix`, the prefix taken off.
+  Settings below(const std::string& prefix) const;
+
+ private:
+  std::vector<Setting> settings_;
+};
+
+/// Reads a YAML file as settings: maps become dotted keys; the items of a list of maps are keyed by
+/// their place, `estimators.0.type`. Throws InputError with file and line on what is no YAML, a key
+/// given twice, or a value that is neither scalar nor list.
+Settings read_settings(const std::filesystem::path& path);
+
+/// A `KEY=VALUE` of the command line; the value is YAML, so that lists can be given.
+Setting parse_override(const std::string& text);
+
+/// Throws InputError at the origin of a setting.
+[[noreturn]] void refuse(const Setting& setting, const std::string& message);
+
+}  // namespace fathom

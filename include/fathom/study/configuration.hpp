@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "fathom/datasets/simulated_survey.hpp"
+#include "fathom/estimation/registry.hpp"
+#include "fathom/evaluation/alignment.hpp"
+#include "fathom/front_end/options.hpp"
+#include "fathom/study/config_file.hpp"
+
+namespace fathom {
+
+enum class DatasetType { simulated, image_folder, g2o };
+
+/// What `fathom list datasets` shows, and the words of `dataset.type`.
+struct DatasetEntry {
+  std::string name;
+  DatasetType type;
+  std::string help;
+  std::vector<OptionDescription> options;  ///< keys under `dataset.`
+};
+const std::vector<DatasetEntry>& datasets();
+
+/// One estimator of a run or comparison.
+struct EstimatorConfiguration {
+  std::string name;  ///< in tables and folders; its type unless the configuration names it
+  std::string type;
+  EstimatorValues values;  ///< as given; the rest are defaults
+};
+
+/// A whole configuration, checked: every key is known and every value within its bounds.
+struct Configuration {
+  DatasetType dataset = DatasetType::simulated;
+  std::string dataset_path;
+  SimulatedSurveyOptions simulation;
+  FrontEndOptions front_end;
+  /// One for `run`; for `compare` several, of which the first that `association.reference` names
+  /// picks the loop candidates.
+  std::vector<EstimatorConfiguration> estimators;
+  std::size_t reference = 0;
+  Alignment alignment = Alignment::origin;
+  int seed = 1;
+  /// Every key with its value in force, defaults included, for the manifest.
+  std::vector<std::pair<std::string, std::string>> in_force;
+};
+
+/// `run`, `simulate` and `register` take one estimator (`estimator.…`), `compare` a list
+/// (`estimators:`; without one, every estimator with its defaults).
+enum class ConfigurationKind { single, comparison };
+
+/// Checks settings and turns them into a configuration. Throws InputError with the origin of the
+/// setting, the nearest known key or the bound that it breaks.
+Configuration configure(const Settings& settings, ConfigurationKind kind,
+                        const EstimatorRegistry& registry);
+
+/// The estimator's values from settings whose keys are its own, checked against the entry.
+/// `prefix` is what stands before them in messages.
+EstimatorValues estimator_values(const Settings& settings, const EstimatorEntry& entry,
+                                 const EstimatorSetup& setup, const std::string& prefix);
+
+}  // namespace fathom

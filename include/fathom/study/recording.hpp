@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "fathom/estimation/estimator.hpp"
+#include "fathom/front_end/front_end.hpp"
+#include "fathom/measurements/measurement_log.hpp"
+#include "fathom/study/configuration.hpp"
+
+namespace fathom {
+
+/// Told how far a long work has come.
+using Progress = std::function<void(std::size_t done, std::size_t of)>;
+
+/// What the front end made of a survey: the measurement log that every estimator is given, and what
+/// is needed to judge them.
+struct Recording {
+  MeasurementLog log;
+  std::vector<std::int64_t> keyframe_times_ns;
+  std::vector<FramePlace> frames;          ///< empty for a pose graph
+  std::vector<Pose> frame_dead_reckoning;  ///< one per frame, from the identity on
+  /// Of the keyframes, where all of them have it.
+  std::optional<std::vector<Pose>> ground_truth;
+  std::vector<StampedPose> frame_ground_truth;  ///< of the frames that have it
+  std::size_t registrations_tried = 0;
+  bool visual_odometry = false;
+  std::size_t visual_odometry_failures = 0;
+};
+
+/// Runs the front end over the data set once. Loop candidates are picked by the estimate of
+/// `configuration.estimators[reference]`, which runs along; the log is all that is kept of it.
+/// Of a g2o data set: the graph, with vertex ids as whole seconds.
+Recording record(const Configuration& configuration, const EstimatorRegistry& registry,
+                 const Progress& progress = {});
+
+/// A pose graph as a recording, read from a file.
+Recording record_graph(const std::filesystem::path& path);
+
+}  // namespace fathom

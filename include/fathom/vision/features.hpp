@@ -1,0 +1,75 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+#include <opencv2/core.hpp>
+
+#include "fathom/core/options.hpp"
+#include "fathom/vision/camera.hpp"
+
+namespace fathom {
+
+/// Keypoints and descriptors of one picture.
+struct Features {
+  std::vector<Eigen::Vector2d> pixels;  ///< (u, v); (0, 0) is the centre of the first pixel
+  cv::Mat descriptors;                  ///< one row per keypoint: CV_32F (SIFT) or CV_8U (binary)
+
+  std::size_t size() const { return pixels.size(); }
+};
+
+/// Features with their points in metres on the floor: what registration works on. The conversion is
+/// per picture, with that picture's altitude.
+struct FloorFeatures {
+  std::vector<Eigen::Vector2d> points;  ///< body frame, metres
+  Features features;
+
+  std::size_t size() const { return points.size(); }
+};
+
+/// Throws InputError on an altitude that is not positive.
+FloorFeatures on_floor(Features features, const Camera& camera, double altitude_m);
+
+enum class FeatureType { sift, orb, akaze, brisk };
+
+/// What `fathom list detectors` shows, and the words of `features.type`.
+struct DetectorEntry {
+  std::string name;
+  FeatureType type;
+  std::string help;  ///< one line
+};
+std::span<const DetectorEntry> detectors();
+
+struct FeatureOptions {
+  FeatureType type = FeatureType::sift;
+  int max_features = 2000;
+  bool clahe = false;
+  double clahe_clip_limit = 3.0;
+  int clahe_tiles = 8;
+
+  void describe(OptionTable& table);
+};
+
+/// Finds and describes keypoints. May be used from several threads at once; the same picture gives
+/// the same features, in the same order, whatever the number of threads.
+class FeatureExtractor {
+ public:
+  explicit FeatureExtractor(const FeatureOptions& options = {}) : options_(options) {}
+
+  const FeatureOptions& options() const { return options_; }
+
+  /// The `max_features` features with the strongest response, strongest first; equal ones in the
+  /// order of their place in the picture, then size and orientation. A keypoint with several
+  /// orientations counts as several. A picture without texture, or too small to hold a keypoint
+  /// (under 32 pixels a side), has none. Throws InputError unless `gray` is 8-bit with one channel
+  /// and not empty.
+  Features extract(const cv::Mat& gray) const;
+
+ private:
+  FeatureOptions options_;
+};
+
+}  // namespace fathom

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "fathom/core/options.hpp"
+#include "fathom/geometry/pose.hpp"
+
+namespace fathom {
+
+/// Which of two motions with enough inliers is kept.
+enum class RansacScore {
+  inliers,  ///< the one with more inliers; of equals, the one with the lower RMS
+  paper     ///< the one with the lower sum of errors, as the figure has it: favours small sets
+};
+
+struct RansacOptions {
+  int iterations = 1000;
+  int sample_size = 2;
+  double max_error_m = 0.03;
+  int min_inliers = 16;
+  int min_places = 8;
+  RansacScore score = RansacScore::inliers;
+
+  void describe(OptionTable& table);
+};
+
+/// What RANSAC agrees on.
+struct Consensus {
+  std::optional<Pose> motion;  ///< of `to` in `from`; nothing: not found
+  std::vector<int> inliers;    ///< rising indices of the pairs that agree; empty if not found
+  double rms_m = 0.0;          ///< of the inliers' errors
+  int most_agreeing = 0;       ///< pairs that agreed with the best-supported trial, found or not
+  int most_places = 0;  ///< most places of a trial with `min_inliers`, counted up to `min_places`
+};
+
+/// The paper's figure 2, on matched points p (seen in `from`) and q (seen in `to`), metres. Each of
+/// the `iterations`:
+/// 1. draws `sample_size` pairs at random and fits find_motion to them. A sample whose points lie
+///    within `max_error_m` of their centre (root mean square) on either side, such as one match
+///    drawn as two, fixes no heading and is drawn again, up to 100 times an iteration;
+/// 2. tests every pair: it agrees where ‖p − z ⊕ q‖ ≤ `max_error_m`. The sample's own pairs are
+/// held
+///    to it as well: with least squares they need not meet it;
+/// 3. lets the motion count only where at least `min_inliers` agree, in at least `min_places`;
+/// 4. fits find_motion to all that agree;
+/// 5. keeps the best fit by `score`.
+///
+/// Places are our addition to the figure. Matches nearer to each other than `max_error_m` are no
+/// independent votes: a motion that brings one within the error brings its neighbours along. A
+/// place is a match further than that from the other places, in both pictures. On real pictures
+/// wrong motions gather a dozen matches on one object that looks like another, in few places; right
+/// ones have theirs all over the overlap (tests/vision/real_pictures_test.cpp). 1 switches it off.
+///
+/// With score `inliers` the best is then settled: pairs are tested again with the fitted motion,
+/// and it is fitted again, until they no longer change (20 rounds at most; a round that loses
+/// inliers or has too few places is not taken). With score `paper` the procedure ends as the figure
+/// does.
+///
+/// Same arguments, same answer. Throws InputError where the two counts differ.
+Consensus ransac(std::span<const Eigen::Vector2d> p, std::span<const Eigen::Vector2d> q,
+                 const RansacOptions& options, std::uint64_t seed);
+
+}  // namespace fathom

@@ -1,0 +1,164 @@
+#include "camera_yaml.hpp"
+
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include <yaml-cpp/yaml.h>
+
+#include "fathom/core/files.hpp"
+#include "fathom/core/input_error.hpp"
+#include "fathom/core/options.hpp"
+#include "fathom/core/text.hpp"
+
+namespace fathom {
+namespace {
+
+class CameraReader {
+ public:
+  explicit CameraReader(const std::filesystem::path& path) : file_(path.string()) {
+    try {
+      root_ = YAML::Load(read_file(path));
+    } catch (const YAML::Exception& error) {
+      throw InputError(file_, line_of(error.mark), "is not valid YAML: " + error.msg);
+    }
+    if (!root_.IsMap()) throw InputError(file_, "expected the keys of a camera's sensor.yaml");
+  }
+
+  Camera read() const {
+    CameraModel model;
+    const std::vector<double> resolution = numbers("resolution", "[width, height]", 2, 2);
+    model.width = side(resolution[0]);
+    model.height = side(resolution[1]);
+    const std::vector<double> intrinsics = numbers("intrinsics", "[fx, fy, cx, cy]", 4, 4);
+    if (!(intrinsics[0] > 0.0 && intrinsics[1] > 0.0)) {
+      refuse(root_["intrinsics"], "intrinsics: focal lengths fx, fy must be pixels > 0");
+    }
+    model.fx = intrinsics[0];
+    model.fy = intrinsics[1];
+    model.cx = intrinsics[2];
+    model.cy = intrinsics[3];
+    read_distortion(model);
+    read_mounting(model);
+    try {
+      return Camera(model);
+    } catch (const InputError& error) {
+      throw InputError(file_, error.what());
+    }
+  }
+
+ private:
+  static std::size_t line_of(const YAML::Mark& mark) {
+    return mark.is_null() ? 1 : static_cast<std::size_t>(mark.line) + 1;
+  }
+
+  [[noreturn]] void refuse(const YAML::Node& node, const std::string& what) const {
+    throw InputError(file_, line_of(node.Mark()), what);
+  }
+
+  double number(const YAML::Node& node, const std::string& key) const {
+    const auto value = node.IsScalar() ? parse_real(node.Scalar()) : std::nullopt;
+    if (!value) refuse(node, key + ": expected a number");
+    return *value;
+  }
+
+  std::vector<double> numbers(const std::string& key, const std::string& meaning,
+                              std::size_t fewest, std::size_t most) const {
+    const YAML::Node node = root_[key];
+    if (!node) throw InputError(file_, "key " + key + " is missing; expected " + meaning);
+    if (!node.IsSequence() || node.size() < fewest || node.size() > most) {
+      refuse(node, key + ": expected " + meaning);
+    }
+    std::vector<double> values;
+    for (const YAML::Node& item : node) values.push_back(number(item, key));
+    return values;
+  }
+
+  int side(double value) const {
+    constexpr double kLargest = 100'000;
+    if (!(value >= 1.0 && value <= kLargest && value == std::floor(value))) {
+      refuse(root_["resolution"], "resolution: expected whole numbers of pixels > 0");
+    }
+    return static_cast<int>(value);
+  }
+
+  void read_distortion(CameraModel& model) const {
+    const YAML::Node node = root_["distortion_model"];
+    const std::string name = node && node.IsScalar() ? node.Scalar() : "none";
+    if (name == "none") {
+      const YAML::Node unused = root_["distortion_coefficients"];
+      for (const YAML::Node& item : unused) {
+        if (number(item, "distortion_coefficients") == 0.0) continue;
+        refuse(unused,
+               "distortion_coefficients: there is no distortion_model to use them; expected "
+               "distortion_model: radial-tangential, or []");
+      }
+      return;
+    }
+    if (name != "radial-tangential") {
+      refuse(node, "distortion_model: " + in_quotes(name) + " is unknown; expected none or " +
+                       "radial-tangential" + suggestion(name, {"none", "radial-tangential"}));
+    }
+    const std::vector<double> values =
+        numbers("distortion_coefficients", "[k1, k2, p1, p2] or [k1, k2, p1, p2, k3]", 4, 5);
+    std::copy(values.begin(), values.end(), model.distortion.begin());
+  }
+
+  void read_mounting(CameraModel& model) const {
+    const YAML::Node mounting = root_["mounting"];
+    if (!mounting) return;
+    if (!mounting.IsMap()) refuse(mounting, "mounting: expected {x: , y: , yaw: }");
+    for (const auto& entry : mounting) {
+      const std::string key = entry.first.IsScalar() ? entry.first.Scalar() : "";
+      double* const field = key == "x"     ? &model.mount_x_m
+                            : key == "y"   ? &model.mount_y_m
+                            : key == "yaw" ? &model.mount_yaw_rad
+                                           : nullptr;
+      if (field == nullptr) {
+        refuse(entry.first,
+               "mounting: " + in_quotes(key) + " is unknown; expected x, y (m) and yaw (rad)");
+      }
+      *field = number(entry.second, "mounting." + key);
+    }
+  }
+
+  std::string file_;
+  YAML::Node root_;
+};
+
+}  // namespace
+
+Camera read_camera_yaml(const std::filesystem::path& path) {
+  return CameraReader(path).read();
+}
+
+std::string camera_yaml(const CameraModel& model) {
+  std::string coefficients;
+  if (model.has_distortion()) {
+    for (const double value : model.distortion) {
+      coefficients += (coefficients.empty() ? "" : ", ") + exact(value);
+    }
+  }
+  return "sensor_type: camera\n"
+         "camera_model: pinhole\n"
+         "resolution: [" +
+         std::to_string(model.width) + ", " + std::to_string(model.height) +
+         "]\n"
+         "intrinsics: [" +
+         exact(model.fx) + ", " + exact(model.fy) + ", " + exact(model.cx) + ", " +
+         exact(model.cy) +
+         "] # fx, fy, cx, cy [px]\n"
+         "distortion_model: " +
+         (model.has_distortion() ? "radial-tangential" : "none") +
+         "\n"
+         "distortion_coefficients: [" +
+         coefficients +
+         "] # k1, k2, p1, p2, k3\n"
+         "mounting: {x: " +
+         exact(model.mount_x_m) + ", y: " + exact(model.mount_y_m) +
+         ", yaw: " + exact(model.mount_yaw_rad) +
+         "} # of the camera in the body frame; yaw 0: picture top "
+         "forward; m, m, rad\n";
+}
+
+}  // namespace fathom

@@ -1,0 +1,207 @@
+#include "fathom/datasets/folder_summary.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include <opencv2/imgproc.hpp>
+
+#include "fathom/core/input_error.hpp"
+#include "fathom/core/text.hpp"
+
+namespace fathom {
+namespace {
+
+std::string number(double value, int digits = 4) {
+  char buffer[32];
+  std::snprintf(buffer, sizeof buffer, "%.*g", digits, value);
+  return buffer;
+}
+
+std::string percent(double share) {
+  return number(100.0 * share, 3) + " %";
+}
+
+std::string range(double low, double high) {
+  return number(low) + " to " + number(high);
+}
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// "7 (frames 3, 9, 12, ...)": enough to find them.
+std::string listed(const std::vector<std::size_t>& frames) {
+  constexpr std::size_t kShown = 5;
+  std::string text = std::to_string(frames.size()) + " (frame";
+  text += frames.size() > 1 ? "s " : " ";
+  for (std::size_t i = 0; i < std::min(frames.size(), kShown); ++i) {
+    text += (i > 0 ? ", " : "") + std::to_string(frames[i]);
+  }
+  return text + (frames.size() > kShown ? ", ...)" : ")");
+}
+
+void warn(FolderSummary& summary, const std::vector<std::size_t>& frames, const std::string& what) {
+  if (!frames.empty()) summary.warnings.push_back(what + ": " + listed(frames));
+}
+
+void sum_up_camera(const FrameSource& source, FolderSummary& summary) {
+  const CameraModel& model = source.camera().model();
+  summary.facts.push_back("camera: " + std::to_string(model.width) + " x " +
+                          std::to_string(model.height) + " pixels, f " + number(model.fx, 6) +
+                          ", " + number(model.fy, 6) + ", centre " + number(model.cx, 6) + ", " +
+                          number(model.cy, 6) +
+                          (model.has_distortion() ? ", with distortion" : ", no distortion"));
+  summary.facts.push_back("mounting: x " + number(model.mount_x_m) + " m, y " +
+                          number(model.mount_y_m) + " m, yaw " + number(model.mount_yaw_rad) +
+                          " rad");
+  const bool centred = model.cx > 0.25 * model.width && model.cx < 0.75 * model.width &&
+                       model.cy > 0.25 * model.height && model.cy < 0.75 * model.height;
+  if (!centred) summary.warnings.emplace_back("the optical axis is far from the picture's middle");
+}
+
+void sum_up_time(const FrameSource& source, FolderSummary& summary) {
+  const std::int64_t start_ns = source.info(0).time_ns;
+  const std::int64_t end_ns = source.info(source.size() - 1).time_ns;
+  summary.facts.push_back("frames: " + std::to_string(source.size()) + " in " +
+                          number(static_cast<double>(end_ns - start_ns) * 1e-9, 6) + " s");
+  if (source.size() < 2) return;
+  const auto interval = [&](std::size_t i) {
+    return static_cast<double>(source.info(i).time_ns - source.info(i - 1).time_ns);
+  };
+  std::vector<double> intervals;
+  for (std::size_t i = 1; i < source.size(); ++i) intervals.push_back(interval(i));
+  constexpr double kGap = 3.0;
+  const double usual = median(intervals);
+  std::vector<std::size_t> gaps;
+  for (std::size_t i = 1; i < source.size(); ++i) {
+    if (interval(i) > kGap * usual) gaps.push_back(i);
+  }
+  warn(summary, gaps, "time gaps, more than three times the median interval");
+}
+
+void sum_up_altitude(const FrameSource& source, FolderSummary& summary) {
+  double low_m = source.info(0).altitude_m;
+  double high_m = low_m;
+  std::vector<std::size_t> jumps;
+  constexpr double kJump = 1.5;
+  for (std::size_t i = 0; i < source.size(); ++i) {
+    const double altitude_m = source.info(i).altitude_m;
+    low_m = std::min(low_m, altitude_m);
+    high_m = std::max(high_m, altitude_m);
+    const double last_m = source.info(i > 0 ? i - 1 : 0).altitude_m;
+    if (std::max(altitude_m / last_m, last_m / altitude_m) > kJump) jumps.push_back(i);
+  }
+  const CameraModel& model = source.camera().model();
+  const double focal = std::sqrt(model.fx * model.fy);
+  summary.facts.push_back("altitude: " + range(low_m, high_m) + " m, " +
+                          range(1e3 * low_m / focal, 1e3 * high_m / focal) + " mm per pixel");
+  warn(summary, jumps, "altitude changes by more than half from the frame before");
+}
+
+// The part of the smaller footprint that both frames see.
+double overlap(const Camera& camera, const FrameInfo& before, const FrameInfo& now) {
+  const auto polygon = [&](const Pose& pose, double altitude_m) {
+    std::vector<cv::Point2f> corners;
+    for (const Eigen::Vector2d& corner : camera.footprint(altitude_m)) {
+      const Eigen::Vector2f point = transform(pose, corner).cast<float>();
+      corners.emplace_back(point.x(), point.y());
+    }
+    return corners;
+  };
+  const auto first = polygon({}, before.altitude_m);
+  const auto second = polygon(now.motion->mean, now.altitude_m);
+  std::vector<cv::Point2f> common;
+  const double shared = cv::intersectConvexConvex(first, second, common);
+  return shared / std::min(cv::contourArea(first), cv::contourArea(second));
+}
+
+// How far dead reckoning has left the truth at the end, both from the first frame on.
+void compare_with_truth(const FrameSource& source, const Pose& reckoned, double path_m,
+                        FolderSummary& summary) {
+  const Pose truth =
+      between(*source.info(0).ground_truth, *source.info(source.size() - 1).ground_truth);
+  const double drift_m = (reckoned.position() - truth.position()).norm();
+  summary.facts.push_back("odometry drift at the end: " + number(drift_m) + " m, " +
+                          percent(drift_m / path_m) + " of the path");
+  constexpr double kDrift = 0.2;
+  if (drift_m > kDrift * path_m) {
+    summary.warnings.emplace_back(
+        "odometry ends further from ground truth than a fifth of the "
+        "path; do both use x forward, y to port and radians?");
+  }
+}
+
+void sum_up_odometry(const FrameSource& source, FolderSummary& summary) {
+  if (!source.has_odometry()) {
+    summary.facts.emplace_back("odometry: none");
+    return;
+  }
+  if (source.size() < 2) return;
+  Pose pose;
+  double path_m = 0.0;
+  std::vector<double> overlaps;
+  std::vector<std::size_t> apart;
+  for (std::size_t i = 1; i < source.size(); ++i) {
+    const FrameInfo& now = source.info(i);
+    path_m += now.motion->mean.position().norm();
+    pose = compose(pose, now.motion->mean);
+    overlaps.push_back(overlap(source.camera(), source.info(i - 1), now));
+    if (overlaps.back() <= 0.0) apart.push_back(i);
+  }
+  summary.facts.push_back("odometry: path of " + number(path_m) + " m");
+  summary.facts.push_back("overlap of consecutive pictures: median " + percent(median(overlaps)) +
+                          ", least " + percent(*std::ranges::min_element(overlaps)));
+  warn(summary, apart, "by dead reckoning no overlap with the picture before");
+  if (source.has_ground_truth() && path_m > 0.0) compare_with_truth(source, pose, path_m, summary);
+}
+
+void sum_up_ground_truth(const FrameSource& source, FolderSummary& summary) {
+  std::size_t known = 0;
+  for (std::size_t i = 0; i < source.size(); ++i) known += source.info(i).ground_truth ? 1 : 0;
+  const std::string all = std::to_string(source.size());
+  summary.facts.push_back("ground truth: " +
+                          (known == 0 ? "none" : std::to_string(known) + " of " + all + " frames"));
+  if (known > 0 && known < source.size()) {
+    summary.warnings.emplace_back(
+        "ground truth does not cover every frame, so no accuracy is "
+        "computed from it");
+  }
+}
+
+void look_at_pictures(const FrameSource& source, FolderSummary& summary) {
+  constexpr double kFlat = 3.0;
+  std::vector<std::size_t> flat;
+  for (std::size_t i = 0; i < source.size(); ++i) {
+    try {
+      cv::Scalar mean;
+      cv::Scalar deviation;
+      cv::meanStdDev(source.image(i), mean, deviation);
+      if (deviation[0] < kFlat) flat.push_back(i);
+    } catch (const InputError& error) {
+      summary.warnings.emplace_back(error.what());
+    }
+  }
+  warn(summary, flat, "pictures with hardly any contrast");
+}
+
+}  // namespace
+
+FolderSummary summarise_frames(const FrameSource& source) {
+  FolderSummary summary;
+  if (source.size() == 0) {
+    summary.warnings.emplace_back("there are no frames");
+    return summary;
+  }
+  sum_up_time(source, summary);
+  sum_up_camera(source, summary);
+  sum_up_altitude(source, summary);
+  sum_up_odometry(source, summary);
+  sum_up_ground_truth(source, summary);
+  look_at_pictures(source, summary);
+  return summary;
+}
+
+}  // namespace fathom

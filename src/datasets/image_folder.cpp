@@ -1,0 +1,124 @@
+#include "fathom/datasets/image_folder.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <string>
+
+#include "camera_yaml.hpp"
+#include "fathom/core/input_error.hpp"
+#include "fathom/datasets/picture_file.hpp"
+#include "sensor_csv.hpp"
+#include "sensor_series.hpp"
+
+namespace fathom {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+fs::path mav0_of(const fs::path& path) {
+  std::error_code error;
+  if (!fs::is_directory(path, error)) throw InputError(path.string(), "is no folder");
+  for (const fs::path& candidate : {path / "mav0", path}) {
+    if (fs::is_directory(candidate / "cam0", error)) return candidate;
+  }
+  throw InputError(path.string(), "has no mav0/cam0; expected a folder in the EuRoC/ASL layout");
+}
+
+// The sensor's data.csv if its folder is there. A folder without one is a mistake, not an absence.
+std::optional<fs::path> sensor_csv(const fs::path& mav0, const std::string& sensor) {
+  std::error_code error;
+  if (!fs::exists(mav0 / sensor, error)) return std::nullopt;
+  return mav0 / sensor / "data.csv";
+}
+
+[[noreturn]] void refuse_uncovered(const fs::path& csv, const TimeLine& times,
+                                   const std::string& what, const FrameInfo& info) {
+  throw InputError(csv.string(),
+                   "no " + what + " at or around the picture's time " +
+                       std::to_string(info.time_ns) + " ns: there are " + times.text() +
+                       "; expected neighbours at most 2 s apart, or remove the picture's row");
+}
+
+}  // namespace
+
+ImageFolder::ImageFolder(const fs::path& path) {
+  const fs::path mav0 = mav0_of(path);
+  camera_ = read_camera_yaml(mav0 / "cam0" / "sensor.yaml");
+  read_frames(mav0);
+  read_altitudes(mav0);
+  read_odometry(mav0);
+  read_ground_truth(mav0);
+  image(0);
+}
+
+void ImageFolder::read_frames(const fs::path& mav0) {
+  const SensorCsv csv(mav0 / "cam0" / "data.csv", "timestamp, filename");
+  for (const SensorRow& row : csv.rows()) {
+    const fs::path picture = mav0 / "cam0" / "data" / row.fields[1];
+    std::error_code error;
+    if (!fs::is_regular_file(picture, error)) {
+      csv.refuse(row, "picture " + picture.string() + " is missing; add it or remove this row");
+    }
+    FrameInfo info;
+    info.time_ns = row.time_ns;
+    infos_.push_back(info);
+    pictures_.push_back(picture);
+  }
+}
+
+void ImageFolder::read_altitudes(const fs::path& mav0) {
+  const auto csv = sensor_csv(mav0, "altimeter0");
+  if (!csv) {
+    throw InputError(mav0.string(),
+                     "has no altimeter0/data.csv; without altitude pixels cannot "
+                     "become metres");
+  }
+  const AltitudeSeries altimeter(*csv);
+  for (FrameInfo& info : infos_) {
+    const auto altitude_m = altimeter.at(info.time_ns, kMaxInterpolationGapNs);
+    if (!altitude_m) refuse_uncovered(*csv, altimeter.times(), "altitude", info);
+    info.altitude_m = *altitude_m;
+  }
+}
+
+void ImageFolder::read_odometry(const fs::path& mav0) {
+  const auto csv = sensor_csv(mav0, "odometry0");
+  if (!csv) return;
+  const OdometrySeries odometry(*csv);
+  for (std::size_t i = 0; i < infos_.size(); ++i) {
+    if (!odometry.covers(infos_[i].time_ns, kMaxInterpolationGapNs)) {
+      refuse_uncovered(*csv, odometry.times(), "odometry", infos_[i]);
+    }
+    if (i > 0) infos_[i].motion = odometry.motion(infos_[i - 1].time_ns, infos_[i].time_ns);
+  }
+  has_odometry_ = true;
+}
+
+void ImageFolder::read_ground_truth(const fs::path& mav0) {
+  const auto csv = sensor_csv(mav0, "state_groundtruth_estimate0");
+  if (!csv) return;
+  const PoseSeries truth(*csv);
+  for (FrameInfo& info : infos_) {
+    info.ground_truth = truth.at(info.time_ns, kMaxInterpolationGapNs);
+  }
+  has_ground_truth_ = std::ranges::all_of(
+      infos_, [](const FrameInfo& info) { return info.ground_truth.has_value(); });
+}
+
+cv::Mat ImageFolder::image(std::size_t i) const {
+  cv::Mat picture = read_grey_picture(pictures_[i]);
+  const CameraModel& model = camera_.model();
+  if (picture.cols != model.width || picture.rows != model.height) {
+    const auto size = [](int width, int height) {
+      return std::to_string(width) + " x " + std::to_string(height);
+    };
+    throw InputError(pictures_[i].string(),
+                     "has " + size(picture.cols, picture.rows) +
+                         " pixels, expected the resolution of sensor.yaml, " +
+                         size(model.width, model.height));
+  }
+  return picture;
+}
+
+}  // namespace fathom

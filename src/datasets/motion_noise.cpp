@@ -1,0 +1,59 @@
+#include "fathom/datasets/motion_noise.hpp"
+
+#include <Eigen/Cholesky>
+
+#include "fathom/core/input_error.hpp"
+#include "fathom/geometry/covariance.hpp"
+
+namespace fathom {
+
+void OdometryOptions::describe(OptionTable& table) {
+  table.enumeration(
+      "source", source,
+      {{"noisy_motion", OdometrySource::kNoisyMotion},
+       {"visual_odometry", OdometrySource::kVisualOdometry}},
+      "dead reckoning: the true motion with noise, or registered pictures with noise");
+  table.real("sigma_x_m", sigma_x_m, Range::at_least(0), "m", "noise per frame, forward");
+  table.real("sigma_y_m", sigma_y_m, Range::at_least(0), "m", "noise per frame, to port");
+  table.real("sigma_theta_rad", sigma_theta_rad, Range::at_least(0), "rad",
+             "noise per frame, heading");
+  table.reals("covariance", covariance, 6, "",
+              "noise per frame [xx, xy, xt, yy, yt, tt] in m^2, m rad, rad^2; []: from the sigmas");
+}
+
+Eigen::Matrix3d OdometryOptions::noise_covariance(const std::string& prefix) const {
+  Eigen::Matrix3d C = Eigen::Matrix3d::Zero();
+  if (covariance.empty()) {
+    const Eigen::Vector3d sigmas{sigma_x_m, sigma_y_m, sigma_theta_rad};
+    C = sigmas.cwiseAbs2().asDiagonal();
+  } else if (covariance.size() == 6) {
+    const std::vector<double>& c = covariance;
+    C << c[0], c[1], c[2], c[1], c[3], c[4], c[2], c[4], c[5];
+  } else {
+    throw InputError(prefix + "covariance: expected six numbers [xx, xy, xt, yy, yt, tt], or []");
+  }
+  if (is_positive_definite(C) || (source == OdometrySource::kVisualOdometry && C.isZero(0.0))) {
+    return C;
+  }
+  if (!covariance.empty()) {
+    throw InputError(prefix + "covariance: is not positive definite; expected xx, yy, tt > 0 and " +
+                     "correlations between -1 and 1");
+  }
+  const std::string key = !(sigma_x_m > 0)   ? "sigma_x_m"
+                          : !(sigma_y_m > 0) ? "sigma_y_m"
+                                             : "sigma_theta_rad";
+  throw InputError(prefix + key +
+                   ": makes the covariance of a step singular; expected a number > 0");
+}
+
+MotionNoise::MotionNoise(const Eigen::Matrix3d& covariance) : lower_(Eigen::Matrix3d::Zero()) {
+  if (!covariance.isZero(0.0)) lower_ = covariance.llt().matrixL();
+}
+
+Eigen::Vector3d MotionNoise::draw(RandomStream& stream) const {
+  Eigen::Vector3d standard;
+  for (double& value : standard) value = stream.normal();
+  return lower_ * standard;
+}
+
+}  // namespace fathom

@@ -1,0 +1,56 @@
+#include "fathom/datasets/picture_file.hpp"
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <opencv2/imgcodecs.hpp>
+
+#include "fathom/core/files.hpp"
+#include "fathom/core/input_error.hpp"
+
+namespace fathom {
+
+namespace {
+
+// OpenCV fills what a cut JPEG lacks with grey and says nothing, and of a cut PNG the decoder
+// prints: both are known by their missing end mark. Zeros may follow it, as padding.
+bool is_cut_short(std::string_view bytes) {
+  using namespace std::string_view_literals;
+  const std::string_view content = bytes.substr(0, bytes.find_last_not_of('\0') + 1);
+  if (bytes.starts_with("\xFF\xD8"sv)) return !content.ends_with("\xFF\xD9"sv);
+  if (bytes.starts_with("\x89PNG"sv)) return content.find("IEND"sv) == std::string_view::npos;
+  return false;
+}
+
+}  // namespace
+
+cv::Mat read_grey_picture(const std::filesystem::path& path) {
+  // Decoded from memory: OpenCV prints a warning of its own where it cannot open a file.
+  const std::string bytes = read_file(path);
+  cv::Mat picture;
+  try {
+    if (!bytes.empty() && !is_cut_short(bytes)) {
+      const std::vector<uchar> buffer(bytes.begin(), bytes.end());
+      picture = cv::imdecode(buffer, cv::IMREAD_GRAYSCALE | cv::IMREAD_IGNORE_ORIENTATION);
+    }
+  } catch (const cv::Exception&) {
+    picture.release();
+  }
+  if (picture.empty()) {
+    throw InputError(path.string(),
+                     "is no picture that can be read; expected a whole PNG, JPEG, "
+                     "TIFF, BMP or WebP file");
+  }
+  return picture;
+}
+
+void write_png(const std::filesystem::path& path, const cv::Mat& picture) {
+  std::vector<uchar> buffer;
+  if (!cv::imencode(".png", picture, buffer)) {
+    throw InputError(path.string(), "cannot be encoded as PNG");
+  }
+  write_file(path, {reinterpret_cast<const char*>(buffer.data()), buffer.size()});
+}
+
+}  // namespace fathom

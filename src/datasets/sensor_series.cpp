@@ -1,0 +1,146 @@
+#include "sensor_series.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "sensor_csv.hpp"
+
+namespace fathom {
+namespace {
+
+// A share of a motion, at constant velocity in the axes it is given in.
+Pose scaled(const Pose& motion, double share) {
+  return {motion.x * share, motion.y * share, motion.theta * share};
+}
+
+Pose planar_pose(const SensorCsv& csv, const SensorRow& row) {
+  const double qw = csv.real(row, 4);
+  const double qx = csv.real(row, 5);
+  const double qy = csv.real(row, 6);
+  const double qz = csv.real(row, 7);
+  const double norm_squared = qw * qw + qx * qx + qy * qy + qz * qz;
+  if (std::abs(norm_squared - 1.0) > 0.02) {
+    csv.refuse(row, "the quaternion has not length one; its order is q_w, q_x, q_y, q_z");
+  }
+  const double yaw =
+      std::atan2(2.0 * (qw * qz + qx * qy), norm_squared - 2.0 * (qy * qy + qz * qz));
+  return {csv.real(row, 1), csv.real(row, 2), wrap_angle(yaw)};
+}
+
+Eigen::Matrix3d step_covariance(const SensorCsv& csv, const SensorRow& row) {
+  Eigen::Matrix3d C =
+      Eigen::Vector3d(csv.real(row, 4), csv.real(row, 5), csv.real(row, 6)).asDiagonal();
+  if (row.fields.size() != 7 && row.fields.size() != 10) {
+    csv.refuse(row, "expected 7 columns, or 10 with the covariances xy, xt, yt, got " +
+                        std::to_string(row.fields.size()));
+  }
+  if (row.fields.size() == 10) {
+    C(0, 1) = C(1, 0) = csv.real(row, 7);
+    C(0, 2) = C(2, 0) = csv.real(row, 8);
+    C(1, 2) = C(2, 1) = csv.real(row, 9);
+  }
+  return C;
+}
+
+}  // namespace
+
+std::optional<Bracket> TimeLine::around(std::int64_t time_ns, std::int64_t max_gap_ns) const {
+  const auto after = std::ranges::lower_bound(times_ns_, time_ns);
+  if (after == times_ns_.end()) return std::nullopt;
+  const auto index = static_cast<std::size_t>(after - times_ns_.begin());
+  if (*after == time_ns) return Bracket{index, index, 0.0};
+  if (index == 0) return std::nullopt;
+  const std::int64_t gap_ns = *after - times_ns_[index - 1];
+  if (gap_ns > max_gap_ns) return std::nullopt;
+  const auto since_ns = static_cast<double>(time_ns - times_ns_[index - 1]);
+  return Bracket{index - 1, index, since_ns / static_cast<double>(gap_ns)};
+}
+
+std::string TimeLine::text() const {
+  return std::to_string(times_ns_.size()) + " readings from " + std::to_string(times_ns_.front()) +
+         " to " + std::to_string(times_ns_.back()) + " ns";
+}
+
+AltitudeSeries::AltitudeSeries(const std::filesystem::path& path) {
+  const SensorCsv csv(path, "timestamp, altitude");
+  for (const SensorRow& row : csv.rows()) {
+    const double altitude_m = csv.real(row, 1);
+    if (!(altitude_m > 0.0)) {
+      csv.refuse(row, "altitude " + row.fields[1] + " is not above the floor; expected metres > 0");
+    }
+    times_.add(row.time_ns);
+    altitudes_m_.push_back(altitude_m);
+  }
+}
+
+std::optional<double> AltitudeSeries::at(std::int64_t time_ns, std::int64_t max_gap_ns) const {
+  const auto bracket = times_.around(time_ns, max_gap_ns);
+  if (!bracket) return std::nullopt;
+  return std::lerp(altitudes_m_[bracket->before], altitudes_m_[bracket->after], bracket->share);
+}
+
+OdometrySeries::OdometrySeries(const std::filesystem::path& path) {
+  const SensorCsv csv(path, "timestamp, p_x, p_y, theta, step_var_x, step_var_y, step_var_theta");
+  Pose last;
+  for (const SensorRow& row : csv.rows()) {
+    const Pose pose{csv.real(row, 1), csv.real(row, 2), wrap_angle(csv.real(row, 3))};
+    const Eigen::Matrix3d covariance = step_covariance(csv, row);
+    const bool first = steps_.empty();
+    if (!first && !is_positive_definite(covariance)) {
+      csv.refuse(row,
+                 "the covariance of the step is not positive definite; expected variances > 0 "
+                 "and correlations between -1 and 1");
+    }
+    times_.add(row.time_ns);
+    steps_.push_back(first ? UncertainPose{} : UncertainPose{between(last, pose), covariance});
+    last = pose;
+  }
+}
+
+bool OdometrySeries::covers(std::int64_t time_ns, std::int64_t max_gap_ns) const {
+  return times_.around(time_ns, max_gap_ns).has_value();
+}
+
+UncertainPose OdometrySeries::part(std::size_t row, double from_share, double to_share) const {
+  const UncertainPose& step = steps_[row];
+  if (from_share == 0.0 && to_share == 1.0) return step;
+  const Pose start = scaled(step.mean, from_share);
+  const Pose end = scaled(step.mean, to_share);
+  // The step's covariance is in the axes of its start; the part's is in those of its own.
+  Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
+  R.topLeftCorner<2, 2>() = rotation(-start.theta);
+  return {between(start, end), transport(R, (to_share - from_share) * step.covariance)};
+}
+
+UncertainPose OdometrySeries::motion(std::int64_t from_ns, std::int64_t to_ns) const {
+  constexpr std::int64_t kAnyGap = std::numeric_limits<std::int64_t>::max();
+  const Bracket from = times_.around(from_ns, kAnyGap).value();
+  const Bracket to = times_.around(to_ns, kAnyGap).value();
+  // Step r leads from row r − 1 to row r; the first one cut is that after `from.before`.
+  std::vector<UncertainPose> parts;
+  for (std::size_t row = from.before + 1; row <= to.after; ++row) {
+    const double start = row == from.before + 1 ? from.share : 0.0;
+    const double end = row == to.after && to.share > 0.0 ? to.share : 1.0;
+    parts.push_back(part(row, start, end));
+  }
+  return compose_chain(parts);
+}
+
+PoseSeries::PoseSeries(const std::filesystem::path& path) {
+  const SensorCsv csv(path, "timestamp, p_x, p_y, p_z, q_w, q_x, q_y, q_z");
+  for (const SensorRow& row : csv.rows()) {
+    times_.add(row.time_ns);
+    poses_.push_back(planar_pose(csv, row));
+  }
+}
+
+std::optional<Pose> PoseSeries::at(std::int64_t time_ns, std::int64_t max_gap_ns) const {
+  const auto bracket = times_.around(time_ns, max_gap_ns);
+  if (!bracket) return std::nullopt;
+  const Pose& before = poses_[bracket->before];
+  if (bracket->share == 0.0) return before;
+  return compose(before, scaled(between(before, poses_[bracket->after]), bracket->share));
+}
+
+}  // namespace fathom

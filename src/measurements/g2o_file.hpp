@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "fathom/geometry/pose.hpp"
+
+namespace fathom {
+
+/// The lines of a g2o file, each understood by itself; ids as the file has them.
+struct G2oFile {
+  struct Vertex {
+    Pose pose;
+    std::size_t line = 0;
+  };
+  struct Edge {
+    std::int64_t from = 0;
+    std::int64_t to = 0;
+    Pose motion;
+    Eigen::Matrix3d information;
+    std::optional<int> inliers;
+    std::size_t line = 0;
+  };
+  struct Fixed {
+    std::int64_t id = 0;
+    std::size_t line = 0;
+  };
+
+  std::map<std::int64_t, Vertex> vertices;
+  std::vector<Edge> edges;
+  std::vector<Fixed> fixed;
+  std::size_t lines = 0;
+
+  /// All ids, of vertices and edges, rising, each with its keyframe index.
+  std::map<std::int64_t, std::size_t> keyframes() const;
+};
+
+/// Told of what cannot be used: the line and what is wrong with it. If it returns, the line is left
+/// out and reading goes on.
+using G2oFault = std::function<void(std::size_t line, const std::string& what)>;
+
+G2oFile scan_g2o(const std::string& content, const G2oFault& fault);
+
+/// Faults of the file as a whole: edges to vertices it does not define, FIX of another id than the
+/// lowest.
+void check_references(const G2oFile& file, const G2oFault& fault);
+
+/// Index of the edge that is the dead reckoning of keyframe k ≥ 1, out of `arrivals`, the indices
+/// of the edges whose later keyframe it is; nothing if there is none. `ids` of all keyframes.
+std::optional<std::size_t> find_step(const G2oFile& file, const std::vector<std::size_t>& arrivals,
+                                     std::size_t k, const std::vector<std::int64_t>& ids);
+
+}  // namespace fathom

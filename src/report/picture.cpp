@@ -1,0 +1,40 @@
+#include "fathom/report/picture.hpp"
+
+#include <vector>
+
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "bgr.hpp"
+#include "fathom/core/input_error.hpp"
+
+namespace fathom {
+namespace {
+
+void require_usable(const cv::Mat& picture) {
+  if (picture.empty()) throw InputError("the picture is empty");
+  if (picture.type() != CV_8UC1 && picture.type() != CV_8UC3) {
+    throw InputError("a picture must have 8 bits and one or three channels, got " +
+                     std::to_string(8 * picture.elemSize1()) + " bits and " +
+                     std::to_string(picture.channels()) + " channels");
+  }
+}
+
+}  // namespace
+
+cv::Mat as_bgr(const cv::Mat& picture) {
+  require_usable(picture);
+  if (picture.channels() == 3) return picture;
+  cv::Mat bgr;
+  cv::cvtColor(picture, bgr, cv::COLOR_GRAY2BGR);
+  return bgr;
+}
+
+std::string encode_png(const cv::Mat& picture) {
+  require_usable(picture);
+  std::vector<unsigned char> bytes;
+  cv::imencode(".png", picture, bytes);
+  return {bytes.begin(), bytes.end()};
+}
+
+}  // namespace fathom

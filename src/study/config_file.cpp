@@ -1,0 +1,154 @@
+#include "fathom/study/config_file.hpp"
+
+#include <set>
+#include <utility>
+
+#include <yaml-cpp/yaml.h>
+
+#include "fathom/core/files.hpp"
+#include "fathom/core/text.hpp"
+
+namespace fathom {
+namespace {
+
+std::string at(const std::string& file, const YAML::Mark& mark) {
+  return mark.is_null() ? file : file + ":" + std::to_string(mark.line + 1);
+}
+
+// Nested lists are flattened: a list of points is a list of numbers.
+void flatten_list(const YAML::Node& list, const std::string& origin, OptionValue& value) {
+  for (const YAML::Node& item : list) {
+    if (item.IsSequence()) {
+      flatten_list(item, origin, value);
+    } else if (item.IsScalar()) {
+      value.items.push_back(item.Scalar());
+    } else {
+      throw InputError(origin + ": a list holds scalars or lists");
+    }
+  }
+}
+
+bool is_list_of_maps(const YAML::Node& node) {
+  return node.IsSequence() && node.size() > 0 && node[0].IsMap();
+}
+
+class Flattener {
+ public:
+  Flattener(std::string file, Settings& settings) : file_(std::move(file)), settings_(settings) {}
+
+  void add(const std::string& key, const YAML::Node& node) {
+    const std::string origin = at(file_, node.Mark());
+    if (node.IsMap()) {
+      add_map(key, node);
+    } else if (is_list_of_maps(node)) {
+      for (std::size_t i = 0; i < node.size(); ++i) {
+        if (!node[i].IsMap()) throw InputError(origin + ": " + key + ": expected a list of maps");
+        add_map(key + "." + std::to_string(i), node[i]);
+      }
+    } else if (node.IsSequence()) {
+      OptionValue value;
+      value.is_list = true;
+      flatten_list(node, origin, value);
+      settings_.put({key, value, origin});
+    } else if (node.IsScalar()) {
+      settings_.put({key, OptionValue::scalar(node.Scalar()), origin});
+    } else {
+      throw InputError(origin + ": " + key + ": has no value");
+    }
+  }
+
+ private:
+  void add_map(const std::string& prefix, const YAML::Node& map) {
+    std::set<std::string> seen;
+    for (const auto& entry : map) {
+      if (!entry.first.IsScalar()) {
+        throw InputError(at(file_, entry.first.Mark()) + ": a key must be a word");
+      }
+      const std::string key =
+          prefix.empty() ? entry.first.Scalar() : prefix + "." + entry.first.Scalar();
+      if (!seen.insert(key).second) {
+        throw InputError(at(file_, entry.first.Mark()) + ": '" + key + "' is given twice");
+      }
+      // A null has no mark of its own; the key's is as good.
+      if (entry.second.IsNull()) {
+        throw InputError(at(file_, entry.first.Mark()) + ": " + key + ": has no value");
+      }
+      add(key, entry.second);
+    }
+  }
+
+  std::string file_;
+  Settings& settings_;
+};
+
+}  // namespace
+
+void Settings::put(Setting setting) {
+  for (Setting& existing : settings_) {
+    if (existing.key == setting.key) {
+      existing = std::move(setting);
+      return;
+    }
+  }
+  settings_.push_back(std::move(setting));
+}
+
+const Setting* Settings::find(const std::string& key) const {
+  for (const Setting& setting : settings_) {
+    if (setting.key == key) return &setting;
+  }
+  return nullptr;
+}
+
+Settings Settings::below(const std::string& prefix) const {
+  Settings part;
+  for (const Setting& setting : settings_) {
+    if (setting.key.starts_with(prefix)) {
+      part.settings_.push_back({setting.key.substr(prefix.size()), setting.value, setting.origin});
+    }
+  }
+  return part;
+}
+
+Settings read_settings(const std::filesystem::path& path) {
+  const std::string content = read_file(path);
+  Settings settings;
+  try {
+    const YAML::Node root = YAML::Load(content);
+    if (root.IsNull()) return settings;
+    if (!root.IsMap()) throw InputError(path.string(), 1, "expected a map of keys and values");
+    Flattener(path.string(), settings).add("", root);
+  } catch (const YAML::Exception& error) {
+    throw InputError(at(path.string(), error.mark) + ": not YAML: " + error.msg);
+  }
+  return settings;
+}
+
+Setting parse_override(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  const std::string origin = "--set " + text;
+  if (equals == std::string::npos || equals == 0) {
+    throw InputError(origin + ": expected KEY=VALUE, for example seed=7");
+  }
+  const std::string key(trim(text.substr(0, equals)));
+  const std::string value(trim(text.substr(equals + 1)));
+  Settings settings;
+  try {
+    // YAML takes an unquoted word as it is, so that file names and numbers need no quotes.
+    const YAML::Node node = YAML::Load(value);
+    if (!node.IsScalar() && !node.IsSequence()) {
+      return {key, OptionValue::scalar(value), origin};
+    }
+    Flattener(origin, settings).add(key, node);
+  } catch (const YAML::Exception&) {
+    return {key, OptionValue::scalar(value), origin};
+  }
+  if (settings.all().empty()) throw InputError(origin + ": expected a value or a list");
+  return {key, settings.all().front().value, origin};
+}
+
+void refuse(const Setting& setting, const std::string& message) {
+  throw InputError(setting.origin + ": " + message);
+}
+
+}  // namespace fathom

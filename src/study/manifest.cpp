@@ -1,0 +1,90 @@
+#include "fathom/study/manifest.hpp"
+
+#include <chrono>
+#include <cstdio>
+#include <ctime>
+#include <fstream>
+
+#include <nlohmann/json.hpp>
+
+#include "build_info.hpp"
+#include "fathom/measurements/g2o.hpp"
+
+namespace fathom {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string cpu_model() {
+  std::ifstream file("/proc/cpuinfo");
+  for (std::string line; std::getline(file, line);) {
+    if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
+  }
+  return "unknown";
+}
+
+std::string utc_now() {
+  const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+  std::tm calendar{};
+  gmtime_r(&now, &calendar);
+  char buffer[32];
+  std::strftime(buffer, sizeof buffer, "%Y-%m-%dT%H:%M:%SZ", &calendar);
+  return buffer;
+}
+
+Json estimator_options(const EstimatorConfiguration& estimator, const EstimatorEntry& entry) {
+  Json options;
+  for (const OptionDescription& option : entry.options) {
+    const auto given = estimator.values.find(option.key);
+    options[option.key] = given == estimator.values.end() || given->second.items.empty()
+                              ? option.default_value
+                              : given->second.items.front();
+  }
+  return options;
+}
+
+}  // namespace
+
+std::string version() {
+  return FATHOM_VERSION;
+}
+
+std::string hash_text(const std::string& content) {
+  std::uint64_t hash = 0xcbf29ce484222325ULL;
+  for (const char letter : content) {
+    hash = (hash ^ static_cast<unsigned char>(letter)) * 0x100000001b3ULL;
+  }
+  char buffer[17];
+  std::snprintf(buffer, sizeof buffer, "%016llx", static_cast<unsigned long long>(hash));
+  return buffer;
+}
+
+std::string manifest_json(const std::string& command_line,
+                          const std::vector<std::pair<std::string, std::string>>& configuration,
+                          const Recording& recording, const Result& result,
+                          const EstimatorRegistry& registry) {
+  Json json;
+  json["fathom"] = FATHOM_VERSION;
+  json["command_line"] = command_line;
+  json["date"] = utc_now();
+  json["build"] = {{"type", FATHOM_BUILD_TYPE},     {"compiler", FATHOM_COMPILER},
+                   {"flags", FATHOM_FLAGS},         {"ceres", FATHOM_CERES_VERSION},
+                   {"eigen", FATHOM_EIGEN_VERSION}, {"opencv", FATHOM_OPENCV_VERSION}};
+  json["machine"] = {{"cpu", cpu_model()}, {"estimator_threads", 1}, {"jobs", 1}};
+  json["measurements_fnv1a64"] = hash_text(to_g2o(recording.log));
+  for (const auto& [key, value] : configuration) json["configuration"][key] = value;
+  json["estimator"] = {
+      {"name", result.estimator.name},
+      {"type", result.estimator.type},
+      {"mode", result.mode == SolveMode::batch ? "batch" : "incremental"},
+      {"options", estimator_options(result.estimator, registry.find(result.estimator.type))}};
+  json["front_end"] = {{"frames", recording.frames.size()},
+                       {"keyframes", recording.log.size()},
+                       {"registrations_tried", recording.registrations_tried},
+                       {"registrations_found", recording.log.registration_count()},
+                       {"visual_odometry", recording.visual_odometry},
+                       {"visual_odometry_failures", recording.visual_odometry_failures}};
+  return json.dump(2) + "\n";
+}
+
+}  // namespace fathom

@@ -1,0 +1,93 @@
+#include "fathom/study/recording.hpp"
+
+#include "fathom/measurements/g2o.hpp"
+#include "fathom/study/survey.hpp"
+
+namespace fathom {
+namespace {
+
+std::vector<Pose> dead_reckoning_of(const FrameSource& frames, std::size_t count) {
+  std::vector<Pose> motions;
+  for (std::size_t i = 1; i < count; ++i) motions.push_back(frames.info(i).motion->mean);
+  return compose_trajectory(Pose{}, motions);
+}
+
+std::optional<std::vector<Pose>> ground_truth_of(const FrameSource& frames,
+                                                 const std::vector<Keyframe>& keyframes) {
+  std::vector<Pose> truth;
+  for (const Keyframe& keyframe : keyframes) {
+    const auto& pose = frames.info(keyframe.frame).ground_truth;
+    if (!pose) return std::nullopt;
+    truth.push_back(*pose);
+  }
+  return truth;
+}
+
+std::vector<StampedPose> frame_ground_truth_of(const FrameSource& frames, std::size_t count) {
+  std::vector<StampedPose> truth;
+  for (std::size_t i = 0; i < count; ++i) {
+    const FrameInfo& info = frames.info(i);
+    if (info.ground_truth) truth.push_back({info.time_ns, *info.ground_truth});
+  }
+  return truth;
+}
+
+Recording record_survey(const Configuration& configuration, const EstimatorRegistry& registry,
+                        const Progress& progress) {
+  Survey survey(configuration);
+  const FrameSource& frames = survey.frames();
+  FrontEnd front_end(frames, survey.features(), configuration.front_end,
+                     static_cast<std::uint64_t>(configuration.seed));
+  const EstimatorConfiguration& reference = configuration.estimators[configuration.reference];
+  const auto estimator = registry.find(reference.type).create({}, reference.values);
+
+  Recording recording;
+  while (const auto keyframe = front_end.next_keyframe()) {
+    recording.keyframe_times_ns.push_back(keyframe->time_ns);
+    if (keyframe->step) {
+      recording.log.add_keyframe(*keyframe->step);
+      estimator->add_keyframe(*keyframe->step);
+      const std::vector<RelativePose> found = front_end.register_newest(*estimator);
+      for (const RelativePose& registration : found) recording.log.add_registration(registration);
+      if (!found.empty()) estimator->close_loops(found);
+    }
+    if (progress) progress(front_end.frames().size(), frames.size());
+  }
+  recording.frames = front_end.frames();
+  recording.frame_dead_reckoning = dead_reckoning_of(frames, recording.frames.size());
+  recording.ground_truth = ground_truth_of(frames, front_end.keyframes());
+  recording.frame_ground_truth = frame_ground_truth_of(frames, recording.frames.size());
+  recording.registrations_tried = front_end.registrations_tried();
+  recording.visual_odometry = survey.uses_visual_odometry();
+  recording.visual_odometry_failures = survey.visual_odometry_failures();
+  return recording;
+}
+
+}  // namespace
+
+Recording record_graph(const std::filesystem::path& path) {
+  Recording recording;
+  recording.log = read_g2o(path);
+  constexpr std::int64_t kSecond = 1'000'000'000;
+  for (const std::int64_t id : recording.log.ids) {
+    if (id > 9'000'000'000) {
+      throw InputError(path.string(), "id " + std::to_string(id) +
+                                          " is too large to be a time stamp; ids up to 9e9 work");
+    }
+    recording.keyframe_times_ns.push_back(id * kSecond);
+  }
+  return recording;
+}
+
+Recording record(const Configuration& configuration, const EstimatorRegistry& registry,
+                 const Progress& progress) {
+  if (configuration.dataset != DatasetType::g2o) {
+    return record_survey(configuration, registry, progress);
+  }
+  if (configuration.dataset_path.empty()) {
+    throw InputError("dataset.path: say where the g2o file is");
+  }
+  return record_graph(configuration.dataset_path);
+}
+
+}  // namespace fathom

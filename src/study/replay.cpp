@@ -1,0 +1,106 @@
+#include "fathom/study/replay.hpp"
+
+#include <chrono>
+#include <cmath>
+
+namespace fathom {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double milliseconds_since(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+void note(const UpdateReport& report, double elapsed_ms, Replay& result) {
+  result.update_ms.push_back(elapsed_ms);
+  result.iterations += report.iterations;
+  result.outcome = worse(result.outcome, report.outcome);
+  ++result.outcome_counts[static_cast<std::size_t>(report.outcome)];
+  result.loops.insert(result.loops.end(), report.loops.begin(), report.loops.end());
+}
+
+void give_keyframes(const MeasurementLog& log, Estimator& estimator, const ReplayOptions& options,
+                    Replay& result) {
+  const bool batch = options.mode == SolveMode::batch;
+  for (std::size_t k = 1; k < log.size(); ++k) {
+    const KeyframeMeasurements& arrival = log.arrival(k);
+    const auto start = Clock::now();
+    estimator.add_keyframe(arrival.step);
+    if (arrival.registrations.empty()) {
+      result.total_ms += milliseconds_since(start);
+    } else {
+      const auto update_start = Clock::now();
+      const UpdateReport report = estimator.close_loops(arrival.registrations);
+      const double update_ms = milliseconds_since(update_start);
+      result.total_ms += milliseconds_since(start);
+      // In batch mode nothing is solved here; only what became of the registrations counts.
+      if (batch) {
+        result.loops.insert(result.loops.end(), report.loops.begin(), report.loops.end());
+      } else {
+        note(report, update_ms, result);
+      }
+    }
+    if (options.progress) options.progress(k + 1, log.size());
+  }
+  if (!batch) return;
+  const auto start = Clock::now();
+  const UpdateReport report = estimator.finish(options.start);
+  const double solve_ms = milliseconds_since(start);
+  result.total_ms += solve_ms;
+  note(report, solve_ms, result);
+}
+
+bool is_finite(std::span<const Pose> trajectory) {
+  for (const Pose& pose : trajectory) {
+    if (!fathom::is_finite(pose)) return false;
+  }
+  return true;
+}
+
+void collect_covariances(Estimator& estimator, Replay& result) {
+  const auto start = Clock::now();
+  std::vector<Eigen::Matrix3d> covariances;
+  for (std::size_t k = 0; k < estimator.size(); ++k) {
+    const auto covariance = estimator.covariance(k);
+    if (!covariance || !covariance->allFinite()) return;
+    covariances.push_back(*covariance);
+  }
+  result.covariance_ms = milliseconds_since(start);
+  result.covariances = std::move(covariances);
+}
+
+// The loops of the replay stand in the order of the log's registrations.
+double cost_used(const MeasurementLog& log, const Estimator& estimator, const Replay& result) {
+  double sum = 0.0;
+  std::size_t loop = 0;
+  for (std::size_t k = 1; k < log.size(); ++k) {
+    const KeyframeMeasurements& arrival = log.arrival(k);
+    const auto chi2_of = [&](const RelativePose& z) {
+      return chi2(z, result.trajectory[z.from], result.trajectory[z.to]);
+    };
+    sum += chi2_of(arrival.step);
+    for (const RelativePose& z : arrival.registrations) {
+      if (result.loops[loop++].accepted) sum += estimator.loss(chi2_of(z));
+    }
+  }
+  return sum;
+}
+
+}  // namespace
+
+Replay replay(const MeasurementLog& log, const EstimatorEntry& entry, const EstimatorValues& values,
+              const ReplayOptions& options) {
+  Replay result;
+  if (options.memory != nullptr) options.memory->start();
+  const auto estimator = entry.create({log.origin(), options.mode}, values);
+  give_keyframes(log, *estimator, options, result);
+  if (options.memory != nullptr) result.memory_bytes = options.memory->stop();
+  result.trajectory = poses_of(*estimator);
+  if (!is_finite(result.trajectory)) result.outcome = Outcome::numerical_failure;
+  if (options.covariances) collect_covariances(*estimator, result);
+  result.cost_used = cost_used(log, *estimator, result);
+  return result;
+}
+
+}  // namespace fathom

@@ -1,0 +1,62 @@
+#include "fathom/study/run_folder.hpp"
+
+#include "fathom/core/files.hpp"
+#include "fathom/measurements/g2o.hpp"
+
+namespace fathom {
+namespace {
+
+// The robot's pose at every frame: its keyframe's ⊕ the dead reckoning since.
+std::vector<StampedPose> frame_trajectory(const Recording& recording,
+                                          const std::vector<Pose>& keyframes) {
+  std::vector<StampedPose> trajectory;
+  for (const FramePlace& place : recording.frames) {
+    trajectory.push_back(
+        {place.time_ns, compose(keyframes[place.keyframe], place.motion_since_keyframe)});
+  }
+  return trajectory;
+}
+
+std::vector<StampedPose> dead_reckoning(const Recording& recording) {
+  if (recording.frames.empty()) return keyframe_trajectory(recording, recording.log.odometry());
+  std::vector<StampedPose> trajectory;
+  for (std::size_t i = 0; i < recording.frames.size(); ++i) {
+    trajectory.push_back({recording.frames[i].time_ns, recording.frame_dead_reckoning[i]});
+  }
+  return trajectory;
+}
+
+std::vector<StampedPose> ground_truth(const Recording& recording) {
+  if (!recording.frame_ground_truth.empty()) return recording.frame_ground_truth;
+  if (!recording.ground_truth) return {};
+  return keyframe_trajectory(recording, *recording.ground_truth);
+}
+
+}  // namespace
+
+std::vector<StampedPose> keyframe_trajectory(const Recording& recording,
+                                             const std::vector<Pose>& poses) {
+  std::vector<StampedPose> trajectory;
+  for (std::size_t k = 0; k < poses.size(); ++k) {
+    trajectory.push_back({recording.keyframe_times_ns[k], poses[k]});
+  }
+  return trajectory;
+}
+
+void write_run(const std::filesystem::path& folder, const Recording& recording,
+               const Result& result, const std::string& manifest) {
+  const std::vector<Pose>& poses = result.replay.trajectory;
+  write_file(folder / "trajectory.tum", to_tum(keyframe_trajectory(recording, poses)));
+  write_file(folder / "dead_reckoning.tum", to_tum(dead_reckoning(recording)));
+  write_file(folder / "measurements.g2o", to_g2o(recording.log));
+  write_file(folder / "metrics.json", metrics_json(result, recording));
+  write_file(folder / "run.json", manifest);
+  if (!recording.frames.empty()) {
+    write_file(folder / "frames.tum", to_tum(frame_trajectory(recording, poses)));
+  }
+  if (const auto truth = ground_truth(recording); !truth.empty()) {
+    write_file(folder / "ground_truth.tum", to_tum(truth));
+  }
+}
+
+}  // namespace fathom

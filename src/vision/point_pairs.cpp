@@ -1,0 +1,89 @@
+#include "point_pairs.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "fathom/core/input_error.hpp"
+
+namespace fathom {
+namespace {
+
+struct Rigid {
+  explicit Rigid(const Pose& z) : x(z.x), y(z.y), c(std::cos(z.theta)), s(std::sin(z.theta)) {}
+
+  double squared_error(double px, double py, double qx, double qy) const {
+    const double ex = px - x - (c * qx - s * qy);
+    const double ey = py - y - (s * qx + c * qy);
+    return ex * ex + ey * ey;
+  }
+
+  double x, y, c, s;
+};
+
+}  // namespace
+
+PointPairs::PointPairs(std::span<const Eigen::Vector2d> p, std::span<const Eigen::Vector2d> q) {
+  if (p.size() != q.size()) {
+    throw InputError("matched points must come in pairs, got " + std::to_string(p.size()) +
+                     " and " + std::to_string(q.size()));
+  }
+  for (std::size_t j = 0; j < p.size(); ++j) {
+    px_.push_back(p[j].x());
+    py_.push_back(p[j].y());
+    qx_.push_back(q[j].x());
+    qy_.push_back(q[j].y());
+  }
+}
+
+Eigen::Vector2d PointPairs::p(int index) const {
+  const std::size_t j = static_cast<std::size_t>(index);
+  return {px_[j], py_[j]};
+}
+
+Eigen::Vector2d PointPairs::q(int index) const {
+  const std::size_t j = static_cast<std::size_t>(index);
+  return {qx_[j], qy_[j]};
+}
+
+int PointPairs::count_agreeing(const Pose& z, double max_error_m) const {
+  const Rigid motion(z);
+  const double limit = max_error_m * max_error_m;
+  const double* px = px_.data();
+  const double* py = py_.data();
+  const double* qx = qx_.data();
+  const double* qy = qy_.data();
+  int count = 0;
+  for (std::size_t j = 0; j < px_.size(); ++j) {
+    count += motion.squared_error(px[j], py[j], qx[j], qy[j]) <= limit ? 1 : 0;
+  }
+  return count;
+}
+
+std::vector<int> PointPairs::agreeing(const Pose& z, double max_error_m) const {
+  const Rigid motion(z);
+  const double limit = max_error_m * max_error_m;
+  std::vector<int> indices;
+  for (std::size_t j = 0; j < px_.size(); ++j) {
+    if (motion.squared_error(px_[j], py_[j], qx_[j], qy_[j]) <= limit) {
+      indices.push_back(static_cast<int>(j));
+    }
+  }
+  return indices;
+}
+
+int PointPairs::count_places(const std::vector<int>& indices, double radius_m, int enough) const {
+  const double limit = radius_m * radius_m;
+  std::vector<int> places;
+  for (const int index : indices) {
+    if (static_cast<int>(places.size()) >= enough) break;
+    const bool is_new = std::ranges::all_of(places, [&](int place) {
+      return (p(index) - p(place)).squaredNorm() > limit &&
+             (q(index) - q(place)).squaredNorm() > limit;
+    });
+    if (is_new) places.push_back(index);
+  }
+  return static_cast<int>(places.size());
+}
+
+}  // namespace fathom

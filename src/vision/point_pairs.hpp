@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "fathom/geometry/pose.hpp"
+
+namespace fathom {
+
+/// Matched points p (seen in `from`) and q (seen in `to`), held as a structure of arrays so that a
+/// motion is tested against all of them in one vectorised loop.
+class PointPairs {
+ public:
+  /// Throws InputError where the two counts differ.
+  PointPairs(std::span<const Eigen::Vector2d> p, std::span<const Eigen::Vector2d> q);
+
+  std::size_t size() const { return px_.size(); }
+  Eigen::Vector2d p(int index) const;
+  Eigen::Vector2d q(int index) const;
+
+  /// How many pairs have ‖p − z ⊕ q‖ ≤ max_error_m, and which, rising.
+  int count_agreeing(const Pose& z, double max_error_m) const;
+  std::vector<int> agreeing(const Pose& z, double max_error_m) const;
+
+  /// In how many places the pairs lie, counted up to `enough`: greedily, in their order, a pair is
+  /// a new place if both its p and its q are further than `radius_m` from those of all places so
+  /// far.
+  int count_places(const std::vector<int>& indices, double radius_m, int enough) const;
+
+ private:
+  std::vector<double> px_, py_, qx_, qy_;
+};
+
+}  // namespace fathom

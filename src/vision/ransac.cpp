@@ -1,0 +1,170 @@
+#include "fathom/vision/ransac.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+#include "fathom/core/random.hpp"
+#include "fathom/vision/rigid_motion.hpp"
+#include "point_pairs.hpp"
+
+namespace fathom {
+namespace {
+
+using Points = std::vector<Eigen::Vector2d>;
+
+// Root mean square distance from the centre: how well the points fix a heading.
+double spread(const Points& points) {
+  Eigen::Vector2d mean = Eigen::Vector2d::Zero();
+  for (const Eigen::Vector2d& point : points) mean += point;
+  mean /= static_cast<double>(points.size());
+  double square = 0.0;
+  for (const Eigen::Vector2d& point : points) square += (point - mean).squaredNorm();
+  return std::sqrt(square / static_cast<double>(points.size()));
+}
+
+// One run over one set of pairs; the steps of the header by their numbers.
+class Ransac {
+ public:
+  Ransac(const PointPairs& pairs, const RansacOptions& options, std::uint64_t seed)
+      : pairs_(pairs), options_(options), random_(seed) {}
+
+  Consensus run() {
+    Consensus best;
+    if (pairs_.size() < static_cast<std::size_t>(options_.sample_size)) return best;
+    for (int i = 0; i < options_.iterations; ++i) {
+      const std::optional<Pose> trial = fit_sample();  // 1
+      if (!trial) continue;
+      const int support = pairs_.count_agreeing(*trial, options_.max_error_m);  // 2
+      most_agreeing_ = std::max(most_agreeing_, support);
+      if (support < options_.min_inliers || cannot_win(support, best)) continue;  // 3
+      std::vector<int> agreeing = pairs_.agreeing(*trial, options_.max_error_m);
+      if (agreeing == best.inliers) continue;  // the same fit again
+      if (!has_enough_places(agreeing)) continue;
+      Consensus fitted = fit(std::move(agreeing));  // 4
+      if (fitted.motion && (!best.motion || is_better(fitted, best)))
+        best = std::move(fitted);  // 5
+    }
+    if (best.motion && options_.score == RansacScore::inliers) settle(best);
+    best.most_agreeing = std::max(most_agreeing_, static_cast<int>(best.inliers.size()));
+    best.most_places = most_places_;
+    return best;
+  }
+
+ private:
+  // `sample_size` different pairs, uniformly (Floyd's algorithm).
+  void draw_sample() {
+    sample_.clear();
+    const std::size_t size = static_cast<std::size_t>(options_.sample_size);
+    for (std::size_t last = pairs_.size() - size; last < pairs_.size(); ++last) {
+      const int drawn = static_cast<int>(random_.index(last + 1));
+      const bool taken = std::ranges::find(sample_, drawn) != sample_.end();
+      sample_.push_back(taken ? static_cast<int>(last) : drawn);
+    }
+  }
+
+  std::optional<Pose> fit_sample() {
+    constexpr int kRedraws = 100;
+    for (int redraw = 0; redraw < kRedraws; ++redraw) {
+      draw_sample();
+      gather(sample_);
+      if (spread(from_) > options_.max_error_m && spread(to_) > options_.max_error_m) {
+        return find_motion(from_, to_);
+      }
+    }
+    return std::nullopt;
+  }
+
+  bool has_enough_places(const std::vector<int>& agreeing) {
+    const int places = pairs_.count_places(agreeing, options_.max_error_m, options_.min_places);
+    most_places_ = std::max(most_places_, places);
+    return places >= options_.min_places;
+  }
+
+  Consensus fit(std::vector<int> agreeing) {
+    gather(agreeing);
+    Consensus fitted;
+    fitted.motion = find_motion(from_, to_);
+    if (!fitted.motion) return fitted;
+    fitted.rms_m =
+        std::sqrt(squared_error(*fitted.motion, from_, to_) / static_cast<double>(agreeing.size()));
+    fitted.inliers = std::move(agreeing);
+    return fitted;
+  }
+
+  // Known before the fit where the number of inliers decides.
+  bool cannot_win(int support, const Consensus& best) const {
+    return options_.score == RansacScore::inliers &&
+           support < static_cast<int>(best.inliers.size());
+  }
+
+  bool is_better(const Consensus& a, const Consensus& b) const {
+    if (options_.score == RansacScore::paper) return summed_error(a) < summed_error(b);
+    if (a.inliers.size() != b.inliers.size()) return a.inliers.size() > b.inliers.size();
+    return a.rms_m < b.rms_m;
+  }
+
+  double summed_error(const Consensus& consensus) const {
+    double sum = 0.0;
+    for (const int index : consensus.inliers) {
+      sum += (pairs_.p(index) - transform(*consensus.motion, pairs_.q(index))).norm();
+    }
+    return sum;
+  }
+
+  void settle(Consensus& best) {
+    constexpr int kRounds = 20;
+    for (int round = 0; round < kRounds; ++round) {
+      std::vector<int> agreeing = pairs_.agreeing(*best.motion, options_.max_error_m);
+      if (agreeing == best.inliers || agreeing.size() < best.inliers.size()) return;
+      if (!has_enough_places(agreeing)) return;
+      Consensus fitted = fit(std::move(agreeing));
+      if (!fitted.motion) return;
+      best = std::move(fitted);
+    }
+  }
+
+  void gather(const std::vector<int>& indices) {
+    from_.clear();
+    to_.clear();
+    for (const int index : indices) {
+      from_.push_back(pairs_.p(index));
+      to_.push_back(pairs_.q(index));
+    }
+  }
+
+  const PointPairs& pairs_;
+  const RansacOptions& options_;
+  RandomStream random_;
+  int most_agreeing_ = 0;
+  int most_places_ = 0;
+  std::vector<int> sample_;
+  Points from_;  // of the pairs last gathered
+  Points to_;
+};
+
+}  // namespace
+
+void RansacOptions::describe(OptionTable& table) {
+  table.integer("iterations", iterations, Range::between(1, 1e7), "", "samples drawn per pair");
+  table.integer("sample_size", sample_size, Range::between(2, 100), "matches",
+                "matches in a sample (the paper's N)");
+  table.real("max_error_m", max_error_m, Range::positive(), "m",
+             "a match agrees with a motion within this distance on the floor");
+  table.integer("min_inliers", min_inliers, Range::at_least(3), "matches",
+                "with fewer that agree, no motion is found");
+  table.integer("min_places", min_places, Range::between(1, 1000), "places",
+                "nor with those that agree in fewer places, further apart than max_error_m");
+  table.enumeration("score", score,
+                    {{"inliers", RansacScore::inliers}, {"paper", RansacScore::paper}},
+                    "keep most inliers, then least RMS; or, as the paper, the least summed error");
+}
+
+Consensus ransac(std::span<const Eigen::Vector2d> p, std::span<const Eigen::Vector2d> q,
+                 const RansacOptions& options, std::uint64_t seed) {
+  const PointPairs pairs(p, q);
+  return Ransac(pairs, options, seed).run();
+}
+
+}  // namespace fathom

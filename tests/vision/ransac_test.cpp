@@ -1,0 +1,255 @@
+#include "fathom/vision/ransac.hpp"
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "fathom/core/random.hpp"
+#include "fathom/vision/rigid_motion.hpp"
+
+namespace fathom {
+namespace {
+
+using Points = std::vector<Eigen::Vector2d>;
+
+struct Pairs {
+  Points p;
+  Points q;
+
+  void add(const Pose& z, const Eigen::Vector2d& point, const Eigen::Vector2d& noise = {0.0, 0.0}) {
+    p.push_back(transform(z, point) + noise);
+    q.push_back(point);
+  }
+  Consensus found(const RansacOptions& options, std::uint64_t seed = 1) const {
+    return ransac(p, q, options, seed);
+  }
+};
+
+Eigen::Vector2d anywhere(RandomStream& random, double size_m = 1.0) {
+  const double x = random.uniform(-size_m, size_m);
+  return {x, random.uniform(-size_m, size_m)};
+}
+
+Eigen::Vector2d noise(RandomStream& random, double sigma_m) {
+  const double x = sigma_m * random.normal();
+  return {x, sigma_m * random.normal()};
+}
+
+void add_true(Pairs& pairs, RandomStream& random, const Pose& z, int count, double sigma_m) {
+  for (int i = 0; i < count; ++i) {
+    const Eigen::Vector2d point = anywhere(random);
+    pairs.add(z, point, noise(random, sigma_m));
+  }
+}
+
+void add_wrong(Pairs& pairs, RandomStream& random, int count) {
+  for (int i = 0; i < count; ++i) {
+    pairs.p.push_back(anywhere(random));
+    pairs.q.push_back(anywhere(random));
+  }
+}
+
+const Pose kTruth{0.4, -0.2, 2.5};
+
+TEST(Ransac, FindsTheMotionAmongMostlyWrongMatches) {
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    RandomStream random(seed);
+    Pairs pairs;
+    add_true(pairs, random, kTruth, 60, 0.005);
+    add_wrong(pairs, random, 140);
+    for (const int sample_size : {2, 3}) {
+      RansacOptions options;
+      options.sample_size = sample_size;
+      const Consensus found = pairs.found(options, seed);
+      ASSERT_TRUE(found.motion.has_value());
+      EXPECT_NEAR(found.motion->x, kTruth.x, 0.005);
+      EXPECT_NEAR(found.motion->y, kTruth.y, 0.005);
+      EXPECT_NEAR(found.motion->theta, kTruth.theta, 0.01);
+      EXPECT_GE(found.inliers.size(), 58U);
+    }
+  }
+}
+
+TEST(Ransac, TheMotionIsTheFitOfItsInliersAndNoMoreMatchesAgreeWithIt) {
+  for (std::uint64_t seed = 20; seed < 40; ++seed) {
+    RandomStream random(seed);
+    Pairs pairs;
+    add_true(pairs, random, kTruth, 80, 0.012);  // a good part beyond max_error_m
+    add_wrong(pairs, random, 40);
+    const RansacOptions options;
+    const Consensus found = pairs.found(options);
+    ASSERT_TRUE(found.motion.has_value());
+    Points p;
+    Points q;
+    for (const int j : found.inliers) {
+      p.push_back(pairs.p[static_cast<std::size_t>(j)]);
+      q.push_back(pairs.q[static_cast<std::size_t>(j)]);
+    }
+    const double n = static_cast<double>(p.size());
+    EXPECT_EQ(*found.motion, find_motion(p, q).value());
+    EXPECT_NEAR(found.rms_m, std::sqrt(squared_error(*found.motion, p, q) / n), 1e-15);
+    std::vector<int> within;
+    for (std::size_t j = 0; j < pairs.p.size(); ++j) {
+      const double error_m = (pairs.p[j] - transform(*found.motion, pairs.q[j])).norm();
+      if (error_m <= options.max_error_m) within.push_back(static_cast<int>(j));
+    }
+    // Settled, or a last round would have lost some.
+    EXPECT_TRUE(within == found.inliers || within.size() < found.inliers.size());
+  }
+}
+
+TEST(Ransac, SaysNotFoundWhereNothingAgrees) {
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    RandomStream random(seed);
+    Pairs pairs;
+    add_wrong(pairs, random, 300);
+    const Consensus found = pairs.found({}, seed);
+    EXPECT_FALSE(found.motion.has_value());
+    EXPECT_TRUE(found.inliers.empty());
+    EXPECT_LT(found.most_agreeing, 12);
+  }
+}
+
+TEST(Ransac, CountsFromTheMinimumNumberOfInliers) {
+  RandomStream random(30);
+  Pairs pairs;
+  add_true(pairs, random, kTruth, 15, 0.0);
+  EXPECT_FALSE(pairs.found({}).motion.has_value());
+  EXPECT_EQ(pairs.found({}).most_agreeing, 15);
+  add_true(pairs, random, kTruth, 1, 0.0);
+  EXPECT_TRUE(pairs.found({}).motion.has_value());
+}
+
+TEST(Ransac, PaperScoreFavoursTheSmallSet) {
+  RandomStream random(40);
+  Pairs pairs;
+  const Pose other{-3.0, 1.0, -0.4};
+  add_true(pairs, random, kTruth, 60, 0.008);
+  add_true(pairs, random, other, 20, 0.0001);
+  RansacOptions options;
+  const Consensus most = pairs.found(options);
+  ASSERT_TRUE(most.motion.has_value());
+  EXPECT_NEAR(most.motion->x, kTruth.x, 0.01);
+  options.score = RansacScore::paper;
+  const Consensus least = pairs.found(options);
+  ASSERT_TRUE(least.motion.has_value());
+  EXPECT_NEAR(least.motion->x, other.x, 0.01);
+  EXPECT_EQ(least.inliers.size(), 20U);
+}
+
+TEST(Ransac, OfEquallyLargeSetsTheTighterIsKept) {
+  RandomStream random(41);
+  Pairs pairs;
+  const Pose other{-3.0, 1.0, -0.4};
+  add_true(pairs, random, kTruth, 30, 0.004);
+  add_true(pairs, random, other, 30, 0.001);
+  const Consensus found = pairs.found({});
+  ASSERT_TRUE(found.motion.has_value());
+  ASSERT_EQ(found.inliers.size(), 30U);
+  EXPECT_NEAR(found.motion->x, other.x, 0.01);
+}
+
+TEST(Ransac, ManyMatchesInFewPlacesAreFewVotes) {
+  RandomStream random(50);
+  Pairs pairs;
+  for (int place = 0; place < 5; ++place) {
+    const Eigen::Vector2d centre = anywhere(random);
+    for (int i = 0; i < 10; ++i) pairs.add(kTruth, centre + 0.001 * anywhere(random));
+  }
+  RansacOptions options;
+  const Consensus refused = pairs.found(options);
+  EXPECT_FALSE(refused.motion.has_value());
+  EXPECT_EQ(refused.most_agreeing, 50);
+  EXPECT_EQ(refused.most_places, 5);
+  options.min_places = 5;
+  EXPECT_TRUE(pairs.found(options).motion.has_value());
+}
+
+TEST(Ransac, ASpreadMatchedToOnePlaceIsNoPlacesAtAll) {
+  // Fifty features of one picture taken for a single one of the other.
+  RandomStream random(51);
+  Pairs pairs;
+  for (int i = 0; i < 50; ++i) {
+    pairs.p.push_back(anywhere(random));
+    pairs.q.push_back({0.3, 0.3});
+  }
+  EXPECT_FALSE(pairs.found({}).motion.has_value());
+}
+
+TEST(Ransac, SamplesWithoutAHeadingAreDrawnAgain) {
+  // Nine in ten matches are one match repeated: a sample that is not redrawn is nearly always it.
+  RandomStream random(52);
+  Pairs pairs;
+  for (int i = 0; i < 180; ++i) pairs.add(kTruth, {0.1, 0.2});
+  add_true(pairs, random, kTruth, 20, 0.001);
+  RansacOptions options;
+  options.iterations = 5;
+  const Consensus found = pairs.found(options);
+  ASSERT_TRUE(found.motion.has_value());
+  EXPECT_NEAR(found.motion->theta, kTruth.theta, 0.02);
+}
+
+TEST(Ransac, AllInOnePlaceEndsAsNotFound) {
+  Pairs pairs;
+  for (int i = 0; i < 100; ++i) pairs.add(kTruth, {0.1, 0.2});
+  const Consensus found = pairs.found({});
+  EXPECT_FALSE(found.motion.has_value());
+  EXPECT_EQ(found.most_agreeing, 0);
+}
+
+TEST(Ransac, SameSeedSameAnswer) {
+  RandomStream random(60);
+  Pairs pairs;
+  add_true(pairs, random, kTruth, 40, 0.01);
+  add_wrong(pairs, random, 100);
+  const Consensus a = pairs.found({}, 5);
+  const Consensus b = pairs.found({}, 5);
+  ASSERT_TRUE(a.motion.has_value());
+  EXPECT_EQ(*a.motion, *b.motion);
+  EXPECT_EQ(a.inliers, b.inliers);
+}
+
+TEST(Ransac, TooFewOrBrokenPairsAreNotFound) {
+  const Pairs none;
+  EXPECT_FALSE(none.found({}).motion.has_value());
+  Pairs one;
+  one.add(kTruth, {0.0, 0.0});
+  EXPECT_FALSE(one.found({}).motion.has_value());
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  Pairs broken;
+  for (int i = 0; i < 50; ++i) {
+    broken.p.emplace_back(nan, i);
+    broken.q.emplace_back(i, nan);
+  }
+  EXPECT_FALSE(broken.found({}).motion.has_value());
+  EXPECT_THROW(ransac(broken.p, one.q, {}, 1), InputError);
+}
+
+TEST(Ransac, SampleAsLargeAsTheSetIsEveryPair) {
+  RandomStream random(70);
+  Pairs pairs;
+  add_true(pairs, random, kTruth, 20, 0.001);
+  RansacOptions options;
+  options.sample_size = 20;
+  options.iterations = 1;
+  EXPECT_TRUE(pairs.found(options).motion.has_value());
+  options.sample_size = 21;
+  EXPECT_FALSE(pairs.found(options).motion.has_value());
+}
+
+TEST(RansacOptions, RefuseWhatMakesNoSense) {
+  RansacOptions options;
+  OptionTable table;
+  options.describe(table);
+  EXPECT_THROW(table.set("sample_size", OptionValue::scalar("1")), InputError);
+  EXPECT_THROW(table.set("max_error_m", OptionValue::scalar("0")), InputError);
+  EXPECT_THROW(table.set("min_inliers", OptionValue::scalar("2")), InputError);
+  EXPECT_THROW(table.set("score", OptionValue::scalar("best")), InputError);
+  table.set("score", OptionValue::scalar("paper"));
+  EXPECT_EQ(options.score, RansacScore::paper);
+}
+
+}  // namespace
+}  // namespace fathom
