@@ -42,6 +42,7 @@ double checked_real(const std::string& key, const Range& range, const std::strin
 
 std::string list_text(const std::vector<double>& values) {
   std::vector<std::string> words;
+  words.reserve(values.size());
   for (const double value : values) words.push_back(number_text(value));
   return "[" + joined(words, ", ") + "]";
 }

@@ -91,6 +91,7 @@ void Canvas::line(const std::vector<Eigen::Vector2d>& points, const Stroke& stro
   if (stroke.dash_px > 0.0) pieces = dashes_of(points, stroke.dash_px);
   for (const std::vector<Eigen::Vector2d>& piece : pieces) {
     std::vector<cv::Point> fixed;
+    fixed.reserve(piece.size());
     for (const Eigen::Vector2d& point : piece) fixed.push_back(fixed_point(point));
     cv::polylines(target, fixed, false, bgr(stroke.colour), thickness(stroke.width_px), cv::LINE_AA,
                   kShift);

@@ -110,6 +110,7 @@ std::string Table::text() const {
   };
   add_line(header_);
   std::vector<std::string> rules;
+  rules.reserve(widths.size());
   for (const std::size_t width : widths) rules.emplace_back(width, '-');
   add_line(rules);
   for (const auto& row : rows_) add_line(row);
@@ -121,7 +122,7 @@ std::string format_number(double value, int significant_digits) {
   if (std::isinf(value)) return value > 0 ? "inf" : "-inf";
   char buffer[64];
   std::snprintf(buffer, sizeof buffer, "%.*e", significant_digits - 1, value);
-  const std::string scientific = buffer;
+  std::string scientific = buffer;
   // The exponent after rounding: 9.9996 with four digits is 10.00.
   const auto exponent = parse_integer(scientific.substr(scientific.find('e') + 1)).value_or(0);
   if (value != 0.0 && (exponent < -4 || exponent >= 7)) return scientific;

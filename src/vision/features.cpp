@@ -31,7 +31,10 @@ cv::Ptr<cv::Feature2D> make_detector(const FeatureOptions& options) {
     case FeatureType::sift:
       break;
   }
-  return cv::SIFT::create(options.max_features);
+  constexpr int kOctaveLayers = 3;
+  constexpr double kEdgeThreshold = 10.0;
+  return cv::SIFT::create(options.max_features, kOctaveLayers, options.sift_contrast,
+                          kEdgeThreshold);
 }
 
 bool stronger(const cv::KeyPoint& a, const cv::KeyPoint& b) {
@@ -85,6 +88,8 @@ void FeatureOptions::describe(OptionTable& table) {
   table.enumeration("type", type, names, "keypoint detector and descriptor");
   table.integer("max_features", max_features, Range::between(1, 1e6), "",
                 "keypoints kept per picture, the strongest");
+  table.real("sift_contrast", sift_contrast, Range{1e-4, 1.0}, "",
+             "SIFT: least contrast of a keypoint, as a share of the grey range (OpenCV: 0.04)");
   table.boolean("clahe", clahe, "equalise contrast locally (CLAHE) before detection");
   table.real("clahe_clip_limit", clahe_clip_limit, Range::positive(), "",
              "CLAHE: greatest slope of the equalisation, times a uniform histogram");

@@ -46,6 +46,9 @@ std::span<const DetectorEntry> detectors();
 struct FeatureOptions {
   FeatureType type = FeatureType::sift;
   int max_features = 2000;
+  /// Well below OpenCV's 0.04: on a real floor of even sand that leaves 13 to 100 keypoints a
+  /// picture, too few to register consecutive frames.
+  double sift_contrast = 0.01;
   bool clahe = false;
   double clahe_clip_limit = 3.0;
   int clahe_tiles = 8;

@@ -1,0 +1,256 @@
+// What every estimator of the registry must do, whatever its method.
+
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "tests/estimators/logs.hpp"
+#include "tests/estimators/naive.hpp"
+
+namespace fathom {
+namespace {
+
+using test::circle_log;
+using test::feed;
+using test::LogOptions;
+using test::solved;
+
+class Conformance : public testing::TestWithParam<std::string> {
+ protected:
+  std::unique_ptr<Estimator> make(const Pose& origin = {},
+                                  const EstimatorValues& values = {}) const {
+    return builtin_estimators().find(GetParam()).create({origin}, values);
+  }
+};
+
+std::vector<std::string> names() {
+  std::vector<std::string> all;
+  for (const EstimatorEntry& entry : builtin_estimators().entries()) all.push_back(entry.name);
+  return all;
+}
+
+INSTANTIATE_TEST_SUITE_P(Every, Conformance, testing::ValuesIn(names()),
+                         [](const auto& name) { return name.param; });
+
+TEST_P(Conformance, StartsWithKeyframeZeroAtTheOrigin) {
+  const Pose origin{3.0, -2.0, 2.5};
+  const auto estimator = make(origin);
+  ASSERT_EQ(estimator->size(), 1U);
+  EXPECT_EQ(estimator->pose(0), origin);
+  ASSERT_TRUE(estimator->covariance(0));
+  EXPECT_EQ(*estimator->covariance(0), Eigen::Matrix3d::Zero());
+  EXPECT_EQ(estimator->finish().outcome, Outcome::converged);
+}
+
+TEST_P(Conformance, DeadReckoningAloneComposesPosesAndCovariances) {
+  LogOptions options;
+  options.loop_every = 0;
+  options.origin = {1.0, 2.0, -3.0};
+  const MeasurementLog log = circle_log(options);
+  const auto estimator = make(options.origin);
+  EXPECT_EQ(feed(*estimator, log), Outcome::converged);
+  const std::vector<Pose> odometry = log.odometry();
+  UncertainPose chain{options.origin, Eigen::Matrix3d::Zero()};
+  for (std::size_t k = 1; k < log.size(); ++k) {
+    EXPECT_LT((estimator->pose(k).position() - odometry[k].position()).norm(), 1e-12);
+    chain = compose(chain, {log.arrival(k).step.motion, log.arrival(k).step.covariance()});
+    ASSERT_TRUE(estimator->covariance(k));
+    EXPECT_LT((*estimator->covariance(k) - chain.covariance).norm(),
+              1e-9 * chain.covariance.norm());
+  }
+}
+
+TEST_P(Conformance, AnExactLoopMovesNothingAndSharpensTheEstimate) {
+  LogOptions options;
+  options.noise = 0.0;
+  const MeasurementLog log = circle_log(options);
+  const std::vector<Pose> truth = test::circle(options.keyframes);
+  const auto estimator = make();
+  EXPECT_EQ(feed(*estimator, log), Outcome::converged);
+  EXPECT_LT(test::largest_distance(poses_of(*estimator), truth), 1e-9);
+  options.loop_every = 0;
+  const auto reckoned = solved(GetParam(), circle_log(options));
+  const std::size_t last = log.size() - 1;
+  EXPECT_LT(estimator->covariance(last)->trace(), 0.5 * reckoned->covariance(last)->trace());
+}
+
+// With measurements that agree exactly every linearisation is at the truth, so a filter's
+// covariance is that of the least-squares problem, whatever its state: full covariances, rotations,
+// loops.
+TEST_P(Conformance, CovariancesOfAnExactLogAreThoseOfTheInformationMatrix) {
+  LogOptions options;
+  options.noise = 0.0;
+  options.keyframes = 20;
+  options.origin = {-4.0, 1.0, 2.0};
+  const MeasurementLog log = circle_log(options);
+  const auto estimator = solved(GetParam(), log);
+  const test::NaiveLeastSquares reference = test::least_squares(log, 1);
+  for (std::size_t k = 1; k < log.size(); ++k) {
+    const auto covariance = estimator->covariance(k);
+    ASSERT_TRUE(covariance);
+    EXPECT_LT((*covariance - reference.marginal(k)).norm(), 1e-9) << "keyframe " << k;
+  }
+}
+
+TEST_P(Conformance, ALoopOfZeroLengthIsUsed) {
+  MeasurementLog log;
+  const Eigen::Matrix3d C = test::full_covariance(0.1, 0.05);
+  // A square that comes back, reckoned a little wrong; the loop says: the same place, the same
+  // heading.
+  for (std::size_t k = 1; k <= 4; ++k) {
+    log.add_keyframe(RelativePose::from_covariance(k - 1, k, {1.05, 0.0, M_PI / 2 - 0.02}, C));
+  }
+  log.add_registration(RelativePose::from_covariance(0, 4, {}, 1e-4 * C));
+  const auto estimator = make();
+  EXPECT_TRUE(is_done(feed(*estimator, log)));
+  EXPECT_LT(estimator->pose(4).position().norm(), 5e-3);
+  EXPECT_LT(std::abs(estimator->pose(4).theta), 5e-3);
+}
+
+TEST_P(Conformance, SeveralLoopsAtOnceWithFullCovariancesLowerTheCost) {
+  const MeasurementLog log = circle_log({});
+  const auto estimator = make();
+  EXPECT_TRUE(is_done(feed(*estimator, log)));
+  const double optimum = chi2(log, test::least_squares(log, 10).poses);
+  const double reached = chi2(log, poses_of(*estimator));
+  EXPECT_LT(reached, 0.01 * chi2(log, log.odometry()));
+  EXPECT_GE(reached, optimum * (1.0 - 1e-9));
+  EXPECT_LT(reached, 1.3 * optimum);
+}
+
+TEST_P(Conformance, ARotatedAndShiftedWorldTurnsTheEstimateAndItsCovariance) {
+  LogOptions options;
+  const auto plain = solved(GetParam(), circle_log(options));
+  const Pose origin{100.0, -50.0, 2.8};
+  options.origin = origin;
+  const auto turned = solved(GetParam(), circle_log(options));
+  Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
+  R.topLeftCorner<2, 2>() = rotation(origin.theta);
+  for (std::size_t k = 0; k < plain->size(); ++k) {
+    const Pose expected = compose(origin, plain->pose(k));
+    EXPECT_LT((turned->pose(k).position() - expected.position()).norm(), 1e-7);
+    EXPECT_LT(std::abs(wrap_angle(turned->pose(k).theta - expected.theta)), 1e-7);
+    const Eigen::Matrix3d C = transport(R, *plain->covariance(k));
+    EXPECT_LT((*turned->covariance(k) - C).norm(), 1e-6 * (C.norm() + 1e-9));
+  }
+}
+
+TEST_P(Conformance, TheSameCallsGiveTheSameBits) {
+  const MeasurementLog log = circle_log({});
+  const auto a = solved(GetParam(), log);
+  const auto b = solved(GetParam(), log);
+  EXPECT_EQ(poses_of(*a), poses_of(*b));
+  EXPECT_EQ(*a->covariance(log.size() - 1), *b->covariance(log.size() - 1));
+}
+
+TEST_P(Conformance, TheWayALoopIsWrittenMakesNoDifferenceToFirstOrder) {
+  LogOptions options;
+  options.noise = 0.01;
+  const MeasurementLog log = circle_log(options);
+  MeasurementLog backward;
+  for (std::size_t k = 1; k < log.size(); ++k) {
+    backward.add_keyframe(log.arrival(k).step);
+    for (const RelativePose& z : log.arrival(k).registrations) {
+      const UncertainPose turned = inverse(UncertainPose{z.motion, z.covariance()});
+      backward.add_registration(
+          RelativePose::from_covariance(z.to, z.from, turned.mean, turned.covariance));
+    }
+  }
+  const auto a = solved(GetParam(), log);
+  const auto b = solved(GetParam(), backward);
+  // Second order in a noise of 3e-4 m and 2e-4 rad.
+  EXPECT_LT(test::largest_distance(poses_of(*a), poses_of(*b)), 1e-6);
+}
+
+TEST_P(Conformance, TheGateRefusesAWrongLoopAndSaysSo) {
+  LogOptions options;
+  MeasurementLog log = circle_log(options);
+  const RelativePose last = log.arrival(log.size() - 1).step;
+  const std::size_t k = log.size();
+  log.add_keyframe(RelativePose::from_covariance(k - 1, k, last.motion, last.covariance()));
+  const Pose right = between(test::circle(options.keyframes)[10], log.odometry()[k]);
+  log.add_registration(RelativePose::from_covariance(
+      10, k, {right.x + 5.0, right.y - 3.0, wrap_angle(right.theta + 1.0)},
+      test::full_covariance(0.01, 0.005)));
+
+  const auto gated = make({}, test::values({{"gate_probability", "0.9999"}}));
+  std::vector<LoopDecision> decisions;
+  EXPECT_TRUE(is_done(feed(*gated, log, &decisions)));
+  ASSERT_EQ(decisions.size(), log.registration_count());
+  for (const LoopDecision& decision : decisions) {
+    EXPECT_EQ(decision.accepted, decision.to != k) << decision.from << " to " << decision.to;
+    ASSERT_TRUE(decision.nis);
+  }
+  EXPECT_GT(*decisions.back().nis, 100.0);
+
+  // Without the gate the same loop is taken, and ruins the estimate.
+  const auto open = make();
+  feed(*open, log);
+  EXPECT_LT(test::largest_distance(poses_of(*gated), test::circle(k + 1)), 0.3);
+  EXPECT_GT(test::largest_distance(poses_of(*open), test::circle(k + 1)), 0.5);
+}
+
+TEST_P(Conformance, TheGateKeepsItsShareOfRightLoops) {
+  std::size_t accepted = 0;
+  std::size_t all = 0;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    // One loop each, over a short way: the innovation is as Gaussian as its noise.
+    RandomStream random(seed, "gate");
+    MeasurementLog log;
+    for (std::size_t k = 1; k <= 5; ++k) {
+      log.add_keyframe(RelativePose::from_covariance(
+          k - 1, k, test::perturbed({1.0, 0.0, 0.3}, 0.01, 0.005, random),
+          Eigen::Vector3d(1e-4, 1e-4, 2.5e-5).asDiagonal()));
+    }
+    Pose truth;
+    for (int k = 0; k < 5; ++k) truth = compose(truth, {1.0, 0.0, 0.3});
+    log.add_registration(
+        RelativePose::from_covariance(0, 5, test::perturbed(truth, 0.01, 0.005, random),
+                                      Eigen::Vector3d(1e-4, 1e-4, 2.5e-5).asDiagonal()));
+    const auto estimator = make({}, test::values({{"gate_probability", "0.5"}}));
+    std::vector<LoopDecision> decisions;
+    feed(*estimator, log, &decisions);
+    ++all;
+    if (decisions.front().accepted) ++accepted;
+  }
+  // Binomial(40, 0.5): outside 10 … 30 once in a thousand.
+  EXPECT_GE(accepted, 10U);
+  EXPECT_LE(accepted, 30U);
+}
+
+TEST_P(Conformance, NaNIsAFailureAndLeavesTheEstimateAsItWas) {
+  const MeasurementLog log = circle_log({});
+  const auto estimator = make();
+  feed(*estimator, log);
+  estimator->add_keyframe(RelativePose::from_covariance(log.size() - 1, log.size(), {1.0, 0.0, 0.0},
+                                                        test::full_covariance(0.1, 0.1)));
+  const std::vector<Pose> before = poses_of(*estimator);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const std::vector<RelativePose> bad{RelativePose::from_covariance(
+      0, log.size(), {nan, 0.0, 0.0}, test::full_covariance(0.1, 0.1))};
+  const UpdateReport report = estimator->close_loops(bad);
+  EXPECT_EQ(report.outcome, Outcome::numerical_failure);
+  ASSERT_EQ(report.loops.size(), 1U);
+  EXPECT_FALSE(report.loops.front().accepted);
+  EXPECT_EQ(poses_of(*estimator), before);
+}
+
+TEST_P(Conformance, AnUpdateWithoutRegistrationsIsNone) {
+  const auto estimator = make();
+  estimator->add_keyframe(
+      RelativePose::from_covariance(0, 1, {1.0, 0.0, 0.0}, test::full_covariance(0.1, 0.1)));
+  const UpdateReport report = estimator->close_loops({});
+  EXPECT_EQ(report.outcome, Outcome::converged);
+  EXPECT_TRUE(report.loops.empty());
+  EXPECT_EQ(estimator->pose(1), (Pose{1.0, 0.0, 0.0}));
+}
+
+TEST_P(Conformance, RefusesUnknownOptionsAndValuesOutOfBounds) {
+  EXPECT_THROW(make({}, test::values({{"gate", "0.9"}})), InputError);
+  EXPECT_THROW(make({}, test::values({{"gate_probability", "1.5"}})), InputError);
+  EXPECT_THROW(make({}, test::values({{"max_iterations", "0"}})), InputError);
+}
+
+}  // namespace
+}  // namespace fathom

@@ -1,0 +1,145 @@
+// Estimators against each other: what the framework exists for.
+
+#include <gtest/gtest.h>
+
+#include "tests/estimators/logs.hpp"
+#include "tests/estimators/naive.hpp"
+
+namespace fathom {
+namespace {
+
+using test::largest_distance;
+using test::largest_turn;
+using test::LogOptions;
+using test::solved;
+
+EstimatorValues exactly() {
+  return test::values({{"tolerance", "1e-13"}, {"max_iterations", "100"}});
+}
+
+// With headings known to be zero the problem is linear, and everybody must find the same answer.
+TEST(CrossEstimator, AllAgreeOnALinearProblem) {
+  RandomStream random(5, "linear");
+  const auto measured = [&](double x, double y, double sigma_m) {
+    return Pose{x + sigma_m * random.normal(), y + sigma_m * random.normal(), 0.0};
+  };
+  const auto covariance = [](double sigma_m) -> Eigen::Matrix3d {
+    Eigen::Matrix3d C = Eigen::Matrix3d::Zero();
+    C.topLeftCorner<2, 2>() << 1.0, 0.4, 0.4, 2.0;
+    C *= sigma_m * sigma_m;
+    C(2, 2) = 1e-16;
+    return C;
+  };
+  MeasurementLog log;
+  for (std::size_t k = 1; k <= 30; ++k) {
+    log.add_keyframe(
+        RelativePose::from_covariance(k - 1, k, measured(1.0, 0.0, 0.1), covariance(0.1)));
+    if (k % 4 != 0) continue;
+    for (const std::size_t from : {k - 4, k / 2}) {
+      log.add_registration(RelativePose::from_covariance(
+          from, k, measured(static_cast<double>(k - from), 0.0, 0.02), covariance(0.02)));
+    }
+  }
+  const std::vector<Pose> reference = test::least_squares(log, 2).poses;
+  EXPECT_GT(largest_distance(reference, log.odometry()), 0.1);
+  for (const EstimatorEntry& entry : builtin_estimators().entries()) {
+    const auto estimator = solved(entry.name, log, exactly());
+    EXPECT_LT(largest_distance(poses_of(*estimator), reference), 1e-9) << entry.name;
+    EXPECT_LT(largest_turn(poses_of(*estimator), reference), 1e-9) << entry.name;
+  }
+}
+
+MeasurementLog loops_at_the_end(double noise) {
+  LogOptions options;
+  options.loops_at_end_only = true;
+  options.noise = noise;
+  return test::circle_log(options);
+}
+
+// With one update the iterated filter solves the same least-squares problem as the graph; the
+// plain EKF stops after one step.
+TEST(CrossEstimator, IekfAndGraphShareTheOptimumOfASingleUpdateAndTheEkfDoesNot) {
+  const MeasurementLog log = loops_at_the_end(4.0);
+  const auto iekf = solved("trajectory_iekf", log, exactly());
+  const auto graph = solved("ceres_pose_graph", log, exactly());
+  const auto ekf = solved("ekf", log);
+  EXPECT_LT(largest_distance(poses_of(*iekf), poses_of(*graph)), 1e-6);
+  EXPECT_LT(largest_turn(poses_of(*iekf), poses_of(*graph)), 1e-6);
+  EXPECT_GT(largest_distance(poses_of(*ekf), poses_of(*graph)), 1e-2);
+  EXPECT_GT(chi2(log, poses_of(*ekf)), 1.01 * chi2(log, poses_of(*graph)));
+}
+
+TEST(CrossEstimator, SafeguardedIekfSharesTheOptimumToo) {
+  const MeasurementLog log = loops_at_the_end(4.0);
+  EstimatorValues options = exactly();
+  options["safeguard"] = OptionValue::scalar("true");
+  const auto iekf = solved("trajectory_iekf", log, options);
+  const auto graph = solved("ceres_pose_graph", log, exactly());
+  EXPECT_LT(largest_distance(poses_of(*iekf), poses_of(*graph)), 1e-6);
+}
+
+TEST(CrossEstimator, TheGraphFindsTheOptimumOfTheTextbookSolver) {
+  const MeasurementLog log = test::circle_log({});
+  const test::NaiveLeastSquares reference = test::least_squares(log, 20);
+  const auto incremental = solved("ceres_pose_graph", log, exactly());
+  const auto batch = builtin_estimators()
+                         .find("ceres_pose_graph")
+                         .create({log.origin(), SolveMode::batch}, exactly());
+  EXPECT_EQ(test::feed(*batch, log), Outcome::converged);
+  for (const Estimator* graph : {incremental.get(), batch.get()}) {
+    EXPECT_LT(largest_distance(poses_of(*graph), reference.poses), 1e-8);
+    EXPECT_NEAR(chi2(log, poses_of(*graph)), chi2(log, reference.poses), 1e-8);
+  }
+  for (std::size_t k = 1; k < log.size(); ++k) {
+    EXPECT_LT((*batch->covariance(k) - reference.marginal(k)).norm(), 1e-9);
+  }
+}
+
+TEST(CrossEstimator, ABatchSolveStartsWhereItIsTold) {
+  const MeasurementLog log = test::circle_log({});
+  const auto one_step = [&](std::span<const Pose> start) {
+    const auto graph =
+        builtin_estimators()
+            .find("ceres_pose_graph")
+            .create({log.origin(), SolveMode::batch}, test::values({{"max_iterations", "1"}}));
+    for (std::size_t k = 1; k < log.size(); ++k) {
+      graph->add_keyframe(log.arrival(k).step);
+      graph->close_loops(log.arrival(k).registrations);
+    }
+    graph->finish(start);
+    return chi2(log, poses_of(*graph));
+  };
+  const test::NaiveLeastSquares reference = test::least_squares(log, 20);
+  EXPECT_NEAR(one_step(reference.poses), chi2(log, reference.poses), 1e-9);
+  EXPECT_GT(one_step({}), chi2(log, reference.poses) + 1e-6);
+}
+
+TEST(CrossEstimator, ABatchSolveRefusesAGate) {
+  EXPECT_THROW(builtin_estimators()
+                   .find("ceres_pose_graph")
+                   .create({{}, SolveMode::batch}, test::values({{"gate_probability", "0.99"}})),
+               InputError);
+}
+
+// One loop that is off by 50 sigma among right ones: a robust loss all but leaves it out.
+TEST(CrossEstimator, RobustLossesLimitAWrongLoop) {
+  MeasurementLog log = test::circle_log({});
+  const std::size_t k = log.size();
+  const Pose next = log.arrival(k - 1).step.motion;
+  log.add_keyframe(RelativePose::from_covariance(
+      k - 1, k, next, test::full_covariance(test::kStepSigmaM, test::kStepSigmaRad)));
+  const Pose right = between(test::circle(40)[8], compose(test::circle(40)[39], next));
+  log.add_registration(RelativePose::from_covariance(
+      8, k, {right.x + 0.5, right.y - 0.5, right.theta}, test::full_covariance(0.01, 0.005)));
+  const std::vector<Pose> truth = test::circle(40);
+  const auto error = [&](const std::string& loss) {
+    const auto graph = solved("ceres_pose_graph", log, test::values({{"loss", loss}}));
+    const std::vector<Pose> poses = poses_of(*graph);
+    return largest_distance(std::span(poses).first(40), truth);
+  };
+  EXPECT_LT(error("cauchy"), 0.5 * error("none"));
+  EXPECT_LT(error("huber"), 0.8 * error("none"));
+}
+
+}  // namespace
+}  // namespace fathom

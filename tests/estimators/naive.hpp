@@ -1,0 +1,204 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include <Eigen/Dense>
+
+#include "fathom/geometry/covariance.hpp"
+#include "fathom/measurements/measurement_log.hpp"
+
+/// Textbook filters and a textbook least-squares solver, dense and slow, to compare with. They
+/// share with the estimators only ⊕, ⊖ and their Jacobians, which are tested against differences.
+namespace fathom::test {
+
+/// x, P ← the Kalman update for innovation y (of the last iteration), Joseph form.
+inline void joseph(const Eigen::MatrixXd& K, const Eigen::MatrixXd& H, const Eigen::MatrixXd& R,
+                   Eigen::MatrixXd& P) {
+  const Eigen::MatrixXd A = P - K * (H * P);  // (I − K H) P
+  P = A - (A * H.transpose()) * K.transpose() + K * R * K.transpose();
+}
+
+/// The paper's trajectory filter: X stacks the relative motions.
+class NaiveTrajectoryIekf {
+ public:
+  NaiveTrajectoryIekf(const Pose& origin, int iterations) : origin_(origin), n_(iterations) {}
+
+  void add_keyframe(const RelativePose& step) {
+    const RelativePose u = step.forward();
+    const Eigen::Index n = x_.size();
+    x_.conservativeResize(n + 3);
+    x_.tail<3>() = u.motion.vector();
+    P_.conservativeResizeLike(Eigen::MatrixXd::Zero(n + 3, n + 3));
+    P_.bottomRightCorner<3, 3>() = u.covariance();
+  }
+
+  void close_loops(const std::vector<RelativePose>& registrations) {
+    const auto m = static_cast<Eigen::Index>(3 * registrations.size());
+    const Eigen::VectorXd x0 = x_;
+    Eigen::VectorXd x = x0;
+    Eigen::MatrixXd H(m, x.size());
+    Eigen::MatrixXd K;
+    Eigen::MatrixXd R = Eigen::MatrixXd::Zero(m, m);
+    for (int i = 0; i < n_; ++i) {
+      Eigen::VectorXd nu(m);
+      for (Eigen::Index j = 0; j < m; j += 3) {
+        const RelativePose z = registrations[static_cast<std::size_t>(j / 3)].forward();
+        const auto [h, Hj] = predict(x, z.from);
+        nu.segment<3>(j) = z.motion.vector() - h.vector();
+        nu(j + 2) = wrap_angle(nu(j + 2));
+        H.middleRows<3>(j) = Hj;
+        R.block<3, 3>(j, j) = z.covariance();
+      }
+      const Eigen::MatrixXd PHt = P_ * H.transpose();
+      K = (H * PHt + R).ldlt().solve(PHt.transpose()).transpose();
+      x = x0 + K * (nu - H * (x0 - x));
+    }
+    x_ = x;
+    for (Eigen::Index i = 2; i < x_.size(); i += 3) x_(i) = wrap_angle(x_(i));
+    joseph(K, H, R, P_);
+  }
+
+  std::vector<Pose> trajectory() const {
+    std::vector<Pose> poses{origin_};
+    for (Eigen::Index i = 0; i < x_.size(); i += 3) {
+      poses.push_back(compose(poses.back(), Pose::from_vector(x_.segment<3>(i))));
+    }
+    return poses;
+  }
+
+ private:
+  // h and H by the chain rule, motion after motion.
+  std::pair<Pose, Eigen::MatrixXd> predict(const Eigen::VectorXd& x, std::size_t from) const {
+    Pose h;
+    Eigen::MatrixXd H = Eigen::MatrixXd::Zero(3, x.size());
+    const auto start = static_cast<Eigen::Index>(3 * from);
+    for (Eigen::Index i = start; i < x.size(); i += 3) {
+      Eigen::Matrix3d J_chain;
+      Eigen::Matrix3d J_motion;
+      h = compose(h, Pose::from_vector(x.segment<3>(i)), &J_chain, &J_motion);
+      H.middleCols(start, i - start) = (J_chain * H.middleCols(start, i - start)).eval();
+      H.middleCols<3>(i) = J_motion;
+    }
+    return {h, H};
+  }
+
+  Pose origin_;
+  int n_;
+  Eigen::VectorXd x_;
+  Eigen::MatrixXd P_;
+};
+
+/// The plain EKF on absolute poses 0 … n, keyframe 0 with zero covariance.
+class NaiveEkf {
+ public:
+  explicit NaiveEkf(const Pose& origin) : x_(origin.vector()), P_(Eigen::MatrixXd::Zero(3, 3)) {}
+
+  void add_keyframe(const RelativePose& step) {
+    const RelativePose u = step.forward();
+    const Eigen::Index n = x_.size();
+    Eigen::Matrix3d J_pose;
+    Eigen::Matrix3d J_motion;
+    const Pose next = compose(Pose::from_vector(x_.tail<3>()), u.motion, &J_pose, &J_motion);
+    Eigen::MatrixXd F = Eigen::MatrixXd::Zero(n + 3, n);
+    F.topRows(n).setIdentity();
+    F.bottomRightCorner<3, 3>() = J_pose;
+    const Eigen::MatrixXd last_rows = J_pose * P_.bottomRows<3>();
+    P_.conservativeResizeLike(Eigen::MatrixXd::Zero(n + 3, n + 3));
+    P_.bottomLeftCorner(3, n) = last_rows;
+    P_.topRightCorner(n, 3) = last_rows.transpose();
+    P_.bottomRightCorner<3, 3>() = last_rows.rightCols<3>() * J_pose.transpose() +
+                                   J_motion * u.covariance() * J_motion.transpose();
+    x_.conservativeResize(n + 3);
+    x_.tail<3>() = next.vector();
+  }
+
+  void close_loops(const std::vector<RelativePose>& registrations) {
+    const auto m = static_cast<Eigen::Index>(3 * registrations.size());
+    Eigen::MatrixXd H = Eigen::MatrixXd::Zero(m, x_.size());
+    Eigen::MatrixXd R = Eigen::MatrixXd::Zero(m, m);
+    Eigen::VectorXd nu(m);
+    for (Eigen::Index j = 0; j < m; j += 3) {
+      const RelativePose z = registrations[static_cast<std::size_t>(j / 3)].forward();
+      const auto a = static_cast<Eigen::Index>(3 * z.from);
+      const auto b = static_cast<Eigen::Index>(3 * z.to);
+      Eigen::Matrix3d H_a;
+      Eigen::Matrix3d H_b;
+      const Pose h = between(Pose::from_vector(x_.segment<3>(a)),
+                             Pose::from_vector(x_.segment<3>(b)), &H_a, &H_b);
+      H.block<3, 3>(j, a) = H_a;
+      H.block<3, 3>(j, b) = H_b;
+      nu.segment<3>(j) = z.motion.vector() - h.vector();
+      nu(j + 2) = wrap_angle(nu(j + 2));
+      R.block<3, 3>(j, j) = z.covariance();
+    }
+    const Eigen::MatrixXd PHt = P_ * H.transpose();
+    const Eigen::MatrixXd K = (H * PHt + R).ldlt().solve(PHt.transpose()).transpose();
+    x_ += K * nu;
+    joseph(K, H, R, P_);
+  }
+
+  std::vector<Pose> trajectory() const {
+    std::vector<Pose> poses;
+    for (Eigen::Index i = 0; i < x_.size(); i += 3) {
+      poses.push_back(Pose::from_vector(x_.segment<3>(i)));
+    }
+    return poses;
+  }
+
+ private:
+  Eigen::VectorXd x_;
+  Eigen::MatrixXd P_;
+};
+
+template <class Filter>
+std::vector<Pose> run_naive(Filter filter, const MeasurementLog& log) {
+  for (std::size_t k = 1; k < log.size(); ++k) {
+    filter.add_keyframe(log.arrival(k).step);
+    if (!log.arrival(k).registrations.empty()) filter.close_loops(log.arrival(k).registrations);
+  }
+  return filter.trajectory();
+}
+
+/// Dense Gauss-Newton over poses 1 … n of F = Σ eᵀ Ω e, and the covariance (Σ Jᵀ Ω J)⁻¹.
+struct NaiveLeastSquares {
+  std::vector<Pose> poses;
+  Eigen::MatrixXd covariance;
+
+  Eigen::Matrix3d marginal(std::size_t k) const {
+    if (k == 0) return Eigen::Matrix3d::Zero();
+    const auto i = static_cast<Eigen::Index>(3 * (k - 1));
+    return covariance.block<3, 3>(i, i);
+  }
+};
+
+inline NaiveLeastSquares least_squares(const MeasurementLog& log, int iterations) {
+  NaiveLeastSquares result{log.odometry(), {}};
+  const auto n = static_cast<Eigen::Index>(3 * log.size());
+  for (int i = 0; i < iterations; ++i) {
+    Eigen::MatrixXd A = Eigen::MatrixXd::Zero(n, n);
+    Eigen::VectorXd b = Eigen::VectorXd::Zero(n);
+    for (const RelativePose& z : log.edges()) {
+      Eigen::Matrix3d J_from;
+      Eigen::Matrix3d J_to;
+      const Eigen::Vector3d e =
+          residual(z.motion, result.poses[z.from], result.poses[z.to], &J_from, &J_to);
+      Eigen::MatrixXd J = Eigen::MatrixXd::Zero(3, n);
+      J.middleCols<3>(static_cast<Eigen::Index>(3 * z.from)) = J_from;
+      J.middleCols<3>(static_cast<Eigen::Index>(3 * z.to)) = J_to;
+      A += J.transpose() * z.information * J;
+      b += J.transpose() * z.information * e;
+    }
+    const Eigen::MatrixXd free = A.bottomRightCorner(n - 3, n - 3);
+    const Eigen::VectorXd dx = -free.ldlt().solve(b.tail(n - 3));
+    for (std::size_t k = 1; k < log.size(); ++k) {
+      const Eigen::Vector3d moved =
+          result.poses[k].vector() + dx.segment<3>(static_cast<Eigen::Index>(3 * (k - 1)));
+      result.poses[k] = {moved.x(), moved.y(), wrap_angle(moved.z())};
+    }
+    result.covariance = free.inverse();
+  }
+  return result;
+}
+
+}  // namespace fathom::test
