@@ -112,11 +112,10 @@ void check_folder(const std::string& path) {
 
 void check_configuration(const std::string& path) {
   const Settings settings = read_settings(path);
-  const bool comparison = settings.find("estimators.0.type") != nullptr;
-  const Configuration configuration =
-      configure(settings, comparison ? ConfigurationKind::comparison : ConfigurationKind::single,
-                builtin_estimators());
-  std::printf("configuration for '%s'\n", comparison ? "compare" : "run");
+  const ConfigurationKind kind = kind_of(settings);
+  const Configuration configuration = configure(settings, kind, builtin_estimators());
+  std::printf("configuration for '%s'\n",
+              kind == ConfigurationKind::comparison ? "compare" : "run");
   for (const auto& [key, value] : configuration.in_force) {
     std::printf("  %s: %s\n", key.c_str(), value.c_str());
   }

@@ -3,6 +3,7 @@
 #include <cblas.h>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <glog/logging.h>
 #include <omp.h>
 
@@ -31,7 +32,12 @@ std::string joined(int argc, char** argv) {
   return line;
 }
 
-int bad_input(const std::string& message) {
+// One line, whatever the names in it hold.
+int bad_input(std::string message) {
+  while (!message.empty() && message.back() == '\n') message.pop_back();
+  for (char& letter : message) {
+    if (static_cast<unsigned char>(letter) < 0x20) letter = ' ';
+  }
   std::fprintf(stderr, "fathom: error: %s\n", message.c_str());
   return kBadInput;
 }
@@ -44,12 +50,7 @@ std::string parse_error_text(const CLI::App& app, const CLI::ParseError& error, 
     return "unknown command '" + std::string(argv[1]) + "'" + suggestion(argv[1], names) +
            " (fathom --help lists them)";
   }
-  std::string text = error.what();
-  while (!text.empty() && text.back() == '\n') text.pop_back();
-  for (char& letter : text) {
-    if (letter == '\n') letter = ' ';
-  }
-  return text + " (see --help)";
+  return std::string(error.what()) + " (see --help)";
 }
 
 int main_function(int argc, char** argv) {
@@ -72,6 +73,9 @@ int main_function(int argc, char** argv) {
     return bad_input(parse_error_text(app, error, argc, argv));
   } catch (const InputError& error) {
     return bad_input(error.what());
+  } catch (const std::filesystem::filesystem_error& error) {
+    // A name too long, a disk that is full: what the system says of a path that was given.
+    return bad_input(error.path1().string() + ": " + error.code().message());
   } catch (const std::bad_alloc&) {
     std::fprintf(stderr, "fathom: error: out of memory\n");
     return kFailed;

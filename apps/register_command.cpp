@@ -73,8 +73,8 @@ void print(const Registration& registration) {
 }
 
 void register_pictures(const RegisterFlags& flags, Context& context) {
-  const Configuration configuration = configure(flags.common.settings(flags.config),
-                                                ConfigurationKind::single, builtin_estimators());
+  const Settings settings = flags.common.settings(flags.config);
+  const Configuration configuration = configure(settings, kind_of(settings), builtin_estimators());
   const Camera camera = camera_of(configuration);
   const cv::Mat a = picture_for(camera, flags.a);
   const cv::Mat b = picture_for(camera, flags.b);

@@ -143,12 +143,12 @@ void add(CLI::App& app, Context& context, const std::string& name, const std::st
 
 void add_run(CLI::App& app, Context& context) {
   add(app, context, "run", "Run one estimator over one data set",
-      "fathom run configs/quickstart.yaml --set estimator.type=ekf --out runs/ekf", run);
+      "fathom run configs/run.yaml --set estimator.type=ekf --out runs/ekf", run);
 }
 
 void add_compare(CLI::App& app, Context& context) {
   add(app, context, "compare", "Run several estimators on one shared measurement log",
-      "fathom compare configs/compare.yaml --out runs/compare", compare);
+      "fathom compare configs/quickstart.yaml --out runs/quickstart", compare);
 }
 
 }  // namespace fathom

@@ -19,6 +19,14 @@ struct SimulateFlags {
   std::string config;
 };
 
+// Text that YAML takes as it is.
+std::string in_yaml_quotes(const std::string& text) {
+  std::string quoted = "'";
+  for (const char letter : text)
+    quoted += letter == '\'' ? std::string("''") : std::string(1, letter);
+  return quoted + "'";
+}
+
 // A configuration that runs the folder as the simulation would have been: same front end and seed.
 std::string folder_configuration(const Configuration& configuration, const std::string& folder) {
   std::string text = "# The survey in this folder, with the front end it was simulated with.\n";
@@ -26,22 +34,24 @@ std::string folder_configuration(const Configuration& configuration, const std::
     text += key + ": " + value + "\n";
   };
   add("dataset.type", "image_folder");
-  add("dataset.path", "'" + folder + "'");
+  add("dataset.path", in_yaml_quotes(folder));
   for (const auto& [key, value] : configuration.in_force) {
     if (key == "seed" || key == "evaluation.alignment" || key.starts_with("front_end.")) {
       add(key, value);
     }
   }
-  add("estimator.type", configuration.estimators.front().type);
-  for (const auto& [key, value] : configuration.estimators.front().values) {
+  // Of a comparison, the one that picks the loop candidates.
+  const EstimatorConfiguration& estimator = configuration.estimators[configuration.reference];
+  add("estimator.type", estimator.type);
+  for (const auto& [key, value] : estimator.values) {
     add("estimator." + key, value.items.front());
   }
   return text;
 }
 
 void simulate(const SimulateFlags& flags, Context& context) {
-  const Configuration configuration = configure(flags.common.settings(flags.config),
-                                                ConfigurationKind::single, builtin_estimators());
+  const Settings settings = flags.common.settings(flags.config);
+  const Configuration configuration = configure(settings, kind_of(settings), builtin_estimators());
   if (configuration.dataset != DatasetType::simulated) {
     throw InputError(flags.config, "dataset.type: 'simulate' takes simulated");
   }

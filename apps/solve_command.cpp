@@ -30,8 +30,13 @@ EstimatorConfiguration estimator_of(const SolveFlags& flags, const Settings& set
   for (const Setting& setting : settings.all()) {
     if (setting.key == "estimator.type") {
       if (!flags.estimator.empty()) refuse(setting, "--estimator says it already");
-      type = setting.value.items.front();
-    } else if (!setting.key.starts_with("estimator.") && setting.key != "seed") {
+      type = word_of(setting, setting.key);
+    } else if (setting.key == "seed") {
+      // Nothing here is random; it is checked as everywhere.
+      Settings seed;
+      seed.put(setting);
+      configure(seed, ConfigurationKind::single, builtin_estimators());
+    } else if (!setting.key.starts_with("estimator.")) {
       refuse(setting, "unknown key '" + setting.key + "': 'solve' takes estimator.… alone");
     }
   }

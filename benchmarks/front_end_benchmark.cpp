@@ -3,9 +3,6 @@
 // frames per second.
 //
 //     front_end_benchmark [--benchmark_filter=...]
-//
-// OpenCV uses its own number of threads, one per core; pin BLAS by OPENBLAS_NUM_THREADS=1, as the
-// program `fathom` does.
 
 #include <array>
 #include <cstdint>
@@ -150,5 +147,3 @@ void FrameWithRegistration(benchmark::State& state) {
 BENCHMARK(FrameWithRegistration)->Apply(name_detectors);
 
 }  // namespace
-
-BENCHMARK_MAIN();

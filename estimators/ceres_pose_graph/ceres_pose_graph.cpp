@@ -53,33 +53,48 @@ void CeresPoseGraph::add_keyframe(const RelativePose& step) {
 UpdateReport CeresPoseGraph::close_loops(std::span<const RelativePose> registrations) {
   UpdateReport report;
   if (registrations.empty()) return report;
-  std::vector<RelativePose> forward;
-  for (const RelativePose& z : registrations) {
-    forward.push_back(z.forward());
-    report.loops.push_back({z.from, z.to, true, std::nullopt});
+  if (!judge(registrations, report)) {
+    report.outcome = Outcome::numerical_failure;
+    return report;
   }
-  std::optional<std::vector<Eigen::Matrix3d>> S;
-  if (gate_.is_on()) S = graph_->innovation_covariances(forward);
-  bool accepted = false;
-  for (std::size_t j = 0; j < forward.size(); ++j) {
-    LoopDecision& decision = report.loops[j];
-    if (gate_.is_on()) {
-      const Pose h = between(pose(forward[j].from), pose(forward[j].to));
-      Eigen::Vector3d nu = forward[j].motion.vector() - h.vector();
-      nu.z() = wrap_angle(nu.z());
-      if (S) decision.nis = normalised_innovation_squared(nu, (*S)[j]);
-      decision.accepted = decision.nis && gate_.passes(*decision.nis);
-    }
-    if (!decision.accepted) continue;
-    graph_->add_registration(registrations[j]);
-    accepted = true;
+  const std::size_t before = graph_->registration_count();
+  for (std::size_t j = 0; j < registrations.size(); ++j) {
+    if (report.loops[j].accepted) graph_->add_registration(registrations[j]);
   }
-  if (gate_.is_on() && !S) report.outcome = Outcome::numerical_failure;
-  if (!accepted || mode_ == SolveMode::batch) return report;
+  if (graph_->registration_count() == before || mode_ == SolveMode::batch) return report;
   const UpdateReport solved = graph_->solve();
-  report.outcome = worse(report.outcome, solved.outcome);
+  report.outcome = solved.outcome;
   report.iterations = solved.iterations;
+  if (is_done(report.outcome)) return report;
+  graph_->forget_registrations(before);
+  for (LoopDecision& decision : report.loops) decision.accepted = false;
   return report;
+}
+
+// Decides on every registration. False, and none accepted, where they cannot be judged.
+bool CeresPoseGraph::judge(std::span<const RelativePose> registrations, UpdateReport& report) {
+  std::vector<RelativePose> forward;
+  bool finite = true;
+  for (const RelativePose& z : registrations) {
+    report.loops.push_back({z.from, z.to, false, std::nullopt});
+    finite = finite && is_finite(z.motion) && z.information.allFinite();
+    forward.push_back(z.forward());
+  }
+  if (!finite) return false;
+  if (!gate_.is_on()) {
+    for (LoopDecision& decision : report.loops) decision.accepted = true;
+    return true;
+  }
+  const auto S = graph_->innovation_covariances(forward);
+  if (!S) return false;
+  for (std::size_t j = 0; j < forward.size(); ++j) {
+    const Pose h = between(pose(forward[j].from), pose(forward[j].to));
+    Eigen::Vector3d nu = forward[j].motion.vector() - h.vector();
+    nu.z() = wrap_angle(nu.z());
+    report.loops[j].nis = normalised_innovation_squared(nu, (*S)[j]);
+    report.loops[j].accepted = gate_.passes(*report.loops[j].nis);
+  }
+  return true;
 }
 
 UpdateReport CeresPoseGraph::finish(std::span<const Pose> start) {

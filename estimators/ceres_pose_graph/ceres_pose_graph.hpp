@@ -46,6 +46,8 @@ class CeresPoseGraph final : public Estimator {
  private:
   class Graph;  // keeps Ceres out of this header
 
+  bool judge(std::span<const RelativePose> registrations, UpdateReport& report);
+
   CeresPoseGraphOptions options_;
   SolveMode mode_;
   Gate gate_;

@@ -65,6 +65,46 @@ ceres::Covariance::Options covariance_options() {
 
 }  // namespace
 
+/// A copy of the problem to ask for covariances. Ceres orders the blocks of a covariance by their
+/// addresses, which change from run to run and with them the last bits; here they are contiguous.
+class CeresPoseGraph::Graph::CovarianceProblem {
+ public:
+  explicit CovarianceProblem(const Graph& graph)
+      : blocks_(graph.poses_.begin(), graph.poses_.end()), covariance_(covariance_options()) {
+    for (const RelativePose& z : graph.steps_) add(z, nullptr);
+    for (const RelativePose& z : graph.registrations_) add(z, make_loss(graph.options_));
+    problem_.AddParameterBlock(blocks_[0].data(), 3);
+    problem_.SetParameterBlockConstant(blocks_[0].data());
+  }
+
+  /// The blocks to be computed, pairs of keyframes other than 0.
+  bool compute(std::vector<std::pair<std::size_t, std::size_t>> keyframes) {
+    std::sort(keyframes.begin(), keyframes.end());
+    keyframes.erase(std::unique(keyframes.begin(), keyframes.end()), keyframes.end());
+    std::vector<std::pair<const double*, const double*>> pairs;
+    for (const auto& [a, b] : keyframes) pairs.emplace_back(blocks_[a].data(), blocks_[b].data());
+    return pairs.empty() || covariance_.Compute(pairs, &problem_);
+  }
+
+  /// Zero where keyframe 0, which is fixed, is one of the two.
+  Eigen::Matrix3d block(std::size_t a, std::size_t b) const {
+    RowMajorMatrix3d value = RowMajorMatrix3d::Zero();
+    if (a > 0 && b > 0) {
+      covariance_.GetCovarianceBlock(blocks_[a].data(), blocks_[b].data(), value.data());
+    }
+    return value;
+  }
+
+ private:
+  void add(const RelativePose& z, ceres::LossFunction* loss) {
+    problem_.AddResidualBlock(new EdgeCost(z), loss, blocks_[z.from].data(), blocks_[z.to].data());
+  }
+
+  std::vector<Block> blocks_;
+  ceres::Problem problem_;
+  ceres::Covariance covariance_;
+};
+
 CeresPoseGraph::Graph::Graph(const Pose& origin, const CeresPoseGraphOptions& options)
     : options_(options) {
   poses_.push_back({origin.x, origin.y, origin.theta});
@@ -87,12 +127,24 @@ void CeresPoseGraph::Graph::add_keyframe(const RelativePose& step) {
   const Pose next = compose(pose(size() - 1), step.forward().motion);
   poses_.push_back({next.x, next.y, next.theta});
   problem_.AddResidualBlock(new EdgeCost(step), nullptr, block(step.from), block(step.to));
+  steps_.push_back(step);
   changed();
 }
 
 void CeresPoseGraph::Graph::add_registration(const RelativePose& registration) {
-  problem_.AddResidualBlock(new EdgeCost(registration), make_loss(options_),
-                            block(registration.from), block(registration.to));
+  registration_blocks_.push_back(
+      problem_.AddResidualBlock(new EdgeCost(registration), make_loss(options_),
+                                block(registration.from), block(registration.to)));
+  registrations_.push_back(registration);
+  changed();
+}
+
+void CeresPoseGraph::Graph::forget_registrations(std::size_t count) {
+  while (registrations_.size() > count) {
+    problem_.RemoveResidualBlock(registration_blocks_.back());
+    registration_blocks_.pop_back();
+    registrations_.pop_back();
+  }
   changed();
 }
 
@@ -116,48 +168,34 @@ UpdateReport CeresPoseGraph::Graph::solve() {
 
 std::optional<std::vector<Eigen::Matrix3d>> CeresPoseGraph::Graph::innovation_covariances(
     std::span<const RelativePose> forward_loops) {
-  std::vector<BlockPair> pairs{{block(size() - 1), block(size() - 1)}};
+  std::vector<std::pair<std::size_t, std::size_t>> pairs{{size() - 1, size() - 1}};
   for (const RelativePose& z : forward_loops) {
     if (z.from == 0) continue;
-    pairs.emplace_back(block(z.from), block(z.from));
-    pairs.emplace_back(block(z.from), block(z.to));
+    pairs.emplace_back(z.from, z.from);
+    pairs.emplace_back(z.from, z.to);
   }
-  std::sort(pairs.begin(), pairs.end());
-  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
-  ceres::Covariance covariance(covariance_options());
-  if (!covariance.Compute(pairs, &problem_)) return std::nullopt;
-
-  const auto joint = [&](std::size_t a, std::size_t b) -> Eigen::Matrix3d {
-    RowMajorMatrix3d value = RowMajorMatrix3d::Zero();
-    if (a > 0 && b > 0) covariance.GetCovarianceBlock(block(a), block(b), value.data());
-    return value;
-  };
+  CovarianceProblem joint(*this);
+  if (!joint.compute(pairs)) return std::nullopt;
   std::vector<Eigen::Matrix3d> innovations;
   for (const RelativePose& z : forward_loops) {
     Eigen::Matrix3d H_from;
     Eigen::Matrix3d H_to;
     between(pose(z.from), pose(z.to), &H_from, &H_to);
-    const Eigen::Matrix3d cross = H_from * joint(z.from, z.to) * H_to.transpose();
-    innovations.push_back(transport(H_from, joint(z.from, z.from)) +
-                          transport(H_to, joint(z.to, z.to)) + cross + cross.transpose() +
+    const Eigen::Matrix3d cross = H_from * joint.block(z.from, z.to) * H_to.transpose();
+    innovations.push_back(transport(H_from, joint.block(z.from, z.from)) +
+                          transport(H_to, joint.block(z.to, z.to)) + cross + cross.transpose() +
                           z.covariance());
   }
   return innovations;
 }
 
-bool CeresPoseGraph::Graph::compute_marginals() {
+void CeresPoseGraph::Graph::compute_marginals() {
   marginals_.emplace();
-  std::vector<BlockPair> pairs;
-  for (std::size_t k = 1; k < size(); ++k) pairs.emplace_back(block(k), block(k));
-  ceres::Covariance covariance(covariance_options());
-  if (!pairs.empty() && !covariance.Compute(pairs, &problem_)) return false;
-  marginals_->push_back(Eigen::Matrix3d::Zero());
-  for (std::size_t k = 1; k < size(); ++k) {
-    RowMajorMatrix3d value;
-    covariance.GetCovarianceBlock(block(k), block(k), value.data());
-    marginals_->push_back(value);
-  }
-  return true;
+  std::vector<std::pair<std::size_t, std::size_t>> pairs;
+  for (std::size_t k = 1; k < size(); ++k) pairs.emplace_back(k, k);
+  CovarianceProblem problem(*this);
+  if (!problem.compute(pairs)) return;
+  for (std::size_t k = 0; k < size(); ++k) marginals_->push_back(problem.block(k, k));
 }
 
 std::optional<Eigen::Matrix3d> CeresPoseGraph::Graph::marginal(std::size_t k) {

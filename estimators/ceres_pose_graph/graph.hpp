@@ -25,6 +25,9 @@ class CeresPoseGraph::Graph {
   /// A keyframe at the newest one ⊕ the step.
   void add_keyframe(const RelativePose& step);
   void add_registration(const RelativePose& registration);
+  /// Takes the last registrations back, down to `count` of them.
+  void forget_registrations(std::size_t count);
+  std::size_t registration_count() const { return registrations_.size(); }
 
   /// Solves from the present poses; keeps them as they were if it fails.
   UpdateReport solve();
@@ -38,15 +41,18 @@ class CeresPoseGraph::Graph {
 
  private:
   using Block = std::array<double, 3>;
-  using BlockPair = std::pair<const double*, const double*>;
+  class CovarianceProblem;
 
   double* block(std::size_t k) { return poses_[k].data(); }
   void changed() { marginals_.reset(); }
-  bool compute_marginals();
+  void compute_marginals();
 
   CeresPoseGraphOptions options_;
   std::deque<Block> poses_;  ///< a deque keeps the addresses that the problem knows
   ceres::Problem problem_;
+  std::vector<RelativePose> steps_;
+  std::vector<RelativePose> registrations_;
+  std::vector<ceres::ResidualBlockId> registration_blocks_;
   /// Of all keyframes; absent: to be computed, empty: could not be.
   std::optional<std::vector<Eigen::Matrix3d>> marginals_;
 };

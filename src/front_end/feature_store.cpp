@@ -27,8 +27,10 @@ std::shared_ptr<const FloorFeatures> FeatureStore::of(std::size_t frame) {
   }
   Held features;
   if (const auto found = announced_.find(frame); found != announced_.end()) {
-    features = found->second.get();
+    // Taken out first: get() throws what the extraction threw, and has nothing to give after.
+    std::future<Held> extraction = std::move(found->second);
     announced_.erase(found);
+    features = extraction.get();
   } else {
     features = extract(frame);
   }

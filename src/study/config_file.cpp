@@ -15,11 +15,19 @@ std::string at(const std::string& file, const YAML::Mark& mark) {
   return mark.is_null() ? file : file + ":" + std::to_string(mark.line + 1);
 }
 
+// An alias may stand inside of what it names; such a value has no end.
+void require_shallow(int depth, const std::string& origin) {
+  constexpr int kDeepest = 32;
+  if (depth > kDeepest) throw InputError(origin + ": is nested too deeply, or in itself");
+}
+
 // Nested lists are flattened: a list of points is a list of numbers.
-void flatten_list(const YAML::Node& list, const std::string& origin, OptionValue& value) {
+void flatten_list(const YAML::Node& list, const std::string& origin, OptionValue& value,
+                  int depth = 0) {
+  require_shallow(depth, origin);
   for (const YAML::Node& item : list) {
     if (item.IsSequence()) {
-      flatten_list(item, origin, value);
+      flatten_list(item, origin, value, depth + 1);
     } else if (item.IsScalar()) {
       value.items.push_back(item.Scalar());
     } else {
@@ -36,14 +44,15 @@ class Flattener {
  public:
   Flattener(std::string file, Settings& settings) : file_(std::move(file)), settings_(settings) {}
 
-  void add(const std::string& key, const YAML::Node& node) {
+  void add(const std::string& key, const YAML::Node& node, int depth = 0) {
     const std::string origin = at(file_, node.Mark());
+    require_shallow(depth, origin);
     if (node.IsMap()) {
-      add_map(key, node);
+      add_map(key, node, depth);
     } else if (is_list_of_maps(node)) {
       for (std::size_t i = 0; i < node.size(); ++i) {
         if (!node[i].IsMap()) throw InputError(origin + ": " + key + ": expected a list of maps");
-        add_map(key + "." + std::to_string(i), node[i]);
+        add_map(key + "." + std::to_string(i), node[i], depth);
       }
     } else if (node.IsSequence()) {
       OptionValue value;
@@ -58,7 +67,7 @@ class Flattener {
   }
 
  private:
-  void add_map(const std::string& prefix, const YAML::Node& map) {
+  void add_map(const std::string& prefix, const YAML::Node& map, int depth) {
     std::set<std::string> seen;
     for (const auto& entry : map) {
       if (!entry.first.IsScalar()) {
@@ -66,14 +75,15 @@ class Flattener {
       }
       const std::string key =
           prefix.empty() ? entry.first.Scalar() : prefix + "." + entry.first.Scalar();
-      if (!seen.insert(key).second) {
+      // The second time may be written as a dotted key elsewhere in the file.
+      if (!seen.insert(key).second || settings_.find(key) != nullptr) {
         throw InputError(at(file_, entry.first.Mark()) + ": '" + key + "' is given twice");
       }
       // A null has no mark of its own; the key's is as good.
       if (entry.second.IsNull()) {
         throw InputError(at(file_, entry.first.Mark()) + ": " + key + ": has no value");
       }
-      add(key, entry.second);
+      add(key, entry.second, depth + 1);
     }
   }
 
@@ -114,8 +124,13 @@ Settings read_settings(const std::filesystem::path& path) {
   const std::string content = read_file(path);
   Settings settings;
   try {
-    const YAML::Node root = YAML::Load(content);
-    if (root.IsNull()) return settings;
+    const std::vector<YAML::Node> documents = YAML::LoadAll(content);
+    if (documents.empty() || documents.front().IsNull()) return settings;
+    const YAML::Node& root = documents.front();
+    if (documents.size() > 1) {
+      throw InputError(at(path.string(), documents[1].Mark()) +
+                       ": a second document; expected a single one, without '---' in between");
+    }
     if (!root.IsMap()) throw InputError(path.string(), 1, "expected a map of keys and values");
     Flattener(path.string(), settings).add("", root);
   } catch (const YAML::Exception& error) {
@@ -143,8 +158,18 @@ Setting parse_override(const std::string& text) {
   } catch (const YAML::Exception&) {
     return {key, OptionValue::scalar(value), origin};
   }
-  if (settings.all().empty()) throw InputError(origin + ": expected a value or a list");
+  if (settings.all().size() != 1 || settings.all().front().key != key) {
+    throw InputError(origin + ": expected a value or a list; maps of a list are set one by one, " +
+                     "for example estimators.0.type=ekf");
+  }
   return {key, settings.all().front().value, origin};
+}
+
+const std::string& word_of(const Setting& setting, const std::string& key) {
+  if (setting.value.is_list || setting.value.items.size() != 1) {
+    refuse(setting, key + ": expected a single word");
+  }
+  return setting.value.items.front();
 }
 
 void refuse(const Setting& setting, const std::string& message) {

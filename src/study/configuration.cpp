@@ -54,9 +54,13 @@ void bind_dataset(Configuration& configuration, OptionTable& table) {
   }
 }
 
+// The keys that a comparison alone has.
+bool is_list_key(const std::string& key) {
+  return key == "estimators" || key.starts_with("estimators.") || key.starts_with("association.");
+}
+
 bool is_estimator_key(const std::string& key) {
-  return key.starts_with("estimator.") || key.starts_with("estimators.") ||
-         key.starts_with("association.") || key == "estimator" || key == "estimators";
+  return key == "estimator" || key.starts_with("estimator.") || is_list_key(key);
 }
 
 void set(OptionTable& table, const Setting& setting, const std::vector<std::string>& known) {
@@ -70,22 +74,22 @@ void set(OptionTable& table, const Setting& setting, const std::vector<std::stri
   }
 }
 
-std::string text_of(const Setting& setting) {
-  if (setting.value.is_list || setting.value.items.size() != 1) {
-    refuse(setting, setting.key + ": expected a single word");
-  }
-  return setting.value.items.front();
-}
-
 const EstimatorEntry& find_entry(const EstimatorRegistry& registry, const Settings& settings,
                                  const std::string& prefix) {
   const Setting* type = settings.find("type");
   if (type == nullptr) return registry.entries().front();
+  const std::string& name = word_of(*type, prefix + "type");
   try {
-    return registry.find(text_of(*type));
+    return registry.find(name);
   } catch (const InputError& error) {
     refuse(*type, prefix + "type: " + error.what());
   }
+}
+
+bool is_plain_word(const std::string& name) {
+  constexpr const char* kAllowed =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_";
+  return !name.empty() && name.find_first_not_of(kAllowed) == std::string::npos;
 }
 
 EstimatorConfiguration configure_estimator(const Settings& settings,
@@ -95,17 +99,31 @@ EstimatorConfiguration configure_estimator(const Settings& settings,
   EstimatorConfiguration estimator{entry.name, entry.name, {}};
   Settings own;
   for (const Setting& setting : settings.all()) {
-    if (setting.key == "name") estimator.name = text_of(setting);
+    if (setting.key == "name") estimator.name = word_of(setting, prefix + "name");
     if (setting.key != "name" && setting.key != "type") own.put(setting);
   }
-  const bool is_file_name =
-      estimator.name.find_first_of("/\\") == std::string::npos && !estimator.name.starts_with(".");
-  if (estimator.name.empty() || !is_file_name) {
+  if (!is_plain_word(estimator.name)) {
     refuse(*settings.find("name"),
            prefix + "name: it names a folder too: letters, digits, - and _");
   }
   estimator.values = estimator_values(own, entry, {}, prefix);
   return estimator;
+}
+
+// No setting of the list may go unread: not one of `estimators.7` where there are three of them.
+void refuse_unused_items(const Settings& settings, std::size_t count) {
+  std::vector<std::string> prefixes;
+  for (std::size_t i = 0; i < count; ++i) {
+    prefixes.push_back("estimators." + std::to_string(i) + ".");
+  }
+  for (const Setting& setting : settings.all()) {
+    if (!setting.key.starts_with("estimators.")) continue;
+    const auto is_of = [&](const std::string& prefix) { return setting.key.starts_with(prefix); };
+    if (std::any_of(prefixes.begin(), prefixes.end(), is_of)) continue;
+    refuse(setting, setting.key +
+                        ": expected a list of maps, such as '- {type: ekf}', numbered from 0 "
+                        "without a gap");
+  }
 }
 
 std::vector<EstimatorConfiguration> configure_list(const Settings& settings,
@@ -125,9 +143,11 @@ std::vector<EstimatorConfiguration> configure_list(const Settings& settings,
              "two estimators are called '" + list.back().name + "'; give one of them another name");
     }
   }
+  refuse_unused_items(settings, list.size());
   if (!list.empty()) return list;
-  for (const EstimatorEntry& entry : registry.entries())
+  for (const EstimatorEntry& entry : registry.entries()) {
     list.push_back({entry.name, entry.name, {}});
+  }
   return list;
 }
 
@@ -138,10 +158,11 @@ std::size_t find_reference(const Settings& settings, const Configuration& config
   for (const EstimatorConfiguration& estimator : configuration.estimators) {
     names.push_back(estimator.name);
   }
-  const auto found = std::find(names.begin(), names.end(), text_of(*setting));
+  const std::string& name = word_of(*setting, "association.reference");
+  const auto found = std::find(names.begin(), names.end(), name);
   if (found == names.end()) {
-    refuse(*setting, "association.reference: no estimator is called '" + text_of(*setting) + "'" +
-                         suggestion(text_of(*setting), names));
+    refuse(*setting, "association.reference: no estimator is called '" + name + "'" +
+                         suggestion(name, names));
   }
   return static_cast<std::size_t>(found - names.begin());
 }
@@ -149,8 +170,7 @@ std::size_t find_reference(const Settings& settings, const Configuration& config
 void refuse_keys_of_other_kind(const Settings& settings, ConfigurationKind kind) {
   for (const Setting& setting : settings.all()) {
     if (!is_estimator_key(setting.key)) continue;
-    const bool of_list =
-        setting.key.starts_with("estimators") || setting.key.starts_with("association.");
+    const bool of_list = is_list_key(setting.key);
     if (kind == ConfigurationKind::single && of_list) {
       refuse(setting, "unknown key '" + setting.key +
                           "': a list of estimators is for 'compare'; one takes 'estimator.type'");
@@ -170,6 +190,14 @@ void refuse_keys_of_other_kind(const Settings& settings, ConfigurationKind kind)
 const std::vector<DatasetEntry>& datasets() {
   static const std::vector<DatasetEntry> entries = make_datasets();
   return entries;
+}
+
+ConfigurationKind kind_of(const Settings& settings) {
+  const std::vector<Setting>& all = settings.all();
+  return std::any_of(all.begin(), all.end(),
+                     [](const Setting& setting) { return is_list_key(setting.key); })
+             ? ConfigurationKind::comparison
+             : ConfigurationKind::single;
 }
 
 EstimatorValues estimator_values(const Settings& settings, const EstimatorEntry& entry,

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include <Eigen/Eigenvalues>
 #include <ceres/autodiff_cost_function.h>
 #include <gtest/gtest.h>
 

@@ -12,25 +12,36 @@
 /// share with the estimators only ⊕, ⊖ and their Jacobians, which are tested against differences.
 namespace fathom::test {
 
-/// x, P ← the Kalman update for innovation y (of the last iteration), Joseph form.
-inline void joseph(const Eigen::MatrixXd& K, const Eigen::MatrixXd& H, const Eigen::MatrixXd& R,
-                   Eigen::MatrixXd& P) {
-  const Eigen::MatrixXd A = P - K * (H * P);  // (I − K H) P
-  P = A - (A * H.transpose()) * K.transpose() + K * R * K.transpose();
+/// Room for the covariance of a whole log.
+inline Eigen::MatrixXd zero_state(const MeasurementLog& log) {
+  const auto n = static_cast<Eigen::Index>(3 * log.size());
+  return Eigen::MatrixXd::Zero(n, n);
+}
+
+/// The covariance of a Kalman update in Joseph's form, multiplied out:
+/// (I − K H) P (I − K H)ᵀ + K R Kᵀ = P − K (P Hᵀ)ᵀ − (P Hᵀ − K S) Kᵀ.
+template <class Matrix>
+void joseph(const Eigen::MatrixXd& K, const Eigen::MatrixXd& PHt, const Eigen::MatrixXd& S,
+            Matrix P) {
+  Eigen::MatrixXd left(K.rows(), 2 * K.cols());
+  Eigen::MatrixXd right(K.rows(), 2 * K.cols());
+  left << K, PHt - K * S;
+  right << PHt, K;
+  P.noalias() -= left * right.transpose();
 }
 
 /// The paper's trajectory filter: X stacks the relative motions.
 class NaiveTrajectoryIekf {
  public:
-  NaiveTrajectoryIekf(const Pose& origin, int iterations) : origin_(origin), n_(iterations) {}
+  NaiveTrajectoryIekf(const MeasurementLog& log, int iterations)
+      : origin_(log.origin()), n_(iterations), storage_(zero_state(log)) {}
 
   void add_keyframe(const RelativePose& step) {
     const RelativePose u = step.forward();
     const Eigen::Index n = x_.size();
     x_.conservativeResize(n + 3);
     x_.tail<3>() = u.motion.vector();
-    P_.conservativeResizeLike(Eigen::MatrixXd::Zero(n + 3, n + 3));
-    P_.bottomRightCorner<3, 3>() = u.covariance();
+    P().bottomRightCorner<3, 3>() = u.covariance();
   }
 
   void close_loops(const std::vector<RelativePose>& registrations) {
@@ -39,6 +50,8 @@ class NaiveTrajectoryIekf {
     Eigen::VectorXd x = x0;
     Eigen::MatrixXd H(m, x.size());
     Eigen::MatrixXd K;
+    Eigen::MatrixXd PHt;
+    Eigen::MatrixXd S;
     Eigen::MatrixXd R = Eigen::MatrixXd::Zero(m, m);
     for (int i = 0; i < n_; ++i) {
       Eigen::VectorXd nu(m);
@@ -50,13 +63,14 @@ class NaiveTrajectoryIekf {
         H.middleRows<3>(j) = Hj;
         R.block<3, 3>(j, j) = z.covariance();
       }
-      const Eigen::MatrixXd PHt = P_ * H.transpose();
-      K = (H * PHt + R).ldlt().solve(PHt.transpose()).transpose();
+      PHt = P() * H.transpose();
+      S = H * PHt + R;
+      K = S.ldlt().solve(PHt.transpose()).transpose();
       x = x0 + K * (nu - H * (x0 - x));
     }
     x_ = x;
     for (Eigen::Index i = 2; i < x_.size(); i += 3) x_(i) = wrap_angle(x_(i));
-    joseph(K, H, R, P_);
+    joseph(K, PHt, S, P());
   }
 
   std::vector<Pose> trajectory() const {
@@ -83,16 +97,19 @@ class NaiveTrajectoryIekf {
     return {h, H};
   }
 
+  Eigen::Block<Eigen::MatrixXd> P() { return storage_.topLeftCorner(x_.size(), x_.size()); }
+
   Pose origin_;
   int n_;
   Eigen::VectorXd x_;
-  Eigen::MatrixXd P_;
+  Eigen::MatrixXd storage_;  ///< P in its top left corner, zero elsewhere
 };
 
 /// The plain EKF on absolute poses 0 … n, keyframe 0 with zero covariance.
 class NaiveEkf {
  public:
-  explicit NaiveEkf(const Pose& origin) : x_(origin.vector()), P_(Eigen::MatrixXd::Zero(3, 3)) {}
+  explicit NaiveEkf(const MeasurementLog& log)
+      : x_(log.origin().vector()), storage_(zero_state(log)) {}
 
   void add_keyframe(const RelativePose& step) {
     const RelativePose u = step.forward();
@@ -100,17 +117,13 @@ class NaiveEkf {
     Eigen::Matrix3d J_pose;
     Eigen::Matrix3d J_motion;
     const Pose next = compose(Pose::from_vector(x_.tail<3>()), u.motion, &J_pose, &J_motion);
-    Eigen::MatrixXd F = Eigen::MatrixXd::Zero(n + 3, n);
-    F.topRows(n).setIdentity();
-    F.bottomRightCorner<3, 3>() = J_pose;
-    const Eigen::MatrixXd last_rows = J_pose * P_.bottomRows<3>();
-    P_.conservativeResizeLike(Eigen::MatrixXd::Zero(n + 3, n + 3));
-    P_.bottomLeftCorner(3, n) = last_rows;
-    P_.topRightCorner(n, 3) = last_rows.transpose();
-    P_.bottomRightCorner<3, 3>() = last_rows.rightCols<3>() * J_pose.transpose() +
-                                   J_motion * u.covariance() * J_motion.transpose();
+    const Eigen::MatrixXd last_rows = J_pose * P().bottomRows<3>();
     x_.conservativeResize(n + 3);
     x_.tail<3>() = next.vector();
+    P().bottomLeftCorner(3, n) = last_rows;
+    P().topRightCorner(n, 3) = last_rows.transpose();
+    P().bottomRightCorner<3, 3>() = last_rows.rightCols<3>() * J_pose.transpose() +
+                                    J_motion * u.covariance() * J_motion.transpose();
   }
 
   void close_loops(const std::vector<RelativePose>& registrations) {
@@ -132,10 +145,11 @@ class NaiveEkf {
       nu(j + 2) = wrap_angle(nu(j + 2));
       R.block<3, 3>(j, j) = z.covariance();
     }
-    const Eigen::MatrixXd PHt = P_ * H.transpose();
-    const Eigen::MatrixXd K = (H * PHt + R).ldlt().solve(PHt.transpose()).transpose();
+    const Eigen::MatrixXd PHt = P() * H.transpose();
+    const Eigen::MatrixXd S = H * PHt + R;
+    const Eigen::MatrixXd K = S.ldlt().solve(PHt.transpose()).transpose();
     x_ += K * nu;
-    joseph(K, H, R, P_);
+    joseph(K, PHt, S, P());
   }
 
   std::vector<Pose> trajectory() const {
@@ -147,8 +161,10 @@ class NaiveEkf {
   }
 
  private:
+  Eigen::Block<Eigen::MatrixXd> P() { return storage_.topLeftCorner(x_.size(), x_.size()); }
+
   Eigen::VectorXd x_;
-  Eigen::MatrixXd P_;
+  Eigen::MatrixXd storage_;  ///< P in its top left corner, zero elsewhere
 };
 
 template <class Filter>

@@ -82,8 +82,8 @@ TEST_P(FilterOnRealLog, EqualsTheTextbookFilterAndTheRecordedCost) {
   EXPECT_NEAR(chi2(log, poses_of(*filter)), test.chi2, 2e-4 * test.chi2);
   const std::vector<Pose> reference =
       test.filter == "ekf"
-          ? test::run_naive(test::NaiveEkf(log.origin()), log)
-          : test::run_naive(test::NaiveTrajectoryIekf(log.origin(), test.iterations), log);
+          ? test::run_naive(test::NaiveEkf(log), log)
+          : test::run_naive(test::NaiveTrajectoryIekf(log, test.iterations), log);
   EXPECT_LT(largest_distance(poses_of(*filter), reference), 1e-3);
 }
 
@@ -101,7 +101,9 @@ TEST(FiltersOnIntel, StayPositiveDefiniteAndEndNearTheOptimum) {
       filter.add_keyframe(log.arrival(k).step);
       if (log.arrival(k).registrations.empty()) continue;
       EXPECT_TRUE(is_done(filter.close_loops(log.arrival(k).registrations).outcome));
-      if (++updates % 200 == 0) EXPECT_TRUE(is_positive_definite(filter.state_covariance()));
+      if (++updates % 200 == 0) {
+        EXPECT_TRUE(is_positive_definite(filter.state_covariance()));
+      }
     }
     EXPECT_EQ(updates, 785U);
     EXPECT_TRUE(is_positive_definite(filter.state_covariance()));
@@ -124,7 +126,7 @@ TEST(FiltersOnIntel, EkfEqualsTheTextbookFilter) {
   FATHOM_REQUIRE_DATA(graph("intel"));
   const MeasurementLog log = read("intel");
   const auto ekf = solved("ekf", log);
-  EXPECT_LT(largest_distance(poses_of(*ekf), test::run_naive(test::NaiveEkf(log.origin()), log)),
+  EXPECT_LT(largest_distance(poses_of(*ekf), test::run_naive(test::NaiveEkf(log), log)),
             1e-3);
 }
 
@@ -133,7 +135,7 @@ TEST(FiltersOnIntel, TrajectoryIekfEqualsTheTextbookFilter) {
   const MeasurementLog log = read("intel");
   const auto iekf = solved("trajectory_iekf", log, test::values({{"max_iterations", "1"}}));
   EXPECT_LT(largest_distance(poses_of(*iekf),
-                             test::run_naive(test::NaiveTrajectoryIekf(log.origin(), 1), log)),
+                             test::run_naive(test::NaiveTrajectoryIekf(log, 1), log)),
             1e-3);
 }
 

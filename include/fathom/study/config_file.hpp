@@ -31,12 +31,16 @@ class Settings {
 };
 
 /// Reads a YAML file as settings: maps become dotted keys; the items of a list of maps are keyed by
-/// their place, `estimators.0.type`. Throws InputError with file and line on what is no YAML, a key
-/// given twice, or a value that is neither scalar nor list.
+/// their place, `estimators.0.type`. Throws InputError with file and line on what is no YAML, more
+/// than one document, a key given twice, or a value that is neither scalar nor list.
 Settings read_settings(const std::filesystem::path& path);
 
 /// A `KEY=VALUE` of the command line; the value is YAML, so that lists can be given.
 Setting parse_override(const std::string& text);
+
+/// The single word that a setting gives; a list is refused in the name of `key`, the setting's own
+/// key before any prefix was taken off.
+const std::string& word_of(const Setting& setting, const std::string& key);
 
 /// Throws InputError at the origin of a setting.
 [[noreturn]] void refuse(const Setting& setting, const std::string& message);

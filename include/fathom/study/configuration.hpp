@@ -49,9 +49,12 @@ struct Configuration {
   std::vector<std::pair<std::string, std::string>> in_force;
 };
 
-/// `run`, `simulate` and `register` take one estimator (`estimator.…`), `compare` a list
-/// (`estimators:`; without one, every estimator with its defaults).
+/// `run` takes one estimator (`estimator.…`), `compare` a list (`estimators:`; without one, every
+/// estimator with its defaults); `simulate` and `register` take either, as they need none.
 enum class ConfigurationKind { single, comparison };
+
+/// The kind that these settings are written for: a comparison if any key is of the list alone.
+ConfigurationKind kind_of(const Settings& settings);
 
 /// Checks settings and turns them into a configuration. Throws InputError with the origin of the
 /// setting, the nearest known key or the bound that it breaks.

@@ -1,0 +1,60 @@
+#!/usr/bin/env bash
+# Installs the Debian 12 packages that Fathom needs and that are missing; with nothing missing it
+# does nothing. quickstart.sh, test.sh and lint.sh call it.
+#
+#     scripts/setup.sh          # what the build needs, its tests and benchmarks included
+#     scripts/setup.sh lint     # and what scripts/lint.sh needs
+set -euo pipefail
+
+# libopencv-dev and not OpenCV's smaller packages: it alone holds OpenCVConfig.cmake, which refuses
+# to load unless every module is there.
+packages=(
+  build-essential cmake ninja-build
+  libeigen3-dev libopencv-dev libceres-dev libsuitesparse-dev libopenblas-dev libgoogle-glog-dev
+  libyaml-cpp-dev libcli11-dev nlohmann-json3-dev
+  libgtest-dev libgmock-dev libbenchmark-dev
+  clang-format
+)
+# clang needs an omp.h of its own to read what g++ compiles with -fopenmp.
+lint_packages=(clang clang-tidy libomp-dev)
+
+fail() {
+  printf 'setup: error: %s\n' "$1" >&2
+  exit 1
+}
+
+case "${1:-}" in
+  '') ;;
+  lint) packages+=("${lint_packages[@]}") ;;
+  *) fail "unknown argument '$1'; use none, or lint" ;;
+esac
+
+missing() {
+  if ! command -v dpkg-query > /dev/null; then
+    printf '%s\n' "${packages[@]}"
+    return
+  fi
+  local installed
+  # dpkg-query fails where it does not know a package: that one is missing, which is no error here.
+  installed=$(dpkg-query --show --showformat '${db:Status-Status} ${Package}\n' \
+    "${packages[@]}" 2> /dev/null | sed -n 's/^installed //p') || true
+  comm -23 <(printf '%s\n' "${packages[@]}" | sort) <(sort -u <<< "$installed")
+}
+
+mapfile -t wanted < <(missing)
+[[ ${#wanted[@]} -gt 0 ]] || exit 0
+
+command -v apt-get > /dev/null ||
+  fail "no apt-get here to install with; on a system that is not Debian install the like of: ${wanted[*]}"
+as_root=()
+if [[ $(id -u) -ne 0 ]]; then
+  command -v sudo > /dev/null ||
+    fail "neither root nor sudo here; as root: apt-get install --no-install-recommends ${wanted[*]}"
+  as_root=(sudo)
+fi
+apt_get=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -q -y)
+
+printf 'setup: installing %s\n' "${wanted[*]}"
+"${apt_get[@]}" update || fail "apt-get update failed; is there a network?"
+"${apt_get[@]}" install --no-install-recommends "${wanted[@]}" ||
+  fail "apt-get could not install: ${wanted[*]} (Debian 12 has them all)"

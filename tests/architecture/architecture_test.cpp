@@ -1,0 +1,181 @@
+// The design's table of modules, held against every include, every link edge and every source.
+
+#include <filesystem>
+#include <fstream>
+#include <regex>
+#include <sstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "architecture/include_rules.hpp"
+
+namespace fathom::test {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+std::string content_of(const fs::path& path) {
+  std::ifstream file(path);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+// Paths from the top of the checkout.
+std::vector<std::string> files_below(const std::vector<std::string>& folders,
+                                     const std::string& name_pattern) {
+  const fs::path top = FATHOM_SOURCE_DIR;
+  const std::regex pattern(name_pattern);
+  std::vector<std::string> files;
+  for (const std::string& folder : folders) {
+    for (const auto& entry : fs::recursive_directory_iterator(
+             top / folder, fs::directory_options::follow_directory_symlink)) {
+      if (!std::regex_match(entry.path().filename().string(), pattern)) continue;
+      files.push_back(folder + "/" + entry.path().lexically_relative(top / folder).string());
+    }
+  }
+  return files;
+}
+
+std::vector<std::string> sources(const std::vector<std::string>& folders) {
+  return files_below(folders, R"(.*\.(hpp|cpp)(\.in)?)");
+}
+
+TEST(Architecture, EveryIncludeIsAllowedByTheDesign) {
+  const auto files = sources({"include", "src", "estimators", "apps"});
+  ASSERT_GT(files.size(), 100u);
+  std::size_t seen = 0;
+  for (const std::string& file : files) {
+    for (const Include& include :
+         includes_of(file, content_of(fs::path(FATHOM_SOURCE_DIR) / file))) {
+      EXPECT_THAT(complaint_about(include), IsEmpty());
+      ++seen;
+    }
+  }
+  EXPECT_GT(seen, 500u);
+}
+
+// fathom_module(NAME … PUBLIC a b PRIVATE c), fathom_estimator(NAME …) and target_link_libraries.
+TEST(Architecture, EveryLinkIsAllowedByTheDesign) {
+  const std::regex call(
+      R"((fathom_module|fathom_estimator|target_link_libraries)\s*\(\s*(\w+)([^)]*)\))");
+  std::size_t seen = 0;
+  for (const std::string& file : files_below({"src", "estimators", "apps"}, R"(CMakeLists\.txt)")) {
+    const std::string text = content_of(fs::path(FATHOM_SOURCE_DIR) / file);
+    for (std::sregex_iterator found(text.begin(), text.end(), call), end; found != end; ++found) {
+      const std::string name = (*found)[2];
+      const std::string target =
+          name == "fathom" ? "fathom_apps" : (name.starts_with("fathom_") ? "" : "fathom_") + name;
+      std::istringstream words((*found)[3].str());
+      for (std::string word; words >> word;) {
+        EXPECT_THAT(complaint_about_link(target, word), IsEmpty()) << file;
+        seen += word.starts_with("fathom_") ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_GT(seen, 15u);
+}
+
+// A library reports by value or InputError; its numbers come from seeds it is given.
+TEST(Architecture, LibrariesNeitherPrintNorExitNorRollDice) {
+  const std::regex forbidden(
+      R"(std::cout|std::cerr|std::clog|\b(f|v|vf)?printf\s*\(|\bputs\s*\(|\b_?exit\s*\(|\babort\s*\()"
+      R"(|\bterminate\s*\(|random_device|\bs?rand\s*\(|default_random_engine)");
+  for (const std::string& file : sources({"include", "src", "estimators"})) {
+    std::istringstream lines(content_of(fs::path(FATHOM_SOURCE_DIR) / file));
+    int number = 0;
+    for (std::string line; std::getline(lines, line);) {
+      ++number;
+      const std::string code = line.substr(0, line.find("//"));
+      EXPECT_FALSE(std::regex_search(code, forbidden)) << file << ":" << number << ": " << line;
+    }
+  }
+}
+
+// The rules themselves: a test that lets everything pass would be worth nothing.
+
+struct Case {
+  std::string file;
+  std::string include;  ///< with brackets or quotes
+  std::string complaint;
+};
+
+std::string judged(const Case& c) {
+  const auto includes = includes_of(c.file, "\n#include " + c.include + "\n");
+  return includes.size() == 1 ? complaint_about(includes.front()) : "not read as an include";
+}
+
+TEST(IncludeRules, RefuseWhatTheTableDoesNotAllow) {
+  const std::vector<Case> cases{
+      {"src/geometry/pose.cpp", "\"fathom/vision/camera.hpp\"", "geometry may not include vision"},
+      {"include/fathom/core/text.hpp", "\"fathom/geometry/pose.hpp\"", "core may not"},
+      {"src/evaluation/a.cpp", "\"fathom/estimation/gate.hpp\"", "evaluation may not include"},
+      {"src/report/a.cpp", "\"fathom/study/result.hpp\"", "report may not include study"},
+      {"src/vision/a.cpp", "\"fathom/datasets/world.hpp\"", "vision may not include datasets"},
+      {"src/study/a.cpp", "\"fathom/estimators/builtin.hpp\"", "study may not include estimators"},
+      {"src/study/a.cpp", "\"apps/common.hpp\"", "study may not include apps"},
+      {"src/datasets/a.cpp", "\"fathom/vision/ransac.hpp\"", "no more of vision"},
+      {"estimators/ekf/ekf.cpp", "\"fathom/vision/camera.hpp\"", "estimators may not"},
+      {"estimators/ekf/ekf.cpp", "\"fathom/evaluation/accuracy.hpp\"", "estimators may not"},
+      {"estimators/ekf/ekf.cpp", "\"estimators/ceres_pose_graph/graph.hpp\"", "estimator's own"},
+      {"apps/main.cpp", "\"estimators/ekf/ekf.hpp\"", "estimator's own"},
+      {"src/geometry/a.cpp", "\"fathom/odds/ends.hpp\"", "of no module"},
+      {"src/odds/a.cpp", "<vector>", "lies in no module"},
+      {"src/geometry/a.cpp", "\"../core/secret.hpp\"", "neither ours nor private"},
+      {"include/fathom/study/a.hpp", "\"private.hpp\"", "neither ours nor private"},
+      {"src/geometry/a.cpp", "<opencv2/core.hpp>", "not for this folder"},
+      {"src/study/a.cpp", "<opencv2/core.hpp>", "not for this folder"},
+      {"estimators/ekf/ekf.cpp", "<ceres/problem.h>", "not for this folder"},
+      {"src/datasets/world.cpp", "<yaml-cpp/yaml.h>", "not for this folder"},
+      {"include/fathom/study/a.hpp", "<nlohmann/json.hpp>", "not for this folder"},
+      {"src/core/a.cpp", "<boost/any.hpp>", "of no third party"}};
+  for (const Case& c : cases) {
+    EXPECT_THAT(judged(c), HasSubstr(c.file + ":2: ")) << c.include;
+    EXPECT_THAT(judged(c), HasSubstr(c.complaint)) << c.file;
+  }
+}
+
+TEST(IncludeRules, AllowWhatTheTableAllows) {
+  const std::vector<Case> cases{
+      {"src/vision/a.cpp", "\"fathom/core/random.hpp\"", ""},
+      {"src/vision/a.cpp", "<opencv2/core.hpp>", ""},
+      {"src/datasets/camera_yaml.cpp", "<yaml-cpp/yaml.h>", ""},
+      {"src/datasets/a.cpp", "\"fathom/vision/camera.hpp\"", ""},
+      {"src/study/a.cpp", "\"build_info.hpp\"", ""},
+      {"include/fathom/study/a.hpp", "\"fathom/evaluation/accuracy.hpp\"", ""},
+      {"estimators/builtin.cpp", "\"estimators/ekf/ekf.hpp\"", ""},
+      {"estimators/ekf/a.cpp", "\"estimators/ekf/ekf.hpp\"", ""},
+      {"estimators/ceres_pose_graph/a.cpp", "<ceres/problem.h>", ""},
+      {"apps/main.cpp", "\"fathom/estimators/builtin.hpp\"", ""}};
+  for (const Case& c : cases) EXPECT_THAT(judged(c), IsEmpty());
+}
+
+TEST(IncludeRules, JudgeLinks) {
+  EXPECT_THAT(complaint_about_link("fathom_vision", "fathom_measurements"), IsEmpty());
+  EXPECT_THAT(complaint_about_link("fathom_vision", "opencv_core"), IsEmpty());
+  EXPECT_THAT(complaint_about_link("fathom_estimators", "fathom_ekf"), IsEmpty());
+  EXPECT_THAT(complaint_about_link("fathom_ekf", "fathom_estimation"), IsEmpty());
+  EXPECT_THAT(complaint_about_link("fathom_apps", "fathom_study"), IsEmpty());
+  EXPECT_THAT(complaint_about_link("fathom_ekf", "fathom_vision"), HasSubstr("may not link"));
+  EXPECT_THAT(complaint_about_link("fathom_ekf", "fathom_ceres_pose_graph"), HasSubstr("another"));
+  EXPECT_THAT(complaint_about_link("fathom_study", "fathom_report"), HasSubstr("may not link"));
+  EXPECT_THAT(complaint_about_link("fathom_geometry", "fathom_vision"), HasSubstr("may not link"));
+}
+
+TEST(IncludeRules, ReadIncludesAndNothingElse) {
+  const auto includes = includes_of("src/core/a.cpp",
+                                    "// #include <no>\n  #  include <a/b.h> // why\n"
+                                    "#include \"c.hpp\"\nint include;\n");
+  ASSERT_EQ(includes.size(), 2u);
+  EXPECT_EQ(includes[0].target, "a/b.h");
+  EXPECT_EQ(includes[0].line, 2);
+  EXPECT_TRUE(includes[0].angled);
+  EXPECT_EQ(includes[1].target, "c.hpp");
+  EXPECT_FALSE(includes[1].angled);
+}
+
+}  // namespace
+}  // namespace fathom::test

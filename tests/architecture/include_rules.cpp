@@ -1,0 +1,165 @@
+#include "architecture/include_rules.hpp"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <string_view>
+
+namespace fathom::test {
+namespace {
+
+using Words = std::vector<std::string>;
+
+// What each module may include; and what that may include in turn.
+const std::map<std::string, Words>& module_rows() {
+  static const std::map<std::string, Words> rows{
+      {"core", {}},
+      {"geometry", {"core"}},
+      {"measurements", {"geometry"}},
+      {"vision", {"measurements"}},
+      {"datasets", {"vision", "measurements"}},
+      {"front_end", {"vision", "datasets", "measurements"}},
+      {"estimation", {"measurements"}},
+      {"evaluation", {"measurements"}},
+      {"estimators", {"estimation"}},
+      {"study", {"front_end", "estimation", "evaluation"}},
+      {"report", {"measurements", "vision"}},
+      {"apps", {"study", "report", "estimators"}}};
+  return rows;
+}
+
+bool may_use(const std::string& from, const std::string& to) {
+  if (from == to) return true;
+  const auto row = module_rows().find(from);
+  return row != module_rows().end() &&
+         std::any_of(row->second.begin(), row->second.end(),
+                     [&](const std::string& next) { return may_use(next, to); });
+}
+
+// A third party by the way its headers begin, and the folders or files that may use it.
+struct ThirdParty {
+  std::string header;
+  Words users;
+};
+
+const std::vector<ThirdParty>& third_parties() {
+  static const std::vector<ThirdParty> list{
+      {"Eigen/", {""}},
+      {"opencv2/", {"vision/", "datasets/", "front_end/", "report/", "apps/"}},
+      {"ceres/", {"estimators/ceres_pose_graph/"}},
+      {"yaml-cpp/", {"src/study/", "src/datasets/camera_yaml.cpp"}},
+      {"nlohmann/", {"src/study/"}},
+      {"cblas.h", {"src/vision/", "src/estimation/", "apps/main.cpp"}},
+      {"CLI/", {"apps/"}},
+      {"glog/", {"apps/main.cpp"}},
+      {"omp.h", {"apps/main.cpp"}},
+      {"malloc.h", {"apps/memory_meter.cpp"}},
+      {"unistd.h", {"src/core/files.cpp", "apps/common.cpp"}}};
+  return list;
+}
+
+bool is_one_of(const std::string& file, const Words& users) {
+  for (const std::string& user : users) {
+    if (file.starts_with(user)) return true;
+    const bool module = user.find('/') == user.size() - 1;
+    if (module && (file.starts_with("src/" + user) || file.starts_with("include/fathom/" + user))) {
+      return true;
+    }
+  }
+  return false;
+}
+
+// "vision" of src/vision/…, include/fathom/vision/…, or of an include of fathom/vision/….
+std::optional<std::string> module_of(const std::string& path) {
+  for (const std::string root : {"src/", "include/fathom/", "fathom/"}) {
+    if (!path.starts_with(root)) continue;
+    return path.substr(root.size(), path.find('/', root.size()) - root.size());
+  }
+  if (path.starts_with("estimators/")) return "estimators";
+  if (path.starts_with("apps/")) return "apps";
+  return std::nullopt;
+}
+
+std::string folder_of(const std::string& path) {
+  return path.substr(0, path.rfind('/') + 1);
+}
+
+std::string judge_angled(const Include& include) {
+  // A header of the standard library has neither a folder nor an ending.
+  if (include.target.find_first_of("/.") == std::string::npos) return "";
+  for (const ThirdParty& party : third_parties()) {
+    if (!include.target.starts_with(party.header)) continue;
+    return is_one_of(include.file, party.users) ? "" : "is not for this folder";
+  }
+  return "is of no third party that the design names";
+}
+
+std::string judge_quoted(const Include& include) {
+  const std::string from = *module_of(include.file);
+  const auto to = module_of(include.target);
+  if (!to) {
+    // A private header of the same folder.
+    const bool is_private = include.target.find('/') == std::string::npos;
+    return is_private && include.file.starts_with("src/") ? "" : "is neither ours nor private";
+  }
+  if (!module_rows().contains(*to)) return "is of no module that the design names";
+  if (!may_use(from, *to)) return from + " may not include " + *to;
+  const bool sees_a_camera = include.target == "fathom/vision/camera.hpp";
+  if (from == "datasets" && *to == "vision" && !sees_a_camera) {
+    return "datasets may include no more of vision than its camera";
+  }
+  if (!include.target.starts_with("estimators/")) return "";
+  const bool is_own = folder_of(include.file) == folder_of(include.target);
+  return is_own || include.file == "estimators/builtin.cpp"
+             ? ""
+             : "is an estimator's own; only its folder and builtin.cpp may include it";
+}
+
+}  // namespace
+
+std::vector<Include> includes_of(const std::string& file, const std::string& text) {
+  static const std::regex kInclude(R"(^\s*#\s*include\s*([<"])([^>"]+)[>"].*$)");
+  std::vector<Include> includes;
+  std::istringstream lines(text);
+  int number = 0;
+  for (std::string line; std::getline(lines, line);) {
+    ++number;
+    std::smatch found;
+    if (std::regex_match(line, found, kInclude)) {
+      includes.push_back({file, number, found[2], found[1] == "<"});
+    }
+  }
+  return includes;
+}
+
+std::string complaint_about(const Include& include) {
+  const auto from = module_of(include.file);
+  const std::string what = !from || !module_rows().contains(*from)
+                               ? "lies in no module that the design names"
+                           : include.angled ? judge_angled(include)
+                                            : judge_quoted(include);
+  if (what.empty()) return "";
+  return include.file + ":" + std::to_string(include.line) + ": " + include.target + ": " + what;
+}
+
+std::string complaint_about_link(const std::string& target, const std::string& linked) {
+  constexpr std::string_view kOurs = "fathom_";
+  if (!linked.starts_with(kOurs)) return "";
+  // Each estimator is a target of its own, of no other name in the table.
+  const auto module = [&](const std::string& name) {
+    const std::string bare = name.starts_with(kOurs) ? name.substr(kOurs.size()) : name;
+    return module_rows().contains(bare) ? bare : std::string("estimators");
+  };
+  const std::string from = module(target);
+  const std::string to = module(linked);
+  const bool between_estimators = from == "estimators" && to == "estimators";
+  if (between_estimators) {
+    return target == "fathom_estimators" ? "" : target + " links another estimator, " + linked;
+  }
+  return from != to && may_use(from, to) ? "" : target + " may not link " + linked;
+}
+
+}  // namespace fathom::test
