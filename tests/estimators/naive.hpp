@@ -19,7 +19,8 @@ inline Eigen::MatrixXd zero_state(const MeasurementLog& log) {
 }
 
 /// The covariance of a Kalman update in Joseph's form, multiplied out:
-/// (I − K H) P (I − K H)ᵀ + K R Kᵀ = P − K (P Hᵀ)ᵀ − (P Hᵀ − K S) Kᵀ.
+/// (I − K H) P (I − K H)ᵀ + K R Kᵀ = P − K (P Hᵀ)ᵀ − (P Hᵀ − K S) Kᵀ. Only the lower triangle of P
+/// is kept and read: with both, the filter blows up on intel after some hundred loops.
 template <class Matrix>
 void joseph(const Eigen::MatrixXd& K, const Eigen::MatrixXd& PHt, const Eigen::MatrixXd& S,
             Matrix P) {
@@ -27,7 +28,7 @@ void joseph(const Eigen::MatrixXd& K, const Eigen::MatrixXd& PHt, const Eigen::M
   Eigen::MatrixXd right(K.rows(), 2 * K.cols());
   left << K, PHt - K * S;
   right << PHt, K;
-  P.noalias() -= left * right.transpose();
+  P.template triangularView<Eigen::Lower>() -= left * right.transpose();
 }
 
 /// The paper's trajectory filter: X stacks the relative motions.
@@ -63,7 +64,7 @@ class NaiveTrajectoryIekf {
         H.middleRows<3>(j) = Hj;
         R.block<3, 3>(j, j) = z.covariance();
       }
-      PHt = P() * H.transpose();
+      PHt = P().selfadjointView<Eigen::Lower>() * H.transpose();
       S = H * PHt + R;
       K = S.ldlt().solve(PHt.transpose()).transpose();
       x = x0 + K * (nu - H * (x0 - x));
@@ -102,7 +103,7 @@ class NaiveTrajectoryIekf {
   Pose origin_;
   int n_;
   Eigen::VectorXd x_;
-  Eigen::MatrixXd storage_;  ///< P in its top left corner, zero elsewhere
+  Eigen::MatrixXd storage_;  ///< the lower triangle of P in its top left corner
 };
 
 /// The plain EKF on absolute poses 0 … n, keyframe 0 with zero covariance.
@@ -117,11 +118,13 @@ class NaiveEkf {
     Eigen::Matrix3d J_pose;
     Eigen::Matrix3d J_motion;
     const Pose next = compose(Pose::from_vector(x_.tail<3>()), u.motion, &J_pose, &J_motion);
-    const Eigen::MatrixXd last_rows = J_pose * P().bottomRows<3>();
+    Eigen::MatrixXd last_rows = P().bottomRows<3>();
+    last_rows.rightCols<3>() =
+        P().bottomRightCorner<3, 3>().selfadjointView<Eigen::Lower>() * Eigen::Matrix3d::Identity();
+    last_rows = (J_pose * last_rows).eval();
     x_.conservativeResize(n + 3);
     x_.tail<3>() = next.vector();
     P().bottomLeftCorner(3, n) = last_rows;
-    P().topRightCorner(n, 3) = last_rows.transpose();
     P().bottomRightCorner<3, 3>() = last_rows.rightCols<3>() * J_pose.transpose() +
                                     J_motion * u.covariance() * J_motion.transpose();
   }
@@ -145,7 +148,7 @@ class NaiveEkf {
       nu(j + 2) = wrap_angle(nu(j + 2));
       R.block<3, 3>(j, j) = z.covariance();
     }
-    const Eigen::MatrixXd PHt = P() * H.transpose();
+    const Eigen::MatrixXd PHt = P().selfadjointView<Eigen::Lower>() * H.transpose();
     const Eigen::MatrixXd S = H * PHt + R;
     const Eigen::MatrixXd K = S.ldlt().solve(PHt.transpose()).transpose();
     x_ += K * nu;
@@ -164,7 +167,7 @@ class NaiveEkf {
   Eigen::Block<Eigen::MatrixXd> P() { return storage_.topLeftCorner(x_.size(), x_.size()); }
 
   Eigen::VectorXd x_;
-  Eigen::MatrixXd storage_;  ///< P in its top left corner, zero elsewhere
+  Eigen::MatrixXd storage_;  ///< the lower triangle of P in its top left corner
 };
 
 template <class Filter>

@@ -81,9 +81,8 @@ TEST_P(FilterOnRealLog, EqualsTheTextbookFilterAndTheRecordedCost) {
   EXPECT_TRUE(is_done(test::feed(*filter, log)));
   EXPECT_NEAR(chi2(log, poses_of(*filter)), test.chi2, 2e-4 * test.chi2);
   const std::vector<Pose> reference =
-      test.filter == "ekf"
-          ? test::run_naive(test::NaiveEkf(log), log)
-          : test::run_naive(test::NaiveTrajectoryIekf(log, test.iterations), log);
+      test.filter == "ekf" ? test::run_naive(test::NaiveEkf(log), log)
+                           : test::run_naive(test::NaiveTrajectoryIekf(log, test.iterations), log);
   EXPECT_LT(largest_distance(poses_of(*filter), reference), 1e-3);
 }
 
@@ -126,17 +125,16 @@ TEST(FiltersOnIntel, EkfEqualsTheTextbookFilter) {
   FATHOM_REQUIRE_DATA(graph("intel"));
   const MeasurementLog log = read("intel");
   const auto ekf = solved("ekf", log);
-  EXPECT_LT(largest_distance(poses_of(*ekf), test::run_naive(test::NaiveEkf(log), log)),
-            1e-3);
+  EXPECT_LT(largest_distance(poses_of(*ekf), test::run_naive(test::NaiveEkf(log), log)), 1e-3);
 }
 
 TEST(FiltersOnIntel, TrajectoryIekfEqualsTheTextbookFilter) {
   FATHOM_REQUIRE_DATA(graph("intel"));
   const MeasurementLog log = read("intel");
   const auto iekf = solved("trajectory_iekf", log, test::values({{"max_iterations", "1"}}));
-  EXPECT_LT(largest_distance(poses_of(*iekf),
-                             test::run_naive(test::NaiveTrajectoryIekf(log, 1), log)),
-            1e-3);
+  EXPECT_LT(
+      largest_distance(poses_of(*iekf), test::run_naive(test::NaiveTrajectoryIekf(log, 1), log)),
+      1e-3);
 }
 
 }  // namespace
