@@ -113,6 +113,8 @@ void compare(const RunFlags& flags, Context& context) {
                            results);
   write_file(folder.path() / "table.txt",
              result_table(recording, results, configuration.alignment));
+  write_file(folder.path() / "metrics.json", comparison_json(results, recording));
+  write_recording(folder.path(), recording);
   folder.commit();
   if (flags.common.quiet) return;
   print_front_end(recording);

@@ -1,12 +1,15 @@
 #include "fathom/core/files.hpp"
 
+#include <cerrno>
 #include <fstream>
+#include <signal.h>
 #include <sstream>
 #include <system_error>
 #include <unistd.h>
 #include <utility>
 
 #include "fathom/core/input_error.hpp"
+#include "fathom/core/text.hpp"
 
 namespace fathom {
 
@@ -38,6 +41,24 @@ void write_file(const fs::path& path, std::string_view content) {
   throw InputError(path.string(), "cannot be written; is the folder there, writable and not full?");
 }
 
+namespace {
+
+const std::string kStagingPrefix = ".partial-";
+
+// What a killed process left in the target.
+void remove_abandoned(const fs::path& target) {
+  std::error_code error;
+  for (const fs::directory_entry& entry : fs::directory_iterator(target, error)) {
+    const std::string name = entry.path().filename().string();
+    if (!name.starts_with(kStagingPrefix)) continue;
+    const auto pid = parse_integer(name.substr(kStagingPrefix.size()));
+    const bool alive = pid && (::kill(static_cast<pid_t>(*pid), 0) == 0 || errno == EPERM);
+    if (!alive) fs::remove_all(entry.path(), error);
+  }
+}
+
+}  // namespace
+
 StagedFolder::StagedFolder(fs::path target) : target_(fs::absolute(std::move(target))) {
   std::error_code error;
   if (fs::exists(target_, error) && !fs::is_directory(target_, error)) {
@@ -47,19 +68,27 @@ StagedFolder::StagedFolder(fs::path target) : target_(fs::absolute(std::move(tar
        folder = folder.parent_path()) {
     first_created_ = folder;
   }
-  staging_ = target_ / (".partial-" + std::to_string(::getpid()));
+  remove_abandoned(target_);
+  staging_ = target_ / (kStagingPrefix + std::to_string(::getpid()));
   fs::create_directories(staging_, error);
   if (error) {
-    std::error_code ignored;
-    if (!first_created_.empty()) fs::remove_all(first_created_, ignored);
+    discard();
     throw InputError(target_.string(), "cannot be made: " + error.message());
   }
 }
 
+// Of the folders made for the target only those that are empty: another process may use them too.
+void StagedFolder::discard() {
+  std::error_code error;
+  fs::remove_all(staging_, error);
+  if (first_created_.empty()) return;
+  for (fs::path folder = target_; fs::remove(folder, error) && folder != first_created_;) {
+    folder = folder.parent_path();
+  }
+}
+
 StagedFolder::~StagedFolder() {
-  if (committed_) return;
-  std::error_code ignored;
-  fs::remove_all(first_created_.empty() ? staging_ : first_created_, ignored);
+  if (!committed_) discard();
 }
 
 void StagedFolder::commit() {

@@ -122,6 +122,10 @@ Settings Settings::below(const std::string& prefix) const {
 
 Settings read_settings(const std::filesystem::path& path) {
   const std::string content = read_file(path);
+  // It would end the text there, and all that follows would go unread.
+  if (content.find('\0') != std::string::npos) {
+    throw InputError(path.string(), "not YAML: holds a zero byte");
+  }
   Settings settings;
   try {
     const std::vector<YAML::Node> documents = YAML::LoadAll(content);

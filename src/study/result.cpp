@@ -71,6 +71,37 @@ double initial_chi2(const Recording& recording, const ReplayOptions& options) {
   return chi2(recording.log, recording.log.odometry());
 }
 
+Json metrics_of(const Result& result, const Recording& recording) {
+  Json json;
+  json["estimator"] = result.estimator.type;
+  json["name"] = result.estimator.name;
+  json["mode"] = result.mode == SolveMode::batch ? "batch" : "incremental";
+  json["outcome"] = name_of(result.replay.outcome);
+  for (std::size_t i = 0; i < result.replay.outcome_counts.size(); ++i) {
+    json["outcome_counts"][name_of(static_cast<Outcome>(i))] = result.replay.outcome_counts[i];
+  }
+  json["iterations"] = result.replay.iterations;
+  json["keyframes"] = recording.log.size();
+  json["registrations"] = recording.log.registration_count();
+  json["loop_closures"] = result.loop_closures;
+  json["rejected"] = result.rejected;
+  put(json, "chi2", result.chi2);
+  put(json, "chi2_initial", result.chi2_initial);
+  put(json, "chi2_used", result.replay.cost_used);
+  put_accuracy(json, result, recording);
+  if (result.consistency) {
+    put(json, "anees", result.consistency->anees);
+    put(json, "position_anees", result.consistency->position_anees);
+    put(json, "share_inside_2_sigma", result.consistency->share_inside_2_sigma);
+  }
+  if (result.update_ms) json["update_ms"] = json_of(*result.update_ms);
+  put(json, "total_ms", result.replay.total_ms);
+  if (result.replay.covariances) put(json, "covariance_ms", result.replay.covariance_ms);
+  if (result.replay.memory_bytes) json["memory_bytes"] = *result.replay.memory_bytes;
+  put_loops(json, result);
+  return json;
+}
+
 }  // namespace
 
 Result evaluate(const Recording& recording, const EstimatorConfiguration& estimator,
@@ -103,34 +134,13 @@ std::optional<Accuracy> dead_reckoning_accuracy(const Recording& recording, Alig
 }
 
 std::string metrics_json(const Result& result, const Recording& recording) {
-  Json json;
-  json["estimator"] = result.estimator.type;
-  json["name"] = result.estimator.name;
-  json["mode"] = result.mode == SolveMode::batch ? "batch" : "incremental";
-  json["outcome"] = name_of(result.replay.outcome);
-  for (std::size_t i = 0; i < result.replay.outcome_counts.size(); ++i) {
-    json["outcome_counts"][name_of(static_cast<Outcome>(i))] = result.replay.outcome_counts[i];
-  }
-  json["iterations"] = result.replay.iterations;
-  json["keyframes"] = recording.log.size();
-  json["registrations"] = recording.log.registration_count();
-  json["loop_closures"] = result.loop_closures;
-  json["rejected"] = result.rejected;
-  put(json, "chi2", result.chi2);
-  put(json, "chi2_initial", result.chi2_initial);
-  put(json, "chi2_used", result.replay.cost_used);
-  put_accuracy(json, result, recording);
-  if (result.consistency) {
-    put(json, "anees", result.consistency->anees);
-    put(json, "position_anees", result.consistency->position_anees);
-    put(json, "share_inside_2_sigma", result.consistency->share_inside_2_sigma);
-  }
-  if (result.update_ms) json["update_ms"] = json_of(*result.update_ms);
-  put(json, "total_ms", result.replay.total_ms);
-  if (result.replay.covariances) put(json, "covariance_ms", result.replay.covariance_ms);
-  if (result.replay.memory_bytes) json["memory_bytes"] = *result.replay.memory_bytes;
-  put_loops(json, result);
-  return json.dump(2) + "\n";
+  return metrics_of(result, recording).dump(2) + "\n";
+}
+
+std::string comparison_json(const std::vector<Result>& results, const Recording& recording) {
+  Json list = Json::array();
+  for (const Result& result : results) list.push_back(metrics_of(result, recording));
+  return list.dump(2) + "\n";
 }
 
 }  // namespace fathom

@@ -43,19 +43,23 @@ std::vector<StampedPose> keyframe_trajectory(const Recording& recording,
   return trajectory;
 }
 
+void write_recording(const std::filesystem::path& folder, const Recording& recording) {
+  write_file(folder / "dead_reckoning.tum", to_tum(dead_reckoning(recording)));
+  write_file(folder / "measurements.g2o", to_g2o(recording.log));
+  if (const auto truth = ground_truth(recording); !truth.empty()) {
+    write_file(folder / "ground_truth.tum", to_tum(truth));
+  }
+}
+
 void write_run(const std::filesystem::path& folder, const Recording& recording,
                const Result& result, const std::string& manifest) {
   const std::vector<Pose>& poses = result.replay.trajectory;
+  write_recording(folder, recording);
   write_file(folder / "trajectory.tum", to_tum(keyframe_trajectory(recording, poses)));
-  write_file(folder / "dead_reckoning.tum", to_tum(dead_reckoning(recording)));
-  write_file(folder / "measurements.g2o", to_g2o(recording.log));
   write_file(folder / "metrics.json", metrics_json(result, recording));
   write_file(folder / "run.json", manifest);
   if (!recording.frames.empty()) {
     write_file(folder / "frames.tum", to_tum(frame_trajectory(recording, poses)));
-  }
-  if (const auto truth = ground_truth(recording); !truth.empty()) {
-    write_file(folder / "ground_truth.tum", to_tum(truth));
   }
 }
 

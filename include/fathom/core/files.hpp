@@ -14,7 +14,8 @@ void write_file(const std::filesystem::path& path, std::string_view content);
 
 /// An output folder that appears whole or not at all. Files are written below `path()`; `commit`
 /// moves them to the target, replacing entries of the same name and leaving others alone. Without
-/// commit nothing of them, nor a folder made for them, is left.
+/// commit nothing of them, nor a folder made for them, is left; what a killed process left there is
+/// removed by the next one.
 class StagedFolder {
  public:
   explicit StagedFolder(std::filesystem::path target);
@@ -27,6 +28,8 @@ class StagedFolder {
   void commit();
 
  private:
+  void discard();
+
   std::filesystem::path target_;
   std::filesystem::path staging_;
   std::filesystem::path first_created_;  ///< topmost folder made for the target, or empty

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "fathom/evaluation/accuracy.hpp"
 #include "fathom/evaluation/consistency.hpp"
@@ -41,5 +42,8 @@ std::optional<Accuracy> dead_reckoning_accuracy(const Recording& recording, Alig
 
 /// The content of metrics.json (docs/formats.md). What is not known is absent, never null or zero.
 std::string metrics_json(const Result& result, const Recording& recording);
+
+/// The same of a comparison: a list with an entry an estimator.
+std::string comparison_json(const std::vector<Result>& results, const Recording& recording);
 
 }  // namespace fathom

@@ -13,6 +13,10 @@ namespace fathom {
 std::vector<StampedPose> keyframe_trajectory(const Recording& recording,
                                              const std::vector<Pose>& poses);
 
+/// Writes what is the same for every estimator: `dead_reckoning.tum`, `measurements.g2o`, and
+/// `ground_truth.tum` where there is truth. Throws InputError.
+void write_recording(const std::filesystem::path& folder, const Recording& recording);
+
 /// Writes the text files of one estimator's run into an existing folder (docs/formats.md):
 /// `trajectory.tum`, `dead_reckoning.tum`, `measurements.g2o`, `metrics.json`, `run.json`, and
 /// `frames.tum` and `ground_truth.tum` where there are frames and truth. Throws InputError.
