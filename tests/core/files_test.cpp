@@ -103,6 +103,19 @@ TEST_F(Files, WithoutCommitNothingIsLeftNotEvenItsFolders) {
   EXPECT_THAT(entries(folder_.path()), UnorderedElementsAre("kept"));
 }
 
+TEST_F(Files, WhatAKilledProcessLeftIsRemovedAndWhatALiveOneHasIsNot) {
+  // Process numbers end at 2^22 on Linux; process 1 is always there.
+  for (const std::string name : {".partial-99999999", ".partial-1"}) {
+    fs::create_directory(folder_ / name);
+    put(folder_ / name / "half.txt", "h");
+  }
+  StagedFolder staged(folder_.path());
+  put(staged.path() / "whole.txt", "w");
+  staged.commit();
+  EXPECT_THAT(entries(folder_.path()),
+              UnorderedElementsAre(".partial-1", ".partial-1/half.txt", "whole.txt"));
+}
+
 TEST_F(Files, ATrailingSlashChangesNothing) {
   { const StagedFolder staged((folder_ / "new/").string()); }
   EXPECT_THAT(entries(folder_.path()), IsEmpty());
