@@ -50,6 +50,10 @@ std::string parse_error_text(const CLI::App& app, const CLI::ParseError& error, 
     return "unknown command '" + std::string(argv[1]) + "'" + suggestion(argv[1], names) +
            " (fathom --help lists them)";
   }
+  if (argc > 1 && argv[1][0] == '-' && app.get_subcommands().empty()) {
+    return "unknown flag '" + std::string(argv[1]) + "'" +
+           suggestion(argv[1], {"--help", "--version"}) + " (see --help)";
+  }
   return std::string(error.what()) + " (see --help)";
 }
 

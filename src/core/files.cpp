@@ -59,7 +59,7 @@ void remove_abandoned(const fs::path& target) {
 
 }  // namespace
 
-StagedFolder::StagedFolder(fs::path target) : target_(fs::absolute(std::move(target))) {
+StagedFolder::StagedFolder(const fs::path& target) : target_(fs::absolute(target)) {
   std::error_code error;
   if (fs::exists(target_, error) && !fs::is_directory(target_, error)) {
     throw InputError(target_.string(), "is a file; --out takes a folder");

@@ -49,7 +49,7 @@ ImageFolder::ImageFolder(const fs::path& path) {
   read_altitudes(mav0);
   read_odometry(mav0);
   read_ground_truth(mav0);
-  image(0);
+  ImageFolder::image(0);  // refuses what cannot be read before a run starts
 }
 
 void ImageFolder::read_frames(const fs::path& mav0) {

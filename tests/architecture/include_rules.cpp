@@ -57,6 +57,7 @@ const std::vector<ThirdParty>& third_parties() {
       {"glog/", {"apps/main.cpp"}},
       {"omp.h", {"apps/main.cpp"}},
       {"malloc.h", {"apps/memory_meter.cpp"}},
+      {"signal.h", {"src/core/files.cpp"}},
       {"unistd.h", {"src/core/files.cpp", "apps/common.cpp"}}};
   return list;
 }

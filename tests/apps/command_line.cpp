@@ -1,0 +1,87 @@
+#include "apps/command_line.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <fcntl.h>
+#include <fstream>
+#include <sys/wait.h>
+#include <thread>
+#include <unistd.h>
+
+#include "fathom/core/files.hpp"
+
+namespace fathom::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+// In the child: into the folder, output into files, and the program in its place.
+[[noreturn]] void become_fathom(const fs::path& folder, const fs::path& out, const fs::path& err,
+                                std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), "fathom");
+  std::vector<char*> argv;
+  for (std::string& argument : arguments) argv.push_back(argument.data());
+  argv.push_back(nullptr);
+  constexpr int kFlags = O_WRONLY | O_CREAT | O_TRUNC;
+  const int out_file = ::open(out.c_str(), kFlags, 0600);
+  const int err_file = ::open(err.c_str(), kFlags, 0600);
+  if (::chdir(folder.c_str()) == 0 && ::dup2(out_file, 1) == 1 && ::dup2(err_file, 2) == 2) {
+    ::execv(FATHOM_BINARY, argv.data());
+  }
+  ::_exit(127);
+}
+
+}  // namespace
+
+Ended CommandLine::fathom(const Arguments& arguments,
+                          const std::function<void(pid_t)>& while_running) const {
+  const TemporaryFolder output;
+  const pid_t child = ::fork();
+  if (child == 0) become_fathom(folder_.path(), output / "out", output / "err", arguments);
+  int status = 0;
+  while (::waitpid(child, &status, while_running ? WNOHANG : 0) == 0) {
+    while_running(child);
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status),
+          read_file(output / "out"), read_file(output / "err")};
+}
+
+Ended CommandLine::fathom_done(const Arguments& arguments) const {
+  const Ended ended = fathom(arguments);
+  EXPECT_EQ(ended.status, 0) << ended.err;
+  EXPECT_EQ(ended.err, "");
+  return ended;
+}
+
+std::string CommandLine::refusal(const Arguments& arguments) const {
+  const std::set<std::string> before = tree();
+  const Ended ended = fathom(arguments);
+  EXPECT_EQ(ended.status, 2) << ended.err;
+  EXPECT_EQ(ended.out, "");
+  EXPECT_EQ(tree(), before);
+  const std::string opening = "fathom: error: ";
+  EXPECT_EQ(std::count(ended.err.begin(), ended.err.end(), '\n'), 1) << ended.err;
+  EXPECT_TRUE(ended.err.starts_with(opening) && ended.err.ends_with("\n")) << ended.err;
+  return ended.err.substr(std::min(opening.size(), ended.err.size()));
+}
+
+std::string CommandLine::write(const std::string& name, const std::string& content) const {
+  fs::create_directories(path(name).parent_path());
+  std::ofstream(path(name), std::ios::binary) << content;
+  return name;
+}
+
+nlohmann::json CommandLine::json_of(const std::string& name) const {
+  return nlohmann::json::parse(read_file(path(name)));
+}
+
+std::set<std::string> CommandLine::tree() const {
+  std::set<std::string> names;
+  for (const auto& entry : fs::recursive_directory_iterator(folder_.path())) {
+    names.insert(entry.path().lexically_relative(folder_.path()).string());
+  }
+  return names;
+}
+
+}  // namespace fathom::test

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <set>
+#include <string>
+#include <sys/types.h>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "support/temporary_folder.hpp"
+
+namespace fathom::test {
+
+/// What a command left: its exit status (128 + signal if one ended it) and what it printed.
+struct Ended {
+  int status = -1;
+  std::string out;
+  std::string err;
+};
+
+/// Runs the real program in a new folder of the test's own.
+class CommandLine : public ::testing::Test {
+ protected:
+  using Arguments = std::vector<std::string>;
+
+  /// `while_running` is called with the process id, again and again, until the program has ended.
+  Ended fathom(const Arguments& arguments,
+               const std::function<void(pid_t)>& while_running = {}) const;
+
+  /// As above, and the program must succeed.
+  Ended fathom_done(const Arguments& arguments) const;
+
+  /// The program must refuse its input: status 2, nothing on standard output, one line
+  /// `fathom: error: …` on standard error, and not a file more or less than before. Returns what
+  /// stands after `fathom: error: `.
+  std::string refusal(const Arguments& arguments) const;
+
+  /// Writes a file of the folder and returns its name.
+  std::string write(const std::string& name, const std::string& content) const;
+
+  std::filesystem::path path(const std::string& name) const { return folder_ / name; }
+  nlohmann::json json_of(const std::string& name) const;
+  /// Everything in the folder, relative to it.
+  std::set<std::string> tree() const;
+
+ private:
+  TemporaryFolder folder_;
+};
+
+}  // namespace fathom::test

@@ -1,0 +1,246 @@
+// Each command does its work: outputs there, parsable, and in agreement.
+
+#include <cmath>
+#include <filesystem>
+#include <regex>
+
+#include <gmock/gmock.h>
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
+
+#include "apps/command_line.hpp"
+#include "apps/graphs.hpp"
+#include "fathom/core/files.hpp"
+#include "fathom/geometry/trajectory.hpp"
+#include "fathom/measurements/g2o.hpp"
+#include "study/small_config.hpp"
+#include "support/planar.hpp"
+
+namespace fathom::test {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::IsSupersetOf;
+
+class Commands : public CommandLine {
+ protected:
+  void expect_picture(const std::string& name) const {
+    const cv::Mat picture = cv::imread(path(name).string());
+    ASSERT_FALSE(picture.empty()) << name;
+    cv::Scalar mean;
+    cv::Scalar deviation;
+    cv::meanStdDev(picture, mean, deviation);
+    EXPECT_GT(deviation[0], 1.0) << name << " is blank";
+  }
+
+  std::string bytes_of(const std::string& name) const { return read_file(path(name)); }
+
+  std::vector<StampedPose> tum(const std::string& name) const { return read_tum(path(name)); }
+
+  void expect_same_trajectory(const std::string& a, const std::string& b, double tolerance) const {
+    const auto first = tum(a);
+    const auto second = tum(b);
+    ASSERT_EQ(first.size(), second.size());
+    for (std::size_t i = 0; i < first.size(); ++i) {
+      EXPECT_EQ(first[i].time_ns, second[i].time_ns);
+      EXPECT_LE(distance(first[i].pose, second[i].pose), tolerance) << i;
+    }
+  }
+};
+
+TEST_F(Commands, RunWritesItsFolder) {
+  write("c.yaml", kSmallSurvey);
+  const Ended ended = fathom_done({"run", "c.yaml", "--out", "out", "--seed", "3", "--set",
+                                   "estimator.type=ekf", "--set", "estimator.tolerance=1e-5"});
+  EXPECT_THAT(ended.out, AllOf(HasSubstr("33 frames, 11 keyframes"), HasSubstr("ekf"),
+                               HasSubstr("dead reckoning"), HasSubstr("out/trajectory.png")));
+  const nlohmann::json metrics = json_of("out/metrics.json");
+  EXPECT_EQ(metrics.at("estimator"), "ekf");
+  for (const char* key : {"outcome", "keyframes", "loop_closures", "rejected", "chi2",
+                          "chi2_initial", "mean_position_error_m", "ate_rmse_m", "heading_rmse_rad",
+                          "anees", "update_ms", "total_ms", "alignment"}) {
+    EXPECT_TRUE(metrics.contains(key)) << key;
+  }
+  ASSERT_EQ(metrics.contains("memory_bytes"), FATHOM_MEASURES_MEMORY == 1);
+  if (FATHOM_MEASURES_MEMORY == 1) {
+    // At the least the covariance of ten poses, at the most a hundred of them.
+    EXPECT_GT(metrics.at("memory_bytes"), 30 * 30 * 8);
+    EXPECT_LT(metrics.at("memory_bytes"), 100 * 30 * 30 * 8);
+  }
+  const nlohmann::json manifest = json_of("out/run.json");
+  EXPECT_EQ(manifest.at("configuration").at("seed"), "3");
+  EXPECT_EQ(manifest.at("estimator").at("options").at("tolerance"), "1e-5");
+  EXPECT_THAT(manifest.at("command_line").get<std::string>(), HasSubstr("run c.yaml --out out"));
+  EXPECT_EQ(tum("out/trajectory.tum").size(), 11u);
+  EXPECT_EQ(tum("out/frames.tum").size(), 33u);
+  EXPECT_EQ(tum("out/dead_reckoning.tum").size(), 33u);
+  EXPECT_EQ(tum("out/ground_truth.tum").size(), 33u);
+  EXPECT_EQ(read_g2o(path("out/measurements.g2o")).size(), 11u);
+  expect_picture("out/trajectory.png");
+}
+
+TEST_F(Commands, RunsFolderHasTheConfigurationsName) {
+  write("c.yaml", kSmallSurvey);
+  fathom_done({"run", "c.yaml"});
+  EXPECT_TRUE(std::filesystem::exists(path("runs/c/metrics.json")));
+}
+
+TEST_F(Commands, TwoRunsAreTheSameByteForByte) {
+  write("c.yaml", std::string(kSmallSurvey) + kVisualOdometry);
+  fathom_done({"run", "c.yaml", "--out", "a"});
+  fathom_done({"run", "c.yaml", "--out", "b"});
+  for (const std::string name : {"trajectory.tum", "frames.tum", "measurements.g2o"}) {
+    EXPECT_EQ(bytes_of("a/" + name), bytes_of("b/" + name)) << name;
+  }
+}
+
+TEST_F(Commands, CompareGivesOneLogToAll) {
+  write("c.yaml", kSmallSurvey);
+  const Ended ended = fathom_done({"compare", "c.yaml", "--out", "out"});
+  const std::vector<std::string> names{"trajectory_iekf", "ekf", "ceres_pose_graph"};
+  for (const std::string& name : names) {
+    EXPECT_THAT(ended.out, HasSubstr(name));
+    EXPECT_THAT(bytes_of("out/table.txt"), HasSubstr(name));
+    EXPECT_EQ(json_of("out/" + name + "/metrics.json").at("estimator"), name);
+    EXPECT_EQ(bytes_of("out/" + name + "/measurements.g2o"), bytes_of("out/ekf/measurements.g2o"));
+    EXPECT_LT(json_of("out/" + name + "/metrics.json").at("mean_position_error_m"), 0.02);
+    expect_picture("out/" + name + "/trajectory.png");
+  }
+  expect_picture("out/trajectories.png");
+}
+
+TEST_F(Commands, SolveOnARunsLogIsTheRunToTheLastBit) {
+  write("c.yaml", kSmallSurvey);
+  fathom_done({"compare", "c.yaml", "--out", "out"});
+  for (const std::string name : {"trajectory_iekf", "ekf", "ceres_pose_graph"}) {
+    fathom_done({"solve", "out/" + name + "/measurements.g2o", "--estimator", name, "--mode",
+                 "incremental", "--out", "again"});
+    const auto run = tum("out/" + name + "/trajectory.tum");
+    const auto again = tum("again/trajectory.tum");
+    ASSERT_EQ(run.size(), again.size());
+    for (std::size_t k = 0; k < run.size(); ++k) {
+      EXPECT_EQ(run[k].pose, again[k].pose) << name << " " << k;
+      EXPECT_EQ(again[k].time_ns, static_cast<std::int64_t>(k) * 1'000'000'000);
+    }
+  }
+}
+
+TEST_F(Commands, ASimulationRunsFromDiskAsItDidBefore) {
+  write("c.yaml", kSmallSurvey);
+  const std::string folder = "it's a survey";  // a quote, to be written as YAML
+  for (const Arguments& more :
+       {Arguments{}, Arguments{"--set", "dataset.odometry.source=visual_odometry"}}) {
+    Arguments simulate{"simulate", "c.yaml", "--out", folder};
+    Arguments run{"run", "c.yaml", "--out", "direct"};
+    simulate.insert(simulate.end(), more.begin(), more.end());
+    run.insert(run.end(), more.begin(), more.end());
+    fathom_done(simulate);
+    fathom_done(run);
+    fathom_done({"run", folder + "/run.yaml", "--out", "disk"});
+    expect_same_trajectory("direct/trajectory.tum", "disk/trajectory.tum", 1e-9);
+    expect_same_trajectory("direct/frames.tum", "disk/frames.tum", 1e-9);
+    EXPECT_EQ(json_of("direct/metrics.json").at("registrations"),
+              json_of("disk/metrics.json").at("registrations"));
+  }
+  EXPECT_THAT(fathom_done({"check", folder}).out, HasSubstr("33 "));
+}
+
+TEST_F(Commands, AComparisonCanBeSimulated) {
+  write("c.yaml", std::string(kSmallSurvey) +
+                      "estimators: [{type: ekf}, {type: trajectory_iekf, max_iterations: 2}]\n"
+                      "association: {reference: trajectory_iekf}\n");
+  fathom_done({"simulate", "c.yaml", "--out", "data"});
+  EXPECT_THAT(bytes_of("data/run.yaml"), AllOf(HasSubstr("estimator.type: trajectory_iekf"),
+                                               HasSubstr("estimator.max_iterations: 2")));
+  EXPECT_THAT(fathom_done({"check", "data/run.yaml"}).out, HasSubstr("configuration for 'run'"));
+}
+
+TEST_F(Commands, RegisterFindsTheMotionOfTwoFrames) {
+  write("c.yaml", kSmallSurvey);
+  fathom_done({"simulate", "c.yaml", "--out", "data"});
+  const std::string pictures = "data/mav0/cam0/data/";
+  const Ended ended =
+      fathom_done({"register", pictures + "0.png", pictures + "500000000.png", "--config", "c.yaml",
+                   "--altitude-a", "2", "--altitude-b", "2.03", "--out", "out"});
+  std::smatch found;
+  ASSERT_TRUE(std::regex_search(ended.out, found, std::regex(R"(x +(-?[0-9.]+) m)"))) << ended.out;
+  EXPECT_NEAR(std::stod(found[1]), 0.25, 0.03);  // 0.5 m/s, two pictures a second
+  expect_picture("out/matches.png");
+  expect_picture("out/overlay.png");
+}
+
+TEST_F(Commands, RegisterWithoutAMatchIsStatusOne) {
+  for (const std::string name : {"a.png", "b.png"}) {
+    cv::Mat noise(120, 160, CV_8UC1);
+    cv::RNG(name == "a.png" ? 1 : 2).fill(noise, cv::RNG::UNIFORM, 0, 255);
+    cv::imwrite(path(name).string(), noise);
+  }
+  write("c.yaml", kSmallSurvey);
+  const Ended ended = fathom({"register", "a.png", "b.png", "--config", "c.yaml", "--altitude-a",
+                              "2", "--altitude-b", "2", "--out", "out"});
+  EXPECT_EQ(ended.status, 1);
+  EXPECT_THAT(ended.out, HasSubstr("not found: "));
+  EXPECT_EQ(ended.err, "");
+  expect_picture("out/matches.png");
+  EXPECT_FALSE(std::filesystem::exists(path("out/overlay.png")));
+}
+
+TEST_F(Commands, ANumericalFailureIsStatusOneAndSaysSo) {
+  write("huge.g2o",
+        "EDGE_SE2 0 1 1e200 0 0 1 0 0 1 0 1\nEDGE_SE2 1 2 1e200 0 0 1 0 0 1 0 1\n"
+        "EDGE_SE2 0 2 -1e200 0 3 1 0 0 1 0 1\n");
+  for (const std::string name : {"trajectory_iekf", "ekf", "ceres_pose_graph"}) {
+    const Ended ended = fathom({"solve", "huge.g2o", "--estimator", name, "--out", "out-" + name});
+    EXPECT_EQ(ended.status, 1) << name << ended.out;
+    const nlohmann::json metrics = json_of("out-" + name + "/metrics.json");
+    EXPECT_TRUE(metrics.at("outcome") == "numerical_failure" || metrics.at("outcome") == "diverged")
+        << metrics;
+  }
+}
+
+TEST_F(Commands, SolveTakesModeStartAndGroundTruth) {
+  write("g.g2o",
+        "VERTEX_SE2 2 0 0 0\nVERTEX_SE2 5 1.5 0 0\nVERTEX_SE2 9 2.5 0 0\n"
+        "EDGE_SE2 2 5 1 0 0 1 0 0 1 0 1\nEDGE_SE2 5 9 1 0 0 1 0 0 1 0 1\n"
+        "EDGE_SE2 9 2 -2.3 0 0 1 0 0 1 0 1\n");
+  write("truth.tum", "2 0 0 0 0 0 0 1\n5 1.1 0 0 0 0 0 1\n9 2.2 0 0 0 0 0 1\n");
+  fathom_done({"solve", "g.g2o", "--mode", "batch", "--init", "file", "--ground-truth", "truth.tum",
+               "--out", "out"});
+  const nlohmann::json metrics = json_of("out/metrics.json");
+  // By hand: three springs in a ring share the gap of 0.3 m; F = 3 · 0.1², from 0.5² + 0.2².
+  EXPECT_NEAR(metrics.at("chi2").get<double>(), 0.03, 1e-9);
+  EXPECT_NEAR(metrics.at("chi2_initial").get<double>(), 0.29, 1e-9);
+  EXPECT_NEAR(metrics.at("mean_position_error_m").get<double>(), 0.0, 1e-6);
+  EXPECT_EQ(metrics.at("mode"), "batch");
+  EXPECT_EQ(tum("out/trajectory.tum")[2].time_ns, 9'000'000'000);
+}
+
+TEST_F(Commands, EvaluateAgreesWithTheRun) {
+  write("c.yaml", kSmallSurvey);
+  fathom_done({"run", "c.yaml", "--out", "out"});
+  const Ended ended = fathom_done({"evaluate", "out/trajectory.tum", "out/ground_truth.tum",
+                                   "--step", "1", "--step", "3", "--distance", "1.5"});
+  std::smatch found;
+  ASSERT_TRUE(
+      std::regex_search(ended.out, found, std::regex(R"(mean position error \(m\) +([0-9.e-]+))")));
+  const double expected = json_of("out/metrics.json").at("mean_position_error_m");
+  EXPECT_NEAR(std::stod(found[1]), expected, 1e-5 * expected);
+  EXPECT_THAT(ended.out, AllOf(HasSubstr("11 of 11 poses"), HasSubstr("3 poses"),
+                               HasSubstr("1.50 m"), HasSubstr("alignment origin")));
+}
+
+TEST_F(Commands, ListNamesEverythingWithItsOptions) {
+  EXPECT_THAT(fathom_done({"list", "estimators"}).out,
+              AllOf(HasSubstr("trajectory_iekf: "), HasSubstr("ekf: "),
+                    HasSubstr("ceres_pose_graph: "), HasSubstr("estimator.gate_probability")));
+  EXPECT_THAT(fathom_done({"list", "detectors"}).out,
+              AllOf(HasSubstr("sift: "), HasSubstr("orb: "), HasSubstr("akaze: "),
+                    HasSubstr("brisk: "), HasSubstr("front_end.ransac.max_error_m")));
+  EXPECT_THAT(fathom_done({"list", "datasets"}).out,
+              AllOf(HasSubstr("simulated: "), HasSubstr("image_folder: "), HasSubstr("g2o: "),
+                    HasSubstr("dataset.altitude.base_m")));
+}
+
+}  // namespace
+}  // namespace fathom::test

@@ -1,0 +1,80 @@
+// Every shipped configuration runs, made small through --set.
+
+#include <filesystem>
+#include <map>
+
+#include <gmock/gmock.h>
+
+#include "apps/command_line.hpp"
+#include "support/data.hpp"
+
+namespace fathom::test {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::ElementsAreArray;
+
+class Configs : public CommandLine {
+ protected:
+  static fs::path folder() { return fs::path(FATHOM_SOURCE_DIR) / "configs"; }
+
+  /// Runs or compares it with these settings and a small camera.
+  void expect_runs(const std::string& command, const std::string& name, Arguments settings,
+                   const std::string& metrics) const {
+    Arguments arguments{command, (folder() / name).string(), "--out", "out"};
+    for (const std::string& setting : settings) {
+      arguments.insert(arguments.end(), {"--set", setting});
+    }
+    fathom_done(arguments);
+    const nlohmann::json json = json_of("out/" + metrics);
+    EXPECT_EQ(json.at("outcome"), "converged");
+    EXPECT_GT(json.at("loop_closures"), 0);
+    EXPECT_LT(json.at("mean_position_error_m"),
+              json.at("dead_reckoning").at("mean_position_error_m"));
+  }
+};
+
+const std::vector<std::string> kSmallCamera{"dataset.camera.width=200", "dataset.camera.height=150",
+                                            "dataset.camera.fx=150", "dataset.camera.fy=150",
+                                            "front_end.ransac.max_error_m=0.05"};
+
+std::vector<std::string> with_small_camera(std::vector<std::string> settings) {
+  settings.insert(settings.end(), kSmallCamera.begin(), kSmallCamera.end());
+  return settings;
+}
+
+TEST_F(Configs, AreAllTestedHere) {
+  std::set<std::string> names;
+  for (const auto& entry : fs::directory_iterator(folder())) names.insert(entry.path().filename());
+  EXPECT_THAT(names,
+              ElementsAreArray({"dunes.yaml", "image_folder.yaml", "quickstart.yaml", "run.yaml"}));
+  for (const std::string& name : names) fathom_done({"check", (folder() / name).string()});
+}
+
+TEST_F(Configs, RunRuns) {
+  expect_runs(
+      "run", "run.yaml",
+      with_small_camera({"dataset.world.metres_per_pixel=0.01", "dataset.mission.loop_length_m=3",
+                         "dataset.mission.loop_width_m=2", "dataset.mission.loop_overrun_m=1"}),
+      "metrics.json");
+}
+
+TEST_F(Configs, QuickstartRuns) {
+  expect_runs("compare", "quickstart.yaml",
+              with_small_camera({"dataset.world.metres_per_pixel=0.01", "dataset.mission.legs=2",
+                                 "dataset.mission.leg_length_m=3"}),
+              "ceres_pose_graph/metrics.json");
+}
+
+TEST_F(Configs, DunesRuns) {
+  FATHOM_REQUIRE_DATA("worlds/dunes.jpg");
+  expect_runs("compare", "dunes.yaml",
+              with_small_camera({"dataset.world.picture=" + data_path("worlds/dunes.jpg").string(),
+                                 "dataset.mission.legs=2", "dataset.mission.leg_length_m=3"}),
+              "trajectory_iekf/metrics.json");
+}
+
+// image_folder.yaml runs as it is in real_data_test.cpp.
+
+}  // namespace
+}  // namespace fathom::test

@@ -1,0 +1,141 @@
+// Help, version and misuse.
+
+#include <filesystem>
+#include <regex>
+#include <unistd.h>
+
+#include <gmock/gmock.h>
+
+#include "apps/command_line.hpp"
+#include "apps/graphs.hpp"
+#include "study/small_config.hpp"
+
+namespace fathom::test {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::StartsWith;
+
+class Usage : public CommandLine {};
+
+const std::vector<std::string>& commands() {
+  static const std::vector<std::string> all{"run",      "compare",  "solve", "register",
+                                            "simulate", "evaluate", "list",  "check"};
+  return all;
+}
+
+TEST_F(Usage, HelpListsTheCommands) {
+  const Ended ended = fathom_done({"--help"});
+  for (const std::string& command : commands()) EXPECT_THAT(ended.out, HasSubstr(command));
+}
+
+TEST_F(Usage, EveryCommandHasAnExample) {
+  for (const std::string& command : commands()) {
+    const Ended ended = fathom_done({command, "--help"});
+    EXPECT_THAT(ended.out, HasSubstr("Example: fathom " + command)) << command;
+  }
+}
+
+TEST_F(Usage, TheConfigurationsOfTheExamplesAreShipped) {
+  std::size_t seen = 0;
+  for (const std::string& command : commands()) {
+    const std::string help = fathom_done({command, "--help"}).out;
+    const std::regex name(R"(configs/\w+\.yaml)");
+    for (std::sregex_iterator found(help.begin(), help.end(), name), end; found != end; ++found) {
+      EXPECT_TRUE(std::filesystem::exists(std::filesystem::path(FATHOM_SOURCE_DIR) / found->str()))
+          << command << ": " << found->str();
+      ++seen;
+    }
+  }
+  EXPECT_GE(seen, 4u);
+}
+
+TEST_F(Usage, VersionIsOneLine) {
+  const Ended ended = fathom_done({"--version"});
+  EXPECT_TRUE(std::regex_match(ended.out, std::regex(R"(fathom \d+\.\d+\.\d+\n)"))) << ended.out;
+}
+
+TEST_F(Usage, MisuseIsOneLineAndStatusTwo) {
+  write("g.g2o", kTwoPoses);
+  const std::vector<std::pair<Arguments, std::string>> cases{
+      {{}, "subcommand is required"},
+      {{"runn", "a.yaml"}, "unknown command 'runn'; did you mean 'run'?"},
+      {{"frobnicate"}, "unknown command 'frobnicate' (fathom --help lists them)"},
+      {{"--versoin"}, "unknown flag '--versoin'; did you mean '--version'?"},
+      {{"run"}, "config is required"},
+      {{"run", "a.yaml", "b.yaml"}, "b.yaml"},
+      {{"run", "a.yaml", "--ou", "x"}, "--ou"},
+      {{"run", "a.yaml", "--out"}, "--out"},
+      {{"run", "a.yaml", "--seed", "x"}, "--seed"},
+      {{"run", "a.yaml", "--set"}, "--set"},
+      {{"solve", "g.g2o", "--mode", "sideways"}, "--mode"},
+      {{"solve", "g.g2o", "--init", "guess"}, "--init"},
+      {{"list"}, "what is required"},
+      {{"list", "robots"}, "robots not in {estimators,detectors,datasets}"},
+      {{"evaluate", "a.tum"}, "reference is required"},
+      {{"register", "a.png", "b.png"}, "--altitude-a is required"},
+      {{"register", "a.png", "b.png", "--altitude-a", "0", "--altitude-b", "1"}, "--altitude-a"},
+      {{"register", "a.png", "b.png", "--altitude-a", "1", "--altitude-b", "-1"}, "--altitude-b"}};
+  for (const auto& [arguments, message] : cases) {
+    EXPECT_THAT(refusal(arguments), HasSubstr(message));
+  }
+}
+
+TEST_F(Usage, MessagesAreOneLineWhateverIsInTheNames) {
+  EXPECT_THAT(refusal({"run", "no\nsuch\tfile"}), StartsWith("no such file: cannot be opened"));
+  EXPECT_THAT(refusal({"run", "a", "--set", "a\nb"}), Not(HasSubstr("internal")));
+  EXPECT_THAT(refusal({"fro\nbnicate"}), HasSubstr("unknown command"));
+  EXPECT_THAT(refusal({"check", std::string(5000, 'a')}), HasSubstr("name too long"));
+}
+
+TEST_F(Usage, AnOutFolderThatCannotBeIsRefused) {
+  write("g.g2o", kTwoPoses);
+  write("file", "");
+  EXPECT_THAT(refusal({"solve", "g.g2o", "--out", "file"}), HasSubstr("is a file; --out takes"));
+  EXPECT_THAT(refusal({"solve", "g.g2o", "--out", "file/below"}), HasSubstr("file/below"));
+  EXPECT_THAT(refusal({"solve", "g.g2o", "--out", std::string(5000, 'a')}),
+              Not(HasSubstr("internal")));
+}
+
+TEST_F(Usage, AReadOnlyOutFolderIsRefused) {
+  if (::geteuid() == 0) GTEST_SKIP() << "root can write anywhere";
+  write("g.g2o", kTwoPoses);
+  namespace fs = std::filesystem;
+  fs::create_directory(path("locked"));
+  fs::permissions(path("locked"), fs::perms::owner_read | fs::perms::owner_exec);
+  EXPECT_THAT(refusal({"solve", "g.g2o", "--out", "locked"}), HasSubstr("locked"));
+  EXPECT_THAT(refusal({"solve", "g.g2o", "--out", "locked/below"}), HasSubstr("locked"));
+  fs::permissions(path("locked"), fs::perms::owner_all);
+}
+
+TEST_F(Usage, AFailureLeavesAnOutFolderAsItWas) {
+  write("bad.g2o", "EDGE_SE2 0 1 nonsense\n");
+  write("out/metrics.json", "mine");
+  write("out/notes.txt", "mine too");
+  refusal({"solve", "bad.g2o", "--out", "out"});
+  refusal({"solve", "bad.g2o", "--out", "new/deep/down"});
+}
+
+TEST_F(Usage, AnotherRunReplacesItsFilesAndLeavesTheRest) {
+  write("g.g2o", kTwoPoses);
+  write("out/metrics.json", "old");
+  write("out/notes.txt", "mine");
+  fathom_done({"solve", "g.g2o", "--out", "out"});
+  EXPECT_EQ(json_of("out/metrics.json").at("keyframes"), 2);
+  EXPECT_TRUE(std::filesystem::exists(path("out/notes.txt")));
+}
+
+TEST_F(Usage, QuietPrintsNothing) {
+  write("g.g2o", kTwoPoses);
+  write("c.yaml", kSmallSurvey);
+  const std::vector<Arguments> cases{{"solve", "g.g2o"}, {"run", "c.yaml"}, {"simulate", "c.yaml"}};
+  for (Arguments arguments : cases) {
+    arguments.insert(arguments.end(), {"--quiet", "--out", "out-" + arguments[0]});
+    EXPECT_EQ(fathom_done(arguments).out, "") << arguments[0];
+    EXPECT_TRUE(std::filesystem::exists(path("out-" + arguments[0])));
+  }
+}
+
+}  // namespace
+}  // namespace fathom::test

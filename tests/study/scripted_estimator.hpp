@@ -1,0 +1,94 @@
+#pragma once
+
+#include <functional>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "fathom/estimation/registry.hpp"
+
+namespace fathom::test {
+
+/// What a ScriptedEstimator is to do, and what it was asked to.
+struct Script {
+  std::vector<UpdateReport> updates;  ///< one per close_loops, its decisions made from `rejected`
+  UpdateReport finish;
+  std::set<std::pair<std::size_t, std::size_t>> rejected;  ///< (from, to)
+  std::function<double(double)> loss = [](double chi2) { return chi2; };
+  std::optional<std::size_t> without_covariance;
+  std::optional<std::size_t> nan_pose;
+  std::function<void()> in_every_call = [] {};
+
+  std::vector<std::string> calls;
+};
+
+/// Dead reckoning that does what it is told: the harness is to be tested, not an estimator.
+class ScriptedEstimator : public Estimator {
+ public:
+  ScriptedEstimator(const EstimatorSetup& setup, Script& script)
+      : script_(script), poses_{setup.origin} {
+    script_.calls.push_back(setup.mode == SolveMode::batch ? "create batch" : "create");
+    script_.in_every_call();
+  }
+
+  std::size_t size() const override { return poses_.size(); }
+  Pose pose(std::size_t k) const override {
+    constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+    return script_.nan_pose == k ? Pose{kNaN, 0, 0} : poses_[k];
+  }
+
+  void add_keyframe(const RelativePose& step) override {
+    script_.calls.push_back("add " + std::to_string(step.to));
+    script_.in_every_call();
+    poses_.push_back(compose(poses_.back(), step.motion));
+  }
+
+  UpdateReport close_loops(std::span<const RelativePose> registrations) override {
+    script_.in_every_call();
+    UpdateReport report;
+    if (updates_ < script_.updates.size()) report = script_.updates[updates_++];
+    std::string call = "close";
+    for (const RelativePose& z : registrations) {
+      call += " " + std::to_string(z.from) + "-" + std::to_string(z.to);
+      const bool accepted = !script_.rejected.contains({z.from, z.to});
+      report.loops.push_back({z.from, z.to, accepted, 2.5});
+    }
+    script_.calls.push_back(call);
+    return report;
+  }
+
+  UpdateReport finish(std::span<const Pose> start) override {
+    script_.calls.push_back("finish from " + std::to_string(start.size()));
+    script_.in_every_call();
+    return script_.finish;
+  }
+
+  std::optional<Eigen::Matrix3d> covariance(std::size_t k) override {
+    if (script_.without_covariance == k) return std::nullopt;
+    return Eigen::Matrix3d(Eigen::Matrix3d::Identity() * static_cast<double>(k));
+  }
+
+  double loss(double chi2) const override { return script_.loss(chi2); }
+
+ private:
+  Script& script_;
+  std::vector<Pose> poses_;
+  std::size_t updates_ = 0;
+};
+
+/// An entry that makes estimators of this script, which must outlive it.
+inline EstimatorEntry scripted(Script& script) {
+  EstimatorEntry entry;
+  entry.name = "scripted";
+  entry.can_batch = true;
+  entry.create = [&script](const EstimatorSetup& setup, const EstimatorValues&) {
+    return std::make_unique<ScriptedEstimator>(setup, script);
+  };
+  return entry;
+}
+
+}  // namespace fathom::test
