@@ -77,8 +77,7 @@ void evaluate_files(const EvaluateFlags& flags, Context& context) {
 void add_evaluate(CLI::App& app, Context& context) {
   auto flags = std::make_shared<EvaluateFlags>();
   CLI::App* command = app.add_subcommand("evaluate", "Judge a trajectory by a reference");
-  command->footer(
-      "Example: fathom evaluate runs/quickstart/trajectory.tum runs/quickstart/ground_truth.tum");
+  command->footer("Example: fathom evaluate runs/run/trajectory.tum runs/run/ground_truth.tum");
   command->add_option("estimate", flags->estimate, "Trajectory (TUM)")->required();
   command->add_option("reference", flags->reference, "Reference trajectory (TUM)")->required();
   command->add_option("--alignment", flags->alignment, "none, origin or se2; never scale")

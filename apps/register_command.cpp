@@ -13,6 +13,7 @@
 #include "fathom/front_end/pair_seed.hpp"
 #include "fathom/report/match_picture.hpp"
 #include "fathom/report/picture.hpp"
+#include "fathom/report/table.hpp"
 #include "fathom/vision/registration.hpp"
 
 namespace fathom {
@@ -27,9 +28,18 @@ struct RegisterFlags {
   double altitude_b_m = 0.0;
 };
 
+void require_altitude(const std::string& flag, double altitude_m) {
+  if (std::isfinite(altitude_m) && altitude_m > 0.0) return;
+  throw InputError(flag + ": expected a height in metres > 0, got " + format_number(altitude_m, 3));
+}
+
 Camera camera_of(const Configuration& configuration) {
   if (configuration.dataset == DatasetType::image_folder && !configuration.dataset_path.empty()) {
     return ImageFolder(configuration.dataset_path).camera();
+  }
+  if (configuration.dataset != DatasetType::simulated) {
+    throw InputError(
+        "dataset: the camera of --config is that of simulated, or of image_folder with a path");
   }
   return Camera(configuration.simulation.camera.model("dataset.camera."));
 }
@@ -74,6 +84,8 @@ void print(const Registration& registration) {
 
 void register_pictures(const RegisterFlags& flags, Context& context) {
   const Settings settings = flags.common.settings(flags.config);
+  require_altitude("--altitude-a", flags.altitude_a_m);
+  require_altitude("--altitude-b", flags.altitude_b_m);
   const Configuration configuration = configure(settings, kind_of(settings), builtin_estimators());
   const Camera camera = camera_of(configuration);
   const cv::Mat a = picture_for(camera, flags.a);
@@ -92,7 +104,7 @@ void register_pictures(const RegisterFlags& flags, Context& context) {
                encode_png(render_overlay({a, camera, flags.altitude_a_m},
                                          {b, camera, flags.altitude_b_m}, registration.motion)));
   }
-  folder.commit();
+  folder.commit({"overlay.png"});
   context.status = registration.found ? kDone : kFailed;
   if (flags.common.quiet) return;
   std::printf("%zu features in A, %zu in B, ", features_a.size(), features_b.size());
@@ -115,11 +127,9 @@ void add_register(CLI::App& app, Context& context) {
       ->type_name("FILE");
   command->add_option("--altitude-a", flags->altitude_a_m, "Height of A over the floor (m)")
       ->type_name("M")
-      ->check(CLI::PositiveNumber)
       ->required();
   command->add_option("--altitude-b", flags->altitude_b_m, "Height of B over the floor (m)")
       ->type_name("M")
-      ->check(CLI::PositiveNumber)
       ->required();
   flags->common.add_settings_to(*command);
   flags->common.add_out_to(*command, "Output folder (default: runs/register)");

@@ -83,7 +83,7 @@ void run(const RunFlags& flags, Context& context) {
   write_trajectory_picture(folder.path() / "trajectory.png",
                            stem_of(flags.config) + ", " + result.estimator.name, recording,
                            results);
-  folder.commit();
+  folder.commit(optional_run_files());
   context.status = result.is_done() ? kDone : kFailed;
   if (flags.common.quiet) return;
   print_front_end(recording);
@@ -115,7 +115,7 @@ void compare(const RunFlags& flags, Context& context) {
              result_table(recording, results, configuration.alignment));
   write_file(folder.path() / "metrics.json", comparison_json(results, recording));
   write_recording(folder.path(), recording);
-  folder.commit();
+  folder.commit(optional_run_files());
   if (flags.common.quiet) return;
   print_front_end(recording);
   print_table(recording, results, configuration);

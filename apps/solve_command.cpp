@@ -110,7 +110,7 @@ void solve(const SolveFlags& flags, Context& context) {
       manifest_json(context.command_line, configuration, recording, result, builtin_estimators()));
   write_trajectory_picture(folder.path() / "trajectory.png",
                            stem_of(flags.graph) + ", " + estimator.type, recording, {result});
-  folder.commit();
+  folder.commit(optional_run_files());
   context.status = result.is_done() ? kDone : kFailed;
   if (flags.common.quiet) return;
   print(flags, recording, result);

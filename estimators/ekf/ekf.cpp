@@ -1,5 +1,6 @@
 #include "estimators/ekf/ekf.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 
@@ -15,7 +16,8 @@ Eigen::Index block_of(std::size_t k) {
   return static_cast<Eigen::Index>(k) - 1;
 }
 
-// An update that ends at so many times the cost of leaving the state alone has diverged.
+// An update that ends at so many times the cost of leaving the state alone (or 1, of a χ²) has
+// diverged.
 constexpr double kDivergence = 10.0;
 
 }  // namespace
@@ -86,7 +88,6 @@ Eigen::MatrixX3d Ekf::covariance_times_transposed(const Innovation& innovation) 
 
 UpdateReport Ekf::close_loops(std::span<const RelativePose> registrations) {
   UpdateReport report;
-  report.iterations = 1;
   std::vector<Innovation> accepted;
   for (const RelativePose& registration : registrations) {
     const Innovation innovation = innovate(registration.forward());
@@ -97,11 +98,14 @@ UpdateReport Ekf::close_loops(std::span<const RelativePose> registrations) {
     report.loops.push_back({registration.from, registration.to, passes, nis});
     if (passes) accepted.push_back(innovation);
   }
-  if (accepted.empty()) return report;
-  report.outcome = update(accepted);
-  if (!is_done(report.outcome)) {
-    for (LoopDecision& loop : report.loops) loop.accepted = false;
+  if (!has_finite_nis(report)) {
+    reject_all(report, Outcome::numerical_failure);
+    return report;
   }
+  if (accepted.empty()) return report;
+  report.iterations = 1;
+  report.outcome = update(accepted);
+  if (!is_done(report.outcome)) reject_all(report, report.outcome);
   return report;
 }
 
@@ -153,9 +157,9 @@ Outcome Ekf::update(std::span<const Innovation> accepted) {
   for (const Innovation& z : accepted) {
     cost += normalised_innovation_squared(innovation_of(z.from, z.to, z.motion), z.R);
   }
-  if (cost > kDivergence * prior_cost) {
+  if (!(cost <= kDivergence * std::max(prior_cost, 1.0))) {
     poses_ = before;
-    return Outcome::diverged;
+    return std::isfinite(cost) ? Outcome::diverged : Outcome::numerical_failure;
   }
   P_.downdate(W);
   return Outcome::converged;

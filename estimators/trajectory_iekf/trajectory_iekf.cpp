@@ -30,7 +30,8 @@ struct TrajectoryIekf::Iterate {
 
 namespace {
 
-// An update that ends at so many times the cost of leaving the state alone has diverged. Plain
+// An update that ends at so many times the cost of leaving the state alone (or 1, of a χ²: below it
+// a cost is good whatever it was) has diverged. Plain
 // iterations that have not settled end a little above it at times (on ring, twice up to 1.5 times),
 // which is for `iteration_limit` to say.
 constexpr double kDivergence = 10.0;
@@ -112,6 +113,10 @@ UpdateReport TrajectoryIekf::close_loops(std::span<const RelativePose> registrat
   for (const RelativePose& z : registrations) loops.push_back(z.forward());
   Linearisation prior = linearise_prior(loops);
   const std::vector<bool> passes = gate_loops(prior, registrations, report);
+  if (!has_finite_nis(report)) {
+    reject_all(report, Outcome::numerical_failure);
+    return report;
+  }
   if (std::find(passes.begin(), passes.end(), false) != passes.end()) {
     std::size_t j = 0;
     std::erase_if(loops, [&](const RelativePose&) { return !passes[j++]; });
@@ -119,9 +124,7 @@ UpdateReport TrajectoryIekf::close_loops(std::span<const RelativePose> registrat
     prior = linearise_prior(loops);
   }
   report.outcome = iterate(loops, std::move(prior), report);
-  if (!is_done(report.outcome)) {
-    for (LoopDecision& decision : report.loops) decision.accepted = false;
-  }
+  if (!is_done(report.outcome)) reject_all(report, report.outcome);
   return report;
 }
 
@@ -170,7 +173,9 @@ Outcome TrajectoryIekf::iterate(std::span<const RelativePose> loops, Linearisati
     const bool last = report.iterations >= options_.max_iterations || !lowered;
     if (outcome == Outcome::converged || last) break;
   }
-  if (cost(loops, first, x) > kDivergence * prior_cost) return Outcome::diverged;
+  const double end_cost = cost(loops, first, x);
+  if (!std::isfinite(end_cost)) return Outcome::numerical_failure;
+  if (end_cost > kDivergence * std::max(prior_cost, 1.0)) return Outcome::diverged;
   return apply(at, x) ? outcome : Outcome::numerical_failure;
 }
 

@@ -52,14 +52,17 @@ void remove_abandoned(const fs::path& target) {
     const std::string name = entry.path().filename().string();
     if (!name.starts_with(kStagingPrefix)) continue;
     const auto pid = parse_integer(name.substr(kStagingPrefix.size()));
-    const bool alive = pid && (::kill(static_cast<pid_t>(*pid), 0) == 0 || errno == EPERM);
+    if (!pid || *pid <= 0) continue;
+    const bool alive = ::kill(static_cast<pid_t>(*pid), 0) == 0 || errno == EPERM;
     if (!alive) fs::remove_all(entry.path(), error);
   }
 }
 
 }  // namespace
 
-StagedFolder::StagedFolder(const fs::path& target) : target_(fs::absolute(target)) {
+StagedFolder::StagedFolder(const fs::path& target)
+    : target_(fs::absolute(target).lexically_normal()) {
+  if (!target_.has_filename()) target_ = target_.parent_path();  // a trailing slash
   std::error_code error;
   if (fs::exists(target_, error) && !fs::is_directory(target_, error)) {
     throw InputError(target_.string(), "is a file; --out takes a folder");
@@ -91,8 +94,9 @@ StagedFolder::~StagedFolder() {
   if (!committed_) discard();
 }
 
-void StagedFolder::commit() {
+void StagedFolder::commit(const std::vector<std::string>& own) {
   try {
+    for (const std::string& name : own) fs::remove_all(target_ / name);
     for (const fs::directory_entry& entry : fs::directory_iterator(staging_)) {
       const fs::path destination = target_ / entry.path().filename();
       fs::remove_all(destination);

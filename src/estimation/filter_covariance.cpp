@@ -21,8 +21,9 @@ void add_product(CBLAS_TRANSPOSE op, Eigen::Index rows, Eigen::Index inner, cons
 
 void FilterCovariance::reserve(Eigen::Index rows) {
   if (rows <= storage_.rows()) return;
-  // Half as much again: appending stays linear, and the copy's peak bearable.
-  const Eigen::Index capacity = std::max<Eigen::Index>(rows + rows / 2, 96);
+  // An eighth more: all copies together cost a few times the last, and memory stays near what the
+  // state needs.
+  const Eigen::Index capacity = std::max<Eigen::Index>(rows + rows / 8, 96);
   Eigen::MatrixXd larger(capacity, capacity);
   larger.topLeftCorner(size_, size_).triangularView<Eigen::Lower>() =
       storage_.topLeftCorner(size_, size_);

@@ -1,5 +1,6 @@
 #include "fathom/estimation/gate.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -20,6 +21,17 @@ Gate::Gate(const GateOptions& options) {
 
 bool Gate::passes(double nis) const {
   return !std::isnan(nis) && (!threshold_ || nis <= *threshold_);
+}
+
+bool has_finite_nis(const UpdateReport& report) {
+  return std::all_of(report.loops.begin(), report.loops.end(), [](const LoopDecision& loop) {
+    return !loop.nis || std::isfinite(*loop.nis);
+  });
+}
+
+void reject_all(UpdateReport& report, Outcome outcome) {
+  report.outcome = outcome;
+  for (LoopDecision& loop : report.loops) loop.accepted = false;
 }
 
 double normalised_innovation_squared(const Eigen::Vector3d& innovation, const Eigen::Matrix3d& S) {

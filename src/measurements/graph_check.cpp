@@ -59,6 +59,7 @@ void count_steps(const G2oFile& file, GraphSummary& summary, const G2oFault& fau
     arrivals[keyframe_of.at(std::max(file.edges[e].from, file.edges[e].to))].push_back(e);
   }
   std::vector<std::int64_t> ids;
+  ids.reserve(keyframe_of.size());
   for (const auto& [id, keyframe] : keyframe_of) ids.push_back(id);
   for (std::size_t k = 1; k < ids.size(); ++k) {
     const auto step = find_step(file, arrivals[k], k, ids);

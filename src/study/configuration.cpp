@@ -245,6 +245,9 @@ Configuration configure(const Settings& settings, ConfigurationKind kind,
     configuration.estimators = configure_list(settings, registry);
     configuration.reference = find_reference(settings, configuration);
   }
+  for (const Setting& setting : settings.all()) {
+    configuration.origins[setting.key] = setting.origin;
+  }
   for (const std::string& key : table.keys()) {
     configuration.in_force.emplace_back(key, table.value(key));
   }

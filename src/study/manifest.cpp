@@ -78,12 +78,13 @@ std::string manifest_json(const std::string& command_line,
       {"type", result.estimator.type},
       {"mode", result.mode == SolveMode::batch ? "batch" : "incremental"},
       {"options", estimator_options(result.estimator, registry.find(result.estimator.type))}};
-  json["front_end"] = {{"frames", recording.frames.size()},
-                       {"keyframes", recording.log.size()},
-                       {"registrations_tried", recording.registrations_tried},
-                       {"registrations_found", recording.log.registration_count()},
-                       {"visual_odometry", recording.visual_odometry},
-                       {"visual_odometry_failures", recording.visual_odometry_failures}};
+  if (!recording.frames.empty())
+    json["front_end"] = {{"frames", recording.frames.size()},
+                         {"keyframes", recording.log.size()},
+                         {"registrations_tried", recording.registrations_tried},
+                         {"registrations_found", recording.log.registration_count()},
+                         {"visual_odometry", recording.visual_odometry},
+                         {"visual_odometry_failures", recording.visual_odometry_failures}};
   return json.dump(2) + "\n";
 }
 

@@ -49,6 +49,8 @@ void give_keyframes(const MeasurementLog& log, Estimator& estimator, const Repla
   const double solve_ms = milliseconds_since(start);
   result.total_ms += solve_ms;
   note(report, solve_ms, result);
+  if (is_done(report.outcome)) return;
+  for (LoopDecision& loop : result.loops) loop.accepted = false;
 }
 
 bool is_finite(std::span<const Pose> trajectory) {
@@ -92,6 +94,9 @@ double cost_used(const MeasurementLog& log, const Estimator& estimator, const Re
 Replay replay(const MeasurementLog& log, const EstimatorEntry& entry, const EstimatorValues& values,
               const ReplayOptions& options) {
   Replay result;
+  // Not to be counted as the estimator's.
+  result.loops.reserve(log.registration_count());
+  result.update_ms.reserve(log.size());
   if (options.memory != nullptr) options.memory->start();
   const auto estimator = entry.create({log.origin(), options.mode}, values);
   give_keyframes(log, *estimator, options, result);

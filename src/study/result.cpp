@@ -48,13 +48,16 @@ void put_accuracy(Json& json, const Result& result, const Recording& recording) 
   }
 }
 
-void put_loops(Json& json, const Result& result) {
+void put_loops(Json& json, const Result& result, const std::vector<std::int64_t>& ids) {
+  const auto id_of = [&ids](std::size_t k) {
+    return ids.empty() ? static_cast<std::int64_t>(k) : ids[k];
+  };
   Json rejected = Json::array();
   double nis_sum = 0.0;
   std::size_t nis_count = 0;
   for (const LoopDecision& loop : result.replay.loops) {
     if (!loop.accepted) {
-      Json entry{{"from", loop.from}, {"to", loop.to}};
+      Json entry{{"from", id_of(loop.from)}, {"to", id_of(loop.to)}};
       if (loop.nis) put(entry, "nis", *loop.nis);
       rejected.push_back(entry);
     } else if (loop.nis) {
@@ -94,11 +97,11 @@ Json metrics_of(const Result& result, const Recording& recording) {
     put(json, "position_anees", result.consistency->position_anees);
     put(json, "share_inside_2_sigma", result.consistency->share_inside_2_sigma);
   }
-  if (result.update_ms) json["update_ms"] = json_of(*result.update_ms);
+  json["update_ms"] = result.update_ms ? json_of(*result.update_ms) : Json{{"count", 0}};
   put(json, "total_ms", result.replay.total_ms);
   if (result.replay.covariances) put(json, "covariance_ms", result.replay.covariance_ms);
   if (result.replay.memory_bytes) json["memory_bytes"] = *result.replay.memory_bytes;
-  put_loops(json, result);
+  put_loops(json, result, recording.log.ids);
   return json;
 }
 

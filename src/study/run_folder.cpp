@@ -51,6 +51,11 @@ void write_recording(const std::filesystem::path& folder, const Recording& recor
   }
 }
 
+const std::vector<std::string>& optional_run_files() {
+  static const std::vector<std::string> names{"frames.tum", "ground_truth.tum"};
+  return names;
+}
+
 void write_run(const std::filesystem::path& folder, const Recording& recording,
                const Result& result, const std::string& manifest) {
   const std::vector<Pose>& poses = result.replay.trajectory;

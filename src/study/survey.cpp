@@ -4,7 +4,27 @@
 
 namespace fathom {
 
+namespace {
+
+// "dataset.altitude.base_m: …" becomes "FILE:LINE: dataset.altitude.base_m: …".
+[[noreturn]] void rethrow_with_origin(const InputError& error, const Configuration& configuration) {
+  const std::string message = error.what();
+  const auto origin = configuration.origins.find(message.substr(0, message.find(':')));
+  if (origin == configuration.origins.end()) throw InputError(message);
+  throw InputError(origin->second + ": " + message);
+}
+
+}  // namespace
+
 Survey::Survey(const Configuration& configuration) {
+  try {
+    open(configuration);
+  } catch (const InputError& error) {
+    rethrow_with_origin(error, configuration);
+  }
+}
+
+void Survey::open(const Configuration& configuration) {
   const auto seed = static_cast<std::uint64_t>(configuration.seed);
   AddedNoise noise;
   noise.seed = seed;

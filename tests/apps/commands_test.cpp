@@ -108,6 +108,15 @@ TEST_F(Commands, CompareGivesOneLogToAll) {
     expect_picture("out/" + name + "/trajectory.png");
   }
   expect_picture("out/trajectories.png");
+  // What all share lies at the top.
+  EXPECT_EQ(bytes_of("out/measurements.g2o"), bytes_of("out/ekf/measurements.g2o"));
+  EXPECT_EQ(tum("out/ground_truth.tum").size(), 33u);
+  EXPECT_EQ(tum("out/dead_reckoning.tum").size(), 33u);
+  const nlohmann::json all = json_of("out/metrics.json");
+  ASSERT_EQ(all.size(), names.size());
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    EXPECT_EQ(all[i], json_of("out/" + names[i] + "/metrics.json"));
+  }
 }
 
 TEST_F(Commands, SolveOnARunsLogIsTheRunToTheLastBit) {

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace fathom {
 
@@ -25,7 +26,8 @@ class StagedFolder {
 
   const std::filesystem::path& path() const { return staging_; }
   const std::filesystem::path& target() const { return target_; }
-  void commit();
+  /// `own`: names that this kind of output may have and not always has; older ones are removed.
+  void commit(const std::vector<std::string>& own = {});
 
  private:
   void discard();

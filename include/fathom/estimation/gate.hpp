@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 
 #include "fathom/core/options.hpp"
+#include "fathom/estimation/estimator.hpp"
 
 namespace fathom {
 
@@ -27,6 +28,12 @@ class Gate {
  private:
   std::optional<double> threshold_;
 };
+
+/// Whether every registration's NIS, where there is one, is a number.
+bool has_finite_nis(const UpdateReport& report);
+
+/// Marks an update that failed: none of its registrations is used.
+void reject_all(UpdateReport& report, Outcome outcome);
 
 /// νᵀ S⁻¹ ν; NaN where S is not positive definite.
 double normalised_innovation_squared(const Eigen::Vector3d& innovation, const Eigen::Matrix3d& S);

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -47,6 +48,8 @@ struct Configuration {
   int seed = 1;
   /// Every key with its value in force, defaults included, for the manifest.
   std::vector<std::pair<std::string, std::string>> in_force;
+  /// Where each given key was given, for messages of checks across keys.
+  std::map<std::string, std::string> origins;
 };
 
 /// `run` takes one estimator (`estimator.…`), `compare` a list (`estimators:`; without one, every

@@ -23,6 +23,8 @@ class Survey {
   std::size_t visual_odometry_failures() const;
 
  private:
+  void open(const Configuration& configuration);
+
   std::unique_ptr<FrameSource> source_;
   std::unique_ptr<FeatureStore> features_;
   std::unique_ptr<VisualOdometry> visual_odometry_;
