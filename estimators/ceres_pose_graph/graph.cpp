@@ -82,6 +82,7 @@ class CeresPoseGraph::Graph::CovarianceProblem {
     std::sort(keyframes.begin(), keyframes.end());
     keyframes.erase(std::unique(keyframes.begin(), keyframes.end()), keyframes.end());
     std::vector<std::pair<const double*, const double*>> pairs;
+    pairs.reserve(keyframes.size());
     for (const auto& [a, b] : keyframes) pairs.emplace_back(blocks_[a].data(), blocks_[b].data());
     return pairs.empty() || covariance_.Compute(pairs, &problem_);
   }
