@@ -52,7 +52,7 @@ class Flattener {
     } else if (is_list_of_maps(node)) {
       for (std::size_t i = 0; i < node.size(); ++i) {
         if (!node[i].IsMap()) throw InputError(origin + ": " + key + ": expected a list of maps");
-        add_map(key + "." + std::to_string(i), node[i], depth);
+        add_map(std::string(key).append(".").append(std::to_string(i)), node[i], depth);
       }
     } else if (node.IsSequence()) {
       OptionValue value;

@@ -57,7 +57,7 @@ std::vector<int> strongest(const std::vector<cv::KeyPoint>& keypoints, std::size
 
 cv::Mat prepared(const cv::Mat& picture, const FeatureOptions& options) {
   // OpenCV's filters look beyond the border of a part of a larger picture, and find what is there.
-  const cv::Mat gray = picture.isSubmatrix() ? picture.clone() : picture;
+  cv::Mat gray = picture.isSubmatrix() ? picture.clone() : picture;
   if (!options.clahe) return gray;
   cv::Mat equalised;
   cv::createCLAHE(options.clahe_clip_limit, cv::Size(options.clahe_tiles, options.clahe_tiles))

@@ -85,7 +85,7 @@ Neighbours find_neighbours(int from_rows, int to_rows, const Costs& costs_of) {
       costs_of(first, rows, block.data());
       for (int row = 0; row < rows; ++row) {
         const float* costs = block.data() + static_cast<std::size_t>(row) * columns;
-        found.in_to[static_cast<std::size_t>(first + row)] =
+        found.in_to[static_cast<std::size_t>(first) + static_cast<std::size_t>(row)] =
             scan_row(first + row, {costs, columns}, back);
       }
     }
@@ -115,7 +115,8 @@ Neighbours euclidean_neighbours(const cv::Mat& from, const cv::Mat& to) {
                 from.ptr<float>(first), static_cast<int>(from.step1()), to.ptr<float>(),
                 static_cast<int>(to.step1()), 0.0F, block, to.rows);
     for (int row = 0; row < rows; ++row) {
-      const float from_norm = from_norms[static_cast<std::size_t>(first + row)];
+      const float from_norm =
+          from_norms[static_cast<std::size_t>(first) + static_cast<std::size_t>(row)];
       for (const float to_norm : to_norms) *block++ += from_norm + to_norm;
     }
   });
