@@ -28,7 +28,7 @@ Alignment alignment_of(const std::string& name) {
   throw InputError("--alignment: expected none, origin or se2, got '" + name + "'");
 }
 
-void print_relative(const AssociatedPoses& poses, const EvaluateFlags& flags) {
+Table relative_table(const AssociatedPoses& poses, const EvaluateFlags& flags) {
   Table table({"relative error over", "pairs", "translation RMSE (m)", "rotation RMSE (rad)"});
   const auto add = [&table](const std::string& what, const std::optional<RelativeError>& error) {
     table.add_row({what, error ? std::to_string(error->pairs) : "0",
@@ -43,7 +43,7 @@ void print_relative(const AssociatedPoses& poses, const EvaluateFlags& flags) {
     add(format_number(distance_m, 3) + " m",
         relative_error_over(poses.estimate, poses.reference, distance_m));
   }
-  std::printf("\n%s", table.text().c_str());
+  return table;
 }
 
 void evaluate_files(const EvaluateFlags& flags, Context& context) {
@@ -59,6 +59,8 @@ void evaluate_files(const EvaluateFlags& flags, Context& context) {
   const AssociatedPoses poses = paired_poses(estimate, reference, pairs);
   const auto result = accuracy(poses.estimate, poses.reference, alignment);
   if (!result) throw InputError(flags.estimate, "has errors too large for a number");
+  const Table relative =
+      relative_table(poses, flags);  // refuses what it cannot do before any output
   std::printf("%zu of %zu poses have a reference; alignment %s, scale as it is\n\n", pairs.size(),
               estimate.size(), flags.alignment.c_str());
   Table table({"", "error"});
@@ -68,7 +70,7 @@ void evaluate_files(const EvaluateFlags& flags, Context& context) {
   table.add_row({"final position error (m)", format_number(result->final_position_error_m, 6)});
   table.add_row({"heading RMSE (rad)", format_number(result->heading_rmse_rad, 6)});
   std::printf("%s", table.text().c_str());
-  print_relative(poses, flags);
+  std::printf("\n%s", relative.text().c_str());
   context.status = kDone;
 }
 

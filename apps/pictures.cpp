@@ -15,7 +15,7 @@ PlotSeries series_of(const Result& result, bool with_details) {
   if (!with_details) return series;
   if (result.replay.covariances) series.covariances = *result.replay.covariances;
   for (const LoopDecision& loop : result.replay.loops) {
-    if (loop.accepted) series.loops.emplace_back(loop.from, loop.to);
+    if (loop.fate == LoopFate::used) series.loops.emplace_back(loop.from, loop.to);
   }
   return series;
 }

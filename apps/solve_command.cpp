@@ -27,6 +27,7 @@ struct SolveFlags {
 EstimatorConfiguration estimator_of(const SolveFlags& flags, const Settings& settings,
                                     SolveMode& mode) {
   std::string type = flags.estimator;
+  const Setting* other = nullptr;
   for (const Setting& setting : settings.all()) {
     if (setting.key == "estimator.type") {
       if (!flags.estimator.empty()) refuse(setting, "--estimator says it already");
@@ -37,10 +38,17 @@ EstimatorConfiguration estimator_of(const SolveFlags& flags, const Settings& set
       seed.put(setting);
       configure(seed, ConfigurationKind::single, builtin_estimators());
     } else if (!setting.key.starts_with("estimator.")) {
-      refuse(setting, "unknown key '" + setting.key + "': 'solve' takes estimator.… alone");
+      other = &setting;
     }
   }
   const EstimatorEntry& entry = builtin_estimators().find(type.empty() ? "ceres_pose_graph" : type);
+  if (other != nullptr) {
+    std::vector<std::string> known{"seed", "estimator.type"};
+    for (const OptionDescription& option : entry.options)
+      known.push_back("estimator." + option.key);
+    refuse(*other, "unknown key '" + other->key + "'" + suggestion(other->key, known) +
+                       " ('solve' takes estimator.… and seed)");
+  }
   mode = flags.mode == "batch" || (flags.mode.empty() && entry.can_batch) ? SolveMode::batch
                                                                           : SolveMode::incremental;
   if (mode == SolveMode::batch && !entry.can_batch) {

@@ -54,12 +54,12 @@ UpdateReport CeresPoseGraph::close_loops(std::span<const RelativePose> registrat
   UpdateReport report;
   if (registrations.empty()) return report;
   if (!judge(registrations, report)) {
-    report.outcome = Outcome::numerical_failure;
+    lose_all(report, Outcome::numerical_failure);
     return report;
   }
   const std::size_t before = graph_->registration_count();
   for (std::size_t j = 0; j < registrations.size(); ++j) {
-    if (report.loops[j].accepted) graph_->add_registration(registrations[j]);
+    if (report.loops[j].fate == LoopFate::used) graph_->add_registration(registrations[j]);
   }
   if (graph_->registration_count() == before || mode_ == SolveMode::batch) return report;
   const UpdateReport solved = graph_->solve();
@@ -67,24 +67,21 @@ UpdateReport CeresPoseGraph::close_loops(std::span<const RelativePose> registrat
   report.iterations = solved.iterations;
   if (is_done(report.outcome)) return report;
   graph_->forget_registrations(before);
-  for (LoopDecision& decision : report.loops) decision.accepted = false;
+  lose_all(report, solved.outcome);
   return report;
 }
 
-// Decides on every registration. False, and none accepted, where they cannot be judged.
+// Decides on every registration. False where they cannot be judged.
 bool CeresPoseGraph::judge(std::span<const RelativePose> registrations, UpdateReport& report) {
   std::vector<RelativePose> forward;
   bool finite = true;
   for (const RelativePose& z : registrations) {
-    report.loops.push_back({z.from, z.to, false, std::nullopt});
+    report.loops.push_back({z.from, z.to, LoopFate::used, std::nullopt});
     finite = finite && is_finite(z.motion) && z.information.allFinite();
     forward.push_back(z.forward());
   }
   if (!finite) return false;
-  if (!gate_.is_on()) {
-    for (LoopDecision& decision : report.loops) decision.accepted = true;
-    return true;
-  }
+  if (!gate_.is_on()) return true;
   const auto S = graph_->innovation_covariances(forward);
   if (!S) return false;
   for (std::size_t j = 0; j < forward.size(); ++j) {
@@ -92,7 +89,7 @@ bool CeresPoseGraph::judge(std::span<const RelativePose> registrations, UpdateRe
     Eigen::Vector3d nu = forward[j].motion.vector() - h.vector();
     nu.z() = wrap_angle(nu.z());
     report.loops[j].nis = normalised_innovation_squared(nu, (*S)[j]);
-    report.loops[j].accepted = gate_.passes(*report.loops[j].nis);
+    report.loops[j].fate = fate_of(gate_.passes(*report.loops[j].nis));
   }
   return true;
 }

@@ -95,17 +95,17 @@ UpdateReport Ekf::close_loops(std::span<const RelativePose> registrations) {
     const Eigen::Matrix3d S = projected(std::span(&innovation, 1), PHt) + innovation.R;
     const double nis = normalised_innovation_squared(innovation.nu, S);
     const bool passes = !gate_.is_on() || gate_.passes(nis);
-    report.loops.push_back({registration.from, registration.to, passes, nis});
+    report.loops.push_back({registration.from, registration.to, fate_of(passes), nis});
     if (passes) accepted.push_back(innovation);
   }
   if (!has_finite_nis(report)) {
-    reject_all(report, Outcome::numerical_failure);
+    lose_all(report, Outcome::numerical_failure);
     return report;
   }
   if (accepted.empty()) return report;
   report.iterations = 1;
   report.outcome = update(accepted);
-  if (!is_done(report.outcome)) reject_all(report, report.outcome);
+  if (!is_done(report.outcome)) lose_all(report, report.outcome);
   return report;
 }
 

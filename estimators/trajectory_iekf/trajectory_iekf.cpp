@@ -31,9 +31,8 @@ struct TrajectoryIekf::Iterate {
 namespace {
 
 // An update that ends at so many times the cost of leaving the state alone (or 1, of a χ²: below it
-// a cost is good whatever it was) has diverged. Plain
-// iterations that have not settled end a little above it at times (on ring, twice up to 1.5 times),
-// which is for `iteration_limit` to say.
+// a cost is good whatever it was) has diverged. Plain iterations that have not settled end a little
+// above it at times (on ring, twice up to 1.5 times), which is for `iteration_limit` to say.
 constexpr double kDivergence = 10.0;
 
 std::size_t earliest_from(std::span<const RelativePose> loops) {
@@ -114,7 +113,7 @@ UpdateReport TrajectoryIekf::close_loops(std::span<const RelativePose> registrat
   Linearisation prior = linearise_prior(loops);
   const std::vector<bool> passes = gate_loops(prior, registrations, report);
   if (!has_finite_nis(report)) {
-    reject_all(report, Outcome::numerical_failure);
+    lose_all(report, Outcome::numerical_failure);
     return report;
   }
   if (std::find(passes.begin(), passes.end(), false) != passes.end()) {
@@ -124,7 +123,7 @@ UpdateReport TrajectoryIekf::close_loops(std::span<const RelativePose> registrat
     prior = linearise_prior(loops);
   }
   report.outcome = iterate(loops, std::move(prior), report);
-  if (!is_done(report.outcome)) reject_all(report, report.outcome);
+  if (!is_done(report.outcome)) lose_all(report, report.outcome);
   return report;
 }
 
@@ -144,7 +143,8 @@ std::vector<bool> TrajectoryIekf::gate_loops(const Linearisation& prior,
     const double nis =
         normalised_innovation_squared(prior.nu.segment<3>(row), prior.S.block<3, 3>(row, row));
     passes.push_back(!gate_.is_on() || gate_.passes(nis));
-    report.loops.push_back({registrations[j].from, registrations[j].to, passes.back(), nis});
+    report.loops.push_back(
+        {registrations[j].from, registrations[j].to, fate_of(passes.back()), nis});
   }
   return passes;
 }
@@ -169,9 +169,10 @@ Outcome TrajectoryIekf::iterate(std::span<const RelativePose> loops, Linearisati
     const double step = (next.delta - x.delta).cwiseAbs().maxCoeff();
     const bool lowered = !options_.safeguard || step_back(loops, first, x, next);
     x = std::move(next);
-    if (step < options_.tolerance) outcome = Outcome::converged;
-    const bool last = report.iterations >= options_.max_iterations || !lowered;
-    if (outcome == Outcome::converged || last) break;
+    // A step that no halving makes lower is one of rounding: the gradient is zero as far as it
+    // shows.
+    if (step < options_.tolerance || !lowered) outcome = Outcome::converged;
+    if (outcome == Outcome::converged || report.iterations >= options_.max_iterations) break;
   }
   const double end_cost = cost(loops, first, x);
   if (!std::isfinite(end_cost)) return Outcome::numerical_failure;

@@ -29,9 +29,17 @@ bool has_finite_nis(const UpdateReport& report) {
   });
 }
 
-void reject_all(UpdateReport& report, Outcome outcome) {
+LoopFate fate_of(bool passes) {
+  return passes ? LoopFate::used : LoopFate::rejected;
+}
+
+void lose_all(UpdateReport& report, Outcome outcome) {
   report.outcome = outcome;
-  for (LoopDecision& loop : report.loops) loop.accepted = false;
+  for (LoopDecision& loop : report.loops) {
+    // No gate has judged what is no number.
+    const bool judged = !loop.nis || std::isfinite(*loop.nis);
+    if (loop.fate == LoopFate::used || !judged) loop.fate = LoopFate::lost;
+  }
 }
 
 double normalised_innovation_squared(const Eigen::Vector3d& innovation, const Eigen::Matrix3d& S) {

@@ -45,8 +45,12 @@ std::optional<Keyframe> FrontEnd::next_keyframe() {
 std::vector<std::size_t> FrontEnd::candidates(const TrajectoryView& trajectory) const {
   const std::size_t newest = keyframes_.size() - 1;
   const Eigen::Vector2d position = trajectory.pose(newest).position();
+  // With a keyframe every frame visual odometry's step is that very registration.
+  const bool step_is_registration =
+      source_.is_visual_odometry() && options_.separation_frames == 1 && newest > 0;
+  const std::size_t end = step_is_registration ? newest - 1 : newest;
   std::vector<std::size_t> near;
-  for (std::size_t k = 0; k < newest; ++k) {
+  for (std::size_t k = 0; k < end; ++k) {
     if ((trajectory.pose(k).position() - position).norm() <= options_.max_distance_m) {
       near.push_back(k);
     }

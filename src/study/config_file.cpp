@@ -46,13 +46,14 @@ class Flattener {
 
   void add(const std::string& key, const YAML::Node& node, int depth = 0) {
     const std::string origin = at(file_, node.Mark());
+    const std::string where = origin + ": " + key + ": ";
     require_shallow(depth, origin);
     if (node.IsMap()) {
       add_map(key, node, depth);
     } else if (is_list_of_maps(node)) {
       for (std::size_t i = 0; i < node.size(); ++i) {
-        if (!node[i].IsMap()) throw InputError(origin + ": " + key + ": expected a list of maps");
-        add_map(std::string(key).append(".").append(std::to_string(i)), node[i], depth);
+        if (!node[i].IsMap()) throw InputError(where + "expected a list of maps");
+        add_map(key + "." + std::to_string(i), node[i], depth);
       }
     } else if (node.IsSequence()) {
       OptionValue value;
@@ -62,7 +63,7 @@ class Flattener {
     } else if (node.IsScalar()) {
       settings_.put({key, OptionValue::scalar(node.Scalar()), origin});
     } else {
-      throw InputError(origin + ": " + key + ": has no value");
+      throw InputError(where + "has no value");
     }
   }
 

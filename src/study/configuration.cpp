@@ -65,6 +65,10 @@ bool is_estimator_key(const std::string& key) {
 
 void set(OptionTable& table, const Setting& setting, const std::vector<std::string>& known) {
   if (!table.has(setting.key)) {
+    for (const std::string& key : known) {
+      if (!key.starts_with(setting.key + ".")) continue;
+      refuse(setting, setting.key + ": expected a map of keys, such as '" + key + "'");
+    }
     refuse(setting, "unknown key '" + setting.key + "'" + suggestion(setting.key, known));
   }
   try {

@@ -50,7 +50,9 @@ void give_keyframes(const MeasurementLog& log, Estimator& estimator, const Repla
   result.total_ms += solve_ms;
   note(report, solve_ms, result);
   if (is_done(report.outcome)) return;
-  for (LoopDecision& loop : result.loops) loop.accepted = false;
+  for (LoopDecision& loop : result.loops) {
+    if (loop.fate == LoopFate::used) loop.fate = LoopFate::lost;
+  }
 }
 
 bool is_finite(std::span<const Pose> trajectory) {
@@ -83,7 +85,7 @@ double cost_used(const MeasurementLog& log, const Estimator& estimator, const Re
     };
     sum += chi2_of(arrival.step);
     for (const RelativePose& z : arrival.registrations) {
-      if (result.loops[loop++].accepted) sum += estimator.loss(chi2_of(z));
+      if (result.loops[loop++].fate == LoopFate::used) sum += estimator.loss(chi2_of(z));
     }
   }
   return sum;

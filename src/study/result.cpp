@@ -56,11 +56,11 @@ void put_loops(Json& json, const Result& result, const std::vector<std::int64_t>
   double nis_sum = 0.0;
   std::size_t nis_count = 0;
   for (const LoopDecision& loop : result.replay.loops) {
-    if (!loop.accepted) {
+    if (loop.fate == LoopFate::rejected) {
       Json entry{{"from", id_of(loop.from)}, {"to", id_of(loop.to)}};
       if (loop.nis) put(entry, "nis", *loop.nis);
       rejected.push_back(entry);
-    } else if (loop.nis) {
+    } else if (loop.fate == LoopFate::used && loop.nis) {
       nis_sum += *loop.nis;
       ++nis_count;
     }
@@ -88,6 +88,7 @@ Json metrics_of(const Result& result, const Recording& recording) {
   json["registrations"] = recording.log.registration_count();
   json["loop_closures"] = result.loop_closures;
   json["rejected"] = result.rejected;
+  json["lost"] = result.lost;
   put(json, "chi2", result.chi2);
   put(json, "chi2_initial", result.chi2_initial);
   put(json, "chi2_used", result.replay.cost_used);
@@ -117,10 +118,12 @@ Result evaluate(const Recording& recording, const EstimatorConfiguration& estima
   result.chi2 = chi2(recording.log, result.replay.trajectory);
   result.chi2_initial = initial_chi2(recording, options);
   for (const LoopDecision& loop : result.replay.loops) {
-    ++(loop.accepted ? result.loop_closures : result.rejected);
+    if (loop.fate == LoopFate::used) ++result.loop_closures;
+    if (loop.fate == LoopFate::rejected) ++result.rejected;
+    if (loop.fate == LoopFate::lost) ++result.lost;
   }
   result.update_ms = summarise(result.replay.update_ms);
-  if (recording.ground_truth) {
+  if (recording.ground_truth && recording.log.size() > 1) {
     result.accuracy = accuracy(result.replay.trajectory, *recording.ground_truth, alignment);
     result.relative_error = relative_error(result.replay.trajectory, *recording.ground_truth, 1);
     if (result.replay.covariances) {
@@ -132,7 +135,7 @@ Result evaluate(const Recording& recording, const EstimatorConfiguration& estima
 }
 
 std::optional<Accuracy> dead_reckoning_accuracy(const Recording& recording, Alignment alignment) {
-  if (!recording.ground_truth) return std::nullopt;
+  if (!recording.ground_truth || recording.log.size() < 2) return std::nullopt;
   return accuracy(recording.log.odometry(), *recording.ground_truth, alignment);
 }
 

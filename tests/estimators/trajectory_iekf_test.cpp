@@ -180,7 +180,7 @@ TEST(TrajectoryIekf, AnUpdateThatEndsFarAboveThePriorCostHasDivergedAndIsNotTake
   std::vector<LoopDecision> decisions;
   EXPECT_EQ(test::feed(*filter, log, &decisions), Outcome::diverged);
   ASSERT_EQ(decisions.size(), 1U);
-  EXPECT_FALSE(decisions.front().accepted);
+  EXPECT_EQ(decisions.front().fate, LoopFate::lost);
   EXPECT_EQ(poses_of(*filter), log.odometry());
 }
 

@@ -284,6 +284,17 @@ TEST(FrontEnd, RunsOnVisualOdometry) {
   for (std::size_t i = 0; i < 7; ++i) EXPECT_EQ(survey.times_taken(i), 1) << i;
 }
 
+TEST(FrontEnd, NoRegistrationIsBothStepAndLoop) {
+  const FloorSurvey survey(bend(4));
+  const FrontEndOptions options = keyframe_every(1);
+  FeatureStore store(survey, options.features);
+  const VisualOdometry odometry(survey, store, options, 1);
+  const SurveyRun run(odometry, truth_of(survey), options);
+  EXPECT_EQ(run.front_end.registrations_tried(), 0u + 0u + 1u + 2u);
+  ASSERT_EQ(run.registrations.size(), 3u);
+  for (const RelativePose& z : run.registrations) EXPECT_GT(z.to - z.from, 1u);
+}
+
 TEST(FrontEnd, APictureThatCannotBeReadIsBadInput) {
   for (const std::size_t frame : {0u, 2u, 4u}) {
     FloorSurvey survey(bend(5));

@@ -115,6 +115,8 @@ TEST(Configure, RefusesUnknownKeysAtEveryLevelWithTheNearest) {
       {"estimator: {type: ekff}\n", "did you mean 'ekf'?"},
       {"estimater: {type: ekf}\n", "did you mean 'estimator.type'?"},
       {"seed.x: 1\n", "unknown key 'seed.x'"},
+      {"front_end: 3\n", "config.yaml:1: front_end: expected a map of keys, such as 'front_end."},
+      {"front_end: {ransac: [1]}\n", "config.yaml:1: front_end.ransac: expected a map of keys"},
       {"qqqqqqqqqqqq: 1\n", "unknown key 'qqqqqqqqqqqq'"}};
   for (const auto& [text, message] : cases) EXPECT_THAT(refusal(text), HasSubstr(message));
 }

@@ -98,7 +98,7 @@ TEST(Replay, ABatchIsOneUpdate) {
   EXPECT_EQ(result.outcome, Outcome::iteration_limit);
   EXPECT_EQ(result.iterations, 9);
   ASSERT_EQ(result.loops.size(), 4u);
-  EXPECT_FALSE(result.loops[2].accepted);
+  EXPECT_EQ(result.loops[2].fate, LoopFate::rejected);
 }
 
 TEST(Replay, CovariancesAreOfAllKeyframesOrAbsent) {

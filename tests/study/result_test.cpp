@@ -166,6 +166,35 @@ TEST(Metrics, ListRejectedLoops) {
   EXPECT_EQ(m.at("mean_nis_accepted"), 2.5);
 }
 
+TEST(Metrics, TellLostLoopsFromRejectedOnes) {
+  const Recording recording = square();
+  Script script;
+  script.updates.assign(3, {});
+  script.rejected = {{2, 5}};
+  ReplayOptions options;
+  options.mode = SolveMode::batch;
+  script.finish = {Outcome::diverged, 3, {}};
+  EstimatorRegistry registry;
+  registry.add(test::scripted(script));
+  const Result result =
+      evaluate(recording, {"scripted", "scripted", {}}, registry, Alignment::origin, options);
+  const json m = metrics(result, recording);
+  EXPECT_EQ(m.at("loop_closures"), 0);
+  EXPECT_EQ(m.at("rejected"), 1);
+  EXPECT_EQ(m.at("lost"), 3);
+  EXPECT_EQ(m.at("rejected_loops").size(), 1u);
+  EXPECT_FALSE(m.contains("mean_nis_accepted"));
+}
+
+TEST(Metrics, ASingleKeyframeHasNoError) {
+  Recording recording;
+  recording.keyframe_times_ns = {0};
+  recording.ground_truth = std::vector<Pose>{Pose{1, 2, 3}};
+  const json m = metrics(evaluated(recording), recording);
+  EXPECT_FALSE(m.contains("mean_position_error_m"));
+  EXPECT_FALSE(m.contains("dead_reckoning"));
+}
+
 TEST(Metrics, WithoutUpdatesThereIsNoTimeOfOne) {
   Recording recording;
   recording.keyframe_times_ns = {0};

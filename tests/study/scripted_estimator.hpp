@@ -54,8 +54,8 @@ class ScriptedEstimator : public Estimator {
     std::string call = "close";
     for (const RelativePose& z : registrations) {
       call += " " + std::to_string(z.from) + "-" + std::to_string(z.to);
-      const bool accepted = !script_.rejected.contains({z.from, z.to});
-      report.loops.push_back({z.from, z.to, accepted, 2.5});
+      const bool rejected = script_.rejected.contains({z.from, z.to});
+      report.loops.push_back({z.from, z.to, rejected ? LoopFate::rejected : LoopFate::used, 2.5});
     }
     script_.calls.push_back(call);
     return report;

@@ -86,7 +86,7 @@ class Survey : public ::testing::Test {
   static RegistrationOptions options() {
     RegistrationOptions options;
     options.ransac.max_error_m = 0.2;
-    options.covariance_floor = {0.06, 0.012};
+    options.covariance_floor = {0.08, 0.008};
     return options;
   }
 

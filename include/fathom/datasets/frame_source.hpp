@@ -41,6 +41,9 @@ class FrameSource {
   /// Whether every frame after the first has its motion.
   virtual bool has_odometry() const = 0;
   virtual bool has_ground_truth() const = 0;
+
+  /// Whether a frame's motion is the registration of its picture with the one before.
+  virtual bool is_visual_odometry() const { return false; }
 };
 
 }  // namespace fathom

@@ -21,11 +21,13 @@ Outcome worse(Outcome a, Outcome b);
 /// Converged, or stopped at its iteration limit: the estimate can be used.
 bool is_done(Outcome outcome);
 
-/// What became of one registration.
+/// What became of one registration: used, refused by a gate, or lost with an update that failed.
+enum class LoopFate { used, rejected, lost };
+
 struct LoopDecision {
   std::size_t from = 0;
   std::size_t to = 0;
-  bool accepted = true;
+  LoopFate fate = LoopFate::used;
   /// Normalised innovation squared νᵀ S⁻¹ ν (3 degrees of freedom) before the update; absent where
   /// the estimator did not need it.
   std::optional<double> nis;

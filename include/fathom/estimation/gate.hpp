@@ -32,8 +32,11 @@ class Gate {
 /// Whether every registration's NIS, where there is one, is a number.
 bool has_finite_nis(const UpdateReport& report);
 
-/// Marks an update that failed: none of its registrations is used.
-void reject_all(UpdateReport& report, Outcome outcome);
+/// What the gate's answer makes of a registration.
+LoopFate fate_of(bool passes);
+
+/// Marks an update that failed: what its gate let through is lost.
+void lose_all(UpdateReport& report, Outcome outcome);
 
 /// νᵀ S⁻¹ ν; NaN where S is not positive definite.
 double normalised_innovation_squared(const Eigen::Vector3d& innovation, const Eigen::Matrix3d& S);

@@ -51,7 +51,8 @@ class FrontEnd {
 
   /// Registers the newest keyframe with every candidate: the earlier keyframes within
   /// `max_distance_m` of it in the given trajectory, which must hold all keyframes so far. What was
-  /// found, by rising `from`.
+  /// found, by rising `from`. Where every frame of visual odometry is a keyframe, the one before is
+  /// no candidate: its registration is the step already, and no measurement may count twice.
   std::vector<RelativePose> register_newest(const TrajectoryView& trajectory);
 
   const std::vector<Keyframe>& keyframes() const { return keyframes_; }

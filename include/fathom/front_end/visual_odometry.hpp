@@ -39,6 +39,7 @@ class VisualOdometry : public FrameSource {
   cv::Mat image(std::size_t i) const override { return source_.image(i); }
   bool has_odometry() const override { return true; }
   bool has_ground_truth() const override { return source_.has_ground_truth(); }
+  bool is_visual_odometry() const override { return true; }
 
   /// Frames so far that did not register with the one before.
   std::size_t failures() const { return failures_; }

@@ -21,8 +21,10 @@ struct Result {
   double chi2 = 0.0;              ///< F of the whole log at the estimate
   double chi2_initial = 0.0;      ///< F where it started: dead reckoning, or the file's guess
   std::size_t loop_closures = 0;  ///< registrations used
-  std::size_t rejected = 0;
-  std::optional<Accuracy> accuracy;             ///< with ground truth alone
+  std::size_t rejected = 0;       ///< refused by the gate
+  std::size_t lost = 0;           ///< let through, but their update failed
+  /// With ground truth alone, and with a second keyframe: an error at the origin is zero by choice.
+  std::optional<Accuracy> accuracy;
   std::optional<RelativeError> relative_error;  ///< over one keyframe
   std::optional<Consistency> consistency;
   std::optional<Summary> update_ms;  ///< absent without an update
@@ -37,7 +39,7 @@ Result evaluate(const Recording& recording, const EstimatorConfiguration& estima
                 const EstimatorRegistry& registry, Alignment alignment,
                 const ReplayOptions& options);
 
-/// The accuracy of dead reckoning alone, the baseline of every table; nothing without ground truth.
+/// The accuracy of dead reckoning alone, the baseline of every table; absent as an estimator's.
 std::optional<Accuracy> dead_reckoning_accuracy(const Recording& recording, Alignment alignment);
 
 /// The content of metrics.json (docs/formats.md). What is not known is absent, never null or zero.
