@@ -51,6 +51,8 @@ const std::vector<ThirdParty>& third_parties() {
       {"opencv2/", {"vision/", "datasets/", "front_end/", "report/", "apps/"}},
       {"ceres/", {"estimators/ceres_pose_graph/"}},
       {"yaml-cpp/", {"src/study/", "src/datasets/camera_yaml.cpp"}},
+      {"SQLiteCpp/", {"src/study/"}},
+      {"sqlite3.h", {"src/study/"}},
       {"nlohmann/", {"src/study/"}},
       {"cblas.h", {"src/vision/", "src/estimation/", "apps/main.cpp"}},
       {"CLI/", {"apps/"}},
@@ -58,7 +60,9 @@ const std::vector<ThirdParty>& third_parties() {
       {"omp.h", {"apps/main.cpp"}},
       {"malloc.h", {"apps/memory_meter.cpp"}},
       {"signal.h", {"src/core/files.cpp"}},
-      {"unistd.h", {"src/core/files.cpp", "apps/common.cpp"}}};
+      {"fcntl.h", {"src/core/file_lock.cpp"}},
+      {"sys/file.h", {"src/core/file_lock.cpp"}},
+      {"unistd.h", {"src/core/files.cpp", "src/core/file_lock.cpp", "apps/common.cpp"}}};
   return list;
 }
 
