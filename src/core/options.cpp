@@ -194,6 +194,18 @@ void OptionTable::reals(const std::string& key, std::vector<double>& field, std:
       [&field] { return list_text(field); });
 }
 
+void OptionTable::words(const std::string& key, std::vector<std::string>& field,
+                        const std::string& help) {
+  const std::string full = prefix_ + key;
+  add(
+      key, {"", "list of words", "", "", "", help},
+      [&field, full](const OptionValue& value) {
+        if (!value.is_list) refuse(full, "a list of words", value);
+        field = value.items;
+      },
+      [&field] { return "[" + joined(field, ", ") + "]"; });
+}
+
 std::vector<std::string> OptionTable::keys() const {
   std::vector<std::string> names;
   for (const OptionDescription& description : descriptions_) names.push_back(description.key);

@@ -36,6 +36,17 @@ void flatten_list(const YAML::Node& list, const std::string& origin, OptionValue
   }
 }
 
+// The values of an axis of a sweep may be lists: each is kept as one item, written as a list.
+bool holds_values_of_a_sweep(const std::string& key) {
+  return key.starts_with("sweep.") && key.ends_with(".values");
+}
+
+std::string list_text(const OptionValue& list) {
+  std::string text;
+  for (const std::string& item : list.items) text += (text.empty() ? "" : ", ") + item;
+  return "[" + text + "]";
+}
+
 bool is_list_of_maps(const YAML::Node& node) {
   return node.IsSequence() && node.size() > 0 && node[0].IsMap();
 }
@@ -58,7 +69,11 @@ class Flattener {
     } else if (node.IsSequence()) {
       OptionValue value;
       value.is_list = true;
-      flatten_list(node, origin, value);
+      if (holds_values_of_a_sweep(key)) {
+        for (const YAML::Node& item : node) add_value_of_a_sweep(item, origin, value);
+      } else {
+        flatten_list(node, origin, value);
+      }
       settings_.put({key, value, origin});
     } else if (node.IsScalar()) {
       settings_.put({key, OptionValue::scalar(node.Scalar()), origin});
@@ -68,6 +83,19 @@ class Flattener {
   }
 
  private:
+  static void add_value_of_a_sweep(const YAML::Node& item, const std::string& origin,
+                                   OptionValue& value) {
+    OptionValue inner;
+    if (item.IsSequence()) {
+      flatten_list(item, origin, inner);
+      value.items.push_back(list_text(inner));
+    } else if (item.IsScalar()) {
+      value.items.push_back(item.Scalar());
+    } else {
+      throw InputError(origin + ": a list holds scalars or lists");
+    }
+  }
+
   void add_map(const std::string& prefix, const YAML::Node& map, int depth) {
     std::set<std::string> seen;
     for (const auto& entry : map) {

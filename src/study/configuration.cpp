@@ -1,7 +1,11 @@
 #include "fathom/study/configuration.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <set>
+
+#include "fathom/study/result_store.hpp"
 
 namespace fathom {
 namespace {
@@ -56,11 +60,24 @@ void bind_dataset(Configuration& configuration, OptionTable& table) {
 
 // The keys that a comparison alone has.
 bool is_list_key(const std::string& key) {
-  return key == "estimators" || key.starts_with("estimators.") || key.starts_with("association.");
+  return key == "estimators" || key.starts_with("estimators.");
 }
 
+bool is_study_key(const std::string& key) {
+  constexpr std::array kWords{"trials",
+                              "jobs",
+                              "sweep",
+                              "evaluation.rpe_keyframes",
+                              "evaluation.rpe_distances_m",
+                              "evaluation.min_overlap"};
+  return std::any_of(kWords.begin(), kWords.end(), [&](const char* word) { return key == word; }) ||
+         key.starts_with("sweep.") || key.starts_with("report.") || key.starts_with("association.");
+}
+
+// Keys that no table describes.
 bool is_estimator_key(const std::string& key) {
-  return key == "estimator" || key.starts_with("estimator.") || is_list_key(key);
+  return key == "estimator" || key.starts_with("estimator.") || is_list_key(key) ||
+         key == "association.reference";
 }
 
 void set(OptionTable& table, const Setting& setting, const std::vector<std::string>& known) {
@@ -109,6 +126,9 @@ EstimatorConfiguration configure_estimator(const Settings& settings,
   if (!is_plain_word(estimator.name)) {
     refuse(*settings.find("name"),
            prefix + "name: it names a folder too: letters, digits, - and _");
+  }
+  if (estimator.name == kDeadReckoning) {
+    refuse(*settings.find("name"), prefix + "name: dead_reckoning is the baseline of every table");
   }
   estimator.values = estimator_values(own, entry, {}, prefix);
   return estimator;
@@ -173,7 +193,10 @@ std::size_t find_reference(const Settings& settings, const Configuration& config
 
 void refuse_keys_of_other_kind(const Settings& settings, ConfigurationKind kind) {
   for (const Setting& setting : settings.all()) {
-    if (!is_estimator_key(setting.key)) continue;
+    if (kind == ConfigurationKind::single && is_study_key(setting.key)) {
+      refuse(setting, "unknown key '" + setting.key + "': it is for 'compare'");
+    }
+    if (!is_estimator_key(setting.key) || is_study_key(setting.key)) continue;
     const bool of_list = is_list_key(setting.key);
     if (kind == ConfigurationKind::single && of_list) {
       refuse(setting, "unknown key '" + setting.key +
@@ -183,13 +206,42 @@ void refuse_keys_of_other_kind(const Settings& settings, ConfigurationKind kind)
       refuse(setting, "unknown key '" + setting.key +
                           "': 'compare' takes a list, 'estimators: [{type: ekf}, …]'");
     }
-    if (setting.key.starts_with("association.") && setting.key != "association.reference") {
-      refuse(setting, "unknown key '" + setting.key + "'; did you mean 'association.reference'?");
-    }
+  }
+}
+
+// What no single option's bounds can say.
+void check(const Settings& settings, const StudyOptions& study) {
+  for (const double keyframes : study.rpe_keyframes) {
+    if (keyframes >= 1.0 && keyframes == std::floor(keyframes) && keyframes < 1e9) continue;
+    refuse(*settings.find("evaluation.rpe_keyframes"),
+           "evaluation.rpe_keyframes: expected whole numbers >= 1");
+  }
+  for (const double distance_m : study.rpe_distances_m) {
+    if (distance_m > 0.0) continue;
+    refuse(*settings.find("evaluation.rpe_distances_m"),
+           "evaluation.rpe_distances_m: expected numbers in m > 0");
   }
 }
 
 }  // namespace
+
+void StudyOptions::describe(OptionTable& table) {
+  table.integer("trials", trials, Range::between(1, 1e6), "",
+                "runs of every estimator in every cell, each with noise of its own");
+  table.integer("jobs", jobs, Range::between(1, 1024), "",
+                "trials at work at the same time; cost is comparable at 1 alone");
+  table.enumeration<Association>(
+      "association.mode", association, {{"shared", Association::shared}, {"own", Association::own}},
+      "loop candidates by the reference's estimate, for all, or by each estimator's own");
+  table.reals("evaluation.rpe_keyframes", rpe_keyframes, 1, "keyframes",
+              "relative errors over so many keyframes");
+  table.reals("evaluation.rpe_distances_m", rpe_distances_m, 1, "m",
+              "relative errors over such distances along the true path");
+  table.real("evaluation.min_overlap", min_overlap, Range::between(0.01, 1.0), "",
+             "true overlap from which on a pair of keyframes should be found (loop_recall)");
+  table.text("report.title", title, "title of the report");
+  table.words("report.metrics", metrics, "metrics of the tables, in this order");
+}
 
 const std::vector<DatasetEntry>& datasets() {
   static const std::vector<DatasetEntry> entries = make_datasets();
@@ -199,7 +251,9 @@ const std::vector<DatasetEntry>& datasets() {
 ConfigurationKind kind_of(const Settings& settings) {
   const std::vector<Setting>& all = settings.all();
   return std::any_of(all.begin(), all.end(),
-                     [](const Setting& setting) { return is_list_key(setting.key); })
+                     [](const Setting& setting) {
+                       return is_list_key(setting.key) || is_study_key(setting.key);
+                     })
              ? ConfigurationKind::comparison
              : ConfigurationKind::single;
 }
@@ -233,12 +287,14 @@ Configuration configure(const Settings& settings, ConfigurationKind kind,
   const std::vector<std::string> common = table.keys();
   if (const Setting* type = settings.find("dataset.type")) set(table, *type, common);
   bind_dataset(configuration, table);
+  if (kind == ConfigurationKind::comparison) configuration.study.describe(table);
   refuse_keys_of_other_kind(settings, kind);
   std::vector<std::string> known = table.keys();
   known.insert(known.end(), {"estimator.type", "estimators", "association.reference"});
   for (const Setting& setting : settings.all()) {
     if (!is_estimator_key(setting.key)) set(table, setting, known);
   }
+  check(settings, configuration.study);
   if (kind == ConfigurationKind::single) {
     if (const Setting* scalar = settings.find("estimator")) {
       refuse(*scalar, "estimator: expected a map, such as 'estimator: {type: ekf}'");

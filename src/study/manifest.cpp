@@ -32,21 +32,43 @@ std::string utc_now() {
   return buffer;
 }
 
-Json estimator_options(const EstimatorConfiguration& estimator, const EstimatorEntry& entry) {
-  Json options;
-  for (const OptionDescription& option : entry.options) {
-    const auto given = estimator.values.find(option.key);
-    options[option.key] = given == estimator.values.end() || given->second.items.empty()
-                              ? option.default_value
-                              : given->second.items.front();
-  }
-  return options;
+Json build_and_machine(int jobs) {
+  Json json;
+  json["build"] = {{"type", FATHOM_BUILD_TYPE},     {"compiler", FATHOM_COMPILER},
+                   {"flags", FATHOM_FLAGS},         {"ceres", FATHOM_CERES_VERSION},
+                   {"eigen", FATHOM_EIGEN_VERSION}, {"opencv", FATHOM_OPENCV_VERSION}};
+  json["machine"] = {{"cpu", cpu_model()}, {"estimator_threads", 1}, {"jobs", jobs}};
+  return json;
+}
+
+Json session(const std::string& command_line, int jobs) {
+  Json json;
+  json["fathom"] = FATHOM_VERSION;
+  json["command_line"] = command_line;
+  json["date"] = utc_now();
+  json.update(build_and_machine(jobs));
+  return json;
 }
 
 }  // namespace
 
 std::string version() {
   return FATHOM_VERSION;
+}
+
+std::vector<std::pair<std::string, std::string>> estimator_options(
+    const EstimatorConfiguration& estimator, const EstimatorEntry& entry) {
+  std::vector<std::pair<std::string, std::string>> options;
+  for (const OptionDescription& option : entry.options) {
+    const auto given = estimator.values.find(option.key);
+    const bool is_given = given != estimator.values.end() && !given->second.items.empty();
+    options.emplace_back(option.key, is_given ? given->second.items.front() : option.default_value);
+  }
+  return options;
+}
+
+std::string session_json(const std::string& command_line, int jobs) {
+  return session(command_line, jobs).dump(2) + "\n";
 }
 
 std::string hash_text(const std::string& content) {
@@ -63,21 +85,18 @@ std::string manifest_json(const std::string& command_line,
                           const std::vector<std::pair<std::string, std::string>>& configuration,
                           const Recording& recording, const Result& result,
                           const EstimatorRegistry& registry) {
-  Json json;
-  json["fathom"] = FATHOM_VERSION;
-  json["command_line"] = command_line;
-  json["date"] = utc_now();
-  json["build"] = {{"type", FATHOM_BUILD_TYPE},     {"compiler", FATHOM_COMPILER},
-                   {"flags", FATHOM_FLAGS},         {"ceres", FATHOM_CERES_VERSION},
-                   {"eigen", FATHOM_EIGEN_VERSION}, {"opencv", FATHOM_OPENCV_VERSION}};
-  json["machine"] = {{"cpu", cpu_model()}, {"estimator_threads", 1}, {"jobs", 1}};
+  Json json = session(command_line, 1);
   json["measurements_fnv1a64"] = hash_text(to_g2o(recording.log));
   for (const auto& [key, value] : configuration) json["configuration"][key] = value;
-  json["estimator"] = {
-      {"name", result.estimator.name},
-      {"type", result.estimator.type},
-      {"mode", result.mode == SolveMode::batch ? "batch" : "incremental"},
-      {"options", estimator_options(result.estimator, registry.find(result.estimator.type))}};
+  Json options;
+  for (const auto& [key, value] :
+       estimator_options(result.estimator, registry.find(result.estimator.type))) {
+    options[key] = value;
+  }
+  json["estimator"] = {{"name", result.estimator.name},
+                       {"type", result.estimator.type},
+                       {"mode", result.mode == SolveMode::batch ? "batch" : "incremental"},
+                       {"options", options}};
   if (!recording.frames.empty())
     json["front_end"] = {{"frames", recording.frames.size()},
                          {"keyframes", recording.log.size()},

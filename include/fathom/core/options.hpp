@@ -65,6 +65,9 @@ class OptionTable {
   void reals(const std::string& key, std::vector<double>& field, std::size_t multiple_of,
              const std::string& unit, const std::string& help);
 
+  /// A list of words, `[a, b]`.
+  void words(const std::string& key, std::vector<std::string>& field, const std::string& help);
+
   template <class Enum>
   void enumeration(const std::string& key, Enum& field,
                    const std::vector<std::pair<std::string, Enum>>& names,

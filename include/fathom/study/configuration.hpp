@@ -34,6 +34,28 @@ struct EstimatorConfiguration {
   EstimatorValues values;  ///< as given; the rest are defaults
 };
 
+/// Whose estimate picks the loop candidates.
+enum class Association {
+  shared,  ///< one reference's: every estimator gets the same log, bit for bit
+  own      ///< each estimator's own, as in the paper
+};
+
+/// What a comparison has beside a run.
+struct StudyOptions {
+  std::string title;
+  int trials = 1;
+  int jobs = 1;
+  Association association = Association::shared;
+  std::vector<double> rpe_keyframes{1};
+  std::vector<double> rpe_distances_m;
+  double min_overlap = 0.3;
+  std::vector<std::string> metrics{
+      "mean_position_error_m", "ate_rmse_m",       "heading_rmse_rad", "anees",    "chi2_gap",
+      "loop_closures",         "update_ms.median", "update_ms.p95",    "total_ms", "memory_bytes"};
+
+  void describe(OptionTable& table);
+};
+
 /// A whole configuration, checked: every key is known and every value within its bounds.
 struct Configuration {
   DatasetType dataset = DatasetType::simulated;
@@ -45,6 +67,7 @@ struct Configuration {
   std::vector<EstimatorConfiguration> estimators;
   std::size_t reference = 0;
   Alignment alignment = Alignment::origin;
+  StudyOptions study;  ///< of a comparison
   int seed = 1;
   /// Every key with its value in force, defaults included, for the manifest.
   std::vector<std::pair<std::string, std::string>> in_force;

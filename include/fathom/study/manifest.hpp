@@ -20,6 +20,13 @@ std::string manifest_json(const std::string& command_line,
                           const Recording& recording, const Result& result,
                           const EstimatorRegistry& registry);
 
+/// Every option of an estimator with the value in force, by key.
+std::vector<std::pair<std::string, std::string>> estimator_options(
+    const EstimatorConfiguration& estimator, const EstimatorEntry& entry);
+
+/// The manifest of a session of a study: versions, build, machine, command line, date, jobs.
+std::string session_json(const std::string& command_line, int jobs);
+
 /// FNV-1a, 64 bits, as 16 hexadecimal digits.
 std::string hash_text(const std::string& content);
 
