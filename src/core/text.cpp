@@ -71,6 +71,12 @@ std::string in_quotes(std::string_view text) {
   return "'" + shown + (text.size() > length ? "…'" : "'");
 }
 
+std::string number_text(double value) {
+  char buffer[32];
+  const auto result = std::to_chars(buffer, buffer + sizeof buffer, value);
+  return {buffer, result.ptr};
+}
+
 std::string exact(double value) {
   char buffer[40];
   const int length = std::snprintf(buffer, sizeof buffer, "%.17g", value);

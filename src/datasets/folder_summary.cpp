@@ -4,10 +4,9 @@
 #include <cmath>
 #include <cstdio>
 
-#include <opencv2/imgproc.hpp>
-
 #include "fathom/core/input_error.hpp"
 #include "fathom/core/text.hpp"
+#include "fathom/vision/overlap.hpp"
 
 namespace fathom {
 namespace {
@@ -101,23 +100,6 @@ void sum_up_altitude(const FrameSource& source, FolderSummary& summary) {
   warn(summary, jumps, "altitude changes by more than half from the frame before");
 }
 
-// The part of the smaller footprint that both frames see.
-double overlap(const Camera& camera, const FrameInfo& before, const FrameInfo& now) {
-  const auto polygon = [&](const Pose& pose, double altitude_m) {
-    std::vector<cv::Point2f> corners;
-    for (const Eigen::Vector2d& corner : camera.footprint(altitude_m)) {
-      const Eigen::Vector2f point = transform(pose, corner).cast<float>();
-      corners.emplace_back(point.x(), point.y());
-    }
-    return corners;
-  };
-  const auto first = polygon({}, before.altitude_m);
-  const auto second = polygon(now.motion->mean, now.altitude_m);
-  std::vector<cv::Point2f> common;
-  const double shared = cv::intersectConvexConvex(first, second, common);
-  return shared / std::min(cv::contourArea(first), cv::contourArea(second));
-}
-
 // How far dead reckoning has left the truth at the end, both from the first frame on.
 void compare_with_truth(const FrameSource& source, const Pose& reckoned, double path_m,
                         FolderSummary& summary) {
@@ -148,7 +130,8 @@ void sum_up_odometry(const FrameSource& source, FolderSummary& summary) {
     const FrameInfo& now = source.info(i);
     path_m += now.motion->mean.position().norm();
     pose = compose(pose, now.motion->mean);
-    overlaps.push_back(overlap(source.camera(), source.info(i - 1), now));
+    overlaps.push_back(footprint_overlap(source.camera(), source.info(i - 1).altitude_m,
+                                         now.altitude_m, now.motion->mean));
     if (overlaps.back() <= 0.0) apart.push_back(i);
   }
   summary.facts.push_back("odometry: path of " + number(path_m) + " m");

@@ -56,6 +56,10 @@ Recording record_survey(const Configuration& configuration, const EstimatorRegis
   recording.frames = front_end.frames();
   recording.frame_dead_reckoning = dead_reckoning_of(frames, recording.frames.size());
   recording.ground_truth = ground_truth_of(frames, front_end.keyframes());
+  recording.camera = frames.camera();
+  for (const Keyframe& keyframe : front_end.keyframes()) {
+    recording.keyframe_altitudes_m.push_back(frames.info(keyframe.frame).altitude_m);
+  }
   recording.frame_ground_truth = frame_ground_truth_of(frames, recording.frames.size());
   recording.registrations_tried = front_end.registrations_tried();
   recording.visual_odometry = survey.uses_visual_odometry();

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <ctime>
 
 namespace fathom {
 namespace {
@@ -11,6 +12,30 @@ using Clock = std::chrono::steady_clock;
 double milliseconds_since(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
+
+double thread_cpu_ms() {
+  std::timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
+}
+
+// Wall and CPU time of one call of the estimator, added to the totals.
+class CallTimer {
+ public:
+  explicit CallTimer(Replay& result) : result_(result) {}
+
+  double stop() const {
+    const double elapsed_ms = milliseconds_since(start_);
+    result_.total_ms += elapsed_ms;
+    result_.cpu_ms += thread_cpu_ms() - cpu_start_ms_;
+    return elapsed_ms;
+  }
+
+ private:
+  Replay& result_;
+  double cpu_start_ms_ = thread_cpu_ms();
+  Clock::time_point start_ = Clock::now();
+};
 
 void note(const UpdateReport& report, double elapsed_ms, Replay& result) {
   result.update_ms.push_back(elapsed_ms);
@@ -25,15 +50,13 @@ void give_keyframes(const MeasurementLog& log, Estimator& estimator, const Repla
   const bool batch = options.mode == SolveMode::batch;
   for (std::size_t k = 1; k < log.size(); ++k) {
     const KeyframeMeasurements& arrival = log.arrival(k);
-    const auto start = Clock::now();
+    const CallTimer add_timer(result);
     estimator.add_keyframe(arrival.step);
-    if (arrival.registrations.empty()) {
-      result.total_ms += milliseconds_since(start);
-    } else {
-      const auto update_start = Clock::now();
+    result.add_ms.push_back(add_timer.stop());
+    if (!arrival.registrations.empty()) {
+      const CallTimer update_timer(result);
       const UpdateReport report = estimator.close_loops(arrival.registrations);
-      const double update_ms = milliseconds_since(update_start);
-      result.total_ms += milliseconds_since(start);
+      const double update_ms = update_timer.stop();
       // In batch mode nothing is solved here; only what became of the registrations counts.
       if (batch) {
         result.loops.insert(result.loops.end(), report.loops.begin(), report.loops.end());
@@ -44,10 +67,9 @@ void give_keyframes(const MeasurementLog& log, Estimator& estimator, const Repla
     if (options.progress) options.progress(k + 1, log.size());
   }
   if (!batch) return;
-  const auto start = Clock::now();
+  const CallTimer timer(result);
   const UpdateReport report = estimator.finish(options.start);
-  const double solve_ms = milliseconds_since(start);
-  result.total_ms += solve_ms;
+  const double solve_ms = timer.stop();
   note(report, solve_ms, result);
   if (is_done(report.outcome)) return;
   for (LoopDecision& loop : result.loops) {
@@ -99,6 +121,7 @@ Replay replay(const MeasurementLog& log, const EstimatorEntry& entry, const Esti
   // Not to be counted as the estimator's.
   result.loops.reserve(log.registration_count());
   result.update_ms.reserve(log.size());
+  result.add_ms.reserve(log.size());
   if (options.memory != nullptr) options.memory->start();
   const auto estimator = entry.create({log.origin(), options.mode}, values);
   give_keyframes(log, *estimator, options, result);

@@ -100,6 +100,7 @@ Json metrics_of(const Result& result, const Recording& recording) {
   }
   json["update_ms"] = result.update_ms ? json_of(*result.update_ms) : Json{{"count", 0}};
   put(json, "total_ms", result.replay.total_ms);
+  put(json, "cpu_ms", result.replay.cpu_ms);
   if (result.replay.covariances) put(json, "covariance_ms", result.replay.covariance_ms);
   if (result.replay.memory_bytes) json["memory_bytes"] = *result.replay.memory_bytes;
   put_loops(json, result, recording.log.ids);

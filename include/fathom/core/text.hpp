@@ -27,6 +27,9 @@ std::string in_quotes(std::string_view text);
 /// 17 significant digits: reads back to the same bits.
 std::string exact(double value);
 
+/// The shortest text that reads back to the same bits: 0.1 stays "0.1".
+std::string number_text(double value);
+
 /// Nanoseconds as decimal seconds, digit by digit: a double would lose them.
 std::string seconds_text(std::int64_t nanoseconds);
 

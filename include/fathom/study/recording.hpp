@@ -24,6 +24,9 @@ struct Recording {
   std::vector<Pose> frame_dead_reckoning;  ///< one per frame, from the identity on
   /// Of the keyframes, where all of them have it.
   std::optional<std::vector<Pose>> ground_truth;
+  /// Of the keyframes, as measured, and the camera that took their pictures; absent for a graph.
+  std::vector<double> keyframe_altitudes_m;
+  std::optional<Camera> camera;
   std::vector<StampedPose> frame_ground_truth;  ///< of the frames that have it
   std::size_t registrations_tried = 0;
   bool visual_odometry = false;

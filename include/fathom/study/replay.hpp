@@ -49,7 +49,9 @@ struct Replay {
   int iterations = 0;
   /// Per update: a close_loops call with registrations, or the batch solve.
   std::vector<double> update_ms;
-  double total_ms = 0.0;  ///< of all calls but covariances
+  std::vector<double> add_ms;  ///< per add_keyframe
+  double total_ms = 0.0;       ///< of all calls but covariances
+  double cpu_ms = 0.0;         ///< of the thread, over the same calls
   double covariance_ms = 0.0;
   std::optional<std::int64_t> memory_bytes;
   /// Σ ρ(eᵀ Ω e) over what the estimator used: rejected registrations left out, loss applied.
