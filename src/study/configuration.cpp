@@ -210,7 +210,23 @@ void refuse_keys_of_other_kind(const Settings& settings, ConfigurationKind kind)
 }
 
 // What no single option's bounds can say.
-void check(const Settings& settings, const StudyOptions& study) {
+void check(const Settings& settings, const Configuration& configuration) {
+  const StudyOptions& study = configuration.study;
+  const Setting* reference = settings.find("association.reference");
+  if (reference != nullptr && study.association == Association::own) {
+    refuse(*reference,
+           "association.reference: nobody's estimate but each one's own picks the loop candidates; "
+           "use association.mode: shared");
+  }
+  if (configuration.dataset == DatasetType::g2o) {
+    if (study.trials > 1) {
+      refuse(*settings.find("trials"), "trials: a pose graph has no noise to draw; expected 1");
+    }
+    if (study.association == Association::own) {
+      refuse(*settings.find("association.mode"),
+             "association.mode: a pose graph has its loops; expected shared");
+    }
+  }
   for (const double keyframes : study.rpe_keyframes) {
     if (keyframes >= 1.0 && keyframes == std::floor(keyframes) && keyframes < 1e9) continue;
     refuse(*settings.find("evaluation.rpe_keyframes"),
@@ -294,7 +310,7 @@ Configuration configure(const Settings& settings, ConfigurationKind kind,
   for (const Setting& setting : settings.all()) {
     if (!is_estimator_key(setting.key)) set(table, setting, known);
   }
-  check(settings, configuration.study);
+  check(settings, configuration);
   if (kind == ConfigurationKind::single) {
     if (const Setting* scalar = settings.find("estimator")) {
       refuse(*scalar, "estimator: expected a map, such as 'estimator: {type: ekf}'");

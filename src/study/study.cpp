@@ -23,7 +23,8 @@ OptionValue value_of(const std::string& text) {
     return OptionValue::scalar(text);
   }
   OptionValue list{{}, true};
-  for (const std::string_view item : split(text.substr(1, text.size() - 2), ", ")) {
+  const std::string inner = text.substr(1, text.size() - 2);
+  for (const std::string_view item : split(inner, ", ")) {
     list.items.emplace_back(item);
   }
   return list;
