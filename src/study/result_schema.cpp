@@ -158,17 +158,20 @@ std::string difference(const StudyDescription& there, const StudyDescription& he
   const std::map<std::string, std::string> now(here.configuration.begin(),
                                                here.configuration.end());
   std::string text;
-  const auto say = [&text](const std::string& what) { text += (text.empty() ? "" : "; ") + what; };
+  const auto say = [&text](const std::string& key, const std::string& was, const std::string& is) {
+    if (!text.empty()) text += "; ";
+    text.append(key).append(": ").append(was).append(" there, ").append(is).append(" here");
+  };
   for (const auto& [key, value] : now) {
     const auto found = old.find(key);
     if (found == old.end()) {
-      say(key + ": absent there, " + value + " here");
+      say(key, "absent", value);
     } else if (found->second != value) {
-      say(key + ": " + found->second + " there, " + value + " here");
+      say(key, found->second, value);
     }
   }
   for (const auto& [key, value] : old) {
-    if (!now.contains(key)) say(key + ": " + value + " there, absent here");
+    if (!now.contains(key)) say(key, value, "absent");
   }
   return text;
 }

@@ -1,0 +1,169 @@
+// Studies through the real command line.
+
+#include <chrono>
+#include <csignal>
+#include <random>
+#include <sstream>
+
+#include <gmock/gmock.h>
+
+#include "apps/command_line.hpp"
+#include "fathom/core/text.hpp"
+#include "fathom/study/result_store.hpp"
+
+namespace fathom::test {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+constexpr const char* kStudy = R"(
+dataset:
+  type: simulated
+  world: {metres_per_pixel: 0.01}
+  mission: {type: sweep, legs: 2, leg_length_m: 3, leg_spacing_m: 1}
+  altitude: {altimeter_sigma_m: 0}
+  camera: {width: 200, height: 150, fx: 150, fy: 150}
+front_end:
+  keyframes: {separation_frames: 3}
+  ransac: {max_error_m: 0.05}
+association: {mode: own}
+sweep:
+  - {key: dataset.odometry.sigma_theta_rad, name: heading noise, values: [0.01, 0.03]}
+trials: 5
+)";
+
+// Deterministic series: all but what a clock says.
+const std::vector<std::string> kSeries{"x_m",         "y_m",       "theta_rad", "cov_xx",
+                                       "cov_xt",      "pose_nees", "loop_from", "loop_fate",
+                                       "truth_x_m",   "loop_nis",  "time_s",    "position_error_m",
+                                       "update_keyframe"};
+
+// All that a store holds but cost, sessions and jobs.
+std::string content(const fs::path& folder) {
+  const ResultStore store = ResultStore::open(folder);
+  std::ostringstream text;
+  for (const RunRecord& run : store.runs()) {
+    text << run.key.cell << ' ' << run.key.trial << ' ' << run.key.estimator << ' ' << run.outcome
+         << ' ' << run.log_hash << '\n';
+    for (const auto& [name, value] : run.metrics) {
+      if (!is_cost_metric(name)) text << "  " << name << ' ' << exact(value) << '\n';
+    }
+    for (const std::string& name : kSeries) {
+      const auto values = store.series(run.key, name);
+      if (!values) continue;
+      text << "  " << name;
+      for (const double value : *values) text << ' ' << exact(value);
+      text << '\n';
+    }
+  }
+  return text.str();
+}
+
+class Studies : public CommandLine {
+ protected:
+  std::size_t runs_in(const std::string& folder) const {
+    return ResultStore::open(path(folder)).keys().size();
+  }
+};
+
+TEST_F(Studies, TheNumberOfJobsDoesNotMatterNorDoesTheCache) {
+  write("s.yaml", kStudy);
+  fathom_done({"compare", "s.yaml", "--out", "one", "--cache", "cache"});
+  fathom_done({"compare", "s.yaml", "--out", "two", "--cache", "cache", "--jobs", "2"});
+  fathom_done({"compare", "s.yaml", "--out", "none", "--no-cache", "--jobs", "2"});
+  EXPECT_EQ(runs_in("one"), 2u * 5u * 4u);
+  EXPECT_EQ(content(path("one")), content(path("two")));
+  EXPECT_EQ(content(path("one")), content(path("none")));
+}
+
+TEST_F(Studies, KilledAgainAndAgainItEndsAsAnUndisturbedOneDoes) {
+  write("s.yaml", kStudy);
+  fathom_done({"compare", "s.yaml", "--out", "whole", "--cache", "a"});
+  std::mt19937 random(7);
+  int kills = 0;
+  for (int i = 0; i < 20; ++i) {
+    const auto after = std::chrono::milliseconds(random() % 400);
+    const auto start = std::chrono::steady_clock::now();
+    const Ended ended =
+        fathom({"compare", "s.yaml", "--out", "killed", "--cache", "b"}, [&](pid_t process) {
+          if (std::chrono::steady_clock::now() - start > after) ::kill(process, SIGKILL);
+        });
+    if (ended.status == 128 + SIGKILL) ++kills;
+  }
+  EXPECT_GE(kills, 5);
+  fathom_done({"compare", "s.yaml", "--out", "killed", "--cache", "b"});
+  EXPECT_EQ(content(path("whole")), content(path("killed")));
+}
+
+TEST_F(Studies, InterruptedItSaysHowToGoOn) {
+  write("s.yaml", kStudy);
+  bool is_asked = false;
+  const Ended ended = fathom({"compare", "s.yaml", "--out", "out", "--trials", "2000"},
+                             [&](pid_t process) {
+                               if (is_asked || !fs::exists(path("out/results.sqlite-wal"))) return;
+                               is_asked = true;
+                               std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+                               ::kill(process, SIGINT);
+                             });
+  EXPECT_EQ(ended.status, 130);
+  EXPECT_THAT(ended.err, HasSubstr("The same command goes on from there."));
+  EXPECT_FALSE(fs::exists(path("out/report.html")));
+}
+
+TEST_F(Studies, MoreTrialsAreAddedToWhatIsThere) {
+  write("s.yaml", kStudy);
+  fathom_done({"compare", "s.yaml", "--out", "out", "--trials", "2"});
+  const std::string before = content(path("out"));
+  fathom_done({"compare", "s.yaml", "--out", "out"});
+  fathom_done({"compare", "s.yaml", "--out", "other"});
+  EXPECT_EQ(runs_in("out"), 40u);
+  EXPECT_EQ(content(path("out")), content(path("other")));
+  EXPECT_NE(content(path("out")), before);
+}
+
+TEST_F(Studies, AnotherConfigurationIsRefusedWithWhatDiffers) {
+  write("s.yaml", kStudy);
+  fathom_done({"compare", "s.yaml", "--out", "out", "--trials", "1"});
+  EXPECT_THAT(refusal({"compare", "s.yaml", "--out", "out", "--trials", "1", "--set",
+                       "front_end.ransac.max_error_m=0.06"}),
+              HasSubstr("front_end.ransac.max_error_m: 0.05 there, 0.06 here"));
+}
+
+TEST_F(Studies, EveryEstimatorOfATrialSeesTheSameDraws) {
+  write("s.yaml", std::string(kStudy) + "estimators: [{type: ekf}, {type: ekf, name: again}]\n");
+  fathom_done({"compare", "s.yaml", "--out", "out"});
+  const ResultStore store = ResultStore::open(path("out"));
+  for (const RunRecord& run : store.runs()) {
+    if (run.key.estimator != "again") continue;
+    const RunKey other{run.key.cell, run.key.trial, "ekf"};
+    EXPECT_EQ(store.series(run.key, "x_m"), store.series(other, "x_m"));
+    EXPECT_NE(store.series(run.key, "x_m"), store.series({run.key.cell, 4, "ekf"}, "x_m")) ==
+        (run.key.trial != 4);
+  }
+}
+
+TEST_F(Studies, SharedAssociationGivesOneLogToAll) {
+  write("s.yaml", kStudy);
+  fathom_done({"compare", "s.yaml", "--out", "out", "--set", "association.mode=shared"});
+  std::map<std::pair<std::size_t, std::size_t>, std::set<std::string>> hashes;
+  for (const RunRecord& run : ResultStore::open(path("out")).runs()) {
+    if (run.key.estimator == kDeadReckoning) continue;
+    hashes[{run.key.cell, run.key.trial}].insert(run.log_hash);
+  }
+  EXPECT_EQ(hashes.size(), 10u);
+  std::set<std::string> all;
+  for (const auto& [trial, own] : hashes) {
+    EXPECT_EQ(own.size(), 1u);
+    all.insert(own.begin(), own.end());
+  }
+  EXPECT_EQ(all.size(), 10u);
+}
+
+TEST_F(Studies, ADataSetThatFailsLeavesNothingBehind) {
+  write("s.yaml", "dataset: {type: image_folder, path: nowhere}\nestimators: [{type: ekf}]\n");
+  EXPECT_THAT(refusal({"compare", "s.yaml", "--out", "out"}), HasSubstr("nowhere"));
+}
+
+}  // namespace
+}  // namespace fathom::test
