@@ -33,11 +33,10 @@ std::vector<StampedPose> frame_ground_truth_of(const FrameSource& frames, std::s
 }
 
 Recording record_survey(const Configuration& configuration, const EstimatorRegistry& registry,
-                        const Progress& progress) {
-  Survey survey(configuration);
+                        const Progress& progress, RegistrationCache* cache) {
+  Survey survey(configuration, cache);
   const FrameSource& frames = survey.frames();
-  FrontEnd front_end(frames, survey.features(), configuration.front_end,
-                     static_cast<std::uint64_t>(configuration.seed));
+  FrontEnd front_end(frames, survey.registrar(), configuration.front_end);
   const EstimatorConfiguration& reference = configuration.estimators[configuration.reference];
   const auto estimator = registry.find(reference.type).create({}, reference.values);
 
@@ -80,9 +79,9 @@ Recording record_graph(const std::filesystem::path& path) {
 }
 
 Recording record(const Configuration& configuration, const EstimatorRegistry& registry,
-                 const Progress& progress) {
+                 const Progress& progress, RegistrationCache* cache) {
   if (configuration.dataset != DatasetType::g2o) {
-    return record_survey(configuration, registry, progress);
+    return record_survey(configuration, registry, progress, cache);
   }
   if (configuration.dataset_path.empty()) {
     throw InputError("dataset.path: say where the g2o file is");

@@ -51,6 +51,8 @@ const std::vector<ThirdParty>& third_parties() {
       {"opencv2/", {"vision/", "datasets/", "front_end/", "report/", "apps/"}},
       {"ceres/", {"estimators/ceres_pose_graph/"}},
       {"yaml-cpp/", {"src/study/", "src/datasets/camera_yaml.cpp"}},
+      {"SQLiteCpp/", {"src/study/"}},
+      {"sqlite3.h", {"src/study/"}},
       {"nlohmann/", {"src/study/"}},
       {"cblas.h", {"src/vision/", "src/estimation/", "apps/main.cpp"}},
       {"CLI/", {"apps/"}},

@@ -32,9 +32,10 @@ struct Recording {
 
 /// Runs the front end over the data set once. Loop candidates are picked by the estimate of
 /// `configuration.estimators[reference]`, which runs along; the log is all that is kept of it.
-/// Of a g2o data set: the graph, with vertex ids as whole seconds.
+/// Of a g2o data set: the graph, with vertex ids as whole seconds. Registrations that the cache
+/// knows are not made again; the recording is the same with a cache and without.
 Recording record(const Configuration& configuration, const EstimatorRegistry& registry,
-                 const Progress& progress = {});
+                 const Progress& progress = {}, RegistrationCache* cache = nullptr);
 
 /// A pose graph as a recording, read from a file.
 Recording record_graph(const std::filesystem::path& path);
