@@ -7,7 +7,7 @@
 namespace fathom {
 
 /// The exit status of a command.
-enum ExitStatus : int { kDone = 0, kFailed = 1, kBadInput = 2 };
+enum ExitStatus : int { kDone = 0, kFailed = 1, kBadInput = 2, kStopped = 130 };
 
 /// What all commands share.
 struct Context {

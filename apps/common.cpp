@@ -1,7 +1,9 @@
 #include "apps/common.hpp"
 
+#include <cblas.h>
 #include <cstdio>
 #include <filesystem>
+#include <omp.h>
 #include <unistd.h>
 #include <utility>
 
@@ -36,8 +38,19 @@ std::string stem_of(const std::string& path) {
   return stem.empty() ? "run" : stem;
 }
 
+// CHOLMOD 5.12 opens an OpenMP team of its own whatever OMP_NUM_THREADS says; without active levels
+// it cannot.
+void pin_threads() {
+  omp_set_max_active_levels(0);
+  openblas_set_num_threads(1);
+}
+
+bool is_error_terminal() {
+  return ::isatty(STDERR_FILENO) != 0;
+}
+
 ProgressLine::ProgressLine(std::string what, bool quiet)
-    : what_(std::move(what)), enabled_(!quiet && ::isatty(STDERR_FILENO) != 0) {}
+    : what_(std::move(what)), enabled_(!quiet && is_error_terminal()) {}
 
 ProgressLine::~ProgressLine() {
   if (shown_) std::fprintf(stderr, "\r\033[K");

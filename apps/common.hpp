@@ -30,6 +30,13 @@ struct CommonFlags {
   std::string folder_or(const std::string& name) const;
 };
 
+/// One thread for BLAS and for CHOLMOD's OpenMP, on the thread that calls and what it calls: cost
+/// is compared on one core.
+void pin_threads();
+
+/// Whether standard error is a terminal.
+bool is_error_terminal();
+
 /// The name of a file without folder and ending.
 std::string stem_of(const std::string& path);
 

@@ -1,25 +1,17 @@
 // The command line. Every command is a file of its own; input errors become one line and status 2.
 
-#include <cblas.h>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
 #include <glog/logging.h>
-#include <omp.h>
 
 #include "apps/command.hpp"
+#include "apps/common.hpp"
 #include "fathom/core/options.hpp"
 #include "fathom/study/manifest.hpp"
 
 namespace fathom {
 namespace {
-
-// Cost is compared on one thread. CHOLMOD 5.12 opens an OpenMP team of its own whatever
-// OMP_NUM_THREADS says; without active levels it cannot.
-void pin_threads() {
-  omp_set_max_active_levels(0);
-  openblas_set_num_threads(1);
-}
 
 // Ceres reports failed factorisations on standard error; here they are outcomes.
 void silence_ceres() {

@@ -33,6 +33,7 @@ class Rendered : public fathom::FrameSource {
   std::size_t size() const override { return pictures_.size(); }
   const fathom::FrameInfo& info(std::size_t i) const override { return survey_.info(i); }
   cv::Mat image(std::size_t i) const override { return pictures_[i]; }
+  std::uint64_t picture_id(std::size_t i) const override { return survey_.picture_id(i); }
   bool has_odometry() const override { return false; }
   bool has_ground_truth() const override { return true; }
 
@@ -72,9 +73,9 @@ void Survey(benchmark::State& state) {
   std::size_t found = 0;
   std::size_t failures = 0;
   for (auto _ : state) {
-    fathom::FeatureStore features(frames, options.features);
-    const fathom::VisualOdometry odometry(frames, features, options, kSeed);
-    fathom::FrontEnd front_end(odometry, features, options, kSeed);
+    fathom::PairRegistrar registrar(frames, options.features, options.registration, kSeed);
+    const fathom::VisualOdometry odometry(frames, registrar, options.visual_odometry);
+    fathom::FrontEnd front_end(odometry, registrar, options);
     DeadReckoning trajectory;
     while (const auto keyframe = front_end.next_keyframe()) {
       if (!keyframe->step) continue;

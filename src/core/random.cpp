@@ -4,24 +4,15 @@
 #include <cmath>
 #include <numbers>
 
+#include "fathom/core/hash.hpp"
+
 namespace fathom {
-namespace {
-
-// The finaliser of SplitMix64 (Steele, Lea, Flood 2014): each input bit reaches each output bit.
-std::uint64_t mix(std::uint64_t value) {
-  value += 0x9e3779b97f4a7c15ULL;
-  value = (value ^ (value >> 30)) * 0xbf58476d1ce4e5b9ULL;
-  value = (value ^ (value >> 27)) * 0x94d049bb133111ebULL;
-  return value ^ (value >> 31);
-}
-
-}  // namespace
 
 std::uint64_t stream_seed(std::uint64_t base_seed, std::string_view stream, std::uint64_t trial) {
   assert(!stream.empty());
-  std::uint64_t hash = mix(base_seed);
-  for (const char letter : stream) hash = mix(hash ^ static_cast<unsigned char>(letter));
-  return mix(hash ^ mix(trial));
+  std::uint64_t hash = mix_bits(base_seed);
+  for (const char letter : stream) hash = mix_bits(hash ^ static_cast<unsigned char>(letter));
+  return mix_bits(hash ^ mix_bits(trial));
 }
 
 double RandomStream::uniform() {

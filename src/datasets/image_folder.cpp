@@ -5,6 +5,8 @@
 #include <string>
 
 #include "camera_yaml.hpp"
+#include "fathom/core/files.hpp"
+#include "fathom/core/hash.hpp"
 #include "fathom/core/input_error.hpp"
 #include "fathom/datasets/picture_file.hpp"
 #include "sensor_csv.hpp"
@@ -49,6 +51,7 @@ ImageFolder::ImageFolder(const fs::path& path) {
   read_altitudes(mav0);
   read_odometry(mav0);
   read_ground_truth(mav0);
+  ids_ = std::vector<PictureId>(pictures_.size());
   ImageFolder::image(0);  // refuses what cannot be read before a run starts
 }
 
@@ -119,6 +122,14 @@ cv::Mat ImageFolder::image(std::size_t i) const {
                          size(model.width, model.height));
   }
   return picture;
+}
+
+std::uint64_t ImageFolder::picture_id(std::size_t i) const {
+  PictureId& id = ids_[i];
+  // What throws is tried again by the next one who asks.
+  std::call_once(
+      id.once, [&] { id.value = Hash().add("picture file").add(read_file(pictures_[i])).value(); });
+  return id.value;
 }
 
 }  // namespace fathom

@@ -6,6 +6,33 @@
 #include "fathom/geometry/covariance.hpp"
 
 namespace fathom {
+namespace {
+
+template <class Options>
+Eigen::Matrix3d covariance_of(const Options& options, bool may_be_zero, const std::string& prefix) {
+  Eigen::Matrix3d C = Eigen::Matrix3d::Zero();
+  const std::vector<double>& c = options.covariance;
+  if (c.empty()) {
+    const Eigen::Vector3d sigmas{options.sigma_x_m, options.sigma_y_m, options.sigma_theta_rad};
+    C = sigmas.cwiseAbs2().asDiagonal();
+  } else if (c.size() == 6) {
+    C << c[0], c[1], c[2], c[1], c[3], c[4], c[2], c[4], c[5];
+  } else {
+    throw InputError(prefix + "covariance: expected six numbers [xx, xy, xt, yy, yt, tt], or []");
+  }
+  if (is_positive_definite(C) || (may_be_zero && C.isZero(0.0))) return C;
+  if (!c.empty()) {
+    throw InputError(prefix + "covariance: is not positive definite; expected xx, yy, tt > 0 and " +
+                     "correlations between -1 and 1");
+  }
+  const std::string key = !(options.sigma_x_m > 0)   ? "sigma_x_m"
+                          : !(options.sigma_y_m > 0) ? "sigma_y_m"
+                                                     : "sigma_theta_rad";
+  throw InputError(prefix + key +
+                   ": makes the covariance of a step singular; expected a number > 0");
+}
+
+}  // namespace
 
 void OdometryOptions::describe(OptionTable& table) {
   table.enumeration(
@@ -21,29 +48,22 @@ void OdometryOptions::describe(OptionTable& table) {
               "noise per frame [xx, xy, xt, yy, yt, tt] in m^2, m rad, rad^2; []: from the sigmas");
 }
 
+void AddedNoiseOptions::describe(OptionTable& table) {
+  table.real("sigma_x_m", sigma_x_m, Range::at_least(0), "m",
+             "noise added to each frame's motion, forward");
+  table.real("sigma_y_m", sigma_y_m, Range::at_least(0), "m", "noise added, to port");
+  table.real("sigma_theta_rad", sigma_theta_rad, Range::at_least(0), "rad",
+             "noise added, heading; all three zero: none");
+  table.reals("covariance", covariance, 6, "",
+              "noise added [xx, xy, xt, yy, yt, tt] in m^2, m rad, rad^2; []: from the sigmas");
+}
+
 Eigen::Matrix3d OdometryOptions::noise_covariance(const std::string& prefix) const {
-  Eigen::Matrix3d C = Eigen::Matrix3d::Zero();
-  if (covariance.empty()) {
-    const Eigen::Vector3d sigmas{sigma_x_m, sigma_y_m, sigma_theta_rad};
-    C = sigmas.cwiseAbs2().asDiagonal();
-  } else if (covariance.size() == 6) {
-    const std::vector<double>& c = covariance;
-    C << c[0], c[1], c[2], c[1], c[3], c[4], c[2], c[4], c[5];
-  } else {
-    throw InputError(prefix + "covariance: expected six numbers [xx, xy, xt, yy, yt, tt], or []");
-  }
-  if (is_positive_definite(C) || (source == OdometrySource::kVisualOdometry && C.isZero(0.0))) {
-    return C;
-  }
-  if (!covariance.empty()) {
-    throw InputError(prefix + "covariance: is not positive definite; expected xx, yy, tt > 0 and " +
-                     "correlations between -1 and 1");
-  }
-  const std::string key = !(sigma_x_m > 0)   ? "sigma_x_m"
-                          : !(sigma_y_m > 0) ? "sigma_y_m"
-                                             : "sigma_theta_rad";
-  throw InputError(prefix + key +
-                   ": makes the covariance of a step singular; expected a number > 0");
+  return covariance_of(*this, source == OdometrySource::kVisualOdometry, prefix);
+}
+
+Eigen::Matrix3d AddedNoiseOptions::noise_covariance(const std::string& prefix) const {
+  return covariance_of(*this, true, prefix);
 }
 
 MotionNoise::MotionNoise(const Eigen::Matrix3d& covariance) : lower_(Eigen::Matrix3d::Zero()) {
@@ -54,6 +74,11 @@ Eigen::Vector3d MotionNoise::draw(RandomStream& stream) const {
   Eigen::Vector3d standard;
   for (double& value : standard) value = stream.normal();
   return lower_ * standard;
+}
+
+Pose MotionNoise::disturb(const Pose& motion, RandomStream& stream) const {
+  const Eigen::Vector3d noisy = motion.vector() + draw(stream);
+  return {noisy.x(), noisy.y(), wrap_angle(noisy.z())};
 }
 
 }  // namespace fathom

@@ -1,7 +1,6 @@
 #include "fathom/datasets/picture_file.hpp"
 
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include <opencv2/imgcodecs.hpp>
@@ -27,7 +26,10 @@ bool is_cut_short(std::string_view bytes) {
 
 cv::Mat read_grey_picture(const std::filesystem::path& path) {
   // Decoded from memory: OpenCV prints a warning of its own where it cannot open a file.
-  const std::string bytes = read_file(path);
+  return decode_grey_picture(read_file(path), path);
+}
+
+cv::Mat decode_grey_picture(std::string_view bytes, const std::filesystem::path& path) {
   cv::Mat picture;
   try {
     if (!bytes.empty() && !is_cut_short(bytes)) {

@@ -1,12 +1,15 @@
 #include "fathom/datasets/simulated_survey.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstdio>
+#include <mutex>
 #include <numbers>
 #include <string>
 #include <utility>
 
+#include "fathom/core/hash.hpp"
 #include "fathom/core/input_error.hpp"
 #include "fathom/core/random.hpp"
 #include "fathom/core/text.hpp"
@@ -19,9 +22,10 @@ const std::string kPrefix = "dataset.";
 
 // Options that code filled in keep the same bounds as those of a config: each is set to itself.
 // Lists have no bounds of their own; those who use them check them.
-SimulatedSurveyOptions checked(SimulatedSurveyOptions options) {
+template <class Options>
+Options checked(Options options, const std::string& group) {
   OptionTable table;
-  table.group("dataset", options);
+  table.group(group, options);
   for (const OptionDescription& option : table.descriptions()) {
     if (option.type == "list of real") continue;
     table.set(option.key, OptionValue::scalar(table.value(option.key)));
@@ -62,12 +66,6 @@ double measured_altitude(double altitude_m, double sigma_m, RandomStream& stream
                    "below zero; expected a number in m well below " + kPrefix + "altitude.base_m");
 }
 
-UncertainPose noisy_motion(const Pose& motion, const Eigen::Matrix3d& covariance,
-                           const MotionNoise& noise, RandomStream& stream) {
-  const Eigen::Vector3d noisy = motion.vector() + noise.draw(stream);
-  return {{noisy.x(), noisy.y(), wrap_angle(noisy.z())}, covariance};
-}
-
 std::string metres(double value) {
   char buffer[48];
   std::snprintf(buffer, sizeof buffer, "%.2f m", value);
@@ -102,7 +100,7 @@ std::string beyond(const Eigen::AlignedBox2d& world, const Eigen::AlignedBox2d& 
 }
 
 // Boxes are in the axes of the picture, with the origin at frame 0.
-void require_inside(const World& world, const std::vector<Eigen::AlignedBox2d>& boxes,
+void require_inside(const WorldPlan& world, const std::vector<Eigen::AlignedBox2d>& boxes,
                     const Eigen::AlignedBox2d& all, const std::vector<FrameInfo>& infos) {
   const Eigen::AlignedBox2d extent = world.extent().translated(-world.mission.position());
   for (std::size_t i = 0; i < boxes.size(); ++i) {
@@ -130,38 +128,90 @@ void SimulatedSurveyOptions::describe(OptionTable& table) {
   table.group("odometry", odometry);
 }
 
+// What pictures are rendered from; made when the first one is asked for.
+class SimulatedSurvey::Floor {
+ public:
+  Floor(const Camera& camera, ViewRays rays, WorldPlan plan)
+      : camera_(camera), rays_(std::move(rays)), plan_(std::move(plan)) {
+    Hash hash;
+    hash.add("rendered picture").add(kRendererVersion);
+    camera_.model().add_to(hash);
+    plan_.add_to(hash);
+    id_ = hash.value();
+  }
+
+  const FloorRenderer& renderer() {
+    std::call_once(once_, [&] {
+      renderer_ = std::make_unique<const FloorRenderer>(camera_, std::move(rays_), plan_.make());
+      plan_.picture.release();
+      is_drawn_ = true;
+    });
+    return *renderer_;
+  }
+  bool is_drawn() const { return is_drawn_; }
+  std::uint64_t id() const { return id_; }
+
+ private:
+  Camera camera_;
+  ViewRays rays_;
+  WorldPlan plan_;
+  std::uint64_t id_ = 0;
+  std::once_flag once_;
+  std::unique_ptr<const FloorRenderer> renderer_;
+  std::atomic<bool> is_drawn_ = false;
+};
+
 SimulatedSurvey::SimulatedSurvey(const SimulatedSurveyOptions& given, std::uint64_t seed,
                                  std::uint64_t trial) {
-  const SimulatedSurveyOptions options = checked(given);
+  const SimulatedSurveyOptions options = checked(given, "dataset");
   camera_ = camera_of(options.camera);
-  measure(options, seed, trial);
-  render_from(options.world, seed);
+  fly(options);
+  measure(options.odometry, options.altitude.altimeter_sigma_m, seed, trial);
+  plan_floor(options.world, seed);
 }
 
-void SimulatedSurvey::measure(const SimulatedSurveyOptions& options, std::uint64_t seed,
-                              std::uint64_t trial) {
+SimulatedSurvey SimulatedSurvey::remeasured(const OdometryOptions& odometry,
+                                            double altimeter_sigma_m, std::uint64_t noise_seed,
+                                            std::uint64_t trial) const {
+  AltitudeOptions altitude;
+  altitude.altimeter_sigma_m = altimeter_sigma_m;
+  checked(altitude, "dataset.altitude");
+  SimulatedSurvey survey = *this;
+  survey.measure(checked(odometry, "dataset.odometry"), altimeter_sigma_m, noise_seed, trial);
+  return survey;
+}
+
+void SimulatedSurvey::fly(const SimulatedSurveyOptions& options) {
   const std::vector<StampedPose> poses = fly_mission(options.mission, kPrefix + "mission.");
-  const Eigen::Matrix3d covariance = options.odometry.noise_covariance(kPrefix + "odometry.");
-  const MotionNoise noise(covariance);
+  // A covariance that cannot be is said before an altitude.
+  options.odometry.noise_covariance(kPrefix + "odometry.");
   true_altitudes_m_ = true_altitudes(options.altitude, poses);
-  has_odometry_ = options.odometry.source == OdometrySource::kNoisyMotion;
-  RandomStream altimeter(seed, "altimeter", trial);
-  RandomStream dead_reckoning(seed, "dead_reckoning", trial);
-  for (std::size_t i = 0; i < poses.size(); ++i) {
+  for (const StampedPose& pose : poses) {
     FrameInfo info;
-    info.time_ns = poses[i].time_ns;
-    info.altitude_m =
-        measured_altitude(true_altitudes_m_[i], options.altitude.altimeter_sigma_m, altimeter);
-    if (has_odometry_ && i > 0) {
-      info.motion = noisy_motion(between(poses[i - 1].pose, poses[i].pose), covariance, noise,
-                                 dead_reckoning);
-    }
-    info.ground_truth = poses[i].pose;
+    info.time_ns = pose.time_ns;
+    info.ground_truth = pose.pose;
     infos_.push_back(info);
   }
 }
 
-void SimulatedSurvey::render_from(const WorldOptions& options, std::uint64_t seed) {
+void SimulatedSurvey::measure(const OdometryOptions& odometry, double altimeter_sigma_m,
+                              std::uint64_t seed, std::uint64_t trial) {
+  const Eigen::Matrix3d covariance = odometry.noise_covariance(kPrefix + "odometry.");
+  const MotionNoise noise(covariance);
+  has_odometry_ = odometry.source == OdometrySource::kNoisyMotion;
+  RandomStream altimeter(seed, "altimeter", trial);
+  RandomStream dead_reckoning(seed, "dead_reckoning", trial);
+  for (std::size_t i = 0; i < infos_.size(); ++i) {
+    FrameInfo& info = infos_[i];
+    info.altitude_m = measured_altitude(true_altitudes_m_[i], altimeter_sigma_m, altimeter);
+    info.motion.reset();
+    if (!has_odometry_ || i == 0) continue;
+    const Pose motion = between(*infos_[i - 1].ground_truth, *info.ground_truth);
+    info.motion = UncertainPose{noise.disturb(motion, dead_reckoning), covariance};
+  }
+}
+
+void SimulatedSurvey::plan_floor(const WorldOptions& options, std::uint64_t seed) {
   ViewRays rays(camera_);
   std::vector<Eigen::AlignedBox2d> boxes;
   Eigen::AlignedBox2d all;
@@ -170,13 +220,28 @@ void SimulatedSurvey::render_from(const WorldOptions& options, std::uint64_t see
     boxes.push_back(rays.seen(pose, true_altitudes_m_[i]));
     all.extend(boxes.back());
   }
-  World world = make_world(options, all, seed, kPrefix + "world.");
-  require_inside(world, boxes, all, infos_);
-  renderer_ = std::make_unique<const FloorRenderer>(camera_, std::move(rays), std::move(world));
+  WorldPlan plan = plan_world(options, all, seed, kPrefix + "world.");
+  require_inside(plan, boxes, all, infos_);
+  floor_ = std::make_shared<Floor>(camera_, std::move(rays), std::move(plan));
 }
 
 cv::Mat SimulatedSurvey::image(std::size_t i) const {
-  return renderer_->render(*infos_[i].ground_truth, true_altitudes_m_[i]);
+  return floor_->renderer().render(*infos_[i].ground_truth, true_altitudes_m_[i]);
+}
+
+std::uint64_t SimulatedSurvey::picture_id(std::size_t i) const {
+  const Pose& pose = *infos_[i].ground_truth;
+  Hash hash;
+  hash.add(floor_->id()).add(pose.x).add(pose.y).add(pose.theta).add(true_altitudes_m_[i]);
+  return hash.value();
+}
+
+const World& SimulatedSurvey::world() const {
+  return floor_->renderer().world();
+}
+
+bool SimulatedSurvey::is_world_drawn() const {
+  return floor_->is_drawn();
 }
 
 }  // namespace fathom

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "fathom/core/files.hpp"
 #include "fathom/core/input_error.hpp"
 #include "fathom/core/random.hpp"
 #include "fathom/datasets/picture_file.hpp"
@@ -49,30 +50,44 @@ Eigen::Vector2d World::pixel(const Eigen::Vector2d& point) const {
           (picture.rows - 1) / 2.0 - point.x() / metres_per_pixel};
 }
 
-Eigen::AlignedBox2d World::extent() const {
-  const Eigen::Vector2d half{(picture.rows - 1) / 2.0 * metres_per_pixel,
-                             (picture.cols - 1) / 2.0 * metres_per_pixel};
+Eigen::AlignedBox2d WorldPlan::extent() const {
+  const Eigen::Vector2d half{(size.height - 1) / 2.0 * metres_per_pixel,
+                             (size.width - 1) / 2.0 * metres_per_pixel};
   return {-half, half};
 }
 
-World make_world(const WorldOptions& options, const Eigen::AlignedBox2d& seen, std::uint64_t seed,
-                 const std::string& prefix) {
-  World world;
-  world.metres_per_pixel = options.metres_per_pixel;
-  world.mission = {options.origin_x_m.value_or(-seen.center().x()),
-                   options.origin_y_m.value_or(-seen.center().y()),
-                   wrap_angle(options.heading_rad)};
+World WorldPlan::make() const {
+  const cv::Mat floor =
+      picture.empty() ? draw_sea_floor(size, metres_per_pixel, floor_seed) : picture;
+  return {floor, metres_per_pixel, mission};
+}
+
+void WorldPlan::add_to(Hash& hash) const {
+  hash.add(size.width).add(size.height).add(metres_per_pixel);
+  hash.add(mission.x).add(mission.y).add(mission.theta);
+  hash.add(picture.empty()).add(floor_seed).add(file_id);
+}
+
+WorldPlan plan_world(const WorldOptions& options, const Eigen::AlignedBox2d& seen,
+                     std::uint64_t seed, const std::string& prefix) {
+  WorldPlan plan;
+  plan.metres_per_pixel = options.metres_per_pixel;
+  plan.mission = {options.origin_x_m.value_or(-seen.center().x()),
+                  options.origin_y_m.value_or(-seen.center().y()), wrap_angle(options.heading_rad)};
   if (!options.picture.empty()) {
-    world.picture = read_grey_picture(options.picture);
-    return world;
+    const std::string bytes = read_file(options.picture);
+    plan.picture = decode_grey_picture(bytes, options.picture);
+    plan.size = plan.picture.size();
+    plan.file_id = Hash().add(bytes).value();
+    return plan;
   }
   if (options.origin_x_m || options.origin_y_m) {
     throw InputError(prefix + (options.origin_x_m ? "origin_x_m" : "origin_y_m") +
                      ": is for a given picture; a procedural floor is made around the mission");
   }
-  world.picture = draw_sea_floor(floor_size(seen.sizes(), options.metres_per_pixel, prefix),
-                                 options.metres_per_pixel, stream_seed(seed, "sea_floor", 0));
-  return world;
+  plan.size = floor_size(seen.sizes(), options.metres_per_pixel, prefix);
+  plan.floor_seed = stream_seed(seed, "sea_floor", 0);
+  return plan;
 }
 
 }  // namespace fathom

@@ -1,16 +1,13 @@
 #include "fathom/front_end/front_end.hpp"
 
-#include <opencv2/core/utility.hpp>
-
 #include "fathom/core/input_error.hpp"
-#include "fathom/front_end/pair_seed.hpp"
 #include "fathom/geometry/covariance.hpp"
 
 namespace fathom {
 
-FrontEnd::FrontEnd(const FrameSource& source, FeatureStore& features,
-                   const FrontEndOptions& options, std::uint64_t seed)
-    : source_(source), store_(features), options_(options), seed_(seed) {
+FrontEnd::FrontEnd(const FrameSource& source, PairRegistrar& registrar,
+                   const FrontEndOptions& options)
+    : source_(source), registrar_(registrar), options_(options) {
   if (!source.has_odometry()) {
     throw InputError("the data set has no dead reckoning; visual odometry can make it");
   }
@@ -34,12 +31,30 @@ std::optional<Keyframe> FrontEnd::next_keyframe() {
                                                     since.covariance);
     }
     frames_.push_back({info.time_ns, keyframe.index, Pose{}});
-    features_.push_back(store_.of(frame));
     keyframes_.push_back(keyframe);
-    store_.announce(frame + separation);
+    announce_next_keyframe();
     return keyframe;
   }
   return std::nullopt;
+}
+
+MeasuredFrame FrontEnd::measured(std::size_t frame) const {
+  return {frame, source_.info(frame).altitude_m};
+}
+
+// The next keyframe is registered with this one if its step is no longer than the reach; only then
+// is it sure that its picture is needed, if the pair is not known. Visual odometry looks ahead
+// itself.
+void FrontEnd::announce_next_keyframe() const {
+  if (source_.is_visual_odometry()) return;
+  const std::size_t frame = keyframes_.back().frame;
+  const std::size_t next = frame + static_cast<std::size_t>(options_.separation_frames);
+  if (next >= source_.size()) return;
+  Pose step;
+  for (std::size_t i = frame + 1; i <= next; ++i)
+    step = compose(step, source_.info(i).motion->mean);
+  if (step.position().norm() > options_.max_distance_m) return;
+  registrar_.announce(measured(frame), measured(next));
 }
 
 std::vector<std::size_t> FrontEnd::candidates(const TrajectoryView& trajectory) const {
@@ -61,22 +76,15 @@ std::vector<std::size_t> FrontEnd::candidates(const TrajectoryView& trajectory) 
 std::vector<RelativePose> FrontEnd::register_newest(const TrajectoryView& trajectory) {
   const std::size_t newest = keyframes_.size() - 1;
   const std::vector<std::size_t> near = candidates(trajectory);
-  std::vector<Registration> results(near.size());
-  // Each pair has its own seed, so the order of execution does not matter.
-  cv::parallel_for_(cv::Range(0, static_cast<int>(near.size())), [&](const cv::Range& range) {
-    for (int i = range.start; i < range.end; ++i) {
-      const auto c = static_cast<std::size_t>(i);
-      results[c] =
-          register_pair(*features_[near[c]], *features_[newest], options_.registration,
-                        pair_seed(seed_, keyframes_[near[c]].frame, keyframes_[newest].frame));
-    }
-  });
+  std::vector<MeasuredFrame> from;
+  for (const std::size_t k : near) from.push_back(measured(keyframes_[k].frame));
+  const auto results = registrar_.of_all(from, measured(keyframes_[newest].frame));
   std::vector<RelativePose> registrations;
   for (std::size_t c = 0; c < near.size(); ++c) {
     if (!results[c].found) continue;
     registrations.push_back(
         RelativePose::from_covariance(near[c], newest, results[c].motion, results[c].covariance));
-    registrations.back().inliers = static_cast<int>(results[c].inliers.size());
+    registrations.back().inliers = results[c].inliers;
   }
   tried_ += near.size();
   found_ += registrations.size();

@@ -28,12 +28,16 @@ std::vector<OptionDescription> described(Describe describe) {
 std::vector<DatasetEntry> make_datasets() {
   SimulatedSurveyOptions simulation;
   FileDatasetOptions file;
+  AddedNoiseOptions added_noise;
   return {
       {"simulated", DatasetType::simulated, "a survey flown over a picture or a procedural floor",
        described([&](OptionTable& table) { simulation.describe(table); })},
       {"image_folder", DatasetType::image_folder,
        "pictures, altitude and odometry in the EuRoC/ASL layout",
-       described([&](OptionTable& table) { file.describe(table, "the folder that holds mav0"); })},
+       described([&](OptionTable& table) {
+         file.describe(table, "the folder that holds mav0");
+         table.group("added_noise", added_noise);
+       })},
       {"g2o", DatasetType::g2o, "a pose graph, straight to the estimators",
        described([&](OptionTable& table) { file.describe(table, "the g2o file"); })}};
 }
@@ -55,6 +59,9 @@ void bind_dataset(Configuration& configuration, OptionTable& table) {
     table.group("dataset", configuration.simulation);
   } else {
     table.text("dataset.path", configuration.dataset_path, "where the data set is");
+    if (configuration.dataset == DatasetType::image_folder) {
+      table.group("dataset.added_noise", configuration.added_noise);
+    }
   }
 }
 

@@ -32,13 +32,11 @@ std::vector<StampedPose> frame_ground_truth_of(const FrameSource& frames, std::s
   return truth;
 }
 
-Recording record_survey(const Configuration& configuration, const EstimatorRegistry& registry,
-                        const Progress& progress) {
-  Survey survey(configuration);
+Recording record_survey(Survey& survey, const Configuration& configuration, std::size_t by,
+                        const EstimatorRegistry& registry, const Progress& progress) {
   const FrameSource& frames = survey.frames();
-  FrontEnd front_end(frames, survey.features(), configuration.front_end,
-                     static_cast<std::uint64_t>(configuration.seed));
-  const EstimatorConfiguration& reference = configuration.estimators[configuration.reference];
+  FrontEnd front_end(frames, survey.registrar(), configuration.front_end);
+  const EstimatorConfiguration& reference = configuration.estimators[by];
   const auto estimator = registry.find(reference.type).create({}, reference.values);
 
   Recording recording;
@@ -83,15 +81,30 @@ Recording record_graph(const std::filesystem::path& path) {
   return recording;
 }
 
-Recording record(const Configuration& configuration, const EstimatorRegistry& registry,
-                 const Progress& progress) {
+Recorder::Recorder(const Configuration& configuration, RegistrationCache* cache) {
   if (configuration.dataset != DatasetType::g2o) {
-    return record_survey(configuration, registry, progress);
+    pictures_ = std::make_shared<Pictures>(configuration, cache);
+    return;
   }
   if (configuration.dataset_path.empty()) {
     throw InputError("dataset.path: say where the g2o file is");
   }
-  return record_graph(configuration.dataset_path);
+  graph_ = record_graph(configuration.dataset_path);
+}
+
+Recording Recorder::record(const Configuration& configuration, std::size_t reference,
+                           const EstimatorRegistry& registry, const TrialNoise& noise,
+                           const Progress& progress) const {
+  if (graph_) return *graph_;
+  Survey survey(pictures_, configuration, noise);
+  return record_survey(survey, configuration, reference, registry, progress);
+}
+
+Recording record(const Configuration& configuration, const EstimatorRegistry& registry,
+                 const Progress& progress, RegistrationCache* cache) {
+  const TrialNoise noise{static_cast<std::uint64_t>(configuration.seed), 0};
+  return Recorder(configuration, cache)
+      .record(configuration, configuration.reference, registry, noise, progress);
 }
 
 }  // namespace fathom

@@ -1,58 +1,112 @@
 #include "fathom/study/survey.hpp"
 
+#include <algorithm>
+#include <array>
+#include <utility>
+
 #include "fathom/datasets/image_folder.hpp"
 
 namespace fathom {
-
 namespace {
 
-// "dataset.altitude.base_m: …" becomes "FILE:LINE: dataset.altitude.base_m: …".
-[[noreturn]] void rethrow_with_origin(const InputError& error, const Configuration& configuration) {
-  const std::string message = error.what();
-  const auto origin = configuration.origins.find(message.substr(0, message.find(':')));
-  if (origin == configuration.origins.end()) throw InputError(message);
-  throw InputError(origin->second + ": " + message);
+std::uint64_t seed_of(const Configuration& configuration) {
+  return static_cast<std::uint64_t>(configuration.seed);
 }
 
-}  // namespace
-
-Survey::Survey(const Configuration& configuration) {
-  try {
-    open(configuration);
-  } catch (const InputError& error) {
-    rethrow_with_origin(error, configuration);
-  }
-}
-
-void Survey::open(const Configuration& configuration) {
-  const auto seed = static_cast<std::uint64_t>(configuration.seed);
-  AddedNoise noise;
-  noise.seed = seed;
+std::unique_ptr<FrameSource> open_source(const Configuration& configuration) {
   switch (configuration.dataset) {
     case DatasetType::simulated:
-      source_ = std::make_unique<SimulatedSurvey>(configuration.simulation, seed);
-      if (!source_->has_odometry()) {
-        noise.covariance = configuration.simulation.odometry.noise_covariance("dataset.odometry.");
-      }
-      break;
+      return std::make_unique<SimulatedSurvey>(configuration.simulation, seed_of(configuration));
     case DatasetType::image_folder:
       if (configuration.dataset_path.empty()) {
         throw InputError("dataset.path: say where the image folder is");
       }
-      source_ = std::make_unique<ImageFolder>(configuration.dataset_path);
-      break;
+      return std::make_unique<ImageFolder>(configuration.dataset_path);
     case DatasetType::g2o:
-      throw InputError("dataset.type: a g2o graph has no pictures; use simulated or image_folder");
+      break;
   }
-  features_ = std::make_unique<FeatureStore>(*source_, configuration.front_end.features);
-  if (!source_->has_odometry()) {
-    visual_odometry_ = std::make_unique<VisualOdometry>(*source_, *features_,
-                                                        configuration.front_end, seed, noise);
+  throw InputError("dataset.type: a g2o graph has no pictures; use simulated or image_folder");
+}
+
+// Runs an action; "dataset.altitude.base_m: …" becomes "FILE:LINE: dataset.altitude.base_m: …".
+template <class Action>
+void with_origin(const Configuration& configuration, Action action) {
+  try {
+    action();
+  } catch (const InputError& error) {
+    const std::string message = error.what();
+    const auto origin = configuration.origins.find(message.substr(0, message.find(':')));
+    if (origin == configuration.origins.end()) throw;
+    throw InputError(origin->second + ": " + message);
+  }
+}
+
+// Keys that only say what a trial measures, or what is made of registrations.
+bool is_of_a_trial(const std::string& key) {
+  constexpr std::array kPrefixes{
+      "dataset.odometry.",    "dataset.added_noise.",  "dataset.altitude.altimeter_sigma_m",
+      "front_end.keyframes.", "front_end.candidates.", "front_end.visual_odometry."};
+  return std::any_of(kPrefixes.begin(), kPrefixes.end(),
+                     [&key](const char* prefix) { return key.starts_with(prefix); });
+}
+
+}  // namespace
+
+Pictures::Pictures(const Configuration& configuration, RegistrationCache* cache) {
+  with_origin(configuration, [&] {
+    source_ = open_source(configuration);
+    registrar_ = std::make_unique<PairRegistrar>(*source_, configuration.front_end.features,
+                                                 configuration.front_end.registration,
+                                                 seed_of(configuration), cache);
+  });
+}
+
+std::string picture_settings(const Configuration& configuration) {
+  std::string text;
+  for (const auto& [key, value] : configuration.in_force) {
+    const bool counts =
+        key == "seed" || key.starts_with("dataset.") || key.starts_with("front_end.");
+    if (counts && !is_of_a_trial(key)) text.append(key).append("=").append(value).append("\n");
+  }
+  return text;
+}
+
+Survey::Survey(const Configuration& configuration, RegistrationCache* cache)
+    : Survey(std::make_shared<Pictures>(configuration, cache), configuration,
+             {seed_of(configuration), 0}) {}
+
+Survey::Survey(std::shared_ptr<Pictures> pictures, const Configuration& configuration,
+               const TrialNoise& noise)
+    : pictures_(std::move(pictures)) {
+  with_origin(configuration, [&] { open(configuration, noise); });
+}
+
+void Survey::open(const Configuration& configuration, const TrialNoise& noise) {
+  const FrameSource* source = &pictures_->source();
+  AddedNoise added{Eigen::Matrix3d::Zero(), noise.seed, noise.trial};
+  if (const auto* simulated = dynamic_cast<const SimulatedSurvey*>(source)) {
+    const SimulatedSurveyOptions& options = configuration.simulation;
+    measured_ = std::make_unique<SimulatedSurvey>(simulated->remeasured(
+        options.odometry, options.altitude.altimeter_sigma_m, noise.seed, noise.trial));
+    source = measured_.get();
+    if (!source->has_odometry()) {
+      added.covariance = options.odometry.noise_covariance("dataset.odometry.");
+    }
+  } else {
+    added.covariance = configuration.added_noise.noise_covariance("dataset.added_noise.");
+  }
+  if (!source->has_odometry()) {
+    visual_odometry_ = std::make_unique<VisualOdometry>(
+        *source, pictures_->registrar(), configuration.front_end.visual_odometry, added);
+  } else if (!added.covariance.isZero(0.0)) {
+    noisy_odometry_ = std::make_unique<NoisyOdometry>(*source, added);
   }
 }
 
 const FrameSource& Survey::frames() const {
-  return visual_odometry_ ? *visual_odometry_ : *source_;
+  if (visual_odometry_) return *visual_odometry_;
+  if (noisy_odometry_) return *noisy_odometry_;
+  return measured_ ? *measured_ : pictures_->source();
 }
 
 std::size_t Survey::visual_odometry_failures() const {

@@ -58,6 +58,12 @@ void require_unfolded(const CameraModel& model) {
 
 }  // namespace
 
+void CameraModel::add_to(Hash& hash) const {
+  hash.add(width).add(height).add(fx).add(fy).add(cx).add(cy);
+  for (const double coefficient : distortion) hash.add(coefficient);
+  hash.add(mount_x_m).add(mount_y_m).add(mount_yaw_rad);
+}
+
 bool CameraModel::has_distortion() const {
   return std::ranges::any_of(distortion, [](double coefficient) { return coefficient != 0.0; });
 }

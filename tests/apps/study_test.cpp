@@ -34,9 +34,18 @@ trials: 5
 )";
 
 // Deterministic series: all but what a clock says.
-const std::vector<std::string> kSeries{"x_m",         "y_m",       "theta_rad", "cov_xx",
-                                       "cov_xt",      "pose_nees", "loop_from", "loop_fate",
-                                       "truth_x_m",   "loop_nis",  "time_s",    "position_error_m",
+const std::vector<std::string> kSeries{"x_m",
+                                       "y_m",
+                                       "theta_rad",
+                                       "cov_xx",
+                                       "cov_xt",
+                                       "pose_nees",
+                                       "loop_from",
+                                       "loop_fate",
+                                       "truth_x_m",
+                                       "loop_nis",
+                                       "time_s",
+                                       "position_error_m",
                                        "update_keyframe"};
 
 // All that a store holds but cost, sessions and jobs.
@@ -99,13 +108,13 @@ TEST_F(Studies, KilledAgainAndAgainItEndsAsAnUndisturbedOneDoes) {
 TEST_F(Studies, InterruptedItSaysHowToGoOn) {
   write("s.yaml", kStudy);
   bool is_asked = false;
-  const Ended ended = fathom({"compare", "s.yaml", "--out", "out", "--trials", "2000"},
-                             [&](pid_t process) {
-                               if (is_asked || !fs::exists(path("out/results.sqlite-wal"))) return;
-                               is_asked = true;
-                               std::this_thread::sleep_for(std::chrono::milliseconds(1500));
-                               ::kill(process, SIGINT);
-                             });
+  const Ended ended =
+      fathom({"compare", "s.yaml", "--out", "out", "--trials", "2000"}, [&](pid_t process) {
+        if (is_asked || !fs::exists(path("out/results.sqlite-wal"))) return;
+        is_asked = true;
+        std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+        ::kill(process, SIGINT);
+      });
   EXPECT_EQ(ended.status, 130);
   EXPECT_THAT(ended.err, HasSubstr("The same command goes on from there."));
   EXPECT_FALSE(fs::exists(path("out/report.html")));

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "fathom/core/hash.hpp"
 #include "fathom/core/input_error.hpp"
 #include "fathom/datasets/frame_source.hpp"
 #include "vision/textured_floor.hpp"
@@ -59,6 +60,11 @@ class FloorSurvey : public FrameSource {
   const FrameInfo& info(std::size_t i) const override { return infos_[i]; }
   bool has_odometry() const override { return has_odometry_; }
   bool has_ground_truth() const override { return true; }
+
+  std::uint64_t picture_id(std::size_t i) const override {
+    const Pose& pose = truth(i);
+    return Hash().add(pose.x).add(pose.y).add(pose.theta).add(blank_.contains(i)).value();
+  }
 
   cv::Mat image(std::size_t i) const override {
     ++taken_[i];

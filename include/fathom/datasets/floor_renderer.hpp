@@ -30,6 +30,9 @@ class ViewRays {
   std::vector<Eigen::Vector2d> border_;
 };
 
+/// Raise it whenever a rendered picture or a drawn floor changes: pictures are known by it.
+inline constexpr int kRendererVersion = 1;
+
 /// Renders what a camera sees of a world: every pixel is traced to its floor point and looked up
 /// there, bilinear in place and, where the camera resolves less than the world, between the two
 /// nearest levels of an area-averaged pyramid (Williams, *Pyramidal Parametrics*, 1983).

@@ -38,6 +38,11 @@ class FrameSource {
   /// Throws InputError naming the file where it is missing, unreadable or of the wrong size.
   virtual cv::Mat image(std::size_t i) const = 0;
 
+  /// Tells pictures apart without decoding or rendering one: the same number means the same pixels,
+  /// in whatever source and run. May be called from several threads at once. Throws InputError
+  /// naming the file where it is missing or unreadable.
+  virtual std::uint64_t picture_id(std::size_t i) const = 0;
+
   /// Whether every frame after the first has its motion.
   virtual bool has_odometry() const = 0;
   virtual bool has_ground_truth() const = 0;

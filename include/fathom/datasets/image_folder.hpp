@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
+#include <mutex>
 #include <vector>
 
 #include "fathom/datasets/frame_source.hpp"
@@ -34,6 +36,8 @@ class ImageFolder : public FrameSource {
   /// Colour is turned to grey; a rotation tag of the file is ignored, as the camera's calibration
   /// is that of the sensor.
   cv::Mat image(std::size_t i) const override;
+  /// Of the file's bytes, which are read once.
+  std::uint64_t picture_id(std::size_t i) const override;
   bool has_odometry() const override { return has_odometry_; }
   /// Whether every frame has ground truth.
   bool has_ground_truth() const override { return has_ground_truth_; }
@@ -44,9 +48,15 @@ class ImageFolder : public FrameSource {
   void read_odometry(const std::filesystem::path& mav0);
   void read_ground_truth(const std::filesystem::path& mav0);
 
+  struct PictureId {
+    std::once_flag once;
+    std::uint64_t value = 0;
+  };
+
   Camera camera_;
   std::vector<FrameInfo> infos_;
   std::vector<std::filesystem::path> pictures_;
+  mutable std::vector<PictureId> ids_;
   bool has_odometry_ = false;
   bool has_ground_truth_ = false;
 };

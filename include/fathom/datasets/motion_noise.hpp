@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -7,6 +8,7 @@
 
 #include "fathom/core/options.hpp"
 #include "fathom/core/random.hpp"
+#include "fathom/geometry/pose.hpp"
 
 namespace fathom {
 
@@ -28,6 +30,26 @@ struct OdometryOptions {
   Eigen::Matrix3d noise_covariance(const std::string& key_prefix) const;
 };
 
+/// Noise that a study adds to motions that are measured, recorded ones or those of visual odometry.
+struct AddedNoiseOptions {
+  double sigma_x_m = 0.0;
+  double sigma_y_m = 0.0;
+  double sigma_theta_rad = 0.0;
+  std::vector<double> covariance;  ///< [xx, xy, xt, yy, yt, tt]; empty: from the sigmas
+
+  void describe(OptionTable& table);
+
+  /// As of OdometryOptions; zero altogether is no noise.
+  Eigen::Matrix3d noise_covariance(const std::string& key_prefix) const;
+};
+
+/// What is added to each motion: draws of this covariance, which must be positive definite or zero.
+struct AddedNoise {
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  std::uint64_t seed = 0;
+  std::uint64_t trial = 0;
+};
+
 /// Draws zero-mean Gaussian noise of (x, y, θ) with a given covariance.
 class MotionNoise {
  public:
@@ -35,6 +57,9 @@ class MotionNoise {
   explicit MotionNoise(const Eigen::Matrix3d& covariance);
 
   Eigen::Vector3d draw(RandomStream& stream) const;
+
+  /// The pose with a draw added to its (x, y, θ); heading wrapped.
+  Pose disturb(const Pose& motion, RandomStream& stream) const;
 
  private:
   Eigen::Matrix3d lower_;  ///< covariance = lower lowerᵀ

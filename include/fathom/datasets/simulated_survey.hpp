@@ -36,7 +36,8 @@ struct SimulatedSurveyOptions {
 };
 
 /// A survey of a flat floor by a robot that knows nothing of its truth but what is measured. The
-/// pose of frame 0 is the identity. Pictures are rendered when asked for.
+/// pose of frame 0 is the identity. Pictures are rendered when asked for; a procedural floor is
+/// drawn when the first of them is. Copies share the floor.
 class SimulatedSurvey : public FrameSource {
  public:
   /// The floor depends on the seed alone, the noise on seed and trial; each kind of noise has its
@@ -46,26 +47,40 @@ class SimulatedSurvey : public FrameSource {
   explicit SimulatedSurvey(const SimulatedSurveyOptions& options, std::uint64_t seed,
                            std::uint64_t trial = 0);
 
+  /// The same pictures measured again, as another trial of a study does: the floor is shared, only
+  /// altitudes and motions are new. They are those that the constructor would draw with this seed
+  /// and trial. Throws InputError as the constructor does.
+  SimulatedSurvey remeasured(const OdometryOptions& odometry, double altimeter_sigma_m,
+                             std::uint64_t noise_seed, std::uint64_t trial) const;
+
   const Camera& camera() const override { return camera_; }
   std::size_t size() const override { return infos_.size(); }
   const FrameInfo& info(std::size_t i) const override { return infos_[i]; }
   cv::Mat image(std::size_t i) const override;
+  /// Of all that determines the rendered pixels; nothing is drawn for it.
+  std::uint64_t picture_id(std::size_t i) const override;
 
   /// False where visual odometry is to make the motions: then no frame has one.
   bool has_odometry() const override { return has_odometry_; }
   bool has_ground_truth() const override { return true; }
 
-  const World& world() const { return renderer_->world(); }
+  /// Drawn for it, where it is not yet.
+  const World& world() const;
+  bool is_world_drawn() const;
   double true_altitude_m(std::size_t i) const { return true_altitudes_m_[i]; }
 
  private:
-  void measure(const SimulatedSurveyOptions& options, std::uint64_t seed, std::uint64_t trial);
-  void render_from(const WorldOptions& options, std::uint64_t seed);
+  class Floor;
+
+  void fly(const SimulatedSurveyOptions& options);
+  void measure(const OdometryOptions& odometry, double altimeter_sigma_m, std::uint64_t seed,
+               std::uint64_t trial);
+  void plan_floor(const WorldOptions& options, std::uint64_t seed);
 
   Camera camera_;
   std::vector<FrameInfo> infos_;
   std::vector<double> true_altitudes_m_;
-  std::unique_ptr<const FloorRenderer> renderer_;
+  std::shared_ptr<Floor> floor_;
   bool has_odometry_ = false;
 };
 

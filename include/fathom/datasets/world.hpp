@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 #include <opencv2/core.hpp>
 
+#include "fathom/core/hash.hpp"
 #include "fathom/core/options.hpp"
 #include "fathom/geometry/pose.hpp"
 
@@ -33,16 +34,33 @@ struct World {
 
   /// The pixel (u right, v down; centres at whole numbers) of a point in the picture's axes.
   Eigen::Vector2d pixel(const Eigen::Vector2d& point) const;
+};
+
+/// A world as it will be, without its pixels where they can wait.
+struct WorldPlan {
+  cv::Size size;
+  double metres_per_pixel = 0.0;
+  Pose mission;                  ///< as of World
+  cv::Mat picture;               ///< the given one; empty: a floor is drawn
+  std::uint64_t floor_seed = 0;  ///< of a floor that is drawn
+  std::uint64_t file_id = 0;     ///< hash of the given picture's file; 0 without one
 
   /// What the pixel centres span, in the picture's axes; metres.
   Eigen::AlignedBox2d extent() const;
+
+  /// Draws the floor, which takes seconds for a large one.
+  World make() const;
+
+  /// All that determines the world.
+  void add_to(Hash& hash) const;
 };
 
-/// Reads or draws the world of a mission that sees `seen`: a box in the axes of the picture whose
+/// Plans the world of a mission that sees `seen`: a box in the axes of the picture whose
 /// origin is frame 0, metres. A procedural floor is made as large as the box and a margin; on a
 /// given picture the box is centred unless the options say where frame 0 lies. Whether it fits is
-/// for the caller to check. Throws InputError naming `key_prefix` + the key.
-World make_world(const WorldOptions& options, const Eigen::AlignedBox2d& seen, std::uint64_t seed,
-                 const std::string& key_prefix);
+/// for the caller to check. A given picture is read for its size. Throws InputError naming
+/// `key_prefix` + the key.
+WorldPlan plan_world(const WorldOptions& options, const Eigen::AlignedBox2d& seen,
+                     std::uint64_t seed, const std::string& key_prefix);
 
 }  // namespace fathom

@@ -2,13 +2,12 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <vector>
 
 #include "fathom/datasets/frame_source.hpp"
-#include "fathom/front_end/feature_store.hpp"
 #include "fathom/front_end/options.hpp"
+#include "fathom/front_end/pair_registrar.hpp"
 #include "fathom/geometry/trajectory.hpp"
 #include "fathom/measurements/relative_pose.hpp"
 
@@ -41,10 +40,11 @@ struct FramePlace {
 /// A registration that fails never stops the run: dead reckoning carries it.
 class FrontEnd {
  public:
-  /// Source and store must outlive it; the store must be of the same pictures. The source must have
-  /// odometry (VisualOdometry gives it to one that has none); throws InputError otherwise.
-  FrontEnd(const FrameSource& source, FeatureStore& features, const FrontEndOptions& options,
-           std::uint64_t seed);
+  /// Source and registrar must outlive it; the registrar must be of the same pictures. Of the
+  /// options it takes keyframes and candidates; how pairs register is the registrar's. The source
+  /// must have odometry (VisualOdometry gives it to one that has none); throws InputError
+  /// otherwise.
+  FrontEnd(const FrameSource& source, PairRegistrar& registrar, const FrontEndOptions& options);
 
   /// The next keyframe: frame 0, then one every `separation_frames`. Nothing at the end.
   std::optional<Keyframe> next_keyframe();
@@ -63,13 +63,13 @@ class FrontEnd {
 
  private:
   std::vector<std::size_t> candidates(const TrajectoryView& trajectory) const;
+  MeasuredFrame measured(std::size_t frame) const;
+  void announce_next_keyframe() const;
 
   const FrameSource& source_;
-  FeatureStore& store_;
+  PairRegistrar& registrar_;
   FrontEndOptions options_;
-  std::uint64_t seed_;
   std::vector<Keyframe> keyframes_;
-  std::vector<std::shared_ptr<const FloorFeatures>> features_;  ///< of the keyframes
   std::vector<FramePlace> frames_;
   std::size_t tried_ = 0;
   std::size_t found_ = 0;

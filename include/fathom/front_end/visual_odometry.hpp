@@ -2,24 +2,15 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
-#include <optional>
 #include <vector>
 
 #include "fathom/core/random.hpp"
 #include "fathom/datasets/frame_source.hpp"
 #include "fathom/datasets/motion_noise.hpp"
-#include "fathom/front_end/feature_store.hpp"
 #include "fathom/front_end/options.hpp"
+#include "fathom/front_end/pair_registrar.hpp"
 
 namespace fathom {
-
-/// Noise that a study adds to visual odometry, per frame, as in the paper's experiments.
-struct AddedNoise {
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  std::uint64_t seed = 0;
-  std::uint64_t trial = 0;
-};
 
 /// A survey whose dead reckoning is the registration of each frame with the one before. The
 /// covariance of a motion is the registration's plus that of the added noise. Where consecutive
@@ -29,14 +20,16 @@ struct AddedNoise {
 /// thread, `image` for several.
 class VisualOdometry : public FrameSource {
  public:
-  /// The source and the store, which must be of that source, must outlive this.
-  VisualOdometry(const FrameSource& source, FeatureStore& features, const FrontEndOptions& options,
-                 std::uint64_t seed, const AddedNoise& noise = {});
+  /// The source and the registrar, which must be of the same pictures, must outlive this. Draws of
+  /// the noise come from the stream "visual_odometry".
+  VisualOdometry(const FrameSource& source, PairRegistrar& registrar,
+                 const VisualOdometryFallback& fallback, const AddedNoise& noise = {});
 
   const Camera& camera() const override { return source_.camera(); }
   std::size_t size() const override { return source_.size(); }
   const FrameInfo& info(std::size_t i) const override;
   cv::Mat image(std::size_t i) const override { return source_.image(i); }
+  std::uint64_t picture_id(std::size_t i) const override { return source_.picture_id(i); }
   bool has_odometry() const override { return true; }
   bool has_ground_truth() const override { return source_.has_ground_truth(); }
   bool is_visual_odometry() const override { return true; }
@@ -45,12 +38,12 @@ class VisualOdometry : public FrameSource {
   std::size_t failures() const { return failures_; }
 
  private:
+  MeasuredFrame measured(std::size_t frame) const;
   UncertainPose next_motion() const;
 
   const FrameSource& source_;
-  FeatureStore& features_;
-  FrontEndOptions options_;
-  std::uint64_t seed_;
+  PairRegistrar& registrar_;
+  VisualOdometryFallback fallback_;
   AddedNoise noise_;
   MotionNoise draws_;
   mutable RandomStream stream_;

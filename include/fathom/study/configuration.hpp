@@ -61,6 +61,7 @@ struct Configuration {
   DatasetType dataset = DatasetType::simulated;
   std::string dataset_path;
   SimulatedSurveyOptions simulation;
+  AddedNoiseOptions added_noise;  ///< of an image folder
   FrontEndOptions front_end;
   /// One for `run`; for `compare` several, of which the first that `association.reference` names
   /// picks the loop candidates.

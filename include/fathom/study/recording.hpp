@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "fathom/front_end/front_end.hpp"
 #include "fathom/measurements/measurement_log.hpp"
 #include "fathom/study/configuration.hpp"
+#include "fathom/study/survey.hpp"
 
 namespace fathom {
 
@@ -35,9 +37,28 @@ struct Recording {
 
 /// Runs the front end over the data set once. Loop candidates are picked by the estimate of
 /// `configuration.estimators[reference]`, which runs along; the log is all that is kept of it.
-/// Of a g2o data set: the graph, with vertex ids as whole seconds.
+/// Of a g2o data set: the graph, with vertex ids as whole seconds. Registrations that the cache
+/// knows are not made again; the recording is the same with a cache and without.
 Recording record(const Configuration& configuration, const EstimatorRegistry& registry,
-                 const Progress& progress = {});
+                 const Progress& progress = {}, RegistrationCache* cache = nullptr);
+
+/// A data set, opened once to be recorded again and again: by other estimators, in other trials.
+/// May be used from several threads at once.
+class Recorder {
+ public:
+  /// Opens the data set. The cache must outlive this. Throws InputError.
+  explicit Recorder(const Configuration& configuration, RegistrationCache* cache = nullptr);
+
+  /// A trial of a configuration whose picture_settings are those of the data set. Loop candidates
+  /// are picked by the estimate of `configuration.estimators[reference]`.
+  Recording record(const Configuration& configuration, std::size_t reference,
+                   const EstimatorRegistry& registry, const TrialNoise& noise,
+                   const Progress& progress = {}) const;
+
+ private:
+  std::optional<Recording> graph_;
+  std::shared_ptr<Pictures> pictures_;
+};
 
 /// A pose graph as a recording, read from a file.
 Recording record_graph(const std::filesystem::path& path);

@@ -6,6 +6,8 @@
 
 #include <Eigen/Core>
 
+#include "fathom/core/hash.hpp"
+
 namespace fathom {
 
 /// A downward pinhole camera with radial-tangential distortion (Brown; OpenCV's k1 k2 p1 p2 k3) and
@@ -23,6 +25,9 @@ struct CameraModel {
   double mount_yaw_rad = 0.0;  ///< counter-clockwise seen from above; 0: picture top forward
 
   bool has_distortion() const;
+
+  /// All of its numbers.
+  void add_to(Hash& hash) const;
 };
 
 /// The one place where pixels become metres on the floor, and back (docs/conventions.md):

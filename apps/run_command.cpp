@@ -1,4 +1,4 @@
-// fathom run and fathom compare: a data set, one or several estimators.
+// fathom run: a data set, one estimator.
 
 #include <cstdio>
 #include <filesystem>
@@ -91,66 +91,16 @@ void run(const RunFlags& flags, Context& context) {
   std::printf("\nwrote %s\n", (folder.target() / "trajectory.png").c_str());
 }
 
-void compare(const RunFlags& flags, Context& context) {
-  const Configuration configuration = configure(
-      flags.common.settings(flags.config), ConfigurationKind::comparison, builtin_estimators());
-  StagedFolder folder(flags.common.folder_or(stem_of(flags.config)));
-  const Recording recording = record_with_progress(configuration, flags.common.quiet);
-  std::vector<Result> results;
-  context.status = kDone;
-  for (const EstimatorConfiguration& estimator : configuration.estimators) {
-    results.push_back(
-        evaluate_with_progress(recording, configuration, estimator, flags.common.quiet));
-    const Result& result = results.back();
-    if (!result.is_done()) context.status = kFailed;
-    const std::filesystem::path own = folder.path() / estimator.name;
-    std::filesystem::create_directory(own);
-    write_run(own, recording, result, manifest_of(context, configuration, recording, result));
-    write_trajectory_picture(own / "trajectory.png", stem_of(flags.config) + ", " + estimator.name,
-                             recording, {result});
-  }
-  write_trajectory_picture(folder.path() / "trajectories.png", stem_of(flags.config), recording,
-                           results);
-  write_file(folder.path() / "table.txt",
-             result_table(recording, results, configuration.alignment));
-  write_file(folder.path() / "metrics.json", comparison_json(results, recording));
-  write_recording(folder.path(), recording);
-  folder.commit(optional_run_files());
-  if (flags.common.quiet) return;
-  print_front_end(recording);
-  print_table(recording, results, configuration);
-  if (configuration.dataset != DatasetType::g2o) {
-    std::printf("one log for all, its loop candidates picked by %s\n",
-                configuration.estimators[configuration.reference].name.c_str());
-  }
-  std::printf("\nwrote %s\n", (folder.target() / "trajectories.png").c_str());
-  for (const Result& result : results) {
-    std::printf("      %s\n", (folder.target() / result.estimator.name / "trajectory.png").c_str());
-  }
-}
-
-template <class Action>
-void add(CLI::App& app, Context& context, const std::string& name, const std::string& help,
-         const std::string& example, Action action) {
-  auto flags = std::make_shared<RunFlags>();
-  CLI::App* command = app.add_subcommand(name, help);
-  command->footer("Example: " + example);
-  command->add_option("config", flags->config, "Configuration (YAML)")->required();
-  flags->common.add_settings_to(*command);
-  flags->common.add_out_to(*command, "Output folder (default: runs/CONFIG's name)");
-  command->callback([flags, &context, action] { action(*flags, context); });
-}
-
 }  // namespace
 
 void add_run(CLI::App& app, Context& context) {
-  add(app, context, "run", "Run one estimator over one data set",
-      "fathom run configs/run.yaml --set estimator.type=ekf --out runs/ekf", run);
-}
-
-void add_compare(CLI::App& app, Context& context) {
-  add(app, context, "compare", "Run several estimators on one shared measurement log",
-      "fathom compare configs/quickstart.yaml --out runs/quickstart", compare);
+  auto flags = std::make_shared<RunFlags>();
+  CLI::App* command = app.add_subcommand("run", "Run one estimator over one data set");
+  command->footer("Example: fathom run configs/run.yaml --set estimator.type=ekf --out runs/ekf");
+  command->add_option("config", flags->config, "Configuration (YAML)")->required();
+  flags->common.add_settings_to(*command);
+  flags->common.add_out_to(*command, "Output folder (default: runs/CONFIG's name)");
+  command->callback([flags, &context] { run(*flags, context); });
 }
 
 }  // namespace fathom

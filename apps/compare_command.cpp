@@ -1,0 +1,244 @@
+// fathom compare: a study. A data set, several estimators, many trials, perhaps a sweep.
+
+#include <atomic>
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+#include "apps/command.hpp"
+#include "apps/common.hpp"
+#include "apps/memory_meter.hpp"
+#include "apps/pictures.hpp"
+#include "fathom/core/files.hpp"
+#include "fathom/estimators/builtin.hpp"
+#include "fathom/report/study_report.hpp"
+#include "fathom/study/manifest.hpp"
+#include "fathom/study/registration_store.hpp"
+#include "fathom/study/run_folder.hpp"
+#include "fathom/study/study_run.hpp"
+
+namespace fathom {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::atomic<bool> stop_asked = false;
+
+extern "C" void ask_to_stop(int /*signal*/) {
+  stop_asked = true;
+}
+
+struct CompareFlags {
+  CommonFlags common;
+  std::string config;
+  std::optional<int> trials;
+  std::optional<int> jobs;
+  std::string cache;
+  bool no_cache = false;
+
+  Settings settings() const {
+    Settings settings = common.settings(config);
+    if (trials) settings.put({"trials", OptionValue::scalar(std::to_string(*trials)), "--trials"});
+    if (jobs) settings.put({"jobs", OptionValue::scalar(std::to_string(*jobs)), "--jobs"});
+    return settings;
+  }
+};
+
+// On the terminal one line that changes; elsewhere a line now and then.
+class StudyProgressLine {
+ public:
+  explicit StudyProgressLine(bool quiet) : quiet_(quiet), is_terminal_(is_error_terminal()) {}
+  ~StudyProgressLine() {
+    if (shown_ && is_terminal_) std::fprintf(stderr, "\r\033[K");
+  }
+  StudyProgressLine(const StudyProgressLine&) = delete;
+  StudyProgressLine& operator=(const StudyProgressLine&) = delete;
+
+  void show(const StudyProgress& progress) {
+    const auto now = Clock::now();
+    const double since_s = std::chrono::duration<double>(now - last_).count();
+    if (quiet_ || since_s < (is_terminal_ ? 0.2 : 30.0)) return;
+    last_ = now;
+    shown_ = true;
+    const double elapsed_s = std::chrono::duration<double>(now - start_).count();
+    const double rate = static_cast<double>(progress.done - progress.earlier) / elapsed_s;
+    const double left_s = static_cast<double>(progress.of - progress.done) / rate;
+    std::fprintf(stderr, "%s%zu of %zu runs, %.1f runs/s, %.0f s left, %zu failed%s",
+                 is_terminal_ ? "\r\033[K" : "", progress.done, progress.of, rate, left_s,
+                 progress.failed, is_terminal_ ? "" : "\n");
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  bool quiet_;
+  bool is_terminal_;
+  bool shown_ = false;
+  Clock::time_point start_ = Clock::now();
+  Clock::time_point last_ = start_;
+};
+
+std::unique_ptr<RegistrationStore> open_cache(const CompareFlags& flags) {
+  if (flags.no_cache) return nullptr;
+  auto cache = std::make_unique<RegistrationStore>(flags.cache.empty() ? default_cache_folder()
+                                                                       : fs::path(flags.cache));
+  if (!cache->problem().empty() && !flags.common.quiet) {
+    std::fprintf(stderr, "fathom: note: no registration cache: %s\n", cache->problem().c_str());
+  }
+  return cache;
+}
+
+/// The store of a study. Where nothing was stored, nothing is left behind.
+class StoreFolder {
+ public:
+  StoreFolder(const fs::path& folder, const Study& study, const std::string& manifest)
+      : folder_(folder),
+        is_new_folder_(!fs::exists(folder)),
+        is_new_(!fs::exists(folder / "results.sqlite")),
+        store_(ResultStore::write(folder, study.description, manifest)) {}
+  ~StoreFolder() {
+    if (!store_) return;
+    const bool remove = is_new_ && is_empty();
+    store_.reset();
+    if (!remove) return;
+    std::error_code ignored;
+    for (const char* ending : {"", "-wal", "-shm"}) {
+      fs::remove(folder_ / (std::string("results.sqlite") + ending), ignored);
+    }
+    if (is_new_folder_) fs::remove(folder_, ignored);
+  }
+  StoreFolder(const StoreFolder&) = delete;
+  StoreFolder& operator=(const StoreFolder&) = delete;
+
+  ResultStore& store() { return *store_; }
+
+ private:
+  bool is_empty() const {
+    try {
+      return store_->keys().empty();
+    } catch (const InputError&) {
+      return false;
+    }
+  }
+
+  fs::path folder_;
+  bool is_new_folder_;
+  bool is_new_;
+  std::optional<ResultStore> store_;
+};
+
+// The folders of one trial, as `run` writes them: trial 0 of the first cell.
+void write_example(const fs::path& out, const Study& study, Recorder& recorder, Context& context,
+                   const std::string& title) {
+  const Configuration& configuration = study.cells.front();
+  const bool is_own = configuration.study.association == Association::own;
+  StagedFolder folder(out);
+  std::vector<Result> results;
+  std::optional<Recording> recording;
+  for (std::size_t e = 0; e < configuration.estimators.size(); ++e) {
+    const EstimatorConfiguration& estimator = configuration.estimators[e];
+    if (is_own || !recording) {
+      recording = recorder.record(configuration, is_own ? e : configuration.reference,
+                                  builtin_estimators(), {study.noise_seeds.front(), 0});
+    }
+    const auto meter = make_memory_meter();
+    ReplayOptions options;
+    options.memory = meter.get();
+    results.push_back(
+        evaluate(*recording, estimator, builtin_estimators(), configuration.alignment, options));
+    const fs::path own = folder.path() / estimator.name;
+    fs::create_directory(own);
+    write_run(own, *recording, results.back(),
+              manifest_json(context.command_line, configuration.in_force, *recording,
+                            results.back(), builtin_estimators()));
+    write_trajectory_picture(own / "trajectory.png", title + ", " + estimator.name, *recording,
+                             {results.back()});
+  }
+  write_trajectory_picture(folder.path() / "trajectories.png", title, *recording, results);
+  write_file(folder.path() / "metrics.json", comparison_json(results, *recording));
+  if (!is_own) write_recording(folder.path(), *recording);
+  folder.commit(optional_run_files());
+}
+
+// An estimator that no trial of any cell could use has failed.
+int status_of(const ResultStore& store) {
+  std::set<std::string> usable;
+  for (const RunRecord& run : store.runs()) {
+    if (run.outcome == name_of(Outcome::converged) ||
+        run.outcome == name_of(Outcome::iteration_limit)) {
+      usable.insert(run.key.estimator);
+    }
+  }
+  return usable.size() == store.study().estimators.size() ? kDone : kFailed;
+}
+
+void compare(const CompareFlags& flags, Context& context) {
+  const Study study = configure_study(flags.settings(), builtin_estimators());
+  const fs::path out = flags.common.folder_or(stem_of(flags.config));
+  const std::unique_ptr<RegistrationStore> cache = open_cache(flags);
+  // A data set that cannot be opened is refused before anything is written.
+  Recorder example(study.cells.front(), cache.get());
+  const int jobs = study.cells.front().study.jobs;
+  StoreFolder folder(out, study, session_json(context.command_line, jobs));
+  ResultStore& store = folder.store();
+
+  StudyRunOptions options;
+  options.jobs = jobs;
+  options.registrations = cache.get();
+  options.make_meter = make_memory_meter;
+  options.on_thread_start = pin_threads;
+  options.stop = &stop_asked;
+  std::signal(SIGINT, ask_to_stop);
+  std::signal(SIGTERM, ask_to_stop);
+  bool is_finished = false;
+  {
+    StudyProgressLine line(flags.common.quiet);
+    options.progress = [&line](const StudyProgress& progress) { line.show(progress); };
+    is_finished = run_study(study, builtin_estimators(), store, options);
+  }
+  if (!is_finished) {
+    std::fprintf(stderr,
+                 "fathom: stopped; %zu runs are in %s. The same command goes on from there.\n",
+                 store.keys().size(), (out / "results.sqlite").c_str());
+    context.status = kStopped;
+    return;
+  }
+  store.finish();
+  const std::string title =
+      study.description.title.empty() ? stem_of(flags.config) : study.description.title;
+  write_example(out, study, example, context, title);
+  write_study_report(store, out);
+  const std::string table = study_table(store);
+  write_file(out / "table.txt", table);
+  context.status = status_of(store);
+  if (flags.common.quiet) return;
+  std::printf("%s\nwrote %s\n      %s\n", table.c_str(), (out / "report.html").c_str(),
+              (out / "trajectories.png").c_str());
+}
+
+}  // namespace
+
+void add_compare(CLI::App& app, Context& context) {
+  auto flags = std::make_shared<CompareFlags>();
+  CLI::App* command =
+      app.add_subcommand("compare", "Run a study: several estimators, many trials, a sweep");
+  command->footer(
+      "Example: fathom compare configs/quickstart.yaml --out runs/quickstart\n"
+      "         fathom compare configs/studies/paper_simulated.yaml --trials 5 --jobs 2\n"
+      "A study that was stopped or killed goes on where it was: run the same command again.");
+  command->add_option("config", flags->config, "Study (YAML)")->required();
+  flags->common.add_settings_to(*command);
+  flags->common.add_out_to(*command, "Output folder (default: runs/CONFIG's name)");
+  command->add_option("--trials", flags->trials, "Trials in every cell, for a quick look")
+      ->type_name("N");
+  command->add_option("--jobs", flags->jobs, "Trials at work at the same time")->type_name("N");
+  command
+      ->add_option("--cache", flags->cache,
+                   "Folder of the registrations that are kept from study to study "
+                   "(default: $FATHOM_CACHE, or ~/.cache/fathom)")
+      ->type_name("DIR");
+  command->add_flag("--no-cache", flags->no_cache, "Neither read nor write kept registrations");
+  command->callback([flags, &context] { compare(*flags, context); });
+}
+
+}  // namespace fathom

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <tuple>
+#include <vector>
+
+#include "fathom/datasets/frame_source.hpp"
+#include "fathom/front_end/feature_memory.hpp"
+#include "fathom/front_end/once_map.hpp"
+#include "fathom/front_end/registration_cache.hpp"
+#include "fathom/front_end/registration_key.hpp"
+
+namespace fathom {
+
+/// A frame as it takes part in a registration.
+struct MeasuredFrame {
+  std::size_t frame = 0;
+  double altitude_m = 0.0;  ///< as measured, > 0
+};
+
+/// Registers the frames of a survey, each pair once, for all who ask: the trials of a study share
+/// one, as long as their pictures are the same. May be used from several threads at once; who needs
+/// what another thread is at waits for it. What is found does not depend on the number of threads,
+/// nor on what was asked before.
+class PairRegistrar {
+ public:
+  static constexpr std::size_t kFeatureBytes = std::size_t{512} << 20;
+
+  /// `pictures` gives camera and pictures, no altitudes; it and the cache must outlive this.
+  /// `feature_bytes` bounds what the features held take; beyond it some are extracted again.
+  PairRegistrar(const FrameSource& pictures, const FeatureOptions& features,
+                const RegistrationOptions& registration, std::uint64_t seed,
+                RegistrationCache* cache = nullptr, std::size_t feature_bytes = kFeatureBytes);
+
+  /// From memory, else from the cache, else registered. Throws InputError where a picture that is
+  /// needed cannot be read.
+  PairRegistration of(const MeasuredFrame& from, const MeasuredFrame& to);
+
+  /// The same of several, in their order; those that are to be registered in parallel.
+  std::vector<PairRegistration> of_all(std::span<const MeasuredFrame> from,
+                                       const MeasuredFrame& to);
+
+  /// Says that a pair will be asked for soon: the features of `to` are extracted in the background,
+  /// unless the pair is known and no picture needed. Beyond the last frame it does nothing.
+  void announce(const MeasuredFrame& from, const MeasuredFrame& to);
+
+  /// Pairs registered anew so far, and pairs that the cache knew.
+  std::size_t registered() const { return registered_; }
+  std::size_t from_cache() const { return from_cache_; }
+
+ private:
+  /// Frames and the bits of their altitudes.
+  using PairKey = std::tuple<std::size_t, std::uint64_t, std::size_t, std::uint64_t>;
+
+  static PairKey pair_key(const MeasuredFrame& from, const MeasuredFrame& to);
+  RegistrationKey cache_key(const MeasuredFrame& from, const MeasuredFrame& to) const;
+  std::uint64_t seed_of(const MeasuredFrame& from, const MeasuredFrame& to) const;
+  std::optional<PairRegistration> known(const MeasuredFrame& from, const MeasuredFrame& to);
+  FloorFeatures on_floor_of(const MeasuredFrame& frame);
+  PairRegistration register_anew(const MeasuredFrame& from, const MeasuredFrame& to,
+                                 const FloorFeatures& features_to);
+
+  const FrameSource& pictures_;
+  RegistrationOptions options_;
+  std::uint64_t seed_;
+  RegistrationCache* cache_;
+  RegistrationKeys keys_;
+  FeatureMemory features_;
+  OnceMap<PairKey, PairRegistration> pairs_;
+  std::atomic<std::size_t> registered_ = 0;
+  std::atomic<std::size_t> from_cache_ = 0;
+};
+
+}  // namespace fathom

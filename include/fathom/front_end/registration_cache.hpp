@@ -1,0 +1,42 @@
+#pragma once
+
+#include <compare>
+#include <cstdint>
+#include <optional>
+
+#include <Eigen/Core>
+
+#include "fathom/geometry/pose.hpp"
+
+namespace fathom {
+
+/// What is kept of the registration of two frames.
+struct PairRegistration {
+  bool found = false;
+  Pose motion;                                           ///< as of Registration
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< as of Registration
+  int inliers = 0;
+
+  bool operator==(const PairRegistration&) const = default;
+};
+
+/// 128 bits of all that a registration depends on (registration_key.hpp).
+struct RegistrationKey {
+  std::uint64_t first = 0;
+  std::uint64_t second = 0;
+
+  auto operator<=>(const RegistrationKey&) const = default;
+};
+
+/// Registrations beyond the life of a process. Both calls may be made from several threads at once,
+/// and throw nothing: what a cache cannot do is a miss.
+class RegistrationCache {
+ public:
+  virtual ~RegistrationCache() = default;
+
+  /// Bit for bit what was put in, or nothing.
+  virtual std::optional<PairRegistration> find(const RegistrationKey& key) = 0;
+  virtual void put(const RegistrationKey& key, const PairRegistration& value) = 0;
+};
+
+}  // namespace fathom

@@ -1,0 +1,47 @@
+#include "fathom/front_end/feature_memory.hpp"
+
+#include <utility>
+
+namespace fathom {
+
+PackedFeatures::PackedFeatures(Features features)
+    : packed_(std::move(features)), type_(packed_.descriptors.type()) {
+  if (type_ != CV_32F) return;
+  cv::Mat bytes;
+  cv::Mat again;
+  packed_.descriptors.convertTo(bytes, CV_8U);
+  bytes.convertTo(again, CV_32F);
+  if (cv::countNonZero(again != packed_.descriptors) == 0) packed_.descriptors = bytes;
+}
+
+Features PackedFeatures::unpacked() const {
+  Features features{packed_.pixels, packed_.descriptors};
+  if (packed_.descriptors.type() != type_)
+    packed_.descriptors.convertTo(features.descriptors, type_);
+  return features;
+}
+
+std::size_t PackedFeatures::bytes() const {
+  return sizeof(*this) + packed_.pixels.size() * sizeof(Eigen::Vector2d) +
+         packed_.descriptors.total() * packed_.descriptors.elemSize();
+}
+
+FeatureMemory::FeatureMemory(const FrameSource& source, const FeatureOptions& options,
+                             std::size_t bytes)
+    : source_(source),
+      extractor_(options),
+      held_(bytes, [](const Held& features) { return features->bytes(); }) {}
+
+FeatureMemory::Held FeatureMemory::extract(std::size_t frame) const {
+  return std::make_shared<const PackedFeatures>(extractor_.extract(source_.image(frame)));
+}
+
+FeatureMemory::Held FeatureMemory::of(std::size_t frame) {
+  return held_.of(frame, [this, frame] { return extract(frame); });
+}
+
+void FeatureMemory::announce(std::size_t frame) {
+  held_.start(frame, [this, frame] { return extract(frame); });
+}
+
+}  // namespace fathom

@@ -1,0 +1,116 @@
+#include "fathom/front_end/pair_registrar.hpp"
+
+#include <bit>
+#include <exception>
+
+#include <opencv2/core/utility.hpp>
+
+#include "fathom/core/input_error.hpp"
+#include "fathom/front_end/pair_seed.hpp"
+#include "fathom/vision/registration.hpp"
+
+namespace fathom {
+
+PairRegistrar::PairRegistrar(const FrameSource& pictures, const FeatureOptions& features,
+                             const RegistrationOptions& registration, std::uint64_t seed,
+                             RegistrationCache* cache, std::size_t feature_bytes)
+    : pictures_(pictures),
+      options_(registration),
+      seed_(seed),
+      cache_(cache),
+      keys_(pictures.camera().model(), features, registration),
+      features_(pictures, features, feature_bytes) {}
+
+PairRegistrar::PairKey PairRegistrar::pair_key(const MeasuredFrame& from, const MeasuredFrame& to) {
+  return {from.frame, std::bit_cast<std::uint64_t>(from.altitude_m), to.frame,
+          std::bit_cast<std::uint64_t>(to.altitude_m)};
+}
+
+std::uint64_t PairRegistrar::seed_of(const MeasuredFrame& from, const MeasuredFrame& to) const {
+  return pair_seed(seed_, from.frame, to.frame);
+}
+
+RegistrationKey PairRegistrar::cache_key(const MeasuredFrame& from, const MeasuredFrame& to) const {
+  return keys_.of({pictures_.picture_id(from.frame), from.altitude_m},
+                  {pictures_.picture_id(to.frame), to.altitude_m}, seed_of(from, to));
+}
+
+std::optional<PairRegistration> PairRegistrar::known(const MeasuredFrame& from,
+                                                     const MeasuredFrame& to) {
+  const PairKey pair = pair_key(from, to);
+  if (auto value = pairs_.find(pair)) return value;
+  if (cache_ == nullptr || pairs_.contains(pair)) return std::nullopt;
+  const auto value = cache_->find(cache_key(from, to));
+  if (!value) return std::nullopt;
+  return pairs_.of(pair, [&] {
+    ++from_cache_;
+    return *value;
+  });
+}
+
+FloorFeatures PairRegistrar::on_floor_of(const MeasuredFrame& frame) {
+  return on_floor(features_.of(frame.frame)->unpacked(), pictures_.camera(), frame.altitude_m);
+}
+
+PairRegistration PairRegistrar::register_anew(const MeasuredFrame& from, const MeasuredFrame& to,
+                                              const FloorFeatures& features_to) {
+  const Registration found =
+      register_pair(on_floor_of(from), features_to, options_, seed_of(from, to));
+  const PairRegistration value{found.found, found.motion, found.covariance,
+                               static_cast<int>(found.inliers.size())};
+  ++registered_;
+  if (cache_ != nullptr) cache_->put(cache_key(from, to), value);
+  return value;
+}
+
+PairRegistration PairRegistrar::of(const MeasuredFrame& from, const MeasuredFrame& to) {
+  if (const auto value = known(from, to)) return *value;
+  return pairs_.of(pair_key(from, to), [&] { return register_anew(from, to, on_floor_of(to)); });
+}
+
+std::vector<PairRegistration> PairRegistrar::of_all(std::span<const MeasuredFrame> from,
+                                                    const MeasuredFrame& to) {
+  std::vector<PairRegistration> values(from.size());
+  std::vector<std::size_t> missing;
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    if (const auto value = known(from[i], to)) {
+      values[i] = *value;
+    } else {
+      missing.push_back(i);
+    }
+  }
+  if (missing.empty()) return values;
+
+  // All need it. Made here, where it may use all threads; inside the loop all but one would wait.
+  const FloorFeatures features_to = on_floor_of(to);
+  // OpenCV does not hand on what is thrown in a loop as what it was.
+  std::vector<std::exception_ptr> errors(missing.size());
+  const auto register_range = [&](const cv::Range& range) {
+    for (int m = range.start; m < range.end; ++m) {
+      const auto index = static_cast<std::size_t>(m);
+      const std::size_t i = missing[index];
+      try {
+        values[i] = pairs_.of(pair_key(from[i], to),
+                              [&] { return register_anew(from[i], to, features_to); });
+      } catch (...) {
+        errors[index] = std::current_exception();
+      }
+    }
+  };
+  cv::parallel_for_(cv::Range(0, static_cast<int>(missing.size())), register_range);
+  for (const std::exception_ptr& error : errors) {
+    if (error) std::rethrow_exception(error);
+  }
+  return values;
+}
+
+void PairRegistrar::announce(const MeasuredFrame& from, const MeasuredFrame& to) {
+  if (to.frame >= pictures_.size() || pairs_.contains(pair_key(from, to))) return;
+  try {
+    if (!known(from, to)) features_.announce(to.frame);
+  } catch (const InputError&) {
+    // A picture cannot be read; who asks for the pair is told.
+  }
+}
+
+}  // namespace fathom

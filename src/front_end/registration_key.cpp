@@ -1,0 +1,36 @@
+#include "fathom/front_end/registration_key.hpp"
+
+#include <opencv2/core/utility.hpp>
+
+namespace fathom {
+namespace {
+
+void add_options(Hash& hash, FeatureOptions& features, RegistrationOptions& registration) {
+  OptionTable table;
+  table.group("features", features);
+  registration.describe(table);
+  for (const std::string& key : table.keys()) hash.add(key).add(table.value(key));
+}
+
+}  // namespace
+
+RegistrationKeys::RegistrationKeys(const CameraModel& camera, FeatureOptions features,
+                                   RegistrationOptions registration)
+    : first_(1), second_(2) {
+  for (Hash* hash : {&first_, &second_}) {
+    hash->add("registration").add(kRegistrationVersion).add(cv::getVersionString());
+    camera.add_to(*hash);
+    add_options(*hash, features, registration);
+  }
+}
+
+RegistrationKey RegistrationKeys::of(const SeenPicture& from, const SeenPicture& to,
+                                     std::uint64_t pair_seed) const {
+  const auto finished = [&](Hash hash) {
+    hash.add(from.picture_id).add(from.altitude_m).add(to.picture_id).add(to.altitude_m);
+    return hash.add(pair_seed).value();
+  };
+  return {finished(first_), finished(second_)};
+}
+
+}  // namespace fathom
