@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <span>
 #include <string>
@@ -14,6 +15,14 @@ inline void require_same_length(std::size_t estimate, std::size_t reference,
   if (estimate == reference) return;
   throw InputError("the estimate has " + std::to_string(estimate) + " poses and " + what + " " +
                    std::to_string(reference) + "; they must be equally many, one per keyframe");
+}
+
+inline void require_finite(std::span<const double> values, const std::string& what) {
+  for (const double value : values) {
+    if (!std::isfinite(value)) {
+      throw InputError(what + " needs finite values, got " + std::to_string(value));
+    }
+  }
 }
 
 inline bool all_finite(std::span<const Pose> poses) {

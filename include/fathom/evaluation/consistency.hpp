@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include "fathom/evaluation/interval.hpp"
 #include "fathom/geometry/pose.hpp"
 
 namespace fathom {
@@ -35,13 +36,6 @@ inline constexpr double kExpectedInside2Sigma = 0.86466471676338731;
 std::optional<Consistency> consistency(std::span<const Pose> estimate,
                                        std::span<const Pose> reference,
                                        std::span<const Eigen::Matrix3d> covariances);
-
-struct Interval {
-  double low = 0.0;
-  double high = 0.0;
-
-  bool contains(double value) const { return value >= low && value <= high; }
-};
 
 /// The two-sided interval that holds, with the given probability, the mean over `trials`
 /// independent trials of a NEES divided by its degrees of freedom, if the covariances are right:
