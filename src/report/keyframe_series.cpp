@@ -31,7 +31,8 @@ void add_run(const ResultStore& store, const RunKey& key, std::vector<Sums>& sum
   const auto nees = series_or_none(store, key, "pose_nees");
   const std::size_t covariances = std::min(xx.size(), yy.size());
   // NEES is known from keyframe 1 on.
-  sums.resize(std::max({sums.size(), errors.size(), covariances, nees.empty() ? 0 : nees.size() + 1}));
+  sums.resize(
+      std::max({sums.size(), errors.size(), covariances, nees.empty() ? 0 : nees.size() + 1}));
   for (std::size_t k = 0; k < errors.size(); ++k) {
     if (!std::isfinite(errors[k])) continue;
     ++sums[k].errors;
@@ -66,7 +67,8 @@ std::optional<double> deviation(const Sums& sums) {
 
 std::vector<std::size_t> thinned(std::size_t count, std::size_t most) {
   std::vector<std::size_t> picked;
-  const std::size_t step = std::max<std::size_t>(1, (count + most - 1) / std::max<std::size_t>(1, most));
+  const std::size_t step =
+      std::max<std::size_t>(1, (count + most - 1) / std::max<std::size_t>(1, most));
   for (std::size_t i = 0; i < count; i += step) picked.push_back(i);
   if (count > 0 && picked.back() != count - 1) picked.push_back(count - 1);
   return picked;

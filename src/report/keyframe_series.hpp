@@ -12,13 +12,13 @@ namespace fathom {
 /// of keyframe `keyframe[i]`; nothing where no trial has it.
 struct KeyframeStatistics {
   std::vector<std::size_t> keyframe;
-  std::vector<std::size_t> count;                 ///< trials with a position error there
-  std::vector<std::optional<double>> mean_m;      ///< mean position error
-  std::vector<std::optional<double>> sd_m;        ///< its standard deviation, n − 1
-  std::vector<std::optional<double>> empirical_m; ///< twice the root mean square position error
-  std::vector<std::optional<double>> estimated_m; ///< mean of 2·√(P_xx + P_yy): what it should be
-  std::vector<std::size_t> nees_count;            ///< trials with a NEES there
-  std::vector<std::optional<double>> anees;       ///< mean pose NEES / 3
+  std::vector<std::size_t> count;                  ///< trials with a position error there
+  std::vector<std::optional<double>> mean_m;       ///< mean position error
+  std::vector<std::optional<double>> sd_m;         ///< its standard deviation, n − 1
+  std::vector<std::optional<double>> empirical_m;  ///< twice the root mean square position error
+  std::vector<std::optional<double>> estimated_m;  ///< mean of 2·√(P_xx + P_yy): what it should be
+  std::vector<std::size_t> nees_count;             ///< trials with a NEES there
+  std::vector<std::optional<double>> anees;        ///< mean pose NEES / 3
 };
 
 /// The cost of an update by the keyframe at which it was made, over the trials that were done.

@@ -11,7 +11,7 @@ namespace {
 using Known = std::pair<std::string_view, std::string_view>;
 
 // What the name alone does not say well.
-constexpr std::array<Known, 11> kKnown{{{"ate_rmse_m", "ATE RMSE"},
+constexpr std::array<Known, 13> kKnown{{{"ate_rmse_m", "ATE RMSE"},
                                         {"anees", "ANEES"},
                                         {"position_anees", "position ANEES"},
                                         {"heading_rmse_rad", "heading RMSE"},
@@ -21,7 +21,9 @@ constexpr std::array<Known, 11> kKnown{{{"ate_rmse_m", "ATE RMSE"},
                                         {"chi2_used", "F of what was used"},
                                         {"chi2_optimum", "F at the optimum"},
                                         {"chi2_gap", "F above the optimum"},
-                                        {"cpu_ms", "CPU time"}}};
+                                        {"cpu_ms", "CPU time"},
+                                        {"total_ms", "total time"},
+                                        {"covariance_ms", "covariance time"}}};
 constexpr std::array<Known, 5> kUnits{
     {{"_m", "m"}, {"_rad", "rad"}, {"_ms", "ms"}, {"_s", "s"}, {"_bytes", "bytes"}}};
 

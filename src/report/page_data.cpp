@@ -75,9 +75,8 @@ Json estimator_json(const ResultStore& store, const EstimatorResults& one, std::
     if (bounds->estimated_m) json["bounds"]["estimated_m"] = page_number(*bounds->estimated_m);
   }
   const UpdateCost cost = update_cost(store, one, most);
-  json["updates"] = {{"keyframe", cost.keyframe},
-                     {"n", cost.count},
-                     {"median_ms", page_numbers(cost.median_ms)}};
+  json["updates"] = {
+      {"keyframe", cost.keyframe}, {"n", cost.count}, {"median_ms", page_numbers(cost.median_ms)}};
   return json;
 }
 

@@ -39,8 +39,8 @@ void append(std::vector<std::string>& fields, std::vector<std::string> more) {
 
 std::string run_line(const RunRecord& run, std::vector<std::string> fields,
                      const std::vector<std::string>& metrics) {
-  append(fields, {std::to_string(run.key.trial), run.key.estimator, run.outcome,
-                  std::to_string(run.jobs)});
+  append(fields,
+         {std::to_string(run.key.trial), run.key.estimator, run.outcome, std::to_string(run.jobs)});
   for (const std::string& metric : metrics) {
     const auto found = run.metrics.find(metric);
     fields.push_back(found == run.metrics.end() ? "" : exact(found->second));
@@ -88,8 +88,8 @@ std::string runs_csv(const StudyResults& results) {
 
 std::string summary_csv(const StudyResults& results) {
   std::vector<std::string> header = cell_header(results.study);
-  append(header, {"estimator", "metric", "n", "failures", "mean", "sd", "median", "low_95",
-                  "high_95"});
+  append(header,
+         {"estimator", "metric", "n", "failures", "mean", "sd", "median", "low_95", "high_95"});
   std::string text = line_of(header);
   for (const CellResults& cell : results.cells) {
     for (const EstimatorResults& one : cell.estimators) {

@@ -95,12 +95,11 @@ std::string paired_table(const CellResults& cell, const StudyDescription& study)
   Rows rows;
   for (const PairedResult& one : cell.paired) {
     if (one.difference.count < 2) continue;
-    rows.push_back({one.estimator, metric_label(one.metric).with_unit(),
-                    std::to_string(one.difference.count),
-                    format_number(one.difference.mean, kDigits) +
-                        interval_text(one.difference.interval),
-                    format_number(one.difference.signed_rank.p_value, kDigits),
-                    format_number(one.holm_p, kDigits)});
+    rows.push_back(
+        {one.estimator, metric_label(one.metric).with_unit(), std::to_string(one.difference.count),
+         format_number(one.difference.mean, kDigits) + interval_text(one.difference.interval),
+         format_number(one.difference.signed_rank.p_value, kDigits),
+         format_number(one.holm_p, kDigits)});
   }
   if (rows.empty()) return "";
   const std::string first = study.estimators.front().name;

@@ -5,6 +5,6 @@ for (const name of ['vega-transforms', 'vega-view-transforms', 'vega-encode']) {
 const vega = {
   parse: vegaModules['vega-parser'].parse,
   View: vegaModules['vega-view'].View,
-  Warn: vegaModules['vega-util'].Warn,
+  Error: vegaModules['vega-util'].Error,
 };
 delete window.define;
