@@ -12,7 +12,8 @@ packages=(
   build-essential cmake ninja-build
   libeigen3-dev libopencv-dev libceres-dev libsuitesparse-dev libopenblas-dev libgoogle-glog-dev
   libyaml-cpp-dev libsqlitecpp-dev libsqlite3-dev libcli11-dev nlohmann-json3-dev
-  libgtest-dev libgmock-dev libbenchmark-dev
+  libcairo2-dev pkg-config libjs-vega
+  libgtest-dev libgmock-dev libbenchmark-dev chromium
   clang-format
 )
 # clang needs an omp.h of its own to read what g++ compiles with -fopenmp.

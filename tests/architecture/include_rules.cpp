@@ -26,7 +26,7 @@ const std::map<std::string, Words>& module_rows() {
       {"evaluation", {"measurements"}},
       {"estimators", {"estimation"}},
       {"study", {"front_end", "estimation", "evaluation"}},
-      {"report", {"measurements", "vision"}},
+      {"report", {"study"}},
       {"apps", {"study", "report", "estimators"}}};
   return rows;
 }
@@ -53,7 +53,8 @@ const std::vector<ThirdParty>& third_parties() {
       {"yaml-cpp/", {"src/study/", "src/datasets/camera_yaml.cpp"}},
       {"SQLiteCpp/", {"src/study/"}},
       {"sqlite3.h", {"src/study/"}},
-      {"nlohmann/", {"src/study/"}},
+      {"nlohmann/", {"src/study/", "src/report/"}},
+      {"cairo", {"src/report/"}},
       {"cblas.h", {"src/vision/", "src/estimation/", "apps/common.cpp"}},
       {"CLI/", {"apps/"}},
       {"glog/", {"apps/main.cpp"}},

@@ -1,0 +1,48 @@
+// fathom report: the page, tables and figures of a study, from its store alone.
+
+#include <cstdio>
+#include <memory>
+
+#include "apps/command.hpp"
+#include "fathom/report/study_report.hpp"
+
+namespace fathom {
+namespace {
+
+struct ReportFlags {
+  std::string study;
+  std::string out;
+};
+
+void report(const ReportFlags& flags) {
+  const ResultStore store = ResultStore::open(flags.study);
+  std::filesystem::path folder = flags.out;
+  if (folder.empty()) {
+    const std::filesystem::path study = flags.study;
+    folder = std::filesystem::is_directory(study) ? study : study.parent_path();
+    if (folder.empty()) folder = ".";
+  }
+  write_study_report(store, folder);
+  std::printf("wrote %s\n", (folder / "report.html").string().c_str());
+}
+
+}  // namespace
+
+void add_report(CLI::App& app, Context& context) {
+  auto flags = std::make_shared<ReportFlags>();
+  CLI::App* command =
+      app.add_subcommand("report", "Write the page, tables and figures of a study that was run");
+  command->footer(
+      "Example: fathom report runs/noise --out report\n"
+      "Writes report.html (one file, opens without a network), runs.csv, summary.csv, tables.tex\n"
+      "and figures/ as SVG and PDF, from the study's results.sqlite alone.");
+  command->add_option("study", flags->study, "Folder of a study, or its results.sqlite")
+      ->required();
+  command->add_option("--out", flags->out, "Folder to write into; the study's own if not given");
+  command->callback([flags, &context] {
+    context.status = kDone;
+    report(*flags);
+  });
+}
+
+}  // namespace fathom

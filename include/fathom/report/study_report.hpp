@@ -1,0 +1,23 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "fathom/study/result_store.hpp"
+
+namespace fathom {
+
+/// The table at the end of a study, for a terminal of 160 columns: per cell a block with a row an
+/// estimator, dead reckoning first. Metrics are means over the trials that were done, with their
+/// 95 % bootstrap interval; what was not done stands in the row. Below come the differences to the
+/// first estimator over the trials that both did, with the p-value of Wilcoxon's signed-rank test,
+/// also adjusted after Holm over the tests of the block.
+std::string study_table(const ResultStore& store);
+
+/// Renders a study from its store alone (docs/report.md): report.html, runs.csv, summary.csv,
+/// tables.tex and figures/ with every figure as SVG and PDF. The folder is made if need be; its
+/// files of these names are replaced, all or none.
+/// Throws InputError on a store without runs and where the folder cannot be written.
+void write_study_report(const ResultStore& store, const std::filesystem::path& folder);
+
+}  // namespace fathom

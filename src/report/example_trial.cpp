@@ -1,0 +1,116 @@
+#include "example_trial.hpp"
+
+#include <algorithm>
+
+#include "keyframe_series.hpp"
+#include "page_numbers.hpp"
+
+namespace fathom {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Series = std::optional<std::vector<double>>;
+
+constexpr std::size_t kEllipses = 25;
+
+std::vector<double> picked(const std::vector<double>& values,
+                           const std::vector<std::size_t>& places) {
+  std::vector<double> some;
+  for (const std::size_t place : places) {
+    if (place < values.size()) some.push_back(values[place]);
+  }
+  return some;
+}
+
+Json path_json(const Series& x, const Series& y, std::size_t most) {
+  if (!x || !y || x->size() != y->size()) return {};
+  const std::vector<std::size_t> places = thinned(x->size(), most);
+  return {{"keyframe", places},
+          {"x_m", page_numbers(picked(*x, places))},
+          {"y_m", page_numbers(picked(*y, places))}};
+}
+
+// Centre and covariance of some keyframes.
+Json ellipses_json(const ResultStore& store, const RunKey& key) {
+  Json json = Json::array();
+  std::vector<std::vector<double>> all;
+  for (const char* name : {"x_m", "y_m", "cov_xx", "cov_xy", "cov_yy"}) {
+    const Series series = store.series(key, name);
+    if (!series || (!all.empty() && series->size() != all.front().size())) return json;
+    all.push_back(*series);
+  }
+  for (const std::size_t k : thinned(all.front().size(), kEllipses)) {
+    if (k == 0) continue;  // fixed
+    json.push_back(Json::array({k}));
+    for (const auto& series : all) json.back().push_back(page_number(series[k]));
+  }
+  return json;
+}
+
+// [from, to, fate, NIS or null]
+Json loops_json(const ResultStore& store, const RunKey& key) {
+  Json json = Json::array();
+  const Series from = store.series(key, "loop_from");
+  const Series to = store.series(key, "loop_to");
+  const Series fate = store.series(key, "loop_fate");
+  const Series nis = store.series(key, "loop_nis");
+  if (!from || !to || !fate) return json;
+  const std::size_t count = std::min({from->size(), to->size(), fate->size()});
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!((*from)[i] >= 0.0 && (*to)[i] >= 0.0)) continue;
+    const bool has_nis = nis && i < nis->size() && (*nis)[i] >= 0.0;
+    json.push_back({page_number((*from)[i]), page_number((*to)[i]), page_number((*fate)[i]),
+                    has_nis ? page_number((*nis)[i]) : Json()});
+  }
+  return json;
+}
+
+// Where the loops of one run begin and end: their keyframes may have been thinned out of the path.
+Json loop_ends_json(const ResultStore& store, const RunKey& key, const Json& loops) {
+  const Series x = store.series(key, "x_m");
+  const Series y = store.series(key, "y_m");
+  Json json = Json::array();
+  if (!x || !y) return json;
+  for (const Json& loop : loops) {
+    const auto from = loop[0].get<std::size_t>();
+    const auto to = loop[1].get<std::size_t>();
+    if (std::max(from, to) >= std::min(x->size(), y->size())) {
+      json.push_back(nullptr);
+      continue;
+    }
+    json.push_back({page_number((*x)[from]), page_number((*y)[from]), page_number((*x)[to]),
+                    page_number((*y)[to])});
+  }
+  return json;
+}
+
+}  // namespace
+
+Json example_trial(const ResultStore& store, const CellResults& cell, std::size_t most) {
+  std::size_t trial = static_cast<std::size_t>(-1);
+  for (const EstimatorResults& one : cell.estimators) {
+    if (!one.runs.empty()) trial = std::min(trial, one.runs.front().key.trial);
+  }
+  const RunKey baseline{cell.cell, trial, kDeadReckoning};
+  Json json{{"trial", trial},
+            {"truth", path_json(store.series(baseline, "truth_x_m"),
+                                store.series(baseline, "truth_y_m"), most)}};
+  json["estimators"] = Json::array();
+  for (const EstimatorResults& one : cell.estimators) {
+    const RunKey key{cell.cell, trial, one.name};
+    const Json path = path_json(store.series(key, "x_m"), store.series(key, "y_m"), most);
+    const Json loops = loops_json(store, key);
+    const auto run = std::find_if(one.runs.begin(), one.runs.end(),
+                                  [trial](const auto& r) { return r.key.trial == trial; });
+    if (run == one.runs.end()) continue;
+    json["estimators"].push_back({{"name", one.name},
+                                  {"outcome", run->outcome},
+                                  {"path", path},
+                                  {"ellipses", ellipses_json(store, key)},
+                                  {"loops", loops},
+                                  {"loop_ends_m", loop_ends_json(store, key, loops)}});
+  }
+  return json;
+}
+
+}  // namespace fathom

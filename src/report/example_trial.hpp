@@ -1,0 +1,16 @@
+#pragma once
+
+#include <cstddef>
+
+#include <nlohmann/json.hpp>
+
+#include "study_results.hpp"
+
+namespace fathom {
+
+/// The lowest trial of a cell, drawn: `trial`, `truth` (null where unknown) and per estimator its
+/// path, 2σ ellipses and loops, with the path thinned to about `most` keyframes.
+nlohmann::ordered_json example_trial(const ResultStore& store, const CellResults& cell,
+                                     std::size_t most);
+
+}  // namespace fathom

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "study_results.hpp"
+
+namespace fathom {
+
+/// A quantity by keyframe over the trials of one estimator that were done. Entry i of every list is
+/// of keyframe `keyframe[i]`; nothing where no trial has it.
+struct KeyframeStatistics {
+  std::vector<std::size_t> keyframe;
+  std::vector<std::size_t> count;                  ///< trials with a position error there
+  std::vector<std::optional<double>> mean_m;       ///< mean position error
+  std::vector<std::optional<double>> sd_m;         ///< its standard deviation, n − 1
+  std::vector<std::optional<double>> empirical_m;  ///< twice the root mean square position error
+  std::vector<std::optional<double>> estimated_m;  ///< mean of 2·√(P_xx + P_yy): what it should be
+  std::vector<std::size_t> nees_count;             ///< trials with a NEES there
+  std::vector<std::optional<double>> anees;        ///< mean pose NEES / 3
+};
+
+/// The cost of an update by the keyframe at which it was made, over the trials that were done.
+struct UpdateCost {
+  std::vector<std::size_t> keyframe;  ///< rising
+  std::vector<std::size_t> count;
+  std::vector<double> median_ms;
+};
+
+/// Keyframes thinned evenly to about `most`, the first and the last kept.
+KeyframeStatistics keyframe_statistics(const ResultStore& store, const EstimatorResults& runs,
+                                       std::size_t most);
+UpdateCost update_cost(const ResultStore& store, const EstimatorResults& runs, std::size_t most);
+
+/// Every so manieth of `count`, first and last among them, at most about `most`.
+std::vector<std::size_t> thinned(std::size_t count, std::size_t most);
+
+/// Mean over keyframes from 1 on and trials of 2·√(P_xx + P_yy), and twice the root mean square
+/// position error over the same: what an honest estimator makes equal.
+struct SweepBounds {
+  double empirical_m = 0.0;
+  std::optional<double> estimated_m;
+};
+std::optional<SweepBounds> sweep_bounds(const KeyframeStatistics& statistics);
+
+}  // namespace fathom

@@ -1,0 +1,166 @@
+#include "latex_tables.hpp"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "fathom/report/table.hpp"
+#include "metric_label.hpp"
+
+namespace fathom {
+namespace {
+
+constexpr std::size_t kMostTables = 6;
+constexpr int kDigits = 3;
+
+std::string value_text(const EstimatorResults& one, const std::string& metric) {
+  const auto found = one.metrics.find(metric);
+  if (found == one.metrics.end()) return "--";
+  std::string text = "$" + format_number(found->second.moments.mean, kDigits) + "$";
+  if (const auto& interval = found->second.interval) {
+    text += " {\\scriptsize $[" + format_number(interval->low, kDigits) + ", " +
+            format_number(interval->high, kDigits) + "]$}";
+  }
+  return text;
+}
+
+std::string row_of(const std::vector<std::string>& cells) {
+  std::string row = "    ";
+  for (std::size_t i = 0; i < cells.size(); ++i) row += (i > 0 ? " & " : "") + cells[i];
+  return row + " \\\\\n";
+}
+
+std::string table_of(const std::string& caption, const std::string& label,
+                     const std::vector<std::string>& header,
+                     const std::vector<std::vector<std::string>>& rows) {
+  std::string text = "\\begin{table}\n  \\centering\n  \\caption{" + caption + "}\n  \\label{" +
+                     label + "}\n  \\begin{tabular}{l" + std::string(header.size() - 1, 'r') +
+                     "}\n    \\toprule\n" + row_of(header) + "    \\midrule\n";
+  for (const auto& row : rows) text += row_of(row);
+  return text + "    \\bottomrule\n  \\end{tabular}\n\\end{table}\n";
+}
+
+std::string counts_text(const EstimatorResults& one) {
+  if (one.name == kDeadReckoning) return "--";
+  return std::to_string(one.done) + "/" + std::to_string(one.runs.size());
+}
+
+std::string title_of(const StudyDescription& study) {
+  return study.title.empty() ? "" : latex_text(study.title) + ". ";
+}
+
+constexpr const char* kMeaning = " Means over the trials done, with 95\\,\\% bootstrap intervals.";
+
+std::string cell_table(const CellResults& cell, const StudyResults& results) {
+  std::vector<std::string> metrics;
+  for (const std::string& metric : results.study.metrics) {
+    if (std::any_of(cell.estimators.begin(), cell.estimators.end(),
+                    [&](const auto& one) { return one.metrics.contains(metric); })) {
+      metrics.push_back(metric);
+    }
+  }
+  std::vector<std::string> header{"estimator", "done"};
+  for (const auto& metric : metrics) header.push_back(latex_text(metric_label(metric).with_unit()));
+  std::vector<std::vector<std::string>> rows;
+  for (const EstimatorResults& one : cell.estimators) {
+    rows.push_back({latex_text(display_name(one.name)), counts_text(one)});
+    for (const std::string& metric : metrics) rows.back().push_back(value_text(one, metric));
+  }
+  const std::string caption = title_of(results.study) +
+                              latex_text(cell_caption(cell, results.study)) + "." +
+                              (cell.trials > 1 ? kMeaning : "");
+  return table_of(caption, "tab:fathom-cell-" + std::to_string(cell.cell), header, rows);
+}
+
+// "n = 98 to 100": that of the cells, which may differ.
+std::string joint_caption(const StudyResults& results) {
+  const auto [least, most] =
+      std::minmax_element(results.cells.begin(), results.cells.end(),
+                          [](const auto& a, const auto& b) { return a.trials < b.trials; });
+  std::set<std::string> associations;
+  for (const CellResults& cell : results.cells) associations.insert(cell.association);
+  std::string association;
+  for (const std::string& one : associations) association += (association.empty() ? "" : "/") + one;
+  std::string text = results.study.alignment.empty() ? "" : "alignment " + results.study.alignment;
+  if (!association.empty()) text += (text.empty() ? "" : ", ") + ("association " + association);
+  text += (text.empty() ? "n = " : ", n = ") + std::to_string(least->trials);
+  if (most->trials > least->trials) text += " to " + std::to_string(most->trials);
+  return latex_text(text);
+}
+
+std::vector<std::string> names_of(const StudyResults& results) {
+  std::vector<std::string> names{kDeadReckoning};
+  for (const StudyEstimator& one : results.study.estimators) names.push_back(one.name);
+  return names;
+}
+
+std::string metric_table(const std::string& metric, std::size_t number,
+                         const StudyResults& results) {
+  const std::vector<std::string> names = names_of(results);
+  std::vector<std::string> header{"cell"};
+  for (const std::string& name : names) header.push_back(latex_text(display_name(name)));
+  std::vector<std::vector<std::string>> rows;
+  bool fails = false;
+  for (const CellResults& cell : results.cells) {
+    rows.push_back({latex_text(cell.label)});
+    for (const std::string& name : names) {
+      const auto one = std::find_if(cell.estimators.begin(), cell.estimators.end(),
+                                    [&](const auto& known) { return known.name == name; });
+      std::string text = one == cell.estimators.end() ? "--" : value_text(*one, metric);
+      if (one != cell.estimators.end() && one->failures() > 0) {
+        text += " (" + counts_text(*one) + ")";
+        fails = true;
+      }
+      rows.back().push_back(text);
+    }
+  }
+  const std::string caption =
+      title_of(results.study) + latex_text(metric_label(metric).with_unit()) + ": " +
+      joint_caption(results) + "." + kMeaning +
+      (fails ? " In parentheses how many of the trials were done, where not all." : "");
+  return table_of(caption, "tab:fathom-metric-" + std::to_string(number), header, rows);
+}
+
+}  // namespace
+
+std::string latex_text(std::string_view text) {
+  static const std::array<std::pair<std::string_view, std::string_view>, 14> kReplaced{
+      {{"\\", "\\textbackslash{}"},
+       {"&", "\\&"},
+       {"%", "\\%"},
+       {"$", "\\$"},
+       {"#", "\\#"},
+       {"_", "\\_"},
+       {"{", "\\{"},
+       {"}", "\\}"},
+       {"~", "\\textasciitilde{}"},
+       {"^", "\\textasciicircum{}"},
+       {"<", "\\textless{}"},
+       {">", "\\textgreater{}"},
+       {"\n", " "},
+       {"σ", "$\\sigma$"}}};
+  std::string result;
+  while (!text.empty()) {
+    const auto found = std::find_if(kReplaced.begin(), kReplaced.end(), [&](const auto& known) {
+      return text.starts_with(known.first);
+    });
+    result += found == kReplaced.end() ? text.substr(0, 1) : found->second;
+    text.remove_prefix(found == kReplaced.end() ? 1 : found->first.size());
+  }
+  return result;
+}
+
+std::string latex_tables(const StudyResults& results) {
+  std::string text = "% Needs \\usepackage{booktabs}.\n";
+  if (results.cells.size() <= kMostTables) {
+    for (const CellResults& cell : results.cells) text += "\n" + cell_table(cell, results);
+    return text;
+  }
+  std::size_t number = 0;
+  for (const std::string& metric : results.study.metrics) {
+    text += "\n" + metric_table(metric, number++, results);
+  }
+  return text;
+}
+
+}  // namespace fathom

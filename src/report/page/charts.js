@@ -1,0 +1,165 @@
+// The charts. Each has a title, a caption, its own choices, and the plots that it is made of.
+const widthOf = (card) => Math.max(260, card.clientWidth - 34);
+const halves = (card) => (widthOf(card) > 800 ? Math.floor((widthOf(card) - 20) / 2) : widthOf(card));
+const thirds = (card) => (widthOf(card) > 1000 ? Math.floor((widthOf(card) - 40) / 3) : widthOf(card));
+
+const isShown = (name) => !state.hidden.has(name);
+const sum = (list) => list.reduce((a, b) => a + b, 0);
+
+function trajectoryPlots(card) {
+  const rows = trajectoryRows(cellNow());
+  const width = widthOf(card) - 70;
+  const height = Math.min(620, Math.max(360, Math.round(width * 0.5)));
+  const span = (list) => [Math.min(...list), Math.max(...list)];
+  const [x0, x1] = span(rows.paths.map((row) => row.x));
+  const [y0, y1] = span(rows.paths.map((row) => row.y));
+  const metresPerPixel = 1.08 * Math.max((y1 - y0) / width, (x1 - x0) / height, 1e-6);
+  const around = (middle, pixels) => [middle - (pixels * metresPerPixel) / 2, middle + (pixels * metresPerPixel) / 2];
+  const signals = {start_h: around((y0 + y1) / 2, width).reverse(), start_v: around((x0 + x1) / 2, height)};
+  return [{spec: 'trajectories', data: rows, width, height, signals}];
+}
+
+function sweepPlots(card) {
+  const {errors, bounds} = sweepRows();
+  const signals = {x_title: study.axes[state.axis].name};
+  const adjust = (spec) => {
+    if (!sweepIsNumeric()) return;
+    const scale = spec.scales.find((one) => one.name === 'x');
+    Object.assign(scale, {type: 'linear', zero: false, nice: false, padding: 20, domain: {data: 'rows', field: 'x'}});
+    spec.axes[0].values = study.axes[state.axis].labels.map(Number);
+  };
+  const width = halves(card);
+  const plots = [{spec: 'sweep_error', heading: 'Mean over trials and its 2σ band', data: {rows: errors}, width,
+    signals: {...signals, y_title: metricLabel(state.sweepMetric)}, adjust}];
+  if (bounds.length > 0) {
+    plots.push({spec: 'sweep_bounds', heading: 'Empirical (solid) and estimated (dashed) 2σ', data: {rows: bounds}, width, signals, adjust});
+  }
+  return plots;
+}
+
+function keyframePlots(card) {
+  const rows = keyframeRows(cellNow());
+  const width = thirds(card);
+  return [
+    {spec: 'keyframe_error', heading: 'Position error and its 2σ band', data: {rows: rows.error}, width},
+    {spec: 'keyframe_bounds', heading: 'Empirical (solid) and estimated (dashed) 2σ', data: {rows: rows.bounds}, width},
+    {spec: 'keyframe_nees', heading: `NEES / 3 and the χ² interval of ${rows.trials} trial${rows.trials === 1 ? '' : 's'}`,
+      data: {rows: rows.nees, interval: rows.interval}, width},
+  ].filter((plot) => plot.data.rows.length > 0);
+}
+
+function updatePlots(card) {
+  const rows = updateRows(cellNow());
+  return rows.length > 0 ? [{spec: 'update_cost', data: {rows}, width: widthOf(card)}] : [];
+}
+
+function paretoPlots(card) {
+  const data = paretoRows(cellNow());
+  if (data.rows.length === 0) return [];
+  const signals = {x_title: metricLabel(state.cost), y_title: metricLabel(state.accuracy)};
+  return [{spec: 'pareto', data, width: widthOf(card), signals}];
+}
+
+function registrationPlots(card) {
+  const drawn = cellNow().example.estimators.filter((one) => one.loops.length > 0);
+  const shown = drawn.filter((one) => isShown(one.name));
+  const ends = drawn.flatMap((one) => one.loops.map(([from, to]) => Math.max(from, to)));
+  const columns = Math.max(2, Math.min(3, drawn.length));
+  const side = Math.min(330, Math.floor(widthOf(card) / (widthOf(card) > 700 ? columns : 1)) - 75);
+  const counts = (one) => [0, 1, 2].map((fate) => one.loops.filter((loop) => loop[2] === fate).length);
+  return shown.map((one) => ({
+    spec: 'registrations', width: side, height: side, data: {rows: loopRows(one)},
+    heading: `${labelOf(one.name)}: ${counts(one).map((n, i) => (n > 0 || i === 0 ? `${n} ${['used', 'rejected', 'lost'][i]}` : '')).filter(Boolean).join(', ')}`,
+    signals: {last: Math.max(1, ...ends)},
+  }));
+}
+
+function outcomePlots(card) {
+  const rows = outcomeRows(cellNow());
+  const height = 60 + 44 * new Set(rows.map((row) => row.estimator)).size;
+  return rows.length > 0 ? [{spec: 'outcomes', data: {rows}, width: widthOf(card), height}] : [];
+}
+
+const metricChoices = (cost) => Object.keys(study.metrics).filter((name) => cost === undefined || study.metrics[name].cost === cost);
+const exampleNote = () => `Trial ${cellNow().example.trial}`;
+
+const charts = [
+  {id: 'trajectories', title: 'Trajectories', wide: true, plots: trajectoryPlots,
+    exists: (cell) => cell.example.truth !== null || cell.example.estimators.some((one) => one.path),
+    caption: (cell) => `${exampleNote()} of ${conditions(cell)}. Metres; x up, y to the left. Thin lines: loops used; dashed with ×: rejected, with △: lost; ellipses: 2σ. Wheel: zoom, drag: move, double click: all.`},
+  {id: 'sweep', title: 'Error against the sweep', wide: true, plots: sweepPlots,
+    exists: () => study.axes.some((axis) => axis.labels.length > 1),
+    choices: () => [
+      {label: 'axis', key: 'axis', values: study.axes.map((axis, i) => [i, axis.name]).filter(([i]) => study.axes[i].labels.length > 1)},
+      {label: 'metric', key: 'sweepMetric', values: metricChoices().map((name) => [name, metricLabel(name)])}],
+    caption: (cell) => {
+      const fixed = study.axes.map((axis, i) => (i === state.axis ? '' : `${axis.name} ${axis.labels[cell.places[i]]}`)).filter(Boolean);
+      const counts = [...new Set(sweepCells().map((one) => one.n))].sort((a, b) => a - b);
+      const jobs = study.metrics[state.sweepMetric].cost ? ' ' + jobsNote(cell) : '';
+      return [...fixed, `alignment ${study.alignment}`, cell.association && study.axes[state.axis].key !== 'association.mode' ? `association ${cell.association}` : '', `n = ${counts.join(', ')} a point`].filter(Boolean).join(', ') +
+        '. Band: mean ± 2 standard deviations over trials. Right: twice the root mean square position error, and the mean of 2·√(Pxx + Pyy) that the estimator states; an honest one has them equal.' + jobs;
+    }},
+  {id: 'keyframes', title: 'Error and consistency over keyframes', wide: true, plots: keyframePlots,
+    exists: (cell) => sum(cell.estimators.map((one) => one.keyframes.keyframe.length)) > 0,
+    caption: (cell) => `${conditions(cell)}. Position in metres. NEES / 3 of an honest estimator is 1; the grey band holds 95 % of its means over trials at one keyframe. Above: overconfident.`},
+  {id: 'updates', title: 'Cost of an update', plots: updatePlots,
+    exists: (cell) => sum(cell.estimators.map((one) => one.updates.keyframe.length)) > 0,
+    caption: (cell) => `${conditions(cell, true)}. Milliseconds, median over trials, logarithmic. ${jobsNote(cell)}`},
+  {id: 'pareto', title: 'Accuracy against cost', plots: paretoPlots,
+    exists: () => Object.values(study.metrics).some((metric) => metric.cost),
+    choices: () => [
+      {label: 'accuracy', key: 'accuracy', values: metricChoices(false).map((name) => [name, metricLabel(name)])},
+      {label: 'cost', key: 'cost', values: metricChoices(true).map((name) => [name, metricLabel(name)])}],
+    caption: (cell) => `${conditions(cell)}. Means with 95 % intervals. Ringed, on the dashed line: no other is both better and cheaper (lower counts as better). Grey line: dead reckoning. ${jobsNote(cell)}`},
+  {id: 'registrations', title: 'Registration map', plots: registrationPlots,
+    exists: (cell) => cell.example.estimators.some((one) => one.loops.length > 0),
+    caption: (cell) => `${exampleNote()} of ${conditions(cell)}. Keyframe by keyframe: filled square used, × rejected by the gate, △ lost with a failed update.`},
+  {id: 'outcomes', title: 'Outcomes', plots: outcomePlots,
+    exists: (cell) => cell.estimators.some((one) => Object.keys(one.outcomes).length > 0),
+    caption: (cell) => `${conditions(cell, true)}. Trials by how their run ended. Converged and iteration limit count as done; all means are over those.`},
+];
+
+const chartViews = {};
+
+function chooser(choice, redraw) {
+  const select = element('select', {onchange: () => {
+    state[choice.key] = typeof state[choice.key] === 'number' ? Number(select.value) : select.value;
+    redraw();
+  }});
+  for (const [value, text] of choice.values) {
+    select.append(element('option', {value, textContent: text, selected: value === state[choice.key]}));
+  }
+  return element('label', {textContent: choice.label + ' '}, [select]);
+}
+
+function drawChart(chart) {
+  const card = document.getElementById('chart-' + chart.id);
+  const exists = chart.exists(cellNow());
+  card.hidden = !exists;
+  for (const view of chartViews[chart.id] || []) view.finalize();
+  chartViews[chart.id] = [];
+  const plots = card.querySelector('.plots');
+  plots.replaceChildren();
+  if (!exists) return;
+  card.querySelector('.caption').textContent = chart.caption(cellNow());
+  for (const plot of chart.plots(card)) {
+    const container = element('div');
+    plots.append(element('div', {className: 'plot'}, [
+      ...(plot.heading ? [element('h4', {textContent: plot.heading})] : []), container]));
+    chartViews[chart.id].push(drawPlot(container, plot.spec, plot));
+  }
+}
+
+function makeCards() {
+  for (const chart of charts) {
+    const choices = chart.choices && chart.exists(cellNow()) ? chart.choices().filter((choice) => choice.values.length > 1) : [];
+    document.getElementById('charts').append(element('article', {id: 'chart-' + chart.id, className: 'card' + (chart.wide ? ' wide' : '')}, [
+      element('div', {className: 'card-head'}, [
+        element('h3', {textContent: chart.title}),
+        element('div', {className: 'choices'}, choices.map((choice) => chooser(choice, () => drawChart(chart))))]),
+      element('p', {className: 'caption'}),
+      element('div', {className: 'plots'})]));
+  }
+}
+
+const drawCharts = () => charts.forEach(drawChart);

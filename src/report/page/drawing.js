@@ -1,0 +1,42 @@
+// One plot: a specification of page/charts, the theme, the rows and the page's colours, by Vega.
+const css = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+
+function themeConfig() {
+  const font = getComputedStyle(document.body).fontFamily;
+  const ink = css('--ink');
+  return {
+    background: null,
+    axis: {
+      domainColor: css('--soft'), tickColor: css('--soft'), gridColor: css('--grid'), labelColor: css('--soft'),
+      titleColor: ink, labelFont: font, titleFont: font, labelFontSize: 12, titleFontSize: 12.5,
+      titleFontWeight: 500, labelOverlap: true, titlePadding: 8,
+    },
+    text: {font, fill: ink},
+  };
+}
+
+// The scales by which all charts colour and dash, whatever is shown.
+function sharedScales() {
+  const names = [kTruth, ...study.estimators.map((one) => one.name)];
+  return [
+    {name: 'colour', type: 'ordinal', domain: names, range: [css('--ink'), ...study.estimators.map((one) => one.colour)]},
+    {name: 'dash', type: 'ordinal', domain: names, range: [[], ...study.estimators.map((one) => (one.dashed ? [7, 3] : []))]},
+  ];
+}
+
+function drawPlot(container, specName, {data, width, height, signals = {}, adjust}) {
+  const spec = structuredClone(specs[specName]);
+  spec.scales.push(...sharedScales());
+  spec.signals.push({name: 'ink', value: css('--ink')});
+  for (const set of spec.data) set.values = data[set.name] || [];
+  for (const [name, value] of Object.entries({...signals, hidden: [...state.hidden]})) {
+    spec.signals.find((signal) => signal.name === name).value = value;
+  }
+  spec.width = width;
+  if (height) spec.height = height;
+  if (adjust) adjust(spec);
+  container.replaceChildren();
+  const view = new vega.View(vega.parse(spec, themeConfig()), {renderer: 'svg', container, logLevel: vega.Error});
+  view.run();
+  return view;
+}

@@ -1,0 +1,154 @@
+// From the study's data to the rows that each chart draws.
+const kFates = ['used', 'rejected by the gate', 'lost with a failed update'];
+
+// The same place as the chosen cell on every axis but the sweep's.
+function sweepCells() {
+  const here = cellNow().places;
+  return study.cells.filter((cell) =>
+    cell.places.every((place, axis) => axis === state.axis || place === here[axis]));
+}
+
+function sweepRows() {
+  const errors = [];
+  const bounds = [];
+  for (const cell of sweepCells()) {
+    const place = cell.places[state.axis];
+    const text = study.axes[state.axis].labels[place];
+    const x = sweepIsNumeric() ? Number(text) : text;
+    for (const one of cell.estimators) {
+      const metric = one.metrics[state.sweepMetric];
+      const row = {estimator: one.name, x, place};
+      if (metric) {
+        const spread = 2 * (metric.sd || 0);
+        const low = metric.mean >= 0 ? Math.max(0, metric.mean - spread) : metric.mean - spread;
+        errors.push({...row, mean: metric.mean, low, high: metric.mean + spread,
+          tooltip: `${labelOf(one.name)}, ${text}: ${withInterval(metric)}, n = ${metric.n}` +
+            (metric.sd ? `, sd ${digits(metric.sd)}` : '')});
+      }
+      for (const kind of ['empirical', 'estimated']) {
+        const value = one.bounds && one.bounds[kind + '_m'];
+        if (value === undefined || value === null || value === false) continue;
+        bounds.push({...row, kind, value, tooltip: `${labelOf(one.name)}, ${text}: ${kind} ${digits(value)} m`});
+      }
+    }
+  }
+  const byPlace = (a, b) => a.place - b.place;
+  return {errors: errors.sort(byPlace), bounds: bounds.sort(byPlace)};
+}
+
+const sweepIsNumeric = () =>
+  study.axes[state.axis].labels.every((label) => label.trim() !== '' && Number.isFinite(Number(label)));
+
+function keyframeRows(cell) {
+  const rows = {error: [], bounds: [], nees: [], interval: []};
+  for (const one of cell.estimators) {
+    const all = one.keyframes;
+    const row = {estimator: one.name, label: labelOf(one.name)};
+    all.keyframe.forEach((k, i) => {
+      const mean = all.mean_m[i];
+      if (mean !== null) {
+        const spread = 2 * (all.sd_m[i] || 0);
+        rows.error.push({...row, k, mean, low: Math.max(0, mean - spread), high: mean + spread});
+      }
+      for (const kind of ['empirical', 'estimated']) {
+        const value = all[kind + '_m'][i];
+        if (value !== null) rows.bounds.push({...row, k, kind, value, label: `${row.label}, ${kind}`});
+      }
+      if (all.anees[i] > 0) rows.nees.push({...row, k, value: all.anees[i]});
+    });
+  }
+  // The estimator with the most trials has the interval drawn.
+  const trialsOf = (one) => Math.max(0, ...one.keyframes.nees_n);
+  const most = cell.estimators.reduce((a, b) => (trialsOf(b) > trialsOf(a) ? b : a));
+  most.keyframes.keyframe.forEach((k, i) => {
+    const {low, high} = most.keyframes.nees_interval;
+    if (low[i] !== null) rows.interval.push({k, low: low[i], high: high[i]});
+  });
+  rows.trials = trialsOf(most);
+  return rows;
+}
+
+function updateRows(cell) {
+  return cell.estimators.flatMap((one) => one.updates.keyframe.map((k, i) => ({
+    estimator: one.name, label: labelOf(one.name), k, value: one.updates.median_ms[i],
+  }))).filter((row) => row.value > 0);
+}
+
+const sigmaAngles = Array.from({length: 33}, (_, i) => (i * Math.PI) / 16);
+
+// The 2σ ellipse of a keyframe as a closed line.
+function ellipseRows(name, [k, x, y, xx, xy, yy]) {
+  const a = Math.sqrt(Math.max(0, xx));
+  const b = a > 0 ? xy / a : 0;
+  const c = Math.sqrt(Math.max(0, yy - b * b));
+  return sigmaAngles.map((angle) => ({
+    estimator: name, id: name + ' ' + k,
+    x: x + 2 * a * Math.cos(angle),
+    y: y + 2 * (b * Math.cos(angle) + c * Math.sin(angle)),
+  }));
+}
+
+function pathRows(name, path) {
+  return path ? path.x_m.map((x, i) => ({estimator: name, label: labelOf(name), x, y: path.y_m[i]})) : [];
+}
+
+function loopRows(one) {
+  return one.loops.flatMap(([from, to, fate, nis], i) => {
+    const ends = one.loop_ends_m[i];
+    const tooltip = `${labelOf(one.name)}, ${from} to ${to}: ${kFates[fate]}` +
+      (nis === null ? '' : `, NIS ${digits(nis)}`);
+    const row = {estimator: one.name, fate, tooltip, older: Math.min(from, to), newer: Math.max(from, to)};
+    return [ends ? {...row, x1: ends[0], y1: ends[1], x2: ends[2], y2: ends[3]} : row];
+  });
+}
+
+function trajectoryRows(cell) {
+  const rows = {paths: pathRows(kTruth, cell.example.truth), ellipses: [], loops: []};
+  for (const one of cell.example.estimators) {
+    rows.paths.push(...pathRows(one.name, one.path));
+    rows.ellipses.push(...one.ellipses.flatMap((entry) => ellipseRows(one.name, entry)));
+    rows.loops.push(...loopRows(one).filter((row) => row.x1 !== undefined));
+  }
+  return rows;
+}
+
+function paretoRows(cell) {
+  const rows = [];
+  const baseline = [];
+  for (const one of cell.estimators) {
+    const error = one.metrics[state.accuracy];
+    const cost = one.metrics[state.cost];
+    if (!error) continue;
+    const low = error.low === undefined ? error.mean : error.low;
+    const high = error.high === undefined ? error.mean : error.high;
+    if (cost && cost.mean > 0) {
+      rows.push({estimator: one.name, cost: cost.mean, mean: error.mean, low, high, front: false,
+        x_low: cost.low > 0 ? cost.low : cost.mean, x_high: cost.high > 0 ? cost.high : cost.mean,
+        tooltip: `${labelOf(one.name)}: ${metricLabel(state.accuracy)} ${withInterval(error)}, ` +
+          `${metricLabel(state.cost)} ${withInterval(cost)}`});
+    } else if (one.name === study.estimators[0].name) {
+      baseline.push({estimator: one.name, mean: error.mean,
+        tooltip: `${labelOf(one.name)}: ${withInterval(error)}, at no cost`});
+    }
+  }
+  // Lower is better on both axes.
+  const front = [];
+  const shown = rows.filter((row) => !state.hidden.has(row.estimator));
+  for (const row of shown.sort((a, b) => a.cost - b.cost || a.mean - b.mean)) {
+    row.front = front.length === 0 || row.mean < front[front.length - 1].mean;
+    if (row.front) front.push(row);
+  }
+  return {rows, front, baseline};
+}
+
+function outcomeRows(cell) {
+  const order = ['converged', 'iteration_limit', 'diverged', 'numerical_failure', 'not run'];
+  return cell.estimators.filter((one) => one.name !== study.estimators[0].name).flatMap((one) => {
+    const counts = {...one.outcomes, 'not run': Math.max(0, study.trials - one.runs)};
+    return order.filter((name) => counts[name] > 0).map((name) => {
+      const text = `${counts[name]} ${name.replaceAll('_', ' ')}`;
+      return {estimator: one.name, label: labelOf(one.name), count: counts[name], text,
+        order: order.indexOf(name), tooltip: `${labelOf(one.name)}: ${text}`};
+    });
+  });
+}

@@ -1,0 +1,62 @@
+// What the page shows: the study's data and the reader's choices, and small helpers for both.
+const study = JSON.parse(document.getElementById('data').textContent);
+const specs = JSON.parse(document.getElementById('specs').textContent);
+const kTruth = 'ground truth';
+
+const firstOf = (names) => names.find((name) => study.metrics[name]) || Object.keys(study.metrics)[0];
+const accuracyNames = study.study_metrics.filter((name) => study.metrics[name] && !study.metrics[name].cost);
+const accuracyMetric = accuracyNames[0] || firstOf(['mean_position_error_m', 'chi2']);
+const costMetric = firstOf([
+  ...study.study_metrics.filter((name) => study.metrics[name] && study.metrics[name].cost),
+  'total_ms', 'update_ms.median', 'cpu_ms', 'memory_bytes']);
+
+const state = {
+  hidden: new Set(),
+  cell: 0,  // place in study.cells
+  axis: Math.max(0, study.axes.findIndex((axis) => axis.labels.length > 1)),
+  sweepMetric: accuracyMetric,
+  accuracy: accuracyMetric,
+  cost: costMetric,
+  dark: window.matchMedia('(prefers-color-scheme: dark)').matches,
+};
+
+const cellNow = () => study.cells[state.cell];
+const styleOf = (name) => study.estimators.find((one) => one.name === name);
+const labelOf = (name) => (styleOf(name) ? styleOf(name).label : name);
+const metricLabel = (name) => (study.metrics[name] ? study.metrics[name].label : name);
+
+// A number with three digits, never in exponents where a reader would rather not see them.
+function digits(value, count = 3) {
+  if (value === null || value === undefined) return '–';
+  if (value === 0) return '0';
+  const size = Math.abs(value);
+  if (size >= 1e7 || size < 1e-4) return value.toExponential(count - 1);
+  const whole = Math.floor(Math.log10(size)) + 1;
+  return value.toFixed(Math.min(8, Math.max(0, count - whole)));
+}
+
+const withInterval = (one) =>
+  digits(one.mean) + (one.low === undefined ? '' : ` [${digits(one.low)}, ${digits(one.high)}]`);
+
+function element(tag, properties = {}, children = []) {
+  const made = Object.assign(document.createElement(tag), properties);
+  made.append(...children);
+  return made;
+}
+
+// Everything but the estimator that a number depends on, for the caption of every chart.
+function conditions(cell, withCost) {
+  const parts = [];
+  if (study.cells.length > 1) parts.push(cell.label);
+  if (!withCost && study.alignment) parts.push(`alignment ${study.alignment}`);
+  if (cell.association) parts.push(`association ${cell.association}`);
+  parts.push(`n = ${cell.n}`);
+  return parts.join(', ');
+}
+
+function jobsNote(cell) {
+  if (!cell.jobs) return '';
+  const alone = cell.jobs === '1';
+  return `Measured with ${cell.jobs} job${alone ? '' : 's'} at a time` +
+    (alone ? '.' : '; comparable at 1 alone.');
+}

@@ -1,0 +1,81 @@
+// The summary, the paired tests and the manifests, as tables.
+const kBaseline = study.estimators[0].name;
+
+function tableOf(header, rows) {
+  const cellOf = (tag) => (content) => {
+    const cell = element(tag);
+    if (typeof content === 'string') cell.textContent = content;
+    else if (content) cell.append(...[content].flat());
+    return cell;
+  };
+  return element('table', {}, [
+    element('thead', {}, [element('tr', {}, header.map(cellOf('th')))]),
+    element('tbody', {}, rows.map((row) => element('tr', {}, row.map(cellOf('td')))))]);
+}
+
+const swatch = (name) => {
+  const mark = element('span', {className: 'swatch' + (styleOf(name) && styleOf(name).dashed ? ' dashed' : '')});
+  mark.style.borderTopColor = styleOf(name) ? styleOf(name).colour : 'currentColor';
+  return mark;
+};
+
+function valueCell(one, metric) {
+  const value = one.metrics[metric];
+  if (!value) return '–';
+  const parts = [digits(value.mean)];
+  const few = value.n < one.done ? `, n = ${value.n}` : '';
+  if (value.low !== undefined || few) {
+    parts.push(element('span', {className: 'interval',
+      textContent: (value.low === undefined ? '' : ` [${digits(value.low)}, ${digits(value.high)}]`) + few}));
+  }
+  return parts;
+}
+
+function drawSummary() {
+  const cell = cellNow();
+  const metrics = study.study_metrics.filter((name) => cell.estimators.some((one) => one.metrics[name]));
+  const rows = cell.estimators.map((one) => [
+    [swatch(one.name), labelOf(one.name)], one.name === kBaseline ? '–' : one.outcome_text,
+    ...metrics.map((metric) => valueCell(one, metric))]);
+  const made = tableOf(['estimator', 'outcome', ...metrics.map(metricLabel)], rows);
+  cell.estimators.forEach((one, i) => {
+    made.tBodies[0].rows[i].cells[1].className = 'text' + (one.done < one.runs ? ' failed' : '');
+  });
+  made.tHead.rows[0].cells[1].className = 'text';
+  document.getElementById('summary-table').replaceChildren(made);
+  document.getElementById('summary-caption').textContent = `${cell.caption}. ` +
+    (cell.n > 1 ? 'Means over the trials that were done, with the 95 % bootstrap interval of the mean.' : 'A single trial: values without intervals.') +
+    (metrics.some((name) => study.metrics[name].cost) ? ` Cost: ${jobsNote(cell)}` : '');
+}
+
+function drawPaired() {
+  const tests = cellNow().paired.filter((one) => one.n > 1);
+  const first = study.estimators.length > 1 ? study.estimators[1].label : '';
+  for (const part of ['title', 'caption', 'table']) document.getElementById('paired-' + part).hidden = tests.length === 0;
+  document.getElementById('paired-title').textContent = `Differences to ${first}`;
+  document.getElementById('paired-caption').textContent =
+    `The estimator minus ${first}, over the trials that both did: mean with its 95 % interval, Wilcoxon’s signed-rank test, and its p-value adjusted after Holm over the tests of this table.`;
+  const rows = tests.map((one) => [
+    [swatch(one.estimator), labelOf(one.estimator)], metricLabel(one.metric), String(one.n), withInterval(one), digits(one.p), digits(one.holm_p)]);
+  const made = tableOf(['estimator', 'metric', 'pairs', 'mean difference', 'p', 'p (Holm)'], rows);
+  for (const row of made.rows) row.cells[1].className = 'text';
+  document.getElementById('paired-table').replaceChildren(made);
+}
+
+// Nested objects as dotted keys.
+function flat(value, prefix = '') {
+  if (value === null || typeof value !== 'object') return [[prefix, String(value)]];
+  return Object.entries(value).flatMap(([key, inner]) => flat(inner, prefix ? `${prefix}.${key}` : key));
+}
+
+function drawManifest() {
+  const part = (title, rows, open) => element('details', {open}, [
+    element('summary', {textContent: title}), element('div', {className: 'scroll'}, [tableOf(['key', 'value'], rows)])]);
+  const sessions = study.manifests.map((manifest, i) => {
+    const rows = flat(manifest).filter(([key]) => !key.startsWith('configuration.'));
+    return part(study.manifests.length > 1 ? `Session ${i + 1}` : 'Session', rows, i === 0);
+  });
+  const configuration = Object.entries(study.configuration);
+  document.getElementById('manifest').append(...sessions,
+    part(`Configuration (${configuration.length} keys)`, configuration, false));
+}

@@ -1,0 +1,179 @@
+#include "page_data.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+#include "estimator_colours.hpp"
+#include "example_trial.hpp"
+#include "fathom/evaluation/consistency.hpp"
+#include "keyframe_series.hpp"
+#include "metric_label.hpp"
+#include "page_numbers.hpp"
+
+namespace fathom {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Keyframes of one list over all cells and estimators together: what keeps the page at a few MB.
+constexpr std::size_t kKeyframesInAll = 24000;
+constexpr std::size_t kFewestKeyframes = 120;
+constexpr double kProbability = 0.95;
+
+Json metric_json(const MetricSummary& summary) {
+  const Moments& moments = summary.moments;
+  Json json{{"n", moments.count},
+            {"mean", page_number(moments.mean)},
+            {"median", page_number(moments.median)}};
+  if (moments.standard_deviation) json["sd"] = page_number(*moments.standard_deviation);
+  if (summary.interval) {
+    json["low"] = page_number(summary.interval->low);
+    json["high"] = page_number(summary.interval->high);
+  }
+  return json;
+}
+
+Json nees_interval_json(const std::vector<std::size_t>& counts) {
+  Json low = Json::array();
+  Json high = Json::array();
+  for (const std::size_t count : counts) {
+    const bool known = count > 0;
+    const Interval interval = anees_interval(known ? count : 1, 3, kProbability);
+    low.push_back(known ? page_number(interval.low) : Json());
+    high.push_back(known ? page_number(interval.high) : Json());
+  }
+  return {{"low", low}, {"high", high}};
+}
+
+Json keyframes_json(const KeyframeStatistics& statistics) {
+  Json json{{"keyframe", statistics.keyframe}, {"n", statistics.count}};
+  json["mean_m"] = page_numbers(statistics.mean_m);
+  json["sd_m"] = page_numbers(statistics.sd_m);
+  json["empirical_m"] = page_numbers(statistics.empirical_m);
+  json["estimated_m"] = page_numbers(statistics.estimated_m);
+  json["anees"] = page_numbers(statistics.anees);
+  json["nees_n"] = statistics.nees_count;
+  json["nees_interval"] = nees_interval_json(statistics.nees_count);
+  return json;
+}
+
+Json estimator_json(const ResultStore& store, const EstimatorResults& one, std::size_t trials,
+                    std::size_t most) {
+  Json json{{"name", one.name},
+            {"runs", one.runs.size()},
+            {"done", one.done},
+            {"outcome_text", outcome_text(one, trials)},
+            {"outcomes", one.outcomes}};
+  json["metrics"] = Json::object();
+  for (const auto& [metric, summary] : one.metrics) json["metrics"][metric] = metric_json(summary);
+  const KeyframeStatistics statistics = keyframe_statistics(store, one, most);
+  json["keyframes"] = keyframes_json(statistics);
+  if (const auto bounds = sweep_bounds(statistics)) {
+    json["bounds"] = {{"empirical_m", page_number(bounds->empirical_m)}};
+    if (bounds->estimated_m) json["bounds"]["estimated_m"] = page_number(*bounds->estimated_m);
+  }
+  const UpdateCost cost = update_cost(store, one, most);
+  json["updates"] = {
+      {"keyframe", cost.keyframe}, {"n", cost.count}, {"median_ms", page_numbers(cost.median_ms)}};
+  return json;
+}
+
+Json paired_json(const PairedResult& paired) {
+  const PairedDifference& difference = paired.difference;
+  Json json{{"estimator", paired.estimator},
+            {"metric", paired.metric},
+            {"n", difference.count},
+            {"mean", page_number(difference.mean)}};
+  if (difference.interval) {
+    json["low"] = page_number(difference.interval->low);
+    json["high"] = page_number(difference.interval->high);
+  }
+  if (paired.holm_p) {
+    json["p"] = page_number(*difference.signed_rank.p_value);
+    json["holm_p"] = page_number(*paired.holm_p);
+  }
+  return json;
+}
+
+Json cell_json(const ResultStore& store, const CellResults& cell, const StudyDescription& study,
+               std::size_t most) {
+  Json json{{"cell", cell.cell},
+            {"label", cell.label},
+            {"caption", cell_caption(cell, study)},
+            {"places", study.places_of(cell.cell)},
+            {"association", cell.association},
+            {"jobs", jobs_text(cell.jobs)},
+            {"n", cell.trials}};
+  json["estimators"] = Json::array();
+  for (const EstimatorResults& one : cell.estimators) {
+    json["estimators"].push_back(estimator_json(store, one, study.trials, most));
+  }
+  json["paired"] = Json::array();
+  for (const PairedResult& one : cell.paired) json["paired"].push_back(paired_json(one));
+  json["example"] = example_trial(store, cell, most);
+  return json;
+}
+
+Json study_json(const StudyDescription& study) {
+  Json json{{"title", study.title}, {"alignment", study.alignment}, {"trials", study.trials}};
+  json["axes"] = Json::array();
+  for (const StudyAxis& axis : study.axes) {
+    json["axes"].push_back({{"name", axis.name}, {"key", axis.key}, {"labels", axis.labels}});
+  }
+  const auto styles = line_styles(study);
+  const auto entry = [&styles](const std::string& name, const std::string& type) {
+    const LineStyle& style = styles.at(name);
+    return Json{{"name", name},
+                {"label", display_name(name)},
+                {"type", type},
+                {"colour", hex(style.colour)},
+                {"dashed", style.dashed}};
+  };
+  json["estimators"] = Json::array({entry(kDeadReckoning, "")});
+  for (const auto& [name, type] : study.estimators) json["estimators"].push_back(entry(name, type));
+  json["study_metrics"] = study.metrics;
+  return json;
+}
+
+// As JSON where it is JSON, else as the text that it is.
+Json manifest_of(const std::string& text) {
+  const Json parsed = Json::parse(text, nullptr, false);
+  return parsed.is_discarded() ? Json(text) : parsed;
+}
+
+}  // namespace
+
+Json page_number(double value) {
+  if (!std::isfinite(value)) return {};
+  char buffer[32];
+  std::snprintf(buffer, sizeof buffer, "%.6g", value);
+  const double rounded = std::strtod(buffer, nullptr);
+  // Whole numbers without ".0".
+  const bool whole = std::abs(rounded) < 1e6 && rounded == std::floor(rounded);
+  return whole ? Json(static_cast<int>(rounded)) : Json(rounded);
+}
+
+Json page_data(const ResultStore& store, const StudyResults& results) {
+  const StudyDescription& study = results.study;
+  const std::size_t lists = results.cells.size() * (study.estimators.size() + 1);
+  const std::size_t most = std::max(kFewestKeyframes, kKeyframesInAll / lists);
+  Json json = study_json(study);
+  json["metrics"] = Json::object();
+  for (const std::string& name : results.metrics) {
+    const MetricLabel label = metric_label(name);
+    json["metrics"][name] = {{"label", label.with_unit()}, {"cost", is_cost_metric(name)}};
+  }
+  json["cells"] = Json::array();
+  for (const CellResults& cell : results.cells) {
+    json["cells"].push_back(cell_json(store, cell, study, most));
+  }
+  json["configuration"] = Json::object();
+  for (const auto& [key, value] : study.configuration) json["configuration"][key] = value;
+  json["manifests"] = Json::array();
+  for (const std::string& text : store.manifests()) json["manifests"].push_back(manifest_of(text));
+  return json;
+}
+
+}  // namespace fathom

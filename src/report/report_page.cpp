@@ -1,0 +1,70 @@
+#include "report_page.hpp"
+
+#include <array>
+#include <utility>
+
+#include "page_data.hpp"
+#include "page_parts.hpp"
+
+namespace fathom {
+namespace {
+
+// A script element ends at "</" whatever the JSON means by it; an escaped "<" means the same.
+std::string within_script(std::string_view json) {
+  std::string text;
+  for (const char letter : json) text += letter == '<' ? "\\u003c" : std::string(1, letter);
+  return text;
+}
+
+}  // namespace
+
+std::string html_text(std::string_view text) {
+  std::string result;
+  for (const char letter : text) {
+    switch (letter) {
+      case '&':
+        result += "&amp;";
+        break;
+      case '<':
+        result += "&lt;";
+        break;
+      case '>':
+        result += "&gt;";
+        break;
+      case '"':
+        result += "&quot;";
+        break;
+      case '\'':
+        result += "&#39;";
+        break;
+      default:
+        result += letter;
+    }
+  }
+  return result;
+}
+
+std::string report_page(const ResultStore& store, const StudyResults& results) {
+  // Bytes that are not UTF-8 become the replacement character: a name may hold any.
+  const std::string data =
+      page_data(store, results)
+          .dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+  const std::string& title = results.study.title;
+  const std::array<std::pair<std::string_view, std::string>, 5> parts{
+      {{"@title@", html_text(title.empty() ? "Study" : title)},
+       {"@style@", std::string(kPageStyle)},
+       {"@data@", within_script(data)},
+       {"@specs@", std::string(kPageSpecs)},
+       {"@scripts@", std::string(kPageScripts)}}};
+  std::string page;
+  std::string_view rest = kPageTemplate;
+  for (const auto& [place, content] : parts) {
+    const std::size_t found = rest.find(place);
+    page += rest.substr(0, found);
+    page += content;
+    rest.remove_prefix(found + place.size());
+  }
+  return page + std::string(rest);
+}
+
+}  // namespace fathom

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "study_results.hpp"
+
+namespace fathom {
+
+/// Text within HTML: its five special characters as entities.
+std::string html_text(std::string_view text);
+
+/// The whole report.html: it loads nothing, from nowhere. Its data is the JSON in #data.
+std::string report_page(const ResultStore& store, const StudyResults& results);
+
+}  // namespace fathom

@@ -1,0 +1,47 @@
+#include "metric_label.hpp"
+#include "study_results.hpp"
+
+namespace fathom {
+namespace {
+
+std::string worded(std::string name) {
+  for (char& letter : name) letter = letter == '_' ? ' ' : letter;
+  return name;
+}
+
+}  // namespace
+
+std::string display_name(const std::string& estimator) {
+  return estimator == kDeadReckoning ? "dead reckoning" : estimator;
+}
+
+std::string outcome_text(const EstimatorResults& estimator, std::size_t trials_wanted) {
+  std::string text =
+      std::to_string(estimator.done) + "/" + std::to_string(estimator.runs.size()) + " done";
+  for (const auto& [name, count] : estimator.outcomes) {
+    if (name == "converged") continue;
+    text += ", " + std::to_string(count) + " " +
+            (name == "iteration_limit" ? "at iteration limit" : worded(name));
+  }
+  if (estimator.runs.size() < trials_wanted) {
+    text += ", " + std::to_string(trials_wanted - estimator.runs.size()) + " not run";
+  }
+  return text;
+}
+
+std::string jobs_text(const std::set<int>& jobs) {
+  std::string text;
+  for (const int count : jobs) text += (text.empty() ? "" : ", ") + std::to_string(count);
+  return text;
+}
+
+std::string cell_caption(const CellResults& cell, const StudyDescription& study) {
+  std::string text = cell.label + ": ";
+  if (!cell.association.empty()) text += "association " + cell.association + ", ";
+  if (!study.alignment.empty()) text += "alignment " + study.alignment + ", ";
+  text += "n = " + std::to_string(cell.trials);
+  if (!cell.jobs.empty()) text += ", jobs " + jobs_text(cell.jobs);
+  return text;
+}
+
+}  // namespace fathom

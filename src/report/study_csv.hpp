@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "study_results.hpp"
+
+namespace fathom {
+
+/// As RFC 4180 has it: in quotes where it holds a comma, a quote or the end of a line.
+std::string csv_field(std::string_view text);
+
+/// One line a run; a metric that a run lacks is an empty field.
+std::string runs_csv(const StudyResults& results);
+
+/// One line per cell, estimator and metric; n is 0 where no run that was done has the metric.
+std::string summary_csv(const StudyResults& results);
+
+}  // namespace fathom

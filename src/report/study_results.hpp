@@ -1,0 +1,76 @@
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "fathom/evaluation/paired.hpp"
+#include "fathom/evaluation/statistics.hpp"
+#include "fathom/study/result_store.hpp"
+
+namespace fathom {
+
+/// A metric over the trials of one cell that were done and have it.
+struct MetricSummary {
+  Moments moments;
+  std::optional<Interval> interval;  ///< 95 %, of the mean; nothing of a single trial
+};
+
+/// All runs of one estimator, or of dead reckoning, on one cell.
+struct EstimatorResults {
+  std::string name;
+  std::vector<RunRecord> runs;  ///< in order of trial
+  std::size_t done = 0;
+  std::map<std::string, std::size_t> outcomes;
+  std::map<std::string, MetricSummary> metrics;
+
+  std::size_t failures() const { return runs.size() - done; }
+};
+
+/// Another estimator minus the first, over the trials that both did.
+struct PairedResult {
+  std::string estimator;
+  std::string metric;
+  PairedDifference difference;
+  std::optional<double> holm_p;  ///< adjusted over the tests of the cell; nothing without a test
+};
+
+struct CellResults {
+  std::size_t cell = 0;
+  std::string label;
+  std::string association;  ///< empty where the study names none
+  std::set<int> jobs;
+  std::size_t trials = 0;                    ///< that have any run
+  std::vector<EstimatorResults> estimators;  ///< dead reckoning first, then as in the study
+  std::vector<PairedResult> paired;          ///< of the study's metrics
+};
+
+/// What all tables, charts and figures are made from; the intervals are computed once, here.
+struct StudyResults {
+  StudyDescription study;
+  std::vector<CellResults> cells;    ///< those with runs
+  std::vector<std::string> metrics;  ///< all that occur: the study's in its order, then by name
+};
+
+/// Whether the estimate of a run can be used; dead reckoning has no outcome and always can.
+bool is_done(const RunRecord& run);
+
+/// Throws InputError on a store without runs.
+StudyResults study_results(const ResultStore& store);
+
+/// "98/100 done, 2 diverged"; also those at the iteration limit and those that are yet to run.
+std::string outcome_text(const EstimatorResults& estimator, std::size_t trials_wanted);
+
+/// "2", or "1, 4" where sessions differed.
+std::string jobs_text(const std::set<int>& jobs);
+
+/// "separation 5: association own, alignment origin, n = 100, jobs 2"; what is unknown is left out.
+std::string cell_caption(const CellResults& cell, const StudyDescription& study);
+
+/// "dead reckoning" for kDeadReckoning, else the name.
+std::string display_name(const std::string& estimator);
+
+}  // namespace fathom

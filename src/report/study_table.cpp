@@ -1,0 +1,132 @@
+#include <algorithm>
+#include <sstream>
+
+#include "fathom/report/study_report.hpp"
+#include "fathom/report/table.hpp"
+#include "metric_label.hpp"
+#include "study_results.hpp"
+
+namespace fathom {
+namespace {
+
+constexpr std::size_t kWidth = 160;
+constexpr int kDigits = 3;
+
+using Rows = std::vector<std::vector<std::string>>;
+
+std::string interval_text(const std::optional<Interval>& interval) {
+  return interval ? " [" + format_number(interval->low, kDigits) + ", " +
+                        format_number(interval->high, kDigits) + "]"
+                  : "";
+}
+
+// "0.112 [0.108, 0.117]"; with the number of values where that is not all that were done.
+std::string value_text(const EstimatorResults& estimator, const std::string& metric) {
+  const auto found = estimator.metrics.find(metric);
+  if (found == estimator.metrics.end()) return "-";
+  const MetricSummary& summary = found->second;
+  std::string text = format_number(summary.moments.mean, kDigits) + interval_text(summary.interval);
+  if (summary.moments.count < estimator.done) {
+    text += " n=" + std::to_string(summary.moments.count);
+  }
+  return text;
+}
+
+std::size_t width_of(const std::string& text) {
+  std::size_t width = 0;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) width = std::max(width, display_width(line));
+  return width;
+}
+
+// `fixed` leading columns stand in every part; of the others as many as fit beside them.
+std::string part_of(const std::vector<std::string>& header, const Rows& rows, std::size_t fixed,
+                    std::size_t begin, std::size_t end) {
+  const auto picked = [&](const std::vector<std::string>& cells) {
+    const auto at = [&](std::size_t i) { return cells.begin() + static_cast<std::ptrdiff_t>(i); };
+    std::vector<std::string> some(at(0), at(fixed));
+    some.insert(some.end(), at(begin), at(end));
+    return some;
+  };
+  Table table(picked(header));
+  for (const auto& row : rows) table.add_row(picked(row));
+  return table.text();
+}
+
+std::string table_in_parts(const std::vector<std::string>& header, const Rows& rows,
+                           std::size_t fixed) {
+  std::string text;
+  for (std::size_t begin = fixed; begin < header.size() || begin == fixed;) {
+    std::size_t end = std::min(begin + 1, header.size());
+    std::string part = part_of(header, rows, fixed, begin, end);
+    while (end < header.size()) {
+      const std::string wider = part_of(header, rows, fixed, begin, end + 1);
+      if (width_of(wider) > kWidth) break;
+      part = wider;
+      ++end;
+    }
+    text += (text.empty() ? "" : "\n") + part;
+    if (end == header.size()) break;
+    begin = end;
+  }
+  return text;
+}
+
+std::string estimator_table(const CellResults& cell, const StudyDescription& study) {
+  std::vector<std::string> metrics;
+  for (const std::string& metric : study.metrics) {
+    if (std::any_of(cell.estimators.begin(), cell.estimators.end(),
+                    [&](const auto& one) { return one.metrics.contains(metric); })) {
+      metrics.push_back(metric);
+    }
+  }
+  std::vector<std::string> header{"estimator", "outcome"};
+  for (const std::string& metric : metrics) header.push_back(metric_label(metric).with_unit());
+  Rows rows;
+  for (const EstimatorResults& one : cell.estimators) {
+    const bool baseline = one.name == kDeadReckoning;
+    rows.push_back({display_name(one.name), baseline ? "-" : outcome_text(one, study.trials)});
+    for (const std::string& metric : metrics) rows.back().push_back(value_text(one, metric));
+  }
+  return table_in_parts(header, rows, 2);
+}
+
+std::string paired_table(const CellResults& cell, const StudyDescription& study) {
+  Rows rows;
+  for (const PairedResult& one : cell.paired) {
+    if (one.difference.count < 2) continue;
+    rows.push_back(
+        {one.estimator, metric_label(one.metric).with_unit(), std::to_string(one.difference.count),
+         format_number(one.difference.mean, kDigits) + interval_text(one.difference.interval),
+         format_number(one.difference.signed_rank.p_value, kDigits),
+         format_number(one.holm_p, kDigits)});
+  }
+  if (rows.empty()) return "";
+  const std::string first = study.estimators.front().name;
+  Table table({"minus " + first, "metric", "pairs", "mean difference", "p (Wilcoxon)", "p (Holm)"});
+  for (auto& row : rows) table.add_row(std::move(row));
+  return "\n" + table.text();
+}
+
+}  // namespace
+
+std::string study_table(const ResultStore& store) {
+  const StudyResults results = study_results(store);
+  const StudyDescription& study = results.study;
+  std::string text = study.title.empty() ? "" : study.title + "\n\n";
+  bool intervals = false;
+  for (const CellResults& cell : results.cells) {
+    text += cell_caption(cell, study) + "\n";
+    text += estimator_table(cell, study) + paired_table(cell, study) + "\n";
+    intervals = intervals || cell.trials > 1;
+  }
+  if (intervals) {
+    text +=
+        "Means over the trials that were done, with the 95 % bootstrap interval of the mean. p: "
+        "signed-rank test over the\npairs of trials that both did; Holm: adjusted over all tests "
+        "of the block.\n";
+  }
+  return text;
+}
+
+}  // namespace fathom

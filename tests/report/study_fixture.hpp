@@ -1,0 +1,29 @@
+#pragma once
+
+#include <filesystem>
+
+#include "fathom/study/result_store.hpp"
+
+namespace fathom::test {
+
+/// A made-up study: estimators "iterated" (trajectory_iekf), "a&b_<c>%" (ekf) and "graph"
+/// (ceres_pose_graph) on lawnmower paths of `keyframes`, in cells of two axes, with all metrics and
+/// series of docs/formats.md. The errors are Gaussian walks of known spread; the second estimator
+/// states a spread that is half the true one; the third is twice as wrong as the first.
+struct FixtureOptions {
+  std::size_t trials = 6;
+  std::size_t keyframes = 40;
+  std::vector<std::string> separations{"5", "10", "20"};
+  std::vector<std::string> noises{"low", "high & <b>50%</b>"};
+  bool ground_truth = true;  ///< else no accuracy, consistency, or truth
+  bool loops = true;
+  int jobs = 2;
+};
+
+StudyDescription fixture_study(const FixtureOptions& options = {});
+
+/// In the last cell the second estimator diverges on trial 0 and fails on trial 1, and the third
+/// stops at its iteration limit on trial 0; those that failed have no metrics but `keyframes`.
+void write_fixture(const std::filesystem::path& folder, const FixtureOptions& options = {});
+
+}  // namespace fathom::test
