@@ -58,13 +58,14 @@ Given truth_of(const FloorSurvey& survey) {
 struct SurveyRun {
   SurveyRun(const FrameSource& survey, const TrajectoryView& view, const FrontEndOptions& options,
             std::uint64_t seed = 1)
-      : store(survey, options.features), front_end(survey, store, options, seed) {
+      : registrar(survey, options.features, options.registration, seed),
+        front_end(survey, registrar, options) {
     while (const auto keyframe = front_end.next_keyframe()) {
       for (RelativePose& z : front_end.register_newest(view)) registrations.push_back(z);
     }
   }
 
-  FeatureStore store;
+  PairRegistrar registrar;
   FrontEnd front_end;
   std::vector<RelativePose> registrations;
 };
@@ -158,8 +159,8 @@ TEST(FrontEnd, CandidatesAreTheKeyframesNearTheNewestAsEstimated) {
   // The view is believed, not the truth: keyframe 4 is 5 m from the origin in it.
   const Given view({{0, 0, 0}, {3, 4, 1}, {-1, 0, 0}, {3, 4.5, 0}, {3, 4, -2}});
   const auto tried = [&](double max_distance_m) {
-    FeatureStore store(survey, {});
-    FrontEnd front_end(survey, store, keyframe_every(1, max_distance_m), 1);
+    PairRegistrar registrar(survey, {}, {}, 1);
+    FrontEnd front_end(survey, registrar, keyframe_every(1, max_distance_m));
     while (front_end.keyframes().size() < 5) front_end.next_keyframe();
     front_end.register_newest(view);
     return front_end.registrations_tried();
@@ -261,17 +262,17 @@ TEST(FrontEnd, ABlankPictureDoesNotStopTheRun) {
 
 TEST(FrontEnd, RefusesASourceWithoutOdometry) {
   const FloorSurvey survey(bend(3));
-  FeatureStore store(survey, {});
-  EXPECT_THAT(input_error_of([&] { FrontEnd(survey, store, {}, 1); }),
+  PairRegistrar registrar(survey, {}, {}, 1);
+  EXPECT_THAT(input_error_of([&] { FrontEnd(survey, registrar, {}); }),
               HasSubstr("no dead reckoning; visual odometry can make it"));
 }
 
 TEST(FrontEnd, RunsOnVisualOdometry) {
   const FloorSurvey survey(bend(7));
   const FrontEndOptions options = keyframe_every(2, 0.9);
-  FeatureStore store(survey, options.features);
-  const VisualOdometry odometry(survey, store, options, 1);
-  FrontEnd front_end(odometry, store, options, 1);
+  PairRegistrar registrar(survey, options.features, options.registration, 1);
+  const VisualOdometry odometry(survey, registrar, options.visual_odometry);
+  FrontEnd front_end(odometry, registrar, options);
   std::vector<Pose> poses{survey.truth(0)};
   std::size_t found = 0;
   while (const auto keyframe = front_end.next_keyframe()) {
@@ -287,8 +288,8 @@ TEST(FrontEnd, RunsOnVisualOdometry) {
 TEST(FrontEnd, NoRegistrationIsBothStepAndLoop) {
   const FloorSurvey survey(bend(4));
   const FrontEndOptions options = keyframe_every(1);
-  FeatureStore store(survey, options.features);
-  const VisualOdometry odometry(survey, store, options, 1);
+  PairRegistrar registrar(survey, options.features, options.registration, 1);
+  const VisualOdometry odometry(survey, registrar, options.visual_odometry);
   const SurveyRun run(odometry, truth_of(survey), options);
   EXPECT_EQ(run.front_end.registrations_tried(), 0u + 0u + 1u + 2u);
   ASSERT_EQ(run.registrations.size(), 3u);

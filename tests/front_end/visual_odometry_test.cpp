@@ -29,7 +29,8 @@ Eigen::Matrix3d noise_covariance() {
 struct Odometry {
   explicit Odometry(const FloorSurvey& survey, const AddedNoise& noise = {},
                     std::uint64_t seed = kSeed, const FrontEndOptions& options = {})
-      : store(survey, options.features), frames(survey, store, options, seed, noise) {}
+      : registrar(survey, options.features, options.registration, seed),
+        frames(survey, registrar, options.visual_odometry, noise) {}
 
   std::vector<UncertainPose> motions() const {
     std::vector<UncertainPose> all;
@@ -37,7 +38,7 @@ struct Odometry {
     return all;
   }
 
-  FeatureStore store;
+  PairRegistrar registrar;
   VisualOdometry frames;
 };
 

@@ -1,0 +1,91 @@
+#include "fathom/front_end/registration_key.hpp"
+
+#include <set>
+
+#include <gtest/gtest.h>
+
+namespace fathom {
+namespace {
+
+RegistrationKey key_of(const CameraModel& camera, const FeatureOptions& features,
+                       const RegistrationOptions& registration) {
+  return RegistrationKeys(camera, features, registration).of({1, 2.0}, {3, 4.0}, 5);
+}
+
+TEST(RegistrationKeys, TheSameIsTheSame) {
+  EXPECT_EQ(key_of({}, {}, {}), key_of({}, {}, {}));
+}
+
+TEST(RegistrationKeys, EveryPartOfAPairCounts) {
+  const RegistrationKeys keys({}, {}, {});
+  std::set<RegistrationKey> different{
+      keys.of({1, 2.0}, {3, 4.0}, 5), keys.of({9, 2.0}, {3, 4.0}, 5),
+      keys.of({1, 2.1}, {3, 4.0}, 5), keys.of({1, 2.0}, {9, 4.0}, 5),
+      keys.of({1, 2.0}, {3, 4.1}, 5), keys.of({1, 2.0}, {3, 4.0}, 9),
+      keys.of({3, 4.0}, {1, 2.0}, 5)};
+  EXPECT_EQ(different.size(), 7u);
+  // Neither half hangs on the other.
+  std::set<std::uint64_t> halves;
+  for (const RegistrationKey& key : different) halves.insert({key.first, key.second});
+  EXPECT_EQ(halves.size(), 14u);
+}
+
+TEST(RegistrationKeys, EveryNumberOfTheCameraCounts) {
+  std::set<RegistrationKey> different{key_of({}, {}, {})};
+  const auto with = [&](auto change) {
+    CameraModel camera;
+    change(camera);
+    different.insert(key_of(camera, {}, {}));
+  };
+  with([](CameraModel& c) { c.width = 641; });
+  with([](CameraModel& c) { c.height = 641; });
+  for (double CameraModel::*number :
+       {&CameraModel::fx, &CameraModel::fy, &CameraModel::cx, &CameraModel::cy,
+        &CameraModel::mount_x_m, &CameraModel::mount_y_m, &CameraModel::mount_yaw_rad}) {
+    with([&](CameraModel& c) { c.*number = 77.0; });
+  }
+  for (std::size_t i = 0; i < 5; ++i) {
+    with([&](CameraModel& c) { c.distortion[i] = 1e-9; });
+  }
+  EXPECT_EQ(different.size(), 1u + 2u + 7u + 5u);
+}
+
+// Sets the key to the first of some values that it takes and that is new to it.
+bool change(OptionTable& table, const std::string& key) {
+  const std::string before = table.value(key);
+  for (const char* value : {"0.5", "3", "7", "true", "false", "orb", "paper"}) {
+    try {
+      table.set(key, OptionValue::scalar(value));
+    } catch (const InputError&) {
+      continue;
+    }
+    if (table.value(key) != before) return true;
+  }
+  return false;
+}
+
+TEST(RegistrationKeys, EveryOptionCounts) {
+  const auto describe = [](OptionTable& table, FeatureOptions& features,
+                           RegistrationOptions& registration) {
+    table.group("features", features);
+    registration.describe(table);
+  };
+  OptionTable defaults;
+  FeatureOptions default_features;
+  RegistrationOptions default_registration;
+  describe(defaults, default_features, default_registration);
+  const std::vector<std::string> keys = defaults.keys();
+  ASSERT_GT(keys.size(), 12u);
+  std::set<RegistrationKey> different{key_of({}, {}, {})};
+  for (const std::string& key : keys) {
+    OptionTable table;
+    FeatureOptions features;
+    RegistrationOptions registration;
+    describe(table, features, registration);
+    ASSERT_TRUE(change(table, key)) << key;
+    EXPECT_TRUE(different.insert(key_of({}, features, registration)).second) << key;
+  }
+}
+
+}  // namespace
+}  // namespace fathom
