@@ -32,9 +32,9 @@ std::optional<TrueOverlaps> true_overlaps(const Recording& recording) {
     for (std::size_t k = i + 1; k < truth.size(); ++k) {
       const double apart_m = (truth[i].position() - truth[k].position()).norm();
       if (apart_m > reaches_m[i] + reaches_m[k]) continue;
-      overlaps.overlap[i * truth.size() + k] = footprint_overlap(
-          *recording.camera, recording.keyframe_altitudes_m[i], recording.keyframe_altitudes_m[k],
-          between(truth[i], truth[k]));
+      overlaps.overlap[i * truth.size() + k] =
+          footprint_overlap(*recording.camera, recording.keyframe_altitudes_m[i],
+                            recording.keyframe_altitudes_m[k], between(truth[i], truth[k]));
     }
   }
   return overlaps;
