@@ -25,5 +25,6 @@ void add_evaluate(CLI::App& app, Context& context);
 void add_list(CLI::App& app, Context& context);
 void add_check(CLI::App& app, Context& context);
 void add_report(CLI::App& app, Context& context);
+void add_select(CLI::App& app, Context& context);
 
 }  // namespace fathom
