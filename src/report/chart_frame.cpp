@@ -13,7 +13,7 @@ constexpr Colour kGrid{0xE4, 0xE6, 0xE8};
 constexpr double kTick = 3.0;
 
 void add_round_ticks(ChartAxis& axis) {
-  const double step = round_step((axis.high - axis.low) / 5.5);
+  const double step = round_step((axis.high - axis.low) / 7.0);
   for (double value = std::ceil(axis.low / step - 1e-9) * step; value <= axis.high + 1e-9 * step;
        value += step) {
     axis.ticks.emplace_back(value,
