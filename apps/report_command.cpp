@@ -4,6 +4,8 @@
 #include <memory>
 
 #include "apps/command.hpp"
+#include "fathom/core/files.hpp"
+#include "fathom/core/input_error.hpp"
 #include "fathom/report/study_report.hpp"
 
 namespace fathom {
@@ -14,6 +16,15 @@ struct ReportFlags {
   std::string out;
 };
 
+// The folder of a study may be an archive.
+void check_writable(const std::filesystem::path& folder) {
+  try {
+    const StagedFolder probe(folder);
+  } catch (const InputError&) {
+    throw InputError(folder.string(), "cannot be written; --out DIR takes another folder");
+  }
+}
+
 void report(const ReportFlags& flags) {
   const ResultStore store = ResultStore::open(flags.study);
   std::filesystem::path folder = flags.out;
@@ -22,6 +33,7 @@ void report(const ReportFlags& flags) {
     folder = std::filesystem::is_directory(study) ? study : study.parent_path();
     if (folder.empty()) folder = ".";
   }
+  if (flags.out.empty()) check_writable(folder);
   write_study_report(store, folder);
   std::printf("wrote %s\n", (folder / "report.html").string().c_str());
 }

@@ -13,15 +13,6 @@ using Series = std::optional<std::vector<double>>;
 
 constexpr std::size_t kEllipses = 25;
 
-std::vector<double> picked(const std::vector<double>& values,
-                           const std::vector<std::size_t>& places) {
-  std::vector<double> some;
-  for (const std::size_t place : places) {
-    if (place < values.size()) some.push_back(values[place]);
-  }
-  return some;
-}
-
 Json path_json(const Series& x, const Series& y, std::size_t most) {
   if (!x || !y || x->size() != y->size()) return {};
   const std::vector<std::size_t> places = thinned(x->size(), most);

@@ -63,25 +63,13 @@ std::optional<double> deviation(const Sums& sums) {
   return std::sqrt(std::max(0.0, spread) / (count - 1.0));
 }
 
-}  // namespace
-
-std::vector<std::size_t> thinned(std::size_t count, std::size_t most) {
-  std::vector<std::size_t> picked;
-  const std::size_t step =
-      std::max<std::size_t>(1, (count + most - 1) / std::max<std::size_t>(1, most));
-  for (std::size_t i = 0; i < count; i += step) picked.push_back(i);
-  if (count > 0 && picked.back() != count - 1) picked.push_back(count - 1);
-  return picked;
-}
-
-KeyframeStatistics keyframe_statistics(const ResultStore& store, const EstimatorResults& runs,
-                                       std::size_t most) {
+KeyframeStatistics keyframe_statistics(const ResultStore& store, const EstimatorResults& runs) {
   std::vector<Sums> sums;
   for (const RunRecord& run : runs.runs) {
     if (is_done(run)) add_run(store, run.key, sums);
   }
   KeyframeStatistics result;
-  for (const std::size_t k : thinned(sums.size(), most)) {
+  for (std::size_t k = 0; k < sums.size(); ++k) {
     const Sums& at = sums[k];
     result.keyframe.push_back(k);
     result.count.push_back(at.errors);
@@ -96,7 +84,7 @@ KeyframeStatistics keyframe_statistics(const ResultStore& store, const Estimator
   return result;
 }
 
-UpdateCost update_cost(const ResultStore& store, const EstimatorResults& runs, std::size_t most) {
+UpdateCost update_cost(const ResultStore& store, const EstimatorResults& runs) {
   std::map<std::size_t, std::vector<double>> costs;
   for (const RunRecord& run : runs.runs) {
     if (!is_done(run)) continue;
@@ -108,12 +96,11 @@ UpdateCost update_cost(const ResultStore& store, const EstimatorResults& runs, s
       }
     }
   }
-  std::vector<std::pair<std::size_t, std::vector<double>>> all(costs.begin(), costs.end());
   UpdateCost result;
-  for (const std::size_t i : thinned(all.size(), most)) {
-    result.keyframe.push_back(all[i].first);
-    result.count.push_back(all[i].second.size());
-    result.median_ms.push_back(quantile(all[i].second, 0.5));
+  for (const auto& [keyframe, times] : costs) {
+    result.keyframe.push_back(keyframe);
+    result.count.push_back(times.size());
+    result.median_ms.push_back(quantile(times, 0.5));
   }
   return result;
 }
@@ -136,6 +123,35 @@ std::optional<SweepBounds> sweep_bounds(const KeyframeStatistics& statistics) {
   }
   if (errors == 0) return std::nullopt;
   return SweepBounds{std::sqrt(squares / static_cast<double>(errors)), ratio(bounds, bound_count)};
+}
+
+}  // namespace
+
+EstimatorSeries estimator_series(const ResultStore& store, const EstimatorResults& runs) {
+  EstimatorSeries series{keyframe_statistics(store, runs), update_cost(store, runs), {}};
+  series.bounds = sweep_bounds(series.keyframes);
+  return series;
+}
+
+std::vector<std::vector<EstimatorSeries>> study_series(const ResultStore& store,
+                                                       const StudyResults& results) {
+  std::vector<std::vector<EstimatorSeries>> all;
+  for (const CellResults& cell : results.cells) {
+    all.emplace_back();
+    for (const EstimatorResults& one : cell.estimators) {
+      all.back().push_back(estimator_series(store, one));
+    }
+  }
+  return all;
+}
+
+std::vector<std::size_t> thinned(std::size_t count, std::size_t most) {
+  std::vector<std::size_t> picked;
+  const std::size_t step =
+      std::max<std::size_t>(1, (count + most - 1) / std::max<std::size_t>(1, most));
+  for (std::size_t i = 0; i < count; i += step) picked.push_back(i);
+  if (count > 0 && picked.back() != count - 1) picked.push_back(count - 1);
+  return picked;
 }
 
 }  // namespace fathom

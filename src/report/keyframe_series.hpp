@@ -28,20 +28,38 @@ struct UpdateCost {
   std::vector<double> median_ms;
 };
 
-/// Keyframes thinned evenly to about `most`, the first and the last kept.
-KeyframeStatistics keyframe_statistics(const ResultStore& store, const EstimatorResults& runs,
-                                       std::size_t most);
-UpdateCost update_cost(const ResultStore& store, const EstimatorResults& runs, std::size_t most);
-
-/// Every so manieth of `count`, first and last among them, at most about `most`.
-std::vector<std::size_t> thinned(std::size_t count, std::size_t most);
-
 /// Mean over keyframes from 1 on and trials of 2·√(P_xx + P_yy), and twice the root mean square
 /// position error over the same: what an honest estimator makes equal.
 struct SweepBounds {
   double empirical_m = 0.0;
   std::optional<double> estimated_m;
 };
-std::optional<SweepBounds> sweep_bounds(const KeyframeStatistics& statistics);
+
+/// What is read from the series of all trials of an estimator on a cell.
+struct EstimatorSeries {
+  KeyframeStatistics keyframes;
+  UpdateCost updates;
+  std::optional<SweepBounds> bounds;
+};
+
+EstimatorSeries estimator_series(const ResultStore& store, const EstimatorResults& runs);
+
+/// By cell and estimator, in the order of `results`.
+std::vector<std::vector<EstimatorSeries>> study_series(const ResultStore& store,
+                                                       const StudyResults& results);
+
+/// Every so manieth of `count` places, the first and the last among them, about `most` at most.
+std::vector<std::size_t> thinned(std::size_t count, std::size_t most);
+
+/// The entries of a list at some places; places beyond its end are left out.
+template <typename Value>
+std::vector<Value> picked(const std::vector<Value>& values,
+                          const std::vector<std::size_t>& places) {
+  std::vector<Value> some;
+  for (const std::size_t place : places) {
+    if (place < values.size()) some.push_back(values[place]);
+  }
+  return some;
+}
 
 }  // namespace fathom

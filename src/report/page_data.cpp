@@ -8,7 +8,6 @@
 #include "estimator_colours.hpp"
 #include "example_trial.hpp"
 #include "fathom/evaluation/consistency.hpp"
-#include "keyframe_series.hpp"
 #include "metric_label.hpp"
 #include "page_numbers.hpp"
 
@@ -47,19 +46,28 @@ Json nees_interval_json(const std::vector<std::size_t>& counts) {
   return {{"low", low}, {"high", high}};
 }
 
-Json keyframes_json(const KeyframeStatistics& statistics) {
-  Json json{{"keyframe", statistics.keyframe}, {"n", statistics.count}};
-  json["mean_m"] = page_numbers(statistics.mean_m);
-  json["sd_m"] = page_numbers(statistics.sd_m);
-  json["empirical_m"] = page_numbers(statistics.empirical_m);
-  json["estimated_m"] = page_numbers(statistics.estimated_m);
-  json["anees"] = page_numbers(statistics.anees);
-  json["nees_n"] = statistics.nees_count;
-  json["nees_interval"] = nees_interval_json(statistics.nees_count);
+Json keyframes_json(const KeyframeStatistics& all, std::size_t most) {
+  const std::vector<std::size_t> places = thinned(all.keyframe.size(), most);
+  const std::vector<std::size_t> counts = picked(all.nees_count, places);
+  Json json{{"keyframe", picked(all.keyframe, places)}, {"n", picked(all.count, places)}};
+  json["mean_m"] = page_numbers(picked(all.mean_m, places));
+  json["sd_m"] = page_numbers(picked(all.sd_m, places));
+  json["empirical_m"] = page_numbers(picked(all.empirical_m, places));
+  json["estimated_m"] = page_numbers(picked(all.estimated_m, places));
+  json["anees"] = page_numbers(picked(all.anees, places));
+  json["nees_n"] = counts;
+  json["nees_interval"] = nees_interval_json(counts);
   return json;
 }
 
-Json estimator_json(const ResultStore& store, const EstimatorResults& one, std::size_t trials,
+Json updates_json(const UpdateCost& cost, std::size_t most) {
+  const std::vector<std::size_t> places = thinned(cost.keyframe.size(), most);
+  return {{"keyframe", picked(cost.keyframe, places)},
+          {"n", picked(cost.count, places)},
+          {"median_ms", page_numbers(picked(cost.median_ms, places))}};
+}
+
+Json estimator_json(const EstimatorResults& one, const EstimatorSeries& series, std::size_t trials,
                     std::size_t most) {
   Json json{{"name", one.name},
             {"runs", one.runs.size()},
@@ -68,15 +76,12 @@ Json estimator_json(const ResultStore& store, const EstimatorResults& one, std::
             {"outcomes", one.outcomes}};
   json["metrics"] = Json::object();
   for (const auto& [metric, summary] : one.metrics) json["metrics"][metric] = metric_json(summary);
-  const KeyframeStatistics statistics = keyframe_statistics(store, one, most);
-  json["keyframes"] = keyframes_json(statistics);
-  if (const auto bounds = sweep_bounds(statistics)) {
-    json["bounds"] = {{"empirical_m", page_number(bounds->empirical_m)}};
-    if (bounds->estimated_m) json["bounds"]["estimated_m"] = page_number(*bounds->estimated_m);
+  json["keyframes"] = keyframes_json(series.keyframes, most);
+  if (series.bounds) {
+    json["bounds"] = {{"empirical_m", page_number(series.bounds->empirical_m)},
+                      {"estimated_m", page_number(series.bounds->estimated_m)}};
   }
-  const UpdateCost cost = update_cost(store, one, most);
-  json["updates"] = {
-      {"keyframe", cost.keyframe}, {"n", cost.count}, {"median_ms", page_numbers(cost.median_ms)}};
+  json["updates"] = updates_json(series.updates, most);
   return json;
 }
 
@@ -97,7 +102,8 @@ Json paired_json(const PairedResult& paired) {
   return json;
 }
 
-Json cell_json(const ResultStore& store, const CellResults& cell, const StudyDescription& study,
+Json cell_json(const ResultStore& store, const CellResults& cell,
+               const std::vector<EstimatorSeries>& series, const StudyDescription& study,
                std::size_t most) {
   Json json{{"cell", cell.cell},
             {"label", cell.label},
@@ -107,8 +113,8 @@ Json cell_json(const ResultStore& store, const CellResults& cell, const StudyDes
             {"jobs", jobs_text(cell.jobs)},
             {"n", cell.trials}};
   json["estimators"] = Json::array();
-  for (const EstimatorResults& one : cell.estimators) {
-    json["estimators"].push_back(estimator_json(store, one, study.trials, most));
+  for (std::size_t i = 0; i < cell.estimators.size(); ++i) {
+    json["estimators"].push_back(estimator_json(cell.estimators[i], series[i], study.trials, most));
   }
   json["paired"] = Json::array();
   for (const PairedResult& one : cell.paired) json["paired"].push_back(paired_json(one));
@@ -155,7 +161,8 @@ Json page_number(double value) {
   return whole ? Json(static_cast<int>(rounded)) : Json(rounded);
 }
 
-Json page_data(const ResultStore& store, const StudyResults& results) {
+Json page_data(const ResultStore& store, const StudyResults& results,
+               const std::vector<std::vector<EstimatorSeries>>& series) {
   const StudyDescription& study = results.study;
   const std::size_t lists = results.cells.size() * (study.estimators.size() + 1);
   const std::size_t most = std::max(kFewestKeyframes, kKeyframesInAll / lists);
@@ -166,8 +173,8 @@ Json page_data(const ResultStore& store, const StudyResults& results) {
     json["metrics"][name] = {{"label", label.with_unit()}, {"cost", is_cost_metric(name)}};
   }
   json["cells"] = Json::array();
-  for (const CellResults& cell : results.cells) {
-    json["cells"].push_back(cell_json(store, cell, study, most));
+  for (std::size_t i = 0; i < results.cells.size(); ++i) {
+    json["cells"].push_back(cell_json(store, results.cells[i], series[i], study, most));
   }
   json["configuration"] = Json::object();
   for (const auto& [key, value] : study.configuration) json["configuration"][key] = value;

@@ -44,10 +44,11 @@ std::string html_text(std::string_view text) {
   return result;
 }
 
-std::string report_page(const ResultStore& store, const StudyResults& results) {
+std::string report_page(const ResultStore& store, const StudyResults& results,
+                        const std::vector<std::vector<EstimatorSeries>>& series) {
   // Bytes that are not UTF-8 become the replacement character: a name may hold any.
   const std::string data =
-      page_data(store, results)
+      page_data(store, results, series)
           .dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
   const std::string& title = results.study.title;
   const std::array<std::pair<std::string_view, std::string>, 5> parts{

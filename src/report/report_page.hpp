@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-#include "study_results.hpp"
+#include "keyframe_series.hpp"
 
 namespace fathom {
 
@@ -11,6 +11,7 @@ namespace fathom {
 std::string html_text(std::string_view text);
 
 /// The whole report.html: it loads nothing, from nowhere. Its data is the JSON in #data.
-std::string report_page(const ResultStore& store, const StudyResults& results);
+std::string report_page(const ResultStore& store, const StudyResults& results,
+                        const std::vector<std::vector<EstimatorSeries>>& series);
 
 }  // namespace fathom

@@ -37,6 +37,14 @@ function sweepPlots(card) {
   return plots;
 }
 
+// 1, 2 and 5 times the powers of ten between the least and the greatest.
+function roundValues(values) {
+  const low = Math.min(...values);
+  const high = Math.max(...values);
+  const decades = Array.from({length: 13}, (_, i) => Number(`1e${i - 6}`));
+  return decades.flatMap((ten) => [ten, 2 * ten, 5 * ten]).filter((value) => value >= low && value <= high);
+}
+
 function keyframePlots(card) {
   const rows = keyframeRows(cellNow());
   const width = thirds(card);
@@ -44,7 +52,8 @@ function keyframePlots(card) {
     {spec: 'keyframe_error', heading: 'Position error and its 2σ band', data: {rows: rows.error}, width},
     {spec: 'keyframe_bounds', heading: 'Empirical (solid) and estimated (dashed) 2σ', data: {rows: rows.bounds}, width},
     {spec: 'keyframe_nees', heading: `NEES / 3 and the χ² interval of ${rows.trials} trial${rows.trials === 1 ? '' : 's'}`,
-      data: {rows: rows.nees, interval: rows.interval}, width},
+      data: {rows: rows.nees, interval: rows.interval}, width,
+      adjust: (spec) => { spec.axes[1].values = roundValues([...rows.nees.map((row) => row.value), ...rows.interval.flatMap((row) => [row.low, row.high])]); }},
   ].filter((plot) => plot.data.rows.length > 0);
 }
 
@@ -104,19 +113,19 @@ const charts = [
     caption: (cell) => `${conditions(cell)}. Position in metres. NEES / 3 of an honest estimator is 1; the grey band holds 95 % of its means over trials at one keyframe. Above: overconfident.`},
   {id: 'updates', title: 'Cost of an update', plots: updatePlots,
     exists: (cell) => sum(cell.estimators.map((one) => one.updates.keyframe.length)) > 0,
-    caption: (cell) => `${conditions(cell, true)}. Milliseconds, median over trials, logarithmic. ${jobsNote(cell)}`},
+    caption: (cell) => `${conditions(cell)}. Milliseconds, median over trials, logarithmic. ${jobsNote(cell)}`},
   {id: 'pareto', title: 'Accuracy against cost', plots: paretoPlots,
     exists: () => Object.values(study.metrics).some((metric) => metric.cost),
     choices: () => [
       {label: 'accuracy', key: 'accuracy', values: metricChoices(false).map((name) => [name, metricLabel(name)])},
       {label: 'cost', key: 'cost', values: metricChoices(true).map((name) => [name, metricLabel(name)])}],
     caption: (cell) => `${conditions(cell)}. Means with 95 % intervals. Ringed, on the dashed line: no other is both better and cheaper (lower counts as better). Grey line: dead reckoning. ${jobsNote(cell)}`},
-  {id: 'registrations', title: 'Registration map', plots: registrationPlots,
+  {id: 'outcomes', title: 'Outcomes', wide: true, plots: outcomePlots,
+    exists: (cell) => cell.estimators.some((one) => Object.keys(one.outcomes).length > 0),
+    caption: (cell) => `${conditions(cell)}. Trials by how their run ended. Converged and iteration limit count as done; all means are over those.`},
+  {id: 'registrations', title: 'Registration map', wide: true, plots: registrationPlots,
     exists: (cell) => cell.example.estimators.some((one) => one.loops.length > 0),
     caption: (cell) => `${exampleNote()} of ${conditions(cell)}. Keyframe by keyframe: filled square used, × rejected by the gate, △ lost with a failed update.`},
-  {id: 'outcomes', title: 'Outcomes', plots: outcomePlots,
-    exists: (cell) => cell.estimators.some((one) => Object.keys(one.outcomes).length > 0),
-    caption: (cell) => `${conditions(cell, true)}. Trials by how their run ended. Converged and iteration limit count as done; all means are over those.`},
 ];
 
 const chartViews = {};

@@ -15,6 +15,34 @@ function marksOfAll(colour) {
 // Vega draws after the turn in which it was asked to.
 const drawn = () => new Promise((resolve) => setTimeout(resolve, 20));
 
+// Whether the map's axes are equal, x goes up and y to the left, before and after the wheel was
+// turned, the map dragged, and clicked twice.
+async function mapTest() {
+  const view = (chartViews.trajectories || [])[0];
+  if (!view) return null;
+  const svg = document.querySelector('#chart-trajectories svg');
+  const box = svg.getBoundingClientRect();
+  const fire = (type, target, x, y, more = {}) => target.dispatchEvent(new (type === 'wheel' ? WheelEvent : MouseEvent)(
+    type, {bubbles: true, cancelable: true, view: window, clientX: box.x + x, clientY: box.y + y, ...more}));
+  const look = () => {
+    const [h, v] = [view.scale('h'), view.scale('v')];
+    return {left: h(0) - h(1), up: v(0) - v(1), middle: [h.invert(100), v.invert(100)]};
+  };
+  const looks = {start: look()};
+  fire('wheel', svg, 300, 200, {deltaY: -300});
+  await drawn();
+  looks.wheel = look();
+  fire('mousedown', svg, 300, 200);
+  fire('mousemove', window, 360, 230);
+  fire('mouseup', window, 360, 230);
+  await drawn();
+  looks.drag = look();
+  fire('dblclick', svg, 300, 200);
+  await drawn();
+  looks.end = look();
+  return looks;
+}
+
 async function selfTest() {
   await drawn();
   const result = {marks: marksOfAll(), estimators: {}, cells: [], tables: {}};
@@ -29,6 +57,7 @@ async function selfTest() {
     await drawn();
     result.estimators[style.name] = {before, off, again: marksOfAll(style.colour)};
   }
+  result.map = await mapTest();
   const select = document.getElementById('cell');
   for (let i = 0; i < study.cells.length; ++i) {
     select.value = String(i);

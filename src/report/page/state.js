@@ -45,10 +45,10 @@ function element(tag, properties = {}, children = []) {
 }
 
 // Everything but the estimator that a number depends on, for the caption of every chart.
-function conditions(cell, withCost) {
+function conditions(cell) {
   const parts = [];
   if (study.cells.length > 1) parts.push(cell.label);
-  if (!withCost && study.alignment) parts.push(`alignment ${study.alignment}`);
+  if (study.alignment) parts.push(`alignment ${study.alignment}`);
   if (cell.association) parts.push(`association ${cell.association}`);
   parts.push(`n = ${cell.n}`);
   return parts.join(', ');

@@ -1,0 +1,113 @@
+#include <algorithm>
+
+#include "metric_label.hpp"
+#include "study_figures.hpp"
+
+namespace fathom {
+namespace {
+
+using Points = std::vector<Eigen::Vector2d>;
+
+struct CostPoint {
+  std::string estimator;
+  double cost = 0.0;
+  double error = 0.0;
+  Interval costs;
+  Interval errors;
+};
+
+Interval interval_or_point(const MetricSummary& summary) {
+  return summary.interval.value_or(Interval{summary.moments.mean, summary.moments.mean});
+}
+
+std::vector<CostPoint> points_of(const CellResults& cell, const std::string& accuracy,
+                                 const std::string& cost) {
+  std::vector<CostPoint> points;
+  for (const EstimatorResults& one : cell.estimators) {
+    const auto error = one.metrics.find(accuracy);
+    const auto price = one.metrics.find(cost);
+    if (error == one.metrics.end() || price == one.metrics.end()) continue;
+    if (!(interval_or_point(price->second).low > 0.0)) continue;  // has no place on the axis
+    points.push_back({one.name, price->second.moments.mean, error->second.moments.mean,
+                      interval_or_point(price->second), interval_or_point(error->second)});
+  }
+  return points;
+}
+
+// By rising cost, those that are better than all cheaper ones; lower is better.
+std::vector<CostPoint> front_of(std::vector<CostPoint> points) {
+  std::sort(points.begin(), points.end(), [](const CostPoint& a, const CostPoint& b) {
+    return std::pair(a.cost, a.error) < std::pair(b.cost, b.error);
+  });
+  std::vector<CostPoint> front;
+  for (const CostPoint& point : points) {
+    if (front.empty() || point.error < front.back().error) front.push_back(point);
+  }
+  return front;
+}
+
+ChartFrame frame_of(const std::vector<CostPoint>& points, const std::string& accuracy,
+                    const std::string& cost, double height) {
+  std::vector<double> costs;
+  std::vector<double> errors;
+  for (const CostPoint& point : points) {
+    costs.insert(costs.end(), {0.8 * point.costs.low, 1.25 * point.costs.high});
+    errors.insert(errors.end(), {point.errors.low, point.errors.high});
+  }
+  return {logarithmic_axis_over(metric_label(cost).with_unit(), costs),
+          axis_over(metric_label(accuracy).with_unit(), errors, true), axes_box(height)};
+}
+
+void draw_cost(VectorCanvas& canvas, const std::vector<CostPoint>& points, const ChartFrame& frame,
+               const StudyDescription& study, const std::string& caption) {
+  frame.draw(canvas);
+  const auto styles = line_styles(study);
+  Points steps;
+  for (const CostPoint& point : front_of(points)) {
+    const Eigen::Vector2d at = frame.at(point.cost, point.error);
+    if (!steps.empty()) steps.emplace_back(at.x(), steps.back().y());
+    steps.push_back(at);
+  }
+  const Pen front{kSoftInk, 0.7, {2.5, 2.0}, 1.0};
+  canvas.line(steps, front);
+  std::vector<FigureLegendEntry> legend;
+  for (const CostPoint& point : points) {
+    const Pen pen{styles.at(point.estimator).colour, 1.0, {}, 1.0};
+    canvas.line(
+        Points{frame.at(point.costs.low, point.error), frame.at(point.costs.high, point.error)},
+        pen);
+    canvas.line(
+        Points{frame.at(point.cost, point.errors.low), frame.at(point.cost, point.errors.high)},
+        pen);
+    canvas.disc(frame.at(point.cost, point.error), 3.0, pen.colour);
+    legend.push_back({display_name(point.estimator), {pen.colour, 4.0, {}, 1.0}});
+  }
+  for (const CostPoint& point : front_of(points)) {
+    canvas.ring(frame.at(point.cost, point.error), 3.6, {palette::black, 0.8, {}, 1.0});
+  }
+  legend.push_back({"Pareto front", front});
+  draw_footer(canvas, frame.box(), legend, caption);
+}
+
+}  // namespace
+
+void add_cost_figures(const FigureInput& input, std::vector<StudyFigure>& figures) {
+  const StudyResults& results = input.results;
+  const auto accuracy = first_metric(results, false);
+  const auto cost = first_metric(results, true);
+  if (!accuracy || !cost) return;
+  for (const CellResults& cell : results.cells) {
+    const std::vector<CostPoint> points = points_of(cell, *accuracy, *cost);
+    if (points.empty()) continue;
+    constexpr double kHeight = 220.0;
+    const ChartFrame frame = frame_of(points, *accuracy, *cost, kHeight);
+    const std::string caption = cell_caption(cell, results.study) + "; means, 95 % intervals";
+    figures.push_back({figure_name("accuracy_against_cost", cell.label, results.cells.size() == 1),
+                       kHeight,
+                       [points, frame, caption, &study = results.study](VectorCanvas& canvas) {
+                         draw_cost(canvas, points, frame, study, caption);
+                       }});
+  }
+}
+
+}  // namespace fathom

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "chart_frame.hpp"
+#include "keyframe_series.hpp"
+
+namespace fathom {
+
+/// A figure for print, as wide as a column (89 mm).
+struct StudyFigure {
+  std::string name;  ///< of its file, without ending
+  double height = 220.0;
+  std::function<void(VectorCanvas&)> draw;
+};
+
+inline constexpr double kFigureWidth = 252.0;
+
+/// What figures are made from; it must outlive them.
+struct FigureInput {
+  const ResultStore& store;
+  const StudyResults& results;
+  const std::vector<std::vector<EstimatorSeries>>& series;
+};
+
+/// All figures of a study: those that its results have something for.
+std::vector<StudyFigure> study_figures(const FigureInput& input);
+
+// Its parts. Each appends.
+/// `error_by_AXIS`, one for each place on the other axes: mean of the first accuracy metric with
+/// its 2σ band over trials, empirical and estimated 2σ of the position below.
+void add_sweep_figures(const FigureInput& input, std::vector<StudyFigure>& figures);
+/// `nees_CELL`: NEES / 3 over keyframes, mean over trials, with its χ² interval.
+void add_nees_figures(const FigureInput& input, std::vector<StudyFigure>& figures);
+/// `trajectories_CELL`: those of the lowest trial, with the loops of the first estimator used.
+void add_trajectory_figures(const FigureInput& input, std::vector<StudyFigure>& figures);
+/// `accuracy_against_cost_CELL`: the first metric of each kind.
+void add_cost_figures(const FigureInput& input, std::vector<StudyFigure>& figures);
+
+/// "trajectories" in a study of one cell, else "trajectories_separation_5".
+std::string figure_name(const std::string& what, const std::string& label, bool alone);
+
+/// The box of a figure's axes.
+Box axes_box(double height);
+
+/// The legend and a small line with the conditions, below the axes of a figure.
+void draw_footer(VectorCanvas& canvas, const Box& axes,
+                 const std::vector<FigureLegendEntry>& entries, const std::string& conditions);
+
+/// The study's first metric that is a cost or is none; nothing without one.
+std::optional<std::string> first_metric(const StudyResults& results, bool cost);
+
+}  // namespace fathom

@@ -1,0 +1,149 @@
+// report.html in a real browser: its self-test switches estimators, cells, the theme and the map,
+// and writes what became of the charts into the page.
+
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "fathom/report/study_report.hpp"
+#include "report/study_fixture.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace fathom::test {
+namespace {
+
+using Json = nlohmann::json;
+
+std::string output_of(const std::string& command) {
+  FILE* pipe = ::popen(command.c_str(), "r");
+  if (pipe == nullptr) return "";
+  std::string text;
+  std::array<char, 65536> buffer;
+  for (std::size_t got; (got = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0;) {
+    text.append(buffer.data(), got);
+  }
+  ::pclose(pipe);
+  return text;
+}
+
+std::string browser() {
+  std::string path =
+      output_of("command -v chromium || command -v chromium-browser || command -v google-chrome");
+  return path.substr(0, path.find('\n'));
+}
+
+std::string without_entities(std::string text) {
+  const std::array<std::pair<std::string, std::string>, 4> entities{
+      {{"&lt;", "<"}, {"&gt;", ">"}, {"&quot;", "\""}, {"&amp;", "&"}}};
+  for (const auto& [entity, letter] : entities) {
+    for (std::size_t at = 0; (at = text.find(entity, at)) != std::string::npos; ++at) {
+      text.replace(at, entity.size(), letter);
+    }
+  }
+  return text;
+}
+
+// Null where the page did not get that far.
+Json self_test_of(const FixtureOptions& options) {
+  const TemporaryFolder folder;
+  write_fixture(folder / "study", options);
+  write_study_report(ResultStore::open(folder / "study"), folder / "out");
+  const std::string page = output_of(
+      "timeout 120 '" + browser() +
+      "' --headless --no-sandbox --disable-gpu --disable-quic --no-first-run"
+      " --disable-background-networking --disable-component-update --disable-sync"
+      " --window-size=1400,2000 --user-data-dir='" +
+      (folder / "profile").string() + "' --virtual-time-budget=20000 --dump-dom 'file://" +
+      (folder / "out" / "report.html").string() + "#selftest' 2>/dev/null");
+  const std::string opening = "<pre id=\"selftest\">";
+  const std::size_t begin = page.find(opening);
+  if (begin == std::string::npos) return nullptr;
+  const std::size_t end = page.find("</pre>", begin);
+  return Json::parse(
+      without_entities(page.substr(begin + opening.size(), end - begin - opening.size())));
+}
+
+class Browser : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (browser().empty()) GTEST_SKIP() << "no chromium here to open the page with";
+  }
+};
+
+TEST_F(Browser, DrawsEveryChartAndTakesAnEstimatorOffAllOfThem) {
+  const Json result = self_test_of({});
+  ASSERT_FALSE(result.is_null()) << "the page's scripts did not run to their end";
+  EXPECT_EQ(result["errors"], Json::array());
+  const std::vector<std::string> charts{"trajectories", "sweep",    "keyframes",    "updates",
+                                        "pareto",       "outcomes", "registrations"};
+  EXPECT_EQ(result["marks"].size(), charts.size());
+  for (const char* name : {"iterated", "a&b_<c>%", "graph"}) {
+    const Json& one = result["estimators"].at(name);
+    for (const std::string& chart : charts) {
+      EXPECT_GT(one["before"].at(chart), 0) << name << ", " << chart;
+      EXPECT_EQ(one["off"].at(chart), 0) << name << ", " << chart;
+      EXPECT_EQ(one["again"].at(chart), one["before"].at(chart)) << name << ", " << chart;
+    }
+  }
+  const Json& baseline = result["estimators"].at(kDeadReckoning);
+  for (const char* chart : {"trajectories", "sweep", "keyframes", "pareto"}) {
+    EXPECT_GT(baseline["before"].at(chart), 0) << chart;
+    EXPECT_EQ(baseline["off"].at(chart), 0) << chart;
+  }
+}
+
+TEST_F(Browser, DrawsEveryCellAndTable) {
+  const Json result = self_test_of({});
+  ASSERT_FALSE(result.is_null());
+  ASSERT_EQ(result["cells"].size(), 6u);
+  for (const Json& cell : result["cells"]) {
+    for (const auto& [chart, marks] : cell.items()) EXPECT_GT(marks, 0) << chart;
+  }
+  // In the last cell an estimator has no path on trial 0, but outcomes of two kinds more.
+  EXPECT_LT(result["cells"][5]["trajectories"], result["cells"][0]["trajectories"]);
+  EXPECT_GT(result["cells"][5]["outcomes"], result["cells"][0]["outcomes"]);
+  EXPECT_EQ(result["tables"]["summary-table"], 5);  // a header and four rows
+  EXPECT_EQ(result["tables"]["paired-table"], 9);   // and two estimators by four metrics
+  EXPECT_EQ(result["theme"], "dark");
+}
+
+TEST_F(Browser, TheMapHasEqualAxesXUpYToTheLeftAndZooms) {
+  const Json map = self_test_of({})["map"];
+  const auto scale = [&map](const char* when) { return map[when]["left"].get<double>(); };
+  for (const char* when : {"start", "wheel", "drag", "end"}) {
+    EXPECT_GT(scale(when), 0.0) << when;  // points to the left by one metre of y
+    EXPECT_NEAR(map[when]["up"], scale(when), 1e-6 * scale(when)) << when;
+  }
+  EXPECT_GT(scale("wheel"), 1.2 * scale("start"));
+  EXPECT_NEAR(scale("drag"), scale("wheel"), 1e-6);
+  // Dragged by 60 and 30 points to the right and down: what was there now is further by as much.
+  const double moved_m =
+      map["drag"]["middle"][0].get<double>() - map["wheel"]["middle"][0].get<double>();
+  EXPECT_NEAR(moved_m, 60.0 / scale("drag"), 1e-6);
+  const double up_m =
+      map["drag"]["middle"][1].get<double>() - map["wheel"]["middle"][1].get<double>();
+  EXPECT_NEAR(up_m, 30.0 / scale("drag"), 1e-6);
+  EXPECT_NEAR(scale("end"), scale("start"), 1e-6);
+}
+
+TEST_F(Browser, OneTrialWithoutGroundTruthOrLoopsIsNoError) {
+  FixtureOptions options;
+  options.trials = 1;
+  options.separations.clear();
+  options.noises.clear();
+  options.ground_truth = false;
+  options.loops = false;
+  const Json result = self_test_of(options);
+  ASSERT_FALSE(result.is_null());
+  EXPECT_EQ(result["errors"], Json::array());
+  EXPECT_GT(result["marks"].at("trajectories"), 0);
+  EXPECT_FALSE(result["marks"].contains("sweep"));
+  EXPECT_FALSE(result["marks"].contains("registrations"));
+}
+
+}  // namespace
+}  // namespace fathom::test

@@ -1,0 +1,108 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "fathom/core/files.hpp"
+#include "fathom/report/study_report.hpp"
+#include "report/study_fixture.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace fathom::test {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+using ::testing::UnorderedElementsAre;
+
+std::vector<std::string> names_in(const fs::path& folder) {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    names.push_back(entry.path().filename().string());
+  }
+  return names;
+}
+
+void write_report(const TemporaryFolder& folder, const FixtureOptions& options) {
+  write_fixture(folder / "study", options);
+  write_study_report(ResultStore::open(folder / "study"), folder / "out");
+}
+
+FixtureOptions one_cell() {
+  FixtureOptions options;
+  options.separations.clear();
+  options.noises.clear();
+  return options;
+}
+
+TEST(StudyFigures, OfOneCellHaveShortNames) {
+  const TemporaryFolder folder;
+  write_report(folder, one_cell());
+  EXPECT_THAT(names_in(folder / "out" / "figures"),
+              UnorderedElementsAre("nees.svg", "nees.pdf", "trajectories.svg", "trajectories.pdf",
+                                   "accuracy_against_cost.svg", "accuracy_against_cost.pdf"));
+}
+
+TEST(StudyFigures, EverySweepHasOne) {
+  const TemporaryFolder folder;
+  FixtureOptions options;
+  options.noises.clear();
+  write_report(folder, options);
+  const auto figures = folder / "out" / "figures";
+  EXPECT_TRUE(fs::exists(figures / "error_by_separation.svg"));
+  EXPECT_TRUE(fs::exists(figures / "error_by_separation.pdf"));
+  for (const char* cell : {"5", "10", "20"}) {
+    EXPECT_TRUE(fs::exists(figures / ("nees_separation_" + std::string(cell) + ".svg"))) << cell;
+  }
+}
+
+TEST(StudyFigures, NamesThatComeToTheSameAreKeptApart) {
+  const TemporaryFolder folder;
+  FixtureOptions options;
+  options.trials = 2;
+  options.separations = {"a&b", "a<b"};
+  options.noises.clear();
+  write_report(folder, options);
+  EXPECT_TRUE(fs::exists(folder / "out" / "figures" / "nees_separation_a_b.svg"));
+  EXPECT_TRUE(fs::exists(folder / "out" / "figures" / "nees_separation_a_b-2.svg"));
+}
+
+TEST(StudyFigures, WithoutGroundTruthOnlyTrajectoriesAreThere) {
+  const TemporaryFolder folder;
+  FixtureOptions options = one_cell();
+  options.ground_truth = false;
+  write_report(folder, options);
+  EXPECT_THAT(names_in(folder / "out" / "figures"),
+              UnorderedElementsAre("trajectories.svg", "trajectories.pdf"));
+}
+
+// The share of a channel as cairo writes it: 0x72 is 44.7 %.
+TEST(StudyFigures, AreDrawnInTheColoursOfTheEstimators) {
+  const TemporaryFolder folder;
+  write_report(folder, one_cell());
+  for (const char* name : {"nees", "trajectories", "accuracy_against_cost"}) {
+    const fs::path file = folder / "out" / "figures" / name;
+    const std::string svg = read_file(file.string() + ".svg");
+    EXPECT_THAT(svg, StartsWith("<?xml"));
+    EXPECT_THAT(svg, HasSubstr("</svg>"));
+    EXPECT_THAT(svg, HasSubstr("rgb(0%,44.7"));  // #0072b2, trajectory_iekf
+    EXPECT_THAT(svg, HasSubstr("rgb(83.5"));     // #d55e00, ekf
+    EXPECT_THAT(svg, HasSubstr("rgb(0%,61.9"));  // #009e73, ceres_pose_graph
+    const std::string pdf = read_file(file.string() + ".pdf");
+    EXPECT_THAT(pdf, StartsWith("%PDF-"));
+    EXPECT_THAT(pdf, HasSubstr("%%EOF"));
+    EXPECT_GT(pdf.size(), 3000u);
+  }
+}
+
+TEST(StudyFigures, OldOnesGoWithANewReport) {
+  const TemporaryFolder folder;
+  write_report(folder, one_cell());
+  write_file(folder / "out" / "figures" / "left_over.svg", "");
+  write_file(folder / "out" / "notes.txt", "mine");
+  write_study_report(ResultStore::open(folder / "study"), folder / "out");
+  EXPECT_FALSE(fs::exists(folder / "out" / "figures" / "left_over.svg"));
+  EXPECT_EQ(read_file(folder / "out" / "notes.txt"), "mine");
+}
+
+}  // namespace
+}  // namespace fathom::test
