@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdlib>
 #include <fcntl.h>
 #include <fstream>
 #include <sys/wait.h>
@@ -23,6 +24,8 @@ namespace fs = std::filesystem;
   for (std::string& argument : arguments) argv.push_back(argument.data());
   argv.push_back(nullptr);
   constexpr int kFlags = O_WRONLY | O_CREAT | O_TRUNC;
+  // No test may find what another one registered, nor leave anything with the user.
+  ::setenv("FATHOM_CACHE", (out.parent_path() / "cache").c_str(), 1);
   const int out_file = ::open(out.c_str(), kFlags, 0600);
   const int err_file = ::open(err.c_str(), kFlags, 0600);
   if (::chdir(folder.c_str()) == 0 && ::dup2(out_file, 1) == 1 && ::dup2(err_file, 2) == 2) {

@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 
 #include "apps/command_line.hpp"
+#include "fathom/study/result_store.hpp"
 #include "support/data.hpp"
 
 namespace fathom::test {
@@ -46,9 +47,17 @@ std::vector<std::string> with_small_camera(std::vector<std::string> settings) {
 TEST_F(Configs, AreAllTestedHere) {
   std::set<std::string> names;
   for (const auto& entry : fs::directory_iterator(folder())) names.insert(entry.path().filename());
-  EXPECT_THAT(names,
-              ElementsAreArray({"dunes.yaml", "image_folder.yaml", "quickstart.yaml", "run.yaml"}));
+  EXPECT_THAT(names, ElementsAreArray({"dunes.yaml", "image_folder.yaml", "quickstart.yaml",
+                                       "run.yaml", "studies"}));
+  names.erase("studies");
   for (const std::string& name : names) fathom_done({"check", (folder() / name).string()});
+  std::set<std::string> studies;
+  for (const auto& entry : fs::directory_iterator(folder() / "studies")) {
+    studies.insert(entry.path().filename());
+    fathom_done({"check", entry.path().string()});
+  }
+  EXPECT_THAT(studies,
+              ElementsAreArray({"paper_pool.yaml", "paper_simulated.yaml", "real_pictures.yaml"}));
 }
 
 TEST_F(Configs, RunRuns) {
@@ -62,7 +71,7 @@ TEST_F(Configs, RunRuns) {
 TEST_F(Configs, QuickstartRuns) {
   expect_runs("compare", "quickstart.yaml",
               with_small_camera({"dataset.world.metres_per_pixel=0.01", "dataset.mission.legs=2",
-                                 "dataset.mission.leg_length_m=3"}),
+                                 "dataset.mission.leg_length_m=3", "trials=2"}),
               "ceres_pose_graph/metrics.json");
 }
 
@@ -72,6 +81,30 @@ TEST_F(Configs, DunesRuns) {
               with_small_camera({"dataset.world.picture=" + data_path("worlds/dunes.jpg").string(),
                                  "dataset.mission.legs=2", "dataset.mission.leg_length_m=3"}),
               "trajectory_iekf/metrics.json");
+}
+
+TEST_F(Configs, PaperSimulatedRuns) {
+  expect_runs("compare", "studies/paper_simulated.yaml",
+              with_small_camera({"dataset.world.metres_per_pixel=0.01", "dataset.mission.legs=2",
+                                 "dataset.mission.leg_length_m=3", "trials=1", "jobs=1"}),
+              "ekf/metrics.json");
+  EXPECT_EQ(ResultStore::open(path("out")).keys().size(), 20u * 4u);
+}
+
+TEST_F(Configs, PaperPoolRuns) {
+  expect_runs("compare", "studies/paper_pool.yaml",
+              with_small_camera({"dataset.world.metres_per_pixel=0.01", "trials=1"}),
+              "ekf/metrics.json");
+  EXPECT_EQ(ResultStore::open(path("out")).keys().size(), 8u * 4u);
+}
+
+TEST_F(Configs, RealPicturesRuns) {
+  FATHOM_REQUIRE_DATA("copr/mav0");
+  expect_runs("compare", "studies/real_pictures.yaml",
+              {"dataset.path=" + data_path("copr").string(), "trials=1",
+               "front_end.features.max_features=500"},
+              "ekf/metrics.json");
+  EXPECT_EQ(ResultStore::open(path("out")).keys().size(), 4u * 4u);
 }
 
 // image_folder.yaml runs as it is in real_data_test.cpp.
