@@ -23,7 +23,6 @@ OptionValue value_of(const std::string& text) {
     return OptionValue::scalar(text);
   }
   OptionValue list{{}, true};
-  // The pieces refer to the text that was split, so it has to outlive the loop.
   const std::string inner = text.substr(1, text.size() - 2);
   for (const std::string_view item : split(inner, ", ")) {
     list.items.emplace_back(item);
