@@ -1,5 +1,6 @@
 // fathom select: the back end that meets a user's requirements, from the results of a study.
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -14,7 +15,7 @@
 namespace fathom {
 namespace {
 
-constexpr int kDigits = 3;
+constexpr int kDigits = 4;
 constexpr const char* kConfigName = "selected.yaml";
 
 struct SelectFlags {
@@ -92,10 +93,15 @@ std::string obstacle_text(const Selection& selection, const SelectionQuery& quer
   for (const Evidence& evidence : selection.estimators) {
     if (evidence.meets_all) return query.objective + " was not measured of those that meet them";
   }
+  std::string failing;
   for (const Evidence& evidence : selection.estimators) {
-    if (!evidence.has_too_many_failures) return "each is met by some, all of them by none";
+    const bool would_meet =
+        std::all_of(evidence.judgements.begin(), evidence.judgements.end(),
+                    [](const Judgement& one) { return one.verdict == Verdict::meets; });
+    if (would_meet) failing += (failing.empty() ? "" : ", ") + evidence.name;
   }
-  return "all have failed runs (--allow-failures)";
+  return failing.empty() ? "each is met by some, all of them by none"
+                         : "failed runs put out " + failing + " (--allow-failures)";
 }
 
 std::string none_text(const Selection& selection, const SelectionQuery& query) {
@@ -186,12 +192,13 @@ std::filesystem::path folder_of(const SelectFlags& flags) {
   return results.has_parent_path() ? results.parent_path() : ".";
 }
 
+// Returns the file as the user would name it.
 std::filesystem::path write_config(const SelectFlags& flags, const std::string& text) {
   try {
     StagedFolder folder(folder_of(flags));
     write_file(folder.path() / kConfigName, text);
     folder.commit();
-    return folder.target() / kConfigName;
+    return folder_of(flags) / kConfigName;
   } catch (const InputError& error) {
     if (!flags.out.empty()) throw;
     throw InputError(std::string(error.what()) + "; --out DIR says where " + kConfigName +

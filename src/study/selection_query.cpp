@@ -15,9 +15,9 @@ std::string listed(const std::vector<std::string>& words) {
   return text;
 }
 
-// The nearest word, or all there are where none is near.
+// The nearest word, or all there are where none is near. No number is another one misspelt.
 std::string hint(const std::string& word, const std::vector<std::string>& among) {
-  const std::string near = suggestion(word, among);
+  const std::string near = parse_real(word) ? "" : suggestion(word, among);
   return near.empty() ? "; there are " + listed(among) : near;
 }
 
