@@ -6,13 +6,33 @@ const thirds = (card) => (widthOf(card) > 1000 ? Math.floor((widthOf(card) - 40)
 const isShown = (name) => !state.hidden.has(name);
 const sum = (list) => list.reduce((a, b) => a + b, 0);
 
+function extentOf(paths) {
+  const extent = {x0: Infinity, x1: -Infinity, y0: Infinity, y1: -Infinity};
+  for (const {x, y} of paths) {
+    extent.x0 = Math.min(extent.x0, x);
+    extent.x1 = Math.max(extent.x1, x);
+    extent.y0 = Math.min(extent.y0, y);
+    extent.y1 = Math.max(extent.y1, y);
+  }
+  return extent;
+}
+
+// What the map shows at first: all, unless dead reckoning or a run that failed is so far off that
+// the rest could not be seen.
+function mapExtent(paths) {
+  const failed = cellNow().example.estimators.filter((one) => ['diverged', 'numerical_failure'].includes(one.outcome));
+  const strays = [kBaseline, ...failed.map((one) => one.name)];
+  const near = paths.filter((row) => !strays.includes(row.estimator));
+  const [all, most] = [extentOf(paths), extentOf(near)];
+  const sizeOf = (extent) => Math.max(extent.x1 - extent.x0, extent.y1 - extent.y0);
+  return near.length === 0 || sizeOf(all) <= 2.5 * sizeOf(most) ? all : most;
+}
+
 function trajectoryPlots(card) {
   const rows = trajectoryRows(cellNow());
   const width = widthOf(card) - 70;
   const height = Math.min(620, Math.max(360, Math.round(width * 0.5)));
-  const span = (list) => [Math.min(...list), Math.max(...list)];
-  const [x0, x1] = span(rows.paths.map((row) => row.x));
-  const [y0, y1] = span(rows.paths.map((row) => row.y));
+  const {x0, x1, y0, y1} = mapExtent(rows.paths);
   const metresPerPixel = 1.08 * Math.max((y1 - y0) / width, (x1 - x0) / height, 1e-6);
   const around = (middle, pixels) => [middle - (pixels * metresPerPixel) / 2, middle + (pixels * metresPerPixel) / 2];
   const signals = {start_h: around((y0 + y1) / 2, width).reverse(), start_v: around((x0 + x1) / 2, height)};
@@ -95,7 +115,7 @@ const exampleNote = () => `Trial ${cellNow().example.trial}`;
 const charts = [
   {id: 'trajectories', title: 'Trajectories', wide: true, plots: trajectoryPlots,
     exists: (cell) => cell.example.truth !== null || cell.example.estimators.some((one) => one.path),
-    caption: (cell) => `${exampleNote()} of ${conditions(cell)}. Metres; x up, y to the left. Thin lines: loops used; dashed with ×: rejected, with △: lost; ellipses: 2σ. Wheel: zoom, drag: move, double click: all.`},
+    caption: (cell) => `${exampleNote()}; ${conditions(cell)}. Metres; x up, y to the left. Thin lines: loops used; dashed with ×: rejected, with △: lost; ellipses: 2σ. Wheel: zoom, drag: move, double click: all.`},
   {id: 'sweep', title: 'Error against the sweep', wide: true, plots: sweepPlots,
     exists: () => study.axes.some((axis) => axis.labels.length > 1),
     choices: () => [
@@ -125,7 +145,7 @@ const charts = [
     caption: (cell) => `${conditions(cell)}. Trials by how their run ended. Converged and iteration limit count as done; all means are over those.`},
   {id: 'registrations', title: 'Registration map', wide: true, plots: registrationPlots,
     exists: (cell) => cell.example.estimators.some((one) => one.loops.length > 0),
-    caption: (cell) => `${exampleNote()} of ${conditions(cell)}. Keyframe by keyframe: filled square used, × rejected by the gate, △ lost with a failed update.`},
+    caption: (cell) => `${exampleNote()}; ${conditions(cell)}. Keyframe by keyframe: filled square used, × rejected by the gate, △ lost with a failed update.`},
 ];
 
 const chartViews = {};
