@@ -18,6 +18,8 @@ const state = {
   sweepMetric: accuracyMetric,
   accuracy: accuracyMetric,
   cost: costMetric,
+  show_ellipses: true,
+  show_loops: true,
   dark: window.matchMedia('(prefers-color-scheme: dark)').matches,
 };
 
