@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/Geometry>
+
 #include "study_figures.hpp"
 
 namespace fathom {
@@ -11,6 +13,7 @@ using Points = std::vector<Eigen::Vector2d>;
 struct TrajectoryChart {
   std::size_t trial = 0;
   std::vector<std::pair<std::string, Points>> paths;  ///< (x, y) in metres
+  std::set<std::string> strays;  ///< that may lie far off: dead reckoning and runs that failed
   Points truth;
   std::vector<Points> loops;  ///< of the first estimator, those used
   std::string loops_of;
@@ -45,6 +48,12 @@ void add_loops(TrajectoryChart& chart, const ResultStore& store, const RunKey& k
   }
 }
 
+bool is_done_at(const EstimatorResults& one, std::size_t trial) {
+  return std::any_of(one.runs.begin(), one.runs.end(), [trial](const RunRecord& run) {
+    return run.key.trial == trial && is_done(run);
+  });
+}
+
 TrajectoryChart chart_of(const ResultStore& store, const CellResults& cell) {
   TrajectoryChart chart;
   chart.trial = cell.estimators.front().runs.front().key.trial;
@@ -57,33 +66,39 @@ TrajectoryChart chart_of(const ResultStore& store, const CellResults& cell) {
     Points path = path_of(store, key, "x_m", "y_m");
     if (path.empty()) continue;
     if (one.name != kDeadReckoning && chart.loops_of.empty()) add_loops(chart, store, key, path);
+    if (one.name == kDeadReckoning || !is_done_at(one, chart.trial)) chart.strays.insert(one.name);
     chart.paths.emplace_back(one.name, std::move(path));
   }
   return chart;
 }
 
+// All, unless what strays is so far off that the rest could not be seen.
+Eigen::AlignedBox2d extent_of(const TrajectoryChart& chart) {
+  Eigen::AlignedBox2d near;
+  for (const Eigen::Vector2d& point : chart.truth) near.extend(point);
+  Eigen::AlignedBox2d all = near;
+  for (const auto& [name, points] : chart.paths) {
+    for (const Eigen::Vector2d& point : points) {
+      all.extend(point);
+      if (!chart.strays.contains(name)) near.extend(point);
+    }
+  }
+  const bool far = !near.isEmpty() && all.sizes().maxCoeff() > 2.5 * near.sizes().maxCoeff();
+  return far ? near : all;
+}
+
 // The same scale along both axes: x up, y to the left, which is an axis from high to low.
 ChartFrame frame_of(const TrajectoryChart& chart, const Box& box) {
-  std::vector<double> xs;
-  std::vector<double> ys;
-  const auto add = [&](const Points& points) {
-    for (const Eigen::Vector2d& point : points) {
-      xs.push_back(point.x());
-      ys.push_back(point.y());
-    }
-  };
-  add(chart.truth);
-  for (const auto& [name, points] : chart.paths) add(points);
-  const auto [x0, x1] = std::minmax_element(xs.begin(), xs.end());
-  const auto [y0, y1] = std::minmax_element(ys.begin(), ys.end());
-  const double scale = 1.08 * std::max({(*x1 - *x0) / box.height, (*y1 - *y0) / box.width, 1e-6});
-  const auto around = [scale](double low, double high, double points) {
-    const double middle = 0.5 * (low + high);
+  const Eigen::AlignedBox2d extent = extent_of(chart);
+  const Eigen::Vector2d size = extent.sizes();
+  const double scale = 1.08 * std::max({size.x() / box.height, size.y() / box.width, 1e-6});
+  const auto around = [scale](double middle, double points) {
     return std::vector<double>{middle - 0.5 * scale * points, middle + 0.5 * scale * points};
   };
-  ChartAxis across = axis_over("y (m)", around(*y0, *y1, box.width), false);
+  const Eigen::Vector2d centre = extent.center();
+  ChartAxis across = axis_over("y (m)", around(centre.y(), box.width), false);
   std::swap(across.low, across.high);
-  return {std::move(across), axis_over("x (m)", around(*x0, *x1, box.height), false), box};
+  return {std::move(across), axis_over("x (m)", around(centre.x(), box.height), false), box};
 }
 
 Points placed(const ChartFrame& frame, const Points& world) {
@@ -98,23 +113,20 @@ void draw_trajectories(VectorCanvas& canvas, const TrajectoryChart& chart,
   const auto styles = line_styles(study);
   frame.draw(canvas);
   std::vector<FigureLegendEntry> legend;
-  if (!chart.loops.empty()) {
-    const Pen thin{styles.at(chart.loops_of).colour, 0.3, {}, 0.5};
-    for (const Points& loop : chart.loops) canvas.line(placed(frame, loop), thin);
+  const auto draw = [&](const std::string& label, const Points& points, const Pen& pen) {
+    canvas.clipped(frame.box(), [&] { canvas.line(placed(frame, points), pen); });
+    if (!label.empty()) legend.push_back({label, pen});
+  };
+  for (const Points& loop : chart.loops) {
+    draw("", loop, {styles.at(chart.loops_of).colour, 0.3, {}, 0.5});
   }
-  if (!chart.truth.empty()) {
-    const Pen pen{palette::black, 1.6, {}, 1.0};
-    canvas.line(placed(frame, chart.truth), pen);
-    legend.push_back({"ground truth", pen});
-  }
+  if (!chart.truth.empty()) draw("ground truth", chart.truth, {palette::black, 1.6, {}, 1.0});
   for (const auto& [name, points] : chart.paths) {
-    const Pen pen = pen_of(styles.at(name), 1.0);
-    canvas.line(placed(frame, points), pen);
-    legend.push_back({display_name(name), pen});
+    draw(display_name(name), points, pen_of(styles.at(name), 1.0));
   }
   if (!chart.loops.empty()) {
-    legend.push_back(
-        {"loops of " + chart.loops_of, {styles.at(chart.loops_of).colour, 0.4, {}, 0.6}});
+    const Pen sample{styles.at(chart.loops_of).colour, 0.4, {}, 0.6};
+    legend.push_back({"loops of " + chart.loops_of, sample});
   }
   draw_footer(canvas, frame.box(), legend, caption);
 }

@@ -54,6 +54,8 @@ bool is_of_a_trial(const std::string& key) {
 
 Pictures::Pictures(const Configuration& configuration, RegistrationCache* cache) {
   with_origin(configuration, [&] {
+    // A noise that cannot be is said before a folder is opened.
+    configuration.added_noise.noise_covariance("dataset.added_noise.");
     source_ = open_source(configuration);
     registrar_ = std::make_unique<PairRegistrar>(*source_, configuration.front_end.features,
                                                  configuration.front_end.registration,

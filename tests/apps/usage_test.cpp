@@ -21,7 +21,7 @@ class Usage : public CommandLine {};
 
 const std::vector<std::string>& commands() {
   static const std::vector<std::string> all{"run",      "compare", "solve", "register", "simulate",
-                                            "evaluate", "list",    "check", "select"};
+                                            "evaluate", "list",    "check", "report",   "select"};
   return all;
 }
 

@@ -99,6 +99,10 @@ TEST_F(Browser, DrawsEveryChartAndTakesAnEstimatorOffAllOfThem) {
 TEST_F(Browser, DrawsEveryCellAndTable) {
   const Json result = self_test_of({});
   ASSERT_FALSE(result.is_null());
+  // All layers of the map, without its ellipses, without its loops.
+  ASSERT_EQ(result["layers"].size(), 3u);
+  EXPECT_LT(result["layers"][1], result["layers"][0]);
+  EXPECT_LT(result["layers"][2], result["layers"][0]);
   ASSERT_EQ(result["cells"].size(), 6u);
   for (const Json& cell : result["cells"]) {
     for (const auto& [chart, marks] : cell.items()) EXPECT_GT(marks, 0) << chart;

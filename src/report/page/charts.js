@@ -1,4 +1,4 @@
-// The charts. Each has a title, a caption, its own choices, and the plots that it is made of.
+// The plots that each chart is made of, from the rows and the width of its card.
 const widthOf = (card) => Math.max(260, card.clientWidth - 34);
 const halves = (card) => (widthOf(card) > 800 ? Math.floor((widthOf(card) - 20) / 2) : widthOf(card));
 const thirds = (card) => (widthOf(card) > 1000 ? Math.floor((widthOf(card) - 40) / 3) : widthOf(card));
@@ -6,16 +6,37 @@ const thirds = (card) => (widthOf(card) > 1000 ? Math.floor((widthOf(card) - 40)
 const isShown = (name) => !state.hidden.has(name);
 const sum = (list) => list.reduce((a, b) => a + b, 0);
 
+function extentOf(paths) {
+  const extent = {x0: Infinity, x1: -Infinity, y0: Infinity, y1: -Infinity};
+  for (const {x, y} of paths) {
+    extent.x0 = Math.min(extent.x0, x);
+    extent.x1 = Math.max(extent.x1, x);
+    extent.y0 = Math.min(extent.y0, y);
+    extent.y1 = Math.max(extent.y1, y);
+  }
+  return extent;
+}
+
+// What the map shows at first: all, unless dead reckoning or a run that failed is so far off that
+// the rest could not be seen.
+function mapExtent(paths) {
+  const failed = cellNow().example.estimators.filter((one) => ['diverged', 'numerical_failure'].includes(one.outcome));
+  const strays = [kBaseline, ...failed.map((one) => one.name)];
+  const near = paths.filter((row) => !strays.includes(row.estimator));
+  const [all, most] = [extentOf(paths), extentOf(near)];
+  const sizeOf = (extent) => Math.max(extent.x1 - extent.x0, extent.y1 - extent.y0);
+  return near.length === 0 || sizeOf(all) <= 2.5 * sizeOf(most) ? all : most;
+}
+
 function trajectoryPlots(card) {
   const rows = trajectoryRows(cellNow());
   const width = widthOf(card) - 70;
   const height = Math.min(620, Math.max(360, Math.round(width * 0.5)));
-  const span = (list) => [Math.min(...list), Math.max(...list)];
-  const [x0, x1] = span(rows.paths.map((row) => row.x));
-  const [y0, y1] = span(rows.paths.map((row) => row.y));
+  const {x0, x1, y0, y1} = mapExtent(rows.paths);
   const metresPerPixel = 1.08 * Math.max((y1 - y0) / width, (x1 - x0) / height, 1e-6);
   const around = (middle, pixels) => [middle - (pixels * metresPerPixel) / 2, middle + (pixels * metresPerPixel) / 2];
-  const signals = {start_h: around((y0 + y1) / 2, width).reverse(), start_v: around((x0 + x1) / 2, height)};
+  const signals = {start_h: around((y0 + y1) / 2, width).reverse(), start_v: around((x0 + x1) / 2, height),
+    show_ellipses: state.show_ellipses, show_loops: state.show_loops};
   return [{spec: 'trajectories', data: rows, width, height, signals}];
 }
 
@@ -88,87 +109,3 @@ function outcomePlots(card) {
   const height = 60 + 44 * new Set(rows.map((row) => row.estimator)).size;
   return rows.length > 0 ? [{spec: 'outcomes', data: {rows}, width: widthOf(card), height}] : [];
 }
-
-const metricChoices = (cost) => Object.keys(study.metrics).filter((name) => cost === undefined || study.metrics[name].cost === cost);
-const exampleNote = () => `Trial ${cellNow().example.trial}`;
-
-const charts = [
-  {id: 'trajectories', title: 'Trajectories', wide: true, plots: trajectoryPlots,
-    exists: (cell) => cell.example.truth !== null || cell.example.estimators.some((one) => one.path),
-    caption: (cell) => `${exampleNote()} of ${conditions(cell)}. Metres; x up, y to the left. Thin lines: loops used; dashed with ×: rejected, with △: lost; ellipses: 2σ. Wheel: zoom, drag: move, double click: all.`},
-  {id: 'sweep', title: 'Error against the sweep', wide: true, plots: sweepPlots,
-    exists: () => study.axes.some((axis) => axis.labels.length > 1),
-    choices: () => [
-      {label: 'axis', key: 'axis', values: study.axes.map((axis, i) => [i, axis.name]).filter(([i]) => study.axes[i].labels.length > 1)},
-      {label: 'metric', key: 'sweepMetric', values: metricChoices().map((name) => [name, metricLabel(name)])}],
-    caption: (cell) => {
-      const fixed = study.axes.map((axis, i) => (i === state.axis ? '' : `${axis.name} ${axis.labels[cell.places[i]]}`)).filter(Boolean);
-      const counts = [...new Set(sweepCells().map((one) => one.n))].sort((a, b) => a - b);
-      const jobs = study.metrics[state.sweepMetric].cost ? ' ' + jobsNote(cell) : '';
-      return [...fixed, `alignment ${study.alignment}`, cell.association && study.axes[state.axis].key !== 'association.mode' ? `association ${cell.association}` : '', `n = ${counts.join(', ')} a point`].filter(Boolean).join(', ') +
-        '. Band: mean ± 2 standard deviations over trials. Right: twice the root mean square position error, and the mean of 2·√(Pxx + Pyy) that the estimator states; an honest one has them equal.' + jobs;
-    }},
-  {id: 'keyframes', title: 'Error and consistency over keyframes', wide: true, plots: keyframePlots,
-    exists: (cell) => sum(cell.estimators.map((one) => one.keyframes.keyframe.length)) > 0,
-    caption: (cell) => `${conditions(cell)}. Position in metres. NEES / 3 of an honest estimator is 1; the grey band holds 95 % of its means over trials at one keyframe. Above: overconfident.`},
-  {id: 'updates', title: 'Cost of an update', plots: updatePlots,
-    exists: (cell) => sum(cell.estimators.map((one) => one.updates.keyframe.length)) > 0,
-    caption: (cell) => `${conditions(cell)}. Milliseconds, median over trials, logarithmic. ${jobsNote(cell)}`},
-  {id: 'pareto', title: 'Accuracy against cost', plots: paretoPlots,
-    exists: () => Object.values(study.metrics).some((metric) => metric.cost),
-    choices: () => [
-      {label: 'accuracy', key: 'accuracy', values: metricChoices(false).map((name) => [name, metricLabel(name)])},
-      {label: 'cost', key: 'cost', values: metricChoices(true).map((name) => [name, metricLabel(name)])}],
-    caption: (cell) => `${conditions(cell)}. Means with 95 % intervals. Ringed, on the dashed line: no other is both better and cheaper (lower counts as better). Grey line: dead reckoning. ${jobsNote(cell)}`},
-  {id: 'outcomes', title: 'Outcomes', wide: true, plots: outcomePlots,
-    exists: (cell) => cell.estimators.some((one) => Object.keys(one.outcomes).length > 0),
-    caption: (cell) => `${conditions(cell)}. Trials by how their run ended. Converged and iteration limit count as done; all means are over those.`},
-  {id: 'registrations', title: 'Registration map', wide: true, plots: registrationPlots,
-    exists: (cell) => cell.example.estimators.some((one) => one.loops.length > 0),
-    caption: (cell) => `${exampleNote()} of ${conditions(cell)}. Keyframe by keyframe: filled square used, × rejected by the gate, △ lost with a failed update.`},
-];
-
-const chartViews = {};
-
-function chooser(choice, redraw) {
-  const select = element('select', {onchange: () => {
-    state[choice.key] = typeof state[choice.key] === 'number' ? Number(select.value) : select.value;
-    redraw();
-  }});
-  for (const [value, text] of choice.values) {
-    select.append(element('option', {value, textContent: text, selected: value === state[choice.key]}));
-  }
-  return element('label', {textContent: choice.label + ' '}, [select]);
-}
-
-function drawChart(chart) {
-  const card = document.getElementById('chart-' + chart.id);
-  const exists = chart.exists(cellNow());
-  card.hidden = !exists;
-  for (const view of chartViews[chart.id] || []) view.finalize();
-  chartViews[chart.id] = [];
-  const plots = card.querySelector('.plots');
-  plots.replaceChildren();
-  if (!exists) return;
-  card.querySelector('.caption').textContent = chart.caption(cellNow());
-  for (const plot of chart.plots(card)) {
-    const container = element('div');
-    plots.append(element('div', {className: 'plot'}, [
-      ...(plot.heading ? [element('h4', {textContent: plot.heading})] : []), container]));
-    chartViews[chart.id].push(drawPlot(container, plot.spec, plot));
-  }
-}
-
-function makeCards() {
-  for (const chart of charts) {
-    const choices = chart.choices && chart.exists(cellNow()) ? chart.choices().filter((choice) => choice.values.length > 1) : [];
-    document.getElementById('charts').append(element('article', {id: 'chart-' + chart.id, className: 'card' + (chart.wide ? ' wide' : '')}, [
-      element('div', {className: 'card-head'}, [
-        element('h3', {textContent: chart.title}),
-        element('div', {className: 'choices'}, choices.map((choice) => chooser(choice, () => drawChart(chart))))]),
-      element('p', {className: 'caption'}),
-      element('div', {className: 'plots'})]));
-  }
-}
-
-const drawCharts = () => charts.forEach(drawChart);

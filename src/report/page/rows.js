@@ -126,7 +126,7 @@ function paretoRows(cell) {
         x_low: cost.low > 0 ? cost.low : cost.mean, x_high: cost.high > 0 ? cost.high : cost.mean,
         tooltip: `${labelOf(one.name)}: ${metricLabel(state.accuracy)} ${withInterval(error)}, ` +
           `${metricLabel(state.cost)} ${withInterval(cost)}`});
-    } else if (one.name === study.estimators[0].name) {
+    } else if (one.name === kBaseline) {
       baseline.push({estimator: one.name, mean: error.mean,
         tooltip: `${labelOf(one.name)}: ${withInterval(error)}, at no cost`});
     }
@@ -143,7 +143,7 @@ function paretoRows(cell) {
 
 function outcomeRows(cell) {
   const order = ['converged', 'iteration_limit', 'diverged', 'numerical_failure', 'not run'];
-  return cell.estimators.filter((one) => one.name !== study.estimators[0].name).flatMap((one) => {
+  return cell.estimators.filter((one) => one.name !== kBaseline).flatMap((one) => {
     const counts = {...one.outcomes, 'not run': Math.max(0, study.trials - one.runs)};
     return order.filter((name) => counts[name] > 0).map((name) => {
       const text = `${counts[name]} ${name.replaceAll('_', ' ')}`;

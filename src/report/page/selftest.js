@@ -57,6 +57,14 @@ async function selfTest() {
     await drawn();
     result.estimators[style.name] = {before, off, again: marksOfAll(style.colour)};
   }
+  result.layers = [marksOf('trajectories')];
+  for (const box of document.querySelectorAll('#chart-trajectories .choices input')) {
+    box.click();
+    await drawn();
+    result.layers.push(marksOf('trajectories'));
+    box.click();
+    await drawn();
+  }
   result.map = await mapTest();
   const select = document.getElementById('cell');
   for (let i = 0; i < study.cells.length; ++i) {

@@ -2,6 +2,7 @@
 const study = JSON.parse(document.getElementById('data').textContent);
 const specs = JSON.parse(document.getElementById('specs').textContent);
 const kTruth = 'ground truth';
+const kBaseline = study.estimators[0].name;  // dead reckoning
 
 const firstOf = (names) => names.find((name) => study.metrics[name]) || Object.keys(study.metrics)[0];
 const accuracyNames = study.study_metrics.filter((name) => study.metrics[name] && !study.metrics[name].cost);
@@ -17,6 +18,8 @@ const state = {
   sweepMetric: accuracyMetric,
   accuracy: accuracyMetric,
   cost: costMetric,
+  show_ellipses: true,
+  show_loops: true,
   dark: window.matchMedia('(prefers-color-scheme: dark)').matches,
 };
 

@@ -1,6 +1,4 @@
 // The summary, the paired tests and the manifests, as tables.
-const kBaseline = study.estimators[0].name;
-
 function tableOf(header, rows) {
   const cellOf = (tag) => (content) => {
     const cell = element(tag);

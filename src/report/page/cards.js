@@ -1,0 +1,95 @@
+// The charts as cards: each has a title, a caption, its own choices, and its plots.
+const metricChoices = (cost) => Object.keys(study.metrics).filter((name) => cost === undefined || study.metrics[name].cost === cost);
+const exampleNote = () => `Trial ${cellNow().example.trial}`;
+
+const charts = [
+  {id: 'trajectories', title: 'Trajectories', wide: true, plots: trajectoryPlots,
+    choices: () => [{label: '2σ ellipses', signal: 'show_ellipses'}, {label: 'loops', signal: 'show_loops'}],
+    exists: (cell) => cell.example.truth !== null || cell.example.estimators.some((one) => one.path),
+    caption: (cell) => `${exampleNote()}; ${conditions(cell)}. Metres; x up, y to the left. Thin lines: loops used; dashed with ×: rejected, with △: lost; ellipses: 2σ. Wheel: zoom, drag: move, double click: all.`},
+  {id: 'sweep', title: 'Error against the sweep', wide: true, plots: sweepPlots,
+    exists: () => study.axes.some((axis) => axis.labels.length > 1),
+    choices: () => [
+      {label: 'axis', key: 'axis', values: study.axes.map((axis, i) => [i, axis.name]).filter(([i]) => study.axes[i].labels.length > 1)},
+      {label: 'metric', key: 'sweepMetric', values: metricChoices().map((name) => [name, metricLabel(name)])}],
+    caption: (cell) => {
+      const fixed = study.axes.map((axis, i) => (i === state.axis ? '' : `${axis.name} ${axis.labels[cell.places[i]]}`)).filter(Boolean);
+      const counts = [...new Set(sweepCells().map((one) => one.n))].sort((a, b) => a - b);
+      const jobs = study.metrics[state.sweepMetric].cost ? ' ' + jobsNote(cell) : '';
+      return [...fixed, `alignment ${study.alignment}`, cell.association && study.axes[state.axis].key !== 'association.mode' ? `association ${cell.association}` : '', `n = ${counts.join(', ')} a point`].filter(Boolean).join(', ') +
+        '. Band: mean ± 2 standard deviations over trials. Right: twice the root mean square position error, and the mean of 2·√(Pxx + Pyy) that the estimator states; an honest one has them equal.' + jobs;
+    }},
+  {id: 'keyframes', title: 'Error and consistency over keyframes', wide: true, plots: keyframePlots,
+    exists: (cell) => sum(cell.estimators.map((one) => one.keyframes.keyframe.length)) > 0,
+    caption: (cell) => `${conditions(cell)}. Position in metres. NEES / 3 of an honest estimator is 1; the grey band holds 95 % of its means over trials at one keyframe. Above: overconfident.`},
+  {id: 'updates', title: 'Cost of an update', plots: updatePlots,
+    exists: (cell) => sum(cell.estimators.map((one) => one.updates.keyframe.length)) > 0,
+    caption: (cell) => `${conditions(cell)}. Milliseconds, median over trials, logarithmic. ${jobsNote(cell)}`},
+  {id: 'pareto', title: 'Accuracy against cost', plots: paretoPlots,
+    exists: () => Object.values(study.metrics).some((metric) => metric.cost),
+    choices: () => [
+      {label: 'accuracy', key: 'accuracy', values: metricChoices(false).map((name) => [name, metricLabel(name)])},
+      {label: 'cost', key: 'cost', values: metricChoices(true).map((name) => [name, metricLabel(name)])}],
+    caption: (cell) => `${conditions(cell)}. Means with 95 % intervals. Ringed, on the dashed line: no other is both better and cheaper (lower counts as better). Grey line: dead reckoning. ${jobsNote(cell)}`},
+  {id: 'outcomes', title: 'Outcomes', wide: true, plots: outcomePlots,
+    exists: (cell) => cell.estimators.some((one) => Object.keys(one.outcomes).length > 0),
+    caption: (cell) => `${conditions(cell)}. Trials by how their run ended. Converged and iteration limit count as done; all means are over those.`},
+  {id: 'registrations', title: 'Registration map', wide: true, plots: registrationPlots,
+    exists: (cell) => cell.example.estimators.some((one) => one.loops.length > 0),
+    caption: (cell) => `${exampleNote()}; ${conditions(cell)}. Keyframe by keyframe: filled square used, × rejected by the gate, △ lost with a failed update.`},
+];
+
+const chartViews = {};
+
+// A switch within a chart; it leaves the zoom as it is.
+function signalSwitch({label, signal}, chart) {
+  const box = element('input', {type: 'checkbox', checked: state[signal], onchange: () => {
+    state[signal] = box.checked;
+    for (const view of chartViews[chart.id]) view.signal(signal, box.checked).run();
+  }});
+  return element('label', {}, [box, label]);
+}
+
+function chooser(choice, redraw) {
+  const select = element('select', {onchange: () => {
+    state[choice.key] = typeof state[choice.key] === 'number' ? Number(select.value) : select.value;
+    redraw();
+  }});
+  for (const [value, text] of choice.values) {
+    select.append(element('option', {value, textContent: text, selected: value === state[choice.key]}));
+  }
+  return element('label', {textContent: choice.label + ' '}, [select]);
+}
+
+function drawChart(chart) {
+  const card = document.getElementById('chart-' + chart.id);
+  const exists = chart.exists(cellNow());
+  card.hidden = !exists;
+  for (const view of chartViews[chart.id] || []) view.finalize();
+  chartViews[chart.id] = [];
+  const plots = card.querySelector('.plots');
+  plots.replaceChildren();
+  if (!exists) return;
+  card.querySelector('.caption').textContent = chart.caption(cellNow());
+  for (const plot of chart.plots(card)) {
+    const container = element('div');
+    plots.append(element('div', {className: 'plot'}, [
+      ...(plot.heading ? [element('h4', {textContent: plot.heading})] : []), container]));
+    chartViews[chart.id].push(drawPlot(container, plot.spec, plot));
+  }
+}
+
+function makeCards() {
+  for (const chart of charts) {
+    const choices = chart.choices && chart.exists(cellNow()) ? chart.choices().filter((choice) => choice.signal || choice.values.length > 1) : [];
+    document.getElementById('charts').append(element('article', {id: 'chart-' + chart.id, className: 'card' + (chart.wide ? ' wide' : '')}, [
+      element('div', {className: 'card-head'}, [
+        element('h3', {textContent: chart.title}),
+        element('div', {className: 'choices'}, choices.map((choice) =>
+          choice.signal ? signalSwitch(choice, chart) : chooser(choice, () => drawChart(chart))))]),
+      element('p', {className: 'caption'}),
+      element('div', {className: 'plots'})]));
+  }
+}
+
+const drawCharts = () => charts.forEach(drawChart);
