@@ -27,7 +27,10 @@ MeasuredFrame VisualOdometry::measured(std::size_t frame) const {
 
 UncertainPose VisualOdometry::next_motion() const {
   const std::size_t to = infos_.size();
-  if (to + 1 < source_.size()) registrar_.announce(measured(to), measured(to + 1));
+  // Two ahead: extraction takes longer than a registration, and one alone leaves threads idle.
+  for (const std::size_t ahead : {to + 1, to + 2}) {
+    if (ahead < source_.size()) registrar_.announce(measured(ahead - 1), measured(ahead));
+  }
   const PairRegistration registration = registrar_.of(measured(to - 1), measured(to));
   UncertainPose motion{last_motion_, Eigen::Matrix3d::Zero()};
   if (registration.found) {
