@@ -14,10 +14,13 @@ constexpr double kTick = 3.0;
 
 void add_round_ticks(ChartAxis& axis) {
   const double step = round_step((axis.high - axis.low) / 7.0);
-  for (double value = std::ceil(axis.low / step - 1e-9) * step; value <= axis.high + 1e-9 * step;
-       value += step) {
-    axis.ticks.emplace_back(value,
-                            coordinate_text(std::abs(value) < 1e-9 * step ? 0.0 : value, step));
+  // So far from zero that no label would tell two ticks apart.
+  if (std::max(std::abs(axis.low), std::abs(axis.high)) / step > 1e9) return;
+  const auto first = static_cast<long>(std::ceil(axis.low / step - 1e-9));
+  const auto last = static_cast<long>(std::floor(axis.high / step + 1e-9));
+  for (long i = first; i <= last; ++i) {
+    const double value = static_cast<double>(i) * step;
+    axis.ticks.emplace_back(value, coordinate_text(value, step));
   }
 }
 
