@@ -73,6 +73,9 @@ std::string jobs_text(const std::set<int>& jobs);
 /// "separation 5: association own, alignment origin, n = 100, jobs 2"; what is unknown is left out.
 std::string cell_caption(const CellResults& cell, const StudyDescription& study);
 
+/// "; failed: ekf 2/30", what a mean over the cell leaves out; empty where nothing failed.
+std::string failures_text(const CellResults& cell);
+
 /// "dead reckoning" for kDeadReckoning, else the name.
 std::string display_name(const std::string& estimator);
 

@@ -16,7 +16,7 @@ const charts = [
       const fixed = study.axes.map((axis, i) => (i === state.axis ? '' : `${axis.name} ${axis.labels[cell.places[i]]}`)).filter(Boolean);
       const counts = [...new Set(sweepCells().map((one) => one.n))].sort((a, b) => a - b);
       const jobs = study.metrics[state.sweepMetric].cost ? ' ' + jobsNote(cell) : '';
-      return [...fixed, `alignment ${study.alignment}`, cell.association && study.axes[state.axis].key !== 'association.mode' ? `association ${cell.association}` : '', `n = ${counts.join(', ')} a point`].filter(Boolean).join(', ') +
+      return [...fixed, `alignment ${study.alignment}`, cell.association && study.axes[state.axis].key !== 'association.mode' ? `association ${cell.association}` : '', `n = ${counts.join(', ')} a point`].filter(Boolean).join(', ') + failuresOf(sweepCells()) +
         '. Band: mean ± 2 standard deviations over trials. Right: twice the root mean square position error, and the mean of 2·√(Pxx + Pyy) that the estimator states; an honest one has them equal.' + jobs;
     }},
   {id: 'keyframes', title: 'Error and consistency over keyframes', wide: true, plots: keyframePlots,
