@@ -11,13 +11,17 @@ namespace {
 
 constexpr Colour kGrid{0xE4, 0xE6, 0xE8};
 constexpr double kTick = 3.0;
+constexpr double kRoomRight = 8.0;  // beside the axes, for half a label
 
 void add_round_ticks(ChartAxis& axis) {
   const double step = round_step((axis.high - axis.low) / 7.0);
-  for (double value = std::ceil(axis.low / step - 1e-9) * step; value <= axis.high + 1e-9 * step;
-       value += step) {
-    axis.ticks.emplace_back(value,
-                            coordinate_text(std::abs(value) < 1e-9 * step ? 0.0 : value, step));
+  // So far from zero that no label would tell two ticks apart.
+  if (std::max(std::abs(axis.low), std::abs(axis.high)) / step > 1e9) return;
+  const auto first = static_cast<long>(std::ceil(axis.low / step - 1e-9));
+  const auto last = static_cast<long>(std::floor(axis.high / step + 1e-9));
+  for (long i = first; i <= last; ++i) {
+    const double value = static_cast<double>(i) * step;
+    axis.ticks.emplace_back(value, coordinate_text(value, step));
   }
 }
 
@@ -90,6 +94,25 @@ Eigen::Vector2d ChartFrame::at(double x, double y) const {
   return {box_.left + x_.share(x) * box_.width, box_.bottom() - y_.share(y) * box_.height};
 }
 
+// A label is kept on the page, and left out where it would run into the one before.
+void ChartFrame::draw_x_ticks(VectorCanvas& canvas, const Pen& pen) const {
+  std::vector<std::pair<double, std::string>> from_left;
+  for (const auto& [value, text] : x_.ticks) {
+    from_left.emplace_back(box_.left + x_.share(value) * box_.width, text);
+  }
+  std::sort(from_left.begin(), from_left.end());
+  double taken = 0.0;
+  for (const auto& [x, text] : from_left) {
+    canvas.line(std::vector<Eigen::Vector2d>{{x, box_.bottom()}, {x, box_.bottom() + kTick}}, pen);
+    const double half = 0.5 * canvas.text_width(text, kFontSize);
+    const double middle = std::min(x, box_.right() + kRoomRight - half);
+    if (middle - half < taken) continue;
+    canvas.text(text, {middle, box_.bottom() + kTick + kFontSize}, kFontSize, kSoftInk,
+                TextAlign::centre);
+    taken = middle + half + 3.0;
+  }
+}
+
 void ChartFrame::draw(VectorCanvas& canvas) const {
   const Pen grid{kGrid, 0.5, {}, 1.0};
   const Pen frame{kSoftInk, 0.7, {}, 1.0};
@@ -99,13 +122,7 @@ void ChartFrame::draw(VectorCanvas& canvas) const {
     canvas.text(text, {box_.left - kTick, y + 0.35 * kFontSize}, kFontSize, kSoftInk,
                 TextAlign::right);
   }
-  for (const auto& [value, text] : x_.ticks) {
-    const double x = box_.left + x_.share(value) * box_.width;
-    canvas.line(std::vector<Eigen::Vector2d>{{x, box_.bottom()}, {x, box_.bottom() + kTick}},
-                frame);
-    canvas.text(text, {x, box_.bottom() + kTick + kFontSize}, kFontSize, kSoftInk,
-                TextAlign::centre);
-  }
+  draw_x_ticks(canvas, frame);
   canvas.line(
       std::vector<Eigen::Vector2d>{
           {box_.left, box_.top}, {box_.left, box_.bottom()}, {box_.right(), box_.bottom()}},

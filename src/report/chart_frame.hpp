@@ -37,6 +37,8 @@ class ChartFrame {
   const Box& box() const { return box_; }
 
  private:
+  void draw_x_ticks(VectorCanvas& canvas, const Pen& pen) const;
+
   ChartAxis x_;
   ChartAxis y_;
   Box box_;

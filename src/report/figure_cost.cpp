@@ -101,7 +101,8 @@ void add_cost_figures(const FigureInput& input, std::vector<StudyFigure>& figure
     if (points.empty()) continue;
     constexpr double kHeight = 220.0;
     const ChartFrame frame = frame_of(points, *accuracy, *cost, kHeight);
-    const std::string caption = cell_caption(cell, results.study) + "; means, 95 % intervals";
+    const std::string caption =
+        cell_caption(cell, results.study) + failures_text(cell) + "; means, 95 % intervals";
     figures.push_back({figure_name("accuracy_against_cost", cell.label, results.cells.size() == 1),
                        kHeight,
                        [points, frame, caption, &study = results.study](VectorCanvas& canvas) {

@@ -92,7 +92,8 @@ void add_nees_figures(const FigureInput& input, std::vector<StudyFigure>& figure
   for (std::size_t i = 0; i < results.cells.size(); ++i) {
     const NeesChart chart = chart_of(results.cells[i], input.series[i]);
     if (chart.lines.empty()) continue;
-    const std::string caption = cell_caption(results.cells[i], results.study);
+    const std::string caption =
+        cell_caption(results.cells[i], results.study) + failures_text(results.cells[i]);
     constexpr double kHeight = 220.0;
     figures.push_back({figure_name("nees", results.cells[i].label, results.cells.size() == 1),
                        kHeight, [chart, caption, &study = results.study](VectorCanvas& canvas) {

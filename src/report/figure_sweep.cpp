@@ -74,7 +74,8 @@ std::vector<SweepLine> lines_of(const FigureInput& input, const Sweep& sweep,
 
 ChartAxis sweep_axis(const Sweep& sweep, const StudyAxis& axis) {
   ChartAxis x = axis_over(axis.name, sweep.positions, false);
-  const double margin = 0.04 * (x.high - x.low);
+  const bool numeric = parse_real(axis.labels.front()).has_value();
+  const double margin = (numeric ? 0.04 : 0.2) * (x.high - x.low);
   x.low -= margin;
   x.high += margin;
   x.ticks.clear();
@@ -138,9 +139,16 @@ void draw_sweep(VectorCanvas& canvas, const FigureInput& input, const Sweep& swe
   legend.push_back({"empirical", {kSoftInk, 1.0, {}, 1.0}});
   legend.push_back({"estimated", {kSoftInk, 1.0, {3.0, 2.0}, 1.0}});
   const CellResults& first = input.results.cells[sweep.cells.front()];
-  draw_footer(canvas, lower, legend,
-              "first of " + std::to_string(sweep.cells.size()) +
-                  " points: " + cell_caption(first, input.results.study));
+  std::string caption = "first of " + std::to_string(sweep.cells.size()) +
+                        " points: " + cell_caption(first, input.results.study);
+  std::size_t failures = 0;
+  for (const std::size_t place : sweep.cells) {
+    for (const EstimatorResults& one : input.results.cells[place].estimators) {
+      failures += one.failures();
+    }
+  }
+  if (failures > 0) caption += "; " + std::to_string(failures) + " failed runs left out";
+  draw_footer(canvas, lower, legend, caption);
 }
 
 // The cells that share their places on every other axis.

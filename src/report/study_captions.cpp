@@ -35,6 +35,16 @@ std::string jobs_text(const std::set<int>& jobs) {
   return text;
 }
 
+std::string failures_text(const CellResults& cell) {
+  std::string text;
+  for (const EstimatorResults& one : cell.estimators) {
+    if (one.failures() == 0) continue;
+    text += (text.empty() ? "; failed: " : ", ") + one.name + " " + std::to_string(one.failures()) +
+            "/" + std::to_string(one.runs.size());
+  }
+  return text;
+}
+
 std::string cell_caption(const CellResults& cell, const StudyDescription& study) {
   std::string text = cell.label + ": ";
   if (!cell.association.empty()) text += "association " + cell.association + ", ";

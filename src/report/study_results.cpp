@@ -135,12 +135,13 @@ bool is_done(const RunRecord& run) {
          run.outcome == name_of(Outcome::iteration_limit);
 }
 
-StudyResults study_results(const ResultStore& store) {
+StudyResults study_results(const ResultStore& store, MetricsOf metrics) {
   StudyResults results;
   results.study = store.study();
   const std::vector<RunRecord> runs = store.runs();
   if (runs.empty()) throw InputError("the study has no results yet; nothing to report");
-  results.metrics = all_metrics(results.study, runs);
+  results.metrics =
+      metrics == MetricsOf::study ? results.study.metrics : all_metrics(results.study, runs);
   std::set<std::pair<std::size_t, std::size_t>> trials;
   for (const RunRecord& run : runs) {
     CellResults& cell = cell_of(results, run.key.cell);

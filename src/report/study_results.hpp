@@ -58,8 +58,11 @@ struct StudyResults {
 /// Whether the estimate of a run can be used; dead reckoning has no outcome and always can.
 bool is_done(const RunRecord& run);
 
+/// Which metrics are worked up: their intervals are what takes time.
+enum class MetricsOf { study, runs };
+
 /// Throws InputError on a store without runs.
-StudyResults study_results(const ResultStore& store);
+StudyResults study_results(const ResultStore& store, MetricsOf metrics = MetricsOf::runs);
 
 /// "98/100 done, 2 diverged"; also those at the iteration limit and those that are yet to run.
 std::string outcome_text(const EstimatorResults& estimator, std::size_t trials_wanted);
@@ -69,6 +72,9 @@ std::string jobs_text(const std::set<int>& jobs);
 
 /// "separation 5: association own, alignment origin, n = 100, jobs 2"; what is unknown is left out.
 std::string cell_caption(const CellResults& cell, const StudyDescription& study);
+
+/// "; failed: ekf 2/30", what a mean over the cell leaves out; empty where nothing failed.
+std::string failures_text(const CellResults& cell);
 
 /// "dead reckoning" for kDeadReckoning, else the name.
 std::string display_name(const std::string& estimator);

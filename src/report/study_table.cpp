@@ -111,7 +111,7 @@ std::string paired_table(const CellResults& cell, const StudyDescription& study)
 }  // namespace
 
 std::string study_table(const ResultStore& store) {
-  const StudyResults results = study_results(store);
+  const StudyResults results = study_results(store, MetricsOf::study);
   const StudyDescription& study = results.study;
   std::string text = study.title.empty() ? "" : study.title + "\n\n";
   bool intervals = false;

@@ -56,7 +56,7 @@ Json self_test_of(const FixtureOptions& options) {
       "timeout 120 '" + browser() +
       "' --headless --no-sandbox --disable-gpu --disable-quic --no-first-run"
       " --disable-background-networking --disable-component-update --disable-sync"
-      " --window-size=1400,2000 --user-data-dir='" +
+      " --disable-dev-shm-usage --window-size=1400,2000 --user-data-dir='" +
       (folder / "profile").string() + "' --virtual-time-budget=20000 --dump-dom 'file://" +
       (folder / "out" / "report.html").string() + "#selftest' 2>/dev/null");
   const std::string opening = "<pre id=\"selftest\">";

@@ -6,22 +6,29 @@ const charts = [
   {id: 'trajectories', title: 'Trajectories', wide: true, plots: trajectoryPlots,
     choices: () => [{label: '2σ ellipses', signal: 'show_ellipses'}, {label: 'loops', signal: 'show_loops'}],
     exists: (cell) => cell.example.truth !== null || cell.example.estimators.some((one) => one.path),
-    caption: (cell) => `${exampleNote()}; ${conditions(cell)}. Metres; x up, y to the left. Thin lines: loops used; dashed with ×: rejected, with △: lost; ellipses: 2σ. Wheel: zoom, drag: move, double click: all.`},
+    caption: (cell) => `${exampleNote()}; ${conditions(cell)}. Metres; x up, y to the left. ` +
+      'Thin lines: loops used; dashed with ×: rejected, with △: lost; ellipses: 2σ. ' +
+      'Wheel: zoom, drag: move, double click: all.'},
   {id: 'sweep', title: 'Error against the sweep', wide: true, plots: sweepPlots,
     exists: () => study.axes.some((axis) => axis.labels.length > 1),
     choices: () => [
       {label: 'axis', key: 'axis', values: study.axes.map((axis, i) => [i, axis.name]).filter(([i]) => study.axes[i].labels.length > 1)},
       {label: 'metric', key: 'sweepMetric', values: metricChoices().map((name) => [name, metricLabel(name)])}],
     caption: (cell) => {
-      const fixed = study.axes.map((axis, i) => (i === state.axis ? '' : `${axis.name} ${axis.labels[cell.places[i]]}`)).filter(Boolean);
+      const fixed = study.axes.map((axis, i) => (i === state.axis ? '' : `${axis.name} ${axis.labels[cell.places[i]]}`));
+      const association = study.axes[state.axis].key === 'association.mode' ? '' : cell.association;
       const counts = [...new Set(sweepCells().map((one) => one.n))].sort((a, b) => a - b);
       const jobs = study.metrics[state.sweepMetric].cost ? ' ' + jobsNote(cell) : '';
-      return [...fixed, `alignment ${study.alignment}`, cell.association && study.axes[state.axis].key !== 'association.mode' ? `association ${cell.association}` : '', `n = ${counts.join(', ')} a point`].filter(Boolean).join(', ') +
-        '. Band: mean ± 2 standard deviations over trials. Right: twice the root mean square position error, and the mean of 2·√(Pxx + Pyy) that the estimator states; an honest one has them equal.' + jobs;
+      const parts = [...fixed, study.alignment && `alignment ${study.alignment}`,
+        association && `association ${association}`, `n = ${counts.join(', ')} a point`];
+      return parts.filter(Boolean).join(', ') + failuresOf(sweepCells()) +
+        '. Band: mean ± 2 standard deviations over trials. Right: twice the root mean square position error, ' +
+        'and the mean of 2·√(Pxx + Pyy) that the estimator states; an honest one has them equal.' + jobs;
     }},
   {id: 'keyframes', title: 'Error and consistency over keyframes', wide: true, plots: keyframePlots,
     exists: (cell) => sum(cell.estimators.map((one) => one.keyframes.keyframe.length)) > 0,
-    caption: (cell) => `${conditions(cell)}. Position in metres. NEES / 3 of an honest estimator is 1; the grey band holds 95 % of its means over trials at one keyframe. Above: overconfident.`},
+    caption: (cell) => `${conditions(cell)}. Position in metres. NEES / 3 of an honest estimator is 1; ` +
+      'the grey band holds 95 % of its means over trials at one keyframe. Above: overconfident.'},
   {id: 'updates', title: 'Cost of an update', plots: updatePlots,
     exists: (cell) => sum(cell.estimators.map((one) => one.updates.keyframe.length)) > 0,
     caption: (cell) => `${conditions(cell)}. Milliseconds, median over trials, logarithmic. ${jobsNote(cell)}`},
@@ -30,13 +37,16 @@ const charts = [
     choices: () => [
       {label: 'accuracy', key: 'accuracy', values: metricChoices(false).map((name) => [name, metricLabel(name)])},
       {label: 'cost', key: 'cost', values: metricChoices(true).map((name) => [name, metricLabel(name)])}],
-    caption: (cell) => `${conditions(cell)}. Means with 95 % intervals. Ringed, on the dashed line: no other is both better and cheaper (lower counts as better). Grey line: dead reckoning. ${jobsNote(cell)}`},
+    caption: (cell) => `${conditions(cell)}. Means with 95 % intervals. Ringed, on the dashed line: no other is ` +
+      `both better and cheaper (lower counts as better). Grey line: dead reckoning. ${jobsNote(cell)}`},
   {id: 'outcomes', title: 'Outcomes', wide: true, plots: outcomePlots,
     exists: (cell) => cell.estimators.some((one) => Object.keys(one.outcomes).length > 0),
-    caption: (cell) => `${conditions(cell)}. Trials by how their run ended. Converged and iteration limit count as done; all means are over those.`},
+    caption: (cell) => `${conditions(cell)}. ` +
+      `Trials by how their run ended. Converged and iteration limit count as done; all means are over those.`},
   {id: 'registrations', title: 'Registration map', wide: true, plots: registrationPlots,
     exists: (cell) => cell.example.estimators.some((one) => one.loops.length > 0),
-    caption: (cell) => `${exampleNote()}; ${conditions(cell)}. Keyframe by keyframe: filled square used, × rejected by the gate, △ lost with a failed update.`},
+    caption: (cell) => `${exampleNote()}; ${conditions(cell)}. ` +
+      `Keyframe by keyframe: filled square used, × rejected by the gate, △ lost with a failed update.`},
 ];
 
 const chartViews = {};

@@ -96,10 +96,13 @@ function registrationPlots(card) {
   const ends = drawn.flatMap((one) => one.loops.map(([from, to]) => Math.max(from, to)));
   const columns = Math.max(2, Math.min(3, drawn.length));
   const side = Math.min(330, Math.floor(widthOf(card) / (widthOf(card) > 700 ? columns : 1)) - 75);
-  const counts = (one) => [0, 1, 2].map((fate) => one.loops.filter((loop) => loop[2] === fate).length);
+  const fates = ['used', 'rejected', 'lost'];
+  const countOf = (one, fate) => one.loops.filter((loop) => loop[2] === fate).length;
+  const countsText = (one) => fates.map((name, fate) => [countOf(one, fate), name])
+    .filter(([n], fate) => n > 0 || fate === 0).map((pair) => pair.join(' ')).join(', ');
   return shown.map((one) => ({
     spec: 'registrations', width: side, height: side, data: {rows: loopRows(one)},
-    heading: `${labelOf(one.name)}: ${counts(one).map((n, i) => (n > 0 || i === 0 ? `${n} ${['used', 'rejected', 'lost'][i]}` : '')).filter(Boolean).join(', ')}`,
+    heading: `${labelOf(one.name)}: ${countsText(one)}`,
     signals: {last: Math.max(1, ...ends)},
   }));
 }

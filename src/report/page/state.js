@@ -54,7 +54,17 @@ function conditions(cell) {
   if (study.alignment) parts.push(`alignment ${study.alignment}`);
   if (cell.association) parts.push(`association ${cell.association}`);
   parts.push(`n = ${cell.n}`);
-  return parts.join(', ');
+  return parts.join(', ') + failuresOf([cell]);
+}
+
+// What a mean over these cells leaves out.
+function failuresOf(cells) {
+  const failed = study.estimators.map(({name, label}) => {
+    const runs = cells.flatMap((cell) => cell.estimators.filter((one) => one.name === name));
+    const count = runs.reduce((sum, one) => sum + one.runs - one.done, 0);
+    return count > 0 ? `${label} ${count} of ${runs.reduce((sum, one) => sum + one.runs, 0)}` : '';
+  }).filter(Boolean);
+  return failed.length > 0 ? `; failed and in no mean: ${failed.join(', ')}` : '';
 }
 
 function jobsNote(cell) {
