@@ -8,6 +8,14 @@
 
 #include "fathom/core/input_error.hpp"
 
+#if defined(__SANITIZE_ADDRESS__)
+// fontconfig keeps what it has read of the fonts until the process ends, and frees it never.
+extern "C" const char* __lsan_default_suppressions();
+extern "C" const char* __lsan_default_suppressions() {
+  return "leak:libfontconfig";
+}
+#endif
+
 namespace fathom {
 namespace {
 
