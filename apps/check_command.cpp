@@ -13,6 +13,7 @@
 #include "fathom/measurements/graph_check.hpp"
 #include "fathom/report/table.hpp"
 #include "fathom/study/replay.hpp"
+#include "fathom/study/study.hpp"
 
 namespace fathom {
 namespace {
@@ -112,10 +113,20 @@ void check_folder(const std::string& path) {
 
 void check_configuration(const std::string& path) {
   const Settings settings = read_settings(path);
-  const ConfigurationKind kind = kind_of(settings);
-  const Configuration configuration = configure(settings, kind, builtin_estimators());
-  std::printf("configuration for '%s'\n",
-              kind == ConfigurationKind::comparison ? "compare" : "run");
+  const bool is_study = kind_of(settings) == ConfigurationKind::comparison;
+  Configuration configuration;
+  if (is_study) {
+    const Study study = configure_study(settings, builtin_estimators());
+    configuration = study.cells.front();
+    std::printf("study for 'compare': %zu cells, %zu trials\n", study.cells.size(),
+                study.description.trials);
+    for (const StudyAxis& axis : study.description.axes) {
+      std::printf("  swept %s: %zu values\n", axis.key.c_str(), axis.labels.size());
+    }
+  } else {
+    configuration = configure(settings, ConfigurationKind::single, builtin_estimators());
+    std::printf("configuration for 'run'\n");
+  }
   for (const auto& [key, value] : configuration.in_force) {
     std::printf("  %s: %s\n", key.c_str(), value.c_str());
   }

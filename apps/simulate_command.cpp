@@ -9,6 +9,7 @@
 #include "fathom/core/files.hpp"
 #include "fathom/datasets/image_folder.hpp"
 #include "fathom/estimators/builtin.hpp"
+#include "fathom/study/study.hpp"
 #include "fathom/study/survey.hpp"
 
 namespace fathom {
@@ -51,7 +52,8 @@ std::string folder_configuration(const Configuration& configuration, const std::
 
 void simulate(const SimulateFlags& flags, Context& context) {
   const Settings settings = flags.common.settings(flags.config);
-  const Configuration configuration = configure(settings, kind_of(settings), builtin_estimators());
+  const Configuration configuration =
+      configure(without_sweep(settings), kind_of(settings), builtin_estimators());
   if (configuration.dataset != DatasetType::simulated) {
     throw InputError(flags.config, "dataset.type: 'simulate' takes simulated");
   }

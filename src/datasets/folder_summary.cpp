@@ -6,7 +6,7 @@
 
 #include "fathom/core/input_error.hpp"
 #include "fathom/core/text.hpp"
-#include "fathom/vision/overlap.hpp"
+#include "fathom/vision/camera.hpp"
 
 namespace fathom {
 namespace {

@@ -2,7 +2,7 @@
 #include <set>
 
 #include "fathom/study/run_record.hpp"
-#include "fathom/vision/overlap.hpp"
+#include "fathom/vision/camera.hpp"
 
 namespace fathom {
 namespace {

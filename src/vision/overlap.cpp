@@ -1,9 +1,9 @@
-#include "fathom/vision/overlap.hpp"
-
 #include <algorithm>
 #include <vector>
 
 #include <opencv2/imgproc.hpp>
+
+#include "fathom/vision/camera.hpp"
 
 namespace fathom {
 namespace {

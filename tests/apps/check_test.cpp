@@ -71,7 +71,7 @@ TEST_F(Check, SaysWhatIsInATrajectoryOrConfiguration) {
               AllOf(HasSubstr("configuration for 'run'"), HasSubstr("seed: 5")));
   write("c.yml", "estimators: [{type: ekf, name: a}]\n");
   EXPECT_THAT(fathom_done({"check", "c.yml"}).out,
-              AllOf(HasSubstr("configuration for 'compare'"), HasSubstr("estimator a: ekf")));
+              AllOf(HasSubstr("study for 'compare'"), HasSubstr("estimator a: ekf")));
 }
 
 }  // namespace

@@ -22,7 +22,7 @@ class Configs : public CommandLine {
   /// Runs or compares it with these settings and a small camera.
   void expect_runs(const std::string& command, const std::string& name, Arguments settings,
                    const std::string& metrics) const {
-    Arguments arguments{command, (folder() / name).string(), "--out", "out"};
+    Arguments arguments{command, (folder() / name).string(), "--out", "out", "--quiet"};
     for (const std::string& setting : settings) {
       arguments.insert(arguments.end(), {"--set", setting});
     }

@@ -50,7 +50,7 @@ constexpr const char* kStudy = R"(
 report: {title: 'What noise does'}
 trials: 20
 seed: 7
-association: {mode: own, reference: graph}
+association: {mode: own}
 evaluation: {alignment: se2, rpe_keyframes: [1, 5], min_overlap: 0.4}
 dataset:
   mission: {type: single_loop, loop_length_m: 8, waypoints_m: [0, 0, 5, 0]}

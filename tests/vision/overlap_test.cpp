@@ -1,8 +1,8 @@
-#include "fathom/vision/overlap.hpp"
-
 #include <cmath>
 
 #include <gtest/gtest.h>
+
+#include "fathom/vision/camera.hpp"
 
 namespace fathom {
 namespace {

@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 
 #include "fathom/core/hash.hpp"
+#include "fathom/geometry/pose.hpp"
 
 namespace fathom {
 
@@ -68,5 +69,10 @@ class Camera {
   CameraModel model_;
   Eigen::Matrix2d body_from_mount_;
 };
+
+/// The share of the smaller one of two footprints that both pictures see, 0 to 1. `motion`: the
+/// pose of b in the frame of a. Throws InputError on an altitude that is not positive.
+double footprint_overlap(const Camera& camera, double altitude_a_m, double altitude_b_m,
+                         const Pose& motion);
 
 }  // namespace fathom
