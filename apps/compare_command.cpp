@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
+#include <utility>
 
 #include "apps/command.hpp"
 #include "apps/common.hpp"
@@ -57,25 +59,35 @@ class StudyProgressLine {
 
   void show(const StudyProgress& progress) {
     const auto now = Clock::now();
+    if (!first_) first_ = {now, progress.done};
     const double since_s = std::chrono::duration<double>(now - last_).count();
     if (quiet_ || since_s < (is_terminal_ ? 0.2 : 30.0)) return;
     last_ = now;
     shown_ = true;
-    const double elapsed_s = std::chrono::duration<double>(now - start_).count();
-    const double rate = static_cast<double>(progress.done - progress.earlier) / elapsed_s;
-    const double left_s = static_cast<double>(progress.of - progress.done) / rate;
-    std::fprintf(stderr, "%s%zu of %zu runs, %.1f runs/s, %.0f s left, %zu failed%s",
-                 is_terminal_ ? "\r\033[K" : "", progress.done, progress.of, rate, left_s,
-                 progress.failed, is_terminal_ ? "" : "\n");
+    std::fprintf(stderr, "%s%zu of %zu runs%s, %zu failed%s", is_terminal_ ? "\r\033[K" : "",
+                 progress.done, progress.of, pace(progress, now).c_str(), progress.failed,
+                 is_terminal_ ? "" : "\n");
   }
 
  private:
   using Clock = std::chrono::steady_clock;
+
+  // From the second run on: the first one waits for most of the registrations.
+  std::string pace(const StudyProgress& progress, Clock::time_point now) {
+    const double elapsed_s = std::chrono::duration<double>(now - first_->first).count();
+    if (progress.done == first_->second || elapsed_s <= 0.0) return "";
+    const double rate = static_cast<double>(progress.done - first_->second) / elapsed_s;
+    const double left_s = static_cast<double>(progress.of - progress.done) / rate;
+    char text[64];
+    std::snprintf(text, sizeof text, ", %.1f runs/s, %.0f s left", rate, left_s);
+    return text;
+  }
+
   bool quiet_;
   bool is_terminal_;
   bool shown_ = false;
-  Clock::time_point start_ = Clock::now();
-  Clock::time_point last_ = start_;
+  std::optional<std::pair<Clock::time_point, std::size_t>> first_;
+  Clock::time_point last_ = Clock::now();
 };
 
 std::unique_ptr<RegistrationStore> open_cache(const CompareFlags& flags) {
@@ -212,8 +224,15 @@ void compare(const CompareFlags& flags, Context& context) {
   write_file(out / "table.txt", table);
   context.status = status_of(store);
   if (flags.common.quiet) return;
-  std::printf("%s\nwrote %s\n      %s\n", table.c_str(), (out / "report.html").c_str(),
-              (out / "trajectories.png").c_str());
+  // A sweep of many cells would scroll away.
+  constexpr std::size_t kCellsInFull = 3;
+  const bool brief = study.cells.size() > kCellsInFull;
+  std::printf("%s\nwrote %s\n      %s\n",
+              brief ? study_table(store, StudyTable::brief).c_str() : table.c_str(),
+              (out / "report.html").c_str(), (out / "trajectories.png").c_str());
+  if (brief)
+    std::printf("      %s: all metrics, and the estimators' differences\n",
+                (out / "table.txt").c_str());
 }
 
 }  // namespace

@@ -171,11 +171,13 @@ std::optional<Eigen::Matrix3d> Ekf::covariance(std::size_t k) {
 }
 
 EstimatorEntry ekf_entry() {
-  return make_entry<EkfOptions>(
+  EstimatorEntry entry = make_entry<EkfOptions>(
       "ekf", "plain EKF on absolute keyframe poses (delayed state), one linearisation", false,
       [](const EstimatorSetup& setup, const EkfOptions& options) {
         return std::make_unique<Ekf>(setup, options);
       });
+  entry.unused_options = {"max_iterations", "tolerance"};
+  return entry;
 }
 
 }  // namespace fathom

@@ -53,8 +53,9 @@ std::string part_of(const std::vector<std::string>& header, const Rows& rows, st
   return table.text();
 }
 
+// All columns, in as many parts as the width asks for; in brief the first part alone.
 std::string table_in_parts(const std::vector<std::string>& header, const Rows& rows,
-                           std::size_t fixed) {
+                           std::size_t fixed, StudyTable extent) {
   std::string text;
   for (std::size_t begin = fixed; begin < header.size() || begin == fixed;) {
     std::size_t end = std::min(begin + 1, header.size());
@@ -66,13 +67,14 @@ std::string table_in_parts(const std::vector<std::string>& header, const Rows& r
       ++end;
     }
     text += (text.empty() ? "" : "\n") + part;
-    if (end == header.size()) break;
+    if (end == header.size() || extent == StudyTable::brief) break;
     begin = end;
   }
   return text;
 }
 
-std::string estimator_table(const CellResults& cell, const StudyDescription& study) {
+std::string estimator_table(const CellResults& cell, const StudyDescription& study,
+                            StudyTable extent) {
   std::vector<std::string> metrics;
   for (const std::string& metric : study.metrics) {
     if (std::any_of(cell.estimators.begin(), cell.estimators.end(),
@@ -88,7 +90,7 @@ std::string estimator_table(const CellResults& cell, const StudyDescription& stu
     rows.push_back({display_name(one.name), baseline ? "-" : outcome_text(one, study.trials)});
     for (const std::string& metric : metrics) rows.back().push_back(value_text(one, metric));
   }
-  return table_in_parts(header, rows, 2);
+  return table_in_parts(header, rows, 2, extent);
 }
 
 std::string paired_table(const CellResults& cell, const StudyDescription& study) {
@@ -110,21 +112,25 @@ std::string paired_table(const CellResults& cell, const StudyDescription& study)
 
 }  // namespace
 
-std::string study_table(const ResultStore& store) {
+std::string study_table(const ResultStore& store, StudyTable extent) {
   const StudyResults results = study_results(store, MetricsOf::study);
   const StudyDescription& study = results.study;
   std::string text = study.title.empty() ? "" : study.title + "\n\n";
   bool intervals = false;
   for (const CellResults& cell : results.cells) {
     text += cell_caption(cell, study) + "\n";
-    text += estimator_table(cell, study) + paired_table(cell, study) + "\n";
+    text += estimator_table(cell, study, extent);
+    if (extent == StudyTable::full) text += paired_table(cell, study);
+    text += "\n";
     intervals = intervals || cell.trials > 1;
   }
   if (intervals) {
+    text += "Means over the trials that were done, with the 95 % bootstrap interval of the mean.";
     text +=
-        "Means over the trials that were done, with the 95 % bootstrap interval of the mean. p: "
-        "signed-rank test over the\npairs of trials that both did; Holm: adjusted over all tests "
-        "of the block.\n";
+        extent == StudyTable::full
+            ? " p: signed-rank test over the\npairs of trials that both did; Holm: adjusted over "
+              "all tests of the block.\n"
+            : "\n";
   }
   return text;
 }

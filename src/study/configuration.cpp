@@ -120,6 +120,14 @@ bool is_plain_word(const std::string& name) {
   return !name.empty() && name.find_first_not_of(kAllowed) == std::string::npos;
 }
 
+void refuse_unused(const Settings& own, const EstimatorEntry& entry, const std::string& prefix) {
+  for (const std::string& key : entry.unused_options) {
+    if (const Setting* setting = own.find(key)) {
+      refuse(*setting, prefix + key + ": " + entry.name + " has no use for it and would ignore it");
+    }
+  }
+}
+
 EstimatorConfiguration configure_estimator(const Settings& settings,
                                            const EstimatorRegistry& registry,
                                            const std::string& prefix) {
@@ -137,6 +145,7 @@ EstimatorConfiguration configure_estimator(const Settings& settings,
   if (estimator.name == kDeadReckoning) {
     refuse(*settings.find("name"), prefix + "name: dead_reckoning is the baseline of every table");
   }
+  if (prefix != "estimator.") refuse_unused(own, entry, prefix);
   estimator.values = estimator_values(own, entry, {}, prefix);
   return estimator;
 }

@@ -45,7 +45,7 @@ TEST(ConfigureStudy, WithoutASweepThereIsOneCell) {
   ASSERT_EQ(study.description.estimators.size(), 1u);
   EXPECT_EQ(study.description.estimators[0].type, "ekf");
   EXPECT_EQ(value_of(study, "association.mode"), "shared");
-  EXPECT_EQ(value_of(study, "estimators.0.max_iterations"), "1");
+  EXPECT_EQ(value_of(study, "estimators.0.gate_probability"), "off");
   // What results do not depend on may change between sessions.
   EXPECT_EQ(value_of(study, "trials"), "(absent)");
   EXPECT_EQ(value_of(study, "jobs"), "(absent)");
@@ -108,6 +108,10 @@ TEST(ConfigureStudy, RefusesWhatIsNoSweep) {
        "two estimators are called 'ekf'"},
       {"estimators: [{type: ekf}]\nsweep: [{key: estimators.0.name, values: [a, b]}]\n",
        "names change from cell to cell"},
+      {"estimators: [{type: ekf, tolerance: 1}]\n",
+       "study.yaml:1: estimators.0.tolerance: ekf has no use for it and would ignore it"},
+      {"estimators: [{type: ekf}]\nsweep: [{key: estimators.0.max_iterations, values: [1, 5]}]\n",
+       "estimators.0.max_iterations: ekf has no use for it"},
       {"trials: 0\n", "trials: expected a whole number"},
       {"evaluation: {rpe_keyframes: [1.5]}\n", "evaluation.rpe_keyframes: expected whole numbers"},
       {"evaluation: {rpe_distances_m: [0]}\n", "evaluation.rpe_distances_m: expected numbers in m"},

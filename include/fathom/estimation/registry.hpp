@@ -29,6 +29,10 @@ struct EstimatorEntry {
   std::string help;  ///< one line
   bool can_batch = false;
   std::vector<OptionDescription> options;
+  /// Of them those that every estimator takes, so that one word changes the back end of a run, and
+  /// that this one has no use for. In a list of estimators, each with options of its own, they are
+  /// refused.
+  std::vector<std::string> unused_options;
   /// Throws InputError on an unknown key or a bad value.
   std::function<std::unique_ptr<Estimator>(const EstimatorSetup&, const EstimatorValues&)> create;
 };

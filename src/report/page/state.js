@@ -14,7 +14,8 @@ const costMetric = firstOf([
 const state = {
   hidden: new Set(),
   cell: 0,  // place in study.cells
-  axis: Math.max(0, study.axes.findIndex((axis) => axis.labels.length > 1)),
+  // The longest one: levels of noise rather than a pair of modes.
+  axis: study.axes.reduce((best, axis, i) => (axis.labels.length > study.axes[best].labels.length ? i : best), 0),
   sweepMetric: accuracyMetric,
   accuracy: accuracyMetric,
   cost: costMetric,
