@@ -27,8 +27,10 @@ namespace fs = std::filesystem;
 
 std::atomic<bool> stop_asked = false;
 
-extern "C" void ask_to_stop(int /*signal*/) {
+// The first one lets the trials at work end; the second ends the program, which harms no store.
+extern "C" void ask_to_stop(int signal) {
   stop_asked = true;
+  std::signal(signal, SIG_DFL);
 }
 
 struct CompareFlags {
@@ -208,6 +210,8 @@ void compare(const CompareFlags& flags, Context& context) {
     options.progress = [&line](const StudyProgress& progress) { line.show(progress); };
     is_finished = run_study(study, builtin_estimators(), store, options);
   }
+  std::signal(SIGINT, SIG_DFL);
+  std::signal(SIGTERM, SIG_DFL);
   if (!is_finished) {
     std::fprintf(stderr,
                  "fathom: stopped; %zu runs are in %s. The same command goes on from there.\n",

@@ -81,12 +81,6 @@ void insert_cells(SQLite::Database& database, const StudyDescription& study) {
   }
 }
 
-std::string joined(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : " ") + word;
-  return text;
-}
-
 std::vector<std::string> words_of(const std::string& text) {
   std::vector<std::string> words;
   std::size_t begin = 0;
@@ -106,12 +100,18 @@ std::string study_word(SQLite::Database& database, const std::string& key) {
 
 }  // namespace
 
+std::string words_text(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : " ") + word;
+  return text;
+}
+
 void create_schema(SQLite::Database& database, const StudyDescription& study) {
   database.exec(kSchema);
   insert_words(database, "study",
                {{"title", study.title},
                 {"alignment", study.alignment},
-                {"metrics", joined(study.metrics)},
+                {"metrics", words_text(study.metrics)},
                 {"trials", std::to_string(study.trials)}});
   insert_words(database, "configuration", study.configuration);
   insert_cells(database, study);

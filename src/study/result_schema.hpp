@@ -15,6 +15,9 @@ inline constexpr int kResultApplicationId = 0x46617468;
 /// Makes all tables of an empty file and writes what the study is.
 void create_schema(SQLite::Database& database, const StudyDescription& study);
 
+/// A list of words as the table `study` holds it.
+std::string words_text(const std::vector<std::string>& words);
+
 StudyDescription read_study(SQLite::Database& database);
 
 /// What of two configurations differs, one line: "seed: 1 there, 2 here; …". Empty if nothing.

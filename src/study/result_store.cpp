@@ -152,11 +152,13 @@ ResultStore ResultStore::write(const fs::path& folder, const StudyDescription& s
         "WHERE key = 'trials'");
     trials.bind(1, number(study.trials));
     trials.exec();
-    SQLite::Statement metrics(sqlite, "UPDATE study SET value = ? WHERE key = ?");
-    std::string words;
-    for (const std::string& metric : study.metrics) words += (words.empty() ? "" : " ") + metric;
-    SQLite::bind(metrics, words, std::string("metrics"));
-    metrics.exec();
+    SQLite::Statement update(sqlite, "UPDATE study SET value = ? WHERE key = ?");
+    for (const auto& [key, value] : {std::pair<std::string, std::string>{"title", study.title},
+                                     {"metrics", words_text(study.metrics)}}) {
+      SQLite::bind(update, value, key);
+      update.exec();
+      update.reset();
+    }
     SQLite::Statement session(sqlite, "INSERT INTO session (manifest) VALUES (?)");
     session.bind(1, manifest);
     session.exec();

@@ -105,10 +105,12 @@ TEST(ResultStore, GoesOnWithWhatIsThere) {
   { ResultStore::write(folder.path(), description(), "first").add(record(0, 0, "plain")); }
   StudyDescription more = description();
   more.trials = 7;
+  more.title = "another title";
   ResultStore store = ResultStore::write(folder.path(), more, "second");
   EXPECT_THAT(store.keys(), ElementsAre(RunKey{0, 0, "plain"}));
   EXPECT_THAT(store.manifests(), ElementsAre("first", "second"));
   EXPECT_EQ(store.study().trials, 7u);
+  EXPECT_EQ(store.study().title, "another title");
   RunRecord other = record(0, 0, "plain");
   other.metrics["mean_position_error_m"] = 99.0;
   store.add(other);
