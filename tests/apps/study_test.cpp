@@ -90,20 +90,21 @@ TEST_F(Studies, TheNumberOfJobsDoesNotMatterNorDoesTheCache) {
 
 TEST_F(Studies, KilledAgainAndAgainItEndsAsAnUndisturbedOneDoes) {
   write("s.yaml", kStudy);
-  fathom_done({"compare", "s.yaml", "--out", "whole", "--cache", "a"});
+  fathom_done({"compare", "s.yaml", "--out", "whole", "--cache", "a", "--trials", "20"});
   std::mt19937 random(7);
   int kills = 0;
   for (int i = 0; i < 20; ++i) {
-    const auto after = std::chrono::milliseconds(random() % 400);
+    const auto after = std::chrono::milliseconds(random() % 250);
     const auto start = std::chrono::steady_clock::now();
     const Ended ended =
-        fathom({"compare", "s.yaml", "--out", "killed", "--cache", "b"}, [&](pid_t process) {
-          if (std::chrono::steady_clock::now() - start > after) ::kill(process, SIGKILL);
-        });
+        fathom({"compare", "s.yaml", "--out", "killed", "--cache", "b", "--trials", "20"},
+               [&](pid_t process) {
+                 if (std::chrono::steady_clock::now() - start > after) ::kill(process, SIGKILL);
+               });
     if (ended.status == 128 + SIGKILL) ++kills;
   }
-  EXPECT_GE(kills, 5);
-  fathom_done({"compare", "s.yaml", "--out", "killed", "--cache", "b"});
+  EXPECT_GE(kills, 15);
+  fathom_done({"compare", "s.yaml", "--out", "killed", "--cache", "b", "--trials", "20"});
   EXPECT_EQ(content(path("whole")), content(path("killed")));
 }
 
