@@ -1,78 +1,80 @@
 #include "fathom/datasets/floor_renderer.hpp"
 
-#include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <utility>
 
-#include <opencv2/imgproc.hpp>
-
+#include "camera_side.hpp"
+#include "caustics.hpp"
 #include "fathom/core/input_error.hpp"
+#include "floor_lookup.hpp"
 
 namespace fathom {
 namespace {
 
-std::vector<cv::Mat> area_pyramid(const cv::Mat& picture) {
-  std::vector<cv::Mat> levels{picture};
-  while (std::min(levels.back().rows, levels.back().cols) >= 4) {
-    const cv::Mat& last = levels.back();
-    const cv::Size half{last.cols / 2, last.rows / 2};
-    // An odd last row or column is left out: any other ratio than two would shift the rest.
-    cv::Mat next;
-    cv::resize(last(cv::Rect(0, 0, 2 * half.width, 2 * half.height)), next, half, 0, 0,
-               cv::INTER_AREA);
-    levels.push_back(next);
-  }
-  return levels;
+// A ray (x, y) to the floor one metre below, tilted: again that of a metre below.
+Eigen::Vector2d tilted(const Eigen::Matrix3d& tilt, const Eigen::Vector2d& ray) {
+  const Eigen::Vector3d direction = tilt * Eigen::Vector3d(ray.x(), ray.y(), -1.0);
+  return direction.head<2>() / -direction.z();
 }
 
-float bilinear(const cv::Mat& picture, float u, float v) {
-  u = std::clamp(u, 0.0F, static_cast<float>(picture.cols - 1));
-  v = std::clamp(v, 0.0F, static_cast<float>(picture.rows - 1));
-  const int column = std::min(static_cast<int>(u), std::max(picture.cols - 2, 0));
-  const int row = std::min(static_cast<int>(v), std::max(picture.rows - 2, 0));
-  const int right = std::min(column + 1, picture.cols - 1);
-  const float fu = u - static_cast<float>(column);
-  const float fv = v - static_cast<float>(row);
-  const uchar* top = picture.ptr(row);
-  const uchar* bottom = picture.ptr(std::min(row + 1, picture.rows - 1));
-  const float above =
-      static_cast<float>(top[column]) * (1 - fu) + static_cast<float>(top[right]) * fu;
-  const float below =
-      static_cast<float>(bottom[column]) * (1 - fu) + static_cast<float>(bottom[right]) * fu;
-  return above * (1 - fv) + below * fv;
-}
-
-// The pyramid between two of its levels. Level 0 has its first pixel's centre at 0, so its left
-// edge, which all levels share, is at −1/2.
-class Lookup {
+// What becomes of a level ray on its way to the floor of one view.
+class Way {
  public:
-  Lookup(const std::vector<cv::Mat>& levels, double world_pixels_per_pixel) {
-    const double level =
-        std::clamp(std::log2(world_pixels_per_pixel), 0.0, static_cast<double>(levels.size() - 1));
-    const int fine = static_cast<int>(level);
-    const std::size_t index = static_cast<std::size_t>(fine);
-    fine_ = levels[index];
-    coarse_ = levels[std::min(index + 1, levels.size() - 1)];
-    scale_ = std::ldexp(1.0F, -fine);
-    coarse_share_ = static_cast<float>(level - fine);
+  Way(const View& view, const HeightField& relief, const Eigen::Vector2d& camera_m, double heading)
+      : relief_(relief),
+        is_level_(view.tilt.is_level()),
+        tilt_(view.tilt.rotation()),
+        camera_m_(camera_m.cast<float>()),
+        metres_((rotation(heading) * view.altitude_m).cast<float>()),
+        per_altitude_(static_cast<float>(1.0 / view.altitude_m)) {}
+
+  bool is_straight() const { return is_level_ && relief_.is_flat(); }
+
+  Eigen::Vector2f tilted(const Eigen::Vector2f& ray) const {
+    if (is_level_) return ray;
+    return fathom::tilted(tilt_, ray.cast<double>()).cast<float>();
   }
 
-  /// At a pixel of level 0.
-  float at(const Eigen::Vector2f& pixel) const {
-    const Eigen::Vector2f from_edge = scale_ * (pixel.array() + 0.5F);
-    const float fine = bilinear(fine_, from_edge.x() - 0.5F, from_edge.y() - 0.5F);
-    if (coarse_share_ == 0.0F) return fine;
-    const float coarse =
-        bilinear(coarse_, 0.5F * from_edge.x() - 0.5F, 0.5F * from_edge.y() - 0.5F);
-    return fine + coarse_share_ * (coarse - fine);
+  /// How far down a ray meets the floor, in altitudes.
+  float depth(const Eigen::Vector2f& ray) const {
+    if (relief_.is_flat()) return 1.0F;
+    // Each round takes the error down by the slope along the ray.
+    constexpr int kRounds = 6;
+    float depth = 1.0F;
+    for (int i = 0; i < kRounds; ++i) depth = 1.0F - relief_.at(point(ray * depth)) * per_altitude_;
+    return depth;
+  }
+
+  /// In the axes of the world's picture, metres.
+  Eigen::Vector2f point(const Eigen::Vector2f& ray) const { return camera_m_ + metres_ * ray; }
+
+ private:
+  const HeightField& relief_;
+  bool is_level_;
+  Eigen::Matrix3d tilt_;
+  Eigen::Vector2f camera_m_;
+  Eigen::Matrix2f metres_;
+  float per_altitude_;
+};
+
+// Haze along a path: what is lost of the floor's light, backscatter replaces.
+class Haze {
+ public:
+  Haze(const WaterOptions& water, double altitude_m)
+      : per_altitude_(static_cast<float>(-water.attenuation_per_m * altitude_m)),
+        backscatter_(static_cast<float>(water.backscatter)) {}
+
+  bool is_clear() const { return per_altitude_ == 0.0F; }
+
+  float seen(float grey, float path_altitudes) const {
+    return backscatter_ + std::exp(per_altitude_ * path_altitudes) * (grey - backscatter_);
   }
 
  private:
-  cv::Mat fine_;
-  cv::Mat coarse_;
-  float scale_ = 1.0F;
-  float coarse_share_ = 0.0F;
+  float per_altitude_;
+  float backscatter_;
 };
 
 }  // namespace
@@ -95,10 +97,18 @@ ViewRays::ViewRays(const Camera& camera)
   }
 }
 
-Eigen::AlignedBox2d ViewRays::seen(const Pose& pose, double altitude_m) const {
+Eigen::AlignedBox2d ViewRays::seen(const Pose& pose, double altitude_m, const Tilt& tilt) const {
   const Eigen::Matrix2d R = rotation(pose.theta);
+  const Eigen::Matrix3d tilt_rotation = tilt.rotation();
   Eigen::AlignedBox2d box;
-  for (const Eigen::Vector2d& ray : border_) box.extend(R * (mount_m_ + altitude_m * ray));
+  for (const Eigen::Vector2d& level : border_) {
+    if (tilt_rotation.row(2) * Eigen::Vector3d(level.x(), level.y(), -1.0) >= 0.0) {
+      throw InputError("a camera tilted by " + std::to_string(tilt.roll_rad) + " and " +
+                       std::to_string(tilt.pitch_rad) + " rad sees the horizon; tilt it less");
+    }
+    const Eigen::Vector2d ray = tilt.is_level() ? level : tilted(tilt_rotation, level);
+    box.extend(R * (mount_m_ + altitude_m * ray));
+  }
   return box.translate(pose.position());
 }
 
@@ -108,27 +118,46 @@ FloorRenderer::FloorRenderer(const Camera& camera, ViewRays rays, World world)
       world_(std::move(world)),
       levels_(area_pyramid(world_.picture)) {}
 
-cv::Mat FloorRenderer::render(const Pose& pose, double altitude_m) const {
-  const Pose body = compose(world_.mission, pose);
+cv::Mat FloorRenderer::render(const View& view, const PictureEffects& effects) const {
+  cv::Mat_<float> light = trace(view, effects);
+  if (effects.any()) light = seen_by_camera(light, camera_, view, effects);
+  cv::Mat picture;
+  light.convertTo(picture, CV_8U);
+  return picture;
+}
+
+// What light of the floor, and of the water before it, comes to each pixel; greys.
+cv::Mat_<float> FloorRenderer::trace(const View& view, const PictureEffects& effects) const {
+  const Pose body = compose(world_.mission, view.pose);
   // Pixels of the world are affine in the ray: pixel = base + A ray.
-  const Eigen::Vector2d mount{camera_.mount_x_m, camera_.mount_y_m};
-  const Eigen::Vector2f base = world_.pixel(transform(body, mount)).cast<float>();
-  const Eigen::Matrix2d R = rotation(body.theta) * (altitude_m / world_.metres_per_pixel);
+  const Eigen::Vector2d camera_m =
+      transform(body, Eigen::Vector2d(camera_.mount_x_m, camera_.mount_y_m));
+  const Eigen::Vector2f base = world_.pixel(camera_m).cast<float>();
+  const Eigen::Matrix2d R = rotation(body.theta) * (view.altitude_m / world_.metres_per_pixel);
   Eigen::Matrix2f A;
   A.row(0) = -R.row(1).cast<float>();
   A.row(1) = -R.row(0).cast<float>();
 
-  const Lookup floor(levels_,
-                     altitude_m / std::sqrt(camera_.fx * camera_.fy) / world_.metres_per_pixel);
-  cv::Mat picture(camera_.height, camera_.width, CV_8UC1);
-  const Eigen::Vector2f* ray = rays_.rays().data();
-  for (int v = 0; v < picture.rows; ++v) {
-    uchar* row = picture.ptr(v);
-    for (int u = 0; u < picture.cols; ++u, ++ray) {
-      row[u] = cv::saturate_cast<uchar>(floor.at(base + A * *ray));
+  const FloorLookup floor(
+      levels_, view.altitude_m / std::sqrt(camera_.fx * camera_.fy) / world_.metres_per_pixel);
+  const Way way(view, world_.relief, camera_m, body.theta);
+  const Haze haze(effects.water, view.altitude_m);
+  const Caustics caustics(effects.water.caustics, view.seed);
+  cv::Mat_<float> light(camera_.height, camera_.width);
+  const Eigen::Vector2f* level_ray = rays_.rays().data();
+  for (float& grey : light) {
+    Eigen::Vector2f ray = *level_ray++;
+    float depth = 1.0F;
+    if (!way.is_straight()) {
+      ray = way.tilted(ray);
+      depth = way.depth(ray);
     }
+    const Eigen::Vector2f hit = ray * depth;
+    grey = floor.at(base + A * hit);
+    if (!caustics.are_off()) grey *= caustics.gain(way.point(hit));
+    if (!haze.is_clear()) grey = haze.seen(grey, depth * std::sqrt(1.0F + ray.squaredNorm()));
   }
-  return picture;
+  return light;
 }
 
 }  // namespace fathom

@@ -43,6 +43,15 @@ Camera camera_of(const CameraOptions& options) {
   }
 }
 
+// Where a body moves on, seen in its own axes.
+double motion_direction(const std::vector<FrameInfo>& infos, std::size_t i) {
+  if (infos.size() < 2) return 0.0;
+  const bool is_last = i + 1 == infos.size();
+  const Pose& here = *infos[i].ground_truth;
+  const Pose step = between(here, *infos[is_last ? i - 1 : i + 1].ground_truth);
+  return is_last ? std::atan2(-step.y, -step.x) : std::atan2(step.y, step.x);
+}
+
 std::vector<double> true_altitudes(const AltitudeOptions& options,
                                    const std::vector<StampedPose>& poses) {
   if (options.amplitude_m >= options.base_m) {
@@ -87,6 +96,16 @@ std::string beyond(const Eigen::AlignedBox2d& world, const Eigen::AlignedBox2d& 
   return worst.by_m > 0.0 ? metres(worst.by_m) + " beyond the picture's " + worst.side : "";
 }
 
+// A floor as low as it may be is seen farthest.
+Eigen::AlignedBox2d view_box(const ViewRays& rays, const Pose& pose, const View& view,
+                             double relief_m) {
+  try {
+    return rays.seen(pose, view.altitude_m + relief_m, view.tilt);
+  } catch (const InputError& error) {
+    throw InputError(kPrefix + "attitude: " + error.what());
+  }
+}
+
 [[noreturn]] void refuse_view(const std::string& what, const FrameInfo& info, std::size_t frame,
                               const Eigen::Vector2d& mission_m, const Eigen::Vector2d& world_m) {
   std::string message = kPrefix + "world.picture: frame " + std::to_string(frame);
@@ -126,6 +145,9 @@ void SimulatedSurveyOptions::describe(OptionTable& table) {
   table.group("altitude", altitude);
   table.group("camera", camera);
   table.group("odometry", odometry);
+  table.group("attitude", attitude);
+  table.group("water", effects.water);
+  table.group("camera_effects", effects.camera);
 }
 
 // What pictures are rendered from; made when the first one is asked for.
@@ -165,8 +187,12 @@ SimulatedSurvey::SimulatedSurvey(const SimulatedSurveyOptions& given, std::uint6
                                  std::uint64_t trial) {
   const SimulatedSurveyOptions options = checked(given, "dataset");
   camera_ = camera_of(options.camera);
+  effects_ = options.effects;
+  effects_.check(kPrefix);
+  options.attitude.check(kPrefix + "attitude.");
   fly(options);
   measure(options.odometry, options.altitude.altimeter_sigma_m, seed, trial);
+  plan_views(options, seed);
   plan_floor(options.world, seed);
 }
 
@@ -185,12 +211,13 @@ void SimulatedSurvey::fly(const SimulatedSurveyOptions& options) {
   const std::vector<StampedPose> poses = fly_mission(options.mission, kPrefix + "mission.");
   // A covariance that cannot be is said before an altitude.
   options.odometry.noise_covariance(kPrefix + "odometry.");
-  true_altitudes_m_ = true_altitudes(options.altitude, poses);
-  for (const StampedPose& pose : poses) {
+  const std::vector<double> altitudes_m = true_altitudes(options.altitude, poses);
+  for (std::size_t i = 0; i < poses.size(); ++i) {
     FrameInfo info;
-    info.time_ns = pose.time_ns;
-    info.ground_truth = pose.pose;
+    info.time_ns = poses[i].time_ns;
+    info.ground_truth = poses[i].pose;
     infos_.push_back(info);
+    views_.push_back({poses[i].pose, altitudes_m[i]});
   }
 }
 
@@ -203,11 +230,21 @@ void SimulatedSurvey::measure(const OdometryOptions& odometry, double altimeter_
   RandomStream dead_reckoning(seed, "dead_reckoning", trial);
   for (std::size_t i = 0; i < infos_.size(); ++i) {
     FrameInfo& info = infos_[i];
-    info.altitude_m = measured_altitude(true_altitudes_m_[i], altimeter_sigma_m, altimeter);
+    info.altitude_m = measured_altitude(views_[i].altitude_m, altimeter_sigma_m, altimeter);
     info.motion.reset();
     if (!has_odometry_ || i == 0) continue;
     const Pose motion = between(*infos_[i - 1].ground_truth, *info.ground_truth);
     info.motion = UncertainPose{noise.disturb(motion, dead_reckoning), covariance};
+  }
+}
+
+void SimulatedSurvey::plan_views(const SimulatedSurveyOptions& options, std::uint64_t seed) {
+  const double period_s = 1.0 / options.mission.frame_rate_hz;
+  const auto tilts = draw_attitude(options.attitude, views_.size(), period_s, seed);
+  for (std::size_t i = 0; i < views_.size(); ++i) {
+    views_[i].tilt = tilts[i];
+    views_[i].motion_rad = motion_direction(infos_, i);
+    views_[i].seed = stream_seed(seed, "picture_effects", i);
   }
 }
 
@@ -217,7 +254,7 @@ void SimulatedSurvey::plan_floor(const WorldOptions& options, std::uint64_t seed
   Eigen::AlignedBox2d all;
   for (std::size_t i = 0; i < infos_.size(); ++i) {
     const Pose pose = compose({0, 0, options.heading_rad}, *infos_[i].ground_truth);
-    boxes.push_back(rays.seen(pose, true_altitudes_m_[i]));
+    boxes.push_back(view_box(rays, pose, views_[i], options.relief_m));
     all.extend(boxes.back());
   }
   WorldPlan plan = plan_world(options, all, seed, kPrefix + "world.");
@@ -226,13 +263,21 @@ void SimulatedSurvey::plan_floor(const WorldOptions& options, std::uint64_t seed
 }
 
 cv::Mat SimulatedSurvey::image(std::size_t i) const {
-  return floor_->renderer().render(*infos_[i].ground_truth, true_altitudes_m_[i]);
+  return floor_->renderer().render(views_[i], effects_);
 }
 
 std::uint64_t SimulatedSurvey::picture_id(std::size_t i) const {
-  const Pose& pose = *infos_[i].ground_truth;
+  const View& view = views_[i];
   Hash hash;
-  hash.add(floor_->id()).add(pose.x).add(pose.y).add(pose.theta).add(true_altitudes_m_[i]);
+  hash.add(floor_->id()).add(view.pose.x).add(view.pose.y).add(view.pose.theta);
+  hash.add(view.altitude_m);
+  // A level view in clear water has no more words, so that its number is what it always was.
+  if (!view.tilt.is_level()) hash.add("tilt").add(view.tilt.roll_rad).add(view.tilt.pitch_rad);
+  if (effects_.any()) {
+    effects_.add_to(hash.add("effects"));
+    if (effects_.is_random()) hash.add(view.seed);
+    if (effects_.camera.motion_blur_px > 0.0) hash.add(view.motion_rad);
+  }
   return hash.value();
 }
 

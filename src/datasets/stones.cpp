@@ -20,12 +20,17 @@ struct Stone {
   std::array<double, 3> lobes{};  ///< of the outline, two to four around
   std::array<double, 3> phases_rad{};
 
-  // Distance from the middle as a share of the outline's there: 1 on the outline.
-  double reach(double u, double v) const {
+  // Distance from the middle as a share of the outline's there: 1 on the outline. Where all of the
+  // outline is nearer than `least` times that, just more than `least`.
+  double reach(double u, double v, double least) const {
     const double c = std::cos(angle_rad);
     const double s = std::sin(angle_rad);
     const double along = c * u + s * v;
     const double across = (c * v - s * u) / flatness;
+    constexpr double kLargestLobes = 3 * 0.11;
+    if (std::hypot(along, across) > 1.001 * least * (1.0 + kLargestLobes) * radius_px) {
+      return 1.001 * least;
+    }
     const double around = std::atan2(across, along);
     double outline = radius_px;
     for (std::size_t k = 0; k < lobes.size(); ++k) {
@@ -78,13 +83,16 @@ void paint(cv::Mat& floor, const Stone& stone) {
   const double radius = stone.radius_px;
   const double bounds = 1.4 * radius + 2.0;
   const double shift = 0.35 * radius;
+  const double blur = 1.0 + 0.4 * radius;
+  // From this reach on nothing is covered.
+  const auto bare = [radius](double blur_px) { return 1.0 + 0.5 * blur_px / radius; };
   for_pixels(floor, stone.u_px + shift, stone.v_px + shift, bounds + shift,
              [&](uchar& pixel, double u, double v) {
-               const double share = coverage(stone.reach(u, v), radius, 1.0 + 0.4 * radius);
+               const double share = coverage(stone.reach(u, v, bare(blur)), radius, blur);
                blend(pixel, 0.45 * pixel, share);
              });
   for_pixels(floor, stone.u_px, stone.v_px, bounds, [&](uchar& pixel, double u, double v) {
-    const double reach = stone.reach(u, v);
+    const double reach = stone.reach(u, v, bare(1.2));
     const double share = coverage(reach, radius, 1.2);
     if (share == 0.0) return;
     // A flattened dome, light from the upper left.
@@ -94,15 +102,28 @@ void paint(cv::Mat& floor, const Stone& stone) {
   });
 }
 
-struct Kind {
-  double per_square_metre;
-  double smallest_m;
-  double largest_m;
-  int heap;            ///< stones in each place
-  double heap_size_m;  ///< standard deviation of their distance from it
+struct Burrow {
+  double u_px;
+  double v_px;
+  double radius_px;
 };
 
-void strew(cv::Mat& floor, double metres_per_pixel, const Kind& kind, RandomStream& stream) {
+// A hole in the middle of what was dug out of it: a low cone, lit from the upper left.
+void paint(cv::Mat& floor, const Burrow& burrow) {
+  const double cone_px = 3.0 * burrow.radius_px;
+  for_pixels(
+      floor, burrow.u_px, burrow.v_px, 1.3 * cone_px + 2.0, [&](uchar& pixel, double u, double v) {
+        const double distance = std::hypot(u, v);
+        const double share = coverage(distance / cone_px, cone_px, 0.5 * cone_px);
+        const double towards_light = -(u + v) / (std::max(distance, 1e-3) * std::numbers::sqrt2);
+        blend(pixel, pixel * (1.0 + 0.18 * towards_light), share);
+        blend(pixel, 38.0, coverage(distance / burrow.radius_px, burrow.radius_px, 1.2));
+      });
+}
+
+}  // namespace
+
+void strew(cv::Mat& floor, double metres_per_pixel, const Stones& kind, RandomStream& stream) {
   // Below half a pixel a stone is grain.
   constexpr double kSmallestPx = 0.5;
   const double largest_px = kind.largest_m / metres_per_pixel;
@@ -122,12 +143,16 @@ void strew(cv::Mat& floor, double metres_per_pixel, const Kind& kind, RandomStre
   }
 }
 
-}  // namespace
-
-void strew_stones(cv::Mat& floor, double metres_per_pixel, RandomStream& stream) {
-  strew(floor, metres_per_pixel, {80.0, 0.003, 0.012, 1, 0.0}, stream);
-  strew(floor, metres_per_pixel, {0.35, 0.004, 0.05, 40, 0.18}, stream);
-  strew(floor, metres_per_pixel, {1.2, 0.012, 0.14, 1, 0.0}, stream);
+void dig_burrows(cv::Mat& floor, double metres_per_pixel, RandomStream& stream) {
+  constexpr double kPerSquareMetre = 7.0;
+  const double area_m2 = static_cast<double>(floor.total()) * metres_per_pixel * metres_per_pixel;
+  const auto count = static_cast<std::size_t>(area_m2 * kPerSquareMetre);
+  for (std::size_t i = 0; i < count; ++i) {
+    const double u = stream.uniform(0.0, floor.cols);
+    const double v = stream.uniform(0.0, floor.rows);
+    const double radius_px = stream.uniform(0.004, 0.014) / metres_per_pixel;
+    paint(floor, Burrow{u, v, radius_px});
+  }
 }
 
 }  // namespace fathom

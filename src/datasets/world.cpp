@@ -6,7 +6,6 @@
 #include "fathom/core/input_error.hpp"
 #include "fathom/core/random.hpp"
 #include "fathom/datasets/picture_file.hpp"
-#include "fathom/datasets/sea_floor.hpp"
 
 namespace fathom {
 namespace {
@@ -35,6 +34,9 @@ cv::Size floor_size(const Eigen::Vector2d& size_m, double metres_per_pixel,
 
 void WorldOptions::describe(OptionTable& table) {
   table.text("picture", picture, "picture of the floor; empty: a procedural sea floor");
+  table.enumeration("floor", floor, floor_kinds(), "procedural sea floor: what lies on it");
+  table.real("relief_m", relief_m, Range::at_least(0), "m",
+             "the floor rises and falls by at most this about its mean; 0: flat");
   table.real("metres_per_pixel", metres_per_pixel, Range::positive(), "m",
              "size of a pixel of the floor's picture");
   table.real("heading_rad", heading_rad, Range::any(), "rad",
@@ -57,15 +59,20 @@ Eigen::AlignedBox2d WorldPlan::extent() const {
 }
 
 World WorldPlan::make() const {
-  const cv::Mat floor =
-      picture.empty() ? draw_sea_floor(size, metres_per_pixel, floor_seed) : picture;
-  return {floor, metres_per_pixel, mission};
+  const cv::Mat pixels =
+      picture.empty() ? draw_sea_floor(size, metres_per_pixel, floor_seed, floor) : picture;
+  World world{pixels, metres_per_pixel, mission};
+  if (relief_m > 0.0) world.relief = draw_relief(extent(), relief_m, relief_seed);
+  return world;
 }
 
 void WorldPlan::add_to(Hash& hash) const {
   hash.add(size.width).add(size.height).add(metres_per_pixel);
   hash.add(mission.x).add(mission.y).add(mission.theta);
   hash.add(picture.empty()).add(floor_seed).add(file_id);
+  // Words that a plain world does not have, so that its pictures keep their numbers.
+  if (floor != FloorKind::mixed) hash.add("floor").add(static_cast<int>(floor));
+  if (relief_m > 0.0) hash.add("relief").add(relief_m).add(relief_seed);
 }
 
 WorldPlan plan_world(const WorldOptions& options, const Eigen::AlignedBox2d& seen,
@@ -74,7 +81,12 @@ WorldPlan plan_world(const WorldOptions& options, const Eigen::AlignedBox2d& see
   plan.metres_per_pixel = options.metres_per_pixel;
   plan.mission = {options.origin_x_m.value_or(-seen.center().x()),
                   options.origin_y_m.value_or(-seen.center().y()), wrap_angle(options.heading_rad)};
+  plan.relief_m = options.relief_m;
+  plan.relief_seed = stream_seed(seed, "sea_floor_relief", 0);
   if (!options.picture.empty()) {
+    if (options.floor != FloorKind::mixed) {
+      throw InputError(prefix + "floor: is for a procedural floor; a picture is given");
+    }
     const std::string bytes = read_file(options.picture);
     plan.picture = decode_grey_picture(bytes, options.picture);
     plan.size = plan.picture.size();
@@ -86,6 +98,7 @@ WorldPlan plan_world(const WorldOptions& options, const Eigen::AlignedBox2d& see
                      ": is for a given picture; a procedural floor is made around the mission");
   }
   plan.size = floor_size(seen.sizes(), options.metres_per_pixel, prefix);
+  plan.floor = options.floor;
   plan.floor_seed = stream_seed(seed, "sea_floor", 0);
   return plan;
 }

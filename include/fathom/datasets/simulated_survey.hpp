@@ -5,11 +5,13 @@
 #include <vector>
 
 #include "fathom/core/options.hpp"
+#include "fathom/datasets/attitude.hpp"
 #include "fathom/datasets/camera_options.hpp"
 #include "fathom/datasets/floor_renderer.hpp"
 #include "fathom/datasets/frame_source.hpp"
 #include "fathom/datasets/mission.hpp"
 #include "fathom/datasets/motion_noise.hpp"
+#include "fathom/datasets/picture_effects.hpp"
 #include "fathom/datasets/world.hpp"
 
 namespace fathom {
@@ -30,20 +32,23 @@ struct SimulatedSurveyOptions {
   AltitudeOptions altitude;
   CameraOptions camera;
   OdometryOptions odometry;
+  AttitudeOptions attitude;
+  PictureEffects effects;  ///< the groups `water` and `camera_effects`
 
   /// In a config these keys stand under `dataset.`.
   void describe(OptionTable& table);
 };
 
-/// A survey of a flat floor by a robot that knows nothing of its truth but what is measured. The
+/// A survey of a floor by a robot that knows nothing of its truth but what is measured. The
 /// pose of frame 0 is the identity. Pictures are rendered when asked for; a procedural floor is
 /// drawn when the first of them is. Copies share the floor.
 class SimulatedSurvey : public FrameSource {
  public:
-  /// The floor depends on the seed alone, the noise on seed and trial; each kind of noise has its
-  /// stream ("altimeter", "dead_reckoning"). Throws InputError naming the key, with `dataset.` in
-  /// front: an option out of its bounds, an altitude that reaches zero, a covariance that is not
-  /// positive definite, a frame that sees beyond the world's picture.
+  /// Floor, attitude and all else in the pictures depend on the seed alone, the noise on seed and
+  /// trial; each kind of noise has its stream ("altimeter", "dead_reckoning"). Throws InputError
+  /// naming the key, with `dataset.` in front: an option out of its bounds, an altitude that
+  /// reaches zero, a covariance that is not positive definite, a frame that sees beyond the world's
+  /// picture.
   explicit SimulatedSurvey(const SimulatedSurveyOptions& options, std::uint64_t seed,
                            std::uint64_t trial = 0);
 
@@ -67,7 +72,9 @@ class SimulatedSurvey : public FrameSource {
   /// Drawn for it, where it is not yet.
   const World& world() const;
   bool is_world_drawn() const;
-  double true_altitude_m(std::size_t i) const { return true_altitudes_m_[i]; }
+  /// Of the camera over the mean plane of the floor.
+  double true_altitude_m(std::size_t i) const { return views_[i].altitude_m; }
+  const Tilt& true_tilt(std::size_t i) const { return views_[i].tilt; }
 
  private:
   class Floor;
@@ -75,11 +82,13 @@ class SimulatedSurvey : public FrameSource {
   void fly(const SimulatedSurveyOptions& options);
   void measure(const OdometryOptions& odometry, double altimeter_sigma_m, std::uint64_t seed,
                std::uint64_t trial);
+  void plan_views(const SimulatedSurveyOptions& options, std::uint64_t seed);
   void plan_floor(const WorldOptions& options, std::uint64_t seed);
 
   Camera camera_;
   std::vector<FrameInfo> infos_;
-  std::vector<double> true_altitudes_m_;
+  std::vector<View> views_;
+  PictureEffects effects_;
   std::shared_ptr<Floor> floor_;
   bool has_odometry_ = false;
 };

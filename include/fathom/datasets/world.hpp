@@ -10,13 +10,17 @@
 
 #include "fathom/core/hash.hpp"
 #include "fathom/core/options.hpp"
+#include "fathom/datasets/height_field.hpp"
+#include "fathom/datasets/sea_floor.hpp"
 #include "fathom/geometry/pose.hpp"
 
 namespace fathom {
 
 /// The floor that a simulation flies over, and where the mission lies on it.
 struct WorldOptions {
-  std::string picture;  ///< file; empty: a procedural sea floor
+  std::string picture;                 ///< file; empty: a procedural sea floor
+  FloorKind floor = FloorKind::mixed;  ///< of a procedural sea floor
+  double relief_m = 0.0;               ///< the floor lies so far above and below its mean at most
   double metres_per_pixel = 0.004;
   double heading_rad = 0.0;
   std::optional<double> origin_x_m;
@@ -25,12 +29,14 @@ struct WorldOptions {
   void describe(OptionTable& table);
 };
 
-/// A flat floor as one picture, drawn with x up and y to the left about its middle.
+/// A floor as one picture, drawn with x up and y to the left about its middle: flat, or draped over
+/// a relief.
 struct World {
   cv::Mat picture;  ///< 8-bit, one channel
   double metres_per_pixel = 0.0;
   /// Pose of the mission's frame in the axes of the picture (metres, origin in its middle).
   Pose mission;
+  HeightField relief = {};  ///< in the axes of the picture; flat unless asked for
 
   /// The pixel (u right, v down; centres at whole numbers) of a point in the picture's axes.
   Eigen::Vector2d pixel(const Eigen::Vector2d& point) const;
@@ -43,7 +49,10 @@ struct WorldPlan {
   Pose mission;                  ///< as of World
   cv::Mat picture;               ///< the given one; empty: a floor is drawn
   std::uint64_t floor_seed = 0;  ///< of a floor that is drawn
-  std::uint64_t file_id = 0;     ///< hash of the given picture's file; 0 without one
+  FloorKind floor = FloorKind::mixed;
+  double relief_m = 0.0;
+  std::uint64_t relief_seed = 0;
+  std::uint64_t file_id = 0;  ///< hash of the given picture's file; 0 without one
 
   /// What the pixel centres span, in the picture's axes; metres.
   Eigen::AlignedBox2d extent() const;

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <opencv2/core.hpp>
+
+#include "fathom/datasets/floor_renderer.hpp"
+
+namespace fathom {
+
+/// What a camera makes of the light that comes to its pixels (greys): light cone, particles before
+/// the lens, contrast, motion blur, colour cast, noise, in this order.
+cv::Mat_<float> seen_by_camera(cv::Mat_<float> light, const CameraModel& camera, const View& view,
+                               const PictureEffects& effects);
+
+}  // namespace fathom
