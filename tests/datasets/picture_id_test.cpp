@@ -125,15 +125,33 @@ TEST(PictureId, OfASimulationCountsAllThatMakesThePixels) {
   with([](auto& o) { o.camera.cy = 24.0; });
   with([](auto& o) { o.camera.distortion[4] = 0.004; });
   with([](auto& o) { o.camera.base.mount_yaw_rad = 0.41; });
+  with([](auto& o) { o.world.floor = FloorKind::mud; });
+  with([](auto& o) { o.world.relief_m = 0.05; });
+  with([](auto& o) { o.attitude.roll_sigma_rad = 0.02; });
+  with([](auto& o) { o.attitude.pitch_sigma_rad = 0.02; });
+  with([](auto& o) { o.effects.water.attenuation_per_m = 0.3; });
+  with([](auto& o) { o.effects.water.caustics = 0.2; });
+  with([](auto& o) { o.effects.water.particles = 9; });
+  with([](auto& o) { o.effects.camera.corner_light = 0.4; });
+  with([](auto& o) { o.effects.camera.contrast = 0.4; });
+  with([](auto& o) { o.effects.camera.motion_blur_px = 4.0; });
+  with([](auto& o) { o.effects.camera.noise_sigma = 4.0; });
+  with([](auto& o) { o.effects.camera.colour_cast = {1.0, 1.0, 0.9}; });
 }
 
 TEST(PictureId, OfASimulationDoesNotCountWhatIsMeasured) {
   SimulatedSurveyOptions other = full_survey();
   other.odometry = {};
   other.altitude.altimeter_sigma_m = 0.02;
-  const SimulatedSurvey a(full_survey(), 1, 0);
+  SimulatedSurveyOptions murky = full_survey();
+  murky.effects.camera.noise_sigma = 3.0;
+  murky.attitude.roll_sigma_rad = 0.02;
+  other.effects = murky.effects;
+  other.attitude = murky.attitude;
+  const SimulatedSurvey a(murky, 1, 0);
   const SimulatedSurvey b(other, 1, 3);
   for (std::size_t i = 0; i < a.size(); ++i) EXPECT_EQ(a.picture_id(i), b.picture_id(i));
+  EXPECT_TRUE(same(a.image(2), b.image(2)));
 }
 
 TEST(PictureId, OverAGivenPictureCountsItsContentAndNotItsName) {

@@ -93,6 +93,31 @@ INSTANTIATE_TEST_SUITE_P(
                   "dataset.world.metres_per_pixel: the floor"},
         BadSurvey{"OriginOfAProceduralFloor", [](auto& o) { o.world.origin_y_m = 1.0; },
                   "dataset.world.origin_y_m: is for a given picture"},
+        BadSurvey{"FloorOfAGivenPicture",
+                  [](auto& o) {
+                    o.world.picture = "/nowhere/floor.png";
+                    o.world.floor = FloorKind::mud;
+                  },
+                  "dataset.world.floor: is for a procedural floor"},
+        BadSurvey{"ReliefNegative", [](auto& o) { o.world.relief_m = -0.1; },
+                  "dataset.world.relief_m: "},
+        BadSurvey{"CastOfTwo",
+                  [](auto& o) {
+                    o.effects.camera.colour_cast = {1, 1};
+                  },
+                  "dataset.camera_effects.colour_cast: expected three"},
+        BadSurvey{"ContrastZero", [](auto& o) { o.effects.camera.contrast = 0; },
+                  "dataset.camera_effects.contrast: "},
+        BadSurvey{"BackscatterInClearWater", [](auto& o) { o.effects.water.backscatter = 9; },
+                  "dataset.water.backscatter: has no effect"},
+        BadSurvey{"CorrelationOfALevelCamera", [](auto& o) { o.attitude.correlation_time_s = 1.0; },
+                  "dataset.attitude.correlation_time_s: has no effect"},
+        BadSurvey{"CameraSeesTheHorizon",
+                  [](auto& o) {
+                    o.attitude.roll_sigma_rad = 0.2;
+                    o.camera.base.fx = 7;
+                  },
+                  "dataset.attitude: a camera tilted by"},
         BadSurvey{"PictureMissing", [](auto& o) { o.world.picture = "/nowhere/floor.png"; },
                   "/nowhere/floor.png: cannot be opened"}),
     [](const auto& test_case) { return std::string(test_case.param.name); });
