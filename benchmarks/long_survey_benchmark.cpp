@@ -65,11 +65,12 @@ BENCHMARK(Candidates)
 
 fathom::SimulatedSurveyOptions long_survey() {
   fathom::SimulatedSurveyOptions options;
-  options.camera.width = 160;
-  options.camera.height = 120;
-  options.camera.fx = options.camera.fy = 125.0;
+  options.world.metres_per_pixel = 0.016;
+  options.camera.base.width = 160;
+  options.camera.base.height = 120;
+  options.camera.base.fx = options.camera.base.fy = 125.0;
   options.mission.legs = 100;
-  options.mission.leg_length_m = 24.0;
+  options.mission.leg_length_m = 25.0;
   options.mission.leg_spacing_m = 1.0;
   options.mission.speed_m_s = 0.5;
   return options;
