@@ -73,8 +73,12 @@ Candidates CandidateSearch::find(const TrajectoryView& trajectory,
   std::optional<std::vector<UncertainPose>> motions;
   if (options_.method == CandidateMethod::mahalanobis) motions = trajectory.motions_to_newest();
   const auto may_be_near = [&](const UncertainPose& motion) {
-    return squared_distance_to_disc(motion.mean.position(), motion.covariance.topLeftCorner<2, 2>(),
-                                    options_.max_distance_m) <= quantile_;
+    const Eigen::Vector2d d = motion.mean.position();
+    const Eigen::Matrix2d S = motion.covariance.topLeftCorner<2, 2>();
+    // No eigenvalue is larger than the trace: most are told by it.
+    const double gap_m = d.norm() - options_.max_distance_m;
+    if (gap_m > 0.0 && gap_m * gap_m > quantile_ * S.trace()) return false;
+    return squared_distance_to_disc(d, S, options_.max_distance_m) <= quantile_;
   };
   std::vector<std::size_t> found;
   for (std::size_t k = 0; k < end; ++k) {
