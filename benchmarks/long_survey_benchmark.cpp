@@ -1,8 +1,9 @@
 // A survey of 10 000 keyframes: what finding candidates takes at its end, and the peak memory of
 // the whole front end over it, with a keyframe every frame, dead reckoning, three registrations
-// each at most, and pictures of 160 × 120, which are rendered as they are needed.
+// each at most, and pictures of 160 × 120, which are rendered as they are needed. A peak is that of
+// the process so far, so take one case at a time:
 //
-//     long_survey_benchmark
+//     long_survey_benchmark --benchmark_filter=LongSurvey/feature_MB:64
 
 #include <cstddef>
 #include <cstdint>
@@ -91,7 +92,8 @@ void LongSurvey(benchmark::State& state) {
   options.candidates.max_per_keyframe = 3;
   options.features.max_features = 300;
   for (auto _ : state) {
-    fathom::PairRegistrar registrar(survey, options.features, options.registration, 1);
+    fathom::PairRegistrar registrar(survey, options.features, options.registration, 1, nullptr,
+                                    static_cast<std::size_t>(state.range(0)) << 20);
     fathom::FrontEnd front_end(survey, registrar, options);
     Known poses;
     double at_start = 0.0;
@@ -109,6 +111,12 @@ void LongSurvey(benchmark::State& state) {
     state.counters["peak_MB"] = peak_megabytes();
   }
 }
-BENCHMARK(LongSurvey)->Iterations(1)->Unit(benchmark::kSecond)->UseRealTime();
+BENCHMARK(LongSurvey)
+    ->ArgName("feature_MB")
+    ->Arg(64)
+    ->Arg(static_cast<std::int64_t>(fathom::PairRegistrar::kFeatureBytes >> 20))
+    ->Iterations(1)
+    ->Unit(benchmark::kSecond)
+    ->UseRealTime();
 
 }  // namespace
