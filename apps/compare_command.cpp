@@ -1,5 +1,6 @@
 // fathom compare: a study. A data set, several estimators, many trials, perhaps a sweep.
 
+#include <algorithm>
 #include <atomic>
 #include <csignal>
 #include <cstdio>
@@ -7,6 +8,8 @@
 #include <memory>
 #include <optional>
 #include <utility>
+
+#include <opencv2/core/utility.hpp>
 
 #include "apps/command.hpp"
 #include "apps/common.hpp"
@@ -193,6 +196,8 @@ void compare(const CompareFlags& flags, Context& context) {
   // A data set that cannot be opened is refused before anything is written.
   Recorder example(study.cells.front(), cache.get());
   const int jobs = study.cells.front().study.jobs;
+  // The threads there are for all jobs together; no result depends on them.
+  cv::setNumThreads(std::max(1, cv::getNumThreads() / jobs));
   StoreFolder folder(out, study, session_json(context.command_line, jobs));
   ResultStore& store = folder.store();
 

@@ -42,9 +42,13 @@ void print_front_end(const Recording& recording) {
                 recording.log.registration_count());
     return;
   }
-  std::printf("%zu frames, %zu keyframes, %zu registrations tried, %zu found\n",
+  std::printf("%zu frames, %zu keyframes, %zu registrations tried, %zu found",
               recording.frames.size(), recording.log.size(), recording.registrations_tried,
               recording.log.registration_count());
+  if (recording.registrations_left_out > 0) {
+    std::printf(", %zu left out by max_per_keyframe", recording.registrations_left_out);
+  }
+  std::printf("\n");
   if (recording.visual_odometry) {
     std::printf(
         "dead reckoning by visual odometry, %zu of %zu motions repeated for want of a "

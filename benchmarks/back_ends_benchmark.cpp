@@ -1,5 +1,7 @@
 // What an update costs with each registered estimator, its options at their defaults, against the
-// number of keyframes in its state. Time is that of close_loops alone.
+// number of keyframes in its state. Time is that of close_loops alone; of `NAME/motions`, that of
+// the motions to the newest keyframe with their covariances, which loop candidates by uncertainty
+// take.
 //
 //     back_ends_benchmark [--benchmark_filter=ekf/]
 //
@@ -117,6 +119,16 @@ void update(benchmark::State& state, const fathom::EstimatorEntry& entry) {
       benchmark::Counter(linearisations, benchmark::Counter::kAvgIterations);
 }
 
+void motions(benchmark::State& state, const fathom::EstimatorEntry& entry) {
+  const MeasurementLog log = survey(static_cast<std::size_t>(state.range(0)));
+  const auto estimator = entry.create({log.origin()}, {});
+  for (std::size_t k = 1; k < log.size(); ++k) {
+    estimator->add_keyframe(log.arrival(k).step);
+    estimator->close_loops(log.arrival(k).registrations);
+  }
+  for (auto _ : state) benchmark::DoNotOptimize(estimator->motions_to_newest());
+}
+
 void register_all() {
   for (const fathom::EstimatorEntry& entry : fathom::builtin_estimators().entries()) {
     benchmark::RegisterBenchmark(entry.name.c_str(),
@@ -127,6 +139,13 @@ void register_all() {
         ->Arg(1000)
         ->Iterations(kTimedUpdates)
         ->UseManualTime()
+        ->Unit(benchmark::kMillisecond);
+    benchmark::RegisterBenchmark((entry.name + "/motions").c_str(),
+                                 [&entry](benchmark::State& state) { motions(state, entry); })
+        ->ArgName("keyframes")
+        ->Arg(100)
+        ->Arg(300)
+        ->Arg(1000)
         ->Unit(benchmark::kMillisecond);
   }
 }

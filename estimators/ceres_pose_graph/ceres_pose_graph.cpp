@@ -104,6 +104,10 @@ std::optional<Eigen::Matrix3d> CeresPoseGraph::covariance(std::size_t k) {
   return graph_->marginal(k);
 }
 
+std::optional<std::vector<UncertainPose>> CeresPoseGraph::motions_to_newest() const {
+  return graph_->motions_to_newest();
+}
+
 // Huber: s up to a², then 2 a √s − a². Cauchy: a² ln(1 + s / a²). With the whitened residual's
 // squared norm s and the scale a; as Ceres defines them.
 double CeresPoseGraph::loss(double chi2) const {

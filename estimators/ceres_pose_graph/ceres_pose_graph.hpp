@@ -39,6 +39,8 @@ class CeresPoseGraph final : public Estimator {
   /// From the Gauss-Newton Hessian at the estimate, the loss applied as a weight; a rejected
   /// registration has no part in it.
   std::optional<Eigen::Matrix3d> covariance(std::size_t k) override;
+  /// From that same Hessian.
+  std::optional<std::vector<UncertainPose>> motions_to_newest() const override;
   double loss(double chi2) const override;
   std::size_t size() const override;
   Pose pose(std::size_t k) const override;

@@ -5,10 +5,12 @@
 #include <utility>
 
 #include <ceres/covariance.h>
+#include <ceres/crs_matrix.h>
 #include <ceres/loss_function.h>
 #include <ceres/solver.h>
 
 #include "estimators/ceres_pose_graph/edge_cost.hpp"
+#include "estimators/ceres_pose_graph/hessian_inverse.hpp"
 #include "fathom/geometry/covariance.hpp"
 
 namespace fathom {
@@ -203,6 +205,42 @@ std::optional<Eigen::Matrix3d> CeresPoseGraph::Graph::marginal(std::size_t k) {
   if (!marginals_) compute_marginals();
   if (marginals_->empty()) return std::nullopt;
   return (*marginals_)[k];
+}
+
+// The Hessian of the poses but the first, which is fixed, the loss applied as a weight.
+Eigen::SparseMatrix<double> CeresPoseGraph::Graph::hessian() {
+  ceres::Problem::EvaluateOptions evaluate;
+  evaluate.num_threads = 1;
+  for (std::size_t k = 1; k < size(); ++k) evaluate.parameter_blocks.push_back(block(k));
+  ceres::CRSMatrix J;
+  problem_.Evaluate(evaluate, nullptr, nullptr, nullptr, &J);
+  const Eigen::SparseMatrix<double> by_columns =
+      Eigen::Map<const Eigen::SparseMatrix<double, Eigen::RowMajor>>(
+          J.num_rows, J.num_cols, static_cast<Eigen::Index>(J.values.size()), J.rows.data(),
+          J.cols.data(), J.values.data());
+  return by_columns.transpose() * by_columns;
+}
+
+// ceres::Covariance makes a solve for each row of each block asked for; of all keyframes together
+// that takes n² steps and more.
+std::optional<std::vector<UncertainPose>> CeresPoseGraph::Graph::motions_to_newest() {
+  std::vector<UncertainPose> motions;
+  const std::size_t n = size() - 1;
+  if (n == 0) return motions;
+  const auto blocks = inverse_blocks(hessian());
+  if (!blocks) return std::nullopt;
+  for (std::size_t k = 0; k < n; ++k) {
+    Eigen::Matrix3d H_k;
+    Eigen::Matrix3d H_n;
+    const Pose motion = between(pose(k), pose(n), &H_k, &H_n);
+    Eigen::Matrix3d covariance = transport(H_n, blocks->own[n - 1]);
+    if (k > 0) {
+      const Eigen::Matrix3d cross = H_k * blocks->with_last[k - 1] * H_n.transpose();
+      covariance += transport(H_k, blocks->own[k - 1]) + cross + cross.transpose();
+    }
+    motions.push_back({motion, covariance});
+  }
+  return motions;
 }
 
 }  // namespace fathom

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <Eigen/Core>
+#include <Eigen/SparseCore>
 #include <ceres/problem.h>
 
 #include "estimators/ceres_pose_graph/ceres_pose_graph.hpp"
@@ -39,6 +40,9 @@ class CeresPoseGraph::Graph {
 
   std::optional<Eigen::Matrix3d> marginal(std::size_t k);
 
+  /// As of TrajectoryView.
+  std::optional<std::vector<UncertainPose>> motions_to_newest();
+
  private:
   using Block = std::array<double, 3>;
   class CovarianceProblem;
@@ -46,6 +50,7 @@ class CeresPoseGraph::Graph {
   double* block(std::size_t k) { return poses_[k].data(); }
   void changed() { marginals_.reset(); }
   void compute_marginals();
+  Eigen::SparseMatrix<double> hessian();
 
   CeresPoseGraphOptions options_;
   std::deque<Block> poses_;  ///< a deque keeps the addresses that the problem knows

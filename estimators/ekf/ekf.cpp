@@ -170,6 +170,27 @@ std::optional<Eigen::Matrix3d> Ekf::covariance(std::size_t k) {
   return P_.block(block_of(k), block_of(k));
 }
 
+std::optional<std::vector<UncertainPose>> Ekf::motions_to_newest() const {
+  std::vector<UncertainPose> motions;
+  const std::size_t n = poses_.size() - 1;
+  if (n == 0) return motions;
+  motions.reserve(n);
+  const Eigen::MatrixX3d column = P_.column(block_of(n));
+  const Eigen::Matrix3d P_n = P_.block(block_of(n), block_of(n));
+  for (std::size_t k = 0; k < n; ++k) {
+    Eigen::Matrix3d H_k;
+    Eigen::Matrix3d H_n;
+    const Pose motion = between(poses_[k], poses_[n], &H_k, &H_n);
+    Eigen::Matrix3d covariance = transport(H_n, P_n);
+    if (k > 0) {
+      const Eigen::Matrix3d cross = H_k * column.middleRows<3>(3 * block_of(k)) * H_n.transpose();
+      covariance += transport(H_k, P_.block(block_of(k), block_of(k))) + cross + cross.transpose();
+    }
+    motions.push_back({motion, covariance});
+  }
+  return motions;
+}
+
 EstimatorEntry ekf_entry() {
   EstimatorEntry entry = make_entry<EkfOptions>(
       "ekf", "plain EKF on absolute keyframe poses (delayed state), one linearisation", false,

@@ -259,6 +259,31 @@ std::optional<Eigen::Matrix3d> TrajectoryIekf::covariance(std::size_t k) {
   return covariances_[k];
 }
 
+// r_k = x_{k+1} ⊕ r_{k+1}, from the newest keyframe backwards. Beside the covariance Σ of r its
+// cross covariance M with all earlier motions is carried along: n² steps for all, where J P Jᵀ of
+// each stretch by itself takes n³.
+std::optional<std::vector<UncertainPose>> TrajectoryIekf::motions_to_newest() const {
+  std::vector<UncertainPose> motions(motions_.size());
+  UncertainPose rest;
+  Eigen::Matrix3Xd M = Eigen::Matrix3Xd::Zero(3, P_.size());
+  for (std::size_t k = motions_.size(); k-- > 0;) {
+    Eigen::Matrix3d J_motion;
+    Eigen::Matrix3d J_rest;
+    const Pose motion = compose(motions_[k], rest.mean, &J_motion, &J_rest);
+    const auto block = static_cast<Eigen::Index>(k);
+    const Eigen::Matrix3d cross =
+        J_motion * M.middleCols<3>(3 * block).transpose() * J_rest.transpose();
+    const Eigen::Matrix3d covariance = transport(J_motion, P_.block(block, block)) + cross +
+                                       cross.transpose() + transport(J_rest, rest.covariance);
+    rest = motions[k] = {motion, covariance};
+    const Eigen::Index earlier = 3 * block;
+    M.leftCols(earlier) =
+        (J_rest * M.leftCols(earlier) + J_motion * P_.column(block).topRows(earlier).transpose())
+            .eval();
+  }
+  return motions;
+}
+
 EstimatorEntry trajectory_iekf_entry() {
   return make_entry<TrajectoryIekfOptions>(
       "trajectory_iekf",

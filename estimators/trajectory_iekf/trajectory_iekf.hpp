@@ -36,6 +36,8 @@ class TrajectoryIekf final : public Estimator {
   std::optional<Eigen::Matrix3d> covariance(std::size_t k) override;
   std::size_t size() const override { return poses_.size(); }
   Pose pose(std::size_t k) const override { return poses_[k]; }
+  /// J P Jᵀ of the stretch from each keyframe on.
+  std::optional<std::vector<UncertainPose>> motions_to_newest() const override;
   /// P of the whole state.
   const FilterCovariance& state_covariance() const { return P_; }
 

@@ -33,6 +33,18 @@ double checked_real(const std::string& key, const Range& range, const std::strin
   return *number;
 }
 
+int checked_integer(const std::string& key, const Range& range, const OptionValue& value,
+                    const std::string& alternative = "") {
+  const auto number =
+      value.is_list || value.items.size() != 1 ? std::nullopt : parse_integer(value.items.front());
+  if (!number || !range.contains(static_cast<double>(*number)) ||
+      *number > std::numeric_limits<int>::max() || *number < std::numeric_limits<int>::min()) {
+    refuse(key, "a whole number" + (range.text().empty() ? "" : " " + range.text()) + alternative,
+           value);
+  }
+  return static_cast<int>(*number);
+}
+
 std::string list_text(const std::vector<double>& values) {
   std::vector<std::string> words;
   words.reserve(values.size());
@@ -90,17 +102,24 @@ void OptionTable::integer(const std::string& key, int& field, Range range, const
   add(
       key, {"", "integer", unit, "", range.text(), help},
       [&field, full, range](const OptionValue& value) {
-        const auto number = value.is_list || value.items.size() != 1
-                                ? std::nullopt
-                                : parse_integer(value.items.front());
-        if (!number || !range.contains(static_cast<double>(*number)) ||
-            *number > std::numeric_limits<int>::max() ||
-            *number < std::numeric_limits<int>::min()) {
-          refuse(full, "a whole number" + (range.text().empty() ? "" : " " + range.text()), value);
-        }
-        field = static_cast<int>(*number);
+        field = checked_integer(full, range, value);
       },
       [&field] { return std::to_string(field); });
+}
+
+void OptionTable::integer_or_off(const std::string& key, std::optional<int>& field, Range range,
+                                 const std::string& unit, const std::string& help) {
+  const std::string full = prefix_ + key;
+  add(
+      key, {"", "integer or off", unit, "", range.text() + " or off", help},
+      [&field, full, range](const OptionValue& value) {
+        if (!value.is_list && value.items.size() == 1 && value.items.front() == "off") {
+          field.reset();
+        } else {
+          field = checked_integer(full, range, value, " or off");
+        }
+      },
+      [&field] { return field ? std::to_string(*field) : std::string("off"); });
 }
 
 void OptionTable::real(const std::string& key, double& field, Range range, const std::string& unit,

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include <opencv2/core/utility.hpp>
+
 namespace fathom {
 
 PackedFeatures::PackedFeatures(Features features)
@@ -41,7 +43,13 @@ FeatureMemory::Held FeatureMemory::of(std::size_t frame) {
 }
 
 void FeatureMemory::announce(std::size_t frame) {
-  held_.start(frame, [this, frame] { return extract(frame); });
+  if (cv::getNumThreads() < 2) return;
+  held_.start(frame, [this, frame] {
+    // Inside a loop of OpenCV its inner ones take no further threads.
+    Held features;
+    cv::parallel_for_(cv::Range(0, 1), [&](const cv::Range&) { features = extract(frame); });
+    return features;
+  });
 }
 
 }  // namespace fathom

@@ -7,7 +7,10 @@ namespace fathom {
 
 FrontEnd::FrontEnd(const FrameSource& source, PairRegistrar& registrar,
                    const FrontEndOptions& options)
-    : source_(source), registrar_(registrar), options_(options) {
+    : source_(source),
+      registrar_(registrar),
+      options_(options),
+      search_(source.camera(), options.candidates) {
   if (!source.has_odometry()) {
     throw InputError("the data set has no dead reckoning; visual odometry can make it");
   }
@@ -32,7 +35,8 @@ std::optional<Keyframe> FrontEnd::next_keyframe() {
     }
     frames_.push_back({info.time_ns, keyframe.index, Pose{}});
     keyframes_.push_back(keyframe);
-    announce_next_keyframe();
+    altitudes_m_.push_back(info.altitude_m);
+    announce_next_keyframes();
     return keyframe;
   }
   return std::nullopt;
@@ -42,40 +46,35 @@ MeasuredFrame FrontEnd::measured(std::size_t frame) const {
   return {frame, source_.info(frame).altitude_m};
 }
 
-// The next keyframe is registered with this one if its step is no longer than the reach; only then
-// is it sure that its picture is needed, if the pair is not known. Visual odometry looks ahead
-// itself.
-void FrontEnd::announce_next_keyframe() const {
+// A keyframe is registered with the one before if its step makes it a candidate; only then is it
+// sure that its picture is needed, if the pair is not known. Visual odometry looks ahead itself.
+void FrontEnd::announce_next_keyframes() const {
   if (source_.is_visual_odometry()) return;
-  const std::size_t frame = keyframes_.back().frame;
-  const std::size_t next = frame + static_cast<std::size_t>(options_.separation_frames);
-  if (next >= source_.size()) return;
-  Pose step;
-  for (std::size_t i = frame + 1; i <= next; ++i)
-    step = compose(step, source_.info(i).motion->mean);
-  if (step.position().norm() > options_.max_distance_m) return;
-  registrar_.announce(measured(frame), measured(next));
+  const auto separation = static_cast<std::size_t>(options_.separation_frames);
+  std::size_t frame = keyframes_.back().frame;
+  for (std::size_t n = 0; n < PairRegistrar::look_ahead(); ++n, frame += separation) {
+    const std::size_t next = frame + separation;
+    if (next >= source_.size()) return;
+    Pose step;
+    for (std::size_t i = frame + 1; i <= next; ++i)
+      step = compose(step, source_.info(i).motion->mean);
+    const MeasuredFrame from = measured(frame);
+    const MeasuredFrame to = measured(next);
+    if (search_.accepts(step, from.altitude_m, to.altitude_m)) registrar_.announce(from, to);
+  }
 }
 
-std::vector<std::size_t> FrontEnd::candidates(const TrajectoryView& trajectory) const {
+Candidates FrontEnd::candidates(const TrajectoryView& trajectory) const {
   const std::size_t newest = keyframes_.size() - 1;
-  const Eigen::Vector2d position = trajectory.pose(newest).position();
   // With a keyframe every frame visual odometry's step is that very registration.
   const bool step_is_registration =
       source_.is_visual_odometry() && options_.separation_frames == 1 && newest > 0;
-  const std::size_t end = step_is_registration ? newest - 1 : newest;
-  std::vector<std::size_t> near;
-  for (std::size_t k = 0; k < end; ++k) {
-    if ((trajectory.pose(k).position() - position).norm() <= options_.max_distance_m) {
-      near.push_back(k);
-    }
-  }
-  return near;
+  return search_.find(trajectory, altitudes_m_, step_is_registration ? newest - 1 : newest);
 }
 
 std::vector<RelativePose> FrontEnd::register_newest(const TrajectoryView& trajectory) {
   const std::size_t newest = keyframes_.size() - 1;
-  const std::vector<std::size_t> near = candidates(trajectory);
+  const auto [near, left_out] = candidates(trajectory);
   std::vector<MeasuredFrame> from;
   for (const std::size_t k : near) from.push_back(measured(keyframes_[k].frame));
   const auto results = registrar_.of_all(from, measured(keyframes_[newest].frame));
@@ -88,6 +87,7 @@ std::vector<RelativePose> FrontEnd::register_newest(const TrajectoryView& trajec
   }
   tried_ += near.size();
   found_ += registrations.size();
+  left_out_ += left_out;
   return registrations;
 }
 

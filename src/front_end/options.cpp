@@ -5,8 +5,7 @@ namespace fathom {
 void FrontEndOptions::describe(OptionTable& table) {
   table.integer("keyframes.separation_frames", separation_frames, Range::at_least(1), "frames",
                 "a keyframe every so many frames");
-  table.real("candidates.max_distance_m", max_distance_m, Range::at_least(0.0), "m",
-             "loop candidates are the keyframes within this distance of the newest, as estimated");
+  table.group("candidates", candidates);
   table.group("features", features);
   registration.describe(table);
   table.real("visual_odometry.fallback_sigma_m", visual_odometry.sigma_m, Range::positive(), "m",

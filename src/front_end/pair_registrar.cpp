@@ -1,7 +1,9 @@
 #include "fathom/front_end/pair_registrar.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <exception>
+#include <future>
 
 #include <opencv2/core/utility.hpp>
 
@@ -10,6 +12,23 @@
 #include "fathom/vision/registration.hpp"
 
 namespace fathom {
+namespace {
+
+// Calls work(0) … work(count − 1), which must not throw, on as many threads as OpenCV may use. Its
+// own loop would run on one as long as features are extracted in the background.
+template <class Work>
+void in_parallel(std::size_t count, const Work& work) {
+  std::atomic<std::size_t> next = 0;
+  const auto run = [&] {
+    for (std::size_t i = next++; i < count; i = next++) work(i);
+  };
+  const std::size_t threads = std::min(PairRegistrar::look_ahead(), count);
+  std::vector<std::future<void>> others;
+  for (std::size_t i = 1; i < threads; ++i) others.push_back(std::async(std::launch::async, run));
+  run();
+}
+
+}  // namespace
 
 PairRegistrar::PairRegistrar(const FrameSource& pictures, const FeatureOptions& features,
                              const RegistrationOptions& registration, std::uint64_t seed,
@@ -83,25 +102,24 @@ std::vector<PairRegistration> PairRegistrar::of_all(std::span<const MeasuredFram
 
   // All need it. Made here, where it may use all threads; inside the loop all but one would wait.
   const FloorFeatures features_to = on_floor_of(to);
-  // OpenCV does not hand on what is thrown in a loop as what it was.
   std::vector<std::exception_ptr> errors(missing.size());
-  const auto register_range = [&](const cv::Range& range) {
-    for (int m = range.start; m < range.end; ++m) {
-      const auto index = static_cast<std::size_t>(m);
-      const std::size_t i = missing[index];
-      try {
-        values[i] = pairs_.of(pair_key(from[i], to),
-                              [&] { return register_anew(from[i], to, features_to); });
-      } catch (...) {
-        errors[index] = std::current_exception();
-      }
+  in_parallel(missing.size(), [&](std::size_t m) {
+    const std::size_t i = missing[m];
+    try {
+      values[i] =
+          pairs_.of(pair_key(from[i], to), [&] { return register_anew(from[i], to, features_to); });
+    } catch (...) {
+      errors[m] = std::current_exception();
     }
-  };
-  cv::parallel_for_(cv::Range(0, static_cast<int>(missing.size())), register_range);
+  });
   for (const std::exception_ptr& error : errors) {
     if (error) std::rethrow_exception(error);
   }
   return values;
+}
+
+std::size_t PairRegistrar::look_ahead() {
+  return static_cast<std::size_t>(std::max(cv::getNumThreads(), 1));
 }
 
 void PairRegistrar::announce(const MeasuredFrame& from, const MeasuredFrame& to) {

@@ -27,8 +27,7 @@ MeasuredFrame VisualOdometry::measured(std::size_t frame) const {
 
 UncertainPose VisualOdometry::next_motion() const {
   const std::size_t to = infos_.size();
-  // Two ahead: extraction takes longer than a registration, and one alone leaves threads idle.
-  for (const std::size_t ahead : {to + 1, to + 2}) {
+  for (std::size_t ahead = to + 1; ahead <= to + PairRegistrar::look_ahead(); ++ahead) {
     if (ahead < source_.size()) registrar_.announce(measured(ahead - 1), measured(ahead));
   }
   const PairRegistration registration = registrar_.of(measured(to - 1), measured(to));

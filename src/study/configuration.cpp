@@ -18,6 +18,14 @@ struct FileDatasetOptions {
   }
 };
 
+void describe_odometry(OptionTable& table, const std::string& key, FolderOdometry& odometry) {
+  table.enumeration<FolderOdometry>(
+      key, odometry,
+      {{"recorded", FolderOdometry::recorded},
+       {"visual_odometry", FolderOdometry::visual_odometry}},
+      "dead reckoning: odometry0, where there is one; or registered pictures in any case");
+}
+
 template <class Describe>
 std::vector<OptionDescription> described(Describe describe) {
   OptionTable table;
@@ -28,6 +36,7 @@ std::vector<OptionDescription> described(Describe describe) {
 std::vector<DatasetEntry> make_datasets() {
   SimulatedSurveyOptions simulation;
   FileDatasetOptions file;
+  FolderOdometry odometry = FolderOdometry::recorded;
   AddedNoiseOptions added_noise;
   return {
       {"simulated", DatasetType::simulated, "a survey flown over a picture or a procedural floor",
@@ -36,6 +45,7 @@ std::vector<DatasetEntry> make_datasets() {
        "pictures, altitude and odometry in the EuRoC/ASL layout",
        described([&](OptionTable& table) {
          file.describe(table, "the folder that holds mav0");
+         describe_odometry(table, "odometry.source", odometry);
          table.group("added_noise", added_noise);
        })},
       {"g2o", DatasetType::g2o, "a pose graph, straight to the estimators",
@@ -60,6 +70,7 @@ void bind_dataset(Configuration& configuration, OptionTable& table) {
   } else {
     table.text("dataset.path", configuration.dataset_path, "where the data set is");
     if (configuration.dataset == DatasetType::image_folder) {
+      describe_odometry(table, "dataset.odometry.source", configuration.folder_odometry);
       table.group("dataset.added_noise", configuration.added_noise);
     }
   }
@@ -225,6 +236,22 @@ void refuse_keys_of_other_kind(const Settings& settings, ConfigurationKind kind)
   }
 }
 
+std::vector<std::string> ignored_keys(const Configuration& configuration) {
+  std::vector<std::string> keys = configuration.front_end.candidates.ignored_keys();
+  for (std::string& key : keys) key.insert(0, "front_end.candidates.");
+  return keys;
+}
+
+void refuse_ignored(const Settings& settings, const std::vector<std::string>& ignored,
+                    const OptionTable& table) {
+  for (const std::string& key : ignored) {
+    if (const Setting* setting = settings.find(key)) {
+      refuse(*setting, key + ": candidates.method " + table.value("front_end.candidates.method") +
+                           " has no use for it and would ignore it");
+    }
+  }
+}
+
 // What no single option's bounds can say.
 void check(const Settings& settings, const Configuration& configuration) {
   const StudyOptions& study = configuration.study;
@@ -327,6 +354,8 @@ Configuration configure(const Settings& settings, ConfigurationKind kind,
     if (!is_estimator_key(setting.key)) set(table, setting, known);
   }
   check(settings, configuration);
+  const std::vector<std::string> ignored = ignored_keys(configuration);
+  refuse_ignored(settings, ignored, table);
   if (kind == ConfigurationKind::single) {
     if (const Setting* scalar = settings.find("estimator")) {
       refuse(*scalar, "estimator: expected a map, such as 'estimator: {type: ekf}'");
@@ -341,6 +370,7 @@ Configuration configure(const Settings& settings, ConfigurationKind kind,
     configuration.origins[setting.key] = setting.origin;
   }
   for (const std::string& key : table.keys()) {
+    if (std::find(ignored.begin(), ignored.end(), key) != ignored.end()) continue;
     configuration.in_force.emplace_back(key, table.value(key));
   }
   return configuration;

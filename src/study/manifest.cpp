@@ -102,6 +102,7 @@ std::string manifest_json(const std::string& command_line,
                          {"keyframes", recording.log.size()},
                          {"registrations_tried", recording.registrations_tried},
                          {"registrations_found", recording.log.registration_count()},
+                         {"registrations_left_out", recording.registrations_left_out},
                          {"visual_odometry", recording.visual_odometry},
                          {"visual_odometry_failures", recording.visual_odometry_failures}};
   return json.dump(2) + "\n";

@@ -60,6 +60,7 @@ Recording record_survey(Survey& survey, const Configuration& configuration, std:
   }
   recording.frame_ground_truth = frame_ground_truth_of(frames, recording.frames.size());
   recording.registrations_tried = front_end.registrations_tried();
+  recording.registrations_left_out = front_end.registrations_left_out();
   recording.visual_odometry = survey.uses_visual_odometry();
   recording.visual_odometry_failures = survey.visual_odometry_failures();
   return recording;

@@ -86,6 +86,10 @@ Json metrics_of(const Result& result, const Recording& recording) {
   json["iterations"] = result.replay.iterations;
   json["keyframes"] = recording.log.size();
   json["registrations"] = recording.log.registration_count();
+  if (!recording.frames.empty()) {
+    json["registrations_tried"] = recording.registrations_tried;
+    json["registrations_left_out"] = recording.registrations_left_out;
+  }
   json["loop_closures"] = result.loop_closures;
   json["rejected"] = result.rejected;
   json["lost"] = result.lost;

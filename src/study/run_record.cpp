@@ -114,6 +114,10 @@ void put_consistency(RunRecord& run, const Result& result) {
 void put_loops(RunRecord& run, const Recording& recording, const Result& result,
                double min_overlap) {
   put(run, "registrations", static_cast<double>(recording.log.registration_count()));
+  if (!recording.frames.empty()) {
+    put(run, "registrations_tried", static_cast<double>(recording.registrations_tried));
+    put(run, "registrations_left_out", static_cast<double>(recording.registrations_left_out));
+  }
   put(run, "loop_closures", static_cast<double>(result.loop_closures));
   put(run, "rejected", static_cast<double>(result.rejected));
   put(run, "lost", static_cast<double>(result.lost));

@@ -104,24 +104,31 @@ class StudyValues {
   std::map<std::string, std::string> raw_swept_;
 };
 
-Configuration defaults_of(const std::string& dataset_type, const EstimatorRegistry& registry) {
+// Of the keys that a study's data set and loop candidates have.
+Configuration defaults_of(const StudyValues& values, const EstimatorRegistry& registry) {
   Settings settings;
-  settings.put({"dataset.type", OptionValue::scalar(dataset_type), "dataset.type of the study"});
+  for (const auto& [key, otherwise] : {std::pair("dataset.type", "simulated"),
+                                       std::pair("front_end.candidates.method", "distance")}) {
+    settings.put({key, OptionValue::scalar(values.word(key, otherwise)),
+                  std::string(key) + " of the study"});
+  }
   return configure(settings, ConfigurationKind::single, registry);
 }
 
 // Keys of a configuration without its estimator. What the table does not know is a comparison's.
 std::vector<ConfigLine> common_lines(const StudyValues& values, const EstimatorRegistry& registry) {
-  const std::string dataset_type = values.word("dataset.type", "simulated");
   std::vector<ConfigLine> lines;
-  for (const auto& [key, default_value] : defaults_of(dataset_type, registry).in_force) {
+  for (const auto& [key, default_value] : defaults_of(values, registry).in_force) {
     if (const ConfigLine* swept = values.swept(key)) {
       lines.push_back(*swept);
       continue;
     }
     const std::string* value = values.fixed(key);
-    const bool says_what = key == "dataset.type";
-    if (value == nullptr || (*value == default_value && !says_what)) continue;
+    if (value == nullptr) continue;
+    // These two are in the defaults as the study has them.
+    const bool says_what =
+        key == "dataset.type" || (key == "front_end.candidates.method" && *value != "distance");
+    if (*value == default_value && !says_what) continue;
     lines.push_back({key, yaml_value(*value, is_list_text(default_value)), ""});
   }
   return lines;

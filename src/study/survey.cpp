@@ -97,7 +97,10 @@ void Survey::open(const Configuration& configuration, const TrialNoise& noise) {
   } else {
     added.covariance = configuration.added_noise.noise_covariance("dataset.added_noise.");
   }
-  if (!source->has_odometry()) {
+  const bool wants_visual_odometry =
+      configuration.dataset == DatasetType::image_folder &&
+      configuration.folder_odometry == FolderOdometry::visual_odometry;
+  if (!source->has_odometry() || wants_visual_odometry) {
     visual_odometry_ = std::make_unique<VisualOdometry>(
         *source, pictures_->registrar(), configuration.front_end.visual_odometry, added);
   } else if (!added.covariance.isZero(0.0)) {

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <set>
+#include <utility>
 
 #include "fathom/study/run_record.hpp"
 #include "fathom/vision/camera.hpp"
@@ -18,12 +19,16 @@ double reach_m(const Camera& camera, double altitude_m) {
 
 }  // namespace
 
+double TrueOverlaps::of(std::size_t i, std::size_t k) const {
+  const auto key = [](const Pair& pair) { return std::pair(pair.i, pair.k); };
+  const auto found = std::ranges::lower_bound(pairs, std::pair(i, k), {}, key);
+  return found != pairs.end() && key(*found) == std::pair(i, k) ? found->overlap : 0.0;
+}
+
 std::optional<TrueOverlaps> true_overlaps(const Recording& recording) {
   if (!recording.ground_truth || !recording.camera) return std::nullopt;
   const std::vector<Pose>& truth = *recording.ground_truth;
   TrueOverlaps overlaps;
-  overlaps.keyframes = truth.size();
-  overlaps.overlap.assign(truth.size() * truth.size(), 0.0);
   std::vector<double> reaches_m;
   for (const double altitude_m : recording.keyframe_altitudes_m) {
     reaches_m.push_back(reach_m(*recording.camera, altitude_m));
@@ -32,9 +37,10 @@ std::optional<TrueOverlaps> true_overlaps(const Recording& recording) {
     for (std::size_t k = i + 1; k < truth.size(); ++k) {
       const double apart_m = (truth[i].position() - truth[k].position()).norm();
       if (apart_m > reaches_m[i] + reaches_m[k]) continue;
-      overlaps.overlap[i * truth.size() + k] =
+      const double overlap =
           footprint_overlap(*recording.camera, recording.keyframe_altitudes_m[i],
                             recording.keyframe_altitudes_m[k], between(truth[i], truth[k]));
+      if (overlap > 0.0) overlaps.pairs.push_back({i, k, overlap});
     }
   }
   return overlaps;
@@ -62,12 +68,10 @@ std::optional<double> loop_recall(const std::vector<LoopDecision>& loops, const 
   }
   std::size_t pairs = 0;
   std::size_t found = 0;
-  for (std::size_t i = 0; i < truth.keyframes; ++i) {
-    for (std::size_t k = i + 1; k < truth.keyframes; ++k) {
-      if (truth.of(i, k) < min_overlap) continue;
-      ++pairs;
-      if (used.contains({i, k})) ++found;
-    }
+  for (const TrueOverlaps::Pair& pair : truth.pairs) {
+    if (pair.overlap < min_overlap) continue;
+    ++pairs;
+    if (used.contains({pair.i, pair.k})) ++found;
   }
   if (pairs == 0) return std::nullopt;
   return static_cast<double>(found) / static_cast<double>(pairs);

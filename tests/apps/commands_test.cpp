@@ -155,6 +155,62 @@ TEST_F(Commands, ASimulationRunsFromDiskAsItDidBefore) {
   EXPECT_THAT(fathom_done({"check", folder}).out, HasSubstr("33 "));
 }
 
+TEST_F(Commands, AFolderWithoutOdometryRunsOnVisualOdometry) {
+  write("c.yaml", kSmallSurvey);
+  fathom_done({"simulate", "c.yaml", "--out", "data"});
+  fathom_done({"run", "data/run.yaml", "--out", "recorded"});
+  EXPECT_EQ(json_of("recorded/run.json").at("front_end").at("visual_odometry"), false);
+  // With odometry in the folder and without, it is the pictures that count.
+  fathom_done({"run", "data/run.yaml", "--set", "dataset.odometry.source=visual_odometry", "--out",
+               "chosen"});
+  std::filesystem::remove_all(path("data/mav0/odometry0"));
+  const Ended ended = fathom_done({"run", "data/run.yaml", "--out", "without"});
+  EXPECT_THAT(ended.out, HasSubstr("dead reckoning by visual odometry, 0 of 32 motions repeated"));
+  expect_same_trajectory("chosen/trajectory.tum", "without/trajectory.tum", 1e-12);
+  expect_same_trajectory("chosen/dead_reckoning.tum", "without/dead_reckoning.tum", 1e-12);
+  for (const std::string run : {"chosen", "without"}) {
+    const auto metrics = json_of(run + "/metrics.json");
+    EXPECT_EQ(json_of(run + "/run.json").at("front_end").at("visual_odometry"), true);
+    EXPECT_LT(metrics.at("mean_position_error_m"), 0.1);
+    EXPECT_GT(metrics.at("anees"), 0.0);
+  }
+}
+
+TEST_F(Commands, CandidatesAreFoundByEachMethodWithinTheirBudget) {
+  write("c.yaml", kSmallSurvey);
+  const auto run = [&](const std::string& method, const Arguments& more) {
+    Arguments arguments{"run",   "c.yaml", "--set", "front_end.candidates.method=" + method,
+                        "--out", "out"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Ended ended = fathom_done(arguments);
+    const auto front_end = json_of("out/run.json").at("front_end");
+    EXPECT_EQ(json_of("out/metrics.json").at("registrations_tried"),
+              front_end.at("registrations_tried"));
+    const std::size_t left_out = front_end.at("registrations_left_out");
+    EXPECT_EQ(ended.out.find("left out by max_per_keyframe") != std::string::npos, left_out > 0);
+    return std::pair<std::size_t, std::size_t>(front_end.at("registrations_tried"), left_out);
+  };
+  const auto near = run("distance", {});
+  EXPECT_EQ(near.second, 0u);
+  EXPECT_GT(run("mahalanobis", {}).first, near.first);
+  const auto some = run("mahalanobis", {"--set", "front_end.candidates.max_per_keyframe=1"});
+  EXPECT_EQ(some.first, json_of("out/metrics.json").at("keyframes").get<std::size_t>() - 1);
+  EXPECT_GT(some.second, 0u);
+  for (const std::string mode : {"own", "shared"}) {
+    fathom_done({"compare", "c.yaml", "--set", "front_end.candidates.method=mahalanobis", "--set",
+                 "association.mode=" + mode, "--out", "study"});
+    for (const auto& result : json_of("study/metrics.json")) {
+      EXPECT_EQ(result.at("registrations_left_out"), 0);
+    }
+    std::filesystem::remove_all(path("study"));
+  }
+  write("o.yaml",
+        std::regex_replace(std::string(kSmallSurvey), std::regex(R"(max_distance_m: [0-9.]+)"),
+                           "method: overlap, min_overlap: 0.4"));
+  fathom_done({"run", "o.yaml", "--out", "overlap"});
+  EXPECT_GT(json_of("overlap/metrics.json").at("registrations"), 0);
+}
+
 TEST_F(Commands, AComparisonCanBeSimulated) {
   write("c.yaml", std::string(kSmallSurvey) +
                       "estimators: [{type: ekf}, {type: trajectory_iekf, max_iterations: 2}]\n"

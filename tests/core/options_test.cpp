@@ -84,6 +84,23 @@ TEST_F(OptionsTest, DefaultsAreTheInitialisersOfTheFields) {
                           "ransac.iterations=500", "ransac.max_error_m=0.1"));
 }
 
+TEST(Options, AWholeNumberMayBeOff) {
+  std::optional<int> most;
+  OptionTable table;
+  table.integer_or_off("most", most, Range::at_least(1), "keyframes", "so many at most");
+  EXPECT_EQ(table.descriptions()[0].default_value, "off");
+  EXPECT_EQ(table.descriptions()[0].range, ">= 1 or off");
+  table.set("most", OptionValue::scalar("12"));
+  EXPECT_EQ(most, 12);
+  EXPECT_EQ(table.value("most"), "12");
+  for (const std::string text : {"0", "1.5", "none"}) {
+    EXPECT_EQ(input_error_of([&] { table.set("most", OptionValue::scalar(text)); }),
+              "most: expected a whole number >= 1 or off, got '" + text + "'");
+  }
+  table.set("most", OptionValue::scalar("off"));
+  EXPECT_EQ(most, std::nullopt);
+}
+
 TEST_F(OptionsTest, EverythingOfAnOptionIsDescribed) {
   const auto& last = table_.descriptions().back();
   EXPECT_EQ(last.type, "real");

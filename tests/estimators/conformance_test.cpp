@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "support/planar.hpp"
 #include "tests/estimators/logs.hpp"
 #include "tests/estimators/naive.hpp"
 
@@ -105,6 +106,70 @@ TEST_P(Conformance, CovariancesOfAnExactLogAreThoseOfTheInformationMatrix) {
     ASSERT_TRUE(covariance);
     EXPECT_LT((*covariance - reference.marginal(k)).norm(), 1e-9) << "keyframe " << k;
   }
+}
+
+// The covariance of ⊖X_k ⊕ X_n from the dense joint one, by differences.
+Eigen::Matrix3d relative_covariance(const test::NaiveLeastSquares& reference, std::size_t k) {
+  const std::size_t n = reference.poses.size() - 1;
+  const Pose& from = reference.poses[k];
+  const Pose& to = reference.poses[n];
+  const auto motion = [](const Pose& a, const Pose& b) {
+    return test::t2v(test::homogeneous(a).inverse() * test::homogeneous(b));
+  };
+  Eigen::MatrixXd J = Eigen::MatrixXd::Zero(3, reference.covariance.cols());
+  const auto put = [&](std::size_t keyframe, const Eigen::Matrix3d& block) {
+    if (keyframe > 0) J.middleCols<3>(static_cast<Eigen::Index>(3 * (keyframe - 1))) = block;
+  };
+  put(k, test::numerical_jacobian([&](const Pose& a) { return motion(a, to); }, from));
+  put(n, test::numerical_jacobian([&](const Pose& b) { return motion(from, b); }, to));
+  return J * reference.covariance * J.transpose();
+}
+
+TEST_P(Conformance, MotionsToTheNewestOfAnExactLogAreThoseOfTheInformationMatrix) {
+  LogOptions options;
+  options.noise = 0.0;
+  options.keyframes = 26;  // ends on a loop
+  options.origin = {-4.0, 1.0, 2.0};
+  const MeasurementLog log = circle_log(options);
+  const auto estimator = solved(GetParam(), log);
+  const test::NaiveLeastSquares reference = test::least_squares(log, 1);
+  const auto motions = estimator->motions_to_newest();
+  ASSERT_TRUE(motions);
+  ASSERT_EQ(motions->size(), log.size() - 1);
+  for (std::size_t k = 0; k + 1 < log.size(); ++k) {
+    const Pose truth = between(reference.poses[k], reference.poses.back());
+    EXPECT_LT(test::distance((*motions)[k].mean, truth), 1e-9);
+    EXPECT_LT(((*motions)[k].covariance - relative_covariance(reference, k)).norm(), 1e-9) << k;
+  }
+}
+
+// The other way round, without a reference: of dead reckoning alone they compose the steps.
+TEST_P(Conformance, MotionsToTheNewestComposeTheStepsBeforeAnyLoop) {
+  LogOptions options;
+  options.loop_every = 0;
+  const MeasurementLog log = circle_log(options);
+  const auto estimator = solved(GetParam(), log);
+  const auto motions = estimator->motions_to_newest();
+  ASSERT_TRUE(motions);
+  UncertainPose chain;
+  for (std::size_t k = log.size() - 1; k-- > 0;) {
+    const RelativePose& step = log.arrival(k + 1).step;
+    chain = compose(UncertainPose{step.motion, step.covariance()}, chain);
+    EXPECT_LT(test::distance((*motions)[k].mean, chain.mean), 1e-11);
+    EXPECT_LT(((*motions)[k].covariance - chain.covariance).norm(), 1e-9 * chain.covariance.norm());
+  }
+}
+
+// Keyframe 0 is fixed at the identity, so the motion from it is the pose.
+TEST_P(Conformance, TheMotionFromKeyframeZeroIsAsUncertainAsThePose) {
+  const auto estimator = solved(GetParam(), circle_log({}));
+  const std::size_t newest = estimator->size() - 1;
+  const auto motions = estimator->motions_to_newest();
+  ASSERT_TRUE(motions);
+  EXPECT_LT(test::distance(motions->front().mean, estimator->pose(newest)), 1e-11);
+  const Eigen::Matrix3d expected = *estimator->covariance(newest);
+  EXPECT_LT((motions->front().covariance - expected).norm(), 1e-8 * expected.norm());
+  EXPECT_TRUE(make()->motions_to_newest()->empty());
 }
 
 TEST_P(Conformance, ALoopOfZeroLengthIsUsed) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "estimators/trajectory_iekf/trajectory_iekf.hpp"
 #include "tests/estimators/logs.hpp"
 #include "tests/estimators/naive.hpp"
 
@@ -139,6 +140,57 @@ TEST(CrossEstimator, RobustLossesLimitAWrongLoop) {
   EXPECT_GT(shift("none"), 1.0);
   EXPECT_LT(shift("huber"), 0.5 * shift("none"));
   EXPECT_LT(shift("cauchy"), 0.1 * shift("none"));
+}
+
+// With noise the linearisation of the filter is one of its own; its motions are J P Jᵀ of it.
+TEST(CrossEstimator, MotionsToTheNewestOfTheIekfAreThoseOfItsState) {
+  const MeasurementLog log = test::circle_log({});
+  TrajectoryIekf iekf({log.origin()}, {});
+  test::feed(iekf, log);
+  const std::size_t n = log.size() - 1;
+  const Eigen::MatrixXd P = iekf.state_covariance().full();
+  const auto motions = iekf.motions_to_newest();
+  for (const std::size_t k : {std::size_t{0}, std::size_t{7}, n - 3, n - 1}) {
+    // ∂r/∂x_i by the chain rule, motion after motion.
+    Pose r;
+    Eigen::MatrixXd J = Eigen::MatrixXd::Zero(3, P.cols());
+    for (std::size_t i = k; i < n; ++i) {
+      Eigen::Matrix3d J_r;
+      Eigen::Matrix3d J_motion;
+      r = compose(r, between(iekf.pose(i), iekf.pose(i + 1)), &J_r, &J_motion);
+      J = (J_r * J).eval();
+      J.middleCols<3>(static_cast<Eigen::Index>(3 * i)) = J_motion;
+    }
+    const Eigen::Matrix3d expected = J * P * J.transpose();
+    EXPECT_LT(((*motions)[k].covariance - expected).norm(), 1e-10 * expected.norm()) << k;
+  }
+}
+
+// One update with little noise: the same optimum, and, to first order, the same uncertainty. (With
+// more the plain EKF, linearised at dead reckoning, is off by far for the motions that loops fix.)
+TEST(CrossEstimator, EstimatorsAgreeOnMotionsToTheNewest) {
+  const MeasurementLog log = loops_at_the_end(0.001);
+  const auto reference = *solved("ceres_pose_graph", log, exactly())->motions_to_newest();
+  for (const EstimatorEntry& entry : builtin_estimators().entries()) {
+    const auto motions = *solved(entry.name, log, exactly())->motions_to_newest();
+    for (std::size_t k = 0; k < motions.size(); ++k) {
+      const Eigen::Matrix3d expected = reference[k].covariance;
+      EXPECT_LT((motions[k].covariance - expected).norm(), 0.02 * expected.norm())
+          << entry.name << " " << k;
+    }
+  }
+}
+
+// A robust loss weighs the loops; the Hessian behind the motions is that behind the covariances.
+TEST(CrossEstimator, MotionsToTheNewestCountTheLossAsTheCovariancesDo) {
+  const MeasurementLog log = loops_at_the_end(4.0);
+  const auto plain = solved("ceres_pose_graph", log);
+  const auto robust =
+      solved("ceres_pose_graph", log, test::values({{"loss", "huber"}, {"loss_scale", "0.05"}}));
+  const auto of_last = [&](Estimator& estimator) { return *estimator.covariance(log.size() - 1); };
+  const Eigen::Matrix3d motion = robust->motions_to_newest()->front().covariance;
+  EXPECT_LT((motion - of_last(*robust)).norm(), 1e-8 * motion.norm());
+  EXPECT_GT((motion - of_last(*plain)).norm(), 1e-2 * motion.norm());
 }
 
 }  // namespace

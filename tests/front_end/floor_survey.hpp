@@ -41,12 +41,12 @@ class FloorSurvey : public FrameSource {
     }
   }
 
-  /// Exact motions, each with this covariance.
-  void add_odometry(const Eigen::Matrix3d& covariance) {
+  /// The true motions, or each of them followed by a drift, with this covariance.
+  void add_odometry(const Eigen::Matrix3d& covariance, const Pose& drift = {}) {
     has_odometry_ = true;
     for (std::size_t i = 1; i < infos_.size(); ++i) {
-      infos_[i].motion =
-          UncertainPose{between(*infos_[i - 1].ground_truth, *infos_[i].ground_truth), covariance};
+      const Pose motion = between(*infos_[i - 1].ground_truth, *infos_[i].ground_truth);
+      infos_[i].motion = UncertainPose{compose(motion, drift), covariance};
     }
   }
 

@@ -33,7 +33,7 @@ Eigen::Matrix3d step_covariance() {
 FrontEndOptions keyframe_every(int frames, double max_distance_m = 100.0) {
   FrontEndOptions options;
   options.separation_frames = frames;
-  options.max_distance_m = max_distance_m;
+  options.candidates.max_distance_m = max_distance_m;
   return options;
 }
 
@@ -171,6 +171,78 @@ TEST(FrontEnd, CandidatesAreTheKeyframesNearTheNewestAsEstimated) {
   EXPECT_EQ(tried(4.999), 2u);
   EXPECT_EQ(tried(5.0), 3u);
   EXPECT_EQ(tried(100.0), 4u);
+}
+
+/// Dead reckoning that knows its uncertainty.
+class Reckoned : public TrajectoryView {
+ public:
+  explicit Reckoned(const FrameSource& survey) {
+    for (std::size_t i = 1; i < survey.size(); ++i) motions_.push_back(*survey.info(i).motion);
+  }
+
+  void advance() { ++size_; }
+  std::size_t size() const override { return size_; }
+  Pose pose(std::size_t k) const override { return compose_chain({motions_.data(), k}).mean; }
+  std::optional<std::vector<UncertainPose>> motions_to_newest() const override {
+    std::vector<UncertainPose> motions;
+    for (std::size_t k = 0; k + 1 < size_; ++k) {
+      motions.push_back(compose_chain({motions_.data() + k, size_ - 1 - k}));
+    }
+    return motions;
+  }
+
+ private:
+  std::vector<UncertainPose> motions_;
+  std::size_t size_ = 0;
+};
+
+// Out and back: the last picture is the first one's place again. Dead reckoning is 1.3 m off by
+// then, four times its sigma of 0.36 m, but within three of the 0.5 m where candidates are looked
+// for.
+TEST(FrontEnd, ByMahalanobisADriftedEstimateStillFindsItsLoop) {
+  std::vector<Pose> truth;
+  for (int i = 0; i < 7; ++i) truth.push_back({-1.2 + 0.4 * i, 0.0, 0.0});
+  for (int i = 6; i >= 0; --i) truth.push_back({-1.2 + 0.4 * i, 0.1, 0.0});
+  FloorSurvey survey(truth);
+  survey.add_odometry(Eigen::Vector3d(0.01, 0.01, 1e-8).asDiagonal(), {0.1, 0.0, 0.0});
+  const auto loops_of_the_last = [&](CandidateMethod method) {
+    FrontEndOptions options = keyframe_every(1, 0.5);
+    options.candidates.method = method;
+    PairRegistrar registrar(survey, {}, {}, 1);
+    FrontEnd front_end(survey, registrar, options);
+    Reckoned reckoned(survey);
+    std::vector<RelativePose> found;
+    while (front_end.next_keyframe()) {
+      reckoned.advance();
+      found = front_end.register_newest(reckoned);
+    }
+    return found;
+  };
+  for (const RelativePose& z : loops_of_the_last(CandidateMethod::distance)) EXPECT_GT(z.from, 1u);
+  const auto found = loops_of_the_last(CandidateMethod::mahalanobis);
+  ASSERT_FALSE(found.empty());
+  EXPECT_EQ(found.front().from, 0u);
+  EXPECT_LT(test::distance(found.front().motion, between(truth.front(), truth.back())), 0.008);
+}
+
+TEST(FrontEnd, RegistersNoMoreThanTheBudgetAndCountsTheRest) {
+  FloorSurvey survey(bend(6));
+  survey.add_odometry(step_covariance());
+  const SurveyRun all(survey, truth_of(survey), keyframe_every(1, 0.7));
+  EXPECT_EQ(all.front_end.registrations_left_out(), 0u);
+  FrontEndOptions options = keyframe_every(1, 0.7);
+  options.candidates.max_per_keyframe = 2;
+  const SurveyRun two(survey, truth_of(survey), options);
+  EXPECT_EQ(two.front_end.registrations_tried(), 1u + 2u + 2u + 2u + 2u);
+  EXPECT_EQ(two.front_end.registrations_left_out(), 3u);
+  // On a path that goes on ahead the last two overlap most.
+  std::vector<RelativePose> expected = all.registrations;
+  std::erase_if(expected, [](const RelativePose& z) { return z.to - z.from > 2; });
+  ASSERT_EQ(two.registrations.size(), expected.size());
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    EXPECT_EQ(two.registrations[i].from, expected[i].from);
+    EXPECT_EQ(two.registrations[i].motion, expected[i].motion);
+  }
 }
 
 TEST(FrontEnd, RegistrationsAreTheTrueMotions) {

@@ -98,6 +98,33 @@ TEST(Configure, WhatIsInForceReadsBack) {
   EXPECT_EQ(configured(text).in_force, first.in_force);
 }
 
+TEST(Configure, RefusesKeysThatTheCandidatesMethodIgnores) {
+  const std::vector<std::pair<std::string, std::string>> cases{
+      {"{probability: 0.9}", "candidates.probability: candidates.method distance has no use"},
+      {"{min_overlap: 0.9}", "candidates.min_overlap: candidates.method distance has no use"},
+      {"{method: mahalanobis, min_overlap: 0.9}", "candidates.method mahalanobis has no use"},
+      {"{method: overlap, max_distance_m: 2}", "candidates.max_distance_m: candidates.method"},
+      {"{method: overlap, probability: 0.9}", "candidates.method overlap has no use"}};
+  for (const auto& [candidates, message] : cases) {
+    EXPECT_THAT(input_error_of([&, &text = candidates] {
+                  configured("front_end:\n  candidates: " + text + "\n");
+                }),
+                HasSubstr(message));
+  }
+}
+
+TEST(Configure, InForceAreTheKeysOfTheCandidatesMethod) {
+  const std::string prefix = "front_end.candidates.";
+  const Configuration overlap = configured(
+      "front_end: {candidates: {method: overlap, min_overlap: 0.4, max_per_keyframe: 7}}\n");
+  EXPECT_EQ(overlap.front_end.candidates.method, CandidateMethod::overlap);
+  EXPECT_EQ(overlap.front_end.candidates.max_per_keyframe, 7);
+  EXPECT_EQ(in_force(overlap, prefix + "min_overlap"), "0.4");
+  EXPECT_EQ(in_force(overlap, prefix + "max_distance_m"), "(none)");
+  EXPECT_EQ(in_force(configured(""), prefix + "max_per_keyframe"), "off");
+  EXPECT_EQ(in_force(configured(""), prefix + "probability"), "(none)");
+}
+
 TEST(Configure, RefusesUnknownKeysAtEveryLevelWithTheNearest) {
   const std::vector<std::pair<std::string, std::string>> cases{
       {"sed: 1\n", "config.yaml:1: unknown key 'sed'; did you mean 'seed'?"},

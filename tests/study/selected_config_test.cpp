@@ -142,6 +142,23 @@ sweep:
   EXPECT_TRUE(run.estimators[0].values.empty());
 }
 
+TEST(SelectedConfiguration, HasTheKeysOfTheCandidatesMethodAlone) {
+  const std::string text =
+      config_of("front_end.candidates: {method: overlap, min_overlap: 0.4}\n", 0, {0});
+  const Configuration overlap = configured(text);
+  EXPECT_EQ(overlap.front_end.candidates.method, CandidateMethod::overlap);
+  EXPECT_EQ(overlap.front_end.candidates.min_overlap, 0.4);
+  EXPECT_THAT(text, Not(HasSubstr("max_distance_m")));
+  const char* const swept = R"(
+front_end.candidates: {max_distance_m: 1.2}
+sweep:
+  - {key: front_end.candidates.method, values: [distance, mahalanobis]}
+)";
+  const Configuration second = configured(config_of(swept, 0, {1}));
+  EXPECT_EQ(second.front_end.candidates.method, CandidateMethod::mahalanobis);
+  EXPECT_EQ(second.front_end.candidates.max_distance_m, 1.2);
+}
+
 TEST(SelectedConfiguration, KeysOfAComparisonMayBeSweptAndAreLeftOut) {
   const char* const study = R"(
 sweep:

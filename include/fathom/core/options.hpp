@@ -53,6 +53,9 @@ class OptionTable {
   void boolean(const std::string& key, bool& field, const std::string& help);
   void integer(const std::string& key, int& field, Range range, const std::string& unit,
                const std::string& help);
+  /// A whole number or the word `off`.
+  void integer_or_off(const std::string& key, std::optional<int>& field, Range range,
+                      const std::string& unit, const std::string& help);
   void real(const std::string& key, double& field, Range range, const std::string& unit,
             const std::string& help);
   /// A number or the word `off`.

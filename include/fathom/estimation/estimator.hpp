@@ -53,6 +53,7 @@ struct UpdateReport {
 /// - `pose(k)` is in the world frame, heading wrapped; the view is valid after every call.
 /// - Registrations may be written either way round; those of one call form one update.
 /// - The same calls give the same estimate, to the last bit.
+/// - `motions_to_newest` has the covariances of that same estimate.
 /// - Failure is reported, never thrown, and leaves the estimate as it was before the call.
 class Estimator : public TrajectoryView {
  public:

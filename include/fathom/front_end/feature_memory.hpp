@@ -37,8 +37,13 @@ class FeatureMemory {
   /// Throws InputError where the picture cannot be read, as often as it is asked for.
   std::shared_ptr<const PackedFeatures> of(std::size_t frame);
 
-  /// Starts on a frame in the background; what fails is said when it is asked for.
+  /// Starts on a frame in the background, on one thread of its own: pictures one beside the other
+  /// scale better than the parts of one. What fails is said when it is asked for. With one thread
+  /// (cv::setNumThreads) there is no background.
   void announce(std::size_t frame);
+
+  /// Of the features held that were asked for.
+  std::size_t bytes() const { return held_.cost(); }
 
  private:
   using Held = std::shared_ptr<const PackedFeatures>;

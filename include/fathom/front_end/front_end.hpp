@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "fathom/datasets/frame_source.hpp"
+#include "fathom/front_end/candidates.hpp"
 #include "fathom/front_end/options.hpp"
 #include "fathom/front_end/pair_registrar.hpp"
 #include "fathom/geometry/trajectory.hpp"
@@ -49,10 +50,10 @@ class FrontEnd {
   /// The next keyframe: frame 0, then one every `separation_frames`. Nothing at the end.
   std::optional<Keyframe> next_keyframe();
 
-  /// Registers the newest keyframe with every candidate: the earlier keyframes within
-  /// `max_distance_m` of it in the given trajectory, which must hold all keyframes so far. What was
-  /// found, by rising `from`. Where every frame of visual odometry is a keyframe, the one before is
-  /// no candidate: its registration is the step already, and no measurement may count twice.
+  /// Registers the newest keyframe with every candidate (CandidateSearch) of the given trajectory,
+  /// which must hold all keyframes so far. What was found, by rising `from`. Where every frame of
+  /// visual odometry is a keyframe, the one before is no candidate: its registration is the step
+  /// already, and no measurement may count twice.
   std::vector<RelativePose> register_newest(const TrajectoryView& trajectory);
 
   const std::vector<Keyframe>& keyframes() const { return keyframes_; }
@@ -60,19 +61,24 @@ class FrontEnd {
   const std::vector<FramePlace>& frames() const { return frames_; }
   std::size_t registrations_tried() const { return tried_; }
   std::size_t registrations_found() const { return found_; }
+  /// Candidates beyond `max_per_keyframe`.
+  std::size_t registrations_left_out() const { return left_out_; }
 
  private:
-  std::vector<std::size_t> candidates(const TrajectoryView& trajectory) const;
+  Candidates candidates(const TrajectoryView& trajectory) const;
   MeasuredFrame measured(std::size_t frame) const;
-  void announce_next_keyframe() const;
+  void announce_next_keyframes() const;
 
   const FrameSource& source_;
   PairRegistrar& registrar_;
   FrontEndOptions options_;
+  CandidateSearch search_;
   std::vector<Keyframe> keyframes_;
+  std::vector<double> altitudes_m_;  ///< of the keyframes
   std::vector<FramePlace> frames_;
   std::size_t tried_ = 0;
   std::size_t found_ = 0;
+  std::size_t left_out_ = 0;
 };
 
 }  // namespace fathom

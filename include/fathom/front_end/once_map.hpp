@@ -28,14 +28,25 @@ class OnceMap {
   std::optional<Value> find(const Key& key) const {
     const std::lock_guard lock(mutex_);
     const auto found = entries_.find(key);
-    if (found == entries_.end() || !found->second.is_made) return std::nullopt;
-    return found->second.value.get();
+    return found == entries_.end() ? std::nullopt : found->second.value;
   }
 
   /// Whether it is made or being made.
   bool contains(const Key& key) const {
     const std::lock_guard lock(mutex_);
     return entries_.contains(key);
+  }
+
+  /// Made, or being made.
+  std::size_t size() const {
+    const std::lock_guard lock(mutex_);
+    return entries_.size();
+  }
+
+  /// The summed costs of the values made.
+  std::size_t cost() const {
+    const std::lock_guard lock(mutex_);
+    return total_cost_;
   }
 
   /// The value, made by `make()` unless somebody did or does already. `make` must not wait for
@@ -45,13 +56,15 @@ class OnceMap {
     std::packaged_task<Value()> task(std::move(make));
     std::unique_lock lock(mutex_);
     const auto [entry, is_mine] = entries_.try_emplace(key);
-    if (is_mine) entry->second = {task.get_future().share(), ++serial_, 0, 0, false};
+    if (is_mine) entry->second.making = task.get_future().share();
+    if (is_mine) entry->second.serial = ++serial_;
     entry->second.used = ++clock_;
-    const std::shared_future<Value> value = entry->second.value;
+    if (entry->second.value) return *entry->second.value;
+    const std::shared_future<Value> making = entry->second.making;
     const std::uint64_t serial = entry->second.serial;
     lock.unlock();
     if (is_mine) task();
-    return settled(key, serial, value);
+    return settled(key, serial, making);
   }
 
   /// Makes it in another thread, for who asks later, unless somebody did or does already.
@@ -59,26 +72,29 @@ class OnceMap {
   void start(const Key& key, Make make) {
     const std::lock_guard lock(mutex_);
     if (entries_.contains(key)) return;
-    entries_[key] = {std::async(std::launch::async, std::move(make)).share(), ++serial_, ++clock_,
-                     0, false};
+    Entry& entry = entries_[key];
+    entry.making = std::async(std::launch::async, std::move(make)).share();
+    entry.serial = ++serial_;
+    entry.used = ++clock_;
   }
 
  private:
   struct Entry {
-    std::shared_future<Value> value;
-    std::uint64_t serial = 0;  ///< tells it from an earlier one of the same key
+    std::optional<Value> value;        ///< once it is made and known to be
+    std::shared_future<Value> making;  ///< until then: it takes some hundred bytes
+    std::uint64_t serial = 0;          ///< tells it from an earlier one of the same key
     std::uint64_t used = 0;
     std::size_t cost = 0;
-    bool is_made = false;  ///< and known to be
   };
 
-  Value settled(const Key& key, std::uint64_t serial, const std::shared_future<Value>& value) {
+  Value settled(const Key& key, std::uint64_t serial, const std::shared_future<Value>& making) {
     try {
-      const Value& made = value.get();
+      const Value& made = making.get();
       const std::lock_guard lock(mutex_);
       const auto found = entries_.find(key);
-      if (found != entries_.end() && found->second.serial == serial && !found->second.is_made) {
-        found->second.is_made = true;
+      if (found != entries_.end() && found->second.serial == serial && !found->second.value) {
+        found->second.value = made;
+        found->second.making = {};
         found->second.cost = cost_ ? cost_(made) : 0;
         total_cost_ += found->second.cost;
         forget_oldest(key);
@@ -96,7 +112,7 @@ class OnceMap {
     while (total_cost_ > bound_) {
       auto oldest = entries_.end();
       for (auto entry = entries_.begin(); entry != entries_.end(); ++entry) {
-        if (!entry->second.is_made || entry->first == newest) continue;
+        if (!entry->second.value || entry->first == newest) continue;
         if (oldest == entries_.end() || entry->second.used < oldest->second.used) oldest = entry;
       }
       if (oldest == entries_.end()) return;

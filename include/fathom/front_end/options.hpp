@@ -1,6 +1,7 @@
 #pragma once
 
 #include "fathom/core/options.hpp"
+#include "fathom/front_end/candidates.hpp"
 #include "fathom/vision/features.hpp"
 #include "fathom/vision/registration.hpp"
 
@@ -14,8 +15,8 @@ struct VisualOdometryFallback {
 };
 
 struct FrontEndOptions {
-  int separation_frames = 10;   ///< a keyframe every so many frames
-  double max_distance_m = 3.0;  ///< loop candidates: keyframes so near the newest, as estimated
+  int separation_frames = 10;  ///< a keyframe every so many frames
+  CandidateOptions candidates;
   FeatureOptions features;
   RegistrationOptions registration;
   VisualOdometryFallback visual_odometry;

@@ -44,6 +44,10 @@ class PairRegistrar {
   std::vector<PairRegistration> of_all(std::span<const MeasuredFrame> from,
                                        const MeasuredFrame& to);
 
+  /// How many frames ahead to announce, so that no thread is idle: one for each. Extraction takes
+  /// longer than a registration.
+  static std::size_t look_ahead();
+
   /// Says that a pair will be asked for soon: the features of `to` are extracted in the background,
   /// unless the pair is known and no picture needed. Beyond the last frame it does nothing.
   void announce(const MeasuredFrame& from, const MeasuredFrame& to);
@@ -51,6 +55,8 @@ class PairRegistrar {
   /// Pairs registered anew so far, and pairs that the cache knew.
   std::size_t registered() const { return registered_; }
   std::size_t from_cache() const { return from_cache_; }
+  /// What the features held take.
+  std::size_t feature_bytes() const { return features_.bytes(); }
 
  private:
   /// Frames and the bits of their altitudes.

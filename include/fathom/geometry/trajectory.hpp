@@ -3,10 +3,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "fathom/geometry/covariance.hpp"
 #include "fathom/geometry/pose.hpp"
 
 namespace fathom {
@@ -18,6 +20,14 @@ class TrajectoryView {
   virtual std::size_t size() const = 0;
   /// k < size().
   virtual Pose pose(std::size_t k) const = 0;
+
+  /// The motion ⊖X_k ⊕ X_n to the newest keyframe n from every earlier keyframe k, size() − 1 of
+  /// them, with the covariance of its (x, y, θ) in the axes of k: first order at the estimate, the
+  /// correlation of both poses counted. All at once, as that costs little more than one. Nothing
+  /// where no covariances are known.
+  virtual std::optional<std::vector<UncertainPose>> motions_to_newest() const {
+    return std::nullopt;
+  }
 };
 
 struct StampedPose {

@@ -27,6 +27,9 @@ struct DatasetEntry {
 };
 const std::vector<DatasetEntry>& datasets();
 
+/// Dead reckoning of an image folder: as recorded, where it is, or of its pictures.
+enum class FolderOdometry { recorded, visual_odometry };
+
 /// One estimator of a run or comparison.
 struct EstimatorConfiguration {
   std::string name;  ///< in tables and folders; its type unless the configuration names it
@@ -61,6 +64,7 @@ struct Configuration {
   DatasetType dataset = DatasetType::simulated;
   std::string dataset_path;
   SimulatedSurveyOptions simulation;
+  FolderOdometry folder_odometry = FolderOdometry::recorded;
   AddedNoiseOptions added_noise;  ///< of an image folder
   FrontEndOptions front_end;
   /// One for `run`; for `compare` several, of which the first that `association.reference` names
@@ -70,7 +74,8 @@ struct Configuration {
   Alignment alignment = Alignment::origin;
   StudyOptions study;  ///< of a comparison
   int seed = 1;
-  /// Every key with its value in force, defaults included, for the manifest.
+  /// Every key with its value in force, defaults included, for the manifest. Keys that have no
+  /// effect beside the others are left out.
   std::vector<std::pair<std::string, std::string>> in_force;
   /// Where each given key was given, for messages of checks across keys.
   std::map<std::string, std::string> origins;

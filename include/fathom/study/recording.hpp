@@ -31,6 +31,8 @@ struct Recording {
   std::optional<Camera> camera;
   std::vector<StampedPose> frame_ground_truth;  ///< of the frames that have it
   std::size_t registrations_tried = 0;
+  /// Loop candidates beyond `max_per_keyframe`.
+  std::size_t registrations_left_out = 0;
   bool visual_odometry = false;
   std::size_t visual_odometry_failures = 0;
 };

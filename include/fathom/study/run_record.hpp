@@ -18,11 +18,16 @@ RunRecord baseline_record(const Recording& recording, const Configuration& confi
 /// Pairs of keyframes that truly overlap: what loop closing could find at best, and what a loop
 /// must be to be right.
 struct TrueOverlaps {
-  /// Overlap of keyframes i < k, 0 to 1, at i · (keyframes) + k.
-  std::vector<double> overlap;
-  std::size_t keyframes = 0;
+  struct Pair {
+    std::size_t i = 0;
+    std::size_t k = 0;
+    double overlap = 0.0;  ///< 0 to 1
+  };
+  /// Those that overlap at all, i < k, by rising i and k: of a long survey a small part of all.
+  std::vector<Pair> pairs;
 
-  double of(std::size_t i, std::size_t k) const { return overlap[i * keyframes + k]; }
+  /// Of keyframes i < k.
+  double of(std::size_t i, std::size_t k) const;
 };
 
 /// From ground truth, altitudes and camera; nothing where one of them is not known.

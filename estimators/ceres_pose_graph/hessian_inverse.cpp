@@ -1,0 +1,84 @@
+#include "estimators/ceres_pose_graph/hessian_inverse.hpp"
+
+#include <algorithm>
+
+#include <Eigen/SparseCholesky>
+
+namespace fathom {
+namespace {
+
+using Sparse = Eigen::SparseMatrix<double>;
+using Ldlt = Eigen::SimplicialLDLT<Sparse, Eigen::Lower>;
+
+/// Z = (L D Lᵀ)⁻¹ within the pattern of L, unit lower triangular, its diagonal not stored.
+class TakahashiInverse {
+ public:
+  TakahashiInverse(const Sparse& L, const Eigen::VectorXd& D)
+      : L_(L), lower_(static_cast<std::size_t>(L.nonZeros()), 0.0), diagonal_(D.size()) {
+    for (Eigen::Index j = L.cols() - 1; j >= 0; --j) make_column(j, D(j));
+  }
+
+  double at(Eigen::Index a, Eigen::Index b) const {
+    if (a == b) return diagonal_(a);
+    const auto [column, row] = std::minmax(a, b);
+    const int* rows = L_.innerIndexPtr();
+    const int* end = rows + end_of(column);
+    const int* found = std::lower_bound(rows + begin_of(column), end, static_cast<int>(row));
+    return found == end || *found != row ? 0.0 : lower_[static_cast<std::size_t>(found - rows)];
+  }
+
+ private:
+  Eigen::Index begin_of(Eigen::Index column) const { return L_.outerIndexPtr()[column]; }
+  Eigen::Index end_of(Eigen::Index column) const { return L_.outerIndexPtr()[column + 1]; }
+  double& lower(Eigen::Index entry) { return lower_[static_cast<std::size_t>(entry)]; }
+
+  // Z_ij = −Σ_r Z_ir L_rj and Z_jj = 1/D_j − Σ_r L_rj Z_rj, over the rows r > j of column j of L.
+  // For each pair of them the later one is a row of the earlier one's column, too, so both are
+  // walked along together.
+  void make_column(Eigen::Index j, double D_j) {
+    const int* rows = L_.innerIndexPtr();
+    const double* L = L_.valuePtr();
+    for (Eigen::Index a = begin_of(j); a < end_of(j); ++a) {
+      lower(a) -= diagonal_(rows[a]) * L[a];
+      Eigen::Index entry = begin_of(rows[a]);
+      for (Eigen::Index b = a + 1; b < end_of(j); ++b) {
+        while (rows[entry] < rows[b]) ++entry;
+        lower(a) -= lower(entry) * L[b];
+        lower(b) -= lower(entry) * L[a];
+      }
+    }
+    diagonal_(j) = 1.0 / D_j;
+    for (Eigen::Index a = begin_of(j); a < end_of(j); ++a) diagonal_(j) -= L[a] * lower(a);
+  }
+
+  const Sparse& L_;
+  std::vector<double> lower_;  ///< of the entries of L, in their order
+  Eigen::VectorXd diagonal_;
+};
+
+}  // namespace
+
+std::optional<InverseBlocks> inverse_blocks(const Sparse& hessian) {
+  const Ldlt ldlt(hessian);
+  const Eigen::Index size = hessian.rows();
+  if (ldlt.info() != Eigen::Success || !(ldlt.vectorD().minCoeff() > 0.0)) return std::nullopt;
+
+  Eigen::MatrixXd last = Eigen::MatrixXd::Zero(size, 3);
+  last.bottomRows<3>().setIdentity();
+  last = ldlt.solve(last).eval();
+  const Sparse& L = ldlt.matrixL().nestedExpression();
+  const TakahashiInverse inverse(L, ldlt.vectorD());
+  const auto& place = ldlt.permutationP().indices();
+  InverseBlocks blocks;
+  for (Eigen::Index k = 0; k < size; k += 3) {
+    Eigen::Matrix3d own;
+    for (Eigen::Index r = 0; r < 3; ++r) {
+      for (Eigen::Index c = 0; c < 3; ++c) own(r, c) = inverse.at(place(k + r), place(k + c));
+    }
+    blocks.own.push_back(own);
+    blocks.with_last.push_back(last.middleRows<3>(k));
+  }
+  return blocks;
+}
+
+}  // namespace fathom

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+
+namespace fathom {
+
+/// Of the inverse of a Hessian with three rows a block: the 3×3 blocks (k, k), and those (k, last).
+struct InverseBlocks {
+  std::vector<Eigen::Matrix3d> own;
+  std::vector<Eigen::Matrix3d> with_last;
+};
+
+/// By the recursion of Takahashi, Fagan and Chin (*Formation of a Sparse Bus Impedance Matrix*,
+/// 1973), which finds the entries of the inverse within the pattern of the Cholesky factor at about
+/// the cost of the factor, and one solve for the last block's columns. Both triangles must be
+/// there, and every diagonal block be dense. Nothing where the matrix is not positive definite.
+std::optional<InverseBlocks> inverse_blocks(const Eigen::SparseMatrix<double>& hessian);
+
+}  // namespace fathom
