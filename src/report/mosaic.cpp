@@ -5,6 +5,7 @@
 #include <map>
 #include <utility>
 
+#include <opencv2/core/utility.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "fathom/core/input_error.hpp"
@@ -54,6 +55,9 @@ class Blend {
  private:
   cv::Rect box_of(const std::vector<Eigen::Vector2d>& outline) const;
   cv::Mat reduced(const cv::Mat& picture, double altitude_m) const;
+  /// `row` of the box. The source may be reduced; `full` is the picture's own size.
+  void lay_row(const cv::Mat& source, const PlacedPicture& place, const cv::Mat& mask,
+               const cv::Rect& box, int row, cv::Size full);
 
   Camera camera_;
   FloorMap map_;
@@ -95,27 +99,35 @@ void Blend::lay(const cv::Mat& picture, const PlacedPicture& place) {
   if (box.empty()) return;
   const cv::Mat mask = mask_of(map_, outline, box);
   const cv::Mat source = reduced(picture, place.altitude_m);
-  const double scale_u = source.cols / static_cast<double>(picture.cols);
-  const double scale_v = source.rows / static_cast<double>(picture.rows);
-  const Pose body_from_world = inverse(place.pose);
-  for (int row = 0; row < box.height; ++row) {
-    const unsigned char* is_seen = mask.ptr(row);
-    float* sum = sum_.ptr<float>(box.y + row) + box.x;
-    float* weight = weight_.ptr<float>(box.y + row) + box.x;
-    // Along a row the point in the body moves by equal steps.
-    const Eigen::Vector2d first = transform(body_from_world, map_.point(box.x, box.y + row));
-    const Eigen::Vector2d step =
-        transform(body_from_world, map_.point(box.x + 1, box.y + row)) - first;
-    for (int column = 0; column < box.width; ++column) {
-      if (is_seen[column] == 0) continue;
-      const Eigen::Vector2d pixel = camera_.pixel(first + column * step, place.altitude_m);
-      // Never quite zero, so that a picture's border shows where it is alone.
-      const float share = std::max(1e-3F, tent(pixel.x(), picture.cols)) *
-                          std::max(1e-3F, tent(pixel.y(), picture.rows));
-      sum[column] += share * bilinear(source, scale_u * (pixel.x() + 0.5) - 0.5,
-                                      scale_v * (pixel.y() + 0.5) - 0.5);
-      weight[column] += share;
+  // Rows share nothing, so that the number of threads changes no sum.
+  cv::parallel_for_({0, box.height}, [&](const cv::Range& rows) {
+    for (int row = rows.start; row < rows.end; ++row) {
+      lay_row(source, place, mask, box, row, picture.size());
     }
+  });
+}
+
+void Blend::lay_row(const cv::Mat& source, const PlacedPicture& place, const cv::Mat& mask,
+                    const cv::Rect& box, int row, cv::Size full) {
+  const unsigned char* is_seen = mask.ptr(row);
+  float* sum = sum_.ptr<float>(box.y + row) + box.x;
+  float* weight = weight_.ptr<float>(box.y + row) + box.x;
+  const double scale_u = source.cols / static_cast<double>(full.width);
+  const double scale_v = source.rows / static_cast<double>(full.height);
+  // Along a row the point in the body moves by equal steps.
+  const Pose body_from_world = inverse(place.pose);
+  const Eigen::Vector2d first = transform(body_from_world, map_.point(box.x, box.y + row));
+  const Eigen::Vector2d step =
+      transform(body_from_world, map_.point(box.x + 1, box.y + row)) - first;
+  for (int column = 0; column < box.width; ++column) {
+    if (is_seen[column] == 0) continue;
+    const Eigen::Vector2d pixel = camera_.pixel(first + column * step, place.altitude_m);
+    // Never quite zero, so that a picture's border shows where it is alone.
+    const float share = std::max(1e-3F, tent(pixel.x(), full.width)) *
+                        std::max(1e-3F, tent(pixel.y(), full.height));
+    sum[column] += share * bilinear(source, scale_u * (pixel.x() + 0.5) - 0.5,
+                                    scale_v * (pixel.y() + 0.5) - 0.5);
+    weight[column] += share;
   }
 }
 

@@ -64,6 +64,23 @@ double largest_step(const Corners& from, const Corners& to) {
   return largest;
 }
 
+// Indices of the pictures that are laid, rising.
+std::vector<std::size_t> laid_of(const Camera& camera, std::span<const PlacedPicture> pictures) {
+  std::vector<std::size_t> laid{0};
+  Footprint last = footprint_of(camera, pictures.front());
+  for (std::size_t i = 1; i < pictures.size(); ++i) {
+    const Footprint footprint = footprint_of(camera, pictures[i]);
+    const double step = largest_step(last.corners, footprint.corners) /
+                        std::min(last.shorter_side_m, footprint.shorter_side_m);
+    if (step < kStep && i + 1 < pictures.size()) continue;
+    // After a leap, what the picture before it shows may be shown by no other.
+    if (step > 2.0 * kStep && laid.back() + 1 < i) laid.push_back(i - 1);
+    laid.push_back(i);
+    last = footprint;
+  }
+  return laid;
+}
+
 template <class Member>
 double median_of(const std::vector<Footprint>& footprints, Member member) {
   std::vector<double> values;
@@ -141,16 +158,9 @@ MosaicPlan plan_mosaic(const Camera& camera, std::span<const PlacedPicture> pict
   if (pictures.empty()) throw InputError("a mosaic needs at least one picture with a pose");
   MosaicPlan plan;
   std::vector<Footprint> laid;
-  for (const PlacedPicture& picture : pictures) {
-    const Footprint footprint = footprint_of(camera, picture);
-    const bool is_last = &picture == &pictures.back();
-    if (!laid.empty() && !is_last &&
-        largest_step(laid.back().corners, footprint.corners) <
-            kStep * std::min(laid.back().shorter_side_m, footprint.shorter_side_m)) {
-      continue;
-    }
-    laid.push_back(footprint);
-    plan.pictures.push_back(picture);
+  for (const std::size_t i : laid_of(camera, pictures)) {
+    plan.pictures.push_back(pictures[i]);
+    laid.push_back(footprint_of(camera, pictures[i]));
   }
   const Box box = box_of(camera, plan.pictures);
   plan.wanted_metres_per_pixel =

@@ -42,12 +42,12 @@ struct MosaicPlan {
 
 /// Plans the mosaic of pictures that are given in the order of time. From the first one on a
 /// picture is laid once a corner of its footprint is a third of the footprint's shorter side away
-/// from where it was in the last one laid; the last is laid too. So what can be covered is, the
-/// work follows the way and not the frame rate, and a place is seen by a few pictures a leg, few
-/// enough for a ghost to be seen. Where the mosaic would be larger than it may, its pixels are
-/// coarser. Throws InputError without a picture, on a resolution or altitude that is not positive,
-/// on a pose that is not finite, and where poses lie so far apart that the pictures would be
-/// specks.
+/// from where it was in the last one laid; the last is laid too, and the one before a leap. So what
+/// can be covered is, the work follows the way and not the frame rate, and a place is seen by a few
+/// pictures a leg, few enough for a ghost to be seen. Where the mosaic would be larger than it may,
+/// its pixels are coarser. Throws InputError without a picture, on a resolution or altitude that is
+/// not positive, on a pose that is not finite, and where poses lie so far apart that the pictures
+/// would be specks.
 MosaicPlan plan_mosaic(const Camera& camera, std::span<const PlacedPicture> pictures,
                        const MosaicOptions& options);
 
