@@ -39,12 +39,12 @@ TEST_F(MosaicCommand, ARunWritesTheMosaicOfItsEstimate) {
   const nlohmann::json where = json_of("out/mosaic.json");
   const double metres_per_pixel = where.at("metres_per_pixel");
   EXPECT_NEAR(metres_per_pixel, 2.0 / 130.5, 0.001);  // altitude over focal length
-  // The loop, 2.4 m by 1.6 m and flown from the middle of a side, and 2 m of floor about it.
-  EXPECT_NEAR(mosaic.rows * metres_per_pixel, 2.4 + 2.4, 0.7);
-  EXPECT_NEAR(mosaic.cols * metres_per_pixel, 1.6 + 2.4, 0.7);
+  // The loop of 2.4 m by 1.6 m, and a footprint whose diagonal is 3.1 m: it turns in the corners.
+  EXPECT_NEAR(mosaic.rows * metres_per_pixel, 2.4 + 3.1, 0.3);
+  EXPECT_NEAR(mosaic.cols * metres_per_pixel, 1.6 + 3.1, 0.3);
   EXPECT_GT(where.at("x_of_top_left_m"), 1.2);
   EXPECT_GT(where.at("y_of_top_left_m"), 1.6);
-  EXPECT_GT(covered(mosaic), 0.8);
+  EXPECT_GT(covered(mosaic), 0.65);
 
   const Ended again = fathom_done({"mosaic", "out", "--out", "again"});
   EXPECT_THAT(again.out,
@@ -64,9 +64,6 @@ TEST_F(MosaicCommand, TakesAnotherTrajectoryAndResolution) {
                "--resolution", "0.05", "--quiet"});
   EXPECT_EQ(json_of("other/mosaic.json").at("metres_per_pixel"), 0.05);
   EXPECT_GT(covered(picture("other/mosaic.png")), 0.6);
-  const Ended fine = fathom_done({"mosaic", "out", "--resolution", "1e-5", "--out", "fine"});
-  EXPECT_THAT(fine.out, HasSubstr("of 1.000e-05 m they would be too many"));
-  EXPECT_LE(picture("fine/mosaic.png").total(), 64'000'000u);
 }
 
 TEST_F(MosaicCommand, OfARunFromDiskThatHasMoved) {
@@ -83,7 +80,7 @@ TEST_F(MosaicCommand, ComparedEstimatorsHaveOneEach) {
   write("c.yaml", kSmallSurvey);
   fathom_done({"compare", "c.yaml", "--out", "out"});
   for (const std::string name : {"trajectory_iekf", "ekf", "ceres_pose_graph"}) {
-    EXPECT_GT(covered(picture("out/" + name + "/mosaic.png")), 0.8) << name;
+    EXPECT_GT(covered(picture("out/" + name + "/mosaic.png")), 0.65) << name;
     fathom_done({"mosaic", "out/" + name, "--out", "again"});
     EXPECT_EQ(bytes_of("again/mosaic.png"), bytes_of("out/" + name + "/mosaic.png")) << name;
   }

@@ -177,7 +177,7 @@ TEST(Mosaic, VignettingIsTakenOut) {
   for (int v = 0; v < 90; ++v) {
     for (int u = 0; u < 120; ++u) mean_light += vignette(Eigen::Vector2d(u, v)) / (90 * 120);
   }
-  // Without correction a corner is off by some 45 grey levels, and by 9 in the mean.
+  // Without correction a corner is off by some 45 grey levels, and by 10 in the mean.
   EXPECT_LT(from_floor(mosaic, mean_light).mean, 2.5);
 }
 
