@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <set>
 
 #include "apps/command.hpp"
 #include "apps/common.hpp"
@@ -61,8 +62,8 @@ std::vector<PlacedPicture> pictures_on(const fs::path& file, const FrameSource& 
   for (std::size_t i = 0; i < frames.size(); ++i) times.push_back({frames.info(i).time_ns, {}});
   std::vector<PlacedPicture> pictures;
   for (const PosePair& pair : associate(trajectory, times, max_difference_s)) {
-    pictures.push_back(
-        {pair.reference, frames.info(pair.reference).altitude_m, trajectory[pair.estimate].pose});
+    pictures.push_back({pair.reference, frames.info(pair.reference).altitude_m,
+                        trajectory[pair.estimate].pose, false});
   }
   if (pictures.empty()) {
     throw InputError(file.string(), "no pose is within " + format_number(max_difference_s, 3) +
@@ -72,13 +73,26 @@ std::vector<PlacedPicture> pictures_on(const fs::path& file, const FrameSource& 
   return pictures;
 }
 
+// Of the run's own estimate: what lies between its keyframes.
+void mark_fillers(std::vector<PlacedPicture>& pictures, const FrameSource& frames,
+                  const fs::path& keyframe_file) {
+  std::set<std::int64_t> keyframes;
+  for (const StampedPose& pose : read_tum(keyframe_file)) keyframes.insert(pose.time_ns);
+  for (PlacedPicture& picture : pictures) {
+    picture.is_filler = !keyframes.contains(frames.info(picture.frame).time_ns);
+  }
+}
+
 void make(const MosaicFlags& flags, Context& context) {
   const Configuration configuration =
       configure(flags.settings(), ConfigurationKind::single, builtin_estimators());
   const Survey survey(configuration);
   const FrameSource& frames = survey.measured();
-  const std::vector<PlacedPicture> pictures =
+  std::vector<PlacedPicture> pictures =
       pictures_on(flags.trajectory_file(), frames, flags.max_difference_s);
+  if (flags.trajectory.empty()) {
+    mark_fillers(pictures, frames, fs::path(flags.run) / "trajectory.tum");
+  }
   MosaicOptions options;
   options.metres_per_pixel = flags.metres_per_pixel;
   const MosaicPlan plan = plan_mosaic(frames.camera(), pictures, options);

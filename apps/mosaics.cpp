@@ -13,8 +13,10 @@ std::vector<PlacedPicture> placed_pictures(const Recording& recording,
   std::vector<PlacedPicture> pictures;
   for (std::size_t i = 0; i < recording.frames.size(); ++i) {
     const FramePlace& place = recording.frames[i];
+    const bool is_keyframe = place.time_ns == recording.keyframe_times_ns[place.keyframe];
     pictures.push_back({i, recording.frame_altitudes_m[i],
-                        compose(keyframes[place.keyframe], place.motion_since_keyframe)});
+                        compose(keyframes[place.keyframe], place.motion_since_keyframe),
+                        !is_keyframe});
   }
   return pictures;
 }

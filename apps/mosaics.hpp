@@ -17,7 +17,7 @@ struct RunMosaic {
   std::vector<PlacedPicture> pictures;
 };
 
-/// Every frame where an estimate has it.
+/// Every frame where an estimate has it; those between keyframes are fillers.
 std::vector<PlacedPicture> placed_pictures(const Recording& recording,
                                            const std::vector<Pose>& keyframes);
 

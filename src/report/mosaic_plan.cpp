@@ -64,19 +64,38 @@ double largest_step(const Corners& from, const Corners& to) {
   return largest;
 }
 
+// Whether two pictures overlap by so little that one between them may show what neither does.
+bool is_leap(const Camera& camera, const PlacedPicture& from, const PlacedPicture& to) {
+  constexpr double kLeastOverlap = 0.2;
+  const Pose motion = compose(inverse(from.pose), to.pose);
+  // Poses at the end of all numbers may leave none.
+  return !motion.position().allFinite() ||
+         footprint_overlap(camera, from.altitude_m, to.altitude_m, motion) < kLeastOverlap;
+}
+
+// The next picture from i on that is no filler, or the last one.
+std::size_t next_anchor(std::span<const PlacedPicture> pictures, std::size_t i) {
+  while (i + 1 < pictures.size() && pictures[i].is_filler) ++i;
+  return i;
+}
+
 // Indices of the pictures that are laid, rising.
 std::vector<std::size_t> laid_of(const Camera& camera, std::span<const PlacedPicture> pictures) {
+  for (const PlacedPicture& picture : pictures) footprint_of(camera, picture);  // all are sound
   std::vector<std::size_t> laid{0};
-  Footprint last = footprint_of(camera, pictures.front());
   for (std::size_t i = 1; i < pictures.size(); ++i) {
-    const Footprint footprint = footprint_of(camera, pictures[i]);
-    const double step = largest_step(last.corners, footprint.corners) /
-                        std::min(last.shorter_side_m, footprint.shorter_side_m);
-    if (step < kStep && i + 1 < pictures.size()) continue;
-    // After a leap, what the picture before it shows may be shown by no other.
-    if (step > 2.0 * kStep && laid.back() + 1 < i) laid.push_back(i - 1);
+    const PlacedPicture& last = pictures[laid.back()];
+    const PlacedPicture& next = pictures[i];
+    if (next.is_filler && !is_leap(camera, last, pictures[next_anchor(pictures, i)])) continue;
+    const Footprint from = footprint_of(camera, last);
+    const Footprint to = footprint_of(camera, next);
+    const bool is_near = largest_step(from.corners, to.corners) <
+                         kStep * std::min(from.shorter_side_m, to.shorter_side_m);
+    // What is no filler is worth more than the filler before it.
+    const bool is_better = last.is_filler && !next.is_filler;
+    if (is_near && !is_better && i + 1 < pictures.size()) continue;
+    if (laid.back() + 1 < i && is_leap(camera, last, next)) laid.push_back(i - 1);
     laid.push_back(i);
-    last = footprint;
   }
   return laid;
 }

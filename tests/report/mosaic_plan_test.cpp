@@ -43,6 +43,31 @@ TEST(MosaicPlan, APictureIsLaidEveryThirdOfAFootprintAndAtTheEnd) {
   EXPECT_EQ(plan_mosaic(camera(), straight(10, 1.0), {}).pictures.size(), 10u);
 }
 
+TEST(MosaicPlan, FillersAreLaidInGapsAlone) {
+  const auto frames_of = [](double step_m) {
+    std::vector<PlacedPicture> pictures = straight(16, step_m);
+    for (PlacedPicture& picture : pictures) picture.is_filler = picture.frame % 5 != 0;
+    std::vector<std::size_t> frames;
+    for (const PlacedPicture& picture : plan_mosaic(camera(), pictures, {}).pictures) {
+      frames.push_back(picture.frame);
+    }
+    return frames;
+  };
+  // Footprints of 1.2 m that are 0.9 m apart overlap by a quarter.
+  EXPECT_EQ(frames_of(0.18), (std::vector<std::size_t>{0, 5, 10, 15}));
+  // 1.5 m apart they do not overlap; from frame 2, 0.6 m on, they do by a quarter.
+  EXPECT_EQ(frames_of(0.3), (std::vector<std::size_t>{0, 2, 5, 7, 10, 12, 15}));
+}
+
+TEST(MosaicPlan, TheEndIsCoveredByFillers) {
+  std::vector<PlacedPicture> pictures = straight(21, 0.1);
+  for (PlacedPicture& picture : pictures) picture.is_filler = picture.frame > 0;
+  const MosaicPlan plan = plan_mosaic(camera(), pictures, {});
+  // What is left at the end overlaps the last one laid by a fifth or more: 0.96 m at the most.
+  EXPECT_GT(plan.top_left_m.x(), 2.0 + 0.6 - 0.96);
+  EXPECT_GT(plan.pictures.size(), 2u);
+}
+
 TEST(MosaicPlan, ATurnOnTheSpotLaysPicturesToo) {
   std::vector<PlacedPicture> turning = straight(63, 0.0);
   for (std::size_t i = 0; i < turning.size(); ++i) {

@@ -20,6 +20,9 @@ struct PlacedPicture {
   std::size_t frame = 0;
   double altitude_m = 0.0;
   Pose pose;  ///< of the body, in the world
+  /// Laid only where the others leave a gap: a frame between keyframes, whose pose has the dead
+  /// reckoning since the last one in it.
+  bool is_filler = false;
 };
 
 struct MosaicOptions {
@@ -42,12 +45,14 @@ struct MosaicPlan {
 
 /// Plans the mosaic of pictures that are given in the order of time. From the first one on a
 /// picture is laid once a corner of its footprint is a third of the footprint's shorter side away
-/// from where it was in the last one laid; the last is laid too, and the one before a leap. So what
-/// can be covered is, the work follows the way and not the frame rate, and a place is seen by a few
-/// pictures a leg, few enough for a ghost to be seen. Where the mosaic would be larger than it may,
-/// its pixels are coarser. Throws InputError without a picture, on a resolution or altitude that is
-/// not positive, on a pose that is not finite, and where poses lie so far apart that the pictures
-/// would be specks.
+/// from where it was in the last one laid; the last is laid too, and the one before a leap, which
+/// leaves less than a fifth of overlap. Fillers are laid by the same rule, but only where it is a
+/// leap from the last one laid to the next that is no filler. So what can be covered is, the work
+/// follows the way and not the frame rate, and a place is seen by a few pictures a leg, few enough
+/// for a ghost to be seen. Where the mosaic would be larger than it may, its pixels are coarser.
+///
+/// Throws InputError without a picture, on a resolution or altitude that is not positive, on a pose
+/// that is not finite, and where poses lie so far apart that the pictures would be specks.
 MosaicPlan plan_mosaic(const Camera& camera, std::span<const PlacedPicture> pictures,
                        const MosaicOptions& options);
 
