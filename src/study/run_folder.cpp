@@ -47,6 +47,11 @@ std::vector<StampedPose> frame_trajectory(const Recording& recording,
 
 Settings data_settings_of_run(const std::filesystem::path& folder) {
   const std::string file = (folder / "run.json").string();
+  if (!std::filesystem::exists(file)) {
+    throw InputError(file,
+                     "is not there; expected the folder of a run, or of one estimator of a "
+                     "comparison");
+  }
   const auto json = nlohmann::json::parse(read_file(file), nullptr, false);
   const auto configuration = json.is_object() ? json.find("configuration") : json.end();
   if (!json.is_object() || configuration == json.end() || !configuration->is_object()) {
