@@ -25,6 +25,7 @@ void add_evaluate(CLI::App& app, Context& context);
 void add_list(CLI::App& app, Context& context);
 void add_check(CLI::App& app, Context& context);
 void add_report(CLI::App& app, Context& context);
+void add_mosaic(CLI::App& app, Context& context);
 void add_select(CLI::App& app, Context& context);
 
 }  // namespace fathom

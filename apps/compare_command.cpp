@@ -14,6 +14,7 @@
 #include "apps/command.hpp"
 #include "apps/common.hpp"
 #include "apps/memory_meter.hpp"
+#include "apps/mosaics.hpp"
 #include "apps/pictures.hpp"
 #include "fathom/core/files.hpp"
 #include "fathom/estimators/builtin.hpp"
@@ -43,6 +44,7 @@ struct CompareFlags {
   std::optional<int> jobs;
   std::string cache;
   bool no_cache = false;
+  bool no_mosaic = false;
 
   Settings settings() const {
     Settings settings = common.settings(config);
@@ -146,11 +148,12 @@ class StoreFolder {
 
 // The folders of one trial, as `run` writes them: trial 0 of the first cell.
 void write_example(const fs::path& out, const Study& study, Recorder& recorder, Context& context,
-                   const std::string& title) {
+                   const std::string& title, const CompareFlags& flags) {
   const Configuration& configuration = study.cells.front();
   const bool is_own = configuration.study.association == Association::own;
   StagedFolder folder(out);
   std::vector<Result> results;
+  std::vector<RunMosaic> mosaics;
   std::optional<Recording> recording;
   for (std::size_t e = 0; e < configuration.estimators.size(); ++e) {
     const EstimatorConfiguration& estimator = configuration.estimators[e];
@@ -170,6 +173,10 @@ void write_example(const fs::path& out, const Study& study, Recorder& recorder, 
                             results.back(), builtin_estimators()));
     write_trajectory_picture(own / "trajectory.png", title + ", " + estimator.name, *recording,
                              {results.back()});
+    mosaics.push_back({own, placed_pictures(*recording, results.back().replay.trajectory)});
+  }
+  if (recorder.pictures() != nullptr && !flags.no_mosaic) {
+    write_mosaics(*recorder.pictures(), mosaics, flags.common.quiet);
   }
   write_trajectory_picture(folder.path() / "trajectories.png", title, *recording, results);
   write_file(folder.path() / "metrics.json", comparison_json(results, *recording));
@@ -227,7 +234,7 @@ void compare(const CompareFlags& flags, Context& context) {
   store.finish();
   const std::string title =
       study.description.title.empty() ? stem_of(flags.config) : study.description.title;
-  write_example(out, study, example, context, title);
+  write_example(out, study, example, context, title, flags);
   write_study_report(store, out);
   const std::string table = study_table(store);
   write_file(out / "table.txt", table);
@@ -266,6 +273,7 @@ void add_compare(CLI::App& app, Context& context) {
                    "(default: $FATHOM_CACHE, or ~/.cache/fathom)")
       ->type_name("DIR");
   command->add_flag("--no-cache", flags->no_cache, "Neither read nor write kept registrations");
+  command->add_flag("--no-mosaic", flags->no_mosaic, "No mosaics of the pictures");
   command->callback([flags, &context] { compare(*flags, context); });
 }
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 
 #include "apps/command.hpp"
@@ -58,7 +59,8 @@ cv::Mat picture_for(const Camera& camera, const std::string& path) {
 MatchPicture match_picture(const RegisterFlags& flags, const cv::Mat& a, const cv::Mat& b,
                            const FloorFeatures& features_a, const FloorFeatures& features_b,
                            const Registration& registration) {
-  MatchPicture picture{a, b, flags.a, flags.b, {}, {}};
+  MatchPicture picture{
+      a, b, flags.a, flags.b, {}, {}, registration.found ? "" : registration.reason};
   for (const Match& match : registration.matches) {
     picture.matches.push_back({features_a.features.pixels[static_cast<std::size_t>(match.from)],
                                features_b.features.pixels[static_cast<std::size_t>(match.to)]});
@@ -82,6 +84,15 @@ void print(const Registration& registration) {
   std::printf("  RMS of the inliers %.4f m\n", registration.rms_m);
 }
 
+void write_pictures(const std::filesystem::path& folder, const MatchPicture& matches,
+                    const FloorPicture& a, const FloorPicture& b,
+                    const Registration& registration) {
+  write_file(folder / "matches_raw.png", encode_png(render_raw_matches(matches)));
+  write_file(folder / "matches_accepted.png", encode_png(render_accepted_matches(matches)));
+  if (!registration.found) return;
+  write_file(folder / "overlay.png", encode_png(render_overlay(a, b, registration.motion)));
+}
+
 void register_pictures(const RegisterFlags& flags, Context& context) {
   const Settings settings = flags.common.settings(flags.config);
   require_altitude("--altitude-a", flags.altitude_a_m);
@@ -97,19 +108,15 @@ void register_pictures(const RegisterFlags& flags, Context& context) {
   const Registration registration =
       register_pair(features_a, features_b, configuration.front_end.registration,
                     pair_seed(static_cast<std::uint64_t>(configuration.seed), 0, 1));
-  write_file(folder.path() / "matches.png",
-             encode_png(render(match_picture(flags, a, b, features_a, features_b, registration))));
-  if (registration.found) {
-    write_file(folder.path() / "overlay.png",
-               encode_png(render_overlay({a, camera, flags.altitude_a_m},
-                                         {b, camera, flags.altitude_b_m}, registration.motion)));
-  }
+  write_pictures(folder.path(), match_picture(flags, a, b, features_a, features_b, registration),
+                 {a, camera, flags.altitude_a_m}, {b, camera, flags.altitude_b_m}, registration);
   folder.commit({"overlay.png"});
   context.status = registration.found ? kDone : kFailed;
   if (flags.common.quiet) return;
   std::printf("%zu features in A, %zu in B, ", features_a.size(), features_b.size());
   print(registration);
-  std::printf("\nwrote %s\n", (folder.target() / "matches.png").c_str());
+  std::printf("\nwrote %s\n      %s\n", (folder.target() / "matches_raw.png").c_str(),
+              (folder.target() / "matches_accepted.png").c_str());
   if (registration.found) std::printf("      %s\n", (folder.target() / "overlay.png").c_str());
 }
 

@@ -7,6 +7,7 @@
 #include "apps/command.hpp"
 #include "apps/common.hpp"
 #include "apps/memory_meter.hpp"
+#include "apps/mosaics.hpp"
 #include "apps/pictures.hpp"
 #include "fathom/core/files.hpp"
 #include "fathom/estimators/builtin.hpp"
@@ -19,11 +20,15 @@ namespace {
 struct RunFlags {
   CommonFlags common;
   std::string config;
+  bool no_mosaic = false;
 };
 
-Recording record_with_progress(const Configuration& configuration, bool quiet) {
+Recording record_with_progress(const Recorder& recorder, const Configuration& configuration,
+                               bool quiet) {
   ProgressLine line("front end, frame", quiet);
-  return record(configuration, builtin_estimators(), line.callback());
+  const TrialNoise noise{static_cast<std::uint64_t>(configuration.seed), 0};
+  return recorder.record(configuration, configuration.reference, builtin_estimators(), noise,
+                         line.callback());
 }
 
 Result evaluate_with_progress(const Recording& recording, const Configuration& configuration,
@@ -78,7 +83,8 @@ void run(const RunFlags& flags, Context& context) {
   const Configuration configuration = configure(flags.common.settings(flags.config),
                                                 ConfigurationKind::single, builtin_estimators());
   StagedFolder folder(flags.common.folder_or(stem_of(flags.config)));
-  const Recording recording = record_with_progress(configuration, flags.common.quiet);
+  const Recorder recorder(configuration);
+  const Recording recording = record_with_progress(recorder, configuration, flags.common.quiet);
   const std::vector<Result> results{evaluate_with_progress(
       recording, configuration, configuration.estimators.front(), flags.common.quiet)};
   const Result& result = results.front();
@@ -87,12 +93,20 @@ void run(const RunFlags& flags, Context& context) {
   write_trajectory_picture(folder.path() / "trajectory.png",
                            stem_of(flags.config) + ", " + result.estimator.name, recording,
                            results);
+  std::string mosaic;
+  if (recorder.pictures() != nullptr && !flags.no_mosaic) {
+    mosaic = write_mosaics(*recorder.pictures(),
+                           {{folder.path(), placed_pictures(recording, result.replay.trajectory)}},
+                           flags.common.quiet)
+                 .front();
+  }
   folder.commit(optional_run_files());
   context.status = result.is_done() ? kDone : kFailed;
   if (flags.common.quiet) return;
   print_front_end(recording);
   print_table(recording, results, configuration);
   std::printf("\nwrote %s\n", (folder.target() / "trajectory.png").c_str());
+  if (!mosaic.empty()) std::printf("      %s\n", mosaic.c_str());
 }
 
 }  // namespace
@@ -104,6 +118,7 @@ void add_run(CLI::App& app, Context& context) {
   command->add_option("config", flags->config, "Configuration (YAML)")->required();
   flags->common.add_settings_to(*command);
   flags->common.add_out_to(*command, "Output folder (default: runs/CONFIG's name)");
+  command->add_flag("--no-mosaic", flags->no_mosaic, "No mosaic of the pictures");
   command->callback([flags, &context] { run(*flags, context); });
 }
 

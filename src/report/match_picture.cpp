@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include <opencv2/imgproc.hpp>
 
@@ -17,95 +18,194 @@ constexpr Colour kInlierColour = palette::sky_blue;
 constexpr Colour kOutlierColour = palette::orange;
 constexpr int kGapPx = 12;
 constexpr int kMarginPx = 14;
-constexpr double kCaptionPx = 44.0;
-constexpr double kCaptionHeight = 16.0;
+constexpr int kTopPx = 64;  ///< of the pictures; a caption and their names stand above
+constexpr double kCaptionPx = 16.0;
+constexpr double kNamePx = 12.0;
+constexpr std::size_t kMostLines = 90;
+
+double gain_of(const cv::Mat& a, const cv::Mat& b) {
+  const cv::Scalar mean = 0.5 * (cv::mean(a) + cv::mean(b));
+  constexpr double kMean = 120.0;
+  return std::clamp(kMean / std::max(1.0, mean[1]), 1.0, 3.0);
+}
 
 /// Two pictures side by side at one scale, and the way from their pixels to the canvas.
 class Pair {
  public:
   Pair(const cv::Mat& a, const cv::Mat& b) {
     constexpr double kWidest = 800.0;
-    constexpr double kHighest = 700.0;
+    constexpr double kHighest = 900.0;
     scale_ =
         std::min({1.0, kWidest / std::max(a.cols, b.cols), kHighest / std::max(a.rows, b.rows)});
-    cv::resize(as_bgr(a), a_, {}, scale_, scale_, cv::INTER_AREA);
-    cv::resize(as_bgr(b), b_, {}, scale_, scale_, cv::INTER_AREA);
+    cv::resize(a, a_, {}, scale_, scale_, cv::INTER_AREA);
+    cv::resize(b, b_, {}, scale_, scale_, cv::INTER_AREA);
+    const double gain = gain_of(a_, b_);
+    a_ *= gain;
+    b_ *= gain;
   }
 
   int width_px() const { return a_.cols + kGapPx + b_.cols; }
   int height_px() const { return std::max(a_.rows, b_.rows); }
+  cv::Size size_a() const { return a_.size(); }
 
-  void draw(Canvas& canvas, double top_px) const {
-    canvas.image(a_, {kMarginPx, top_px});
-    canvas.image(b_, {double(kMarginPx + a_.cols + kGapPx), top_px});
+  void draw(Canvas& canvas, const MatchPicture& picture) const {
+    canvas.image(a_, {double(kMarginPx), double(kTopPx)});
+    canvas.image(b_, {double(left_b()), double(kTopPx)});
+    const auto name = [&](const std::string& text, int left, int width) {
+      canvas.text(text, {double(left), kTopPx - 10.0},
+                  Canvas::fitting_height_px(text, kNamePx, width));
+    };
+    name("A  " + picture.name_a, kMarginPx, a_.cols);
+    name("B  " + picture.name_b, left_b(), b_.cols);
   }
 
-  void draw_match(Canvas& canvas, double top_px, const PixelPair& match, Colour colour) const {
-    const Eigen::Vector2d half(0.5, 0.5);  // pixels are at their centres
-    const Eigen::Vector2d a = scale_ * (match.a + half) - half + Eigen::Vector2d(kMarginPx, top_px);
-    const Eigen::Vector2d b =
-        scale_ * (match.b + half) - half + Eigen::Vector2d(kMarginPx + a_.cols + kGapPx, top_px);
-    canvas.line({a, b}, {colour, 1.0});
-    canvas.ring(a, 3.0, {colour, 1.0});
-    canvas.ring(b, 3.0, {colour, 1.0});
+  // Pixels are at their centres.
+  Eigen::Vector2d in_a(const Eigen::Vector2d& pixel) const {
+    const Eigen::Vector2d half(0.5, 0.5);
+    return scale_ * (pixel + half) - half + Eigen::Vector2d(kMarginPx, kTopPx);
+  }
+  Eigen::Vector2d in_b(const Eigen::Vector2d& pixel) const {
+    const Eigen::Vector2d half(0.5, 0.5);
+    return scale_ * (pixel + half) - half + Eigen::Vector2d(left_b(), kTopPx);
   }
 
  private:
+  int left_b() const { return kMarginPx + a_.cols + kGapPx; }
+
   double scale_ = 1.0;
   cv::Mat a_;
   cv::Mat b_;
 };
 
-std::vector<bool> inlier_flags(const MatchPicture& picture) {
-  std::vector<bool> flags(picture.matches.size(), false);
+/// Indices of the matches that agree, and of the others; both rising.
+struct Sorted {
+  std::vector<std::size_t> inliers;
+  std::vector<std::size_t> others;
+};
+
+Sorted sorted(const MatchPicture& picture) {
+  std::vector<bool> is_inlier(picture.matches.size(), false);
   for (const std::size_t i : picture.inliers) {
-    if (i >= flags.size()) {
+    if (i >= is_inlier.size()) {
       throw InputError("inlier " + std::to_string(i) + " is none of the " +
-                       std::to_string(flags.size()) + " matches");
+                       std::to_string(is_inlier.size()) + " matches");
     }
-    flags[i] = true;
+    is_inlier[i] = true;
   }
-  return flags;
+  Sorted sorted;
+  for (std::size_t i = 0; i < is_inlier.size(); ++i) {
+    (is_inlier[i] ? sorted.inliers : sorted.others).push_back(i);
+  }
+  return sorted;
 }
 
-std::string count_text(std::size_t count, const std::string& one, const std::string& many) {
-  return std::to_string(count) + " " + (count == 1 ? one : many);
+// As many of the matches as may be, one for each cell of a net over A, finer until it suffices.
+std::vector<std::size_t> spread(const MatchPicture& picture, std::vector<std::size_t> among,
+                                std::size_t most) {
+  if (among.size() <= most) return among;
+  std::vector<std::size_t> chosen;
+  for (int cells = 1; cells <= 64; ++cells) {
+    std::set<std::pair<int, int>> taken;
+    std::vector<std::size_t> next;
+    for (const std::size_t i : among) {
+      const Eigen::Vector2d& a = picture.matches[i].a;
+      const double cell_px = std::max(picture.a.cols, picture.a.rows) / static_cast<double>(cells);
+      const std::pair<int, int> cell(static_cast<int>(a.x() / cell_px),
+                                     static_cast<int>(a.y() / cell_px));
+      if (taken.insert(cell).second) next.push_back(i);
+    }
+    if (next.size() > most) break;
+    chosen = std::move(next);
+  }
+  return chosen;
+}
+
+struct Marks {
+  std::vector<std::size_t> matches;
+  std::size_t most_lines = 0;
+  bool agree = false;
+};
+
+// Returns how many lines there are.
+std::size_t draw(Canvas& canvas, const Pair& pair, const MatchPicture& picture,
+                 const Marks& marks) {
+  const Colour colour = marks.agree ? kInlierColour : kOutlierColour;
+  const std::vector<std::size_t> joined = spread(picture, marks.matches, marks.most_lines);
+  for (const std::size_t i : joined) {
+    const PixelPair& match = picture.matches[i];
+    canvas.line({pair.in_a(match.a), pair.in_b(match.b)}, {colour, 1.0});
+  }
+  for (const std::size_t i : marks.matches) {
+    for (const Eigen::Vector2d& at :
+         {pair.in_a(picture.matches[i].a), pair.in_b(picture.matches[i].b)}) {
+      if (marks.agree) canvas.disc(at, 2.5, colour);
+      if (!marks.agree) canvas.ring(at, 3.5, {colour, 1.0});
+    }
+  }
+  return joined.size();
+}
+
+// Lines go to both kinds by their numbers, to the rarer one a third; what one kind cannot use, the
+// other one may.
+std::size_t lines_of_inliers(std::size_t inliers, std::size_t others) {
+  const std::size_t all = std::max<std::size_t>(1, inliers + others);
+  const std::size_t third = kMostLines / 3;
+  const std::size_t share = std::clamp(kMostLines * inliers / all, third, kMostLines - third);
+  return std::min(inliers, kMostLines - std::min(others, kMostLines - share));
+}
+
+std::string count_text(std::size_t count) {
+  return std::to_string(count) + (count == 1 ? " match" : " matches");
+}
+
+std::string lines_text(std::size_t lines, std::size_t matches) {
+  return lines < matches ? ", " + std::to_string(lines) + " joined by lines" : "";
+}
+
+cv::Mat finished(Canvas& canvas, const Pair& pair, const std::string& caption) {
+  canvas.text(caption, {kMarginPx, 26},
+              Canvas::fitting_height_px(caption, kCaptionPx, pair.width_px()));
+  return canvas.finish();
+}
+
+Canvas canvas_for(const Pair& pair) {
+  return Canvas(pair.width_px() + 2 * kMarginPx, kTopPx + pair.height_px() + kMarginPx);
 }
 
 }  // namespace
 
-cv::Mat render(const MatchPicture& picture) {
+cv::Mat render_raw_matches(const MatchPicture& picture) {
   const Pair pair(as_bgr(picture.a), as_bgr(picture.b));
-  const std::vector<bool> is_inlier = inlier_flags(picture);
-  const auto inliers =
-      static_cast<std::size_t>(std::count(is_inlier.begin(), is_inlier.end(), true));
-  const double row_px = kCaptionPx + pair.height_px();
-  Canvas canvas(pair.width_px() + 2 * kMarginPx, static_cast<int>(2 * row_px) + kMarginPx);
-
-  const double before_top = kCaptionPx;
-  const double after_top = row_px + kCaptionPx;
-  pair.draw(canvas, before_top);
-  pair.draw(canvas, after_top);
-  for (const bool wanted : {false, true}) {  // inliers over the others
-    for (std::size_t i = 0; i < picture.matches.size(); ++i) {
-      if (is_inlier[i] != wanted) continue;
-      const Colour colour = wanted ? kInlierColour : kOutlierColour;
-      pair.draw_match(canvas, before_top, picture.matches[i], colour);
-      if (wanted) pair.draw_match(canvas, after_top, picture.matches[i], colour);
-    }
+  const Sorted matches = sorted(picture);
+  Canvas canvas = canvas_for(pair);
+  pair.draw(canvas, picture);
+  const std::size_t all = picture.matches.size();
+  const std::size_t most = lines_of_inliers(matches.inliers.size(), matches.others.size());
+  std::size_t lines = draw(canvas, pair, picture, {matches.inliers, most, true});
+  lines += draw(canvas, pair, picture, {matches.others, kMostLines - lines, false});
+  std::string caption = "Before RANSAC: " + count_text(all) + lines_text(lines, all);
+  if (all > 0) {
+    caption += ".  " + std::to_string(matches.inliers.size()) + " agree (blue), " +
+               std::to_string(matches.others.size()) + " do not (orange)";
   }
-  const std::string names = picture.name_a.empty() && picture.name_b.empty()
-                                ? ""
-                                : picture.name_a + "  |  " + picture.name_b + "  |  ";
-  const std::string before =
-      names + "before RANSAC: " + count_text(picture.matches.size(), "match", "matches") +
-      " (refused in orange)";
-  canvas.text(before, {kMarginPx, before_top - 14},
-              Canvas::fitting_height_px(before, kCaptionHeight, pair.width_px()));
-  canvas.text(inliers == 0 ? "after RANSAC: not found"
-                           : "after RANSAC: " + count_text(inliers, "inlier", "inliers"),
-              {kMarginPx, after_top - 14}, kCaptionHeight);
-  return canvas.finish();
+  return finished(canvas, pair, caption);
+}
+
+cv::Mat render_accepted_matches(const MatchPicture& picture) {
+  const Pair pair(as_bgr(picture.a), as_bgr(picture.b));
+  const std::vector<std::size_t> inliers = sorted(picture).inliers;
+  Canvas canvas = canvas_for(pair);
+  pair.draw(canvas, picture);
+  const std::size_t lines = draw(canvas, pair, picture, {inliers, kMostLines, true});
+  if (picture.not_found.empty()) {
+    return finished(
+        canvas, pair,
+        "After RANSAC: " + count_text(inliers.size()) + lines_text(lines, inliers.size()));
+  }
+  const std::string shown = inliers.empty() ? "none to show"
+                                            : "the best supported " + count_text(inliers.size()) +
+                                                  lines_text(lines, inliers.size());
+  return finished(canvas, pair, "Not found: " + picture.not_found + "; " + shown);
 }
 
 }  // namespace fathom

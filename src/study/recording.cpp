@@ -52,6 +52,9 @@ Recording record_survey(Survey& survey, const Configuration& configuration, std:
     if (progress) progress(front_end.frames().size(), frames.size());
   }
   recording.frames = front_end.frames();
+  for (std::size_t i = 0; i < recording.frames.size(); ++i) {
+    recording.frame_altitudes_m.push_back(frames.info(i).altitude_m);
+  }
   recording.frame_dead_reckoning = dead_reckoning_of(frames, recording.frames.size());
   recording.ground_truth = ground_truth_of(frames, front_end.keyframes());
   recording.camera = frames.camera();
@@ -99,6 +102,10 @@ Recording Recorder::record(const Configuration& configuration, std::size_t refer
   if (graph_) return *graph_;
   Survey survey(pictures_, configuration, noise);
   return record_survey(survey, configuration, reference, registry, progress);
+}
+
+const FrameSource* Recorder::pictures() const {
+  return pictures_ ? &pictures_->source() : nullptr;
 }
 
 Recording record(const Configuration& configuration, const EstimatorRegistry& registry,

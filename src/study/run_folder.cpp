@@ -1,21 +1,12 @@
 #include "fathom/study/run_folder.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include "fathom/core/files.hpp"
 #include "fathom/measurements/g2o.hpp"
 
 namespace fathom {
 namespace {
-
-// The robot's pose at every frame: its keyframe's ⊕ the dead reckoning since.
-std::vector<StampedPose> frame_trajectory(const Recording& recording,
-                                          const std::vector<Pose>& keyframes) {
-  std::vector<StampedPose> trajectory;
-  for (const FramePlace& place : recording.frames) {
-    trajectory.push_back(
-        {place.time_ns, compose(keyframes[place.keyframe], place.motion_since_keyframe)});
-  }
-  return trajectory;
-}
 
 std::vector<StampedPose> dead_reckoning(const Recording& recording) {
   if (recording.frames.empty()) return keyframe_trajectory(recording, recording.log.odometry());
@@ -32,7 +23,52 @@ std::vector<StampedPose> ground_truth(const Recording& recording) {
   return keyframe_trajectory(recording, *recording.ground_truth);
 }
 
+// A value of run.json as a configuration has it. Names of files are taken as they are.
+Setting setting_of(const std::string& key, const std::string& text, const std::string& file) {
+  if (key == "dataset.path" || key == "dataset.world.picture") {
+    return {key, OptionValue::scalar(text), file};
+  }
+  Setting setting = parse_override(key + "=" + text);
+  setting.origin = file;
+  return setting;
+}
+
 }  // namespace
+
+std::vector<StampedPose> frame_trajectory(const Recording& recording,
+                                          const std::vector<Pose>& keyframes) {
+  std::vector<StampedPose> trajectory;
+  for (const FramePlace& place : recording.frames) {
+    trajectory.push_back(
+        {place.time_ns, compose(keyframes[place.keyframe], place.motion_since_keyframe)});
+  }
+  return trajectory;
+}
+
+Settings data_settings_of_run(const std::filesystem::path& folder) {
+  const std::string file = (folder / "run.json").string();
+  if (!std::filesystem::exists(file)) {
+    throw InputError(file,
+                     "is not there; expected the folder of a run, or of one estimator of a "
+                     "comparison");
+  }
+  const auto json = nlohmann::json::parse(read_file(file), nullptr, false);
+  const auto configuration = json.is_object() ? json.find("configuration") : json.end();
+  if (!json.is_object() || configuration == json.end() || !configuration->is_object()) {
+    throw InputError(file, "has no configuration; expected the run.json of a run");
+  }
+  const auto type = configuration->find("dataset.type");
+  if (type == configuration->end() || *type == "g2o") {
+    throw InputError(file, "the run was over a pose graph, which has no pictures");
+  }
+  Settings settings;
+  for (const auto& [key, value] : configuration->items()) {
+    if (key != "seed" && !key.starts_with("dataset.")) continue;
+    if (!value.is_string()) throw InputError(file, key + ": expected a text");
+    settings.put(setting_of(key, value.get<std::string>(), file));
+  }
+  return settings;
+}
 
 std::vector<StampedPose> keyframe_trajectory(const Recording& recording,
                                              const std::vector<Pose>& poses) {
@@ -52,7 +88,8 @@ void write_recording(const std::filesystem::path& folder, const Recording& recor
 }
 
 const std::vector<std::string>& optional_run_files() {
-  static const std::vector<std::string> names{"frames.tum", "ground_truth.tum"};
+  static const std::vector<std::string> names{"frames.tum", "ground_truth.tum", "mosaic.json",
+                                              "mosaic.png"};
   return names;
 }
 

@@ -111,6 +111,10 @@ void Survey::open(const Configuration& configuration, const TrialNoise& noise) {
 const FrameSource& Survey::frames() const {
   if (visual_odometry_) return *visual_odometry_;
   if (noisy_odometry_) return *noisy_odometry_;
+  return measured();
+}
+
+const FrameSource& Survey::measured() const {
   return measured_ ? *measured_ : pictures_->source();
 }
 

@@ -231,7 +231,8 @@ TEST_F(Commands, RegisterFindsTheMotionOfTwoFrames) {
   std::smatch found;
   ASSERT_TRUE(std::regex_search(ended.out, found, std::regex(R"(x +(-?[0-9.]+) m)"))) << ended.out;
   EXPECT_NEAR(std::stod(found[1]), 0.25, 0.03);  // 0.5 m/s, two pictures a second
-  expect_picture("out/matches.png");
+  expect_picture("out/matches_raw.png");
+  expect_picture("out/matches_accepted.png");
   expect_picture("out/overlay.png");
 }
 
@@ -247,7 +248,8 @@ TEST_F(Commands, RegisterWithoutAMatchIsStatusOne) {
   EXPECT_EQ(ended.status, 1);
   EXPECT_THAT(ended.out, HasSubstr("not found: "));
   EXPECT_EQ(ended.err, "");
-  expect_picture("out/matches.png");
+  expect_picture("out/matches_raw.png");
+  expect_picture("out/matches_accepted.png");
   EXPECT_FALSE(std::filesystem::exists(path("out/overlay.png")));
 }
 

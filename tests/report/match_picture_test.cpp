@@ -5,7 +5,9 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <opencv2/imgproc.hpp>
 
+#include "fathom/core/random.hpp"
 #include "pixels.hpp"
 #include "support/input_error.hpp"
 
@@ -25,41 +27,80 @@ MatchPicture example() {
   return picture;
 }
 
-TEST(MatchPicture, AllMatchesAboveInliersBelow) {
-  const cv::Mat drawn = render(example());
-  const cv::Mat above = drawn.rowRange(0, drawn.rows / 2).clone();
-  const cv::Mat below = drawn.rowRange(drawn.rows / 2, drawn.rows).clone();
-  EXPECT_GT(count(above, palette::orange), 10);
-  EXPECT_GT(count(above, palette::sky_blue), 30);
-  EXPECT_EQ(count(below, palette::orange), 0);
-  EXPECT_GT(count(below, palette::sky_blue), 30);
+TEST(MatchPicture, RawShowsAllAndAcceptedInliersAlone) {
+  const cv::Mat raw = render_raw_matches(example());
+  EXPECT_GT(count(raw, palette::orange), 10);
+  EXPECT_GT(count(raw, palette::sky_blue), 30);
+  const cv::Mat accepted = render_accepted_matches(example());
+  EXPECT_EQ(count(accepted, palette::orange), 0);
+  EXPECT_GT(count(accepted, palette::sky_blue), 30);
 }
 
 TEST(MatchPicture, ALineStartsAndEndsAtItsPixels) {
   MatchPicture picture = example();
   picture.matches = {{{100, 50}, {100, 50}}};
   picture.inliers.clear();
-  const cv::Mat drawn = render(picture);
+  const cv::Mat drawn = render_raw_matches(picture);
   const cv::Mat mask = test::where(drawn, palette::orange);
-  std::vector<cv::Point> points;
-  cv::findNonZero(mask, points);
-  int leftmost = drawn.cols;
-  int rightmost = 0;
-  for (const cv::Point& point : points) {
-    leftmost = std::min(leftmost, point.x);
-    rightmost = std::max(rightmost, point.x);
-  }
-  // A's picture begins at 14 pixels, B's 320 + 12 further on; the rings have a radius of 3.
-  EXPECT_NEAR(leftmost, 14 + 100 - 3, 1.5);
-  EXPECT_NEAR(rightmost, 14 + 320 + 12 + 100 + 3, 1.5);
+  const cv::Rect box = cv::boundingRect(mask);
+  // A's picture begins at (14, 64), B's 320 + 12 further on; the rings have a radius of 3.
+  EXPECT_NEAR(box.x, 14 + 100 - 3, 1.5);
+  EXPECT_NEAR(box.x + box.width - 1, 14 + 320 + 12 + 100 + 3, 1.5);
+  EXPECT_NEAR(box.y, 64 + 50 - 3, 1.5);
+  EXPECT_NEAR(box.y + box.height - 1, 64 + 50 + 3, 1.5);
 }
 
 TEST(MatchPicture, NotFoundAndNoMatchesAtAll) {
   MatchPicture picture = example();
+  picture.not_found = "2 of 3 matches agree, 12 are needed";
+  EXPECT_GT(count(render_accepted_matches(picture), palette::sky_blue), 30);  // the best there are
   picture.inliers.clear();
-  EXPECT_EQ(count(render(picture), palette::sky_blue), 0);
+  EXPECT_EQ(count(render_raw_matches(picture), palette::sky_blue), 0);
+  EXPECT_EQ(count(render_accepted_matches(picture), palette::sky_blue), 0);
   picture.matches.clear();
-  EXPECT_EQ(count(render(picture), palette::orange), 0);
+  EXPECT_EQ(count(render_raw_matches(picture), palette::orange), 0);
+}
+
+// 2000 matches, shifted by 60 pixels; every third one does not agree.
+MatchPicture crowded() {
+  MatchPicture picture;
+  picture.a = cv::Mat(480, 640, CV_8UC1, cv::Scalar(120));
+  picture.b = picture.a;
+  RandomStream random(1, "matches");
+  for (std::size_t i = 0; i < 2000; ++i) {
+    const Eigen::Vector2d a(70 + random.index(560), 10 + random.index(460));
+    picture.matches.push_back({a, a - Eigen::Vector2d(60, 0)});
+    if (i % 3 != 0) picture.inliers.push_back(i);
+  }
+  return picture;
+}
+
+TEST(MatchPicture, ThousandsOfMatchesAreAllMarkedAndLeaveThePicturesToBeSeen) {
+  const MatchPicture picture = crowded();
+  const cv::Mat raw = render_raw_matches(picture);
+  const cv::Mat drawn = render_accepted_matches(picture);
+  for (const std::size_t i : picture.inliers) {
+    const Eigen::Vector2d& a = picture.matches[i].a;
+    const cv::Vec3b mark =
+        drawn.at<cv::Vec3b>(static_cast<int>(a.y()) + 64, static_cast<int>(a.x()) + 14);
+    EXPECT_EQ(mark, cv::Vec3b(0xE9, 0xB4, 0x56)) << i;
+  }
+  for (const cv::Mat& any : {raw, drawn}) {
+    EXPECT_GT(count(any, {120, 120, 120}), 0.5 * 2 * 640 * 480);
+  }
+  EXPECT_GT(count(raw, palette::orange), 1000);
+  EXPECT_GT(count(raw, palette::sky_blue), 1000);
+}
+
+TEST(MatchPicture, DarkPicturesAreBrightenedAlike) {
+  MatchPicture picture = example();
+  picture.matches.clear();
+  picture.inliers.clear();
+  picture.b.setTo(cv::Scalar(40, 40, 40));
+  const cv::Mat drawn = render_accepted_matches(picture);
+  // 120 are wanted, 60 and 40 are there: both times 2.4.
+  EXPECT_GT(count(drawn, {144, 144, 144}), 0.9 * 320 * 240);
+  EXPECT_GT(count(drawn, {96, 96, 96}), 0.9 * 300 * 200);
 }
 
 TEST(MatchPicture, LargePicturesAreScaledDown) {
@@ -68,7 +109,7 @@ TEST(MatchPicture, LargePicturesAreScaledDown) {
   picture.matches = {{{3999, 2999}, {299, 199}}};
   picture.inliers = {0};
   picture.name_a = std::string(500, 'x');
-  const cv::Mat drawn = render(picture);
+  const cv::Mat drawn = render_accepted_matches(picture);
   EXPECT_LE(drawn.cols, 1640);
   EXPECT_GT(count(drawn, palette::sky_blue), 30);
 }
@@ -76,12 +117,13 @@ TEST(MatchPicture, LargePicturesAreScaledDown) {
 TEST(MatchPicture, Refuses) {
   MatchPicture picture = example();
   picture.inliers = {3};
-  EXPECT_THAT(input_error_of([&] { render(picture); }), HasSubstr("inlier 3 is none of the 3"));
+  EXPECT_THAT(input_error_of([&] { render_raw_matches(picture); }),
+              HasSubstr("inlier 3 is none of the 3"));
   picture = example();
   picture.b = cv::Mat();
-  EXPECT_THAT(input_error_of([&] { render(picture); }), HasSubstr("empty"));
+  EXPECT_THAT(input_error_of([&] { render_raw_matches(picture); }), HasSubstr("empty"));
   picture.b = cv::Mat(10, 10, CV_16U);
-  EXPECT_THAT(input_error_of([&] { render(picture); }), HasSubstr("got 16 bits"));
+  EXPECT_THAT(input_error_of([&] { render_raw_matches(picture); }), HasSubstr("got 16 bits"));
 }
 
 }  // namespace

@@ -17,20 +17,28 @@ struct PixelPair {
   Eigen::Vector2d b;
 };
 
-/// Two pictures and their matches: figures 1 and 3 of the paper.
+/// Two pictures and their matches: figure 1 of the paper has them all, figure 3 the accepted ones.
 struct MatchPicture {
   cv::Mat a;  ///< 8-bit, one or three channels
   cv::Mat b;
   std::string name_a;
   std::string name_b;
-  std::vector<PixelPair> matches;    ///< all, before RANSAC
-  std::vector<std::size_t> inliers;  ///< indices into `matches`; none where no motion was found
+  std::vector<PixelPair> matches;  ///< all, before RANSAC
+  /// Indices into `matches` of those that agree with the motion found; where none was found, with
+  /// the best supported one, if that is known.
+  std::vector<std::size_t> inliers;
+  std::string not_found;  ///< why no motion was found; empty: one was
 };
 
-/// The pictures side by side, twice: above with every match (those RANSAC refused in another
-/// colour), below with its inliers alone. 8-bit BGR, at most 1640 pixels wide.
-/// Throws InputError on an empty picture, another type, or an inlier that is no match.
-cv::Mat render(const MatchPicture& picture);
+/// The pictures side by side with every match: blue discs those that agree, orange rings those that
+/// do not. All are marked at both ends, but of many only some are joined by lines, at most 90, from
+/// all over the picture: more would hide it. 8-bit BGR, at most 1640 pixels wide. Dark pictures are
+/// brightened, both alike. Throws InputError on an empty picture, another type, or an inlier that
+/// is no match.
+cv::Mat render_raw_matches(const MatchPicture& picture);
+
+/// The same with the matches alone that agree.
+cv::Mat render_accepted_matches(const MatchPicture& picture);
 
 /// A picture of the floor with what is needed to lay it there.
 struct FloorPicture {

@@ -24,6 +24,7 @@ struct Recording {
   std::vector<std::int64_t> keyframe_times_ns;
   std::vector<FramePlace> frames;          ///< empty for a pose graph
   std::vector<Pose> frame_dead_reckoning;  ///< one per frame, from the identity on
+  std::vector<double> frame_altitudes_m;   ///< one per frame, as measured
   /// Of the keyframes, where all of them have it.
   std::optional<std::vector<Pose>> ground_truth;
   /// Of the keyframes, as measured, and the camera that took their pictures; absent for a graph.
@@ -56,6 +57,10 @@ class Recorder {
   Recording record(const Configuration& configuration, std::size_t reference,
                    const EstimatorRegistry& registry, const TrialNoise& noise,
                    const Progress& progress = {}) const;
+
+  /// The pictures; nothing for a pose graph. Their motions and altitudes may not be those of any
+  /// trial.
+  const FrameSource* pictures() const;
 
  private:
   std::optional<Recording> graph_;

@@ -4,10 +4,16 @@
 #include <string>
 #include <vector>
 
+#include "fathom/study/config_file.hpp"
 #include "fathom/study/recording.hpp"
 #include "fathom/study/result.hpp"
 
 namespace fathom {
+
+/// The estimate at every frame, stamped: its keyframe's ⊕ the dead reckoning since. Nothing for a
+/// pose graph.
+std::vector<StampedPose> frame_trajectory(const Recording& recording,
+                                          const std::vector<Pose>& keyframes);
 
 /// The estimate at every keyframe, stamped.
 std::vector<StampedPose> keyframe_trajectory(const Recording& recording,
@@ -19,6 +25,11 @@ void write_recording(const std::filesystem::path& folder, const Recording& recor
 
 /// The files of a run that not every run has, to be removed from a folder that is used again.
 const std::vector<std::string>& optional_run_files();
+
+/// What a run's pictures and altitudes depend on: the settings `seed` and `dataset.…` of the run
+/// whose folder this is, out of its `run.json`. Throws InputError where there is none, where it is
+/// not that of a run, or where the run was over a pose graph, which has no pictures.
+Settings data_settings_of_run(const std::filesystem::path& folder);
 
 /// Writes the text files of one estimator's run into an existing folder (docs/formats.md):
 /// `trajectory.tum`, `dead_reckoning.tum`, `measurements.g2o`, `metrics.json`, `run.json`, and

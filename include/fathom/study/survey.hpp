@@ -49,6 +49,9 @@ class Survey {
 
   /// Frames with dead reckoning: recorded, with noise added or not, simulated, or visual odometry.
   const FrameSource& frames() const;
+  /// The same frames as they were measured: without visual odometry or added noise, so that asking
+  /// for an altitude costs nothing.
+  const FrameSource& measured() const;
   PairRegistrar& registrar() { return pictures_->registrar(); }
   bool uses_visual_odometry() const { return visual_odometry_ != nullptr; }
   std::size_t visual_odometry_failures() const;

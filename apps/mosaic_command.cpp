@@ -1,0 +1,140 @@
+// fathom mosaic: the pictures of a run, laid where a trajectory has them.
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <set>
+
+#include "apps/command.hpp"
+#include "apps/common.hpp"
+#include "apps/mosaics.hpp"
+#include "fathom/core/files.hpp"
+#include "fathom/core/input_error.hpp"
+#include "fathom/estimators/builtin.hpp"
+#include "fathom/evaluation/association.hpp"
+#include "fathom/report/table.hpp"
+#include "fathom/study/run_folder.hpp"
+#include "fathom/study/survey.hpp"
+
+namespace fathom {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct MosaicFlags {
+  CommonFlags common;
+  std::string run;
+  std::string trajectory;
+  std::optional<double> metres_per_pixel;
+  double max_difference_s = 0.01;
+
+  /// The run's settings, then --set and --seed.
+  Settings settings() const {
+    Settings settings = data_settings_of_run(run);
+    const Settings given = common.settings("");
+    for (const Setting& setting : given.all()) {
+      if (setting.key != "seed" && !setting.key.starts_with("dataset.")) {
+        refuse(setting, setting.key + ": a mosaic depends on dataset.… and seed alone");
+      }
+      settings.put(setting);
+    }
+    return settings;
+  }
+
+  /// --trajectory, or the run's own estimate.
+  fs::path trajectory_file() const {
+    return trajectory.empty() ? fs::path(run) / "frames.tum" : fs::path(trajectory);
+  }
+
+  std::string default_folder() const {
+    const fs::path folder = fs::path(run).lexically_normal();
+    const fs::path name =
+        folder.has_filename() ? folder.filename() : folder.parent_path().filename();
+    return name.string() + "-" + trajectory_file().stem().string();
+  }
+};
+
+std::vector<PlacedPicture> pictures_on(const fs::path& file, const FrameSource& frames,
+                                       double max_difference_s) {
+  const std::vector<StampedPose> trajectory = read_tum(file);
+  std::vector<StampedPose> times;
+  for (std::size_t i = 0; i < frames.size(); ++i) times.push_back({frames.info(i).time_ns, {}});
+  std::vector<PlacedPicture> pictures;
+  for (const PosePair& pair : associate(trajectory, times, max_difference_s)) {
+    pictures.push_back({pair.reference, frames.info(pair.reference).altitude_m,
+                        trajectory[pair.estimate].pose, false});
+  }
+  if (pictures.empty()) {
+    throw InputError(file.string(), "no pose is within " + format_number(max_difference_s, 3) +
+                                        " s of a picture of the run; --max-difference may be "
+                                        "larger");
+  }
+  return pictures;
+}
+
+// Of the run's own estimate: what lies between its keyframes.
+void mark_fillers(std::vector<PlacedPicture>& pictures, const FrameSource& frames,
+                  const fs::path& keyframe_file) {
+  std::set<std::int64_t> keyframes;
+  for (const StampedPose& pose : read_tum(keyframe_file)) keyframes.insert(pose.time_ns);
+  for (PlacedPicture& picture : pictures) {
+    picture.is_filler = !keyframes.contains(frames.info(picture.frame).time_ns);
+  }
+}
+
+void make(const MosaicFlags& flags, Context& context) {
+  const Configuration configuration =
+      configure(flags.settings(), ConfigurationKind::single, builtin_estimators());
+  const Survey survey(configuration);
+  const FrameSource& frames = survey.measured();
+  std::vector<PlacedPicture> pictures =
+      pictures_on(flags.trajectory_file(), frames, flags.max_difference_s);
+  if (flags.trajectory.empty()) {
+    mark_fillers(pictures, frames, fs::path(flags.run) / "trajectory.tum");
+  }
+  MosaicOptions options;
+  options.metres_per_pixel = flags.metres_per_pixel;
+  const MosaicPlan plan = plan_mosaic(frames.camera(), pictures, options);
+  StagedFolder folder(flags.common.folder_or(flags.default_folder()));
+  {
+    ProgressLine line("mosaic, picture", flags.common.quiet);
+    write_mosaic(folder.path(), plan, make_mosaics(frames, {&plan, 1}, line.callback()).front());
+  }
+  folder.commit();
+  context.status = kDone;
+  if (flags.common.quiet) return;
+  std::printf("%zu of %zu frames have a pose; laid: %s\n\nwrote %s\n", pictures.size(),
+              frames.size(), mosaic_text(plan).c_str(), (folder.target() / "mosaic.png").c_str());
+}
+
+}  // namespace
+
+void add_mosaic(CLI::App& app, Context& context) {
+  auto flags = std::make_shared<MosaicFlags>();
+  CLI::App* command =
+      app.add_subcommand("mosaic", "Lay a run's pictures where a trajectory has them");
+  command->footer(
+      "Example: fathom mosaic runs/run --trajectory runs/run/ground_truth.tum --out truth\n"
+      "Writes mosaic.png, x up and y to the left, and mosaic.json, which says where it lies.");
+  command->add_option("run", flags->run, "Folder of a run over pictures")->required();
+  command
+      ->add_option("--trajectory", flags->trajectory,
+                   "Trajectory (TUM), of all frames or some (default: the run's frames.tum)")
+      ->type_name("FILE");
+  command
+      ->add_option("--resolution", flags->metres_per_pixel,
+                   "Metres per pixel (default: what a pixel of a picture covers)")
+      ->type_name("M");
+  command
+      ->add_option("--max-difference", flags->max_difference_s,
+                   "A pose is of a picture whose time stamp differs by no more (s)")
+      ->type_name("S")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  flags->common.add_settings_to(*command);
+  flags->common.add_out_to(*command, "Output folder (default: runs/RUN's name-TRAJECTORY's name)");
+  command->callback([flags, &context] { make(*flags, context); });
+}
+
+}  // namespace fathom

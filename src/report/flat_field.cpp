@@ -1,0 +1,102 @@
+#include "flat_field.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/QR>
+#include <opencv2/imgproc.hpp>
+
+namespace fathom {
+namespace {
+
+constexpr int kDegree = 4;
+constexpr int kTerms = (kDegree + 1) * (kDegree + 2) / 2;
+constexpr int kMostCells = 32;
+constexpr int kLeastPixels = 16;
+
+using Terms = Eigen::Matrix<double, 1, kTerms>;
+
+// x^i y^j with i + j ≤ 4, the constant first; both from −1 to 1 over the picture.
+Terms terms_at(double x, double y) {
+  Terms terms;
+  int next = 0;
+  for (int degree = 0; degree <= kDegree; ++degree) {
+    for (int j = 0; j <= degree; ++j) terms(next++) = std::pow(x, degree - j) * std::pow(y, j);
+  }
+  return terms;
+}
+
+double centred(int i, int count) {
+  return (2.0 * i + 1.0) / count - 1.0;
+}
+
+}  // namespace
+
+FlatField::FlatField(cv::Size size) : size_(size) {
+  if (std::min(size.width, size.height) < kLeastPixels) return;
+  cells_ = cv::Size(std::min(kMostCells, size.width), std::min(kMostCells, size.height));
+  Eigen::MatrixXd design(cells_.area(), kTerms);
+  for (int v = 0; v < cells_.height; ++v) {
+    for (int u = 0; u < cells_.width; ++u) {
+      design.row(v * cells_.width + u) =
+          terms_at(centred(u, cells_.width), centred(v, cells_.height));
+    }
+  }
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(design);
+  basis_ = qr.householderQ() * Eigen::MatrixXd::Identity(cells_.area(), kTerms);
+  const Eigen::MatrixXd R = qr.matrixQR().topRows(kTerms);
+  monomials_from_basis_ =
+      R.triangularView<Eigen::Upper>().solve(Eigen::MatrixXd::Identity(kTerms, kTerms));
+}
+
+void FlatField::add(const cv::Mat& picture) {
+  if (cells_.empty()) return;
+  cv::Mat cells;
+  cv::Mat_<float> exact;
+  picture.convertTo(exact, CV_32F);
+  cv::resize(exact, cells, cells_, 0, 0, cv::INTER_AREA);
+  Eigen::VectorXd logarithms(cells_.area());
+  for (int i = 0; i < cells_.area(); ++i) {
+    // Black is as dark as a grey level of 1: its logarithm would drown all others.
+    logarithms(i) = std::log(std::max(1.0F, cells.at<float>(i / cells_.width, i % cells_.width)));
+  }
+  coefficients_.push_back(basis_.rightCols(kTerms - 1).transpose() * logarithms);
+}
+
+Eigen::VectorXd FlatField::common_part(double independent) const {
+  Eigen::VectorXd common = Eigen::VectorXd::Zero(kTerms);
+  if (coefficients_.size() < 3 || !(independent >= 2.0)) return common;
+  const auto count = static_cast<double>(coefficients_.size());
+  Eigen::VectorXd mean = Eigen::VectorXd::Zero(kTerms - 1);
+  for (const Eigen::VectorXd& c : coefficients_) mean += c / count;
+  Eigen::VectorXd variance = Eigen::VectorXd::Zero(kTerms - 1);
+  for (const Eigen::VectorXd& c : coefficients_) {
+    variance += (c - mean).cwiseAbs2() / (count - 1.0);
+  }
+  for (int j = 0; j + 1 < kTerms; ++j) {
+    const double power = mean(j) * mean(j);
+    if (!(power > 0.0)) continue;
+    common(j + 1) = mean(j) * std::max(0.0, 1.0 - variance(j) / (independent * power));
+  }
+  return common;
+}
+
+cv::Mat FlatField::gain(double independent) const {
+  const Eigen::VectorXd common = common_part(independent);
+  cv::Mat gain(size_, CV_32F, cv::Scalar(1.0));
+  if (common.isZero(0.0)) return gain;
+  const Eigen::VectorXd monomials = monomials_from_basis_ * common;
+  double sum = 0.0;
+  for (int v = 0; v < size_.height; ++v) {
+    for (int u = 0; u < size_.width; ++u) {
+      const double field =
+          std::exp(terms_at(centred(u, size_.width), centred(v, size_.height)).dot(monomials));
+      sum += field;
+      gain.at<float>(v, u) = static_cast<float>(1.0 / field);
+    }
+  }
+  gain *= sum / size_.area();
+  return gain;
+}
+
+}  // namespace fathom

@@ -1,0 +1,41 @@
+#include "floor_map.hpp"
+
+#include <cmath>
+
+#include <opencv2/imgproc.hpp>
+
+namespace fathom {
+
+std::vector<Eigen::Vector2d> seen_outline(const Camera& camera, double altitude_m) {
+  const CameraModel& model = camera.model();
+  const int steps = model.has_distortion() ? 24 : 1;
+  const Eigen::Vector2d size(model.width, model.height);
+  const Eigen::Vector2d first(-0.5, -0.5);
+  const Eigen::Vector2d corners[] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 0}};
+  std::vector<Eigen::Vector2d> outline;
+  for (int side = 0; side < 4; ++side) {
+    for (int i = 0; i < steps; ++i) {
+      const Eigen::Vector2d at =
+          corners[side] + (corners[side + 1] - corners[side]) * (i / static_cast<double>(steps));
+      outline.push_back(camera.floor_point(first + at.cwiseProduct(size), altitude_m));
+    }
+  }
+  return outline;
+}
+
+cv::Mat mask_of(const FloorMap& map, const std::vector<Eigen::Vector2d>& polygon,
+                const cv::Rect& box) {
+  constexpr int kShift = 8;
+  std::vector<cv::Point> fixed;
+  for (const Eigen::Vector2d& point : polygon) {
+    const Eigen::Vector2d pixel = map.pixel(point) - Eigen::Vector2d(box.x, box.y);
+    fixed.emplace_back(static_cast<int>(std::lround(pixel.x() * (1 << kShift))),
+                       static_cast<int>(std::lround(pixel.y() * (1 << kShift))));
+  }
+  cv::Mat mask = cv::Mat::zeros(box.size(), CV_8U);
+  cv::fillPoly(mask, std::vector<std::vector<cv::Point>>{fixed}, cv::Scalar(255), cv::LINE_8,
+               kShift);
+  return mask;
+}
+
+}  // namespace fathom

@@ -1,0 +1,205 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+#include <nlohmann/json.hpp>
+
+#include "fathom/core/input_error.hpp"
+#include "fathom/report/mosaic.hpp"
+#include "floor_map.hpp"
+
+namespace fathom {
+namespace {
+
+/// Of the shorter side of a footprint: how far a corner moves from one picture laid to the next.
+constexpr double kStep = 1.0 / 3.0;
+/// Some viewers and readers of PNG files end at 2^16.
+constexpr double kLongestPx = 65'000.0;
+
+using Corners = std::array<Eigen::Vector2d, 4>;
+
+std::string short_text(double value) {
+  char buffer[32];
+  std::snprintf(buffer, sizeof buffer, "%.3g", value);
+  return buffer;
+}
+
+struct Footprint {
+  Corners corners;  ///< world
+  double shorter_side_m = 0.0;
+  double metres_per_pixel = 0.0;
+};
+
+double shorter_side_of(const Corners& c) {
+  return std::min((c[1] - c[0]).norm(), (c[2] - c[1]).norm());
+}
+
+// Twice the area of the two triangles of a quadrangle is the cross product of its diagonals.
+double area_of(const Corners& c) {
+  const Eigen::Vector2d a = c[2] - c[0];
+  const Eigen::Vector2d b = c[3] - c[1];
+  return 0.5 * std::abs(a.x() * b.y() - a.y() * b.x());
+}
+
+Footprint footprint_of(const Camera& camera, const PlacedPicture& picture) {
+  const Pose& pose = picture.pose;
+  if (!std::isfinite(pose.x) || !std::isfinite(pose.y) || !std::isfinite(pose.theta)) {
+    throw InputError("the pose of frame " + std::to_string(picture.frame) + " is not finite");
+  }
+  Footprint footprint{camera.footprint(picture.altitude_m), 0.0, 0.0};
+  const double pixels = static_cast<double>(camera.model().width) * camera.model().height;
+  footprint.metres_per_pixel = std::sqrt(area_of(footprint.corners) / pixels);
+  footprint.shorter_side_m = shorter_side_of(footprint.corners);
+  for (Eigen::Vector2d& corner : footprint.corners) corner = transform(pose, corner);
+  return footprint;
+}
+
+double largest_step(const Corners& from, const Corners& to) {
+  double largest = 0.0;
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    largest = std::max(largest, (to[i] - from[i]).norm());
+  }
+  return largest;
+}
+
+// Whether two pictures overlap by so little that one between them may show what neither does.
+bool is_leap(const Camera& camera, const PlacedPicture& from, const PlacedPicture& to) {
+  constexpr double kLeastOverlap = 0.2;
+  const Pose motion = compose(inverse(from.pose), to.pose);
+  // Poses at the end of all numbers may leave none.
+  return !motion.position().allFinite() ||
+         footprint_overlap(camera, from.altitude_m, to.altitude_m, motion) < kLeastOverlap;
+}
+
+// The next picture from i on that is no filler, or the last one.
+std::size_t next_anchor(std::span<const PlacedPicture> pictures, std::size_t i) {
+  while (i + 1 < pictures.size() && pictures[i].is_filler) ++i;
+  return i;
+}
+
+// Indices of the pictures that are laid, rising.
+std::vector<std::size_t> laid_of(const Camera& camera, std::span<const PlacedPicture> pictures) {
+  for (const PlacedPicture& picture : pictures) footprint_of(camera, picture);  // all are sound
+  std::vector<std::size_t> laid{0};
+  for (std::size_t i = 1; i < pictures.size(); ++i) {
+    const PlacedPicture& last = pictures[laid.back()];
+    const PlacedPicture& next = pictures[i];
+    if (next.is_filler && !is_leap(camera, last, pictures[next_anchor(pictures, i)])) continue;
+    const Footprint from = footprint_of(camera, last);
+    const Footprint to = footprint_of(camera, next);
+    const bool is_near = largest_step(from.corners, to.corners) <
+                         kStep * std::min(from.shorter_side_m, to.shorter_side_m);
+    // What is no filler is worth more than the filler before it.
+    const bool is_better = last.is_filler && !next.is_filler;
+    if (is_near && !is_better && i + 1 < pictures.size()) continue;
+    if (laid.back() + 1 < i && is_leap(camera, last, next)) laid.push_back(i - 1);
+    laid.push_back(i);
+  }
+  return laid;
+}
+
+template <class Member>
+double median_of(const std::vector<Footprint>& footprints, Member member) {
+  std::vector<double> values;
+  for (const Footprint& footprint : footprints) values.push_back(footprint.*member);
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+struct Box {
+  Eigen::Vector2d low = Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity());
+  Eigen::Vector2d high = -low;
+};
+
+Box box_of(const Camera& camera, const std::vector<PlacedPicture>& pictures) {
+  Box box;
+  for (const PlacedPicture& picture : pictures) {
+    for (const Eigen::Vector2d& point : seen_outline(camera, picture.altitude_m)) {
+      const Eigen::Vector2d world = transform(picture.pose, point);
+      box.low = box.low.cwiseMin(world);
+      box.high = box.high.cwiseMax(world);
+    }
+  }
+  return box;
+}
+
+// Width and height on the grid of whole pixels, not yet as integers: they may be beyond those.
+Eigen::Vector2d size_px(const Box& box, double metres_per_pixel) {
+  const Eigen::Vector2d high = (box.high / metres_per_pixel).array().ceil();
+  const Eigen::Vector2d low = (box.low / metres_per_pixel).array().floor();
+  const Eigen::Vector2d extent = (high - low).cwiseMax(1.0);
+  return {extent.y(), extent.x()};
+}
+
+double fitting_resolution(const Box& box, double metres_per_pixel, double most_pixels) {
+  while (true) {
+    const Eigen::Vector2d size = size_px(box, metres_per_pixel);
+    const double excess = std::max(std::sqrt(size.prod() / most_pixels),
+                                   size.maxCoeff() / std::min(kLongestPx, most_pixels));
+    if (excess <= 1.0) return metres_per_pixel;
+    // A little more than it takes, as sizes are rounded up.
+    metres_per_pixel *= 1.001 * excess;
+  }
+}
+
+void require_options(const MosaicOptions& options) {
+  if (!(options.most_pixels >= 1.0)) throw InputError("a mosaic has one pixel at least");
+  if (!options.metres_per_pixel) return;
+  const double m = *options.metres_per_pixel;
+  if (std::isfinite(m) && m > 0.0) return;
+  throw InputError("the resolution must be a number of metres per pixel above zero, got " +
+                   short_text(m));
+}
+
+// A mosaic of which each picture is a few pixels is no map, but a trajectory gone wild.
+void require_no_specks(const Box& box, const MosaicPlan& plan, double shorter_side_m) {
+  constexpr double kFewestPx = 4.0;
+  if (plan.wanted_metres_per_pixel * kFewestPx > shorter_side_m) {
+    throw InputError("a resolution of " + short_text(plan.wanted_metres_per_pixel) +
+                     " m per pixel is too coarse for pictures of " + short_text(shorter_side_m) +
+                     " m");
+  }
+  if (plan.metres_per_pixel * kFewestPx <= shorter_side_m) return;
+  const Eigen::Vector2d extent = box.high - box.low;
+  throw InputError("the trajectory covers " + short_text(extent.x()) + " m x " +
+                   short_text(extent.y()) + " m, on which pictures of " +
+                   short_text(shorter_side_m) + " m would be specks");
+}
+
+}  // namespace
+
+MosaicPlan plan_mosaic(const Camera& camera, std::span<const PlacedPicture> pictures,
+                       const MosaicOptions& options) {
+  require_options(options);
+  if (pictures.empty()) throw InputError("a mosaic needs at least one picture with a pose");
+  MosaicPlan plan;
+  std::vector<Footprint> laid;
+  for (const std::size_t i : laid_of(camera, pictures)) {
+    plan.pictures.push_back(pictures[i]);
+    laid.push_back(footprint_of(camera, pictures[i]));
+  }
+  const Box box = box_of(camera, plan.pictures);
+  plan.wanted_metres_per_pixel =
+      options.metres_per_pixel.value_or(median_of(laid, &Footprint::metres_per_pixel));
+  plan.metres_per_pixel =
+      fitting_resolution(box, plan.wanted_metres_per_pixel, options.most_pixels);
+  require_no_specks(box, plan, median_of(laid, &Footprint::shorter_side_m));
+  const Eigen::Vector2d size = size_px(box, plan.metres_per_pixel);
+  plan.size = cv::Size(static_cast<int>(size.x()), static_cast<int>(size.y()));
+  plan.top_left_m = (box.high / plan.metres_per_pixel).array().ceil() * plan.metres_per_pixel;
+  return plan;
+}
+
+std::string mosaic_json(const MosaicPlan& plan) {
+  nlohmann::ordered_json json;
+  json["metres_per_pixel"] = plan.metres_per_pixel;
+  json["x_of_top_left_m"] = plan.top_left_m.x();
+  json["y_of_top_left_m"] = plan.top_left_m.y();
+  json["pictures"] = plan.pictures.size();
+  return json.dump(2) + "\n";
+}
+
+}  // namespace fathom
