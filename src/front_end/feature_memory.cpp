@@ -17,14 +17,14 @@ PackedFeatures::PackedFeatures(Features features)
 }
 
 Features PackedFeatures::unpacked() const {
-  Features features{packed_.pixels, packed_.descriptors};
+  Features features = packed_;
   if (packed_.descriptors.type() != type_)
     packed_.descriptors.convertTo(features.descriptors, type_);
   return features;
 }
 
 std::size_t PackedFeatures::bytes() const {
-  return sizeof(*this) + packed_.pixels.size() * sizeof(Eigen::Vector2d) +
+  return sizeof(*this) + packed_.pixels.size() * (sizeof(Eigen::Vector2d) + 2 * sizeof(float)) +
          packed_.descriptors.total() * packed_.descriptors.elemSize();
 }
 

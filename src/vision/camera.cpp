@@ -98,6 +98,13 @@ std::vector<Eigen::Vector2d> Camera::floor_points(std::span<const Eigen::Vector2
   return points;
 }
 
+double Camera::heading(double turn_rad) const {
+  const Eigen::Vector2d way =
+      body_from_mount_ *
+      Eigen::Vector2d(-std::sin(turn_rad) / model_.fy, -std::cos(turn_rad) / model_.fx);
+  return std::atan2(way.y(), way.x());
+}
+
 Eigen::Vector2d Camera::pixel(const Eigen::Vector2d& floor_point, double altitude_m) const {
   require_altitude(altitude_m);
   const Eigen::Vector2d mount(model_.mount_x_m, model_.mount_y_m);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <numbers>
 #include <numeric>
 #include <tuple>
 #include <utility>
@@ -55,9 +57,78 @@ std::vector<int> strongest(const std::vector<cv::KeyPoint>& keypoints, std::size
   return order;
 }
 
+// Twice a box, near enough a Gaussian of this radius, at a cost that does not grow with it.
+cv::Mat smoothed(const cv::Mat& picture, int radius_px) {
+  const cv::Size box(2 * radius_px + 1, 2 * radius_px + 1);
+  cv::Mat once;
+  cv::Mat twice;
+  cv::boxFilter(picture, once, CV_32F, box, {-1, -1}, true, cv::BORDER_REFLECT_101);
+  cv::boxFilter(once, twice, CV_32F, box, {-1, -1}, true, cv::BORDER_REFLECT_101);
+  return twice;
+}
+
+double deviation_of(const cv::Mat& picture) {
+  cv::Scalar mean;
+  cv::Scalar deviation;
+  cv::meanStdDev(picture, mean, deviation);
+  return deviation[0];
+}
+
+cv::Mat blurred(const cv::Mat& picture, double sigma_px) {
+  cv::Mat result;
+  cv::GaussianBlur(picture, result, {}, sigma_px);
+  return result;
+}
+
+// The blur that leaves less of a sensor's noise than there is of the floor, 0 where that is so
+// already. Noise is told by the scale: it is strongest from pixel to pixel, where a floor seen
+// through a lens has little, no more than in the band of 1 to 2 pixels.
+double blur_for_noise(const cv::Mat& picture) {
+  // Of white noise of deviation 1: what the finest band and that of 1 to 2 pixels have of it. Of a
+  // floor the finest has some 0.6 of the other.
+  constexpr double kFineShare = 0.72;
+  constexpr double kMiddleShare = 0.14;
+  constexpr double kFloorRatio = 0.6;
+  const auto square = [](double x) { return x * x; };
+  const double fine = square(deviation_of(picture - blurred(picture, 0.7)));
+  const double middle = square(deviation_of(blurred(picture, 1.0) - blurred(picture, 2.0)));
+  const double noise = std::sqrt(std::max(0.0, fine - square(kFloorRatio) * middle) /
+                                 (square(kFineShare) - square(kFloorRatio * kMiddleShare)));
+  const double floor = std::sqrt(std::max(0.0, middle - square(kMiddleShare * noise)));
+  // A Gaussian blur of sigma leaves 1 / (2 √π sigma) of the noise.
+  static const double kLeft = getenv("KAPPA") ? atof(getenv("KAPPA")) : 1.75;
+  constexpr double kMost = 2.5;
+  const double sigma = noise / (2.0 * std::sqrt(std::numbers::pi) * kLeft * std::max(floor, 0.1));
+  return sigma < 0.4 ? 0.0 : std::min(sigma, kMost);
+}
+
+// Every pixel less the mean about it, over the standard deviation there: light, shade and haze that
+// vary slowly are gone, and a faint floor is as rich in contrast as a bold one.
+cv::Mat flattened(const cv::Mat& gray) {
+  static const double kSharpPx = getenv("LC") ? atof(getenv("LC")) : 6.0;
+  static const double kWider = getenv("LCW") ? atof(getenv("LCW")) : 4.0;
+  constexpr double kRounding = 1.0;  // of a grey: below it nothing is amplified
+  constexpr double kDeviation = 40.0;
+  constexpr double kMiddle = 128.0;
+  cv::Mat detail;
+  gray.convertTo(detail, CV_32F);
+  const double blur_px = blur_for_noise(detail);
+  if (blur_px > 0.0) detail = blurred(detail, blur_px);
+  const int radius_px = cvRound(kSharpPx + kWider * blur_px);
+  if (getenv("VB")) printf("[blur %.2f]", blur_px);
+  detail -= smoothed(detail, radius_px);
+  cv::Mat deviation;
+  cv::sqrt(smoothed(detail.mul(detail), radius_px), deviation);
+  detail /= deviation + kRounding;
+  cv::Mat flat;
+  detail.convertTo(flat, CV_8U, kDeviation, kMiddle);
+  return flat;
+}
+
 cv::Mat prepared(const cv::Mat& picture, const FeatureOptions& options) {
   // OpenCV's filters look beyond the border of a part of a larger picture, and find what is there.
   cv::Mat gray = picture.isSubmatrix() ? picture.clone() : picture;
+  if (options.flatten) gray = flattened(gray);
   if (!options.clahe) return gray;
   cv::Mat equalised;
   cv::createCLAHE(options.clahe_clip_limit, cv::Size(options.clahe_tiles, options.clahe_tiles))
@@ -68,8 +139,18 @@ cv::Mat prepared(const cv::Mat& picture, const FeatureOptions& options) {
 }  // namespace
 
 FloorFeatures on_floor(Features features, const Camera& camera, double altitude_m) {
-  std::vector<Eigen::Vector2d> points = camera.floor_points(features.pixels, altitude_m);
-  return {std::move(points), std::move(features)};
+  FloorFeatures result;
+  result.points = camera.floor_points(features.pixels, altitude_m);
+  const CameraModel& model = camera.model();
+  const double metres_per_pixel = altitude_m / std::sqrt(model.fx * model.fy);
+  for (std::size_t row = 0; row < features.sizes_px.size(); ++row) {
+    result.sizes_m.push_back(metres_per_pixel * features.sizes_px[row]);
+    result.headings_rad.push_back(camera.heading(features.turns_rad[row]));
+  }
+  result.features = std::move(features);
+  result.altitude_m = altitude_m;
+  result.camera_m = {model.mount_x_m, model.mount_y_m};
+  return result;
 }
 
 std::span<const DetectorEntry> detectors() {
@@ -120,8 +201,11 @@ Features FeatureExtractor::extract(const cv::Mat& gray) const {
                                 descriptors.type());
   }
   for (std::size_t row = 0; row < order.size(); ++row) {
-    const cv::Point2f& point = keypoints[static_cast<std::size_t>(order[row])].pt;
+    const cv::KeyPoint& keypoint = keypoints[static_cast<std::size_t>(order[row])];
+    const cv::Point2f& point = keypoint.pt;
     features.pixels.emplace_back(point.x - offset, point.y - offset);
+    features.sizes_px.push_back(keypoint.size);
+    features.turns_rad.push_back(static_cast<float>(keypoint.angle * std::numbers::pi / 180.0));
     descriptors.row(order[row]).copyTo(features.descriptors.row(static_cast<int>(row)));
   }
   return features;

@@ -17,12 +17,8 @@ constexpr int kBlockRows = 64;
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-// A cost is the squared Euclidean distance, or the number of differing bits.
-struct Nearest {
-  int row = -1;
-  float cost = kInfinity;
-  float next_cost = kInfinity;
-};
+// A cost is the squared Euclidean distance, or the number of differing bits. While rows are compared
+// Nearest holds costs; they become distances at the end.
 
 // The nearest row of `from` for each row of `to`, among the rows of `from` seen so far.
 struct NearestBack {
@@ -45,21 +41,16 @@ struct NearestBack {
   }
 };
 
-struct Neighbours {
-  std::vector<Nearest> in_to;  // of each row of `from`
-  NearestBack in_from;         // of each row of `to`
-};
-
 // One look at the costs of a row serves both directions.
 Nearest scan_row(int row, std::span<const float> costs, NearestBack& back) {
   Nearest nearest;
   for (std::size_t column = 0; column < costs.size(); ++column) {
     const float cost = costs[column];
-    if (cost < nearest.next_cost) {
-      if (cost < nearest.cost) {
-        nearest = {static_cast<int>(column), cost, nearest.cost};
+    if (cost < nearest.next_distance) {
+      if (cost < nearest.distance) {
+        nearest = {static_cast<int>(column), cost, nearest.distance};
       } else {
-        nearest.next_cost = cost;
+        nearest.next_distance = cost;
       }
     }
     if (cost < back.cost[column]) {
@@ -72,8 +63,10 @@ Nearest scan_row(int row, std::span<const float> costs, NearestBack& back) {
 
 // `costs_of(first, rows, block)` fills a block, rows × to_rows, with the costs of rows of `from`.
 template <class Costs>
-Neighbours find_neighbours(int from_rows, int to_rows, const Costs& costs_of) {
-  Neighbours found{std::vector<Nearest>(static_cast<std::size_t>(from_rows)), NearestBack(to_rows)};
+NearestRows find_by_cost(int from_rows, int to_rows, const Costs& costs_of) {
+  NearestRows found;
+  found.in_to.resize(static_cast<std::size_t>(from_rows));
+  NearestBack in_from(to_rows);
   std::mutex merging;
   const auto compare_blocks = [&](const cv::Range& blocks) {
     const std::size_t columns = static_cast<std::size_t>(to_rows);
@@ -90,9 +83,12 @@ Neighbours find_neighbours(int from_rows, int to_rows, const Costs& costs_of) {
       }
     }
     const std::lock_guard lock(merging);
-    found.in_from.merge(back);
+    in_from.merge(back);
   };
   cv::parallel_for_({0, (from_rows + kBlockRows - 1) / kBlockRows}, compare_blocks);
+  for (std::size_t column = 0; column < in_from.row.size(); ++column) {
+    found.in_from.push_back({in_from.row[column], in_from.cost[column], kInfinity});
+  }
   return found;
 }
 
@@ -107,10 +103,10 @@ std::vector<float> squared_norms(const cv::Mat& descriptors) {
 
 // ‖a‖² + ‖b‖² − 2 a·b, all products in one matrix product per block. SIFT's whole numbers up to 255
 // keep every sum below 2²⁴, so that the squared distances are exact.
-Neighbours euclidean_neighbours(const cv::Mat& from, const cv::Mat& to) {
+NearestRows find_euclidean(const cv::Mat& from, const cv::Mat& to) {
   const std::vector<float> from_norms = squared_norms(from);
   const std::vector<float> to_norms = squared_norms(to);
-  return find_neighbours(from.rows, to.rows, [&](int first, int rows, float* block) {
+  NearestRows found = find_by_cost(from.rows, to.rows, [&](int first, int rows, float* block) {
     cblas_sgemm(CblasRowMajor, CblasNoTrans, CblasTrans, rows, to.rows, from.cols, -2.0F,
                 from.ptr<float>(first), static_cast<int>(from.step1()), to.ptr<float>(),
                 static_cast<int>(to.step1()), 0.0F, block, to.rows);
@@ -120,10 +116,19 @@ Neighbours euclidean_neighbours(const cv::Mat& from, const cv::Mat& to) {
       for (const float to_norm : to_norms) *block++ += from_norm + to_norm;
     }
   });
+  // Rounding may leave a square just below zero.
+  const auto distance_of = [](float square) { return std::sqrt(std::max(square, 0.0F)); };
+  for (std::vector<Nearest>* side : {&found.in_to, &found.in_from}) {
+    for (Nearest& nearest : *side) {
+      nearest.distance = distance_of(nearest.distance);
+      nearest.next_distance = distance_of(nearest.next_distance);
+    }
+  }
+  return found;
 }
 
-Neighbours hamming_neighbours(const cv::Mat& from, const cv::Mat& to) {
-  return find_neighbours(from.rows, to.rows, [&](int first, int rows, float* block) {
+NearestRows find_hamming(const cv::Mat& from, const cv::Mat& to) {
+  return find_by_cost(from.rows, to.rows, [&](int first, int rows, float* block) {
     cv::Mat bits;
     cv::batchDistance(from.rowRange(first, first + rows), to, bits, CV_32S, cv::noArray(),
                       cv::NORM_HAMMING);
@@ -153,27 +158,39 @@ void MatchingOptions::describe(OptionTable& table) {
   table.boolean("mutual", mutual, "a match is nearest both ways");
 }
 
-std::vector<Match> match(const Features& from, const Features& to, const MatchingOptions& options) {
-  std::vector<Match> matches;
+NearestRows find_nearest(const Features& from, const Features& to) {
   const cv::Mat& a = from.descriptors;
   const cv::Mat& b = to.descriptors;
-  if (a.empty() || b.empty()) return matches;
+  if (a.empty() || b.empty()) {
+    return {std::vector<Nearest>(from.size()), std::vector<Nearest>(to.size())};
+  }
   require_same_kind(a, b);
+  return a.type() == CV_32F ? find_euclidean(a, b) : find_hamming(a, b);
+}
 
-  const bool euclidean = a.type() == CV_32F;
-  const Neighbours neighbours = euclidean ? euclidean_neighbours(a, b) : hamming_neighbours(a, b);
-  // Rounding may leave a square just below zero.
-  const auto distance_of = [euclidean](float cost) {
-    return euclidean ? std::sqrt(std::max(cost, 0.0F)) : cost;
-  };
-  for (int row = 0; row < a.rows; ++row) {
-    const Nearest& nearest = neighbours.in_to[static_cast<std::size_t>(row)];
-    if (nearest.row < 0) continue;
-    const float distance = distance_of(nearest.cost);
-    if (!is_distinct(distance, distance_of(nearest.next_cost), options.ratio)) continue;
-    if (options.mutual && neighbours.in_from.row[static_cast<std::size_t>(nearest.row)] != row)
-      continue;
-    matches.push_back({row, nearest.row, distance});
+std::vector<Match> match(const NearestRows& nearest, const MatchingOptions& options) {
+  std::vector<Match> matches;
+  for (std::size_t i = 0; i < nearest.in_to.size(); ++i) {
+    const int row = static_cast<int>(i);
+    const Nearest& to = nearest.in_to[i];
+    if (to.row < 0 || !is_distinct(to.distance, to.next_distance, options.ratio)) continue;
+    if (options.mutual && nearest.in_from[static_cast<std::size_t>(to.row)].row != row) continue;
+    matches.push_back({row, to.row, to.distance});
+  }
+  return matches;
+}
+
+std::vector<Match> match(const Features& from, const Features& to, const MatchingOptions& options) {
+  return match(find_nearest(from, to), options);
+}
+
+std::vector<Match> all_nearest(const NearestRows& nearest) {
+  std::vector<Match> matches = match(nearest, {1.0, false});
+  for (std::size_t j = 0; j < nearest.in_from.size(); ++j) {
+    const Nearest& from = nearest.in_from[j];
+    if (from.row < 0) continue;
+    const bool known = nearest.in_to[static_cast<std::size_t>(from.row)].row == static_cast<int>(j);
+    if (!known) matches.push_back({from.row, static_cast<int>(j), from.distance});
   }
   return matches;
 }

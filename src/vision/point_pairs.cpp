@@ -18,6 +18,11 @@ struct Rigid {
     return ex * ex + ey * ey;
   }
 
+  bool turns_so(double cosine, double sine) const {
+    static const double least = std::cos(PointPairs::kTurnTolerance);
+    return c * cosine + s * sine >= least;
+  }
+
   double x, y, c, s;
 };
 
@@ -36,6 +41,15 @@ PointPairs::PointPairs(std::span<const Eigen::Vector2d> p, std::span<const Eigen
   }
 }
 
+PointPairs::PointPairs(std::span<const Eigen::Vector2d> p, std::span<const Eigen::Vector2d> q,
+                       std::span<const double> turns_rad)
+    : PointPairs(p, q) {
+  for (const double turn : turns_rad) {
+    turn_cosine_.push_back(std::cos(turn));
+    turn_sine_.push_back(std::sin(turn));
+  }
+}
+
 Eigen::Vector2d PointPairs::p(int index) const {
   const std::size_t j = static_cast<std::size_t>(index);
   return {px_[j], py_[j]};
@@ -46,6 +60,24 @@ Eigen::Vector2d PointPairs::q(int index) const {
   return {qx_[j], qy_[j]};
 }
 
+PointPairs PointPairs::turning(double theta_rad) const {
+  if (turn_cosine_.empty()) return *this;
+  const Rigid motion({0.0, 0.0, theta_rad});
+  PointPairs kept({}, {});
+  for (std::size_t j = 0; j < px_.size(); ++j) {
+    if (!motion.turns_so(turn_cosine_[j], turn_sine_[j])) continue;
+    kept.px_.push_back(px_[j]);
+    kept.py_.push_back(py_[j]);
+    kept.qx_.push_back(qx_[j]);
+    kept.qy_.push_back(qy_[j]);
+  }
+  return kept;
+}
+
+bool PointPairs::fit_together(int a, int b, double max_error_m) const {
+  return std::abs((p(a) - p(b)).norm() - (q(a) - q(b)).norm()) <= 2.0 * max_error_m;
+}
+
 int PointPairs::count_agreeing(const Pose& z, double max_error_m) const {
   const Rigid motion(z);
   const double limit = max_error_m * max_error_m;
@@ -54,8 +86,18 @@ int PointPairs::count_agreeing(const Pose& z, double max_error_m) const {
   const double* qx = qx_.data();
   const double* qy = qy_.data();
   int count = 0;
+  if (turn_cosine_.empty()) {
+    for (std::size_t j = 0; j < px_.size(); ++j) {
+      count += motion.squared_error(px[j], py[j], qx[j], qy[j]) <= limit ? 1 : 0;
+    }
+    return count;
+  }
+  const double* cosine = turn_cosine_.data();
+  const double* sine = turn_sine_.data();
   for (std::size_t j = 0; j < px_.size(); ++j) {
-    count += motion.squared_error(px[j], py[j], qx[j], qy[j]) <= limit ? 1 : 0;
+    const bool is_near = motion.squared_error(px[j], py[j], qx[j], qy[j]) <= limit;
+    const bool turns_so = motion.turns_so(cosine[j], sine[j]);
+    count += (is_near & turns_so) ? 1 : 0;
   }
   return count;
 }
@@ -65,7 +107,8 @@ std::vector<int> PointPairs::agreeing(const Pose& z, double max_error_m) const {
   const double limit = max_error_m * max_error_m;
   std::vector<int> indices;
   for (std::size_t j = 0; j < px_.size(); ++j) {
-    if (motion.squared_error(px_[j], py_[j], qx_[j], qy_[j]) <= limit) {
+    if (motion.squared_error(px_[j], py_[j], qx_[j], qy_[j]) <= limit &&
+        (turn_cosine_.empty() || motion.turns_so(turn_cosine_[j], turn_sine_[j]))) {
       indices.push_back(static_cast<int>(j));
     }
   }

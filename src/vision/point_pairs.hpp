@@ -17,9 +17,24 @@ class PointPairs {
   /// Throws InputError where the two counts differ.
   PointPairs(std::span<const Eigen::Vector2d> p, std::span<const Eigen::Vector2d> q);
 
+  /// With what each pair says of the heading of `to` in `from`, radians: the difference of the
+  /// orientations of its keypoints. A motion further from it than kTurnTolerance does not agree.
+  PointPairs(std::span<const Eigen::Vector2d> p, std::span<const Eigen::Vector2d> q,
+             std::span<const double> turns_rad);
+
+  /// Orientations of right matches differ by a few degrees from one another, one in twenty by more.
+  static constexpr double kTurnTolerance = 0.5;
+
   std::size_t size() const { return px_.size(); }
   Eigen::Vector2d p(int index) const;
   Eigen::Vector2d q(int index) const;
+
+  /// Whether two pairs may both agree with one motion: it keeps distances, so that theirs in the
+  /// two pictures differ by 2 max_error_m at most.
+  bool fit_together(int a, int b, double max_error_m) const;
+
+  /// Those that may turn by `theta`, and no longer know their turn.
+  PointPairs turning(double theta_rad) const;
 
   /// How many pairs have ‖p − z ⊕ q‖ ≤ max_error_m, and which, rising.
   int count_agreeing(const Pose& z, double max_error_m) const;
@@ -32,6 +47,7 @@ class PointPairs {
 
  private:
   std::vector<double> px_, py_, qx_, qy_;
+  std::vector<double> turn_cosine_, turn_sine_;  // empty: unknown
 };
 
 }  // namespace fathom

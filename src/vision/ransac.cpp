@@ -7,7 +7,7 @@
 
 #include "fathom/core/random.hpp"
 #include "fathom/vision/rigid_motion.hpp"
-#include "point_pairs.hpp"
+#include "pair_ransac.hpp"
 
 namespace fathom {
 namespace {
@@ -68,6 +68,11 @@ class Ransac {
     constexpr int kRedraws = 100;
     for (int redraw = 0; redraw < kRedraws; ++redraw) {
       draw_sample();
+      // What cannot agree as a whole is no sample of right matches: not worth a fit.
+      if (sample_.size() == 2 &&
+          !pairs_.fit_together(sample_[0], sample_[1], options_.max_error_m)) {
+        return std::nullopt;
+      }
       gather(sample_);
       if (spread(from_) > options_.max_error_m && spread(to_) > options_.max_error_m) {
         return find_motion(from_, to_);
@@ -163,7 +168,10 @@ void RansacOptions::describe(OptionTable& table) {
 
 Consensus ransac(std::span<const Eigen::Vector2d> p, std::span<const Eigen::Vector2d> q,
                  const RansacOptions& options, std::uint64_t seed) {
-  const PointPairs pairs(p, q);
+  return ransac(PointPairs(p, q), options, seed);
+}
+
+Consensus ransac(const PointPairs& pairs, const RansacOptions& options, std::uint64_t seed) {
   return Ransac(pairs, options, seed).run();
 }
 

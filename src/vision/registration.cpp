@@ -6,7 +6,10 @@
 #include <tuple>
 #include <utility>
 
+#include <Eigen/Dense>
+#include "fathom/core/chi_squared.hpp"
 #include "fathom/vision/rigid_motion.hpp"
+#include "motion_search.hpp"
 
 namespace fathom {
 namespace {
@@ -17,7 +20,7 @@ const Eigen::Vector2d& point(const FloorFeatures& picture, int row) {
 
 // SIFT puts several keypoints with different orientations at one place, and those of one place
 // match those of another one by one: the same evidence, twice. The nearest in descriptors is kept.
-std::vector<Match> one_per_place(std::vector<Match> matches, const FloorFeatures& from,
+[[maybe_unused]] std::vector<Match> one_per_place(std::vector<Match> matches, const FloorFeatures& from,
                                  const FloorFeatures& to) {
   const auto place = [&](const Match& m) {
     const Eigen::Vector2d& p = point(from, m.from);
@@ -55,7 +58,7 @@ struct Points {
   }
 };
 
-std::string why_not(const Consensus& consensus, std::size_t matches, const RansacOptions& options) {
+[[maybe_unused]] std::string why_not(const Consensus& consensus, std::size_t matches, const RansacOptions& options) {
   const std::string needed = std::to_string(options.min_inliers) + " are needed";
   if (static_cast<int>(matches) < options.min_inliers) {
     return std::to_string(matches) + " matches, " + needed;
@@ -73,6 +76,79 @@ Eigen::Matrix3d floor_of(const CovarianceFloor& floor) {
       .square()
       .matrix()
       .asDiagonal();
+}
+
+struct Refined {
+  Pose motion;
+  std::vector<int> inliers;
+  Eigen::Matrix3d covariance;
+};
+
+struct Weighted {
+  Pose z;
+  Eigen::Matrix3d information;  // J^T W J
+};
+
+Pose weighted_motion(const MatchSet& set, const std::vector<int>& in) {
+  Eigen::Vector2d pm = Eigen::Vector2d::Zero(), qm = pm;
+  double sum = 0;
+  for (int i : in) {
+    const double w = 1 / set.relative_variance(i);
+    pm += w * set.pairs().p(i);
+    qm += w * set.pairs().q(i);
+    sum += w;
+  }
+  pm /= sum;
+  qm /= sum;
+  double c = 0, s = 0;
+  for (int i : in) {
+    const double w = 1 / set.relative_variance(i);
+    const Eigen::Vector2d a = set.pairs().p(i) - pm, b = set.pairs().q(i) - qm;
+    c += w * a.dot(b);
+    s += w * (b.x() * a.y() - b.y() * a.x());
+  }
+  const double theta = std::atan2(s, c);
+  const Eigen::Vector2d t = pm - rotation(theta) * qm;
+  return {t.x(), t.y(), theta};
+}
+
+Refined refine(Pose z, const MatchSet& set, double max_error_m) {
+  Refined r;
+  r.motion = z;
+  std::vector<int> in = set.pairs().agreeing(z, max_error_m);
+  double sigma2 = 0;
+  for (int round = 0; round < 10; ++round) {
+    std::vector<double> e;
+    for (int i : in)
+      e.push_back((set.pairs().p(i) - transform(r.motion, set.pairs().q(i))).squaredNorm() /
+                  set.relative_variance(i));
+    std::vector<double> sorted = e;
+    std::ranges::sort(sorted);
+    // median of a chi2 with two degrees of freedom: 2 ln 2
+    sigma2 = sorted[sorted.size() / 2] / (2 * std::log(2.0));
+    static const double gate = getenv("GATE") ? atof(getenv("GATE")) : 11.0;
+    std::vector<int> kept;
+    for (std::size_t k = 0; k < in.size(); ++k)
+      if (e[k] <= gate * sigma2) kept.push_back(in[k]);
+    if (kept.size() < 3) kept = in;
+    r.motion = weighted_motion(set, kept);
+    const bool same = kept == r.inliers;
+    r.inliers = kept;
+    if (same) break;
+    in = set.pairs().agreeing(r.motion, max_error_m);
+  }
+  Eigen::Matrix3d info = Eigen::Matrix3d::Zero();
+  double rss = 0;
+  for (int i : r.inliers) {
+    const double w = 1 / set.relative_variance(i);
+    const Eigen::Vector2d turned = rotation(r.motion.theta) * set.pairs().q(i);
+    Eigen::Matrix<double, 2, 3> J;
+    J << 1, 0, -turned.y(), 0, 1, turned.x();
+    info += w * J.transpose() * J;
+    rss += w * (set.pairs().p(i) - transform(r.motion, set.pairs().q(i))).squaredNorm();
+  }
+  r.covariance = info.inverse() * rss / (2.0 * double(r.inliers.size()) - 3.0);
+  return r;
 }
 
 }  // namespace
@@ -95,26 +171,39 @@ Registration register_pair(const FloorFeatures& from, const FloorFeatures& to,
   require_points(from);
   require_points(to);
   Registration result;
-  result.matches = one_per_place(match(from.features, to.features, options.matching), from, to);
-  Points matched;
-  for (const Match& m : result.matches) matched.add(m, from, to);
-
-  Consensus consensus = ransac(matched.p, matched.q, options.ransac, seed);
-  if (!consensus.motion) {
-    result.reason = why_not(consensus, result.matches.size(), options.ransac);
-    return result;
-  }
+  const NearestRows rows = find_nearest(from.features, to.features);
+  const MatchSet distinct(match(rows, options.matching), from, to);
+  const MatchSet nearest(all_nearest(rows), from, to);
+  const SupportedMotion best = find_supported_motion(distinct, nearest, options.ransac, seed);
+  result.matches = distinct.matches();
+  result.nearest = static_cast<int>(nearest.size());
+  if (!best.motion) return result;
+  const SupportedMotion rival = find_rival(best, distinct, nearest, options.ransac, seed);
+  result.support = static_cast<int>(best.supporters.size());
+  result.places = best.places;
+  result.rival = static_cast<int>(rival.supporters.size());
+  result.rival_places = rival.places;
+  const double e = options.ransac.max_error_m;
+  const double fine = e / 3;
+  const int elsewhere = most_places_elsewhere(best, nearest, 3 * e, e);
+  const int elsewhere_fine = most_places_elsewhere(best, nearest, 3 * e, fine);
+  const int fine_places = nearest.pairs().count_places(nearest.pairs().agreeing(*best.motion, fine), fine, 100000);
+  result.e = elsewhere;
+  result.ef = elsewhere_fine;
+  result.fp = fine_places;
+  const auto fa = [](int k, int r) {
+    return std::log10(chi_squared_cdf(2.0 * std::max(r, 2), 2.0 * k) + 1e-300);
+  };
+  result.log10_false_alarms = std::min(fa(best.places, std::max(rival.places, elsewhere)),
+                                       fa(fine_places, elsewhere_fine));
+  static const double limit = getenv("NFA") ? atof(getenv("NFA")) : -9;
+  if (result.log10_false_alarms > limit) return result;
+  Refined refined = refine(*best.motion, nearest, options.ransac.max_error_m);
   result.found = true;
-  result.motion = *consensus.motion;
-  result.inliers = std::move(consensus.inliers);
-  result.rms_m = consensus.rms_m;
-
-  Points agreeing;
-  for (const int index : result.inliers) {
-    agreeing.add(result.matches[static_cast<std::size_t>(index)], from, to);
-  }
-  result.covariance =
-      motion_covariance(result.motion, agreeing.p, agreeing.q) + floor_of(options.covariance_floor);
+  result.motion = refined.motion;
+  result.matches = nearest.matches();
+  result.inliers = refined.inliers;
+  result.covariance = refined.covariance + floor_of(options.covariance_floor);
   return result;
 }
 

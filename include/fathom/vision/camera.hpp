@@ -54,6 +54,10 @@ class Camera {
   std::vector<Eigen::Vector2d> floor_points(std::span<const Eigen::Vector2d> pixels,
                                             double altitude_m) const;
 
+  /// The heading, in the body frame, of a direction in the picture: 0 is u, a quarter turn v. The
+  /// two turn opposite ways. Lens distortion, which turns it by little, is not undone.
+  double heading(double turn_rad) const;
+
   /// The pixel at which a body-frame point of the floor is seen, distortion applied. A polynomial
   /// distortion is good for the picture alone: a point far outside it may come back in.
   Eigen::Vector2d pixel(const Eigen::Vector2d& floor_point, double altitude_m) const;

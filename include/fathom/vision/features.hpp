@@ -16,6 +16,8 @@ namespace fathom {
 /// Keypoints and descriptors of one picture.
 struct Features {
   std::vector<Eigen::Vector2d> pixels;  ///< (u, v); (0, 0) is the centre of the first pixel
+  std::vector<float> sizes_px;          ///< diameter of what a keypoint describes
+  std::vector<float> turns_rad;         ///< its orientation in the picture, from +u towards +v
   cv::Mat descriptors;                  ///< one row per keypoint: CV_32F (SIFT) or CV_8U (binary)
 
   std::size_t size() const { return pixels.size(); }
@@ -25,7 +27,11 @@ struct Features {
 /// per picture, with that picture's altitude.
 struct FloorFeatures {
   std::vector<Eigen::Vector2d> points;  ///< body frame, metres
+  std::vector<double> sizes_m;          ///< of the keypoints, on the floor
+  std::vector<double> headings_rad;     ///< of their orientations, body frame
   Features features;
+  double altitude_m = 0.0;                             ///< they are seen from
+  Eigen::Vector2d camera_m = Eigen::Vector2d::Zero();  ///< below the camera, body frame
 
   std::size_t size() const { return points.size(); }
 };
@@ -49,6 +55,7 @@ struct FeatureOptions {
   /// Well below OpenCV's 0.04: on a real floor of even sand that leaves 13 to 100 keypoints a
   /// picture, too few to register consecutive frames.
   double sift_contrast = 0.01;
+  bool flatten = true;
   bool clahe = false;
   double clahe_clip_limit = 3.0;
   int clahe_tiles = 8;

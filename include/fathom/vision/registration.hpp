@@ -40,6 +40,8 @@ struct Registration {
   std::vector<Match> matches;  ///< all that matching gave, one per place
   std::vector<int> inliers;    ///< indices into `matches` of those that agree with the motion
   double rms_m = 0.0;          ///< of the inliers' errors
+  int e = 0, ef = 0, fp = 0, nearest = 0, support = 0, places = 0, rival = 0, rival_places = 0;
+  double log10_false_alarms = 0.0;
   std::string reason;          ///< of not found, such as "7 of 31 matches agree, 12 are needed"
 };
 
