@@ -96,7 +96,7 @@ double blur_for_noise(const cv::Mat& picture) {
                                  (square(kFineShare) - square(kFloorRatio * kMiddleShare)));
   const double floor = std::sqrt(std::max(0.0, middle - square(kMiddleShare * noise)));
   // A Gaussian blur of sigma leaves 1 / (2 √π sigma) of the noise.
-  static const double kLeft = getenv("KAPPA") ? atof(getenv("KAPPA")) : 1.75;
+  constexpr double kLeft = 0.8;
   constexpr double kMost = 2.5;
   const double sigma = noise / (2.0 * std::sqrt(std::numbers::pi) * kLeft * std::max(floor, 0.1));
   return sigma < 0.4 ? 0.0 : std::min(sigma, kMost);
@@ -105,8 +105,8 @@ double blur_for_noise(const cv::Mat& picture) {
 // Every pixel less the mean about it, over the standard deviation there: light, shade and haze that
 // vary slowly are gone, and a faint floor is as rich in contrast as a bold one.
 cv::Mat flattened(const cv::Mat& gray) {
-  static const double kSharpPx = getenv("LC") ? atof(getenv("LC")) : 6.0;
-  static const double kWider = getenv("LCW") ? atof(getenv("LCW")) : 4.0;
+  constexpr double kSharpPx = 6.0;
+  constexpr double kWider = 4.0;
   constexpr double kRounding = 1.0;  // of a grey: below it nothing is amplified
   constexpr double kDeviation = 40.0;
   constexpr double kMiddle = 128.0;
@@ -115,7 +115,6 @@ cv::Mat flattened(const cv::Mat& gray) {
   const double blur_px = blur_for_noise(detail);
   if (blur_px > 0.0) detail = blurred(detail, blur_px);
   const int radius_px = cvRound(kSharpPx + kWider * blur_px);
-  if (getenv("VB")) printf("[blur %.2f]", blur_px);
   detail -= smoothed(detail, radius_px);
   cv::Mat deviation;
   cv::sqrt(smoothed(detail.mul(detail), radius_px), deviation);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <cstddef>
 #include <tuple>
 #include <utility>
@@ -148,6 +149,27 @@ Refined refine(Pose z, const MatchSet& set, double max_error_m) {
     rss += w * (set.pairs().p(i) - transform(r.motion, set.pairs().q(i))).squaredNorm();
   }
   r.covariance = info.inverse() * rss / (2.0 * double(r.inliers.size()) - 3.0);
+  static const double cell = getenv("CELL") ? atof(getenv("CELL")) : 0.2;
+  if (cell > 0) {
+    std::map<std::pair<int, int>, Eigen::Vector3d> scores;
+    for (int i : r.inliers) {
+      const Eigen::Vector2d q = set.pairs().q(i);
+      const Eigen::Vector2d turned = rotation(r.motion.theta) * q;
+      Eigen::Matrix<double, 2, 3> J;
+      J << 1, 0, -turned.y(), 0, 1, turned.x();
+      auto& g = scores.try_emplace({int(std::floor(q.x() / cell)), int(std::floor(q.y() / cell))},
+                                   Eigen::Vector3d::Zero()).first->second;
+      g += J.transpose() * (set.pairs().p(i) - transform(r.motion, q)) / set.relative_variance(i);
+    }
+    Eigen::Matrix3d meat = Eigen::Matrix3d::Zero();
+    for (auto& [k, g] : scores) meat += g * g.transpose();
+    const double C = double(scores.size());
+    const Eigen::Matrix3d bread = info.inverse();
+    const Eigen::Matrix3d robust = bread * meat * bread * (C / std::max(C - 1.5, 1.0));
+    const double phi = (r.covariance.inverse() * robust).trace() / 3;
+    if (getenv("PHI")) printf(" phi %.2f C %.0f n %zu;", phi, C, r.inliers.size());
+    r.covariance *= std::max(1.0, phi);
+  }
   return r;
 }
 
