@@ -22,9 +22,8 @@ namespace fathom::benchmarks {
 namespace {
 
 void add_options(CLI::App& app, Settings& settings) {
-  app.add_option("--floors", settings.floors, "kinds of sea floor; none: only --world")
+  app.add_option("--floors", settings.floors, "kinds of sea floor; 'none': only --world")
       ->delimiter(',')
-      ->expected(0, -1)
       ->capture_default_str();
   app.add_option("--world", settings.worlds, "a picture of a floor, FILE:METRES_PER_PIXEL");
   app.add_option("--conditions", settings.conditions, "those to run; default: all")->delimiter(',');
@@ -99,6 +98,7 @@ int main(int argc, char** argv) {
   CLI::App app("Registration of pairs of pictures whose motion is known");
   fathom::benchmarks::add_options(app, results.settings);
   CLI11_PARSE(app, argc, argv);
+  if (results.settings.floors == std::vector<std::string>{"none"}) results.settings.floors.clear();
   try {
     fathom::benchmarks::run(results);
   } catch (const std::exception& error) {

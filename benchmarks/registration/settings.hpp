@@ -30,8 +30,9 @@ struct Settings {
 RegistrationOptions registration_options_for(const test::Condition& condition);
 
 /// From where on an accepted motion counts as wrong: 5 pixels of the lower of the two pictures and
-/// 0.02 rad, and what the condition itself makes of a planar pose besides: four standard deviations
-/// of two tilted cameras, and the height of a relief.
+/// 0.02 rad, and what the condition itself makes of a planar pose besides: in translation four
+/// standard deviations of two tilted cameras and the height of a relief, in heading a standard
+/// deviation of the tilt and the relief's share of the altitude.
 struct WrongLimits {
   double translation_m = 0.0;
   double heading_rad = 0.0;
