@@ -1,3 +1,4 @@
+#include <cmath>
 #include <cstdarg>
 #include <cstdio>
 
@@ -27,14 +28,18 @@ std::string nis_text(const std::optional<NisSummary>& nis) {
               100.0 * nis->share_beyond_95);
 }
 
+std::string error_text(const MedianAnd95& error, double scale, int digits) {
+  if (std::isnan(error.median)) return "– | ";
+  return text("%.*f, %.*f | ", digits, scale * error.median, digits, scale * error.p95);
+}
+
 std::string row_of(const std::string& condition, const char* who, const ContenderSummary& s,
                    double extraction_ms) {
   return "| " + condition + " | " + who + " | " + share_text(s.recall) +
-         text(" | %zu/%zu", s.wrong.successes, s.wrong.count) +
-         text(" | %.1f, %.1f | %.2f, %.2f | %.2f, %.2f | ", 1e3 * s.translation_m.median,
-              1e3 * s.translation_m.p95, s.translation_px.median, s.translation_px.p95,
-              1e3 * s.heading_rad.median, 1e3 * s.heading_rad.p95) +
-         nis_text(s.nis) + text(" | %.0f, %.1f, %.1f |\n", extraction_ms, s.match_ms, s.solve_ms);
+         text(" | %zu/%zu | ", s.wrong.successes, s.wrong.count) +
+         error_text(s.translation_m, 1e3, 1) + error_text(s.translation_px, 1.0, 2) +
+         error_text(s.heading_rad, 1e3, 2) + nis_text(s.nis) +
+         text(" | %.0f, %.1f, %.1f |\n", extraction_ms, s.match_ms, s.solve_ms);
 }
 
 std::string recall_by_bucket(const std::vector<CellSummary>& cells, const Settings& settings) {
