@@ -8,6 +8,9 @@
 namespace fathom {
 namespace {
 
+// Smaller than this a stone is grain.
+constexpr double kSmallestPx = 0.5;
+
 constexpr double kTurn = 2.0 * std::numbers::pi;
 
 struct Stone {
@@ -124,8 +127,6 @@ void paint(cv::Mat& floor, const Burrow& burrow) {
 }  // namespace
 
 void strew(cv::Mat& floor, double metres_per_pixel, const Stones& kind, RandomStream& stream) {
-  // Below half a pixel a stone is grain.
-  constexpr double kSmallestPx = 0.5;
   const double largest_px = kind.largest_m / metres_per_pixel;
   if (largest_px <= kSmallestPx) return;
   const double area_m2 = static_cast<double>(floor.total()) * metres_per_pixel * metres_per_pixel;
@@ -145,12 +146,14 @@ void strew(cv::Mat& floor, double metres_per_pixel, const Stones& kind, RandomSt
 
 void dig_burrows(cv::Mat& floor, double metres_per_pixel, RandomStream& stream) {
   constexpr double kPerSquareMetre = 7.0;
+  constexpr double kLargestM = 0.014;
+  if (kLargestM / metres_per_pixel <= kSmallestPx) return;
   const double area_m2 = static_cast<double>(floor.total()) * metres_per_pixel * metres_per_pixel;
   const auto count = static_cast<std::size_t>(area_m2 * kPerSquareMetre);
   for (std::size_t i = 0; i < count; ++i) {
     const double u = stream.uniform(0.0, floor.cols);
     const double v = stream.uniform(0.0, floor.rows);
-    const double radius_px = stream.uniform(0.004, 0.014) / metres_per_pixel;
+    const double radius_px = stream.uniform(0.004, kLargestM) / metres_per_pixel;
     paint(floor, Burrow{u, v, radius_px});
   }
 }

@@ -1,6 +1,7 @@
 #include "fathom/datasets/simulated_survey.hpp"
 
 #include <cmath>
+#include <numbers>
 #include <thread>
 
 #include <Eigen/LU>
@@ -162,6 +163,25 @@ TEST(SimulatedSurvey, FliesOverAGivenPicture) {
   std::vector<cv::KeyPoint> keypoints;
   cv::SIFT::create()->detect(survey.image(0), keypoints);
   EXPECT_GT(keypoints.size(), 100U);
+}
+
+// On a straight line the body moves ahead, in the last frame too.
+TEST(SimulatedSurvey, BlursAlongItsMotionAndTiltsAsItSays) {
+  SimulatedSurveyOptions options = test::small_survey();
+  options.mission.type = MissionType::kWaypoints;
+  options.mission.waypoints_m = {0, 0, 1, 0};
+  options.effects.camera.motion_blur_px = 6.0;
+  options.attitude.roll_sigma_rad = 0.05;
+  const SimulatedSurvey survey(options, 4);
+  const FloorRenderer renderer(survey.camera(), ViewRays(survey.camera()), survey.world());
+  for (const std::size_t i : {std::size_t{0}, survey.size() - 1}) {
+    EXPECT_NE(survey.true_tilt(i).roll_rad, 0.0);
+    EXPECT_EQ(survey.true_tilt(i).pitch_rad, 0.0);
+    View view{*survey.info(i).ground_truth, survey.true_altitude_m(i), survey.true_tilt(i)};
+    EXPECT_TRUE(same(survey.image(i), renderer.render(view, options.effects))) << i;
+    view.motion_rad = std::numbers::pi / 2.0;
+    EXPECT_FALSE(same(survey.image(i), renderer.render(view, options.effects))) << i;
+  }
 }
 
 TEST(SeaFloor, HasHundredsOfFeaturesEverywhere) {

@@ -26,7 +26,7 @@ struct Tilt {
 };
 
 /// Roll and pitch of a simulated body: each a stationary first-order Gauss-Markov process
-/// (Gelb 1974, section 3.8) of its own random stream.
+/// (Gelb 1974) of its own random stream.
 struct AttitudeOptions {
   double roll_sigma_rad = 0.0;
   double pitch_sigma_rad = 0.0;

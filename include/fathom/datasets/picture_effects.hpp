@@ -15,9 +15,10 @@ struct WaterOptions {
   double attenuation_per_m = 0.0;
   double backscatter = 128.0;  ///< B, the grey of endless water
   /// Sunlight on the floor, focused by waves: its brightness varies by this share at most, in a
-  /// pattern that is new in every picture (Gupta and Nayar 2007 on why it is not texture).
+  /// pattern that is new in every picture (Gracias et al. 2008).
   double caustics = 0.0;
-  int particles = 0;  ///< bright ones out of focus, new in every picture (marine snow)
+  /// Bright specks out of focus, new in every picture: marine snow (Boffety and Galland 2012).
+  int particles = 0;
 
   void describe(OptionTable& table);
 };
@@ -25,7 +26,7 @@ struct WaterOptions {
 /// c of the water that lets `transmission` in (0, 1] through along `path_m`.
 double attenuation_of(double transmission, double path_m);
 
-/// What lamp, lens and sensor do to it. All off by default.
+/// What lamp, lens and sensor do to it, sources in docs/water.md. All off by default.
 struct CameraEffects {
   double corner_light = 1.0;        ///< light in the farthest corner, as a share of the middle's
   double contrast = 1.0;            ///< about the mean grey of the picture

@@ -1,0 +1,64 @@
+#include "fathom/evaluation/proportion.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "fathom/core/chi_squared.hpp"
+#include "fathom/core/input_error.hpp"
+
+namespace fathom {
+namespace {
+
+void require_share(std::size_t successes, std::size_t count, double probability) {
+  if (successes > count) {
+    throw InputError("a share needs no more successes than trials, got " +
+                     std::to_string(successes) + " of " + std::to_string(count));
+  }
+  if (!(probability > 0.0 && probability < 1.0)) {
+    throw InputError("a probability must be above 0 and below 1, got " +
+                     std::to_string(probability));
+  }
+}
+
+// P(X ≤ successes) of `count` trials that succeed with p in (0, 1).
+double at_most(std::size_t successes, std::size_t count, double p) {
+  const auto n = static_cast<double>(count);
+  double sum = 0.0;
+  for (std::size_t i = 0; i <= successes; ++i) {
+    const auto k = static_cast<double>(i);
+    const double log_ways = std::lgamma(n + 1.0) - std::lgamma(k + 1.0) - std::lgamma(n - k + 1.0);
+    sum += std::exp(log_ways + k * std::log(p) + (n - k) * std::log1p(-p));
+  }
+  return sum;
+}
+
+}  // namespace
+
+Interval wilson_interval(std::size_t successes, std::size_t count, double probability) {
+  require_share(successes, count, probability);
+  if (count == 0) return {0.0, 1.0};
+  const auto n = static_cast<double>(count);
+  const double share = static_cast<double>(successes) / n;
+  // χ² of one degree of freedom is the square of a standard normal variable.
+  const double z2 = chi_squared_quantile(probability, 1.0);
+  const double middle = (share + z2 / (2.0 * n)) / (1.0 + z2 / n);
+  const double half =
+      std::sqrt(z2 * (share * (1.0 - share) / n + z2 / (4.0 * n * n))) / (1.0 + z2 / n);
+  return {std::max(0.0, middle - half), std::min(1.0, middle + half)};
+}
+
+double clopper_pearson_upper(std::size_t successes, std::size_t count, double probability) {
+  require_share(successes, count, probability);
+  if (successes == count) return 1.0;
+  double low = 0.0;
+  double high = 1.0;
+  for (int i = 0; i < 200; ++i) {
+    const double middle = 0.5 * (low + high);
+    if (middle <= low || middle >= high) break;
+    (at_most(successes, count, middle) > 1.0 - probability ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+}  // namespace fathom
