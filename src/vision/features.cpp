@@ -147,8 +147,7 @@ FloorFeatures on_floor(Features features, const Camera& camera, double altitude_
     result.headings_rad.push_back(camera.heading(features.turns_rad[row]));
   }
   result.features = std::move(features);
-  result.altitude_m = altitude_m;
-  result.camera_m = {model.mount_x_m, model.mount_y_m};
+  result.viewpoint = {{model.mount_x_m, model.mount_y_m}, altitude_m, metres_per_pixel};
   return result;
 }
 
@@ -170,6 +169,8 @@ void FeatureOptions::describe(OptionTable& table) {
                 "keypoints kept per picture, the strongest");
   table.real("sift_contrast", sift_contrast, Range{1e-4, 1.0}, "",
              "SIFT: least contrast of a keypoint, as a share of the grey range (OpenCV: 0.04)");
+  table.boolean("flatten", flatten,
+                "even out light and contrast, and blur sensor noise, before detection");
   table.boolean("clahe", clahe, "equalise contrast locally (CLAHE) before detection");
   table.real("clahe_clip_limit", clahe_clip_limit, Range::positive(), "",
              "CLAHE: greatest slope of the equalisation, times a uniform histogram");

@@ -17,10 +17,6 @@ const Eigen::Vector2d& point(const FloorFeatures& picture, int row) {
   return picture.points[static_cast<std::size_t>(row)];
 }
 
-bool have_sizes(const FloorFeatures& from, const FloorFeatures& to) {
-  return !from.sizes_m.empty() && !to.sizes_m.empty();
-}
-
 std::vector<Match> one_per_place(std::vector<Match> matches, const FloorFeatures& from,
                                  const FloorFeatures& to) {
   const auto place = [&](const Match& m) {
@@ -44,9 +40,11 @@ std::vector<Match> one_per_place(std::vector<Match> matches, const FloorFeatures
 
 }  // namespace
 
-MatchSet::MatchSet(std::vector<Match> matches, const FloorFeatures& from, const FloorFeatures& to)
+MatchSet::MatchSet(std::vector<Match> matches, const FloorFeatures& from, const FloorFeatures& to,
+                   Use use)
     : pairs_({}, {}) {
-  const bool sized = have_sizes(from, to);
+  const bool sized =
+      use == Use::sizes && !from.sizes_m.empty() && !to.sizes_m.empty();
   if (sized) {
     std::erase_if(matches, [&](const Match& m) {
       const double ratio = from.sizes_m[static_cast<std::size_t>(m.from)] /

@@ -14,10 +14,14 @@ namespace fathom {
 /// Matches of two pictures with what they say on the floor.
 class MatchSet {
  public:
+  /// With sizes, their sizes and orientations bear witness too; the paper's procedure has none.
+  enum class Use { sizes, points_alone };
+
   /// Of matches that join the same two places the nearest in descriptors stays: SIFT puts several
   /// keypoints with different orientations at one place, which is the same evidence again. Those of
   /// keypoints of unlike size on the floor go: the altitudes say how large a thing is.
-  MatchSet(std::vector<Match> matches, const FloorFeatures& from, const FloorFeatures& to);
+  MatchSet(std::vector<Match> matches, const FloorFeatures& from, const FloorFeatures& to,
+           Use use);
 
   std::size_t size() const { return matches_.size(); }
   /// By rising row of `from`.
@@ -25,7 +29,7 @@ class MatchSet {
   const PointPairs& pairs() const { return pairs_; }
 
   /// Variance of the error of a match relative to that of others: the place of a keypoint is the
-  /// less certain the larger it is. All 1 where sizes are unknown.
+  /// less certain the larger it is. All 1 without sizes.
   double relative_variance(int index) const;
 
   /// Those not in `indices` (rising).

@@ -1,12 +1,16 @@
 #include "motion_search.hpp"
 
+#include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "fathom/vision/rigid_motion.hpp"
 #include "pair_ransac.hpp"
 
 namespace fathom {
 namespace {
+
+constexpr int kAll = std::numeric_limits<int>::max();
 
 std::optional<Pose> fit(const PointPairs& pairs, const std::vector<int>& indices) {
   std::vector<Eigen::Vector2d> p;
@@ -41,40 +45,36 @@ SupportedMotion find_supported_motion(const MatchSet& distinct, const MatchSet& 
     found.supporters = std::move(supporters);
     if (settled) break;
   }
-  found.places = nearest.pairs().count_places(found.supporters, options.max_error_m,
-                                              std::numeric_limits<int>::max());
+  found.places = nearest.pairs().count_places(found.supporters, options.max_error_m, kAll);
   return found;
-}
-
-int most_places_elsewhere(const SupportedMotion& best, const MatchSet& nearest, double reach_m,
-                          double error_m) {
-  const PointPairs& pairs = nearest.pairs();
-  const PointPairs turning = pairs.turning(best.motion->theta);
-  int most = 0;
-  std::vector<int> most_of;
-  constexpr int kShifts = 16;
-  for (int column = -kShifts; column <= kShifts; ++column) {
-    for (int row = -kShifts; row <= kShifts; ++row) {
-      const Eigen::Vector2d shift = 1.5 * error_m * Eigen::Vector2d(column, row);
-      if (shift.norm() < reach_m) continue;
-      const Pose z{best.motion->x + shift.x(), best.motion->y + shift.y(), best.motion->theta};
-      const int count = turning.count_agreeing(z, error_m);
-      if (count <= most) continue;
-      const int places = turning.count_places(turning.agreeing(z, error_m), error_m, 1000);
-      most = std::max(most, places);
-    }
-  }
-  return most;
 }
 
 SupportedMotion find_rival(const SupportedMotion& best, const MatchSet& distinct,
                            const MatchSet& nearest, const RansacOptions& options,
                            std::uint64_t seed) {
-  // Motions next to the best one live on its own supporters; three times its reach leaves none.
-  const double reach_m = 3.0 * options.max_error_m;
+  const double reach_m = kRivalReach * options.max_error_m;
   return find_supported_motion(distinct.without(distinct.pairs().agreeing(*best.motion, reach_m)),
                                nearest.without(nearest.pairs().agreeing(*best.motion, reach_m)),
                                options, seed);
+}
+
+int most_places_elsewhere(const Pose& best, const MatchSet& nearest, double reach_m,
+                          double error_m) {
+  // Discs of the error on a grid of one and a half leave few gaps, and nothing counts twice.
+  constexpr double kSpacing = 1.5;
+  constexpr int kSteps = 16;
+  const PointPairs pairs = nearest.pairs().turning(best.theta);
+  int most = 0;
+  for (int row = -kSteps; row <= kSteps; ++row) {
+    for (int column = -kSteps; column <= kSteps; ++column) {
+      const Eigen::Vector2d shift = kSpacing * error_m * Eigen::Vector2d(row, column);
+      if (shift.norm() < reach_m) continue;
+      const Pose moved{best.x + shift.x(), best.y + shift.y(), best.theta};
+      if (pairs.count_agreeing(moved, error_m) <= most) continue;
+      most = std::max(most, pairs.count_places(pairs.agreeing(moved, error_m), error_m, kAll));
+    }
+  }
+  return most;
 }
 
 }  // namespace fathom

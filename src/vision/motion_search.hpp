@@ -17,20 +17,24 @@ struct SupportedMotion {
   int places = 0;               ///< in which these lie
 };
 
+/// Motions nearer to another than so many times the allowed error live on its supporters.
+inline constexpr double kRivalReach = 3.0;
+
 /// The motion that most matches agree on, by RANSAC over the distinct ones, settled on all nearest
 /// pairs: fitted to those that it brings together until they no longer change.
 SupportedMotion find_supported_motion(const MatchSet& distinct, const MatchSet& nearest,
                                       const RansacOptions& options, std::uint64_t seed);
 
-/// The most places of nearest pairs that a motion with the heading of `best` brings together, at
-/// `error_m`, among shifts of it to places all around, not near it.
-int most_places_elsewhere(const SupportedMotion& best, const MatchSet& nearest, double reach_m,
-                          double error_m);
-
-/// The motion with the second most support: among the matches that do not agree with `best`, not
-/// even nearly. On a floor that repeats itself it has much.
+/// The motion with the second most support, found likewise among the matches that do not agree
+/// with the best one, not even nearly.
 SupportedMotion find_rival(const SupportedMotion& best, const MatchSet& distinct,
                            const MatchSet& nearest, const RansacOptions& options,
                            std::uint64_t seed);
+
+/// The most places of nearest pairs that a motion with the heading of `best` brings together within
+/// `error_m`, over a grid of translations about it that spares those within `reach_m`. On a floor
+/// that repeats itself it is large: the motion that is a ripple further has many.
+int most_places_elsewhere(const Pose& best, const MatchSet& nearest, double reach_m,
+                          double error_m);
 
 }  // namespace fathom

@@ -23,6 +23,13 @@ struct Features {
   std::size_t size() const { return pixels.size(); }
 };
 
+/// From where a picture of the floor was taken.
+struct Viewpoint {
+  Eigen::Vector2d camera_m = Eigen::Vector2d::Zero();  ///< the point below the camera, body frame
+  double altitude_m = 0.0;
+  double metres_per_pixel = 0.0;
+};
+
 /// Features with their points in metres on the floor: what registration works on. The conversion is
 /// per picture, with that picture's altitude.
 struct FloorFeatures {
@@ -30,8 +37,7 @@ struct FloorFeatures {
   std::vector<double> sizes_m;          ///< of the keypoints, on the floor
   std::vector<double> headings_rad;     ///< of their orientations, body frame
   Features features;
-  double altitude_m = 0.0;                             ///< they are seen from
-  Eigen::Vector2d camera_m = Eigen::Vector2d::Zero();  ///< below the camera, body frame
+  Viewpoint viewpoint;
 
   std::size_t size() const { return points.size(); }
 };
@@ -55,6 +61,7 @@ struct FeatureOptions {
   /// Well below OpenCV's 0.04: on a real floor of even sand that leaves 13 to 100 keypoints a
   /// picture, too few to register consecutive frames.
   double sift_contrast = 0.01;
+  /// Every pixel less the mean about it, over the deviation there (docs/registration.md).
   bool flatten = true;
   bool clahe = false;
   double clahe_clip_limit = 3.0;

@@ -14,11 +14,24 @@
 
 namespace fathom {
 
-/// What the residuals of one pair cannot show, because all its inliers share it: a tilt, an error
-/// of the altimeter, a floor that is not flat. Added as variances, independent in x, y and heading.
-struct CovarianceFloor {
-  double sigma_m = 0.002;
-  double sigma_rad = 0.001;
+/// When a motion counts as found (docs/registration.md).
+struct DecisionOptions {
+  enum class Method {
+    false_alarms,  ///< if chance would seldom bring so many matches together
+    inliers        ///< the paper's: if enough matches agree
+  };
+  Method method = Method::false_alarms;
+  double max_false_alarms = 1e-8;
+
+  void describe(OptionTable& table);
+};
+
+/// What the residuals of one pair cannot show, because all its matches share it.
+struct CovarianceOptions {
+  double altitude_sigma_m = 0.0;  ///< of each altitude; stands for the relief of a floor too
+  double tilt_sigma_rad = 0.0;    ///< of roll and of pitch, at each picture
+  double floor_sigma_m = 1e-5;    ///< added to x and y as variances, whatever else is known
+  double floor_sigma_rad = 1e-5;  ///< and to the heading
 
   void describe(OptionTable& table);
 };
@@ -26,9 +39,25 @@ struct CovarianceFloor {
 struct RegistrationOptions {
   MatchingOptions matching;
   RansacOptions ransac;
-  CovarianceFloor covariance_floor;
+  DecisionOptions decision;
+  CovarianceOptions covariance;
 
   void describe(OptionTable& table);
+};
+
+/// What a decision rests on. With the paper's criterion `agreeing` and `places` alone are known.
+struct Evidence {
+  int agreeing = 0;  ///< matches that the best motion brings together
+  int places = 0;    ///< in which these lie, see ransac()
+  /// The most places of any other motion: of the second-best one, and of those with the heading of
+  /// the best one and another translation.
+  int rival_places = 0;
+  /// The chance of so many places, were every other motion's support what chance brings together.
+  double false_alarms = 1.0;
+  /// Of distances in `from` to those in `to`, by the inliers: 1 where the altitudes are right.
+  /// Never applied.
+  double scale = 1.0;
+  double scale_sigma = 0.0;
 };
 
 /// The motion between two pictures, or why there is none.
@@ -37,15 +66,15 @@ struct Registration {
   Pose motion;  ///< pose of `to` in the frame of `from`
   /// Of (x, y, θ), that is, of ν = z − h(x): additive, in axes of `from`. Positive definite.
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  std::vector<Match> matches;  ///< all that matching gave, one per place
-  std::vector<int> inliers;    ///< indices into `matches` of those that agree with the motion
-  double rms_m = 0.0;          ///< of the inliers' errors
-  int e = 0, ef = 0, fp = 0, nearest = 0, support = 0, places = 0, rival = 0, rival_places = 0;
-  double log10_false_alarms = 0.0;
-  std::string reason;          ///< of not found, such as "7 of 31 matches agree, 12 are needed"
+  std::vector<Match> distinct;  ///< all that matching gave, one per place
+  std::vector<Match> inliers;   ///< those that agree with the motion; not found: with the best one
+  double rms_m = 0.0;           ///< of the inliers' errors
+  Evidence evidence;
+  std::string reason;  ///< of not found, such as "7 of 31 matches agree, 12 are needed"
 };
 
-/// Registers two pictures: matching, RANSAC, covariance.
+/// Registers two pictures: matching, RANSAC, decision, refit, covariance (docs/registration.md).
+/// Same arguments, same answer. Throws InputError where features lack their points.
 Registration register_pair(const FloorFeatures& from, const FloorFeatures& to,
                            const RegistrationOptions& options, std::uint64_t seed);
 

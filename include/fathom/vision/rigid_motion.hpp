@@ -20,15 +20,13 @@ namespace fathom {
 std::optional<Pose> find_motion(std::span<const Eigen::Vector2d> p,
                                 std::span<const Eigen::Vector2d> q);
 
+/// The same with weights: minimises Σ w_j ‖p_j − z ⊕ q_j‖². All positive, one for each pair.
+std::optional<Pose> find_motion(std::span<const Eigen::Vector2d> p,
+                                std::span<const Eigen::Vector2d> q,
+                                std::span<const double> weights);
+
 /// Σ ‖p_j − z ⊕ q_j‖², m².
 double squared_error(const Pose& z, std::span<const Eigen::Vector2d> p,
                      std::span<const Eigen::Vector2d> q);
-
-/// The covariance of (x, y, θ) of z = find_motion(p, q), in axes of `from`: m², m·rad, rad².
-/// First order: σ² (JᵀJ)⁻¹ with J the Jacobian of Rot(θ) q + t and σ² = Σ ‖r_j‖² / (2n − 3), the
-/// residuals taken for independent, of equal variance in x and y. Needs two distinct points; exact
-/// points give zero.
-Eigen::Matrix3d motion_covariance(const Pose& z, std::span<const Eigen::Vector2d> p,
-                                  std::span<const Eigen::Vector2d> q);
 
 }  // namespace fathom

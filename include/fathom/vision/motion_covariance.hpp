@@ -1,0 +1,47 @@
+#pragma once
+
+#include <span>
+
+#include <Eigen/Core>
+
+#include "fathom/geometry/pose.hpp"
+#include "fathom/vision/registration.hpp"
+
+namespace fathom {
+
+/// A weighted fit of z to points p = z ⊕ q, linearised: what errors of the points do to z.
+/// r_j = p_j − z ⊕ q_j, J_j = ∂(z ⊕ q_j)/∂z, A = Σ w JᵀJ; all covariances in axes of `from`.
+class LinearFit {
+ public:
+  /// All four of one length, which is at least 2. Keeps the spans.
+  LinearFit(const Pose& z, std::span<const Eigen::Vector2d> p, std::span<const Eigen::Vector2d> q,
+            std::span<const double> weights);
+
+  /// σ² A⁻¹ with σ² = Σ w ‖r‖² / (2n − 3), errors taken for independent.
+  Eigen::Matrix3d covariance() const;
+
+  /// How much more it is where errors within a square of `cell_m` are alike: the mean ratio of
+  /// A⁻¹ (Σ_c g_c g_cᵀ) A⁻¹, g_c = Σ_{j ∈ c} w Jᵀ r, to covariance(). At least 1; 1 where there are
+  /// too few squares to tell.
+  double clustering(double cell_m) const;
+
+  /// Of errors that the points of one picture share: of its altitude and its roll and pitch, as of
+  /// the options, and of the places of its keypoints.
+  Eigen::Matrix3d of_pictures(const Viewpoint& from, const Viewpoint& to,
+                              const CovarianceOptions& options) const;
+
+ private:
+  Eigen::Matrix<double, 2, 3> jacobian(std::size_t j) const;
+  Eigen::Vector2d residual(std::size_t j) const;
+  /// What a shift of every point by shift(j), p minus z ⊕ q, does to z.
+  template <class Shift>
+  Eigen::Vector3d response(const Shift& shift) const;
+
+  Pose z_;
+  std::span<const Eigen::Vector2d> p_;
+  std::span<const Eigen::Vector2d> q_;
+  std::span<const double> weights_;
+  Eigen::Matrix3d inverse_;  // A⁻¹
+};
+
+}  // namespace fathom

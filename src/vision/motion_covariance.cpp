@@ -1,0 +1,108 @@
+#include "fathom/vision/motion_covariance.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include <Eigen/Dense>
+
+namespace fathom {
+namespace {
+
+// The keypoints of a picture share an error of this many pixels in u and in v: of how it was
+// sampled and smoothed. Measured on pictures whose motion is known (docs/registration.md).
+constexpr double kSharedPixels = 0.01;
+
+// What the errors of a picture do to a point of the floor seen at p (body frame): the derivative by
+// altitude, roll (about x) and pitch (about y). For a ray (r, −1), r = (p − camera) / altitude, the
+// tilted one meets the floor at camera + altitude · (r_x − pitch, r_y + roll)
+// · (1 + roll r_y − pitch r_x), to first order.
+Eigen::Matrix<double, 2, 3> derivative(const Viewpoint& view, const Eigen::Vector2d& p) {
+  const Eigen::Vector2d r = (p - view.camera_m) / view.altitude_m;
+  Eigen::Matrix<double, 2, 3> J;
+  J.col(0) = r;
+  J.col(1) = view.altitude_m * Eigen::Vector2d(r.x() * r.y(), 1.0 + r.y() * r.y());
+  J.col(2) = -view.altitude_m * Eigen::Vector2d(1.0 + r.x() * r.x(), r.x() * r.y());
+  return J;
+}
+
+}  // namespace
+
+LinearFit::LinearFit(const Pose& z, std::span<const Eigen::Vector2d> p,
+                     std::span<const Eigen::Vector2d> q, std::span<const double> weights)
+    : z_(z), p_(p), q_(q), weights_(weights) {
+  Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
+  for (std::size_t j = 0; j < p_.size(); ++j) {
+    const Eigen::Matrix<double, 2, 3> J = jacobian(j);
+    A += weights_[j] * J.transpose() * J;
+  }
+  inverse_ = A.inverse();
+}
+
+Eigen::Matrix<double, 2, 3> LinearFit::jacobian(std::size_t j) const {
+  const Eigen::Vector2d turned = rotation(z_.theta) * q_[j];
+  Eigen::Matrix<double, 2, 3> J;
+  J << 1.0, 0.0, -turned.y(), 0.0, 1.0, turned.x();
+  return J;
+}
+
+Eigen::Vector2d LinearFit::residual(std::size_t j) const {
+  return p_[j] - transform(z_, q_[j]);
+}
+
+template <class Shift>
+Eigen::Vector3d LinearFit::response(const Shift& shift) const {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (std::size_t j = 0; j < p_.size(); ++j) {
+    sum += weights_[j] * jacobian(j).transpose() * shift(j);
+  }
+  return inverse_ * sum;
+}
+
+Eigen::Matrix3d LinearFit::covariance() const {
+  double squares = 0.0;
+  for (std::size_t j = 0; j < p_.size(); ++j) squares += weights_[j] * residual(j).squaredNorm();
+  return squares / (2.0 * static_cast<double>(p_.size()) - 3.0) * inverse_;
+}
+
+double LinearFit::clustering(double cell_m) const {
+  std::map<std::pair<long, long>, Eigen::Vector3d> cells;
+  for (std::size_t j = 0; j < p_.size(); ++j) {
+    const std::pair cell{std::lround(q_[j].x() / cell_m), std::lround(q_[j].y() / cell_m)};
+    const auto [entry, is_new] = cells.try_emplace(cell, Eigen::Vector3d::Zero());
+    entry->second += weights_[j] * jacobian(j).transpose() * residual(j);
+  }
+  constexpr std::size_t kFewest = 6;
+  if (cells.size() < kFewest) return 1.0;
+  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
+  for (const auto& [cell, score] : cells) scatter += score * score.transpose();
+  const auto count = static_cast<double>(cells.size());
+  // A fit takes 3 of the 2 · count directions that the cells' errors have.
+  const Eigen::Matrix3d robust = inverse_ * scatter * inverse_ * (count / (count - 1.5));
+  const double ratio = (covariance().inverse() * robust).trace() / 3.0;
+  return std::isfinite(ratio) ? std::max(1.0, ratio) : 1.0;
+}
+
+Eigen::Matrix3d LinearFit::of_pictures(const Viewpoint& from, const Viewpoint& to,
+                                       const CovarianceOptions& options) const {
+  const Eigen::Vector3d sigmas(options.altitude_sigma_m, options.tilt_sigma_rad,
+                               options.tilt_sigma_rad);
+  const Eigen::Matrix2d R = rotation(z_.theta);
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+  for (int error = 0; error < 3; ++error) {
+    if (sigmas[error] == 0.0) continue;
+    const Eigen::Vector3d by_from =
+        response([&](std::size_t j) { return derivative(from, p_[j]).col(error).eval(); });
+    const Eigen::Vector3d by_to =
+        response([&](std::size_t j) { return (R * derivative(to, q_[j]).col(error)).eval(); });
+    sum += sigmas[error] * sigmas[error] *
+           (by_from * by_from.transpose() + by_to * by_to.transpose());
+  }
+  const double shared_m = kSharedPixels * std::hypot(from.metres_per_pixel, to.metres_per_pixel);
+  sum(0, 0) += shared_m * shared_m;
+  sum(1, 1) += shared_m * shared_m;
+  return sum;
+}
+
+}  // namespace fathom

@@ -1,0 +1,116 @@
+#include "motion_fit.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fathom/vision/rigid_motion.hpp"
+#include "fathom/vision/motion_covariance.hpp"
+
+namespace fathom {
+namespace {
+
+double squared_residual(const Pose& z, const MatchSet& matches, int index) {
+  return (matches.pairs().p(index) - transform(z, matches.pairs().q(index))).squaredNorm();
+}
+
+struct Points {
+  std::vector<Eigen::Vector2d> p, q;
+  std::vector<double> weights;
+};
+
+Points points_of(const MatchSet& matches, const std::vector<int>& indices) {
+  Points points;
+  for (const int index : indices) {
+    points.p.push_back(matches.pairs().p(index));
+    points.q.push_back(matches.pairs().q(index));
+    points.weights.push_back(1.0 / matches.relative_variance(index));
+  }
+  return points;
+}
+
+// Of right matches, with errors normal in x and y, one in 250 is beyond this many variances.
+constexpr double kGate = 11.0;
+
+std::vector<int> within_gate(const Pose& z, const MatchSet& matches, double max_error_m) {
+  std::vector<int> near = matches.pairs().agreeing(z, max_error_m);
+  if (near.empty()) return near;
+  std::vector<double> squares;
+  for (const int index : near) {
+    squares.push_back(squared_residual(z, matches, index) / matches.relative_variance(index));
+  }
+  std::vector<double> sorted = squares;
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  std::nth_element(sorted.begin(), middle, sorted.end());
+  // The median of chi squared with two degrees of freedom is 2 ln 2.
+  const double variance = *middle / (2.0 * std::log(2.0));
+  std::vector<int> kept;
+  for (std::size_t k = 0; k < near.size(); ++k) {
+    if (squares[k] <= kGate * variance) kept.push_back(near[k]);
+  }
+  return kept;
+}
+
+}  // namespace
+
+MotionFit fit_motion(const Pose& start, const MatchSet& matches, double max_error_m) {
+  constexpr int kRounds = 20;
+  MotionFit fit;
+  fit.motion = start;
+  fit.inliers = matches.pairs().agreeing(start, max_error_m);
+  for (int round = 0; round < kRounds; ++round) {
+    std::vector<int> inliers = within_gate(fit.motion, matches, max_error_m);
+    const Points points = points_of(matches, inliers);
+    const std::optional<Pose> motion = find_motion(points.p, points.q, points.weights);
+    if (inliers.size() < 3 || !motion) break;
+    const bool settled = inliers == fit.inliers;
+    fit.motion = *motion;
+    fit.inliers = std::move(inliers);
+    if (settled) break;
+  }
+  double sum = 0.0;
+  for (const int index : fit.inliers) sum += squared_residual(fit.motion, matches, index);
+  fit.rms_m = std::sqrt(sum / static_cast<double>(fit.inliers.size()));
+  return fit;
+}
+
+ScaleCheck check_scale(const MotionFit& fit, const MatchSet& matches) {
+  const Points points = points_of(matches, fit.inliers);
+  Eigen::Vector2d p_mean = Eigen::Vector2d::Zero();
+  Eigen::Vector2d q_mean = Eigen::Vector2d::Zero();
+  double sum = 0.0;
+  for (std::size_t j = 0; j < points.p.size(); ++j) {
+    p_mean += points.weights[j] * points.p[j];
+    q_mean += points.weights[j] * points.q[j];
+    sum += points.weights[j];
+  }
+  const Eigen::Matrix2d R = rotation(fit.motion.theta);
+  double along = 0.0;
+  double spread = 0.0;
+  double squares = 0.0;
+  for (std::size_t j = 0; j < points.p.size(); ++j) {
+    const Eigen::Vector2d q = R * (points.q[j] - q_mean / sum);
+    along += points.weights[j] * q.dot(points.p[j] - p_mean / sum);
+    spread += points.weights[j] * q.squaredNorm();
+    squares += points.weights[j] * squared_residual(fit.motion, matches, fit.inliers[j]);
+  }
+  if (!(spread > 0.0) || points.p.size() < 3) return {};
+  const double variance = squares / (2.0 * static_cast<double>(points.p.size()) - 4.0);
+  return {along / spread, std::sqrt(variance / spread)};
+}
+
+Eigen::Matrix3d fit_covariance(const MotionFit& fit, const MatchSet& matches,
+                               const FloorFeatures& from, const FloorFeatures& to,
+                               const CovarianceOptions& options) {
+  const Points points = points_of(matches, fit.inliers);
+  const LinearFit linear(fit.motion, points.p, points.q, points.weights);
+  constexpr double kCellPixels = 64.0;
+  Eigen::Matrix3d covariance =
+      linear.covariance() * linear.clustering(kCellPixels * to.viewpoint.metres_per_pixel);
+  covariance += linear.of_pictures(from.viewpoint, to.viewpoint, options);
+  covariance.diagonal() += Eigen::Vector3d(options.floor_sigma_m, options.floor_sigma_m,
+                                           options.floor_sigma_rad)
+                               .cwiseAbs2();
+  return covariance;
+}
+
+}  // namespace fathom

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "fathom/geometry/pose.hpp"
+#include "fathom/vision/registration.hpp"
+#include "match_set.hpp"
+
+namespace fathom {
+
+/// A motion fitted to matches, each weighted by its uncertainty.
+struct MotionFit {
+  Pose motion;
+  std::vector<int> inliers;  ///< rising indices of the matches it is fitted to
+  double rms_m = 0.0;
+};
+
+/// Refits a motion to the matches within `max_error_m` of it, weighted by 1 / relative_variance.
+/// Among those a few agree by chance; so of these only the ones within kGate of the errors' own
+/// deviation stay, which is taken from their median. Repeated until nothing changes.
+MotionFit fit_motion(const Pose& start, const MatchSet& matches, double max_error_m);
+
+/// Its covariance: of (x, y, θ), in axes of `from`. To first order, the sum of
+/// - what the errors show, σ² (Σ w JᵀJ)⁻¹ with σ² = Σ w ‖r‖² / (2n − 3), and more where errors of
+///   neighbours are alike: times the mean ratio of the cluster-robust covariance (Liang and Zeger
+///   1986; clusters are squares of 64 pixels) to it, if above 1;
+/// - the error of its own that the keypoints of a picture share;
+/// - that of altitudes and tilts, and the floor, as of the options.
+Eigen::Matrix3d fit_covariance(const MotionFit& fit, const MatchSet& matches,
+                               const FloorFeatures& from, const FloorFeatures& to,
+                               const CovarianceOptions& options);
+
+/// Distances in `from` over those in `to` by the inliers of a fit, and its standard deviation.
+struct ScaleCheck {
+  double scale = 1.0;
+  double sigma = 0.0;
+};
+ScaleCheck check_scale(const MotionFit& fit, const MatchSet& matches);
+
+}  // namespace fathom
