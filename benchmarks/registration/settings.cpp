@@ -6,11 +6,11 @@
 namespace fathom::benchmarks {
 
 RegistrationOptions registration_options_for(const test::Condition& condition) {
-  // A field of heights that departs from its mean by relief_m at most has a third of that as its
-  // deviation, and slopes as a tilt of relief_share would make them.
+  // What a relief adds to an altitude and to a tilt over the overlap of two pictures: half of its
+  // greatest height, and a slope of relief_share.
   RegistrationOptions options;
-  options.covariance.altitude_sigma_m = condition.relief_m() / 3.0;
-  options.covariance.tilt_sigma_rad = std::max(condition.tilt_sigma_rad, condition.relief_share / 3.0);
+  options.covariance.altitude_sigma_m = condition.relief_m() / 2.0;
+  options.covariance.tilt_sigma_rad = std::max(condition.tilt_sigma_rad, condition.relief_share);
   return options;
 }
 

@@ -99,9 +99,8 @@ std::vector<Eigen::Vector2d> Camera::floor_points(std::span<const Eigen::Vector2
 }
 
 double Camera::heading(double turn_rad) const {
-  const Eigen::Vector2d way =
-      body_from_mount_ *
-      Eigen::Vector2d(-std::sin(turn_rad) / model_.fy, -std::cos(turn_rad) / model_.fx);
+  const Eigen::Vector2d way = body_from_mount_ * Eigen::Vector2d(-std::sin(turn_rad) / model_.fy,
+                                                                 -std::cos(turn_rad) / model_.fx);
   return std::atan2(way.y(), way.x());
 }
 

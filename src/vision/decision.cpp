@@ -3,14 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
-#include <limits>
 
 #include "fathom/core/chi_squared.hpp"
 
 namespace fathom {
 namespace {
-
-constexpr int kAll = std::numeric_limits<int>::max();
 
 // P(X ≥ count) of a Poisson distribution, by its relation to chi squared (Abramowitz and Stegun
 // 26.4.21).
@@ -25,9 +22,9 @@ Evidence weigh_at(const SupportedMotion& best, int rival_places, const MatchSet&
   const std::vector<int> agreeing = nearest.pairs().agreeing(*best.motion, error_m);
   Evidence evidence;
   evidence.agreeing = static_cast<int>(agreeing.size());
-  evidence.places = nearest.pairs().count_places(agreeing, error_m, kAll);
-  evidence.rival_places = std::max({kAlways, rival_places,
-                                    most_places_elsewhere(*best.motion, nearest, reach_m, error_m)});
+  evidence.places = nearest.pairs().count_places(agreeing, error_m, kEnoughPlaces);
+  evidence.rival_places = std::max(
+      {kAlways, rival_places, most_places_elsewhere(*best.motion, nearest, reach_m, error_m)});
   evidence.false_alarms = poisson_tail(evidence.places, evidence.rival_places);
   return evidence;
 }
@@ -54,8 +51,9 @@ std::string objection(const Evidence& evidence, const RansacOptions& ransac,
   }
   if (evidence.false_alarms > decision.max_false_alarms) {
     std::array<char, 96> chance{};
-    std::snprintf(chance.data(), chance.size(), "; another motion has %d: by chance %.1g, above %.1g",
-                  evidence.rival_places, evidence.false_alarms, decision.max_false_alarms);
+    std::snprintf(chance.data(), chance.size(),
+                  "; another motion has %d: by chance %.1g, above %.1g", evidence.rival_places,
+                  evidence.false_alarms, decision.max_false_alarms);
     return places + chance.data();
   }
   return {};

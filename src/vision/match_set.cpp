@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
 #include <tuple>
 #include <utility>
 
@@ -43,8 +44,7 @@ std::vector<Match> one_per_place(std::vector<Match> matches, const FloorFeatures
 MatchSet::MatchSet(std::vector<Match> matches, const FloorFeatures& from, const FloorFeatures& to,
                    Use use)
     : pairs_({}, {}) {
-  const bool sized =
-      use == Use::sizes && !from.sizes_m.empty() && !to.sizes_m.empty();
+  const bool sized = use == Use::sizes && !from.sizes_m.empty() && !to.sizes_m.empty();
   if (sized) {
     std::erase_if(matches, [&](const Match& m) {
       const double ratio = from.sizes_m[static_cast<std::size_t>(m.from)] /
@@ -68,6 +68,24 @@ MatchSet::MatchSet(std::vector<Match> matches, const FloorFeatures& from, const 
 
 double MatchSet::relative_variance(int index) const {
   return relative_variances_.empty() ? 1.0 : relative_variances_[static_cast<std::size_t>(index)];
+}
+
+std::vector<int> MatchSet::one_to_one(const std::vector<int>& indices) const {
+  std::vector<int> order = indices;
+  std::ranges::stable_sort(
+      order, {}, [this](int index) { return matches_[static_cast<std::size_t>(index)].distance; });
+  std::set<int> from_taken;
+  std::set<int> to_taken;
+  std::vector<int> kept;
+  for (const int index : order) {
+    const Match& m = matches_[static_cast<std::size_t>(index)];
+    if (from_taken.contains(m.from) || to_taken.contains(m.to)) continue;
+    from_taken.insert(m.from);
+    to_taken.insert(m.to);
+    kept.push_back(index);
+  }
+  std::ranges::sort(kept);
+  return kept;
 }
 
 MatchSet MatchSet::without(const std::vector<int>& indices) const {

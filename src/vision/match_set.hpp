@@ -20,8 +20,7 @@ class MatchSet {
   /// Of matches that join the same two places the nearest in descriptors stays: SIFT puts several
   /// keypoints with different orientations at one place, which is the same evidence again. Those of
   /// keypoints of unlike size on the floor go: the altitudes say how large a thing is.
-  MatchSet(std::vector<Match> matches, const FloorFeatures& from, const FloorFeatures& to,
-           Use use);
+  MatchSet(std::vector<Match> matches, const FloorFeatures& from, const FloorFeatures& to, Use use);
 
   std::size_t size() const { return matches_.size(); }
   /// By rising row of `from`.
@@ -31,6 +30,10 @@ class MatchSet {
   /// Variance of the error of a match relative to that of others: the place of a keypoint is the
   /// less certain the larger it is. All 1 without sizes.
   double relative_variance(int index) const;
+
+  /// Of `indices` (rising) those that remain when every feature takes part once, with its nearest:
+  /// a feature that several others are nearest to is one piece of evidence.
+  std::vector<int> one_to_one(const std::vector<int>& indices) const;
 
   /// Those not in `indices` (rising).
   MatchSet without(const std::vector<int>& indices) const;

@@ -1,8 +1,10 @@
 #include "fathom/vision/matching.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cblas.h>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <mutex>
 #include <span>
@@ -13,12 +15,12 @@ namespace fathom {
 namespace {
 
 // Rows of `from` compared at a time: the block of costs then stays in the second-level cache.
-constexpr int kBlockRows = 64;
+constexpr int kBlockRows = 128;
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-// A cost is the squared Euclidean distance, or the number of differing bits. While rows are compared
-// Nearest holds costs; they become distances at the end.
+// A cost is the squared Euclidean distance, or the number of differing bits. While rows are
+// compared Nearest holds costs; they become distances at the end.
 
 // The nearest row of `from` for each row of `to`, among the rows of `from` seen so far.
 struct NearestBack {
@@ -41,81 +43,150 @@ struct NearestBack {
   }
 };
 
-// One look at the costs of a row serves both directions.
-Nearest scan_row(int row, std::span<const float> costs, NearestBack& back) {
-  Nearest nearest;
-  for (std::size_t column = 0; column < costs.size(); ++column) {
-    const float cost = costs[column];
-    if (cost < nearest.next_distance) {
-      if (cost < nearest.distance) {
-        nearest = {static_cast<int>(column), cost, nearest.distance};
-      } else {
-        nearest.next_distance = cost;
-      }
-    }
-    if (cost < back.cost[column]) {
-      back.cost[column] = cost;
-      back.row[column] = row;
+// Columns that are looked at side by side, by the vector extension of g++ and clang++: as many as a
+// register holds, for more are taken one by one.
+struct FourLanes {
+  using Floats = float __attribute__((vector_size(16)));
+  using Ints = int __attribute__((vector_size(16)));
+};
+struct EightLanes {
+  using Floats = float __attribute__((vector_size(32)));
+  using Ints = int __attribute__((vector_size(32)));
+};
+constexpr std::size_t kMostLanes = 8;
+
+// The nearest and the next nearest of a row, from those of each lane.
+Nearest nearest_of(std::span<const float> cost, std::span<const float> next_cost,
+                   std::span<const int> column) {
+  Nearest result;
+  for (std::size_t lane = 0; lane < cost.size(); ++lane) {
+    const bool is_nearer = cost[lane] < result.distance ||
+                           (cost[lane] == result.distance && column[lane] < result.row);
+    if (is_nearer) {
+      result = {column[lane], cost[lane], std::min(result.distance, next_cost[lane])};
+    } else {
+      result.next_distance = std::min(result.next_distance, cost[lane]);
     }
   }
-  return nearest;
+  return result;
 }
 
-// `costs_of(first, rows, block)` fills a block, rows × to_rows, with the costs of rows of `from`.
+// One look at the costs of a row serves both directions. `count` is a multiple of kMostLanes.
+template <class Lanes>
+[[gnu::always_inline]] inline Nearest scan(int row, const float* costs, std::size_t count,
+                                           NearestBack& back) {
+  using Floats = typename Lanes::Floats;
+  using Ints = typename Lanes::Ints;
+  constexpr std::size_t kLanes = sizeof(Floats) / sizeof(float);
+  Floats nearest = Floats{} + kInfinity;
+  Floats next = nearest;
+  Ints nearest_column = Ints{} - 1;
+  Ints column{};
+  for (std::size_t lane = 0; lane < kLanes; ++lane) column[lane] = static_cast<int>(lane);
+  const Ints this_row = Ints{} + row;
+  for (std::size_t first = 0; first < count; first += kLanes) {
+    Floats cost;
+    std::memcpy(&cost, costs + first, sizeof(cost));
+    const Ints is_nearer = cost < nearest;
+    const Floats passed = is_nearer ? nearest : cost;
+    next = passed < next ? passed : next;
+    nearest = is_nearer ? cost : nearest;
+    nearest_column = is_nearer ? column : nearest_column;
+    column += static_cast<int>(kLanes);
+
+    Floats back_cost;
+    Ints back_row;
+    std::memcpy(&back_cost, back.cost.data() + first, sizeof(back_cost));
+    std::memcpy(&back_row, back.row.data() + first, sizeof(back_row));
+    const Ints is_nearer_back = cost < back_cost;
+    back_cost = is_nearer_back ? cost : back_cost;
+    back_row = is_nearer_back ? this_row : back_row;
+    std::memcpy(back.cost.data() + first, &back_cost, sizeof(back_cost));
+    std::memcpy(back.row.data() + first, &back_row, sizeof(back_row));
+  }
+  std::array<float, kLanes> costs_of_lanes{};
+  std::array<float, kLanes> next_costs{};
+  std::array<int, kLanes> columns{};
+  std::memcpy(costs_of_lanes.data(), &nearest, sizeof(nearest));
+  std::memcpy(next_costs.data(), &next, sizeof(next));
+  std::memcpy(columns.data(), &nearest_column, sizeof(nearest_column));
+  return nearest_of(costs_of_lanes, next_costs, columns);
+}
+
+[[gnu::target("avx2")]] Nearest scan_by_avx2(int row, const float* costs, std::size_t count,
+                                             NearestBack& back) {
+  return scan<EightLanes>(row, costs, count, back);
+}
+
+Nearest scan_row(int row, const float* costs, std::size_t count, NearestBack& back) {
+  static const bool has_avx2 = __builtin_cpu_supports("avx2") != 0;
+  return has_avx2 ? scan_by_avx2(row, costs, count, back)
+                  : scan<FourLanes>(row, costs, count, back);
+}
+
+// `costs_of(first, rows, block, stride)` fills the first `to_rows` columns of a block, row by row
+// `stride` apart, with the costs of rows of `from`.
 template <class Costs>
 NearestRows find_by_cost(int from_rows, int to_rows, const Costs& costs_of) {
   NearestRows found;
   found.in_to.resize(static_cast<std::size_t>(from_rows));
+  found.in_from.reserve(static_cast<std::size_t>(to_rows));
   NearestBack in_from(to_rows);
   std::mutex merging;
   const auto compare_blocks = [&](const cv::Range& blocks) {
-    const std::size_t columns = static_cast<std::size_t>(to_rows);
-    std::vector<float> block(kBlockRows * columns);
-    NearestBack back(to_rows);
+    // Columns beyond the last are never nearest.
+    const std::size_t stride =
+        (static_cast<std::size_t>(to_rows) + kMostLanes - 1) / kMostLanes * kMostLanes;
+    std::vector<float> block(kBlockRows * stride, kInfinity);
+    NearestBack back(static_cast<int>(stride));
     for (int first = blocks.start * kBlockRows;
          first < std::min(blocks.end * kBlockRows, from_rows); first += kBlockRows) {
       const int rows = std::min(kBlockRows, from_rows - first);
-      costs_of(first, rows, block.data());
+      costs_of(first, rows, block.data(), static_cast<int>(stride));
       for (int row = 0; row < rows; ++row) {
-        const float* costs = block.data() + static_cast<std::size_t>(row) * columns;
+        const float* costs = block.data() + static_cast<std::size_t>(row) * stride;
         found.in_to[static_cast<std::size_t>(first) + static_cast<std::size_t>(row)] =
-            scan_row(first + row, {costs, columns}, back);
+            scan_row(first + row, costs, stride, back);
       }
     }
     const std::lock_guard lock(merging);
     in_from.merge(back);
   };
   cv::parallel_for_({0, (from_rows + kBlockRows - 1) / kBlockRows}, compare_blocks);
-  for (std::size_t column = 0; column < in_from.row.size(); ++column) {
+  for (std::size_t column = 0; column < static_cast<std::size_t>(to_rows); ++column) {
     found.in_from.push_back({in_from.row[column], in_from.cost[column], kInfinity});
   }
   return found;
 }
 
-std::vector<float> squared_norms(const cv::Mat& descriptors) {
-  std::vector<float> norms;
+// Rows (−2a, ‖a‖², 1) of `from` or (b, 1, ‖b‖²) of `to`: their products are squared distances.
+enum class Side { from, to };
+cv::Mat_<float> with_norms(const cv::Mat& descriptors, Side side) {
+  const int length = descriptors.cols;
+  cv::Mat_<float> rows(descriptors.rows, length + 2);
+  const float factor = side == Side::from ? -2.0F : 1.0F;
   for (int row = 0; row < descriptors.rows; ++row) {
     const float* values = descriptors.ptr<float>(row);
-    norms.push_back(cblas_sdot(descriptors.cols, values, 1, values, 1));
+    float* out = rows[row];
+    for (int i = 0; i < length; ++i) out[i] = factor * values[i];
+    const float norm = cblas_sdot(length, values, 1, values, 1);
+    out[length] = side == Side::from ? norm : 1.0F;
+    out[length + 1] = side == Side::from ? 1.0F : norm;
   }
-  return norms;
+  return rows;
 }
 
-// ‖a‖² + ‖b‖² − 2 a·b, all products in one matrix product per block. SIFT's whole numbers up to 255
-// keep every sum below 2²⁴, so that the squared distances are exact.
+// ‖a‖² + ‖b‖² − 2 a·b, all in one matrix product per block. SIFT's whole numbers up to 255 keep
+// every sum below 2²⁴, so that the squared distances are exact.
 NearestRows find_euclidean(const cv::Mat& from, const cv::Mat& to) {
-  const std::vector<float> from_norms = squared_norms(from);
-  const std::vector<float> to_norms = squared_norms(to);
-  NearestRows found = find_by_cost(from.rows, to.rows, [&](int first, int rows, float* block) {
-    cblas_sgemm(CblasRowMajor, CblasNoTrans, CblasTrans, rows, to.rows, from.cols, -2.0F,
-                from.ptr<float>(first), static_cast<int>(from.step1()), to.ptr<float>(),
-                static_cast<int>(to.step1()), 0.0F, block, to.rows);
-    for (int row = 0; row < rows; ++row) {
-      const float from_norm =
-          from_norms[static_cast<std::size_t>(first) + static_cast<std::size_t>(row)];
-      for (const float to_norm : to_norms) *block++ += from_norm + to_norm;
-    }
-  });
+  const cv::Mat_<float> a = with_norms(from, Side::from);
+  const cv::Mat_<float> b = with_norms(to, Side::to);
+  const auto costs_of = [&](int first, int rows, float* block, int stride) {
+    cblas_sgemm(CblasRowMajor, CblasNoTrans, CblasTrans, rows, b.rows, a.cols, 1.0F, a[first],
+                static_cast<int>(a.step1()), b[0], static_cast<int>(b.step1()), 0.0F, block,
+                stride);
+  };
+  NearestRows found = find_by_cost(from.rows, to.rows, costs_of);
   // Rounding may leave a square just below zero.
   const auto distance_of = [](float square) { return std::sqrt(std::max(square, 0.0F)); };
   for (std::vector<Nearest>* side : {&found.in_to, &found.in_from}) {
@@ -128,11 +199,12 @@ NearestRows find_euclidean(const cv::Mat& from, const cv::Mat& to) {
 }
 
 NearestRows find_hamming(const cv::Mat& from, const cv::Mat& to) {
-  return find_by_cost(from.rows, to.rows, [&](int first, int rows, float* block) {
+  return find_by_cost(from.rows, to.rows, [&](int first, int rows, float* block, int stride) {
     cv::Mat bits;
     cv::batchDistance(from.rowRange(first, first + rows), to, bits, CV_32S, cv::noArray(),
                       cv::NORM_HAMMING);
-    bits.convertTo(cv::Mat(rows, to.rows, CV_32F, block), CV_32F);
+    cv::Mat costs(rows, to.rows, CV_32F, block, static_cast<std::size_t>(stride) * sizeof(float));
+    bits.convertTo(costs, CV_32F);
   });
 }
 

@@ -10,10 +10,6 @@
 namespace fathom {
 namespace {
 
-// The keypoints of a picture share an error of this many pixels in u and in v: of how it was
-// sampled and smoothed. Measured on pictures whose motion is known (docs/registration.md).
-constexpr double kSharedPixels = 0.01;
-
 // What the errors of a picture do to a point of the floor seen at p (body frame): the derivative by
 // altitude, roll (about x) and pitch (about y). For a ray (r, −1), r = (p − camera) / altitude, the
 // tilted one meets the floor at camera + altitude · (r_x − pitch, r_y + roll)
@@ -96,12 +92,9 @@ Eigen::Matrix3d LinearFit::of_pictures(const Viewpoint& from, const Viewpoint& t
         response([&](std::size_t j) { return derivative(from, p_[j]).col(error).eval(); });
     const Eigen::Vector3d by_to =
         response([&](std::size_t j) { return (R * derivative(to, q_[j]).col(error)).eval(); });
-    sum += sigmas[error] * sigmas[error] *
-           (by_from * by_from.transpose() + by_to * by_to.transpose());
+    sum +=
+        sigmas[error] * sigmas[error] * (by_from * by_from.transpose() + by_to * by_to.transpose());
   }
-  const double shared_m = kSharedPixels * std::hypot(from.metres_per_pixel, to.metres_per_pixel);
-  sum(0, 0) += shared_m * shared_m;
-  sum(1, 1) += shared_m * shared_m;
   return sum;
 }
 

@@ -26,7 +26,7 @@ MotionFit fit_motion(const Pose& start, const MatchSet& matches, double max_erro
 /// - what the errors show, σ² (Σ w JᵀJ)⁻¹ with σ² = Σ w ‖r‖² / (2n − 3), and more where errors of
 ///   neighbours are alike: times the mean ratio of the cluster-robust covariance (Liang and Zeger
 ///   1986; clusters are squares of 64 pixels) to it, if above 1;
-/// - the error of its own that the keypoints of a picture share;
+/// - a share of the error of one match, which all of a picture have in common;
 /// - that of altitudes and tilts, and the floor, as of the options.
 Eigen::Matrix3d fit_covariance(const MotionFit& fit, const MatchSet& matches,
                                const FloorFeatures& from, const FloorFeatures& to,

@@ -1,7 +1,9 @@
 #include "motion_search.hpp"
 
 #include <algorithm>
-#include <limits>
+#include <cmath>
+#include <cstddef>
+#include <functional>
 #include <utility>
 
 #include "fathom/vision/rigid_motion.hpp"
@@ -9,8 +11,6 @@
 
 namespace fathom {
 namespace {
-
-constexpr int kAll = std::numeric_limits<int>::max();
 
 std::optional<Pose> fit(const PointPairs& pairs, const std::vector<int>& indices) {
   std::vector<Eigen::Vector2d> p;
@@ -21,6 +21,46 @@ std::optional<Pose> fit(const PointPairs& pairs, const std::vector<int>& indices
   }
   return find_motion(p, q);
 }
+
+// Translations on a grid about a motion, each with the pairs that it brings within the error: those
+// that the motion leaves apart by so much. Discs of the error, one and a half of it from one to the
+// next, leave few gaps and share little.
+class ShiftGrid {
+ public:
+  ShiftGrid(double error_m, double reach_m)
+      : error_m_(error_m), reach_m_(reach_m), cells_(std::size_t{kSide} * kSide) {}
+
+  void add(int index, const Eigen::Vector2d& apart_m) {
+    const Eigen::Vector2d at = apart_m / (kSpacing * error_m_);
+    if (!(at.cwiseAbs().maxCoeff() < kSteps + 1.0)) return;
+    const int row = static_cast<int>(std::floor(at.x()));
+    const int column = static_cast<int>(std::floor(at.y()));
+    for (const int r : {row, row + 1}) {
+      for (const int c : {column, column + 1}) add_to(r, c, index, apart_m);
+    }
+  }
+
+  std::vector<std::vector<int>> by_falling_size() {
+    std::ranges::stable_sort(cells_, std::ranges::greater{}, &std::vector<int>::size);
+    return std::move(cells_);
+  }
+
+ private:
+  static constexpr double kSpacing = 1.5;
+  static constexpr int kSteps = 16;  // to either side
+  static constexpr int kSide = 2 * kSteps + 1;
+
+  void add_to(int row, int column, int index, const Eigen::Vector2d& apart_m) {
+    if (std::max(std::abs(row), std::abs(column)) > kSteps) return;
+    const Eigen::Vector2d shift = kSpacing * error_m_ * Eigen::Vector2d(row, column);
+    if (shift.norm() < reach_m_ || (apart_m - shift).norm() > error_m_) return;
+    cells_[static_cast<std::size_t>((row + kSteps) * kSide + column + kSteps)].push_back(index);
+  }
+
+  double error_m_;
+  double reach_m_;
+  std::vector<std::vector<int>> cells_;
+};
 
 }  // namespace
 
@@ -45,7 +85,7 @@ SupportedMotion find_supported_motion(const MatchSet& distinct, const MatchSet& 
     found.supporters = std::move(supporters);
     if (settled) break;
   }
-  found.places = nearest.pairs().count_places(found.supporters, options.max_error_m, kAll);
+  found.places = nearest.pairs().count_places(found.supporters, options.max_error_m, kEnoughPlaces);
   return found;
 }
 
@@ -60,19 +100,16 @@ SupportedMotion find_rival(const SupportedMotion& best, const MatchSet& distinct
 
 int most_places_elsewhere(const Pose& best, const MatchSet& nearest, double reach_m,
                           double error_m) {
-  // Discs of the error on a grid of one and a half leave few gaps, and nothing counts twice.
-  constexpr double kSpacing = 1.5;
-  constexpr int kSteps = 16;
   const PointPairs pairs = nearest.pairs().turning(best.theta);
+  ShiftGrid grid(error_m, reach_m);
+  for (std::size_t j = 0; j < pairs.size(); ++j) {
+    const int index = static_cast<int>(j);
+    grid.add(index, pairs.p(index) - transform(best, pairs.q(index)));
+  }
   int most = 0;
-  for (int row = -kSteps; row <= kSteps; ++row) {
-    for (int column = -kSteps; column <= kSteps; ++column) {
-      const Eigen::Vector2d shift = kSpacing * error_m * Eigen::Vector2d(row, column);
-      if (shift.norm() < reach_m) continue;
-      const Pose moved{best.x + shift.x(), best.y + shift.y(), best.theta};
-      if (pairs.count_agreeing(moved, error_m) <= most) continue;
-      most = std::max(most, pairs.count_places(pairs.agreeing(moved, error_m), error_m, kAll));
-    }
+  for (const std::vector<int>& agreeing : grid.by_falling_size()) {
+    if (static_cast<int>(agreeing.size()) <= most) break;
+    most = std::max(most, pairs.count_places(agreeing, error_m, kEnoughPlaces));
   }
   return most;
 }

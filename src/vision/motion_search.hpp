@@ -17,6 +17,9 @@ struct SupportedMotion {
   int places = 0;               ///< in which these lie
 };
 
+/// Places are counted up to here: more decide nothing.
+inline constexpr int kEnoughPlaces = 200;
+
 /// Motions nearer to another than so many times the allowed error live on its supporters.
 inline constexpr double kRivalReach = 3.0;
 

@@ -33,7 +33,8 @@ class Ransac {
   Consensus run() {
     Consensus best;
     if (pairs_.size() < static_cast<std::size_t>(options_.sample_size)) return best;
-    for (int i = 0; i < options_.iterations; ++i) {
+    double needed = options_.iterations;
+    for (int i = 0; i < needed; ++i) {
       const std::optional<Pose> trial = fit_sample();  // 1
       if (!trial) continue;
       const int support = pairs_.count_agreeing(*trial, options_.max_error_m);  // 2
@@ -45,6 +46,7 @@ class Ransac {
       Consensus fitted = fit(std::move(agreeing));  // 4
       if (fitted.motion && (!best.motion || is_better(fitted, best)))
         best = std::move(fitted);  // 5
+      needed = std::min(needed, iterations_for(best));
     }
     if (best.motion && options_.score == RansacScore::inliers) settle(best);
     best.most_agreeing = std::max(most_agreeing_, static_cast<int>(best.inliers.size()));
@@ -53,6 +55,16 @@ class Ransac {
   }
 
  private:
+  // After so many, a sample of inliers alone was drawn with the wanted confidence.
+  double iterations_for(const Consensus& best) const {
+    if (options_.score == RansacScore::paper || !best.motion) return options_.iterations;
+    const double share =
+        static_cast<double>(best.inliers.size()) / static_cast<double>(pairs_.size());
+    const double all_inliers = std::pow(share, options_.sample_size);
+    if (all_inliers >= 1.0) return 1.0;
+    return std::log1p(-options_.confidence) / std::log1p(-all_inliers);
+  }
+
   // `sample_size` different pairs, uniformly (Floyd's algorithm).
   void draw_sample() {
     sample_.clear();
@@ -152,7 +164,10 @@ class Ransac {
 }  // namespace
 
 void RansacOptions::describe(OptionTable& table) {
-  table.integer("iterations", iterations, Range::between(1, 1e7), "", "samples drawn per pair");
+  table.integer("iterations", iterations, Range::between(1, 1e7), "",
+                "samples drawn per pair, at most");
+  table.real("confidence", confidence, Range{0.5, 1.0}, "",
+             "end once a sample of inliers alone was drawn with this probability; 1 is off");
   table.integer("sample_size", sample_size, Range::between(2, 100), "matches",
                 "matches in a sample (the paper's N)");
   table.real("max_error_m", max_error_m, Range::positive(), "m",

@@ -26,7 +26,7 @@ class LinearFit {
   double clustering(double cell_m) const;
 
   /// Of errors that the points of one picture share: of its altitude and its roll and pitch, as of
-  /// the options, and of the places of its keypoints.
+  /// the options.
   Eigen::Matrix3d of_pictures(const Viewpoint& from, const Viewpoint& to,
                               const CovarianceOptions& options) const;
 

@@ -19,7 +19,8 @@ enum class RansacScore {
 };
 
 struct RansacOptions {
-  int iterations = 1000;
+  int iterations = 10000;
+  double confidence = 0.999999;
   int sample_size = 2;
   double max_error_m = 0.03;
   int min_inliers = 16;
@@ -60,6 +61,11 @@ struct Consensus {
 /// and it is fitted again, until they no longer change (20 rounds at most; a round that loses
 /// inliers or has too few places is not taken). With score `paper` the procedure ends as the figure
 /// does.
+///
+/// It also ends before the last iteration, once a sample of nothing but inliers of the best motion
+/// has been drawn with probability `confidence`: after log(1 − confidence) / log(1 − wᴺ), w the
+/// share of inliers, N the size of a sample (Fischler and Bolles 1981). With score `paper` the
+/// motion that wins need not be the one with most inliers, and all are made.
 ///
 /// Same arguments, same answer. Throws InputError where the two counts differ.
 Consensus ransac(std::span<const Eigen::Vector2d> p, std::span<const Eigen::Vector2d> q,

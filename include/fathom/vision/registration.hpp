@@ -48,7 +48,7 @@ struct RegistrationOptions {
 /// What a decision rests on. With the paper's criterion `agreeing` and `places` alone are known.
 struct Evidence {
   int agreeing = 0;  ///< matches that the best motion brings together
-  int places = 0;    ///< in which these lie, see ransac()
+  int places = 0;    ///< in which these lie, see ransac(); counted up to 200
   /// The most places of any other motion: of the second-best one, and of those with the heading of
   /// the best one and another translation.
   int rival_places = 0;
