@@ -3,14 +3,6 @@
 #include <cmath>
 
 namespace fathom::sparse_gauss_newton {
-namespace {
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
-
-}  // namespace
-
 // z = a + i b as (a, b), the number e^{iδ} as the matrix R(δ) of a rotation: an edge adds w I to
 // both diagonal blocks and −w R(δ) to the block in the row of `to`.
 std::vector<double> chordal_headings(const Symbolic& symbolic, std::span<const Edge> edges,

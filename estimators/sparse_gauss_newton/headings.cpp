@@ -1,14 +1,6 @@
 #include "estimators/sparse_gauss_newton/headings.hpp"
 
 namespace fathom::sparse_gauss_newton {
-namespace {
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
-
-}  // namespace
-
 HeadingProblem::HeadingProblem(const Symbolic& symbolic, std::span<const Edge> edges)
     : edges_(edges), factor_(symbolic) {
   weights_.reserve(edges.size());

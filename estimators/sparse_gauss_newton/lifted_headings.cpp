@@ -20,10 +20,6 @@ constexpr double kLiftNoise = 0.3;
 constexpr double kFirstDamping = 1e-4;
 constexpr double kLargestDamping = 1e8;
 
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
-
 Complex first_of(const Lifted& y) {
   return {y[0], y[1]};
 }

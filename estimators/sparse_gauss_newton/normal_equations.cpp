@@ -4,14 +4,6 @@
 #include <cmath>
 
 namespace fathom::sparse_gauss_newton {
-namespace {
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
-
-}  // namespace
-
 Symbolic analyse_graph(std::span<const Edge> edges, int keyframes, ChainElimination chains) {
   std::vector<Link> links;
   links.reserve(edges.size());
@@ -63,59 +55,65 @@ template <Hessian kHessian>
 double NormalEquations::add_edges(std::span<const Node> nodes) {
   constexpr Lever kLever = kHessian == Hessian::measured ? Lever::measured : Lever::estimated;
   double cost = 0.0;
-  double* const data = factor_.data();
   for (std::size_t e = 0; e < edges_.size(); ++e) {
     const Edge& edge = edges_[e];
     const EdgeTerms t = linearise_edge(edge, nodes[at(edge.from)], nodes[at(edge.to)], kLever);
     cost += t.cost;
     const Targets& target = targets_[e];
-    const auto& M = t.M;
-    const auto& m = t.m;
-    if (target.to >= 0) {
-      double* g = gradient_.data() + 3 * target.to;
-      for (int a = 0; a < 3; ++a) g[a] += m[at(a)];
-      auto& H = diagonal_sums_[at(target.to)];
-      for (std::size_t a = 0; a < 6; ++a) H[a] += M[a];
-    }
-    if (target.from < 0) continue;
-    // Row θ of Tᵀ M, and element (θ, θ) of Tᵀ M T.
-    const double rx = -t.dy * M[0] + t.dx * M[1] + M[2];
-    const double ry = -t.dy * M[1] + t.dx * M[3] + M[4];
-    const double rt = -t.dy * M[2] + t.dx * M[4] + M[5];
-    double* g = gradient_.data() + 3 * target.from;
-    g[0] -= m[0];
-    g[1] -= m[1];
-    g[2] -= -t.dy * m[0] + t.dx * m[1] + m[2];
-    auto& H = diagonal_sums_[at(target.from)];
-    H[0] += M[0];
-    H[1] += M[1];
-    H[2] += rx;
-    H[3] += M[3];
-    H[4] += ry;
-    H[5] += -t.dy * rx + t.dx * ry + rt;
-    double tx = -rx;
-    double ty = -ry;
-    if constexpr (kHessian == Hessian::exact) {
-      H[2] += m[1];
-      H[4] -= m[0];
-      H[5] -= m[0] * t.dx + m[1] * t.dy;
-      tx -= m[1];
-      ty += m[0];
-    }
-    if (target.to < 0) continue;
-    // −Tᵀ M has the rows of `from` and the columns of `to`.
-    const std::array<double, 9> block{-M[0], -M[1], -M[2], -M[1], -M[3], -M[4], tx, ty, -rt};
-    double* const to = data + target.cross.offset;
-    const int stride = target.cross.stride;
-    const int down = target.from > target.to ? 1 : stride;
-    const int along = target.from > target.to ? stride : 1;
-    for (int row = 0; row < 3; ++row) {
-      for (int column = 0; column < 3; ++column) {
-        to[row * down + column * along] += block[at(3 * row + column)];
-      }
-    }
+    if (target.to >= 0) add_to_end(t, target.to);
+    if (target.from >= 0) add_to_begin<kHessian>(t, target);
   }
   return cost;
+}
+
+// H_kk and g_k.
+inline void NormalEquations::add_to_end(const EdgeTerms& t, int position) {
+  double* g = gradient_.data() + 3 * position;
+  for (int a = 0; a < 3; ++a) g[a] += t.m[at(a)];
+  auto& H = diagonal_sums_[at(position)];
+  for (std::size_t a = 0; a < 6; ++a) H[a] += t.M[a];
+}
+
+// H_ii and g_i, and H_ik where k is free.
+template <Hessian kHessian>
+inline void NormalEquations::add_to_begin(const EdgeTerms& t, const Targets& target) {
+  const auto& M = t.M;
+  const auto& m = t.m;
+  // Row θ of Tᵀ M, and below element (θ, θ) of Tᵀ M T.
+  const double rx = -t.dy * M[0] + t.dx * M[1] + M[2];
+  const double ry = -t.dy * M[1] + t.dx * M[3] + M[4];
+  const double rt = -t.dy * M[2] + t.dx * M[4] + M[5];
+  double* g = gradient_.data() + 3 * target.from;
+  g[0] -= m[0];
+  g[1] -= m[1];
+  g[2] -= -t.dy * m[0] + t.dx * m[1] + m[2];
+  auto& H = diagonal_sums_[at(target.from)];
+  H[0] += M[0];
+  H[1] += M[1];
+  H[2] += rx;
+  H[3] += M[3];
+  H[4] += ry;
+  H[5] += -t.dy * rx + t.dx * ry + rt;
+  double tx = -rx;
+  double ty = -ry;
+  if constexpr (kHessian == Hessian::exact) {
+    H[2] += m[1];
+    H[4] -= m[0];
+    H[5] -= m[0] * t.dx + m[1] * t.dy;
+    tx -= m[1];
+    ty += m[0];
+  }
+  if (target.to < 0) return;
+  // −Tᵀ M has the rows of `from` and the columns of `to`.
+  const std::array<double, 9> block{-M[0], -M[1], -M[2], -M[1], -M[3], -M[4], tx, ty, -rt};
+  double* const to = factor_.data() + target.cross.offset;
+  const int down = target.from > target.to ? 1 : target.cross.stride;
+  const int along = target.from > target.to ? target.cross.stride : 1;
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) {
+      to[row * down + column * along] += block[at(3 * row + column)];
+    }
+  }
 }
 
 void NormalEquations::write_diagonal(double damping) {

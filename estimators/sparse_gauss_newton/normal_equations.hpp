@@ -51,16 +51,19 @@ class NormalEquations {
   const std::vector<double>& gradient() const { return gradient_; }
 
  private:
-  template <Hessian kHessian>
-  double add_edges(std::span<const Node> nodes);
-  void write_diagonal(double damping);
-
   /// Where an edge's terms go.
   struct Targets {
     int from = -1;  ///< position, −1 of the fixed keyframe
     int to = -1;
     BlockPlace cross;
   };
+
+  template <Hessian kHessian>
+  double add_edges(std::span<const Node> nodes);
+  void add_to_end(const EdgeTerms& t, int position);
+  template <Hessian kHessian>
+  void add_to_begin(const EdgeTerms& t, const Targets& target);
+  void write_diagonal(double damping);
 
   std::span<const Edge> edges_;
   BlockCholesky<3> factor_;

@@ -10,10 +10,6 @@
 namespace fathom::sparse_gauss_newton {
 namespace {
 
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
-
 // The graph while nodes are taken out of it. A node of at most two neighbours leaves at most one
 // new link, in the place of the link to it, so no list ever grows.
 class ShrinkingGraph {

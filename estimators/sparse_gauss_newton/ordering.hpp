@@ -1,8 +1,14 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 namespace fathom::sparse_gauss_newton {
+
+/// An index as the standard containers want it.
+inline std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
 
 /// The neighbours of each of the nodes 0 … n − 1 of an undirected graph, each once, without itself.
 struct Adjacency {

@@ -3,14 +3,6 @@
 #include <array>
 
 namespace fathom::sparse_gauss_newton {
-namespace {
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
-
-}  // namespace
-
 PositionProblem::PositionProblem(const Symbolic& symbolic, std::span<const Edge> edges)
     : edges_(edges), factor_(symbolic) {}
 

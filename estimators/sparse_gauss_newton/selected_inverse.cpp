@@ -9,10 +9,6 @@ namespace {
 
 constexpr int B = 3;
 
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
-
 // Column-major dense matrices that every supernode uses in turn.
 struct Workspace {
   std::vector<double> below;    // Σ₂₂, both triangles

@@ -50,7 +50,7 @@ class Minimiser {
     const bool small = promised <= limits_.tolerance * result_.cost || promised <= kNoise ||
                        equations_.step_is_small(nodes_, limits_.tolerance);
     if (small && damping_ == 0.0) {
-      if (hessian_ == Hessian::exact || is_indefinite_) {
+      if (hessian_ == Hessian::exact || is_indefinite_here_) {
         result_.outcome = Outcome::converged;
         nodes_.swap(trial_);
         return false;
@@ -72,15 +72,15 @@ class Minimiser {
   // Of an exact Hessian that is not positive definite, its Gauss-Newton part is taken.
   bool factorise() {
     const bool done = equations_.factorise();
+    is_indefinite_here_ = false;
     if (hessian_ != Hessian::exact) {
       return done && equations_.negative_pivots() == 0;
     }
     if (done && equations_.negative_pivots() == 0) {
-      is_indefinite_ = false;
       if (damping_ == 0.0) result_.is_local_minimum = true;
       return true;
     }
-    is_indefinite_ = true;
+    is_indefinite_here_ = true;
     newton_below_ *= 1e-2;
     result_.is_local_minimum = false;
     hessian_ = Hessian::gauss_newton;
@@ -120,6 +120,8 @@ class Minimiser {
   void finish() {
     result_.cost = equations_.linearise(nodes_, Hessian::gauss_newton);
     result_.gradient_norm = equations_.gradient_norm();
+    // What was found on the way says nothing of where it stopped.
+    if (result_.outcome != Outcome::converged) result_.is_local_minimum.reset();
     if (!std::isfinite(result_.cost)) result_.outcome = Outcome::numerical_failure;
   }
 
@@ -131,7 +133,7 @@ class Minimiser {
   std::optional<PositionProblem> positions_;
   Hessian hessian_ = Hessian::gauss_newton;
   double damping_ = 0.0;
-  bool is_indefinite_ = false;  ///< the exact Hessian, when last tried
+  bool is_indefinite_here_ = false;  ///< the exact Hessian, at the present estimate
   double newton_below_ = kNewtonBelow;
 };
 
