@@ -228,6 +228,19 @@ TEST_F(Commands, SolveTakesModeStartAndGroundTruth) {
   EXPECT_EQ(tum("out/trajectory.tum")[2].time_ns, 9'000'000'000);
 }
 
+TEST_F(Commands, SolveSaysWhetherItFoundAMinimum) {
+  write("g.g2o",
+        "EDGE_SE2 0 1 1 0 0 1 0 0 1 0 1\nEDGE_SE2 1 2 1 0 0 1 0 0 1 0 1\n"
+        "EDGE_SE2 2 0 -2.3 0 0 1 0 0 1 0 1\n");
+  const Ended ended =
+      fathom_done({"solve", "g.g2o", "--estimator", "sparse_gauss_newton", "--out", "out"});
+  EXPECT_THAT(ended.out, AllOf(HasSubstr("gradient "), HasSubstr(", a local minimum\n")));
+  const nlohmann::json metrics = json_of("out/metrics.json");
+  EXPECT_EQ(metrics.at("mode"), "batch");
+  // By hand: three springs in a ring share the gap of 0.3 m.
+  EXPECT_NEAR(metrics.at("chi2").get<double>(), 0.03, 1e-9);
+}
+
 TEST_F(Commands, EvaluateAgreesWithTheRun) {
   write("c.yaml", kSmallSurvey);
   fathom_done({"run", "c.yaml", "--out", "out"});
