@@ -102,6 +102,7 @@ void order_rest(const ShrinkingGraph& graph, std::vector<int>& order) {
       const int w = graph.neighbour(v, j);
       if (w > v) rows.push_back(index[at(w)]);
     }
+    std::sort(rows.begin() + start.back(), rows.end());
     start.push_back(static_cast<int>(rows.size()));
   }
   const std::vector<double> values(rows.size(), 1.0);
