@@ -87,7 +87,15 @@ void print(const SolveFlags& flags, const Recording& recording, const Result& re
   std::printf("%s, %s: %s after %d iterations\n", result.estimator.type.c_str(),
               result.mode == SolveMode::batch ? "batch" : "incremental",
               name_of(result.replay.outcome).c_str(), result.replay.iterations);
-  std::printf("chi2 %.10g, from %.10g at the start\n\n", result.chi2, result.chi2_initial);
+  std::printf("chi2 %.10g, from %.10g at the start\n", result.chi2, result.chi2_initial);
+  if (result.replay.gradient_norm) {
+    std::printf("gradient %.2g", *result.replay.gradient_norm);
+    if (result.replay.is_local_minimum) {
+      std::printf(", %s", *result.replay.is_local_minimum ? "a local minimum" : "no local minimum");
+    }
+    std::printf("\n");
+  }
+  std::printf("\n");
   std::printf("%s", result_table(recording, {result}, Alignment::origin).c_str());
 }
 

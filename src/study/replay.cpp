@@ -40,6 +40,8 @@ class CallTimer {
 void note(const UpdateReport& report, double elapsed_ms, Replay& result) {
   result.update_ms.push_back(elapsed_ms);
   result.iterations += report.iterations;
+  result.gradient_norm = report.gradient_norm;
+  result.is_local_minimum = report.is_local_minimum;
   result.outcome = worse(result.outcome, report.outcome);
   ++result.outcome_counts[static_cast<std::size_t>(report.outcome)];
   result.loops.insert(result.loops.end(), report.loops.begin(), report.loops.end());

@@ -98,7 +98,8 @@ TEST_F(Commands, TwoRunsAreTheSameByteForByte) {
 TEST_F(Commands, CompareGivesOneLogToAll) {
   write("c.yaml", kSmallSurvey);
   const Ended ended = fathom_done({"compare", "c.yaml", "--out", "out"});
-  const std::vector<std::string> names{"trajectory_iekf", "ekf", "ceres_pose_graph"};
+  const std::vector<std::string> names{"trajectory_iekf", "ekf", "ceres_pose_graph",
+                                       "sparse_gauss_newton"};
   for (const std::string& name : names) {
     EXPECT_THAT(ended.out, HasSubstr(name));
     EXPECT_THAT(bytes_of("out/table.txt"), HasSubstr(name));
@@ -122,7 +123,8 @@ TEST_F(Commands, CompareGivesOneLogToAll) {
 TEST_F(Commands, SolveOnARunsLogIsTheRunToTheLastBit) {
   write("c.yaml", kSmallSurvey);
   fathom_done({"compare", "c.yaml", "--out", "out"});
-  for (const std::string name : {"trajectory_iekf", "ekf", "ceres_pose_graph"}) {
+  for (const std::string name :
+       {"trajectory_iekf", "ekf", "ceres_pose_graph", "sparse_gauss_newton"}) {
     fathom_done({"solve", "out/" + name + "/measurements.g2o", "--estimator", name, "--mode",
                  "incremental", "--out", "again"});
     const auto run = tum("out/" + name + "/trajectory.tum");
@@ -257,7 +259,8 @@ TEST_F(Commands, ANumericalFailureIsStatusOneAndSaysSo) {
   write("huge.g2o",
         "EDGE_SE2 0 1 1e200 0 0 1 0 0 1 0 1\nEDGE_SE2 1 2 1e200 0 0 1 0 0 1 0 1\n"
         "EDGE_SE2 0 2 -1e200 0 3 1 0 0 1 0 1\n");
-  for (const std::string name : {"trajectory_iekf", "ekf", "ceres_pose_graph"}) {
+  for (const std::string name :
+       {"trajectory_iekf", "ekf", "ceres_pose_graph", "sparse_gauss_newton"}) {
     const Ended ended = fathom({"solve", "huge.g2o", "--estimator", name, "--out", "out-" + name});
     EXPECT_EQ(ended.status, 1) << name << ended.out;
     const nlohmann::json metrics = json_of("out-" + name + "/metrics.json");
@@ -281,6 +284,19 @@ TEST_F(Commands, SolveTakesModeStartAndGroundTruth) {
   EXPECT_NEAR(metrics.at("mean_position_error_m").get<double>(), 0.0, 1e-6);
   EXPECT_EQ(metrics.at("mode"), "batch");
   EXPECT_EQ(tum("out/trajectory.tum")[2].time_ns, 9'000'000'000);
+}
+
+TEST_F(Commands, SolveSaysWhetherItFoundAMinimum) {
+  write("g.g2o",
+        "EDGE_SE2 0 1 1 0 0 1 0 0 1 0 1\nEDGE_SE2 1 2 1 0 0 1 0 0 1 0 1\n"
+        "EDGE_SE2 2 0 -2.3 0 0 1 0 0 1 0 1\n");
+  const Ended ended =
+      fathom_done({"solve", "g.g2o", "--estimator", "sparse_gauss_newton", "--out", "out"});
+  EXPECT_THAT(ended.out, AllOf(HasSubstr("gradient "), HasSubstr(", a local minimum\n")));
+  const nlohmann::json metrics = json_of("out/metrics.json");
+  EXPECT_EQ(metrics.at("mode"), "batch");
+  // By hand: three springs in a ring share the gap of 0.3 m.
+  EXPECT_NEAR(metrics.at("chi2").get<double>(), 0.03, 1e-9);
 }
 
 TEST_F(Commands, EvaluateAgreesWithTheRun) {

@@ -79,20 +79,21 @@ TEST(CrossEstimator, SafeguardedIekfSharesTheOptimumToo) {
   EXPECT_LT(largest_distance(poses_of(*iekf), poses_of(*graph)), 1e-6);
 }
 
-TEST(CrossEstimator, TheGraphFindsTheOptimumOfTheTextbookSolver) {
+TEST(CrossEstimator, TheGraphsFindTheOptimumOfTheTextbookSolver) {
   const MeasurementLog log = test::circle_log({});
   const test::NaiveLeastSquares reference = test::least_squares(log, 20);
-  const auto incremental = solved("ceres_pose_graph", log, exactly());
-  const auto batch = builtin_estimators()
-                         .find("ceres_pose_graph")
-                         .create({log.origin(), SolveMode::batch}, exactly());
-  EXPECT_EQ(test::feed(*batch, log), Outcome::converged);
-  for (const Estimator* graph : {incremental.get(), batch.get()}) {
-    EXPECT_LT(largest_distance(poses_of(*graph), reference.poses), 1e-8);
-    EXPECT_NEAR(chi2(log, poses_of(*graph)), chi2(log, reference.poses), 1e-8);
-  }
-  for (std::size_t k = 1; k < log.size(); ++k) {
-    EXPECT_LT((*batch->covariance(k) - reference.marginal(k)).norm(), 1e-9);
+  for (const std::string name : {"ceres_pose_graph", "sparse_gauss_newton"}) {
+    const auto incremental = solved(name, log, exactly());
+    const auto batch =
+        builtin_estimators().find(name).create({log.origin(), SolveMode::batch}, exactly());
+    EXPECT_EQ(test::feed(*batch, log), Outcome::converged);
+    for (const Estimator* graph : {incremental.get(), batch.get()}) {
+      EXPECT_LT(largest_distance(poses_of(*graph), reference.poses), 1e-8) << name;
+      EXPECT_NEAR(chi2(log, poses_of(*graph)), chi2(log, reference.poses), 1e-8) << name;
+    }
+    for (std::size_t k = 1; k < log.size(); ++k) {
+      EXPECT_LT((*batch->covariance(k) - reference.marginal(k)).norm(), 1e-9) << name;
+    }
   }
 }
 

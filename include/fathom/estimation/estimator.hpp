@@ -40,6 +40,12 @@ struct UpdateReport {
   int iterations = 0;
   /// One per registration given, in the order given.
   std::vector<LoopDecision> loops;
+  /// Of a solver that says so: the largest absolute element of the gradient of the cost, in metres
+  /// and radians, at the estimate.
+  std::optional<double> gradient_norm = std::nullopt;
+  /// Likewise: whether the exact Hessian of the cost is positive definite there, that is, a strict
+  /// local minimum and no saddle.
+  std::optional<bool> is_local_minimum = std::nullopt;
 };
 
 /// A SLAM back end. The same calls for a filter and for a graph:

@@ -47,6 +47,9 @@ struct Replay {
   std::array<std::size_t, 4> outcome_counts{};  ///< of updates, by Outcome
   std::vector<LoopDecision> loops;
   int iterations = 0;
+  /// Of the last update, where the estimator says so (UpdateReport).
+  std::optional<double> gradient_norm;
+  std::optional<bool> is_local_minimum;
   /// Per update: a close_loops call with registrations, or the batch solve.
   std::vector<double> update_ms;
   std::vector<double> add_ms;  ///< per add_keyframe

@@ -1,0 +1,53 @@
+#include "estimators/sparse_gauss_newton/elimination_tree.hpp"
+
+namespace fathom::sparse_gauss_newton {
+
+std::vector<int> elimination_tree(const Adjacency& graph, const std::vector<int>& order,
+                                  const std::vector<int>& position) {
+  std::vector<int> parent(order.size(), -1);
+  std::vector<int> ancestor(order.size(), -1);
+  for (int j = 0; j < graph.size(); ++j) {
+    const int v = order[at(j)];
+    for (int p = graph.start[at(v)]; p < graph.start[at(v) + 1]; ++p) {
+      int i = position[at(graph.neighbours[at(p)])];
+      while (i >= 0 && i < j) {
+        const int next = ancestor[at(i)];
+        ancestor[at(i)] = j;
+        if (next < 0) parent[at(i)] = j;
+        i = next;
+      }
+    }
+  }
+  return parent;
+}
+
+std::vector<int> postorder(const std::vector<int>& parent) {
+  const int n = static_cast<int>(parent.size());
+  std::vector<int> first_child(at(n), -1);
+  std::vector<int> sibling(at(n), -1);
+  std::vector<int> stack;
+  for (int j = n - 1; j >= 0; --j) {
+    if (parent[at(j)] < 0) {
+      stack.push_back(j);
+    } else {
+      sibling[at(j)] = first_child[at(parent[at(j)])];
+      first_child[at(parent[at(j)])] = j;
+    }
+  }
+  std::vector<int> order;
+  order.reserve(at(n));
+  while (!stack.empty()) {
+    const int j = stack.back();
+    const int child = first_child[at(j)];
+    if (child < 0) {
+      order.push_back(j);
+      stack.pop_back();
+    } else {
+      first_child[at(j)] = sibling[at(child)];
+      stack.push_back(child);
+    }
+  }
+  return order;
+}
+
+}  // namespace fathom::sparse_gauss_newton

@@ -1,0 +1,121 @@
+#include "estimators/sparse_gauss_newton/graph.hpp"
+
+#include "estimators/sparse_gauss_newton/selected_inverse.hpp"
+#include "fathom/geometry/covariance.hpp"
+
+namespace fathom::sparse_gauss_newton {
+namespace {
+
+// The factor of the Gauss-Newton matrix at an estimate.
+class Information {
+ public:
+  Information(std::span<const Edge> edges, std::span<const Node> nodes)
+      : symbolic_(analyse_graph(edges, static_cast<int>(nodes.size()))),
+        equations_(symbolic_, edges) {
+    equations_.linearise(nodes, Hessian::gauss_newton);
+    is_definite_ = equations_.factorise() && equations_.negative_pivots() == 0;
+  }
+
+  bool is_definite() const { return is_definite_; }
+  const BlockCholesky<3>& factor() const { return equations_.factor(); }
+
+  /// The three columns of the covariance that belong to a keyframe other than 0.
+  Eigen::MatrixX3d columns(std::size_t keyframe) {
+    Eigen::MatrixX3d result = Eigen::MatrixX3d::Zero(3 * symbolic_.size(), 3);
+    const int row = 3 * symbolic_.position[keyframe - 1];
+    for (int j = 0; j < 3; ++j) {
+      result(row + j, j) = 1.0;
+      equations_.solve(result.col(j).data());
+    }
+    return result;
+  }
+
+  Eigen::Matrix3d block(const Eigen::MatrixX3d& columns, std::size_t keyframe) const {
+    return columns.middleRows<3>(3 * symbolic_.position[keyframe - 1]);
+  }
+
+ private:
+  Symbolic symbolic_;
+  NormalEquations equations_;
+  bool is_definite_ = false;
+};
+
+}  // namespace
+
+Graph::Graph(const Pose& origin) : nodes_{make_node(origin.x, origin.y, origin.theta)} {}
+
+Pose Graph::pose(std::size_t k) const {
+  return {nodes_[k].x, nodes_[k].y, wrap_angle(nodes_[k].theta)};
+}
+
+void Graph::set_poses(std::span<const Pose> poses) {
+  for (std::size_t k = 1; k < nodes_.size(); ++k) {
+    nodes_[k] = make_node(poses[k].x, poses[k].y, poses[k].theta);
+  }
+  changed();
+}
+
+void Graph::add_keyframe(const RelativePose& step) {
+  const Pose next = compose(pose(size() - 1), step.forward().motion);
+  nodes_.push_back(make_node(next.x, next.y, next.theta));
+  edges_.push_back(make_edge(step));
+  changed();
+}
+
+void Graph::add_registration(const RelativePose& registration) {
+  edges_.push_back(make_edge(registration));
+  changed();
+}
+
+void Graph::forget_edges(std::size_t count) {
+  edges_.resize(count);
+  changed();
+}
+
+SolveResult Graph::solve(Start start, const SolveLimits& limits) {
+  changed();
+  return solve_batch(edges_, nodes_, start, limits);
+}
+
+void Graph::compute_marginals() {
+  marginals_.emplace();
+  marginals_->reserve(size());
+  Information information(edges_, nodes_);
+  if (!information.is_definite()) return;
+  const SelectedInverse inverse(information.factor());
+  marginals_->push_back(Eigen::Matrix3d::Zero());
+  for (int node = 0; node + 1 < static_cast<int>(size()); ++node) {
+    marginals_->push_back(inverse.block(node));
+  }
+}
+
+std::optional<Eigen::Matrix3d> Graph::marginal(std::size_t k) {
+  if (!marginals_) compute_marginals();
+  if (marginals_->empty()) return std::nullopt;
+  return (*marginals_)[k];
+}
+
+std::optional<std::vector<Eigen::Matrix3d>> Graph::innovation_covariances(
+    std::span<const RelativePose> forward_loops) const {
+  Information information(edges_, nodes_);
+  if (!information.is_definite()) return std::nullopt;
+  const std::size_t newest = size() - 1;
+  const Eigen::MatrixX3d to_newest = information.columns(newest);
+  std::vector<Eigen::Matrix3d> innovations;
+  for (const RelativePose& z : forward_loops) {
+    Eigen::Matrix3d H_from;
+    Eigen::Matrix3d H_to;
+    between(pose(z.from), pose(z.to), &H_from, &H_to);
+    Eigen::Matrix3d S = transport(H_to, information.block(to_newest, newest)) + z.covariance();
+    if (z.from > 0) {
+      const Eigen::Matrix3d own = information.block(information.columns(z.from), z.from);
+      const Eigen::Matrix3d cross =
+          H_from * information.block(to_newest, z.from) * H_to.transpose();
+      S += transport(H_from, own) + cross + cross.transpose();
+    }
+    innovations.push_back(S);
+  }
+  return innovations;
+}
+
+}  // namespace fathom::sparse_gauss_newton

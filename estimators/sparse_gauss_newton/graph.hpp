@@ -1,0 +1,52 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "estimators/sparse_gauss_newton/batch.hpp"
+
+namespace fathom::sparse_gauss_newton {
+
+/// The poses and measurements of a log, and what is asked of them.
+class Graph {
+ public:
+  explicit Graph(const Pose& origin);
+
+  std::size_t size() const { return nodes_.size(); }
+  Pose pose(std::size_t k) const;
+  void set_poses(std::span<const Pose> poses);
+
+  /// A keyframe at the newest one ⊕ the step.
+  void add_keyframe(const RelativePose& step);
+  void add_registration(const RelativePose& registration);
+
+  std::size_t edge_count() const { return edges_.size(); }
+  /// Takes the last edges back, down to `count` of them.
+  void forget_edges(std::size_t count);
+
+  /// Leaves the poses as they were if it fails.
+  SolveResult solve(Start start, const SolveLimits& limits);
+
+  /// The marginal covariance of a keyframe from the Gauss-Newton matrix at the estimate; of all at
+  /// once, at the first call after a change.
+  std::optional<Eigen::Matrix3d> marginal(std::size_t k);
+
+  /// Covariance of ν = z − h(x) for each of these registrations, which end at the newest keyframe;
+  /// nothing where they cannot be computed.
+  std::optional<std::vector<Eigen::Matrix3d>> innovation_covariances(
+      std::span<const RelativePose> forward_loops) const;
+
+ private:
+  void changed() { marginals_.reset(); }
+  void compute_marginals();
+
+  std::vector<Node> nodes_;
+  std::vector<Edge> edges_;
+  /// Of all keyframes; absent: to be computed, empty: could not be.
+  std::optional<std::vector<Eigen::Matrix3d>> marginals_;
+};
+
+}  // namespace fathom::sparse_gauss_newton

@@ -1,0 +1,136 @@
+#include "estimators/sparse_gauss_newton/sparse_gauss_newton.hpp"
+
+#include <vector>
+
+#include "estimators/sparse_gauss_newton/graph.hpp"
+
+namespace fathom {
+namespace {
+
+using sparse_gauss_newton::SolveLimits;
+using sparse_gauss_newton::SolveResult;
+using sparse_gauss_newton::Start;
+
+void note(const SolveResult& result, UpdateReport& report) {
+  report.outcome = result.outcome;
+  report.iterations = result.iterations;
+  report.gradient_norm = result.gradient_norm;
+  report.is_local_minimum = result.is_local_minimum;
+}
+
+}  // namespace
+
+void SparseGaussNewtonOptions::describe(OptionTable& table) {
+  table.integer("max_iterations", max_iterations, Range::at_least(1), "",
+                "linearisations of one solve at most, from each start that it tries");
+  table.real("tolerance", tolerance, Range::positive(), "",
+             "a solve has converged when cost or poses change by a smaller share");
+  table.enumeration("start", start,
+                    {{"auto", Start::automatic},
+                     {"given", Start::given},
+                     {"lago", Start::lago},
+                     {"chordal", Start::chordal},
+                     {"lifted", Start::lifted}},
+                    "batch: where a solve starts; given is --init, the others make headings first");
+  gate.describe(table);
+}
+
+void SparseGaussNewtonOptions::check(const EstimatorSetup& setup) const {
+  const bool batch = setup.mode == SolveMode::batch;
+  if (batch && gate.probability) {
+    throw InputError(
+        "gate_probability: a batch solve has no innovation to gate; use the incremental mode");
+  }
+  if (!batch && start != Start::automatic) {
+    throw InputError(
+        "start: only a batch solve has one; the incremental mode starts from its estimate");
+  }
+}
+
+SparseGaussNewton::SparseGaussNewton(const EstimatorSetup& setup,
+                                     const SparseGaussNewtonOptions& options)
+    : options_(options),
+      mode_(setup.mode),
+      gate_(options.gate),
+      graph_(std::make_unique<sparse_gauss_newton::Graph>(setup.origin)) {}
+
+SparseGaussNewton::~SparseGaussNewton() = default;
+
+std::size_t SparseGaussNewton::size() const {
+  return graph_->size();
+}
+
+Pose SparseGaussNewton::pose(std::size_t k) const {
+  return graph_->pose(k);
+}
+
+void SparseGaussNewton::add_keyframe(const RelativePose& step) {
+  graph_->add_keyframe(step);
+}
+
+UpdateReport SparseGaussNewton::close_loops(std::span<const RelativePose> registrations) {
+  UpdateReport report;
+  if (registrations.empty()) return report;
+  if (!judge(registrations, report)) {
+    lose_all(report, Outcome::numerical_failure);
+    return report;
+  }
+  const std::size_t before = graph_->edge_count();
+  for (std::size_t j = 0; j < registrations.size(); ++j) {
+    if (report.loops[j].fate == LoopFate::used) graph_->add_registration(registrations[j]);
+  }
+  if (graph_->edge_count() == before || mode_ == SolveMode::batch) return report;
+  const SolveResult solved =
+      graph_->solve(Start::given, SolveLimits{options_.max_iterations, options_.tolerance});
+  note(solved, report);
+  if (is_done(report.outcome)) return report;
+  graph_->forget_edges(before);
+  lose_all(report, solved.outcome);
+  return report;
+}
+
+// Decides on every registration. False where they cannot be judged.
+bool SparseGaussNewton::judge(std::span<const RelativePose> registrations, UpdateReport& report) {
+  std::vector<RelativePose> forward;
+  bool finite = true;
+  for (const RelativePose& z : registrations) {
+    report.loops.push_back({z.from, z.to, LoopFate::used, std::nullopt});
+    finite = finite && is_finite(z.motion) && z.information.allFinite();
+    forward.push_back(z.forward());
+  }
+  if (!finite) return false;
+  if (!gate_.is_on()) return true;
+  const auto S = graph_->innovation_covariances(forward);
+  if (!S) return false;
+  for (std::size_t j = 0; j < forward.size(); ++j) {
+    const Pose h = between(pose(forward[j].from), pose(forward[j].to));
+    Eigen::Vector3d nu = forward[j].motion.vector() - h.vector();
+    nu.z() = wrap_angle(nu.z());
+    report.loops[j].nis = normalised_innovation_squared(nu, (*S)[j]);
+    report.loops[j].fate = fate_of(gate_.passes(*report.loops[j].nis));
+  }
+  return true;
+}
+
+UpdateReport SparseGaussNewton::finish(std::span<const Pose> start) {
+  UpdateReport report;
+  if (mode_ != SolveMode::batch || graph_->size() < 2) return report;
+  if (!start.empty()) graph_->set_poses(start);
+  note(graph_->solve(options_.start, {options_.max_iterations, options_.tolerance}), report);
+  return report;
+}
+
+std::optional<Eigen::Matrix3d> SparseGaussNewton::covariance(std::size_t k) {
+  return graph_->marginal(k);
+}
+
+EstimatorEntry sparse_gauss_newton_entry() {
+  return make_entry<SparseGaussNewtonOptions>(
+      "sparse_gauss_newton",
+      "pose-graph least squares, own sparse block solver; finds its start; incremental or batch",
+      true, [](const EstimatorSetup& setup, const SparseGaussNewtonOptions& options) {
+        return std::make_unique<SparseGaussNewton>(setup, options);
+      });
+}
+
+}  // namespace fathom
