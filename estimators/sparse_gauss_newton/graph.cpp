@@ -95,6 +95,29 @@ std::optional<Eigen::Matrix3d> Graph::marginal(std::size_t k) {
   return (*marginals_)[k];
 }
 
+std::optional<std::vector<UncertainPose>> Graph::motions_to_newest() const {
+  std::vector<UncertainPose> motions;
+  const std::size_t newest = size() - 1;
+  if (newest == 0) return motions;
+  Information information(edges_, nodes_);
+  if (!information.is_definite()) return std::nullopt;
+  const SelectedInverse inverse(information.factor());
+  const Eigen::MatrixX3d to_newest = information.columns(newest);
+  for (std::size_t k = 0; k < newest; ++k) {
+    Eigen::Matrix3d H_k;
+    Eigen::Matrix3d H_newest;
+    const Pose motion = between(pose(k), pose(newest), &H_k, &H_newest);
+    Eigen::Matrix3d covariance = transport(H_newest, information.block(to_newest, newest));
+    if (k > 0) {
+      const Eigen::Matrix3d own = inverse.block(static_cast<int>(k) - 1);
+      const Eigen::Matrix3d cross = H_k * information.block(to_newest, k) * H_newest.transpose();
+      covariance += transport(H_k, own) + cross + cross.transpose();
+    }
+    motions.push_back({motion, covariance});
+  }
+  return motions;
+}
+
 std::optional<std::vector<Eigen::Matrix3d>> Graph::innovation_covariances(
     std::span<const RelativePose> forward_loops) const {
   Information information(edges_, nodes_);

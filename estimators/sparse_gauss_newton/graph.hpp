@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 
 #include "estimators/sparse_gauss_newton/batch.hpp"
+#include "fathom/geometry/covariance.hpp"
 
 namespace fathom::sparse_gauss_newton {
 
@@ -33,6 +34,9 @@ class Graph {
   /// The marginal covariance of a keyframe from the Gauss-Newton matrix at the estimate; of all at
   /// once, at the first call after a change.
   std::optional<Eigen::Matrix3d> marginal(std::size_t k);
+
+  /// As of TrajectoryView.
+  std::optional<std::vector<UncertainPose>> motions_to_newest() const;
 
   /// Covariance of ν = z − h(x) for each of these registrations, which end at the newest keyframe;
   /// nothing where they cannot be computed.

@@ -124,6 +124,10 @@ std::optional<Eigen::Matrix3d> SparseGaussNewton::covariance(std::size_t k) {
   return graph_->marginal(k);
 }
 
+std::optional<std::vector<UncertainPose>> SparseGaussNewton::motions_to_newest() const {
+  return graph_->motions_to_newest();
+}
+
 EstimatorEntry sparse_gauss_newton_entry() {
   return make_entry<SparseGaussNewtonOptions>(
       "sparse_gauss_newton",
