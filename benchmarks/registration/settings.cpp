@@ -10,7 +10,8 @@ RegistrationOptions registration_options_for(const test::Condition& condition) {
   // deviation, and slopes as a tilt of relief_share would make them.
   RegistrationOptions options;
   options.covariance.altitude_sigma_m = condition.relief_m() / 3.0;
-  options.covariance.tilt_sigma_rad = std::max(condition.tilt_sigma_rad, condition.relief_share / 3.0);
+  options.covariance.tilt_sigma_rad =
+      std::max(condition.tilt_sigma_rad, condition.relief_share / 3.0);
   return options;
 }
 
