@@ -52,6 +52,7 @@ std::string scale_text(const Evidence& evidence) {
 }
 
 std::string by_false_alarms(const Evidence& evidence, const RegistrationOptions& options) {
+  if (evidence.places == 0) return line("nearest pairs", "no two matches agree on a motion");
   return line("nearest pairs",
               printed("%d agree, in %d places", evidence.agreeing, evidence.places)) +
          line("other motions", printed("%d places at most", evidence.rival_places)) +

@@ -141,7 +141,7 @@ TEST(Decision, ALatticeIsRefusedHoweverManyAgree) {
   EXPECT_GE(refused.evidence.places, 40);
   EXPECT_GE(refused.evidence.rival_places, 30);
   EXPECT_THAT(refused.reason, HasSubstr("another motion has"));
-  EXPECT_EQ(static_cast<int>(refused.inliers.size()), refused.evidence.agreeing);
+  EXPECT_GE(static_cast<int>(refused.inliers.size()), refused.evidence.agreeing);  // to be shown
   // Enough agree, if that is all that is asked.
   options.decision.method = DecisionOptions::Method::inliers;
   EXPECT_TRUE(lattice().registered(options).found);
@@ -180,6 +180,23 @@ TEST(ScaleCheck, TellsTheRatioOfAltitudesAndLeavesTheMotion) {
   // 2 mm over √(200 · (1.3² + 1²) / 3) m.
   EXPECT_NEAR(result.evidence.scale_sigma, 0.002 / std::sqrt(200.0 * 2.69 / 3.0), 5e-5);
   EXPECT_NEAR(result.motion.theta, kTruth.theta, 0.001);
+}
+
+// The same match again, but for its keypoint's size or orientation in `to`.
+TEST(Decision, KeypointsOfAnotherSizeOrTurnBearNoWitness) {
+  const Seen seen = some_right(60, 0, 11);
+  FloorFeatures from = labelled(seen.p);
+  FloorFeatures to = labelled(seen.q);
+  for (std::size_t i = 0; i < seen.p.size(); ++i) {
+    from.sizes_m.push_back(0.03);
+    from.headings_rad.push_back(0.1 * static_cast<double>(i));
+    to.sizes_m.push_back(0.03 * (i < 10 ? 2.0 : i < 20 ? 0.5 : 1.1));
+    to.headings_rad.push_back(from.headings_rad.back() - kTruth.theta + (i < 30 ? 0.1 : 0.9));
+  }
+  const Registration result = register_pair(from, to, {}, 1);
+  EXPECT_EQ(result.distinct.size(), 40U);  // by size
+  EXPECT_EQ(result.evidence.agreeing, 10);  // of these, by turn
+  EXPECT_THAT(result.reason, HasSubstr("10 matches agree, 16 are needed"));
 }
 
 // NIS and the standard deviation of the heading, over draws of `count` inliers in a square.
