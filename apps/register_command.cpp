@@ -7,6 +7,7 @@
 
 #include "apps/command.hpp"
 #include "apps/common.hpp"
+#include "apps/registration_text.hpp"
 #include "fathom/core/files.hpp"
 #include "fathom/datasets/image_folder.hpp"
 #include "fathom/datasets/picture_file.hpp"
@@ -56,32 +57,14 @@ cv::Mat picture_for(const Camera& camera, const std::string& path) {
   return picture;
 }
 
-MatchPicture match_picture(const RegisterFlags& flags, const cv::Mat& a, const cv::Mat& b,
-                           const FloorFeatures& features_a, const FloorFeatures& features_b,
-                           const Registration& registration) {
-  MatchPicture picture{
-      a, b, flags.a, flags.b, {}, {}, registration.found ? "" : registration.reason};
-  for (const Match& match : registration.matches) {
-    picture.matches.push_back({features_a.features.pixels[static_cast<std::size_t>(match.from)],
-                               features_b.features.pixels[static_cast<std::size_t>(match.to)]});
+std::vector<PixelPair> in_pixels(const std::vector<Match>& matches, const FloorFeatures& a,
+                                 const FloorFeatures& b) {
+  std::vector<PixelPair> pairs;
+  for (const Match& match : matches) {
+    pairs.push_back({a.features.pixels[static_cast<std::size_t>(match.from)],
+                     b.features.pixels[static_cast<std::size_t>(match.to)]});
   }
-  for (const int i : registration.inliers) picture.inliers.push_back(static_cast<std::size_t>(i));
-  return picture;
-}
-
-void print(const Registration& registration) {
-  std::printf("%zu matches, %zu agree\n", registration.matches.size(), registration.inliers.size());
-  if (!registration.found) {
-    std::printf("not found: %s\n", registration.reason.c_str());
-    return;
-  }
-  const Pose& z = registration.motion;
-  const auto sigma = [&](int i) { return std::sqrt(registration.covariance(i, i)); };
-  std::printf("found: pose of B in the frame of A\n");
-  std::printf("  x      %9.4f m   +- %.4f\n", z.x, sigma(0));
-  std::printf("  y      %9.4f m   +- %.4f\n", z.y, sigma(1));
-  std::printf("  theta  %9.4f rad +- %.4f\n", z.theta, sigma(2));
-  std::printf("  RMS of the inliers %.4f m\n", registration.rms_m);
+  return pairs;
 }
 
 void write_pictures(const std::filesystem::path& folder, const MatchPicture& matches,
@@ -105,16 +88,18 @@ void register_pictures(const RegisterFlags& flags, Context& context) {
   const FeatureExtractor extractor(configuration.front_end.features);
   const FloorFeatures features_a = on_floor(extractor.extract(a), camera, flags.altitude_a_m);
   const FloorFeatures features_b = on_floor(extractor.extract(b), camera, flags.altitude_b_m);
+  const RegistrationOptions& options = configuration.front_end.registration;
   const Registration registration =
-      register_pair(features_a, features_b, configuration.front_end.registration,
+      register_pair(features_a, features_b, options,
                     pair_seed(static_cast<std::uint64_t>(configuration.seed), 0, 1));
-  write_pictures(folder.path(), match_picture(flags, a, b, features_a, features_b, registration),
+  write_pictures(folder.path(),
+                 {a, b, flags.a, flags.b, in_pixels(registration.distinct, features_a, features_b),
+                  in_pixels(registration.inliers, features_a, features_b), registration.reason},
                  {a, camera, flags.altitude_a_m}, {b, camera, flags.altitude_b_m}, registration);
   folder.commit({"overlay.png"});
   context.status = registration.found ? kDone : kFailed;
   if (flags.common.quiet) return;
-  std::printf("%zu features in A, %zu in B, ", features_a.size(), features_b.size());
-  print(registration);
+  std::fputs(registration_text(features_a, features_b, options, registration).c_str(), stdout);
   std::printf("\nwrote %s\n      %s\n", (folder.target() / "matches_raw.png").c_str(),
               (folder.target() / "matches_accepted.png").c_str());
   if (registration.found) std::printf("      %s\n", (folder.target() / "overlay.png").c_str());

@@ -76,7 +76,7 @@ std::string objective_text(const SelectionQuery& query) {
 }
 
 std::string chosen_text(const Selection& selection, const SelectionQuery& query) {
-  const Evidence& chosen = selection.estimators[*selection.chosen];
+  const EstimatorEvidence& chosen = selection.estimators[*selection.chosen];
   const std::size_t count = query.requirements.size();
   return chosen.name + (count == 0 ? " is best " : " meets " + requirements_text(count) + " ") +
          cells_text(selection) + "; " + objective_text(query) + ": " + mean_text(chosen.objective) +
@@ -90,11 +90,11 @@ std::string obstacle_text(const Selection& selection, const SelectionQuery& quer
     unmet += (unmet.empty() ? "" : ", nor ") + query.requirements[r].text();
   }
   if (!unmet.empty()) return "none meets " + unmet;
-  for (const Evidence& evidence : selection.estimators) {
+  for (const EstimatorEvidence& evidence : selection.estimators) {
     if (evidence.meets_all) return query.objective + " was not measured of those that meet them";
   }
   std::string failing;
-  for (const Evidence& evidence : selection.estimators) {
+  for (const EstimatorEvidence& evidence : selection.estimators) {
     const bool would_meet =
         std::all_of(evidence.judgements.begin(), evidence.judgements.end(),
                     [](const Judgement& one) { return one.verdict == Verdict::meets; });
@@ -113,9 +113,9 @@ std::string none_text(const Selection& selection, const SelectionQuery& query) {
          selection.estimators[selection.nearest].name;
 }
 
-std::vector<const Evidence*> rows_of(const Selection& selection) {
-  std::vector<const Evidence*> rows;
-  for (const Evidence& evidence : selection.estimators) rows.push_back(&evidence);
+std::vector<const EstimatorEvidence*> rows_of(const Selection& selection) {
+  std::vector<const EstimatorEvidence*> rows;
+  for (const EstimatorEvidence& evidence : selection.estimators) rows.push_back(&evidence);
   if (selection.baseline) rows.push_back(&*selection.baseline);
   return rows;
 }
@@ -123,7 +123,7 @@ std::vector<const Evidence*> rows_of(const Selection& selection) {
 std::string requirement_table(const Selection& selection, const SelectionQuery& query,
                               const StudyDescription& study) {
   Table table({"estimator", "requirement", "verdict", "mean", "95 % interval", "worst cell"});
-  for (const Evidence* evidence : rows_of(selection)) {
+  for (const EstimatorEvidence* evidence : rows_of(selection)) {
     for (std::size_t r = 0; r < query.requirements.size(); ++r) {
       const Judgement& judgement = evidence->judgements[r];
       table.add_row({evidence->name, query.requirements[r].text(), name_of(judgement.verdict),
@@ -134,7 +134,7 @@ std::string requirement_table(const Selection& selection, const SelectionQuery& 
   return table.text();
 }
 
-std::string standing_of(const Selection& selection, const Evidence& evidence) {
+std::string standing_of(const Selection& selection, const EstimatorEvidence& evidence) {
   if (&evidence == (selection.baseline ? &*selection.baseline : nullptr)) return "baseline";
   if (selection.chosen && &evidence == &selection.estimators[*selection.chosen]) return "chosen";
   if (evidence.has_too_many_failures) return "out: failed runs";
@@ -143,7 +143,7 @@ std::string standing_of(const Selection& selection, const Evidence& evidence) {
 
 std::string objective_table(const Selection& selection, const SelectionQuery& query) {
   Table table({"estimator", query.objective, "95 % interval", "runs", "failed", ""});
-  for (const Evidence* evidence : rows_of(selection)) {
+  for (const EstimatorEvidence* evidence : rows_of(selection)) {
     table.add_row({evidence->name, mean_text(evidence->objective),
                    interval_text(evidence->objective), std::to_string(evidence->runs),
                    std::to_string(evidence->failed), standing_of(selection, *evidence)});

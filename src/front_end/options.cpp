@@ -14,4 +14,14 @@ void FrontEndOptions::describe(OptionTable& table) {
              "rad", "likewise, of its heading");
 }
 
+std::vector<IgnoredKey> FrontEndOptions::ignored_keys() const {
+  std::vector<IgnoredKey> ignored;
+  for (const std::string& key : candidates.ignored_keys()) {
+    ignored.push_back({"candidates." + key, "candidates.method"});
+  }
+  const bool by_inliers = registration.decision.method == DecisionOptions::Method::inliers;
+  ignored.push_back({by_inliers ? "decision.max_false_alarms" : "ransac.score", "decision.method"});
+  return ignored;
+}
+
 }  // namespace fathom

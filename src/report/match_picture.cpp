@@ -1,6 +1,7 @@
 #include "fathom/report/match_picture.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 
@@ -8,7 +9,6 @@
 
 #include "bgr.hpp"
 #include "canvas.hpp"
-#include "fathom/core/input_error.hpp"
 #include "fathom/report/palette.hpp"
 
 namespace fathom {
@@ -77,42 +77,38 @@ class Pair {
   cv::Mat b_;
 };
 
-/// Indices of the matches that agree, and of the others; both rising.
+/// The matches that agree, and the others, both in their order.
 struct Sorted {
-  std::vector<std::size_t> inliers;
-  std::vector<std::size_t> others;
+  std::vector<PixelPair> inliers;
+  std::vector<PixelPair> others;
 };
 
 Sorted sorted(const MatchPicture& picture) {
-  std::vector<bool> is_inlier(picture.matches.size(), false);
-  for (const std::size_t i : picture.inliers) {
-    if (i >= is_inlier.size()) {
-      throw InputError("inlier " + std::to_string(i) + " is none of the " +
-                       std::to_string(is_inlier.size()) + " matches");
-    }
-    is_inlier[i] = true;
-  }
+  const auto ends = [](const PixelPair& pair) {
+    return std::array{pair.a.x(), pair.a.y(), pair.b.x(), pair.b.y()};
+  };
+  std::set<std::array<double, 4>> inliers;
+  for (const PixelPair& pair : picture.inliers) inliers.insert(ends(pair));
   Sorted sorted;
-  for (std::size_t i = 0; i < is_inlier.size(); ++i) {
-    (is_inlier[i] ? sorted.inliers : sorted.others).push_back(i);
+  for (const PixelPair& match : picture.matches) {
+    (inliers.contains(ends(match)) ? sorted.inliers : sorted.others).push_back(match);
   }
   return sorted;
 }
 
 // As many of the matches as may be, one for each cell of a net over A, finer until it suffices.
-std::vector<std::size_t> spread(const MatchPicture& picture, std::vector<std::size_t> among,
-                                std::size_t most) {
+std::vector<PixelPair> spread(const MatchPicture& picture, const std::vector<PixelPair>& among,
+                              std::size_t most) {
   if (among.size() <= most) return among;
-  std::vector<std::size_t> chosen;
+  std::vector<PixelPair> chosen;
   for (int cells = 1; cells <= 64; ++cells) {
     std::set<std::pair<int, int>> taken;
-    std::vector<std::size_t> next;
-    for (const std::size_t i : among) {
-      const Eigen::Vector2d& a = picture.matches[i].a;
+    std::vector<PixelPair> next;
+    for (const PixelPair& match : among) {
       const double cell_px = std::max(picture.a.cols, picture.a.rows) / static_cast<double>(cells);
-      const std::pair<int, int> cell(static_cast<int>(a.x() / cell_px),
-                                     static_cast<int>(a.y() / cell_px));
-      if (taken.insert(cell).second) next.push_back(i);
+      const std::pair<int, int> cell(static_cast<int>(match.a.x() / cell_px),
+                                     static_cast<int>(match.a.y() / cell_px));
+      if (taken.insert(cell).second) next.push_back(match);
     }
     if (next.size() > most) break;
     chosen = std::move(next);
@@ -121,7 +117,7 @@ std::vector<std::size_t> spread(const MatchPicture& picture, std::vector<std::si
 }
 
 struct Marks {
-  std::vector<std::size_t> matches;
+  std::vector<PixelPair> matches;
   std::size_t most_lines = 0;
   bool agree = false;
 };
@@ -130,14 +126,12 @@ struct Marks {
 std::size_t draw(Canvas& canvas, const Pair& pair, const MatchPicture& picture,
                  const Marks& marks) {
   const Colour colour = marks.agree ? kInlierColour : kOutlierColour;
-  const std::vector<std::size_t> joined = spread(picture, marks.matches, marks.most_lines);
-  for (const std::size_t i : joined) {
-    const PixelPair& match = picture.matches[i];
+  const std::vector<PixelPair> joined = spread(picture, marks.matches, marks.most_lines);
+  for (const PixelPair& match : joined) {
     canvas.line({pair.in_a(match.a), pair.in_b(match.b)}, {colour, 1.0});
   }
-  for (const std::size_t i : marks.matches) {
-    for (const Eigen::Vector2d& at :
-         {pair.in_a(picture.matches[i].a), pair.in_b(picture.matches[i].b)}) {
+  for (const PixelPair& match : marks.matches) {
+    for (const Eigen::Vector2d& at : {pair.in_a(match.a), pair.in_b(match.b)}) {
       if (marks.agree) canvas.disc(at, 2.5, colour);
       if (!marks.agree) canvas.ring(at, 3.5, {colour, 1.0});
     }
@@ -193,7 +187,7 @@ cv::Mat render_raw_matches(const MatchPicture& picture) {
 
 cv::Mat render_accepted_matches(const MatchPicture& picture) {
   const Pair pair(as_bgr(picture.a), as_bgr(picture.b));
-  const std::vector<std::size_t> inliers = sorted(picture).inliers;
+  const std::vector<PixelPair>& inliers = picture.inliers;
   Canvas canvas = canvas_for(pair);
   pair.draw(canvas, picture);
   const std::size_t lines = draw(canvas, pair, picture, {inliers, kMostLines, true});

@@ -236,17 +236,14 @@ void refuse_keys_of_other_kind(const Settings& settings, ConfigurationKind kind)
   }
 }
 
-std::vector<std::string> ignored_keys(const Configuration& configuration) {
-  std::vector<std::string> keys = configuration.front_end.candidates.ignored_keys();
-  for (std::string& key : keys) key.insert(0, "front_end.candidates.");
-  return keys;
-}
+constexpr const char* kFrontEnd = "front_end.";
 
-void refuse_ignored(const Settings& settings, const std::vector<std::string>& ignored,
+void refuse_ignored(const Settings& settings, const std::vector<IgnoredKey>& ignored,
                     const OptionTable& table) {
-  for (const std::string& key : ignored) {
+  for (const auto& [name, chooser] : ignored) {
+    const std::string key = kFrontEnd + name;
     if (const Setting* setting = settings.find(key)) {
-      refuse(*setting, key + ": candidates.method " + table.value("front_end.candidates.method") +
+      refuse(*setting, key + ": " + chooser + " " + table.value(kFrontEnd + chooser) +
                            " has no use for it and would ignore it");
     }
   }
@@ -354,7 +351,7 @@ Configuration configure(const Settings& settings, ConfigurationKind kind,
     if (!is_estimator_key(setting.key)) set(table, setting, known);
   }
   check(settings, configuration);
-  const std::vector<std::string> ignored = ignored_keys(configuration);
+  const std::vector<IgnoredKey> ignored = configuration.front_end.ignored_keys();
   refuse_ignored(settings, ignored, table);
   if (kind == ConfigurationKind::single) {
     if (const Setting* scalar = settings.find("estimator")) {
@@ -370,7 +367,9 @@ Configuration configure(const Settings& settings, ConfigurationKind kind,
     configuration.origins[setting.key] = setting.origin;
   }
   for (const std::string& key : table.keys()) {
-    if (std::find(ignored.begin(), ignored.end(), key) != ignored.end()) continue;
+    const bool is_ignored = std::ranges::any_of(
+        ignored, [&](const IgnoredKey& unused) { return kFrontEnd + unused.key == key; });
+    if (is_ignored) continue;
     configuration.in_force.emplace_back(key, table.value(key));
   }
   return configuration;

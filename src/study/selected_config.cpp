@@ -192,7 +192,7 @@ std::string comment_line(std::string text) {
 // How it was chosen, in three lines.
 std::string header(const StudyDescription& study, const Selection& selection,
                    const SelectionQuery& query) {
-  const Evidence& chosen = selection.estimators[*selection.chosen];
+  const EstimatorEvidence& chosen = selection.estimators[*selection.chosen];
   std::string trials = std::to_string(selection.fewest_trials);
   if (selection.most_trials > selection.fewest_trials) {
     trials += " to " + std::to_string(selection.most_trials);

@@ -103,9 +103,9 @@ std::optional<TrialMean> objective_of(const Compared& compared, const std::strin
   return mean_over_cells(cells);
 }
 
-Evidence evidence_of(const Compared& compared, const std::string& estimator,
-                     const SelectionQuery& query) {
-  Evidence evidence;
+EstimatorEvidence evidence_of(const Compared& compared, const std::string& estimator,
+                              const SelectionQuery& query) {
+  EstimatorEvidence evidence;
   evidence.name = estimator;
   evidence.meets_all = true;
   for (const Requirement& requirement : query.requirements) {
@@ -128,7 +128,7 @@ Evidence evidence_of(const Compared& compared, const std::string& estimator,
 }
 
 // Best first; equal ones stay in the order of the study.
-std::vector<std::size_t> ranked(const std::vector<Evidence>& all, bool maximise) {
+std::vector<std::size_t> ranked(const std::vector<EstimatorEvidence>& all, bool maximise) {
   std::vector<std::size_t> order;
   for (std::size_t e = 0; e < all.size(); ++e) {
     if (all[e].meets_all && all[e].objective) order.push_back(e);
@@ -164,7 +164,7 @@ Lead lead_over(const Compared& compared, const SelectionQuery& query, const std:
 }
 
 // Fewest of the conditions missed, then by the least share of the bounds.
-std::size_t nearest_of(const std::vector<Evidence>& all, const SelectionQuery& query) {
+std::size_t nearest_of(const std::vector<EstimatorEvidence>& all, const SelectionQuery& query) {
   std::size_t best = 0;
   std::pair<std::size_t, double> least{std::numeric_limits<std::size_t>::max(), 0.0};
   for (std::size_t e = 0; e < all.size(); ++e) {
@@ -185,9 +185,10 @@ std::size_t nearest_of(const std::vector<Evidence>& all, const SelectionQuery& q
 std::vector<std::size_t> requirements_met_by_none(const Selection& selection, std::size_t count) {
   std::vector<std::size_t> all;
   for (std::size_t r = 0; r < count; ++r) {
-    const bool met = std::any_of(
-        selection.estimators.begin(), selection.estimators.end(),
-        [r](const Evidence& evidence) { return evidence.judgements[r].verdict == Verdict::meets; });
+    const bool met = std::any_of(selection.estimators.begin(), selection.estimators.end(),
+                                 [r](const EstimatorEvidence& evidence) {
+                                   return evidence.judgements[r].verdict == Verdict::meets;
+                                 });
     if (!met) all.push_back(r);
   }
   return all;
@@ -209,7 +210,7 @@ std::vector<std::string> remarks_on(const Compared& compared, const Selection& s
     remarks.emplace_back(
         "one trial is no evidence: a cell with one has no interval, its value itself was compared");
   }
-  for (const Evidence& evidence : selection.estimators) {
+  for (const EstimatorEvidence& evidence : selection.estimators) {
     if (evidence.failed == 0) continue;
     remarks.push_back(evidence.name + ": " + std::to_string(evidence.failed) + " of " +
                       std::to_string(evidence.runs) + " runs failed and are left out of its means" +
@@ -273,7 +274,7 @@ Selection select_estimator(const ResultStore& store, const SelectionQuery& query
   for (const StudyEstimator& estimator : runs.study().estimators) {
     selection.estimators.push_back(evidence_of(compared, estimator.name, query));
   }
-  Evidence baseline = evidence_of(compared, kDeadReckoning, query);
+  EstimatorEvidence baseline = evidence_of(compared, kDeadReckoning, query);
   if (baseline.runs > 0) selection.baseline = std::move(baseline);
   choose(selection, compared, query);
   selection.remarks = remarks_on(compared, selection, query);

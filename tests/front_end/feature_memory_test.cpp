@@ -18,6 +18,8 @@ constexpr std::size_t kPlenty = std::size_t{1} << 30;
 
 void expect_same(const Features& a, const Features& b) {
   EXPECT_EQ(a.pixels, b.pixels);
+  EXPECT_EQ(a.sizes_px, b.sizes_px);
+  EXPECT_EQ(a.turns_rad, b.turns_rad);
   ASSERT_EQ(a.descriptors.size(), b.descriptors.size());
   ASSERT_EQ(a.descriptors.type(), b.descriptors.type());
   EXPECT_EQ(cv::countNonZero(a.descriptors != b.descriptors), 0);
@@ -28,10 +30,12 @@ TEST(PackedFeatures, SiftFitsInBytesWithoutLoss) {
   const Features features = FeatureExtractor().extract(survey.image(0));
   ASSERT_GT(features.size(), 50u);
   ASSERT_EQ(features.descriptors.type(), CV_32F);
+  ASSERT_EQ(features.sizes_px.size(), features.size());
+  ASSERT_EQ(features.turns_rad.size(), features.size());
   const PackedFeatures packed(features);
   expect_same(packed.unpacked(), features);
-  // Two doubles of the pixel, 128 bytes of the descriptor.
-  EXPECT_NEAR(static_cast<double>(packed.bytes()), 144.0 * static_cast<double>(features.size()),
+  // Two doubles of the pixel, two floats of size and turn, 128 bytes of the descriptor.
+  EXPECT_NEAR(static_cast<double>(packed.bytes()), 152.0 * static_cast<double>(features.size()),
               200.0);
 }
 
@@ -46,7 +50,8 @@ TEST(PackedFeatures, BinaryDescriptorsStayWhatTheyAre) {
 
 TEST(PackedFeatures, WhatNoByteHoldsIsKeptAsItIs) {
   for (const float value : {0.5F, -1.0F, 256.0F}) {
-    const Features features{{{1.0, 2.0}}, cv::Mat(1, 4, CV_32F, cv::Scalar(value))};
+    const Features features{
+        {{1.0, 2.0}}, {3.5F}, {-0.7F}, cv::Mat(1, 4, CV_32F, cv::Scalar(value))};
     expect_same(PackedFeatures(features).unpacked(), features);
   }
 }

@@ -51,6 +51,7 @@ TEST(Configure, SetsEveryLevel) {
       "  keyframes: {separation_frames: 4}\n"
       "  features: {type: orb, clahe: true}\n"
       "  ransac: {score: paper, max_error_m: 0.05}\n"
+      "  decision: {method: inliers}\n"
       "estimator: {type: ekf, gate_probability: 0.99}\n");
   EXPECT_EQ(configuration.seed, 42);
   EXPECT_EQ(configuration.alignment, Alignment::se2);
@@ -73,7 +74,10 @@ TEST(Configure, KnowsTheKeysThatEveryConfigurationShares) {
         "front_end.candidates.max_distance_m", "front_end.features.type",
         "front_end.matching.ratio", "front_end.matching.mutual", "front_end.ransac.iterations",
         "front_end.ransac.sample_size", "front_end.ransac.max_error_m",
-        "front_end.ransac.min_inliers", "front_end.ransac.score", "seed"}) {
+        "front_end.ransac.min_inliers", "front_end.features.flatten", "front_end.decision.method",
+        "front_end.decision.max_false_alarms", "front_end.covariance.altitude_sigma_m",
+        "front_end.covariance.tilt_sigma_rad", "front_end.covariance.floor_sigma_m",
+        "front_end.covariance.floor_sigma_rad", "seed"}) {
     EXPECT_NE(in_force(configuration, key), "(none)") << key;
   }
   for (const EstimatorEntry& entry : builtin_estimators().entries()) {
@@ -83,6 +87,23 @@ TEST(Configure, KnowsTheKeysThatEveryConfigurationShares) {
           << entry.name << " " << key;
     }
   }
+}
+
+TEST(Configure, RefusesKeysThatTheDecisionIgnores) {
+  EXPECT_THAT(refusal("front_end:\n  decision: {method: inliers, max_false_alarms: 0.1}\n"),
+              HasSubstr("config.yaml:2: front_end.decision.max_false_alarms: decision.method "
+                        "inliers has no use for it and would ignore it"));
+  EXPECT_THAT(refusal("front_end: {ransac: {score: paper}}\n"),
+              HasSubstr("front_end.ransac.score: decision.method false_alarms has no use for it"));
+  const std::string limit = "front_end.decision.max_false_alarms";
+  const std::string score = "front_end.ransac.score";
+  const Configuration usual = configured("front_end: {decision: {max_false_alarms: 1.0e-5}}\n");
+  EXPECT_EQ(in_force(usual, limit), "1e-05");
+  EXPECT_EQ(in_force(usual, score), "(none)");
+  const Configuration paper =
+      configured("front_end: {decision: {method: inliers}, ransac: {score: paper}}\n");
+  EXPECT_EQ(in_force(paper, limit), "(none)");
+  EXPECT_EQ(in_force(paper, score), "paper");
 }
 
 TEST(Configure, WhatIsInForceReadsBack) {

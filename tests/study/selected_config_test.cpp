@@ -24,7 +24,7 @@ Selection chosen(std::size_t estimator, const StudyDescription& study,
   selection.cells_asked = selection.cells.size();
   selection.fewest_trials = selection.most_trials = 20;
   for (const StudyEstimator& described : study.estimators) {
-    Evidence evidence;
+    EstimatorEvidence evidence;
     evidence.name = described.name;
     evidence.objective = TrialMean{20, 12.3, Interval{12.0, 12.7}};
     selection.estimators.push_back(evidence);

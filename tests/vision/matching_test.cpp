@@ -2,6 +2,8 @@
 
 #include <cmath>
 #include <limits>
+#include <set>
+#include <utility>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -15,6 +17,8 @@ namespace {
 
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
+using ::testing::UnorderedElementsAre;
+using ::testing::UnorderedElementsAreArray;
 
 Features with_descriptors(const cv::Mat& descriptors) {
   Features features;
@@ -156,6 +160,68 @@ TEST(Matching, DifferentKindsAreRefused) {
   EXPECT_THROW(match(orb, brisk, {}), InputError);
   const Features doubles = with_descriptors(cv::Mat::zeros(5, 128, CV_64F));
   EXPECT_THROW(match(doubles, doubles, {}), InputError);
+}
+
+// The nearest row of `to` by a double loop over doubles; of equally near ones the first.
+Nearest nearest_by_loop(const cv::Mat& row, const cv::Mat& to) {
+  Nearest nearest;
+  for (int k = 0; k < to.rows; ++k) {
+    double cost = 0.0;
+    for (int column = 0; column < to.cols; ++column) {
+      if (to.type() == CV_32F) {
+        const double step = double(row.at<float>(0, column)) - double(to.at<float>(k, column));
+        cost += step * step;
+      } else {
+        const int differing = row.at<unsigned char>(0, column) ^ to.at<unsigned char>(k, column);
+        cost += __builtin_popcount(static_cast<unsigned>(differing));
+      }
+    }
+    const auto distance = static_cast<float>(to.type() == CV_32F ? std::sqrt(cost) : cost);
+    if (distance >= nearest.distance) continue;
+    nearest.row = k;
+    nearest.distance = distance;
+  }
+  return nearest;
+}
+
+void expect_nearest_by_loop(const cv::Mat& from, const cv::Mat& to) {
+  const NearestRows rows = find_nearest(with_descriptors(from), with_descriptors(to));
+  ASSERT_EQ(rows.in_to.size(), static_cast<std::size_t>(from.rows));
+  ASSERT_EQ(rows.in_from.size(), static_cast<std::size_t>(to.rows));
+  std::vector<Match> expected;
+  std::set<std::pair<int, int>> known;
+  for (int i = 0; i < from.rows; ++i) {
+    const Nearest nearest = nearest_by_loop(from.row(i), to);
+    EXPECT_EQ(rows.in_to[static_cast<std::size_t>(i)].row, nearest.row);
+    EXPECT_FLOAT_EQ(rows.in_to[static_cast<std::size_t>(i)].distance, nearest.distance);
+    expected.push_back({i, nearest.row, nearest.distance});
+    known.insert({i, nearest.row});
+  }
+  for (int k = 0; k < to.rows; ++k) {
+    const Nearest nearest = nearest_by_loop(to.row(k), from);
+    EXPECT_EQ(rows.in_from[static_cast<std::size_t>(k)].row, nearest.row);
+    EXPECT_FLOAT_EQ(rows.in_from[static_cast<std::size_t>(k)].distance, nearest.distance);
+    if (known.insert({nearest.row, k}).second)
+      expected.push_back({nearest.row, k, nearest.distance});
+  }
+  EXPECT_GT(expected.size(), static_cast<std::size_t>(from.rows));
+  EXPECT_THAT(all_nearest(rows), UnorderedElementsAreArray(expected));
+}
+
+TEST(AllNearest, AreThoseOfADoubleLoopBothWays) {
+  const cv::Mat floats = random_descriptors(130, 128, CV_32F, 11);
+  expect_nearest_by_loop(random_descriptors(201, 128, CV_32F, 12, floats), floats);
+  const cv::Mat bits = random_descriptors(90, 32, CV_8U, 13);
+  expect_nearest_by_loop(random_descriptors(70, 32, CV_8U, 14, bits), bits);
+}
+
+TEST(AllNearest, OfASingleRowIsThatOfEveryOther) {
+  const Features three = with_descriptors((cv::Mat_<float>(3, 1) << 5, 9, 30));
+  const Features one = with_descriptors((cv::Mat_<float>(1, 1) << 8));
+  EXPECT_THAT(all_nearest(find_nearest(one, three)),
+              UnorderedElementsAre(Match{0, 0, 3.0F}, Match{0, 1, 1.0F}, Match{0, 2, 22.0F}));
+  EXPECT_THAT(all_nearest(find_nearest(three, Features{})), IsEmpty());
+  EXPECT_THAT(all_nearest(find_nearest(Features{}, three)), IsEmpty());
 }
 
 TEST(MatchingOptions, RefusesARatioThatIsNone) {

@@ -1,18 +1,20 @@
 // Registration of real pictures: the survey `copr` of a kite over sand, bushes and survey targets,
 // altitude 10 to 25 m, against reference poses from one adjustment of the whole survey.
 //
-// All 703 pairs, five seeds each, with SIFT (accepted / more than 1 m or 0.2 rad off):
+// All 703 pairs, seeds 1 to 5, SIFT, max_error_m 0.2, all else at its default: 261 accepted with
+// each, none more than 1 m or 0.2 rad off. Median error 0.05 m and 0.008 rad, worst 0.42 m and 0.061
+// rad. The likeliest by chance of those accepted is so at 4e-9, the least likely refused one at 3e-8.
+// Seed 1, the mean NIS (3 is expected) and its parts, translation (2) and heading (1), by what the
+// covariance is told:
 //
-//   max_error_m                        0.15    0.2     0.3     0.4
-//   min_inliers 12, min_places 1       .       .       263/4   .
-//   min_inliers 12, min_places 8       258/0   258/0   254/0   249/0
-//   min_inliers 16, min_places 8       251/0   251/0   251/0   248/0
-//   min_inliers 20, min_places 10      248/0   248/0   246/0   242/0
+//   nothing                              224      144     34
+//   tilt 0.005 rad                        28      0.49    27
+//   tilt 0.01 rad                         20      0.13    18
+//   floor 0.08 m, 0.008 rad                3.8    1.40    2.7
+//   tilt 0.01 rad, floor 0.008 rad         2.6    0.13    2.5
 //
-// the same with every seed; 300 or 3000 iterations, samples of three, ratios 0.7 to 0.9 and no
-// mutual check change the number by 3 at most, none wrong. Wrong motions reach 13 inliers and 4
-// places at ratio 0.8 and 0.3 m. Median error 0.05 m and 0.008 rad, worst 0.33 m. Here: every other
-// picture.
+// A tilt of 3 to 5 mrad explains the translations. Headings are off by 0.016 rad (RMS), more than any
+// such tilt turns them.
 
 #include <cmath>
 #include <filesystem>
@@ -28,6 +30,7 @@
 #include "fathom/core/text.hpp"
 #include "fathom/geometry/covariance.hpp"
 #include "fathom/vision/registration.hpp"
+#include "support/data.hpp"
 
 namespace fathom {
 namespace {
@@ -53,7 +56,7 @@ struct Picture {
 class Survey : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
-    const fs::path root = fs::path(FATHOM_TEST_DATA) / "copr" / "mav0";
+    const fs::path root = test::data_path("copr/mav0");
     if (!fs::exists(root)) return;
     const auto names = csv_rows(root / "cam0" / "data.csv");
     const auto altitudes = csv_rows(root / "altimeter0" / "data.csv");
@@ -66,7 +69,7 @@ class Survey : public ::testing::Test {
     model.cy = 356.0;
     const Camera camera(model);
     const FeatureExtractor extractor;
-    for (std::size_t i = 0; i < names.size(); i += 2) {
+    for (std::size_t i = 0; i < names.size(); ++i) {
       const fs::path file = root / "cam0" / "data" / names[i][1];
       const auto& row = poses[i];
       const double yaw = 2.0 * std::atan2(std::stod(row[7]), std::stod(row[4]));
@@ -79,14 +82,15 @@ class Survey : public ::testing::Test {
   static void TearDownTestSuite() { pictures_.clear(); }
 
   void SetUp() override {
-    if (pictures_.empty()) GTEST_SKIP() << "no folder copr in " << FATHOM_TEST_DATA;
+    FATHOM_REQUIRE_DATA("copr/mav0");
   }
 
   // Of the survey's config: a pixel is 7 to 17 mm on the floor, and the kite tilts the camera.
   static RegistrationOptions options() {
     RegistrationOptions options;
     options.ransac.max_error_m = 0.2;
-    options.covariance_floor = {0.08, 0.008};
+    options.covariance.tilt_sigma_rad = 0.005;
+    options.covariance.floor_sigma_rad = 0.012;
     return options;
   }
 
@@ -103,29 +107,29 @@ TEST_F(Survey, MostOverlapsAreFoundAndNoneIsWrong) {
       if (!result.found) continue;
       ++accepted;
       const Pose truth = between(pictures_[i].reference, pictures_[k].reference);
-      EXPECT_LT((result.motion.position() - truth.position()).norm(), 0.5) << i << " " << k;
-      EXPECT_LT(std::abs(wrap_angle(result.motion.theta - truth.theta)), 0.1) << i << " " << k;
+      EXPECT_LT((result.motion.position() - truth.position()).norm(), 1.0) << i << " " << k;
+      EXPECT_LT(std::abs(wrap_angle(result.motion.theta - truth.theta)), 0.2) << i << " " << k;
       ASSERT_TRUE(is_positive_definite(result.covariance));
       Eigen::Vector3d nu = result.motion.vector() - truth.vector();
       nu.z() = wrap_angle(nu.z());
       nis += nu.dot(symmetric_inverse(result.covariance) * nu);
     }
   }
-  EXPECT_GE(accepted, 50);
+  EXPECT_GE(accepted, 220);
   // Honest to a factor of two: the errors of pairs that share a picture go together.
-  EXPECT_GT(nis / accepted, 1.5);
+  EXPECT_GT(nis / accepted, 1.0);
   EXPECT_LT(nis / accepted, 6.0);
 }
 
 TEST_F(Survey, APairIsTheInverseOfItsSwappedPair) {
   int compared = 0;
-  for (std::size_t i = 0; i + 1 < pictures_.size() && compared < 4; ++i) {
+  for (std::size_t i = 0; i + 2 < pictures_.size() && compared < 4; ++i) {
     const Registration forward =
-        register_pair(pictures_[i].features, pictures_[i + 1].features, options(), 1);
+        register_pair(pictures_[i].features, pictures_[i + 2].features, options(), 1);
     if (forward.inliers.size() < 40) continue;
     ++compared;
     const Registration backward =
-        register_pair(pictures_[i + 1].features, pictures_[i].features, options(), 2);
+        register_pair(pictures_[i + 2].features, pictures_[i].features, options(), 2);
     ASSERT_TRUE(backward.found) << backward.reason;
     const Pose there_and_back = compose(forward.motion, backward.motion);
     EXPECT_LT(there_and_back.position().norm(), 0.1);
@@ -136,11 +140,13 @@ TEST_F(Survey, APairIsTheInverseOfItsSwappedPair) {
 
 TEST_F(Survey, ThePaperScoreKeepsSmallerSets) {
   // The least summed error favours the motion with fewest inliers.
-  RegistrationOptions paper = options();
+  RegistrationOptions inliers = options();
+  inliers.decision.method = DecisionOptions::Method::inliers;
+  RegistrationOptions paper = inliers;
   paper.ransac.score = RansacScore::paper;
   const Registration most =
-      register_pair(pictures_[0].features, pictures_[1].features, options(), 1);
-  const Registration least = register_pair(pictures_[0].features, pictures_[1].features, paper, 1);
+      register_pair(pictures_[0].features, pictures_[2].features, inliers, 1);
+  const Registration least = register_pair(pictures_[0].features, pictures_[2].features, paper, 1);
   ASSERT_TRUE(most.found);
   ASSERT_TRUE(least.found);
   EXPECT_LT(least.inliers.size(), most.inliers.size());

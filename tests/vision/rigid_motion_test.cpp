@@ -136,71 +136,71 @@ TEST(FindMotion, KeepsItsDigitsFarFromTheOrigin) {
   EXPECT_NEAR(z.theta, 0.3, 1e-9);
 }
 
-// J by central differences, and (JᵀJ)⁻¹ by a general inverse.
-Eigen::Matrix3d numeric_covariance(const Pose& z, const Points& p, const Points& q) {
-  Eigen::MatrixXd J(2 * static_cast<Eigen::Index>(q.size()), 3);
-  constexpr double kStep = 1e-6;
-  for (int axis = 0; axis < 3; ++axis) {
-    Eigen::Vector3d up = z.vector();
-    Eigen::Vector3d down = z.vector();
-    up[axis] += kStep;
-    down[axis] -= kStep;
-    for (std::size_t j = 0; j < q.size(); ++j) {
-      J.block<2, 1>(2 * static_cast<Eigen::Index>(j), axis) =
-          (transform(Pose::from_vector(up), q[j]) - transform(Pose::from_vector(down), q[j])) /
-          (2.0 * kStep);
+// Newton's method on the weighted sum of squares, with derivatives by central differences.
+Pose by_newton(const Points& p, const Points& q, const std::vector<double>& weights, Pose start) {
+  const auto cost = [&](const Eigen::Vector3d& z) {
+    double sum = 0.0;
+    for (std::size_t j = 0; j < p.size(); ++j) {
+      sum += weights[j] * (p[j] - transform(Pose::from_vector(z), q[j])).squaredNorm();
     }
-  }
-  double sum = 0.0;
-  for (std::size_t j = 0; j < q.size(); ++j) sum += (p[j] - transform(z, q[j])).squaredNorm();
-  return sum / (2.0 * static_cast<double>(q.size()) - 3.0) * (J.transpose() * J).inverse();
-}
-
-TEST(MotionCovariance, EqualsTheNormalEquationsByNumericDifferences) {
-  RandomStream random(5);
-  for (int i = 0; i < 50; ++i) {
-    Points q = random_points(random, 2 + i, 2.0);
-    for (Eigen::Vector2d& point : q) point += Eigen::Vector2d(3.0, -1.0);
-    const Points p = seen_from({1.0, -2.0, random.uniform(-3.0, 3.0)}, q, random, 0.1);
-    const Pose z = find_motion(p, q).value();
-    const Eigen::Matrix3d expected = numeric_covariance(z, p, q);
-    EXPECT_LT((motion_covariance(z, p, q) - expected).norm(), 1e-6 * expected.norm());
-  }
-}
-
-TEST(MotionCovariance, IsWhatRepeatedFitsScatterBy) {
-  // The points lie to one side of the origin, so that position and heading are strongly correlated.
-  RandomStream random(6);
-  Points q = random_points(random, 100, 1.0);
-  for (Eigen::Vector2d& point : q) point += Eigen::Vector2d(2.0, 1.0);
-  const Pose truth{0.5, -0.3, 0.8};
-  constexpr int kTrials = 2000;
-  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
-  Eigen::Matrix3d reported = Eigen::Matrix3d::Zero();
-  double nis = 0.0;
-  for (int trial = 0; trial < kTrials; ++trial) {
-    const Points p = seen_from(truth, q, random, 0.05);
-    const Pose z = find_motion(p, q).value();
-    const Eigen::Vector3d nu(z.x - truth.x, z.y - truth.y, wrap_angle(z.theta - truth.theta));
-    const Eigen::Matrix3d C = motion_covariance(z, p, q);
-    scatter += nu * nu.transpose() / kTrials;
-    reported += C / kTrials;
-    nis += nu.dot(C.ldlt().solve(nu)) / kTrials;
-  }
-  // σ² is estimated with 197 degrees of freedom, so NIS/3 is F(3, 197) with mean 197/195. Of 2000
-  // of them 99.9 % of means lie within 3.29 √(6/2000) = 0.18 of it.
-  EXPECT_NEAR(nis, 3.0 * 197.0 / 195.0, 0.18);
-  // A variance from 2000 trials has a relative σ of √(2/2000) = 0.032; take four.
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) {
-      EXPECT_NEAR(scatter(i, j), reported(i, j), 0.13 * std::sqrt(reported(i, i) * reported(j, j)));
+    return sum;
+  };
+  constexpr double kStep = 1e-4;
+  Eigen::Vector3d z = start.vector();
+  for (int round = 0; round < 12; ++round) {
+    Eigen::Vector3d gradient;
+    Eigen::Matrix3d hessian;
+    for (int i = 0; i < 3; ++i) {
+      const Eigen::Vector3d di = kStep * Eigen::Vector3d::Unit(i);
+      gradient[i] = (cost(z + di) - cost(z - di)) / (2.0 * kStep);
+      for (int k = 0; k < 3; ++k) {
+        const Eigen::Vector3d dk = kStep * Eigen::Vector3d::Unit(k);
+        hessian(i, k) =
+            (cost(z + di + dk) - cost(z + di - dk) - cost(z - di + dk) + cost(z - di - dk)) /
+            (4.0 * kStep * kStep);
+      }
     }
+    z -= hessian.ldlt().solve(gradient);
+  }
+  return Pose::from_vector(z);
+}
+
+TEST(FindMotionWithWeights, AWeightOfThreeIsThreeCopies) {
+  RandomStream random(7);
+  for (int i = 0; i < 30; ++i) {
+    const Points q = random_points(random, 3 + i, 2.0);
+    const Points p = seen_from({1.0, -2.0, random.uniform(-3.0, 3.0)}, q, random, 0.2);
+    std::vector<double> weights;
+    Points repeated_p, repeated_q;
+    for (std::size_t j = 0; j < p.size(); ++j) {
+      const std::size_t copies = 1 + j % 3;
+      weights.push_back(static_cast<double>(copies));
+      repeated_p.insert(repeated_p.end(), copies, p[j]);
+      repeated_q.insert(repeated_q.end(), copies, q[j]);
+    }
+    expect_near(find_motion(p, q, weights).value(), by_svd(repeated_p, repeated_q), 1e-10);
   }
 }
 
-TEST(MotionCovariance, OfExactPointsIsZero) {
-  const Points q{{0.0, 0.0}, {1.0, 0.0}, {0.0, 1.0}};
-  EXPECT_LT(motion_covariance({}, q, q).norm(), 1e-15);
+TEST(FindMotionWithWeights, IsTheMinimumOfTheWeightedSum) {
+  RandomStream random(8);
+  for (int i = 0; i < 20; ++i) {
+    const Pose z{0.4, -0.3, random.uniform(-2.5, 2.5)};
+    const Points q = random_points(random, 12, 2.0);
+    const Points p = seen_from(z, q, random, 0.2);
+    std::vector<double> weights;
+    for (std::size_t j = 0; j < p.size(); ++j) weights.push_back(std::exp(2.0 * random.normal()));
+    expect_near(find_motion(p, q, weights).value(), by_newton(p, q, weights, z), 1e-6);
+  }
+}
+
+TEST(FindMotionWithWeights, DoesNotDependOnTheirScale) {
+  RandomStream random(9);
+  const Points q = random_points(random, 9, 2.0);
+  const Points p = seen_from({1.0, -2.0, 0.6}, q, random, 0.2);
+  const std::vector<double> tiny(9, 1e-12);
+  expect_near(find_motion(p, q, tiny).value(), find_motion(p, q).value(), 1e-12);
+  EXPECT_THROW(find_motion(p, q, std::vector<double>(8, 1.0)), InputError);
 }
 
 }  // namespace

@@ -11,8 +11,8 @@
 namespace fathom {
 
 /// Raise it whenever the same pictures and options register otherwise than before: a change of
-/// features, matching, RANSAC, the covariance or the seeds.
-inline constexpr int kRegistrationVersion = 1;
+/// features, matching, RANSAC, the decision, the covariance or the seeds.
+inline constexpr int kRegistrationVersion = 2;
 
 /// A picture as a registration sees it.
 struct SeenPicture {

@@ -23,21 +23,20 @@ struct MatchPicture {
   cv::Mat b;
   std::string name_a;
   std::string name_b;
-  std::vector<PixelPair> matches;  ///< all, before RANSAC
-  /// Indices into `matches` of those that agree with the motion found; where none was found, with
-  /// the best supported one, if that is known.
-  std::vector<std::size_t> inliers;
+  std::vector<PixelPair> matches;  ///< the distinct ones, before RANSAC
+  /// Those that agree with the motion found; where none was found, with the best supported one, if
+  /// that is known. There may be some that are not among `matches`.
+  std::vector<PixelPair> inliers;
   std::string not_found;  ///< why no motion was found; empty: one was
 };
 
 /// The pictures side by side with every match: blue discs those that agree, orange rings those that
 /// do not. All are marked at both ends, but of many only some are joined by lines, at most 90, from
 /// all over the picture: more would hide it. 8-bit BGR, at most 1640 pixels wide. Dark pictures are
-/// brightened, both alike. Throws InputError on an empty picture, another type, or an inlier that
-/// is no match.
+/// brightened, both alike. Throws InputError on an empty picture or another type.
 cv::Mat render_raw_matches(const MatchPicture& picture);
 
-/// The same with the matches alone that agree.
+/// The same with all inliers and nothing else.
 cv::Mat render_accepted_matches(const MatchPicture& picture);
 
 /// A picture of the floor with what is needed to lay it there.

@@ -59,7 +59,7 @@ struct Judgement {
 };
 
 /// The evidence of one estimator.
-struct Evidence {
+struct EstimatorEvidence {
   std::string name;
   std::vector<Judgement> judgements;   ///< one per requirement
   std::optional<TrialMean> objective;  ///< mean over the cells of the cells' means
@@ -82,11 +82,11 @@ struct Selection {
   std::size_t cells_asked = 0;
   std::size_t fewest_trials = 0;  ///< that all estimators have, over the cells
   std::size_t most_trials = 0;
-  std::vector<Evidence> estimators;      ///< as in the study
-  std::optional<Evidence> baseline;      ///< dead reckoning; never chosen
-  std::optional<std::size_t> chosen;     ///< place in `estimators`
-  std::optional<Lead> lead;              ///< where more than one meets all
-  std::vector<std::size_t> met_by_none;  ///< places of the requirements that nobody meets
+  std::vector<EstimatorEvidence> estimators;  ///< as in the study
+  std::optional<EstimatorEvidence> baseline;  ///< dead reckoning; never chosen
+  std::optional<std::size_t> chosen;          ///< place in `estimators`
+  std::optional<Lead> lead;                   ///< where more than one meets all
+  std::vector<std::size_t> met_by_none;       ///< places of the requirements that nobody meets
   std::size_t nearest = 0;  ///< the estimator that misses least; the chosen one if there is one
   std::vector<std::string> remarks;  ///< what limits the evidence, a line each
 };
