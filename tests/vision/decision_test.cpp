@@ -195,7 +195,7 @@ TEST(Decision, KeypointsOfAnotherSizeOrTurnBearNoWitness) {
     to.headings_rad.push_back(from.headings_rad.back() - kTruth.theta + (i < 30 ? 0.1 : 0.9));
   }
   const Registration result = register_pair(from, to, {}, 1);
-  EXPECT_EQ(result.distinct.size(), 40U);  // by size
+  EXPECT_EQ(result.distinct.size(), 40U);   // by size
   EXPECT_EQ(result.evidence.agreeing, 10);  // of these, by turn
   EXPECT_THAT(result.reason, HasSubstr("10 matches agree, 16 are needed"));
 }

@@ -2,10 +2,10 @@
 // altitude 10 to 25 m, against reference poses from one adjustment of the whole survey.
 //
 // All 703 pairs, seeds 1 to 5, SIFT, max_error_m 0.2, all else at its default: 261 accepted with
-// each, none more than 1 m or 0.2 rad off. Median error 0.05 m and 0.008 rad, worst 0.42 m and 0.061
-// rad. The likeliest by chance of those accepted is so at 4e-9, the least likely refused one at 3e-8.
-// Seed 1, the mean NIS (3 is expected) and its parts, translation (2) and heading (1), by what the
-// covariance is told:
+// each, none more than 1 m or 0.2 rad off. Median error 0.05 m and 0.008 rad, worst 0.42 m and
+// 0.061 rad. The likeliest by chance of those accepted is so at 4e-9, the least likely refused one
+// at 3e-8. Seed 1, the mean NIS (3 is expected) and its parts, translation (2) and heading (1), by
+// what the covariance is told:
 //
 //   nothing                              224      144     34
 //   tilt 0.005 rad                        28      0.49    27
@@ -13,8 +13,8 @@
 //   floor 0.08 m, 0.008 rad                3.8    1.40    2.7
 //   tilt 0.01 rad, floor 0.008 rad         2.6    0.13    2.5
 //
-// A tilt of 3 to 5 mrad explains the translations. Headings are off by 0.016 rad (RMS), more than any
-// such tilt turns them.
+// A tilt of 3 to 5 mrad explains the translations. Headings are off by 0.016 rad (RMS), more than
+// any such tilt turns them.
 
 #include <cmath>
 #include <filesystem>
@@ -81,9 +81,7 @@ class Survey : public ::testing::Test {
   }
   static void TearDownTestSuite() { pictures_.clear(); }
 
-  void SetUp() override {
-    FATHOM_REQUIRE_DATA("copr/mav0");
-  }
+  void SetUp() override { FATHOM_REQUIRE_DATA("copr/mav0"); }
 
   // Of the survey's config: a pixel is 7 to 17 mm on the floor, and the kite tilts the camera.
   static RegistrationOptions options() {
@@ -144,8 +142,7 @@ TEST_F(Survey, ThePaperScoreKeepsSmallerSets) {
   inliers.decision.method = DecisionOptions::Method::inliers;
   RegistrationOptions paper = inliers;
   paper.ransac.score = RansacScore::paper;
-  const Registration most =
-      register_pair(pictures_[0].features, pictures_[2].features, inliers, 1);
+  const Registration most = register_pair(pictures_[0].features, pictures_[2].features, inliers, 1);
   const Registration least = register_pair(pictures_[0].features, pictures_[2].features, paper, 1);
   ASSERT_TRUE(most.found);
   ASSERT_TRUE(least.found);

@@ -79,7 +79,7 @@ TEST_P(EveryFloor, NoPairWithoutOverlapIsAccepted) {
       EXPECT_FALSE(result.found) << i << " " << k << ": " << result.evidence.false_alarms;
     }
   }
-  EXPECT_GT(apart, 250U);
+  EXPECT_GT(apart, 200U);
 }
 
 struct Outcome {
@@ -119,25 +119,23 @@ Outcome registered(const std::string& name, FloorKind kind, const std::string& c
   return outcome;
 }
 
-const std::vector<test::Bucket> kBuckets{{0.3, 0.4}, {0.5, 0.6}, {0.7, 0.8}};
+const std::vector<test::Bucket> kBuckets{{0.3, 0.4}, {0.6, 0.7}};
 constexpr int kRounds = 2;
-constexpr int kPairs = 6;  // of a floor under a condition
+constexpr int kPairs = 4;  // of a floor under a condition
 
 TEST(RegistrationPairs, AreFoundRightAndHonestlyUnderEveryCondition) {
   for (const std::string condition : {"clean", "noise", "haze"}) {
     int found = 0;
     double nis = 0.0;
-    for (const auto& [name, kind] : {std::pair("ripples", FloorKind::ripples),
-                                     std::pair("mud", FloorKind::mud),
-                                     std::pair("pebbles", FloorKind::pebbles),
-                                     std::pair("patches", FloorKind::patches)}) {
+    for (const auto& [name, kind] :
+         {std::pair("ripples", FloorKind::ripples), std::pair("mud", FloorKind::mud),
+          std::pair("pebbles", FloorKind::pebbles), std::pair("patches", FloorKind::patches)}) {
       const Outcome outcome = registered(name, kind, condition, kBuckets, kRounds);
       found += outcome.found;
       nis += outcome.nis * outcome.found;
       RecordProperty(condition + "_" + name, outcome.found);
-      std::printf("%s %s: %d found, NIS %.2f\n", condition.c_str(), name, outcome.found, outcome.nis);
     }
-    EXPECT_GE(found, condition == "clean" ? 22 : 20) << condition << ", of " << 4 * kPairs;
+    EXPECT_GE(found, condition == "clean" ? 15 : 14) << condition << ", of " << 4 * kPairs;
     EXPECT_GT(nis / found, 1.0) << condition;
     EXPECT_LT(nis / found, 7.0) << condition;
   }
