@@ -63,6 +63,7 @@ Eigen::Matrix3d LinearFit::covariance() const {
 }
 
 double LinearFit::clustering(double cell_m) const {
+  if (!(cell_m > 0.0)) return 1.0;
   std::map<std::pair<long, long>, Eigen::Vector3d> cells;
   for (std::size_t j = 0; j < p_.size(); ++j) {
     const std::pair cell{std::lround(q_[j].x() / cell_m), std::lround(q_[j].y() / cell_m)};

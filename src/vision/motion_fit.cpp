@@ -83,6 +83,7 @@ MotionFit fit_motion(const Pose& start, const MatchSet& matches, double max_erro
 
 ScaleCheck check_scale(const MotionFit& fit, const MatchSet& matches) {
   const Points points = points_of(matches, fit.inliers);
+  if (points.p.size() < 3) return {};
   Eigen::Vector2d p_mean = Eigen::Vector2d::Zero();
   Eigen::Vector2d q_mean = Eigen::Vector2d::Zero();
   double sum = 0.0;
@@ -93,17 +94,20 @@ ScaleCheck check_scale(const MotionFit& fit, const MatchSet& matches) {
   }
   const Eigen::Matrix2d R = rotation(fit.motion.theta);
   double along = 0.0;
-  double spread = 0.0;
-  double squares = 0.0;
+  double q_spread = 0.0;
+  double p_spread = 0.0;
   for (std::size_t j = 0; j < points.p.size(); ++j) {
+    const Eigen::Vector2d p = points.p[j] - p_mean / sum;
     const Eigen::Vector2d q = R * (points.q[j] - q_mean / sum);
-    along += points.weights[j] * q.dot(points.p[j] - p_mean / sum);
-    spread += points.weights[j] * q.squaredNorm();
-    squares += points.weights[j] * squared_residual(fit.motion, matches, fit.inliers[j]);
+    along += points.weights[j] * q.dot(p);
+    q_spread += points.weights[j] * q.squaredNorm();
+    p_spread += points.weights[j] * p.squaredNorm();
   }
-  if (!(spread > 0.0) || points.p.size() < 3) return {};
+  if (!(q_spread > 0.0)) return {};
+  // What is left of the errors when the scale is taken out; a similarity has four unknowns.
+  const double squares = std::max(0.0, p_spread - along * along / q_spread);
   const double variance = squares / (2.0 * static_cast<double>(points.p.size()) - 4.0);
-  return {along / spread, std::sqrt(variance / spread)};
+  return {along / q_spread, std::sqrt(variance / q_spread)};
 }
 
 Eigen::Matrix3d fit_covariance(const MotionFit& fit, const MatchSet& matches,

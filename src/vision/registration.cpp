@@ -18,6 +18,10 @@ void require_points(const FloorFeatures& picture) {
     throw InputError("features need a point for each descriptor, got " +
                      std::to_string(picture.points.size()) + " and " + std::to_string(rows));
   }
+  const bool sized = !picture.sizes_m.empty() || !picture.headings_rad.empty();
+  if (sized && (picture.sizes_m.size() != rows || picture.headings_rad.size() != rows)) {
+    throw InputError("features need a size and a heading for each descriptor, or none of either");
+  }
 }
 
 std::vector<Match> picked(const MatchSet& set, const std::vector<int>& indices) {
@@ -90,7 +94,9 @@ Registration by_false_alarms(const Pair& pair, const NearestRows& rows) {
   result.distinct = distinct.matches();
   const SupportedMotion best = find_supported_motion(distinct, nearest, options, pair.seed);
   if (!best.motion) {
-    result.reason = too_few(distinct.size(), options);
+    result.reason = static_cast<int>(distinct.size()) < options.min_inliers
+                        ? too_few(distinct.size(), options)
+                        : "no two of " + std::to_string(distinct.size()) + " matches agree";
     return result;
   }
   const SupportedMotion rival = find_rival(best, distinct, nearest, options, pair.seed);
