@@ -100,7 +100,7 @@ std::vector<test::Bucket> buckets_of(const Settings& settings) {
 
 Cell run_cell(const Floor& floor, const test::Condition& condition, const Settings& settings) {
   const Scene scene{floor, condition, settings, renderer_for(floor, condition, settings.seed),
-                    registration_options_for(condition)};
+                    registration_options_for(condition, settings)};
   std::vector<Round> rounds(settings.pairs_per_cell);
   for_each_index(rounds.size(), settings.jobs,
                  [&](std::size_t i) { rounds[i] = run_round(scene, i); });

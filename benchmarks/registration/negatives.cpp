@@ -55,7 +55,7 @@ Negatives run_negatives(const Floor& floor, const Settings& settings) {
                            views[i].altitude_m);
   });
   const std::vector<IndexPair> pairs = draw_apart(views, floor, settings);
-  const RegistrationOptions options = registration_options_for(clean);
+  const RegistrationOptions options = registration_options_for(clean, settings);
   std::atomic<std::size_t> accepted = 0;
   std::atomic<std::size_t> accepted_by_opencv = 0;
   for_each_index(pairs.size(), settings.jobs, [&](std::size_t i) {

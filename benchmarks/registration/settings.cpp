@@ -5,12 +5,17 @@
 
 namespace fathom::benchmarks {
 
-RegistrationOptions registration_options_for(const test::Condition& condition) {
+RegistrationOptions registration_options_for(const test::Condition& condition,
+                                             const Settings& settings) {
   // What a relief adds to an altitude and to a tilt over the overlap of two pictures: half of its
   // greatest height, and a slope of relief_share.
   RegistrationOptions options;
   options.covariance.altitude_sigma_m = condition.relief_m() / 2.0;
   options.covariance.tilt_sigma_rad = std::max(condition.tilt_sigma_rad, condition.relief_share);
+  if (settings.plain) {
+    options.decision.method = DecisionOptions::Method::inliers;
+    options.ransac.min_places = 1;
+  }
   return options;
 }
 

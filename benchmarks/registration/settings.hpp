@@ -23,11 +23,13 @@ struct Settings {
   std::size_t jobs = 2;
   bool opencv = true;
   bool speed = false;
-  std::string json;  ///< file; empty: none
+  bool plain = false;  ///< decide as the paper does, by a count of inliers
+  std::string json;    ///< file; empty: none
 };
 
 /// The one place where a registration is told of its condition, such as how steady a camera is.
-RegistrationOptions registration_options_for(const test::Condition& condition);
+RegistrationOptions registration_options_for(const test::Condition& condition,
+                                             const Settings& settings);
 
 /// From where on an accepted motion counts as wrong: 5 pixels of the lower of the two pictures and
 /// 0.02 rad, and what the condition itself makes of a planar pose besides: in translation four

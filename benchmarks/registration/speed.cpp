@@ -22,7 +22,7 @@ Speed measure_speed(const Floor& floor, const Settings& settings) {
   const FloorFeatures to = features_of(pair.b);
   const double metres_per_pixel =
       std::min(pair.a.altitude_m, pair.b.altitude_m) / camera.model().fx;
-  const RegistrationOptions options = registration_options_for(clean);
+  const RegistrationOptions options = registration_options_for(clean, settings);
   std::vector<double> ours_ms;
   std::vector<double> opencv_ms;
   for (std::size_t i = 0; i < kRepeats; ++i) {
