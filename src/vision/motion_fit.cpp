@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "fathom/vision/motion_covariance.hpp"
 #include "fathom/vision/rigid_motion.hpp"
@@ -28,13 +27,6 @@ Points points_of(const MatchSet& matches, const std::vector<int>& indices) {
   }
   return points;
 }
-
-// However many matches there are, their errors do not average out to nothing: the keypoints of a
-// picture have a part in common, by how it was sampled (pixels) and by how it was blurred and lit
-// (a share of the error of one match). Measured on pictures whose motion is known
-// (docs/registration.md).
-constexpr double kSharedPixels = 0.006;
-constexpr double kSharedError = 0.06;
 
 // Of right matches, with errors normal in x and y, one in 250 is beyond this many variances.
 constexpr double kGate = 11.0;
@@ -119,10 +111,7 @@ Eigen::Matrix3d fit_covariance(const MotionFit& fit, const MatchSet& matches,
   Eigen::Matrix3d covariance =
       linear.covariance() * linear.clustering(kCellPixels * to.viewpoint.metres_per_pixel);
   covariance += linear.of_pictures(from.viewpoint, to.viewpoint, options);
-  const double sampling_m =
-      kSharedPixels * std::hypot(from.viewpoint.metres_per_pixel, to.viewpoint.metres_per_pixel);
-  const double shared_m = std::hypot(kSharedError * fit.rms_m / std::numbers::sqrt2, sampling_m);
-  covariance.diagonal().head<2>().array() += shared_m * shared_m;
+  covariance += shared_error(fit.rms_m, from.viewpoint, to.viewpoint);
   covariance.diagonal() +=
       Eigen::Vector3d(options.floor_sigma_m, options.floor_sigma_m, options.floor_sigma_rad)
           .cwiseAbs2();

@@ -257,15 +257,17 @@ TEST(LinearFit, OfPicturesKnowsOnePictureFromTheOther) {
   EXPECT_GT((both - swapped).norm(), 0.1 * both.norm());
 }
 
-TEST(LinearFit, PicturesShareAnErrorOfTheirPixelsInTranslationAlone) {
+TEST(SharedError, IsOfPixelsAndOfOneMatchInTranslationAlone) {
   Overlap seen;
   seen.from.metres_per_pixel = 0.004;
   seen.to.metres_per_pixel = 0.003;
-  const LinearFit fit(seen.motion, seen.p, seen.q, seen.weights);
-  const Eigen::Matrix3d once = fit.of_pictures(seen.from, seen.to, {});
+  const Eigen::Matrix3d once = shared_error(0.0, seen.from, seen.to);
+  const Eigen::Matrix3d rough = shared_error(0.01, seen.from, seen.to);
   seen.from.metres_per_pixel *= 2.0;
   seen.to.metres_per_pixel *= 2.0;
-  const Eigen::Matrix3d twice = fit.of_pictures(seen.from, seen.to, {});
+  const Eigen::Matrix3d twice = shared_error(0.0, seen.from, seen.to);
+  // An error of 10 mm is one of 7.1 mm in x and in y.
+  EXPECT_NEAR(rough(0, 0) - once(0, 0), 0.06 * 0.06 * 0.01 * 0.01 / 2.0, 1e-15);
   // Below a tenth of a pixel, above a thousandth.
   EXPECT_GT(once(0, 0), 0.005 * 0.005 * 1e-6);
   EXPECT_LT(once(0, 0), 0.005 * 0.005 * 1e-2);

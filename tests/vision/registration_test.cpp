@@ -159,7 +159,7 @@ TEST(RegisterPair, AddsTheFloorToTheResidualsCovariance) {
   const std::vector<double> weights(40, 1.0);
   const LinearFit fit(result.motion, p, q, weights);
   Eigen::Matrix3d expected = fit.covariance() * fit.clustering(64.0 * test::kMetresPerPixel);
-  expected += fit.of_pictures(labelled(p).viewpoint, labelled(q).viewpoint, {});
+  expected += shared_error(result.rms_m, labelled(p).viewpoint, labelled(q).viewpoint);
   expected += Eigen::Vector3d(0.01, 0.01, 0.0004).asDiagonal();
   EXPECT_LT((result.covariance - expected).norm(), 1e-12);
   // Exact points leave the floor alone, and that is positive definite.
