@@ -12,11 +12,9 @@ namespace fathom {
 namespace {
 
 // However many matches there are, their errors do not average out to nothing: the keypoints of a
-// picture have a part in common, by how it was sampled (pixels) and by how it was blurred and lit
-// (a share of the error of one match). Measured on pictures whose motion is known
-// (docs/registration.md).
-constexpr double kSharedPixels = 0.006;
-constexpr double kSharedError = 0.06;
+// picture have a part in common, by how it was blurred and lit. As a share of the error of one
+// match, measured on pictures whose motion is known (docs/registration.md).
+constexpr double kSharedError = 0.05;
 
 // What the errors of a picture do to a point of the floor seen at p (body frame): the derivative by
 // altitude, roll (about x) and pitch (about y). For a ray (r, −1), r = (p − camera) / altitude, the
@@ -33,9 +31,8 @@ Eigen::Matrix<double, 2, 3> derivative(const Viewpoint& view, const Eigen::Vecto
 
 }  // namespace
 
-Eigen::Matrix3d shared_error(double rms_m, const Viewpoint& from, const Viewpoint& to) {
-  const double sampled_m = kSharedPixels * std::hypot(from.metres_per_pixel, to.metres_per_pixel);
-  const double shared_m = std::hypot(kSharedError * rms_m / std::numbers::sqrt2, sampled_m);
+Eigen::Matrix3d shared_error(double rms_m) {
+  const double shared_m = kSharedError * rms_m / std::numbers::sqrt2;
   return Eigen::Vector3d(shared_m * shared_m, shared_m * shared_m, 0.0).asDiagonal();
 }
 

@@ -111,7 +111,7 @@ Eigen::Matrix3d fit_covariance(const MotionFit& fit, const MatchSet& matches,
   Eigen::Matrix3d covariance =
       linear.covariance() * linear.clustering(kCellPixels * to.viewpoint.metres_per_pixel);
   covariance += linear.of_pictures(from.viewpoint, to.viewpoint, options);
-  covariance += shared_error(fit.rms_m, from.viewpoint, to.viewpoint);
+  covariance += shared_error(fit.rms_m);
   covariance.diagonal() +=
       Eigen::Vector3d(options.floor_sigma_m, options.floor_sigma_m, options.floor_sigma_rad)
           .cwiseAbs2();

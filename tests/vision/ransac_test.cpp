@@ -115,9 +115,9 @@ TEST(Ransac, SaysNotFoundWhereNothingAgrees) {
 TEST(Ransac, CountsFromTheMinimumNumberOfInliers) {
   RandomStream random(30);
   Pairs pairs;
-  add_true(pairs, random, kTruth, 15, 0.0);
+  add_true(pairs, random, kTruth, 11, 0.0);
   EXPECT_FALSE(pairs.found({}).motion.has_value());
-  EXPECT_EQ(pairs.found({}).most_agreeing, 15);
+  EXPECT_EQ(pairs.found({}).most_agreeing, 11);
   add_true(pairs, random, kTruth, 1, 0.0);
   EXPECT_TRUE(pairs.found({}).motion.has_value());
 }

@@ -12,7 +12,7 @@ namespace fathom {
 
 /// Raise it whenever the same pictures and options register otherwise than before: a change of
 /// features, matching, RANSAC, the decision, the covariance or the seeds.
-inline constexpr int kRegistrationVersion = 2;
+inline constexpr int kRegistrationVersion = 3;
 
 /// A picture as a registration sees it.
 struct SeenPicture {

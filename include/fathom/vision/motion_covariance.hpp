@@ -9,10 +9,10 @@
 
 namespace fathom {
 
-/// The covariance of what the keypoints of a picture have in common, which does not average out
-/// however many there are: 0.006 pixels of each picture by how it was sampled, and 0.06 of the
-/// error of one match, `rms_m`, by how it was blurred and lit. In x and y alone.
-Eigen::Matrix3d shared_error(double rms_m, const Viewpoint& from, const Viewpoint& to);
+/// The covariance of what the keypoints of a picture have in common by how it was blurred and lit,
+/// which does not average out however many there are: 0.05 of the error of one match, `rms_m`. In x
+/// and y alone.
+Eigen::Matrix3d shared_error(double rms_m);
 
 /// A weighted fit of z to points p = z ⊕ q, linearised: what errors of the points do to z.
 /// r_j = p_j − z ⊕ q_j, J_j = ∂(z ⊕ q_j)/∂z, A = Σ w JᵀJ; all covariances in axes of `from`.

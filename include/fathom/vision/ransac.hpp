@@ -23,7 +23,7 @@ struct RansacOptions {
   double confidence = 0.999999;
   int sample_size = 2;
   double max_error_m = 0.03;
-  int min_inliers = 16;
+  int min_inliers = 12;
   int min_places = 8;
   RansacScore score = RansacScore::inliers;
 

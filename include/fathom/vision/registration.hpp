@@ -21,7 +21,7 @@ struct DecisionOptions {
     inliers        ///< the paper's: if enough matches agree
   };
   Method method = Method::false_alarms;
-  double max_false_alarms = 1e-8;
+  double max_false_alarms = 1e-7;
 
   void describe(OptionTable& table);
 };
