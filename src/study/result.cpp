@@ -96,6 +96,8 @@ Json metrics_of(const Result& result, const Recording& recording) {
   put(json, "chi2", result.chi2);
   put(json, "chi2_initial", result.chi2_initial);
   put(json, "chi2_used", result.replay.cost_used);
+  if (result.replay.gradient_norm) put(json, "gradient_norm", *result.replay.gradient_norm);
+  if (result.replay.is_local_minimum) json["is_local_minimum"] = *result.replay.is_local_minimum;
   put_accuracy(json, result, recording);
   if (result.consistency) {
     put(json, "anees", result.consistency->anees);

@@ -329,6 +329,8 @@ TEST_F(Commands, SolveSaysWhetherItFoundAMinimum) {
   EXPECT_THAT(ended.out, AllOf(HasSubstr("gradient "), HasSubstr(", a local minimum\n")));
   const nlohmann::json metrics = json_of("out/metrics.json");
   EXPECT_EQ(metrics.at("mode"), "batch");
+  EXPECT_LT(metrics.at("gradient_norm").get<double>(), 1e-6);
+  EXPECT_EQ(metrics.at("is_local_minimum"), true);
   // By hand: three springs in a ring share the gap of 0.3 m.
   EXPECT_NEAR(metrics.at("chi2").get<double>(), 0.03, 1e-9);
 }

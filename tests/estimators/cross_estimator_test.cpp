@@ -97,6 +97,22 @@ TEST(CrossEstimator, TheGraphsFindTheOptimumOfTheTextbookSolver) {
   }
 }
 
+// With noise each filter has linearisations of its own; the graphs share the optimum and its
+// Hessian.
+TEST(CrossEstimator, TheGraphsAgreeOnTheCovariancesOfNoisyMeasurements) {
+  const MeasurementLog log = test::circle_log({});
+  const auto reference = solved("ceres_pose_graph", log, exactly());
+  for (const EstimatorEntry& entry : builtin_estimators().entries()) {
+    if (entry.name == "ekf" || entry.name == "trajectory_iekf") continue;
+    const auto estimator = solved(entry.name, log, exactly());
+    for (std::size_t k = 1; k < log.size(); ++k) {
+      const Eigen::Matrix3d expected = *reference->covariance(k);
+      EXPECT_LT((*estimator->covariance(k) - expected).norm(), 1e-6 * expected.norm())
+          << entry.name << " " << k;
+    }
+  }
+}
+
 TEST(CrossEstimator, ABatchSolveStartsWhereItIsTold) {
   const MeasurementLog log = test::circle_log({});
   const auto one_step = [&](std::span<const Pose> start) {
