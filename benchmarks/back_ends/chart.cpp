@@ -1,0 +1,74 @@
+#include <array>
+
+#include "output.hpp"
+#include "src/report/chart_frame.hpp"
+#include "src/report/vector_canvas.hpp"
+
+namespace fathom::benchmarks {
+namespace {
+
+using Points = std::vector<Eigen::Vector2d>;
+
+constexpr double kWidth = 520.0;
+constexpr double kHeight = 270.0;
+
+// The estimators' own colours, then those left.
+Pen pen_of(std::size_t index) {
+  constexpr std::array kColours{palette::blue,   palette::vermillion, palette::green,
+                                palette::purple, palette::orange,     palette::sky_blue};
+  return {kColours[index % kColours.size()], 1.4, {}, 1.0};
+}
+
+std::vector<Points> curves_of(const std::vector<LogCosts>& logs, std::size_t LogCosts::*count) {
+  std::vector<Points> curves;
+  for (const LogCosts& log : logs) {
+    curves.resize(std::max(curves.size(), log.costs.size()));
+    for (std::size_t i = 0; i < log.costs.size(); ++i) {
+      if (log.costs[i].gave_up) continue;
+      curves[i].emplace_back(static_cast<double>(log.*count), log.costs[i].total_ms);
+    }
+  }
+  return curves;
+}
+
+void draw(VectorCanvas& canvas, const std::vector<Points>& curves, const std::string& title,
+          const Box& box) {
+  std::vector<double> xs;
+  std::vector<double> ys;
+  for (const Points& curve : curves) {
+    for (const Eigen::Vector2d& point : curve) {
+      xs.push_back(point.x());
+      ys.push_back(point.y());
+    }
+  }
+  if (xs.empty()) return;
+  const ChartFrame frame(logarithmic_axis_over(title, xs), logarithmic_axis_over("total, ms", ys),
+                         box);
+  frame.draw(canvas);
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    Points line;
+    for (const Eigen::Vector2d& point : curves[i]) line.push_back(frame.at(point.x(), point.y()));
+    if (line.size() > 1) canvas.line(line, pen_of(i));
+    for (const Eigen::Vector2d& point : line) canvas.disc(point, 1.8, pen_of(i).colour);
+  }
+}
+
+}  // namespace
+
+std::string chart(const Growth& growth) {
+  return render_figure(FigureFormat::svg, kWidth, kHeight, [&](VectorCanvas& canvas) {
+    draw(canvas, curves_of(growth.by_keyframes, &LogCosts::keyframes),
+         "keyframes (a loop for every third)", {40.0, 12.0, 200.0, 190.0});
+    draw(canvas, curves_of(growth.by_loops, &LogCosts::loops), "loops (2000 keyframes)",
+         {300.0, 12.0, 200.0, 190.0});
+    std::vector<FigureLegendEntry> legend;
+    const std::vector<LogCosts>& logs =
+        growth.by_keyframes.empty() ? growth.by_loops : growth.by_keyframes;
+    for (std::size_t i = 0; !logs.empty() && i < logs.front().costs.size(); ++i) {
+      legend.push_back({logs.front().costs[i].estimator, pen_of(i)});
+    }
+    draw_figure_legend(canvas, legend, {40.0, 236.0}, kWidth - 60.0);
+  });
+}
+
+}  // namespace fathom::benchmarks

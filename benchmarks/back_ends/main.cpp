@@ -1,0 +1,145 @@
+// What every estimator costs, and where it ends, on whole pose graphs: batch and keyframe by
+// keyframe, one table each for every graph, and how cost grows with keyframes and loops.
+//
+//     back_ends [GRAPH.g2o ...] [--estimators sparse_gauss_newton,ceres_pose_graph]
+//               [--repeats 5] [--budget 60] [--growth FILE.svg] [--largest 100000]
+//
+// Options of the estimators at their defaults, batch solves from dead reckoning or from what the
+// estimator finds by itself. Times are CPU times of the thread, of the fastest run. Ceres is always
+// among them: figures of two machines can be compared as ratios to it.
+
+#include <algorithm>
+#include <cblas.h>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <omp.h>
+
+#include <CLI/CLI.hpp>
+
+#include "fathom/core/input_error.hpp"
+#include "fathom/estimators/builtin.hpp"
+#include "fathom/measurements/g2o.hpp"
+#include "output.hpp"
+#include "survey.hpp"
+
+namespace fathom::benchmarks {
+namespace {
+
+constexpr const char* kCeres = "ceres_pose_graph";
+
+struct Settings {
+  std::vector<std::string> graphs;
+  std::vector<std::string> estimators;
+  Effort effort;
+  std::string growth;
+  std::size_t largest = 100000;
+};
+
+std::vector<const EstimatorEntry*> chosen(const EstimatorRegistry& registry,
+                                          const Settings& settings) {
+  std::vector<const EstimatorEntry*> entries;
+  for (const std::string& name : settings.estimators) entries.push_back(&registry.find(name));
+  if (entries.empty()) {
+    for (const EstimatorEntry& entry : registry.entries()) entries.push_back(&entry);
+  }
+  const auto is_ceres = [](const EstimatorEntry* entry) { return entry->name == kCeres; };
+  if (std::none_of(entries.begin(), entries.end(), is_ceres)) {
+    entries.push_back(&registry.find(kCeres));
+  }
+  return entries;
+}
+
+LogCosts measure_graph(const std::string& path, const std::vector<const EstimatorEntry*>& entries,
+                       const Effort& effort) {
+  const MeasurementLog log = read_g2o(path);
+  LogCosts costs{std::filesystem::path(path).stem(), log.size(), log.registration_count(), {}};
+  for (const SolveMode mode : {SolveMode::batch, SolveMode::incremental}) {
+    for (const EstimatorEntry* entry : entries) {
+      if (mode == SolveMode::batch && !entry->can_batch) continue;
+      costs.costs.push_back(measure(log, *entry, mode, effort));
+    }
+  }
+  return costs;
+}
+
+LogCosts measure_survey(std::size_t keyframes, std::size_t loops,
+                        const std::vector<const EstimatorEntry*>& entries, Effort effort,
+                        const LogCosts* smaller) {
+  effort.covariances = false;
+  effort.repeats = 1;
+  const MeasurementLog log = parallel_tracks(keyframes, loops);
+  LogCosts costs{"survey", log.size(), log.registration_count(), {}};
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    // What was too slow for fewer is not tried with more.
+    if (smaller != nullptr && smaller->costs[i].gave_up) {
+      costs.costs.push_back(smaller->costs[i]);
+      continue;
+    }
+    costs.costs.push_back(measure(log, *entries[i], SolveMode::incremental, effort));
+  }
+  return costs;
+}
+
+Growth measure_growth(const Settings& settings, const std::vector<const EstimatorEntry*>& entries) {
+  Growth growth;
+  for (const std::size_t keyframes : {300, 1000, 3000, 10000, 30000, 100000}) {
+    if (keyframes > settings.largest) break;
+    growth.by_keyframes.push_back(
+        measure_survey(keyframes, keyframes / 3, entries, settings.effort,
+                       growth.by_keyframes.empty() ? nullptr : &growth.by_keyframes.back()));
+  }
+  for (const std::size_t loops : {20, 60, 200, 600, 1800}) {
+    growth.by_loops.push_back(
+        measure_survey(2000, loops, entries, settings.effort,
+                       growth.by_loops.empty() ? nullptr : &growth.by_loops.back()));
+  }
+  return growth;
+}
+
+void run(const Settings& settings) {
+  const EstimatorRegistry registry = builtin_estimators();
+  const std::vector<const EstimatorEntry*> entries = chosen(registry, settings);
+  std::printf("BLAS on %d thread, OpenMP not nested: one thread in all. Times are its CPU time.\n",
+              openblas_get_num_threads());
+  for (const std::string& graph : settings.graphs) {
+    std::printf("%s", markdown(measure_graph(graph, entries, settings.effort)).c_str());
+    std::fflush(stdout);
+  }
+  if (settings.growth.empty()) return;
+  const Growth growth = measure_growth(settings, entries);
+  std::printf("%s", markdown(growth).c_str());
+  std::ofstream file(settings.growth);
+  file << chart(growth);
+  if (!file.flush()) throw InputError(settings.growth + ": cannot be written");
+}
+
+}  // namespace
+}  // namespace fathom::benchmarks
+
+int main(int argc, char** argv) {
+  omp_set_max_active_levels(0);
+  openblas_set_num_threads(1);
+  fathom::benchmarks::Settings settings;
+  CLI::App app("What the estimators cost on whole pose graphs");
+  app.add_option("graphs", settings.graphs, "g2o files")->check(CLI::ExistingFile);
+  app.add_option("--estimators", settings.estimators, "those to run; default: all; Ceres always")
+      ->delimiter(',');
+  app.add_option("--repeats", settings.effort.repeats, "runs, of which the fastest counts")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  app.add_option("--budget", settings.effort.budget_s, "s that one run may take, and all repeats")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  app.add_option("--growth", settings.growth, "measure growth, too, and draw it to this SVG file");
+  app.add_option("--largest", settings.largest, "keyframes that growth goes up to")
+      ->capture_default_str();
+  CLI11_PARSE(app, argc, argv);
+  try {
+    fathom::benchmarks::run(settings);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "back_ends: error: %s\n", error.what());
+    return 2;
+  }
+  return 0;
+}
