@@ -14,7 +14,7 @@ namespace {
 // However many matches there are, their errors do not average out to nothing: the keypoints of a
 // picture have a part in common, by how it was blurred and lit. As a share of the error of one
 // match, measured on pictures whose motion is known (docs/registration.md).
-constexpr double kSharedError = 0.05;
+constexpr double kSharedError = 0.055;
 
 // What the errors of a picture do to a point of the floor seen at p (body frame): the derivative by
 // altitude, roll (about x) and pitch (about y). For a ray (r, −1), r = (p − camera) / altitude, the

@@ -240,12 +240,12 @@ TEST(Covariance, OfInliersInACornerIsLargerAndAsHonest) {
   // A quarter of the side is four times the σ of the heading.
   EXPECT_NEAR(corner.sigma_rad / spread.sigma_rad, 4.0, 0.5);
   EXPECT_GT(corner.sigma_m, 2.0 * spread.sigma_m);
-  // These errors are independent, but 0.05² of one is taken for shared, beside 1/120 of the mean of
-  // 120: x and y count as 1.3 times as uncertain, so that 1 + 2/1.3 = 2.54 is expected, and a few
-  // per cent less as clustering counts as none where it seems below one. 99.9 % of the means of 300
-  // lie within 3.29 √(6/300) = 0.47.
-  EXPECT_NEAR(spread.nis, 2.48, 0.47);
-  EXPECT_NEAR(corner.nis, 2.48, 0.47);
+  // These errors are independent, but 0.055² of one is taken for shared, beside 1/120 of the mean
+  // of 120: x and y count as 1.36 times as uncertain, so that 1 + 2/1.36 = 2.47 is expected, and a
+  // few per cent less as clustering counts as none where it seems below one. 99.9 % of the means of
+  // 300 lie within 3.29 √(6/300) = 0.47.
+  EXPECT_NEAR(spread.nis, 2.42, 0.47);
+  EXPECT_NEAR(corner.nis, 2.42, 0.47);
 }
 
 }  // namespace

@@ -259,7 +259,7 @@ TEST(LinearFit, OfPicturesKnowsOnePictureFromTheOther) {
 
 TEST(SharedError, IsAShareOfTheErrorOfOneMatchInTranslationAlone) {
   // An error of 10 mm is one of 7.1 mm in x and in y.
-  const double variance = 0.05 * 0.05 * 0.01 * 0.01 / 2.0;
+  const double variance = 0.055 * 0.055 * 0.01 * 0.01 / 2.0;
   const Eigen::Matrix3d expected = Eigen::Vector3d(variance, variance, 0.0).asDiagonal();
   EXPECT_LT((shared_error(0.01) - expected).norm(), 1e-15);
   EXPECT_EQ(shared_error(0.0), Eigen::Matrix3d::Zero());

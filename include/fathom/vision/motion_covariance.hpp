@@ -10,8 +10,8 @@
 namespace fathom {
 
 /// The covariance of what the keypoints of a picture have in common by how it was blurred and lit,
-/// which does not average out however many there are: 0.05 of the error of one match, `rms_m`. In x
-/// and y alone.
+/// which does not average out however many there are: 0.055 of the error of one match, `rms_m`. In
+/// x and y alone.
 Eigen::Matrix3d shared_error(double rms_m);
 
 /// A weighted fit of z to points p = z ⊕ q, linearised: what errors of the points do to z.
