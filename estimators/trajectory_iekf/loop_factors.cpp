@@ -69,7 +69,7 @@ Eigen::MatrixXd LoopFactors::transposed_suffix_products(std::span<const Eigen::I
 }
 
 void LoopFactors::subtract_products(const Eigen::MatrixXd& Y, Eigen::Index first_row,
-                                    Eigen::MatrixXd& product) const {
+                                    Eigen::Ref<Eigen::MatrixXd> product) const {
   const Eigen::Index end = first_row + product.rows();
   for (Eigen::Index row = first_row; row < end; row += kRows) {
     const Eigen::Index row_end = std::min(row + kRows, end);

@@ -33,7 +33,7 @@ class LoopFactors {
 
   /// product −= V Y of all factors; `product` has the rows from `first_row` on.
   void subtract_products(const Eigen::MatrixXd& Y, Eigen::Index first_row,
-                         Eigen::MatrixXd& product) const;
+                         Eigen::Ref<Eigen::MatrixXd> product) const;
 
  private:
   std::vector<DowndateFactor> factors_;

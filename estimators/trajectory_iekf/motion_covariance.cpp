@@ -27,33 +27,37 @@ void MotionCovariance::append(const Eigen::Matrix3d& Q) {
   later_.push_back(Q);
 }
 
-Eigen::MatrixXd MotionCovariance::suffix_products(std::span<const Eigen::Index> starts,
-                                                  const Eigen::MatrixX3d& B,
-                                                  const Eigen::MatrixXd* before) const {
+void MotionCovariance::suffix_products(std::span<const Eigen::Index> starts,
+                                       const Eigen::MatrixX3d& B,
+                                       Eigen::Ref<Eigen::MatrixXd> product,
+                                       int columns_of_B) const {
   const Eigen::Index first = starts.front();
-  const Eigen::Index motions = size() / 3;
-  const auto columns = static_cast<Eigen::Index>(3 * starts.size());
-  Eigen::MatrixXd product = Eigen::MatrixXd::Zero(B.rows(), columns);
   const auto in_dense = starts_before(starts, dense_motions());
+  const Eigen::Index dense_rows = std::max<Eigen::Index>(dense_.size() - 3 * first, 0);
+  const auto dense_columns = static_cast<Eigen::Index>(3 * in_dense.size());
   if (!in_dense.empty()) {
-    const Eigen::Index rows = dense_.size() - 3 * first;
-    product.topLeftCorner(rows, static_cast<Eigen::Index>(3 * in_dense.size())) =
-        dense_.suffix_products(in_dense, B.topRows(rows), before == nullptr ? 3 : 2);
+    dense_.suffix_products(in_dense, B.topRows(dense_rows),
+                           product.topLeftCorner(dense_rows, dense_columns), columns_of_B);
   }
-  for (Eigen::Index i = std::max(first, dense_motions()); i < motions; ++i) {
-    const Eigen::Index row = 3 * (i - first);
+  product.topRightCorner(dense_rows, product.cols() - dense_columns).setZero();
+  for (Eigen::Index row = dense_rows; row < product.rows(); row += 3) {
+    const Eigen::Index i = first + row / 3;
     const Eigen::Matrix3d QB =
         later_[static_cast<std::size_t>(i - dense_motions())] * B.middleRows<3>(row);
     const auto reaching = static_cast<Eigen::Index>(starts_before(starts, i + 1).size());
-    for (Eigen::Index s = 0; s < reaching; ++s) product.block<3, 3>(row, 3 * s) = QB;
+    for (Eigen::Index s = 0; s < product.cols() / 3; ++s) {
+      auto block = product.block(row, 3 * s, 3, columns_of_B);
+      if (s < reaching) {
+        block = QB.leftCols(columns_of_B);
+      } else {
+        block.setZero();
+      }
+    }
   }
-  if (!factors_.is_empty()) {
-    factors_.subtract_products(factors_.transposed_suffix_products(starts, B), 3 * first, product);
-  }
-  for (Eigen::Index column = 2; before != nullptr && column < columns; column += 3) {
-    product.col(column) = before->col(column);
-  }
-  return product;
+  if (factors_.is_empty()) return;
+  Eigen::MatrixXd Y = factors_.transposed_suffix_products(starts, B);
+  for (Eigen::Index c = 2; columns_of_B == 2 && c < Y.cols(); c += 3) Y.col(c).setZero();
+  factors_.subtract_products(Y, 3 * first, product);
 }
 
 Eigen::MatrixXd MotionCovariance::head_products(std::span<const Eigen::Index> starts,
@@ -65,8 +69,8 @@ Eigen::MatrixXd MotionCovariance::head_products(std::span<const Eigen::Index> st
   if (rows == 0) return product;
   const auto in_dense = starts_before(starts, dense_motions());
   if (!in_dense.empty()) {
-    product.leftCols(static_cast<Eigen::Index>(3 * in_dense.size())) =
-        dense_.head_products(in_dense, B.topRows(dense_.size() - 3 * starts.front()));
+    dense_.head_products(in_dense, B.topRows(dense_.size() - 3 * starts.front()),
+                         product.leftCols(static_cast<Eigen::Index>(3 * in_dense.size())));
   }
   if (!factors_.is_empty()) {
     factors_.subtract_products(factors_.transposed_suffix_products(starts, B), 3 * begin, product);
@@ -79,16 +83,21 @@ Eigen::Index MotionCovariance::first_correlated(Eigen::Index start) const {
   return factors_.first_correlated(3 * start) / 3;
 }
 
-void MotionCovariance::downdate(DowndateFactor factor) {
-  factors_.add(std::move(factor));
-  if (should_fold()) fold();
+void MotionCovariance::downdate(const Eigen::Ref<const Eigen::MatrixXd>& V) {
+  const Eigen::Index first_row = size() - V.rows();
+  if (is_cheaper_dense(factors_.size() + static_cast<std::size_t>(V.size()))) {
+    fold();
+    dense_.downdate(V, first_row);
+  } else {
+    factors_.add({first_row, V});
+  }
 }
 
 // A linearisation goes over the factors twice, over C once. What folding would add to C is what the
 // factors may cost.
-bool MotionCovariance::should_fold() const {
+bool MotionCovariance::is_cheaper_dense(std::size_t numbers_in_factors) const {
   if (form_ != Form::cheapest) return form_ == Form::dense;
-  return 2 * factors_.size() > triangle(size()) - triangle(dense_.size());
+  return 2 * numbers_in_factors > triangle(size()) - triangle(dense_.size());
 }
 
 void MotionCovariance::fold() {

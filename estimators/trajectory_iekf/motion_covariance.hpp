@@ -34,10 +34,10 @@ class MotionCovariance {
   /// A new motion, independent of those before it.
   void append(const Eigen::Matrix3d& Q);
 
-  /// P(:, …) B over the ends of B: as FilterCovariance::suffix_products. With `before`, a result
-  /// of the same call for a B with the same third column, this column's products are taken from it.
-  Eigen::MatrixXd suffix_products(std::span<const Eigen::Index> starts, const Eigen::MatrixX3d& B,
-                                  const Eigen::MatrixXd* before = nullptr) const;
+  /// P(:, …) B over the ends of B: as FilterCovariance::suffix_products. With columns_of_B = 2,
+  /// `product` has its third columns from a call with the same third column of B.
+  void suffix_products(std::span<const Eigen::Index> starts, const Eigen::MatrixX3d& B,
+                       Eigen::Ref<Eigen::MatrixXd> product, int columns_of_B = 3) const;
 
   /// The same for the rows of motions first_correlated(start) … start − 1, start = starts.front().
   Eigen::MatrixXd head_products(std::span<const Eigen::Index> starts,
@@ -46,8 +46,8 @@ class MotionCovariance {
   /// The first motion, counted from 0, that any from `start` on is correlated with.
   Eigen::Index first_correlated(Eigen::Index start) const;
 
-  /// P ← P − V Vᵀ: see FilterCovariance.
-  void downdate(DowndateFactor factor);
+  /// P ← P − V Vᵀ: see FilterCovariance. V ends with the newest motion.
+  void downdate(const Eigen::Ref<const Eigen::MatrixXd>& V);
 
   /// Of each motion k, Σ B_iᵀ P_ij B_j over all motions i, j up to k, or from k on.
   enum class Over { motions_up_to, motions_from };
@@ -62,7 +62,7 @@ class MotionCovariance {
   std::size_t bytes() const;
 
  private:
-  bool should_fold() const;
+  bool is_cheaper_dense(std::size_t numbers_in_factors) const;
   void fold();
   void subtract_congruences(const Eigen::MatrixX3d& B, Over over,
                             std::vector<Eigen::Matrix3d>& sums) const;

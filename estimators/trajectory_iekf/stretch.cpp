@@ -55,16 +55,15 @@ StackedJacobian::StackedJacobian(const Stretch& stretch, std::span<const std::si
   }
 }
 
-Eigen::MatrixXd StackedJacobian::from_suffix_sums(const Eigen::MatrixXd& sums) const {
-  Eigen::MatrixXd product(sums.rows(), static_cast<Eigen::Index>(3 * D_.size()));
+void StackedJacobian::from_suffix_sums(const Eigen::Ref<const Eigen::MatrixXd>& sums,
+                                       Eigen::Ref<Eigen::MatrixXd> product) const {
   for (std::size_t j = 0; j < D_.size(); ++j) {
     product.middleCols<3>(static_cast<Eigen::Index>(3 * j)).noalias() =
         sums.middleCols<3>(static_cast<Eigen::Index>(3 * start_of_[j])) * D_[j];
   }
-  return product;
 }
 
-Eigen::MatrixXd StackedJacobian::times(const Eigen::MatrixXd& X) const {
+Eigen::MatrixXd StackedJacobian::times(const Eigen::Ref<const Eigen::MatrixXd>& X) const {
   // A X over the motions from each start on: segment after segment, from the last.
   std::vector<Eigen::MatrixXd> sums(starts_.size());
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(3, X.cols());

@@ -47,9 +47,10 @@ class StackedJacobian {
   const Eigen::MatrixX3d& A_transposed() const { return A_transposed_; }
 
   /// X Hᵀ, from the sums of X Aᵀ over the motions from each start on (rows × 3 starts).
-  Eigen::MatrixXd from_suffix_sums(const Eigen::MatrixXd& sums) const;
+  void from_suffix_sums(const Eigen::Ref<const Eigen::MatrixXd>& sums,
+                        Eigen::Ref<Eigen::MatrixXd> product) const;
   /// H X and Hᵀ λ, X over the stretch.
-  Eigen::MatrixXd times(const Eigen::MatrixXd& X) const;
+  Eigen::MatrixXd times(const Eigen::Ref<const Eigen::MatrixXd>& X) const;
   Eigen::VectorXd transposed_times(const Eigen::VectorXd& lambda) const;
 
  private:

@@ -6,17 +6,14 @@
 
 #include <Eigen/Cholesky>
 
-#include "estimators/trajectory_iekf/stretch.hpp"
 #include "fathom/geometry/covariance.hpp"
 
 namespace fathom {
 
 /// z − h and H of the stacked registrations at one iterate, and S = H P Hᵀ + R.
 struct TrajectoryIekf::Linearisation {
-  Eigen::VectorXd nu;    ///< z − h(x), headings wrapped
-  StackedJacobian H;     ///< over the stretch only; zero elsewhere
-  Eigen::MatrixXd sums;  ///< P Aᵀ over the motions from each start on, rows of the stretch only
-  Eigen::MatrixXd PHt;   ///< rows of the stretch only
+  Eigen::VectorXd nu;  ///< z − h(x), headings wrapped
+  StackedJacobian H;   ///< over the stretch only; zero elsewhere
   Eigen::MatrixXd S;
 };
 
@@ -75,13 +72,6 @@ double misfit(std::span<const RelativePose> loops, const Eigen::VectorXd& nu) {
   return sum;
 }
 
-void add_R(std::span<const RelativePose> loops, Eigen::MatrixXd& S) {
-  for (std::size_t j = 0; j < loops.size(); ++j) {
-    const auto row = static_cast<Eigen::Index>(3 * j);
-    S.block<3, 3>(row, row) += loops[j].covariance();
-  }
-}
-
 Stretch stretch_at(const std::vector<Pose>& motions, std::size_t first,
                    const Eigen::VectorXd& delta) {
   std::vector<Pose> at(motions.begin() + static_cast<std::ptrdiff_t>(first), motions.end());
@@ -117,17 +107,26 @@ void TrajectoryIekf::add_keyframe(const RelativePose& step) {
 
 TrajectoryIekf::Linearisation TrajectoryIekf::linearise(std::span<const RelativePose> loops,
                                                         const Eigen::VectorXd& delta,
-                                                        const Linearisation* before) const {
+                                                        int iteration) {
   const Stretch stretch = stretch_at(motions_, earliest_from(loops), delta);
-  Linearisation at{innovations(loops, stretch), {stretch, froms_of(loops)}, {}, {}, {}};
+  StackedJacobian H(stretch, froms_of(loops));
+  auto sums = sums_.shaped(delta.size(), static_cast<Eigen::Index>(3 * H.starts().size()));
   // A turn of a motion turns the newest keyframe as much, wherever H is taken: the third column of
   // Aᵀ is the same for all iterates.
-  at.sums = P_.suffix_products(at.H.starts(), at.H.A_transposed(),
-                               before == nullptr ? nullptr : &before->sums);
-  at.PHt = at.H.from_suffix_sums(at.sums);
-  at.S = at.H.times(at.PHt);
-  add_R(loops, at.S);
-  return at;
+  P_.suffix_products(H.starts(), H.A_transposed(), sums, iteration == 1 ? 3 : 2);
+  return multiplied(loops, innovations(loops, stretch), std::move(H));
+}
+
+// P Hᵀ, and S = H P Hᵀ + R.
+TrajectoryIekf::Linearisation TrajectoryIekf::multiplied(std::span<const RelativePose> loops,
+                                                         Eigen::VectorXd nu, StackedJacobian H) {
+  auto PHt = PHt_.shaped(sums_.matrix().rows(), nu.size());
+  H.from_suffix_sums(sums_.matrix(), PHt);
+  Eigen::MatrixXd S = H.times(PHt);
+  for (Eigen::Index row = 0; row < nu.size(); row += 3) {
+    S.block<3, 3>(row, row) += loops[static_cast<std::size_t>(row / 3)].covariance();
+  }
+  return {std::move(nu), std::move(H), std::move(S)};
 }
 
 UpdateReport TrajectoryIekf::close_loops(std::span<const RelativePose> registrations) {
@@ -145,39 +144,36 @@ UpdateReport TrajectoryIekf::close_loops(std::span<const RelativePose> registrat
     std::size_t j = 0;
     std::erase_if(loops, [&](const RelativePose&) { return !passes[j++]; });
     if (loops.empty()) return report;
-    prior = narrowed(std::move(prior), loops);
+    prior = narrowed(prior, loops);
   }
   report.outcome = iterate(loops, std::move(prior), report);
   if (!is_done(report.outcome)) lose_all(report, report.outcome);
   return report;
 }
 
-TrajectoryIekf::Linearisation TrajectoryIekf::linearise_prior(
-    std::span<const RelativePose> loops) const {
+TrajectoryIekf::Linearisation TrajectoryIekf::linearise_prior(std::span<const RelativePose> loops) {
   const auto length = static_cast<Eigen::Index>(3 * (motions_.size() - earliest_from(loops)));
-  return linearise(loops, Eigen::VectorXd::Zero(length));
+  return linearise(loops, Eigen::VectorXd::Zero(length), 1);
 }
 
 // The prior's linearisation for the registrations that are left of those it was made for. As long
 // as they begin with the same motion the products with P are there already.
-TrajectoryIekf::Linearisation TrajectoryIekf::narrowed(Linearisation prior,
-                                                       std::span<const RelativePose> loops) const {
+TrajectoryIekf::Linearisation TrajectoryIekf::narrowed(const Linearisation& prior,
+                                                       std::span<const RelativePose> loops) {
   const std::size_t first = earliest_from(loops);
   if (static_cast<Eigen::Index>(first) != prior.H.starts().front()) return linearise_prior(loops);
   const Stretch stretch(first, std::span(motions_).subspan(first));
-  Linearisation at{innovations(loops, stretch), {stretch, froms_of(loops)}, {}, {}, {}};
-  at.sums.resize(prior.sums.rows(), static_cast<Eigen::Index>(3 * at.H.starts().size()));
+  StackedJacobian H(stretch, froms_of(loops));
+  auto sums = sums_.matrix();
   Eigen::Index column = 0;
-  for (const Eigen::Index start : at.H.starts()) {
+  for (const Eigen::Index start : H.starts()) {
     const auto was = std::find(prior.H.starts().begin(), prior.H.starts().end(), start);
     const auto column_was = 3 * static_cast<Eigen::Index>(was - prior.H.starts().begin());
-    at.sums.middleCols<3>(column) = prior.sums.middleCols<3>(column_was);
+    if (column_was != column) sums.middleCols<3>(column) = sums.middleCols<3>(column_was);
     column += 3;
   }
-  at.PHt = at.H.from_suffix_sums(at.sums);
-  at.S = at.H.times(at.PHt);
-  add_R(loops, at.S);
-  return at;
+  sums_.keep_columns(column);
+  return multiplied(loops, innovations(loops, stretch), std::move(H));
 }
 
 std::vector<bool> TrajectoryIekf::gate_loops(const Linearisation& prior,
@@ -195,20 +191,21 @@ std::vector<bool> TrajectoryIekf::gate_loops(const Linearisation& prior,
   return passes;
 }
 
+// P Hᵀ of the present linearisation is in PHt_.
 Outcome TrajectoryIekf::iterate(std::span<const RelativePose> loops, Linearisation at,
                                 UpdateReport& report) {
-  const Eigen::Index length = at.PHt.rows();
+  const Eigen::Index length = PHt_.matrix().rows();
   Iterate x{Eigen::VectorXd::Zero(length), Eigen::VectorXd::Zero(length), misfit(loops, at.nu)};
   const double prior_cost = x.cost;
   Outcome outcome = Outcome::iteration_limit;
   for (report.iterations = 1; true; ++report.iterations) {
-    if (report.iterations > 1) at = linearise(loops, x.delta, &at);
+    if (report.iterations > 1) at = linearise(loops, x.delta, report.iterations);
     const Eigen::LLT<Eigen::MatrixXd> S(at.S);
     if (!at.nu.allFinite() || S.info() != Eigen::Success) return Outcome::numerical_failure;
     // x⁽ⁱ⁺¹⁾ = x⁽⁰⁾ + P Hᵀ S⁻¹ (z − h(x⁽ⁱ⁾) − H (x⁽⁰⁾ − x⁽ⁱ⁾)): always from the prior, with h and H
     // of the present iterate.
     const Eigen::VectorXd lambda = S.solve(at.nu + at.H.times(x.delta));
-    Iterate next{at.PHt * lambda, at.H.transposed_times(lambda)};
+    Iterate next{PHt_.matrix() * lambda, at.H.transposed_times(lambda)};
     if (!next.delta.allFinite()) return Outcome::numerical_failure;
     const double step = (next.delta - x.delta).cwiseAbs().maxCoeff();
     const bool lowered = !options_.safeguard || step_back(loops, x, next);
@@ -252,27 +249,28 @@ bool TrajectoryIekf::apply(const Linearisation& last, const Iterate& end) {
   const Eigen::Index start = last.H.starts().front();
   const Eigen::Index begin = P_.first_correlated(start);
   const Eigen::Index head = 3 * (start - begin);
-  const Eigen::Index rows = head + end.delta.size();
-  DowndateFactor factor{3 * begin, Eigen::MatrixXd(rows, last.PHt.cols())};
-  Eigen::VectorXd dx(rows);
-  dx.tail(end.delta.size()) = end.delta;
-  factor.V.bottomRows(end.delta.size()) = last.PHt;
+  const auto PHt = PHt_.matrix();
+  const Eigen::Index tail = PHt.rows();
+  Eigen::VectorXd dx(head + tail);
+  dx.tail(tail) = end.delta;
+  auto V = V_.shaped(head + tail, PHt.cols());
+  V.bottomRows(tail) = PHt;
   if (head > 0) {
-    factor.V.topRows(head) =
-        last.H.from_suffix_sums(P_.head_products(last.H.starts(), last.H.A_transposed()));
-    Eigen::MatrixX3d u = Eigen::MatrixX3d::Zero(end.u.size(), 3);
+    last.H.from_suffix_sums(P_.head_products(last.H.starts(), last.H.A_transposed()),
+                            V.topRows(head));
+    Eigen::MatrixX3d u = Eigen::MatrixX3d::Zero(tail, 3);
     u.col(0) = end.u;
     dx.head(head) = P_.head_products(last.H.starts().first(1), u).col(0);
   }
   // V = P Hᵀ L⁻ᵀ.
   const Eigen::LLT<Eigen::MatrixXd> S(last.S);
-  S.matrixU().solveInPlace<Eigen::OnTheRight>(factor.V);
-  if (!dx.allFinite() || !factor.V.allFinite()) return false;
+  S.matrixU().solveInPlace<Eigen::OnTheRight>(V);
+  if (!dx.allFinite() || !V.allFinite()) return false;
   for (std::size_t i = static_cast<std::size_t>(begin); i < motions_.size(); ++i) {
     const Eigen::Index row = 3 * (static_cast<Eigen::Index>(i) - begin);
     motions_[i] = moved(motions_[i], dx.segment<3>(row));
   }
-  P_.downdate(std::move(factor));
+  P_.downdate(V);
   recompose();
   return true;
 }

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 
 #include "estimators/trajectory_iekf/motion_covariance.hpp"
+#include "estimators/trajectory_iekf/stretch.hpp"
 #include "fathom/estimation/estimator.hpp"
 #include "fathom/estimation/gate.hpp"
 #include "fathom/estimation/registry.hpp"
@@ -48,9 +49,11 @@ class TrajectoryIekf final : public Estimator {
   struct Iterate;
 
   Linearisation linearise(std::span<const RelativePose> loops, const Eigen::VectorXd& delta,
-                          const Linearisation* before = nullptr) const;
-  Linearisation linearise_prior(std::span<const RelativePose> loops) const;
-  Linearisation narrowed(Linearisation prior, std::span<const RelativePose> loops) const;
+                          int iteration);
+  Linearisation linearise_prior(std::span<const RelativePose> loops);
+  Linearisation narrowed(const Linearisation& prior, std::span<const RelativePose> loops);
+  Linearisation multiplied(std::span<const RelativePose> loops, Eigen::VectorXd nu,
+                           StackedJacobian H);
   std::vector<bool> gate_loops(const Linearisation& prior,
                                std::span<const RelativePose> registrations,
                                UpdateReport& report) const;
@@ -66,6 +69,10 @@ class TrajectoryIekf final : public Estimator {
   std::vector<Pose> motions_;  ///< x_k of keyframe k stands at k − 1
   std::vector<Pose> poses_;    ///< their composition
   MotionCovariance P_;
+  // Of the present linearisation; there is one at a time. The rows are those of the stretch.
+  Scratch sums_;  ///< P Aᵀ, over the motions from each start on
+  Scratch PHt_;
+  Scratch V_;
   std::vector<Eigen::Matrix3d> covariances_;  ///< of the poses; empty: to be computed
 };
 

@@ -58,30 +58,33 @@ Eigen::MatrixX3d FilterCovariance::column(Eigen::Index j) const {
   return column;
 }
 
-Eigen::MatrixXd FilterCovariance::suffix_products(std::span<const Eigen::Index> starts,
-                                                  const Eigen::MatrixX3d& B,
-                                                  int columns_of_B) const {
-  SuffixSums sums(starts, B, size_, 3 * starts.front());
+void FilterCovariance::suffix_products(std::span<const Eigen::Index> starts,
+                                       const Eigen::Ref<const Eigen::MatrixX3d>& B,
+                                       Eigen::Ref<Eigen::MatrixXd> product,
+                                       int columns_of_B) const {
+  SuffixSums sums(starts, B, size_, 3 * starts.front(), scratch_);
   for (Eigen::Index p = panel_of(3 * starts.front()); p * kPanelRows < size_; ++p) {
     sums.add_panel(panels_[static_cast<std::size_t>(p)], p * kPanelRows, columns_of_B);
   }
-  return sums.result();
+  sums.write(product, columns_of_B);
 }
 
-Eigen::MatrixXd FilterCovariance::head_products(std::span<const Eigen::Index> starts,
-                                                const Eigen::MatrixX3d& B) const {
-  SuffixSums sums(starts, B, size_, 0);
+void FilterCovariance::head_products(std::span<const Eigen::Index> starts,
+                                     const Eigen::Ref<const Eigen::MatrixX3d>& B,
+                                     Eigen::Ref<Eigen::MatrixXd> product) const {
+  SuffixSums sums(starts, B, size_, 0, scratch_);
   for (Eigen::Index p = panel_of(3 * starts.front()); p * kPanelRows < size_; ++p) {
     sums.add_head(panels_[static_cast<std::size_t>(p)], p * kPanelRows);
   }
-  return sums.result().topRows(3 * starts.front());
+  sums.write(product);
 }
 
-FilterCovariance::Sides FilterCovariance::side_products(const Eigen::MatrixX3d& B) const {
+FilterCovariance::Sides FilterCovariance::side_products(
+    const Eigen::Ref<const Eigen::MatrixX3d>& B) const {
   Sides sides{Eigen::MatrixX3d::Zero(size_, 3), Eigen::MatrixX3d::Zero(size_, 3)};
   if (size_ == 0) return sides;
   const Eigen::Index start = 0;
-  SuffixSums sums(std::span(&start, 1), B, size_, 0);
+  SuffixSums sums(std::span(&start, 1), B, size_, 0, scratch_);
   for (std::size_t p = 0; p < panels_.size(); ++p) {
     const Eigen::Index top = static_cast<Eigen::Index>(p) * kPanelRows;
     const Eigen::Index rows = std::min(kPanelRows, size_ - top);
@@ -94,23 +97,27 @@ FilterCovariance::Sides FilterCovariance::side_products(const Eigen::MatrixX3d& 
       sides.after.middleRows<3>(i) = row.rightCols(after) * B.middleRows(i + 3, after);
     }
   }
-  sides.after += sums.result();
+  Eigen::MatrixXd below(size_, 3);
+  sums.write(below);
+  sides.after += below;
   return sides;
 }
 
-void FilterCovariance::downdate(const Eigen::MatrixXd& V) {
-  for (std::size_t p = 0; p < panels_.size(); ++p) downdate_rows(p, 0, V);
+// From the last panel, where the products before have ended.
+void FilterCovariance::downdate(const Eigen::Ref<const Eigen::MatrixXd>& V,
+                                Eigen::Index first_row) {
+  for (std::size_t p = panels_.size(); p-- > 0;) downdate_rows(p, first_row, V);
 }
 
 // Panel after panel, so that a panel stays in the cache for all factors.
 void FilterCovariance::downdate(std::span<const DowndateFactor> factors) {
-  for (std::size_t p = 0; p < panels_.size(); ++p) {
+  for (std::size_t p = panels_.size(); p-- > 0;) {
     for (const DowndateFactor& factor : factors) downdate_rows(p, factor.first_row, factor.V);
   }
 }
 
 void FilterCovariance::downdate_rows(std::size_t panel, Eigen::Index first_row,
-                                     const Eigen::MatrixXd& V) {
+                                     const Eigen::Ref<const Eigen::MatrixXd>& V) {
   const Eigen::Index top = static_cast<Eigen::Index>(panel) * kPanelRows;
   const Eigen::Index end_row = first_row + V.rows();
   const Eigen::Index begin = std::max(first_row, top);
@@ -118,14 +125,15 @@ void FilterCovariance::downdate_rows(std::size_t panel, Eigen::Index first_row,
   if (begin >= end) return;
   double* const columns = panels_[panel] + kPanelRows * first_row;
   if (end - begin == kPanelRows) {
-    downdate_panel(columns, end - first_row, V.data() + (top - first_row), V.rows(), V.data(),
-                   V.rows(), V.cols());
+    downdate_panel(columns, end - first_row, V.data() + (top - first_row), V.outerStride(),
+                   V.data(), V.outerStride(), V.cols());
     return;
   }
   // The kernel takes whole panels: zeros where V does not reach.
   Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(kPanelRows, V.cols());
   rows.middleRows(begin - top, end - begin) = V.middleRows(begin - first_row, end - begin);
-  downdate_panel(columns, end - first_row, rows.data(), kPanelRows, V.data(), V.rows(), V.cols());
+  downdate_panel(columns, end - first_row, rows.data(), kPanelRows, V.data(), V.outerStride(),
+                 V.cols());
 }
 
 Eigen::MatrixXd FilterCovariance::full() const {

@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 
 #include "fathom/estimation/growing_memory.hpp"
+#include "fathom/estimation/scratch.hpp"
 
 namespace fathom {
 
@@ -40,13 +41,18 @@ class FilterCovariance {
   Eigen::MatrixX3d column(Eigen::Index j) const;
 
   /// P times the ends of one B. With B (size() − 3·starts.front())×3, whose row 0 is that of block
-  /// starts.front(), and `starts` rising: columns 3s … 3s + 2 are Σ P(:, i) B(i) over the blocks
-  /// i ≥ starts[s]. Rows from block starts.front() on; `head_products` has the rows above.
-  /// All starts are served by one pass. With columns_of_B = 2 the third columns are left zero.
-  Eigen::MatrixXd suffix_products(std::span<const Eigen::Index> starts, const Eigen::MatrixX3d& B,
-                                  int columns_of_B = 3) const;
-  Eigen::MatrixXd head_products(std::span<const Eigen::Index> starts,
-                                const Eigen::MatrixX3d& B) const;
+  /// starts.front(), and `starts` rising: columns 3s … 3s + 2 of `product` become Σ P(:, i) B(i)
+  /// over the blocks i ≥ starts[s]. Rows from block starts.front() on; `head_products` has the rows
+  /// above. All starts are served by one pass. With columns_of_B = 2 the third columns are left as
+  /// they are.
+  ///
+  /// Not from two threads at once: they share what the sums take.
+  void suffix_products(std::span<const Eigen::Index> starts,
+                       const Eigen::Ref<const Eigen::MatrixX3d>& B,
+                       Eigen::Ref<Eigen::MatrixXd> product, int columns_of_B = 3) const;
+  void head_products(std::span<const Eigen::Index> starts,
+                     const Eigen::Ref<const Eigen::MatrixX3d>& B,
+                     Eigen::Ref<Eigen::MatrixXd> product) const;
 
   /// Of block row k of P, times B of size() rows: Σ P(k, j) B(j) over the blocks before the
   /// diagonal and over those after it; 3×3 each, stacked to size()×3.
@@ -54,12 +60,12 @@ class FilterCovariance {
     Eigen::MatrixX3d before;
     Eigen::MatrixX3d after;
   };
-  Sides side_products(const Eigen::MatrixX3d& B) const;
+  Sides side_products(const Eigen::Ref<const Eigen::MatrixX3d>& B) const;
 
-  /// P ← P − V Vᵀ for V with size() rows. With V = P Hᵀ L⁻ᵀ and S = L Lᵀ it is the Kalman update,
-  /// symmetric and without a general inverse; P − (P Hᵀ) S⁻¹ (P Hᵀ)ᵀ by a general solve loses
-  /// definiteness after some hundred loops.
-  void downdate(const Eigen::MatrixXd& V);
+  /// P ← P − V Vᵀ, V being zero but for its rows from first_row on. With V = P Hᵀ L⁻ᵀ and S = L Lᵀ
+  /// it is the Kalman update, symmetric and without a general inverse; P − (P Hᵀ) S⁻¹ (P Hᵀ)ᵀ by a
+  /// general solve loses definiteness after some hundred loops.
+  void downdate(const Eigen::Ref<const Eigen::MatrixXd>& V, Eigen::Index first_row = 0);
 
   /// Several at once, one after the other; none reaches beyond size().
   void downdate(std::span<const DowndateFactor> factors);
@@ -68,10 +74,11 @@ class FilterCovariance {
   Eigen::MatrixXd full() const;
 
   /// Memory held.
-  std::size_t bytes() const { return memory_.bytes(); }
+  std::size_t bytes() const { return memory_.bytes() + scratch_.bytes(); }
 
  private:
-  void downdate_rows(std::size_t panel, Eigen::Index first_row, const Eigen::MatrixXd& V);
+  void downdate_rows(std::size_t panel, Eigen::Index first_row,
+                     const Eigen::Ref<const Eigen::MatrixXd>& V);
   double* element(Eigen::Index row, Eigen::Index column);
   const double* element(Eigen::Index row, Eigen::Index column) const;
 
@@ -80,6 +87,7 @@ class FilterCovariance {
   /// What lies beyond size() is zero.
   std::vector<double*> panels_;
   Eigen::Index size_ = 0;
+  mutable Scratch scratch_;
 };
 
 }  // namespace fathom
