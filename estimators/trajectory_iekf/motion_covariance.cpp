@@ -17,6 +17,11 @@ std::span<const Eigen::Index> starts_before(std::span<const Eigen::Index> starts
   return starts.first(static_cast<std::size_t>(end - starts.begin()));
 }
 
+// Every pass begins where the last has ended: there the triangle is still in the cache.
+PassOrder order_of(int pass) {
+  return pass % 2 == 1 ? PassOrder::forward : PassOrder::backward;
+}
+
 }  // namespace
 
 Eigen::Index MotionCovariance::size() const {
@@ -29,15 +34,16 @@ void MotionCovariance::append(const Eigen::Matrix3d& Q) {
 
 void MotionCovariance::suffix_products(std::span<const Eigen::Index> starts,
                                        const Eigen::MatrixX3d& B,
-                                       Eigen::Ref<Eigen::MatrixXd> product,
-                                       int columns_of_B) const {
+                                       Eigen::Ref<Eigen::MatrixXd> product, int pass) const {
+  const int columns_of_B = pass == 1 ? 3 : 2;
   const Eigen::Index first = starts.front();
   const auto in_dense = starts_before(starts, dense_motions());
   const Eigen::Index dense_rows = std::max<Eigen::Index>(dense_.size() - 3 * first, 0);
   const auto dense_columns = static_cast<Eigen::Index>(3 * in_dense.size());
   if (!in_dense.empty()) {
     dense_.suffix_products(in_dense, B.topRows(dense_rows),
-                           product.topLeftCorner(dense_rows, dense_columns), columns_of_B);
+                           product.topLeftCorner(dense_rows, dense_columns), columns_of_B,
+                           order_of(pass));
   }
   product.topRightCorner(dense_rows, product.cols() - dense_columns).setZero();
   for (Eigen::Index row = dense_rows; row < product.rows(); row += 3) {
@@ -83,11 +89,11 @@ Eigen::Index MotionCovariance::first_correlated(Eigen::Index start) const {
   return factors_.first_correlated(3 * start) / 3;
 }
 
-void MotionCovariance::downdate(const Eigen::Ref<const Eigen::MatrixXd>& V) {
+void MotionCovariance::downdate(const Eigen::Ref<const Eigen::MatrixXd>& V, int passes) {
   const Eigen::Index first_row = size() - V.rows();
   if (is_cheaper_dense(factors_.size() + static_cast<std::size_t>(V.size()))) {
     fold();
-    dense_.downdate(V, first_row);
+    dense_.downdate(V, first_row, order_of(passes + 1));
   } else {
     factors_.add({first_row, V});
   }

@@ -34,10 +34,11 @@ class MotionCovariance {
   /// A new motion, independent of those before it.
   void append(const Eigen::Matrix3d& Q);
 
-  /// P(:, …) B over the ends of B: as FilterCovariance::suffix_products. With columns_of_B = 2,
-  /// `product` has its third columns from a call with the same third column of B.
+  /// P(:, …) B over the ends of B: as FilterCovariance::suffix_products. `pass` counts the calls
+  /// for one update, from 1: after the first, `product` has its third columns from the call before,
+  /// with the same third column of B.
   void suffix_products(std::span<const Eigen::Index> starts, const Eigen::MatrixX3d& B,
-                       Eigen::Ref<Eigen::MatrixXd> product, int columns_of_B = 3) const;
+                       Eigen::Ref<Eigen::MatrixXd> product, int pass = 1) const;
 
   /// The same for the rows of motions first_correlated(start) … start − 1, start = starts.front().
   Eigen::MatrixXd head_products(std::span<const Eigen::Index> starts,
@@ -46,8 +47,8 @@ class MotionCovariance {
   /// The first motion, counted from 0, that any from `start` on is correlated with.
   Eigen::Index first_correlated(Eigen::Index start) const;
 
-  /// P ← P − V Vᵀ: see FilterCovariance. V ends with the newest motion.
-  void downdate(const Eigen::Ref<const Eigen::MatrixXd>& V);
+  /// P ← P − V Vᵀ after so many passes: see FilterCovariance. V ends with the newest motion.
+  void downdate(const Eigen::Ref<const Eigen::MatrixXd>& V, int passes = 1);
 
   /// Of each motion k, Σ B_iᵀ P_ij B_j over all motions i, j up to k, or from k on.
   enum class Over { motions_up_to, motions_from };

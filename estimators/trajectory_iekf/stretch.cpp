@@ -47,52 +47,41 @@ StackedJacobian::StackedJacobian(const Stretch& stretch, std::span<const std::si
   for (const std::size_t from : froms) starts_.push_back(static_cast<Eigen::Index>(from));
   std::sort(starts_.begin(), starts_.end());
   starts_.erase(std::unique(starts_.begin(), starts_.end()), starts_.end());
+  E_ = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(3 * starts_.size()),
+                             static_cast<Eigen::Index>(3 * froms.size()));
+  Eigen::Index column = 0;
   for (const std::size_t from : froms) {
     const auto start =
         std::lower_bound(starts_.begin(), starts_.end(), static_cast<Eigen::Index>(from));
-    start_of_.push_back(static_cast<std::size_t>(start - starts_.begin()));
-    D_.push_back(stretch.D(from));
+    E_.block<3, 3>(3 * (start - starts_.begin()), column) = stretch.D(from);
+    column += 3;
   }
 }
 
-void StackedJacobian::from_suffix_sums(const Eigen::Ref<const Eigen::MatrixXd>& sums,
-                                       Eigen::Ref<Eigen::MatrixXd> product) const {
-  for (std::size_t j = 0; j < D_.size(); ++j) {
-    product.middleCols<3>(static_cast<Eigen::Index>(3 * j)).noalias() =
-        sums.middleCols<3>(static_cast<Eigen::Index>(3 * start_of_[j])) * D_[j];
-  }
-}
-
+// A X over the motions from each start on, segment after segment from the last; then Eᵀ of it.
 Eigen::MatrixXd StackedJacobian::times(const Eigen::Ref<const Eigen::MatrixXd>& X) const {
-  // A X over the motions from each start on: segment after segment, from the last.
-  std::vector<Eigen::MatrixXd> sums(starts_.size());
-  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(3, X.cols());
+  Eigen::MatrixXd sums(E_.rows(), X.cols());
+  Eigen::Matrix3Xd sum = Eigen::Matrix3Xd::Zero(3, X.cols());
   Eigen::Index end = X.rows();
   for (std::size_t s = starts_.size(); s-- > 0;) {
     const Eigen::Index rows = end - row_of(s);
-    sum += A_transposed_.middleRows(row_of(s), rows).transpose() * X.middleRows(row_of(s), rows);
-    sums[s] = sum;
+    sum.noalias() +=
+        A_transposed_.middleRows(row_of(s), rows).transpose() * X.middleRows(row_of(s), rows);
+    sums.middleRows<3>(static_cast<Eigen::Index>(3 * s)) = sum;
     end = row_of(s);
   }
-  Eigen::MatrixXd product(static_cast<Eigen::Index>(3 * D_.size()), X.cols());
-  for (std::size_t j = 0; j < D_.size(); ++j) {
-    product.middleRows<3>(static_cast<Eigen::Index>(3 * j)) =
-        D_[j].transpose() * sums[start_of_[j]];
-  }
-  return product;
+  return E_.transpose() * sums;
 }
 
 Eigen::VectorXd StackedJacobian::transposed_times(const Eigen::VectorXd& lambda) const {
+  const Eigen::VectorXd E_lambda = E_ * lambda;
   Eigen::VectorXd product(A_transposed_.rows());
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (std::size_t s = 0; s < starts_.size(); ++s) {
-    for (std::size_t j = 0; j < D_.size(); ++j) {
-      if (start_of_[j] != s) continue;
-      sum += D_[j] * lambda.segment<3>(static_cast<Eigen::Index>(3 * j));
-    }
+    sum += E_lambda.segment<3>(static_cast<Eigen::Index>(3 * s));
     const Eigen::Index end = s + 1 < starts_.size() ? row_of(s + 1) : product.size();
     const Eigen::Index rows = end - row_of(s);
-    product.segment(row_of(s), rows) = A_transposed_.middleRows(row_of(s), rows) * sum;
+    product.segment(row_of(s), rows).noalias() = A_transposed_.middleRows(row_of(s), rows) * sum;
   }
   return product;
 }

@@ -46,9 +46,9 @@ class StackedJacobian {
   std::span<const Eigen::Index> starts() const { return starts_; }
   const Eigen::MatrixX3d& A_transposed() const { return A_transposed_; }
 
-  /// X Hᵀ, from the sums of X Aᵀ over the motions from each start on (rows × 3 starts).
-  void from_suffix_sums(const Eigen::Ref<const Eigen::MatrixXd>& sums,
-                        Eigen::Ref<Eigen::MatrixXd> product) const;
+  /// E, 3 starts × 3 registrations: X Hᵀ is (X Aᵀ summed over the motions from each start on) E.
+  const Eigen::MatrixXd& ends() const { return E_; }
+
   /// H X and Hᵀ λ, X over the stretch.
   Eigen::MatrixXd times(const Eigen::Ref<const Eigen::MatrixXd>& X) const;
   Eigen::VectorXd transposed_times(const Eigen::VectorXd& lambda) const;
@@ -57,8 +57,7 @@ class StackedJacobian {
   Eigen::Index row_of(std::size_t start) const { return 3 * (starts_[start] - starts_.front()); }
 
   std::vector<Eigen::Index> starts_;
-  std::vector<std::size_t> start_of_;  ///< of each registration
-  std::vector<Eigen::Matrix3d> D_;     ///< of each registration
+  Eigen::MatrixXd E_;  ///< D of each registration, in the rows of its start
   Eigen::MatrixX3d A_transposed_;
 };
 

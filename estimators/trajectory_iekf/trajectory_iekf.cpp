@@ -113,16 +113,14 @@ TrajectoryIekf::Linearisation TrajectoryIekf::linearise(std::span<const Relative
   auto sums = sums_.shaped(delta.size(), static_cast<Eigen::Index>(3 * H.starts().size()));
   // A turn of a motion turns the newest keyframe as much, wherever H is taken: the third column of
   // Aᵀ is the same for all iterates.
-  P_.suffix_products(H.starts(), H.A_transposed(), sums, iteration == 1 ? 3 : 2);
+  P_.suffix_products(H.starts(), H.A_transposed(), sums, iteration);
   return multiplied(loops, innovations(loops, stretch), std::move(H));
 }
 
-// P Hᵀ, and S = H P Hᵀ + R.
+// S = H P Hᵀ + R, with P Hᵀ = (P Aᵀ from each start on) E.
 TrajectoryIekf::Linearisation TrajectoryIekf::multiplied(std::span<const RelativePose> loops,
                                                          Eigen::VectorXd nu, StackedJacobian H) {
-  auto PHt = PHt_.shaped(sums_.matrix().rows(), nu.size());
-  H.from_suffix_sums(sums_.matrix(), PHt);
-  Eigen::MatrixXd S = H.times(PHt);
+  Eigen::MatrixXd S = H.times(sums_.matrix()) * H.ends();
   for (Eigen::Index row = 0; row < nu.size(); row += 3) {
     S.block<3, 3>(row, row) += loops[static_cast<std::size_t>(row / 3)].covariance();
   }
@@ -191,10 +189,10 @@ std::vector<bool> TrajectoryIekf::gate_loops(const Linearisation& prior,
   return passes;
 }
 
-// P Hᵀ of the present linearisation is in PHt_.
+// The products of P with the present linearisation are in sums_.
 Outcome TrajectoryIekf::iterate(std::span<const RelativePose> loops, Linearisation at,
                                 UpdateReport& report) {
-  const Eigen::Index length = PHt_.matrix().rows();
+  const Eigen::Index length = sums_.matrix().rows();
   Iterate x{Eigen::VectorXd::Zero(length), Eigen::VectorXd::Zero(length), misfit(loops, at.nu)};
   const double prior_cost = x.cost;
   Outcome outcome = Outcome::iteration_limit;
@@ -205,7 +203,7 @@ Outcome TrajectoryIekf::iterate(std::span<const RelativePose> loops, Linearisati
     // x⁽ⁱ⁺¹⁾ = x⁽⁰⁾ + P Hᵀ S⁻¹ (z − h(x⁽ⁱ⁾) − H (x⁽⁰⁾ − x⁽ⁱ⁾)): always from the prior, with h and H
     // of the present iterate.
     const Eigen::VectorXd lambda = S.solve(at.nu + at.H.times(x.delta));
-    Iterate next{PHt_.matrix() * lambda, at.H.transposed_times(lambda)};
+    Iterate next{sums_.matrix() * (at.H.ends() * lambda), at.H.transposed_times(lambda)};
     if (!next.delta.allFinite()) return Outcome::numerical_failure;
     const double step = (next.delta - x.delta).cwiseAbs().maxCoeff();
     const bool lowered = !options_.safeguard || step_back(loops, x, next);
@@ -218,7 +216,7 @@ Outcome TrajectoryIekf::iterate(std::span<const RelativePose> loops, Linearisati
   const double end_cost = cost(loops, x);
   if (!std::isfinite(end_cost)) return Outcome::numerical_failure;
   if (end_cost > kDivergence * std::max(prior_cost, 1.0)) return Outcome::diverged;
-  return apply(at, x) ? outcome : Outcome::numerical_failure;
+  return apply(at, x, report.iterations) ? outcome : Outcome::numerical_failure;
 }
 
 double TrajectoryIekf::cost(std::span<const RelativePose> loops, const Iterate& at) const {
@@ -245,19 +243,18 @@ bool TrajectoryIekf::step_back(std::span<const RelativePose> loops, const Iterat
 
 // The covariance is updated once, with the H of the last linearisation. On the stretch δ and P Hᵀ
 // are known; the motions before it move as far as they are correlated with it.
-bool TrajectoryIekf::apply(const Linearisation& last, const Iterate& end) {
+bool TrajectoryIekf::apply(const Linearisation& last, const Iterate& end, int iterations) {
   const Eigen::Index start = last.H.starts().front();
   const Eigen::Index begin = P_.first_correlated(start);
   const Eigen::Index head = 3 * (start - begin);
-  const auto PHt = PHt_.matrix();
-  const Eigen::Index tail = PHt.rows();
+  const Eigen::Index tail = end.delta.size();
   Eigen::VectorXd dx(head + tail);
   dx.tail(tail) = end.delta;
-  auto V = V_.shaped(head + tail, PHt.cols());
-  V.bottomRows(tail) = PHt;
+  auto V = V_.shaped(head + tail, last.nu.size());
+  V.bottomRows(tail).noalias() = sums_.matrix() * last.H.ends();
   if (head > 0) {
-    last.H.from_suffix_sums(P_.head_products(last.H.starts(), last.H.A_transposed()),
-                            V.topRows(head));
+    V.topRows(head).noalias() =
+        P_.head_products(last.H.starts(), last.H.A_transposed()) * last.H.ends();
     Eigen::MatrixX3d u = Eigen::MatrixX3d::Zero(tail, 3);
     u.col(0) = end.u;
     dx.head(head) = P_.head_products(last.H.starts().first(1), u).col(0);
@@ -270,7 +267,7 @@ bool TrajectoryIekf::apply(const Linearisation& last, const Iterate& end) {
     const Eigen::Index row = 3 * (static_cast<Eigen::Index>(i) - begin);
     motions_[i] = moved(motions_[i], dx.segment<3>(row));
   }
-  P_.downdate(V);
+  P_.downdate(V, iterations);
   recompose();
   return true;
 }

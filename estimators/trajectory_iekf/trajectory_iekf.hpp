@@ -60,7 +60,7 @@ class TrajectoryIekf final : public Estimator {
   Outcome iterate(std::span<const RelativePose> loops, Linearisation at, UpdateReport& report);
   double cost(std::span<const RelativePose> loops, const Iterate& at) const;
   bool step_back(std::span<const RelativePose> loops, const Iterate& from, Iterate& to) const;
-  bool apply(const Linearisation& last, const Iterate& end);
+  bool apply(const Linearisation& last, const Iterate& end, int iterations);
   void recompose();
   void compute_covariances();
 
@@ -71,7 +71,6 @@ class TrajectoryIekf final : public Estimator {
   MotionCovariance P_;
   // Of the present linearisation; there is one at a time. The rows are those of the stretch.
   Scratch sums_;  ///< P Aᵀ, over the motions from each start on
-  Scratch PHt_;
   Scratch V_;
   std::vector<Eigen::Matrix3d> covariances_;  ///< of the poses; empty: to be computed
 };

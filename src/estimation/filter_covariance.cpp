@@ -16,7 +16,20 @@ Eigen::Index panel_of(Eigen::Index row) {
   return row / kPanelRows;
 }
 
+Eigen::Index top_of(std::size_t panel) {
+  return static_cast<Eigen::Index>(panel) * kPanelRows;
+}
+
 }  // namespace
+
+std::vector<std::size_t> FilterCovariance::panels_from(Eigen::Index row, PassOrder order) const {
+  std::vector<std::size_t> panels;
+  for (auto p = static_cast<std::size_t>(panel_of(row)); p < panels_.size(); ++p) {
+    panels.push_back(p);
+  }
+  if (order == PassOrder::backward) std::reverse(panels.begin(), panels.end());
+  return panels;
+}
 
 double* FilterCovariance::element(Eigen::Index row, Eigen::Index column) {
   return panels_[static_cast<std::size_t>(panel_of(row))] + kPanelRows * column + row % kPanelRows;
@@ -60,11 +73,11 @@ Eigen::MatrixX3d FilterCovariance::column(Eigen::Index j) const {
 
 void FilterCovariance::suffix_products(std::span<const Eigen::Index> starts,
                                        const Eigen::Ref<const Eigen::MatrixX3d>& B,
-                                       Eigen::Ref<Eigen::MatrixXd> product,
-                                       int columns_of_B) const {
+                                       Eigen::Ref<Eigen::MatrixXd> product, int columns_of_B,
+                                       PassOrder order) const {
   SuffixSums sums(starts, B, size_, 3 * starts.front(), scratch_);
-  for (Eigen::Index p = panel_of(3 * starts.front()); p * kPanelRows < size_; ++p) {
-    sums.add_panel(panels_[static_cast<std::size_t>(p)], p * kPanelRows, columns_of_B);
+  for (const std::size_t p : panels_from(3 * starts.front(), order)) {
+    sums.add_panel(panels_[p], top_of(p), columns_of_B);
   }
   sums.write(product, columns_of_B);
 }
@@ -73,8 +86,8 @@ void FilterCovariance::head_products(std::span<const Eigen::Index> starts,
                                      const Eigen::Ref<const Eigen::MatrixX3d>& B,
                                      Eigen::Ref<Eigen::MatrixXd> product) const {
   SuffixSums sums(starts, B, size_, 0, scratch_);
-  for (Eigen::Index p = panel_of(3 * starts.front()); p * kPanelRows < size_; ++p) {
-    sums.add_head(panels_[static_cast<std::size_t>(p)], p * kPanelRows);
+  for (const std::size_t p : panels_from(3 * starts.front(), PassOrder::forward)) {
+    sums.add_head(panels_[p], top_of(p));
   }
   sums.write(product);
 }
@@ -86,7 +99,7 @@ FilterCovariance::Sides FilterCovariance::side_products(
   const Eigen::Index start = 0;
   SuffixSums sums(std::span(&start, 1), B, size_, 0, scratch_);
   for (std::size_t p = 0; p < panels_.size(); ++p) {
-    const Eigen::Index top = static_cast<Eigen::Index>(p) * kPanelRows;
+    const Eigen::Index top = top_of(p);
     const Eigen::Index rows = std::min(kPanelRows, size_ - top);
     sides.before.middleRows(top, rows) = sums.take_sides(panels_[p], top).topRows(rows);
     // The tile on the diagonal, block by block.
@@ -103,10 +116,9 @@ FilterCovariance::Sides FilterCovariance::side_products(
   return sides;
 }
 
-// From the last panel, where the products before have ended.
-void FilterCovariance::downdate(const Eigen::Ref<const Eigen::MatrixXd>& V,
-                                Eigen::Index first_row) {
-  for (std::size_t p = panels_.size(); p-- > 0;) downdate_rows(p, first_row, V);
+void FilterCovariance::downdate(const Eigen::Ref<const Eigen::MatrixXd>& V, Eigen::Index first_row,
+                                PassOrder order) {
+  for (const std::size_t p : panels_from(first_row, order)) downdate_rows(p, first_row, V);
 }
 
 // Panel after panel, so that a panel stays in the cache for all factors.
@@ -118,7 +130,7 @@ void FilterCovariance::downdate(std::span<const DowndateFactor> factors) {
 
 void FilterCovariance::downdate_rows(std::size_t panel, Eigen::Index first_row,
                                      const Eigen::Ref<const Eigen::MatrixXd>& V) {
-  const Eigen::Index top = static_cast<Eigen::Index>(panel) * kPanelRows;
+  const Eigen::Index top = top_of(panel);
   const Eigen::Index end_row = first_row + V.rows();
   const Eigen::Index begin = std::max(first_row, top);
   const Eigen::Index end = std::min(end_row, top + kPanelRows);

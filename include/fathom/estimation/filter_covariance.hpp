@@ -19,6 +19,10 @@ struct DowndateFactor {
   Eigen::Index end_row() const { return first_row + V.rows(); }
 };
 
+/// Whether a pass over a triangle starts with its first rows or with its last. For what the cache
+/// still holds, and for rounding, it matters; for nothing else.
+enum class PassOrder { forward, backward };
+
 /// The dense symmetric covariance of a filter whose state grows by blocks of three. Only the lower
 /// triangle is stored and touched, so it is symmetric by construction. It grows without being
 /// copied; every pass below reads the triangle once, in the order in which it lies in memory
@@ -49,7 +53,8 @@ class FilterCovariance {
   /// Not from two threads at once: they share what the sums take.
   void suffix_products(std::span<const Eigen::Index> starts,
                        const Eigen::Ref<const Eigen::MatrixX3d>& B,
-                       Eigen::Ref<Eigen::MatrixXd> product, int columns_of_B = 3) const;
+                       Eigen::Ref<Eigen::MatrixXd> product, int columns_of_B = 3,
+                       PassOrder order = PassOrder::forward) const;
   void head_products(std::span<const Eigen::Index> starts,
                      const Eigen::Ref<const Eigen::MatrixX3d>& B,
                      Eigen::Ref<Eigen::MatrixXd> product) const;
@@ -65,7 +70,8 @@ class FilterCovariance {
   /// P ← P − V Vᵀ, V being zero but for its rows from first_row on. With V = P Hᵀ L⁻ᵀ and S = L Lᵀ
   /// it is the Kalman update, symmetric and without a general inverse; P − (P Hᵀ) S⁻¹ (P Hᵀ)ᵀ by a
   /// general solve loses definiteness after some hundred loops.
-  void downdate(const Eigen::Ref<const Eigen::MatrixXd>& V, Eigen::Index first_row = 0);
+  void downdate(const Eigen::Ref<const Eigen::MatrixXd>& V, Eigen::Index first_row = 0,
+                PassOrder order = PassOrder::forward);
 
   /// Several at once, one after the other; none reaches beyond size().
   void downdate(std::span<const DowndateFactor> factors);
@@ -79,6 +85,8 @@ class FilterCovariance {
  private:
   void downdate_rows(std::size_t panel, Eigen::Index first_row,
                      const Eigen::Ref<const Eigen::MatrixXd>& V);
+  /// Panels that have rows from `row` on.
+  std::vector<std::size_t> panels_from(Eigen::Index row, PassOrder order) const;
   double* element(Eigen::Index row, Eigen::Index column);
   const double* element(Eigen::Index row, Eigen::Index column) const;
 
