@@ -34,8 +34,8 @@ using fathom::MeasurementLog;
 using fathom::Pose;
 using fathom::RelativePose;
 
-constexpr std::size_t kTimedUpdates = 20;
-constexpr std::size_t kRound = 60;  // keyframes in one round of the circle
+constexpr std::size_t kTimedUpdates = 100;  // the middle one at the keyframe that is named
+constexpr std::size_t kRound = 60;          // keyframes in one round of the circle
 
 constexpr double kStepSigmaM = 0.02;
 constexpr double kStepSigmaRad = 0.002;
