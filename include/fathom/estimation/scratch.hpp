@@ -11,7 +11,7 @@ namespace fathom {
 /// quarter of the update itself.
 class Scratch {
  public:
-  /// A matrix with undefined content.
+  /// A matrix with undefined content; of the same shape as before, with the same content.
   Eigen::Map<Eigen::MatrixXd> shaped(Eigen::Index rows, Eigen::Index columns) {
     const auto needed = static_cast<std::size_t>(rows * columns);
     if (numbers_.size() < needed) numbers_.resize(needed + needed / 8);
