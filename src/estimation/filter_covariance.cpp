@@ -1,6 +1,7 @@
 #include "fathom/estimation/filter_covariance.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "panel_kernels.hpp"
 #include "suffix_sums.hpp"
@@ -79,7 +80,7 @@ void FilterCovariance::suffix_products(std::span<const Eigen::Index> starts,
   for (const std::size_t p : panels_from(3 * starts.front(), order)) {
     sums.add_panel(panels_[p], top_of(p), columns_of_B);
   }
-  sums.write(product, columns_of_B);
+  sums.write(std::move(product), columns_of_B);
 }
 
 void FilterCovariance::head_products(std::span<const Eigen::Index> starts,
@@ -89,7 +90,7 @@ void FilterCovariance::head_products(std::span<const Eigen::Index> starts,
   for (const std::size_t p : panels_from(3 * starts.front(), PassOrder::forward)) {
     sums.add_head(panels_[p], top_of(p));
   }
-  sums.write(product);
+  sums.write(std::move(product));
 }
 
 FilterCovariance::Sides FilterCovariance::side_products(

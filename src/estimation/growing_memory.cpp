@@ -12,8 +12,8 @@ namespace {
 constexpr std::size_t kCacheLine = 64;
 // Pages of this size, where the system has them to give, make reading on across their borders as
 // fast as within: a pass over a large triangle takes a third less.
-constexpr std::size_t kHugePage = 2 * 1024 * 1024;
-constexpr std::size_t kSmallest = 64 * 1024;
+constexpr std::size_t kHugePage = std::size_t{2} * 1024 * 1024;
+constexpr std::size_t kSmallest = std::size_t{64} * 1024;
 
 std::size_t rounded_up(std::size_t bytes, std::size_t unit) {
   return (bytes + unit - 1) / unit * unit;
