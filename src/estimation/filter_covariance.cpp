@@ -1,7 +1,6 @@
 #include "fathom/estimation/filter_covariance.hpp"
 
 #include <algorithm>
-#include <utility>
 
 #include "panel_kernels.hpp"
 #include "suffix_sums.hpp"
@@ -80,7 +79,7 @@ void FilterCovariance::suffix_products(std::span<const Eigen::Index> starts,
   for (const std::size_t p : panels_from(3 * starts.front(), order)) {
     sums.add_panel(panels_[p], top_of(p), columns_of_B);
   }
-  sums.write(std::move(product), columns_of_B);
+  sums.write(product, columns_of_B);
 }
 
 void FilterCovariance::head_products(std::span<const Eigen::Index> starts,
@@ -90,7 +89,7 @@ void FilterCovariance::head_products(std::span<const Eigen::Index> starts,
   for (const std::size_t p : panels_from(3 * starts.front(), PassOrder::forward)) {
     sums.add_head(panels_[p], top_of(p));
   }
-  sums.write(std::move(product));
+  sums.write(product);
 }
 
 FilterCovariance::Sides FilterCovariance::side_products(
@@ -111,7 +110,8 @@ FilterCovariance::Sides FilterCovariance::side_products(
       sides.after.middleRows<3>(i) = row.rightCols(after) * B.middleRows(i + 3, after);
     }
   }
-  Eigen::MatrixXd below(size_, 3);
+  Eigen::MatrixXd below_diagonal(size_, 3);
+  Eigen::Ref<Eigen::MatrixXd> below(below_diagonal);
   sums.write(below);
   sides.after += below;
   return sides;

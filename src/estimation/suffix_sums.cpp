@@ -96,7 +96,7 @@ Eigen::MatrixX3d SuffixSums::take_sides(const double* panel, Eigen::Index top) {
   return row_sums;
 }
 
-void SuffixSums::write(Eigen::Ref<Eigen::MatrixXd> product, int columns_of_B) const {
+void SuffixSums::write(Eigen::Ref<Eigen::MatrixXd>& product, int columns_of_B) const {
   const std::size_t segments = cuts_.size() - 1;
   for (Eigen::Index row = 0; row < product.rows(); ++row) {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();

@@ -29,7 +29,7 @@ class SuffixSums {
 
   /// The rows from first_row on, as many as `product` has, and the first columns_of_B of the three
   /// columns of each start; the other is left as it is.
-  void write(Eigen::Ref<Eigen::MatrixXd> product, int columns_of_B = 3) const;
+  void write(Eigen::Ref<Eigen::MatrixXd>& product, int columns_of_B = 3) const;
 
  private:
   using PanelRows = Eigen::Matrix<double, kPanelRows, 3>;
