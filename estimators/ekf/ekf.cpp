@@ -144,8 +144,10 @@ Outcome Ekf::update(std::span<const Innovation> accepted) {
   if (!nu.allFinite() || llt.info() != Eigen::Success) return Outcome::numerical_failure;
   const Eigen::VectorXd lambda = llt.solve(nu);
   const Eigen::VectorXd dx = PHt * lambda;
-  const Eigen::MatrixXd W = llt.matrixL().solve(PHt.transpose());
-  if (!dx.allFinite() || !W.allFinite()) return Outcome::numerical_failure;
+  // V = P Hᵀ L⁻ᵀ.
+  Eigen::MatrixXd V = PHt;
+  llt.matrixU().solveInPlace<Eigen::OnTheRight>(V);
+  if (!dx.allFinite() || !V.allFinite()) return Outcome::numerical_failure;
 
   const std::vector<Pose> before = poses_;
   for (std::size_t k = 1; k < poses_.size(); ++k) {
@@ -161,7 +163,7 @@ Outcome Ekf::update(std::span<const Innovation> accepted) {
     poses_ = before;
     return std::isfinite(cost) ? Outcome::diverged : Outcome::numerical_failure;
   }
-  P_.downdate(W);
+  P_.downdate(V);
   return Outcome::converged;
 }
 

@@ -6,17 +6,12 @@
 
 #include <Eigen/Cholesky>
 
-#include "estimators/trajectory_iekf/stretch.hpp"
-#include "fathom/geometry/covariance.hpp"
-
 namespace fathom {
 
-/// z − h and H of the stacked registrations at one iterate, and S = H P Hᵀ + R factored.
+/// z − h and H of the stacked registrations at one iterate, and S = H P Hᵀ + R.
 struct TrajectoryIekf::Linearisation {
-  std::size_t first = 0;  ///< the stretch starts after this keyframe
-  Eigen::VectorXd nu;     ///< z − h(x), headings wrapped
-  Eigen::MatrixXd H;      ///< over the stretch only; zero elsewhere
-  Eigen::MatrixXd PHt;    ///< rows of the stretch only
+  Eigen::VectorXd nu;  ///< z − h(x), headings wrapped
+  StackedJacobian H;   ///< over the stretch only; zero elsewhere
   Eigen::MatrixXd S;
 };
 
@@ -35,6 +30,12 @@ namespace {
 // above it at times (on ring, twice up to 1.5 times), which is for `iteration_limit` to say.
 constexpr double kDivergence = 10.0;
 
+std::vector<std::size_t> froms_of(std::span<const RelativePose> loops) {
+  std::vector<std::size_t> froms;
+  for (const RelativePose& loop : loops) froms.push_back(loop.from);
+  return froms;
+}
+
 std::size_t earliest_from(std::span<const RelativePose> loops) {
   std::size_t first = loops.front().from;
   for (const RelativePose& loop : loops) first = std::min(first, loop.from);
@@ -49,6 +50,24 @@ Eigen::Vector3d innovation(const RelativePose& loop, const Stretch& stretch) {
   Eigen::Vector3d nu = loop.motion.vector() - stretch.h(loop.from).vector();
   nu.z() = wrap_angle(nu.z());
   return nu;
+}
+
+Eigen::VectorXd innovations(std::span<const RelativePose> loops, const Stretch& stretch) {
+  Eigen::VectorXd nu(static_cast<Eigen::Index>(3 * loops.size()));
+  for (std::size_t j = 0; j < loops.size(); ++j) {
+    nu.segment<3>(static_cast<Eigen::Index>(3 * j)) = innovation(loops[j], stretch);
+  }
+  return nu;
+}
+
+// ν(x)ᵀ R⁻¹ ν(x).
+double misfit(std::span<const RelativePose> loops, const Eigen::VectorXd& nu) {
+  double sum = 0.0;
+  for (std::size_t j = 0; j < loops.size(); ++j) {
+    sum += normalised_innovation_squared(nu.segment<3>(static_cast<Eigen::Index>(3 * j)),
+                                         loops[j].covariance());
+  }
+  return sum;
 }
 
 Stretch stretch_at(const std::vector<Pose>& motions, std::size_t first,
@@ -72,8 +91,9 @@ void TrajectoryIekfOptions::describe(OptionTable& table) {
   gate.describe(table);
 }
 
-TrajectoryIekf::TrajectoryIekf(const EstimatorSetup& setup, const TrajectoryIekfOptions& options)
-    : options_(options), gate_(options.gate), poses_{setup.origin} {}
+TrajectoryIekf::TrajectoryIekf(const EstimatorSetup& setup, const TrajectoryIekfOptions& options,
+                               MotionCovariance::Form form)
+    : options_(options), gate_(options.gate), poses_{setup.origin}, P_(form) {}
 
 void TrajectoryIekf::add_keyframe(const RelativePose& step) {
   const RelativePose u = step.forward();
@@ -84,25 +104,25 @@ void TrajectoryIekf::add_keyframe(const RelativePose& step) {
 }
 
 TrajectoryIekf::Linearisation TrajectoryIekf::linearise(std::span<const RelativePose> loops,
-                                                        std::size_t first,
-                                                        const Eigen::VectorXd& delta) const {
-  const auto rows = static_cast<Eigen::Index>(3 * loops.size());
-  const Stretch stretch = stretch_at(motions_, first, delta);
-  Linearisation at;
-  at.first = first;
-  at.nu.resize(rows);
-  at.H.resize(rows, delta.size());
-  for (Eigen::Index j = 0; j < rows; j += 3) {
-    const RelativePose& loop = loops[static_cast<std::size_t>(j / 3)];
-    at.nu.segment<3>(j) = innovation(loop, stretch);
-    at.H.middleRows<3>(j) = stretch.H(loop.from);
+                                                        const Eigen::VectorXd& delta,
+                                                        int iteration) {
+  const Stretch stretch = stretch_at(motions_, earliest_from(loops), delta);
+  StackedJacobian H(stretch, froms_of(loops));
+  auto sums = sums_.shaped(delta.size(), static_cast<Eigen::Index>(3 * H.starts().size()));
+  // A turn of a motion turns the newest keyframe as much, wherever H is taken: the third column of
+  // Aᵀ is the same for all iterates.
+  P_.suffix_products(H.starts(), H.A_transposed(), sums, iteration);
+  return multiplied(loops, innovations(loops, stretch), std::move(H));
+}
+
+// S = H P Hᵀ + R, with P Hᵀ = (P Aᵀ from each start on) E.
+TrajectoryIekf::Linearisation TrajectoryIekf::multiplied(std::span<const RelativePose> loops,
+                                                         Eigen::VectorXd nu, StackedJacobian H) {
+  Eigen::MatrixXd S = H.times(sums_.matrix()) * H.ends();
+  for (Eigen::Index row = 0; row < nu.size(); row += 3) {
+    S.block<3, 3>(row, row) += loops[static_cast<std::size_t>(row / 3)].covariance();
   }
-  at.PHt = P_.tail_times(static_cast<Eigen::Index>(first), at.H.transpose());
-  at.S = at.H * at.PHt;
-  for (Eigen::Index j = 0; j < rows; j += 3) {
-    at.S.block<3, 3>(j, j) += loops[static_cast<std::size_t>(j / 3)].covariance();
-  }
-  return at;
+  return {std::move(nu), std::move(H), std::move(S)};
 }
 
 UpdateReport TrajectoryIekf::close_loops(std::span<const RelativePose> registrations) {
@@ -120,18 +140,36 @@ UpdateReport TrajectoryIekf::close_loops(std::span<const RelativePose> registrat
     std::size_t j = 0;
     std::erase_if(loops, [&](const RelativePose&) { return !passes[j++]; });
     if (loops.empty()) return report;
-    prior = linearise_prior(loops);
+    prior = narrowed(prior, loops);
   }
   report.outcome = iterate(loops, std::move(prior), report);
   if (!is_done(report.outcome)) lose_all(report, report.outcome);
   return report;
 }
 
-TrajectoryIekf::Linearisation TrajectoryIekf::linearise_prior(
-    std::span<const RelativePose> loops) const {
+TrajectoryIekf::Linearisation TrajectoryIekf::linearise_prior(std::span<const RelativePose> loops) {
+  const auto length = static_cast<Eigen::Index>(3 * (motions_.size() - earliest_from(loops)));
+  return linearise(loops, Eigen::VectorXd::Zero(length), 1);
+}
+
+// The prior's linearisation for the registrations that are left of those it was made for. As long
+// as they begin with the same motion the products with P are there already.
+TrajectoryIekf::Linearisation TrajectoryIekf::narrowed(const Linearisation& prior,
+                                                       std::span<const RelativePose> loops) {
   const std::size_t first = earliest_from(loops);
-  const auto length = static_cast<Eigen::Index>(3 * (motions_.size() - first));
-  return linearise(loops, first, Eigen::VectorXd::Zero(length));
+  if (static_cast<Eigen::Index>(first) != prior.H.starts().front()) return linearise_prior(loops);
+  const Stretch stretch(first, std::span(motions_).subspan(first));
+  StackedJacobian H(stretch, froms_of(loops));
+  auto sums = sums_.matrix();
+  Eigen::Index column = 0;
+  for (const Eigen::Index start : H.starts()) {
+    const auto was = std::find(prior.H.starts().begin(), prior.H.starts().end(), start);
+    const auto column_was = 3 * static_cast<Eigen::Index>(was - prior.H.starts().begin());
+    if (column_was != column) sums.middleCols<3>(column) = sums.middleCols<3>(column_was);
+    column += 3;
+  }
+  sums_.keep_columns(column);
+  return multiplied(loops, innovations(loops, stretch), std::move(H));
 }
 
 std::vector<bool> TrajectoryIekf::gate_loops(const Linearisation& prior,
@@ -149,79 +187,85 @@ std::vector<bool> TrajectoryIekf::gate_loops(const Linearisation& prior,
   return passes;
 }
 
+// The products of P with the present linearisation are in sums_.
 Outcome TrajectoryIekf::iterate(std::span<const RelativePose> loops, Linearisation at,
                                 UpdateReport& report) {
-  const std::size_t first = at.first;
-  const Eigen::Index length = at.H.cols();
-  Iterate x{Eigen::VectorXd::Zero(length), Eigen::VectorXd::Zero(length)};
-  x.cost = cost(loops, first, x);
+  const Eigen::Index length = sums_.matrix().rows();
+  Iterate x{Eigen::VectorXd::Zero(length), Eigen::VectorXd::Zero(length), misfit(loops, at.nu)};
   const double prior_cost = x.cost;
   Outcome outcome = Outcome::iteration_limit;
   for (report.iterations = 1; true; ++report.iterations) {
-    if (report.iterations > 1) at = linearise(loops, first, x.delta);
+    if (report.iterations > 1) at = linearise(loops, x.delta, report.iterations);
     const Eigen::LLT<Eigen::MatrixXd> S(at.S);
     if (!at.nu.allFinite() || S.info() != Eigen::Success) return Outcome::numerical_failure;
     // x⁽ⁱ⁺¹⁾ = x⁽⁰⁾ + P Hᵀ S⁻¹ (z − h(x⁽ⁱ⁾) − H (x⁽⁰⁾ − x⁽ⁱ⁾)): always from the prior, with h and H
     // of the present iterate.
-    const Eigen::VectorXd lambda = S.solve(at.nu + at.H * x.delta);
-    Iterate next{at.PHt * lambda, at.H.transpose() * lambda};
+    const Eigen::VectorXd lambda = S.solve(at.nu + at.H.times(x.delta));
+    Iterate next{sums_.matrix() * (at.H.ends() * lambda), at.H.transposed_times(lambda)};
     if (!next.delta.allFinite()) return Outcome::numerical_failure;
     const double step = (next.delta - x.delta).cwiseAbs().maxCoeff();
-    const bool lowered = !options_.safeguard || step_back(loops, first, x, next);
+    const bool lowered = !options_.safeguard || step_back(loops, x, next);
     x = std::move(next);
     // A step that no halving makes lower is one of rounding: the gradient is zero as far as it
     // shows.
     if (step < options_.tolerance || !lowered) outcome = Outcome::converged;
     if (outcome == Outcome::converged || report.iterations >= options_.max_iterations) break;
   }
-  const double end_cost = cost(loops, first, x);
+  const double end_cost = cost(loops, x);
   if (!std::isfinite(end_cost)) return Outcome::numerical_failure;
   if (end_cost > kDivergence * std::max(prior_cost, 1.0)) return Outcome::diverged;
-  return apply(at, x) ? outcome : Outcome::numerical_failure;
+  return apply(at, x, report.iterations) ? outcome : Outcome::numerical_failure;
 }
 
-double TrajectoryIekf::cost(std::span<const RelativePose> loops, std::size_t first,
-                            const Iterate& at) const {
-  const Stretch stretch = stretch_at(motions_, first, at.delta);
-  double sum = at.delta.dot(at.u);
-  for (const RelativePose& loop : loops) {
-    sum += normalised_innovation_squared(innovation(loop, stretch), loop.covariance());
-  }
-  return sum;
+double TrajectoryIekf::cost(std::span<const RelativePose> loops, const Iterate& at) const {
+  const Stretch stretch = stretch_at(motions_, earliest_from(loops), at.delta);
+  return at.delta.dot(at.u) + misfit(loops, innovations(loops, stretch));
 }
 
 // The full step minimises the linearised cost; the first of 1, ½, ¼ … of it that does not raise the
 // true one is taken. False, and no step, if rounding leaves none.
-bool TrajectoryIekf::step_back(std::span<const RelativePose> loops, std::size_t first,
-                               const Iterate& from, Iterate& to) const {
+bool TrajectoryIekf::step_back(std::span<const RelativePose> loops, const Iterate& from,
+                               Iterate& to) const {
   const Iterate full = to;
   constexpr int kHalvings = 40;
   double share = 1.0;
   for (int i = 0; i < kHalvings; ++i, share *= 0.5) {
     to.delta = from.delta + share * (full.delta - from.delta);
     to.u = from.u + share * (full.u - from.u);
-    to.cost = cost(loops, first, to);
+    to.cost = cost(loops, to);
     if (to.cost <= from.cost) return true;
   }
   to = from;
   return false;
 }
 
-// The covariance is updated once, with the H of the last linearisation.
-bool TrajectoryIekf::apply(const Linearisation& last, const Iterate& end) {
-  const auto first = static_cast<Eigen::Index>(last.first);
-  Eigen::MatrixXd Ht_u(last.H.cols(), last.H.rows() + 1);
-  Ht_u << last.H.transpose(), end.u;
-  const Eigen::MatrixXd product = P_.times(first, Ht_u);
-  const auto PHt = product.leftCols(last.H.rows());
-  const Eigen::VectorXd dx = product.rightCols<1>();
-  const Eigen::LLT<Eigen::MatrixXd> S(last.S);
-  const Eigen::MatrixXd W = S.matrixL().solve(PHt.transpose());
-  if (!dx.allFinite() || !W.allFinite()) return false;
-  for (std::size_t i = 0; i < motions_.size(); ++i) {
-    motions_[i] = moved(motions_[i], dx.segment<3>(static_cast<Eigen::Index>(3 * i)));
+// The covariance is updated once, with the H of the last linearisation. On the stretch δ and P Hᵀ
+// are known; the motions before it move as far as they are correlated with it.
+bool TrajectoryIekf::apply(const Linearisation& last, const Iterate& end, int iterations) {
+  const Eigen::Index start = last.H.starts().front();
+  const Eigen::Index begin = P_.first_correlated(start);
+  const Eigen::Index head = 3 * (start - begin);
+  const Eigen::Index tail = end.delta.size();
+  Eigen::VectorXd dx(head + tail);
+  dx.tail(tail) = end.delta;
+  auto V = V_.shaped(head + tail, last.nu.size());
+  V.bottomRows(tail).noalias() = sums_.matrix() * last.H.ends();
+  if (head > 0) {
+    V.topRows(head).noalias() =
+        P_.head_products(last.H.starts(), last.H.A_transposed()) * last.H.ends();
+    Eigen::MatrixX3d u = Eigen::MatrixX3d::Zero(tail, 3);
+    u.col(0) = end.u;
+    dx.head(head) = P_.head_products(last.H.starts().first(1), u).col(0);
   }
-  P_.downdate(W);
+  // V = P Hᵀ L⁻ᵀ.
+  const Eigen::LLT<Eigen::MatrixXd> S(last.S);
+  S.matrixU().solveInPlace<Eigen::OnTheRight>(V);
+  if (!dx.allFinite() || !V.allFinite()) return false;
+  for (std::size_t i = static_cast<std::size_t>(begin); i < motions_.size(); ++i) {
+    const Eigen::Index row = 3 * (static_cast<Eigen::Index>(i) - begin);
+    motions_[i] = moved(motions_[i], dx.segment<3>(row));
+  }
+  P_.downdate(V, iterations);
   recompose();
   return true;
 }
@@ -229,59 +273,6 @@ bool TrajectoryIekf::apply(const Linearisation& last, const Iterate& end) {
 void TrajectoryIekf::recompose() {
   poses_ = compose_trajectory(poses_.front(), motions_);
   covariances_.clear();
-}
-
-// X_k = X_{k−1} ⊕ x_k. Beside the covariance Σ of X_k its cross covariance M with all later motions
-// is carried along: n² steps for all poses, where mapping each by its own Jacobian takes n³.
-void TrajectoryIekf::compute_covariances() {
-  const Eigen::Index n = P_.size();
-  Eigen::Matrix3d Sigma = Eigen::Matrix3d::Zero();
-  Eigen::Matrix3Xd M = Eigen::Matrix3Xd::Zero(3, n);
-  covariances_.assign(1, Sigma);
-  for (Eigen::Index k = 0; 3 * k < n; ++k) {
-    Eigen::Matrix3d J_pose;
-    Eigen::Matrix3d J_motion;
-    const auto index = static_cast<std::size_t>(k);
-    compose(poses_[index], motions_[index], &J_pose, &J_motion);
-    const Eigen::Matrix3d cross = J_pose * M.middleCols<3>(3 * k) * J_motion.transpose();
-    Sigma =
-        transport(J_pose, Sigma) + cross + cross.transpose() + transport(J_motion, P_.block(k, k));
-    const Eigen::Index later = n - 3 * (k + 1);
-    M.rightCols(later) =
-        (J_pose * M.rightCols(later) + J_motion * P_.column(k).bottomRows(later).transpose())
-            .eval();
-    covariances_.push_back(Sigma);
-  }
-}
-
-std::optional<Eigen::Matrix3d> TrajectoryIekf::covariance(std::size_t k) {
-  if (covariances_.empty()) compute_covariances();
-  return covariances_[k];
-}
-
-// r_k = x_{k+1} ⊕ r_{k+1}, from the newest keyframe backwards. Beside the covariance Σ of r its
-// cross covariance M with all earlier motions is carried along: n² steps for all, where J P Jᵀ of
-// each stretch by itself takes n³.
-std::optional<std::vector<UncertainPose>> TrajectoryIekf::motions_to_newest() const {
-  std::vector<UncertainPose> motions(motions_.size());
-  UncertainPose rest;
-  Eigen::Matrix3Xd M = Eigen::Matrix3Xd::Zero(3, P_.size());
-  for (std::size_t k = motions_.size(); k-- > 0;) {
-    Eigen::Matrix3d J_motion;
-    Eigen::Matrix3d J_rest;
-    const Pose motion = compose(motions_[k], rest.mean, &J_motion, &J_rest);
-    const auto block = static_cast<Eigen::Index>(k);
-    const Eigen::Matrix3d cross =
-        J_motion * M.middleCols<3>(3 * block).transpose() * J_rest.transpose();
-    const Eigen::Matrix3d covariance = transport(J_motion, P_.block(block, block)) + cross +
-                                       cross.transpose() + transport(J_rest, rest.covariance);
-    rest = motions[k] = {motion, covariance};
-    const Eigen::Index earlier = 3 * block;
-    M.leftCols(earlier) =
-        (J_rest * M.leftCols(earlier) + J_motion * P_.column(block).topRows(earlier).transpose())
-            .eval();
-  }
-  return motions;
 }
 
 EstimatorEntry trajectory_iekf_entry() {

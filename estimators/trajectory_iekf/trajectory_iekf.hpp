@@ -4,8 +4,9 @@
 
 #include <Eigen/Core>
 
+#include "estimators/trajectory_iekf/motion_covariance.hpp"
+#include "estimators/trajectory_iekf/stretch.hpp"
 #include "fathom/estimation/estimator.hpp"
-#include "fathom/estimation/filter_covariance.hpp"
 #include "fathom/estimation/gate.hpp"
 #include "fathom/estimation/registry.hpp"
 
@@ -25,7 +26,9 @@ struct TrajectoryIekfOptions {
 /// corrects every motion in it. docs/estimators/trajectory_iekf.md.
 class TrajectoryIekf final : public Estimator {
  public:
-  TrajectoryIekf(const EstimatorSetup& setup, const TrajectoryIekfOptions& options);
+  /// The form of the covariance changes what it costs alone.
+  TrajectoryIekf(const EstimatorSetup& setup, const TrajectoryIekfOptions& options,
+                 MotionCovariance::Form form = MotionCovariance::Form::cheapest);
 
   /// State augmentation: the dead-reckoning motion and its covariance block.
   void add_keyframe(const RelativePose& step) override;
@@ -39,23 +42,25 @@ class TrajectoryIekf final : public Estimator {
   /// J P Jᵀ of the stretch from each keyframe on.
   std::optional<std::vector<UncertainPose>> motions_to_newest() const override;
   /// P of the whole state.
-  const FilterCovariance& state_covariance() const { return P_; }
+  const MotionCovariance& state_covariance() const { return P_; }
 
  private:
   struct Linearisation;
   struct Iterate;
 
-  Linearisation linearise(std::span<const RelativePose> loops, std::size_t first,
-                          const Eigen::VectorXd& delta) const;
-  Linearisation linearise_prior(std::span<const RelativePose> loops) const;
+  Linearisation linearise(std::span<const RelativePose> loops, const Eigen::VectorXd& delta,
+                          int iteration);
+  Linearisation linearise_prior(std::span<const RelativePose> loops);
+  Linearisation narrowed(const Linearisation& prior, std::span<const RelativePose> loops);
+  Linearisation multiplied(std::span<const RelativePose> loops, Eigen::VectorXd nu,
+                           StackedJacobian H);
   std::vector<bool> gate_loops(const Linearisation& prior,
                                std::span<const RelativePose> registrations,
                                UpdateReport& report) const;
   Outcome iterate(std::span<const RelativePose> loops, Linearisation at, UpdateReport& report);
-  double cost(std::span<const RelativePose> loops, std::size_t first, const Iterate& at) const;
-  bool step_back(std::span<const RelativePose> loops, std::size_t first, const Iterate& from,
-                 Iterate& to) const;
-  bool apply(const Linearisation& last, const Iterate& end);
+  double cost(std::span<const RelativePose> loops, const Iterate& at) const;
+  bool step_back(std::span<const RelativePose> loops, const Iterate& from, Iterate& to) const;
+  bool apply(const Linearisation& last, const Iterate& end, int iterations);
   void recompose();
   void compute_covariances();
 
@@ -63,7 +68,10 @@ class TrajectoryIekf final : public Estimator {
   Gate gate_;
   std::vector<Pose> motions_;  ///< x_k of keyframe k stands at k − 1
   std::vector<Pose> poses_;    ///< their composition
-  FilterCovariance P_;
+  MotionCovariance P_;
+  // Of the present linearisation; there is one at a time. The rows are those of the stretch.
+  Scratch sums_;  ///< P Aᵀ, over the motions from each start on
+  Scratch V_;
   std::vector<Eigen::Matrix3d> covariances_;  ///< of the poses; empty: to be computed
 };
 

@@ -1,102 +1,158 @@
 #include "fathom/estimation/filter_covariance.hpp"
 
 #include <algorithm>
-#include <cblas.h>
+
+#include "panel_kernels.hpp"
+#include "suffix_sums.hpp"
 
 namespace fathom {
 namespace {
 
-// C += op(A) B through BLAS, op(A) being rows×inner; B and C are parts, starting at b and c, of
-// matrices with as many columns as there are in B.
-void add_product(CBLAS_TRANSPOSE op, Eigen::Index rows, Eigen::Index inner, const double* a,
-                 Eigen::Index a_stride, const double* b, const Eigen::MatrixXd& B, double* c,
-                 const Eigen::MatrixXd& C) {
-  if (rows == 0 || inner == 0 || B.cols() == 0) return;
-  cblas_dgemm(CblasColMajor, op, CblasNoTrans, static_cast<int>(rows), static_cast<int>(B.cols()),
-              static_cast<int>(inner), 1.0, a, static_cast<int>(a_stride), b,
-              static_cast<int>(B.outerStride()), 1.0, c, static_cast<int>(C.outerStride()));
+using Tile = Eigen::Map<Eigen::MatrixXd, Eigen::Unaligned, Eigen::OuterStride<kPanelRows>>;
+using ConstTile =
+    Eigen::Map<const Eigen::MatrixXd, Eigen::Unaligned, Eigen::OuterStride<kPanelRows>>;
+
+Eigen::Index panel_of(Eigen::Index row) {
+  return row / kPanelRows;
+}
+
+Eigen::Index top_of(std::size_t panel) {
+  return static_cast<Eigen::Index>(panel) * kPanelRows;
 }
 
 }  // namespace
 
-void FilterCovariance::reserve(Eigen::Index rows) {
-  if (rows <= storage_.rows()) return;
-  // An eighth more: all copies together cost a few times the last, and memory stays near what the
-  // state needs.
-  const Eigen::Index capacity = std::max<Eigen::Index>(rows + rows / 8, 96);
-  Eigen::MatrixXd larger(capacity, capacity);
-  larger.topLeftCorner(size_, size_).triangularView<Eigen::Lower>() =
-      storage_.topLeftCorner(size_, size_);
-  storage_.swap(larger);
+std::vector<std::size_t> FilterCovariance::panels_from(Eigen::Index row, PassOrder order) const {
+  std::vector<std::size_t> panels;
+  for (auto p = static_cast<std::size_t>(panel_of(row)); p < panels_.size(); ++p) {
+    panels.push_back(p);
+  }
+  if (order == PassOrder::backward) std::reverse(panels.begin(), panels.end());
+  return panels;
+}
+
+double* FilterCovariance::element(Eigen::Index row, Eigen::Index column) {
+  return panels_[static_cast<std::size_t>(panel_of(row))] + kPanelRows * column + row % kPanelRows;
+}
+
+const double* FilterCovariance::element(Eigen::Index row, Eigen::Index column) const {
+  return panels_[static_cast<std::size_t>(panel_of(row))] + kPanelRows * column + row % kPanelRows;
 }
 
 void FilterCovariance::append(const Eigen::Matrix3d& covariance) {
-  append(Eigen::Matrix3Xd::Zero(3, size_), covariance);
-}
-
-void FilterCovariance::append(const Eigen::Matrix3Xd& cross, const Eigen::Matrix3d& covariance) {
-  reserve(size_ + 3);
-  storage_.block(size_, 0, 3, size_) = cross;
-  storage_.block<3, 3>(size_, size_) = covariance;
+  if (size_ % kPanelRows == 0) {
+    panels_.push_back(memory_.take(static_cast<std::size_t>(kPanelRows * (size_ + kPanelRows))));
+  }
+  Tile(element(size_, size_), 3, 3) = covariance.selfadjointView<Eigen::Lower>();
   size_ += 3;
 }
 
+void FilterCovariance::append(const Eigen::Matrix3Xd& cross, const Eigen::Matrix3d& covariance) {
+  const Eigen::Index row = size_;
+  append(covariance);
+  Tile(element(row, 0), 3, row) = cross;
+  const Eigen::Index tile = panel_of(row) * kPanelRows;
+  Tile(element(tile, row), row - tile, 3) = cross.rightCols(row - tile).transpose();
+}
+
 Eigen::Matrix3d FilterCovariance::block(Eigen::Index i, Eigen::Index j) const {
-  if (i == j) return storage_.block<3, 3>(3 * i, 3 * i).selfadjointView<Eigen::Lower>();
-  if (i > j) return storage_.block<3, 3>(3 * i, 3 * j);
-  return storage_.block<3, 3>(3 * j, 3 * i).transpose();
+  if (i >= j) return ConstTile(element(3 * i, 3 * j), 3, 3);
+  return ConstTile(element(3 * j, 3 * i), 3, 3).transpose();
 }
 
 Eigen::MatrixX3d FilterCovariance::column(Eigen::Index j) const {
-  const Eigen::Index below = size_ - 3 * (j + 1);
   Eigen::MatrixX3d column(size_, 3);
-  column.topRows(3 * j) = storage_.block(3 * j, 0, 3, 3 * j).transpose();
-  column.middleRows<3>(3 * j) = block(j, j);
-  column.bottomRows(below) = storage_.block(3 * (j + 1), 3 * j, below, 3);
+  column.topRows(3 * j) = ConstTile(element(3 * j, 0), 3, 3 * j).transpose();
+  for (Eigen::Index row = 3 * j; row < size_;) {
+    const Eigen::Index rows = std::min((panel_of(row) + 1) * kPanelRows, size_) - row;
+    column.middleRows(row, rows) = ConstTile(element(row, 3 * j), rows, 3);
+    row += rows;
+  }
   return column;
 }
 
-Eigen::MatrixXd FilterCovariance::tail_times(Eigen::Index first, const Eigen::MatrixXd& B) const {
-  // Panels of columns, each used twice while in cache: once for the rows below the diagonal, once
-  // transposed for those right of it. Reads the triangle once; BLAS' own symmetric product takes
-  // three times as long for so narrow a B.
-  constexpr Eigen::Index kPanel = 32;
-  const Eigen::Index head = 3 * first;
-  const Eigen::Index tail = size_ - head;
-  Eigen::MatrixXd product = Eigen::MatrixXd::Zero(tail, B.cols());
-  for (Eigen::Index j = 0; j < tail; j += kPanel) {
-    const Eigen::Index width = std::min(kPanel, tail - j);
-    const Eigen::Index below = tail - j - width;
-    product.middleRows(j, width).noalias() +=
-        storage_.block(head + j, head + j, width, width).selfadjointView<Eigen::Lower>() *
-        B.middleRows(j, width);
-    const double* panel = storage_.data() + head + j + width + (head + j) * storage_.outerStride();
-    add_product(CblasTrans, width, below, panel, storage_.outerStride(), B.data() + j + width, B,
-                product.data() + j, product);
-    add_product(CblasNoTrans, below, width, panel, storage_.outerStride(), B.data() + j, B,
-                product.data() + j + width, product);
+void FilterCovariance::suffix_products(std::span<const Eigen::Index> starts,
+                                       const Eigen::Ref<const Eigen::MatrixX3d>& B,
+                                       Eigen::Ref<Eigen::MatrixXd> product, int columns_of_B,
+                                       PassOrder order) const {
+  SuffixSums sums(starts, B, size_, 3 * starts.front(), scratch_);
+  for (const std::size_t p : panels_from(3 * starts.front(), order)) {
+    sums.add_panel(panels_[p], top_of(p), columns_of_B);
   }
-  return product;
+  sums.write(product, columns_of_B);
 }
 
-Eigen::MatrixXd FilterCovariance::times(Eigen::Index first, const Eigen::MatrixXd& B) const {
-  const Eigen::Index head = 3 * first;
-  Eigen::MatrixXd product = Eigen::MatrixXd::Zero(size_, B.cols());
-  product.bottomRows(size_ - head) = tail_times(first, B);
-  add_product(CblasTrans, head, size_ - head, storage_.data() + head, storage_.outerStride(),
-              B.data(), B, product.data(), product);
-  return product;
+void FilterCovariance::head_products(std::span<const Eigen::Index> starts,
+                                     const Eigen::Ref<const Eigen::MatrixX3d>& B,
+                                     Eigen::Ref<Eigen::MatrixXd> product) const {
+  SuffixSums sums(starts, B, size_, 0, scratch_);
+  for (const std::size_t p : panels_from(3 * starts.front(), PassOrder::forward)) {
+    sums.add_head(panels_[p], top_of(p));
+  }
+  sums.write(product);
 }
 
-void FilterCovariance::downdate(const Eigen::MatrixXd& W) {
-  if (size_ == 0) return;
-  cblas_dsyrk(CblasColMajor, CblasLower, CblasTrans, static_cast<int>(size_),
-              static_cast<int>(W.rows()), -1.0, W.data(), static_cast<int>(W.outerStride()), 1.0,
-              storage_.data(), static_cast<int>(storage_.outerStride()));
+FilterCovariance::Sides FilterCovariance::side_products(
+    const Eigen::Ref<const Eigen::MatrixX3d>& B) const {
+  Sides sides{Eigen::MatrixX3d::Zero(size_, 3), Eigen::MatrixX3d::Zero(size_, 3)};
+  if (size_ == 0) return sides;
+  const Eigen::Index start = 0;
+  SuffixSums sums(std::span(&start, 1), B, size_, 0, scratch_);
+  for (std::size_t p = 0; p < panels_.size(); ++p) {
+    const Eigen::Index top = top_of(p);
+    const Eigen::Index rows = std::min(kPanelRows, size_ - top);
+    sides.before.middleRows(top, rows) = sums.take_sides(panels_[p], top).topRows(rows);
+    // The tile on the diagonal, block by block.
+    for (Eigen::Index i = top; i < top + rows; i += 3) {
+      const ConstTile row(element(i, top), 3, rows);
+      sides.before.middleRows<3>(i) += row.leftCols(i - top) * B.middleRows(top, i - top);
+      const Eigen::Index after = top + rows - (i + 3);
+      sides.after.middleRows<3>(i) = row.rightCols(after) * B.middleRows(i + 3, after);
+    }
+  }
+  Eigen::MatrixXd below_diagonal(size_, 3);
+  Eigen::Ref<Eigen::MatrixXd> below(below_diagonal);
+  sums.write(below);
+  sides.after += below;
+  return sides;
+}
+
+void FilterCovariance::downdate(const Eigen::Ref<const Eigen::MatrixXd>& V, Eigen::Index first_row,
+                                PassOrder order) {
+  for (const std::size_t p : panels_from(first_row, order)) downdate_rows(p, first_row, V);
+}
+
+// Panel after panel, so that a panel stays in the cache for all factors.
+void FilterCovariance::downdate(std::span<const DowndateFactor> factors) {
+  for (std::size_t p = panels_.size(); p-- > 0;) {
+    for (const DowndateFactor& factor : factors) downdate_rows(p, factor.first_row, factor.V);
+  }
+}
+
+void FilterCovariance::downdate_rows(std::size_t panel, Eigen::Index first_row,
+                                     const Eigen::Ref<const Eigen::MatrixXd>& V) {
+  const Eigen::Index top = top_of(panel);
+  const Eigen::Index end_row = first_row + V.rows();
+  const Eigen::Index begin = std::max(first_row, top);
+  const Eigen::Index end = std::min(end_row, top + kPanelRows);
+  if (begin >= end) return;
+  double* const columns = panels_[panel] + kPanelRows * first_row;
+  if (end - begin == kPanelRows) {
+    downdate_panel(columns, end - first_row, V.data() + (top - first_row), V.outerStride(),
+                   V.data(), V.outerStride(), V.cols());
+    return;
+  }
+  // The kernel takes whole panels: zeros where V does not reach.
+  Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(kPanelRows, V.cols());
+  rows.middleRows(begin - top, end - begin) = V.middleRows(begin - first_row, end - begin);
+  downdate_panel(columns, end - first_row, rows.data(), kPanelRows, V.data(), V.outerStride(),
+                 V.cols());
 }
 
 Eigen::MatrixXd FilterCovariance::full() const {
-  return storage_.topLeftCorner(size_, size_).selfadjointView<Eigen::Lower>();
+  Eigen::MatrixXd P(size_, size_);
+  for (Eigen::Index j = 0; 3 * j < size_; ++j) P.middleCols<3>(3 * j) = column(j);
+  return P;
 }
 
 }  // namespace fathom

@@ -86,7 +86,8 @@ TEST_P(FilterOnRealLog, EqualsTheTextbookFilterAndTheRecordedCost) {
   EXPECT_LT(largest_distance(poses_of(*filter), reference), 1e-3);
 }
 
-bool is_positive_definite(const FilterCovariance& P) {
+template <class Covariance>
+bool is_positive_definite(const Covariance& P) {
   return P.full().llt().info() == Eigen::Success;
 }
 
