@@ -1,0 +1,110 @@
+#include "estimators/incremental_smoother/incremental_smoother.hpp"
+
+#include <vector>
+
+#include "estimators/incremental_smoother/smoother.hpp"
+#include "estimators/sparse_gauss_newton/information.hpp"
+
+namespace fathom {
+
+using incremental_smoother::Smoother;
+using incremental_smoother::SmootherLimits;
+using incremental_smoother::SmootherResult;
+
+void IncrementalSmootherOptions::describe(OptionTable& table) {
+  table.integer("max_iterations", max_iterations, Range::at_least(1), "",
+                "steps of one update at most");
+  table.real("tolerance", tolerance, Range::positive(), "",
+             "an update has converged when its step promises to lower the cost by a smaller share");
+  table.real("relinearise_rad", relinearise_rad, Range::positive(), "rad",
+             "keyframes of a clique that turned by more against each other are linearised again");
+  gate.describe(table);
+}
+
+IncrementalSmoother::IncrementalSmoother(const EstimatorSetup& setup,
+                                         const IncrementalSmootherOptions& options)
+    : gate_(options.gate),
+      smoother_(std::make_unique<Smoother>(
+          setup.origin,
+          SmootherLimits{options.max_iterations, options.tolerance, options.relinearise_rad})) {}
+
+IncrementalSmoother::~IncrementalSmoother() = default;
+
+std::size_t IncrementalSmoother::size() const {
+  return smoother_->problem().nodes.size();
+}
+
+Pose IncrementalSmoother::pose(std::size_t k) const {
+  return smoother_->pose(k);
+}
+
+void IncrementalSmoother::add_keyframe(const RelativePose& step) {
+  smoother_->add_keyframe(step);
+}
+
+UpdateReport IncrementalSmoother::close_loops(std::span<const RelativePose> registrations) {
+  UpdateReport report;
+  if (registrations.empty()) return report;
+  if (!judge(registrations, report)) {
+    lose_all(report, Outcome::numerical_failure);
+    return report;
+  }
+  std::vector<RelativePose> used;
+  for (std::size_t j = 0; j < registrations.size(); ++j) {
+    if (report.loops[j].fate == LoopFate::used) used.push_back(registrations[j]);
+  }
+  if (used.empty()) return report;
+  const SmootherResult result = smoother_->add_registrations(used);
+  report.outcome = result.outcome;
+  report.iterations = result.iterations;
+  if (!is_done(result.outcome)) lose_all(report, result.outcome);
+  return report;
+}
+
+// Decides on every registration. False where they cannot be judged.
+bool IncrementalSmoother::judge(std::span<const RelativePose> registrations, UpdateReport& report) {
+  std::vector<RelativePose> forward;
+  bool finite = true;
+  for (const RelativePose& z : registrations) {
+    report.loops.push_back({z.from, z.to, LoopFate::used, std::nullopt});
+    finite = finite && is_finite(z.motion) && z.information.allFinite();
+    forward.push_back(z.forward());
+  }
+  if (!finite) return false;
+  if (!gate_.is_on()) return true;
+  const auto& problem = smoother_->problem();
+  const auto S =
+      sparse_gauss_newton::innovation_covariances(problem.edges, problem.nodes, forward);
+  if (!S) return false;
+  for (std::size_t j = 0; j < forward.size(); ++j) {
+    const Pose h = between(pose(forward[j].from), pose(forward[j].to));
+    Eigen::Vector3d nu = forward[j].motion.vector() - h.vector();
+    nu.z() = wrap_angle(nu.z());
+    report.loops[j].nis = normalised_innovation_squared(nu, (*S)[j]);
+    report.loops[j].fate = fate_of(gate_.passes(*report.loops[j].nis));
+  }
+  return true;
+}
+
+std::optional<Eigen::Matrix3d> IncrementalSmoother::covariance(std::size_t k) {
+  const auto& problem = smoother_->problem();
+  const auto all = sparse_gauss_newton::marginals(problem.edges, problem.nodes);
+  if (!all) return std::nullopt;
+  return (*all)[k];
+}
+
+std::optional<std::vector<UncertainPose>> IncrementalSmoother::motions_to_newest() const {
+  const auto& problem = smoother_->problem();
+  return sparse_gauss_newton::motions_to_newest(problem.edges, problem.nodes);
+}
+
+EstimatorEntry incremental_smoother_entry() {
+  return make_entry<IncrementalSmootherOptions>(
+      "incremental_smoother",
+      "pose-graph least squares, an estimate per keyframe: eliminates again only what loops touch",
+      false, [](const EstimatorSetup& setup, const IncrementalSmootherOptions& options) {
+        return std::make_unique<IncrementalSmoother>(setup, options);
+      });
+}
+
+}  // namespace fathom
