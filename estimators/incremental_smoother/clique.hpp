@@ -10,6 +10,7 @@ struct Clique {
   int parent = -1;
   int width = 0;   ///< keyframes eliminated here
   int height = 0;  ///< separator
+  int leader = 0;  ///< the separator that is eliminated first
   bool is_marked = false;
   std::vector<int> variables;  ///< keyframes, first those eliminated here
   std::vector<int> children;

@@ -107,7 +107,7 @@ void Elimination::merge_fronts() {
   fronts_.clear();
   filled_.clear();
   rows_.clear();
-  for (int j = 0; j < static_cast<int>(node_.size()); ++j) {
+  for (int j = 0; j + 1 < static_cast<int>(node_.size()); ++j) {
     const int old = old_position_[at(j)];
     const auto height = static_cast<int>(start_[at(old) + 1] - start_[at(old)]);
     Front next{j, 1, 0, height};

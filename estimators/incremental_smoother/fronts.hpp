@@ -50,20 +50,15 @@ struct FrontFactorisation {
     for (int j = 0; j < c.width; ++j) {
       const int v = c.variables[at(j)];
       problem.for_each_edge(v, [&](int e, int other) {
-        const bool is_linked = other > 0;
         // Eliminated before, and so in a child's update.
-        if (is_linked && order[other] < order[v]) return;
+        if (order[other] < order[v]) return;
         const Edge& edge = problem.edges[at(e)];
         const EdgeBlocks b = blocks_of(edge, problem.nodes[at(edge.from)], problem.nodes[at(edge.to)]);
-        if (edge.from > 0) {
-          const int row = row_of[edge.from];
-          add_block(c, row, row, b.from_from.data());
-        }
-        if (edge.to > 0) {
-          const int row = row_of[edge.to];
-          add_block(c, row, row, b.to_to.data());
-        }
-        if (is_linked) add_block(c, row_of[edge.to], row_of[edge.from], b.to_from.data());
+        const int from = row_of[edge.from];
+        const int to = row_of[edge.to];
+        add_block(c, from, from, b.from_from.data());
+        add_block(c, to, to, b.to_to.data());
+        add_block(c, to, from, b.to_from.data());
       });
     }
   }
@@ -119,7 +114,15 @@ struct FrontFactorisation {
     for (int i = 0; i < c.rows(); ++i) {
       const int v = c.variables[at(i)];
       row_of[v] = i;
-      c.headings_rad[at(i)] = problem.nodes[at(v)].theta;
+    }
+    const Node& o = problem.nodes[at(c.variables.back())];
+    for (int i = 0; i < c.rows(); ++i) {
+      const Node& v = problem.nodes[at(c.variables[at(i)])];
+      const double dx = v.x - o.x;
+      const double dy = v.y - o.y;
+      c.headings_rad[at(3 * i)] = o.c * dx + o.s * dy;
+      c.headings_rad[at(3 * i + 1)] = -o.s * dx + o.c * dy;
+      c.headings_rad[at(3 * i + 2)] = v.theta - o.theta;
     }
     add_edges(c);
     for (const int child : c.children) add_child(c, cliques[at(child)]);
@@ -175,9 +178,6 @@ struct FrontSubstitution {
     const int stride = c.rows() * B;
     const int width = c.width * B;
     const int rows = c.rows() * B;
-    for (int i = 0; i < c.rows(); ++i) {
-      for (int a = 0; a < B; ++a) gathered[i * B + a] = x[c.variables[at(i)] * B + a];
-    }
     for (int k = width - 1; k >= 0; --k) {
       const double* column = panel + at(k) * at(stride);
       // Four sums: one alone waits for itself.
@@ -188,9 +188,6 @@ struct FrontSubstitution {
       }
       for (; i < rows; ++i) sum[0] -= column[i] * gathered[i];
       gathered[k] = (sum[0] + sum[1] + (sum[2] + sum[3])) / column[k];
-    }
-    for (int i = 0; i < c.width; ++i) {
-      for (int a = 0; a < B; ++a) x[c.variables[at(i)] * B + a] = gathered[i * B + a];
     }
   }
 };

@@ -35,13 +35,16 @@ void RestGraph::clear() {
   group_nodes.clear();
 }
 
-const std::vector<int>& MinimumDegree::order(const RestGraph& graph, int last) {
+const std::vector<int>& MinimumDegree::order(const RestGraph& graph, int newest, int fixed) {
   order_.clear();
   if (graph.size <= kMostBits) {
-    order_by_bits(graph, last);
+    order_by_bits(graph, newest, fixed);
   } else {
-    order_approximately(graph, last);
+    order_approximately(graph);
+    std::erase_if(order_, [&](int v) { return v == newest || v == fixed; });
   }
+  order_.push_back(newest);
+  order_.push_back(fixed);
   return order_;
 }
 
@@ -71,24 +74,38 @@ int MinimumDegree::count(int v) {
   return sum;
 }
 
+// Behind the others of its degree: of a chain every second node goes first, then every second of
+// the rest, so that its tree is flat and a change in the middle has few ancestors.
 void MinimumDegree::put(int v) {
   const int d = degree_[at(v)];
-  next_[at(v)] = head_[at(d)];
-  previous_[at(v)] = -1;
-  if (head_[at(d)] >= 0) previous_[at(head_[at(d)])] = v;
-  head_[at(d)] = v;
-}
-
-void MinimumDegree::take(int v) {
-  if (next_[at(v)] >= 0) previous_[at(next_[at(v)])] = previous_[at(v)];
-  if (previous_[at(v)] >= 0) {
-    next_[at(previous_[at(v)])] = next_[at(v)];
+  const int before = tail_[at(d)];
+  previous_[at(v)] = before;
+  next_[at(v)] = -1;
+  tail_[at(d)] = v;
+  if (before >= 0) {
+    next_[at(before)] = v;
   } else {
-    head_[at(degree_[at(v)])] = next_[at(v)];
+    head_[at(d)] = v;
   }
 }
 
-void MinimumDegree::order_by_bits(const RestGraph& graph, int last) {
+void MinimumDegree::take(int v) {
+  const int d = degree_[at(v)];
+  const int before = previous_[at(v)];
+  const int after = next_[at(v)];
+  if (before >= 0) {
+    next_[at(before)] = after;
+  } else {
+    head_[at(d)] = after;
+  }
+  if (after >= 0) {
+    previous_[at(after)] = before;
+  } else {
+    tail_[at(d)] = before;
+  }
+}
+
+void MinimumDegree::order_by_bits(const RestGraph& graph, int newest, int fixed) {
   const int n = graph.size;
   words_ = (n + kWord - 1) / kWord;
   fill_rows(graph);
@@ -96,12 +113,14 @@ void MinimumDegree::order_by_bits(const RestGraph& graph, int last) {
   next_.resize(at(n));
   previous_.resize(at(n));
   head_.assign(at(n), -1);
-  for (int v = n - 1; v >= 0; --v) {
+  tail_.assign(at(n), -1);
+  const auto is_kept = [&](int v) { return v == newest || v == fixed; };
+  for (int v = 0; v < n; ++v) {
     degree_[at(v)] = count(v);
-    if (v != last) put(v);
+    if (!is_kept(v)) put(v);
   }
   int least = 0;
-  for (int left = n; left > 1; --left) {
+  for (int left = n; left > 2; --left) {
     while (head_[at(least)] < 0) ++least;
     const int v = head_[at(least)];
     // All that are left are linked with one another.
@@ -114,7 +133,7 @@ void MinimumDegree::order_by_bits(const RestGraph& graph, int last) {
       for (int w = 0; w < words_; ++w) to[w] |= from[w];
       reset(to, u);
       reset(to, v);
-      if (u == last) return;
+      if (is_kept(u)) return;
       take(u);
       degree_[at(u)] = count(u);
       put(u);
@@ -123,12 +142,11 @@ void MinimumDegree::order_by_bits(const RestGraph& graph, int last) {
     degree_[at(v)] = -1;
   }
   for (int v = 0; v < n; ++v) {
-    if (v != last && degree_[at(v)] >= 0) order_.push_back(v);
+    if (!is_kept(v) && degree_[at(v)] >= 0) order_.push_back(v);
   }
-  order_.push_back(last);
 }
 
-void MinimumDegree::order_approximately(const RestGraph& graph, int last) {
+void MinimumDegree::order_approximately(const RestGraph& graph) {
   std::vector<sparse_gauss_newton::Link> links = graph.links;
   for (int g = 0; g < graph.groups(); ++g) {
     for (int p = graph.group_start[at(g)]; p < graph.group_start[at(g) + 1]; ++p) {
@@ -139,8 +157,6 @@ void MinimumDegree::order_approximately(const RestGraph& graph, int last) {
   }
   using namespace sparse_gauss_newton;  // NOLINT: the ordering's names
   order_ = elimination_order(adjacency_of(graph.size, links), ChainElimination::on);
-  order_.erase(std::find(order_.begin(), order_.end(), last));
-  order_.push_back(last);
 }
 
 }  // namespace fathom::incremental_smoother

@@ -21,15 +21,15 @@ struct RestGraph {
   int groups() const { return static_cast<int>(group_start.size()) - 1; }
 };
 
-/// An order of elimination of small fill, node `last` last. Up to some thousand nodes minimum degree
+/// An order of elimination of small fill, node `newest` last but one, `fixed` last. Up to some thousand nodes minimum degree
 /// with the true degrees, on sets of bits; beyond, approximate minimum degree.
 class MinimumDegree {
  public:
-  const std::vector<int>& order(const RestGraph& graph, int last);
+  const std::vector<int>& order(const RestGraph& graph, int newest, int fixed);
 
  private:
-  void order_by_bits(const RestGraph& graph, int last);
-  void order_approximately(const RestGraph& graph, int last);
+  void order_by_bits(const RestGraph& graph, int newest, int fixed);
+  void order_approximately(const RestGraph& graph);
   std::uint64_t* row(int v) { return bits_.data() + at(v) * at(words_); }
   void fill_rows(const RestGraph& graph);
   int count(int v);
@@ -41,6 +41,7 @@ class MinimumDegree {
   std::vector<std::uint64_t> mask_;
   std::vector<int> degree_;
   std::vector<int> head_;  ///< by degree
+  std::vector<int> tail_;
   std::vector<int> next_;
   std::vector<int> previous_;
   std::vector<int> order_;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 
 #include "estimators/sparse_gauss_newton/batch.hpp"
 
@@ -27,8 +29,9 @@ Smoother::Smoother(const Pose& origin, const SmootherLimits& limits)
       problem_(make_node(origin.x, origin.y, origin.theta)),
       tree_(problem_),
       gradient_(1),
+      ignored_(1),
       weights_(1),
-      keyframe_pass_(1, -1),
+      changed_in_(1, -1),
       saved_in_(1, -1) {}
 
 Pose Smoother::pose(std::size_t k) const {
@@ -41,7 +44,8 @@ void Smoother::add_keyframe(const RelativePose& step) {
   problem_.add_node(make_node(next.x, next.y, next.theta));
   gradient_.push_back({});
   weights_.push_back({});
-  keyframe_pass_.push_back(-1);
+  ignored_.push_back({});
+  changed_in_.push_back(-1);
   saved_in_.push_back(-1);
   append_edge(step);
 }
@@ -76,6 +80,7 @@ void Smoother::evaluate(int e) {
 void Smoother::evaluate_all() {
   cost_ = 0.0;
   std::fill(gradient_.begin(), gradient_.end(), Vec3{});
+  std::fill(ignored_.begin(), ignored_.end(), Vec3{});
   std::fill(terms_.begin(), terms_.end(), EdgeGradient{});
   for (int e = 0; e < problem_.edge_count(); ++e) evaluate(e);
 }
@@ -93,7 +98,7 @@ SmootherResult Smoother::add_registrations(std::span<const RelativePose> registr
     for (const auto end : {z.from, z.to}) {
       if (end == 0) continue;
       touched_.push_back(static_cast<int>(end));
-      changed_.push_back(static_cast<int>(end));
+      note_changed(static_cast<int>(end));
     }
   }
   for (const int v : stale_) touched_.push_back(v);
@@ -110,40 +115,27 @@ SmootherResult Smoother::add_registrations(std::span<const RelativePose> registr
 }
 
 SmootherResult Smoother::iterate() {
+  static const double NEG = getenv("NEG") ? atof(getenv("NEG")) : 1e-6;
+  static const double CON = getenv("CON") ? atof(getenv("CON")) : 0.05;
+  static const bool DBG = getenv("DBG");
   SmootherResult result;
   result.outcome = Outcome::iteration_limit;
-  // Steps that are left out must not add up to what a step that counts is.
-  const double negligible = 1e-2 * limits_.tolerance;
   double last = -1.0;
   while (result.iterations < limits_.max_iterations) {
     find_sources();
-    if (sources_.empty()) {
-      result.outcome = Outcome::converged;
-      break;
-    }
     ++result.iterations;
     ++counts_.solves;
-    tree_.solve(sources_, gradient_, weights_, negligible);
-    const double promised = tree_.promised();
+    const double promised = tree_.forward(sources_, gradient_, ignored_);
     if (!std::isfinite(promised)) {
       result.outcome = Outcome::numerical_failure;
       break;
     }
-    const double before = cost_;
-    move();
-    reevaluate_moved();
-    if (!(cost_ <= before * (1.0 + kRounding) + kNegligible)) {
-      move_back();
-      const int iterations = result.iterations;
-      result = solve_batch();
-      result.iterations += iterations;
-      break;
-    }
     if (promised <= limits_.tolerance * cost_ || promised <= kNoise) {
+      if (DBG) fprintf(stderr, "u%ld it%d sources %zu promised %.3e cost %.6e END\n", counts_.updates, result.iterations, sources_.size(), promised, cost_);
       result.outcome = Outcome::converged;
       break;
     }
-    if (last >= 0.0 && promised > 0.1 * last && !stale_.empty()) {
+    if (last >= 0.0 && promised > CON * last && !stale_.empty()) {
       touched_.clear();
       for (const int v : stale_) touched_.push_back(tree_.clique_of(v));
       stale_.clear();
@@ -153,80 +145,80 @@ SmootherResult Smoother::iterate() {
         break;
       }
       counts_.refreshed += tree_.refactored();
+      last = -1.0;
+      continue;
     }
     last = promised;
+    const double before = cost_;
+    tree_.descend(weights_, NEG);
+    save_moved();
+    reevaluate_bent();
+    if (DBG) fprintf(stderr, "u%ld it%d sources %zu moved %zu bent %zu promised %.3e before %.6e after %.6e stale %zu\n", counts_.updates, result.iterations, sources_.size(), tree_.moved().size(), tree_.bent().size(), promised, before, cost_, stale_.size());
+    if (!(cost_ <= before * (1.0 + limits_.tolerance) + kNegligible)) {
+      move_back();
+      const int iterations = result.iterations;
+      result = solve_batch();
+      result.iterations += iterations;
+      break;
+    }
   }
+  for (const int k : changed_) ignored_[at(k)] = gradient_[at(k)];
   return result;
 }
 
-bool Smoother::is_source(int k) const {
-  const Vec3& g = gradient_[at(k)];
-  const Weight& w = weights_[at(k)];
-  const double share = (g[0] * g[0] + g[1] * g[1]) * w.heading + g[2] * g[2] * w.position;
-  return share > 1e-4 * limits_.tolerance * w.position * w.heading;
-}
-
 void Smoother::find_sources() {
-  sources_.clear();
-  for (const int k : changed_) {
-    if (is_source(k)) sources_.push_back(k);
-  }
+  sources_ = changed_;
 }
 
-void Smoother::move() {
-  step_saved_.clear();
-  const std::vector<double>& step = tree_.step();
-  for (const int i : tree_.visited()) {
-    const Clique& c = tree_.clique(i);
-    for (int j = 0; j < c.width; ++j) {
-      const int v = c.variables[at(j)];
-      Node& node = problem_.nodes[at(v)];
-      step_saved_.push_back({v, node});
-      if (saved_in_[at(v)] != counts_.updates) {
-        saved_in_[at(v)] = counts_.updates;
-        update_saved_.push_back({v, node});
-      }
-      const double* d = step.data() + 3 * v;
-      node = make_node(node.x + node.c * d[0] - node.s * d[1],
-                       node.y + node.s * d[0] + node.c * d[1], node.theta + d[2]);
-    }
-    note_stale(i);
+void Smoother::save_moved() {
+  for (const int v : tree_.moved()) {
+    if (saved_in_[at(v)] == counts_.updates) continue;
+    saved_in_[at(v)] = counts_.updates;
+    update_saved_.push_back({v, tree_.before(v)});
   }
-  counts_.visited += static_cast<long>(step_saved_.size());
+  for (const int i : tree_.bent_cliques()) note_stale(i);
+  counts_.visited += static_cast<long>(tree_.bent().size());
 }
 
 void Smoother::note_stale(int clique) {
+  static const double REM = getenv("REM") ? atof(getenv("REM")) : 0.01;
   const Clique& c = tree_.clique(clique);
-  double least = 1e9;
-  double most = -1e9;
-  for (int j = 0; j < c.rows(); ++j) {
-    const double turn = problem_.nodes[at(c.variables[at(j)])].theta - c.headings_rad[at(j)];
-    least = std::min(least, turn);
-    most = std::max(most, turn);
+  const int last = c.rows() - 1;
+  const Node& o = problem_.nodes[at(c.variables[at(last)])];
+  const double* was = c.headings_rad.data();
+  bool stale = false;
+  for (int j = 0; j < last; ++j) {
+    const Node& v = problem_.nodes[at(c.variables[at(j)])];
+    const double dx = v.x - o.x;
+    const double dy = v.y - o.y;
+    const double hx = o.c * dx + o.s * dy - was[3 * j];
+    const double hy = -o.s * dx + o.c * dy - was[3 * j + 1];
+    const double turn = v.theta - o.theta - was[3 * j + 2];
+    stale = stale || std::abs(turn) > limits_.relinearise_rad || hx * hx + hy * hy > REM * REM;
   }
-  if (most - least > limits_.relinearise_rad) stale_.push_back(c.variables[0]);
+  if (stale) stale_.push_back(c.variables[0]);
 }
 
 void Smoother::move_back() {
-  for (const Saved& saved : step_saved_) problem_.nodes[at(saved.keyframe)] = saved.node;
-  reevaluate_moved();
+  for (const int v : tree_.moved()) problem_.nodes[at(v)] = tree_.before(v);
+  reevaluate_bent();
 }
 
-void Smoother::reevaluate_moved() {
+void Smoother::note_changed(int k) {
+  if (k == 0 || changed_in_[at(k)] == counts_.updates) return;
+  changed_in_[at(k)] = counts_.updates;
+  changed_.push_back(k);
+}
+
+void Smoother::reevaluate_bent() {
   ++pass_;
-  changed_.clear();
-  const auto change = [&](int k) {
-    if (k == 0 || keyframe_pass_[at(k)] == pass_) return;
-    keyframe_pass_[at(k)] = pass_;
-    changed_.push_back(k);
-  };
-  for (const Saved& saved : step_saved_) {
-    change(saved.keyframe);
-    problem_.for_each_edge(saved.keyframe, [&](int e, int other) {
+  for (const int v : tree_.bent()) {
+    note_changed(v);
+    problem_.for_each_edge(v, [&](int e, int other) {
       if (edge_pass_[at(e)] == pass_) return;
       edge_pass_[at(e)] = pass_;
       evaluate(e);
-      change(other);
+      note_changed(other);
     });
   }
 }

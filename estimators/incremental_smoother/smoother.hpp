@@ -49,13 +49,12 @@ class Smoother {
  private:
   void append_edge(const RelativePose& measurement);
   void evaluate(int edge);
-  bool enter(std::size_t first_edge);
   SmootherResult iterate();
-  bool is_source(int keyframe) const;
   void find_sources();
-  void move();
+  void save_moved();
   void move_back();
-  void reevaluate_moved();
+  void note_changed(int keyframe);
+  void reevaluate_bent();
   void note_stale(int clique);
   SmootherResult solve_batch();
   void evaluate_all();
@@ -66,6 +65,7 @@ class Smoother {
   CliqueTree tree_;
   std::vector<EdgeGradient> terms_;  ///< by edge
   std::vector<Vec3> gradient_;       ///< of ½F, by keyframe, its own axes
+  std::vector<Vec3> ignored_;        ///< what earlier updates left of it
   std::vector<Weight> weights_;
   double cost_ = 0.0;
 
@@ -75,14 +75,13 @@ class Smoother {
   std::vector<int> sources_;
   std::vector<int> changed_;  ///< keyframes whose gradient changed
   std::vector<long> edge_pass_;
-  std::vector<long> keyframe_pass_;
+  std::vector<long> changed_in_;
   long pass_ = 0;
 
   struct Saved {
     int keyframe;
     Node node;
   };
-  std::vector<Saved> step_saved_;    ///< before the last step
   std::vector<Saved> update_saved_;  ///< before the update
   std::vector<long> saved_in_;       ///< the update in which a keyframe was saved
   Counts counts_;
