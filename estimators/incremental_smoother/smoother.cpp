@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include "estimators/sparse_gauss_newton/normal_equations.hpp"
 #include <cstdlib>
 
 #include "estimators/sparse_gauss_newton/batch.hpp"
@@ -116,58 +117,74 @@ SmootherResult Smoother::add_registrations(std::span<const RelativePose> registr
 
 SmootherResult Smoother::iterate() {
   static const double NEG = getenv("NEG") ? atof(getenv("NEG")) : 1e-6;
-  static const double CON = getenv("CON") ? atof(getenv("CON")) : 0.05;
   static const bool DBG = getenv("DBG");
   SmootherResult result;
   result.outcome = Outcome::iteration_limit;
-  double last = -1.0;
+  bool whole = false;
+  bool fresh = false;
   while (result.iterations < limits_.max_iterations) {
-    find_sources();
     ++result.iterations;
     ++counts_.solves;
+    if (whole) {
+      ++counts_.polishes;
+      sources_.clear();
+      for (int k = 1; k < problem_.size(); ++k) sources_.push_back(k);
+      std::fill(ignored_.begin(), ignored_.end(), Vec3{});
+      if (!stale_.empty()) {
+        touched_.clear();
+        for (const int v : stale_) touched_.push_back(tree_.clique_of(v));
+        stale_.clear();
+        ++counts_.refreshes;
+        if (!tree_.refresh(touched_)) {
+          result.outcome = Outcome::numerical_failure;
+          break;
+        }
+        counts_.refreshed += tree_.refactored();
+      }
+    } else {
+      sources_ = changed_;
+    }
     const double promised = tree_.forward(sources_, gradient_, ignored_);
     if (!std::isfinite(promised)) {
       result.outcome = Outcome::numerical_failure;
       break;
     }
-    if (promised <= limits_.tolerance * cost_ || promised <= kNoise) {
-      if (DBG) fprintf(stderr, "u%ld it%d sources %zu promised %.3e cost %.6e END\n", counts_.updates, result.iterations, sources_.size(), promised, cost_);
+    if (DBG) fprintf(stderr, "u%ld it%d sources %zu promised %.3e cost %.6e ", counts_.updates, result.iterations, sources_.size(), promised, cost_);
+    if (whole && (promised <= limits_.tolerance * cost_ || promised <= kNoise)) {
+      if (DBG) fprintf(stderr, "END\n");
       result.outcome = Outcome::converged;
       break;
     }
-    if (last >= 0.0 && promised > CON * last && !stale_.empty()) {
-      touched_.clear();
-      for (const int v : stale_) touched_.push_back(tree_.clique_of(v));
-      stale_.clear();
-      ++counts_.refreshes;
-      if (!tree_.refresh(touched_)) {
-        result.outcome = Outcome::numerical_failure;
-        break;
-      }
-      counts_.refreshed += tree_.refactored();
-      last = -1.0;
-      continue;
-    }
-    last = promised;
     const double before = cost_;
     tree_.descend(weights_, NEG);
     save_moved();
     reevaluate_bent();
-    if (DBG) fprintf(stderr, "u%ld it%d sources %zu moved %zu bent %zu promised %.3e before %.6e after %.6e stale %zu\n", counts_.updates, result.iterations, sources_.size(), tree_.moved().size(), tree_.bent().size(), promised, before, cost_, stale_.size());
+    if (DBG) fprintf(stderr, "moved %zu bent %zu after %.6e stale %zu mismatch %.3e debt %.3e\n", tree_.moved().size(), tree_.bent().size(), cost_, stale_.size(), promised - (before - cost_), debt_);
     if (!(cost_ <= before * (1.0 + limits_.tolerance) + kNegligible)) {
       move_back();
+      if (!fresh) {
+        fresh = true;
+        whole = true;
+        stale_.clear();
+        for (int k = 1; k < problem_.size(); ++k) stale_.push_back(k);
+        continue;
+      }
       const int iterations = result.iterations;
       result = solve_batch();
       result.iterations += iterations;
       break;
     }
+    fresh = false;
+    debt_ += std::abs(promised - (before - cost_));
+    if (debt_ <= limits_.tolerance * cost_ + kNoise) {
+      result.outcome = Outcome::converged;
+      break;
+    }
+    debt_ = 0.0;
+    whole = true;
   }
   for (const int k : changed_) ignored_[at(k)] = gradient_[at(k)];
   return result;
-}
-
-void Smoother::find_sources() {
-  sources_ = changed_;
 }
 
 void Smoother::save_moved() {

@@ -27,6 +27,7 @@ struct Counts {
   long visited = 0;     ///< keyframes moved, over all solves
   long refreshed = 0;   ///< keyframes factored again in their old order
   long refreshes = 0;
+  long polishes = 0;
   long batches = 0;     ///< updates that fell back to a solve of the whole graph
 };
 
@@ -50,7 +51,6 @@ class Smoother {
   void append_edge(const RelativePose& measurement);
   void evaluate(int edge);
   SmootherResult iterate();
-  void find_sources();
   void save_moved();
   void move_back();
   void note_changed(int keyframe);
@@ -68,6 +68,7 @@ class Smoother {
   std::vector<Vec3> ignored_;        ///< what earlier updates left of it
   std::vector<Weight> weights_;
   double cost_ = 0.0;
+  double debt_ = 0.0;  ///< by how much F may exceed its optimum
 
   int first_outside_ = 1;  ///< the first keyframe that is not in the tree
   std::vector<int> stale_;  ///< keyframes whose clique bent since it was factored
