@@ -3,12 +3,13 @@
 //
 //     FATHOM_POSE_GRAPHS=FOLDER incremental_benchmark [--benchmark_filter=intel]
 //
-// For each g2o file of FOLDER: what all keyframes took (`total_ms`), and of one keyframe the median,
-// the 95 % quantile and the longest, as CPU time of the thread, of each keyframe the least of all
-// repetitions; chi2 at the end; and the largest share by which chi2 exceeded the optimum of a batch
-// solve of the same measurements, over every 100th keyframe (`worst_gap`; an optimum below 1e-4
-// counts as 1e-4). `scale` is the time of Ceres for the whole graph in batch, of Gauss-Newton steps
-// from dead reckoning to 1e-6 of the optimum, by which figures of two machines can be compared.
+// For each g2o file of FOLDER: what all keyframes took (`total_ms`), and of one keyframe the
+// median, the 95 % quantile and the longest, as CPU time of the thread, of each keyframe the least
+// of all repetitions; chi2 at the end; and the largest share by which chi2 exceeded the optimum of
+// a batch solve of the same measurements, over every 100th keyframe (`worst_gap`; an optimum below
+// 1e-4 counts as 1e-4). `scale` is the time of Ceres for the whole graph in batch, of Gauss-Newton
+// steps from dead reckoning to 1e-6 of the optimum, by which figures of two machines can be
+// compared.
 
 #include <algorithm>
 #include <cstdlib>
@@ -127,9 +128,8 @@ void add_files(const std::filesystem::path& folder) {
     logs[file.path().stem()] = std::make_shared<MeasurementLog>(fathom::read_g2o(file.path()));
   }
   for (const auto& [name, log] : logs) {
-    benchmark::RegisterBenchmark(
-        ("scale/" + name).c_str(),
-        [log = log](benchmark::State& state) { scale(state, *log); })
+    benchmark::RegisterBenchmark(("scale/" + name).c_str(),
+                                 [log = log](benchmark::State& state) { scale(state, *log); })
         ->Iterations(15)
         ->UseManualTime()
         ->Unit(benchmark::kMillisecond);

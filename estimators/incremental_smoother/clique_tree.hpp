@@ -3,18 +3,14 @@
 #include <span>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include "estimators/incremental_smoother/clique.hpp"
 #include "estimators/incremental_smoother/elimination.hpp"
 #include "estimators/incremental_smoother/motion.hpp"
 #include "estimators/incremental_smoother/problem.hpp"
 
 namespace fathom::incremental_smoother {
-
-/// What a number of the step counts, in squared sigmas: of a position, of a heading.
-struct Weight {
-  double position = 0.0;
-  double heading = 0.0;
-};
 
 /// The Cholesky factor of the Gauss-Newton matrix as a tree of cliques (the Bayes tree of Kaess et
 /// al. 2012), each linearised where it was factored last. A change at some keyframes concerns their
@@ -34,56 +30,67 @@ class CliqueTree {
   /// positive definite.
   bool refactor(std::span<const int> keyframes, int newest);
   /// The same in the old order: where no measurement is new.
-  bool refresh(std::span<const int> cliques);
+  bool refresh(std::span<const int> keyframes);
+  /// How many keyframes the last of both has eliminated.
+  int refactored() const { return refactored_; }
 
-  /// Forward substitution of b, which must be zero but at the cliques of these keyframes and their
-  /// ancestors. Returns bᵀ H⁻¹ b.
-  double forward(std::span<const int> sources, const std::vector<Vec3>& gradient,
+  /// y = L⁻¹ b for b = ignored − gradient, which must be zero but at these keyframes; the other
+  /// form is for any b. Return yᵀ y = bᵀ H⁻¹ b.
+  double forward(std::span<const int> keyframes, const std::vector<Vec3>& gradient,
                  const std::vector<Vec3>& ignored);
-  /// The step H⁻¹ b, taken from the root down: the keyframes of a clique follow one of their
-  /// separators as if they were rigidly joined, and what is left of the separators' motion bends
-  /// them. Where it bends by less than `negligible` squared sigmas, and no b is below, all that is
-  /// below follows rigidly.
-  void descend(const std::vector<Weight>& weights, double negligible);
+  double forward_all(const std::vector<Vec3>& gradient);
 
-  /// Of the last descend: the keyframes that moved, and how many of them, the first, not just
-  /// rigidly with their separators.
+  /// The step H⁻¹ b, taken from the root down: the keyframes of a clique follow one of their
+  /// separators as if they were joined rigidly, and what is left of the separators' motion bends
+  /// them. Where that is less than `negligible` squared sigmas, and b is zero below, all that is
+  /// below follows rigidly; or stays, if it would not move by more either.
+  void descend(double negligible);
+
+  /// Of the last descend: keyframes that moved, and of them those that did not just follow.
   const std::vector<int>& moved() const { return moved_; }
   const std::vector<int>& bent() const { return bent_; }
+  /// Where a moved keyframe was.
   const Node& before(int keyframe) const { return before_[at(keyframe)]; }
-  const std::vector<int>& bent_cliques() const { return bent_cliques_; }
 
-  const Clique& clique(int i) const { return cliques_[at(i)]; }
-  int clique_of(int keyframe) const { return clique_of_[at(keyframe)]; }
-  /// Work of the last refactor or refresh: keyframes eliminated.
-  int refactored() const { return refactored_; }
+  /// One keyframe of each clique whose layout the last descend has changed by more, since it was
+  /// factored.
+  void find_stale(double limit_m, double limit_rad, std::vector<int>& keyframes) const;
+
+  /// J H⁻¹ Jᵀ of a quantity with these derivatives by two keyframes, each in its own axes.
+  Eigen::Matrix3d variance(int i, const Eigen::Matrix3d& J_i, int k, const Eigen::Matrix3d& J_k);
 
  private:
   void grow();
-  void mark_up(int clique);
+  void mark_up(int keyframe);
+  void mark_all();
   void sort_marked();
   void unmark();
   void find_affected(std::span<const int> keyframes);
   void describe_rest();
   void release_marked();
   void build(int newest);
-  void attach(int clique);
   int new_clique();
+  void attach(int clique);
   bool factor(std::span<const int> which);
-  void bend(int clique, const std::vector<Weight>& weights, double negligible);
+  void set_right_side(const std::vector<Vec3>& gradient, const std::vector<Vec3>* ignored);
+  double substitute();
+  bool bend_separator(const Clique& clique, const RigidMotion& rigid, double negligible);
+  bool has_moved(const Clique& clique, double negligible) const;
+  void bend(int clique, double negligible);
   void follow(int clique, const RigidMotion& rigid);
 
   Problem& problem_;
   std::vector<Clique> cliques_;
   std::vector<int> free_;
+  BufferPool buffers_;
   std::vector<int> clique_of_;  ///< by keyframe; −1: not in the tree
   std::vector<long> order_;     ///< by keyframe, when it was eliminated
   long next_order_ = 0;
   int root_ = -1;
 
   std::vector<int> marked_;
-  std::vector<int> affected_;
-  std::vector<int> orphans_;
+  std::vector<int> affected_;  ///< keyframes to be eliminated, and keyframe 0
+  std::vector<int> orphans_;   ///< children of cliques that are gone
   std::vector<int> index_of_;  ///< by keyframe, in affected_; −1
   RestGraph rest_;
   MinimumDegree minimum_degree_;
@@ -91,16 +98,18 @@ class CliqueTree {
   std::vector<int> built_;
   int refactored_ = 0;
 
+  // Workspace.
   std::vector<int> row_of_;
   std::vector<double> packed_;
   std::vector<double> signs_;
   std::vector<double> gathered_;
-  std::vector<double> x_;
+  std::vector<double> x_;  ///< b, then y, three numbers a keyframe
+  std::vector<int> stack_;
+
   std::vector<Node> before_;
   std::vector<int> moved_;
   std::vector<int> bent_;
   std::vector<int> bent_cliques_;
-  std::vector<int> stack_;
 };
 
 }  // namespace fathom::incremental_smoother

@@ -15,9 +15,9 @@ struct Front {
   int height = 0;
 };
 
-/// The pattern of the factor of a RestGraph in a given order, in fronts, children before parents. The
-/// last node is fixed: it is a row of others, and has no front.
-/// Where fronts of one branch have nearly the same rows they are one.
+/// The pattern of the factor of a RestGraph in a given order, in fronts, children before parents.
+/// The last node is fixed: it is a row of others, and has no front. Where fronts of one branch have
+/// nearly the same rows they are one.
 class Elimination {
  public:
   void analyse(const RestGraph& graph, const std::vector<int>& order);

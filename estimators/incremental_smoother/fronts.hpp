@@ -5,6 +5,7 @@
 #include <span>
 
 #include "estimators/incremental_smoother/clique.hpp"
+#include "estimators/incremental_smoother/motion.hpp"
 #include "estimators/incremental_smoother/problem.hpp"
 #include "estimators/sparse_gauss_newton/factorisation.hpp"
 
@@ -53,7 +54,8 @@ struct FrontFactorisation {
         // Eliminated before, and so in a child's update.
         if (order[other] < order[v]) return;
         const Edge& edge = problem.edges[at(e)];
-        const EdgeBlocks b = blocks_of(edge, problem.nodes[at(edge.from)], problem.nodes[at(edge.to)]);
+        const EdgeBlocks b =
+            blocks_of(edge, problem.nodes[at(edge.from)], problem.nodes[at(edge.to)]);
         const int from = row_of[edge.from];
         const int to = row_of[edge.to];
         add_block(c, from, from, b.from_from.data());
@@ -109,20 +111,11 @@ struct FrontFactorisation {
   }
 
   FATHOM_INLINE bool factor(Clique& c) const {
-    c.panel.assign(at(c.rows() * B) * at(c.width * B) + kReadAhead, 0.0);
-    c.update.assign(at(c.height * B) * at(c.height * B), 0.0);
+    const Node& seen_from = problem.nodes[at(c.variables.back())];
     for (int i = 0; i < c.rows(); ++i) {
       const int v = c.variables[at(i)];
       row_of[v] = i;
-    }
-    const Node& o = problem.nodes[at(c.variables.back())];
-    for (int i = 0; i < c.rows(); ++i) {
-      const Node& v = problem.nodes[at(c.variables[at(i)])];
-      const double dx = v.x - o.x;
-      const double dy = v.y - o.y;
-      c.headings_rad[at(3 * i)] = o.c * dx + o.s * dy;
-      c.headings_rad[at(3 * i + 1)] = -o.s * dx + o.c * dy;
-      c.headings_rad[at(3 * i + 2)] = v.theta - o.theta;
+      offset_of(seen_from, problem.nodes[at(v)], c.layout.data() + 3 * i);
     }
     add_edges(c);
     for (const int child : c.children) add_child(c, cliques[at(child)]);
@@ -145,25 +138,24 @@ struct FrontFactorisation {
   }
 };
 
-/// Substitution with the factor of one clique.
-struct FrontSubstitution {
-  const Clique& c;
+/// y = L⁻¹ b in the columns of these cliques, children before parents.
+struct ForwardSubstitution {
+  const std::vector<Clique>& cliques;
+  std::span<const int> which;
   double* x;  ///< 3 numbers a keyframe
   double* gathered;
 
-  FATHOM_INLINE void forward() const {
-    const double* panel = c.panel.data();
+  FATHOM_INLINE void forward(const Clique& c) const {
     const int stride = c.rows() * B;
     const int width = c.width * B;
-    const int rows = c.rows() * B;
-    for (int i = 0; i < rows; ++i) gathered[i] = 0.0;
+    for (int i = 0; i < stride; ++i) gathered[i] = 0.0;
     for (int i = 0; i < c.width; ++i) {
       for (int a = 0; a < B; ++a) gathered[i * B + a] = x[c.variables[at(i)] * B + a];
     }
     for (int k = 0; k < width; ++k) {
-      const double* column = panel + at(k) * at(stride);
+      const double* column = c.panel.data() + at(k) * at(stride);
       const double value = gathered[k] /= column[k];
-      for (int i = k + 1; i < rows; ++i) gathered[i] -= column[i] * value;
+      for (int i = k + 1; i < stride; ++i) gathered[i] -= column[i] * value;
     }
     for (int i = 0; i < c.width; ++i) {
       for (int a = 0; a < B; ++a) x[c.variables[at(i)] * B + a] = gathered[i * B + a];
@@ -173,22 +165,31 @@ struct FrontSubstitution {
     }
   }
 
-  FATHOM_INLINE void backward() const {
-    const double* panel = c.panel.data();
+  FATHOM_INLINE bool run() const {
+    for (const int i : which) forward(cliques[at(i)]);
+    return true;
+  }
+};
+
+/// The step of one clique from its y and the step of its separator, in place.
+struct BackwardSubstitution {
+  const Clique& c;
+  double* x;  ///< 3 numbers a row of the clique
+
+  FATHOM_INLINE bool run() const {
     const int stride = c.rows() * B;
-    const int width = c.width * B;
-    const int rows = c.rows() * B;
-    for (int k = width - 1; k >= 0; --k) {
-      const double* column = panel + at(k) * at(stride);
+    for (int k = c.width * B - 1; k >= 0; --k) {
+      const double* column = c.panel.data() + at(k) * at(stride);
       // Four sums: one alone waits for itself.
-      double sum[4] = {gathered[k], 0.0, 0.0, 0.0};
+      double sum[4] = {x[k], 0.0, 0.0, 0.0};
       int i = k + 1;
-      for (; i + 4 <= rows; i += 4) {
-        for (int v = 0; v < 4; ++v) sum[v] -= column[i + v] * gathered[i + v];
+      for (; i + 4 <= stride; i += 4) {
+        for (int v = 0; v < 4; ++v) sum[v] -= column[i + v] * x[i + v];
       }
-      for (; i < rows; ++i) sum[0] -= column[i] * gathered[i];
-      gathered[k] = (sum[0] + sum[1] + (sum[2] + sum[3])) / column[k];
+      for (; i < stride; ++i) sum[0] -= column[i] * x[i];
+      x[k] = (sum[0] + sum[1] + (sum[2] + sum[3])) / column[k];
     }
+    return true;
   }
 };
 

@@ -15,9 +15,11 @@ void IncrementalSmootherOptions::describe(OptionTable& table) {
   table.integer("max_iterations", max_iterations, Range::at_least(1), "",
                 "steps of one update at most");
   table.real("tolerance", tolerance, Range::positive(), "",
-             "an update has converged when its step promises to lower the cost by a smaller share");
+             "an update has converged when the cost exceeds its minimum by a smaller share");
+  table.real("relinearise_m", relinearise_m, Range::positive(), "m",
+             "keyframes of a clique are linearised again when they moved by more to each other");
   table.real("relinearise_rad", relinearise_rad, Range::positive(), "rad",
-             "keyframes of a clique that turned by more against each other are linearised again");
+             "likewise, when they turned by more");
   gate.describe(table);
 }
 
@@ -25,8 +27,8 @@ IncrementalSmoother::IncrementalSmoother(const EstimatorSetup& setup,
                                          const IncrementalSmootherOptions& options)
     : gate_(options.gate),
       smoother_(std::make_unique<Smoother>(
-          setup.origin,
-          SmootherLimits{options.max_iterations, options.tolerance, options.relinearise_rad})) {}
+          setup.origin, SmootherLimits{options.max_iterations, options.tolerance,
+                                       options.relinearise_m, options.relinearise_rad})) {}
 
 IncrementalSmoother::~IncrementalSmoother() = default;
 
@@ -39,6 +41,7 @@ Pose IncrementalSmoother::pose(std::size_t k) const {
 }
 
 void IncrementalSmoother::add_keyframe(const RelativePose& step) {
+  marginals_.reset();
   smoother_->add_keyframe(step);
 }
 
@@ -54,6 +57,7 @@ UpdateReport IncrementalSmoother::close_loops(std::span<const RelativePose> regi
     if (report.loops[j].fate == LoopFate::used) used.push_back(registrations[j]);
   }
   if (used.empty()) return report;
+  marginals_.reset();
   const SmootherResult result = smoother_->add_registrations(used);
   report.outcome = result.outcome;
   report.iterations = result.iterations;
@@ -72,9 +76,7 @@ bool IncrementalSmoother::judge(std::span<const RelativePose> registrations, Upd
   }
   if (!finite) return false;
   if (!gate_.is_on()) return true;
-  const auto& problem = smoother_->problem();
-  const auto S =
-      sparse_gauss_newton::innovation_covariances(problem.edges, problem.nodes, forward);
+  const auto S = smoother_->innovation_covariances(forward);
   if (!S) return false;
   for (std::size_t j = 0; j < forward.size(); ++j) {
     const Pose h = between(pose(forward[j].from), pose(forward[j].to));
@@ -87,10 +89,13 @@ bool IncrementalSmoother::judge(std::span<const RelativePose> registrations, Upd
 }
 
 std::optional<Eigen::Matrix3d> IncrementalSmoother::covariance(std::size_t k) {
-  const auto& problem = smoother_->problem();
-  const auto all = sparse_gauss_newton::marginals(problem.edges, problem.nodes);
-  if (!all) return std::nullopt;
-  return (*all)[k];
+  if (!marginals_) {
+    const auto& problem = smoother_->problem();
+    marginals_ = sparse_gauss_newton::marginals(problem.edges, problem.nodes)
+                     .value_or(std::vector<Eigen::Matrix3d>{});
+  }
+  if (marginals_->empty()) return std::nullopt;
+  return (*marginals_)[k];
 }
 
 std::optional<std::vector<UncertainPose>> IncrementalSmoother::motions_to_newest() const {

@@ -1,6 +1,10 @@
 #pragma once
 
 #include <memory>
+#include <optional>
+#include <vector>
+
+#include <Eigen/Core>
 
 #include "fathom/estimation/estimator.hpp"
 #include "fathom/estimation/gate.hpp"
@@ -13,8 +17,9 @@ class Smoother;
 
 struct IncrementalSmootherOptions {
   int max_iterations = 100;
-  double tolerance = 1e-6;
-  double relinearise_rad = 0.05;
+  double tolerance = 1e-5;
+  double relinearise_m = 0.01;
+  double relinearise_rad = 0.001;
   GateOptions gate;
 
   void describe(OptionTable& table);
@@ -44,6 +49,8 @@ class IncrementalSmoother final : public Estimator {
 
   Gate gate_;
   std::unique_ptr<incremental_smoother::Smoother> smoother_;
+  /// Of all keyframes; absent: to be computed, empty: could not be.
+  std::optional<std::vector<Eigen::Matrix3d>> marginals_;
 };
 
 EstimatorEntry incremental_smoother_entry();

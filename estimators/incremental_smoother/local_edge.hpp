@@ -20,9 +20,9 @@ struct EdgeGradient {
   Vec3 to{};
 };
 
-/// The Gauss-Newton blocks of one edge in those axes, by rows. With h the motion as it is estimated,
-/// T = [1 0 −h_y; 0 1 h_x; 0 0 1] and Q = diag(Rot(h_θ), 1) the Jacobians are −T and Q: they depend
-/// on h alone, so a part of the map that moves as one keeps its blocks.
+/// The Gauss-Newton blocks of one edge in those axes, by rows. With h the motion as it is
+/// estimated, T = [1 0 −h_y; 0 1 h_x; 0 0 1] and Q = diag(Rot(h_θ), 1) the Jacobians are −T and Q:
+/// they depend on h alone, so a part of the map that moves as one keeps its blocks.
 struct EdgeBlocks {
   std::array<double, 9> from_from{};
   std::array<double, 9> to_from{};
@@ -63,9 +63,15 @@ inline EdgeBlocks blocks_of(const Edge& edge, const Node& i, const Node& k) {
   EdgeBlocks b;
   b.from_from = {W[0], W[1], a02, W[1], W[3], a12, a02, a12, -hy * a02 + hx * a12 + a22};
   // −Qᵀ W T.
-  b.to_from = {-(c * W[0] + s * W[1]), -(c * W[1] + s * W[3]), -(c * a02 + s * a12),
-               s * W[0] - c * W[1],    s * W[1] - c * W[3],    s * a02 - c * a12,
-               -W[2],                  -W[4],                  -a22};
+  b.to_from = {-(c * W[0] + s * W[1]),
+               -(c * W[1] + s * W[3]),
+               -(c * a02 + s * a12),
+               s * W[0] - c * W[1],
+               s * W[1] - c * W[3],
+               s * a02 - c * a12,
+               -W[2],
+               -W[4],
+               -a22};
   const double xx = c * c * W[0] + 2.0 * c * s * W[1] + s * s * W[3];
   const double xy = c * s * (W[3] - W[0]) + (c * c - s * s) * W[1];
   const double yy = s * s * W[0] - 2.0 * c * s * W[1] + c * c * W[3];

@@ -21,8 +21,9 @@ struct RestGraph {
   int groups() const { return static_cast<int>(group_start.size()) - 1; }
 };
 
-/// An order of elimination of small fill, node `newest` last but one, `fixed` last. Up to some thousand nodes minimum degree
-/// with the true degrees, on sets of bits; beyond, approximate minimum degree.
+/// An order of elimination of small fill, node `newest` last but one, `fixed` last. Up to some
+/// thousand nodes minimum degree with the true degrees, on sets of bits; beyond, approximate
+/// minimum degree.
 class MinimumDegree {
  public:
   const std::vector<int>& order(const RestGraph& graph, int newest, int fixed);

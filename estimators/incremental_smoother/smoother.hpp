@@ -1,7 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
+
+#include <Eigen/Core>
 
 #include "estimators/incremental_smoother/clique_tree.hpp"
 #include "fathom/estimation/estimator.hpp"
@@ -10,8 +13,9 @@ namespace fathom::incremental_smoother {
 
 struct SmootherLimits {
   int max_iterations = 100;
-  double tolerance = 1e-6;
-  double relinearise_rad = 0.05;
+  double tolerance = 1e-5;
+  double relinearise_m = 0.01;
+  double relinearise_rad = 0.001;
 };
 
 struct SmootherResult {
@@ -19,16 +23,12 @@ struct SmootherResult {
   int iterations = 0;
 };
 
-/// What the updates did so far.
+/// What all updates did.
 struct Counts {
-  long updates = 0;
-  long solves = 0;
-  long refactored = 0;  ///< keyframes, over all updates
-  long visited = 0;     ///< keyframes moved, over all solves
-  long refreshed = 0;   ///< keyframes factored again in their old order
-  long refreshes = 0;
-  long polishes = 0;
-  long batches = 0;     ///< updates that fell back to a solve of the whole graph
+  long steps = 0;
+  long whole_steps = 0;  ///< of them those with the gradient at all keyframes
+  long eliminated = 0;   ///< keyframes
+  long batch_solves = 0;
 };
 
 /// The estimate of a growing pose graph, kept at its optimum.
@@ -44,47 +44,61 @@ class Smoother {
   /// Minimises F with these registrations added; as it was before where that fails.
   SmootherResult add_registrations(std::span<const RelativePose> registrations);
 
+  /// Covariance of ν = z − h(x) for each of these registrations; nothing where there is none.
+  std::optional<std::vector<Eigen::Matrix3d>> innovation_covariances(
+      std::span<const RelativePose> forward_loops);
+
   const Counts& counts() const { return counts_; }
-  int refactored_last() const { return tree_.refactored(); }
 
  private:
+  /// Where an update stands.
+  struct Progress {
+    bool is_whole = false;  ///< the next step is of the gradient at all keyframes
+    bool is_fresh = false;  ///< the whole tree is linearised at the estimate
+    bool is_over = false;
+    SmootherResult result;
+  };
+
   void append_edge(const RelativePose& measurement);
   void evaluate(int edge);
+  void evaluate_all();
+  bool refactor();
   SmootherResult iterate();
+  bool prepare_step(const Progress& progress);
+  void take_step(Progress& progress);
+  void retreat(Progress& progress);
+  void end(Progress& progress, Outcome outcome) const;
   void save_moved();
-  void move_back();
   void note_changed(int keyframe);
   void reevaluate_bent();
-  void note_stale(int clique);
   SmootherResult solve_batch();
-  void evaluate_all();
   void undo(int edges_before);
+  void leave_tree();
 
   SmootherLimits limits_;
   Problem problem_;
   CliqueTree tree_;
   std::vector<EdgeGradient> terms_;  ///< by edge
-  std::vector<Vec3> gradient_;       ///< of ½F, by keyframe, its own axes
+  std::vector<Vec3> gradient_;       ///< of ½F, by keyframe, along its own axes
   std::vector<Vec3> ignored_;        ///< what earlier updates left of it
-  std::vector<Weight> weights_;
-  double cost_ = 0.0;
-  double debt_ = 0.0;  ///< by how much F may exceed its optimum
+  double cost_ = 0.0;                ///< F
+  double debt_ = 0.0;                ///< by how much F may exceed its optimum, for what was ignored
 
-  int first_outside_ = 1;  ///< the first keyframe that is not in the tree
-  std::vector<int> stale_;  ///< keyframes whose clique bent since it was factored
+  int first_outside_ = 1;   ///< the first keyframe that is not in the tree
+  std::vector<int> stale_;  ///< keyframes of cliques to be linearised again
   std::vector<int> touched_;
-  std::vector<int> sources_;
-  std::vector<int> changed_;  ///< keyframes whose gradient changed
+  std::vector<int> changed_;      ///< keyframes whose gradient this update has changed
+  std::vector<long> changed_in_;  ///< by keyframe: the last update that did
   std::vector<long> edge_pass_;
-  std::vector<long> changed_in_;
   long pass_ = 0;
+  long update_ = 0;
 
   struct Saved {
     int keyframe;
     Node node;
   };
-  std::vector<Saved> update_saved_;  ///< before the update
-  std::vector<long> saved_in_;       ///< the update in which a keyframe was saved
+  std::vector<Saved> saved_;    ///< before the update
+  std::vector<long> saved_in_;  ///< by keyframe: the last update that moved it
   Counts counts_;
 };
 
