@@ -33,7 +33,9 @@ Pose Smoother::pose(std::size_t k) const {
 }
 
 void Smoother::add_keyframe(const RelativePose& step) {
-  const Pose next = compose(pose(problem_.nodes.size() - 1), step.forward().motion);
+  const RelativePose forward = step.forward();
+  const Pose next = compose(pose(problem_.nodes.size() - 1), forward.motion);
+  outside_steps_.push_back({forward.motion, forward.covariance()});
   problem_.add_node(make_node(next.x, next.y, next.theta));
   gradient_.emplace_back();
   ignored_.emplace_back();
@@ -94,20 +96,40 @@ SmootherResult Smoother::add_registrations(std::span<const RelativePose> registr
     }
   }
   SmootherResult result{Outcome::numerical_failure, 0};
-  if (std::isfinite(cost_) && refactor()) result = iterate();
+  if (std::isfinite(cost_) && refactor()) {
+    result = iterate();
+    if (!refresh()) result.outcome = Outcome::numerical_failure;
+  }
   if (!is_done(result.outcome)) undo(edges_before);
   return result;
 }
 
-// With what was touched comes what is new, and what should be linearised again.
+// With what was touched comes what is new.
 bool Smoother::refactor() {
   for (int k = std::max(1, first_outside_ - 1); k < problem_.size(); ++k) touched_.push_back(k);
-  touched_.insert(touched_.end(), stale_.begin(), stale_.end());
-  stale_.clear();
   if (!tree_.refactor(touched_, problem_.size() - 1)) return false;
   counts_.eliminated += tree_.refactored();
   first_outside_ = problem_.size();
+  outside_steps_.clear();
   return true;
+}
+
+// Linearises again where the estimate has left its linearisation.
+bool Smoother::refresh() {
+  if (stale_.empty()) return true;
+  if (!tree_.refresh(stale_)) return false;
+  counts_.eliminated += tree_.refactored();
+  stale_.clear();
+  return true;
+}
+
+// Linearises everything at the estimate.
+bool Smoother::rebuild() {
+  tree_.clear();
+  stale_.clear();
+  touched_.clear();
+  first_outside_ = 1;
+  return problem_.size() < 2 || refactor();
 }
 
 void Smoother::end(Progress& progress, Outcome outcome) const {
@@ -142,11 +164,7 @@ bool Smoother::prepare_step(const Progress& progress) {
   if (!progress.is_whole) return true;
   ++counts_.whole_steps;
   debt_ = 0.0;
-  if (stale_.empty()) return true;
-  if (!tree_.refresh(stale_)) return false;
-  counts_.eliminated += tree_.refactored();
-  stale_.clear();
-  return true;
+  return refresh();
 }
 
 void Smoother::take_step(Progress& progress) {
@@ -216,7 +234,7 @@ SmootherResult Smoother::solve_batch() {
   if (is_done(solved.outcome)) {
     problem_.nodes = std::move(nodes);
     evaluate_all();
-    leave_tree();
+    if (!rebuild()) return {Outcome::numerical_failure, solved.iterations};
   }
   return {solved.outcome, solved.iterations};
 }
@@ -227,27 +245,26 @@ void Smoother::undo(int edges_before) {
   terms_.resize(at(edges_before));
   edge_pass_.resize(at(edges_before));
   evaluate_all();
-  leave_tree();
-}
-
-// All keyframes enter it again, linearised anew, with the next registrations.
-void Smoother::leave_tree() {
-  tree_.clear();
-  stale_.clear();
-  first_outside_ = 1;
+  rebuild();
 }
 
 std::optional<std::vector<Eigen::Matrix3d>> Smoother::innovation_covariances(
     std::span<const RelativePose> forward_loops) {
-  touched_.clear();
-  if (!refactor()) {
-    leave_tree();
-    return std::nullopt;
-  }
+  if (tree_.is_empty() && first_outside_ > 1) return std::nullopt;
   std::vector<Eigen::Matrix3d> result;
   for (const RelativePose& z : forward_loops) {
-    const Node& i = problem_.nodes[z.from];
-    const Node& k = problem_.nodes[z.to];
+    result.push_back(motion_covariance(static_cast<int>(z.from)) + z.covariance());
+  }
+  return result;
+}
+
+// Of the motion from a keyframe to the newest: by the tree as far as it goes, then step by step.
+Eigen::Matrix3d Smoother::motion_covariance(int from) {
+  const int last = first_outside_ - 1;
+  UncertainPose motion{{}, Eigen::Matrix3d::Zero()};
+  if (from < last) {
+    const Node& i = problem_.nodes[at(from)];
+    const Node& k = problem_.nodes[at(last)];
     double h[3];
     offset_of(i, k, h);
     Eigen::Matrix3d T = Eigen::Matrix3d::Identity();
@@ -255,10 +272,12 @@ std::optional<std::vector<Eigen::Matrix3d>> Smoother::innovation_covariances(
     T(1, 2) = h[0];
     Eigen::Matrix3d Q = Eigen::Matrix3d::Identity();
     Q.topLeftCorner<2, 2>() = rotation(h[2]);
-    result.push_back(tree_.variance(static_cast<int>(z.from), -T, static_cast<int>(z.to), Q) +
-                     z.covariance());
+    motion = {{h[0], h[1], wrap_angle(h[2])}, tree_.variance(from, -T, last, Q)};
   }
-  return result;
+  for (int k = std::max(from, last); k + 1 < problem_.size(); ++k) {
+    motion = compose(motion, outside_steps_[at(k - last)]);
+  }
+  return motion.covariance;
 }
 
 }  // namespace fathom::incremental_smoother

@@ -8,6 +8,7 @@
 
 #include "estimators/incremental_smoother/clique_tree.hpp"
 #include "fathom/estimation/estimator.hpp"
+#include "fathom/geometry/covariance.hpp"
 
 namespace fathom::incremental_smoother {
 
@@ -63,6 +64,8 @@ class Smoother {
   void evaluate(int edge);
   void evaluate_all();
   bool refactor();
+  bool refresh();
+  bool rebuild();
   SmootherResult iterate();
   bool prepare_step(const Progress& progress);
   void take_step(Progress& progress);
@@ -73,7 +76,7 @@ class Smoother {
   void reevaluate_bent();
   SmootherResult solve_batch();
   void undo(int edges_before);
-  void leave_tree();
+  Eigen::Matrix3d motion_covariance(int from);
 
   SmootherLimits limits_;
   Problem problem_;
@@ -84,8 +87,9 @@ class Smoother {
   double cost_ = 0.0;                ///< F
   double debt_ = 0.0;                ///< by how much F may exceed its optimum, for what was ignored
 
-  int first_outside_ = 1;   ///< the first keyframe that is not in the tree
-  std::vector<int> stale_;  ///< keyframes of cliques to be linearised again
+  int first_outside_ = 1;                     ///< the first keyframe that is not in the tree
+  std::vector<UncertainPose> outside_steps_;  ///< to this keyframe and those that follow it
+  std::vector<int> stale_;                    ///< keyframes of cliques to be linearised again
   std::vector<int> touched_;
   std::vector<int> changed_;      ///< keyframes whose gradient this update has changed
   std::vector<long> changed_in_;  ///< by keyframe: the last update that did
