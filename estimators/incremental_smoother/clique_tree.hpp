@@ -24,7 +24,6 @@ class CliqueTree {
   explicit CliqueTree(Problem& problem) : problem_(problem) {}
 
   void clear();
-  bool is_empty() const { return root_ < 0; }
 
   /// Eliminates again what depends on these keyframes, in an order of its own with `newest` last;
   /// those that are not in the tree enter it. False, and the tree is empty, where the matrix is not

@@ -250,7 +250,8 @@ void Smoother::undo(int edges_before) {
 
 std::optional<std::vector<Eigen::Matrix3d>> Smoother::innovation_covariances(
     std::span<const RelativePose> forward_loops) {
-  if (tree_.is_empty() && first_outside_ > 1) return std::nullopt;
+  // A tree that could not be built again after a failure knows nothing.
+  if (at(problem_.size() - first_outside_) != outside_steps_.size()) return std::nullopt;
   std::vector<Eigen::Matrix3d> result;
   for (const RelativePose& z : forward_loops) {
     result.push_back(motion_covariance(static_cast<int>(z.from)) + z.covariance());
