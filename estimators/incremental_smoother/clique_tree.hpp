@@ -52,8 +52,9 @@ class CliqueTree {
   /// Where a moved keyframe was.
   const Node& before(int keyframe) const { return before_[at(keyframe)]; }
 
-  /// One keyframe of each clique whose layout the last descend has changed by more, since it was
-  /// factored.
+  /// One keyframe of each clique that the last descend has bent, and whose keyframes have turned by
+  /// more than `limit_rad` to each other since it was factored, or moved by more than `limit_m` and
+  /// `limit_rad` of their distance.
   void find_stale(double limit_m, double limit_rad, std::vector<int>& keyframes) const;
 
   /// J H⁻¹ Jᵀ of a quantity with these derivatives by two keyframes, each in its own axes.

@@ -14,6 +14,17 @@ double size_of(const double* d, const Weight& w) {
   return w.position * (d[0] * d[0] + d[1] * d[1]) + w.heading * d[2] * d[2];
 }
 
+// Whether a keyframe is seen in another place or direction than it was; far away it may move more.
+bool has_left(const double* was, const double* now, double limit_m, double limit_rad) {
+  if (std::abs(now[2] - was[2]) > limit_rad) return true;
+  const double dx = now[0] - was[0];
+  const double dy = now[1] - was[1];
+  const double moved_m2 = dx * dx + dy * dy;
+  if (moved_m2 <= limit_m * limit_m) return false;
+  const double limit = limit_m + limit_rad * std::sqrt(was[0] * was[0] + was[1] * was[1]);
+  return moved_m2 > limit * limit;
+}
+
 }  // namespace
 
 void CliqueTree::set_right_side(const std::vector<Vec3>& gradient,
@@ -144,13 +155,9 @@ void CliqueTree::find_stale(double limit_m, double limit_rad, std::vector<int>& 
     for (int j = 0; j + 1 < c.rows(); ++j) {
       double now[3];
       offset_of(seen_from, problem_.nodes[at(c.variables[at(j)])], now);
-      const double* was = c.layout.data() + 3 * j;
-      const double dx = now[0] - was[0];
-      const double dy = now[1] - was[1];
-      if (std::abs(now[2] - was[2]) > limit_rad || dx * dx + dy * dy > limit_m * limit_m) {
-        keyframes.push_back(c.variables[0]);
-        break;
-      }
+      if (!has_left(c.layout.data() + 3 * j, now, limit_m, limit_rad)) continue;
+      keyframes.push_back(c.variables[0]);
+      break;
     }
   }
 }

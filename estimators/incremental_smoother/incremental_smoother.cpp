@@ -17,9 +17,9 @@ void IncrementalSmootherOptions::describe(OptionTable& table) {
   table.real("tolerance", tolerance, Range::positive(), "",
              "an update has converged when the cost exceeds its minimum by a smaller share");
   table.real("relinearise_m", relinearise_m, Range::positive(), "m",
-             "keyframes of a clique are linearised again when they moved by more to each other");
+             "keyframes are linearised again when they moved by more to each other");
   table.real("relinearise_rad", relinearise_rad, Range::positive(), "rad",
-             "likewise, when they turned by more");
+             "likewise, when they turned by more, or moved by more of their distance");
   gate.describe(table);
 }
 

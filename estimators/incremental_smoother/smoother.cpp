@@ -140,6 +140,7 @@ void Smoother::end(Progress& progress, Outcome outcome) const {
 SmootherResult Smoother::iterate() {
   Progress progress;
   progress.result.outcome = Outcome::iteration_limit;
+  progress.is_whole = !std::isfinite(debt_);
   while (!progress.is_over && progress.result.iterations < limits_.max_iterations) {
     ++progress.result.iterations;
     if (prepare_step(progress)) {
@@ -148,7 +149,7 @@ SmootherResult Smoother::iterate() {
       end(progress, Outcome::numerical_failure);
     }
   }
-  // The next update goes on where this one was stopped.
+  // The next update begins where this one was stopped.
   if (!progress.is_over) debt_ = std::numeric_limits<double>::infinity();
   if (progress.is_whole) {
     ignored_ = gradient_;

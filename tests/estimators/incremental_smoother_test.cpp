@@ -164,17 +164,24 @@ TEST(IncrementalSmoother, JudgesLoopsAsTheWholeGraphDoes) {
 
 // An update is as much work as the loop is long, not as the map is large.
 TEST(IncrementalSmoother, EliminatesLittleAgainForALocalLoop) {
-  const MeasurementLog log = tracks_log(3000, 30);
+  const MeasurementLog log = tracks_log(6000, 20);
   const auto estimator = make("incremental_smoother", log.origin());
+  std::vector<double> eliminated_per_update;
   long before = 0;
   int updates = 0;
   for (std::size_t k = 1; k < log.size(); ++k) {
-    if (k == 2000) before = counts_of(*estimator).eliminated;
     arrive(*estimator, log, k);
-    if (k >= 2000 && !log.arrival(k).registrations.empty()) ++updates;
+    updates += log.arrival(k).registrations.empty() ? 0 : 1;
+    if (k % 1500 != 1499) continue;
+    const long now = counts_of(*estimator).eliminated;
+    eliminated_per_update.push_back(static_cast<double>(now - before) / updates);
+    before = now;
+    updates = 0;
   }
-  ASSERT_GT(updates, 300);
-  EXPECT_LT(counts_of(*estimator).eliminated - before, 100 * updates);
+  ASSERT_EQ(eliminated_per_update.size(), 4U);
+  // Of up to 6000 keyframes.
+  EXPECT_LT(eliminated_per_update.back(), 250.0);
+  EXPECT_LT(eliminated_per_update.back(), 3.0 * eliminated_per_update.front());
   EXPECT_EQ(counts_of(*estimator).batch_solves, 0);
 }
 

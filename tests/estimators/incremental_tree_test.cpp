@@ -344,21 +344,21 @@ TEST(IncrementalTree, RigidMotionOfAPartMovesAllOfIt) {
   // A force at one keyframe of a chain bends it as far as there, and carries the rest along.
   std::vector<Vec3> gradient(41);
   const std::vector<Vec3> ignored = gradient;
-  gradient[10] = {3.0, -2.0, 5.0};
+  gradient[10] = {3e-3, -2e-3, 5e-3};
   const std::vector<int> keyframes{10};
   const Problem before = grown.problem;
   grown.tree.forward(keyframes, gradient, ignored);
-  grown.tree.descend(1e-12);
+  grown.tree.descend(1e-9);
   for (int k = 11; k <= 40; ++k) {
     double was[3];
     double now[3];
     offset_of(before.nodes[10], before.nodes[at(k)], was);
     offset_of(grown.problem.nodes[10], grown.problem.nodes[at(k)], now);
-    for (int a = 0; a < 3; ++a) EXPECT_NEAR(now[a], was[a], 1e-6) << k;
+    for (int a = 0; a < 3; ++a) EXPECT_NEAR(now[a], was[a], 3e-5) << k;
   }
   double moved_by[3];
   offset_of(before.nodes[40], grown.problem.nodes[40], moved_by);
-  EXPECT_GT(std::abs(moved_by[2]), 0.1);
+  EXPECT_GT(std::hypot(moved_by[0], moved_by[1]), 3e-4);
   EXPECT_LT(grown.tree.bent().size(), 30U);
   EXPECT_EQ(grown.tree.moved().size(), 40U);
 }
