@@ -217,6 +217,20 @@ TEST(IncrementalSmoother, StopsAtItsLimitAndGoesOnWithTheNextUpdate) {
   EXPECT_LT(chi2(log, poses_of(*hasty)), 1.1 * optimum);
 }
 
+// Noise so large that steps raise the cost, however they are taken.
+TEST(IncrementalSmoother, SolvesTheWholeGraphWhereItsStepsFail) {
+  LogOptions options;
+  options.keyframes = 60;
+  options.noise = 24.0;
+  const MeasurementLog log = test::circle_log(options);
+  const EstimatorValues exactly = test::values({{"tolerance", "1e-13"}});
+  const auto ours = test::solved("incremental_smoother", log, exactly);
+  const auto whole = test::solved("sparse_gauss_newton", log, exactly);
+  EXPECT_GT(counts_of(*ours).batch_solves, 0);
+  const double optimum = chi2(log, poses_of(*whole));
+  EXPECT_NEAR(chi2(log, poses_of(*ours)), optimum, 1e-8 * optimum);
+}
+
 class IncrementalSmootherOnRealGraphs : public testing::TestWithParam<std::string> {};
 
 INSTANTIATE_TEST_SUITE_P(PoseGraphs, IncrementalSmootherOnRealGraphs,

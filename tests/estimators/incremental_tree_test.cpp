@@ -341,7 +341,8 @@ TEST(IncrementalTree, RigidMotionOfAPartMovesAllOfIt) {
   std::vector<int> all(40);
   std::iota(all.begin(), all.end(), 1);
   ASSERT_TRUE(grown.tree.refactor(all, 40));
-  // A force at one keyframe of a chain bends it as far as there, and carries the rest along.
+  // A force at one keyframe of a chain bends it as far as there, and carries the rest along: to
+  // second order in the bend.
   std::vector<Vec3> gradient(41);
   const std::vector<Vec3> ignored = gradient;
   gradient[10] = {3e-3, -2e-3, 5e-3};
