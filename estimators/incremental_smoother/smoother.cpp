@@ -13,6 +13,7 @@ namespace {
 // rounding.
 constexpr double kNegligible = 1e-12;
 constexpr double kNoise = 1e-20;
+constexpr double kCancellation = 1e-6;
 // A bend that is left out, as a share of what F may exceed its optimum by.
 constexpr double kNegligibleBend = 0.1;
 
@@ -22,7 +23,7 @@ Smoother::Smoother(const Pose& origin, const SmootherLimits& limits)
     : limits_(limits),
       problem_(make_node(origin.x, origin.y, origin.theta)),
       tree_(problem_),
-      gradient_(1),
+      gradient_(problem_),
       ignored_(1),
       changed_in_(1, -1),
       saved_in_(1, -1) {}
@@ -37,7 +38,7 @@ void Smoother::add_keyframe(const RelativePose& step) {
   const Pose next = compose(pose(problem_.nodes.size() - 1), forward.motion);
   outside_steps_.push_back({forward.motion, forward.covariance()});
   problem_.add_node(make_node(next.x, next.y, next.theta));
-  gradient_.emplace_back();
+  gradient_.add_keyframe();
   ignored_.emplace_back();
   changed_in_.push_back(-1);
   saved_in_.push_back(-1);
@@ -46,33 +47,14 @@ void Smoother::add_keyframe(const RelativePose& step) {
 
 void Smoother::append_edge(const RelativePose& measurement) {
   problem_.add_edge(sparse_gauss_newton::make_edge(measurement));
-  terms_.emplace_back();
   edge_pass_.push_back(-1);
-  evaluate(problem_.edge_count() - 1);
+  gradient_.add_edge();
 }
 
-void Smoother::evaluate(int e) {
-  const Edge& edge = problem_.edges[at(e)];
-  EdgeGradient& t = terms_[at(e)];
-  const EdgeGradient next =
-      gradient_of(edge, problem_.nodes[at(edge.from)], problem_.nodes[at(edge.to)]);
-  Vec3& from = gradient_[at(edge.from)];
-  Vec3& to = gradient_[at(edge.to)];
-  for (std::size_t a = 0; a < 3; ++a) {
-    from[a] += next.from[a] - t.from[a];
-    to[a] += next.to[a] - t.to[a];
-  }
-  cost_ += next.cost - t.cost;
-  t = next;
-}
-
-// What was ignored stays so: whatever is left of the gradient.
+// What is left of the gradient then is ignored.
 void Smoother::evaluate_all() {
-  cost_ = 0.0;
-  std::fill(gradient_.begin(), gradient_.end(), Vec3{});
-  std::fill(terms_.begin(), terms_.end(), EdgeGradient{});
-  for (int e = 0; e < problem_.edge_count(); ++e) evaluate(e);
-  ignored_ = gradient_;
+  gradient_.evaluate_all();
+  ignored_ = gradient_.by_keyframe();
 }
 
 void Smoother::note_changed(int k) {
@@ -96,7 +78,7 @@ SmootherResult Smoother::add_registrations(std::span<const RelativePose> registr
     }
   }
   SmootherResult result{Outcome::numerical_failure, 0};
-  if (std::isfinite(cost_) && refactor()) {
+  if (std::isfinite(gradient_.cost()) && refactor()) {
     result = iterate();
     if (!refresh()) result.outcome = Outcome::numerical_failure;
   }
@@ -132,7 +114,7 @@ bool Smoother::rebuild() {
   return problem_.size() < 2 || refactor();
 }
 
-void Smoother::end(Progress& progress, Outcome outcome) const {
+void Smoother::end(Progress& progress, Outcome outcome) {
   progress.is_over = true;
   progress.result.outcome = outcome;
 }
@@ -152,9 +134,9 @@ SmootherResult Smoother::iterate() {
   // The next update begins where this one was stopped.
   if (!progress.is_over) debt_ = std::numeric_limits<double>::infinity();
   if (progress.is_whole) {
-    ignored_ = gradient_;
+    ignored_ = gradient_.by_keyframe();
   } else {
-    for (const int k : changed_) ignored_[at(k)] = gradient_[at(k)];
+    for (const int k : changed_) ignored_[at(k)] = gradient_.by_keyframe()[at(k)];
   }
   return progress.result;
 }
@@ -169,29 +151,35 @@ bool Smoother::prepare_step(const Progress& progress) {
 }
 
 void Smoother::take_step(Progress& progress) {
-  const double promised = progress.is_whole ? tree_.forward_all(gradient_)
-                                            : tree_.forward(changed_, gradient_, ignored_);
+  const double promised = progress.is_whole
+                              ? tree_.forward_all(gradient_.by_keyframe())
+                              : tree_.forward(changed_, gradient_.by_keyframe(), ignored_);
   if (!std::isfinite(promised)) return end(progress, Outcome::numerical_failure);
-  const double allowed = limits_.tolerance * cost_ + kNoise;
+  const double allowed = limits_.tolerance * gradient_.cost() + kNoise;
   if (progress.is_whole && promised <= allowed) return end(progress, Outcome::converged);
-  const double before = cost_;
+  const double before = gradient_.cost();
   tree_.descend(kNegligibleBend * limits_.tolerance);
   save_moved();
   reevaluate_bent();
-  if (!(cost_ <= before + allowed + kNegligible)) return retreat(progress);
+  // A sum that was large before has rounding of its own.
+  if (gradient_.cost() < kCancellation * before) gradient_.evaluate_all();
+  if (!(gradient_.cost() <= before + allowed + kNegligible)) return retreat(progress);
   progress.is_fresh = false;
   tree_.find_stale(limits_.relinearise_m, limits_.relinearise_rad, stale_);
   // What a step promises is what it brings but for terms of third order, and what it leaves is of
   // fourth: while the one differs from the other by little, it leaves less.
-  debt_ += std::abs(promised - (before - cost_));
-  if (debt_ <= limits_.tolerance * cost_ + kNoise) return end(progress, Outcome::converged);
+  debt_ += std::abs(promised - (before - gradient_.cost()));
+  if (debt_ <= limits_.tolerance * gradient_.cost() + kNoise) {
+    return end(progress, Outcome::converged);
+  }
   progress.is_whole = true;
 }
 
 // Where a step made F rise: once more, with everything linearised here; else in batch.
 void Smoother::retreat(Progress& progress) {
   for (const int v : tree_.moved()) problem_.nodes[at(v)] = tree_.before(v);
-  reevaluate_bent();
+  // From where F may have been anything, infinite too.
+  gradient_.evaluate_all();
   if (!progress.is_fresh) {
     progress.is_fresh = true;
     progress.is_whole = true;
@@ -220,7 +208,7 @@ void Smoother::reevaluate_bent() {
     problem_.for_each_edge(v, [&](int e, int other) {
       if (edge_pass_[at(e)] == pass_) return;
       edge_pass_[at(e)] = pass_;
-      evaluate(e);
+      gradient_.evaluate(e);
       note_changed(other);
     });
   }
@@ -243,43 +231,9 @@ SmootherResult Smoother::solve_batch() {
 void Smoother::undo(int edges_before) {
   for (const Saved& saved : saved_) problem_.nodes[at(saved.keyframe)] = saved.node;
   problem_.forget_edges(edges_before);
-  terms_.resize(at(edges_before));
   edge_pass_.resize(at(edges_before));
   evaluate_all();
   rebuild();
-}
-
-std::optional<std::vector<Eigen::Matrix3d>> Smoother::innovation_covariances(
-    std::span<const RelativePose> forward_loops) {
-  // A tree that could not be built again after a failure knows nothing.
-  if (at(problem_.size() - first_outside_) != outside_steps_.size()) return std::nullopt;
-  std::vector<Eigen::Matrix3d> result;
-  for (const RelativePose& z : forward_loops) {
-    result.push_back(motion_covariance(static_cast<int>(z.from)) + z.covariance());
-  }
-  return result;
-}
-
-// Of the motion from a keyframe to the newest: by the tree as far as it goes, then step by step.
-Eigen::Matrix3d Smoother::motion_covariance(int from) {
-  const int last = first_outside_ - 1;
-  UncertainPose motion{{}, Eigen::Matrix3d::Zero()};
-  if (from < last) {
-    const Node& i = problem_.nodes[at(from)];
-    const Node& k = problem_.nodes[at(last)];
-    double h[3];
-    offset_of(i, k, h);
-    Eigen::Matrix3d T = Eigen::Matrix3d::Identity();
-    T(0, 2) = -h[1];
-    T(1, 2) = h[0];
-    Eigen::Matrix3d Q = Eigen::Matrix3d::Identity();
-    Q.topLeftCorner<2, 2>() = rotation(h[2]);
-    motion = {{h[0], h[1], wrap_angle(h[2])}, tree_.variance(from, -T, last, Q)};
-  }
-  for (int k = std::max(from, last); k + 1 < problem_.size(); ++k) {
-    motion = compose(motion, outside_steps_[at(k - last)]);
-  }
-  return motion.covariance;
 }
 
 }  // namespace fathom::incremental_smoother

@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 
 #include "estimators/incremental_smoother/clique_tree.hpp"
+#include "estimators/incremental_smoother/gradient.hpp"
 #include "fathom/estimation/estimator.hpp"
 #include "fathom/geometry/covariance.hpp"
 
@@ -61,7 +62,6 @@ class Smoother {
   };
 
   void append_edge(const RelativePose& measurement);
-  void evaluate(int edge);
   void evaluate_all();
   bool refactor();
   bool refresh();
@@ -70,7 +70,7 @@ class Smoother {
   bool prepare_step(const Progress& progress);
   void take_step(Progress& progress);
   void retreat(Progress& progress);
-  void end(Progress& progress, Outcome outcome) const;
+  static void end(Progress& progress, Outcome outcome);
   void save_moved();
   void note_changed(int keyframe);
   void reevaluate_bent();
@@ -81,11 +81,9 @@ class Smoother {
   SmootherLimits limits_;
   Problem problem_;
   CliqueTree tree_;
-  std::vector<EdgeGradient> terms_;  ///< by edge
-  std::vector<Vec3> gradient_;       ///< of ½F, by keyframe, along its own axes
-  std::vector<Vec3> ignored_;        ///< what earlier updates left of it
-  double cost_ = 0.0;                ///< F
-  double debt_ = 0.0;                ///< by how much F may exceed its optimum, for what was ignored
+  Gradient gradient_;
+  std::vector<Vec3> ignored_;  ///< what earlier updates left of it
+  double debt_ = 0.0;          ///< by how much F may exceed its optimum, for what was ignored
 
   int first_outside_ = 1;                     ///< the first keyframe that is not in the tree
   std::vector<UncertainPose> outside_steps_;  ///< to this keyframe and those that follow it
