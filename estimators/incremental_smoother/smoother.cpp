@@ -159,7 +159,7 @@ void Smoother::take_step(Progress& progress) {
   if (progress.is_whole && promised <= allowed) return end(progress, Outcome::converged);
   const double before = gradient_.cost();
   tree_.descend(kNegligibleBend * limits_.tolerance);
-  save_moved();
+  for (const int v : tree_.moved()) save(v, tree_.before(v));
   reevaluate_bent();
   // A sum that was large before has rounding of its own.
   if (gradient_.cost() < kCancellation * before) gradient_.evaluate_all();
@@ -192,12 +192,10 @@ void Smoother::retreat(Progress& progress) {
   end(progress, solved.outcome);
 }
 
-void Smoother::save_moved() {
-  for (const int v : tree_.moved()) {
-    if (saved_in_[at(v)] == update_) continue;
-    saved_in_[at(v)] = update_;
-    saved_.push_back({v, tree_.before(v)});
-  }
+void Smoother::save(int k, const Node& node) {
+  if (saved_in_[at(k)] == update_) return;
+  saved_in_[at(k)] = update_;
+  saved_.push_back({k, node});
 }
 
 // A motion that keyframes share changes nothing of what lies between them.
@@ -221,6 +219,7 @@ SmootherResult Smoother::solve_batch() {
       sparse_gauss_newton::solve_batch(problem_.edges, nodes, sparse_gauss_newton::Start::given,
                                        {limits_.max_iterations, limits_.tolerance});
   if (is_done(solved.outcome)) {
+    for (int k = 1; k < problem_.size(); ++k) save(k, problem_.nodes[at(k)]);
     problem_.nodes = std::move(nodes);
     evaluate_all();
     if (!rebuild()) return {Outcome::numerical_failure, solved.iterations};

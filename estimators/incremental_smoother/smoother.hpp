@@ -71,7 +71,7 @@ class Smoother {
   void take_step(Progress& progress);
   void retreat(Progress& progress);
   static void end(Progress& progress, Outcome outcome);
-  void save_moved();
+  void save(int keyframe, const Node& node);
   void note_changed(int keyframe);
   void reevaluate_bent();
   SmootherResult solve_batch();
