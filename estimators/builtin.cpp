@@ -2,6 +2,7 @@
 
 #include "estimators/ceres_pose_graph/ceres_pose_graph.hpp"
 #include "estimators/ekf/ekf.hpp"
+#include "estimators/incremental_smoother/incremental_smoother.hpp"
 #include "estimators/sparse_gauss_newton/sparse_gauss_newton.hpp"
 #include "estimators/trajectory_iekf/trajectory_iekf.hpp"
 
@@ -15,6 +16,7 @@ const EstimatorRegistry& builtin_estimators() {
     all.add(ekf_entry());
     all.add(ceres_pose_graph_entry());
     all.add(sparse_gauss_newton_entry());
+    all.add(incremental_smoother_entry());
     return all;
   }();
   return registry;

@@ -45,7 +45,6 @@ class Graph {
 
  private:
   void changed() { marginals_.reset(); }
-  void compute_marginals();
 
   std::vector<Node> nodes_;
   std::vector<Edge> edges_;

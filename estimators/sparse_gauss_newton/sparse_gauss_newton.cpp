@@ -89,27 +89,11 @@ UpdateReport SparseGaussNewton::close_loops(std::span<const RelativePose> regist
   return report;
 }
 
-// Decides on every registration. False where they cannot be judged.
 bool SparseGaussNewton::judge(std::span<const RelativePose> registrations, UpdateReport& report) {
-  std::vector<RelativePose> forward;
-  bool finite = true;
-  for (const RelativePose& z : registrations) {
-    report.loops.push_back({z.from, z.to, LoopFate::used, std::nullopt});
-    finite = finite && is_finite(z.motion) && z.information.allFinite();
-    forward.push_back(z.forward());
-  }
-  if (!finite) return false;
-  if (!gate_.is_on()) return true;
-  const auto S = graph_->innovation_covariances(forward);
-  if (!S) return false;
-  for (std::size_t j = 0; j < forward.size(); ++j) {
-    const Pose h = between(pose(forward[j].from), pose(forward[j].to));
-    Eigen::Vector3d nu = forward[j].motion.vector() - h.vector();
-    nu.z() = wrap_angle(nu.z());
-    report.loops[j].nis = normalised_innovation_squared(nu, (*S)[j]);
-    report.loops[j].fate = fate_of(gate_.passes(*report.loops[j].nis));
-  }
-  return true;
+  const auto covariances = [&](std::span<const RelativePose> forward) {
+    return graph_->innovation_covariances(forward);
+  };
+  return fathom::judge(gate_, *this, registrations, covariances, report);
 }
 
 UpdateReport SparseGaussNewton::finish(std::span<const Pose> start) {

@@ -42,6 +42,30 @@ void lose_all(UpdateReport& report, Outcome outcome) {
   }
 }
 
+bool judge(const Gate& gate, const TrajectoryView& estimate,
+           std::span<const RelativePose> registrations, const InnovationCovariances& covariances,
+           UpdateReport& report) {
+  std::vector<RelativePose> forward;
+  bool finite = true;
+  for (const RelativePose& z : registrations) {
+    report.loops.push_back({z.from, z.to, LoopFate::used, std::nullopt});
+    finite = finite && is_finite(z.motion) && z.information.allFinite();
+    forward.push_back(z.forward());
+  }
+  if (!finite) return false;
+  if (!gate.is_on()) return true;
+  const auto S = covariances(forward);
+  if (!S) return false;
+  for (std::size_t j = 0; j < forward.size(); ++j) {
+    const Pose h = between(estimate.pose(forward[j].from), estimate.pose(forward[j].to));
+    Eigen::Vector3d nu = forward[j].motion.vector() - h.vector();
+    nu.z() = wrap_angle(nu.z());
+    report.loops[j].nis = normalised_innovation_squared(nu, (*S)[j]);
+    report.loops[j].fate = fate_of(gate.passes(*report.loops[j].nis));
+  }
+  return true;
+}
+
 double normalised_innovation_squared(const Eigen::Vector3d& innovation, const Eigen::Matrix3d& S) {
   const Eigen::LLT<Eigen::Matrix3d> llt(S);
   if (llt.info() != Eigen::Success) return std::numeric_limits<double>::quiet_NaN();

@@ -100,7 +100,7 @@ TEST_F(Commands, CompareGivesOneLogToAll) {
   write("c.yaml", kSmallSurvey);
   const Ended ended = fathom_done({"compare", "c.yaml", "--out", "out"});
   const std::vector<std::string> names{"trajectory_iekf", "ekf", "ceres_pose_graph",
-                                       "sparse_gauss_newton"};
+                                       "sparse_gauss_newton", "incremental_smoother"};
   for (const std::string& name : names) {
     EXPECT_THAT(ended.out, HasSubstr(name));
     EXPECT_THAT(bytes_of("out/table.txt"), HasSubstr(name));
@@ -124,8 +124,8 @@ TEST_F(Commands, CompareGivesOneLogToAll) {
 TEST_F(Commands, SolveOnARunsLogIsTheRunToTheLastBit) {
   write("c.yaml", kSmallSurvey);
   fathom_done({"compare", "c.yaml", "--out", "out"});
-  for (const std::string name :
-       {"trajectory_iekf", "ekf", "ceres_pose_graph", "sparse_gauss_newton"}) {
+  for (const std::string name : {"trajectory_iekf", "ekf", "ceres_pose_graph",
+                                 "sparse_gauss_newton", "incremental_smoother"}) {
     fathom_done({"solve", "out/" + name + "/measurements.g2o", "--estimator", name, "--mode",
                  "incremental", "--out", "again"});
     const auto run = tum("out/" + name + "/trajectory.tum");
@@ -293,8 +293,8 @@ TEST_F(Commands, ANumericalFailureIsStatusOneAndSaysSo) {
   write("huge.g2o",
         "EDGE_SE2 0 1 1e200 0 0 1 0 0 1 0 1\nEDGE_SE2 1 2 1e200 0 0 1 0 0 1 0 1\n"
         "EDGE_SE2 0 2 -1e200 0 3 1 0 0 1 0 1\n");
-  for (const std::string name :
-       {"trajectory_iekf", "ekf", "ceres_pose_graph", "sparse_gauss_newton"}) {
+  for (const std::string name : {"trajectory_iekf", "ekf", "ceres_pose_graph",
+                                 "sparse_gauss_newton", "incremental_smoother"}) {
     const Ended ended = fathom({"solve", "huge.g2o", "--estimator", name, "--out", "out-" + name});
     EXPECT_EQ(ended.status, 1) << name << ended.out;
     const nlohmann::json metrics = json_of("out-" + name + "/metrics.json");

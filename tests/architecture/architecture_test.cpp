@@ -121,6 +121,10 @@ TEST(IncludeRules, RefuseWhatTheTableDoesNotAllow) {
       {"estimators/ekf/ekf.cpp", "\"fathom/vision/camera.hpp\"", "estimators may not"},
       {"estimators/ekf/ekf.cpp", "\"fathom/evaluation/accuracy.hpp\"", "estimators may not"},
       {"estimators/ekf/ekf.cpp", "\"estimators/ceres_pose_graph/graph.hpp\"", "estimator's own"},
+      {"estimators/incremental_smoother/a.cpp",
+       "\"estimators/sparse_gauss_newton/sparse_gauss_newton.hpp\"", "estimator's own"},
+      {"estimators/sparse_gauss_newton/a.cpp", "\"estimators/incremental_smoother/smoother.hpp\"",
+       "estimator's own"},
       {"apps/main.cpp", "\"estimators/ekf/ekf.hpp\"", "estimator's own"},
       {"src/geometry/a.cpp", "\"fathom/odds/ends.hpp\"", "of no module"},
       {"src/odds/a.cpp", "<vector>", "lies in no module"},
@@ -161,6 +165,10 @@ TEST(IncludeRules, JudgeLinks) {
   EXPECT_THAT(complaint_about_link("fathom_vision", "fathom_measurements"), IsEmpty());
   EXPECT_THAT(complaint_about_link("fathom_vision", "opencv_core"), IsEmpty());
   EXPECT_THAT(complaint_about_link("fathom_estimators", "fathom_ekf"), IsEmpty());
+  EXPECT_THAT(complaint_about_link("fathom_incremental_smoother", "fathom_sparse_gauss_newton"),
+              IsEmpty());
+  EXPECT_THAT(complaint_about_link("fathom_sparse_gauss_newton", "fathom_incremental_smoother"),
+              HasSubstr("another"));
   EXPECT_THAT(complaint_about_link("fathom_ekf", "fathom_estimation"), IsEmpty());
   EXPECT_THAT(complaint_about_link("fathom_apps", "fathom_study"), IsEmpty());
   EXPECT_THAT(complaint_about_link("fathom_ekf", "fathom_vision"), HasSubstr("may not link"));

@@ -94,6 +94,14 @@ std::string folder_of(const std::string& path) {
   return path.substr(0, path.rfind('/') + 1);
 }
 
+// An estimator that is built on the solver of another: its folder, and what it may include.
+bool is_built_on(const Include& include) {
+  const std::string solver = "estimators/sparse_gauss_newton/";
+  return folder_of(include.file) == "estimators/incremental_smoother/" &&
+         folder_of(include.target) == solver &&
+         include.target != solver + "sparse_gauss_newton.hpp";
+}
+
 std::string judge_angled(const Include& include) {
   // A header of the standard library has neither a folder nor an ending.
   if (include.target.find_first_of("/.") == std::string::npos) return "";
@@ -120,7 +128,7 @@ std::string judge_quoted(const Include& include) {
   }
   if (!include.target.starts_with("estimators/")) return "";
   const bool is_own = folder_of(include.file) == folder_of(include.target);
-  return is_own || include.file == "estimators/builtin.cpp"
+  return is_own || is_built_on(include) || include.file == "estimators/builtin.cpp"
              ? ""
              : "is an estimator's own; only its folder and builtin.cpp may include it";
 }
@@ -164,7 +172,11 @@ std::string complaint_about_link(const std::string& target, const std::string& l
   const std::string to = module(linked);
   const bool between_estimators = from == "estimators" && to == "estimators";
   if (between_estimators) {
-    return target == "fathom_estimators" ? "" : target + " links another estimator, " + linked;
+    const bool is_solver =
+        target == "fathom_incremental_smoother" && linked == "fathom_sparse_gauss_newton";
+    return target == "fathom_estimators" || is_solver
+               ? ""
+               : target + " links another estimator, " + linked;
   }
   return from != to && may_use(from, to) ? "" : target + " may not link " + linked;
 }

@@ -1,0 +1,206 @@
+#include "estimators/incremental_smoother/clique_tree.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "estimators/incremental_smoother/fronts.hpp"
+
+namespace fathom::incremental_smoother {
+
+void CliqueTree::clear() {
+  unmark();
+  free_.clear();
+  for (int i = static_cast<int>(cliques_.size()) - 1; i >= 0; --i) free_.push_back(i);
+  std::fill(clique_of_.begin(), clique_of_.end(), -1);
+  root_ = -1;
+}
+
+void CliqueTree::grow() {
+  const auto n = at(problem_.size());
+  clique_of_.resize(n, -1);
+  // Keyframe 0 is never eliminated.
+  order_.resize(n, std::numeric_limits<long>::max());
+  index_of_.resize(n, -1);
+  row_of_.resize(n, 0);
+  x_.resize(3 * n);
+  before_.resize(n);
+}
+
+void CliqueTree::mark_up(int keyframe) {
+  for (int i = clique_of_[at(keyframe)]; i >= 0 && !cliques_[at(i)].is_marked;
+       i = cliques_[at(i)].parent) {
+    cliques_[at(i)].is_marked = true;
+    marked_.push_back(i);
+  }
+}
+
+void CliqueTree::mark_all() {
+  if (root_ < 0) return;
+  marked_.push_back(root_);
+  for (std::size_t next = 0; next < marked_.size(); ++next) {
+    Clique& c = cliques_[at(marked_[next])];
+    c.is_marked = true;
+    marked_.insert(marked_.end(), c.children.begin(), c.children.end());
+  }
+  std::reverse(marked_.begin(), marked_.end());
+}
+
+// Children before parents.
+void CliqueTree::sort_marked() {
+  std::sort(marked_.begin(), marked_.end(), [&](int a, int b) {
+    return order_[at(cliques_[at(a)].variables[0])] < order_[at(cliques_[at(b)].variables[0])];
+  });
+}
+
+void CliqueTree::unmark() {
+  for (const int i : marked_) cliques_[at(i)].is_marked = false;
+  marked_.clear();
+}
+
+void CliqueTree::find_affected(std::span<const int> keyframes) {
+  unmark();
+  affected_.clear();
+  for (const int v : keyframes) {
+    if (clique_of_[at(v)] >= 0) {
+      mark_up(v);
+    } else if (index_of_[at(v)] < 0) {
+      index_of_[at(v)] = 0;
+      affected_.push_back(v);
+    }
+  }
+  for (const int i : marked_) {
+    const Clique& c = cliques_[at(i)];
+    affected_.insert(affected_.end(), c.variables.begin(), c.variables.begin() + c.width);
+  }
+  std::sort(affected_.begin(), affected_.end());
+  affected_.push_back(0);
+  for (std::size_t i = 0; i < affected_.size(); ++i) {
+    index_of_[at(affected_[i])] = static_cast<int>(i);
+  }
+}
+
+void CliqueTree::describe_rest() {
+  rest_.clear();
+  rest_.size = static_cast<int>(affected_.size());
+  for (const int v : affected_) {
+    problem_.for_each_edge(v, [&](int, int other) {
+      if (other < v && index_of_[at(other)] >= 0) {
+        rest_.links.push_back({index_of_[at(v)], index_of_[at(other)]});
+      }
+    });
+  }
+  orphans_.clear();
+  for (const int i : marked_) {
+    for (const int child : cliques_[at(i)].children) {
+      const Clique& c = cliques_[at(child)];
+      if (c.is_marked) continue;
+      orphans_.push_back(child);
+      for (int j = c.width; j < c.rows(); ++j) {
+        rest_.group_nodes.push_back(index_of_[at(c.variables[at(j)])]);
+      }
+      rest_.group_start.push_back(static_cast<int>(rest_.group_nodes.size()));
+    }
+  }
+}
+
+void CliqueTree::release_marked() {
+  free_.insert(free_.end(), marked_.begin(), marked_.end());
+  unmark();
+}
+
+int CliqueTree::new_clique() {
+  if (free_.empty()) {
+    cliques_.emplace_back();
+    return static_cast<int>(cliques_.size()) - 1;
+  }
+  const int i = free_.back();
+  free_.pop_back();
+  return i;
+}
+
+void CliqueTree::build(int newest) {
+  elimination_.analyse(rest_, minimum_degree_.order(rest_, index_of_[at(newest)], rest_.size - 1));
+  built_.clear();
+  for (const Front& front : elimination_.fronts()) {
+    const int i = new_clique();
+    Clique& c = cliques_[at(i)];
+    c.width = front.width;
+    c.height = front.height;
+    c.children.clear();
+    c.variables.clear();
+    for (int j = 0; j < front.width; ++j) {
+      const int v = affected_[at(elimination_.node_at(front.first + j))];
+      c.variables.push_back(v);
+      clique_of_[at(v)] = i;
+      order_[at(v)] = next_order_++;
+    }
+    for (int j = 0; j < front.height; ++j) {
+      const int position = elimination_.row(front.rows + at(j));
+      c.variables.push_back(affected_[at(elimination_.node_at(position))]);
+    }
+    built_.push_back(i);
+  }
+  for (const int i : built_) attach(i);
+  for (const int i : orphans_) attach(i);
+}
+
+// To the clique of the separator that is eliminated first.
+void CliqueTree::attach(int clique) {
+  Clique& c = cliques_[at(clique)];
+  c.leader = c.variables[at(c.width)];
+  for (int j = c.width + 1; j < c.rows(); ++j) {
+    const int v = c.variables[at(j)];
+    if (order_[at(v)] < order_[at(c.leader)]) c.leader = v;
+  }
+  c.parent = clique_of_[at(c.leader)];
+  if (c.parent < 0) {
+    root_ = clique;
+  } else {
+    cliques_[at(c.parent)].children.push_back(clique);
+  }
+}
+
+bool CliqueTree::refactor(std::span<const int> keyframes, int newest) {
+  grow();
+  find_affected(keyframes);
+  describe_rest();
+  release_marked();
+  build(newest);
+  for (const int v : affected_) index_of_[at(v)] = -1;
+  if (factor(built_)) return true;
+  clear();
+  return false;
+}
+
+bool CliqueTree::refresh(std::span<const int> keyframes) {
+  unmark();
+  for (const int v : keyframes) mark_up(v);
+  sort_marked();
+  const bool done = factor(marked_);
+  unmark();
+  if (!done) clear();
+  return done;
+}
+
+bool CliqueTree::factor(std::span<const int> which) {
+  refactored_ = 0;
+  for (const int i : which) {
+    Clique& c = cliques_[at(i)];
+    const std::size_t width = 3 * at(c.width);
+    const std::size_t height = 3 * at(c.height);
+    refactored_ += c.width;
+    packed_.resize(std::max(packed_.size(), 3 * width));
+    signs_.resize(std::max(signs_.size(), width));
+    gathered_.resize(std::max(gathered_.size(), width + height));
+    buffers_.give_back(std::move(c.panel));
+    buffers_.give_back(std::move(c.update));
+    c.panel = buffers_.take((width + height) * width + kReadAhead);
+    c.update = buffers_.take(height * height);
+    c.layout.resize(width + height);
+  }
+  FrontFactorisation run{problem_,       cliques_,       which,        order_.data(),
+                         row_of_.data(), packed_.data(), signs_.data()};
+  return sparse_gauss_newton::run_for_processor(run);
+}
+
+}  // namespace fathom::incremental_smoother

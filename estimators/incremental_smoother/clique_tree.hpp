@@ -1,0 +1,116 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "estimators/incremental_smoother/clique.hpp"
+#include "estimators/incremental_smoother/elimination.hpp"
+#include "estimators/incremental_smoother/motion.hpp"
+#include "estimators/incremental_smoother/problem.hpp"
+
+namespace fathom::incremental_smoother {
+
+/// The Cholesky factor of the Gauss-Newton matrix as a tree of cliques (the Bayes tree of Kaess et
+/// al. 2012), each linearised where it was factored last. A change at some keyframes concerns their
+/// cliques and the ancestors of those; all others keep what they have said of their separators.
+///
+/// Keyframe 0, which is fixed, is a separator like others: then each clique says how its keyframes
+/// lie to each other, and nothing of where they are in the world.
+class CliqueTree {
+ public:
+  /// The problem must outlive it.
+  explicit CliqueTree(Problem& problem) : problem_(problem) {}
+
+  void clear();
+
+  /// Eliminates again what depends on these keyframes, in an order of its own with `newest` last;
+  /// those that are not in the tree enter it. False, and the tree is empty, where the matrix is not
+  /// positive definite.
+  bool refactor(std::span<const int> keyframes, int newest);
+  /// The same in the old order: where no measurement is new.
+  bool refresh(std::span<const int> keyframes);
+  /// How many keyframes the last of both has eliminated.
+  int refactored() const { return refactored_; }
+
+  /// y = L⁻¹ b for b = ignored − gradient, which must be zero but at these keyframes; the other
+  /// form is for any b. Return yᵀ y = bᵀ H⁻¹ b.
+  double forward(std::span<const int> keyframes, const std::vector<Vec3>& gradient,
+                 const std::vector<Vec3>& ignored);
+  double forward_all(const std::vector<Vec3>& gradient);
+
+  /// The step H⁻¹ b, taken from the root down: the keyframes of a clique follow one of their
+  /// separators as if they were joined rigidly, and what is left of the separators' motion bends
+  /// them. Where that is less than `negligible` squared sigmas, and b is zero below, all that is
+  /// below follows rigidly; or stays, if it would not move by more either.
+  void descend(double negligible);
+
+  /// Of the last descend: keyframes that moved, and of them those that did not just follow.
+  const std::vector<int>& moved() const { return moved_; }
+  const std::vector<int>& bent() const { return bent_; }
+  /// Where a moved keyframe was.
+  const Node& before(int keyframe) const { return before_[at(keyframe)]; }
+
+  /// One keyframe of each clique that the last descend has bent, and whose keyframes have turned by
+  /// more than `limit_rad` to each other since it was factored, or moved by more than `limit_m` and
+  /// `limit_rad` of their distance.
+  void find_stale(double limit_m, double limit_rad, std::vector<int>& keyframes) const;
+
+  /// J H⁻¹ Jᵀ of a quantity with these derivatives by two keyframes, each in its own axes.
+  Eigen::Matrix3d variance(int i, const Eigen::Matrix3d& J_i, int k, const Eigen::Matrix3d& J_k);
+
+ private:
+  void grow();
+  void mark_up(int keyframe);
+  void mark_all();
+  void sort_marked();
+  void unmark();
+  void find_affected(std::span<const int> keyframes);
+  void describe_rest();
+  void release_marked();
+  void build(int newest);
+  int new_clique();
+  void attach(int clique);
+  bool factor(std::span<const int> which);
+  void set_right_side(const std::vector<Vec3>& gradient, const std::vector<Vec3>* ignored);
+  double substitute();
+  bool bend_separator(const Clique& clique, const RigidMotion& rigid, double negligible);
+  bool has_moved(const Clique& clique, double negligible) const;
+  void bend(int clique, double negligible);
+  void follow(int clique, const RigidMotion& rigid);
+
+  Problem& problem_;
+  std::vector<Clique> cliques_;
+  std::vector<int> free_;
+  BufferPool buffers_;
+  std::vector<int> clique_of_;  ///< by keyframe; −1: not in the tree
+  std::vector<long> order_;     ///< by keyframe, when it was eliminated
+  long next_order_ = 0;
+  int root_ = -1;
+
+  std::vector<int> marked_;
+  std::vector<int> affected_;  ///< keyframes to be eliminated, and keyframe 0
+  std::vector<int> orphans_;   ///< children of cliques that are gone
+  std::vector<int> index_of_;  ///< by keyframe, in affected_; −1
+  RestGraph rest_;
+  MinimumDegree minimum_degree_;
+  Elimination elimination_;
+  std::vector<int> built_;
+  int refactored_ = 0;
+
+  // Workspace.
+  std::vector<int> row_of_;
+  std::vector<double> packed_;
+  std::vector<double> signs_;
+  std::vector<double> gathered_;
+  std::vector<double> x_;  ///< b, then y, three numbers a keyframe
+  std::vector<int> stack_;
+
+  std::vector<Node> before_;
+  std::vector<int> moved_;
+  std::vector<int> bent_;
+  std::vector<int> bent_cliques_;
+};
+
+}  // namespace fathom::incremental_smoother

@@ -1,0 +1,195 @@
+// The solves of CliqueTree.
+
+#include <algorithm>
+#include <cmath>
+
+#include "estimators/incremental_smoother/clique_tree.hpp"
+#include "estimators/incremental_smoother/fronts.hpp"
+
+namespace fathom::incremental_smoother {
+namespace {
+
+// A correction of a keyframe in squared sigmas, as far as its own measurements tell.
+double size_of(const double* d, const Weight& w) {
+  return w.position * (d[0] * d[0] + d[1] * d[1]) + w.heading * d[2] * d[2];
+}
+
+// Whether a keyframe is seen in another place or direction than it was; far away it may move more.
+bool has_left(const double* was, const double* now, double limit_m, double limit_rad) {
+  if (std::abs(now[2] - was[2]) > limit_rad) return true;
+  const double dx = now[0] - was[0];
+  const double dy = now[1] - was[1];
+  const double moved_m2 = dx * dx + dy * dy;
+  if (moved_m2 <= limit_m * limit_m) return false;
+  const double limit = limit_m + limit_rad * std::sqrt(was[0] * was[0] + was[1] * was[1]);
+  return moved_m2 > limit * limit;
+}
+
+}  // namespace
+
+void CliqueTree::set_right_side(const std::vector<Vec3>& gradient,
+                                const std::vector<Vec3>* ignored) {
+  for (const int i : marked_) {
+    const Clique& c = cliques_[at(i)];
+    for (int j = 0; j < c.width; ++j) {
+      const auto v = at(c.variables[at(j)]);
+      for (std::size_t a = 0; a < 3; ++a) {
+        x_[3 * v + a] = (ignored != nullptr ? (*ignored)[v][a] : 0.0) - gradient[v][a];
+      }
+    }
+  }
+}
+
+double CliqueTree::substitute() {
+  ForwardSubstitution run{cliques_, marked_, x_.data(), gathered_.data()};
+  sparse_gauss_newton::run_for_processor(run);
+  double sum = 0.0;
+  for (const int i : marked_) {
+    const Clique& c = cliques_[at(i)];
+    for (int j = 0; j < c.width; ++j) {
+      const double* y = x_.data() + 3 * c.variables[at(j)];
+      sum += y[0] * y[0] + y[1] * y[1] + y[2] * y[2];
+    }
+  }
+  return sum;
+}
+
+double CliqueTree::forward(std::span<const int> keyframes, const std::vector<Vec3>& gradient,
+                           const std::vector<Vec3>& ignored) {
+  unmark();
+  for (const int v : keyframes) mark_up(v);
+  sort_marked();
+  set_right_side(gradient, &ignored);
+  return substitute();
+}
+
+double CliqueTree::forward_all(const std::vector<Vec3>& gradient) {
+  unmark();
+  mark_all();
+  set_right_side(gradient, nullptr);
+  return substitute();
+}
+
+void CliqueTree::descend(double negligible) {
+  moved_.clear();
+  bent_.clear();
+  bent_cliques_.clear();
+  before_[0] = problem_.nodes[0];
+  if (root_ >= 0) stack_.assign(1, root_);
+  while (!stack_.empty()) {
+    const int i = stack_.back();
+    stack_.pop_back();
+    bend(i, negligible);
+  }
+  unmark();
+}
+
+// Gathers what the rigid motion leaves of the separator's; whether that is worth a bend.
+bool CliqueTree::bend_separator(const Clique& c, const RigidMotion& rigid, double negligible) {
+  double most = 0.0;
+  for (int j = c.width; j < c.rows(); ++j) {
+    const auto s = at(c.variables[at(j)]);
+    double* d = gathered_.data() + 3 * j;
+    offset_of(rigid(before_[s]), problem_.nodes[s], d);
+    most = std::max(most, size_of(d, problem_.weights[s]));
+  }
+  return most > negligible;
+}
+
+bool CliqueTree::has_moved(const Clique& c, double negligible) const {
+  for (int j = c.width; j < c.rows(); ++j) {
+    const auto s = at(c.variables[at(j)]);
+    double d[3];
+    offset_of(before_[s], problem_.nodes[s], d);
+    if (size_of(d, problem_.weights[s]) > negligible) return true;
+  }
+  return false;
+}
+
+void CliqueTree::bend(int clique, double negligible) {
+  const Clique& c = cliques_[at(clique)];
+  const RigidMotion rigid(before_[at(c.leader)], problem_.nodes[at(c.leader)]);
+  if (!bend_separator(c, rigid, negligible) && !c.is_marked) {
+    if (has_moved(c, negligible)) follow(clique, rigid);
+    return;
+  }
+  for (int j = 0; j < c.width; ++j) {
+    const double* y = x_.data() + 3 * c.variables[at(j)];
+    for (int a = 0; a < 3; ++a) gathered_[at(3 * j + a)] = c.is_marked ? y[a] : 0.0;
+  }
+  BackwardSubstitution run{c, gathered_.data()};
+  sparse_gauss_newton::run_for_processor(run);
+  for (int j = 0; j < c.width; ++j) {
+    const int v = c.variables[at(j)];
+    Node& node = problem_.nodes[at(v)];
+    before_[at(v)] = node;
+    node = corrected(rigid(node), gathered_.data() + 3 * j);
+    moved_.push_back(v);
+    bent_.push_back(v);
+  }
+  bent_cliques_.push_back(clique);
+  stack_.insert(stack_.end(), c.children.begin(), c.children.end());
+}
+
+void CliqueTree::follow(int clique, const RigidMotion& rigid) {
+  const std::size_t bottom = stack_.size();
+  stack_.push_back(clique);
+  while (stack_.size() > bottom) {
+    const Clique& c = cliques_[at(stack_.back())];
+    stack_.pop_back();
+    for (int j = 0; j < c.width; ++j) {
+      const int v = c.variables[at(j)];
+      Node& node = problem_.nodes[at(v)];
+      before_[at(v)] = node;
+      node = rigid(node);
+      moved_.push_back(v);
+    }
+    stack_.insert(stack_.end(), c.children.begin(), c.children.end());
+  }
+}
+
+void CliqueTree::find_stale(double limit_m, double limit_rad, std::vector<int>& keyframes) const {
+  for (const int i : bent_cliques_) {
+    const Clique& c = cliques_[at(i)];
+    const Node& seen_from = problem_.nodes[at(c.variables.back())];
+    for (int j = 0; j + 1 < c.rows(); ++j) {
+      double now[3];
+      offset_of(seen_from, problem_.nodes[at(c.variables[at(j)])], now);
+      if (!has_left(c.layout.data() + 3 * j, now, limit_m, limit_rad)) continue;
+      keyframes.push_back(c.variables[0]);
+      break;
+    }
+  }
+}
+
+Eigen::Matrix3d CliqueTree::variance(int i, const Eigen::Matrix3d& J_i, int k,
+                                     const Eigen::Matrix3d& J_k) {
+  unmark();
+  for (const int v : {i, k}) mark_up(v);
+  sort_marked();
+  Eigen::Index numbers = 0;
+  for (const int m : marked_) numbers += 3 * cliques_[at(m)].width;
+  Eigen::MatrixX3d Y(numbers, 3);
+  for (int a = 0; a < 3; ++a) {
+    const auto for_each_number = [&](auto use) {
+      for (const int m : marked_) {
+        const Clique& c = cliques_[at(m)];
+        for (int j = 0; j < c.width; ++j) {
+          for (int b = 0; b < 3; ++b) use(x_[at(3 * c.variables[at(j)] + b)]);
+        }
+      }
+    };
+    for_each_number([](double& x) { x = 0.0; });
+    for (int b = 0; b < 3; ++b) {
+      if (i > 0) x_[at(3 * i + b)] = J_i(a, b);
+      if (k > 0) x_[at(3 * k + b)] = J_k(a, b);
+    }
+    substitute();
+    Eigen::Index next = 0;
+    for_each_number([&](double& x) { Y(next++, a) = x; });
+  }
+  unmark();
+  return Y.transpose() * Y;
+}
+
+}  // namespace fathom::incremental_smoother

@@ -1,0 +1,99 @@
+#include "estimators/incremental_smoother/incremental_smoother.hpp"
+
+#include <vector>
+
+#include "estimators/incremental_smoother/smoother.hpp"
+#include "estimators/sparse_gauss_newton/information.hpp"
+
+namespace fathom {
+
+using incremental_smoother::Smoother;
+using incremental_smoother::SmootherLimits;
+using incremental_smoother::SmootherResult;
+
+void IncrementalSmootherOptions::describe(OptionTable& table) {
+  table.integer("max_iterations", max_iterations, Range::at_least(1), "",
+                "steps of one update at most");
+  table.real("tolerance", tolerance, Range::positive(), "",
+             "an update has converged when the cost exceeds its minimum by a smaller share");
+  table.real("relinearise_m", relinearise_m, Range::positive(), "m",
+             "keyframes are linearised again when they moved by more to each other");
+  table.real("relinearise_rad", relinearise_rad, Range::positive(), "rad",
+             "likewise, when they turned by more, or moved by more of their distance");
+  gate.describe(table);
+}
+
+IncrementalSmoother::IncrementalSmoother(const EstimatorSetup& setup,
+                                         const IncrementalSmootherOptions& options)
+    : gate_(options.gate),
+      smoother_(std::make_unique<Smoother>(
+          setup.origin, SmootherLimits{options.max_iterations, options.tolerance,
+                                       options.relinearise_m, options.relinearise_rad})) {}
+
+IncrementalSmoother::~IncrementalSmoother() = default;
+
+std::size_t IncrementalSmoother::size() const {
+  return smoother_->problem().nodes.size();
+}
+
+Pose IncrementalSmoother::pose(std::size_t k) const {
+  return smoother_->pose(k);
+}
+
+void IncrementalSmoother::add_keyframe(const RelativePose& step) {
+  marginals_.reset();
+  smoother_->add_keyframe(step);
+}
+
+UpdateReport IncrementalSmoother::close_loops(std::span<const RelativePose> registrations) {
+  UpdateReport report;
+  if (registrations.empty()) return report;
+  if (!judge(registrations, report)) {
+    lose_all(report, Outcome::numerical_failure);
+    return report;
+  }
+  std::vector<RelativePose> used;
+  for (std::size_t j = 0; j < registrations.size(); ++j) {
+    if (report.loops[j].fate == LoopFate::used) used.push_back(registrations[j]);
+  }
+  if (used.empty()) return report;
+  marginals_.reset();
+  const SmootherResult result = smoother_->add_registrations(used);
+  report.outcome = result.outcome;
+  report.iterations = result.iterations;
+  if (!is_done(result.outcome)) lose_all(report, result.outcome);
+  return report;
+}
+
+bool IncrementalSmoother::judge(std::span<const RelativePose> registrations, UpdateReport& report) {
+  const auto covariances = [&](std::span<const RelativePose> forward) {
+    return smoother_->innovation_covariances(forward);
+  };
+  return fathom::judge(gate_, *this, registrations, covariances, report);
+}
+
+std::optional<Eigen::Matrix3d> IncrementalSmoother::covariance(std::size_t k) {
+  if (!marginals_) {
+    const auto& problem = smoother_->problem();
+    marginals_ = sparse_gauss_newton::marginals(problem.edges, problem.nodes)
+                     .value_or(std::vector<Eigen::Matrix3d>{});
+  }
+  if (marginals_->empty()) return std::nullopt;
+  return (*marginals_)[k];
+}
+
+std::optional<std::vector<UncertainPose>> IncrementalSmoother::motions_to_newest() const {
+  const auto& problem = smoother_->problem();
+  return sparse_gauss_newton::motions_to_newest(problem.edges, problem.nodes);
+}
+
+EstimatorEntry incremental_smoother_entry() {
+  return make_entry<IncrementalSmootherOptions>(
+      "incremental_smoother",
+      "pose-graph least squares, an estimate per keyframe: eliminates again only what loops touch",
+      false, [](const EstimatorSetup& setup, const IncrementalSmootherOptions& options) {
+        return std::make_unique<IncrementalSmoother>(setup, options);
+      });
+}
+
+}  // namespace fathom

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "fathom/estimation/estimator.hpp"
+#include "fathom/estimation/gate.hpp"
+#include "fathom/estimation/registry.hpp"
+
+namespace fathom {
+namespace incremental_smoother {
+class Smoother;
+}  // namespace incremental_smoother
+
+struct IncrementalSmootherOptions {
+  int max_iterations = 100;
+  double tolerance = 1e-5;
+  double relinearise_m = 0.01;
+  double relinearise_rad = 0.001;
+  GateOptions gate;
+
+  void describe(OptionTable& table);
+};
+
+/// Pose-graph least squares kept at its optimum from keyframe to keyframe: of a sparse factor in a
+/// tree only what new registrations touch is eliminated again.
+/// docs/estimators/incremental_smoother.md.
+class IncrementalSmoother final : public Estimator {
+ public:
+  IncrementalSmoother(const EstimatorSetup& setup, const IncrementalSmootherOptions& options);
+  ~IncrementalSmoother() override;
+
+  void add_keyframe(const RelativePose& step) override;
+  UpdateReport close_loops(std::span<const RelativePose> registrations) override;
+
+  /// From the Gauss-Newton Hessian at the estimate; a rejected registration has no part in it.
+  std::optional<Eigen::Matrix3d> covariance(std::size_t k) override;
+  std::optional<std::vector<UncertainPose>> motions_to_newest() const override;
+  std::size_t size() const override;
+  Pose pose(std::size_t k) const override;
+
+  const incremental_smoother::Smoother& smoother() const { return *smoother_; }
+
+ private:
+  bool judge(std::span<const RelativePose> registrations, UpdateReport& report);
+
+  Gate gate_;
+  std::unique_ptr<incremental_smoother::Smoother> smoother_;
+  /// Of all keyframes; absent: to be computed, empty: could not be.
+  std::optional<std::vector<Eigen::Matrix3d>> marginals_;
+};
+
+EstimatorEntry incremental_smoother_entry();
+
+}  // namespace fathom

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "estimators/sparse_gauss_newton/ordering.hpp"
+
+namespace fathom::incremental_smoother {
+
+using sparse_gauss_newton::at;
+
+/// What is left to eliminate: nodes 0 … size − 1, links, and groups of nodes that are all linked
+/// with one another, by what was eliminated before.
+struct RestGraph {
+  int size = 0;
+  std::vector<sparse_gauss_newton::Link> links;
+  std::vector<int> group_start{0};
+  std::vector<int> group_nodes;
+
+  void clear();
+  int groups() const { return static_cast<int>(group_start.size()) - 1; }
+};
+
+/// An order of elimination of small fill, node `newest` last but one, `fixed` last. Up to some
+/// thousand nodes minimum degree with the true degrees, on sets of bits; beyond, approximate
+/// minimum degree.
+class MinimumDegree {
+ public:
+  const std::vector<int>& order(const RestGraph& graph, int newest, int fixed);
+
+ private:
+  void order_by_bits(const RestGraph& graph, int newest, int fixed);
+  void order_approximately(const RestGraph& graph);
+  std::uint64_t* row(int v) { return bits_.data() + at(v) * at(words_); }
+  void fill_rows(const RestGraph& graph);
+  int count(int v);
+  void put(int v);
+  void take(int v);
+
+  int words_ = 0;
+  std::vector<std::uint64_t> bits_;
+  std::vector<std::uint64_t> mask_;
+  std::vector<int> degree_;
+  std::vector<int> head_;  ///< by degree
+  std::vector<int> tail_;
+  std::vector<int> next_;
+  std::vector<int> previous_;
+  std::vector<int> order_;
+};
+
+}  // namespace fathom::incremental_smoother

@@ -1,0 +1,238 @@
+#include "estimators/incremental_smoother/smoother.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "estimators/sparse_gauss_newton/batch.hpp"
+
+namespace fathom::incremental_smoother {
+namespace {
+
+// Differences of F that mean nothing, in squared sigmas: where all measurements agree, F itself is
+// rounding.
+constexpr double kNegligible = 1e-12;
+constexpr double kNoise = 1e-20;
+constexpr double kCancellation = 1e-6;
+// A bend that is left out, as a share of what F may exceed its optimum by.
+constexpr double kNegligibleBend = 0.1;
+
+}  // namespace
+
+Smoother::Smoother(const Pose& origin, const SmootherLimits& limits)
+    : limits_(limits),
+      problem_(make_node(origin.x, origin.y, origin.theta)),
+      tree_(problem_),
+      gradient_(problem_),
+      ignored_(1),
+      changed_in_(1, -1),
+      saved_in_(1, -1) {}
+
+Pose Smoother::pose(std::size_t k) const {
+  const Node& node = problem_.nodes[k];
+  return {node.x, node.y, wrap_angle(node.theta)};
+}
+
+void Smoother::add_keyframe(const RelativePose& step) {
+  const RelativePose forward = step.forward();
+  const Pose next = compose(pose(problem_.nodes.size() - 1), forward.motion);
+  outside_steps_.push_back({forward.motion, forward.covariance()});
+  problem_.add_node(make_node(next.x, next.y, next.theta));
+  gradient_.add_keyframe();
+  ignored_.emplace_back();
+  changed_in_.push_back(-1);
+  saved_in_.push_back(-1);
+  append_edge(step);
+}
+
+void Smoother::append_edge(const RelativePose& measurement) {
+  problem_.add_edge(sparse_gauss_newton::make_edge(measurement));
+  edge_pass_.push_back(-1);
+  gradient_.add_edge();
+}
+
+// What is left of the gradient then is ignored.
+void Smoother::evaluate_all() {
+  gradient_.evaluate_all();
+  ignored_ = gradient_.by_keyframe();
+}
+
+void Smoother::note_changed(int k) {
+  if (k == 0 || changed_in_[at(k)] == update_) return;
+  changed_in_[at(k)] = update_;
+  changed_.push_back(k);
+}
+
+SmootherResult Smoother::add_registrations(std::span<const RelativePose> registrations) {
+  ++update_;
+  saved_.clear();
+  touched_.clear();
+  changed_.clear();
+  const int edges_before = problem_.edge_count();
+  for (const RelativePose& z : registrations) {
+    append_edge(z);
+    for (const auto end : {z.from, z.to}) {
+      if (end == 0) continue;
+      touched_.push_back(static_cast<int>(end));
+      note_changed(static_cast<int>(end));
+    }
+  }
+  SmootherResult result{Outcome::numerical_failure, 0};
+  if (std::isfinite(gradient_.cost()) && refactor()) {
+    result = iterate();
+    if (!refresh()) result.outcome = Outcome::numerical_failure;
+  }
+  if (!is_done(result.outcome)) undo(edges_before);
+  return result;
+}
+
+// With what was touched comes what is new.
+bool Smoother::refactor() {
+  for (int k = std::max(1, first_outside_ - 1); k < problem_.size(); ++k) touched_.push_back(k);
+  if (!tree_.refactor(touched_, problem_.size() - 1)) return false;
+  counts_.eliminated += tree_.refactored();
+  first_outside_ = problem_.size();
+  outside_steps_.clear();
+  return true;
+}
+
+// Linearises again where the estimate has left its linearisation.
+bool Smoother::refresh() {
+  if (stale_.empty()) return true;
+  if (!tree_.refresh(stale_)) return false;
+  counts_.eliminated += tree_.refactored();
+  stale_.clear();
+  return true;
+}
+
+// Linearises everything at the estimate.
+bool Smoother::rebuild() {
+  tree_.clear();
+  stale_.clear();
+  touched_.clear();
+  first_outside_ = 1;
+  return problem_.size() < 2 || refactor();
+}
+
+void Smoother::end(Progress& progress, Outcome outcome) {
+  progress.is_over = true;
+  progress.result.outcome = outcome;
+}
+
+SmootherResult Smoother::iterate() {
+  Progress progress;
+  progress.result.outcome = Outcome::iteration_limit;
+  progress.is_whole = !std::isfinite(debt_);
+  while (!progress.is_over && progress.result.iterations < limits_.max_iterations) {
+    ++progress.result.iterations;
+    if (prepare_step(progress)) {
+      take_step(progress);
+    } else {
+      end(progress, Outcome::numerical_failure);
+    }
+  }
+  // The next update begins where this one was stopped.
+  if (!progress.is_over) debt_ = std::numeric_limits<double>::infinity();
+  if (progress.is_whole) {
+    ignored_ = gradient_.by_keyframe();
+  } else {
+    for (const int k : changed_) ignored_[at(k)] = gradient_.by_keyframe()[at(k)];
+  }
+  return progress.result;
+}
+
+// A step of the whole gradient wants a tree that is linearised where it matters.
+bool Smoother::prepare_step(const Progress& progress) {
+  ++counts_.steps;
+  if (!progress.is_whole) return true;
+  ++counts_.whole_steps;
+  debt_ = 0.0;
+  return refresh();
+}
+
+void Smoother::take_step(Progress& progress) {
+  const double promised = progress.is_whole
+                              ? tree_.forward_all(gradient_.by_keyframe())
+                              : tree_.forward(changed_, gradient_.by_keyframe(), ignored_);
+  if (!std::isfinite(promised)) return end(progress, Outcome::numerical_failure);
+  const double allowed = limits_.tolerance * gradient_.cost() + kNoise;
+  if (progress.is_whole && promised <= allowed) return end(progress, Outcome::converged);
+  const double before = gradient_.cost();
+  tree_.descend(kNegligibleBend * limits_.tolerance);
+  for (const int v : tree_.moved()) save(v, tree_.before(v));
+  reevaluate_bent();
+  // A sum that was large before has rounding of its own.
+  if (gradient_.cost() < kCancellation * before) gradient_.evaluate_all();
+  if (!(gradient_.cost() <= before + allowed + kNegligible)) return retreat(progress);
+  progress.is_fresh = false;
+  tree_.find_stale(limits_.relinearise_m, limits_.relinearise_rad, stale_);
+  // What a step promises is what it brings but for terms of third order, and what it leaves is of
+  // fourth: while the one differs from the other by little, it leaves less.
+  debt_ += std::abs(promised - (before - gradient_.cost()));
+  if (debt_ <= limits_.tolerance * gradient_.cost() + kNoise) {
+    return end(progress, Outcome::converged);
+  }
+  progress.is_whole = true;
+}
+
+// Where a step made F rise: once more, with everything linearised here; else in batch.
+void Smoother::retreat(Progress& progress) {
+  for (const int v : tree_.moved()) problem_.nodes[at(v)] = tree_.before(v);
+  // From where F may have been anything, infinite too.
+  gradient_.evaluate_all();
+  if (!progress.is_fresh) {
+    progress.is_fresh = true;
+    progress.is_whole = true;
+    stale_.clear();
+    for (int k = 1; k < problem_.size(); ++k) stale_.push_back(k);
+    return;
+  }
+  const SmootherResult solved = solve_batch();
+  progress.result.iterations += solved.iterations;
+  end(progress, solved.outcome);
+}
+
+void Smoother::save(int k, const Node& node) {
+  if (saved_in_[at(k)] == update_) return;
+  saved_in_[at(k)] = update_;
+  saved_.push_back({k, node});
+}
+
+// A motion that keyframes share changes nothing of what lies between them.
+void Smoother::reevaluate_bent() {
+  ++pass_;
+  for (const int v : tree_.bent()) {
+    note_changed(v);
+    problem_.for_each_edge(v, [&](int e, int other) {
+      if (edge_pass_[at(e)] == pass_) return;
+      edge_pass_[at(e)] = pass_;
+      gradient_.evaluate(e);
+      note_changed(other);
+    });
+  }
+}
+
+SmootherResult Smoother::solve_batch() {
+  ++counts_.batch_solves;
+  std::vector<Node> nodes = problem_.nodes;
+  const auto solved =
+      sparse_gauss_newton::solve_batch(problem_.edges, nodes, sparse_gauss_newton::Start::given,
+                                       {limits_.max_iterations, limits_.tolerance});
+  if (is_done(solved.outcome)) {
+    for (int k = 1; k < problem_.size(); ++k) save(k, problem_.nodes[at(k)]);
+    problem_.nodes = std::move(nodes);
+    evaluate_all();
+    if (!rebuild()) return {Outcome::numerical_failure, solved.iterations};
+  }
+  return {solved.outcome, solved.iterations};
+}
+
+void Smoother::undo(int edges_before) {
+  for (const Saved& saved : saved_) problem_.nodes[at(saved.keyframe)] = saved.node;
+  problem_.forget_edges(edges_before);
+  edge_pass_.resize(at(edges_before));
+  evaluate_all();
+  rebuild();
+}
+
+}  // namespace fathom::incremental_smoother

@@ -1,0 +1,107 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "estimators/incremental_smoother/clique_tree.hpp"
+#include "estimators/incremental_smoother/gradient.hpp"
+#include "fathom/estimation/estimator.hpp"
+#include "fathom/geometry/covariance.hpp"
+
+namespace fathom::incremental_smoother {
+
+struct SmootherLimits {
+  int max_iterations = 100;
+  double tolerance = 1e-5;
+  double relinearise_m = 0.01;
+  double relinearise_rad = 0.001;
+};
+
+struct SmootherResult {
+  Outcome outcome = Outcome::converged;
+  int iterations = 0;
+};
+
+/// What all updates did.
+struct Counts {
+  long steps = 0;
+  long whole_steps = 0;  ///< of them those with the gradient at all keyframes
+  long eliminated = 0;   ///< keyframes
+  long batch_solves = 0;
+};
+
+/// The estimate of a growing pose graph, kept at its optimum.
+class Smoother {
+ public:
+  Smoother(const Pose& origin, const SmootherLimits& limits);
+
+  const Problem& problem() const { return problem_; }
+  Pose pose(std::size_t k) const;
+
+  /// A keyframe at the newest one ⊕ the step. It enters the factor with the next registrations.
+  void add_keyframe(const RelativePose& step);
+  /// Minimises F with these registrations added; as it was before where that fails.
+  SmootherResult add_registrations(std::span<const RelativePose> registrations);
+
+  /// Covariance of ν = z − h(x) for each of these registrations; nothing where there is none.
+  std::optional<std::vector<Eigen::Matrix3d>> innovation_covariances(
+      std::span<const RelativePose> forward_loops);
+
+  const Counts& counts() const { return counts_; }
+
+ private:
+  /// Where an update stands.
+  struct Progress {
+    bool is_whole = false;  ///< the next step is of the gradient at all keyframes
+    bool is_fresh = false;  ///< the whole tree is linearised at the estimate
+    bool is_over = false;
+    SmootherResult result;
+  };
+
+  void append_edge(const RelativePose& measurement);
+  void evaluate_all();
+  bool refactor();
+  bool refresh();
+  bool rebuild();
+  SmootherResult iterate();
+  bool prepare_step(const Progress& progress);
+  void take_step(Progress& progress);
+  void retreat(Progress& progress);
+  static void end(Progress& progress, Outcome outcome);
+  void save(int keyframe, const Node& node);
+  void note_changed(int keyframe);
+  void reevaluate_bent();
+  SmootherResult solve_batch();
+  void undo(int edges_before);
+  Eigen::Matrix3d motion_covariance(int from);
+
+  SmootherLimits limits_;
+  Problem problem_;
+  CliqueTree tree_;
+  Gradient gradient_;
+  std::vector<Vec3> ignored_;  ///< what earlier updates left of it
+  double debt_ = 0.0;          ///< by how much F may exceed its optimum, for what was ignored
+
+  int first_outside_ = 1;                     ///< the first keyframe that is not in the tree
+  std::vector<UncertainPose> outside_steps_;  ///< to this keyframe and those that follow it
+  std::vector<int> stale_;                    ///< keyframes of cliques to be linearised again
+  std::vector<int> touched_;
+  std::vector<int> changed_;      ///< keyframes whose gradient this update has changed
+  std::vector<long> changed_in_;  ///< by keyframe: the last update that did
+  std::vector<long> edge_pass_;
+  long pass_ = 0;
+  long update_ = 0;
+
+  struct Saved {
+    int keyframe;
+    Node node;
+  };
+  std::vector<Saved> saved_;    ///< before the update
+  std::vector<long> saved_in_;  ///< by keyframe: the last update that moved it
+  Counts counts_;
+};
+
+}  // namespace fathom::incremental_smoother

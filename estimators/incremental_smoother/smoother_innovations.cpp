@@ -1,0 +1,42 @@
+// The gate's question to a Smoother.
+
+#include <algorithm>
+
+#include "estimators/incremental_smoother/smoother.hpp"
+
+namespace fathom::incremental_smoother {
+
+std::optional<std::vector<Eigen::Matrix3d>> Smoother::innovation_covariances(
+    std::span<const RelativePose> forward_loops) {
+  // A tree that could not be built again after a failure knows nothing.
+  if (at(problem_.size() - first_outside_) != outside_steps_.size()) return std::nullopt;
+  std::vector<Eigen::Matrix3d> result;
+  for (const RelativePose& z : forward_loops) {
+    result.push_back(motion_covariance(static_cast<int>(z.from)) + z.covariance());
+  }
+  return result;
+}
+
+// Of the motion from a keyframe to the newest: by the tree as far as it goes, then step by step.
+Eigen::Matrix3d Smoother::motion_covariance(int from) {
+  const int last = first_outside_ - 1;
+  UncertainPose motion{{}, Eigen::Matrix3d::Zero()};
+  if (from < last) {
+    const Node& i = problem_.nodes[at(from)];
+    const Node& k = problem_.nodes[at(last)];
+    double h[3];
+    offset_of(i, k, h);
+    Eigen::Matrix3d T = Eigen::Matrix3d::Identity();
+    T(0, 2) = -h[1];
+    T(1, 2) = h[0];
+    Eigen::Matrix3d Q = Eigen::Matrix3d::Identity();
+    Q.topLeftCorner<2, 2>() = rotation(h[2]);
+    motion = {{h[0], h[1], wrap_angle(h[2])}, tree_.variance(from, -T, last, Q)};
+  }
+  for (int k = std::max(from, last); k + 1 < problem_.size(); ++k) {
+    motion = compose(motion, outside_steps_[at(k - last)]);
+  }
+  return motion.covariance;
+}
+
+}  // namespace fathom::incremental_smoother

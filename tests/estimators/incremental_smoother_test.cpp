@@ -1,0 +1,259 @@
+// incremental_smoother against sparse_gauss_newton, which solves the whole graph at every update,
+// and against batch optima.
+
+#include "estimators/incremental_smoother/incremental_smoother.hpp"
+
+#include <gtest/gtest.h>
+
+#include "estimators/incremental_smoother/smoother.hpp"
+#include "fathom/measurements/g2o.hpp"
+#include "tests/estimators/logs.hpp"
+#include "tests/support/data.hpp"
+
+namespace fathom {
+namespace {
+
+using test::LogOptions;
+
+std::unique_ptr<Estimator> make(const std::string& name, const Pose& origin,
+                                const EstimatorValues& values = {},
+                                SolveMode mode = SolveMode::incremental) {
+  return builtin_estimators().find(name).create({origin, mode}, values);
+}
+
+const incremental_smoother::Counts& counts_of(const Estimator& estimator) {
+  return dynamic_cast<const IncrementalSmoother&>(estimator).smoother().counts();
+}
+
+UpdateReport arrive(Estimator& estimator, const MeasurementLog& log, std::size_t k) {
+  estimator.add_keyframe(log.arrival(k).step);
+  return estimator.close_loops(log.arrival(k).registrations);
+}
+
+// Measurements of poses with a full covariance, and noise to suit it but for its shape.
+RelativePose measured(std::span<const Pose> truth, std::size_t from, std::size_t to, double sigma_m,
+                      double sigma_rad, RandomStream& random) {
+  return RelativePose::from_covariance(
+      from, to, test::perturbed(between(truth[from], truth[to]), sigma_m, sigma_rad, random),
+      test::full_covariance(sigma_m, sigma_rad));
+}
+
+// A random walk that turns through ±π, with up to four loops at once to any earlier keyframes,
+// written either way round, and stretches without any.
+MeasurementLog wandering_log(std::size_t keyframes, std::uint64_t seed) {
+  RandomStream random(seed, "wandering");
+  std::vector<Pose> truth{{1.0, -2.0, 3.1}};
+  MeasurementLog log(truth[0]);
+  for (std::size_t k = 1; k < keyframes; ++k) {
+    truth.push_back(compose(truth.back(), {0.8, 0.1 * random.normal(), 0.5 * random.normal()}));
+    log.add_keyframe(measured(truth, k - 1, k, 0.03, 0.01, random));
+    if (random.uniform(0.0, 1.0) < 0.6) continue;
+    const int loops = 1 + static_cast<int>(random.uniform(0.0, 3.99));
+    for (int j = 0; j < loops; ++j) {
+      const auto other = static_cast<std::size_t>(random.uniform(0.0, static_cast<double>(k)));
+      const bool backward = random.uniform(0.0, 1.0) < 0.5;
+      log.add_registration(
+          measured(truth, backward ? k : other, backward ? other : k, 0.05, 0.02, random));
+    }
+  }
+  return log;
+}
+
+// Parallel tracks, there and back, with a loop to the track before at every third keyframe.
+MeasurementLog tracks_log(std::size_t keyframes, std::size_t along_track) {
+  RandomStream random(4, "tracks");
+  std::vector<Pose> truth;
+  for (std::size_t k = 0; k < keyframes; ++k) {
+    const std::size_t track = k / along_track;
+    const std::size_t along = k % along_track;
+    const bool back = track % 2 == 1;
+    truth.push_back({static_cast<double>(back ? along_track - 1 - along : along),
+                     2.0 * static_cast<double>(track), back ? M_PI : 0.0});
+  }
+  MeasurementLog log(truth[0]);
+  for (std::size_t k = 1; k < keyframes; ++k) {
+    log.add_keyframe(measured(truth, k - 1, k, 0.02, 0.005, random));
+    if (k < along_track || k % 3 != 0) continue;
+    log.add_registration(measured(truth, k - (2 * (k % along_track) + 1), k, 0.03, 0.01, random));
+  }
+  return log;
+}
+
+std::vector<MeasurementLog> logs() {
+  std::vector<MeasurementLog> all;
+  for (const double noise : {1.0, 4.0}) {
+    LogOptions options;
+    options.keyframes = 60;
+    options.noise = noise;
+    options.origin = {3.0, -7.0, 3.0};
+    all.push_back(test::circle_log(options));
+    options.loop_every = 1;
+    all.push_back(test::circle_log(options));
+  }
+  for (const std::uint64_t seed : {1, 2, 3}) all.push_back(wandering_log(150, seed));
+  all.push_back(tracks_log(240, 20));
+  return all;
+}
+
+TEST(IncrementalSmoother, IsAtTheOptimumAfterEveryUpdate) {
+  const EstimatorValues exactly = test::values({{"tolerance", "1e-13"}});
+  std::size_t compared = 0;
+  for (const MeasurementLog& log : logs()) {
+    const auto ours = make("incremental_smoother", log.origin(), exactly);
+    const auto whole = make("sparse_gauss_newton", log.origin(), exactly);
+    for (std::size_t k = 1; k < log.size(); ++k) {
+      ASSERT_EQ(arrive(*ours, log, k).outcome, Outcome::converged) << k;
+      arrive(*whole, log, k);
+      ASSERT_LT(test::largest_distance(poses_of(*ours), poses_of(*whole)), 1e-6) << k;
+      ASSERT_LT(test::largest_turn(poses_of(*ours), poses_of(*whole)), 1e-6) << k;
+      ++compared;
+    }
+  }
+  EXPECT_GT(compared, 800U);
+}
+
+TEST(IncrementalSmoother, StaysWithinAFewThousandthsOfTheOptimumByDefault) {
+  for (const MeasurementLog& log : logs()) {
+    const auto ours = make("incremental_smoother", log.origin());
+    const auto whole = make("sparse_gauss_newton", log.origin());
+    MeasurementLog so_far(log.origin());
+    for (std::size_t k = 1; k < log.size(); ++k) {
+      arrive(*ours, log, k);
+      arrive(*whole, log, k);
+      so_far.add_keyframe(log.arrival(k).step);
+      for (const RelativePose& z : log.arrival(k).registrations) so_far.add_registration(z);
+      if (k % 10 != 0 && k + 1 != log.size()) continue;
+      const double optimum = chi2(so_far, poses_of(*whole));
+      EXPECT_LT(chi2(so_far, poses_of(*ours)), 1.003 * optimum + 1e-6) << k;
+    }
+  }
+}
+
+TEST(IncrementalSmoother, HasTheCovariancesOfTheWholeGraph) {
+  const EstimatorValues exactly = test::values({{"tolerance", "1e-13"}});
+  const MeasurementLog log = wandering_log(80, 7);
+  const auto ours = make("incremental_smoother", log.origin(), exactly);
+  const auto whole = make("sparse_gauss_newton", log.origin(), exactly);
+  for (std::size_t k = 1; k < log.size(); ++k) {
+    arrive(*ours, log, k);
+    arrive(*whole, log, k);
+    if (k % 20 != 0) continue;
+    for (std::size_t j = 1; j <= k; ++j) {
+      const Eigen::Matrix3d C = *whole->covariance(j);
+      EXPECT_LT((*ours->covariance(j) - C).norm(), 1e-6 * C.norm());
+    }
+  }
+}
+
+TEST(IncrementalSmoother, JudgesLoopsAsTheWholeGraphDoes) {
+  const EstimatorValues gated = test::values({{"gate_probability", "0.999999999"}});
+  for (const MeasurementLog& log : {wandering_log(150, 5), test::circle_log({})}) {
+    const auto ours = make("incremental_smoother", log.origin(), gated);
+    const auto whole = make("sparse_gauss_newton", log.origin(), gated);
+    std::vector<LoopDecision> our_loops;
+    std::vector<LoopDecision> their_loops;
+    test::feed(*ours, log, &our_loops);
+    test::feed(*whole, log, &their_loops);
+    ASSERT_EQ(our_loops.size(), log.registration_count());
+    for (std::size_t j = 0; j < our_loops.size(); ++j) {
+      EXPECT_EQ(our_loops[j].fate, their_loops[j].fate);
+      EXPECT_NEAR(*our_loops[j].nis, *their_loops[j].nis, 0.02 * *their_loops[j].nis + 0.01) << j;
+    }
+  }
+}
+
+// An update is as much work as the loop is long, not as the map is large.
+TEST(IncrementalSmoother, EliminatesLittleAgainForALocalLoop) {
+  const MeasurementLog log = tracks_log(6000, 20);
+  const auto estimator = make("incremental_smoother", log.origin());
+  std::vector<double> eliminated_per_update;
+  long before = 0;
+  int updates = 0;
+  for (std::size_t k = 1; k < log.size(); ++k) {
+    arrive(*estimator, log, k);
+    updates += log.arrival(k).registrations.empty() ? 0 : 1;
+    if (k % 1500 != 1499) continue;
+    const long now = counts_of(*estimator).eliminated;
+    eliminated_per_update.push_back(static_cast<double>(now - before) / updates);
+    before = now;
+    updates = 0;
+  }
+  ASSERT_EQ(eliminated_per_update.size(), 4U);
+  // Of up to 6000 keyframes.
+  EXPECT_LT(eliminated_per_update.back(), 250.0);
+  EXPECT_LT(eliminated_per_update.back(), 3.0 * eliminated_per_update.front());
+  EXPECT_EQ(counts_of(*estimator).batch_solves, 0);
+}
+
+TEST(IncrementalSmoother, AnUpdateThatFailsIsForgotten) {
+  const MeasurementLog log = wandering_log(60, 9);
+  const EstimatorValues exactly = test::values({{"tolerance", "1e-13"}});
+  const auto ours = make("incremental_smoother", log.origin(), exactly);
+  const auto whole = make("sparse_gauss_newton", log.origin(), exactly);
+  for (std::size_t k = 1; k < log.size(); ++k) {
+    arrive(*ours, log, k);
+    arrive(*whole, log, k);
+    if (k % 15 != 0) continue;
+    const std::vector<Pose> before = poses_of(*ours);
+    const std::vector<RelativePose> far{{2, k, {1e200, 0.0, 0.0}, Eigen::Matrix3d::Identity(), {}}};
+    const UpdateReport report = ours->close_loops(far);
+    EXPECT_EQ(report.outcome, Outcome::numerical_failure);
+    EXPECT_EQ(report.loops.front().fate, LoopFate::lost);
+    EXPECT_EQ(poses_of(*ours), before);
+  }
+  EXPECT_LT(test::largest_distance(poses_of(*ours), poses_of(*whole)), 1e-6);
+}
+
+TEST(IncrementalSmoother, StopsAtItsLimitAndGoesOnWithTheNextUpdate) {
+  LogOptions options;
+  options.noise = 4.0;
+  const MeasurementLog log = test::circle_log(options);
+  const auto hasty = make("incremental_smoother", log.origin(),
+                          test::values({{"max_iterations", "1"}, {"tolerance", "1e-12"}}));
+  std::vector<LoopDecision> loops;
+  EXPECT_EQ(test::feed(*hasty, log, &loops), Outcome::iteration_limit);
+  const auto whole = test::solved("sparse_gauss_newton", log);
+  const double optimum = chi2(log, poses_of(*whole));
+  EXPECT_LT(chi2(log, poses_of(*hasty)), 1.1 * optimum);
+}
+
+// Noise so large that steps raise the cost, however they are taken.
+TEST(IncrementalSmoother, SolvesTheWholeGraphWhereItsStepsFail) {
+  LogOptions options;
+  options.keyframes = 60;
+  options.noise = 24.0;
+  const MeasurementLog log = test::circle_log(options);
+  const EstimatorValues exactly = test::values({{"tolerance", "1e-13"}});
+  const auto ours = test::solved("incremental_smoother", log, exactly);
+  const auto whole = test::solved("sparse_gauss_newton", log, exactly);
+  EXPECT_GT(counts_of(*ours).batch_solves, 0);
+  const double optimum = chi2(log, poses_of(*whole));
+  EXPECT_NEAR(chi2(log, poses_of(*ours)), optimum, 1e-8 * optimum);
+}
+
+class IncrementalSmootherOnRealGraphs : public testing::TestWithParam<std::string> {};
+
+INSTANTIATE_TEST_SUITE_P(PoseGraphs, IncrementalSmootherOnRealGraphs,
+                         testing::Values("CSAIL", "MIT", "intel", "manhattan", "M3500", "ring"),
+                         [](const auto& name) { return name.param; });
+
+TEST_P(IncrementalSmootherOnRealGraphs, StaysWithinOnePercentOfTheBatchOptimum) {
+  const std::string file = "pose_graphs/" + GetParam() + ".g2o";
+  FATHOM_REQUIRE_DATA(file);
+  const MeasurementLog log = read_g2o(test::data_path(file));
+  const auto ours = make("incremental_smoother", log.origin());
+  MeasurementLog so_far(log.origin());
+  for (std::size_t k = 1; k < log.size(); ++k) {
+    EXPECT_TRUE(is_done(arrive(*ours, log, k).outcome)) << k;
+    so_far.add_keyframe(log.arrival(k).step);
+    for (const RelativePose& z : log.arrival(k).registrations) so_far.add_registration(z);
+    if (k % 100 != 0 && k + 1 != log.size()) continue;
+    const auto batch = make("sparse_gauss_newton", log.origin(), {}, SolveMode::batch);
+    test::feed(*batch, so_far);
+    const double optimum = chi2(so_far, poses_of(*batch));
+    EXPECT_LT(chi2(so_far, poses_of(*ours)), optimum + std::max(1e-6, 0.01 * optimum)) << k;
+  }
+}
+
+}  // namespace
+}  // namespace fathom
