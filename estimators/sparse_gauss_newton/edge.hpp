@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "fathom/estimation/robust_loss.hpp"
 #include "fathom/measurements/relative_pose.hpp"
 
 namespace fathom::sparse_gauss_newton {
@@ -84,6 +85,33 @@ inline EdgeTerms linearise_edge(const Edge& edge, const Node& i, const Node& k,
     t.dy = i.s * edge.x + i.c * edge.y;
   }
   return t;
+}
+
+/// A loss on some of the edges.
+struct EdgeLoss {
+  RobustLoss loss;
+  /// By edge, 1 where it counts; empty: nowhere.
+  std::span<const char> is_on;
+
+  bool covers(std::size_t edge) const { return !is_on.empty() && is_on[edge] != 0; }
+};
+
+/// The terms of an edge whose cost is ρ(νᵀ W ν): m ← ρ' m, M ← ρ' M, and with `second_order`
+/// M += 2 ρ'' m mᵀ, which makes the second derivatives exact where the rest is.
+inline void apply(const RobustLoss& loss, bool second_order, EdgeTerms& t) {
+  const LossValue value = loss.at(t.cost);
+  t.cost = value.rho;
+  for (double& element : t.M) element *= value.weight;
+  if (second_order) {
+    const double twice = 2.0 * value.curvature;
+    std::size_t element = 0;
+    for (std::size_t row = 0; row < 3; ++row) {
+      for (std::size_t column = row; column < 3; ++column) {
+        t.M[element++] += twice * t.m[row] * t.m[column];
+      }
+    }
+  }
+  for (double& element : t.m) element *= value.weight;
 }
 
 /// F = Σ νᵀ W ν.
