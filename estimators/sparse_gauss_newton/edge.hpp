@@ -87,31 +87,41 @@ inline EdgeTerms linearise_edge(const Edge& edge, const Node& i, const Node& k,
   return t;
 }
 
-/// A loss on some of the edges.
+/// What some edges count: s = νᵀ W ν becomes w s, and ρ of that where a loss is on.
 struct EdgeLoss {
   RobustLoss loss;
-  /// By edge, 1 where it counts; empty: nowhere.
-  std::span<const char> is_on;
+  std::span<const char> is_robust;    ///< by edge; empty: the loss is on none
+  std::span<const double> weights{};  ///< by edge; empty: all 1
 
-  bool covers(std::size_t edge) const { return !is_on.empty() && is_on[edge] != 0; }
+  bool leaves_out(std::size_t edge) const { return !weights.empty() && weights[edge] == 0.0; }
+
+  /// m ← w ρ' m and M ← w ρ' M, and with `second_order` M += 2 ρ'' m mᵀ (of w m), which makes the
+  /// second derivatives exact where the rest is.
+  void apply(std::size_t edge, bool second_order, EdgeTerms& t) const;
 };
 
-/// The terms of an edge whose cost is ρ(νᵀ W ν): m ← ρ' m, M ← ρ' M, and with `second_order`
-/// M += 2 ρ'' m mᵀ, which makes the second derivatives exact where the rest is.
-inline void apply(const RobustLoss& loss, bool second_order, EdgeTerms& t) {
+inline void scale(double factor, EdgeTerms& t) {
+  for (double& element : t.M) element *= factor;
+  for (double& element : t.m) element *= factor;
+}
+
+inline void EdgeLoss::apply(std::size_t edge, bool second_order, EdgeTerms& t) const {
+  if (!weights.empty()) {
+    t.cost *= weights[edge];
+    scale(weights[edge], t);
+  }
+  if (is_robust.empty() || is_robust[edge] == 0) return;
   const LossValue value = loss.at(t.cost);
+  const std::array<double, 3> m = t.m;
   t.cost = value.rho;
-  for (double& element : t.M) element *= value.weight;
-  if (second_order) {
-    const double twice = 2.0 * value.curvature;
-    std::size_t element = 0;
-    for (std::size_t row = 0; row < 3; ++row) {
-      for (std::size_t column = row; column < 3; ++column) {
-        t.M[element++] += twice * t.m[row] * t.m[column];
-      }
+  scale(value.weight, t);
+  if (!second_order) return;
+  std::size_t element = 0;
+  for (std::size_t row = 0; row < 3; ++row) {
+    for (std::size_t column = row; column < 3; ++column) {
+      t.M[element++] += 2.0 * value.curvature * m[row] * m[column];
     }
   }
-  for (double& element : t.m) element *= value.weight;
 }
 
 /// F = Σ νᵀ W ν.

@@ -1,5 +1,7 @@
 #include "estimators/sparse_gauss_newton/graph.hpp"
 
+#include <utility>
+
 #include "estimators/sparse_gauss_newton/selected_inverse.hpp"
 #include "fathom/geometry/covariance.hpp"
 
@@ -9,9 +11,10 @@ namespace {
 // The factor of the Gauss-Newton matrix at an estimate.
 class Information {
  public:
-  Information(std::span<const Edge> edges, std::span<const Node> nodes)
-      : symbolic_(analyse_graph(edges, static_cast<int>(nodes.size()))),
-        equations_(symbolic_, edges) {
+  Information(std::vector<Edge> edges, std::span<const Node> nodes)
+      : edges_(std::move(edges)),
+        symbolic_(analyse_graph(edges_, static_cast<int>(nodes.size()))),
+        equations_(symbolic_, edges_) {
     equations_.linearise(nodes, Hessian::gauss_newton);
     is_definite_ = equations_.factorise() && equations_.negative_pivots() == 0;
   }
@@ -35,6 +38,7 @@ class Information {
   }
 
  private:
+  std::vector<Edge> edges_;
   Symbolic symbolic_;
   NormalEquations equations_;
   bool is_definite_ = false;
@@ -42,7 +46,8 @@ class Information {
 
 }  // namespace
 
-Graph::Graph(const Pose& origin) : nodes_{make_node(origin.x, origin.y, origin.theta)} {}
+Graph::Graph(const Pose& origin, const RobustOptions& robust)
+    : robust_(robust), nodes_{make_node(origin.x, origin.y, origin.theta)} {}
 
 Pose Graph::pose(std::size_t k) const {
   return {nodes_[k].x, nodes_[k].y, wrap_angle(nodes_[k].theta)};
@@ -59,16 +64,22 @@ void Graph::add_keyframe(const RelativePose& step) {
   const Pose next = compose(pose(size() - 1), step.forward().motion);
   nodes_.push_back(make_node(next.x, next.y, next.theta));
   edges_.push_back(make_edge(step));
+  is_loop_.push_back(0);
+  weights_.push_back(1.0);
   changed();
 }
 
 void Graph::add_registration(const RelativePose& registration) {
   edges_.push_back(make_edge(registration));
+  is_loop_.push_back(1);
+  weights_.push_back(1.0);
   changed();
 }
 
 void Graph::forget_edges(std::size_t count) {
   edges_.resize(count);
+  is_loop_.resize(count);
+  weights_.resize(count);
   changed();
 }
 
@@ -77,10 +88,37 @@ SolveResult Graph::solve(Start start, const SolveLimits& limits) {
   return solve_batch(edges_, nodes_, start, limits);
 }
 
+SolveResult Graph::solve_robust(const SolveLimits& limits, bool from_scratch) {
+  changed();
+  RobustResult result = sparse_gauss_newton::solve_robust({edges_, is_loop_}, nodes_, robust_,
+                                                          limits, from_scratch);
+  if (is_done(result.solved.outcome)) weights_ = std::move(result.weights);
+  return result.solved;
+}
+
+std::vector<double> Graph::registration_weights() const {
+  std::vector<double> weights;
+  for (std::size_t e = 0; e < edges_.size(); ++e) {
+    if (is_loop_[e] != 0) weights.push_back(weights_[e]);
+  }
+  return weights;
+}
+
+std::vector<Edge> Graph::weighted_edges() const {
+  std::vector<Edge> edges;
+  edges.reserve(edges_.size());
+  for (std::size_t e = 0; e < edges_.size(); ++e) {
+    if (weights_[e] == 0.0) continue;
+    edges.push_back(edges_[e]);
+    for (double& element : edges.back().W) element *= weights_[e];
+  }
+  return edges;
+}
+
 void Graph::compute_marginals() {
   marginals_.emplace();
   marginals_->reserve(size());
-  Information information(edges_, nodes_);
+  Information information(weighted_edges(), nodes_);
   if (!information.is_definite()) return;
   const SelectedInverse inverse(information.factor());
   marginals_->push_back(Eigen::Matrix3d::Zero());
@@ -99,7 +137,7 @@ std::optional<std::vector<UncertainPose>> Graph::motions_to_newest() const {
   std::vector<UncertainPose> motions;
   const std::size_t newest = size() - 1;
   if (newest == 0) return motions;
-  Information information(edges_, nodes_);
+  Information information(weighted_edges(), nodes_);
   if (!information.is_definite()) return std::nullopt;
   const SelectedInverse inverse(information.factor());
   const Eigen::MatrixX3d to_newest = information.columns(newest);
@@ -120,7 +158,7 @@ std::optional<std::vector<UncertainPose>> Graph::motions_to_newest() const {
 
 std::optional<std::vector<Eigen::Matrix3d>> Graph::innovation_covariances(
     std::span<const RelativePose> forward_loops) const {
-  Information information(edges_, nodes_);
+  Information information(weighted_edges(), nodes_);
   if (!information.is_definite()) return std::nullopt;
   const std::size_t newest = size() - 1;
   const Eigen::MatrixX3d to_newest = information.columns(newest);

@@ -20,9 +20,10 @@ bool PositionProblem::solve(std::vector<Node>& nodes) {
     to[place.stride + 1] += sign * M[3];
   };
   for (std::size_t e = 0; e < edges_.size(); ++e) {
+    if (loss_.leaves_out(e)) continue;
     const Edge& edge = edges_[e];
     EdgeTerms t = linearise_edge(edge, nodes[at(edge.from)], nodes[at(edge.to)]);
-    if (loss_.covers(e)) apply(loss_.loss, false, t);
+    loss_.apply(e, false, t);
     for (const int keyframe : {edge.from, edge.to}) {
       if (keyframe == 0) continue;
       add(keyframe, keyframe, t.M, 1.0);

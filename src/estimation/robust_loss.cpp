@@ -13,7 +13,8 @@ void LossOptions::describe(OptionTable& table) {
                                {"huber", LossKind::huber},
                                {"cauchy", LossKind::cauchy},
                                {"geman_mcclure", LossKind::geman_mcclure},
-                               {"dcs", LossKind::dcs}},
+                               {"dcs", LossKind::dcs},
+                               {"truncated", LossKind::truncated}},
                               "robust loss on registrations; dead reckoning has none");
   table.real_or_off("loss_scale", scale, Range::positive(), "sigma",
                     "whitened residual at which the loss sets in; off: that which makes a right "
@@ -26,6 +27,11 @@ void LossOptions::check() const {
   }
 }
 
+double default_scale(LossKind kind) {
+  const double share = kind == LossKind::truncated ? 0.9998 : 0.99;
+  return scale_of_half_weight(kind, chi_squared_quantile(share, 3.0));
+}
+
 double scale_of_half_weight(LossKind kind, double s) {
   switch (kind) {
     case LossKind::huber:
@@ -35,6 +41,7 @@ double scale_of_half_weight(LossKind kind, double s) {
     case LossKind::dcs:
       return std::sqrt(s / (2.0 * std::sqrt(2.0) - 1.0));
     case LossKind::cauchy:
+    case LossKind::truncated:
     case LossKind::none:
       break;
   }
@@ -42,8 +49,7 @@ double scale_of_half_weight(LossKind kind, double s) {
 }
 
 RobustLoss::RobustLoss(const LossOptions& options)
-    : RobustLoss(options.kind, options.scale.value_or(scale_of_half_weight(
-                                   options.kind, chi_squared_quantile(0.99, 3.0)))) {}
+    : RobustLoss(options.kind, options.scale.value_or(default_scale(options.kind))) {}
 
 double RobustLoss::scale() const {
   return std::sqrt(squared_scale_);
@@ -70,6 +76,9 @@ LossValue RobustLoss::at(double s) const {
       const double factor = 2.0 * a / (a + s);
       return {a * (3.0 * s - a) / (a + s), factor * factor, -2.0 * factor * factor / (a + s)};
     }
+    case LossKind::truncated:
+      if (s > a) return {a, 0.0, 0.0};
+      break;
     case LossKind::none:
       break;
   }

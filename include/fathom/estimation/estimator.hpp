@@ -83,6 +83,11 @@ class Estimator : public TrajectoryView {
   /// ρ(eᵀ Ω e): what a registration counts in the cost that this estimator minimises. The identity
   /// without a robust loss.
   virtual double loss(double chi2) const { return chi2; }
+
+  /// What every registration given so far weighs in the estimate as it is, in the order given: 1 as
+  /// it stands, less under a robust loss, 0 where it has no part. Empty: 1 for every one that is
+  /// used, 0 for the others.
+  virtual std::vector<double> loop_weights() const { return {}; }
 };
 
 }  // namespace fathom

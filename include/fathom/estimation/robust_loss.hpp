@@ -16,10 +16,12 @@ namespace fathom {
 /// | cauchy        | c² ln(1 + s / c²)                          | 1 / (1 + s / c²)          |
 /// | geman_mcclure | c² s / (c² + s)                            | (c² / (c² + s))²          |
 /// | dcs           | s up to c², then c² (3 s − c²) / (c² + s)  | min(1, 2 c² / (c² + s))²  |
+/// | truncated     | min(s, c²)                                 | 1 up to c², then 0        |
 ///
 /// `dcs` is dynamic covariance scaling (Agarwal, Tipaldi, Spinello, Stachniss and Burgard 2013):
 /// Ω times the square of their factor, with Φ = c²; its ρ is the integral of that weight.
-enum class LossKind { none, huber, cauchy, geman_mcclure, dcs };
+/// `truncated` has no useful gradient: an estimator that takes it decides otherwise who is out.
+enum class LossKind { none, huber, cauchy, geman_mcclure, dcs, truncated };
 
 /// ρ and its first two derivatives.
 struct LossValue {
@@ -30,7 +32,8 @@ struct LossValue {
 
 struct LossOptions {
   LossKind kind = LossKind::none;
-  /// c, in units of √s; absent: where a registration at the 99 % quantile of χ²₃ weighs one half.
+  /// c, in units of √s; absent: where a registration at the 99 % quantile of χ²₃ weighs one half;
+  /// of `truncated`, where 99.98 % end.
   std::optional<double> scale;
 
   /// `loss` and `loss_scale`.
@@ -61,6 +64,9 @@ class RobustLoss {
   LossKind kind_ = LossKind::none;
   double squared_scale_ = 1.0;
 };
+
+/// The scale where none is given.
+double default_scale(LossKind kind);
 
 /// The scale at which a residual of squared norm s weighs one half.
 double scale_of_half_weight(LossKind kind, double s);

@@ -1,0 +1,221 @@
+#include "estimators/sparse_gauss_newton/consensus.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "estimators/sparse_gauss_newton/leave_one_out.hpp"
+#include "fathom/estimation/robust_loss.hpp"
+
+namespace fathom::sparse_gauss_newton {
+namespace {
+
+constexpr int kPasses = 10;
+constexpr int kRounds = 60;
+constexpr int kWeightRounds = 20;
+constexpr double kWeightsSettled = 0.01;
+// A loop that was put out so often is not let in again: it would go on for ever.
+constexpr int kMostExpulsions = 2;
+// Outside with a larger residual than so many scales, a loop is not looked at: no covariance of a
+// useful estimate makes up for it. It keeps the pattern of the factor sparse.
+constexpr double kHopeless = 1e3;
+// Real loops have heavier tails than χ²₃: left out, the largest of a set is 1.1 to 9.3 times their
+// 90 % quantile (docs/robustness.md). The ramp of weights ends at 10 times it.
+constexpr double kScaleOfQuantile = 10.0 / 1.5;
+constexpr double kQuantile = 0.9;
+constexpr std::size_t kLoopsForScale = 10;
+constexpr double kLeastScale = 0.01;  // of the default: agreement beyond it is no news
+constexpr SolveLimits kRough{20, 1e-6};
+
+// Of the whole graph those edges that count or may come to, with a pattern of their own.
+class Part {
+ public:
+  Part(const LoopGraph& graph, const std::vector<std::size_t>& indices, std::size_t keyframes)
+      : edges_(pick(graph.edges, indices)),
+        is_loop_(pick(graph.is_loop, indices)),
+        symbolic_(analyse_graph(edges_, static_cast<int>(keyframes))),
+        equations_(symbolic_, edges_) {}
+
+  SolveResult solve(std::vector<Node>& nodes, std::span<const double> weights,
+                    const SolveLimits& limits) {
+    equations_.set_loss({RobustLoss(), {}, weights});
+    return minimise(equations_, nodes, limits);
+  }
+
+  std::vector<double> leave_one_out(std::span<const double> weights,
+                                    std::span<const Node> nodes) {
+    return sparse_gauss_newton::leave_one_out(equations_, is_loop_, weights, nodes);
+  }
+
+  bool is_loop(std::size_t e) const { return is_loop_[e] != 0; }
+
+ private:
+  template <class T>
+  static std::vector<T> pick(std::span<const T> all, const std::vector<std::size_t>& indices) {
+    std::vector<T> part;
+    part.reserve(indices.size());
+    for (const std::size_t e : indices) part.push_back(all[e]);
+    return part;
+  }
+
+  std::vector<Edge> edges_;
+  std::vector<char> is_loop_;
+  Symbolic symbolic_;
+  NormalEquations equations_;
+};
+
+class Search {
+ public:
+  Search(const LoopGraph& graph, std::vector<double> weights, std::vector<Node>& nodes,
+         std::optional<double> squared_scale, const SolveLimits& limits)
+      : graph_(graph), weights_(std::move(weights)), nodes_(nodes), limits_(limits),
+        expulsions_(graph.edges.size(), 0), adapts_(!squared_scale) {
+    const double by_default = default_scale(LossKind::truncated);
+    largest_ = scale_ = squared_scale.value_or(by_default * by_default);
+    for (double& weight : weights_) weight = weight >= 0.5 ? 1.0 : 0.0;
+  }
+
+  Consensus run() {
+    for (int pass = 0; pass < kPasses; ++pass) {
+      take_part();
+      const bool let_in = judge();
+      hand_back();
+      if (!let_in && pass > 0) break;
+    }
+    take_part();
+    settle_weights();
+    Consensus result;
+    result.solved = part_->solve(nodes_, own_, limits_);
+    result.solved.iterations += iterations_;
+    hand_back();
+    result.weights = std::move(weights_);
+    result.squared_scale = scale_;
+    return result;
+  }
+
+ private:
+  double residual_of(std::size_t e) const {
+    const Edge& edge = graph_.edges[e];
+    return linearise_edge(edge, nodes_[at(edge.from)], nodes_[at(edge.to)]).cost;
+  }
+
+  void take_part() {
+    indices_.clear();
+    own_.clear();
+    for (std::size_t e = 0; e < graph_.edges.size(); ++e) {
+      const bool may_enter = weights_[e] == 0.0 && expulsions_[e] < kMostExpulsions &&
+                             residual_of(e) < kHopeless * scale_;
+      if (weights_[e] == 0.0 && !may_enter) continue;
+      indices_.push_back(e);
+      own_.push_back(weights_[e]);
+    }
+    part_.emplace(graph_, indices_, nodes_.size());
+  }
+
+  void hand_back() {
+    for (std::size_t j = 0; j < indices_.size(); ++j) weights_[indices_[j]] = own_[j];
+  }
+
+  // Whether any was let in.
+  bool judge() {
+    bool any = false;
+    for (int round = 0; round < kRounds; ++round) {
+      iterations_ += part_->solve(nodes_, own_, kRough).iterations;
+      const std::vector<double> chi2 = part_->leave_one_out(own_, nodes_);
+      adapt_scale(chi2);
+      if (put_out(chi2)) continue;
+      if (!let_in(chi2)) return any;
+      any = true;
+    }
+    return any;
+  }
+
+  void adapt_scale(const std::vector<double>& chi2) {
+    if (!adapts_) return;
+    std::vector<double> inside;
+    for (std::size_t j = 0; j < own_.size(); ++j) {
+      if (part_->is_loop(j) && own_[j] > 0.0) inside.push_back(chi2[j]);
+    }
+    if (inside.size() < kLoopsForScale) return;
+    const auto place = static_cast<std::ptrdiff_t>(kQuantile * static_cast<double>(inside.size()));
+    std::nth_element(inside.begin(), inside.begin() + place, inside.end());
+    scale_ = std::clamp(kScaleOfQuantile * inside[static_cast<std::size_t>(place)],
+                        kLeastScale * largest_, largest_);
+  }
+
+  // The worst, and those that are half as bad: a false loop spoils what is said of its neighbours.
+  bool put_out(const std::vector<double>& chi2) {
+    double worst = 1.5 * scale_;
+    for (std::size_t j = 0; j < own_.size(); ++j) {
+      if (own_[j] > 0.0) worst = std::max(worst, chi2[j]);
+    }
+    bool any = false;
+    for (std::size_t j = 0; j < own_.size(); ++j) {
+      if (own_[j] == 0.0 || chi2[j] <= 1.5 * scale_ || chi2[j] < 0.5 * worst) continue;
+      own_[j] = 0.0;
+      ++expulsions_[indices_[j]];
+      any = true;
+    }
+    return any;
+  }
+
+  bool let_in(const std::vector<double>& chi2) {
+    bool any = false;
+    for (std::size_t j = 0; j < own_.size(); ++j) {
+      if (own_[j] > 0.0 || chi2[j] > 1.5 * scale_) continue;
+      if (expulsions_[indices_[j]] >= kMostExpulsions) continue;
+      own_[j] = 1.0;
+      any = true;
+    }
+    return any;
+  }
+
+  void settle_weights() {
+    for (int round = 0; round < kWeightRounds; ++round) {
+      iterations_ += part_->solve(nodes_, own_, kRough).iterations;
+      const std::vector<double> chi2 = part_->leave_one_out(own_, nodes_);
+      double change = 0.0;
+      for (std::size_t j = 0; j < own_.size(); ++j) {
+        if (!part_->is_loop(j)) continue;
+        const double weight = std::clamp(1.5 - chi2[j] / scale_, 0.0, 1.0);
+        change = std::max(change, std::abs(weight - own_[j]));
+        own_[j] = 0.5 * (own_[j] + weight);
+        if (own_[j] < kWeightsSettled) own_[j] = 0.0;
+      }
+      if (change < kWeightsSettled) return;
+    }
+  }
+
+  LoopGraph graph_;
+  std::vector<double> weights_;
+  std::vector<Node>& nodes_;
+  SolveLimits limits_;
+  std::vector<int> expulsions_;
+  bool adapts_;
+  double scale_ = 0.0;
+  double largest_ = 0.0;
+  std::vector<std::size_t> indices_;  ///< of the part, in the graph
+  std::vector<double> own_;           ///< weights of the part
+  std::optional<Part> part_;
+  int iterations_ = 0;
+};
+
+}  // namespace
+
+Consensus find_consensus(const LoopGraph& graph, std::vector<double> weights,
+                         std::vector<Node>& nodes, std::optional<double> squared_scale,
+                         const SolveLimits& limits) {
+  return Search(graph, std::move(weights), nodes, squared_scale, limits).run();
+}
+
+double truncated_cost(const LoopGraph& graph, std::span<const double> weights,
+                      std::span<const Node> nodes, double squared_scale) {
+  double sum = 0.0;
+  for (std::size_t e = 0; e < graph.edges.size(); ++e) {
+    const Edge& edge = graph.edges[e];
+    const double chi2 = linearise_edge(edge, nodes[at(edge.from)], nodes[at(edge.to)]).cost;
+    sum += weights[e] * chi2 + (1.0 - weights[e]) * squared_scale;
+  }
+  return sum;
+}
+
+}  // namespace fathom::sparse_gauss_newton
