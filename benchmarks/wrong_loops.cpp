@@ -33,7 +33,8 @@ std::vector<BackEnd> back_ends() {
   for (const char* loss : {"huber", "cauchy", "dcs", "geman_mcclure", "truncated"}) {
     all.push_back({loss, "sparse_gauss_newton", {{"loss", loss}}});
   }
-  all.push_back({"gnc", "sparse_gauss_newton", {{"loss", "geman_mcclure"}, {"graduation", "convex"}}});
+  all.push_back(
+      {"gnc", "sparse_gauss_newton", {{"loss", "geman_mcclure"}, {"graduation", "convex"}}});
   all.push_back({"ceres", "ceres_pose_graph", {}});
   for (const char* loss : {"huber", "cauchy", "dcs", "geman_mcclure"}) {
     all.push_back({std::string("ceres_") + loss, "ceres_pose_graph", {{"loss", loss}}});
@@ -45,8 +46,8 @@ struct Flags {
   int seeds = 3;
   std::vector<double> shares{0.1, 0.3, 0.5};
   std::vector<std::string> kinds{"random", "local", "grouped"};
-  std::vector<std::string> back_ends{"plain", "huber", "cauchy", "dcs", "geman_mcclure", "gnc",
-                                     "truncated"};
+  std::vector<std::string> back_ends{"plain",         "huber", "cauchy",   "dcs",
+                                     "geman_mcclure", "gnc",   "truncated"};
   std::vector<std::string> graphs;
 };
 
@@ -60,9 +61,8 @@ Solved solve(const MeasurementLog& log, const BackEnd& back_end) {
   EstimatorValues values;
   for (const auto& [key, value] : back_end.options) values[key] = OptionValue::scalar(value);
   const auto begin = std::chrono::steady_clock::now();
-  const auto estimator = builtin_estimators()
-                             .find(back_end.type)
-                             .create({log.origin(), SolveMode::batch}, values);
+  const auto estimator =
+      builtin_estimators().find(back_end.type).create({log.origin(), SolveMode::batch}, values);
   for (std::size_t k = 1; k < log.size(); ++k) {
     estimator->add_keyframe(log.arrival(k).step);
     if (!log.arrival(k).registrations.empty()) {
@@ -71,8 +71,8 @@ Solved solve(const MeasurementLog& log, const BackEnd& back_end) {
   }
   estimator->finish();
   Solved solved{poses_of(*estimator), estimator->loop_weights(), 0.0};
-  solved.ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin)
-                  .count();
+  solved.ms =
+      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
   if (solved.weights.empty()) solved.weights.assign(log.registration_count(), 1.0);
   return solved;
 }
@@ -150,9 +150,9 @@ int main(int argc, char** argv) {
   CLI::App app("Back ends on graphs with false loops");
   fathom::Flags flags;
   app.add_option("--seeds", flags.seeds);
-  app.add_option("--shares", flags.shares)->delimiter(',');
-  app.add_option("--kinds", flags.kinds)->delimiter(',');
-  app.add_option("--back-ends", flags.back_ends)->delimiter(',');
+  app.add_option("--shares", flags.shares)->delimiter(',')->allow_extra_args(false);
+  app.add_option("--kinds", flags.kinds)->delimiter(',')->allow_extra_args(false);
+  app.add_option("--back-ends", flags.back_ends)->delimiter(',')->allow_extra_args(false);
   app.add_option("graphs", flags.graphs)->required();
   CLI11_PARSE(app, argc, argv);
   try {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "estimators/sparse_gauss_newton/leave_one_out.hpp"
+#include "estimators/sparse_gauss_newton/loop_groups.hpp"
 #include "fathom/estimation/robust_loss.hpp"
 
 namespace fathom::sparse_gauss_newton {
@@ -41,9 +42,23 @@ class Part {
     return minimise(equations_, nodes, limits);
   }
 
-  std::vector<double> leave_one_out(std::span<const double> weights,
-                                    std::span<const Node> nodes) {
+  std::vector<double> leave_one_out(std::span<const double> weights, std::span<const Node> nodes) {
     return sparse_gauss_newton::leave_one_out(equations_, is_loop_, weights, nodes);
+  }
+
+  /// Groups of the loops with weight; group_chi2 is at the factor of the last leave_one_out.
+  std::vector<std::vector<std::size_t>> groups(std::span<const double> weights) const {
+    std::vector<std::size_t> kept;
+    for (std::size_t e = 0; e < edges_.size(); ++e) {
+      if (is_loop_[e] != 0 && weights[e] > 0.0) kept.push_back(e);
+    }
+    const auto any = [](const Edge&, const Edge&) { return true; };
+    return group_loops(edges_, std::move(kept), any);
+  }
+
+  double group_chi2(const std::vector<std::size_t>& group, std::span<const double> weights,
+                    std::span<const Node> nodes) {
+    return sparse_gauss_newton::group_chi2(equations_, group, weights, nodes);
   }
 
   bool is_loop(std::size_t e) const { return is_loop_[e] != 0; }
@@ -67,8 +82,12 @@ class Search {
  public:
   Search(const LoopGraph& graph, std::vector<double> weights, std::vector<Node>& nodes,
          std::optional<double> squared_scale, const SolveLimits& limits)
-      : graph_(graph), weights_(std::move(weights)), nodes_(nodes), limits_(limits),
-        expulsions_(graph.edges.size(), 0), adapts_(!squared_scale) {
+      : graph_(graph),
+        weights_(std::move(weights)),
+        nodes_(nodes),
+        limits_(limits),
+        expulsions_(graph.edges.size(), 0),
+        adapts_(!squared_scale) {
     const double by_default = default_scale(LossKind::truncated);
     largest_ = scale_ = squared_scale.value_or(by_default * by_default);
     for (double& weight : weights_) weight = weight >= 0.5 ? 1.0 : 0.0;
@@ -123,8 +142,11 @@ class Search {
       const std::vector<double> chi2 = part_->leave_one_out(own_, nodes_);
       adapt_scale(chi2);
       if (put_out(chi2)) continue;
-      if (!let_in(chi2)) return any;
-      any = true;
+      if (let_in(chi2)) {
+        any = true;
+      } else if (!put_out_groups()) {
+        return any;
+      }
     }
     return any;
   }
@@ -156,6 +178,28 @@ class Search {
       any = true;
     }
     return any;
+  }
+
+  // Of the groups that the rest contradicts, those with most against each of their loops.
+  bool put_out_groups() {
+    std::vector<std::pair<double, std::vector<std::size_t>>> contradicted;
+    double most = 0.0;
+    for (std::vector<std::size_t>& group : part_->groups(own_)) {
+      if (group.size() < 2) continue;
+      const double chi2 = part_->group_chi2(group, own_, nodes_);
+      if (chi2 <= 1.5 * scale_) continue;
+      const double each = chi2 / static_cast<double>(group.size());
+      most = std::max(most, each);
+      contradicted.emplace_back(each, std::move(group));
+    }
+    for (const auto& [each, group] : contradicted) {
+      if (each < 0.5 * most) continue;
+      for (const std::size_t j : group) {
+        own_[j] = 0.0;
+        ++expulsions_[indices_[j]];
+      }
+    }
+    return !contradicted.empty();
   }
 
   bool let_in(const std::vector<double>& chi2) {

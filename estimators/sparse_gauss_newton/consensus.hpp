@@ -23,7 +23,8 @@ struct Consensus {
 };
 
 /// Judges every loop by what all others say of it (leave_one_out), again and again: the worst are
-/// put out until none contradicts the rest, those outside that agree with it are let in, and at the
+/// put out until none contradicts the rest, those outside that agree with it are let in, then
+/// groups of neighbours that the rest contradicts as a whole (group_chi2) are put out, and at the
 /// end each weighs 1 up to half the squared scale, 0 from one and a half times it on, and in
 /// between falls linearly. A weight that rests on the others' word does not confirm itself.
 ///

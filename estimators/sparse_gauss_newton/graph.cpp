@@ -90,8 +90,8 @@ SolveResult Graph::solve(Start start, const SolveLimits& limits) {
 
 SolveResult Graph::solve_robust(const SolveLimits& limits, bool from_scratch) {
   changed();
-  RobustResult result = sparse_gauss_newton::solve_robust({edges_, is_loop_}, nodes_, robust_,
-                                                          limits, from_scratch);
+  RobustResult result =
+      sparse_gauss_newton::solve_robust({edges_, is_loop_}, nodes_, robust_, limits, from_scratch);
   if (is_done(result.solved.outcome)) weights_ = std::move(result.weights);
   return result.solved;
 }

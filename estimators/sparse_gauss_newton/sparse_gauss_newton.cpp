@@ -42,9 +42,9 @@ void SparseGaussNewtonOptions::describe(OptionTable& table) {
                      {"lifted", Start::lifted}},
                     "batch: where a solve starts; given is --init, the others make headings first");
   loss.describe(table);
-  table.enumeration("graduation", graduation,
-                    {{"off", Graduation::off}, {"convex", Graduation::convex}},
-                    "geman_mcclure, truncated: from where graduated non-convexity leads to the loss");
+  table.enumeration(
+      "graduation", graduation, {{"off", Graduation::off}, {"convex", Graduation::convex}},
+      "geman_mcclure, truncated: from where graduated non-convexity leads to the loss");
   gate.describe(table);
 }
 

@@ -92,7 +92,8 @@ class Spoiler {
 
   bool is_false_enough(const RelativePose& z) const {
     const Eigen::Vector3d e = residual(z.motion, reference_[z.from], reference_[z.to]);
-    return e.head<2>().norm() >= options_.min_offset_m || std::abs(e.z()) >= options_.min_offset_rad;
+    return e.head<2>().norm() >= options_.min_offset_m ||
+           std::abs(e.z()) >= options_.min_offset_rad;
   }
 
   std::span<const Pose> reference_;
