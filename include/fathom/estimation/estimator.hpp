@@ -24,6 +24,8 @@ bool is_done(Outcome outcome);
 /// What became of one registration: used, refused by a gate, or lost with an update that failed.
 enum class LoopFate { used, rejected, lost };
 
+std::string name_of(LoopFate fate);
+
 struct LoopDecision {
   std::size_t from = 0;
   std::size_t to = 0;
