@@ -354,11 +354,15 @@ EstimatorValues estimator_values(const Settings& settings, const EstimatorEntry&
       refuse(setting, "unknown key '" + full + "' of " + entry.name + suggestion(full, known));
     }
     values[setting.key] = setting.value;
-    try {
-      entry.create(setup, values);
-    } catch (const InputError& error) {
-      refuse(setting, prefix + error.what());
-    }
+  }
+  // All together, as some depend on others; the message begins with the key that it is about.
+  try {
+    entry.create(setup, values);
+  } catch (const InputError& error) {
+    const std::string what = error.what();
+    const Setting* about = settings.find(what.substr(0, what.find(':')));
+    if (about == nullptr) throw;
+    refuse(*about, prefix + what);
   }
   return values;
 }
