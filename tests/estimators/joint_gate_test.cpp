@@ -3,6 +3,7 @@
 #include <bit>
 #include <cmath>
 
+#include <Eigen/Dense>
 #include <gtest/gtest.h>
 
 #include "fathom/core/chi_squared.hpp"
