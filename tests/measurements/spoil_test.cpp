@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/estimators/logs.hpp"
+#include "estimators/logs.hpp"
 
 namespace fathom {
 namespace {
