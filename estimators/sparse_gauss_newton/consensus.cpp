@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "estimators/sparse_gauss_newton/drift.hpp"
 #include "estimators/sparse_gauss_newton/leave_one_out.hpp"
 #include "estimators/sparse_gauss_newton/loop_groups.hpp"
 #include "fathom/estimation/robust_loss.hpp"
@@ -16,9 +17,12 @@ constexpr int kWeightRounds = 20;
 constexpr double kWeightsSettled = 0.01;
 // A loop that was put out so often is not let in again: it would go on for ever.
 constexpr int kMostExpulsions = 2;
-// Outside with a larger residual than so many scales, a loop is not looked at: no covariance of a
-// useful estimate makes up for it. It keeps the pattern of the factor sparse.
+// Outside, a loop is looked at if its residual is within so many scales; where there are too few
+// loops inside to hold the map, or it is new, if dead reckoning alone could explain a fair part of
+// its residual. The others would only fill the factor.
 constexpr double kHopeless = 1e3;
+constexpr double kHopelessOfDrift = 4.0;
+constexpr double kEnoughInside = 1.0 / 3.0;
 // Real loops have heavier tails than χ²₃: left out, the largest of a set is 1.1 to 9.3 times their
 // 90 % quantile (docs/robustness.md). The ramp of weights ends at 10 times it.
 constexpr double kScaleOfQuantile = 10.0 / 1.5;
@@ -90,7 +94,10 @@ class Search {
         adapts_(!squared_scale) {
     const double by_default = default_scale(LossKind::truncated);
     largest_ = scale_ = squared_scale.value_or(by_default * by_default);
-    for (double& weight : weights_) weight = weight >= 0.5 ? 1.0 : 0.0;
+    for (double& weight : weights_) {
+      is_new_.push_back(weight == kNewLoop ? 1 : 0);
+      weight = weight >= 0.5 ? 1.0 : 0.0;
+    }
   }
 
   Consensus run() {
@@ -112,17 +119,32 @@ class Search {
   }
 
  private:
-  double residual_of(std::size_t e) const {
-    const Edge& edge = graph_.edges[e];
+  double residual_of(const Edge& edge) const {
     return linearise_edge(edge, nodes_[at(edge.from)], nodes_[at(edge.to)]).cost;
+  }
+
+  double share_inside() const {
+    double loops = 0.0;
+    double inside = 0.0;
+    for (std::size_t e = 0; e < graph_.edges.size(); ++e) {
+      if (graph_.is_loop[e] == 0) continue;
+      loops += 1.0;
+      if (weights_[e] > 0.0) inside += 1.0;
+    }
+    return loops > 0.0 ? inside / loops : 1.0;
   }
 
   void take_part() {
     indices_.clear();
     own_.clear();
+    const Drift drift(graph_.edges, graph_.is_loop, nodes_);
+    const bool is_vague = share_inside() < kEnoughInside;
     for (std::size_t e = 0; e < graph_.edges.size(); ++e) {
+      const Edge& edge = graph_.edges[e];
       const bool may_enter = weights_[e] == 0.0 && expulsions_[e] < kMostExpulsions &&
-                             residual_of(e) < kHopeless * scale_;
+                             (residual_of(edge) < kHopeless * scale_ ||
+                              ((is_vague || is_new_[e] != 0) &&
+                               least_chi2(drift, edge, nodes_) < kHopelessOfDrift * scale_));
       if (weights_[e] == 0.0 && !may_enter) continue;
       indices_.push_back(e);
       own_.push_back(weights_[e]);
@@ -234,6 +256,7 @@ class Search {
   std::vector<Node>& nodes_;
   SolveLimits limits_;
   std::vector<int> expulsions_;
+  std::vector<char> is_new_;
   bool adapts_;
   double scale_ = 0.0;
   double largest_ = 0.0;

@@ -14,6 +14,9 @@ struct LoopGraph {
   std::span<const char> is_loop;
 };
 
+/// In a first guess of weights, that of a loop of which nothing is known.
+inline constexpr double kNewLoop = -1.0;
+
 /// Which loops agree, and the least squares of those.
 struct Consensus {
   SolveResult solved;

@@ -90,9 +90,18 @@ SolveResult Graph::solve(Start start, const SolveLimits& limits) {
 
 SolveResult Graph::solve_robust(const SolveLimits& limits, bool from_scratch) {
   changed();
+  std::vector<double> known;
+  if (!from_scratch) {
+    known = weights_;
+    for (std::size_t e = judged_; e < known.size(); ++e)
+      known[e] = is_loop_[e] != 0 ? kNewLoop : 1.0;
+  }
   RobustResult result =
-      sparse_gauss_newton::solve_robust({edges_, is_loop_}, nodes_, robust_, limits, from_scratch);
-  if (is_done(result.solved.outcome)) weights_ = std::move(result.weights);
+      sparse_gauss_newton::solve_robust({edges_, is_loop_}, nodes_, robust_, limits, known);
+  if (is_done(result.solved.outcome)) {
+    weights_ = std::move(result.weights);
+    judged_ = edges_.size();
+  }
   return result.solved;
 }
 

@@ -60,6 +60,7 @@ class Graph {
   std::vector<Edge> edges_;
   std::vector<char> is_loop_;    ///< by edge
   std::vector<double> weights_;  ///< by edge
+  std::size_t judged_ = 0;       ///< edges of the last robust solve that was done
   /// Of all keyframes; absent: to be computed, empty: could not be.
   std::optional<std::vector<Eigen::Matrix3d>> marginals_;
 };

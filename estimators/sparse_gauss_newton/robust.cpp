@@ -34,11 +34,16 @@ class RobustBatch {
   }
 
   // Geman-McClure leads near, then the loops are judged by one another.
-  RobustResult agree(std::vector<Node>& nodes, bool from_scratch) {
+  RobustResult agree(std::vector<Node>& nodes, std::span<const double> known) {
+    if (!known.empty()) {
+      Consensus consensus = find_consensus(graph_, {known.begin(), known.end()}, nodes,
+                                           options_.squared_scale, limits_);
+      return {consensus.solved, std::move(consensus.weights)};
+    }
     const std::vector<Node> start = nodes;
     Consensus best = attempt(nodes, {});
-    if (from_scratch) try_lost_groups(start, nodes, best);
-    if (from_scratch) try_free_start(nodes, best);
+    try_lost_groups(start, nodes, best);
+    try_free_start(nodes, best);
     best.solved.iterations += iterations_;
     return {best.solved, std::move(best.weights)};
   }
@@ -151,11 +156,11 @@ class RobustBatch {
 
 RobustResult solve_robust(const LoopGraph& graph, std::vector<Node>& nodes,
                           const RobustOptions& options, const SolveLimits& limits,
-                          bool from_scratch) {
+                          std::span<const double> known) {
   std::vector<Node> result_nodes = nodes;
   RobustBatch batch(graph, options, limits, nodes.size());
   RobustResult result = options.loss.kind() == LossKind::truncated
-                            ? batch.agree(result_nodes, from_scratch)
+                            ? batch.agree(result_nodes, known)
                             : batch.descend(result_nodes);
   if (is_done(result.solved.outcome)) nodes = std::move(result_nodes);
   return result;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "estimators/sparse_gauss_newton/consensus.hpp"
@@ -26,10 +27,11 @@ struct RobustResult {
 };
 
 /// Minimises Σ ρ(νᵀ W ν), the loss on loops alone, from `nodes` on, which become the result.
-/// `from_scratch`: `nodes` is dead reckoning or a guess and the whole graph is new; else it is the
-/// estimate so far, and no other hypothesis is tried. docs/robustness.md.
+/// `known`: the weights of an estimate so far, that is, `nodes`, kNewLoop of new ones; then no
+/// other hypothesis is tried. Empty: `nodes` is dead reckoning or a guess, and all is new.
+/// docs/robustness.md.
 RobustResult solve_robust(const LoopGraph& graph, std::vector<Node>& nodes,
                           const RobustOptions& options, const SolveLimits& limits,
-                          bool from_scratch);
+                          std::span<const double> known = {});
 
 }  // namespace fathom::sparse_gauss_newton
