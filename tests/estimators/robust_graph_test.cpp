@@ -5,9 +5,11 @@
 
 #include <gtest/gtest.h>
 
+#include "estimators/sparse_gauss_newton/drift.hpp"
 #include "estimators/sparse_gauss_newton/leave_one_out.hpp"
 #include "estimators/sparse_gauss_newton/loop_groups.hpp"
 #include "estimators/sparse_gauss_newton/robust.hpp"
+#include "fathom/geometry/covariance.hpp"
 #include "fathom/measurements/g2o.hpp"
 #include "fathom/measurements/spoil.hpp"
 #include "tests/estimators/logs.hpp"
@@ -240,6 +242,52 @@ TEST(GroupChi2, SeesWhatLeavingOneOutDoesNot) {
   for (const std::size_t e : group) EXPECT_LT(chi2[e], 16.0);
   // About 3² / (7 · 0.01): the steps that all three span, and a part of the others.
   EXPECT_GT(group_chi2(equations, group, all, parts.nodes), 80.0);
+}
+
+// Against the steps composed one by one.
+TEST(Drift, IsThatOfTheStepsComposed) {
+  const MeasurementLog log = circle(40);
+  const Parts parts = parts_of(log);
+  const Drift drift(parts.edges, parts.is_loop, parts.nodes);
+  for (const auto& [from, to] :
+       {std::pair<std::size_t, std::size_t>{0, 39}, {7, 8}, {11, 30}, {30, 31}}) {
+    std::vector<UncertainPose> steps;
+    for (std::size_t k = from + 1; k <= to; ++k) {
+      const RelativePose& step = log.arrival(k).step;
+      steps.push_back({step.motion, step.covariance()});
+    }
+    const UncertainPose composed = compose_chain(steps);
+    const Edge edge = make_edge(
+        RelativePose::from_covariance(from, to, composed.mean, test::full_covariance(0.1, 0.1)));
+    const Eigen::Matrix3d found = drift.of(edge, parts.nodes);
+    EXPECT_LT((found - composed.covariance).norm(), 1e-9 * composed.covariance.norm()) << from;
+    EXPECT_NEAR(least_chi2(drift, edge, parts.nodes), 0.0, 1e-9);
+  }
+}
+
+// Loops a thousand times as precise as the drift: at dead reckoning all of them look false.
+TEST(RobustGraph, FindsPreciseLoopsAfterALongDrift) {
+  const std::vector<Pose> truth = test::circle(100);
+  RandomStream random(8, "precise");
+  MeasurementLog log;
+  for (std::size_t k = 1; k < truth.size(); ++k) {
+    log.add_keyframe(RelativePose::from_covariance(
+        k - 1, k, test::perturbed(between(truth[k - 1], truth[k]), 0.05, 0.02, random),
+        Eigen::Vector3d(0.0025, 0.0025, 0.0004).asDiagonal()));
+    if (k < 50 || k % 2 == 0) continue;
+    const Eigen::Matrix3d precise = 1e-8 * Eigen::Matrix3d::Identity();
+    log.add_registration(RelativePose::from_covariance(
+        k - 50, k, test::perturbed(between(truth[k - 50], truth[k]), 1e-4, 1e-4, random), precise));
+  }
+  const std::vector<Pose> clean = solve(log, {}).poses;
+  const Spoiled spoiled = spoil(log, truth, {.share = 0.3}, 1);
+  for (const SolveMode mode : {SolveMode::batch, SolveMode::incremental}) {
+    const Solved robust = solve(spoiled.log, loss("truncated"), mode);
+    EXPECT_LT(mean_distance_m(robust.poses, clean), 1e-3);
+    for (std::size_t j = 0; j < robust.weights.size(); ++j) {
+      EXPECT_LE(spoiled.is_false[j] ? robust.weights[j] : 0.0, 0.5);
+    }
+  }
 }
 
 TEST(RobustGraph, FindsTheRightLoopsAmongFalseOnes) {
