@@ -20,10 +20,6 @@ void CeresPoseGraphOptions::describe(OptionTable& table) {
 
 void CeresPoseGraphOptions::check(const EstimatorSetup& setup) const {
   loss.check();
-  if (loss.kind == LossKind::truncated) {
-    throw InputError(
-        "loss: a truncated one has no slope to follow; use sparse_gauss_newton, or geman_mcclure");
-  }
   if (setup.mode == SolveMode::batch && gate.probability) {
     throw InputError(
         "gate_probability: a batch solve has no innovation to gate; use the incremental mode, or a "

@@ -18,7 +18,7 @@ struct CeresPoseGraphOptions {
   GateOptions gate;
 
   void describe(OptionTable& table);
-  /// A batch solve has no innovation to gate, and no step of Ceres lowers a truncated loss.
+  /// A batch solve has no innovation to gate.
   void check(const EstimatorSetup& setup) const;
 };
 

@@ -41,7 +41,7 @@ void SparseGaussNewtonOptions::describe(OptionTable& table) {
                      {"chordal", Start::chordal},
                      {"lifted", Start::lifted}},
                     "batch: where a solve starts; given is --init, the others make headings first");
-  loss.describe(table);
+  loss.describe(table, true);
   table.enumeration(
       "graduation", graduation, {{"off", Graduation::off}, {"convex", Graduation::convex}},
       "geman_mcclure, truncated: from where graduated non-convexity leads to the loss");

@@ -1,20 +1,23 @@
 #include "fathom/estimation/robust_loss.hpp"
 
 #include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "fathom/core/chi_squared.hpp"
 #include "fathom/core/input_error.hpp"
 
 namespace fathom {
 
-void LossOptions::describe(OptionTable& table) {
-  table.enumeration<LossKind>("loss", kind,
-                              {{"none", LossKind::none},
-                               {"huber", LossKind::huber},
-                               {"cauchy", LossKind::cauchy},
-                               {"geman_mcclure", LossKind::geman_mcclure},
-                               {"dcs", LossKind::dcs},
-                               {"truncated", LossKind::truncated}},
+void LossOptions::describe(OptionTable& table, bool has_truncated) {
+  std::vector<std::pair<std::string, LossKind>> kinds{{"none", LossKind::none},
+                                                      {"huber", LossKind::huber},
+                                                      {"cauchy", LossKind::cauchy},
+                                                      {"geman_mcclure", LossKind::geman_mcclure},
+                                                      {"dcs", LossKind::dcs}};
+  if (has_truncated) kinds.emplace_back("truncated", LossKind::truncated);
+  table.enumeration<LossKind>("loss", kind, kinds,
                               "robust loss on registrations; dead reckoning has none");
   table.real_or_off("loss_scale", scale, Range::positive(), "sigma",
                     "whitened residual at which the loss sets in; off: that which makes a right "

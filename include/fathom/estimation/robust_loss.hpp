@@ -36,8 +36,8 @@ struct LossOptions {
   /// of `truncated`, where 99.98 % end.
   std::optional<double> scale;
 
-  /// `loss` and `loss_scale`.
-  void describe(OptionTable& table);
+  /// `loss` and `loss_scale`; `truncated` is offered where an estimator has a way to it.
+  void describe(OptionTable& table, bool has_truncated = false);
   /// A scale without a loss would go unread. Throws InputError.
   void check() const;
 };
