@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "estimators/sparse_gauss_newton/drift.hpp"
 #include "estimators/sparse_gauss_newton/leave_one_out.hpp"
@@ -202,13 +203,20 @@ class Search {
     return any;
   }
 
+  std::vector<std::size_t> in_graph(std::vector<std::size_t> group) const {
+    for (std::size_t& j : group) j = indices_[j];
+    return group;
+  }
+
   // Of the groups that the rest contradicts, those with most against each of their loops.
   bool put_out_groups() {
     std::vector<std::pair<double, std::vector<std::size_t>>> contradicted;
     double most = 0.0;
     for (std::vector<std::size_t>& group : part_->groups(own_)) {
-      if (group.size() < 2) continue;
+      if (group.size() < 2 || calm_groups_.contains(in_graph(group))) continue;
       const double chi2 = part_->group_chi2(group, own_, nodes_);
+      // Three solves a group: one that is far from being put out is not asked again.
+      if (chi2 <= 0.5 * scale_) calm_groups_.insert(in_graph(group));
       if (chi2 <= 1.5 * scale_) continue;
       const double each = chi2 / static_cast<double>(group.size());
       most = std::max(most, each);
@@ -262,6 +270,7 @@ class Search {
   double largest_ = 0.0;
   std::vector<std::size_t> indices_;  ///< of the part, in the graph
   std::vector<double> own_;           ///< weights of the part
+  std::set<std::vector<std::size_t>> calm_groups_;
   std::optional<Part> part_;
   int iterations_ = 0;
 };
