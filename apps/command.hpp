@@ -27,5 +27,6 @@ void add_check(CLI::App& app, Context& context);
 void add_report(CLI::App& app, Context& context);
 void add_mosaic(CLI::App& app, Context& context);
 void add_select(CLI::App& app, Context& context);
+void add_spoil(CLI::App& app, Context& context);
 
 }  // namespace fathom

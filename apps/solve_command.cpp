@@ -9,6 +9,7 @@
 #include "apps/pictures.hpp"
 #include "fathom/core/files.hpp"
 #include "fathom/estimators/builtin.hpp"
+#include "fathom/study/false_loops.hpp"
 #include "fathom/study/manifest.hpp"
 #include "fathom/study/run_folder.hpp"
 
@@ -22,6 +23,7 @@ struct SolveFlags {
   std::string mode;
   std::string init = "odometry";
   std::string ground_truth;
+  std::string false_loops;
 };
 
 EstimatorConfiguration estimator_of(const SolveFlags& flags, const Settings& settings,
@@ -66,20 +68,6 @@ EstimatorConfiguration estimator_of(const SolveFlags& flags, const Settings& set
   return {entry.name, entry.name, estimator_values(own, entry, {{}, mode}, "estimator.")};
 }
 
-// Ground truth by vertex id, all keyframes or none.
-void attach_ground_truth(Recording& recording, const std::string& path) {
-  const std::vector<StampedPose> truth = read_tum(path);
-  recording.ground_truth.emplace();
-  std::size_t next = 0;
-  for (const std::int64_t time_ns : recording.keyframe_times_ns) {
-    while (next < truth.size() && truth[next].time_ns < time_ns) ++next;
-    if (next == truth.size() || truth[next].time_ns != time_ns) {
-      throw InputError(path, "has no pose for vertex " + std::to_string(time_ns / 1'000'000'000));
-    }
-    recording.ground_truth->push_back(truth[next].pose);
-  }
-}
-
 void print(const SolveFlags& flags, const Recording& recording, const Result& result) {
   std::printf("%s: %zu poses, %zu edges, %zu of them loop closures\n", flags.graph.c_str(),
               recording.log.size(), recording.log.size() - 1 + recording.log.registration_count(),
@@ -95,6 +83,10 @@ void print(const SolveFlags& flags, const Recording& recording, const Result& re
     }
     std::printf("\n");
   }
+  if (const auto& counts = result.false_loop_counts) {
+    std::printf("%zu of %zu false loops kept, %zu right ones lost\n", counts->false_loops_kept,
+                counts->false_loops, counts->right_loops_lost);
+  }
   std::printf("\n");
   std::printf("%s", result_table(recording, {result}, Alignment::origin).c_str());
 }
@@ -104,6 +96,9 @@ void solve(const SolveFlags& flags, Context& context) {
   const EstimatorConfiguration estimator = estimator_of(flags, flags.common.settings(""), mode);
   Recording recording = record_graph(flags.graph);
   if (!flags.ground_truth.empty()) attach_ground_truth(recording, flags.ground_truth);
+  if (!flags.false_loops.empty()) {
+    recording.is_false_loop = read_false_loops(flags.false_loops, recording.log);
+  }
   ReplayOptions options;
   options.mode = mode;
   if (flags.init == "file") {
@@ -157,6 +152,10 @@ void add_solve(CLI::App& app, Context& context) {
   command
       ->add_option("--ground-truth", flags->ground_truth,
                    "True poses (TUM, vertex ids as time stamps), to judge by")
+      ->type_name("FILE");
+  command
+      ->add_option("--false-loops", flags->false_loops,
+                   "Which loops are false, as 'spoil' wrote it, to judge by")
       ->type_name("FILE");
   flags->common.add_settings_to(*command);
   flags->common.add_out_to(*command, "Output folder (default: runs/GRAPH-ESTIMATOR)");

@@ -1,6 +1,6 @@
 #include "estimators/ceres_pose_graph/ceres_pose_graph.hpp"
 
-#include <cmath>
+#include <algorithm>
 #include <vector>
 
 #include "estimators/ceres_pose_graph/graph.hpp"
@@ -14,15 +14,12 @@ void CeresPoseGraphOptions::describe(OptionTable& table) {
              "a solve has converged when cost or poses change by a smaller share");
   table.real("initial_trust_region", initial_trust_region, Range::positive(), "",
              "initial radius; very large is Gauss-Newton until a step fails");
-  table.enumeration("loss", loss,
-                    {{"none", Loss::none}, {"huber", Loss::huber}, {"cauchy", Loss::cauchy}},
-                    "robust loss on registrations; dead reckoning has none");
-  table.real("loss_scale", loss_scale, Range::positive(), "sigma",
-             "whitened residual at which the loss sets in");
+  loss.describe(table);
   gate.describe(table);
 }
 
 void CeresPoseGraphOptions::check(const EstimatorSetup& setup) const {
+  loss.check();
   if (setup.mode == SolveMode::batch && gate.probability) {
     throw InputError(
         "gate_probability: a batch solve has no innovation to gate; use the incremental mode, or a "
@@ -33,6 +30,7 @@ void CeresPoseGraphOptions::check(const EstimatorSetup& setup) const {
 CeresPoseGraph::CeresPoseGraph(const EstimatorSetup& setup, const CeresPoseGraphOptions& options)
     : options_(options),
       mode_(setup.mode),
+      loss_(options.loss),
       gate_(options.gate),
       graph_(std::make_unique<Graph>(setup.origin, options)) {}
 
@@ -55,11 +53,13 @@ UpdateReport CeresPoseGraph::close_loops(std::span<const RelativePose> registrat
   if (registrations.empty()) return report;
   if (!judge(registrations, report)) {
     lose_all(report, Outcome::numerical_failure);
+    is_used_.resize(is_used_.size() + registrations.size(), false);
     return report;
   }
   const std::size_t before = graph_->registration_count();
   for (std::size_t j = 0; j < registrations.size(); ++j) {
-    if (report.loops[j].fate == LoopFate::used) graph_->add_registration(registrations[j]);
+    is_used_.push_back(report.loops[j].fate == LoopFate::used);
+    if (is_used_.back()) graph_->add_registration(registrations[j]);
   }
   if (graph_->registration_count() == before || mode_ == SolveMode::batch) return report;
   const UpdateReport solved = graph_->solve();
@@ -67,6 +67,8 @@ UpdateReport CeresPoseGraph::close_loops(std::span<const RelativePose> registrat
   report.iterations = solved.iterations;
   if (is_done(report.outcome)) return report;
   graph_->forget_registrations(before);
+  std::fill(is_used_.end() - static_cast<std::ptrdiff_t>(registrations.size()), is_used_.end(),
+            false);
   lose_all(report, solved.outcome);
   return report;
 }
@@ -92,19 +94,14 @@ std::optional<std::vector<UncertainPose>> CeresPoseGraph::motions_to_newest() co
   return graph_->motions_to_newest();
 }
 
-// Huber: s up to a², then 2 a √s − a². Cauchy: a² ln(1 + s / a²). With the whitened residual's
-// squared norm s and the scale a; as Ceres defines them.
-double CeresPoseGraph::loss(double chi2) const {
-  const double a = options_.loss_scale;
-  switch (options_.loss) {
-    case CeresPoseGraphOptions::Loss::huber:
-      return chi2 <= a * a ? chi2 : 2.0 * a * std::sqrt(chi2) - a * a;
-    case CeresPoseGraphOptions::Loss::cauchy:
-      return a * a * std::log1p(chi2 / (a * a));
-    case CeresPoseGraphOptions::Loss::none:
-      break;
+std::vector<double> CeresPoseGraph::loop_weights() const {
+  std::vector<double> weights;
+  weights.reserve(is_used_.size());
+  std::size_t next = 0;
+  for (const bool is_used : is_used_) {
+    weights.push_back(is_used ? loss_.weight(graph_->registration_chi2(next++)) : 0.0);
   }
-  return chi2;
+  return weights;
 }
 
 EstimatorEntry ceres_pose_graph_entry() {

@@ -1,22 +1,20 @@
 #pragma once
 
 #include <memory>
-#include <string>
+#include <vector>
 
 #include "fathom/estimation/estimator.hpp"
 #include "fathom/estimation/gate.hpp"
 #include "fathom/estimation/registry.hpp"
+#include "fathom/estimation/robust_loss.hpp"
 
 namespace fathom {
 
 struct CeresPoseGraphOptions {
-  enum class Loss { none, huber, cauchy };
-
   int max_iterations = 100;
   double tolerance = 1e-10;
   double initial_trust_region = 1e16;
-  Loss loss = Loss::none;
-  double loss_scale = 1.0;
+  LossOptions loss;
   GateOptions gate;
 
   void describe(OptionTable& table);
@@ -41,7 +39,8 @@ class CeresPoseGraph final : public Estimator {
   std::optional<Eigen::Matrix3d> covariance(std::size_t k) override;
   /// From that same Hessian.
   std::optional<std::vector<UncertainPose>> motions_to_newest() const override;
-  double loss(double chi2) const override;
+  double loss(double chi2) const override { return loss_.at(chi2).rho; }
+  std::vector<double> loop_weights() const override;
   std::size_t size() const override;
   Pose pose(std::size_t k) const override;
 
@@ -52,7 +51,9 @@ class CeresPoseGraph final : public Estimator {
 
   CeresPoseGraphOptions options_;
   SolveMode mode_;
+  RobustLoss loss_;
   Gate gate_;
+  std::vector<bool> is_used_;  ///< of all registrations given, in order
   std::unique_ptr<Graph> graph_;
 };
 

@@ -17,18 +17,25 @@ namespace fathom {
 namespace {
 
 using RowMajorMatrix3d = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
-using Loss = CeresPoseGraphOptions::Loss;
+// A loss as Ceres asks for it: ρ, ρ' and ρ'' of s.
+class CeresLoss final : public ceres::LossFunction {
+ public:
+  explicit CeresLoss(const RobustLoss& loss) : loss_(loss) {}
+
+  void Evaluate(double s, double rho[3]) const override {
+    const LossValue value = loss_.at(s);
+    rho[0] = value.rho;
+    rho[1] = value.weight;
+    rho[2] = value.curvature;
+  }
+
+ private:
+  RobustLoss loss_;
+};
 
 ceres::LossFunction* make_loss(const CeresPoseGraphOptions& options) {
-  switch (options.loss) {
-    case Loss::huber:
-      return new ceres::HuberLoss(options.loss_scale);
-    case Loss::cauchy:
-      return new ceres::CauchyLoss(options.loss_scale);
-    case Loss::none:
-      break;
-  }
-  return nullptr;
+  const RobustLoss loss(options.loss);
+  return loss.is_on() ? new CeresLoss(loss) : nullptr;
 }
 
 ceres::Solver::Options solver_options(const CeresPoseGraphOptions& options) {
@@ -140,6 +147,11 @@ void CeresPoseGraph::Graph::add_registration(const RelativePose& registration) {
                                 block(registration.from), block(registration.to)));
   registrations_.push_back(registration);
   changed();
+}
+
+double CeresPoseGraph::Graph::registration_chi2(std::size_t index) const {
+  const RelativePose& z = registrations_[index];
+  return chi2(z, pose(z.from), pose(z.to));
 }
 
 void CeresPoseGraph::Graph::forget_registrations(std::size_t count) {

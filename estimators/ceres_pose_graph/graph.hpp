@@ -29,6 +29,8 @@ class CeresPoseGraph::Graph {
   /// Takes the last registrations back, down to `count` of them.
   void forget_registrations(std::size_t count);
   std::size_t registration_count() const { return registrations_.size(); }
+  /// eᵀ Ω e of one of them at the estimate.
+  double registration_chi2(std::size_t index) const;
 
   /// Solves from the present poses; keeps them as they were if it fails.
   UpdateReport solve();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <utility>
 
 #include <Eigen/Cholesky>
 
@@ -33,12 +34,21 @@ struct Ekf::Innovation {
   Eigen::Matrix3d R;
 };
 
+/// Registrations of one update, stacked.
+struct Ekf::Stack {
+  Eigen::MatrixXd PHt;
+  Eigen::VectorXd nu;
+  Eigen::MatrixXd HPHt;
+  Eigen::MatrixXd S;
+};
+
 void EkfOptions::describe(OptionTable& table) {
   table.integer("max_iterations", max_iterations, Range::at_least(1), "",
                 "linearisations of one update at most; an EKF always makes one");
   table.real("tolerance", tolerance, Range::positive(), "m, rad",
              "for estimators that iterate; of no effect here");
   gate.describe(table);
+  gate.describe_joint(table);
 }
 
 Ekf::Ekf(const EstimatorSetup& setup, const EkfOptions& options)
@@ -102,6 +112,7 @@ UpdateReport Ekf::close_loops(std::span<const RelativePose> registrations) {
     lose_all(report, Outcome::numerical_failure);
     return report;
   }
+  gate_together(accepted, report);
   if (accepted.empty()) return report;
   report.iterations = 1;
   report.outcome = update(accepted);
@@ -123,22 +134,46 @@ Eigen::MatrixXd Ekf::projected(std::span<const Innovation> stack, const Eigen::M
   return HPHt;
 }
 
-Outcome Ekf::update(std::span<const Innovation> accepted) {
-  const auto rows = static_cast<Eigen::Index>(3 * accepted.size());
-  Eigen::MatrixXd PHt(P_.size(), rows);
-  Eigen::VectorXd nu(rows);
+Ekf::Stack Ekf::stack(std::span<const Innovation> loops) const {
+  const auto rows = static_cast<Eigen::Index>(3 * loops.size());
+  Stack stack;
+  stack.PHt.resize(P_.size(), rows);
+  stack.nu.resize(rows);
   for (Eigen::Index j = 0; j < rows; j += 3) {
-    const Innovation& innovation = accepted[static_cast<std::size_t>(j / 3)];
-    PHt.middleCols<3>(j) = covariance_times_transposed(innovation);
-    nu.segment<3>(j) = innovation.nu;
+    const Innovation& innovation = loops[static_cast<std::size_t>(j / 3)];
+    stack.PHt.middleCols<3>(j) = covariance_times_transposed(innovation);
+    stack.nu.segment<3>(j) = innovation.nu;
   }
-  const Eigen::MatrixXd HPHt = projected(accepted, PHt);
-  Eigen::MatrixXd S = HPHt;
-  double prior_cost = 0.0;
+  stack.HPHt = projected(loops, stack.PHt);
+  stack.S = stack.HPHt;
   for (Eigen::Index j = 0; j < rows; j += 3) {
-    const Innovation& innovation = accepted[static_cast<std::size_t>(j / 3)];
-    S.block<3, 3>(j, j) += innovation.R;
-    prior_cost += normalised_innovation_squared(innovation.nu, innovation.R);
+    stack.S.block<3, 3>(j, j) += loops[static_cast<std::size_t>(j / 3)].R;
+  }
+  return stack;
+}
+
+// Drops those of the accepted that do not go together with the others.
+void Ekf::gate_together(std::vector<Innovation>& accepted, UpdateReport& report) const {
+  if (!gate_.is_joint_on() || accepted.empty()) return;
+  const Stack all = stack(accepted);
+  const std::vector<bool> together =
+      gate_.pass_together(all.nu, all.S, std::vector<bool>(accepted.size(), true));
+  std::vector<Innovation> kept;
+  std::size_t next = 0;
+  for (LoopDecision& loop : report.loops) {
+    if (loop.fate != LoopFate::used) continue;
+    loop.fate = fate_of(together[next]);
+    if (together[next]) kept.push_back(accepted[next]);
+    ++next;
+  }
+  accepted = std::move(kept);
+}
+
+Outcome Ekf::update(std::span<const Innovation> accepted) {
+  const auto& [PHt, nu, HPHt, S] = stack(accepted);
+  double prior_cost = 0.0;
+  for (const Innovation& z : accepted) {
+    prior_cost += normalised_innovation_squared(z.nu, z.R);
   }
   const Eigen::LLT<Eigen::MatrixXd> llt(S);
   if (!nu.allFinite() || llt.info() != Eigen::Success) return Outcome::numerical_failure;

@@ -40,11 +40,14 @@ class Ekf final : public Estimator {
 
  private:
   struct Innovation;
+  struct Stack;
 
   Innovation innovate(const RelativePose& z) const;
   Eigen::MatrixX3d covariance_times_transposed(const Innovation& innovation) const;
   static Eigen::MatrixXd projected(std::span<const Innovation> stack, const Eigen::MatrixXd& PHt);
   Eigen::Vector3d innovation_of(std::size_t from, std::size_t to, const Pose& motion) const;
+  Stack stack(std::span<const Innovation> loops) const;
+  void gate_together(std::vector<Innovation>& accepted, UpdateReport& report) const;
   Outcome update(std::span<const Innovation> accepted);
 
   Gate gate_;

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "fathom/estimation/robust_loss.hpp"
 #include "fathom/measurements/relative_pose.hpp"
 
 namespace fathom::sparse_gauss_newton {
@@ -84,6 +85,43 @@ inline EdgeTerms linearise_edge(const Edge& edge, const Node& i, const Node& k,
     t.dy = i.s * edge.x + i.c * edge.y;
   }
   return t;
+}
+
+/// What some edges count: s = νᵀ W ν becomes w s, and ρ of that where a loss is on.
+struct EdgeLoss {
+  RobustLoss loss;
+  std::span<const char> is_robust;    ///< by edge; empty: the loss is on none
+  std::span<const double> weights{};  ///< by edge; empty: all 1
+
+  bool leaves_out(std::size_t edge) const { return !weights.empty() && weights[edge] == 0.0; }
+
+  /// m ← w ρ' m and M ← w ρ' M, and with `second_order` M += 2 ρ'' m mᵀ (of w m), which makes the
+  /// second derivatives exact where the rest is.
+  void apply(std::size_t edge, bool second_order, EdgeTerms& t) const;
+};
+
+inline void scale(double factor, EdgeTerms& t) {
+  for (double& element : t.M) element *= factor;
+  for (double& element : t.m) element *= factor;
+}
+
+inline void EdgeLoss::apply(std::size_t edge, bool second_order, EdgeTerms& t) const {
+  if (!weights.empty()) {
+    t.cost *= weights[edge];
+    scale(weights[edge], t);
+  }
+  if (is_robust.empty() || is_robust[edge] == 0) return;
+  const LossValue value = loss.at(t.cost);
+  const std::array<double, 3> m = t.m;
+  t.cost = value.rho;
+  scale(value.weight, t);
+  if (!second_order) return;
+  std::size_t element = 0;
+  for (std::size_t row = 0; row < 3; ++row) {
+    for (std::size_t column = row; column < 3; ++column) {
+      t.M[element++] += 2.0 * value.curvature * m[row] * m[column];
+    }
+  }
 }
 
 /// F = Σ νᵀ W ν.

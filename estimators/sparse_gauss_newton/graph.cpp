@@ -1,9 +1,13 @@
 #include "estimators/sparse_gauss_newton/graph.hpp"
 
+#include <utility>
+
 #include "estimators/sparse_gauss_newton/information.hpp"
 
 namespace fathom::sparse_gauss_newton {
-Graph::Graph(const Pose& origin) : nodes_{make_node(origin.x, origin.y, origin.theta)} {}
+
+Graph::Graph(const Pose& origin, const RobustOptions& robust)
+    : robust_(robust), nodes_{make_node(origin.x, origin.y, origin.theta)} {}
 
 Pose Graph::pose(std::size_t k) const {
   return {nodes_[k].x, nodes_[k].y, wrap_angle(nodes_[k].theta)};
@@ -20,16 +24,22 @@ void Graph::add_keyframe(const RelativePose& step) {
   const Pose next = compose(pose(size() - 1), step.forward().motion);
   nodes_.push_back(make_node(next.x, next.y, next.theta));
   edges_.push_back(make_edge(step));
+  is_loop_.push_back(0);
+  weights_.push_back(1.0);
   changed();
 }
 
 void Graph::add_registration(const RelativePose& registration) {
   edges_.push_back(make_edge(registration));
+  is_loop_.push_back(1);
+  weights_.push_back(1.0);
   changed();
 }
 
 void Graph::forget_edges(std::size_t count) {
   edges_.resize(count);
+  is_loop_.resize(count);
+  weights_.resize(count);
   changed();
 }
 
@@ -38,21 +48,57 @@ SolveResult Graph::solve(Start start, const SolveLimits& limits) {
   return solve_batch(edges_, nodes_, start, limits);
 }
 
+SolveResult Graph::solve_robust(const SolveLimits& limits, bool from_scratch) {
+  changed();
+  std::vector<double> known;
+  if (!from_scratch) {
+    known = weights_;
+    for (std::size_t e = judged_; e < known.size(); ++e)
+      known[e] = is_loop_[e] != 0 ? kNewLoop : 1.0;
+  }
+  RobustResult result =
+      sparse_gauss_newton::solve_robust({edges_, is_loop_}, nodes_, robust_, limits, known);
+  if (is_done(result.solved.outcome)) {
+    weights_ = std::move(result.weights);
+    judged_ = edges_.size();
+  }
+  return result.solved;
+}
+
+std::vector<double> Graph::registration_weights() const {
+  std::vector<double> weights;
+  for (std::size_t e = 0; e < edges_.size(); ++e) {
+    if (is_loop_[e] != 0) weights.push_back(weights_[e]);
+  }
+  return weights;
+}
+
+std::vector<Edge> Graph::weighted_edges() const {
+  std::vector<Edge> edges;
+  edges.reserve(edges_.size());
+  for (std::size_t e = 0; e < edges_.size(); ++e) {
+    if (weights_[e] == 0.0) continue;
+    edges.push_back(edges_[e]);
+    for (double& element : edges.back().W) element *= weights_[e];
+  }
+  return edges;
+}
+
 std::optional<Eigen::Matrix3d> Graph::marginal(std::size_t k) {
   if (!marginals_) {
-    marginals_ = marginals(edges_, nodes_).value_or(std::vector<Eigen::Matrix3d>{});
+    marginals_ = marginals(weighted_edges(), nodes_).value_or(std::vector<Eigen::Matrix3d>{});
   }
   if (marginals_->empty()) return std::nullopt;
   return (*marginals_)[k];
 }
 
 std::optional<std::vector<UncertainPose>> Graph::motions_to_newest() const {
-  return sparse_gauss_newton::motions_to_newest(edges_, nodes_);
+  return sparse_gauss_newton::motions_to_newest(weighted_edges(), nodes_);
 }
 
 std::optional<std::vector<Eigen::Matrix3d>> Graph::innovation_covariances(
     std::span<const RelativePose> forward_loops) const {
-  return sparse_gauss_newton::innovation_covariances(edges_, nodes_, forward_loops);
+  return sparse_gauss_newton::innovation_covariances(weighted_edges(), nodes_, forward_loops);
 }
 
 }  // namespace fathom::sparse_gauss_newton

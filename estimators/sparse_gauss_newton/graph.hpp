@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 
 #include "estimators/sparse_gauss_newton/batch.hpp"
+#include "estimators/sparse_gauss_newton/robust.hpp"
 #include "fathom/geometry/covariance.hpp"
 
 namespace fathom::sparse_gauss_newton {
@@ -14,7 +15,7 @@ namespace fathom::sparse_gauss_newton {
 /// The poses and measurements of a log, and what is asked of them.
 class Graph {
  public:
-  explicit Graph(const Pose& origin);
+  Graph(const Pose& origin, const RobustOptions& robust);
 
   std::size_t size() const { return nodes_.size(); }
   Pose pose(std::size_t k) const;
@@ -28,11 +29,16 @@ class Graph {
   /// Takes the last edges back, down to `count` of them.
   void forget_edges(std::size_t count);
 
-  /// Leaves the poses as they were if it fails.
+  /// Leaves the poses as they were if it fails. With a loss from the estimate as it is: a whole
+  /// graph that is new, or one that loops were added to.
   SolveResult solve(Start start, const SolveLimits& limits);
+  SolveResult solve_robust(const SolveLimits& limits, bool from_scratch);
 
-  /// The marginal covariance of a keyframe from the Gauss-Newton matrix at the estimate; of all at
-  /// once, at the first call after a change.
+  /// What each registration weighs since the last solve, in the order they were added.
+  std::vector<double> registration_weights() const;
+
+  /// The marginal covariance of a keyframe from the Gauss-Newton matrix at the estimate, a
+  /// loss applied as a weight; of all at once, at the first call after a change.
   std::optional<Eigen::Matrix3d> marginal(std::size_t k);
 
   /// As of TrajectoryView.
@@ -46,8 +52,14 @@ class Graph {
  private:
   void changed() { marginals_.reset(); }
 
+  std::vector<Edge> weighted_edges() const;
+
+  RobustOptions robust_;
   std::vector<Node> nodes_;
   std::vector<Edge> edges_;
+  std::vector<char> is_loop_;    ///< by edge
+  std::vector<double> weights_;  ///< by edge
+  std::size_t judged_ = 0;       ///< edges of the last robust solve that was done
   /// Of all keyframes; absent: to be computed, empty: could not be.
   std::optional<std::vector<Eigen::Matrix3d>> marginals_;
 };

@@ -56,8 +56,10 @@ double NormalEquations::add_edges(std::span<const Node> nodes) {
   constexpr Lever kLever = kHessian == Hessian::measured ? Lever::measured : Lever::estimated;
   double cost = 0.0;
   for (std::size_t e = 0; e < edges_.size(); ++e) {
+    if (loss_.leaves_out(e)) continue;
     const Edge& edge = edges_[e];
-    const EdgeTerms t = linearise_edge(edge, nodes[at(edge.from)], nodes[at(edge.to)], kLever);
+    EdgeTerms t = linearise_edge(edge, nodes[at(edge.from)], nodes[at(edge.to)], kLever);
+    loss_.apply(e, kHessian == Hessian::exact, t);
     cost += t.cost;
     const Targets& target = targets_[e];
     if (target.to >= 0) add_to_end(t, target.to);

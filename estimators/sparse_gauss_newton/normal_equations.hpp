@@ -25,6 +25,10 @@ class NormalEquations {
   /// The edges must outlive it.
   NormalEquations(const Symbolic& symbolic, std::span<const Edge> edges);
 
+  /// A loss on some edges from now on; F is then Σ ρ(νᵀ W ν). What it covers must outlive this.
+  void set_loss(const EdgeLoss& loss) { loss_ = loss; }
+  const EdgeLoss& loss() const { return loss_; }
+
   /// Adds both up at the estimate; the diagonal is multiplied by 1 + damping. Returns F.
   double linearise(std::span<const Node> nodes, Hessian hessian, double damping = 0.0);
 
@@ -66,6 +70,7 @@ class NormalEquations {
   void write_diagonal(double damping);
 
   std::span<const Edge> edges_;
+  EdgeLoss loss_;
   BlockCholesky<3> factor_;
   std::vector<Targets> targets_;
   std::vector<BlockPlace> diagonal_;  ///< by position

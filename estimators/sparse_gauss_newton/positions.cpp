@@ -3,8 +3,9 @@
 #include <array>
 
 namespace fathom::sparse_gauss_newton {
-PositionProblem::PositionProblem(const Symbolic& symbolic, std::span<const Edge> edges)
-    : edges_(edges), factor_(symbolic) {}
+PositionProblem::PositionProblem(const Symbolic& symbolic, std::span<const Edge> edges,
+                                 const EdgeLoss& loss)
+    : edges_(edges), loss_(loss), factor_(symbolic) {}
 
 bool PositionProblem::solve(std::vector<Node>& nodes) {
   const std::vector<int>& position = factor_.symbolic().position;
@@ -18,8 +19,11 @@ bool PositionProblem::solve(std::vector<Node>& nodes) {
     to[place.stride] += sign * M[1];
     to[place.stride + 1] += sign * M[3];
   };
-  for (const Edge& edge : edges_) {
-    const EdgeTerms t = linearise_edge(edge, nodes[at(edge.from)], nodes[at(edge.to)]);
+  for (std::size_t e = 0; e < edges_.size(); ++e) {
+    if (loss_.leaves_out(e)) continue;
+    const Edge& edge = edges_[e];
+    EdgeTerms t = linearise_edge(edge, nodes[at(edge.from)], nodes[at(edge.to)]);
+    loss_.apply(e, false, t);
     for (const int keyframe : {edge.from, edge.to}) {
       if (keyframe == 0) continue;
       add(keyframe, keyframe, t.M, 1.0);

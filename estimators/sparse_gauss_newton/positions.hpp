@@ -14,8 +14,8 @@ namespace fathom::sparse_gauss_newton {
 /// coordinates stretches it; headings first and positions after them follow the arc.
 class PositionProblem {
  public:
-  /// Both must outlive it.
-  PositionProblem(const Symbolic& symbolic, std::span<const Edge> edges);
+  /// Symbolic and edges must outlive it. Of a loss the weights count, as they are at first.
+  PositionProblem(const Symbolic& symbolic, std::span<const Edge> edges, const EdgeLoss& loss);
 
   /// Solves for the positions of all keyframes but 0. False where it has no solution; then they
   /// stay as they were.
@@ -23,6 +23,7 @@ class PositionProblem {
 
  private:
   std::span<const Edge> edges_;
+  EdgeLoss loss_;
   BlockCholesky<2> factor_;
 };
 

@@ -159,7 +159,7 @@ Workspace workspace_for(const Symbolic& symbolic) {
 }  // namespace
 
 SelectedInverse::SelectedInverse(const BlockCholesky<3>& factor)
-    : symbolic_(&factor.symbolic()), panels_(symbolic_->panel_blocks * (B * B)) {
+    : factor_(&factor), symbolic_(&factor.symbolic()), panels_(symbolic_->panel_blocks * (B * B)) {
   if (symbolic_->supernodes.empty()) return;
   Workspace work = workspace_for(*symbolic_);
   Recursion recursion{*symbolic_, factor.panel(symbolic_->supernodes.front()), panels_.data(),
@@ -176,6 +176,19 @@ Eigen::Matrix3d SelectedInverse::block(int node) const {
   Eigen::Matrix3d result;
   for (int a = 0; a < B; ++a) {
     for (int b = 0; b <= a; ++b) result(a, b) = result(b, a) = from[a + b * stride];
+  }
+  return result;
+}
+
+Eigen::Matrix3d SelectedInverse::block(int a, int b) const {
+  const BlockPlace place = factor_->place(a, b);
+  const bool a_is_row = symbolic_->position[at(a)] > symbolic_->position[at(b)];
+  Eigen::Matrix3d result;
+  for (int row = 0; row < B; ++row) {
+    for (int column = 0; column < B; ++column) {
+      const double value = panels_[place.offset + at(row + column * place.stride)];
+      (a_is_row ? result(row, column) : result(column, row)) = value;
+    }
   }
   return result;
 }

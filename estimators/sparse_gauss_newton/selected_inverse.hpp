@@ -17,13 +17,16 @@ namespace fathom::sparse_gauss_newton {
 /// where all of Σ₂₂ that is needed lies in panels that are done.
 class SelectedInverse {
  public:
-  /// Of a factor of a positive definite matrix.
+  /// Of a factor of a positive definite matrix, which must outlive this.
   explicit SelectedInverse(const BlockCholesky<3>& factor);
 
   /// The diagonal block of a node.
   Eigen::Matrix3d block(int node) const;
+  /// The block in the rows of `a` and the columns of `b`, two nodes that are linked.
+  Eigen::Matrix3d block(int a, int b) const;
 
  private:
+  const BlockCholesky<3>* factor_;
   const Symbolic* symbolic_;
   std::vector<double> panels_;
 };

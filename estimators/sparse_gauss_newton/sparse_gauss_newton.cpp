@@ -1,5 +1,6 @@
 #include "estimators/sparse_gauss_newton/sparse_gauss_newton.hpp"
 
+#include <algorithm>
 #include <vector>
 
 #include "estimators/sparse_gauss_newton/graph.hpp"
@@ -7,6 +8,8 @@
 namespace fathom {
 namespace {
 
+using sparse_gauss_newton::Graduation;
+using sparse_gauss_newton::RobustOptions;
 using sparse_gauss_newton::SolveLimits;
 using sparse_gauss_newton::SolveResult;
 using sparse_gauss_newton::Start;
@@ -16,6 +19,12 @@ void note(const SolveResult& result, UpdateReport& report) {
   report.iterations = result.iterations;
   report.gradient_norm = result.gradient_norm;
   report.is_local_minimum = result.is_local_minimum;
+}
+
+RobustOptions robust_options(const SparseGaussNewtonOptions& options) {
+  RobustOptions robust{RobustLoss(options.loss), std::nullopt, options.graduation};
+  if (options.loss.scale) robust.squared_scale = *options.loss.scale * *options.loss.scale;
+  return robust;
 }
 
 }  // namespace
@@ -32,6 +41,10 @@ void SparseGaussNewtonOptions::describe(OptionTable& table) {
                      {"chordal", Start::chordal},
                      {"lifted", Start::lifted}},
                     "batch: where a solve starts; given is --init, the others make headings first");
+  loss.describe(table, true);
+  table.enumeration(
+      "graduation", graduation, {{"off", Graduation::off}, {"convex", Graduation::convex}},
+      "geman_mcclure, truncated: from where graduated non-convexity leads to the loss");
   gate.describe(table);
 }
 
@@ -40,6 +53,16 @@ void SparseGaussNewtonOptions::check(const EstimatorSetup& setup) const {
   if (batch && gate.probability) {
     throw InputError(
         "gate_probability: a batch solve has no innovation to gate; use the incremental mode");
+  }
+  loss.check();
+  const bool graduates = loss.kind == LossKind::geman_mcclure || loss.kind == LossKind::truncated;
+  if (graduation != Graduation::off && !graduates) {
+    throw InputError("graduation: only loss geman_mcclure and truncated have one");
+  }
+  if (loss.kind != LossKind::none && start != Start::automatic && start != Start::given) {
+    throw InputError(
+        "start: with a loss a solve starts where it is given; headings by least squares would "
+        "follow false loops");
   }
   if (!batch && start != Start::automatic) {
     throw InputError(
@@ -51,8 +74,9 @@ SparseGaussNewton::SparseGaussNewton(const EstimatorSetup& setup,
                                      const SparseGaussNewtonOptions& options)
     : options_(options),
       mode_(setup.mode),
+      loss_(options.loss),
       gate_(options.gate),
-      graph_(std::make_unique<sparse_gauss_newton::Graph>(setup.origin)) {}
+      graph_(std::make_unique<sparse_gauss_newton::Graph>(setup.origin, robust_options(options))) {}
 
 SparseGaussNewton::~SparseGaussNewton() = default;
 
@@ -73,20 +97,38 @@ UpdateReport SparseGaussNewton::close_loops(std::span<const RelativePose> regist
   if (registrations.empty()) return report;
   if (!judge(registrations, report)) {
     lose_all(report, Outcome::numerical_failure);
+    is_used_.resize(is_used_.size() + registrations.size(), false);
     return report;
   }
   const std::size_t before = graph_->edge_count();
   for (std::size_t j = 0; j < registrations.size(); ++j) {
-    if (report.loops[j].fate == LoopFate::used) graph_->add_registration(registrations[j]);
+    is_used_.push_back(report.loops[j].fate == LoopFate::used);
+    if (is_used_.back()) graph_->add_registration(registrations[j]);
   }
   if (graph_->edge_count() == before || mode_ == SolveMode::batch) return report;
-  const SolveResult solved =
-      graph_->solve(Start::given, SolveLimits{options_.max_iterations, options_.tolerance});
+  const SolveResult solved = solve(Start::given);
   note(solved, report);
   if (is_done(report.outcome)) return report;
   graph_->forget_edges(before);
+  std::fill(is_used_.end() - static_cast<std::ptrdiff_t>(registrations.size()), is_used_.end(),
+            false);
   lose_all(report, solved.outcome);
   return report;
+}
+
+SolveResult SparseGaussNewton::solve(Start start) {
+  const SolveLimits limits{options_.max_iterations, options_.tolerance};
+  if (!loss_.is_on()) return graph_->solve(start, limits);
+  return graph_->solve_robust(limits, mode_ == SolveMode::batch);
+}
+
+std::vector<double> SparseGaussNewton::loop_weights() const {
+  const std::vector<double> used = graph_->registration_weights();
+  std::vector<double> weights;
+  weights.reserve(is_used_.size());
+  std::size_t next = 0;
+  for (const bool is_used : is_used_) weights.push_back(is_used ? used[next++] : 0.0);
+  return weights;
 }
 
 bool SparseGaussNewton::judge(std::span<const RelativePose> registrations, UpdateReport& report) {
@@ -100,7 +142,7 @@ UpdateReport SparseGaussNewton::finish(std::span<const Pose> start) {
   UpdateReport report;
   if (mode_ != SolveMode::batch || graph_->size() < 2) return report;
   if (!start.empty()) graph_->set_poses(start);
-  note(graph_->solve(options_.start, {options_.max_iterations, options_.tolerance}), report);
+  note(solve(options_.start), report);
   return report;
 }
 

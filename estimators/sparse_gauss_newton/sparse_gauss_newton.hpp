@@ -1,25 +1,32 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "fathom/estimation/estimator.hpp"
 #include "fathom/estimation/gate.hpp"
 #include "fathom/estimation/registry.hpp"
+#include "fathom/estimation/robust_loss.hpp"
 
 namespace fathom {
 namespace sparse_gauss_newton {
+enum class Graduation;
 enum class Start;
 class Graph;
+struct SolveResult;
 }  // namespace sparse_gauss_newton
 
 struct SparseGaussNewtonOptions {
   int max_iterations = 100;
   double tolerance = 1e-8;
   sparse_gauss_newton::Start start{};  ///< automatic
+  LossOptions loss;
+  sparse_gauss_newton::Graduation graduation{};  ///< off
   GateOptions gate;
 
   void describe(OptionTable& table);
-  /// A batch solve has no innovation to gate; an incremental one always starts where it is.
+  /// A batch solve has no innovation to gate; an incremental one always starts where it is, and so
+  /// does one with a loss: headings by linear least squares would follow false loops.
   void check(const EstimatorSetup& setup) const;
 };
 
@@ -35,18 +42,24 @@ class SparseGaussNewton final : public Estimator {
   UpdateReport close_loops(std::span<const RelativePose> registrations) override;
   UpdateReport finish(std::span<const Pose> start) override;
 
-  /// From the Gauss-Newton Hessian at the estimate; a rejected registration has no part in it.
+  /// From the Gauss-Newton Hessian at the estimate, the loss applied as a weight; a rejected
+  /// registration has no part in it.
   std::optional<Eigen::Matrix3d> covariance(std::size_t k) override;
   std::optional<std::vector<UncertainPose>> motions_to_newest() const override;
   std::size_t size() const override;
   Pose pose(std::size_t k) const override;
+  double loss(double chi2) const override { return loss_.at(chi2).rho; }
+  std::vector<double> loop_weights() const override;
 
  private:
+  sparse_gauss_newton::SolveResult solve(sparse_gauss_newton::Start start);
   bool judge(std::span<const RelativePose> registrations, UpdateReport& report);
 
   SparseGaussNewtonOptions options_;
   SolveMode mode_;
+  RobustLoss loss_;
   Gate gate_;
+  std::vector<bool> is_used_;  ///< of all registrations given, in order
   std::unique_ptr<sparse_gauss_newton::Graph> graph_;
 };
 

@@ -89,6 +89,7 @@ void TrajectoryIekfOptions::describe(OptionTable& table) {
   table.boolean("safeguard", safeguard,
                 "shorten a step until the cost of the update does not rise");
   gate.describe(table);
+  gate.describe_joint(table);
 }
 
 TrajectoryIekf::TrajectoryIekf(const EstimatorSetup& setup, const TrajectoryIekfOptions& options,
@@ -183,6 +184,10 @@ std::vector<bool> TrajectoryIekf::gate_loops(const Linearisation& prior,
     passes.push_back(!gate_.is_on() || gate_.passes(nis));
     report.loops.push_back(
         {registrations[j].from, registrations[j].to, fate_of(passes.back()), nis});
+  }
+  if (gate_.is_joint_on() && has_finite_nis(report)) {
+    passes = gate_.pass_together(prior.nu, prior.S, passes);
+    for (std::size_t j = 0; j < passes.size(); ++j) report.loops[j].fate = fate_of(passes[j]);
   }
   return passes;
 }

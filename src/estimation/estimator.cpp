@@ -18,6 +18,18 @@ std::string name_of(Outcome outcome) {
   return "numerical_failure";
 }
 
+std::string name_of(LoopFate fate) {
+  switch (fate) {
+    case LoopFate::used:
+      return "used";
+    case LoopFate::rejected:
+      return "rejected";
+    case LoopFate::lost:
+      break;
+  }
+  return "lost";
+}
+
 Outcome worse(Outcome a, Outcome b) {
   return std::max(a, b);
 }

@@ -15,12 +15,24 @@ void GateOptions::describe(OptionTable& table) {
                     "chi-squared gate: share of right registrations that passes");
 }
 
-Gate::Gate(const GateOptions& options) {
+void GateOptions::describe_joint(OptionTable& table) {
+  table.real_or_off("joint_gate_probability", joint_probability, Range{1e-6, 1.0 - 1e-12}, "",
+                    "joint compatibility of a keyframe's registrations: share of right sets that "
+                    "passes");
+}
+
+Gate::Gate(const GateOptions& options) : joint_probability_(options.joint_probability) {
   if (options.probability) threshold_ = chi_squared_quantile(*options.probability, 3.0);
 }
 
 bool Gate::passes(double nis) const {
   return !std::isnan(nis) && (!threshold_ || nis <= *threshold_);
+}
+
+std::vector<bool> Gate::pass_together(const Eigen::VectorXd& innovation, const Eigen::MatrixXd& S,
+                                      std::vector<bool> passed) const {
+  if (!joint_probability_) return passed;
+  return jointly_compatible(innovation, S, passed, *joint_probability_);
 }
 
 bool has_finite_nis(const UpdateReport& report) {

@@ -249,6 +249,33 @@ void refuse_ignored(const Settings& settings, const std::vector<IgnoredKey>& ign
   }
 }
 
+constexpr const char* kFalseLoops = "association.false_loops.";
+
+// Options of false loops that say nothing beside the others. A share of 0 that is given may be one
+// of several: a sweep begins without false loops and keeps the rest.
+std::vector<std::string> ignored_of_false_loops(const Settings& settings,
+                                                const SpoilOptions& options) {
+  const std::string prefix = kFalseLoops;
+  if (settings.find(prefix + "share") == nullptr) {
+    return {prefix + "kind", prefix + "group_size", prefix + "reach"};
+  }
+  std::vector<std::string> ignored;
+  if (options.kind != FalseLoopKind::grouped) ignored.push_back(prefix + "group_size");
+  if (options.kind != FalseLoopKind::local) ignored.push_back(prefix + "reach");
+  return ignored;
+}
+
+void refuse_ignored_of_false_loops(const Settings& settings, const SpoilOptions& options) {
+  for (const std::string& key : ignored_of_false_loops(settings, options)) {
+    const Setting* setting = settings.find(key);
+    if (setting == nullptr) continue;
+    const bool has_share = settings.find(std::string(kFalseLoops) + "share") != nullptr;
+    refuse(*setting, key + ": " +
+                         (has_share ? "kind " + name_of(options.kind) : "a study without share") +
+                         " has no use for it and would ignore it");
+  }
+}
+
 // What no single option's bounds can say.
 void check(const Settings& settings, const Configuration& configuration) {
   const StudyOptions& study = configuration.study;
@@ -259,8 +286,9 @@ void check(const Settings& settings, const Configuration& configuration) {
            "use association.mode: shared");
   }
   if (configuration.dataset == DatasetType::g2o) {
-    if (study.trials > 1) {
-      refuse(*settings.find("trials"), "trials: a pose graph has no noise to draw; expected 1");
+    if (study.trials > 1 && study.false_loops.share == 0.0) {
+      refuse(*settings.find("trials"),
+             "trials: a pose graph without false loops has nothing to draw; expected 1");
     }
     if (study.association == Association::own) {
       refuse(*settings.find("association.mode"),
@@ -289,6 +317,7 @@ void StudyOptions::describe(OptionTable& table) {
   table.enumeration<Association>(
       "association.mode", association, {{"shared", Association::shared}, {"own", Association::own}},
       "loop candidates by the reference's estimate, for all, or by each estimator's own");
+  table.group("association.false_loops", false_loops);
   table.reals("evaluation.rpe_keyframes", rpe_keyframes, 1, "keyframes",
               "relative errors over so many keyframes");
   table.reals("evaluation.rpe_distances_m", rpe_distances_m, 1, "m",
@@ -325,11 +354,15 @@ EstimatorValues estimator_values(const Settings& settings, const EstimatorEntry&
       refuse(setting, "unknown key '" + full + "' of " + entry.name + suggestion(full, known));
     }
     values[setting.key] = setting.value;
-    try {
-      entry.create(setup, values);
-    } catch (const InputError& error) {
-      refuse(setting, prefix + error.what());
-    }
+  }
+  // All together, as some depend on others; the message begins with the key that it is about.
+  try {
+    entry.create(setup, values);
+  } catch (const InputError& error) {
+    const std::string what = error.what();
+    const Setting* about = settings.find(what.substr(0, what.find(':')));
+    if (about == nullptr) throw;
+    refuse(*about, prefix + what);
   }
   return values;
 }
@@ -351,6 +384,9 @@ Configuration configure(const Settings& settings, ConfigurationKind kind,
     if (!is_estimator_key(setting.key)) set(table, setting, known);
   }
   check(settings, configuration);
+  const std::vector<std::string> unused =
+      ignored_of_false_loops(settings, configuration.study.false_loops);
+  refuse_ignored_of_false_loops(settings, configuration.study.false_loops);
   const std::vector<IgnoredKey> ignored = configuration.front_end.ignored_keys();
   refuse_ignored(settings, ignored, table);
   if (kind == ConfigurationKind::single) {
@@ -368,8 +404,8 @@ Configuration configure(const Settings& settings, ConfigurationKind kind,
   }
   for (const std::string& key : table.keys()) {
     const bool is_ignored = std::ranges::any_of(
-        ignored, [&](const IgnoredKey& unused) { return kFrontEnd + unused.key == key; });
-    if (is_ignored) continue;
+        ignored, [&](const IgnoredKey& other) { return kFrontEnd + other.key == key; });
+    if (is_ignored || std::ranges::find(unused, key) != unused.end()) continue;
     configuration.in_force.emplace_back(key, table.value(key));
   }
   return configuration;

@@ -1,6 +1,7 @@
 #include "fathom/study/recording.hpp"
 
 #include "fathom/measurements/g2o.hpp"
+#include "fathom/study/false_loops.hpp"
 #include "fathom/study/survey.hpp"
 
 namespace fathom {
@@ -85,6 +86,20 @@ Recording record_graph(const std::filesystem::path& path) {
   return recording;
 }
 
+void attach_ground_truth(Recording& graph, const std::filesystem::path& path) {
+  const std::vector<StampedPose> truth = read_tum(path);
+  graph.ground_truth.emplace();
+  std::size_t next = 0;
+  for (const std::int64_t time_ns : graph.keyframe_times_ns) {
+    while (next < truth.size() && truth[next].time_ns < time_ns) ++next;
+    if (next == truth.size() || truth[next].time_ns != time_ns) {
+      throw InputError(path.string(),
+                       "has no pose for vertex " + std::to_string(time_ns / 1'000'000'000));
+    }
+    graph.ground_truth->push_back(truth[next].pose);
+  }
+}
+
 Recorder::Recorder(const Configuration& configuration, RegistrationCache* cache) {
   if (configuration.dataset != DatasetType::g2o) {
     pictures_ = std::make_shared<Pictures>(configuration, cache);
@@ -99,9 +114,18 @@ Recorder::Recorder(const Configuration& configuration, RegistrationCache* cache)
 Recording Recorder::record(const Configuration& configuration, std::size_t reference,
                            const EstimatorRegistry& registry, const TrialNoise& noise,
                            const Progress& progress) const {
-  if (graph_) return *graph_;
-  Survey survey(pictures_, configuration, noise);
-  return record_survey(survey, configuration, reference, registry, progress);
+  Recording recording;
+  if (graph_) {
+    recording = *graph_;
+  } else {
+    Survey survey(pictures_, configuration, noise);
+    recording = record_survey(survey, configuration, reference, registry, progress);
+  }
+  const SpoilOptions& false_loops = configuration.study.false_loops;
+  if (false_loops.share > 0.0) {
+    spoil_recording(recording, false_loops, registry, noise.seed, noise.trial);
+  }
+  return recording;
 }
 
 const FrameSource* Recorder::pictures() const {

@@ -79,6 +79,14 @@ void give_keyframes(const MeasurementLog& log, Estimator& estimator, const Repla
   }
 }
 
+void collect_weights(const Estimator& estimator, Replay& result) {
+  result.loop_weights = estimator.loop_weights();
+  if (result.loop_weights.empty()) result.loop_weights.assign(result.loops.size(), 1.0);
+  for (std::size_t j = 0; j < result.loops.size(); ++j) {
+    if (result.loops[j].fate != LoopFate::used) result.loop_weights[j] = 0.0;
+  }
+}
+
 bool is_finite(std::span<const Pose> trajectory) {
   for (const Pose& pose : trajectory) {
     if (!fathom::is_finite(pose)) return false;
@@ -129,6 +137,7 @@ Replay replay(const MeasurementLog& log, const EstimatorEntry& entry, const Esti
   give_keyframes(log, *estimator, options, result);
   if (options.memory != nullptr) result.memory_bytes = options.memory->stop();
   result.trajectory = poses_of(*estimator);
+  collect_weights(*estimator, result);
   if (!is_finite(result.trajectory)) result.outcome = Outcome::numerical_failure;
   if (options.covariances) collect_covariances(*estimator, result);
   result.cost_used = cost_used(log, *estimator, result);

@@ -93,6 +93,12 @@ Json metrics_of(const Result& result, const Recording& recording) {
   json["loop_closures"] = result.loop_closures;
   json["rejected"] = result.rejected;
   json["lost"] = result.lost;
+  json["loops_kept"] = result.loops_kept;
+  if (const auto& counts = result.false_loop_counts) {
+    json["false_loops"] = counts->false_loops;
+    json["false_loops_kept"] = counts->false_loops_kept;
+    json["right_loops_lost"] = counts->right_loops_lost;
+  }
   put(json, "chi2", result.chi2);
   put(json, "chi2_initial", result.chi2_initial);
   put(json, "chi2_used", result.replay.cost_used);
@@ -128,6 +134,11 @@ Result evaluate(const Recording& recording, const EstimatorConfiguration& estima
     if (loop.fate == LoopFate::used) ++result.loop_closures;
     if (loop.fate == LoopFate::rejected) ++result.rejected;
     if (loop.fate == LoopFate::lost) ++result.lost;
+  }
+  result.loops_kept = count_kept(result.replay.loop_weights);
+  if (!recording.is_false_loop.empty()) {
+    result.false_loop_counts =
+        count_false_loops(result.replay.loop_weights, recording.is_false_loop);
   }
   result.update_ms = summarise(result.replay.update_ms);
   if (recording.ground_truth && recording.log.size() > 1) {

@@ -1,8 +1,11 @@
 #include "fathom/study/run_folder.hpp"
 
+#include <cmath>
+
 #include <nlohmann/json.hpp>
 
 #include "fathom/core/files.hpp"
+#include "fathom/core/text.hpp"
 #include "fathom/measurements/g2o.hpp"
 
 namespace fathom {
@@ -31,6 +34,26 @@ Setting setting_of(const std::string& key, const std::string& text, const std::s
   Setting setting = parse_override(key + "=" + text);
   setting.origin = file;
   return setting;
+}
+
+// Every registration in order of arrival and what became of it.
+std::string registrations_csv(const Recording& recording, const Result& result) {
+  const bool knows_false = !recording.is_false_loop.empty();
+  std::string text = "from,to,fate,nis,weight";
+  text += knows_false ? ",false\n" : "\n";
+  const auto& ids = recording.log.ids;
+  const auto id = [&ids](std::size_t k) {
+    return std::to_string(ids.empty() ? static_cast<std::int64_t>(k) : ids[k]);
+  };
+  for (std::size_t j = 0; j < result.replay.loops.size(); ++j) {
+    const LoopDecision& loop = result.replay.loops[j];
+    const bool has_nis = loop.nis && std::isfinite(*loop.nis);
+    text += id(loop.from) + ',' + id(loop.to) + ',' + name_of(loop.fate) + ',';
+    text += (has_nis ? exact(*loop.nis) : "") + ',' + exact(result.replay.loop_weights[j]);
+    if (knows_false) text += recording.is_false_loop[j] ? ",1" : ",0";
+    text += '\n';
+  }
+  return text;
 }
 
 }  // namespace
@@ -98,6 +121,7 @@ void write_run(const std::filesystem::path& folder, const Recording& recording,
   const std::vector<Pose>& poses = result.replay.trajectory;
   write_recording(folder, recording);
   write_file(folder / "trajectory.tum", to_tum(keyframe_trajectory(recording, poses)));
+  write_file(folder / "registrations.csv", registrations_csv(recording, result));
   write_file(folder / "metrics.json", metrics_json(result, recording));
   write_file(folder / "run.json", manifest);
   if (!recording.frames.empty()) {

@@ -121,6 +121,15 @@ void put_loops(RunRecord& run, const Recording& recording, const Result& result,
   put(run, "loop_closures", static_cast<double>(result.loop_closures));
   put(run, "rejected", static_cast<double>(result.rejected));
   put(run, "lost", static_cast<double>(result.lost));
+  put(run, "loops_kept", static_cast<double>(result.loops_kept));
+  if (const auto& counts = result.false_loop_counts) {
+    put(run, "false_loops", static_cast<double>(counts->false_loops));
+    put(run, "false_loops_kept", static_cast<double>(counts->false_loops_kept));
+    put(run, "right_loops_lost", static_cast<double>(counts->right_loops_lost));
+    std::vector<double>& is_false = run.series["loop_is_false"];
+    for (const bool value : recording.is_false_loop) is_false.push_back(value ? 1.0 : 0.0);
+  }
+  if (!result.replay.loops.empty()) run.series["loop_weight"] = result.replay.loop_weights;
   double nis_sum = 0.0;
   double nis_count = 0.0;
   for (const LoopDecision& loop : result.replay.loops) {

@@ -56,8 +56,8 @@ TEST_F(Configs, AreAllTestedHere) {
     studies.insert(entry.path().filename());
     fathom_done({"check", entry.path().string()});
   }
-  EXPECT_THAT(studies,
-              ElementsAreArray({"paper_pool.yaml", "paper_simulated.yaml", "real_pictures.yaml"}));
+  EXPECT_THAT(studies, ElementsAreArray({"paper_pool.yaml", "paper_simulated.yaml",
+                                         "real_pictures.yaml", "wrong_loops.yaml"}));
 }
 
 TEST_F(Configs, RunRuns) {
@@ -105,6 +105,14 @@ TEST_F(Configs, RealPicturesRuns) {
                "front_end.features.max_features=500"},
               "ekf/metrics.json");
   EXPECT_EQ(ResultStore::open(path("out")).keys().size(), 4u * 4u);
+}
+
+TEST_F(Configs, WrongLoopsRuns) {
+  expect_runs("compare", "studies/wrong_loops.yaml",
+              with_small_camera({"dataset.world.metres_per_pixel=0.01", "dataset.mission.legs=2",
+                                 "dataset.mission.leg_length_m=3", "trials=1"}),
+              "truncated/metrics.json");
+  EXPECT_EQ(ResultStore::open(path("out")).keys().size(), 12u * 10u);
 }
 
 // image_folder.yaml runs as it is in real_data_test.cpp.

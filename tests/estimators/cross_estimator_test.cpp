@@ -157,6 +157,8 @@ TEST(CrossEstimator, RobustLossesLimitAWrongLoop) {
   EXPECT_GT(shift("none"), 1.0);
   EXPECT_LT(shift("huber"), 0.5 * shift("none"));
   EXPECT_LT(shift("cauchy"), 0.1 * shift("none"));
+  EXPECT_LT(shift("dcs"), 0.1 * shift("none"));
+  EXPECT_LT(shift("geman_mcclure"), 0.1 * shift("none"));
 }
 
 // With noise the linearisation of the filter is one of its own; its motions are J P Jᵀ of it.

@@ -124,7 +124,8 @@ TEST(ConfigureStudy, RefusesWhatIsNoSweep) {
 
 TEST(ConfigureStudy, AGraphHasNoNoiseToDraw) {
   const std::string graph = "dataset: {type: g2o, path: a.g2o}\n";
-  EXPECT_THAT(refusal(graph + "trials: 2\n"), HasSubstr("trials: a pose graph has no noise"));
+  EXPECT_THAT(refusal(graph + "trials: 2\n"),
+              HasSubstr("trials: a pose graph without false loops"));
   EXPECT_THAT(refusal(graph + "association: {mode: own}\n"),
               HasSubstr("association.mode: a pose graph has its loops"));
   EXPECT_EQ(study_of(graph).cells.size(), 1u);

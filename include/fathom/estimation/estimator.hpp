@@ -24,6 +24,8 @@ bool is_done(Outcome outcome);
 /// What became of one registration: used, refused by a gate, or lost with an update that failed.
 enum class LoopFate { used, rejected, lost };
 
+std::string name_of(LoopFate fate);
+
 struct LoopDecision {
   std::size_t from = 0;
   std::size_t to = 0;
@@ -83,6 +85,11 @@ class Estimator : public TrajectoryView {
   /// ρ(eᵀ Ω e): what a registration counts in the cost that this estimator minimises. The identity
   /// without a robust loss.
   virtual double loss(double chi2) const { return chi2; }
+
+  /// What every registration given so far weighs in the estimate as it is, in the order given: 1 as
+  /// it stands, less under a robust loss, 0 where it has no part. Empty: 1 for every one that is
+  /// used, 0 for the others.
+  virtual std::vector<double> loop_weights() const { return {}; }
 };
 
 }  // namespace fathom

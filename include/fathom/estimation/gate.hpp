@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <optional>
 #include <span>
@@ -16,8 +17,12 @@ namespace fathom {
 struct GateOptions {
   /// Share of right registrations that passes, or off.
   std::optional<double> probability;
+  /// Share of right sets of registrations of one keyframe that pass together, or off.
+  std::optional<double> joint_probability;
 
   void describe(OptionTable& table);
+  /// Of a filter, which has the joint covariance of its innovations at hand.
+  void describe_joint(OptionTable& table);
 };
 
 class Gate {
@@ -28,9 +33,33 @@ class Gate {
   /// NaN never passes.
   bool passes(double nis) const;
 
+  bool is_joint_on() const { return joint_probability_.has_value(); }
+  /// The joint test of those that passed alone: see jointly_compatible. Those are returned where it
+  /// is off.
+  std::vector<bool> pass_together(const Eigen::VectorXd& innovation, const Eigen::MatrixXd& S,
+                                  std::vector<bool> passed) const;
+
  private:
   std::optional<double> threshold_;
+  std::optional<double> joint_probability_;
 };
+
+/// So many registrations at most are searched for the best set; of more, the worst are dropped.
+inline constexpr std::size_t kMostSearched = 12;
+
+/// The largest set of m candidates whose joint νᵀ S⁻¹ ν is within the χ² quantile of `probability`
+/// with 3 m degrees of freedom; of several as large, that with the least (joint compatibility,
+/// Neira and Tardos 2001). `innovation` stacks 3 numbers a registration, S is its covariance, with
+/// the correlation that the state brings: loops that agree by themselves may disagree with each
+/// other. Branch and bound up to kMostSearched candidates; from more, the one whose removal lowers
+/// the joint value most is dropped until the rest passes.
+std::vector<bool> jointly_compatible(const Eigen::VectorXd& innovation, const Eigen::MatrixXd& S,
+                                     const std::vector<bool>& candidates, double probability);
+
+/// νᵀ S⁻¹ ν of some of the registrations of a stack; infinite where their S is not positive
+/// definite.
+double joint_nis(const Eigen::VectorXd& innovation, const Eigen::MatrixXd& S,
+                 const std::vector<std::size_t>& chosen);
 
 /// Whether every registration's NIS, where there is one, is a number.
 bool has_finite_nis(const UpdateReport& report);

@@ -12,6 +12,7 @@
 #include "fathom/estimation/registry.hpp"
 #include "fathom/evaluation/alignment.hpp"
 #include "fathom/front_end/options.hpp"
+#include "fathom/measurements/spoil.hpp"
 #include "fathom/study/config_file.hpp"
 
 namespace fathom {
@@ -49,6 +50,7 @@ struct StudyOptions {
   int trials = 1;
   int jobs = 1;
   Association association = Association::shared;
+  SpoilOptions false_loops;  ///< share 0: none
   std::vector<double> rpe_keyframes{1};
   std::vector<double> rpe_distances_m;
   double min_overlap = 0.3;

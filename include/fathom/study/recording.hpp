@@ -34,6 +34,8 @@ struct Recording {
   std::size_t registrations_tried = 0;
   /// Loop candidates beyond `max_per_keyframe`.
   std::size_t registrations_left_out = 0;
+  /// By registration of the log, in order; empty where none was added, or it is not known.
+  std::vector<bool> is_false_loop;
   bool visual_odometry = false;
   std::size_t visual_odometry_failures = 0;
 };
@@ -53,7 +55,8 @@ class Recorder {
   explicit Recorder(const Configuration& configuration, RegistrationCache* cache = nullptr);
 
   /// A trial of a configuration whose picture_settings are those of the data set. Loop candidates
-  /// are picked by the estimate of `configuration.estimators[reference]`.
+  /// are picked by the estimate of `configuration.estimators[reference]`. False loops, where the
+  /// study has them, are added afterwards: the reference never sees them.
   Recording record(const Configuration& configuration, std::size_t reference,
                    const EstimatorRegistry& registry, const TrialNoise& noise,
                    const Progress& progress = {}) const;
@@ -69,5 +72,9 @@ class Recorder {
 
 /// A pose graph as a recording, read from a file.
 Recording record_graph(const std::filesystem::path& path);
+
+/// Gives a graph its true poses, from a TUM file with vertex ids as time stamps. Throws InputError
+/// where one is missing.
+void attach_ground_truth(Recording& graph, const std::filesystem::path& path);
 
 }  // namespace fathom

@@ -46,6 +46,8 @@ struct Replay {
   Outcome outcome = Outcome::converged;         ///< the worst of all updates
   std::array<std::size_t, 4> outcome_counts{};  ///< of updates, by Outcome
   std::vector<LoopDecision> loops;
+  /// What each of them weighs in the end (Estimator::loop_weights); 0 of those that are not used.
+  std::vector<double> loop_weights;
   int iterations = 0;
   /// Of the last update, where the estimator says so (UpdateReport).
   std::optional<double> gradient_norm;

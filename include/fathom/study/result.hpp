@@ -8,6 +8,7 @@
 #include "fathom/evaluation/consistency.hpp"
 #include "fathom/evaluation/summary.hpp"
 #include "fathom/study/configuration.hpp"
+#include "fathom/study/false_loops.hpp"
 #include "fathom/study/recording.hpp"
 #include "fathom/study/replay.hpp"
 
@@ -23,6 +24,9 @@ struct Result {
   std::size_t loop_closures = 0;  ///< registrations used
   std::size_t rejected = 0;       ///< refused by the gate
   std::size_t lost = 0;           ///< let through, but their update failed
+  std::size_t loops_kept = 0;     ///< registrations that weigh more than a half in the end
+  /// Where it is known which registrations are false.
+  std::optional<FalseLoopCounts> false_loop_counts;
   /// With ground truth alone, and with a second keyframe: an error at the origin is zero by choice.
   std::optional<Accuracy> accuracy;
   std::optional<RelativeError> relative_error;  ///< over one keyframe

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "estimators/sparse_gauss_newton/solver.hpp"
+
+namespace fathom::sparse_gauss_newton {
+
+/// A graph and which of its edges are loops.
+struct LoopGraph {
+  std::span<const Edge> edges;
+  std::span<const char> is_loop;
+};
+
+/// In a first guess of weights, that of a loop of which nothing is known.
+inline constexpr double kNewLoop = -1.0;
+
+/// Which loops agree, and the least squares of those.
+struct Consensus {
+  SolveResult solved;
+  std::vector<double> weights;  ///< by edge
+  /// The squared residual, left out, at which a loop weighs one half.
+  double squared_scale = 0.0;
+};
+
+/// Judges every loop by what all others say of it (leave_one_out), again and again: the worst are
+/// put out until none contradicts the rest, those outside that agree with it are let in, then
+/// groups of neighbours that the rest contradicts as a whole (group_chi2) are put out, and at the
+/// end each weighs 1 up to half the squared scale, 0 from one and a half times it on, and in
+/// between falls linearly. A weight that rests on the others' word does not confirm itself.
+///
+/// `weights` is the first guess, `nodes` where it is valid; both may be far off in part.
+/// `squared_scale` absent: the default, or less where the loops agree better than they say.
+Consensus find_consensus(const LoopGraph& graph, std::vector<double> weights,
+                         std::vector<Node>& nodes, std::optional<double> squared_scale,
+                         const SolveLimits& limits);
+
+/// F of the loops kept and the scale for each that is not: the less, the better a consensus.
+double truncated_cost(const LoopGraph& graph, std::span<const double> weights,
+                      std::span<const Node> nodes, double squared_scale);
+
+}  // namespace fathom::sparse_gauss_newton

@@ -1,0 +1,72 @@
+#include "estimators/sparse_gauss_newton/drift.hpp"
+
+#include <algorithm>
+
+#include <Eigen/Cholesky>
+
+#include "fathom/geometry/covariance.hpp"
+
+namespace fathom::sparse_gauss_newton {
+namespace {
+
+const Node& node_of(std::span<const Node> nodes, int k) {
+  return nodes[static_cast<std::size_t>(k)];
+}
+
+Eigen::Matrix3d covariance_of(const Edge& edge) {
+  const auto& W = edge.W;
+  Eigen::Matrix3d full;
+  full << W[0], W[1], W[2], W[1], W[3], W[4], W[2], W[4], W[5];
+  return symmetric_inverse(full);
+}
+
+// (u, φ) at p ↔ the twist about the origin: sign −1 there, +1 back.
+Eigen::Matrix3d carry(const Node& at, double sign) {
+  Eigen::Matrix3d L = Eigen::Matrix3d::Identity();
+  L(0, 2) = sign * -at.y;
+  L(1, 2) = sign * at.x;
+  return L;
+}
+
+Eigen::Matrix3d turn(double c, double s) {
+  Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
+  R.topLeftCorner<2, 2>() << c, -s, s, c;
+  return R;
+}
+
+}  // namespace
+
+Drift::Drift(std::span<const Edge> edges, std::span<const char> is_loop,
+             std::span<const Node> nodes)
+    : sums_(nodes.size(), Eigen::Matrix3d::Zero()) {
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    if (is_loop[e] != 0) continue;
+    const Edge& step = edges[e];
+    const auto newest = static_cast<std::size_t>(std::max(step.from, step.to));
+    const Node& from = node_of(nodes, step.from);
+    const Eigen::Matrix3d world = transport(turn(from.c, from.s), covariance_of(step));
+    sums_[newest] = sums_[newest - 1] + transport(carry(node_of(nodes, step.to), -1.0), world);
+  }
+}
+
+Eigen::Matrix3d Drift::of(const Edge& edge, std::span<const Node> nodes) const {
+  const auto [first, last] = std::minmax(edge.from, edge.to);
+  const Eigen::Matrix3d twist =
+      sums_[static_cast<std::size_t>(last)] - sums_[static_cast<std::size_t>(first)];
+  const Node& from = node_of(nodes, edge.from);
+  const Eigen::Matrix3d at_end = transport(carry(node_of(nodes, edge.to), 1.0), twist);
+  return transport(turn(from.c, -from.s), at_end);
+}
+
+double least_chi2(const Drift& drift, const Edge& edge, std::span<const Node> nodes) {
+  const Node& i = node_of(nodes, edge.from);
+  const Node& k = node_of(nodes, edge.to);
+  const double dx = k.x - i.x;
+  const double dy = k.y - i.y;
+  const Eigen::Vector3d nu(i.c * dx + i.s * dy - edge.x, -i.s * dx + i.c * dy - edge.y,
+                           wrap_angle(k.theta - i.theta - edge.theta));
+  const Eigen::LLT<Eigen::Matrix3d> S(covariance_of(edge) + drift.of(edge, nodes));
+  return S.info() == Eigen::Success ? nu.dot(S.solve(nu)) : 0.0;
+}
+
+}  // namespace fathom::sparse_gauss_newton

@@ -1,0 +1,101 @@
+#include "estimators/sparse_gauss_newton/loop_groups.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <map>
+#include <numeric>
+
+#include <Eigen/Core>
+#include <Eigen/LU>
+
+namespace fathom::sparse_gauss_newton {
+namespace {
+
+constexpr int kNeighbours = 5;  // keyframes
+
+class Sets {
+ public:
+  explicit Sets(std::size_t count) : parent_(count) {
+    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
+  }
+  std::size_t find(std::size_t i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  void join(std::size_t a, std::size_t b) { parent_[find(a)] = find(b); }
+
+ private:
+  std::vector<std::size_t> parent_;
+};
+
+Eigen::Matrix3d lever(double dx, double dy) {
+  Eigen::Matrix3d T = Eigen::Matrix3d::Identity();
+  T(0, 2) = -dy;
+  T(1, 2) = dx;
+  return T;
+}
+
+Eigen::Matrix3d full(const std::array<double, 6>& M) {
+  Eigen::Matrix3d matrix;
+  matrix << M[0], M[1], M[2], M[1], M[3], M[4], M[2], M[4], M[5];
+  return matrix;
+}
+
+}  // namespace
+
+std::vector<std::vector<std::size_t>> group_loops(
+    std::span<const Edge> edges, std::vector<std::size_t> loops,
+    const std::function<bool(const Edge&, const Edge&)>& belong) {
+  std::stable_sort(loops.begin(), loops.end(),
+                   [&](std::size_t a, std::size_t b) { return edges[a].from < edges[b].from; });
+  Sets sets(loops.size());
+  for (std::size_t i = 0; i < loops.size(); ++i) {
+    const Edge& a = edges[loops[i]];
+    for (std::size_t j = i + 1; j < loops.size(); ++j) {
+      const Edge& b = edges[loops[j]];
+      if (b.from - a.from > kNeighbours) break;
+      if (std::abs(b.to - a.to) > kNeighbours || sets.find(i) == sets.find(j)) continue;
+      if (belong(a, b)) sets.join(i, j);
+    }
+  }
+  std::map<std::size_t, std::vector<std::size_t>> by_root;
+  for (std::size_t i = 0; i < loops.size(); ++i) by_root[sets.find(i)].push_back(loops[i]);
+  std::vector<std::vector<std::size_t>> groups;
+  groups.reserve(by_root.size());
+  for (auto& [root, group] : by_root) groups.push_back(std::move(group));
+  std::stable_sort(groups.begin(), groups.end(),
+                   [](const auto& a, const auto& b) { return a.size() > b.size(); });
+  return groups;
+}
+
+double group_chi2(NormalEquations& equations, const std::vector<std::size_t>& group,
+                  std::span<const double> weights, std::span<const Node> nodes) {
+  const Symbolic& symbolic = equations.factor().symbolic();
+  Eigen::Vector3d g = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
+  Eigen::MatrixX3d B = Eigen::MatrixX3d::Zero(3 * symbolic.size(), 3);
+  const auto add = [&](int keyframe, const Eigen::Matrix3d& block) {
+    if (keyframe > 0) B.middleRows<3>(3 * symbolic.position[at(keyframe - 1)]) += block;
+  };
+  const Node& centre = nodes[at(equations.edges()[group.front()].to)];
+  for (const std::size_t e : group) {
+    const Edge& edge = equations.edges()[e];
+    const Node& k = nodes[at(edge.to)];
+    EdgeTerms t = linearise_edge(edge, nodes[at(edge.from)], k);
+    scale(weights[e], t);
+    const Eigen::Matrix3d M = full(t.M);
+    const Eigen::Matrix3d T_k = lever(k.x - centre.x, k.y - centre.y);
+    g += T_k.transpose() * Eigen::Vector3d(t.m[0], t.m[1], t.m[2]);
+    information += T_k.transpose() * M * T_k;
+    add(edge.to, M * T_k);
+    add(edge.from, -lever(t.dx, t.dy).transpose() * M * T_k);
+  }
+  Eigen::MatrixX3d solved = B;
+  for (int column = 0; column < 3; ++column) equations.solve(solved.col(column).data());
+  const Eigen::Matrix3d left = information - B.transpose() * solved;
+  const double chi2 = g.dot(left.inverse() * g);
+  // Nothing else checks the group.
+  return std::isfinite(chi2) && chi2 > 0.0 ? chi2 : 0.0;
+}
+
+}  // namespace fathom::sparse_gauss_newton

@@ -1,0 +1,169 @@
+#include "estimators/sparse_gauss_newton/robust.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "estimators/sparse_gauss_newton/batch.hpp"
+#include "estimators/sparse_gauss_newton/lost_groups.hpp"
+
+namespace fathom::sparse_gauss_newton {
+namespace {
+
+constexpr double kGraduationStep = 1.4;
+constexpr SolveLimits kOneStep{2, 1e-3};
+constexpr SolveLimits kRough{50, 1e-4};
+constexpr std::size_t kHypotheses = 3;
+
+class RobustBatch {
+ public:
+  RobustBatch(const LoopGraph& graph, const RobustOptions& options, const SolveLimits& limits,
+              std::size_t keyframes)
+      : graph_(graph),
+        options_(options),
+        limits_(limits),
+        symbolic_(analyse_graph(graph.edges, static_cast<int>(keyframes))),
+        equations_(symbolic_, graph.edges) {}
+
+  RobustResult descend(std::vector<Node>& nodes) {
+    graduate(nodes, {});
+    RobustResult result;
+    result.solved = minimise_with(options_.loss, nodes, {}, limits_);
+    result.solved.iterations = iterations_;
+    result.weights = weights_at(nodes, options_.loss);
+    return result;
+  }
+
+  // Geman-McClure leads near, then the loops are judged by one another.
+  RobustResult agree(std::vector<Node>& nodes, std::span<const double> known) {
+    if (!known.empty()) {
+      Consensus consensus = find_consensus(graph_, {known.begin(), known.end()}, nodes,
+                                           options_.squared_scale, limits_);
+      return {consensus.solved, std::move(consensus.weights)};
+    }
+    const std::vector<Node> start = nodes;
+    Consensus best = attempt(nodes, {});
+    try_lost_groups(start, nodes, best);
+    try_free_start(nodes, best);
+    best.solved.iterations += iterations_;
+    return {best.solved, std::move(best.weights)};
+  }
+
+ private:
+  RobustLoss leading_loss() const {
+    if (options_.loss.kind() != LossKind::truncated) return options_.loss;
+    LossOptions leading{LossKind::geman_mcclure, std::nullopt};
+    if (options_.squared_scale) {
+      leading.scale = scale_of_half_weight(leading.kind, *options_.squared_scale);
+    }
+    return RobustLoss(leading);
+  }
+
+  SolveResult minimise_with(const RobustLoss& loss, std::vector<Node>& nodes,
+                            const std::vector<char>& is_robust, const SolveLimits& limits) {
+    equations_.set_loss({loss, is_robust.empty() ? graph_.is_loop : is_robust});
+    const SolveResult solved = minimise(equations_, nodes, limits);
+    iterations_ += solved.iterations;
+    return solved;
+  }
+
+  void graduate(std::vector<Node>& nodes, const std::vector<char>& is_robust) {
+    const RobustLoss loss = leading_loss();
+    if (options_.graduation == Graduation::off || loss.kind() != LossKind::geman_mcclure) return;
+    double largest = 0.0;
+    for (std::size_t e = 0; e < graph_.edges.size(); ++e) {
+      if (graph_.is_loop[e] != 0) largest = std::max(largest, residual_of(e, nodes));
+    }
+    for (double mu = 2.0 * largest / loss.squared_scale(); mu > 1.0; mu /= kGraduationStep) {
+      minimise_with(loss.widened(mu), nodes, is_robust, kOneStep);
+    }
+  }
+
+  // `trusted` loops are taken for right at first.
+  Consensus attempt(std::vector<Node>& nodes, const std::vector<std::size_t>& trusted) {
+    std::vector<char> is_robust(graph_.is_loop.begin(), graph_.is_loop.end());
+    for (const std::size_t e : trusted) is_robust[e] = 0;
+    graduate(nodes, is_robust);
+    minimise_with(leading_loss(), nodes, is_robust, kRough);
+    // Half weight under Geman-McClure is early to leave a loop out: down to a quarter it is judged.
+    std::vector<double> weights = weights_at(nodes, leading_loss());
+    for (double& weight : weights) weight = weight >= 0.25 ? 1.0 : 0.0;
+    for (const std::size_t e : trusted) weights[e] = 1.0;
+    return find_consensus(graph_, std::move(weights), nodes, options_.squared_scale, limits_);
+  }
+
+  // A wrong fold shuts right loops out, many together: the largest such groups are trusted in turn.
+  void try_lost_groups(const std::vector<Node>& start, std::vector<Node>& nodes, Consensus& best) {
+    std::vector<std::vector<std::size_t>> groups = lost_groups(graph_, best, nodes);
+    for (std::size_t tries = 0; tries < std::min(kHypotheses, groups.size()); ++tries) {
+      std::vector<Node> other = start;
+      Consensus consensus = attempt(other, groups[tries]);
+      if (!is_better(consensus, other, best, nodes)) continue;
+      iterations_ += best.solved.iterations;
+      best = std::move(consensus);
+      nodes = std::move(other);
+    }
+  }
+
+  // With the loops known, the start no longer matters.
+  void try_free_start(std::vector<Node>& nodes, Consensus& best) {
+    std::vector<Edge> kept;
+    for (std::size_t e = 0; e < graph_.edges.size(); ++e) {
+      if (best.weights[e] == 0.0) continue;
+      kept.push_back(graph_.edges[e]);
+      for (double& element : kept.back().W) element *= best.weights[e];
+    }
+    std::vector<Node> other = nodes;
+    const SolveResult solved = solve_batch(kept, other, Start::automatic, limits_);
+    iterations_ += solved.iterations;
+    if (!is_done(solved.outcome) || solved.cost >= best.solved.cost * (1.0 - 1e-6)) return;
+    Consensus consensus =
+        find_consensus(graph_, best.weights, other, options_.squared_scale, limits_);
+    if (!is_better(consensus, other, best, nodes)) return;
+    best = std::move(consensus);
+    nodes = std::move(other);
+  }
+
+  bool is_better(const Consensus& a, const std::vector<Node>& a_nodes, const Consensus& b,
+                 const std::vector<Node>& b_nodes) const {
+    if (!is_done(a.solved.outcome)) return false;
+    const double scale = b.squared_scale;
+    return !is_done(b.solved.outcome) || truncated_cost(graph_, a.weights, a_nodes, scale) <
+                                             truncated_cost(graph_, b.weights, b_nodes, scale);
+  }
+
+  double residual_of(std::size_t e, std::span<const Node> nodes) const {
+    const Edge& edge = graph_.edges[e];
+    return linearise_edge(edge, nodes[at(edge.from)], nodes[at(edge.to)]).cost;
+  }
+
+  std::vector<double> weights_at(std::span<const Node> nodes, const RobustLoss& loss) const {
+    std::vector<double> weights(graph_.edges.size(), 1.0);
+    for (std::size_t e = 0; e < weights.size(); ++e) {
+      if (graph_.is_loop[e] != 0) weights[e] = loss.weight(residual_of(e, nodes));
+    }
+    return weights;
+  }
+
+  LoopGraph graph_;
+  RobustOptions options_;
+  SolveLimits limits_;
+  Symbolic symbolic_;
+  NormalEquations equations_;
+  int iterations_ = 0;
+};
+
+}  // namespace
+
+RobustResult solve_robust(const LoopGraph& graph, std::vector<Node>& nodes,
+                          const RobustOptions& options, const SolveLimits& limits,
+                          std::span<const double> known) {
+  std::vector<Node> result_nodes = nodes;
+  RobustBatch batch(graph, options, limits, nodes.size());
+  RobustResult result = options.loss.kind() == LossKind::truncated
+                            ? batch.agree(result_nodes, known)
+                            : batch.descend(result_nodes);
+  if (is_done(result.solved.outcome)) nodes = std::move(result_nodes);
+  return result;
+}
+
+}  // namespace fathom::sparse_gauss_newton

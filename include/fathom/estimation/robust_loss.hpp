@@ -1,0 +1,74 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "fathom/core/options.hpp"
+
+namespace fathom {
+
+/// Losses ρ(s) of a registration's squared whitened residual s = eᵀ Ω e, with the scale c:
+///
+/// | name          | ρ(s)                                       | weight ρ'(s)              |
+/// |---------------|--------------------------------------------|---------------------------|
+/// | none          | s                                          | 1                         |
+/// | huber         | s up to c², then 2 c √s − c²               | min(1, c / √s)            |
+/// | cauchy        | c² ln(1 + s / c²)                          | 1 / (1 + s / c²)          |
+/// | geman_mcclure | c² s / (c² + s)                            | (c² / (c² + s))²          |
+/// | dcs           | s up to c², then c² (3 s − c²) / (c² + s)  | min(1, 2 c² / (c² + s))²  |
+/// | truncated     | min(s, c²)                                 | 1 up to c², then 0        |
+///
+/// `dcs` is dynamic covariance scaling (Agarwal, Tipaldi, Spinello, Stachniss and Burgard 2013):
+/// Ω times the square of their factor, with Φ = c²; its ρ is the integral of that weight.
+/// `truncated` has no useful gradient: an estimator that takes it decides otherwise who is out.
+enum class LossKind { none, huber, cauchy, geman_mcclure, dcs, truncated };
+
+/// ρ and its first two derivatives.
+struct LossValue {
+  double rho = 0.0;
+  double weight = 1.0;
+  double curvature = 0.0;  ///< ρ''
+};
+
+struct LossOptions {
+  LossKind kind = LossKind::none;
+  /// c, in units of √s; absent: where a registration at the 99 % quantile of χ²₃ weighs one half;
+  /// of `truncated`, where 99.98 % end.
+  std::optional<double> scale;
+
+  /// `loss` and `loss_scale`; `truncated` is offered where an estimator has a way to it.
+  void describe(OptionTable& table, bool has_truncated = false);
+  /// A scale without a loss would go unread. Throws InputError.
+  void check() const;
+};
+
+class RobustLoss {
+ public:
+  RobustLoss() = default;
+  explicit RobustLoss(const LossOptions& options);
+  RobustLoss(LossKind kind, double scale) : kind_(kind), squared_scale_(scale * scale) {}
+
+  LossKind kind() const { return kind_; }
+  bool is_on() const { return kind_ != LossKind::none; }
+  double scale() const;
+  double squared_scale() const { return squared_scale_; }
+
+  /// Of s ≥ 0.
+  LossValue at(double s) const;
+  double weight(double s) const { return at(s).weight; }
+
+  /// The same loss with another scale, whose square is `factor` times as large.
+  RobustLoss widened(double factor) const;
+
+ private:
+  LossKind kind_ = LossKind::none;
+  double squared_scale_ = 1.0;
+};
+
+/// The scale where none is given.
+double default_scale(LossKind kind);
+
+/// The scale at which a residual of squared norm s weighs one half.
+double scale_of_half_weight(LossKind kind, double s);
+
+}  // namespace fathom
