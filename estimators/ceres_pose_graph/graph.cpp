@@ -111,6 +111,12 @@ void CeresPoseGraph::Graph::forget_registrations(std::size_t count) {
   changed();
 }
 
+bool CeresPoseGraph::Graph::is_finite() const {
+  return std::all_of(poses_.begin(), poses_.end(), [](const Block& pose) {
+    return std::all_of(pose.begin(), pose.end(), [](double v) { return std::isfinite(v); });
+  });
+}
+
 UpdateReport CeresPoseGraph::Graph::solve() {
   UpdateReport report;
   const std::deque<Block> before = poses_;
@@ -118,12 +124,7 @@ UpdateReport CeresPoseGraph::Graph::solve() {
   ceres::Solve(solver_options(options_), &problem_, &summary);
   report.iterations = summary.num_successful_steps + summary.num_unsuccessful_steps;
   report.outcome = outcome_of(summary);
-  bool finite = true;
-  for (const Block& pose : poses_) {
-    finite =
-        finite && std::all_of(pose.begin(), pose.end(), [](double v) { return std::isfinite(v); });
-  }
-  if (!finite) report.outcome = Outcome::numerical_failure;
+  if (!is_finite()) report.outcome = Outcome::numerical_failure;
   if (!is_done(report.outcome)) std::copy(before.begin(), before.end(), poses_.begin());
   changed();
   return report;
@@ -177,8 +178,10 @@ std::optional<Eigen::MatrixXd> CeresPoseGraph::Graph::joint_covariance(
 }
 
 // The Hessian of the poses but the first, which is fixed, the loss applied as a weight. There must
-// be one: asked for no poses, Ceres takes all. Nothing where a residual is not finite.
+// be one: asked for no poses, Ceres takes all. Nothing where it is not finite, of which
+// Ceres would print a warning.
 std::optional<Eigen::SparseMatrix<double>> CeresPoseGraph::Graph::hessian() {
+  if (!is_finite()) return std::nullopt;
   ceres::Problem::EvaluateOptions evaluate;
   evaluate.num_threads = 1;
   for (std::size_t k = 1; k < size(); ++k) evaluate.parameter_blocks.push_back(block(k));

@@ -52,6 +52,7 @@ class CeresPoseGraph::Graph {
   using Block = std::array<double, 3>;
 
   double* block(std::size_t k) { return poses_[k].data(); }
+  bool is_finite() const;
   void changed() { marginals_.reset(); }
   void compute_marginals();
   std::optional<Eigen::SparseMatrix<double>> hessian();

@@ -1,5 +1,7 @@
 // Estimators against each other: what the framework exists for.
 
+#include <limits>
+
 #include <gtest/gtest.h>
 
 #include "estimators/trajectory_iekf/trajectory_iekf.hpp"
@@ -122,6 +124,20 @@ TEST(CrossEstimator, TheGraphsAgreeOnTheJointCovariancesOfNoisyMeasurements) {
     const auto joint = solved(entry.name, log, exactly())->joint_covariance(keyframes);
     ASSERT_TRUE(joint) << entry.name;
     EXPECT_LT(test::largest_block_difference(*joint, expected), 1e-6) << entry.name;
+  }
+}
+
+TEST(CrossEstimator, TheGraphsHaveNoCovariancesWhereAPoseIsNotFinite) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const std::string name :
+       {"ceres_pose_graph", "sparse_gauss_newton", "incremental_smoother"}) {
+    const auto graph = solved(name, test::circle_log({}));
+    const std::size_t newest = graph->size();
+    graph->add_keyframe(RelativePose::from_covariance(newest - 1, newest, {nan, 0.0, 0.0},
+                                                      test::full_covariance(0.1, 0.1)));
+    EXPECT_FALSE(graph->covariance(3)) << name;
+    EXPECT_FALSE(graph->joint_covariance(std::vector<std::size_t>{3, newest})) << name;
+    EXPECT_FALSE(graph->motions_to_newest()) << name;
   }
 }
 
