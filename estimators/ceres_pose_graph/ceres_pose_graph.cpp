@@ -90,6 +90,11 @@ std::optional<Eigen::Matrix3d> CeresPoseGraph::covariance(std::size_t k) {
   return graph_->marginal(k);
 }
 
+std::optional<Eigen::MatrixXd> CeresPoseGraph::joint_covariance(
+    std::span<const std::size_t> keyframes) {
+  return graph_->joint_covariance(keyframes);
+}
+
 std::optional<std::vector<UncertainPose>> CeresPoseGraph::motions_to_newest() const {
   return graph_->motions_to_newest();
 }

@@ -12,7 +12,7 @@ namespace fathom {
 
 struct CeresPoseGraphOptions {
   int max_iterations = 100;
-  double tolerance = 1e-10;
+  double tolerance = 1e-8;
   double initial_trust_region = 1e16;
   LossOptions loss;
   GateOptions gate;
@@ -37,6 +37,7 @@ class CeresPoseGraph final : public Estimator {
   /// From the Gauss-Newton Hessian at the estimate, the loss applied as a weight; a rejected
   /// registration has no part in it.
   std::optional<Eigen::Matrix3d> covariance(std::size_t k) override;
+  std::optional<Eigen::MatrixXd> joint_covariance(std::span<const std::size_t> keyframes) override;
   /// From that same Hessian.
   std::optional<std::vector<UncertainPose>> motions_to_newest() const override;
   double loss(double chi2) const override { return loss_.at(chi2).rho; }

@@ -2,21 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
-#include <ceres/covariance.h>
 #include <ceres/crs_matrix.h>
 #include <ceres/loss_function.h>
 #include <ceres/solver.h>
 
 #include "estimators/ceres_pose_graph/edge_cost.hpp"
 #include "estimators/ceres_pose_graph/hessian_inverse.hpp"
+#include "fathom/estimation/joint_covariance.hpp"
 #include "fathom/geometry/covariance.hpp"
 
 namespace fathom {
 namespace {
 
-using RowMajorMatrix3d = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 // A loss as Ceres asks for it: ρ, ρ' and ρ'' of s.
 class CeresLoss final : public ceres::LossFunction {
  public:
@@ -64,56 +62,7 @@ Outcome outcome_of(const ceres::Solver::Summary& summary) {
   }
 }
 
-ceres::Covariance::Options covariance_options() {
-  ceres::Covariance::Options options;
-  options.algorithm_type = ceres::SPARSE_QR;
-  options.sparse_linear_algebra_library_type = ceres::SUITE_SPARSE;
-  options.num_threads = 1;
-  return options;
-}
-
 }  // namespace
-
-/// A copy of the problem to ask for covariances. Ceres orders the blocks of a covariance by their
-/// addresses, which change from run to run and with them the last bits; here they are contiguous.
-class CeresPoseGraph::Graph::CovarianceProblem {
- public:
-  explicit CovarianceProblem(const Graph& graph)
-      : blocks_(graph.poses_.begin(), graph.poses_.end()), covariance_(covariance_options()) {
-    for (const RelativePose& z : graph.steps_) add(z, nullptr);
-    for (const RelativePose& z : graph.registrations_) add(z, make_loss(graph.options_));
-    problem_.AddParameterBlock(blocks_[0].data(), 3);
-    problem_.SetParameterBlockConstant(blocks_[0].data());
-  }
-
-  /// The blocks to be computed, pairs of keyframes other than 0.
-  bool compute(std::vector<std::pair<std::size_t, std::size_t>> keyframes) {
-    std::sort(keyframes.begin(), keyframes.end());
-    keyframes.erase(std::unique(keyframes.begin(), keyframes.end()), keyframes.end());
-    std::vector<std::pair<const double*, const double*>> pairs;
-    pairs.reserve(keyframes.size());
-    for (const auto& [a, b] : keyframes) pairs.emplace_back(blocks_[a].data(), blocks_[b].data());
-    return pairs.empty() || covariance_.Compute(pairs, &problem_);
-  }
-
-  /// Zero where keyframe 0, which is fixed, is one of the two.
-  Eigen::Matrix3d block(std::size_t a, std::size_t b) const {
-    RowMajorMatrix3d value = RowMajorMatrix3d::Zero();
-    if (a > 0 && b > 0) {
-      covariance_.GetCovarianceBlock(blocks_[a].data(), blocks_[b].data(), value.data());
-    }
-    return value;
-  }
-
- private:
-  void add(const RelativePose& z, ceres::LossFunction* loss) {
-    problem_.AddResidualBlock(new EdgeCost(z), loss, blocks_[z.from].data(), blocks_[z.to].data());
-  }
-
-  std::vector<Block> blocks_;
-  ceres::Problem problem_;
-  ceres::Covariance covariance_;
-};
 
 CeresPoseGraph::Graph::Graph(const Pose& origin, const CeresPoseGraphOptions& options)
     : options_(options) {
@@ -137,7 +86,6 @@ void CeresPoseGraph::Graph::add_keyframe(const RelativePose& step) {
   const Pose next = compose(pose(size() - 1), step.forward().motion);
   poses_.push_back({next.x, next.y, next.theta});
   problem_.AddResidualBlock(new EdgeCost(step), nullptr, block(step.from), block(step.to));
-  steps_.push_back(step);
   changed();
 }
 
@@ -163,6 +111,12 @@ void CeresPoseGraph::Graph::forget_registrations(std::size_t count) {
   changed();
 }
 
+bool CeresPoseGraph::Graph::is_finite() const {
+  return std::all_of(poses_.begin(), poses_.end(), [](const Block& pose) {
+    return std::all_of(pose.begin(), pose.end(), [](double v) { return std::isfinite(v); });
+  });
+}
+
 UpdateReport CeresPoseGraph::Graph::solve() {
   UpdateReport report;
   const std::deque<Block> before = poses_;
@@ -170,12 +124,7 @@ UpdateReport CeresPoseGraph::Graph::solve() {
   ceres::Solve(solver_options(options_), &problem_, &summary);
   report.iterations = summary.num_successful_steps + summary.num_unsuccessful_steps;
   report.outcome = outcome_of(summary);
-  bool finite = true;
-  for (const Block& pose : poses_) {
-    finite =
-        finite && std::all_of(pose.begin(), pose.end(), [](double v) { return std::isfinite(v); });
-  }
-  if (!finite) report.outcome = Outcome::numerical_failure;
+  if (!is_finite()) report.outcome = Outcome::numerical_failure;
   if (!is_done(report.outcome)) std::copy(before.begin(), before.end(), poses_.begin());
   changed();
   return report;
@@ -183,34 +132,32 @@ UpdateReport CeresPoseGraph::Graph::solve() {
 
 std::optional<std::vector<Eigen::Matrix3d>> CeresPoseGraph::Graph::innovation_covariances(
     std::span<const RelativePose> forward_loops) {
-  std::vector<std::pair<std::size_t, std::size_t>> pairs{{size() - 1, size() - 1}};
-  for (const RelativePose& z : forward_loops) {
-    if (z.from == 0) continue;
-    pairs.emplace_back(z.from, z.from);
-    pairs.emplace_back(z.from, z.to);
-  }
-  CovarianceProblem joint(*this);
-  if (!joint.compute(pairs)) return std::nullopt;
+  std::vector<std::size_t> ends;
+  for (const RelativePose& z : forward_loops) ends.insert(ends.end(), {z.from, z.to});
+  const auto joint = joint_covariance(ends);
+  if (!joint) return std::nullopt;
   std::vector<Eigen::Matrix3d> innovations;
   for (const RelativePose& z : forward_loops) {
+    const auto row = static_cast<Eigen::Index>(6 * innovations.size());
     Eigen::Matrix3d H_from;
     Eigen::Matrix3d H_to;
     between(pose(z.from), pose(z.to), &H_from, &H_to);
-    const Eigen::Matrix3d cross = H_from * joint.block(z.from, z.to) * H_to.transpose();
-    innovations.push_back(transport(H_from, joint.block(z.from, z.from)) +
-                          transport(H_to, joint.block(z.to, z.to)) + cross + cross.transpose() +
-                          z.covariance());
+    Eigen::Matrix<double, 3, 6> H;
+    H << H_from, H_to;
+    innovations.push_back(H * joint->block<6, 6>(row, row) * H.transpose() + z.covariance());
   }
   return innovations;
 }
 
 void CeresPoseGraph::Graph::compute_marginals() {
   marginals_.emplace();
-  std::vector<std::pair<std::size_t, std::size_t>> pairs;
-  for (std::size_t k = 1; k < size(); ++k) pairs.emplace_back(k, k);
-  CovarianceProblem problem(*this);
-  if (!problem.compute(pairs)) return;
-  for (std::size_t k = 0; k < size(); ++k) marginals_->push_back(problem.block(k, k));
+  if (size() > 1) {
+    const auto H = hessian();
+    const auto blocks = H ? inverse_blocks(*H) : std::nullopt;
+    if (!blocks) return;
+    *marginals_ = blocks->own;
+  }
+  marginals_->insert(marginals_->begin(), Eigen::Matrix3d::Zero());
 }
 
 std::optional<Eigen::Matrix3d> CeresPoseGraph::Graph::marginal(std::size_t k) {
@@ -219,27 +166,40 @@ std::optional<Eigen::Matrix3d> CeresPoseGraph::Graph::marginal(std::size_t k) {
   return (*marginals_)[k];
 }
 
-// The Hessian of the poses but the first, which is fixed, the loss applied as a weight.
-Eigen::SparseMatrix<double> CeresPoseGraph::Graph::hessian() {
+std::optional<Eigen::MatrixXd> CeresPoseGraph::Graph::joint_covariance(
+    std::span<const std::size_t> keyframes) {
+  std::vector<std::size_t> blocks = free_keyframes(keyframes);
+  if (blocks.empty()) return in_order_of(keyframes, {});
+  for (std::size_t& block : blocks) --block;  // of the Hessian, which has none for keyframe 0
+  const auto H = hessian();
+  const auto joint = H ? inverse_between(*H, blocks) : std::nullopt;
+  if (!joint) return std::nullopt;
+  return in_order_of(keyframes, *joint);
+}
+
+// The Hessian of the poses but the first, which is fixed, the loss applied as a weight. There must
+// be one: asked for no poses, Ceres takes all. Nothing where it is not finite, of which
+// Ceres would print a warning.
+std::optional<Eigen::SparseMatrix<double>> CeresPoseGraph::Graph::hessian() {
+  if (!is_finite()) return std::nullopt;
   ceres::Problem::EvaluateOptions evaluate;
   evaluate.num_threads = 1;
   for (std::size_t k = 1; k < size(); ++k) evaluate.parameter_blocks.push_back(block(k));
   ceres::CRSMatrix J;
-  problem_.Evaluate(evaluate, nullptr, nullptr, nullptr, &J);
+  if (!problem_.Evaluate(evaluate, nullptr, nullptr, nullptr, &J)) return std::nullopt;
   const Eigen::SparseMatrix<double> by_columns =
       Eigen::Map<const Eigen::SparseMatrix<double, Eigen::RowMajor>>(
           J.num_rows, J.num_cols, static_cast<Eigen::Index>(J.values.size()), J.rows.data(),
           J.cols.data(), J.values.data());
-  return by_columns.transpose() * by_columns;
+  return Eigen::SparseMatrix<double>(by_columns.transpose() * by_columns);
 }
 
-// ceres::Covariance makes a solve for each row of each block asked for; of all keyframes together
-// that takes n² steps and more.
 std::optional<std::vector<UncertainPose>> CeresPoseGraph::Graph::motions_to_newest() {
   std::vector<UncertainPose> motions;
   const std::size_t n = size() - 1;
   if (n == 0) return motions;
-  const auto blocks = inverse_blocks(hessian());
+  const auto H = hessian();
+  const auto blocks = H ? inverse_blocks(*H) : std::nullopt;
   if (!blocks) return std::nullopt;
   for (std::size_t k = 0; k < n; ++k) {
     Eigen::Matrix3d H_k;

@@ -35,29 +35,31 @@ class CeresPoseGraph::Graph {
   /// Solves from the present poses; keeps them as they were if it fails.
   UpdateReport solve();
 
-  /// Covariance of ν = z − h(x) for each of these registrations, from the joint marginals of their
-  /// keyframes; nothing where they cannot be computed.
+  /// Covariance of ν = z − h(x) for each of these registrations, from the joint covariance of
+  /// their keyframes; nothing where they cannot be computed.
   std::optional<std::vector<Eigen::Matrix3d>> innovation_covariances(
       std::span<const RelativePose> forward_loops);
 
   std::optional<Eigen::Matrix3d> marginal(std::size_t k);
+
+  /// As of Estimator.
+  std::optional<Eigen::MatrixXd> joint_covariance(std::span<const std::size_t> keyframes);
 
   /// As of TrajectoryView.
   std::optional<std::vector<UncertainPose>> motions_to_newest();
 
  private:
   using Block = std::array<double, 3>;
-  class CovarianceProblem;
 
   double* block(std::size_t k) { return poses_[k].data(); }
+  bool is_finite() const;
   void changed() { marginals_.reset(); }
   void compute_marginals();
-  Eigen::SparseMatrix<double> hessian();
+  std::optional<Eigen::SparseMatrix<double>> hessian();
 
   CeresPoseGraphOptions options_;
   std::deque<Block> poses_;  ///< a deque keeps the addresses that the problem knows
   ceres::Problem problem_;
-  std::vector<RelativePose> steps_;
   std::vector<RelativePose> registrations_;
   std::vector<ceres::ResidualBlockId> registration_blocks_;
   /// Of all keyframes; absent: to be computed, empty: could not be.

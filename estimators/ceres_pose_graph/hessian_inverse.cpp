@@ -56,16 +56,24 @@ class TakahashiInverse {
   Eigen::VectorXd diagonal_;
 };
 
+bool is_definite(const Ldlt& ldlt) {
+  return ldlt.info() == Eigen::Success && (ldlt.vectorD().array() > 0.0).all();
+}
+
+// The three columns of the inverse that start with this one.
+Eigen::MatrixX3d columns_of_inverse(const Ldlt& ldlt, Eigen::Index first) {
+  Eigen::MatrixX3d columns = Eigen::MatrixX3d::Zero(ldlt.rows(), 3);
+  columns.middleRows<3>(first).setIdentity();
+  return ldlt.solve(columns);
+}
+
 }  // namespace
 
 std::optional<InverseBlocks> inverse_blocks(const Sparse& hessian) {
   const Ldlt ldlt(hessian);
   const Eigen::Index size = hessian.rows();
-  if (ldlt.info() != Eigen::Success || !(ldlt.vectorD().minCoeff() > 0.0)) return std::nullopt;
-
-  Eigen::MatrixXd last = Eigen::MatrixXd::Zero(size, 3);
-  last.bottomRows<3>().setIdentity();
-  last = ldlt.solve(last).eval();
+  if (!is_definite(ldlt)) return std::nullopt;
+  const Eigen::MatrixX3d last = columns_of_inverse(ldlt, size - 3);
   const Sparse& L = ldlt.matrixL().nestedExpression();
   const TakahashiInverse inverse(L, ldlt.vectorD());
   const auto& place = ldlt.permutationP().indices();
@@ -79,6 +87,23 @@ std::optional<InverseBlocks> inverse_blocks(const Sparse& hessian) {
     blocks.with_last.push_back(last.middleRows<3>(k));
   }
   return blocks;
+}
+
+std::optional<Eigen::MatrixXd> inverse_between(const Sparse& hessian,
+                                               std::span<const std::size_t> blocks) {
+  const Ldlt ldlt(hessian);
+  if (!is_definite(ldlt)) return std::nullopt;
+  const auto size = static_cast<Eigen::Index>(3 * blocks.size());
+  Eigen::MatrixXd result(size, size);
+  for (Eigen::Index j = 0; j < size; j += 3) {
+    const Eigen::MatrixX3d columns = columns_of_inverse(
+        ldlt, static_cast<Eigen::Index>(3 * blocks[static_cast<std::size_t>(j / 3)]));
+    for (Eigen::Index i = 0; i < size; i += 3) {
+      result.block<3, 3>(i, j) = columns.middleRows<3>(
+          static_cast<Eigen::Index>(3 * blocks[static_cast<std::size_t>(i / 3)]));
+    }
+  }
+  return result;
 }
 
 }  // namespace fathom

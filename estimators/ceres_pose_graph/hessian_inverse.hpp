@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include <Eigen/Core>
@@ -19,5 +21,10 @@ struct InverseBlocks {
 /// the cost of the factor, and one solve for the last block's columns. Both triangles must be
 /// there, and every diagonal block be dense. Nothing where the matrix is not positive definite.
 std::optional<InverseBlocks> inverse_blocks(const Eigen::SparseMatrix<double>& hessian);
+
+/// Of the inverse the rows and columns of these blocks alone, 3m×3m in the order given: a solve for
+/// the columns of each. As inverse_blocks else.
+std::optional<Eigen::MatrixXd> inverse_between(const Eigen::SparseMatrix<double>& hessian,
+                                               std::span<const std::size_t> blocks);
 
 }  // namespace fathom

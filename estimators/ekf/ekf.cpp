@@ -7,6 +7,7 @@
 
 #include <Eigen/Cholesky>
 
+#include "fathom/estimation/joint_covariance.hpp"
 #include "fathom/geometry/covariance.hpp"
 
 namespace fathom {
@@ -205,6 +206,19 @@ Outcome Ekf::update(std::span<const Innovation> accepted) {
 std::optional<Eigen::Matrix3d> Ekf::covariance(std::size_t k) {
   if (k == 0) return Eigen::Matrix3d::Zero();
   return P_.block(block_of(k), block_of(k));
+}
+
+std::optional<Eigen::MatrixXd> Ekf::joint_covariance(std::span<const std::size_t> keyframes) {
+  const std::vector<std::size_t> free = free_keyframes(keyframes);
+  const auto size = static_cast<Eigen::Index>(3 * free.size());
+  Eigen::MatrixXd joint(size, size);
+  for (Eigen::Index i = 0; i < size; i += 3) {
+    for (Eigen::Index j = i; j < size; j += 3) {
+      joint.block<3, 3>(i, j) = P_.block(block_of(free[static_cast<std::size_t>(i / 3)]),
+                                         block_of(free[static_cast<std::size_t>(j / 3)]));
+    }
+  }
+  return in_order_of(keyframes, joint);
 }
 
 std::optional<std::vector<UncertainPose>> Ekf::motions_to_newest() const {

@@ -31,6 +31,7 @@ class Ekf final : public Estimator {
   void add_keyframe(const RelativePose& step) override;
   UpdateReport close_loops(std::span<const RelativePose> registrations) override;
   std::optional<Eigen::Matrix3d> covariance(std::size_t k) override;
+  std::optional<Eigen::MatrixXd> joint_covariance(std::span<const std::size_t> keyframes) override;
   std::size_t size() const override { return poses_.size(); }
   Pose pose(std::size_t k) const override { return poses_[k]; }
   /// From the joint blocks of both keyframes.

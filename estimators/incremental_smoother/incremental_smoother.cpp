@@ -82,6 +82,12 @@ std::optional<Eigen::Matrix3d> IncrementalSmoother::covariance(std::size_t k) {
   return (*marginals_)[k];
 }
 
+std::optional<Eigen::MatrixXd> IncrementalSmoother::joint_covariance(
+    std::span<const std::size_t> keyframes) {
+  const auto& problem = smoother_->problem();
+  return sparse_gauss_newton::joint_covariance(problem.edges, problem.nodes, keyframes);
+}
+
 std::optional<std::vector<UncertainPose>> IncrementalSmoother::motions_to_newest() const {
   const auto& problem = smoother_->problem();
   return sparse_gauss_newton::motions_to_newest(problem.edges, problem.nodes);

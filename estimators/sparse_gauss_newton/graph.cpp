@@ -92,6 +92,11 @@ std::optional<Eigen::Matrix3d> Graph::marginal(std::size_t k) {
   return (*marginals_)[k];
 }
 
+std::optional<Eigen::MatrixXd> Graph::joint_covariance(
+    std::span<const std::size_t> keyframes) const {
+  return sparse_gauss_newton::joint_covariance(weighted_edges(), nodes_, keyframes);
+}
+
 std::optional<std::vector<UncertainPose>> Graph::motions_to_newest() const {
   return sparse_gauss_newton::motions_to_newest(weighted_edges(), nodes_);
 }

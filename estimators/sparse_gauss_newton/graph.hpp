@@ -41,6 +41,9 @@ class Graph {
   /// loss applied as a weight; of all at once, at the first call after a change.
   std::optional<Eigen::Matrix3d> marginal(std::size_t k);
 
+  /// As of Estimator, from that same matrix.
+  std::optional<Eigen::MatrixXd> joint_covariance(std::span<const std::size_t> keyframes) const;
+
   /// As of TrajectoryView.
   std::optional<std::vector<UncertainPose>> motions_to_newest() const;
 

@@ -2,6 +2,7 @@
 
 #include "estimators/sparse_gauss_newton/normal_equations.hpp"
 #include "estimators/sparse_gauss_newton/selected_inverse.hpp"
+#include "fathom/estimation/joint_covariance.hpp"
 
 namespace fathom::sparse_gauss_newton {
 namespace {
@@ -57,6 +58,24 @@ std::optional<std::vector<Eigen::Matrix3d>> marginals(std::span<const Edge> edge
     result.push_back(inverse.block(node));
   }
   return result;
+}
+
+std::optional<Eigen::MatrixXd> joint_covariance(std::span<const Edge> edges,
+                                                std::span<const Node> nodes,
+                                                std::span<const std::size_t> keyframes) {
+  Information information(edges, nodes);
+  if (!information.is_definite()) return std::nullopt;
+  const std::vector<std::size_t> free = free_keyframes(keyframes);
+  const auto size = static_cast<Eigen::Index>(3 * free.size());
+  Eigen::MatrixXd joint(size, size);
+  for (std::size_t j = 0; j < free.size(); ++j) {
+    const Eigen::MatrixX3d columns = information.columns(free[j]);
+    for (std::size_t i = 0; i <= j; ++i) {
+      joint.block<3, 3>(static_cast<Eigen::Index>(3 * i), static_cast<Eigen::Index>(3 * j)) =
+          information.block(columns, free[i]);
+    }
+  }
+  return in_order_of(keyframes, joint);
 }
 
 std::optional<std::vector<UncertainPose>> motions_to_newest(std::span<const Edge> edges,

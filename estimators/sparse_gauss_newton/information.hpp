@@ -18,6 +18,11 @@ namespace fathom::sparse_gauss_newton {
 std::optional<std::vector<Eigen::Matrix3d>> marginals(std::span<const Edge> edges,
                                                       std::span<const Node> nodes);
 
+/// As of Estimator: a solve for the columns of each keyframe.
+std::optional<Eigen::MatrixXd> joint_covariance(std::span<const Edge> edges,
+                                                std::span<const Node> nodes,
+                                                std::span<const std::size_t> keyframes);
+
 /// As of TrajectoryView.
 std::optional<std::vector<UncertainPose>> motions_to_newest(std::span<const Edge> edges,
                                                             std::span<const Node> nodes);

@@ -45,6 +45,7 @@ class SparseGaussNewton final : public Estimator {
   /// From the Gauss-Newton Hessian at the estimate, the loss applied as a weight; a rejected
   /// registration has no part in it.
   std::optional<Eigen::Matrix3d> covariance(std::size_t k) override;
+  std::optional<Eigen::MatrixXd> joint_covariance(std::span<const std::size_t> keyframes) override;
   std::optional<std::vector<UncertainPose>> motions_to_newest() const override;
   std::size_t size() const override;
   Pose pose(std::size_t k) const override;

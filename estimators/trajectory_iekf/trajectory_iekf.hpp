@@ -37,6 +37,7 @@ class TrajectoryIekf final : public Estimator {
   UpdateReport close_loops(std::span<const RelativePose> registrations) override;
 
   std::optional<Eigen::Matrix3d> covariance(std::size_t k) override;
+  std::optional<Eigen::MatrixXd> joint_covariance(std::span<const std::size_t> keyframes) override;
   std::size_t size() const override { return poses_.size(); }
   Pose pose(std::size_t k) const override { return poses_[k]; }
   /// J P Jᵀ of the stretch from each keyframe on.
@@ -63,6 +64,8 @@ class TrajectoryIekf final : public Estimator {
   bool apply(const Linearisation& last, const Iterate& end, int iterations);
   void recompose();
   void compute_covariances();
+  Eigen::MatrixX3d motions_at_origin() const;
+  Eigen::Matrix3d from_origin_to(std::size_t keyframe) const;
 
   TrajectoryIekfOptions options_;
   Gate gate_;

@@ -109,6 +109,40 @@ TEST_P(Conformance, CovariancesOfAnExactLogAreThoseOfTheInformationMatrix) {
   }
 }
 
+TEST_P(Conformance, JointCovariancesOfAnExactLogAreThoseOfTheInformationMatrix) {
+  LogOptions options;
+  options.noise = 0.0;
+  options.keyframes = 20;
+  options.origin = {-4.0, 1.0, 2.0};
+  const MeasurementLog log = circle_log(options);
+  const auto estimator = solved(GetParam(), log);
+  const std::vector<std::size_t> keyframes{13, 0, 4, 19, 13, 5};
+  const auto joint = estimator->joint_covariance(keyframes);
+  ASSERT_TRUE(joint);
+  const Eigen::MatrixXd expected = test::least_squares(log, 1).joint(keyframes);
+  EXPECT_LT(test::largest_block_difference(*joint, expected), 1e-9);
+  EXPECT_EQ(*joint, joint->transpose());
+  for (std::size_t i = 0; i < keyframes.size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(3 * i);
+    const Eigen::Matrix3d own = *estimator->covariance(keyframes[i]);
+    EXPECT_LE((joint->block<3, 3>(row, row) - own).norm(), 1e-9 * own.norm()) << keyframes[i];
+  }
+}
+
+TEST_P(Conformance, TheJointCovarianceOfKeyframeZeroAloneOrOfNoneIsZero) {
+  const auto estimator = make();
+  const auto expect_zero = [&](const std::vector<std::size_t>& keyframes) {
+    const auto size = static_cast<Eigen::Index>(3 * keyframes.size());
+    const auto joint = estimator->joint_covariance(keyframes);
+    ASSERT_TRUE(joint);
+    EXPECT_EQ(*joint, Eigen::MatrixXd::Zero(size, size));
+  };
+  expect_zero({0, 0});
+  feed(*estimator, circle_log({}));
+  expect_zero({0, 0});
+  expect_zero({});
+}
+
 // The covariance of ⊖X_k ⊕ X_n from the dense joint one, by differences.
 Eigen::Matrix3d relative_covariance(const test::NaiveLeastSquares& reference, std::size_t k) {
   const std::size_t n = reference.poses.size() - 1;

@@ -1,5 +1,7 @@
 // Estimators against each other: what the framework exists for.
 
+#include <limits>
+
 #include <gtest/gtest.h>
 
 #include "estimators/trajectory_iekf/trajectory_iekf.hpp"
@@ -110,6 +112,66 @@ TEST(CrossEstimator, TheGraphsAgreeOnTheCovariancesOfNoisyMeasurements) {
       EXPECT_LT((*estimator->covariance(k) - expected).norm(), 1e-6 * expected.norm())
           << entry.name << " " << k;
     }
+  }
+}
+
+TEST(CrossEstimator, TheGraphsAgreeOnTheJointCovariancesOfNoisyMeasurements) {
+  const MeasurementLog log = test::circle_log({});
+  const std::vector<std::size_t> keyframes{log.size() - 1, 3, 0, 17, 8, 3};
+  const Eigen::MatrixXd expected = test::least_squares(log, 20).joint(keyframes);
+  for (const EstimatorEntry& entry : builtin_estimators().entries()) {
+    if (entry.name == "ekf" || entry.name == "trajectory_iekf") continue;
+    const auto joint = solved(entry.name, log, exactly())->joint_covariance(keyframes);
+    ASSERT_TRUE(joint) << entry.name;
+    EXPECT_LT(test::largest_block_difference(*joint, expected), 1e-6) << entry.name;
+  }
+}
+
+TEST(CrossEstimator, TheGraphsHaveNoCovariancesWhereAPoseIsNotFinite) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const std::string name :
+       {"ceres_pose_graph", "sparse_gauss_newton", "incremental_smoother"}) {
+    const auto graph = solved(name, test::circle_log({}));
+    const std::size_t newest = graph->size();
+    graph->add_keyframe(RelativePose::from_covariance(newest - 1, newest, {nan, 0.0, 0.0},
+                                                      test::full_covariance(0.1, 0.1)));
+    EXPECT_FALSE(graph->covariance(3)) << name;
+    EXPECT_FALSE(graph->joint_covariance(std::vector<std::size_t>{3, newest})) << name;
+    EXPECT_FALSE(graph->motions_to_newest()) << name;
+  }
+}
+
+// The Jacobian of the poses of all keyframes but 0 with respect to the motions between them, by the
+// chain rule, pose after pose.
+Eigen::MatrixXd jacobian_of_poses(const Estimator& estimator) {
+  const auto size = static_cast<Eigen::Index>(3 * (estimator.size() - 1));
+  Eigen::MatrixXd J = Eigen::MatrixXd::Zero(size, size);
+  for (Eigen::Index row = 0; row < size; row += 3) {
+    const auto k = static_cast<std::size_t>(row / 3);
+    Eigen::Matrix3d J_pose;
+    Eigen::Matrix3d J_motion;
+    compose(estimator.pose(k), between(estimator.pose(k), estimator.pose(k + 1)), &J_pose,
+            &J_motion);
+    if (row > 0) J.middleRows<3>(row) = J_pose * J.middleRows<3>(row - 3);
+    J.block<3, 3>(row, row) = J_motion;
+  }
+  return J;
+}
+
+TEST(CrossEstimator, JointCovariancesOfTheIekfAreThoseOfItsState) {
+  LogOptions options;
+  options.origin = {30.0, -20.0, 2.0};
+  const MeasurementLog log = test::circle_log(options);
+  const std::vector<std::size_t> keyframes{log.size() - 1, 3, 0, 17, 8, 3};
+  using Form = MotionCovariance::Form;
+  for (const Form form : {Form::cheapest, Form::dense, Form::few_loops}) {
+    TrajectoryIekf iekf({log.origin()}, {}, form);
+    test::feed(iekf, log);
+    const Eigen::MatrixXd J = jacobian_of_poses(iekf);
+    const test::NaiveLeastSquares state{{}, J * iekf.state_covariance().full() * J.transpose()};
+    EXPECT_LT(
+        test::largest_block_difference(*iekf.joint_covariance(keyframes), state.joint(keyframes)),
+        1e-10);
   }
 }
 

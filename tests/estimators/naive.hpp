@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -189,7 +191,35 @@ struct NaiveLeastSquares {
     const auto i = static_cast<Eigen::Index>(3 * (k - 1));
     return covariance.block<3, 3>(i, i);
   }
+
+  Eigen::MatrixXd joint(const std::vector<std::size_t>& keyframes) const {
+    Eigen::MatrixXd chosen =
+        Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(3 * keyframes.size()), covariance.cols());
+    for (std::size_t i = 0; i < keyframes.size(); ++i) {
+      if (keyframes[i] == 0) continue;
+      chosen.block<3, 3>(static_cast<Eigen::Index>(3 * i),
+                         static_cast<Eigen::Index>(3 * (keyframes[i] - 1))) =
+          Eigen::Matrix3d::Identity();
+    }
+    return chosen * covariance * chosen.transpose();
+  }
 };
+
+/// The largest difference of two joint covariances' 3×3 blocks (a, b), as a share of
+/// √(‖C_aa‖ ‖C_bb‖); the difference itself where a keyframe has none.
+inline double largest_block_difference(const Eigen::MatrixXd& joint,
+                                       const Eigen::MatrixXd& expected) {
+  double largest = 0.0;
+  for (Eigen::Index i = 0; i < expected.rows(); i += 3) {
+    for (Eigen::Index j = 0; j < expected.cols(); j += 3) {
+      const double difference = (joint.block<3, 3>(i, j) - expected.block<3, 3>(i, j)).norm();
+      const double scale =
+          std::sqrt(expected.block<3, 3>(i, i).norm() * expected.block<3, 3>(j, j).norm());
+      largest = std::max(largest, scale > 0.0 ? difference / scale : difference);
+    }
+  }
+  return largest;
+}
 
 inline NaiveLeastSquares least_squares(const MeasurementLog& log, int iterations) {
   NaiveLeastSquares result{log.odometry(), {}};

@@ -72,6 +72,10 @@ class ScriptedEstimator : public Estimator {
     return Eigen::Matrix3d(Eigen::Matrix3d::Identity() * static_cast<double>(k));
   }
 
+  std::optional<Eigen::MatrixXd> joint_covariance(std::span<const std::size_t>) override {
+    return std::nullopt;
+  }
+
   double loss(double chi2) const override { return script_.loss(chi2); }
 
  private:

@@ -82,6 +82,12 @@ class Estimator : public TrajectoryView {
   /// own is zero). Nothing where it cannot be computed. Not part of the cost of an update.
   virtual std::optional<Eigen::Matrix3d> covariance(std::size_t k) = 0;
 
+  /// The joint covariance of the (x, y, θ) of several keyframes, 3m×3m in the order given: world
+  /// axes, first order, keyframe 0 fixed (its rows and columns are zero). Keyframes may repeat.
+  /// Nothing where it cannot be computed. Not part of the cost of an update.
+  virtual std::optional<Eigen::MatrixXd> joint_covariance(
+      std::span<const std::size_t> keyframes) = 0;
+
   /// ρ(eᵀ Ω e): what a registration counts in the cost that this estimator minimises. The identity
   /// without a robust loss.
   virtual double loss(double chi2) const { return chi2; }
