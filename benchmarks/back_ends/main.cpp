@@ -9,6 +9,7 @@
 // among them: figures of two machines can be compared as ratios to it.
 
 #include <algorithm>
+#include <array>
 #include <cblas.h>
 #include <cstdio>
 #include <filesystem>
@@ -27,6 +28,8 @@ namespace fathom::benchmarks {
 namespace {
 
 constexpr const char* kCeres = "ceres_pose_graph";
+constexpr std::array<std::size_t, 6> kKeyframes{300, 1000, 3000, 10000, 30000, 100000};
+constexpr std::array<std::size_t, 5> kLoops{20, 60, 200, 600, 1800};
 
 struct Settings {
   std::vector<std::string> graphs;
@@ -83,13 +86,13 @@ LogCosts measure_survey(std::size_t keyframes, std::size_t loops,
 
 Growth measure_growth(const Settings& settings, const std::vector<const EstimatorEntry*>& entries) {
   Growth growth;
-  for (const std::size_t keyframes : {300, 1000, 3000, 10000, 30000, 100000}) {
+  for (const std::size_t keyframes : kKeyframes) {
     if (keyframes > settings.largest) break;
     growth.by_keyframes.push_back(
         measure_survey(keyframes, keyframes / 3, entries, settings.effort,
                        growth.by_keyframes.empty() ? nullptr : &growth.by_keyframes.back()));
   }
-  for (const std::size_t loops : {20, 60, 200, 600, 1800}) {
+  for (const std::size_t loops : kLoops) {
     growth.by_loops.push_back(
         measure_survey(2000, loops, entries, settings.effort,
                        growth.by_loops.empty() ? nullptr : &growth.by_loops.back()));
