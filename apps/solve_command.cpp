@@ -60,6 +60,14 @@ EstimatorConfiguration estimator_of(const SolveFlags& flags, const Settings& set
   if (mode == SolveMode::incremental && flags.init == "file") {
     throw InputError("--init file: only a batch solve has a start; use --mode batch");
   }
+  const Setting* start = settings.find("estimator.start");
+  if (start != nullptr && flags.init == "file") {
+    const std::string& word = word_of(*start, "estimator.start");
+    if (word != "auto" && word != "given") {
+      refuse(*start,
+             "estimator.start: " + word + " makes a start of its own and would ignore --init file");
+    }
+  }
   Settings own;
   const Settings given = settings.below("estimator.");
   for (const Setting& setting : given.all()) {

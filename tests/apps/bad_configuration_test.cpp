@@ -78,6 +78,8 @@ TEST_F(BadConfiguration, SolveTakesItsEstimatorsKeysAlone) {
       {{"--estimator", "ekf", "--set", "estimator.type=ekf"}, "--estimator says it already"},
       {{"--estimator", "ekf", "--mode", "batch"}, "ekf is a filter"},
       {{"--estimator", "ekf", "--init", "file"}, "only a batch solve has a start"},
+      {{"--estimator", "sparse_gauss_newton", "--init", "file", "--set", "estimator.start=lago"},
+       "would ignore --init file"},
       {{"--init", "file"}, "g.g2o: has no vertices to start from; use --init odometry"},
       {{"--set", "estimator.gate_probability=0.9"}, "gate_probability: a batch solve"},
       {{"--ground-truth", "none.tum"}, "none.tum"}};
