@@ -55,7 +55,7 @@ EstimatorConfiguration estimator_of(const SolveFlags& flags, const Settings& set
                                                                           : SolveMode::incremental;
   if (mode == SolveMode::batch && !entry.can_batch) {
     throw InputError("--mode batch: " + entry.name +
-                     " is a filter, which takes a log in its order; use --mode incremental");
+                     " takes a log in its order, keyframe by keyframe; use --mode incremental");
   }
   if (mode == SolveMode::incremental && flags.init == "file") {
     throw InputError("--init file: only a batch solve has a start; use --mode batch");

@@ -1,5 +1,6 @@
 // fathom spoil: a pose graph with false loops, to try back ends on.
 
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -33,6 +34,8 @@ void set_kind(const std::string& name, SpoilOptions& options) {
 void spoil_graph(const SpoilFlags& flags, const CLI::App& command, Context& context) {
   SpoilOptions options = flags.options;
   set_kind(flags.kind, options);
+  // The range that CLI11 checks lets NaN through.
+  if (!std::isfinite(options.share)) throw InputError("--share: expected a number");
   if (command.count("--group-size") > 0 && options.kind != FalseLoopKind::grouped) {
     throw InputError("--group-size: only --kind grouped has groups");
   }
@@ -40,6 +43,10 @@ void spoil_graph(const SpoilFlags& flags, const CLI::App& command, Context& cont
     throw InputError("--reach: only --kind local has one");
   }
   Recording recording = record_graph(flags.graph);
+  if (options.share > 0.0 && recording.log.registration_count() == 0) {
+    throw InputError(flags.graph,
+                     "has no loop whose motion and information a false one could take");
+  }
   if (!flags.ground_truth.empty()) attach_ground_truth(recording, flags.ground_truth);
   const std::vector<Pose> reference = reference_poses(recording, builtin_estimators());
   const Spoiled spoiled =

@@ -23,6 +23,7 @@
 
 #include <benchmark/benchmark.h>
 
+#include "benchmarks/noisy_motion.hpp"
 #include "estimators/trajectory_iekf/trajectory_iekf.hpp"
 #include "fathom/core/random.hpp"
 #include "fathom/geometry/covariance.hpp"
@@ -62,12 +63,8 @@ Pose true_pose(std::size_t k) {
 
 RelativePose measure(std::size_t from, std::size_t to, double sigma_m, double sigma_rad,
                      fathom::RandomStream& noise) {
-  Pose motion = between(true_pose(from), true_pose(to));
-  motion.x += sigma_m * noise.normal();
-  motion.y += sigma_m * noise.normal();
-  motion.theta = fathom::wrap_angle(motion.theta + sigma_rad * noise.normal());
-  const Eigen::Vector3d variances{sigma_m * sigma_m, sigma_m * sigma_m, sigma_rad * sigma_rad};
-  return RelativePose::from_covariance(from, to, motion, variances.asDiagonal());
+  return fathom::benchmarks::noisy_motion(from, true_pose(from), to, true_pose(to), sigma_m,
+                                          sigma_rad, noise);
 }
 
 // `loops` registrations of keyframe k, one of them to keyframe 0.

@@ -151,13 +151,18 @@ int main(int argc, char** argv) {
   fathom::Flags flags;
   app.add_option("--seeds", flags.seeds);
   app.add_option("--shares", flags.shares)->delimiter(',')->allow_extra_args(false);
-  app.add_option("--kinds", flags.kinds)->delimiter(',')->allow_extra_args(false);
+  app.add_option("--kinds", flags.kinds)
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(CLI::IsMember({"random", "local", "grouped"}));
   app.add_option("--back-ends", flags.back_ends)->delimiter(',')->allow_extra_args(false);
   app.add_option("graphs", flags.graphs)->required();
-  CLI11_PARSE(app, argc, argv);
   try {
+    app.parse(argc, argv);
     fathom::run(flags);
-  } catch (const fathom::InputError& error) {
+  } catch (const CLI::CallForHelp& help) {
+    return app.exit(help);
+  } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 2;
   }

@@ -67,35 +67,37 @@ LogCosts measure_graph(const std::string& path, const std::vector<const Estimato
 }
 
 LogCosts measure_survey(std::size_t keyframes, std::size_t loops,
-                        const std::vector<const EstimatorEntry*>& entries, Effort effort,
-                        const LogCosts* smaller) {
+                        const std::vector<const EstimatorEntry*>& entries, SolveMode mode,
+                        Effort effort, const LogCosts* smaller) {
   effort.covariances = false;
   effort.repeats = 1;
   const MeasurementLog log = parallel_tracks(keyframes, loops);
   LogCosts costs{"survey", log.size(), log.registration_count(), {}};
   for (std::size_t i = 0; i < entries.size(); ++i) {
+    if (mode == SolveMode::batch && !entries[i]->can_batch) continue;
     // What was too slow for fewer is not tried with more.
-    if (smaller != nullptr && smaller->costs[i].gave_up) {
-      costs.costs.push_back(smaller->costs[i]);
-      continue;
-    }
-    costs.costs.push_back(measure(log, *entries[i], SolveMode::incremental, effort));
+    const std::size_t place = costs.costs.size();
+    const bool is_hopeless = smaller != nullptr && smaller->costs[place].gave_up;
+    costs.costs.push_back(is_hopeless ? smaller->costs[place]
+                                      : measure(log, *entries[i], mode, effort));
   }
   return costs;
 }
 
 Growth measure_growth(const Settings& settings, const std::vector<const EstimatorEntry*>& entries) {
+  const auto add = [&](std::vector<LogCosts>& logs, std::size_t keyframes, std::size_t loops,
+                       SolveMode mode) {
+    const LogCosts* smaller = logs.empty() ? nullptr : &logs.back();
+    logs.push_back(measure_survey(keyframes, loops, entries, mode, settings.effort, smaller));
+  };
   Growth growth;
   for (const std::size_t keyframes : kKeyframes) {
     if (keyframes > settings.largest) break;
-    growth.by_keyframes.push_back(
-        measure_survey(keyframes, keyframes / 3, entries, settings.effort,
-                       growth.by_keyframes.empty() ? nullptr : &growth.by_keyframes.back()));
+    add(growth.batch, keyframes, keyframes / 3, SolveMode::batch);
+    add(growth.by_keyframes, keyframes, keyframes / 3, SolveMode::incremental);
   }
   for (const std::size_t loops : kLoops) {
-    growth.by_loops.push_back(
-        measure_survey(2000, loops, entries, settings.effort,
-                       growth.by_loops.empty() ? nullptr : &growth.by_loops.back()));
+    add(growth.by_loops, 2000, loops, SolveMode::incremental);
   }
   return growth;
 }
@@ -137,9 +139,11 @@ int main(int argc, char** argv) {
   app.add_option("--growth", settings.growth, "measure growth, too, and draw it to this SVG file");
   app.add_option("--largest", settings.largest, "keyframes that growth goes up to")
       ->capture_default_str();
-  CLI11_PARSE(app, argc, argv);
   try {
+    app.parse(argc, argv);
     fathom::benchmarks::run(settings);
+  } catch (const CLI::CallForHelp& help) {
+    return app.exit(help);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "back_ends: error: %s\n", error.what());
     return 2;

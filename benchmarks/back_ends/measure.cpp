@@ -61,6 +61,7 @@ Run run_once(const MeasurementLog& log, const EstimatorEntry& entry, SolveMode m
     const double start_ms = thread_ms();
     note(estimator->finish(), run.cost);
     run.cost.total_ms = thread_ms() - start_ms;
+    run.cost.gave_up = run.cost.gave_up || run.cost.total_ms > 1e3 * effort.budget_s;
   } else {
     for (const double step_ms : run.step_ms) run.cost.total_ms += step_ms;
   }

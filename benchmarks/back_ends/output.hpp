@@ -19,8 +19,9 @@ struct LogCosts {
 /// by ceres_pose_graph; the gap is that of F to the least F that any batch solve reached.
 std::string markdown(const LogCosts& log);
 
-/// Incremental total times of several logs, by keyframes and by loops, as Markdown and as a chart.
+/// Times of several logs, as Markdown and, incremental totals, as a chart.
 struct Growth {
+  std::vector<LogCosts> batch;  ///< by keyframes
   std::vector<LogCosts> by_keyframes;
   std::vector<LogCosts> by_loops;
 };

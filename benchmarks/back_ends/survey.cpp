@@ -2,8 +2,7 @@
 
 #include <cmath>
 
-#include "fathom/core/random.hpp"
-#include "fathom/geometry/covariance.hpp"
+#include "benchmarks/noisy_motion.hpp"
 
 namespace fathom::benchmarks {
 namespace {
@@ -18,12 +17,8 @@ Pose true_pose(std::size_t k, std::size_t along_track) {
 
 RelativePose measured(std::size_t from, std::size_t to, std::size_t along_track, double sigma_m,
                       double sigma_rad, RandomStream& noise) {
-  Pose motion = between(true_pose(from, along_track), true_pose(to, along_track));
-  motion.x += sigma_m * noise.normal();
-  motion.y += sigma_m * noise.normal();
-  motion.theta = wrap_angle(motion.theta + sigma_rad * noise.normal());
-  const Eigen::Vector3d variances{sigma_m * sigma_m, sigma_m * sigma_m, sigma_rad * sigma_rad};
-  return RelativePose::from_covariance(from, to, motion, variances.asDiagonal());
+  return noisy_motion(from, true_pose(from, along_track), to, true_pose(to, along_track), sigma_m,
+                      sigma_rad, noise);
 }
 
 }  // namespace

@@ -49,17 +49,21 @@ void CeresPoseGraph::add_keyframe(const RelativePose& step) {
 }
 
 UpdateReport CeresPoseGraph::close_loops(std::span<const RelativePose> registrations) {
+  UpdateReport report = update(registrations);
+  used_loops_.note(report);
+  return report;
+}
+
+UpdateReport CeresPoseGraph::update(std::span<const RelativePose> registrations) {
   UpdateReport report;
   if (registrations.empty()) return report;
   if (!judge(registrations, report)) {
     lose_all(report, Outcome::numerical_failure);
-    is_used_.resize(is_used_.size() + registrations.size(), false);
     return report;
   }
   const std::size_t before = graph_->registration_count();
   for (std::size_t j = 0; j < registrations.size(); ++j) {
-    is_used_.push_back(report.loops[j].fate == LoopFate::used);
-    if (is_used_.back()) graph_->add_registration(registrations[j]);
+    if (report.loops[j].fate == LoopFate::used) graph_->add_registration(registrations[j]);
   }
   if (graph_->registration_count() == before || mode_ == SolveMode::batch) return report;
   const UpdateReport solved = graph_->solve();
@@ -67,8 +71,6 @@ UpdateReport CeresPoseGraph::close_loops(std::span<const RelativePose> registrat
   report.iterations = solved.iterations;
   if (is_done(report.outcome)) return report;
   graph_->forget_registrations(before);
-  std::fill(is_used_.end() - static_cast<std::ptrdiff_t>(registrations.size()), is_used_.end(),
-            false);
   lose_all(report, solved.outcome);
   return report;
 }
@@ -100,13 +102,11 @@ std::optional<std::vector<UncertainPose>> CeresPoseGraph::motions_to_newest() co
 }
 
 std::vector<double> CeresPoseGraph::loop_weights() const {
-  std::vector<double> weights;
-  weights.reserve(is_used_.size());
-  std::size_t next = 0;
-  for (const bool is_used : is_used_) {
-    weights.push_back(is_used ? loss_.weight(graph_->registration_chi2(next++)) : 0.0);
+  std::vector<double> of_used(graph_->registration_count());
+  for (std::size_t j = 0; j < of_used.size(); ++j) {
+    of_used[j] = loss_.weight(graph_->registration_chi2(j));
   }
-  return weights;
+  return used_loops_.weights(of_used);
 }
 
 EstimatorEntry ceres_pose_graph_entry() {

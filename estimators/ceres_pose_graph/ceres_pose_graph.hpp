@@ -7,6 +7,7 @@
 #include "fathom/estimation/gate.hpp"
 #include "fathom/estimation/registry.hpp"
 #include "fathom/estimation/robust_loss.hpp"
+#include "fathom/estimation/used_loops.hpp"
 
 namespace fathom {
 
@@ -48,13 +49,14 @@ class CeresPoseGraph final : public Estimator {
  private:
   class Graph;  // keeps Ceres out of this header
 
+  UpdateReport update(std::span<const RelativePose> registrations);
   bool judge(std::span<const RelativePose> registrations, UpdateReport& report);
 
   CeresPoseGraphOptions options_;
   SolveMode mode_;
   RobustLoss loss_;
   Gate gate_;
-  std::vector<bool> is_used_;  ///< of all registrations given, in order
+  UsedLoops used_loops_;
   std::unique_ptr<Graph> graph_;
 };
 

@@ -6,22 +6,8 @@
 #include "estimators/sparse_gauss_newton/elimination_tree.hpp"
 
 namespace fathom::incremental_smoother {
-namespace {
-
-// Merging a child into its parent makes `zeros` explicit zero blocks among `blocks`.
-bool is_worth_merging(int width, std::size_t zeros, std::size_t blocks) {
-  const double share = static_cast<double>(zeros) / static_cast<double>(blocks);
-  if (width <= 2) return share < 0.5;
-  if (width <= 4) return share < 0.3;
-  if (width <= 12) return share < 0.15;
-  return share < 0.05;
-}
-
-std::size_t blocks_of(int width, int height) {
-  return at(width) * (at(width) + 1) / 2 + at(width) * at(height);
-}
-
-}  // namespace
+using sparse_gauss_newton::blocks_of;
+using sparse_gauss_newton::is_worth_merging;
 
 void Elimination::analyse(const RestGraph& graph, const std::vector<int>& order) {
   collect_neighbours(graph, order);

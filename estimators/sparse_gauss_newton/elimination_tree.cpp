@@ -50,4 +50,16 @@ std::vector<int> postorder(const std::vector<int>& parent) {
   return order;
 }
 
+bool is_worth_merging(int width, std::size_t zeros, std::size_t blocks) {
+  const double share = static_cast<double>(zeros) / static_cast<double>(blocks);
+  if (width <= 2) return share < 0.5;
+  if (width <= 4) return share < 0.3;
+  if (width <= 12) return share < 0.15;
+  return share < 0.05;
+}
+
+std::size_t blocks_of(int width, int height) {
+  return at(width) * (at(width) + 1) / 2 + at(width) * at(height);
+}
+
 }  // namespace fathom::sparse_gauss_newton

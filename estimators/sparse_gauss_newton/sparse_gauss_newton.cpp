@@ -93,25 +93,27 @@ void SparseGaussNewton::add_keyframe(const RelativePose& step) {
 }
 
 UpdateReport SparseGaussNewton::close_loops(std::span<const RelativePose> registrations) {
+  UpdateReport report = update(registrations);
+  used_loops_.note(report);
+  return report;
+}
+
+UpdateReport SparseGaussNewton::update(std::span<const RelativePose> registrations) {
   UpdateReport report;
   if (registrations.empty()) return report;
   if (!judge(registrations, report)) {
     lose_all(report, Outcome::numerical_failure);
-    is_used_.resize(is_used_.size() + registrations.size(), false);
     return report;
   }
   const std::size_t before = graph_->edge_count();
   for (std::size_t j = 0; j < registrations.size(); ++j) {
-    is_used_.push_back(report.loops[j].fate == LoopFate::used);
-    if (is_used_.back()) graph_->add_registration(registrations[j]);
+    if (report.loops[j].fate == LoopFate::used) graph_->add_registration(registrations[j]);
   }
   if (graph_->edge_count() == before || mode_ == SolveMode::batch) return report;
   const SolveResult solved = solve(Start::given);
   note(solved, report);
   if (is_done(report.outcome)) return report;
   graph_->forget_edges(before);
-  std::fill(is_used_.end() - static_cast<std::ptrdiff_t>(registrations.size()), is_used_.end(),
-            false);
   lose_all(report, solved.outcome);
   return report;
 }
@@ -123,12 +125,7 @@ SolveResult SparseGaussNewton::solve(Start start) {
 }
 
 std::vector<double> SparseGaussNewton::loop_weights() const {
-  const std::vector<double> used = graph_->registration_weights();
-  std::vector<double> weights;
-  weights.reserve(is_used_.size());
-  std::size_t next = 0;
-  for (const bool is_used : is_used_) weights.push_back(is_used ? used[next++] : 0.0);
-  return weights;
+  return used_loops_.weights(graph_->registration_weights());
 }
 
 bool SparseGaussNewton::judge(std::span<const RelativePose> registrations, UpdateReport& report) {

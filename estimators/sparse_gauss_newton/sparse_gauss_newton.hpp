@@ -7,6 +7,7 @@
 #include "fathom/estimation/gate.hpp"
 #include "fathom/estimation/registry.hpp"
 #include "fathom/estimation/robust_loss.hpp"
+#include "fathom/estimation/used_loops.hpp"
 
 namespace fathom {
 namespace sparse_gauss_newton {
@@ -54,13 +55,14 @@ class SparseGaussNewton final : public Estimator {
 
  private:
   sparse_gauss_newton::SolveResult solve(sparse_gauss_newton::Start start);
+  UpdateReport update(std::span<const RelativePose> registrations);
   bool judge(std::span<const RelativePose> registrations, UpdateReport& report);
 
   SparseGaussNewtonOptions options_;
   SolveMode mode_;
   RobustLoss loss_;
   Gate gate_;
-  std::vector<bool> is_used_;  ///< of all registrations given, in order
+  UsedLoops used_loops_;
   std::unique_ptr<sparse_gauss_newton::Graph> graph_;
 };
 

@@ -53,19 +53,6 @@ Columns fill_of(const Adjacency& graph, const Symbolic& result, const std::vecto
   return columns;
 }
 
-// Merging a child into its parent makes `zeros` explicit zero blocks in a panel of `blocks`.
-bool is_worth_merging(int width, std::size_t zeros, std::size_t blocks) {
-  const double share = static_cast<double>(zeros) / static_cast<double>(blocks);
-  if (width <= 2) return share < 0.5;
-  if (width <= 4) return share < 0.3;
-  if (width <= 12) return share < 0.15;
-  return share < 0.05;
-}
-
-std::size_t blocks_of(int width, int height) {
-  return at(width) * (at(width) + 1) / 2 + at(width) * at(height);
-}
-
 void make_supernodes(const Columns& columns, const std::vector<int>& parent, Symbolic& result) {
   struct Merged {
     Supernode supernode;

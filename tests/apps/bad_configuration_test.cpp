@@ -76,7 +76,7 @@ TEST_F(BadConfiguration, SolveTakesItsEstimatorsKeysAlone) {
       {{"--set", "seed=x"}, "seed: expected a whole number"},
       {{"--estimator", "efk"}, "did you mean 'ekf'?"},
       {{"--estimator", "ekf", "--set", "estimator.type=ekf"}, "--estimator says it already"},
-      {{"--estimator", "ekf", "--mode", "batch"}, "ekf is a filter"},
+      {{"--estimator", "ekf", "--mode", "batch"}, "ekf takes a log in its order"},
       {{"--estimator", "ekf", "--init", "file"}, "only a batch solve has a start"},
       {{"--estimator", "sparse_gauss_newton", "--init", "file", "--set", "estimator.start=lago"},
        "would ignore --init file"},

@@ -335,6 +335,17 @@ TEST_F(Commands, SolveSaysWhetherItFoundAMinimum) {
   EXPECT_NEAR(metrics.at("chi2").get<double>(), 0.03, 1e-9);
 }
 
+TEST_F(Commands, SpoilRefusesWhatItCannotDo) {
+  write("g.g2o", square_graph(160, 3));
+  write("open.g2o", "EDGE_SE2 0 1 1 0 0 1 0 0 1 0 1\n");
+  const auto refused = [&](const std::string& graph, const std::string& share) {
+    return refusal({"spoil", graph, "--share", share, "--out", "o.g2o"});
+  };
+  EXPECT_THAT(refused("g.g2o", "nan"), HasSubstr("--share: expected a number"));
+  EXPECT_THAT(refused("g.g2o", "0.95"), HasSubstr("--share"));
+  EXPECT_THAT(refused("open.g2o", "0.3"), HasSubstr("open.g2o: has no loop"));
+}
+
 TEST_F(Commands, SpoilAddsFalseLoopsThatSolveIsJudgedBy) {
   write("g.g2o", square_graph(160, 3));
   const auto spoilt = [&](const std::string& seed, const std::string& out) {
