@@ -6,14 +6,14 @@
 
 #include "apps/command.hpp"
 #include "apps/common.hpp"
+#include "fathom/configuration/study.hpp"
 #include "fathom/datasets/folder_summary.hpp"
 #include "fathom/datasets/image_folder.hpp"
 #include "fathom/estimators/builtin.hpp"
+#include "fathom/harness/replay.hpp"
 #include "fathom/measurements/g2o.hpp"
 #include "fathom/measurements/graph_check.hpp"
 #include "fathom/report/table.hpp"
-#include "fathom/study/replay.hpp"
-#include "fathom/study/study.hpp"
 
 namespace fathom {
 namespace {

@@ -9,8 +9,8 @@
 
 #include <CLI/CLI.hpp>
 
-#include "fathom/study/configuration.hpp"
-#include "fathom/study/recording.hpp"
+#include "fathom/configuration/configuration.hpp"
+#include "fathom/harness/recording.hpp"
 
 namespace fathom {
 

@@ -18,11 +18,11 @@
 #include "apps/pictures.hpp"
 #include "fathom/core/files.hpp"
 #include "fathom/estimators/builtin.hpp"
+#include "fathom/front_end/registration_store.hpp"
+#include "fathom/harness/manifest.hpp"
+#include "fathom/harness/run_folder.hpp"
+#include "fathom/harness/study_run.hpp"
 #include "fathom/report/study_report.hpp"
-#include "fathom/study/manifest.hpp"
-#include "fathom/study/registration_store.hpp"
-#include "fathom/study/run_folder.hpp"
-#include "fathom/study/study_run.hpp"
 
 namespace fathom {
 namespace {

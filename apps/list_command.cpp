@@ -4,10 +4,10 @@
 #include <memory>
 
 #include "apps/command.hpp"
+#include "fathom/configuration/configuration.hpp"
 #include "fathom/core/input_error.hpp"
 #include "fathom/estimators/builtin.hpp"
 #include "fathom/report/table.hpp"
-#include "fathom/study/configuration.hpp"
 
 namespace fathom {
 namespace {

@@ -8,7 +8,7 @@
 #include "apps/command.hpp"
 #include "apps/common.hpp"
 #include "fathom/core/options.hpp"
-#include "fathom/study/manifest.hpp"
+#include "fathom/core/version.hpp"
 
 namespace fathom {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "fathom/study/replay.hpp"
+#include "fathom/harness/replay.hpp"
 
 namespace fathom {
 

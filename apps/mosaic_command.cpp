@@ -13,9 +13,9 @@
 #include "fathom/core/input_error.hpp"
 #include "fathom/estimators/builtin.hpp"
 #include "fathom/evaluation/association.hpp"
+#include "fathom/harness/run_folder.hpp"
+#include "fathom/harness/survey.hpp"
 #include "fathom/report/table.hpp"
-#include "fathom/study/run_folder.hpp"
-#include "fathom/study/survey.hpp"
 
 namespace fathom {
 namespace {

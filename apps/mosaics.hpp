@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "fathom/datasets/frame_source.hpp"
+#include "fathom/harness/recording.hpp"
+#include "fathom/harness/result.hpp"
 #include "fathom/report/mosaic.hpp"
-#include "fathom/study/recording.hpp"
-#include "fathom/study/result.hpp"
 
 namespace fathom {
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "fathom/study/recording.hpp"
-#include "fathom/study/result.hpp"
+#include "fathom/harness/recording.hpp"
+#include "fathom/harness/result.hpp"
 
 namespace fathom {
 

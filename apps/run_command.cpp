@@ -11,8 +11,8 @@
 #include "apps/pictures.hpp"
 #include "fathom/core/files.hpp"
 #include "fathom/estimators/builtin.hpp"
-#include "fathom/study/manifest.hpp"
-#include "fathom/study/run_folder.hpp"
+#include "fathom/harness/manifest.hpp"
+#include "fathom/harness/run_folder.hpp"
 
 namespace fathom {
 namespace {

@@ -9,8 +9,8 @@
 #include "fathom/core/files.hpp"
 #include "fathom/estimators/builtin.hpp"
 #include "fathom/report/table.hpp"
-#include "fathom/study/selected_config.hpp"
-#include "fathom/study/selection.hpp"
+#include "fathom/results/selected_config.hpp"
+#include "fathom/results/selection.hpp"
 
 namespace fathom {
 namespace {

@@ -6,11 +6,11 @@
 
 #include "apps/command.hpp"
 #include "apps/common.hpp"
+#include "fathom/configuration/study.hpp"
 #include "fathom/core/files.hpp"
 #include "fathom/datasets/image_folder.hpp"
 #include "fathom/estimators/builtin.hpp"
-#include "fathom/study/study.hpp"
-#include "fathom/study/survey.hpp"
+#include "fathom/harness/survey.hpp"
 
 namespace fathom {
 namespace {

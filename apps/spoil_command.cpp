@@ -9,8 +9,8 @@
 #include "apps/common.hpp"
 #include "fathom/core/files.hpp"
 #include "fathom/estimators/builtin.hpp"
+#include "fathom/harness/false_loops.hpp"
 #include "fathom/measurements/g2o.hpp"
-#include "fathom/study/false_loops.hpp"
 
 namespace fathom {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "fathom/report/palette.hpp"
-#include "fathom/study/result_store.hpp"
+#include "fathom/results/result_store.hpp"
 
 namespace fathom {
 

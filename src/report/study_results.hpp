@@ -9,7 +9,7 @@
 
 #include "fathom/evaluation/paired.hpp"
 #include "fathom/evaluation/statistics.hpp"
-#include "fathom/study/result_store.hpp"
+#include "fathom/results/result_store.hpp"
 
 namespace fathom {
 

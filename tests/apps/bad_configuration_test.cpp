@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "apps/command_line.hpp"
-#include "study/small_config.hpp"
+#include "harness/small_config.hpp"
 
 namespace fathom::test {
 namespace {

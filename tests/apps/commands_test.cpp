@@ -13,7 +13,7 @@
 #include "fathom/core/files.hpp"
 #include "fathom/geometry/trajectory.hpp"
 #include "fathom/measurements/g2o.hpp"
-#include "study/small_config.hpp"
+#include "harness/small_config.hpp"
 #include "support/planar.hpp"
 
 namespace fathom::test {

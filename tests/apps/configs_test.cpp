@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 
 #include "apps/command_line.hpp"
-#include "fathom/study/result_store.hpp"
+#include "fathom/results/result_store.hpp"
 #include "support/data.hpp"
 
 namespace fathom::test {

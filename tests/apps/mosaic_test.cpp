@@ -9,7 +9,7 @@
 #include "apps/command_line.hpp"
 #include "apps/graphs.hpp"
 #include "fathom/core/files.hpp"
-#include "study/small_config.hpp"
+#include "harness/small_config.hpp"
 
 namespace fathom::test {
 namespace {

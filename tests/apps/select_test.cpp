@@ -7,8 +7,8 @@
 
 #include "apps/command_line.hpp"
 #include "fathom/core/files.hpp"
-#include "study/small_config.hpp"
-#include "study/small_study.hpp"
+#include "harness/small_config.hpp"
+#include "harness/small_study.hpp"
 
 namespace fathom::test {
 namespace {

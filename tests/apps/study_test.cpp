@@ -11,7 +11,7 @@
 
 #include "apps/command_line.hpp"
 #include "fathom/core/text.hpp"
-#include "fathom/study/result_store.hpp"
+#include "fathom/results/result_store.hpp"
 
 namespace fathom::test {
 namespace {

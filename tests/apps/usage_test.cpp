@@ -8,7 +8,7 @@
 
 #include "apps/command_line.hpp"
 #include "apps/graphs.hpp"
-#include "study/small_config.hpp"
+#include "harness/small_config.hpp"
 
 namespace fathom::test {
 namespace {

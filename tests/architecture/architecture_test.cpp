@@ -113,10 +113,16 @@ TEST(IncludeRules, RefuseWhatTheTableDoesNotAllow) {
       {"src/geometry/pose.cpp", "\"fathom/vision/camera.hpp\"", "geometry may not include vision"},
       {"include/fathom/core/text.hpp", "\"fathom/geometry/pose.hpp\"", "core may not"},
       {"src/evaluation/a.cpp", "\"fathom/estimation/gate.hpp\"", "evaluation may not include"},
-      {"src/study/a.cpp", "\"fathom/report/table.hpp\"", "study may not include report"},
+      {"src/harness/a.cpp", "\"fathom/report/table.hpp\"", "harness may not include report"},
       {"src/vision/a.cpp", "\"fathom/datasets/world.hpp\"", "vision may not include datasets"},
-      {"src/study/a.cpp", "\"fathom/estimators/builtin.hpp\"", "study may not include estimators"},
-      {"src/study/a.cpp", "\"apps/common.hpp\"", "study may not include apps"},
+      {"src/results/a.cpp", "\"fathom/harness/replay.hpp\"", "results may not include harness"},
+      {"src/configuration/a.cpp", "\"fathom/results/result_store.hpp\"",
+       "configuration may not include results"},
+      {"src/harness/a.cpp", "<SQLiteCpp/Database.h>", "not for this folder"},
+      {"src/harness/a.cpp", "<yaml-cpp/yaml.h>", "not for this folder"},
+      {"src/harness/a.cpp", "\"fathom/estimators/builtin.hpp\"",
+       "harness may not include estimators"},
+      {"src/harness/a.cpp", "\"apps/common.hpp\"", "harness may not include apps"},
       {"src/datasets/a.cpp", "\"fathom/vision/ransac.hpp\"", "no more of vision"},
       {"estimators/ekf/ekf.cpp", "\"fathom/vision/camera.hpp\"", "estimators may not"},
       {"estimators/ekf/ekf.cpp", "\"fathom/evaluation/accuracy.hpp\"", "estimators may not"},
@@ -129,12 +135,12 @@ TEST(IncludeRules, RefuseWhatTheTableDoesNotAllow) {
       {"src/geometry/a.cpp", "\"fathom/odds/ends.hpp\"", "of no module"},
       {"src/odds/a.cpp", "<vector>", "lies in no module"},
       {"src/geometry/a.cpp", "\"../core/secret.hpp\"", "neither ours nor private"},
-      {"include/fathom/study/a.hpp", "\"private.hpp\"", "neither ours nor private"},
+      {"include/fathom/harness/a.hpp", "\"private.hpp\"", "neither ours nor private"},
       {"src/geometry/a.cpp", "<opencv2/core.hpp>", "not for this folder"},
-      {"src/study/a.cpp", "<opencv2/core.hpp>", "not for this folder"},
+      {"src/harness/a.cpp", "<opencv2/core.hpp>", "not for this folder"},
       {"estimators/ekf/ekf.cpp", "<ceres/problem.h>", "not for this folder"},
       {"src/datasets/world.cpp", "<yaml-cpp/yaml.h>", "not for this folder"},
-      {"include/fathom/study/a.hpp", "<nlohmann/json.hpp>", "not for this folder"},
+      {"include/fathom/harness/a.hpp", "<nlohmann/json.hpp>", "not for this folder"},
       {"include/fathom/report/a.hpp", "<nlohmann/json.hpp>", "not for this folder"},
       {"apps/report_command.cpp", "<cairo.h>", "not for this folder"},
       {"src/core/a.cpp", "<boost/any.hpp>", "of no third party"}};
@@ -150,10 +156,10 @@ TEST(IncludeRules, AllowWhatTheTableAllows) {
       {"src/vision/a.cpp", "<opencv2/core.hpp>", ""},
       {"src/datasets/camera_yaml.cpp", "<yaml-cpp/yaml.h>", ""},
       {"src/datasets/a.cpp", "\"fathom/vision/camera.hpp\"", ""},
-      {"src/study/a.cpp", "\"build_info.hpp\"", ""},
-      {"src/report/a.cpp", "\"fathom/study/result_store.hpp\"", ""},
+      {"src/harness/a.cpp", "\"build_info.hpp\"", ""},
+      {"src/report/a.cpp", "\"fathom/results/result_store.hpp\"", ""},
       {"src/report/a.cpp", "<cairo-pdf.h>", ""},
-      {"include/fathom/study/a.hpp", "\"fathom/evaluation/accuracy.hpp\"", ""},
+      {"include/fathom/harness/a.hpp", "\"fathom/evaluation/accuracy.hpp\"", ""},
       {"estimators/builtin.cpp", "\"estimators/ekf/ekf.hpp\"", ""},
       {"estimators/ekf/a.cpp", "\"estimators/ekf/ekf.hpp\"", ""},
       {"estimators/ceres_pose_graph/a.cpp", "<ceres/problem.h>", ""},
@@ -170,10 +176,10 @@ TEST(IncludeRules, JudgeLinks) {
   EXPECT_THAT(complaint_about_link("fathom_sparse_gauss_newton", "fathom_incremental_smoother"),
               HasSubstr("another"));
   EXPECT_THAT(complaint_about_link("fathom_ekf", "fathom_estimation"), IsEmpty());
-  EXPECT_THAT(complaint_about_link("fathom_apps", "fathom_study"), IsEmpty());
+  EXPECT_THAT(complaint_about_link("fathom_apps", "fathom_harness"), IsEmpty());
   EXPECT_THAT(complaint_about_link("fathom_ekf", "fathom_vision"), HasSubstr("may not link"));
   EXPECT_THAT(complaint_about_link("fathom_ekf", "fathom_ceres_pose_graph"), HasSubstr("another"));
-  EXPECT_THAT(complaint_about_link("fathom_study", "fathom_report"), HasSubstr("may not link"));
+  EXPECT_THAT(complaint_about_link("fathom_harness", "fathom_report"), HasSubstr("may not link"));
   EXPECT_THAT(complaint_about_link("fathom_geometry", "fathom_vision"), HasSubstr("may not link"));
 }
 

@@ -25,9 +25,11 @@ const std::map<std::string, Words>& module_rows() {
       {"estimation", {"measurements"}},
       {"evaluation", {"measurements"}},
       {"estimators", {"estimation"}},
-      {"study", {"front_end", "estimation", "evaluation"}},
-      {"report", {"study"}},
-      {"apps", {"study", "report", "estimators"}}};
+      {"configuration", {"front_end", "estimation", "evaluation"}},
+      {"results", {"configuration", "evaluation"}},
+      {"harness", {"front_end", "estimation", "results"}},
+      {"report", {"harness"}},
+      {"apps", {"harness", "report", "estimators"}}};
   return rows;
 }
 
@@ -50,10 +52,10 @@ const std::vector<ThirdParty>& third_parties() {
       {"Eigen/", {""}},
       {"opencv2/", {"vision/", "datasets/", "front_end/", "report/", "apps/"}},
       {"ceres/", {"estimators/ceres_pose_graph/"}},
-      {"yaml-cpp/", {"src/study/", "src/datasets/camera_yaml.cpp"}},
-      {"SQLiteCpp/", {"src/study/"}},
-      {"sqlite3.h", {"src/study/"}},
-      {"nlohmann/", {"src/study/", "src/report/"}},
+      {"yaml-cpp/", {"src/configuration/", "src/datasets/camera_yaml.cpp"}},
+      {"SQLiteCpp/", {"src/results/", "src/front_end/registration_store.cpp"}},
+      {"sqlite3.h", {"src/results/", "src/front_end/registration_store.cpp"}},
+      {"nlohmann/", {"src/results/", "src/harness/", "src/report/"}},
       {"cairo", {"src/report/"}},
       {"cblas.h", {"src/vision/", "apps/common.cpp"}},
       {"CLI/", {"apps/"}},

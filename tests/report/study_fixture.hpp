@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "fathom/study/result_store.hpp"
+#include "fathom/results/result_store.hpp"
 
 namespace fathom::test {
 

@@ -3,6 +3,7 @@
 #include <bit>
 #include <concepts>
 #include <cstdint>
+#include <string>
 #include <string_view>
 
 namespace fathom {
@@ -37,5 +38,8 @@ class Hash {
 
   std::uint64_t state_;
 };
+
+/// FNV-1a, 64 bits, as 16 hexadecimal digits.
+std::string hash_text(const std::string& content);
 
 }  // namespace fathom

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string>
 
-#include "fathom/study/result_store.hpp"
+#include "fathom/results/result_store.hpp"
 
 namespace fathom {
 

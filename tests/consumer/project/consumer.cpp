@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "fathom/estimators/builtin.hpp"
+#include "fathom/harness/replay.hpp"
 #include "fathom/report/table.hpp"
-#include "fathom/study/replay.hpp"
 
 namespace {
 

@@ -1,0 +1,107 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "fathom/configuration/config_file.hpp"
+#include "fathom/datasets/simulated_survey.hpp"
+#include "fathom/estimation/registry.hpp"
+#include "fathom/evaluation/alignment.hpp"
+#include "fathom/front_end/options.hpp"
+#include "fathom/measurements/spoil.hpp"
+
+namespace fathom {
+
+enum class DatasetType { simulated, image_folder, g2o };
+
+/// What `fathom list datasets` shows, and the words of `dataset.type`.
+struct DatasetEntry {
+  std::string name;
+  DatasetType type;
+  std::string help;
+  std::vector<OptionDescription> options;  ///< keys under `dataset.`
+};
+const std::vector<DatasetEntry>& datasets();
+
+/// Dead reckoning of an image folder: as recorded, where it is, or of its pictures.
+enum class FolderOdometry { recorded, visual_odometry };
+
+/// One estimator of a run or comparison.
+struct EstimatorConfiguration {
+  std::string name;  ///< in tables and folders; its type unless the configuration names it
+  std::string type;
+  EstimatorValues values;  ///< as given; the rest are defaults
+};
+
+/// Whose estimate picks the loop candidates.
+enum class Association {
+  shared,  ///< one reference's: every estimator gets the same log, bit for bit
+  own      ///< each estimator's own, as in the paper
+};
+
+/// What a comparison has beside a run.
+struct StudyOptions {
+  std::string title;
+  int trials = 1;
+  int jobs = 1;
+  Association association = Association::shared;
+  SpoilOptions false_loops;  ///< share 0: none
+  std::vector<double> rpe_keyframes{1};
+  std::vector<double> rpe_distances_m;
+  double min_overlap = 0.3;
+  std::vector<std::string> metrics{
+      "mean_position_error_m", "ate_rmse_m",       "heading_rmse_rad", "anees",    "chi2_gap",
+      "loop_closures",         "update_ms.median", "update_ms.p95",    "total_ms", "memory_bytes"};
+
+  void describe(OptionTable& table);
+};
+
+/// A whole configuration, checked: every key is known and every value within its bounds.
+struct Configuration {
+  DatasetType dataset = DatasetType::simulated;
+  std::string dataset_path;
+  SimulatedSurveyOptions simulation;
+  FolderOdometry folder_odometry = FolderOdometry::recorded;
+  AddedNoiseOptions added_noise;  ///< of an image folder
+  FrontEndOptions front_end;
+  /// One for `run`; for `compare` several, of which the first that `association.reference` names
+  /// picks the loop candidates.
+  std::vector<EstimatorConfiguration> estimators;
+  std::size_t reference = 0;
+  Alignment alignment = Alignment::origin;
+  StudyOptions study;  ///< of a comparison
+  int seed = 1;
+  /// Every key with its value in force, defaults included, for the manifest. Keys that have no
+  /// effect beside the others are left out.
+  std::vector<std::pair<std::string, std::string>> in_force;
+  /// Where each given key was given, for messages of checks across keys.
+  std::map<std::string, std::string> origins;
+};
+
+/// `run` takes one estimator (`estimator.…`), `compare` a list (`estimators:`; without one, every
+/// estimator with its defaults); `simulate` and `register` take either, as they need none.
+enum class ConfigurationKind { single, comparison };
+
+/// The kind that these settings are written for: a comparison if any key is of the list alone.
+ConfigurationKind kind_of(const Settings& settings);
+
+/// Checks settings and turns them into a configuration. Throws InputError with the origin of the
+/// setting, the nearest known key or the bound that it breaks.
+Configuration configure(const Settings& settings, ConfigurationKind kind,
+                        const EstimatorRegistry& registry);
+
+/// The estimator's values from settings whose keys are its own, checked against the entry.
+/// `prefix` is what stands before them in messages.
+EstimatorValues estimator_values(const Settings& settings, const EstimatorEntry& entry,
+                                 const EstimatorSetup& setup, const std::string& prefix);
+
+/// Every option of an estimator with the value in force, by key.
+std::vector<std::pair<std::string, std::string>> estimator_options(
+    const EstimatorConfiguration& estimator, const EstimatorEntry& entry);
+
+}  // namespace fathom

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "fathom/configuration/configuration.hpp"
+#include "fathom/configuration/study_description.hpp"
+
+namespace fathom {
+
+/// A comparative study, checked: every cell of its sweep has a valid configuration.
+struct Study {
+  StudyDescription description;
+  std::vector<Configuration> cells;  ///< in the order of the description
+  /// What noise streams are seeded from, a cell each: the base seed and the cell's values, so that
+  /// no draw depends on which other cells there are. Without a sweep: the base seed.
+  std::vector<std::uint64_t> noise_seeds;
+};
+
+/// Checks a study: a comparison (`configure`) with a sweep
+///
+///     sweep:
+///       - {key: front_end.keyframes.separation_frames, name: separation, values: [5, 10]}
+///
+/// over any key but those of the study itself; the cells are the product of the axes. Throws
+/// InputError with the origin of the setting that is wrong.
+Study configure_study(const Settings& settings, const EstimatorRegistry& registry);
+
+/// The settings without those of a sweep: what a study is in one cell, its base.
+Settings without_sweep(const Settings& settings);
+
+}  // namespace fathom

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace fathom {
+
+/// One axis of a study's sweep: a key and the values that it takes, in order.
+struct StudyAxis {
+  std::string name;                 ///< for tables; the key unless the study names it
+  std::string key;                  ///< of the configuration
+  std::vector<std::string> labels;  ///< of the values; the values as written unless labelled
+};
+
+struct StudyEstimator {
+  std::string name;
+  std::string type;
+};
+
+/// What a study is, apart from its results. Cells are the product of the axes, the last axis
+/// running fastest; without axes there is one cell.
+struct StudyDescription {
+  std::string title;
+  std::string alignment;   ///< of all errors: none, origin or se2
+  std::size_t trials = 1;  ///< asked for, per cell
+  std::vector<StudyAxis> axes;
+  std::vector<StudyEstimator> estimators;
+  std::vector<std::string> metrics;  ///< for tables and charts, in this order
+  /// Every key that results depend on, with its value; the sweep's too. Neither trials nor jobs.
+  std::vector<std::pair<std::string, std::string>> configuration;
+
+  std::size_t cell_count() const;
+  /// The place on each axis of a cell.
+  std::vector<std::size_t> places_of(std::size_t cell) const;
+  /// "separation 5, noise level 2"; "all" without axes.
+  std::string label_of(std::size_t cell) const;
+  /// How a cell's loop candidates were picked, `shared` or `own`; empty where there are none.
+  std::string association_of(std::size_t cell) const;
+};
+
+/// The name under which dead reckoning, the baseline, stands among the estimators' runs. It is no
+/// estimator of the registry, and none may be called so.
+inline constexpr const char* kDeadReckoning = "dead_reckoning";
+
+}  // namespace fathom

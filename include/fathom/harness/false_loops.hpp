@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "fathom/estimation/estimator.hpp"
+#include "fathom/estimation/registry.hpp"
+#include "fathom/harness/recording.hpp"
+#include "fathom/measurements/spoil.hpp"
+
+namespace fathom {
+
+/// Poses that false loops are judged against: the ground truth of the keyframes or, where it is not
+/// known, the least F that a batch solve of the log reaches from dead reckoning.
+std::vector<Pose> reference_poses(const Recording& recording, const EstimatorRegistry& registry);
+
+/// Adds false loops to a recording (spoil) and notes which they are. A log without a loop stays as
+/// it is.
+void spoil_recording(Recording& recording, const SpoilOptions& options,
+                     const EstimatorRegistry& registry, std::uint64_t seed, std::uint64_t trial);
+
+/// The list of false loops beside a spoilt graph: `registration,from,to`, the place among the
+/// graph's registrations in order of arrival, from 0 on, and the ids of its poses.
+std::string false_loops_csv(const Spoiled& spoiled);
+
+/// Reads it for a graph. Throws InputError with file and line where it does not belong to it.
+std::vector<bool> read_false_loops(const std::filesystem::path& path, const MeasurementLog& log);
+
+/// What became of right and false loops. One is kept if it weighs more than a half in the end.
+struct FalseLoopCounts {
+  std::size_t false_loops = 0;
+  std::size_t false_loops_kept = 0;
+  std::size_t right_loops_lost = 0;
+};
+
+/// `weights` and `is_false` stand in the order of the registrations.
+FalseLoopCounts count_false_loops(const std::vector<double>& weights,
+                                  const std::vector<bool>& is_false);
+
+/// How many weigh more than a half.
+std::size_t count_kept(const std::vector<double>& weights);
+
+}  // namespace fathom

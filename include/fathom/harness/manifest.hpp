@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "fathom/configuration/configuration.hpp"
+#include "fathom/harness/recording.hpp"
+#include "fathom/harness/result.hpp"
+
+namespace fathom {
+
+/// What made a result: the content of run.json (docs/formats.md): versions, compiler and flags,
+/// CPU, threads, seed, a hash of the measurements, and the whole configuration in force.
+std::string manifest_json(const std::string& command_line,
+                          const std::vector<std::pair<std::string, std::string>>& configuration,
+                          const Recording& recording, const Result& result,
+                          const EstimatorRegistry& registry);
+
+/// The manifest of a session of a study: versions, build, machine, command line, date, jobs.
+std::string session_json(const std::string& command_line, int jobs);
+
+}  // namespace fathom

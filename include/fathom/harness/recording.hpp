@@ -1,0 +1,80 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "fathom/configuration/configuration.hpp"
+#include "fathom/estimation/estimator.hpp"
+#include "fathom/front_end/front_end.hpp"
+#include "fathom/harness/survey.hpp"
+#include "fathom/measurements/measurement_log.hpp"
+
+namespace fathom {
+
+/// Told how far a long work has come.
+using Progress = std::function<void(std::size_t done, std::size_t of)>;
+
+/// What the front end made of a survey: the measurement log that every estimator is given, and what
+/// is needed to judge them.
+struct Recording {
+  MeasurementLog log;
+  std::vector<std::int64_t> keyframe_times_ns;
+  std::vector<FramePlace> frames;          ///< empty for a pose graph
+  std::vector<Pose> frame_dead_reckoning;  ///< one per frame, from the identity on
+  std::vector<double> frame_altitudes_m;   ///< one per frame, as measured
+  /// Of the keyframes, where all of them have it.
+  std::optional<std::vector<Pose>> ground_truth;
+  /// Of the keyframes, as measured, and the camera that took their pictures; absent for a graph.
+  std::vector<double> keyframe_altitudes_m;
+  std::optional<Camera> camera;
+  std::vector<StampedPose> frame_ground_truth;  ///< of the frames that have it
+  std::size_t registrations_tried = 0;
+  /// Loop candidates beyond `max_per_keyframe`.
+  std::size_t registrations_left_out = 0;
+  /// By registration of the log, in order; empty where none was added, or it is not known.
+  std::vector<bool> is_false_loop;
+  bool visual_odometry = false;
+  std::size_t visual_odometry_failures = 0;
+};
+
+/// Runs the front end over the data set once. Loop candidates are picked by the estimate of
+/// `configuration.estimators[reference]`, which runs along; the log is all that is kept of it.
+/// Of a g2o data set: the graph, with vertex ids as whole seconds. Registrations that the cache
+/// knows are not made again; the recording is the same with a cache and without.
+Recording record(const Configuration& configuration, const EstimatorRegistry& registry,
+                 const Progress& progress = {}, RegistrationCache* cache = nullptr);
+
+/// A data set, opened once to be recorded again and again: by other estimators, in other trials.
+/// May be used from several threads at once.
+class Recorder {
+ public:
+  /// Opens the data set. The cache must outlive this. Throws InputError.
+  explicit Recorder(const Configuration& configuration, RegistrationCache* cache = nullptr);
+
+  /// A trial of a configuration whose picture_settings are those of the data set. Loop candidates
+  /// are picked by the estimate of `configuration.estimators[reference]`. False loops, where the
+  /// study has them, are added afterwards: the reference never sees them.
+  Recording record(const Configuration& configuration, std::size_t reference,
+                   const EstimatorRegistry& registry, const TrialNoise& noise,
+                   const Progress& progress = {}) const;
+
+  /// The pictures; nothing for a pose graph. Their motions and altitudes may not be those of any
+  /// trial.
+  const FrameSource* pictures() const;
+
+ private:
+  std::optional<Recording> graph_;
+  std::shared_ptr<Pictures> pictures_;
+};
+
+/// A pose graph as a recording, read from a file.
+Recording record_graph(const std::filesystem::path& path);
+
+/// Gives a graph its true poses, from a TUM file with vertex ids as time stamps. Throws InputError
+/// where one is missing.
+void attach_ground_truth(Recording& graph, const std::filesystem::path& path);
+
+}  // namespace fathom

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "fathom/configuration/config_file.hpp"
+#include "fathom/harness/recording.hpp"
+#include "fathom/harness/result.hpp"
+
+namespace fathom {
+
+/// The estimate at every frame, stamped: its keyframe's ⊕ the dead reckoning since. Nothing for a
+/// pose graph.
+std::vector<StampedPose> frame_trajectory(const Recording& recording,
+                                          const std::vector<Pose>& keyframes);
+
+/// The estimate at every keyframe, stamped.
+std::vector<StampedPose> keyframe_trajectory(const Recording& recording,
+                                             const std::vector<Pose>& poses);
+
+/// Writes what is the same for every estimator: `dead_reckoning.tum`, `measurements.g2o`, and
+/// `ground_truth.tum` where there is truth. Throws InputError.
+void write_recording(const std::filesystem::path& folder, const Recording& recording);
+
+/// The files of a run that not every run has, to be removed from a folder that is used again.
+const std::vector<std::string>& optional_run_files();
+
+/// What a run's pictures and altitudes depend on: the settings `seed` and `dataset.…` of the run
+/// whose folder this is, out of its `run.json`. Throws InputError where there is none, where it is
+/// not that of a run, or where the run was over a pose graph, which has no pictures.
+Settings data_settings_of_run(const std::filesystem::path& folder);
+
+/// Writes the text files of one estimator's run into an existing folder (docs/formats.md):
+/// `trajectory.tum`, `dead_reckoning.tum`, `measurements.g2o`, `metrics.json`, `run.json`, and
+/// `frames.tum` and `ground_truth.tum` where there are frames and truth. Throws InputError.
+void write_run(const std::filesystem::path& folder, const Recording& recording,
+               const Result& result, const std::string& manifest);
+
+}  // namespace fathom

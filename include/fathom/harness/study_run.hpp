@@ -1,0 +1,44 @@
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <functional>
+#include <memory>
+
+#include "fathom/configuration/study.hpp"
+#include "fathom/estimation/registry.hpp"
+#include "fathom/front_end/registration_cache.hpp"
+#include "fathom/harness/replay.hpp"
+#include "fathom/results/result_store.hpp"
+
+namespace fathom {
+
+/// How far a study has come. A run is one estimator on one trial of one cell.
+struct StudyProgress {
+  std::size_t done = 0;     ///< runs, those of earlier sessions included
+  std::size_t earlier = 0;  ///< of them, those that were there already
+  std::size_t of = 0;
+  std::size_t failed = 0;  ///< of this session's runs: diverged or numerical failure
+};
+
+struct StudyRunOptions {
+  int jobs = 1;  ///< trials at work at the same time
+  RegistrationCache* registrations = nullptr;
+  /// A meter for the thread that calls; none: memory is not measured.
+  std::function<std::unique_ptr<MemoryMeter>()> make_meter;
+  /// Called on every thread before its first trial: pins the threads of BLAS and the like.
+  std::function<void()> on_thread_start;
+  /// Called after every run, by one thread at a time.
+  std::function<void(const StudyProgress&)> progress;
+  /// Set by somebody else to end the study after the trials at work.
+  const std::atomic<bool>* stop = nullptr;
+};
+
+/// Runs what of a study is not yet in its store: every estimator on every trial of every cell, and
+/// dead reckoning beside them. What is stored does not depend on the number of jobs, nor on the
+/// order or on what was there before, cost apart. False where it was stopped before the end.
+/// Throws InputError where the data set or the store fails; what is stored stays.
+bool run_study(const Study& study, const EstimatorRegistry& registry, ResultStore& store,
+               const StudyRunOptions& options);
+
+}  // namespace fathom

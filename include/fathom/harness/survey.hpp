@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "fathom/configuration/configuration.hpp"
+#include "fathom/datasets/frame_source.hpp"
+#include "fathom/datasets/noisy_odometry.hpp"
+#include "fathom/front_end/pair_registrar.hpp"
+#include "fathom/front_end/visual_odometry.hpp"
+
+namespace fathom {
+
+/// What all trials of a data set share: its pictures, and their registrations. May be used from
+/// several threads at once.
+class Pictures {
+ public:
+  /// The data set must be one of pictures. Registrations are looked up in the cache and kept there,
+  /// where there is one; it must outlive this. Throws InputError.
+  explicit Pictures(const Configuration& configuration, RegistrationCache* cache = nullptr);
+
+  const FrameSource& source() const { return *source_; }
+  PairRegistrar& registrar() { return *registrar_; }
+
+ private:
+  std::unique_ptr<FrameSource> source_;
+  std::unique_ptr<PairRegistrar> registrar_;
+};
+
+/// All keys that pictures and their registrations depend on, with their values: configurations of
+/// which these are the same may share them.
+std::string picture_settings(const Configuration& configuration);
+
+/// The noise streams of one trial: which seed, which trial.
+struct TrialNoise {
+  std::uint64_t seed = 0;
+  std::uint64_t trial = 0;
+};
+
+/// The frames of one trial of a configuration's data set, with dead reckoning whatever its source.
+class Survey {
+ public:
+  /// Trial 0 of a data set of its own. Throws InputError.
+  explicit Survey(const Configuration& configuration, RegistrationCache* cache = nullptr);
+  /// A trial over pictures that others share. Throws InputError.
+  Survey(std::shared_ptr<Pictures> pictures, const Configuration& configuration,
+         const TrialNoise& noise);
+
+  /// Frames with dead reckoning: recorded, with noise added or not, simulated, or visual odometry.
+  const FrameSource& frames() const;
+  /// The same frames as they were measured: without visual odometry or added noise, so that asking
+  /// for an altitude costs nothing.
+  const FrameSource& measured() const;
+  PairRegistrar& registrar() { return pictures_->registrar(); }
+  bool uses_visual_odometry() const { return visual_odometry_ != nullptr; }
+  std::size_t visual_odometry_failures() const;
+
+ private:
+  void open(const Configuration& configuration, const TrialNoise& noise);
+
+  std::shared_ptr<Pictures> pictures_;
+  std::unique_ptr<FrameSource> measured_;  ///< of a simulation: measured anew in every trial
+  std::unique_ptr<VisualOdometry> visual_odometry_;
+  std::unique_ptr<NoisyOdometry> noisy_odometry_;
+};
+
+}  // namespace fathom

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <compare>
+#include <cstddef>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "fathom/configuration/study_description.hpp"
+
+namespace fathom {
+
+/// One run: an estimator (or dead reckoning) on a trial of a cell.
+struct RunKey {
+  std::size_t cell = 0;
+  std::size_t trial = 0;
+  std::string estimator;
+
+  auto operator<=>(const RunKey&) const = default;
+};
+
+/// What is kept of a run. What is not known is absent; nothing in it is NaN.
+struct RunRecord {
+  RunKey key;
+  std::string outcome;                    ///< name_of(Outcome); empty for dead reckoning
+  std::string log_hash;                   ///< FNV-1a of the measurement log as g2o
+  int jobs = 1;                           ///< runs that were at work at the same time
+  std::map<std::string, double> metrics;  ///< docs/formats.md lists them
+  std::map<std::string, std::vector<double>> series;  ///< likewise
+};
+
+/// Whether a metric depends on the machine (times and memory), so that it differs from run to run.
+bool is_cost_metric(const std::string& name);
+
+/// The results of one study: one SQLite file, `results.sqlite` (docs/formats.md has its schema).
+/// Throws InputError on a file that is no such store, is of another schema version, cannot be read
+/// or cannot be written (a full disk among them); nothing of a run is ever stored in part.
+class ResultStore {
+ public:
+  /// Opens a store to look at, its folder may be read-only. `path`: the file, or its folder.
+  static ResultStore open(const std::filesystem::path& path);
+
+  /// Makes the store of a study in a folder, or goes on with what is there: only with the same
+  /// configuration, else InputError says what differs. `manifest` (JSON) is that of this session.
+  /// One process at a time may write; another one is refused.
+  static ResultStore write(const std::filesystem::path& folder, const StudyDescription& study,
+                           const std::string& manifest);
+
+  ~ResultStore();
+  ResultStore(ResultStore&&) noexcept;
+
+  const StudyDescription& study() const;
+  /// The manifests of the sessions that wrote, in order.
+  std::vector<std::string> manifests() const;
+
+  /// The keys of all runs there are, in order.
+  std::set<RunKey> keys() const;
+  /// All runs without their series, in the order of cell, trial and estimator (dead reckoning
+  /// first, then as in the study).
+  std::vector<RunRecord> runs() const;
+  /// A series of one run; nothing where the run has none of that name.
+  std::optional<std::vector<double>> series(const RunKey& key, const std::string& name) const;
+
+  /// Stores a run, whole or not at all; one that is there already is left as it is. May be called
+  /// from several threads.
+  void add(const RunRecord& run);
+  /// Ends the writing: leaves one file that opens from a read-only folder.
+  void finish();
+
+ private:
+  class Database;
+  explicit ResultStore(std::unique_ptr<Database> database);
+
+  std::unique_ptr<Database> database_;
+};
+
+}  // namespace fathom

@@ -1,0 +1,212 @@
+#include "fathom/configuration/config_file.hpp"
+
+#include <set>
+#include <utility>
+
+#include <yaml-cpp/yaml.h>
+
+#include "fathom/core/files.hpp"
+#include "fathom/core/text.hpp"
+
+namespace fathom {
+namespace {
+
+std::string at(const std::string& file, const YAML::Mark& mark) {
+  return mark.is_null() ? file : file + ":" + std::to_string(mark.line + 1);
+}
+
+// An alias may stand inside of what it names; such a value has no end.
+void require_shallow(int depth, const std::string& origin) {
+  constexpr int kDeepest = 32;
+  if (depth > kDeepest) throw InputError(origin + ": is nested too deeply, or in itself");
+}
+
+// Nested lists are flattened: a list of points is a list of numbers.
+void flatten_list(const YAML::Node& list, const std::string& origin, OptionValue& value,
+                  int depth = 0) {
+  require_shallow(depth, origin);
+  for (const YAML::Node& item : list) {
+    if (item.IsSequence()) {
+      flatten_list(item, origin, value, depth + 1);
+    } else if (item.IsScalar()) {
+      value.items.push_back(item.Scalar());
+    } else {
+      throw InputError(origin + ": a list holds scalars or lists");
+    }
+  }
+}
+
+// The values of an axis of a sweep may be lists: each is kept as one item, written as a list.
+bool holds_values_of_a_sweep(const std::string& key) {
+  return key.starts_with("sweep.") && key.ends_with(".values");
+}
+
+std::string list_text(const OptionValue& list) {
+  std::string text;
+  for (const std::string& item : list.items) text += (text.empty() ? "" : ", ") + item;
+  return "[" + text + "]";
+}
+
+bool is_list_of_maps(const YAML::Node& node) {
+  return node.IsSequence() && node.size() > 0 && node[0].IsMap();
+}
+
+class Flattener {
+ public:
+  Flattener(std::string file, Settings& settings) : file_(std::move(file)), settings_(settings) {}
+
+  void add(const std::string& key, const YAML::Node& node, int depth = 0) {
+    const std::string origin = at(file_, node.Mark());
+    const std::string where = origin + ": " + key + ": ";
+    require_shallow(depth, origin);
+    if (node.IsMap()) {
+      add_map(key, node, depth);
+    } else if (is_list_of_maps(node)) {
+      for (std::size_t i = 0; i < node.size(); ++i) {
+        if (!node[i].IsMap()) throw InputError(where + "expected a list of maps");
+        add_map(key + "." + std::to_string(i), node[i], depth);
+      }
+    } else if (node.IsSequence()) {
+      OptionValue value;
+      value.is_list = true;
+      if (holds_values_of_a_sweep(key)) {
+        for (const YAML::Node& item : node) add_value_of_a_sweep(item, origin, value);
+      } else {
+        flatten_list(node, origin, value);
+      }
+      settings_.put({key, value, origin});
+    } else if (node.IsScalar()) {
+      settings_.put({key, OptionValue::scalar(node.Scalar()), origin});
+    } else {
+      throw InputError(where + "has no value");
+    }
+  }
+
+ private:
+  static void add_value_of_a_sweep(const YAML::Node& item, const std::string& origin,
+                                   OptionValue& value) {
+    OptionValue inner;
+    if (item.IsSequence()) {
+      flatten_list(item, origin, inner);
+      value.items.push_back(list_text(inner));
+    } else if (item.IsScalar()) {
+      value.items.push_back(item.Scalar());
+    } else {
+      throw InputError(origin + ": a list holds scalars or lists");
+    }
+  }
+
+  void add_map(const std::string& prefix, const YAML::Node& map, int depth) {
+    std::set<std::string> seen;
+    for (const auto& entry : map) {
+      if (!entry.first.IsScalar()) {
+        throw InputError(at(file_, entry.first.Mark()) + ": a key must be a word");
+      }
+      const std::string key =
+          prefix.empty() ? entry.first.Scalar() : prefix + "." + entry.first.Scalar();
+      // The second time may be written as a dotted key elsewhere in the file.
+      if (!seen.insert(key).second || settings_.find(key) != nullptr) {
+        throw InputError(at(file_, entry.first.Mark()) + ": '" + key + "' is given twice");
+      }
+      // A null has no mark of its own; the key's is as good.
+      if (entry.second.IsNull()) {
+        throw InputError(at(file_, entry.first.Mark()) + ": " + key + ": has no value");
+      }
+      add(key, entry.second, depth + 1);
+    }
+  }
+
+  std::string file_;
+  Settings& settings_;
+};
+
+}  // namespace
+
+void Settings::put(Setting setting) {
+  for (Setting& existing : settings_) {
+    if (existing.key == setting.key) {
+      existing = std::move(setting);
+      return;
+    }
+  }
+  settings_.push_back(std::move(setting));
+}
+
+const Setting* Settings::find(const std::string& key) const {
+  for (const Setting& setting : settings_) {
+    if (setting.key == key) return &setting;
+  }
+  return nullptr;
+}
+
+Settings Settings::below(const std::string& prefix) const {
+  Settings part;
+  for (const Setting& setting : settings_) {
+    if (setting.key.starts_with(prefix)) {
+      part.settings_.push_back({setting.key.substr(prefix.size()), setting.value, setting.origin});
+    }
+  }
+  return part;
+}
+
+Settings read_settings(const std::filesystem::path& path) {
+  const std::string content = read_file(path);
+  // It would end the text there, and all that follows would go unread.
+  if (content.find('\0') != std::string::npos) {
+    throw InputError(path.string(), "not YAML: holds a zero byte");
+  }
+  Settings settings;
+  try {
+    const std::vector<YAML::Node> documents = YAML::LoadAll(content);
+    if (documents.empty() || documents.front().IsNull()) return settings;
+    const YAML::Node& root = documents.front();
+    if (documents.size() > 1) {
+      throw InputError(at(path.string(), documents[1].Mark()) +
+                       ": a second document; expected a single one, without '---' in between");
+    }
+    if (!root.IsMap()) throw InputError(path.string(), 1, "expected a map of keys and values");
+    Flattener(path.string(), settings).add("", root);
+  } catch (const YAML::Exception& error) {
+    throw InputError(at(path.string(), error.mark) + ": not YAML: " + error.msg);
+  }
+  return settings;
+}
+
+Setting parse_override(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  const std::string origin = "--set " + text;
+  if (equals == std::string::npos || equals == 0) {
+    throw InputError(origin + ": expected KEY=VALUE, for example seed=7");
+  }
+  const std::string key(trim(text.substr(0, equals)));
+  const std::string value(trim(text.substr(equals + 1)));
+  Settings settings;
+  try {
+    // YAML takes an unquoted word as it is, so that file names and numbers need no quotes.
+    const YAML::Node node = YAML::Load(value);
+    if (!node.IsScalar() && !node.IsSequence()) {
+      return {key, OptionValue::scalar(value), origin};
+    }
+    Flattener(origin, settings).add(key, node);
+  } catch (const YAML::Exception&) {
+    return {key, OptionValue::scalar(value), origin};
+  }
+  if (settings.all().size() != 1 || settings.all().front().key != key) {
+    throw InputError(origin + ": expected a value or a list; maps of a list are set one by one, " +
+                     "for example estimators.0.type=ekf");
+  }
+  return {key, settings.all().front().value, origin};
+}
+
+const std::string& word_of(const Setting& setting, const std::string& key) {
+  if (setting.value.is_list || setting.value.items.size() != 1) {
+    refuse(setting, key + ": expected a single word");
+  }
+  return setting.value.items.front();
+}
+
+void refuse(const Setting& setting, const std::string& message) {
+  throw InputError(setting.origin + ": " + message);
+}
+
+}  // namespace fathom

@@ -1,0 +1,114 @@
+#include "fathom/harness/false_loops.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "fathom/core/files.hpp"
+#include "fathom/core/text.hpp"
+#include "fathom/harness/replay.hpp"
+
+namespace fathom {
+namespace {
+
+constexpr const char* kHeader = "registration,from,to";
+
+std::vector<RelativePose> registrations_of(const MeasurementLog& log) {
+  std::vector<RelativePose> all;
+  for (std::size_t k = 1; k < log.size(); ++k) {
+    const auto& own = log.arrival(k).registrations;
+    all.insert(all.end(), own.begin(), own.end());
+  }
+  return all;
+}
+
+std::string row_of(std::size_t place, const RelativePose& z, const MeasurementLog& log) {
+  const auto id = [&log](std::size_t k) {
+    return std::to_string(log.ids.empty() ? static_cast<std::int64_t>(k) : log.ids[k]);
+  };
+  return std::to_string(place) + ',' + id(z.from) + ',' + id(z.to);
+}
+
+}  // namespace
+
+std::vector<Pose> reference_poses(const Recording& recording, const EstimatorRegistry& registry) {
+  if (recording.ground_truth) return *recording.ground_truth;
+  std::vector<Pose> best = recording.log.odometry();
+  double least = chi2(recording.log, best);
+  for (const EstimatorEntry& entry : registry.entries()) {
+    if (!entry.can_batch) continue;
+    ReplayOptions options;
+    options.mode = SolveMode::batch;
+    options.covariances = false;
+    Replay solved = replay(recording.log, entry, {}, options);
+    if (!is_done(solved.outcome)) continue;
+    const double cost = chi2(recording.log, solved.trajectory);
+    if (!(cost < least)) continue;
+    least = cost;
+    best = std::move(solved.trajectory);
+  }
+  return best;
+}
+
+void spoil_recording(Recording& recording, const SpoilOptions& options,
+                     const EstimatorRegistry& registry, std::uint64_t seed, std::uint64_t trial) {
+  if (recording.log.registration_count() == 0) return;
+  const std::vector<Pose> reference = reference_poses(recording, registry);
+  Spoiled spoiled = spoil(recording.log, reference, options, seed, trial);
+  recording.log = std::move(spoiled.log);
+  recording.is_false_loop = std::move(spoiled.is_false);
+}
+
+std::string false_loops_csv(const Spoiled& spoiled) {
+  std::string text = std::string(kHeader) + '\n';
+  const std::vector<RelativePose> all = registrations_of(spoiled.log);
+  for (std::size_t place = 0; place < all.size(); ++place) {
+    if (spoiled.is_false[place]) text += row_of(place, all[place], spoiled.log) + '\n';
+  }
+  return text;
+}
+
+std::vector<bool> read_false_loops(const std::filesystem::path& path, const MeasurementLog& log) {
+  const std::vector<RelativePose> all = registrations_of(log);
+  std::vector<bool> is_false(all.size(), false);
+  const std::string content = read_file(path);
+  std::size_t line = 0;
+  for (const std::string_view raw : split(content, "\n")) {
+    ++line;
+    const std::string row(trim(raw));
+    if (row.empty()) continue;
+    if (line == 1) {
+      if (row != kHeader) {
+        throw InputError(path.string(), line, std::string("expected the header ") + kHeader);
+      }
+      continue;
+    }
+    const auto place = parse_integer(row.substr(0, row.find(',')));
+    const bool is_there = place && *place >= 0 && static_cast<std::size_t>(*place) < all.size();
+    if (!is_there || row_of(static_cast<std::size_t>(*place), all[static_cast<std::size_t>(*place)],
+                            log) != row) {
+      throw InputError(path.string(), line, "'" + row + "' is no registration of this graph");
+    }
+    is_false[static_cast<std::size_t>(*place)] = true;
+  }
+  return is_false;
+}
+
+FalseLoopCounts count_false_loops(const std::vector<double>& weights,
+                                  const std::vector<bool>& is_false) {
+  FalseLoopCounts counts;
+  for (std::size_t j = 0; j < is_false.size(); ++j) {
+    const bool is_kept = weights[j] > 0.5;
+    if (is_false[j]) ++counts.false_loops;
+    if (is_false[j] && is_kept) ++counts.false_loops_kept;
+    if (!is_false[j] && !is_kept) ++counts.right_loops_lost;
+  }
+  return counts;
+}
+
+std::size_t count_kept(const std::vector<double>& weights) {
+  return static_cast<std::size_t>(
+      std::count_if(weights.begin(), weights.end(), [](double w) { return w > 0.5; }));
+}
+
+}  // namespace fathom

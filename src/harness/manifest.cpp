@@ -1,0 +1,88 @@
+#include "fathom/harness/manifest.hpp"
+
+#include <chrono>
+#include <cstdio>
+#include <ctime>
+#include <fstream>
+
+#include <nlohmann/json.hpp>
+
+#include "build_info.hpp"
+#include "fathom/core/hash.hpp"
+#include "fathom/core/version.hpp"
+#include "fathom/measurements/g2o.hpp"
+
+namespace fathom {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string cpu_model() {
+  std::ifstream file("/proc/cpuinfo");
+  for (std::string line; std::getline(file, line);) {
+    if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
+  }
+  return "unknown";
+}
+
+std::string utc_now() {
+  const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+  std::tm calendar{};
+  gmtime_r(&now, &calendar);
+  char buffer[32];
+  std::strftime(buffer, sizeof buffer, "%Y-%m-%dT%H:%M:%SZ", &calendar);
+  return buffer;
+}
+
+Json build_and_machine(int jobs) {
+  Json json;
+  json["build"] = {{"type", FATHOM_BUILD_TYPE},     {"compiler", FATHOM_COMPILER},
+                   {"flags", FATHOM_FLAGS},         {"ceres", FATHOM_CERES_VERSION},
+                   {"eigen", FATHOM_EIGEN_VERSION}, {"opencv", FATHOM_OPENCV_VERSION}};
+  json["machine"] = {{"cpu", cpu_model()}, {"estimator_threads", 1}, {"jobs", jobs}};
+  return json;
+}
+
+Json session(const std::string& command_line, int jobs) {
+  Json json;
+  json["fathom"] = version();
+  json["command_line"] = command_line;
+  json["date"] = utc_now();
+  json.update(build_and_machine(jobs));
+  return json;
+}
+
+}  // namespace
+
+std::string session_json(const std::string& command_line, int jobs) {
+  return session(command_line, jobs).dump(2) + "\n";
+}
+
+std::string manifest_json(const std::string& command_line,
+                          const std::vector<std::pair<std::string, std::string>>& configuration,
+                          const Recording& recording, const Result& result,
+                          const EstimatorRegistry& registry) {
+  Json json = session(command_line, 1);
+  json["measurements_fnv1a64"] = hash_text(to_g2o(recording.log));
+  for (const auto& [key, value] : configuration) json["configuration"][key] = value;
+  Json options;
+  for (const auto& [key, value] :
+       estimator_options(result.estimator, registry.find(result.estimator.type))) {
+    options[key] = value;
+  }
+  json["estimator"] = {{"name", result.estimator.name},
+                       {"type", result.estimator.type},
+                       {"mode", result.mode == SolveMode::batch ? "batch" : "incremental"},
+                       {"options", options}};
+  if (!recording.frames.empty())
+    json["front_end"] = {{"frames", recording.frames.size()},
+                         {"keyframes", recording.log.size()},
+                         {"registrations_tried", recording.registrations_tried},
+                         {"registrations_found", recording.log.registration_count()},
+                         {"registrations_left_out", recording.registrations_left_out},
+                         {"visual_odometry", recording.visual_odometry},
+                         {"visual_odometry_failures", recording.visual_odometry_failures}};
+  return json.dump(2) + "\n";
+}
+
+}  // namespace fathom

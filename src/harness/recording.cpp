@@ -1,0 +1,142 @@
+#include "fathom/harness/recording.hpp"
+
+#include "fathom/harness/false_loops.hpp"
+#include "fathom/harness/survey.hpp"
+#include "fathom/measurements/g2o.hpp"
+
+namespace fathom {
+namespace {
+
+std::vector<Pose> dead_reckoning_of(const FrameSource& frames, std::size_t count) {
+  std::vector<Pose> motions;
+  for (std::size_t i = 1; i < count; ++i) motions.push_back(frames.info(i).motion->mean);
+  return compose_trajectory(Pose{}, motions);
+}
+
+std::optional<std::vector<Pose>> ground_truth_of(const FrameSource& frames,
+                                                 const std::vector<Keyframe>& keyframes) {
+  std::vector<Pose> truth;
+  for (const Keyframe& keyframe : keyframes) {
+    const auto& pose = frames.info(keyframe.frame).ground_truth;
+    if (!pose) return std::nullopt;
+    truth.push_back(*pose);
+  }
+  return truth;
+}
+
+std::vector<StampedPose> frame_ground_truth_of(const FrameSource& frames, std::size_t count) {
+  std::vector<StampedPose> truth;
+  for (std::size_t i = 0; i < count; ++i) {
+    const FrameInfo& info = frames.info(i);
+    if (info.ground_truth) truth.push_back({info.time_ns, *info.ground_truth});
+  }
+  return truth;
+}
+
+Recording record_survey(Survey& survey, const Configuration& configuration, std::size_t by,
+                        const EstimatorRegistry& registry, const Progress& progress) {
+  const FrameSource& frames = survey.frames();
+  FrontEnd front_end(frames, survey.registrar(), configuration.front_end);
+  const EstimatorConfiguration& reference = configuration.estimators[by];
+  const auto estimator = registry.find(reference.type).create({}, reference.values);
+
+  Recording recording;
+  while (const auto keyframe = front_end.next_keyframe()) {
+    recording.keyframe_times_ns.push_back(keyframe->time_ns);
+    if (keyframe->step) {
+      recording.log.add_keyframe(*keyframe->step);
+      estimator->add_keyframe(*keyframe->step);
+      const std::vector<RelativePose> found = front_end.register_newest(*estimator);
+      for (const RelativePose& registration : found) recording.log.add_registration(registration);
+      if (!found.empty()) estimator->close_loops(found);
+    }
+    if (progress) progress(front_end.frames().size(), frames.size());
+  }
+  recording.frames = front_end.frames();
+  for (std::size_t i = 0; i < recording.frames.size(); ++i) {
+    recording.frame_altitudes_m.push_back(frames.info(i).altitude_m);
+  }
+  recording.frame_dead_reckoning = dead_reckoning_of(frames, recording.frames.size());
+  recording.ground_truth = ground_truth_of(frames, front_end.keyframes());
+  recording.camera = frames.camera();
+  for (const Keyframe& keyframe : front_end.keyframes()) {
+    recording.keyframe_altitudes_m.push_back(frames.info(keyframe.frame).altitude_m);
+  }
+  recording.frame_ground_truth = frame_ground_truth_of(frames, recording.frames.size());
+  recording.registrations_tried = front_end.registrations_tried();
+  recording.registrations_left_out = front_end.registrations_left_out();
+  recording.visual_odometry = survey.uses_visual_odometry();
+  recording.visual_odometry_failures = survey.visual_odometry_failures();
+  return recording;
+}
+
+}  // namespace
+
+Recording record_graph(const std::filesystem::path& path) {
+  Recording recording;
+  recording.log = read_g2o(path);
+  constexpr std::int64_t kSecond = 1'000'000'000;
+  for (const std::int64_t id : recording.log.ids) {
+    if (id > 9'000'000'000) {
+      throw InputError(path.string(), "id " + std::to_string(id) +
+                                          " is too large to be a time stamp; ids up to 9e9 work");
+    }
+    recording.keyframe_times_ns.push_back(id * kSecond);
+  }
+  return recording;
+}
+
+void attach_ground_truth(Recording& graph, const std::filesystem::path& path) {
+  const std::vector<StampedPose> truth = read_tum(path);
+  graph.ground_truth.emplace();
+  std::size_t next = 0;
+  for (const std::int64_t time_ns : graph.keyframe_times_ns) {
+    while (next < truth.size() && truth[next].time_ns < time_ns) ++next;
+    if (next == truth.size() || truth[next].time_ns != time_ns) {
+      throw InputError(path.string(),
+                       "has no pose for vertex " + std::to_string(time_ns / 1'000'000'000));
+    }
+    graph.ground_truth->push_back(truth[next].pose);
+  }
+}
+
+Recorder::Recorder(const Configuration& configuration, RegistrationCache* cache) {
+  if (configuration.dataset != DatasetType::g2o) {
+    pictures_ = std::make_shared<Pictures>(configuration, cache);
+    return;
+  }
+  if (configuration.dataset_path.empty()) {
+    throw InputError("dataset.path: say where the g2o file is");
+  }
+  graph_ = record_graph(configuration.dataset_path);
+}
+
+Recording Recorder::record(const Configuration& configuration, std::size_t reference,
+                           const EstimatorRegistry& registry, const TrialNoise& noise,
+                           const Progress& progress) const {
+  Recording recording;
+  if (graph_) {
+    recording = *graph_;
+  } else {
+    Survey survey(pictures_, configuration, noise);
+    recording = record_survey(survey, configuration, reference, registry, progress);
+  }
+  const SpoilOptions& false_loops = configuration.study.false_loops;
+  if (false_loops.share > 0.0) {
+    spoil_recording(recording, false_loops, registry, noise.seed, noise.trial);
+  }
+  return recording;
+}
+
+const FrameSource* Recorder::pictures() const {
+  return pictures_ ? &pictures_->source() : nullptr;
+}
+
+Recording record(const Configuration& configuration, const EstimatorRegistry& registry,
+                 const Progress& progress, RegistrationCache* cache) {
+  const TrialNoise noise{static_cast<std::uint64_t>(configuration.seed), 0};
+  return Recorder(configuration, cache)
+      .record(configuration, configuration.reference, registry, noise, progress);
+}
+
+}  // namespace fathom

@@ -1,0 +1,147 @@
+#include "fathom/harness/replay.hpp"
+
+#include <chrono>
+#include <cmath>
+#include <ctime>
+
+namespace fathom {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double milliseconds_since(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+double thread_cpu_ms() {
+  std::timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
+}
+
+// Wall and CPU time of one call of the estimator, added to the totals.
+class CallTimer {
+ public:
+  explicit CallTimer(Replay& result) : result_(result) {}
+
+  double stop() const {
+    const double elapsed_ms = milliseconds_since(start_);
+    result_.total_ms += elapsed_ms;
+    result_.cpu_ms += thread_cpu_ms() - cpu_start_ms_;
+    return elapsed_ms;
+  }
+
+ private:
+  Replay& result_;
+  double cpu_start_ms_ = thread_cpu_ms();
+  Clock::time_point start_ = Clock::now();
+};
+
+void note(const UpdateReport& report, double elapsed_ms, Replay& result) {
+  result.update_ms.push_back(elapsed_ms);
+  result.iterations += report.iterations;
+  result.gradient_norm = report.gradient_norm;
+  result.is_local_minimum = report.is_local_minimum;
+  result.outcome = worse(result.outcome, report.outcome);
+  ++result.outcome_counts[static_cast<std::size_t>(report.outcome)];
+  result.loops.insert(result.loops.end(), report.loops.begin(), report.loops.end());
+}
+
+void give_keyframes(const MeasurementLog& log, Estimator& estimator, const ReplayOptions& options,
+                    Replay& result) {
+  const bool batch = options.mode == SolveMode::batch;
+  for (std::size_t k = 1; k < log.size(); ++k) {
+    const KeyframeMeasurements& arrival = log.arrival(k);
+    const CallTimer add_timer(result);
+    estimator.add_keyframe(arrival.step);
+    result.add_ms.push_back(add_timer.stop());
+    if (!arrival.registrations.empty()) {
+      const CallTimer update_timer(result);
+      const UpdateReport report = estimator.close_loops(arrival.registrations);
+      const double update_ms = update_timer.stop();
+      // In batch mode nothing is solved here; only what became of the registrations counts.
+      if (batch) {
+        result.loops.insert(result.loops.end(), report.loops.begin(), report.loops.end());
+      } else {
+        note(report, update_ms, result);
+      }
+    }
+    if (options.progress) options.progress(k + 1, log.size());
+  }
+  if (!batch) return;
+  const CallTimer timer(result);
+  const UpdateReport report = estimator.finish(options.start);
+  const double solve_ms = timer.stop();
+  note(report, solve_ms, result);
+  if (is_done(report.outcome)) return;
+  for (LoopDecision& loop : result.loops) {
+    if (loop.fate == LoopFate::used) loop.fate = LoopFate::lost;
+  }
+}
+
+void collect_weights(const Estimator& estimator, Replay& result) {
+  result.loop_weights = estimator.loop_weights();
+  if (result.loop_weights.empty()) result.loop_weights.assign(result.loops.size(), 1.0);
+  for (std::size_t j = 0; j < result.loops.size(); ++j) {
+    if (result.loops[j].fate != LoopFate::used) result.loop_weights[j] = 0.0;
+  }
+}
+
+bool is_finite(std::span<const Pose> trajectory) {
+  for (const Pose& pose : trajectory) {
+    if (!fathom::is_finite(pose)) return false;
+  }
+  return true;
+}
+
+void collect_covariances(Estimator& estimator, Replay& result) {
+  const auto start = Clock::now();
+  std::vector<Eigen::Matrix3d> covariances;
+  for (std::size_t k = 0; k < estimator.size(); ++k) {
+    const auto covariance = estimator.covariance(k);
+    if (!covariance || !covariance->allFinite()) return;
+    covariances.push_back(*covariance);
+  }
+  result.covariance_ms = milliseconds_since(start);
+  result.covariances = std::move(covariances);
+}
+
+// The loops of the replay stand in the order of the log's registrations.
+double cost_used(const MeasurementLog& log, const Estimator& estimator, const Replay& result) {
+  double sum = 0.0;
+  std::size_t loop = 0;
+  for (std::size_t k = 1; k < log.size(); ++k) {
+    const KeyframeMeasurements& arrival = log.arrival(k);
+    const auto chi2_of = [&](const RelativePose& z) {
+      return chi2(z, result.trajectory[z.from], result.trajectory[z.to]);
+    };
+    sum += chi2_of(arrival.step);
+    for (const RelativePose& z : arrival.registrations) {
+      if (result.loops[loop++].fate == LoopFate::used) sum += estimator.loss(chi2_of(z));
+    }
+  }
+  return sum;
+}
+
+}  // namespace
+
+Replay replay(const MeasurementLog& log, const EstimatorEntry& entry, const EstimatorValues& values,
+              const ReplayOptions& options) {
+  Replay result;
+  // Not to be counted as the estimator's.
+  result.loops.reserve(log.registration_count());
+  result.update_ms.reserve(log.size());
+  result.add_ms.reserve(log.size());
+  if (options.memory != nullptr) options.memory->start();
+  const auto estimator = entry.create({log.origin(), options.mode}, values);
+  give_keyframes(log, *estimator, options, result);
+  if (options.memory != nullptr) result.memory_bytes = options.memory->stop();
+  result.trajectory = poses_of(*estimator);
+  collect_weights(*estimator, result);
+  if (!is_finite(result.trajectory)) result.outcome = Outcome::numerical_failure;
+  if (options.covariances) collect_covariances(*estimator, result);
+  result.cost_used = cost_used(log, *estimator, result);
+  return result;
+}
+
+}  // namespace fathom

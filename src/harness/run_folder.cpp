@@ -1,0 +1,132 @@
+#include "fathom/harness/run_folder.hpp"
+
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+#include "fathom/core/files.hpp"
+#include "fathom/core/text.hpp"
+#include "fathom/measurements/g2o.hpp"
+
+namespace fathom {
+namespace {
+
+std::vector<StampedPose> dead_reckoning(const Recording& recording) {
+  if (recording.frames.empty()) return keyframe_trajectory(recording, recording.log.odometry());
+  std::vector<StampedPose> trajectory;
+  for (std::size_t i = 0; i < recording.frames.size(); ++i) {
+    trajectory.push_back({recording.frames[i].time_ns, recording.frame_dead_reckoning[i]});
+  }
+  return trajectory;
+}
+
+std::vector<StampedPose> ground_truth(const Recording& recording) {
+  if (!recording.frame_ground_truth.empty()) return recording.frame_ground_truth;
+  if (!recording.ground_truth) return {};
+  return keyframe_trajectory(recording, *recording.ground_truth);
+}
+
+// A value of run.json as a configuration has it. Names of files are taken as they are.
+Setting setting_of(const std::string& key, const std::string& text, const std::string& file) {
+  if (key == "dataset.path" || key == "dataset.world.picture") {
+    return {key, OptionValue::scalar(text), file};
+  }
+  Setting setting = parse_override(key + "=" + text);
+  setting.origin = file;
+  return setting;
+}
+
+// Every registration in order of arrival and what became of it.
+std::string registrations_csv(const Recording& recording, const Result& result) {
+  const bool knows_false = !recording.is_false_loop.empty();
+  std::string text = "from,to,fate,nis,weight";
+  text += knows_false ? ",false\n" : "\n";
+  const auto& ids = recording.log.ids;
+  const auto id = [&ids](std::size_t k) {
+    return std::to_string(ids.empty() ? static_cast<std::int64_t>(k) : ids[k]);
+  };
+  for (std::size_t j = 0; j < result.replay.loops.size(); ++j) {
+    const LoopDecision& loop = result.replay.loops[j];
+    const bool has_nis = loop.nis && std::isfinite(*loop.nis);
+    text += id(loop.from) + ',' + id(loop.to) + ',' + name_of(loop.fate) + ',';
+    text += (has_nis ? exact(*loop.nis) : "") + ',' + exact(result.replay.loop_weights[j]);
+    if (knows_false) text += recording.is_false_loop[j] ? ",1" : ",0";
+    text += '\n';
+  }
+  return text;
+}
+
+}  // namespace
+
+std::vector<StampedPose> frame_trajectory(const Recording& recording,
+                                          const std::vector<Pose>& keyframes) {
+  std::vector<StampedPose> trajectory;
+  for (const FramePlace& place : recording.frames) {
+    trajectory.push_back(
+        {place.time_ns, compose(keyframes[place.keyframe], place.motion_since_keyframe)});
+  }
+  return trajectory;
+}
+
+Settings data_settings_of_run(const std::filesystem::path& folder) {
+  const std::string file = (folder / "run.json").string();
+  if (!std::filesystem::exists(file)) {
+    throw InputError(file,
+                     "is not there; expected the folder of a run, or of one estimator of a "
+                     "comparison");
+  }
+  const auto json = nlohmann::json::parse(read_file(file), nullptr, false);
+  const auto configuration = json.is_object() ? json.find("configuration") : json.end();
+  if (!json.is_object() || configuration == json.end() || !configuration->is_object()) {
+    throw InputError(file, "has no configuration; expected the run.json of a run");
+  }
+  const auto type = configuration->find("dataset.type");
+  if (type == configuration->end() || *type == "g2o") {
+    throw InputError(file, "the run was over a pose graph, which has no pictures");
+  }
+  Settings settings;
+  for (const auto& [key, value] : configuration->items()) {
+    if (key != "seed" && !key.starts_with("dataset.")) continue;
+    if (!value.is_string()) throw InputError(file, key + ": expected a text");
+    settings.put(setting_of(key, value.get<std::string>(), file));
+  }
+  return settings;
+}
+
+std::vector<StampedPose> keyframe_trajectory(const Recording& recording,
+                                             const std::vector<Pose>& poses) {
+  std::vector<StampedPose> trajectory;
+  for (std::size_t k = 0; k < poses.size(); ++k) {
+    trajectory.push_back({recording.keyframe_times_ns[k], poses[k]});
+  }
+  return trajectory;
+}
+
+void write_recording(const std::filesystem::path& folder, const Recording& recording) {
+  write_file(folder / "dead_reckoning.tum", to_tum(dead_reckoning(recording)));
+  write_file(folder / "measurements.g2o", to_g2o(recording.log));
+  if (const auto truth = ground_truth(recording); !truth.empty()) {
+    write_file(folder / "ground_truth.tum", to_tum(truth));
+  }
+}
+
+const std::vector<std::string>& optional_run_files() {
+  static const std::vector<std::string> names{"frames.tum", "ground_truth.tum", "mosaic.json",
+                                              "mosaic.png"};
+  return names;
+}
+
+void write_run(const std::filesystem::path& folder, const Recording& recording,
+               const Result& result, const std::string& manifest) {
+  const std::vector<Pose>& poses = result.replay.trajectory;
+  write_recording(folder, recording);
+  write_file(folder / "trajectory.tum", to_tum(keyframe_trajectory(recording, poses)));
+  write_file(folder / "registrations.csv", registrations_csv(recording, result));
+  write_file(folder / "metrics.json", metrics_json(result, recording));
+  write_file(folder / "run.json", manifest);
+  if (!recording.frames.empty()) {
+    write_file(folder / "frames.tum", to_tum(frame_trajectory(recording, poses)));
+  }
+}
+
+}  // namespace fathom

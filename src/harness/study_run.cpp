@@ -1,0 +1,190 @@
+#include "fathom/harness/study_run.hpp"
+
+#include <algorithm>
+#include <exception>
+#include <map>
+#include <mutex>
+#include <thread>
+
+#include "fathom/harness/recording.hpp"
+#include "fathom/harness/run_record.hpp"
+
+namespace fathom {
+namespace {
+
+// One trial of one cell, with the runs of it that are still to be done.
+struct Task {
+  std::size_t cell = 0;
+  std::size_t trial = 0;
+  std::vector<std::size_t> estimators;
+  bool baseline = false;
+};
+
+std::vector<Task> tasks_of(const Study& study, const ResultStore& store) {
+  const std::set<RunKey> there = store.keys();
+  std::vector<Task> tasks;
+  for (std::size_t cell = 0; cell < study.cells.size(); ++cell) {
+    for (std::size_t trial = 0; trial < study.description.trials; ++trial) {
+      Task task{cell, trial, {}, !there.contains({cell, trial, kDeadReckoning})};
+      for (std::size_t e = 0; e < study.description.estimators.size(); ++e) {
+        const std::string& name = study.description.estimators[e].name;
+        if (!there.contains({cell, trial, name})) task.estimators.push_back(e);
+      }
+      if (task.baseline || !task.estimators.empty()) tasks.push_back(task);
+    }
+  }
+  return tasks;
+}
+
+/// The data sets of the cells: those that differ in nothing that their pictures and registrations
+/// depend on are one. It is opened for the first of its trials and closed after the last.
+class DataSets {
+ public:
+  DataSets(const Study& study, const std::vector<Task>& tasks, RegistrationCache* registrations)
+      : study_(study), registrations_(registrations) {
+    for (const Task& task : tasks) ++left_[key_of(task.cell)].trials;
+  }
+
+  std::shared_ptr<const Recorder> of(std::size_t cell) {
+    const std::lock_guard hold(mutex_);
+    Entry& entry = left_.at(key_of(cell));
+    if (!entry.recorder) {
+      entry.recorder = std::make_shared<const Recorder>(study_.cells[cell], registrations_);
+    }
+    return entry.recorder;
+  }
+
+  void trial_done(std::size_t cell) {
+    const std::lock_guard hold(mutex_);
+    Entry& entry = left_.at(key_of(cell));
+    if (--entry.trials == 0) entry.recorder.reset();
+  }
+
+ private:
+  struct Entry {
+    std::size_t trials = 0;
+    std::shared_ptr<const Recorder> recorder;
+  };
+
+  std::string key_of(std::size_t cell) const { return picture_settings(study_.cells[cell]); }
+
+  const Study& study_;
+  RegistrationCache* registrations_;
+  std::map<std::string, Entry> left_;
+  std::mutex mutex_;
+};
+
+class Runner {
+ public:
+  Runner(const Study& study, const EstimatorRegistry& registry, ResultStore& store,
+         const StudyRunOptions& options)
+      : study_(study),
+        registry_(registry),
+        store_(store),
+        options_(options),
+        tasks_(tasks_of(study, store)),
+        data_sets_(study, tasks_, options.registrations) {
+    progress_.of =
+        study.cells.size() * study.description.trials * study.description.estimators.size();
+    std::size_t missing = 0;
+    for (const Task& task : tasks_) missing += task.estimators.size();
+    progress_.earlier = progress_.done = progress_.of - missing;
+  }
+
+  bool run() {
+    const std::size_t threads =
+        std::min(static_cast<std::size_t>(options_.jobs), std::max<std::size_t>(tasks_.size(), 1));
+    std::vector<std::thread> others;
+    for (std::size_t i = 1; i < threads; ++i) others.emplace_back([this] { work(); });
+    work();
+    for (std::thread& other : others) other.join();
+    if (failure_) std::rethrow_exception(failure_);
+    return done_tasks_ == tasks_.size();
+  }
+
+ private:
+  bool is_stopped() const { return failed_ || (options_.stop != nullptr && options_.stop->load()); }
+
+  void work() {
+    try {
+      if (options_.on_thread_start) options_.on_thread_start();
+      const auto meter = options_.make_meter ? options_.make_meter() : nullptr;
+      for (std::size_t next = next_task_++; next < tasks_.size() && !is_stopped();
+           next = next_task_++) {
+        run_trial(tasks_[next], meter.get());
+      }
+    } catch (...) {
+      const std::lock_guard hold(mutex_);
+      if (!failure_) failure_ = std::current_exception();
+      failed_ = true;
+    }
+  }
+
+  void run_trial(const Task& task, MemoryMeter* meter) {
+    const Configuration& configuration = study_.cells[task.cell];
+    const std::shared_ptr<const Recorder> recorder = data_sets_.of(task.cell);
+    const auto record_by = [&](std::size_t reference) {
+      return recorder->record(configuration, reference, registry_,
+                              {study_.noise_seeds[task.cell], task.trial});
+    };
+    std::optional<Recording> shared;
+    const bool is_own = configuration.study.association == Association::own;
+    if (!is_own || task.estimators.empty()) shared = record_by(configuration.reference);
+    for (const std::size_t e : task.estimators) {
+      if (is_stopped()) return;
+      const Recording own = is_own ? record_by(e) : Recording();
+      const Recording& recording = is_own ? own : *shared;
+      if (task.baseline && e == task.estimators.front()) add_baseline(task, recording);
+      add_run(task, e, recording, meter);
+    }
+    if (task.baseline && task.estimators.empty()) add_baseline(task, *shared);
+    data_sets_.trial_done(task.cell);
+    ++done_tasks_;
+  }
+
+  void add_baseline(const Task& task, const Recording& recording) {
+    RunRecord run = baseline_record(recording, study_.cells[task.cell]);
+    run.key = {task.cell, task.trial, kDeadReckoning};
+    run.jobs = options_.jobs;
+    store_.add(run);
+  }
+
+  void add_run(const Task& task, std::size_t estimator, const Recording& recording,
+               MemoryMeter* meter) {
+    const Configuration& configuration = study_.cells[task.cell];
+    ReplayOptions replay_options;
+    replay_options.memory = meter;
+    const Result result = evaluate(recording, configuration.estimators[estimator], registry_,
+                                   configuration.alignment, replay_options);
+    RunRecord run = run_record(recording, result, configuration, registry_);
+    run.key = {task.cell, task.trial, configuration.estimators[estimator].name};
+    run.jobs = options_.jobs;
+    store_.add(run);
+    const std::lock_guard hold(mutex_);
+    ++progress_.done;
+    if (!result.is_done()) ++progress_.failed;
+    if (options_.progress) options_.progress(progress_);
+  }
+
+  const Study& study_;
+  const EstimatorRegistry& registry_;
+  ResultStore& store_;
+  const StudyRunOptions& options_;
+  std::vector<Task> tasks_;
+  DataSets data_sets_;
+  std::atomic<std::size_t> next_task_ = 0;
+  std::atomic<std::size_t> done_tasks_ = 0;
+  std::atomic<bool> failed_ = false;
+  std::mutex mutex_;
+  StudyProgress progress_;
+  std::exception_ptr failure_;
+};
+
+}  // namespace
+
+bool run_study(const Study& study, const EstimatorRegistry& registry, ResultStore& store,
+               const StudyRunOptions& options) {
+  return Runner(study, registry, store, options).run();
+}
+
+}  // namespace fathom

@@ -1,0 +1,241 @@
+#include "fathom/results/selected_config.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <set>
+
+#include "fathom/configuration/config_text.hpp"
+#include "fathom/configuration/configuration.hpp"
+#include "fathom/core/version.hpp"
+
+namespace fathom {
+namespace {
+
+bool is_list_text(const std::string& text) {
+  return text.size() >= 2 && text.front() == '[' && text.back() == ']';
+}
+
+// "[a, [b, c]]" as "a" and "[b, c]".
+std::vector<std::string> items_of(const std::string& text) {
+  std::vector<std::string> items;
+  if (!is_list_text(text)) return items;
+  int depth = 0;
+  std::string item;
+  for (std::size_t i = 1; i + 1 < text.size(); ++i) {
+    if (text[i] == '[') ++depth;
+    if (text[i] == ']') --depth;
+    if (depth == 0 && text.compare(i, 2, ", ") == 0) {
+      items.push_back(item);
+      item.clear();
+      ++i;
+    } else {
+      item += text[i];
+    }
+  }
+  items.push_back(item);
+  return items;
+}
+
+std::string joined(const std::vector<std::string>& words, const std::string& separator) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : separator) + word;
+  return text;
+}
+
+// The values that a study was made with, by key.
+class StudyValues {
+ public:
+  StudyValues(const StudyDescription& study, const Selection& selection)
+      : study_(study), values_(study.configuration.begin(), study.configuration.end()) {
+    for (std::size_t a = 0; a < study.axes.size(); ++a) add_axis(a, selection);
+  }
+
+  /// The value of a swept key, with a comment; nothing where it was not swept.
+  const ConfigLine* swept(const std::string& key) const {
+    const auto found = swept_.find(key);
+    return found == swept_.end() ? nullptr : &found->second;
+  }
+  const std::string* fixed(const std::string& key) const {
+    const auto found = values_.find(key);
+    return found == values_.end() ? nullptr : &found->second;
+  }
+  /// As above, swept or not.
+  std::string word(const std::string& key, const std::string& otherwise) const {
+    const auto axis = raw_swept_.find(key);
+    if (axis != raw_swept_.end()) return axis->second;
+    const std::string* value = fixed(key);
+    return value == nullptr ? otherwise : *value;
+  }
+
+ private:
+  // The values as they were given; the labels stand for them unless the study has others.
+  std::vector<std::string> values_of_axis(std::size_t a) const {
+    const std::string prefix = "sweep." + std::to_string(a) + ".";
+    const std::string* values = fixed(prefix + "values");
+    const std::string* labels = fixed(prefix + "labels");
+    if (values == nullptr || labels == nullptr || *values == *labels) return study_.axes[a].labels;
+    return items_of(*values);
+  }
+
+  void add_axis(std::size_t a, const Selection& selection) {
+    const StudyAxis& axis = study_.axes[a];
+    std::set<std::size_t> places;
+    for (const std::size_t cell : selection.cells) places.insert(study_.places_of(cell)[a]);
+    std::vector<std::string> labels;
+    for (const std::size_t place : places) labels.push_back(axis.labels[place]);
+    ConfigLine line{axis.key, "", ""};
+    const std::vector<std::string> values = values_of_axis(a);
+    if (values.size() != axis.labels.size()) {
+      line.comment = "swept, labelled " + joined(labels, ", ") + "; its value is to be set here";
+      swept_[axis.key] = line;
+      return;
+    }
+    const std::string& value = values[*places.begin()];
+    raw_swept_[axis.key] = value;
+    line.value = yaml_value(value, is_list_text(value));
+    line.comment = places.size() > 1 ? "the first of those looked at: " + joined(labels, ", ")
+                                     : "swept in the study";
+    swept_[axis.key] = line;
+  }
+
+  const StudyDescription& study_;
+  std::map<std::string, std::string> values_;
+  std::map<std::string, ConfigLine> swept_;
+  std::map<std::string, std::string> raw_swept_;
+};
+
+// Of the keys that a study's data set and loop candidates have.
+Configuration defaults_of(const StudyValues& values, const EstimatorRegistry& registry) {
+  Settings settings;
+  for (const auto& [key, otherwise] : {std::pair("dataset.type", "simulated"),
+                                       std::pair("front_end.candidates.method", "distance")}) {
+    settings.put({key, OptionValue::scalar(values.word(key, otherwise)),
+                  std::string(key) + " of the study"});
+  }
+  return configure(settings, ConfigurationKind::single, registry);
+}
+
+// Keys of a configuration without its estimator. What the table does not know is a comparison's.
+std::vector<ConfigLine> common_lines(const StudyValues& values, const EstimatorRegistry& registry) {
+  std::vector<ConfigLine> lines;
+  for (const auto& [key, default_value] : defaults_of(values, registry).in_force) {
+    if (const ConfigLine* swept = values.swept(key)) {
+      lines.push_back(*swept);
+      continue;
+    }
+    const std::string* value = values.fixed(key);
+    if (value == nullptr) continue;
+    // These two are in the defaults as the study has them.
+    const bool says_what =
+        key == "dataset.type" || (key == "front_end.candidates.method" && *value != "distance");
+    if (*value == default_value && !says_what) continue;
+    lines.push_back({key, yaml_value(*value, is_list_text(default_value)), ""});
+  }
+  return lines;
+}
+
+const OptionDescription* find_option(const EstimatorEntry& entry, const std::string& key) {
+  const auto found =
+      std::find_if(entry.options.begin(), entry.options.end(),
+                   [&](const OptionDescription& option) { return option.key == key; });
+  return found == entry.options.end() ? nullptr : &*found;
+}
+
+std::vector<ConfigLine> estimator_lines(const StudyDescription& study, std::size_t chosen,
+                                        const StudyValues& values,
+                                        const EstimatorRegistry& registry) {
+  const std::string prefix = "estimators." + std::to_string(chosen) + ".";
+  const std::string& described = study.estimators[chosen].type;
+  const EstimatorEntry& entry = registry.find(values.word(prefix + "type", described));
+  // Where the type is swept, the study's values in force are those of its first type.
+  const EstimatorEntry& described_entry = registry.find(described);
+  const ConfigLine* swept_type = values.swept(prefix + "type");
+  std::vector<ConfigLine> lines{
+      {"estimator.type", entry.name, swept_type == nullptr ? "" : swept_type->comment}};
+  for (const OptionDescription& option : entry.options) {
+    const std::string key = "estimator." + option.key;
+    if (const ConfigLine* swept = values.swept(prefix + option.key)) {
+      lines.push_back({key, swept->value, swept->comment});
+      continue;
+    }
+    const std::string* value = values.fixed(prefix + option.key);
+    const OptionDescription* there = find_option(described_entry, option.key);
+    if (value == nullptr || there == nullptr || *value == there->default_value) continue;
+    lines.push_back({key, yaml_value(*value, is_list_text(option.default_value)), ""});
+  }
+  return lines;
+}
+
+// As the shipped configurations have it: the data set first, what is rarely changed last.
+void sort_as_written(std::vector<ConfigLine>& lines) {
+  const std::vector<std::string> order{"dataset", "front_end", "estimator", "seed", "evaluation"};
+  const auto place = [&order](const ConfigLine& line) {
+    return std::find(order.begin(), order.end(), line.key.substr(0, line.key.find('.')));
+  };
+  std::stable_sort(lines.begin(), lines.end(),
+                   [&](const ConfigLine& a, const ConfigLine& b) { return place(a) < place(b); });
+}
+
+std::string short_number(double value) {
+  char buffer[32];
+  std::snprintf(buffer, sizeof buffer, "%.4g", value);
+  return buffer;
+}
+
+std::string comment_line(std::string text) {
+  for (char& letter : text) {
+    if (static_cast<unsigned char>(letter) < 0x20) letter = ' ';
+  }
+  return "# " + text + "\n";
+}
+
+// How it was chosen, in three lines.
+std::string header(const StudyDescription& study, const Selection& selection,
+                   const SelectionQuery& query) {
+  const EstimatorEvidence& chosen = selection.estimators[*selection.chosen];
+  std::string trials = std::to_string(selection.fewest_trials);
+  if (selection.most_trials > selection.fewest_trials) {
+    trials += " to " + std::to_string(selection.most_trials);
+  }
+  std::string text = comment_line(
+      chosen.name + ", chosen by 'fathom select' from " +
+      (study.title.empty() ? "a study" : "the study '" + study.title + "'") + ": cells " +
+      std::to_string(selection.cells.size()) +
+      (query.where.empty() ? "" : " (" + joined(query.where, ", ") + ")") + ", trials " + trials);
+  std::vector<std::string> requirements;
+  for (const Requirement& requirement : query.requirements) {
+    requirements.push_back(requirement.text());
+  }
+  if (!requirements.empty()) {
+    text += comment_line("It meets " + joined(requirements, " and ") + " in every cell;");
+  }
+  const TrialMean& objective = *chosen.objective;
+  text += comment_line(std::string(query.maximise ? "greatest " : "least ") + query.objective +
+                       ": " + short_number(objective.mean) +
+                       (objective.interval
+                            ? " [" + short_number(objective.interval->low) + ", " +
+                                  short_number(objective.interval->high) + "], 95 % of the mean"
+                            : ", of one trial in a cell: no evidence"));
+  for (const auto& [key, value] : study.configuration) {
+    if (key != "fathom" || value == version()) continue;
+    text += comment_line("The study was made by fathom " + value + ", this file by " + version());
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string selected_configuration(const StudyDescription& study, const Selection& selection,
+                                   const SelectionQuery& query, const EstimatorRegistry& registry) {
+  if (!selection.chosen)
+    throw InputError("no estimator was chosen that a configuration could have");
+  const StudyValues values(study, selection);
+  std::vector<ConfigLine> lines = common_lines(values, registry);
+  for (ConfigLine& line : estimator_lines(study, *selection.chosen, values, registry)) {
+    lines.push_back(std::move(line));
+  }
+  sort_as_written(lines);
+  return header(study, selection, query) + config_text(lines);
+}
+
+}  // namespace fathom

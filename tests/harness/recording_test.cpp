@@ -1,0 +1,248 @@
+// The way of the data as a whole: survey, front end, log, replay.
+
+#include "fathom/harness/recording.hpp"
+
+#include <filesystem>
+#include <fstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "configuration/configured.hpp"
+#include "fathom/datasets/image_folder.hpp"
+#include "fathom/harness/result.hpp"
+#include "fathom/harness/run_folder.hpp"
+#include "fathom/harness/survey.hpp"
+#include "fathom/measurements/g2o.hpp"
+#include "harness/small_config.hpp"
+#include "support/planar.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace fathom {
+namespace {
+
+using test::configured;
+using test::input_error_of;
+using test::kSmallSurvey;
+using test::kVisualOdometry;
+using ::testing::HasSubstr;
+
+Configuration small_survey(const std::string& more = "") {
+  return configured(kSmallSurvey + more);
+}
+
+Recording recorded(const Configuration& configuration) {
+  return record(configuration, builtin_estimators());
+}
+
+Result evaluated(const Recording& recording, const EstimatorEntry& entry) {
+  return evaluate(recording, {entry.name, entry.name, {}}, builtin_estimators(), Alignment::origin,
+                  {});
+}
+
+TEST(Record, MakesALogOfASurvey) {
+  std::size_t last = 0;
+  const Configuration configuration = small_survey();
+  const Recording recording =
+      record(configuration, builtin_estimators(), [&](std::size_t done, std::size_t of) {
+        EXPECT_GE(done, last);
+        EXPECT_EQ(of, 33u);
+        last = done;
+      });
+  EXPECT_GT(last, 30u);
+  EXPECT_EQ(recording.frames.size(), 33u);
+  EXPECT_EQ(recording.frame_dead_reckoning.size(), 33u);
+  EXPECT_EQ(recording.log.size(), 11u);
+  EXPECT_EQ(recording.keyframe_times_ns.size(), 11u);
+  ASSERT_TRUE(recording.ground_truth);
+  EXPECT_EQ(recording.ground_truth->size(), 11u);
+  EXPECT_GE(recording.registrations_tried, recording.log.registration_count());
+  EXPECT_FALSE(recording.visual_odometry);
+  // More than the neighbours: the end of the loop sees its beginning.
+  EXPECT_GT(recording.log.registration_count(), 12u);
+}
+
+TEST(Record, RegistrationsAreTrue) {
+  for (const char* odometry : {"", kVisualOdometry}) {
+    const Recording recording = recorded(small_survey(odometry));
+    const std::vector<Pose>& truth = *recording.ground_truth;
+    for (const RelativePose& z : recording.log.edges()) {
+      if (z.to == z.from + 1) continue;
+      EXPECT_LT(test::distance(z.motion, between(truth[z.from], truth[z.to])), 0.05)
+          << z.from << " -> " << z.to;
+    }
+  }
+}
+
+TEST(Record, TheSameSeedMakesTheSameLogAndAnotherOneAnother) {
+  const std::string log = to_g2o(recorded(small_survey()).log);
+  EXPECT_EQ(to_g2o(recorded(small_survey()).log), log);
+  EXPECT_NE(to_g2o(recorded(small_survey("seed: 2\n")).log), log);
+}
+
+TEST(Record, TheReferencePicksTheCandidatesAndNothingElse) {
+  const auto with_reference = [](const std::string& name) {
+    const std::string text = std::string(kSmallSurvey) +
+                             "estimators: [{type: trajectory_iekf}, {type: ceres_pose_graph}]\n"
+                             "association: {reference: " +
+                             name + "}\n";
+    return recorded(configured(text, test::kComparison));
+  };
+  const Recording by_filter = with_reference("trajectory_iekf");
+  const Recording by_graph = with_reference("ceres_pose_graph");
+  // Both are good enough to pick the same pairs, and a pair registers the same for both.
+  EXPECT_EQ(to_g2o(by_filter.log), to_g2o(by_graph.log));
+}
+
+TEST(Record, EstimatorsOnTheWrittenLogGiveTheSameToTheLastBit) {
+  const Recording recording = recorded(small_survey());
+  const test::TemporaryFolder folder;
+  std::ofstream(folder / "log.g2o") << to_g2o(recording.log);
+  const Recording read = record_graph(folder / "log.g2o");
+  for (const EstimatorEntry& entry : builtin_estimators().entries()) {
+    const Result direct = evaluated(recording, entry);
+    const Result again = evaluated(read, entry);
+    EXPECT_EQ(direct.replay.trajectory, again.replay.trajectory) << entry.name;
+    EXPECT_EQ(*direct.replay.covariances, *again.replay.covariances) << entry.name;
+    EXPECT_EQ(direct.chi2, again.chi2) << entry.name;
+    EXPECT_LT(direct.accuracy->mean_position_error_m, 0.02) << entry.name;
+  }
+}
+
+std::vector<std::pair<std::size_t, std::size_t>> pairs_of(const MeasurementLog& log) {
+  std::vector<std::pair<std::size_t, std::size_t>> pairs;
+  for (const RelativePose& z : log.edges()) pairs.emplace_back(z.from, z.to);
+  return pairs;
+}
+
+// The survey written to disk and read back: the same front end must see the same.
+void expect_same_from_disk(const std::string& more) {
+  const Configuration simulation = small_survey(more);
+  const Recording direct = recorded(simulation);
+  const test::TemporaryFolder folder;
+  write_image_folder(Survey(simulation).frames(), folder.path());
+  Configuration from_disk = simulation;
+  from_disk.dataset = DatasetType::image_folder;
+  from_disk.dataset_path = folder.path().string();
+  const Recording read = recorded(from_disk);
+  EXPECT_EQ(read.keyframe_times_ns, direct.keyframe_times_ns);
+  EXPECT_EQ(pairs_of(read.log), pairs_of(direct.log));
+  EXPECT_EQ(read.registrations_tried, direct.registrations_tried);
+  EXPECT_FALSE(read.visual_odometry);
+  const EstimatorEntry& entry = builtin_estimators().find("trajectory_iekf");
+  const std::vector<Pose> estimate = evaluated(direct, entry).replay.trajectory;
+  const std::vector<Pose> again = evaluated(read, entry).replay.trajectory;
+  ASSERT_EQ(estimate.size(), again.size());
+  for (std::size_t k = 0; k < estimate.size(); ++k) {
+    EXPECT_LT(test::distance(estimate[k], again[k]), 1e-9) << k;
+    EXPECT_LT(test::distance((*direct.ground_truth)[k], (*read.ground_truth)[k]), 1e-12) << k;
+  }
+}
+
+TEST(Record, ASimulationOnDiskGivesTheSame) {
+  expect_same_from_disk("");
+}
+
+TEST(Record, ASimulationOnDiskGivesTheSameWithVisualOdometry) {
+  expect_same_from_disk(kVisualOdometry);
+}
+
+TEST(Record, AFolderWithoutTruthOrOdometryRunsTheSame) {
+  const Configuration simulation = small_survey();
+  const test::TemporaryFolder folder;
+  write_image_folder(Survey(simulation).frames(), folder.path());
+  std::filesystem::remove_all(folder.path() / "mav0" / "state_groundtruth_estimate0");
+  std::filesystem::remove_all(folder.path() / "mav0" / "odometry0");
+  Configuration from_disk = simulation;
+  from_disk.dataset = DatasetType::image_folder;
+  from_disk.dataset_path = folder.path().string();
+  const Recording recording = recorded(from_disk);
+  EXPECT_FALSE(recording.ground_truth);
+  EXPECT_TRUE(recording.frame_ground_truth.empty());
+  EXPECT_TRUE(recording.visual_odometry);
+  EXPECT_EQ(recording.visual_odometry_failures, 0u);
+  const Result result = evaluated(recording, builtin_estimators().find("ekf"));
+  EXPECT_TRUE(result.is_done());
+  EXPECT_FALSE(result.accuracy);
+  EXPECT_FALSE(result.consistency);
+}
+
+// The noise of a study on what was recorded: exact motions and a known draw.
+TEST(Record, NoiseIsAddedToRecordedDeadReckoning) {
+  const Configuration simulation = small_survey();
+  const test::TemporaryFolder folder;
+  write_image_folder(Survey(simulation).frames(), folder.path());
+  const std::string text = "dataset: {type: image_folder, path: '" + folder.path().string() +
+                           "'}\nseed: 5\ndataset.added_noise.";
+  const Survey plain(configured(text + "sigma_x_m: 0\n"));
+  const Survey noisy(configured(text + "covariance: [1.0e-4, 1.0e-5, 0, 1.0e-4, 0, 4.0e-4]\n"));
+  Eigen::Matrix3d C;
+  C << 1e-4, 1e-5, 0, 1e-5, 1e-4, 0, 0, 0, 4e-4;
+  RandomStream stream(5, "added_noise", 0);
+  const MotionNoise draws(C);
+  for (std::size_t i = 1; i < 5; ++i) {
+    const UncertainPose& before = *plain.frames().info(i).motion;
+    const UncertainPose& after = *noisy.frames().info(i).motion;
+    const Eigen::Vector3d expected = before.mean.vector() + draws.draw(stream);
+    EXPECT_LT((after.mean.vector() - expected).norm(), 1e-15);
+    EXPECT_LT((after.covariance - before.covariance - C).cwiseAbs().maxCoeff(), 1e-18);
+  }
+  EXPECT_FALSE(noisy.uses_visual_odometry());
+
+  // Without recorded dead reckoning it is added to visual odometry.
+  std::filesystem::remove_all(folder.path() / "mav0" / "odometry0");
+  const Survey visual(configured(text + "sigma_x_m: 0\n"));
+  const Survey noisy_visual(configured(text + "covariance: [0.01, 0, 0, 0.01, 0, 0.04]\n"));
+  EXPECT_TRUE(noisy_visual.uses_visual_odometry());
+  const Eigen::Matrix3d added =
+      noisy_visual.frames().info(1).motion->covariance - visual.frames().info(1).motion->covariance;
+  EXPECT_LT((added.diagonal() - Eigen::Vector3d(0.01, 0.01, 0.04)).norm(), 1e-15);
+  EXPECT_NE(noisy_visual.frames().info(1).motion->mean, visual.frames().info(1).motion->mean);
+}
+
+TEST(Record, RefusesAddedNoiseThatIsNone) {
+  const auto refused = [](const std::string& noise) {
+    return input_error_of([&] {
+      Survey(
+          configured("dataset: {type: image_folder, path: /none}\ndataset.added_noise." + noise));
+    });
+  };
+  EXPECT_THAT(refused("sigma_y_m: 0.1\n"), HasSubstr("dataset.added_noise.sigma_x_m: "));
+  EXPECT_THAT(refused("covariance: [1, 1, 0, 1, 0, 1]\n"),
+              HasSubstr("dataset.added_noise.covariance: is not positive definite"));
+}
+
+TEST(Record, AGraphHasItsIdsForSeconds) {
+  const test::TemporaryFolder folder;
+  std::ofstream(folder / "a.g2o") << "EDGE_SE2 3 7 1 0 0 1 0 0 1 0 1\n";
+  const Recording recording = record_graph(folder / "a.g2o");
+  EXPECT_THAT(recording.keyframe_times_ns, ::testing::ElementsAre(3'000'000'000, 7'000'000'000));
+  EXPECT_TRUE(recording.frames.empty());
+  const Configuration configuration =
+      configured("dataset: {type: g2o, path: '" + (folder / "a.g2o").string() + "'}\n");
+  EXPECT_EQ(recorded(configuration).log.size(), 2u);
+}
+
+TEST(Record, RefusesWhatItCannotOpen) {
+  const test::TemporaryFolder folder;
+  std::ofstream(folder / "big.g2o") << "EDGE_SE2 3 9000000001 1 0 0 1 0 0 1 0 1\n";
+  EXPECT_THAT(input_error_of([&] { record_graph(folder / "big.g2o"); }),
+              HasSubstr("id 9000000001 is too large to be a time stamp"));
+  const auto refused = [](const std::string& text) {
+    return input_error_of([&] { recorded(configured(text)); });
+  };
+  EXPECT_THAT(refused("dataset: {type: g2o}\n"), HasSubstr("dataset.path: say where"));
+  EXPECT_THAT(refused("dataset: {type: image_folder}\n"), HasSubstr("dataset.path: say where"));
+  EXPECT_THAT(refused("dataset: {type: g2o, path: /none/a.g2o}\n"), HasSubstr("/none/a.g2o"));
+  EXPECT_THAT(refused("dataset: {type: image_folder, path: /none}\n"), HasSubstr("/none"));
+  EXPECT_THAT(refused("dataset: {odometry: {covariance: [0, 0, 0, 0, 0, 0]}}\n"),
+              HasSubstr("dataset.odometry.covariance"));
+}
+
+TEST(Survey, RefusesAGraph) {
+  EXPECT_THAT(input_error_of([] { Survey(configured("dataset: {type: g2o, path: a}\n")); }),
+              HasSubstr("a g2o graph has no pictures"));
+}
+
+}  // namespace
+}  // namespace fathom

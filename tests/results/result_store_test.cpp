@@ -1,0 +1,186 @@
+#include "fathom/results/result_store.hpp"
+
+#include <fstream>
+#include <thread>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "support/input_error.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace fathom {
+namespace {
+
+namespace fs = std::filesystem;
+using test::input_error_of;
+using test::TemporaryFolder;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+StudyDescription description() {
+  StudyDescription study;
+  study.title = "two by three";
+  study.alignment = "origin";
+  study.trials = 2;
+  study.axes = {{"separation", "front_end.keyframes.separation_frames", {"5", "10"}},
+                {"noise", "dataset.odometry.covariance", {"none", "low", "high"}}};
+  study.estimators = {{"iterated", "trajectory_iekf"}, {"plain", "ekf"}};
+  study.metrics = {"mean_position_error_m", "anees"};
+  study.configuration = {{"association.mode", "own"}, {"seed", "1"}};
+  return study;
+}
+
+RunRecord record(std::size_t cell, std::size_t trial, const std::string& estimator) {
+  RunRecord run;
+  run.key = {cell, trial, estimator};
+  run.outcome = "converged";
+  run.log_hash = "00ff";
+  run.jobs = 2;
+  run.metrics = {{"mean_position_error_m", 0.1 + static_cast<double>(trial)}, {"total_ms", 3.5}};
+  run.series = {{"x", {1.0, 1.0 / 3.0, -0.0}}, {"empty", {}}};
+  return run;
+}
+
+TEST(StudyDescription, CellsAreTheProductOfTheAxesTheLastRunningFastest) {
+  const StudyDescription study = description();
+  EXPECT_EQ(study.cell_count(), 6u);
+  EXPECT_THAT(study.places_of(0), ElementsAre(0, 0));
+  EXPECT_THAT(study.places_of(2), ElementsAre(0, 2));
+  EXPECT_THAT(study.places_of(3), ElementsAre(1, 0));
+  EXPECT_EQ(study.label_of(5), "separation 10, noise high");
+  EXPECT_EQ(study.association_of(5), "own");
+  EXPECT_EQ(StudyDescription{}.cell_count(), 1u);
+  EXPECT_EQ(StudyDescription{}.label_of(0), "all");
+}
+
+TEST(StudyDescription, AssociationMayBeAnAxis) {
+  StudyDescription study = description();
+  study.axes.push_back({"association", "association.mode", {"own", "shared"}});
+  EXPECT_EQ(study.association_of(0), "own");
+  EXPECT_EQ(study.association_of(1), "shared");
+}
+
+TEST(ResultStore, GivesBackWhatWasStored) {
+  const TemporaryFolder folder;
+  {
+    ResultStore store = ResultStore::write(folder.path(), description(), "{\"a\": 1}");
+    store.add(record(3, 1, "plain"));
+    store.add(record(3, 1, kDeadReckoning));
+    store.add(record(0, 0, "iterated"));
+    store.finish();
+  }
+  const ResultStore store = ResultStore::open(folder.path());
+  const StudyDescription study = store.study();
+  EXPECT_EQ(study.title, "two by three");
+  EXPECT_EQ(study.alignment, "origin");
+  EXPECT_EQ(study.trials, 2u);
+  ASSERT_EQ(study.axes.size(), 2u);
+  EXPECT_EQ(study.axes[1].key, "dataset.odometry.covariance");
+  EXPECT_THAT(study.axes[1].labels, ElementsAre("none", "low", "high"));
+  ASSERT_EQ(study.estimators.size(), 2u);
+  EXPECT_EQ(study.estimators[0].name, "iterated");
+  EXPECT_EQ(study.estimators[1].type, "ekf");
+  EXPECT_THAT(study.metrics, ElementsAre("mean_position_error_m", "anees"));
+  EXPECT_EQ(study.configuration, description().configuration);
+  EXPECT_THAT(store.manifests(), ElementsAre("{\"a\": 1}"));
+
+  const std::vector<RunRecord> runs = store.runs();
+  ASSERT_EQ(runs.size(), 3u);
+  EXPECT_EQ(runs[0].key, (RunKey{0, 0, "iterated"}));
+  EXPECT_EQ(runs[1].key, (RunKey{3, 1, kDeadReckoning}));
+  EXPECT_EQ(runs[2].key, (RunKey{3, 1, "plain"}));
+  EXPECT_EQ(runs[2].outcome, "converged");
+  EXPECT_EQ(runs[2].log_hash, "00ff");
+  EXPECT_EQ(runs[2].jobs, 2);
+  EXPECT_EQ(runs[2].metrics, record(3, 1, "plain").metrics);
+  EXPECT_EQ(store.series({3, 1, "plain"}, "x"), record(0, 0, "").series.at("x"));
+  EXPECT_EQ(store.series({3, 1, "plain"}, "empty"), std::vector<double>{});
+  EXPECT_FALSE(store.series({3, 1, "plain"}, "y"));
+  EXPECT_FALSE(store.series({3, 0, "plain"}, "x"));
+}
+
+TEST(ResultStore, GoesOnWithWhatIsThere) {
+  const TemporaryFolder folder;
+  { ResultStore::write(folder.path(), description(), "first").add(record(0, 0, "plain")); }
+  StudyDescription more = description();
+  more.trials = 7;
+  more.title = "another title";
+  ResultStore store = ResultStore::write(folder.path(), more, "second");
+  EXPECT_THAT(store.keys(), ElementsAre(RunKey{0, 0, "plain"}));
+  EXPECT_THAT(store.manifests(), ElementsAre("first", "second"));
+  EXPECT_EQ(store.study().trials, 7u);
+  EXPECT_EQ(store.study().title, "another title");
+  RunRecord other = record(0, 0, "plain");
+  other.metrics["mean_position_error_m"] = 99.0;
+  store.add(other);
+  EXPECT_EQ(store.runs().front().metrics.at("mean_position_error_m"), 0.1);
+}
+
+TEST(ResultStore, AChangedConfigurationIsRefusedWithWhatDiffers) {
+  const TemporaryFolder folder;
+  { ResultStore::write(folder.path(), description(), ""); }
+  StudyDescription other = description();
+  other.configuration = {{"association.mode", "own"}, {"seed", "2"}, {"new.key", "x"}};
+  EXPECT_THAT(input_error_of([&] { ResultStore::write(folder.path(), other, ""); }),
+              HasSubstr("another configuration (new.key: absent there, x here; seed: 1 there, 2 "
+                        "here); use another --out"));
+}
+
+TEST(ResultStore, OneProcessWritesAtATime) {
+  const TemporaryFolder folder;
+  const ResultStore store = ResultStore::write(folder.path(), description(), "");
+  EXPECT_THAT(input_error_of([&] { ResultStore::write(folder.path(), description(), ""); }),
+              HasSubstr("another process is at work on this study"));
+}
+
+TEST(ResultStore, AFinishedStudyOpensFromAReadOnlyFolder) {
+  const TemporaryFolder folder;
+  {
+    ResultStore store = ResultStore::write(folder.path(), description(), "");
+    store.add(record(0, 0, "plain"));
+    store.finish();
+  }
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(folder.path())) {
+    names.push_back(entry.path().filename());
+  }
+  EXPECT_THAT(names, ElementsAre("results.sqlite"));
+  fs::permissions(folder.path(), fs::perms::owner_read | fs::perms::owner_exec);
+  EXPECT_EQ(ResultStore::open(folder.path()).runs().size(), 1u);
+  fs::permissions(folder.path(), fs::perms::owner_all);
+}
+
+TEST(ResultStore, SeveralThreadsMayAdd) {
+  const TemporaryFolder folder;
+  ResultStore store = ResultStore::write(folder.path(), description(), "");
+  const auto add = [&store](const std::string& estimator) {
+    for (std::size_t cell = 0; cell < 6; ++cell) {
+      for (std::size_t trial = 0; trial < 10; ++trial) store.add(record(cell, trial, estimator));
+    }
+  };
+  std::thread other(add, "iterated");
+  add("plain");
+  other.join();
+  EXPECT_EQ(store.keys().size(), 120u);
+}
+
+TEST(ResultStore, RefusesWhatIsNoStore) {
+  const TemporaryFolder folder;
+  EXPECT_THAT(input_error_of([&] { ResultStore::open(folder.path()); }),
+              HasSubstr("there are no results; 'fathom compare' writes them"));
+  const fs::path file = folder / "results.sqlite";
+  std::ofstream(file) << "these are no results, however long they may be, of any study at all\n";
+  EXPECT_THAT(input_error_of([&] { ResultStore::open(file); }), HasSubstr("is no result store"));
+  EXPECT_THAT(input_error_of([&] { ResultStore::write(folder.path(), description(), ""); }),
+              HasSubstr("is no result store"));
+}
+
+TEST(ResultStore, TellsCostFromContent) {
+  EXPECT_TRUE(is_cost_metric("update_ms.p95"));
+  EXPECT_TRUE(is_cost_metric("memory_bytes"));
+  EXPECT_FALSE(is_cost_metric("mean_position_error_m"));
+}
+
+}  // namespace
+}  // namespace fathom
