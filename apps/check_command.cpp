@@ -163,15 +163,14 @@ void check(const std::string& path, Context& context) {
 
 }  // namespace
 
-void add_check(CLI::App& app, Context& context) {
+void add_check(CLI::App& program, Context& context) {
   auto path = std::make_shared<std::string>();
-  CLI::App* command =
-      app.add_subcommand("check", "Say what is in a file or folder and what is wrong with it");
-  command->footer(
-      "Example: fathom check intel.g2o\n"
-      "A folder is an image folder, .yaml a configuration, .tum a trajectory, else a pose graph.");
-  command->add_option("path", *path, "File or folder")->required();
-  command->callback([path, &context] { check(*path, context); });
+  Command command(program, "check", "Say what is in a file or folder and what is wrong with it",
+                  "Example: fathom check intel.g2o\n"
+                  "A folder is an image folder, .yaml a configuration, .tum a trajectory, else a "
+                  "pose graph.");
+  command.argument("path", *path, "File or folder");
+  command.on_run([path, &context] { check(*path, context); });
 }
 
 }  // namespace fathom

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include <CLI/CLI.hpp>
+#include "apps/flags.hpp"
 
 namespace fathom {
 
@@ -16,17 +16,17 @@ struct Context {
 };
 
 // Each adds its subcommand to the command line.
-void add_run(CLI::App& app, Context& context);
-void add_compare(CLI::App& app, Context& context);
-void add_solve(CLI::App& app, Context& context);
-void add_register(CLI::App& app, Context& context);
-void add_simulate(CLI::App& app, Context& context);
-void add_evaluate(CLI::App& app, Context& context);
-void add_list(CLI::App& app, Context& context);
-void add_check(CLI::App& app, Context& context);
-void add_report(CLI::App& app, Context& context);
-void add_mosaic(CLI::App& app, Context& context);
-void add_select(CLI::App& app, Context& context);
-void add_spoil(CLI::App& app, Context& context);
+void add_run(CLI::App& program, Context& context);
+void add_compare(CLI::App& program, Context& context);
+void add_solve(CLI::App& program, Context& context);
+void add_register(CLI::App& program, Context& context);
+void add_simulate(CLI::App& program, Context& context);
+void add_evaluate(CLI::App& program, Context& context);
+void add_list(CLI::App& program, Context& context);
+void add_check(CLI::App& program, Context& context);
+void add_report(CLI::App& program, Context& context);
+void add_mosaic(CLI::App& program, Context& context);
+void add_select(CLI::App& program, Context& context);
+void add_spoil(CLI::App& program, Context& context);
 
 }  // namespace fathom

@@ -9,16 +9,15 @@
 
 namespace fathom {
 
-void CommonFlags::add_settings_to(CLI::App& command) {
-  command.add_option("--set", overrides, "Override a setting, for example estimator.type=ekf")
-      ->type_name("KEY=VALUE")
-      ->allow_extra_args(false);
-  command.add_option("--seed", seed, "Base seed of all noise and of RANSAC")->type_name("N");
-  command.add_flag("--quiet", quiet, "No output but errors");
+void CommonFlags::add_settings_to(Command& command) {
+  command.texts("--set", overrides, "KEY=VALUE",
+                "Override a setting, for example estimator.type=ekf");
+  command.integer("--seed", seed, Range::any(), "N", "Base seed of all noise and of RANSAC");
+  command.boolean("--quiet", quiet, "No output but errors");
 }
 
-void CommonFlags::add_out_to(CLI::App& command, const std::string& what) {
-  command.add_option("--out", out, what)->type_name("DIR");
+void CommonFlags::add_out_to(Command& command, const std::string& what) {
+  command.text("--out", out, "DIR", what);
 }
 
 Settings CommonFlags::settings(const std::string& path) const {

@@ -7,8 +7,7 @@
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
-
+#include "apps/flags.hpp"
 #include "fathom/configuration/configuration.hpp"
 #include "fathom/harness/recording.hpp"
 
@@ -21,8 +20,8 @@ struct CommonFlags {
   bool quiet = false;
   std::string out;
 
-  void add_settings_to(CLI::App& command);
-  void add_out_to(CLI::App& command, const std::string& what);
+  void add_settings_to(Command& command);
+  void add_out_to(Command& command, const std::string& what);
 
   /// The file's settings (none for an empty path), then --set, then --seed.
   Settings settings(const std::string& path) const;

@@ -253,28 +253,25 @@ void compare(const CompareFlags& flags, Context& context) {
 
 }  // namespace
 
-void add_compare(CLI::App& app, Context& context) {
+void add_compare(CLI::App& program, Context& context) {
   auto flags = std::make_shared<CompareFlags>();
-  CLI::App* command =
-      app.add_subcommand("compare", "Run a study: several estimators, many trials, a sweep");
-  command->footer(
+  Command command(
+      program, "compare", "Run a study: several estimators, many trials, a sweep",
       "Example: fathom compare configs/quickstart.yaml --out runs/quickstart\n"
       "         fathom compare configs/studies/paper_simulated.yaml --trials 5 --jobs 2\n"
       "A study that was stopped or killed goes on where it was: run the same command again.");
-  command->add_option("config", flags->config, "Study (YAML)")->required();
-  flags->common.add_settings_to(*command);
-  flags->common.add_out_to(*command, "Output folder (default: runs/CONFIG's name)");
-  command->add_option("--trials", flags->trials, "Trials in every cell, for a quick look")
-      ->type_name("N");
-  command->add_option("--jobs", flags->jobs, "Trials at work at the same time")->type_name("N");
-  command
-      ->add_option("--cache", flags->cache,
-                   "Folder of the registrations that are kept from study to study "
-                   "(default: $FATHOM_CACHE, or ~/.cache/fathom)")
-      ->type_name("DIR");
-  command->add_flag("--no-cache", flags->no_cache, "Neither read nor write kept registrations");
-  command->add_flag("--no-mosaic", flags->no_mosaic, "No mosaics of the pictures");
-  command->callback([flags, &context] { compare(*flags, context); });
+  command.argument("config", flags->config, "Study (YAML)");
+  flags->common.add_settings_to(command);
+  flags->common.add_out_to(command, "Output folder (default: runs/CONFIG's name)");
+  command.integer("--trials", flags->trials, Range::any(), "N",
+                  "Trials in every cell, for a quick look");
+  command.integer("--jobs", flags->jobs, Range::any(), "N", "Trials at work at the same time");
+  command.text("--cache", flags->cache, "DIR",
+               "Folder of the registrations that are kept from study to study "
+               "(default: $FATHOM_CACHE, or ~/.cache/fathom)");
+  command.boolean("--no-cache", flags->no_cache, "Neither read nor write kept registrations");
+  command.boolean("--no-mosaic", flags->no_mosaic, "No mosaics of the pictures");
+  command.on_run([flags, &context] { compare(*flags, context); });
 }
 
 }  // namespace fathom

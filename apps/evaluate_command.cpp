@@ -76,30 +76,20 @@ void evaluate_files(const EvaluateFlags& flags, Context& context) {
 
 }  // namespace
 
-void add_evaluate(CLI::App& app, Context& context) {
+void add_evaluate(CLI::App& program, Context& context) {
   auto flags = std::make_shared<EvaluateFlags>();
-  CLI::App* command = app.add_subcommand("evaluate", "Judge a trajectory by a reference");
-  command->footer("Example: fathom evaluate runs/run/trajectory.tum runs/run/ground_truth.tum");
-  command->add_option("estimate", flags->estimate, "Trajectory (TUM)")->required();
-  command->add_option("reference", flags->reference, "Reference trajectory (TUM)")->required();
-  command->add_option("--alignment", flags->alignment, "none, origin or se2; never scale")
-      ->type_name("NAME")
-      ->capture_default_str();
-  command
-      ->add_option("--max-difference", flags->max_difference_s,
-                   "Time stamps that belong together differ by no more (s)")
-      ->type_name("S")
-      ->check(CLI::NonNegativeNumber)
-      ->capture_default_str();
-  command->add_option("--step", flags->steps, "Relative error over so many poses (repeatable)")
-      ->type_name("N")
-      ->check(CLI::PositiveNumber)
-      ->allow_extra_args(false);
-  command->add_option("--distance", flags->distances_m, "and over so many metres (repeatable)")
-      ->type_name("M")
-      ->check(CLI::PositiveNumber)
-      ->allow_extra_args(false);
-  command->callback([flags, &context] { evaluate_files(*flags, context); });
+  Command command(program, "evaluate", "Judge a trajectory by a reference",
+                  "Example: fathom evaluate runs/run/trajectory.tum runs/run/ground_truth.tum");
+  command.argument("estimate", flags->estimate, "Trajectory (TUM)");
+  command.argument("reference", flags->reference, "Reference trajectory (TUM)");
+  command.text("--alignment", flags->alignment, "NAME", "none, origin or se2; never scale");
+  command.real("--max-difference", flags->max_difference_s, Range::at_least(0.0), "S",
+               "Time stamps that belong together differ by no more (s)");
+  command.integers("--step", flags->steps, Range::at_least(1), "N",
+                   "Relative error over so many poses (repeatable)");
+  command.reals("--distance", flags->distances_m, Range::positive(), "M",
+                "and over so many metres (repeatable)");
+  command.on_run([flags, &context] { evaluate_files(*flags, context); });
 }
 
 }  // namespace fathom

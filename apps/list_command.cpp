@@ -51,16 +51,13 @@ void list(const std::string& what, Context& context) {
 
 }  // namespace
 
-void add_list(CLI::App& app, Context& context) {
+void add_list(CLI::App& program, Context& context) {
   auto what = std::make_shared<std::string>();
-  CLI::App* command =
-      app.add_subcommand("list", "List estimators, detectors or datasets with their options");
-  command->footer("Example: fathom list estimators");
-  command->add_option("what", *what, "estimators, detectors or datasets")
-      ->required()
-      ->check(CLI::IsMember({"estimators", "detectors", "datasets"}))
-      ->type_name("WHAT");
-  command->callback([what, &context] { list(*what, context); });
+  Command command(program, "list", "List estimators, detectors or datasets with their options",
+                  "Example: fathom list estimators");
+  command.argument("what", *what, {"estimators", "detectors", "datasets"},
+                   "estimators, detectors or datasets");
+  command.on_run([what, &context] { list(*what, context); });
 }
 
 }  // namespace fathom

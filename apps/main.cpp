@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <glog/logging.h>
 
+#include <CLI/CLI.hpp>
+
 #include "apps/command.hpp"
 #include "apps/common.hpp"
 #include "fathom/core/options.hpp"

@@ -110,31 +110,22 @@ void make(const MosaicFlags& flags, Context& context) {
 
 }  // namespace
 
-void add_mosaic(CLI::App& app, Context& context) {
+void add_mosaic(CLI::App& program, Context& context) {
   auto flags = std::make_shared<MosaicFlags>();
-  CLI::App* command =
-      app.add_subcommand("mosaic", "Lay a run's pictures where a trajectory has them");
-  command->footer(
+  Command command(
+      program, "mosaic", "Lay a run's pictures where a trajectory has them",
       "Example: fathom mosaic runs/run --trajectory runs/run/ground_truth.tum --out truth\n"
       "Writes mosaic.png, x up and y to the left, and mosaic.json, which says where it lies.");
-  command->add_option("run", flags->run, "Folder of a run over pictures")->required();
-  command
-      ->add_option("--trajectory", flags->trajectory,
-                   "Trajectory (TUM), of all frames or some (default: the run's frames.tum)")
-      ->type_name("FILE");
-  command
-      ->add_option("--resolution", flags->metres_per_pixel,
-                   "Metres per pixel (default: what a pixel of a picture covers)")
-      ->type_name("M");
-  command
-      ->add_option("--max-difference", flags->max_difference_s,
-                   "A pose is of a picture whose time stamp differs by no more (s)")
-      ->type_name("S")
-      ->check(CLI::NonNegativeNumber)
-      ->capture_default_str();
-  flags->common.add_settings_to(*command);
-  flags->common.add_out_to(*command, "Output folder (default: runs/RUN's name-TRAJECTORY's name)");
-  command->callback([flags, &context] { make(*flags, context); });
+  command.argument("run", flags->run, "Folder of a run over pictures");
+  command.text("--trajectory", flags->trajectory, "FILE",
+               "Trajectory (TUM), of all frames or some (default: the run's frames.tum)");
+  command.real("--resolution", flags->metres_per_pixel, Range::any(), "M",
+               "Metres per pixel (default: what a pixel of a picture covers)");
+  command.real("--max-difference", flags->max_difference_s, Range::at_least(0.0), "S",
+               "A pose is of a picture whose time stamp differs by no more (s)");
+  flags->common.add_settings_to(command);
+  flags->common.add_out_to(command, "Output folder (default: runs/RUN's name-TRAJECTORY's name)");
+  command.on_run([flags, &context] { make(*flags, context); });
 }
 
 }  // namespace fathom

@@ -107,25 +107,26 @@ void register_pictures(const RegisterFlags& flags, Context& context) {
 
 }  // namespace
 
-void add_register(CLI::App& app, Context& context) {
+void add_register(CLI::App& program, Context& context) {
   auto flags = std::make_shared<RegisterFlags>();
-  CLI::App* command = app.add_subcommand("register", "Register two pictures of the floor");
-  command->footer(
+  Command command(
+      program, "register", "Register two pictures of the floor",
       "Example: fathom register a.png b.png --config configs/quickstart.yaml --altitude-a 2 "
       "--altitude-b 2.1\nExit status 1 where the pictures do not match.");
-  command->add_option("a", flags->a, "Picture A")->required();
-  command->add_option("b", flags->b, "Picture B")->required();
-  command->add_option("--config", flags->config, "Configuration: its camera and front end")
-      ->type_name("FILE");
-  command->add_option("--altitude-a", flags->altitude_a_m, "Height of A over the floor (m)")
-      ->type_name("M")
-      ->required();
-  command->add_option("--altitude-b", flags->altitude_b_m, "Height of B over the floor (m)")
-      ->type_name("M")
-      ->required();
-  flags->common.add_settings_to(*command);
-  flags->common.add_out_to(*command, "Output folder (default: runs/register)");
-  command->callback([flags, &context] { register_pictures(*flags, context); });
+  command.argument("a", flags->a, "Picture A");
+  command.argument("b", flags->b, "Picture B");
+  command.text("--config", flags->config, "FILE", "Configuration: its camera and front end");
+  command
+      .real("--altitude-a", flags->altitude_a_m, Range::any(), "M",
+            "Height of A over the floor (m)")
+      .required();
+  command
+      .real("--altitude-b", flags->altitude_b_m, Range::any(), "M",
+            "Height of B over the floor (m)")
+      .required();
+  flags->common.add_settings_to(command);
+  flags->common.add_out_to(command, "Output folder (default: runs/register)");
+  command.on_run([flags, &context] { register_pictures(*flags, context); });
 }
 
 }  // namespace fathom

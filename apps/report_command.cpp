@@ -40,18 +40,16 @@ void report(const ReportFlags& flags) {
 
 }  // namespace
 
-void add_report(CLI::App& app, Context& context) {
+void add_report(CLI::App& program, Context& context) {
   auto flags = std::make_shared<ReportFlags>();
-  CLI::App* command =
-      app.add_subcommand("report", "Write the page, tables and figures of a study that was run");
-  command->footer(
+  Command command(
+      program, "report", "Write the page, tables and figures of a study that was run",
       "Example: fathom report runs/noise --out report\n"
       "Writes report.html (one file, opens without a network), runs.csv, summary.csv, tables.tex\n"
       "and figures/ as SVG and PDF, from the study's results.sqlite alone.");
-  command->add_option("study", flags->study, "Folder of a study, or its results.sqlite")
-      ->required();
-  command->add_option("--out", flags->out, "Folder to write into; the study's own if not given");
-  command->callback([flags, &context] {
+  command.argument("study", flags->study, "Folder of a study, or its results.sqlite");
+  command.text("--out", flags->out, "DIR", "Folder to write into; the study's own if not given");
+  command.on_run([flags, &context] {
     context.status = kDone;
     report(*flags);
   });

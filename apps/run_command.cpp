@@ -111,15 +111,15 @@ void run(const RunFlags& flags, Context& context) {
 
 }  // namespace
 
-void add_run(CLI::App& app, Context& context) {
+void add_run(CLI::App& program, Context& context) {
   auto flags = std::make_shared<RunFlags>();
-  CLI::App* command = app.add_subcommand("run", "Run one estimator over one data set");
-  command->footer("Example: fathom run configs/run.yaml --set estimator.type=ekf --out runs/ekf");
-  command->add_option("config", flags->config, "Configuration (YAML)")->required();
-  flags->common.add_settings_to(*command);
-  flags->common.add_out_to(*command, "Output folder (default: runs/CONFIG's name)");
-  command->add_flag("--no-mosaic", flags->no_mosaic, "No mosaic of the pictures");
-  command->callback([flags, &context] { run(*flags, context); });
+  Command command(program, "run", "Run one estimator over one data set",
+                  "Example: fathom run configs/run.yaml --set estimator.type=ekf --out runs/ekf");
+  command.argument("config", flags->config, "Configuration (YAML)");
+  flags->common.add_settings_to(command);
+  flags->common.add_out_to(command, "Output folder (default: runs/CONFIG's name)");
+  command.boolean("--no-mosaic", flags->no_mosaic, "No mosaic of the pictures");
+  command.on_run([flags, &context] { run(*flags, context); });
 }
 
 }  // namespace fathom

@@ -225,46 +225,31 @@ void select(const SelectFlags& flags, Context& context) {
 
 }  // namespace
 
-void add_select(CLI::App& app, Context& context) {
+void add_select(CLI::App& program, Context& context) {
   auto flags = std::make_shared<SelectFlags>();
-  CLI::App* command =
-      app.add_subcommand("select", "Name the back end that meets requirements, from a study");
-  command->footer(
+  Command command(
+      program, "select", "Name the back end that meets requirements, from a study",
       "Example: fathom select runs/study --require 'mean_position_error_m<=0.1'\n"
       "         --require 'update_ms.p95<=20' --minimise total_ms\n"
       "Exit status: 0 chosen, and selected.yaml for 'fathom run' written; 1 none meets; 2 bad "
       "input.");
-  command->add_option("results", flags->results, "Folder of a study, or its results.sqlite")
-      ->required();
-  command
-      ->add_option("--require", flags->requirements,
-                   "METRIC <=, <, >= or > NUMBER, met where the 95 % interval of the mean does in "
-                   "every cell (repeatable)")
-      ->type_name("REQUIREMENT")
-      ->allow_extra_args(false);
-  CLI::Option* minimise =
-      command
-          ->add_option("--minimise,--minimize", flags->minimise,
-                       "The metric that decides among those that meet all (default: total_ms)")
-          ->type_name("METRIC");
-  command->add_option("--maximise,--maximize", flags->maximise, "Likewise; the greatest is best")
-      ->type_name("METRIC")
-      ->excludes(minimise);
-  command
-      ->add_option("--where", flags->where,
-                   "Only cells of the sweep with this value of an axis (repeatable)")
-      ->type_name("AXIS=LABEL")
-      ->allow_extra_args(false);
-  command
-      ->add_option("--allow-failures", flags->allowed_failures,
-                   "Share of a back end's runs that may have failed")
-      ->type_name("SHARE")
-      ->check(CLI::Range(0.0, 1.0))
-      ->capture_default_str();
-  command->add_option("--out", flags->out, "Folder of selected.yaml (default: that of the results)")
-      ->type_name("DIR");
-  command->add_flag("--quiet", flags->quiet, "No output but errors");
-  command->callback([flags, &context] { select(*flags, context); });
+  command.argument("results", flags->results, "Folder of a study, or its results.sqlite");
+  command.texts("--require", flags->requirements, "REQUIREMENT",
+                "METRIC <=, <, >= or > NUMBER, met where the 95 % interval of the mean does in "
+                "every cell (repeatable)");
+  const Flag minimise =
+      command.text("--minimise,--minimize", flags->minimise, "METRIC",
+                   "The metric that decides among those that meet all (default: total_ms)");
+  command.text("--maximise,--maximize", flags->maximise, "METRIC", "Likewise; the greatest is best")
+      .excludes(minimise);
+  command.texts("--where", flags->where, "AXIS=LABEL",
+                "Only cells of the sweep with this value of an axis (repeatable)");
+  command.real("--allow-failures", flags->allowed_failures, Range::between(0.0, 1.0), "SHARE",
+               "Share of a back end's runs that may have failed");
+  command.text("--out", flags->out, "DIR",
+               "Folder of selected.yaml (default: that of the results)");
+  command.boolean("--quiet", flags->quiet, "No output but errors");
+  command.on_run([flags, &context] { select(*flags, context); });
 }
 
 }  // namespace fathom

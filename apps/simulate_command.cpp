@@ -71,14 +71,14 @@ void simulate(const SimulateFlags& flags, Context& context) {
 
 }  // namespace
 
-void add_simulate(CLI::App& app, Context& context) {
+void add_simulate(CLI::App& program, Context& context) {
   auto flags = std::make_shared<SimulateFlags>();
-  CLI::App* command = app.add_subcommand("simulate", "Write a simulated survey as an image folder");
-  command->footer("Example: fathom simulate configs/quickstart.yaml --out survey");
-  command->add_option("config", flags->config, "Configuration (YAML)")->required();
-  flags->common.add_settings_to(*command);
-  flags->common.add_out_to(*command, "Output folder (default: runs/CONFIG's name-data)");
-  command->callback([flags, &context] { simulate(*flags, context); });
+  Command command(program, "simulate", "Write a simulated survey as an image folder",
+                  "Example: fathom simulate configs/quickstart.yaml --out survey");
+  command.argument("config", flags->config, "Configuration (YAML)");
+  flags->common.add_settings_to(command);
+  flags->common.add_out_to(command, "Output folder (default: runs/CONFIG's name-data)");
+  command.on_run([flags, &context] { simulate(*flags, context); });
 }
 
 }  // namespace fathom

@@ -138,36 +138,25 @@ void solve(const SolveFlags& flags, Context& context) {
 
 }  // namespace
 
-void add_solve(CLI::App& app, Context& context) {
+void add_solve(CLI::App& program, Context& context) {
   auto flags = std::make_shared<SolveFlags>();
-  CLI::App* command = app.add_subcommand("solve", "Solve a pose graph");
-  command->footer(
-      "Example: fathom solve intel.g2o --estimator ceres_pose_graph --mode batch\n"
-      "         fathom solve ring.g2o --estimator trajectory_iekf --set "
-      "estimator.max_iterations=3");
-  command->add_option("graph", flags->graph, "Pose graph (g2o)")->required();
-  command->add_option("--estimator", flags->estimator, "Estimator (default: ceres_pose_graph)")
-      ->type_name("NAME");
-  command
-      ->add_option("--mode", flags->mode,
-                   "incremental: keyframe by keyframe; batch: one solve (default where it can)")
-      ->check(CLI::IsMember({"incremental", "batch"}))
-      ->type_name("MODE");
-  command->add_option("--init", flags->init, "Where a batch solve starts: odometry or file")
-      ->check(CLI::IsMember({"odometry", "file"}))
-      ->type_name("START")
-      ->capture_default_str();
-  command
-      ->add_option("--ground-truth", flags->ground_truth,
-                   "True poses (TUM, vertex ids as time stamps), to judge by")
-      ->type_name("FILE");
-  command
-      ->add_option("--false-loops", flags->false_loops,
-                   "Which loops are false, as 'spoil' wrote it, to judge by")
-      ->type_name("FILE");
-  flags->common.add_settings_to(*command);
-  flags->common.add_out_to(*command, "Output folder (default: runs/GRAPH-ESTIMATOR)");
-  command->callback([flags, &context] { solve(*flags, context); });
+  Command command(program, "solve", "Solve a pose graph",
+                  "Example: fathom solve intel.g2o --estimator ceres_pose_graph --mode batch\n"
+                  "         fathom solve ring.g2o --estimator trajectory_iekf --set "
+                  "estimator.max_iterations=3");
+  command.argument("graph", flags->graph, "Pose graph (g2o)");
+  command.text("--estimator", flags->estimator, "NAME", "Estimator (default: ceres_pose_graph)");
+  command.choice("--mode", flags->mode, {"incremental", "batch"}, "MODE",
+                 "incremental: keyframe by keyframe; batch: one solve (default where it can)");
+  command.choice("--init", flags->init, {"odometry", "file"}, "START",
+                 "Where a batch solve starts: odometry or file");
+  command.text("--ground-truth", flags->ground_truth, "FILE",
+               "True poses (TUM, vertex ids as time stamps), to judge by");
+  command.text("--false-loops", flags->false_loops, "FILE",
+               "Which loops are false, as 'spoil' wrote it, to judge by");
+  flags->common.add_settings_to(command);
+  flags->common.add_out_to(command, "Output folder (default: runs/GRAPH-ESTIMATOR)");
+  command.on_run([flags, &context] { solve(*flags, context); });
 }
 
 }  // namespace fathom

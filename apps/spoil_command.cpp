@@ -31,17 +31,18 @@ void set_kind(const std::string& name, SpoilOptions& options) {
   table.set("kind", OptionValue::scalar(name));
 }
 
-void spoil_graph(const SpoilFlags& flags, const CLI::App& command, Context& context) {
-  SpoilOptions options = flags.options;
-  set_kind(flags.kind, options);
-  // The range that CLI11 checks lets NaN through.
-  if (!std::isfinite(options.share)) throw InputError("--share: expected a number");
-  if (command.count("--group-size") > 0 && options.kind != FalseLoopKind::grouped) {
+void refuse_unused(const SpoilFlags& flags, const Flag& group_size, const Flag& reach) {
+  if (group_size.is_given() && flags.kind != "grouped") {
     throw InputError("--group-size: only --kind grouped has groups");
   }
-  if (command.count("--reach") > 0 && options.kind != FalseLoopKind::local) {
+  if (reach.is_given() && flags.kind != "local") {
     throw InputError("--reach: only --kind local has one");
   }
+}
+
+void spoil_graph(const SpoilFlags& flags, Context& context) {
+  SpoilOptions options = flags.options;
+  set_kind(flags.kind, options);
   Recording recording = record_graph(flags.graph);
   if (options.share > 0.0 && recording.log.registration_count() == 0) {
     throw InputError(flags.graph,
@@ -65,43 +66,33 @@ void spoil_graph(const SpoilFlags& flags, const CLI::App& command, Context& cont
 
 }  // namespace
 
-void add_spoil(CLI::App& app, Context& context) {
+void add_spoil(CLI::App& program, Context& context) {
   auto flags = std::make_shared<SpoilFlags>();
-  CLI::App* command = app.add_subcommand("spoil", "Add false loops to a pose graph");
-  command->footer(
-      "Example: fathom spoil intel.g2o --share 0.3 --kind grouped --out spoilt.g2o\n"
-      "         fathom solve spoilt.g2o --estimator sparse_gauss_newton --set "
-      "estimator.loss=truncated --false-loops spoilt.false_loops.csv");
-  command->add_option("graph", flags->graph, "Pose graph (g2o)")->required();
-  command->add_option("--share", flags->options.share, "False loops as a share of all loops")
-      ->check(CLI::Range(0.0, 0.9))
-      ->capture_default_str();
-  command
-      ->add_option("--kind", flags->kind,
-                   "random: between any two poses; local: near ones; grouped: in groups that agree")
-      ->check(CLI::IsMember({"random", "local", "grouped"}))
-      ->type_name("KIND")
-      ->capture_default_str();
-  command->add_option("--group-size", flags->options.group_size, "grouped: loops of a group")
-      ->check(CLI::Range(1, 1000))
-      ->capture_default_str();
-  command->add_option("--reach", flags->options.reach, "local: the poses are at most so far apart")
-      ->check(CLI::Range(2, 1000000))
-      ->capture_default_str();
-  command
-      ->add_option("--ground-truth", flags->ground_truth,
-                   "True poses (TUM, vertex ids as time stamps); else the optimum of the graph "
-                   "says which loops are false")
-      ->type_name("FILE");
-  command->add_option("--seed", flags->seed, "Another seed, other loops")
-      ->check(CLI::NonNegativeNumber)
-      ->type_name("N")
-      ->capture_default_str();
-  command->add_option("--out", flags->out, "Graph to write (g2o); the list lies beside it")
-      ->required()
-      ->type_name("FILE");
-  command->add_flag("--quiet", flags->quiet, "No output but errors");
-  command->callback([flags, command, &context] { spoil_graph(*flags, *command, context); });
+  Command command(program, "spoil", "Add false loops to a pose graph",
+                  "Example: fathom spoil intel.g2o --share 0.3 --kind grouped --out spoilt.g2o\n"
+                  "         fathom solve spoilt.g2o --estimator sparse_gauss_newton --set "
+                  "estimator.loss=truncated --false-loops spoilt.false_loops.csv");
+  command.argument("graph", flags->graph, "Pose graph (g2o)");
+  command.real("--share", flags->options.share, Range::between(0.0, 0.9), "SHARE",
+               "False loops as a share of all loops");
+  command.choice("--kind", flags->kind, {"random", "local", "grouped"}, "KIND",
+                 "random: between any two poses; local: near ones; grouped: in groups that agree");
+  const Flag group_size =
+      command.integer("--group-size", flags->options.group_size, Range::between(1, 1000), "N",
+                      "grouped: loops of a group");
+  const Flag reach = command.integer("--reach", flags->options.reach, Range::between(2, 1000000),
+                                     "N", "local: the poses are at most so far apart");
+  command.text("--ground-truth", flags->ground_truth, "FILE",
+               "True poses (TUM, vertex ids as time stamps); else the optimum of the graph "
+               "says which loops are false");
+  command.integer("--seed", flags->seed, Range::at_least(0), "N", "Another seed, other loops");
+  command.text("--out", flags->out, "FILE", "Graph to write (g2o); the list lies beside it")
+      .required();
+  command.boolean("--quiet", flags->quiet, "No output but errors");
+  command.on_run([flags, group_size, reach, &context] {
+    refuse_unused(*flags, group_size, reach);
+    spoil_graph(*flags, context);
+  });
 }
 
 }  // namespace fathom

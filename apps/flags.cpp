@@ -1,0 +1,157 @@
+#include "apps/flags.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include "fathom/core/text.hpp"
+
+namespace fathom {
+namespace {
+
+[[noreturn]] void refuse(const std::string& name, const std::string& kind, Range range,
+                         const std::string& given) {
+  const std::string bounds = range.text();
+  throw InputError(name + ": expected " + kind + (bounds.empty() ? "" : " " + bounds) + ", got " +
+                   in_quotes(given) + " (see --help)");
+}
+
+double real_of(const std::string& name, Range range, const std::string& text) {
+  const std::optional<double> number = parse_real(text);
+  if (!number || !range.contains(*number)) refuse(name, "a number", range, text);
+  return *number;
+}
+
+int integer_of(const std::string& name, Range range, const std::string& text) {
+  const std::optional<std::int64_t> number = parse_integer(text);
+  constexpr Range kInt{std::numeric_limits<int>::min(), std::numeric_limits<int>::max()};
+  const auto is_in = [&](Range bounds) { return bounds.contains(static_cast<double>(*number)); };
+  if (!number || !is_in(kInt) || !is_in(range)) refuse(name, "a whole number", range, text);
+  return static_cast<int>(*number);
+}
+
+}  // namespace
+
+const Flag& Flag::required() const {
+  option_->required();
+  return *this;
+}
+
+const Flag& Flag::excludes(const Flag& other) const {
+  option_->excludes(other.option_);
+  return *this;
+}
+
+bool Flag::is_given() const {
+  return option_->count() > 0;
+}
+
+Command::Command(CLI::App& program, const std::string& name, const std::string& help,
+                 const std::string& footer)
+    : command_(program.add_subcommand(name, help)) {
+  command_->footer(footer);
+}
+
+Flag Command::add(const std::string& name, const std::string& value_name, const std::string& help,
+                  const std::string& default_text, std::function<void(const Values&)> read) {
+  CLI::Option* option = command_->add_option_function<Values>(name, std::move(read), help);
+  option->type_name(value_name)->expected(1)->default_str(default_text);
+  return Flag(*option);
+}
+
+Flag Command::argument(const std::string& name, std::string& field, const std::string& help) {
+  CLI::Option* option = command_->add_option_function<std::string>(
+      name,
+      [&field, name](const std::string& given) {
+        if (given.empty()) throw InputError(name + ": expected a word, got '' (see --help)");
+        field = given;
+      },
+      help);
+  return Flag(*option->type_name("")->required());
+}
+
+Flag Command::argument(const std::string& name, std::string& field,
+                       const std::vector<std::string>& choices, const std::string& help) {
+  CLI::Option* option = command_->add_option(name, field, help);
+  return Flag(*option->required()->check(CLI::IsMember(choices))->type_name(""));
+}
+
+Flag Command::text(const std::string& name, std::string& field, const std::string& value_name,
+                   const std::string& help) {
+  return add(name, value_name, help, field, [&field](const Values& given) { field = given[0]; });
+}
+
+Flag Command::texts(const std::string& name, std::vector<std::string>& field,
+                    const std::string& value_name, const std::string& help) {
+  CLI::Option* option = command_->add_option(name, field, help);
+  return Flag(*option->type_name(value_name)->allow_extra_args(false));
+}
+
+Flag Command::choice(const std::string& name, std::string& field,
+                     const std::vector<std::string>& choices, const std::string& value_name,
+                     const std::string& help) {
+  CLI::Option* option = command_->add_option(name, field, help);
+  return Flag(*option->check(CLI::IsMember(choices))->type_name(value_name)->default_str(field));
+}
+
+Flag Command::real(const std::string& name, double& field, Range range,
+                   const std::string& value_name, const std::string& help) {
+  return add(
+      name, value_name, help, number_text(field),
+      [&field, name, range](const Values& given) { field = real_of(name, range, given[0]); });
+}
+
+Flag Command::real(const std::string& name, std::optional<double>& field, Range range,
+                   const std::string& value_name, const std::string& help) {
+  return add(name, value_name, help, "", [&field, name, range](const Values& given) {
+    field = real_of(name, range, given[0]);
+  });
+}
+
+Flag Command::reals(const std::string& name, std::vector<double>& field, Range range,
+                    const std::string& value_name, const std::string& help) {
+  CLI::Option* option = command_->add_option_function<Values>(
+      name,
+      [&field, name, range](const Values& given) {
+        field.clear();
+        for (const std::string& text : given) field.push_back(real_of(name, range, text));
+      },
+      help);
+  return Flag(*option->type_name(value_name)->allow_extra_args(false));
+}
+
+Flag Command::integer(const std::string& name, int& field, Range range,
+                      const std::string& value_name, const std::string& help) {
+  return add(
+      name, value_name, help, std::to_string(field),
+      [&field, name, range](const Values& given) { field = integer_of(name, range, given[0]); });
+}
+
+Flag Command::integer(const std::string& name, std::optional<int>& field, Range range,
+                      const std::string& value_name, const std::string& help) {
+  return add(name, value_name, help, "", [&field, name, range](const Values& given) {
+    field = integer_of(name, range, given[0]);
+  });
+}
+
+Flag Command::integers(const std::string& name, std::vector<std::size_t>& field, Range range,
+                       const std::string& value_name, const std::string& help) {
+  CLI::Option* option = command_->add_option_function<Values>(
+      name,
+      [&field, name, range](const Values& given) {
+        field.clear();
+        for (const std::string& text : given) {
+          field.push_back(static_cast<std::size_t>(integer_of(name, range, text)));
+        }
+      },
+      help);
+  return Flag(*option->type_name(value_name)->allow_extra_args(false));
+}
+
+Flag Command::boolean(const std::string& name, bool& field, const std::string& help) {
+  return Flag(*command_->add_flag(name, field, help));
+}
+
+void Command::on_run(std::function<void()> action) {
+  command_->callback(std::move(action));
+}
+
+}  // namespace fathom
