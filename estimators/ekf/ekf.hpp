@@ -4,8 +4,8 @@
 
 #include <Eigen/Core>
 
+#include "estimators/support/filter/packed_covariance.hpp"
 #include "fathom/estimation/estimator.hpp"
-#include "fathom/estimation/filter_covariance.hpp"
 #include "fathom/estimation/gate.hpp"
 #include "fathom/estimation/registry.hpp"
 
@@ -37,7 +37,7 @@ class Ekf final : public Estimator {
   /// From the joint blocks of both keyframes.
   std::optional<std::vector<UncertainPose>> motions_to_newest() const override;
   /// P of the whole state.
-  const FilterCovariance& state_covariance() const { return P_; }
+  const filter::PackedCovariance& state_covariance() const { return P_; }
 
  private:
   struct Innovation;
@@ -53,7 +53,7 @@ class Ekf final : public Estimator {
 
   Gate gate_;
   std::vector<Pose> poses_;
-  FilterCovariance P_;
+  filter::PackedCovariance P_;
 };
 
 EstimatorEntry ekf_entry();

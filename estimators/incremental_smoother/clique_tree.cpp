@@ -200,7 +200,7 @@ bool CliqueTree::factor(std::span<const int> which) {
   }
   FrontFactorisation run{problem_,       cliques_,       which,        order_.data(),
                          row_of_.data(), packed_.data(), signs_.data()};
-  return sparse_gauss_newton::run_for_processor(run);
+  return sparse::run_for_processor(run);
 }
 
 }  // namespace fathom::incremental_smoother

@@ -42,7 +42,7 @@ void CliqueTree::set_right_side(const std::vector<Vec3>& gradient,
 
 double CliqueTree::substitute() {
   ForwardSubstitution run{cliques_, marked_, x_.data(), gathered_.data()};
-  sparse_gauss_newton::run_for_processor(run);
+  sparse::run_for_processor(run);
   double sum = 0.0;
   for (const int i : marked_) {
     const Clique& c = cliques_[at(i)];
@@ -118,7 +118,7 @@ void CliqueTree::bend(int clique, double negligible) {
     for (int a = 0; a < 3; ++a) gathered_[at(3 * j + a)] = c.is_marked ? y[a] : 0.0;
   }
   BackwardSubstitution run{c, gathered_.data()};
-  sparse_gauss_newton::run_for_processor(run);
+  sparse::run_for_processor(run);
   for (int j = 0; j < c.width; ++j) {
     const int v = c.variables[at(j)];
     Node& node = problem_.nodes[at(v)];

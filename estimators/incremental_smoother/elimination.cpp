@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <numeric>
 
-#include "estimators/sparse_gauss_newton/elimination_tree.hpp"
+#include "estimators/support/sparse/elimination_tree.hpp"
 
 namespace fathom::incremental_smoother {
-using sparse_gauss_newton::blocks_of;
-using sparse_gauss_newton::is_worth_merging;
+using sparse::blocks_of;
+using sparse::is_worth_merging;
 
 void Elimination::analyse(const RestGraph& graph, const std::vector<int>& order) {
   collect_neighbours(graph, order);
@@ -80,7 +80,7 @@ void Elimination::find_columns(const RestGraph& graph) {
 }
 
 void Elimination::sort_by_branches(const std::vector<int>& order) {
-  old_position_ = sparse_gauss_newton::postorder(parent_);
+  old_position_ = sparse::postorder(parent_);
   new_position_.resize(old_position_.size());
   node_.resize(old_position_.size());
   for (std::size_t p = 0; p < old_position_.size(); ++p) {

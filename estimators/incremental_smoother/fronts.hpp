@@ -7,12 +7,12 @@
 #include "estimators/incremental_smoother/clique.hpp"
 #include "estimators/incremental_smoother/motion.hpp"
 #include "estimators/incremental_smoother/problem.hpp"
-#include "estimators/sparse_gauss_newton/factorisation.hpp"
+#include "estimators/support/sparse/factorisation.hpp"
 
 namespace fathom::incremental_smoother {
 
-using sparse_gauss_newton::kReadAhead;
-using sparse_gauss_newton::kTileRows;
+using sparse::kReadAhead;
+using sparse::kTileRows;
 
 inline constexpr int B = 3;
 
@@ -102,7 +102,7 @@ struct FrontFactorisation {
       double* to = c.update.data() + at(column) * at(height);
       for (int row = column; row < height; row += kTileRows) {
         const int rows = std::min(kTileRows, height - row);
-        sparse_gauss_newton::multiply_rows<B>(rows, below + row, stride, packed, depth, out);
+        sparse::multiply_rows<B>(rows, below + row, stride, packed, depth, out);
         for (int j = 0; j < B; ++j) {
           for (int i = 0; i < rows; ++i) to[row + i + j * height] -= out[i + j * kTileRows];
         }
@@ -119,9 +119,9 @@ struct FrontFactorisation {
     }
     add_edges(c);
     for (const int child : c.children) add_child(c, cliques[at(child)]);
-    static const sparse_gauss_newton::Symbolic kNone;
-    sparse_gauss_newton::Factorisation<B> dense{kNone, nullptr, nullptr, packed};
-    sparse_gauss_newton::Supernode shape;
+    static const sparse::Symbolic kNone;
+    sparse::Factorisation<B> dense{kNone, nullptr, nullptr, packed};
+    sparse::Supernode shape;
     shape.width = c.width;
     shape.height = c.height;
     if (!dense.factor_panel(shape, c.panel.data(), c.rows() * B, signs)) return false;

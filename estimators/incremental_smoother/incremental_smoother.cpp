@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "estimators/incremental_smoother/smoother.hpp"
-#include "estimators/sparse_gauss_newton/information.hpp"
+#include "estimators/support/pose_graph/information.hpp"
 
 namespace fathom {
 
@@ -75,7 +75,7 @@ bool IncrementalSmoother::judge(std::span<const RelativePose> registrations, Upd
 std::optional<Eigen::Matrix3d> IncrementalSmoother::covariance(std::size_t k) {
   if (!marginals_) {
     const auto& problem = smoother_->problem();
-    marginals_ = sparse_gauss_newton::marginals(problem.edges, problem.nodes)
+    marginals_ = pose_graph::marginals(problem.edges, problem.nodes)
                      .value_or(std::vector<Eigen::Matrix3d>{});
   }
   if (marginals_->empty()) return std::nullopt;
@@ -85,12 +85,12 @@ std::optional<Eigen::Matrix3d> IncrementalSmoother::covariance(std::size_t k) {
 std::optional<Eigen::MatrixXd> IncrementalSmoother::joint_covariance(
     std::span<const std::size_t> keyframes) {
   const auto& problem = smoother_->problem();
-  return sparse_gauss_newton::joint_covariance(problem.edges, problem.nodes, keyframes);
+  return pose_graph::joint_covariance(problem.edges, problem.nodes, keyframes);
 }
 
 std::optional<std::vector<UncertainPose>> IncrementalSmoother::motions_to_newest() const {
   const auto& problem = smoother_->problem();
-  return sparse_gauss_newton::motions_to_newest(problem.edges, problem.nodes);
+  return pose_graph::motions_to_newest(problem.edges, problem.nodes);
 }
 
 EstimatorEntry incremental_smoother_entry() {

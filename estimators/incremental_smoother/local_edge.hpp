@@ -2,13 +2,13 @@
 
 #include <array>
 
-#include "estimators/sparse_gauss_newton/edge.hpp"
+#include "estimators/support/pose_graph/edge.hpp"
 
 namespace fathom::incremental_smoother {
 
-using sparse_gauss_newton::Edge;
-using sparse_gauss_newton::make_node;
-using sparse_gauss_newton::Node;
+using pose_graph::Edge;
+using pose_graph::make_node;
+using pose_graph::Node;
 
 /// A correction of a keyframe along its own axes (metres, metres, radians), or what is dual to it.
 using Vec3 = std::array<double, 3>;

@@ -147,7 +147,7 @@ void MinimumDegree::order_by_bits(const RestGraph& graph, int newest, int fixed)
 }
 
 void MinimumDegree::order_approximately(const RestGraph& graph) {
-  std::vector<sparse_gauss_newton::Link> links = graph.links;
+  std::vector<sparse::Link> links = graph.links;
   for (int g = 0; g < graph.groups(); ++g) {
     for (int p = graph.group_start[at(g)]; p < graph.group_start[at(g) + 1]; ++p) {
       for (int q = graph.group_start[at(g)]; q < p; ++q) {
@@ -155,8 +155,8 @@ void MinimumDegree::order_approximately(const RestGraph& graph) {
       }
     }
   }
-  using namespace sparse_gauss_newton;  // NOLINT: the ordering's names
-  order_ = elimination_order(adjacency_of(graph.size, links), ChainElimination::on);
+  order_ = sparse::elimination_order(sparse::adjacency_of(graph.size, links),
+                                     sparse::ChainElimination::on);
 }
 
 }  // namespace fathom::incremental_smoother

@@ -3,17 +3,17 @@
 #include <cstdint>
 #include <vector>
 
-#include "estimators/sparse_gauss_newton/ordering.hpp"
+#include "estimators/support/sparse/ordering.hpp"
 
 namespace fathom::incremental_smoother {
 
-using sparse_gauss_newton::at;
+using sparse::at;
 
 /// What is left to eliminate: nodes 0 … size − 1, links, and groups of nodes that are all linked
 /// with one another, by what was eliminated before.
 struct RestGraph {
   int size = 0;
-  std::vector<sparse_gauss_newton::Link> links;
+  std::vector<sparse::Link> links;
   std::vector<int> group_start{0};
   std::vector<int> group_nodes;
 

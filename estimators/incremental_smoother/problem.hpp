@@ -4,11 +4,11 @@
 #include <vector>
 
 #include "estimators/incremental_smoother/local_edge.hpp"
-#include "estimators/sparse_gauss_newton/ordering.hpp"
+#include "estimators/support/sparse/ordering.hpp"
 
 namespace fathom::incremental_smoother {
 
-using sparse_gauss_newton::at;
+using sparse::at;
 
 /// What a correction of a keyframe counts, in squared sigmas per m² and rad², as far as its own
 /// measurements tell.

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "estimators/sparse_gauss_newton/batch.hpp"
+#include "estimators/support/pose_graph/batch.hpp"
 
 namespace fathom::incremental_smoother {
 namespace {
@@ -46,7 +46,7 @@ void Smoother::add_keyframe(const RelativePose& step) {
 }
 
 void Smoother::append_edge(const RelativePose& measurement) {
-  problem_.add_edge(sparse_gauss_newton::make_edge(measurement));
+  problem_.add_edge(pose_graph::make_edge(measurement));
   edge_pass_.push_back(-1);
   gradient_.add_edge();
 }
@@ -215,9 +215,8 @@ void Smoother::reevaluate_bent() {
 SmootherResult Smoother::solve_batch() {
   ++counts_.batch_solves;
   std::vector<Node> nodes = problem_.nodes;
-  const auto solved =
-      sparse_gauss_newton::solve_batch(problem_.edges, nodes, sparse_gauss_newton::Start::given,
-                                       {limits_.max_iterations, limits_.tolerance});
+  const auto solved = pose_graph::solve_batch(problem_.edges, nodes, pose_graph::Start::given,
+                                              {limits_.max_iterations, limits_.tolerance});
   if (is_done(solved.outcome)) {
     for (int k = 1; k < problem_.size(); ++k) save(k, problem_.nodes[at(k)]);
     problem_.nodes = std::move(nodes);

@@ -79,7 +79,7 @@ class Part {
 
   std::vector<Edge> edges_;
   std::vector<char> is_loop_;
-  Symbolic symbolic_;
+  sparse::Symbolic symbolic_;
   NormalEquations equations_;
 };
 

@@ -4,15 +4,9 @@
 #include <span>
 #include <vector>
 
-#include "estimators/sparse_gauss_newton/solver.hpp"
+#include "estimators/sparse_gauss_newton/loop_graph.hpp"
 
 namespace fathom::sparse_gauss_newton {
-
-/// A graph and which of its edges are loops.
-struct LoopGraph {
-  std::span<const Edge> edges;
-  std::span<const char> is_loop;
-};
 
 /// In a first guess of weights, that of a loop of which nothing is known.
 inline constexpr double kNewLoop = -1.0;

@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include "estimators/sparse_gauss_newton/edge.hpp"
+#include "estimators/sparse_gauss_newton/loop_graph.hpp"
 
 namespace fathom::sparse_gauss_newton {
 

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "estimators/sparse_gauss_newton/information.hpp"
+#include "estimators/support/pose_graph/information.hpp"
 
 namespace fathom::sparse_gauss_newton {
 
@@ -45,7 +45,7 @@ void Graph::forget_edges(std::size_t count) {
 
 SolveResult Graph::solve(Start start, const SolveLimits& limits) {
   changed();
-  return solve_batch(edges_, nodes_, start, limits);
+  return pose_graph::solve_batch(edges_, nodes_, start, limits);
 }
 
 SolveResult Graph::solve_robust(const SolveLimits& limits, bool from_scratch) {
@@ -86,7 +86,8 @@ std::vector<Edge> Graph::weighted_edges() const {
 
 std::optional<Eigen::Matrix3d> Graph::marginal(std::size_t k) {
   if (!marginals_) {
-    marginals_ = marginals(weighted_edges(), nodes_).value_or(std::vector<Eigen::Matrix3d>{});
+    marginals_ =
+        pose_graph::marginals(weighted_edges(), nodes_).value_or(std::vector<Eigen::Matrix3d>{});
   }
   if (marginals_->empty()) return std::nullopt;
   return (*marginals_)[k];
@@ -94,16 +95,16 @@ std::optional<Eigen::Matrix3d> Graph::marginal(std::size_t k) {
 
 std::optional<Eigen::MatrixXd> Graph::joint_covariance(
     std::span<const std::size_t> keyframes) const {
-  return sparse_gauss_newton::joint_covariance(weighted_edges(), nodes_, keyframes);
+  return pose_graph::joint_covariance(weighted_edges(), nodes_, keyframes);
 }
 
 std::optional<std::vector<UncertainPose>> Graph::motions_to_newest() const {
-  return sparse_gauss_newton::motions_to_newest(weighted_edges(), nodes_);
+  return pose_graph::motions_to_newest(weighted_edges(), nodes_);
 }
 
 std::optional<std::vector<Eigen::Matrix3d>> Graph::innovation_covariances(
     std::span<const RelativePose> forward_loops) const {
-  return sparse_gauss_newton::innovation_covariances(weighted_edges(), nodes_, forward_loops);
+  return pose_graph::innovation_covariances(weighted_edges(), nodes_, forward_loops);
 }
 
 }  // namespace fathom::sparse_gauss_newton

@@ -6,7 +6,6 @@
 
 #include <Eigen/Core>
 
-#include "estimators/sparse_gauss_newton/batch.hpp"
 #include "estimators/sparse_gauss_newton/robust.hpp"
 #include "fathom/geometry/covariance.hpp"
 

@@ -5,7 +5,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 
-#include "estimators/sparse_gauss_newton/selected_inverse.hpp"
+#include "estimators/support/sparse/selected_inverse.hpp"
 #include "fathom/geometry/covariance.hpp"
 
 namespace fathom::sparse_gauss_newton {
@@ -28,7 +28,7 @@ double chi2_of(const Eigen::Vector3d& nu, const Eigen::Matrix3d& S) {
   return nu.dot(llt.solve(nu));
 }
 
-double without(const Edge& edge, double w, const SelectedInverse& inverse, const Node& from,
+double without(const Edge& edge, double w, const sparse::SelectedInverse& inverse, const Node& from,
                const Node& to) {
   Eigen::Matrix3d H_from;
   Eigen::Matrix3d H_to;
@@ -61,7 +61,7 @@ std::vector<double> leave_one_out(NormalEquations& equations, std::span<const ch
   equations.set_loss({RobustLoss(), {}, weights});
   equations.linearise(nodes, Hessian::gauss_newton);
   if (!equations.factorise() || equations.negative_pivots() > 0) return chi2;
-  const SelectedInverse inverse(equations.factor());
+  const sparse::SelectedInverse inverse(equations.factor());
   for (std::size_t e = 0; e < edges.size(); ++e) {
     if (is_loop[e] == 0) continue;
     chi2[e] =

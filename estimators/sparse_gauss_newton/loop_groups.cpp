@@ -70,7 +70,7 @@ std::vector<std::vector<std::size_t>> group_loops(
 
 double group_chi2(NormalEquations& equations, const std::vector<std::size_t>& group,
                   std::span<const double> weights, std::span<const Node> nodes) {
-  const Symbolic& symbolic = equations.factor().symbolic();
+  const sparse::Symbolic& symbolic = equations.factor().symbolic();
   Eigen::Vector3d g = Eigen::Vector3d::Zero();
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
   Eigen::MatrixX3d B = Eigen::MatrixX3d::Zero(3 * symbolic.size(), 3);

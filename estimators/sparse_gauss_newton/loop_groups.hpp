@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "estimators/sparse_gauss_newton/normal_equations.hpp"
+#include "estimators/sparse_gauss_newton/loop_graph.hpp"
 
 namespace fathom::sparse_gauss_newton {
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "estimators/sparse_gauss_newton/batch.hpp"
 #include "estimators/sparse_gauss_newton/lost_groups.hpp"
 
 namespace fathom::sparse_gauss_newton {
@@ -113,7 +112,7 @@ class RobustBatch {
       for (double& element : kept.back().W) element *= best.weights[e];
     }
     std::vector<Node> other = nodes;
-    const SolveResult solved = solve_batch(kept, other, Start::automatic, limits_);
+    const SolveResult solved = pose_graph::solve_batch(kept, other, Start::automatic, limits_);
     iterations_ += solved.iterations;
     if (!is_done(solved.outcome) || solved.cost >= best.solved.cost * (1.0 - 1e-6)) return;
     Consensus consensus =
@@ -147,7 +146,7 @@ class RobustBatch {
   LoopGraph graph_;
   RobustOptions options_;
   SolveLimits limits_;
-  Symbolic symbolic_;
+  sparse::Symbolic symbolic_;
   NormalEquations equations_;
   int iterations_ = 0;
 };

@@ -10,17 +10,19 @@
 #include "fathom/estimation/used_loops.hpp"
 
 namespace fathom {
+namespace pose_graph {
+enum class Start;
+struct SolveResult;
+}  // namespace pose_graph
 namespace sparse_gauss_newton {
 enum class Graduation;
-enum class Start;
 class Graph;
-struct SolveResult;
 }  // namespace sparse_gauss_newton
 
 struct SparseGaussNewtonOptions {
   int max_iterations = 100;
   double tolerance = 1e-8;
-  sparse_gauss_newton::Start start{};  ///< automatic
+  pose_graph::Start start{};  ///< automatic
   LossOptions loss;
   sparse_gauss_newton::Graduation graduation{};  ///< off
   GateOptions gate;
@@ -54,7 +56,7 @@ class SparseGaussNewton final : public Estimator {
   std::vector<double> loop_weights() const override;
 
  private:
-  sparse_gauss_newton::SolveResult solve(sparse_gauss_newton::Start start);
+  pose_graph::SolveResult solve(pose_graph::Start start);
   UpdateReport update(std::span<const RelativePose> registrations);
   bool judge(std::span<const RelativePose> registrations, UpdateReport& report);
 

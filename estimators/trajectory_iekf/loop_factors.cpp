@@ -19,7 +19,7 @@ ThreeColumns columns_at(const Matrix& matrix, Eigen::Index row, Eigen::Index col
 
 }  // namespace
 
-void LoopFactors::add(DowndateFactor factor) {
+void LoopFactors::add(filter::DowndateFactor factor) {
   size_ += static_cast<std::size_t>(factor.V.size());
   columns_ += factor.V.cols();
   factors_.push_back(std::move(factor));
@@ -33,7 +33,7 @@ void LoopFactors::clear() {
 
 Eigen::Index LoopFactors::first_correlated(Eigen::Index row) const {
   Eigen::Index first = row;
-  for (const DowndateFactor& factor : factors_) {
+  for (const filter::DowndateFactor& factor : factors_) {
     if (factor.end_row() > row) first = std::min(first, factor.first_row);
   }
   return first;
@@ -50,7 +50,7 @@ Eigen::MatrixXd LoopFactors::transposed_suffix_products(std::span<const Eigen::I
     for (Eigen::Index row = 3 * starts[static_cast<std::size_t>(s)]; row < end; row += kRows) {
       const Eigen::Index row_end = std::min(row + kRows, end);
       Eigen::Index at = 0;
-      for (const DowndateFactor& factor : factors_) {
+      for (const filter::DowndateFactor& factor : factors_) {
         const Eigen::Index from = std::max(row, factor.first_row);
         const Eigen::Index rows = std::min(row_end, factor.end_row()) - from;
         for (Eigen::Index c = 0; c < factor.V.cols() && rows > 0; c += 3) {
@@ -74,7 +74,7 @@ void LoopFactors::subtract_products(const Eigen::MatrixXd& Y, Eigen::Index first
   for (Eigen::Index row = first_row; row < end; row += kRows) {
     const Eigen::Index row_end = std::min(row + kRows, end);
     Eigen::Index at = 0;
-    for (const DowndateFactor& factor : factors_) {
+    for (const filter::DowndateFactor& factor : factors_) {
       const Eigen::Index from = std::max(row, factor.first_row);
       const Eigen::Index rows = std::min(row_end, factor.end_row()) - from;
       for (Eigen::Index c = 0; c < factor.V.cols() && rows > 0; c += 3) {

@@ -6,7 +6,7 @@
 
 #include <Eigen/Core>
 
-#include "fathom/estimation/filter_covariance.hpp"
+#include "estimators/support/filter/packed_covariance.hpp"
 
 namespace fathom {
 
@@ -14,11 +14,11 @@ namespace fathom {
 /// multiplied out. Its cost is by loops times motions. Each V has three columns per loop.
 class LoopFactors {
  public:
-  void add(DowndateFactor factor);
+  void add(filter::DowndateFactor factor);
   void clear();
 
   bool is_empty() const { return factors_.empty(); }
-  std::span<const DowndateFactor> factors() const { return factors_; }
+  std::span<const filter::DowndateFactor> factors() const { return factors_; }
   /// Numbers held.
   std::size_t size() const { return size_; }
   std::size_t bytes() const { return size_ * sizeof(double); }
@@ -26,7 +26,7 @@ class LoopFactors {
   /// The first row that the factors correlate with rows from `row` on; `row` if none before.
   Eigen::Index first_correlated(Eigen::Index row) const;
 
-  /// Vᵀ B of all factors stacked, over the ends of B: as FilterCovariance::suffix_products; a row
+  /// Vᵀ B of all factors stacked, over the ends of B: as PackedCovariance::suffix_products; a row
   /// for each column of each V, 3 columns per start.
   Eigen::MatrixXd transposed_suffix_products(std::span<const Eigen::Index> starts,
                                              const Eigen::MatrixX3d& B) const;
@@ -36,7 +36,7 @@ class LoopFactors {
                          Eigen::Ref<Eigen::MatrixXd> product) const;
 
  private:
-  std::vector<DowndateFactor> factors_;
+  std::vector<filter::DowndateFactor> factors_;
   std::size_t size_ = 0;
   Eigen::Index columns_ = 0;
 };

@@ -18,8 +18,8 @@ std::span<const Eigen::Index> starts_before(std::span<const Eigen::Index> starts
 }
 
 // Every pass begins where the last has ended: there the triangle is still in the cache.
-PassOrder order_of(int pass) {
-  return pass % 2 == 1 ? PassOrder::forward : PassOrder::backward;
+filter::PassOrder order_of(int pass) {
+  return pass % 2 == 1 ? filter::PassOrder::forward : filter::PassOrder::backward;
 }
 
 }  // namespace
@@ -148,7 +148,7 @@ void MotionCovariance::subtract_congruences(const Eigen::MatrixX3d& B, Over over
     return static_cast<std::size_t>(up ? k : motions - 1 - k);
   };
   std::vector<Eigen::Matrix3d> from_here(sums.size() + 1, Eigen::Matrix3d::Zero());
-  for (const DowndateFactor& factor : factors_.factors()) {
+  for (const filter::DowndateFactor& factor : factors_.factors()) {
     const Eigen::Index first = factor.first_row / 3;
     const Eigen::Index length = factor.V.rows() / 3;
     for (Eigen::Index column = 0; column < factor.V.cols(); column += 3) {
@@ -176,7 +176,7 @@ Eigen::MatrixXd MotionCovariance::full() const {
     const Eigen::Index row = dense_.size() + static_cast<Eigen::Index>(3 * i);
     P.block<3, 3>(row, row) = later_[i];
   }
-  for (const DowndateFactor& factor : factors_.factors()) {
+  for (const filter::DowndateFactor& factor : factors_.factors()) {
     P.block(factor.first_row, factor.first_row, factor.V.rows(), factor.V.rows()) -=
         factor.V * factor.V.transpose();
   }

@@ -6,8 +6,8 @@
 
 #include <Eigen/Core>
 
+#include "estimators/support/filter/packed_covariance.hpp"
 #include "estimators/trajectory_iekf/loop_factors.hpp"
-#include "fathom/estimation/filter_covariance.hpp"
 
 namespace fathom {
 
@@ -34,7 +34,7 @@ class MotionCovariance {
   /// A new motion, independent of those before it.
   void append(const Eigen::Matrix3d& Q);
 
-  /// P(:, …) B over the ends of B: as FilterCovariance::suffix_products. `pass` counts the calls
+  /// P(:, …) B over the ends of B: as PackedCovariance::suffix_products. `pass` counts the calls
   /// for one update, from 1: after the first, `product` has its third columns from the call before,
   /// with the same third column of B.
   void suffix_products(std::span<const Eigen::Index> starts, const Eigen::MatrixX3d& B,
@@ -47,7 +47,7 @@ class MotionCovariance {
   /// The first motion, counted from 0, that any from `start` on is correlated with.
   Eigen::Index first_correlated(Eigen::Index start) const;
 
-  /// P ← P − V Vᵀ after so many passes: see FilterCovariance. V ends with the newest motion.
+  /// P ← P − V Vᵀ after so many passes: see PackedCovariance. V ends with the newest motion.
   void downdate(const Eigen::Ref<const Eigen::MatrixXd>& V, int passes = 1);
 
   /// Of each motion k, Σ B_iᵀ P_ij B_j over all motions i, j up to k, or from k on.
@@ -69,7 +69,7 @@ class MotionCovariance {
                             std::vector<Eigen::Matrix3d>& sums) const;
 
   Form form_;
-  FilterCovariance dense_;              ///< C
+  filter::PackedCovariance dense_;      ///< C
   std::vector<Eigen::Matrix3d> later_;  ///< Q of the motions after those of C
   LoopFactors factors_;
 };

@@ -73,8 +73,8 @@ class TrajectoryIekf final : public Estimator {
   std::vector<Pose> poses_;    ///< their composition
   MotionCovariance P_;
   // Of the present linearisation; there is one at a time. The rows are those of the stretch.
-  Scratch sums_;  ///< P Aᵀ, over the motions from each start on
-  Scratch V_;
+  filter::Scratch sums_;  ///< P Aᵀ, over the motions from each start on
+  filter::Scratch V_;
   std::vector<Eigen::Matrix3d> covariances_;  ///< of the poses; empty: to be computed
 };
 

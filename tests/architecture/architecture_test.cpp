@@ -58,15 +58,17 @@ TEST(Architecture, EveryIncludeIsAllowedByTheDesign) {
   EXPECT_GT(seen, 500u);
 }
 
-// fathom_module(NAME … PUBLIC a b PRIVATE c), fathom_estimator(NAME …) and target_link_libraries.
+// fathom_module(NAME … PUBLIC a b PRIVATE c), fathom_estimator(NAME … SUPPORT a PRIVATE b),
+// fathom_support(NAME … PUBLIC a) and target_link_libraries.
 TEST(Architecture, EveryLinkIsAllowedByTheDesign) {
   const std::regex call(
-      R"((fathom_module|fathom_estimator|target_link_libraries)\s*\(\s*(\w+)([^)]*)\))");
+      R"((fathom_module|fathom_estimator|fathom_support|target_link_libraries)\s*\(\s*(\w+)([^)]*)\))");
   std::size_t seen = 0;
   for (const std::string& file : files_below({"src", "estimators", "apps"}, R"(CMakeLists\.txt)")) {
     const std::string text = content_of(fs::path(FATHOM_SOURCE_DIR) / file);
     for (std::sregex_iterator found(text.begin(), text.end(), call), end; found != end; ++found) {
-      const std::string name = (*found)[2];
+      const bool is_support = (*found)[1] == "fathom_support";
+      const std::string name = (is_support ? "support_" : "") + (*found)[2].str();
       const std::string target =
           name == "fathom" ? "fathom_apps" : (name.starts_with("fathom_") ? "" : "fathom_") + name;
       std::istringstream words((*found)[3].str());
@@ -127,10 +129,21 @@ TEST(IncludeRules, RefuseWhatTheTableDoesNotAllow) {
       {"estimators/ekf/ekf.cpp", "\"fathom/vision/camera.hpp\"", "estimators may not"},
       {"estimators/ekf/ekf.cpp", "\"fathom/evaluation/accuracy.hpp\"", "estimators may not"},
       {"estimators/ekf/ekf.cpp", "\"estimators/ceres_pose_graph/graph.hpp\"", "estimator's own"},
-      {"estimators/incremental_smoother/a.cpp",
-       "\"estimators/sparse_gauss_newton/sparse_gauss_newton.hpp\"", "estimator's own"},
-      {"estimators/sparse_gauss_newton/a.cpp", "\"estimators/incremental_smoother/smoother.hpp\"",
+      {"estimators/incremental_smoother/a.cpp", "\"estimators/sparse_gauss_newton/drift.hpp\"",
        "estimator's own"},
+      {"estimators/support/sparse/a.cpp", "\"estimators/support/pose_graph/edge.hpp\"",
+       "support sparse may not include pose_graph"},
+      {"estimators/support/sparse/a.cpp", "\"fathom/geometry/pose.hpp\"",
+       "support sparse may not include geometry"},
+      {"estimators/support/filter/a.cpp", "\"estimators/support/sparse/index.hpp\"",
+       "support filter may not include sparse"},
+      {"estimators/support/pose_graph/a.cpp", "\"estimators/support/filter/scratch.hpp\"",
+       "support pose_graph may not include filter"},
+      {"estimators/support/pose_graph/a.cpp", "\"estimators/ekf/ekf.hpp\"",
+       "support pose_graph may not include estimators"},
+      {"estimators/support/odds/a.cpp", "\"fathom/geometry/pose.hpp\"", "no support"},
+      {"estimators/ekf/ekf.cpp", "\"estimators/support.hpp\"", "estimator's own"},
+      {"apps/main.cpp", "\"estimators/support/pose_graph/edge.hpp\"", "estimator's own"},
       {"apps/main.cpp", "\"estimators/ekf/ekf.hpp\"", "estimator's own"},
       {"src/geometry/a.cpp", "\"fathom/odds/ends.hpp\"", "of no module"},
       {"src/odds/a.cpp", "<vector>", "lies in no module"},
@@ -162,6 +175,11 @@ TEST(IncludeRules, AllowWhatTheTableAllows) {
       {"include/fathom/harness/a.hpp", "\"fathom/evaluation/accuracy.hpp\"", ""},
       {"estimators/builtin.cpp", "\"estimators/ekf/ekf.hpp\"", ""},
       {"estimators/ekf/a.cpp", "\"estimators/ekf/ekf.hpp\"", ""},
+      {"estimators/ekf/a.cpp", "\"estimators/support/filter/scratch.hpp\"", ""},
+      {"estimators/support/pose_graph/a.cpp", "\"estimators/support/sparse/index.hpp\"", ""},
+      {"estimators/support/pose_graph/a.cpp", "\"fathom/measurements/relative_pose.hpp\"", ""},
+      {"estimators/support/pose_graph/a.cpp", "\"fathom/core/options.hpp\"", ""},
+      {"estimators/support/sparse/a.cpp", "\"estimators/support/sparse/b.hpp\"", ""},
       {"estimators/ceres_pose_graph/a.cpp", "<ceres/problem.h>", ""},
       {"apps/main.cpp", "\"fathom/estimators/builtin.hpp\"", ""}};
   for (const Case& c : cases) EXPECT_THAT(judged(c), IsEmpty());
@@ -172,9 +190,19 @@ TEST(IncludeRules, JudgeLinks) {
   EXPECT_THAT(complaint_about_link("fathom_vision", "opencv_core"), IsEmpty());
   EXPECT_THAT(complaint_about_link("fathom_estimators", "fathom_ekf"), IsEmpty());
   EXPECT_THAT(complaint_about_link("fathom_incremental_smoother", "fathom_sparse_gauss_newton"),
-              IsEmpty());
-  EXPECT_THAT(complaint_about_link("fathom_sparse_gauss_newton", "fathom_incremental_smoother"),
               HasSubstr("another"));
+  EXPECT_THAT(complaint_about_link("fathom_ekf", "fathom_support_filter"), IsEmpty());
+  EXPECT_THAT(complaint_about_link("fathom_support_pose_graph", "fathom_support_sparse"),
+              IsEmpty());
+  EXPECT_THAT(complaint_about_link("fathom_support_pose_graph", "fathom_estimation"), IsEmpty());
+  EXPECT_THAT(complaint_about_link("fathom_support_sparse", "fathom_support_pose_graph"),
+              HasSubstr("may not link"));
+  EXPECT_THAT(complaint_about_link("fathom_support_sparse", "fathom_geometry"),
+              HasSubstr("may not link"));
+  EXPECT_THAT(complaint_about_link("fathom_support_pose_graph", "fathom_ekf"),
+              HasSubstr("may not link"));
+  EXPECT_THAT(complaint_about_link("fathom_study", "fathom_support_sparse"),
+              HasSubstr("may not link"));
   EXPECT_THAT(complaint_about_link("fathom_ekf", "fathom_estimation"), IsEmpty());
   EXPECT_THAT(complaint_about_link("fathom_apps", "fathom_harness"), IsEmpty());
   EXPECT_THAT(complaint_about_link("fathom_ekf", "fathom_vision"), HasSubstr("may not link"));

@@ -64,7 +64,7 @@ const std::vector<ThirdParty>& third_parties() {
       {"malloc.h", {"apps/memory_meter.cpp"}},
       {"signal.h", {"src/core/files.cpp"}},
       {"fcntl.h", {"src/core/file_lock.cpp"}},
-      {"sys/mman.h", {"src/estimation/growing_memory.cpp"}},
+      {"sys/mman.h", {"estimators/support/filter/growing_memory.cpp"}},
       {"sys/file.h", {"src/core/file_lock.cpp"}},
       {"unistd.h", {"src/core/files.cpp", "src/core/file_lock.cpp", "apps/common.cpp"}}};
   return list;
@@ -96,12 +96,33 @@ std::string folder_of(const std::string& path) {
   return path.substr(0, path.rfind('/') + 1);
 }
 
-// An estimator that is built on the solver of another: its folder, and what it may include.
-bool is_built_on(const Include& include) {
-  const std::string solver = "estimators/sparse_gauss_newton/";
-  return folder_of(include.file) == "estimators/incremental_smoother/" &&
-         folder_of(include.target) == solver &&
-         include.target != solver + "sparse_gauss_newton.hpp";
+// What several estimators are built from: each part, and what it may include of ours.
+const std::map<std::string, Words>& support_rows() {
+  static const std::map<std::string, Words> rows{
+      {"sparse", {"core"}}, {"pose_graph", {"sparse", "estimation"}}, {"filter", {"core"}}};
+  return rows;
+}
+
+// "sparse" of estimators/support/sparse/…; empty elsewhere.
+std::string support_part_of(const std::string& path) {
+  const std::string root = "estimators/support/";
+  if (!path.starts_with(root)) return "";
+  return path.substr(root.size(), path.find('/', root.size()) - root.size());
+}
+
+bool support_may_use(const std::string& part, const std::string& to) {
+  if (part == to) return true;
+  const auto row = support_rows().find(part);
+  return row != support_rows().end() &&
+         std::any_of(row->second.begin(), row->second.end(), [&](const std::string& next) {
+           return support_may_use(next, to) || may_use(next, to);
+         });
+}
+
+// `to` is a module, or a part of the support.
+std::string complaint_about_support(const std::string& part, const std::string& to) {
+  if (!support_rows().contains(part)) return "lies in no support that the design names";
+  return support_may_use(part, to) ? "" : "support " + part + " may not include " + to;
 }
 
 std::string judge_angled(const Include& include) {
@@ -128,9 +149,14 @@ std::string judge_quoted(const Include& include) {
   if (from == "datasets" && *to == "vision" && !sees_a_camera) {
     return "datasets may include no more of vision than its camera";
   }
+  const std::string support = support_part_of(include.target);
+  if (include.file.starts_with("estimators/support/")) {
+    return complaint_about_support(support_part_of(include.file), support.empty() ? *to : support);
+  }
   if (!include.target.starts_with("estimators/")) return "";
+  if (from == "estimators" && !support.empty()) return "";
   const bool is_own = folder_of(include.file) == folder_of(include.target);
-  return is_own || is_built_on(include) || include.file == "estimators/builtin.cpp"
+  return is_own || include.file == "estimators/builtin.cpp"
              ? ""
              : "is an estimator's own; only its folder and builtin.cpp may include it";
 }
@@ -164,6 +190,7 @@ std::string complaint_about(const Include& include) {
 
 std::string complaint_about_link(const std::string& target, const std::string& linked) {
   constexpr std::string_view kOurs = "fathom_";
+  constexpr std::string_view kSupport = "fathom_support_";
   if (!linked.starts_with(kOurs)) return "";
   // Each estimator is a target of its own, of no other name in the table.
   const auto module = [&](const std::string& name) {
@@ -172,13 +199,16 @@ std::string complaint_about_link(const std::string& target, const std::string& l
   };
   const std::string from = module(target);
   const std::string to = module(linked);
-  const bool between_estimators = from == "estimators" && to == "estimators";
-  if (between_estimators) {
-    const bool is_solver =
-        target == "fathom_incremental_smoother" && linked == "fathom_sparse_gauss_newton";
-    return target == "fathom_estimators" || is_solver
-               ? ""
-               : target + " links another estimator, " + linked;
+  const std::string support =
+      linked.starts_with(kSupport) ? linked.substr(kSupport.size()) : std::string();
+  if (target.starts_with(kSupport)) {
+    const std::string complaint =
+        complaint_about_support(target.substr(kSupport.size()), support.empty() ? to : support);
+    return complaint.empty() ? "" : target + " may not link " + linked;
+  }
+  if (from == "estimators" && to == "estimators") {
+    const bool is_allowed = target == "fathom_estimators" || !support.empty();
+    return is_allowed ? "" : target + " links another estimator, " + linked;
   }
   return from != to && may_use(from, to) ? "" : target + " may not link " + linked;
 }

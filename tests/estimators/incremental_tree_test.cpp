@@ -15,7 +15,7 @@
 namespace fathom::incremental_smoother {
 namespace {
 
-using sparse_gauss_newton::make_edge;
+using pose_graph::make_edge;
 
 Eigen::Vector3d vector_of(const Vec3& v) {
   return {v[0], v[1], v[2]};

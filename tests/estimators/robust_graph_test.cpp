@@ -19,6 +19,7 @@ namespace fathom {
 namespace {
 
 using namespace sparse_gauss_newton;  // NOLINT: its parts are what is tested
+using pose_graph::nodes_of;
 
 struct Parts {
   std::vector<Edge> edges;
@@ -75,7 +76,8 @@ EstimatorValues loss(const std::string& name) {
 // Gradient and Hessian of Σ ρ against differences of it, weights included.
 TEST(RobustDerivatives, AreThoseOfTheCost) {
   const Parts parts = parts_of(circle(12, 10.0));
-  const Symbolic symbolic = analyse_graph(parts.edges, static_cast<int>(parts.nodes.size()));
+  const sparse::Symbolic symbolic =
+      analyse_graph(parts.edges, static_cast<int>(parts.nodes.size()));
   std::vector<double> weights(parts.edges.size(), 1.0);
   weights.back() = 0.3;
   weights[3] = 0.0;
@@ -139,7 +141,8 @@ TEST(RobustGraph, IsWhereReweightingEnds) {
   const std::vector<Pose> clean = solve(log, {}).poses;
   const Spoiled spoiled = spoil(log, clean, {.share = 0.1}, 3);
   const Parts parts = parts_of(spoiled.log);
-  const Symbolic symbolic = analyse_graph(parts.edges, static_cast<int>(parts.nodes.size()));
+  const sparse::Symbolic symbolic =
+      analyse_graph(parts.edges, static_cast<int>(parts.nodes.size()));
   for (const char* name : {"huber", "cauchy", "dcs", "geman_mcclure"}) {
     const Solved solved = solve(spoiled.log, loss(name));
     LossOptions options;
@@ -174,7 +177,8 @@ TEST(RobustGraph, IsWhereReweightingEnds) {
 // noise, as the test is linear.
 TEST(LeaveOneOut, IsWhatALoopCosts) {
   const Parts parts = parts_of(circle(30, 0.1));
-  const Symbolic symbolic = analyse_graph(parts.edges, static_cast<int>(parts.nodes.size()));
+  const sparse::Symbolic symbolic =
+      analyse_graph(parts.edges, static_cast<int>(parts.nodes.size()));
   NormalEquations equations(symbolic, parts.edges);
   const auto least = [&](const std::vector<double>& weights, std::vector<Node>& nodes) {
     equations.set_loss({RobustLoss(), {}, weights});
@@ -207,7 +211,8 @@ TEST(LeaveOneOut, IsWhatALoopCosts) {
 
 TEST(GroupChi2, OfOneLoopIsLeaveOneOut) {
   const Parts parts = parts_of(circle(30, 0.1));
-  const Symbolic symbolic = analyse_graph(parts.edges, static_cast<int>(parts.nodes.size()));
+  const sparse::Symbolic symbolic =
+      analyse_graph(parts.edges, static_cast<int>(parts.nodes.size()));
   NormalEquations equations(symbolic, parts.edges);
   const std::vector<double> all(parts.edges.size(), 1.0);
   std::vector<Node> nodes = parts.nodes;
@@ -230,7 +235,8 @@ TEST(GroupChi2, SeesWhatLeavingOneOutDoesNot) {
     if (k >= 10) log.add_registration(RelativePose::from_covariance(k - 9, k, {6, 0, 0}, loop));
   }
   Parts parts = parts_of(log);
-  const Symbolic symbolic = analyse_graph(parts.edges, static_cast<int>(parts.nodes.size()));
+  const sparse::Symbolic symbolic =
+      analyse_graph(parts.edges, static_cast<int>(parts.nodes.size()));
   NormalEquations equations(symbolic, parts.edges);
   const std::vector<double> all(parts.edges.size(), 1.0);
   minimise(equations, parts.nodes, {50, 1e-12});

@@ -1,4 +1,4 @@
-// The block Cholesky factorisation of sparse_gauss_newton, against dense algebra.
+// The block Cholesky factorisation and the selected inverse against dense algebra.
 
 #include <algorithm>
 #include <limits>
@@ -6,11 +6,11 @@
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
-#include "estimators/sparse_gauss_newton/block_cholesky.hpp"
-#include "estimators/sparse_gauss_newton/selected_inverse.hpp"
+#include "estimators/support/sparse/block_cholesky.hpp"
+#include "estimators/support/sparse/selected_inverse.hpp"
 #include "fathom/core/random.hpp"
 
-namespace fathom::sparse_gauss_newton {
+namespace fathom::sparse {
 namespace {
 
 // A trajectory with loops: 0-1-2-…, and some further links, one of them twice.
@@ -186,4 +186,4 @@ TEST(SelectedInverse, EqualsTheDenseInverseOnTheDiagonal) {
 }
 
 }  // namespace
-}  // namespace fathom::sparse_gauss_newton
+}  // namespace fathom::sparse

@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include "estimators/sparse_gauss_newton/batch.hpp"
-#include "estimators/sparse_gauss_newton/lifted_headings.hpp"
+#include "estimators/support/pose_graph/batch.hpp"
+#include "estimators/support/pose_graph/lifted_headings.hpp"
 #include "fathom/measurements/g2o.hpp"
 #include "tests/estimators/logs.hpp"
 #include "tests/estimators/naive.hpp"
@@ -15,7 +15,7 @@
 namespace fathom {
 namespace {
 
-using namespace sparse_gauss_newton;  // NOLINT: its parts are what is tested
+using namespace pose_graph;  // NOLINT: its parts are what is tested
 using test::LogOptions;
 
 std::vector<Edge> edges_of(const MeasurementLog& log) {
@@ -51,7 +51,7 @@ EstimatorValues start_at(const std::string& start) {
 }
 
 // In the order of keyframes 1 ….
-Eigen::VectorXd by_keyframe(const Symbolic& symbolic, const std::vector<double>& v) {
+Eigen::VectorXd by_keyframe(const sparse::Symbolic& symbolic, const std::vector<double>& v) {
   Eigen::VectorXd result(static_cast<Eigen::Index>(v.size()));
   for (int node = 0; node < symbolic.size(); ++node) {
     const int p = symbolic.position[static_cast<std::size_t>(node)];
@@ -68,7 +68,7 @@ TEST(SparseGaussNewtonDerivatives, AreThoseOfTheCost) {
   const MeasurementLog log = test::circle_log(options);
   const std::vector<Edge> edges = edges_of(log);
   const std::vector<Node> nodes = nodes_of(log.odometry());
-  const Symbolic symbolic = analyse_graph(edges, static_cast<int>(nodes.size()));
+  const sparse::Symbolic symbolic = analyse_graph(edges, static_cast<int>(nodes.size()));
   NormalEquations equations(symbolic, edges);
   const auto at = [&](Eigen::Index i, double by) {
     std::vector<Node> moved = nodes;
@@ -223,7 +223,7 @@ TEST(SparseGaussNewton, LiftedHeadingsDoNotDependOnTheirStart) {
   std::vector<Pose> truth;
   const MeasurementLog log = dizzy_survey(0.3, 9, truth);
   const std::vector<Edge> edges = edges_of(log);
-  const Symbolic symbolic = analyse_graph(edges, static_cast<int>(log.size()));
+  const sparse::Symbolic symbolic = analyse_graph(edges, static_cast<int>(log.size()));
   std::vector<double> zero(log.size(), truth[0].theta);
   std::vector<double> right;
   for (const Pose& pose : truth) right.push_back(pose.theta);

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <span>
+
+#include "estimators/support/pose_graph/batch.hpp"
+
+namespace fathom::sparse_gauss_newton {
+
+// What this folder takes from the support of pose graphs.
+using pose_graph::analyse_graph;
+using pose_graph::Edge;
+using pose_graph::EdgeTerms;
+using pose_graph::Hessian;
+using pose_graph::linearise_edge;
+using pose_graph::make_edge;
+using pose_graph::make_node;
+using pose_graph::minimise;
+using pose_graph::Node;
+using pose_graph::NormalEquations;
+using pose_graph::SolveLimits;
+using pose_graph::SolveResult;
+using pose_graph::Start;
+using sparse::at;
+
+/// A graph and which of its edges are loops.
+struct LoopGraph {
+  std::span<const Edge> edges;
+  std::span<const char> is_loop;
+};
+
+}  // namespace fathom::sparse_gauss_newton

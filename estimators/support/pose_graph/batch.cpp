@@ -1,0 +1,156 @@
+#include "estimators/support/pose_graph/batch.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "estimators/support/pose_graph/chordal.hpp"
+#include "estimators/support/pose_graph/headings.hpp"
+#include "estimators/support/pose_graph/lifted_headings.hpp"
+
+namespace fathom::pose_graph {
+namespace {
+
+// Rounding to a wrong multiple of 2π leaves turns of this size on the edges of some loop.
+constexpr double kTrustedTurnRad = 0.5;
+constexpr int kHeadingSolves = 10;
+constexpr double kHeadingsSettledRad = 1e-3;
+
+class Batch {
+ public:
+  Batch(std::span<const Edge> edges, std::vector<Node>& nodes, const SolveLimits& limits)
+      : edges_(edges),
+        nodes_(nodes),
+        limits_(limits),
+        symbolic_(analyse_graph(edges, static_cast<int>(nodes.size()))),
+        equations_(symbolic_, edges) {}
+
+  SolveResult run(Start start) {
+    switch (start) {
+      case Start::given:
+        try_from(nodes_);
+        break;
+      case Start::lago:
+        try_from(lago());
+        break;
+      case Start::chordal:
+        try_from(from_headings(settled(chordal_start())));
+        break;
+      case Start::lifted:
+        try_from(lifted());
+        break;
+      case Start::automatic:
+        run_automatic();
+        break;
+    }
+    best_.iterations = iterations_;
+    if (is_done(best_.outcome)) nodes_ = std::move(best_nodes_);
+    return best_;
+  }
+
+ private:
+  void run_automatic() {
+    std::vector<Node> first = lago();
+    const bool is_trusted = worst_turn(first) < kTrustedTurnRad;
+    if (is_trusted && try_from(first)) return;
+    if (try_from(lifted())) return;
+    if (!is_trusted) try_from(std::move(first));
+    try_from(nodes_);
+  }
+
+  // Minimises from a start and keeps the result if it is the best so far. Whether it is good
+  // enough to end the search.
+  bool try_from(std::vector<Node> nodes) {
+    const SolveResult result = minimise(equations_, nodes, limits_);
+    iterations_ += result.iterations;
+    const bool is_better = !tried_ || (is_done(result.outcome) &&
+                                       (!is_done(best_.outcome) || result.cost < best_.cost));
+    tried_ = true;
+    if (!is_better) return false;
+    best_ = result;
+    best_nodes_ = std::move(nodes);
+    return result.outcome == Outcome::converged && result.is_local_minimum.value_or(false);
+  }
+
+  HeadingProblem& headings() {
+    if (!headings_) headings_.emplace(symbolic_, edges_);
+    return *headings_;
+  }
+
+  std::vector<Node> lago() {
+    std::vector<double> theta{nodes_[0].theta};
+    for (std::size_t k = 1; k < nodes_.size(); ++k) {
+      theta.push_back(theta.back() + wrap_angle(nodes_[k].theta - nodes_[k - 1].theta));
+    }
+    return from_headings(headings().solve(theta));
+  }
+
+  std::vector<double> chordal_start() const {
+    return chordal_headings(symbolic_, edges_, nodes_[0].theta);
+  }
+
+  std::vector<Node> lifted() {
+    return from_headings(settled(lifted_headings(symbolic_, edges_, chordal_start())));
+  }
+
+  // Least squares in the headings, rounded again until that changes nothing.
+  std::vector<double> settled(std::vector<double> theta) {
+    for (int i = 0; i < kHeadingSolves; ++i) {
+      std::vector<double> next = headings().solve(theta);
+      double moved = 0.0;
+      for (std::size_t k = 0; k < next.size(); ++k) {
+        moved = std::max(moved, std::abs(next[k] - theta[k]));
+      }
+      theta = std::move(next);
+      if (moved < kHeadingsSettledRad) break;
+    }
+    return theta;
+  }
+
+  // One step that is exact in the positions, whatever they were, and corrects the headings by what
+  // the measured positions say of them.
+  std::vector<Node> from_headings(const std::vector<double>& theta) {
+    std::vector<Node> turned;
+    turned.reserve(theta.size());
+    for (std::size_t k = 0; k < theta.size(); ++k) {
+      turned.push_back(make_node(nodes_[k].x, nodes_[k].y, theta[k]));
+    }
+    turned[0] = nodes_[0];
+    equations_.linearise(turned, Hessian::measured);
+    if (!equations_.factorise()) return turned;
+    equations_.solve_step();
+    std::vector<Node> placed;
+    equations_.move(turned, placed);
+    return placed;
+  }
+
+  double worst_turn(const std::vector<Node>& nodes) const {
+    double worst = 0.0;
+    for (const Edge& edge : edges_) {
+      const double turn = nodes[static_cast<std::size_t>(edge.to)].theta -
+                          nodes[static_cast<std::size_t>(edge.from)].theta;
+      worst = std::max(worst, std::abs(wrap_angle(turn - edge.theta)));
+    }
+    return worst;
+  }
+
+  std::span<const Edge> edges_;
+  std::vector<Node>& nodes_;
+  SolveLimits limits_;
+  sparse::Symbolic symbolic_;
+  NormalEquations equations_;
+  std::optional<HeadingProblem> headings_;
+  SolveResult best_;
+  std::vector<Node> best_nodes_;
+  bool tried_ = false;
+  int iterations_ = 0;
+};
+
+}  // namespace
+
+SolveResult solve_batch(std::span<const Edge> edges, std::vector<Node>& nodes, Start start,
+                        const SolveLimits& limits) {
+  return Batch(edges, nodes, limits).run(start);
+}
+
+}  // namespace fathom::pose_graph

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "estimators/support/pose_graph/solver.hpp"
+
+namespace fathom::pose_graph {
+
+/// Where a batch solve starts.
+enum class Start {
+  automatic,  ///< what gets there, see solve_batch
+  given,      ///< the estimate that it is given
+  lago,       ///< headings by linear least squares, rounded along the given estimate
+  chordal,    ///< headings by chordal relaxation
+  lifted      ///< headings by lifted_headings
+};
+
+/// Minimises F over a whole graph. `nodes` is the given estimate, dead reckoning or a guess, and
+/// becomes the result; on failure it stays as it was.
+///
+/// `automatic` begins with LAGO, which costs little. Where that leaves every edge's heading close
+/// to what it measured, no multiple of 2π was rounded wrongly, and its minimum is taken. Else it
+/// takes that of `lifted`; if that is none, the least F of these and of the given start.
+SolveResult solve_batch(std::span<const Edge> edges, std::vector<Node>& nodes, Start start,
+                        const SolveLimits& limits);
+
+}  // namespace fathom::pose_graph

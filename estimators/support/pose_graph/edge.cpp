@@ -1,0 +1,47 @@
+#include "estimators/support/pose_graph/edge.hpp"
+
+#include <Eigen/LU>
+
+namespace fathom::pose_graph {
+
+Edge make_edge(const RelativePose& measurement) {
+  Eigen::Matrix3d D = Eigen::Matrix3d::Identity();
+  D.topLeftCorner<2, 2>() = rotation(measurement.motion.theta);
+  const Eigen::Matrix3d W = D * measurement.information * D.transpose();
+  Edge edge;
+  edge.from = static_cast<int>(measurement.from);
+  edge.to = static_cast<int>(measurement.to);
+  edge.x = measurement.motion.x;
+  edge.y = measurement.motion.y;
+  edge.theta = measurement.motion.theta;
+  edge.W = {W(0, 0), 0.5 * (W(0, 1) + W(1, 0)), 0.5 * (W(0, 2) + W(2, 0)),
+            W(1, 1), 0.5 * (W(1, 2) + W(2, 1)), W(2, 2)};
+  return edge;
+}
+
+double heading_information(const Edge& edge) {
+  const auto& W = edge.W;
+  const double determinant = W[0] * W[3] - W[1] * W[1];
+  const double lost =
+      (W[3] * W[2] * W[2] - 2.0 * W[1] * W[2] * W[4] + W[0] * W[4] * W[4]) / determinant;
+  return W[5] - lost;
+}
+
+std::vector<Node> nodes_of(std::span<const Pose> poses) {
+  std::vector<Node> nodes;
+  nodes.reserve(poses.size());
+  for (const Pose& pose : poses) nodes.push_back(make_node(pose.x, pose.y, pose.theta));
+  return nodes;
+}
+
+double cost_of(std::span<const Edge> edges, std::span<const Node> nodes) {
+  double sum = 0.0;
+  for (const Edge& edge : edges) {
+    sum += linearise_edge(edge, nodes[static_cast<std::size_t>(edge.from)],
+                          nodes[static_cast<std::size_t>(edge.to)])
+               .cost;
+  }
+  return sum;
+}
+
+}  // namespace fathom::pose_graph

@@ -1,0 +1,129 @@
+#include "estimators/support/pose_graph/information.hpp"
+
+#include "estimators/support/pose_graph/normal_equations.hpp"
+#include "estimators/support/sparse/selected_inverse.hpp"
+#include "fathom/estimation/joint_covariance.hpp"
+
+namespace fathom::pose_graph {
+namespace {
+
+// The factor of the Gauss-Newton matrix at an estimate.
+class Information {
+ public:
+  Information(std::span<const Edge> edges, std::span<const Node> nodes)
+      : symbolic_(analyse_graph(edges, static_cast<int>(nodes.size()))),
+        equations_(symbolic_, edges) {
+    equations_.linearise(nodes, Hessian::gauss_newton);
+    is_definite_ = equations_.factorise() && equations_.negative_pivots() == 0;
+  }
+
+  bool is_definite() const { return is_definite_; }
+  const sparse::BlockCholesky<3>& factor() const { return equations_.factor(); }
+
+  /// The three columns of the covariance that belong to a keyframe other than 0.
+  Eigen::MatrixX3d columns(std::size_t keyframe) {
+    Eigen::MatrixX3d result = Eigen::MatrixX3d::Zero(3 * symbolic_.size(), 3);
+    const int row = 3 * symbolic_.position[keyframe - 1];
+    for (int j = 0; j < 3; ++j) {
+      result(row + j, j) = 1.0;
+      equations_.solve(result.col(j).data());
+    }
+    return result;
+  }
+
+  Eigen::Matrix3d block(const Eigen::MatrixX3d& columns, std::size_t keyframe) const {
+    return columns.middleRows<3>(3 * symbolic_.position[keyframe - 1]);
+  }
+
+ private:
+  sparse::Symbolic symbolic_;
+  NormalEquations equations_;
+  bool is_definite_ = false;
+};
+
+Pose pose_of(const Node& node) {
+  return {node.x, node.y, wrap_angle(node.theta)};
+}
+
+}  // namespace
+
+std::optional<std::vector<Eigen::Matrix3d>> marginals(std::span<const Edge> edges,
+                                                      std::span<const Node> nodes) {
+  Information information(edges, nodes);
+  if (!information.is_definite()) return std::nullopt;
+  const sparse::SelectedInverse inverse(information.factor());
+  std::vector<Eigen::Matrix3d> result{Eigen::Matrix3d::Zero()};
+  result.reserve(nodes.size());
+  for (int node = 0; node + 1 < static_cast<int>(nodes.size()); ++node) {
+    result.push_back(inverse.block(node));
+  }
+  return result;
+}
+
+std::optional<Eigen::MatrixXd> joint_covariance(std::span<const Edge> edges,
+                                                std::span<const Node> nodes,
+                                                std::span<const std::size_t> keyframes) {
+  Information information(edges, nodes);
+  if (!information.is_definite()) return std::nullopt;
+  const std::vector<std::size_t> free = free_keyframes(keyframes);
+  const auto size = static_cast<Eigen::Index>(3 * free.size());
+  Eigen::MatrixXd joint(size, size);
+  for (std::size_t j = 0; j < free.size(); ++j) {
+    const Eigen::MatrixX3d columns = information.columns(free[j]);
+    for (std::size_t i = 0; i <= j; ++i) {
+      joint.block<3, 3>(static_cast<Eigen::Index>(3 * i), static_cast<Eigen::Index>(3 * j)) =
+          information.block(columns, free[i]);
+    }
+  }
+  return in_order_of(keyframes, joint);
+}
+
+std::optional<std::vector<UncertainPose>> motions_to_newest(std::span<const Edge> edges,
+                                                            std::span<const Node> nodes) {
+  std::vector<UncertainPose> motions;
+  const std::size_t newest = nodes.size() - 1;
+  if (newest == 0) return motions;
+  Information information(edges, nodes);
+  if (!information.is_definite()) return std::nullopt;
+  const sparse::SelectedInverse inverse(information.factor());
+  const Eigen::MatrixX3d to_newest = information.columns(newest);
+  for (std::size_t k = 0; k < newest; ++k) {
+    Eigen::Matrix3d H_k;
+    Eigen::Matrix3d H_newest;
+    const Pose motion = between(pose_of(nodes[k]), pose_of(nodes[newest]), &H_k, &H_newest);
+    Eigen::Matrix3d covariance = transport(H_newest, information.block(to_newest, newest));
+    if (k > 0) {
+      const Eigen::Matrix3d own = inverse.block(static_cast<int>(k) - 1);
+      const Eigen::Matrix3d cross = H_k * information.block(to_newest, k) * H_newest.transpose();
+      covariance += transport(H_k, own) + cross + cross.transpose();
+    }
+    motions.push_back({motion, covariance});
+  }
+  return motions;
+}
+
+std::optional<std::vector<Eigen::Matrix3d>> innovation_covariances(
+    std::span<const Edge> edges, std::span<const Node> nodes,
+    std::span<const RelativePose> forward_loops) {
+  Information information(edges, nodes);
+  if (!information.is_definite()) return std::nullopt;
+  const std::size_t newest = nodes.size() - 1;
+  const Eigen::MatrixX3d to_newest = information.columns(newest);
+  std::vector<Eigen::Matrix3d> innovations;
+  for (const RelativePose& z : forward_loops) {
+    Eigen::Matrix3d H_from;
+    Eigen::Matrix3d H_to;
+    between(pose_of(nodes[z.from]), pose_of(nodes[z.to]), &H_from, &H_to);
+    Eigen::Matrix3d S = transport(H_to, information.block(to_newest, newest)) + z.covariance();
+    if (z.from > 0) {
+      const Eigen::Matrix3d own = information.block(information.columns(z.from), z.from);
+      const Eigen::Matrix3d cross =
+          H_from * information.block(to_newest, z.from) * H_to.transpose();
+      S += transport(H_from, own) + cross + cross.transpose();
+    }
+    innovations.push_back(S);
+  }
+  return innovations;
+}
+
+}  // namespace fathom::pose_graph

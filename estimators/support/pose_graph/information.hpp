@@ -1,0 +1,35 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "estimators/support/pose_graph/edge.hpp"
+#include "fathom/geometry/covariance.hpp"
+#include "fathom/geometry/trajectory.hpp"
+
+/// Covariances from the factor of the Gauss-Newton matrix at an estimate, keyframe 0 fixed; nothing
+/// where the matrix is not positive definite.
+namespace fathom::pose_graph {
+
+/// The 3×3 covariance of each keyframe.
+std::optional<std::vector<Eigen::Matrix3d>> marginals(std::span<const Edge> edges,
+                                                      std::span<const Node> nodes);
+
+/// As of Estimator: a solve for the columns of each keyframe.
+std::optional<Eigen::MatrixXd> joint_covariance(std::span<const Edge> edges,
+                                                std::span<const Node> nodes,
+                                                std::span<const std::size_t> keyframes);
+
+/// As of TrajectoryView.
+std::optional<std::vector<UncertainPose>> motions_to_newest(std::span<const Edge> edges,
+                                                            std::span<const Node> nodes);
+
+/// Covariance of ν = z − h(x) for each of these registrations, which end at the newest keyframe.
+std::optional<std::vector<Eigen::Matrix3d>> innovation_covariances(
+    std::span<const Edge> edges, std::span<const Node> nodes,
+    std::span<const RelativePose> forward_loops);
+
+}  // namespace fathom::pose_graph

@@ -1,0 +1,82 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "estimators/support/pose_graph/edge.hpp"
+#include "estimators/support/sparse/block_cholesky.hpp"
+
+namespace fathom::pose_graph {
+
+/// Who is linked with whom among keyframes 1 …: node k − 1 is keyframe k, 0 is fixed.
+sparse::Symbolic analyse_graph(std::span<const Edge> edges, int keyframes,
+                               sparse::ChainElimination chains = sparse::ChainElimination::on);
+
+/// The second derivatives to work with.
+enum class Hessian {
+  gauss_newton,  ///< Jᵀ W J
+  measured,      ///< Jᵀ W J with the levers of the measured motions (Lever::measured)
+  exact          ///< all of them: Jᵀ W J + Σ (W ν)_r ∇² h_r
+};
+
+/// The matrix and gradient of ½F at an estimate, and the factor of the matrix.
+class NormalEquations {
+ public:
+  /// The edges must outlive it.
+  NormalEquations(const sparse::Symbolic& symbolic, std::span<const Edge> edges);
+
+  /// A loss on some edges from now on; F is then Σ ρ(νᵀ W ν). What it covers must outlive this.
+  void set_loss(const EdgeLoss& loss) { loss_ = loss; }
+  const EdgeLoss& loss() const { return loss_; }
+
+  /// Adds both up at the estimate; the diagonal is multiplied by 1 + damping. Returns F.
+  double linearise(std::span<const Node> nodes, Hessian hessian, double damping = 0.0);
+
+  bool factorise() { return factor_.factorise(); }
+  int negative_pivots() const { return factor_.negative_pivots(); }
+
+  /// x ← H⁻¹ x; nodes in the order of elimination.
+  void solve(double* x) { factor_.solve(x); }
+  /// −H⁻¹ g; nodes in the order of elimination.
+  const std::vector<double>& solve_step();
+  /// gᵀ H⁻¹ g of the last step: by how much F would fall if it were quadratic.
+  double predicted_decrease() const;
+  /// Largest absolute element of the gradient of F.
+  double gradient_norm() const;
+
+  /// The estimate moved by the last step.
+  void move(std::span<const Node> from, std::vector<Node>& to) const;
+  /// Whether every number of the last step is small beside that of the estimate.
+  bool step_is_small(std::span<const Node> nodes, double tolerance) const;
+
+  std::span<const Edge> edges() const { return edges_; }
+  const sparse::BlockCholesky<3>& factor() const { return factor_; }
+  /// ½ ∂F/∂x; nodes in the order of elimination.
+  const std::vector<double>& gradient() const { return gradient_; }
+
+ private:
+  /// Where an edge's terms go.
+  struct Targets {
+    int from = -1;  ///< position, −1 of the fixed keyframe
+    int to = -1;
+    sparse::BlockPlace cross;
+  };
+
+  template <Hessian kHessian>
+  double add_edges(std::span<const Node> nodes);
+  void add_to_end(const EdgeTerms& t, int position);
+  template <Hessian kHessian>
+  void add_to_begin(const EdgeTerms& t, const Targets& target);
+  void write_diagonal(double damping);
+
+  std::span<const Edge> edges_;
+  EdgeLoss loss_;
+  sparse::BlockCholesky<3> factor_;
+  std::vector<Targets> targets_;
+  std::vector<sparse::BlockPlace> diagonal_;  ///< by position
+  std::vector<std::array<double, 6>> diagonal_sums_;
+  std::vector<double> gradient_;
+  std::vector<double> step_;
+};
+
+}  // namespace fathom::pose_graph

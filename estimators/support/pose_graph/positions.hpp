@@ -1,0 +1,31 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "estimators/support/pose_graph/edge.hpp"
+#include "estimators/support/sparse/block_cholesky.hpp"
+
+namespace fathom::pose_graph {
+
+/// The positions that minimise F with the headings as they are: linear least squares, two unknowns
+/// a keyframe. Where a long stretch of the trajectory has to turn, a step that is straight in all
+/// coordinates stretches it; headings first and positions after them follow the arc.
+class PositionProblem {
+ public:
+  /// The pattern and the edges must outlive it. Of a loss the weights count, as they are at first.
+  PositionProblem(const sparse::Symbolic& symbolic, std::span<const Edge> edges,
+                  const EdgeLoss& loss);
+
+  /// Solves for the positions of all keyframes but 0. False where it has no solution; then they
+  /// stay as they were.
+  bool solve(std::vector<Node>& nodes);
+
+ private:
+  std::span<const Edge> edges_;
+  EdgeLoss loss_;
+  sparse::BlockCholesky<2> factor_;
+};
+
+}  // namespace fathom::pose_graph

@@ -1,0 +1,149 @@
+#include "estimators/support/pose_graph/solver.hpp"
+
+#include <cmath>
+
+#include "estimators/support/pose_graph/positions.hpp"
+
+namespace fathom::pose_graph {
+namespace {
+
+// Newton's steps are worth their exact Hessian, and safe, once Gauss-Newton promises less.
+constexpr double kNewtonBelow = 0.05;
+constexpr double kFirstDamping = 1e-5;
+constexpr double kLeastDamping = 1e-9;
+constexpr double kLargestDamping = 1e12;
+// By so much, as a share, rounding may make F rise.
+constexpr double kRounding = 1e-11;
+// Differences of F that mean nothing, in squared sigmas: where all measurements agree, F itself is
+// rounding.
+constexpr double kNegligible = 1e-12;
+constexpr double kNoise = 1e-20;
+
+class Minimiser {
+ public:
+  Minimiser(NormalEquations& equations, std::vector<Node>& nodes, const SolveLimits& limits)
+      : equations_(equations), nodes_(nodes), limits_(limits) {}
+
+  SolveResult run() {
+    result_.cost = equations_.linearise(nodes_, hessian_);
+    result_.outcome = Outcome::iteration_limit;
+    if (!std::isfinite(result_.cost)) {
+      result_.outcome = Outcome::numerical_failure;
+      return result_;
+    }
+    while (result_.iterations < limits_.max_iterations) {
+      ++result_.iterations;
+      if (!take_step()) break;
+    }
+    finish();
+    return result_;
+  }
+
+ private:
+  // False where the solve has ended.
+  bool take_step() {
+    if (!factorise()) return raise_damping();
+    equations_.solve_step();
+    const double promised = equations_.predicted_decrease();
+    if (!std::isfinite(promised)) return raise_damping();
+    equations_.move(nodes_, trial_);
+    const bool small = promised <= limits_.tolerance * result_.cost || promised <= kNoise ||
+                       equations_.step_is_small(nodes_, limits_.tolerance);
+    if (small && damping_ == 0.0) {
+      if (hessian_ == Hessian::exact || is_indefinite_here_) {
+        result_.outcome = Outcome::converged;
+        nodes_.swap(trial_);
+        return false;
+      }
+      hessian_ = Hessian::exact;
+    } else if (promised < newton_below_ * result_.cost) {
+      hessian_ = Hessian::exact;
+    }
+    double cost = equations_.linearise(trial_, hessian_, damping_);
+    if (is_no_rise(cost) || follow_headings(cost)) {
+      nodes_.swap(trial_);
+      result_.cost = cost;
+      lower_damping();
+      return true;
+    }
+    return raise_damping();
+  }
+
+  // Of an exact Hessian that is not positive definite, its Gauss-Newton part is taken.
+  bool factorise() {
+    const bool done = equations_.factorise();
+    is_indefinite_here_ = false;
+    if (hessian_ != Hessian::exact) {
+      return done && equations_.negative_pivots() == 0;
+    }
+    if (done && equations_.negative_pivots() == 0) {
+      if (damping_ == 0.0) result_.is_local_minimum = true;
+      return true;
+    }
+    is_indefinite_here_ = true;
+    newton_below_ *= 1e-2;
+    result_.is_local_minimum = false;
+    hessian_ = Hessian::gauss_newton;
+    equations_.linearise(nodes_, hessian_, damping_);
+    return equations_.factorise() && equations_.negative_pivots() == 0;
+  }
+
+  bool is_no_rise(double cost) const {
+    return cost <= result_.cost * (1.0 + kRounding) + kNegligible;
+  }
+
+  // A step that failed, again with the positions that suit its headings.
+  bool follow_headings(double& cost) {
+    if (!positions_) {
+      positions_.emplace(equations_.factor().symbolic(), equations_.edges(), equations_.loss());
+    }
+    if (!positions_->solve(trial_)) return false;
+    cost = equations_.linearise(trial_, hessian_, damping_);
+    return is_no_rise(cost);
+  }
+
+  bool raise_damping() {
+    damping_ = std::max(kFirstDamping, 10.0 * damping_);
+    if (damping_ > kLargestDamping) {
+      result_.outcome = Outcome::numerical_failure;
+      return false;
+    }
+    hessian_ = Hessian::gauss_newton;
+    equations_.linearise(nodes_, hessian_, damping_);
+    return true;
+  }
+
+  void lower_damping() {
+    if (damping_ == 0.0) return;
+    damping_ = damping_ > kLeastDamping ? 0.1 * damping_ : 0.0;
+    equations_.linearise(nodes_, hessian_, damping_);
+  }
+
+  void finish() {
+    result_.cost = equations_.linearise(nodes_, Hessian::gauss_newton);
+    result_.gradient_norm = equations_.gradient_norm();
+    // What was found on the way says nothing of where it stopped.
+    if (result_.outcome != Outcome::converged) result_.is_local_minimum.reset();
+    if (!std::isfinite(result_.cost)) result_.outcome = Outcome::numerical_failure;
+  }
+
+  NormalEquations& equations_;
+  std::vector<Node>& nodes_;
+  SolveLimits limits_;
+  SolveResult result_;
+  std::vector<Node> trial_;
+  std::optional<PositionProblem> positions_;
+  Hessian hessian_ = Hessian::gauss_newton;
+  double damping_ = 0.0;
+  bool is_indefinite_here_ = false;  ///< the exact Hessian, at the present estimate
+  double newton_below_ = kNewtonBelow;
+};
+
+}  // namespace
+
+SolveResult minimise(NormalEquations& equations, std::vector<Node>& nodes,
+                     const SolveLimits& limits) {
+  return Minimiser(equations, nodes, limits).run();
+}
+
+}  // namespace fathom::pose_graph

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "estimators/support/sparse/symbolic.hpp"
+
+namespace fathom::sparse {
+
+/// Where a block lies: its first element and the distance between its columns.
+struct BlockPlace {
+  std::size_t offset = 0;
+  int stride = 0;
+};
+
+/// A = L D Lᵀ of a sparse symmetric matrix of B × B blocks, D = diag(±1), without pivoting: the
+/// Cholesky factor where A is positive definite; else the count of −1 is the number of negative
+/// eigenvalues (Sylvester), as long as no pivot vanishes.
+///
+/// Supernodes are dense column-major panels. Each is factored by block columns and then subtracts
+/// its products from the later ones: all arithmetic is in one small dense kernel.
+template <int B>
+class BlockCholesky {
+ public:
+  /// The pattern must outlive it and stay as it is.
+  explicit BlockCholesky(const Symbolic& symbolic);
+
+  /// Sets A to zero, before it is added up.
+  void clear();
+  /// The place of block (a, b) of nodes: in the row of the one that is eliminated later. Of a
+  /// diagonal block only the lower triangle counts.
+  BlockPlace place(int node_a, int node_b) const;
+  double* data() { return panels_.data(); }
+
+  /// False where a pivot is zero or not a number.
+  bool factorise();
+  int negative_pivots() const { return negative_pivots_; }
+
+  /// Solves A x = b in place; B numbers a node, in the order of elimination.
+  void solve(double* x);
+
+  const Symbolic& symbolic() const { return *symbolic_; }
+  const double* panel(const Supernode& s) const { return panels_.data() + s.panel * (B * B); }
+  /// D, one sign a scalar column.
+  const std::vector<double>& signs() const { return signs_; }
+
+ private:
+  const Symbolic* symbolic_;
+  std::vector<double> panels_;
+  std::vector<double> signs_;
+  std::vector<double> packed_;    ///< right sides of products
+  std::vector<double> gathered_;  ///< the rows below a supernode
+  int negative_pivots_ = 0;
+};
+
+extern template class BlockCholesky<1>;
+extern template class BlockCholesky<2>;
+extern template class BlockCholesky<3>;
+
+}  // namespace fathom::sparse

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <cstddef>
+
+/// The arithmetic of the factorisation, inlined into functions compiled for the processor at hand.
+namespace fathom::sparse {
+
+#define FATHOM_INLINE [[gnu::always_inline]] inline
+
+/// Four numbers at any address; the compiler splits them where the processor takes fewer.
+using Four [[gnu::vector_size(32), gnu::aligned(8), gnu::may_alias]] = double;
+
+inline constexpr int kTileRows = 12;
+/// A tile reads up to so many numbers past the rows that it is asked for.
+inline constexpr std::size_t kReadAhead = 16;
+
+/// out (kTileRows × B) = A (4 V rows × depth, columns `stride` apart) · b (depth × B, by rows).
+template <int B, int V>
+FATHOM_INLINE void multiply_tile(const double* A, int stride, const double* b, int depth,
+                                 double* out) {
+  Four sum[V][B] = {};
+  for (int k = 0; k < depth; ++k) {
+    const Four* column = reinterpret_cast<const Four*>(A + static_cast<std::size_t>(k) * stride);
+    for (int v = 0; v < V; ++v) {
+      for (int j = 0; j < B; ++j) sum[v][j] += column[v] * b[k * B + j];
+    }
+  }
+  for (int j = 0; j < B; ++j) {
+    for (int v = 0; v < V; ++v) {
+      *reinterpret_cast<Four*>(out + j * kTileRows + 4 * v) = sum[v][j];
+    }
+  }
+}
+
+/// The same for `rows` ≤ kTileRows rows, as few at a time as will do.
+template <int B>
+FATHOM_INLINE void multiply_rows(int rows, const double* A, int stride, const double* b, int depth,
+                                 double* out) {
+  if (rows <= 4) {
+    multiply_tile<B, 1>(A, stride, b, depth, out);
+  } else if (rows <= 8) {
+    multiply_tile<B, 2>(A, stride, b, depth, out);
+  } else {
+    multiply_tile<B, 3>(A, stride, b, depth, out);
+  }
+}
+
+template <class Task>
+bool run_plain(Task& task) {
+  return task.run();
+}
+
+#if defined(__x86_64__)
+template <class Task>
+[[gnu::target("avx2,fma")]] bool run_wide(Task& task) {
+  return task.run();
+}
+#endif
+
+/// task.run(), which must be FATHOM_INLINE with all that it calls, compiled for the processor's
+/// vector unit where that is worth it.
+template <class Task>
+bool run_for_processor(Task& task) {
+#if defined(__x86_64__)
+  static const bool has_wide = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+  if (has_wide) return run_wide(task);
+#endif
+  return run_plain(task);
+}
+
+}  // namespace fathom::sparse

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "estimators/support/sparse/ordering.hpp"
+
+namespace fathom::sparse {
+
+/// Consecutive columns of the factor with (nearly) the same rows below them, kept as one dense
+/// panel. Rows and columns count blocks.
+struct Supernode {
+  int first = 0;    ///< first column
+  int width = 0;    ///< columns
+  int rows = 0;     ///< begin of the rows below the columns, in Symbolic::rows
+  int height = 0;   ///< how many rows below
+  int updates = 0;  ///< begin of its updates, in Symbolic::updates
+  int update_count = 0;
+  std::size_t panel = 0;  ///< blocks in the panels before it
+
+  int panel_rows() const { return width + height; }
+};
+
+/// What a supernode subtracts from one later supernode.
+struct Update {
+  int target = 0;
+  int begin = 0;  ///< the source's rows [begin, end) are columns of the target
+  int end = 0;
+  int places = 0;  ///< begin in Symbolic::places: rows of the target's panel for [begin, height)
+};
+
+/// The pattern of a sparse Cholesky factor L of a symmetric matrix of blocks, and where each
+/// product of it goes. Made once per pattern; the size of a block plays no part.
+///
+/// Columns are merged into supernodes where the rows agree, and where merging costs few explicit
+/// zeros (Davis, *Direct Methods for Sparse Linear Systems*, 2006; Ashcraft and Grimes 1989).
+struct Symbolic {
+  std::vector<int> position;  ///< of a node in the order of elimination
+  std::vector<int> node;      ///< its inverse
+  std::vector<Supernode> supernodes;
+  std::vector<int> supernode_of;  ///< of a position
+  std::vector<int> rows;
+  std::vector<Update> updates;
+  std::vector<int> places;
+  std::size_t panel_blocks = 0;
+
+  int size() const { return static_cast<int>(node.size()); }
+
+  /// The block in row `row` and column `column` (positions, row ≥ column) of the panel of
+  /// `column`'s supernode: its row there.
+  int panel_row(int row, const Supernode& supernode) const;
+};
+
+Symbolic analyse(const Adjacency& graph, ChainElimination chains = ChainElimination::on);
+
+}  // namespace fathom::sparse
