@@ -4,6 +4,7 @@
 #
 #     scripts/setup.sh          # what the build needs, its tests and benchmarks included
 #     scripts/setup.sh lint     # and what scripts/lint.sh needs
+#     scripts/setup.sh docs     # and what scripts/docs.sh needs
 set -euo pipefail
 
 # libopencv-dev and not OpenCV's smaller packages: it alone holds OpenCVConfig.cmake, which refuses
@@ -18,6 +19,7 @@ packages=(
 )
 # clang needs an omp.h of its own to read what g++ compiles with -fopenmp.
 lint_packages=(clang clang-tidy libomp-dev)
+docs_packages=(mkdocs mkdocs-material doxygen)
 
 fail() {
   printf 'setup: error: %s\n' "$1" >&2
@@ -27,7 +29,8 @@ fail() {
 case "${1:-}" in
   '') ;;
   lint) packages+=("${lint_packages[@]}") ;;
-  *) fail "unknown argument '$1'; use none, or lint" ;;
+  docs) packages+=("${docs_packages[@]}") ;;
+  *) fail "unknown argument '$1'; use none, lint or docs" ;;
 esac
 
 missing() {

@@ -83,8 +83,9 @@ struct Configuration {
   std::map<std::string, std::string> origins;
 };
 
-/// `run` takes one estimator (`estimator.…`), `compare` a list (`estimators:`; without one, every
-/// estimator with its defaults); `simulate` and `register` take either, as they need none.
+/// `run` takes one estimator (the keys below `estimator`), `compare` a list (`estimators`; without
+/// one, every estimator with its defaults); `simulate` and `register` take either, as they need
+/// none.
 enum class ConfigurationKind { single, comparison };
 
 /// The kind that these settings are written for: a comparison if any key is of the list alone.

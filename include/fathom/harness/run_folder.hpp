@@ -26,9 +26,9 @@ void write_recording(const std::filesystem::path& folder, const Recording& recor
 /// The files of a run that not every run has, to be removed from a folder that is used again.
 const std::vector<std::string>& optional_run_files();
 
-/// What a run's pictures and altitudes depend on: the settings `seed` and `dataset.…` of the run
-/// whose folder this is, out of its `run.json`. Throws InputError where there is none, where it is
-/// not that of a run, or where the run was over a pose graph, which has no pictures.
+/// What a run's pictures and altitudes depend on: the settings `seed` and those below `dataset`, of
+/// the run whose folder this is, out of its `run.json`. Throws InputError where there is none,
+/// where it is not that of a run, or where the run was over a pose graph, which has no pictures.
 Settings data_settings_of_run(const std::filesystem::path& folder);
 
 /// Writes the text files of one estimator's run into an existing folder (docs/formats.md):
