@@ -172,7 +172,7 @@ void write_example(const fs::path& out, const Study& study, Recorder& recorder, 
               manifest_json(context.command_line, configuration.in_force, *recording,
                             results.back(), builtin_estimators()));
     write_trajectory_picture(own / "trajectory.png", title + ", " + estimator.name, *recording,
-                             {results.back()});
+                             {results.back()}, e);
     mosaics.push_back({own, placed_pictures(*recording, results.back().replay.trajectory)});
   }
   if (recorder.pictures() != nullptr && !flags.no_mosaic) {

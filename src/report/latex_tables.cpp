@@ -1,10 +1,9 @@
 #include "latex_tables.hpp"
 
 #include <algorithm>
-#include <array>
-#include <utility>
+#include <set>
 
-#include "fathom/report/table.hpp"
+#include "latex_text.hpp"
 #include "metric_label.hpp"
 
 namespace fathom {
@@ -16,10 +15,10 @@ constexpr int kDigits = 3;
 std::string value_text(const EstimatorResults& one, const std::string& metric) {
   const auto found = one.metrics.find(metric);
   if (found == one.metrics.end()) return "--";
-  std::string text = "$" + format_number(found->second.moments.mean, kDigits) + "$";
+  std::string text = latex_number(found->second.moments.mean, kDigits);
   if (const auto& interval = found->second.interval) {
-    text += " {\\scriptsize $[" + format_number(interval->low, kDigits) + ", " +
-            format_number(interval->high, kDigits) + "]$}";
+    text += " {\\scriptsize [" + latex_number(interval->low, kDigits) + ", " +
+            latex_number(interval->high, kDigits) + "]}";
   }
   return text;
 }
@@ -122,33 +121,6 @@ std::string metric_table(const std::string& metric, std::size_t number,
 }
 
 }  // namespace
-
-std::string latex_text(std::string_view text) {
-  static const std::array<std::pair<std::string_view, std::string_view>, 14> kReplaced{
-      {{"\\", "\\textbackslash{}"},
-       {"&", "\\&"},
-       {"%", "\\%"},
-       {"$", "\\$"},
-       {"#", "\\#"},
-       {"_", "\\_"},
-       {"{", "\\{"},
-       {"}", "\\}"},
-       {"~", "\\textasciitilde{}"},
-       {"^", "\\textasciicircum{}"},
-       {"<", "\\textless{}"},
-       {">", "\\textgreater{}"},
-       {"\n", " "},
-       {"σ", "$\\sigma$"}}};
-  std::string result;
-  while (!text.empty()) {
-    const auto found = std::find_if(kReplaced.begin(), kReplaced.end(), [&](const auto& known) {
-      return text.starts_with(known.first);
-    });
-    result += found == kReplaced.end() ? text.substr(0, 1) : found->second;
-    text.remove_prefix(found == kReplaced.end() ? 1 : found->first.size());
-  }
-  return result;
-}
 
 std::string latex_tables(const StudyResults& results) {
   std::string text = "% Needs \\usepackage{booktabs}.\n";

@@ -5,11 +5,11 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "estimator_colours.hpp"
 #include "example_trial.hpp"
 #include "fathom/evaluation/consistency.hpp"
 #include "metric_label.hpp"
 #include "page_numbers.hpp"
+#include "study_styles.hpp"
 
 namespace fathom {
 namespace {
@@ -135,7 +135,7 @@ Json study_json(const StudyDescription& study) {
                 {"label", display_name(name)},
                 {"type", type},
                 {"colour", hex(style.colour)},
-                {"dashed", style.dashed}};
+                {"dashes", style.dashes}};
   };
   json["estimators"] = Json::array({entry(kDeadReckoning, "")});
   for (const auto& [name, type] : study.estimators) json["estimators"].push_back(entry(name, type));

@@ -9,6 +9,7 @@
 
 #include "fathom/core/files.hpp"
 #include "fathom/evaluation/consistency.hpp"
+#include "fathom/report/palette.hpp"
 #include "fathom/report/study_report.hpp"
 #include "report/study_fixture.hpp"
 #include "support/temporary_folder.hpp"
@@ -88,10 +89,11 @@ TEST(ReportPage, AnEstimatorHasTheColourOfItsTypeAndNoneTheSame) {
   EXPECT_EQ(estimators[3]["colour"], "#009e73");
 }
 
-TEST(ReportPage, TwoOfATypeAreToldApart) {
+// By their places, whatever their names and types.
+TEST(ReportPage, EveryEstimatorHasTheLineOfItsPlace) {
   const TemporaryFolder folder;
   StudyDescription study;
-  for (int i = 0; i < 8; ++i) study.estimators.push_back({"e" + std::to_string(i), "ekf"});
+  for (int i = 0; i < 20; ++i) study.estimators.push_back({"e" + std::to_string(i), "ekf"});
   ResultStore store = ResultStore::write(folder.path(), study, "no JSON");
   RunRecord run;
   run.key = {0, 0, "e0"};
@@ -99,9 +101,13 @@ TEST(ReportPage, TwoOfATypeAreToldApart) {
   store.add(run);
   store.finish();
   const Json data = data_of(page_of(ResultStore::open(folder.path())));
-  std::set<std::pair<std::string, bool>> styles;
-  for (const Json& one : data["estimators"]) styles.emplace(one["colour"], one["dashed"]);
-  EXPECT_EQ(styles.size(), 9u);
+  ASSERT_EQ(data["estimators"].size(), 21u);
+  EXPECT_EQ(data["estimators"][0]["colour"], hex(dead_reckoning_style().colour));
+  for (std::size_t place = 0; place < 20; ++place) {
+    const Json& one = data["estimators"][place + 1];
+    EXPECT_EQ(one["colour"], hex(estimator_style(place).colour)) << place;
+    EXPECT_EQ(one["dashes"], Json(estimator_style(place).dashes)) << place;
+  }
   EXPECT_EQ(data["manifests"][0], "no JSON");
 }
 

@@ -18,6 +18,7 @@ struct FixtureOptions {
   bool ground_truth = true;  ///< else no accuracy, consistency, or truth
   bool loops = true;
   int jobs = 2;
+  double size = 1.0;  ///< of all errors
 };
 
 StudyDescription fixture_study(const FixtureOptions& options = {});
