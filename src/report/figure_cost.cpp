@@ -109,10 +109,10 @@ void add_cost_figures(const FigureInput& input, std::vector<StudyFigure>& figure
     const std::vector<CostPoint> points = points_of(cell, *accuracy, *cost);
     if (points.empty()) continue;
     const std::string conditions =
-        cell_caption(cell, results.study) + failures_text(cell) + "; means, 95 % intervals";
+        cell_caption(cell) + failures_text(cell) + "; means, 95 % intervals";
     const FigureLayout layout({170.0}, legend_of(points, styles), conditions);
     const ChartFrame frame = frame_of(points, *accuracy, *cost, layout.chart(0));
-    figures.push_back({figure_name("accuracy_against_cost", cell.label, results.cells.size() == 1),
+    figures.push_back({figure_title("accuracy_against_cost", cell.label, results.cells.size() == 1),
                        layout.height(), [points, frame, layout, styles](Canvas& canvas) {
                          draw_cost(canvas, points, frame, styles);
                          layout.draw_footer(canvas);

@@ -96,9 +96,9 @@ void add_nees_figures(const FigureInput& input, std::vector<StudyFigure>& figure
     const NeesChart chart = chart_of(cell, input.series[i]);
     if (chart.lines.empty()) continue;
     const FigureLayout layout({170.0}, legend_of(chart, styles),
-                              cell_caption(cell, results.study) + failures_text(cell));
+                              cell_caption(cell) + failures_text(cell));
     const ChartFrame frame = frame_of(chart, layout.chart(0));
-    figures.push_back({figure_name("nees", cell.label, results.cells.size() == 1), layout.height(),
+    figures.push_back({figure_title("nees", cell.label, results.cells.size() == 1), layout.height(),
                        [chart, frame, layout, styles](Canvas& canvas) {
                          draw_nees(canvas, chart, frame, styles);
                          layout.draw_footer(canvas);

@@ -107,8 +107,8 @@ void draw_band(Canvas& canvas, const ChartFrame& frame, const SweepLine& line, C
 
 std::string conditions_of(const FigureInput& input, const Sweep& sweep) {
   const CellResults& first = input.results.cells[sweep.cells.front()];
-  std::string text = "first of " + std::to_string(sweep.cells.size()) +
-                     " points: " + cell_caption(first, input.results.study);
+  std::string text =
+      "first of " + std::to_string(sweep.cells.size()) + " points: " + cell_caption(first);
   std::size_t failures = 0;
   for (const std::size_t place : sweep.cells) {
     for (const EstimatorResults& one : input.results.cells[place].estimators) {
@@ -206,7 +206,7 @@ void add_sweep_figures(const FigureInput& input, std::vector<StudyFigure>& figur
       const std::string label =
           input.results.study.axes[axis].name + name_of_others(sweep, input.results);
       figures.push_back(sweep_figure(input, sweep, *metric));
-      figures.back().name = figure_name("error_by", label, false);
+      figures.back().name = figure_title("error_by", label, false);
     }
   }
 }

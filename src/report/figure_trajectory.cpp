@@ -87,10 +87,9 @@ void add_trajectory_figures(const FigureInput& input, std::vector<StudyFigure>& 
     const auto plot =
         std::make_shared<const TrajectoryPlot>(plot_of(input.store, cell, trial, styles));
     if (plot->series.empty()) continue;
-    const std::string conditions =
-        "trial " + std::to_string(trial) + " of " + cell_caption(cell, results.study);
+    const std::string conditions = "trial " + std::to_string(trial) + " of " + cell_caption(cell);
     const FigureLayout layout({220.0}, TrajectoryMap(*plot).legend(), conditions);
-    figures.push_back({figure_name("trajectories", cell.label, results.cells.size() == 1),
+    figures.push_back({figure_title("trajectories", cell.label, results.cells.size() == 1),
                        layout.height(), [plot, layout](Canvas& canvas) {
                          TrajectoryMap(*plot).draw(canvas, layout.chart(0));
                          layout.draw_footer(canvas);

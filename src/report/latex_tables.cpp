@@ -1,7 +1,6 @@
 #include "latex_tables.hpp"
 
 #include <algorithm>
-#include <set>
 
 #include "latex_text.hpp"
 #include "metric_label.hpp"
@@ -65,10 +64,24 @@ std::string cell_table(const CellResults& cell, const StudyResults& results) {
     rows.push_back({latex_text(display_name(one.name)), counts_text(one)});
     for (const std::string& metric : metrics) rows.back().push_back(value_text(one, metric));
   }
-  const std::string caption = title_of(results.study) +
-                              latex_text(cell_caption(cell, results.study)) + "." +
+  const std::string caption = title_of(results.study) + latex_text(cell_caption(cell)) + "." +
                               (cell.trials > 1 ? kMeaning : "");
   return table_of(caption, "tab:fathom-cell-" + std::to_string(cell.cell), header, rows);
+}
+
+// "alignment origin/se2": all that occur among the cells; empty where none is known.
+std::string joint_text(const std::string& what, const StudyResults& results,
+                       std::string CellResults::*member) {
+  std::vector<std::string> values;
+  for (const CellResults& cell : results.cells) {
+    if (!(cell.*member).empty() &&
+        std::find(values.begin(), values.end(), cell.*member) == values.end()) {
+      values.push_back(cell.*member);
+    }
+  }
+  std::string text;
+  for (const std::string& value : values) text += (text.empty() ? what + " " : "/") + value;
+  return text.empty() ? "" : text + ", ";
 }
 
 // "n = 98 to 100": that of the cells, which may differ.
@@ -76,13 +89,9 @@ std::string joint_caption(const StudyResults& results) {
   const auto [least, most] =
       std::minmax_element(results.cells.begin(), results.cells.end(),
                           [](const auto& a, const auto& b) { return a.trials < b.trials; });
-  std::set<std::string> associations;
-  for (const CellResults& cell : results.cells) associations.insert(cell.association);
-  std::string association;
-  for (const std::string& one : associations) association += (association.empty() ? "" : "/") + one;
-  std::string text = results.study.alignment.empty() ? "" : "alignment " + results.study.alignment;
-  if (!association.empty()) text += (text.empty() ? "" : ", ") + ("association " + association);
-  text += (text.empty() ? "n = " : ", n = ") + std::to_string(least->trials);
+  std::string text = joint_text("alignment", results, &CellResults::alignment) +
+                     joint_text("association", results, &CellResults::association) +
+                     "n = " + std::to_string(least->trials);
   if (most->trials > least->trials) text += " to " + std::to_string(most->trials);
   return latex_text(text);
 }

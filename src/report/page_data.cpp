@@ -107,9 +107,10 @@ Json cell_json(const ResultStore& store, const CellResults& cell,
                std::size_t most) {
   Json json{{"cell", cell.cell},
             {"label", cell.label},
-            {"caption", cell_caption(cell, study)},
+            {"caption", cell_caption(cell)},
             {"places", study.places_of(cell.cell)},
             {"association", cell.association},
+            {"alignment", cell.alignment},
             {"jobs", jobs_text(cell.jobs)},
             {"n", cell.trials}};
   json["estimators"] = Json::array();
@@ -123,7 +124,7 @@ Json cell_json(const ResultStore& store, const CellResults& cell,
 }
 
 Json study_json(const StudyDescription& study) {
-  Json json{{"title", study.title}, {"alignment", study.alignment}, {"trials", study.trials}};
+  Json json{{"title", study.title}, {"trials", study.trials}};
   json["axes"] = Json::array();
   for (const StudyAxis& axis : study.axes) {
     json["axes"].push_back({{"name", axis.name}, {"key", axis.key}, {"labels", axis.labels}});

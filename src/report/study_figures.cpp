@@ -1,10 +1,9 @@
 #include "study_figures.hpp"
 
 #include <algorithm>
-#include <cctype>
-#include <set>
 #include <utility>
 
+#include "file_names.hpp"
 #include "metric_label.hpp"
 #include "text_layout.hpp"
 
@@ -18,20 +17,8 @@ constexpr double kSmallLine = 1.3 * kSmallSize;
 
 }  // namespace
 
-std::string figure_name(const std::string& what, const std::string& label, bool alone) {
-  if (alone) return what;
-  std::string name = what + "_";
-  for (const char letter : label) {
-    const bool plain =
-        std::isalnum(static_cast<unsigned char>(letter)) != 0 || letter == '.' || letter == '-';
-    if (plain) {
-      name += letter;
-    } else if (name.back() != '_') {
-      name += '_';
-    }
-  }
-  if (name.back() == '_') name.pop_back();
-  return name;
+std::string figure_title(const std::string& what, const std::string& label, bool alone) {
+  return alone ? what : what + " " + label;
 }
 
 FigureLayout::FigureLayout(std::vector<double> chart_heights, std::vector<LegendEntry> legend,
@@ -84,14 +71,8 @@ std::vector<StudyFigure> study_figures(const FigureInput& input) {
   add_nees_figures(input, figures);
   add_trajectory_figures(input, figures);
   add_cost_figures(input, figures);
-  // Labels may differ in nothing that a file's name can have.
-  std::set<std::string> names;
-  for (StudyFigure& figure : figures) {
-    const std::string name = figure.name;
-    for (int i = 2; !names.insert(figure.name).second; ++i) {
-      figure.name = name + "-" + std::to_string(i);
-    }
-  }
+  FileNames names;
+  for (StudyFigure& figure : figures) figure.name = names.unique(figure.name);
   return figures;
 }
 

@@ -42,8 +42,9 @@ void add_trajectory_figures(const FigureInput& input, std::vector<StudyFigure>& 
 /// `accuracy_against_cost_CELL`: the first metric of each kind.
 void add_cost_figures(const FigureInput& input, std::vector<StudyFigure>& figures);
 
-/// "trajectories" in a study of one cell, else "trajectories_separation_5".
-std::string figure_name(const std::string& what, const std::string& label, bool alone);
+/// What the name of a figure's file is made from: "trajectories" in a study of one cell, else
+/// "trajectories separation 5".
+std::string figure_title(const std::string& what, const std::string& label, bool alone);
 
 /// One or more charts one below the other, then the legend and the conditions in small print: each
 /// takes the height that it needs.

@@ -110,6 +110,7 @@ CellResults& cell_of(StudyResults& results, std::size_t cell) {
     next.cell = cell;
     next.label = results.study.label_of(cell);
     next.association = results.study.association_of(cell);
+    next.alignment = results.study.alignment_of(cell);
     results.cells.push_back(std::move(next));
   }
   return results.cells.back();

@@ -1,7 +1,5 @@
 #include "study_styles.hpp"
 
-#include "fathom/results/result_store.hpp"
-
 namespace fathom {
 
 std::map<std::string, LineStyle> line_styles(const StudyDescription& study) {

@@ -4,8 +4,8 @@
 #include <string>
 
 #include "canvas.hpp"
-#include "fathom/report/palette.hpp"
 #include "fathom/configuration/study_description.hpp"
+#include "fathom/report/palette.hpp"
 
 namespace fathom {
 

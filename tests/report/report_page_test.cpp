@@ -111,6 +111,21 @@ TEST(ReportPage, EveryEstimatorHasTheLineOfItsPlace) {
   EXPECT_EQ(data["manifests"][0], "no JSON");
 }
 
+TEST(ReportPage, EveryCellHasItsAlignment) {
+  const TemporaryFolder folder;
+  FixtureOptions options;
+  options.trials = 1;
+  options.alignments = {"origin", "none"};
+  write_fixture(folder.path(), options);
+  const Json data = data_of(page_of(ResultStore::open(folder.path())));
+  ASSERT_EQ(data["cells"].size(), 12u);
+  for (std::size_t i = 0; i < 12; ++i) {
+    const std::string expected = i % 2 == 0 ? "origin" : "none";
+    EXPECT_EQ(data["cells"][i]["alignment"], expected);
+    EXPECT_THAT(data["cells"][i]["caption"].get<std::string>(), HasSubstr("alignment " + expected));
+  }
+}
+
 // Means and roots over the trials, taken here from the store's series one keyframe at a time.
 TEST(ReportPage, KeyframeStatisticsAreThoseOfTheRunsDone) {
   const TemporaryFolder folder;

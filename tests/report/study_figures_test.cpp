@@ -119,6 +119,27 @@ TEST(StudyFigures, NoTextRunsIntoAnother) {
   }
 }
 
+TEST(StudyFigures, SayTheAlignmentOfTheirCell) {
+  const TemporaryFolder folder;
+  FixtureOptions options = one_cell();
+  options.alignments = {"origin", "se2"};
+  write_fixture(folder / "study", options);
+  const ResultStore store = ResultStore::open(folder / "study");
+  const StudyResults results = study_results(store);
+  const auto series = study_series(store, results);
+  std::size_t found = 0;
+  for (const StudyFigure& figure : study_figures({store, results, series})) {
+    if (!figure.name.ends_with("se2")) continue;
+    ++found;
+    std::string all;
+    for (const PlacedText& text : texts_of({kFigureWidth, figure.height}, figure.draw)) {
+      all += text.text + " ";
+    }
+    EXPECT_THAT(all, HasSubstr("alignment se2")) << figure.name;
+  }
+  EXPECT_EQ(found, 3u);
+}
+
 TEST(StudyFigures, OldOnesGoWithANewReport) {
   const TemporaryFolder folder;
   write_report(folder, one_cell());

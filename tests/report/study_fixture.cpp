@@ -156,6 +156,9 @@ StudyDescription fixture_study(const FixtureOptions& options) {
   if (!options.noises.empty()) {
     study.axes.push_back({"noise, \"odometry\"", "dataset.odometry.covariance", options.noises});
   }
+  if (!options.alignments.empty()) {
+    study.axes.push_back({"aligned by", "evaluation.alignment", options.alignments});
+  }
   study.estimators = {
       {"iterated", "trajectory_iekf"}, {"a&b_<c>%", "ekf"}, {"graph", "ceres_pose_graph"}};
   study.metrics = {"mean_position_error_m", "rpe_10_keyframes_m", "anees", "total_ms"};
