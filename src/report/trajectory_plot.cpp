@@ -4,6 +4,7 @@
 
 #include "fathom/core/input_error.hpp"
 #include "figure_file.hpp"
+#include "map_frame.hpp"
 #include "text_layout.hpp"
 #include "trajectory_map.hpp"
 
