@@ -23,7 +23,7 @@ struct StudyEstimator {
 /// running fastest; without axes there is one cell.
 struct StudyDescription {
   std::string title;
-  std::string alignment;   ///< of errors: none, origin or se2; of the cells that sweep no other
+  std::string alignment;   ///< of all errors: none, origin or se2
   std::size_t trials = 1;  ///< asked for, per cell
   std::vector<StudyAxis> axes;
   std::vector<StudyEstimator> estimators;
@@ -38,8 +38,6 @@ struct StudyDescription {
   std::string label_of(std::size_t cell) const;
   /// How a cell's loop candidates were picked, `shared` or `own`; empty where there are none.
   std::string association_of(std::size_t cell) const;
-  /// How a cell's estimates were aligned for their errors.
-  std::string alignment_of(std::size_t cell) const;
 };
 
 /// The name under which dead reckoning, the baseline, stands among the estimators' runs. It is no
