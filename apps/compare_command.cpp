@@ -172,7 +172,7 @@ void write_example(const fs::path& out, const Study& study, Recorder& recorder, 
               manifest_json(context.command_line, configuration.in_force, *recording,
                             results.back(), builtin_estimators()));
     write_trajectory_picture(own / "trajectory.png", title + ", " + estimator.name, *recording,
-                             {results.back()});
+                             {results.back()}, e);
     mosaics.push_back({own, placed_pictures(*recording, results.back().replay.trajectory)});
   }
   if (recorder.pictures() != nullptr && !flags.no_mosaic) {
@@ -202,7 +202,9 @@ void compare(const CompareFlags& flags, Context& context) {
   const std::unique_ptr<RegistrationStore> cache = open_cache(flags);
   // A data set that cannot be opened is refused before anything is written.
   Recorder example(study.cells.front(), cache.get());
-  const int jobs = study.cells.front().study.jobs;
+  const std::size_t all_trials = study.cells.size() * study.description.trials;
+  const int jobs =
+      static_cast<int>(std::min<std::size_t>(study.cells.front().study.jobs, all_trials));
   // The threads there are for all jobs together; no result depends on them.
   cv::setNumThreads(std::max(1, cv::getNumThreads() / jobs));
   StoreFolder folder(out, study, session_json(context.command_line, jobs));

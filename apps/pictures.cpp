@@ -1,16 +1,18 @@
 #include "apps/pictures.hpp"
 
 #include "fathom/core/files.hpp"
-#include "fathom/report/picture.hpp"
 #include "fathom/report/table.hpp"
 #include "fathom/report/trajectory_plot.hpp"
 
 namespace fathom {
 namespace {
 
-PlotSeries series_of(const Result& result, bool with_details) {
+PlotSeries series_of(const Result& result, std::size_t place, bool with_details) {
   PlotSeries series;
   series.name = result.estimator.name;
+  series.style = estimator_style(place);
+  const Outcome outcome = result.replay.outcome;
+  series.may_leave = outcome != Outcome::converged && outcome != Outcome::iteration_limit;
   series.poses = result.replay.trajectory;
   if (!with_details) return series;
   if (result.replay.covariances) series.covariances = *result.replay.covariances;
@@ -39,21 +41,24 @@ std::vector<std::string> accuracy_cells(const std::optional<Accuracy>& accuracy)
 }  // namespace
 
 void write_trajectory_picture(const std::filesystem::path& path, const std::string& title,
-                              const Recording& recording, const std::vector<Result>& results) {
+                              const Recording& recording, const std::vector<Result>& results,
+                              std::size_t first_place) {
   TrajectoryPlot plot;
   plot.title = title;
   const std::vector<Pose> odometry = recording.log.odometry();
   if (recording.ground_truth) {
     plot.series.push_back({"ground truth",
+                           ground_truth_style(),
                            align(*recording.ground_truth, odometry, Alignment::origin).poses,
                            {},
-                           {}});
+                           {},
+                           false});
   }
-  plot.series.push_back({"dead reckoning", odometry, {}, {}});
-  for (const Result& result : results) {
-    plot.series.push_back(series_of(result, results.size() == 1));
+  plot.series.push_back({"dead reckoning", dead_reckoning_style(), odometry, {}, {}, true});
+  for (std::size_t place = 0; place < results.size(); ++place) {
+    plot.series.push_back(series_of(results[place], first_place + place, results.size() == 1));
   }
-  write_file(path, encode_png(render(plot)));
+  write_file(path, trajectory_png(plot));
 }
 
 std::string result_table(const Recording& recording, const std::vector<Result>& results,

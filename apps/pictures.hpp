@@ -11,8 +11,10 @@ namespace fathom {
 
 /// The picture of a run or comparison: ground truth and dead reckoning, the estimates, the loops
 /// used and 2σ ellipses (of a single estimate only). All are drawn in the frame of keyframe 0.
+/// `first_place` is that of the first estimate in its study, by which it has its line.
 void write_trajectory_picture(const std::filesystem::path& path, const std::string& title,
-                              const Recording& recording, const std::vector<Result>& results);
+                              const Recording& recording, const std::vector<Result>& results,
+                              std::size_t first_place = 0);
 
 /// One line an estimator, dead reckoning first.
 std::string result_table(const Recording& recording, const std::vector<Result>& results,

@@ -2,21 +2,19 @@
 
 #include "output.hpp"
 #include "src/report/chart_frame.hpp"
-#include "src/report/vector_canvas.hpp"
+#include "src/report/chart_legend.hpp"
+#include "src/report/figure_file.hpp"
 
 namespace fathom::benchmarks {
 namespace {
 
 using Points = std::vector<Eigen::Vector2d>;
 
-constexpr double kWidth = 520.0;
-constexpr double kHeight = 270.0;
+constexpr PageSize kPage{520.0, 270.0};
 
-// The estimators' own colours, then those left.
-Pen pen_of(std::size_t index) {
-  constexpr std::array kColours{palette::blue,   palette::vermillion, palette::green,
-                                palette::purple, palette::orange,     palette::sky_blue};
-  return {kColours[index % kColours.size()], 1.4, {}, 1.0};
+Pen pen_of(std::size_t place) {
+  const LineStyle style = estimator_style(place);
+  return {style.colour, 1.4, style.dashes, 1.0};
 }
 
 std::vector<Points> curves_of(const std::vector<LogCosts>& logs, std::size_t LogCosts::*count) {
@@ -31,7 +29,7 @@ std::vector<Points> curves_of(const std::vector<LogCosts>& logs, std::size_t Log
   return curves;
 }
 
-void draw(VectorCanvas& canvas, const std::vector<Points>& curves, const std::string& title,
+void draw(Canvas& canvas, const std::vector<Points>& curves, const std::string& title,
           const Box& box) {
   std::vector<double> xs;
   std::vector<double> ys;
@@ -42,12 +40,11 @@ void draw(VectorCanvas& canvas, const std::vector<Points>& curves, const std::st
     }
   }
   if (xs.empty()) return;
-  const ChartFrame frame(logarithmic_axis_over(title, xs), logarithmic_axis_over("total, ms", ys),
-                         box);
+  const ChartFrame frame(logarithmic_axis_over({title, ""}, xs),
+                         logarithmic_axis_over({"total", "ms"}, ys), box);
   frame.draw(canvas);
   for (std::size_t i = 0; i < curves.size(); ++i) {
-    Points line;
-    for (const Eigen::Vector2d& point : curves[i]) line.push_back(frame.at(point.x(), point.y()));
+    const Points line = frame.at(curves[i]);
     if (line.size() > 1) canvas.line(line, pen_of(i));
     for (const Eigen::Vector2d& point : line) canvas.disc(point, 1.8, pen_of(i).colour);
   }
@@ -56,18 +53,18 @@ void draw(VectorCanvas& canvas, const std::vector<Points>& curves, const std::st
 }  // namespace
 
 std::string chart(const Growth& growth) {
-  return render_figure(FigureFormat::svg, kWidth, kHeight, [&](VectorCanvas& canvas) {
+  return render_figure(FigureFormat::svg, kPage, [&](Canvas& canvas) {
     draw(canvas, curves_of(growth.by_keyframes, &LogCosts::keyframes),
-         "keyframes (a loop for every third)", {40.0, 12.0, 200.0, 190.0});
+         "keyframes (a loop for every third)", {12.0, 12.0, 240.0, 216.0});
     draw(canvas, curves_of(growth.by_loops, &LogCosts::loops), "loops (2000 keyframes)",
-         {300.0, 12.0, 200.0, 190.0});
-    std::vector<FigureLegendEntry> legend;
+         {268.0, 12.0, 240.0, 216.0});
+    std::vector<LegendEntry> entries;
     const std::vector<LogCosts>& logs =
         growth.by_keyframes.empty() ? growth.by_loops : growth.by_keyframes;
     for (std::size_t i = 0; !logs.empty() && i < logs.front().costs.size(); ++i) {
-      legend.push_back({logs.front().costs[i].estimator, pen_of(i)});
+      entries.push_back(line_entry(logs.front().costs[i].estimator, pen_of(i)));
     }
-    draw_figure_legend(canvas, legend, {40.0, 236.0}, kWidth - 60.0);
+    ChartLegend(std::move(entries), kPage.width - 24.0).draw(canvas, {12.0, 238.0});
   });
 }
 

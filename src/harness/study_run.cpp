@@ -84,6 +84,9 @@ class Runner {
         options_(options),
         tasks_(tasks_of(study, store)),
         data_sets_(study, tasks_, options.registrations) {
+    // No more than there are trials to run: what costs are told by is what was at work.
+    threads_ = static_cast<int>(std::clamp<std::size_t>(
+        tasks_.size(), 1, static_cast<std::size_t>(std::max(1, options.jobs))));
     progress_.of =
         study.cells.size() * study.description.trials * study.description.estimators.size();
     std::size_t missing = 0;
@@ -92,10 +95,8 @@ class Runner {
   }
 
   bool run() {
-    const std::size_t threads =
-        std::min(static_cast<std::size_t>(options_.jobs), std::max<std::size_t>(tasks_.size(), 1));
     std::vector<std::thread> others;
-    for (std::size_t i = 1; i < threads; ++i) others.emplace_back([this] { work(); });
+    for (int i = 1; i < threads_; ++i) others.emplace_back([this] { work(); });
     work();
     for (std::thread& other : others) other.join();
     if (failure_) std::rethrow_exception(failure_);
@@ -145,7 +146,7 @@ class Runner {
   void add_baseline(const Task& task, const Recording& recording) {
     RunRecord run = baseline_record(recording, study_.cells[task.cell]);
     run.key = {task.cell, task.trial, kDeadReckoning};
-    run.jobs = options_.jobs;
+    run.jobs = threads_;
     store_.add(run);
   }
 
@@ -158,7 +159,7 @@ class Runner {
                                    configuration.alignment, replay_options);
     RunRecord run = run_record(recording, result, configuration, registry_);
     run.key = {task.cell, task.trial, configuration.estimators[estimator].name};
-    run.jobs = options_.jobs;
+    run.jobs = threads_;
     store_.add(run);
     const std::lock_guard hold(mutex_);
     ++progress_.done;
@@ -171,6 +172,7 @@ class Runner {
   ResultStore& store_;
   const StudyRunOptions& options_;
   std::vector<Task> tasks_;
+  int threads_ = 1;
   DataSets data_sets_;
   std::atomic<std::size_t> next_task_ = 0;
   std::atomic<std::size_t> done_tasks_ = 0;

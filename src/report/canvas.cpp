@@ -1,166 +1,153 @@
 #include "canvas.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <cairo.h>
+#include <numbers>
+#include <optional>
+#include <utility>
 
-#include <opencv2/imgproc.hpp>
+#include "text_layout.hpp"
+#include "utf8.hpp"
 
 namespace fathom {
 namespace {
 
-constexpr int kScale = 2;
-constexpr int kShift = 4;  // sub-pixel bits of OpenCV's fixed-point coordinates
-constexpr int kFont = cv::FONT_HERSHEY_DUPLEX;
-// Capital letters of this font are 21 units high at scale 1.
-constexpr double kFontUnits = 21.0;
+// Cairo's coordinates are fixed-point numbers below 2^23.
+constexpr double kFarthest = 1e5;
 
-cv::Scalar bgr(Colour colour) {
-  return {double(colour.blue), double(colour.green), double(colour.red)};
+void set_colour(cairo_t* context, Colour colour, double opacity) {
+  cairo_set_source_rgba(context, colour.red / 255.0, colour.green / 255.0, colour.blue / 255.0,
+                        opacity);
 }
 
-int thickness(double width_px) {
-  return std::max(1, static_cast<int>(std::lround(width_px * kScale)));
-}
-
-std::string ascii(const std::string& text) {
-  std::string plain;
-  for (const char letter : text) {
-    const auto byte = static_cast<unsigned char>(letter);
-    if ((byte & 0xC0) == 0x80) continue;  // the rest of a UTF-8 character
-    plain += byte >= 0x20 && byte < 0x7f ? letter : '?';
-  }
-  return plain;
-}
-
-// The pieces of a line that are dashes, the pattern carried on across its corners.
-std::vector<std::vector<Eigen::Vector2d>> dashes_of(const std::vector<Eigen::Vector2d>& points,
-                                                    double dash_px) {
-  std::vector<std::vector<Eigen::Vector2d>> dashes{{points.front()}};
-  bool drawing = true;
-  double left_px = dash_px;
-  for (std::size_t i = 1; i < points.size(); ++i) {
-    Eigen::Vector2d from = points[i - 1];
-    double length_px = (points[i] - from).norm();
-    while (length_px > left_px) {
-      from += (points[i] - from) * (left_px / length_px);
-      length_px -= left_px;
-      left_px = dash_px;
-      if (drawing) dashes.back().push_back(from);
-      if (!drawing) dashes.push_back({from});
-      drawing = !drawing;
+// The part of a segment that is not too far off the page (Liang and Barsky, 1984).
+std::optional<std::pair<Eigen::Vector2d, Eigen::Vector2d>> near_part(const Eigen::Vector2d& from,
+                                                                     const Eigen::Vector2d& to) {
+  double first = 0.0;
+  double last = 1.0;
+  for (int axis = 0; axis < 2; ++axis) {
+    const double way = to[axis] - from[axis];
+    if (way == 0.0) {
+      if (std::abs(from[axis]) > kFarthest) return std::nullopt;
+      continue;
     }
-    left_px -= length_px;
-    if (drawing) dashes.back().push_back(points[i]);
+    const double low = (-kFarthest - from[axis]) / way;
+    const double high = (kFarthest - from[axis]) / way;
+    first = std::max(first, std::min(low, high));
+    last = std::min(last, std::max(low, high));
   }
-  return dashes;
+  if (first > last) return std::nullopt;
+  return std::pair<Eigen::Vector2d, Eigen::Vector2d>(
+      first == 0.0 ? from : from + first * (to - from),
+      last == 1.0 ? to : from + last * (to - from));
+}
+
+void trace(cairo_t* context, std::span<const Eigen::Vector2d> points) {
+  cairo_new_path(context);
+  bool joined = false;
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    const auto part = near_part(points[i - 1], points[i]);
+    if (!part) {
+      joined = false;
+      continue;
+    }
+    if (!joined) cairo_move_to(context, part->first.x(), part->first.y());
+    cairo_line_to(context, part->second.x(), part->second.y());
+    joined = part->second == points[i];
+  }
+}
+
+Box ink_box(const std::string& text, const Eigen::Vector2d& start, const TextStyle& style) {
+  const Box ink = text_ink(text, style.size);
+  if (!style.upwards) return {start.x() + ink.left, start.y() + ink.top, ink.width, ink.height};
+  return {start.x() + ink.top, start.y() - ink.right(), ink.height, ink.width};
 }
 
 }  // namespace
 
-Canvas::Canvas(int width_px, int height_px)
-    : large_(height_px * kScale, width_px * kScale, CV_8UC3, cv::Scalar::all(255)) {
-  clip_to_all();
+void Canvas::stroke(const Pen& pen) {
+  set_colour(context_, pen.colour, pen.opacity);
+  cairo_set_line_width(context_, pen.width);
+  cairo_set_line_join(context_, CAIRO_LINE_JOIN_ROUND);
+  cairo_set_dash(context_, pen.dashes.data(), static_cast<int>(pen.dashes.size()), 0.0);
+  cairo_stroke(context_);
 }
 
-void Canvas::clip_to(const PixelBox& box) {
-  const auto scaled = [](double value) { return static_cast<int>(std::lround(value * kScale)); };
-  const cv::Rect wanted(scaled(box.left), scaled(box.top), scaled(box.width()),
-                        scaled(box.height()));
-  clip_ = wanted & cv::Rect({0, 0}, large_.size());
+void Canvas::line(std::span<const Eigen::Vector2d> points, const Pen& pen) {
+  if (points.size() < 2) return;
+  trace(context_, points);
+  stroke(pen);
 }
 
-void Canvas::clip_to_all() {
-  clip_ = cv::Rect({0, 0}, large_.size());
+void Canvas::line(const Eigen::Vector2d& from, const Eigen::Vector2d& to, const Pen& pen) {
+  line(std::vector<Eigen::Vector2d>{from, to}, pen);
 }
 
-// OpenCV clips at the border of the matrix it draws on, but its fixed-point coordinates must not
-// overflow: what is far outside stays far outside.
-cv::Point Canvas::fixed_point(const Eigen::Vector2d& point) const {
-  static constexpr double kFar = 1 << 20;
-  const auto fixed = [](double value, int offset) {
-    const double pixel = std::clamp(kScale * (value + 0.5) - 0.5 - offset, -kFar, kFar);
-    return static_cast<int>(std::lround(pixel * (1 << kShift)));
-  };
-  return {fixed(point.x(), clip_.x), fixed(point.y(), clip_.y)};
-}
-
-void Canvas::line(const std::vector<Eigen::Vector2d>& points, const Stroke& stroke) {
-  if (points.empty()) return;
-  cv::Mat target = large_(clip_);
-  std::vector<std::vector<Eigen::Vector2d>> pieces{points};
-  if (stroke.dash_px > 0.0) pieces = dashes_of(points, stroke.dash_px);
-  for (const std::vector<Eigen::Vector2d>& piece : pieces) {
-    std::vector<cv::Point> fixed;
-    fixed.reserve(piece.size());
-    for (const Eigen::Vector2d& point : piece) fixed.push_back(fixed_point(point));
-    cv::polylines(target, fixed, false, bgr(stroke.colour), thickness(stroke.width_px), cv::LINE_AA,
-                  kShift);
+void Canvas::area(std::span<const Eigen::Vector2d> outline, Colour colour, double opacity) {
+  if (outline.size() < 3) return;
+  cairo_new_path(context_);
+  for (const Eigen::Vector2d& corner : outline) {
+    cairo_line_to(context_, std::clamp(corner.x(), -kFarthest, kFarthest),
+                  std::clamp(corner.y(), -kFarthest, kFarthest));
   }
+  set_colour(context_, colour, opacity);
+  cairo_fill(context_);
 }
 
-void Canvas::closed_line(std::vector<Eigen::Vector2d> points, const Stroke& stroke) {
-  if (points.empty()) return;
-  points.push_back(points.front());
-  line(points, stroke);
+void Canvas::outline(std::vector<Eigen::Vector2d> corners, const Pen& pen) {
+  if (corners.empty()) return;
+  corners.push_back(corners.front());
+  line(corners, pen);
 }
 
-void Canvas::disc(const Eigen::Vector2d& centre, double radius_px, Colour fill) {
-  cv::Mat target = large_(clip_);
-  const int radius = static_cast<int>(std::lround(radius_px * kScale * (1 << kShift)));
-  cv::circle(target, fixed_point(centre), radius, bgr(fill), cv::FILLED, cv::LINE_AA, kShift);
+void Canvas::disc(const Eigen::Vector2d& centre, double radius, Colour colour) {
+  if (centre.cwiseAbs().maxCoeff() > kFarthest) return;
+  cairo_new_path(context_);
+  cairo_arc(context_, centre.x(), centre.y(), radius, 0.0, 2.0 * std::numbers::pi);
+  set_colour(context_, colour, 1.0);
+  cairo_fill(context_);
 }
 
-void Canvas::ring(const Eigen::Vector2d& centre, double radius_px, const Stroke& stroke) {
-  cv::Mat target = large_(clip_);
-  const int radius = static_cast<int>(std::lround(radius_px * kScale * (1 << kShift)));
-  cv::circle(target, fixed_point(centre), radius, bgr(stroke.colour), thickness(stroke.width_px),
-             cv::LINE_AA, kShift);
+void Canvas::ring(const Eigen::Vector2d& centre, double radius, const Pen& pen) {
+  if (centre.cwiseAbs().maxCoeff() > kFarthest) return;
+  cairo_new_path(context_);
+  cairo_arc(context_, centre.x(), centre.y(), radius, 0.0, 2.0 * std::numbers::pi);
+  stroke(pen);
 }
 
-void Canvas::square(const Eigen::Vector2d& centre, double half_px, Colour fill) {
-  cv::Mat target = large_(clip_);
-  const Eigen::Vector2d half(half_px, half_px);
-  cv::rectangle(target, fixed_point(centre - half), fixed_point(centre + half), bgr(fill),
-                cv::FILLED, cv::LINE_AA, kShift);
+void Canvas::square(const Eigen::Vector2d& centre, double half, Colour colour) {
+  if (centre.cwiseAbs().maxCoeff() > kFarthest) return;
+  cairo_rectangle(context_, centre.x() - half, centre.y() - half, 2.0 * half, 2.0 * half);
+  set_colour(context_, colour, 1.0);
+  cairo_fill(context_);
 }
 
-void Canvas::image(const cv::Mat& picture, const Eigen::Vector2d& top_left) {
-  const cv::Rect place(static_cast<int>(std::lround(top_left.x())) * kScale,
-                       static_cast<int>(std::lround(top_left.y())) * kScale, picture.cols * kScale,
-                       picture.rows * kScale);
-  cv::Mat target = large_(place);
-  cv::resize(picture, target, place.size(), 0, 0, cv::INTER_NEAREST);
+void Canvas::text(const std::string& text, const Eigen::Vector2d& at, const TextStyle& style) {
+  const std::string line = drawable_text(text);
+  if (line.empty()) return;
+  const double share = style.align == TextAlign::left     ? 0.0
+                       : style.align == TextAlign::centre ? 0.5
+                                                          : 1.0;
+  const double shift = -share * text_width(line, style.size);
+  const Eigen::Vector2d start = style.upwards ? Eigen::Vector2d(at.x(), at.y() - shift)
+                                              : Eigen::Vector2d(at.x() + shift, at.y());
+  cairo_save(context_);
+  cairo_translate(context_, start.x(), start.y());
+  if (style.upwards) cairo_rotate(context_, -std::numbers::pi / 2.0);
+  set_chart_font(context_, style.size);
+  cairo_move_to(context_, 0.0, 0.0);
+  set_colour(context_, style.colour, 1.0);
+  cairo_show_text(context_, line.c_str());
+  cairo_restore(context_);
+  texts_.push_back({line, ink_box(line, start, style)});
 }
 
-void Canvas::text(const std::string& text, const Eigen::Vector2d& at, double height_px,
-                  TextAnchor anchor, Colour colour) {
-  const double width_px = text_width_px(text, height_px);
-  const double shift_px = anchor == TextAnchor::left     ? 0.0
-                          : anchor == TextAnchor::centre ? width_px / 2
-                                                         : width_px;
-  const cv::Point origin(static_cast<int>(std::lround((at.x() - shift_px) * kScale)) - clip_.x,
-                         static_cast<int>(std::lround(at.y() * kScale)) - clip_.y);
-  cv::Mat target = large_(clip_);
-  cv::putText(target, ascii(text), origin, kFont, height_px * kScale / kFontUnits, bgr(colour),
-              thickness(height_px / 14.0), cv::LINE_AA);
-}
-
-double Canvas::text_width_px(const std::string& text, double height_px) {
-  int baseline = 0;
-  const cv::Size size = cv::getTextSize(ascii(text), kFont, height_px * kScale / kFontUnits,
-                                        thickness(height_px / 14.0), &baseline);
-  return size.width / double{kScale};
-}
-
-double Canvas::fitting_height_px(const std::string& text, double height_px, double widest_px) {
-  const double width_px = text_width_px(text, height_px);
-  return width_px <= widest_px ? height_px : height_px * widest_px / width_px;
-}
-
-cv::Mat Canvas::finish() const {
-  cv::Mat picture;
-  cv::resize(large_, picture, large_.size() / kScale, 0, 0, cv::INTER_AREA);
-  return picture;
+void Canvas::clipped(const Box& box, const std::function<void()>& draw) {
+  cairo_save(context_);
+  cairo_rectangle(context_, box.left, box.top, box.width, box.height);
+  cairo_clip(context_);
+  draw();
+  cairo_restore(context_);
 }
 
 }  // namespace fathom

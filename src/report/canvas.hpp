@@ -1,66 +1,68 @@
 #pragma once
 
+#include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include <Eigen/Core>
-#include <opencv2/core.hpp>
 
 #include "fathom/report/palette.hpp"
+#include "page_box.hpp"
+
+using cairo_t = struct _cairo;
 
 namespace fathom {
 
-enum class TextAnchor { left, centre, right };
+enum class TextAlign { left, centre, right };
 
-/// A rectangle in pixels of the finished picture.
-struct PixelBox {
-  double left = 0.0;
-  double top = 0.0;
-  double right = 0.0;
-  double bottom = 0.0;
-
-  double width() const { return right - left; }
-  double height() const { return bottom - top; }
-};
-
-struct Stroke {
+struct Pen {
   Colour colour;
-  double width_px = 1.0;
-  double dash_px = 0.0;  ///< length of dashes and gaps; 0: solid
+  double width = 1.0;
+  std::vector<double> dashes;  ///< lengths on and off; empty: solid
+  double opacity = 1.0;
 };
 
-/// A white picture to draw on. All coordinates are pixels of the finished picture, u right and v
-/// down; it is drawn at twice the size and averaged down, which makes OpenCV's stroke fonts fair.
+struct TextStyle {
+  double size = 7.5;
+  Colour colour = palette::black;
+  TextAlign align = TextAlign::left;
+  bool upwards = false;  ///< turned to read from below
+};
+
+/// A text and the box of its ink.
+struct PlacedText {
+  std::string text;
+  Box box;
+};
+
+/// What all charts, figures and marks are drawn on, in points (1/72 inch) from the upper left
+/// corner, y down. Points must be finite; they may lie as far off the page as doubles go.
 class Canvas {
  public:
-  Canvas(int width_px, int height_px);
+  explicit Canvas(cairo_t* context) : context_(context) {}
 
-  /// Restricts all drawing to a box, or to the whole picture again.
-  void clip_to(const PixelBox& box);
-  void clip_to_all();
+  void line(std::span<const Eigen::Vector2d> points, const Pen& pen);
+  void line(const Eigen::Vector2d& from, const Eigen::Vector2d& to, const Pen& pen);
+  /// An area, or its outline.
+  void area(std::span<const Eigen::Vector2d> outline, Colour colour, double opacity = 1.0);
+  void outline(std::vector<Eigen::Vector2d> corners, const Pen& pen);
+  void disc(const Eigen::Vector2d& centre, double radius, Colour colour);
+  void ring(const Eigen::Vector2d& centre, double radius, const Pen& pen);
+  void square(const Eigen::Vector2d& centre, double half, Colour colour);
+  /// `at` is on the baseline. Control characters are drawn as blanks.
+  void text(const std::string& text, const Eigen::Vector2d& at, const TextStyle& style);
+  /// What `draw` draws, cut off at the box.
+  void clipped(const Box& box, const std::function<void()>& draw);
 
-  void line(const std::vector<Eigen::Vector2d>& points, const Stroke& stroke);
-  void closed_line(std::vector<Eigen::Vector2d> points, const Stroke& stroke);
-  void disc(const Eigen::Vector2d& centre, double radius_px, Colour fill);
-  void ring(const Eigen::Vector2d& centre, double radius_px, const Stroke& stroke);
-  void square(const Eigen::Vector2d& centre, double half_px, Colour fill);
-  void image(const cv::Mat& bgr, const Eigen::Vector2d& top_left);
-
-  /// ASCII; other characters are drawn as '?'. `at` is on the baseline.
-  void text(const std::string& text, const Eigen::Vector2d& at, double height_px,
-            TextAnchor anchor = TextAnchor::left, Colour colour = palette::black);
-  static double text_width_px(const std::string& text, double height_px);
-  /// The height at which the text is no wider than it may be: `height_px`, or less.
-  static double fitting_height_px(const std::string& text, double height_px, double widest_px);
-
-  /// The picture, 8-bit BGR.
-  cv::Mat finish() const;
+  /// All texts drawn so far: what a layout is checked by.
+  const std::vector<PlacedText>& texts() const { return texts_; }
 
  private:
-  cv::Point fixed_point(const Eigen::Vector2d& point) const;
+  void stroke(const Pen& pen);
 
-  cv::Mat large_;
-  cv::Rect clip_;
+  cairo_t* context_;
+  std::vector<PlacedText> texts_;
 };
 
 }  // namespace fathom

@@ -1,62 +1,42 @@
 #pragma once
 
-#include <string>
-#include <utility>
-#include <vector>
-
-#include "estimator_colours.hpp"
-#include "vector_canvas.hpp"
+#include "canvas.hpp"
+#include "chart_axis.hpp"
 
 namespace fathom {
 
-/// One axis of a chart.
-struct ChartAxis {
-  std::string title;
-  double low = 0.0;
-  double high = 1.0;
-  bool logarithmic = false;
-  /// Where the ticks are; of none given, round numbers.
-  std::vector<std::pair<double, std::string>> ticks;
+inline constexpr double kFontSize = 7.5;
+inline constexpr Colour kSoftInk{0x55, 0x5B, 0x61};
 
-  /// 0 at `low` to 1 at `high`.
-  double share(double value) const;
-};
-
-/// Encloses all values, zero too if `from_zero`; a logarithmic one those above zero, to the next
-/// 1, 2 or 5.
-ChartAxis axis_over(std::string title, const std::vector<double>& values, bool from_zero);
-ChartAxis logarithmic_axis_over(std::string title, const std::vector<double>& values);
-
-/// The axes of a chart with its grid, and the way from values to points of the page.
+/// The axes of a chart with its grid, and the way from values to points of the page. Its texts are
+/// measured: no label runs into another one or into a title, and none leaves the outer box.
 class ChartFrame {
  public:
-  ChartFrame(ChartAxis x, ChartAxis y, const Box& box);
+  /// Axes, labels and titles together fill `outer`.
+  ChartFrame(ChartAxis x, ChartAxis y, const Box& outer);
 
-  void draw(VectorCanvas& canvas) const;
+  void draw(Canvas& canvas) const;
   Eigen::Vector2d at(double x, double y) const;
+  std::vector<Eigen::Vector2d> at(const std::vector<Eigen::Vector2d>& values) const;
+  /// Within the axes.
   const Box& box() const { return box_; }
+  /// The same with its axes in a box that lies within the one they have.
+  ChartFrame with_box(const Box& box) const;
 
  private:
-  void draw_x_ticks(VectorCanvas& canvas, const Pen& pen) const;
+  struct Label {
+    double at = 0.0;
+    std::string text;
+  };
+  std::vector<Label> x_labels() const;
+  std::vector<Label> y_labels() const;
+  void draw_x(Canvas& canvas) const;
+  void draw_y(Canvas& canvas) const;
 
   ChartAxis x_;
   ChartAxis y_;
+  Box outer_;
   Box box_;
 };
-
-struct FigureLegendEntry {
-  std::string text;
-  Pen pen;
-};
-
-/// Entries side by side from the left, in as many rows as they need; the height that they take.
-double draw_figure_legend(VectorCanvas& canvas, const std::vector<FigureLegendEntry>& entries,
-                          const Eigen::Vector2d& top_left, double width);
-
-/// How an estimator's line is drawn in figures.
-Pen pen_of(const LineStyle& style, double width);
-
-inline constexpr double kFontSize = 7.5;
-inline constexpr Colour kSoftInk{0x55, 0x5B, 0x61};
 
 }  // namespace fathom

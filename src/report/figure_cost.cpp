@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <map>
 
 #include "metric_label.hpp"
 #include "study_figures.hpp"
@@ -47,46 +48,53 @@ std::vector<CostPoint> front_of(std::vector<CostPoint> points) {
 }
 
 ChartFrame frame_of(const std::vector<CostPoint>& points, const std::string& accuracy,
-                    const std::string& cost, double height) {
+                    const std::string& cost, const Box& outer) {
   std::vector<double> costs;
   std::vector<double> errors;
   for (const CostPoint& point : points) {
     costs.insert(costs.end(), {0.8 * point.costs.low, 1.25 * point.costs.high});
     errors.insert(errors.end(), {point.errors.low, point.errors.high});
   }
-  return {logarithmic_axis_over(metric_label(cost).with_unit(), costs),
-          axis_over(metric_label(accuracy).with_unit(), errors, true), axes_box(height)};
+  return {logarithmic_axis_over(axis_title(cost), costs),
+          axis_over(axis_title(accuracy), errors, true), outer};
 }
 
-void draw_cost(VectorCanvas& canvas, const std::vector<CostPoint>& points, const ChartFrame& frame,
-               const StudyDescription& study, const std::string& caption) {
+const Pen& front_pen() {
+  static const Pen pen{kSoftInk, 0.7, {2.5, 2.0}, 1.0};
+  return pen;
+}
+
+std::vector<LegendEntry> legend_of(const std::vector<CostPoint>& points,
+                                   const std::map<std::string, LineStyle>& styles) {
+  std::vector<LegendEntry> legend;
+  for (const CostPoint& point : points) {
+    legend.push_back(disc_entry(display_name(point.estimator), styles.at(point.estimator).colour));
+  }
+  legend.push_back(line_entry("Pareto front", front_pen()));
+  return legend;
+}
+
+void draw_cost(Canvas& canvas, const std::vector<CostPoint>& points, const ChartFrame& frame,
+               const std::map<std::string, LineStyle>& styles) {
   frame.draw(canvas);
-  const auto styles = line_styles(study);
   Points steps;
   for (const CostPoint& point : front_of(points)) {
     const Eigen::Vector2d at = frame.at(point.cost, point.error);
     if (!steps.empty()) steps.emplace_back(at.x(), steps.back().y());
     steps.push_back(at);
   }
-  const Pen front{kSoftInk, 0.7, {2.5, 2.0}, 1.0};
-  canvas.line(steps, front);
-  std::vector<FigureLegendEntry> legend;
+  canvas.line(steps, front_pen());
   for (const CostPoint& point : points) {
     const Pen pen{styles.at(point.estimator).colour, 1.0, {}, 1.0};
-    canvas.line(
-        Points{frame.at(point.costs.low, point.error), frame.at(point.costs.high, point.error)},
-        pen);
-    canvas.line(
-        Points{frame.at(point.cost, point.errors.low), frame.at(point.cost, point.errors.high)},
-        pen);
+    canvas.line(frame.at(point.costs.low, point.error), frame.at(point.costs.high, point.error),
+                pen);
+    canvas.line(frame.at(point.cost, point.errors.low), frame.at(point.cost, point.errors.high),
+                pen);
     canvas.disc(frame.at(point.cost, point.error), 3.0, pen.colour);
-    legend.push_back({display_name(point.estimator), {pen.colour, 4.0, {}, 1.0}});
   }
   for (const CostPoint& point : front_of(points)) {
     canvas.ring(frame.at(point.cost, point.error), 3.6, {palette::black, 0.8, {}, 1.0});
   }
-  legend.push_back({"Pareto front", front});
-  draw_footer(canvas, frame.box(), legend, caption);
 }
 
 }  // namespace
@@ -96,17 +104,18 @@ void add_cost_figures(const FigureInput& input, std::vector<StudyFigure>& figure
   const auto accuracy = first_metric(results, false);
   const auto cost = first_metric(results, true);
   if (!accuracy || !cost) return;
+  const auto styles = line_styles(results.study);
   for (const CellResults& cell : results.cells) {
     const std::vector<CostPoint> points = points_of(cell, *accuracy, *cost);
     if (points.empty()) continue;
-    constexpr double kHeight = 220.0;
-    const ChartFrame frame = frame_of(points, *accuracy, *cost, kHeight);
-    const std::string caption =
-        cell_caption(cell, results.study) + failures_text(cell) + "; means, 95 % intervals";
-    figures.push_back({figure_name("accuracy_against_cost", cell.label, results.cells.size() == 1),
-                       kHeight,
-                       [points, frame, caption, &study = results.study](VectorCanvas& canvas) {
-                         draw_cost(canvas, points, frame, study, caption);
+    const std::string conditions =
+        cell_caption(cell) + failures_text(cell) + "; means, 95 % intervals";
+    const FigureLayout layout({170.0}, legend_of(points, styles), conditions);
+    const ChartFrame frame = frame_of(points, *accuracy, *cost, layout.chart(0));
+    figures.push_back({figure_title("accuracy_against_cost", cell.label, results.cells.size() == 1),
+                       layout.height(), [points, frame, layout, styles](Canvas& canvas) {
+                         draw_cost(canvas, points, frame, styles);
+                         layout.draw_footer(canvas);
                        }});
   }
 }

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <map>
 
 #include "fathom/evaluation/consistency.hpp"
 #include "study_figures.hpp"
@@ -41,13 +42,7 @@ NeesChart chart_of(const CellResults& cell, const std::vector<EstimatorSeries>& 
   return chart;
 }
 
-Points placed(const ChartFrame& frame, const Points& values) {
-  Points points;
-  for (const Eigen::Vector2d& value : values) points.push_back(frame.at(value.x(), value.y()));
-  return points;
-}
-
-ChartFrame frame_of(const NeesChart& chart, double height) {
+ChartFrame frame_of(const NeesChart& chart, const Box& outer) {
   std::vector<double> keyframes;
   std::vector<double> values;
   const auto add = [&](const Points& points) {
@@ -59,45 +54,54 @@ ChartFrame frame_of(const NeesChart& chart, double height) {
   for (const auto& [name, points] : chart.lines) add(points);
   add(chart.low);
   add(chart.high);
-  return {axis_over("keyframe", keyframes, false),
-          logarithmic_axis_over("NEES / 3, mean over trials", values), axes_box(height)};
+  return {axis_over({"keyframe", ""}, keyframes, false),
+          logarithmic_axis_over({"NEES / 3, mean over trials", ""}, values), outer};
 }
 
-void draw_nees(VectorCanvas& canvas, const NeesChart& chart, const StudyDescription& study,
-               const std::string& caption, double height) {
-  const ChartFrame frame = frame_of(chart, height);
-  const auto styles = line_styles(study);
-  Points band = placed(frame, chart.low);
-  const Points high = placed(frame, chart.high);
+std::vector<LegendEntry> legend_of(const NeesChart& chart,
+                                   const std::map<std::string, LineStyle>& styles) {
+  std::vector<LegendEntry> legend;
+  for (const auto& [name, points] : chart.lines) {
+    legend.push_back(line_entry(display_name(name), pen_of(styles.at(name), 1.1)));
+  }
+  legend.push_back(line_entry("95 % interval of χ²", {palette::grey, 6.0, {}, 0.35}));
+  return legend;
+}
+
+void draw_nees(Canvas& canvas, const NeesChart& chart, const ChartFrame& frame,
+               const std::map<std::string, LineStyle>& styles) {
+  Points band = frame.at(chart.low);
+  const Points high = frame.at(chart.high);
   band.insert(band.end(), high.rbegin(), high.rend());
   canvas.area(band, palette::grey, 0.25);
   frame.draw(canvas);
   const double one = frame.at(0.0, 1.0).y();
-  canvas.line(Points{{frame.box().left, one}, {frame.box().right(), one}},
+  canvas.line({frame.box().left, one}, {frame.box().right(), one},
               {kSoftInk, 0.7, {1.5, 1.5}, 1.0});
-  std::vector<FigureLegendEntry> legend;
   for (const auto& [name, points] : chart.lines) {
-    const Pen pen = pen_of(styles.at(name), 1.1);
-    canvas.line(placed(frame, points), pen);
-    legend.push_back({display_name(name), pen});
+    canvas.line(frame.at(points), pen_of(styles.at(name), 1.1));
+    if (points.size() == 1) {
+      canvas.disc(frame.at(points[0].x(), points[0].y()), 2.0, styles.at(name).colour);
+    }
   }
-  legend.push_back({"95 % interval of χ²", {palette::grey, 6.0, {}, 0.35}});
-  draw_footer(canvas, frame.box(), legend, caption);
 }
 
 }  // namespace
 
 void add_nees_figures(const FigureInput& input, std::vector<StudyFigure>& figures) {
   const StudyResults& results = input.results;
+  const auto styles = line_styles(results.study);
   for (std::size_t i = 0; i < results.cells.size(); ++i) {
-    const NeesChart chart = chart_of(results.cells[i], input.series[i]);
+    const CellResults& cell = results.cells[i];
+    const NeesChart chart = chart_of(cell, input.series[i]);
     if (chart.lines.empty()) continue;
-    const std::string caption =
-        cell_caption(results.cells[i], results.study) + failures_text(results.cells[i]);
-    constexpr double kHeight = 220.0;
-    figures.push_back({figure_name("nees", results.cells[i].label, results.cells.size() == 1),
-                       kHeight, [chart, caption, &study = results.study](VectorCanvas& canvas) {
-                         draw_nees(canvas, chart, study, caption, kHeight);
+    const FigureLayout layout({170.0}, legend_of(chart, styles),
+                              cell_caption(cell) + failures_text(cell));
+    const ChartFrame frame = frame_of(chart, layout.chart(0));
+    figures.push_back({figure_title("nees", cell.label, results.cells.size() == 1), layout.height(),
+                       [chart, frame, layout, styles](Canvas& canvas) {
+                         draw_nees(canvas, chart, frame, styles);
+                         layout.draw_footer(canvas);
                        }});
   }
 }

@@ -1,5 +1,5 @@
 #include <algorithm>
-#include <cmath>
+#include <map>
 
 #include "fathom/core/text.hpp"
 #include "metric_label.hpp"
@@ -73,22 +73,8 @@ std::vector<SweepLine> lines_of(const FigureInput& input, const Sweep& sweep,
 }
 
 ChartAxis sweep_axis(const Sweep& sweep, const StudyAxis& axis) {
-  ChartAxis x = axis_over(axis.name, sweep.positions, false);
   const bool numeric = parse_real(axis.labels.front()).has_value();
-  const double margin = (numeric ? 0.04 : 0.2) * (x.high - x.low);
-  x.low -= margin;
-  x.high += margin;
-  x.ticks.clear();
-  for (std::size_t i = 0; i < sweep.positions.size(); ++i) {
-    x.ticks.emplace_back(sweep.positions[i], axis.labels[i]);
-  }
-  return x;
-}
-
-Points placed(const ChartFrame& frame, const Points& values) {
-  Points points;
-  for (const Eigen::Vector2d& value : values) points.push_back(frame.at(value.x(), value.y()));
-  return points;
+  return labelled_axis(axis.name, sweep.positions, axis.labels, numeric ? 0.04 : 0.2);
 }
 
 std::vector<double> heights(const std::vector<SweepLine>& lines,
@@ -102,53 +88,84 @@ std::vector<double> heights(const std::vector<SweepLine>& lines,
   return values;
 }
 
-void draw_line(VectorCanvas& canvas, const Points& points, const Pen& pen) {
-  canvas.line(points, pen);
-  for (const Eigen::Vector2d& point : points) canvas.disc(point, 1.6, pen.colour);
+// What is stated is thin with rings, what was found is broad with discs.
+void draw_line(Canvas& canvas, const Points& points, const LineStyle& style, bool stated) {
+  const double width = stated ? 0.6 : 1.3;
+  canvas.line(points, pen_of(style, width));
+  for (const Eigen::Vector2d& point : points) {
+    canvas.disc(point, 1.8, stated ? palette::white : style.colour);
+    if (stated) canvas.ring(point, 1.8, {style.colour, width, {}, 1.0});
+  }
 }
 
-void draw_sweep(VectorCanvas& canvas, const FigureInput& input, const Sweep& sweep,
-                const std::string& metric) {
-  const std::vector<SweepLine> lines = lines_of(input, sweep, metric);
-  const auto styles = line_styles(input.results.study);
-  const ChartAxis x = sweep_axis(sweep, input.results.study.axes[sweep.axis]);
-  const Box upper{38.0, 8.0, kFigureWidth - 48.0, 120.0};
-  const Box lower{38.0, 166.0, kFigureWidth - 48.0, 100.0};
-  const ChartFrame errors(x,
-                          axis_over(metric_label(metric).with_unit(),
-                                    heights(lines, {&SweepLine::low, &SweepLine::high}), true),
-                          upper);
-  const auto bounds = heights(lines, {&SweepLine::empirical, &SweepLine::estimated});
-  const ChartFrame spreads(x, axis_over("2σ of position (m)", bounds, true), lower);
-  errors.draw(canvas);
-  if (!bounds.empty()) spreads.draw(canvas);
-  std::vector<FigureLegendEntry> legend;
-  for (const SweepLine& line : lines) {
-    const Pen pen = pen_of(styles.at(line.estimator), 1.3);
-    Points band = placed(errors, line.low);
-    const Points high = placed(errors, line.high);
-    band.insert(band.end(), high.rbegin(), high.rend());
-    canvas.area(band, pen.colour, 0.13);
-    draw_line(canvas, placed(errors, line.mean), pen);
-    draw_line(canvas, placed(spreads, line.empirical), pen);
-    Pen dashed = pen;
-    dashed.dashes = {3.0, 2.0};
-    draw_line(canvas, placed(spreads, line.estimated), dashed);
-    legend.push_back({display_name(line.estimator), pen});
-  }
-  legend.push_back({"empirical", {kSoftInk, 1.0, {}, 1.0}});
-  legend.push_back({"estimated", {kSoftInk, 1.0, {3.0, 2.0}, 1.0}});
+void draw_band(Canvas& canvas, const ChartFrame& frame, const SweepLine& line, Colour colour) {
+  Points band = frame.at(line.low);
+  const Points high = frame.at(line.high);
+  band.insert(band.end(), high.rbegin(), high.rend());
+  canvas.area(band, colour, 0.13);
+}
+
+std::string conditions_of(const FigureInput& input, const Sweep& sweep) {
   const CellResults& first = input.results.cells[sweep.cells.front()];
-  std::string caption = "first of " + std::to_string(sweep.cells.size()) +
-                        " points: " + cell_caption(first, input.results.study);
+  std::string text =
+      "first of " + std::to_string(sweep.cells.size()) + " points: " + cell_caption(first);
   std::size_t failures = 0;
   for (const std::size_t place : sweep.cells) {
     for (const EstimatorResults& one : input.results.cells[place].estimators) {
       failures += one.failures();
     }
   }
-  if (failures > 0) caption += "; " + std::to_string(failures) + " failed runs left out";
-  draw_footer(canvas, lower, legend, caption);
+  if (failures > 0) text += "; " + std::to_string(failures) + " failed runs left out";
+  return text;
+}
+
+LegendEntry sample_entry(const std::string& text, bool stated) {
+  return {text, [stated](Canvas& canvas, const Eigen::Vector2d& centre) {
+            const Eigen::Vector2d half(8.0, 0.0);
+            draw_line(canvas, {centre - half, centre, centre + half}, {kSoftInk, {}}, stated);
+          }};
+}
+
+std::vector<LegendEntry> legend_of(const std::vector<SweepLine>& lines,
+                                   const std::map<std::string, LineStyle>& styles, bool bounds) {
+  std::vector<LegendEntry> legend;
+  for (const SweepLine& line : lines) {
+    legend.push_back(
+        line_entry(display_name(line.estimator), pen_of(styles.at(line.estimator), 1.3)));
+  }
+  if (bounds) {
+    legend.push_back(sample_entry("empirical", false));
+    legend.push_back(sample_entry("estimated", true));
+  }
+  return legend;
+}
+
+StudyFigure sweep_figure(const FigureInput& input, const Sweep& sweep, const std::string& metric) {
+  const std::vector<SweepLine> lines = lines_of(input, sweep, metric);
+  const auto styles = line_styles(input.results.study);
+  const auto bounds = heights(lines, {&SweepLine::empirical, &SweepLine::estimated});
+  const std::vector<double> charts =
+      bounds.empty() ? std::vector{160.0} : std::vector{140.0, 120.0};
+  const FigureLayout layout(charts, legend_of(lines, styles, !bounds.empty()),
+                            conditions_of(input, sweep));
+  const ChartAxis x = sweep_axis(sweep, input.results.study.axes[sweep.axis]);
+  const auto errors = heights(lines, {&SweepLine::low, &SweepLine::high});
+  std::vector<ChartFrame> frames{{x, axis_over(axis_title(metric), errors, true), layout.chart(0)}};
+  if (!bounds.empty()) {
+    frames.push_back({x, axis_over({"2σ of position", "m"}, bounds, true), layout.chart(1)});
+  }
+  return {"", layout.height(), [lines, styles, layout, frames](Canvas& canvas) {
+            for (const ChartFrame& frame : frames) frame.draw(canvas);
+            for (const SweepLine& line : lines) {
+              const LineStyle& style = styles.at(line.estimator);
+              draw_band(canvas, frames[0], line, style.colour);
+              draw_line(canvas, frames[0].at(line.mean), style, false);
+              if (frames.size() == 1) continue;
+              draw_line(canvas, frames[1].at(line.empirical), style, false);
+              draw_line(canvas, frames[1].at(line.estimated), style, true);
+            }
+            layout.draw_footer(canvas);
+          }};
 }
 
 // The cells that share their places on every other axis.
@@ -188,10 +205,8 @@ void add_sweep_figures(const FigureInput& input, std::vector<StudyFigure>& figur
     for (const Sweep& sweep : sweeps_along(axis, input.results)) {
       const std::string label =
           input.results.study.axes[axis].name + name_of_others(sweep, input.results);
-      figures.push_back({figure_name("error_by", label, false), 326.0,
-                         [&input, sweep, metric](VectorCanvas& canvas) {
-                           draw_sweep(canvas, input, sweep, *metric);
-                         }});
+      figures.push_back(sweep_figure(input, sweep, *metric));
+      figures.back().name = figure_title("error_by", label, false);
     }
   }
 }

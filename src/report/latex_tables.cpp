@@ -1,10 +1,8 @@
 #include "latex_tables.hpp"
 
 #include <algorithm>
-#include <array>
-#include <utility>
 
-#include "fathom/report/table.hpp"
+#include "latex_text.hpp"
 #include "metric_label.hpp"
 
 namespace fathom {
@@ -16,10 +14,10 @@ constexpr int kDigits = 3;
 std::string value_text(const EstimatorResults& one, const std::string& metric) {
   const auto found = one.metrics.find(metric);
   if (found == one.metrics.end()) return "--";
-  std::string text = "$" + format_number(found->second.moments.mean, kDigits) + "$";
+  std::string text = latex_number(found->second.moments.mean, kDigits);
   if (const auto& interval = found->second.interval) {
-    text += " {\\scriptsize $[" + format_number(interval->low, kDigits) + ", " +
-            format_number(interval->high, kDigits) + "]$}";
+    text += " {\\scriptsize [" + latex_number(interval->low, kDigits) + ", " +
+            latex_number(interval->high, kDigits) + "]}";
   }
   return text;
 }
@@ -66,10 +64,24 @@ std::string cell_table(const CellResults& cell, const StudyResults& results) {
     rows.push_back({latex_text(display_name(one.name)), counts_text(one)});
     for (const std::string& metric : metrics) rows.back().push_back(value_text(one, metric));
   }
-  const std::string caption = title_of(results.study) +
-                              latex_text(cell_caption(cell, results.study)) + "." +
+  const std::string caption = title_of(results.study) + latex_text(cell_caption(cell)) + "." +
                               (cell.trials > 1 ? kMeaning : "");
   return table_of(caption, "tab:fathom-cell-" + std::to_string(cell.cell), header, rows);
+}
+
+// "alignment origin/se2": all that occur among the cells; empty where none is known.
+std::string joint_text(const std::string& what, const StudyResults& results,
+                       std::string CellResults::*member) {
+  std::vector<std::string> values;
+  for (const CellResults& cell : results.cells) {
+    if (!(cell.*member).empty() &&
+        std::find(values.begin(), values.end(), cell.*member) == values.end()) {
+      values.push_back(cell.*member);
+    }
+  }
+  std::string text;
+  for (const std::string& value : values) text += (text.empty() ? what + " " : "/") + value;
+  return text.empty() ? "" : text + ", ";
 }
 
 // "n = 98 to 100": that of the cells, which may differ.
@@ -77,13 +89,9 @@ std::string joint_caption(const StudyResults& results) {
   const auto [least, most] =
       std::minmax_element(results.cells.begin(), results.cells.end(),
                           [](const auto& a, const auto& b) { return a.trials < b.trials; });
-  std::set<std::string> associations;
-  for (const CellResults& cell : results.cells) associations.insert(cell.association);
-  std::string association;
-  for (const std::string& one : associations) association += (association.empty() ? "" : "/") + one;
-  std::string text = results.study.alignment.empty() ? "" : "alignment " + results.study.alignment;
-  if (!association.empty()) text += (text.empty() ? "" : ", ") + ("association " + association);
-  text += (text.empty() ? "n = " : ", n = ") + std::to_string(least->trials);
+  std::string text = joint_text("alignment", results, &CellResults::alignment) +
+                     joint_text("association", results, &CellResults::association) +
+                     "n = " + std::to_string(least->trials);
   if (most->trials > least->trials) text += " to " + std::to_string(most->trials);
   return latex_text(text);
 }
@@ -122,33 +130,6 @@ std::string metric_table(const std::string& metric, std::size_t number,
 }
 
 }  // namespace
-
-std::string latex_text(std::string_view text) {
-  static const std::array<std::pair<std::string_view, std::string_view>, 14> kReplaced{
-      {{"\\", "\\textbackslash{}"},
-       {"&", "\\&"},
-       {"%", "\\%"},
-       {"$", "\\$"},
-       {"#", "\\#"},
-       {"_", "\\_"},
-       {"{", "\\{"},
-       {"}", "\\}"},
-       {"~", "\\textasciitilde{}"},
-       {"^", "\\textasciicircum{}"},
-       {"<", "\\textless{}"},
-       {">", "\\textgreater{}"},
-       {"\n", " "},
-       {"σ", "$\\sigma$"}}};
-  std::string result;
-  while (!text.empty()) {
-    const auto found = std::find_if(kReplaced.begin(), kReplaced.end(), [&](const auto& known) {
-      return text.starts_with(known.first);
-    });
-    result += found == kReplaced.end() ? text.substr(0, 1) : found->second;
-    text.remove_prefix(found == kReplaced.end() ? 1 : found->first.size());
-  }
-  return result;
-}
 
 std::string latex_tables(const StudyResults& results) {
   std::string text = "% Needs \\usepackage{booktabs}.\n";

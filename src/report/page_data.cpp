@@ -5,11 +5,11 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "estimator_colours.hpp"
 #include "example_trial.hpp"
 #include "fathom/evaluation/consistency.hpp"
 #include "metric_label.hpp"
 #include "page_numbers.hpp"
+#include "study_styles.hpp"
 
 namespace fathom {
 namespace {
@@ -107,9 +107,10 @@ Json cell_json(const ResultStore& store, const CellResults& cell,
                std::size_t most) {
   Json json{{"cell", cell.cell},
             {"label", cell.label},
-            {"caption", cell_caption(cell, study)},
+            {"caption", cell_caption(cell)},
             {"places", study.places_of(cell.cell)},
             {"association", cell.association},
+            {"alignment", cell.alignment},
             {"jobs", jobs_text(cell.jobs)},
             {"n", cell.trials}};
   json["estimators"] = Json::array();
@@ -123,7 +124,7 @@ Json cell_json(const ResultStore& store, const CellResults& cell,
 }
 
 Json study_json(const StudyDescription& study) {
-  Json json{{"title", study.title}, {"alignment", study.alignment}, {"trials", study.trials}};
+  Json json{{"title", study.title}, {"trials", study.trials}};
   json["axes"] = Json::array();
   for (const StudyAxis& axis : study.axes) {
     json["axes"].push_back({{"name", axis.name}, {"key", axis.key}, {"labels", axis.labels}});
@@ -135,7 +136,7 @@ Json study_json(const StudyDescription& study) {
                 {"label", display_name(name)},
                 {"type", type},
                 {"colour", hex(style.colour)},
-                {"dashed", style.dashed}};
+                {"dashes", style.dashes}};
   };
   json["estimators"] = Json::array({entry(kDeadReckoning, "")});
   for (const auto& [name, type] : study.estimators) json["estimators"].push_back(entry(name, type));

@@ -2,28 +2,25 @@
 
 #include <array>
 #include <cmath>
-#include <cstdint>
 #include <cstdio>
-#include <utility>
 
 namespace fathom {
 
-Colour series_colour(std::string_view name) {
-  static constexpr std::array<std::pair<std::string_view, Colour>, 5> kKnown{{
-      {"ground truth", palette::black},
-      {"dead reckoning", palette::grey},
-      {"trajectory_iekf", palette::blue},
-      {"ekf", palette::vermillion},
-      {"ceres_pose_graph", palette::green},
-  }};
-  for (const auto& [known, colour] : kKnown) {
-    if (known == name) return colour;
-  }
-  static constexpr std::array<Colour, 3> kOthers{palette::purple, palette::orange,
-                                                 palette::sky_blue};
-  std::uint32_t hash = 2166136261U;  // FNV-1a: the same on every machine, unlike std::hash
-  for (const char letter : name) hash = (hash ^ static_cast<unsigned char>(letter)) * 16777619U;
-  return kOthers[hash % kOthers.size()];
+LineStyle estimator_style(std::size_t place) {
+  static constexpr std::array kColours{palette::blue,   palette::vermillion, palette::green,
+                                       palette::purple, palette::orange,     palette::sky_blue,
+                                       palette::sienna, palette::violet};
+  static const std::array<std::vector<double>, 4> kPatterns{
+      {{}, {4.0, 2.0}, {7.0, 2.0, 1.5, 2.0}, {9.0, 3.0}}};
+  return {kColours[place % kColours.size()], kPatterns[place / kColours.size() % kPatterns.size()]};
+}
+
+LineStyle ground_truth_style() {
+  return {palette::black, {}};
+}
+
+LineStyle dead_reckoning_style() {
+  return {palette::grey, {4.0, 2.5}};
 }
 
 Colour tint(Colour colour, double share) {

@@ -45,10 +45,10 @@ std::string failures_text(const CellResults& cell) {
   return text;
 }
 
-std::string cell_caption(const CellResults& cell, const StudyDescription& study) {
+std::string cell_caption(const CellResults& cell) {
   std::string text = cell.label + ": ";
   if (!cell.association.empty()) text += "association " + cell.association + ", ";
-  if (!study.alignment.empty()) text += "alignment " + study.alignment + ", ";
+  if (!cell.alignment.empty()) text += "alignment " + cell.alignment + ", ";
   text += "n = " + std::to_string(cell.trials);
   if (!cell.jobs.empty()) text += ", jobs " + jobs_text(cell.jobs);
   return text;

@@ -15,11 +15,11 @@ std::string number(const std::optional<double>& value) {
   return value ? exact(*value) : "";
 }
 
-// What opens every line: the cell, its values on the axes, and its association.
+// What opens every line: the cell, its values on the axes, its association and alignment.
 std::vector<std::string> cell_header(const StudyDescription& study) {
   std::vector<std::string> header{"cell"};
   for (const StudyAxis& axis : study.axes) header.push_back(axis.name);
-  header.emplace_back("association");
+  header.insert(header.end(), {"association", "alignment"});
   return header;
 }
 
@@ -29,7 +29,7 @@ std::vector<std::string> cell_fields(const CellResults& cell, const StudyDescrip
   for (std::size_t i = 0; i < places.size(); ++i) {
     fields.push_back(study.axes[i].labels[places[i]]);
   }
-  fields.push_back(cell.association);
+  fields.insert(fields.end(), {cell.association, cell.alignment});
   return fields;
 }
 

@@ -1,40 +1,59 @@
 #include "study_figures.hpp"
 
 #include <algorithm>
-#include <cctype>
+#include <utility>
+
+#include "file_names.hpp"
+#include "metric_label.hpp"
+#include "text_layout.hpp"
 
 namespace fathom {
+namespace {
 
-std::string figure_name(const std::string& what, const std::string& label, bool alone) {
-  if (alone) return what;
-  std::string name = what + "_";
-  for (const char letter : label) {
-    const bool plain =
-        std::isalnum(static_cast<unsigned char>(letter)) != 0 || letter == '.' || letter == '-';
-    if (plain) {
-      name += letter;
-    } else if (name.back() != '_') {
-      name += '_';
-    }
+constexpr double kMargin = 6.0;
+constexpr double kBetween = 6.0;  // charts, legend
+constexpr double kSmallSize = 6.0;
+constexpr double kSmallLine = 1.3 * kSmallSize;
+
+}  // namespace
+
+std::string figure_title(const std::string& what, const std::string& label, bool alone) {
+  return alone ? what : what + " " + label;
+}
+
+FigureLayout::FigureLayout(std::vector<double> chart_heights, std::vector<LegendEntry> legend,
+                           const std::string& conditions)
+    : chart_heights_(std::move(chart_heights)),
+      legend_(std::move(legend), kFigureWidth - 2.0 * kMargin),
+      conditions_(wrapped(conditions, kSmallSize, kFigureWidth - 2.0 * kMargin)) {}
+
+double FigureLayout::height() const {
+  return footer_top() + legend_.height() + kSmallLine * static_cast<double>(conditions_.size()) +
+         kMargin;
+}
+
+Box FigureLayout::chart(std::size_t place) const {
+  double top = kMargin;
+  for (std::size_t i = 0; i < place; ++i) top += chart_heights_[i] + kBetween;
+  return {kMargin, top, kFigureWidth - 2.0 * kMargin, chart_heights_[place]};
+}
+
+double FigureLayout::footer_top() const {
+  return chart(chart_heights_.size() - 1).bottom() + kBetween;
+}
+
+void FigureLayout::draw_footer(Canvas& canvas) const {
+  legend_.draw(canvas, {kMargin, footer_top()});
+  double baseline = footer_top() + legend_.height() + kSmallSize;
+  for (const std::string& line : conditions_) {
+    canvas.text(line, {kMargin, baseline}, {kSmallSize, kSoftInk});
+    baseline += kSmallLine;
   }
-  if (name.back() == '_') name.pop_back();
-  return name;
 }
 
-Box axes_box(double height) {
-  return {38.0, 8.0, kFigureWidth - 38.0 - 10.0, height - 8.0 - 66.0};
-}
-
-void draw_footer(VectorCanvas& canvas, const Box& axes,
-                 const std::vector<FigureLegendEntry>& entries, const std::string& conditions) {
-  constexpr double kMargin = 8.0;
-  const double top = axes.bottom() + 3.5 * kFontSize;
-  const double taken =
-      draw_figure_legend(canvas, entries, {kMargin, top}, kFigureWidth - 2.0 * kMargin);
-  // A long label of a cell is set smaller rather than cut.
-  const double width = canvas.text_width(conditions, 6.0);
-  const double size = 6.0 * std::min(1.0, (kFigureWidth - 2.0 * kMargin) / std::max(1.0, width));
-  canvas.text(conditions, {kMargin, top + taken + 3.0}, size, kSoftInk);
+AxisTitle axis_title(const std::string& metric) {
+  const MetricLabel label = metric_label(metric);
+  return {label.text, label.unit};
 }
 
 std::optional<std::string> first_metric(const StudyResults& results, bool cost) {
@@ -52,14 +71,8 @@ std::vector<StudyFigure> study_figures(const FigureInput& input) {
   add_nees_figures(input, figures);
   add_trajectory_figures(input, figures);
   add_cost_figures(input, figures);
-  // Labels may differ in nothing that a file's name can have.
-  std::set<std::string> names;
-  for (StudyFigure& figure : figures) {
-    const std::string name = figure.name;
-    for (int i = 2; !names.insert(figure.name).second; ++i) {
-      figure.name = name + "-" + std::to_string(i);
-    }
-  }
+  FileNames names;
+  for (StudyFigure& figure : figures) figure.name = names.unique(figure.name);
   return figures;
 }
 

@@ -1,19 +1,22 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "chart_frame.hpp"
+#include "chart_legend.hpp"
 #include "keyframe_series.hpp"
+#include "study_styles.hpp"
 
 namespace fathom {
 
 /// A figure for print, as wide as a column (89 mm).
 struct StudyFigure {
   std::string name;  ///< of its file, without ending
-  double height = 220.0;
-  std::function<void(VectorCanvas&)> draw;
+  double height = 0.0;
+  std::function<void(Canvas&)> draw;
 };
 
 inline constexpr double kFigureWidth = 252.0;
@@ -39,15 +42,31 @@ void add_trajectory_figures(const FigureInput& input, std::vector<StudyFigure>& 
 /// `accuracy_against_cost_CELL`: the first metric of each kind.
 void add_cost_figures(const FigureInput& input, std::vector<StudyFigure>& figures);
 
-/// "trajectories" in a study of one cell, else "trajectories_separation_5".
-std::string figure_name(const std::string& what, const std::string& label, bool alone);
+/// What the name of a figure's file is made from: "trajectories" in a study of one cell, else
+/// "trajectories separation 5".
+std::string figure_title(const std::string& what, const std::string& label, bool alone);
 
-/// The box of a figure's axes.
-Box axes_box(double height);
+/// One or more charts one below the other, then the legend and the conditions in small print: each
+/// takes the height that it needs.
+class FigureLayout {
+ public:
+  FigureLayout(std::vector<double> chart_heights, std::vector<LegendEntry> legend,
+               const std::string& conditions);
 
-/// The legend and a small line with the conditions, below the axes of a figure.
-void draw_footer(VectorCanvas& canvas, const Box& axes,
-                 const std::vector<FigureLegendEntry>& entries, const std::string& conditions);
+  double height() const;
+  Box chart(std::size_t place) const;
+  void draw_footer(Canvas& canvas) const;
+
+ private:
+  double footer_top() const;
+
+  std::vector<double> chart_heights_;
+  ChartLegend legend_;
+  std::vector<std::string> conditions_;
+};
+
+/// A metric as the title of an axis.
+AxisTitle axis_title(const std::string& metric);
 
 /// The study's first metric that is a cost or is none; nothing without one.
 std::optional<std::string> first_metric(const StudyResults& results, bool cost);

@@ -1,6 +1,7 @@
 #include "fathom/report/study_report.hpp"
 
 #include "fathom/core/files.hpp"
+#include "figure_file.hpp"
 #include "latex_tables.hpp"
 #include "report_page.hpp"
 #include "study_csv.hpp"
@@ -15,7 +16,7 @@ void write_figures(const FigureInput& input, const std::filesystem::path& folder
     for (const auto& [format, ending] :
          {std::pair(FigureFormat::svg, ".svg"), std::pair(FigureFormat::pdf, ".pdf")}) {
       write_file(folder / (figure.name + ending),
-                 render_figure(format, kFigureWidth, figure.height, figure.draw));
+                 render_figure(format, {kFigureWidth, figure.height}, figure.draw));
     }
   }
 }

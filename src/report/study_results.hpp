@@ -42,6 +42,7 @@ struct CellResults {
   std::size_t cell = 0;
   std::string label;
   std::string association;  ///< empty where the study names none
+  std::string alignment;    ///< of its errors; empty where the study names none
   std::set<int> jobs;
   std::size_t trials = 0;                    ///< that have any run
   std::vector<EstimatorResults> estimators;  ///< dead reckoning first, then as in the study
@@ -71,7 +72,7 @@ std::string outcome_text(const EstimatorResults& estimator, std::size_t trials_w
 std::string jobs_text(const std::set<int>& jobs);
 
 /// "separation 5: association own, alignment origin, n = 100, jobs 2"; what is unknown is left out.
-std::string cell_caption(const CellResults& cell, const StudyDescription& study);
+std::string cell_caption(const CellResults& cell);
 
 /// "; failed: ekf 2/30", what a mean over the cell leaves out; empty where nothing failed.
 std::string failures_text(const CellResults& cell);

@@ -118,7 +118,7 @@ std::string study_table(const ResultStore& store, StudyTable extent) {
   std::string text = study.title.empty() ? "" : study.title + "\n\n";
   bool intervals = false;
   for (const CellResults& cell : results.cells) {
-    text += cell_caption(cell, study) + "\n";
+    text += cell_caption(cell) + "\n";
     text += estimator_table(cell, study, extent);
     if (extent == StudyTable::full) text += paired_table(cell, study);
     text += "\n";

@@ -9,6 +9,7 @@
 
 #include "fathom/core/input_error.hpp"
 #include "fathom/core/text.hpp"
+#include "utf8.hpp"
 
 namespace fathom {
 namespace {
@@ -17,25 +18,6 @@ bool reads_as_number(const std::string& cell) {
   static const std::array<std::string_view, 6> kWords{"", "-", "nan", "inf", "-inf", "–"};
   return parse_real(cell).has_value() ||
          std::find(kWords.begin(), kWords.end(), cell) != kWords.end();
-}
-
-struct CodePoint {
-  std::uint32_t value = 0;
-  std::size_t bytes = 1;
-};
-
-// A byte that opens no UTF-8 character stands for itself.
-CodePoint code_point(std::string_view text) {
-  const auto lead = static_cast<unsigned char>(text.front());
-  const std::size_t length = lead >= 0xF0 ? 4 : lead >= 0xE0 ? 3 : lead >= 0xC0 ? 2 : 1;
-  if (length == 1 || length > text.size() || lead >= 0xF8) return {lead, 1};
-  std::uint32_t value = lead & (0xFFU >> (length + 1));
-  for (std::size_t i = 1; i < length; ++i) {
-    const auto byte = static_cast<unsigned char>(text[i]);
-    if ((byte & 0xC0) != 0x80) return {lead, 1};
-    value = (value << 6) | (byte & 0x3FU);
-  }
-  return {value, length};
 }
 
 struct Block {
@@ -71,7 +53,7 @@ std::string padded(const std::string& cell, std::size_t width, bool right) {
 std::size_t display_width(std::string_view text) {
   std::size_t width = 0;
   while (!text.empty()) {
-    const CodePoint point = code_point(text);
+    const CodePoint point = first_code_point(text);
     if (!is_in(point.value, kCombining)) width += is_in(point.value, kWide) ? 2 : 1;
     text.remove_prefix(point.bytes);
   }

@@ -156,6 +156,7 @@ TEST(IncludeRules, RefuseWhatTheTableDoesNotAllow) {
       {"include/fathom/harness/a.hpp", "<nlohmann/json.hpp>", "not for this folder"},
       {"include/fathom/report/a.hpp", "<nlohmann/json.hpp>", "not for this folder"},
       {"apps/report_command.cpp", "<cairo.h>", "not for this folder"},
+      {"src/report/chart_frame.cpp", "<opencv2/imgproc.hpp>", "not for this folder"},
       {"src/core/a.cpp", "<boost/any.hpp>", "of no third party"}};
   for (const Case& c : cases) {
     EXPECT_THAT(judged(c), HasSubstr(c.file + ":2: ")) << c.include;
@@ -201,7 +202,7 @@ TEST(IncludeRules, JudgeLinks) {
               HasSubstr("may not link"));
   EXPECT_THAT(complaint_about_link("fathom_support_pose_graph", "fathom_ekf"),
               HasSubstr("may not link"));
-  EXPECT_THAT(complaint_about_link("fathom_study", "fathom_support_sparse"),
+  EXPECT_THAT(complaint_about_link("fathom_harness", "fathom_support_sparse"),
               HasSubstr("may not link"));
   EXPECT_THAT(complaint_about_link("fathom_ekf", "fathom_estimation"), IsEmpty());
   EXPECT_THAT(complaint_about_link("fathom_apps", "fathom_harness"), IsEmpty());

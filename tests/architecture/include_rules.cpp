@@ -50,7 +50,10 @@ struct ThirdParty {
 const std::vector<ThirdParty>& third_parties() {
   static const std::vector<ThirdParty> list{
       {"Eigen/", {""}},
-      {"opencv2/", {"vision/", "datasets/", "front_end/", "report/", "apps/"}},
+      {"opencv2/",
+       {"vision/", "datasets/", "front_end/", "src/report/pictures/",
+        "include/fathom/report/match_picture.hpp", "include/fathom/report/mosaic.hpp",
+        "include/fathom/report/picture.hpp", "apps/"}},
       {"ceres/", {"estimators/ceres_pose_graph/"}},
       {"yaml-cpp/", {"src/configuration/", "src/datasets/camera_yaml.cpp"}},
       {"SQLiteCpp/", {"src/results/", "src/front_end/registration_store.cpp"}},

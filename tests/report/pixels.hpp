@@ -15,6 +15,14 @@ inline cv::Mat where(const cv::Mat& picture, Colour colour) {
   return mask;
 }
 
+/// Where a picture has about this colour: what a thin smooth line of it leaves.
+inline cv::Mat where_nearly(const cv::Mat& picture, Colour colour, int tolerance) {
+  const cv::Scalar bgr(colour.blue, colour.green, colour.red);
+  cv::Mat mask;
+  cv::inRange(picture, bgr - cv::Scalar::all(tolerance), bgr + cv::Scalar::all(tolerance), mask);
+  return mask;
+}
+
 inline int count(const cv::Mat& picture, Colour colour) {
   return cv::countNonZero(where(picture, colour));
 }

@@ -9,6 +9,7 @@
 
 #include "fathom/core/files.hpp"
 #include "fathom/evaluation/consistency.hpp"
+#include "fathom/report/palette.hpp"
 #include "fathom/report/study_report.hpp"
 #include "report/study_fixture.hpp"
 #include "support/temporary_folder.hpp"
@@ -88,10 +89,11 @@ TEST(ReportPage, AnEstimatorHasTheColourOfItsTypeAndNoneTheSame) {
   EXPECT_EQ(estimators[3]["colour"], "#009e73");
 }
 
-TEST(ReportPage, TwoOfATypeAreToldApart) {
+// By their places, whatever their names and types.
+TEST(ReportPage, EveryEstimatorHasTheLineOfItsPlace) {
   const TemporaryFolder folder;
   StudyDescription study;
-  for (int i = 0; i < 8; ++i) study.estimators.push_back({"e" + std::to_string(i), "ekf"});
+  for (int i = 0; i < 20; ++i) study.estimators.push_back({"e" + std::to_string(i), "ekf"});
   ResultStore store = ResultStore::write(folder.path(), study, "no JSON");
   RunRecord run;
   run.key = {0, 0, "e0"};
@@ -99,10 +101,29 @@ TEST(ReportPage, TwoOfATypeAreToldApart) {
   store.add(run);
   store.finish();
   const Json data = data_of(page_of(ResultStore::open(folder.path())));
-  std::set<std::pair<std::string, bool>> styles;
-  for (const Json& one : data["estimators"]) styles.emplace(one["colour"], one["dashed"]);
-  EXPECT_EQ(styles.size(), 9u);
+  ASSERT_EQ(data["estimators"].size(), 21u);
+  EXPECT_EQ(data["estimators"][0]["colour"], hex(dead_reckoning_style().colour));
+  for (std::size_t place = 0; place < 20; ++place) {
+    const Json& one = data["estimators"][place + 1];
+    EXPECT_EQ(one["colour"], hex(estimator_style(place).colour)) << place;
+    EXPECT_EQ(one["dashes"], Json(estimator_style(place).dashes)) << place;
+  }
   EXPECT_EQ(data["manifests"][0], "no JSON");
+}
+
+TEST(ReportPage, EveryCellHasItsAlignment) {
+  const TemporaryFolder folder;
+  FixtureOptions options;
+  options.trials = 1;
+  options.alignments = {"origin", "none"};
+  write_fixture(folder.path(), options);
+  const Json data = data_of(page_of(ResultStore::open(folder.path())));
+  ASSERT_EQ(data["cells"].size(), 12u);
+  for (std::size_t i = 0; i < 12; ++i) {
+    const std::string expected = i % 2 == 0 ? "origin" : "none";
+    EXPECT_EQ(data["cells"][i]["alignment"], expected);
+    EXPECT_THAT(data["cells"][i]["caption"].get<std::string>(), HasSubstr("alignment " + expected));
+  }
 }
 
 // Means and roots over the trials, taken here from the store's series one keyframe at a time.

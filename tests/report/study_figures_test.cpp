@@ -1,8 +1,11 @@
+#include "src/report/study_figures.hpp"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "fathom/core/files.hpp"
 #include "fathom/report/study_report.hpp"
+#include "report/placed_texts.hpp"
 #include "report/study_fixture.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -92,6 +95,49 @@ TEST(StudyFigures, AreDrawnInTheColoursOfTheEstimators) {
     EXPECT_THAT(pdf, HasSubstr("%%EOF"));
     EXPECT_GT(pdf.size(), 3000u);
   }
+}
+
+// Of small, usual and large errors, with long labels and more estimators than colours.
+TEST(StudyFigures, NoTextRunsIntoAnother) {
+  for (const double size : {1e-6, 1e-3, 1.0, 1e5}) {
+    const TemporaryFolder folder;
+    FixtureOptions options;
+    options.trials = 2;
+    options.size = size;
+    options.separations = {"5", "10", std::string(120, 'L')};
+    write_fixture(folder / "study", options);
+    const ResultStore store = ResultStore::open(folder / "study");
+    const StudyResults results = study_results(store);
+    const auto series = study_series(store, results);
+    for (const StudyFigure& figure : study_figures({store, results, series})) {
+      SCOPED_TRACE(figure.name.substr(0, 60) + " " + std::to_string(size));
+      const PageSize page{kFigureWidth, figure.height};
+      const auto texts = texts_of(page, figure.draw);
+      EXPECT_GT(texts.size(), 8U);
+      expect_tidy(texts, page);
+    }
+  }
+}
+
+TEST(StudyFigures, SayTheAlignmentOfTheirCell) {
+  const TemporaryFolder folder;
+  FixtureOptions options = one_cell();
+  options.alignments = {"origin", "se2"};
+  write_fixture(folder / "study", options);
+  const ResultStore store = ResultStore::open(folder / "study");
+  const StudyResults results = study_results(store);
+  const auto series = study_series(store, results);
+  std::size_t found = 0;
+  for (const StudyFigure& figure : study_figures({store, results, series})) {
+    if (!figure.name.ends_with("se2")) continue;
+    ++found;
+    std::string all;
+    for (const PlacedText& text : texts_of({kFigureWidth, figure.height}, figure.draw)) {
+      all += text.text + " ";
+    }
+    EXPECT_THAT(all, HasSubstr("alignment se2")) << figure.name;
+  }
+  EXPECT_EQ(found, 3u);
 }
 
 TEST(StudyFigures, OldOnesGoWithANewReport) {

@@ -171,6 +171,25 @@ TEST(StudyFiles, LatexTablesAreEscapedAndSayTheirConditions) {
   EXPECT_EQ(tables, 6u);
 }
 
+// The study's own alignment is that of its first cell.
+TEST(StudyFiles, EveryCellSaysHowItWasAligned) {
+  FixtureOptions options;
+  options.trials = 2;
+  options.separations.clear();
+  options.noises.clear();
+  options.alignments = {"origin", "se2"};
+  const std::string tex = written(options, "tables.tex");
+  EXPECT_THAT(tex, HasSubstr("aligned by origin: association shared, alignment origin, n = 2"));
+  EXPECT_THAT(tex, HasSubstr("aligned by se2: association shared, alignment se2, n = 2"));
+  const auto runs = read_csv(written(options, "runs.csv"));
+  ASSERT_EQ(runs.size(), 16u);
+  EXPECT_EQ(runs.front().at("alignment"), "origin");
+  EXPECT_EQ(runs.back().at("alignment"), "se2");
+  options.separations = {"1", "2", "3", "4"};
+  EXPECT_THAT(written(options, "tables.tex"),
+              HasSubstr("alignment origin/se2, association shared"));
+}
+
 TEST(StudyFiles, ManyCellsHaveATableAMetric) {
   FixtureOptions options;
   options.trials = 3;
@@ -180,6 +199,24 @@ TEST(StudyFiles, ManyCellsHaveATableAMetric) {
               HasSubstr("mean position error (m): alignment origin, association shared, n = 3"));
   EXPECT_THAT(tex, HasSubstr("cell & dead reckoning & iterated"));
   EXPECT_THAT(tex, HasSubstr("(1/3)"));
+}
+
+// A name of a file has at most 255 bytes.
+TEST(StudyFiles, LongLabelsStandInTheTablesWhole) {
+  FixtureOptions options;
+  options.trials = 2;
+  options.separations = {std::string(300, 'a'), std::string(300, 'a') + "b", "../c"};
+  options.noises.clear();
+  const TemporaryFolder folder;
+  write_fixture(folder / "study", options);
+  write_study_report(ResultStore::open(folder / "study"), folder / "out");
+  EXPECT_THAT(read_file(folder / "out" / "tables.tex"), HasSubstr(options.separations[1]));
+  std::size_t figures = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder / "out" / "figures")) {
+    EXPECT_LE(entry.path().filename().string().size(), 84u);
+    ++figures;
+  }
+  EXPECT_EQ(figures, 2u * (1 + 3 * 3));  // of the sweep, and three kinds of each cell
 }
 
 TEST(StudyFiles, AFolderThatCannotBeWrittenIsBadInput) {

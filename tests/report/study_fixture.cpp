@@ -130,7 +130,7 @@ RunRecord fixture_run(const RunKey& key, const FixtureOptions& options, std::siz
   std::mt19937 random(static_cast<unsigned>(1000 * key.cell + key.trial) + key.estimator.size());
   const Path truth = lawnmower(options.keyframes);
   const Character character = character_of(key.estimator);
-  add_path(run, truth, character, 1.0 + static_cast<double>(key.cell), random,
+  add_path(run, truth, character, options.size * (1.0 + static_cast<double>(key.cell)), random,
            options.ground_truth);
   if (!baseline && options.loops) add_loops(run, options.keyframes, character.update_ms);
   if (baseline && options.ground_truth) {
@@ -155,6 +155,9 @@ StudyDescription fixture_study(const FixtureOptions& options) {
   }
   if (!options.noises.empty()) {
     study.axes.push_back({"noise, \"odometry\"", "dataset.odometry.covariance", options.noises});
+  }
+  if (!options.alignments.empty()) {
+    study.axes.push_back({"aligned by", "evaluation.alignment", options.alignments});
   }
   study.estimators = {
       {"iterated", "trajectory_iekf"}, {"a&b_<c>%", "ekf"}, {"graph", "ceres_pose_graph"}};

@@ -15,9 +15,11 @@ struct FixtureOptions {
   std::size_t keyframes = 40;
   std::vector<std::string> separations{"5", "10", "20"};
   std::vector<std::string> noises{"low", "high & <b>50%</b>"};
-  bool ground_truth = true;  ///< else no accuracy, consistency, or truth
+  std::vector<std::string> alignments{};  ///< of the last axis; empty: "origin" alone
+  bool ground_truth = true;               ///< else no accuracy, consistency, or truth
   bool loops = true;
   int jobs = 2;
+  double size = 1.0;  ///< of all errors
 };
 
 StudyDescription fixture_study(const FixtureOptions& options = {});

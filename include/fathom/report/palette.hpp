@@ -1,7 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
-#include <string_view>
+#include <vector>
 
 namespace fathom {
 
@@ -13,8 +14,8 @@ struct Colour {
   bool operator==(const Colour&) const = default;
 };
 
-/// The colours of Okabe and Ito (*Color Universal Design*, 2008), told apart with every common form
-/// of colour blindness.
+/// The colours of Okabe and Ito (*Color Universal Design*, 2008) without their yellow, which white
+/// paper hides, and two more that are as far from them with every common form of colour blindness.
 namespace palette {
 inline constexpr Colour black{0x00, 0x00, 0x00};
 inline constexpr Colour orange{0xE6, 0x9F, 0x00};
@@ -23,14 +24,27 @@ inline constexpr Colour green{0x00, 0x9E, 0x73};
 inline constexpr Colour blue{0x00, 0x72, 0xB2};
 inline constexpr Colour vermillion{0xD5, 0x5E, 0x00};
 inline constexpr Colour purple{0xCC, 0x79, 0xA7};
+inline constexpr Colour sienna{0xA0, 0x52, 0x2D};
+inline constexpr Colour violet{0x64, 0x40, 0xE8};
 inline constexpr Colour grey{0x8A, 0x8A, 0x8A};
 inline constexpr Colour white{0xFF, 0xFF, 0xFF};
 }  // namespace palette
 
-/// The colour of a trajectory by its name, the same in every picture and page: one each for
-/// "ground truth", "dead reckoning" and the estimators that come with Fathom; any other name has
-/// one of three, by a hash of it.
-Colour series_colour(std::string_view name);
+/// How the line of a trajectory or of an estimator's results is drawn, the same in every picture,
+/// figure and page.
+struct LineStyle {
+  Colour colour;
+  std::vector<double> dashes;  ///< lengths on and off in points (1/72 inch); empty: solid
+
+  bool operator==(const LineStyle&) const = default;
+};
+
+/// By the place of an estimator in its study, from 0: eight colours, solid; then the same colours
+/// in three patterns of dashes. What comes after these 32 repeats them.
+LineStyle estimator_style(std::size_t place);
+
+LineStyle ground_truth_style();
+LineStyle dead_reckoning_style();
 
 /// `share` of the colour on white: 1 the colour itself, 0 white.
 Colour tint(Colour colour, double share);

@@ -16,10 +16,12 @@ const charts = [
       {label: 'metric', key: 'sweepMetric', values: metricChoices().map((name) => [name, metricLabel(name)])}],
     caption: (cell) => {
       const fixed = study.axes.map((axis, i) => (i === state.axis ? '' : `${axis.name} ${axis.labels[cell.places[i]]}`));
-      const association = study.axes[state.axis].key === 'association.mode' ? '' : cell.association;
+      const notSwept = (key, value) => (study.axes[state.axis].key === key ? '' : value);
+      const association = notSwept('association.mode', cell.association);
+      const alignment = notSwept('evaluation.alignment', cell.alignment);
       const counts = [...new Set(sweepCells().map((one) => one.n))].sort((a, b) => a - b);
       const jobs = study.metrics[state.sweepMetric].cost ? ' ' + jobsNote(cell) : '';
-      const parts = [...fixed, study.alignment && `alignment ${study.alignment}`,
+      const parts = [...fixed, alignment && `alignment ${alignment}`,
         association && `association ${association}`, `n = ${counts.join(', ')} a point`];
       return parts.filter(Boolean).join(', ') + failuresOf(sweepCells()) +
         '. Band: mean ± 2 standard deviations over trials. Right: twice the root mean square position error, ' +

@@ -46,9 +46,11 @@ function makeHead() {
   document.getElementById('title').textContent = study.title || 'Study';
   const estimators = study.estimators.length - 1;
   const count = (n, noun) => `${n} ${noun}${n === 1 ? '' : 's'}`;
+  const alignments = [...new Set(study.cells.map((cell) => cell.alignment))].filter(Boolean);
   document.getElementById('subtitle').textContent = [
     count(estimators, 'estimator'), count(study.cells.length, 'cell'),
-    `${count(study.trials, 'trial')} each`, study.alignment ? `alignment ${study.alignment}` : ''].filter(Boolean).join(' · ');
+    `${count(study.trials, 'trial')} each`,
+    alignments.length > 0 ? `alignment ${alignments.join(', ')}` : ''].filter(Boolean).join(' · ');
   const text = document.getElementById('data').textContent;
   document.getElementById('download').href = URL.createObjectURL(new Blob([text], {type: 'application/json'}));
   document.getElementById('theme').onclick = () => {

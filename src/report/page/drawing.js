@@ -15,12 +15,15 @@ function themeConfig() {
   };
 }
 
+// The dashes of a line, of points as in print, in pixels.
+const dashesOf = (style) => style.dashes.map((length) => 1.6 * length);
+
 // The scales by which all charts colour and dash, whatever is shown.
 function sharedScales() {
   const names = [kTruth, ...study.estimators.map((one) => one.name)];
   return [
     {name: 'colour', type: 'ordinal', domain: names, range: [css('--ink'), ...study.estimators.map((one) => one.colour)]},
-    {name: 'dash', type: 'ordinal', domain: names, range: [[], ...study.estimators.map((one) => (one.dashed ? [7, 3] : []))]},
+    {name: 'dash', type: 'ordinal', domain: names, range: [[], ...study.estimators.map((one) => dashesOf(one))]},
   ];
 }
 

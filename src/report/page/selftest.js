@@ -12,8 +12,8 @@ function marksOfAll(colour) {
     .map((chart) => [chart.id, marksOf(chart.id, colour)]));
 }
 
-// Vega draws after the turn in which it was asked to.
-const drawn = () => new Promise((resolve) => setTimeout(resolve, 20));
+// Vega takes events and draws in later turns, which its views tell the end of.
+const drawn = () => Promise.all(Object.values(chartViews).flat().map((view) => view.runAsync()));
 
 // Whether the map's axes are equal, x goes up and y to the left, before and after the wheel was
 // turned, the map dragged, and clicked twice.

@@ -52,7 +52,7 @@ function element(tag, properties = {}, children = []) {
 function conditions(cell) {
   const parts = [];
   if (study.cells.length > 1) parts.push(cell.label);
-  if (study.alignment) parts.push(`alignment ${study.alignment}`);
+  if (cell.alignment) parts.push(`alignment ${cell.alignment}`);
   if (cell.association) parts.push(`association ${cell.association}`);
   parts.push(`n = ${cell.n}`);
   return parts.join(', ') + failuresOf([cell]);

@@ -11,11 +11,20 @@ function tableOf(header, rows) {
     element('tbody', {}, rows.map((row) => element('tr', {}, row.map(cellOf('td')))))]);
 }
 
-const swatch = (name) => {
-  const mark = element('span', {className: 'swatch' + (styleOf(name) && styleOf(name).dashed ? ' dashed' : '')});
-  mark.style.borderTopColor = styleOf(name) ? styleOf(name).colour : 'currentColor';
+// The line by which charts draw an estimator.
+function swatch(name) {
+  const style = styleOf(name);
+  const mark = document.createElementNS('http://www.w3.org/2000/svg', 'svg');
+  mark.setAttribute('class', 'swatch');
+  const line = document.createElementNS('http://www.w3.org/2000/svg', 'line');
+  const dashes = style ? dashesOf(style).join(' ') : '';
+  for (const [key, value] of Object.entries({x1: 0, y1: 2, x2: 30, y2: 2, 'stroke-width': 3,
+    stroke: style ? style.colour : 'currentColor', 'stroke-dasharray': dashes})) {
+    line.setAttribute(key, value);
+  }
+  mark.append(line);
   return mark;
-};
+}
 
 function valueCell(one, metric) {
   const value = one.metrics[metric];

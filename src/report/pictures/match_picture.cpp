@@ -8,8 +8,9 @@
 #include <opencv2/imgproc.hpp>
 
 #include "bgr.hpp"
-#include "canvas.hpp"
 #include "fathom/report/palette.hpp"
+#include "picture_canvas.hpp"
+#include "text_layout.hpp"
 
 namespace fathom {
 namespace {
@@ -19,8 +20,8 @@ constexpr Colour kOutlierColour = palette::orange;
 constexpr int kGapPx = 12;
 constexpr int kMarginPx = 14;
 constexpr int kTopPx = 64;  ///< of the pictures; a caption and their names stand above
-constexpr double kCaptionPx = 16.0;
-constexpr double kNamePx = 12.0;
+constexpr double kCaptionPx = 22.0;
+constexpr double kNamePx = 16.0;
 constexpr std::size_t kMostLines = 90;
 
 double gain_of(const cv::Mat& a, const cv::Mat& b) {
@@ -46,14 +47,20 @@ class Pair {
 
   int width_px() const { return a_.cols + kGapPx + b_.cols; }
   int height_px() const { return std::max(a_.rows, b_.rows); }
-  cv::Size size_a() const { return a_.size(); }
 
-  void draw(Canvas& canvas, const MatchPicture& picture) const {
-    canvas.image(a_, {double(kMarginPx), double(kTopPx)});
-    canvas.image(b_, {double(left_b()), double(kTopPx)});
+  /// Both on white.
+  cv::Mat side_by_side() const {
+    cv::Mat page(kTopPx + height_px() + kMarginPx, width_px() + 2 * kMarginPx, CV_8UC3,
+                 cv::Scalar::all(255));
+    a_.copyTo(page(cv::Rect({kMarginPx, kTopPx}, a_.size())));
+    b_.copyTo(page(cv::Rect({left_b(), kTopPx}, b_.size())));
+    return page;
+  }
+
+  void draw_names(Canvas& canvas, const MatchPicture& picture) const {
     const auto name = [&](const std::string& text, int left, int width) {
-      canvas.text(text, {double(left), kTopPx - 10.0},
-                  Canvas::fitting_height_px(text, kNamePx, width));
+      canvas.text(shortened(text, kNamePx, width), {double(left), kTopPx - 10.0},
+                  {.size = kNamePx});
     };
     name("A  " + picture.name_a, kMarginPx, a_.cols);
     name("B  " + picture.name_b, left_b(), b_.cols);
@@ -128,12 +135,12 @@ std::size_t draw(Canvas& canvas, const Pair& pair, const MatchPicture& picture,
   const Colour colour = marks.agree ? kInlierColour : kOutlierColour;
   const std::vector<PixelPair> joined = spread(picture, marks.matches, marks.most_lines);
   for (const PixelPair& match : joined) {
-    canvas.line({pair.in_a(match.a), pair.in_b(match.b)}, {colour, 1.0});
+    canvas.line(pair.in_a(match.a), pair.in_b(match.b), {colour, 1.0, {}, 1.0});
   }
   for (const PixelPair& match : marks.matches) {
     for (const Eigen::Vector2d& at : {pair.in_a(match.a), pair.in_b(match.b)}) {
       if (marks.agree) canvas.disc(at, 2.5, colour);
-      if (!marks.agree) canvas.ring(at, 3.5, {colour, 1.0});
+      if (!marks.agree) canvas.ring(at, 3.5, {colour, 1.0, {}, 1.0});
     }
   }
   return joined.size();
@@ -156,14 +163,9 @@ std::string lines_text(std::size_t lines, std::size_t matches) {
   return lines < matches ? ", " + std::to_string(lines) + " joined by lines" : "";
 }
 
-cv::Mat finished(Canvas& canvas, const Pair& pair, const std::string& caption) {
-  canvas.text(caption, {kMarginPx, 26},
-              Canvas::fitting_height_px(caption, kCaptionPx, pair.width_px()));
-  return canvas.finish();
-}
-
-Canvas canvas_for(const Pair& pair) {
-  return Canvas(pair.width_px() + 2 * kMarginPx, kTopPx + pair.height_px() + kMarginPx);
+void draw_caption(Canvas& canvas, const Pair& pair, const std::string& caption) {
+  const double size = kCaptionPx * std::min(1.0, pair.width_px() / text_width(caption, kCaptionPx));
+  canvas.text(caption, {kMarginPx, 26}, {.size = size});
 }
 
 }  // namespace
@@ -171,35 +173,33 @@ Canvas canvas_for(const Pair& pair) {
 cv::Mat render_raw_matches(const MatchPicture& picture) {
   const Pair pair(as_bgr(picture.a), as_bgr(picture.b));
   const Sorted matches = sorted(picture);
-  Canvas canvas = canvas_for(pair);
-  pair.draw(canvas, picture);
   const std::size_t all = picture.matches.size();
   const std::size_t most = lines_of_inliers(matches.inliers.size(), matches.others.size());
-  std::size_t lines = draw(canvas, pair, picture, {matches.inliers, most, true});
-  lines += draw(canvas, pair, picture, {matches.others, kMostLines - lines, false});
-  std::string caption = "Before RANSAC: " + count_text(all) + lines_text(lines, all);
-  if (all > 0) {
-    caption += ".  " + std::to_string(matches.inliers.size()) + " agree (blue), " +
-               std::to_string(matches.others.size()) + " do not (orange)";
-  }
-  return finished(canvas, pair, caption);
+  return drawn_over(pair.side_by_side(), [&](Canvas& canvas) {
+    pair.draw_names(canvas, picture);
+    std::size_t lines = draw(canvas, pair, picture, {matches.inliers, most, true});
+    lines += draw(canvas, pair, picture, {matches.others, kMostLines - lines, false});
+    std::string caption = "Before RANSAC: " + count_text(all) + lines_text(lines, all);
+    if (all > 0) {
+      caption += ".  " + std::to_string(matches.inliers.size()) + " agree (blue), " +
+                 std::to_string(matches.others.size()) + " do not (orange)";
+    }
+    draw_caption(canvas, pair, caption);
+  });
 }
 
 cv::Mat render_accepted_matches(const MatchPicture& picture) {
   const Pair pair(as_bgr(picture.a), as_bgr(picture.b));
   const std::vector<PixelPair>& inliers = picture.inliers;
-  Canvas canvas = canvas_for(pair);
-  pair.draw(canvas, picture);
-  const std::size_t lines = draw(canvas, pair, picture, {inliers, kMostLines, true});
-  if (picture.not_found.empty()) {
-    return finished(
-        canvas, pair,
-        "After RANSAC: " + count_text(inliers.size()) + lines_text(lines, inliers.size()));
-  }
-  const std::string shown = inliers.empty() ? "none to show"
-                                            : "the best supported " + count_text(inliers.size()) +
-                                                  lines_text(lines, inliers.size());
-  return finished(canvas, pair, "Not found: " + picture.not_found + "; " + shown);
+  return drawn_over(pair.side_by_side(), [&](Canvas& canvas) {
+    pair.draw_names(canvas, picture);
+    const std::size_t lines = draw(canvas, pair, picture, {inliers, kMostLines, true});
+    const std::string found = count_text(inliers.size()) + lines_text(lines, inliers.size());
+    const std::string shown = inliers.empty() ? "none to show" : "the best supported " + found;
+    draw_caption(canvas, pair,
+                 picture.not_found.empty() ? "After RANSAC: " + found
+                                           : "Not found: " + picture.not_found + "; " + shown);
+  });
 }
 
 }  // namespace fathom

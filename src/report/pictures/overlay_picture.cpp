@@ -7,10 +7,10 @@
 #include <opencv2/imgproc.hpp>
 
 #include "bgr.hpp"
-#include "canvas.hpp"
 #include "fathom/core/input_error.hpp"
 #include "fathom/report/match_picture.hpp"
 #include "fathom/report/palette.hpp"
+#include "picture_canvas.hpp"
 
 namespace fathom {
 namespace {
@@ -145,7 +145,7 @@ void draw_outline(Canvas& canvas, const FloorMap& map, const Corners& corners, C
   for (const Eigen::Vector2d& corner : corners) {
     polygon.push_back(map.pixel(corner) + Eigen::Vector2d(kMarginPx, kMarginPx + kTextPx));
   }
-  canvas.closed_line(polygon, {colour, 2.0});
+  canvas.outline(polygon, {colour, 2.0, {}, 1.0});
 }
 
 }  // namespace
@@ -163,13 +163,16 @@ cv::Mat render_overlay(const FloorPicture& a, const FloorPicture& b, const Pose&
   brighten(laid_a, laid_b);
   const cv::Mat picture = blended(laid_a, laid_b);
 
-  Canvas canvas(picture.cols + static_cast<int>(2 * kMarginPx),
-                picture.rows + static_cast<int>(2 * kMarginPx + kTextPx));
-  canvas.image(picture, {kMarginPx, kMarginPx + kTextPx});
-  draw_outline(canvas, map, corners_a, palette::orange);
-  draw_outline(canvas, map, corners_b, palette::blue);
-  canvas.text("A orange, B blue, grey where they agree", {kMarginPx, kMarginPx + 12}, 16.0);
-  return canvas.finish();
+  cv::Mat page;
+  constexpr int kMargin = static_cast<int>(kMarginPx);
+  cv::copyMakeBorder(picture, page, kMargin + static_cast<int>(kTextPx), kMargin, kMargin, kMargin,
+                     cv::BORDER_CONSTANT, cv::Scalar::all(255));
+  return drawn_over(page, [&](Canvas& canvas) {
+    draw_outline(canvas, map, corners_a, palette::orange);
+    draw_outline(canvas, map, corners_b, palette::blue);
+    canvas.text("A orange, B blue, grey where they agree", {kMarginPx, kMarginPx + 12},
+                {.size = 22.0});
+  });
 }
 
 }  // namespace fathom

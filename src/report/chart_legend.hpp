@@ -14,17 +14,22 @@ struct LegendEntry {
   std::function<void(Canvas&, const Eigen::Vector2d& centre)> sample;
 };
 
-/// Entries in rows between two columns of pixels.
-class PlotLegend {
- public:
-  PlotLegend(std::vector<LegendEntry> entries, double left_px, double right_px);
+/// A line, and a disc.
+LegendEntry line_entry(const std::string& text, const Pen& pen);
+LegendEntry disc_entry(const std::string& text, Colour colour);
 
-  double height_px() const;
-  void draw(Canvas& canvas, double top_px) const;
+/// Entries side by side from the left, in as many rows as they need within a width. One that is
+/// wider than that is shortened.
+class ChartLegend {
+ public:
+  ChartLegend(std::vector<LegendEntry> entries, double width);
+
+  double height() const;
+  void draw(Canvas& canvas, const Eigen::Vector2d& top_left) const;
 
  private:
   struct Place {
-    double left_px = 0.0;
+    double left = 0.0;
     int row = 0;
   };
   std::vector<LegendEntry> entries_;

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "canvas.hpp"
+#include "fathom/configuration/study_description.hpp"
+#include "fathom/report/palette.hpp"
+
+namespace fathom {
+
+/// The style of each estimator of a study by its place, and of dead reckoning.
+std::map<std::string, LineStyle> line_styles(const StudyDescription& study);
+
+Pen pen_of(const LineStyle& style, double width);
+
+}  // namespace fathom

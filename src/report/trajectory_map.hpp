@@ -1,0 +1,31 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "chart_frame.hpp"
+#include "chart_legend.hpp"
+#include "fathom/report/trajectory_plot.hpp"
+
+namespace fathom {
+
+/// Trajectories seen from above with x up and y to the left, the same scale along both: what
+/// trajectories.png and the figures for print share.
+class TrajectoryMap {
+ public:
+  explicit TrajectoryMap(const TrajectoryPlot& plot);
+
+  std::vector<LegendEntry> legend() const;
+  void draw(Canvas& canvas, const Box& outer) const;
+
+ private:
+  bool leaves(const PlotSeries& series) const;
+
+  const TrajectoryPlot& plot_;
+  std::vector<Pen> pens_;
+  Eigen::Vector2d low_;
+  Eigen::Vector2d high_;
+};
+
+}  // namespace fathom

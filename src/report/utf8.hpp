@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace fathom {
+
+struct CodePoint {
+  std::uint32_t value = 0;
+  std::size_t bytes = 1;
+  bool valid = true;
+};
+
+/// The first character of a text that is not empty. A byte that opens none stands for itself, as
+/// one that is not valid.
+CodePoint first_code_point(std::string_view text);
+
+/// The text as one line that can be drawn: control characters as blanks, and what is no UTF-8 as
+/// U+FFFD.
+std::string drawable_text(std::string_view text);
+
+}  // namespace fathom
