@@ -8,13 +8,12 @@
 namespace fathom {
 
 /// What speaks for the motion with the most support and against it. The count is taken twice, at
-/// `max_error_m` and at a third of it, where chance brings together a ninth; the one that is less
-/// likely by chance counts.
+/// `max_error_m` and at a part of it (a third), where chance brings together its square less; the
+/// one that is less likely by chance counts.
 Evidence weigh(const SupportedMotion& best, const SupportedMotion& rival, const MatchSet& nearest,
-               double max_error_m);
+               const RegistrationOptions& options);
 
 /// Why a motion with this evidence is not found; empty: it is.
-std::string objection(const Evidence& evidence, const RansacOptions& ransac,
-                      const DecisionOptions& decision);
+std::string objection(const Evidence& evidence, const RegistrationOptions& options);
 
 }  // namespace fathom

@@ -27,8 +27,9 @@ double spread(const Points& points) {
 // One run over one set of pairs; the steps of the header by their numbers.
 class Ransac {
  public:
-  Ransac(const PointPairs& pairs, const RansacOptions& options, std::uint64_t seed)
-      : pairs_(pairs), options_(options), random_(seed) {}
+  Ransac(const PointPairs& pairs, const RansacOptions& options, const RansacTuning& tuning,
+         std::uint64_t seed)
+      : pairs_(pairs), options_(options), tuning_(tuning), random_(seed) {}
 
   Consensus run() {
     Consensus best;
@@ -77,8 +78,7 @@ class Ransac {
   }
 
   std::optional<Pose> fit_sample() {
-    constexpr int kRedraws = 100;
-    for (int redraw = 0; redraw < kRedraws; ++redraw) {
+    for (int redraw = 0; redraw < tuning_.redraws; ++redraw) {
       draw_sample();
       // What cannot agree as a whole is no sample of right matches: not worth a fit.
       if (sample_.size() == 2 &&
@@ -131,8 +131,7 @@ class Ransac {
   }
 
   void settle(Consensus& best) {
-    constexpr int kRounds = 20;
-    for (int round = 0; round < kRounds; ++round) {
+    for (int round = 0; round < tuning_.refit_rounds; ++round) {
       std::vector<int> agreeing = pairs_.agreeing(*best.motion, options_.max_error_m);
       if (agreeing == best.inliers || agreeing.size() < best.inliers.size()) return;
       if (!has_enough_places(agreeing)) return;
@@ -153,6 +152,7 @@ class Ransac {
 
   const PointPairs& pairs_;
   const RansacOptions& options_;
+  const RansacTuning& tuning_;
   RandomStream random_;
   int most_agreeing_ = 0;
   int most_places_ = 0;
@@ -182,12 +182,13 @@ void RansacOptions::describe(OptionTable& table) {
 }
 
 Consensus ransac(std::span<const Eigen::Vector2d> p, std::span<const Eigen::Vector2d> q,
-                 const RansacOptions& options, std::uint64_t seed) {
-  return ransac(PointPairs(p, q), options, seed);
+                 const RansacOptions& options, std::uint64_t seed, const RansacTuning& tuning) {
+  return ransac(PointPairs(p, q), options, seed, tuning);
 }
 
-Consensus ransac(const PointPairs& pairs, const RansacOptions& options, std::uint64_t seed) {
-  return Ransac(pairs, options, seed).run();
+Consensus ransac(const PointPairs& pairs, const RansacOptions& options, std::uint64_t seed,
+                 const RansacTuning& tuning) {
+  return Ransac(pairs, options, tuning, seed).run();
 }
 
 }  // namespace fathom

@@ -64,16 +64,17 @@ void conclude(Registration& result, const Pair& pair, const MotionFit& fit, cons
   const ScaleCheck check = check_scale(fit, set);
   result.evidence.scale = check.scale;
   result.evidence.scale_sigma = check.sigma;
-  result.covariance = fit_covariance(fit, set, pair.from, pair.to, pair.options.covariance);
+  result.covariance = fit_covariance(fit, set, pair.from, pair.to, pair.options);
 }
 
 // The paper's figure 2 as it stands.
 Registration by_inliers(const Pair& pair, const NearestRows& rows) {
   const MatchSet distinct(match(rows, pair.options.matching), pair.from, pair.to,
-                          MatchSet::Use::points_alone);
+                          MatchSet::Use::points_alone, pair.options.tuning.matching);
   Registration result;
   result.distinct = distinct.matches();
-  Consensus consensus = ransac(distinct.pairs(), pair.options.ransac, pair.seed);
+  Consensus consensus =
+      ransac(distinct.pairs(), pair.options.ransac, pair.seed, pair.options.tuning.ransac);
   result.evidence.agreeing = consensus.most_agreeing;
   result.evidence.places = consensus.most_places;
   if (!consensus.motion) {
@@ -87,26 +88,29 @@ Registration by_inliers(const Pair& pair, const NearestRows& rows) {
 
 Registration by_false_alarms(const Pair& pair, const NearestRows& rows) {
   const MatchSet distinct(match(rows, pair.options.matching), pair.from, pair.to,
-                          MatchSet::Use::sizes);
-  const MatchSet nearest(all_nearest(rows), pair.from, pair.to, MatchSet::Use::sizes);
-  const RansacOptions& options = pair.options.ransac;
+                          MatchSet::Use::sizes, pair.options.tuning.matching);
+  const MatchSet nearest(all_nearest(rows), pair.from, pair.to, MatchSet::Use::sizes,
+                         pair.options.tuning.matching);
+  const RegistrationOptions& options = pair.options;
   Registration result;
   result.distinct = distinct.matches();
   const SupportedMotion best = find_supported_motion(distinct, nearest, options, pair.seed);
   if (!best.motion) {
-    result.reason = static_cast<int>(distinct.size()) < options.min_inliers
-                        ? too_few(distinct.size(), options)
+    result.reason = static_cast<int>(distinct.size()) < options.ransac.min_inliers
+                        ? too_few(distinct.size(), options.ransac)
                         : "no two of " + std::to_string(distinct.size()) + " matches agree";
     return result;
   }
   const SupportedMotion rival = find_rival(best, distinct, nearest, options, pair.seed);
-  result.evidence = weigh(best, rival, nearest, options.max_error_m);
-  result.reason = objection(result.evidence, options, pair.options.decision);
+  result.evidence = weigh(best, rival, nearest, options);
+  result.reason = objection(result.evidence, options);
   if (!result.reason.empty()) {
     result.inliers = picked(nearest, best.supporters);
     return result;
   }
-  conclude(result, pair, fit_motion(*best.motion, nearest, options.max_error_m), nearest);
+  conclude(result, pair,
+           fit_motion(*best.motion, nearest, options.ransac.max_error_m, options.tuning.fit),
+           nearest);
   return result;
 }
 
@@ -137,6 +141,7 @@ void RegistrationOptions::describe(OptionTable& table) {
   table.group("ransac", ransac);
   table.group("decision", decision);
   table.group("covariance", covariance);
+  table.group("registration_tuning", tuning);
 }
 
 Registration register_pair(const FloorFeatures& from, const FloorFeatures& to,

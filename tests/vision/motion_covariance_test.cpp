@@ -143,7 +143,8 @@ double mean_clustering(int cells, int copies) {
     }
     const std::vector<double> weights(p.size(), 1.0);
     const Pose z = find_motion(p, q, weights).value();
-    sum += LinearFit(z, p, q, weights).clustering(kCellM) / kTrials;
+    sum +=
+        LinearFit(z, p, q, weights).clustering(kCellM, CovarianceTuning{}.least_clusters) / kTrials;
   }
   return sum;
 }
@@ -167,7 +168,8 @@ TEST(LinearFit, ClusteringOfExactPointsIsOne) {
   Points q;
   for (int i = 0; i < 30; ++i) q.emplace_back(i % 6, i / 6);
   const std::vector<double> weights(q.size(), 1.0);
-  EXPECT_EQ(LinearFit({}, q, q, weights).clustering(kCellM), 1.0);
+  EXPECT_EQ(LinearFit({}, q, q, weights).clustering(kCellM, CovarianceTuning{}.least_clusters),
+            1.0);
 }
 
 // What a camera is off by: altitude, and turns of the body about its x and y axes.
@@ -261,8 +263,8 @@ TEST(SharedError, IsAShareOfTheErrorOfOneMatchInTranslationAlone) {
   // An error of 10 mm is one of 7.1 mm in x and in y.
   const double variance = 0.055 * 0.055 * 0.01 * 0.01 / 2.0;
   const Eigen::Matrix3d expected = Eigen::Vector3d(variance, variance, 0.0).asDiagonal();
-  EXPECT_LT((shared_error(0.01) - expected).norm(), 1e-15);
-  EXPECT_EQ(shared_error(0.0), Eigen::Matrix3d::Zero());
+  EXPECT_LT((shared_error(0.01, 0.055) - expected).norm(), 1e-15);
+  EXPECT_EQ(shared_error(0.0, 0.055), Eigen::Matrix3d::Zero());
 }
 
 }  // namespace

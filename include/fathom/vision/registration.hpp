@@ -11,6 +11,7 @@
 #include "fathom/vision/features.hpp"
 #include "fathom/vision/matching.hpp"
 #include "fathom/vision/ransac.hpp"
+#include "fathom/vision/registration_tuning.hpp"
 
 namespace fathom {
 
@@ -41,6 +42,7 @@ struct RegistrationOptions {
   RansacOptions ransac;
   DecisionOptions decision;
   CovarianceOptions covariance;
+  RegistrationTuning tuning;
 
   void describe(OptionTable& table);
 };
