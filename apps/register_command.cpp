@@ -93,7 +93,7 @@ void register_pictures(const RegisterFlags& flags, Context& context) {
       register_pair(features_a, features_b, options,
                     pair_seed(static_cast<std::uint64_t>(configuration.seed), 0, 1));
   write_pictures(folder.path(),
-                 {a, b, flags.a, flags.b, in_pixels(registration.distinct, features_a, features_b),
+                 {a, b, flags.a, flags.b, in_pixels(registration.putative, features_a, features_b),
                   in_pixels(registration.inliers, features_a, features_b), registration.reason},
                  {a, camera, flags.altitude_a_m}, {b, camera, flags.altitude_b_m}, registration);
   folder.commit({"overlay.png"});

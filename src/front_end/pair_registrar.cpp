@@ -72,6 +72,7 @@ FloorFeatures PairRegistrar::on_floor_of(const MeasuredFrame& frame) {
   return on_floor(features_.of(frame.frame)->unpacked(), pictures_.camera(), frame.altitude_m);
 }
 
+// Pixels in, registration out: features, their points on the floor, the motion and its covariance.
 PairRegistration PairRegistrar::register_anew(const MeasuredFrame& from, const MeasuredFrame& to,
                                               const FloorFeatures& features_to) {
   const Registration found =

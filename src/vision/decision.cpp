@@ -15,15 +15,15 @@ double poisson_tail(int count, double mean) {
   return count <= 0 ? 1.0 : chi_squared_cdf(2.0 * mean, 2.0 * count);
 }
 
-Evidence weigh_at(double error_m, const SupportedMotion& best, int rival_places,
-                  const MatchSet& nearest, const RegistrationOptions& options) {
+Evidence weigh_at(double error_m, const Hypothesis& best, int rival_places, const MatchSet& nearest,
+                  const RegistrationOptions& options) {
   // Two matches make a motion, so any motion has two.
   constexpr int kAlways = 2;
-  const std::vector<int> agreeing = nearest.pairs().agreeing(*best.motion, error_m);
+  const std::vector<int> inliers = nearest.pairs().inliers(*best.motion, error_m);
   Evidence evidence;
-  evidence.agreeing = static_cast<int>(agreeing.size());
+  evidence.support = static_cast<int>(inliers.size());
   evidence.places =
-      nearest.pairs().count_places(agreeing, error_m, options.tuning.decision.most_places);
+      nearest.pairs().count_places(inliers, error_m, options.tuning.decision.most_places);
   evidence.rival_places = std::max(
       {kAlways, rival_places, most_places_elsewhere(*best.motion, nearest, error_m, options)});
   evidence.false_alarms = poisson_tail(evidence.places, evidence.rival_places);
@@ -32,7 +32,7 @@ Evidence weigh_at(double error_m, const SupportedMotion& best, int rival_places,
 
 }  // namespace
 
-Evidence weigh(const SupportedMotion& best, const SupportedMotion& rival, const MatchSet& nearest,
+Evidence weigh(const Hypothesis& best, const Hypothesis& rival, const MatchSet& nearest,
                const RegistrationOptions& options) {
   const double coarse_m = options.ransac.max_error_m;
   const double fine_m = coarse_m / options.tuning.decision.fine_divisor;
@@ -41,10 +41,10 @@ Evidence weigh(const SupportedMotion& best, const SupportedMotion& rival, const 
   return fine.false_alarms < coarse.false_alarms ? fine : coarse;
 }
 
-std::string objection(const Evidence& evidence, const RegistrationOptions& options) {
+std::string reason_to_refuse(const Evidence& evidence, const RegistrationOptions& options) {
   const RansacOptions& ransac = options.ransac;
-  const std::string agree = std::to_string(evidence.agreeing) + " matches agree";
-  if (evidence.agreeing < ransac.min_inliers) {
+  const std::string agree = std::to_string(evidence.support) + " matches agree";
+  if (evidence.support < ransac.min_inliers) {
     return agree + ", " + std::to_string(ransac.min_inliers) + " are needed";
   }
   const std::string places = agree + ", in " + std::to_string(evidence.places) + " places";

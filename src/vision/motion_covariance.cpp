@@ -86,8 +86,8 @@ double LinearFit::clustering(double cell_m, int least_cells) const {
   return std::isfinite(ratio) ? std::max(1.0, ratio) : 1.0;
 }
 
-Eigen::Matrix3d LinearFit::of_pictures(const Viewpoint& from, const Viewpoint& to,
-                                       const CovarianceOptions& options) const {
+Eigen::Matrix3d LinearFit::altitude_and_tilt(const Viewpoint& from, const Viewpoint& to,
+                                             const CovarianceOptions& options) const {
   const Eigen::Vector3d sigmas(options.altitude_sigma_m, options.tilt_sigma_rad,
                                options.tilt_sigma_rad);
   const Eigen::Matrix2d R = rotation(z_.theta);

@@ -30,7 +30,7 @@ Points points_of(const MatchSet& matches, const std::vector<int>& indices) {
 
 std::vector<int> within_gate(const Pose& z, const MatchSet& matches, double max_error_m,
                              double gate) {
-  const std::vector<int> near = matches.one_to_one(matches.pairs().agreeing(z, max_error_m));
+  const std::vector<int> near = matches.one_to_one(matches.pairs().inliers(z, max_error_m));
   if (near.empty()) return near;
   std::vector<double> squares;
   for (const int index : near) {
@@ -50,11 +50,13 @@ std::vector<int> within_gate(const Pose& z, const MatchSet& matches, double max_
 
 }  // namespace
 
-MotionFit fit_motion(const Pose& start, const MatchSet& matches, double max_error_m,
-                     const FitTuning& tuning) {
+MotionFit fit_motion(const Pose& start, const MatchSet& matches,
+                     const RegistrationOptions& options) {
+  const FitTuning& tuning = options.tuning.fit;
+  const double max_error_m = options.ransac.max_error_m;
   MotionFit fit;
   fit.motion = start;
-  fit.inliers = matches.pairs().agreeing(start, max_error_m);
+  fit.inliers = matches.pairs().inliers(start, max_error_m);
   for (int round = 0; round < tuning.rounds; ++round) {
     std::vector<int> inliers = within_gate(fit.motion, matches, max_error_m, tuning.gate);
     const Points points = points_of(matches, inliers);
@@ -110,7 +112,7 @@ Eigen::Matrix3d fit_covariance(const MotionFit& fit, const MatchSet& matches,
   const double cell_m = tuning.cluster_px * to.viewpoint.metres_per_pixel;
   Eigen::Matrix3d covariance =
       linear.covariance() * linear.clustering(cell_m, tuning.least_clusters);
-  covariance += linear.of_pictures(from.viewpoint, to.viewpoint, told);
+  covariance += linear.altitude_and_tilt(from.viewpoint, to.viewpoint, told);
   covariance += shared_error(fit.rms_m, tuning.shared_error);
   covariance.diagonal() +=
       Eigen::Vector3d(told.floor_sigma_m, told.floor_sigma_m, told.floor_sigma_rad).cwiseAbs2();

@@ -17,12 +17,12 @@ struct MotionFit {
   double rms_m = 0.0;
 };
 
-/// Refits a motion to the matches within `max_error_m` of it, weighted by 1 / relative_variance.
-/// Among those a few agree by chance; so of these only the ones stay whose squared error is within
-/// `gate` of the errors' own variance, which is taken from their median. Repeated until nothing
-/// changes.
-MotionFit fit_motion(const Pose& start, const MatchSet& matches, double max_error_m,
-                     const FitTuning& tuning);
+/// Refits a motion to the matches within `ransac.max_error_m` of it, weighted by 1 /
+/// relative_variance. Among those a few agree by chance; so of these only the ones stay whose
+/// squared error is within `gate` of the errors' own variance, which is taken from their median.
+/// Repeated until nothing changes.
+MotionFit fit_motion(const Pose& start, const MatchSet& matches,
+                     const RegistrationOptions& options);
 
 /// Its covariance: of (x, y, θ), in axes of `from`. To first order, the sum of
 /// - what the errors show, σ² (Σ w JᵀJ)⁻¹ with σ² = Σ w ‖r‖² / (2n − 3), and more where errors of

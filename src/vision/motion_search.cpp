@@ -74,39 +74,38 @@ double rival_distance_m(const RegistrationOptions& options) {
 
 }  // namespace
 
-SupportedMotion find_supported_motion(const MatchSet& distinct, const MatchSet& nearest,
-                                      const RegistrationOptions& options, std::uint64_t seed) {
+Hypothesis find_hypothesis(const MatchSet& putative, const MatchSet& nearest,
+                           const RegistrationOptions& options, std::uint64_t seed) {
   const DecisionTuning& tuning = options.tuning.decision;
   const double max_error_m = options.ransac.max_error_m;
   RansacOptions any = options.ransac;
   any.min_inliers = 2;
   any.min_places = 1;
   any.score = RansacScore::inliers;
-  SupportedMotion found;
-  found.motion = ransac(distinct.pairs(), any, seed, options.tuning.ransac).motion;
+  Hypothesis found;
+  found.motion = ransac(putative.pairs(), any, seed, options.tuning.ransac).motion;
   if (!found.motion) return found;
-  found.supporters = nearest.pairs().agreeing(*found.motion, max_error_m);
+  found.support = nearest.pairs().inliers(*found.motion, max_error_m);
   for (int round = 0; round < tuning.support_rounds; ++round) {
-    const std::optional<Pose> again = fit(nearest.pairs(), found.supporters);
+    const std::optional<Pose> again = fit(nearest.pairs(), found.support);
     if (!again) break;
-    std::vector<int> supporters = nearest.pairs().agreeing(*again, max_error_m);
-    if (supporters.size() < found.supporters.size()) break;
-    const bool settled = supporters == found.supporters;
+    std::vector<int> support = nearest.pairs().inliers(*again, max_error_m);
+    if (support.size() < found.support.size()) break;
+    const bool settled = support == found.support;
     found.motion = again;
-    found.supporters = std::move(supporters);
+    found.support = std::move(support);
     if (settled) break;
   }
-  found.places = nearest.pairs().count_places(found.supporters, max_error_m, tuning.most_places);
+  found.places = nearest.pairs().count_places(found.support, max_error_m, tuning.most_places);
   return found;
 }
 
-SupportedMotion find_rival(const SupportedMotion& best, const MatchSet& distinct,
-                           const MatchSet& nearest, const RegistrationOptions& options,
-                           std::uint64_t seed) {
+Hypothesis find_rival(const Hypothesis& best, const MatchSet& putative, const MatchSet& nearest,
+                      const RegistrationOptions& options, std::uint64_t seed) {
   const double reach_m = rival_distance_m(options);
-  return find_supported_motion(distinct.without(distinct.pairs().agreeing(*best.motion, reach_m)),
-                               nearest.without(nearest.pairs().agreeing(*best.motion, reach_m)),
-                               options, seed);
+  return find_hypothesis(putative.without(putative.pairs().inliers(*best.motion, reach_m)),
+                         nearest.without(nearest.pairs().inliers(*best.motion, reach_m)), options,
+                         seed);
 }
 
 int most_places_elsewhere(const Pose& best, const MatchSet& nearest, double error_m,
@@ -118,10 +117,10 @@ int most_places_elsewhere(const Pose& best, const MatchSet& nearest, double erro
     grid.add(index, pairs.p(index) - transform(best, pairs.q(index)));
   }
   int most = 0;
-  for (const std::vector<int>& agreeing : grid.by_falling_size()) {
-    if (static_cast<int>(agreeing.size()) <= most) break;
+  for (const std::vector<int>& inliers : grid.by_falling_size()) {
+    if (static_cast<int>(inliers.size()) <= most) break;
     most =
-        std::max(most, pairs.count_places(agreeing, error_m, options.tuning.decision.most_places));
+        std::max(most, pairs.count_places(inliers, error_m, options.tuning.decision.most_places));
   }
   return most;
 }

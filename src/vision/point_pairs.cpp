@@ -83,7 +83,7 @@ bool PointPairs::fit_together(int a, int b, double max_error_m) const {
   return std::abs((p(a) - p(b)).norm() - (q(a) - q(b)).norm()) <= 2.0 * max_error_m;
 }
 
-int PointPairs::count_agreeing(const Pose& z, double max_error_m) const {
+int PointPairs::count_inliers(const Pose& z, double max_error_m) const {
   const Rigid motion(z);
   const double limit = max_error_m * max_error_m;
   const double* px = px_.data();
@@ -108,7 +108,7 @@ int PointPairs::count_agreeing(const Pose& z, double max_error_m) const {
   return count;
 }
 
-std::vector<int> PointPairs::agreeing(const Pose& z, double max_error_m) const {
+std::vector<int> PointPairs::inliers(const Pose& z, double max_error_m) const {
   const Rigid motion(z);
   const double limit = max_error_m * max_error_m;
   std::vector<int> indices;

@@ -34,9 +34,9 @@ class PointPairs {
   /// Those that may turn by `theta`, and no longer know their turn.
   PointPairs turning(double theta_rad) const;
 
-  /// How many pairs have ‖p − z ⊕ q‖ ≤ max_error_m, and which, rising.
-  int count_agreeing(const Pose& z, double max_error_m) const;
-  std::vector<int> agreeing(const Pose& z, double max_error_m) const;
+  /// The inliers of a motion, ‖p − z ⊕ q‖ ≤ max_error_m: how many, and which, rising.
+  int count_inliers(const Pose& z, double max_error_m) const;
+  std::vector<int> inliers(const Pose& z, double max_error_m) const;
 
   /// In how many places the pairs lie, counted up to `enough`: greedily, in their order, a pair is
   /// a new place if both its p and its q are further than `radius_m` from those of all places so

@@ -21,7 +21,7 @@
 namespace fathom {
 namespace {
 
-constexpr int kPinnedVersion = 3;
+constexpr int kPinnedVersion = 4;
 constexpr double kTolerance = 1e-9;
 
 // Covariance: xx, xy, xθ, yy, yθ, θθ.

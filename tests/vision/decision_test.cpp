@@ -112,7 +112,7 @@ TEST(Decision, RandomMatchesGiveNoMotion) {
   for (std::uint64_t seed = 0; seed < 2000; ++seed) {
     const Registration result = some_right(0, 120, seed).registered(options, seed);
     EXPECT_FALSE(result.found) << seed << ": " << result.evidence.false_alarms;
-    most = std::max(most, result.evidence.agreeing);
+    most = std::max(most, result.evidence.support);
   }
   // There was something to refuse.
   EXPECT_GE(most, 6);
@@ -137,11 +137,11 @@ TEST(Decision, ALatticeIsRefusedHoweverManyAgree) {
   RegistrationOptions options;
   const Registration refused = lattice().registered(options);
   EXPECT_FALSE(refused.found);
-  EXPECT_GE(refused.evidence.agreeing, 40);
+  EXPECT_GE(refused.evidence.support, 40);
   EXPECT_GE(refused.evidence.places, 40);
   EXPECT_GE(refused.evidence.rival_places, 30);
   EXPECT_THAT(refused.reason, HasSubstr("another motion has"));
-  EXPECT_GE(static_cast<int>(refused.inliers.size()), refused.evidence.agreeing);  // to be shown
+  EXPECT_GE(static_cast<int>(refused.inliers.size()), refused.evidence.support);  // to be shown
   // Enough agree, if that is all that is asked.
   options.decision.method = DecisionOptions::Method::inliers;
   EXPECT_TRUE(lattice().registered(options).found);
@@ -195,8 +195,8 @@ TEST(Decision, KeypointsOfAnotherSizeOrTurnBearNoWitness) {
     to.headings_rad.push_back(from.headings_rad.back() - kTruth.theta + (i < 30 ? 0.1 : 0.9));
   }
   const Registration result = register_pair(from, to, {}, 1);
-  EXPECT_EQ(result.distinct.size(), 40U);   // by size
-  EXPECT_EQ(result.evidence.agreeing, 10);  // of these, by turn
+  EXPECT_EQ(result.putative.size(), 40U);  // by size
+  EXPECT_EQ(result.evidence.support, 10);  // of these, by turn
   EXPECT_THAT(result.reason, HasSubstr("10 matches agree, 12 are needed"));
 }
 

@@ -236,26 +236,26 @@ Eigen::Matrix3d refitted(const Overlap& seen, const CovarianceOptions& options) 
   return sum;
 }
 
-TEST(LinearFit, OfPicturesEqualsRefitsOfMovedPoints) {
+TEST(LinearFit, AltitudeAndTiltEqualsRefitsOfMovedPoints) {
   const Overlap seen;
   const LinearFit fit(seen.motion, seen.p, seen.q, seen.weights);
   for (const CovarianceOptions& options :
        {CovarianceOptions{0.02, 0.0}, CovarianceOptions{0.0, 0.03},
         CovarianceOptions{0.02, 0.03}}) {
     const Eigen::Matrix3d expected = refitted(seen, options);
-    const Eigen::Matrix3d found = fit.of_pictures(seen.from, seen.to, options);
+    const Eigen::Matrix3d found = fit.altitude_and_tilt(seen.from, seen.to, options);
     ASSERT_GT(expected.norm(), 1e-5);
     EXPECT_LT((found - expected).norm(), 1e-6 * expected.norm()) << found << "\n\n" << expected;
   }
 }
 
-TEST(LinearFit, OfPicturesKnowsOnePictureFromTheOther) {
+TEST(LinearFit, AltitudeAndTiltKnowsOnePictureFromTheOther) {
   // An altitude of the far picture alone: lower ones move a point by more of a metre for a metre.
   const Overlap seen;
   const LinearFit fit(seen.motion, seen.p, seen.q, seen.weights);
   const CovarianceOptions options{0.02, 0.0};
-  const Eigen::Matrix3d both = fit.of_pictures(seen.from, seen.to, options);
-  const Eigen::Matrix3d swapped = fit.of_pictures(seen.to, seen.from, options);
+  const Eigen::Matrix3d both = fit.altitude_and_tilt(seen.from, seen.to, options);
+  const Eigen::Matrix3d swapped = fit.altitude_and_tilt(seen.to, seen.from, options);
   EXPECT_GT((both - swapped).norm(), 0.1 * both.norm());
 }
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -108,7 +109,7 @@ TEST(Ransac, SaysNotFoundWhereNothingAgrees) {
     const Consensus found = pairs.found({}, seed);
     EXPECT_FALSE(found.motion.has_value());
     EXPECT_TRUE(found.inliers.empty());
-    EXPECT_LT(found.most_agreeing, 12);
+    EXPECT_LT(found.most_inliers, 12);
   }
 }
 
@@ -117,7 +118,7 @@ TEST(Ransac, CountsFromTheMinimumNumberOfInliers) {
   Pairs pairs;
   add_true(pairs, random, kTruth, 11, 0.0);
   EXPECT_FALSE(pairs.found({}).motion.has_value());
-  EXPECT_EQ(pairs.found({}).most_agreeing, 11);
+  EXPECT_EQ(pairs.found({}).most_inliers, 11);
   add_true(pairs, random, kTruth, 1, 0.0);
   EXPECT_TRUE(pairs.found({}).motion.has_value());
 }
@@ -137,6 +138,29 @@ TEST(Ransac, PaperScoreFavoursTheSmallSet) {
   ASSERT_TRUE(least.motion.has_value());
   EXPECT_NEAR(least.motion->x, other.x, 0.01);
   EXPECT_EQ(least.inliers.size(), 20U);
+}
+
+// `count` matches on a circle, each off by the same in or out, which leaves their fit at z.
+void add_circle(Pairs& pairs, const Pose& z, int count, double error_m) {
+  for (int i = 0; i < count; ++i) {
+    const double turn = 2.0 * std::numbers::pi * i / count;
+    const Eigen::Vector2d outward =
+        rotation(z.theta) * Eigen::Vector2d(std::cos(turn), std::sin(turn));
+    pairs.add(z, {std::cos(turn), std::sin(turn)}, (i % 2 == 0 ? error_m : -error_m) * outward);
+  }
+}
+
+TEST(Ransac, PaperScoreIsTheSumOfSquares) {
+  // Errors sum to 20 and 18.2 units, their squares to 20 and 23.7.
+  Pairs pairs;
+  add_circle(pairs, kTruth, 20, 1e-4);
+  add_circle(pairs, {-3.0, 1.0, -0.4}, 14, 1.3e-4);
+  RansacOptions options;
+  options.score = RansacScore::paper;
+  const Consensus found = pairs.found(options);
+  ASSERT_TRUE(found.motion.has_value());
+  EXPECT_EQ(found.inliers.size(), 20U);
+  EXPECT_NEAR(found.motion->x, kTruth.x, 1e-9);
 }
 
 TEST(Ransac, OfEquallyLargeSetsTheTighterIsKept) {
@@ -161,7 +185,7 @@ TEST(Ransac, ManyMatchesInFewPlacesAreFewVotes) {
   RansacOptions options;
   const Consensus refused = pairs.found(options);
   EXPECT_FALSE(refused.motion.has_value());
-  EXPECT_EQ(refused.most_agreeing, 50);
+  EXPECT_EQ(refused.most_inliers, 50);
   EXPECT_EQ(refused.most_places, 5);
   options.min_places = 5;
   EXPECT_TRUE(pairs.found(options).motion.has_value());
@@ -196,7 +220,7 @@ TEST(Ransac, AllInOnePlaceEndsAsNotFound) {
   for (int i = 0; i < 100; ++i) pairs.add(kTruth, {0.1, 0.2});
   const Consensus found = pairs.found({});
   EXPECT_FALSE(found.motion.has_value());
-  EXPECT_EQ(found.most_agreeing, 0);
+  EXPECT_EQ(found.most_inliers, 0);
 }
 
 TEST(Ransac, SameSeedSameAnswer) {

@@ -107,7 +107,7 @@ TEST(RegisterPair, SaysThatPicturesDoNotOverlap) {
     const Registration result = register_pair(a, b, {}, seed);
     EXPECT_FALSE(result.found);
     EXPECT_FALSE(result.reason.empty());
-    EXPECT_LE(result.evidence.agreeing, 40);
+    EXPECT_LE(result.evidence.support, 40);
   }
 }
 
@@ -133,7 +133,7 @@ TEST(RegisterPair, SeveralKeypointsAtOnePlaceAreOneMatch) {
   const Registration twice = register_pair(labelled(repeated), labelled(repeated), {}, 1);
   ASSERT_TRUE(once.found);
   ASSERT_TRUE(twice.found);
-  EXPECT_EQ(twice.distinct, once.distinct);
+  EXPECT_EQ(twice.putative, once.putative);
   EXPECT_EQ(twice.inliers.size(), 20U);
 }
 

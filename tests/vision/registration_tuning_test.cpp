@@ -84,8 +84,8 @@ void add(std::string& text, const Registration& registration) {
   for (const double number :
        {double(registration.found), registration.motion.x, registration.motion.theta,
         registration.covariance(0, 0), registration.covariance(2, 2), registration.rms_m,
-        double(registration.distinct.size()), double(registration.inliers.size()),
-        double(e.agreeing), double(e.places), double(e.rival_places), e.false_alarms}) {
+        double(registration.putative.size()), double(registration.inliers.size()),
+        double(e.support), double(e.places), double(e.rival_places), e.false_alarms}) {
     text += exact(number) + ' ';
   }
 }

@@ -32,8 +32,8 @@ class LinearFit {
 
   /// Of errors that the points of one picture share: of its altitude and its roll and pitch, as of
   /// the options.
-  Eigen::Matrix3d of_pictures(const Viewpoint& from, const Viewpoint& to,
-                              const CovarianceOptions& options) const;
+  Eigen::Matrix3d altitude_and_tilt(const Viewpoint& from, const Viewpoint& to,
+                                    const CovarianceOptions& options) const;
 
  private:
   Eigen::Matrix<double, 2, 3> jacobian(std::size_t j) const;

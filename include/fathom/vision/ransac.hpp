@@ -16,7 +16,7 @@ namespace fathom {
 /// Which of two motions with enough inliers is kept.
 enum class RansacScore {
   inliers,  ///< the one with more inliers; of equals, the one with the lower RMS
-  paper     ///< the one with the lower sum of errors, as the figure has it: favours small sets
+  paper  ///< the one with the lower sum of squared errors ε, as in the figure: favours small sets
 };
 
 struct RansacOptions {
@@ -36,7 +36,7 @@ struct Consensus {
   std::optional<Pose> motion;  ///< of `to` in `from`; nothing: not found
   std::vector<int> inliers;    ///< rising indices of the pairs that agree; empty if not found
   double rms_m = 0.0;          ///< of the inliers' errors
-  int most_agreeing = 0;       ///< pairs that agreed with the best-supported trial, found or not
+  int most_inliers = 0;        ///< pairs that agreed with the best-supported trial, found or not
   int most_places = 0;  ///< most places of a trial with `min_inliers`, counted up to `min_places`
 };
 
