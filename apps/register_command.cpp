@@ -85,15 +85,15 @@ void register_pictures(const RegisterFlags& flags, Context& context) {
   const cv::Mat a = picture_for(camera, flags.a);
   const cv::Mat b = picture_for(camera, flags.b);
   StagedFolder folder(flags.common.folder_or("register"));
-  const FeatureExtractor extractor(configuration.front_end.features);
+  const RegistrationOptions& options = configuration.front_end.registration;
+  const FeatureExtractor extractor(configuration.front_end.features, options.tuning.features);
   const FloorFeatures features_a = on_floor(extractor.extract(a), camera, flags.altitude_a_m);
   const FloorFeatures features_b = on_floor(extractor.extract(b), camera, flags.altitude_b_m);
-  const RegistrationOptions& options = configuration.front_end.registration;
   const Registration registration =
       register_pair(features_a, features_b, options,
                     pair_seed(static_cast<std::uint64_t>(configuration.seed), 0, 1));
   write_pictures(folder.path(),
-                 {a, b, flags.a, flags.b, in_pixels(registration.distinct, features_a, features_b),
+                 {a, b, flags.a, flags.b, in_pixels(registration.putative, features_a, features_b),
                   in_pixels(registration.inliers, features_a, features_b), registration.reason},
                  {a, camera, flags.altitude_a_m}, {b, camera, flags.altitude_b_m}, registration);
   folder.commit({"overlay.png"});

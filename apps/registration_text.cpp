@@ -54,7 +54,7 @@ std::string scale_text(const Evidence& evidence) {
 std::string by_false_alarms(const Evidence& evidence, const RegistrationOptions& options) {
   if (evidence.places == 0) return line("nearest pairs", "no two matches agree on a motion");
   return line("nearest pairs",
-              printed("%d agree, in %d places", evidence.agreeing, evidence.places)) +
+              printed("%d agree, in %d places", evidence.support, evidence.places)) +
          line("other motions", printed("%d places at most", evidence.rival_places)) +
          line("by chance", chance_text(evidence.false_alarms, options.decision.max_false_alarms));
 }
@@ -63,7 +63,7 @@ std::string by_false_alarms(const Evidence& evidence, const RegistrationOptions&
 std::string by_inliers(const Evidence& evidence, const RansacOptions& ransac) {
   const char* more = evidence.places == ransac.min_places ? " or more" : "";
   return line("agreeing",
-              printed("%d of them, %d are needed; in %d%s places, %d are needed", evidence.agreeing,
+              printed("%d of them, %d are needed; in %d%s places, %d are needed", evidence.support,
                       ransac.min_inliers, evidence.places, more, ransac.min_places));
 }
 
@@ -78,7 +78,7 @@ std::string registration_text(const FloorFeatures& a, const FloorFeatures& b,
   std::string text = verdict(registration, metres_per_pixel) + "evidence\n" +
                      line("features", printed("%zu in A, %zu in B", a.size(), b.size())) +
                      line("matches", printed("%zu, each distinct from the next best",
-                                             registration.distinct.size()));
+                                             registration.putative.size()));
   text += options.decision.method == DecisionOptions::Method::inliers
               ? by_inliers(evidence, options.ransac)
               : by_false_alarms(evidence, options);

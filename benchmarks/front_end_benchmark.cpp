@@ -20,7 +20,6 @@ namespace {
 using fathom::Camera;
 using fathom::FeatureExtractor;
 using fathom::FeatureOptions;
-using fathom::FeatureType;
 using fathom::FloorFeatures;
 using fathom::Pose;
 
@@ -61,7 +60,7 @@ const std::vector<cv::Mat>& frames() {
 
 FeatureOptions options_of(const benchmark::State& state) {
   FeatureOptions options;
-  options.type = static_cast<FeatureType>(state.range(0));
+  options.type = fathom::detectors()[static_cast<std::size_t>(state.range(0))].name;
   return options;
 }
 
@@ -71,8 +70,8 @@ FloorFeatures features_of(const FeatureOptions& options, std::size_t frame) {
 }
 
 void name_detectors(benchmark::internal::Benchmark* benchmark) {
-  for (const fathom::DetectorEntry& entry : fathom::detectors()) {
-    benchmark->Arg(static_cast<int>(entry.type));
+  for (std::size_t i = 0; i < fathom::detectors().size(); ++i) {
+    benchmark->Arg(static_cast<std::int64_t>(i));
   }
   benchmark->Unit(benchmark::kMillisecond)->UseRealTime();
 }

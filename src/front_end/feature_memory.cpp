@@ -28,10 +28,10 @@ std::size_t PackedFeatures::bytes() const {
          packed_.descriptors.total() * packed_.descriptors.elemSize();
 }
 
-FeatureMemory::FeatureMemory(const FrameSource& source, const FeatureOptions& options,
+FeatureMemory::FeatureMemory(const FrameSource& source, const FeatureExtractor& extractor,
                              std::size_t bytes)
     : source_(source),
-      extractor_(options),
+      extractor_(extractor),
       held_(bytes, [](const Held& features) { return features->bytes(); }) {}
 
 FeatureMemory::Held FeatureMemory::extract(std::size_t frame) const {

@@ -16,6 +16,8 @@ FrontEnd::FrontEnd(const FrameSource& source, PairRegistrar& registrar,
   }
 }
 
+// The paper's section 2: dead reckoning is composed frame by frame, every so many frames one
+// becomes a keyframe; register_newest() then registers it.
 std::optional<Keyframe> FrontEnd::next_keyframe() {
   const auto separation = static_cast<std::size_t>(options_.separation_frames);
   UncertainPose since;  // the last keyframe
@@ -23,23 +25,24 @@ std::optional<Keyframe> FrontEnd::next_keyframe() {
     const std::size_t frame = frames_.size();
     const FrameInfo& info = source_.info(frame);
     if (frame > 0) since = compose(since, *info.motion);
-    const bool is_keyframe = frame % separation == 0;
-    if (!is_keyframe) {
-      frames_.push_back({info.time_ns, keyframes_.size() - 1, since.mean});
-      continue;
-    }
-    Keyframe keyframe{keyframes_.size(), frame, info.time_ns, std::nullopt};
-    if (frame > 0) {
-      keyframe.step = RelativePose::from_covariance(keyframe.index - 1, keyframe.index, since.mean,
-                                                    since.covariance);
-    }
-    frames_.push_back({info.time_ns, keyframe.index, Pose{}});
-    keyframes_.push_back(keyframe);
-    altitudes_m_.push_back(info.altitude_m);
-    announce_next_keyframes();
-    return keyframe;
+    if (frame % separation == 0) return add_keyframe(frame, info, since);
+    frames_.push_back({info.time_ns, keyframes_.size() - 1, since.mean});
   }
   return std::nullopt;
+}
+
+Keyframe FrontEnd::add_keyframe(std::size_t frame, const FrameInfo& info,
+                                const UncertainPose& since) {
+  Keyframe keyframe{keyframes_.size(), frame, info.time_ns, std::nullopt};
+  if (frame > 0) {
+    keyframe.step = RelativePose::from_covariance(keyframe.index - 1, keyframe.index, since.mean,
+                                                  since.covariance);
+  }
+  frames_.push_back({info.time_ns, keyframe.index, Pose{}});
+  keyframes_.push_back(keyframe);
+  altitudes_m_.push_back(info.altitude_m);
+  announce_next_keyframes();
+  return keyframe;
 }
 
 MeasuredFrame FrontEnd::measured(std::size_t frame) const {
@@ -72,6 +75,8 @@ Candidates FrontEnd::candidates(const TrajectoryView& trajectory) const {
   return search_.find(trajectory, altitudes_m_, step_is_registration ? newest - 1 : newest);
 }
 
+// Loop candidates by the estimate, each registered with the newest keyframe (figure 2); what is
+// found is a measurement.
 std::vector<RelativePose> FrontEnd::register_newest(const TrajectoryView& trajectory) {
   const std::size_t newest = keyframes_.size() - 1;
   const auto [near, left_out] = candidates(trajectory);

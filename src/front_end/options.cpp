@@ -21,6 +21,20 @@ std::vector<IgnoredKey> FrontEndOptions::ignored_keys() const {
   }
   const bool by_inliers = registration.decision.method == DecisionOptions::Method::inliers;
   ignored.push_back({by_inliers ? "decision.max_false_alarms" : "ransac.score", "decision.method"});
+  const auto ignore_tuning = [&](const std::string& group, const std::string& chooser) {
+    RegistrationTuning tuning;
+    OptionTable table;
+    tuning.describe(table);
+    for (const std::string& key : table.keys()) {
+      if (key.starts_with(group)) ignored.push_back({"registration_tuning." + key, chooser});
+    }
+  };
+  if (!features.flatten) ignore_tuning("features.", "features.flatten");
+  if (by_inliers) {
+    for (const char* group : {"matching.", "decision.", "fit."}) {
+      ignore_tuning(group, "decision.method");
+    }
+  }
   return ignored;
 }
 

@@ -38,7 +38,8 @@ PairRegistrar::PairRegistrar(const FrameSource& pictures, const FeatureOptions& 
       seed_(seed),
       cache_(cache),
       keys_(pictures.camera().model(), features, registration),
-      features_(pictures, features, feature_bytes) {}
+      features_(pictures, FeatureExtractor(features, registration.tuning.features), feature_bytes) {
+}
 
 PairRegistrar::PairKey PairRegistrar::pair_key(const MeasuredFrame& from, const MeasuredFrame& to) {
   return {from.frame, std::bit_cast<std::uint64_t>(from.altitude_m), to.frame,
@@ -71,6 +72,7 @@ FloorFeatures PairRegistrar::on_floor_of(const MeasuredFrame& frame) {
   return on_floor(features_.of(frame.frame)->unpacked(), pictures_.camera(), frame.altitude_m);
 }
 
+// Pixels in, registration out: features, their points on the floor, the motion and its covariance.
 PairRegistration PairRegistrar::register_anew(const MeasuredFrame& from, const MeasuredFrame& to,
                                               const FloorFeatures& features_to) {
   const Registration found =

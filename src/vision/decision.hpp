@@ -7,14 +7,15 @@
 
 namespace fathom {
 
-/// What speaks for the motion with the most support and against it. The count is taken twice, at
-/// `max_error_m` and at a third of it, where chance brings together a ninth; the one that is less
-/// likely by chance counts.
-Evidence weigh(const SupportedMotion& best, const SupportedMotion& rival, const MatchSet& nearest,
-               double max_error_m);
+/// The a-contrario test (Desolneux, Moisan, Morel, Int. J. Computer Vision 40, 2000; for RANSAC
+/// Moisan and Stival 2004): how likely chance alone gives the best motion its support, when what
+/// chance does is measured on the pair itself, by the strongest rival. The count is taken twice, at
+/// `max_error_m` and at a part of it (a third), where chance brings together its square less; the
+/// one that is less likely by chance counts.
+Evidence weigh(const Hypothesis& best, const Hypothesis& rival, const MatchSet& nearest,
+               const RegistrationOptions& options);
 
 /// Why a motion with this evidence is not found; empty: it is.
-std::string objection(const Evidence& evidence, const RansacOptions& ransac,
-                      const DecisionOptions& decision);
+std::string reason_to_refuse(const Evidence& evidence, const RegistrationOptions& options);
 
 }  // namespace fathom

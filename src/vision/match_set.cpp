@@ -10,10 +10,6 @@
 namespace fathom {
 namespace {
 
-// Sizes of right matches differ by less than this factor, all but a few per cent: an octave of
-// SIFT has three layers, and a keypoint may be found in the next one.
-constexpr double kSizeTolerance = 1.6;
-
 const Eigen::Vector2d& point(const FloorFeatures& picture, int row) {
   return picture.points[static_cast<std::size_t>(row)];
 }
@@ -42,14 +38,14 @@ std::vector<Match> one_per_place(std::vector<Match> matches, const FloorFeatures
 }  // namespace
 
 MatchSet::MatchSet(std::vector<Match> matches, const FloorFeatures& from, const FloorFeatures& to,
-                   Use use)
-    : pairs_({}, {}) {
+                   Use use, const MatchingTuning& tuning)
+    : MatchSet(tuning.turn_tolerance_rad) {
   const bool sized = use == Use::sizes && !from.sizes_m.empty() && !to.sizes_m.empty();
   if (sized) {
     std::erase_if(matches, [&](const Match& m) {
       const double ratio = from.sizes_m[static_cast<std::size_t>(m.from)] /
                            to.sizes_m[static_cast<std::size_t>(m.to)];
-      return ratio > kSizeTolerance || ratio < 1.0 / kSizeTolerance;
+      return ratio > tuning.size_ratio || ratio < 1.0 / tuning.size_ratio;
     });
   }
   matches_ = one_per_place(std::move(matches), from, to);
@@ -63,7 +59,7 @@ MatchSet::MatchSet(std::vector<Match> matches, const FloorFeatures& from, const 
     relative_variances_.push_back(from.sizes_m[i] * from.sizes_m[i] +
                                   to.sizes_m[j] * to.sizes_m[j]);
   }
-  pairs_ = PointPairs(p_, q_, turns_rad_);
+  pairs_ = PointPairs(p_, q_, turns_rad_, turn_tolerance_rad_);
 }
 
 double MatchSet::relative_variance(int index) const {
@@ -89,7 +85,7 @@ std::vector<int> MatchSet::one_to_one(const std::vector<int>& indices) const {
 }
 
 MatchSet MatchSet::without(const std::vector<int>& indices) const {
-  MatchSet rest;
+  MatchSet rest(turn_tolerance_rad_);
   std::size_t next = 0;
   for (std::size_t i = 0; i < size(); ++i) {
     if (next < indices.size() && static_cast<std::size_t>(indices[next]) == i) {
@@ -103,7 +99,7 @@ MatchSet MatchSet::without(const std::vector<int>& indices) const {
     rest.turns_rad_.push_back(turns_rad_[i]);
     rest.relative_variances_.push_back(relative_variances_[i]);
   }
-  rest.pairs_ = PointPairs(rest.p_, rest.q_, rest.turns_rad_);
+  rest.pairs_ = PointPairs(rest.p_, rest.q_, rest.turns_rad_, turn_tolerance_rad_);
   return rest;
 }
 

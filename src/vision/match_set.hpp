@@ -7,6 +7,7 @@
 
 #include "fathom/vision/features.hpp"
 #include "fathom/vision/matching.hpp"
+#include "fathom/vision/registration_tuning.hpp"
 #include "point_pairs.hpp"
 
 namespace fathom {
@@ -20,7 +21,8 @@ class MatchSet {
   /// Of matches that join the same two places the nearest in descriptors stays: SIFT puts several
   /// keypoints with different orientations at one place, which is the same evidence again. Those of
   /// keypoints of unlike size on the floor go: the altitudes say how large a thing is.
-  MatchSet(std::vector<Match> matches, const FloorFeatures& from, const FloorFeatures& to, Use use);
+  MatchSet(std::vector<Match> matches, const FloorFeatures& from, const FloorFeatures& to, Use use,
+           const MatchingTuning& tuning);
 
   std::size_t size() const { return matches_.size(); }
   /// By rising row of `from`.
@@ -39,8 +41,10 @@ class MatchSet {
   MatchSet without(const std::vector<int>& indices) const;
 
  private:
-  MatchSet() : pairs_({}, {}) {}
+  explicit MatchSet(double turn_tolerance_rad)
+      : turn_tolerance_rad_(turn_tolerance_rad), pairs_({}, {}) {}
 
+  double turn_tolerance_rad_;
   std::vector<Match> matches_;
   std::vector<double> turns_rad_;
   std::vector<double> relative_variances_;

@@ -11,11 +11,6 @@
 namespace fathom {
 namespace {
 
-// However many matches there are, their errors do not average out to nothing: the keypoints of a
-// picture have a part in common, by how it was blurred and lit. As a share of the error of one
-// match, measured on pictures whose motion is known (docs/registration.md).
-constexpr double kSharedError = 0.055;
-
 // What the errors of a picture do to a point of the floor seen at p (body frame): the derivative by
 // altitude, roll (about x) and pitch (about y). For a ray (r, −1), r = (p − camera) / altitude, the
 // tilted one meets the floor at camera + altitude · (r_x − pitch, r_y + roll)
@@ -31,8 +26,8 @@ Eigen::Matrix<double, 2, 3> derivative(const Viewpoint& view, const Eigen::Vecto
 
 }  // namespace
 
-Eigen::Matrix3d shared_error(double rms_m) {
-  const double shared_m = kSharedError * rms_m / std::numbers::sqrt2;
+Eigen::Matrix3d shared_error(double rms_m, double share) {
+  const double shared_m = share * rms_m / std::numbers::sqrt2;
   return Eigen::Vector3d(shared_m * shared_m, shared_m * shared_m, 0.0).asDiagonal();
 }
 
@@ -73,7 +68,7 @@ Eigen::Matrix3d LinearFit::covariance() const {
   return squares / (2.0 * static_cast<double>(p_.size()) - 3.0) * inverse_;
 }
 
-double LinearFit::clustering(double cell_m) const {
+double LinearFit::clustering(double cell_m, int least_cells) const {
   if (!(cell_m > 0.0)) return 1.0;
   std::map<std::pair<long, long>, Eigen::Vector3d> cells;
   for (std::size_t j = 0; j < p_.size(); ++j) {
@@ -81,8 +76,7 @@ double LinearFit::clustering(double cell_m) const {
     const auto [entry, is_new] = cells.try_emplace(cell, Eigen::Vector3d::Zero());
     entry->second += weights_[j] * jacobian(j).transpose() * residual(j);
   }
-  constexpr std::size_t kFewest = 6;
-  if (cells.size() < kFewest) return 1.0;
+  if (cells.size() < static_cast<std::size_t>(least_cells)) return 1.0;
   Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
   for (const auto& [cell, score] : cells) scatter += score * score.transpose();
   const auto count = static_cast<double>(cells.size());
@@ -92,8 +86,8 @@ double LinearFit::clustering(double cell_m) const {
   return std::isfinite(ratio) ? std::max(1.0, ratio) : 1.0;
 }
 
-Eigen::Matrix3d LinearFit::of_pictures(const Viewpoint& from, const Viewpoint& to,
-                                       const CovarianceOptions& options) const {
+Eigen::Matrix3d LinearFit::altitude_and_tilt(const Viewpoint& from, const Viewpoint& to,
+                                             const CovarianceOptions& options) const {
   const Eigen::Vector3d sigmas(options.altitude_sigma_m, options.tilt_sigma_rad,
                                options.tilt_sigma_rad);
   const Eigen::Matrix2d R = rotation(z_.theta);

@@ -28,11 +28,9 @@ Points points_of(const MatchSet& matches, const std::vector<int>& indices) {
   return points;
 }
 
-// Of right matches, with errors normal in x and y, one in 250 is beyond this many variances.
-constexpr double kGate = 11.0;
-
-std::vector<int> within_gate(const Pose& z, const MatchSet& matches, double max_error_m) {
-  const std::vector<int> near = matches.one_to_one(matches.pairs().agreeing(z, max_error_m));
+std::vector<int> within_gate(const Pose& z, const MatchSet& matches, double max_error_m,
+                             double gate) {
+  const std::vector<int> near = matches.one_to_one(matches.pairs().inliers(z, max_error_m));
   if (near.empty()) return near;
   std::vector<double> squares;
   for (const int index : near) {
@@ -45,20 +43,22 @@ std::vector<int> within_gate(const Pose& z, const MatchSet& matches, double max_
   const double variance = *middle / (2.0 * std::log(2.0));
   std::vector<int> kept;
   for (std::size_t k = 0; k < near.size(); ++k) {
-    if (squares[k] <= kGate * variance) kept.push_back(near[k]);
+    if (squares[k] <= gate * variance) kept.push_back(near[k]);
   }
   return kept;
 }
 
 }  // namespace
 
-MotionFit fit_motion(const Pose& start, const MatchSet& matches, double max_error_m) {
-  constexpr int kRounds = 20;
+MotionFit fit_motion(const Pose& start, const MatchSet& matches,
+                     const RegistrationOptions& options) {
+  const FitTuning& tuning = options.tuning.fit;
+  const double max_error_m = options.ransac.max_error_m;
   MotionFit fit;
   fit.motion = start;
-  fit.inliers = matches.pairs().agreeing(start, max_error_m);
-  for (int round = 0; round < kRounds; ++round) {
-    std::vector<int> inliers = within_gate(fit.motion, matches, max_error_m);
+  fit.inliers = matches.pairs().inliers(start, max_error_m);
+  for (int round = 0; round < tuning.rounds; ++round) {
+    std::vector<int> inliers = within_gate(fit.motion, matches, max_error_m, tuning.gate);
     const Points points = points_of(matches, inliers);
     const std::optional<Pose> motion = find_motion(points.p, points.q, points.weights);
     if (inliers.size() < 3 || !motion) break;
@@ -104,17 +104,18 @@ ScaleCheck check_scale(const MotionFit& fit, const MatchSet& matches) {
 
 Eigen::Matrix3d fit_covariance(const MotionFit& fit, const MatchSet& matches,
                                const FloorFeatures& from, const FloorFeatures& to,
-                               const CovarianceOptions& options) {
+                               const RegistrationOptions& options) {
   const Points points = points_of(matches, fit.inliers);
   const LinearFit linear(fit.motion, points.p, points.q, points.weights);
-  constexpr double kCellPixels = 64.0;
+  const CovarianceTuning& tuning = options.tuning.covariance;
+  const CovarianceOptions& told = options.covariance;
+  const double cell_m = tuning.cluster_px * to.viewpoint.metres_per_pixel;
   Eigen::Matrix3d covariance =
-      linear.covariance() * linear.clustering(kCellPixels * to.viewpoint.metres_per_pixel);
-  covariance += linear.of_pictures(from.viewpoint, to.viewpoint, options);
-  covariance += shared_error(fit.rms_m);
+      linear.covariance() * linear.clustering(cell_m, tuning.least_clusters);
+  covariance += linear.altitude_and_tilt(from.viewpoint, to.viewpoint, told);
+  covariance += shared_error(fit.rms_m, tuning.shared_error);
   covariance.diagonal() +=
-      Eigen::Vector3d(options.floor_sigma_m, options.floor_sigma_m, options.floor_sigma_rad)
-          .cwiseAbs2();
+      Eigen::Vector3d(told.floor_sigma_m, told.floor_sigma_m, told.floor_sigma_rad).cwiseAbs2();
   return covariance;
 }
 

@@ -17,20 +17,22 @@ struct MotionFit {
   double rms_m = 0.0;
 };
 
-/// Refits a motion to the matches within `max_error_m` of it, weighted by 1 / relative_variance.
-/// Among those a few agree by chance; so of these only the ones within kGate of the errors' own
-/// deviation stay, which is taken from their median. Repeated until nothing changes.
-MotionFit fit_motion(const Pose& start, const MatchSet& matches, double max_error_m);
+/// Refits a motion to the matches within `ransac.max_error_m` of it, weighted by 1 /
+/// relative_variance. Among those a few agree by chance; so of these only the ones stay whose
+/// squared error is within `gate` of the errors' own variance, which is taken from their median.
+/// Repeated until nothing changes.
+MotionFit fit_motion(const Pose& start, const MatchSet& matches,
+                     const RegistrationOptions& options);
 
 /// Its covariance: of (x, y, θ), in axes of `from`. To first order, the sum of
 /// - what the errors show, σ² (Σ w JᵀJ)⁻¹ with σ² = Σ w ‖r‖² / (2n − 3), and more where errors of
 ///   neighbours are alike: times the mean ratio of the cluster-robust covariance (Liang and Zeger
-///   1986; clusters are squares of 64 pixels) to it, if above 1;
+///   1986; clusters are squares of `cluster_px`) to it, if above 1;
 /// - a share of the error of one match, which all of a picture have in common;
 /// - that of altitudes and tilts, and the floor, as of the options.
 Eigen::Matrix3d fit_covariance(const MotionFit& fit, const MatchSet& matches,
                                const FloorFeatures& from, const FloorFeatures& to,
-                               const CovarianceOptions& options);
+                               const RegistrationOptions& options);
 
 /// Distances in `from` over those in `to` by the inliers of a fit, and its standard deviation.
 struct ScaleCheck {

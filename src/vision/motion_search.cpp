@@ -27,12 +27,17 @@ std::optional<Pose> fit(const PointPairs& pairs, const std::vector<int>& indices
 // next, leave few gaps and share little.
 class ShiftGrid {
  public:
-  ShiftGrid(double error_m, double reach_m)
-      : error_m_(error_m), reach_m_(reach_m), cells_(std::size_t{kSide} * kSide) {}
+  ShiftGrid(double error_m, double reach_m, const DecisionTuning& tuning)
+      : error_m_(error_m),
+        reach_m_(reach_m),
+        spacing_m_(tuning.grid_spacing * error_m),
+        steps_(tuning.grid_steps),
+        cells_(static_cast<std::size_t>(side()) * static_cast<std::size_t>(side())) {}
 
+  // The grid is no finer than the error, so that no other points than the four about it are near.
   void add(int index, const Eigen::Vector2d& apart_m) {
-    const Eigen::Vector2d at = apart_m / (kSpacing * error_m_);
-    if (!(at.cwiseAbs().maxCoeff() < kSteps + 1.0)) return;
+    const Eigen::Vector2d at = apart_m / spacing_m_;
+    if (!(at.cwiseAbs().maxCoeff() < steps_ + 1.0)) return;
     const int row = static_cast<int>(std::floor(at.x()));
     const int column = static_cast<int>(std::floor(at.y()));
     for (const int r : {row, row + 1}) {
@@ -46,70 +51,76 @@ class ShiftGrid {
   }
 
  private:
-  static constexpr double kSpacing = 1.5;
-  static constexpr int kSteps = 16;  // to either side
-  static constexpr int kSide = 2 * kSteps + 1;
+  int side() const { return 2 * steps_ + 1; }
 
   void add_to(int row, int column, int index, const Eigen::Vector2d& apart_m) {
-    if (std::max(std::abs(row), std::abs(column)) > kSteps) return;
-    const Eigen::Vector2d shift = kSpacing * error_m_ * Eigen::Vector2d(row, column);
+    if (std::max(std::abs(row), std::abs(column)) > steps_) return;
+    const Eigen::Vector2d shift = spacing_m_ * Eigen::Vector2d(row, column);
     if (shift.norm() < reach_m_ || (apart_m - shift).norm() > error_m_) return;
-    cells_[static_cast<std::size_t>((row + kSteps) * kSide + column + kSteps)].push_back(index);
+    cells_[static_cast<std::size_t>((row + steps_) * side() + column + steps_)].push_back(index);
   }
 
   double error_m_;
   double reach_m_;
+  double spacing_m_;
+  int steps_;  // to either side
   std::vector<std::vector<int>> cells_;
 };
 
+// Nearer to another than this a motion lives on its support.
+double rival_distance_m(const RegistrationOptions& options) {
+  return options.tuning.decision.rival_distance * options.ransac.max_error_m;
+}
+
 }  // namespace
 
-SupportedMotion find_supported_motion(const MatchSet& distinct, const MatchSet& nearest,
-                                      const RansacOptions& options, std::uint64_t seed) {
-  RansacOptions any = options;
+Hypothesis find_hypothesis(const MatchSet& putative, const MatchSet& nearest,
+                           const RegistrationOptions& options, std::uint64_t seed) {
+  const DecisionTuning& tuning = options.tuning.decision;
+  const double max_error_m = options.ransac.max_error_m;
+  RansacOptions any = options.ransac;
   any.min_inliers = 2;
   any.min_places = 1;
   any.score = RansacScore::inliers;
-  SupportedMotion found;
-  found.motion = ransac(distinct.pairs(), any, seed).motion;
+  Hypothesis found;
+  found.motion = ransac(putative.pairs(), any, seed, options.tuning.ransac).motion;
   if (!found.motion) return found;
-  found.supporters = nearest.pairs().agreeing(*found.motion, options.max_error_m);
-  constexpr int kRounds = 10;
-  for (int round = 0; round < kRounds; ++round) {
-    const std::optional<Pose> again = fit(nearest.pairs(), found.supporters);
+  found.support = nearest.pairs().inliers(*found.motion, max_error_m);
+  for (int round = 0; round < tuning.support_rounds; ++round) {
+    const std::optional<Pose> again = fit(nearest.pairs(), found.support);
     if (!again) break;
-    std::vector<int> supporters = nearest.pairs().agreeing(*again, options.max_error_m);
-    if (supporters.size() < found.supporters.size()) break;
-    const bool settled = supporters == found.supporters;
+    std::vector<int> support = nearest.pairs().inliers(*again, max_error_m);
+    if (support.size() < found.support.size()) break;
+    const bool settled = support == found.support;
     found.motion = again;
-    found.supporters = std::move(supporters);
+    found.support = std::move(support);
     if (settled) break;
   }
-  found.places = nearest.pairs().count_places(found.supporters, options.max_error_m, kEnoughPlaces);
+  found.places = nearest.pairs().count_places(found.support, max_error_m, tuning.most_places);
   return found;
 }
 
-SupportedMotion find_rival(const SupportedMotion& best, const MatchSet& distinct,
-                           const MatchSet& nearest, const RansacOptions& options,
-                           std::uint64_t seed) {
-  const double reach_m = kRivalReach * options.max_error_m;
-  return find_supported_motion(distinct.without(distinct.pairs().agreeing(*best.motion, reach_m)),
-                               nearest.without(nearest.pairs().agreeing(*best.motion, reach_m)),
-                               options, seed);
+Hypothesis find_rival(const Hypothesis& best, const MatchSet& putative, const MatchSet& nearest,
+                      const RegistrationOptions& options, std::uint64_t seed) {
+  const double reach_m = rival_distance_m(options);
+  return find_hypothesis(putative.without(putative.pairs().inliers(*best.motion, reach_m)),
+                         nearest.without(nearest.pairs().inliers(*best.motion, reach_m)), options,
+                         seed);
 }
 
-int most_places_elsewhere(const Pose& best, const MatchSet& nearest, double reach_m,
-                          double error_m) {
+int most_places_elsewhere(const Pose& best, const MatchSet& nearest, double error_m,
+                          const RegistrationOptions& options) {
   const PointPairs pairs = nearest.pairs().turning(best.theta);
-  ShiftGrid grid(error_m, reach_m);
+  ShiftGrid grid(error_m, rival_distance_m(options), options.tuning.decision);
   for (std::size_t j = 0; j < pairs.size(); ++j) {
     const int index = static_cast<int>(j);
     grid.add(index, pairs.p(index) - transform(best, pairs.q(index)));
   }
   int most = 0;
-  for (const std::vector<int>& agreeing : grid.by_falling_size()) {
-    if (static_cast<int>(agreeing.size()) <= most) break;
-    most = std::max(most, pairs.count_places(agreeing, error_m, kEnoughPlaces));
+  for (const std::vector<int>& inliers : grid.by_falling_size()) {
+    if (static_cast<int>(inliers.size()) <= most) break;
+    most =
+        std::max(most, pairs.count_places(inliers, error_m, options.tuning.decision.most_places));
   }
   return most;
 }

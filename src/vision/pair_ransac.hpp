@@ -8,6 +8,7 @@
 namespace fathom {
 
 /// ransac() of pairs that may know their turns.
-Consensus ransac(const PointPairs& pairs, const RansacOptions& options, std::uint64_t seed);
+Consensus ransac(const PointPairs& pairs, const RansacOptions& options, std::uint64_t seed,
+                 const RansacTuning& tuning);
 
 }  // namespace fathom

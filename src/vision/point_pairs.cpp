@@ -22,8 +22,8 @@ struct Rigid {
     return ex * ex + ey * ey;
   }
 
-  bool turns_so(double cosine, double sine) const {
-    static const double least = std::cos(PointPairs::kTurnTolerance);
+  // Whether it turns by an angle of this cosine and sine, to within one of cosine `least`.
+  bool turns_so(double cosine, double sine, double least) const {
     return c * cosine + s * sine >= least;
   }
 
@@ -46,8 +46,9 @@ PointPairs::PointPairs(std::span<const Eigen::Vector2d> p, std::span<const Eigen
 }
 
 PointPairs::PointPairs(std::span<const Eigen::Vector2d> p, std::span<const Eigen::Vector2d> q,
-                       std::span<const double> turns_rad)
+                       std::span<const double> turns_rad, double turn_tolerance_rad)
     : PointPairs(p, q) {
+  least_turn_cosine_ = std::cos(turn_tolerance_rad);
   for (const double turn : turns_rad) {
     turn_cosine_.push_back(std::cos(turn));
     turn_sine_.push_back(std::sin(turn));
@@ -69,7 +70,7 @@ PointPairs PointPairs::turning(double theta_rad) const {
   const Rigid motion({0.0, 0.0, theta_rad});
   PointPairs kept({}, {});
   for (std::size_t j = 0; j < px_.size(); ++j) {
-    if (!motion.turns_so(turn_cosine_[j], turn_sine_[j])) continue;
+    if (!motion.turns_so(turn_cosine_[j], turn_sine_[j], least_turn_cosine_)) continue;
     kept.px_.push_back(px_[j]);
     kept.py_.push_back(py_[j]);
     kept.qx_.push_back(qx_[j]);
@@ -82,7 +83,7 @@ bool PointPairs::fit_together(int a, int b, double max_error_m) const {
   return std::abs((p(a) - p(b)).norm() - (q(a) - q(b)).norm()) <= 2.0 * max_error_m;
 }
 
-int PointPairs::count_agreeing(const Pose& z, double max_error_m) const {
+int PointPairs::count_inliers(const Pose& z, double max_error_m) const {
   const Rigid motion(z);
   const double limit = max_error_m * max_error_m;
   const double* px = px_.data();
@@ -98,21 +99,23 @@ int PointPairs::count_agreeing(const Pose& z, double max_error_m) const {
   }
   const double* cosine = turn_cosine_.data();
   const double* sine = turn_sine_.data();
+  const double least = least_turn_cosine_;
   for (std::size_t j = 0; j < px_.size(); ++j) {
     const bool is_near = motion.squared_error(px[j], py[j], qx[j], qy[j]) <= limit;
-    const bool turns_so = motion.turns_so(cosine[j], sine[j]);
+    const bool turns_so = motion.turns_so(cosine[j], sine[j], least);
     count += (is_near & turns_so) ? 1 : 0;
   }
   return count;
 }
 
-std::vector<int> PointPairs::agreeing(const Pose& z, double max_error_m) const {
+std::vector<int> PointPairs::inliers(const Pose& z, double max_error_m) const {
   const Rigid motion(z);
   const double limit = max_error_m * max_error_m;
   std::vector<int> indices;
   for (std::size_t j = 0; j < px_.size(); ++j) {
     if (motion.squared_error(px_[j], py_[j], qx_[j], qy_[j]) <= limit &&
-        (turn_cosine_.empty() || motion.turns_so(turn_cosine_[j], turn_sine_[j]))) {
+        (turn_cosine_.empty() ||
+         motion.turns_so(turn_cosine_[j], turn_sine_[j], least_turn_cosine_))) {
       indices.push_back(static_cast<int>(j));
     }
   }

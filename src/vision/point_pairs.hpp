@@ -18,12 +18,10 @@ class PointPairs {
   PointPairs(std::span<const Eigen::Vector2d> p, std::span<const Eigen::Vector2d> q);
 
   /// With what each pair says of the heading of `to` in `from`, radians: the difference of the
-  /// orientations of its keypoints. A motion further from it than kTurnTolerance does not agree.
+  /// orientations of its keypoints. A motion further from it than `turn_tolerance_rad` does not
+  /// agree.
   PointPairs(std::span<const Eigen::Vector2d> p, std::span<const Eigen::Vector2d> q,
-             std::span<const double> turns_rad);
-
-  /// Orientations of right matches differ by a few degrees from one another, one in twenty by more.
-  static constexpr double kTurnTolerance = 0.5;
+             std::span<const double> turns_rad, double turn_tolerance_rad);
 
   std::size_t size() const { return px_.size(); }
   Eigen::Vector2d p(int index) const;
@@ -36,9 +34,9 @@ class PointPairs {
   /// Those that may turn by `theta`, and no longer know their turn.
   PointPairs turning(double theta_rad) const;
 
-  /// How many pairs have ‖p − z ⊕ q‖ ≤ max_error_m, and which, rising.
-  int count_agreeing(const Pose& z, double max_error_m) const;
-  std::vector<int> agreeing(const Pose& z, double max_error_m) const;
+  /// The inliers of a motion, ‖p − z ⊕ q‖ ≤ max_error_m: how many, and which, rising.
+  int count_inliers(const Pose& z, double max_error_m) const;
+  std::vector<int> inliers(const Pose& z, double max_error_m) const;
 
   /// In how many places the pairs lie, counted up to `enough`: greedily, in their order, a pair is
   /// a new place if both its p and its q are further than `radius_m` from those of all places so
@@ -48,6 +46,7 @@ class PointPairs {
  private:
   std::vector<double> px_, py_, qx_, qy_;
   std::vector<double> turn_cosine_, turn_sine_;  // empty: unknown
+  double least_turn_cosine_ = -1.0;              // of a turn within the tolerance
 };
 
 }  // namespace fathom

@@ -27,9 +27,11 @@ double spread(const Points& points) {
 // One run over one set of pairs; the steps of the header by their numbers.
 class Ransac {
  public:
-  Ransac(const PointPairs& pairs, const RansacOptions& options, std::uint64_t seed)
-      : pairs_(pairs), options_(options), random_(seed) {}
+  Ransac(const PointPairs& pairs, const RansacOptions& options, const RansacTuning& tuning,
+         std::uint64_t seed)
+      : pairs_(pairs), options_(options), tuning_(tuning), random_(seed) {}
 
+  // The figure accepts a motion with more than β inliers; `min_inliers` itself is enough here.
   Consensus run() {
     Consensus best;
     if (pairs_.size() < static_cast<std::size_t>(options_.sample_size)) return best;
@@ -37,19 +39,19 @@ class Ransac {
     for (int i = 0; i < needed; ++i) {
       const std::optional<Pose> trial = fit_sample();  // 1
       if (!trial) continue;
-      const int support = pairs_.count_agreeing(*trial, options_.max_error_m);  // 2
-      most_agreeing_ = std::max(most_agreeing_, support);
+      const int support = pairs_.count_inliers(*trial, options_.max_error_m);  // 2
+      most_inliers_ = std::max(most_inliers_, support);
       if (support < options_.min_inliers || cannot_win(support, best)) continue;  // 3
-      std::vector<int> agreeing = pairs_.agreeing(*trial, options_.max_error_m);
-      if (agreeing == best.inliers) continue;  // the same fit again
-      if (!has_enough_places(agreeing)) continue;
-      Consensus fitted = fit(std::move(agreeing));  // 4
+      std::vector<int> inliers = pairs_.inliers(*trial, options_.max_error_m);
+      if (inliers == best.inliers) continue;  // the same fit again
+      if (!has_enough_places(inliers)) continue;
+      Consensus fitted = fit(std::move(inliers));  // 4
       if (fitted.motion && (!best.motion || is_better(fitted, best)))
         best = std::move(fitted);  // 5
       needed = std::min(needed, iterations_for(best));
     }
-    if (best.motion && options_.score == RansacScore::inliers) settle(best);
-    best.most_agreeing = std::max(most_agreeing_, static_cast<int>(best.inliers.size()));
+    if (best.motion && options_.score == RansacScore::inliers) refit(best);
+    best.most_inliers = std::max(most_inliers_, static_cast<int>(best.inliers.size()));
     best.most_places = most_places_;
     return best;
   }
@@ -77,8 +79,7 @@ class Ransac {
   }
 
   std::optional<Pose> fit_sample() {
-    constexpr int kRedraws = 100;
-    for (int redraw = 0; redraw < kRedraws; ++redraw) {
+    for (int redraw = 0; redraw < tuning_.redraws; ++redraw) {
       draw_sample();
       // What cannot agree as a whole is no sample of right matches: not worth a fit.
       if (sample_.size() == 2 &&
@@ -93,20 +94,20 @@ class Ransac {
     return std::nullopt;
   }
 
-  bool has_enough_places(const std::vector<int>& agreeing) {
-    const int places = pairs_.count_places(agreeing, options_.max_error_m, options_.min_places);
+  bool has_enough_places(const std::vector<int>& inliers) {
+    const int places = pairs_.count_places(inliers, options_.max_error_m, options_.min_places);
     most_places_ = std::max(most_places_, places);
     return places >= options_.min_places;
   }
 
-  Consensus fit(std::vector<int> agreeing) {
-    gather(agreeing);
+  Consensus fit(std::vector<int> inliers) {
+    gather(inliers);
     Consensus fitted;
     fitted.motion = find_motion(from_, to_);
     if (!fitted.motion) return fitted;
     fitted.rms_m =
-        std::sqrt(squared_error(*fitted.motion, from_, to_) / static_cast<double>(agreeing.size()));
-    fitted.inliers = std::move(agreeing);
+        std::sqrt(squared_error(*fitted.motion, from_, to_) / static_cast<double>(inliers.size()));
+    fitted.inliers = std::move(inliers);
     return fitted;
   }
 
@@ -117,26 +118,22 @@ class Ransac {
   }
 
   bool is_better(const Consensus& a, const Consensus& b) const {
-    if (options_.score == RansacScore::paper) return summed_error(a) < summed_error(b);
+    if (options_.score == RansacScore::paper) return epsilon(a) < epsilon(b);
     if (a.inliers.size() != b.inliers.size()) return a.inliers.size() > b.inliers.size();
     return a.rms_m < b.rms_m;
   }
 
-  double summed_error(const Consensus& consensus) const {
-    double sum = 0.0;
-    for (const int index : consensus.inliers) {
-      sum += (pairs_.p(index) - transform(*consensus.motion, pairs_.q(index))).norm();
-    }
-    return sum;
+  // The figure's ε: the sum of the squared errors of the inliers.
+  static double epsilon(const Consensus& consensus) {
+    return consensus.rms_m * consensus.rms_m * static_cast<double>(consensus.inliers.size());
   }
 
-  void settle(Consensus& best) {
-    constexpr int kRounds = 20;
-    for (int round = 0; round < kRounds; ++round) {
-      std::vector<int> agreeing = pairs_.agreeing(*best.motion, options_.max_error_m);
-      if (agreeing == best.inliers || agreeing.size() < best.inliers.size()) return;
-      if (!has_enough_places(agreeing)) return;
-      Consensus fitted = fit(std::move(agreeing));
+  void refit(Consensus& best) {
+    for (int round = 0; round < tuning_.refit_rounds; ++round) {
+      std::vector<int> inliers = pairs_.inliers(*best.motion, options_.max_error_m);
+      if (inliers == best.inliers || inliers.size() < best.inliers.size()) return;
+      if (!has_enough_places(inliers)) return;
+      Consensus fitted = fit(std::move(inliers));
       if (!fitted.motion) return;
       best = std::move(fitted);
     }
@@ -153,8 +150,9 @@ class Ransac {
 
   const PointPairs& pairs_;
   const RansacOptions& options_;
+  const RansacTuning& tuning_;
   RandomStream random_;
-  int most_agreeing_ = 0;
+  int most_inliers_ = 0;
   int most_places_ = 0;
   std::vector<int> sample_;
   Points from_;  // of the pairs last gathered
@@ -176,18 +174,19 @@ void RansacOptions::describe(OptionTable& table) {
                 "with fewer that agree, no motion is found");
   table.integer("min_places", min_places, Range::between(1, 1000), "places",
                 "nor with those that agree in fewer places, further apart than max_error_m");
-  table.enumeration("score", score,
-                    {{"inliers", RansacScore::inliers}, {"paper", RansacScore::paper}},
-                    "keep most inliers, then least RMS; or, as the paper, the least summed error");
+  table.enumeration(
+      "score", score, {{"inliers", RansacScore::inliers}, {"paper", RansacScore::paper}},
+      "keep most inliers, then least RMS; or, as the paper, the least sum of squared errors");
 }
 
 Consensus ransac(std::span<const Eigen::Vector2d> p, std::span<const Eigen::Vector2d> q,
-                 const RansacOptions& options, std::uint64_t seed) {
-  return ransac(PointPairs(p, q), options, seed);
+                 const RansacOptions& options, std::uint64_t seed, const RansacTuning& tuning) {
+  return ransac(PointPairs(p, q), options, seed, tuning);
 }
 
-Consensus ransac(const PointPairs& pairs, const RansacOptions& options, std::uint64_t seed) {
-  return Ransac(pairs, options, seed).run();
+Consensus ransac(const PointPairs& pairs, const RansacOptions& options, std::uint64_t seed,
+                 const RansacTuning& tuning) {
+  return Ransac(pairs, options, tuning, seed).run();
 }
 
 }  // namespace fathom

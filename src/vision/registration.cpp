@@ -40,12 +40,18 @@ std::string too_few(std::size_t matches, const RansacOptions& options) {
 std::string why_not(const Consensus& consensus, std::size_t matches, const RansacOptions& options) {
   if (static_cast<int>(matches) < options.min_inliers) return too_few(matches, options);
   const std::string agree =
-      std::to_string(consensus.most_agreeing) + " of " + std::to_string(matches) + " matches agree";
-  if (consensus.most_agreeing < options.min_inliers) {
+      std::to_string(consensus.most_inliers) + " of " + std::to_string(matches) + " matches agree";
+  if (consensus.most_inliers < options.min_inliers) {
     return agree + ", " + std::to_string(options.min_inliers) + " are needed";
   }
   return agree + ", in " + std::to_string(consensus.most_places) + " places, " +
          std::to_string(options.min_places) + " are needed";
+}
+
+std::string no_hypothesis(std::size_t putative, const RegistrationOptions& options) {
+  return static_cast<int>(putative) < options.ransac.min_inliers
+             ? too_few(putative, options.ransac)
+             : "no two of " + std::to_string(putative) + " matches agree";
 }
 
 // The two pictures of one pair, and how they are to be registered.
@@ -54,60 +60,67 @@ struct Pair {
   const FloorFeatures& to;
   const RegistrationOptions& options;
   std::uint64_t seed;
+
+  MatchSet set(std::vector<Match> matches, MatchSet::Use use) const {
+    return {std::move(matches), from, to, use, options.tuning.matching};
+  }
 };
 
-void conclude(Registration& result, const Pair& pair, const MotionFit& fit, const MatchSet& set) {
+Registration refused(Registration result, std::string reason) {
+  result.reason = std::move(reason);
+  return result;
+}
+
+// The motion and its covariance.
+Registration accepted(Registration result, const Pair& pair, const MotionFit& fit,
+                      const MatchSet& matches) {
   result.found = true;
   result.motion = fit.motion;
-  result.inliers = picked(set, fit.inliers);
+  result.inliers = picked(matches, fit.inliers);
   result.rms_m = fit.rms_m;
-  const ScaleCheck check = check_scale(fit, set);
+  const ScaleCheck check = check_scale(fit, matches);
   result.evidence.scale = check.scale;
   result.evidence.scale_sigma = check.sigma;
-  result.covariance = fit_covariance(fit, set, pair.from, pair.to, pair.options.covariance);
+  result.covariance = fit_covariance(fit, matches, pair.from, pair.to, pair.options);
+  return result;
 }
 
-// The paper's figure 2 as it stands.
-Registration by_inliers(const Pair& pair, const NearestRows& rows) {
-  const MatchSet distinct(match(rows, pair.options.matching), pair.from, pair.to,
-                          MatchSet::Use::points_alone);
+// The paper's figure 2 as it stands: RANSAC around find_motion (equations 1 to 3), and a motion is
+// found if it has enough inliers.
+Registration by_inliers(const Pair& pair, const NearestRows& neighbours) {
+  const MatchSet putative =
+      pair.set(match(neighbours, pair.options.matching), MatchSet::Use::points_alone);
   Registration result;
-  result.distinct = distinct.matches();
-  Consensus consensus = ransac(distinct.pairs(), pair.options.ransac, pair.seed);
-  result.evidence.agreeing = consensus.most_agreeing;
+  result.putative = putative.matches();
+  Consensus consensus =
+      ransac(putative.pairs(), pair.options.ransac, pair.seed, pair.options.tuning.ransac);
+  result.evidence.support = consensus.most_inliers;
   result.evidence.places = consensus.most_places;
   if (!consensus.motion) {
-    result.reason = why_not(consensus, distinct.size(), pair.options.ransac);
-    return result;
+    return refused(std::move(result), why_not(consensus, putative.size(), pair.options.ransac));
   }
-  conclude(result, pair, {*consensus.motion, std::move(consensus.inliers), consensus.rms_m},
-           distinct);
-  return result;
+  const MotionFit fit{*consensus.motion, std::move(consensus.inliers), consensus.rms_m};
+  return accepted(std::move(result), pair, fit, putative);
 }
 
-Registration by_false_alarms(const Pair& pair, const NearestRows& rows) {
-  const MatchSet distinct(match(rows, pair.options.matching), pair.from, pair.to,
-                          MatchSet::Use::sizes);
-  const MatchSet nearest(all_nearest(rows), pair.from, pair.to, MatchSet::Use::sizes);
-  const RansacOptions& options = pair.options.ransac;
+// Ours: figure 2 makes the hypothesis; an a-contrario test against its strongest rival decides, and
+// a weighted fit to all matches that are nearest one way at least follows.
+Registration by_false_alarms(const Pair& pair, const NearestRows& neighbours) {
+  const RegistrationOptions& options = pair.options;
+  const MatchSet putative = pair.set(match(neighbours, options.matching), MatchSet::Use::sizes);
+  const MatchSet nearest = pair.set(all_nearest(neighbours), MatchSet::Use::sizes);
   Registration result;
-  result.distinct = distinct.matches();
-  const SupportedMotion best = find_supported_motion(distinct, nearest, options, pair.seed);
-  if (!best.motion) {
-    result.reason = static_cast<int>(distinct.size()) < options.min_inliers
-                        ? too_few(distinct.size(), options)
-                        : "no two of " + std::to_string(distinct.size()) + " matches agree";
-    return result;
+  result.putative = putative.matches();
+  const Hypothesis best = find_hypothesis(putative, nearest, options, pair.seed);
+  if (!best.motion) return refused(std::move(result), no_hypothesis(putative.size(), options));
+  const Hypothesis rival = find_rival(best, putative, nearest, options, pair.seed);
+  result.evidence = weigh(best, rival, nearest, options);
+  const std::string reason = reason_to_refuse(result.evidence, options);
+  if (!reason.empty()) {
+    result.inliers = picked(nearest, best.support);
+    return refused(std::move(result), reason);
   }
-  const SupportedMotion rival = find_rival(best, distinct, nearest, options, pair.seed);
-  result.evidence = weigh(best, rival, nearest, options.max_error_m);
-  result.reason = objection(result.evidence, options, pair.options.decision);
-  if (!result.reason.empty()) {
-    result.inliers = picked(nearest, best.supporters);
-    return result;
-  }
-  conclude(result, pair, fit_motion(*best.motion, nearest, options.max_error_m), nearest);
-  return result;
+  return accepted(std::move(result), pair, fit_motion(*best.motion, nearest, options), nearest);
 }
 
 }  // namespace
@@ -137,6 +150,7 @@ void RegistrationOptions::describe(OptionTable& table) {
   table.group("ransac", ransac);
   table.group("decision", decision);
   table.group("covariance", covariance);
+  table.group("registration_tuning", tuning);
 }
 
 Registration register_pair(const FloorFeatures& from, const FloorFeatures& to,
@@ -144,9 +158,10 @@ Registration register_pair(const FloorFeatures& from, const FloorFeatures& to,
   require_points(from);
   require_points(to);
   const Pair pair{from, to, options, seed};
-  const NearestRows rows = find_nearest(from.features, to.features);
-  return options.decision.method == DecisionOptions::Method::inliers ? by_inliers(pair, rows)
-                                                                     : by_false_alarms(pair, rows);
+  const NearestRows neighbours = find_nearest(from.features, to.features);
+  return options.decision.method == DecisionOptions::Method::inliers
+             ? by_inliers(pair, neighbours)
+             : by_false_alarms(pair, neighbours);
 }
 
 }  // namespace fathom

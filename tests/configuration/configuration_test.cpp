@@ -59,7 +59,7 @@ TEST(Configure, SetsEveryLevel) {
   EXPECT_THAT(configuration.simulation.mission.waypoints_m, ElementsAre(0, 0, 5, 0, 5, 4));
   EXPECT_EQ(configuration.simulation.camera.cx, 310.5);
   EXPECT_EQ(configuration.front_end.separation_frames, 4);
-  EXPECT_EQ(configuration.front_end.features.type, FeatureType::orb);
+  EXPECT_EQ(configuration.front_end.features.type, "orb");
   EXPECT_TRUE(configuration.front_end.features.clahe);
   EXPECT_EQ(configuration.front_end.registration.ransac.score, RansacScore::paper);
   EXPECT_EQ(configuration.front_end.registration.ransac.max_error_m, 0.05);

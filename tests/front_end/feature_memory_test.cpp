@@ -42,7 +42,7 @@ TEST(PackedFeatures, SiftFitsInBytesWithoutLoss) {
 TEST(PackedFeatures, BinaryDescriptorsStayWhatTheyAre) {
   const FloorSurvey survey(bend(1));
   FeatureOptions options;
-  options.type = FeatureType::orb;
+  options.type = "orb";
   const Features features = FeatureExtractor(options).extract(survey.image(0));
   ASSERT_GT(features.size(), 50u);
   expect_same(PackedFeatures(features).unpacked(), features);
@@ -64,16 +64,16 @@ TEST(PackedFeatures, OfABlankPictureAreNone) {
 
 TEST(FeatureMemory, GivesTheFeaturesOfTheFrameWithItsOptions) {
   const FloorSurvey survey(bend(3));
-  FeatureMemory memory(survey, {}, kPlenty);
+  FeatureMemory memory(survey, FeatureExtractor(), kPlenty);
   expect_same(memory.of(2)->unpacked(), FeatureExtractor().extract(survey.image(2)));
   FeatureOptions options;
   options.max_features = 40;
-  EXPECT_EQ(FeatureMemory(survey, options, kPlenty).of(0)->size(), 40u);
+  EXPECT_EQ(FeatureMemory(survey, FeatureExtractor(options), kPlenty).of(0)->size(), 40u);
 }
 
 TEST(FeatureMemory, ExtractsOnceWhatFits) {
   const FloorSurvey survey(bend(8));
-  FeatureMemory memory(survey, {}, kPlenty);
+  FeatureMemory memory(survey, FeatureExtractor(), kPlenty);
   for (int pass = 0; pass < 2; ++pass) {
     for (std::size_t i = 0; i < 8; ++i) memory.of(i);
   }
@@ -87,7 +87,7 @@ TEST(FeatureMemory, LetsGoOfThoseUsedLongestAgo) {
     bytes += PackedFeatures(FeatureExtractor().extract(survey.image(i))).bytes();
   }
   const FloorSurvey counted(bend(4));
-  FeatureMemory memory(counted, {}, bytes);
+  FeatureMemory memory(counted, FeatureExtractor(), bytes);
   for (const std::size_t frame : {0u, 1u, 2u, 0u}) memory.of(frame);
   memory.of(3);  // of 0, 1, 2 the one used longest ago is 1
   memory.of(0);
@@ -98,7 +98,7 @@ TEST(FeatureMemory, LetsGoOfThoseUsedLongestAgo) {
 
 TEST(FeatureMemory, WithoutRoomHoldsOne) {
   const FloorSurvey survey(bend(2));
-  FeatureMemory memory(survey, {}, 0);
+  FeatureMemory memory(survey, FeatureExtractor(), 0);
   for (const std::size_t frame : {0u, 0u, 1u, 0u}) EXPECT_GT(memory.of(frame)->size(), 50u);
   EXPECT_EQ(survey.times_taken(0), 2);
   EXPECT_EQ(survey.times_taken(1), 1);
@@ -106,7 +106,7 @@ TEST(FeatureMemory, WithoutRoomHoldsOne) {
 
 TEST(FeatureMemory, AnAnnouncedFrameIsTheSame) {
   const FloorSurvey survey(bend(3));
-  FeatureMemory memory(survey, {}, kPlenty);
+  FeatureMemory memory(survey, FeatureExtractor(), kPlenty);
   memory.announce(2);
   memory.announce(2);
   memory.announce(1);
@@ -122,7 +122,7 @@ TEST(FeatureMemory, AnAnnouncedFrameIsTheSame) {
 TEST(FeatureMemory, AnAnnouncedFrameNeedNotBeAskedFor) {
   const FloorSurvey survey(bend(2));
   {
-    FeatureMemory memory(survey, {}, kPlenty);
+    FeatureMemory memory(survey, FeatureExtractor(), kPlenty);
     memory.announce(0);
     memory.announce(1);
   }
@@ -132,7 +132,7 @@ TEST(FeatureMemory, AnAnnouncedFrameNeedNotBeAskedFor) {
 TEST(FeatureMemory, AnUnreadablePictureIsBadInputHoweverItWasAskedFor) {
   FloorSurvey survey(bend(3));
   survey.make_unreadable(1);
-  FeatureMemory memory(survey, {}, kPlenty);
+  FeatureMemory memory(survey, FeatureExtractor(), kPlenty);
   const auto message = [&] { return input_error_of([&] { memory.of(1); }); };
   EXPECT_THAT(message(), HasSubstr("frame-1: is no picture"));
   memory.announce(1);

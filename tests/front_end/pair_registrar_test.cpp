@@ -1,18 +1,15 @@
 #include "fathom/front_end/pair_registrar.hpp"
 
 #include <barrier>
-#include <map>
-#include <mutex>
 #include <thread>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <opencv2/core/utility.hpp>
 
-#include "fathom/front_end/front_end.hpp"
 #include "fathom/front_end/pair_seed.hpp"
-#include "fathom/front_end/visual_odometry.hpp"
 #include "front_end/floor_survey.hpp"
+#include "front_end/map_cache.hpp"
 #include "support/input_error.hpp"
 
 namespace fathom {
@@ -22,6 +19,7 @@ using test::bend;
 using test::FloorSurvey;
 using test::input_error_of;
 using test::kAltitudeM;
+using test::MapCache;
 using ::testing::HasSubstr;
 
 constexpr std::uint64_t kSeed = 5;
@@ -41,24 +39,6 @@ PairRegistration registered_plainly(const FloorSurvey& survey, const MeasuredFra
       register_pair(seen(from), seen(to), {}, pair_seed(kSeed, from.frame, to.frame));
   return {r.found, r.motion, r.covariance, static_cast<int>(r.inliers.size())};
 }
-
-class MapCache : public RegistrationCache {
- public:
-  std::optional<PairRegistration> find(const RegistrationKey& key) override {
-    const std::lock_guard lock(mutex_);
-    const auto found = values_.find(key);
-    return found == values_.end() ? std::nullopt : std::optional(found->second);
-  }
-  void put(const RegistrationKey& key, const PairRegistration& value) override {
-    const std::lock_guard lock(mutex_);
-    values_[key] = value;
-  }
-  std::size_t size() const { return values_.size(); }
-
- private:
-  std::mutex mutex_;
-  std::map<RegistrationKey, PairRegistration> values_;
-};
 
 TEST(PairRegistrar, GivesWhatPlainRegistrationGives) {
   const FloorSurvey survey(bend(3));
@@ -178,46 +158,6 @@ TEST(PairRegistrar, AnAltitudeThatIsNoneIsBadInput) {
   EXPECT_THAT(input_error_of([&] { registrar.of(at(0, NAN), at(1)); }), HasSubstr("altitude"));
 }
 
-TEST(PairRegistrar, WhatTheCacheKnowsDecodesNothing) {
-  const FloorSurvey first(bend(5));
-  const std::vector<MeasuredFrame> from{at(0), at(1), at(2), at(3)};
-  MapCache cache;
-  PairRegistrar cold(first, {}, {}, kSeed, &cache);
-  const auto expected = cold.of_all(from, at(4));
-  EXPECT_EQ(cold.registered(), 4u);
-  EXPECT_EQ(cold.from_cache(), 0u);
-  EXPECT_EQ(cache.size(), 4u);
-
-  const FloorSurvey second(bend(5));
-  PairRegistrar warm(second, {}, {}, kSeed, &cache);
-  for (const MeasuredFrame& frame : from) warm.announce(frame, at(4));
-  EXPECT_EQ(warm.of_all(from, at(4)), expected);
-  EXPECT_EQ(warm.of(from[1], at(4)), expected[1]);
-  EXPECT_EQ(warm.registered(), 0u);
-  EXPECT_EQ(warm.from_cache(), 4u);
-  for (std::size_t i = 0; i < 5; ++i) EXPECT_EQ(second.times_taken(i), 0) << i;
-}
-
-TEST(PairRegistrar, OtherPicturesSeedsOrOptionsMissTheCache) {
-  const FloorSurvey survey(bend(2));
-  MapCache cache;
-  PairRegistrar(survey, {}, {}, kSeed, &cache).of(at(0), at(1));
-  const auto from_cache = [&](const FloorSurvey& pictures, const FeatureOptions& features,
-                              std::uint64_t seed) {
-    PairRegistrar registrar(pictures, features, {}, seed, &cache);
-    registrar.of(at(0), at(1));
-    return registrar.from_cache();
-  };
-  EXPECT_EQ(from_cache(survey, {}, kSeed), 1u);
-  EXPECT_EQ(from_cache(survey, {}, kSeed + 1), 0u);
-  FeatureOptions fewer;
-  fewer.max_features = 500;
-  EXPECT_EQ(from_cache(survey, fewer, kSeed), 0u);
-  FloorSurvey blank(bend(2));
-  blank.make_blank(1);
-  EXPECT_EQ(from_cache(blank, {}, kSeed), 0u);
-}
-
 TEST(PairRegistrar, AnnouncingExtractsAheadAndOnce) {
   FloorSurvey survey(bend(3));
   survey.make_unreadable(2);
@@ -229,73 +169,6 @@ TEST(PairRegistrar, AnnouncingExtractsAheadAndOnce) {
   EXPECT_TRUE(registrar.of(at(0), at(1)).found);
   EXPECT_EQ(survey.times_taken(1), 1);
   EXPECT_THAT(input_error_of([&] { registrar.of(at(1), at(2)); }), HasSubstr("frame-2"));
-}
-
-// Two whole front ends, one after the other, and one cache.
-struct Run {
-  explicit Run(const FloorSurvey& survey, RegistrationCache* cache, bool visual_odometry)
-      : registrar(survey, {}, {}, kSeed, cache),
-        odometry(survey, registrar, {}),
-        front_end(visual_odometry ? static_cast<const FrameSource&>(odometry) : survey, registrar,
-                  options()) {
-    std::vector<Pose> poses{Pose{}};
-    struct View : TrajectoryView {
-      explicit View(const std::vector<Pose>& given) : poses(given) {}
-      std::size_t size() const override { return poses.size(); }
-      Pose pose(std::size_t k) const override { return poses[k]; }
-      const std::vector<Pose>& poses;
-    };
-    while (const auto keyframe = front_end.next_keyframe()) {
-      if (keyframe->step) poses.push_back(compose(poses.back(), keyframe->step->motion));
-      for (const RelativePose& z : front_end.register_newest(View(poses))) found.push_back(z);
-    }
-  }
-
-  static FrontEndOptions options() {
-    FrontEndOptions options;
-    options.separation_frames = 2;
-    options.candidates.max_distance_m = 0.9;
-    return options;
-  }
-
-  PairRegistrar registrar;
-  VisualOdometry odometry;
-  FrontEnd front_end;
-  std::vector<RelativePose> found;
-};
-
-void expect_warm_run_decodes_nothing(bool visual_odometry) {
-  const auto survey = [&] {
-    auto made = std::make_unique<FloorSurvey>(bend(9));
-    made->add_odometry(1e-4 * Eigen::Matrix3d::Identity());
-    return made;
-  };
-  MapCache cache;
-  const auto first = survey();
-  const auto second = survey();
-  const Run cold(*first, &cache, visual_odometry);
-  const Run warm(*second, &cache, visual_odometry);
-  EXPECT_GT(cold.registrar.registered(), 4u);
-  EXPECT_EQ(warm.registrar.registered(), 0u);
-  EXPECT_EQ(warm.registrar.from_cache(), cold.registrar.registered());
-  ASSERT_FALSE(cold.found.empty());
-  ASSERT_EQ(warm.found.size(), cold.found.size());
-  for (std::size_t i = 0; i < cold.found.size(); ++i) {
-    EXPECT_EQ(warm.found[i].motion, cold.found[i].motion);
-    EXPECT_EQ(warm.found[i].information, cold.found[i].information);
-  }
-  for (std::size_t i = 0; i < 9; ++i) {
-    EXPECT_LE(first->times_taken(i), 1) << i;
-    EXPECT_EQ(second->times_taken(i), 0) << i;
-  }
-}
-
-TEST(PairRegistrar, ASecondRunDecodesNothing) {
-  expect_warm_run_decodes_nothing(false);
-}
-
-TEST(PairRegistrar, ASecondRunWithVisualOdometryDecodesNothing) {
-  expect_warm_run_decodes_nothing(true);
 }
 
 }  // namespace

@@ -85,6 +85,15 @@ TEST(VisualOdometry, LeavesTheRestOfAFrameAsItIs) {
   EXPECT_LT(last.motion->covariance.diagonal().maxCoeff(), 0.01);
 }
 
+TEST(VisualOdometry, WhatItSaidOfAFrameStaysWhereItIs) {
+  constexpr std::size_t kFrames = 9;
+  const FloorSurvey survey(bend(kFrames));
+  const Odometry odometry(survey);
+  std::vector<const FrameInfo*> said;
+  for (std::size_t i = 0; i < kFrames; ++i) said.push_back(&odometry.frames.info(i));
+  for (std::size_t i = 0; i < kFrames; ++i) EXPECT_EQ(&odometry.frames.info(i), said[i]) << i;
+}
+
 TEST(VisualOdometry, AddedNoiseAddsItsCovariance) {
   const FloorSurvey survey(bend(5));
   const auto plain = Odometry(survey).motions();

@@ -31,7 +31,7 @@ class FrameSource {
   virtual const Camera& camera() const = 0;
   virtual std::size_t size() const = 0;
 
-  /// Frame i < size(); cheap.
+  /// Frame i < size(); cheap. The reference holds as long as the source does.
   virtual const FrameInfo& info(std::size_t i) const = 0;
 
   /// The picture of frame i, 8-bit, one channel. May be called from several threads at once.

@@ -32,7 +32,7 @@ class PackedFeatures {
 class FeatureMemory {
  public:
   /// The source must outlive it.
-  FeatureMemory(const FrameSource& source, const FeatureOptions& options, std::size_t bytes);
+  FeatureMemory(const FrameSource& source, const FeatureExtractor& extractor, std::size_t bytes);
 
   /// Throws InputError where the picture cannot be read, as often as it is asked for.
   std::shared_ptr<const PackedFeatures> of(std::size_t frame);

@@ -65,6 +65,7 @@ class FrontEnd {
   std::size_t registrations_left_out() const { return left_out_; }
 
  private:
+  Keyframe add_keyframe(std::size_t frame, const FrameInfo& info, const UncertainPose& since);
   Candidates candidates(const TrajectoryView& trajectory) const;
   MeasuredFrame measured(std::size_t frame) const;
   void announce_next_keyframes() const;

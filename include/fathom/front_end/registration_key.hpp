@@ -10,9 +10,11 @@
 
 namespace fathom {
 
-/// Raise it whenever the same pictures and options register otherwise than before: a change of
-/// features, matching, RANSAC, the decision, the covariance or the seeds.
-inline constexpr int kRegistrationVersion = 3;
+/// Raise it whenever the same pictures and options register otherwise: a change of features,
+/// matching, RANSAC, the decision, the covariance or the seeds. Values of options and of
+/// RegistrationTuning need no raise, they are in the key; pinned_registrations_test.cpp tells of
+/// the rest.
+inline constexpr int kRegistrationVersion = 4;
 
 /// A picture as a registration sees it.
 struct SeenPicture {
@@ -20,8 +22,9 @@ struct SeenPicture {
   double altitude_m = 0.0;       ///< as measured
 };
 
-/// The keys of registrations with one camera and one set of options: of every option that is
-/// described, by its key and value, and of OpenCV's version, whose features these are.
+/// The keys of registrations with one camera and one set of options: of every option and
+/// every tuned number that is described, by its key and value, and of OpenCV's version, whose
+/// features these are.
 class RegistrationKeys {
  public:
   RegistrationKeys(const CameraModel& camera, FeatureOptions features,

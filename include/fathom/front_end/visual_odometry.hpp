@@ -2,7 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <vector>
+#include <deque>
 
 #include "fathom/core/random.hpp"
 #include "fathom/datasets/frame_source.hpp"
@@ -48,7 +48,7 @@ class VisualOdometry : public FrameSource {
   MotionNoise draws_;
   mutable RandomStream stream_;
   mutable Pose last_motion_;
-  mutable std::vector<FrameInfo> infos_;
+  mutable std::deque<FrameInfo> infos_;  ///< of a growing vector no reference would hold
   mutable std::size_t failures_ = 0;
 };
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -10,6 +9,8 @@
 
 #include "fathom/core/options.hpp"
 #include "fathom/vision/camera.hpp"
+#include "fathom/vision/detectors.hpp"
+#include "fathom/vision/registration_tuning.hpp"
 
 namespace fathom {
 
@@ -45,22 +46,10 @@ struct FloorFeatures {
 /// Throws InputError on an altitude that is not positive.
 FloorFeatures on_floor(Features features, const Camera& camera, double altitude_m);
 
-enum class FeatureType { sift, orb, akaze, brisk };
-
-/// What `fathom list detectors` shows, and the words of `features.type`.
-struct DetectorEntry {
-  std::string name;
-  FeatureType type;
-  std::string help;  ///< one line
-};
-std::span<const DetectorEntry> detectors();
-
 struct FeatureOptions {
-  FeatureType type = FeatureType::sift;
+  std::string type = "sift";  ///< name of a detector (detectors.hpp)
   int max_features = 2000;
-  /// Well below OpenCV's 0.04: on a real floor of even sand that leaves 13 to 100 keypoints a
-  /// picture, too few to register consecutive frames.
-  double sift_contrast = 0.01;
+  DetectorOptions detector;
   /// Every pixel less the mean about it, over the deviation there (docs/registration.md).
   bool flatten = true;
   bool clahe = false;
@@ -74,9 +63,8 @@ struct FeatureOptions {
 /// the same features, in the same order, whatever the number of threads.
 class FeatureExtractor {
  public:
-  explicit FeatureExtractor(const FeatureOptions& options = {}) : options_(options) {}
-
-  const FeatureOptions& options() const { return options_; }
+  explicit FeatureExtractor(const FeatureOptions& options = {}, const FeatureTuning& tuning = {})
+      : options_(options), tuning_(tuning) {}
 
   /// The `max_features` features with the strongest response, strongest first; equal ones in the
   /// order of their place in the picture, then size and orientation. A keypoint with several
@@ -87,6 +75,7 @@ class FeatureExtractor {
 
  private:
   FeatureOptions options_;
+  FeatureTuning tuning_;
 };
 
 }  // namespace fathom

@@ -10,9 +10,9 @@
 namespace fathom {
 
 /// The covariance of what the keypoints of a picture have in common by how it was blurred and lit,
-/// which does not average out however many there are: 0.055 of the error of one match, `rms_m`. In
-/// x and y alone.
-Eigen::Matrix3d shared_error(double rms_m);
+/// which does not average out however many there are: a `share` of the error of one match, `rms_m`.
+/// In x and y alone.
+Eigen::Matrix3d shared_error(double rms_m, double share);
 
 /// A weighted fit of z to points p = z ⊕ q, linearised: what errors of the points do to z.
 /// r_j = p_j − z ⊕ q_j, J_j = ∂(z ⊕ q_j)/∂z, A = Σ w JᵀJ; all covariances in axes of `from`.
@@ -26,14 +26,14 @@ class LinearFit {
   Eigen::Matrix3d covariance() const;
 
   /// How much more it is where errors within a square of `cell_m` are alike: the mean ratio of
-  /// A⁻¹ (Σ_c g_c g_cᵀ) A⁻¹, g_c = Σ_{j ∈ c} w Jᵀ r, to covariance(). At least 1; 1 where there are
-  /// too few squares to tell.
-  double clustering(double cell_m) const;
+  /// A⁻¹ (Σ_c g_c g_cᵀ) A⁻¹, g_c = Σ_{j ∈ c} w Jᵀ r, to covariance(). At least 1; 1 with fewer
+  /// than `least_cells` squares.
+  double clustering(double cell_m, int least_cells) const;
 
   /// Of errors that the points of one picture share: of its altitude and its roll and pitch, as of
   /// the options.
-  Eigen::Matrix3d of_pictures(const Viewpoint& from, const Viewpoint& to,
-                              const CovarianceOptions& options) const;
+  Eigen::Matrix3d altitude_and_tilt(const Viewpoint& from, const Viewpoint& to,
+                                    const CovarianceOptions& options) const;
 
  private:
   Eigen::Matrix<double, 2, 3> jacobian(std::size_t j) const;

@@ -9,13 +9,14 @@
 
 #include "fathom/core/options.hpp"
 #include "fathom/geometry/pose.hpp"
+#include "fathom/vision/registration_tuning.hpp"
 
 namespace fathom {
 
 /// Which of two motions with enough inliers is kept.
 enum class RansacScore {
   inliers,  ///< the one with more inliers; of equals, the one with the lower RMS
-  paper     ///< the one with the lower sum of errors, as the figure has it: favours small sets
+  paper  ///< the one with the lower sum of squared errors ε, as in the figure: favours small sets
 };
 
 struct RansacOptions {
@@ -35,7 +36,7 @@ struct Consensus {
   std::optional<Pose> motion;  ///< of `to` in `from`; nothing: not found
   std::vector<int> inliers;    ///< rising indices of the pairs that agree; empty if not found
   double rms_m = 0.0;          ///< of the inliers' errors
-  int most_agreeing = 0;       ///< pairs that agreed with the best-supported trial, found or not
+  int most_inliers = 0;        ///< pairs that agreed with the best-supported trial, found or not
   int most_places = 0;  ///< most places of a trial with `min_inliers`, counted up to `min_places`
 };
 
@@ -43,7 +44,7 @@ struct Consensus {
 /// the `iterations`:
 /// 1. draws `sample_size` pairs at random and fits find_motion to them. A sample whose points lie
 ///    within `max_error_m` of their centre (root mean square) on either side, such as one match
-///    drawn as two, fixes no heading and is drawn again, up to 100 times an iteration;
+///    drawn as two, fixes no heading and is drawn again, up to `redraws` times an iteration;
 /// 2. tests every pair: it agrees where ‖p − z ⊕ q‖ ≤ `max_error_m`. The sample's own pairs are
 /// held
 ///    to it as well: with least squares they need not meet it;
@@ -58,7 +59,7 @@ struct Consensus {
 /// ones have theirs all over the overlap (tests/vision/real_pictures_test.cpp). 1 switches it off.
 ///
 /// With score `inliers` the best is then settled: pairs are tested again with the fitted motion,
-/// and it is fitted again, until they no longer change (20 rounds at most; a round that loses
+/// and it is fitted again, until they no longer change (`refit_rounds` at most; a round that loses
 /// inliers or has too few places is not taken). With score `paper` the procedure ends as the figure
 /// does.
 ///
@@ -69,6 +70,6 @@ struct Consensus {
 ///
 /// Same arguments, same answer. Throws InputError where the two counts differ.
 Consensus ransac(std::span<const Eigen::Vector2d> p, std::span<const Eigen::Vector2d> q,
-                 const RansacOptions& options, std::uint64_t seed);
+                 const RansacOptions& options, std::uint64_t seed, const RansacTuning& tuning = {});
 
 }  // namespace fathom

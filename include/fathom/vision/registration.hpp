@@ -11,14 +11,15 @@
 #include "fathom/vision/features.hpp"
 #include "fathom/vision/matching.hpp"
 #include "fathom/vision/ransac.hpp"
+#include "fathom/vision/registration_tuning.hpp"
 
 namespace fathom {
 
 /// When a motion counts as found (docs/registration.md).
 struct DecisionOptions {
   enum class Method {
-    false_alarms,  ///< if chance would seldom bring so many matches together
-    inliers        ///< the paper's: if enough matches agree
+    false_alarms,  ///< a contrario: if chance would seldom bring so many matches together
+    inliers        ///< the paper's (figure 2): if it has enough inliers
   };
   Method method = Method::false_alarms;
   double max_false_alarms = 1e-7;
@@ -41,18 +42,20 @@ struct RegistrationOptions {
   RansacOptions ransac;
   DecisionOptions decision;
   CovarianceOptions covariance;
+  RegistrationTuning tuning;
 
   void describe(OptionTable& table);
 };
 
-/// What a decision rests on. With the paper's criterion `agreeing` and `places` alone are known.
+/// What a decision rests on. With the paper's criterion `support` and `places` alone are known.
 struct Evidence {
-  int agreeing = 0;  ///< matches that the best motion brings together
-  int places = 0;    ///< in which these lie, see ransac(); counted up to 200
+  int support = 0;  ///< inliers of the best motion
+  int places = 0;   ///< in which these lie, see ransac(); counted up to 200
   /// The most places of any other motion: of the second-best one, and of those with the heading of
   /// the best one and another translation.
   int rival_places = 0;
-  /// The chance of so many places, were every other motion's support what chance brings together.
+  /// The probability of a false alarm, as of a-contrario tests (docs/registration.md): of so many
+  /// places by chance, if chance brings together what it does for the strongest rival.
   double false_alarms = 1.0;
   /// Of distances in `from` to those in `to`, by the inliers: 1 where the altitudes are right.
   /// Never applied.
@@ -66,14 +69,15 @@ struct Registration {
   Pose motion;  ///< pose of `to` in the frame of `from`
   /// Of (x, y, θ), that is, of ν = z − h(x): additive, in axes of `from`. Positive definite.
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  std::vector<Match> distinct;  ///< all that matching gave, one per place
+  std::vector<Match> putative;  ///< that passed the ratio test and are mutual, one per place
   std::vector<Match> inliers;   ///< those that agree with the motion; not found: with the best one
   double rms_m = 0.0;           ///< of the inliers' errors
   Evidence evidence;
   std::string reason;  ///< of not found, such as "7 of 31 matches agree, 12 are needed"
 };
 
-/// Registers two pictures: matching, RANSAC, decision, refit, covariance (docs/registration.md).
+/// Registers two pictures: the paper's figure 2 with matching before it and the covariance after,
+/// and a decision of our own in place of the count of inliers (docs/registration.md).
 /// Same arguments, same answer. Throws InputError where features lack their points.
 Registration register_pair(const FloorFeatures& from, const FloorFeatures& to,
                            const RegistrationOptions& options, std::uint64_t seed);

@@ -1,0 +1,138 @@
+// What some registrations give, number by number. A change of them without a new
+// kRegistrationVersion would mix old and new registrations in one cache.
+//
+// Differences are in standard deviations of the registration. Other vector instructions (OpenCV's
+// and OpenBLAS's down to SSE2) change them by TODO; a
+// shared error of 0.05 in place of 0.055 by TODO.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "fathom/core/text.hpp"
+#include "fathom/datasets/image_folder.hpp"
+#include "fathom/front_end/pair_registrar.hpp"
+#include "front_end/floor_survey.hpp"
+#include "support/data.hpp"
+
+namespace fathom {
+namespace {
+
+constexpr int kPinnedVersion = 4;
+constexpr double kTolerance = 1e-9;
+
+// Covariance: xx, xy, xθ, yy, yθ, θθ.
+struct Pinned {
+  int inliers = 0;
+  Pose motion;
+  std::array<double, 6> covariance{};
+};
+
+Pinned pinned(const PairRegistration& found) {
+  const Eigen::Matrix3d& C = found.covariance;
+  return {found.inliers, found.motion, {C(0, 0), C(0, 1), C(0, 2), C(1, 1), C(1, 2), C(2, 2)}};
+}
+
+// As it stands in this file.
+std::string text_of(const Pinned& pin) {
+  const Pose& z = pin.motion;
+  std::string text = "{" + std::to_string(pin.inliers) + ", {" + exact(z.x) + ", " + exact(z.y) +
+                     ", " + exact(z.theta) + "}, {";
+  for (const double number : pin.covariance) text += exact(number) + ", ";
+  return text.substr(0, text.size() - 2) + "}}";
+}
+
+// The largest difference, of the motion in standard deviations, of the covariance in products of
+// them.
+double difference(const Pinned& a, const Pinned& b) {
+  const Eigen::Vector3d sigma =
+      Eigen::Vector3d(b.covariance[0], b.covariance[3], b.covariance[5]).cwiseSqrt();
+  Eigen::Vector3d motion = a.motion.vector() - b.motion.vector();
+  motion.z() = wrap_angle(motion.z());
+  double most = motion.cwiseQuotient(sigma).cwiseAbs().maxCoeff();
+  std::size_t n = 0;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = i; j < 3; ++j, ++n) {
+      most = std::max(most, std::abs(a.covariance[n] - b.covariance[n]) / (sigma[i] * sigma[j]));
+    }
+  }
+  return most;
+}
+
+void expect_pinned(const PairRegistration& found, const Pinned& expected) {
+  ASSERT_TRUE(found.found);
+  const Pinned now = pinned(found);
+  const bool is_same = now.inliers == expected.inliers && difference(now, expected) <= kTolerance;
+  EXPECT_TRUE(is_same && kRegistrationVersion == kPinnedVersion)
+      << "registrations are not what they were: raise kRegistrationVersion and record these "
+         "numbers again, by\n"
+      << text_of(now) << "\nthe difference is " << difference(now, expected) << " in place of "
+      << kTolerance << " at most";
+}
+
+struct Case {
+  FeatureOptions features;
+  RegistrationOptions registration;
+};
+
+// Two frames with some overlap, at unlike altitudes.
+PairRegistration rendered(const Case& options) {
+  const test::FloorSurvey survey({{-0.8, -0.5, 0.1}, {-0.4, -0.35, 0.5}});
+  PairRegistrar registrar(survey, options.features, options.registration, 5);
+  return registrar.of({0, test::kAltitudeM}, {1, 1.02 * test::kAltitudeM});
+}
+
+TEST(PinnedRegistrations, OfRenderedPictures) {
+  expect_pinned(rendered({}),
+                {352,
+                 {0.41736789084633685, 0.10963056211602989, 0.40003984212518712},
+                 {7.4403329468173627e-06, 4.9561273453881593e-08, 1.2382055772467768e-06,
+                  7.3980308457700462e-06, 8.1782469822973222e-07, 2.043208311884595e-05}});
+}
+
+TEST(PinnedRegistrations, OfBinaryDescriptors) {
+  Case orb;
+  orb.features.type = "orb";
+  expect_pinned(rendered(orb),
+                {251,
+                 {0.41869124690778459, 0.10814071911970433, 0.39876954283519139},
+                 {3.0943221933166691e-07, 1.7883063129089147e-08, 1.9944583774182125e-07,
+                  2.9815192833544745e-07, 1.4622696957011736e-07, 1.6309369676848146e-06}});
+}
+
+TEST(PinnedRegistrations, ByThePapersCriterion) {
+  Case paper;
+  paper.registration.decision.method = DecisionOptions::Method::inliers;
+  expect_pinned(rendered(paper),
+                {343,
+                 {0.41722741352533455, 0.10977239089141501, 0.40006816764803543},
+                 {7.0813445060995083e-06, 3.5355245024313436e-08, 1.0728932431184316e-06,
+                  7.0455905935472959e-06, 6.5975286008286694e-07, 2.0021015856309033e-05}});
+  paper.registration.ransac.score = RansacScore::paper;
+  expect_pinned(rendered(paper),
+                {93,
+                 {0.41981471728038927, 0.098153186690141947, 0.39998801111166726},
+                 {1.1553612258783505e-06, 2.42508630049935e-07, 1.458827061629716e-06,
+                  2.8523463188881648e-07, 3.7912243183481741e-07, 2.2807366236022824e-06}});
+}
+
+TEST(PinnedRegistrations, OfRealPictures) {
+  FATHOM_REQUIRE_DATA("copr/mav0");
+  const ImageFolder survey(test::data_path("copr"));
+  Case kite;
+  kite.registration.ransac.max_error_m = 0.2;
+  kite.registration.covariance.tilt_sigma_rad = 0.005;
+  kite.registration.covariance.floor_sigma_rad = 0.012;
+  PairRegistrar registrar(survey, kite.features, kite.registration, 5);
+  expect_pinned(registrar.of({0, survey.info(0).altitude_m}, {2, survey.info(2).altitude_m}),
+                {245,
+                 {-6.2412693255671954, 1.457919802539186, -0.062913582658453968},
+                 {0.016857051740035843, -0.00014210844609450354, -9.6691614793660845e-06,
+                  0.017049905367189231, -2.1195731683121314e-05, 0.00015166332185297259}});
+}
+
+}  // namespace
+}  // namespace fathom

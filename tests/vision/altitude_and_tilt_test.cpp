@@ -1,0 +1,108 @@
+// What errors of a picture's altitude, roll and pitch do to a registration.
+
+#include <Eigen/Dense>
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
+#include "fathom/vision/motion_covariance.hpp"
+#include "fathom/vision/rigid_motion.hpp"
+#include "vision/fitted_points.hpp"
+
+namespace fathom {
+namespace {
+
+using test::difference;
+using test::Points;
+using test::random_points;
+using test::random_weights;
+using test::seen_from;
+
+// What a camera is off by: altitude, and turns of the body about its x and y axes.
+struct Error {
+  double altitude_m = 0.0;
+  double roll_rad = 0.0;
+  double pitch_rad = 0.0;
+
+  double& operator[](int i) { return i == 0 ? altitude_m : i == 1 ? roll_rad : pitch_rad; }
+};
+
+// Where the ray that a level camera takes for the one to `point` meets the floor with the error, in
+// three dimensions: x ahead, y to the left, z up.
+Eigen::Vector2d moved(const Eigen::Vector2d& point, const Viewpoint& view, const Error& error) {
+  const Eigen::Vector3d ray(point.x() - view.camera_m.x(), point.y() - view.camera_m.y(),
+                            -view.altitude_m);
+  const Eigen::Vector3d turned =
+      Eigen::AngleAxisd(error.roll_rad, Eigen::Vector3d::UnitX()) *
+      (Eigen::AngleAxisd(error.pitch_rad, Eigen::Vector3d::UnitY()) * ray);
+  const double length = -(view.altitude_m + error.altitude_m) / turned.z();
+  return view.camera_m + length * turned.head<2>();
+}
+
+Points all_moved(const Points& points, const Viewpoint& view, const Error& error) {
+  Points result;
+  for (const Eigen::Vector2d& point : points) result.push_back(moved(point, view, error));
+  return result;
+}
+
+struct Overlap {
+  Pose motion{0.6, -0.4, 0.9};
+  Viewpoint from{{0.4, -0.1}, 2.0, 0.0};
+  Viewpoint to{{0.4, -0.1}, 1.4, 0.0};
+  Points p, q;
+  std::vector<double> weights;
+
+  Overlap() {
+    RandomStream random(8);
+    q = random_points(random, 40, {0.9, 0.3});
+    p = seen_from(motion, q);
+    weights = random_weights(random, q.size());
+  }
+};
+
+// σ² dz dzᵀ over the errors of both pictures, dz by central differences of whole fits.
+Eigen::Matrix3d refitted(const Overlap& seen, const CovarianceOptions& options) {
+  const double sigmas[] = {options.altitude_sigma_m, options.tilt_sigma_rad,
+                           options.tilt_sigma_rad};
+  constexpr double kStep = 1e-5;
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+  for (int i = 0; i < 3; ++i) {
+    Error up, down;
+    up[i] = kStep;
+    down[i] = -kStep;
+    const auto fit = [&](const Error& of_from, const Error& of_to) {
+      return find_motion(all_moved(seen.p, seen.from, of_from), all_moved(seen.q, seen.to, of_to),
+                         seen.weights)
+          .value();
+    };
+    const Eigen::Vector3d by_from = difference(fit(up, {}), fit(down, {})) / (2.0 * kStep);
+    const Eigen::Vector3d by_to = difference(fit({}, up), fit({}, down)) / (2.0 * kStep);
+    sum += sigmas[i] * sigmas[i] * (by_from * by_from.transpose() + by_to * by_to.transpose());
+  }
+  return sum;
+}
+
+TEST(LinearFit, AltitudeAndTiltEqualsRefitsOfMovedPoints) {
+  const Overlap seen;
+  const LinearFit fit(seen.motion, seen.p, seen.q, seen.weights);
+  for (const CovarianceOptions& options :
+       {CovarianceOptions{0.02, 0.0}, CovarianceOptions{0.0, 0.03},
+        CovarianceOptions{0.02, 0.03}}) {
+    const Eigen::Matrix3d expected = refitted(seen, options);
+    const Eigen::Matrix3d found = fit.altitude_and_tilt(seen.from, seen.to, options);
+    ASSERT_GT(expected.norm(), 1e-5);
+    EXPECT_LT((found - expected).norm(), 1e-6 * expected.norm()) << found << "\n\n" << expected;
+  }
+}
+
+TEST(LinearFit, AltitudeAndTiltKnowsOnePictureFromTheOther) {
+  // An altitude of the far picture alone: lower ones move a point by more of a metre for a metre.
+  const Overlap seen;
+  const LinearFit fit(seen.motion, seen.p, seen.q, seen.weights);
+  const CovarianceOptions options{0.02, 0.0};
+  const Eigen::Matrix3d both = fit.altitude_and_tilt(seen.from, seen.to, options);
+  const Eigen::Matrix3d swapped = fit.altitude_and_tilt(seen.to, seen.from, options);
+  EXPECT_GT((both - swapped).norm(), 0.1 * both.norm());
+}
+
+}  // namespace
+}  // namespace fathom
