@@ -52,7 +52,7 @@ const std::vector<ThirdParty>& third_parties() {
       {"Eigen/", {""}},
       {"opencv2/", {"vision/", "datasets/", "front_end/", "report/", "apps/"}},
       {"ceres/", {"estimators/ceres_pose_graph/"}},
-      {"yaml-cpp/", {"src/configuration/", "src/datasets/camera_yaml.cpp"}},
+      {"yaml-cpp/", {"src/configuration/", "src/datasets/image_folder/camera_yaml.cpp"}},
       {"SQLiteCpp/", {"src/results/", "src/front_end/registration_store.cpp"}},
       {"sqlite3.h", {"src/results/", "src/front_end/registration_store.cpp"}},
       {"nlohmann/", {"src/results/", "src/harness/", "src/report/"}},

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "fathom/core/ignored_key.hpp"
 #include "fathom/core/options.hpp"
 #include "fathom/front_end/candidates.hpp"
 #include "fathom/vision/features.hpp"
@@ -15,12 +16,6 @@ namespace fathom {
 struct VisualOdometryFallback {
   double sigma_m = 0.3;
   double sigma_rad = 0.1;
-};
-
-/// A key without effect, and the key whose value takes it away.
-struct IgnoredKey {
-  std::string key;
-  std::string chooser;
 };
 
 struct FrontEndOptions {
