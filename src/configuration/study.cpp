@@ -6,11 +6,16 @@
 #include "fathom/core/random.hpp"
 #include "fathom/core/text.hpp"
 #include "fathom/core/version.hpp"
+#include "study_options.hpp"
 
 namespace fathom {
 namespace {
 
 constexpr const char* kSweep = "sweep.";
+
+bool is_sweep_key(const std::string& key) {
+  return key == "sweep" || key.starts_with(kSweep);
+}
 
 struct Axis {
   StudyAxis described;
@@ -50,19 +55,14 @@ std::vector<std::string> list_of(const Setting& setting, const std::string& key)
   return setting.value.items;
 }
 
-void refuse_keys_of_the_study(const Setting& key, const std::string& name) {
-  for (const char* part : {"trials", "jobs", "sweep", "report"}) {
-    if (name != part && !name.starts_with(std::string(part) + ".")) continue;
-    refuse(key, name + " is the study's own and cannot be swept");
-  }
-}
-
 Axis axis_of(const Settings& own, const std::string& prefix) {
   refuse_unknown(own, prefix);
   Axis axis;
   const Setting& key = required(own, "key", prefix);
   axis.described.key = word_of(key, prefix + "key");
-  refuse_keys_of_the_study(key, axis.described.key);
+  if (is_session_key(axis.described.key) || is_sweep_key(axis.described.key)) {
+    refuse(key, axis.described.key + " is the study's own and cannot be swept");
+  }
   axis.described.name = axis.described.key.substr(axis.described.key.rfind('.') + 1);
   if (const Setting* name = own.find("name")) axis.described.name = word_of(*name, prefix + "name");
   const Setting& values = required(own, "values", prefix);
@@ -87,7 +87,7 @@ Axis axis_of(const Settings& own, const std::string& prefix) {
 // A number of an axis is one or two digits here: sweep.0 … sweep.99.
 void refuse_gaps(const Settings& settings, std::size_t count) {
   for (const Setting& setting : settings.all()) {
-    if (setting.key != "sweep" && !setting.key.starts_with(kSweep)) continue;
+    if (!is_sweep_key(setting.key)) continue;
     bool is_of_an_axis = false;
     for (std::size_t i = 0; i < count; ++i) {
       is_of_an_axis = is_of_an_axis || setting.key.starts_with(kSweep + std::to_string(i) + ".");
@@ -122,10 +122,6 @@ std::vector<Axis> axes_of(const Settings& settings) {
   return axes;
 }
 
-bool is_no_result_key(const std::string& key) {
-  return key == "trials" || key == "jobs" || key.starts_with("report.");
-}
-
 // Every key that results depend on, with its value.
 std::vector<std::pair<std::string, std::string>> configuration_of(
     const Configuration& base, const std::vector<Axis>& axes, const EstimatorRegistry& registry) {
@@ -135,7 +131,7 @@ std::vector<std::pair<std::string, std::string>> configuration_of(
                        [&key](const Axis& axis) { return axis.described.key == key; });
   };
   const auto put = [&](const std::string& key, const std::string& value) {
-    if (!is_no_result_key(key) && !is_swept(key)) all.emplace_back(key, value);
+    if (!is_session_key(key) && !is_swept(key)) all.emplace_back(key, value);
   };
   for (const auto& [key, value] : base.in_force) put(key, value);
   for (std::size_t e = 0; e < base.estimators.size(); ++e) {
@@ -184,7 +180,7 @@ void require_same_names(const Study& study) {
 Settings without_sweep(const Settings& settings) {
   Settings rest;
   for (const Setting& setting : settings.all()) {
-    if (setting.key != "sweep" && !setting.key.starts_with(kSweep)) rest.put(setting);
+    if (!is_sweep_key(setting.key)) rest.put(setting);
   }
   return rest;
 }

@@ -70,20 +70,24 @@ Recording record_survey(Survey& survey, const Configuration& configuration, std:
   return recording;
 }
 
-}  // namespace
-
-Recording record_graph(const std::filesystem::path& path) {
+Recording graph_recording(MeasurementLog log, const std::string& file) {
   Recording recording;
-  recording.log = read_g2o(path);
   constexpr std::int64_t kSecond = 1'000'000'000;
-  for (const std::int64_t id : recording.log.ids) {
+  for (const std::int64_t id : log.ids) {
     if (id > 9'000'000'000) {
-      throw InputError(path.string(), "id " + std::to_string(id) +
-                                          " is too large to be a time stamp; ids up to 9e9 work");
+      throw InputError(file, "id " + std::to_string(id) +
+                                 " is too large to be a time stamp; ids up to 9e9 work");
     }
     recording.keyframe_times_ns.push_back(id * kSecond);
   }
+  recording.log = std::move(log);
   return recording;
+}
+
+}  // namespace
+
+Recording record_graph(const std::filesystem::path& path) {
+  return graph_recording(read_g2o(path), path.string());
 }
 
 void attach_ground_truth(Recording& graph, const std::filesystem::path& path) {
@@ -101,14 +105,13 @@ void attach_ground_truth(Recording& graph, const std::filesystem::path& path) {
 }
 
 Recorder::Recorder(const Configuration& configuration, RegistrationCache* cache) {
-  if (configuration.dataset != DatasetType::g2o) {
+  if (!find_data_set(configuration.dataset.type).is_graph) {
     pictures_ = std::make_shared<Pictures>(configuration, cache);
     return;
   }
-  if (configuration.dataset_path.empty()) {
-    throw InputError("dataset.path: say where the g2o file is");
-  }
-  graph_ = record_graph(configuration.dataset_path);
+  const std::unique_ptr<const DataSet> data = open_data_set(configuration);
+  const auto files = data->files();
+  graph_ = graph_recording(*data->graph(), files.empty() ? "dataset" : files.front().string());
 }
 
 Recording Recorder::record(const Configuration& configuration, std::size_t reference,

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/Geometry>
+
 #include "fathom/core/hash.hpp"
 #include "fathom/core/text.hpp"
 #include "fathom/geometry/covariance.hpp"

@@ -27,6 +27,8 @@ struct FrontEndOptions {
 
   /// In a config these keys stand under `front_end.`.
   void describe(OptionTable& table);
+  /// Of them those that a registration depends on.
+  void describe_registration(OptionTable& table);
 
   /// Keys that the methods chosen have no use for, without `front_end.`.
   std::vector<IgnoredKey> ignored_keys() const;
