@@ -1,6 +1,7 @@
 #include "fathom/harness/recording.hpp"
 
 #include "fathom/harness/false_loops.hpp"
+#include "fathom/harness/guarded_estimator.hpp"
 #include "fathom/harness/survey.hpp"
 #include "fathom/measurements/g2o.hpp"
 
@@ -33,22 +34,42 @@ std::vector<StampedPose> frame_ground_truth_of(const FrameSource& frames, std::s
   return truth;
 }
 
+// Poses without covariances.
+class FixedTrajectory : public TrajectoryView {
+ public:
+  explicit FixedTrajectory(std::vector<Pose> poses) : poses_(std::move(poses)) {}
+  std::size_t size() const override { return poses_.size(); }
+  Pose pose(std::size_t k) const override { return poses_[k]; }
+
+ private:
+  std::vector<Pose> poses_;
+};
+
+// Where the reference turns out faulty dead reckoning picks the candidates; the reference's own
+// replay says what it did.
+std::vector<RelativePose> register_newest(FrontEnd& front_end, const GuardedEstimator& reference,
+                                          const MeasurementLog& log) {
+  for (std::size_t k = 0; k < reference.size() && reference.fault().empty(); ++k) reference.pose(k);
+  if (reference.fault().empty()) return front_end.register_newest(reference);
+  return front_end.register_newest(FixedTrajectory(log.odometry()));
+}
+
 Recording record_survey(Survey& survey, const Configuration& configuration, std::size_t by,
                         const EstimatorRegistry& registry, const Progress& progress) {
   const FrameSource& frames = survey.frames();
   FrontEnd front_end(frames, survey.registrar(), configuration.front_end);
   const EstimatorConfiguration& reference = configuration.estimators[by];
-  const auto estimator = registry.find(reference.type).create({}, reference.values);
+  GuardedEstimator estimator(registry.find(reference.type), {}, reference.values);
 
   Recording recording;
   while (const auto keyframe = front_end.next_keyframe()) {
     recording.keyframe_times_ns.push_back(keyframe->time_ns);
     if (keyframe->step) {
       recording.log.add_keyframe(*keyframe->step);
-      estimator->add_keyframe(*keyframe->step);
-      const std::vector<RelativePose> found = front_end.register_newest(*estimator);
+      estimator.add_keyframe(*keyframe->step);
+      const std::vector<RelativePose> found = register_newest(front_end, estimator, recording.log);
       for (const RelativePose& registration : found) recording.log.add_registration(registration);
-      if (!found.empty()) estimator->close_loops(found);
+      if (!found.empty()) estimator.close_loops(found);
     }
     if (progress) progress(front_end.frames().size(), frames.size());
   }

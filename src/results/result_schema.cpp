@@ -23,7 +23,8 @@ CREATE TABLE metric (metric INTEGER PRIMARY KEY, name TEXT NOT NULL UNIQUE,
 CREATE TABLE session (session INTEGER PRIMARY KEY, manifest TEXT NOT NULL);
 CREATE TABLE run (run INTEGER PRIMARY KEY, cell INTEGER NOT NULL REFERENCES cell,
                   trial INTEGER NOT NULL, estimator INTEGER NOT NULL REFERENCES estimator,
-                  outcome TEXT NOT NULL, log_hash TEXT NOT NULL, jobs INTEGER NOT NULL,
+                  outcome TEXT NOT NULL, fault TEXT NOT NULL, log_hash TEXT NOT NULL,
+                  jobs INTEGER NOT NULL,
                   session INTEGER NOT NULL REFERENCES session,
                   UNIQUE (cell, trial, estimator));
 CREATE TABLE value (run INTEGER NOT NULL REFERENCES run, metric INTEGER NOT NULL REFERENCES metric,

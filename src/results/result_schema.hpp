@@ -8,7 +8,7 @@
 namespace fathom {
 
 /// `PRAGMA user_version` of the files that this program writes.
-inline constexpr int kResultSchemaVersion = 1;
+inline constexpr int kResultSchemaVersion = 2;
 /// `PRAGMA application_id`, "Fath": tells a store from any other SQLite file.
 inline constexpr int kResultApplicationId = 0x46617468;
 

@@ -201,7 +201,7 @@ std::vector<RunRecord> ResultStore::runs() const {
     std::vector<RunRecord> all;
     std::map<std::int64_t, std::size_t> place_of_run;
     SQLite::Statement runs(*database_->sqlite_,
-                           "SELECT run, cell, trial, name, outcome, log_hash, jobs FROM run "
+                           "SELECT run, cell, trial, name, outcome, log_hash, jobs, fault FROM run "
                            "JOIN estimator USING (estimator) ORDER BY cell, trial, estimator");
     while (runs.executeStep()) {
       RunRecord run;
@@ -211,6 +211,7 @@ std::vector<RunRecord> ResultStore::runs() const {
       run.outcome = runs.getColumn(4).getString();
       run.log_hash = runs.getColumn(5).getString();
       run.jobs = runs.getColumn(6).getInt();
+      run.fault = runs.getColumn(7).getString();
       place_of_run[runs.getColumn(0).getInt64()] = all.size();
       all.push_back(std::move(run));
     }
@@ -243,12 +244,12 @@ void ResultStore::add(const RunRecord& run) {
   database_->guard([&] {
     SQLite::Database& sqlite = *database_->sqlite_;
     SQLite::Transaction transaction(sqlite, SQLite::TransactionBehavior::IMMEDIATE);
-    SQLite::Statement insert(
-        sqlite,
-        "INSERT OR IGNORE INTO run (cell, trial, estimator, outcome, log_hash, jobs, session) "
-        "SELECT ?, ?, estimator, ?, ?, ?, ? FROM estimator WHERE name = ?");
-    SQLite::bind(insert, number(run.key.cell), number(run.key.trial), run.outcome, run.log_hash,
-                 run.jobs, database_->session_, run.key.estimator);
+    SQLite::Statement insert(sqlite,
+                             "INSERT OR IGNORE INTO run (cell, trial, estimator, outcome, fault, "
+                             "log_hash, jobs, session) "
+                             "SELECT ?, ?, estimator, ?, ?, ?, ?, ? FROM estimator WHERE name = ?");
+    SQLite::bind(insert, number(run.key.cell), number(run.key.trial), run.outcome, run.fault,
+                 run.log_hash, run.jobs, database_->session_, run.key.estimator);
     if (insert.exec() == 0) return;
     const std::int64_t id = sqlite.getLastInsertRowid();
     SQLite::Statement metric(sqlite, "INSERT OR IGNORE INTO metric (name, is_cost) VALUES (?, ?)");
