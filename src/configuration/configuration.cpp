@@ -84,14 +84,17 @@ bool is_among(const std::vector<IgnoredKey>& ignored, const std::string& key) {
   return std::ranges::find(ignored, key, &IgnoredKey::key) != ignored.end();
 }
 
-void refuse_ignored(const Settings& settings, const std::vector<IgnoredKey>& ignored,
-                    const OptionTable& table) {
+std::vector<UnusedSetting> unused_settings(const Settings& settings,
+                                           const std::vector<IgnoredKey>& ignored,
+                                           const OptionTable& table) {
+  std::vector<UnusedSetting> unused;
   for (const auto& [key, chooser] : ignored) {
     const Setting* setting = settings.find(key);
     if (setting == nullptr) continue;
-    refuse(*setting, key + ": " + chooser + " " + table.value(chooser) +
-                         " has no use for it and would ignore it");
+    unused.push_back({key, setting->origin + ": " + key + ": " + chooser + " " +
+                               table.value(chooser) + " has no use for it and would ignore it"});
   }
+  return unused;
 }
 
 DataSetValues given_values(const Settings& settings) {
@@ -131,6 +134,14 @@ ConfigurationKind kind_of(const Settings& settings) {
 
 Configuration configure(const Settings& settings, ConfigurationKind kind,
                         const EstimatorRegistry& registry) {
+  std::vector<UnusedSetting> unused;
+  Configuration configuration = configure(settings, kind, registry, unused);
+  if (!unused.empty()) throw InputError(unused.front().message);
+  return configuration;
+}
+
+Configuration configure(const Settings& settings, ConfigurationKind kind,
+                        const EstimatorRegistry& registry, std::vector<UnusedSetting>& unused) {
   Configuration configuration;
   OptionTable table;
   bind(configuration, table);
@@ -152,11 +163,12 @@ Configuration configure(const Settings& settings, ConfigurationKind kind,
   std::vector<IgnoredKey> ignored = ignored_keys(configuration, *data_set);
   std::ranges::copy(ignored_of_false_loops(settings, configuration.study.false_loops),
                     std::back_inserter(ignored));
-  refuse_ignored(settings, ignored, table);
+  unused = unused_settings(settings, ignored, table);
   configure_estimators(configuration, settings, kind, registry);
-  for (const std::string& key : table.keys()) {
-    if (is_among(ignored, key)) continue;
-    configuration.in_force.emplace_back(key, table.value(key));
+  for (const OptionDescription& option : table.descriptions()) {
+    configuration.types[option.key] = option.type;
+    if (is_among(ignored, option.key)) continue;
+    configuration.in_force.emplace_back(option.key, table.value(option.key));
   }
   return configuration;
 }

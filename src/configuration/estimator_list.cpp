@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <set>
 
+#include "canonical_value.hpp"
 #include "fathom/configuration/study_description.hpp"
+#include "fathom/core/text.hpp"
 
 namespace fathom {
 namespace {
@@ -82,7 +84,9 @@ std::vector<std::pair<std::string, std::string>> estimator_options(
   for (const OptionDescription& option : entry.options) {
     const auto given = estimator.values.find(option.key);
     const bool is_given = given != estimator.values.end() && !given->second.items.empty();
-    options.emplace_back(option.key, is_given ? given->second.items.front() : option.default_value);
+    options.emplace_back(option.key, is_given
+                                         ? canonical_text(given->second, option.type, number_text)
+                                         : option.default_value);
   }
   return options;
 }

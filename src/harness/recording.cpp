@@ -34,6 +34,15 @@ std::vector<StampedPose> frame_ground_truth_of(const FrameSource& frames, std::s
   return truth;
 }
 
+[[noreturn]] void refuse_single_keyframe(int separation_frames, std::size_t frames) {
+  const std::string count = std::to_string(frames) + (frames == 1 ? " frame" : " frames");
+  if (frames < 2) throw InputError("dataset: has " + count + "; a survey has two or more");
+  throw InputError("front_end.keyframes.separation_frames: " + std::to_string(separation_frames) +
+                   " leads beyond the last of " + count +
+                   ", so there is a single keyframe; expected at most " +
+                   std::to_string(frames - 1));
+}
+
 // Poses without covariances.
 class FixedTrajectory : public TrajectoryView {
  public:
@@ -72,6 +81,9 @@ Recording record_survey(Survey& survey, const Configuration& configuration, std:
       if (!found.empty()) estimator.close_loops(found);
     }
     if (progress) progress(front_end.frames().size(), frames.size());
+  }
+  if (front_end.keyframes().size() < 2) {
+    refuse_single_keyframe(configuration.front_end.separation_frames, frames.size());
   }
   recording.frames = front_end.frames();
   for (std::size_t i = 0; i < recording.frames.size(); ++i) {
@@ -130,9 +142,10 @@ Recorder::Recorder(const Configuration& configuration, RegistrationCache* cache)
     pictures_ = std::make_shared<Pictures>(configuration, cache);
     return;
   }
-  const std::unique_ptr<const DataSet> data = open_data_set(configuration);
-  const auto files = data->files();
-  graph_ = graph_recording(*data->graph(), files.empty() ? "dataset" : files.front().string());
+  graph_data_ = open_data_set(configuration);
+  const auto files = graph_data_->files();
+  graph_ =
+      graph_recording(*graph_data_->graph(), files.empty() ? "dataset" : files.front().string());
 }
 
 Recording Recorder::record(const Configuration& configuration, std::size_t reference,

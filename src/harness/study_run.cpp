@@ -4,10 +4,12 @@
 #include <exception>
 #include <map>
 #include <mutex>
+#include <set>
 #include <thread>
 
 #include "fathom/harness/recording.hpp"
 #include "fathom/harness/run_record.hpp"
+#include "fathom/harness/survey.hpp"
 
 namespace fathom {
 namespace {
@@ -83,6 +85,8 @@ class Runner {
         store_(store),
         options_(options),
         tasks_(tasks_of(study, store)),
+        threads_(std::min(static_cast<std::size_t>(options.jobs),
+                          std::max<std::size_t>(tasks_.size(), 1))),
         data_sets_(study, tasks_, options.registrations) {
     progress_.of =
         study.cells.size() * study.description.trials * study.description.estimators.size();
@@ -92,10 +96,8 @@ class Runner {
   }
 
   bool run() {
-    const std::size_t threads =
-        std::min(static_cast<std::size_t>(options_.jobs), std::max<std::size_t>(tasks_.size(), 1));
     std::vector<std::thread> others;
-    for (std::size_t i = 1; i < threads; ++i) others.emplace_back([this] { work(); });
+    for (std::size_t i = 1; i < threads_; ++i) others.emplace_back([this] { work(); });
     work();
     for (std::thread& other : others) other.join();
     if (failure_) std::rethrow_exception(failure_);
@@ -145,7 +147,7 @@ class Runner {
   void add_baseline(const Task& task, const Recording& recording) {
     RunRecord run = baseline_record(recording, study_.cells[task.cell]);
     run.key = {task.cell, task.trial, kDeadReckoning};
-    run.jobs = options_.jobs;
+    run.jobs = static_cast<int>(threads_);
     store_.add(run);
   }
 
@@ -158,7 +160,7 @@ class Runner {
                                    configuration.alignment, replay_options);
     RunRecord run = run_record(recording, result, configuration, registry_);
     run.key = {task.cell, task.trial, configuration.estimators[estimator].name};
-    run.jobs = options_.jobs;
+    run.jobs = static_cast<int>(threads_);
     store_.add(run);
     const std::lock_guard hold(mutex_);
     ++progress_.done;
@@ -171,6 +173,7 @@ class Runner {
   ResultStore& store_;
   const StudyRunOptions& options_;
   std::vector<Task> tasks_;
+  std::size_t threads_;
   DataSets data_sets_;
   std::atomic<std::size_t> next_task_ = 0;
   std::atomic<std::size_t> done_tasks_ = 0;
@@ -181,6 +184,22 @@ class Runner {
 };
 
 }  // namespace
+
+Fingerprint data_of(const Study& study) {
+  std::set<std::string> opened;
+  std::map<std::string, std::string> files;
+  for (const Configuration& cell : study.cells) {
+    if (!opened.insert(data_settings(cell)).second) continue;
+    for (const auto& [file, hash] : fingerprint(open_data_set(cell)->files())) files[file] = hash;
+  }
+  return {files.begin(), files.end()};
+}
+
+int jobs_of(const Study& study) {
+  const std::size_t trials = study.cells.size() * study.description.trials;
+  const auto jobs = static_cast<std::size_t>(study.cells.front().study.jobs);
+  return static_cast<int>(std::min(jobs, trials));
+}
 
 bool run_study(const Study& study, const EstimatorRegistry& registry, ResultStore& store,
                const StudyRunOptions& options) {

@@ -39,6 +39,24 @@ void insert_keys(std::set<std::string>& keys, const std::string& group,
   for (const OptionDescription& option : options) keys.insert(group + "." + option.key);
 }
 
+std::set<std::string> keys_of_data(const Configuration& configuration) {
+  const DataSetEntry& entry = find_data_set(configuration.dataset.type);
+  std::set<std::string> of_a_trial;
+  insert_keys(of_a_trial, "dataset", entry.trial_options);
+  std::set<std::string> keys{"seed", "dataset.type"};
+  insert_keys(keys, "dataset", entry.options);
+  std::erase_if(keys, [&](const std::string& key) { return of_a_trial.contains(key); });
+  return keys;
+}
+
+std::string settings_text(const Configuration& configuration, const std::set<std::string>& keys) {
+  std::string text;
+  for (const auto& [key, value] : configuration.in_force) {
+    if (keys.contains(key)) text.append(key).append("=").append(value).append("\n");
+  }
+  return text;
+}
+
 }  // namespace
 
 std::unique_ptr<const DataSet> open_data_set(const Configuration& configuration) {
@@ -60,22 +78,17 @@ Pictures::Pictures(const Configuration& configuration, RegistrationCache* cache)
   });
 }
 
+std::string data_settings(const Configuration& configuration) {
+  return settings_text(configuration, keys_of_data(configuration));
+}
+
 std::string picture_settings(const Configuration& configuration) {
-  const DataSetEntry& entry = find_data_set(configuration.dataset.type);
-  std::set<std::string> of_a_trial;
-  insert_keys(of_a_trial, "dataset", entry.trial_options);
-  std::set<std::string> counted{"seed", "dataset.type"};
-  insert_keys(counted, "dataset", entry.options);
+  std::set<std::string> keys = keys_of_data(configuration);
   FrontEndOptions front_end;
   OptionTable of_registrations;
   front_end.describe_registration(of_registrations);
-  insert_keys(counted, "front_end", of_registrations.descriptions());
-  std::string text;
-  for (const auto& [key, value] : configuration.in_force) {
-    if (!counted.contains(key) || of_a_trial.contains(key)) continue;
-    text.append(key).append("=").append(value).append("\n");
-  }
-  return text;
+  insert_keys(keys, "front_end", of_registrations.descriptions());
+  return settings_text(configuration, keys);
 }
 
 Survey::Survey(const Configuration& configuration, RegistrationCache* cache)

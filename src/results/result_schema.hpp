@@ -18,9 +18,15 @@ void create_schema(SQLite::Database& database, const StudyDescription& study);
 /// A list of words as the table `study` holds it.
 std::string words_text(const std::vector<std::string>& words);
 
+/// Writes names and labels of the axes, which are no part of what tells studies apart.
+void write_labels(SQLite::Database& database, const StudyDescription& study);
+
 StudyDescription read_study(SQLite::Database& database);
 
 /// What of two configurations differs, one line: "seed: 1 there, 2 here; …". Empty if nothing.
 std::string difference(const StudyDescription& there, const StudyDescription& here);
+
+/// Which files of their data differ, one line: "a/1.png has changed; …". Empty if none.
+std::string data_difference(const StudyDescription& there, const StudyDescription& here);
 
 }  // namespace fathom

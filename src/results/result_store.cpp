@@ -136,9 +136,15 @@ ResultStore ResultStore::write(const fs::path& folder, const StudyDescription& s
     SQLite::Database& sqlite = *database->sqlite_;
     const Kind kind = kind_of(sqlite, file);
     if (kind == Kind::store) {
-      const std::string differs = difference(read_study(sqlite), study);
+      const StudyDescription there = read_study(sqlite);
+      const std::string differs = difference(there, study);
       if (!differs.empty()) {
         throw InputError(file.string(), "holds results of another configuration (" + differs +
+                                            "); use another --out, or remove the folder");
+      }
+      const std::string changes = data_difference(there, study);
+      if (!changes.empty()) {
+        throw InputError(file.string(), "holds results of other data (" + changes +
                                             "); use another --out, or remove the folder");
       }
     }
@@ -146,6 +152,7 @@ ResultStore ResultStore::write(const fs::path& folder, const StudyDescription& s
     sqlite.exec("PRAGMA synchronous = NORMAL");
     SQLite::Transaction transaction(sqlite);
     if (kind == Kind::empty) create_schema(sqlite, study);
+    write_labels(sqlite, study);
     SQLite::Statement trials(
         sqlite,
         "UPDATE study SET value = CAST(max(CAST(value AS INTEGER), ?) AS TEXT) "

@@ -74,13 +74,9 @@ class StudyValues {
   }
 
  private:
-  // The values as they were given; the labels stand for them unless the study has others.
   std::vector<std::string> values_of_axis(std::size_t a) const {
-    const std::string prefix = "sweep." + std::to_string(a) + ".";
-    const std::string* values = fixed(prefix + "values");
-    const std::string* labels = fixed(prefix + "labels");
-    if (values == nullptr || labels == nullptr || *values == *labels) return study_.axes[a].labels;
-    return items_of(*values);
+    const std::string* values = fixed("sweep." + std::to_string(a) + ".values");
+    return values == nullptr ? study_.axes[a].labels : items_of(*values);
   }
 
   void add_axis(std::size_t a, const Selection& selection) {

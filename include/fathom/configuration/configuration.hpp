@@ -69,6 +69,8 @@ struct Configuration {
   /// Every key with its value in force, defaults included, for the manifest. Keys that have no
   /// effect beside the others are left out.
   std::vector<std::pair<std::string, std::string>> in_force;
+  /// The type of every key but those of estimators (OptionDescription).
+  std::map<std::string, std::string> types;
   /// Where each given key was given, for messages of checks across keys.
   std::map<std::string, std::string> origins;
 };
@@ -85,6 +87,17 @@ ConfigurationKind kind_of(const Settings& settings);
 /// setting, the nearest known key or the bound that it breaks.
 Configuration configure(const Settings& settings, ConfigurationKind kind,
                         const EstimatorRegistry& registry);
+
+/// A setting that has no effect beside the others, and what a refusal says of it.
+struct UnusedSetting {
+  std::string key;
+  std::string message;
+};
+
+/// The same, but settings without effect are told and not refused: of a study another cell may have
+/// a use for them.
+Configuration configure(const Settings& settings, ConfigurationKind kind,
+                        const EstimatorRegistry& registry, std::vector<UnusedSetting>& unused);
 
 /// The keys of a run, but for its estimator's, that have an effect where some have these values.
 /// Throws InputError.

@@ -36,6 +36,9 @@ std::string picture_settings(const Configuration& configuration);
 /// Opens the data set of a configuration. Throws InputError at the origin of the key that is wrong.
 std::unique_ptr<const DataSet> open_data_set(const Configuration& configuration);
 
+/// All keys that the data set itself depends on, with their values.
+std::string data_settings(const Configuration& configuration);
+
 /// The frames of one trial of a configuration's data set, with dead reckoning whatever its source.
 class Survey {
  public:

@@ -46,8 +46,8 @@ class ResultStore {
   static ResultStore open(const std::filesystem::path& path);
 
   /// Makes the store of a study in a folder, or goes on with what is there: only with the same
-  /// configuration, else InputError says what differs. `manifest` (JSON) is that of this session.
-  /// One process at a time may write; another one is refused.
+  /// configuration and data, else InputError says what differs. `manifest` (JSON) is that of this
+  /// session. One process at a time may write; another one is refused.
   static ResultStore write(const std::filesystem::path& folder, const StudyDescription& study,
                            const std::string& manifest);
 
