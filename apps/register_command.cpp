@@ -12,10 +12,10 @@
 #include "fathom/datasets/picture_file.hpp"
 #include "fathom/estimators/builtin.hpp"
 #include "fathom/front_end/pair_seed.hpp"
+#include "fathom/harness/survey.hpp"
 #include "fathom/report/match_picture.hpp"
 #include "fathom/report/picture.hpp"
 #include "fathom/report/table.hpp"
-#include "fathom/study/survey.hpp"
 #include "fathom/vision/registration.hpp"
 
 namespace fathom {

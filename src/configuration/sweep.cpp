@@ -58,13 +58,16 @@ void check_text(const std::string& text, const Setting& given, const std::string
   }
 }
 
-void check_name(const std::string& name, const Setting& given, const std::string& prefix) {
+// `association` is another column, too, but of the same content where the axis is that of its key.
+void check_name(const StudyAxis& axis, const Setting& given, const std::string& prefix) {
+  const std::string& name = axis.name;
   check_text(name, given, prefix + "name");
   // The other columns of runs.csv and summary.csv.
   const std::vector<std::string> columns{"cell",  "association", "trial",  "estimator", "outcome",
                                          "fault", "jobs",        "metric", "n",         "failures",
                                          "mean",  "sd",          "median", "low_95",    "high_95"};
-  if (std::ranges::find(columns, name) == columns.end()) return;
+  const bool is_association = name == "association" && axis.key != "association.mode";
+  if (!is_association && std::ranges::find(columns, name) == columns.end()) return;
   refuse(given, prefix + "name: '" + name +
                     "' is another column of the tables; give the axis another name");
 }
@@ -89,7 +92,7 @@ Axis axis_of(const Settings& own, const std::string& prefix) {
   }
   axis.described.name = axis.described.key.substr(axis.described.key.rfind('.') + 1);
   if (const Setting* name = own.find("name")) axis.described.name = word_of(*name, prefix + "name");
-  check_name(axis.described.name, own.find("name") == nullptr ? key : *own.find("name"), prefix);
+  check_name(axis.described, own.find("name") == nullptr ? key : *own.find("name"), prefix);
   const Setting& values = required(own, "values", prefix);
   axis.described.labels = list_of(values, prefix + "values");
   for (const std::string& text : axis.described.labels) {

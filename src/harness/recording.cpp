@@ -34,13 +34,13 @@ std::vector<StampedPose> frame_ground_truth_of(const FrameSource& frames, std::s
   return truth;
 }
 
-[[noreturn]] void refuse_single_keyframe(int separation_frames, std::size_t frames) {
+InputError single_keyframe(int separation_frames, std::size_t frames) {
   const std::string count = std::to_string(frames) + (frames == 1 ? " frame" : " frames");
-  if (frames < 2) throw InputError("dataset: has " + count + "; a survey has two or more");
-  throw InputError("front_end.keyframes.separation_frames: " + std::to_string(separation_frames) +
-                   " leads beyond the last of " + count +
-                   ", so there is a single keyframe; expected at most " +
-                   std::to_string(frames - 1));
+  if (frames < 2) return InputError("dataset: has " + count + "; a survey has two or more");
+  return InputError("front_end.keyframes.separation_frames: " + std::to_string(separation_frames) +
+                    " leads beyond the last of " + count +
+                    ", so there is a single keyframe; expected at most " +
+                    std::to_string(frames - 1));
 }
 
 // Poses without covariances.
@@ -83,7 +83,8 @@ Recording record_survey(Survey& survey, const Configuration& configuration, std:
     if (progress) progress(front_end.frames().size(), frames.size());
   }
   if (front_end.keyframes().size() < 2) {
-    refuse_single_keyframe(configuration.front_end.separation_frames, frames.size());
+    throw at_origin(configuration,
+                    single_keyframe(configuration.front_end.separation_frames, frames.size()));
   }
   recording.frames = front_end.frames();
   for (std::size_t i = 0; i < recording.frames.size(); ++i) {

@@ -5,22 +5,27 @@
 #include <vector>
 
 namespace fathom {
+
+InputError at_origin(const Configuration& configuration, const InputError& error) {
+  const std::string message = error.what();
+  const auto origin = configuration.origins.find(message.substr(0, message.find(':')));
+  if (origin == configuration.origins.end()) return error;
+  return InputError(origin->second + ": " + message);
+}
+
 namespace {
 
 std::uint64_t seed_of(const Configuration& configuration) {
   return static_cast<std::uint64_t>(configuration.seed);
 }
 
-// Runs an action; "dataset.altitude.base_m: …" becomes "FILE:LINE: dataset.altitude.base_m: …".
+// Runs an action; its errors name the origin of their key.
 template <class Action>
 void with_origin(const Configuration& configuration, Action action) {
   try {
     action();
   } catch (const InputError& error) {
-    const std::string message = error.what();
-    const auto origin = configuration.origins.find(message.substr(0, message.find(':')));
-    if (origin == configuration.origins.end()) throw;
-    throw InputError(origin->second + ": " + message);
+    throw at_origin(configuration, error);
   }
 }
 

@@ -201,7 +201,7 @@ TEST(IncludeRules, JudgeLinks) {
               HasSubstr("may not link"));
   EXPECT_THAT(complaint_about_link("fathom_support_pose_graph", "fathom_ekf"),
               HasSubstr("may not link"));
-  EXPECT_THAT(complaint_about_link("fathom_study", "fathom_support_sparse"),
+  EXPECT_THAT(complaint_about_link("fathom_harness", "fathom_support_sparse"),
               HasSubstr("may not link"));
   EXPECT_THAT(complaint_about_link("fathom_ekf", "fathom_estimation"), IsEmpty());
   EXPECT_THAT(complaint_about_link("fathom_apps", "fathom_harness"), IsEmpty());

@@ -41,7 +41,9 @@ TEST(Extending, TheDataSetHasItsOptionsAndOpens) {
   EXPECT_EQ(ring->graph()->size(), 20u);
   EXPECT_EQ(ring->graph()->registration_count(), 1u);
   EXPECT_LT(chi2(*ring->graph(), ring->graph()->odometry()), 1e-18);
-  EXPECT_THAT(input_error_of([&] { entry.open({{"poses", OptionValue::scalar("2")}}, 1); }),
+  EXPECT_THAT(input_error_of([&] {
+                entry.open({{"poses", OptionValue::scalar("2")}}, 1);
+              }),
               HasSubstr("poses: expected a whole number >= 3, got '2'"));
 }
 

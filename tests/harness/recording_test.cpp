@@ -237,6 +237,18 @@ TEST(Record, RefusesWhatItCannotOpen) {
               HasSubstr("dataset.odometry.covariance"));
 }
 
+TEST(Record, RefusesASingleKeyframe) {
+  const auto refused = [](const std::string& separation) {
+    return input_error_of([&] {
+      recorded(small_survey("front_end.keyframes.separation_frames: " + separation + "\n"));
+    });
+  };
+  EXPECT_THAT(refused("33"), HasSubstr("front_end.keyframes.separation_frames: 33 leads beyond the "
+                                       "last of 33 frames, so there is a single keyframe; expected "
+                                       "at most 32"));
+  EXPECT_THAT(refused("33"), HasSubstr("config.yaml:"));
+}
+
 TEST(Survey, RefusesAGraph) {
   EXPECT_THAT(input_error_of([] { Survey(configured("dataset: {type: g2o, path: a}\n")); }),
               HasSubstr("a g2o graph has no pictures; use simulated or image_folder"));

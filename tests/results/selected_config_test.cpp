@@ -54,7 +54,7 @@ seed: 7
 association: {mode: own}
 evaluation: {alignment: se2, rpe_keyframes: [1, 5], min_overlap: 0.4}
 dataset:
-  mission: {type: single_loop, loop_length_m: 8, waypoints_m: [0, 0, 5, 0]}
+  mission: {type: waypoints, waypoints_m: [0, 0, 5, 0]}
   camera: {distortion: [-0.05, 0.01, 0.001, -0.001, 0]}
 front_end:
   features.type: orb
@@ -85,7 +85,7 @@ TEST(SelectedConfiguration, SaysHowItWasChosenAndNoMoreThanItNeeds) {
 # least total_ms: 12.3 [12, 12.7], 95 % of the mean
 dataset:
   type: simulated
-  mission: {type: single_loop, loop_length_m: 8, waypoints_m: [0, 0, 5, 0]}
+  mission: {type: waypoints, waypoints_m: [0, 0, 5, 0]}
   camera: {distortion: [-0.05, 0.01, 0.001, -0.001, 0]}
 front_end:
   features: {type: orb}

@@ -12,6 +12,10 @@
 
 namespace fathom {
 
+/// An error that begins with a key, "dataset.altitude.base_m: …", with the key's origin in front:
+/// "FILE:LINE: dataset.altitude.base_m: …".
+InputError at_origin(const Configuration& configuration, const InputError& error);
+
 /// What all trials of a data set share: its pictures, and their registrations. May be used from
 /// several threads at once.
 class Pictures {
