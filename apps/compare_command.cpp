@@ -169,8 +169,8 @@ void write_example(const fs::path& out, const Study& study, Recorder& recorder, 
     const fs::path own = folder.path() / estimator.name;
     fs::create_directory(own);
     write_run(own, *recording, results.back(),
-              manifest_json(context.command_line, configuration.in_force, *recording,
-                            results.back(), builtin_estimators()));
+              manifest_json(context.command_line, configuration.in_force, study.description.data,
+                            *recording, results.back(), builtin_estimators()));
     write_trajectory_picture(own / "trajectory.png", title + ", " + estimator.name, *recording,
                              {results.back()}, e);
     mosaics.push_back({own, placed_pictures(*recording, results.back().replay.trajectory)});
@@ -197,14 +197,13 @@ int status_of(const ResultStore& store) {
 }
 
 void compare(const CompareFlags& flags, Context& context) {
-  const Study study = configure_study(flags.settings(), builtin_estimators());
+  Study study = configure_study(flags.settings(), builtin_estimators());
   const fs::path out = flags.common.folder_or(stem_of(flags.config));
   const std::unique_ptr<RegistrationStore> cache = open_cache(flags);
   // A data set that cannot be opened is refused before anything is written.
+  study.description.data = data_of(study);
   Recorder example(study.cells.front(), cache.get());
-  const std::size_t all_trials = study.cells.size() * study.description.trials;
-  const int jobs =
-      static_cast<int>(std::min<std::size_t>(study.cells.front().study.jobs, all_trials));
+  const int jobs = jobs_of(study);
   // The threads there are for all jobs together; no result depends on them.
   cv::setNumThreads(std::max(1, cv::getNumThreads() / jobs));
   StoreFolder folder(out, study, session_json(context.command_line, jobs));

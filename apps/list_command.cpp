@@ -42,7 +42,7 @@ void list(const std::string& what, Context& context) {
     front_end.describe(table);
     print_options("front_end.", table.descriptions());
   } else {
-    for (const DatasetEntry& entry : datasets()) {
+    for (const DataSetEntry& entry : data_sets()) {
       print_heading(entry.name, entry.help);
       print_options("dataset.", entry.options);
     }

@@ -9,10 +9,10 @@
 #include "apps/common.hpp"
 #include "apps/registration_text.hpp"
 #include "fathom/core/files.hpp"
-#include "fathom/datasets/image_folder.hpp"
 #include "fathom/datasets/picture_file.hpp"
 #include "fathom/estimators/builtin.hpp"
 #include "fathom/front_end/pair_seed.hpp"
+#include "fathom/harness/survey.hpp"
 #include "fathom/report/match_picture.hpp"
 #include "fathom/report/picture.hpp"
 #include "fathom/report/table.hpp"
@@ -33,17 +33,6 @@ struct RegisterFlags {
 void require_altitude(const std::string& flag, double altitude_m) {
   if (std::isfinite(altitude_m) && altitude_m > 0.0) return;
   throw InputError(flag + ": expected a height in metres > 0, got " + format_number(altitude_m, 3));
-}
-
-Camera camera_of(const Configuration& configuration) {
-  if (configuration.dataset == DatasetType::image_folder && !configuration.dataset_path.empty()) {
-    return ImageFolder(configuration.dataset_path).camera();
-  }
-  if (configuration.dataset != DatasetType::simulated) {
-    throw InputError(
-        "dataset: the camera of --config is that of simulated, or of image_folder with a path");
-  }
-  return Camera(configuration.simulation.camera.model("dataset.camera."));
 }
 
 cv::Mat picture_for(const Camera& camera, const std::string& path) {
@@ -81,7 +70,7 @@ void register_pictures(const RegisterFlags& flags, Context& context) {
   require_altitude("--altitude-a", flags.altitude_a_m);
   require_altitude("--altitude-b", flags.altitude_b_m);
   const Configuration configuration = configure(settings, kind_of(settings), builtin_estimators());
-  const Camera camera = camera_of(configuration);
+  const Camera camera = Pictures(configuration).source().camera();
   const cv::Mat a = picture_for(camera, flags.a);
   const cv::Mat b = picture_for(camera, flags.b);
   StagedFolder folder(flags.common.folder_or("register"));

@@ -63,8 +63,10 @@ void print_front_end(const Recording& recording) {
 }
 
 std::string manifest_of(const Context& context, const Configuration& configuration,
-                        const Recording& recording, const Result& result) {
-  return manifest_json(context.command_line, configuration.in_force, recording, result,
+                        const Recorder& recorder, const Recording& recording,
+                        const Result& result) {
+  return manifest_json(context.command_line, configuration.in_force,
+                       fingerprint(recorder.data().files()), recording, result,
                        builtin_estimators());
 }
 
@@ -89,7 +91,7 @@ void run(const RunFlags& flags, Context& context) {
       recording, configuration, configuration.estimators.front(), flags.common.quiet)};
   const Result& result = results.front();
   write_run(folder.path(), recording, result,
-            manifest_of(context, configuration, recording, result));
+            manifest_of(context, configuration, recorder, recording, result));
   write_trajectory_picture(folder.path() / "trajectory.png",
                            stem_of(flags.config) + ", " + result.estimator.name, recording,
                            results);

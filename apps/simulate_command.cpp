@@ -54,7 +54,7 @@ void simulate(const SimulateFlags& flags, Context& context) {
   const Settings settings = flags.common.settings(flags.config);
   const Configuration configuration =
       configure(without_sweep(settings), kind_of(settings), builtin_estimators());
-  if (configuration.dataset != DatasetType::simulated) {
+  if (!find_data_set(configuration.dataset.type).makes_pictures) {
     throw InputError(flags.config, "dataset.type: 'simulate' takes simulated");
   }
   const Survey survey(configuration);

@@ -124,9 +124,9 @@ void solve(const SolveFlags& flags, Context& context) {
       evaluate(recording, estimator, builtin_estimators(), Alignment::origin, options);
   const std::vector<std::pair<std::string, std::string>> configuration{{"graph", flags.graph},
                                                                        {"init", flags.init}};
-  write_run(
-      folder.path(), recording, result,
-      manifest_json(context.command_line, configuration, recording, result, builtin_estimators()));
+  write_run(folder.path(), recording, result,
+            manifest_json(context.command_line, configuration, fingerprint({flags.graph}),
+                          recording, result, builtin_estimators()));
   write_trajectory_picture(folder.path() / "trajectory.png",
                            stem_of(flags.graph) + ", " + estimator.type, recording, {result});
   folder.commit(optional_run_files());

@@ -1,170 +1,99 @@
 #include "fathom/configuration/study.hpp"
 
 #include <algorithm>
-#include <cctype>
+#include <map>
 
+#include "canonical_value.hpp"
 #include "fathom/core/random.hpp"
-#include "fathom/core/text.hpp"
 #include "fathom/core/version.hpp"
+#include "study_options.hpp"
+#include "sweep.hpp"
 
 namespace fathom {
 namespace {
 
-constexpr const char* kSweep = "sweep.";
-
-struct Axis {
-  StudyAxis described;
-  std::vector<Setting> values;
-};
-
-// A list within the values of an axis was kept as text by the reader.
-OptionValue value_of(const std::string& text) {
-  if (text.size() < 2 || text.front() != '[' || text.back() != ']') {
-    return OptionValue::scalar(text);
-  }
-  OptionValue list{{}, true};
-  const std::string inner = text.substr(1, text.size() - 2);
-  for (const std::string_view item : split(inner, ", ")) {
-    list.items.emplace_back(item);
-  }
-  return list;
-}
-
-const Setting& required(const Settings& own, const std::string& key, const std::string& prefix) {
-  if (const Setting* setting = own.find(key)) return *setting;
-  refuse(own.all().front(), prefix + key + " is missing: an axis of a sweep has a key and values");
-}
-
-void refuse_unknown(const Settings& own, const std::string& prefix) {
-  const std::vector<std::string> known{"key", "name", "values", "labels"};
-  for (const Setting& setting : own.all()) {
-    if (std::find(known.begin(), known.end(), setting.key) != known.end()) continue;
-    refuse(setting, "unknown key '" + prefix + setting.key + "'" + suggestion(setting.key, known));
+// A key that no cell has a use for; one that a single cell uses is not in vain.
+void refuse_unused_in_all(const std::vector<std::vector<UnusedSetting>>& unused) {
+  for (const UnusedSetting& one : unused.front()) {
+    const bool everywhere = std::ranges::all_of(unused, [&](const auto& of_cell) {
+      return std::ranges::find(of_cell, one.key, &UnusedSetting::key) != of_cell.end();
+    });
+    if (everywhere) throw InputError(one.message);
   }
 }
 
-std::vector<std::string> list_of(const Setting& setting, const std::string& key) {
-  if (!setting.value.is_list || setting.value.items.empty()) {
-    refuse(setting, key + ": expected a list of one value or more");
-  }
-  return setting.value.items;
-}
-
-void refuse_keys_of_the_study(const Setting& key, const std::string& name) {
-  for (const char* part : {"trials", "jobs", "sweep", "report"}) {
-    if (name != part && !name.starts_with(std::string(part) + ".")) continue;
-    refuse(key, name + " is the study's own and cannot be swept");
-  }
-}
-
-Axis axis_of(const Settings& own, const std::string& prefix) {
-  refuse_unknown(own, prefix);
-  Axis axis;
-  const Setting& key = required(own, "key", prefix);
-  axis.described.key = word_of(key, prefix + "key");
-  refuse_keys_of_the_study(key, axis.described.key);
-  axis.described.name = axis.described.key.substr(axis.described.key.rfind('.') + 1);
-  if (const Setting* name = own.find("name")) axis.described.name = word_of(*name, prefix + "name");
-  const Setting& values = required(own, "values", prefix);
-  axis.described.labels = list_of(values, prefix + "values");
-  for (const std::string& text : axis.described.labels) {
-    axis.values.push_back({axis.described.key, value_of(text), values.origin});
-  }
-  if (const Setting* labels = own.find("labels")) {
-    axis.described.labels = list_of(*labels, prefix + "labels");
-    if (axis.described.labels.size() != axis.values.size()) {
-      refuse(*labels, prefix + "labels: expected one for each of the " +
-                          std::to_string(axis.values.size()) + " values");
+// The type of a swept option, which all cells share.
+std::string type_of(const std::string& key, const Configuration& cell,
+                    const EstimatorRegistry& registry) {
+  for (std::size_t e = 0; e < cell.estimators.size(); ++e) {
+    const std::string prefix = "estimators." + std::to_string(e) + ".";
+    if (!key.starts_with(prefix)) continue;
+    for (const OptionDescription& option : registry.find(cell.estimators[e].type).options) {
+      if (prefix + option.key == key) return option.type;
     }
   }
-  std::vector<std::string> sorted = axis.described.labels;
-  std::sort(sorted.begin(), sorted.end());
-  const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
-  if (twice != sorted.end()) refuse(values, prefix + "values: '" + *twice + "' is given twice");
-  return axis;
+  const auto found = cell.types.find(key);
+  return found == cell.types.end() ? "text" : found->second;
 }
 
-// A number of an axis is one or two digits here: sweep.0 … sweep.99.
-void refuse_gaps(const Settings& settings, std::size_t count) {
-  for (const Setting& setting : settings.all()) {
-    if (setting.key != "sweep" && !setting.key.starts_with(kSweep)) continue;
-    bool is_of_an_axis = false;
-    for (std::size_t i = 0; i < count; ++i) {
-      is_of_an_axis = is_of_an_axis || setting.key.starts_with(kSweep + std::to_string(i) + ".");
-    }
-    if (!is_of_an_axis) {
-      refuse(setting, setting.key +
-                          ": expected a list of axes, such as '- {key: seed, values: "
-                          "[1, 2]}', numbered from 0 without a gap");
-    }
+// Two spellings of one value would be two cells with draws of their own.
+void refuse_same_values(const Axis& axis, const std::string& type) {
+  std::map<std::string, std::string> label_of;
+  for (std::size_t i = 0; i < axis.values.size(); ++i) {
+    const std::string& label = axis.described.labels[i];
+    const auto [there, is_new] =
+        label_of.emplace(canonical_text(axis.values[i].value, type), label);
+    if (is_new) continue;
+    refuse(axis.values[i],
+           axis.prefix + "values: '" + there->second + "' and '" + label + "' are the same value");
   }
 }
 
-std::vector<Axis> axes_of(const Settings& settings) {
-  std::vector<Axis> axes;
-  while (true) {
-    const std::string prefix = kSweep + std::to_string(axes.size()) + ".";
-    const Settings own = settings.below(prefix);
-    if (own.all().empty()) break;
-    axes.push_back(axis_of(own, prefix));
-    const StudyAxis& newest = axes.back().described;
-    for (std::size_t i = 0; i + 1 < axes.size(); ++i) {
-      if (axes[i].described.key == newest.key || axes[i].described.name == newest.name) {
-        refuse(own.all().front(), prefix + "key: two axes are '" + newest.name + "'");
-      }
-    }
-    if (const Setting* fixed = settings.find(newest.key)) {
-      refuse(*fixed, newest.key + ": is swept, so this value would go unread; change " + prefix +
-                         "values instead");
-    }
-  }
-  refuse_gaps(settings, axes.size());
-  return axes;
+using KeyValues = std::vector<std::pair<std::string, std::string>>;
+
+// Keys in force in any cell; those that are not swept are the same in all that have them.
+std::map<std::string, std::string> in_force_anywhere(const std::vector<Configuration>& cells) {
+  std::map<std::string, std::string> all;
+  for (const Configuration& cell : cells) all.insert(cell.in_force.begin(), cell.in_force.end());
+  return all;
 }
 
-bool is_no_result_key(const std::string& key) {
-  return key == "trials" || key == "jobs" || key.starts_with("report.");
-}
-
-// Every key that results depend on, with its value.
-std::vector<std::pair<std::string, std::string>> configuration_of(
-    const Configuration& base, const std::vector<Axis>& axes, const EstimatorRegistry& registry) {
-  std::vector<std::pair<std::string, std::string>> all{{"fathom", version()}};
-  const auto is_swept = [&axes](const std::string& key) {
-    return std::any_of(axes.begin(), axes.end(),
-                       [&key](const Axis& axis) { return axis.described.key == key; });
-  };
-  const auto put = [&](const std::string& key, const std::string& value) {
-    if (!is_no_result_key(key) && !is_swept(key)) all.emplace_back(key, value);
-  };
-  for (const auto& [key, value] : base.in_force) put(key, value);
+void add_estimators(std::map<std::string, std::string>& all, const Configuration& base,
+                    const EstimatorRegistry& registry) {
   for (std::size_t e = 0; e < base.estimators.size(); ++e) {
     const EstimatorConfiguration& estimator = base.estimators[e];
     const std::string prefix = "estimators." + std::to_string(e) + ".";
-    put(prefix + "name", estimator.name);
-    put(prefix + "type", estimator.type);
+    all[prefix + "name"] = estimator.name;
+    all[prefix + "type"] = estimator.type;
     for (const auto& [key, value] : estimator_options(estimator, registry.find(estimator.type))) {
-      put(prefix + key, value);
+      all[prefix + key] = value;
     }
   }
-  put("association.reference", base.estimators[base.reference].name);
-  for (std::size_t a = 0; a < axes.size(); ++a) {
-    const std::string prefix = kSweep + std::to_string(a) + ".";
-    put(prefix + "key", axes[a].described.key);
-    std::string labels;
-    std::string values;
-    for (std::size_t i = 0; i < axes[a].values.size(); ++i) {
-      const OptionValue& value = axes[a].values[i].value;
-      std::string text;
-      for (const std::string& item : value.items) text += (text.empty() ? "" : ", ") + item;
-      values += (i > 0 ? ", " : "") + (value.is_list ? "[" + text + "]" : text);
-      labels += (i > 0 ? ", " : "") + axes[a].described.labels[i];
-    }
-    put(prefix + "values", "[" + values + "]");
-    put(prefix + "labels", "[" + labels + "]");
+  all["association.reference"] = base.estimators[base.reference].name;
+}
+
+std::string values_text(const Axis& axis, const std::string& type) {
+  std::string text;
+  for (const Setting& value : axis.values) {
+    text += (text.empty() ? "" : ", ") + canonical_text(value.value, type);
   }
-  std::sort(all.begin(), all.end());
-  return all;
+  return "[" + text + "]";
+}
+
+// Every key that results depend on, with its value.
+KeyValues configuration_of(const std::vector<Configuration>& cells, const std::vector<Axis>& axes,
+                           const EstimatorRegistry& registry) {
+  std::map<std::string, std::string> all = in_force_anywhere(cells);
+  add_estimators(all, cells.front(), registry);
+  std::erase_if(all, [](const auto& entry) { return is_session_key(entry.first); });
+  for (const Axis& axis : axes) {
+    all.erase(axis.described.key);
+    all[axis.prefix + "key"] = axis.described.key;
+    all[axis.prefix + "values"] =
+        values_text(axis, type_of(axis.described.key, cells.front(), registry));
+  }
+  all["fathom"] = version();
+  return {all.begin(), all.end()};
 }
 
 void require_same_names(const Study& study) {
@@ -184,10 +113,35 @@ void require_same_names(const Study& study) {
 Settings without_sweep(const Settings& settings) {
   Settings rest;
   for (const Setting& setting : settings.all()) {
-    if (setting.key != "sweep" && !setting.key.starts_with(kSweep)) rest.put(setting);
+    if (!is_sweep_key(setting.key)) rest.put(setting);
   }
   return rest;
 }
+
+namespace {
+
+// The settings of one cell.
+Settings settings_of(const Settings& base, const std::vector<Axis>& axes,
+                     const std::vector<std::size_t>& places) {
+  Settings own = base;
+  for (std::size_t a = 0; a < axes.size(); ++a) own.put(axes[a].values[places[a]]);
+  return own;
+}
+
+// What names the noise of a cell: its values on the axes.
+std::string noise_name(const std::vector<Axis>& axes, const std::vector<std::string>& types,
+                       const std::vector<std::size_t>& places) {
+  std::string name;
+  for (std::size_t a = 0; a < axes.size(); ++a) {
+    const Setting& value = axes[a].values[places[a]];
+    name += value.key + "=";
+    for (const std::string& item : canonical_value(value.value, types[a]).items) name += item + ",";
+    name += ";";
+  }
+  return name;
+}
+
+}  // namespace
 
 Study configure_study(const Settings& settings, const EstimatorRegistry& registry) {
   const std::vector<Axis> axes = axes_of(settings);
@@ -199,20 +153,22 @@ Study configure_study(const Settings& settings, const EstimatorRegistry& registr
     throw InputError("sweep: " + std::to_string(study.description.cell_count()) +
                      " cells; a study has at most 10000");
   }
+  std::vector<std::vector<UnusedSetting>> unused;
   for (std::size_t cell = 0; cell < study.description.cell_count(); ++cell) {
-    Settings own = base;
-    std::string values;
-    const std::vector<std::size_t> places = study.description.places_of(cell);
-    for (std::size_t a = 0; a < axes.size(); ++a) {
-      const Setting& value = axes[a].values[places[a]];
-      own.put(value);
-      values += value.key + "=";
-      for (const std::string& item : value.value.items) values += item + ",";
-      values += ";";
-    }
-    study.cells.push_back(configure(own, ConfigurationKind::comparison, registry));
-    const auto seed = static_cast<std::uint64_t>(study.cells.back().seed);
-    study.noise_seeds.push_back(axes.empty() ? seed : stream_seed(seed, values, 0));
+    const Settings own = settings_of(base, axes, study.description.places_of(cell));
+    unused.emplace_back();
+    study.cells.push_back(configure(own, ConfigurationKind::comparison, registry, unused.back()));
+  }
+  refuse_unused_in_all(unused);
+  std::vector<std::string> types;
+  for (const Axis& axis : axes) {
+    types.push_back(type_of(axis.described.key, study.cells.front(), registry));
+    refuse_same_values(axis, types.back());
+  }
+  for (std::size_t cell = 0; cell < study.cells.size(); ++cell) {
+    const auto seed = static_cast<std::uint64_t>(study.cells[cell].seed);
+    const std::string name = noise_name(axes, types, study.description.places_of(cell));
+    study.noise_seeds.push_back(axes.empty() ? seed : stream_seed(seed, name, 0));
   }
   const Configuration& first = study.cells.front();
   study.description.title = first.study.title;
@@ -222,7 +178,7 @@ Study configure_study(const Settings& settings, const EstimatorRegistry& registr
     study.description.estimators.push_back({estimator.name, estimator.type});
   }
   study.description.metrics = first.study.metrics;
-  study.description.configuration = configuration_of(first, axes, registry);
+  study.description.configuration = configuration_of(study.cells, axes, registry);
   require_same_names(study);
   return study;
 }

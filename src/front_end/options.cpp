@@ -6,12 +6,16 @@ void FrontEndOptions::describe(OptionTable& table) {
   table.integer("keyframes.separation_frames", separation_frames, Range::at_least(1), "frames",
                 "a keyframe every so many frames");
   table.group("candidates", candidates);
-  table.group("features", features);
-  registration.describe(table);
+  describe_registration(table);
   table.real("visual_odometry.fallback_sigma_m", visual_odometry.sigma_m, Range::positive(), "m",
              "uncertainty of a motion repeated because consecutive pictures do not register");
   table.real("visual_odometry.fallback_sigma_rad", visual_odometry.sigma_rad, Range::positive(),
              "rad", "likewise, of its heading");
+}
+
+void FrontEndOptions::describe_registration(OptionTable& table) {
+  table.group("features", features);
+  registration.describe(table);
 }
 
 std::vector<IgnoredKey> FrontEndOptions::ignored_keys() const {

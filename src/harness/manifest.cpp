@@ -10,6 +10,7 @@
 #include "build_info.hpp"
 #include "fathom/core/hash.hpp"
 #include "fathom/core/version.hpp"
+#include "fathom/datasets/fingerprint.hpp"
 #include "fathom/measurements/g2o.hpp"
 
 namespace fathom {
@@ -60,9 +61,10 @@ std::string session_json(const std::string& command_line, int jobs) {
 
 std::string manifest_json(const std::string& command_line,
                           const std::vector<std::pair<std::string, std::string>>& configuration,
-                          const Recording& recording, const Result& result,
+                          const Fingerprint& data, const Recording& recording, const Result& result,
                           const EstimatorRegistry& registry) {
   Json json = session(command_line, 1);
+  json["data"] = {{"files", data.size()}, {"fingerprint", fingerprint_text(data)}};
   json["measurements_fnv1a64"] = hash_text(to_g2o(recording.log));
   for (const auto& [key, value] : configuration) json["configuration"][key] = value;
   Json options;

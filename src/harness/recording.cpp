@@ -1,6 +1,7 @@
 #include "fathom/harness/recording.hpp"
 
 #include "fathom/harness/false_loops.hpp"
+#include "fathom/harness/guarded_estimator.hpp"
 #include "fathom/harness/survey.hpp"
 #include "fathom/measurements/g2o.hpp"
 
@@ -33,24 +34,57 @@ std::vector<StampedPose> frame_ground_truth_of(const FrameSource& frames, std::s
   return truth;
 }
 
+InputError single_keyframe(int separation_frames, std::size_t frames) {
+  const std::string count = std::to_string(frames) + (frames == 1 ? " frame" : " frames");
+  if (frames < 2) return InputError("dataset: has " + count + "; a survey has two or more");
+  return InputError("front_end.keyframes.separation_frames: " + std::to_string(separation_frames) +
+                    " leads beyond the last of " + count +
+                    ", so there is a single keyframe; expected at most " +
+                    std::to_string(frames - 1));
+}
+
+// Poses without covariances.
+class FixedTrajectory : public TrajectoryView {
+ public:
+  explicit FixedTrajectory(std::vector<Pose> poses) : poses_(std::move(poses)) {}
+  std::size_t size() const override { return poses_.size(); }
+  Pose pose(std::size_t k) const override { return poses_[k]; }
+
+ private:
+  std::vector<Pose> poses_;
+};
+
+// Where the reference turns out faulty dead reckoning picks the candidates; the reference's own
+// replay says what it did.
+std::vector<RelativePose> register_newest(FrontEnd& front_end, const GuardedEstimator& reference,
+                                          const MeasurementLog& log) {
+  for (std::size_t k = 0; k < reference.size() && reference.fault().empty(); ++k) reference.pose(k);
+  if (reference.fault().empty()) return front_end.register_newest(reference);
+  return front_end.register_newest(FixedTrajectory(log.odometry()));
+}
+
 Recording record_survey(Survey& survey, const Configuration& configuration, std::size_t by,
                         const EstimatorRegistry& registry, const Progress& progress) {
   const FrameSource& frames = survey.frames();
   FrontEnd front_end(frames, survey.registrar(), configuration.front_end);
   const EstimatorConfiguration& reference = configuration.estimators[by];
-  const auto estimator = registry.find(reference.type).create({}, reference.values);
+  GuardedEstimator estimator(registry.find(reference.type), {}, reference.values);
 
   Recording recording;
   while (const auto keyframe = front_end.next_keyframe()) {
     recording.keyframe_times_ns.push_back(keyframe->time_ns);
     if (keyframe->step) {
       recording.log.add_keyframe(*keyframe->step);
-      estimator->add_keyframe(*keyframe->step);
-      const std::vector<RelativePose> found = front_end.register_newest(*estimator);
+      estimator.add_keyframe(*keyframe->step);
+      const std::vector<RelativePose> found = register_newest(front_end, estimator, recording.log);
       for (const RelativePose& registration : found) recording.log.add_registration(registration);
-      if (!found.empty()) estimator->close_loops(found);
+      if (!found.empty()) estimator.close_loops(found);
     }
     if (progress) progress(front_end.frames().size(), frames.size());
+  }
+  if (front_end.keyframes().size() < 2) {
+    throw at_origin(configuration,
+                    single_keyframe(configuration.front_end.separation_frames, frames.size()));
   }
   recording.frames = front_end.frames();
   for (std::size_t i = 0; i < recording.frames.size(); ++i) {
@@ -70,20 +104,24 @@ Recording record_survey(Survey& survey, const Configuration& configuration, std:
   return recording;
 }
 
-}  // namespace
-
-Recording record_graph(const std::filesystem::path& path) {
+Recording graph_recording(MeasurementLog log, const std::string& file) {
   Recording recording;
-  recording.log = read_g2o(path);
   constexpr std::int64_t kSecond = 1'000'000'000;
-  for (const std::int64_t id : recording.log.ids) {
+  for (const std::int64_t id : log.ids) {
     if (id > 9'000'000'000) {
-      throw InputError(path.string(), "id " + std::to_string(id) +
-                                          " is too large to be a time stamp; ids up to 9e9 work");
+      throw InputError(file, "id " + std::to_string(id) +
+                                 " is too large to be a time stamp; ids up to 9e9 work");
     }
     recording.keyframe_times_ns.push_back(id * kSecond);
   }
+  recording.log = std::move(log);
   return recording;
+}
+
+}  // namespace
+
+Recording record_graph(const std::filesystem::path& path) {
+  return graph_recording(read_g2o(path), path.string());
 }
 
 void attach_ground_truth(Recording& graph, const std::filesystem::path& path) {
@@ -101,14 +139,14 @@ void attach_ground_truth(Recording& graph, const std::filesystem::path& path) {
 }
 
 Recorder::Recorder(const Configuration& configuration, RegistrationCache* cache) {
-  if (configuration.dataset != DatasetType::g2o) {
+  if (!find_data_set(configuration.dataset.type).is_graph) {
     pictures_ = std::make_shared<Pictures>(configuration, cache);
     return;
   }
-  if (configuration.dataset_path.empty()) {
-    throw InputError("dataset.path: say where the g2o file is");
-  }
-  graph_ = record_graph(configuration.dataset_path);
+  graph_data_ = open_data_set(configuration);
+  const auto files = graph_data_->files();
+  graph_ =
+      graph_recording(*graph_data_->graph(), files.empty() ? "dataset" : files.front().string());
 }
 
 Recording Recorder::record(const Configuration& configuration, std::size_t reference,

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <ctime>
 
+#include "fathom/harness/guarded_estimator.hpp"
+
 namespace fathom {
 namespace {
 
@@ -87,23 +89,27 @@ void collect_weights(const Estimator& estimator, Replay& result) {
   }
 }
 
-bool is_finite(std::span<const Pose> trajectory) {
-  for (const Pose& pose : trajectory) {
-    if (!fathom::is_finite(pose)) return false;
-  }
-  return true;
-}
-
 void collect_covariances(Estimator& estimator, Replay& result) {
   const auto start = Clock::now();
   std::vector<Eigen::Matrix3d> covariances;
   for (std::size_t k = 0; k < estimator.size(); ++k) {
     const auto covariance = estimator.covariance(k);
-    if (!covariance || !covariance->allFinite()) return;
+    if (!covariance) return;
     covariances.push_back(*covariance);
   }
   result.covariance_ms = milliseconds_since(start);
   result.covariances = std::move(covariances);
+}
+
+// Nothing that a faulty estimator said is of use.
+void note_fault(const std::string& fault, Replay& result) {
+  result.fault = fault;
+  result.outcome = Outcome::numerical_failure;
+  for (LoopDecision& loop : result.loops) {
+    if (loop.fate == LoopFate::used) loop.fate = LoopFate::lost;
+  }
+  result.loop_weights.assign(result.loops.size(), 0.0);
+  result.covariances.reset();
 }
 
 // The loops of the replay stand in the order of the log's registrations.
@@ -133,14 +139,14 @@ Replay replay(const MeasurementLog& log, const EstimatorEntry& entry, const Esti
   result.update_ms.reserve(log.size());
   result.add_ms.reserve(log.size());
   if (options.memory != nullptr) options.memory->start();
-  const auto estimator = entry.create({log.origin(), options.mode}, values);
-  give_keyframes(log, *estimator, options, result);
+  GuardedEstimator estimator(entry, {log.origin(), options.mode}, values);
+  give_keyframes(log, estimator, options, result);
   if (options.memory != nullptr) result.memory_bytes = options.memory->stop();
-  result.trajectory = poses_of(*estimator);
-  collect_weights(*estimator, result);
-  if (!is_finite(result.trajectory)) result.outcome = Outcome::numerical_failure;
-  if (options.covariances) collect_covariances(*estimator, result);
-  result.cost_used = cost_used(log, *estimator, result);
+  result.trajectory = poses_of(estimator);
+  collect_weights(estimator, result);
+  if (options.covariances) collect_covariances(estimator, result);
+  result.cost_used = cost_used(log, estimator, result);
+  if (!estimator.fault().empty()) note_fault(estimator.fault(), result);
   return result;
 }
 

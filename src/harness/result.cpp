@@ -80,6 +80,7 @@ Json metrics_of(const Result& result, const Recording& recording) {
   json["name"] = result.estimator.name;
   json["mode"] = result.mode == SolveMode::batch ? "batch" : "incremental";
   json["outcome"] = name_of(result.replay.outcome);
+  if (!result.replay.fault.empty()) json["fault"] = result.replay.fault;
   for (std::size_t i = 0; i < result.replay.outcome_counts.size(); ++i) {
     json["outcome_counts"][name_of(static_cast<Outcome>(i))] = result.replay.outcome_counts[i];
   }

@@ -26,10 +26,14 @@ std::vector<StampedPose> ground_truth(const Recording& recording) {
   return keyframe_trajectory(recording, *recording.ground_truth);
 }
 
-// A value of run.json as a configuration has it. Names of files are taken as they are.
-Setting setting_of(const std::string& key, const std::string& text, const std::string& file) {
-  if (key == "dataset.path" || key == "dataset.world.picture") {
-    return {key, OptionValue::scalar(text), file};
+// A value of run.json as a configuration has it. A text, such as the name of a file, is taken as it
+// is.
+Setting setting_of(const std::string& key, const std::string& text, const DataSetEntry& data_set,
+                   const std::string& file) {
+  for (const OptionDescription& option : data_set.options) {
+    if (key == "dataset." + option.key && option.type == "text") {
+      return {key, OptionValue::scalar(text), file};
+    }
   }
   Setting setting = parse_override(key + "=" + text);
   setting.origin = file;
@@ -81,14 +85,18 @@ Settings data_settings_of_run(const std::filesystem::path& folder) {
     throw InputError(file, "has no configuration; expected the run.json of a run");
   }
   const auto type = configuration->find("dataset.type");
-  if (type == configuration->end() || *type == "g2o") {
+  if (type == configuration->end() || !type->is_string()) {
+    throw InputError(file, "has no dataset.type; expected the run.json of a run");
+  }
+  const DataSetEntry& data_set = find_data_set(type->get<std::string>());
+  if (data_set.is_graph) {
     throw InputError(file, "the run was over a pose graph, which has no pictures");
   }
   Settings settings;
   for (const auto& [key, value] : configuration->items()) {
     if (key != "seed" && !key.starts_with("dataset.")) continue;
     if (!value.is_string()) throw InputError(file, key + ": expected a text");
-    settings.put(setting_of(key, value.get<std::string>(), file));
+    settings.put(setting_of(key, value.get<std::string>(), data_set, file));
   }
   return settings;
 }

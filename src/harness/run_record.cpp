@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/Geometry>
+
 #include "fathom/core/hash.hpp"
 #include "fathom/core/text.hpp"
 #include "fathom/geometry/covariance.hpp"
@@ -196,6 +198,7 @@ RunRecord run_record(const Recording& recording, const Result& result,
                      const Configuration& configuration, const EstimatorRegistry& registry) {
   RunRecord run;
   run.outcome = name_of(result.replay.outcome);
+  run.fault = result.replay.fault;
   run.log_hash = hash_text(to_g2o(recording.log));
   put(run, "keyframes", static_cast<double>(recording.log.size()));
   put_times(run, recording);

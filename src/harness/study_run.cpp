@@ -4,10 +4,12 @@
 #include <exception>
 #include <map>
 #include <mutex>
+#include <set>
 #include <thread>
 
 #include "fathom/harness/recording.hpp"
 #include "fathom/harness/run_record.hpp"
+#include "fathom/harness/survey.hpp"
 
 namespace fathom {
 namespace {
@@ -83,10 +85,9 @@ class Runner {
         store_(store),
         options_(options),
         tasks_(tasks_of(study, store)),
+        threads_(std::min(static_cast<std::size_t>(options.jobs),
+                          std::max<std::size_t>(tasks_.size(), 1))),
         data_sets_(study, tasks_, options.registrations) {
-    // No more than there are trials to run: what costs are told by is what was at work.
-    threads_ = static_cast<int>(std::clamp<std::size_t>(
-        tasks_.size(), 1, static_cast<std::size_t>(std::max(1, options.jobs))));
     progress_.of =
         study.cells.size() * study.description.trials * study.description.estimators.size();
     std::size_t missing = 0;
@@ -96,7 +97,7 @@ class Runner {
 
   bool run() {
     std::vector<std::thread> others;
-    for (int i = 1; i < threads_; ++i) others.emplace_back([this] { work(); });
+    for (std::size_t i = 1; i < threads_; ++i) others.emplace_back([this] { work(); });
     work();
     for (std::thread& other : others) other.join();
     if (failure_) std::rethrow_exception(failure_);
@@ -146,7 +147,7 @@ class Runner {
   void add_baseline(const Task& task, const Recording& recording) {
     RunRecord run = baseline_record(recording, study_.cells[task.cell]);
     run.key = {task.cell, task.trial, kDeadReckoning};
-    run.jobs = threads_;
+    run.jobs = static_cast<int>(threads_);
     store_.add(run);
   }
 
@@ -159,7 +160,7 @@ class Runner {
                                    configuration.alignment, replay_options);
     RunRecord run = run_record(recording, result, configuration, registry_);
     run.key = {task.cell, task.trial, configuration.estimators[estimator].name};
-    run.jobs = threads_;
+    run.jobs = static_cast<int>(threads_);
     store_.add(run);
     const std::lock_guard hold(mutex_);
     ++progress_.done;
@@ -172,7 +173,7 @@ class Runner {
   ResultStore& store_;
   const StudyRunOptions& options_;
   std::vector<Task> tasks_;
-  int threads_ = 1;
+  std::size_t threads_;
   DataSets data_sets_;
   std::atomic<std::size_t> next_task_ = 0;
   std::atomic<std::size_t> done_tasks_ = 0;
@@ -183,6 +184,22 @@ class Runner {
 };
 
 }  // namespace
+
+Fingerprint data_of(const Study& study) {
+  std::set<std::string> opened;
+  std::map<std::string, std::string> files;
+  for (const Configuration& cell : study.cells) {
+    if (!opened.insert(data_settings(cell)).second) continue;
+    for (const auto& [file, hash] : fingerprint(open_data_set(cell)->files())) files[file] = hash;
+  }
+  return {files.begin(), files.end()};
+}
+
+int jobs_of(const Study& study) {
+  const std::size_t trials = study.cells.size() * study.description.trials;
+  const auto jobs = static_cast<std::size_t>(study.cells.front().study.jobs);
+  return static_cast<int>(std::min(jobs, trials));
+}
 
 bool run_study(const Study& study, const EstimatorRegistry& registry, ResultStore& store,
                const StudyRunOptions& options) {

@@ -1,76 +1,99 @@
 #include "fathom/harness/survey.hpp"
 
-#include <algorithm>
-#include <array>
+#include <set>
 #include <utility>
-
-#include "fathom/datasets/image_folder.hpp"
+#include <vector>
 
 namespace fathom {
+
+InputError at_origin(const Configuration& configuration, const InputError& error) {
+  const std::string message = error.what();
+  const auto origin = configuration.origins.find(message.substr(0, message.find(':')));
+  if (origin == configuration.origins.end()) return error;
+  return InputError(origin->second + ": " + message);
+}
+
 namespace {
 
 std::uint64_t seed_of(const Configuration& configuration) {
   return static_cast<std::uint64_t>(configuration.seed);
 }
 
-std::unique_ptr<FrameSource> open_source(const Configuration& configuration) {
-  switch (configuration.dataset) {
-    case DatasetType::simulated:
-      return std::make_unique<SimulatedSurvey>(configuration.simulation, seed_of(configuration));
-    case DatasetType::image_folder:
-      if (configuration.dataset_path.empty()) {
-        throw InputError("dataset.path: say where the image folder is");
-      }
-      return std::make_unique<ImageFolder>(configuration.dataset_path);
-    case DatasetType::g2o:
-      break;
-  }
-  throw InputError("dataset.type: a g2o graph has no pictures; use simulated or image_folder");
-}
-
-// Runs an action; "dataset.altitude.base_m: …" becomes "FILE:LINE: dataset.altitude.base_m: …".
+// Runs an action; its errors name the origin of their key.
 template <class Action>
 void with_origin(const Configuration& configuration, Action action) {
   try {
     action();
   } catch (const InputError& error) {
-    const std::string message = error.what();
-    const auto origin = configuration.origins.find(message.substr(0, message.find(':')));
-    if (origin == configuration.origins.end()) throw;
-    throw InputError(origin->second + ": " + message);
+    throw at_origin(configuration, error);
   }
 }
 
-// Keys that only say what a trial measures, or what is made of registrations.
-bool is_of_a_trial(const std::string& key) {
-  constexpr std::array kPrefixes{
-      "dataset.odometry.",    "dataset.added_noise.",  "dataset.altitude.altimeter_sigma_m",
-      "front_end.keyframes.", "front_end.candidates.", "front_end.visual_odometry."};
-  return std::any_of(kPrefixes.begin(), kPrefixes.end(),
-                     [&key](const char* prefix) { return key.starts_with(prefix); });
+void require_pictures(const Configuration& configuration) {
+  if (!find_data_set(configuration.dataset.type).is_graph) return;
+  std::string others;
+  for (const DataSetEntry& entry : data_sets()) {
+    if (!entry.is_graph) others += (others.empty() ? "" : " or ") + entry.name;
+  }
+  throw InputError("dataset.type: a " + configuration.dataset.type +
+                   " graph has no pictures; use " + others);
+}
+
+void insert_keys(std::set<std::string>& keys, const std::string& group,
+                 const std::vector<OptionDescription>& options) {
+  for (const OptionDescription& option : options) keys.insert(group + "." + option.key);
+}
+
+std::set<std::string> keys_of_data(const Configuration& configuration) {
+  const DataSetEntry& entry = find_data_set(configuration.dataset.type);
+  std::set<std::string> of_a_trial;
+  insert_keys(of_a_trial, "dataset", entry.trial_options);
+  std::set<std::string> keys{"seed", "dataset.type"};
+  insert_keys(keys, "dataset", entry.options);
+  std::erase_if(keys, [&](const std::string& key) { return of_a_trial.contains(key); });
+  return keys;
+}
+
+std::string settings_text(const Configuration& configuration, const std::set<std::string>& keys) {
+  std::string text;
+  for (const auto& [key, value] : configuration.in_force) {
+    if (keys.contains(key)) text.append(key).append("=").append(value).append("\n");
+  }
+  return text;
 }
 
 }  // namespace
 
-Pictures::Pictures(const Configuration& configuration, RegistrationCache* cache) {
+std::unique_ptr<const DataSet> open_data_set(const Configuration& configuration) {
+  std::unique_ptr<const DataSet> data;
   with_origin(configuration, [&] {
-    // A noise that cannot be is said before a folder is opened.
-    configuration.added_noise.noise_covariance("dataset.added_noise.");
-    source_ = open_source(configuration);
-    registrar_ = std::make_unique<PairRegistrar>(*source_, configuration.front_end.features,
+    const DataSetEntry& entry = find_data_set(configuration.dataset.type);
+    data = entry.open(configuration.dataset.values, seed_of(configuration));
+  });
+  return data;
+}
+
+Pictures::Pictures(const Configuration& configuration, RegistrationCache* cache) {
+  with_origin(configuration, [&] { require_pictures(configuration); });
+  data_ = open_data_set(configuration);
+  with_origin(configuration, [&] {
+    registrar_ = std::make_unique<PairRegistrar>(source(), configuration.front_end.features,
                                                  configuration.front_end.registration,
                                                  seed_of(configuration), cache);
   });
 }
 
+std::string data_settings(const Configuration& configuration) {
+  return settings_text(configuration, keys_of_data(configuration));
+}
+
 std::string picture_settings(const Configuration& configuration) {
-  std::string text;
-  for (const auto& [key, value] : configuration.in_force) {
-    const bool counts =
-        key == "seed" || key.starts_with("dataset.") || key.starts_with("front_end.");
-    if (counts && !is_of_a_trial(key)) text.append(key).append("=").append(value).append("\n");
-  }
-  return text;
+  std::set<std::string> keys = keys_of_data(configuration);
+  FrontEndOptions front_end;
+  OptionTable of_registrations;
+  front_end.describe_registration(of_registrations);
+  insert_keys(keys, "front_end", of_registrations.descriptions());
+  return settings_text(configuration, keys);
 }
 
 Survey::Survey(const Configuration& configuration, RegistrationCache* cache)
@@ -84,27 +107,14 @@ Survey::Survey(std::shared_ptr<Pictures> pictures, const Configuration& configur
 }
 
 void Survey::open(const Configuration& configuration, const TrialNoise& noise) {
-  const FrameSource* source = &pictures_->source();
-  AddedNoise added{Eigen::Matrix3d::Zero(), noise.seed, noise.trial};
-  if (const auto* simulated = dynamic_cast<const SimulatedSurvey*>(source)) {
-    const SimulatedSurveyOptions& options = configuration.simulation;
-    measured_ = std::make_unique<SimulatedSurvey>(simulated->remeasured(
-        options.odometry, options.altitude.altimeter_sigma_m, noise.seed, noise.trial));
-    source = measured_.get();
-    if (!source->has_odometry()) {
-      added.covariance = options.odometry.noise_covariance("dataset.odometry.");
-    }
-  } else {
-    added.covariance = configuration.added_noise.noise_covariance("dataset.added_noise.");
-  }
-  const bool wants_visual_odometry =
-      configuration.dataset == DatasetType::image_folder &&
-      configuration.folder_odometry == FolderOdometry::visual_odometry;
-  if (!source->has_odometry() || wants_visual_odometry) {
+  Trial trial = pictures_->data().trial(configuration.dataset.values, noise);
+  measured_ = std::move(trial.frames);
+  const AddedNoise added{trial.added_noise, noise.seed, noise.trial};
+  if (!measured().has_odometry() || trial.visual_odometry) {
     visual_odometry_ = std::make_unique<VisualOdometry>(
-        *source, pictures_->registrar(), configuration.front_end.visual_odometry, added);
+        measured(), pictures_->registrar(), configuration.front_end.visual_odometry, added);
   } else if (!added.covariance.isZero(0.0)) {
-    noisy_odometry_ = std::make_unique<NoisyOdometry>(*source, added);
+    noisy_odometry_ = std::make_unique<NoisyOdometry>(measured(), added);
   }
 }
 

@@ -9,6 +9,7 @@ namespace {
 constexpr const char* kSchema = R"sql(
 CREATE TABLE study (key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;
 CREATE TABLE configuration (key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;
+CREATE TABLE data_file (file TEXT PRIMARY KEY, hash TEXT NOT NULL) WITHOUT ROWID;
 CREATE TABLE axis (axis INTEGER PRIMARY KEY, name TEXT NOT NULL, key TEXT NOT NULL);
 CREATE TABLE axis_value (axis INTEGER NOT NULL REFERENCES axis, place INTEGER NOT NULL,
                          label TEXT NOT NULL, PRIMARY KEY (axis, place)) WITHOUT ROWID;
@@ -23,7 +24,8 @@ CREATE TABLE metric (metric INTEGER PRIMARY KEY, name TEXT NOT NULL UNIQUE,
 CREATE TABLE session (session INTEGER PRIMARY KEY, manifest TEXT NOT NULL);
 CREATE TABLE run (run INTEGER PRIMARY KEY, cell INTEGER NOT NULL REFERENCES cell,
                   trial INTEGER NOT NULL, estimator INTEGER NOT NULL REFERENCES estimator,
-                  outcome TEXT NOT NULL, log_hash TEXT NOT NULL, jobs INTEGER NOT NULL,
+                  outcome TEXT NOT NULL, fault TEXT NOT NULL, log_hash TEXT NOT NULL,
+                  jobs INTEGER NOT NULL,
                   session INTEGER NOT NULL REFERENCES session,
                   UNIQUE (cell, trial, estimator));
 CREATE TABLE value (run INTEGER NOT NULL REFERENCES run, metric INTEGER NOT NULL REFERENCES metric,
@@ -51,7 +53,7 @@ void insert_words(SQLite::Database& database, const std::string& table, const Wo
 }
 
 template <class... Values>
-void insert_row(SQLite::Statement& insert, const Values&... values) {
+void run_with(SQLite::Statement& insert, const Values&... values) {
   SQLite::bind(insert, values...);
   insert.exec();
   insert.reset();
@@ -65,18 +67,18 @@ void insert_cells(SQLite::Database& database, const StudyDescription& study) {
   SQLite::Statement axis(database, "INSERT INTO axis VALUES (?, ?, ?)");
   SQLite::Statement axis_value(database, "INSERT INTO axis_value VALUES (?, ?, ?)");
   for (std::size_t a = 0; a < study.axes.size(); ++a) {
-    insert_row(axis, number(a), study.axes[a].name, study.axes[a].key);
+    run_with(axis, number(a), study.axes[a].name, study.axes[a].key);
     for (std::size_t place = 0; place < study.axes[a].labels.size(); ++place) {
-      insert_row(axis_value, number(a), number(place), study.axes[a].labels[place]);
+      run_with(axis_value, number(a), number(place), study.axes[a].labels[place]);
     }
   }
   SQLite::Statement cell(database, "INSERT INTO cell VALUES (?, ?, ?)");
   SQLite::Statement cell_value(database, "INSERT INTO cell_value VALUES (?, ?, ?)");
   for (std::size_t c = 0; c < study.cell_count(); ++c) {
-    insert_row(cell, number(c), study.label_of(c), study.association_of(c));
+    run_with(cell, number(c), study.label_of(c), study.association_of(c));
     const std::vector<std::size_t> places = study.places_of(c);
     for (std::size_t a = 0; a < places.size(); ++a) {
-      insert_row(cell_value, number(c), number(a), number(places[a]));
+      run_with(cell_value, number(c), number(a), number(places[a]));
     }
   }
 }
@@ -92,6 +94,15 @@ std::vector<std::string> words_of(const std::string& text) {
   return words;
 }
 
+Words read_words(SQLite::Database& database, const char* query) {
+  Words words;
+  SQLite::Statement select(database, query);
+  while (select.executeStep()) {
+    words.emplace_back(select.getColumn(0).getString(), select.getColumn(1).getString());
+  }
+  return words;
+}
+
 std::string study_word(SQLite::Database& database, const std::string& key) {
   SQLite::Statement select(database, "SELECT value FROM study WHERE key = ?");
   select.bind(1, key);
@@ -99,6 +110,21 @@ std::string study_word(SQLite::Database& database, const std::string& key) {
 }
 
 }  // namespace
+
+void write_labels(SQLite::Database& database, const StudyDescription& study) {
+  SQLite::Statement axis(database, "UPDATE axis SET name = ? WHERE axis = ?");
+  SQLite::Statement label(database, "UPDATE axis_value SET label = ? WHERE axis = ? AND place = ?");
+  for (std::size_t a = 0; a < study.axes.size(); ++a) {
+    run_with(axis, study.axes[a].name, number(a));
+    for (std::size_t place = 0; place < study.axes[a].labels.size(); ++place) {
+      run_with(label, study.axes[a].labels[place], number(a), number(place));
+    }
+  }
+  SQLite::Statement cell(database, "UPDATE cell SET label = ? WHERE cell = ?");
+  for (std::size_t c = 0; c < study.cell_count(); ++c) {
+    run_with(cell, study.label_of(c), number(c));
+  }
+}
 
 std::string words_text(const std::vector<std::string>& words) {
   std::string text;
@@ -114,11 +140,12 @@ void create_schema(SQLite::Database& database, const StudyDescription& study) {
                 {"metrics", words_text(study.metrics)},
                 {"trials", std::to_string(study.trials)}});
   insert_words(database, "configuration", study.configuration);
+  insert_words(database, "data_file", study.data);
   insert_cells(database, study);
   SQLite::Statement estimator(database, "INSERT INTO estimator VALUES (?, ?, ?)");
-  insert_row(estimator, 0, std::string(kDeadReckoning), std::string());
+  run_with(estimator, 0, std::string(kDeadReckoning), std::string());
   for (std::size_t e = 0; e < study.estimators.size(); ++e) {
-    insert_row(estimator, number(e + 1), study.estimators[e].name, study.estimators[e].type);
+    run_with(estimator, number(e + 1), study.estimators[e].name, study.estimators[e].type);
   }
   database.exec("PRAGMA application_id = " + std::to_string(kResultApplicationId));
   database.exec("PRAGMA user_version = " + std::to_string(kResultSchemaVersion));
@@ -144,12 +171,30 @@ StudyDescription read_study(SQLite::Database& database) {
     study.estimators.push_back(
         {estimators.getColumn(0).getString(), estimators.getColumn(1).getString()});
   }
-  SQLite::Statement configuration(database, "SELECT key, value FROM configuration ORDER BY key");
-  while (configuration.executeStep()) {
-    study.configuration.emplace_back(configuration.getColumn(0).getString(),
-                                     configuration.getColumn(1).getString());
-  }
+  study.configuration = read_words(database, "SELECT key, value FROM configuration ORDER BY key");
+  study.data = read_words(database, "SELECT file, hash FROM data_file ORDER BY file");
   return study;
+}
+
+std::string data_difference(const StudyDescription& there, const StudyDescription& here) {
+  const std::map<std::string, std::string> old(there.data.begin(), there.data.end());
+  const std::map<std::string, std::string> now(here.data.begin(), here.data.end());
+  std::vector<std::string> changes;
+  for (const auto& [file, hash] : now) {
+    const auto found = old.find(file);
+    if (found == old.end()) changes.push_back(file + " is new");
+    if (found != old.end() && found->second != hash) changes.push_back(file + " has changed");
+  }
+  for (const auto& [file, hash] : old) {
+    if (!now.contains(file)) changes.push_back(file + " is gone");
+  }
+  constexpr std::size_t kShown = 3;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(changes.size(), kShown); ++i) {
+    text += (i > 0 ? "; " : "") + changes[i];
+  }
+  if (changes.size() > kShown) text += "; and " + std::to_string(changes.size() - kShown) + " more";
+  return text;
 }
 
 std::string difference(const StudyDescription& there, const StudyDescription& here) {

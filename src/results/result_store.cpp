@@ -136,9 +136,15 @@ ResultStore ResultStore::write(const fs::path& folder, const StudyDescription& s
     SQLite::Database& sqlite = *database->sqlite_;
     const Kind kind = kind_of(sqlite, file);
     if (kind == Kind::store) {
-      const std::string differs = difference(read_study(sqlite), study);
+      const StudyDescription there = read_study(sqlite);
+      const std::string differs = difference(there, study);
       if (!differs.empty()) {
         throw InputError(file.string(), "holds results of another configuration (" + differs +
+                                            "); use another --out, or remove the folder");
+      }
+      const std::string changes = data_difference(there, study);
+      if (!changes.empty()) {
+        throw InputError(file.string(), "holds results of other data (" + changes +
                                             "); use another --out, or remove the folder");
       }
     }
@@ -146,6 +152,7 @@ ResultStore ResultStore::write(const fs::path& folder, const StudyDescription& s
     sqlite.exec("PRAGMA synchronous = NORMAL");
     SQLite::Transaction transaction(sqlite);
     if (kind == Kind::empty) create_schema(sqlite, study);
+    write_labels(sqlite, study);
     SQLite::Statement trials(
         sqlite,
         "UPDATE study SET value = CAST(max(CAST(value AS INTEGER), ?) AS TEXT) "
@@ -201,7 +208,7 @@ std::vector<RunRecord> ResultStore::runs() const {
     std::vector<RunRecord> all;
     std::map<std::int64_t, std::size_t> place_of_run;
     SQLite::Statement runs(*database_->sqlite_,
-                           "SELECT run, cell, trial, name, outcome, log_hash, jobs FROM run "
+                           "SELECT run, cell, trial, name, outcome, log_hash, jobs, fault FROM run "
                            "JOIN estimator USING (estimator) ORDER BY cell, trial, estimator");
     while (runs.executeStep()) {
       RunRecord run;
@@ -211,6 +218,7 @@ std::vector<RunRecord> ResultStore::runs() const {
       run.outcome = runs.getColumn(4).getString();
       run.log_hash = runs.getColumn(5).getString();
       run.jobs = runs.getColumn(6).getInt();
+      run.fault = runs.getColumn(7).getString();
       place_of_run[runs.getColumn(0).getInt64()] = all.size();
       all.push_back(std::move(run));
     }
@@ -243,12 +251,12 @@ void ResultStore::add(const RunRecord& run) {
   database_->guard([&] {
     SQLite::Database& sqlite = *database_->sqlite_;
     SQLite::Transaction transaction(sqlite, SQLite::TransactionBehavior::IMMEDIATE);
-    SQLite::Statement insert(
-        sqlite,
-        "INSERT OR IGNORE INTO run (cell, trial, estimator, outcome, log_hash, jobs, session) "
-        "SELECT ?, ?, estimator, ?, ?, ?, ? FROM estimator WHERE name = ?");
-    SQLite::bind(insert, number(run.key.cell), number(run.key.trial), run.outcome, run.log_hash,
-                 run.jobs, database_->session_, run.key.estimator);
+    SQLite::Statement insert(sqlite,
+                             "INSERT OR IGNORE INTO run (cell, trial, estimator, outcome, fault, "
+                             "log_hash, jobs, session) "
+                             "SELECT ?, ?, estimator, ?, ?, ?, ?, ? FROM estimator WHERE name = ?");
+    SQLite::bind(insert, number(run.key.cell), number(run.key.trial), run.outcome, run.fault,
+                 run.log_hash, run.jobs, database_->session_, run.key.estimator);
     if (insert.exec() == 0) return;
     const std::int64_t id = sqlite.getLastInsertRowid();
     SQLite::Statement metric(sqlite, "INSERT OR IGNORE INTO metric (name, is_cost) VALUES (?, ?)");

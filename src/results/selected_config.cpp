@@ -66,15 +66,17 @@ class StudyValues {
     const std::string* value = fixed(key);
     return value == nullptr ? otherwise : *value;
   }
+  /// Of every key, swept or not.
+  std::map<std::string, std::string> words() const {
+    std::map<std::string, std::string> words = raw_swept_;
+    words.insert(values_.begin(), values_.end());
+    return words;
+  }
 
  private:
-  // The values as they were given; the labels stand for them unless the study has others.
   std::vector<std::string> values_of_axis(std::size_t a) const {
-    const std::string prefix = "sweep." + std::to_string(a) + ".";
-    const std::string* values = fixed(prefix + "values");
-    const std::string* labels = fixed(prefix + "labels");
-    if (values == nullptr || labels == nullptr || *values == *labels) return study_.axes[a].labels;
-    return items_of(*values);
+    const std::string* values = fixed("sweep." + std::to_string(a) + ".values");
+    return values == nullptr ? study_.axes[a].labels : items_of(*values);
   }
 
   void add_axis(std::size_t a, const Selection& selection) {
@@ -104,32 +106,18 @@ class StudyValues {
   std::map<std::string, std::string> raw_swept_;
 };
 
-// Of the keys that a study's data set and loop candidates have.
-Configuration defaults_of(const StudyValues& values, const EstimatorRegistry& registry) {
-  Settings settings;
-  for (const auto& [key, otherwise] : {std::pair("dataset.type", "simulated"),
-                                       std::pair("front_end.candidates.method", "distance")}) {
-    settings.put({key, OptionValue::scalar(values.word(key, otherwise)),
-                  std::string(key) + " of the study"});
-  }
-  return configure(settings, ConfigurationKind::single, registry);
-}
-
-// Keys of a configuration without its estimator. What the table does not know is a comparison's.
-std::vector<ConfigLine> common_lines(const StudyValues& values, const EstimatorRegistry& registry) {
+// Keys of a configuration without its estimator. What is not among them is a comparison's.
+std::vector<ConfigLine> common_lines(const StudyValues& values) {
   std::vector<ConfigLine> lines;
-  for (const auto& [key, default_value] : defaults_of(values, registry).in_force) {
+  for (const OptionDescription& option : keys_in_force(values.words())) {
+    const std::string& key = option.key;
     if (const ConfigLine* swept = values.swept(key)) {
       lines.push_back(*swept);
       continue;
     }
     const std::string* value = values.fixed(key);
-    if (value == nullptr) continue;
-    // These two are in the defaults as the study has them.
-    const bool says_what =
-        key == "dataset.type" || (key == "front_end.candidates.method" && *value != "distance");
-    if (*value == default_value && !says_what) continue;
-    lines.push_back({key, yaml_value(*value, is_list_text(default_value)), ""});
+    if (value == nullptr || (*value == option.default_value && key != "dataset.type")) continue;
+    lines.push_back({key, yaml_value(*value, option.type.starts_with("list")), ""});
   }
   return lines;
 }
@@ -230,7 +218,7 @@ std::string selected_configuration(const StudyDescription& study, const Selectio
   if (!selection.chosen)
     throw InputError("no estimator was chosen that a configuration could have");
   const StudyValues values(study, selection);
-  std::vector<ConfigLine> lines = common_lines(values, registry);
+  std::vector<ConfigLine> lines = common_lines(values);
   for (ConfigLine& line : estimator_lines(study, *selection.chosen, values, registry)) {
     lines.push_back(std::move(line));
   }

@@ -10,6 +10,7 @@
 #include <gmock/gmock.h>
 
 #include "apps/command_line.hpp"
+#include "fathom/core/files.hpp"
 #include "fathom/core/text.hpp"
 #include "fathom/results/result_store.hpp"
 
@@ -17,6 +18,7 @@ namespace fathom::test {
 namespace {
 
 namespace fs = std::filesystem;
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 constexpr const char* kStudy = R"(
@@ -126,6 +128,42 @@ TEST_F(Studies, InterruptedItSaysHowToGoOn) {
   EXPECT_EQ(ended.status, 130);
   EXPECT_THAT(ended.err, HasSubstr("The same command goes on from there."));
   EXPECT_FALSE(fs::exists(path("out/report.html")));
+}
+
+// Old and new data never meet in one mean.
+TEST_F(Studies, OtherDataAreRefusedByTheNameOfTheFile) {
+  write("s.yaml", kStudy);
+  fathom_done({"simulate", "s.yaml", "--out", "data"});
+  write("f.yaml",
+        "dataset: {type: image_folder, path: data}\nfront_end: {keyframes: {separation_frames: 3}, "
+        "candidates: {max_distance_m: 1.6}}\nestimators: [{type: ekf}]\n");
+  const Arguments again{"compare", "f.yaml", "--out", "out", "--no-cache", "--no-mosaic"};
+  fathom_done(again);
+  fathom_done(again);
+  const auto pictures = path("data/mav0/cam0/data");
+  std::vector<fs::path> files(fs::directory_iterator(pictures), {});
+  std::sort(files.begin(), files.end());
+  fs::copy_file(files[0], path("kept.png"));
+  fs::copy_file(files[1], files[0], fs::copy_options::overwrite_existing);
+  EXPECT_THAT(refusal(again), AllOf(HasSubstr("holds results of other data ("),
+                                    HasSubstr(files[0].filename().string() + " has changed")));
+  fs::copy_file(path("kept.png"), files[0], fs::copy_options::overwrite_existing);
+  fathom_done(again);
+  // The last row of a table cut off.
+  const std::string csv = "data/mav0/state_groundtruth_estimate0/data.csv";
+  std::string text = read_file(path(csv));
+  text.erase(text.rfind('\n', text.size() - 2) + 1);
+  write(csv, text);
+  EXPECT_THAT(refusal(again), HasSubstr("state_groundtruth_estimate0/data.csv has changed"));
+}
+
+TEST_F(Studies, JobsAreThoseThatCanBeAtWork) {
+  write("s.yaml", kStudy);
+  fathom_done({"compare", "s.yaml", "--out", "out", "--trials", "1", "--jobs", "1000"});
+  const ResultStore store = ResultStore::open(path("out"));
+  const int trials = static_cast<int>(store.study().cell_count());
+  for (const RunRecord& run : store.runs()) EXPECT_EQ(run.jobs, trials);
+  EXPECT_THAT(store.manifests().front(), HasSubstr("\"jobs\": " + std::to_string(trials)));
 }
 
 TEST_F(Studies, MoreTrialsAreAddedToWhatIsThere) {

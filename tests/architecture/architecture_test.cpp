@@ -152,7 +152,7 @@ TEST(IncludeRules, RefuseWhatTheTableDoesNotAllow) {
       {"src/geometry/a.cpp", "<opencv2/core.hpp>", "not for this folder"},
       {"src/harness/a.cpp", "<opencv2/core.hpp>", "not for this folder"},
       {"estimators/ekf/ekf.cpp", "<ceres/problem.h>", "not for this folder"},
-      {"src/datasets/world.cpp", "<yaml-cpp/yaml.h>", "not for this folder"},
+      {"src/datasets/simulated/world.cpp", "<yaml-cpp/yaml.h>", "not for this folder"},
       {"include/fathom/harness/a.hpp", "<nlohmann/json.hpp>", "not for this folder"},
       {"include/fathom/report/a.hpp", "<nlohmann/json.hpp>", "not for this folder"},
       {"apps/report_command.cpp", "<cairo.h>", "not for this folder"},
@@ -168,7 +168,7 @@ TEST(IncludeRules, AllowWhatTheTableAllows) {
   const std::vector<Case> cases{
       {"src/vision/a.cpp", "\"fathom/core/random.hpp\"", ""},
       {"src/vision/a.cpp", "<opencv2/core.hpp>", ""},
-      {"src/datasets/camera_yaml.cpp", "<yaml-cpp/yaml.h>", ""},
+      {"src/datasets/image_folder/camera_yaml.cpp", "<yaml-cpp/yaml.h>", ""},
       {"src/datasets/a.cpp", "\"fathom/vision/camera.hpp\"", ""},
       {"src/harness/a.cpp", "\"build_info.hpp\"", ""},
       {"src/report/a.cpp", "\"fathom/results/result_store.hpp\"", ""},

@@ -55,7 +55,7 @@ const std::vector<ThirdParty>& third_parties() {
         "include/fathom/report/match_picture.hpp", "include/fathom/report/mosaic.hpp",
         "include/fathom/report/picture.hpp", "apps/"}},
       {"ceres/", {"estimators/ceres_pose_graph/"}},
-      {"yaml-cpp/", {"src/configuration/", "src/datasets/camera_yaml.cpp"}},
+      {"yaml-cpp/", {"src/configuration/", "src/datasets/image_folder/camera_yaml.cpp"}},
       {"SQLiteCpp/", {"src/results/", "src/front_end/registration_store.cpp"}},
       {"sqlite3.h", {"src/results/", "src/front_end/registration_store.cpp"}},
       {"nlohmann/", {"src/results/", "src/harness/", "src/report/"}},

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "configuration/configured.hpp"
+#include "fathom/datasets/simulated_survey.hpp"
 #include "fathom/estimators/builtin.hpp"
 #include "support/input_error.hpp"
 
@@ -31,7 +32,8 @@ std::string in_force(const Configuration& configuration, const std::string& key)
 
 TEST(Configure, NothingGivenIsAllDefaults) {
   const Configuration configuration = configured("");
-  EXPECT_EQ(configuration.dataset, DatasetType::simulated);
+  EXPECT_EQ(configuration.dataset.type, "simulated");
+  EXPECT_TRUE(configuration.dataset.values.empty());
   EXPECT_EQ(configuration.seed, Configuration{}.seed);
   EXPECT_EQ(configuration.front_end.separation_frames, FrontEndOptions{}.separation_frames);
   ASSERT_EQ(configuration.estimators.size(), 1u);
@@ -55,9 +57,10 @@ TEST(Configure, SetsEveryLevel) {
       "estimator: {type: ekf, gate_probability: 0.99}\n");
   EXPECT_EQ(configuration.seed, 42);
   EXPECT_EQ(configuration.alignment, Alignment::se2);
-  EXPECT_EQ(configuration.simulation.mission.type, MissionType::kWaypoints);
-  EXPECT_THAT(configuration.simulation.mission.waypoints_m, ElementsAre(0, 0, 5, 0, 5, 4));
-  EXPECT_EQ(configuration.simulation.camera.cx, 310.5);
+  const auto simulation = options_of<SimulatedSurveyOptions>(configuration.dataset.values);
+  EXPECT_EQ(simulation.mission.type, MissionType::kWaypoints);
+  EXPECT_THAT(simulation.mission.waypoints_m, ElementsAre(0, 0, 5, 0, 5, 4));
+  EXPECT_EQ(simulation.camera.cx, 310.5);
   EXPECT_EQ(configuration.front_end.separation_frames, 4);
   EXPECT_EQ(configuration.front_end.features.type, "orb");
   EXPECT_TRUE(configuration.front_end.features.clahe);
@@ -91,10 +94,12 @@ TEST(Configure, KnowsTheKeysThatEveryConfigurationShares) {
 
 TEST(Configure, RefusesKeysThatTheDecisionIgnores) {
   EXPECT_THAT(refusal("front_end:\n  decision: {method: inliers, max_false_alarms: 0.1}\n"),
-              HasSubstr("config.yaml:2: front_end.decision.max_false_alarms: decision.method "
-                        "inliers has no use for it and would ignore it"));
-  EXPECT_THAT(refusal("front_end: {ransac: {score: paper}}\n"),
-              HasSubstr("front_end.ransac.score: decision.method false_alarms has no use for it"));
+              HasSubstr("config.yaml:2: front_end.decision.max_false_alarms: "
+                        "front_end.decision.method inliers has no use for it and would ignore it"));
+  EXPECT_THAT(
+      refusal("front_end: {ransac: {score: paper}}\n"),
+      HasSubstr(
+          "front_end.ransac.score: front_end.decision.method false_alarms has no use for it"));
   const std::string limit = "front_end.decision.max_false_alarms";
   const std::string score = "front_end.ransac.score";
   const Configuration usual = configured("front_end: {decision: {max_false_alarms: 1.0e-5}}\n");
@@ -108,7 +113,8 @@ TEST(Configure, RefusesKeysThatTheDecisionIgnores) {
 
 TEST(Configure, WhatIsInForceReadsBack) {
   const Configuration first = configured(
-      "seed: 3\ndataset: {mission: {waypoints_m: [0, 0, 1, 1]}, altitude: {base_m: 1.7}}\n"
+      "seed: 3\ndataset: {mission: {type: waypoints, waypoints_m: [0, 0, 1, 1]}, altitude: "
+      "{base_m: 1.7}}\n"
       "front_end: {matching: {ratio: 0.1}}\n");
   EXPECT_EQ(in_force(first, "seed"), "3");
   EXPECT_EQ(in_force(first, "front_end.matching.ratio"), "0.1");
@@ -121,10 +127,13 @@ TEST(Configure, WhatIsInForceReadsBack) {
 
 TEST(Configure, RefusesKeysThatTheCandidatesMethodIgnores) {
   const std::vector<std::pair<std::string, std::string>> cases{
-      {"{probability: 0.9}", "candidates.probability: candidates.method distance has no use"},
-      {"{min_overlap: 0.9}", "candidates.min_overlap: candidates.method distance has no use"},
+      {"{probability: 0.9}",
+       "candidates.probability: front_end.candidates.method distance has no use"},
+      {"{min_overlap: 0.9}",
+       "candidates.min_overlap: front_end.candidates.method distance has no use"},
       {"{method: mahalanobis, min_overlap: 0.9}", "candidates.method mahalanobis has no use"},
-      {"{method: overlap, max_distance_m: 2}", "candidates.max_distance_m: candidates.method"},
+      {"{method: overlap, max_distance_m: 2}",
+       "candidates.max_distance_m: front_end.candidates.method"},
       {"{method: overlap, probability: 0.9}", "candidates.method overlap has no use"}};
   for (const auto& [candidates, message] : cases) {
     EXPECT_THAT(input_error_of([&, &text = candidates] {
@@ -207,7 +216,9 @@ TEST(Configure, RefusesWrongTypesAndRangesWithTheBound) {
 }
 
 TEST(Configure, TheTypeOfTheDataSetSaysWhichKeysThereAre) {
-  EXPECT_EQ(configured("dataset: {path: a, type: image_folder}\n").dataset_path, "a");
+  const auto folder = configured("dataset: {path: a, type: image_folder}\n").dataset;
+  EXPECT_EQ(folder.type, "image_folder");
+  EXPECT_THAT(folder.values.at("path").items, ElementsAre("a"));
   EXPECT_THAT(refusal("dataset: {type: g2o, mission: {legs: 2}}\n"),
               HasSubstr("unknown key 'dataset.mission.legs'"));
   EXPECT_THAT(refusal("dataset: {path: a}\n"), HasSubstr("unknown key 'dataset.path'"));
@@ -215,17 +226,33 @@ TEST(Configure, TheTypeOfTheDataSetSaysWhichKeysThereAre) {
 
 TEST(Configure, ListsTheDataSetsWithTheirOptions) {
   std::set<std::string> names;
-  for (const DatasetEntry& entry : datasets()) {
+  for (const DataSetEntry& entry : data_sets()) {
     names.insert(entry.name);
     EXPECT_FALSE(entry.options.empty());
+    std::set<std::string> ignored;
+    for (const IgnoredKey& one : entry.make_options()->ignored_keys()) ignored.insert(one.key);
     std::string text = "dataset.type: " + entry.name + "\n";
     for (const OptionDescription& option : entry.options) {
+      if (ignored.contains(option.key)) continue;
       const std::string value = option.default_value.empty() ? "''" : option.default_value;
       text += "dataset." + option.key + ": " + value + "\n";
     }
     EXPECT_NO_THROW(configured(text)) << text;
   }
   EXPECT_THAT(names, ElementsAre("g2o", "image_folder", "simulated"));
+}
+
+TEST(Configure, RefusesKeysThatTheMissionIgnores) {
+  EXPECT_THAT(refusal("dataset:\n  mission: {type: sweep, loop_length_m: 3}\n"),
+              HasSubstr("config.yaml:2: dataset.mission.loop_length_m: dataset.mission.type sweep "
+                        "has no use for it and would ignore it"));
+  EXPECT_THAT(refusal("dataset: {mission: {legs: 2, type: single_loop}}\n"),
+              HasSubstr("dataset.mission.legs: dataset.mission.type single_loop has no use"));
+  EXPECT_THAT(refusal("dataset: {mission: {waypoints_m: [0, 0, 1, 1]}}\n"),
+              HasSubstr("dataset.mission.waypoints_m: dataset.mission.type sweep has no use"));
+  const Configuration loop = configured("dataset.mission.type: single_loop\n");
+  EXPECT_EQ(in_force(loop, "dataset.mission.loop_length_m"), "10");
+  EXPECT_EQ(in_force(loop, "dataset.mission.legs"), "(none)");
 }
 
 TEST(Configure, AnOverrideNamesItselfInItsError) {

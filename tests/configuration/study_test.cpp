@@ -5,6 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "fathom/core/random.hpp"
+#include "fathom/datasets/simulated_survey.hpp"
 #include "fathom/estimators/builtin.hpp"
 #include "support/input_error.hpp"
 #include "support/temporary_folder.hpp"
@@ -65,7 +67,8 @@ sweep:
   ASSERT_EQ(study.cells.size(), 12u);
   EXPECT_EQ(study.description.label_of(9), "separation 10, covariance full, max_iterations 10");
   EXPECT_EQ(study.cells[9].front_end.separation_frames, 10);
-  EXPECT_THAT(study.cells[9].simulation.odometry.covariance, ElementsAre(2, 0.5, 0, 2, 0, 1));
+  EXPECT_THAT(options_of<SimulatedSurveyOptions>(study.cells[9].dataset.values).odometry.covariance,
+              ElementsAre(2, 0.5, 0, 2, 0, 1));
   EXPECT_EQ(study.cells[9].estimators[0].values.at("max_iterations").items.front(), "10");
   EXPECT_EQ(study.cells[8].estimators[0].values.at("max_iterations").items.front(), "1");
   EXPECT_EQ(value_of(study, "front_end.keyframes.separation_frames"), "(absent)");
@@ -83,6 +86,77 @@ TEST(ConfigureStudy, ACellsNoiseDoesNotDependOnTheOtherCells) {
   EXPECT_NE(two[0], two[1]);
   EXPECT_EQ(two[0], three[2]);
   EXPECT_EQ(two[1], three[1]);
+}
+
+// Seeds of the values as the shipped studies write them: 1.0e-5, 1.25e-4, 0.01.
+TEST(ConfigureStudy, NoiseIsSeededByValuesAndNotBySpellings) {
+  const auto seeds = [](const std::string& key, const std::string& values) {
+    return study_of("sweep: [{key: " + key + ", values: " + values + "}]\n").noise_seeds;
+  };
+  const std::string distance = "front_end.candidates.max_distance_m";
+  EXPECT_EQ(seeds(distance, "[0.01, 1.0e-5, 1.25e-4, 12]"),
+            seeds(distance, "[1e-2, 0.00001, 0.125e-3, 12.0]"));
+  EXPECT_EQ(seeds(distance, "[0.01]")[0], stream_seed(1, distance + "=0.01,;", 0));
+  EXPECT_EQ(seeds(distance, "[0.00001]")[0], stream_seed(1, distance + "=1.0e-5,;", 0));
+  EXPECT_EQ(seeds(distance, "[0.00122]")[0], stream_seed(1, distance + "=1.22e-3,;", 0));
+  EXPECT_EQ(seeds("dataset.odometry.covariance", "[[1e-5, 0.0, 0, 0.00001, 0, 1e-4]]")[0],
+            stream_seed(1, "dataset.odometry.covariance=1.0e-5,0,0,1.0e-5,0,1.0e-4,;", 0));
+  EXPECT_EQ(seeds("front_end.features.type", "[orb]")[0],
+            stream_seed(1, "front_end.features.type=orb,;", 0));
+}
+
+TEST(ConfigureStudy, TwoSpellingsOfOneValueAreRefused) {
+  const std::string sweep = "sweep: [{key: front_end.candidates.max_distance_m, values: ";
+  EXPECT_THAT(refusal(sweep + "[0.01, 1e-2]}]\n"),
+              HasSubstr("study.yaml:1: sweep.0.values: '0.01' and '1e-2' are the same value"));
+  EXPECT_THAT(refusal(sweep + "[0.01, 1e-2], labels: [a, b]}]\n"),
+              HasSubstr("'a' and 'b' are the same value"));
+  EXPECT_NO_THROW(
+      study_of("dataset.type: image_folder\n"
+               "sweep: [{key: dataset.path, values: [0.01, 1e-2]}]\n"));
+}
+
+TEST(ConfigureStudy, ItsIdentityIsOfValuesAndNotOfSpellingsOrLabels) {
+  const auto identity = [](const std::string& tolerance, const std::string& axis) {
+    return study_of("estimators: [{type: trajectory_iekf, tolerance: " + tolerance +
+                    "}]\nsweep: [{key: front_end.candidates.max_distance_m, " + axis + "}]\n")
+        .description.configuration;
+  };
+  const auto plain = identity("1e-5", "values: [1, 0.001]");
+  EXPECT_EQ(identity("0.00001", "values: [1.0, 1.0e-3]"), plain);
+  EXPECT_EQ(identity("1e-5", "name: far, values: [1, 0.001], labels: [one, two]"), plain);
+  EXPECT_NE(identity("1e-4", "values: [1, 0.001]"), plain);
+  EXPECT_NE(identity("1e-5", "values: [1, 0.002]"), plain);
+}
+
+TEST(ConfigureStudy, ATextForTheTablesIsShortAndNoOtherColumn) {
+  const auto named = [](const std::string& name) {
+    return refusal("sweep: [{key: seed, name: " + name + ", values: [1, 2]}]\n");
+  };
+  EXPECT_THAT(named("trial"), HasSubstr("study.yaml:1: sweep.0.name: 'trial' is another column of "
+                                        "the tables; give the axis another name"));
+  EXPECT_THAT(named("estimator"), HasSubstr("is another column"));
+  EXPECT_THAT(named("association"), HasSubstr("is another column"));
+  EXPECT_NO_THROW(
+      study_of("sweep: [{key: association.mode, name: association, values: [own, shared]}]\n"));
+  EXPECT_THAT(named("\"a\\nb\""), HasSubstr("sweep.0.name: a line break"));
+  EXPECT_THAT(named("''"), HasSubstr("sweep.0.name: a text is empty"));
+  EXPECT_THAT(
+      refusal("sweep: [{key: seed, values: [1, 2], labels: [a, " + std::string(300, 'x') + "]}]\n"),
+      HasSubstr("sweep.0.labels: 'xxxxxxxxxxxxxxxxxxxx…' has 300 characters; a table has "
+                "room for 80"));
+}
+
+// Where the swept value decides which keys have an effect, one cell that uses a key is enough.
+TEST(ConfigureStudy, RefusesAKeyThatNoCellUses) {
+  const std::string sweep = "sweep: [{key: dataset.mission.type, values: [single_loop, sweep]}]\n";
+  const std::string keys = "dataset: {mission: {loop_length_m: 5, legs: 3}}\n";
+  const Study study = study_of(keys + sweep);
+  EXPECT_EQ(value_of(study, "dataset.mission.loop_length_m"), "5");
+  EXPECT_EQ(value_of(study, "dataset.mission.legs"), "3");
+  EXPECT_THAT(refusal("dataset.mission.waypoints_m: [0, 0, 1, 1]\n" + sweep),
+              HasSubstr("study.yaml:1: dataset.mission.waypoints_m: dataset.mission.type "
+                        "single_loop has no use for it"));
 }
 
 TEST(ConfigureStudy, RefusesWhatIsNoSweep) {

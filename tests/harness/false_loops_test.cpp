@@ -109,10 +109,13 @@ TEST(FalseLoops, AreKeysOfAStudy) {
   EXPECT_EQ(study.study.false_loops.kind, FalseLoopKind::grouped);
   EXPECT_EQ(study.study.false_loops.group_size, 3);
   const auto refused = [&](const std::string& text) { return refusal(list + text, kComparison); };
-  EXPECT_THAT(refused("association.false_loops: {share: 0.3, reach: 9}\n"),
-              HasSubstr("association.false_loops.reach: kind random has no use for it"));
-  EXPECT_THAT(refused("association.false_loops: {kind: local}\n"),
-              HasSubstr("association.false_loops.kind: a study without share has no use for it"));
+  EXPECT_THAT(
+      refused("association.false_loops: {share: 0.3, reach: 9}\n"),
+      HasSubstr(
+          "association.false_loops.reach: association.false_loops.kind random has no use for it"));
+  EXPECT_THAT(
+      refused("association.false_loops: {kind: local}\n"),
+      HasSubstr("association.false_loops.kind: association.false_loops.share 0 has no use for it"));
   EXPECT_THAT(refused("association.false_loops: {share: 1}\n"), HasSubstr("<= 0.9"));
   EXPECT_THAT(refusal("association.false_loops: {share: 0.3}\n"), HasSubstr("it is for 'compare'"));
   // A graph's trials differ by their false loops.

@@ -122,8 +122,7 @@ void expect_same_from_disk(const std::string& more) {
   const test::TemporaryFolder folder;
   write_image_folder(Survey(simulation).frames(), folder.path());
   Configuration from_disk = simulation;
-  from_disk.dataset = DatasetType::image_folder;
-  from_disk.dataset_path = folder.path().string();
+  from_disk.dataset = {"image_folder", {{"path", OptionValue::scalar(folder.path().string())}}};
   const Recording read = recorded(from_disk);
   EXPECT_EQ(read.keyframe_times_ns, direct.keyframe_times_ns);
   EXPECT_EQ(pairs_of(read.log), pairs_of(direct.log));
@@ -154,8 +153,7 @@ TEST(Record, AFolderWithoutTruthOrOdometryRunsTheSame) {
   std::filesystem::remove_all(folder.path() / "mav0" / "state_groundtruth_estimate0");
   std::filesystem::remove_all(folder.path() / "mav0" / "odometry0");
   Configuration from_disk = simulation;
-  from_disk.dataset = DatasetType::image_folder;
-  from_disk.dataset_path = folder.path().string();
+  from_disk.dataset = {"image_folder", {{"path", OptionValue::scalar(folder.path().string())}}};
   const Recording recording = recorded(from_disk);
   EXPECT_FALSE(recording.ground_truth);
   EXPECT_TRUE(recording.frame_ground_truth.empty());
@@ -239,9 +237,21 @@ TEST(Record, RefusesWhatItCannotOpen) {
               HasSubstr("dataset.odometry.covariance"));
 }
 
+TEST(Record, RefusesASingleKeyframe) {
+  const auto refused = [](const std::string& separation) {
+    return input_error_of([&] {
+      recorded(small_survey("front_end.keyframes.separation_frames: " + separation + "\n"));
+    });
+  };
+  EXPECT_THAT(refused("33"), HasSubstr("front_end.keyframes.separation_frames: 33 leads beyond the "
+                                       "last of 33 frames, so there is a single keyframe; expected "
+                                       "at most 32"));
+  EXPECT_THAT(refused("33"), HasSubstr("config.yaml:"));
+}
+
 TEST(Survey, RefusesAGraph) {
   EXPECT_THAT(input_error_of([] { Survey(configured("dataset: {type: g2o, path: a}\n")); }),
-              HasSubstr("a g2o graph has no pictures"));
+              HasSubstr("a g2o graph has no pictures; use simulated or image_folder"));
 }
 
 }  // namespace

@@ -211,12 +211,16 @@ TEST(Manifest, HoldsWhatMadeTheResult) {
   const Recording recording = square();
   const Result result =
       evaluated(recording, "trajectory_iekf", {{"max_iterations", OptionValue::scalar("3")}});
-  const json m = json::parse(manifest_json("fathom run x", {{"seed", "7"}, {"a.b", "[1, 2]"}},
-                                           recording, result, builtin_estimators()));
+  const json m =
+      json::parse(manifest_json("fathom run x", {{"seed", "7"}, {"a.b", "[1, 2]"}},
+                                {{"a.png", "00ff"}}, recording, result, builtin_estimators()));
   expect_no_null(m, "manifest");
   EXPECT_EQ(m.at("fathom"), version());
   EXPECT_EQ(m.at("command_line"), "fathom run x");
   EXPECT_EQ(m.at("configuration").at("seed"), "7");
+  EXPECT_EQ(m.at("data").at("files"), 1);
+  EXPECT_EQ(m.at("data").at("fingerprint"), fingerprint_text({{"a.png", "00ff"}}));
+  EXPECT_NE(m.at("data").at("fingerprint"), fingerprint_text({{"a.png", "00fe"}}));
   EXPECT_EQ(m.at("estimator").at("options").at("max_iterations"), "3");
   for (const OptionDescription& option : builtin_estimators().find("trajectory_iekf").options) {
     EXPECT_TRUE(m.at("estimator").at("options").contains(option.key)) << option.key;

@@ -22,6 +22,10 @@ struct Script {
   std::optional<std::size_t> without_covariance;
   std::optional<std::size_t> nan_pose;
   std::function<void()> in_every_call = [] {};
+  std::function<void(UpdateReport&)> spoil_report = [](UpdateReport&) {};
+  std::size_t size_error = 0;  ///< what size() says beyond the truth
+  std::vector<double> loop_weights;
+  std::optional<std::size_t> nan_covariance;
 
   std::vector<std::string> calls;
 };
@@ -35,7 +39,7 @@ class ScriptedEstimator : public Estimator {
     script_.in_every_call();
   }
 
-  std::size_t size() const override { return poses_.size(); }
+  std::size_t size() const override { return poses_.size() + script_.size_error; }
   Pose pose(std::size_t k) const override {
     constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
     return script_.nan_pose == k ? Pose{kNaN, 0, 0} : poses_[k];
@@ -58,6 +62,7 @@ class ScriptedEstimator : public Estimator {
       report.loops.push_back({z.from, z.to, rejected ? LoopFate::rejected : LoopFate::used, 2.5});
     }
     script_.calls.push_back(call);
+    script_.spoil_report(report);
     return report;
   }
 
@@ -69,6 +74,8 @@ class ScriptedEstimator : public Estimator {
 
   std::optional<Eigen::Matrix3d> covariance(std::size_t k) override {
     if (script_.without_covariance == k) return std::nullopt;
+    constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+    if (script_.nan_covariance == k) return Eigen::Matrix3d(Eigen::Matrix3d::Constant(kNaN));
     return Eigen::Matrix3d(Eigen::Matrix3d::Identity() * static_cast<double>(k));
   }
 
@@ -77,6 +84,7 @@ class ScriptedEstimator : public Estimator {
   }
 
   double loss(double chi2) const override { return script_.loss(chi2); }
+  std::vector<double> loop_weights() const override { return script_.loop_weights; }
 
  private:
   Script& script_;

@@ -182,5 +182,45 @@ TEST(ResultStore, TellsCostFromContent) {
   EXPECT_FALSE(is_cost_metric("mean_position_error_m"));
 }
 
+TEST(ResultStore, RefusesToMixData) {
+  const test::TemporaryFolder folder;
+  StudyDescription study = description();
+  study.data = {{"d/1.png", "aa"}, {"d/2.png", "bb"}, {"d/data.csv", "cc"}};
+  ResultStore::write(folder.path(), study, "{}").add(record(0, 0, "plain"));
+  EXPECT_NO_THROW(ResultStore::write(folder.path(), study, "{}"));
+  EXPECT_EQ(ResultStore::open(folder.path()).study().data, study.data);
+  const auto refused = [&](const std::vector<std::pair<std::string, std::string>>& data) {
+    study.data = data;
+    return input_error_of([&] { ResultStore::write(folder.path(), study, "{}"); });
+  };
+  EXPECT_THAT(refused({{"d/1.png", "aa"}, {"d/2.png", "b0"}, {"d/data.csv", "cc"}}),
+              HasSubstr("holds results of other data (d/2.png has changed)"));
+  EXPECT_THAT(refused({{"d/1.png", "aa"}, {"d/data.csv", "cc"}, {"d/3.png", "dd"}}),
+              HasSubstr("(d/3.png is new; d/2.png is gone)"));
+  EXPECT_THAT(refused({}), HasSubstr("d/1.png is gone; d/2.png is gone; d/data.csv is gone"));
+  EXPECT_THAT(refused({{"1", "a"}, {"2", "b"}}), HasSubstr("; and 2 more"));
+}
+
+TEST(ResultStore, LabelsMayChange) {
+  const test::TemporaryFolder folder;
+  StudyDescription study = description();
+  ResultStore::write(folder.path(), study, "{}").add(record(1, 0, "plain"));
+  study.axes[1].name = "drift";
+  study.axes[1].labels = {"calm", "some", "much"};
+  ResultStore::write(folder.path(), study, "{}");
+  const ResultStore store = ResultStore::open(folder.path());
+  EXPECT_EQ(store.study().label_of(1), "separation 5, drift some");
+  EXPECT_EQ(store.runs().size(), 1u);
+}
+
+TEST(ResultStore, KeepsWhatAFaultyEstimatorDid) {
+  const test::TemporaryFolder folder;
+  RunRecord run = record(0, 0, "plain");
+  run.outcome = "numerical_failure";
+  run.fault = "update at keyframe 4: it's \"wrong\"";
+  ResultStore::write(folder.path(), description(), "{}").add(run);
+  EXPECT_EQ(ResultStore::open(folder.path()).runs().front().fault, run.fault);
+}
+
 }  // namespace
 }  // namespace fathom

@@ -13,6 +13,7 @@ namespace {
 
 using test::configured;
 using test::described_study;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -53,7 +54,7 @@ seed: 7
 association: {mode: own}
 evaluation: {alignment: se2, rpe_keyframes: [1, 5], min_overlap: 0.4}
 dataset:
-  mission: {type: single_loop, loop_length_m: 8, waypoints_m: [0, 0, 5, 0]}
+  mission: {type: waypoints, waypoints_m: [0, 0, 5, 0]}
   camera: {distortion: [-0.05, 0.01, 0.001, -0.001, 0]}
 front_end:
   features.type: orb
@@ -84,7 +85,7 @@ TEST(SelectedConfiguration, SaysHowItWasChosenAndNoMoreThanItNeeds) {
 # least total_ms: 12.3 [12, 12.7], 95 % of the mean
 dataset:
   type: simulated
-  mission: {type: single_loop, loop_length_m: 8, waypoints_m: [0, 0, 5, 0]}
+  mission: {type: waypoints, waypoints_m: [0, 0, 5, 0]}
   camera: {distortion: [-0.05, 0.01, 0.001, -0.001, 0]}
 front_end:
   features: {type: orb}
@@ -170,6 +171,16 @@ sweep:
   EXPECT_EQ(configured(config_of(study, 0, {1, 3})).seed, 4);
 }
 
+TEST(SelectedConfiguration, HasTheKeysOfTheStudysMission) {
+  const std::string mission =
+      "dataset: {mission: {type: single_loop, loop_length_m: 3, loop_width_m: 2}}\n";
+  const StudyDescription study = described_study(mission);
+  const Configuration run =
+      configured(selected_configuration(study, chosen(0, study, {0}), {}, builtin_estimators()));
+  EXPECT_EQ(in_force(run).at("dataset.mission.loop_length_m"), "3");
+  EXPECT_EQ(in_force(run).at("dataset.mission.loop_width_m"), "2");
+}
+
 TEST(SelectedConfiguration, PathsSurviveWhateverTheyHold) {
   for (const std::string path : {"a b/it's: #1", "null", "say \"x\"\\n", "[x", "a,{b}", "-"}) {
     StudyDescription study = described_study("dataset: {type: image_folder, path: x}\n");
@@ -179,8 +190,8 @@ TEST(SelectedConfiguration, PathsSurviveWhateverTheyHold) {
     const std::string text =
         selected_configuration(study, chosen(0, study, {0}), {}, builtin_estimators());
     const Configuration run = configured(text);
-    EXPECT_EQ(run.dataset, DatasetType::image_folder);
-    EXPECT_EQ(run.dataset_path, path) << text;
+    EXPECT_EQ(run.dataset.type, "image_folder");
+    EXPECT_THAT(run.dataset.values.at("path").items, ElementsAre(path)) << text;
   }
 }
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "fathom/configuration/config_file.hpp"
-#include "fathom/datasets/simulated_survey.hpp"
+#include "fathom/datasets/data_set.hpp"
 #include "fathom/estimation/registry.hpp"
 #include "fathom/evaluation/alignment.hpp"
 #include "fathom/front_end/options.hpp"
@@ -17,19 +17,11 @@
 
 namespace fathom {
 
-enum class DatasetType { simulated, image_folder, g2o };
-
-/// What `fathom list datasets` shows, and the words of `dataset.type`.
-struct DatasetEntry {
-  std::string name;
-  DatasetType type;
-  std::string help;
-  std::vector<OptionDescription> options;  ///< keys under `dataset.`
+/// The data set of a run or comparison.
+struct DataSetConfiguration {
+  std::string type = data_sets().front().name;
+  DataSetValues values;  ///< as given; the rest are defaults
 };
-const std::vector<DatasetEntry>& datasets();
-
-/// Dead reckoning of an image folder: as recorded, where it is, or of its pictures.
-enum class FolderOdometry { recorded, visual_odometry };
 
 /// One estimator of a run or comparison.
 struct EstimatorConfiguration {
@@ -59,15 +51,13 @@ struct StudyOptions {
       "loop_closures",         "update_ms.median", "update_ms.p95",    "total_ms", "memory_bytes"};
 
   void describe(OptionTable& table);
+  /// Of them those that no result depends on.
+  void describe_session(OptionTable& table);
 };
 
 /// A whole configuration, checked: every key is known and every value within its bounds.
 struct Configuration {
-  DatasetType dataset = DatasetType::simulated;
-  std::string dataset_path;
-  SimulatedSurveyOptions simulation;
-  FolderOdometry folder_odometry = FolderOdometry::recorded;
-  AddedNoiseOptions added_noise;  ///< of an image folder
+  DataSetConfiguration dataset;
   FrontEndOptions front_end;
   /// One for `run`; for `compare` several, of which the first that `association.reference` names
   /// picks the loop candidates.
@@ -79,6 +69,8 @@ struct Configuration {
   /// Every key with its value in force, defaults included, for the manifest. Keys that have no
   /// effect beside the others are left out.
   std::vector<std::pair<std::string, std::string>> in_force;
+  /// The type of every key but those of estimators (OptionDescription).
+  std::map<std::string, std::string> types;
   /// Where each given key was given, for messages of checks across keys.
   std::map<std::string, std::string> origins;
 };
@@ -95,6 +87,21 @@ ConfigurationKind kind_of(const Settings& settings);
 /// setting, the nearest known key or the bound that it breaks.
 Configuration configure(const Settings& settings, ConfigurationKind kind,
                         const EstimatorRegistry& registry);
+
+/// A setting that has no effect beside the others, and what a refusal says of it.
+struct UnusedSetting {
+  std::string key;
+  std::string message;
+};
+
+/// The same, but settings without effect are told and not refused: of a study another cell may have
+/// a use for them.
+Configuration configure(const Settings& settings, ConfigurationKind kind,
+                        const EstimatorRegistry& registry, std::vector<UnusedSetting>& unused);
+
+/// The keys of a run, but for its estimator's, that have an effect where some have these values.
+/// Throws InputError.
+std::vector<OptionDescription> keys_in_force(const std::map<std::string, std::string>& values);
 
 /// The estimator's values from settings whose keys are its own, checked against the entry.
 /// `prefix` is what stands before them in messages.

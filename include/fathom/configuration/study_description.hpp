@@ -30,6 +30,8 @@ struct StudyDescription {
   std::vector<std::string> metrics;  ///< for tables and charts, in this order
   /// Every key that results depend on, with its value; the sweep's too. Neither trials nor jobs.
   std::vector<std::pair<std::string, std::string>> configuration;
+  /// Every file of the data sets with the hash of its content.
+  std::vector<std::pair<std::string, std::string>> data;
 
   std::size_t cell_count() const;
   /// The place on each axis of a cell.

@@ -39,20 +39,23 @@ class ImageFolder : public FrameSource {
   /// Of the file's bytes, which are read once.
   std::uint64_t picture_id(std::size_t i) const override;
   bool has_odometry() const override { return has_odometry_; }
+  /// The pictures and the files of all sensors, each a regular file.
+  std::vector<std::filesystem::path> files() const;
   /// Whether every frame has ground truth.
   bool has_ground_truth() const override { return has_ground_truth_; }
 
  private:
-  void read_frames(const std::filesystem::path& mav0);
-  void read_altitudes(const std::filesystem::path& mav0);
-  void read_odometry(const std::filesystem::path& mav0);
-  void read_ground_truth(const std::filesystem::path& mav0);
+  void read_frames();
+  void read_altitudes();
+  void read_odometry();
+  void read_ground_truth();
 
   struct PictureId {
     std::once_flag once;
     std::uint64_t value = 0;
   };
 
+  std::filesystem::path mav0_;
   Camera camera_;
   std::vector<FrameInfo> infos_;
   std::vector<std::filesystem::path> pictures_;

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "fathom/core/ignored_key.hpp"
 #include "fathom/core/options.hpp"
 #include "fathom/geometry/trajectory.hpp"
 
@@ -26,6 +27,8 @@ struct MissionOptions {
   double frame_rate_hz = 2.0;
 
   void describe(OptionTable& table);
+  /// Keys that the type has no use for.
+  std::vector<IgnoredKey> ignored_keys() const;
 };
 
 /// The true poses of all frames, frame i at i / frame_rate_hz; world: the pose of frame 0, so the

@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "fathom/core/ignored_key.hpp"
 #include "fathom/core/options.hpp"
 #include "fathom/datasets/attitude.hpp"
 #include "fathom/datasets/camera_options.hpp"
@@ -24,6 +25,8 @@ struct AltitudeOptions {
   double altimeter_sigma_m = 0.01;
 
   void describe(OptionTable& table);
+  /// `altimeter_sigma_m` alone.
+  void describe_trial(OptionTable& table);
 };
 
 struct SimulatedSurveyOptions {
@@ -37,6 +40,10 @@ struct SimulatedSurveyOptions {
 
   /// In a config these keys stand under `dataset.`.
   void describe(OptionTable& table);
+  /// Of them those that only say what a trial measures.
+  void describe_trial(OptionTable& table);
+  /// Keys that the kind of mission has no use for.
+  std::vector<IgnoredKey> ignored_keys() const;
 };
 
 /// A survey of a floor by a robot that knows nothing of its truth but what is measured. The

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "fathom/core/ignored_key.hpp"
 #include "fathom/core/options.hpp"
 #include "fathom/front_end/candidates.hpp"
 #include "fathom/vision/features.hpp"
@@ -17,12 +18,6 @@ struct VisualOdometryFallback {
   double sigma_rad = 0.1;
 };
 
-/// A key without effect, and the key whose value takes it away.
-struct IgnoredKey {
-  std::string key;
-  std::string chooser;
-};
-
 struct FrontEndOptions {
   int separation_frames = 10;  ///< a keyframe every so many frames
   CandidateOptions candidates;
@@ -32,6 +27,8 @@ struct FrontEndOptions {
 
   /// In a config these keys stand under `front_end.`.
   void describe(OptionTable& table);
+  /// Of them those that a registration depends on.
+  void describe_registration(OptionTable& table);
 
   /// Keys that the methods chosen have no use for, without `front_end.`.
   std::vector<IgnoredKey> ignored_keys() const;

@@ -5,16 +5,18 @@
 #include <vector>
 
 #include "fathom/configuration/configuration.hpp"
+#include "fathom/datasets/fingerprint.hpp"
 #include "fathom/harness/recording.hpp"
 #include "fathom/harness/result.hpp"
 
 namespace fathom {
 
 /// What made a result: the content of run.json (docs/formats.md): versions, compiler and flags,
-/// CPU, threads, seed, a hash of the measurements, and the whole configuration in force.
+/// CPU, threads, seed, hashes of the data and of the measurements, and the whole configuration in
+/// force.
 std::string manifest_json(const std::string& command_line,
                           const std::vector<std::pair<std::string, std::string>>& configuration,
-                          const Recording& recording, const Result& result,
+                          const Fingerprint& data, const Recording& recording, const Result& result,
                           const EstimatorRegistry& registry);
 
 /// The manifest of a session of a study: versions, build, machine, command line, date, jobs.

@@ -61,11 +61,14 @@ class Recorder {
                    const EstimatorRegistry& registry, const TrialNoise& noise,
                    const Progress& progress = {}) const;
 
+  const DataSet& data() const { return pictures_ ? pictures_->data() : *graph_data_; }
+
   /// The pictures; nothing for a pose graph. Their motions and altitudes may not be those of any
   /// trial.
   const FrameSource* pictures() const;
 
  private:
+  std::unique_ptr<const DataSet> graph_data_;
   std::optional<Recording> graph_;
   std::shared_ptr<Pictures> pictures_;
 };

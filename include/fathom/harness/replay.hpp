@@ -6,6 +6,7 @@
 #include <functional>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include <Eigen/Core>
@@ -43,7 +44,10 @@ struct Replay {
   std::vector<Pose> trajectory;
   /// Of every keyframe; absent where not asked for or not to be had.
   std::optional<std::vector<Eigen::Matrix3d>> covariances;
-  Outcome outcome = Outcome::converged;         ///< the worst of all updates
+  Outcome outcome = Outcome::converged;  ///< the worst of all updates
+  /// What the estimator did that none may do (GuardedEstimator), one line; the outcome is
+  /// `numerical_failure` then. Empty: nothing.
+  std::string fault;
   std::array<std::size_t, 4> outcome_counts{};  ///< of updates, by Outcome
   std::vector<LoopDecision> loops;
   /// What each of them weighs in the end (Estimator::loop_weights); 0 of those that are not used.

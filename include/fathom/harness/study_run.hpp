@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "fathom/configuration/study.hpp"
+#include "fathom/datasets/fingerprint.hpp"
 #include "fathom/estimation/registry.hpp"
 #include "fathom/front_end/registration_cache.hpp"
 #include "fathom/harness/replay.hpp"
@@ -22,7 +23,7 @@ struct StudyProgress {
 };
 
 struct StudyRunOptions {
-  int jobs = 1;  ///< trials at work at the same time
+  int jobs = 1;  ///< trials at work at the same time, at most
   RegistrationCache* registrations = nullptr;
   /// A meter for the thread that calls; none: memory is not measured.
   std::function<std::unique_ptr<MemoryMeter>()> make_meter;
@@ -33,6 +34,13 @@ struct StudyRunOptions {
   /// Set by somebody else to end the study after the trials at work.
   const std::atomic<bool>* stop = nullptr;
 };
+
+/// Every file of the data sets of a study's cells with the hash of its content, each data set
+/// opened once. Throws InputError.
+Fingerprint data_of(const Study& study);
+
+/// Jobs that can be at work: no more than there are trials.
+int jobs_of(const Study& study);
 
 /// Runs what of a study is not yet in its store: every estimator on every trial of every cell, and
 /// dead reckoning beside them. What is stored does not depend on the number of jobs, nor on the

@@ -5,26 +5,31 @@
 #include <string>
 
 #include "fathom/configuration/configuration.hpp"
-#include "fathom/datasets/frame_source.hpp"
+#include "fathom/datasets/data_set.hpp"
 #include "fathom/datasets/noisy_odometry.hpp"
 #include "fathom/front_end/pair_registrar.hpp"
 #include "fathom/front_end/visual_odometry.hpp"
 
 namespace fathom {
 
+/// An error that begins with a key, "dataset.altitude.base_m: …", with the key's origin in front:
+/// "FILE:LINE: dataset.altitude.base_m: …".
+InputError at_origin(const Configuration& configuration, const InputError& error);
+
 /// What all trials of a data set share: its pictures, and their registrations. May be used from
 /// several threads at once.
 class Pictures {
  public:
-  /// The data set must be one of pictures. Registrations are looked up in the cache and kept there,
-  /// where there is one; it must outlive this. Throws InputError.
+  /// Opens the data set, which must be one of pictures. Registrations are looked up in the cache
+  /// and kept there, where there is one; it must outlive this. Throws InputError.
   explicit Pictures(const Configuration& configuration, RegistrationCache* cache = nullptr);
 
-  const FrameSource& source() const { return *source_; }
+  const DataSet& data() const { return *data_; }
+  const FrameSource& source() const { return *data_->frames(); }
   PairRegistrar& registrar() { return *registrar_; }
 
  private:
-  std::unique_ptr<FrameSource> source_;
+  std::unique_ptr<const DataSet> data_;
   std::unique_ptr<PairRegistrar> registrar_;
 };
 
@@ -32,11 +37,11 @@ class Pictures {
 /// which these are the same may share them.
 std::string picture_settings(const Configuration& configuration);
 
-/// The noise streams of one trial: which seed, which trial.
-struct TrialNoise {
-  std::uint64_t seed = 0;
-  std::uint64_t trial = 0;
-};
+/// Opens the data set of a configuration. Throws InputError at the origin of the key that is wrong.
+std::unique_ptr<const DataSet> open_data_set(const Configuration& configuration);
+
+/// All keys that the data set itself depends on, with their values.
+std::string data_settings(const Configuration& configuration);
 
 /// The frames of one trial of a configuration's data set, with dead reckoning whatever its source.
 class Survey {
@@ -60,7 +65,7 @@ class Survey {
   void open(const Configuration& configuration, const TrialNoise& noise);
 
   std::shared_ptr<Pictures> pictures_;
-  std::unique_ptr<FrameSource> measured_;  ///< of a simulation: measured anew in every trial
+  std::unique_ptr<FrameSource> measured_;  ///< where every trial measures anew
   std::unique_ptr<VisualOdometry> visual_odometry_;
   std::unique_ptr<NoisyOdometry> noisy_odometry_;
 };

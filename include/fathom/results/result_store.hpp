@@ -27,6 +27,7 @@ struct RunKey {
 struct RunRecord {
   RunKey key;
   std::string outcome;                    ///< name_of(Outcome); empty for dead reckoning
+  std::string fault;                      ///< what a faulty estimator did, one line; else empty
   std::string log_hash;                   ///< FNV-1a of the measurement log as g2o
   int jobs = 1;                           ///< runs that were at work at the same time
   std::map<std::string, double> metrics;  ///< docs/formats.md lists them
@@ -45,8 +46,8 @@ class ResultStore {
   static ResultStore open(const std::filesystem::path& path);
 
   /// Makes the store of a study in a folder, or goes on with what is there: only with the same
-  /// configuration, else InputError says what differs. `manifest` (JSON) is that of this session.
-  /// One process at a time may write; another one is refused.
+  /// configuration and data, else InputError says what differs. `manifest` (JSON) is that of this
+  /// session. One process at a time may write; another one is refused.
   static ResultStore write(const std::filesystem::path& folder, const StudyDescription& study,
                            const std::string& manifest);
 

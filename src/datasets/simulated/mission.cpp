@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "fathom/core/input_error.hpp"
 
@@ -130,6 +131,19 @@ void MissionOptions::describe(OptionTable& table) {
   table.real("turn_radius_m", turn_radius_m, Range::positive(), "m", "radius of rounded corners");
   table.real("speed_m_s", speed_m_s, Range::positive(), "m/s", "speed along the path");
   table.real("frame_rate_hz", frame_rate_hz, Range::positive(), "Hz", "pictures per second");
+}
+
+std::vector<IgnoredKey> MissionOptions::ignored_keys() const {
+  const std::pair<MissionType, std::vector<const char*>> own_keys[] = {
+      {MissionType::kSweep, {"legs", "leg_length_m", "leg_spacing_m"}},
+      {MissionType::kSingleLoop, {"loop_length_m", "loop_width_m", "loop_overrun_m"}},
+      {MissionType::kWaypoints, {"waypoints_m"}}};
+  std::vector<IgnoredKey> ignored;
+  for (const auto& [other, keys] : own_keys) {
+    if (other == type) continue;
+    for (const char* key : keys) ignored.push_back({key, "type"});
+  }
+  return ignored;
 }
 
 std::vector<StampedPose> fly_mission(const MissionOptions& options, const std::string& prefix) {

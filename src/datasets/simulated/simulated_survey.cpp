@@ -75,6 +75,13 @@ double measured_altitude(double altitude_m, double sigma_m, RandomStream& stream
                    "below zero; expected a number in m well below " + kPrefix + "altitude.base_m");
 }
 
+// The part of the altitude's options that a trial draws.
+struct AltimeterOptions {
+  AltitudeOptions& altitude;
+
+  void describe(OptionTable& table) const { altitude.describe_trial(table); }
+};
+
 std::string metres(double value) {
   char buffer[48];
   std::snprintf(buffer, sizeof buffer, "%.2f m", value);
@@ -135,6 +142,10 @@ void AltitudeOptions::describe(OptionTable& table) {
              "mean altitude of the camera over the floor");
   table.real("amplitude_m", amplitude_m, Range::at_least(0), "m", "of its sine over time");
   table.real("period_s", period_s, Range::positive(), "s", "of its sine over time");
+  describe_trial(table);
+}
+
+void AltitudeOptions::describe_trial(OptionTable& table) {
   table.real("altimeter_sigma_m", altimeter_sigma_m, Range::at_least(0), "m",
              "standard deviation of a measured altitude");
 }
@@ -148,6 +159,16 @@ void SimulatedSurveyOptions::describe(OptionTable& table) {
   table.group("attitude", attitude);
   table.group("water", effects.water);
   table.group("camera_effects", effects.camera);
+}
+
+void SimulatedSurveyOptions::describe_trial(OptionTable& table) {
+  AltimeterOptions altimeter{altitude};
+  table.group("altitude", altimeter);
+  table.group("odometry", odometry);
+}
+
+std::vector<IgnoredKey> SimulatedSurveyOptions::ignored_keys() const {
+  return below("mission", mission.ignored_keys());
 }
 
 // What pictures are rendered from; made when the first one is asked for.

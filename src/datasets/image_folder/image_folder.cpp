@@ -44,21 +44,20 @@ std::optional<fs::path> sensor_csv(const fs::path& mav0, const std::string& sens
 
 }  // namespace
 
-ImageFolder::ImageFolder(const fs::path& path) {
-  const fs::path mav0 = mav0_of(path);
-  camera_ = read_camera_yaml(mav0 / "cam0" / "sensor.yaml");
-  read_frames(mav0);
-  read_altitudes(mav0);
-  read_odometry(mav0);
-  read_ground_truth(mav0);
+ImageFolder::ImageFolder(const fs::path& path) : mav0_(mav0_of(path)) {
+  camera_ = read_camera_yaml(mav0_ / "cam0" / "sensor.yaml");
+  read_frames();
+  read_altitudes();
+  read_odometry();
+  read_ground_truth();
   ids_ = std::vector<PictureId>(pictures_.size());
   ImageFolder::image(0);  // refuses what cannot be read before a run starts
 }
 
-void ImageFolder::read_frames(const fs::path& mav0) {
-  const SensorCsv csv(mav0 / "cam0" / "data.csv", "timestamp, filename");
+void ImageFolder::read_frames() {
+  const SensorCsv csv(mav0_ / "cam0" / "data.csv", "timestamp, filename");
   for (const SensorRow& row : csv.rows()) {
-    const fs::path picture = mav0 / "cam0" / "data" / row.fields[1];
+    const fs::path picture = mav0_ / "cam0" / "data" / row.fields[1];
     std::error_code error;
     if (!fs::is_regular_file(picture, error)) {
       csv.refuse(row, "picture " + picture.string() + " is missing; add it or remove this row");
@@ -70,10 +69,10 @@ void ImageFolder::read_frames(const fs::path& mav0) {
   }
 }
 
-void ImageFolder::read_altitudes(const fs::path& mav0) {
-  const auto csv = sensor_csv(mav0, "altimeter0");
+void ImageFolder::read_altitudes() {
+  const auto csv = sensor_csv(mav0_, "altimeter0");
   if (!csv) {
-    throw InputError(mav0.string(),
+    throw InputError(mav0_.string(),
                      "has no altimeter0/data.csv; without altitude pixels cannot "
                      "become metres");
   }
@@ -85,8 +84,8 @@ void ImageFolder::read_altitudes(const fs::path& mav0) {
   }
 }
 
-void ImageFolder::read_odometry(const fs::path& mav0) {
-  const auto csv = sensor_csv(mav0, "odometry0");
+void ImageFolder::read_odometry() {
+  const auto csv = sensor_csv(mav0_, "odometry0");
   if (!csv) return;
   const OdometrySeries odometry(*csv);
   for (std::size_t i = 0; i < infos_.size(); ++i) {
@@ -98,8 +97,8 @@ void ImageFolder::read_odometry(const fs::path& mav0) {
   has_odometry_ = true;
 }
 
-void ImageFolder::read_ground_truth(const fs::path& mav0) {
-  const auto csv = sensor_csv(mav0, "state_groundtruth_estimate0");
+void ImageFolder::read_ground_truth() {
+  const auto csv = sensor_csv(mav0_, "state_groundtruth_estimate0");
   if (!csv) return;
   const PoseSeries truth(*csv);
   for (FrameInfo& info : infos_) {
@@ -107,6 +106,19 @@ void ImageFolder::read_ground_truth(const fs::path& mav0) {
   }
   has_ground_truth_ = std::ranges::all_of(
       infos_, [](const FrameInfo& info) { return info.ground_truth.has_value(); });
+}
+
+std::vector<fs::path> ImageFolder::files() const {
+  std::vector<fs::path> files = pictures_;
+  for (const auto& sensor : fs::directory_iterator(mav0_)) {
+    for (const char* name : {"data.csv", "sensor.yaml"}) {
+      const fs::path file = sensor.path() / name;
+      std::error_code error;
+      if (fs::is_regular_file(file, error)) files.push_back(file);
+    }
+  }
+  std::ranges::sort(files);
+  return files;
 }
 
 cv::Mat ImageFolder::image(std::size_t i) const {

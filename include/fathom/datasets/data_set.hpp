@@ -1,0 +1,135 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "fathom/core/ignored_key.hpp"
+#include "fathom/core/options.hpp"
+#include "fathom/datasets/frame_source.hpp"
+#include "fathom/measurements/measurement_log.hpp"
+
+namespace fathom {
+
+/// Values by option key, without the `dataset.` of the configuration.
+using DataSetValues = std::map<std::string, OptionValue>;
+
+/// The noise streams of one trial: which seed, which trial.
+struct TrialNoise {
+  std::uint64_t seed = 0;
+  std::uint64_t trial = 0;
+};
+
+/// What one trial makes of the pictures of a data set.
+struct Trial {
+  /// The frames as this trial measures them, with the same pictures; none: the data set's own.
+  std::unique_ptr<FrameSource> frames;
+  /// Covariance of the noise that is to be added to each motion, recorded or of visual odometry.
+  Eigen::Matrix3d added_noise = Eigen::Matrix3d::Zero();
+  /// Whether motions are to be those of visual odometry though there is odometry.
+  bool visual_odometry = false;
+};
+
+/// A data set, opened: either pictures or a pose graph. May be used from several threads at once.
+class DataSet {
+ public:
+  virtual ~DataSet() = default;
+
+  /// The pictures; motions and altitudes may be those of no trial. Null for a pose graph.
+  virtual const FrameSource* frames() const { return nullptr; }
+
+  /// The measurements of a pose graph; null for pictures.
+  virtual const MeasurementLog* graph() const { return nullptr; }
+
+  /// A trial of a data set of pictures: `values` are those that it was opened with, but for the
+  /// options of a trial. What refers to the frames must not outlive the data set. Throws
+  /// InputError.
+  virtual Trial trial(const DataSetValues& values, const TrialNoise& noise) const;
+
+  /// The files that it reads: they tell this data set from what stood there at another time.
+  virtual std::vector<std::filesystem::path> files() const { return {}; }
+};
+
+/// The option struct of a data set, of whatever type: what a configuration sets and checks.
+class DataSetOptions {
+ public:
+  virtual ~DataSetOptions() = default;
+  virtual void describe(OptionTable& table) = 0;
+  virtual std::vector<IgnoredKey> ignored_keys() const = 0;
+};
+
+/// One kind of data set, a word of `dataset.type`.
+struct DataSetEntry {
+  std::string name;
+  std::string help;             ///< one line
+  bool is_graph = false;        ///< a pose graph, without pictures
+  bool makes_pictures = false;  ///< rather than reading them: `fathom simulate` writes them out
+  std::vector<OptionDescription> options;  ///< keys under `dataset.`
+  /// Of them those that only say what a trial measures: the pictures do not depend on them.
+  std::vector<OptionDescription> trial_options;
+  std::function<std::unique_ptr<DataSetOptions>()> make_options;
+  /// What is the same in all trials follows from the seed alone. Throws InputError, with `dataset.`
+  /// in front of a key.
+  std::function<std::unique_ptr<DataSet>(const DataSetValues&, std::uint64_t seed)> open;
+};
+
+/// All kinds there are: the one place from which `fathom list`, the configuration checks and the
+/// documentation are made. The first is the default.
+const std::vector<DataSetEntry>& data_sets();
+
+/// Throws InputError naming the nearest known one.
+const DataSetEntry& find_data_set(const std::string& name);
+
+/// An option struct with these values. Throws InputError on an unknown key or a bad value.
+template <class Options>
+Options options_of(const DataSetValues& values) {
+  Options options;
+  OptionTable table;
+  options.describe(table);
+  for (const auto& [key, value] : values) table.set(key, value);
+  return options;
+}
+
+/// Makes the entry of a data set from its option struct. It has `describe(OptionTable&)` and, where
+/// there are such options, `describe_trial(OptionTable&)` for those of a trial and `ignored_keys()`
+/// for those that others leave without effect. `open` takes (const Options&, std::uint64_t seed).
+template <class Options, class Open>
+DataSetEntry make_data_set(std::string name, std::string help, Open open) {
+  class Described : public DataSetOptions {
+   public:
+    void describe(OptionTable& table) override { options_.describe(table); }
+    std::vector<IgnoredKey> ignored_keys() const override {
+      if constexpr (requires { options_.ignored_keys(); }) return options_.ignored_keys();
+      return {};
+    }
+
+   private:
+    Options options_;
+  };
+  DataSetEntry entry;
+  entry.name = std::move(name);
+  entry.help = std::move(help);
+  Options defaults;
+  OptionTable all;
+  defaults.describe(all);
+  entry.options = all.descriptions();
+  if constexpr (requires(OptionTable & table) { defaults.describe_trial(table); }) {
+    OptionTable of_trial;
+    defaults.describe_trial(of_trial);
+    entry.trial_options = of_trial.descriptions();
+  }
+  entry.make_options = [] { return std::make_unique<Described>(); };
+  entry.open = [open](const DataSetValues& values, std::uint64_t seed) -> std::unique_ptr<DataSet> {
+    return open(options_of<Options>(values), seed);
+  };
+  return entry;
+}
+
+}  // namespace fathom

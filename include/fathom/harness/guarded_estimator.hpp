@@ -1,0 +1,49 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "fathom/estimation/registry.hpp"
+
+namespace fathom {
+
+/// An estimator whose mistakes are found out: a call that throws, a size or a report that does not
+/// fit what was given, a pose or covariance that is not finite. After the first of them nothing is
+/// passed on: updates report `numerical_failure`, poses are NaN. Memory that runs out is no mistake
+/// of an estimator: std::bad_alloc passes.
+class GuardedEstimator : public Estimator {
+ public:
+  /// Makes an estimator. Throws InputError on an unknown key or a bad value.
+  GuardedEstimator(const EstimatorEntry& entry, const EstimatorSetup& setup,
+                   const EstimatorValues& values);
+
+  /// The first mistake, one line, with the keyframe at which it was made; empty: none so far.
+  const std::string& fault() const { return fault_; }
+
+  /// Keyframes given, whatever the estimator says.
+  std::size_t size() const override { return size_; }
+  Pose pose(std::size_t k) const override;
+  std::optional<std::vector<UncertainPose>> motions_to_newest() const override;
+  void add_keyframe(const RelativePose& step) override;
+  /// Has one decision for each registration, in their order.
+  UpdateReport close_loops(std::span<const RelativePose> registrations) override;
+  UpdateReport finish(std::span<const Pose> start) override;
+  std::optional<Eigen::Matrix3d> covariance(std::size_t k) override;
+  std::optional<Eigen::MatrixXd> joint_covariance(std::span<const std::size_t> keyframes) override;
+  double loss(double chi2) const override;
+  /// Empty, or one for each registration given.
+  std::vector<double> loop_weights() const override;
+
+ private:
+  template <class Call>
+  void guarded(const char* what, Call call) const;
+  void check_size(const char* call) const;
+
+  std::unique_ptr<Estimator> estimator_;
+  std::size_t size_ = 1;
+  std::size_t registrations_ = 0;
+  mutable std::string fault_;
+};
+
+}  // namespace fathom

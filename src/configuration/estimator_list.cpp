@@ -1,0 +1,158 @@
+#include "estimator_list.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include "canonical_value.hpp"
+#include "fathom/configuration/study_description.hpp"
+#include "fathom/core/text.hpp"
+
+namespace fathom {
+namespace {
+
+const EstimatorEntry& find_entry(const EstimatorRegistry& registry, const Settings& settings,
+                                 const std::string& prefix) {
+  const Setting* type = settings.find("type");
+  if (type == nullptr) return registry.entries().front();
+  const std::string& name = word_of(*type, prefix + "type");
+  try {
+    return registry.find(name);
+  } catch (const InputError& error) {
+    refuse(*type, prefix + "type: " + error.what());
+  }
+}
+
+bool is_plain_word(const std::string& name) {
+  constexpr const char* kAllowed =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_";
+  return !name.empty() && name.find_first_not_of(kAllowed) == std::string::npos;
+}
+
+void refuse_unused(const Settings& own, const EstimatorEntry& entry, const std::string& prefix) {
+  for (const std::string& key : entry.unused_options) {
+    if (const Setting* setting = own.find(key)) {
+      refuse(*setting, prefix + key + ": " + entry.name + " has no use for it and would ignore it");
+    }
+  }
+}
+
+// No setting of the list may go unread: not one of `estimators.7` where there are three of them.
+void refuse_unused_items(const Settings& settings, std::size_t count) {
+  std::vector<std::string> prefixes;
+  for (std::size_t i = 0; i < count; ++i) {
+    prefixes.push_back("estimators." + std::to_string(i) + ".");
+  }
+  for (const Setting& setting : settings.all()) {
+    if (!setting.key.starts_with("estimators.")) continue;
+    const auto is_of = [&](const std::string& prefix) { return setting.key.starts_with(prefix); };
+    if (std::any_of(prefixes.begin(), prefixes.end(), is_of)) continue;
+    refuse(setting, setting.key +
+                        ": expected a list of maps, such as '- {type: ekf}', numbered from 0 "
+                        "without a gap");
+  }
+}
+
+}  // namespace
+
+EstimatorValues estimator_values(const Settings& settings, const EstimatorEntry& entry,
+                                 const EstimatorSetup& setup, const std::string& prefix) {
+  std::vector<std::string> known{prefix + "type"};
+  for (const OptionDescription& option : entry.options) known.push_back(prefix + option.key);
+  EstimatorValues values;
+  for (const Setting& setting : settings.all()) {
+    const std::string full = prefix + setting.key;
+    if (std::find(known.begin(), known.end(), full) == known.end()) {
+      refuse(setting, "unknown key '" + full + "' of " + entry.name + suggestion(full, known));
+    }
+    values[setting.key] = setting.value;
+  }
+  // All together, as some depend on others; the message begins with the key that it is about.
+  try {
+    entry.create(setup, values);
+  } catch (const InputError& error) {
+    const std::string what = error.what();
+    const Setting* about = settings.find(what.substr(0, what.find(':')));
+    if (about == nullptr) throw;
+    refuse(*about, prefix + what);
+  }
+  return values;
+}
+
+std::vector<std::pair<std::string, std::string>> estimator_options(
+    const EstimatorConfiguration& estimator, const EstimatorEntry& entry) {
+  std::vector<std::pair<std::string, std::string>> options;
+  for (const OptionDescription& option : entry.options) {
+    const auto given = estimator.values.find(option.key);
+    const bool is_given = given != estimator.values.end() && !given->second.items.empty();
+    options.emplace_back(option.key, is_given
+                                         ? canonical_text(given->second, option.type, number_text)
+                                         : option.default_value);
+  }
+  return options;
+}
+
+EstimatorConfiguration configure_estimator(const Settings& settings,
+                                           const EstimatorRegistry& registry,
+                                           const std::string& prefix) {
+  const EstimatorEntry& entry = find_entry(registry, settings, prefix);
+  EstimatorConfiguration estimator{entry.name, entry.name, {}};
+  Settings own;
+  for (const Setting& setting : settings.all()) {
+    if (setting.key == "name") estimator.name = word_of(setting, prefix + "name");
+    if (setting.key != "name" && setting.key != "type") own.put(setting);
+  }
+  if (!is_plain_word(estimator.name)) {
+    refuse(*settings.find("name"),
+           prefix + "name: it names a folder too: letters, digits, - and _");
+  }
+  if (estimator.name == kDeadReckoning) {
+    refuse(*settings.find("name"), prefix + "name: dead_reckoning is the baseline of every table");
+  }
+  if (prefix != "estimator.") refuse_unused(own, entry, prefix);
+  estimator.values = estimator_values(own, entry, {}, prefix);
+  return estimator;
+}
+
+std::vector<EstimatorConfiguration> configure_list(const Settings& settings,
+                                                   const EstimatorRegistry& registry) {
+  std::vector<EstimatorConfiguration> list;
+  std::set<std::string> names;
+  if (const Setting* scalar = settings.find("estimators")) {
+    refuse(*scalar, "estimators: expected a list of maps, such as '- {type: ekf}'");
+  }
+  for (std::size_t i = 0; true; ++i) {
+    const std::string prefix = "estimators." + std::to_string(i) + ".";
+    const Settings own = settings.below(prefix);
+    if (own.all().empty()) break;
+    list.push_back(configure_estimator(own, registry, prefix));
+    if (!names.insert(list.back().name).second) {
+      refuse(own.all().front(),
+             "two estimators are called '" + list.back().name + "'; give one of them another name");
+    }
+  }
+  refuse_unused_items(settings, list.size());
+  if (!list.empty()) return list;
+  for (const EstimatorEntry& entry : registry.entries()) {
+    list.push_back({entry.name, entry.name, {}});
+  }
+  return list;
+}
+
+std::size_t find_reference(const Settings& settings,
+                           const std::vector<EstimatorConfiguration>& estimators) {
+  const Setting* setting = settings.find("association.reference");
+  if (setting == nullptr) return 0;
+  std::vector<std::string> names;
+  for (const EstimatorConfiguration& estimator : estimators) {
+    names.push_back(estimator.name);
+  }
+  const std::string& name = word_of(*setting, "association.reference");
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) {
+    refuse(*setting, "association.reference: no estimator is called '" + name + "'" +
+                         suggestion(name, names));
+  }
+  return static_cast<std::size_t>(found - names.begin());
+}
+
+}  // namespace fathom

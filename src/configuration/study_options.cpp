@@ -1,0 +1,105 @@
+#include "study_options.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fathom/measurements/spoil.hpp"
+
+namespace fathom {
+namespace {
+
+constexpr const char* kFalseLoops = "association.false_loops";
+
+std::vector<std::string> described_keys(void (StudyOptions::*describe)(OptionTable&)) {
+  StudyOptions options;
+  OptionTable table;
+  (options.*describe)(table);
+  return table.keys();
+}
+
+bool is_or_is_below(const std::string& key, const std::string& group) {
+  return key == group || key.starts_with(group + ".");
+}
+
+void require_each(const Settings& settings, const std::string& key,
+                  const std::vector<double>& values, const std::string& expected,
+                  bool (*is_right)(double)) {
+  if (!std::ranges::all_of(values, is_right)) {
+    refuse(*settings.find(key), key + ": expected " + expected);
+  }
+}
+
+}  // namespace
+
+void StudyOptions::describe_session(OptionTable& table) {
+  table.integer("trials", trials, Range::between(1, 1e6), "",
+                "runs of every estimator in every cell, each with noise of its own");
+  table.integer("jobs", jobs, Range::between(1, 1024), "",
+                "trials at work at the same time; cost is comparable at 1 alone");
+  table.text("report.title", title, "title of the report");
+  table.words("report.metrics", metrics, "metrics of the tables, in this order");
+}
+
+void StudyOptions::describe(OptionTable& table) {
+  describe_session(table);
+  table.enumeration<Association>(
+      "association.mode", association, {{"shared", Association::shared}, {"own", Association::own}},
+      "loop candidates by the reference's estimate, for all, or by each estimator's own");
+  table.group(kFalseLoops, false_loops);
+  table.reals("evaluation.rpe_keyframes", rpe_keyframes, 1, "keyframes",
+              "relative errors over so many keyframes");
+  table.reals("evaluation.rpe_distances_m", rpe_distances_m, 1, "m",
+              "relative errors over such distances along the true path");
+  table.real("evaluation.min_overlap", min_overlap, Range::between(0.01, 1.0), "",
+             "true overlap from which on a pair of keyframes should be found (loop_recall)");
+}
+
+bool is_study_key(const std::string& key) {
+  static const std::vector<std::string> described = described_keys(&StudyOptions::describe);
+  for (const char* const group : {"sweep", "report", "association"}) {
+    if (is_or_is_below(key, group)) return true;
+  }
+  return std::ranges::find(described, key) != described.end();
+}
+
+bool is_session_key(const std::string& key) {
+  static const std::vector<std::string> described = described_keys(&StudyOptions::describe_session);
+  return std::ranges::find(described, key) != described.end();
+}
+
+// A share of 0 that is given may be one of several: a sweep begins without false loops and keeps
+// the rest.
+std::vector<IgnoredKey> ignored_of_false_loops(const Settings& settings,
+                                               const SpoilOptions& options) {
+  std::vector<IgnoredKey> ignored;
+  if (settings.find(std::string(kFalseLoops) + ".share") == nullptr) {
+    ignored = {{"kind", "share"}, {"group_size", "share"}, {"reach", "share"}};
+  } else {
+    if (options.kind != FalseLoopKind::grouped) ignored.push_back({"group_size", "kind"});
+    if (options.kind != FalseLoopKind::local) ignored.push_back({"reach", "kind"});
+  }
+  return below(kFalseLoops, ignored);
+}
+
+void check_study(const Settings& settings, const StudyOptions& study, bool is_graph) {
+  const Setting* reference = settings.find("association.reference");
+  if (reference != nullptr && study.association == Association::own) {
+    refuse(*reference,
+           "association.reference: nobody's estimate but each one's own picks the loop candidates; "
+           "use association.mode: shared");
+  }
+  if (is_graph && study.trials > 1 && study.false_loops.share == 0.0) {
+    refuse(*settings.find("trials"),
+           "trials: a pose graph without false loops has nothing to draw; expected 1");
+  }
+  if (is_graph && study.association == Association::own) {
+    refuse(*settings.find("association.mode"),
+           "association.mode: a pose graph has its loops; expected shared");
+  }
+  require_each(settings, "evaluation.rpe_keyframes", study.rpe_keyframes, "whole numbers >= 1",
+               [](double n) { return n >= 1.0 && n == std::floor(n) && n < 1e9; });
+  require_each(settings, "evaluation.rpe_distances_m", study.rpe_distances_m, "numbers in m > 0",
+               [](double distance_m) { return distance_m > 0.0; });
+}
+
+}  // namespace fathom

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "fathom/configuration/configuration.hpp"
+#include "fathom/core/ignored_key.hpp"
+
+namespace fathom {
+
+/// Whether a key is of a comparison and not of a run.
+bool is_study_key(const std::string& key);
+
+/// Whether no result depends on it: the number of trials and jobs, and the report.
+bool is_session_key(const std::string& key);
+
+/// Options of false loops, with their group, that say nothing beside the others.
+std::vector<IgnoredKey> ignored_of_false_loops(const Settings& settings,
+                                               const SpoilOptions& options);
+
+/// What no single option's bounds can say. Throws InputError.
+void check_study(const Settings& settings, const StudyOptions& study, bool is_graph);
+
+}  // namespace fathom

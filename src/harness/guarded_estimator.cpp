@@ -1,0 +1,182 @@
+#include "fathom/harness/guarded_estimator.hpp"
+
+#include <cmath>
+#include <exception>
+#include <limits>
+#include <new>
+#include <stdexcept>
+
+#include "fathom/core/input_error.hpp"
+
+namespace fathom {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+// What an estimator did wrong; its text stands behind the name of the call.
+struct Mistake : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+bool is_of(const LoopDecision& loop, const RelativePose& z) {
+  return (loop.from == z.from && loop.to == z.to) || (loop.from == z.to && loop.to == z.from);
+}
+
+void require_count(std::size_t count, std::size_t expected, const char* of_what) {
+  if (count == expected) return;
+  throw Mistake("has " + std::to_string(count) + " " + of_what + ", expected " +
+                std::to_string(expected));
+}
+
+UpdateReport failed(std::span<const RelativePose> registrations) {
+  UpdateReport report;
+  report.outcome = Outcome::numerical_failure;
+  for (const RelativePose& z : registrations) {
+    report.loops.push_back({z.from, z.to, LoopFate::lost, std::nullopt});
+  }
+  return report;
+}
+
+}  // namespace
+
+GuardedEstimator::GuardedEstimator(const EstimatorEntry& entry, const EstimatorSetup& setup,
+                                   const EstimatorValues& values) {
+  std::exception_ptr bad_input;
+  guarded("create", [&] {
+    try {
+      estimator_ = entry.create(setup, values);
+    } catch (const InputError&) {
+      bad_input = std::current_exception();
+    }
+  });
+  if (bad_input) std::rethrow_exception(bad_input);
+  check_size("create");
+}
+
+// Runs a call unless there was a mistake already; what it throws is one. Texts are made when they
+// are needed alone, as this stands between an estimator and the clock.
+template <class Call>
+void GuardedEstimator::guarded(const char* what, Call call) const {
+  if (!fault_.empty()) return;
+  const auto at = [&] { return std::string(what) + " at keyframe " + std::to_string(size_ - 1); };
+  try {
+    call();
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const Mistake& mistake) {
+    fault_ = at() + ": " + mistake.what();
+  } catch (const std::exception& error) {
+    fault_ = at() + " threw an exception: " + error.what();
+  } catch (...) {
+    fault_ = at() + " threw what is no std::exception";
+  }
+}
+
+void GuardedEstimator::check_size(const char* call) const {
+  guarded(call, [&] {
+    const std::size_t size = estimator_->size();
+    if (size != size_) {
+      throw Mistake("size() is " + std::to_string(size) + ", expected " + std::to_string(size_));
+    }
+  });
+}
+
+Pose GuardedEstimator::pose(std::size_t k) const {
+  Pose pose{kNaN, kNaN, kNaN};
+  guarded("pose", [&] {
+    pose = estimator_->pose(k);
+    if (!is_finite(pose)) throw Mistake("pose " + std::to_string(k) + " is not finite");
+  });
+  return pose;
+}
+
+std::optional<std::vector<UncertainPose>> GuardedEstimator::motions_to_newest() const {
+  std::optional<std::vector<UncertainPose>> motions;
+  guarded("motions_to_newest", [&] {
+    motions = estimator_->motions_to_newest();
+    if (motions) require_count(motions->size(), size_ - 1, "motions");
+  });
+  if (!fault_.empty()) motions.reset();
+  return motions;
+}
+
+void GuardedEstimator::add_keyframe(const RelativePose& step) {
+  ++size_;
+  guarded("add_keyframe", [&] { estimator_->add_keyframe(step); });
+  check_size("add_keyframe");
+}
+
+UpdateReport GuardedEstimator::close_loops(std::span<const RelativePose> registrations) {
+  registrations_ += registrations.size();
+  UpdateReport report;
+  guarded("update", [&] {
+    report = estimator_->close_loops(registrations);
+    require_count(report.loops.size(), registrations.size(), "decisions on registrations");
+    for (std::size_t j = 0; j < registrations.size(); ++j) {
+      if (is_of(report.loops[j], registrations[j])) continue;
+      throw Mistake("decision " + std::to_string(j) + " is on other keyframes than registration " +
+                    std::to_string(j));
+    }
+  });
+  check_size("update");
+  if (!fault_.empty()) report = failed(registrations);
+  return report;
+}
+
+UpdateReport GuardedEstimator::finish(std::span<const Pose> start) {
+  UpdateReport report;
+  guarded("finish", [&] {
+    report = estimator_->finish(start);
+    require_count(report.loops.size(), 0, "decisions on registrations");
+  });
+  check_size("finish");
+  if (!fault_.empty()) report = failed({});
+  return report;
+}
+
+std::optional<Eigen::Matrix3d> GuardedEstimator::covariance(std::size_t k) {
+  std::optional<Eigen::Matrix3d> covariance;
+  guarded("covariance", [&] {
+    covariance = estimator_->covariance(k);
+    if (covariance && !covariance->allFinite()) {
+      throw Mistake("that of keyframe " + std::to_string(k) + " is not finite");
+    }
+  });
+  if (!fault_.empty()) covariance.reset();
+  return covariance;
+}
+
+std::optional<Eigen::MatrixXd> GuardedEstimator::joint_covariance(
+    std::span<const std::size_t> keyframes) {
+  std::optional<Eigen::MatrixXd> covariance;
+  guarded("joint_covariance", [&] {
+    covariance = estimator_->joint_covariance(keyframes);
+    if (!covariance) return;
+    require_count(static_cast<std::size_t>(covariance->rows()), 3 * keyframes.size(), "rows");
+    require_count(static_cast<std::size_t>(covariance->cols()), 3 * keyframes.size(), "columns");
+    if (!covariance->allFinite()) throw Mistake("it is not finite");
+  });
+  if (!fault_.empty()) covariance.reset();
+  return covariance;
+}
+
+double GuardedEstimator::loss(double chi2) const {
+  double loss = kNaN;
+  guarded("loss", [&] { loss = estimator_->loss(chi2); });
+  return loss;
+}
+
+std::vector<double> GuardedEstimator::loop_weights() const {
+  std::vector<double> weights;
+  guarded("loop_weights", [&] {
+    weights = estimator_->loop_weights();
+    if (!weights.empty()) require_count(weights.size(), registrations_, "weights");
+    for (const double weight : weights) {
+      if (!std::isfinite(weight)) throw Mistake("a weight is not finite");
+    }
+  });
+  if (!fault_.empty()) weights.clear();
+  return weights;
+}
+
+}  // namespace fathom
