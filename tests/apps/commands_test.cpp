@@ -393,6 +393,21 @@ TEST_F(Commands, EvaluateAgreesWithTheRun) {
                                HasSubstr("1.50 m"), HasSubstr("alignment origin")));
 }
 
+TEST_F(Commands, EvaluateSaysOfASinglePoseThatItHasNoError) {
+  write("estimate.tum", "0 1 2 0 0 0 0 1\n");
+  write("reference.tum", "0 4 6 0 0 0 0 1\n1 5 6 0 0 0 0 1\n");
+  for (const char* alignment : {"origin", "se2"}) {
+    const std::string out =
+        fathom_done({"evaluate", "estimate.tum", "reference.tum", "--alignment", alignment}).out;
+    EXPECT_THAT(out, HasSubstr("no error can be given: alignment " + std::string(alignment)));
+    EXPECT_THAT(out, Not(HasSubstr("mean position error")));
+  }
+  const std::vector<std::string> as_it_is{"evaluate", "estimate.tum", "reference.tum",
+                                          "--alignment", "none"};
+  EXPECT_TRUE(std::regex_search(fathom_done(as_it_is).out,
+                                std::regex(R"(mean position error \(m\) +5\.0)")));
+}
+
 TEST_F(Commands, ListNamesEverythingWithItsOptions) {
   EXPECT_THAT(fathom_done({"list", "estimators"}).out,
               AllOf(HasSubstr("trajectory_iekf: "), HasSubstr("ekf: "),

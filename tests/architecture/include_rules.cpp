@@ -51,6 +51,7 @@ const std::vector<ThirdParty>& third_parties() {
   static const std::vector<ThirdParty> list{
       {"Eigen/", {""}},
       {"opencv2/", {"vision/", "datasets/", "front_end/", "report/", "apps/"}},
+      {"boost/math/", {"src/core/chi_squared.cpp", "src/evaluation/distributions.cpp"}},
       {"ceres/", {"estimators/ceres_pose_graph/"}},
       {"yaml-cpp/", {"src/configuration/", "src/datasets/camera_yaml.cpp"}},
       {"SQLiteCpp/", {"src/results/", "src/front_end/registration_store.cpp"}},
