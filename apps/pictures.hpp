@@ -14,8 +14,7 @@ namespace fathom {
 void write_trajectory_picture(const std::filesystem::path& path, const std::string& title,
                               const Recording& recording, const std::vector<Result>& results);
 
-/// One line an estimator, dead reckoning first.
-std::string result_table(const Recording& recording, const std::vector<Result>& results,
-                         Alignment alignment);
+/// One line an estimator, dead reckoning first, judged as the first estimator.
+std::string result_table(const Recording& recording, const std::vector<Result>& results);
 
 }  // namespace fathom

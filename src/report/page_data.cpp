@@ -8,6 +8,7 @@
 #include "estimator_colours.hpp"
 #include "example_trial.hpp"
 #include "fathom/evaluation/consistency.hpp"
+#include "fathom/evaluation/metrics.hpp"
 #include "metric_label.hpp"
 #include "page_numbers.hpp"
 

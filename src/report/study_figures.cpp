@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cctype>
 
+#include "fathom/evaluation/metrics.hpp"
+
 namespace fathom {
 
 std::string figure_name(const std::string& what, const std::string& label, bool alone) {

@@ -60,7 +60,7 @@ TEST_F(Commands, RunWritesItsFolder) {
   EXPECT_EQ(metrics.at("estimator"), "ekf");
   for (const char* key : {"outcome", "keyframes", "loop_closures", "rejected", "chi2",
                           "chi2_initial", "mean_position_error_m", "ate_rmse_m", "heading_rmse_rad",
-                          "anees", "update_ms", "total_ms", "alignment"}) {
+                          "anees", "update_ms.median", "total_ms", "alignment"}) {
     EXPECT_TRUE(metrics.contains(key)) << key;
   }
   ASSERT_EQ(metrics.contains("memory_bytes"), FATHOM_MEASURES_MEMORY == 1);
@@ -418,6 +418,9 @@ TEST_F(Commands, ListNamesEverythingWithItsOptions) {
   EXPECT_THAT(fathom_done({"list", "datasets"}).out,
               AllOf(HasSubstr("simulated: "), HasSubstr("image_folder: "), HasSubstr("g2o: "),
                     HasSubstr("dataset.altitude.base_m")));
+  EXPECT_THAT(fathom_done({"list", "metrics"}).out,
+              AllOf(HasSubstr("mean_position_error_m"), HasSubstr("rpe_N_keyframes_rad"),
+                    HasSubstr("peak heap of the estimator")));
 }
 
 }  // namespace
