@@ -12,6 +12,7 @@
 #include "fathom/harness/false_loops.hpp"
 #include "fathom/harness/manifest.hpp"
 #include "fathom/harness/run_folder.hpp"
+#include "fathom/report/table.hpp"
 
 namespace fathom {
 namespace {
