@@ -164,8 +164,8 @@ void write_example(const fs::path& out, const Study& study, Recorder& recorder, 
     const auto meter = make_memory_meter();
     ReplayOptions options;
     options.memory = meter.get();
-    results.push_back(
-        evaluate(*recording, estimator, builtin_estimators(), configuration.alignment, options));
+    results.push_back(evaluate(*recording, estimator, builtin_estimators(),
+                               {.metrics = metric_options(configuration)}, options));
     const fs::path own = folder.path() / estimator.name;
     fs::create_directory(own);
     write_run(own, *recording, results.back(),

@@ -46,6 +46,16 @@ Table relative_table(const AssociatedPoses& poses, const EvaluateFlags& flags) {
   return table;
 }
 
+Table absolute_table(const Accuracy& accuracy) {
+  Table table({"", "error"});
+  table.add_row({"mean position error (m)", format_number(accuracy.mean_position_error_m, 6)});
+  table.add_row({"ATE RMSE (m)", format_number(accuracy.ate_rmse_m, 6)});
+  table.add_row({"largest position error (m)", format_number(accuracy.max_position_error_m, 6)});
+  table.add_row({"final position error (m)", format_number(accuracy.final_position_error_m, 6)});
+  table.add_row({"heading RMSE (rad)", format_number(accuracy.heading_rmse_rad, 6)});
+  return table;
+}
+
 void evaluate_files(const EvaluateFlags& flags, Context& context) {
   const Alignment alignment = alignment_of(flags.alignment);
   const auto estimate = read_tum(flags.estimate);
@@ -58,18 +68,20 @@ void evaluate_files(const EvaluateFlags& flags, Context& context) {
   }
   const AssociatedPoses poses = paired_poses(estimate, reference, pairs);
   const auto result = accuracy(poses.estimate, poses.reference, alignment);
-  if (!result) throw InputError(flags.estimate, "has errors too large for a number");
+  const bool has_error = leaves_an_error(pairs.size(), alignment);
+  if (has_error && !result) {
+    throw InputError(flags.estimate, "has errors too large for a number");
+  }
   const Table relative =
       relative_table(poses, flags);  // refuses what it cannot do before any output
   std::printf("%zu of %zu poses have a reference; alignment %s, scale as it is\n\n", pairs.size(),
               estimate.size(), flags.alignment.c_str());
-  Table table({"", "error"});
-  table.add_row({"mean position error (m)", format_number(result->mean_position_error_m, 6)});
-  table.add_row({"ATE RMSE (m)", format_number(result->ate_rmse_m, 6)});
-  table.add_row({"largest position error (m)", format_number(result->max_position_error_m, 6)});
-  table.add_row({"final position error (m)", format_number(result->final_position_error_m, 6)});
-  table.add_row({"heading RMSE (rad)", format_number(result->heading_rmse_rad, 6)});
-  std::printf("%s", table.text().c_str());
+  if (result) {
+    std::printf("%s", absolute_table(*result).text().c_str());
+  } else {
+    std::printf("no error can be given: alignment %s lays a single pose on its reference\n",
+                flags.alignment.c_str());
+  }
   std::printf("\n%s", relative.text().c_str());
   context.status = kDone;
 }

@@ -7,6 +7,7 @@
 #include "fathom/configuration/configuration.hpp"
 #include "fathom/core/input_error.hpp"
 #include "fathom/estimators/builtin.hpp"
+#include "fathom/evaluation/metrics.hpp"
 #include "fathom/report/table.hpp"
 
 namespace fathom {
@@ -27,6 +28,18 @@ void print_heading(const std::string& name, const std::string& help) {
   std::printf("%s: %s\n", name.c_str(), help.c_str());
 }
 
+void print_metrics() {
+  Table table({"metric", "unit", "better", "cost", "meaning"});
+  for (const Metric& metric : metric_catalogue()) {
+    const char* better = metric.better == Better::lower    ? "lower"
+                         : metric.better == Better::higher ? "higher"
+                                                           : "";
+    table.add_row(
+        {metric.name, metric.unit, better, metric.is_cost ? "yes" : "", metric.description});
+  }
+  std::printf("%s", table.text().c_str());
+}
+
 void list(const std::string& what, Context& context) {
   context.status = kDone;
   if (what == "estimators") {
@@ -41,6 +54,8 @@ void list(const std::string& what, Context& context) {
     OptionTable table;
     front_end.describe(table);
     print_options("front_end.", table.descriptions());
+  } else if (what == "metrics") {
+    print_metrics();
   } else {
     for (const DataSetEntry& entry : data_sets()) {
       print_heading(entry.name, entry.help);
@@ -53,10 +68,11 @@ void list(const std::string& what, Context& context) {
 
 void add_list(CLI::App& program, Context& context) {
   auto what = std::make_shared<std::string>();
-  Command command(program, "list", "List estimators, detectors or datasets with their options",
+  Command command(program, "list",
+                  "List estimators, detectors or datasets with their options, or metrics",
                   "Example: fathom list estimators");
-  command.argument("what", *what, {"estimators", "detectors", "datasets"},
-                   "estimators, detectors or datasets");
+  command.argument("what", *what, {"estimators", "detectors", "datasets", "metrics"},
+                   "estimators, detectors, datasets or metrics");
   command.on_run([what, &context] { list(*what, context); });
 }
 

@@ -1,5 +1,7 @@
 #include "apps/pictures.hpp"
 
+#include <cmath>
+
 #include "fathom/core/files.hpp"
 #include "fathom/report/table.hpp"
 #include "fathom/report/trajectory_plot.hpp"
@@ -22,20 +24,33 @@ PlotSeries series_of(const Result& result, std::size_t place, bool with_details)
   return series;
 }
 
-template <class Value>
-std::optional<double> number(const std::optional<Value>& from, double Value::*member) {
-  return from ? std::optional<double>((*from).*member) : std::nullopt;
-}
+// A metric as a column of the terminal's table.
+struct Column {
+  const char* heading;
+  const char* metric;
+  int digits;
+  bool is_judged = false;  ///< by ground truth: left out where there is none
+};
 
-std::string kilobytes(const std::optional<std::int64_t>& bytes) {
-  if (!bytes) return "-";
-  return std::to_string((*bytes + 512) / 1024);
-}
+constexpr Column kColumns[] = {{"loops", "loop_closures", 0},
+                               {"rejected", "rejected", 0},
+                               {"chi2", "chi2", 6},
+                               {"mean error (m)", "mean_position_error_m", 4, true},
+                               {"ATE RMSE (m)", "ate_rmse_m", 4, true},
+                               {"heading RMSE (rad)", "heading_rmse_rad", 3, true},
+                               {"ANEES", "anees", 3, true},
+                               {"update median (ms)", "update_ms.median", 3},
+                               {"p95", "update_ms.p95", 3},
+                               {"max", "update_ms.max", 3},
+                               {"total (ms)", "total_ms", 4},
+                               {"memory (KiB)", "memory_bytes", 0}};
 
-std::vector<std::string> accuracy_cells(const std::optional<Accuracy>& accuracy) {
-  return {format_number(number(accuracy, &Accuracy::mean_position_error_m), 4),
-          format_number(number(accuracy, &Accuracy::ate_rmse_m), 4),
-          format_number(number(accuracy, &Accuracy::heading_rmse_rad), 3)};
+std::string cell_of(const Column& column, const std::map<std::string, double>& metrics) {
+  const auto found = metrics.find(column.metric);
+  if (found == metrics.end()) return "-";
+  if (column.digits > 0) return format_number(found->second, column.digits);
+  const bool is_memory = std::string(column.metric) == "memory_bytes";
+  return std::to_string(std::llround(found->second / (is_memory ? 1024.0 : 1.0)));
 }
 
 }  // namespace
@@ -61,41 +76,24 @@ void write_trajectory_picture(const std::filesystem::path& path, const std::stri
   write_file(path, trajectory_png(plot));
 }
 
-std::string result_table(const Recording& recording, const std::vector<Result>& results,
-                         Alignment alignment) {
-  const bool judged = recording.ground_truth.has_value();
-  std::vector<std::string> header{"", "outcome", "loops", "rejected", "chi2"};
-  if (judged) {
-    header.insert(header.end(), {"mean error (m)", "ATE RMSE (m)", "heading RMSE (rad)", "ANEES"});
+std::string result_table(const Recording& recording, const std::vector<Result>& results) {
+  std::vector<std::string> header{"", "outcome"};
+  for (const Column& column : kColumns) {
+    if (recording.ground_truth || !column.is_judged) header.emplace_back(column.heading);
   }
-  header.insert(header.end(), {"update median (ms)", "p95", "max", "total (ms)", "memory (KiB)"});
   Table table(header);
-
-  std::vector<std::string> baseline{
-      "dead reckoning", "-", "-", "-",
-      format_number(chi2(recording.log, recording.log.odometry()), 6)};
-  if (judged) {
-    for (std::string& cell : accuracy_cells(dead_reckoning_accuracy(recording, alignment))) {
-      baseline.push_back(std::move(cell));
+  const auto add_row = [&](const std::string& name, const std::string& outcome,
+                           const std::map<std::string, double>& metrics) {
+    std::vector<std::string> row{name, outcome};
+    for (const Column& column : kColumns) {
+      if (recording.ground_truth || !column.is_judged) row.push_back(cell_of(column, metrics));
     }
-  }
-  baseline.resize(header.size(), "-");
-  table.add_row(baseline);
-
-  for (const Result& result : results) {
-    std::vector<std::string> row{result.estimator.name, name_of(result.replay.outcome),
-                                 std::to_string(result.loop_closures),
-                                 std::to_string(result.rejected), format_number(result.chi2, 6)};
-    if (judged) {
-      for (std::string& cell : accuracy_cells(result.accuracy)) row.push_back(std::move(cell));
-      row.push_back(format_number(number(result.consistency, &Consistency::anees), 3));
-    }
-    row.push_back(format_number(number(result.update_ms, &Summary::median), 3));
-    row.push_back(format_number(number(result.update_ms, &Summary::p95), 3));
-    row.push_back(format_number(number(result.update_ms, &Summary::max), 3));
-    row.push_back(format_number(result.replay.total_ms, 4));
-    row.push_back(kilobytes(result.replay.memory_bytes));
     table.add_row(row);
+  };
+  const MetricOptions options = results.empty() ? MetricOptions() : results.front().options;
+  add_row("dead reckoning", "-", dead_reckoning_metrics(recording, options));
+  for (const Result& result : results) {
+    add_row(result.estimator.name, name_of(result.replay.outcome), result.metrics);
   }
   return table.text();
 }

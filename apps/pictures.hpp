@@ -16,8 +16,7 @@ void write_trajectory_picture(const std::filesystem::path& path, const std::stri
                               const Recording& recording, const std::vector<Result>& results,
                               std::size_t first_place = 0);
 
-/// One line an estimator, dead reckoning first.
-std::string result_table(const Recording& recording, const std::vector<Result>& results,
-                         Alignment alignment);
+/// One line an estimator, dead reckoning first, judged as the first estimator.
+std::string result_table(const Recording& recording, const std::vector<Result>& results);
 
 }  // namespace fathom

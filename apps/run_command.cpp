@@ -38,7 +38,8 @@ Result evaluate_with_progress(const Recording& recording, const Configuration& c
   ReplayOptions options;
   options.memory = meter.get();
   options.progress = line.callback();
-  return evaluate(recording, estimator, builtin_estimators(), configuration.alignment, options);
+  return evaluate(recording, estimator, builtin_estimators(),
+                  {.metrics = metric_options(configuration)}, options);
 }
 
 void print_front_end(const Recording& recording) {
@@ -72,7 +73,7 @@ std::string manifest_of(const Context& context, const Configuration& configurati
 
 void print_table(const Recording& recording, const std::vector<Result>& results,
                  const Configuration& configuration) {
-  std::printf("\n%s", result_table(recording, results, configuration.alignment).c_str());
+  std::printf("\n%s", result_table(recording, results).c_str());
   if (recording.ground_truth) {
     std::printf(
         "errors against ground truth, alignment %s; ANEES 1 is expected; cost on one "

@@ -12,6 +12,7 @@
 #include "fathom/harness/false_loops.hpp"
 #include "fathom/harness/manifest.hpp"
 #include "fathom/harness/run_folder.hpp"
+#include "fathom/report/table.hpp"
 
 namespace fathom {
 namespace {
@@ -76,6 +77,11 @@ EstimatorConfiguration estimator_of(const SolveFlags& flags, const Settings& set
   return {entry.name, entry.name, estimator_values(own, entry, {{}, mode}, "estimator.")};
 }
 
+std::string chi2_text(const Result& result, const char* metric) {
+  constexpr int kDigits = 10;
+  return format_number(result.metric(metric), kDigits);
+}
+
 void print(const SolveFlags& flags, const Recording& recording, const Result& result) {
   std::printf("%s: %zu poses, %zu edges, %zu of them loop closures\n", flags.graph.c_str(),
               recording.log.size(), recording.log.size() - 1 + recording.log.registration_count(),
@@ -83,7 +89,8 @@ void print(const SolveFlags& flags, const Recording& recording, const Result& re
   std::printf("%s, %s: %s after %d iterations\n", result.estimator.type.c_str(),
               result.mode == SolveMode::batch ? "batch" : "incremental",
               name_of(result.replay.outcome).c_str(), result.replay.iterations);
-  std::printf("chi2 %.10g, from %.10g at the start\n", result.chi2, result.chi2_initial);
+  std::printf("chi2 %s, from %s at the start\n", chi2_text(result, "chi2").c_str(),
+              chi2_text(result, "chi2_initial").c_str());
   if (result.replay.gradient_norm) {
     std::printf("gradient %.2g", *result.replay.gradient_norm);
     if (result.replay.is_local_minimum) {
@@ -91,12 +98,13 @@ void print(const SolveFlags& flags, const Recording& recording, const Result& re
     }
     std::printf("\n");
   }
-  if (const auto& counts = result.false_loop_counts) {
-    std::printf("%zu of %zu false loops kept, %zu right ones lost\n", counts->false_loops_kept,
-                counts->false_loops, counts->right_loops_lost);
+  if (const auto false_loops = result.metric("false_loops")) {
+    std::printf("%.0f of %.0f false loops kept, %.0f right ones lost\n",
+                result.metrics.at("false_loops_kept"), *false_loops,
+                result.metrics.at("right_loops_lost"));
   }
   std::printf("\n");
-  std::printf("%s", result_table(recording, {result}, Alignment::origin).c_str());
+  std::printf("%s", result_table(recording, {result}).c_str());
 }
 
 void solve(const SolveFlags& flags, Context& context) {
@@ -120,8 +128,7 @@ void solve(const SolveFlags& flags, Context& context) {
   options.memory = meter.get();
   ProgressLine line(estimator.type + ", keyframe", flags.common.quiet);
   options.progress = line.callback();
-  const Result result =
-      evaluate(recording, estimator, builtin_estimators(), Alignment::origin, options);
+  const Result result = evaluate(recording, estimator, builtin_estimators(), {}, options);
   const std::vector<std::pair<std::string, std::string>> configuration{{"graph", flags.graph},
                                                                        {"init", flags.init}};
   write_run(folder.path(), recording, result,

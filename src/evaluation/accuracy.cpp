@@ -80,10 +80,15 @@ std::vector<double> heading_errors_rad(std::span<const Pose> estimate,
   return errors;
 }
 
+bool leaves_an_error(std::size_t poses, Alignment alignment) {
+  return poses > (alignment == Alignment::none ? 0U : 1U);
+}
+
 std::optional<Accuracy> accuracy(std::span<const Pose> estimate, std::span<const Pose> reference,
                                  Alignment alignment) {
   const Aligned aligned = align(estimate, reference, alignment);
   if (estimate.empty()) throw InputError("there is no pose to compare with its reference");
+  if (!leaves_an_error(estimate.size(), alignment)) return std::nullopt;
   if (!all_finite(estimate) || !all_finite(reference)) return std::nullopt;
   const std::vector<double> distances = position_errors_m(aligned.poses, reference);
   Accuracy result;

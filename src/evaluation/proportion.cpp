@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "distributions.hpp"
 #include "fathom/core/chi_squared.hpp"
 #include "fathom/core/input_error.hpp"
 
@@ -19,18 +20,6 @@ void require_share(std::size_t successes, std::size_t count, double probability)
     throw InputError("a probability must be above 0 and below 1, got " +
                      std::to_string(probability));
   }
-}
-
-// P(X ≤ successes) of `count` trials that succeed with p in (0, 1).
-double at_most(std::size_t successes, std::size_t count, double p) {
-  const auto n = static_cast<double>(count);
-  double sum = 0.0;
-  for (std::size_t i = 0; i <= successes; ++i) {
-    const auto k = static_cast<double>(i);
-    const double log_ways = std::lgamma(n + 1.0) - std::lgamma(k + 1.0) - std::lgamma(n - k + 1.0);
-    sum += std::exp(log_ways + k * std::log(p) + (n - k) * std::log1p(-p));
-  }
-  return sum;
 }
 
 }  // namespace
@@ -51,14 +40,7 @@ Interval wilson_interval(std::size_t successes, std::size_t count, double probab
 double clopper_pearson_upper(std::size_t successes, std::size_t count, double probability) {
   require_share(successes, count, probability);
   if (successes == count) return 1.0;
-  double low = 0.0;
-  double high = 1.0;
-  for (int i = 0; i < 200; ++i) {
-    const double middle = 0.5 * (low + high);
-    if (middle <= low || middle >= high) break;
-    (at_most(successes, count, middle) > 1.0 - probability ? low : high) = middle;
-  }
-  return 0.5 * (low + high);
+  return binomial_upper_bound(successes, count, 1.0 - probability);
 }
 
 }  // namespace fathom

@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "checks.hpp"
+#include "distributions.hpp"
 #include "fathom/core/input_error.hpp"
 #include "fathom/core/random.hpp"
 #include "fathom/evaluation/summary.hpp"
-#include "normal.hpp"
 
 namespace fathom {
 namespace {

@@ -94,21 +94,4 @@ std::vector<bool> read_false_loops(const std::filesystem::path& path, const Meas
   return is_false;
 }
 
-FalseLoopCounts count_false_loops(const std::vector<double>& weights,
-                                  const std::vector<bool>& is_false) {
-  FalseLoopCounts counts;
-  for (std::size_t j = 0; j < is_false.size(); ++j) {
-    const bool is_kept = weights[j] > 0.5;
-    if (is_false[j]) ++counts.false_loops;
-    if (is_false[j] && is_kept) ++counts.false_loops_kept;
-    if (!is_false[j] && !is_kept) ++counts.right_loops_lost;
-  }
-  return counts;
-}
-
-std::size_t count_kept(const std::vector<double>& weights) {
-  return static_cast<std::size_t>(
-      std::count_if(weights.begin(), weights.end(), [](double w) { return w > 0.5; }));
-}
-
 }  // namespace fathom

@@ -145,7 +145,7 @@ class Runner {
   }
 
   void add_baseline(const Task& task, const Recording& recording) {
-    RunRecord run = baseline_record(recording, study_.cells[task.cell]);
+    RunRecord run = baseline_record(recording, metric_options(study_.cells[task.cell]));
     run.key = {task.cell, task.trial, kDeadReckoning};
     run.jobs = static_cast<int>(threads_);
     store_.add(run);
@@ -156,9 +156,10 @@ class Runner {
     const Configuration& configuration = study_.cells[task.cell];
     ReplayOptions replay_options;
     replay_options.memory = meter;
-    const Result result = evaluate(recording, configuration.estimators[estimator], registry_,
-                                   configuration.alignment, replay_options);
-    RunRecord run = run_record(recording, result, configuration, registry_);
+    const Result result =
+        evaluate(recording, configuration.estimators[estimator], registry_,
+                 {.metrics = metric_options(configuration), .find_optimum = true}, replay_options);
+    RunRecord run = run_record(recording, result);
     run.key = {task.cell, task.trial, configuration.estimators[estimator].name};
     run.jobs = static_cast<int>(threads_);
     store_.add(run);

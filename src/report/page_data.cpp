@@ -7,6 +7,7 @@
 
 #include "example_trial.hpp"
 #include "fathom/evaluation/consistency.hpp"
+#include "fathom/evaluation/metrics.hpp"
 #include "metric_label.hpp"
 #include "page_numbers.hpp"
 #include "study_styles.hpp"

@@ -7,6 +7,8 @@
 #include "metric_label.hpp"
 #include "text_layout.hpp"
 
+#include "fathom/evaluation/metrics.hpp"
+
 namespace fathom {
 namespace {
 

@@ -8,6 +8,7 @@
 
 #include "fathom/core/file_lock.hpp"
 #include "fathom/core/input_error.hpp"
+#include "fathom/evaluation/metrics.hpp"
 #include "result_schema.hpp"
 
 namespace fathom {
@@ -289,11 +290,6 @@ void ResultStore::finish() {
   // Out of WAL: a reader of a read-only folder could not make the files that go with it.
   // Where somebody is reading just now it stays in WAL, which is no fault.
   database_->guard([&] { database_->sqlite_->tryExec("PRAGMA journal_mode = DELETE"); });
-}
-
-bool is_cost_metric(const std::string& name) {
-  const auto is_of = [&name](const char* part) { return name.find(part) != std::string::npos; };
-  return is_of("_ms") || is_of("memory_bytes");
 }
 
 }  // namespace fathom

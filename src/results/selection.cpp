@@ -6,6 +6,7 @@
 
 #include "cell_means.hpp"
 #include "fathom/core/input_error.hpp"
+#include "fathom/evaluation/metrics.hpp"
 #include "selection_query.hpp"
 #include "selection_runs.hpp"
 

@@ -60,7 +60,7 @@ TEST_F(Commands, RunWritesItsFolder) {
   EXPECT_EQ(metrics.at("estimator"), "ekf");
   for (const char* key : {"outcome", "keyframes", "loop_closures", "rejected", "chi2",
                           "chi2_initial", "mean_position_error_m", "ate_rmse_m", "heading_rmse_rad",
-                          "anees", "update_ms", "total_ms", "alignment"}) {
+                          "anees", "update_ms.median", "total_ms", "alignment"}) {
     EXPECT_TRUE(metrics.contains(key)) << key;
   }
   ASSERT_EQ(metrics.contains("memory_bytes"), FATHOM_MEASURES_MEMORY == 1);
@@ -393,6 +393,21 @@ TEST_F(Commands, EvaluateAgreesWithTheRun) {
                                HasSubstr("1.50 m"), HasSubstr("alignment origin")));
 }
 
+TEST_F(Commands, EvaluateSaysOfASinglePoseThatItHasNoError) {
+  write("estimate.tum", "0 1 2 0 0 0 0 1\n");
+  write("reference.tum", "0 4 6 0 0 0 0 1\n1 5 6 0 0 0 0 1\n");
+  for (const char* alignment : {"origin", "se2"}) {
+    const std::string out =
+        fathom_done({"evaluate", "estimate.tum", "reference.tum", "--alignment", alignment}).out;
+    EXPECT_THAT(out, HasSubstr("no error can be given: alignment " + std::string(alignment)));
+    EXPECT_THAT(out, Not(HasSubstr("mean position error")));
+  }
+  const std::vector<std::string> as_it_is{"evaluate", "estimate.tum", "reference.tum",
+                                          "--alignment", "none"};
+  EXPECT_TRUE(std::regex_search(fathom_done(as_it_is).out,
+                                std::regex(R"(mean position error \(m\) +5\.0)")));
+}
+
 TEST_F(Commands, ListNamesEverythingWithItsOptions) {
   EXPECT_THAT(fathom_done({"list", "estimators"}).out,
               AllOf(HasSubstr("trajectory_iekf: "), HasSubstr("ekf: "),
@@ -403,6 +418,9 @@ TEST_F(Commands, ListNamesEverythingWithItsOptions) {
   EXPECT_THAT(fathom_done({"list", "datasets"}).out,
               AllOf(HasSubstr("simulated: "), HasSubstr("image_folder: "), HasSubstr("g2o: "),
                     HasSubstr("dataset.altitude.base_m")));
+  EXPECT_THAT(fathom_done({"list", "metrics"}).out,
+              AllOf(HasSubstr("mean_position_error_m"), HasSubstr("rpe_N_keyframes_rad"),
+                    HasSubstr("peak heap of the estimator")));
 }
 
 }  // namespace

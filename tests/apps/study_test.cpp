@@ -12,6 +12,7 @@
 #include "apps/command_line.hpp"
 #include "fathom/core/files.hpp"
 #include "fathom/core/text.hpp"
+#include "fathom/evaluation/metrics.hpp"
 #include "fathom/results/result_store.hpp"
 
 namespace fathom::test {

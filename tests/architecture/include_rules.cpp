@@ -54,6 +54,7 @@ const std::vector<ThirdParty>& third_parties() {
        {"vision/", "datasets/", "front_end/", "src/report/pictures/",
         "include/fathom/report/match_picture.hpp", "include/fathom/report/mosaic.hpp",
         "include/fathom/report/picture.hpp", "apps/"}},
+      {"boost/math/", {"src/core/chi_squared.cpp", "src/evaluation/distributions.cpp"}},
       {"ceres/", {"estimators/ceres_pose_graph/"}},
       {"yaml-cpp/", {"src/configuration/", "src/datasets/image_folder/camera_yaml.cpp"}},
       {"SQLiteCpp/", {"src/results/", "src/front_end/registration_store.cpp"}},

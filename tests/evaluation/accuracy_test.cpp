@@ -42,6 +42,14 @@ TEST(Accuracy, HandNumbers) {
   EXPECT_EQ(result->motion_reference_estimate, Pose{});
 }
 
+TEST(Accuracy, OfOnePoseThereIsNoneUnlessItIsComparedAsItIs) {
+  const std::vector<Pose> reference{{1, 2, 0.5}};
+  const std::vector<Pose> estimate{{4, 6, 0.25}};
+  EXPECT_FALSE(accuracy(estimate, reference, Alignment::origin));
+  EXPECT_FALSE(accuracy(estimate, reference, Alignment::se2));
+  EXPECT_EQ(accuracy(estimate, reference, Alignment::none)->mean_position_error_m, 5.0);
+}
+
 TEST(Accuracy, SeesOnlyTheShapeOnceAligned) {
   RandomStream random(3, "accuracy");
   std::vector<Pose> reference;

@@ -176,12 +176,6 @@ TEST(ResultStore, RefusesWhatIsNoStore) {
               HasSubstr("is no result store"));
 }
 
-TEST(ResultStore, TellsCostFromContent) {
-  EXPECT_TRUE(is_cost_metric("update_ms.p95"));
-  EXPECT_TRUE(is_cost_metric("memory_bytes"));
-  EXPECT_FALSE(is_cost_metric("mean_position_error_m"));
-}
-
 TEST(ResultStore, RefusesToMixData) {
   const test::TemporaryFolder folder;
   StudyDescription study = description();

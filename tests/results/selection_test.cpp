@@ -273,6 +273,17 @@ TEST(SelectEstimator, OneTrialIsComparedByItsValueAndCalledNoEvidence) {
   EXPECT_THAT(selection.remarks, Contains(HasSubstr("one trial is no evidence")));
 }
 
+// Five trials can never show a lead at 0.05: the least p of five differences is 2⁻⁴.
+TEST(SelectEstimator, FiveTrialsWithTiesShowNoLead) {
+  const std::vector<double> errors(5, 0.1);
+  auto runs = runs_of(errors, errors);
+  for (RunRecord& run : runs) run.metrics["total_ms"] = run.key.estimator == "filter" ? 10.0 : 20.0;
+  const Selection selection = selected(two_estimators(5), runs, {});
+  EXPECT_EQ(selection.chosen, 0u);
+  EXPECT_EQ(selection.lead->difference->signed_rank.p_value, 0.0625);
+  EXPECT_FALSE(selection.lead->is_significant);
+}
+
 TEST(SelectEstimator, AnUnfinishedStudyIsComparedOnTheTrialsThatAllHave) {
   auto runs = runs_of({0.1, 0.1, 0.1}, {0.1, 0.1, 0.1});
   runs.push_back(made_run("filter", 0, 3, 9.0, 99.0));

@@ -21,8 +21,13 @@ struct Accuracy {
   double heading_rmse_rad = 0.0;        ///< of wrapped heading differences
 };
 
-/// Absolute accuracy after the alignment named. Nothing where any pose of either list is not finite
-/// or an error is too large for a double: no keyframe is ever left out to save a mean.
+/// Whether so many poses have an error that the alignment leaves: with `none` every pose has, but
+/// `origin` and `se2` lay a single pose on its reference, so that its error says nothing.
+bool leaves_an_error(std::size_t poses, Alignment alignment);
+
+/// Absolute accuracy after the alignment named. Nothing where it leaves no error
+/// (leaves_an_error), where any pose of either list is not finite or where an error is too large
+/// for a double: no keyframe is ever left out to save a mean.
 /// Throws InputError where the lists differ in length or are empty.
 std::optional<Accuracy> accuracy(std::span<const Pose> estimate, std::span<const Pose> reference,
                                  Alignment alignment);

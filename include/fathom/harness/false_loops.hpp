@@ -29,18 +29,4 @@ std::string false_loops_csv(const Spoiled& spoiled);
 /// Reads it for a graph. Throws InputError with file and line where it does not belong to it.
 std::vector<bool> read_false_loops(const std::filesystem::path& path, const MeasurementLog& log);
 
-/// What became of right and false loops. One is kept if it weighs more than a half in the end.
-struct FalseLoopCounts {
-  std::size_t false_loops = 0;
-  std::size_t false_loops_kept = 0;
-  std::size_t right_loops_lost = 0;
-};
-
-/// `weights` and `is_false` stand in the order of the registrations.
-FalseLoopCounts count_false_loops(const std::vector<double>& weights,
-                                  const std::vector<bool>& is_false);
-
-/// How many weigh more than a half.
-std::size_t count_kept(const std::vector<double>& weights);
-
 }  // namespace fathom

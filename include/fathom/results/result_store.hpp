@@ -34,9 +34,6 @@ struct RunRecord {
   std::map<std::string, std::vector<double>> series;  ///< likewise
 };
 
-/// Whether a metric depends on the machine (times and memory), so that it differs from run to run.
-bool is_cost_metric(const std::string& name);
-
 /// The results of one study: one SQLite file, `results.sqlite` (docs/formats.md has its schema).
 /// Throws InputError on a file that is no such store, is of another schema version, cannot be read
 /// or cannot be written (a full disk among them); nothing of a run is ever stored in part.

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "fathom/evaluation/accuracy.hpp"
+#include "fathom/evaluation/consistency.hpp"
+#include "fathom/evaluation/loop_truth.hpp"
+#include "fathom/measurements/measurement_log.hpp"
+
+namespace fathom {
+
+/// What metrics are free in.
+struct MetricOptions {
+  Alignment alignment = Alignment::origin;  ///< of the absolute errors
+  std::vector<double> rpe_keyframes{1};     ///< separations of relative errors, whole numbers
+  std::vector<double> rpe_distances_m;      ///< and path lengths
+  double min_overlap = 0.3;  ///< true overlap from which on a pair should be a loop (loop_recall)
+};
+
+/// What an estimator did with a log, and what it cost.
+struct ReplayFacts {
+  std::vector<JudgedLoop> loops;  ///< in the order of the log's registrations
+  double chi2_initial = 0.0;      ///< F where it started: dead reckoning, or the file's guess
+  double chi2_used = 0.0;         ///< Σ ρ(eᵀ Ω e) over what it used
+  int iterations = 0;
+  std::optional<double> gradient_norm;
+  std::optional<bool> is_local_minimum;
+  std::span<const double> update_ms;  ///< per update
+  std::span<const double> add_ms;     ///< per keyframe
+  double total_ms = 0.0;
+  double cpu_ms = 0.0;
+  std::optional<double> covariance_ms;
+  std::optional<std::int64_t> memory_bytes;
+};
+
+/// All that metrics are computed from: a recording, and what an estimator made of it. What is not
+/// known is absent. Lists belong to the caller and outlive this.
+struct RunFacts {
+  const MeasurementLog& log;
+  std::optional<std::size_t> registrations_tried = std::nullopt;     ///< absent of a pose graph
+  std::optional<std::size_t> registrations_left_out = std::nullopt;  ///< likewise
+  std::optional<std::span<const Pose>> ground_truth = std::nullopt;  ///< of the keyframes
+  const TrueOverlaps* true_overlaps = nullptr;
+  /// The least F that a batch solve of the log reaches.
+  std::optional<double> chi2_optimum = std::nullopt;
+  std::span<const Pose> estimate = {};
+  std::optional<std::span<const Eigen::Matrix3d>> covariances = std::nullopt;  ///< of the estimate
+  /// Absent of dead reckoning, which is no estimator.
+  std::optional<ReplayFacts> replay = std::nullopt;
+  MetricOptions options = {};
+};
+
+/// A run with the judgements that several metrics and series share, each made once.
+struct JudgedRun {
+  RunFacts facts;
+  std::optional<Accuracy> accuracy;  ///< with ground truth alone
+  std::optional<Consistency> consistency;
+};
+
+JudgedRun judge(RunFacts facts);
+
+}  // namespace fathom

@@ -1,0 +1,21 @@
+#include "distributions.hpp"
+
+#include <boost/math/distributions/binomial.hpp>
+#include <boost/math/distributions/normal.hpp>
+
+namespace fathom {
+
+double normal_cdf(double z) {
+  return cdf(boost::math::normal(), z);
+}
+
+double normal_quantile(double probability) {
+  return quantile(boost::math::normal(), probability);
+}
+
+double binomial_upper_bound(std::size_t successes, std::size_t count, double probability) {
+  return boost::math::binomial::find_upper_bound_on_p(static_cast<double>(count),
+                                                      static_cast<double>(successes), probability);
+}
+
+}  // namespace fathom

@@ -1,0 +1,28 @@
+#include "groups.hpp"
+
+namespace fathom {
+
+std::vector<Metric> accuracy_metrics() {
+  const auto error = [](double Accuracy::*field) {
+    return [field](const JudgedRun& run) -> std::optional<double> {
+      if (!run.accuracy) return std::nullopt;
+      return (*run.accuracy).*field;
+    };
+  };
+  return {
+      {"mean_position_error_m", "mean position error", "m", Better::lower,
+       "mean distance to ground truth over the keyframes, the error of the paper",
+       error(&Accuracy::mean_position_error_m)},
+      {"ate_rmse_m", "ATE RMSE", "m", Better::lower,
+       "root mean square distance to ground truth (absolute trajectory error)",
+       error(&Accuracy::ate_rmse_m)},
+      {"max_position_error_m", "max position error", "m", Better::lower,
+       "largest distance to ground truth", error(&Accuracy::max_position_error_m)},
+      {"final_position_error_m", "final position error", "m", Better::lower,
+       "distance to ground truth at the last keyframe", error(&Accuracy::final_position_error_m)},
+      {"heading_rmse_rad", "heading RMSE", "rad", Better::lower,
+       "root mean square of wrapped heading differences", error(&Accuracy::heading_rmse_rad)},
+  };
+}
+
+}  // namespace fathom

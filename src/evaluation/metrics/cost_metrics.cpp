@@ -1,0 +1,65 @@
+#include <utility>
+
+#include "fathom/evaluation/summary.hpp"
+#include "groups.hpp"
+
+namespace fathom {
+namespace {
+
+using Series = std::span<const double> ReplayFacts::*;
+
+// A few numbers of the times of one kind of call: update_ms.median, …
+std::vector<Metric> times_of(Series series, const std::string& name, const std::string& label,
+                             const std::string& calls) {
+  const std::pair<const char*, double Summary::*> numbers[] = {{"median", &Summary::median},
+                                                               {"p95", &Summary::p95},
+                                                               {"max", &Summary::max},
+                                                               {"mean", &Summary::mean},
+                                                               {"total", &Summary::total}};
+  std::vector<Metric> metrics;
+  for (const auto& [number, field] : numbers) {
+    metrics.push_back({name + "." + number, label + ", " + number, "ms", Better::lower,
+                       std::string(number) + " of the wall times of " + calls,
+                       [series, field = field](const JudgedRun& run) -> std::optional<double> {
+                         if (!run.facts.replay) return std::nullopt;
+                         const auto summary = summarise((*run.facts.replay).*series);
+                         if (!summary) return std::nullopt;
+                         return (*summary).*field;
+                       }});
+  }
+  return metrics;
+}
+
+void append(std::vector<Metric>& all, const std::vector<Metric>& more) {
+  all.insert(all.end(), more.begin(), more.end());
+}
+
+}  // namespace
+
+std::vector<Metric> cost_metrics() {
+  std::vector<Metric> all;
+  append(all, times_of(&ReplayFacts::update_ms, "update_ms", "update time",
+                       "updates: calls with registrations, without the keyframe's own, or the "
+                       "batch solve"));
+  append(all,
+         times_of(&ReplayFacts::add_ms, "add_ms", "add time", "the calls that add a keyframe"));
+  append(all, {{"total_ms", "total time", "ms", Better::lower,
+                "wall time of all calls of the estimator but covariances",
+                replay_field(&ReplayFacts::total_ms)},
+               {"cpu_ms", "CPU time", "ms", Better::lower,
+                "CPU time of its thread over the same calls", replay_field(&ReplayFacts::cpu_ms)},
+               {"covariance_ms", "covariance time", "ms", Better::lower,
+                "wall time of the covariances of all keyframes",
+                replay_field(&ReplayFacts::covariance_ms)},
+               {"memory_bytes", "memory", "bytes", Better::lower, "peak heap of the estimator",
+                replay_field(&ReplayFacts::memory_bytes)}});
+  for (Metric& metric : all) metric.is_cost = true;
+  all.push_back({"updates", "updates", "", Better::neither, "how many updates there were",
+                 [](const JudgedRun& run) -> std::optional<double> {
+                   if (!run.facts.replay) return std::nullopt;
+                   return static_cast<double>(run.facts.replay->update_ms.size());
+                 }});
+  return all;
+}
+
+}  // namespace fathom

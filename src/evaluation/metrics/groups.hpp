@@ -1,0 +1,36 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fathom/evaluation/metrics.hpp"
+
+namespace fathom {
+
+// A metric is an entry of one of these lists, each in the file of its name.
+std::vector<Metric> accuracy_metrics();
+std::vector<Metric> consistency_metrics();
+std::vector<Metric> loop_metrics();
+std::vector<Metric> optimum_metrics();
+std::vector<Metric> cost_metrics();
+
+/// Relative errors over separations in keyframes and distances in metres, as words: those that are
+/// no numbers name the whole family and are never known.
+std::vector<Metric> relative_error_metrics(const std::vector<std::string>& keyframes,
+                                           const std::vector<std::string>& distances_m);
+
+/// The relative error of that name.
+std::optional<Metric> relative_error_metric(const std::string& name);
+
+/// The value of a metric that is a field of what the estimator did, a number or an optional one.
+template <class Field>
+auto replay_field(Field ReplayFacts::*field) {
+  return [field](const JudgedRun& run) -> std::optional<double> {
+    if (!run.facts.replay) return std::nullopt;
+    const std::optional value = (*run.facts.replay).*field;
+    return value ? std::optional(static_cast<double>(*value)) : std::nullopt;
+  };
+}
+
+}  // namespace fathom

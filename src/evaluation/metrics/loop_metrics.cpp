@@ -1,0 +1,128 @@
+#include <algorithm>
+
+#include "groups.hpp"
+
+namespace fathom {
+namespace {
+
+using Value = std::optional<double>;
+using Loops = std::vector<JudgedLoop>;
+
+Value number(std::optional<std::size_t> count) {
+  if (!count) return std::nullopt;
+  return static_cast<double>(*count);
+}
+
+// How many loops of a run satisfy a condition.
+template <class Condition>
+auto count_of(Condition condition) {
+  return [condition](const JudgedRun& run) -> Value {
+    if (!run.facts.replay) return std::nullopt;
+    const Loops& loops = run.facts.replay->loops;
+    return static_cast<double>(std::count_if(loops.begin(), loops.end(), condition));
+  };
+}
+
+auto count_of_use(LoopUse use) {
+  return count_of([use](const JudgedLoop& loop) { return loop.use == use; });
+}
+
+// The same where it is known of all loops which are false.
+template <class Condition>
+auto count_where_known(Condition condition) {
+  return [condition](const JudgedRun& run) -> Value {
+    if (!run.facts.replay) return std::nullopt;
+    const Loops& loops = run.facts.replay->loops;
+    const auto is_known = [](const JudgedLoop& loop) { return loop.is_false.has_value(); };
+    if (loops.empty() || !std::all_of(loops.begin(), loops.end(), is_known)) return std::nullopt;
+    return static_cast<double>(std::count_if(loops.begin(), loops.end(), condition));
+  };
+}
+
+Value mean_nis(const JudgedRun& run) {
+  if (!run.facts.replay) return std::nullopt;
+  double sum = 0.0;
+  std::size_t count = 0;
+  for (const JudgedLoop& loop : run.facts.replay->loops) {
+    if (loop.use != LoopUse::used || !loop.nis) continue;
+    sum += *loop.nis;
+    ++count;
+  }
+  if (count == 0) return std::nullopt;
+  return sum / static_cast<double>(count);
+}
+
+Value precision(const JudgedRun& run) {
+  if (!run.facts.replay || run.facts.true_overlaps == nullptr) return std::nullopt;
+  return loop_precision(run.facts.replay->loops, *run.facts.true_overlaps);
+}
+
+Value recall(const JudgedRun& run) {
+  if (!run.facts.replay || run.facts.true_overlaps == nullptr) return std::nullopt;
+  return loop_recall(run.facts.replay->loops, *run.facts.true_overlaps,
+                     run.facts.options.min_overlap);
+}
+
+std::vector<Metric> log_metrics() {
+  return {
+      {"keyframes", "keyframes", "", Better::neither, "of the log",
+       [](const JudgedRun& run) { return number(run.facts.log.size()); }},
+      {"registrations", "registrations", "", Better::neither, "of the log",
+       [](const JudgedRun& run) {
+         return run.facts.replay ? number(run.facts.log.registration_count()) : std::nullopt;
+       }},
+      {"registrations_tried", "registrations tried", "", Better::neither,
+       "pairs of keyframes given to registration; absent of a pose graph",
+       [](const JudgedRun& run) { return number(run.facts.registrations_tried); }},
+      {"registrations_left_out", "registrations left out", "", Better::neither,
+       "loop candidates beyond max_per_keyframe; absent of a pose graph",
+       [](const JudgedRun& run) { return number(run.facts.registrations_left_out); }},
+  };
+}
+
+std::vector<Metric> false_loop_metrics() {
+  return {
+      {"false_loops", "false loops", "", Better::neither,
+       "false registrations of the log, where it is known which are",
+       count_where_known([](const JudgedLoop& loop) { return *loop.is_false; })},
+      {"false_loops_kept", "false loops kept", "", Better::lower,
+       "false registrations that weigh more than one half in the end",
+       count_where_known([](const JudgedLoop& loop) { return *loop.is_false && loop.is_kept(); })},
+      {"right_loops_lost", "right loops lost", "", Better::lower,
+       "right registrations that do not weigh more than one half in the end",
+       count_where_known(
+           [](const JudgedLoop& loop) { return !*loop.is_false && !loop.is_kept(); })},
+  };
+}
+
+}  // namespace
+
+std::vector<Metric> loop_metrics() {
+  std::vector<Metric> all = log_metrics();
+  const std::vector<Metric> uses{
+      {"loop_closures", "loop closures", "", Better::neither, "registrations used",
+       count_of_use(LoopUse::used)},
+      {"rejected", "rejected", "", Better::neither, "registrations refused by the gate",
+       count_of_use(LoopUse::rejected)},
+      {"lost", "lost", "", Better::lower,
+       "registrations let through by the gate, but their update failed",
+       count_of_use(LoopUse::lost)},
+      {"loops_kept", "loops kept", "", Better::neither,
+       "registrations that weigh more than one half in the end",
+       count_of([](const JudgedLoop& loop) { return loop.is_kept(); })},
+      {"mean_nis_accepted", "mean NIS accepted", "", Better::neither,
+       "mean normalised innovation squared of the used registrations; 3 expected", mean_nis},
+      {"loop_precision", "loop precision", "", Better::higher,
+       "share of the used registrations whose pictures truly overlap", precision},
+      {"loop_recall", "loop recall", "", Better::higher,
+       "share of the pairs of keyframes that truly overlap by evaluation.min_overlap or more that "
+       "are used registrations",
+       recall},
+  };
+  all.insert(all.end(), uses.begin(), uses.end());
+  const std::vector<Metric> of_false_loops = false_loop_metrics();
+  all.insert(all.end(), of_false_loops.begin(), of_false_loops.end());
+  return all;
+}
+
+}  // namespace fathom
