@@ -11,8 +11,9 @@ set -euo pipefail
 # to load unless every module is there.
 packages=(
   build-essential cmake ninja-build
-  libeigen3-dev libopencv-dev libceres-dev libsuitesparse-dev libopenblas-dev libgoogle-glog-dev
-  libboost-dev libyaml-cpp-dev libsqlitecpp-dev libsqlite3-dev libcli11-dev nlohmann-json3-dev
+  libeigen3-dev libopencv-dev libceres-dev libsuitesparse-dev libgoogle-glog-dev
+  libboost-dev libopenblas-dev libopenblas0-serial
+  libyaml-cpp-dev libsqlitecpp-dev libsqlite3-dev libcli11-dev nlohmann-json3-dev
   libcairo2-dev pkg-config libjs-vega
   libgtest-dev libgmock-dev libbenchmark-dev chromium
   clang-format

@@ -2,6 +2,8 @@
 
 #include <cstring>
 
+#include "fathom/core/cpu.hpp"
+
 namespace fathom {
 namespace {
 
@@ -86,23 +88,15 @@ template <class Doubles>
   }
 }
 
-[[gnu::target("avx2,fma")]] void transposed_product_by_avx2(const ThreeColumns& V,
-                                                            const ThreeColumns& B,
-                                                            Eigen::Index rows,
-                                                            Eigen::Matrix3d& product) {
+FATHOM_FOR_AVX2 void transposed_product_by_avx2(const ThreeColumns& V, const ThreeColumns& B,
+                                                Eigen::Index rows, Eigen::Matrix3d& product) {
   transposed_product_with<FourDoubles>(V, B, rows, product);
 }
 
-[[gnu::target("avx2,fma")]] void subtract_product_by_avx2(const ThreeColumns& V,
-                                                          const Eigen::Matrix3d& Y,
-                                                          Eigen::Index rows, double* product,
-                                                          Eigen::Index stride) {
+FATHOM_FOR_AVX2 void subtract_product_by_avx2(const ThreeColumns& V, const Eigen::Matrix3d& Y,
+                                              Eigen::Index rows, double* product,
+                                              Eigen::Index stride) {
   subtract_product_with<FourDoubles>(V, Y, rows, product, stride);
-}
-
-bool has_avx2() {
-  static const bool has = __builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("fma") != 0;
-  return has;
 }
 
 }  // namespace

@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <utility>
 
+#include "fathom/evaluation/metrics.hpp"
 #include "file_names.hpp"
 #include "metric_label.hpp"
 #include "text_layout.hpp"
-
-#include "fathom/evaluation/metrics.hpp"
 
 namespace fathom {
 namespace {

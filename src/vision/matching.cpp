@@ -11,6 +11,8 @@
 
 #include <opencv2/core.hpp>
 
+#include "fathom/core/cpu.hpp"
+
 namespace fathom {
 namespace {
 
@@ -113,15 +115,14 @@ template <class Lanes>
   return nearest_of(costs_of_lanes, next_costs, columns);
 }
 
-[[gnu::target("avx2")]] Nearest scan_by_avx2(int row, const float* costs, std::size_t count,
-                                             NearestBack& back) {
+FATHOM_FOR_AVX2 Nearest scan_by_avx2(int row, const float* costs, std::size_t count,
+                                     NearestBack& back) {
   return scan<EightLanes>(row, costs, count, back);
 }
 
 Nearest scan_row(int row, const float* costs, std::size_t count, NearestBack& back) {
-  static const bool has_avx2 = __builtin_cpu_supports("avx2") != 0;
-  return has_avx2 ? scan_by_avx2(row, costs, count, back)
-                  : scan<FourLanes>(row, costs, count, back);
+  if (has_avx2()) return scan_by_avx2(row, costs, count, back);
+  return scan<FourLanes>(row, costs, count, back);
 }
 
 // `costs_of(first, rows, block, stride)` fills the first `to_rows` columns of a block, row by row

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <fcntl.h>
 #include <fstream>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <thread>
 #include <unistd.h>
@@ -18,6 +19,7 @@ namespace fs = std::filesystem;
 
 // In the child: into the folder, output into files, and the program in its place.
 [[noreturn]] void become_fathom(const fs::path& folder, const fs::path& out, const fs::path& err,
+                                const Surroundings& surroundings,
                                 std::vector<std::string> arguments) {
   arguments.insert(arguments.begin(), "fathom");
   std::vector<char*> argv;
@@ -26,8 +28,17 @@ namespace fs = std::filesystem;
   constexpr int kFlags = O_WRONLY | O_CREAT | O_TRUNC;
   // No test may find what another one registered, nor leave anything with the user.
   ::setenv("FATHOM_CACHE", (out.parent_path() / "cache").c_str(), 1);
-  const int out_file = ::open(out.c_str(), kFlags, 0600);
+  for (const auto& [name, value] : surroundings.environment) {
+    ::setenv(name.c_str(), value.c_str(), 1);
+  }
+  const bool is_redirected = !surroundings.standard_output.empty();
+  const int out_file =
+      ::open(is_redirected ? surroundings.standard_output.c_str() : out.c_str(), kFlags, 0600);
   const int err_file = ::open(err.c_str(), kFlags, 0600);
+  if (surroundings.address_space_bytes > 0) {
+    const rlimit limit{surroundings.address_space_bytes, surroundings.address_space_bytes};
+    if (::setrlimit(RLIMIT_AS, &limit) != 0) ::_exit(127);
+  }
   if (::chdir(folder.c_str()) == 0 && ::dup2(out_file, 1) == 1 && ::dup2(err_file, 2) == 2) {
     ::execv(FATHOM_BINARY, argv.data());
   }
@@ -40,14 +51,17 @@ Ended CommandLine::fathom(const Arguments& arguments,
                           const std::function<void(pid_t)>& while_running) const {
   const TemporaryFolder output;
   const pid_t child = ::fork();
-  if (child == 0) become_fathom(folder_.path(), output / "out", output / "err", arguments);
+  if (child == 0) {
+    become_fathom(folder_.path(), output / "out", output / "err", surroundings_, arguments);
+  }
   int status = 0;
   while (::waitpid(child, &status, while_running ? WNOHANG : 0) == 0) {
     while_running(child);
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }
   return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status),
-          read_file(output / "out"), read_file(output / "err")};
+          surroundings_.standard_output.empty() ? read_file(output / "out") : "",
+          read_file(output / "err")};
 }
 
 Ended CommandLine::fathom_done(const Arguments& arguments) const {

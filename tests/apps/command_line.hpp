@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <set>
 #include <string>
 #include <sys/types.h>
@@ -19,6 +20,13 @@ struct Ended {
   int status = -1;
   std::string out;
   std::string err;
+};
+
+/// What the program finds where it is started.
+struct Surroundings {
+  std::map<std::string, std::string> environment;  ///< beside what the test itself has
+  std::string standard_output;                     ///< a file in place of what `Ended` holds
+  std::size_t address_space_bytes = 0;             ///< at most; 0: no bound
 };
 
 /// Runs the real program in a new folder of the test's own.
@@ -45,6 +53,8 @@ class CommandLine : public ::testing::Test {
   nlohmann::json json_of(const std::string& name) const;
   /// Everything in the folder, relative to it.
   std::set<std::string> tree() const;
+
+  Surroundings surroundings_;
 
  private:
   TemporaryFolder folder_;

@@ -2,6 +2,8 @@
 
 #include <cstring>
 
+#include "fathom/core/cpu.hpp"
+
 namespace fathom::filter {
 namespace {
 
@@ -170,7 +172,7 @@ template <class Doubles, int Columns>
   for (; c < columns; ++c) downdate_columns<Doubles, 1>(panel + kPanelRows * c, V, c);
 }
 
-[[gnu::target("avx2,fma")]] void sweep_by_avx2(const PanelSweep& work, int columns_of_B) {
+FATHOM_FOR_AVX2 void sweep_by_avx2(const PanelSweep& work, int columns_of_B) {
   if (columns_of_B == 2) {
     sweep_with<FourLanes::Doubles, 2>(work);
   } else {
@@ -178,25 +180,13 @@ template <class Doubles, int Columns>
   }
 }
 
-[[gnu::target("avx2,fma")]] void downdate_by_avx2(double* panel, Eigen::Index columns,
-                                                  const Factors& V) {
+FATHOM_FOR_AVX2 void downdate_by_avx2(double* panel, Eigen::Index columns, const Factors& V) {
   downdate_with<FourLanes::Doubles, 2>(panel, columns, V);
 }
 
 // More registers: more columns at once, and each row of V is fetched for all of them.
-[[gnu::target("avx512f")]] void downdate_by_avx512(double* panel, Eigen::Index columns,
-                                                   const Factors& V) {
+FATHOM_FOR_AVX512 void downdate_by_avx512(double* panel, Eigen::Index columns, const Factors& V) {
   downdate_with<EightLanes::Doubles, 4>(panel, columns, V);
-}
-
-bool has_avx2() {
-  static const bool has = __builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("fma") != 0;
-  return has;
-}
-
-bool has_avx512() {
-  static const bool has = __builtin_cpu_supports("avx512f") != 0;
-  return has;
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 
 #include <cstddef>
 
+#include "fathom/core/cpu.hpp"
+
 /// The arithmetic of the factorisation, inlined into functions compiled for the processor at hand.
 namespace fathom::sparse {
 
@@ -50,22 +52,16 @@ bool run_plain(Task& task) {
   return task.run();
 }
 
-#if defined(__x86_64__)
 template <class Task>
-[[gnu::target("avx2,fma")]] bool run_wide(Task& task) {
+FATHOM_FOR_AVX2 bool run_wide(Task& task) {
   return task.run();
 }
-#endif
 
 /// task.run(), which must be FATHOM_INLINE with all that it calls, compiled for the processor's
 /// vector unit where that is worth it.
 template <class Task>
 bool run_for_processor(Task& task) {
-#if defined(__x86_64__)
-  static const bool has_wide = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-  if (has_wide) return run_wide(task);
-#endif
-  return run_plain(task);
+  return has_avx2() ? run_wide(task) : run_plain(task);
 }
 
 }  // namespace fathom::sparse

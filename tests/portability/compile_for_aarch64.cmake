@@ -1,0 +1,40 @@
+# Compiles every source and header that includes core's CPU dispatch for aarch64, and refuses what
+# names a processor anywhere else. SOURCE, THIRD_PARTY and MULTIARCH are given.
+set(dispatch include/fathom/core/cpu.hpp)
+file(GLOB_RECURSE files RELATIVE ${SOURCE} ${SOURCE}/include/*.hpp ${SOURCE}/src/*.[ch]pp
+     ${SOURCE}/estimators/*.[ch]pp ${SOURCE}/apps/*.[ch]pp)
+set(dispatching)
+foreach(file ${files})
+  file(READ ${SOURCE}/${file} text)
+  if(NOT file STREQUAL dispatch
+     AND text MATCHES "gnu::target|__builtin_cpu|__x86_64__|immintrin|__attribute__\\(\\(target")
+    message(FATAL_ERROR "${file} names a processor; only ${dispatch} may")
+  endif()
+  if(text MATCHES "#include \"fathom/core/cpu.hpp\"")
+    list(APPEND dispatching ${file})
+  endif()
+endforeach()
+list(LENGTH dispatching count)
+if(count LESS 4)
+  message(FATAL_ERROR "only ${count} files include ${dispatch}: ${dispatching}")
+endif()
+
+find_program(compiler NAMES aarch64-linux-gnu-g++ aarch64-linux-gnu-g++-12)
+if(NOT compiler)
+  message(STATUS "skipped: no aarch64-linux-gnu-g++ here (Debian: g++-aarch64-linux-gnu)")
+  return()
+endif()
+# Headers of libraries that differ by architecture are those of this machine, after the compiler's.
+set(flags -std=c++20 -fsyntax-only -Wall -Wextra -Werror -I${SOURCE}/include -I${SOURCE})
+foreach(folder ${THIRD_PARTY})
+  list(APPEND flags -idirafter ${folder})
+endforeach()
+list(APPEND flags -idirafter /usr/include/${MULTIARCH})
+foreach(file ${dispatching})
+  execute_process(COMMAND ${compiler} ${flags} -x c++ ${SOURCE}/${file}
+                  RESULT_VARIABLE status ERROR_VARIABLE errors)
+  if(NOT status EQUAL 0)
+    message(FATAL_ERROR "${file} does not compile for aarch64:\n${errors}")
+  endif()
+  message(STATUS "${file}: compiles for aarch64")
+endforeach()
