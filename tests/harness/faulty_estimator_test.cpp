@@ -129,13 +129,12 @@ TEST(FaultyEstimator, IsJudgedAndWrittenDown) {
     EstimatorRegistry registry;
     registry.add(scripted(script));
     registry.add(builtin_estimators().find("sparse_gauss_newton"));
-    const Result result =
-        evaluate(recording, {"mine", "scripted", {}}, registry, Alignment::origin, {});
+    const Result result = evaluate(recording, {"mine", "scripted", {}}, registry, {}, {});
     EXPECT_FALSE(result.is_done());
-    EXPECT_EQ(result.loop_closures, 0u);
-    EXPECT_EQ(result.lost, recording.log.registration_count());
+    EXPECT_EQ(result.metric("loop_closures"), 0.0);
+    EXPECT_EQ(result.metric("lost"), static_cast<double>(recording.log.registration_count()));
     EXPECT_THAT(metrics_json(result, recording), HasSubstr(message));
-    const RunRecord run = run_record(recording, result, {}, builtin_estimators());
+    const RunRecord run = run_record(recording, result);
     EXPECT_EQ(run.outcome, "numerical_failure");
     EXPECT_EQ(run.fault, message);
     for (const auto& [name, value] : run.metrics) EXPECT_TRUE(std::isfinite(value)) << name;

@@ -49,8 +49,9 @@ Result evaluated(const Recording& recording, const std::string& type = "ekf",
 Result scripted_result(const Recording& recording, Script& script) {
   EstimatorRegistry registry;
   registry.add(test::scripted(script));
-  return evaluate(recording, {"name", "scripted", {}}, registry,
-                  {.metrics = {.alignment = Alignment::none}}, {});
+  JudgeOptions judging;
+  judging.metrics.alignment = Alignment::none;
+  return evaluate(recording, {"name", "scripted", {}}, registry, judging, {});
 }
 
 json metrics(const Result& result, const Recording& recording) {
