@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <regex>
 #include <sstream>
 
 #include <gmock/gmock.h>
@@ -26,6 +27,12 @@ std::vector<fs::path> pages() {
   return all;
 }
 
+std::string text_of(const fs::path& path) {
+  std::ostringstream text;
+  text << std::ifstream(path).rdbuf();
+  return text.str();
+}
+
 TEST(Docs, EveryLinkLeadsToAFileAndItsAnchorToAHeading) {
   std::size_t seen = 0;
   for (const fs::path& page : pages()) {
@@ -45,15 +52,34 @@ TEST(Docs, EveryLinkLeadsToAFileAndItsAnchorToAHeading) {
 }
 
 TEST(Docs, EveryPageIsInTheNavigationAndInTheIndex) {
-  std::ostringstream navigation;
-  navigation << std::ifstream(kTop / "docs/site/mkdocs.yml").rdbuf();
+  const std::string navigation = text_of(kTop / "docs/site/mkdocs.yml");
   const std::vector<std::string> index = read_markdown(kTop / "docs/index.md").links;
   for (const fs::path& page : pages()) {
     const std::string name = page.lexically_relative(kTop / "docs").generic_string();
     if (name == "../README.md" || name == "index.md") continue;
-    EXPECT_THAT(navigation.str(), HasSubstr(": " + name + "\n"));
+    EXPECT_THAT(navigation, HasSubstr(": " + name + "\n"));
     EXPECT_THAT(index, Contains(name));
   }
+}
+
+// `Class::member` and `function` in the tables of the page.
+TEST(Docs, WhatThePaperIsMappedToIsInTheSources) {
+  std::string sources;
+  for (const char* folder : {"include", "src", "estimators"}) {
+    for (const auto& entry : fs::recursive_directory_iterator(kTop / folder)) {
+      const auto ending = entry.path().extension();
+      if (ending == ".hpp" || ending == ".cpp") sources += text_of(entry.path());
+    }
+  }
+  const std::string page = text_of(kTop / "docs/paper_to_code.md");
+  const std::regex quoted(R"(`(?:(\w+)::)?([a-zA-Z]\w*)`)");
+  std::size_t seen = 0;
+  for (std::sregex_iterator found(page.begin(), page.end(), quoted), end; found != end; ++found) {
+    EXPECT_THAT(sources, HasSubstr((*found)[1].str())) << found->str();
+    EXPECT_THAT(sources, HasSubstr((*found)[2].str())) << found->str();
+    ++seen;
+  }
+  EXPECT_GT(seen, 20u);
 }
 
 TEST(Docs, TheReadmeIsShort) {
