@@ -31,7 +31,12 @@ foreach(folder ${THIRD_PARTY})
 endforeach()
 list(APPEND flags -idirafter /usr/include/${MULTIARCH})
 foreach(file ${dispatching})
-  execute_process(COMMAND ${compiler} ${flags} -x c++ ${SOURCE}/${file}
+  # A header as one that a file includes: alone it would be warned of its `#pragma once`.
+  set(input ${SOURCE}/${file})
+  if(file MATCHES "hpp$")
+    set(input -include ${input} /dev/null)
+  endif()
+  execute_process(COMMAND ${compiler} ${flags} -x c++ ${input}
                   RESULT_VARIABLE status ERROR_VARIABLE errors)
   if(NOT status EQUAL 0)
     message(FATAL_ERROR "${file} does not compile for aarch64:\n${errors}")

@@ -75,8 +75,8 @@ struct DataSetEntry {
   /// Of them those that only say what a trial measures: the pictures do not depend on them.
   std::vector<OptionDescription> trial_options;
   std::function<std::unique_ptr<DataSetOptions>()> make_options;
-  /// What is the same in all trials follows from the seed alone. Throws InputError, with `dataset.`
-  /// in front of a key.
+  /// What is the same in all trials follows from the seed alone. Throws InputError that names the
+  /// whole key.
   std::function<std::unique_ptr<DataSet>(const DataSetValues&, std::uint64_t seed)> open;
 };
 
