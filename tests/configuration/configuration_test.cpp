@@ -111,6 +111,21 @@ TEST(Configure, RefusesKeysThatTheDecisionIgnores) {
   EXPECT_EQ(in_force(paper, score), "paper");
 }
 
+TEST(Configure, TunedNumbersOfTheRegistrationAreKeys) {
+  const std::string key = "front_end.registration_tuning.covariance.shared_error";
+  const std::string set = "registration_tuning: {covariance: {shared_error: 0.05}}";
+  EXPECT_EQ(in_force(configured(""), key), "0.055");
+  const Configuration changed = configured("front_end: {" + set + "}\n");
+  EXPECT_EQ(changed.front_end.registration.tuning.covariance.shared_error, 0.05);
+  EXPECT_EQ(in_force(changed, key), "0.05");
+  const std::string gate = "registration_tuning: {fit: {gate: 9}}";
+  EXPECT_THAT(refusal("front_end: {decision: {method: inliers}, " + gate + "}\n"),
+              HasSubstr("registration_tuning.fit.gate: decision.method inliers has no use for it"));
+  const std::string window = "registration_tuning: {features: {window_px: 9}}";
+  EXPECT_THAT(refusal("front_end: {features: {flatten: false}, " + window + "}\n"),
+              HasSubstr("window_px: features.flatten false has no use for it"));
+}
+
 TEST(Configure, WhatIsInForceReadsBack) {
   const Configuration first = configured(
       "seed: 3\ndataset: {mission: {type: waypoints, waypoints_m: [0, 0, 1, 1]}, altitude: "
