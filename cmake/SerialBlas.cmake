@@ -1,6 +1,6 @@
 # Every program of this build runs on a serial OpenBLAS where there is one (Debian: the package
-# libopenblas0-serial): a threaded one starts a pool as soon as it is loaded, which costs each command
-# processor time and tells with the cost of an estimator. Sets FATHOM_HAS_SERIAL_BLAS.
+# libopenblas0-serial): a threaded one starts a pool as soon as it is loaded, which costs
+# processor time and waits for ever where it finds no memory. Sets FATHOM_HAS_SERIAL_BLAS.
 #
 # The programs name libblas and liblapack, too, so that those which Ceres and CHOLMOD ask for are
 # already loaded, and find all three by DT_RPATH, which goes before LD_LIBRARY_PATH and the system's
@@ -16,8 +16,11 @@ if(FATHOM_SERIAL_BLAS_DIR)
     ${FATHOM_SERIAL_BLAS_DIR}/libopenblas.so.0 ${FATHOM_SERIAL_BLAS_DIR}/libblas.so.3
     ${FATHOM_SERIAL_BLAS_DIR}/liblapack.so.3 -Wl,--pop-state)
   string(APPEND CMAKE_EXE_LINKER_FLAGS " ${serial_blas_flags}")
-  list(APPEND CMAKE_BUILD_RPATH ${FATHOM_SERIAL_BLAS_DIR})
+  # The same path in the build folder: CMake ends one of its own with a separator, which stands for
+  # the working directory.
   list(APPEND CMAKE_INSTALL_RPATH ${FATHOM_SERIAL_BLAS_DIR})
+  set(CMAKE_INSTALL_RPATH_USE_LINK_PATH ON)
+  set(CMAKE_BUILD_WITH_INSTALL_RPATH ON)
 else()
   set(FATHOM_HAS_SERIAL_BLAS 0)
   message(STATUS "No serial OpenBLAS (Debian: libopenblas0-serial): the programs hold the threaded "

@@ -9,6 +9,7 @@
 
 #include "estimators/ceres_pose_graph/edge_cost.hpp"
 #include "estimators/ceres_pose_graph/hessian_inverse.hpp"
+#include "fathom/core/blas_memory.hpp"
 #include "fathom/estimation/joint_covariance.hpp"
 #include "fathom/geometry/covariance.hpp"
 
@@ -121,6 +122,7 @@ UpdateReport CeresPoseGraph::Graph::solve() {
   UpdateReport report;
   const std::deque<Block> before = poses_;
   ceres::Solver::Summary summary;
+  const BlasMemory memory;  // CHOLMOD's supernodes are products of BLAS
   ceres::Solve(solver_options(options_), &problem_, &summary);
   report.iterations = summary.num_successful_steps + summary.num_unsuccessful_steps;
   report.outcome = outcome_of(summary);

@@ -11,6 +11,7 @@
 
 #include <opencv2/core.hpp>
 
+#include "fathom/core/blas_memory.hpp"
 #include "fathom/core/cpu.hpp"
 
 namespace fathom {
@@ -183,6 +184,7 @@ NearestRows find_euclidean(const cv::Mat& from, const cv::Mat& to) {
   const cv::Mat_<float> a = with_norms(from, Side::from);
   const cv::Mat_<float> b = with_norms(to, Side::to);
   const auto costs_of = [&](int first, int rows, float* block, int stride) {
+    const BlasMemory memory;
     cblas_sgemm(CblasRowMajor, CblasNoTrans, CblasTrans, rows, b.rows, a.cols, 1.0F, a[first],
                 static_cast<int>(a.step1()), b[0], static_cast<int>(b.step1()), 0.0F, block,
                 stride);
