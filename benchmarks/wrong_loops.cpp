@@ -1,23 +1,24 @@
 // How back ends stand false loops: graphs with a share of false ones added, each solved as a batch
-// and compared with the optimum of the same graph without them. Prints a Markdown table.
+// and compared with one reference for all, the least-squares optimum of the same graph without
+// them. A share of 0 tells what a back end makes of the clean graph. Prints a Markdown table.
 //
-//   wrong_loops [--seeds N] [--shares 0.1,0.3,0.5] [--kinds random,local,grouped]
+//   wrong_loops [--seeds N] [--shares 0,0.1,0.3,0.5] [--kinds random,local,grouped]
 //               [--back-ends NAME,…] GRAPH.g2o …
 
 #include <algorithm>
-#include <chrono>
+#include <cblas.h>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <optional>
+#include <omp.h>
 #include <string>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 
 #include "fathom/estimators/builtin.hpp"
-#include "fathom/measurements/g2o.hpp"
-#include "fathom/measurements/spoil.hpp"
+#include "fathom/harness/false_loops.hpp"
+#include "fathom/harness/replay.hpp"
 
 namespace fathom {
 namespace {
@@ -44,37 +45,20 @@ std::vector<BackEnd> back_ends() {
 
 struct Flags {
   int seeds = 3;
-  std::vector<double> shares{0.1, 0.3, 0.5};
+  std::vector<double> shares{0.0, 0.1, 0.3, 0.5};
   std::vector<std::string> kinds{"random", "local", "grouped"};
   std::vector<std::string> back_ends{"plain",         "huber", "cauchy",   "dcs",
                                      "geman_mcclure", "gnc",   "truncated"};
   std::vector<std::string> graphs;
 };
 
-struct Solved {
-  std::vector<Pose> poses;
-  std::vector<double> weights;
-  double ms = 0.0;
-};
-
-Solved solve(const MeasurementLog& log, const BackEnd& back_end) {
+Replay solve(const MeasurementLog& log, const BackEnd& back_end) {
   EstimatorValues values;
   for (const auto& [key, value] : back_end.options) values[key] = OptionValue::scalar(value);
-  const auto begin = std::chrono::steady_clock::now();
-  const auto estimator =
-      builtin_estimators().find(back_end.type).create({log.origin(), SolveMode::batch}, values);
-  for (std::size_t k = 1; k < log.size(); ++k) {
-    estimator->add_keyframe(log.arrival(k).step);
-    if (!log.arrival(k).registrations.empty()) {
-      estimator->close_loops(log.arrival(k).registrations);
-    }
-  }
-  estimator->finish();
-  Solved solved{poses_of(*estimator), estimator->loop_weights(), 0.0};
-  solved.ms =
-      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
-  if (solved.weights.empty()) solved.weights.assign(log.registration_count(), 1.0);
-  return solved;
+  ReplayOptions options;
+  options.mode = SolveMode::batch;
+  options.covariances = false;
+  return replay(log, builtin_estimators().find(back_end.type), values, options);
 }
 
 double mean_distance_m(const std::vector<Pose>& a, const std::vector<Pose>& b) {
@@ -90,55 +74,68 @@ FalseLoopKind kind_of(const std::string& name) {
   return FalseLoopKind::random;
 }
 
-void print_row(const std::string& graph, const MeasurementLog& log, const std::vector<Pose>& clean,
-               const BackEnd& back_end, const std::vector<Pose>& own_clean, double share,
-               const std::string& kind, int seeds) {
+// What is the same for all seeds.
+struct Case {
+  std::string graph;
+  const MeasurementLog& log;
+  const std::vector<Pose>& optimum;
+  double share = 0.0;
+  std::string kind;
+};
+
+void print_row(const Case& one, const BackEnd& back_end, int seeds) {
   std::vector<double> errors;
-  std::size_t kept = 0;
-  std::size_t lost = 0;
-  std::size_t false_loops = 0;
-  double ms = 0.0;
+  FalseLoopCounts counts;
+  double cpu_ms = 0.0;
   for (int seed = 1; seed <= seeds; ++seed) {
     SpoilOptions options;
-    options.share = share;
-    options.kind = kind_of(kind);
-    const Spoiled spoiled = spoil(log, clean, options, static_cast<std::uint64_t>(seed));
-    const Solved solved = solve(spoiled.log, back_end);
-    errors.push_back(mean_distance_m(solved.poses, own_clean));
-    ms += solved.ms / seeds;
-    for (std::size_t j = 0; j < spoiled.is_false.size(); ++j) {
-      if (spoiled.is_false[j]) ++false_loops;
-      if (spoiled.is_false[j] && solved.weights[j] > 0.5) ++kept;
-      if (!spoiled.is_false[j] && solved.weights[j] <= 0.5) ++lost;
-    }
+    options.share = one.share;
+    options.kind = kind_of(one.kind);
+    const Spoiled spoiled = spoil(one.log, one.optimum, options, static_cast<std::uint64_t>(seed));
+    const Replay solved = solve(spoiled.log, back_end);
+    errors.push_back(mean_distance_m(solved.trajectory, one.optimum));
+    cpu_ms += solved.cpu_ms / seeds;
+    const FalseLoopCounts found = count_false_loops(solved.loop_weights, spoiled.is_false);
+    counts.false_loops += found.false_loops;
+    counts.false_loops_kept += found.false_loops_kept;
+    counts.right_loops_lost += found.right_loops_lost;
   }
   std::sort(errors.begin(), errors.end());
   std::printf("| %s | %.0f %% | %s | %s | %.4f | %.4f | %zu of %zu | %zu of %zu | %.0f |\n",
-              graph.c_str(), 100.0 * share, kind.c_str(), back_end.name.c_str(),
-              errors[errors.size() / 2], errors.back(), kept, false_loops, lost,
-              log.registration_count() * static_cast<std::size_t>(seeds), ms);
+              one.graph.c_str(), 100.0 * one.share, one.kind.c_str(), back_end.name.c_str(),
+              errors[errors.size() / 2], errors.back(), counts.false_loops_kept, counts.false_loops,
+              counts.right_loops_lost,
+              one.log.registration_count() * static_cast<std::size_t>(seeds), cpu_ms);
   std::fflush(stdout);
+}
+
+// Without false loops kinds and seeds are all the same.
+void print_rows(const std::string& graph, const Recording& recording,
+                const std::vector<Pose>& optimum, const BackEnd& back_end, const Flags& flags) {
+  for (const double share : flags.shares) {
+    if (share == 0.0) {
+      print_row({graph, recording.log, optimum, share, "none"}, back_end, 1);
+      continue;
+    }
+    for (const std::string& kind : flags.kinds) {
+      print_row({graph, recording.log, optimum, share, kind}, back_end, flags.seeds);
+    }
+  }
 }
 
 void run(const Flags& flags) {
   std::printf(
-      "| graph | false | kind | back end | median error m | worst | false kept | right lost | ms "
-      "|\n|---|---|---|---|---|---|---|---|---|\n");
+      "| graph | false | kind | back end | median error m | worst | false kept | right lost | CPU "
+      "ms |\n|---|---|---|---|---|---|---|---|---|\n");
   for (const std::string& path : flags.graphs) {
-    const MeasurementLog log = read_g2o(path);
-    const std::string name = std::filesystem::path(path).stem().string();
-    const std::vector<Pose> clean = solve(log, back_ends().front()).poses;
+    const Recording recording = record_graph(path);
+    const std::vector<Pose> optimum = reference_poses(recording, builtin_estimators());
     for (const BackEnd& back_end : back_ends()) {
       if (std::find(flags.back_ends.begin(), flags.back_ends.end(), back_end.name) ==
           flags.back_ends.end()) {
         continue;
       }
-      const std::vector<Pose> own_clean = solve(log, back_end).poses;
-      for (const double share : flags.shares) {
-        for (const std::string& kind : flags.kinds) {
-          print_row(name, log, clean, back_end, own_clean, share, kind, flags.seeds);
-        }
-      }
+      print_rows(std::filesystem::path(path).stem().string(), recording, optimum, back_end, flags);
     }
   }
 }
@@ -147,6 +144,8 @@ void run(const Flags& flags) {
 }  // namespace fathom
 
 int main(int argc, char** argv) {
+  omp_set_max_active_levels(0);
+  openblas_set_num_threads(1);
   CLI::App app("Back ends on graphs with false loops");
   fathom::Flags flags;
   app.add_option("--seeds", flags.seeds);

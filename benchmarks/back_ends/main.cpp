@@ -5,8 +5,9 @@
 //               [--repeats 5] [--budget 60] [--growth FILE.svg] [--largest 100000]
 //
 // Options of the estimators at their defaults, batch solves from dead reckoning or from what the
-// estimator finds by itself. Times are CPU times of the thread, of the fastest run. Ceres is always
-// among them: figures of two machines can be compared as ratios to it.
+// estimator finds by itself, all through the harness. Totals are CPU times of the thread, of the
+// fastest run; what needs more than the budget is given up and reported so. Ceres is always among
+// them: figures of two machines can be compared as ratios to it.
 
 #include <algorithm>
 #include <array>
@@ -105,7 +106,7 @@ Growth measure_growth(const Settings& settings, const std::vector<const Estimato
 void run(const Settings& settings) {
   const EstimatorRegistry registry = builtin_estimators();
   const std::vector<const EstimatorEntry*> entries = chosen(registry, settings);
-  std::printf("BLAS on %d thread, OpenMP not nested: one thread in all. Times are its CPU time.\n",
+  std::printf("BLAS on %d thread, OpenMP not nested: one thread in all. Totals are its CPU time.\n",
               openblas_get_num_threads());
   for (const std::string& graph : settings.graphs) {
     std::printf("%s", markdown(measure_graph(graph, entries, settings.effort)).c_str());
@@ -133,7 +134,8 @@ int main(int argc, char** argv) {
   app.add_option("--repeats", settings.effort.repeats, "runs, of which the fastest counts")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
-  app.add_option("--budget", settings.effort.budget_s, "s that one run may take, and all repeats")
+  app.add_option("--budget", settings.effort.budget_s,
+                 "s of CPU time for all repeats of an estimator on a graph")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   app.add_option("--growth", settings.growth, "measure growth, too, and draw it to this SVG file");

@@ -9,28 +9,27 @@
 
 namespace fathom::benchmarks {
 
-/// What one estimator made of one log, and what that cost: CPU time of the thread, of the fastest
-/// of several runs.
+/// What one estimator made of one log, and what that cost, in the fastest of several replays.
 struct Cost {
   std::string estimator;
   SolveMode mode = SolveMode::incremental;
   Outcome outcome = Outcome::converged;
-  bool gave_up = false;  ///< over the budget; only the times are known, and too small
+  bool gave_up = false;  ///< over the budget: only the time is known, and that it is too small
   int linearisations = 0;
   double chi2 = 0.0;
-  double total_ms = 0.0;                ///< batch: of finish(); incremental: of all calls
-  std::optional<Summary> step_ms;       ///< incremental: a keyframe with its registrations
+  double total_ms = 0.0;                ///< CPU time of the thread, of all calls
+  std::optional<Summary> update_ms;     ///< incremental: wall time of an update
   std::optional<double> covariance_ms;  ///< of all keyframes; absent where they cannot be had
   std::optional<double> memory_mib;     ///< peak of what the estimator holds
 };
 
 struct Effort {
   int repeats = 5;
-  double budget_s = 60.0;  ///< of one run; the next is not begun beyond it
+  double budget_s = 60.0;  ///< CPU time of all repeats, and so the most that one may take
   bool covariances = true;
 };
 
-/// Runs an estimator at its defaults over a log.
+/// Replays a log through an estimator at its defaults.
 Cost measure(const MeasurementLog& log, const EstimatorEntry& entry, SolveMode mode,
              const Effort& effort);
 

@@ -50,9 +50,9 @@ std::string row(const Cost& cost, const LogCosts& log) {
       "| `" + cost.estimator + "` | " + (cost.gave_up ? "gave up" : name_of(cost.outcome)) + " | " +
       std::to_string(cost.linearisations) + " | " + (cost.gave_up ? "> " : "") +
       number(cost.total_ms) + " | " + (ceres ? number(cost.total_ms / *ceres) : kNothing);
-  if (cost.step_ms) {
-    text += " | " + number(cost.step_ms->median) + " | " + number(cost.step_ms->p95) + " | " +
-            number(cost.step_ms->max);
+  if (cost.update_ms) {
+    text += " | " + number(cost.update_ms->median) + " | " + number(cost.update_ms->p95) + " | " +
+            number(cost.update_ms->max);
   }
   return text + chi2_cells(cost, least_chi2(log)) + " | " + number(cost.covariance_ms) + " | " +
          number(cost.memory_mib) + " |\n";
