@@ -32,6 +32,15 @@ std::string CommonFlags::folder_or(const std::string& name) const {
   return out.empty() ? "runs/" + name : out;
 }
 
+std::vector<std::filesystem::path> inputs_of(const std::string& path, const Settings& settings) {
+  std::vector<std::filesystem::path> inputs{path};
+  for (const char* key : {"dataset.path", "dataset.world.picture"}) {
+    const Setting* setting = settings.find(key);
+    if (setting != nullptr) inputs.emplace_back(word_of(*setting, key));
+  }
+  return inputs;
+}
+
 std::string stem_of(const std::string& path) {
   const std::string stem = std::filesystem::path(path).stem().string();
   return stem.empty() ? "run" : stem;

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstddef>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -28,6 +29,9 @@ struct CommonFlags {
   /// --out, or `runs/` and a name of its own.
   std::string folder_or(const std::string& name) const;
 };
+
+/// What a configuration from `path` has the program read: itself, its data set, its floor.
+std::vector<std::filesystem::path> inputs_of(const std::string& path, const Settings& settings);
 
 /// One thread for BLAS and for CHOLMOD's OpenMP, on the thread that calls and what it calls: cost
 /// is compared on one core.

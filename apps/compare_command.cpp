@@ -184,6 +184,18 @@ void write_example(const fs::path& out, const Study& study, Recorder& recorder, 
   folder.commit(optional_run_files());
 }
 
+// Said before anything is computed.
+void require_separate(const fs::path& out, const Study& study,
+                      const std::vector<fs::path>& inputs) {
+  std::vector<std::string> names{"results.sqlite",     "report.html",      "runs.csv",
+                                 "summary.csv",        "tables.tex",       "figures",
+                                 "trajectories.png",   "metrics.json",     "table.txt",
+                                 "dead_reckoning.tum", "measurements.g2o", "ground_truth.tum"};
+  for (const EstimatorConfiguration& one : study.cells.front().estimators)
+    names.push_back(one.name);
+  for (const std::string& name : names) refuse_replacing(out / name, inputs);
+}
+
 // An estimator that no trial of any cell could use has failed.
 int status_of(const ResultStore& store) {
   std::set<std::string> usable;
@@ -199,6 +211,7 @@ int status_of(const ResultStore& store) {
 void compare(const CompareFlags& flags, Context& context) {
   Study study = configure_study(flags.settings(), builtin_estimators());
   const fs::path out = flags.common.folder_or(stem_of(flags.config));
+  require_separate(out, study, inputs_of(flags.config, flags.settings()));
   const std::unique_ptr<RegistrationStore> cache = open_cache(flags);
   // A data set that cannot be opened is refused before anything is written.
   study.description.data = data_of(study);

@@ -28,6 +28,12 @@ int integer_of(const std::string& name, Range range, const std::string& text) {
   return static_cast<int>(*number);
 }
 
+// An empty word is the slip of a script, such as a variable that is not set.
+const std::string& word_of(const std::string& name, const std::string& text) {
+  if (text.empty()) throw InputError(name + ": expected a word, got '' (see --help)");
+  return text;
+}
+
 }  // namespace
 
 const Flag& Flag::required() const {
@@ -59,12 +65,7 @@ Flag Command::add(const std::string& name, const std::string& value_name, const 
 
 Flag Command::argument(const std::string& name, std::string& field, const std::string& help) {
   CLI::Option* option = command_->add_option_function<std::string>(
-      name,
-      [&field, name](const std::string& given) {
-        if (given.empty()) throw InputError(name + ": expected a word, got '' (see --help)");
-        field = given;
-      },
-      help);
+      name, [&field, name](const std::string& given) { field = word_of(name, given); }, help);
   return Flag(*option->type_name("")->required());
 }
 
@@ -76,7 +77,8 @@ Flag Command::argument(const std::string& name, std::string& field,
 
 Flag Command::text(const std::string& name, std::string& field, const std::string& value_name,
                    const std::string& help) {
-  return add(name, value_name, help, field, [&field](const Values& given) { field = given[0]; });
+  return add(name, value_name, help, field,
+             [&field, name](const Values& given) { field = word_of(name, given[0]); });
 }
 
 Flag Command::texts(const std::string& name, std::vector<std::string>& field,

@@ -1,11 +1,16 @@
 // The command line. Every command is a file of its own; input errors become one line and status 2.
 
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <filesystem>
 #include <glog/logging.h>
+#include <iostream>
+#include <new>
+#include <system_error>
 
 #include <CLI/CLI.hpp>
+#include <opencv2/core.hpp>
 
 #include "apps/command.hpp"
 #include "apps/common.hpp"
@@ -27,13 +32,26 @@ std::string joined(int argc, char** argv) {
 }
 
 // One line, whatever the names in it hold.
-int bad_input(std::string message) {
+ExitStatus refused(std::string message, ExitStatus status = kBadInput) {
   while (!message.empty() && message.back() == '\n') message.pop_back();
   for (char& letter : message) {
     if (static_cast<unsigned char>(letter) < 0x20) letter = ' ';
   }
   std::fprintf(stderr, "fathom: error: %s\n", message.c_str());
-  return kBadInput;
+  return status;
+}
+
+ExitStatus out_of_memory() {
+  std::fputs("fathom: error: out of memory\n", stderr);
+  return kFailed;
+}
+
+// Output that was lost, on a full disk for example, is no success.
+int status_of_output(int status) {
+  std::cout.flush();
+  const bool is_lost = std::fflush(stdout) != 0 || std::ferror(stdout) != 0 || !std::cout;
+  if (is_lost) return refused("standard output cannot be written; is the disk full?");
+  return std::ferror(stderr) != 0 ? static_cast<int>(kBadInput) : status;
 }
 
 std::string parse_error_text(const CLI::App& app, const CLI::ParseError& error, int argc,
@@ -68,27 +86,44 @@ int main_function(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);
-    return bad_input(parse_error_text(app, error, argc, argv));
-  } catch (const InputError& error) {
-    return bad_input(error.what());
-  } catch (const std::filesystem::filesystem_error& error) {
-    // A name too long, a disk that is full: what the system says of a path that was given.
-    return bad_input(error.path1().string() + ": " + error.code().message());
-  } catch (const std::bad_alloc&) {
-    std::fprintf(stderr, "fathom: error: out of memory\n");
-    return kFailed;
+    return refused(parse_error_text(app, error, argc, argv));
   }
   return context.status;
+}
+
+// What is thrown on another thread arrives here, too: who starts one takes its exception along.
+int status_of_main(int argc, char** argv) {
+  try {
+    return status_of_output(main_function(argc, argv));
+  } catch (const InputError& error) {
+    return refused(error.what());
+  } catch (const std::filesystem::filesystem_error& error) {
+    // A name too long, a disk that is full: what the system says of a path that was given.
+    return refused(error.path1().string() + ": " + error.code().message());
+  } catch (const std::bad_alloc&) {
+    return out_of_memory();
+  } catch (const cv::Exception& error) {
+    if (error.code == cv::Error::StsNoMem) return out_of_memory();
+    return refused(std::string("internal: ") + error.what(), kFailed);
+  } catch (const std::system_error& error) {
+    return refused("the system refused a thread: " + error.code().message(), kFailed);
+  } catch (const std::exception& error) {
+    return refused(std::string("internal: ") + error.what(), kFailed);
+  }
 }
 
 }  // namespace
 }  // namespace fathom
 
 int main(int argc, char** argv) {
+  int status = fathom::kFailed;
   try {
-    return fathom::main_function(argc, argv);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "fathom: internal error: %s\n", error.what());
-    return fathom::kFailed;
+    status = fathom::status_of_main(argc, argv);
+  } catch (...) {
+    // The message of another error found no memory.
+    status = fathom::out_of_memory();
   }
+  // A threaded BLAS waits for ever for threads that found no memory when it is unloaded.
+  if (FATHOM_HAS_SERIAL_BLAS == 0) std::_Exit(status);
+  return status;
 }

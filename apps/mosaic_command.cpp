@@ -96,7 +96,9 @@ void make(const MosaicFlags& flags, Context& context) {
   MosaicOptions options;
   options.metres_per_pixel = flags.metres_per_pixel;
   const MosaicPlan plan = plan_mosaic(frames.camera(), pictures, options);
-  StagedFolder folder(flags.common.folder_or(flags.default_folder()));
+  std::vector<fs::path> inputs = inputs_of(fs::path(flags.run) / "run.json", flags.settings());
+  inputs.push_back(flags.trajectory_file());
+  StagedFolder folder(flags.common.folder_or(flags.default_folder()), inputs);
   {
     ProgressLine line("mosaic, picture", flags.common.quiet);
     write_mosaic(folder.path(), plan, make_mosaics(frames, {&plan, 1}, line.callback()).front());
@@ -119,7 +121,7 @@ void add_mosaic(CLI::App& program, Context& context) {
   command.argument("run", flags->run, "Folder of a run over pictures");
   command.text("--trajectory", flags->trajectory, "FILE",
                "Trajectory (TUM), of all frames or some (default: the run's frames.tum)");
-  command.real("--resolution", flags->metres_per_pixel, Range::any(), "M",
+  command.real("--resolution", flags->metres_per_pixel, Range::positive(), "M",
                "Metres per pixel (default: what a pixel of a picture covers)");
   command.real("--max-difference", flags->max_difference_s, Range::at_least(0.0), "S",
                "A pose is of a picture whose time stamp differs by no more (s)");

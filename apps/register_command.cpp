@@ -1,6 +1,5 @@
 // fathom register: two pictures.
 
-#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -8,6 +7,7 @@
 #include "apps/command.hpp"
 #include "apps/common.hpp"
 #include "apps/registration_text.hpp"
+#include "fathom/configuration/study.hpp"
 #include "fathom/core/files.hpp"
 #include "fathom/datasets/picture_file.hpp"
 #include "fathom/estimators/builtin.hpp"
@@ -15,7 +15,6 @@
 #include "fathom/harness/survey.hpp"
 #include "fathom/report/match_picture.hpp"
 #include "fathom/report/picture.hpp"
-#include "fathom/report/table.hpp"
 #include "fathom/vision/registration.hpp"
 
 namespace fathom {
@@ -29,11 +28,6 @@ struct RegisterFlags {
   double altitude_a_m = 0.0;
   double altitude_b_m = 0.0;
 };
-
-void require_altitude(const std::string& flag, double altitude_m) {
-  if (std::isfinite(altitude_m) && altitude_m > 0.0) return;
-  throw InputError(flag + ": expected a height in metres > 0, got " + format_number(altitude_m, 3));
-}
 
 cv::Mat picture_for(const Camera& camera, const std::string& path) {
   cv::Mat picture = read_grey_picture(path);
@@ -67,13 +61,14 @@ void write_pictures(const std::filesystem::path& folder, const MatchPicture& mat
 
 void register_pictures(const RegisterFlags& flags, Context& context) {
   const Settings settings = flags.common.settings(flags.config);
-  require_altitude("--altitude-a", flags.altitude_a_m);
-  require_altitude("--altitude-b", flags.altitude_b_m);
-  const Configuration configuration = configure(settings, kind_of(settings), builtin_estimators());
+  const Configuration configuration =
+      configure(without_sweep(settings), kind_of(settings), builtin_estimators());
   const Camera camera = Pictures(configuration).source().camera();
   const cv::Mat a = picture_for(camera, flags.a);
   const cv::Mat b = picture_for(camera, flags.b);
-  StagedFolder folder(flags.common.folder_or("register"));
+  std::vector<std::filesystem::path> inputs = inputs_of(flags.config, settings);
+  inputs.insert(inputs.end(), {flags.a, flags.b});
+  StagedFolder folder(flags.common.folder_or("register"), inputs);
   const RegistrationOptions& options = configuration.front_end.registration;
   const FeatureExtractor extractor(configuration.front_end.features, options.tuning.features);
   const FloorFeatures features_a = on_floor(extractor.extract(a), camera, flags.altitude_a_m);
@@ -106,11 +101,11 @@ void add_register(CLI::App& program, Context& context) {
   command.argument("b", flags->b, "Picture B");
   command.text("--config", flags->config, "FILE", "Configuration: its camera and front end");
   command
-      .real("--altitude-a", flags->altitude_a_m, Range::any(), "M",
+      .real("--altitude-a", flags->altitude_a_m, Range::positive(), "M",
             "Height of A over the floor (m)")
       .required();
   command
-      .real("--altitude-b", flags->altitude_b_m, Range::any(), "M",
+      .real("--altitude-b", flags->altitude_b_m, Range::positive(), "M",
             "Height of B over the floor (m)")
       .required();
   flags->common.add_settings_to(command);

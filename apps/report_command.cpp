@@ -33,6 +33,7 @@ void report(const ReportFlags& flags) {
     folder = std::filesystem::is_directory(study) ? study : study.parent_path();
     if (folder.empty()) folder = ".";
   }
+  refuse_replacing(folder / "figures", {flags.study});
   if (flags.out.empty()) check_writable(folder);
   write_study_report(store, folder);
   std::printf("wrote %s\n", (folder / "report.html").string().c_str());

@@ -83,9 +83,11 @@ void print_table(const Recording& recording, const std::vector<Result>& results,
 }
 
 void run(const RunFlags& flags, Context& context) {
-  const Configuration configuration = configure(flags.common.settings(flags.config),
-                                                ConfigurationKind::single, builtin_estimators());
-  StagedFolder folder(flags.common.folder_or(stem_of(flags.config)));
+  const Settings settings = flags.common.settings(flags.config);
+  const Configuration configuration =
+      configure(settings, ConfigurationKind::single, builtin_estimators());
+  StagedFolder folder(flags.common.folder_or(stem_of(flags.config)),
+                      inputs_of(flags.config, settings));
   const Recorder recorder(configuration);
   const Recording recording = record_with_progress(recorder, configuration, flags.common.quiet);
   const std::vector<Result> results{evaluate_with_progress(

@@ -195,7 +195,7 @@ std::filesystem::path folder_of(const SelectFlags& flags) {
 // Returns the file as the user would name it.
 std::filesystem::path write_config(const SelectFlags& flags, const std::string& text) {
   try {
-    StagedFolder folder(folder_of(flags));
+    StagedFolder folder(folder_of(flags), {flags.results});
     write_file(folder.path() / kConfigName, text);
     folder.commit();
     return folder_of(flags) / kConfigName;

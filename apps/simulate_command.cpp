@@ -57,8 +57,13 @@ void simulate(const SimulateFlags& flags, Context& context) {
   if (!find_data_set(configuration.dataset.type).makes_pictures) {
     throw InputError(flags.config, "dataset.type: 'simulate' takes simulated");
   }
+  const std::string out = flags.common.folder_or(stem_of(flags.config) + "-data");
+  // Before the pictures are drawn.
+  for (const char* name : {"mav0", "run.yaml"}) {
+    refuse_replacing(std::filesystem::path(out) / name, inputs_of(flags.config, settings));
+  }
   const Survey survey(configuration);
-  StagedFolder folder(flags.common.folder_or(stem_of(flags.config) + "-data"));
+  StagedFolder folder(out);
   write_image_folder(survey.frames(), folder.path());
   write_file(folder.path() / "run.yaml",
              folder_configuration(configuration, folder.target().string()));

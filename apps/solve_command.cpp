@@ -123,7 +123,8 @@ void solve(const SolveFlags& flags, Context& context) {
     }
     options.start = *recording.log.guess;
   }
-  StagedFolder folder(flags.common.folder_or(stem_of(flags.graph) + "-" + estimator.type));
+  StagedFolder folder(flags.common.folder_or(stem_of(flags.graph) + "-" + estimator.type),
+                      {flags.graph, flags.ground_truth, flags.false_loops});
   const auto meter = make_memory_meter();
   options.memory = meter.get();
   ProgressLine line(estimator.type + ", keyframe", flags.common.quiet);

@@ -1,6 +1,5 @@
 // fathom spoil: a pose graph with false loops, to try back ends on.
 
-#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -43,6 +42,11 @@ void refuse_unused(const SpoilFlags& flags, const Flag& group_size, const Flag& 
 void spoil_graph(const SpoilFlags& flags, Context& context) {
   SpoilOptions options = flags.options;
   set_kind(flags.kind, options);
+  const std::string list =
+      std::filesystem::path(flags.out).replace_extension(".false_loops.csv").string();
+  for (const std::string& output : {flags.out, list}) {
+    refuse_replacing(output, {flags.graph, flags.ground_truth});
+  }
   Recording recording = record_graph(flags.graph);
   if (options.share > 0.0 && recording.log.registration_count() == 0) {
     throw InputError(flags.graph,
@@ -52,8 +56,6 @@ void spoil_graph(const SpoilFlags& flags, Context& context) {
   const std::vector<Pose> reference = reference_poses(recording, builtin_estimators());
   const Spoiled spoiled =
       spoil(recording.log, reference, options, static_cast<std::uint64_t>(flags.seed));
-  const std::string list =
-      std::filesystem::path(flags.out).replace_extension(".false_loops.csv").string();
   write_file(flags.out, to_g2o(spoiled.log));
   write_file(list, false_loops_csv(spoiled));
   context.status = kDone;

@@ -150,7 +150,7 @@ Settings Settings::below(const std::string& prefix) const {
 }
 
 Settings read_settings(const std::filesystem::path& path) {
-  const std::string content = read_file(path);
+  const std::string content = read_text(path);
   // It would end the text there, and all that follows would go unread.
   if (content.find('\0') != std::string::npos) {
     throw InputError(path.string(), "not YAML: holds a zero byte");

@@ -26,6 +26,27 @@ std::string read_file(const fs::path& path) {
   return std::move(content).str();
 }
 
+std::string read_text(const fs::path& path) {
+  std::string content = read_file(path);
+  if (content.starts_with("\xEF\xBB\xBF")) content.erase(0, 3);
+  return content;
+}
+
+void refuse_replacing(const fs::path& output, const std::vector<fs::path>& inputs) {
+  std::error_code error;
+  if (!fs::exists(output, error)) return;
+  for (const fs::path& input : inputs) {
+    if (input.empty()) continue;
+    for (fs::path held = fs::canonical(input, error); !error && held.has_relative_path();
+         held = held.parent_path()) {
+      if (fs::equivalent(held, output, error)) {
+        throw InputError(output.string(), "would replace " + input.string() +
+                                              ", which is read; --out takes another place");
+      }
+    }
+  }
+}
+
 void write_file(const fs::path& path, std::string_view content) {
   const fs::path partial = path.string() + ".partial-" + std::to_string(::getpid());
   std::ofstream file(partial, std::ios::binary | std::ios::trunc);
@@ -60,8 +81,8 @@ void remove_abandoned(const fs::path& target) {
 
 }  // namespace
 
-StagedFolder::StagedFolder(const fs::path& target)
-    : target_(fs::absolute(target).lexically_normal()) {
+StagedFolder::StagedFolder(const fs::path& target, std::vector<fs::path> inputs)
+    : target_(fs::absolute(target).lexically_normal()), inputs_(std::move(inputs)) {
   if (!target_.has_filename()) target_ = target_.parent_path();  // a trailing slash
   std::error_code error;
   if (fs::exists(target_, error) && !fs::is_directory(target_, error)) {
@@ -96,6 +117,10 @@ StagedFolder::~StagedFolder() {
 
 void StagedFolder::commit(const std::vector<std::string>& own) {
   try {
+    for (const std::string& name : own) refuse_replacing(target_ / name, inputs_);
+    for (const fs::directory_entry& entry : fs::directory_iterator(staging_)) {
+      refuse_replacing(target_ / entry.path().filename(), inputs_);
+    }
     for (const std::string& name : own) fs::remove_all(target_ / name);
     for (const fs::directory_entry& entry : fs::directory_iterator(staging_)) {
       const fs::path destination = target_ / entry.path().filename();

@@ -58,12 +58,24 @@ bool Range::contains(double value) const {
   return (minimum_excluded ? value > minimum : value >= minimum) && value <= maximum;
 }
 
+// As one would write it: 1e6 and not 1e+06.
+std::string bound_text(double bound) {
+  std::string text = number_text(bound);
+  const std::size_t exponent = text.find('e');
+  if (exponent == std::string::npos) return text;
+  std::size_t digit = exponent + 1;
+  if (text[digit] == '+') text.erase(digit, 1);
+  if (text[digit] == '-') ++digit;
+  while (digit + 1 < text.size() && text[digit] == '0') text.erase(digit, 1);
+  return text;
+}
+
 std::string Range::text() const {
   std::vector<std::string> bounds;
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   if (minimum > -kInfinity)
-    bounds.push_back((minimum_excluded ? "> " : ">= ") + number_text(minimum));
-  if (maximum < kInfinity) bounds.push_back("<= " + number_text(maximum));
+    bounds.push_back((minimum_excluded ? "> " : ">= ") + bound_text(minimum));
+  if (maximum < kInfinity) bounds.push_back("<= " + bound_text(maximum));
   return joined(bounds, ", ");
 }
 

@@ -4,6 +4,7 @@
 #include <bit>
 #include <exception>
 #include <future>
+#include <system_error>
 
 #include <opencv2/core/utility.hpp>
 
@@ -24,7 +25,12 @@ void in_parallel(std::size_t count, const Work& work) {
   };
   const std::size_t threads = std::min(PairRegistrar::look_ahead(), count);
   std::vector<std::future<void>> others;
-  for (std::size_t i = 1; i < threads; ++i) others.push_back(std::async(std::launch::async, run));
+  others.reserve(threads);
+  try {
+    while (others.size() + 1 < threads) others.push_back(std::async(std::launch::async, run));
+  } catch (const std::system_error&) {
+    // The system has no further thread: fewer do the same work.
+  }
   run();
 }
 

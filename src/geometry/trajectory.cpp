@@ -106,7 +106,7 @@ class TumReader {
 }  // namespace
 
 std::vector<StampedPose> read_tum(const std::filesystem::path& path) {
-  return TumReader(path.string()).read(read_file(path));
+  return TumReader(path.string()).read(read_text(path));
 }
 
 }  // namespace fathom

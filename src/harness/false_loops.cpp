@@ -71,7 +71,7 @@ std::string false_loops_csv(const Spoiled& spoiled) {
 std::vector<bool> read_false_loops(const std::filesystem::path& path, const MeasurementLog& log) {
   const std::vector<RelativePose> all = registrations_of(log);
   std::vector<bool> is_false(all.size(), false);
-  const std::string content = read_file(path);
+  const std::string content = read_text(path);
   std::size_t line = 0;
   for (const std::string_view raw : split(content, "\n")) {
     ++line;

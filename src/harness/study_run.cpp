@@ -5,6 +5,7 @@
 #include <map>
 #include <mutex>
 #include <set>
+#include <system_error>
 #include <thread>
 
 #include "fathom/harness/recording.hpp"
@@ -96,16 +97,26 @@ class Runner {
   }
 
   bool run() {
-    std::vector<std::thread> others;
-    for (std::size_t i = 1; i < threads_; ++i) others.emplace_back([this] { work(); });
-    work();
-    for (std::thread& other : others) other.join();
+    {
+      std::vector<std::jthread> others;
+      others.reserve(threads_);
+      start_others(others, threads_ - 1);
+      work();
+    }
     if (failure_) std::rethrow_exception(failure_);
     return done_tasks_ == tasks_.size();
   }
 
  private:
   bool is_stopped() const { return failed_ || (options_.stop != nullptr && options_.stop->load()); }
+
+  // Where the system has no further thread fewer do the same work.
+  void start_others(std::vector<std::jthread>& others, std::size_t count) {
+    try {
+      while (others.size() < count) others.emplace_back([this] { work(); });
+    } catch (const std::system_error&) {
+    }
+  }
 
   void work() {
     try {

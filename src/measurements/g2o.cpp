@@ -80,7 +80,7 @@ std::string edge_line(const RelativePose& z, const std::vector<std::int64_t>& id
 }  // namespace
 
 MeasurementLog read_g2o(const std::filesystem::path& path) {
-  return parse_g2o(read_file(path), path.string());
+  return parse_g2o(read_text(path), path.string());
 }
 
 MeasurementLog parse_g2o(const std::string& content, const std::string& name) {

@@ -84,7 +84,7 @@ void count_steps(const G2oFile& file, GraphSummary& summary, const G2oFault& fau
 }  // namespace
 
 GraphSummary summarise_graph(const std::filesystem::path& path) {
-  const std::string content = read_file(path);
+  const std::string content = read_text(path);
   GraphSummary summary;
   const G2oFault fault = [&](std::size_t line, const std::string& what) {
     summary.faults.push_back(path.string() + ":" + std::to_string(line) + ": " + what);

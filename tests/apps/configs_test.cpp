@@ -4,8 +4,11 @@
 #include <map>
 
 #include <gmock/gmock.h>
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
 
 #include "apps/command_line.hpp"
+#include "fathom/core/files.hpp"
 #include "fathom/results/result_store.hpp"
 #include "support/data.hpp"
 
@@ -58,6 +61,26 @@ TEST_F(Configs, AreAllTestedHere) {
   }
   EXPECT_THAT(studies, ElementsAreArray({"paper_pool.yaml", "paper_simulated.yaml",
                                          "real_pictures.yaml", "wrong_loops.yaml"}));
+}
+
+// Whatever a study sweeps, its camera and front end are those of its first cell.
+TEST_F(Configs, RegisterTakesEveryOne) {
+  for (const auto& entry : fs::recursive_directory_iterator(folder())) {
+    if (entry.path().extension() != ".yaml") continue;
+    // The camera's own size, unless the data are somebody else's.
+    const std::string text = read_file(entry.path());
+    if (text.find("type: simulated") == std::string::npos) continue;
+    cv::Mat noise(150, 200, CV_8UC1);
+    cv::RNG(1).fill(noise, cv::RNG::UNIFORM, 0, 255);
+    cv::imwrite(path("a.png").string(), noise);
+    Arguments arguments{"register",     "a.png", "a.png",        "--config", entry.path().string(),
+                        "--altitude-a", "2",     "--altitude-b", "2",        "--out",
+                        "out"};
+    for (const std::string& setting : kSmallCamera) {
+      arguments.insert(arguments.end(), {"--set", setting});
+    }
+    fathom_done(arguments);
+  }
 }
 
 TEST_F(Configs, RunRuns) {

@@ -10,16 +10,25 @@ namespace fathom {
 /// The file's bytes; throws InputError naming the file if it cannot be read.
 std::string read_file(const std::filesystem::path& path);
 
+/// The same for a text: without the UTF-8 byte order mark that some editors put before it.
+std::string read_text(const std::filesystem::path& path);
+
+/// Throws InputError where writing `output` would replace or remove what is read: one of `inputs`
+/// itself, by whatever path, symbolic or hard link, or a folder that holds one.
+void refuse_replacing(const std::filesystem::path& output,
+                      const std::vector<std::filesystem::path>& inputs);
+
 /// Writes a whole file or nothing: into a neighbour first, then renamed. Throws InputError.
 void write_file(const std::filesystem::path& path, std::string_view content);
 
 /// An output folder that appears whole or not at all. Files are written below `path()`; `commit`
 /// moves them to the target, replacing entries of the same name and leaving others alone. Without
 /// commit nothing of them, nor a folder made for them, is left; what a killed process left there is
-/// removed by the next one.
+/// removed by the next one. Of the `inputs` of the program none is replaced: commit refuses it.
 class StagedFolder {
  public:
-  explicit StagedFolder(const std::filesystem::path& target);
+  explicit StagedFolder(const std::filesystem::path& target,
+                        std::vector<std::filesystem::path> inputs = {});
   ~StagedFolder();
   StagedFolder(const StagedFolder&) = delete;
   StagedFolder& operator=(const StagedFolder&) = delete;
@@ -34,6 +43,7 @@ class StagedFolder {
 
   std::filesystem::path target_;
   std::filesystem::path staging_;
+  std::vector<std::filesystem::path> inputs_;
   std::filesystem::path first_created_;  ///< topmost folder made for the target, or empty
   bool committed_ = false;
 };

@@ -54,9 +54,10 @@ class OnceMap {
   template <class Make>
   Value of(const Key& key, Make make) {
     std::packaged_task<Value()> task(std::move(make));
+    std::shared_future<Value> own = task.get_future().share();
     std::unique_lock lock(mutex_);
     const auto [entry, is_mine] = entries_.try_emplace(key);
-    if (is_mine) entry->second.making = task.get_future().share();
+    if (is_mine) entry->second.making = std::move(own);
     if (is_mine) entry->second.serial = ++serial_;
     entry->second.used = ++clock_;
     if (entry->second.value) return *entry->second.value;
@@ -72,10 +73,11 @@ class OnceMap {
   void start(const Key& key, Make make) {
     const std::lock_guard lock(mutex_);
     if (entries_.contains(key)) return;
-    Entry& entry = entries_[key];
+    Entry entry;
     entry.making = std::async(std::launch::async, std::move(make)).share();
     entry.serial = ++serial_;
     entry.used = ++clock_;
+    entries_.emplace(key, std::move(entry));
   }
 
  private:

@@ -18,7 +18,7 @@ class CameraReader {
  public:
   explicit CameraReader(const std::filesystem::path& path) : file_(path.string()) {
     try {
-      root_ = YAML::Load(read_file(path));
+      root_ = YAML::Load(read_text(path));
     } catch (const YAML::Exception& error) {
       throw InputError(file_, line_of(error.mark), "is not valid YAML: " + error.msg);
     }

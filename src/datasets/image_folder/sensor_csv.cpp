@@ -11,7 +11,7 @@ namespace fathom {
 
 SensorCsv::SensorCsv(std::filesystem::path path, std::string columns)
     : path_(std::move(path)), columns_(std::move(columns)) {
-  const std::string content = read_file(path_);
+  const std::string content = read_text(path_);
   const std::size_t column_count = split_csv(columns_).size();
   std::size_t line = 0;
   for (std::size_t begin = 0; begin < content.size();) {

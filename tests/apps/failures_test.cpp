@@ -1,0 +1,78 @@
+// Whatever fails, the program ends, with one line and another status than 0.
+
+#include <gmock/gmock.h>
+
+#include "apps/command_line.hpp"
+#include "apps/graphs.hpp"
+#include "harness/small_config.hpp"
+
+namespace fathom::test {
+namespace {
+
+using ::testing::StartsWith;
+
+class Failures : public CommandLine {
+ protected:
+  static void expect_one_line(const Ended& ended) {
+    EXPECT_THAT(ended.err, StartsWith("fathom: error: "));
+    EXPECT_EQ(std::count(ended.err.begin(), ended.err.end(), '\n'), 1) << ended.err;
+  }
+};
+
+// The libraries alone take some 250 MB of addresses, so that something fails on one of the threads;
+// one that waited for another would keep the program for ever.
+TEST_F(Failures, TooLittleMemoryEndsTheProgram) {
+  if (std::string(FATHOM_TEST_PRELOADED).empty()) GTEST_SKIP() << "a sanitizer takes terabytes";
+  write("c.yaml", kSmallSurvey);
+  write("s.yaml", std::string(kSmallSurvey) + "estimators: [{type: ekf}]\ntrials: 4\njobs: 2\n");
+  const std::vector<Arguments> commands{{"run", "c.yaml", "--out", "out"},
+                                        {"compare", "s.yaml", "--out", "study", "--no-cache"}};
+  for (const Arguments& command : commands) {
+    for (const std::size_t megabytes : {280U, 300U, 340U}) {
+      surroundings_.address_space_bytes = megabytes << 20U;
+      const Ended ended = fathom(command);
+      EXPECT_EQ(ended.status, 1) << megabytes;
+      expect_one_line(ended);
+    }
+  }
+}
+
+// /dev/full takes nothing, as a disk that is full does.
+TEST_F(Failures, LostOutputIsNoSuccess) {
+  write("g.g2o", kTwoPoses);
+  write("c.yaml", kSmallSurvey);
+  write("a.tum", "0 0 0 0 0 0 0 1\n1 1 0 0 0 0 0 1\n2 2 0 0 0 0 0 1\n");
+  surroundings_.standard_output = "/dev/full";
+  const std::vector<Arguments> commands{{"--version"},
+                                        {"--help"},
+                                        {"run", "--help"},
+                                        {"list", "estimators"},
+                                        {"check", "g.g2o"},
+                                        {"evaluate", "a.tum", "a.tum"},
+                                        {"solve", "g.g2o", "--out", "solved"},
+                                        {"run", "c.yaml", "--out", "run"},
+                                        {"simulate", "c.yaml", "--out", "data"}};
+  for (const Arguments& command : commands) {
+    const Ended ended = fathom(command);
+    EXPECT_EQ(ended.status, 2) << command[0];
+    expect_one_line(ended);
+  }
+}
+
+TEST_F(Failures, AnEmptyNameIsNoDefault) {
+  for (const Arguments& command : std::vector<Arguments>{{"run", ""},
+                                                         {"compare", ""},
+                                                         {"simulate", ""},
+                                                         {"solve", ""},
+                                                         {"check", ""},
+                                                         {"report", ""},
+                                                         {"select", ""},
+                                                         {"mosaic", ""},
+                                                         {"run", "c.yaml", "--out", ""},
+                                                         {"run", "c.yaml", "--seed", ""}}) {
+    EXPECT_THAT(refusal(command), ::testing::HasSubstr("expected")) << command[0];
+  }
+}
+
+}  // namespace
+}  // namespace fathom::test
