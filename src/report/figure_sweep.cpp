@@ -121,7 +121,7 @@ std::string conditions_of(const FigureInput& input, const Sweep& sweep) {
 
 LegendEntry sample_entry(const std::string& text, bool stated) {
   return {text, [stated](Canvas& canvas, const Eigen::Vector2d& centre) {
-            const Eigen::Vector2d half(8.0, 0.0);
+            const Eigen::Vector2d half(6.0, 0.0);
             draw_line(canvas, {centre - half, centre, centre + half}, {kSoftInk, {}}, stated);
           }};
 }

@@ -27,7 +27,9 @@ std::vector<Pen> pens_of(const std::vector<PlotSeries>& all) {
   for (std::size_t i = all.size(); i-- > 0;) {
     const LineStyle& style = all[i].style;
     pens[i] = {style.colour, style.dashes.empty() ? width : kThinnest, style.dashes, 1.0};
-    if (all[i].name == kGroundTruth) pens[i] = {tint(style.colour, 0.55), 2.0, {}, 1.0};
+    if (all[i].name == kGroundTruth) {
+      pens[i] = {tint(style.colour, 0.45), std::max(2.0, width + 1.0), {}, 1.0};
+    }
     if (style.dashes.empty()) width = std::min(width + 0.4, kBroadest);
   }
   return pens;

@@ -61,6 +61,8 @@ function makeHead() {
 }
 
 makeHead();
+// A long table is not to stand between the summary and the charts.
+document.getElementById('paired').open = cellNow().paired.length <= 12;
 showTheme();
 makeSwitches();
 makeCellChooser();

@@ -58,8 +58,8 @@ function drawSummary() {
 function drawPaired() {
   const tests = cellNow().paired.filter((one) => one.n > 1);
   const first = study.estimators.length > 1 ? study.estimators[1].label : '';
-  for (const part of ['title', 'caption', 'table']) document.getElementById('paired-' + part).hidden = tests.length === 0;
-  document.getElementById('paired-title').textContent = `Differences to ${first}`;
+  document.getElementById('paired').hidden = tests.length === 0;
+  document.getElementById('paired-title').textContent = `Differences to ${first} (${tests.length})`;
   document.getElementById('paired-caption').textContent =
     `The estimator minus ${first}, over the trials that both did: mean with its 95 % interval, Wilcoxon’s signed-rank test, and its p-value adjusted after Holm over the tests of this table.`;
   const rows = tests.map((one) => [
