@@ -9,7 +9,8 @@ namespace fathom::test {
 /// A fenced block: "```cpp title="FILE"" and the lines up to the closing fence.
 struct CodeBlock {
   std::string language;
-  std::string title;  ///< empty where there is none
+  std::string title;    ///< empty where there is none
+  std::string section;  ///< the heading above
   std::vector<std::string> lines;
 };
 
