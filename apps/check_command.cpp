@@ -10,8 +10,8 @@
 #include "fathom/datasets/folder_summary.hpp"
 #include "fathom/datasets/image_folder.hpp"
 #include "fathom/estimators/builtin.hpp"
+#include "fathom/harness/recording.hpp"
 #include "fathom/harness/replay.hpp"
-#include "fathom/measurements/g2o.hpp"
 #include "fathom/measurements/graph_check.hpp"
 #include "fathom/report/table.hpp"
 
@@ -77,21 +77,22 @@ void print_warnings(const std::vector<std::string>& warnings) {
   for (const std::string& warning : warnings) std::printf("warning: %s\n", warning.c_str());
 }
 
+void refuse(const std::vector<std::string>& faults) {
+  if (faults.empty()) return;
+  constexpr std::size_t kShown = 20;
+  for (std::size_t i = 0; i < std::min(faults.size(), kShown); ++i) {
+    std::printf("fault: %s\n", faults[i].c_str());
+  }
+  if (faults.size() > kShown) std::printf("and %zu faults more\n", faults.size() - kShown);
+  throw InputError(faults.front() + " (" + plural(faults.size(), "fault") + " in all)");
+}
+
+// What 'run' and 'solve' refuse is refused here: all read the graph by record_graph.
 void check_graph(const std::string& path) {
   const GraphSummary graph = summarise_graph(path);
   print_graph(graph);
-  if (!graph.faults.empty()) {
-    constexpr std::size_t kShown = 20;
-    for (std::size_t i = 0; i < std::min(graph.faults.size(), kShown); ++i) {
-      std::printf("fault: %s\n", graph.faults[i].c_str());
-    }
-    if (graph.faults.size() > kShown) {
-      std::printf("and %zu faults more\n", graph.faults.size() - kShown);
-    }
-    throw InputError(graph.faults.front() + " (" + plural(graph.faults.size(), "fault") +
-                     " in all)");
-  }
-  const MeasurementLog log = read_g2o(path);
+  refuse(graph.faults);
+  const MeasurementLog log = record_graph(path).log;
   if (log.guess) std::printf("  F            %.10g at the file's guess\n", chi2(log, *log.guess));
   std::printf("  F            %.10g at odometry\n", chi2(log, log.odometry()));
   std::vector<std::string> warnings = judge_information(log);
@@ -108,6 +109,7 @@ void check_folder(const std::string& path) {
   const FolderSummary summary = summarise_frames(folder);
   std::printf("image folder\n");
   for (const std::string& fact : summary.facts) std::printf("  %s\n", fact.c_str());
+  refuse(summary.faults);
   print_warnings(summary.warnings);
 }
 

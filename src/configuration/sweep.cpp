@@ -66,8 +66,8 @@ void check_name(const StudyAxis& axis, const Setting& given, const std::string& 
   const std::vector<std::string> columns{"cell",  "association", "trial",  "estimator", "outcome",
                                          "fault", "jobs",        "metric", "n",         "failures",
                                          "mean",  "sd",          "median", "low_95",    "high_95"};
-  const bool is_association = name == "association" && axis.key != "association.mode";
-  if (!is_association && std::ranges::find(columns, name) == columns.end()) return;
+  const bool is_that_column = name == "association" && axis.key == "association.mode";
+  if (is_that_column || std::ranges::find(columns, name) == columns.end()) return;
   refuse(given, prefix + "name: '" + name +
                     "' is another column of the tables; give the axis another name");
 }

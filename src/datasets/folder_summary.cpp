@@ -164,7 +164,7 @@ void look_at_pictures(const FrameSource& source, FolderSummary& summary) {
       cv::meanStdDev(source.image(i), mean, deviation);
       if (deviation[0] < kFlat) flat.push_back(i);
     } catch (const InputError& error) {
-      summary.warnings.emplace_back(error.what());
+      summary.faults.emplace_back(error.what());
     }
   }
   warn(summary, flat, "pictures with hardly any contrast");

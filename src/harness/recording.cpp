@@ -1,5 +1,7 @@
 #include "fathom/harness/recording.hpp"
 
+#include <cmath>
+
 #include "fathom/harness/false_loops.hpp"
 #include "fathom/harness/guarded_estimator.hpp"
 #include "fathom/harness/survey.hpp"
@@ -113,6 +115,11 @@ Recording graph_recording(MeasurementLog log, const std::string& file) {
                                  " is too large to be a time stamp; ids up to 9e9 work");
     }
     recording.keyframe_times_ns.push_back(id * kSecond);
+  }
+  if (!std::isfinite(chi2(log, log.odometry()))) {
+    throw InputError(file,
+                     "F is not finite at dead reckoning: the file has numbers beyond what can be "
+                     "computed with; expected metres, radians and their information");
   }
   recording.log = std::move(log);
   return recording;

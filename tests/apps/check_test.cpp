@@ -50,6 +50,44 @@ TEST_F(Check, ListsEveryFaultOfABrokenGraph) {
   EXPECT_THAT(ended.err, AllOf(HasSubstr("fathom: error: g.g2o:"), HasSubstr("(9 faults in all)")));
 }
 
+// One validation for all: what a run would refuse in the middle is found here.
+TEST_F(Check, RefusesTheGraphsThatRunAndSolveRefuse) {
+  write("ids.g2o", "EDGE_SE2 3 9000000001 1 0 0 1 0 0 1 0 1\n");
+  write("big.g2o", "EDGE_SE2 0 1 1e300 0 0 1 0 0 1 0 1\nEDGE_SE2 0 1 1 0 0 1 0 0 1 0 1\n");
+  const std::vector<std::pair<std::string, std::string>> cases{
+      {"ids.g2o", "id 9000000001 is too large"}, {"big.g2o", "F is not finite at dead reckoning"}};
+  for (const auto& [file, message] : cases) {
+    write("c.yaml", "dataset: {type: g2o, path: " + file + "}\n");
+    for (const Arguments& command :
+         {Arguments{"check", file}, Arguments{"solve", file}, Arguments{"run", "c.yaml"}}) {
+      const Ended ended = fathom(command);
+      EXPECT_EQ(ended.status, 2) << command[0];
+      EXPECT_THAT(ended.err, HasSubstr("fathom: error: " + file + ": " + message)) << command[0];
+    }
+  }
+}
+
+TEST_F(Check, RefusesAFolderWithAPictureThatARunRefuses) {
+  const auto survey = [](int width) {
+    return "dataset:\n  world: {metres_per_pixel: 0.01}\n"
+           "  mission: {legs: 1, leg_length_m: 2}\n"
+           "  camera: {height: 60, fx: 60, fy: 60, width: " +
+           std::to_string(width) + "}\n";
+  };
+  write("a.yaml", survey(80));
+  write("b.yaml", survey(96));
+  fathom_done({"simulate", "a.yaml", "--out", "a"});
+  fathom_done({"simulate", "b.yaml", "--out", "b"});
+  const std::string name = "mav0/cam0/data/1000000000.png";
+  std::filesystem::copy_file(path("b/" + name), path("a/" + name),
+                             std::filesystem::copy_options::overwrite_existing);
+  const Ended checked = fathom({"check", "a"});
+  EXPECT_EQ(checked.status, 2);
+  EXPECT_THAT(checked.err, HasSubstr("1000000000.png: has 96 x 60 pixels, expected"));
+  EXPECT_THAT(fathom({"run", "a/run.yaml", "--set", "front_end.keyframes.separation_frames=1"}).err,
+              HasSubstr("1000000000.png: has 96 x 60 pixels, expected"));
+}
+
 TEST_F(Check, WarnsOfInformationThatLooksWrong) {
   write("thin.g2o",
         "EDGE_SE2 0 1 1 0 0 1 0 0 1 0 1\nEDGE_SE2 1 2 1 0 0 1e12 0 0 1 0 1\n"

@@ -13,6 +13,7 @@ namespace {
 
 using test::FolderFixture;
 using testing::Contains;
+using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
@@ -63,7 +64,7 @@ TEST(FolderSummary, AnUnreadablePictureIsAWarning) {
   const FolderFixture fixture;
   const auto root = fixture.write();
   std::ofstream(fixture.mav0() / "cam0/data/b.png", std::ios::trunc) << "broken";
-  EXPECT_THAT(summarise_frames(ImageFolder(root)).warnings, Contains(HasSubstr("b.png: is no")));
+  EXPECT_THAT(summarise_frames(ImageFolder(root)).faults, ElementsAre(HasSubstr("b.png: is no")));
 }
 
 TEST(FolderSummary, WithoutOdometryOrTruth) {

@@ -25,6 +25,7 @@ using test::configured;
 using test::input_error_of;
 using test::kSmallSurvey;
 using test::kVisualOdometry;
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 Configuration small_survey(const std::string& more = "") {
@@ -237,15 +238,13 @@ TEST(Record, RefusesWhatItCannotOpen) {
 }
 
 TEST(Record, RefusesASingleKeyframe) {
-  const auto refused = [](const std::string& separation) {
-    return input_error_of([&] {
-      recorded(small_survey("front_end.keyframes.separation_frames: " + separation + "\n"));
-    });
-  };
-  EXPECT_THAT(refused("33"), HasSubstr("front_end.keyframes.separation_frames: 33 leads beyond the "
-                                       "last of 33 frames, so there is a single keyframe; expected "
-                                       "at most 32"));
-  EXPECT_THAT(refused("33"), HasSubstr("config.yaml:"));
+  std::string text = kSmallSurvey;
+  const std::string given = "separation_frames: 3";
+  text.replace(text.find(given), given.size(), "separation_frames: 33");
+  EXPECT_THAT(input_error_of([&] { recorded(configured(text)); }),
+              AllOf(HasSubstr("config.yaml:"),
+                    HasSubstr(": front_end.keyframes.separation_frames: 33 leads beyond the last "
+                              "of 33 frames, so there is a single keyframe; expected at most 32")));
 }
 
 TEST(Survey, RefusesAGraph) {

@@ -11,10 +11,11 @@ namespace fathom {
 struct FolderSummary {
   std::vector<std::string> facts;
   std::vector<std::string> warnings;
+  std::vector<std::string> faults;  ///< what a run would refuse
 };
 
-/// Sums up a survey and looks for what is legal but probably wrong. Every picture is decoded; one
-/// that cannot be is a warning.
+/// Sums up a survey and looks for what is legal but probably wrong. Every picture is read as a
+/// run reads it.
 FolderSummary summarise_frames(const FrameSource& source);
 
 }  // namespace fathom
