@@ -41,6 +41,16 @@ UncertainPose between(const UncertainPose& A, const UncertainPose& B) {
   return {mean, transport(J_A, A.covariance) + transport(J_B, B.covariance)};
 }
 
+UncertainPose between(const Pose& A, const Pose& B, const PairCovariance& covariance) {
+  Eigen::Matrix3d H_A;
+  Eigen::Matrix3d H_B;
+  const Pose mean = between(A, B, &H_A, &H_B);
+  const Eigen::Matrix3d cross = H_A * covariance.cross * H_B.transpose();
+  Eigen::Matrix3d C = transport(H_B, covariance.B);
+  C += transport(H_A, covariance.A) + cross + cross.transpose();
+  return {mean, C};
+}
+
 UncertainPose compose_chain(std::span<const UncertainPose> motions) {
   UncertainPose chain;
   for (const UncertainPose& motion : motions) chain = compose(chain, motion);

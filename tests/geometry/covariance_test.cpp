@@ -166,5 +166,33 @@ TEST(SymmetricInverse, EqualsTheGeneralOneAtEveryScale) {
   EXPECT_DOUBLE_EQ(inverted(2, 2), 1e16);
 }
 
+// Of poses that are correlated, by differences of the joint motion.
+TEST(PairCovariance, IsThatOfTheMotionBetweenCorrelatedPoses) {
+  RandomStream random(12, "pair");
+  for (int i = 0; i < 50; ++i) {
+    Pose A = test::random_pose(random);
+    Pose B = test::random_pose(random);
+    if (i % 5 == 1) B = A;
+    if (i % 5 == 2) B.theta = wrap_angle(A.theta + M_PI - 1e-9);
+    if (i % 5 == 3) A = B = Pose{1e-8, -1e-8, 1e-8};
+    Eigen::Matrix<double, 6, 6> root;
+    for (Eigen::Index j = 0; j < root.size(); ++j) root.data()[j] = random.normal();
+    const Eigen::Matrix<double, 6, 6> C = root * root.transpose();
+    const auto motion = [](const Pose& a, const Pose& b) {
+      return test::t2v(test::homogeneous(a).inverse() * test::homogeneous(b));
+    };
+    Eigen::Matrix<double, 3, 6> J;
+    J << test::numerical_jacobian([&](const Pose& a) { return motion(a, B); }, A),
+        test::numerical_jacobian([&](const Pose& b) { return motion(A, b); }, B);
+    const UncertainPose found =
+        between(A, B,
+                PairCovariance{C.topLeftCorner<3, 3>(), C.bottomRightCorner<3, 3>(),
+                               C.topRightCorner<3, 3>()});
+    const Eigen::Matrix3d expected = J * C * J.transpose();
+    EXPECT_LT((found.covariance - expected).norm(), 1e-7 * expected.norm());
+    EXPECT_LT(test::distance(found.mean, Pose::from_vector(motion(A, B))), 1e-12);
+  }
+}
+
 }  // namespace
 }  // namespace fathom

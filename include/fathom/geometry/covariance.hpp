@@ -24,6 +24,18 @@ UncertainPose inverse(const UncertainPose& X);
 /// ⊖A ⊕ B of independent A and B, first order.
 UncertainPose between(const UncertainPose& A, const UncertainPose& B);
 
+/// The joint covariance of two poses by its blocks; the fourth is the transpose of `cross`.
+struct PairCovariance {
+  Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d B = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d cross = Eigen::Matrix3d::Zero();  ///< rows of A, columns of B
+};
+
+/// ⊖A ⊕ B of two poses that are correlated, first order: H_A C_A H_Aᵀ + H_B C_B H_Bᵀ and what the
+/// correlation adds, H_A C_AB H_Bᵀ and its transpose. With the covariance of a measurement of the
+/// motion added it is that of the innovation.
+UncertainPose between(const Pose& A, const Pose& B, const PairCovariance& covariance);
+
 /// The composition of independent motions in their order: the pose of the last frame in the first.
 /// Of none: the exact identity.
 UncertainPose compose_chain(std::span<const UncertainPose> motions);
