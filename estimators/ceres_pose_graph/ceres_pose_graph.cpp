@@ -88,12 +88,12 @@ UpdateReport CeresPoseGraph::finish(std::span<const Pose> start) {
   return graph_->solve();
 }
 
-std::optional<Eigen::Matrix3d> CeresPoseGraph::covariance(std::size_t k) {
+std::optional<Eigen::Matrix3d> CeresPoseGraph::covariance(std::size_t k) const {
   return graph_->marginal(k);
 }
 
 std::optional<Eigen::MatrixXd> CeresPoseGraph::joint_covariance(
-    std::span<const std::size_t> keyframes) {
+    std::span<const std::size_t> keyframes) const {
   return graph_->joint_covariance(keyframes);
 }
 

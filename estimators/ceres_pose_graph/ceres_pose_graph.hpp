@@ -37,8 +37,9 @@ class CeresPoseGraph final : public Estimator {
 
   /// From the Gauss-Newton Hessian at the estimate, the loss applied as a weight; a rejected
   /// registration has no part in it.
-  std::optional<Eigen::Matrix3d> covariance(std::size_t k) override;
-  std::optional<Eigen::MatrixXd> joint_covariance(std::span<const std::size_t> keyframes) override;
+  std::optional<Eigen::Matrix3d> covariance(std::size_t k) const override;
+  std::optional<Eigen::MatrixXd> joint_covariance(
+      std::span<const std::size_t> keyframes) const override;
   /// From that same Hessian.
   std::optional<std::vector<UncertainPose>> motions_to_newest() const override;
   double loss(double chi2) const override { return loss_.at(chi2).rho; }

@@ -86,6 +86,7 @@ void CeresPoseGraph::Graph::set_poses(std::span<const Pose> poses) {
 void CeresPoseGraph::Graph::add_keyframe(const RelativePose& step) {
   const Pose next = compose(pose(size() - 1), step.forward().motion);
   poses_.push_back({next.x, next.y, next.theta});
+  spread_.add(step);
   problem_.AddResidualBlock(new EdgeCost(step), nullptr, block(step.from), block(step.to));
   changed();
 }
@@ -95,6 +96,7 @@ void CeresPoseGraph::Graph::add_registration(const RelativePose& registration) {
       problem_.AddResidualBlock(new EdgeCost(registration), make_loss(options_),
                                 block(registration.from), block(registration.to)));
   registrations_.push_back(registration);
+  spread_.add(registration);
   changed();
 }
 
@@ -118,6 +120,13 @@ bool CeresPoseGraph::Graph::is_finite() const {
   });
 }
 
+// Measurements that are alike in their information always are.
+bool CeresPoseGraph::Graph::is_determined() {
+  if (!spread_.is_wide()) return true;
+  const auto H = hessian();
+  return H && fathom::is_determined(*H);
+}
+
 UpdateReport CeresPoseGraph::Graph::solve() {
   UpdateReport report;
   const std::deque<Block> before = poses_;
@@ -126,7 +135,7 @@ UpdateReport CeresPoseGraph::Graph::solve() {
   ceres::Solve(solver_options(options_), &problem_, &summary);
   report.iterations = summary.num_successful_steps + summary.num_unsuccessful_steps;
   report.outcome = outcome_of(summary);
-  if (!is_finite()) report.outcome = Outcome::numerical_failure;
+  if (!is_finite() || !is_determined()) report.outcome = Outcome::numerical_failure;
   if (!is_done(report.outcome)) std::copy(before.begin(), before.end(), poses_.begin());
   changed();
   return report;
@@ -141,12 +150,9 @@ std::optional<std::vector<Eigen::Matrix3d>> CeresPoseGraph::Graph::innovation_co
   std::vector<Eigen::Matrix3d> innovations;
   for (const RelativePose& z : forward_loops) {
     const auto row = static_cast<Eigen::Index>(6 * innovations.size());
-    Eigen::Matrix3d H_from;
-    Eigen::Matrix3d H_to;
-    between(pose(z.from), pose(z.to), &H_from, &H_to);
-    Eigen::Matrix<double, 3, 6> H;
-    H << H_from, H_to;
-    innovations.push_back(H * joint->block<6, 6>(row, row) * H.transpose() + z.covariance());
+    const PairCovariance pair{joint->block<3, 3>(row, row), joint->block<3, 3>(row + 3, row + 3),
+                              joint->block<3, 3>(row, row + 3)};
+    innovations.push_back(between(pose(z.from), pose(z.to), pair).covariance + z.covariance());
   }
   return innovations;
 }
@@ -203,16 +209,14 @@ std::optional<std::vector<UncertainPose>> CeresPoseGraph::Graph::motions_to_newe
   const auto H = hessian();
   const auto blocks = H ? inverse_blocks(*H) : std::nullopt;
   if (!blocks) return std::nullopt;
+  PairCovariance pair;
+  pair.B = blocks->own[n - 1];
   for (std::size_t k = 0; k < n; ++k) {
-    Eigen::Matrix3d H_k;
-    Eigen::Matrix3d H_n;
-    const Pose motion = between(pose(k), pose(n), &H_k, &H_n);
-    Eigen::Matrix3d covariance = transport(H_n, blocks->own[n - 1]);
     if (k > 0) {
-      const Eigen::Matrix3d cross = H_k * blocks->with_last[k - 1] * H_n.transpose();
-      covariance += transport(H_k, blocks->own[k - 1]) + cross + cross.transpose();
+      pair.A = blocks->own[k - 1];
+      pair.cross = blocks->with_last[k - 1];
     }
-    motions.push_back({motion, covariance});
+    motions.push_back(between(pose(k), pose(n), pair));
   }
   return motions;
 }

@@ -11,6 +11,7 @@
 #include <ceres/problem.h>
 
 #include "estimators/ceres_pose_graph/ceres_pose_graph.hpp"
+#include "fathom/estimation/precision.hpp"
 
 namespace fathom {
 
@@ -53,6 +54,7 @@ class CeresPoseGraph::Graph {
 
   double* block(std::size_t k) { return poses_[k].data(); }
   bool is_finite() const;
+  bool is_determined();
   void changed() { marginals_.reset(); }
   void compute_marginals();
   std::optional<Eigen::SparseMatrix<double>> hessian();
@@ -61,6 +63,7 @@ class CeresPoseGraph::Graph {
   std::deque<Block> poses_;  ///< a deque keeps the addresses that the problem knows
   ceres::Problem problem_;
   std::vector<RelativePose> registrations_;
+  InformationSpread spread_;
   std::vector<ceres::ResidualBlockId> registration_blocks_;
   /// Of all keyframes; absent: to be computed, empty: could not be.
   std::optional<std::vector<Eigen::Matrix3d>> marginals_;

@@ -4,6 +4,8 @@
 
 #include <Eigen/SparseCholesky>
 
+#include "fathom/estimation/precision.hpp"
+
 namespace fathom {
 namespace {
 
@@ -60,6 +62,11 @@ bool is_definite(const Ldlt& ldlt) {
   return ldlt.info() == Eigen::Success && (ldlt.vectorD().array() > 0.0).all();
 }
 
+bool keeps_digits(const Ldlt& ldlt, const Sparse& hessian) {
+  const Eigen::VectorXd sums = ldlt.permutationP() * hessian.diagonal();
+  return (ldlt.vectorD().array() > kLeastPivotShare * sums.array()).all();
+}
+
 // The three columns of the inverse that start with this one.
 Eigen::MatrixX3d columns_of_inverse(const Ldlt& ldlt, Eigen::Index first) {
   Eigen::MatrixX3d columns = Eigen::MatrixX3d::Zero(ldlt.rows(), 3);
@@ -69,10 +76,15 @@ Eigen::MatrixX3d columns_of_inverse(const Ldlt& ldlt, Eigen::Index first) {
 
 }  // namespace
 
+bool is_determined(const Sparse& hessian) {
+  const Ldlt ldlt(hessian);
+  return is_definite(ldlt) && keeps_digits(ldlt, hessian);
+}
+
 std::optional<InverseBlocks> inverse_blocks(const Sparse& hessian) {
   const Ldlt ldlt(hessian);
   const Eigen::Index size = hessian.rows();
-  if (!is_definite(ldlt)) return std::nullopt;
+  if (!is_definite(ldlt) || !keeps_digits(ldlt, hessian)) return std::nullopt;
   const Eigen::MatrixX3d last = columns_of_inverse(ldlt, size - 3);
   const Sparse& L = ldlt.matrixL().nestedExpression();
   const TakahashiInverse inverse(L, ldlt.vectorD());
@@ -92,7 +104,7 @@ std::optional<InverseBlocks> inverse_blocks(const Sparse& hessian) {
 std::optional<Eigen::MatrixXd> inverse_between(const Sparse& hessian,
                                                std::span<const std::size_t> blocks) {
   const Ldlt ldlt(hessian);
-  if (!is_definite(ldlt)) return std::nullopt;
+  if (!is_definite(ldlt) || !keeps_digits(ldlt, hessian)) return std::nullopt;
   const auto size = static_cast<Eigen::Index>(3 * blocks.size());
   Eigen::MatrixXd result(size, size);
   for (Eigen::Index j = 0; j < size; j += 3) {

@@ -22,6 +22,10 @@ struct InverseBlocks {
 /// there, and every diagonal block be dense. Nothing where the matrix is not positive definite.
 std::optional<InverseBlocks> inverse_blocks(const Eigen::SparseMatrix<double>& hessian);
 
+/// Whether the Cholesky factor of a Hessian is there and no pivot of it but rounding
+/// (kLeastPivotShare).
+bool is_determined(const Eigen::SparseMatrix<double>& hessian);
+
 /// Of the inverse the rows and columns of these blocks alone, 3m×3m in the order given: a solve for
 /// the columns of each. As inverse_blocks else.
 std::optional<Eigen::MatrixXd> inverse_between(const Eigen::SparseMatrix<double>& hessian,

@@ -7,22 +7,10 @@
 
 #include <Eigen/Cholesky>
 
-#include "fathom/estimation/joint_covariance.hpp"
+#include "fathom/estimation/precision.hpp"
 #include "fathom/geometry/covariance.hpp"
 
 namespace fathom {
-namespace {
-
-// Block of keyframe k in the state; keyframe 0 has none.
-Eigen::Index block_of(std::size_t k) {
-  return static_cast<Eigen::Index>(k) - 1;
-}
-
-// An update that ends at so many times the cost of leaving the state alone (or 1, of a χ²) has
-// diverged.
-constexpr double kDivergence = 10.0;
-
-}  // namespace
 
 /// One registration against the present state: ν = z − h(x), h = ⊖X_from ⊕ X_to.
 struct Ekf::Innovation {
@@ -48,12 +36,14 @@ void EkfOptions::describe(OptionTable& table) {
                 "linearisations of one update at most; an EKF always makes one");
   table.real("tolerance", tolerance, Range::positive(), "m, rad",
              "for estimators that iterate; of no effect here");
+  table.real("divergence_factor", divergence_factor, Range::at_least(1.0), "",
+             "an update has diverged at so many times the cost of leaving the state alone");
   gate.describe(table);
   gate.describe_joint(table);
 }
 
 Ekf::Ekf(const EstimatorSetup& setup, const EkfOptions& options)
-    : gate_(options.gate), poses_{setup.origin} {}
+    : divergence_factor_(options.divergence_factor), gate_(options.gate), poses_{setup.origin} {}
 
 void Ekf::add_keyframe(const RelativePose& step) {
   const RelativePose u = step.forward();
@@ -109,7 +99,7 @@ UpdateReport Ekf::close_loops(std::span<const RelativePose> registrations) {
     report.loops.push_back({registration.from, registration.to, fate_of(passes), nis});
     if (passes) accepted.push_back(innovation);
   }
-  if (!has_finite_nis(report)) {
+  if (!has_finite_nis(report) || !are_resolved(*this, registrations)) {
     lose_all(report, Outcome::numerical_failure);
     return report;
   }
@@ -195,51 +185,12 @@ Outcome Ekf::update(std::span<const Innovation> accepted) {
   for (const Innovation& z : accepted) {
     cost += normalised_innovation_squared(innovation_of(z.from, z.to, z.motion), z.R);
   }
-  if (!(cost <= kDivergence * std::max(prior_cost, 1.0))) {
+  if (!(cost <= divergence_factor_ * std::max(prior_cost, 1.0))) {
     poses_ = before;
     return std::isfinite(cost) ? Outcome::diverged : Outcome::numerical_failure;
   }
   P_.downdate(V);
   return Outcome::converged;
-}
-
-std::optional<Eigen::Matrix3d> Ekf::covariance(std::size_t k) {
-  if (k == 0) return Eigen::Matrix3d::Zero();
-  return P_.block(block_of(k), block_of(k));
-}
-
-std::optional<Eigen::MatrixXd> Ekf::joint_covariance(std::span<const std::size_t> keyframes) {
-  const std::vector<std::size_t> free = free_keyframes(keyframes);
-  const auto size = static_cast<Eigen::Index>(3 * free.size());
-  Eigen::MatrixXd joint(size, size);
-  for (Eigen::Index i = 0; i < size; i += 3) {
-    for (Eigen::Index j = i; j < size; j += 3) {
-      joint.block<3, 3>(i, j) = P_.block(block_of(free[static_cast<std::size_t>(i / 3)]),
-                                         block_of(free[static_cast<std::size_t>(j / 3)]));
-    }
-  }
-  return in_order_of(keyframes, joint);
-}
-
-std::optional<std::vector<UncertainPose>> Ekf::motions_to_newest() const {
-  std::vector<UncertainPose> motions;
-  const std::size_t n = poses_.size() - 1;
-  if (n == 0) return motions;
-  motions.reserve(n);
-  const Eigen::MatrixX3d column = P_.column(block_of(n));
-  const Eigen::Matrix3d P_n = P_.block(block_of(n), block_of(n));
-  for (std::size_t k = 0; k < n; ++k) {
-    Eigen::Matrix3d H_k;
-    Eigen::Matrix3d H_n;
-    const Pose motion = between(poses_[k], poses_[n], &H_k, &H_n);
-    Eigen::Matrix3d covariance = transport(H_n, P_n);
-    if (k > 0) {
-      const Eigen::Matrix3d cross = H_k * column.middleRows<3>(3 * block_of(k)) * H_n.transpose();
-      covariance += transport(H_k, P_.block(block_of(k), block_of(k))) + cross + cross.transpose();
-    }
-    motions.push_back({motion, covariance});
-  }
-  return motions;
 }
 
 EstimatorEntry ekf_entry() {

@@ -17,6 +17,9 @@ namespace fathom {
 struct EkfOptions {
   int max_iterations = 1;
   double tolerance = 1e-6;
+  /// Of the cost before the update, or of 1: below it a χ² is good whatever it was. An update that
+  /// helps lowers the cost; ten times as much is no linearisation error.
+  double divergence_factor = 10.0;
   GateOptions gate;
 
   void describe(OptionTable& table);
@@ -30,8 +33,9 @@ class Ekf final : public Estimator {
 
   void add_keyframe(const RelativePose& step) override;
   UpdateReport close_loops(std::span<const RelativePose> registrations) override;
-  std::optional<Eigen::Matrix3d> covariance(std::size_t k) override;
-  std::optional<Eigen::MatrixXd> joint_covariance(std::span<const std::size_t> keyframes) override;
+  std::optional<Eigen::Matrix3d> covariance(std::size_t k) const override;
+  std::optional<Eigen::MatrixXd> joint_covariance(
+      std::span<const std::size_t> keyframes) const override;
   std::size_t size() const override { return poses_.size(); }
   Pose pose(std::size_t k) const override { return poses_[k]; }
   /// From the joint blocks of both keyframes.
@@ -43,6 +47,9 @@ class Ekf final : public Estimator {
   struct Innovation;
   struct Stack;
 
+  /// Block of keyframe k in the state; keyframe 0 has none.
+  static Eigen::Index block_of(std::size_t k) { return static_cast<Eigen::Index>(k) - 1; }
+
   Innovation innovate(const RelativePose& z) const;
   Eigen::MatrixX3d covariance_times_transposed(const Innovation& innovation) const;
   static Eigen::MatrixXd projected(std::span<const Innovation> stack, const Eigen::MatrixXd& PHt);
@@ -51,6 +58,7 @@ class Ekf final : public Estimator {
   void gate_together(std::vector<Innovation>& accepted, UpdateReport& report) const;
   Outcome update(std::span<const Innovation> accepted);
 
+  double divergence_factor_;
   Gate gate_;
   std::vector<Pose> poses_;
   filter::PackedCovariance P_;

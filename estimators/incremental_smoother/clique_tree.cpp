@@ -79,13 +79,13 @@ void CliqueTree::find_affected(std::span<const int> keyframes) {
   }
 }
 
-void CliqueTree::describe_rest() {
-  rest_.clear();
-  rest_.size = static_cast<int>(affected_.size());
+void CliqueTree::form_quotient_graph() {
+  quotient_.clear();
+  quotient_.size = static_cast<int>(affected_.size());
   for (const int v : affected_) {
     problem_.for_each_edge(v, [&](int, int other) {
       if (other < v && index_of_[at(other)] >= 0) {
-        rest_.links.push_back({index_of_[at(v)], index_of_[at(other)]});
+        quotient_.links.push_back({index_of_[at(v)], index_of_[at(other)]});
       }
     });
   }
@@ -96,9 +96,9 @@ void CliqueTree::describe_rest() {
       if (c.is_marked) continue;
       orphans_.push_back(child);
       for (int j = c.width; j < c.rows(); ++j) {
-        rest_.group_nodes.push_back(index_of_[at(c.variables[at(j)])]);
+        quotient_.element_nodes.push_back(index_of_[at(c.variables[at(j)])]);
       }
-      rest_.group_start.push_back(static_cast<int>(rest_.group_nodes.size()));
+      quotient_.element_start.push_back(static_cast<int>(quotient_.element_nodes.size()));
     }
   }
 }
@@ -119,7 +119,8 @@ int CliqueTree::new_clique() {
 }
 
 void CliqueTree::build(int newest) {
-  elimination_.analyse(rest_, minimum_degree_.order(rest_, index_of_[at(newest)], rest_.size - 1));
+  elimination_.analyse(quotient_,
+                       minimum_degree_.order(quotient_, index_of_[at(newest)], quotient_.size - 1));
   built_.clear();
   for (const Front& front : elimination_.fronts()) {
     const int i = new_clique();
@@ -163,7 +164,7 @@ void CliqueTree::attach(int clique) {
 bool CliqueTree::refactor(std::span<const int> keyframes, int newest) {
   grow();
   find_affected(keyframes);
-  describe_rest();
+  form_quotient_graph();
   release_marked();
   build(newest);
   for (const int v : affected_) index_of_[at(v)] = -1;
@@ -172,7 +173,7 @@ bool CliqueTree::refactor(std::span<const int> keyframes, int newest) {
   return false;
 }
 
-bool CliqueTree::refresh(std::span<const int> keyframes) {
+bool CliqueTree::relinearise(std::span<const int> keyframes) {
   unmark();
   for (const int v : keyframes) mark_up(v);
   sort_marked();

@@ -30,7 +30,7 @@ class CliqueTree {
   /// positive definite.
   bool refactor(std::span<const int> keyframes, int newest);
   /// The same in the old order: where no measurement is new.
-  bool refresh(std::span<const int> keyframes);
+  bool relinearise(std::span<const int> keyframes);
   /// How many keyframes the last of both has eliminated.
   int refactored() const { return refactored_; }
 
@@ -40,22 +40,22 @@ class CliqueTree {
                  const std::vector<Vec3>& ignored);
   double forward_all(const std::vector<Vec3>& gradient);
 
-  /// The step H⁻¹ b, taken from the root down: the keyframes of a clique follow one of their
+  /// Propagates the step H⁻¹ b from the root down: the keyframes of a clique follow one of their
   /// separators as if they were joined rigidly, and what is left of the separators' motion bends
   /// them. Where that is less than `negligible` squared sigmas, and b is zero below, all that is
   /// below follows rigidly; or stays, if it would not move by more either.
-  void descend(double negligible);
+  void propagate(double negligible);
 
-  /// Of the last descend: keyframes that moved, and of them those that did not just follow.
+  /// Of the last propagate: keyframes that moved, and of them those that did not just follow.
   const std::vector<int>& moved() const { return moved_; }
   const std::vector<int>& bent() const { return bent_; }
   /// Where a moved keyframe was.
   const Node& before(int keyframe) const { return before_[at(keyframe)]; }
 
-  /// One keyframe of each clique that the last descend has bent, and whose keyframes have turned by
-  /// more than `limit_rad` to each other since it was factored, or moved by more than `limit_m` and
-  /// `limit_rad` of their distance.
-  void find_stale(double limit_m, double limit_rad, std::vector<int>& keyframes) const;
+  /// One keyframe of each clique that the last propagate has bent, and whose keyframes have turned
+  /// by more than `limit_rad` to each other since it was factored, or moved by more than `limit_m`
+  /// and `limit_rad` of their distance.
+  void find_to_relinearise(double limit_m, double limit_rad, std::vector<int>& keyframes) const;
 
   /// J H⁻¹ Jᵀ of a quantity with these derivatives by two keyframes, each in its own axes.
   Eigen::Matrix3d variance(int i, const Eigen::Matrix3d& J_i, int k, const Eigen::Matrix3d& J_k);
@@ -67,7 +67,7 @@ class CliqueTree {
   void sort_marked();
   void unmark();
   void find_affected(std::span<const int> keyframes);
-  void describe_rest();
+  void form_quotient_graph();
   void release_marked();
   void build(int newest);
   int new_clique();
@@ -93,7 +93,7 @@ class CliqueTree {
   std::vector<int> affected_;  ///< keyframes to be eliminated, and keyframe 0
   std::vector<int> orphans_;   ///< children of cliques that are gone
   std::vector<int> index_of_;  ///< by keyframe, in affected_; −1
-  RestGraph rest_;
+  QuotientGraph quotient_;
   MinimumDegree minimum_degree_;
   Elimination elimination_;
   std::vector<int> built_;

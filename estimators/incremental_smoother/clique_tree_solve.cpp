@@ -70,7 +70,7 @@ double CliqueTree::forward_all(const std::vector<Vec3>& gradient) {
   return substitute();
 }
 
-void CliqueTree::descend(double negligible) {
+void CliqueTree::propagate(double negligible) {
   moved_.clear();
   bent_.clear();
   bent_cliques_.clear();
@@ -148,7 +148,8 @@ void CliqueTree::follow(int clique, const RigidMotion& rigid) {
   }
 }
 
-void CliqueTree::find_stale(double limit_m, double limit_rad, std::vector<int>& keyframes) const {
+void CliqueTree::find_to_relinearise(double limit_m, double limit_rad,
+                                     std::vector<int>& keyframes) const {
   for (const int i : bent_cliques_) {
     const Clique& c = cliques_[at(i)];
     const Node& seen_from = problem_.nodes[at(c.variables.back())];

@@ -9,14 +9,14 @@ namespace fathom::incremental_smoother {
 using sparse::blocks_of;
 using sparse::is_worth_merging;
 
-void Elimination::analyse(const RestGraph& graph, const std::vector<int>& order) {
+void Elimination::analyse(const QuotientGraph& graph, const std::vector<int>& order) {
   collect_neighbours(graph, order);
   find_columns(graph);
   sort_by_branches(order);
   merge_fronts();
 }
 
-void Elimination::collect_neighbours(const RestGraph& graph, const std::vector<int>& order) {
+void Elimination::collect_neighbours(const QuotientGraph& graph, const std::vector<int>& order) {
   const int n = graph.size;
   position_.resize(at(n));
   for (int p = 0; p < n; ++p) position_[at(order[at(p)])] = p;
@@ -33,20 +33,20 @@ void Elimination::collect_neighbours(const RestGraph& graph, const std::vector<i
   // Filled from behind: entry p + 1 now holds the begin of p.
   link_start_.erase(link_start_.begin());
   link_start_.push_back(static_cast<int>(graph.links.size()));
-  first_group_.assign(at(n), -1);
-  next_group_.resize(at(graph.groups()));
-  for (int g = 0; g < graph.groups(); ++g) {
+  first_element_.assign(at(n), -1);
+  next_element_.resize(at(graph.elements()));
+  for (int g = 0; g < graph.elements(); ++g) {
     int first = n;
-    for (int p = graph.group_start[at(g)]; p < graph.group_start[at(g) + 1]; ++p) {
-      first = std::min(first, position_[at(graph.group_nodes[at(p)])]);
+    for (int p = graph.element_start[at(g)]; p < graph.element_start[at(g) + 1]; ++p) {
+      first = std::min(first, position_[at(graph.element_nodes[at(p)])]);
     }
     if (first == n) continue;
-    next_group_[at(g)] = first_group_[at(first)];
-    first_group_[at(first)] = g;
+    next_element_[at(g)] = first_element_[at(first)];
+    first_element_[at(first)] = g;
   }
 }
 
-void Elimination::find_columns(const RestGraph& graph) {
+void Elimination::find_columns(const QuotientGraph& graph) {
   const int n = graph.size;
   start_.assign(1, 0);
   columns_.clear();
@@ -63,9 +63,9 @@ void Elimination::find_columns(const RestGraph& graph) {
       least = std::min(least, i);
     };
     for (int p = link_start_[at(j)]; p < link_start_[at(j) + 1]; ++p) add(link_rows_[at(p)]);
-    for (int g = first_group_[at(j)]; g >= 0; g = next_group_[at(g)]) {
-      for (int p = graph.group_start[at(g)]; p < graph.group_start[at(g) + 1]; ++p) {
-        add(position_[at(graph.group_nodes[at(p)])]);
+    for (int g = first_element_[at(j)]; g >= 0; g = next_element_[at(g)]) {
+      for (int p = graph.element_start[at(g)]; p < graph.element_start[at(g) + 1]; ++p) {
+        add(position_[at(graph.element_nodes[at(p)])]);
       }
     }
     for (int child = first_child_[at(j)]; child >= 0; child = sibling_[at(child)]) {

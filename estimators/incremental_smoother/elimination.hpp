@@ -15,12 +15,12 @@ struct Front {
   int height = 0;
 };
 
-/// The pattern of the factor of a RestGraph in a given order, in fronts, children before parents.
-/// The last node is fixed: it is a row of others, and has no front. Where fronts of one branch have
-/// nearly the same rows they are one.
+/// The pattern of the factor of a QuotientGraph in a given order, in fronts, children before
+/// parents. The last node is fixed: it is a row of others, and has no front. Where fronts of one
+/// branch have nearly the same rows they are one.
 class Elimination {
  public:
-  void analyse(const RestGraph& graph, const std::vector<int>& order);
+  void analyse(const QuotientGraph& graph, const std::vector<int>& order);
 
   const std::vector<Front>& fronts() const { return fronts_; }
   int node_at(int position) const { return node_[at(position)]; }
@@ -28,16 +28,16 @@ class Elimination {
   int row(std::size_t i) const { return rows_[i]; }
 
  private:
-  void collect_neighbours(const RestGraph& graph, const std::vector<int>& order);
-  void find_columns(const RestGraph& graph);
+  void collect_neighbours(const QuotientGraph& graph, const std::vector<int>& order);
+  void find_columns(const QuotientGraph& graph);
   void sort_by_branches(const std::vector<int>& order);
   void merge_fronts();
 
   std::vector<int> position_;
   std::vector<int> link_start_;  ///< by position in the order given
   std::vector<int> link_rows_;
-  std::vector<int> first_group_;  ///< that a column is the first of
-  std::vector<int> next_group_;
+  std::vector<int> first_element_;  ///< that a column is the first of
+  std::vector<int> next_element_;
   std::vector<std::size_t> start_;  ///< of the columns, in the order given
   std::vector<int> columns_;
   std::vector<int> parent_;

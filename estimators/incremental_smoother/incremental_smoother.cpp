@@ -72,7 +72,7 @@ bool IncrementalSmoother::judge(std::span<const RelativePose> registrations, Upd
   return fathom::judge(gate_, *this, registrations, covariances, report);
 }
 
-std::optional<Eigen::Matrix3d> IncrementalSmoother::covariance(std::size_t k) {
+std::optional<Eigen::Matrix3d> IncrementalSmoother::covariance(std::size_t k) const {
   if (!marginals_) {
     const auto& problem = smoother_->problem();
     marginals_ = pose_graph::marginals(problem.edges, problem.nodes)
@@ -83,7 +83,7 @@ std::optional<Eigen::Matrix3d> IncrementalSmoother::covariance(std::size_t k) {
 }
 
 std::optional<Eigen::MatrixXd> IncrementalSmoother::joint_covariance(
-    std::span<const std::size_t> keyframes) {
+    std::span<const std::size_t> keyframes) const {
   const auto& problem = smoother_->problem();
   return pose_graph::joint_covariance(problem.edges, problem.nodes, keyframes);
 }

@@ -37,8 +37,9 @@ class IncrementalSmoother final : public Estimator {
   UpdateReport close_loops(std::span<const RelativePose> registrations) override;
 
   /// From the Gauss-Newton Hessian at the estimate; a rejected registration has no part in it.
-  std::optional<Eigen::Matrix3d> covariance(std::size_t k) override;
-  std::optional<Eigen::MatrixXd> joint_covariance(std::span<const std::size_t> keyframes) override;
+  std::optional<Eigen::Matrix3d> covariance(std::size_t k) const override;
+  std::optional<Eigen::MatrixXd> joint_covariance(
+      std::span<const std::size_t> keyframes) const override;
   std::optional<std::vector<UncertainPose>> motions_to_newest() const override;
   std::size_t size() const override;
   Pose pose(std::size_t k) const override;
@@ -51,7 +52,7 @@ class IncrementalSmoother final : public Estimator {
   Gate gate_;
   std::unique_ptr<incremental_smoother::Smoother> smoother_;
   /// Of all keyframes; absent: to be computed, empty: could not be.
-  std::optional<std::vector<Eigen::Matrix3d>> marginals_;
+  mutable std::optional<std::vector<Eigen::Matrix3d>> marginals_;
 };
 
 EstimatorEntry incremental_smoother_entry();

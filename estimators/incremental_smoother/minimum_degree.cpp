@@ -28,14 +28,14 @@ void reset(std::uint64_t* row, int v) {
 
 }  // namespace
 
-void RestGraph::clear() {
+void QuotientGraph::clear() {
   size = 0;
   links.clear();
-  group_start.assign(1, 0);
-  group_nodes.clear();
+  element_start.assign(1, 0);
+  element_nodes.clear();
 }
 
-const std::vector<int>& MinimumDegree::order(const RestGraph& graph, int newest, int fixed) {
+const std::vector<int>& MinimumDegree::order(const QuotientGraph& graph, int newest, int fixed) {
   order_.clear();
   if (graph.size <= kMostBits) {
     order_by_bits(graph, newest, fixed);
@@ -48,20 +48,20 @@ const std::vector<int>& MinimumDegree::order(const RestGraph& graph, int newest,
   return order_;
 }
 
-void MinimumDegree::fill_rows(const RestGraph& graph) {
+void MinimumDegree::fill_rows(const QuotientGraph& graph) {
   bits_.assign(at(graph.size) * at(words_), 0);
   mask_.resize(at(words_));
   for (const auto& link : graph.links) {
     set(row(link.a), link.b);
     set(row(link.b), link.a);
   }
-  for (int g = 0; g < graph.groups(); ++g) {
+  for (int g = 0; g < graph.elements(); ++g) {
     std::fill(mask_.begin(), mask_.end(), 0);
-    const int begin = graph.group_start[at(g)];
-    const int end = graph.group_start[at(g) + 1];
-    for (int p = begin; p < end; ++p) set(mask_.data(), graph.group_nodes[at(p)]);
+    const int begin = graph.element_start[at(g)];
+    const int end = graph.element_start[at(g) + 1];
+    for (int p = begin; p < end; ++p) set(mask_.data(), graph.element_nodes[at(p)]);
     for (int p = begin; p < end; ++p) {
-      std::uint64_t* to = row(graph.group_nodes[at(p)]);
+      std::uint64_t* to = row(graph.element_nodes[at(p)]);
       for (int w = 0; w < words_; ++w) to[w] |= mask_[at(w)];
     }
   }
@@ -105,7 +105,7 @@ void MinimumDegree::take(int v) {
   }
 }
 
-void MinimumDegree::order_by_bits(const RestGraph& graph, int newest, int fixed) {
+void MinimumDegree::order_by_bits(const QuotientGraph& graph, int newest, int fixed) {
   const int n = graph.size;
   words_ = (n + kWord - 1) / kWord;
   fill_rows(graph);
@@ -146,12 +146,12 @@ void MinimumDegree::order_by_bits(const RestGraph& graph, int newest, int fixed)
   }
 }
 
-void MinimumDegree::order_approximately(const RestGraph& graph) {
+void MinimumDegree::order_approximately(const QuotientGraph& graph) {
   std::vector<sparse::Link> links = graph.links;
-  for (int g = 0; g < graph.groups(); ++g) {
-    for (int p = graph.group_start[at(g)]; p < graph.group_start[at(g) + 1]; ++p) {
-      for (int q = graph.group_start[at(g)]; q < p; ++q) {
-        links.push_back({graph.group_nodes[at(p)], graph.group_nodes[at(q)]});
+  for (int g = 0; g < graph.elements(); ++g) {
+    for (int p = graph.element_start[at(g)]; p < graph.element_start[at(g) + 1]; ++p) {
+      for (int q = graph.element_start[at(g)]; q < p; ++q) {
+        links.push_back({graph.element_nodes[at(p)], graph.element_nodes[at(q)]});
       }
     }
   }

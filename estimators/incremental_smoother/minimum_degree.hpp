@@ -9,16 +9,17 @@ namespace fathom::incremental_smoother {
 
 using sparse::at;
 
-/// What is left to eliminate: nodes 0 … size − 1, links, and groups of nodes that are all linked
-/// with one another, by what was eliminated before.
-struct RestGraph {
+/// The quotient graph of what is left to eliminate (George and Liu 1981): the nodes 0 … size − 1,
+/// their links, and the elements, each a set of nodes that are all linked with one another by what
+/// was eliminated before.
+struct QuotientGraph {
   int size = 0;
   std::vector<sparse::Link> links;
-  std::vector<int> group_start{0};
-  std::vector<int> group_nodes;
+  std::vector<int> element_start{0};
+  std::vector<int> element_nodes;
 
   void clear();
-  int groups() const { return static_cast<int>(group_start.size()) - 1; }
+  int elements() const { return static_cast<int>(element_start.size()) - 1; }
 };
 
 /// An order of elimination of small fill, node `newest` last but one, `fixed` last. Up to some
@@ -26,13 +27,13 @@ struct RestGraph {
 /// minimum degree.
 class MinimumDegree {
  public:
-  const std::vector<int>& order(const RestGraph& graph, int newest, int fixed);
+  const std::vector<int>& order(const QuotientGraph& graph, int newest, int fixed);
 
  private:
-  void order_by_bits(const RestGraph& graph, int newest, int fixed);
-  void order_approximately(const RestGraph& graph);
+  void order_by_bits(const QuotientGraph& graph, int newest, int fixed);
+  void order_approximately(const QuotientGraph& graph);
   std::uint64_t* row(int v) { return bits_.data() + at(v) * at(words_); }
-  void fill_rows(const RestGraph& graph);
+  void fill_rows(const QuotientGraph& graph);
   int count(int v);
   void put(int v);
   void take(int v);

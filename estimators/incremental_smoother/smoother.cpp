@@ -5,20 +5,9 @@
 #include <limits>
 
 #include "estimators/support/pose_graph/batch.hpp"
+#include "estimators/support/pose_graph/information.hpp"
 
 namespace fathom::incremental_smoother {
-namespace {
-
-// Differences of F that mean nothing, in squared sigmas: where all measurements agree, F itself is
-// rounding.
-constexpr double kNegligible = 1e-12;
-constexpr double kNoise = 1e-20;
-constexpr double kCancellation = 1e-6;
-// A bend that is left out, as a share of what F may exceed its optimum by.
-constexpr double kNegligibleBend = 0.1;
-
-}  // namespace
-
 Smoother::Smoother(const Pose& origin, const SmootherLimits& limits)
     : limits_(limits),
       problem_(make_node(origin.x, origin.y, origin.theta)),
@@ -47,6 +36,7 @@ void Smoother::add_keyframe(const RelativePose& step) {
 
 void Smoother::append_edge(const RelativePose& measurement) {
   problem_.add_edge(pose_graph::make_edge(measurement));
+  spread_.add(measurement);
   edge_pass_.push_back(-1);
   gradient_.add_edge();
 }
@@ -80,7 +70,7 @@ SmootherResult Smoother::add_registrations(std::span<const RelativePose> registr
   SmootherResult result{Outcome::numerical_failure, 0};
   if (std::isfinite(gradient_.cost()) && refactor()) {
     result = iterate();
-    if (!refresh()) result.outcome = Outcome::numerical_failure;
+    if (!relinearise() || !is_determined()) result.outcome = Outcome::numerical_failure;
   }
   if (!is_done(result.outcome)) undo(edges_before);
   return result;
@@ -97,18 +87,23 @@ bool Smoother::refactor() {
 }
 
 // Linearises again where the estimate has left its linearisation.
-bool Smoother::refresh() {
-  if (stale_.empty()) return true;
-  if (!tree_.refresh(stale_)) return false;
+bool Smoother::relinearise() {
+  if (to_relinearise_.empty()) return true;
+  if (!tree_.relinearise(to_relinearise_)) return false;
   counts_.eliminated += tree_.refactored();
-  stale_.clear();
+  to_relinearise_.clear();
   return true;
+}
+
+// Measurements that are alike in their information always are.
+bool Smoother::is_determined() const {
+  return !spread_.is_wide() || pose_graph::is_determined(problem_.edges, problem_.nodes);
 }
 
 // Linearises everything at the estimate.
 bool Smoother::rebuild() {
   tree_.clear();
-  stale_.clear();
+  to_relinearise_.clear();
   touched_.clear();
   first_outside_ = 1;
   return problem_.size() < 2 || refactor();
@@ -122,7 +117,7 @@ void Smoother::end(Progress& progress, Outcome outcome) {
 SmootherResult Smoother::iterate() {
   Progress progress;
   progress.result.outcome = Outcome::iteration_limit;
-  progress.is_whole = !std::isfinite(debt_);
+  progress.is_whole = !std::isfinite(slack_);
   while (!progress.is_over && progress.result.iterations < limits_.max_iterations) {
     ++progress.result.iterations;
     if (prepare_step(progress)) {
@@ -132,7 +127,7 @@ SmootherResult Smoother::iterate() {
     }
   }
   // The next update begins where this one was stopped.
-  if (!progress.is_over) debt_ = std::numeric_limits<double>::infinity();
+  if (!progress.is_over) slack_ = std::numeric_limits<double>::infinity();
   if (progress.is_whole) {
     ignored_ = gradient_.by_keyframe();
   } else {
@@ -146,8 +141,8 @@ bool Smoother::prepare_step(const Progress& progress) {
   ++counts_.steps;
   if (!progress.is_whole) return true;
   ++counts_.whole_steps;
-  debt_ = 0.0;
-  return refresh();
+  slack_ = 0.0;
+  return relinearise();
 }
 
 void Smoother::take_step(Progress& progress) {
@@ -155,21 +150,21 @@ void Smoother::take_step(Progress& progress) {
                               ? tree_.forward_all(gradient_.by_keyframe())
                               : tree_.forward(changed_, gradient_.by_keyframe(), ignored_);
   if (!std::isfinite(promised)) return end(progress, Outcome::numerical_failure);
-  const double allowed = limits_.tolerance * gradient_.cost() + kNoise;
+  const double allowed = limits_.tolerance * gradient_.cost() + limits_.least_promise_chi2;
   if (progress.is_whole && promised <= allowed) return end(progress, Outcome::converged);
   const double before = gradient_.cost();
-  tree_.descend(kNegligibleBend * limits_.tolerance);
+  tree_.propagate(limits_.bend_share * limits_.tolerance);
   for (const int v : tree_.moved()) save(v, tree_.before(v));
   reevaluate_bent();
   // A sum that was large before has rounding of its own.
-  if (gradient_.cost() < kCancellation * before) gradient_.evaluate_all();
-  if (!(gradient_.cost() <= before + allowed + kNegligible)) return retreat(progress);
+  if (gradient_.cost() < limits_.cancellation * before) gradient_.evaluate_all();
+  if (!(gradient_.cost() <= before + allowed + limits_.rounding_chi2)) return retreat(progress);
   progress.is_fresh = false;
-  tree_.find_stale(limits_.relinearise_m, limits_.relinearise_rad, stale_);
+  tree_.find_to_relinearise(limits_.relinearise_m, limits_.relinearise_rad, to_relinearise_);
   // What a step promises is what it brings but for terms of third order, and what it leaves is of
   // fourth: while the one differs from the other by little, it leaves less.
-  debt_ += std::abs(promised - (before - gradient_.cost()));
-  if (debt_ <= limits_.tolerance * gradient_.cost() + kNoise) {
+  slack_ += std::abs(promised - (before - gradient_.cost()));
+  if (slack_ <= limits_.tolerance * gradient_.cost() + limits_.least_promise_chi2) {
     return end(progress, Outcome::converged);
   }
   progress.is_whole = true;
@@ -183,8 +178,8 @@ void Smoother::retreat(Progress& progress) {
   if (!progress.is_fresh) {
     progress.is_fresh = true;
     progress.is_whole = true;
-    stale_.clear();
-    for (int k = 1; k < problem_.size(); ++k) stale_.push_back(k);
+    to_relinearise_.clear();
+    for (int k = 1; k < problem_.size(); ++k) to_relinearise_.push_back(k);
     return;
   }
   const SmootherResult solved = solve_batch();

@@ -9,6 +9,7 @@
 #include "estimators/incremental_smoother/clique_tree.hpp"
 #include "estimators/incremental_smoother/gradient.hpp"
 #include "fathom/estimation/estimator.hpp"
+#include "fathom/estimation/precision.hpp"
 #include "fathom/geometry/covariance.hpp"
 
 namespace fathom::incremental_smoother {
@@ -18,6 +19,16 @@ struct SmootherLimits {
   double tolerance = 1e-5;
   double relinearise_m = 0.01;
   double relinearise_rad = 0.001;
+
+  /// What propagation leaves of a step behind it, as a share of what F may exceed its optimum by:
+  /// it adds up over the branches of the tree (docs/estimators/incremental_smoother.md).
+  double bend_share = 0.1;
+  /// As of SolverTuning: differences of F that are rounding, and the least that a step may promise.
+  double rounding_chi2 = 1e-12;
+  double least_promise_chi2 = 1e-20;
+  /// Where F falls below this share of what it was, its running sum is added up anew: ten digits of
+  /// it are left.
+  double cancellation = 1e-6;
 };
 
 struct SmootherResult {
@@ -64,8 +75,9 @@ class Smoother {
   void append_edge(const RelativePose& measurement);
   void evaluate_all();
   bool refactor();
-  bool refresh();
+  bool relinearise();
   bool rebuild();
+  bool is_determined() const;
   SmootherResult iterate();
   bool prepare_step(const Progress& progress);
   void take_step(Progress& progress);
@@ -82,12 +94,13 @@ class Smoother {
   Problem problem_;
   CliqueTree tree_;
   Gradient gradient_;
+  InformationSpread spread_;
   std::vector<Vec3> ignored_;  ///< what earlier updates left of it
-  double debt_ = 0.0;          ///< by how much F may exceed its optimum, for what was ignored
+  double slack_ = 0.0;         ///< the slack on the cost: by how much F may exceed its optimum
 
   int first_outside_ = 1;                     ///< the first keyframe that is not in the tree
   std::vector<UncertainPose> outside_steps_;  ///< to this keyframe and those that follow it
-  std::vector<int> stale_;                    ///< keyframes of cliques to be linearised again
+  std::vector<int> to_relinearise_;           ///< keyframes of cliques to be linearised again
   std::vector<int> touched_;
   std::vector<int> changed_;      ///< keyframes whose gradient this update has changed
   std::vector<long> changed_in_;  ///< by keyframe: the last update that did

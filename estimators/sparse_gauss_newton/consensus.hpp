@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "estimators/sparse_gauss_newton/loop_graph.hpp"
+#include "estimators/sparse_gauss_newton/loop_judgement.hpp"
 
 namespace fathom::sparse_gauss_newton {
 
@@ -19,17 +19,23 @@ struct Consensus {
   double squared_scale = 0.0;
 };
 
+/// How to look for a consensus.
+struct ConsensusOptions {
+  LoopJudgement judgement;
+  /// Absent: the default, or less where the loops agree better than they say.
+  std::optional<double> squared_scale;
+  SolveLimits limits;  ///< of the last solve
+};
+
 /// Judges every loop by what all others say of it (leave_one_out), again and again: the worst are
-/// put out until none contradicts the rest, those outside that agree with it are let in, then
-/// groups of neighbours that the rest contradicts as a whole (group_chi2) are put out, and at the
+/// rejected until none contradicts the rest, those outside that agree with it are readmitted, then
+/// groups of neighbours that the rest contradicts as a whole (group_chi2) are rejected, and at the
 /// end each weighs 1 up to half the squared scale, 0 from one and a half times it on, and in
 /// between falls linearly. A weight that rests on the others' word does not confirm itself.
 ///
 /// `weights` is the first guess, `nodes` where it is valid; both may be far off in part.
-/// `squared_scale` absent: the default, or less where the loops agree better than they say.
 Consensus find_consensus(const LoopGraph& graph, std::vector<double> weights,
-                         std::vector<Node>& nodes, std::optional<double> squared_scale,
-                         const SolveLimits& limits);
+                         std::vector<Node>& nodes, const ConsensusOptions& options);
 
 /// F of the loops kept and the scale for each that is not: the less, the better a consensus.
 double truncated_cost(const LoopGraph& graph, std::span<const double> weights,

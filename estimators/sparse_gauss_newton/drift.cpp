@@ -13,13 +13,6 @@ const Node& node_of(std::span<const Node> nodes, int k) {
   return nodes[static_cast<std::size_t>(k)];
 }
 
-Eigen::Matrix3d covariance_of(const Edge& edge) {
-  const auto& W = edge.W;
-  Eigen::Matrix3d full;
-  full << W[0], W[1], W[2], W[1], W[3], W[4], W[2], W[4], W[5];
-  return symmetric_inverse(full);
-}
-
 // (u, φ) at p ↔ the twist about the origin: sign −1 there, +1 back.
 Eigen::Matrix3d carry(const Node& at, double sign) {
   Eigen::Matrix3d L = Eigen::Matrix3d::Identity();
@@ -61,10 +54,7 @@ Eigen::Matrix3d Drift::of(const Edge& edge, std::span<const Node> nodes) const {
 double least_chi2(const Drift& drift, const Edge& edge, std::span<const Node> nodes) {
   const Node& i = node_of(nodes, edge.from);
   const Node& k = node_of(nodes, edge.to);
-  const double dx = k.x - i.x;
-  const double dy = k.y - i.y;
-  const Eigen::Vector3d nu(i.c * dx + i.s * dy - edge.x, -i.s * dx + i.c * dy - edge.y,
-                           wrap_angle(k.theta - i.theta - edge.theta));
+  const Eigen::Vector3d nu = residual_of(edge, i, k);
   const Eigen::LLT<Eigen::Matrix3d> S(covariance_of(edge) + drift.of(edge, nodes));
   return S.info() == Eigen::Success ? nu.dot(S.solve(nu)) : 0.0;
 }

@@ -24,6 +24,7 @@ void Graph::add_keyframe(const RelativePose& step) {
   const Pose next = compose(pose(size() - 1), step.forward().motion);
   nodes_.push_back(make_node(next.x, next.y, next.theta));
   edges_.push_back(make_edge(step));
+  spread_.add(step);
   is_loop_.push_back(0);
   weights_.push_back(1.0);
   changed();
@@ -31,6 +32,7 @@ void Graph::add_keyframe(const RelativePose& step) {
 
 void Graph::add_registration(const RelativePose& registration) {
   edges_.push_back(make_edge(registration));
+  spread_.add(registration);
   is_loop_.push_back(1);
   weights_.push_back(1.0);
   changed();
@@ -43,26 +45,40 @@ void Graph::forget_edges(std::size_t count) {
   changed();
 }
 
-SolveResult Graph::solve(Start start, const SolveLimits& limits) {
+// Keeps the poses of a solve that is done.
+SolveResult Graph::accept(SolveResult result, std::vector<Node> nodes,
+                          const std::vector<double>& weights) {
   changed();
-  return pose_graph::solve_batch(edges_, nodes_, start, limits);
+  if (is_done(result.outcome) && spread_.is_wide() &&
+      !pose_graph::is_determined(weighted_edges(weights), nodes)) {
+    result.outcome = Outcome::numerical_failure;
+  }
+  if (is_done(result.outcome)) nodes_ = std::move(nodes);
+  return result;
+}
+
+SolveResult Graph::solve(Start start, const SolveLimits& limits) {
+  std::vector<Node> nodes = nodes_;
+  const SolveResult result = pose_graph::solve_batch(edges_, nodes, start, limits);
+  return accept(result, std::move(nodes), weights_);
 }
 
 SolveResult Graph::solve_robust(const SolveLimits& limits, bool from_scratch) {
-  changed();
   std::vector<double> known;
   if (!from_scratch) {
     known = weights_;
     for (std::size_t e = judged_; e < known.size(); ++e)
       known[e] = is_loop_[e] != 0 ? kNewLoop : 1.0;
   }
-  RobustResult result =
-      sparse_gauss_newton::solve_robust({edges_, is_loop_}, nodes_, robust_, limits, known);
-  if (is_done(result.solved.outcome)) {
-    weights_ = std::move(result.weights);
+  std::vector<Node> nodes = nodes_;
+  RobustResult robust =
+      sparse_gauss_newton::solve_robust({edges_, is_loop_}, nodes, robust_, limits, known);
+  const SolveResult result = accept(robust.solved, std::move(nodes), robust.weights);
+  if (is_done(result.outcome)) {
+    weights_ = std::move(robust.weights);
     judged_ = edges_.size();
   }
-  return result.solved;
+  return result;
 }
 
 std::vector<double> Graph::registration_weights() const {
@@ -73,21 +89,21 @@ std::vector<double> Graph::registration_weights() const {
   return weights;
 }
 
-std::vector<Edge> Graph::weighted_edges() const {
+std::vector<Edge> Graph::weighted_edges(const std::vector<double>& weights) const {
   std::vector<Edge> edges;
   edges.reserve(edges_.size());
   for (std::size_t e = 0; e < edges_.size(); ++e) {
-    if (weights_[e] == 0.0) continue;
+    if (weights[e] == 0.0) continue;
     edges.push_back(edges_[e]);
-    for (double& element : edges.back().W) element *= weights_[e];
+    for (double& element : edges.back().W) element *= weights[e];
   }
   return edges;
 }
 
 std::optional<Eigen::Matrix3d> Graph::marginal(std::size_t k) {
   if (!marginals_) {
-    marginals_ =
-        pose_graph::marginals(weighted_edges(), nodes_).value_or(std::vector<Eigen::Matrix3d>{});
+    marginals_ = pose_graph::marginals(weighted_edges(weights_), nodes_)
+                     .value_or(std::vector<Eigen::Matrix3d>{});
   }
   if (marginals_->empty()) return std::nullopt;
   return (*marginals_)[k];
@@ -95,16 +111,16 @@ std::optional<Eigen::Matrix3d> Graph::marginal(std::size_t k) {
 
 std::optional<Eigen::MatrixXd> Graph::joint_covariance(
     std::span<const std::size_t> keyframes) const {
-  return pose_graph::joint_covariance(weighted_edges(), nodes_, keyframes);
+  return pose_graph::joint_covariance(weighted_edges(weights_), nodes_, keyframes);
 }
 
 std::optional<std::vector<UncertainPose>> Graph::motions_to_newest() const {
-  return pose_graph::motions_to_newest(weighted_edges(), nodes_);
+  return pose_graph::motions_to_newest(weighted_edges(weights_), nodes_);
 }
 
 std::optional<std::vector<Eigen::Matrix3d>> Graph::innovation_covariances(
     std::span<const RelativePose> forward_loops) const {
-  return pose_graph::innovation_covariances(weighted_edges(), nodes_, forward_loops);
+  return pose_graph::innovation_covariances(weighted_edges(weights_), nodes_, forward_loops);
 }
 
 }  // namespace fathom::sparse_gauss_newton

@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 
 #include "estimators/sparse_gauss_newton/robust.hpp"
+#include "fathom/estimation/precision.hpp"
 #include "fathom/geometry/covariance.hpp"
 
 namespace fathom::sparse_gauss_newton {
@@ -54,14 +55,17 @@ class Graph {
  private:
   void changed() { marginals_.reset(); }
 
-  std::vector<Edge> weighted_edges() const;
+  std::vector<Edge> weighted_edges(const std::vector<double>& weights) const;
+  SolveResult accept(SolveResult result, std::vector<Node> nodes,
+                     const std::vector<double>& weights);
 
   RobustOptions robust_;
   std::vector<Node> nodes_;
   std::vector<Edge> edges_;
   std::vector<char> is_loop_;    ///< by edge
   std::vector<double> weights_;  ///< by edge
-  std::size_t judged_ = 0;       ///< edges of the last robust solve that was done
+  InformationSpread spread_;
+  std::size_t judged_ = 0;  ///< edges of the last robust solve that was done
   /// Of all keyframes; absent: to be computed, empty: could not be.
   std::optional<std::vector<Eigen::Matrix3d>> marginals_;
 };

@@ -11,17 +11,6 @@
 namespace fathom::sparse_gauss_newton {
 namespace {
 
-Pose pose_of(const Node& node) {
-  return {node.x, node.y, node.theta};
-}
-
-Eigen::Matrix3d information_of(const Edge& edge) {
-  const auto& W = edge.W;
-  Eigen::Matrix3d full;
-  full << W[0], W[1], W[2], W[1], W[3], W[4], W[2], W[4], W[5];
-  return full;
-}
-
 double chi2_of(const Eigen::Vector3d& nu, const Eigen::Matrix3d& S) {
   const Eigen::LLT<Eigen::Matrix3d> llt(0.5 * (S + S.transpose()));
   if (llt.info() != Eigen::Success) return std::numeric_limits<double>::infinity();
@@ -30,19 +19,13 @@ double chi2_of(const Eigen::Vector3d& nu, const Eigen::Matrix3d& S) {
 
 double without(const Edge& edge, double w, const sparse::SelectedInverse& inverse, const Node& from,
                const Node& to) {
-  Eigen::Matrix3d H_from;
-  Eigen::Matrix3d H_to;
-  const Pose h = between(pose_of(from), pose_of(to), &H_from, &H_to);
-  const Eigen::Vector3d nu(h.x - edge.x, h.y - edge.y, wrap_angle(h.theta - edge.theta));
-  Eigen::Matrix3d C = Eigen::Matrix3d::Zero();
-  if (edge.from > 0) C += transport(H_from, inverse.block(edge.from - 1));
-  if (edge.to > 0) C += transport(H_to, inverse.block(edge.to - 1));
-  if (edge.from > 0 && edge.to > 0) {
-    const Eigen::Matrix3d cross =
-        H_from * inverse.block(edge.from - 1, edge.to - 1) * H_to.transpose();
-    C += cross + cross.transpose();
-  }
-  const Eigen::Matrix3d R = symmetric_inverse(information_of(edge));
+  PairCovariance pair;
+  if (edge.from > 0) pair.A = inverse.block(edge.from - 1);
+  if (edge.to > 0) pair.B = inverse.block(edge.to - 1);
+  if (edge.from > 0 && edge.to > 0) pair.cross = inverse.block(edge.from - 1, edge.to - 1);
+  const Eigen::Matrix3d C = between(pose_of(from), pose_of(to), pair).covariance;
+  const Eigen::Vector3d nu = residual_of(edge, from, to);
+  const Eigen::Matrix3d R = covariance_of(edge);
   if (w == 0.0) return chi2_of(nu, R + C);
   const Eigen::Matrix3d weighted = R / w;
   const Eigen::Matrix3d A_inverse = (weighted - C).inverse();

@@ -8,8 +8,10 @@ namespace fathom::sparse_gauss_newton {
 
 // What this folder takes from the support of pose graphs.
 using pose_graph::analyse_graph;
+using pose_graph::covariance_of;
 using pose_graph::Edge;
 using pose_graph::EdgeTerms;
+using pose_graph::full;
 using pose_graph::Hessian;
 using pose_graph::linearise_edge;
 using pose_graph::make_edge;
@@ -17,6 +19,8 @@ using pose_graph::make_node;
 using pose_graph::minimise;
 using pose_graph::Node;
 using pose_graph::NormalEquations;
+using pose_graph::pose_of;
+using pose_graph::residual_of;
 using pose_graph::SolveLimits;
 using pose_graph::SolveResult;
 using pose_graph::Start;

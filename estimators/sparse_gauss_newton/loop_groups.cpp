@@ -11,8 +11,6 @@
 namespace fathom::sparse_gauss_newton {
 namespace {
 
-constexpr int kNeighbours = 5;  // keyframes
-
 class Sets {
  public:
   explicit Sets(std::size_t count) : parent_(count) {
@@ -35,27 +33,27 @@ Eigen::Matrix3d lever(double dx, double dy) {
   return T;
 }
 
-Eigen::Matrix3d full(const std::array<double, 6>& M) {
-  Eigen::Matrix3d matrix;
-  matrix << M[0], M[1], M[2], M[1], M[3], M[4], M[2], M[4], M[5];
-  return matrix;
-}
-
 }  // namespace
 
+bool is_forward(const Edge& edge) {
+  return edge.to > edge.from;
+}
+
 std::vector<std::vector<std::size_t>> group_loops(
-    std::span<const Edge> edges, std::vector<std::size_t> loops,
+    std::span<const Edge> edges, std::vector<std::size_t> loops, int reach,
     const std::function<bool(const Edge&, const Edge&)>& belong) {
+  // By the earlier and the later end: a loop may be written in either direction.
+  const auto ends = [&](std::size_t e) { return std::minmax(edges[e].from, edges[e].to); };
   std::stable_sort(loops.begin(), loops.end(),
-                   [&](std::size_t a, std::size_t b) { return edges[a].from < edges[b].from; });
+                   [&](std::size_t a, std::size_t b) { return ends(a).first < ends(b).first; });
   Sets sets(loops.size());
   for (std::size_t i = 0; i < loops.size(); ++i) {
-    const Edge& a = edges[loops[i]];
+    const std::pair<int, int> a = ends(loops[i]);
     for (std::size_t j = i + 1; j < loops.size(); ++j) {
-      const Edge& b = edges[loops[j]];
-      if (b.from - a.from > kNeighbours) break;
-      if (std::abs(b.to - a.to) > kNeighbours || sets.find(i) == sets.find(j)) continue;
-      if (belong(a, b)) sets.join(i, j);
+      const std::pair<int, int> b = ends(loops[j]);
+      if (b.first - a.first > reach) break;
+      if (std::abs(b.second - a.second) > reach || sets.find(i) == sets.find(j)) continue;
+      if (belong(edges[loops[i]], edges[loops[j]])) sets.join(i, j);
     }
   }
   std::map<std::size_t, std::vector<std::size_t>> by_root;
@@ -77,14 +75,17 @@ double group_chi2(NormalEquations& equations, const std::vector<std::size_t>& gr
   const auto add = [&](int keyframe, const Eigen::Matrix3d& block) {
     if (keyframe > 0) B.middleRows<3>(3 * symbolic.position[at(keyframe - 1)]) += block;
   };
-  const Node& centre = nodes[at(equations.edges()[group.front()].to)];
+  const Edge& first = equations.edges()[group.front()];
+  const Node& centre = nodes[at(first.to)];
   for (const std::size_t e : group) {
     const Edge& edge = equations.edges()[e];
+    // Of a loop written the other way round the same motion is the opposite one of its `to`.
+    const double sign = is_forward(edge) == is_forward(first) ? 1.0 : -1.0;
     const Node& k = nodes[at(edge.to)];
     EdgeTerms t = linearise_edge(edge, nodes[at(edge.from)], k);
     scale(weights[e], t);
     const Eigen::Matrix3d M = full(t.M);
-    const Eigen::Matrix3d T_k = lever(k.x - centre.x, k.y - centre.y);
+    const Eigen::Matrix3d T_k = sign * lever(k.x - centre.x, k.y - centre.y);
     g += T_k.transpose() * Eigen::Vector3d(t.m[0], t.m[1], t.m[2]);
     information += T_k.transpose() * M * T_k;
     add(edge.to, M * T_k);

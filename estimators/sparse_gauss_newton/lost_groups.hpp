@@ -14,6 +14,7 @@ namespace fathom::sparse_gauss_newton {
 /// shuts out. The largest first; indices of edges.
 std::vector<std::vector<std::size_t>> lost_groups(const LoopGraph& graph,
                                                   const Consensus& consensus,
-                                                  std::span<const Node> nodes);
+                                                  std::span<const Node> nodes,
+                                                  const LoopJudgement& judgement);
 
 }  // namespace fathom::sparse_gauss_newton

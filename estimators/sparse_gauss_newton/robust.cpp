@@ -8,10 +8,8 @@
 namespace fathom::sparse_gauss_newton {
 namespace {
 
-constexpr double kGraduationStep = 1.4;
-constexpr SolveLimits kOneStep{2, 1e-3};
-constexpr SolveLimits kRough{50, 1e-4};
-constexpr std::size_t kHypotheses = 3;
+// By so much less, as a share, F is better and no rounding.
+constexpr double kRounding = 1e-6;
 
 class RobustBatch {
  public:
@@ -35,8 +33,7 @@ class RobustBatch {
   // Geman-McClure leads near, then the loops are judged by one another.
   RobustResult agree(std::vector<Node>& nodes, std::span<const double> known) {
     if (!known.empty()) {
-      Consensus consensus = find_consensus(graph_, {known.begin(), known.end()}, nodes,
-                                           options_.squared_scale, limits_);
+      Consensus consensus = consensus_from({known.begin(), known.end()}, nodes);
       return {consensus.solved, std::move(consensus.weights)};
     }
     const std::vector<Node> start = nodes;
@@ -48,6 +45,13 @@ class RobustBatch {
   }
 
  private:
+  const LoopJudgement& tuning() const { return options_.judgement; }
+
+  Consensus consensus_from(std::vector<double> weights, std::vector<Node>& nodes) const {
+    return find_consensus(graph_, std::move(weights), nodes,
+                          {tuning(), options_.squared_scale, limits_});
+  }
+
   RobustLoss leading_loss() const {
     if (options_.loss.kind() != LossKind::truncated) return options_.loss;
     LossOptions leading{LossKind::geman_mcclure, std::nullopt};
@@ -70,10 +74,10 @@ class RobustBatch {
     if (options_.graduation == Graduation::off || loss.kind() != LossKind::geman_mcclure) return;
     double largest = 0.0;
     for (std::size_t e = 0; e < graph_.edges.size(); ++e) {
-      if (graph_.is_loop[e] != 0) largest = std::max(largest, residual_of(e, nodes));
+      if (graph_.is_loop[e] != 0) largest = std::max(largest, chi2_of(e, nodes));
     }
     for (double mu = 2.0 * largest / loss.squared_scale(); mu > 1.0; mu /= kGraduationStep) {
-      minimise_with(loss.widened(mu), nodes, is_robust, kOneStep);
+      minimise_with(loss.widened(mu), nodes, is_robust, kGraduationSolve);
     }
   }
 
@@ -82,18 +86,20 @@ class RobustBatch {
     std::vector<char> is_robust(graph_.is_loop.begin(), graph_.is_loop.end());
     for (const std::size_t e : trusted) is_robust[e] = 0;
     graduate(nodes, is_robust);
-    minimise_with(leading_loss(), nodes, is_robust, kRough);
-    // Half weight under Geman-McClure is early to leave a loop out: down to a quarter it is judged.
+    minimise_with(leading_loss(), nodes, is_robust, tuning().leading_solve);
     std::vector<double> weights = weights_at(nodes, leading_loss());
-    for (double& weight : weights) weight = weight >= 0.25 ? 1.0 : 0.0;
+    for (double& weight : weights) weight = weight >= tuning().first_weight ? 1.0 : 0.0;
     for (const std::size_t e : trusted) weights[e] = 1.0;
-    return find_consensus(graph_, std::move(weights), nodes, options_.squared_scale, limits_);
+    return consensus_from(std::move(weights), nodes);
   }
 
   // A wrong fold shuts right loops out, many together: the largest such groups are trusted in turn.
   void try_lost_groups(const std::vector<Node>& start, std::vector<Node>& nodes, Consensus& best) {
-    std::vector<std::vector<std::size_t>> groups = lost_groups(graph_, best, nodes);
-    for (std::size_t tries = 0; tries < std::min(kHypotheses, groups.size()); ++tries) {
+    std::vector<std::vector<std::size_t>> groups = lost_groups(graph_, best, nodes, tuning());
+    for (std::size_t tries = 0;
+         tries <
+         std::min<std::size_t>(static_cast<std::size_t>(tuning().hypotheses), groups.size());
+         ++tries) {
       std::vector<Node> other = start;
       Consensus consensus = attempt(other, groups[tries]);
       if (!is_better(consensus, other, best, nodes)) continue;
@@ -114,9 +120,8 @@ class RobustBatch {
     std::vector<Node> other = nodes;
     const SolveResult solved = pose_graph::solve_batch(kept, other, Start::automatic, limits_);
     iterations_ += solved.iterations;
-    if (!is_done(solved.outcome) || solved.cost >= best.solved.cost * (1.0 - 1e-6)) return;
-    Consensus consensus =
-        find_consensus(graph_, best.weights, other, options_.squared_scale, limits_);
+    if (!is_done(solved.outcome) || solved.cost >= best.solved.cost * (1.0 - kRounding)) return;
+    Consensus consensus = consensus_from(best.weights, other);
     if (!is_better(consensus, other, best, nodes)) return;
     best = std::move(consensus);
     nodes = std::move(other);
@@ -130,7 +135,7 @@ class RobustBatch {
                                              truncated_cost(graph_, b.weights, b_nodes, scale);
   }
 
-  double residual_of(std::size_t e, std::span<const Node> nodes) const {
+  double chi2_of(std::size_t e, std::span<const Node> nodes) const {
     const Edge& edge = graph_.edges[e];
     return linearise_edge(edge, nodes[at(edge.from)], nodes[at(edge.to)]).cost;
   }
@@ -138,7 +143,7 @@ class RobustBatch {
   std::vector<double> weights_at(std::span<const Node> nodes, const RobustLoss& loss) const {
     std::vector<double> weights(graph_.edges.size(), 1.0);
     for (std::size_t e = 0; e < weights.size(); ++e) {
-      if (graph_.is_loop[e] != 0) weights[e] = loss.weight(residual_of(e, nodes));
+      if (graph_.is_loop[e] != 0) weights[e] = loss.weight(chi2_of(e, nodes));
     }
     return weights;
   }

@@ -11,14 +11,20 @@ namespace fathom::sparse_gauss_newton {
 /// Where graduated non-convexity begins.
 enum class Graduation {
   off,    ///< with the loss itself: the start is trusted
-  convex  ///< with μ = 2 s_max / c², near least squares, and then 1.4 times less a step
+  convex  ///< with μ = 2 s_max / c², near least squares, and then kGraduationStep times less a step
 };
+
+/// Of graduated non-convexity: that of Yang, Antonante, Tzoumas and Carlone 2020, section V, with
+/// one solve of a few linearisations a step.
+inline constexpr double kGraduationStep = 1.4;
+inline constexpr SolveLimits kGraduationSolve{2, 1e-3};
 
 struct RobustOptions {
   RobustLoss loss;
   /// c² as given; absent: as the loss has it by default, and `truncated` may use less.
   std::optional<double> squared_scale;
   Graduation graduation = Graduation::off;
+  LoopJudgement judgement;  ///< of `truncated`
 };
 
 struct RobustResult {

@@ -22,7 +22,8 @@ void note(const SolveResult& result, UpdateReport& report) {
 }
 
 RobustOptions robust_options(const SparseGaussNewtonOptions& options) {
-  RobustOptions robust{RobustLoss(options.loss), std::nullopt, options.graduation};
+  RobustOptions robust{RobustLoss(options.loss), std::nullopt, options.graduation,
+                       options.truncated};
   if (options.loss.scale) robust.squared_scale = *options.loss.scale * *options.loss.scale;
   return robust;
 }
@@ -45,6 +46,7 @@ void SparseGaussNewtonOptions::describe(OptionTable& table) {
   table.enumeration(
       "graduation", graduation, {{"off", Graduation::off}, {"convex", Graduation::convex}},
       "geman_mcclure, truncated: from where graduated non-convexity leads to the loss");
+  table.group("truncated", truncated);
   gate.describe(table);
 }
 
@@ -58,6 +60,9 @@ void SparseGaussNewtonOptions::check(const EstimatorSetup& setup) const {
   const bool graduates = loss.kind == LossKind::geman_mcclure || loss.kind == LossKind::truncated;
   if (graduation != Graduation::off && !graduates) {
     throw InputError("graduation: only loss geman_mcclure and truncated have one");
+  }
+  if (loss.kind != LossKind::truncated && truncated != sparse_gauss_newton::LoopJudgement{}) {
+    throw InputError("truncated: its options are those of loss truncated; set loss too");
   }
   if (loss.kind != LossKind::none && start != Start::automatic && start != Start::given) {
     throw InputError(
@@ -143,12 +148,12 @@ UpdateReport SparseGaussNewton::finish(std::span<const Pose> start) {
   return report;
 }
 
-std::optional<Eigen::Matrix3d> SparseGaussNewton::covariance(std::size_t k) {
+std::optional<Eigen::Matrix3d> SparseGaussNewton::covariance(std::size_t k) const {
   return graph_->marginal(k);
 }
 
 std::optional<Eigen::MatrixXd> SparseGaussNewton::joint_covariance(
-    std::span<const std::size_t> keyframes) {
+    std::span<const std::size_t> keyframes) const {
   return graph_->joint_covariance(keyframes);
 }
 

@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "estimators/sparse_gauss_newton/robust.hpp"
 #include "fathom/estimation/estimator.hpp"
 #include "fathom/estimation/gate.hpp"
 #include "fathom/estimation/registry.hpp"
@@ -10,21 +11,17 @@
 #include "fathom/estimation/used_loops.hpp"
 
 namespace fathom {
-namespace pose_graph {
-enum class Start;
-struct SolveResult;
-}  // namespace pose_graph
 namespace sparse_gauss_newton {
-enum class Graduation;
 class Graph;
-}  // namespace sparse_gauss_newton
+}
 
 struct SparseGaussNewtonOptions {
   int max_iterations = 100;
   double tolerance = 1e-8;
-  pose_graph::Start start{};  ///< automatic
+  pose_graph::Start start = pose_graph::Start::automatic;
   LossOptions loss;
-  sparse_gauss_newton::Graduation graduation{};  ///< off
+  sparse_gauss_newton::Graduation graduation = sparse_gauss_newton::Graduation::off;
+  sparse_gauss_newton::LoopJudgement truncated;
   GateOptions gate;
 
   void describe(OptionTable& table);
@@ -47,8 +44,9 @@ class SparseGaussNewton final : public Estimator {
 
   /// From the Gauss-Newton Hessian at the estimate, the loss applied as a weight; a rejected
   /// registration has no part in it.
-  std::optional<Eigen::Matrix3d> covariance(std::size_t k) override;
-  std::optional<Eigen::MatrixXd> joint_covariance(std::span<const std::size_t> keyframes) override;
+  std::optional<Eigen::Matrix3d> covariance(std::size_t k) const override;
+  std::optional<Eigen::MatrixXd> joint_covariance(
+      std::span<const std::size_t> keyframes) const override;
   std::optional<std::vector<UncertainPose>> motions_to_newest() const override;
   std::size_t size() const override;
   Pose pose(std::size_t k) const override;

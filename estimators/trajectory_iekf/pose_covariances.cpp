@@ -30,7 +30,7 @@ Eigen::Matrix3d TrajectoryIekf::from_origin_to(std::size_t keyframe) const {
 }
 
 // Σ B_iᵀ P_ij B_j over the motions up to k, taken from keyframe 0's place to keyframe k.
-void TrajectoryIekf::compute_covariances() {
+void TrajectoryIekf::compute_covariances() const {
   const auto sums = P_.congruences(motions_at_origin(), MotionCovariance::Over::motions_up_to);
   covariances_.assign(1, Eigen::Matrix3d::Zero());
   for (std::size_t k = 0; k < sums.size(); ++k) {
@@ -38,14 +38,14 @@ void TrajectoryIekf::compute_covariances() {
   }
 }
 
-std::optional<Eigen::Matrix3d> TrajectoryIekf::covariance(std::size_t k) {
+std::optional<Eigen::Matrix3d> TrajectoryIekf::covariance(std::size_t k) const {
   if (covariances_.empty()) compute_covariances();
   return covariances_[k];
 }
 
 // J P Jᵀ, a product with P for each keyframe: B up to it, zero beyond.
 std::optional<Eigen::MatrixXd> TrajectoryIekf::joint_covariance(
-    std::span<const std::size_t> keyframes) {
+    std::span<const std::size_t> keyframes) const {
   const std::vector<std::size_t> free = free_keyframes(keyframes);
   const auto size = static_cast<Eigen::Index>(3 * free.size());
   Eigen::MatrixXd joint(size, size);

@@ -1,85 +1,13 @@
 #include "estimators/trajectory_iekf/trajectory_iekf.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 
-#include <Eigen/Cholesky>
+#include "estimators/trajectory_iekf/linearisation.hpp"
+#include "estimators/trajectory_iekf/stacked_loops.hpp"
+#include "fathom/estimation/precision.hpp"
 
 namespace fathom {
-
-/// z − h and H of the stacked registrations at one iterate, and S = H P Hᵀ + R.
-struct TrajectoryIekf::Linearisation {
-  Eigen::VectorXd nu;  ///< z − h(x), headings wrapped
-  StackedJacobian H;   ///< over the stretch only; zero elsewhere
-  Eigen::MatrixXd S;
-};
-
-/// An iterate x = x⁽⁰⁾ + δ on the stretch. δ = P u with u = Hᵀ λ: the dual u gives δᵀ P⁻¹ δ = δᵀ u
-/// without an inverse of P, and the motion of the state outside the stretch.
-struct TrajectoryIekf::Iterate {
-  Eigen::VectorXd delta;
-  Eigen::VectorXd u;
-  double cost = 0.0;
-};
-
-namespace {
-
-// An update that ends at so many times the cost of leaving the state alone (or 1, of a χ²: below it
-// a cost is good whatever it was) has diverged. Plain iterations that have not settled end a little
-// above it at times (on ring, twice up to 1.5 times), which is for `iteration_limit` to say.
-constexpr double kDivergence = 10.0;
-
-std::vector<std::size_t> froms_of(std::span<const RelativePose> loops) {
-  std::vector<std::size_t> froms;
-  for (const RelativePose& loop : loops) froms.push_back(loop.from);
-  return froms;
-}
-
-std::size_t earliest_from(std::span<const RelativePose> loops) {
-  std::size_t first = loops.front().from;
-  for (const RelativePose& loop : loops) first = std::min(first, loop.from);
-  return first;
-}
-
-Pose moved(const Pose& motion, const Eigen::Vector3d& delta) {
-  return {motion.x + delta.x(), motion.y + delta.y(), wrap_angle(motion.theta + delta.z())};
-}
-
-Eigen::Vector3d innovation(const RelativePose& loop, const Stretch& stretch) {
-  Eigen::Vector3d nu = loop.motion.vector() - stretch.h(loop.from).vector();
-  nu.z() = wrap_angle(nu.z());
-  return nu;
-}
-
-Eigen::VectorXd innovations(std::span<const RelativePose> loops, const Stretch& stretch) {
-  Eigen::VectorXd nu(static_cast<Eigen::Index>(3 * loops.size()));
-  for (std::size_t j = 0; j < loops.size(); ++j) {
-    nu.segment<3>(static_cast<Eigen::Index>(3 * j)) = innovation(loops[j], stretch);
-  }
-  return nu;
-}
-
-// ν(x)ᵀ R⁻¹ ν(x).
-double misfit(std::span<const RelativePose> loops, const Eigen::VectorXd& nu) {
-  double sum = 0.0;
-  for (std::size_t j = 0; j < loops.size(); ++j) {
-    sum += normalised_innovation_squared(nu.segment<3>(static_cast<Eigen::Index>(3 * j)),
-                                         loops[j].covariance());
-  }
-  return sum;
-}
-
-Stretch stretch_at(const std::vector<Pose>& motions, std::size_t first,
-                   const Eigen::VectorXd& delta) {
-  std::vector<Pose> at(motions.begin() + static_cast<std::ptrdiff_t>(first), motions.end());
-  for (std::size_t i = 0; i < at.size(); ++i) {
-    at[i] = moved(at[i], delta.segment<3>(static_cast<Eigen::Index>(3 * i)));
-  }
-  return {first, at};
-}
-
-}  // namespace
 
 void TrajectoryIekfOptions::describe(OptionTable& table) {
   table.integer("max_iterations", max_iterations, Range::at_least(1), "",
@@ -88,6 +16,8 @@ void TrajectoryIekfOptions::describe(OptionTable& table) {
              "an update has converged when no motion of the loop still moves by more");
   table.boolean("safeguard", safeguard,
                 "shorten a step until the cost of the update does not rise");
+  table.real("divergence_factor", divergence_factor, Range::at_least(1.0), "",
+             "an update has diverged at so many times the cost of leaving the state alone");
   gate.describe(table);
   gate.describe_joint(table);
 }
@@ -133,7 +63,7 @@ UpdateReport TrajectoryIekf::close_loops(std::span<const RelativePose> registrat
   for (const RelativePose& z : registrations) loops.push_back(z.forward());
   Linearisation prior = linearise_prior(loops);
   const std::vector<bool> passes = gate_loops(prior, registrations, report);
-  if (!has_finite_nis(report)) {
+  if (!has_finite_nis(report) || !are_resolved(*this, registrations)) {
     lose_all(report, Outcome::numerical_failure);
     return report;
   }
@@ -190,89 +120,6 @@ std::vector<bool> TrajectoryIekf::gate_loops(const Linearisation& prior,
     for (std::size_t j = 0; j < passes.size(); ++j) report.loops[j].fate = fate_of(passes[j]);
   }
   return passes;
-}
-
-// The products of P with the present linearisation are in sums_.
-Outcome TrajectoryIekf::iterate(std::span<const RelativePose> loops, Linearisation at,
-                                UpdateReport& report) {
-  const Eigen::Index length = sums_.matrix().rows();
-  Iterate x{Eigen::VectorXd::Zero(length), Eigen::VectorXd::Zero(length), misfit(loops, at.nu)};
-  const double prior_cost = x.cost;
-  Outcome outcome = Outcome::iteration_limit;
-  for (report.iterations = 1; true; ++report.iterations) {
-    if (report.iterations > 1) at = linearise(loops, x.delta, report.iterations);
-    const Eigen::LLT<Eigen::MatrixXd> S(at.S);
-    if (!at.nu.allFinite() || S.info() != Eigen::Success) return Outcome::numerical_failure;
-    // x⁽ⁱ⁺¹⁾ = x⁽⁰⁾ + P Hᵀ S⁻¹ (z − h(x⁽ⁱ⁾) − H (x⁽⁰⁾ − x⁽ⁱ⁾)): always from the prior, with h and H
-    // of the present iterate.
-    const Eigen::VectorXd lambda = S.solve(at.nu + at.H.times(x.delta));
-    Iterate next{sums_.matrix() * (at.H.ends() * lambda), at.H.transposed_times(lambda)};
-    if (!next.delta.allFinite()) return Outcome::numerical_failure;
-    const double step = (next.delta - x.delta).cwiseAbs().maxCoeff();
-    const bool lowered = !options_.safeguard || step_back(loops, x, next);
-    x = std::move(next);
-    // A step that no halving makes lower is one of rounding: the gradient is zero as far as it
-    // shows.
-    if (step < options_.tolerance || !lowered) outcome = Outcome::converged;
-    if (outcome == Outcome::converged || report.iterations >= options_.max_iterations) break;
-  }
-  const double end_cost = cost(loops, x);
-  if (!std::isfinite(end_cost)) return Outcome::numerical_failure;
-  if (end_cost > kDivergence * std::max(prior_cost, 1.0)) return Outcome::diverged;
-  return apply(at, x, report.iterations) ? outcome : Outcome::numerical_failure;
-}
-
-double TrajectoryIekf::cost(std::span<const RelativePose> loops, const Iterate& at) const {
-  const Stretch stretch = stretch_at(motions_, earliest_from(loops), at.delta);
-  return at.delta.dot(at.u) + misfit(loops, innovations(loops, stretch));
-}
-
-// The full step minimises the linearised cost; the first of 1, ½, ¼ … of it that does not raise the
-// true one is taken. False, and no step, if rounding leaves none.
-bool TrajectoryIekf::step_back(std::span<const RelativePose> loops, const Iterate& from,
-                               Iterate& to) const {
-  const Iterate full = to;
-  constexpr int kHalvings = 40;
-  double share = 1.0;
-  for (int i = 0; i < kHalvings; ++i, share *= 0.5) {
-    to.delta = from.delta + share * (full.delta - from.delta);
-    to.u = from.u + share * (full.u - from.u);
-    to.cost = cost(loops, to);
-    if (to.cost <= from.cost) return true;
-  }
-  to = from;
-  return false;
-}
-
-// The covariance is updated once, with the H of the last linearisation. On the stretch δ and P Hᵀ
-// are known; the motions before it move as far as they are correlated with it.
-bool TrajectoryIekf::apply(const Linearisation& last, const Iterate& end, int iterations) {
-  const Eigen::Index start = last.H.starts().front();
-  const Eigen::Index begin = P_.first_correlated(start);
-  const Eigen::Index head = 3 * (start - begin);
-  const Eigen::Index tail = end.delta.size();
-  Eigen::VectorXd dx(head + tail);
-  dx.tail(tail) = end.delta;
-  auto V = V_.shaped(head + tail, last.nu.size());
-  V.bottomRows(tail).noalias() = sums_.matrix() * last.H.ends();
-  if (head > 0) {
-    V.topRows(head).noalias() =
-        P_.head_products(last.H.starts(), last.H.A_transposed()) * last.H.ends();
-    Eigen::MatrixX3d u = Eigen::MatrixX3d::Zero(tail, 3);
-    u.col(0) = end.u;
-    dx.head(head) = P_.head_products(last.H.starts().first(1), u).col(0);
-  }
-  // V = P Hᵀ L⁻ᵀ.
-  const Eigen::LLT<Eigen::MatrixXd> S(last.S);
-  S.matrixU().solveInPlace<Eigen::OnTheRight>(V);
-  if (!dx.allFinite() || !V.allFinite()) return false;
-  for (std::size_t i = static_cast<std::size_t>(begin); i < motions_.size(); ++i) {
-    const Eigen::Index row = 3 * (static_cast<Eigen::Index>(i) - begin);
-    motions_[i] = moved(motions_[i], dx.segment<3>(row));
-  }
-  P_.downdate(V, iterations);
-  recompose();
-  return true;
 }
 
 void TrajectoryIekf::recompose() {

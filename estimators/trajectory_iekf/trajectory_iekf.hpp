@@ -16,6 +16,10 @@ struct TrajectoryIekfOptions {
   int max_iterations = 10;
   double tolerance = 1e-6;
   bool safeguard = false;
+  /// Of the cost of leaving the state alone, or of 1: below it a χ² is good whatever it was. Plain
+  /// iterations that have not settled end a little above it at times (on ring, twice up to 1.5
+  /// times), which is for `iteration_limit` to say.
+  double divergence_factor = 10.0;
   GateOptions gate;
 
   void describe(OptionTable& table);
@@ -36,8 +40,9 @@ class TrajectoryIekf final : public Estimator {
   /// One iterated update with all registrations stacked (Bar-Shalom, Li, Kirubarajan).
   UpdateReport close_loops(std::span<const RelativePose> registrations) override;
 
-  std::optional<Eigen::Matrix3d> covariance(std::size_t k) override;
-  std::optional<Eigen::MatrixXd> joint_covariance(std::span<const std::size_t> keyframes) override;
+  std::optional<Eigen::Matrix3d> covariance(std::size_t k) const override;
+  std::optional<Eigen::MatrixXd> joint_covariance(
+      std::span<const std::size_t> keyframes) const override;
   std::size_t size() const override { return poses_.size(); }
   Pose pose(std::size_t k) const override { return poses_[k]; }
   /// J P Jᵀ of the stretch from each keyframe on.
@@ -63,7 +68,7 @@ class TrajectoryIekf final : public Estimator {
   bool step_back(std::span<const RelativePose> loops, const Iterate& from, Iterate& to) const;
   bool apply(const Linearisation& last, const Iterate& end, int iterations);
   void recompose();
-  void compute_covariances();
+  void compute_covariances() const;
   Eigen::MatrixX3d motions_at_origin() const;
   Eigen::Matrix3d from_origin_to(std::size_t keyframe) const;
 
@@ -75,7 +80,7 @@ class TrajectoryIekf final : public Estimator {
   // Of the present linearisation; there is one at a time. The rows are those of the stretch.
   filter::Scratch sums_;  ///< P Aᵀ, over the motions from each start on
   filter::Scratch V_;
-  std::vector<Eigen::Matrix3d> covariances_;  ///< of the poses; empty: to be computed
+  mutable std::vector<Eigen::Matrix3d> covariances_;  ///< of the poses; empty: to be computed
 };
 
 EstimatorEntry trajectory_iekf_entry();

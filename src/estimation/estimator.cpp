@@ -1,6 +1,9 @@
 #include "fathom/estimation/estimator.hpp"
 
 #include <algorithm>
+#include <array>
+
+#include "fathom/geometry/covariance.hpp"
 
 namespace fathom {
 
@@ -36,6 +39,26 @@ Outcome worse(Outcome a, Outcome b) {
 
 bool is_done(Outcome outcome) {
   return outcome <= Outcome::iteration_limit;
+}
+
+std::optional<Eigen::Matrix3d> Estimator::covariance(std::size_t k) const {
+  const auto joint = joint_covariance(std::span(&k, 1));
+  if (!joint) return std::nullopt;
+  return Eigen::Matrix3d(*joint);
+}
+
+std::optional<std::vector<UncertainPose>> Estimator::motions_to_newest() const {
+  std::vector<UncertainPose> motions;
+  const std::size_t newest = size() - 1;
+  for (std::size_t k = 0; k < newest; ++k) {
+    const std::array<std::size_t, 2> ends{k, newest};
+    const auto joint = joint_covariance(ends);
+    if (!joint) return std::nullopt;
+    const PairCovariance pair{joint->topLeftCorner<3, 3>(), joint->bottomRightCorner<3, 3>(),
+                              joint->topRightCorner<3, 3>()};
+    motions.push_back(between(pose(k), pose(newest), pair));
+  }
+  return motions;
 }
 
 }  // namespace fathom

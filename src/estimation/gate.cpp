@@ -7,6 +7,7 @@
 #include <Eigen/Cholesky>
 
 #include "fathom/core/chi_squared.hpp"
+#include "fathom/estimation/precision.hpp"
 
 namespace fathom {
 
@@ -64,7 +65,7 @@ bool judge(const Gate& gate, const TrajectoryView& estimate,
     finite = finite && is_finite(z.motion) && z.information.allFinite();
     forward.push_back(z.forward());
   }
-  if (!finite) return false;
+  if (!finite || !are_resolved(estimate, registrations)) return false;
   if (!gate.is_on()) return true;
   const auto S = covariances(forward);
   if (!S) return false;

@@ -31,7 +31,7 @@ void LossOptions::check() const {
 }
 
 double default_scale(LossKind kind) {
-  const double share = kind == LossKind::truncated ? 0.9998 : 0.99;
+  const double share = kind == LossKind::truncated ? kTruncatedQuantile : kHalfWeightQuantile;
   return scale_of_half_weight(kind, chi_squared_quantile(share, 3.0));
 }
 

@@ -134,7 +134,7 @@ UpdateReport GuardedEstimator::finish(std::span<const Pose> start) {
   return report;
 }
 
-std::optional<Eigen::Matrix3d> GuardedEstimator::covariance(std::size_t k) {
+std::optional<Eigen::Matrix3d> GuardedEstimator::covariance(std::size_t k) const {
   std::optional<Eigen::Matrix3d> covariance;
   guarded("covariance", [&] {
     covariance = estimator_->covariance(k);
@@ -147,7 +147,7 @@ std::optional<Eigen::Matrix3d> GuardedEstimator::covariance(std::size_t k) {
 }
 
 std::optional<Eigen::MatrixXd> GuardedEstimator::joint_covariance(
-    std::span<const std::size_t> keyframes) {
+    std::span<const std::size_t> keyframes) const {
   std::optional<Eigen::MatrixXd> covariance;
   guarded("joint_covariance", [&] {
     covariance = estimator_->joint_covariance(keyframes);

@@ -160,9 +160,7 @@ std::string judge_quoted(const Include& include) {
   if (!include.target.starts_with("estimators/")) return "";
   if (from == "estimators" && !support.empty()) return "";
   const bool is_own = folder_of(include.file) == folder_of(include.target);
-  return is_own || include.file == "estimators/builtin.cpp"
-             ? ""
-             : "is an estimator's own; only its folder and builtin.cpp may include it";
+  return is_own ? "" : "is an estimator's own; only its folder may include it";
 }
 
 }  // namespace

@@ -101,6 +101,23 @@ TEST(CrossEstimator, TheGraphsFindTheOptimumOfTheTextbookSolver) {
 
 // With noise each filter has linearisations of its own; the graphs share the optimum and its
 // Hessian.
+// Of a loop that holds a constraint ever more precisely F has a limit.
+TEST(CrossEstimator, TheGraphsReachTheOptimumOfAPreciseLoopOrSayThatTheyDoNot) {
+  for (const std::size_t from : {std::size_t{0}, std::size_t{7}}) {
+    const MeasurementLog precise = test::with_precise_loop(from, 1e9);
+    const double limit = chi2(precise, test::least_squares(precise, 10).poses);
+    for (int exponent = 10; exponent <= 40; ++exponent) {
+      const MeasurementLog log = test::with_precise_loop(from, std::pow(10.0, exponent));
+      for (const char* type : {"ceres_pose_graph", "sparse_gauss_newton", "incremental_smoother"}) {
+        const auto estimator = builtin_estimators().find(type).create({}, {});
+        if (!is_done(test::feed(*estimator, log))) continue;
+        EXPECT_LT(chi2(log, poses_of(*estimator)), 1.01 * limit + 0.1)
+            << type << ", from " << from << ", information 1e" << exponent;
+      }
+    }
+  }
+}
+
 TEST(CrossEstimator, TheGraphsAgreeOnTheCovariancesOfNoisyMeasurements) {
   const MeasurementLog log = test::circle_log({});
   const auto reference = solved("ceres_pose_graph", log, exactly());

@@ -31,6 +31,12 @@ inline Pose perturbed(const Pose& motion, double sigma_m, double sigma_rad, Rand
           wrap_angle(motion.theta + sigma_rad * random.normal())};
 }
 
+/// The same registration written the other way round, to first order.
+inline RelativePose turned(const RelativePose& z) {
+  const UncertainPose back = inverse(UncertainPose{z.motion, z.covariance()});
+  return RelativePose::from_covariance(z.to, z.from, back.mean, back.covariance);
+}
+
 struct LogOptions {
   std::size_t keyframes = 40;
   double noise = 1.0;          ///< times the sigmas below
@@ -80,6 +86,44 @@ inline MeasurementLog circle_log(const LogOptions& options) {
                     options.noise * kLoopSigmaRad, random),
           full_covariance(kLoopSigmaM, kLoopSigmaRad)));
     }
+  }
+  return log;
+}
+
+/// The circle with little noise, and a true loop from a keyframe to keyframe 27 that is as precise
+/// as asked for.
+inline MeasurementLog with_precise_loop(std::size_t from, double information) {
+  LogOptions options;
+  options.noise = 0.1;
+  const MeasurementLog plain = circle_log(options);
+  const std::vector<Pose> truth = circle(options.keyframes);
+  MeasurementLog log;
+  for (std::size_t k = 1; k < plain.size(); ++k) {
+    log.add_keyframe(plain.arrival(k).step);
+    for (const RelativePose& z : plain.arrival(k).registrations) log.add_registration(z);
+    if (k != 27) continue;
+    log.add_registration({from, k, between(truth[from], truth[k]),
+                          information * Eigen::Matrix3d::Identity(), std::nullopt});
+  }
+  return log;
+}
+
+/// The circle with loops one round back, and from its last keyframes five more that take them for
+/// the place of keyframe 4 and its neighbours: they agree with one another and are all wrong.
+inline MeasurementLog with_a_false_place(std::size_t keyframes) {
+  LogOptions options;
+  options.keyframes = keyframes;
+  const MeasurementLog right = circle_log(options);
+  const std::vector<Pose> truth = circle(keyframes);
+  MeasurementLog log;
+  for (std::size_t k = 1; k < keyframes; ++k) {
+    log.add_keyframe(right.arrival(k).step);
+    for (const RelativePose& z : right.arrival(k).registrations) log.add_registration(z);
+    if (k + 5 < keyframes) continue;
+    const std::size_t from = k + 9 - keyframes;
+    const Pose wrong = between(truth[from + keyframes / 4], truth[k]);
+    log.add_registration(
+        RelativePose::from_covariance(from, k, wrong, full_covariance(kLoopSigmaM, kLoopSigmaRad)));
   }
   return log;
 }

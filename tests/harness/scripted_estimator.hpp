@@ -72,14 +72,14 @@ class ScriptedEstimator : public Estimator {
     return script_.finish;
   }
 
-  std::optional<Eigen::Matrix3d> covariance(std::size_t k) override {
+  std::optional<Eigen::Matrix3d> covariance(std::size_t k) const override {
     if (script_.without_covariance == k) return std::nullopt;
     constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
     if (script_.nan_covariance == k) return Eigen::Matrix3d(Eigen::Matrix3d::Constant(kNaN));
     return Eigen::Matrix3d(Eigen::Matrix3d::Identity() * static_cast<double>(k));
   }
 
-  std::optional<Eigen::MatrixXd> joint_covariance(std::span<const std::size_t>) override {
+  std::optional<Eigen::MatrixXd> joint_covariance(std::span<const std::size_t>) const override {
     return std::nullopt;
   }
 

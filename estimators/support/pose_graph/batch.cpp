@@ -11,11 +11,6 @@
 namespace fathom::pose_graph {
 namespace {
 
-// Rounding to a wrong multiple of 2π leaves turns of this size on the edges of some loop.
-constexpr double kTrustedTurnRad = 0.5;
-constexpr int kHeadingSolves = 10;
-constexpr double kHeadingsSettledRad = 1e-3;
-
 class Batch {
  public:
   Batch(std::span<const Edge> edges, std::vector<Node>& nodes, const SolveLimits& limits)

@@ -17,6 +17,15 @@ enum class Start {
   lifted      ///< headings by lifted_headings
 };
 
+/// LAGO's headings are trusted if every edge keeps its turn to this: a wrong multiple of 2π leaves
+/// more on the edges of some loop. On the sets of docs/estimators/sparse_gauss_newton.md it is
+/// 0.13 rad at most where the rounding is right, 0.7 rad and more where it is wrong.
+inline constexpr double kTrustedTurnRad = 0.5;
+/// Least squares in the headings are solved again until none turns by more, so often at most. The
+/// joint solve that follows corrects what is left.
+inline constexpr double kHeadingsSettledRad = 1e-3;
+inline constexpr int kHeadingSolves = 10;
+
 /// Minimises F over a whole graph. `nodes` is the given estimate, dead reckoning or a guess, and
 /// becomes the result; on failure it stays as it was.
 ///

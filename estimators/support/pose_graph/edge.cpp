@@ -2,6 +2,8 @@
 
 #include <Eigen/LU>
 
+#include "fathom/geometry/covariance.hpp"
+
 namespace fathom::pose_graph {
 
 Edge make_edge(const RelativePose& measurement) {
@@ -17,6 +19,28 @@ Edge make_edge(const RelativePose& measurement) {
   edge.W = {W(0, 0), 0.5 * (W(0, 1) + W(1, 0)), 0.5 * (W(0, 2) + W(2, 0)),
             W(1, 1), 0.5 * (W(1, 2) + W(2, 1)), W(2, 2)};
   return edge;
+}
+
+Eigen::Matrix3d full(const std::array<double, 6>& upper) {
+  Eigen::Matrix3d matrix;
+  matrix << upper[0], upper[1], upper[2], upper[1], upper[3], upper[4], upper[2], upper[4],
+      upper[5];
+  return matrix;
+}
+
+Eigen::Matrix3d covariance_of(const Edge& edge) {
+  return symmetric_inverse(full(edge.W));
+}
+
+Pose pose_of(const Node& node) {
+  return {node.x, node.y, wrap_angle(node.theta)};
+}
+
+Eigen::Vector3d residual_of(const Edge& edge, const Node& i, const Node& k) {
+  const double dx = k.x - i.x;
+  const double dy = k.y - i.y;
+  return {i.c * dx + i.s * dy - edge.x, -i.s * dx + i.c * dy - edge.y,
+          wrap_angle(k.theta - i.theta - edge.theta)};
 }
 
 double heading_information(const Edge& edge) {

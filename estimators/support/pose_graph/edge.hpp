@@ -6,6 +6,8 @@
 #include <span>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include "estimators/support/sparse/index.hpp"
 #include "fathom/estimation/robust_loss.hpp"
 #include "fathom/measurements/relative_pose.hpp"
@@ -27,6 +29,11 @@ struct Edge {
 
 Edge make_edge(const RelativePose& measurement);
 
+/// W of an edge, and M of its terms (below), in full.
+Eigen::Matrix3d full(const std::array<double, 6>& upper);
+/// W⁻¹: the covariance of ν.
+Eigen::Matrix3d covariance_of(const Edge& edge);
+
 /// 1 / variance of the heading that an edge measures, its position left free.
 double heading_information(const Edge& edge);
 
@@ -43,6 +50,11 @@ inline Node make_node(double x, double y, double theta) {
   return {x, y, theta, std::cos(theta), std::sin(theta)};
 }
 std::vector<Node> nodes_of(std::span<const Pose> poses);
+/// With its heading wrapped.
+Pose pose_of(const Node& node);
+
+/// ν = h − z, heading wrapped.
+Eigen::Vector3d residual_of(const Edge& edge, const Node& i, const Node& k);
 
 /// What one edge adds to ½F and its derivatives. With P = diag(Rot(−θ_i), 1) and
 /// T = [1 0 −dy; 0 1 dx; 0 0 1] the Jacobians are ∂h/∂X_k = P and ∂h/∂X_i = −P T, so with

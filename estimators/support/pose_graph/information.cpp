@@ -14,7 +14,8 @@ class Information {
       : symbolic_(analyse_graph(edges, static_cast<int>(nodes.size()))),
         equations_(symbolic_, edges) {
     equations_.linearise(nodes, Hessian::gauss_newton);
-    is_definite_ = equations_.factorise() && equations_.negative_pivots() == 0;
+    is_definite_ =
+        equations_.factorise() && equations_.negative_pivots() == 0 && equations_.keeps_digits();
   }
 
   bool is_definite() const { return is_definite_; }
@@ -41,11 +42,11 @@ class Information {
   bool is_definite_ = false;
 };
 
-Pose pose_of(const Node& node) {
-  return {node.x, node.y, wrap_angle(node.theta)};
-}
-
 }  // namespace
+
+bool is_determined(std::span<const Edge> edges, std::span<const Node> nodes) {
+  return Information(edges, nodes).is_definite();
+}
 
 std::optional<std::vector<Eigen::Matrix3d>> marginals(std::span<const Edge> edges,
                                                       std::span<const Node> nodes) {
@@ -87,17 +88,14 @@ std::optional<std::vector<UncertainPose>> motions_to_newest(std::span<const Edge
   if (!information.is_definite()) return std::nullopt;
   const sparse::SelectedInverse inverse(information.factor());
   const Eigen::MatrixX3d to_newest = information.columns(newest);
+  PairCovariance pair;
+  pair.B = information.block(to_newest, newest);
   for (std::size_t k = 0; k < newest; ++k) {
-    Eigen::Matrix3d H_k;
-    Eigen::Matrix3d H_newest;
-    const Pose motion = between(pose_of(nodes[k]), pose_of(nodes[newest]), &H_k, &H_newest);
-    Eigen::Matrix3d covariance = transport(H_newest, information.block(to_newest, newest));
     if (k > 0) {
-      const Eigen::Matrix3d own = inverse.block(static_cast<int>(k) - 1);
-      const Eigen::Matrix3d cross = H_k * information.block(to_newest, k) * H_newest.transpose();
-      covariance += transport(H_k, own) + cross + cross.transpose();
+      pair.A = inverse.block(static_cast<int>(k) - 1);
+      pair.cross = information.block(to_newest, k);
     }
-    motions.push_back({motion, covariance});
+    motions.push_back(between(pose_of(nodes[k]), pose_of(nodes[newest]), pair));
   }
   return motions;
 }
@@ -111,17 +109,14 @@ std::optional<std::vector<Eigen::Matrix3d>> innovation_covariances(
   const Eigen::MatrixX3d to_newest = information.columns(newest);
   std::vector<Eigen::Matrix3d> innovations;
   for (const RelativePose& z : forward_loops) {
-    Eigen::Matrix3d H_from;
-    Eigen::Matrix3d H_to;
-    between(pose_of(nodes[z.from]), pose_of(nodes[z.to]), &H_from, &H_to);
-    Eigen::Matrix3d S = transport(H_to, information.block(to_newest, newest)) + z.covariance();
+    PairCovariance pair;
+    pair.B = information.block(to_newest, newest);
     if (z.from > 0) {
-      const Eigen::Matrix3d own = information.block(information.columns(z.from), z.from);
-      const Eigen::Matrix3d cross =
-          H_from * information.block(to_newest, z.from) * H_to.transpose();
-      S += transport(H_from, own) + cross + cross.transpose();
+      pair.A = information.block(information.columns(z.from), z.from);
+      pair.cross = information.block(to_newest, z.from);
     }
-    innovations.push_back(S);
+    const UncertainPose h = between(pose_of(nodes[z.from]), pose_of(nodes[z.to]), pair);
+    innovations.push_back(h.covariance + z.covariance());
   }
   return innovations;
 }

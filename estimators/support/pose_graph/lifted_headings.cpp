@@ -14,12 +14,6 @@ namespace {
 using Complex = std::complex<double>;
 using Lifted = Eigen::Vector4d;  // (Re, Im) of both components of Y
 
-constexpr int kMaxSteps = 50;
-constexpr double kSettled = 1e-5;
-constexpr double kLiftNoise = 0.3;
-constexpr double kFirstDamping = 1e-4;
-constexpr double kLargestDamping = 1e8;
-
 Complex first_of(const Lifted& y) {
   return {y[0], y[1]};
 }
@@ -46,15 +40,19 @@ Eigen::Matrix<double, 4, 3> tangents(const Lifted& y) {
 class LiftedProblem {
  public:
   LiftedProblem(const sparse::Symbolic& symbolic, std::span<const Edge> edges,
-                std::span<const double> theta)
-      : symbolic_(symbolic), factor_(symbolic), gradient_(3 * at(symbolic.size())) {
+                std::span<const double> theta, const LiftedTuning& tuning)
+      : tuning_(tuning),
+        symbolic_(symbolic),
+        factor_(symbolic),
+        gradient_(3 * at(symbolic.size())) {
     for (const Edge& edge : edges) {
       terms_.push_back({edge.from, edge.to, heading_information(edge), std::cos(edge.theta),
                         std::sin(edge.theta)});
     }
     RandomStream noise(1, "lifted_headings");
     for (const double t : theta) {
-      Lifted y(std::cos(t), std::sin(t), kLiftNoise * noise.normal(), kLiftNoise * noise.normal());
+      Lifted y(std::cos(t), std::sin(t), tuning.lift_noise * noise.normal(),
+               tuning.lift_noise * noise.normal());
       Y_.push_back(y.normalized());
     }
     Y_[0] << std::cos(theta[0]), std::sin(theta[0]), 0.0, 0.0;
@@ -63,20 +61,20 @@ class LiftedProblem {
   void minimise() {
     double damping = 0.0;
     double cost = cost_of(Y_);
-    for (int step = 0; step < kMaxSteps; ++step) {
+    for (int step = 0; step < tuning_.max_steps; ++step) {
       if (!solve(damping)) return;
       std::vector<Lifted> trial = moved();
       const double next = cost_of(trial);
       if (!(next < cost)) {
-        damping = std::max(kFirstDamping, 10.0 * damping);
-        if (damping > kLargestDamping) return;
+        damping = std::max(tuning_.first_damping, 10.0 * damping);
+        if (damping > tuning_.largest_damping) return;
         continue;
       }
       Y_.swap(trial);
       const double fallen = cost - next;
       cost = next;
-      damping = damping > kFirstDamping ? 0.1 * damping : 0.0;
-      if (fallen <= kSettled * cost && damping == 0.0) return;
+      damping = damping > tuning_.first_damping ? 0.1 * damping : 0.0;
+      if (fallen <= tuning_.tolerance * cost && damping == 0.0) return;
     }
   }
 
@@ -180,6 +178,7 @@ class LiftedProblem {
     return result;
   }
 
+  LiftedTuning tuning_;
   const sparse::Symbolic& symbolic_;
   sparse::BlockCholesky<3> factor_;
   std::vector<Term> terms_;
@@ -190,8 +189,8 @@ class LiftedProblem {
 }  // namespace
 
 std::vector<double> lifted_headings(const sparse::Symbolic& symbolic, std::span<const Edge> edges,
-                                    std::span<const double> theta) {
-  LiftedProblem problem(symbolic, edges, theta);
+                                    std::span<const double> theta, const LiftedTuning& tuning) {
+  LiftedProblem problem(symbolic, edges, theta, tuning);
   problem.minimise();
   return problem.headings(theta[0]);
 }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fathom/estimation/precision.hpp"
+
 namespace fathom::pose_graph {
 sparse::Symbolic analyse_graph(std::span<const Edge> edges, int keyframes,
                                sparse::ChainElimination chains) {
@@ -131,6 +133,20 @@ void NormalEquations::write_diagonal(double damping) {
     to[2 + stride] = H[4];
     to[2 + 2 * stride] = H[5] * (1.0 + damping);
   }
+}
+
+bool NormalEquations::keeps_digits() const {
+  for (std::size_t p = 0; p < diagonal_.size(); ++p) {
+    const double* const root = factor_.data() + diagonal_[p].offset;
+    const int stride = diagonal_[p].stride;
+    const auto& H = diagonal_sums_[p];
+    const auto is_rounding = [](double r, double sum) { return !(r * r > kLeastPivotShare * sum); };
+    if (is_rounding(root[0], H[0]) || is_rounding(root[1 + stride], H[3]) ||
+        is_rounding(root[2 + 2 * stride], H[5])) {
+      return false;
+    }
+  }
+  return true;
 }
 
 const std::vector<double>& NormalEquations::solve_step() {

@@ -34,6 +34,8 @@ class NormalEquations {
 
   bool factorise() { return factor_.factorise(); }
   int negative_pivots() const { return factor_.negative_pivots(); }
+  /// Of the factor of an undamped matrix: whether no pivot is but rounding (kLeastPivotShare).
+  bool keeps_digits() const;
 
   /// x ← H⁻¹ x; nodes in the order of elimination.
   void solve(double* x) { factor_.solve(x); }

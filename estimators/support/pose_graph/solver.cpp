@@ -7,22 +7,15 @@
 namespace fathom::pose_graph {
 namespace {
 
-// Newton's steps are worth their exact Hessian, and safe, once Gauss-Newton promises less.
-constexpr double kNewtonBelow = 0.05;
-constexpr double kFirstDamping = 1e-5;
-constexpr double kLeastDamping = 1e-9;
-constexpr double kLargestDamping = 1e12;
-// By so much, as a share, rounding may make F rise.
-constexpr double kRounding = 1e-11;
-// Differences of F that mean nothing, in squared sigmas: where all measurements agree, F itself is
-// rounding.
-constexpr double kNegligible = 1e-12;
-constexpr double kNoise = 1e-20;
-
 class Minimiser {
  public:
-  Minimiser(NormalEquations& equations, std::vector<Node>& nodes, const SolveLimits& limits)
-      : equations_(equations), nodes_(nodes), limits_(limits) {}
+  Minimiser(NormalEquations& equations, std::vector<Node>& nodes, const SolveLimits& limits,
+            const SolverTuning& tuning)
+      : equations_(equations),
+        nodes_(nodes),
+        limits_(limits),
+        tuning_(tuning),
+        newton_below_(tuning.newton_below) {}
 
   SolveResult run() {
     result_.cost = equations_.linearise(nodes_, hessian_);
@@ -47,7 +40,8 @@ class Minimiser {
     const double promised = equations_.predicted_decrease();
     if (!std::isfinite(promised)) return raise_damping();
     equations_.move(nodes_, trial_);
-    const bool small = promised <= limits_.tolerance * result_.cost || promised <= kNoise ||
+    const bool small = promised <= limits_.tolerance * result_.cost ||
+                       promised <= tuning_.least_promise_chi2 ||
                        equations_.step_is_small(nodes_, limits_.tolerance);
     if (small && damping_ == 0.0) {
       if (hessian_ == Hessian::exact || is_indefinite_here_) {
@@ -81,7 +75,7 @@ class Minimiser {
       return true;
     }
     is_indefinite_here_ = true;
-    newton_below_ *= 1e-2;
+    newton_below_ *= tuning_.after_indefinite;
     result_.is_local_minimum = false;
     hessian_ = Hessian::gauss_newton;
     equations_.linearise(nodes_, hessian_, damping_);
@@ -89,7 +83,7 @@ class Minimiser {
   }
 
   bool is_no_rise(double cost) const {
-    return cost <= result_.cost * (1.0 + kRounding) + kNegligible;
+    return cost <= result_.cost * (1.0 + tuning_.rounding_share) + tuning_.rounding_chi2;
   }
 
   // A step that failed, again with the positions that suit its headings.
@@ -103,8 +97,8 @@ class Minimiser {
   }
 
   bool raise_damping() {
-    damping_ = std::max(kFirstDamping, 10.0 * damping_);
-    if (damping_ > kLargestDamping) {
+    damping_ = std::max(tuning_.first_damping, tuning_.damping_increase * damping_);
+    if (damping_ > tuning_.largest_damping) {
       result_.outcome = Outcome::numerical_failure;
       return false;
     }
@@ -115,7 +109,7 @@ class Minimiser {
 
   void lower_damping() {
     if (damping_ == 0.0) return;
-    damping_ = damping_ > kLeastDamping ? 0.1 * damping_ : 0.0;
+    damping_ = damping_ > tuning_.least_damping ? tuning_.damping_decrease * damping_ : 0.0;
     equations_.linearise(nodes_, hessian_, damping_);
   }
 
@@ -130,20 +124,21 @@ class Minimiser {
   NormalEquations& equations_;
   std::vector<Node>& nodes_;
   SolveLimits limits_;
+  SolverTuning tuning_;
   SolveResult result_;
   std::vector<Node> trial_;
   std::optional<PositionProblem> positions_;
   Hessian hessian_ = Hessian::gauss_newton;
   double damping_ = 0.0;
   bool is_indefinite_here_ = false;  ///< the exact Hessian, at the present estimate
-  double newton_below_ = kNewtonBelow;
+  double newton_below_;
 };
 
 }  // namespace
 
 SolveResult minimise(NormalEquations& equations, std::vector<Node>& nodes,
-                     const SolveLimits& limits) {
-  return Minimiser(equations, nodes, limits).run();
+                     const SolveLimits& limits, const SolverTuning& tuning) {
+  return Minimiser(equations, nodes, limits, tuning).run();
 }
 
 }  // namespace fathom::pose_graph

@@ -11,6 +11,31 @@ namespace fathom::pose_graph {
 struct SolveLimits {
   int max_iterations = 100;
   double tolerance = 1e-8;
+
+  bool operator==(const SolveLimits&) const = default;
+};
+
+/// The numbers of `minimise`, found on the graphs of docs/estimators/sparse_gauss_newton.md. They
+/// decide how fast it gets to a minimum.
+struct SolverTuning {
+  /// Newton's steps are worth their exact Hessian, and safe, once Gauss-Newton promises to lower F
+  /// by a smaller share; and by `after_indefinite` of it where that Hessian was not definite.
+  double newton_below = 0.05;
+  double after_indefinite = 1e-2;
+  /// Levenberg-Marquardt damping after a step that failed; then more after each that
+  /// fails and less after each that does not (Marquardt 1963). Below the least there is none;
+  /// beyond the largest no step is left in 16 digits.
+  double first_damping = 1e-5;
+  double least_damping = 1e-9;
+  double largest_damping = 1e12;
+  double damping_increase = 10.0;
+  double damping_decrease = 0.1;
+  /// By so much, as a share and in squared sigmas, rounding may make F rise: where all measurements
+  /// agree, F itself is rounding.
+  double rounding_share = 1e-11;
+  double rounding_chi2 = 1e-12;
+  /// A step that promises less, in squared sigmas, is one of rounding.
+  double least_promise_chi2 = 1e-20;
 };
 
 struct SolveResult {
@@ -26,6 +51,6 @@ struct SolveResult {
 /// Newton near the end; else Levenberg-Marquardt damping until it does. It has converged when a
 /// step promises to lower F, or moves the poses, by less than the tolerance, as a share.
 SolveResult minimise(NormalEquations& equations, std::vector<Node>& nodes,
-                     const SolveLimits& limits);
+                     const SolveLimits& limits, const SolverTuning& tuning = {});
 
 }  // namespace fathom::pose_graph

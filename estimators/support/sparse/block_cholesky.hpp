@@ -31,6 +31,7 @@ class BlockCholesky {
   /// diagonal block only the lower triangle counts.
   BlockPlace place(int node_a, int node_b) const;
   double* data() { return panels_.data(); }
+  const double* data() const { return panels_.data(); }
 
   /// False where a pivot is zero or not a number.
   bool factorise();

@@ -50,7 +50,11 @@ struct UpdateReport {
   std::optional<bool> is_local_minimum = std::nullopt;
 };
 
-/// A SLAM back end. The same calls for a filter and for a graph:
+/// A SLAM back end. Five functions make one: size and pose (of TrajectoryView), add_keyframe,
+/// close_loops, joint_covariance. What follows from them has a default that may be overridden; a
+/// batch solver overrides finish, too, and one with a robust loss says what it does.
+///
+/// The same calls for a filter and for a graph:
 ///
 ///     add_keyframe(step)        once per keyframe, in order
 ///     close_loops(registrations)  with all registrations that end at the newest keyframe, if any
@@ -61,7 +65,7 @@ struct UpdateReport {
 /// - `pose(k)` is in the world frame, heading wrapped; the view is valid after every call.
 /// - Registrations may be written either way round; those of one call form one update.
 /// - The same calls give the same estimate, to the last bit.
-/// - `motions_to_newest` has the covariances of that same estimate.
+/// - `covariance` and `motions_to_newest` say what their defaults say, of that same estimate.
 /// - Failure is reported, never thrown, and leaves the estimate as it was before the call.
 class Estimator : public TrajectoryView {
  public:
@@ -78,15 +82,19 @@ class Estimator : public TrajectoryView {
     return {};
   }
 
-  /// The 3×3 covariance of (x, y, θ) of keyframe k: world axes, first order, keyframe 0 fixed (its
-  /// own is zero). Nothing where it cannot be computed. Not part of the cost of an update.
-  virtual std::optional<Eigen::Matrix3d> covariance(std::size_t k) = 0;
-
   /// The joint covariance of the (x, y, θ) of several keyframes, 3m×3m in the order given: world
   /// axes, first order, keyframe 0 fixed (its rows and columns are zero). Keyframes may repeat.
   /// Nothing where it cannot be computed. Not part of the cost of an update.
   virtual std::optional<Eigen::MatrixXd> joint_covariance(
-      std::span<const std::size_t> keyframes) = 0;
+      std::span<const std::size_t> keyframes) const = 0;
+
+  /// The 3×3 covariance of (x, y, θ) of keyframe k, as of joint_covariance, which is what it is
+  /// taken from unless an estimator has a faster way.
+  virtual std::optional<Eigen::Matrix3d> covariance(std::size_t k) const;
+
+  /// As of TrajectoryView, from the joint covariance of each keyframe and the newest unless an
+  /// estimator has a faster way.
+  std::optional<std::vector<UncertainPose>> motions_to_newest() const override;
 
   /// ρ(eᵀ Ω e): what a registration counts in the cost that this estimator minimises. The identity
   /// without a robust loss.

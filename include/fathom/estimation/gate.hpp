@@ -44,7 +44,8 @@ class Gate {
   std::optional<double> joint_probability_;
 };
 
-/// So many registrations at most are searched for the best set; of more, the worst are dropped.
+/// So many registrations at most are searched for the best set, 2¹² of them; of more, the worst are
+/// dropped. It bounds the time: sets of that size agree or differ by far.
 inline constexpr std::size_t kMostSearched = 12;
 
 /// The largest set of m candidates whose joint νᵀ S⁻¹ ν is within the χ² quantile of `probability`
@@ -76,7 +77,8 @@ using InnovationCovariances = std::function<std::optional<std::vector<Eigen::Mat
     std::span<const RelativePose> forward)>;
 
 /// Decides on every registration of an update, in report.loops; S is asked for only where the gate
-/// is on. False where they cannot be judged: a number is not finite, or there is no S.
+/// is on. False where they cannot be judged: a number is not finite, beyond what doubles resolve
+/// (are_resolved), or there is no S.
 bool judge(const Gate& gate, const TrajectoryView& estimate,
            std::span<const RelativePose> registrations, const InnovationCovariances& covariances,
            UpdateReport& report);

@@ -65,6 +65,11 @@ class RobustLoss {
   double squared_scale_ = 1.0;
 };
 
+/// A right registration at this quantile of χ²₃ weighs one half where no scale is given; one of
+/// `truncated`, which is judged without its own pull and is in or out, at the other.
+inline constexpr double kHalfWeightQuantile = 0.99;
+inline constexpr double kTruncatedQuantile = 0.9998;
+
 /// The scale where none is given.
 double default_scale(LossKind kind);
 

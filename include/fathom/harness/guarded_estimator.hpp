@@ -29,8 +29,9 @@ class GuardedEstimator : public Estimator {
   /// Has one decision for each registration, in their order.
   UpdateReport close_loops(std::span<const RelativePose> registrations) override;
   UpdateReport finish(std::span<const Pose> start) override;
-  std::optional<Eigen::Matrix3d> covariance(std::size_t k) override;
-  std::optional<Eigen::MatrixXd> joint_covariance(std::span<const std::size_t> keyframes) override;
+  std::optional<Eigen::Matrix3d> covariance(std::size_t k) const override;
+  std::optional<Eigen::MatrixXd> joint_covariance(
+      std::span<const std::size_t> keyframes) const override;
   double loss(double chi2) const override;
   /// Empty, or one for each registration given.
   std::vector<double> loop_weights() const override;

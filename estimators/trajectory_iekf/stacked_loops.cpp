@@ -1,0 +1,61 @@
+#include "estimators/trajectory_iekf/stacked_loops.hpp"
+
+#include <algorithm>
+
+#include "fathom/estimation/gate.hpp"
+
+namespace fathom {
+
+std::vector<std::size_t> froms_of(std::span<const RelativePose> loops) {
+  std::vector<std::size_t> froms;
+  for (const RelativePose& loop : loops) froms.push_back(loop.from);
+  return froms;
+}
+
+std::size_t earliest_from(std::span<const RelativePose> loops) {
+  std::size_t first = loops.front().from;
+  for (const RelativePose& loop : loops) first = std::min(first, loop.from);
+  return first;
+}
+
+Pose moved(const Pose& motion, const Eigen::Vector3d& delta) {
+  return {motion.x + delta.x(), motion.y + delta.y(), wrap_angle(motion.theta + delta.z())};
+}
+
+namespace {
+
+Eigen::Vector3d innovation(const RelativePose& loop, const Stretch& stretch) {
+  Eigen::Vector3d nu = loop.motion.vector() - stretch.h(loop.from).vector();
+  nu.z() = wrap_angle(nu.z());
+  return nu;
+}
+
+}  // namespace
+
+Eigen::VectorXd innovations(std::span<const RelativePose> loops, const Stretch& stretch) {
+  Eigen::VectorXd nu(static_cast<Eigen::Index>(3 * loops.size()));
+  for (std::size_t j = 0; j < loops.size(); ++j) {
+    nu.segment<3>(static_cast<Eigen::Index>(3 * j)) = innovation(loops[j], stretch);
+  }
+  return nu;
+}
+
+double misfit(std::span<const RelativePose> loops, const Eigen::VectorXd& nu) {
+  double sum = 0.0;
+  for (std::size_t j = 0; j < loops.size(); ++j) {
+    sum += normalised_innovation_squared(nu.segment<3>(static_cast<Eigen::Index>(3 * j)),
+                                         loops[j].covariance());
+  }
+  return sum;
+}
+
+Stretch stretch_at(const std::vector<Pose>& motions, std::size_t first,
+                   const Eigen::VectorXd& delta) {
+  std::vector<Pose> at(motions.begin() + static_cast<std::ptrdiff_t>(first), motions.end());
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    at[i] = moved(at[i], delta.segment<3>(static_cast<Eigen::Index>(3 * i)));
+  }
+  return {first, at};
+}
+
+}  // namespace fathom

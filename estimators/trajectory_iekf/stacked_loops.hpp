@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "estimators/trajectory_iekf/stretch.hpp"
+#include "fathom/measurements/relative_pose.hpp"
+
+/// The registrations of one update, written forward and stacked, at a stretch of motions.
+namespace fathom {
+
+std::vector<std::size_t> froms_of(std::span<const RelativePose> loops);
+std::size_t earliest_from(std::span<const RelativePose> loops);
+
+/// A motion corrected by its part of the state's correction, heading wrapped.
+Pose moved(const Pose& motion, const Eigen::Vector3d& delta);
+
+/// The motions from `first` on, corrected by δ.
+Stretch stretch_at(const std::vector<Pose>& motions, std::size_t first,
+                   const Eigen::VectorXd& delta);
+
+/// ν = z − h(x), headings wrapped.
+Eigen::VectorXd innovations(std::span<const RelativePose> loops, const Stretch& stretch);
+
+/// ν(x)ᵀ R⁻¹ ν(x).
+double misfit(std::span<const RelativePose> loops, const Eigen::VectorXd& nu);
+
+}  // namespace fathom

@@ -1,0 +1,55 @@
+#include "fathom/estimation/precision.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace fathom {
+namespace {
+
+constexpr double kWide = 1e8;
+
+double size_of(const Pose& pose) {
+  return std::max(std::abs(pose.x), std::abs(pose.y));
+}
+
+double position_information(const RelativePose& z) {
+  return std::max(z.information(0, 0), z.information(1, 1));
+}
+
+}  // namespace
+
+bool is_resolved(const RelativePose& z, const Pose& from, const Pose& to) {
+  constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+  const double step_m = kEpsilon * std::max({size_of(from), size_of(to), size_of(z.motion)});
+  const double step_rad = kEpsilon * std::numbers::pi;
+  const double rounding =
+      position_information(z) * step_m * step_m + z.information(2, 2) * step_rad * step_rad;
+  return rounding <= kMostRoundingChi2;
+}
+
+bool are_resolved(const TrajectoryView& estimate, std::span<const RelativePose> registrations) {
+  return std::all_of(registrations.begin(), registrations.end(), [&](const RelativePose& z) {
+    return is_resolved(z, estimate.pose(z.from), estimate.pose(z.to));
+  });
+}
+
+void InformationSpread::Bounds::add(double value) {
+  least = std::min(least, value);
+  most = std::max(most, value);
+}
+
+bool InformationSpread::Bounds::is_wide() const {
+  return most > kWide * least;
+}
+
+void InformationSpread::add(const RelativePose& measurement) {
+  position_.add(position_information(measurement));
+  heading_.add(measurement.information(2, 2));
+}
+
+bool InformationSpread::is_wide() const {
+  return position_.is_wide() || heading_.is_wide();
+}
+
+}  // namespace fathom
