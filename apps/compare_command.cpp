@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include <opencv2/core/utility.hpp>
@@ -23,6 +24,7 @@
 #include "fathom/harness/run_folder.hpp"
 #include "fathom/harness/study_run.hpp"
 #include "fathom/report/study_report.hpp"
+#include "fathom/results/run_index.hpp"
 
 namespace fathom {
 namespace {
@@ -134,7 +136,7 @@ class StoreFolder {
  private:
   bool is_empty() const {
     try {
-      return store_->keys().empty();
+      return store_->runs().empty();
     } catch (const InputError&) {
       return false;
     }
@@ -200,10 +202,7 @@ void require_separate(const fs::path& out, const Study& study,
 int status_of(const ResultStore& store) {
   std::set<std::string> usable;
   for (const RunRecord& run : store.runs()) {
-    if (run.outcome == name_of(Outcome::converged) ||
-        run.outcome == name_of(Outcome::iteration_limit)) {
-      usable.insert(run.key.estimator);
-    }
+    if (run.key.estimator != kDeadReckoning && !is_failed(run)) usable.insert(run.key.estimator);
   }
   return usable.size() == store.study().estimators.size() ? kDone : kFailed;
 }
@@ -241,7 +240,7 @@ void compare(const CompareFlags& flags, Context& context) {
   if (!is_finished) {
     std::fprintf(stderr,
                  "fathom: stopped; %zu runs are in %s. The same command goes on from there.\n",
-                 store.keys().size(), (out / "results.sqlite").c_str());
+                 store.runs().size(), (out / "results.sqlite").c_str());
     context.status = kStopped;
     return;
   }

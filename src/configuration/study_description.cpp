@@ -1,8 +1,21 @@
 #include "fathom/configuration/study_description.hpp"
 
 #include <algorithm>
+#include <optional>
 
 namespace fathom {
+namespace {
+
+// As the configuration has it, whatever its label is.
+std::optional<std::string> swept_value(const StudyDescription& study, std::size_t cell,
+                                       const std::string& key) {
+  for (std::size_t i = 0; i < study.axes.size(); ++i) {
+    if (study.axes[i].key == key) return study.axes[i].written_values()[study.places_of(cell)[i]];
+  }
+  return std::nullopt;
+}
+
+}  // namespace
 
 std::size_t StudyDescription::cell_count() const {
   std::size_t count = 1;
@@ -32,12 +45,14 @@ std::string StudyDescription::label_of(std::size_t cell) const {
 
 std::string StudyDescription::association_of(std::size_t cell) const {
   const std::string key = "association.mode";
-  for (std::size_t i = 0; i < axes.size(); ++i) {
-    if (axes[i].key == key) return axes[i].labels[places_of(cell)[i]];
-  }
+  if (const auto swept = swept_value(*this, cell, key)) return *swept;
   const auto found = std::find_if(configuration.begin(), configuration.end(),
                                   [&key](const auto& entry) { return entry.first == key; });
   return found == configuration.end() ? "" : found->second;
+}
+
+std::string StudyDescription::alignment_of(std::size_t cell) const {
+  return swept_value(*this, cell, "evaluation.alignment").value_or(alignment);
 }
 
 }  // namespace fathom

@@ -94,8 +94,9 @@ Axis axis_of(const Settings& own, const std::string& prefix) {
   if (const Setting* name = own.find("name")) axis.described.name = word_of(*name, prefix + "name");
   check_name(axis.described, own.find("name") == nullptr ? key : *own.find("name"), prefix);
   const Setting& values = required(own, "values", prefix);
-  axis.described.labels = list_of(values, prefix + "values");
-  for (const std::string& text : axis.described.labels) {
+  axis.described.values = list_of(values, prefix + "values");
+  axis.described.labels = axis.described.values;
+  for (const std::string& text : axis.described.values) {
     axis.values.push_back({axis.described.key, value_of(text), values.origin});
   }
   if (const Setting* labels = own.find("labels")) {

@@ -11,6 +11,7 @@
 #include "fathom/harness/recording.hpp"
 #include "fathom/harness/run_record.hpp"
 #include "fathom/harness/survey.hpp"
+#include "fathom/results/run_index.hpp"
 
 namespace fathom {
 namespace {
@@ -24,14 +25,14 @@ struct Task {
 };
 
 std::vector<Task> tasks_of(const Study& study, const ResultStore& store) {
-  const std::set<RunKey> there = store.keys();
+  const RunIndex there(store);
   std::vector<Task> tasks;
   for (std::size_t cell = 0; cell < study.cells.size(); ++cell) {
     for (std::size_t trial = 0; trial < study.description.trials; ++trial) {
-      Task task{cell, trial, {}, !there.contains({cell, trial, kDeadReckoning})};
+      Task task{cell, trial, {}, !there.has({cell, trial, kDeadReckoning})};
       for (std::size_t e = 0; e < study.description.estimators.size(); ++e) {
         const std::string& name = study.description.estimators[e].name;
-        if (!there.contains({cell, trial, name})) task.estimators.push_back(e);
+        if (!there.has({cell, trial, name})) task.estimators.push_back(e);
       }
       if (task.baseline || !task.estimators.empty()) tasks.push_back(task);
     }

@@ -2,25 +2,36 @@
 
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <SQLiteCpp/VariadicBind.h>
+#include <stdexcept>
 
 #include "fathom/results/result_store.hpp"
 
 namespace fathom {
 
 /// `PRAGMA user_version` of the files that this program writes.
-inline constexpr int kResultSchemaVersion = 2;
+inline constexpr int kResultSchemaVersion = 3;
 /// `PRAGMA application_id`, "Fath": tells a store from any other SQLite file.
 inline constexpr int kResultApplicationId = 0x46617468;
+
+/// A store says what it cannot have been told: a bit flipped, or somebody edited it. The message
+/// goes behind the file's name.
+class DamagedStore : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// The end of such a message.
+inline constexpr const char* kRemedy =
+    "; take the file from a copy, or remove it and run the study again";
 
 /// Makes all tables of an empty file and writes what the study is.
 void create_schema(SQLite::Database& database, const StudyDescription& study);
 
-/// A list of words as the table `study` holds it.
-std::string words_text(const std::vector<std::string>& words);
+/// Writes what of a study may change without touching its results: title, metrics, the names and
+/// labels of its axes, and the number of trials, which only grows.
+void update_study(SQLite::Database& database, const StudyDescription& study);
 
-/// Writes names and labels of the axes, which are no part of what tells studies apart.
-void write_labels(SQLite::Database& database, const StudyDescription& study);
-
+/// Throws DamagedStore where that is not what was written.
 StudyDescription read_study(SQLite::Database& database);
 
 /// What of two configurations differs, one line: "seed: 1 there, 2 here; …". Empty if nothing.

@@ -15,27 +15,6 @@ bool is_list_text(const std::string& text) {
   return text.size() >= 2 && text.front() == '[' && text.back() == ']';
 }
 
-// "[a, [b, c]]" as "a" and "[b, c]".
-std::vector<std::string> items_of(const std::string& text) {
-  std::vector<std::string> items;
-  if (!is_list_text(text)) return items;
-  int depth = 0;
-  std::string item;
-  for (std::size_t i = 1; i + 1 < text.size(); ++i) {
-    if (text[i] == '[') ++depth;
-    if (text[i] == ']') --depth;
-    if (depth == 0 && text.compare(i, 2, ", ") == 0) {
-      items.push_back(item);
-      item.clear();
-      ++i;
-    } else {
-      item += text[i];
-    }
-  }
-  items.push_back(item);
-  return items;
-}
-
 std::string joined(const std::vector<std::string>& words, const std::string& separator) {
   std::string text;
   for (const std::string& word : words) text += (text.empty() ? "" : separator) + word;
@@ -74,11 +53,6 @@ class StudyValues {
   }
 
  private:
-  std::vector<std::string> values_of_axis(std::size_t a) const {
-    const std::string* values = fixed("sweep." + std::to_string(a) + ".values");
-    return values == nullptr ? study_.axes[a].labels : items_of(*values);
-  }
-
   void add_axis(std::size_t a, const Selection& selection) {
     const StudyAxis& axis = study_.axes[a];
     std::set<std::size_t> places;
@@ -86,13 +60,7 @@ class StudyValues {
     std::vector<std::string> labels;
     for (const std::size_t place : places) labels.push_back(axis.labels[place]);
     ConfigLine line{axis.key, "", ""};
-    const std::vector<std::string> values = values_of_axis(a);
-    if (values.size() != axis.labels.size()) {
-      line.comment = "swept, labelled " + joined(labels, ", ") + "; its value is to be set here";
-      swept_[axis.key] = line;
-      return;
-    }
-    const std::string& value = values[*places.begin()];
+    const std::string& value = axis.written_values()[*places.begin()];
     raw_swept_[axis.key] = value;
     line.value = yaml_value(value, is_list_text(value));
     line.comment = places.size() > 1 ? "the first of those looked at: " + joined(labels, ", ")

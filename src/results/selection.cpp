@@ -1,132 +1,15 @@
 #include "fathom/results/selection.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
-#include "cell_means.hpp"
 #include "fathom/core/input_error.hpp"
-#include "fathom/evaluation/metrics.hpp"
+#include "fathom/core/text.hpp"
+#include "selection_evidence.hpp"
 #include "selection_query.hpp"
-#include "selection_runs.hpp"
 
 namespace fathom {
 namespace {
-
-// The values of one metric, a list per cell; nothing where a run that is done has none, or where a
-// cell has no run that is done.
-using CellValues = std::vector<std::vector<double>>;
-
-// The runs that are compared: the common trials of each cell looked at.
-struct Compared {
-  const StudyRuns& runs;
-  std::vector<std::size_t> asked;                ///< cells, with such a trial or not
-  std::vector<std::size_t> cells;                ///< those with one
-  std::vector<std::vector<std::size_t>> trials;  ///< of each of the cells
-};
-
-Compared compared_runs(const StudyRuns& runs, const std::vector<std::size_t>& asked) {
-  Compared compared{runs, asked, {}, {}};
-  for (const std::size_t cell : asked) {
-    std::vector<std::size_t> trials = runs.common_trials(cell);
-    if (trials.empty()) continue;
-    compared.cells.push_back(cell);
-    compared.trials.push_back(std::move(trials));
-  }
-  if (compared.cells.empty()) {
-    throw InputError(
-        "no trial has been run by all estimators of the study yet; the same 'fathom compare' goes "
-        "on with it");
-  }
-  return compared;
-}
-
-// Nothing for a trial that failed or that dead reckoning has not.
-const RunRecord* done_run(const Compared& compared, const std::string& estimator, std::size_t c,
-                          std::size_t trial) {
-  const StudyRuns::Trials& trials = compared.runs.of(estimator, compared.cells[c]);
-  const auto run = trials.find(trial);
-  return run == trials.end() || is_failed(*run->second) ? nullptr : run->second;
-}
-
-std::optional<std::vector<double>> values_in(const Compared& compared, const std::string& estimator,
-                                             std::size_t c, const std::string& metric) {
-  std::vector<double> values;
-  for (const std::size_t trial : compared.trials[c]) {
-    const RunRecord* run = done_run(compared, estimator, c, trial);
-    if (run == nullptr) continue;
-    const auto value = run->metrics.find(metric);
-    if (value == run->metrics.end()) return std::nullopt;
-    values.push_back(value->second);
-  }
-  if (values.empty()) return std::nullopt;
-  return values;
-}
-
-Verdict verdict_of(const Requirement& requirement, const TrialMean& value) {
-  if (requirement.holds(decisive_end(requirement, value))) return Verdict::meets;
-  return requirement.holds(value.mean) ? Verdict::not_shown : Verdict::fails;
-}
-
-// How far a value reaches to the wrong side, as a share of the bound; below 0 it does not.
-double excess(const Requirement& requirement, const Judgement& judgement) {
-  if (!judgement.value) return std::numeric_limits<double>::infinity();
-  const double over = decisive_end(requirement, *judgement.value) - requirement.bound;
-  const double scale = requirement.bound == 0.0 ? 1.0 : std::abs(requirement.bound);
-  return (requirement.is_upper_bound() ? over : -over) / scale;
-}
-
-Judgement judge(const Compared& compared, const std::string& estimator,
-                const Requirement& requirement) {
-  std::optional<Judgement> worst;
-  for (std::size_t c = 0; c < compared.cells.size(); ++c) {
-    Judgement judgement{Verdict::not_measured, compared.cells[c], std::nullopt};
-    if (const auto values = values_in(compared, estimator, c, requirement.metric)) {
-      judgement.value = mean_over_cells({*values});
-      judgement.verdict = verdict_of(requirement, *judgement.value);
-    }
-    const bool is_worse = !worst || judgement.verdict > worst->verdict ||
-                          (judgement.verdict == worst->verdict &&
-                           excess(requirement, judgement) > excess(requirement, *worst));
-    if (is_worse) worst = judgement;
-  }
-  return *worst;
-}
-
-std::optional<TrialMean> objective_of(const Compared& compared, const std::string& estimator,
-                                      const std::string& metric) {
-  CellValues cells;
-  for (std::size_t c = 0; c < compared.cells.size(); ++c) {
-    auto values = values_in(compared, estimator, c, metric);
-    if (!values) return std::nullopt;
-    cells.push_back(std::move(*values));
-  }
-  return mean_over_cells(cells);
-}
-
-EstimatorEvidence evidence_of(const Compared& compared, const std::string& estimator,
-                              const SelectionQuery& query) {
-  EstimatorEvidence evidence;
-  evidence.name = estimator;
-  evidence.meets_all = true;
-  for (const Requirement& requirement : query.requirements) {
-    evidence.judgements.push_back(judge(compared, estimator, requirement));
-    evidence.meets_all = evidence.meets_all && evidence.judgements.back().verdict == Verdict::meets;
-  }
-  evidence.objective = objective_of(compared, estimator, query.objective);
-  // A failure counts even in a trial that other estimators have yet to run.
-  for (const std::size_t cell : compared.asked) {
-    for (const auto& [trial, run] : compared.runs.of(estimator, cell)) {
-      ++evidence.runs;
-      if (is_failed(*run)) ++evidence.failed;
-    }
-  }
-  evidence.has_too_many_failures =
-      static_cast<double>(evidence.failed) >
-      query.allowed_failures * static_cast<double>(evidence.runs) * (1.0 + 1e-12);
-  evidence.meets_all = evidence.meets_all && !evidence.has_too_many_failures;
-  return evidence;
-}
 
 // Best first; equal ones stay in the order of the study.
 std::vector<std::size_t> ranked(const std::vector<EstimatorEvidence>& all, bool maximise) {
@@ -195,39 +78,6 @@ std::vector<std::size_t> requirements_met_by_none(const Selection& selection, st
   return all;
 }
 
-std::vector<std::string> remarks_on(const Compared& compared, const Selection& selection,
-                                    const SelectionQuery& query) {
-  const std::vector<std::size_t>& asked = compared.asked;
-  std::vector<std::string> remarks;
-  if (std::string gaps = compared.runs.unfinished(asked); !gaps.empty()) {
-    remarks.push_back(std::move(gaps));
-  }
-  if (selection.cells.size() < asked.size()) {
-    remarks.push_back(std::to_string(asked.size() - selection.cells.size()) + " of " +
-                      std::to_string(asked.size()) +
-                      " cells have no trial that all estimators have run: nothing is said of them");
-  }
-  if (selection.fewest_trials == 1) {
-    remarks.emplace_back(
-        "one trial is no evidence: a cell with one has no interval, its value itself was compared");
-  }
-  for (const EstimatorEvidence& evidence : selection.estimators) {
-    if (evidence.failed == 0) continue;
-    remarks.push_back(evidence.name + ": " + std::to_string(evidence.failed) + " of " +
-                      std::to_string(evidence.runs) + " runs failed and are left out of its means" +
-                      (evidence.has_too_many_failures ? "; it is out for that" : ""));
-  }
-  const bool has_cost =
-      is_cost_metric(query.objective) ||
-      std::any_of(query.requirements.begin(), query.requirements.end(),
-                  [](const Requirement& needed) { return is_cost_metric(needed.metric); });
-  if (const int jobs = compared.runs.most_jobs(selection.cells); has_cost && jobs > 1) {
-    remarks.push_back("measured with " + std::to_string(jobs) +
-                      " jobs at a time: costs are comparable at 1 alone");
-  }
-  return remarks;
-}
-
 void choose(Selection& selection, const Compared& compared, const SelectionQuery& query) {
   const std::vector<std::size_t> order = ranked(selection.estimators, query.maximise);
   selection.met_by_none = requirements_met_by_none(selection, query.requirements.size());
@@ -260,7 +110,11 @@ std::string name_of(Verdict verdict) {
 }
 
 Selection select_estimator(const ResultStore& store, const SelectionQuery& query) {
-  const StudyRuns runs(store);
+  if (!(query.allowed_failures >= 0.0 && query.allowed_failures <= 1.0)) {
+    throw InputError("allowed failures: expected a share from 0 to 1, got " +
+                     number_text(query.allowed_failures));
+  }
+  const RunIndex runs(store);
   const std::vector<std::size_t> asked = cells_where(runs.study(), query.where);
   require_metrics(query, runs.study(), runs.metrics());
   const Compared compared = compared_runs(runs, asked);

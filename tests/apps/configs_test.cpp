@@ -111,14 +111,14 @@ TEST_F(Configs, PaperSimulatedRuns) {
               with_small_camera({"dataset.world.metres_per_pixel=0.01", "dataset.mission.legs=2",
                                  "dataset.mission.leg_length_m=3", "trials=1", "jobs=1"}),
               "ekf/metrics.json");
-  EXPECT_EQ(ResultStore::open(path("out")).keys().size(), 20u * 4u);
+  EXPECT_EQ(ResultStore::open(path("out")).runs().size(), 20u * 4u);
 }
 
 TEST_F(Configs, PaperPoolRuns) {
   expect_runs("compare", "studies/paper_pool.yaml",
               with_small_camera({"dataset.world.metres_per_pixel=0.01", "trials=1"}),
               "ekf/metrics.json");
-  EXPECT_EQ(ResultStore::open(path("out")).keys().size(), 8u * 4u);
+  EXPECT_EQ(ResultStore::open(path("out")).runs().size(), 8u * 4u);
 }
 
 TEST_F(Configs, RealPicturesRuns) {
@@ -127,7 +127,7 @@ TEST_F(Configs, RealPicturesRuns) {
               {"dataset.path=" + data_path("copr").string(), "trials=1",
                "front_end.features.max_features=500"},
               "ekf/metrics.json");
-  EXPECT_EQ(ResultStore::open(path("out")).keys().size(), 4u * 4u);
+  EXPECT_EQ(ResultStore::open(path("out")).runs().size(), 4u * 4u);
 }
 
 TEST_F(Configs, WrongLoopsRuns) {
@@ -135,7 +135,7 @@ TEST_F(Configs, WrongLoopsRuns) {
               with_small_camera({"dataset.world.metres_per_pixel=0.01", "dataset.mission.legs=2",
                                  "dataset.mission.leg_length_m=3", "trials=1"}),
               "truncated/metrics.json");
-  EXPECT_EQ(ResultStore::open(path("out")).keys().size(), 12u * 10u);
+  EXPECT_EQ(ResultStore::open(path("out")).runs().size(), 12u * 10u);
 }
 
 // image_folder.yaml runs as it is in real_data_test.cpp.

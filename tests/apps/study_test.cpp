@@ -79,7 +79,7 @@ constexpr std::size_t kEstimators = 5 + 1;
 class Studies : public CommandLine {
  protected:
   std::size_t runs_in(const std::string& folder) const {
-    return ResultStore::open(path(folder)).keys().size();
+    return ResultStore::open(path(folder)).runs().size();
   }
 
   /// Of a study at work, whose store may not be complete yet.

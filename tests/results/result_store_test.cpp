@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "results/stored_runs.hpp"
 #include "support/input_error.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -13,34 +14,12 @@ namespace fathom {
 namespace {
 
 namespace fs = std::filesystem;
+using test::description;
 using test::input_error_of;
+using test::record;
 using test::TemporaryFolder;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-
-StudyDescription description() {
-  StudyDescription study;
-  study.title = "two by three";
-  study.alignment = "origin";
-  study.trials = 2;
-  study.axes = {{"separation", "front_end.keyframes.separation_frames", {"5", "10"}},
-                {"noise", "dataset.odometry.covariance", {"none", "low", "high"}}};
-  study.estimators = {{"iterated", "trajectory_iekf"}, {"plain", "ekf"}};
-  study.metrics = {"mean_position_error_m", "anees"};
-  study.configuration = {{"association.mode", "own"}, {"seed", "1"}};
-  return study;
-}
-
-RunRecord record(std::size_t cell, std::size_t trial, const std::string& estimator) {
-  RunRecord run;
-  run.key = {cell, trial, estimator};
-  run.outcome = "converged";
-  run.log_hash = "00ff";
-  run.jobs = 2;
-  run.metrics = {{"mean_position_error_m", 0.1 + static_cast<double>(trial)}, {"total_ms", 3.5}};
-  run.series = {{"x", {1.0, 1.0 / 3.0, -0.0}}, {"empty", {}}};
-  return run;
-}
 
 TEST(StudyDescription, CellsAreTheProductOfTheAxesTheLastRunningFastest) {
   const StudyDescription study = description();
@@ -59,6 +38,15 @@ TEST(StudyDescription, AssociationMayBeAnAxis) {
   study.axes.push_back({"association", "association.mode", {"own", "shared"}});
   EXPECT_EQ(study.association_of(0), "own");
   EXPECT_EQ(study.association_of(1), "shared");
+}
+
+TEST(StudyDescription, ASweptKeyIsKnownByItsValueNotByItsLabel) {
+  StudyDescription study = description();
+  EXPECT_EQ(study.alignment_of(5), "origin");
+  study.axes.push_back(
+      {"alignment", "evaluation.alignment", {"as it is", "best fit"}, {"none", "se2"}});
+  EXPECT_EQ(study.alignment_of(0), "none");
+  EXPECT_EQ(study.alignment_of(1), "se2");
 }
 
 TEST(ResultStore, GivesBackWhatWasStored) {
@@ -107,7 +95,8 @@ TEST(ResultStore, GoesOnWithWhatIsThere) {
   more.trials = 7;
   more.title = "another title";
   ResultStore store = ResultStore::write(folder.path(), more, "second");
-  EXPECT_THAT(store.keys(), ElementsAre(RunKey{0, 0, "plain"}));
+  ASSERT_EQ(store.runs().size(), 1u);
+  EXPECT_EQ(store.runs()[0].key, (RunKey{0, 0, "plain"}));
   EXPECT_THAT(store.manifests(), ElementsAre("first", "second"));
   EXPECT_EQ(store.study().trials, 7u);
   EXPECT_EQ(store.study().title, "another title");
@@ -115,6 +104,24 @@ TEST(ResultStore, GoesOnWithWhatIsThere) {
   other.metrics["mean_position_error_m"] = 99.0;
   store.add(other);
   EXPECT_EQ(store.runs().front().metrics.at("mean_position_error_m"), 0.1);
+}
+
+TEST(ResultStore, LabelsAndNamesOfAnAxisMayChangeAfterwards) {
+  const TemporaryFolder folder;
+  { ResultStore::write(folder.path(), description(), "").add(record(5, 0, "plain")); }
+  StudyDescription other = description();
+  other.axes[1].name = "odometry";
+  other.axes[1].values = other.axes[1].labels;
+  other.axes[1].labels[2] = "awful";
+  {
+    ResultStore store = ResultStore::write(folder.path(), other, "");
+    EXPECT_EQ(store.study().label_of(5), "separation 10, odometry awful");
+    store.finish();
+  }
+  const ResultStore store = ResultStore::open(folder.path());
+  EXPECT_EQ(store.study().label_of(5), "separation 10, odometry awful");
+  EXPECT_EQ(store.study().axes[1].values[2], "high");
+  EXPECT_EQ(store.runs().size(), 1u);
 }
 
 TEST(ResultStore, AChangedConfigurationIsRefusedWithWhatDiffers) {
@@ -162,7 +169,7 @@ TEST(ResultStore, SeveralThreadsMayAdd) {
   std::thread other(add, "iterated");
   add("plain");
   other.join();
-  EXPECT_EQ(store.keys().size(), 120u);
+  EXPECT_EQ(store.runs().size(), 120u);
 }
 
 TEST(ResultStore, RefusesWhatIsNoStore) {

@@ -9,9 +9,14 @@ namespace fathom {
 
 /// One axis of a study's sweep: a key and the values that it takes, in order.
 struct StudyAxis {
-  std::string name;                 ///< for tables; the key unless the study names it
-  std::string key;                  ///< of the configuration
-  std::vector<std::string> labels;  ///< of the values; the values as written unless labelled
+  std::string name;                      ///< for tables; the key unless the study names it
+  std::string key;                       ///< of the configuration
+  std::vector<std::string> labels;       ///< of the values, for tables; may change afterwards
+  std::vector<std::string> values = {};  ///< as written; where empty, the labels are the values
+
+  const std::vector<std::string>& written_values() const {
+    return values.empty() ? labels : values;
+  }
 };
 
 struct StudyEstimator {
@@ -23,7 +28,7 @@ struct StudyEstimator {
 /// running fastest; without axes there is one cell.
 struct StudyDescription {
   std::string title;
-  std::string alignment;   ///< of all errors: none, origin or se2
+  std::string alignment;   ///< of errors: none, origin or se2; of the cells that sweep no other
   std::size_t trials = 1;  ///< asked for, per cell
   std::vector<StudyAxis> axes;
   std::vector<StudyEstimator> estimators;
@@ -40,6 +45,8 @@ struct StudyDescription {
   std::string label_of(std::size_t cell) const;
   /// How a cell's loop candidates were picked, `shared` or `own`; empty where there are none.
   std::string association_of(std::size_t cell) const;
+  /// How a cell's estimates were aligned for their errors.
+  std::string alignment_of(std::size_t cell) const;
 };
 
 /// The name under which dead reckoning, the baseline, stands among the estimators' runs. It is no

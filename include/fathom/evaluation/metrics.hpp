@@ -27,7 +27,8 @@ struct Metric {
   std::string description;
   /// Nothing where it is not known. A value that is not finite counts as not known.
   std::function<std::optional<double>(const JudgedRun&)> value;
-  bool is_cost = false;  ///< depends on the machine, so that it differs from run to run
+  bool is_cost = false;     ///< depends on the machine, so that it differs from run to run
+  bool is_aligned = false;  ///< an error after the alignment that it was judged with
 
   /// "mean position error (m)"
   std::string label_with_unit() const { return unit.empty() ? label : label + " (" + unit + ")"; }

@@ -6,7 +6,6 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -35,15 +34,18 @@ struct RunRecord {
 };
 
 /// The results of one study: one SQLite file, `results.sqlite` (docs/formats.md has its schema).
-/// Throws InputError on a file that is no such store, is of another schema version, cannot be read
-/// or cannot be written (a full disk among them); nothing of a run is ever stored in part.
+/// Throws InputError on a file that is no such store, is of another schema version, is damaged,
+/// cannot be read or cannot be written (a full disk among them); nothing of a run is ever stored in
+/// part. Each run has a checksum over its key, metrics and series, and the study has one: a store
+/// that is opened is compared with them as a whole.
 class ResultStore {
  public:
   /// Opens a store to look at, its folder may be read-only. `path`: the file, or its folder.
   static ResultStore open(const std::filesystem::path& path);
 
   /// Makes the store of a study in a folder, or goes on with what is there: only with the same
-  /// configuration and data, else InputError says what differs. `manifest` (JSON) is that of this
+  /// configuration and data, else InputError says what differs. Title, metrics, names and labels of
+  /// the axes become those of `study`; trials may only grow. `manifest` (JSON) is that of this
   /// session. One process at a time may write; another one is refused.
   static ResultStore write(const std::filesystem::path& folder, const StudyDescription& study,
                            const std::string& manifest);
@@ -55,8 +57,6 @@ class ResultStore {
   /// The manifests of the sessions that wrote, in order.
   std::vector<std::string> manifests() const;
 
-  /// The keys of all runs there are, in order.
-  std::set<RunKey> keys() const;
   /// All runs without their series, in the order of cell, trial and estimator (dead reckoning
   /// first, then as in the study).
   std::vector<RunRecord> runs() const;

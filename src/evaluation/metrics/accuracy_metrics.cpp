@@ -9,7 +9,7 @@ std::vector<Metric> accuracy_metrics() {
       return (*run.accuracy).*field;
     };
   };
-  return {
+  std::vector<Metric> metrics{
       {"mean_position_error_m", "mean position error", "m", Better::lower,
        "mean distance to ground truth over the keyframes, the error of the paper",
        error(&Accuracy::mean_position_error_m)},
@@ -23,6 +23,8 @@ std::vector<Metric> accuracy_metrics() {
       {"heading_rmse_rad", "heading RMSE", "rad", Better::lower,
        "root mean square of wrapped heading differences", error(&Accuracy::heading_rmse_rad)},
   };
+  for (Metric& metric : metrics) metric.is_aligned = true;
+  return metrics;
 }
 
 }  // namespace fathom

@@ -8,14 +8,21 @@
 
 namespace fathom {
 
-/// The runs of a study by estimator, cell and trial.
-class StudyRuns {
+/// The runs of a study by estimator, cell and trial: which are there, and which are missing. Every
+/// run of a store has the content that was stored (ResultStore checks it).
+class RunIndex {
  public:
   using Trials = std::map<std::size_t, const RunRecord*>;
 
-  explicit StudyRuns(const ResultStore& store);
+  explicit RunIndex(const ResultStore& store);
+  RunIndex(const RunIndex&) = delete;
+  RunIndex& operator=(const RunIndex&) = delete;
 
   const StudyDescription& study() const { return study_; }
+  /// In the order of cell, trial and estimator.
+  const std::vector<RunRecord>& runs() const { return runs_; }
+  /// Whether a run is there, so that it need not be made again; it may have failed.
+  bool has(const RunKey& key) const;
   /// All runs of an estimator in a cell, failed ones too.
   const Trials& of(const std::string& estimator, std::size_t cell) const;
   /// The trials of a cell that every estimator of the study has a run of.
@@ -33,6 +40,8 @@ class StudyRuns {
   std::map<std::string, std::map<std::size_t, Trials>> by_estimator_;
 };
 
+/// Whether the estimate of a run cannot be used; false of dead reckoning. An outcome that is not
+/// known is a failure.
 bool is_failed(const RunRecord& run);
 
 }  // namespace fathom

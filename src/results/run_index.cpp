@@ -1,4 +1,4 @@
-#include "selection_runs.hpp"
+#include "fathom/results/run_index.hpp"
 
 #include <algorithm>
 #include <set>
@@ -20,13 +20,13 @@ std::string numbers_text(const std::vector<std::size_t>& numbers) {
 
 }  // namespace
 
-StudyRuns::StudyRuns(const ResultStore& store) : study_(store.study()), runs_(store.runs()) {
+RunIndex::RunIndex(const ResultStore& store) : study_(store.study()), runs_(store.runs()) {
   for (const RunRecord& run : runs_) {
     by_estimator_[run.key.estimator][run.key.cell][run.key.trial] = &run;
   }
 }
 
-const StudyRuns::Trials& StudyRuns::of(const std::string& estimator, std::size_t cell) const {
+const RunIndex::Trials& RunIndex::of(const std::string& estimator, std::size_t cell) const {
   static const Trials kNone;
   const auto cells = by_estimator_.find(estimator);
   if (cells == by_estimator_.end()) return kNone;
@@ -34,7 +34,11 @@ const StudyRuns::Trials& StudyRuns::of(const std::string& estimator, std::size_t
   return trials == cells->second.end() ? kNone : trials->second;
 }
 
-std::vector<std::size_t> StudyRuns::common_trials(std::size_t cell) const {
+bool RunIndex::has(const RunKey& key) const {
+  return of(key.estimator, key.cell).contains(key.trial);
+}
+
+std::vector<std::size_t> RunIndex::common_trials(std::size_t cell) const {
   std::map<std::size_t, std::size_t> estimators_of_trial;
   for (const StudyEstimator& estimator : study_.estimators) {
     for (const auto& [trial, run] : of(estimator.name, cell)) ++estimators_of_trial[trial];
@@ -46,7 +50,7 @@ std::vector<std::size_t> StudyRuns::common_trials(std::size_t cell) const {
   return common;
 }
 
-std::vector<std::string> StudyRuns::metrics() const {
+std::vector<std::string> RunIndex::metrics() const {
   std::set<std::string> names;
   for (const RunRecord& run : runs_) {
     for (const auto& [name, value] : run.metrics) names.insert(name);
@@ -54,7 +58,7 @@ std::vector<std::string> StudyRuns::metrics() const {
   return {names.begin(), names.end()};
 }
 
-int StudyRuns::most_jobs(const std::vector<std::size_t>& cells) const {
+int RunIndex::most_jobs(const std::vector<std::size_t>& cells) const {
   int most = 1;
   for (const RunRecord& run : runs_) {
     if (std::find(cells.begin(), cells.end(), run.key.cell) == cells.end()) continue;
@@ -63,7 +67,7 @@ int StudyRuns::most_jobs(const std::vector<std::size_t>& cells) const {
   return most;
 }
 
-std::string StudyRuns::unfinished(const std::vector<std::size_t>& cells) const {
+std::string RunIndex::unfinished(const std::vector<std::size_t>& cells) const {
   std::size_t there = 0;
   std::vector<std::string> gaps;
   for (const std::size_t cell : cells) {
@@ -93,8 +97,9 @@ std::string StudyRuns::unfinished(const std::vector<std::size_t>& cells) const {
 }
 
 bool is_failed(const RunRecord& run) {
-  return run.outcome == name_of(Outcome::diverged) ||
-         run.outcome == name_of(Outcome::numerical_failure);
+  if (run.key.estimator == kDeadReckoning) return false;
+  return run.outcome != name_of(Outcome::converged) &&
+         run.outcome != name_of(Outcome::iteration_limit);
 }
 
 }  // namespace fathom

@@ -1,0 +1,46 @@
+#include "result_database.hpp"
+
+#include <sqlite3.h>
+
+namespace fathom {
+
+constexpr int kBusyTimeoutMs = 10'000;
+
+ResultStore::Database::Database(const std::filesystem::path& path, int flags) : file(path) {
+  guard([&] { sqlite.emplace(file.string(), flags, kBusyTimeoutMs); });
+}
+
+bool ResultStore::Database::is_store() const {
+  const int id = sqlite->execAndGet("PRAGMA application_id").getInt();
+  const int version = sqlite->execAndGet("PRAGMA user_version").getInt();
+  const int tables = sqlite->execAndGet("SELECT count(*) FROM sqlite_master").getInt();
+  if (tables == 0 && id == 0) return false;
+  if (id != kResultApplicationId) {
+    throw InputError(file.string(), "is a database, but no result store of Fathom");
+  }
+  if (version != kResultSchemaVersion) {
+    throw InputError(file.string(),
+                     "has schema version " + std::to_string(version) + ", this program has " +
+                         std::to_string(kResultSchemaVersion) + "; use the program that wrote it");
+  }
+  return true;
+}
+
+std::string ResultStore::Database::what_of(const SQLite::Exception& error) {
+  switch (error.getErrorCode()) {
+    case SQLITE_FULL:
+      return "the disk is full; nothing of the unfinished run was stored. Make room and run the "
+             "same command again";
+    case SQLITE_NOTADB:
+    case SQLITE_CORRUPT:
+      return std::string("is no result store, or a damaged one: ") + error.what();
+    case SQLITE_READONLY:
+    case SQLITE_CANTOPEN:
+    case SQLITE_IOERR:
+      return std::string("cannot be read or written: ") + error.what();
+    default:
+      return error.what();
+  }
+}
+
+}  // namespace fathom

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "fathom/results/run_index.hpp"
+#include "fathom/results/selection.hpp"
+
+namespace fathom {
+
+/// The runs that are compared: the common trials of each cell looked at.
+struct Compared {
+  const RunIndex& runs;
+  std::vector<std::size_t> asked;                ///< cells, with such a trial or not
+  std::vector<std::size_t> cells;                ///< those with one
+  std::vector<std::vector<std::size_t>> trials;  ///< of each of the cells
+};
+
+/// Throws InputError where no cell has such a trial.
+Compared compared_runs(const RunIndex& runs, const std::vector<std::size_t>& asked);
+
+/// An estimator's run of a trial in the c-th of the compared cells; nothing where it failed, or is
+/// not there.
+const RunRecord* done_run(const Compared& compared, const std::string& estimator, std::size_t c,
+                          std::size_t trial);
+
+EstimatorEvidence evidence_of(const Compared& compared, const std::string& estimator,
+                              const SelectionQuery& query);
+
+/// How far a value reaches to the wrong side, as a share of the bound; below 0 it does not.
+double excess(const Requirement& requirement, const Judgement& judgement);
+
+/// What limits the evidence, a line each.
+std::vector<std::string> remarks_on(const Compared& compared, const Selection& selection,
+                                    const SelectionQuery& query);
+
+}  // namespace fathom

@@ -1,0 +1,70 @@
+#include <algorithm>
+#include <set>
+
+#include "fathom/evaluation/metrics.hpp"
+#include "selection_evidence.hpp"
+
+namespace fathom {
+namespace {
+
+// Whether any metric that the query asks for has a property.
+template <class Property>
+bool asks_for(const SelectionQuery& query, Property property) {
+  const auto has = [&property](const std::string& name) {
+    const auto metric = find_metric(name);
+    return metric && property(*metric);
+  };
+  return has(query.objective) ||
+         std::any_of(query.requirements.begin(), query.requirements.end(),
+                     [&has](const Requirement& needed) { return has(needed.metric); });
+}
+
+// Where errors of cells were made after different alignments.
+std::string alignments_remark(const StudyDescription& study,
+                              const std::vector<std::size_t>& cells) {
+  std::set<std::string> alignments;
+  for (const std::size_t cell : cells) alignments.insert(study.alignment_of(cell));
+  if (alignments.size() < 2) return "";
+  std::string text;
+  for (const std::string& alignment : alignments) text += (text.empty() ? "" : ", ") + alignment;
+  return "the cells have errors after different alignments (" + text +
+         "), which are no one quantity: --where leaves cells of one";
+}
+
+}  // namespace
+
+std::vector<std::string> remarks_on(const Compared& compared, const Selection& selection,
+                                    const SelectionQuery& query) {
+  const std::vector<std::size_t>& asked = compared.asked;
+  std::vector<std::string> remarks;
+  if (std::string gaps = compared.runs.unfinished(asked); !gaps.empty()) {
+    remarks.push_back(std::move(gaps));
+  }
+  if (selection.cells.size() < asked.size()) {
+    remarks.push_back(std::to_string(asked.size() - selection.cells.size()) + " of " +
+                      std::to_string(asked.size()) +
+                      " cells have no trial that all estimators have run: nothing is said of them");
+  }
+  if (selection.fewest_trials == 1) {
+    remarks.emplace_back(
+        "one trial is no evidence: a cell with one has no interval, its value itself was compared");
+  }
+  for (const EstimatorEvidence& evidence : selection.estimators) {
+    if (evidence.failed == 0) continue;
+    remarks.push_back(evidence.name + ": " + std::to_string(evidence.failed) + " of " +
+                      std::to_string(evidence.runs) + " runs failed and are left out of its means" +
+                      (evidence.has_too_many_failures ? "; it is out for that" : ""));
+  }
+  const auto is_aligned = [](const Metric& metric) { return metric.is_aligned; };
+  const std::string alignments = alignments_remark(compared.runs.study(), selection.cells);
+  if (!alignments.empty() && asks_for(query, is_aligned)) remarks.push_back(alignments);
+  const auto is_cost = [](const Metric& metric) { return metric.is_cost; };
+  if (const int jobs = compared.runs.most_jobs(selection.cells);
+      jobs > 1 && asks_for(query, is_cost)) {
+    remarks.push_back("measured with " + std::to_string(jobs) +
+                      " jobs at a time: costs are comparable at 1 alone");
+  }
+  return remarks;
+}
+
+}  // namespace fathom
