@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <map>
 
-#include "metric_label.hpp"
 #include "study_figures.hpp"
 
 namespace fathom {
@@ -35,14 +34,17 @@ std::vector<CostPoint> points_of(const CellResults& cell, const std::string& acc
   return points;
 }
 
-// By rising cost, those that are better than all cheaper ones; lower is better.
-std::vector<CostPoint> front_of(std::vector<CostPoint> points) {
-  std::sort(points.begin(), points.end(), [](const CostPoint& a, const CostPoint& b) {
-    return std::pair(a.cost, a.error) < std::pair(b.cost, b.error);
+// By rising cost, those that are better than all cheaper ones; none by a metric that has no better
+// value.
+std::vector<CostPoint> front_of(std::vector<CostPoint> points, Better better) {
+  if (better == Better::neither) return {};
+  const double sign = better == Better::higher ? -1.0 : 1.0;
+  std::sort(points.begin(), points.end(), [sign](const CostPoint& a, const CostPoint& b) {
+    return std::pair(a.cost, sign * a.error) < std::pair(b.cost, sign * b.error);
   });
   std::vector<CostPoint> front;
   for (const CostPoint& point : points) {
-    if (front.empty() || point.error < front.back().error) front.push_back(point);
+    if (front.empty() || sign * point.error < sign * front.back().error) front.push_back(point);
   }
   return front;
 }
@@ -65,20 +67,21 @@ const Pen& front_pen() {
 }
 
 std::vector<LegendEntry> legend_of(const std::vector<CostPoint>& points,
-                                   const std::map<std::string, LineStyle>& styles) {
+                                   const std::map<std::string, LineStyle>& styles, bool front) {
   std::vector<LegendEntry> legend;
   for (const CostPoint& point : points) {
     legend.push_back(disc_entry(display_name(point.estimator), styles.at(point.estimator).colour));
   }
-  legend.push_back(line_entry("Pareto front", front_pen()));
+  if (front) legend.push_back(line_entry("Pareto front", front_pen()));
   return legend;
 }
 
-void draw_cost(Canvas& canvas, const std::vector<CostPoint>& points, const ChartFrame& frame,
+void draw_cost(Canvas& canvas, const std::vector<CostPoint>& points,
+               const std::vector<CostPoint>& front, const ChartFrame& frame,
                const std::map<std::string, LineStyle>& styles) {
   frame.draw(canvas);
   Points steps;
-  for (const CostPoint& point : front_of(points)) {
+  for (const CostPoint& point : front) {
     const Eigen::Vector2d at = frame.at(point.cost, point.error);
     if (!steps.empty()) steps.emplace_back(at.x(), steps.back().y());
     steps.push_back(at);
@@ -92,7 +95,7 @@ void draw_cost(Canvas& canvas, const std::vector<CostPoint>& points, const Chart
                 pen);
     canvas.disc(frame.at(point.cost, point.error), 3.0, pen.colour);
   }
-  for (const CostPoint& point : front_of(points)) {
+  for (const CostPoint& point : front) {
     canvas.ring(frame.at(point.cost, point.error), 3.6, {palette::black, 0.8, {}, 1.0});
   }
 }
@@ -110,11 +113,12 @@ void add_cost_figures(const FigureInput& input, std::vector<StudyFigure>& figure
     if (points.empty()) continue;
     const std::string conditions =
         cell_caption(cell) + failures_text(cell) + "; means, 95 % intervals";
-    const FigureLayout layout({170.0}, legend_of(points, styles), conditions);
+    const std::vector<CostPoint> front = front_of(points, described(*accuracy).better);
+    const FigureLayout layout({170.0}, legend_of(points, styles, !front.empty()), conditions);
     const ChartFrame frame = frame_of(points, *accuracy, *cost, layout.chart(0));
     figures.push_back({figure_title("accuracy_against_cost", cell.label, results.cells.size() == 1),
-                       layout.height(), [points, frame, layout, styles](Canvas& canvas) {
-                         draw_cost(canvas, points, frame, styles);
+                       layout.height(), [points, front, frame, layout, styles](Canvas& canvas) {
+                         draw_cost(canvas, points, front, frame, styles);
                          layout.draw_footer(canvas);
                        }});
   }

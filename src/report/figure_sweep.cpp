@@ -2,7 +2,6 @@
 #include <map>
 
 #include "fathom/core/text.hpp"
-#include "metric_label.hpp"
 #include "study_figures.hpp"
 
 namespace fathom {

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "latex_text.hpp"
-#include "metric_label.hpp"
 
 namespace fathom {
 namespace {
@@ -58,7 +57,8 @@ std::string cell_table(const CellResults& cell, const StudyResults& results) {
     }
   }
   std::vector<std::string> header{"estimator", "done"};
-  for (const auto& metric : metrics) header.push_back(latex_text(metric_label(metric).with_unit()));
+  for (const auto& metric : metrics)
+    header.push_back(latex_text(described(metric).label_with_unit()));
   std::vector<std::vector<std::string>> rows;
   for (const EstimatorResults& one : cell.estimators) {
     rows.push_back({latex_text(display_name(one.name)), counts_text(one)});
@@ -123,7 +123,7 @@ std::string metric_table(const std::string& metric, std::size_t number,
     }
   }
   const std::string caption =
-      title_of(results.study) + latex_text(metric_label(metric).with_unit()) + ": " +
+      title_of(results.study) + latex_text(described(metric).label_with_unit()) + ": " +
       joint_caption(results) + "." + kMeaning +
       (fails ? " In parentheses how many of the trials were done, where not all." : "");
   return table_of(caption, "tab:fathom-metric-" + std::to_string(number), header, rows);

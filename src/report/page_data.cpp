@@ -8,7 +8,6 @@
 #include "example_trial.hpp"
 #include "fathom/evaluation/consistency.hpp"
 #include "fathom/evaluation/metrics.hpp"
-#include "metric_label.hpp"
 #include "page_numbers.hpp"
 #include "study_styles.hpp"
 
@@ -145,6 +144,18 @@ Json study_json(const StudyDescription& study) {
   return json;
 }
 
+const char* better_text(Better better) {
+  switch (better) {
+    case Better::lower:
+      return "lower";
+    case Better::higher:
+      return "higher";
+    case Better::neither:
+      break;
+  }
+  return "neither";
+}
+
 // As JSON where it is JSON, else as the text that it is.
 Json manifest_of(const std::string& text) {
   const Json parsed = Json::parse(text, nullptr, false);
@@ -171,8 +182,10 @@ Json page_data(const ResultStore& store, const StudyResults& results,
   Json json = study_json(study);
   json["metrics"] = Json::object();
   for (const std::string& name : results.metrics) {
-    const MetricLabel label = metric_label(name);
-    json["metrics"][name] = {{"label", label.with_unit()}, {"cost", is_cost_metric(name)}};
+    const Metric metric = described(name);
+    json["metrics"][name] = {{"label", metric.label_with_unit()},
+                             {"cost", metric.is_cost},
+                             {"better", better_text(metric.better)}};
   }
   json["cells"] = Json::array();
   for (std::size_t i = 0; i < results.cells.size(); ++i) {

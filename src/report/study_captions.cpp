@@ -1,4 +1,3 @@
-#include "metric_label.hpp"
 #include "study_results.hpp"
 
 namespace fathom {
@@ -13,6 +12,14 @@ std::string worded(std::string name) {
 
 std::string display_name(const std::string& estimator) {
   return estimator == kDeadReckoning ? "dead reckoning" : estimator;
+}
+
+Metric described(const std::string& metric) {
+  if (auto known = find_metric(metric)) return *std::move(known);
+  Metric unknown;
+  unknown.name = metric;
+  unknown.label = worded(metric);
+  return unknown;
 }
 
 std::string outcome_text(const EstimatorResults& estimator, std::size_t trials_wanted) {

@@ -5,7 +5,6 @@
 
 #include "fathom/evaluation/metrics.hpp"
 #include "file_names.hpp"
-#include "metric_label.hpp"
 #include "text_layout.hpp"
 
 namespace fathom {
@@ -53,8 +52,8 @@ void FigureLayout::draw_footer(Canvas& canvas) const {
 }
 
 AxisTitle axis_title(const std::string& metric) {
-  const MetricLabel label = metric_label(metric);
-  return {label.text, label.unit};
+  const Metric described_metric = described(metric);
+  return {described_metric.label, described_metric.unit};
 }
 
 std::optional<std::string> first_metric(const StudyResults& results, bool cost) {

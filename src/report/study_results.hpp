@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "fathom/evaluation/metrics.hpp"
 #include "fathom/evaluation/paired.hpp"
 #include "fathom/evaluation/statistics.hpp"
 #include "fathom/results/result_store.hpp"
@@ -55,6 +56,10 @@ struct StudyResults {
   std::vector<CellResults> cells;    ///< those with runs
   std::vector<std::string> metrics;  ///< all that occur: the study's in its order, then by name
 };
+
+/// A metric as the catalogue has it. One that it does not know, of a store of another version, has
+/// its name for a label.
+Metric described(const std::string& metric);
 
 /// Whether the estimate of a run can be used; dead reckoning has no outcome and always can.
 bool is_done(const RunRecord& run);

@@ -3,7 +3,6 @@
 
 #include "fathom/report/study_report.hpp"
 #include "fathom/report/table.hpp"
-#include "metric_label.hpp"
 #include "study_results.hpp"
 
 namespace fathom {
@@ -83,7 +82,7 @@ std::string estimator_table(const CellResults& cell, const StudyDescription& stu
     }
   }
   std::vector<std::string> header{"estimator", "outcome"};
-  for (const std::string& metric : metrics) header.push_back(metric_label(metric).with_unit());
+  for (const std::string& metric : metrics) header.push_back(described(metric).label_with_unit());
   Rows rows;
   for (const EstimatorResults& one : cell.estimators) {
     const bool baseline = one.name == kDeadReckoning;
@@ -98,7 +97,8 @@ std::string paired_table(const CellResults& cell, const StudyDescription& study)
   for (const PairedResult& one : cell.paired) {
     if (one.difference.count < 2) continue;
     rows.push_back(
-        {one.estimator, metric_label(one.metric).with_unit(), std::to_string(one.difference.count),
+        {one.estimator, described(one.metric).label_with_unit(),
+         std::to_string(one.difference.count),
          format_number(one.difference.mean, kDigits) + interval_text(one.difference.interval),
          format_number(one.difference.signed_rank.p_value, kDigits),
          format_number(one.holm_p, kDigits)});

@@ -111,6 +111,17 @@ TEST(ReportPage, EveryEstimatorHasTheLineOfItsPlace) {
   EXPECT_EQ(data["manifests"][0], "no JSON");
 }
 
+TEST(ReportPage, MetricsSayWhatIsBetter) {
+  const TemporaryFolder folder;
+  write_fixture(folder.path());
+  const Json metrics = data_of(page_of(ResultStore::open(folder.path())))["metrics"];
+  EXPECT_EQ(metrics["mean_position_error_m"],
+            (Json{{"label", "mean position error (m)"}, {"cost", false}, {"better", "lower"}}));
+  EXPECT_EQ(metrics["total_ms"],
+            (Json{{"label", "total time (ms)"}, {"cost", true}, {"better", "lower"}}));
+  EXPECT_EQ(metrics["anees"], (Json{{"label", "ANEES"}, {"cost", false}, {"better", "neither"}}));
+}
+
 TEST(ReportPage, EveryCellHasItsAlignment) {
   const TemporaryFolder folder;
   FixtureOptions options;

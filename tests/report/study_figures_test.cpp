@@ -140,6 +140,28 @@ TEST(StudyFigures, SayTheAlignmentOfTheirCell) {
   EXPECT_EQ(found, 3u);
 }
 
+bool has_front(const FigureInput& input) {
+  for (const StudyFigure& figure : study_figures(input)) {
+    if (figure.name != "accuracy_against_cost") continue;
+    for (const PlacedText& text : texts_of({kFigureWidth, figure.height}, figure.draw)) {
+      if (text.text == "Pareto front") return true;
+    }
+  }
+  return false;
+}
+
+// ANEES is best at 1.
+TEST(StudyFigures, AMetricWithoutABetterDirectionHasNoFront) {
+  const TemporaryFolder folder;
+  write_fixture(folder / "study", one_cell());
+  const ResultStore store = ResultStore::open(folder / "study");
+  StudyResults results = study_results(store);
+  const auto series = study_series(store, results);
+  EXPECT_TRUE(has_front({store, results, series}));
+  results.study.metrics = {"anees", "total_ms"};
+  EXPECT_FALSE(has_front({store, results, series}));
+}
+
 TEST(StudyFigures, OldOnesGoWithANewReport) {
   const TemporaryFolder folder;
   write_report(folder, one_cell());

@@ -39,8 +39,12 @@ const charts = [
     choices: () => [
       {label: 'accuracy', key: 'accuracy', values: metricChoices(false).map((name) => [name, metricLabel(name)])},
       {label: 'cost', key: 'cost', values: metricChoices(true).map((name) => [name, metricLabel(name)])}],
-    caption: (cell) => `${conditions(cell)}. Means with 95 % intervals. Ringed, on the dashed line: no other is ` +
-      `both better and cheaper (lower counts as better). Grey line: dead reckoning. ${jobsNote(cell)}`},
+    caption: (cell) => {
+      const {better} = study.metrics[state.accuracy];
+      const front = better === 'neither' ? 'No value of this metric is the better one, so none is ringed.'
+        : `Ringed, on the dashed line: no other is both better (${better}) and cheaper.`;
+      return `${conditions(cell)}. Means with 95 % intervals. ${front} Grey line: dead reckoning. ${jobsNote(cell)}`;
+    }},
   {id: 'outcomes', title: 'Outcomes', wide: true, plots: outcomePlots,
     exists: (cell) => cell.estimators.some((one) => Object.keys(one.outcomes).length > 0),
     caption: (cell) => `${conditions(cell)}. ` +

@@ -131,11 +131,13 @@ function paretoRows(cell) {
         tooltip: `${labelOf(one.name)}: ${withInterval(error)}, at no cost`});
     }
   }
-  // Lower is better on both axes.
+  // The cheaper the better, and the metric says which of its values is; of some neither.
+  const {better} = study.metrics[state.accuracy];
+  const sign = better === 'higher' ? -1 : 1;
   const front = [];
   const shown = rows.filter((row) => !state.hidden.has(row.estimator));
-  for (const row of shown.sort((a, b) => a.cost - b.cost || a.mean - b.mean)) {
-    row.front = front.length === 0 || row.mean < front[front.length - 1].mean;
+  for (const row of shown.sort((a, b) => a.cost - b.cost || sign * (a.mean - b.mean))) {
+    row.front = better !== 'neither' && (front.length === 0 || sign * row.mean < sign * front[front.length - 1].mean);
     if (row.front) front.push(row);
   }
   return {rows, front, baseline};
