@@ -59,10 +59,17 @@ void write_pictures(const std::filesystem::path& folder, const MatchPicture& mat
   write_file(folder / "overlay.png", encode_png(render_overlay(a, b, registration.motion)));
 }
 
+// Of a study its first cell.
+Configuration configuration_of(const Settings& settings) {
+  const EstimatorRegistry& registry = builtin_estimators();
+  const ConfigurationKind kind = kind_of(settings);
+  return kind == ConfigurationKind::comparison ? configure_study(settings, registry).cells.front()
+                                               : configure(settings, kind, registry);
+}
+
 void register_pictures(const RegisterFlags& flags, Context& context) {
   const Settings settings = flags.common.settings(flags.config);
-  const Configuration configuration =
-      configure(without_sweep(settings), kind_of(settings), builtin_estimators());
+  const Configuration configuration = configuration_of(settings);
   const Camera camera = Pictures(configuration).source().camera();
   const cv::Mat a = picture_for(camera, flags.a);
   const cv::Mat b = picture_for(camera, flags.b);

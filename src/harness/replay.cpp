@@ -61,8 +61,10 @@ void give_keyframes(const MeasurementLog& log, Estimator& estimator, const Repla
       const CallTimer update_timer(result);
       const UpdateReport report = estimator.close_loops(arrival.registrations);
       const double update_ms = update_timer.stop();
-      // In batch mode nothing is solved here; only what became of the registrations counts.
+      // In batch mode nothing is solved here: what became of the registrations counts, and whether
+      // they could be taken.
       if (batch) {
+        if (!is_done(report.outcome)) result.outcome = worse(result.outcome, report.outcome);
         result.loops.insert(result.loops.end(), report.loops.begin(), report.loops.end());
       } else {
         note(report, update_ms, result);

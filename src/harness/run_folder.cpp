@@ -84,19 +84,19 @@ Settings data_settings_of_run(const std::filesystem::path& folder) {
   if (!json.is_object() || configuration == json.end() || !configuration->is_object()) {
     throw InputError(file, "has no configuration; expected the run.json of a run");
   }
+  // `solve` writes the path of its graph and no data set.
   const auto type = configuration->find("dataset.type");
-  if (type == configuration->end() || !type->is_string()) {
-    throw InputError(file, "has no dataset.type; expected the run.json of a run");
-  }
-  const DataSetEntry& data_set = find_data_set(type->get<std::string>());
-  if (data_set.is_graph) {
+  const DataSetEntry* data_set = type == configuration->end() || !type->is_string()
+                                     ? nullptr
+                                     : &find_data_set(type->get<std::string>());
+  if (data_set == nullptr || data_set->is_graph) {
     throw InputError(file, "the run was over a pose graph, which has no pictures");
   }
   Settings settings;
   for (const auto& [key, value] : configuration->items()) {
     if (key != "seed" && !key.starts_with("dataset.")) continue;
     if (!value.is_string()) throw InputError(file, key + ": expected a text");
-    settings.put(setting_of(key, value.get<std::string>(), data_set, file));
+    settings.put(setting_of(key, value.get<std::string>(), *data_set, file));
   }
   return settings;
 }

@@ -104,23 +104,13 @@ std::vector<std::string> all_metrics(const StudyDescription& study,
   return names;
 }
 
-// That of the study unless a sweep runs over it.
-std::string alignment_of(const StudyDescription& study, std::size_t cell) {
-  for (std::size_t i = 0; i < study.axes.size(); ++i) {
-    if (study.axes[i].key == "evaluation.alignment") {
-      return study.axes[i].labels[study.places_of(cell)[i]];
-    }
-  }
-  return study.alignment;
-}
-
 CellResults& cell_of(StudyResults& results, std::size_t cell) {
   if (results.cells.empty() || results.cells.back().cell != cell) {
     CellResults next;
     next.cell = cell;
     next.label = results.study.label_of(cell);
     next.association = results.study.association_of(cell);
-    next.alignment = alignment_of(results.study, cell);
+    next.alignment = results.study.alignment_of(cell);
     results.cells.push_back(std::move(next));
   }
   return results.cells.back();

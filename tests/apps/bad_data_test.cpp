@@ -72,7 +72,9 @@ class BadFolder : public BadData {
 TEST_F(BadFolder, TheSoundOneRuns) {
   const FolderFixture fixture;
   fs::copy(fixture.write(), path("data"), fs::copy_options::recursive);
-  write("c.yaml", "dataset: {type: image_folder, path: data}\n");
+  write("c.yaml",
+        "dataset: {type: image_folder, path: data}\n"
+        "front_end: {keyframes: {separation_frames: 1}}\n");
   const Ended ended = fathom_done({"run", "c.yaml", "--out", "out"});
   EXPECT_THAT(ended.out, HasSubstr("3 frames"));
   EXPECT_EQ(json_of("out/metrics.json").at("outcome"), "converged");

@@ -118,7 +118,7 @@ TEST_F(MosaicCommand, Refuses) {
       {{"out", "--trajectory", "empty.tum"}, "empty.tum: no pose is within 0.01"},
       {{"out", "--trajectory", "nan.tum"}, "nan.tum:1"},
       {{"out", "--trajectory", "far.tum"}, "specks"},
-      {{"out", "--resolution", "0"}, "above zero"},
+      {{"out", "--resolution", "0"}, "--resolution: expected a number > 0"},
       {{"out", "--resolution", "5"}, "too coarse"},
       {{"out", "--set", "estimator.type=ekf"}, "estimator.type: a mosaic depends on dataset"},
       {{"out", "--set", "dataset.nonsense=1"}, "unknown key 'dataset.nonsense'"}};

@@ -68,7 +68,7 @@ const std::vector<ThirdParty>& third_parties() {
       {"malloc.h", {"apps/memory_meter.cpp"}},
       {"signal.h", {"src/core/files.cpp"}},
       {"fcntl.h", {"src/core/file_lock.cpp"}},
-      {"sys/mman.h", {"estimators/support/filter/growing_memory.cpp"}},
+      {"sys/mman.h", {"estimators/support/filter/growing_memory.cpp", "src/core/blas_memory.cpp"}},
       {"sys/file.h", {"src/core/file_lock.cpp"}},
       {"unistd.h", {"src/core/files.cpp", "src/core/file_lock.cpp", "apps/common.cpp"}}};
   return list;

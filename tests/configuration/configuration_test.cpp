@@ -119,11 +119,13 @@ TEST(Configure, TunedNumbersOfTheRegistrationAreKeys) {
   EXPECT_EQ(changed.front_end.registration.tuning.covariance.shared_error, 0.05);
   EXPECT_EQ(in_force(changed, key), "0.05");
   const std::string gate = "registration_tuning: {fit: {gate: 9}}";
-  EXPECT_THAT(refusal("front_end: {decision: {method: inliers}, " + gate + "}\n"),
-              HasSubstr("registration_tuning.fit.gate: decision.method inliers has no use for it"));
+  EXPECT_THAT(
+      refusal("front_end: {decision: {method: inliers}, " + gate + "}\n"),
+      HasSubstr(
+          "registration_tuning.fit.gate: front_end.decision.method inliers has no use for it"));
   const std::string window = "registration_tuning: {features: {window_px: 9}}";
   EXPECT_THAT(refusal("front_end: {features: {flatten: false}, " + window + "}\n"),
-              HasSubstr("window_px: features.flatten false has no use for it"));
+              HasSubstr("window_px: front_end.features.flatten false has no use for it"));
 }
 
 TEST(Configure, WhatIsInForceReadsBack) {

@@ -3,8 +3,10 @@
 # SANITIZE of the build.
 cmake_minimum_required(VERSION 3.25)
 
+cmake_path(GET FOLDER PARENT_PATH parent)
+
 function(step)
-  execute_process(COMMAND ${ARGN} WORKING_DIRECTORY ${FOLDER}/.. RESULT_VARIABLE status
+  execute_process(COMMAND ${ARGN} WORKING_DIRECTORY ${parent} RESULT_VARIABLE status
                   OUTPUT_VARIABLE output ERROR_VARIABLE errors)
   if(NOT status EQUAL 0)
     string(JOIN " " line ${ARGN})

@@ -83,7 +83,7 @@ TEST(Replay, OneKeyframeAloneIsALog) {
 
 TEST(Replay, ABatchIsOneUpdate) {
   Script script;
-  script.updates.assign(3, {Outcome::diverged, 100, {}});  // nothing is solved there
+  script.updates.assign(3, {Outcome::iteration_limit, 100, {}});  // nothing is solved there
   script.finish = {Outcome::iteration_limit, 9, {}};
   script.rejected = {{2, 5}};
   const std::vector<Pose> start = test::square_truth();
@@ -99,6 +99,15 @@ TEST(Replay, ABatchIsOneUpdate) {
   EXPECT_EQ(result.iterations, 9);
   ASSERT_EQ(result.loops.size(), 4u);
   EXPECT_EQ(result.loops[2].fate, LoopFate::rejected);
+}
+
+// A batch without a measurement that it could not take is no solution of the log.
+TEST(Replay, ABatchThatCannotTakeItsMeasurementsFails) {
+  Script script;
+  script.updates = {{Outcome::numerical_failure, 0, {}}};
+  ReplayOptions options;
+  options.mode = SolveMode::batch;
+  EXPECT_EQ(replayed(script, options).outcome, Outcome::numerical_failure);
 }
 
 TEST(Replay, CovariancesAreOfAllKeyframesOrAbsent) {

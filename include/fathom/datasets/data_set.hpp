@@ -71,7 +71,7 @@ struct DataSetEntry {
   std::string help;             ///< one line
   bool is_graph = false;        ///< a pose graph, without pictures
   bool makes_pictures = false;  ///< rather than reading them: `fathom simulate` writes them out
-  std::vector<OptionDescription> options;  ///< keys under `dataset.`
+  std::vector<OptionDescription> options;  ///< keys below `dataset`
   /// Of them those that only say what a trial measures: the pictures do not depend on them.
   std::vector<OptionDescription> trial_options;
   std::function<std::unique_ptr<DataSetOptions>()> make_options;
