@@ -8,23 +8,22 @@
 #include <memory>
 #include <optional>
 #include <set>
-#include <utility>
 
 #include <opencv2/core/utility.hpp>
 
 #include "apps/command.hpp"
 #include "apps/common.hpp"
 #include "apps/memory_meter.hpp"
-#include "apps/mosaics.hpp"
-#include "apps/pictures.hpp"
+#include "apps/study_example.hpp"
+#include "apps/study_progress.hpp"
 #include "fathom/core/files.hpp"
 #include "fathom/estimators/builtin.hpp"
 #include "fathom/front_end/registration_store.hpp"
 #include "fathom/harness/manifest.hpp"
-#include "fathom/harness/run_folder.hpp"
 #include "fathom/harness/study_run.hpp"
 #include "fathom/report/study_report.hpp"
 #include "fathom/results/run_index.hpp"
+#include "fathom/results/store_folder.hpp"
 
 namespace fathom {
 namespace {
@@ -56,49 +55,6 @@ struct CompareFlags {
   }
 };
 
-// On the terminal one line that changes; elsewhere a line now and then.
-class StudyProgressLine {
- public:
-  explicit StudyProgressLine(bool quiet) : quiet_(quiet), is_terminal_(is_error_terminal()) {}
-  ~StudyProgressLine() {
-    if (shown_ && is_terminal_) std::fprintf(stderr, "\r\033[K");
-  }
-  StudyProgressLine(const StudyProgressLine&) = delete;
-  StudyProgressLine& operator=(const StudyProgressLine&) = delete;
-
-  void show(const StudyProgress& progress) {
-    const auto now = Clock::now();
-    if (!first_) first_ = {now, progress.done};
-    const double since_s = std::chrono::duration<double>(now - last_).count();
-    if (quiet_ || since_s < (is_terminal_ ? 0.2 : 30.0)) return;
-    last_ = now;
-    shown_ = true;
-    std::fprintf(stderr, "%s%zu of %zu runs%s, %zu failed%s", is_terminal_ ? "\r\033[K" : "",
-                 progress.done, progress.of, pace(progress, now).c_str(), progress.failed,
-                 is_terminal_ ? "" : "\n");
-  }
-
- private:
-  using Clock = std::chrono::steady_clock;
-
-  // From the second run on: the first one waits for most of the registrations.
-  std::string pace(const StudyProgress& progress, Clock::time_point now) {
-    const double elapsed_s = std::chrono::duration<double>(now - first_->first).count();
-    if (progress.done == first_->second || elapsed_s <= 0.0) return "";
-    const double rate = static_cast<double>(progress.done - first_->second) / elapsed_s;
-    const double left_s = static_cast<double>(progress.of - progress.done) / rate;
-    char text[64];
-    std::snprintf(text, sizeof text, ", %.1f runs/s, %.0f s left", rate, left_s);
-    return text;
-  }
-
-  bool quiet_;
-  bool is_terminal_;
-  bool shown_ = false;
-  std::optional<std::pair<Clock::time_point, std::size_t>> first_;
-  Clock::time_point last_ = Clock::now();
-};
-
 std::unique_ptr<RegistrationStore> open_cache(const CompareFlags& flags) {
   if (flags.no_cache) return nullptr;
   auto cache = std::make_unique<RegistrationStore>(flags.cache.empty() ? default_cache_folder()
@@ -107,83 +63,6 @@ std::unique_ptr<RegistrationStore> open_cache(const CompareFlags& flags) {
     std::fprintf(stderr, "fathom: note: no registration cache: %s\n", cache->problem().c_str());
   }
   return cache;
-}
-
-/// The store of a study. Where nothing was stored, nothing is left behind.
-class StoreFolder {
- public:
-  StoreFolder(const fs::path& folder, const Study& study, const std::string& manifest)
-      : folder_(folder),
-        is_new_folder_(!fs::exists(folder)),
-        is_new_(!fs::exists(folder / "results.sqlite")),
-        store_(ResultStore::write(folder, study.description, manifest)) {}
-  ~StoreFolder() {
-    if (!store_) return;
-    const bool remove = is_new_ && is_empty();
-    store_.reset();
-    if (!remove) return;
-    std::error_code ignored;
-    for (const char* ending : {"", "-wal", "-shm"}) {
-      fs::remove(folder_ / (std::string("results.sqlite") + ending), ignored);
-    }
-    if (is_new_folder_) fs::remove(folder_, ignored);
-  }
-  StoreFolder(const StoreFolder&) = delete;
-  StoreFolder& operator=(const StoreFolder&) = delete;
-
-  ResultStore& store() { return *store_; }
-
- private:
-  bool is_empty() const {
-    try {
-      return store_->runs().empty();
-    } catch (const InputError&) {
-      return false;
-    }
-  }
-
-  fs::path folder_;
-  bool is_new_folder_;
-  bool is_new_;
-  std::optional<ResultStore> store_;
-};
-
-// The folders of one trial, as `run` writes them: trial 0 of the first cell.
-void write_example(const fs::path& out, const Study& study, Recorder& recorder, Context& context,
-                   const std::string& title, const CompareFlags& flags) {
-  const Configuration& configuration = study.cells.front();
-  const bool is_own = configuration.study.association == Association::own;
-  StagedFolder folder(out);
-  std::vector<Result> results;
-  std::vector<RunMosaic> mosaics;
-  std::optional<Recording> recording;
-  for (std::size_t e = 0; e < configuration.estimators.size(); ++e) {
-    const EstimatorConfiguration& estimator = configuration.estimators[e];
-    if (is_own || !recording) {
-      recording = recorder.record(configuration, is_own ? e : configuration.reference,
-                                  builtin_estimators(), {study.noise_seeds.front(), 0});
-    }
-    const auto meter = make_memory_meter();
-    ReplayOptions options;
-    options.memory = meter.get();
-    results.push_back(evaluate(*recording, estimator, builtin_estimators(),
-                               {.metrics = metric_options(configuration)}, options));
-    const fs::path own = folder.path() / estimator.name;
-    fs::create_directory(own);
-    write_run(own, *recording, results.back(),
-              manifest_json(context.command_line, configuration.in_force, study.description.data,
-                            *recording, results.back(), builtin_estimators()));
-    write_trajectory_picture(own / "trajectory.png", title + ", " + estimator.name, *recording,
-                             {results.back()}, e);
-    mosaics.push_back({own, placed_pictures(*recording, results.back().replay.trajectory)});
-  }
-  if (recorder.pictures() != nullptr && !flags.no_mosaic) {
-    write_mosaics(*recorder.pictures(), mosaics, flags.common.quiet);
-  }
-  write_trajectory_picture(folder.path() / "trajectories.png", title, *recording, results);
-  write_file(folder.path() / "metrics.json", comparison_json(results, *recording));
-  if (!is_own) write_recording(folder.path(), *recording);
-  folder.commit(optional_run_files());
 }
 
 // Said before anything is computed.
@@ -207,6 +86,17 @@ int status_of(const ResultStore& store) {
   return usable.size() == store.study().estimators.size() ? kDone : kFailed;
 }
 
+StudyRun run(const Study& study, ResultStore& store, StudyRunOptions options, bool quiet) {
+  std::signal(SIGINT, ask_to_stop);
+  std::signal(SIGTERM, ask_to_stop);
+  StudyProgressLine line(quiet);
+  options.progress = [&line](const StudyProgress& progress) { line.show(progress); };
+  StudyRun done = run_study(study, builtin_estimators(), store, options);
+  std::signal(SIGINT, SIG_DFL);
+  std::signal(SIGTERM, SIG_DFL);
+  return done;
+}
+
 void compare(const CompareFlags& flags, Context& context) {
   Study study = configure_study(flags.settings(), builtin_estimators());
   const fs::path out = flags.common.folder_or(stem_of(flags.config));
@@ -214,11 +104,11 @@ void compare(const CompareFlags& flags, Context& context) {
   const std::unique_ptr<RegistrationStore> cache = open_cache(flags);
   // A data set that cannot be opened is refused before anything is written.
   study.description.data = data_of(study);
-  Recorder example(study.cells.front(), cache.get());
+  const Recorder data_set(study.cells.front(), cache.get());
   const int jobs = jobs_of(study);
   // The threads there are for all jobs together; no result depends on them.
   cv::setNumThreads(std::max(1, cv::getNumThreads() / jobs));
-  StoreFolder folder(out, study, session_json(context.command_line, jobs));
+  StoreFolder folder(out, study.description, session_json(context.command_line, jobs));
   ResultStore& store = folder.store();
 
   StudyRunOptions options;
@@ -227,17 +117,8 @@ void compare(const CompareFlags& flags, Context& context) {
   options.make_meter = make_memory_meter;
   options.on_thread_start = pin_threads;
   options.stop = &stop_asked;
-  std::signal(SIGINT, ask_to_stop);
-  std::signal(SIGTERM, ask_to_stop);
-  bool is_finished = false;
-  {
-    StudyProgressLine line(flags.common.quiet);
-    options.progress = [&line](const StudyProgress& progress) { line.show(progress); };
-    is_finished = run_study(study, builtin_estimators(), store, options);
-  }
-  std::signal(SIGINT, SIG_DFL);
-  std::signal(SIGTERM, SIG_DFL);
-  if (!is_finished) {
+  const StudyRun done = run(study, store, options, flags.common.quiet);
+  if (!done.is_finished) {
     std::fprintf(stderr,
                  "fathom: stopped; %zu runs are in %s. The same command goes on from there.\n",
                  store.runs().size(), (out / "results.sqlite").c_str());
@@ -247,7 +128,8 @@ void compare(const CompareFlags& flags, Context& context) {
   store.finish();
   const std::string title =
       study.description.title.empty() ? stem_of(flags.config) : study.description.title;
-  write_example(out, study, example, context, title, flags);
+  write_example(out, study, done.example, title, flags.no_mosaic ? nullptr : data_set.pictures(),
+                flags.common.quiet, context);
   write_study_report(store, out);
   const std::string table = study_table(store);
   write_file(out / "table.txt", table);

@@ -6,6 +6,7 @@
 
 #include "apps/command.hpp"
 #include "apps/common.hpp"
+#include "fathom/configuration/config_text.hpp"
 #include "fathom/configuration/study.hpp"
 #include "fathom/core/files.hpp"
 #include "fathom/datasets/image_folder.hpp"
@@ -20,34 +21,30 @@ struct SimulateFlags {
   std::string config;
 };
 
-// Text that YAML takes as it is.
-std::string in_yaml_quotes(const std::string& text) {
-  std::string quoted = "'";
-  for (const char letter : text)
-    quoted += letter == '\'' ? std::string("''") : std::string(1, letter);
-  return quoted + "'";
+std::string text_of(const OptionValue& value) {
+  if (!value.is_list) return value.items.front();
+  std::string items;
+  for (const std::string& item : value.items) items += (items.empty() ? "" : ", ") + item;
+  return '[' + items + ']';
 }
 
 // A configuration that runs the folder as the simulation would have been: same front end and seed.
 std::string folder_configuration(const Configuration& configuration, const std::string& folder) {
-  std::string text = "# The survey in this folder, with the front end it was simulated with.\n";
-  const auto add = [&text](const std::string& key, const std::string& value) {
-    text += key + ": " + value + "\n";
-  };
-  add("dataset.type", "image_folder");
-  add("dataset.path", in_yaml_quotes(folder));
+  std::vector<ConfigLine> lines{{"dataset.type", "image_folder", false, ""},
+                                {"dataset.path", folder, false, ""}};
   for (const auto& [key, value] : configuration.in_force) {
     if (key == "seed" || key == "evaluation.alignment" || key.starts_with("front_end.")) {
-      add(key, value);
+      lines.push_back({key, value, value.starts_with('['), ""});
     }
   }
   // Of a comparison, the one that picks the loop candidates.
   const EstimatorConfiguration& estimator = configuration.estimators[configuration.reference];
-  add("estimator.type", estimator.type);
+  lines.push_back({"estimator.type", estimator.type, false, ""});
   for (const auto& [key, value] : estimator.values) {
-    add("estimator." + key, value.items.front());
+    lines.push_back({"estimator." + key, text_of(value), value.is_list, ""});
   }
-  return text;
+  return "# The survey in this folder, with the front end it was simulated with.\n" +
+         config_text(lines);
 }
 
 void simulate(const SimulateFlags& flags, Context& context) {

@@ -13,6 +13,7 @@ function(fathom_module name)
   target_compile_features(fathom_${name} PUBLIC cxx_std_20)
   set_target_properties(fathom_${name} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
   fathom_own_target(fathom_${name})
+  fathom_reuse_precompiled(fathom_${name} fathom_headers)
   set_property(GLOBAL APPEND PROPERTY FATHOM_MODULES fathom_${name})
 endfunction()
 
@@ -21,9 +22,14 @@ function(fathom_own_target target)
   target_compile_options(${target} PRIVATE
     -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -Wcast-qual
     -Wformat=2 -Wimplicit-fallthrough)
-  # g++ 12 warns of its own std::string operator+ when it is inlined (GCC bug 105651).
+  # g++ 12 warns of its own std::string operator+ when it is inlined (GCC bugs 105651 and 105329);
+  # of more of it with precompiled headers.
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
     target_compile_options(${target} PRIVATE -Wno-restrict)
+    if(FATHOM_PRECOMPILED_HEADERS)
+      target_compile_options(${target} PRIVATE
+        -Wno-stringop-overflow -Wno-stringop-overread -Wno-array-bounds)
+    endif()
   endif()
   if(FATHOM_WARNINGS_AS_ERRORS)
     target_compile_options(${target} PRIVATE -Werror)

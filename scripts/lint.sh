@@ -10,7 +10,7 @@ cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/.."
 scripts/setup.sh lint
 scripts/format.sh --check
 cmake -G Ninja -S . -B build/lint -DCMAKE_CXX_COMPILER=clang++ \
-  -DFATHOM_TESTS=OFF -DFATHOM_BENCHMARKS=OFF > /dev/null
+  -DFATHOM_TESTS=OFF -DFATHOM_BENCHMARKS=OFF -DFATHOM_PRECOMPILED_HEADERS=OFF > /dev/null
 
 sources=("$@")
 [[ ${#sources[@]} -gt 0 ]] || mapfile -t sources < <(find src estimators apps -name '*.cpp' | sort)

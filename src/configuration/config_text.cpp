@@ -1,20 +1,42 @@
 #include "fathom/configuration/config_text.hpp"
 
-#include <algorithm>
-#include <cstdio>
+#include <utility>
+
+#include <yaml-cpp/yaml.h>
 
 namespace fathom {
 namespace {
 
-constexpr std::size_t kWidth = 100;
+// A map's entries in the order in which their keys are first seen.
+struct Node {
+  const ConfigLine* line = nullptr;  ///< of a value; else this is a map
+  std::vector<std::pair<std::string, Node>> entries;
 
-bool is_plain(const std::string& word) {
-  constexpr const char* kPlain =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_./+-";
-  for (const char* const special : {"null", "Null", "NULL", "-", "---"}) {
-    if (word == special) return false;
+  Node& operator[](const std::string& key) {
+    for (auto& [name, node] : entries) {
+      if (name == key) return node;
+    }
+    return entries.emplace_back(key, Node{}).second;
   }
-  return !word.empty() && word.find_first_not_of(kPlain) == std::string::npos;
+};
+
+constexpr int kBraces = 2;  ///< the depth from which on maps stand on one line
+
+Node tree_of(const std::vector<ConfigLine>& lines) {
+  Node root;
+  for (const ConfigLine& line : lines) {
+    Node* node = &root;
+    std::size_t begin = 0;
+    for (int depth = 0; begin != std::string::npos; ++depth) {
+      // A comment needs a line of its own.
+      const bool is_last = depth + 1 == kBraces && !line.comment.empty();
+      const std::size_t dot = is_last ? std::string::npos : line.key.find('.', begin);
+      node = &(*node)[line.key.substr(begin, dot - begin)];
+      begin = dot == std::string::npos ? dot : dot + 1;
+    }
+    node->line = &line;
+  }
+  return root;
 }
 
 std::string one_line(std::string text) {
@@ -24,106 +46,34 @@ std::string one_line(std::string text) {
   return text;
 }
 
-std::string part_of(const std::string& key) {
-  return key.substr(0, key.find('.'));
-}
-
-// "{a: 1, b: 2}", broken before the line is too long.
-std::string braced(const std::string& opening, const std::vector<ConfigLine>& lines) {
-  std::string text = opening + "{";
-  std::size_t start = 0;
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    const std::string item = lines[i].key + ": " + lines[i].value;
-    if (i > 0) {
-      text += ",";
-      if (text.size() - start + item.size() + 2 > kWidth) {
-        text += "\n";
-        start = text.size();
-        text += std::string(opening.size(), ' ');
-      }
-      text += " ";
-    }
-    text += item;
+void emit_value(YAML::Emitter& out, const ConfigLine& line) {
+  if (!line.is_list) {
+    out << line.value;
+  } else {
+    out << YAML::Flow << YAML::BeginSeq;
+    for (const YAML::Node& item : YAML::Load(line.value)) out << item.as<std::string>();
+    out << YAML::EndSeq;
   }
-  return text + "}\n";
+  if (!line.comment.empty()) out << YAML::Comment(one_line(line.comment));
 }
 
-// The lines whose keys go on after `part`, without it.
-std::vector<ConfigLine> below(const std::vector<ConfigLine>& lines, const std::string& part) {
-  std::vector<ConfigLine> own;
-  for (const ConfigLine& line : lines) {
-    if (!line.key.starts_with(part + ".")) continue;
-    own.push_back({line.key.substr(part.size() + 1), line.value, line.comment});
+void emit(YAML::Emitter& out, const Node& node, int depth) {
+  if (node.line != nullptr) return emit_value(out, *node.line);
+  if (depth >= kBraces) out << YAML::Flow;
+  out << YAML::BeginMap;
+  for (const auto& [key, entry] : node.entries) {
+    out << YAML::Key << key << YAML::Value;
+    emit(out, entry, depth + 1);
   }
-  return own;
-}
-
-std::string single_line(const std::string& indent, const ConfigLine& line) {
-  if (line.value.empty()) return indent + "# " + one_line(line.key + ": " + line.comment) + "\n";
-  return indent + line.key + ": " + line.value +
-         (line.comment.empty() ? "" : "  # " + one_line(line.comment)) + "\n";
-}
-
-bool stands_alone(const ConfigLine& line) {
-  return !line.comment.empty() || line.key.find('.') == std::string::npos;
-}
-
-std::string section(const std::vector<ConfigLine>& lines) {
-  std::string text;
-  std::string braced_parts = "\n";
-  for (const ConfigLine& line : lines) {
-    if (stands_alone(line)) {
-      text += single_line("  ", line);
-      continue;
-    }
-    const std::string part = part_of(line.key);
-    if (braced_parts.find("\n" + part + "\n") != std::string::npos) continue;
-    braced_parts += part + "\n";
-    std::vector<ConfigLine> together;
-    for (const ConfigLine& other : lines) {
-      if (!stands_alone(other)) together.push_back(other);
-    }
-    text += braced("  " + part + ": ", below(together, part));
-  }
-  return text;
+  out << YAML::EndMap;
 }
 
 }  // namespace
 
-std::string yaml_value(const std::string& value, bool is_list) {
-  if (is_list || is_plain(value)) return value;
-  std::string quoted = "\"";
-  for (const char letter : value) {
-    const auto byte = static_cast<unsigned char>(letter);
-    if (byte < 0x20) {
-      char escape[8];
-      std::snprintf(escape, sizeof escape, "\\x%02x", byte);
-      quoted += escape;
-    } else {
-      if (letter == '"' || letter == '\\') quoted += '\\';
-      quoted += letter;
-    }
-  }
-  return quoted + "\"";
-}
-
 std::string config_text(const std::vector<ConfigLine>& lines) {
-  std::string text;
-  std::string done = "\n";
-  for (const ConfigLine& line : lines) {
-    const std::string part = part_of(line.key);
-    if (part == line.key) {
-      text += single_line("", line);
-    } else if (done.find("\n" + part + "\n") == std::string::npos) {
-      done += part + "\n";
-      const std::vector<ConfigLine> own = below(lines, part);
-      // A map of nothing but comments would have no value.
-      const bool has_value = std::any_of(own.begin(), own.end(),
-                                         [](const ConfigLine& one) { return !one.value.empty(); });
-      text += (has_value ? part + ":\n" : "") + section(own);
-    }
-  }
-  return text;
+  YAML::Emitter out;
+  emit(out, tree_of(lines), 0);
+  return out.c_str() + std::string("\n");
 }
 
 }  // namespace fathom

@@ -6,7 +6,7 @@
 
 #include "fathom/core/files.hpp"
 #include "fathom/core/text.hpp"
-#include "fathom/harness/replay.hpp"
+#include "fathom/harness/recording_facts.hpp"
 
 namespace fathom {
 namespace {
@@ -33,21 +33,10 @@ std::string row_of(std::size_t place, const RelativePose& z, const MeasurementLo
 
 std::vector<Pose> reference_poses(const Recording& recording, const EstimatorRegistry& registry) {
   if (recording.ground_truth) return *recording.ground_truth;
-  std::vector<Pose> best = recording.log.odometry();
-  double least = chi2(recording.log, best);
-  for (const EstimatorEntry& entry : registry.entries()) {
-    if (!entry.can_batch) continue;
-    ReplayOptions options;
-    options.mode = SolveMode::batch;
-    options.covariances = false;
-    Replay solved = replay(recording.log, entry, {}, options);
-    if (!is_done(solved.outcome)) continue;
-    const double cost = chi2(recording.log, solved.trajectory);
-    if (!(cost < least)) continue;
-    least = cost;
-    best = std::move(solved.trajectory);
-  }
-  return best;
+  std::vector<Pose> odometry = recording.log.odometry();
+  auto optimum = batch_optimum(recording.log, registry);
+  const bool is_better = optimum && optimum->chi2 < chi2(recording.log, odometry);
+  return is_better ? std::move(optimum->poses) : odometry;
 }
 
 void spoil_recording(Recording& recording, const SpoilOptions& options,

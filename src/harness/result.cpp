@@ -1,8 +1,9 @@
 #include "fathom/harness/result.hpp"
 
+#include <algorithm>
 #include <cmath>
 
-#include "fathom/harness/run_record.hpp"
+#include "fathom/harness/recording_facts.hpp"
 
 namespace fathom {
 namespace {
@@ -52,6 +53,16 @@ ReplayFacts replay_facts(const Recording& recording, const Replay& replay,
   return facts;
 }
 
+// An estimate below the optimum that is known has found a better minimum, or rounded otherwise: its
+// bottom is the optimum then.
+std::optional<double> least_known(std::optional<double> chi2_optimum, const MeasurementLog& log,
+                                  const std::vector<Pose>& estimate,
+                                  const EstimatorRegistry& registry) {
+  if (!chi2_optimum || !(chi2(log, estimate) < *chi2_optimum)) return chi2_optimum;
+  const auto below = batch_optimum(log, registry, estimate);
+  return below ? std::min(below->chi2, *chi2_optimum) : chi2_optimum;
+}
+
 // What is known of an estimate of the keyframes without whose it is.
 RunFacts facts_of(const Recording& recording, const std::vector<Pose>& estimate,
                   const MetricOptions& options) {
@@ -88,9 +99,9 @@ Result evaluate(const Recording& recording, const EstimatorConfiguration& estima
     facts.registrations_tried = recording.registrations_tried;
     facts.registrations_left_out = recording.registrations_left_out;
   }
-  const std::optional<TrueOverlaps> overlaps = true_overlaps(recording);
-  if (overlaps) facts.true_overlaps = &*overlaps;
-  if (judging.find_optimum) facts.chi2_optimum = batch_optimum(recording.log, estimate, registry);
+  const RecordingFacts shared = judging.facts != nullptr ? *judging.facts : run_facts(recording);
+  if (shared.true_overlaps) facts.true_overlaps = &*shared.true_overlaps;
+  facts.chi2_optimum = least_known(shared.chi2_optimum, recording.log, estimate, registry);
   if (result.replay.covariances) facts.covariances = *result.replay.covariances;
   facts.replay = replay_facts(recording, result.replay, options);
   JudgedRun judged = judge(std::move(facts));

@@ -1,13 +1,10 @@
 #include "fathom/harness/run_record.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include <Eigen/Geometry>
 
-#include "fathom/core/hash.hpp"
 #include "fathom/geometry/covariance.hpp"
-#include "fathom/measurements/g2o.hpp"
 
 namespace fathom {
 namespace {
@@ -92,35 +89,12 @@ void put_updates(RunRecord& run, const Recording& recording, const Replay& repla
 
 }  // namespace
 
-std::optional<double> batch_optimum(const MeasurementLog& log, const std::vector<Pose>& estimate,
-                                    const EstimatorRegistry& registry) {
-  const auto& entries = registry.entries();
-  const auto solver = std::find_if(entries.begin(), entries.end(),
-                                   [](const EstimatorEntry& entry) { return entry.can_batch; });
-  if (solver == entries.end()) return std::nullopt;
-  std::optional<double> least;
-  const auto solve_from = [&](std::span<const Pose> start) {
-    ReplayOptions options;
-    options.mode = SolveMode::batch;
-    options.start = start;
-    options.covariances = false;
-    const Replay solved = replay(log, *solver, {}, options);
-    if (!is_done(solved.outcome)) return;
-    const double cost = chi2(log, solved.trajectory);
-    if (std::isfinite(cost) && (!least || cost < *least)) least = cost;
-  };
-  solve_from({});
-  const bool finite = std::all_of(estimate.begin(), estimate.end(),
-                                  [](const Pose& pose) { return is_finite(pose); });
-  if (finite) solve_from(estimate);
-  return least;
-}
-
-RunRecord run_record(const Recording& recording, const Result& result) {
+RunRecord run_record(const Recording& recording, const Result& result,
+                     const std::string& log_hash) {
   RunRecord run;
   run.outcome = name_of(result.replay.outcome);
   run.fault = result.replay.fault;
-  run.log_hash = hash_text(to_g2o(recording.log));
+  run.log_hash = log_hash;
   run.metrics = result.metrics;
   put_times(run, recording);
   const Pose alignment =

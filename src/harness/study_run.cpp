@@ -12,6 +12,7 @@
 #include "fathom/harness/run_record.hpp"
 #include "fathom/harness/survey.hpp"
 #include "fathom/results/run_index.hpp"
+#include "study_data_sets.hpp"
 
 namespace fathom {
 namespace {
@@ -40,42 +41,10 @@ std::vector<Task> tasks_of(const Study& study, const ResultStore& store) {
   return tasks;
 }
 
-/// The data sets of the cells: those that differ in nothing that their pictures and registrations
-/// depend on are one. It is opened for the first of its trials and closed after the last.
-class DataSets {
- public:
-  DataSets(const Study& study, const std::vector<Task>& tasks, RegistrationCache* registrations)
-      : study_(study), registrations_(registrations) {
-    for (const Task& task : tasks) ++left_[key_of(task.cell)].trials;
-  }
-
-  std::shared_ptr<const Recorder> of(std::size_t cell) {
-    const std::lock_guard hold(mutex_);
-    Entry& entry = left_.at(key_of(cell));
-    if (!entry.recorder) {
-      entry.recorder = std::make_shared<const Recorder>(study_.cells[cell], registrations_);
-    }
-    return entry.recorder;
-  }
-
-  void trial_done(std::size_t cell) {
-    const std::lock_guard hold(mutex_);
-    Entry& entry = left_.at(key_of(cell));
-    if (--entry.trials == 0) entry.recorder.reset();
-  }
-
- private:
-  struct Entry {
-    std::size_t trials = 0;
-    std::shared_ptr<const Recorder> recorder;
-  };
-
-  std::string key_of(std::size_t cell) const { return picture_settings(study_.cells[cell]); }
-
-  const Study& study_;
-  RegistrationCache* registrations_;
-  std::map<std::string, Entry> left_;
-  std::mutex mutex_;
+/// A recording with what all its runs are judged by.
+struct Judged {
+  std::shared_ptr<const Recording> recording;
+  RecordingFacts facts;
 };
 
 class Runner {
@@ -89,7 +58,8 @@ class Runner {
         tasks_(tasks_of(study, store)),
         threads_(std::min(static_cast<std::size_t>(options.jobs),
                           std::max<std::size_t>(tasks_.size(), 1))),
-        data_sets_(study, tasks_, options.registrations) {
+        data_sets_(study, options.registrations) {
+    for (const Task& task : tasks_) data_sets_.expect_trial(task.cell);
     progress_.of =
         study.cells.size() * study.description.trials * study.description.estimators.size();
     std::size_t missing = 0;
@@ -97,7 +67,7 @@ class Runner {
     progress_.earlier = progress_.done = progress_.of - missing;
   }
 
-  bool run() {
+  StudyRun run() {
     {
       std::vector<std::jthread> others;
       others.reserve(threads_);
@@ -105,7 +75,11 @@ class Runner {
       work();
     }
     if (failure_) std::rethrow_exception(failure_);
-    return done_tasks_ == tasks_.size();
+    if (done_tasks_ < tasks_.size()) return {};
+    complete_example();
+    StudyRun done{true, {}};
+    for (auto& [estimator, run] : example_) done.example.push_back(std::move(run));
+    return done;
   }
 
  private:
@@ -138,20 +112,23 @@ class Runner {
     const Configuration& configuration = study_.cells[task.cell];
     const std::shared_ptr<const Recorder> recorder = data_sets_.of(task.cell);
     const auto record_by = [&](std::size_t reference) {
-      return recorder->record(configuration, reference, registry_,
-                              {study_.noise_seeds[task.cell], task.trial});
+      Judged judged{
+          std::make_shared<const Recording>(recorder->record(
+              configuration, reference, registry_, {study_.noise_seeds[task.cell], task.trial})),
+          {}};
+      if (!task.estimators.empty()) judged.facts = study_facts(*judged.recording, registry_);
+      return judged;
     };
-    std::optional<Recording> shared;
     const bool is_own = configuration.study.association == Association::own;
-    if (!is_own || task.estimators.empty()) shared = record_by(configuration.reference);
+    std::optional<Judged> judged;
+    if (!is_own || task.estimators.empty()) judged = record_by(configuration.reference);
     for (const std::size_t e : task.estimators) {
       if (is_stopped()) return;
-      const Recording own = is_own ? record_by(e) : Recording();
-      const Recording& recording = is_own ? own : *shared;
-      if (task.baseline && e == task.estimators.front()) add_baseline(task, recording);
-      add_run(task, e, recording, meter);
+      if (is_own) judged = record_by(e);
+      if (task.baseline && e == task.estimators.front()) add_baseline(task, *judged->recording);
+      add_run(task, e, *judged, meter);
     }
-    if (task.baseline && task.estimators.empty()) add_baseline(task, *shared);
+    if (task.baseline && task.estimators.empty()) add_baseline(task, *judged->recording);
     data_sets_.trial_done(task.cell);
     ++done_tasks_;
   }
@@ -163,15 +140,14 @@ class Runner {
     store_.add(run);
   }
 
-  void add_run(const Task& task, std::size_t estimator, const Recording& recording,
-               MemoryMeter* meter) {
+  void add_run(const Task& task, std::size_t estimator, const Judged& judged, MemoryMeter* meter) {
     const Configuration& configuration = study_.cells[task.cell];
     ReplayOptions replay_options;
     replay_options.memory = meter;
-    const Result result =
-        evaluate(recording, configuration.estimators[estimator], registry_,
-                 {.metrics = metric_options(configuration), .find_optimum = true}, replay_options);
-    RunRecord run = run_record(recording, result);
+    Result result = evaluate(*judged.recording, configuration.estimators[estimator], registry_,
+                             {.metrics = metric_options(configuration), .facts = &judged.facts},
+                             replay_options);
+    RunRecord run = run_record(*judged.recording, result, judged.facts.log_hash);
     run.key = {task.cell, task.trial, configuration.estimators[estimator].name};
     run.jobs = static_cast<int>(threads_);
     store_.add(run);
@@ -179,6 +155,31 @@ class Runner {
     ++progress_.done;
     if (!result.is_done()) ++progress_.failed;
     if (options_.progress) options_.progress(progress_);
+    if (is_example(task)) example_[estimator] = {judged.recording, std::move(result)};
+  }
+
+  static bool is_example(const Task& task) { return task.cell == 0 && task.trial == 0; }
+
+  // What an earlier session stored of the example is replayed; its cost is that of the stored run.
+  void complete_example() {
+    const Configuration& configuration = study_.cells.front();
+    const RunIndex stored(store_);
+    const bool is_own = configuration.study.association == Association::own;
+    std::shared_ptr<const Recording> shared;
+    if (!is_own && !example_.empty()) shared = example_.begin()->second.recording;
+    for (std::size_t e = 0; e < configuration.estimators.size(); ++e) {
+      if (example_.contains(e)) continue;
+      if (is_own || !shared) {
+        shared = std::make_shared<const Recording>(
+            data_sets_.of(0)->record(configuration, is_own ? e : configuration.reference, registry_,
+                                     {study_.noise_seeds.front(), 0}));
+      }
+      const EstimatorConfiguration& estimator = configuration.estimators[e];
+      Result result =
+          evaluate(*shared, estimator, registry_, {.metrics = metric_options(configuration)}, {});
+      result.metrics = stored.of(estimator.name, 0).at(0)->metrics;
+      example_[e] = {shared, std::move(result)};
+    }
   }
 
   const Study& study_;
@@ -187,12 +188,13 @@ class Runner {
   const StudyRunOptions& options_;
   std::vector<Task> tasks_;
   std::size_t threads_;
-  DataSets data_sets_;
+  StudyDataSets data_sets_;
   std::atomic<std::size_t> next_task_ = 0;
   std::atomic<std::size_t> done_tasks_ = 0;
   std::atomic<bool> failed_ = false;
   std::mutex mutex_;
   StudyProgress progress_;
+  std::map<std::size_t, ExampleRun> example_;
   std::exception_ptr failure_;
 };
 
@@ -214,8 +216,8 @@ int jobs_of(const Study& study) {
   return static_cast<int>(std::min(jobs, trials));
 }
 
-bool run_study(const Study& study, const EstimatorRegistry& registry, ResultStore& store,
-               const StudyRunOptions& options) {
+StudyRun run_study(const Study& study, const EstimatorRegistry& registry, ResultStore& store,
+                   const StudyRunOptions& options) {
   return Runner(study, registry, store, options).run();
 }
 

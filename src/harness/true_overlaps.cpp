@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "fathom/harness/run_record.hpp"
+#include "fathom/harness/recording_facts.hpp"
 #include "fathom/vision/camera.hpp"
 
 namespace fathom {

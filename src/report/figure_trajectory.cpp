@@ -2,6 +2,7 @@
 #include <cmath>
 #include <memory>
 
+#include "fathom/results/run_index.hpp"
 #include "study_figures.hpp"
 #include "trajectory_map.hpp"
 
@@ -35,7 +36,7 @@ void add_loops(PlotSeries& series, const ResultStore& store, const RunKey& key) 
 
 bool is_done_at(const EstimatorResults& one, std::size_t trial) {
   return std::any_of(one.runs.begin(), one.runs.end(), [trial](const RunRecord& run) {
-    return run.key.trial == trial && is_done(run);
+    return run.key.trial == trial && !is_failed(run);
   });
 }
 

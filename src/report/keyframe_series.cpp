@@ -5,6 +5,7 @@
 #include <map>
 
 #include "fathom/evaluation/summary.hpp"
+#include "fathom/results/run_index.hpp"
 
 namespace fathom {
 namespace {
@@ -66,7 +67,7 @@ std::optional<double> deviation(const Sums& sums) {
 KeyframeStatistics keyframe_statistics(const ResultStore& store, const EstimatorResults& runs) {
   std::vector<Sums> sums;
   for (const RunRecord& run : runs.runs) {
-    if (is_done(run)) add_run(store, run.key, sums);
+    if (!is_failed(run)) add_run(store, run.key, sums);
   }
   KeyframeStatistics result;
   for (std::size_t k = 0; k < sums.size(); ++k) {
@@ -87,7 +88,7 @@ KeyframeStatistics keyframe_statistics(const ResultStore& store, const Estimator
 UpdateCost update_cost(const ResultStore& store, const EstimatorResults& runs) {
   std::map<std::size_t, std::vector<double>> costs;
   for (const RunRecord& run : runs.runs) {
-    if (!is_done(run)) continue;
+    if (is_failed(run)) continue;
     const auto keyframes = series_or_none(store, run.key, "update_keyframe");
     const auto times = series_or_none(store, run.key, "update_ms");
     for (std::size_t i = 0; i < std::min(keyframes.size(), times.size()); ++i) {

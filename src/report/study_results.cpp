@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "fathom/core/input_error.hpp"
-#include "fathom/estimation/estimator.hpp"
+#include "fathom/results/run_index.hpp"
 
 namespace fathom {
 namespace {
@@ -19,14 +19,14 @@ std::vector<double> values_of(const EstimatorResults& estimator, const std::stri
   std::vector<double> values;
   for (const RunRecord& run : estimator.runs) {
     const auto value = metric_of(run, metric);
-    if (is_done(run) && value) values.push_back(*value);
+    if (!is_failed(run) && value) values.push_back(*value);
   }
   return values;
 }
 
 void sum_up(EstimatorResults& estimator, const std::vector<std::string>& metrics) {
   for (const RunRecord& run : estimator.runs) {
-    estimator.done += is_done(run) ? 1 : 0;
+    estimator.done += is_failed(run) ? 0 : 1;
     if (!run.outcome.empty()) ++estimator.outcomes[run.outcome];
   }
   for (const std::string& metric : metrics) {
@@ -42,14 +42,14 @@ std::optional<PairedDifference> difference(const EstimatorResults& one,
   std::map<std::size_t, double> of_first;
   for (const RunRecord& run : first.runs) {
     const auto value = metric_of(run, metric);
-    if (is_done(run) && value) of_first[run.key.trial] = *value;
+    if (!is_failed(run) && value) of_first[run.key.trial] = *value;
   }
   std::vector<double> a;
   std::vector<double> b;
   for (const RunRecord& run : one.runs) {
     const auto value = metric_of(run, metric);
     const auto other = of_first.find(run.key.trial);
-    if (!is_done(run) || !value || other == of_first.end()) continue;
+    if (is_failed(run) || !value || other == of_first.end()) continue;
     a.push_back(*value);
     b.push_back(other->second);
   }
@@ -90,75 +90,55 @@ void compare(CellResults& cell, const StudyDescription& study) {
   adjust(cell.paired);
 }
 
-std::vector<std::string> all_metrics(const StudyDescription& study,
-                                     const std::vector<RunRecord>& runs) {
-  std::set<std::string> others;
-  for (const RunRecord& run : runs) {
-    for (const auto& [name, value] : run.metrics) others.insert(name);
-  }
+std::vector<std::string> all_metrics(const RunIndex& index) {
+  const std::vector<std::string> known = index.metrics();
+  std::set<std::string> others(known.begin(), known.end());
   std::vector<std::string> names;
-  for (const std::string& name : study.metrics) {
+  for (const std::string& name : index.study().metrics) {
     if (others.erase(name) > 0) names.push_back(name);
   }
   names.insert(names.end(), others.begin(), others.end());
   return names;
 }
 
-CellResults& cell_of(StudyResults& results, std::size_t cell) {
-  if (results.cells.empty() || results.cells.back().cell != cell) {
-    CellResults next;
-    next.cell = cell;
-    next.label = results.study.label_of(cell);
-    next.association = results.study.association_of(cell);
-    next.alignment = results.study.alignment_of(cell);
-    results.cells.push_back(std::move(next));
+// All runs of a cell: dead reckoning first, then the estimators as in the study.
+CellResults runs_of(const RunIndex& index, std::size_t number) {
+  const StudyDescription& study = index.study();
+  CellResults cell;
+  cell.cell = number;
+  cell.label = study.label_of(number);
+  cell.association = study.association_of(number);
+  cell.alignment = study.alignment_of(number);
+  std::vector<std::string> names{kDeadReckoning};
+  for (const StudyEstimator& estimator : study.estimators) names.push_back(estimator.name);
+  std::set<std::size_t> trials;
+  for (const std::string& name : names) {
+    EstimatorResults one{name, {}, 0, {}, {}};
+    for (const auto& [trial, run] : index.of(name, number)) {
+      trials.insert(trial);
+      if (name != kDeadReckoning) cell.jobs.insert(run->jobs);
+      one.runs.push_back(*run);
+    }
+    if (!one.runs.empty()) cell.estimators.push_back(std::move(one));
   }
-  return results.cells.back();
-}
-
-// Runs come in the order of cell and trial, within a trial dead reckoning first: the order in which
-// estimators are first seen is not the study's where the first trial lacks one.
-void put_in_order(CellResults& cell, const StudyDescription& study) {
-  const auto place = [&study](const EstimatorResults& one) {
-    if (one.name == kDeadReckoning) return std::size_t{0};
-    const auto found = std::find_if(study.estimators.begin(), study.estimators.end(),
-                                    [&](const auto& known) { return known.name == one.name; });
-    return static_cast<std::size_t>(found - study.estimators.begin()) + 1;
-  };
-  std::stable_sort(cell.estimators.begin(), cell.estimators.end(),
-                   [&](const auto& a, const auto& b) { return place(a) < place(b); });
+  cell.trials = trials.size();
+  return cell;
 }
 
 }  // namespace
 
-bool is_done(const RunRecord& run) {
-  return run.outcome.empty() || run.outcome == name_of(Outcome::converged) ||
-         run.outcome == name_of(Outcome::iteration_limit);
-}
-
 StudyResults study_results(const ResultStore& store, MetricsOf metrics) {
+  const RunIndex index(store);
+  if (index.runs().empty()) throw InputError("the study has no results yet; nothing to report");
   StudyResults results;
-  results.study = store.study();
-  const std::vector<RunRecord> runs = store.runs();
-  if (runs.empty()) throw InputError("the study has no results yet; nothing to report");
-  results.metrics =
-      metrics == MetricsOf::study ? results.study.metrics : all_metrics(results.study, runs);
-  std::set<std::pair<std::size_t, std::size_t>> trials;
-  for (const RunRecord& run : runs) {
-    CellResults& cell = cell_of(results, run.key.cell);
-    if (trials.insert({run.key.cell, run.key.trial}).second) ++cell.trials;
-    if (run.key.estimator != kDeadReckoning) cell.jobs.insert(run.jobs);
-    auto one = std::find_if(cell.estimators.begin(), cell.estimators.end(),
-                            [&](const auto& known) { return known.name == run.key.estimator; });
-    if (one == cell.estimators.end()) {
-      one = cell.estimators.insert(one, EstimatorResults{run.key.estimator, {}, 0, {}, {}});
-    }
-    one->runs.push_back(run);
-  }
-  for (CellResults& cell : results.cells) {
-    put_in_order(cell, results.study);
+  results.study = index.study();
+  results.metrics = metrics == MetricsOf::study ? results.study.metrics : all_metrics(index);
+  for (std::size_t number = 0; number < results.study.cell_count(); ++number) {
+    CellResults cell = runs_of(index, number);
+    if (cell.estimators.empty()) continue;
     for (EstimatorResults& one : cell.estimators) sum_up(one, results.metrics);
     compare(cell, results.study);
+    results.cells.push_back(std::move(cell));
   }
   return results;
 }

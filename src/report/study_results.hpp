@@ -61,9 +61,6 @@ struct StudyResults {
 /// its name for a label.
 Metric described(const std::string& metric);
 
-/// Whether the estimate of a run can be used; dead reckoning has no outcome and always can.
-bool is_done(const RunRecord& run);
-
 /// Which metrics are worked up: their intervals are what takes time.
 enum class MetricsOf { study, runs };
 

@@ -59,13 +59,11 @@ class StudyValues {
     for (const std::size_t cell : selection.cells) places.insert(study_.places_of(cell)[a]);
     std::vector<std::string> labels;
     for (const std::size_t place : places) labels.push_back(axis.labels[place]);
-    ConfigLine line{axis.key, "", ""};
     const std::string& value = axis.written_values()[*places.begin()];
     raw_swept_[axis.key] = value;
-    line.value = yaml_value(value, is_list_text(value));
-    line.comment = places.size() > 1 ? "the first of those looked at: " + joined(labels, ", ")
-                                     : "swept in the study";
-    swept_[axis.key] = line;
+    swept_[axis.key] = {axis.key, value, is_list_text(value),
+                        places.size() > 1 ? "the first of those looked at: " + joined(labels, ", ")
+                                          : "swept in the study"};
   }
 
   const StudyDescription& study_;
@@ -85,7 +83,7 @@ std::vector<ConfigLine> common_lines(const StudyValues& values) {
     }
     const std::string* value = values.fixed(key);
     if (value == nullptr || (*value == option.default_value && key != "dataset.type")) continue;
-    lines.push_back({key, yaml_value(*value, option.type.starts_with("list")), ""});
+    lines.push_back({key, *value, option.type.starts_with("list"), ""});
   }
   return lines;
 }
@@ -107,17 +105,17 @@ std::vector<ConfigLine> estimator_lines(const StudyDescription& study, std::size
   const EstimatorEntry& described_entry = registry.find(described);
   const ConfigLine* swept_type = values.swept(prefix + "type");
   std::vector<ConfigLine> lines{
-      {"estimator.type", entry.name, swept_type == nullptr ? "" : swept_type->comment}};
+      {"estimator.type", entry.name, false, swept_type == nullptr ? "" : swept_type->comment}};
   for (const OptionDescription& option : entry.options) {
     const std::string key = "estimator." + option.key;
     if (const ConfigLine* swept = values.swept(prefix + option.key)) {
-      lines.push_back({key, swept->value, swept->comment});
+      lines.push_back({key, swept->value, swept->is_list, swept->comment});
       continue;
     }
     const std::string* value = values.fixed(prefix + option.key);
     const OptionDescription* there = find_option(described_entry, option.key);
     if (value == nullptr || there == nullptr || *value == there->default_value) continue;
-    lines.push_back({key, yaml_value(*value, is_list_text(option.default_value)), ""});
+    lines.push_back({key, *value, is_list_text(option.default_value), ""});
   }
   return lines;
 }

@@ -134,7 +134,7 @@ TEST(FaultyEstimator, IsJudgedAndWrittenDown) {
     EXPECT_EQ(result.metric("loop_closures"), 0.0);
     EXPECT_EQ(result.metric("lost"), static_cast<double>(recording.log.registration_count()));
     EXPECT_THAT(metrics_json(result, recording), HasSubstr(message));
-    const RunRecord run = run_record(recording, result);
+    const RunRecord run = run_record(recording, result, "");
     EXPECT_EQ(run.outcome, "numerical_failure");
     EXPECT_EQ(run.fault, message);
     for (const auto& [name, value] : run.metrics) EXPECT_TRUE(std::isfinite(value)) << name;
@@ -159,7 +159,7 @@ TEST(FaultyEstimator, LetsTheStudyGoOn) {
                         registry);
     const test::TemporaryFolder folder;
     ResultStore store = ResultStore::write(folder.path(), study.description, "{}");
-    EXPECT_TRUE(run_study(study, registry, store, {}));
+    EXPECT_TRUE(run_study(study, registry, store, {}).is_finished);
     store.finish();
     const ResultStore stored = ResultStore::open(folder.path());
     const std::vector<RunRecord> runs = stored.runs();

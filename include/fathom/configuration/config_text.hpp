@@ -5,18 +5,17 @@
 
 namespace fathom {
 
-/// A key of a configuration to be written, its value as YAML.
+/// A key of a configuration to be written.
 struct ConfigLine {
-  std::string key;      ///< dotted
-  std::string value;    ///< as YAML; empty: the comment stands alone
-  std::string comment;  ///< at the end of the line; may be empty
+  std::string key;       ///< dotted
+  std::string value;     ///< a word, or a list in brackets
+  bool is_list = false;  ///< else a value in brackets is a word
+  std::string comment;   ///< at the end of the line; may be empty
 };
 
-/// A value as YAML reads it back, word for word. A list in brackets stays as it is.
-std::string yaml_value(const std::string& value, bool is_list);
-
 /// Nested YAML as one would write it: a map for the first part of the keys, one line for each
-/// second part, and what is below in braces. A line with a comment has its dotted key.
+/// second part, and what is below in braces. A line with a comment has its dotted key. Read back,
+/// every value is the same word for word.
 std::string config_text(const std::vector<ConfigLine>& lines);
 
 }  // namespace fathom

@@ -8,6 +8,7 @@
 #include "fathom/configuration/configuration.hpp"
 #include "fathom/evaluation/metrics.hpp"
 #include "fathom/harness/recording.hpp"
+#include "fathom/harness/recording_facts.hpp"
 #include "fathom/harness/replay.hpp"
 
 namespace fathom {
@@ -15,8 +16,8 @@ namespace fathom {
 /// How runs are judged.
 struct JudgeOptions {
   MetricOptions metrics;
-  /// Solves the log in batch for the metrics chi2_optimum and chi2_gap.
-  bool find_optimum = false;
+  /// Of the recording, where several runs share them; else they are made for this one.
+  const RecordingFacts* facts = nullptr;
 };
 
 /// The judgement that a configuration asks for.

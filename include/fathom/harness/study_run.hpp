@@ -4,12 +4,14 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <vector>
 
 #include "fathom/configuration/study.hpp"
 #include "fathom/datasets/fingerprint.hpp"
 #include "fathom/estimation/registry.hpp"
 #include "fathom/front_end/registration_cache.hpp"
 #include "fathom/harness/replay.hpp"
+#include "fathom/harness/result.hpp"
 #include "fathom/results/result_store.hpp"
 
 namespace fathom {
@@ -42,11 +44,24 @@ Fingerprint data_of(const Study& study);
 /// Jobs that can be at work: no more than there are trials.
 int jobs_of(const Study& study);
 
+/// One estimator's run with all that it was made of.
+struct ExampleRun {
+  std::shared_ptr<const Recording> recording;  ///< one for all where the estimators share it
+  Result result;
+};
+
+struct StudyRun {
+  bool is_finished = false;  ///< false where it was stopped before the end
+  /// Trial 0 of the first cell as it was stored, by estimator; empty if not finished.
+  std::vector<ExampleRun> example;
+};
+
 /// Runs what of a study is not yet in its store: every estimator on every trial of every cell, and
 /// dead reckoning beside them. What is stored does not depend on the number of jobs, nor on the
-/// order or on what was there before, cost apart. False where it was stopped before the end.
-/// Throws InputError where the data set or the store fails; what is stored stays.
-bool run_study(const Study& study, const EstimatorRegistry& registry, ResultStore& store,
-               const StudyRunOptions& options);
+/// order or on what was there before, cost apart. Runs of the example that an earlier session
+/// stored are replayed, and keep their stored metrics. Throws InputError where the data set or the
+/// store fails; what is stored stays.
+StudyRun run_study(const Study& study, const EstimatorRegistry& registry, ResultStore& store,
+                   const StudyRunOptions& options);
 
 }  // namespace fathom

@@ -133,32 +133,34 @@ Camera read_camera_yaml(const std::filesystem::path& path) {
 }
 
 std::string camera_yaml(const CameraModel& model) {
-  std::string coefficients;
-  if (model.has_distortion()) {
-    for (const double value : model.distortion) {
-      coefficients += (coefficients.empty() ? "" : ", ") + exact(value);
-    }
-  }
-  return "sensor_type: camera\n"
-         "camera_model: pinhole\n"
-         "resolution: [" +
-         std::to_string(model.width) + ", " + std::to_string(model.height) +
-         "]\n"
-         "intrinsics: [" +
-         exact(model.fx) + ", " + exact(model.fy) + ", " + exact(model.cx) + ", " +
-         exact(model.cy) +
-         "] # fx, fy, cx, cy [px]\n"
-         "distortion_model: " +
-         (model.has_distortion() ? "radial-tangential" : "none") +
-         "\n"
-         "distortion_coefficients: [" +
-         coefficients +
-         "] # k1, k2, p1, p2, k3\n"
-         "mounting: {x: " +
-         exact(model.mount_x_m) + ", y: " + exact(model.mount_y_m) +
-         ", yaw: " + exact(model.mount_yaw_rad) +
-         "} # of the camera in the body frame; yaw 0: picture top "
-         "forward; m, m, rad\n";
+  YAML::Emitter out;
+  const auto put = [&out](const char* key) -> YAML::Emitter& {
+    return out << YAML::Key << key << YAML::Value;
+  };
+  const auto put_list = [&](const char* key, const std::vector<double>& values,
+                            const char* comment) {
+    put(key) << YAML::Flow << YAML::BeginSeq;
+    for (const double value : values) out << exact(value);
+    out << YAML::EndSeq << YAML::Comment(comment);
+  };
+  const auto& d = model.distortion;
+  out << YAML::BeginMap;
+  put("sensor_type") << "camera";
+  put("camera_model") << "pinhole";
+  put("resolution") << YAML::Flow << YAML::BeginSeq << model.width << model.height << YAML::EndSeq;
+  put_list("intrinsics", {model.fx, model.fy, model.cx, model.cy}, "fx, fy, cx, cy [px]");
+  put("distortion_model") << (model.has_distortion() ? "radial-tangential" : "none");
+  put_list("distortion_coefficients",
+           model.has_distortion() ? std::vector<double>(d.begin(), d.end()) : std::vector<double>{},
+           "k1, k2, p1, p2, k3");
+  put("mounting") << YAML::Flow << YAML::BeginMap;
+  put("x") << exact(model.mount_x_m);
+  put("y") << exact(model.mount_y_m);
+  put("yaw") << exact(model.mount_yaw_rad) << YAML::EndMap
+             << YAML::Comment(
+                    "of the camera in the body frame; yaw 0: picture top forward; m, m, rad");
+  out << YAML::EndMap;
+  return out.c_str() + std::string("\n");
 }
 
 }  // namespace fathom

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "fathom/estimation/registry.hpp"
+#include "fathom/evaluation/loop_truth.hpp"
+#include "fathom/harness/recording.hpp"
+
+namespace fathom {
+
+/// What runs are judged by and does not depend on the estimator: made once a recording.
+struct RecordingFacts {
+  std::optional<TrueOverlaps> true_overlaps;
+  std::optional<double> chi2_optimum;  ///< F at the batch_optimum; of a study alone
+  std::string log_hash;                ///< of the measurement log as g2o; of a study alone
+};
+
+/// The facts of a single run.
+RecordingFacts run_facts(const Recording& recording);
+
+/// The facts of a study's run.
+RecordingFacts study_facts(const Recording& recording, const EstimatorRegistry& registry);
+
+/// From ground truth, altitudes and camera; nothing where one of them is not known.
+std::optional<TrueOverlaps> true_overlaps(const Recording& recording);
+
+/// The least F that a batch solve of a log reaches.
+struct BatchOptimum {
+  std::vector<Pose> poses;
+  double chi2 = 0.0;
+};
+
+/// Over all estimators of the registry that can solve a batch, each with its default options and
+/// from these poses (dead reckoning, if empty). Nothing where none of them comes to an end.
+std::optional<BatchOptimum> batch_optimum(const MeasurementLog& log,
+                                          const EstimatorRegistry& registry,
+                                          std::span<const Pose> start = {});
+
+}  // namespace fathom

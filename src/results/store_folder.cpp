@@ -1,0 +1,42 @@
+#include "fathom/results/store_folder.hpp"
+
+#include <system_error>
+
+#include "fathom/core/input_error.hpp"
+
+namespace fathom {
+namespace {
+
+constexpr const char* kFile = "results.sqlite";
+
+}  // namespace
+
+namespace fs = std::filesystem;
+
+StoreFolder::StoreFolder(const fs::path& folder, const StudyDescription& study,
+                         const std::string& manifest)
+    : folder_(folder),
+      is_new_folder_(!fs::exists(folder)),
+      is_new_(!fs::exists(folder / kFile)),
+      store_(ResultStore::write(folder, study, manifest)) {}
+
+StoreFolder::~StoreFolder() {
+  const bool remove = is_new_ && is_empty();
+  store_.reset();
+  if (!remove) return;
+  std::error_code ignored;
+  for (const char* ending : {"", "-wal", "-shm"}) {
+    fs::remove(folder_ / (std::string(kFile) + ending), ignored);
+  }
+  if (is_new_folder_) fs::remove(folder_, ignored);
+}
+
+bool StoreFolder::is_empty() const {
+  try {
+    return store_->runs().empty();
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+}  // namespace fathom
