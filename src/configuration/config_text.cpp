@@ -20,7 +20,8 @@ struct Node {
   }
 };
 
-constexpr int kBraces = 2;  ///< the depth from which on maps stand on one line
+constexpr int kBraces = 2;              // the depth from which on maps may stand on one line
+constexpr std::size_t kLineWidth = 90;  // of what stands in braces
 
 Node tree_of(const std::vector<ConfigLine>& lines) {
   Node root;
@@ -57,9 +58,17 @@ void emit_value(YAML::Emitter& out, const ConfigLine& line) {
   if (!line.comment.empty()) out << YAML::Comment(one_line(line.comment));
 }
 
+// Of an entry in braces, "key: value, " included.
+std::size_t width_of(const std::string& key, const Node& node) {
+  std::size_t width = key.size() + 4;
+  if (node.line != nullptr) return width + node.line->value.size();
+  for (const auto& [name, entry] : node.entries) width += width_of(name, entry);
+  return width;
+}
+
 void emit(YAML::Emitter& out, const Node& node, int depth) {
   if (node.line != nullptr) return emit_value(out, *node.line);
-  if (depth >= kBraces) out << YAML::Flow;
+  if (depth >= kBraces && width_of("", node) <= kLineWidth) out << YAML::Flow;
   out << YAML::BeginMap;
   for (const auto& [key, entry] : node.entries) {
     out << YAML::Key << key << YAML::Value;

@@ -65,42 +65,64 @@ std::vector<RelativePose> register_newest(FrontEnd& front_end, const GuardedEsti
   return front_end.register_newest(FixedTrajectory(log.odometry()));
 }
 
-Recording record_survey(Survey& survey, const Configuration& configuration, std::size_t by,
-                        const EstimatorRegistry& registry, const Progress& progress) {
-  const FrameSource& frames = survey.frames();
-  FrontEnd front_end(frames, survey.registrar(), configuration.front_end);
-  const EstimatorConfiguration& reference = configuration.estimators[by];
-  GuardedEstimator estimator(registry.find(reference.type), {}, reference.values);
-
-  Recording recording;
+// The paper from pictures to measurements. An estimator runs along, as the candidates of section 3
+// are picked by an estimate; the log of measurements is all that is kept of it.
+MeasurementLog log_of(FrontEnd& front_end, GuardedEstimator& estimator, std::size_t frames,
+                      const Progress& progress) {
+  MeasurementLog log;
+  // Section 2: every so many frames a keyframe, with the dead reckoning since the last one.
   while (const auto keyframe = front_end.next_keyframe()) {
-    recording.keyframe_times_ns.push_back(keyframe->time_ns);
     if (keyframe->step) {
-      recording.log.add_keyframe(*keyframe->step);
+      // Section 3, augmentation: the state grows by the motion to the new keyframe.
+      log.add_keyframe(*keyframe->step);
       estimator.add_keyframe(*keyframe->step);
-      const std::vector<RelativePose> found = register_newest(front_end, estimator, recording.log);
-      for (const RelativePose& registration : found) recording.log.add_registration(registration);
+      // Section 3, data association: the keyframes that the estimate has near; each pair is
+      // registered by features, their matches and RANSAC (section 2, figures 1 to 3, equations 1
+      // to 3).
+      const std::vector<RelativePose> found = register_newest(front_end, estimator, log);
+      for (const RelativePose& registration : found) log.add_registration(registration);
+      // Section 3, update: all registrations of the keyframe stacked, and iterated.
       if (!found.empty()) estimator.close_loops(found);
     }
-    if (progress) progress(front_end.frames().size(), frames.size());
+    if (progress) progress(front_end.frames().size(), frames);
   }
-  if (front_end.keyframes().size() < 2) {
-    throw at_origin(configuration,
-                    single_keyframe(configuration.front_end.separation_frames, frames.size()));
-  }
-  recording.frames = front_end.frames();
-  for (std::size_t i = 0; i < recording.frames.size(); ++i) {
-    recording.frame_altitudes_m.push_back(frames.info(i).altitude_m);
-  }
-  recording.frame_dead_reckoning = dead_reckoning_of(frames, recording.frames.size());
-  recording.ground_truth = ground_truth_of(frames, front_end.keyframes());
-  recording.camera = frames.camera();
+  return log;
+}
+
+void take_keyframes(Recording& recording, const FrameSource& source, const FrontEnd& front_end) {
   for (const Keyframe& keyframe : front_end.keyframes()) {
-    recording.keyframe_altitudes_m.push_back(frames.info(keyframe.frame).altitude_m);
+    recording.keyframe_times_ns.push_back(keyframe.time_ns);
+    recording.keyframe_altitudes_m.push_back(source.info(keyframe.frame).altitude_m);
   }
-  recording.frame_ground_truth = frame_ground_truth_of(frames, recording.frames.size());
+  recording.ground_truth = ground_truth_of(source, front_end.keyframes());
   recording.registrations_tried = front_end.registrations_tried();
   recording.registrations_left_out = front_end.registrations_left_out();
+}
+
+void take_frames(Recording& recording, const FrameSource& source, const FrontEnd& front_end) {
+  recording.camera = source.camera();
+  recording.frames = front_end.frames();
+  for (std::size_t i = 0; i < recording.frames.size(); ++i) {
+    recording.frame_altitudes_m.push_back(source.info(i).altitude_m);
+  }
+  recording.frame_dead_reckoning = dead_reckoning_of(source, recording.frames.size());
+  recording.frame_ground_truth = frame_ground_truth_of(source, recording.frames.size());
+}
+
+Recording record_survey(Survey& survey, const Configuration& configuration, std::size_t by,
+                        const EstimatorRegistry& registry, const Progress& progress) {
+  const FrameSource& source = survey.frames();
+  FrontEnd front_end(source, survey.registrar(), configuration.front_end);
+  const EstimatorConfiguration& reference = configuration.estimators[by];
+  GuardedEstimator estimator(registry.find(reference.type), {}, reference.values);
+  Recording recording;
+  recording.log = log_of(front_end, estimator, source.size(), progress);
+  if (front_end.keyframes().size() < 2) {
+    throw at_origin(configuration,
+                    single_keyframe(configuration.front_end.separation_frames, source.size()));
+  }
+  take_keyframes(recording, source, front_end);
+  take_frames(recording, source, front_end);
   recording.visual_odometry = survey.uses_visual_odometry();
   recording.visual_odometry_failures = survey.visual_odometry_failures();
   return recording;
@@ -116,11 +138,14 @@ Recording graph_recording(MeasurementLog log, const std::string& file) {
     }
     recording.keyframe_times_ns.push_back(id * kSecond);
   }
-  if (!std::isfinite(chi2(log, log.odometry()))) {
-    throw InputError(file,
-                     "F is not finite at dead reckoning: the file has numbers beyond what can be "
-                     "computed with; expected metres, radians and their information");
-  }
+  const auto require_finite = [&](const std::vector<Pose>& poses, const std::string& name) {
+    if (std::isfinite(chi2(log, poses))) return;
+    throw InputError(file, "F is not finite at " + name +
+                               ": the file has numbers beyond what can be computed with; expected "
+                               "metres, radians and their information");
+  };
+  require_finite(log.odometry(), "dead reckoning");
+  if (log.guess) require_finite(*log.guess, "its vertices");
   recording.log = std::move(log);
   return recording;
 }

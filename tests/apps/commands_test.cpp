@@ -219,8 +219,8 @@ TEST_F(Commands, AComparisonCanBeSimulated) {
                       "estimators: [{type: ekf}, {type: trajectory_iekf, max_iterations: 2}]\n"
                       "association: {reference: trajectory_iekf}\n");
   fathom_done({"simulate", "c.yaml", "--out", "data"});
-  EXPECT_THAT(bytes_of("data/run.yaml"), AllOf(HasSubstr("estimator.type: trajectory_iekf"),
-                                               HasSubstr("estimator.max_iterations: 2")));
+  EXPECT_THAT(bytes_of("data/run.yaml"),
+              HasSubstr("estimator:\n  type: trajectory_iekf\n  max_iterations: 2\n"));
   EXPECT_THAT(fathom_done({"check", "data/run.yaml"}).out, HasSubstr("configuration for 'run'"));
 }
 
