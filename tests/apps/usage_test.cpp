@@ -1,4 +1,4 @@
-// Help, version and misuse.
+// Help, version, lists and misuse.
 
 #include <filesystem>
 #include <regex>
@@ -13,6 +13,7 @@
 namespace fathom::test {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
@@ -55,6 +56,21 @@ TEST_F(Usage, TheConfigurationsOfTheExamplesAreShipped) {
 TEST_F(Usage, VersionIsOneLine) {
   const Ended ended = fathom_done({"--version"});
   EXPECT_TRUE(std::regex_match(ended.out, std::regex(R"(fathom \d+\.\d+\.\d+\n)"))) << ended.out;
+}
+
+TEST_F(Usage, ListNamesEverythingWithItsOptions) {
+  EXPECT_THAT(fathom_done({"list", "estimators"}).out,
+              AllOf(HasSubstr("trajectory_iekf: "), HasSubstr("ekf: "),
+                    HasSubstr("ceres_pose_graph: "), HasSubstr("estimator.gate_probability")));
+  EXPECT_THAT(fathom_done({"list", "detectors"}).out,
+              AllOf(HasSubstr("sift: "), HasSubstr("orb: "), HasSubstr("akaze: "),
+                    HasSubstr("brisk: "), HasSubstr("front_end.ransac.max_error_m")));
+  EXPECT_THAT(fathom_done({"list", "datasets"}).out,
+              AllOf(HasSubstr("simulated: "), HasSubstr("image_folder: "), HasSubstr("g2o: "),
+                    HasSubstr("dataset.altitude.base_m")));
+  EXPECT_THAT(fathom_done({"list", "metrics"}).out,
+              AllOf(HasSubstr("mean_position_error_m"), HasSubstr("rpe_N_keyframes_rad"),
+                    HasSubstr("peak heap of the estimator")));
 }
 
 TEST_F(Usage, MisuseIsOneLineAndStatusTwo) {

@@ -21,4 +21,12 @@ inline std::string refusal(const std::string& text, ConfigurationKind kind = kSi
   return input_error_of([&] { configured(text, kind); });
 }
 
+/// The value of a key in force; "(none)" where the configuration has no such key.
+inline std::string in_force(const Configuration& configuration, const std::string& key) {
+  for (const auto& [known, value] : configuration.in_force) {
+    if (known == key) return value;
+  }
+  return "(none)";
+}
+
 }  // namespace fathom::test

@@ -2,7 +2,7 @@
 
 #include "support/planar.hpp"
 #include "tests/estimators/conformance.hpp"
-#include "tests/estimators/naive.hpp"
+#include "tests/estimators/naive_least_squares.hpp"
 
 namespace fathom::test {
 namespace {

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/estimators/naive.hpp"
+#include "tests/estimators/naive_least_squares.hpp"
 
 namespace fathom::test {
 namespace {

@@ -1,33 +1,22 @@
-// incremental_smoother against sparse_gauss_newton, which solves the whole graph at every update,
-// and against batch optima.
+// incremental_smoother against sparse_gauss_newton, which solves the whole graph at every update.
 
 #include "estimators/incremental_smoother/incremental_smoother.hpp"
 
 #include <gtest/gtest.h>
 
 #include "estimators/incremental_smoother/smoother.hpp"
-#include "fathom/measurements/g2o.hpp"
+#include "tests/estimators/keyframe_by_keyframe.hpp"
 #include "tests/estimators/logs.hpp"
-#include "tests/support/data.hpp"
 
 namespace fathom {
 namespace {
 
+using test::arrive;
 using test::LogOptions;
-
-std::unique_ptr<Estimator> make(const std::string& name, const Pose& origin,
-                                const EstimatorValues& values = {},
-                                SolveMode mode = SolveMode::incremental) {
-  return builtin_estimators().find(name).create({origin, mode}, values);
-}
+using test::make;
 
 const incremental_smoother::Counts& counts_of(const Estimator& estimator) {
   return dynamic_cast<const IncrementalSmoother&>(estimator).smoother().counts();
-}
-
-UpdateReport arrive(Estimator& estimator, const MeasurementLog& log, std::size_t k) {
-  estimator.add_keyframe(log.arrival(k).step);
-  return estimator.close_loops(log.arrival(k).registrations);
 }
 
 // Measurements of poses with a full covariance, and noise to suit it but for its shape.
@@ -229,30 +218,6 @@ TEST(IncrementalSmoother, SolvesTheWholeGraphWhereItsStepsFail) {
   EXPECT_GT(counts_of(*ours).batch_solves, 0);
   const double optimum = chi2(log, poses_of(*whole));
   EXPECT_NEAR(chi2(log, poses_of(*ours)), optimum, 1e-8 * optimum);
-}
-
-class IncrementalSmootherOnRealGraphs : public testing::TestWithParam<std::string> {};
-
-INSTANTIATE_TEST_SUITE_P(PoseGraphs, IncrementalSmootherOnRealGraphs,
-                         testing::Values("CSAIL", "MIT", "intel", "manhattan", "M3500", "ring"),
-                         [](const auto& name) { return name.param; });
-
-TEST_P(IncrementalSmootherOnRealGraphs, StaysWithinOnePercentOfTheBatchOptimum) {
-  const std::string file = "pose_graphs/" + GetParam() + ".g2o";
-  FATHOM_REQUIRE_DATA(file);
-  const MeasurementLog log = read_g2o(test::data_path(file));
-  const auto ours = make("incremental_smoother", log.origin());
-  MeasurementLog so_far(log.origin());
-  for (std::size_t k = 1; k < log.size(); ++k) {
-    EXPECT_TRUE(is_done(arrive(*ours, log, k).outcome)) << k;
-    so_far.add_keyframe(log.arrival(k).step);
-    for (const RelativePose& z : log.arrival(k).registrations) so_far.add_registration(z);
-    if (k % 100 != 0 && k + 1 != log.size()) continue;
-    const auto batch = make("sparse_gauss_newton", log.origin(), {}, SolveMode::batch);
-    test::feed(*batch, so_far);
-    const double optimum = chi2(so_far, poses_of(*batch));
-    EXPECT_LT(chi2(so_far, poses_of(*ours)), optimum + std::max(1e-6, 0.01 * optimum)) << k;
-  }
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 #include "estimators/trajectory_iekf/trajectory_iekf.hpp"
 #include "fathom/measurements/g2o.hpp"
 #include "tests/estimators/logs.hpp"
-#include "tests/estimators/naive.hpp"
+#include "tests/estimators/naive_filters.hpp"
 #include "tests/support/data.hpp"
 
 namespace fathom {

@@ -1,5 +1,5 @@
-// sparse_gauss_newton: its derivatives, its starts, its reports, and its optimum and covariances
-// against those of Ceres.
+// sparse_gauss_newton: its starts, its reports, and its optimum and covariances against those of
+// Ceres.
 
 #include "estimators/sparse_gauss_newton/sparse_gauss_newton.hpp"
 
@@ -8,8 +8,8 @@
 #include "estimators/support/pose_graph/batch.hpp"
 #include "estimators/support/pose_graph/lifted_headings.hpp"
 #include "fathom/measurements/g2o.hpp"
+#include "tests/estimators/graph_parts.hpp"
 #include "tests/estimators/logs.hpp"
-#include "tests/estimators/naive.hpp"
 #include "tests/support/data.hpp"
 
 namespace fathom {
@@ -17,12 +17,6 @@ namespace {
 
 using namespace pose_graph;  // NOLINT: its parts are what is tested
 using test::LogOptions;
-
-std::vector<Edge> edges_of(const MeasurementLog& log) {
-  std::vector<Edge> edges;
-  for (const RelativePose& z : log.edges()) edges.push_back(make_edge(z));
-  return edges;
-}
 
 struct Batch {
   std::unique_ptr<Estimator> estimator;
@@ -48,66 +42,6 @@ double cost(const MeasurementLog& log, const Batch& batch) {
 
 EstimatorValues start_at(const std::string& start) {
   return test::values({{"start", start}});
-}
-
-// In the order of keyframes 1 ….
-Eigen::VectorXd by_keyframe(const sparse::Symbolic& symbolic, const std::vector<double>& v) {
-  Eigen::VectorXd result(static_cast<Eigen::Index>(v.size()));
-  for (int node = 0; node < symbolic.size(); ++node) {
-    const int p = symbolic.position[static_cast<std::size_t>(node)];
-    for (int a = 0; a < 3; ++a) result(3 * node + a) = v[static_cast<std::size_t>(3 * p + a)];
-  }
-  return result;
-}
-
-// Noise large enough that second derivatives of the residuals count.
-TEST(SparseGaussNewtonDerivatives, AreThoseOfTheCost) {
-  LogOptions options;
-  options.keyframes = 12;
-  options.noise = 10.0;
-  const MeasurementLog log = test::circle_log(options);
-  const std::vector<Edge> edges = edges_of(log);
-  const std::vector<Node> nodes = nodes_of(log.odometry());
-  const sparse::Symbolic symbolic = analyse_graph(edges, static_cast<int>(nodes.size()));
-  NormalEquations equations(symbolic, edges);
-  const auto at = [&](Eigen::Index i, double by) {
-    std::vector<Node> moved = nodes;
-    Node& node = moved[static_cast<std::size_t>(i / 3 + 1)];
-    std::array<double, 3> v{node.x, node.y, node.theta};
-    v[static_cast<std::size_t>(i % 3)] += by;
-    node = make_node(v[0], v[1], v[2]);
-    return moved;
-  };
-  const double F = equations.linearise(nodes, Hessian::exact);
-  EXPECT_NEAR(F, chi2(log, log.odometry()), 1e-9 * F);
-  const Eigen::VectorXd gradient = by_keyframe(symbolic, equations.gradient());
-  const Eigen::Index n = gradient.size();
-  const double step = 1e-6;
-  Eigen::MatrixXd hessian(n, n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const double up = equations.linearise(at(i, step), Hessian::exact);
-    const Eigen::VectorXd g_up = by_keyframe(symbolic, equations.gradient());
-    const double down = equations.linearise(at(i, -step), Hessian::exact);
-    const Eigen::VectorXd g_down = by_keyframe(symbolic, equations.gradient());
-    EXPECT_NEAR(gradient(i), 0.5 * (up - down) / (2 * step), 1e-5 * gradient.norm());
-    hessian.col(i) = (g_up - g_down) / (2 * step);
-  }
-  // H⁻¹ g of the exact Hessian, and of Gauss-Newton's, which differs from it.
-  const auto step_of = [&](Hessian kind) {
-    equations.linearise(nodes, kind);
-    EXPECT_TRUE(equations.factorise());
-    return by_keyframe(symbolic, equations.solve_step());
-  };
-  const Eigen::VectorXd newton = -hessian.partialPivLu().solve(gradient);
-  EXPECT_LT((step_of(Hessian::exact) - newton).norm(), 1e-5 * newton.norm());
-  EXPECT_GT((step_of(Hessian::gauss_newton) - newton).norm(), 1e-2 * newton.norm());
-  const std::vector<Pose> textbook = test::least_squares(log, 1).poses;
-  const Eigen::VectorXd gauss_newton = step_of(Hessian::gauss_newton);
-  for (std::size_t k = 1; k < log.size(); ++k) {
-    const auto i = static_cast<Eigen::Index>(3 * (k - 1));
-    EXPECT_NEAR(nodes[k].x + gauss_newton(i), textbook[k].x, 1e-8);
-    EXPECT_NEAR(nodes[k].y + gauss_newton(i + 1), textbook[k].y, 1e-8);
-  }
 }
 
 TEST(SparseGaussNewton, FindsTheOptimumAndCovariancesOfCeres) {
@@ -222,7 +156,7 @@ TEST(SparseGaussNewton, AutoUnwindsWhatLagoRoundsWrongly) {
 TEST(SparseGaussNewton, LiftedHeadingsDoNotDependOnTheirStart) {
   std::vector<Pose> truth;
   const MeasurementLog log = dizzy_survey(0.3, 9, truth);
-  const std::vector<Edge> edges = edges_of(log);
+  const std::vector<Edge> edges = test::parts_of(log).edges;
   const sparse::Symbolic symbolic = analyse_graph(edges, static_cast<int>(log.size()));
   std::vector<double> zero(log.size(), truth[0].theta);
   std::vector<double> right;

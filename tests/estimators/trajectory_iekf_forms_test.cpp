@@ -7,7 +7,7 @@
 
 #include "estimators/trajectory_iekf/trajectory_iekf.hpp"
 #include "tests/estimators/logs.hpp"
-#include "tests/estimators/naive.hpp"
+#include "tests/estimators/naive_filters.hpp"
 
 namespace fathom {
 namespace {

@@ -7,7 +7,7 @@
 #include "estimators/ekf/ekf.hpp"
 #include "estimators/trajectory_iekf/stretch.hpp"
 #include "tests/estimators/logs.hpp"
-#include "tests/estimators/naive.hpp"
+#include "tests/estimators/naive_filters.hpp"
 
 namespace fathom {
 namespace {

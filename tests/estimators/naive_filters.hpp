@@ -1,8 +1,7 @@
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-#include <optional>
+#include <cstddef>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Dense>
@@ -10,8 +9,8 @@
 #include "fathom/geometry/covariance.hpp"
 #include "fathom/measurements/measurement_log.hpp"
 
-/// Textbook filters and a textbook least-squares solver, dense and slow, to compare with. They
-/// share with the estimators only ⊕, ⊖ and their Jacobians, which are tested against differences.
+/// Textbook filters, dense and slow, to compare with. They share with the estimators only ⊕, ⊖ and
+/// their Jacobians, which are tested against differences.
 namespace fathom::test {
 
 /// Room for the covariance of a whole log.
@@ -179,75 +178,6 @@ std::vector<Pose> run_naive(Filter filter, const MeasurementLog& log) {
     if (!log.arrival(k).registrations.empty()) filter.close_loops(log.arrival(k).registrations);
   }
   return filter.trajectory();
-}
-
-/// Dense Gauss-Newton over poses 1 … n of F = Σ eᵀ Ω e, and the covariance (Σ Jᵀ Ω J)⁻¹.
-struct NaiveLeastSquares {
-  std::vector<Pose> poses;
-  Eigen::MatrixXd covariance;
-
-  Eigen::Matrix3d marginal(std::size_t k) const {
-    if (k == 0) return Eigen::Matrix3d::Zero();
-    const auto i = static_cast<Eigen::Index>(3 * (k - 1));
-    return covariance.block<3, 3>(i, i);
-  }
-
-  Eigen::MatrixXd joint(const std::vector<std::size_t>& keyframes) const {
-    Eigen::MatrixXd chosen =
-        Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(3 * keyframes.size()), covariance.cols());
-    for (std::size_t i = 0; i < keyframes.size(); ++i) {
-      if (keyframes[i] == 0) continue;
-      chosen.block<3, 3>(static_cast<Eigen::Index>(3 * i),
-                         static_cast<Eigen::Index>(3 * (keyframes[i] - 1))) =
-          Eigen::Matrix3d::Identity();
-    }
-    return chosen * covariance * chosen.transpose();
-  }
-};
-
-/// The largest difference of two joint covariances' 3×3 blocks (a, b), as a share of
-/// √(‖C_aa‖ ‖C_bb‖); the difference itself where a keyframe has none.
-inline double largest_block_difference(const Eigen::MatrixXd& joint,
-                                       const Eigen::MatrixXd& expected) {
-  double largest = 0.0;
-  for (Eigen::Index i = 0; i < expected.rows(); i += 3) {
-    for (Eigen::Index j = 0; j < expected.cols(); j += 3) {
-      const double difference = (joint.block<3, 3>(i, j) - expected.block<3, 3>(i, j)).norm();
-      const double scale =
-          std::sqrt(expected.block<3, 3>(i, i).norm() * expected.block<3, 3>(j, j).norm());
-      largest = std::max(largest, scale > 0.0 ? difference / scale : difference);
-    }
-  }
-  return largest;
-}
-
-inline NaiveLeastSquares least_squares(const MeasurementLog& log, int iterations) {
-  NaiveLeastSquares result{log.odometry(), {}};
-  const auto n = static_cast<Eigen::Index>(3 * log.size());
-  for (int i = 0; i < iterations; ++i) {
-    Eigen::MatrixXd A = Eigen::MatrixXd::Zero(n, n);
-    Eigen::VectorXd b = Eigen::VectorXd::Zero(n);
-    for (const RelativePose& z : log.edges()) {
-      Eigen::Matrix3d J_from;
-      Eigen::Matrix3d J_to;
-      const Eigen::Vector3d e =
-          residual(z.motion, result.poses[z.from], result.poses[z.to], &J_from, &J_to);
-      Eigen::MatrixXd J = Eigen::MatrixXd::Zero(3, n);
-      J.middleCols<3>(static_cast<Eigen::Index>(3 * z.from)) = J_from;
-      J.middleCols<3>(static_cast<Eigen::Index>(3 * z.to)) = J_to;
-      A += J.transpose() * z.information * J;
-      b += J.transpose() * z.information * e;
-    }
-    const Eigen::MatrixXd free = A.bottomRightCorner(n - 3, n - 3);
-    const Eigen::VectorXd dx = -free.ldlt().solve(b.tail(n - 3));
-    for (std::size_t k = 1; k < log.size(); ++k) {
-      const Eigen::Vector3d moved =
-          result.poses[k].vector() + dx.segment<3>(static_cast<Eigen::Index>(3 * (k - 1)));
-      result.poses[k] = {moved.x(), moved.y(), wrap_angle(moved.z())};
-    }
-    result.covariance = free.inverse();
-  }
-  return result;
 }
 
 }  // namespace fathom::test
