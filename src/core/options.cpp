@@ -1,62 +1,13 @@
 #include "fathom/core/options.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <memory>
 
 #include "fathom/core/text.hpp"
+#include "option_value.hpp"
 
 namespace fathom {
 namespace {
-
-std::string joined(const std::vector<std::string>& words, const std::string& separator) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : separator) + word;
-  return text;
-}
-
-[[noreturn]] void refuse(const std::string& key, const std::string& expected,
-                         const OptionValue& value) {
-  const std::string given = value.is_list         ? "[" + joined(value.items, ", ") + "]"
-                            : value.items.empty() ? ""
-                                                  : value.items.front();
-  throw InputError(key + ": expected " + expected + ", got '" + given + "'");
-}
-
-double checked_real(const std::string& key, const Range& range, const std::string& unit,
-                    const OptionValue& value, const std::string& alternative = "") {
-  const std::string what = "a number" + (unit.empty() ? "" : " in " + unit) +
-                           (range.text().empty() ? "" : " " + range.text()) + alternative;
-  if (value.is_list || value.items.size() != 1) refuse(key, what, value);
-  const auto number = parse_real(value.items.front());
-  if (!number || !range.contains(*number)) refuse(key, what, value);
-  return *number;
-}
-
-int checked_integer(const std::string& key, const Range& range, const OptionValue& value,
-                    const std::string& alternative = "") {
-  const auto number =
-      value.is_list || value.items.size() != 1 ? std::nullopt : parse_integer(value.items.front());
-  if (!number || !range.contains(static_cast<double>(*number)) ||
-      *number > std::numeric_limits<int>::max() || *number < std::numeric_limits<int>::min()) {
-    refuse(key, "a whole number" + (range.text().empty() ? "" : " " + range.text()) + alternative,
-           value);
-  }
-  return static_cast<int>(*number);
-}
-
-std::string list_text(const std::vector<double>& values) {
-  std::vector<std::string> words;
-  words.reserve(values.size());
-  for (const double value : values) words.push_back(number_text(value));
-  return "[" + joined(words, ", ") + "]";
-}
-
-}  // namespace
-
-bool Range::contains(double value) const {
-  return (minimum_excluded ? value > minimum : value >= minimum) && value <= maximum;
-}
 
 // As one would write it: 1e6 and not 1e+06.
 std::string bound_text(double bound) {
@@ -68,6 +19,12 @@ std::string bound_text(double bound) {
   if (text[digit] == '-') ++digit;
   while (digit + 1 < text.size() && text[digit] == '0') text.erase(digit, 1);
   return text;
+}
+
+}  // namespace
+
+bool Range::contains(double value) const {
+  return (minimum_excluded ? value > minimum : value >= minimum) && value <= maximum;
 }
 
 std::string Range::text() const {
