@@ -1,7 +1,6 @@
 #include "fathom/front_end/registration_store.hpp"
 
 #include <SQLiteCpp/SQLiteCpp.h>
-#include <array>
 #include <chrono>
 #include <cstdlib>
 #include <cstring>
@@ -12,7 +11,7 @@
 #include <system_error>
 #include <vector>
 
-#include "fathom/core/hash.hpp"
+#include "registration_row.hpp"
 
 namespace fathom {
 namespace {
@@ -24,37 +23,6 @@ constexpr int kSchemaVersion = 1;
 constexpr int kBusyTimeoutMs = 5'000;
 constexpr std::size_t kFlushCount = 200;
 constexpr std::chrono::seconds kFlushInterval{1};
-
-// x, y, θ and the covariance row by row, as they lie in memory.
-using Numbers = std::array<double, 12>;
-
-Numbers numbers_of(const PairRegistration& value) {
-  Numbers numbers{value.motion.x, value.motion.y, value.motion.theta};
-  for (int i = 0; i < 9; ++i) {
-    numbers[static_cast<std::size_t>(3 + i)] = value.covariance(i / 3, i % 3);
-  }
-  return numbers;
-}
-
-PairRegistration registration_of(bool found, const Numbers& numbers, int inliers) {
-  PairRegistration value{found, {numbers[0], numbers[1], numbers[2]}, {}, inliers};
-  for (int i = 0; i < 9; ++i) {
-    value.covariance(i / 3, i % 3) = numbers[static_cast<std::size_t>(3 + i)];
-  }
-  return value;
-}
-
-// SQLite does not see a flipped bit in a row; this does.
-std::int64_t checksum(const RegistrationKey& key, const PairRegistration& value) {
-  Hash hash;
-  hash.add(key.first).add(key.second).add(value.found).add(value.inliers);
-  for (const double number : numbers_of(value)) hash.add(number);
-  return static_cast<std::int64_t>(hash.value());
-}
-
-std::array<std::uint64_t, 2> words_of(const RegistrationKey& key) {
-  return {key.first, key.second};
-}
 
 std::string environment(const char* name) {
   const char* value = std::getenv(name);
@@ -178,7 +146,7 @@ class RegistrationStore::File {
     select_->bind(1, words.data(), sizeof words);
     std::optional<PairRegistration> value;
     if (select_->executeStep()) {
-      Numbers numbers{};
+      RegistrationNumbers numbers{};
       const SQLite::Column blob = select_->getColumn(1);
       if (blob.getBytes() == sizeof numbers) {
         std::memcpy(numbers.data(), blob.getBlob(), sizeof numbers);
@@ -193,7 +161,7 @@ class RegistrationStore::File {
 
   void insert(const RegistrationKey& key, const PairRegistration& value) {
     const auto words = words_of(key);
-    const Numbers numbers = numbers_of(value);
+    const RegistrationNumbers numbers = numbers_of(value);
     insert_->reset();
     insert_->bind(1, words.data(), sizeof words);
     insert_->bind(2, value.found ? 1 : 0);
