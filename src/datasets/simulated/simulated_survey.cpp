@@ -1,9 +1,7 @@
 #include "fathom/datasets/simulated_survey.hpp"
 
-#include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <cstdio>
 #include <mutex>
 #include <numbers>
 #include <string>
@@ -12,8 +10,8 @@
 #include "fathom/core/hash.hpp"
 #include "fathom/core/input_error.hpp"
 #include "fathom/core/random.hpp"
-#include "fathom/core/text.hpp"
 #include "fathom/datasets/mission.hpp"
+#include "seen_floor.hpp"
 
 namespace fathom {
 namespace {
@@ -75,101 +73,7 @@ double measured_altitude(double altitude_m, double sigma_m, RandomStream& stream
                    "below zero; expected a number in m well below " + kPrefix + "altitude.base_m");
 }
 
-// The part of the altitude's options that a trial draws.
-struct AltimeterOptions {
-  AltitudeOptions& altitude;
-
-  void describe(OptionTable& table) const { altitude.describe_trial(table); }
-};
-
-std::string metres(double value) {
-  char buffer[48];
-  std::snprintf(buffer, sizeof buffer, "%.2f m", value);
-  return buffer;
-}
-
-// Which side of the world a view leaves and by how much, or nothing.
-std::string beyond(const Eigen::AlignedBox2d& world, const Eigen::AlignedBox2d& view) {
-  const struct {
-    const char* side;
-    double by_m;
-  } sides[] = {{"top", view.max().x() - world.max().x()},
-               {"bottom", world.min().x() - view.min().x()},
-               {"left", view.max().y() - world.max().y()},
-               {"right", world.min().y() - view.min().y()}};
-  const auto& worst =
-      *std::max_element(std::begin(sides), std::end(sides),
-                        [](const auto& a, const auto& b) { return a.by_m < b.by_m; });
-  return worst.by_m > 0.0 ? metres(worst.by_m) + " beyond the picture's " + worst.side : "";
-}
-
-// A floor as low as it may be is seen farthest.
-Eigen::AlignedBox2d view_box(const ViewRays& rays, const Pose& pose, const View& view,
-                             double relief_m) {
-  try {
-    return rays.seen(pose, view.altitude_m + relief_m, view.tilt);
-  } catch (const InputError& error) {
-    throw InputError(kPrefix + "attitude: " + error.what());
-  }
-}
-
-[[noreturn]] void refuse_view(const std::string& what, const FrameInfo& info, std::size_t frame,
-                              const Eigen::Vector2d& mission_m, const Eigen::Vector2d& world_m) {
-  std::string message = kPrefix + "world.picture: frame " + std::to_string(frame);
-  message += " at " + seconds_text(info.time_ns) + " s sees " + what;
-  message += "; the mission sees " + metres(mission_m.x()) + " up by " + metres(mission_m.y());
-  message += " across, the picture has " + metres(world_m.x()) + " by " + metres(world_m.y());
-  message +=
-      ": shorten the mission, fly lower, or change world.metres_per_pixel, heading_rad, "
-      "origin_x_m or origin_y_m";
-  throw InputError(message);
-}
-
-// Boxes are in the axes of the picture, with the origin at frame 0.
-void require_inside(const WorldPlan& world, const std::vector<Eigen::AlignedBox2d>& boxes,
-                    const Eigen::AlignedBox2d& all, const std::vector<FrameInfo>& infos) {
-  const Eigen::AlignedBox2d extent = world.extent().translated(-world.mission.position());
-  for (std::size_t i = 0; i < boxes.size(); ++i) {
-    const std::string what = beyond(extent, boxes[i]);
-    if (!what.empty()) refuse_view(what, infos[i], i, all.sizes(), extent.sizes());
-  }
-}
-
 }  // namespace
-
-void AltitudeOptions::describe(OptionTable& table) {
-  table.real("base_m", base_m, Range::positive(), "m",
-             "mean altitude of the camera over the floor");
-  table.real("amplitude_m", amplitude_m, Range::at_least(0), "m", "of its sine over time");
-  table.real("period_s", period_s, Range::positive(), "s", "of its sine over time");
-  describe_trial(table);
-}
-
-void AltitudeOptions::describe_trial(OptionTable& table) {
-  table.real("altimeter_sigma_m", altimeter_sigma_m, Range::at_least(0), "m",
-             "standard deviation of a measured altitude");
-}
-
-void SimulatedSurveyOptions::describe(OptionTable& table) {
-  table.group("world", world);
-  table.group("mission", mission);
-  table.group("altitude", altitude);
-  table.group("camera", camera);
-  table.group("odometry", odometry);
-  table.group("attitude", attitude);
-  table.group("water", effects.water);
-  table.group("camera_effects", effects.camera);
-}
-
-void SimulatedSurveyOptions::describe_trial(OptionTable& table) {
-  AltimeterOptions altimeter{altitude};
-  table.group("altitude", altimeter);
-  table.group("odometry", odometry);
-}
-
-std::vector<IgnoredKey> SimulatedSurveyOptions::ignored_keys() const {
-  return below("mission", mission.ignored_keys());
-}
 
 // What pictures are rendered from; made when the first one is asked for.
 class SimulatedSurvey::Floor {
@@ -271,15 +175,9 @@ void SimulatedSurvey::plan_views(const SimulatedSurveyOptions& options, std::uin
 
 void SimulatedSurvey::plan_floor(const WorldOptions& options, std::uint64_t seed) {
   ViewRays rays(camera_);
-  std::vector<Eigen::AlignedBox2d> boxes;
-  Eigen::AlignedBox2d all;
-  for (std::size_t i = 0; i < infos_.size(); ++i) {
-    const Pose pose = compose({0, 0, options.heading_rad}, *infos_[i].ground_truth);
-    boxes.push_back(view_box(rays, pose, views_[i], options.relief_m));
-    all.extend(boxes.back());
-  }
-  WorldPlan plan = plan_world(options, all, seed, kPrefix + "world.");
-  require_inside(plan, boxes, all, infos_);
+  const SeenFloor seen = seen_floor(rays, views_, options, kPrefix);
+  WorldPlan plan = plan_world(options, seen.all, seed, kPrefix + "world.");
+  require_inside(plan, seen, infos_, kPrefix);
   floor_ = std::make_shared<Floor>(camera_, std::move(rays), std::move(plan));
 }
 

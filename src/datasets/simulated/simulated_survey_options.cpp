@@ -1,0 +1,49 @@
+#include "fathom/datasets/simulated_survey.hpp"
+
+namespace fathom {
+namespace {
+
+// The part of the altitude's options that a trial draws.
+struct AltimeterOptions {
+  AltitudeOptions& altitude;
+
+  void describe(OptionTable& table) const { altitude.describe_trial(table); }
+};
+
+}  // namespace
+
+void AltitudeOptions::describe(OptionTable& table) {
+  table.real("base_m", base_m, Range::positive(), "m",
+             "mean altitude of the camera over the floor");
+  table.real("amplitude_m", amplitude_m, Range::at_least(0), "m", "of its sine over time");
+  table.real("period_s", period_s, Range::positive(), "s", "of its sine over time");
+  describe_trial(table);
+}
+
+void AltitudeOptions::describe_trial(OptionTable& table) {
+  table.real("altimeter_sigma_m", altimeter_sigma_m, Range::at_least(0), "m",
+             "standard deviation of a measured altitude");
+}
+
+void SimulatedSurveyOptions::describe(OptionTable& table) {
+  table.group("world", world);
+  table.group("mission", mission);
+  table.group("altitude", altitude);
+  table.group("camera", camera);
+  table.group("odometry", odometry);
+  table.group("attitude", attitude);
+  table.group("water", effects.water);
+  table.group("camera_effects", effects.camera);
+}
+
+void SimulatedSurveyOptions::describe_trial(OptionTable& table) {
+  AltimeterOptions altimeter{altitude};
+  table.group("altitude", altimeter);
+  table.group("odometry", odometry);
+}
+
+std::vector<IgnoredKey> SimulatedSurveyOptions::ignored_keys() const {
+  return below("mission", mission.ignored_keys());
+}
+
+}  // namespace fathom
