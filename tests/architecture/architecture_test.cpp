@@ -1,44 +1,19 @@
 // The design's table of modules, held against every include, every link edge and every source.
 
-#include <filesystem>
-#include <fstream>
 #include <regex>
 #include <sstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "architecture/checkout.hpp"
 #include "architecture/include_rules.hpp"
 
 namespace fathom::test {
 namespace {
 
-namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-
-std::string content_of(const fs::path& path) {
-  std::ifstream file(path);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
-
-// Paths from the top of the checkout.
-std::vector<std::string> files_below(const std::vector<std::string>& folders,
-                                     const std::string& name_pattern) {
-  const fs::path top = FATHOM_SOURCE_DIR;
-  const std::regex pattern(name_pattern);
-  std::vector<std::string> files;
-  for (const std::string& folder : folders) {
-    for (const auto& entry : fs::recursive_directory_iterator(
-             top / folder, fs::directory_options::follow_directory_symlink)) {
-      if (!std::regex_match(entry.path().filename().string(), pattern)) continue;
-      files.push_back(folder + "/" + entry.path().lexically_relative(top / folder).string());
-    }
-  }
-  return files;
-}
 
 std::vector<std::string> sources(const std::vector<std::string>& folders) {
   return files_below(folders, R"(.*\.(hpp|cpp)(\.in)?)");
@@ -49,8 +24,7 @@ TEST(Architecture, EveryIncludeIsAllowedByTheDesign) {
   ASSERT_GT(files.size(), 100u);
   std::size_t seen = 0;
   for (const std::string& file : files) {
-    for (const Include& include :
-         includes_of(file, content_of(fs::path(FATHOM_SOURCE_DIR) / file))) {
+    for (const Include& include : includes_of(file, content_of(file))) {
       EXPECT_THAT(complaint_about(include), IsEmpty());
       ++seen;
     }
@@ -65,7 +39,7 @@ TEST(Architecture, EveryLinkIsAllowedByTheDesign) {
       R"((fathom_module|fathom_estimator|fathom_support|target_link_libraries)\s*\(\s*(\w+)([^)]*)\))");
   std::size_t seen = 0;
   for (const std::string& file : files_below({"src", "estimators", "apps"}, R"(CMakeLists\.txt)")) {
-    const std::string text = content_of(fs::path(FATHOM_SOURCE_DIR) / file);
+    const std::string text = content_of(file);
     for (std::sregex_iterator found(text.begin(), text.end(), call), end; found != end; ++found) {
       const bool is_support = (*found)[1] == "fathom_support";
       const std::string name = (is_support ? "support_" : "") + (*found)[2].str();
@@ -87,7 +61,7 @@ TEST(Architecture, LibrariesNeitherPrintNorExitNorRollDice) {
       R"(std::cout|std::cerr|std::clog|\b(f|v|vf)?printf\s*\(|\bputs\s*\(|\b_?exit\s*\(|\babort\s*\()"
       R"(|\bterminate\s*\(|random_device|\bs?rand\s*\(|default_random_engine)");
   for (const std::string& file : sources({"include", "src", "estimators"})) {
-    std::istringstream lines(content_of(fs::path(FATHOM_SOURCE_DIR) / file));
+    std::istringstream lines(content_of(file));
     int number = 0;
     for (std::string line; std::getline(lines, line);) {
       ++number;
