@@ -39,7 +39,7 @@ void print_graph(const GraphSummary& graph) {
 }
 
 // A batch solve tells how large the residuals of this graph are; it is quick.
-std::vector<std::string> judge_information(const MeasurementLog& log) {
+std::vector<std::string> check_information(const MeasurementLog& log) {
   std::vector<std::string> warnings;
   const EstimatorEntry& solver = builtin_estimators().find("ceres_pose_graph");
   ReplayOptions options;
@@ -95,7 +95,7 @@ void check_graph(const std::string& path) {
   const MeasurementLog log = record_graph(path).log;
   if (log.guess) std::printf("  F            %.10g at the file's guess\n", chi2(log, *log.guess));
   std::printf("  F            %.10g at odometry\n", chi2(log, log.odometry()));
-  std::vector<std::string> warnings = judge_information(log);
+  std::vector<std::string> warnings = check_information(log);
   if (graph.badly_conditioned > 0) {
     warnings.push_back(plural(graph.badly_conditioned, "edge") +
                        " with badly conditioned information (above 1e8)");

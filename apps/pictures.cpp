@@ -29,7 +29,7 @@ struct Column {
   const char* heading;
   const char* metric;
   int digits;
-  bool is_judged = false;  ///< by ground truth: left out where there is none
+  bool needs_ground_truth = false;  ///< left out where there is none
 };
 
 constexpr Column kColumns[] = {{"loops", "loop_closures", 0},
@@ -79,14 +79,15 @@ void write_trajectory_picture(const std::filesystem::path& path, const std::stri
 std::string result_table(const Recording& recording, const std::vector<Result>& results) {
   std::vector<std::string> header{"", "outcome"};
   for (const Column& column : kColumns) {
-    if (recording.ground_truth || !column.is_judged) header.emplace_back(column.heading);
+    if (recording.ground_truth || !column.needs_ground_truth) header.emplace_back(column.heading);
   }
   Table table(header);
   const auto add_row = [&](const std::string& name, const std::string& outcome,
                            const std::map<std::string, double>& metrics) {
     std::vector<std::string> row{name, outcome};
     for (const Column& column : kColumns) {
-      if (recording.ground_truth || !column.is_judged) row.push_back(cell_of(column, metrics));
+      if (recording.ground_truth || !column.needs_ground_truth)
+        row.push_back(cell_of(column, metrics));
     }
     table.add_row(row);
   };

@@ -13,8 +13,8 @@ namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-// What an estimator did wrong; its text stands behind the name of the call.
-struct Mistake : std::runtime_error {
+// How an estimator broke its contract; the text stands behind the name of the call.
+struct ContractViolation : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
@@ -24,8 +24,8 @@ bool is_of(const LoopDecision& loop, const RelativePose& z) {
 
 void require_count(std::size_t count, std::size_t expected, const char* of_what) {
   if (count == expected) return;
-  throw Mistake("has " + std::to_string(count) + " " + of_what + ", expected " +
-                std::to_string(expected));
+  throw ContractViolation("has " + std::to_string(count) + " " + of_what + ", expected " +
+                          std::to_string(expected));
 }
 
 UpdateReport failed(std::span<const RelativePose> registrations) {
@@ -53,8 +53,8 @@ GuardedEstimator::GuardedEstimator(const EstimatorEntry& entry, const EstimatorS
   check_size("create");
 }
 
-// Runs a call unless there was a mistake already; what it throws is one. Texts are made when they
-// are needed alone, as this stands between an estimator and the clock.
+// Runs a call unless there was a fault already; what it throws is one. Texts are made only when
+// needed, as the clock runs meanwhile.
 template <class Call>
 void GuardedEstimator::guarded(const char* what, Call call) const {
   if (!fault_.empty()) return;
@@ -63,8 +63,8 @@ void GuardedEstimator::guarded(const char* what, Call call) const {
     call();
   } catch (const std::bad_alloc&) {
     throw;
-  } catch (const Mistake& mistake) {
-    fault_ = at() + ": " + mistake.what();
+  } catch (const ContractViolation& violation) {
+    fault_ = at() + ": " + violation.what();
   } catch (const std::exception& error) {
     fault_ = at() + " threw an exception: " + error.what();
   } catch (...) {
@@ -76,7 +76,8 @@ void GuardedEstimator::check_size(const char* call) const {
   guarded(call, [&] {
     const std::size_t size = estimator_->size();
     if (size != size_) {
-      throw Mistake("size() is " + std::to_string(size) + ", expected " + std::to_string(size_));
+      throw ContractViolation("size() is " + std::to_string(size) + ", expected " +
+                              std::to_string(size_));
     }
   });
 }
@@ -85,7 +86,7 @@ Pose GuardedEstimator::pose(std::size_t k) const {
   Pose pose{kNaN, kNaN, kNaN};
   guarded("pose", [&] {
     pose = estimator_->pose(k);
-    if (!is_finite(pose)) throw Mistake("pose " + std::to_string(k) + " is not finite");
+    if (!is_finite(pose)) throw ContractViolation("pose " + std::to_string(k) + " is not finite");
   });
   return pose;
 }
@@ -114,8 +115,8 @@ UpdateReport GuardedEstimator::close_loops(std::span<const RelativePose> registr
     require_count(report.loops.size(), registrations.size(), "decisions on registrations");
     for (std::size_t j = 0; j < registrations.size(); ++j) {
       if (is_of(report.loops[j], registrations[j])) continue;
-      throw Mistake("decision " + std::to_string(j) + " is on other keyframes than registration " +
-                    std::to_string(j));
+      throw ContractViolation("decision " + std::to_string(j) +
+                              " is on other keyframes than registration " + std::to_string(j));
     }
   });
   check_size("update");
@@ -139,7 +140,7 @@ std::optional<Eigen::Matrix3d> GuardedEstimator::covariance(std::size_t k) const
   guarded("covariance", [&] {
     covariance = estimator_->covariance(k);
     if (covariance && !covariance->allFinite()) {
-      throw Mistake("that of keyframe " + std::to_string(k) + " is not finite");
+      throw ContractViolation("that of keyframe " + std::to_string(k) + " is not finite");
     }
   });
   if (!fault_.empty()) covariance.reset();
@@ -154,7 +155,7 @@ std::optional<Eigen::MatrixXd> GuardedEstimator::joint_covariance(
     if (!covariance) return;
     require_count(static_cast<std::size_t>(covariance->rows()), 3 * keyframes.size(), "rows");
     require_count(static_cast<std::size_t>(covariance->cols()), 3 * keyframes.size(), "columns");
-    if (!covariance->allFinite()) throw Mistake("it is not finite");
+    if (!covariance->allFinite()) throw ContractViolation("it is not finite");
   });
   if (!fault_.empty()) covariance.reset();
   return covariance;
@@ -172,7 +173,7 @@ std::vector<double> GuardedEstimator::loop_weights() const {
     weights = estimator_->loop_weights();
     if (!weights.empty()) require_count(weights.size(), registrations_, "weights");
     for (const double weight : weights) {
-      if (!std::isfinite(weight)) throw Mistake("a weight is not finite");
+      if (!std::isfinite(weight)) throw ContractViolation("a weight is not finite");
     }
   });
   if (!fault_.empty()) weights.clear();

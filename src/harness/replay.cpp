@@ -61,8 +61,8 @@ void give_keyframes(const MeasurementLog& log, Estimator& estimator, const Repla
       const CallTimer update_timer(result);
       const UpdateReport report = estimator.close_loops(arrival.registrations);
       const double update_ms = update_timer.stop();
-      // In batch mode nothing is solved here: what became of the registrations counts, and whether
-      // they could be taken.
+      // In batch mode nothing is solved here: only the decisions on the registrations count, and
+      // whether they could be taken.
       if (batch) {
         if (!is_done(report.outcome)) result.outcome = worse(result.outcome, report.outcome);
         result.loops.insert(result.loops.end(), report.loops.begin(), report.loops.end());
@@ -103,7 +103,7 @@ void collect_covariances(Estimator& estimator, Replay& result) {
   result.covariances = std::move(covariances);
 }
 
-// Nothing that a faulty estimator said is of use.
+// After a fault no output of the estimator can be trusted.
 void note_fault(const std::string& fault, Replay& result) {
   result.fault = fault;
   result.outcome = Outcome::numerical_failure;

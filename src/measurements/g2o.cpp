@@ -26,31 +26,31 @@ RelativePose measurement(const G2oFile::Edge& edge, const KeyframeOf& keyframe_o
 
 // Where to point at for a keyframe that lacks its odometry edge.
 std::size_t line_about(const G2oFile& file, std::int64_t id,
-                       const std::vector<std::size_t>& arrivals) {
+                       const std::vector<std::size_t>& edges) {
   const auto vertex = file.vertices.find(id);
   if (vertex != file.vertices.end()) return vertex->second.line;
-  return arrivals.empty() ? file.lines : file.edges[arrivals.front()].line;
+  return edges.empty() ? file.lines : file.edges[edges.front()].line;
 }
 
 MeasurementLog build_log(const G2oFile& file, const G2oFault& fault) {
   const KeyframeOf keyframe_of = file.keyframes();
   // Per keyframe, the indices of its edges in file order; its step is one of them.
-  std::vector<std::vector<std::size_t>> arrivals(keyframe_of.size());
+  std::vector<std::vector<std::size_t>> edges_of(keyframe_of.size());
   for (std::size_t e = 0; e < file.edges.size(); ++e) {
     const G2oFile::Edge& edge = file.edges[e];
-    arrivals[keyframe_of.at(std::max(edge.from, edge.to))].push_back(e);
+    edges_of[keyframe_of.at(std::max(edge.from, edge.to))].push_back(e);
   }
   MeasurementLog log(file.vertices.empty() ? Pose{} : file.vertices.begin()->second.pose);
   for (const auto& [id, keyframe] : keyframe_of) log.ids.push_back(id);
   for (std::size_t k = 1; k < log.ids.size(); ++k) {
-    const auto step = find_step(file, arrivals[k], k, log.ids);
+    const auto step = find_step(file, edges_of[k], k, log.ids);
     if (!step) {
-      fault(line_about(file, log.ids[k], arrivals[k]),
+      fault(line_about(file, log.ids[k], edges_of[k]),
             "pose " + std::to_string(log.ids[k]) + " has no odometry edge from pose " +
                 std::to_string(log.ids[k - 1]) + ", the one before it");
     }
     log.add_keyframe(measurement(file.edges[*step], keyframe_of));
-    for (const std::size_t e : arrivals[k]) {
+    for (const std::size_t e : edges_of[k]) {
       if (e != *step) log.add_registration(measurement(file.edges[e], keyframe_of));
     }
   }

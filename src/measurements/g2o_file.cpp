@@ -181,16 +181,16 @@ void check_references(const G2oFile& file, const G2oFault& fault) {
   }
 }
 
-std::optional<std::size_t> find_step(const G2oFile& file, const std::vector<std::size_t>& arrivals,
+std::optional<std::size_t> find_step(const G2oFile& file, const std::vector<std::size_t>& edges,
                                      std::size_t k, const std::vector<std::int64_t>& ids) {
   const auto joins = [&](std::int64_t from, std::int64_t to) {
-    return std::find_if(arrivals.begin(), arrivals.end(), [&](std::size_t e) {
+    return std::find_if(edges.begin(), edges.end(), [&](std::size_t e) {
       return file.edges[e].from == from && file.edges[e].to == to;
     });
   };
   auto found = joins(ids[k - 1], ids[k]);
-  if (found == arrivals.end()) found = joins(ids[k], ids[k - 1]);
-  if (found == arrivals.end()) return std::nullopt;
+  if (found == edges.end()) found = joins(ids[k], ids[k - 1]);
+  if (found == edges.end()) return std::nullopt;
   return *found;
 }
 

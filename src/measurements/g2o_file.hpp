@@ -51,9 +51,9 @@ G2oFile scan_g2o(const std::string& content, const G2oFault& fault);
 /// lowest.
 void check_references(const G2oFile& file, const G2oFault& fault);
 
-/// Index of the edge that is the dead reckoning of keyframe k ≥ 1, out of `arrivals`, the indices
+/// Index of the edge that is the dead reckoning of keyframe k ≥ 1, out of `edges`, the indices
 /// of the edges whose later keyframe it is; nothing if there is none. `ids` of all keyframes.
-std::optional<std::size_t> find_step(const G2oFile& file, const std::vector<std::size_t>& arrivals,
+std::optional<std::size_t> find_step(const G2oFile& file, const std::vector<std::size_t>& edges,
                                      std::size_t k, const std::vector<std::int64_t>& ids);
 
 }  // namespace fathom

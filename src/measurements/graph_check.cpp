@@ -54,26 +54,26 @@ void add_edge(const G2oFile::Edge& edge, GraphSummary& summary) {
 // Which edges are dead reckoning, by the rule of the reader; a keyframe without one is a fault.
 void count_steps(const G2oFile& file, GraphSummary& summary, const G2oFault& fault) {
   const auto keyframe_of = file.keyframes();
-  std::vector<std::vector<std::size_t>> arrivals(keyframe_of.size());
+  std::vector<std::vector<std::size_t>> edges_of(keyframe_of.size());
   for (std::size_t e = 0; e < file.edges.size(); ++e) {
-    arrivals[keyframe_of.at(std::max(file.edges[e].from, file.edges[e].to))].push_back(e);
+    edges_of[keyframe_of.at(std::max(file.edges[e].from, file.edges[e].to))].push_back(e);
   }
   std::vector<std::int64_t> ids;
   ids.reserve(keyframe_of.size());
   for (const auto& [id, keyframe] : keyframe_of) ids.push_back(id);
   for (std::size_t k = 1; k < ids.size(); ++k) {
-    const auto step = find_step(file, arrivals[k], k, ids);
+    const auto step = find_step(file, edges_of[k], k, ids);
     if (step) {
       ++summary.odometry_edges;
     } else {
       const auto vertex = file.vertices.find(ids[k]);
       fault(vertex != file.vertices.end() ? vertex->second.line
-            : arrivals[k].empty()         ? file.lines
-                                          : file.edges[arrivals[k].front()].line,
+            : edges_of[k].empty()         ? file.lines
+                                          : file.edges[edges_of[k].front()].line,
             "pose " + std::to_string(ids[k]) + " has no odometry edge from pose " +
                 std::to_string(ids[k - 1]) + ", the one before it");
     }
-    for (const std::size_t e : arrivals[k]) {
+    for (const std::size_t e : edges_of[k]) {
       if (step && e == *step) continue;
       ++summary.loops;
       if (file.edges[e].from > file.edges[e].to) ++summary.backward_loops;

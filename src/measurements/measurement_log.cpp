@@ -8,23 +8,23 @@ namespace fathom {
 
 void MeasurementLog::add_keyframe(const RelativePose& step) {
   assert(step.newest() == size() && step.from + step.to + 1 == 2 * size());
-  arrivals_.push_back({step, {}});
+  measurements_.push_back({step, {}});
 }
 
 void MeasurementLog::add_registration(const RelativePose& registration) {
-  assert(!arrivals_.empty() && registration.newest() + 1 == size());
-  arrivals_.back().registrations.push_back(registration);
+  assert(!measurements_.empty() && registration.newest() + 1 == size());
+  measurements_.back().registrations.push_back(registration);
 }
 
 std::size_t MeasurementLog::registration_count() const {
   std::size_t count = 0;
-  for (const KeyframeMeasurements& arrival : arrivals_) count += arrival.registrations.size();
+  for (const KeyframeMeasurements& arrival : measurements_) count += arrival.registrations.size();
   return count;
 }
 
 std::vector<RelativePose> MeasurementLog::edges() const {
   std::vector<RelativePose> edges;
-  for (const KeyframeMeasurements& arrival : arrivals_) {
+  for (const KeyframeMeasurements& arrival : measurements_) {
     edges.push_back(arrival.step);
     edges.insert(edges.end(), arrival.registrations.begin(), arrival.registrations.end());
   }
@@ -33,7 +33,7 @@ std::vector<RelativePose> MeasurementLog::edges() const {
 
 std::vector<Pose> MeasurementLog::odometry() const {
   std::vector<Pose> motions;
-  for (const KeyframeMeasurements& arrival : arrivals_) {
+  for (const KeyframeMeasurements& arrival : measurements_) {
     motions.push_back(arrival.step.forward().motion);
   }
   return compose_trajectory(origin_, motions);

@@ -130,16 +130,16 @@ Spoiled spoil(const MeasurementLog& log, std::span<const Pose> reference,
   const auto count =
       static_cast<std::size_t>(std::llround(options.share / (1.0 - options.share) * right));
   Spoiler spoiler(log, reference, options, RandomStream(seed, "false_loops", trial));
-  std::vector<std::vector<RelativePose>> arrivals(log.size());
-  for (const RelativePose& z : spoiler.draw(count)) arrivals[z.to].push_back(z);
+  std::vector<std::vector<RelativePose>> false_loops(log.size());
+  for (const RelativePose& z : spoiler.draw(count)) false_loops[z.to].push_back(z);
   Spoiled spoiled{MeasurementLog(log.origin()), {}};
   for (std::size_t k = 1; k < log.size(); ++k) {
     const KeyframeMeasurements& arrival = log.arrival(k);
     spoiled.log.add_keyframe(arrival.step);
     for (const RelativePose& z : arrival.registrations) spoiled.log.add_registration(z);
-    for (const RelativePose& z : arrivals[k]) spoiled.log.add_registration(z);
+    for (const RelativePose& z : false_loops[k]) spoiled.log.add_registration(z);
     spoiled.is_false.insert(spoiled.is_false.end(), arrival.registrations.size(), false);
-    spoiled.is_false.insert(spoiled.is_false.end(), arrivals[k].size(), true);
+    spoiled.is_false.insert(spoiled.is_false.end(), false_loops[k].size(), true);
   }
   spoiled.log.ids = log.ids;
   spoiled.log.guess = log.guess;

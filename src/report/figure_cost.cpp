@@ -25,18 +25,18 @@ std::vector<CostPoint> points_of(const CellResults& cell, const std::string& acc
   std::vector<CostPoint> points;
   for (const EstimatorResults& one : cell.estimators) {
     const auto error = one.metrics.find(accuracy);
-    const auto price = one.metrics.find(cost);
-    if (error == one.metrics.end() || price == one.metrics.end()) continue;
-    if (!(interval_or_point(price->second).low > 0.0)) continue;  // has no place on the axis
-    points.push_back({one.name, price->second.moments.mean, error->second.moments.mean,
-                      interval_or_point(price->second), interval_or_point(error->second)});
+    const auto costs = one.metrics.find(cost);
+    if (error == one.metrics.end() || costs == one.metrics.end()) continue;
+    if (!(interval_or_point(costs->second).low > 0.0)) continue;  // has no place on the axis
+    points.push_back({one.name, costs->second.moments.mean, error->second.moments.mean,
+                      interval_or_point(costs->second), interval_or_point(error->second)});
   }
   return points;
 }
 
-// By rising cost, those that are better than all cheaper ones; none by a metric that has no better
-// value.
-std::vector<CostPoint> front_of(std::vector<CostPoint> points, Better better) {
+// The Pareto front by rising cost: the points better than all cheaper ones. Empty for a metric of
+// which neither direction is better.
+std::vector<CostPoint> pareto_front(std::vector<CostPoint> points, Better better) {
   if (better == Better::neither) return {};
   const double sign = better == Better::higher ? -1.0 : 1.0;
   std::sort(points.begin(), points.end(), [sign](const CostPoint& a, const CostPoint& b) {
@@ -113,7 +113,7 @@ void add_cost_figures(const FigureInput& input, std::vector<StudyFigure>& figure
     if (points.empty()) continue;
     const std::string conditions =
         cell_caption(cell) + failures_text(cell) + "; means, 95 % intervals";
-    const std::vector<CostPoint> front = front_of(points, described(*accuracy).better);
+    const std::vector<CostPoint> front = pareto_front(points, described(*accuracy).better);
     const FigureLayout layout({170.0}, legend_of(points, styles, !front.empty()), conditions);
     const ChartFrame frame = frame_of(points, *accuracy, *cost, layout.chart(0));
     figures.push_back({figure_title("accuracy_against_cost", cell.label, results.cells.size() == 1),

@@ -8,17 +8,17 @@
 
 namespace fathom {
 
-/// An estimator whose mistakes are found out: a call that throws, a size or a report that does not
-/// fit what was given, a pose or covariance that is not finite. After the first of them nothing is
-/// passed on: updates report `numerical_failure`, poses are NaN. Memory that runs out is no mistake
-/// of an estimator: std::bad_alloc passes.
+/// A decorator that checks an estimator against its contract. A fault is a call that throws, a size
+/// or a report that does not fit what was given, or a pose or covariance that is not finite. After
+/// the first fault nothing is passed on: updates report `numerical_failure`, poses are NaN. Memory
+/// that runs out is no fault of an estimator: std::bad_alloc passes.
 class GuardedEstimator : public Estimator {
  public:
   /// Makes an estimator. Throws InputError on an unknown key or a bad value.
   GuardedEstimator(const EstimatorEntry& entry, const EstimatorSetup& setup,
                    const EstimatorValues& values);
 
-  /// The first mistake, one line, with the keyframe at which it was made; empty: none so far.
+  /// The first fault, one line, with the call and the keyframe; empty: none so far.
   const std::string& fault() const { return fault_; }
 
   /// Keyframes given, whatever the estimator says.

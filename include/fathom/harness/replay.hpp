@@ -45,8 +45,8 @@ struct Replay {
   /// Of every keyframe; absent where not asked for or not to be had.
   std::optional<std::vector<Eigen::Matrix3d>> covariances;
   Outcome outcome = Outcome::converged;  ///< the worst of all updates
-  /// What the estimator did that none may do (GuardedEstimator), one line; the outcome is
-  /// `numerical_failure` then. Empty: nothing.
+  /// How the estimator broke its contract (GuardedEstimator), one line; the outcome is
+  /// `numerical_failure` then. Empty: it did not.
   std::string fault;
   std::array<std::size_t, 4> outcome_counts{};  ///< of updates, by Outcome
   std::vector<LoopDecision> loops;

@@ -10,8 +10,8 @@
 
 namespace fathom {
 
-/// What arrives with keyframe k: its dead-reckoning step from k − 1 and the registrations of which
-/// k is the later keyframe, in order of arrival.
+/// The measurements that arrive with keyframe k: its dead-reckoning step (odometry edge) from k − 1
+/// and the registrations (loop edges) of which k is the later keyframe, in order of arrival.
 struct KeyframeMeasurements {
   RelativePose step;
   std::vector<RelativePose> registrations;
@@ -24,7 +24,7 @@ class MeasurementLog {
   explicit MeasurementLog(const Pose& origin = {}) : origin_(origin) {}
 
   const Pose& origin() const { return origin_; }
-  std::size_t size() const { return arrivals_.size() + 1; }
+  std::size_t size() const { return measurements_.size() + 1; }
 
   /// Appends the next keyframe. `step` joins size() − 1 and size() and has a positive definite
   /// information matrix (asserted).
@@ -32,8 +32,8 @@ class MeasurementLog {
   /// A registration between the newest keyframe and an earlier one.
   void add_registration(const RelativePose& registration);
 
-  /// 1 ≤ k < size().
-  const KeyframeMeasurements& arrival(std::size_t k) const { return arrivals_[k - 1]; }
+  /// The measurements of keyframe k, 1 ≤ k < size().
+  const KeyframeMeasurements& arrival(std::size_t k) const { return measurements_[k - 1]; }
 
   std::size_t registration_count() const;
 
@@ -45,12 +45,12 @@ class MeasurementLog {
 
   /// Ids of the keyframes in the file they came from: rising, else 0, 1, 2 …
   std::vector<std::int64_t> ids;
-  /// The file's own guess of every keyframe, where it gives one.
+  /// The file's own initial guess of every keyframe, where it gives one.
   std::optional<std::vector<Pose>> guess;
 
  private:
   Pose origin_;
-  std::vector<KeyframeMeasurements> arrivals_;
+  std::vector<KeyframeMeasurements> measurements_;
 };
 
 /// F = Σ eᵀ Ω e over all edges as written, no ½: the cost that every estimator is compared by.

@@ -26,7 +26,7 @@ struct RunKey {
 struct RunRecord {
   RunKey key;
   std::string outcome;                    ///< name_of(Outcome); empty for dead reckoning
-  std::string fault;                      ///< what a faulty estimator did, one line; else empty
+  std::string fault;                      ///< how the estimator broke its contract; else empty
   std::string log_hash;                   ///< FNV-1a of the measurement log as g2o
   int jobs = 1;                           ///< runs that were at work at the same time
   std::map<std::string, double> metrics;  ///< docs/formats.md lists them
