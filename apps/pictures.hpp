@@ -16,7 +16,7 @@ void write_trajectory_picture(const std::filesystem::path& path, const std::stri
                               const Recording& recording, const std::vector<Result>& results,
                               std::size_t first_place = 0);
 
-/// One line an estimator, dead reckoning first, judged as the first estimator.
+/// One line an estimator, dead reckoning first, with the metrics of the first estimator.
 std::string result_table(const Recording& recording, const std::vector<Result>& results);
 
 }  // namespace fathom

@@ -37,7 +37,7 @@ std::string folder_configuration(const Configuration& configuration, const std::
       lines.push_back({key, value, value.starts_with('['), ""});
     }
   }
-  // Of a comparison, the one that picks the loop candidates.
+  // Of a comparison, the one whose estimate selects the loop candidates.
   const EstimatorConfiguration& estimator = configuration.estimators[configuration.reference];
   lines.push_back({"estimator.type", estimator.type, false, ""});
   for (const auto& [key, value] : estimator.values) {

@@ -33,7 +33,7 @@ double RandomStream::normal() {
 }
 
 std::uint64_t RandomStream::index(std::uint64_t count) {
-  // Draws past the last whole multiple of count would favour small indices.
+  // Rejection sampling: draws past the last whole multiple of count would favour small indices.
   const std::uint64_t limit = std::mt19937_64::max() - std::mt19937_64::max() % count;
   std::uint64_t draw = engine_();
   while (draw >= limit) draw = engine_();

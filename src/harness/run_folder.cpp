@@ -40,7 +40,7 @@ Setting setting_of(const std::string& key, const std::string& text, const DataSe
   return setting;
 }
 
-// Every registration in order of arrival and what became of it.
+// Every registration in order of arrival and the decision on it.
 std::string registrations_csv(const Recording& recording, const Result& result) {
   const bool knows_false = !recording.is_false_loop.empty();
   std::string text = "from,to,fate,nis,weight";

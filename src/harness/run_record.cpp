@@ -27,7 +27,7 @@ void put_times(RunRecord& run, const Recording& recording) {
   }
 }
 
-// The estimate as it was compared, with its errors. Returns what the alignment applied.
+// The aligned estimate with its errors. Returns what the alignment applied.
 Pose put_estimate(RunRecord& run, const Recording& recording, const std::vector<Pose>& estimate,
                   Alignment alignment) {
   if (!recording.ground_truth || !leaves_an_error(estimate.size(), alignment)) {
@@ -44,7 +44,7 @@ Pose put_estimate(RunRecord& run, const Recording& recording, const std::vector<
   return aligned.motion_reference_estimate;
 }
 
-// In the axes that the estimate was compared in.
+// In the axes of the aligned estimate.
 void put_covariances(RunRecord& run, const std::vector<Eigen::Matrix3d>& covariances,
                      const Pose& alignment) {
   Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();

@@ -41,8 +41,8 @@ struct G2oFile {
   std::map<std::int64_t, std::size_t> keyframes() const;
 };
 
-/// Told of what cannot be used: the line and what is wrong with it. If it returns, the line is left
-/// out and reading goes on.
+/// Error callback: the line that cannot be used and what is wrong with it. If it returns, the line
+/// is left out and reading goes on.
 using G2oFault = std::function<void(std::size_t line, const std::string& what)>;
 
 G2oFile scan_g2o(const std::string& content, const G2oFault& fault);

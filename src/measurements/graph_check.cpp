@@ -51,7 +51,7 @@ void add_edge(const G2oFile::Edge& edge, GraphSummary& summary) {
   summary.largest_sigma_rad = std::max(summary.largest_sigma_rad, sigma.z());
 }
 
-// Which edges are dead reckoning, by the rule of the reader; a keyframe without one is a fault.
+// Which edges are odometry edges, by the rule of the reader; a keyframe without one is a fault.
 void count_steps(const G2oFile& file, GraphSummary& summary, const G2oFault& fault) {
   const auto keyframe_of = file.keyframes();
   std::vector<std::vector<std::size_t>> edges_of(keyframe_of.size());

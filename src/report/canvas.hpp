@@ -52,7 +52,7 @@ class Canvas {
   void square(const Eigen::Vector2d& centre, double half, Colour colour);
   /// `at` is on the baseline. Control characters are drawn as blanks.
   void text(const std::string& text, const Eigen::Vector2d& at, const TextStyle& style);
-  /// What `draw` draws, cut off at the box.
+  /// What `draw` draws, clipped to the box.
   void clipped(const Box& box, const std::function<void()>& draw);
 
   /// All texts drawn so far: what a layout is checked by.

@@ -87,13 +87,13 @@ std::vector<double> heights(const std::vector<SweepLine>& lines,
   return values;
 }
 
-// What is stated is thin with rings, what was found is broad with discs.
-void draw_line(Canvas& canvas, const Points& points, const LineStyle& style, bool stated) {
-  const double width = stated ? 0.6 : 1.3;
+// Estimated 2σ is thin with rings, empirical 2σ is broad with discs.
+void draw_line(Canvas& canvas, const Points& points, const LineStyle& style, bool is_estimated) {
+  const double width = is_estimated ? 0.6 : 1.3;
   canvas.line(points, pen_of(style, width));
   for (const Eigen::Vector2d& point : points) {
-    canvas.disc(point, 1.8, stated ? palette::white : style.colour);
-    if (stated) canvas.ring(point, 1.8, {style.colour, width, {}, 1.0});
+    canvas.disc(point, 1.8, is_estimated ? palette::white : style.colour);
+    if (is_estimated) canvas.ring(point, 1.8, {style.colour, width, {}, 1.0});
   }
 }
 
@@ -118,10 +118,10 @@ std::string conditions_of(const FigureInput& input, const Sweep& sweep) {
   return text;
 }
 
-LegendEntry sample_entry(const std::string& text, bool stated) {
-  return {text, [stated](Canvas& canvas, const Eigen::Vector2d& centre) {
+LegendEntry sample_entry(const std::string& text, bool is_estimated) {
+  return {text, [is_estimated](Canvas& canvas, const Eigen::Vector2d& centre) {
             const Eigen::Vector2d half(6.0, 0.0);
-            draw_line(canvas, {centre - half, centre, centre + half}, {kSoftInk, {}}, stated);
+            draw_line(canvas, {centre - half, centre, centre + half}, {kSoftInk, {}}, is_estimated);
           }};
 }
 

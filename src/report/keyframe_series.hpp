@@ -29,7 +29,7 @@ struct UpdateCost {
 };
 
 /// Mean over keyframes from 1 on and trials of 2·√(P_xx + P_yy), and twice the root mean square
-/// position error over the same: what an honest estimator makes equal.
+/// position error over the same: equal for a consistent estimator.
 struct SweepBounds {
   double empirical_m = 0.0;
   std::optional<double> estimated_m;
@@ -48,10 +48,10 @@ EstimatorSeries estimator_series(const ResultStore& store, const EstimatorResult
 std::vector<std::vector<EstimatorSeries>> study_series(const ResultStore& store,
                                                        const StudyResults& results);
 
-/// Every so manieth of `count` places, the first and the last among them, about `most` at most.
+/// Evenly spaced indices below `count`, the first and the last among them, about `most` at most.
 std::vector<std::size_t> thinned(std::size_t count, std::size_t most);
 
-/// The entries of a list at some places; places beyond its end are left out.
+/// The entries of a list at some indices; indices beyond its end are left out.
 template <typename Value>
 std::vector<Value> picked(const std::vector<Value>& values,
                           const std::vector<std::size_t>& places) {

@@ -30,7 +30,7 @@ struct EstimatorConfiguration {
   EstimatorValues values;  ///< as given; the rest are defaults
 };
 
-/// Whose estimate picks the loop candidates.
+/// Whose estimate selects the loop candidates (data association).
 enum class Association {
   shared,  ///< one reference's: every estimator gets the same log, bit for bit
   own      ///< each estimator's own, as in the paper
@@ -60,7 +60,7 @@ struct Configuration {
   DataSetConfiguration dataset;
   FrontEndOptions front_end;
   /// One for `run`; for `compare` several, of which the first that `association.reference` names
-  /// picks the loop candidates.
+  /// selects the loop candidates.
   std::vector<EstimatorConfiguration> estimators;
   std::size_t reference = 0;
   Alignment alignment = Alignment::origin;

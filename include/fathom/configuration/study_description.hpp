@@ -24,8 +24,8 @@ struct StudyEstimator {
   std::string type;
 };
 
-/// What a study is, apart from its results. Cells are the product of the axes, the last axis
-/// running fastest; without axes there is one cell.
+/// What a study is, apart from its results. Cells are the Cartesian product of the axes, the last
+/// axis running fastest; without axes there is one cell.
 struct StudyDescription {
   std::string title;
   std::string alignment;   ///< of errors: none, origin or se2; of the cells that sweep no other
@@ -39,11 +39,11 @@ struct StudyDescription {
   std::vector<std::pair<std::string, std::string>> data;
 
   std::size_t cell_count() const;
-  /// The place on each axis of a cell.
+  /// The index on each axis of a cell.
   std::vector<std::size_t> places_of(std::size_t cell) const;
   /// "separation 5, noise level 2"; "all" without axes.
   std::string label_of(std::size_t cell) const;
-  /// How a cell's loop candidates were picked, `shared` or `own`; empty where there are none.
+  /// How a cell's loop candidates were selected, `shared` or `own`; empty where there are none.
   std::string association_of(std::size_t cell) const;
   /// How a cell's estimates were aligned for their errors.
   std::string alignment_of(std::size_t cell) const;

@@ -25,7 +25,7 @@ class RandomStream {
   /// Standard normal.
   double normal();
 
-  /// Uniform in {0, …, count − 1}; count > 0.
+  /// Uniform in {0, …, count − 1}, without modulo bias; count > 0.
   std::uint64_t index(std::uint64_t count);
 
  private:

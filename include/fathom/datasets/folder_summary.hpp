@@ -14,7 +14,7 @@ struct FolderSummary {
   std::vector<std::string> faults;  ///< what a run would refuse
 };
 
-/// Sums up a survey and looks for what is legal but probably wrong. Every picture is read as a
+/// Summarises a survey and looks for what is legal but probably wrong. Every picture is read as a
 /// run reads it.
 FolderSummary summarise_frames(const FrameSource& source);
 

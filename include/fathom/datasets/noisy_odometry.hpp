@@ -9,7 +9,7 @@
 
 namespace fathom {
 
-/// A survey whose recorded dead reckoning a study makes worse: to each frame's motion a draw is
+/// A survey with noise added to its recorded dead reckoning: to each frame's motion a draw is
 /// added, in the order of the frames, from the stream "added_noise"; to its covariance that of the
 /// noise. Without noise the motions are the recorded ones, bit for bit.
 class NoisyOdometry : public FrameSource {

@@ -13,7 +13,7 @@ struct WaterOptions {
   /// c: light travels r metres and t = exp(−c r) of it arrives, the rest being replaced by
   /// backscatter: I = J t + B (1 − t) (Jaffe 1990; Schechner and Karpel 2005).
   double attenuation_per_m = 0.0;
-  double backscatter = 128.0;  ///< B, the grey of endless water
+  double backscatter = 128.0;  ///< B, the veiling light: grey of infinitely deep water
   /// Sunlight on the floor, focused by waves: its brightness varies by this share at most, in a
   /// pattern that is new in every picture (Gracias et al. 2008).
   double caustics = 0.0;
@@ -28,10 +28,10 @@ double attenuation_of(double transmission, double path_m);
 
 /// What lamp, lens and sensor do to it, sources in docs/water.md. All off by default.
 struct CameraEffects {
-  double corner_light = 1.0;        ///< light in the farthest corner, as a share of the middle's
+  double corner_light = 1.0;        ///< vignetting: light in the farthest corner over the middle's
   double contrast = 1.0;            ///< about the mean grey of the picture
   double motion_blur_px = 0.0;      ///< how far the floor moves while the shutter is open
-  double noise_sigma = 0.0;         ///< greys, of 255
+  double noise_sigma = 0.0;         ///< grey levels, of 255
   std::vector<double> colour_cast;  ///< gains of red, green and blue; empty: none
 
   void describe(OptionTable& table);

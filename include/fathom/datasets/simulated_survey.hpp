@@ -46,8 +46,8 @@ struct SimulatedSurveyOptions {
   std::vector<IgnoredKey> ignored_keys() const;
 };
 
-/// A survey of a floor by a robot that knows nothing of its truth but what is measured. The
-/// pose of frame 0 is the identity. Pictures are rendered when asked for; a procedural floor is
+/// A survey of a floor with noisy measurements and known ground truth. The pose of frame 0 is the
+/// identity. Pictures are rendered when asked for; a procedural floor is
 /// drawn when the first of them is. Copies share the floor.
 class SimulatedSurvey : public FrameSource {
  public:

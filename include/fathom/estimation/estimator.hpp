@@ -21,7 +21,7 @@ Outcome worse(Outcome a, Outcome b);
 /// Converged, or stopped at its iteration limit: the estimate can be used.
 bool is_done(Outcome outcome);
 
-/// What became of one registration: used, refused by a gate, or lost with an update that failed.
+/// The decision on one registration: used, rejected by a gate, or lost with an update that failed.
 enum class LoopFate { used, rejected, lost };
 
 std::string name_of(LoopFate fate);

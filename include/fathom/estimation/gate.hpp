@@ -44,7 +44,7 @@ class Gate {
   std::optional<double> joint_probability_;
 };
 
-/// So many registrations at most are searched for the best set, 2¹² of them; of more, the worst are
+/// So many registrations at most are searched for the best set (2¹² sets); of more, the worst are
 /// dropped. It bounds the time: sets of that size agree or differ by far.
 inline constexpr std::size_t kMostSearched = 12;
 

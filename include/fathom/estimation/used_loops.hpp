@@ -10,7 +10,7 @@ namespace fathom {
 /// Which of the registrations given to a graph it uses, in the order given.
 class UsedLoops {
  public:
-  /// After an update, with the fates that its registrations met in the end.
+  /// After an update, with the final decisions on its registrations.
   void note(const UpdateReport& report);
 
   /// A weight for every registration given (Estimator::loop_weights): of those used the next of

@@ -12,8 +12,8 @@
 
 namespace fathom {
 
-/// How honest an estimate's covariances are. Alignment `origin`; keyframe 0, which is fixed and has
-/// no covariance, left out: entry i of a list belongs to keyframe i + 1.
+/// Consistency of an estimate with its covariances. Alignment `origin`; keyframe 0, which is fixed
+/// and has no covariance, left out: entry i of a list belongs to keyframe i + 1.
 struct Consistency {
   std::vector<double> pose_nees;      ///< eᵀ P⁻¹ e of (x, y, θ): χ² of 3 degrees of freedom
   std::vector<double> position_nees;  ///< the same of (x, y) alone: 2 degrees of freedom

@@ -15,7 +15,7 @@
 
 namespace fathom {
 
-/// What metrics are free in.
+/// The parameters of the metrics.
 struct MetricOptions {
   Alignment alignment = Alignment::origin;  ///< of the absolute errors
   std::vector<double> rpe_keyframes{1};     ///< separations of relative errors, whole numbers
@@ -26,7 +26,7 @@ struct MetricOptions {
 /// What an estimator did with a log, and what it cost.
 struct ReplayFacts {
   std::vector<JudgedLoop> loops;  ///< in the order of the log's registrations
-  double chi2_initial = 0.0;      ///< F where it started: dead reckoning, or the file's guess
+  double chi2_initial = 0.0;      ///< F at the initial guess: dead reckoning, or the file's
   double chi2_used = 0.0;         ///< Σ ρ(eᵀ Ω e) over what it used
   int iterations = 0;
   std::optional<double> gradient_norm;
@@ -47,7 +47,7 @@ struct RunFacts {
   std::optional<std::size_t> registrations_left_out = std::nullopt;  ///< likewise
   std::optional<std::span<const Pose>> ground_truth = std::nullopt;  ///< of the keyframes
   const TrueOverlaps* true_overlaps = nullptr;
-  /// The least F that a batch solve of the log reaches.
+  /// F at the batch optimum of the log: the least that a batch solve reaches.
   std::optional<double> chi2_optimum = std::nullopt;
   std::span<const Pose> estimate = {};
   std::optional<std::span<const Eigen::Matrix3d>> covariances = std::nullopt;  ///< of the estimate
@@ -56,7 +56,8 @@ struct RunFacts {
   MetricOptions options = {};
 };
 
-/// A run with the judgements that several metrics and series share, each made once.
+/// A run evaluated: the errors and the consistency that several metrics and series share, computed
+/// once.
 struct JudgedRun {
   RunFacts facts;
   std::optional<Accuracy> accuracy;  ///< with ground truth alone

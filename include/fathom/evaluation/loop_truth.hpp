@@ -7,28 +7,28 @@
 
 namespace fathom {
 
-/// What became of a registration in the end.
+/// The decision on a registration at the end of the log (LoopFate of `estimation`).
 enum class LoopUse {
   used,      ///< it has a part in the estimate
   rejected,  ///< refused by a gate
   lost,      ///< let through, but its update failed
 };
 
-/// One registration of the log, as an estimator treated it. `from` and `to` are keyframes.
+/// One registration of the log, with an estimator's decision on it and what is true of it. `from`
+/// and `to` are keyframes.
 struct JudgedLoop {
   std::size_t from = 0;
   std::size_t to = 0;
   LoopUse use = LoopUse::used;
   std::optional<double> nis;  ///< νᵀ S⁻¹ ν before the update, where the estimator had one
-  double weight = 1.0;        ///< in the end, 0 to 1; 0 of one that is not used
+  double weight = 1.0;        ///< final, 0 to 1; 0 of one that is not used
   std::optional<bool> is_false;
 
-  /// A loop is kept if it weighs more than one half in the end.
+  /// A loop is kept if its final weight is above one half.
   bool is_kept() const { return weight > 0.5; }
 };
 
-/// Pairs of keyframes that truly overlap: what loop closing could find at best, and what a loop
-/// must be to be right.
+/// Pairs of keyframes that truly overlap: the ground truth of loop detection.
 struct TrueOverlaps {
   struct Pair {
     std::size_t i = 0;

@@ -14,11 +14,11 @@ namespace fathom {
 enum class Better {
   lower,
   higher,
-  neither,  ///< a count that judges nothing, or one that has its best value in between
+  neither,  ///< a mere count, or a value that is best in between
 };
 
-/// A number that judges a run. Its name is the same in metrics.json, in the store, in tables and on
-/// the command line, and ends with the unit where there is one.
+/// A measure of a run's accuracy, consistency or cost. Its name is the same in metrics.json, in the
+/// store, in tables and on the command line, and ends with the unit where there is one.
 struct Metric {
   std::string name;
   std::string label;  ///< for tables and charts: "mean position error"

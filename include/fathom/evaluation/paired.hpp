@@ -12,9 +12,9 @@
 namespace fathom {
 
 /// Holm's step-down adjustment (1979) of the p-values of a family of tests, in the order given: a
-/// test rejected at level α by its adjusted value keeps the chance of any false rejection in the
-/// family at α or below, however the tests depend on each other. Ordered as the p-values, at
-/// most 1. Throws InputError on a p-value outside [0, 1].
+/// test rejected at level α by its adjusted value keeps the family-wise error rate at α or below,
+/// however the tests depend on each other. Ordered as the p-values, at most 1. Throws InputError on
+/// a p-value outside [0, 1].
 std::vector<double> holm(std::span<const double> p_values);
 
 /// One figure of two methods over the same trials.

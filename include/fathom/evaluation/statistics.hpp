@@ -30,7 +30,7 @@ struct BootstrapOptions {
 
 /// Bootstrap interval of the mean of independent trials: bias-corrected and accelerated (BCa, Efron
 /// 1987), resampling the values with replacement, with the acceleration from the jackknife. It
-/// needs no normal distribution and may be lopsided as the values are.
+/// needs no normal distribution and may be as skewed as the values are.
 /// Weak for few values: it knows no spread but the sample's own, which is too small by
 /// √((n − 1) / n), and no tail beyond the largest value. Below about 20 values, and more so of
 /// heavy-tailed ones, it is too narrow: a "95 %" interval of 10 normal values holds the mean in

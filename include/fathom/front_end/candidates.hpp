@@ -16,7 +16,7 @@ namespace fathom {
 
 enum class CandidateMethod {
   distance,     ///< as in the paper: near the newest, as estimated
-  mahalanobis,  ///< that, and those that may be, by the estimate's own uncertainty
+  mahalanobis,  ///< that, and those whose confidence ellipse reaches so near
   overlap       ///< pictures that overlap, as estimated
 };
 
@@ -39,8 +39,8 @@ struct Candidates {
   std::size_t left_out = 0;            ///< candidates beyond max_per_keyframe
 };
 
-/// Finds loop candidates in an estimate: a function of what it is given and of nothing else. One
-/// look at each keyframe; with `mahalanobis` the covariances of the estimate beside.
+/// Finds loop candidates in an estimate: a pure function of its arguments, with one test for each
+/// keyframe. With `mahalanobis` it asks for the covariances of the estimate, too.
 class CandidateSearch {
  public:
   CandidateSearch(const Camera& camera, const CandidateOptions& options);
@@ -65,9 +65,9 @@ class CandidateSearch {
   double quantile_ = 0.0;         ///< of χ², 2 degrees of freedom
 };
 
-/// The least (d − p)ᵀ S⁻¹ (d − p) over the points p within `radius_m` ≥ 0 of the origin: how far,
-/// in squared standard deviations, a position d of covariance S is from lying that near. Zero
-/// within; infinity where S, which may be singular, leaves no way.
+/// The least (d − p)ᵀ S⁻¹ (d − p) over the points p within `radius_m` ≥ 0 of the origin: the
+/// squared Mahalanobis distance of a position d of covariance S to that disc. Zero within; infinity
+/// where S, which may be singular, leaves no way.
 double squared_distance_to_disc(const Eigen::Vector2d& d, const Eigen::Matrix2d& S,
                                 double radius_m);
 

@@ -26,9 +26,9 @@ class PackedFeatures {
   int type_ = 0;  ///< of the descriptors, unpacked
 };
 
-/// The features of frames, in pixels, extracted when first asked for. Each frame's are extracted
-/// once as long as they fit in memory; those used last are kept. May be used from several threads
-/// at once: who needs features that another thread extracts waits for them.
+/// The features of frames, in pixels, extracted when first asked for: an LRU cache bounded in
+/// bytes. Each frame's are extracted once as long as they fit. May be used from several threads at
+/// once: who needs features that another thread extracts waits for them.
 class FeatureMemory {
  public:
   /// The source must outlive it.
@@ -37,9 +37,9 @@ class FeatureMemory {
   /// Throws InputError where the picture cannot be read, as often as it is asked for.
   std::shared_ptr<const PackedFeatures> of(std::size_t frame);
 
-  /// Starts on a frame in the background, on one thread of its own: pictures one beside the other
-  /// scale better than the parts of one. What fails is said when it is asked for. With one thread
-  /// (cv::setNumThreads) there is no background.
+  /// Prefetches a frame: extracts it in the background, on one thread of its own: pictures one
+  /// beside the other scale better than the parts of one. What fails is said when it is asked for.
+  /// With one thread (cv::setNumThreads) there is no background.
   void announce(std::size_t frame);
 
   /// Of the features held that were asked for.

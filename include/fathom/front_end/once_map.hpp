@@ -11,16 +11,17 @@
 
 namespace fathom {
 
-/// Values that are made when first asked for, each once: of several threads that ask for the same
-/// one the first makes it and the others wait. What the making throws, all of them get; it is not
-/// kept, so that the next one to ask tries again. May be used from several threads at once.
+/// A memo of values that are made when first asked for, each once: of several threads
+/// that ask for the same one the first makes it and the others wait. What the making throws, all of
+/// them get; it is not kept, so that the next one to ask tries again. May be used from several
+/// threads at once.
 template <class Key, class Value>
 class OnceMap {
  public:
   OnceMap() = default;
 
-  /// Of the values those used last are kept whose costs add up to no more than `bound`, and the
-  /// last one however much it costs.
+  /// Least recently used values are evicted beyond `bound`, the sum of costs; the last one is kept
+  /// however much it costs.
   OnceMap(std::size_t bound, std::function<std::size_t(const Value&)> cost)
       : bound_(bound), cost_(std::move(cost)) {}
 

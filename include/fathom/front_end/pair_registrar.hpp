@@ -44,12 +44,13 @@ class PairRegistrar {
   std::vector<PairRegistration> of_all(std::span<const MeasuredFrame> from,
                                        const MeasuredFrame& to);
 
-  /// How many frames ahead to announce, so that no thread is idle: one for each. Extraction takes
-  /// longer than a registration.
+  /// How many frames ahead to prefetch (announce), so that no thread is idle: one for each.
+  /// Extraction takes longer than a registration.
   static std::size_t look_ahead();
 
-  /// Says that a pair will be asked for soon: the features of `to` are extracted in the background,
-  /// unless the pair is known and no picture needed. Beyond the last frame it does nothing.
+  /// Prefetches for a pair that will be asked for soon: the features of `to` are extracted in the
+  /// background, unless the pair is known and no picture needed. Beyond the last frame it does
+  /// nothing.
   void announce(const MeasuredFrame& from, const MeasuredFrame& to);
 
   /// Pairs registered anew so far, and pairs that the cache knew.

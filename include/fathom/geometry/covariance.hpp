@@ -40,7 +40,7 @@ UncertainPose between(const Pose& A, const Pose& B, const PairCovariance& covari
 /// Of none: the exact identity.
 UncertainPose compose_chain(std::span<const UncertainPose> motions);
 
-/// J C Jᵀ, symmetric to the last bit.
+/// J C Jᵀ, the covariance propagated through J; symmetric to the last bit.
 Eigen::Matrix3d transport(const Eigen::Matrix3d& J, const Eigen::Matrix3d& covariance);
 
 /// Whether a symmetric matrix is positive definite whatever the units of its rows: it is scaled to

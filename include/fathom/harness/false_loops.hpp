@@ -13,8 +13,8 @@
 
 namespace fathom {
 
-/// Poses that false loops are judged against: the ground truth of the keyframes or, where it is not
-/// known, the least F that a batch solve of the log reaches from dead reckoning.
+/// Poses against which loops are false: the ground truth of the keyframes or, where it is not
+/// known, the batch optimum of the log from dead reckoning.
 std::vector<Pose> reference_poses(const Recording& recording, const EstimatorRegistry& registry);
 
 /// Adds false loops to a recording (spoil) and notes which they are. A log without a loop stays as
@@ -22,7 +22,7 @@ std::vector<Pose> reference_poses(const Recording& recording, const EstimatorReg
 void spoil_recording(Recording& recording, const SpoilOptions& options,
                      const EstimatorRegistry& registry, std::uint64_t seed, std::uint64_t trial);
 
-/// The list of false loops beside a spoilt graph: `registration,from,to`, the place among the
+/// The list of false loops beside a spoilt graph: `registration,from,to`, the index among the
 /// graph's registrations in order of arrival, from 0 on, and the ids of its poses.
 std::string false_loops_csv(const Spoiled& spoiled);
 

@@ -14,11 +14,11 @@
 
 namespace fathom {
 
-/// Told how far a long work has come.
+/// Progress callback: steps done, of how many.
 using Progress = std::function<void(std::size_t done, std::size_t of)>;
 
-/// What the front end made of a survey: the measurement log that every estimator is given, and what
-/// is needed to judge them.
+/// The front end's output for a survey: the measurement log that every estimator is given, and what
+/// their evaluation needs.
 struct Recording {
   MeasurementLog log;
   std::vector<std::int64_t> keyframe_times_ns;
@@ -40,7 +40,7 @@ struct Recording {
   std::size_t visual_odometry_failures = 0;
 };
 
-/// Runs the front end over the data set once. Loop candidates are picked by the estimate of
+/// Runs the front end over the data set once. Loop candidates are selected by the estimate of
 /// `configuration.estimators[reference]`, which runs along; the log is all that is kept of it.
 /// Of a g2o data set: the graph, with vertex ids as whole seconds. Registrations that the cache
 /// knows are not made again; the recording is the same with a cache and without.
@@ -55,7 +55,7 @@ class Recorder {
   explicit Recorder(const Configuration& configuration, RegistrationCache* cache = nullptr);
 
   /// A trial of a configuration whose picture_settings are those of the data set. Loop candidates
-  /// are picked by the estimate of `configuration.estimators[reference]`. False loops, where the
+  /// are selected by the estimate of `configuration.estimators[reference]`. False loops, where the
   /// study has them, are added afterwards: the reference never sees them.
   Recording record(const Configuration& configuration, std::size_t reference,
                    const EstimatorRegistry& registry, const TrialNoise& noise,

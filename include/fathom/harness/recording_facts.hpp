@@ -11,7 +11,7 @@
 
 namespace fathom {
 
-/// What runs are judged by and does not depend on the estimator: made once a recording.
+/// What the evaluation of runs needs and no estimator changes: computed once a recording.
 struct RecordingFacts {
   std::optional<TrueOverlaps> true_overlaps;
   std::optional<double> chi2_optimum;  ///< F at the batch_optimum; of a study alone
@@ -27,7 +27,7 @@ RecordingFacts study_facts(const Recording& recording, const EstimatorRegistry& 
 /// From ground truth, altitudes and camera; nothing where one of them is not known.
 std::optional<TrueOverlaps> true_overlaps(const Recording& recording);
 
-/// The least F that a batch solve of a log reaches.
+/// The batch optimum: the least F that a batch solve of a log reaches.
 struct BatchOptimum {
   std::vector<Pose> poses;
   double chi2 = 0.0;

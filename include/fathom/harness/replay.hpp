@@ -30,7 +30,7 @@ class MemoryMeter {
 
 struct ReplayOptions {
   SolveMode mode = SolveMode::incremental;
-  /// Where a batch solve starts; empty: dead reckoning.
+  /// Initial guess of a batch solve; empty: dead reckoning.
   std::span<const Pose> start;
   /// Covariances of all keyframes are asked for after the replay, outside the timing.
   bool covariances = true;
@@ -38,8 +38,8 @@ struct ReplayOptions {
   Progress progress;
 };
 
-/// What one estimator made of a log, and what it cost. Cost is wall time of the estimator's calls
-/// alone, on this thread.
+/// One estimator's estimate from a log, and what it cost. Cost is wall time of the estimator's
+/// calls alone, on this thread.
 struct Replay {
   std::vector<Pose> trajectory;
   /// Of every keyframe; absent where not asked for or not to be had.
@@ -50,7 +50,7 @@ struct Replay {
   std::string fault;
   std::array<std::size_t, 4> outcome_counts{};  ///< of updates, by Outcome
   std::vector<LoopDecision> loops;
-  /// What each of them weighs in the end (Estimator::loop_weights); 0 of those that are not used.
+  /// The final weight of each (Estimator::loop_weights); 0 of those that are not used.
   std::vector<double> loop_weights;
   int iterations = 0;
   /// Of the last update, where the estimator says so (UpdateReport).

@@ -13,22 +13,22 @@
 
 namespace fathom {
 
-/// How runs are judged.
+/// How runs are evaluated.
 struct JudgeOptions {
   MetricOptions metrics;
   /// Of the recording, where several runs share them; else they are made for this one.
   const RecordingFacts* facts = nullptr;
 };
 
-/// The judgement that a configuration asks for.
+/// The parameters of the metrics that a configuration asks for.
 MetricOptions metric_options(const Configuration& configuration);
 
-/// One estimator on one recording, judged by the harness.
+/// One estimator on one recording, evaluated by the harness.
 struct Result {
   EstimatorConfiguration estimator;
   SolveMode mode = SolveMode::incremental;
   Replay replay;
-  MetricOptions options;                  ///< it was judged by
+  MetricOptions options;                  ///< of the metrics
   std::map<std::string, double> metrics;  ///< those that are known (metric_catalogue)
   std::optional<Accuracy> accuracy;       ///< with ground truth alone
   std::optional<Consistency> consistency;
@@ -39,8 +39,8 @@ struct Result {
   std::optional<double> metric(const std::string& name) const;
 };
 
-/// Replays the recording to an estimator and judges what comes out. `ids` of loops and trajectories
-/// are keyframe indices.
+/// Replays the recording to an estimator and evaluates its estimate. `ids` of loops and
+/// trajectories are keyframe indices.
 Result evaluate(const Recording& recording, const EstimatorConfiguration& estimator,
                 const EstimatorRegistry& registry, const JudgeOptions& judging,
                 const ReplayOptions& options);

@@ -9,11 +9,11 @@
 
 namespace fathom {
 
-/// What a study keeps of one estimator's run: its metrics and series (docs/formats.md). `key` and
+/// What a study stores of one estimator's run: its metrics and series (docs/formats.md). `key` and
 /// `jobs` are for the caller to fill in.
 RunRecord run_record(const Recording& recording, const Result& result, const std::string& log_hash);
 
-/// What a study keeps of dead reckoning, the baseline, and with it of the ground truth.
+/// What a study stores of dead reckoning, the baseline, and of the ground truth.
 RunRecord baseline_record(const Recording& recording, const MetricOptions& options);
 
 }  // namespace fathom

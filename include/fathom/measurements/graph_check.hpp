@@ -35,7 +35,7 @@ inline constexpr double kMaxCondition = 1e8;
 /// Throws InputError only where the file cannot be opened.
 GraphSummary summarise_graph(const std::filesystem::path& path);
 
-/// What the sizes of the residuals at an optimum say of the information values.
+/// The reduced χ² at an optimum, which tells whether the information values fit the residuals.
 struct InformationScale {
   double per_degree_of_freedom = 0.0;  ///< F / (3 edges − 3 free poses): about 1 expected
   double squared = 0.0;                ///< the same with every matrix Ω replaced by its square

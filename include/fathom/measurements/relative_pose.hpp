@@ -10,7 +10,7 @@
 namespace fathom {
 
 /// A measured motion between two keyframes: z is the pose of keyframe `to` in the frame of `from`.
-/// A dead-reckoning step and a registration are both one of these.
+/// A dead-reckoning step (odometry edge) and a registration (loop edge) are both one of these.
 ///
 /// Two equivalent forms of its uncertainty (docs/conventions.md):
 /// - `information` Ω weighs the residual e = t2v(Z⁻¹ · X_from⁻¹ · X_to), in the frame of `to` as
@@ -35,7 +35,7 @@ struct RelativePose {
   /// The later of its two keyframes: a registration arrives with it.
   std::size_t newest() const { return from > to ? from : to; }
 
-  /// The same measurement with from < to: as it is, or turned round (⊖z, covariance transported to
+  /// The same measurement with from < to: as it is, or inverted (⊖z, covariance propagated to
   /// first order).
   RelativePose forward() const;
 };

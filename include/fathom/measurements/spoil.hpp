@@ -13,9 +13,9 @@ namespace fathom {
 
 /// Which keyframes a false loop joins (Sünderhauf and Protzel 2012; Vertigo's kinds).
 enum class FalseLoopKind {
-  random,  ///< any two, each by itself
+  random,  ///< any two, independently
   local,   ///< two at most `reach` keyframes apart
-  grouped  ///< runs of neighbours with neighbours, as if one place were taken for another
+  grouped  ///< runs of neighbours with neighbours: perceptual aliasing
 };
 
 struct SpoilOptions {

@@ -59,14 +59,14 @@ MosaicPlan plan_mosaic(const Camera& camera, std::span<const PlacedPicture> pict
 /// The grey level of what no picture shows; what one shows is 254 at most.
 inline constexpr unsigned char kUnseen = 255;
 
-/// Told how far the work has come: pictures done, of how many.
+/// Progress callback: pictures done, of how many.
 using MosaicProgress = std::function<void(std::size_t done, std::size_t of)>;
 
-/// The mosaics, one each: 8-bit, one channel, of the plan's size. Pictures are flattened: divided
-/// by the illumination that they have in common, as far as they show one, which leaves their mean
-/// as it was. Each is laid by its camera, altitude and pose; where several lie, they are averaged
-/// with weights that fall to zero towards the border of each. Nothing is picked or aligned: what
-/// the trajectory places wrongly is seen twice, or blurred.
+/// The mosaics, one each: 8-bit, one channel, of the plan's size. Pictures are flat-field
+/// corrected: divided by the illumination that they have in common, as far as they show one, which
+/// leaves their mean as it was. Each is projected by its camera, altitude and pose; where several
+/// overlap, they are feathered: averaged with weights that fall to zero towards the border of each.
+/// Nothing is selected or aligned: what the trajectory places wrongly is seen twice, or blurred.
 ///
 /// A picture that several mosaics need is read once, and one picture is held at a time.
 /// `source` must be that of the plans' camera. Throws InputError where a picture cannot be read.

@@ -8,8 +8,8 @@
 
 namespace fathom {
 
-/// The runs of a study by estimator, cell and trial: which are there, and which are missing. Every
-/// run of a store has the content that was stored (ResultStore checks it).
+/// An index of the runs of a study by estimator, cell and trial: which are stored, which missing.
+/// Every run of a store has the content that was stored (ResultStore checks it).
 class RunIndex {
  public:
   using Trials = std::map<std::size_t, const RunRecord*>;

@@ -61,8 +61,8 @@ void strew_particles(cv::Mat_<float>& light, int count, RandomStream stream) {
   }
 }
 
-// Even weight along a line of `length_px` about the middle; each point of it is shared out among
-// the four pixels around it.
+// The kernel of a linear motion blur: even weight along a line of `length_px` about the middle,
+// each point of it split bilinearly among the four pixels around it.
 cv::Mat_<float> line_kernel(double length_px, double along_u, double along_v) {
   const int reach = static_cast<int>(std::ceil(length_px / 2.0)) + 1;
   const int points = 64 * (reach + 1);

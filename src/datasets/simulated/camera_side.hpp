@@ -6,8 +6,8 @@
 
 namespace fathom {
 
-/// What a camera makes of the light that comes to its pixels (greys): light cone, particles before
-/// the lens, contrast, motion blur, colour cast, noise, in this order.
+/// What a camera makes of the light that comes to its pixels (grey levels): light cone, particles
+/// before the lens, contrast, motion blur, colour cast, noise, in this order.
 cv::Mat_<float> seen_by_camera(cv::Mat_<float> light, const CameraModel& camera, const View& view,
                                const PictureEffects& effects);
 

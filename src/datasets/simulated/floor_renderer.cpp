@@ -126,7 +126,7 @@ cv::Mat FloorRenderer::render(const View& view, const PictureEffects& effects) c
   return picture;
 }
 
-// What light of the floor, and of the water before it, comes to each pixel; greys.
+// What light of the floor, and of the water before it, comes to each pixel; grey levels.
 cv::Mat_<float> FloorRenderer::trace(const View& view, const PictureEffects& effects) const {
   const Pose body = compose(world_.mission, view.pose);
   // Pixels of the world are affine in the ray: pixel = base + A ray.

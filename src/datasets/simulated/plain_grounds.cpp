@@ -11,7 +11,7 @@ namespace {
 struct Look {
   float grey;
   std::initializer_list<Octave> bumps_m;
-  std::initializer_list<Octave> mottle;  ///< greys
+  std::initializer_list<Octave> mottle;  ///< grey levels
 };
 
 class PlainGround : public Ground {

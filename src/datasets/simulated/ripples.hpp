@@ -7,8 +7,8 @@
 
 namespace fathom {
 
-/// One train of ripples. Its phase is a plane wave's, led astray by a relief in radians: of several
-/// radians, and crests wander and never come back to their spacing; of a few tenths, and they
+/// One train of ripples: a plane wave whose phase a relief in radians modulates. By several
+/// radians, and crests wander and never come back to their spacing; by a few tenths, and they
 /// repeat.
 class Ripples {
  public:

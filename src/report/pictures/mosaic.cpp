@@ -38,7 +38,7 @@ float tent(double pixel, int count) {
   return static_cast<float>(1.0 - std::abs(2.0 * (pixel + 0.5) / count - 1.0));
 }
 
-/// One mosaic in the making: weighted sums of grey levels.
+/// One mosaic as it accumulates: weighted sums of grey levels.
 class Blend {
  public:
   Blend(const Camera& camera, const MosaicPlan& plan)
