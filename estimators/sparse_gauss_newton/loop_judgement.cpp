@@ -24,7 +24,7 @@ void LoopJudgement::describe(OptionTable& table) {
   table.integer("scale_loops", scale_loops, Range::at_least(1), "", "fewer loops set no scale");
   table.real("least_scale_share", least_scale_share, share, "",
              "of the default squared scale: the least that the loops may set");
-  table.integer("group_reach", group_reach, Range::at_least(1), "frames",
+  table.integer("group_reach", group_reach, Range::at_least(1), "keyframes",
                 "keyframes between the ends of neighbouring loops of a group");
   table.real("lost_group_slack", lost_group_slack, Range::positive(), "",
              "squared scales within which two rejected loops agree");
