@@ -42,7 +42,7 @@ SelectionQuery query_of(const SelectFlags& flags) {
 
 std::filesystem::path folder_of(const SelectFlags& flags) {
   if (!flags.out.empty()) return flags.out;
-  const std::filesystem::path results = flags.results;
+  std::filesystem::path results = flags.results;
   if (std::filesystem::is_directory(results)) return results;
   return results.has_parent_path() ? results.parent_path() : ".";
 }

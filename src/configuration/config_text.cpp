@@ -1,22 +1,26 @@
 #include "fathom/configuration/config_text.hpp"
 
-#include <utility>
+#include <algorithm>
 
 #include <yaml-cpp/yaml.h>
 
 namespace fathom {
 namespace {
 
-// A map's entries in the order in which their keys are first seen.
+// A value, or a map with its keys in the order in which they are first seen.
 struct Node {
-  const ConfigLine* line = nullptr;  ///< of a value; else this is a map
-  std::vector<std::pair<std::string, Node>> entries;
+  const ConfigLine* line = nullptr;  // of a value
+  std::vector<std::string> keys;
+  std::vector<Node> entries;  // by key
 
   Node& operator[](const std::string& key) {
-    for (auto& [name, node] : entries) {
-      if (name == key) return node;
+    const auto found = std::find(keys.begin(), keys.end(), key);
+    const auto place = static_cast<std::size_t>(found - keys.begin());
+    if (found == keys.end()) {
+      keys.push_back(key);
+      entries.emplace_back();
     }
-    return entries.emplace_back(key, Node{}).second;
+    return entries[place];
   }
 };
 
@@ -62,7 +66,9 @@ void emit_value(YAML::Emitter& out, const ConfigLine& line) {
 std::size_t width_of(const std::string& key, const Node& node) {
   std::size_t width = key.size() + 4;
   if (node.line != nullptr) return width + node.line->value.size();
-  for (const auto& [name, entry] : node.entries) width += width_of(name, entry);
+  for (std::size_t i = 0; i < node.keys.size(); ++i) {
+    width += width_of(node.keys[i], node.entries[i]);
+  }
   return width;
 }
 
@@ -70,9 +76,9 @@ void emit(YAML::Emitter& out, const Node& node, int depth) {
   if (node.line != nullptr) return emit_value(out, *node.line);
   if (depth >= kBraces && width_of("", node) <= kLineWidth) out << YAML::Flow;
   out << YAML::BeginMap;
-  for (const auto& [key, entry] : node.entries) {
-    out << YAML::Key << key << YAML::Value;
-    emit(out, entry, depth + 1);
+  for (std::size_t i = 0; i < node.keys.size(); ++i) {
+    out << YAML::Key << node.keys[i] << YAML::Value;
+    emit(out, node.entries[i], depth + 1);
   }
   out << YAML::EndMap;
 }

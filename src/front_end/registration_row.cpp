@@ -9,7 +9,7 @@ namespace fathom {
 RegistrationNumbers numbers_of(const PairRegistration& value) {
   RegistrationNumbers numbers{value.motion.x, value.motion.y, value.motion.theta};
   for (int i = 0; i < 9; ++i) {
-    numbers[static_cast<std::size_t>(3 + i)] = value.covariance(i / 3, i % 3);
+    numbers[3 + static_cast<std::size_t>(i)] = value.covariance(i / 3, i % 3);
   }
   return numbers;
 }
@@ -17,7 +17,7 @@ RegistrationNumbers numbers_of(const PairRegistration& value) {
 PairRegistration registration_of(bool found, const RegistrationNumbers& numbers, int inliers) {
   PairRegistration value{found, {numbers[0], numbers[1], numbers[2]}, {}, inliers};
   for (int i = 0; i < 9; ++i) {
-    value.covariance(i / 3, i % 3) = numbers[static_cast<std::size_t>(3 + i)];
+    value.covariance(i / 3, i % 3) = numbers[3 + static_cast<std::size_t>(i)];
   }
   return value;
 }
