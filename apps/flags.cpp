@@ -57,8 +57,8 @@ Command::Command(CLI::App& program, const std::string& name, const std::string& 
 }
 
 Flag Command::add(const std::string& name, const std::string& value_name, const std::string& help,
-                  const std::string& default_text, std::function<void(const Values&)> read) {
-  CLI::Option* option = command_->add_option_function<Values>(name, std::move(read), help);
+                  const std::string& default_text, const std::function<void(const Values&)>& read) {
+  CLI::Option* option = command_->add_option_function<Values>(name, read, help);
   option->type_name(value_name)->expected(1)->default_str(default_text);
   return Flag(*option);
 }

@@ -75,7 +75,7 @@ class Command {
   using Values = std::vector<std::string>;
 
   Flag add(const std::string& name, const std::string& value_name, const std::string& help,
-           const std::string& default_text, std::function<void(const Values&)> read);
+           const std::string& default_text, const std::function<void(const Values&)>& read);
 
   CLI::App* command_;
 };

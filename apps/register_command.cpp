@@ -43,6 +43,7 @@ cv::Mat picture_for(const Camera& camera, const std::string& path) {
 std::vector<PixelPair> in_pixels(const std::vector<Match>& matches, const FloorFeatures& a,
                                  const FloorFeatures& b) {
   std::vector<PixelPair> pairs;
+  pairs.reserve(matches.size());
   for (const Match& match : matches) {
     pairs.push_back({a.features.pixels[static_cast<std::size_t>(match.from)],
                      b.features.pixels[static_cast<std::size_t>(match.to)]});

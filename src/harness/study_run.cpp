@@ -42,7 +42,7 @@ std::vector<Task> tasks_of(const Study& study, const ResultStore& store) {
 }
 
 /// A recording with what all its runs are judged by.
-struct Judged {
+struct RecordedTrial {
   std::shared_ptr<const Recording> recording;
   RecordingFacts facts;
 };
@@ -112,23 +112,23 @@ class Runner {
     const Configuration& configuration = study_.cells[task.cell];
     const std::shared_ptr<const Recorder> recorder = data_sets_.of(task.cell);
     const auto record_by = [&](std::size_t reference) {
-      Judged judged{
+      RecordedTrial made{
           std::make_shared<const Recording>(recorder->record(
               configuration, reference, registry_, {study_.noise_seeds[task.cell], task.trial})),
           {}};
-      if (!task.estimators.empty()) judged.facts = study_facts(*judged.recording, registry_);
-      return judged;
+      if (!task.estimators.empty()) made.facts = study_facts(*made.recording, registry_);
+      return made;
     };
     const bool is_own = configuration.study.association == Association::own;
-    std::optional<Judged> judged;
-    if (!is_own || task.estimators.empty()) judged = record_by(configuration.reference);
+    std::optional<RecordedTrial> trial;
+    if (!is_own || task.estimators.empty()) trial = record_by(configuration.reference);
     for (const std::size_t e : task.estimators) {
       if (is_stopped()) return;
-      if (is_own) judged = record_by(e);
-      if (task.baseline && e == task.estimators.front()) add_baseline(task, *judged->recording);
-      add_run(task, e, *judged, meter);
+      if (is_own) trial = record_by(e);
+      if (task.baseline && e == task.estimators.front()) add_baseline(task, *trial->recording);
+      add_run(task, e, *trial, meter);
     }
-    if (task.baseline && task.estimators.empty()) add_baseline(task, *judged->recording);
+    if (task.baseline && task.estimators.empty()) add_baseline(task, *trial->recording);
     data_sets_.trial_done(task.cell);
     ++done_tasks_;
   }
@@ -140,14 +140,15 @@ class Runner {
     store_.add(run);
   }
 
-  void add_run(const Task& task, std::size_t estimator, const Judged& judged, MemoryMeter* meter) {
+  void add_run(const Task& task, std::size_t estimator, const RecordedTrial& trial,
+               MemoryMeter* meter) {
     const Configuration& configuration = study_.cells[task.cell];
     ReplayOptions replay_options;
     replay_options.memory = meter;
-    Result result = evaluate(*judged.recording, configuration.estimators[estimator], registry_,
-                             {.metrics = metric_options(configuration), .facts = &judged.facts},
-                             replay_options);
-    RunRecord run = run_record(*judged.recording, result, judged.facts.log_hash);
+    Result result =
+        evaluate(*trial.recording, configuration.estimators[estimator], registry_,
+                 {.metrics = metric_options(configuration), .facts = &trial.facts}, replay_options);
+    RunRecord run = run_record(*trial.recording, result, trial.facts.log_hash);
     run.key = {task.cell, task.trial, configuration.estimators[estimator].name};
     run.jobs = static_cast<int>(threads_);
     store_.add(run);
@@ -155,7 +156,7 @@ class Runner {
     ++progress_.done;
     if (!result.is_done()) ++progress_.failed;
     if (options_.progress) options_.progress(progress_);
-    if (is_example(task)) example_[estimator] = {judged.recording, std::move(result)};
+    if (is_example(task)) example_[estimator] = {trial.recording, std::move(result)};
   }
 
   static bool is_example(const Task& task) { return task.cell == 0 && task.trial == 0; }
