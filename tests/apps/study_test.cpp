@@ -223,30 +223,6 @@ TEST_F(Studies, SharedAssociationGivesOneLogToAll) {
   EXPECT_EQ(all.size(), 10u);
 }
 
-// Cost included, whether the session ran the example itself or found it in the store.
-TEST_F(Studies, TheExampleIsTheRunThatWasStored) {
-  for (const std::string mode : {"own", "shared"}) {
-    const std::string out = "out_" + mode;
-    const Arguments command{"compare",  write("study.yaml", kStudy),
-                            "--set",    "association.mode=" + mode,
-                            "--trials", "1",
-                            "--out",    out,
-                            "--quiet"};
-    for (const char* const session : {"the first", "one that found the example's runs"}) {
-      fathom_done(command);
-      const ResultStore store = ResultStore::open(path(out));
-      for (const RunRecord& run : store.runs()) {
-        if (run.key.cell != 0 || run.key.estimator == "dead_reckoning") continue;
-        const nlohmann::json written = json_of(out + "/" + run.key.estimator + "/metrics.json");
-        EXPECT_TRUE(run.metrics.contains("chi2_gap"));
-        for (const auto& [name, value] : run.metrics) {
-          EXPECT_EQ(written.at(name).get<double>(), value) << name << ", session: " << session;
-        }
-      }
-    }
-  }
-}
-
 TEST_F(Studies, ADataSetThatFailsLeavesNothingBehind) {
   write("s.yaml", "dataset: {type: image_folder, path: nowhere}\nestimators: [{type: ekf}]\n");
   EXPECT_THAT(refusal({"compare", "s.yaml", "--out", "out"}), HasSubstr("nowhere"));
