@@ -47,7 +47,7 @@ double CliqueTree::substitute() {
   for (const int i : marked_) {
     const Clique& c = cliques_[at(i)];
     for (int j = 0; j < c.width; ++j) {
-      const double* y = x_.data() + 3 * c.variables[at(j)];
+      const double* y = x_.data() + 3 * at(c.variables[at(j)]);
       sum += y[0] * y[0] + y[1] * y[1] + y[2] * y[2];
     }
   }
@@ -89,7 +89,7 @@ bool CliqueTree::bend_separator(const Clique& c, const RigidMotion& rigid, doubl
   double most = 0.0;
   for (int j = c.width; j < c.rows(); ++j) {
     const auto s = at(c.variables[at(j)]);
-    double* d = gathered_.data() + 3 * j;
+    double* d = gathered_.data() + 3 * at(j);
     offset_of(rigid(before_[s]), problem_.nodes[s], d);
     most = std::max(most, size_of(d, problem_.weights[s]));
   }
@@ -114,7 +114,7 @@ void CliqueTree::bend(int clique, double negligible) {
     return;
   }
   for (int j = 0; j < c.width; ++j) {
-    const double* y = x_.data() + 3 * c.variables[at(j)];
+    const double* y = x_.data() + 3 * at(c.variables[at(j)]);
     for (int a = 0; a < 3; ++a) gathered_[at(3 * j + a)] = c.is_marked ? y[a] : 0.0;
   }
   BackwardSubstitution run{c, gathered_.data()};
@@ -123,7 +123,7 @@ void CliqueTree::bend(int clique, double negligible) {
     const int v = c.variables[at(j)];
     Node& node = problem_.nodes[at(v)];
     before_[at(v)] = node;
-    node = corrected(rigid(node), gathered_.data() + 3 * j);
+    node = corrected(rigid(node), gathered_.data() + 3 * at(j));
     moved_.push_back(v);
     bent_.push_back(v);
   }
@@ -156,7 +156,7 @@ void CliqueTree::find_to_relinearise(double limit_m, double limit_rad,
     for (int j = 0; j + 1 < c.rows(); ++j) {
       double now[3];
       offset_of(seen_from, problem_.nodes[at(c.variables[at(j)])], now);
-      if (!has_left(c.layout.data() + 3 * j, now, limit_m, limit_rad)) continue;
+      if (!has_left(c.layout.data() + 3 * at(j), now, limit_m, limit_rad)) continue;
       keyframes.push_back(c.variables[0]);
       break;
     }
@@ -169,7 +169,7 @@ Eigen::Matrix3d CliqueTree::variance(int i, const Eigen::Matrix3d& J_i, int k,
   for (const int v : {i, k}) mark_up(v);
   sort_marked();
   Eigen::Index numbers = 0;
-  for (const int m : marked_) numbers += 3 * cliques_[at(m)].width;
+  for (const int m : marked_) numbers += 3 * Eigen::Index{cliques_[at(m)].width};
   Eigen::MatrixX3d Y(numbers, 3);
   for (int a = 0; a < 3; ++a) {
     const auto for_each_number = [&](auto use) {

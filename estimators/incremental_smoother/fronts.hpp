@@ -41,10 +41,10 @@ struct FrontFactorisation {
   FATHOM_INLINE static double* place(Clique& c, int row, int column, int& stride) {
     if (column < c.width) {
       stride = c.rows() * B;
-      return c.panel.data() + at(column * B) * at(stride) + row * B;
+      return c.panel.data() + at(column * B) * at(stride) + at(row * B);
     }
     stride = c.height * B;
-    return c.update.data() + at((column - c.width) * B) * at(stride) + (row - c.width) * B;
+    return c.update.data() + at((column - c.width) * B) * at(stride) + at((row - c.width) * B);
   }
 
   FATHOM_INLINE void add_edges(Clique& c) const {
@@ -71,7 +71,7 @@ struct FrontFactorisation {
       const int column = row_of[child.variables[at(child.width + j)]];
       for (int i = j; i < child.height; ++i) {
         const int row = row_of[child.variables[at(child.width + i)]];
-        const double* from = child.update.data() + at(j * B) * at(stride) + i * B;
+        const double* from = child.update.data() + at(j * B) * at(stride) + at(i * B);
         int along = 0;
         if (row >= column) {
           double* to = place(c, row, column, along);
@@ -115,7 +115,7 @@ struct FrontFactorisation {
     for (int i = 0; i < c.rows(); ++i) {
       const int v = c.variables[at(i)];
       row_of[v] = i;
-      offset_of(seen_from, problem.nodes[at(v)], c.layout.data() + 3 * i);
+      offset_of(seen_from, problem.nodes[at(v)], c.layout.data() + 3 * at(i));
     }
     add_edges(c);
     for (const int child : c.children) add_child(c, cliques[at(child)]);

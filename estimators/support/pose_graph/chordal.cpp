@@ -31,7 +31,7 @@ std::vector<double> chordal_headings(const sparse::Symbolic& symbolic, std::span
       block[place.stride + 1] -= c;
     } else {
       const int free = edge.from > 0 ? edge.from : edge.to;
-      double* right = z.data() + 2 * position[at(free - 1)];
+      double* right = z.data() + 2 * at(position[at(free - 1)]);
       right[0] += c;
       right[1] += edge.to > 0 ? s : -s;
     }

@@ -23,8 +23,8 @@ class Information {
 
   /// The three columns of the covariance that belong to a keyframe other than 0.
   Eigen::MatrixX3d columns(std::size_t keyframe) {
-    Eigen::MatrixX3d result = Eigen::MatrixX3d::Zero(3 * symbolic_.size(), 3);
-    const int row = 3 * symbolic_.position[keyframe - 1];
+    Eigen::MatrixX3d result = Eigen::MatrixX3d::Zero(3 * Eigen::Index{symbolic_.size()}, 3);
+    const Eigen::Index row = row_of(keyframe);
     for (int j = 0; j < 3; ++j) {
       result(row + j, j) = 1.0;
       equations_.solve(result.col(j).data());
@@ -33,10 +33,14 @@ class Information {
   }
 
   Eigen::Matrix3d block(const Eigen::MatrixX3d& columns, std::size_t keyframe) const {
-    return columns.middleRows<3>(3 * symbolic_.position[keyframe - 1]);
+    return columns.middleRows<3>(row_of(keyframe));
   }
 
  private:
+  Eigen::Index row_of(std::size_t keyframe) const {
+    return 3 * Eigen::Index{symbolic_.position[keyframe - 1]};
+  }
+
   sparse::Symbolic symbolic_;
   NormalEquations equations_;
   bool is_definite_ = false;

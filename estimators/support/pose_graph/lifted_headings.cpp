@@ -142,7 +142,7 @@ class LiftedProblem {
     };
     const auto add_gradient = [&](int k, const Lifted& value) {
       if (k == 0) return;
-      Eigen::Map<Eigen::Vector3d> g(gradient_.data() + 3 * symbolic_.position[at(k - 1)]);
+      Eigen::Map<Eigen::Vector3d> g(gradient_.data() + 3 * at(symbolic_.position[at(k - 1)]));
       g += tangents(Y_[at(k)]).transpose() * value;
     };
     for (const Term& t : terms_) {
@@ -172,7 +172,7 @@ class LiftedProblem {
     std::vector<Lifted> result = Y_;
     for (std::size_t k = 1; k < Y_.size(); ++k) {
       const Eigen::Map<const Eigen::Vector3d> step(gradient_.data() +
-                                                   3 * symbolic_.position[k - 1]);
+                                                   3 * at(symbolic_.position[k - 1]));
       result[k] = (Y_[k] + tangents(Y_[k]) * step).normalized();
     }
     return result;

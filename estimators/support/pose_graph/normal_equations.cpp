@@ -73,7 +73,7 @@ double NormalEquations::add_edges(std::span<const Node> nodes) {
 
 // H_kk and g_k.
 inline void NormalEquations::add_to_end(const EdgeTerms& t, int position) {
-  double* g = gradient_.data() + 3 * position;
+  double* g = gradient_.data() + 3 * at(position);
   for (int a = 0; a < 3; ++a) g[a] += t.m[at(a)];
   auto& H = diagonal_sums_[at(position)];
   for (std::size_t a = 0; a < 6; ++a) H[a] += t.M[a];
@@ -88,7 +88,7 @@ inline void NormalEquations::add_to_begin(const EdgeTerms& t, const Targets& tar
   const double rx = -t.dy * M[0] + t.dx * M[1] + M[2];
   const double ry = -t.dy * M[1] + t.dx * M[3] + M[4];
   const double rt = -t.dy * M[2] + t.dx * M[4] + M[5];
-  double* g = gradient_.data() + 3 * target.from;
+  double* g = gradient_.data() + 3 * at(target.from);
   g[0] -= m[0];
   g[1] -= m[1];
   g[2] -= -t.dy * m[0] + t.dx * m[1] + m[2];
@@ -172,7 +172,7 @@ void NormalEquations::move(std::span<const Node> from, std::vector<Node>& to) co
   to[0] = from[0];
   const std::vector<int>& position = factor_.symbolic().position;
   for (std::size_t k = 1; k < from.size(); ++k) {
-    const double* d = step_.data() + 3 * position[k - 1];
+    const double* d = step_.data() + 3 * at(position[k - 1]);
     to[k] = make_node(from[k].x + d[0], from[k].y + d[1], from[k].theta + d[2]);
   }
 }

@@ -28,7 +28,7 @@ bool PositionProblem::solve(std::vector<Node>& nodes) {
       if (keyframe == 0) continue;
       add(keyframe, keyframe, t.M, 1.0);
       const double sign = keyframe == edge.from ? 1.0 : -1.0;
-      double* s = step.data() + 2 * position[at(keyframe - 1)];
+      double* s = step.data() + 2 * at(position[at(keyframe - 1)]);
       s[0] += sign * t.m[0];
       s[1] += sign * t.m[1];
     }
@@ -37,7 +37,7 @@ bool PositionProblem::solve(std::vector<Node>& nodes) {
   if (!factor_.factorise() || factor_.negative_pivots() > 0) return false;
   factor_.solve(step.data());
   for (std::size_t k = 1; k < nodes.size(); ++k) {
-    const double* s = step.data() + 2 * position[k - 1];
+    const double* s = step.data() + 2 * at(position[k - 1]);
     nodes[k].x += s[0];
     nodes[k].y += s[1];
   }

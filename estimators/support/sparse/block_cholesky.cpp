@@ -10,14 +10,14 @@ namespace fathom::sparse {
 template <int B>
 BlockCholesky<B>::BlockCholesky(const Symbolic& symbolic)
     : symbolic_(&symbolic), signs_(at(symbolic.size()) * B, 1.0) {
-  panels_.resize(symbolic.panel_blocks * (B * B) + kReadAhead);
+  panels_.resize(symbolic.panel_blocks * kBlockNumbers<B> + kReadAhead);
   int widest = 0;
   int highest = 0;
   for (const Supernode& s : symbolic.supernodes) {
     widest = std::max(widest, s.width);
     highest = std::max(highest, s.height);
   }
-  packed_.resize(at(widest) * (B * B));
+  packed_.resize(at(widest) * kBlockNumbers<B>);
   gathered_.resize(at(highest) * B);
 }
 
@@ -32,7 +32,7 @@ BlockPlace BlockCholesky<B>::place(int node_a, int node_b) const {
       std::minmax(symbolic_->position[at(node_a)], symbolic_->position[at(node_b)]);
   const Supernode& s = symbolic_->supernodes[at(symbolic_->supernode_of[at(column)])];
   const int stride = s.panel_rows() * B;
-  return {s.panel * (B * B) + at((column - s.first) * B) * at(stride) +
+  return {s.panel * kBlockNumbers<B> + at((column - s.first) * B) * at(stride) +
               at(symbolic_->panel_row(row, s) * B),
           stride};
 }

@@ -41,7 +41,9 @@ class BlockCholesky {
   void solve(double* x);
 
   const Symbolic& symbolic() const { return *symbolic_; }
-  const double* panel(const Supernode& s) const { return panels_.data() + s.panel * (B * B); }
+  const double* panel(const Supernode& s) const {
+    return panels_.data() + s.panel * kBlockNumbers<B>;
+  }
   /// D, one sign a scalar column.
   const std::vector<double>& signs() const { return signs_; }
 

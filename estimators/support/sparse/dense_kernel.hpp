@@ -29,7 +29,7 @@ FATHOM_INLINE void multiply_tile(const double* A, int stride, const double* b, i
   }
   for (int j = 0; j < B; ++j) {
     for (int v = 0; v < V; ++v) {
-      *reinterpret_cast<Four*>(out + j * kTileRows + 4 * v) = sum[v][j];
+      *reinterpret_cast<Four*>(out + static_cast<std::size_t>(j * kTileRows + 4 * v)) = sum[v][j];
     }
   }
 }

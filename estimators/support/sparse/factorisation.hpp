@@ -21,7 +21,7 @@ struct Factorisation {
   FATHOM_INLINE void pack(const double* panel, int stride, int row, int depth,
                           const double* sign) const {
     for (int k = 0; k < depth; ++k) {
-      const double* from = panel + at(k) * at(stride) + row * B;
+      const double* from = panel + at(k) * at(stride) + at(row * B);
       for (int j = 0; j < B; ++j) packed[k * B + j] = sign[k] * from[j];
     }
   }
@@ -56,9 +56,9 @@ struct Factorisation {
   FATHOM_INLINE void solve_below(double* block, int stride, int count, const double* sign,
                                  const double* inverse) const {
     for (int j = 0; j < B; ++j) {
-      double* column = block + B + j * stride;
+      double* column = block + B + at(j * stride);
       for (int p = 0; p < j; ++p) {
-        const double* left = block + B + p * stride;
+        const double* left = block + B + at(p * stride);
         const double factor = sign[p] * block[j + p * stride];
         for (int i = 0; i < count; ++i) column[i] -= factor * left[i];
       }
@@ -77,15 +77,16 @@ struct Factorisation {
           const int rows = std::min(kTileRows, all - row);
           multiply_rows<B>(rows, panel + row, stride, packed, column * B, out);
           for (int j = 0; j < B; ++j) {
-            double* to = top + row + j * stride;
+            double* to = top + row + at(j * stride);
             for (int i = 0; i < rows; ++i) to[i] -= out[i + j * kTileRows];
           }
         }
       }
       double inverse[B];
-      double* diagonal = top + column * B;
-      if (!factor_diagonal(diagonal, stride, sign + column * B, inverse)) return false;
-      solve_below(diagonal, stride, all - (column + 1) * B, sign + column * B, inverse);
+      double* diagonal = top + at(column * B);
+      double* own = sign + at(column * B);
+      if (!factor_diagonal(diagonal, stride, own, inverse)) return false;
+      solve_below(diagonal, stride, all - (column + 1) * B, own, inverse);
     }
     return true;
   }
@@ -93,7 +94,7 @@ struct Factorisation {
   FATHOM_INLINE void subtract(const double* out, int blocks, const int* places, double* to,
                               int stride) const {
     for (int i = 0; i < blocks; ++i) {
-      double* block = to + places[i] * B;
+      double* block = to + at(places[i] * B);
       for (int b = 0; b < B; ++b) {
         for (int a = 0; a < B; ++a) block[a + b * stride] -= out[i * B + a + b * kTileRows];
       }
@@ -106,14 +107,15 @@ struct Factorisation {
     constexpr int kTileBlocks = kTileRows / B;
     const Supernode& t = symbolic.supernodes[at(u.target)];
     const int t_stride = t.panel_rows() * B;
-    double* target = panels + t.panel * (B * B);
+    double* target = panels + t.panel * kBlockNumbers<B>;
     const int* places = symbolic.places.data() + u.places - u.begin;
     for (int column = u.begin; column < u.end; ++column) {
       pack(panel, stride, s.width + column, s.width * B, sign);
       double* to = target + at(places[column] * B) * at(t_stride);
       for (int row = column; row < s.height; row += kTileBlocks) {
         const int blocks = std::min(kTileBlocks, s.height - row);
-        multiply_rows<B>(blocks * B, panel + (s.width + row) * B, stride, packed, s.width * B, out);
+        multiply_rows<B>(blocks * B, panel + at((s.width + row) * B), stride, packed, s.width * B,
+                         out);
         subtract(out, blocks, places + row, to, t_stride);
       }
     }
@@ -121,9 +123,9 @@ struct Factorisation {
 
   FATHOM_INLINE bool run() {
     for (const Supernode& s : symbolic.supernodes) {
-      double* panel = panels + s.panel * (B * B);
+      double* panel = panels + s.panel * kBlockNumbers<B>;
       const int stride = s.panel_rows() * B;
-      double* sign = signs + s.first * B;
+      double* sign = signs + at(s.first * B);
       if (!factor_panel(s, panel, stride, sign)) return false;
       for (int u = s.updates; u < s.updates + s.update_count; ++u) {
         update(s, symbolic.updates[at(u)], panel, stride, sign);

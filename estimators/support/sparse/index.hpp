@@ -5,8 +5,12 @@
 namespace fathom::sparse {
 
 /// An index as the standard containers want it.
-inline std::size_t at(int i) {
+constexpr std::size_t at(int i) {
   return static_cast<std::size_t>(i);
 }
+
+/// How many numbers a B × B block has.
+template <int B>
+inline constexpr std::size_t kBlockNumbers = at(B) * at(B);
 
 }  // namespace fathom::sparse

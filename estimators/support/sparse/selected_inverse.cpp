@@ -33,9 +33,10 @@ struct Recursion {
       const int stride = t.panel_rows() * B;
       const int* places = symbolic.places.data() + u.places - u.begin;
       for (int column = u.begin; column < u.end; ++column) {
-        const double* from = sigma + t.panel * (B * B) + at(places[column] * B) * at(stride);
+        const double* from =
+            sigma + t.panel * kBlockNumbers<B> + at(places[column] * B) * at(stride);
         for (int row = column; row < s.height; ++row) {
-          const double* block = from + places[row] * B;
+          const double* block = from + at(places[row] * B);
           for (int b = 0; b < B; ++b) {
             for (int a = 0; a < B; ++a) {
               const double value = block[a + b * stride];
@@ -107,8 +108,8 @@ struct Recursion {
     const int stride = s.panel_rows() * B;
     const int width = s.width * B;
     const int height = s.height * B;
-    const double* panel = factor + s.panel * (B * B);
-    double* result = sigma + s.panel * (B * B);
+    const double* panel = factor + s.panel * kBlockNumbers<B>;
+    double* result = sigma + s.panel * kBlockNumbers<B>;
     gather_below(s);
     invert_top(panel, stride, width);
     solve_Y(panel, stride, width, height);
@@ -124,7 +125,10 @@ struct Recursion {
     }
     for (int column = 0; column < width; column += B) {
       double* to = result + at(column) * at(stride);
-      for (int j = 0; j < B; ++j) std::fill(to + width + j * stride, to + stride + j * stride, 0.0);
+      for (int j = 0; j < B; ++j) {
+        double* start = to + at(j * stride);
+        std::fill(start + width, start + stride, 0.0);
+      }
       pack(work.Y.data() + at(column) * at(height), height, height);
       subtract_product(work.below.data(), height, height, height, to + width, stride);
       pack(to + width, stride, height);
@@ -159,7 +163,9 @@ Workspace workspace_for(const Symbolic& symbolic) {
 }  // namespace
 
 SelectedInverse::SelectedInverse(const BlockCholesky<3>& factor)
-    : factor_(&factor), symbolic_(&factor.symbolic()), panels_(symbolic_->panel_blocks * (B * B)) {
+    : factor_(&factor),
+      symbolic_(&factor.symbolic()),
+      panels_(symbolic_->panel_blocks * kBlockNumbers<B>) {
   if (symbolic_->supernodes.empty()) return;
   Workspace work = workspace_for(*symbolic_);
   Recursion recursion{*symbolic_, factor.panel(symbolic_->supernodes.front()), panels_.data(),
@@ -172,7 +178,7 @@ Eigen::Matrix3d SelectedInverse::block(int node) const {
   const Supernode& s = symbolic_->supernodes[at(symbolic_->supernode_of[at(column)])];
   const int stride = s.panel_rows() * B;
   const int local = (column - s.first) * B;
-  const double* from = panels_.data() + s.panel * (B * B) + at(local) * at(stride) + local;
+  const double* from = panels_.data() + s.panel * kBlockNumbers<B> + at(local) * at(stride) + local;
   Eigen::Matrix3d result;
   for (int a = 0; a < B; ++a) {
     for (int b = 0; b <= a; ++b) result(a, b) = result(b, a) = from[a + b * stride];

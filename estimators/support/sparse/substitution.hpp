@@ -15,10 +15,10 @@ struct Substitution {
   double* gathered;
 
   FATHOM_INLINE void forward(const Supernode& s) const {
-    const double* panel = panels + s.panel * (B * B);
+    const double* panel = panels + s.panel * kBlockNumbers<B>;
     const int stride = s.panel_rows() * B;
     const int* rows = symbolic.rows.data() + s.rows;
-    double* own = x + s.first * B;
+    double* own = x + at(s.first * B);
     const int width = s.width * B;
     const int height = s.height * B;
     for (int i = 0; i < height; ++i) gathered[i] = 0.0;
@@ -34,10 +34,10 @@ struct Substitution {
   }
 
   FATHOM_INLINE void backward(const Supernode& s) const {
-    const double* panel = panels + s.panel * (B * B);
+    const double* panel = panels + s.panel * kBlockNumbers<B>;
     const int stride = s.panel_rows() * B;
     const int* rows = symbolic.rows.data() + s.rows;
-    double* own = x + s.first * B;
+    double* own = x + at(s.first * B);
     const int width = s.width * B;
     const int height = s.height * B;
     for (int i = 0; i < s.height; ++i) {
