@@ -71,9 +71,10 @@ double group_chi2(NormalEquations& equations, const std::vector<std::size_t>& gr
   const sparse::Symbolic& symbolic = equations.factor().symbolic();
   Eigen::Vector3d g = Eigen::Vector3d::Zero();
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
-  Eigen::MatrixX3d B = Eigen::MatrixX3d::Zero(3 * symbolic.size(), 3);
+  Eigen::MatrixX3d B = Eigen::MatrixX3d::Zero(3 * Eigen::Index{symbolic.size()}, 3);
   const auto add = [&](int keyframe, const Eigen::Matrix3d& block) {
-    if (keyframe > 0) B.middleRows<3>(3 * symbolic.position[at(keyframe - 1)]) += block;
+    if (keyframe == 0) return;
+    B.middleRows<3>(3 * Eigen::Index{symbolic.position[at(keyframe - 1)]}) += block;
   };
   const Edge& first = equations.edges()[group.front()];
   const Node& centre = nodes[at(first.to)];

@@ -76,8 +76,10 @@ class RobustBatch {
     for (std::size_t e = 0; e < graph_.edges.size(); ++e) {
       if (graph_.is_loop[e] != 0) largest = std::max(largest, chi2_of(e, nodes));
     }
-    for (double mu = 2.0 * largest / loss.squared_scale(); mu > 1.0; mu /= kGraduationStep) {
+    double mu = 2.0 * largest / loss.squared_scale();
+    while (mu > 1.0) {
       minimise_with(loss.widened(mu), nodes, is_robust, kGraduationSolve);
+      mu /= kGraduationStep;
     }
   }
 
