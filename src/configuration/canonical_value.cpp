@@ -14,7 +14,7 @@ std::string written(double value, std::chars_format format) {
 }
 
 std::string scientific(double value) {
-  const std::string text = written(value, std::chars_format::scientific);
+  std::string text = written(value, std::chars_format::scientific);
   const std::size_t e = text.find('e');
   if (e == std::string::npos) return text;
   std::string mantissa = text.substr(0, e);

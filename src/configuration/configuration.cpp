@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 #include <memory>
+#include <string>
 
 #include "estimator_list.hpp"
 #include "study_options.hpp"
@@ -84,6 +85,12 @@ bool is_among(const std::vector<IgnoredKey>& ignored, const std::string& key) {
   return std::ranges::find(ignored, key, &IgnoredKey::key) != ignored.end();
 }
 
+std::string unused_text(const Setting& setting, const std::string& chooser,
+                        const std::string& choice) {
+  return setting.origin + ": " + setting.key + ": " + chooser + " " + choice +
+         " has no use for it and would ignore it";
+}
+
 std::vector<UnusedSetting> unused_settings(const Settings& settings,
                                            const std::vector<IgnoredKey>& ignored,
                                            const OptionTable& table) {
@@ -91,8 +98,7 @@ std::vector<UnusedSetting> unused_settings(const Settings& settings,
   for (const auto& [key, chooser] : ignored) {
     const Setting* setting = settings.find(key);
     if (setting == nullptr) continue;
-    unused.push_back({key, setting->origin + ": " + key + ": " + chooser + " " +
-                               table.value(chooser) + " has no use for it and would ignore it"});
+    unused.push_back({key, unused_text(*setting, chooser, table.value(chooser))});
   }
   return unused;
 }

@@ -143,6 +143,7 @@ std::size_t find_reference(const Settings& settings,
   const Setting* setting = settings.find("association.reference");
   if (setting == nullptr) return 0;
   std::vector<std::string> names;
+  names.reserve(estimators.size());
   for (const EstimatorConfiguration& estimator : estimators) {
     names.push_back(estimator.name);
   }
