@@ -188,18 +188,18 @@ std::optional<Eigen::MatrixXd> CeresPoseGraph::Graph::joint_covariance(
 // The Hessian of the poses but the first, which is fixed, the loss applied as a weight. There must
 // be one: asked for no poses, Ceres takes all. Nothing where it is not finite, of which
 // Ceres would print a warning.
-std::optional<Eigen::SparseMatrix<double>> CeresPoseGraph::Graph::hessian() {
-  if (!is_finite()) return std::nullopt;
+std::unique_ptr<const Eigen::SparseMatrix<double>> CeresPoseGraph::Graph::hessian() {
+  if (!is_finite()) return nullptr;
   ceres::Problem::EvaluateOptions evaluate;
   evaluate.num_threads = 1;
   for (std::size_t k = 1; k < size(); ++k) evaluate.parameter_blocks.push_back(block(k));
   ceres::CRSMatrix J;
-  if (!problem_.Evaluate(evaluate, nullptr, nullptr, nullptr, &J)) return std::nullopt;
+  if (!problem_.Evaluate(evaluate, nullptr, nullptr, nullptr, &J)) return nullptr;
   const Eigen::SparseMatrix<double> by_columns =
       Eigen::Map<const Eigen::SparseMatrix<double, Eigen::RowMajor>>(
           J.num_rows, J.num_cols, static_cast<Eigen::Index>(J.values.size()), J.rows.data(),
           J.cols.data(), J.values.data());
-  return Eigen::SparseMatrix<double>(by_columns.transpose() * by_columns);
+  return std::make_unique<const Eigen::SparseMatrix<double>>(by_columns.transpose() * by_columns);
 }
 
 std::optional<std::vector<UncertainPose>> CeresPoseGraph::Graph::motions_to_newest() {

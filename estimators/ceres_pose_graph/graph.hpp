@@ -2,6 +2,7 @@
 
 #include <array>
 #include <deque>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -57,7 +58,8 @@ class CeresPoseGraph::Graph {
   bool is_determined();
   void changed() { marginals_.reset(); }
   void compute_marginals();
-  std::optional<Eigen::SparseMatrix<double>> hessian();
+  /// Null where it cannot be evaluated.
+  std::unique_ptr<const Eigen::SparseMatrix<double>> hessian();
 
   CeresPoseGraphOptions options_;
   std::deque<Block> poses_;  ///< a deque keeps the addresses that the problem knows
