@@ -81,6 +81,7 @@ std::vector<RelativePose> FrontEnd::register_newest(const TrajectoryView& trajec
   const std::size_t newest = keyframes_.size() - 1;
   const auto [near, left_out] = candidates(trajectory);
   std::vector<MeasuredFrame> from;
+  from.reserve(near.size());
   for (const std::size_t k : near) from.push_back(measured(keyframes_[k].frame));
   const auto results = registrar_.of_all(from, measured(keyframes_[newest].frame));
   std::vector<RelativePose> registrations;

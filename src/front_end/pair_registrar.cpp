@@ -83,8 +83,8 @@ PairRegistration PairRegistrar::register_anew(const MeasuredFrame& from, const M
                                               const FloorFeatures& features_to) {
   const Registration found =
       register_pair(on_floor_of(from), features_to, options_, seed_of(from, to));
-  const PairRegistration value{found.found, found.motion, found.covariance,
-                               static_cast<int>(found.inliers.size())};
+  PairRegistration value{found.found, found.motion, found.covariance,
+                         static_cast<int>(found.inliers.size())};
   ++registered_;
   if (cache_ != nullptr) cache_->put(cache_key(from, to), value);
   return value;

@@ -30,9 +30,10 @@ Points points_of(const MatchSet& matches, const std::vector<int>& indices) {
 
 std::vector<int> within_gate(const Pose& z, const MatchSet& matches, double max_error_m,
                              double gate) {
-  const std::vector<int> near = matches.one_to_one(matches.pairs().inliers(z, max_error_m));
+  std::vector<int> near = matches.one_to_one(matches.pairs().inliers(z, max_error_m));
   if (near.empty()) return near;
   std::vector<double> squares;
+  squares.reserve(near.size());
   for (const int index : near) {
     squares.push_back(squared_residual(z, matches, index) / matches.relative_variance(index));
   }
