@@ -14,6 +14,7 @@
 
 #include "apps/command.hpp"
 #include "apps/common.hpp"
+#include "apps/out_of_memory.hpp"
 #include "fathom/core/options.hpp"
 #include "fathom/core/version.hpp"
 
@@ -42,7 +43,7 @@ ExitStatus refused(std::string message, ExitStatus status = kBadInput) {
 }
 
 ExitStatus out_of_memory() {
-  std::fputs("fathom: error: out of memory\n", stderr);
+  print_out_of_memory();
   return kFailed;
 }
 
@@ -70,6 +71,7 @@ std::string parse_error_text(const CLI::App& app, const CLI::ParseError& error, 
 }
 
 int main_function(int argc, char** argv) {
+  end_when_out_of_memory();
   pin_threads();
   silence_ceres();
   Context context;

@@ -32,7 +32,11 @@ FeatureMemory::FeatureMemory(const FrameSource& source, const FeatureExtractor& 
                              std::size_t bytes)
     : source_(source),
       extractor_(extractor),
-      held_(bytes, [](const Held& features) { return features->bytes(); }) {}
+      held_(bytes, [](const Held& features) { return features->bytes(); }) {
+  // The pool of threads is made while there is one thread: where one of several fails to make it,
+  // for want of memory, the others wait for it for ever.
+  if (cv::getNumThreads() > 1) cv::parallel_for_(cv::Range(0, 2), [](const cv::Range&) {});
+}
 
 FeatureMemory::Held FeatureMemory::extract(std::size_t frame) const {
   return std::make_shared<const PackedFeatures>(extractor_.extract(source_.image(frame)));
