@@ -21,13 +21,6 @@ struct SimulateFlags {
   std::string config;
 };
 
-std::string text_of(const OptionValue& value) {
-  if (!value.is_list) return value.items.front();
-  std::string items;
-  for (const std::string& item : value.items) items += (items.empty() ? "" : ", ") + item;
-  return '[' + items + ']';
-}
-
 // A configuration that runs the folder as the simulation would have been: same front end and seed.
 std::string folder_configuration(const Configuration& configuration, const std::string& folder) {
   std::vector<ConfigLine> lines{{"dataset.type", "image_folder", false, ""},
@@ -41,7 +34,7 @@ std::string folder_configuration(const Configuration& configuration, const std::
   const EstimatorConfiguration& estimator = configuration.estimators[configuration.reference];
   lines.push_back({"estimator.type", estimator.type, false, ""});
   for (const auto& [key, value] : estimator.values) {
-    lines.push_back({"estimator." + key, text_of(value), value.is_list, ""});
+    lines.push_back({"estimator." + key, value.text(), value.is_list, ""});
   }
   return "# The survey in this folder, with the front end it was simulated with.\n" +
          config_text(lines);
@@ -61,9 +54,9 @@ void simulate(const SimulateFlags& flags, Context& context) {
   }
   const Survey survey(configuration);
   StagedFolder folder(out);
+  const std::string run = folder_configuration(configuration, folder.target().string());
   write_image_folder(survey.frames(), folder.path());
-  write_file(folder.path() / "run.yaml",
-             folder_configuration(configuration, folder.target().string()));
+  write_file(folder.path() / "run.yaml", run);
   folder.commit();
   context.status = kDone;
   if (flags.common.quiet) return;

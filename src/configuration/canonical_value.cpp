@@ -52,11 +52,7 @@ OptionValue canonical_value(const OptionValue& value, const std::string& type,
 
 std::string canonical_text(const OptionValue& value, const std::string& type,
                            std::string (*text_of)(double)) {
-  std::string text;
-  for (const std::string& item : canonical_value(value, type, text_of).items) {
-    text += (text.empty() ? "" : ", ") + item;
-  }
-  return value.is_list ? "[" + text + "]" : text;
+  return canonical_value(value, type, text_of).text();
 }
 
 }  // namespace fathom

@@ -41,12 +41,6 @@ bool holds_values_of_a_sweep(const std::string& key) {
   return key.starts_with("sweep.") && key.ends_with(".values");
 }
 
-std::string list_text(const OptionValue& list) {
-  std::string text;
-  for (const std::string& item : list.items) text += (text.empty() ? "" : ", ") + item;
-  return "[" + text + "]";
-}
-
 bool is_list_of_maps(const YAML::Node& node) {
   return node.IsSequence() && node.size() > 0 && node[0].IsMap();
 }
@@ -85,10 +79,10 @@ class Flattener {
  private:
   static void add_value_of_a_sweep(const YAML::Node& item, const std::string& origin,
                                    OptionValue& value) {
-    OptionValue inner;
+    OptionValue inner{{}, true};
     if (item.IsSequence()) {
       flatten_list(item, origin, inner);
-      value.items.push_back(list_text(inner));
+      value.items.push_back(inner.text());
     } else if (item.IsScalar()) {
       value.items.push_back(item.Scalar());
     } else {

@@ -4,6 +4,9 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include "fathom/core/input_error.hpp"
+#include "fathom/core/text.hpp"
+
 namespace fathom {
 namespace {
 
@@ -51,12 +54,23 @@ std::string one_line(std::string text) {
   return text;
 }
 
+// Where a value needs quotes, the emitter replaces bytes that are not UTF-8: a path would be
+// another one.
+void emit_word(YAML::Emitter& out, const std::string& word) {
+  YAML::Emitter alone;
+  alone << word;
+  if (YAML::Load(alone.c_str()).as<std::string>() != word) {
+    throw InputError(in_quotes(word) + " cannot stand in a configuration: it is not UTF-8");
+  }
+  out << word;
+}
+
 void emit_value(YAML::Emitter& out, const ConfigLine& line) {
   if (!line.is_list) {
-    out << line.value;
+    emit_word(out, line.value);
   } else {
     out << YAML::Flow << YAML::BeginSeq;
-    for (const YAML::Node& item : YAML::Load(line.value)) out << item.as<std::string>();
+    for (const YAML::Node& item : YAML::Load(line.value)) emit_word(out, item.as<std::string>());
     out << YAML::EndSeq;
   }
   if (!line.comment.empty()) out << YAML::Comment(one_line(line.comment));

@@ -8,10 +8,8 @@
 
 namespace fathom {
 
-std::string joined(const std::vector<std::string>& words, const std::string& separator) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : separator) + word;
-  return text;
+std::string OptionValue::text() const {
+  return is_list ? "[" + joined(items, ", ") + "]" : joined(items, ", ");
 }
 
 std::string list_text(const std::vector<double>& values) {
@@ -22,10 +20,7 @@ std::string list_text(const std::vector<double>& values) {
 }
 
 void refuse(const std::string& key, const std::string& expected, const OptionValue& value) {
-  const std::string given = value.is_list         ? "[" + joined(value.items, ", ") + "]"
-                            : value.items.empty() ? ""
-                                                  : value.items.front();
-  throw InputError(key + ": expected " + expected + ", got '" + given + "'");
+  throw InputError(key + ": expected " + expected + ", got '" + value.text() + "'");
 }
 
 double checked_real(const std::string& key, const Range& range, const std::string& unit,

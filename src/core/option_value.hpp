@@ -7,9 +7,6 @@
 
 namespace fathom {
 
-/// The words, with the separator between them.
-std::string joined(const std::vector<std::string>& words, const std::string& separator);
-
 /// "[0.5, 1]"; each number reads back to the same bits.
 std::string list_text(const std::vector<double>& values);
 

@@ -57,12 +57,6 @@ void insert_words(SQLite::Database& database, const std::string& table, const Wo
   }
 }
 
-std::string words_text(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : " ") + word;
-  return text;
-}
-
 template <class... Values>
 void run_with(SQLite::Statement& insert, const Values&... values) {
   SQLite::bind(insert, values...);
@@ -117,7 +111,7 @@ void update_labels(SQLite::Database& database, const StudyDescription& study) {
 // Over what tables and charts are made from, to tell a flipped bit.
 std::string checksum_of(const StudyDescription& study) {
   Hash hash;
-  hash.add(study.title).add(study.alignment).add(study.trials).add(words_text(study.metrics));
+  hash.add(study.title).add(study.alignment).add(study.trials).add(joined(study.metrics, " "));
   for (const StudyAxis& axis : study.axes) {
     hash.add(axis.name).add(axis.key);
     for (const std::string& label : axis.labels) hash.add(label);
@@ -205,7 +199,7 @@ void create_schema(SQLite::Database& database, const StudyDescription& study) {
   insert_words(database, "study",
                {{"title", study.title},
                 {"alignment", study.alignment},
-                {"metrics", words_text(study.metrics)},
+                {"metrics", joined(study.metrics, " ")},
                 {"trials", std::to_string(study.trials)},
                 {"checksum", ""}});
   insert_words(database, "configuration", study.configuration);
@@ -225,7 +219,7 @@ void update_study(SQLite::Database& database, const StudyDescription& study) {
   const std::size_t trials = std::max(study.trials, trials_of(study_word(database, "trials")));
   SQLite::Statement update(database, "UPDATE study SET value = ? WHERE key = ?");
   run_with(update, study.title, std::string("title"));
-  run_with(update, words_text(study.metrics), std::string("metrics"));
+  run_with(update, joined(study.metrics, " "), std::string("metrics"));
   run_with(update, std::to_string(trials), std::string("trials"));
   update_labels(database, study);
   run_with(update, checksum_of(stored_study(database)), std::string("checksum"));

@@ -6,6 +6,7 @@
 
 #include "fathom/configuration/config_text.hpp"
 #include "fathom/configuration/configuration.hpp"
+#include "fathom/core/text.hpp"
 #include "fathom/core/version.hpp"
 
 namespace fathom {
@@ -13,12 +14,6 @@ namespace {
 
 bool is_list_text(const std::string& text) {
   return text.size() >= 2 && text.front() == '[' && text.back() == ']';
-}
-
-std::string joined(const std::vector<std::string>& words, const std::string& separator) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : separator) + word;
-  return text;
 }
 
 // The values that a study was made with, by key.

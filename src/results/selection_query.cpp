@@ -9,16 +9,10 @@
 namespace fathom {
 namespace {
 
-std::string listed(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
-  return text;
-}
-
 // The nearest word, or all there are where none is near. No number is another one misspelt.
 std::string hint(const std::string& word, const std::vector<std::string>& among) {
   const std::string near = parse_real(word) ? "" : suggestion(word, among);
-  return near.empty() ? "; there are " + listed(among) : near;
+  return near.empty() ? "; there are " + joined(among, ", ") : near;
 }
 
 std::size_t axis_of(const StudyDescription& study, const std::string& text,
@@ -55,7 +49,7 @@ void require_metric(const std::string& name, const StudyDescription& study,
     if (std::find(known.begin(), known.end(), metric) != known.end()) some.push_back(metric);
   }
   throw InputError("unknown metric '" + name + "'; there are " +
-                   (some.empty() ? listed(known) : listed(some) + " and others"));
+                   (some.empty() ? joined(known, ", ") : joined(some, ", ") + " and others"));
 }
 
 }  // namespace

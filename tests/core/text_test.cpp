@@ -37,6 +37,12 @@ TEST(Trim, TakesBlanksOffBothEnds) {
   EXPECT_EQ(trim(""), "");
 }
 
+TEST(Joined, EmptyWordsCount) {
+  EXPECT_EQ(joined({}, ", "), "");
+  EXPECT_EQ(joined({"a"}, ", "), "a");
+  EXPECT_EQ(joined({"", "a", "", "b"}, ", "), ", a, , b");
+}
+
 TEST(ParseReal, WholeFiniteNumbersAlone) {
   EXPECT_EQ(parse_real("1.5"), 1.5);
   EXPECT_EQ(parse_real("-2e-3"), -0.002);

@@ -6,19 +6,10 @@
 #include "fathom/estimators/builtin.hpp"
 #include "fathom/harness/result.hpp"
 #include "fathom/measurements/g2o.hpp"
-#include "harness/square_log.hpp"
+#include "harness/square_result.hpp"
 
 namespace fathom {
 namespace {
-
-Recording square() {
-  Recording recording;
-  recording.log = test::square_log();
-  for (std::size_t k = 0; k < recording.log.size(); ++k) {
-    recording.keyframe_times_ns.push_back(static_cast<std::int64_t>(k) * 1'000'000'000);
-  }
-  return recording;
-}
 
 Result evaluated(const Recording& recording, const std::string& type, const RecordingFacts* facts) {
   return evaluate(recording, {type, type, {}}, builtin_estimators(),
@@ -26,7 +17,7 @@ Result evaluated(const Recording& recording, const std::string& type, const Reco
 }
 
 TEST(RecordingFacts, TheOptimumIsTheLeastOfAllBatchSolves) {
-  const Recording recording = square();
+  const Recording recording = test::square(false);
   const auto optimum = batch_optimum(recording.log, builtin_estimators());
   ASSERT_TRUE(optimum);
   EXPECT_EQ(chi2(recording.log, optimum->poses), optimum->chi2);
@@ -45,7 +36,7 @@ TEST(RecordingFacts, TheOptimumIsTheLeastOfAllBatchSolves) {
 }
 
 TEST(RecordingFacts, AStudyKnowsMoreThanARun) {
-  const Recording recording = square();
+  const Recording recording = test::square(false);
   const RecordingFacts of_run = run_facts(recording);
   EXPECT_FALSE(of_run.chi2_optimum);
   EXPECT_FALSE(of_run.true_overlaps);
@@ -62,7 +53,7 @@ TEST(RecordingFacts, AStudyKnowsMoreThanARun) {
 
 // Another minimum than that of the solves from dead reckoning: what is known of it is too high.
 TEST(RecordingFacts, AnEstimateBelowTheKnownOptimumLeadsToItsOwn) {
-  const Recording recording = square();
+  const Recording recording = test::square(false);
   const auto optimum = batch_optimum(recording.log, builtin_estimators());
   ASSERT_TRUE(optimum);
   RecordingFacts facts = run_facts(recording);

@@ -15,7 +15,8 @@ struct ConfigLine {
 
 /// Nested YAML as one would write it: a map for the first part of the keys, one line for each
 /// second part, and what is below in braces where that is no long line. A line with a comment has
-/// its dotted key. Read back, every value is the same word for word.
+/// its dotted key. Read back, every value is the same word for word. Throws InputError for one that
+/// is not UTF-8 and needs quotes.
 std::string config_text(const std::vector<ConfigLine>& lines);
 
 }  // namespace fathom

@@ -43,6 +43,9 @@ struct OptionValue {
   bool is_list = false;
 
   static OptionValue scalar(std::string text) { return {{std::move(text)}, false}; }
+
+  /// As a config has it, a list as "[a, b]".
+  std::string text() const;
 };
 
 /// Binds the fields of option structs to described keys. Every option struct has a member

@@ -16,6 +16,9 @@ std::vector<std::string_view> split_csv(std::string_view text);
 
 std::string_view trim(std::string_view text);
 
+/// The words with the separator between them.
+std::string joined(const std::vector<std::string>& words, const std::string& separator);
+
 /// The whole text as a finite number, or nothing: "1.5x", "nan" and "inf" are nothing.
 std::optional<double> parse_real(std::string_view text);
 std::optional<std::int64_t> parse_integer(std::string_view text);
