@@ -81,18 +81,18 @@ std::vector<IgnoredKey> ignored_of_false_loops(const Settings& settings,
   return below(kFalseLoops, ignored);
 }
 
-void check_study(const Settings& settings, const StudyOptions& study, bool is_graph) {
+void check_study(const Settings& settings, const StudyOptions& study, const DataSetEntry& data_set) {
   const Setting* reference = settings.find("association.reference");
   if (reference != nullptr && study.association == Association::own) {
     refuse(*reference,
            "association.reference: nobody's estimate but each one's own picks the loop candidates; "
            "use association.mode: shared");
   }
-  if (is_graph && study.trials > 1 && study.false_loops.share == 0.0) {
+  if (!data_set.draws_trials() && study.trials > 1 && study.false_loops.share == 0.0) {
     refuse(*settings.find("trials"),
            "trials: a pose graph without false loops has nothing to draw; expected 1");
   }
-  if (is_graph && study.association == Association::own) {
+  if (data_set.is_graph && study.association == Association::own) {
     refuse(*settings.find("association.mode"),
            "association.mode: a pose graph has its loops; expected shared");
   }

@@ -19,6 +19,6 @@ std::vector<IgnoredKey> ignored_of_false_loops(const Settings& settings,
                                                const SpoilOptions& options);
 
 /// What no single option's bounds can say. Throws InputError.
-void check_study(const Settings& settings, const StudyOptions& study, bool is_graph);
+void check_study(const Settings& settings, const StudyOptions& study, const DataSetEntry& data_set);
 
 }  // namespace fathom

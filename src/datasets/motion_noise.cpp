@@ -29,7 +29,7 @@ Eigen::Matrix3d covariance_of(const Options& options, bool may_be_zero, const st
                           : !(options.sigma_y_m > 0) ? "sigma_y_m"
                                                      : "sigma_theta_rad";
   throw InputError(prefix + key +
-                   ": makes the covariance of a step singular; expected a number > 0");
+                   ": makes the covariance singular; expected a number > 0");
 }
 
 }  // namespace
@@ -58,12 +58,25 @@ void AddedNoiseOptions::describe(OptionTable& table) {
               "noise added [xx, xy, xt, yy, yt, tt] in m^2, m rad, rad^2; []: from the sigmas");
 }
 
+void DrawnNoiseOptions::describe(OptionTable& table) {
+  table.real("sigma_x_m", sigma_x_m, Range::at_least(0), "m", "noise " + of + ", forward");
+  table.real("sigma_y_m", sigma_y_m, Range::at_least(0), "m", "noise " + of + ", to port");
+  table.real("sigma_theta_rad", sigma_theta_rad, Range::at_least(0), "rad",
+             "noise " + of + ", heading");
+  table.reals("covariance", covariance, 6, "",
+              "noise " + of + " [xx, xy, xt, yy, yt, tt] in m^2, m rad, rad^2; []: from the sigmas");
+}
+
 Eigen::Matrix3d OdometryOptions::noise_covariance(const std::string& prefix) const {
   return covariance_of(*this, source == OdometrySource::kVisualOdometry, prefix);
 }
 
 Eigen::Matrix3d AddedNoiseOptions::noise_covariance(const std::string& prefix) const {
   return covariance_of(*this, true, prefix);
+}
+
+Eigen::Matrix3d DrawnNoiseOptions::noise_covariance(const std::string& prefix) const {
+  return covariance_of(*this, false, prefix);
 }
 
 MotionNoise::MotionNoise(const Eigen::Matrix3d& covariance) : lower_(Eigen::Matrix3d::Zero()) {

@@ -128,6 +128,17 @@ Recording record_survey(Survey& survey, const Configuration& configuration, std:
   return recording;
 }
 
+void require_finite(const MeasurementLog& log, const std::string& file) {
+  const auto require = [&](const std::vector<Pose>& poses, const std::string& name) {
+    if (std::isfinite(chi2(log, poses))) return;
+    throw InputError(file, "F is not finite at " + name +
+                               ": the file has numbers beyond what can be computed with; expected "
+                               "metres, radians and their information");
+  };
+  require(log.odometry(), "dead reckoning");
+  if (log.guess) require(*log.guess, "its vertices");
+}
+
 Recording graph_recording(MeasurementLog log, const std::string& file) {
   Recording recording;
   constexpr std::int64_t kSecond = 1'000'000'000;
@@ -138,15 +149,29 @@ Recording graph_recording(MeasurementLog log, const std::string& file) {
     }
     recording.keyframe_times_ns.push_back(id * kSecond);
   }
-  const auto require_finite = [&](const std::vector<Pose>& poses, const std::string& name) {
-    if (std::isfinite(chi2(log, poses))) return;
-    throw InputError(file, "F is not finite at " + name +
-                               ": the file has numbers beyond what can be computed with; expected "
-                               "metres, radians and their information");
-  };
-  require_finite(log.odometry(), "dead reckoning");
-  if (log.guess) require_finite(*log.guess, "its vertices");
+  require_finite(log, file);
   recording.log = std::move(log);
+  return recording;
+}
+
+std::optional<DrawnGraph> draw_graph(const DataSet& data, const Configuration& configuration,
+                                     const TrialNoise& noise) {
+  try {
+    return std::move(data.trial(configuration.dataset.values, noise).graph);
+  } catch (const InputError& error) {
+    throw at_origin(configuration, error);
+  }
+}
+
+Recording drawn_recording(DrawnGraph drawn) {
+  Recording recording;
+  require_finite(drawn.log, "dataset");
+  recording.ground_truth.emplace();
+  for (const StampedPose& pose : drawn.ground_truth) {
+    recording.keyframe_times_ns.push_back(pose.time_ns);
+    recording.ground_truth->push_back(pose.pose);
+  }
+  recording.log = std::move(drawn.log);
   return recording;
 }
 
@@ -186,7 +211,8 @@ Recording Recorder::record(const Configuration& configuration, std::size_t refer
                            const Progress& progress) const {
   Recording recording;
   if (graph_) {
-    recording = *graph_;
+    auto drawn = draw_graph(*graph_data_, configuration, noise);
+    recording = drawn ? drawn_recording(std::move(*drawn)) : *graph_;
   } else {
     Survey survey(pictures_, configuration, noise);
     recording = record_survey(survey, configuration, reference, registry, progress);

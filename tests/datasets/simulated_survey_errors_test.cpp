@@ -80,7 +80,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadSurvey{"NoWaypoints", [](auto& o) { o.mission.type = MissionType::kWaypoints; },
                   "dataset.mission.waypoints_m: "},
         BadSurvey{"SigmaZero", [](auto& o) { o.odometry.sigma_theta_rad = 0; },
-                  "dataset.odometry.sigma_theta_rad: makes the covariance of a step singular"},
+                  "dataset.odometry.sigma_theta_rad: makes the covariance singular"},
         BadSurvey{"SigmaNegative", [](auto& o) { o.odometry.sigma_x_m = -1; },
                   "dataset.odometry.sigma_x_m: "},
         BadSurvey{"CovarianceSingular", [](auto& o) { o.odometry.covariance = {1, 1, 0, 1, 0, 1}; },

@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,6 +15,7 @@
 #include "fathom/core/ignored_key.hpp"
 #include "fathom/core/options.hpp"
 #include "fathom/datasets/frame_source.hpp"
+#include "fathom/geometry/trajectory.hpp"
 #include "fathom/measurements/measurement_log.hpp"
 
 namespace fathom {
@@ -27,10 +29,19 @@ struct TrialNoise {
   std::uint64_t trial = 0;
 };
 
-/// What one trial makes of the pictures of a data set.
+/// The measurements of one trial of a pose graph, with the true poses of its keyframes.
+struct DrawnGraph {
+  MeasurementLog log;
+  std::vector<StampedPose> ground_truth;
+};
+
+/// What one trial makes of a data set.
 struct Trial {
+  /// The measurements that this trial draws; none: pictures, or a graph that is always the same.
+  std::optional<DrawnGraph> graph = std::nullopt;
+
   /// The frames as this trial measures them, with the same pictures; none: the data set's own.
-  std::unique_ptr<FrameSource> frames;
+  std::unique_ptr<FrameSource> frames = nullptr;
   /// Covariance of the noise that is to be added to each motion, recorded or of visual odometry.
   Eigen::Matrix3d added_noise = Eigen::Matrix3d::Zero();
   /// Whether motions are to be those of visual odometry though there is odometry.
@@ -48,9 +59,8 @@ class DataSet {
   /// The measurements of a pose graph; null for pictures.
   virtual const MeasurementLog* graph() const { return nullptr; }
 
-  /// A trial of a data set of pictures: `values` are those that it was opened with, but for the
-  /// options of a trial. What refers to the frames must not outlive the data set. Throws
-  /// InputError.
+  /// A trial: `values` are those that it was opened with, but for the options of a trial. What
+  /// refers to the frames must not outlive the data set. Throws InputError.
   virtual Trial trial(const DataSetValues& values, const TrialNoise& noise) const;
 
   /// The files that it reads: they tell this data set from what stood there at another time.
@@ -72,8 +82,10 @@ struct DataSetEntry {
   bool is_graph = false;        ///< a pose graph, without pictures
   bool makes_pictures = false;  ///< rather than reading them: `fathom simulate` writes them out
   std::vector<OptionDescription> options;  ///< keys below `dataset`
-  /// Of them those that only say what a trial measures: the pictures do not depend on them.
+  /// Of them those that only say what a trial measures: what is opened does not depend on them.
   std::vector<OptionDescription> trial_options;
+  /// Whether a trial has anything to draw: noise of pictures, or measurements.
+  bool draws_trials() const { return !is_graph || !trial_options.empty(); }
   std::function<std::unique_ptr<DataSetOptions>()> make_options;
   /// What is the same in all trials follows from the seed alone. Throws InputError that names the
   /// whole key.

@@ -43,6 +43,20 @@ struct AddedNoiseOptions {
   Eigen::Matrix3d noise_covariance(const std::string& key_prefix) const;
 };
 
+/// Noise of measurements that are drawn, each with the covariance that its estimators are told.
+struct DrawnNoiseOptions {
+  std::string of;  ///< what it is noise of, for the help: "of a frame's motion"
+  double sigma_x_m = 0.01;
+  double sigma_y_m = 0.01;
+  double sigma_theta_rad = 0.005;
+  std::vector<double> covariance = {};  ///< [xx, xy, xt, yy, yt, tt]; empty: from the sigmas
+
+  void describe(OptionTable& table);
+
+  /// Throws InputError naming `key_prefix` + the key that makes it other than positive definite.
+  Eigen::Matrix3d noise_covariance(const std::string& key_prefix) const;
+};
+
 /// What is added to each motion: draws of this covariance, which must be positive definite or zero.
 struct AddedNoise {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
