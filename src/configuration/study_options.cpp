@@ -81,7 +81,8 @@ std::vector<IgnoredKey> ignored_of_false_loops(const Settings& settings,
   return below(kFalseLoops, ignored);
 }
 
-void check_study(const Settings& settings, const StudyOptions& study, const DataSetEntry& data_set) {
+void check_study(const Settings& settings, const StudyOptions& study,
+                 const DataSetEntry& data_set) {
   const Setting* reference = settings.find("association.reference");
   if (reference != nullptr && study.association == Association::own) {
     refuse(*reference,

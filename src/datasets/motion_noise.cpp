@@ -28,8 +28,7 @@ Eigen::Matrix3d covariance_of(const Options& options, bool may_be_zero, const st
   const std::string key = !(options.sigma_x_m > 0)   ? "sigma_x_m"
                           : !(options.sigma_y_m > 0) ? "sigma_y_m"
                                                      : "sigma_theta_rad";
-  throw InputError(prefix + key +
-                   ": makes the covariance singular; expected a number > 0");
+  throw InputError(prefix + key + ": makes the covariance singular; expected a number > 0");
 }
 
 }  // namespace
@@ -63,8 +62,9 @@ void DrawnNoiseOptions::describe(OptionTable& table) {
   table.real("sigma_y_m", sigma_y_m, Range::at_least(0), "m", "noise " + of + ", to port");
   table.real("sigma_theta_rad", sigma_theta_rad, Range::at_least(0), "rad",
              "noise " + of + ", heading");
-  table.reals("covariance", covariance, 6, "",
-              "noise " + of + " [xx, xy, xt, yy, yt, tt] in m^2, m rad, rad^2; []: from the sigmas");
+  table.reals(
+      "covariance", covariance, 6, "",
+      "noise " + of + " [xx, xy, xt, yy, yt, tt] in m^2, m rad, rad^2; []: from the sigmas");
 }
 
 Eigen::Matrix3d OdometryOptions::noise_covariance(const std::string& prefix) const {

@@ -223,6 +223,23 @@ TEST_F(Studies, SharedAssociationGivesOneLogToAll) {
   EXPECT_EQ(all.size(), 10u);
 }
 
+TEST_F(Studies, DrawnLogsDifferByTrialAndCell) {
+  write("s.yaml",
+        "dataset: {type: simulated_log, mission: {legs: 2}}\nestimators: [{type: ekf}]\n"
+        "sweep: [{key: dataset.loops.scale_error, name: scale, values: [0, 0.2]}]\n"
+        "trials: 3\njobs: 2\n");
+  fathom_done({"compare", "s.yaml", "--out", "out"});
+  std::set<std::string> logs;
+  std::map<std::size_t, double> sums;
+  for (const RunRecord& run : ResultStore::open(path("out")).runs()) {
+    if (run.key.estimator == kDeadReckoning) continue;
+    logs.insert(run.log_hash);
+    sums[run.key.cell] += run.metrics.at("mean_position_error_m");
+  }
+  EXPECT_EQ(logs.size(), 6u);
+  EXPECT_NE(sums[0], sums[1]);
+}
+
 TEST_F(Studies, ADataSetThatFailsLeavesNothingBehind) {
   write("s.yaml", "dataset: {type: image_folder, path: nowhere}\nestimators: [{type: ekf}]\n");
   EXPECT_THAT(refusal({"compare", "s.yaml", "--out", "out"}), HasSubstr("nowhere"));

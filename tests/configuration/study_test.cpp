@@ -205,6 +205,15 @@ TEST(ConfigureStudy, AGraphHasNoNoiseToDraw) {
   EXPECT_EQ(study_of(graph).cells.size(), 1u);
 }
 
+TEST(ConfigureStudy, ADrawnLogHasTrials) {
+  const std::string drawn = "dataset: {type: simulated_log}\n";
+  EXPECT_EQ(study_of(drawn + "trials: 2\n").description.trials, 2u);
+  EXPECT_THAT(refusal(drawn + "association: {mode: own}\n"),
+              HasSubstr("association.mode: a pose graph has its loops"));
+  EXPECT_THAT(refusal(drawn + "dataset.loops.tail_factor: 5\n"),
+              HasSubstr("dataset.loops.tail_factor"));
+}
+
 TEST(WithoutSweep, LeavesTheRest) {
   const Settings settings =
       without_sweep(settings_of("seed: 4\nsweep: [{key: trials, values: [1]}]\n"));

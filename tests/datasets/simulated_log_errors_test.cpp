@@ -89,7 +89,7 @@ TEST(SimulatedLogErrors, SharedErrorsAreThoseOfThePictures) {
   options.loops.noise.sigma_x_m = options.loops.noise.sigma_y_m = 1e-6;
   options.loops.noise.sigma_theta_rad = 1e-6;
   options.loops.probability = 1.0;
-  options.loops.max_distance_m = 100.0;
+  options.loops.max_distance_m = 1e9;
   const FlownKeyframes keyframes = flown(options);
   const MeasurementLog log = draw_log(keyframes, options, 6, 0);
   const std::size_t last = log.size() - 1;

@@ -57,9 +57,8 @@ TEST(SimulatedLog, SuccessFallsInALineWithDistance) {
   std::size_t pairs = 0;
   for (std::size_t to = 1; to < keyframes.size(); ++to) {
     for (std::size_t from = 0; from < to; ++from) {
-      const double distance_m =
-          std::hypot(keyframes[to].pose.x - keyframes[from].pose.x,
-                     keyframes[to].pose.y - keyframes[from].pose.y);
+      const double distance_m = std::hypot(keyframes[to].pose.x - keyframes[from].pose.x,
+                                           keyframes[to].pose.y - keyframes[from].pose.y);
       const double chance = std::max(0.0, 0.8 * (1.0 - distance_m / 2.0));
       const auto place = found.find({from, to});
       const int count = place == found.end() ? 0 : place->second;
@@ -132,8 +131,9 @@ TEST(SimulatedLog, BadValuesNameTheirKey) {
   const auto message = [](const std::vector<std::pair<std::string, std::string>>& given) {
     DataSetValues values;
     for (const auto& [key, value] : given) values[key] = OptionValue::scalar(value);
-    return input_error_of(
-        [&] { find_data_set("simulated_log").open(values, 1)->trial(values, {1, 0}); });
+    return input_error_of([&] {
+      find_data_set("simulated_log").open(values, 1)->trial(values, {1, 0});
+    });
   };
   EXPECT_THAT(message({{"separation_frames", "100000"}}),
               HasSubstr("dataset.separation_frames: leads beyond the last frame"));

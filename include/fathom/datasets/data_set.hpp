@@ -37,15 +37,14 @@ struct DrawnGraph {
 
 /// What one trial makes of a data set.
 struct Trial {
-  /// The measurements that this trial draws; none: pictures, or a graph that is always the same.
-  std::optional<DrawnGraph> graph = std::nullopt;
-
   /// The frames as this trial measures them, with the same pictures; none: the data set's own.
   std::unique_ptr<FrameSource> frames = nullptr;
   /// Covariance of the noise that is to be added to each motion, recorded or of visual odometry.
   Eigen::Matrix3d added_noise = Eigen::Matrix3d::Zero();
   /// Whether motions are to be those of visual odometry though there is odometry.
   bool visual_odometry = false;
+  /// The measurements that this trial draws; none: pictures, or a graph that is always the same.
+  std::optional<DrawnGraph> graph = std::nullopt;
 };
 
 /// A data set, opened: either pictures or a pose graph. May be used from several threads at once.

@@ -17,10 +17,10 @@ namespace fathom {
 /// estimators are told the covariance of `noise` alone.
 struct SimulatedLoopOptions {
   double max_distance_m = 1.5;  ///< true distance of two keyframes, below which a pair is tried
-  double probability = 0.9;     ///< of success at distance 0, falling in a line to 0 at the farthest
+  double probability = 0.9;  ///< of success at distance 0, falling in a line to 0 at the farthest
   std::optional<int> max_per_keyframe;  ///< the nearest of the found
   DrawnNoiseOptions noise{"of a registration", 0.005, 0.005, 0.003};
-  double shared_sigma_m = 0.0;     ///< error of each keyframe's picture, in all its registrations
+  double shared_sigma_m = 0.0;  ///< error of each keyframe's picture, in all its registrations
   double shared_sigma_rad = 0.0;
   double scale_error = 0.0;  ///< share by which measured distances are too long
   double tail_share = 0.0;   ///< of registrations whose error is larger than their covariance says
@@ -42,7 +42,7 @@ struct SimulatedLogOptions {
 
 /// The keyframes of a flown mission: every `separation_frames`-th frame.
 struct FlownKeyframes {
-  std::vector<StampedPose> frames;  ///< true poses of all frames up to the last keyframe
+  std::vector<StampedPose> frames;  ///< true poses of all frames
   std::size_t separation = 1;
 
   std::size_t size() const { return (frames.size() - 1) / separation + 1; }

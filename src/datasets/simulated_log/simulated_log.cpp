@@ -76,15 +76,14 @@ class Registrations {
     motion.x *= 1.0 + options_.scale_error;
     motion.y *= 1.0 + options_.scale_error;
     const bool is_in_tail = tails_.uniform() < options_.tail_share;
-    const Eigen::Vector3d error =
-        (is_in_tail ? options_.tail_factor : 1.0) * noise_.draw(errors_);
+    const Eigen::Vector3d error = (is_in_tail ? options_.tail_factor : 1.0) * noise_.draw(errors_);
     motion = {motion.x + error.x(), motion.y + error.y(), wrap_angle(motion.theta + error.z())};
     return RelativePose::from_covariance(from, to, motion, covariance_);
   }
 
   std::vector<RelativePose> nearest(std::vector<Found> found) const {
-    const auto most =
-        static_cast<std::size_t>(options_.max_per_keyframe.value_or(static_cast<int>(found.size())));
+    const auto most = static_cast<std::size_t>(
+        options_.max_per_keyframe.value_or(static_cast<int>(found.size())));
     if (found.size() > most) {
       std::ranges::stable_sort(found, {}, &Found::distance_m);
       found.resize(most);
