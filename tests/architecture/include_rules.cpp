@@ -70,7 +70,9 @@ const std::vector<ThirdParty>& third_parties() {
       {"fcntl.h", {"src/core/file_lock.cpp"}},
       {"sys/mman.h", {"estimators/support/filter/growing_memory.cpp", "src/core/blas_memory.cpp"}},
       {"sys/file.h", {"src/core/file_lock.cpp"}},
-      {"unistd.h", {"src/core/files.cpp", "src/core/file_lock.cpp", "apps/common.cpp"}}};
+      {"unistd.h",
+       {"src/core/files.cpp", "src/core/file_lock.cpp", "apps/common.cpp",
+        "apps/out_of_memory.cpp"}}};
   return list;
 }
 

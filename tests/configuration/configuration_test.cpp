@@ -147,7 +147,8 @@ TEST(Configure, RefusesWrongTypesAndRangesWithTheBound) {
       {"dataset: {altitude: {base_m: -2}}\n", "expected a number in m > 0, got '-2'"},
       {"dataset: {odometry: {covariance: [1, 2, 3]}}\n", "a multiple of 6 numbers"},
       {"dataset: {odometry: {covariance: [1, 2, 3, 4, 5, x]}}\n", "expected a list of numbers"},
-      {"dataset: {type: video}\n", "expected one of simulated, image_folder, g2o, got 'video'"},
+      {"dataset: {type: video}\n",
+       "expected one of simulated, image_folder, g2o, simulated_log, got 'video'"},
       {"evaluation: {alignment: sim3}\n", "expected one of none, origin, se2, got 'sim3'"},
       {"estimator: {max_iterations: 0}\n",
        "estimator.max_iterations: expected a whole number >= 1"},
@@ -184,7 +185,7 @@ TEST(Configure, ListsTheDataSetsWithTheirOptions) {
     }
     EXPECT_NO_THROW(configured(text)) << text;
   }
-  EXPECT_THAT(names, ElementsAre("g2o", "image_folder", "simulated"));
+  EXPECT_THAT(names, ElementsAre("g2o", "image_folder", "simulated", "simulated_log"));
 }
 
 TEST(Configure, AnOverrideNamesItselfInItsError) {

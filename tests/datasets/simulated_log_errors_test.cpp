@@ -71,8 +71,8 @@ TEST(SimulatedLogErrors, StepsHaveTheCovarianceTheyTell) {
 TEST(SimulatedLogErrors, RegistrationsHaveTheCovarianceTheyTell) {
   SimulatedLogOptions options = sweep();
   options.loops.noise.covariance = {4e-4, 1e-4, 5e-5, 2e-4, -2e-5, 1e-4};
-  const Errors errors = errors_of(options, 200);
-  ASSERT_GT(errors.count, 5000U);
+  const Errors errors = errors_of(options, 800);
+  ASSERT_GT(errors.count, 2000U);
   expect_near(errors.covariance, options.loops.noise.noise_covariance(""), 0.06);
   EXPECT_NEAR(errors.nis, 3.0, 4.0 * std::sqrt(6.0 / static_cast<double>(errors.count)));
 }
@@ -81,7 +81,7 @@ TEST(SimulatedLogErrors, RegistrationsHaveTheCovarianceTheyTell) {
 TEST(SimulatedLogErrors, SharedErrorsAreThoseOfThePictures) {
   SimulatedLogOptions options = sweep();
   options.loops.shared_sigma_m = 0.02;
-  const Errors errors = errors_of(options, 300);
+  const Errors errors = errors_of(options, 800);
   Eigen::Matrix3d expected = options.loops.noise.noise_covariance("");
   expected.topLeftCorner<2, 2>() += 2.0 * 4e-4 * Eigen::Matrix2d::Identity();
   expect_near(errors.covariance, expected, 0.06);
@@ -116,7 +116,7 @@ TEST(SimulatedLogErrors, ScaleAndTails) {
   options = sweep();
   options.loops.tail_share = 0.1;
   options.loops.tail_factor = 5.0;
-  EXPECT_NEAR(errors_of(options, 200).nis, 3.0 * 3.4, 0.5);
+  EXPECT_NEAR(errors_of(options, 800).nis, 3.0 * 3.4, 0.5);
 }
 
 }  // namespace
