@@ -69,6 +69,7 @@ const Pen& front_pen() {
 std::vector<LegendEntry> legend_of(const std::vector<CostPoint>& points,
                                    const std::map<std::string, LineStyle>& styles, bool front) {
   std::vector<LegendEntry> legend;
+  legend.reserve(points.size() + 1);
   for (const CostPoint& point : points) {
     legend.push_back(disc_entry(display_name(point.estimator), styles.at(point.estimator).colour));
   }

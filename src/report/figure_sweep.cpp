@@ -128,6 +128,7 @@ LegendEntry sample_entry(const std::string& text, bool is_estimated) {
 std::vector<LegendEntry> legend_of(const std::vector<SweepLine>& lines,
                                    const std::map<std::string, LineStyle>& styles, bool bounds) {
   std::vector<LegendEntry> legend;
+  legend.reserve(lines.size() + 1);
   for (const SweepLine& line : lines) {
     legend.push_back(
         line_entry(display_name(line.estimator), pen_of(styles.at(line.estimator), 1.3)));

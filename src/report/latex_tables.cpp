@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "fathom/core/text.hpp"
 #include "latex_text.hpp"
 
 namespace fathom {
@@ -79,9 +80,7 @@ std::string joint_text(const std::string& what, const StudyResults& results,
       values.push_back(cell.*member);
     }
   }
-  std::string text;
-  for (const std::string& value : values) text += (text.empty() ? what + " " : "/") + value;
-  return text.empty() ? "" : text + ", ";
+  return values.empty() ? "" : what + " " + joined(values, "/") + ", ";
 }
 
 // "n = 98 to 100": that of the cells, which may differ.

@@ -56,7 +56,8 @@ ScaledUnit scaled_unit(const std::string& unit, double greatest) {
     return {power + (unit.empty() ? "" : " " + unit), std::pow(1000.0, -thousands)};
   }
   const int thousands = std::clamp(thousands_of(greatest) + base.thousands, base.least, base.most);
-  const std::string prefix(kPrefixes[static_cast<std::size_t>(thousands + kNoPrefix)]);
+  const int place = thousands + kNoPrefix;
+  const std::string prefix(kPrefixes[static_cast<std::size_t>(place)]);
   return {prefix + std::string(base.unit), std::pow(1000.0, base.thousands - thousands)};
 }
 

@@ -53,6 +53,7 @@ class StudyValues {
     std::set<std::size_t> places;
     for (const std::size_t cell : selection.cells) places.insert(study_.places_of(cell)[a]);
     std::vector<std::string> labels;
+    labels.reserve(places.size());
     for (const std::size_t place : places) labels.push_back(axis.labels[place]);
     const std::string& value = axis.written_values()[*places.begin()];
     raw_swept_[axis.key] = value;

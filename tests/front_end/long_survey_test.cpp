@@ -44,7 +44,8 @@ class ManyFrames : public FrameSource {
     const std::lock_guard lock(mutex_);
     std::size_t count = 0;
     for (const cv::Mat& picture : handed_out_) {
-      if (picture.u != nullptr && __atomic_load_n(&picture.u->refcount, __ATOMIC_RELAXED) > 1) ++count;
+      if (picture.u != nullptr && __atomic_load_n(&picture.u->refcount, __ATOMIC_RELAXED) > 1)
+        ++count;
     }
     return count;
   }

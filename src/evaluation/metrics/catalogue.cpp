@@ -26,6 +26,7 @@ const std::vector<Metric>& named_metrics() {
 
 std::vector<std::string> texts_of(const std::vector<double>& numbers) {
   std::vector<std::string> texts;
+  texts.reserve(numbers.size());
   for (const double number : numbers) texts.push_back(number_text(number));
   return texts;
 }

@@ -209,6 +209,7 @@ std::vector<cv::Mat> make_mosaics(const FrameSource& source, std::span<const Mos
     if (progress) progress(++done, uses.size());
   }
   std::vector<cv::Mat> mosaics;
+  mosaics.reserve(blends.size());
   for (Blend& blend : blends) mosaics.push_back(blend.finish());
   return mosaics;
 }

@@ -103,6 +103,7 @@ std::vector<std::size_t> laid_of(const Camera& camera, std::span<const PlacedPic
 template <class Member>
 double median_of(const std::vector<Footprint>& footprints, Member member) {
   std::vector<double> values;
+  values.reserve(footprints.size());
   for (const Footprint& footprint : footprints) values.push_back(footprint.*member);
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
