@@ -57,9 +57,11 @@ class ShiftGrid {
     if (std::max(std::abs(row), std::abs(column)) > steps_) return;
     const Eigen::Vector2d shift = spacing_m_ * Eigen::Vector2d(row, column);
     if (shift.norm() < reach_m_ || (apart_m - shift).norm() > error_m_) return;
-    const auto down = static_cast<std::size_t>(row + steps_);
-    const auto along = static_cast<std::size_t>(column + steps_);
-    cells_[down * static_cast<std::size_t>(side()) + along].push_back(index);
+    const int down = row + steps_;
+    const int along = column + steps_;
+    cells_[static_cast<std::size_t>(down) * static_cast<std::size_t>(side()) +
+           static_cast<std::size_t>(along)]
+        .push_back(index);
   }
 
   double error_m_;

@@ -26,6 +26,7 @@ void require_points(const FloorFeatures& picture) {
 
 std::vector<Match> picked(const MatchSet& set, const std::vector<int>& indices) {
   std::vector<Match> matches;
+  matches.reserve(indices.size());
   for (const int index : indices) {
     matches.push_back(set.matches()[static_cast<std::size_t>(index)]);
   }

@@ -111,11 +111,12 @@ TEST(Spoil, GroupsAgree) {
 }
 
 TEST(Spoil, IsReproducible) {
-  const auto [log, truth] = circle_case();
+  const Case circle = circle_case();
   const SpoilOptions options{.share = 0.3};
   const auto motions = [&](std::uint64_t seed, std::uint64_t trial) {
     std::vector<Eigen::Vector3d> all;
-    for (const RelativePose& z : false_ones(spoil(log, truth, options, seed, trial))) {
+    for (const RelativePose& z :
+         false_ones(spoil(circle.log, circle.truth, options, seed, trial))) {
       all.push_back(z.motion.vector());
       all.emplace_back(static_cast<double>(z.from), static_cast<double>(z.to), 0.0);
     }

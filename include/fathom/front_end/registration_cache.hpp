@@ -1,8 +1,8 @@
 #pragma once
 
-#include <compare>
 #include <cstdint>
 #include <optional>
+#include <utility>
 
 #include <Eigen/Core>
 
@@ -25,7 +25,10 @@ struct RegistrationKey {
   std::uint64_t first = 0;
   std::uint64_t second = 0;
 
-  auto operator<=>(const RegistrationKey&) const = default;
+  bool operator==(const RegistrationKey&) const = default;
+  bool operator<(const RegistrationKey& other) const {
+    return std::pair(first, second) < std::pair(other.first, other.second);
+  }
 };
 
 /// Registrations beyond the life of a process. Both calls may be made from several threads at once,

@@ -18,6 +18,7 @@ void light_cone(cv::Mat_<float>& light, const CameraModel& camera, double corner
   const double exponent = std::log(corner) / (across * across + down * down);
   const auto fall = [exponent](double px) { return std::exp(exponent * px * px); };
   std::vector<float> columns;
+  columns.reserve(static_cast<std::size_t>(light.cols));
   for (int u = 0; u < light.cols; ++u) columns.push_back(static_cast<float>(fall(u - camera.cx)));
   for (int v = 0; v < light.rows; ++v) {
     const auto row = static_cast<float>(fall(v - camera.cy));
