@@ -1,5 +1,7 @@
 #include "fathom/datasets/motion_noise.hpp"
 
+#include <cmath>
+
 #include <Eigen/Cholesky>
 
 #include "fathom/core/input_error.hpp"
@@ -25,9 +27,11 @@ Eigen::Matrix3d covariance_of(const Options& options, bool may_be_zero, const st
     throw InputError(prefix + "covariance: is not positive definite; expected xx, yy, tt > 0 and " +
                      "correlations between -1 and 1");
   }
-  const std::string key = !(options.sigma_x_m > 0)   ? "sigma_x_m"
-                          : !(options.sigma_y_m > 0) ? "sigma_y_m"
-                                                     : "sigma_theta_rad";
+  // Of a sigma near the ends of what doubles hold the square is 0 or infinite.
+  const auto is_variance = [&C](int i) { return C(i, i) > 0.0 && std::isfinite(C(i, i)); };
+  const std::string key = !is_variance(0)   ? "sigma_x_m"
+                          : !is_variance(1) ? "sigma_y_m"
+                                            : "sigma_theta_rad";
   throw InputError(prefix + key + ": makes the covariance singular; expected a number > 0");
 }
 

@@ -132,7 +132,7 @@ void require_finite(const MeasurementLog& log, const std::string& file) {
   const auto require = [&](const std::vector<Pose>& poses, const std::string& name) {
     if (std::isfinite(chi2(log, poses))) return;
     throw InputError(file, "F is not finite at " + name +
-                               ": the file has numbers beyond what can be computed with; expected "
+                               ": it has numbers beyond what can be computed with; expected "
                                "metres, radians and their information");
   };
   require(log.odometry(), "dead reckoning");

@@ -140,6 +140,8 @@ TEST(SimulatedLog, BadValuesNameTheirKey) {
   EXPECT_THAT(message({{"odometry.sigma_y_m", "0"}}), HasSubstr("dataset.odometry.sigma_y_m: "));
   EXPECT_THAT(message({{"loops.sigma_theta_rad", "0"}}),
               HasSubstr("dataset.loops.sigma_theta_rad: "));
+  EXPECT_THAT(message({{"odometry.sigma_x_m", "1e300"}}),
+              HasSubstr("dataset.odometry.sigma_x_m: "));
   EXPECT_THAT(message({{"mission.turn_radius_m", "100"}}), HasSubstr("dataset.mission."));
 }
 
