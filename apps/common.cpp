@@ -1,9 +1,7 @@
 #include "apps/common.hpp"
 
-#include <cblas.h>
 #include <cstdio>
 #include <filesystem>
-#include <omp.h>
 #include <unistd.h>
 #include <utility>
 
@@ -44,13 +42,6 @@ std::vector<std::filesystem::path> inputs_of(const std::string& path, const Sett
 std::string stem_of(const std::string& path) {
   const std::string stem = std::filesystem::path(path).stem().string();
   return stem.empty() ? "run" : stem;
-}
-
-// CHOLMOD 5.12 opens an OpenMP team of its own whatever OMP_NUM_THREADS says; without active levels
-// it cannot.
-void pin_threads() {
-  omp_set_max_active_levels(0);
-  openblas_set_num_threads(1);
 }
 
 bool is_error_terminal() {

@@ -33,10 +33,6 @@ struct CommonFlags {
 /// What a configuration from `path` has the program read: itself, its data set, its floor.
 std::vector<std::filesystem::path> inputs_of(const std::string& path, const Settings& settings);
 
-/// One thread for BLAS and for CHOLMOD's OpenMP, on the thread that calls and what it calls: cost
-/// is compared on one core.
-void pin_threads();
-
 /// Whether standard error is a terminal.
 bool is_error_terminal();
 

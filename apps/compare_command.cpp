@@ -14,6 +14,7 @@
 #include "apps/command.hpp"
 #include "apps/common.hpp"
 #include "apps/memory_meter.hpp"
+#include "apps/pin_threads.hpp"
 #include "apps/study_example.hpp"
 #include "apps/study_progress.hpp"
 #include "fathom/core/files.hpp"

@@ -15,6 +15,7 @@
 #include "apps/command.hpp"
 #include "apps/common.hpp"
 #include "apps/out_of_memory.hpp"
+#include "apps/pin_threads.hpp"
 #include "fathom/core/options.hpp"
 #include "fathom/core/version.hpp"
 
@@ -125,7 +126,5 @@ int main(int argc, char** argv) {
     // The message of another error found no memory.
     status = fathom::out_of_memory();
   }
-  // A threaded BLAS waits for ever for threads that found no memory when it is unloaded.
-  if (FATHOM_HAS_SERIAL_BLAS == 0) std::_Exit(status);
   return status;
 }

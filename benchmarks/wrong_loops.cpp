@@ -6,16 +6,15 @@
 //               [--back-ends NAME,…] GRAPH.g2o …
 
 #include <algorithm>
-#include <cblas.h>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <omp.h>
 #include <string>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 
+#include "apps/pin_threads.hpp"
 #include "fathom/estimators/builtin.hpp"
 #include "fathom/harness/false_loops.hpp"
 #include "fathom/harness/replay.hpp"
@@ -147,8 +146,7 @@ void run(const Flags& flags) {
 }  // namespace fathom
 
 int main(int argc, char** argv) {
-  omp_set_max_active_levels(0);
-  openblas_set_num_threads(1);
+  fathom::pin_threads();
   CLI::App app("Back ends on graphs with false loops");
   fathom::Flags flags;
   app.add_option("--seeds", flags.seeds);

@@ -12,7 +12,7 @@ set -euo pipefail
 packages=(
   build-essential cmake ninja-build
   libeigen3-dev libopencv-dev libceres-dev libsuitesparse-dev libgoogle-glog-dev
-  libboost-dev libopenblas-dev libopenblas0-serial
+  libboost-dev libopenblas-dev libopenblas0-pthread
   libyaml-cpp-dev libsqlitecpp-dev libsqlite3-dev libcli11-dev nlohmann-json3-dev
   libcairo2-dev pkg-config libjs-vega
   libgtest-dev libgmock-dev libbenchmark-dev chromium

@@ -15,10 +15,10 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
-#include <omp.h>
 
 #include <CLI/CLI.hpp>
 
+#include "apps/pin_threads.hpp"
 #include "fathom/core/input_error.hpp"
 #include "fathom/estimators/builtin.hpp"
 #include "fathom/measurements/g2o.hpp"
@@ -124,8 +124,7 @@ void run(const Settings& settings) {
 }  // namespace fathom::benchmarks
 
 int main(int argc, char** argv) {
-  omp_set_max_active_levels(0);
-  openblas_set_num_threads(1);
+  fathom::pin_threads();
   fathom::benchmarks::Settings settings;
   CLI::App app("What the estimators cost on whole pose graphs");
   app.add_option("graphs", settings.graphs, "g2o files")->check(CLI::ExistingFile);

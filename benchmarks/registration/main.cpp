@@ -7,14 +7,13 @@
 // One thread for BLAS, OpenMP and OpenCV each; `--jobs` pairs at a time. Times are comparable with
 // one job alone.
 
-#include <cblas.h>
 #include <cstdio>
 #include <fstream>
-#include <omp.h>
 
 #include <CLI/CLI.hpp>
 #include <opencv2/core.hpp>
 
+#include "apps/pin_threads.hpp"
 #include "fathom/core/input_error.hpp"
 #include "output.hpp"
 
@@ -93,8 +92,7 @@ void run(Results& results) {
 }  // namespace fathom::benchmarks
 
 int main(int argc, char** argv) {
-  omp_set_max_active_levels(0);
-  openblas_set_num_threads(1);
+  fathom::pin_threads();
   fathom::benchmarks::Results results;
   CLI::App app("Registration of pairs of pictures whose motion is known");
   fathom::benchmarks::add_options(app, results.settings);

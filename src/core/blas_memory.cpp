@@ -1,5 +1,6 @@
 #include "fathom/core/blas_memory.hpp"
 
+#include <cblas.h>
 #include <cstddef>
 #include <mutex>
 #include <new>
@@ -10,6 +11,8 @@ namespace {
 
 // The buffer, and what other threads may take before it is made.
 constexpr std::size_t kBytes = (128U + 32U) << 20U;
+
+std::mutex one_call;  // where OpenBLAS has no locks
 
 std::mutex mutex;
 int in_use = 0;
@@ -25,6 +28,7 @@ void require_addresses() {
 }  // namespace
 
 BlasMemory::BlasMemory() {
+  if (openblas_get_parallel() == OPENBLAS_SEQUENTIAL) alone_ = std::unique_lock(one_call);
   const std::lock_guard lock(mutex);
   if (in_use == made) {
     require_addresses();

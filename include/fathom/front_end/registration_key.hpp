@@ -11,10 +11,11 @@
 namespace fathom {
 
 /// Raise it whenever the same pictures and options register otherwise: a change of features,
-/// matching, RANSAC, the decision, the covariance or the seeds. Values of options and of
+/// matching, RANSAC, the decision, the covariance or the seeds; or a fault that may have left wrong
+/// registrations in caches. Values of options and of
 /// RegistrationTuning need no raise, they are in the key; pinned_registrations_test.cpp tells of
 /// the rest.
-inline constexpr int kRegistrationVersion = 4;
+inline constexpr int kRegistrationVersion = 5;
 
 /// A picture as a registration sees it.
 struct SeenPicture {
