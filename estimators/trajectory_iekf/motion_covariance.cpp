@@ -45,7 +45,10 @@ void MotionCovariance::suffix_products(std::span<const Eigen::Index> starts,
                            product.topLeftCorner(dense_rows, dense_columns), columns_of_B,
                            order_of(pass));
   }
-  product.topRightCorner(dense_rows, product.cols() - dense_columns).setZero();
+  // Of these, too, the third columns stay: the factors' share is in them.
+  for (Eigen::Index column = dense_columns; column < product.cols(); column += 3) {
+    product.block(0, column, dense_rows, columns_of_B).setZero();
+  }
   for (Eigen::Index row = dense_rows; row < product.rows(); row += 3) {
     const Eigen::Index i = first + row / 3;
     const Eigen::Matrix3d QB =

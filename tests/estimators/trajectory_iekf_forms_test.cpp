@@ -1,7 +1,9 @@
 // trajectory_iekf in every form of its covariance: the same to rounding, gated and lost updates
 // too.
 
+#include <algorithm>
 #include <cmath>
+#include <set>
 
 #include <gtest/gtest.h>
 
@@ -43,6 +45,32 @@ MeasurementLog local_and_wide_loops() {
   return result;
 }
 
+// A circuit with few loops until it is closed at its end: the first two motions are dense early,
+// the loops that end it begin with these and with motions that are not.
+MeasurementLog closed_at_its_end() {
+  LogOptions plain;
+  plain.keyframes = 30;
+  plain.loop_every = 0;
+  plain.noise = 2.0;
+  const MeasurementLog log = test::circle_log(plain);
+  const std::vector<Pose> truth = test::circle(plain.keyframes, plain.origin);
+  RandomStream random(9, "loops");
+  MeasurementLog result(log.origin());
+  for (std::size_t k = 1; k < log.size(); ++k) {
+    result.add_keyframe(log.arrival(k).step);
+    std::vector<std::size_t> froms;
+    if (k >= 24) froms = {0, 1, k - 2};
+    if (k == 2 || (k < 24 && k % 5 == 0)) froms = {k - 2};
+    for (const std::size_t from : froms) {
+      const Pose z = test::perturbed(between(truth[from], truth[k]), test::kLoopSigmaM,
+                                     test::kLoopSigmaRad, random);
+      result.add_registration(RelativePose::from_covariance(
+          from, k, z, test::full_covariance(test::kLoopSigmaM, test::kLoopSigmaRad)));
+    }
+  }
+  return result;
+}
+
 struct FormCase {
   std::string name;
   TrajectoryIekfOptions options;
@@ -66,8 +94,9 @@ TEST(TrajectoryIekf, TheFormsOfItsCovarianceGiveTheSameToRounding) {
   options.keyframes = 60;
   const MeasurementLog rounds = test::circle_log(options);
   const MeasurementLog mixed = local_and_wide_loops();
+  const MeasurementLog late = closed_at_its_end();
   for (const FormCase& test : form_cases()) {
-    for (const MeasurementLog* log : {&rounds, &mixed}) {
+    for (const MeasurementLog* log : {&rounds, &mixed, &late}) {
       TrajectoryIekf dense({log->origin()}, test.options, Form::dense);
       std::vector<LoopDecision> decisions;
       const Outcome outcome = test::feed(dense, *log, &decisions);
@@ -132,6 +161,51 @@ TEST(TrajectoryIekf, WithFewLoopsEqualsTheTextbookFilter) {
     const std::vector<Pose> reference = test::run_naive(test::NaiveTrajectoryIekf(log, 3), log);
     EXPECT_LT(largest_distance(poses_of(filter), reference), 1e-6);
     EXPECT_LT(largest_turn(poses_of(filter), reference), 1e-6);
+  }
+}
+
+// Loops of any number and reach, seldom and often.
+MeasurementLog any_loops(std::uint64_t seed) {
+  LogOptions plain;
+  plain.keyframes = 30;
+  plain.loop_every = 0;
+  plain.seed = seed;
+  const MeasurementLog log = test::circle_log(plain);
+  const std::vector<Pose> truth = test::circle(plain.keyframes, plain.origin);
+  RandomStream random(seed, "any loops");
+  const double how_often = random.uniform(0.05, 0.7);
+  MeasurementLog result(log.origin());
+  for (std::size_t k = 1; k < log.size(); ++k) {
+    result.add_keyframe(log.arrival(k).step);
+    if (random.uniform() > how_often) continue;
+    std::set<std::size_t> froms;
+    const std::size_t count = 1 + random.index(4);
+    while (froms.size() < count) {
+      const bool local = random.uniform() < 0.5;
+      froms.insert(local ? k - 1 - random.index(std::min<std::size_t>(k, 4)) : random.index(k));
+      if (froms.size() == k) break;
+    }
+    for (const std::size_t from : froms) {
+      const Pose z = test::perturbed(between(truth[from], truth[k]), test::kLoopSigmaM,
+                                     test::kLoopSigmaRad, random);
+      result.add_registration(RelativePose::from_covariance(
+          from, k, z, test::full_covariance(test::kLoopSigmaM, test::kLoopSigmaRad)));
+    }
+  }
+  return result;
+}
+
+TEST(TrajectoryIekf, WithAnyLoopsEqualsTheTextbookFilter) {
+  TrajectoryIekfOptions options;
+  options.max_iterations = 3;
+  options.tolerance = 1e-300;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    const MeasurementLog log = any_loops(seed);
+    TrajectoryIekf filter({log.origin()}, options);
+    test::feed(filter, log);
+    const std::vector<Pose> reference = test::run_naive(test::NaiveTrajectoryIekf(log, 3), log);
+    EXPECT_LT(largest_distance(poses_of(filter), reference), 1e-6) << "seed " << seed;
+    EXPECT_LT(largest_turn(poses_of(filter), reference), 1e-6) << "seed " << seed;
   }
 }
 
