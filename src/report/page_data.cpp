@@ -9,6 +9,8 @@
 #include "fathom/evaluation/consistency.hpp"
 #include "fathom/evaluation/metrics.hpp"
 #include "page_numbers.hpp"
+#include "regime_map.hpp"
+#include "study_figures.hpp"
 #include "study_styles.hpp"
 
 namespace fathom {
@@ -123,6 +125,19 @@ Json cell_json(const ResultStore& store, const CellResults& cell,
   return json;
 }
 
+// Which is the cheapest of the best, by cell; what the page's regime map shows.
+void add_regimes(const StudyResults& results, Json& json) {
+  const auto metric = first_metric(results, false);
+  const auto cost = first_metric(results, true);
+  if (!metric || !cost || regime_maps(results).empty()) return;
+  json["regimes"] = {{"metric", *metric}, {"cost", *cost}};
+  for (std::size_t i = 0; i < results.cells.size(); ++i) {
+    if (const auto choice = cheapest_of_the_best(results.cells[i], *metric, *cost)) {
+      json["cells"][i]["cheapest"] = *choice;
+    }
+  }
+}
+
 Json study_json(const StudyDescription& study) {
   Json json{{"title", study.title}, {"trials", study.trials}};
   json["axes"] = Json::array();
@@ -191,6 +206,7 @@ Json page_data(const ResultStore& store, const StudyResults& results,
   for (std::size_t i = 0; i < results.cells.size(); ++i) {
     json["cells"].push_back(cell_json(store, results.cells[i], series[i], study, most));
   }
+  add_regimes(results, json);
   json["configuration"] = Json::object();
   for (const auto& [key, value] : study.configuration) json["configuration"][key] = value;
   json["manifests"] = Json::array();

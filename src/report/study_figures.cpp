@@ -68,6 +68,7 @@ std::optional<std::string> first_metric(const StudyResults& results, bool cost) 
 std::vector<StudyFigure> study_figures(const FigureInput& input) {
   std::vector<StudyFigure> figures;
   add_sweep_figures(input, figures);
+  add_regime_figures(input, figures);
   add_nees_figures(input, figures);
   add_trajectory_figures(input, figures);
   add_cost_figures(input, figures);

@@ -35,6 +35,10 @@ std::vector<StudyFigure> study_figures(const FigureInput& input);
 /// `error_by_AXIS`, one for each place on the other axes: mean of the first accuracy metric with
 /// its 2σ band over trials, empirical and estimated 2σ of the position below.
 void add_sweep_figures(const FigureInput& input, std::vector<StudyFigure>& figures);
+/// `regime_map`, one for each place on the axes after the first two: the first accuracy metric, of
+/// which less must be better, relative to the best estimator over two axes, a map an estimator; and
+/// which is the cheapest of the best.
+void add_regime_figures(const FigureInput& input, std::vector<StudyFigure>& figures);
 /// `nees_CELL`: NEES / 3 over keyframes, mean over trials, with its χ² interval.
 void add_nees_figures(const FigureInput& input, std::vector<StudyFigure>& figures);
 /// `trajectories_CELL`: those of the lowest trial, with the loops of the first estimator used.

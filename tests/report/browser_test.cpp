@@ -79,8 +79,8 @@ TEST_F(Browser, DrawsEveryChartAndTakesAnEstimatorOffAllOfThem) {
   const Json result = self_test_of({});
   ASSERT_FALSE(result.is_null()) << "the page's scripts did not run to their end";
   EXPECT_EQ(result["errors"], Json::array());
-  const std::vector<std::string> charts{"trajectories", "sweep",    "keyframes",    "updates",
-                                        "pareto",       "outcomes", "registrations"};
+  const std::vector<std::string> charts{"trajectories", "sweep",  "regimes",  "keyframes",
+                                        "updates",      "pareto", "outcomes", "registrations"};
   EXPECT_EQ(result["marks"].size(), charts.size());
   for (const char* name : {"iterated", "a&b_<c>%", "graph"}) {
     const Json& one = result["estimators"].at(name);

@@ -27,6 +27,19 @@ const charts = [
         '. Band: mean ± 2 standard deviations over trials. Right: twice the root mean square position error, ' +
         'and the mean of 2·√(Pxx + Pyy) that the estimator states; an honest one has them equal.' + jobs;
     }},
+  {id: 'regimes', title: 'Regime map', wide: true, plots: regimePlots,
+    exists: () => regimeAxes().length === 2,
+    choices: () => [{label: 'metric', key: 'regimeMetric', values: metricChoices().map((name) => [name, metricLabel(name)])}],
+    caption: (cell) => {
+      const [across, up] = regimeAxes();
+      const fixed = study.axes.map((axis, i) => (i === across || i === up || axis.labels.length < 2 ? '' : `${axis.name} ${axis.labels[cell.places[i]]}, `));
+      const relative = regimeIsRelative();
+      const meaning = relative ? `Mean ${metricLabel(state.regimeMetric)} over that of the best estimator at the same place: 1 is the best, ten times is dark.`
+        : `Mean ${metricLabel(state.regimeMetric)}.`;
+      const choice = study.regimes ? ` Last map: by mean ${metricLabel(study.regimes.cost)} the cheapest of those whose mean ` +
+        `${metricLabel(study.regimes.metric)} is at most 5 % above the best.` : '';
+      return `${fixed.join('')}n = ${study.trials} trials a square. ${meaning} An estimator that failed a trial is in no comparison.${choice}`;
+    }},
   {id: 'keyframes', title: 'Error and consistency over keyframes', wide: true, plots: keyframePlots,
     exists: (cell) => sum(cell.estimators.map((one) => one.keyframes.keyframe.length)) > 0,
     caption: (cell) => `${conditions(cell)}. Position in metres. NEES / 3 of an honest estimator is 1; ` +

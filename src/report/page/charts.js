@@ -58,6 +58,18 @@ function sweepPlots(card) {
   return plots;
 }
 
+function regimePlots(card) {
+  const [across, up] = regimeAxes();
+  const signals = {x_title: study.axes[across].name, y_title: study.axes[up].name};
+  const domains = [study.axes[across].labels, study.axes[up].labels];
+  const height = Math.max(110, 30 * domains[1].length + 50);
+  const adjust = (spec) => domains.forEach((domain, i) => { spec.scales[i].domain = domain; });
+  const plot = (heading, rows) => ({spec: 'regimes', heading, data: {rows}, width: thirds(card), height, signals, adjust});
+  const plots = study.estimators.filter((one) => one.name !== kBaseline)
+    .map((one) => plot(one.label, regimeRows(one.name)));
+  return study.regimes ? [...plots, plot('Cheapest of the best', cheapestRows())] : plots;
+}
+
 // 1, 2 and 5 times the powers of ten between the least and the greatest.
 function roundValues(values) {
   const low = Math.min(...values);

@@ -39,6 +39,63 @@ function sweepRows() {
 const sweepIsNumeric = () =>
   study.axes[state.axis].labels.every((label) => label.trim() !== '' && Number.isFinite(Number(label)));
 
+// The first two axes with several values.
+const regimeAxes = () => study.axes.map((axis, i) => i).filter((i) => study.axes[i].labels.length > 1).slice(0, 2);
+
+// The same place as the chosen cell on every other axis.
+function regimeCells() {
+  const here = cellNow().places;
+  return study.cells.filter((cell) => cell.places.every((place, axis) => regimeAxes().includes(axis) || place === here[axis]));
+}
+
+const regimeIsRelative = () => study.metrics[state.regimeMetric].better === 'lower';
+
+function regimeRow(cell) {
+  const [across, up] = regimeAxes();
+  return {x: study.axes[across].labels[cell.places[across]], y: study.axes[up].labels[cell.places[up]]};
+}
+
+// Estimators that failed no trial: the mean of another leaves out the hardest.
+function regimeMean(cell, name) {
+  const one = cell.estimators.find((other) => other.name === name);
+  const metric = one && one.done === one.runs && one.metrics[state.regimeMetric];
+  return metric ? metric.mean : undefined;
+}
+
+const mixed = (colour, share) => {
+  const channels = [1, 3, 5].map((i) => parseInt(colour.slice(i, i + 2), 16));
+  return `rgb(${channels.map((value) => Math.round(255 + share * (value - 255))).join(',')})`;
+};
+
+function regimeRows(name) {
+  const cells = regimeCells();
+  const names = study.estimators.map((one) => one.name).filter((other) => other !== kBaseline);
+  const all = cells.flatMap((cell) => names.map((other) => regimeMean(cell, other))).filter((value) => value !== undefined);
+  const [least, most] = [Math.min(...all), Math.max(...all)];
+  return cells.map((cell) => {
+    const row = {...regimeRow(cell), estimator: name, stroke: styleOf(name).colour};
+    const one = cell.estimators.find((other) => other.name === name);
+    const mean = regimeMean(cell, name);
+    if (mean === undefined) {
+      const failed = one ? one.runs - one.done : 0;
+      return {...row, fill: mixed('#8a8a8a', 0.35), ink: '#000000', text: failed > 0 ? `${failed} failed` : '–',
+        tooltip: `${labelOf(name)}: ${failed > 0 ? `${failed} of ${one.runs} trials failed` : 'no value'}`};
+    }
+    const best = Math.min(...names.map((other) => regimeMean(cell, other)).filter((value) => value !== undefined));
+    const relative = regimeIsRelative() && best > 0;
+    const value = relative ? mean / best : mean;
+    const share = relative ? Math.min(1, Math.log(value) / Math.log(10)) : most > least ? (mean - least) / (most - least) : 0;
+    return {...row, fill: mixed('#0072b2', 0.06 + 0.94 * share), ink: share > 0.5 ? '#ffffff' : '#000000', text: digits(value),
+      tooltip: `${labelOf(name)}: ${metricLabel(state.regimeMetric)} ${withInterval(one.metrics[state.regimeMetric])}`};
+  });
+}
+
+function cheapestRows() {
+  return regimeCells().filter((cell) => cell.cheapest).map((cell) => ({...regimeRow(cell), estimator: cell.cheapest,
+    fill: mixed(styleOf(cell.cheapest).colour, 0.55), stroke: styleOf(cell.cheapest).colour, ink: '#000000',
+    text: labelOf(cell.cheapest), tooltip: labelOf(cell.cheapest)}));
+}
+
 function keyframeRows(cell) {
   const rows = {error: [], bounds: [], nees: [], interval: []};
   for (const one of cell.estimators) {

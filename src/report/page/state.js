@@ -17,6 +17,7 @@ const state = {
   // The longest one: levels of noise rather than a pair of modes.
   axis: study.axes.reduce((best, axis, i) => (axis.labels.length > study.axes[best].labels.length ? i : best), 0),
   sweepMetric: accuracyMetric,
+  regimeMetric: accuracyMetric,
   accuracy: accuracyMetric,
   cost: costMetric,
   show_ellipses: true,

@@ -1,0 +1,190 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <map>
+
+#include "regime_map.hpp"
+#include "study_figures.hpp"
+#include "text_layout.hpp"
+
+namespace fathom {
+namespace {
+
+constexpr double kMapHeight = 92.0;
+constexpr double kHeading = 10.0;
+constexpr double kCellText = 5.5;
+constexpr double kLeastText = 14.0;  // a shorter one is shown whole or not at all
+constexpr double kDarkest = 10.0;    // as many times the best mean, and more
+
+// What one square shows.
+struct Square {
+  Colour fill = palette::white;
+  std::string text;
+  Colour ink = palette::black;
+};
+
+// A map by place across, then up.
+struct DrawnMap {
+  std::string heading;
+  std::vector<std::vector<Square>> squares;
+};
+
+std::string relative_text(double relative) {
+  char text[32];
+  if (relative < 9.995) {
+    std::snprintf(text, sizeof text, "%.2f", relative);
+  } else if (relative < 999.5) {
+    std::snprintf(text, sizeof text, "%.0f", relative);
+  } else {
+    std::snprintf(text, sizeof text, "%.0e", relative);
+  }
+  return text;
+}
+
+// The best is nearly white, ten times it dark.
+Square relative_square(const CellResults& cell, const EstimatorResults& one,
+                       const std::string& metric) {
+  if (one.failures() > 0) {
+    return {tint(palette::grey, 0.35), std::to_string(one.failures()) + " failed", palette::black};
+  }
+  const auto relative = relative_to_best(cell, one, metric);
+  if (!relative) return {};
+  const double share = std::clamp(std::log(*relative) / std::log(kDarkest), 0.0, 1.0);
+  return {tint(palette::blue, 0.06 + 0.94 * share), relative_text(*relative),
+          share > 0.5 ? palette::white : palette::black};
+}
+
+Square choice_square(const CellResults& cell, const std::string& metric, const std::string& cost,
+                     const std::map<std::string, LineStyle>& styles) {
+  const auto choice = cheapest_of_the_best(cell, metric, cost);
+  if (!choice) return {};
+  return {tint(styles.at(*choice).colour, 0.55), *choice, palette::black};
+}
+
+template <class SquareOf>
+DrawnMap drawn_map(const RegimeMap& map, const std::string& heading, const SquareOf& square_of) {
+  DrawnMap drawn{heading, {}};
+  for (const auto& column : map.cells) {
+    drawn.squares.emplace_back();
+    for (const CellResults* cell : column) {
+      drawn.squares.back().push_back(cell == nullptr ? Square{} : square_of(*cell));
+    }
+  }
+  return drawn;
+}
+
+std::vector<DrawnMap> drawn_maps(const FigureInput& input, const RegimeMap& map,
+                                 const std::string& metric, const std::optional<std::string>& cost,
+                                 const std::map<std::string, LineStyle>& styles) {
+  std::vector<DrawnMap> list;
+  for (const auto& [name, type] : input.results.study.estimators) {
+    list.push_back(drawn_map(map, name, [&, name = name](const CellResults& cell) {
+      const auto one = std::find_if(cell.estimators.begin(), cell.estimators.end(),
+                                    [&](const EstimatorResults& e) { return e.name == name; });
+      return one == cell.estimators.end() ? Square{} : relative_square(cell, *one, metric);
+    }));
+  }
+  if (cost) {
+    list.push_back(drawn_map(map, "cheapest within 5 %", [&](const CellResults& cell) {
+      return choice_square(cell, metric, *cost, styles);
+    }));
+  }
+  return list;
+}
+
+std::vector<double> counted(std::size_t count) {
+  std::vector<double> positions;
+  for (std::size_t i = 0; i < count; ++i) positions.push_back(static_cast<double>(i));
+  return positions;
+}
+
+// Squares lie about whole numbers.
+ChartAxis square_axis(const StudyAxis& axis) {
+  ChartAxis made = labelled_axis(axis.name, counted(axis.labels.size()), axis.labels, 0.0);
+  made.low = -0.5;
+  made.high = static_cast<double>(axis.labels.size()) - 0.5;
+  return made;
+}
+
+void draw_map(Canvas& canvas, const DrawnMap& map, const ChartFrame& frame, const Box& outer) {
+  canvas.text(shortened(map.heading, kFontSize, outer.width - 4.0), {outer.left, outer.top - 2.0},
+              {kFontSize});
+  frame.draw(canvas);  // its grid lies below the squares
+  for (std::size_t i = 0; i < map.squares.size(); ++i) {
+    for (std::size_t j = 0; j < map.squares[i].size(); ++j) {
+      const Square& square = map.squares[i][j];
+      const auto x = static_cast<double>(i);
+      const auto y = static_cast<double>(j);
+      const std::vector<Eigen::Vector2d> corners = frame.at(
+          {{x - 0.5, y - 0.5}, {x + 0.5, y - 0.5}, {x + 0.5, y + 0.5}, {x - 0.5, y + 0.5}});
+      canvas.area(corners, square.fill);
+      canvas.outline(corners, {palette::white, 0.6, {}, 1.0});
+      const double width = corners[1].x() - corners[0].x() - 1.0;
+      const double height = corners[0].y() - corners[2].y() - 1.0;
+      if (width < std::min(kLeastText, text_width(square.text, kCellText)) || height < kCellText) {
+        continue;  // the colour says it alone
+      }
+      const Eigen::Vector2d middle = frame.at(x, y) + Eigen::Vector2d(0.0, 0.35 * kCellText);
+      canvas.text(shortened(square.text, kCellText, width), middle,
+                  {kCellText, square.ink, TextAlign::centre});
+    }
+  }
+}
+
+std::string conditions_of(const FigureInput& input, const std::string& metric,
+                          const std::optional<std::string>& cost) {
+  std::string text = described(metric).label + ", mean over trials, over the best estimator's";
+  if (cost) text += "; cheapest by " + described(*cost).label + ", mean over trials";
+  return text + "; n = " + std::to_string(input.results.study.trials) + " trials a square";
+}
+
+std::vector<LegendEntry> legend_of(const StudyDescription& study,
+                                   const std::map<std::string, LineStyle>& styles) {
+  std::vector<LegendEntry> legend;
+  legend.reserve(study.estimators.size());
+  for (const auto& [name, type] : study.estimators) {
+    legend.push_back(disc_entry(name, tint(styles.at(name).colour, 0.55)));
+  }
+  return legend;
+}
+
+StudyFigure regime_figure(const FigureInput& input, const RegimeMap& map,
+                          const std::string& metric) {
+  const StudyDescription& study = input.results.study;
+  const auto cost = first_metric(input.results, true);
+  const auto styles = line_styles(study);
+  const std::vector<DrawnMap> maps = drawn_maps(input, map, metric, cost, styles);
+  const FigureLayout layout(std::vector<double>((maps.size() + 1) / 2, kMapHeight + kHeading),
+                            legend_of(study, styles), conditions_of(input, metric, cost));
+  std::vector<ChartFrame> frames;
+  std::vector<Box> boxes;
+  for (std::size_t i = 0; i < maps.size(); ++i) {
+    Box box = layout.chart(i / 2);
+    box.width /= 2.0;
+    if (i % 2 == 1) box.left += box.width;
+    box.top += kHeading;
+    box.height -= kHeading;
+    boxes.push_back(box);
+    frames.emplace_back(square_axis(study.axes[map.across]), square_axis(study.axes[map.up]), box);
+  }
+  return {"", layout.height(), [maps, frames, boxes, layout](Canvas& canvas) {
+            for (std::size_t i = 0; i < maps.size(); ++i) {
+              draw_map(canvas, maps[i], frames[i], boxes[i]);
+            }
+            layout.draw_footer(canvas);
+          }};
+}
+
+}  // namespace
+
+void add_regime_figures(const FigureInput& input, std::vector<StudyFigure>& figures) {
+  const auto metric = first_metric(input.results, false);
+  if (!metric || described(*metric).better != Better::lower) return;
+  const std::vector<RegimeMap> maps = regime_maps(input.results);
+  for (const RegimeMap& map : maps) {
+    figures.push_back(regime_figure(input, map, *metric));
+    figures.back().name = "regime_map" + map.others;
+  }
+}
+
+}  // namespace fathom

@@ -1,0 +1,96 @@
+#include "src/report/regime_map.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "report/study_fixture.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace fathom::test {
+namespace {
+
+using ::testing::DoubleEq;
+using ::testing::Optional;
+
+EstimatorResults made(const std::string& name, double error_m, double total_ms,
+                      std::size_t failures = 0) {
+  EstimatorResults one;
+  one.name = name;
+  one.runs.resize(10);
+  one.done = 10 - failures;
+  one.metrics["mean_position_error_m"].moments.mean = error_m;
+  one.metrics["total_ms"].moments.mean = total_ms;
+  one.metrics["anees"].moments.mean = 1.0;
+  return one;
+}
+
+CellResults cell_of(std::vector<EstimatorResults> estimators) {
+  CellResults cell;
+  cell.estimators = std::move(estimators);
+  return cell;
+}
+
+TEST(RegimeMap, TheCheapestIsOneOfThoseAsGoodAsTheBest) {
+  const CellResults cell = cell_of({made("best", 1.0, 5.0), made("as_good", 1.04, 2.0),
+                                    made("dearer", 1.01, 3.0), made("worse", 1.06, 1.0)});
+  EXPECT_EQ(cheapest_of_the_best(cell, "mean_position_error_m", "total_ms"), "as_good");
+  EXPECT_THAT(relative_to_best(cell, cell.estimators[3], "mean_position_error_m"),
+              Optional(DoubleEq(1.06)));
+}
+
+// Dead reckoning is no choice; a mean that leaves out the trials that failed flatters.
+TEST(RegimeMap, DeadReckoningAndEstimatorsThatFailedAreInNoComparison) {
+  const CellResults cell = cell_of(
+      {made(kDeadReckoning, 0.1, 0.1), made("failed", 0.5, 0.5, 1), made("good", 1.0, 5.0)});
+  EXPECT_EQ(cheapest_of_the_best(cell, "mean_position_error_m", "total_ms"), "good");
+  EXPECT_EQ(relative_to_best(cell, cell.estimators[0], "mean_position_error_m"), std::nullopt);
+  EXPECT_EQ(relative_to_best(cell, cell.estimators[1], "mean_position_error_m"), std::nullopt);
+  EXPECT_THAT(relative_to_best(cell, cell.estimators[2], "mean_position_error_m"),
+              Optional(DoubleEq(1.0)));
+  const CellResults none = cell_of({made("failed", 0.5, 0.5, 10)});
+  EXPECT_EQ(cheapest_of_the_best(none, "mean_position_error_m", "total_ms"), std::nullopt);
+}
+
+// ANEES has no best: 1 is honest, and less is not better.
+TEST(RegimeMap, AMetricWithoutABestHasNoChoice) {
+  const CellResults cell = cell_of({made("a", 1.0, 5.0), made("b", 2.0, 2.0)});
+  EXPECT_EQ(cheapest_of_the_best(cell, "anees", "total_ms"), std::nullopt);
+  EXPECT_EQ(relative_to_best(cell, cell.estimators[0], "anees"), std::nullopt);
+}
+
+StudyResults results_of(const TemporaryFolder& folder, const FixtureOptions& options) {
+  write_fixture(folder / "study", options);
+  return study_results(ResultStore::open(folder / "study"));
+}
+
+TEST(RegimeMap, ThereIsOneForEachPlaceOnTheOtherAxes) {
+  const TemporaryFolder folder;
+  FixtureOptions options;
+  options.alignments = {"origin", "se2"};
+  const StudyResults results = results_of(folder, options);
+  const std::vector<RegimeMap> maps = regime_maps(results);
+  ASSERT_EQ(maps.size(), 2U);
+  EXPECT_NE(maps[0].others.find("origin"), std::string::npos) << maps[0].others;
+  EXPECT_NE(maps[1].others.find("se2"), std::string::npos) << maps[1].others;
+  for (std::size_t m = 0; m < maps.size(); ++m) {
+    ASSERT_EQ(maps[m].cells.size(), options.separations.size());
+    for (std::size_t i = 0; i < options.separations.size(); ++i) {
+      ASSERT_EQ(maps[m].cells[i].size(), options.noises.size());
+      for (std::size_t j = 0; j < options.noises.size(); ++j) {
+        ASSERT_NE(maps[m].cells[i][j], nullptr);
+        EXPECT_EQ(results.study.places_of(maps[m].cells[i][j]->cell),
+                  (std::vector<std::size_t>{i, j, m}));
+      }
+    }
+  }
+}
+
+TEST(RegimeMap, OneAxisHasNone) {
+  const TemporaryFolder folder;
+  FixtureOptions options;
+  options.noises.clear();
+  EXPECT_TRUE(regime_maps(results_of(folder, options)).empty());
+}
+
+}  // namespace
+}  // namespace fathom::test
