@@ -94,6 +94,8 @@ std::map<std::string, double> errors_and_costs_by_hand() {
           {"chi2_used", 0.25},
           {"chi2_optimum", 0.125},
           {"chi2_gap", chi2 - 0.125},
+          {"chi2_per_dof", chi2 / 3.0},
+          {"mean_nis_truth", 0.0},  // the loop is right, and alone
           {"is_local_minimum", 1.0}};
 }
 
@@ -157,7 +159,8 @@ TEST(Metrics, WhatIsNotKnownIsAbsent) {
   for (const char* absent :
        {"registrations_tried", "mean_position_error_m", "rpe_1_keyframes_m", "anees",
         "loop_precision", "loop_recall", "chi2_optimum", "chi2_gap", "mean_nis_accepted",
-        "false_loops", "right_loops_lost", "memory_bytes", "update_ms.median"}) {
+        "mean_nis_truth", "picture_error_correlation", "false_loops", "right_loops_lost",
+        "memory_bytes", "update_ms.median"}) {
     EXPECT_THAT(values, Not(Contains(Key(absent))));
   }
   EXPECT_EQ(values.at("updates"), 0.0);

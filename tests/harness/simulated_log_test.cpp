@@ -140,5 +140,43 @@ TEST(SimulatedLogRecording, EstimatesAreAsHonestAsTheirModel) {
   }
 }
 
+// Means over trials of what the registrations say of themselves.
+std::map<std::string, double> honesty_of(const std::vector<std::string>& overrides) {
+  constexpr std::uint64_t kTrials = 40;
+  Settings settings = test::settings_of(kSmallLog);
+  for (const std::string& text : overrides) settings.put(parse_override(text));
+  const Configuration configuration = configure(settings, test::kSingle, builtin_estimators());
+  const Recorder recorder(configuration);
+  std::map<std::string, double> means;
+  for (std::uint64_t trial = 0; trial < kTrials; ++trial) {
+    const Recording recording = trial_of(recorder, configuration, trial);
+    const Result result = evaluate(recording, {"sparse_gauss_newton", "sparse_gauss_newton", {}},
+                                   builtin_estimators(), {}, {});
+    for (const char* name : {"mean_nis_truth", "picture_error_correlation", "chi2_per_dof"}) {
+      means[name] += result.metric(name).value() / kTrials;
+    }
+  }
+  return means;
+}
+
+// 40 trials of some 200 registrations each.
+TEST(SimulatedLogHonesty, OfTheModelItself) {
+  const auto honest = honesty_of({});
+  EXPECT_NEAR(honest.at("mean_nis_truth"), 3.0, 0.1);
+  EXPECT_NEAR(honest.at("picture_error_correlation"), 0.0, 0.01);
+  EXPECT_NEAR(honest.at("chi2_per_dof"), 1.0, 0.03);
+}
+
+// A picture's own error s in x and y, as large as the σ of a registration: each has those of its
+// two pictures, u has variance 1 + 2 in x and y, and shares 1 of it with its neighbours. Of the sum
+// over the three dimensions (1 + 1 + 0) / (3 + 3 + 1). The estimate follows the pictures: F sees
+// less of it than the truth does.
+TEST(SimulatedLogHonesty, OfErrorsThatAPictureShares) {
+  const auto shared = honesty_of({"dataset.loops.shared_sigma_m=0.004"});
+  EXPECT_NEAR(shared.at("picture_error_correlation"), 2.0 / 7.0, 0.02);
+  EXPECT_NEAR(shared.at("mean_nis_truth"), 7.0, 0.3);
+  EXPECT_LT(shared.at("chi2_per_dof"), 0.8 * shared.at("mean_nis_truth") / 3.0);
+}
+
 }  // namespace
 }  // namespace fathom

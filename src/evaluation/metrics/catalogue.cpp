@@ -16,6 +16,7 @@ const std::vector<Metric>& named_metrics() {
   static const std::vector<Metric> metrics = [] {
     std::vector<Metric> all = accuracy_metrics();
     append(all, consistency_metrics());
+    append(all, honesty_metrics());
     append(all, optimum_metrics());
     append(all, loop_metrics());
     append(all, cost_metrics());

@@ -11,6 +11,7 @@ namespace fathom {
 // A metric is an entry of one of these lists, each in the file of its name.
 std::vector<Metric> accuracy_metrics();
 std::vector<Metric> consistency_metrics();
+std::vector<Metric> honesty_metrics();
 std::vector<Metric> loop_metrics();
 std::vector<Metric> optimum_metrics();
 std::vector<Metric> cost_metrics();
