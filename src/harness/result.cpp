@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fathom/geometry/covariance.hpp"
 #include "fathom/harness/recording_facts.hpp"
 
 namespace fathom {
@@ -111,10 +112,28 @@ Result evaluate(const Recording& recording, const EstimatorConfiguration& estima
   return result;
 }
 
+DeadReckoning judged_dead_reckoning(const Recording& recording, const MetricOptions& options) {
+  DeadReckoning result;
+  const MeasurementLog& log = recording.log;
+  UncertainPose pose{log.origin()};
+  result.covariances.push_back(pose.covariance);
+  for (std::size_t k = 1; k < log.size(); ++k) {
+    const RelativePose step = log.arrival(k).step.forward();
+    pose = compose(pose, UncertainPose{step.motion, step.covariance()});
+    result.covariances.push_back(pose.covariance);
+  }
+  const std::vector<Pose> odometry = log.odometry();
+  RunFacts facts = facts_of(recording, odometry, options);
+  facts.covariances = result.covariances;
+  const JudgedRun judged = judge(std::move(facts));
+  result.metrics = metric_values(judged);
+  result.consistency = judged.consistency;
+  return result;
+}
+
 std::map<std::string, double> dead_reckoning_metrics(const Recording& recording,
                                                      const MetricOptions& options) {
-  const std::vector<Pose> odometry = recording.log.odometry();
-  return metric_values(judge(facts_of(recording, odometry, options)));
+  return judged_dead_reckoning(recording, options).metrics;
 }
 
 }  // namespace fathom

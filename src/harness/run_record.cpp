@@ -63,6 +63,12 @@ void put_covariances(RunRecord& run, const std::vector<Eigen::Matrix3d>& covaria
   }
 }
 
+void put_consistency(RunRecord& run, const std::optional<Consistency>& consistency) {
+  if (!consistency) return;
+  run.series["pose_nees"] = consistency->pose_nees;
+  run.series["position_nees"] = consistency->position_nees;
+}
+
 void put_loops(RunRecord& run, const Recording& recording, const Replay& replay) {
   for (const bool is_false : recording.is_false_loop) {
     run.series["loop_is_false"].push_back(is_false ? 1.0 : 0.0);
@@ -100,10 +106,7 @@ RunRecord run_record(const Recording& recording, const Result& result,
   const Pose alignment =
       put_estimate(run, recording, result.replay.trajectory, result.options.alignment);
   if (result.replay.covariances) put_covariances(run, *result.replay.covariances, alignment);
-  if (result.consistency) {
-    run.series["pose_nees"] = result.consistency->pose_nees;
-    run.series["position_nees"] = result.consistency->position_nees;
-  }
+  put_consistency(run, result.consistency);
   put_loops(run, recording, result.replay);
   put_updates(run, recording, result.replay);
   return run;
@@ -112,9 +115,12 @@ RunRecord run_record(const Recording& recording, const Result& result,
 RunRecord baseline_record(const Recording& recording, const MetricOptions& options) {
   RunRecord run;
   run.key.estimator = kDeadReckoning;
-  run.metrics = dead_reckoning_metrics(recording, options);
+  DeadReckoning judged = judged_dead_reckoning(recording, options);
+  run.metrics = std::move(judged.metrics);
   put_times(run, recording);
-  put_estimate(run, recording, recording.log.odometry(), options.alignment);
+  const Pose alignment = put_estimate(run, recording, recording.log.odometry(), options.alignment);
+  put_covariances(run, judged.covariances, alignment);
+  put_consistency(run, judged.consistency);
   if (recording.ground_truth) put_poses(run, "truth_", *recording.ground_truth);
   return run;
 }

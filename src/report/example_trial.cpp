@@ -94,12 +94,14 @@ Json example_trial(const ResultStore& store, const CellResults& cell, std::size_
     const auto run = std::find_if(one.runs.begin(), one.runs.end(),
                                   [trial](const auto& r) { return r.key.trial == trial; });
     if (run == one.runs.end()) continue;
-    json["estimators"].push_back({{"name", one.name},
-                                  {"outcome", run->outcome},
-                                  {"path", path},
-                                  {"ellipses", ellipses_json(store, key)},
-                                  {"loops", loops},
-                                  {"loop_ends_m", loop_ends_json(store, key, loops)}});
+    json["estimators"].push_back(
+        {{"name", one.name},
+         {"outcome", run->outcome},
+         {"path", path},
+         // Dead reckoning's would cover the map.
+         {"ellipses", one.name == kDeadReckoning ? Json::array() : ellipses_json(store, key)},
+         {"loops", loops},
+         {"loop_ends_m", loop_ends_json(store, key, loops)}});
   }
   return json;
 }

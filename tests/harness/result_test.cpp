@@ -53,6 +53,30 @@ TEST(Evaluate, JudgesTheTrajectoryItself) {
   EXPECT_EQ(baseline.at("mean_position_error_m"), result.accuracy->mean_position_error_m);
 }
 
+// Three steps of 1 m straight on: a heading error of step k moves the end by the way that is left.
+TEST(JudgedDeadReckoning, HasTheCovarianceOfItsSteps) {
+  const Eigen::Matrix3d step = Eigen::Vector3d(0.01, 0.02, 0.03).asDiagonal();
+  Recording recording;
+  recording.log = MeasurementLog(Pose{5.0, -2.0, 0.0});
+  recording.ground_truth = {{5.0, -2.0, 0.0}};
+  for (std::size_t k = 0; k < 3; ++k) {
+    recording.log.add_keyframe(RelativePose::from_covariance(k, k + 1, {1.0, 0.0, 0.0}, step));
+    recording.ground_truth->push_back({6.0 + static_cast<double>(k), -2.0, 0.0});
+  }
+  recording.ground_truth->back().x += 0.3;
+  const DeadReckoning judged = judged_dead_reckoning(recording, {});
+  ASSERT_EQ(judged.covariances.size(), 4U);
+  EXPECT_TRUE(judged.covariances.front().isZero(0.0));
+  Eigen::Matrix3d expected;
+  expected << 3 * 0.01, 0.0, 0.0,                      //
+      0.0, 3 * 0.02 + (4 + 1) * 0.03, (2 + 1) * 0.03,  //
+      0.0, (2 + 1) * 0.03, 3 * 0.03;
+  EXPECT_LT((judged.covariances.back() - expected).norm(), 1e-12);
+  // The last of three keyframes is off by 0.3 m along x.
+  EXPECT_NEAR(judged.metrics.at("anees"), 0.3 * 0.3 / 0.03 / 3.0 / 3.0, 1e-12);
+  EXPECT_EQ(judged.metrics, dead_reckoning_metrics(recording, {}));
+}
+
 TEST(Evaluate, AnEstimatorIsBetterThanDeadReckoning) {
   const Recording recording = square();
   for (const EstimatorEntry& entry : builtin_estimators().entries()) {

@@ -167,6 +167,17 @@ TEST(SimulatedLogHonesty, OfTheModelItself) {
   EXPECT_NEAR(honest.at("chi2_per_dof"), 1.0, 0.03);
 }
 
+// 200 trials; the keyframes of one share the errors before them.
+TEST(SimulatedLogHonesty, DeadReckoningHasTheErrorsThatItsCovarianceTells) {
+  const Configuration configuration = configured(kSmallLog);
+  const Recorder recorder(configuration);
+  double anees = 0.0;
+  for (std::uint64_t trial = 0; trial < 200; ++trial) {
+    anees += dead_reckoning_metrics(trial_of(recorder, configuration, trial), {}).at("anees") / 200;
+  }
+  EXPECT_NEAR(anees, 1.0, 0.15);
+}
+
 // A picture's own error s in x and y, as large as the σ of a registration: each has those of its
 // two pictures, u has variance 1 + 2 in x and y, and shares 1 of it with its neighbours. Of the sum
 // over the three dimensions (1 + 1 + 0) / (3 + 3 + 1). The estimate follows the pictures: F sees

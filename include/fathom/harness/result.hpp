@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "fathom/configuration/configuration.hpp"
+#include "fathom/evaluation/consistency.hpp"
 #include "fathom/evaluation/metrics.hpp"
 #include "fathom/harness/recording.hpp"
 #include "fathom/harness/recording_facts.hpp"
@@ -45,7 +46,17 @@ Result evaluate(const Recording& recording, const EstimatorConfiguration& estima
                 const EstimatorRegistry& registry, const JudgeOptions& judging,
                 const ReplayOptions& options);
 
-/// The metrics of dead reckoning alone, the baseline of every table.
+/// Dead reckoning judged as an estimate: the baseline of every table.
+struct DeadReckoning {
+  std::map<std::string, double> metrics;
+  std::vector<Eigen::Matrix3d> covariances;  ///< of its poses, in their own axes (x, y, θ)
+  std::optional<Consistency> consistency;    ///< with ground truth alone
+};
+
+/// Its steps composed, their covariances propagated to first order from an exact origin.
+DeadReckoning judged_dead_reckoning(const Recording& recording, const MetricOptions& options);
+
+/// The metrics of that.
 std::map<std::string, double> dead_reckoning_metrics(const Recording& recording,
                                                      const MetricOptions& options);
 
