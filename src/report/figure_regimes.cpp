@@ -2,7 +2,9 @@
 #include <cmath>
 #include <cstdio>
 #include <map>
+#include <set>
 
+#include "fathom/core/text.hpp"
 #include "regime_map.hpp"
 #include "study_figures.hpp"
 #include "text_layout.hpp"
@@ -131,11 +133,24 @@ void draw_map(Canvas& canvas, const DrawnMap& map, const ChartFrame& frame, cons
   }
 }
 
-std::string conditions_of(const FigureInput& input, const std::string& metric,
+// "50", or "12, 50" of a study that is not complete.
+std::string trials_text(const RegimeMap& map) {
+  std::set<std::size_t> counts;
+  for (const auto& column : map.cells) {
+    for (const CellResults* cell : column) {
+      if (cell != nullptr) counts.insert(cell->trials);
+    }
+  }
+  std::vector<std::string> texts;
+  for (const std::size_t count : counts) texts.push_back(std::to_string(count));
+  return joined(texts, ", ");
+}
+
+std::string conditions_of(const RegimeMap& map, const std::string& metric,
                           const std::optional<std::string>& cost) {
   std::string text = described(metric).label + ", mean over trials, over the best estimator's";
   if (cost) text += "; cheapest by " + described(*cost).label + ", mean over trials";
-  return text + "; n = " + std::to_string(input.results.study.trials) + " trials a square";
+  return text + "; n = " + trials_text(map) + " trials a square";
 }
 
 std::vector<LegendEntry> legend_of(const StudyDescription& study,
@@ -155,7 +170,7 @@ StudyFigure regime_figure(const FigureInput& input, const RegimeMap& map,
   const auto styles = line_styles(study);
   const std::vector<DrawnMap> maps = drawn_maps(input, map, metric, cost, styles);
   const FigureLayout layout(std::vector<double>((maps.size() + 1) / 2, kMapHeight + kHeading),
-                            legend_of(study, styles), conditions_of(input, metric, cost));
+                            legend_of(study, styles), conditions_of(map, metric, cost));
   std::vector<ChartFrame> frames;
   std::vector<Box> boxes;
   for (std::size_t i = 0; i < maps.size(); ++i) {

@@ -38,7 +38,8 @@ const charts = [
         : `Mean ${metricLabel(state.regimeMetric)}.`;
       const choice = study.regimes ? ` Last map: by mean ${metricLabel(study.regimes.cost)} the cheapest of those whose mean ` +
         `${metricLabel(study.regimes.metric)} is at most 5 % above the best.` : '';
-      return `${fixed.join('')}n = ${study.trials} trials a square. ${meaning} An estimator that failed a trial is in no comparison.${choice}`;
+      const counts = [...new Set(regimeCells().map((one) => one.n))].sort((a, b) => a - b);
+      return `${fixed.join('')}n = ${counts.join(', ')} trials a square. ${meaning} An estimator that failed a trial is in no comparison.${choice}`;
     }},
   {id: 'keyframes', title: 'Error and consistency over keyframes', wide: true, plots: keyframePlots,
     exists: (cell) => sum(cell.estimators.map((one) => one.keyframes.keyframe.length)) > 0,
