@@ -142,6 +142,7 @@ std::string trials_text(const RegimeMap& map) {
     }
   }
   std::vector<std::string> texts;
+  texts.reserve(counts.size());
   for (const std::size_t count : counts) texts.push_back(std::to_string(count));
   return joined(texts, ", ");
 }

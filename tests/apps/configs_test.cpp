@@ -59,8 +59,9 @@ TEST_F(Configs, AreAllTestedHere) {
     studies.insert(entry.path().filename());
     fathom_done({"check", entry.path().string()});
   }
-  EXPECT_THAT(studies, ElementsAreArray({"paper_pool.yaml", "paper_simulated.yaml",
-                                         "real_pictures.yaml", "wrong_loops.yaml"}));
+  EXPECT_THAT(studies,
+              ElementsAreArray({"paper_pool.yaml", "paper_simulated.yaml", "real_pictures.yaml",
+                                "regimes.yaml", "regimes_survey.yaml", "wrong_loops.yaml"}));
 }
 
 // Whatever a study sweeps, its camera and front end are those of its first cell.
@@ -69,7 +70,7 @@ TEST_F(Configs, RegisterTakesEveryOne) {
     if (entry.path().extension() != ".yaml") continue;
     // The camera's own size, unless the data are somebody else's.
     const std::string text = read_file(entry.path());
-    if (text.find("type: simulated") == std::string::npos) continue;
+    if (text.find("type: simulated\n") == std::string::npos) continue;
     cv::Mat noise(150, 200, CV_8UC1);
     cv::RNG(1).fill(noise, cv::RNG::UNIFORM, 0, 255);
     cv::imwrite(path("a.png").string(), noise);
@@ -137,6 +138,17 @@ TEST_F(Configs, WrongLoopsRuns) {
                                  "dataset.mission.leg_length_m=3", "trials=1"}),
               "truncated/metrics.json");
   EXPECT_EQ(ResultStore::open(path("out")).runs().size(), 12u * 10u);
+}
+
+TEST_F(Configs, RegimesRun) {
+  expect_runs("compare", "studies/regimes.yaml", {"trials=1"}, "ekf/metrics.json");
+  EXPECT_EQ(ResultStore::open(path("out")).runs().size(), 36u * 9u);
+  EXPECT_TRUE(fs::exists(path("out/figures/regime_map_loops_6.svg")));
+}
+
+TEST_F(Configs, RegimesSurveyRun) {
+  expect_runs("compare", "studies/regimes_survey.yaml", {"trials=1"}, "ekf/metrics.json");
+  EXPECT_EQ(ResultStore::open(path("out")).runs().size(), 24u * 9u);
 }
 
 // image_folder.yaml runs as it is in real_data_test.cpp.
