@@ -29,12 +29,15 @@ Eigen::Matrix3d RelativePose::covariance() const {
   return transport(planar_rotation(motion.theta), symmetric_inverse(information));
 }
 
-RelativePose RelativePose::forward() const {
-  if (from <= to) return *this;
-  const UncertainPose turned = inverse(UncertainPose{motion, covariance()});
-  RelativePose measurement = from_covariance(to, from, turned.mean, turned.covariance);
+RelativePose RelativePose::reversed() const {
+  const UncertainPose back = inverse(UncertainPose{motion, covariance()});
+  RelativePose measurement = from_covariance(to, from, back.mean, back.covariance);
   measurement.inliers = inliers;
   return measurement;
+}
+
+RelativePose RelativePose::forward() const {
+  return from <= to ? *this : reversed();
 }
 
 Eigen::Vector3d residual(const Pose& motion, const Pose& A, const Pose& B,

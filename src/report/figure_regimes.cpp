@@ -4,7 +4,6 @@
 #include <map>
 #include <set>
 
-#include "fathom/core/text.hpp"
 #include "regime_map.hpp"
 #include "study_figures.hpp"
 #include "text_layout.hpp"
@@ -133,18 +132,15 @@ void draw_map(Canvas& canvas, const DrawnMap& map, const ChartFrame& frame, cons
   }
 }
 
-// "50", or "12, 50" of a study that is not complete.
+// Of a study that is not complete there are several.
 std::string trials_text(const RegimeMap& map) {
-  std::set<std::size_t> counts;
+  std::set<int> counts;
   for (const auto& column : map.cells) {
     for (const CellResults* cell : column) {
-      if (cell != nullptr) counts.insert(cell->trials);
+      if (cell != nullptr) counts.insert(static_cast<int>(cell->trials));
     }
   }
-  std::vector<std::string> texts;
-  texts.reserve(counts.size());
-  for (const std::size_t count : counts) texts.push_back(std::to_string(count));
-  return joined(texts, ", ");
+  return counts_text(counts);
 }
 
 std::string conditions_of(const RegimeMap& map, const std::string& metric,

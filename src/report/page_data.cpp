@@ -113,7 +113,7 @@ Json cell_json(const ResultStore& store, const CellResults& cell,
             {"places", study.places_of(cell.cell)},
             {"association", cell.association},
             {"alignment", cell.alignment},
-            {"jobs", jobs_text(cell.jobs)},
+            {"jobs", counts_text(cell.jobs)},
             {"n", cell.trials}};
   json["estimators"] = Json::array();
   for (std::size_t i = 0; i < cell.estimators.size(); ++i) {

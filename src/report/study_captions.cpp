@@ -36,7 +36,7 @@ std::string outcome_text(const EstimatorResults& estimator, std::size_t trials_w
   return text;
 }
 
-std::string jobs_text(const std::set<int>& jobs) {
+std::string counts_text(const std::set<int>& jobs) {
   std::string text;
   for (const int count : jobs) text += (text.empty() ? "" : ", ") + std::to_string(count);
   return text;
@@ -57,7 +57,7 @@ std::string cell_caption(const CellResults& cell) {
   if (!cell.association.empty()) text += "association " + cell.association + ", ";
   if (!cell.alignment.empty()) text += "alignment " + cell.alignment + ", ";
   text += "n = " + std::to_string(cell.trials);
-  if (!cell.jobs.empty()) text += ", jobs " + jobs_text(cell.jobs);
+  if (!cell.jobs.empty()) text += ", jobs " + counts_text(cell.jobs);
   return text;
 }
 

@@ -70,8 +70,8 @@ StudyResults study_results(const ResultStore& store, MetricsOf metrics = Metrics
 /// "98/100 done, 2 diverged"; also those at the iteration limit and those that are yet to run.
 std::string outcome_text(const EstimatorResults& estimator, std::size_t trials_wanted);
 
-/// "2", or "1, 4" where sessions differed.
-std::string jobs_text(const std::set<int>& jobs);
+/// "2", or "1, 4" where they differ.
+std::string counts_text(const std::set<int>& jobs);
 
 /// "separation 5: association own, alignment origin, n = 100, jobs 2"; what is unknown is left out.
 std::string cell_caption(const CellResults& cell);

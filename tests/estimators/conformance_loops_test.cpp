@@ -15,7 +15,7 @@ MeasurementLog rewritten(const MeasurementLog& log,
   for (std::size_t k = 1; k < log.size(); ++k) {
     result.add_keyframe(log.arrival(k).step);
     for (const RelativePose& z : log.arrival(k).registrations) {
-      result.add_registration(turns(index++) ? turned(z) : z);
+      result.add_registration(turns(index++) ? z.reversed() : z);
     }
   }
   return result;

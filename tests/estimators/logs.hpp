@@ -31,12 +31,6 @@ inline Pose perturbed(const Pose& motion, double sigma_m, double sigma_rad, Rand
           wrap_angle(motion.theta + sigma_rad * random.normal())};
 }
 
-/// The same registration written the other way round, to first order.
-inline RelativePose turned(const RelativePose& z) {
-  const UncertainPose back = inverse(UncertainPose{z.motion, z.covariance()});
-  return RelativePose::from_covariance(z.to, z.from, back.mean, back.covariance);
-}
-
 struct LogOptions {
   std::size_t keyframes = 40;
   double noise = 1.0;          ///< times the sigmas below

@@ -23,7 +23,7 @@ MeasurementLog alternately_turned(const MeasurementLog& log) {
   for (std::size_t k = 1; k < log.size(); ++k) {
     mixed.add_keyframe(log.arrival(k).step);
     for (const RelativePose& z : log.arrival(k).registrations) {
-      mixed.add_registration(turn ? test::turned(z) : z);
+      mixed.add_registration(turn ? z.reversed() : z);
       turn = !turn;
     }
   }

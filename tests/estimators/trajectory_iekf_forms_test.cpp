@@ -45,23 +45,15 @@ MeasurementLog local_and_wide_loops() {
   return result;
 }
 
-// A circuit with few loops until it is closed at its end: the first two motions are dense early,
-// the loops that end it begin with these and with motions that are not.
-MeasurementLog closed_at_its_end() {
-  LogOptions plain;
-  plain.keyframes = 30;
-  plain.loop_every = 0;
-  plain.noise = 2.0;
+// Dead reckoning of `plain`, with loops of keyframe k from those that `froms_of(k)` names.
+template <class FromsOf>
+MeasurementLog with_loops(const LogOptions& plain, RandomStream& random, const FromsOf& froms_of) {
   const MeasurementLog log = test::circle_log(plain);
   const std::vector<Pose> truth = test::circle(plain.keyframes, plain.origin);
-  RandomStream random(9, "loops");
   MeasurementLog result(log.origin());
   for (std::size_t k = 1; k < log.size(); ++k) {
     result.add_keyframe(log.arrival(k).step);
-    std::vector<std::size_t> froms;
-    if (k >= 24) froms = {0, 1, k - 2};
-    if (k == 2 || (k < 24 && k % 5 == 0)) froms = {k - 2};
-    for (const std::size_t from : froms) {
+    for (const std::size_t from : froms_of(k)) {
       const Pose z = test::perturbed(between(truth[from], truth[k]), test::kLoopSigmaM,
                                      test::kLoopSigmaRad, random);
       result.add_registration(RelativePose::from_covariance(
@@ -69,6 +61,21 @@ MeasurementLog closed_at_its_end() {
     }
   }
   return result;
+}
+
+// A circuit with few loops until it is closed at its end: the first two motions are dense early,
+// the loops that end it begin with these and with motions that are not.
+MeasurementLog closed_at_its_end() {
+  LogOptions plain;
+  plain.keyframes = 30;
+  plain.loop_every = 0;
+  plain.noise = 2.0;
+  RandomStream random(9, "loops");
+  return with_loops(plain, random, [](std::size_t k) -> std::vector<std::size_t> {
+    if (k >= 24) return {0, 1, k - 2};
+    if (k == 2 || (k > 0 && k % 5 == 0)) return {k - 2};
+    return {};
+  });
 }
 
 struct FormCase {
@@ -170,29 +177,18 @@ MeasurementLog any_loops(std::uint64_t seed) {
   plain.keyframes = 30;
   plain.loop_every = 0;
   plain.seed = seed;
-  const MeasurementLog log = test::circle_log(plain);
-  const std::vector<Pose> truth = test::circle(plain.keyframes, plain.origin);
   RandomStream random(seed, "any loops");
   const double how_often = random.uniform(0.05, 0.7);
-  MeasurementLog result(log.origin());
-  for (std::size_t k = 1; k < log.size(); ++k) {
-    result.add_keyframe(log.arrival(k).step);
-    if (random.uniform() > how_often) continue;
+  return with_loops(plain, random, [&](std::size_t k) {
     std::set<std::size_t> froms;
-    const std::size_t count = 1 + random.index(4);
+    if (random.uniform() > how_often) return froms;
+    const std::size_t count = std::min<std::size_t>(1 + random.index(4), k);
     while (froms.size() < count) {
       const bool local = random.uniform() < 0.5;
       froms.insert(local ? k - 1 - random.index(std::min<std::size_t>(k, 4)) : random.index(k));
-      if (froms.size() == k) break;
     }
-    for (const std::size_t from : froms) {
-      const Pose z = test::perturbed(between(truth[from], truth[k]), test::kLoopSigmaM,
-                                     test::kLoopSigmaRad, random);
-      result.add_registration(RelativePose::from_covariance(
-          from, k, z, test::full_covariance(test::kLoopSigmaM, test::kLoopSigmaRad)));
-    }
-  }
-  return result;
+    return froms;
+  });
 }
 
 TEST(TrajectoryIekf, WithAnyLoopsEqualsTheTextbookFilter) {

@@ -35,8 +35,9 @@ struct RelativePose {
   /// The later of its two keyframes: a registration arrives with it.
   std::size_t newest() const { return from > to ? from : to; }
 
-  /// The same measurement with from < to: as it is, or inverted (⊖z, covariance propagated to
-  /// first order).
+  /// The same measurement from its other end: ⊖z, covariance propagated to first order.
+  RelativePose reversed() const;
+  /// The same measurement with from < to: as it is, or reversed.
   RelativePose forward() const;
 };
 

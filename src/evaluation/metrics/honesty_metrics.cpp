@@ -3,7 +3,6 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "fathom/geometry/covariance.hpp"
 #include "groups.hpp"
 
 namespace fathom {
@@ -53,12 +52,6 @@ struct SharedPicture {
   }
 };
 
-// The same measurement, seen from its other end.
-RelativePose turned(const RelativePose& z) {
-  const UncertainPose back = inverse(UncertainPose{z.motion, z.covariance()});
-  return RelativePose::from_covariance(z.to, z.from, back.mean, back.covariance);
-}
-
 // Each registration counts at both of its pictures, as the error of where the picture is seen from
 // the other one. A picture's own error is the same in all of them.
 Value picture_error_correlation(const JudgedRun& run) {
@@ -68,7 +61,7 @@ Value picture_error_correlation(const JudgedRun& run) {
   std::vector<SharedPicture> pictures(facts.log.size());
   for_registrations(facts.log, [&](const RelativePose& z) {
     pictures[z.to].add(z, truth);
-    pictures[z.from].add(turned(z), truth);
+    pictures[z.from].add(z.reversed(), truth);
   });
   double products = 0.0;  // Σ uᵢᵀuⱼ over the pairs i < j of a picture
   double squares = 0.0;   // Σ (uᵢᵀuᵢ + uⱼᵀuⱼ) / 2 over the same
