@@ -53,7 +53,7 @@ TEST(Tilt, IsPartOfWhatIsSeen) {
   const ViewRays rays{Camera()};
   const Eigen::AlignedBox2d level = rays.seen({}, kAltitudeM);
   const Eigen::AlignedBox2d rolled = rays.seen({}, kAltitudeM, {0.1, 0.0});
-  const double edge_rad = std::atan(319.5 / 500);
+  const double edge_rad = std::atan(320.0 / 500);
   EXPECT_NEAR(level.max().y(), kAltitudeM * std::tan(edge_rad), 1e-9);
   EXPECT_NEAR(rolled.max().y(), kAltitudeM * std::tan(edge_rad + 0.1), 1e-9);
   EXPECT_NEAR(rolled.min().y(), -kAltitudeM * std::tan(edge_rad - 0.1), 1e-9);

@@ -115,7 +115,7 @@ TEST(PictureId, OfASimulationCountsAllThatMakesThePixels) {
     EXPECT_EQ(different.size(), ++count);
   };
   with([](auto&) {}, 2);
-  with([](auto& o) { o.world.metres_per_pixel = 0.031; });
+  with([](auto& o) { o.world.metres_per_pixel = 0.012; });
   with([](auto& o) { o.world.heading_rad = 0.1; });
   with([](auto& o) { o.altitude.base_m = 2.1; });
   with([](auto& o) { o.mission.speed_m_s = 0.51; });

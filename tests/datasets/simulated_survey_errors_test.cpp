@@ -101,6 +101,11 @@ INSTANTIATE_TEST_SUITE_P(
                   "dataset.world.floor: is for a procedural floor"},
         BadSurvey{"ReliefNegative", [](auto& o) { o.world.relief_m = -0.1; },
                   "dataset.world.relief_m: "},
+        BadSurvey{"ReliefUpToTheCamera", [](auto& o) { o.world.relief_m = 2; },
+                  "dataset.world.relief_m: the floor may reach the camera"},
+        BadSurvey{"FloorTooLargeForItsPictures", [](auto& o) { o.camera.base.fx = 1e6; },
+                  "dataset.world.metres_per_pixel: the floor that the mission sees would have more "
+                  "than 1000 million pixels of the 0.000001 m that its pictures need"},
         BadSurvey{"CastOfTwo",
                   [](auto& o) {
                     o.effects.camera.colour_cast = {1, 1};
@@ -132,10 +137,10 @@ TEST(SimulatedSurveyErrors, FrameBeyondThePictureSaysWhichAndByHowMuch) {
   options.world.origin_y_m = 0.0;
   options.mission.type = MissionType::kWaypoints;
   options.mission.waypoints_m = {0, 0, 3, 0};
-  // Ahead it sees 2 m · 23.5 / 52 = 0.904 m; the picture ends 2.5 m from its middle, so the frame
-  // at 1.75 m, the eighth of 0.25 m, is the first to see beyond, by 0.15 m.
+  // Ahead it sees 2 m · 24 / 52 = 0.923 m; the picture ends 2.5 m from its middle, so the frame
+  // at 1.75 m, the eighth of 0.25 m, is the first to see beyond, by 0.17 m.
   const std::string message = input_error_of([&] { SimulatedSurvey(options, 1); });
-  EXPECT_EQ(message.find("dataset.world.picture: frame 7 at 3.500000000 s sees 0.15 m beyond the "
+  EXPECT_EQ(message.find("dataset.world.picture: frame 7 at 3.500000000 s sees 0.17 m beyond the "
                          "picture's top"),
             0U)
       << message;
@@ -148,12 +153,12 @@ TEST(SimulatedSurveyErrors, PictureThatJustFitsIsTaken) {
   options.mission.waypoints_m = {0, 0, 3, 0};
   options.world.picture = (folder / "w.png").string();
   options.world.metres_per_pixel = 0.01;
-  // 3 m + 2 · 0.904 m up, 2 · 2 m · 31.5 / 50 = 2.52 m across.
-  ASSERT_TRUE(cv::imwrite(options.world.picture, cv::Mat(482, 254, CV_8UC1, cv::Scalar(9))));
+  // 3 m + 2 · 0.923 m up, 2 · 2 m · 32 / 50 = 2.56 m across.
+  ASSERT_TRUE(cv::imwrite(options.world.picture, cv::Mat(486, 258, CV_8UC1, cv::Scalar(9))));
   EXPECT_EQ(input_error_of([&] { SimulatedSurvey(options, 1); }), "(nothing thrown)");
-  ASSERT_TRUE(cv::imwrite(options.world.picture, cv::Mat(480, 254, CV_8UC1, cv::Scalar(9))));
+  ASSERT_TRUE(cv::imwrite(options.world.picture, cv::Mat(484, 258, CV_8UC1, cv::Scalar(9))));
   EXPECT_NE(input_error_of([&] { SimulatedSurvey(options, 1); }), "(nothing thrown)");
-  ASSERT_TRUE(cv::imwrite(options.world.picture, cv::Mat(482, 252, CV_8UC1, cv::Scalar(9))));
+  ASSERT_TRUE(cv::imwrite(options.world.picture, cv::Mat(486, 256, CV_8UC1, cv::Scalar(9))));
   EXPECT_NE(input_error_of([&] { SimulatedSurvey(options, 1); }), "(nothing thrown)");
 }
 

@@ -5,24 +5,20 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "fathom/datasets/floor_renderer.hpp"
+
 namespace fathom {
 namespace {
 
-float bilinear(const cv::Mat& picture, float u, float v) {
-  u = std::clamp(u, 0.0F, static_cast<float>(picture.cols - 1));
-  v = std::clamp(v, 0.0F, static_cast<float>(picture.rows - 1));
-  const int column = std::min(static_cast<int>(u), std::max(picture.cols - 2, 0));
-  const int row = std::min(static_cast<int>(v), std::max(picture.rows - 2, 0));
-  const int right = std::min(column + 1, picture.cols - 1);
-  const float fu = u - static_cast<float>(column);
-  const float fv = v - static_cast<float>(row);
-  const uchar* top = picture.ptr(row);
-  const uchar* bottom = picture.ptr(std::min(row + 1, picture.rows - 1));
-  const float above =
-      static_cast<float>(top[column]) * (1 - fu) + static_cast<float>(top[right]) * fu;
-  const float below =
-      static_cast<float>(bottom[column]) * (1 - fu) + static_cast<float>(bottom[right]) * fu;
-  return above * (1 - fv) + below * fv;
+int floor_of(float value) {
+  const int towards_zero = static_cast<int>(value);
+  return towards_zero - (value < static_cast<float>(towards_zero) ? 1 : 0);
+}
+
+// The coarsest level that has at least two pixels to one of the view.
+std::size_t level_for(double floor_pixels_per_pixel, std::size_t levels) {
+  const double level = std::floor(std::log2(floor_pixels_per_pixel)) - 1.0;
+  return static_cast<std::size_t>(std::clamp(level, 0.0, static_cast<double>(levels - 1)));
 }
 
 }  // namespace
@@ -41,23 +37,72 @@ std::vector<cv::Mat> area_pyramid(const cv::Mat& picture) {
   return levels;
 }
 
-FloorLookup::FloorLookup(const std::vector<cv::Mat>& levels, double world_pixels_per_pixel) {
-  const double level =
-      std::clamp(std::log2(world_pixels_per_pixel), 0.0, static_cast<double>(levels.size() - 1));
-  const int fine = static_cast<int>(level);
-  const std::size_t index = static_cast<std::size_t>(fine);
-  fine_ = levels[index];
-  coarse_ = levels[std::min(index + 1, levels.size() - 1)];
-  scale_ = std::ldexp(1.0F, -fine);
-  coarse_share_ = static_cast<float>(level - fine);
+FloorLookup::FloorLookup(const std::vector<cv::Mat>& levels, const Eigen::Vector2d& base,
+                         const Eigen::Matrix2d& A, double floor_pixels_per_pixel) {
+  const std::size_t index = level_for(floor_pixels_per_pixel, levels.size());
+  level_ = levels[index];
+  const double scale = std::ldexp(1.0, -static_cast<int>(index));
+  const Eigen::Vector2d level_base = scale * (base.array() + 0.5) - 0.5;
+  const Eigen::Vector2d origin = level_base.array().floor();
+  base_ = (level_base - origin).cast<float>();
+  A_ = (scale * A).cast<float>();
+  first_ = (-origin).cast<float>();
+  last_ = (Eigen::Vector2d(level_.cols - 1, level_.rows - 1) - origin).cast<float>();
+  row_bytes_ = static_cast<std::ptrdiff_t>(level_.step);
+  offset_ = static_cast<std::ptrdiff_t>(origin.y()) * row_bytes_ +
+            static_cast<std::ptrdiff_t>(origin.x());
 }
 
-float FloorLookup::at(const Eigen::Vector2f& pixel) const {
-  const Eigen::Vector2f from_edge = scale_ * (pixel.array() + 0.5F);
-  const float fine = bilinear(fine_, from_edge.x() - 0.5F, from_edge.y() - 0.5F);
-  if (coarse_share_ == 0.0F) return fine;
-  const float coarse = bilinear(coarse_, 0.5F * from_edge.x() - 0.5F, 0.5F * from_edge.y() - 0.5F);
-  return fine + coarse_share_ * (coarse - fine);
+float FloorLookup::mean(const Corners& corners) const {
+  Eigen::Vector2f least = corners[0];
+  Eigen::Vector2f most = corners[0];
+  for (const Eigen::Vector2f& corner : corners) {
+    least = least.cwiseMin(corner);
+    most = most.cwiseMax(corner);
+  }
+  // A whole pixel of room: the last one has none to its right, and rounding may step over.
+  const bool is_inside = (least.array() >= first_.array() + 1.0F).all() &&
+                         (most.array() <= last_.array() - 1.0F).all();
+  return is_inside ? mean_of_samples<false>(corners) : mean_of_samples<true>(corners);
+}
+
+template <bool kNearBorder>
+float FloorLookup::mean_of_samples(const Corners& corners) const {
+  constexpr int kAcross = FloorRenderer::kSamplesAcross;
+  constexpr float kStep = 1.0F / kAcross;
+  float sum = 0.0F;
+  for (int j = 0; j < kAcross; ++j) {
+    const float down = kStep * (static_cast<float>(j) + 0.5F);
+    const Eigen::Vector2f left = corners[0] + down * (corners[2] - corners[0]);
+    const Eigen::Vector2f right = corners[1] + down * (corners[3] - corners[1]);
+    const Eigen::Vector2f step = kStep * (right - left);
+    for (int i = 0; i < kAcross; ++i) {
+      sum += at<kNearBorder>(left + (static_cast<float>(i) + 0.5F) * step);
+    }
+  }
+  return sum * (kStep * kStep);
+}
+
+// Bilinear.
+template <bool kNearBorder>
+float FloorLookup::at(Eigen::Vector2f place) const {
+  if (kNearBorder) place = place.cwiseMax(first_).cwiseMin(last_);
+  const int column = floor_of(place.x());
+  const int row = floor_of(place.y());
+  const float across = place.x() - static_cast<float>(column);
+  const float down = place.y() - static_cast<float>(row);
+  std::ptrdiff_t right = 1;
+  std::ptrdiff_t below = row_bytes_;
+  if (kNearBorder) {
+    if (static_cast<float>(column) >= last_.x()) right = 0;
+    if (static_cast<float>(row) >= last_.y()) below = 0;
+  }
+  const uchar* pixel = level_.data + (offset_ + row * row_bytes_ + column);
+  const auto upper_left = static_cast<float>(pixel[0]);
+  const auto lower_left = static_cast<float>(pixel[below]);
+  const float upper = upper_left + across * (static_cast<float>(pixel[right]) - upper_left);
+  const float lower = lower_left + across * (static_cast<float>(pixel[below + right]) - lower_left);
+  return upper + down * (lower - upper);
 }
 
 }  // namespace fathom

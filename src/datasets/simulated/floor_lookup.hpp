@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <vector>
 
 #include <Eigen/Core>
@@ -10,20 +12,40 @@ namespace fathom {
 /// Level l has 2^l pixels of the picture to each of its own, averaged.
 std::vector<cv::Mat> area_pyramid(const cv::Mat& picture);
 
-/// A pyramid between two of its levels, bilinear in each (Williams, *Pyramidal Parametrics*, 1983).
-/// Level 0 has its first pixel's centre at 0, so its left edge, which all levels share, is at −1/2.
+/// What one view sees of a floor, by level of a pyramid that has at least two pixels to one of the
+/// view's, if level 0 has. Level 0 has its first pixel's centre at 0, so its left edge, which all
+/// levels share, is at −1/2.
 class FloorLookup {
  public:
-  FloorLookup(const std::vector<cv::Mat>& levels, double world_pixels_per_pixel);
+  /// Corners of a pixel of the view as places in the level: upper left, upper right, lower left,
+  /// lower right.
+  using Corners = std::array<Eigen::Vector2f, 4>;
 
-  /// At a pixel of level 0.
-  float at(const Eigen::Vector2f& pixel) const;
+  /// A point p of the view is the pixel `base` + `A` p of level 0, and a pixel of the view about
+  /// `floor_pixels_per_pixel` of them wide.
+  FloorLookup(const std::vector<cv::Mat>& levels, const Eigen::Vector2d& base,
+              const Eigen::Matrix2d& A, double floor_pixels_per_pixel);
+
+  /// The place in the level of a point of the view, from an origin near the view's middle, where
+  /// floats are fine enough.
+  Eigen::Vector2f place(const Eigen::Vector2f& point) const { return base_ + A_ * point; }
+
+  /// Mean grey over a pixel of the view; beyond the floor its border repeats.
+  float mean(const Corners& corners) const;
 
  private:
-  cv::Mat fine_;
-  cv::Mat coarse_;
-  float scale_ = 1.0F;
-  float coarse_share_ = 0.0F;
+  template <bool kNearBorder>
+  float mean_of_samples(const Corners& corners) const;
+  template <bool kNearBorder>
+  float at(Eigen::Vector2f place) const;
+
+  cv::Mat level_;
+  Eigen::Vector2f base_;
+  Eigen::Matrix2f A_;
+  std::ptrdiff_t row_bytes_ = 0;
+  std::ptrdiff_t offset_ = 0;  ///< of place (0, 0) in the level's data, bytes; may lie outside
+  Eigen::Vector2f first_;      ///< places of the first and the last pixel
+  Eigen::Vector2f last_;
 };
 
 }  // namespace fathom

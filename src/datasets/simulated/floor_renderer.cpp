@@ -1,9 +1,10 @@
 #include "fathom/datasets/floor_renderer.hpp"
 
+#include <algorithm>
 #include <cmath>
-#include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "camera_side.hpp"
 #include "caustics.hpp"
@@ -68,6 +69,7 @@ class Haze {
 
   bool is_clear() const { return per_altitude_ == 0.0F; }
 
+  /// At the end of a path of so many altitudes.
   float seen(float grey, float path_altitudes) const {
     return backscatter_ + std::exp(per_altitude_ * path_altitudes) * (grey - backscatter_);
   }
@@ -77,22 +79,46 @@ class Haze {
   float backscatter_;
 };
 
+// What a corner of the picture's pixels sees.
+struct SeenCorner {
+  Eigen::Vector3f hit;  // from the camera, in altitudes: ahead, to port, down
+  Eigen::Vector2f place;
+};
+
+using SeenRow = std::vector<SeenCorner>;
+
+// Follows a row of rays; returns where the next row begins.
+const Eigen::Vector2f* see_row(const Way& way, const FloorLookup& floor,
+                               const Eigen::Vector2f* level_ray, SeenRow& row) {
+  for (SeenCorner& corner : row) {
+    Eigen::Vector2f ray = *level_ray++;
+    float depth = 1.0F;
+    if (!way.is_straight()) {
+      ray = way.tilted(ray);
+      depth = way.depth(ray);
+    }
+    corner.hit << depth * ray, depth;
+    corner.place = floor.place(depth * ray);
+  }
+  return level_ray;
+}
+
 }  // namespace
 
 ViewRays::ViewRays(const Camera& camera)
     : mount_m_(camera.model().mount_x_m, camera.model().mount_y_m) {
   const int width = camera.model().width;
   const int height = camera.model().height;
-  rays_.reserve(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
-  for (int v = 0; v < height; ++v) {
-    for (int u = 0; u < width; ++u) {
-      const Eigen::Vector2d ray = camera.floor_point({u, v}, 1.0) - mount_m_;
+  corners_.reserve(static_cast<std::size_t>(width + 1) * static_cast<std::size_t>(height + 1));
+  for (int v = 0; v <= height; ++v) {
+    for (int u = 0; u <= width; ++u) {
+      const Eigen::Vector2d ray = camera.floor_point({u - 0.5, v - 0.5}, 1.0) - mount_m_;
       if (!ray.allFinite()) {
         throw InputError("camera distortion cannot be undone at pixel (" + std::to_string(u) +
                          ", " + std::to_string(v) + "); expected coefficients k1 k2 p1 p2 k3");
       }
-      rays_.push_back(ray.cast<float>());
-      if (u == 0 || v == 0 || u == width - 1 || v == height - 1) border_.push_back(ray);
+      corners_.push_back(ray.cast<float>());
+      if (u == 0 || v == 0 || u == width || v == height) border_.push_back(ray);
     }
   }
 }
@@ -112,6 +138,10 @@ Eigen::AlignedBox2d ViewRays::seen(const Pose& pose, double altitude_m, const Ti
   return box.translate(pose.position());
 }
 
+double finest_pixel_m(const CameraModel& camera, double altitude_m) {
+  return altitude_m / std::max(camera.fx, camera.fy);
+}
+
 FloorRenderer::FloorRenderer(const Camera& camera, ViewRays rays, World world)
     : camera_(camera.model()),
       rays_(std::move(rays)),
@@ -129,33 +159,40 @@ cv::Mat FloorRenderer::render(const View& view, const PictureEffects& effects) c
 // What light of the floor, and of the water before it, comes to each pixel; grey levels.
 cv::Mat_<float> FloorRenderer::trace(const View& view, const PictureEffects& effects) const {
   const Pose body = compose(world_.mission, view.pose);
-  // Pixels of the world are affine in the ray: pixel = base + A ray.
+  // Pixels of the world are affine in the ray: pixel = world.pixel(camera) + A ray.
   const Eigen::Vector2d camera_m =
       transform(body, Eigen::Vector2d(camera_.mount_x_m, camera_.mount_y_m));
-  const Eigen::Vector2f base = world_.pixel(camera_m).cast<float>();
   const Eigen::Matrix2d R = rotation(body.theta) * (view.altitude_m / world_.metres_per_pixel);
-  Eigen::Matrix2f A;
-  A.row(0) = -R.row(1).cast<float>();
-  A.row(1) = -R.row(0).cast<float>();
-
-  const FloorLookup floor(
-      levels_, view.altitude_m / std::sqrt(camera_.fx * camera_.fy) / world_.metres_per_pixel);
+  Eigen::Matrix2d A;
+  A.row(0) = -R.row(1);
+  A.row(1) = -R.row(0);
+  const FloorLookup floor(levels_, world_.pixel(camera_m), A,
+                          finest_pixel_m(camera_, view.altitude_m) / world_.metres_per_pixel);
   const Way way(view, world_.relief, camera_m, body.theta);
   const Haze haze(effects.water, view.altitude_m);
   const Caustics caustics(effects.water.caustics, view.seed);
+  const bool is_plain = caustics.are_off() && haze.is_clear();
+  const auto width = static_cast<std::size_t>(camera_.width);
+  SeenRow upper(width + 1);
+  SeenRow lower(width + 1);
+  const Eigen::Vector2f* rays = rays_.corners().data();
+  rays = see_row(way, floor, rays, lower);
   cv::Mat_<float> light(camera_.height, camera_.width);
-  const Eigen::Vector2f* level_ray = rays_.rays().data();
-  for (float& grey : light) {
-    Eigen::Vector2f ray = *level_ray++;
-    float depth = 1.0F;
-    if (!way.is_straight()) {
-      ray = way.tilted(ray);
-      depth = way.depth(ray);
+  for (int v = 0; v < camera_.height; ++v) {
+    std::swap(upper, lower);
+    rays = see_row(way, floor, rays, lower);
+    float* out = light[v];
+    for (std::size_t u = 0; u < width; ++u) {
+      float grey =
+          floor.mean({upper[u].place, upper[u + 1].place, lower[u].place, lower[u + 1].place});
+      if (!is_plain) {
+        const Eigen::Vector3f middle =
+            0.25F * (upper[u].hit + upper[u + 1].hit + lower[u].hit + lower[u + 1].hit);
+        if (!caustics.are_off()) grey *= caustics.gain(way.point(middle.head<2>()));
+        if (!haze.is_clear()) grey = haze.seen(grey, middle.norm());
+      }
+      out[u] = grey;
     }
-    const Eigen::Vector2f hit = ray * depth;
-    grey = floor.at(base + A * hit);
-    if (!caustics.are_off()) grey *= caustics.gain(way.point(hit));
-    if (!haze.is_clear()) grey = haze.seen(grey, depth * std::sqrt(1.0F + ray.squaredNorm()));
   }
   return light;
 }

@@ -1,7 +1,9 @@
 #include "fathom/datasets/simulated_survey.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <limits>
 #include <mutex>
 #include <numbers>
 #include <string>
@@ -176,7 +178,15 @@ void SimulatedSurvey::plan_views(const SimulatedSurveyOptions& options, std::uin
 void SimulatedSurvey::plan_floor(const WorldOptions& options, std::uint64_t seed) {
   ViewRays rays(camera_);
   const SeenFloor seen = seen_floor(rays, views_, options, kPrefix);
-  WorldPlan plan = plan_world(options, seen.all, seed, kPrefix + "world.");
+  double nearest_m = std::numeric_limits<double>::infinity();
+  for (const View& view : views_) nearest_m = std::min(nearest_m, view.altitude_m);
+  if (options.relief_m >= nearest_m) {
+    throw InputError(kPrefix +
+                     "world.relief_m: the floor may reach the camera; expected a number " +
+                     "in m below the least altitude, " + std::to_string(nearest_m));
+  }
+  const double finest_m = finest_pixel_m(camera_.model(), nearest_m - options.relief_m);
+  WorldPlan plan = plan_world(options, {seen.all, finest_m}, seed, kPrefix + "world.");
   require_inside(plan, seen, infos_, kPrefix);
   floor_ = std::make_shared<Floor>(camera_, std::move(rays), std::move(plan));
 }
