@@ -23,12 +23,13 @@ FloorKind kind_named(const std::string& name) {
 }
 
 Floor drawn_floor(const std::string& name, std::uint64_t seed) {
-  constexpr double kMetresPerPixel = 0.003;
-  constexpr int kSidePx = 4000;
+  constexpr double kSideM = 12.0;
+  const double metres_per_pixel = floor_pixel_m(test::finest_pixel_of_pairs_m(Camera()));
+  const int side = static_cast<int>(kSideM / metres_per_pixel);
   const std::uint64_t floor_seed = stream_seed(seed, "sea_floor", 0);
   return {name,
-          {draw_sea_floor({kSidePx, kSidePx}, kMetresPerPixel, floor_seed, kind_named(name)),
-           kMetresPerPixel,
+          {draw_sea_floor({side, side}, metres_per_pixel, floor_seed, kind_named(name)),
+           metres_per_pixel,
            {}}};
 }
 
@@ -41,7 +42,8 @@ Floor read_floor(const std::string& given) {
     throw InputError("--world: expected FILE:METRES_PER_PIXEL, got '" + given + "'");
   }
   return {std::filesystem::path(file).stem().string(),
-          {decode_grey_picture(read_file(file), file), metres_per_pixel, {}}};
+          refined({decode_grey_picture(read_file(file), file), metres_per_pixel, {}},
+                  test::finest_pixel_of_pairs_m(Camera()))};
 }
 
 }  // namespace

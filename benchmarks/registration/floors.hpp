@@ -16,7 +16,8 @@ struct Floor {
 /// Names of the floors that the settings ask for, procedural ones first.
 std::vector<std::string> floor_names(const Settings& settings);
 
-/// Draws or reads floor i of floor_names: a procedural one of 12 by 12 m at 3 mm a pixel. Throws
+/// Draws or reads floor i of floor_names: a procedural one of 12 by 12 m, each as fine as the
+/// pictures of pairs need. Throws
 /// InputError.
 Floor make_floor(const Settings& settings, std::size_t i);
 

@@ -17,17 +17,15 @@
 namespace fathom {
 namespace {
 
-constexpr double kMetresPerPixel = 0.003;
-constexpr int kSidePx = 3400;
+constexpr double kSideM = 10.0;
 
 const World& world_of(FloorKind kind) {
   static std::map<FloorKind, World> drawn;
   auto found = drawn.find(kind);
   if (found == drawn.end()) {
-    found = drawn
-                .emplace(kind, World{draw_sea_floor({kSidePx, kSidePx}, kMetresPerPixel, 7, kind),
-                                     kMetresPerPixel,
-                                     {}})
+    const double pixel_m = floor_pixel_m(test::finest_pixel_of_pairs_m(Camera()));
+    const int side = static_cast<int>(kSideM / pixel_m);
+    found = drawn.emplace(kind, World{draw_sea_floor({side, side}, pixel_m, 7, kind), pixel_m, {}})
                 .first;
   }
   return found->second;

@@ -12,6 +12,9 @@ namespace {
 constexpr double kMarginM = 0.5;
 constexpr int kTries = 2000;
 
+// Altitudes are log-uniform within so many octaves to either side of the nominal one.
+constexpr double kOctaves = 0.5;
+
 double any_angle(RandomStream& stream) {
   return stream.uniform(-std::numbers::pi, std::numbers::pi);
 }
@@ -87,7 +90,7 @@ std::vector<Bucket> tenths() {
 
 std::vector<ViewPair> draw_pairs(const Camera& camera, const Eigen::AlignedBox2d& world,
                                  const std::vector<Bucket>& buckets, RandomStream& stream) {
-  const double root_of_ratio = std::exp2(stream.uniform(-0.5, 0.5));
+  const double root_of_ratio = std::exp2(stream.uniform(-kOctaves, kOctaves));
   View a;
   a.altitude_m = kNominalAltitudeM * root_of_ratio;
   a = place(camera, world, a, std::nullopt, stream);
@@ -102,8 +105,12 @@ std::vector<ViewPair> draw_pairs(const Camera& camera, const Eigen::AlignedBox2d
 View draw_view(const Camera& camera, const Eigen::AlignedBox2d& world,
                const std::optional<double>& heading_rad, RandomStream& stream) {
   View view;
-  view.altitude_m = kNominalAltitudeM * std::exp2(stream.uniform(-0.5, 0.5));
+  view.altitude_m = kNominalAltitudeM * std::exp2(stream.uniform(-kOctaves, kOctaves));
   return place(camera, world, view, heading_rad, stream);
+}
+
+double finest_pixel_of_pairs_m(const Camera& camera) {
+  return finest_pixel_m(camera.model(), kNominalAltitudeM * std::exp2(-kOctaves));
 }
 
 Eigen::AlignedBox2d extent_of(const World& world) {

@@ -30,6 +30,9 @@ struct ViewPair {
   Pose motion() const { return between(a.pose, b.pose); }
 };
 
+/// Of the lowest view that draw_pairs and draw_view draw; metres.
+double finest_pixel_of_pairs_m(const Camera& camera);
+
 /// One view and partners that overlap with it, one in each bucket. The ratio of altitudes is
 /// log-uniform in [1/2, 2] and the same for all of them, its geometric mean kNominalAltitudeM; the
 /// overlap is uniform in its bucket; headings are uniform (those of a partner among the headings at
