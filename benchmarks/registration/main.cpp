@@ -42,6 +42,8 @@ void add_options(CLI::App& app, Settings& settings) {
   app.add_flag("!--skip-opencv", settings.opencv, "leave OpenCV's functions out");
   app.add_flag("--speed", settings.speed, "time matching and solving on one thread, too");
   app.add_flag("--plain", settings.plain, "decide by the paper's count of inliers instead");
+  app.add_option("--set", settings.set,
+                 "KEY=VALUE: an option of the registration, as under front_end");
   app.add_option("--json", settings.json, "write all figures to this file");
 }
 

@@ -2,8 +2,25 @@
 
 #include <algorithm>
 #include <numbers>
+#include <string>
+
+#include "fathom/core/input_error.hpp"
 
 namespace fathom::benchmarks {
+
+namespace {
+
+void set_option(RegistrationOptions& options, const std::string& setting) {
+  const std::size_t equals = setting.find('=');
+  if (equals == std::string::npos) {
+    throw InputError("--set: expected KEY=VALUE, got '" + setting + "'");
+  }
+  OptionTable table;
+  options.describe(table);
+  table.set(setting.substr(0, equals), OptionValue::scalar(setting.substr(equals + 1)));
+}
+
+}  // namespace
 
 RegistrationOptions registration_options_for(const test::Condition& condition,
                                              const Settings& settings) {
@@ -16,6 +33,7 @@ RegistrationOptions registration_options_for(const test::Condition& condition,
     options.decision.method = DecisionOptions::Method::inliers;
     options.ransac.min_places = 1;
   }
+  for (const std::string& setting : settings.set) set_option(options, setting);
   return options;
 }
 

@@ -23,11 +23,13 @@ struct Settings {
   std::size_t jobs = 2;
   bool opencv = true;
   bool speed = false;
-  bool plain = false;  ///< decide as the paper does, by a count of inliers
-  std::string json;    ///< file; empty: none
+  bool plain = false;            ///< decide as the paper does, by a count of inliers
+  std::vector<std::string> set;  ///< KEY=VALUE of the registration's options, to sweep them
+  std::string json;              ///< file; empty: none
 };
 
 /// The one place where a registration is told of its condition, such as how steady a camera is.
+/// Throws InputError where `set` has a key or a value that cannot be.
 RegistrationOptions registration_options_for(const test::Condition& condition,
                                              const Settings& settings);
 
