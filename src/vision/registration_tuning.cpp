@@ -84,8 +84,8 @@ void CovarianceTuning::describe(OptionTable& table) {
   table.integer("least_clusters", least_clusters, Range::between(2, 1e6), "",
                 "with fewer squares errors count as independent: too few for a variance");
   table.real("shared_error", shared_error, Range::at_least(0.0), "",
-             "error that all matches of a pair share, over that of one: NIS 3 on clean pairs of "
-             "the benchmark, overlaps of 30 to 90 %");
+             "error that all matches of a pair share, over that of one: NIS 3 over clean pairs and "
+             "the moderate conditions of the benchmark, overlaps of 30 to 90 %");
 }
 
 void RegistrationTuning::describe(OptionTable& table) {
