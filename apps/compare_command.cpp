@@ -20,6 +20,7 @@
 #include "fathom/core/files.hpp"
 #include "fathom/estimators/builtin.hpp"
 #include "fathom/front_end/registration_store.hpp"
+#include "fathom/harness/ground_truth.hpp"
 #include "fathom/harness/manifest.hpp"
 #include "fathom/harness/study_run.hpp"
 #include "fathom/report/study_report.hpp"
@@ -103,7 +104,9 @@ void compare(const CompareFlags& flags, Context& context) {
   const fs::path out = flags.common.folder_or(stem_of(flags.config));
   require_separate(out, study, inputs_of(flags.config, flags.settings()));
   const std::unique_ptr<RegistrationStore> cache = open_cache(flags);
-  // A data set that cannot be opened is refused before anything is written.
+  // A data set that cannot be opened, or lacks what is asked for, is refused before anything is
+  // written.
+  settle_reference(study, builtin_estimators());
   study.description.data = data_of(study);
   const Recorder data_set(study.cells.front(), cache.get());
   const int jobs = jobs_of(study);

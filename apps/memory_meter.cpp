@@ -115,8 +115,11 @@ class MallocMeter final : public MemoryMeter {
     peak_bytes = held_bytes;
   }
   std::int64_t stop() override { return peak_bytes - base_; }
+  void pause() override { peak_before_ = peak_bytes; }
+  void resume() override { peak_bytes = peak_before_; }
 
  private:
+  std::int64_t peak_before_ = 0;
   std::int64_t base_ = 0;
 };
 

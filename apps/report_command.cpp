@@ -36,7 +36,8 @@ void report(const ReportFlags& flags) {
   refuse_replacing(folder / "figures", {flags.study});
   if (flags.out.empty()) check_writable(folder);
   write_study_report(store, folder);
-  std::printf("wrote %s\n", (folder / "report.html").string().c_str());
+  std::printf("%swrote %s\n", study_remarks(store).c_str(),
+              (folder / "report.html").string().c_str());
 }
 
 }  // namespace

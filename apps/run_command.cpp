@@ -35,7 +35,7 @@ Result evaluate_with_progress(const Recording& recording, const Configuration& c
                               const EstimatorConfiguration& estimator, bool quiet) {
   ProgressLine line(estimator.name + ", keyframe", quiet);
   const auto meter = make_memory_meter();
-  ReplayOptions options;
+  ReplayOptions options = replay_options(configuration, estimator);
   options.memory = meter.get();
   options.progress = line.callback();
   return evaluate(recording, estimator, builtin_estimators(),

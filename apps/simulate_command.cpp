@@ -30,8 +30,10 @@ std::string folder_configuration(const Configuration& configuration, const std::
       lines.push_back({key, value, value.starts_with('['), ""});
     }
   }
-  // Of a comparison, the one whose estimate selects the loop candidates.
-  const EstimatorConfiguration& estimator = configuration.estimators[configuration.reference];
+  // Of a comparison, the contender that selects the loop candidates, if one does, or the first.
+  const CandidateReference& reference = configuration.reference;
+  const EstimatorConfiguration& estimator =
+      reference.is_contender ? reference.estimator : configuration.estimators.front();
   lines.push_back({"estimator.type", estimator.type, false, ""});
   for (const auto& [key, value] : estimator.values) {
     lines.push_back({"estimator." + key, value.text(), value.is_list, ""});

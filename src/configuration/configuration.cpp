@@ -6,6 +6,7 @@
 #include <string>
 
 #include "estimator_list.hpp"
+#include "fathom/configuration/study.hpp"
 #include "study_options.hpp"
 
 namespace fathom {
@@ -38,7 +39,7 @@ bool is_list_key(const std::string& key) {
 // Keys that no table describes.
 bool is_estimator_key(const std::string& key) {
   return key == "estimator" || key.starts_with("estimator.") || is_list_key(key) ||
-         key == "association.reference";
+         is_reference_key(key);
 }
 
 void set(OptionTable& table, const Setting& setting, const std::vector<std::string>& known) {
@@ -103,6 +104,21 @@ std::vector<UnusedSetting> unused_settings(const Settings& settings,
   return unused;
 }
 
+// A reference beside which nothing is left to select; another cell of a sweep may have a use.
+void add_unused_references(const Settings& settings, const Configuration& configuration,
+                           std::vector<UnusedSetting>& unused) {
+  if (selects_by_reference(configuration)) return;
+  const bool is_own = configuration.study.association == Association::own;
+  for (const Setting& setting : settings.all()) {
+    if (!is_reference_key(setting.key)) continue;
+    const std::string why =
+        is_own ? "nobody's estimate but each one's own picks the loop candidates; "
+                 "use association.mode: shared"
+               : "a " + configuration.dataset.type + " graph has its loops; nothing selects them";
+    unused.push_back({setting.key, setting.origin + ": " + setting.key + ": " + why});
+  }
+}
+
 DataSetValues given_values(const Settings& settings) {
   DataSetValues values;
   const Settings own = settings.below(std::string(kDataSet) + ".");
@@ -116,7 +132,7 @@ void configure_estimators(Configuration& configuration, const Settings& settings
                           ConfigurationKind kind, const EstimatorRegistry& registry) {
   if (kind == ConfigurationKind::comparison) {
     configuration.estimators = configure_list(settings, registry);
-    configuration.reference = find_reference(settings, configuration.estimators);
+    configuration.reference = configure_reference(settings, configuration.estimators, registry);
     return;
   }
   if (const Setting* scalar = settings.find("estimator")) {
@@ -124,9 +140,15 @@ void configure_estimators(Configuration& configuration, const Settings& settings
   }
   configuration.estimators = {
       configure_estimator(settings.below("estimator."), registry, "estimator.")};
+  configuration.reference = by_contender(configuration.estimators.front());
 }
 
 }  // namespace
+
+bool selects_by_reference(const Configuration& cell) {
+  return cell.study.association == Association::shared &&
+         !find_data_set(cell.dataset.type).is_graph;
+}
 
 ConfigurationKind kind_of(const Settings& settings) {
   const std::vector<Setting>& all = settings.all();
@@ -170,6 +192,7 @@ Configuration configure(const Settings& settings, ConfigurationKind kind,
   std::ranges::copy(ignored_of_false_loops(settings, configuration.study.false_loops),
                     std::back_inserter(ignored));
   unused = unused_settings(settings, ignored, table);
+  add_unused_references(settings, configuration, unused);
   configure_estimators(configuration, settings, kind, registry);
   for (const OptionDescription& option : table.descriptions()) {
     configuration.types[option.key] = option.type;

@@ -108,6 +108,10 @@ EstimatorConfiguration configure_estimator(const Settings& settings,
   if (estimator.name == kDeadReckoning) {
     refuse(*settings.find("name"), prefix + "name: dead_reckoning is the baseline of every table");
   }
+  if (estimator.name == kGroundTruth || estimator.name == kAutomatic) {
+    refuse(*settings.find("name"),
+           prefix + "name: " + estimator.name + " is a word of association.reference");
+  }
   if (prefix != "estimator.") refuse_unused(own, entry, prefix);
   estimator.values = estimator_values(own, entry, {}, prefix);
   return estimator;
@@ -136,24 +140,6 @@ std::vector<EstimatorConfiguration> configure_list(const Settings& settings,
     list.push_back({entry.name, entry.name, {}});
   }
   return list;
-}
-
-std::size_t find_reference(const Settings& settings,
-                           const std::vector<EstimatorConfiguration>& estimators) {
-  const Setting* setting = settings.find("association.reference");
-  if (setting == nullptr) return 0;
-  std::vector<std::string> names;
-  names.reserve(estimators.size());
-  for (const EstimatorConfiguration& estimator : estimators) {
-    names.push_back(estimator.name);
-  }
-  const std::string& name = word_of(*setting, "association.reference");
-  const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end()) {
-    refuse(*setting, "association.reference: no estimator is called '" + name + "'" +
-                         suggestion(name, names));
-  }
-  return static_cast<std::size_t>(found - names.begin());
 }
 
 }  // namespace fathom

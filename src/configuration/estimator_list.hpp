@@ -18,8 +18,13 @@ EstimatorConfiguration configure_estimator(const Settings& settings,
 std::vector<EstimatorConfiguration> configure_list(const Settings& settings,
                                                    const EstimatorRegistry& registry);
 
-/// The place in the list of `association.reference`, by default the first. Throws InputError.
-std::size_t find_reference(const Settings& settings,
-                           const std::vector<EstimatorConfiguration>& estimators);
+/// Whether a key is `association.reference` or one below it.
+bool is_reference_key(const std::string& key);
+
+/// What `association.reference` says: `ground_truth`, `automatic` (the default), the name of one of
+/// these estimators, or a map with the type and the options of another. Throws InputError.
+CandidateReference configure_reference(const Settings& settings,
+                                       const std::vector<EstimatorConfiguration>& estimators,
+                                       const EstimatorRegistry& registry);
 
 }  // namespace fathom

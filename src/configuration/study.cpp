@@ -49,8 +49,6 @@ void refuse_same_values(const Axis& axis, const std::string& type) {
   }
 }
 
-using KeyValues = std::vector<std::pair<std::string, std::string>>;
-
 // Keys in force in any cell; those that are not swept are the same in all that have them.
 std::map<std::string, std::string> in_force_anywhere(const std::vector<Configuration>& cells) {
   std::map<std::string, std::string> all;
@@ -69,7 +67,14 @@ void add_estimators(std::map<std::string, std::string>& all, const Configuration
       all[prefix + key] = value;
     }
   }
-  all["association.reference"] = base.estimators[base.reference].name;
+}
+
+// Of a study whose candidates all estimators select themselves, or that has none, nothing.
+void add_reference(std::map<std::string, std::string>& all, const std::vector<Configuration>& cells,
+                   const EstimatorRegistry& registry) {
+  const auto shared = std::ranges::find_if(cells, selects_by_reference);
+  if (shared == cells.end()) return;
+  for (const auto& [key, value] : reference_values(shared->reference, registry)) all[key] = value;
 }
 
 std::string values_text(const Axis& axis, const std::string& type) {
@@ -85,6 +90,7 @@ KeyValues configuration_of(const std::vector<Configuration>& cells, const std::v
                            const EstimatorRegistry& registry) {
   std::map<std::string, std::string> all = in_force_anywhere(cells);
   add_estimators(all, cells.front(), registry);
+  add_reference(all, cells, registry);
   std::erase_if(all, [](const auto& entry) { return is_session_key(entry.first); });
   for (const Axis& axis : axes) {
     all.erase(axis.described.key);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <optional>
 
+#include "fathom/datasets/data_set.hpp"
+
 namespace fathom {
 namespace {
 
@@ -13,6 +15,20 @@ std::optional<std::string> swept_value(const StudyDescription& study, std::size_
     if (study.axes[i].key == key) return study.axes[i].written_values()[study.places_of(cell)[i]];
   }
   return std::nullopt;
+}
+
+std::string value_of(const StudyDescription& study, std::size_t cell, const std::string& key) {
+  if (const auto swept = swept_value(study, cell, key)) return *swept;
+  const auto found = std::find_if(study.configuration.begin(), study.configuration.end(),
+                                  [&key](const auto& entry) { return entry.first == key; });
+  return found == study.configuration.end() ? "" : found->second;
+}
+
+// False of a type that this version does not know.
+bool is_graph(const std::string& data_set) {
+  return std::ranges::any_of(data_sets(), [&](const DataSetEntry& entry) {
+    return entry.name == data_set && entry.is_graph;
+  });
 }
 
 }  // namespace
@@ -44,11 +60,18 @@ std::string StudyDescription::label_of(std::size_t cell) const {
 }
 
 std::string StudyDescription::association_of(std::size_t cell) const {
-  const std::string key = "association.mode";
-  if (const auto swept = swept_value(*this, cell, key)) return *swept;
-  const auto found = std::find_if(configuration.begin(), configuration.end(),
-                                  [&key](const auto& entry) { return entry.first == key; });
-  return found == configuration.end() ? "" : found->second;
+  return value_of(*this, cell, "association.mode");
+}
+
+std::string StudyDescription::selected_by(std::size_t cell) const {
+  if (association_of(cell) != "shared" || is_graph(value_of(*this, cell, "dataset.type")))
+    return "";
+  const std::string type = value_of(*this, cell, "association.reference.type");
+  if (!type.empty()) return "the estimate of " + type + ", no contender";
+  const std::string name = value_of(*this, cell, "association.reference");
+  if (name == kGroundTruth) return "ground truth";
+  if (name == kAutomatic) return "ground truth, where there is no such by an estimate";
+  return name.empty() ? "" : "the estimate of " + name + ", a contender";
 }
 
 std::string StudyDescription::alignment_of(std::size_t cell) const {

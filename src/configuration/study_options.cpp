@@ -50,6 +50,12 @@ void StudyOptions::describe(OptionTable& table) {
               "relative errors over so many keyframes");
   table.reals("evaluation.rpe_distances_m", rpe_distances_m, 1, "m",
               "relative errors over such distances along the true path");
+  table.integer("evaluation.anchors", anchors, Range::between(1, 1000), "keyframes",
+                "keyframes held in turn (anchored_anees)");
+  table.integer("evaluation.relative_pairs", relative_pairs, Range::between(1, 1000), "",
+                "motions over each separation or distance, and keyframes for each anchor, at most");
+  table.boolean("evaluation.newest_covariance", newest_covariance,
+                "ask for the covariance of the newest pose after every keyframe, and time it");
   table.real("evaluation.min_overlap", min_overlap, Range::between(0.01, 1.0), "",
              "true overlap from which on a pair of keyframes should be found (loop_recall)");
 }
@@ -83,12 +89,6 @@ std::vector<IgnoredKey> ignored_of_false_loops(const Settings& settings,
 
 void check_study(const Settings& settings, const StudyOptions& study,
                  const DataSetEntry& data_set) {
-  const Setting* reference = settings.find("association.reference");
-  if (reference != nullptr && study.association == Association::own) {
-    refuse(*reference,
-           "association.reference: nobody's estimate but each one's own picks the loop candidates; "
-           "use association.mode: shared");
-  }
   if (!data_set.draws_trials() && study.trials > 1 && study.false_loops.share == 0.0) {
     refuse(*settings.find("trials"),
            "trials: a pose graph without false loops has nothing to draw; expected 1");

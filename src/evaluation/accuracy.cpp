@@ -6,6 +6,7 @@
 
 #include "checks.hpp"
 #include "fathom/core/input_error.hpp"
+#include "fathom/evaluation/keyframe_pairs.hpp"
 
 namespace fathom {
 namespace {
@@ -20,42 +21,26 @@ double root_mean_square(std::span<const double> values) {
   return std::sqrt(sum / static_cast<double>(values.size()));
 }
 
-/// Indices of two keyframes, from before to.
-struct Stretch {
-  std::size_t from = 0;
-  std::size_t to = 0;
-};
-
 std::optional<RelativeError> relative_error_of(std::span<const Pose> estimate,
                                                std::span<const Pose> reference,
-                                               std::span<const Stretch> stretches) {
-  if (stretches.empty() || !all_finite(estimate) || !all_finite(reference)) return std::nullopt;
+                                               std::span<const KeyframePair> pairs) {
+  if (pairs.empty() || !all_finite(estimate) || !all_finite(reference)) return std::nullopt;
   std::vector<double> translations;
   std::vector<double> rotations;
-  for (const auto& [from, to] : stretches) {
+  for (const auto& [from, to] : pairs) {
     const Pose error =
         between(between(reference[from], reference[to]), between(estimate[from], estimate[to]));
     translations.push_back(std::hypot(error.x, error.y));
     rotations.push_back(std::abs(error.theta));
   }
   RelativeError result;
-  result.pairs = stretches.size();
+  result.pairs = pairs.size();
   result.translation_mean_m = mean(translations);
   result.translation_rmse_m = root_mean_square(translations);
   result.rotation_mean_rad = mean(rotations);
   result.rotation_rmse_rad = root_mean_square(rotations);
   if (!std::isfinite(result.translation_rmse_m)) return std::nullopt;
   return result;
-}
-
-// Path length from the first pose to each.
-std::vector<double> path_lengths_m(std::span<const Pose> poses) {
-  std::vector<double> lengths(poses.size(), 0.0);
-  for (std::size_t k = 1; k < poses.size(); ++k) {
-    lengths[k] =
-        lengths[k - 1] + std::hypot(poses[k].x - poses[k - 1].x, poses[k].y - poses[k - 1].y);
-  }
-  return lengths;
 }
 
 }  // namespace
@@ -110,11 +95,8 @@ std::optional<RelativeError> relative_error(std::span<const Pose> estimate,
   if (separation_keyframes == 0) {
     throw InputError("a relative error needs a separation of at least 1 keyframe, got 0");
   }
-  std::vector<Stretch> stretches;
-  for (std::size_t to = separation_keyframes; to < estimate.size(); ++to) {
-    stretches.push_back({to - separation_keyframes, to});
-  }
-  return relative_error_of(estimate, reference, stretches);
+  return relative_error_of(estimate, reference,
+                           pairs_over_keyframes(estimate.size(), separation_keyframes));
 }
 
 std::optional<RelativeError> relative_error_over(std::span<const Pose> estimate,
@@ -126,15 +108,7 @@ std::optional<RelativeError> relative_error_over(std::span<const Pose> estimate,
                      std::to_string(distance_m));
   }
   if (!all_finite(reference)) return std::nullopt;
-  const std::vector<double> lengths = path_lengths_m(reference);
-  std::vector<Stretch> stretches;
-  for (std::size_t from = 0; from < lengths.size(); ++from) {
-    const auto reached =
-        std::lower_bound(lengths.begin(), lengths.end(), lengths[from] + distance_m);
-    if (reached == lengths.end()) break;
-    stretches.push_back({from, static_cast<std::size_t>(reached - lengths.begin())});
-  }
-  return relative_error_of(estimate, reference, stretches);
+  return relative_error_of(estimate, reference, pairs_over_distance(reference, distance_m));
 }
 
 }  // namespace fathom

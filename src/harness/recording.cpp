@@ -2,8 +2,8 @@
 
 #include <cmath>
 
+#include "candidate_guide.hpp"
 #include "fathom/harness/false_loops.hpp"
-#include "fathom/harness/guarded_estimator.hpp"
 #include "fathom/harness/survey.hpp"
 #include "fathom/measurements/g2o.hpp"
 
@@ -45,44 +45,24 @@ InputError single_keyframe(int separation_frames, std::size_t frames) {
                     std::to_string(frames - 1));
 }
 
-// Poses without covariances.
-class FixedTrajectory : public TrajectoryView {
- public:
-  explicit FixedTrajectory(std::vector<Pose> poses) : poses_(std::move(poses)) {}
-  std::size_t size() const override { return poses_.size(); }
-  Pose pose(std::size_t k) const override { return poses_[k]; }
-
- private:
-  std::vector<Pose> poses_;
-};
-
-// Where the reference turns out faulty dead reckoning picks the candidates; the reference's own
-// replay says what it did.
-std::vector<RelativePose> register_newest(FrontEnd& front_end, const GuardedEstimator& reference,
-                                          const MeasurementLog& log) {
-  for (std::size_t k = 0; k < reference.size() && reference.fault().empty(); ++k) reference.pose(k);
-  if (reference.fault().empty()) return front_end.register_newest(reference);
-  return front_end.register_newest(FixedTrajectory(log.odometry()));
-}
-
-// The paper from pictures to measurements. An estimator runs along, as the candidates of section 3
-// are picked by an estimate; the log of measurements is all that is kept of it.
-MeasurementLog log_of(FrontEnd& front_end, GuardedEstimator& estimator, std::size_t frames,
+// The paper from pictures to measurements. A guide runs along, as the candidates of section 3 are
+// picked by a trajectory; the log of measurements is all that is kept of it.
+MeasurementLog log_of(FrontEnd& front_end, CandidateGuide& guide, std::size_t frames,
                       const Progress& progress) {
   MeasurementLog log;
   // Section 2: every so many frames a keyframe, with the dead reckoning since the last one.
   while (const auto keyframe = front_end.next_keyframe()) {
+    // Section 3, augmentation: the state grows by the motion to the new keyframe.
+    guide.add_keyframe(*keyframe);
     if (keyframe->step) {
-      // Section 3, augmentation: the state grows by the motion to the new keyframe.
       log.add_keyframe(*keyframe->step);
-      estimator.add_keyframe(*keyframe->step);
       // Section 3, data association: the keyframes that the estimate has near; each pair is
       // registered by features, their matches and RANSAC (section 2, figures 1 to 3, equations 1
       // to 3).
-      const std::vector<RelativePose> found = register_newest(front_end, estimator, log);
+      const std::vector<RelativePose> found = front_end.register_newest(guide.trajectory());
       for (const RelativePose& registration : found) log.add_registration(registration);
       // Section 3, update: all registrations of the keyframe stacked, and iterated.
-      if (!found.empty()) estimator.close_loops(found);
+      if (!found.empty()) guide.close_loops(found);
     }
     if (progress) progress(front_end.frames().size(), frames);
   }
@@ -109,14 +89,25 @@ void take_frames(Recording& recording, const FrameSource& source, const FrontEnd
   recording.frame_ground_truth = frame_ground_truth_of(source, recording.frames.size());
 }
 
-Recording record_survey(Survey& survey, const Configuration& configuration, std::size_t by,
-                        const EstimatorRegistry& registry, const Progress& progress) {
+std::unique_ptr<CandidateGuide> guide_of(const Survey& survey, const Configuration& configuration,
+                                         const CandidateReference& reference,
+                                         const EstimatorRegistry& registry) {
+  try {
+    return make_guide(reference, registry, survey.measured(),
+                      configuration.front_end.separation_frames);
+  } catch (const InputError& error) {
+    throw at_origin(configuration, error);
+  }
+}
+
+Recording record_survey(Survey& survey, const Configuration& configuration,
+                        const CandidateReference& reference, const EstimatorRegistry& registry,
+                        const Progress& progress) {
   const FrameSource& source = survey.frames();
   FrontEnd front_end(source, survey.registrar(), configuration.front_end);
-  const EstimatorConfiguration& reference = configuration.estimators[by];
-  GuardedEstimator estimator(registry.find(reference.type), {}, reference.values);
+  const auto guide = guide_of(survey, configuration, reference, registry);
   Recording recording;
-  recording.log = log_of(front_end, estimator, source.size(), progress);
+  recording.log = log_of(front_end, *guide, source.size(), progress);
   if (front_end.keyframes().size() < 2) {
     throw at_origin(configuration,
                     single_keyframe(configuration.front_end.separation_frames, source.size()));
@@ -206,7 +197,7 @@ Recorder::Recorder(const Configuration& configuration, RegistrationCache* cache)
       graph_recording(*graph_data_->graph(), files.empty() ? "dataset" : files.front().string());
 }
 
-Recording Recorder::record(const Configuration& configuration, std::size_t reference,
+Recording Recorder::record(const Configuration& configuration, const CandidateReference& reference,
                            const EstimatorRegistry& registry, const TrialNoise& noise,
                            const Progress& progress) const {
   Recording recording;

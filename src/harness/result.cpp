@@ -47,6 +47,8 @@ ReplayFacts replay_facts(const Recording& recording, const Replay& replay,
   facts.is_local_minimum = replay.is_local_minimum;
   facts.update_ms = replay.update_ms;
   facts.add_ms = replay.add_ms;
+  facts.newest_covariance_ms = replay.newest_covariance_ms;
+  facts.candidate_covariance_ms = replay.candidate_covariance_ms;
   facts.total_ms = replay.total_ms;
   facts.cpu_ms = replay.cpu_ms;
   if (replay.covariances) facts.covariance_ms = replay.covariance_ms;
@@ -64,6 +66,10 @@ std::optional<double> least_known(std::optional<double> chi2_optimum, const Meas
   return below ? std::min(below->chi2, *chi2_optimum) : chi2_optimum;
 }
 
+MotionOptions motion_options(const MetricOptions& options) {
+  return {options.rpe_keyframes, options.rpe_distances_m, options.anchors, options.relative_pairs};
+}
+
 // What is known of an estimate of the keyframes without whose it is.
 RunFacts facts_of(const Recording& recording, const std::vector<Pose>& estimate,
                   const MetricOptions& options) {
@@ -72,13 +78,48 @@ RunFacts facts_of(const Recording& recording, const std::vector<Pose>& estimate,
   return facts;
 }
 
+// Dead reckoning's steps are independent, so a motion is the composition of those between.
+std::vector<JudgedMotions> dead_reckoned_motions(const Recording& recording,
+                                                 const MetricOptions& options) {
+  if (!recording.ground_truth) return {};
+  auto groups = motions_to_judge(*recording.ground_truth, motion_options(options));
+  for (JudgedMotions& motions : groups) {
+    for (const auto& [from, to] : motions.pairs) {
+      std::vector<UncertainPose> steps;
+      for (std::size_t k = std::min(from, to) + 1; k <= std::max(from, to); ++k) {
+        const RelativePose step = recording.log.arrival(k).step.forward();
+        steps.push_back({step.motion, step.covariance()});
+      }
+      const UncertainPose motion = compose_chain(steps);
+      motions.covariances.push_back(from < to ? motion.covariance : inverse(motion).covariance);
+    }
+  }
+  return groups;
+}
+
 }  // namespace
 
 MetricOptions metric_options(const Configuration& configuration) {
   return {.alignment = configuration.alignment,
           .rpe_keyframes = configuration.study.rpe_keyframes,
           .rpe_distances_m = configuration.study.rpe_distances_m,
+          .anchors = static_cast<std::size_t>(configuration.study.anchors),
+          .relative_pairs = static_cast<std::size_t>(configuration.study.relative_pairs),
           .min_overlap = configuration.study.min_overlap};
+}
+
+ReplayOptions replay_options(const Configuration& configuration,
+                             const EstimatorConfiguration& estimator) {
+  ReplayOptions options;
+  options.newest_covariances = configuration.study.newest_covariance;
+  const CandidateReference& reference = configuration.reference;
+  const bool selects = configuration.study.association == Association::own ||
+                       (reference.is_contender && reference.estimator.name == estimator.name);
+  const bool has_pictures = !find_data_set(configuration.dataset.type).is_graph;
+  options.candidate_covariances =
+      selects && has_pictures &&
+      configuration.front_end.candidates.method == CandidateMethod::mahalanobis;
+  return options;
 }
 
 std::optional<double> Result::metric(const std::string& name) const {
@@ -93,7 +134,11 @@ Result evaluate(const Recording& recording, const EstimatorConfiguration& estima
   result.estimator = estimator;
   result.mode = options.mode;
   result.options = judging.metrics;
-  result.replay = replay(recording.log, registry.find(estimator.type), estimator.values, options);
+  ReplayOptions asked = options;
+  if (recording.ground_truth) {
+    asked.motions = motions_to_judge(*recording.ground_truth, motion_options(judging.metrics));
+  }
+  result.replay = replay(recording.log, registry.find(estimator.type), estimator.values, asked);
   const std::vector<Pose>& estimate = result.replay.trajectory;
   RunFacts facts = facts_of(recording, estimate, judging.metrics);
   if (!recording.frames.empty()) {
@@ -104,6 +149,7 @@ Result evaluate(const Recording& recording, const EstimatorConfiguration& estima
   if (shared.true_overlaps) facts.true_overlaps = &*shared.true_overlaps;
   facts.chi2_optimum = least_known(shared.chi2_optimum, recording.log, estimate, registry);
   if (result.replay.covariances) facts.covariances = *result.replay.covariances;
+  facts.motions = result.replay.motions;
   facts.replay = replay_facts(recording, result.replay, options);
   JudgedRun judged = judge(std::move(facts));
   result.metrics = metric_values(judged);
@@ -125,6 +171,8 @@ DeadReckoning judged_dead_reckoning(const Recording& recording, const MetricOpti
   const std::vector<Pose> odometry = log.odometry();
   RunFacts facts = facts_of(recording, odometry, options);
   facts.covariances = result.covariances;
+  const std::vector<JudgedMotions> motions = dead_reckoned_motions(recording, options);
+  facts.motions = motions;
   const JudgedRun judged = judge(std::move(facts));
   result.metrics = metric_values(judged);
   result.consistency = judged.consistency;

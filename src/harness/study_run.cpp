@@ -111,7 +111,7 @@ class Runner {
   void run_trial(const Task& task, MemoryMeter* meter) {
     const Configuration& configuration = study_.cells[task.cell];
     const std::shared_ptr<const Recorder> recorder = data_sets_.of(task.cell);
-    const auto record_by = [&](std::size_t reference) {
+    const auto record_by = [&](const CandidateReference& reference) {
       RecordedTrial made{
           std::make_shared<const Recording>(recorder->record(
               configuration, reference, registry_, {study_.noise_seeds[task.cell], task.trial})),
@@ -124,7 +124,7 @@ class Runner {
     if (!is_own || task.estimators.empty()) trial = record_by(configuration.reference);
     for (const std::size_t e : task.estimators) {
       if (is_stopped()) return;
-      if (is_own) trial = record_by(e);
+      if (is_own) trial = record_by(by_contender(configuration.estimators[e]));
       if (task.baseline && e == task.estimators.front()) add_baseline(task, *trial->recording);
       add_run(task, e, *trial, meter);
     }
@@ -143,11 +143,11 @@ class Runner {
   void add_run(const Task& task, std::size_t estimator, const RecordedTrial& trial,
                MemoryMeter* meter) {
     const Configuration& configuration = study_.cells[task.cell];
-    ReplayOptions replay_options;
-    replay_options.memory = meter;
+    ReplayOptions asked = replay_options(configuration, configuration.estimators[estimator]);
+    asked.memory = meter;
     Result result =
         evaluate(*trial.recording, configuration.estimators[estimator], registry_,
-                 {.metrics = metric_options(configuration), .facts = &trial.facts}, replay_options);
+                 {.metrics = metric_options(configuration), .facts = &trial.facts}, asked);
     RunRecord run = run_record(*trial.recording, result, trial.facts.log_hash);
     run.key = {task.cell, task.trial, configuration.estimators[estimator].name};
     run.jobs = static_cast<int>(threads_);
@@ -171,9 +171,10 @@ class Runner {
     for (std::size_t e = 0; e < configuration.estimators.size(); ++e) {
       if (example_.contains(e)) continue;
       if (is_own || !shared) {
-        shared = std::make_shared<const Recording>(
-            data_sets_.of(0)->record(configuration, is_own ? e : configuration.reference, registry_,
-                                     {study_.noise_seeds.front(), 0}));
+        shared = std::make_shared<const Recording>(data_sets_.of(0)->record(
+            configuration,
+            is_own ? by_contender(configuration.estimators[e]) : configuration.reference, registry_,
+            {study_.noise_seeds.front(), 0}));
       }
       const EstimatorConfiguration& estimator = configuration.estimators[e];
       Result result =

@@ -90,6 +90,7 @@ std::string joint_caption(const StudyResults& results) {
                           [](const auto& a, const auto& b) { return a.trials < b.trials; });
   std::string text = joint_text("alignment", results, &CellResults::alignment) +
                      joint_text("association", results, &CellResults::association) +
+                     joint_text("loops selected by", results, &CellResults::selected_by) +
                      "n = " + std::to_string(least->trials);
   if (most->trials > least->trials) text += " to " + std::to_string(most->trials);
   return latex_text(text);

@@ -71,11 +71,9 @@ Json updates_json(const UpdateCost& cost, std::size_t most) {
 
 Json estimator_json(const EstimatorResults& one, const EstimatorSeries& series, std::size_t trials,
                     std::size_t most) {
-  Json json{{"name", one.name},
-            {"runs", one.runs.size()},
-            {"done", one.done},
-            {"outcome_text", outcome_text(one, trials)},
-            {"outcomes", one.outcomes}};
+  Json json{{"name", one.name},         {"runs", one.runs.size()},
+            {"done", one.done},         {"outcome_text", outcome_text(one, trials)},
+            {"outcomes", one.outcomes}, {"words", one.words}};
   json["metrics"] = Json::object();
   for (const auto& [metric, summary] : one.metrics) json["metrics"][metric] = metric_json(summary);
   json["keyframes"] = keyframes_json(series.keyframes, most);
@@ -112,6 +110,7 @@ Json cell_json(const ResultStore& store, const CellResults& cell,
             {"caption", cell_caption(cell)},
             {"places", study.places_of(cell.cell)},
             {"association", cell.association},
+            {"selected_by", cell.selected_by},
             {"alignment", cell.alignment},
             {"jobs", counts_text(cell.jobs)},
             {"n", cell.trials}};

@@ -55,6 +55,7 @@ std::string failures_text(const CellResults& cell) {
 std::string cell_caption(const CellResults& cell) {
   std::string text = cell.label + ": ";
   if (!cell.association.empty()) text += "association " + cell.association + ", ";
+  if (!cell.selected_by.empty()) text += "loops selected by " + cell.selected_by + ", ";
   if (!cell.alignment.empty()) text += "alignment " + cell.alignment + ", ";
   text += "n = " + std::to_string(cell.trials);
   if (!cell.jobs.empty()) text += ", jobs " + counts_text(cell.jobs);

@@ -5,6 +5,7 @@
 
 #include "fathom/core/input_error.hpp"
 #include "fathom/results/run_index.hpp"
+#include "honesty_words.hpp"
 
 namespace fathom {
 namespace {
@@ -24,16 +25,30 @@ std::vector<double> values_of(const EstimatorResults& estimator, const std::stri
   return values;
 }
 
+std::map<std::string, MetricSummary> summaries(const EstimatorResults& estimator,
+                                               const std::vector<std::string>& metrics) {
+  std::map<std::string, MetricSummary> all;
+  for (const std::string& metric : metrics) {
+    const std::vector<double> values = values_of(estimator, metric);
+    if (!values.empty()) all[metric] = {*moments(values), bootstrap_interval(values)};
+  }
+  return all;
+}
+
 void sum_up(EstimatorResults& estimator, const std::vector<std::string>& metrics) {
   for (const RunRecord& run : estimator.runs) {
     estimator.done += is_failed(run) ? 0 : 1;
     if (!run.outcome.empty()) ++estimator.outcomes[run.outcome];
   }
-  for (const std::string& metric : metrics) {
-    const std::vector<double> values = values_of(estimator, metric);
-    if (values.empty()) continue;
-    estimator.metrics[metric] = {*moments(values), bootstrap_interval(values)};
+  estimator.metrics = summaries(estimator, metrics);
+  std::set<std::string> of_words;
+  for (const RunRecord& run : estimator.runs) {
+    for (const auto& [metric, value] : run.metrics) {
+      if (is_of_words(metric)) of_words.insert(metric);
+    }
   }
+  estimator.words =
+      honesty_words(summaries(estimator, {of_words.begin(), of_words.end()}), estimator.done);
 }
 
 std::optional<PairedDifference> difference(const EstimatorResults& one,
@@ -108,6 +123,7 @@ CellResults runs_of(const RunIndex& index, std::size_t number) {
   cell.cell = number;
   cell.label = study.label_of(number);
   cell.association = study.association_of(number);
+  cell.selected_by = study.selected_by(number);
   cell.alignment = study.alignment_of(number);
   std::vector<std::string> names{kDeadReckoning};
   for (const StudyEstimator& estimator : study.estimators) names.push_back(estimator.name);

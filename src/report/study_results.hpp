@@ -27,6 +27,8 @@ struct EstimatorResults {
   std::size_t done = 0;
   std::map<std::string, std::size_t> outcomes;
   std::map<std::string, MetricSummary> metrics;
+  /// What its consistency means; none where it is as expected or not known.
+  std::vector<std::string> words = {};
 
   std::size_t failures() const { return runs.size() - done; }
 };
@@ -43,6 +45,7 @@ struct CellResults {
   std::size_t cell = 0;
   std::string label;
   std::string association;  ///< empty where the study names none
+  std::string selected_by;  ///< what selected the loops of all; empty where the study names none
   std::string alignment;    ///< of its errors; empty where the study names none
   std::set<int> jobs;
   std::size_t trials = 0;                    ///< that have any run

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <map>
 #include <sstream>
 
 #include "fathom/report/study_report.hpp"
@@ -110,6 +111,35 @@ std::string paired_table(const CellResults& cell, const StudyDescription& study)
   return "\n" + table.text();
 }
 
+// A line for each estimator whose consistency means something.
+std::string words_of(const CellResults& cell) {
+  std::string text;
+  for (const EstimatorResults& one : cell.estimators) {
+    if (one.words.empty()) continue;
+    text += display_name(one.name) + ":";
+    for (const std::string& sentence : one.words) text += " " + sentence;
+    text += "\n";
+  }
+  return text.empty() ? "" : "\n" + text;
+}
+
+// "In 3 of 40 cells ekf is over- or underconfident": what is left of it in brief.
+std::string words_in_brief(const StudyResults& results) {
+  std::map<std::string, std::size_t> cells;
+  for (const CellResults& cell : results.cells) {
+    for (const EstimatorResults& one : cell.estimators) {
+      if (!one.words.empty()) ++cells[display_name(one.name)];
+    }
+  }
+  std::string text;
+  for (const auto& [name, count] : cells) {
+    text += (text.empty() ? "" : ", ") + name + " in " + std::to_string(count);
+  }
+  if (text.empty()) return "";
+  return "Over- or underconfident, of " + std::to_string(results.cells.size()) + " cells: " + text +
+         ".\n";
+}
+
 }  // namespace
 
 std::string study_table(const ResultStore& store, StudyTable extent) {
@@ -120,10 +150,11 @@ std::string study_table(const ResultStore& store, StudyTable extent) {
   for (const CellResults& cell : results.cells) {
     text += cell_caption(cell) + "\n";
     text += estimator_table(cell, study, extent);
-    if (extent == StudyTable::full) text += paired_table(cell, study);
+    if (extent == StudyTable::full) text += words_of(cell) + paired_table(cell, study);
     text += "\n";
     intervals = intervals || cell.trials > 1;
   }
+  if (extent == StudyTable::brief) text += words_in_brief(results);
   if (intervals) {
     text += "Means over the trials that were done, with the 95 % bootstrap interval of the mean.";
     text +=
@@ -131,6 +162,15 @@ std::string study_table(const ResultStore& store, StudyTable extent) {
             ? " p: signed-rank test over the\npairs of trials that both did; Holm: adjusted over "
               "all tests of the block.\n"
             : "\n";
+  }
+  return text;
+}
+
+std::string study_remarks(const ResultStore& store) {
+  std::string text;
+  for (const CellResults& cell : study_results(store, MetricsOf::study).cells) {
+    const std::string words = words_of(cell);
+    if (!words.empty()) text += cell_caption(cell) + words + "\n";
   }
   return text;
 }

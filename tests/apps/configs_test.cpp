@@ -151,6 +151,22 @@ TEST_F(Configs, RegimesSurveyRun) {
   EXPECT_EQ(ResultStore::open(path("out")).runs().size(), 24u * 9u);
 }
 
+TEST_F(Configs, SharedErrorsOfTheAltimeterRun) {
+  expect_runs("compare", "studies/shared_errors_altimeter.yaml",
+              with_small_camera({"dataset.world.metres_per_pixel=0.01", "dataset.mission.legs=2",
+                                 "dataset.mission.leg_length_m=3", "trials=1"}),
+              "ekf/metrics.json");
+  EXPECT_EQ(ResultStore::open(path("out")).runs().size(), 24u * 4u);
+}
+
+TEST_F(Configs, SharedErrorsOfATiltRun) {
+  expect_runs("compare", "studies/shared_errors_tilt.yaml",
+              with_small_camera({"dataset.world.metres_per_pixel=0.01", "dataset.mission.legs=2",
+                                 "dataset.mission.leg_length_m=3", "trials=1"}),
+              "ekf/metrics.json");
+  EXPECT_EQ(ResultStore::open(path("out")).runs().size(), 24u * 4u);
+}
+
 // image_folder.yaml runs as it is in real_data_test.cpp.
 
 }  // namespace

@@ -20,6 +20,17 @@ using test::renderer_of;
 constexpr double kAltitudeM = 2.0;
 const Eigen::Vector2d kMiddle(319.5, 239.5);
 
+TEST(Attitude, OneSigmaForBothIsThatOfEach) {
+  AttitudeOptions each;
+  each.roll_sigma_rad = each.pitch_sigma_rad = 0.02;
+  AttitudeOptions both;
+  both.both_sigma_rad = 0.02;
+  EXPECT_EQ(draw_attitude(both, 20, 0.2, 5), draw_attitude(each, 20, 0.2, 5));
+  EXPECT_FALSE(both.is_level());
+  both.both_sigma_rad = 0.0;
+  EXPECT_TRUE(both.is_level());
+}
+
 // Positive roll looks to port (y), positive pitch aft (−x), each by altitude · tan.
 TEST(Tilt, MovesTheMiddleOfThePicture) {
   const double moved_m = kAltitudeM * std::tan(0.1);

@@ -115,6 +115,12 @@ INSTANTIATE_TEST_SUITE_P(
                   "dataset.camera_effects.contrast: "},
         BadSurvey{"BackscatterInClearWater", [](auto& o) { o.effects.water.backscatter = 9; },
                   "dataset.water.backscatter: has no effect"},
+        BadSurvey{"BothTiltsAndOne",
+                  [](auto& o) {
+                    o.attitude.both_sigma_rad = 0.01;
+                    o.attitude.pitch_sigma_rad = 0.02;
+                  },
+                  "dataset.attitude.both_sigma_rad: takes the place of"},
         BadSurvey{"CorrelationOfALevelCamera", [](auto& o) { o.attitude.correlation_time_s = 1.0; },
                   "dataset.attitude.correlation_time_s: has no effect"},
         BadSurvey{"CameraSeesTheHorizon",

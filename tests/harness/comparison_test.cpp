@@ -24,7 +24,8 @@ TEST(ConfigureComparison, WithoutAListTakesEveryEstimator) {
   for (std::size_t i = 0; i < configuration.estimators.size(); ++i) {
     EXPECT_EQ(configuration.estimators[i].type, builtin_estimators().entries()[i].name);
   }
-  EXPECT_EQ(configuration.reference, 0u);
+  EXPECT_EQ(configuration.reference.kind, CandidateReference::Kind::automatic);
+  EXPECT_FALSE(configuration.reference.is_contender);
 }
 
 TEST(ConfigureComparison, TakesAListWithNamesAndAReference) {
@@ -41,7 +42,9 @@ TEST(ConfigureComparison, TakesAListWithNamesAndAReference) {
   EXPECT_EQ(configuration.estimators[1].type, "trajectory_iekf");
   EXPECT_THAT(configuration.estimators[1].values.at("max_iterations").items, ElementsAre("1"));
   EXPECT_TRUE(configuration.estimators[2].values.empty());
-  EXPECT_EQ(configuration.reference, 2u);
+  EXPECT_EQ(configuration.reference.kind, CandidateReference::Kind::estimate);
+  EXPECT_EQ(configuration.reference.estimator.name, "many");
+  EXPECT_TRUE(configuration.reference.is_contender);
 }
 
 TEST(ConfigureComparison, AnOverrideChangesOrAppendsAnItem) {

@@ -145,7 +145,7 @@ TEST(FaultyEstimator, IsJudgedAndWrittenDown) {
 
 // The reference of `association.mode: own` runs along with the front end, too.
 TEST(FaultyEstimator, LetsTheStudyGoOn) {
-  for (const char* const mode : {"own", "shared"}) {
+  for (const char* const association : {"mode: own", "reference: scripted"}) {
     Script script;
     script.spoil_report = [](UpdateReport& report) { report.loops.clear(); };
     EstimatorRegistry registry;
@@ -154,8 +154,8 @@ TEST(FaultyEstimator, LetsTheStudyGoOn) {
     const Study study =
         configure_study(test::settings_of(std::string(test::kSmallSurvey) +
                                           "estimators: [{type: scripted}, {type: ekf}]\n"
-                                          "association: {mode: " +
-                                          mode + "}\n"),
+                                          "association: {" +
+                                          association + "}\n"),
                         registry);
     const test::TemporaryFolder folder;
     ResultStore store = ResultStore::write(folder.path(), study.description, "{}");

@@ -26,6 +26,8 @@ struct Script {
   std::size_t size_error = 0;  ///< what size() says beyond the truth
   std::vector<double> loop_weights;
   std::optional<std::size_t> nan_covariance;
+  /// So many calls of joint_covariance have an answer, the identity; each is among `calls`.
+  std::size_t joint_covariances = 0;
 
   std::vector<std::string> calls;
 };
@@ -79,8 +81,14 @@ class ScriptedEstimator : public Estimator {
     return Eigen::Matrix3d(Eigen::Matrix3d::Identity() * static_cast<double>(k));
   }
 
-  std::optional<Eigen::MatrixXd> joint_covariance(std::span<const std::size_t>) const override {
-    return std::nullopt;
+  std::optional<Eigen::MatrixXd> joint_covariance(
+      std::span<const std::size_t> keyframes) const override {
+    std::string call = "covariance";
+    for (const std::size_t k : keyframes) call += " " + std::to_string(k);
+    script_.calls.push_back(call);
+    if (asked_++ >= script_.joint_covariances) return std::nullopt;
+    const auto size = static_cast<Eigen::Index>(3 * keyframes.size());
+    return Eigen::MatrixXd(Eigen::MatrixXd::Identity(size, size));
   }
 
   double loss(double chi2) const override { return script_.loss(chi2); }
@@ -90,6 +98,7 @@ class ScriptedEstimator : public Estimator {
   Script& script_;
   std::vector<Pose> poses_;
   std::size_t updates_ = 0;
+  mutable std::size_t asked_ = 0;
 };
 
 /// An entry that makes estimators of this script, which must outlive it.

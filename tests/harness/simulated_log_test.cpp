@@ -39,7 +39,7 @@ Configuration with(const std::string& override) {
 
 Recording trial_of(const Recorder& recorder, const Configuration& configuration,
                    std::uint64_t trial) {
-  return recorder.record(configuration, 0, builtin_estimators(), {5, trial});
+  return recorder.record(configuration, configuration.reference, builtin_estimators(), {5, trial});
 }
 
 TEST(SimulatedLogRecording, HasTheTruthAndTheTimesOfItsKeyframes) {
@@ -152,7 +152,8 @@ std::map<std::string, double> honesty_of(const std::vector<std::string>& overrid
     const Recording recording = trial_of(recorder, configuration, trial);
     const Result result = evaluate(recording, {"sparse_gauss_newton", "sparse_gauss_newton", {}},
                                    builtin_estimators(), {}, {});
-    for (const char* name : {"mean_nis_truth", "picture_error_correlation", "chi2_per_dof"}) {
+    for (const char* name : {"mean_nis_truth", "picture_error_correlation", "chi2_per_dof",
+                             "anchored_anees", "relative_anees_1_keyframes"}) {
       means[name] += result.metric(name).value() / kTrials;
     }
   }
@@ -165,17 +166,22 @@ TEST(SimulatedLogHonesty, OfTheModelItself) {
   EXPECT_NEAR(honest.at("mean_nis_truth"), 3.0, 0.1);
   EXPECT_NEAR(honest.at("picture_error_correlation"), 0.0, 0.01);
   EXPECT_NEAR(honest.at("chi2_per_dof"), 1.0, 0.03);
+  EXPECT_NEAR(honest.at("anchored_anees"), 1.0, 0.15);
+  EXPECT_NEAR(honest.at("relative_anees_1_keyframes"), 1.0, 0.15);
 }
 
 // 200 trials; the keyframes of one share the errors before them.
 TEST(SimulatedLogHonesty, DeadReckoningHasTheErrorsThatItsCovarianceTells) {
   const Configuration configuration = configured(kSmallLog);
   const Recorder recorder(configuration);
-  double anees = 0.0;
+  std::map<std::string, double> means;
   for (std::uint64_t trial = 0; trial < 200; ++trial) {
-    anees += dead_reckoning_metrics(trial_of(recorder, configuration, trial), {}).at("anees") / 200;
+    const auto metrics = dead_reckoning_metrics(trial_of(recorder, configuration, trial), {});
+    for (const char* name : {"anees", "anchored_anees", "relative_anees_1_keyframes"}) {
+      means[name] += metrics.at(name) / 200;
+    }
   }
-  EXPECT_NEAR(anees, 1.0, 0.15);
+  for (const auto& [name, mean] : means) EXPECT_NEAR(mean, 1.0, 0.15) << name;
 }
 
 // A picture's own error s in x and y, as large as the σ of a registration: each has those of its

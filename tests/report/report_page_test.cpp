@@ -118,7 +118,7 @@ TEST(ReportPage, MetricsSayWhatIsBetter) {
   EXPECT_EQ(metrics["mean_position_error_m"],
             (Json{{"label", "mean position error (m)"}, {"cost", false}, {"better", "lower"}}));
   EXPECT_EQ(metrics["total_ms"],
-            (Json{{"label", "total time (ms)"}, {"cost", true}, {"better", "lower"}}));
+            (Json{{"label", "estimate, time (ms)"}, {"cost", true}, {"better", "lower"}}));
   EXPECT_EQ(metrics["anees"], (Json{{"label", "ANEES"}, {"cost", false}, {"better", "neither"}}));
 }
 

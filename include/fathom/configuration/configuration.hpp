@@ -30,11 +30,27 @@ struct EstimatorConfiguration {
   EstimatorValues values;  ///< as given; the rest are defaults
 };
 
-/// Whose estimate selects the loop candidates (data association).
+/// Whose trajectory selects the loop candidates (data association).
 enum class Association {
   shared,  ///< one reference's: every estimator gets the same log, bit for bit
   own      ///< each estimator's own, as in the paper
 };
+
+/// The trajectory that selects the loop candidates of a recording.
+struct CandidateReference {
+  enum class Kind {
+    automatic,     ///< ground truth where every keyframe has it, else the estimate of `estimator`
+    ground_truth,  ///< of every keyframe
+    estimate       ///< of `estimator`, which runs along with the front end
+  };
+  Kind kind = Kind::automatic;
+  EstimatorConfiguration estimator;
+  /// Whether that is one of those compared, which then meets a log of its own choice.
+  bool is_contender = false;
+};
+
+/// An estimator that selects its own candidates, or those of all.
+CandidateReference by_contender(const EstimatorConfiguration& estimator);
 
 /// What a comparison has beside a run.
 struct StudyOptions {
@@ -45,10 +61,21 @@ struct StudyOptions {
   SpoilOptions false_loops;  ///< share 0: none
   std::vector<double> rpe_keyframes{1};
   std::vector<double> rpe_distances_m;
+  int anchors = 5;
+  int relative_pairs = 20;
+  bool newest_covariance = true;
   double min_overlap = 0.3;
-  std::vector<std::string> metrics{
-      "mean_position_error_m", "ate_rmse_m",       "heading_rmse_rad", "anees",    "chi2_gap",
-      "loop_closures",         "update_ms.median", "update_ms.p95",    "total_ms", "memory_bytes"};
+  std::vector<std::string> metrics{"mean_position_error_m",
+                                   "ate_rmse_m",
+                                   "heading_rmse_rad",
+                                   "anees",
+                                   "chi2_gap",
+                                   "loop_closures",
+                                   "update_ms.median",
+                                   "update_ms.p95",
+                                   "total_ms",
+                                   "total_with_covariance_ms",
+                                   "memory_bytes"};
 
   void describe(OptionTable& table);
   /// Of them those that no result depends on.
@@ -59,10 +86,9 @@ struct StudyOptions {
 struct Configuration {
   DataSetConfiguration dataset;
   FrontEndOptions front_end;
-  /// One for `run`; for `compare` several, of which the first that `association.reference` names
-  /// selects the loop candidates.
+  /// One for `run`, which selects its loop candidates itself; for `compare` several.
   std::vector<EstimatorConfiguration> estimators;
-  std::size_t reference = 0;
+  CandidateReference reference;
   Alignment alignment = Alignment::origin;
   StudyOptions study;  ///< of a comparison
   int seed = 1;

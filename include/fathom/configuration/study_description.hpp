@@ -45,6 +45,9 @@ struct StudyDescription {
   std::string label_of(std::size_t cell) const;
   /// How a cell's loop candidates were selected, `shared` or `own`; empty where there are none.
   std::string association_of(std::size_t cell) const;
+  /// What selected the loop candidates of a cell whose association is shared: "ground truth", "the
+  /// estimate of ekf, a contender"; empty where nothing did or the study does not say.
+  std::string selected_by(std::size_t cell) const;
   /// How a cell's estimates were aligned for their errors.
   std::string alignment_of(std::size_t cell) const;
 };
@@ -52,5 +55,9 @@ struct StudyDescription {
 /// The name under which dead reckoning, the baseline, stands among the estimators' runs. It is no
 /// estimator of the registry, and none may be called so.
 inline constexpr const char* kDeadReckoning = "dead_reckoning";
+
+/// Words of `association.reference` beside the names of estimators, which none may be called.
+inline constexpr const char* kGroundTruth = "ground_truth";
+inline constexpr const char* kAutomatic = "automatic";
 
 }  // namespace fathom

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,13 +31,19 @@ struct Tilt {
 struct AttitudeOptions {
   double roll_sigma_rad = 0.0;
   double pitch_sigma_rad = 0.0;
-  double correlation_time_s = 2.0;  ///< after which a correlation of 1/e is left; 0: none
+  std::optional<double> both_sigma_rad;  ///< in place of the two; to be swept as one
+  double correlation_time_s = 2.0;       ///< after which a correlation of 1/e is left; 0: none
 
   void describe(OptionTable& table);
 
-  bool is_level() const { return roll_sigma_rad == 0.0 && pitch_sigma_rad == 0.0; }
+  /// Those in force, rad.
+  double roll_sigma() const { return both_sigma_rad.value_or(roll_sigma_rad); }
+  double pitch_sigma() const { return both_sigma_rad.value_or(pitch_sigma_rad); }
 
-  /// Throws InputError naming `prefix` + the key: a correlation time without a sigma.
+  bool is_level() const { return roll_sigma() == 0.0 && pitch_sigma() == 0.0; }
+
+  /// Throws InputError naming `prefix` + the key: a correlation time without a sigma, or
+  /// a sigma of both beside one of either.
   void check(const std::string& prefix) const;
 };
 

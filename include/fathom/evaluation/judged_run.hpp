@@ -11,6 +11,7 @@
 #include "fathom/evaluation/accuracy.hpp"
 #include "fathom/evaluation/consistency.hpp"
 #include "fathom/evaluation/loop_truth.hpp"
+#include "fathom/evaluation/relative_consistency.hpp"
 #include "fathom/measurements/measurement_log.hpp"
 
 namespace fathom {
@@ -20,6 +21,8 @@ struct MetricOptions {
   Alignment alignment = Alignment::origin;  ///< of the absolute errors
   std::vector<double> rpe_keyframes{1};     ///< separations of relative errors, whole numbers
   std::vector<double> rpe_distances_m;      ///< and path lengths
+  std::size_t anchors = 5;                  ///< keyframes held in turn (anchored_anees)
+  std::size_t relative_pairs = 20;          ///< motions over each separation or distance, at most
   double min_overlap = 0.3;  ///< true overlap from which on a pair should be a loop (loop_recall)
 };
 
@@ -33,6 +36,11 @@ struct ReplayFacts {
   std::optional<bool> is_local_minimum;
   std::span<const double> update_ms;  ///< per update
   std::span<const double> add_ms;     ///< per keyframe
+  /// Per keyframe from 1 on: the covariance of its pose, asked for after its update; empty where it
+  /// was not.
+  std::span<const double> newest_covariance_ms;
+  /// Of the covariances that the selection of loop candidates asks for, a part of total_ms.
+  std::optional<double> candidate_covariance_ms;
   double total_ms = 0.0;
   double cpu_ms = 0.0;
   std::optional<double> covariance_ms;
@@ -51,6 +59,7 @@ struct RunFacts {
   std::optional<double> chi2_optimum = std::nullopt;
   std::span<const Pose> estimate = {};
   std::optional<std::span<const Eigen::Matrix3d>> covariances = std::nullopt;  ///< of the estimate
+  std::span<const JudgedMotions> motions = {};                                 ///< of the estimate
   /// Absent of dead reckoning, which is no estimator.
   std::optional<ReplayFacts> replay = std::nullopt;
   MetricOptions options = {};

@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "fathom/geometry/covariance.hpp"
@@ -28,6 +29,19 @@ class TrajectoryView {
   virtual std::optional<std::vector<UncertainPose>> motions_to_newest() const {
     return std::nullopt;
   }
+};
+
+/// A trajectory that is given, without covariances: ground truth, or dead reckoning.
+class GivenTrajectory : public TrajectoryView {
+ public:
+  GivenTrajectory() = default;
+  explicit GivenTrajectory(std::vector<Pose> poses) : poses_(std::move(poses)) {}
+  void append(const Pose& pose) { poses_.push_back(pose); }
+  std::size_t size() const override { return poses_.size(); }
+  Pose pose(std::size_t k) const override { return poses_[k]; }
+
+ private:
+  std::vector<Pose> poses_;
 };
 
 struct StampedPose {

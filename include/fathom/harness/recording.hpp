@@ -40,8 +40,8 @@ struct Recording {
   std::size_t visual_odometry_failures = 0;
 };
 
-/// Runs the front end over the data set once. Loop candidates are selected by the estimate of
-/// `configuration.estimators[reference]`, which runs along; the log is all that is kept of it.
+/// Runs the front end over the data set once. Loop candidates are selected by
+/// `configuration.reference`, which runs along; the log is all that is kept of it.
 /// Of a g2o data set: the graph, with vertex ids as whole seconds. Registrations that the cache
 /// knows are not made again; the recording is the same with a cache and without.
 Recording record(const Configuration& configuration, const EstimatorRegistry& registry,
@@ -55,9 +55,9 @@ class Recorder {
   explicit Recorder(const Configuration& configuration, RegistrationCache* cache = nullptr);
 
   /// A trial of a configuration whose picture_settings are those of the data set. Loop candidates
-  /// are selected by the estimate of `configuration.estimators[reference]`. False loops, where the
-  /// study has them, are added afterwards: the reference never sees them.
-  Recording record(const Configuration& configuration, std::size_t reference,
+  /// are selected by the reference; `automatic` is settled by the frames of this trial. False
+  /// loops, where the study has them, are added afterwards: the reference never sees them.
+  Recording record(const Configuration& configuration, const CandidateReference& reference,
                    const EstimatorRegistry& registry, const TrialNoise& noise,
                    const Progress& progress = {}) const;
 

@@ -12,6 +12,7 @@
 #include <Eigen/Core>
 
 #include "fathom/estimation/registry.hpp"
+#include "fathom/evaluation/relative_consistency.hpp"
 #include "fathom/harness/recording.hpp"
 #include "fathom/measurements/measurement_log.hpp"
 
@@ -26,6 +27,9 @@ class MemoryMeter {
   virtual void start() = 0;
   /// The peak since start, bytes.
   virtual std::int64_t stop() = 0;
+  /// What is held for a while between these two is no part of the peak.
+  virtual void pause() {}
+  virtual void resume() {}
 };
 
 struct ReplayOptions {
@@ -34,6 +38,17 @@ struct ReplayOptions {
   std::span<const Pose> start;
   /// Covariances of all keyframes are asked for after the replay, outside the timing.
   bool covariances = true;
+  /// After every keyframe's update the covariance of the newest pose is asked for: a duty that is
+  /// the same for filters and graphs, timed apart. Of no effect in batch mode, which has no
+  /// estimate until the end.
+  bool newest_covariances = false;
+  /// After every keyframe is added its motions from all others are asked for with their
+  /// covariances, as the selection of loop candidates does (CandidateMethod::mahalanobis). Their
+  /// time is the estimate's: without them it would have been given another log.
+  bool candidate_covariances = false;
+  /// Motions whose covariances are asked for after the replay, outside the timing. Those of
+  /// `covariances` are not looked at.
+  std::vector<JudgedMotions> motions;
   MemoryMeter* memory = nullptr;
   Progress progress;
 };
@@ -59,10 +74,17 @@ struct Replay {
   /// Per update: a close_loops call with registrations, or the batch solve.
   std::vector<double> update_ms;
   std::vector<double> add_ms;  ///< per add_keyframe
-  double total_ms = 0.0;       ///< of all calls but covariances
-  double cpu_ms = 0.0;         ///< of the thread, over the same calls
+  /// Per keyframe from 1 on, of the covariance of the newest pose; empty where not asked for or not
+  /// to be had.
+  std::vector<double> newest_covariance_ms;
+  /// Of the covariances for loop candidates, where asked for: a part of total_ms.
+  std::optional<double> candidate_covariance_ms;
+  double total_ms = 0.0;  ///< of all calls but the covariances of poses and of `motions`
+  double cpu_ms = 0.0;    ///< of the thread, over the same calls
   double covariance_ms = 0.0;
   std::optional<std::int64_t> memory_bytes;
+  /// Those asked for, each with its covariances where they are to be had.
+  std::vector<JudgedMotions> motions;
   /// Σ ρ(eᵀ Ω e) over what the estimator used: rejected registrations left out, loss applied.
   double cost_used = 0.0;
 };

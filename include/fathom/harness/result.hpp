@@ -24,6 +24,11 @@ struct JudgeOptions {
 /// The parameters of the metrics that a configuration asks for.
 MetricOptions metric_options(const Configuration& configuration);
 
+/// What the estimator's replay is asked for in this configuration: the covariance of the newest
+/// pose after every keyframe, and what loop candidates ask for where its own estimate selects them.
+ReplayOptions replay_options(const Configuration& configuration,
+                             const EstimatorConfiguration& estimator);
+
 /// One estimator on one recording, evaluated by the harness.
 struct Result {
   EstimatorConfiguration estimator;

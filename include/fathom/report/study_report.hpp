@@ -12,9 +12,15 @@ namespace fathom {
 /// 95 % bootstrap interval; what was not done stands in the row. Below come the differences to the
 /// first estimator over the trials that both did, with the p-value of Wilcoxon's signed-rank test,
 /// also adjusted after Holm over the tests of the block.
-/// In brief: without the differences, and with the first metrics alone, as many as fit a line.
+/// Where the consistency of an estimator means something, a line says what (docs/report.md).
+/// In brief: without these lines and the differences, and with the first metrics alone, as many as
+/// fit a line.
 enum class StudyTable { full, brief };
 std::string study_table(const ResultStore& store, StudyTable extent = StudyTable::full);
+
+/// What the consistency of the estimators means, a line each under its cell; empty where it is as
+/// expected.
+std::string study_remarks(const ResultStore& store);
 
 /// Renders a study from its store alone (docs/report.md): report.html, runs.csv, summary.csv,
 /// tables.tex and figures/ with every figure as SVG and PDF. The folder is made if need be; its

@@ -34,6 +34,8 @@ void AttitudeOptions::describe(OptionTable& table) {
              "standard deviation of the roll; the true pose stays planar");
   table.real("pitch_sigma_rad", pitch_sigma_rad, Range::between(0, 0.2), "rad",
              "standard deviation of the pitch");
+  table.real_or_off("both_sigma_rad", both_sigma_rad, Range::between(0, 0.2), "rad",
+                    "standard deviation of the roll and of the pitch, in place of their own");
   table.real("correlation_time_s", correlation_time_s, Range::at_least(0), "s",
              "of roll and pitch: after it a correlation of 1/e is left; 0: none");
 }
@@ -43,6 +45,11 @@ void AttitudeOptions::check(const std::string& prefix) const {
     throw InputError(prefix + "correlation_time_s: has no effect on a level camera; set " + prefix +
                      "roll_sigma_rad or pitch_sigma_rad too");
   }
+  if (both_sigma_rad && (roll_sigma_rad != 0.0 || pitch_sigma_rad != 0.0)) {
+    throw InputError(prefix +
+                     "both_sigma_rad: takes the place of roll_sigma_rad and "
+                     "pitch_sigma_rad; expected it or those, not both");
+  }
 }
 
 std::vector<Tilt> draw_attitude(const AttitudeOptions& options, std::size_t frames, double period_s,
@@ -51,9 +58,8 @@ std::vector<Tilt> draw_attitude(const AttitudeOptions& options, std::size_t fram
   if (options.is_level()) return tilts;
   const double phi =
       options.correlation_time_s > 0.0 ? std::exp(-period_s / options.correlation_time_s) : 0.0;
-  const auto roll = gauss_markov(options.roll_sigma_rad, phi, frames, RandomStream(seed, "roll"));
-  const auto pitch =
-      gauss_markov(options.pitch_sigma_rad, phi, frames, RandomStream(seed, "pitch"));
+  const auto roll = gauss_markov(options.roll_sigma(), phi, frames, RandomStream(seed, "roll"));
+  const auto pitch = gauss_markov(options.pitch_sigma(), phi, frames, RandomStream(seed, "pitch"));
   for (std::size_t i = 0; i < frames; ++i) tilts[i] = {roll[i], pitch[i]};
   return tilts;
 }

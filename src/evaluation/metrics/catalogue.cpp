@@ -46,6 +46,7 @@ const std::vector<Metric>& metric_catalogue() {
   static const std::vector<Metric> metrics = [] {
     std::vector<Metric> all = named_metrics();
     append(all, relative_error_metrics({"N"}, {"D"}));
+    append(all, relative_consistency_metrics({"N"}, {"D"}));
     return all;
   }();
   return metrics;
@@ -55,7 +56,9 @@ std::optional<Metric> find_metric(const std::string& name) {
   const std::vector<Metric>& all = named_metrics();
   const auto found = std::find_if(all.begin(), all.end(),
                                   [&name](const Metric& metric) { return metric.name == name; });
-  return found != all.end() ? std::optional(*found) : relative_error_metric(name);
+  if (found != all.end()) return *found;
+  auto relative = relative_error_metric(name);
+  return relative ? relative : relative_consistency_metric(name);
 }
 
 bool is_cost_metric(const std::string& name) {
@@ -67,10 +70,10 @@ std::map<std::string, double> metric_values(const JudgedRun& run) {
   std::map<std::string, double> values;
   put_values(values, named_metrics(), run);
   const MetricOptions& options = run.facts.options;
-  put_values(
-      values,
-      relative_error_metrics(texts_of(options.rpe_keyframes), texts_of(options.rpe_distances_m)),
-      run);
+  const std::vector<std::string> keyframes = texts_of(options.rpe_keyframes);
+  const std::vector<std::string> distances_m = texts_of(options.rpe_distances_m);
+  put_values(values, relative_error_metrics(keyframes, distances_m), run);
+  put_values(values, relative_consistency_metrics(keyframes, distances_m), run);
   return values;
 }
 

@@ -17,6 +17,7 @@ std::vector<Metric> consistency_metrics() {
       {"share_inside_2_sigma", "share inside 2σ", "", Better::neither,
        "share of the keyframes with the true position inside the 2σ ellipse; 0.865 expected",
        of(&Consistency::share_inside_2_sigma)},
+      anchored_anees_metric(),
   };
 }
 

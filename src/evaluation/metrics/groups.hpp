@@ -24,6 +24,15 @@ std::vector<Metric> relative_error_metrics(const std::vector<std::string>& keyfr
 /// The relative error of that name.
 std::optional<Metric> relative_error_metric(const std::string& name);
 
+/// ANEES of motions over separations in keyframes and distances in metres, as words likewise.
+std::vector<Metric> relative_consistency_metrics(const std::vector<std::string>& keyframes,
+                                                 const std::vector<std::string>& distances_m);
+
+/// The ANEES of motions of that name.
+std::optional<Metric> relative_consistency_metric(const std::string& name);
+
+Metric anchored_anees_metric();
+
 /// The value of a metric that is a field of what the estimator did, a number or an optional one.
 template <class Field>
 auto replay_field(Field ReplayFacts::*field) {

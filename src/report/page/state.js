@@ -55,6 +55,7 @@ function conditions(cell) {
   if (study.cells.length > 1) parts.push(cell.label);
   if (cell.alignment) parts.push(`alignment ${cell.alignment}`);
   if (cell.association) parts.push(`association ${cell.association}`);
+  if (cell.selected_by) parts.push(`loops selected by ${cell.selected_by}`);
   parts.push(`n = ${cell.n}`);
   return parts.join(', ') + failuresOf([cell]);
 }

@@ -50,6 +50,8 @@ function drawSummary() {
   });
   made.tHead.rows[0].cells[1].className = 'text';
   document.getElementById('summary-table').replaceChildren(made);
+  document.getElementById('summary-words').replaceChildren(...cell.estimators.filter((one) => one.words.length > 0)
+    .map((one) => element('li', {textContent: `${labelOf(one.name)}: ${one.words.join(' ')}`})));
   document.getElementById('summary-caption').textContent = `${cell.caption}. ` +
     (cell.n > 1 ? 'Means over the trials that were done, with the 95 % bootstrap interval of the mean.' : 'A single trial: values without intervals.') +
     (metrics.some((name) => study.metrics[name].cost) ? ` Cost: ${jobsNote(cell)}` : '');

@@ -1,0 +1,72 @@
+#include "candidate_guide.hpp"
+
+#include <string>
+
+#include "fathom/harness/ground_truth.hpp"
+#include "fathom/harness/guarded_estimator.hpp"
+
+namespace fathom {
+namespace {
+
+// The estimate of an estimator. Where it turns out faulty, dead reckoning takes its place.
+class EstimateGuide : public CandidateGuide {
+ public:
+  EstimateGuide(const EstimatorEntry& entry, const EstimatorValues& values)
+      : estimator_(entry, {}, values) {}
+
+  void add_keyframe(const Keyframe& keyframe) override {
+    const Pose motion = keyframe.step ? keyframe.step->motion : Pose{};
+    dead_reckoning_.append(keyframe.step ? compose(newest_, motion) : Pose{});
+    newest_ = dead_reckoning_.pose(dead_reckoning_.size() - 1);
+    if (keyframe.step) estimator_.add_keyframe(*keyframe.step);
+  }
+
+  void close_loops(std::span<const RelativePose> registrations) override {
+    estimator_.close_loops(registrations);
+  }
+
+  const TrajectoryView& trajectory() override {
+    for (std::size_t k = 0; k < estimator_.size() && estimator_.fault().empty(); ++k) {
+      estimator_.pose(k);
+    }
+    if (estimator_.fault().empty()) return estimator_;
+    return dead_reckoning_;
+  }
+
+ private:
+  GuardedEstimator estimator_;
+  GivenTrajectory dead_reckoning_;
+  Pose newest_;
+};
+
+class TruthGuide : public CandidateGuide {
+ public:
+  explicit TruthGuide(const FrameSource& frames) : frames_(frames) {}
+
+  void add_keyframe(const Keyframe& keyframe) override {
+    truth_.append(frames_.info(keyframe.frame).ground_truth.value());
+  }
+  void close_loops(std::span<const RelativePose> /*registrations*/) override {}
+  const TrajectoryView& trajectory() override { return truth_; }
+
+ private:
+  const FrameSource& frames_;
+  GivenTrajectory truth_;
+};
+
+}  // namespace
+
+std::unique_ptr<CandidateGuide> make_guide(const CandidateReference& reference,
+                                           const EstimatorRegistry& registry,
+                                           const FrameSource& frames, int separation_frames) {
+  using Kind = CandidateReference::Kind;
+  if (reference.kind != Kind::estimate) {
+    const auto missing = keyframe_without_truth(frames, separation_frames);
+    if (!missing) return std::make_unique<TruthGuide>(frames);
+    if (reference.kind == Kind::ground_truth) throw no_ground_truth(*missing);
+  }
+  const EstimatorConfiguration& estimator = reference.estimator;
+  return std::make_unique<EstimateGuide>(registry.find(estimator.type), estimator.values);
+}
+
+}  // namespace fathom

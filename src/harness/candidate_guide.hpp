@@ -1,0 +1,31 @@
+#pragma once
+
+#include <memory>
+#include <span>
+
+#include "fathom/configuration/configuration.hpp"
+#include "fathom/front_end/front_end.hpp"
+
+namespace fathom {
+
+/// Runs along with the front end while it records, and says where the keyframes are, by which loop
+/// candidates are selected.
+class CandidateGuide {
+ public:
+  virtual ~CandidateGuide() = default;
+  /// Every keyframe in its order, keyframe 0 too.
+  virtual void add_keyframe(const Keyframe& keyframe) = 0;
+  /// The registrations of the newest keyframe, if any.
+  virtual void close_loops(std::span<const RelativePose> registrations) = 0;
+  /// Of all keyframes so far; valid until the next call.
+  virtual const TrajectoryView& trajectory() = 0;
+};
+
+/// The guide that a reference asks for. `automatic` is ground truth where all keyframes of these
+/// frames have it, one every `separation_frames`. Throws InputError that begins with the key where
+/// ground truth is asked for and one has none.
+std::unique_ptr<CandidateGuide> make_guide(const CandidateReference& reference,
+                                           const EstimatorRegistry& registry,
+                                           const FrameSource& frames, int separation_frames);
+
+}  // namespace fathom

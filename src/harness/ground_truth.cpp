@@ -1,0 +1,58 @@
+#include "fathom/harness/ground_truth.hpp"
+
+#include <map>
+#include <memory>
+#include <string>
+
+#include "fathom/harness/survey.hpp"
+
+namespace fathom {
+namespace {
+
+using Kind = CandidateReference::Kind;
+
+// What makes its pictures knows where they are; other data sets are looked at, each once.
+class TrueFrames {
+ public:
+  std::optional<std::size_t> missing(const Configuration& cell) {
+    if (find_data_set(cell.dataset.type).makes_pictures) return std::nullopt;
+    auto& data = opened_[data_settings(cell)];
+    if (!data) data = open_data_set(cell);
+    return keyframe_without_truth(*data->frames(), cell.front_end.separation_frames);
+  }
+
+ private:
+  std::map<std::string, std::unique_ptr<const DataSet>> opened_;
+};
+
+}  // namespace
+
+std::optional<std::size_t> keyframe_without_truth(const FrameSource& frames,
+                                                  int separation_frames) {
+  const auto separation = static_cast<std::size_t>(separation_frames);
+  for (std::size_t frame = 0; frame < frames.size(); frame += separation) {
+    if (!frames.info(frame).ground_truth) return frame;
+  }
+  return std::nullopt;
+}
+
+InputError no_ground_truth(std::size_t frame) {
+  return InputError("association.reference: ground_truth, but the data set has none at frame " +
+                    std::to_string(frame) +
+                    "; expected an estimator, such as {type: incremental_smoother}");
+}
+
+void settle_reference(Study& study, const EstimatorRegistry& registry) {
+  TrueFrames frames;
+  bool all_have_truth = true;
+  for (const Configuration& cell : study.cells) {
+    const Kind kind = cell.reference.kind;
+    if (!selects_by_reference(cell) || kind == Kind::estimate) continue;
+    const auto missing = frames.missing(cell);
+    if (missing && kind == Kind::ground_truth) throw at_origin(cell, no_ground_truth(*missing));
+    if (missing) all_have_truth = false;
+  }
+  settle_references(study, all_have_truth ? Kind::ground_truth : Kind::estimate, registry);
+}
+
+}  // namespace fathom

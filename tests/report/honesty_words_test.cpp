@@ -1,0 +1,137 @@
+#include "src/report/honesty_words.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "fathom/evaluation/consistency.hpp"
+
+namespace fathom {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+
+using Figures = std::map<std::string, MetricSummary>;
+
+// With an interval of so much to either side.
+MetricSummary figure(double mean, double half_width) {
+  MetricSummary summary;
+  summary.moments.mean = mean;
+  summary.interval = Interval{mean - half_width, mean + half_width};
+  return summary;
+}
+
+// Ten draws of a log with 100 registrations; all as expected, with an ANEES to be set.
+constexpr std::size_t kDraws = 10;
+Figures honest(double anees) {
+  return {{"anees", figure(anees, 0.2)},
+          {"mean_nis_truth", figure(3.0, 0.1)},
+          {"picture_error_correlation", figure(0.0, 0.02)},
+          {"chi2_per_dof", figure(1.0, 0.02)},
+          {"registrations", figure(100.0, 2.0)}};
+}
+
+TEST(HonestyWords, NothingIsSaidOfWhatIsAsExpected) {
+  EXPECT_THAT(honesty_words({}, kDraws), IsEmpty());
+  EXPECT_THAT(honesty_words(honest(1.0), kDraws), IsEmpty());
+  Figures without = honest(4.0);
+  without.erase("anees");
+  EXPECT_THAT(honesty_words(without, kDraws), IsEmpty());
+  EXPECT_THAT(honesty_words(honest(4.0), 0), IsEmpty());
+}
+
+// χ² of 30 degrees of freedom over 30 ends at 1.566 (97.5 %) and 0.560 (2.5 %).
+TEST(HonestyWords, TheThresholdIsThatOfTheDraws) {
+  EXPECT_THAT(honesty_words(honest(1.56), kDraws), IsEmpty());
+  EXPECT_THAT(honesty_words(honest(1.57), kDraws), SizeIs(2));
+  EXPECT_THAT(honesty_words(honest(0.561), kDraws), IsEmpty());
+  EXPECT_THAT(honesty_words(honest(0.559), kDraws), SizeIs(1));
+  // Of a single draw errors that are three times too large may be chance.
+  EXPECT_THAT(honesty_words(honest(3.1), 1), IsEmpty());
+  EXPECT_THAT(honesty_words(honest(3.2), 1), SizeIs(2));
+}
+
+TEST(HonestyWords, AnIntervalThatHoldsOneIsNoEvidence) {
+  Figures wide = honest(4.0);
+  wide["anees"] = figure(4.0, 3.1);
+  EXPECT_THAT(honesty_words(wide, kDraws), IsEmpty());
+  wide["anees"] = figure(0.4, 0.7);
+  EXPECT_THAT(honesty_words(wide, kDraws), IsEmpty());
+  wide["anees"].interval.reset();
+  EXPECT_THAT(honesty_words(wide, kDraws), SizeIs(1));
+}
+
+TEST(HonestyWords, ABadFirstPicture) {
+  Figures figures = honest(4.9);
+  figures["anchored_anees"] = figure(1.1, 0.2);
+  figures["relative_anees_1_keyframes"] = figure(1.2, 0.2);
+  figures["chi2_per_dof"] = figure(0.5, 0.02);
+  EXPECT_THAT(honesty_words(figures, kDraws),
+              ElementsAre("Overconfident: ANEES is 4.9 [4.7, 5.1], where 1 is expected.",
+                          HasSubstr("With other keyframes held it is 1.1 [0.90, 1.3]")));
+  // The motions are as wrong as the poses: it is not the first picture alone.
+  figures["relative_anees_1_keyframes"] = figure(4.1, 0.2);
+  EXPECT_THAT(honesty_words(figures, kDraws)[1], HasSubstr("share errors"));
+  figures.erase("relative_anees_1_keyframes");
+  figures["anchored_anees"] = figure(4.0, 0.2);
+  EXPECT_THAT(honesty_words(figures, kDraws)[1], HasSubstr("share errors"));
+}
+
+TEST(HonestyWords, SharedErrors) {
+  Figures figures = honest(4.9);
+  figures["chi2_per_dof"] = figure(0.5, 0.02);
+  EXPECT_THAT(honesty_words(figures, kDraws)[1],
+              AllOf(HasSubstr("(F per degree of freedom 0.50 [0.48, 0.52]);"),
+                    Not(HasSubstr("correlation"))));
+  figures["picture_error_correlation"] = figure(0.3, 0.05);
+  EXPECT_THAT(honesty_words(figures, kDraws)[1],
+              HasSubstr(", and those of one picture have errors with correlation 0.30"));
+  figures["chi2_per_dof"] = figure(1.0, 0.02);
+  EXPECT_THAT(honesty_words(figures, kDraws)[1],
+              HasSubstr("share errors: those of one picture have errors with correlation 0.30"));
+  // Of one draw there is no interval, and a correlation may be chance.
+  figures["picture_error_correlation"].interval.reset();
+  EXPECT_THAT(honesty_words(figures, kDraws)[1], Not(HasSubstr("share errors")));
+}
+
+TEST(HonestyWords, RegistrationsThatAreWorseThanTheySay) {
+  Figures figures = honest(4.9);
+  figures["mean_nis_truth"] = figure(9.0, 0.5);
+  EXPECT_THAT(honesty_words(figures, kDraws)[1],
+              HasSubstr("mean NIS against truth is 9.0 [8.5, 9.5], where 3 is expected"));
+}
+
+TEST(HonestyWords, AnEstimatorOfItsOwn) {
+  EXPECT_THAT(honesty_words(honest(4.9), kDraws)[1],
+              HasSubstr("what is too small is the estimator's own"));
+}
+
+TEST(HonestyWords, WithoutGroundTruthOfLoopsFSays) {
+  Figures figures = honest(4.9);
+  figures.erase("mean_nis_truth");
+  figures["chi2_per_dof"] = figure(2.0, 0.1);
+  EXPECT_THAT(honesty_words(figures, kDraws)[1], HasSubstr("F per degree of freedom is 2.0"));
+  figures.erase("chi2_per_dof");
+  EXPECT_THAT(honesty_words(figures, kDraws), SizeIs(1));
+}
+
+TEST(HonestyWords, Underconfident) {
+  Figures figures = honest(0.2);
+  figures["anees"] = figure(0.2, 0.05);
+  EXPECT_THAT(honesty_words(figures, kDraws),
+              ElementsAre("Underconfident: ANEES is 0.20 [0.15, 0.25], where 1 is expected."));
+  figures["mean_nis_truth"] = figure(0.5, 0.1);
+  EXPECT_THAT(honesty_words(figures, kDraws)[1], HasSubstr("registrations are too large"));
+}
+
+TEST(HonestyWords, KnowsItsMetrics) {
+  for (const char* name : {"anees", "anchored_anees", "relative_anees_5_m", "registrations"}) {
+    EXPECT_TRUE(is_of_words(name)) << name;
+  }
+  EXPECT_FALSE(is_of_words("total_ms"));
+}
+
+}  // namespace
+}  // namespace fathom
