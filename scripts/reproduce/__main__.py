@@ -91,7 +91,7 @@ def part_of(page, one):
 
 
 def list_makers(makers, options):
-    form = "{:<22} {:<22} {:<6} {:>7}  {}"
+    form = "{:<34} {:<20} {:<6} {:>7}  {}"
     print(form.format("page", "maker", "kind", "minutes", "figures of"))
     for one in makers:
         state = provenance.state(part_of(markdown.read_page(TOP / one.page), one))

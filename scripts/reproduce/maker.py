@@ -41,10 +41,10 @@ def maker(page, name, kind, how, minutes, **rest):
 
 
 def all_makers():
-    """Every maker, page by page in the order of its file."""
+    """Every maker, page by page."""
     if not _makers:
         import pages
 
         for module in sorted(m.name for m in pkgutil.iter_modules(pages.__path__)):
             importlib.import_module(f"pages.{module}")
-    return list(_makers)
+    return sorted(_makers, key=lambda one: one.page)
