@@ -93,8 +93,11 @@ def part_of(page, one):
 def list_makers(makers, options):
     form = "{:<34} {:<20} {:<6} {:>7}  {}"
     print(form.format("page", "maker", "kind", "minutes", "figures of"))
+    newest = provenance.commit(TOP)
     for one in makers:
         state = provenance.state(part_of(markdown.read_page(TOP / one.page), one))
+        if ", " in state and not state.startswith(newest + ", "):
+            state += ", older than the sources"
         missing = lacks(one, options)
         print(form.format(one.page.removeprefix("docs/"), one.name, one.kind, f"{one.minutes:g}",
                           state + (f" ({missing})" if missing else "")))
@@ -147,6 +150,8 @@ def make(makers, options):
             status = status or SKIPPED
             continue
         print(f"{one.page}: {one.name} ({one.kind}, {one.minutes:g} min)", flush=True)
+        if one.kind == "time" and os.getloadavg()[0] > 1.5:
+            print("  its figures are times, and the machine has other work", flush=True)
         workshop.begin()
         try:
             fits = use(one, one.make(workshop), workshop, options)

@@ -35,9 +35,10 @@ def _git(top, *arguments):
 
 
 def commit(top):
-    """The short hash, "+ changes" where the sources differ from it, "unknown" outside of git."""
-    head = _git(top, "rev-parse", "--short", "HEAD")
-    if head is None:
+    """The short hash of the last commit that changed the sources, "+ changes" where they differ from
+    it, "unknown" outside of git. Later commits, of pages alone, do not make figures older."""
+    head = _git(top, "log", "-1", "--format=%h", "--", *SOURCES)
+    if not head:
         return "unknown"
     changes = _git(top, "status", "--porcelain", "--", *SOURCES)
     return head + (" + changes" if changes else "")

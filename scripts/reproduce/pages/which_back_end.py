@@ -54,7 +54,7 @@ def _squares(work, estimators, value):
 def regimes_chi2(work):
     for name, study in (("circuit", _circuit(work)), ("legs", _legs(work))):
         work.picture(f"docs/images/regime_map_{name}.svg",
-                     study.folder / "figures" / "regime_map_6.svg")
+                     study.folder / "figures" / "regime_map_loops_6.svg")
     return _squares(work, (*FILTERS, "incremental_smoother"),
                     lambda study, e, cell: significant(over_optimum(study, e, cell)))
 
