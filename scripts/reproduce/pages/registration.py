@@ -157,7 +157,7 @@ def hazy_survey(work):
 
 @maker("docs/water.md", "floor-keypoints", "slow", "`fathom register` on two pictures of `fathom "
        "simulate configs/run.yaml --set dataset.world.floor=KIND`, `--set "
-       "front_end.features.max_features=1000000`", 2)
+       "front_end.features.max_features=1000000`, and `flatten=false`", 2)
 def floor_keypoints(work):
     rows = []
     for floor in ("mixed", *FLOORS):
@@ -167,9 +167,14 @@ def floor_keypoints(work):
                           "dataset.mission.loop_width_m=1", "--set",
                           "dataset.mission.loop_overrun_m=0", "--quiet", "--out", "{out}/survey")
         pictures = sorted((folder / "survey/mav0/cam0/data").iterdir())
-        text = work.output(f"keypoints-{floor}", "fathom", "register", pictures[0], pictures[1],
-                           "--altitude-a", 2, "--altitude-b", 2, "--out", "{out}/run", "--set",
-                           "front_end.features.max_features=1000000", statuses=(0, 1))
-        counts = [int(n) for n in re.search(r"(\d+) in A, (\d+) in B", text).groups()]
+        counts = []
+        for flatten in ("true", "false"):
+            text = work.output(f"keypoints-{floor}", "fathom", "register", pictures[0],
+                               pictures[len(pictures) // 2], "--altitude-a", 2, "--altitude-b", 2,
+                               "--out", "{out}/run", "--set",
+                               f"front_end.features.flatten={flatten}", "--set",
+                               "front_end.features.max_features=1000000", statuses=(0, 1))
+            a, b = (int(n) for n in re.search(r"(\d+) in A, (\d+) in B", text).groups())
+            counts.append(f"{min(a, b)} to {max(a, b)}")
         rows.append([f"`{floor}`", *counts])
-    return table(["kind", "keypoints of a picture", "of the next"], rows)
+    return table(["kind", "keypoints", "without `flatten`"], rows)
