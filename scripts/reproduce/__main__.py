@@ -133,7 +133,8 @@ def use(one, content, workshop, options):
             print(f"{one.page}: {one.name}: stale: {line}")
         return not found
     if options.print or options.small:
-        print(f"{content.rstrip()}\n\n{line_of(one, workshop)}\n")
+        last = "(small: not for the page)" if options.small else line_of(one, workshop)
+        print(f"{content.rstrip()}\n\n{last}\n")
         return True
     write(one, content, workshop)
     return True

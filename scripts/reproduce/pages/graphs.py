@@ -39,7 +39,7 @@ def ceres_optima(work):
     for graph, optimum in OPTIMA.items():
         done = work.solve(graph, "--estimator", "ceres_pose_graph", mode="batch")
         rows.append([graph, done["keyframes"], done["keyframes"] - 1 + done["registrations"],
-                     f"{done['chi2_initial']:.6g}", f"{optimum:.8g}",
+                     f"{done['chi2_initial']:.7g}", f"{optimum:.8g}",
                      f"{done['chi2']:.8g}"])
     return table(["graph", "poses", "edges", "F at odometry", "optimum", "F reached"], rows)
 

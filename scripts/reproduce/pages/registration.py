@@ -18,14 +18,15 @@ CONDITIONS = {"clean": "clean", "contrast": "contrast × 0.4", "haze": "haze",
 BENCH = dict(needs=(DUNES,), programs=("registration_benchmark",))
 
 
-def _figures(work, name, arguments, jobs=None):
+def _figures(work, name, arguments):
     """The JSON of a run over the four floors and dunes."""
-    jobs = jobs or work.jobs
-    small = ["--floors", "mud", "--conditions", "clean,noise", "--pairs-per-cell", 1]
-    folder = work.run(name, "registration_benchmark", *arguments.split(), "--jobs", jobs, "--json",
-                      "{out}/figures.json",
-                      *(small if work.is_small else
-                        ["--world", f"{work.data / DUNES}:0.004"]), jobs=jobs)
+    if work.is_small:
+        arguments = re.sub(r"(--pairs-per-cell) [1-9]\d*", r"\1 1", arguments)
+        arguments += " --floors mud,ripples --conditions clean,noise"
+    else:
+        arguments += f" --world {work.data / DUNES}:0.004"
+    folder = work.run(name, "registration_benchmark", *arguments.split(), "--jobs", work.jobs,
+                      "--json", "{out}/figures.json", jobs=work.jobs)
     return json.loads((folder / "figures.json").read_text("utf-8"))
 
 

@@ -93,11 +93,11 @@ SURVEY = (("trajectory_iekf", "`trajectory_iekf`, no gate"),
           ("geman_mcclure", "`geman_mcclure`"), ("truncated", "`truncated`"))
 
 
-def _range(values, digits):
+def _range(values, text):
     values = [v for v in values if v is not None]
     if not values:
         return "–"
-    low, high = (significant(v, digits) for v in (min(values), max(values)))
+    low, high = text(min(values)), text(max(values))
     return low if low == high else f"{low} to {high}"
 
 
@@ -105,9 +105,9 @@ def _survey_cell(study, name, share, kinds):
     cells = [{"false": share, "kind": kind} for kind in kinds]
     rows = [study.row(name, "mean_position_error_m", **cell) for cell in cells]
     failed = max(int(float(row["failures"])) for row in rows)
-    text = _range([row["mean"] and 1e3 * row["mean"] for row in rows], 3)
+    text = _range([row["mean"] and 1e3 * row["mean"] for row in rows], significant)
     if share:
-        kept = _range([study.mean(name, "false_loops_kept", **cell) for cell in cells], 3)
+        kept = _range([study.mean(name, "false_loops_kept", **cell) for cell in cells], "{:.3g}".format)
         text += f" ({kept})"
     return text + (f"; {failed} failed" if failed else "")
 
