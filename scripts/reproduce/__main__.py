@@ -48,12 +48,13 @@ def fail(what):
 
 
 def page_named(name):
-    """README.md, cost, cost.md, docs/cost.md."""
-    pages = audit.pages_of(TOP)
-    for form in (name, f"docs/{name}", f"{name}.md", f"docs/{name}.md"):
-        if form in pages:
-            return form
-    fail(f"no page '{name}'; there are {', '.join(p.removeprefix('docs/') for p in pages)}")
+    """README.md; cost, cost.md, docs/cost.md; ekf, estimators/ekf.md."""
+    pages = {one.page for one in all_makers()}
+    name = name if name.endswith(".md") else name + ".md"
+    found = [page for page in pages if page == name or page.endswith("/" + name)]
+    if len(found) != 1:
+        fail(f"no page '{name}' has a maker; --list names those that have")
+    return found[0]
 
 
 def chosen(options):
