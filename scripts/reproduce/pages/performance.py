@@ -56,7 +56,7 @@ def stages(work):
        "--benchmark_filter=LongSurvey/feature_MB:N`", 60, programs=("long_survey_benchmark",))
 def long_survey(work):
     cells = []
-    for bound in (64, 512):
+    for bound in work.size((64, 512), (64,)):
         case = f"LongSurvey/feature_MB:{bound}"
         row = row_of(work.benchmark(f"long-survey-{bound}", "long_survey_benchmark",
                                     f"--benchmark_filter={case}"), case)
@@ -160,6 +160,6 @@ def iekf_missions(work):
                       f"{significant(row['longest_ms'], 2)} ms",
                       f"{significant(row['covariances_ms'], 2)} ms",
                       f"{significant(row['MB'], 2)} MB",
-                      "dense" if row["dense_motions"] else "few loops"])
+                      "dense" if 2 * row["dense_motions"] > keyframes else "few loops"])
     return table(["keyframes", "updates × loops", "all updates", "longest step", "all covariances",
                   "covariance held", "form"], cells)
