@@ -84,7 +84,7 @@ def regimes_closed(work):
     estimators = (*FILTERS, "incremental_smoother", "sparse_gauss_newton")
     rows = []
     for noise in (0.0005, 0.002, 0.005, 0.01, 0.02, 0.05):
-        cell = _cell(noise, 10)
+        cell = _cell(noise, 40, loops=1)
         rows.append([noise, *(_with_failures(study, significant(over_optimum(study, e, cell)), e,
                                              cell) for e in estimators)])
     return table(["heading noise (rad)", *code(estimators)], rows)
