@@ -14,10 +14,15 @@ SOURCES = ("CMakeLists.txt", "CMakePresets.json", "apps", "benchmarks", "cmake",
 GENERATED = re.compile(r"^\*(Made by |Recorded figures, )")
 
 
+def program_sources():
+    """The sources less the configurations: those that a command takes are part of its own key."""
+    return [name for name in SOURCES if name != "configs"]
+
+
 def sources_key(top):
-    """A hash of all that figures depend on: results of other sources are never taken for these."""
+    """A hash of what programs are made of: results of other sources are never taken for these."""
     digest = hashlib.sha256()
-    for name in SOURCES:
+    for name in program_sources():
         path = Path(top) / name
         files = sorted(path.rglob("*")) if path.is_dir() else [path]
         for file in filter(Path.is_file, files):

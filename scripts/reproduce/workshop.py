@@ -19,8 +19,8 @@ class CommandFailed(Exception):
 class Workshop:
     """Runs programs of one build on one data folder into one scratch folder.
 
-    Results lie in OUT/SOURCES/NAME-ARGUMENTS, SOURCES being a hash of the sources and
-    configurations: a command that has ended is not run again, one that was interrupted goes on
+    Results lie in OUT/SOURCES/NAME-ARGUMENTS, hashes of the sources, and of the arguments with the
+    files that they name: a command that has ended is not run again, one that was interrupted goes on
     where `fathom compare` can, and no result of other sources is ever taken.
 
     `is_small` asks for the least that shows that a maker works: one trial of a study.
@@ -51,7 +51,9 @@ class Workshop:
         its output as stdout.txt."""
         # Paths of the machine are no part of the name.
         shown = [program, *(str(a).replace(str(self.data), "DATA") for a in arguments)]
-        token = hashlib.sha256(json.dumps([shown, jobs]).encode()).hexdigest()[:10]
+        read = [hashlib.sha256(path.read_bytes()).hexdigest()
+                for path in (self.top / str(a) for a in arguments) if path.is_file()]
+        token = hashlib.sha256(json.dumps([shown, read, jobs]).encode()).hexdigest()[:10]
         folder = (self.folder / f"{name}-{token}").absolute()
         record = folder / "made.json"
         if self.again and folder not in self._done and folder.exists():
