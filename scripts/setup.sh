@@ -16,7 +16,7 @@ packages=(
   libyaml-cpp-dev libsqlitecpp-dev libsqlite3-dev libcli11-dev nlohmann-json3-dev
   libcairo2-dev pkg-config libjs-vega
   libgtest-dev libgmock-dev libbenchmark-dev chromium
-  clang-format
+  clang-format python3
 )
 # clang needs an omp.h of its own to read what g++ compiles with -fopenmp.
 lint_packages=(clang clang-tidy libomp-dev)

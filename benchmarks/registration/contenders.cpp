@@ -46,6 +46,7 @@ Answer ours(const FloorFeatures& from, const FloorFeatures& to, const Registrati
   const Stopwatch watch;
   const Registration registration = register_pair(from, to, options, seed);
   answer.solve_ms = std::max(0.0, watch.milliseconds() - answer.match_ms);
+  answer.false_alarms = registration.evidence.false_alarms;
   if (!registration.found) return answer;
   answer.motion = registration.motion;
   answer.covariance = registration.covariance;

@@ -23,6 +23,7 @@ class Stopwatch {
 struct Answer {
   std::optional<Pose> motion;  ///< of `to` in `from`; nothing: refused
   std::optional<Eigen::Matrix3d> covariance;
+  double false_alarms = 1.0;  ///< ours: Evidence::false_alarms
   double match_ms = 0.0;
   double solve_ms = 0.0;
 };

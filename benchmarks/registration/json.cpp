@@ -48,6 +48,7 @@ Json json_of(const Negatives& n, bool opencv) {
   Json json{{"floor", n.floor},
             {"pairs", n.pairs},
             {"accepted", n.ours},
+            {"least_false_alarms", n.least_false_alarms},
             {"upper_bound_95", clopper_pearson_upper(n.ours, n.pairs)}};
   if (opencv) {
     json["opencv_accepted"] = n.opencv;

@@ -1,8 +1,10 @@
 #include "negatives.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <numbers>
 #include <utility>
+#include <vector>
 
 #include "contenders.hpp"
 #include "parallel.hpp"
@@ -58,9 +60,12 @@ Negatives run_negatives(const Floor& floor, const Settings& settings) {
   const RegistrationOptions options = registration_options_for(clean, settings);
   std::atomic<std::size_t> accepted = 0;
   std::atomic<std::size_t> accepted_by_opencv = 0;
+  std::vector<double> false_alarms(pairs.size(), 1.0);
   for_each_index(pairs.size(), settings.jobs, [&](std::size_t i) {
     const auto& [from, to] = pairs[i];
-    if (ours(features[from], features[to], options, i, false).motion) ++accepted;
+    const Answer answer = ours(features[from], features[to], options, i, false);
+    if (answer.motion) ++accepted;
+    false_alarms[i] = answer.false_alarms;
     if (!settings.opencv) return;
     const double metres_per_pixel =
         std::min(views[from].altitude_m, views[to].altitude_m) / CameraModel().fx;
@@ -68,7 +73,9 @@ Negatives run_negatives(const Floor& floor, const Settings& settings) {
       ++accepted_by_opencv;
     }
   });
-  return {floor.name, pairs.size(), accepted, accepted_by_opencv};
+  const double least =
+      pairs.empty() ? 1.0 : *std::min_element(false_alarms.begin(), false_alarms.end());
+  return {floor.name, pairs.size(), accepted, accepted_by_opencv, least};
 }
 
 }  // namespace fathom::benchmarks

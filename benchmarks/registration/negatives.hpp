@@ -10,6 +10,7 @@ struct Negatives {
   std::size_t pairs = 0;
   std::size_t ours = 0;
   std::size_t opencv = 0;
+  double least_false_alarms = 1.0;  ///< of all pairs, the least chance of the best motion's support
 };
 
 /// A pool of pictures in clear water, features extracted once; `negatives` of its pairs whose

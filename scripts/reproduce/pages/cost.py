@@ -1,0 +1,85 @@
+"""docs/cost.md: the program `back_ends`, and what estimators/*.md show of it."""
+
+from layout import NOTHING, fixed, significant, table
+from maker import maker
+from markdown import tables_of
+
+GRAPHS = ("ring", "CSAIL", "MIT", "intel", "manhattan", "M3500")
+HOW = "`build/release/back_ends GRAPH.g2o`"
+
+
+def costs(work, graph):
+    """Tables of a graph: batch, incremental."""
+    few = work.size([], ["--repeats", 1, "--budget", 5])
+    return tables_of(work.output(f"back-ends-{graph}", "back_ends", work.graph(graph), *few))
+
+
+def batch_rows(work, graph):
+    """Rows of the batch table by estimator: dicts by column."""
+    header, rows = costs(work, graph)[0]
+    return {row[0].strip("`"): dict(zip(header, row)) for row in rows}
+
+
+def growth_folder(work):
+    """Where `back_ends --growth` has left its tables, and growth.svg."""
+    few = work.size([], ["--largest", 1000, "--budget", 5])
+    return work.run("growth", "back_ends", "--growth", "{out}/growth.svg", *few)
+
+
+def growth(work):
+    """Tables of growth: batch by keyframes, incremental by keyframes, by loops."""
+    return tables_of((growth_folder(work) / "stdout.txt").read_text("utf-8"))
+
+
+def _graph(name):
+    @maker("docs/cost.md", f"cost-{name.lower()}", "time", HOW, 3,
+           needs=(f"pose_graphs/{name}.g2o",), programs=("back_ends",))
+    def graph_tables(work):
+        return "\n".join(table(header, rows) for header, rows in costs(work, name))
+
+
+for _name in GRAPHS:
+    _graph(_name)
+
+GROWTH = dict(kind="time", how="`build/release/back_ends --growth FILE.svg`", minutes=30,
+              programs=("back_ends",))
+
+
+@maker("docs/cost.md", "cost-growth", pictures=("docs/images/growth.svg",), **GROWTH)
+def growth_tables(work):
+    work.picture("docs/images/growth.svg", growth_folder(work) / "growth.svg")
+    return "\n".join(table(header, rows) for header, rows in growth(work)[1:])
+
+
+@maker("docs/cost.md", "cost-smoother-update", **GROWTH)
+def smoother_update(work):
+    header, rows = growth(work)[1]
+    totals = next(row for row in rows if row[0] == "`incremental_smoother`")
+    columns = [i for i, text in enumerate(header) if text.isdigit() and 1000 <= int(text) <= 10000]
+    shown = [NOTHING if totals[i] == NOTHING
+             else significant(float(totals[i]) / (int(header[i]) / 3), 2) for i in columns]
+    return table(["keyframes", *(header[i] for i in columns)], [["ms an update", *shown]])
+
+
+@maker("docs/estimators/sparse_gauss_newton.md", "sgn-graphs", "time",
+       "`build/release/back_ends GRAPH.g2o`", 20, programs=("back_ends",),
+       needs=tuple(f"pose_graphs/{g}.g2o" for g in (*GRAPHS, "M3500a", "M3500b", "M3500c")))
+def sgn_graphs(work):
+    rows = []
+    for graph in (*GRAPHS, "M3500a", "M3500b", "M3500c"):
+        by_name = batch_rows(work, graph)
+        own, ceres = by_name["sparse_gauss_newton"], by_name["ceres_pose_graph"]
+        same_f = abs(float(ceres["chi2"]) / float(own["chi2"]) - 1) < 1e-6
+        rows.append([graph, fixed(float(own["chi2"]), 4), own["linearisations"], own["ms"],
+                     ceres["ms"] if same_f else f"ends at {ceres['chi2']}",
+                     own["covariances, ms"]])
+    return table(["graph", "F", "linearisations", "ours", "Ceres", "all covariances"], rows)
+
+
+@maker("docs/estimators/sparse_gauss_newton.md", "sgn-growth", **GROWTH)
+def sgn_growth(work):
+    header, rows = growth(work)[0]
+    by_name = {row[0].strip("`"): row for row in rows}
+    return table(["keyframes", "ours", "Ceres"],
+                 [[header[i], by_name["sparse_gauss_newton"][i], by_name["ceres_pose_graph"][i]]
+                  for i in range(1, len(header))])
