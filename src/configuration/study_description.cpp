@@ -15,6 +15,16 @@ std::optional<std::string> swept_value(const StudyDescription& study, std::size_
   return std::nullopt;
 }
 
+std::string configured_value(const StudyDescription& study, const std::string& key) {
+  const auto found = std::find_if(study.configuration.begin(), study.configuration.end(),
+                                  [&key](const auto& entry) { return entry.first == key; });
+  return found == study.configuration.end() ? "" : found->second;
+}
+
+std::string counted(std::size_t count, const std::string& noun) {
+  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
+}
+
 }  // namespace
 
 std::size_t StudyDescription::cell_count() const {
@@ -45,14 +55,54 @@ std::string StudyDescription::label_of(std::size_t cell) const {
 
 std::string StudyDescription::association_of(std::size_t cell) const {
   const std::string key = "association.mode";
-  if (const auto swept = swept_value(*this, cell, key)) return *swept;
-  const auto found = std::find_if(configuration.begin(), configuration.end(),
-                                  [&key](const auto& entry) { return entry.first == key; });
-  return found == configuration.end() ? "" : found->second;
+  return swept_value(*this, cell, key).value_or(configured_value(*this, key));
 }
 
 std::string StudyDescription::alignment_of(std::size_t cell) const {
   return swept_value(*this, cell, "evaluation.alignment").value_or(alignment);
+}
+
+Repetition StudyDescription::repetition_of(std::size_t cell) const {
+  const std::string key = "dataset.type";
+  const std::string type = swept_value(*this, cell, key).value_or(configured_value(*this, key));
+  for (const DataSetEntry& entry : data_sets()) {
+    if (entry.name == type) return entry.repetition();
+  }
+  return Repetition::surveys;
+}
+
+std::string repeats_text(Repetition repetition, std::size_t surveys, std::size_t trials) {
+  const std::string all = counted(trials, "trial");
+  switch (repetition) {
+    case Repetition::surveys:
+      return counted(surveys, "survey") + " × " + all;
+    case Repetition::pictures:
+      return "one set of pictures, " + all;
+    case Repetition::logs:
+      break;
+    case Repetition::graph:
+      return "one graph, " + all;
+  }
+  return all;
+}
+
+std::string limits_of_one_survey(Repetition repetition) {
+  switch (repetition) {
+    case Repetition::surveys:
+      return "one survey: intervals over its trials say nothing of other floors, attitudes and "
+             "sensor noise";
+    case Repetition::pictures:
+      return "one set of pictures: intervals over its trials say nothing of other pictures";
+    case Repetition::logs:
+      break;
+    case Repetition::graph:
+      return "one graph: intervals over its trials say nothing of other graphs";
+  }
+  return "";
+}
+
+std::size_t independent_draws(Repetition repetition, std::size_t surveys, std::size_t trials) {
+  return repetition == Repetition::logs ? trials : std::min(surveys, trials);
 }
 
 }  // namespace fathom
