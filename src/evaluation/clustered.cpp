@@ -130,11 +130,11 @@ std::optional<Interval> hierarchical_interval(const ClusteredValues& values,
   const bool has_single_trials =
       std::ranges::all_of(values, [](const auto& survey) { return survey.second.size() == 1; });
   if (has_single_trials) return bootstrap_interval(survey_means(values), options);
-  return hierarchical_interval(std::span(&values, 1), options);
+  return interval_over_cells(std::span(&values, 1), options);
 }
 
-std::optional<Interval> hierarchical_interval(std::span<const ClusteredValues> cells,
-                                              const BootstrapOptions& options) {
+std::optional<Interval> interval_over_cells(std::span<const ClusteredValues> cells,
+                                            const BootstrapOptions& options) {
   double estimate = 0.0;
   for (const ClusteredValues& cell : cells) {
     for (const auto& [survey, values] : cell) require_finite(values, "a bootstrap interval");

@@ -59,8 +59,8 @@ std::optional<PairedDifference> paired_difference(std::span<const double> a,
   return difference_over(differences, options);
 }
 
-std::optional<PairedDifference> paired_difference(const ClusteredValues& differences,
-                                                  const BootstrapOptions& options) {
+std::optional<PairedDifference> difference_over_surveys(const ClusteredValues& differences,
+                                                        const BootstrapOptions& options) {
   if (differences.empty()) return std::nullopt;
   std::size_t trials = 0;
   for (const auto& [survey, values] : differences) {

@@ -58,7 +58,7 @@ std::optional<PairedDifference> difference(const EstimatorResults& one,
     if (is_failed(run) || !value || other == of_first.end()) continue;
     differences[run.key.survey].push_back(*value - other->second);
   }
-  return paired_difference(differences);
+  return difference_over_surveys(differences);
 }
 
 // One family of tests a cell: what a reader of its block looks over at once. A single trial tests

@@ -82,7 +82,7 @@ TrialMean mean_over_cells(const std::vector<ClusteredValues>& cells) {
   if (cells.size() == 1) {
     result.interval = hierarchical_interval(cells.front());
   } else if (surveys.size() > 1) {
-    result.interval = hierarchical_interval(cells);
+    result.interval = interval_over_cells(cells);
   } else {
     result.interval = interval_of_one_survey(cells, result.mean);
   }

@@ -9,7 +9,7 @@ namespace fathom {
 
 /// The mean over cells of the cells' means, each cell with one value or more. Cells are given
 /// conditions and no sample of any, so its interval resamples within each: of several surveys the
-/// surveys, common to all cells, and the trials within them (`hierarchical_interval`); of a single
+/// surveys, common to all cells, and the trials within them (`interval_over_cells`); of a single
 /// survey the trials (a stratified BCa bootstrap; of a single cell `bootstrap_interval`). None
 /// where a cell has one value, or one survey where another has more.
 TrialMean mean_over_cells(const std::vector<ClusteredValues>& cells);

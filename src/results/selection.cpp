@@ -38,7 +38,7 @@ Lead lead_over(const Compared& compared, const SelectionQuery& query, const std:
     }
   }
   Lead lead;
-  lead.difference = paired_difference(differences);
+  lead.difference = difference_over_surveys(differences);
   if (!lead.difference || !lead.difference->interval) return lead;
   const Interval& interval = *lead.difference->interval;
   constexpr double kLevel = 0.05;

@@ -167,7 +167,7 @@ TEST(HierarchicalInterval, DrawsSurveysTogetherInAllCells) {
         apart[12 * c + s] = cells[c][s];
       }
     }
-    held += holds(hierarchical_interval(cells, {0.95, 300, 1}), 0.0) ? 1 : 0;
+    held += holds(interval_over_cells(cells, {0.95, 300, 1}), 0.0) ? 1 : 0;
     held_apart += holds(hierarchical_interval(apart, {0.95, 300, 1}), 0.0) ? 1 : 0;
   }
   EXPECT_GT(held, 0.87 * kStudies);
@@ -177,7 +177,7 @@ TEST(HierarchicalInterval, DrawsSurveysTogetherInAllCells) {
 
 TEST(HierarchicalInterval, OfCellsOfWhichOneHasASingleSurveyIsNothing) {
   const std::vector<ClusteredValues> cells{{{0, {1.0, 2.0}}, {1, {2.0, 3.0}}}, {{0, {1.0, 2.0}}}};
-  EXPECT_FALSE(hierarchical_interval(cells));
+  EXPECT_FALSE(interval_over_cells(cells));
 }
 
 TEST(HierarchicalInterval, RefusesWhatIsNotFinite) {
@@ -192,9 +192,9 @@ TEST(HierarchicalInterval, RefusesWhatIsNotFinite) {
               HasSubstr("between 0 and 1"));
 }
 
-TEST(PairedDifferenceBySurvey, OfOneSurveyIsOverItsTrials) {
+TEST(DifferenceOverSurveys, OfOneSurveyIsOverItsTrials) {
   const std::vector<double> differences{0.1, -0.2, 0.4, 0.3, 0.25, 0.5};
-  const auto one = paired_difference({{3, differences}});
+  const auto one = difference_over_surveys({{3, differences}});
   const auto list = paired_difference(differences, std::vector<double>(6, 0.0));
   ASSERT_TRUE(one && list);
   EXPECT_EQ(one->count, 6u);
@@ -205,9 +205,9 @@ TEST(PairedDifferenceBySurvey, OfOneSurveyIsOverItsTrials) {
   expect_same(one->interval, list->interval);
 }
 
-TEST(PairedDifferenceBySurvey, OfSeveralIsOverTheirMeans) {
-  const auto result =
-      paired_difference({{0, {0.1, 0.3}}, {1, {0.4}}, {2, {-0.2, 0.0, 0.2}}, {5, {0.6, 0.8}}});
+TEST(DifferenceOverSurveys, OfSeveralIsOverTheirMeans) {
+  const auto result = difference_over_surveys(
+      {{0, {0.1, 0.3}}, {1, {0.4}}, {2, {-0.2, 0.0, 0.2}}, {5, {0.6, 0.8}}});
   const std::vector<double> means{0.2, 0.4, 0.0, 0.7};
   const auto list = paired_difference(means, std::vector<double>(4, 0.0));
   ASSERT_TRUE(result && list);
@@ -217,11 +217,11 @@ TEST(PairedDifferenceBySurvey, OfSeveralIsOverTheirMeans) {
   EXPECT_NEAR(result->mean, 1.3 / 4.0, 1e-15);
   EXPECT_EQ(result->signed_rank.p_value, list->signed_rank.p_value);
   EXPECT_NEAR(result->interval->low, list->interval->low, 1e-12);
-  EXPECT_FALSE(paired_difference(ClusteredValues{}));
+  EXPECT_FALSE(difference_over_surveys({}));
 }
 
 // Two methods that are equal over all floors, but not on each of them.
-TEST(PairedDifferenceBySurvey, FindsNoDifferenceThatOtherSurveysWouldNotShow) {
+TEST(DifferenceOverSurveys, FindsNoDifferenceThatOtherSurveysWouldNotShow) {
   constexpr int kStudies = 400;
   RandomStream random(21);
   int found = 0;
@@ -232,7 +232,7 @@ TEST(PairedDifferenceBySurvey, FindsNoDifferenceThatOtherSurveysWouldNotShow) {
       return *result->signed_rank.p_value <= 0.05 ? 1 : 0;
     };
     const std::vector<double> all = all_of(differences);
-    found += is_found(paired_difference(differences, {0.95, 1, 1}));
+    found += is_found(difference_over_surveys(differences, {0.95, 1, 1}));
     found_over_trials +=
         is_found(paired_difference(all, std::vector<double>(all.size(), 0.0), {0.95, 1, 1}));
   }

@@ -40,7 +40,7 @@ std::optional<Interval> hierarchical_interval(const ClusteredValues& values,
 /// of each cell is drawn together with that of the others, as it may have the same floor. A survey
 /// may be missing in some cells. Nothing where a cell has a single survey or value while another
 /// has several surveys: its spread is not known. There must be two surveys in all (asserted).
-std::optional<Interval> hierarchical_interval(std::span<const ClusteredValues> cells,
-                                              const BootstrapOptions& options = {});
+std::optional<Interval> interval_over_cells(std::span<const ClusteredValues> cells,
+                                            const BootstrapOptions& options = {});
 
 }  // namespace fathom

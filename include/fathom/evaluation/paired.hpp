@@ -40,7 +40,7 @@ std::optional<PairedDifference> paired_difference(std::span<const double> a,
 /// the surveys' mean differences, as trials of one survey are no independent draws; of a single one
 /// over its trials, which says nothing of other surveys. A trial that either method failed has no
 /// difference; a survey without any is not there.
-std::optional<PairedDifference> paired_difference(const ClusteredValues& differences,
-                                                  const BootstrapOptions& options = {});
+std::optional<PairedDifference> difference_over_surveys(const ClusteredValues& differences,
+                                                        const BootstrapOptions& options = {});
 
 }  // namespace fathom
