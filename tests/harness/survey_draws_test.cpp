@@ -94,12 +94,14 @@ TEST(SurveyDraws, TrialsShareAltitudesAndPicturesAndDrawDeadReckoning) {
   EXPECT_NE(first.frame_dead_reckoning, elsewhere.frame_dead_reckoning);
 }
 
-// An altimeter with noise and trials with visual odometry: still each pair once a survey.
+// The altimeter has noise and trials have visual odometry: still each pair once a survey. No loops.
 TEST(SurveyDraws, APairIsRegisteredOnceASurvey) {
-  const Configuration configuration = configured(std::string(kSmallSurvey) +
-                                                 "dataset.altitude.altimeter_sigma_m: 0.02\n"
-                                                 "front_end.candidates.max_distance_m: 1.0e-3\n" +
-                                                 test::kVisualOdometry);
+  Settings settings = test::settings_of(std::string(kSmallSurvey) + test::kVisualOdometry);
+  settings.put(parse_override("front_end.candidates.max_distance_m=0.001"));
+  const Configuration configuration = configure(settings, test::kSingle, builtin_estimators());
+  ASSERT_GT(
+      options_of<SimulatedSurveyOptions>(configuration.dataset.values).altitude.altimeter_sigma_m,
+      0.0);
   test::MapCache cache;
   const auto record = [&](std::size_t survey, std::uint64_t trial) {
     Recorder(configuration, &cache, survey)
