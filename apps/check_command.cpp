@@ -120,8 +120,10 @@ void check_configuration(const std::string& path) {
   if (is_study) {
     const Study study = configure_study(settings, builtin_estimators());
     configuration = study.cells.front();
-    std::printf("study for 'compare': %zu cells, %zu trials\n", study.cells.size(),
-                study.description.trials);
+    const StudyDescription& described = study.description;
+    std::printf(
+        "study for 'compare': %zu cells, each %s\n", study.cells.size(),
+        repeats_text(described.repetition_of(0), described.surveys, described.trials).c_str());
     for (const StudyAxis& axis : study.description.axes) {
       std::printf("  swept %s: %zu values\n", axis.key.c_str(), axis.labels.size());
     }

@@ -1,4 +1,4 @@
-// fathom compare: a study. A data set, several estimators, many trials, perhaps a sweep.
+// fathom compare: a study. A data set, several estimators, surveys, many trials, perhaps a sweep.
 
 #include <algorithm>
 #include <atomic>
@@ -43,6 +43,7 @@ extern "C" void ask_to_stop(int signal) {
 struct CompareFlags {
   CommonFlags common;
   std::string config;
+  std::optional<int> surveys;
   std::optional<int> trials;
   std::optional<int> jobs;
   std::string cache;
@@ -51,6 +52,9 @@ struct CompareFlags {
 
   Settings settings() const {
     Settings settings = common.settings(config);
+    if (surveys) {
+      settings.put({"surveys", OptionValue::scalar(std::to_string(*surveys)), "--surveys"});
+    }
     if (trials) settings.put({"trials", OptionValue::scalar(std::to_string(*trials)), "--trials"});
     if (jobs) settings.put({"jobs", OptionValue::scalar(std::to_string(*jobs)), "--jobs"});
     return settings;
@@ -155,15 +159,17 @@ void compare(const CompareFlags& flags, Context& context) {
 void add_compare(CLI::App& program, Context& context) {
   auto flags = std::make_shared<CompareFlags>();
   Command command(
-      program, "compare", "Run a study: several estimators, many trials, a sweep",
+      program, "compare", "Run a study: several estimators, surveys, many trials, a sweep",
       "Example: fathom compare configs/quickstart.yaml --out runs/quickstart\n"
       "         fathom compare configs/studies/paper_simulated.yaml --trials 5 --jobs 2\n"
       "A study that was stopped or killed goes on where it was: run the same command again.");
   command.argument("config", flags->config, "Study (YAML)");
   flags->common.add_settings_to(command);
   flags->common.add_out_to(command, "Output folder (default: runs/CONFIG's name)");
+  command.integer("--surveys", flags->surveys, Range::any(), "N",
+                  "Surveys in every cell: floor, attitude and sensors drawn anew");
   command.integer("--trials", flags->trials, Range::any(), "N",
-                  "Trials in every cell, for a quick look");
+                  "Trials in every survey, for a quick look");
   command.integer("--jobs", flags->jobs, Range::any(), "N", "Trials at work at the same time");
   command.text("--cache", flags->cache, "DIR",
                "Folder of the registrations that are kept from study to study "

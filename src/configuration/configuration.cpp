@@ -187,7 +187,7 @@ Configuration configure(const Settings& settings, ConfigurationKind kind,
     configuration.origins[setting.key] = setting.origin;
   }
   configuration.dataset.values = given_values(settings);
-  check_study(settings, configuration.study, entry);
+  check_study(settings, configuration.study, entry, *data_set);
   std::vector<IgnoredKey> ignored = ignored_keys(configuration, *data_set);
   std::ranges::copy(ignored_of_false_loops(settings, configuration.study.false_loops),
                     std::back_inserter(ignored));

@@ -31,6 +31,10 @@ bool is_graph(const std::string& data_set) {
   });
 }
 
+std::string counted(std::size_t count, const std::string& noun) {
+  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
+}
+
 }  // namespace
 
 std::size_t StudyDescription::cell_count() const {
@@ -76,6 +80,48 @@ std::string StudyDescription::selected_by(std::size_t cell) const {
 
 std::string StudyDescription::alignment_of(std::size_t cell) const {
   return swept_value(*this, cell, "evaluation.alignment").value_or(alignment);
+}
+
+Repetition StudyDescription::repetition_of(std::size_t cell) const {
+  const std::string type = value_of(*this, cell, "dataset.type");
+  for (const DataSetEntry& entry : data_sets()) {
+    if (entry.name == type) return entry.repetition();
+  }
+  return Repetition::surveys;
+}
+
+std::string repeats_text(Repetition repetition, std::size_t surveys, std::size_t trials) {
+  const std::string all = counted(trials, "trial");
+  switch (repetition) {
+    case Repetition::surveys:
+      return counted(surveys, "survey") + " × " + all;
+    case Repetition::pictures:
+      return "one set of pictures, " + all;
+    case Repetition::logs:
+      break;
+    case Repetition::graph:
+      return "one graph, " + all;
+  }
+  return all;
+}
+
+std::string limits_of_one_survey(Repetition repetition) {
+  switch (repetition) {
+    case Repetition::surveys:
+      return "one survey: intervals over its trials say nothing of other floors, attitudes and "
+             "sensor noise";
+    case Repetition::pictures:
+      return "one set of pictures: intervals over its trials say nothing of other pictures";
+    case Repetition::logs:
+      break;
+    case Repetition::graph:
+      return "one graph: intervals over its trials say nothing of other graphs";
+  }
+  return "";
+}
+
+std::size_t independent_draws(Repetition repetition, std::size_t surveys, std::size_t trials) {
+  return repetition == Repetition::logs ? trials : std::min(surveys, trials);
 }
 
 }  // namespace fathom

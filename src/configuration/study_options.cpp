@@ -8,6 +8,8 @@
 namespace fathom {
 namespace {
 
+// Of an estimator in a cell: more would be no study but a mistake.
+constexpr double kMostRuns = 1e6;
 constexpr const char* kFalseLoops = "association.false_loops";
 
 std::vector<std::string> described_keys(void (StudyOptions::*describe)(OptionTable&)) {
@@ -29,11 +31,44 @@ void require_each(const Settings& settings, const std::string& key,
   }
 }
 
+// Why a data set has one survey, whatever a study asks for.
+std::string why_one_survey(const DataSetEntry& data_set, const DataSetOptions& options) {
+  switch (data_set.repetition()) {
+    case Repetition::surveys:
+      break;
+    case Repetition::pictures:
+      return "an " + data_set.name + " is one set of pictures, of which nothing is drawn again";
+    case Repetition::logs:
+      return data_set.name + " draws everything in each of its trials";
+    case Repetition::graph:
+      return "a " + data_set.name + " graph is always the same";
+  }
+  return options.why_surveys_are_alike();
+}
+
+void check_repeats(const Settings& settings, const StudyOptions& study,
+                   const DataSetEntry& data_set, const DataSetOptions& options) {
+  const std::string one = study.surveys > 1 ? why_one_survey(data_set, options) : "";
+  if (!one.empty()) refuse(*settings.find("surveys"), "surveys: " + one + "; expected 1");
+  if (!data_set.draws_trials() && study.trials > 1 && study.false_loops.share == 0.0) {
+    refuse(*settings.find("trials"),
+           "trials: a pose graph without false loops has nothing to draw; expected 1");
+  }
+  const double runs = static_cast<double>(study.surveys) * static_cast<double>(study.trials);
+  if (runs <= kMostRuns) return;
+  refuse(*settings.find(study.surveys > 1 ? "surveys" : "trials"),
+         "surveys: " + std::to_string(study.surveys) + " of " + std::to_string(study.trials) +
+             " trials each are too many; expected surveys times trials of at most " +
+             std::to_string(static_cast<int>(kMostRuns)));
+}
+
 }  // namespace
 
 void StudyOptions::describe_session(OptionTable& table) {
-  table.integer("trials", trials, Range::between(1, 1e6), "",
-                "runs of every estimator in every cell, each with noise of its own");
+  table.integer("surveys", surveys, Range::between(1, kMostRuns), "",
+                "draws of what a simulated survey has once: floor, attitude, sensors");
+  table.integer("trials", trials, Range::between(1, kMostRuns), "",
+                "runs of every estimator in every cell and survey, each with noise of its own");
   table.integer("jobs", jobs, Range::between(1, 1024), "",
                 "trials at work at the same time; cost is comparable at 1 alone");
   table.text("report.title", title, "title of the report");
@@ -87,12 +122,9 @@ std::vector<IgnoredKey> ignored_of_false_loops(const Settings& settings,
   return below(kFalseLoops, ignored);
 }
 
-void check_study(const Settings& settings, const StudyOptions& study,
-                 const DataSetEntry& data_set) {
-  if (!data_set.draws_trials() && study.trials > 1 && study.false_loops.share == 0.0) {
-    refuse(*settings.find("trials"),
-           "trials: a pose graph without false loops has nothing to draw; expected 1");
-  }
+void check_study(const Settings& settings, const StudyOptions& study, const DataSetEntry& data_set,
+                 const DataSetOptions& options) {
+  check_repeats(settings, study, data_set, options);
   if (data_set.is_graph && study.association == Association::own) {
     refuse(*settings.find("association.mode"),
            "association.mode: a pose graph has its loops; expected shared");

@@ -11,7 +11,7 @@ namespace fathom {
 /// Whether a key is of a comparison and not of a run.
 bool is_study_key(const std::string& key);
 
-/// Whether no result depends on it: the number of trials and jobs, and the report.
+/// Whether no result depends on it: the number of surveys, trials and jobs, and the report.
 bool is_session_key(const std::string& key);
 
 /// Options of false loops, with their group, that say nothing beside the others.
@@ -19,6 +19,7 @@ std::vector<IgnoredKey> ignored_of_false_loops(const Settings& settings,
                                                const SpoilOptions& options);
 
 /// What no single option's bounds can say. Throws InputError.
-void check_study(const Settings& settings, const StudyOptions& study, const DataSetEntry& data_set);
+void check_study(const Settings& settings, const StudyOptions& study, const DataSetEntry& data_set,
+                 const DataSetOptions& options);
 
 }  // namespace fathom

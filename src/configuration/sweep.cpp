@@ -63,9 +63,10 @@ void check_name(const StudyAxis& axis, const Setting& given, const std::string& 
   const std::string& name = axis.name;
   check_text(name, given, prefix + "name");
   // The other columns of runs.csv and summary.csv.
-  const std::vector<std::string> columns{"cell",  "association", "trial",  "estimator", "outcome",
-                                         "fault", "jobs",        "metric", "n",         "failures",
-                                         "mean",  "sd",          "median", "low_95",    "high_95"};
+  const std::vector<std::string> columns{"cell",    "association", "survey", "trial",  "estimator",
+                                         "outcome", "fault",       "jobs",   "metric", "surveys",
+                                         "n",       "failures",    "mean",   "sd",     "median",
+                                         "low_95",  "high_95"};
   const bool is_that_column = name == "association" && axis.key == "association.mode";
   if (is_that_column || std::ranges::find(columns, name) == columns.end()) return;
   refuse(given, prefix + "name: '" + name +

@@ -15,6 +15,10 @@ std::uint64_t stream_seed(std::uint64_t base_seed, std::string_view stream, std:
   return mix_bits(hash ^ mix_bits(trial));
 }
 
+std::uint64_t survey_seed(std::uint64_t base_seed, std::uint64_t survey) {
+  return survey == 0 ? base_seed : stream_seed(base_seed, "survey", survey);
+}
+
 double RandomStream::uniform() {
   return static_cast<double>(engine_() >> 11) * 0x1.0p-53;
 }

@@ -2,6 +2,7 @@
 
 #include <boost/math/distributions/binomial.hpp>
 #include <boost/math/distributions/normal.hpp>
+#include <boost/math/distributions/students_t.hpp>
 
 namespace fathom {
 
@@ -11,6 +12,10 @@ double normal_cdf(double z) {
 
 double normal_quantile(double probability) {
   return quantile(boost::math::normal(), probability);
+}
+
+double student_quantile(double probability, double degrees_of_freedom) {
+  return quantile(boost::math::students_t(degrees_of_freedom), probability);
 }
 
 double binomial_upper_bound(std::size_t successes, std::size_t count, double probability) {

@@ -8,6 +8,21 @@
 #include "fathom/core/input_error.hpp"
 
 namespace fathom {
+namespace {
+
+std::optional<PairedDifference> difference_over(const std::vector<double>& differences,
+                                                const BootstrapOptions& options) {
+  PairedDifference result;
+  result.count = result.trials = differences.size();
+  result.interval = bootstrap_interval(differences, options);
+  if (differences.empty()) return std::nullopt;
+  result.mean = std::accumulate(differences.begin(), differences.end(), 0.0) /
+                static_cast<double>(differences.size());
+  result.signed_rank = wilcoxon_signed_rank(differences);
+  return result;
+}
+
+}  // namespace
 
 std::vector<double> holm(std::span<const double> p_values) {
   for (const double p : p_values) {
@@ -41,13 +56,22 @@ std::optional<PairedDifference> paired_difference(std::span<const double> a,
   std::vector<double> differences;
   differences.reserve(a.size());
   for (std::size_t i = 0; i < a.size(); ++i) differences.push_back(a[i] - b[i]);
-  PairedDifference result;
-  result.count = differences.size();
-  result.interval = bootstrap_interval(differences, options);
+  return difference_over(differences, options);
+}
+
+std::optional<PairedDifference> difference_over_surveys(const ClusteredValues& differences,
+                                                        const BootstrapOptions& options) {
   if (differences.empty()) return std::nullopt;
-  result.mean = std::accumulate(differences.begin(), differences.end(), 0.0) /
-                static_cast<double>(differences.size());
-  result.signed_rank = wilcoxon_signed_rank(differences);
+  std::size_t trials = 0;
+  for (const auto& [survey, values] : differences) {
+    require_finite(values, "a paired difference");
+    trials += values.size();
+  }
+  if (differences.size() == 1) return difference_over(differences.begin()->second, options);
+  auto result = difference_over(survey_means(differences), options);
+  result->trials = trials;
+  result->is_over_surveys = true;
+  result->interval = hierarchical_interval(differences, options);
   return result;
 }
 

@@ -186,12 +186,13 @@ void attach_ground_truth(Recording& graph, const std::filesystem::path& path) {
   }
 }
 
-Recorder::Recorder(const Configuration& configuration, RegistrationCache* cache) {
+Recorder::Recorder(const Configuration& configuration, RegistrationCache* cache,
+                   std::size_t survey) {
   if (!find_data_set(configuration.dataset.type).is_graph) {
-    pictures_ = std::make_shared<Pictures>(configuration, cache);
+    pictures_ = std::make_shared<Pictures>(configuration, cache, survey);
     return;
   }
-  graph_data_ = open_data_set(configuration);
+  graph_data_ = open_data_set(configuration, survey);
   const auto files = graph_data_->files();
   graph_ =
       graph_recording(*graph_data_->graph(), files.empty() ? "dataset" : files.front().string());

@@ -8,38 +8,16 @@
 #include <system_error>
 #include <thread>
 
+#include "fathom/core/random.hpp"
 #include "fathom/harness/recording.hpp"
 #include "fathom/harness/run_record.hpp"
 #include "fathom/harness/survey.hpp"
 #include "fathom/results/run_index.hpp"
 #include "study_data_sets.hpp"
+#include "study_tasks.hpp"
 
 namespace fathom {
 namespace {
-
-// One trial of one cell, with the runs of it that are still to be done.
-struct Task {
-  std::size_t cell = 0;
-  std::size_t trial = 0;
-  std::vector<std::size_t> estimators;
-  bool baseline = false;
-};
-
-std::vector<Task> tasks_of(const Study& study, const ResultStore& store) {
-  const RunIndex there(store);
-  std::vector<Task> tasks;
-  for (std::size_t cell = 0; cell < study.cells.size(); ++cell) {
-    for (std::size_t trial = 0; trial < study.description.trials; ++trial) {
-      Task task{cell, trial, {}, !there.has({cell, trial, kDeadReckoning})};
-      for (std::size_t e = 0; e < study.description.estimators.size(); ++e) {
-        const std::string& name = study.description.estimators[e].name;
-        if (!there.has({cell, trial, name})) task.estimators.push_back(e);
-      }
-      if (task.baseline || !task.estimators.empty()) tasks.push_back(task);
-    }
-  }
-  return tasks;
-}
 
 /// A recording with what all its runs are judged by.
 struct RecordedTrial {
@@ -55,13 +33,12 @@ class Runner {
         registry_(registry),
         store_(store),
         options_(options),
-        tasks_(tasks_of(study, store)),
+        data_sets_(study, options.registrations),
+        tasks_(tasks_of(study, store, data_sets_)),
         threads_(std::min(static_cast<std::size_t>(options.jobs),
-                          std::max<std::size_t>(tasks_.size(), 1))),
-        data_sets_(study, options.registrations) {
-    for (const Task& task : tasks_) data_sets_.expect_trial(task.cell);
-    progress_.of =
-        study.cells.size() * study.description.trials * study.description.estimators.size();
+                          std::max<std::size_t>(tasks_.size(), 1))) {
+    for (const Task& task : tasks_) data_sets_.expect_trial(task.cell, task.survey);
+    progress_.of = trials_in_all(study) * study.description.estimators.size();
     std::size_t missing = 0;
     for (const Task& task : tasks_) missing += task.estimators.size();
     progress_.earlier = progress_.done = progress_.of - missing;
@@ -110,12 +87,11 @@ class Runner {
 
   void run_trial(const Task& task, MemoryMeter* meter) {
     const Configuration& configuration = study_.cells[task.cell];
-    const std::shared_ptr<const Recorder> recorder = data_sets_.of(task.cell);
+    const std::shared_ptr<const Recorder> recorder = data_sets_.of(task.cell, task.survey);
     const auto record_by = [&](const CandidateReference& reference) {
-      RecordedTrial made{
-          std::make_shared<const Recording>(recorder->record(
-              configuration, reference, registry_, {study_.noise_seeds[task.cell], task.trial})),
-          {}};
+      RecordedTrial made{std::make_shared<const Recording>(
+                             recorder->record(configuration, reference, registry_, noise_of(task))),
+                         {}};
       if (!task.estimators.empty()) made.facts = study_facts(*made.recording, registry_);
       return made;
     };
@@ -129,13 +105,17 @@ class Runner {
       add_run(task, e, *trial, meter);
     }
     if (task.baseline && task.estimators.empty()) add_baseline(task, *trial->recording);
-    data_sets_.trial_done(task.cell);
+    data_sets_.trial_done(task.cell, task.survey);
     ++done_tasks_;
+  }
+
+  TrialNoise noise_of(const Task& task) const {
+    return {survey_seed(study_.noise_seeds[task.cell], task.survey), task.trial};
   }
 
   void add_baseline(const Task& task, const Recording& recording) {
     RunRecord run = baseline_record(recording, metric_options(study_.cells[task.cell]));
-    run.key = {task.cell, task.trial, kDeadReckoning};
+    run.key = task.run_of(kDeadReckoning);
     run.jobs = static_cast<int>(threads_);
     store_.add(run);
   }
@@ -149,7 +129,7 @@ class Runner {
         evaluate(*trial.recording, configuration.estimators[estimator], registry_,
                  {.metrics = metric_options(configuration), .facts = &trial.facts}, asked);
     RunRecord run = run_record(*trial.recording, result, trial.facts.log_hash);
-    run.key = {task.cell, task.trial, configuration.estimators[estimator].name};
+    run.key = task.run_of(configuration.estimators[estimator].name);
     run.jobs = static_cast<int>(threads_);
     store_.add(run);
     const std::lock_guard hold(mutex_);
@@ -159,7 +139,9 @@ class Runner {
     if (is_example(task)) example_[estimator] = {trial.recording, std::move(result)};
   }
 
-  static bool is_example(const Task& task) { return task.cell == 0 && task.trial == 0; }
+  static bool is_example(const Task& task) {
+    return task.cell == 0 && task.survey == 0 && task.trial == 0;
+  }
 
   // What an earlier session stored of the example is replayed; its cost is that of the stored run.
   void complete_example() {
@@ -171,7 +153,7 @@ class Runner {
     for (std::size_t e = 0; e < configuration.estimators.size(); ++e) {
       if (example_.contains(e)) continue;
       if (is_own || !shared) {
-        shared = std::make_shared<const Recording>(data_sets_.of(0)->record(
+        shared = std::make_shared<const Recording>(data_sets_.of(0, 0)->record(
             configuration,
             is_own ? by_contender(configuration.estimators[e]) : configuration.reference, registry_,
             {study_.noise_seeds.front(), 0}));
@@ -179,7 +161,7 @@ class Runner {
       const EstimatorConfiguration& estimator = configuration.estimators[e];
       Result result =
           evaluate(*shared, estimator, registry_, {.metrics = metric_options(configuration)}, {});
-      result.metrics = stored.of(estimator.name, 0).at(0)->metrics;
+      result.metrics = stored.of(estimator.name, 0).at({0, 0})->metrics;
       example_[e] = {shared, std::move(result)};
     }
   }
@@ -188,9 +170,9 @@ class Runner {
   const EstimatorRegistry& registry_;
   ResultStore& store_;
   const StudyRunOptions& options_;
+  StudyDataSets data_sets_;
   std::vector<Task> tasks_;
   std::size_t threads_;
-  StudyDataSets data_sets_;
   std::atomic<std::size_t> next_task_ = 0;
   std::atomic<std::size_t> done_tasks_ = 0;
   std::atomic<bool> failed_ = false;
@@ -213,9 +195,8 @@ Fingerprint data_of(const Study& study) {
 }
 
 int jobs_of(const Study& study) {
-  const std::size_t trials = study.cells.size() * study.description.trials;
   const auto jobs = static_cast<std::size_t>(study.cells.front().study.jobs);
-  return static_cast<int>(std::min(jobs, trials));
+  return static_cast<int>(std::min(jobs, trials_in_all(study)));
 }
 
 StudyRun run_study(const Study& study, const EstimatorRegistry& registry, ResultStore& store,

@@ -4,6 +4,8 @@
 #include <utility>
 #include <vector>
 
+#include "fathom/core/random.hpp"
+
 namespace fathom {
 
 InputError at_origin(const Configuration& configuration, const InputError& error) {
@@ -15,8 +17,8 @@ InputError at_origin(const Configuration& configuration, const InputError& error
 
 namespace {
 
-std::uint64_t seed_of(const Configuration& configuration) {
-  return static_cast<std::uint64_t>(configuration.seed);
+std::uint64_t seed_of(const Configuration& configuration, std::size_t survey) {
+  return survey_seed(static_cast<std::uint64_t>(configuration.seed), survey);
 }
 
 // Runs an action; its errors name the origin of their key.
@@ -64,22 +66,24 @@ std::string settings_text(const Configuration& configuration, const std::set<std
 
 }  // namespace
 
-std::unique_ptr<const DataSet> open_data_set(const Configuration& configuration) {
+std::unique_ptr<const DataSet> open_data_set(const Configuration& configuration,
+                                             std::size_t survey) {
   std::unique_ptr<const DataSet> data;
   with_origin(configuration, [&] {
     const DataSetEntry& entry = find_data_set(configuration.dataset.type);
-    data = entry.open(configuration.dataset.values, seed_of(configuration));
+    data = entry.open(configuration.dataset.values, seed_of(configuration, survey));
   });
   return data;
 }
 
-Pictures::Pictures(const Configuration& configuration, RegistrationCache* cache) {
+Pictures::Pictures(const Configuration& configuration, RegistrationCache* cache,
+                   std::size_t survey) {
   with_origin(configuration, [&] { require_pictures(configuration); });
-  data_ = open_data_set(configuration);
+  data_ = open_data_set(configuration, survey);
   with_origin(configuration, [&] {
     registrar_ = std::make_unique<PairRegistrar>(source(), configuration.front_end.features,
                                                  configuration.front_end.registration,
-                                                 seed_of(configuration), cache);
+                                                 seed_of(configuration, survey), cache);
   });
 }
 
@@ -98,7 +102,7 @@ std::string picture_settings(const Configuration& configuration) {
 
 Survey::Survey(const Configuration& configuration, RegistrationCache* cache)
     : Survey(std::make_shared<Pictures>(configuration, cache), configuration,
-             {seed_of(configuration), 0}) {}
+             {seed_of(configuration, 0), 0}) {}
 
 Survey::Survey(std::shared_ptr<Pictures> pictures, const Configuration& configuration,
                const TrialNoise& noise)

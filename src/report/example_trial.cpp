@@ -78,21 +78,20 @@ Json loop_ends_json(const ResultStore& store, const RunKey& key, const Json& loo
 }  // namespace
 
 Json example_trial(const ResultStore& store, const CellResults& cell, std::size_t most) {
-  std::size_t trial = static_cast<std::size_t>(-1);
-  for (const EstimatorResults& one : cell.estimators) {
-    if (!one.runs.empty()) trial = std::min(trial, one.runs.front().key.trial);
-  }
-  const RunKey baseline{cell.cell, trial, kDeadReckoning};
-  Json json{{"trial", trial},
+  const TrialKey trial = first_trial(cell);
+  const RunKey baseline{cell.cell, trial.survey, trial.trial, kDeadReckoning};
+  Json json{{"survey", trial.survey},
+            {"trial", trial.trial},
+            {"text", example_text(cell, trial)},
             {"truth", path_json(store.series(baseline, "truth_x_m"),
                                 store.series(baseline, "truth_y_m"), most)}};
   json["estimators"] = Json::array();
   for (const EstimatorResults& one : cell.estimators) {
-    const RunKey key{cell.cell, trial, one.name};
+    const RunKey key{cell.cell, trial.survey, trial.trial, one.name};
     const Json path = path_json(store.series(key, "x_m"), store.series(key, "y_m"), most);
     const Json loops = loops_json(store, key);
     const auto run = std::find_if(one.runs.begin(), one.runs.end(),
-                                  [trial](const auto& r) { return r.key.trial == trial; });
+                                  [&trial](const auto& r) { return r.key.trial_key() == trial; });
     if (run == one.runs.end()) continue;
     json["estimators"].push_back(
         {{"name", one.name},

@@ -8,8 +8,9 @@
 
 namespace fathom {
 
-/// The lowest trial of a cell, drawn: `trial`, `truth` (null where unknown) and per estimator its
-/// path, 2σ ellipses and loops, with the path thinned to about `most` keyframes.
+/// The lowest trial of a cell's lowest survey, drawn: `survey`, `trial`, `text` (both in words),
+/// `truth` (null where unknown) and per estimator its path, 2σ ellipses and loops, with the path
+/// thinned to about `most` keyframes.
 nlohmann::ordered_json example_trial(const ResultStore& store, const CellResults& cell,
                                      std::size_t most);
 

@@ -11,8 +11,9 @@ using Points = std::vector<Eigen::Vector2d>;
 
 struct NeesChart {
   std::vector<std::pair<std::string, Points>> lines;
-  Points low;  ///< of the χ² interval, of the estimator with the most trials
+  Points low;  ///< of the χ² interval, of the estimator with the most independent draws
   Points high;
+  std::size_t draws = 0;
 };
 
 NeesChart chart_of(const CellResults& cell, const std::vector<EstimatorSeries>& series) {
@@ -27,14 +28,15 @@ NeesChart chart_of(const CellResults& cell, const std::vector<EstimatorSeries>& 
     }
     if (points.empty()) continue;
     chart.lines.emplace_back(cell.estimators[i].name, std::move(points));
-    const std::size_t trials = *std::max_element(all.nees_count.begin(), all.nees_count.end());
-    if (trials <= most) continue;
-    most = trials;
+    const std::size_t draws = *std::max_element(all.nees_draws.begin(), all.nees_draws.end());
+    if (draws <= most) continue;
+    most = draws;
+    chart.draws = draws;
     chart.low.clear();
     chart.high.clear();
     for (std::size_t k = 0; k < all.keyframe.size(); ++k) {
-      if (all.nees_count[k] == 0) continue;
-      const Interval interval = anees_interval(all.nees_count[k], 3, 0.95);
+      if (all.nees_draws[k] == 0) continue;
+      const Interval interval = anees_interval(all.nees_draws[k], 3, 0.95);
       chart.low.emplace_back(static_cast<double>(all.keyframe[k]), interval.low);
       chart.high.emplace_back(static_cast<double>(all.keyframe[k]), interval.high);
     }
@@ -64,7 +66,9 @@ std::vector<LegendEntry> legend_of(const NeesChart& chart,
   for (const auto& [name, points] : chart.lines) {
     legend.push_back(line_entry(display_name(name), pen_of(styles.at(name), 1.1)));
   }
-  legend.push_back(line_entry("95 % interval of χ²", {palette::grey, 6.0, {}, 0.35}));
+  legend.push_back(line_entry("95 % interval of χ², " + std::to_string(chart.draws) +
+                                  (chart.draws == 1 ? " draw" : " independent draws"),
+                              {palette::grey, 6.0, {}, 0.35}));
   return legend;
 }
 

@@ -132,22 +132,17 @@ void draw_map(Canvas& canvas, const DrawnMap& map, const ChartFrame& frame, cons
   }
 }
 
-// Of a study that is not complete there are several.
 std::string trials_text(const RegimeMap& map) {
-  std::set<int> counts;
-  for (const auto& column : map.cells) {
-    for (const CellResults* cell : column) {
-      if (cell != nullptr) counts.insert(static_cast<int>(cell->trials));
-    }
-  }
-  return counts_text(counts);
+  std::vector<const CellResults*> cells;
+  for (const auto& column : map.cells) cells.insert(cells.end(), column.begin(), column.end());
+  return repeats_of(cells);
 }
 
 std::string conditions_of(const RegimeMap& map, const std::string& metric,
                           const std::optional<std::string>& cost) {
   std::string text = described(metric).label + ", mean over trials, over the best estimator's";
   if (cost) text += "; cheapest by " + described(*cost).label + ", mean over trials";
-  return text + "; n = " + trials_text(map) + " trials a square";
+  return text + "; " + trials_text(map) + " a square";
 }
 
 std::vector<LegendEntry> legend_of(const StudyDescription& study,

@@ -34,28 +34,20 @@ void add_loops(PlotSeries& series, const ResultStore& store, const RunKey& key) 
   }
 }
 
-bool is_done_at(const EstimatorResults& one, std::size_t trial) {
-  return std::any_of(one.runs.begin(), one.runs.end(), [trial](const RunRecord& run) {
-    return run.key.trial == trial && !is_failed(run);
+bool is_done_at(const EstimatorResults& one, const TrialKey& trial) {
+  return std::any_of(one.runs.begin(), one.runs.end(), [&trial](const RunRecord& run) {
+    return run.key.trial_key() == trial && !is_failed(run);
   });
 }
 
-std::size_t lowest_trial(const CellResults& cell) {
-  std::size_t trial = cell.estimators.front().runs.front().key.trial;
-  for (const EstimatorResults& one : cell.estimators) {
-    trial = std::min(trial, one.runs.front().key.trial);
-  }
-  return trial;
-}
-
-TrajectoryPlot plot_of(const ResultStore& store, const CellResults& cell, std::size_t trial,
+TrajectoryPlot plot_of(const ResultStore& store, const CellResults& cell, const TrialKey& trial,
                        const std::map<std::string, LineStyle>& styles) {
   TrajectoryPlot plot;
-  std::vector<Pose> truth =
-      path_of(store, {cell.cell, trial, kDeadReckoning}, "truth_x_m", "truth_y_m");
+  std::vector<Pose> truth = path_of(store, {cell.cell, trial.survey, trial.trial, kDeadReckoning},
+                                    "truth_x_m", "truth_y_m");
   bool has_loops = false;
   for (const EstimatorResults& one : cell.estimators) {
-    const RunKey key{cell.cell, trial, one.name};
+    const RunKey key{cell.cell, trial.survey, trial.trial, one.name};
     PlotSeries series{display_name(one.name),
                       styles.at(one.name),
                       path_of(store, key, "x_m", "y_m"),
@@ -84,11 +76,11 @@ void add_trajectory_figures(const FigureInput& input, std::vector<StudyFigure>& 
   const StudyResults& results = input.results;
   const auto styles = line_styles(results.study);
   for (const CellResults& cell : results.cells) {
-    const std::size_t trial = lowest_trial(cell);
+    const TrialKey trial = first_trial(cell);
     const auto plot =
         std::make_shared<const TrajectoryPlot>(plot_of(input.store, cell, trial, styles));
     if (plot->series.empty()) continue;
-    const std::string conditions = "trial " + std::to_string(trial) + " of " + cell_caption(cell);
+    const std::string conditions = example_text(cell, trial) + " of " + cell_caption(cell);
     const FigureLayout layout({220.0}, TrajectoryMap(*plot).legend(), conditions);
     figures.push_back({figure_title("trajectories", cell.label, results.cells.size() == 1),
                        layout.height(), [plot, layout](Canvas& canvas) {

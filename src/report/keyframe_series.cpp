@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "fathom/evaluation/summary.hpp"
 #include "fathom/results/run_index.hpp"
@@ -19,6 +20,7 @@ struct Sums {
   double bound = 0.0;
   std::size_t nees_count = 0;
   double nees = 0.0;
+  std::set<std::size_t> nees_surveys;
 };
 
 std::vector<double> series_or_none(const ResultStore& store, const RunKey& key, const char* name) {
@@ -50,6 +52,7 @@ void add_run(const ResultStore& store, const RunKey& key, std::vector<Sums>& sum
     if (!std::isfinite(nees[i])) continue;
     ++sums[i + 1].nees_count;
     sums[i + 1].nees += nees[i];
+    sums[i + 1].nees_surveys.insert(key.survey);
   }
 }
 
@@ -64,7 +67,8 @@ std::optional<double> deviation(const Sums& sums) {
   return std::sqrt(std::max(0.0, spread) / (count - 1.0));
 }
 
-KeyframeStatistics keyframe_statistics(const ResultStore& store, const EstimatorResults& runs) {
+KeyframeStatistics keyframe_statistics(const ResultStore& store, const EstimatorResults& runs,
+                                       Repetition repetition) {
   std::vector<Sums> sums;
   for (const RunRecord& run : runs.runs) {
     if (!is_failed(run)) add_run(store, run.key, sums);
@@ -80,6 +84,8 @@ KeyframeStatistics keyframe_statistics(const ResultStore& store, const Estimator
     result.empirical_m.push_back(square ? std::optional(2.0 * std::sqrt(*square)) : std::nullopt);
     result.estimated_m.push_back(ratio(at.bound, at.bounds));
     result.nees_count.push_back(at.nees_count);
+    result.nees_draws.push_back(
+        independent_draws(repetition, at.nees_surveys.size(), at.nees_count));
     result.anees.push_back(ratio(at.nees / 3.0, at.nees_count));
   }
   return result;
@@ -128,8 +134,10 @@ std::optional<SweepBounds> sweep_bounds(const KeyframeStatistics& statistics) {
 
 }  // namespace
 
-EstimatorSeries estimator_series(const ResultStore& store, const EstimatorResults& runs) {
-  EstimatorSeries series{keyframe_statistics(store, runs), update_cost(store, runs), {}};
+EstimatorSeries estimator_series(const ResultStore& store, const EstimatorResults& runs,
+                                 Repetition repetition) {
+  EstimatorSeries series{
+      keyframe_statistics(store, runs, repetition), update_cost(store, runs), {}};
   series.bounds = sweep_bounds(series.keyframes);
   return series;
 }
@@ -140,7 +148,7 @@ std::vector<std::vector<EstimatorSeries>> study_series(const ResultStore& store,
   for (const CellResults& cell : results.cells) {
     all.emplace_back();
     for (const EstimatorResults& one : cell.estimators) {
-      all.back().push_back(estimator_series(store, one));
+      all.back().push_back(estimator_series(store, one, cell.repetition));
     }
   }
   return all;

@@ -18,6 +18,7 @@ struct KeyframeStatistics {
   std::vector<std::optional<double>> empirical_m;  ///< twice the root mean square position error
   std::vector<std::optional<double>> estimated_m;  ///< mean of 2·√(P_xx + P_yy): what it should be
   std::vector<std::size_t> nees_count;             ///< trials with a NEES there
+  std::vector<std::size_t> nees_draws;             ///< of them independent draws
   std::vector<std::optional<double>> anees;        ///< mean pose NEES / 3
 };
 
@@ -42,7 +43,8 @@ struct EstimatorSeries {
   std::optional<SweepBounds> bounds;
 };
 
-EstimatorSeries estimator_series(const ResultStore& store, const EstimatorResults& runs);
+EstimatorSeries estimator_series(const ResultStore& store, const EstimatorResults& runs,
+                                 Repetition repetition);
 
 /// By cell and estimator, in the order of `results`.
 std::vector<std::vector<EstimatorSeries>> study_series(const ResultStore& store,

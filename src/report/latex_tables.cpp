@@ -1,6 +1,7 @@
 #include "latex_tables.hpp"
 
 #include <algorithm>
+#include <set>
 
 #include "fathom/core/text.hpp"
 #include "latex_text.hpp"
@@ -47,7 +48,14 @@ std::string title_of(const StudyDescription& study) {
   return study.title.empty() ? "" : latex_text(study.title) + ". ";
 }
 
-constexpr const char* kMeaning = " Means over the trials done, with 95\\,\\% bootstrap intervals.";
+// How means are made, and what their intervals do not speak of.
+std::string meaning_of(const StudyResults& results) {
+  std::string text = latex_text(intervals_text(results));
+  std::set<std::string> limits;
+  for (const CellResults& cell : results.cells) limits.insert(limits_text(cell));
+  for (const std::string& limit : limits) text += limit.empty() ? "" : " " + latex_text(limit);
+  return text.empty() ? "" : " " + text;
+}
 
 std::string cell_table(const CellResults& cell, const StudyResults& results) {
   std::vector<std::string> metrics;
@@ -66,7 +74,7 @@ std::string cell_table(const CellResults& cell, const StudyResults& results) {
     for (const std::string& metric : metrics) rows.back().push_back(value_text(one, metric));
   }
   const std::string caption = title_of(results.study) + latex_text(cell_caption(cell)) + "." +
-                              (cell.trials > 1 ? kMeaning : "");
+                              (cell.trials > 1 ? meaning_of(results) : "");
   return table_of(caption, "tab:fathom-cell-" + std::to_string(cell.cell), header, rows);
 }
 
@@ -83,17 +91,14 @@ std::string joint_text(const std::string& what, const StudyResults& results,
   return values.empty() ? "" : what + " " + joined(values, "/") + ", ";
 }
 
-// "n = 98 to 100": that of the cells, which may differ.
+// Of the cells, which may differ.
 std::string joint_caption(const StudyResults& results) {
-  const auto [least, most] =
-      std::minmax_element(results.cells.begin(), results.cells.end(),
-                          [](const auto& a, const auto& b) { return a.trials < b.trials; });
-  std::string text = joint_text("alignment", results, &CellResults::alignment) +
-                     joint_text("association", results, &CellResults::association) +
-                     joint_text("loops selected by", results, &CellResults::selected_by) +
-                     "n = " + std::to_string(least->trials);
-  if (most->trials > least->trials) text += " to " + std::to_string(most->trials);
-  return latex_text(text);
+  std::vector<const CellResults*> cells;
+  for (const CellResults& cell : results.cells) cells.push_back(&cell);
+  return latex_text(joint_text("alignment", results, &CellResults::alignment) +
+                    joint_text("association", results, &CellResults::association) +
+                    joint_text("loops selected by", results, &CellResults::selected_by) +
+                    repeats_of(cells));
 }
 
 std::vector<std::string> names_of(const StudyResults& results) {
@@ -124,7 +129,7 @@ std::string metric_table(const std::string& metric, std::size_t number,
   }
   const std::string caption =
       title_of(results.study) + latex_text(described(metric).label_with_unit()) + ": " +
-      joint_caption(results) + "." + kMeaning +
+      joint_caption(results) + "." + meaning_of(results) +
       (fails ? " In parentheses how many of the trials were done, where not all." : "");
   return table_of(caption, "tab:fathom-metric-" + std::to_string(number), header, rows);
 }

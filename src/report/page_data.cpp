@@ -25,7 +25,8 @@ constexpr double kProbability = 0.95;
 
 Json metric_json(const MetricSummary& summary) {
   const Moments& moments = summary.moments;
-  Json json{{"n", moments.count},
+  Json json{{"surveys", summary.surveys},
+            {"n", moments.count},
             {"mean", page_number(moments.mean)},
             {"median", page_number(moments.median)}};
   if (moments.standard_deviation) json["sd"] = page_number(*moments.standard_deviation);
@@ -50,15 +51,16 @@ Json nees_interval_json(const std::vector<std::size_t>& counts) {
 
 Json keyframes_json(const KeyframeStatistics& all, std::size_t most) {
   const std::vector<std::size_t> places = thinned(all.keyframe.size(), most);
-  const std::vector<std::size_t> counts = picked(all.nees_count, places);
+  const std::vector<std::size_t> draws = picked(all.nees_draws, places);
   Json json{{"keyframe", picked(all.keyframe, places)}, {"n", picked(all.count, places)}};
   json["mean_m"] = page_numbers(picked(all.mean_m, places));
   json["sd_m"] = page_numbers(picked(all.sd_m, places));
   json["empirical_m"] = page_numbers(picked(all.empirical_m, places));
   json["estimated_m"] = page_numbers(picked(all.estimated_m, places));
   json["anees"] = page_numbers(picked(all.anees, places));
-  json["nees_n"] = counts;
-  json["nees_interval"] = nees_interval_json(counts);
+  json["nees_n"] = picked(all.nees_count, places);
+  json["nees_draws"] = draws;
+  json["nees_interval"] = nees_interval_json(draws);
   return json;
 }
 
@@ -69,10 +71,10 @@ Json updates_json(const UpdateCost& cost, std::size_t most) {
           {"median_ms", page_numbers(picked(cost.median_ms, places))}};
 }
 
-Json estimator_json(const EstimatorResults& one, const EstimatorSeries& series, std::size_t trials,
-                    std::size_t most) {
+Json estimator_json(const EstimatorResults& one, const EstimatorSeries& series,
+                    const StudyDescription& study, std::size_t most) {
   Json json{{"name", one.name},         {"runs", one.runs.size()},
-            {"done", one.done},         {"outcome_text", outcome_text(one, trials)},
+            {"done", one.done},         {"outcome_text", outcome_text(one, study)},
             {"outcomes", one.outcomes}, {"words", one.words}};
   json["metrics"] = Json::object();
   for (const auto& [metric, summary] : one.metrics) json["metrics"][metric] = metric_json(summary);
@@ -90,6 +92,7 @@ Json paired_json(const PairedResult& paired) {
   Json json{{"estimator", paired.estimator},
             {"metric", paired.metric},
             {"n", difference.count},
+            {"over", difference.is_over_surveys ? "surveys" : "trials"},
             {"mean", page_number(difference.mean)}};
   if (difference.interval) {
     json["low"] = page_number(difference.interval->low);
@@ -113,10 +116,13 @@ Json cell_json(const ResultStore& store, const CellResults& cell,
             {"selected_by", cell.selected_by},
             {"alignment", cell.alignment},
             {"jobs", counts_text(cell.jobs)},
-            {"n", cell.trials}};
+            {"surveys", cell.surveys},
+            {"n", cell.trials},
+            {"repeats", cell.repeats},
+            {"limits", limits_text(cell)}};
   json["estimators"] = Json::array();
   for (std::size_t i = 0; i < cell.estimators.size(); ++i) {
-    json["estimators"].push_back(estimator_json(cell.estimators[i], series[i], study.trials, most));
+    json["estimators"].push_back(estimator_json(cell.estimators[i], series[i], study, most));
   }
   json["paired"] = Json::array();
   for (const PairedResult& one : cell.paired) json["paired"].push_back(paired_json(one));
@@ -138,7 +144,7 @@ void add_regimes(const StudyResults& results, Json& json) {
 }
 
 Json study_json(const StudyDescription& study) {
-  Json json{{"title", study.title}, {"trials", study.trials}};
+  Json json{{"title", study.title}, {"surveys", study.surveys}, {"trials", study.trials}};
   json["axes"] = Json::array();
   for (const StudyAxis& axis : study.axes) {
     json["axes"].push_back({{"name", axis.name}, {"key", axis.key}, {"labels", axis.labels}});
@@ -201,6 +207,7 @@ Json page_data(const ResultStore& store, const StudyResults& results,
                              {"cost", metric.is_cost},
                              {"better", better_text(metric.better)}};
   }
+  json["intervals"] = intervals_text(results);
   json["cells"] = Json::array();
   for (std::size_t i = 0; i < results.cells.size(); ++i) {
     json["cells"].push_back(cell_json(store, results.cells[i], series[i], study, most));

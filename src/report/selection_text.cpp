@@ -131,7 +131,8 @@ std::string lead_text(const Selection& selection, const SelectionQuery& query) {
       numbers += " [" + format_number(difference->interval->low, kDigits) + ", " +
                  format_number(difference->interval->high, kDigits) + "]";
     }
-    numbers += " over " + counted(difference->count, "run");
+    numbers +=
+        " over " + counted(difference->count, difference->is_over_surveys ? "survey" : "run");
     if (difference->signed_rank.p_value) {
       numbers += ", Wilcoxon p " + format_number(*difference->signed_rank.p_value, 2);
     }
@@ -149,6 +150,7 @@ std::string selection_text(const Selection& selection, const SelectionQuery& que
   std::string text =
       (selection.chosen ? chosen_text(selection, query) : none_text(selection, query)) + "\n";
   if (selection.lead) text += lead_text(selection, query) + "\n";
+  text += "evidence in each cell: " + selection.repeats + "\n";
   if (!query.requirements.empty()) text += "\n" + requirement_table(selection, query, study);
   text += "\n" + objective_table(selection, query);
   if (!selection.remarks.empty()) text += "\n";

@@ -1,3 +1,7 @@
+#include <algorithm>
+#include <cctype>
+
+#include "fathom/core/text.hpp"
 #include "study_results.hpp"
 
 namespace fathom {
@@ -22,7 +26,8 @@ Metric described(const std::string& metric) {
   return unknown;
 }
 
-std::string outcome_text(const EstimatorResults& estimator, std::size_t trials_wanted) {
+std::string outcome_text(const EstimatorResults& estimator, const StudyDescription& study) {
+  const std::size_t wanted = study.surveys * study.trials;
   std::string text =
       std::to_string(estimator.done) + "/" + std::to_string(estimator.runs.size()) + " done";
   for (const auto& [name, count] : estimator.outcomes) {
@@ -30,8 +35,8 @@ std::string outcome_text(const EstimatorResults& estimator, std::size_t trials_w
     text += ", " + std::to_string(count) + " " +
             (name == "iteration_limit" ? "at iteration limit" : worded(name));
   }
-  if (estimator.runs.size() < trials_wanted) {
-    text += ", " + std::to_string(trials_wanted - estimator.runs.size()) + " not run";
+  if (estimator.runs.size() < wanted) {
+    text += ", " + std::to_string(wanted - estimator.runs.size()) + " not run";
   }
   return text;
 }
@@ -57,9 +62,53 @@ std::string cell_caption(const CellResults& cell) {
   if (!cell.association.empty()) text += "association " + cell.association + ", ";
   if (!cell.selected_by.empty()) text += "loops selected by " + cell.selected_by + ", ";
   if (!cell.alignment.empty()) text += "alignment " + cell.alignment + ", ";
-  text += "n = " + std::to_string(cell.trials);
+  text += cell.repeats;
   if (!cell.jobs.empty()) text += ", jobs " + counts_text(cell.jobs);
   return text;
+}
+
+TrialKey first_trial(const CellResults& cell) {
+  TrialKey first = cell.estimators.front().runs.front().key.trial_key();
+  for (const EstimatorResults& one : cell.estimators) {
+    first = std::min(first, one.runs.front().key.trial_key());
+  }
+  return first;
+}
+
+std::string example_text(const CellResults& cell, const TrialKey& trial) {
+  const std::string text = "trial " + std::to_string(trial.trial);
+  if (cell.repetition != Repetition::surveys) return text;
+  return "survey " + std::to_string(trial.survey) + ", " + text;
+}
+
+std::string repeats_of(const std::vector<const CellResults*>& cells) {
+  std::vector<std::string> all;
+  for (const CellResults* cell : cells) {
+    if (cell != nullptr && std::ranges::find(all, cell->repeats) == all.end()) {
+      all.push_back(cell->repeats);
+    }
+  }
+  return joined(all, " or ");
+}
+
+std::string intervals_text(const StudyResults& results) {
+  const auto has = [&results](auto property) {
+    return std::ranges::any_of(results.cells, property);
+  };
+  if (!has([](const CellResults& cell) { return cell.trials > 1; })) return "";
+  if (!has([](const CellResults& cell) { return cell.surveys > 1; })) {
+    return "Means over the trials that were done, with the 95 % bootstrap interval of the mean.";
+  }
+  return "Means over the surveys of the mean of each one's done trials, with the 95 % interval "
+         "of the mean by a bootstrap over surveys and their trials.";
+}
+
+std::string limits_text(const CellResults& cell) {
+  if (cell.surveys > 1 || cell.trials < 2) return "";
+  std::string text = limits_of_one_survey(cell.repetition);
+  if (text.empty()) return "";
+  text.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(text.front())));
+  return text + ".";
 }
 
 }  // namespace fathom

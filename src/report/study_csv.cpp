@@ -39,8 +39,8 @@ void append(std::vector<std::string>& fields, std::vector<std::string> more) {
 
 std::string run_line(const RunRecord& run, std::vector<std::string> fields,
                      const std::vector<std::string>& metrics) {
-  append(fields,
-         {std::to_string(run.key.trial), run.key.estimator, run.outcome, std::to_string(run.jobs)});
+  append(fields, {std::to_string(run.key.survey), std::to_string(run.key.trial), run.key.estimator,
+                  run.outcome, std::to_string(run.jobs)});
   for (const std::string& metric : metrics) {
     const auto found = run.metrics.find(metric);
     fields.push_back(found == run.metrics.end() ? "" : exact(found->second));
@@ -52,11 +52,13 @@ std::string summary_line(const EstimatorResults& one, const std::string& metric,
                          std::vector<std::string> fields) {
   const auto found = one.metrics.find(metric);
   if (found == one.metrics.end()) {
-    append(fields, {one.name, metric, "0", std::to_string(one.failures()), "", "", "", "", ""});
+    append(fields,
+           {one.name, metric, "0", "0", std::to_string(one.failures()), "", "", "", "", ""});
     return line_of(fields);
   }
   const Moments& moments = found->second.moments;
-  append(fields, {one.name, metric, std::to_string(moments.count), std::to_string(one.failures()),
+  append(fields, {one.name, metric, std::to_string(found->second.surveys),
+                  std::to_string(moments.count), std::to_string(one.failures()),
                   exact(moments.mean), number(moments.standard_deviation), exact(moments.median)});
   const std::optional<Interval>& interval = found->second.interval;
   append(fields, {interval ? exact(interval->low) : "", interval ? exact(interval->high) : ""});
@@ -74,7 +76,7 @@ std::string csv_field(std::string_view text) {
 
 std::string runs_csv(const StudyResults& results) {
   std::vector<std::string> header = cell_header(results.study);
-  append(header, {"trial", "estimator", "outcome", "jobs"});
+  append(header, {"survey", "trial", "estimator", "outcome", "jobs"});
   append(header, results.metrics);
   std::string text = line_of(header);
   for (const CellResults& cell : results.cells) {
@@ -88,8 +90,8 @@ std::string runs_csv(const StudyResults& results) {
 
 std::string summary_csv(const StudyResults& results) {
   std::vector<std::string> header = cell_header(results.study);
-  append(header,
-         {"estimator", "metric", "n", "failures", "mean", "sd", "median", "low_95", "high_95"});
+  append(header, {"estimator", "metric", "surveys", "n", "failures", "mean", "sd", "median",
+                  "low_95", "high_95"});
   std::string text = line_of(header);
   for (const CellResults& cell : results.cells) {
     for (const EstimatorResults& one : cell.estimators) {

@@ -16,26 +16,35 @@ std::optional<double> metric_of(const RunRecord& run, const std::string& metric)
   return found->second;
 }
 
-std::vector<double> values_of(const EstimatorResults& estimator, const std::string& metric) {
-  std::vector<double> values;
+ClusteredValues values_of(const EstimatorResults& estimator, const std::string& metric) {
+  ClusteredValues values;
   for (const RunRecord& run : estimator.runs) {
     const auto value = metric_of(run, metric);
-    if (!is_failed(run) && value) values.push_back(*value);
+    if (!is_failed(run) && value) values[run.key.survey].push_back(*value);
   }
   return values;
+}
+
+MetricSummary summary_of(const ClusteredValues& values) {
+  std::vector<double> all;
+  for (const auto& [survey, own] : values) all.insert(all.end(), own.begin(), own.end());
+  MetricSummary summary{*moments(all), values.size(), hierarchical_interval(values)};
+  if (values.size() > 1) summary.moments.mean = clustered_mean(values);
+  return summary;
 }
 
 std::map<std::string, MetricSummary> summaries(const EstimatorResults& estimator,
                                                const std::vector<std::string>& metrics) {
   std::map<std::string, MetricSummary> all;
   for (const std::string& metric : metrics) {
-    const std::vector<double> values = values_of(estimator, metric);
-    if (!values.empty()) all[metric] = {*moments(values), bootstrap_interval(values)};
+    const ClusteredValues values = values_of(estimator, metric);
+    if (!values.empty()) all[metric] = summary_of(values);
   }
   return all;
 }
 
-void sum_up(EstimatorResults& estimator, const std::vector<std::string>& metrics) {
+void sum_up(EstimatorResults& estimator, const std::vector<std::string>& metrics,
+            Repetition repetition) {
   for (const RunRecord& run : estimator.runs) {
     estimator.done += is_failed(run) ? 0 : 1;
     if (!run.outcome.empty()) ++estimator.outcomes[run.outcome];
@@ -47,28 +56,30 @@ void sum_up(EstimatorResults& estimator, const std::vector<std::string>& metrics
       if (is_of_words(metric)) of_words.insert(metric);
     }
   }
-  estimator.words =
-      honesty_words(summaries(estimator, {of_words.begin(), of_words.end()}), estimator.done);
+  std::set<std::size_t> surveys;
+  for (const RunRecord& run : estimator.runs) {
+    if (!is_failed(run)) surveys.insert(run.key.survey);
+  }
+  estimator.words = honesty_words(summaries(estimator, {of_words.begin(), of_words.end()}),
+                                  independent_draws(repetition, surveys.size(), estimator.done));
 }
 
 std::optional<PairedDifference> difference(const EstimatorResults& one,
                                            const EstimatorResults& first,
                                            const std::string& metric) {
-  std::map<std::size_t, double> of_first;
+  std::map<TrialKey, double> of_first;
   for (const RunRecord& run : first.runs) {
     const auto value = metric_of(run, metric);
-    if (!is_failed(run) && value) of_first[run.key.trial] = *value;
+    if (!is_failed(run) && value) of_first[run.key.trial_key()] = *value;
   }
-  std::vector<double> a;
-  std::vector<double> b;
+  ClusteredValues differences;
   for (const RunRecord& run : one.runs) {
     const auto value = metric_of(run, metric);
-    const auto other = of_first.find(run.key.trial);
+    const auto other = of_first.find(run.key.trial_key());
     if (is_failed(run) || !value || other == of_first.end()) continue;
-    a.push_back(*value);
-    b.push_back(other->second);
+    differences[run.key.survey].push_back(*value - other->second);
   }
-  return paired_difference(a, b);
+  return difference_over_surveys(differences);
 }
 
 // One family of tests a cell: what a reader of its block looks over at once. A single trial tests
@@ -127,9 +138,10 @@ CellResults runs_of(const RunIndex& index, std::size_t number) {
   cell.alignment = study.alignment_of(number);
   std::vector<std::string> names{kDeadReckoning};
   for (const StudyEstimator& estimator : study.estimators) names.push_back(estimator.name);
-  std::set<std::size_t> trials;
+  std::set<TrialKey> trials;
   for (const std::string& name : names) {
-    EstimatorResults one{name, {}, 0, {}, {}};
+    EstimatorResults one;
+    one.name = name;
     for (const auto& [trial, run] : index.of(name, number)) {
       trials.insert(trial);
       if (name != kDeadReckoning) cell.jobs.insert(run->jobs);
@@ -138,6 +150,11 @@ CellResults runs_of(const RunIndex& index, std::size_t number) {
     if (!one.runs.empty()) cell.estimators.push_back(std::move(one));
   }
   cell.trials = trials.size();
+  std::set<std::size_t> surveys;
+  for (const TrialKey& trial : trials) surveys.insert(trial.survey);
+  cell.surveys = surveys.size();
+  cell.repetition = study.repetition_of(number);
+  cell.repeats = repeats_text(cell.repetition, {trials.begin(), trials.end()});
   return cell;
 }
 
@@ -152,7 +169,9 @@ StudyResults study_results(const ResultStore& store, MetricsOf metrics) {
   for (std::size_t number = 0; number < results.study.cell_count(); ++number) {
     CellResults cell = runs_of(index, number);
     if (cell.estimators.empty()) continue;
-    for (EstimatorResults& one : cell.estimators) sum_up(one, results.metrics);
+    for (EstimatorResults& one : cell.estimators) {
+      sum_up(one, results.metrics, cell.repetition);
+    }
     compare(cell, results.study);
     results.cells.push_back(std::move(cell));
   }

@@ -16,14 +16,15 @@ namespace fathom {
 
 /// A metric over the trials of one cell that were done and have it.
 struct MetricSummary {
-  Moments moments;
+  Moments moments;  ///< of the trials; of several surveys the mean is that of the surveys' means
+  std::size_t surveys = 0;           ///< that these trials are of
   std::optional<Interval> interval;  ///< 95 %, of the mean; nothing of a single trial
 };
 
 /// All runs of one estimator, or of dead reckoning, on one cell.
 struct EstimatorResults {
   std::string name;
-  std::vector<RunRecord> runs;  ///< in order of trial
+  std::vector<RunRecord> runs;  ///< in order of survey and trial
   std::size_t done = 0;
   std::map<std::string, std::size_t> outcomes;
   std::map<std::string, MetricSummary> metrics;
@@ -33,7 +34,8 @@ struct EstimatorResults {
   std::size_t failures() const { return runs.size() - done; }
 };
 
-/// Another estimator minus the first, over the trials that both did.
+/// Another estimator minus the first, over the trials that both did; of several surveys over the
+/// surveys' mean differences.
 struct PairedResult {
   std::string estimator;
   std::string metric;
@@ -48,7 +50,10 @@ struct CellResults {
   std::string selected_by;  ///< what selected the loops of all; empty where the study names none
   std::string alignment;    ///< of its errors; empty where the study names none
   std::set<int> jobs;
-  std::size_t trials = 0;                    ///< that have any run
+  Repetition repetition = Repetition::surveys;
+  std::size_t surveys = 0;                   ///< that have any run
+  std::size_t trials = 0;                    ///< likewise, of all surveys
+  std::string repeats;                       ///< "10 surveys × 10 trials"
   std::vector<EstimatorResults> estimators;  ///< dead reckoning first, then as in the study
   std::vector<PairedResult> paired;          ///< of the study's metrics
 };
@@ -71,13 +76,30 @@ enum class MetricsOf { study, runs };
 StudyResults study_results(const ResultStore& store, MetricsOf metrics = MetricsOf::runs);
 
 /// "98/100 done, 2 diverged"; also those at the iteration limit and those that are yet to run.
-std::string outcome_text(const EstimatorResults& estimator, std::size_t trials_wanted);
+std::string outcome_text(const EstimatorResults& estimator, const StudyDescription& study);
 
 /// "2", or "1, 4" where they differ.
 std::string counts_text(const std::set<int>& jobs);
 
-/// "separation 5: association own, alignment origin, n = 100, jobs 2"; what is unknown is left out.
+/// "separation 5: association own, alignment origin, 10 surveys × 10 trials, jobs 2"; what is
+/// unknown is left out.
 std::string cell_caption(const CellResults& cell);
+
+/// The repeats of some cells, "1 survey × 10 trials"; all that occur where they differ.
+std::string repeats_of(const std::vector<const CellResults*>& cells);
+
+/// How means and intervals of these results are made: a sentence or two, without a line break;
+/// empty where no cell has two trials.
+std::string intervals_text(const StudyResults& results);
+
+/// What the intervals of a cell do not speak of, a sentence; empty where they speak of all.
+std::string limits_text(const CellResults& cell);
+
+/// The lowest trial of the lowest survey, which is drawn.
+TrialKey first_trial(const CellResults& cell);
+
+/// "survey 0, trial 0"; where surveys are not drawn, the trial alone.
+std::string example_text(const CellResults& cell, const TrialKey& trial);
 
 /// "; failed: ekf 2/30", what a mean over the cell leaves out; empty where nothing failed.
 std::string failures_text(const CellResults& cell);

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <map>
+#include <set>
 #include <sstream>
 
 #include "fathom/report/study_report.hpp"
@@ -87,10 +88,15 @@ std::string estimator_table(const CellResults& cell, const StudyDescription& stu
   Rows rows;
   for (const EstimatorResults& one : cell.estimators) {
     const bool baseline = one.name == kDeadReckoning;
-    rows.push_back({display_name(one.name), baseline ? "-" : outcome_text(one, study.trials)});
+    rows.push_back({display_name(one.name), baseline ? "-" : outcome_text(one, study)});
     for (const std::string& metric : metrics) rows.back().push_back(value_text(one, metric));
   }
   return table_in_parts(header, rows, 2, extent);
+}
+
+// "30 trials", or of several surveys, whose means are tested, "10 surveys".
+std::string pairs_text(const PairedDifference& difference) {
+  return std::to_string(difference.count) + (difference.is_over_surveys ? " surveys" : " trials");
 }
 
 std::string paired_table(const CellResults& cell, const StudyDescription& study) {
@@ -98,8 +104,7 @@ std::string paired_table(const CellResults& cell, const StudyDescription& study)
   for (const PairedResult& one : cell.paired) {
     if (one.difference.count < 2) continue;
     rows.push_back(
-        {one.estimator, described(one.metric).label_with_unit(),
-         std::to_string(one.difference.count),
+        {one.estimator, described(one.metric).label_with_unit(), pairs_text(one.difference),
          format_number(one.difference.mean, kDigits) + interval_text(one.difference.interval),
          format_number(one.difference.signed_rank.p_value, kDigits),
          format_number(one.holm_p, kDigits)});
@@ -146,23 +151,24 @@ std::string study_table(const ResultStore& store, StudyTable extent) {
   const StudyResults results = study_results(store, MetricsOf::study);
   const StudyDescription& study = results.study;
   std::string text = study.title.empty() ? "" : study.title + "\n\n";
-  bool intervals = false;
+  std::set<std::string> limits;
   for (const CellResults& cell : results.cells) {
     text += cell_caption(cell) + "\n";
     text += estimator_table(cell, study, extent);
     if (extent == StudyTable::full) text += words_of(cell) + paired_table(cell, study);
     text += "\n";
-    intervals = intervals || cell.trials > 1;
+    limits.insert(limits_text(cell));
   }
   if (extent == StudyTable::brief) text += words_in_brief(results);
-  if (intervals) {
-    text += "Means over the trials that were done, with the 95 % bootstrap interval of the mean.";
-    text +=
-        extent == StudyTable::full
-            ? " p: signed-rank test over the\npairs of trials that both did; Holm: adjusted over "
-              "all tests of the block.\n"
-            : "\n";
+  if (const std::string intervals = intervals_text(results); !intervals.empty()) {
+    text += intervals + "\n";
+    if (extent == StudyTable::full) {
+      text +=
+          "p: signed-rank test over the pairs that both did; Holm: adjusted over all tests of the "
+          "block.\n";
+    }
   }
+  for (const std::string& limit : limits) text += limit.empty() ? "" : limit + "\n";
   return text;
 }
 

@@ -1,7 +1,9 @@
 #include "cell_means.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <numeric>
+#include <set>
 
 #include "fathom/core/random.hpp"
 #include "fathom/evaluation/statistics.hpp"
@@ -53,21 +55,37 @@ Interval stratified_interval(const Cells& cells, double estimate) {
   return bca_interval(estimate, replicates, jackknife, options.probability);
 }
 
+std::optional<Interval> interval_of_one_survey(const std::vector<ClusteredValues>& cells,
+                                               double estimate) {
+  Cells trials;
+  for (const ClusteredValues& cell : cells) {
+    trials.push_back(cell.begin()->second);
+    if (trials.back().size() < 2) return std::nullopt;
+  }
+  return stratified_interval(trials, estimate);
+}
+
 }  // namespace
 
-TrialMean mean_over_cells(const Cells& cells) {
+TrialMean mean_over_cells(const std::vector<ClusteredValues>& cells) {
   TrialMean result;
-  bool has_interval = true;
+  std::set<std::size_t> surveys;
   std::vector<double> means;
-  for (const std::vector<double>& cell : cells) {
-    result.count += cell.size();
-    means.push_back(mean_of(cell));
-    has_interval = has_interval && cell.size() > 1;
+  for (const ClusteredValues& cell : cells) {
+    for (const auto& [survey, values] : cell) {
+      result.count += values.size();
+      surveys.insert(survey);
+    }
+    means.push_back(clustered_mean(cell));
   }
   result.mean = mean_of(means);
-  if (!has_interval) return result;
-  result.interval = cells.size() == 1 ? bootstrap_interval(cells.front())
-                                      : stratified_interval(cells, result.mean);
+  if (cells.size() == 1) {
+    result.interval = hierarchical_interval(cells.front());
+  } else if (surveys.size() > 1) {
+    result.interval = interval_over_cells(cells);
+  } else {
+    result.interval = interval_of_one_survey(cells, result.mean);
+  }
   return result;
 }
 

@@ -28,7 +28,7 @@ std::vector<double> values_of(const SQLite::Column& blob) {
 // Over all that is stored of a run but its series, which are added in the order of their names.
 Hash hash_of(const RunRecord& run) {
   Hash hash;
-  hash.add(run.key.cell).add(run.key.trial).add(run.key.estimator);
+  hash.add(run.key.cell).add(run.key.survey).add(run.key.trial).add(run.key.estimator);
   hash.add(run.outcome).add(run.fault).add(run.log_hash).add(run.jobs);
   hash.add(run.metrics.size());
   for (const auto& [name, value] : run.metrics) hash.add(name).add(value);
@@ -65,19 +65,20 @@ class RunReader {
   void read_keys() {
     SQLite::Statement rows(
         database_,
-        "SELECT run, cell, trial, name, outcome, log_hash, jobs, checksum, fault "
+        "SELECT run, cell, survey, trial, name, outcome, log_hash, jobs, checksum, fault "
         "FROM run LEFT JOIN estimator USING (estimator) "
-        "ORDER BY cell, trial, estimator");
+        "ORDER BY cell, survey, trial, estimator");
     while (rows.executeStep()) {
       StoredRun run;
       run.record.key = {static_cast<std::size_t>(rows.getColumn(1).getInt64()),
                         static_cast<std::size_t>(rows.getColumn(2).getInt64()),
-                        rows.getColumn(3).getString()};
-      run.record.outcome = rows.getColumn(4).getString();
-      run.record.log_hash = rows.getColumn(5).getString();
-      run.record.jobs = rows.getColumn(6).getInt();
-      run.checksum = rows.getColumn(7).getInt64();
-      run.record.fault = rows.getColumn(8).getString();
+                        static_cast<std::size_t>(rows.getColumn(3).getInt64()),
+                        rows.getColumn(4).getString()};
+      run.record.outcome = rows.getColumn(5).getString();
+      run.record.log_hash = rows.getColumn(6).getString();
+      run.record.jobs = rows.getColumn(7).getInt();
+      run.checksum = rows.getColumn(8).getInt64();
+      run.record.fault = rows.getColumn(9).getString();
       place_of_run_[rows.getColumn(0).getInt64()] = runs_.size();
       runs_.push_back(std::move(run));
     }
@@ -118,7 +119,7 @@ class RunReader {
 
 std::string text_of(const RunKey& key, const StudyDescription& study) {
   const bool is_known = key.cell < study.cell_count();
-  return "run '" + key.estimator + "', trial " + std::to_string(key.trial) + ", cell '" +
+  return "run '" + key.estimator + "', " + text_of(key.trial_key()) + ", cell '" +
          (is_known ? study.label_of(key.cell) : std::to_string(key.cell)) + "'";
 }
 
@@ -143,10 +144,10 @@ std::optional<std::vector<double>> read_series(SQLite::Database& database, const
   SQLite::Statement select(database,
                            "SELECT data FROM series JOIN run USING (run) "
                            "JOIN estimator USING (estimator) "
-                           "WHERE cell = ? AND trial = ? AND estimator.name = ? "
+                           "WHERE cell = ? AND survey = ? AND trial = ? AND estimator.name = ? "
                            "AND series.name = ?");
-  SQLite::bind(select, static_cast<std::int64_t>(key.cell), static_cast<std::int64_t>(key.trial),
-               key.estimator, name);
+  SQLite::bind(select, static_cast<std::int64_t>(key.cell), static_cast<std::int64_t>(key.survey),
+               static_cast<std::int64_t>(key.trial), key.estimator, name);
   if (!select.executeStep()) return std::nullopt;
   return values_of(select.getColumn(0));
 }
@@ -158,11 +159,13 @@ bool insert_run(SQLite::Database& database, const RunRecord& record, std::int64_
   for (const auto& [name, values] : run.series) add_series(hash, name, bytes_of(values));
   SQLite::Statement insert(
       database,
-      "INSERT OR IGNORE INTO run (cell, trial, estimator, outcome, fault, log_hash, jobs, session, "
-      "checksum) SELECT ?, ?, estimator, ?, ?, ?, ?, ?, ? FROM estimator WHERE name = ?");
+      "INSERT OR IGNORE INTO run (cell, survey, trial, estimator, outcome, fault, log_hash, jobs, "
+      "session, checksum) SELECT ?, ?, ?, estimator, ?, ?, ?, ?, ?, ? FROM estimator "
+      "WHERE name = ?");
   SQLite::bind(insert, static_cast<std::int64_t>(run.key.cell),
-               static_cast<std::int64_t>(run.key.trial), run.outcome, run.fault, run.log_hash,
-               run.jobs, session, checksum_of(hash), run.key.estimator);
+               static_cast<std::int64_t>(run.key.survey), static_cast<std::int64_t>(run.key.trial),
+               run.outcome, run.fault, run.log_hash, run.jobs, session, checksum_of(hash),
+               run.key.estimator);
   if (insert.exec() == 0) return false;
   const std::int64_t id = database.getLastInsertRowid();
   SQLite::Statement metric(database, "INSERT OR IGNORE INTO metric (name, is_cost) VALUES (?, ?)");

@@ -10,8 +10,8 @@
 
 namespace fathom {
 
-/// All runs without their series, in the order of cell, trial and estimator. Throws DamagedStore
-/// where any run, its series included, is not what was stored.
+/// All runs without their series, in the order of cell, survey, trial and estimator. Throws
+/// DamagedStore where any run, its series included, is not what was stored.
 std::vector<RunRecord> read_runs(SQLite::Database& database, const StudyDescription& study);
 
 /// A series of one run; nothing where the run has none of that name.

@@ -28,18 +28,20 @@ CREATE TABLE metric (metric INTEGER PRIMARY KEY, name TEXT NOT NULL UNIQUE,
                      is_cost INTEGER NOT NULL);
 CREATE TABLE session (session INTEGER PRIMARY KEY, manifest TEXT NOT NULL);
 CREATE TABLE run (run INTEGER PRIMARY KEY, cell INTEGER NOT NULL REFERENCES cell,
-                  trial INTEGER NOT NULL, estimator INTEGER NOT NULL REFERENCES estimator,
+                  survey INTEGER NOT NULL, trial INTEGER NOT NULL,
+                  estimator INTEGER NOT NULL REFERENCES estimator,
                   outcome TEXT NOT NULL, fault TEXT NOT NULL, log_hash TEXT NOT NULL,
                   jobs INTEGER NOT NULL,
                   session INTEGER NOT NULL REFERENCES session, checksum INTEGER NOT NULL,
-                  UNIQUE (cell, trial, estimator));
+                  UNIQUE (cell, survey, trial, estimator));
 CREATE TABLE value (run INTEGER NOT NULL REFERENCES run, metric INTEGER NOT NULL REFERENCES metric,
                     value REAL NOT NULL, PRIMARY KEY (run, metric)) WITHOUT ROWID;
 CREATE TABLE series (run INTEGER NOT NULL REFERENCES run, name TEXT NOT NULL,
                      data BLOB NOT NULL, PRIMARY KEY (run, name)) WITHOUT ROWID;
 CREATE VIEW result AS
   SELECT cell.label AS cell, cell.association AS association, cell.alignment AS alignment,
-         run.trial AS trial, estimator.name AS estimator, run.outcome AS outcome, metric.name AS metric,
+         run.survey AS survey, run.trial AS trial, estimator.name AS estimator,
+         run.outcome AS outcome, metric.name AS metric,
          value.value AS value
   FROM value JOIN run USING (run) JOIN cell USING (cell) JOIN estimator USING (estimator)
        JOIN metric USING (metric);
@@ -111,7 +113,8 @@ void update_labels(SQLite::Database& database, const StudyDescription& study) {
 // Over what tables and charts are made from, to tell a flipped bit.
 std::string checksum_of(const StudyDescription& study) {
   Hash hash;
-  hash.add(study.title).add(study.alignment).add(study.trials).add(joined(study.metrics, " "));
+  hash.add(study.title).add(study.alignment).add(study.surveys).add(study.trials);
+  hash.add(joined(study.metrics, " "));
   for (const StudyAxis& axis : study.axes) {
     hash.add(axis.name).add(axis.key);
     for (const std::string& label : axis.labels) hash.add(label);
@@ -151,12 +154,14 @@ std::string study_word(SQLite::Database& database, const std::string& key) {
   return select.executeStep() ? select.getColumn(0).getString() : "";
 }
 
-std::size_t trials_of(const std::string& text) {
-  const auto trials = parse_integer(text);
-  if (!trials || *trials < 0) {
-    throw DamagedStore("is damaged: its number of trials is " + in_quotes(text) + kRemedy);
+// `what`: "surveys" or "trials".
+std::size_t study_count(SQLite::Database& database, const std::string& what) {
+  const std::string text = study_word(database, what);
+  const auto count = parse_integer(text);
+  if (!count || *count < 0) {
+    throw DamagedStore("is damaged: its number of " + what + " is " + in_quotes(text) + kRemedy);
   }
-  return static_cast<std::size_t>(*trials);
+  return static_cast<std::size_t>(*count);
 }
 
 // As it stands in the file, not yet compared with its checksum.
@@ -165,7 +170,8 @@ StudyDescription stored_study(SQLite::Database& database) {
   study.title = study_word(database, "title");
   study.alignment = study_word(database, "alignment");
   study.metrics = words_of(study_word(database, "metrics"));
-  study.trials = trials_of(study_word(database, "trials"));
+  study.surveys = study_count(database, "surveys");
+  study.trials = study_count(database, "trials");
   SQLite::Statement axes(database, "SELECT name, key FROM axis ORDER BY axis");
   while (axes.executeStep()) {
     study.axes.push_back({axes.getColumn(0).getString(), axes.getColumn(1).getString(), {}, {}});
@@ -200,6 +206,7 @@ void create_schema(SQLite::Database& database, const StudyDescription& study) {
                {{"title", study.title},
                 {"alignment", study.alignment},
                 {"metrics", joined(study.metrics, " ")},
+                {"surveys", std::to_string(study.surveys)},
                 {"trials", std::to_string(study.trials)},
                 {"checksum", ""}});
   insert_words(database, "configuration", study.configuration);
@@ -216,10 +223,12 @@ void create_schema(SQLite::Database& database, const StudyDescription& study) {
 }
 
 void update_study(SQLite::Database& database, const StudyDescription& study) {
-  const std::size_t trials = std::max(study.trials, trials_of(study_word(database, "trials")));
+  const std::size_t surveys = std::max(study.surveys, study_count(database, "surveys"));
+  const std::size_t trials = std::max(study.trials, study_count(database, "trials"));
   SQLite::Statement update(database, "UPDATE study SET value = ? WHERE key = ?");
   run_with(update, study.title, std::string("title"));
   run_with(update, joined(study.metrics, " "), std::string("metrics"));
+  run_with(update, std::to_string(surveys), std::string("surveys"));
   run_with(update, std::to_string(trials), std::string("trials"));
   update_labels(database, study);
   run_with(update, checksum_of(stored_study(database)), std::string("checksum"));

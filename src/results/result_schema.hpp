@@ -9,7 +9,7 @@
 namespace fathom {
 
 /// `PRAGMA user_version` of the files that this program writes.
-inline constexpr int kResultSchemaVersion = 3;
+inline constexpr int kResultSchemaVersion = 4;
 /// `PRAGMA application_id`, "Fath": tells a store from any other SQLite file.
 inline constexpr int kResultApplicationId = 0x46617468;
 
@@ -28,7 +28,7 @@ inline constexpr const char* kRemedy =
 void create_schema(SQLite::Database& database, const StudyDescription& study);
 
 /// Writes what of a study may change without touching its results: title, metrics, the names and
-/// labels of its axes, and the number of trials, which only grows.
+/// labels of its axes, and the numbers of surveys and trials, which only grow.
 void update_study(SQLite::Database& database, const StudyDescription& study);
 
 /// Throws DamagedStore where that is not what was written.

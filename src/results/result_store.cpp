@@ -32,6 +32,10 @@ std::int64_t begin_session(SQLite::Database& sqlite, const StudyDescription& stu
 
 }  // namespace
 
+std::string text_of(const TrialKey& trial) {
+  return "trial " + std::to_string(trial.trial) + " of survey " + std::to_string(trial.survey);
+}
+
 ResultStore::ResultStore(std::unique_ptr<Database> database) : database_(std::move(database)) {}
 ResultStore::~ResultStore() = default;
 ResultStore::ResultStore(ResultStore&&) noexcept = default;

@@ -8,21 +8,41 @@
 namespace fathom {
 namespace {
 
-std::string numbers_text(const std::vector<std::size_t>& numbers) {
+// "trials 3, 4 of survey 1", survey by survey; of a study of one survey its trials alone.
+std::string trials_text(const std::vector<TrialKey>& trials, bool one_survey) {
   constexpr std::size_t kShown = 5;
-  std::string text = numbers.size() == 1 ? "trial " : "trials ";
-  for (std::size_t i = 0; i < std::min(numbers.size(), kShown); ++i) {
-    text += (i > 0 ? ", " : "") + std::to_string(numbers[i]);
+  std::string text;
+  for (std::size_t i = 0; i < std::min(trials.size(), kShown);) {
+    std::size_t end = i + 1;
+    const auto is_same = [&] { return trials[end].survey == trials[i].survey; };
+    while (end < std::min(trials.size(), kShown) && is_same()) ++end;
+    text += (text.empty() ? "" : ", ") + std::string(end - i == 1 ? "trial " : "trials ");
+    for (std::size_t j = i; j < end; ++j) {
+      text += (j > i ? ", " : "") + std::to_string(trials[j].trial);
+    }
+    if (!one_survey) text += " of survey " + std::to_string(trials[i].survey);
+    i = end;
   }
-  if (numbers.size() > kShown) text += " and " + std::to_string(numbers.size() - kShown) + " more";
+  if (trials.size() > kShown) text += " and " + std::to_string(trials.size() - kShown) + " more";
   return text;
+}
+
+// Asked for by the study and not there.
+std::vector<TrialKey> missing_of(const RunIndex::Trials& there, const StudyDescription& study) {
+  std::vector<TrialKey> missing;
+  for (std::size_t survey = 0; survey < study.surveys; ++survey) {
+    for (std::size_t trial = 0; trial < study.trials; ++trial) {
+      if (!there.contains({survey, trial})) missing.push_back({survey, trial});
+    }
+  }
+  return missing;
 }
 
 }  // namespace
 
 RunIndex::RunIndex(const ResultStore& store) : study_(store.study()), runs_(store.runs()) {
   for (const RunRecord& run : runs_) {
-    by_estimator_[run.key.estimator][run.key.cell][run.key.trial] = &run;
+    by_estimator_[run.key.estimator][run.key.cell][run.key.trial_key()] = &run;
   }
 }
 
@@ -35,15 +55,15 @@ const RunIndex::Trials& RunIndex::of(const std::string& estimator, std::size_t c
 }
 
 bool RunIndex::has(const RunKey& key) const {
-  return of(key.estimator, key.cell).contains(key.trial);
+  return of(key.estimator, key.cell).contains(key.trial_key());
 }
 
-std::vector<std::size_t> RunIndex::common_trials(std::size_t cell) const {
-  std::map<std::size_t, std::size_t> estimators_of_trial;
+std::vector<TrialKey> RunIndex::common_trials(std::size_t cell) const {
+  std::map<TrialKey, std::size_t> estimators_of_trial;
   for (const StudyEstimator& estimator : study_.estimators) {
     for (const auto& [trial, run] : of(estimator.name, cell)) ++estimators_of_trial[trial];
   }
-  std::vector<std::size_t> common;
+  std::vector<TrialKey> common;
   for (const auto& [trial, count] : estimators_of_trial) {
     if (count == study_.estimators.size()) common.push_back(trial);
   }
@@ -68,32 +88,40 @@ int RunIndex::most_jobs(const std::vector<std::size_t>& cells) const {
 }
 
 std::string RunIndex::unfinished(const std::vector<std::size_t>& cells) const {
+  const std::size_t wanted = study_.surveys * study_.trials;
   std::size_t there = 0;
   std::vector<std::string> gaps;
   for (const std::size_t cell : cells) {
     for (const StudyEstimator& estimator : study_.estimators) {
       const Trials& trials = of(estimator.name, cell);
       there += trials.size();
-      std::vector<std::size_t> missing;
-      for (std::size_t trial = 0; trial < study_.trials; ++trial) {
-        if (!trials.contains(trial)) missing.push_back(trial);
-      }
+      const std::vector<TrialKey> missing = missing_of(trials, study_);
       if (missing.empty()) continue;
-      const bool all = missing.size() == study_.trials;
+      const bool all = missing.size() == wanted;
       gaps.push_back(estimator.name + " in " + study_.label_of(cell) + " (" +
-                     (all ? "all" : numbers_text(missing)) + ")");
+                     (all ? "all" : trials_text(missing, study_.surveys == 1)) + ")");
     }
   }
   if (gaps.empty()) return "";
   constexpr std::size_t kShown = 3;
   std::string text = "the study is not finished: " + std::to_string(there) + " of " +
-                     std::to_string(cells.size() * study_.trials * study_.estimators.size()) +
+                     std::to_string(cells.size() * wanted * study_.estimators.size()) +
                      " runs; missing: ";
   for (std::size_t i = 0; i < std::min(gaps.size(), kShown); ++i) {
     text += (i > 0 ? "; " : "") + gaps[i];
   }
   if (gaps.size() > kShown) text += "; and " + std::to_string(gaps.size() - kShown) + " gaps more";
   return text;
+}
+
+std::string repeats_text(Repetition repetition, const std::vector<TrialKey>& trials) {
+  std::map<std::size_t, std::size_t> trials_of_survey;
+  std::size_t most = 0;
+  for (const TrialKey& trial : trials) most = std::max(most, ++trials_of_survey[trial.survey]);
+  const std::size_t all = trials_of_survey.size() * most;
+  const std::string text = repeats_text(repetition, trials_of_survey.size(), most);
+  if (trials.size() == all) return text;
+  return text + " (" + std::to_string(trials.size()) + " of " + std::to_string(all) + ")";
 }
 
 bool is_failed(const RunRecord& run) {

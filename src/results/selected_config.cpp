@@ -143,15 +143,12 @@ std::string comment_line(std::string text) {
 std::string header(const StudyDescription& study, const Selection& selection,
                    const SelectionQuery& query) {
   const EstimatorEvidence& chosen = selection.estimators[*selection.chosen];
-  std::string trials = std::to_string(selection.fewest_trials);
-  if (selection.most_trials > selection.fewest_trials) {
-    trials += " to " + std::to_string(selection.most_trials);
-  }
-  std::string text = comment_line(
-      chosen.name + ", chosen by 'fathom select' from " +
-      (study.title.empty() ? "a study" : "the study '" + study.title + "'") + ": cells " +
-      std::to_string(selection.cells.size()) +
-      (query.where.empty() ? "" : " (" + joined(query.where, ", ") + ")") + ", trials " + trials);
+  std::string text =
+      comment_line(chosen.name + ", chosen by 'fathom select' from " +
+                   (study.title.empty() ? "a study" : "the study '" + study.title + "'") +
+                   ": cells " + std::to_string(selection.cells.size()) +
+                   (query.where.empty() ? "" : " (" + joined(query.where, ", ") + ")") + "; each " +
+                   selection.repeats);
   std::vector<std::string> requirements;
   for (const Requirement& requirement : query.requirements) {
     requirements.push_back(requirement.text());

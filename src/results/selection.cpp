@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <set>
 
 #include "fathom/core/input_error.hpp"
 #include "fathom/core/text.hpp"
@@ -26,19 +27,18 @@ std::vector<std::size_t> ranked(const std::vector<EstimatorEvidence>& all, bool 
 
 Lead lead_over(const Compared& compared, const SelectionQuery& query, const std::string& chosen,
                const std::string& other) {
-  std::vector<double> ours;
-  std::vector<double> theirs;
+  ClusteredValues differences;
   for (std::size_t c = 0; c < compared.cells.size(); ++c) {
-    for (const std::size_t trial : compared.trials[c]) {
+    for (const TrialKey& trial : compared.trials[c]) {
       const RunRecord* a = done_run(compared, chosen, c, trial);
       const RunRecord* b = done_run(compared, other, c, trial);
       if (a == nullptr || b == nullptr) continue;
-      ours.push_back(a->metrics.at(query.objective));
-      theirs.push_back(b->metrics.at(query.objective));
+      differences[trial.survey].push_back(a->metrics.at(query.objective) -
+                                          b->metrics.at(query.objective));
     }
   }
   Lead lead;
-  lead.difference = paired_difference(ours, theirs);
+  lead.difference = difference_over_surveys(differences);
   if (!lead.difference || !lead.difference->interval) return lead;
   const Interval& interval = *lead.difference->interval;
   constexpr double kLevel = 0.05;
@@ -93,6 +93,24 @@ void choose(Selection& selection, const Compared& compared, const SelectionQuery
   selection.lead->runner_up = order[1];
 }
 
+// "10 surveys × 10 trials", of cells that differ "10 surveys × 3 to 10 trials".
+void count_trials(Selection& selection, const Compared& compared) {
+  std::set<std::size_t> surveys;
+  std::set<std::string> repeats;
+  selection.fewest_trials = compared.trials.front().size();
+  for (std::size_t c = 0; c < compared.cells.size(); ++c) {
+    const std::vector<TrialKey>& trials = compared.trials[c];
+    selection.fewest_trials = std::min(selection.fewest_trials, trials.size());
+    selection.most_trials = std::max(selection.most_trials, trials.size());
+    for (const TrialKey& trial : trials) surveys.insert(trial.survey);
+    repeats.insert(repeats_text(compared.runs.study().repetition_of(compared.cells[c]), trials));
+  }
+  selection.surveys = surveys.size();
+  for (const std::string& one : repeats) {
+    selection.repeats += (selection.repeats.empty() ? "" : " or ") + one;
+  }
+}
+
 }  // namespace
 
 std::string name_of(Verdict verdict) {
@@ -121,11 +139,7 @@ Selection select_estimator(const ResultStore& store, const SelectionQuery& query
   Selection selection;
   selection.cells = compared.cells;
   selection.cells_asked = asked.size();
-  selection.fewest_trials = compared.trials.front().size();
-  for (const std::vector<std::size_t>& trials : compared.trials) {
-    selection.fewest_trials = std::min(selection.fewest_trials, trials.size());
-    selection.most_trials = std::max(selection.most_trials, trials.size());
-  }
+  count_trials(selection, compared);
   for (const StudyEstimator& estimator : runs.study().estimators) {
     selection.estimators.push_back(evidence_of(compared, estimator.name, query));
   }

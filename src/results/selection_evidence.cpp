@@ -9,19 +9,17 @@
 namespace fathom {
 namespace {
 
-// The values of one metric, a list per cell; nothing where a run that is done has none, or where a
-// cell has no run that is done.
-using CellValues = std::vector<std::vector<double>>;
-
-std::optional<std::vector<double>> values_in(const Compared& compared, const std::string& estimator,
-                                             std::size_t c, const std::string& metric) {
-  std::vector<double> values;
-  for (const std::size_t trial : compared.trials[c]) {
+// The values of one metric in a cell; nothing where a run that is done has none, or where no run is
+// done.
+std::optional<ClusteredValues> values_in(const Compared& compared, const std::string& estimator,
+                                         std::size_t c, const std::string& metric) {
+  ClusteredValues values;
+  for (const TrialKey& trial : compared.trials[c]) {
     const RunRecord* run = done_run(compared, estimator, c, trial);
     if (run == nullptr) continue;
     const auto value = run->metrics.find(metric);
     if (value == run->metrics.end()) return std::nullopt;
-    values.push_back(value->second);
+    values[trial.survey].push_back(value->second);
   }
   if (values.empty()) return std::nullopt;
   return values;
@@ -51,7 +49,7 @@ Judgement judge(const Compared& compared, const std::string& estimator,
 
 std::optional<TrialMean> objective_of(const Compared& compared, const std::string& estimator,
                                       const std::string& metric) {
-  CellValues cells;
+  std::vector<ClusteredValues> cells;
   for (std::size_t c = 0; c < compared.cells.size(); ++c) {
     auto values = values_in(compared, estimator, c, metric);
     if (!values) return std::nullopt;
@@ -65,7 +63,7 @@ std::optional<TrialMean> objective_of(const Compared& compared, const std::strin
 Compared compared_runs(const RunIndex& runs, const std::vector<std::size_t>& asked) {
   Compared compared{runs, asked, {}, {}};
   for (const std::size_t cell : asked) {
-    std::vector<std::size_t> trials = runs.common_trials(cell);
+    std::vector<TrialKey> trials = runs.common_trials(cell);
     if (trials.empty()) continue;
     compared.cells.push_back(cell);
     compared.trials.push_back(std::move(trials));
@@ -79,7 +77,7 @@ Compared compared_runs(const RunIndex& runs, const std::vector<std::size_t>& ask
 }
 
 const RunRecord* done_run(const Compared& compared, const std::string& estimator, std::size_t c,
-                          std::size_t trial) {
+                          const TrialKey& trial) {
   const RunIndex::Trials& trials = compared.runs.of(estimator, compared.cells[c]);
   const auto run = trials.find(trial);
   return run == trials.end() || is_failed(*run->second) ? nullptr : run->second;

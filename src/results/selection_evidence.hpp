@@ -11,9 +11,9 @@ namespace fathom {
 /// The runs that are compared: the common trials of each cell looked at.
 struct Compared {
   const RunIndex& runs;
-  std::vector<std::size_t> asked;                ///< cells, with such a trial or not
-  std::vector<std::size_t> cells;                ///< those with one
-  std::vector<std::vector<std::size_t>> trials;  ///< of each of the cells
+  std::vector<std::size_t> asked;             ///< cells, with such a trial or not
+  std::vector<std::size_t> cells;             ///< those with one
+  std::vector<std::vector<TrialKey>> trials;  ///< of each of the cells
 };
 
 /// Throws InputError where no cell has such a trial.
@@ -22,7 +22,7 @@ Compared compared_runs(const RunIndex& runs, const std::vector<std::size_t>& ask
 /// An estimator's run of a trial in the c-th of the compared cells; nothing where it failed, or is
 /// not there.
 const RunRecord* done_run(const Compared& compared, const std::string& estimator, std::size_t c,
-                          std::size_t trial);
+                          const TrialKey& trial);
 
 EstimatorEvidence evidence_of(const Compared& compared, const std::string& estimator,
                               const SelectionQuery& query);

@@ -31,6 +31,17 @@ std::string alignments_remark(const StudyDescription& study,
          "), which are no one quantity: --where leaves cells of one";
 }
 
+// What intervals over the trials of one set of pictures do not say.
+std::string one_survey_remark(const Compared& compared, const Selection& selection) {
+  if (selection.surveys > 1 || selection.most_trials < 2) return "";
+  std::set<std::string> remarks;
+  for (const std::size_t cell : selection.cells) {
+    remarks.insert(limits_of_one_survey(compared.runs.study().repetition_of(cell)));
+  }
+  remarks.erase("");
+  return remarks.empty() ? "" : *remarks.begin();
+}
+
 }  // namespace
 
 std::vector<std::string> remarks_on(const Compared& compared, const Selection& selection,
@@ -48,6 +59,9 @@ std::vector<std::string> remarks_on(const Compared& compared, const Selection& s
   if (selection.fewest_trials == 1) {
     remarks.emplace_back(
         "one trial is no evidence: a cell with one has no interval, its value itself was compared");
+  }
+  if (const std::string one = one_survey_remark(compared, selection); !one.empty()) {
+    remarks.push_back(one);
   }
   for (const EstimatorEvidence& evidence : selection.estimators) {
     if (evidence.failed == 0) continue;

@@ -3,15 +3,13 @@
 #include <csignal>
 #include <map>
 #include <random>
-#include <sstream>
 
 #include <gmock/gmock.h>
 
 #include "apps/command_line.hpp"
+#include "apps/study_content.hpp"
 #include "fathom/core/files.hpp"
 #include "fathom/core/input_error.hpp"
-#include "fathom/core/text.hpp"
-#include "fathom/evaluation/metrics.hpp"
 #include "fathom/results/result_store.hpp"
 
 namespace fathom::test {
@@ -20,58 +18,6 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-
-constexpr const char* kStudy = R"(
-dataset:
-  type: simulated
-  world: {metres_per_pixel: 0.01}
-  mission: {type: sweep, legs: 2, leg_length_m: 3, leg_spacing_m: 1}
-  altitude: {altimeter_sigma_m: 0}
-  camera: {width: 200, height: 150, fx: 150, fy: 150}
-front_end:
-  keyframes: {separation_frames: 3}
-  ransac: {max_error_m: 0.05}
-association: {mode: own}
-sweep:
-  - {key: dataset.odometry.sigma_theta_rad, name: heading noise, values: [0.01, 0.03]}
-trials: 5
-)";
-
-// Deterministic series: all but what a clock says.
-const std::vector<std::string> kSeries{"x_m",
-                                       "y_m",
-                                       "theta_rad",
-                                       "cov_xx",
-                                       "cov_xt",
-                                       "pose_nees",
-                                       "loop_from",
-                                       "loop_fate",
-                                       "truth_x_m",
-                                       "loop_nis",
-                                       "time_s",
-                                       "position_error_m",
-                                       "update_keyframe"};
-
-// All that a store holds but cost, sessions and jobs.
-std::string content(const fs::path& folder) {
-  const ResultStore store = ResultStore::open(folder);
-  std::ostringstream text;
-  for (const RunRecord& run : store.runs()) {
-    text << run.key.cell << ' ' << run.key.trial << ' ' << run.key.estimator << ' ' << run.outcome
-         << ' ' << run.log_hash << '\n';
-    for (const auto& [name, value] : run.metrics) {
-      if (!is_cost_metric(name)) text << "  " << name << ' ' << exact(value) << '\n';
-    }
-    for (const std::string& name : kSeries) {
-      const auto values = store.series(run.key, name);
-      if (!values) continue;
-      text << "  " << name;
-      for (const double value : *values) text << ' ' << exact(value);
-      text << '\n';
-    }
-  }
-  return text.str();
-}
 
 // Of the program, and dead reckoning.
 constexpr std::size_t kEstimators = 5 + 1;
@@ -199,9 +145,9 @@ TEST_F(Studies, EveryEstimatorOfATrialSeesTheSameDraws) {
   const ResultStore store = ResultStore::open(path("out"));
   for (const RunRecord& run : store.runs()) {
     if (run.key.estimator != "again") continue;
-    const RunKey other{run.key.cell, run.key.trial, "ekf"};
+    const RunKey other{run.key.cell, run.key.survey, run.key.trial, "ekf"};
     EXPECT_EQ(store.series(run.key, "x_m"), store.series(other, "x_m"));
-    const RunKey next{run.key.cell, (run.key.trial + 1) % 5, "ekf"};
+    const RunKey next{run.key.cell, run.key.survey, (run.key.trial + 1) % 5, "ekf"};
     EXPECT_NE(store.series(run.key, "x_m"), store.series(next, "x_m"));
   }
 }

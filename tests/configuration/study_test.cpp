@@ -49,6 +49,8 @@ TEST(ConfigureStudy, WithoutASweepThereIsOneCell) {
   EXPECT_EQ(value_of(study, "association.mode"), "shared");
   EXPECT_EQ(value_of(study, "estimators.0.gate_probability"), "off");
   // What results do not depend on may change between sessions.
+  EXPECT_EQ(study.description.surveys, 1u);
+  EXPECT_EQ(value_of(study, "surveys"), "(absent)");
   EXPECT_EQ(value_of(study, "trials"), "(absent)");
   EXPECT_EQ(value_of(study, "jobs"), "(absent)");
   EXPECT_EQ(value_of(study, "report.title"), "(absent)");

@@ -27,7 +27,7 @@ bool same(const cv::Mat& a, const cv::Mat& b) {
 TEST(LazyFloor, IsDrawnForTheFirstPictureAlone) {
   const SimulatedSurvey survey(full_survey(), 5);
   survey.picture_id(0);
-  const SimulatedSurvey again = survey.remeasured({}, 0.01, 6, 1);
+  const SimulatedSurvey again = survey.remeasured({}, 6, 1);
   EXPECT_FALSE(survey.is_world_drawn());
   std::vector<std::thread> threads;
   std::vector<cv::Mat> pictures(4);
@@ -43,7 +43,7 @@ TEST(LazyFloor, IsDrawnForTheFirstPictureAlone) {
 }
 
 TEST(LazyFloor, OutlivesTheSurveyItWasMadeFor) {
-  const SimulatedSurvey survey = SimulatedSurvey(small_survey(), 5).remeasured({}, 0.01, 6, 1);
+  const SimulatedSurvey survey = SimulatedSurvey(small_survey(), 5).remeasured({}, 6, 1);
   EXPECT_TRUE(same(survey.image(2), SimulatedSurvey(small_survey(), 5).image(2)));
 }
 
@@ -65,20 +65,17 @@ void expect_same_measurements(const SimulatedSurvey& a, const SimulatedSurvey& b
 TEST(Remeasured, IsWhatTheConstructorWouldMeasure) {
   const SimulatedSurveyOptions options = full_survey();
   const SimulatedSurvey survey(options, 9, 0);
-  const double sigma_m = options.altitude.altimeter_sigma_m;
-  expect_same_measurements(survey.remeasured(options.odometry, sigma_m, 9, 4),
+  expect_same_measurements(survey.remeasured(options.odometry, 9, 4),
                            SimulatedSurvey(options, 9, 4));
   SimulatedSurveyOptions visual = options;
   visual.odometry.source = OdometrySource::kVisualOdometry;
-  visual.altitude.altimeter_sigma_m = 0.0;
-  expect_same_measurements(survey.remeasured(visual.odometry, 0.0, 9, 1),
-                           SimulatedSurvey(visual, 9, 1));
+  expect_same_measurements(survey.remeasured(visual.odometry, 9, 1), SimulatedSurvey(visual, 9, 1));
 }
 
-TEST(Remeasured, AnotherNoiseSeedHasOtherNoiseOverTheSameFloor) {
+TEST(Remeasured, AnotherNoiseSeedHasOtherMotionsInTheSameSurvey) {
   const SimulatedSurvey survey(full_survey(), 9);
-  const SimulatedSurvey other = survey.remeasured(full_survey().odometry, 0.01, 10, 0);
-  EXPECT_NE(other.info(1).altitude_m, survey.info(1).altitude_m);
+  const SimulatedSurvey other = survey.remeasured(full_survey().odometry, 10, 0);
+  EXPECT_EQ(other.info(1).altitude_m, survey.info(1).altitude_m);
   EXPECT_NE(other.info(1).motion->mean, survey.info(1).motion->mean);
   EXPECT_EQ(other.picture_id(1), survey.picture_id(1));
   // The noise is that of a survey with that seed, over another floor.
@@ -89,16 +86,12 @@ TEST(Remeasured, AnotherNoiseSeedHasOtherNoiseOverTheSameFloor) {
 
 TEST(Remeasured, RefusesWhatTheConstructorRefuses) {
   const SimulatedSurvey survey(small_survey(), 1);
-  const auto refused = [&](const OdometryOptions& odometry, double sigma_m) {
-    return test::input_error_of([&] { survey.remeasured(odometry, sigma_m, 1, 0); });
-  };
-  OdometryOptions odometry;
-  EXPECT_EQ(refused(odometry, -1.0).find("dataset.altitude.altimeter_sigma_m: "), 0U);
-  EXPECT_EQ(refused(odometry, 5.0).find("dataset.altitude.altimeter_sigma_m: "), 0U);
-  odometry.sigma_x_m = -1.0;
-  EXPECT_EQ(refused(odometry, 0.01).find("dataset.odometry.sigma_x_m: "), 0U);
-  odometry.sigma_x_m = 0.0;
-  EXPECT_EQ(refused(odometry, 0.01).find("dataset.odometry.sigma_x_m: "), 0U);
+  for (const double sigma_m : {-1.0, 0.0}) {
+    OdometryOptions odometry;
+    odometry.sigma_x_m = sigma_m;
+    const std::string refused = test::input_error_of([&] { survey.remeasured(odometry, 1, 0); });
+    EXPECT_EQ(refused.find("dataset.odometry.sigma_x_m: "), 0U) << sigma_m;
+  }
 }
 
 // Each of these changes pixels, so each must change the number.

@@ -11,7 +11,7 @@
 
 namespace fathom::test {
 
-/// Two estimators, no sweep, unless a test gives it axes.
+/// Two estimators, no sweep, unless a test gives it axes; of logs that every trial draws whole.
 inline StudyDescription two_estimators(std::size_t trials) {
   StudyDescription study;
   study.title = "synthetic";
@@ -19,13 +19,14 @@ inline StudyDescription two_estimators(std::size_t trials) {
   study.trials = trials;
   study.estimators = {{"filter", "trajectory_iekf"}, {"graph", "ceres_pose_graph"}};
   study.metrics = {"mean_position_error_m", "total_ms"};
+  study.configuration = {{"dataset.type", "simulated_log"}};
   return study;
 }
 
 inline RunRecord made_run(const std::string& estimator, std::size_t cell, std::size_t trial,
-                          double error_m, double total_ms) {
+                          double error_m, double total_ms, std::size_t survey = 0) {
   RunRecord run;
-  run.key = {cell, trial, estimator};
+  run.key = {cell, survey, trial, estimator};
   run.outcome = estimator == kDeadReckoning ? "" : "converged";
   run.metrics = {{"mean_position_error_m", error_m}};
   if (estimator != kDeadReckoning) run.metrics["total_ms"] = total_ms;

@@ -96,7 +96,7 @@ TEST(ReportPage, EveryEstimatorHasTheLineOfItsPlace) {
   for (int i = 0; i < 20; ++i) study.estimators.push_back({"e" + std::to_string(i), "ekf"});
   ResultStore store = ResultStore::write(folder.path(), study, "no JSON");
   RunRecord run;
-  run.key = {0, 0, "e0"};
+  run.key = {0, 0, 0, "e0"};
   run.outcome = "converged";
   store.add(run);
   store.finish();
@@ -153,7 +153,7 @@ TEST(ReportPage, KeyframeStatisticsAreThoseOfTheRunsDone) {
     double stated = 0.0;
     double nees = 0.0;
     for (std::size_t trial = 2; trial < 6; ++trial) {  // 0 and 1 failed
-      const RunKey key{5, trial, "a&b_<c>%"};
+      const RunKey key{5, 0, trial, "a&b_<c>%"};
       const double error = store.series(key, "position_error_m")->at(k);
       sum += error;
       squares += error * error;
@@ -169,7 +169,10 @@ TEST(ReportPage, KeyframeStatisticsAreThoseOfTheRunsDone) {
     EXPECT_NEAR(keyframes["empirical_m"][k], 2.0 * std::sqrt(squares / 4.0), 1e-5 * sum);
     EXPECT_NEAR(keyframes["estimated_m"][k], stated / 4.0, 1e-5 * stated);
     EXPECT_NEAR(keyframes["anees"][k], nees / 12.0, 1e-5 * nees);
-    const Interval interval = anees_interval(4, 3, 0.95);
+    // Of one survey: its trials share the errors of its registrations.
+    EXPECT_EQ(keyframes["nees_n"][k], 4);
+    EXPECT_EQ(keyframes["nees_draws"][k], 1);
+    const Interval interval = anees_interval(1, 3, 0.95);
     EXPECT_NEAR(keyframes["nees_interval"]["low"][k], interval.low, 1e-5);
     EXPECT_NEAR(keyframes["nees_interval"]["high"][k], interval.high, 1e-5);
   }
@@ -185,7 +188,7 @@ TEST(ReportPage, TheExampleIsTheLowestTrialAlone) {
   EXPECT_EQ(example["truth"]["x_m"].size(), 40u);
   ASSERT_EQ(example["estimators"].size(), 4u);
   const Json& one = example["estimators"][1];
-  const RunKey key{0, 0, "iterated"};
+  const RunKey key{0, 0, 0, "iterated"};
   EXPECT_NEAR(one["path"]["x_m"][12], store.series(key, "x_m")->at(12), 1e-4);
   ASSERT_EQ(one["loops"].size(), 30u);
   EXPECT_EQ(one["loops"][3], Json::parse("[6, 13, 1, null]"));  // −1 in the store: no NIS

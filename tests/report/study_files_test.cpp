@@ -38,6 +38,7 @@ TEST(StudyFiles, RunsReadBackToTheStoresBits) {
   for (const RunRecord& run : runs) {
     const auto row = std::find_if(rows.begin(), rows.end(), [&](const auto& fields) {
       return fields.at("cell") == std::to_string(run.key.cell) &&
+             fields.at("survey") == std::to_string(run.key.survey) &&
              fields.at("trial") == std::to_string(run.key.trial) &&
              fields.at("estimator") == run.key.estimator;
     });
@@ -83,6 +84,7 @@ TEST(StudyFiles, SummaryHasTheMomentsOfTheRunsThatWereDone) {
     }
     EXPECT_EQ(line.at("failures"), std::to_string(failures));
     EXPECT_EQ(line.at("n"), std::to_string(values.size()));
+    EXPECT_EQ(line.at("surveys"), values.empty() ? "0" : "1");
     if (values.empty()) {
       EXPECT_EQ(line.at("mean"), "");
       continue;
@@ -112,7 +114,7 @@ TEST(StudyFiles, AnEstimatorThatAlwaysFailsKeepsItsLines) {
     ResultStore store = ResultStore::write(folder.path(), study, "{}");
     for (std::size_t trial = 0; trial < 3; ++trial) {
       RunRecord run;
-      run.key = {0, trial, "graph"};
+      run.key = {0, 0, trial, "graph"};
       run.outcome = "diverged";
       run.metrics = {{"anees", 1e9}};
       store.add(run);
@@ -146,7 +148,7 @@ TEST(StudyFiles, LatexTablesAreEscapedAndSayTheirConditions) {
   EXPECT_THAT(tex, HasSubstr("Loops \\& \\textless{}noise\\textgreater{}: 50 \\% of a\\_b "
                              "\\textless{}/script\\textgreater{}"));
   EXPECT_THAT(tex, HasSubstr("    a\\&b\\_\\textless{}c\\textgreater{}\\% & "));
-  EXPECT_THAT(tex, HasSubstr("association shared, alignment origin, n = 6"));
+  EXPECT_THAT(tex, HasSubstr("association shared, alignment origin, 1 survey $\\times$ 6 trials"));
   EXPECT_THAT(tex, HasSubstr(" & 4/6 & "));
   EXPECT_THAT(tex, HasSubstr("\\toprule"));
   // Nothing special is left bare; of our own making are the $ and the & between cells.
@@ -179,8 +181,13 @@ TEST(StudyFiles, EveryCellSaysHowItWasAligned) {
   options.noises.clear();
   options.alignments = {"origin", "se2"};
   const std::string tex = written(options, "tables.tex");
-  EXPECT_THAT(tex, HasSubstr("aligned by origin: association shared, alignment origin, n = 2"));
-  EXPECT_THAT(tex, HasSubstr("aligned by se2: association shared, alignment se2, n = 2"));
+  EXPECT_THAT(
+      tex,
+      HasSubstr(
+          "aligned by origin: association shared, alignment origin, 1 survey $\\times$ 2 trials"));
+  EXPECT_THAT(
+      tex,
+      HasSubstr("aligned by se2: association shared, alignment se2, 1 survey $\\times$ 2 trials"));
   const auto runs = read_csv(written(options, "runs.csv"));
   ASSERT_EQ(runs.size(), 16u);
   EXPECT_EQ(runs.front().at("alignment"), "origin");
@@ -195,8 +202,8 @@ TEST(StudyFiles, ManyCellsHaveATableAMetric) {
   options.trials = 3;
   options.separations = {"1", "2", "3", "4"};
   const std::string tex = written(options, "tables.tex");
-  EXPECT_THAT(tex,
-              HasSubstr("mean position error (m): alignment origin, association shared, n = 3"));
+  EXPECT_THAT(tex, HasSubstr("mean position error (m): alignment origin, association shared, 1 "
+                             "survey $\\times$ 3 trials"));
   EXPECT_THAT(tex, HasSubstr("cell & dead reckoning & iterated"));
   EXPECT_THAT(tex, HasSubstr("(1/3)"));
 }

@@ -127,7 +127,8 @@ RunRecord fixture_run(const RunKey& key, const FixtureOptions& options, std::siz
     run.outcome = key.trial == 0 ? "diverged" : "numerical_failure";
     return run;
   }
-  std::mt19937 random(static_cast<unsigned>(1000 * key.cell + key.trial) + key.estimator.size());
+  std::mt19937 random(static_cast<unsigned>(1000 * key.cell + 100 * key.survey + key.trial) +
+                      key.estimator.size());
   const Path truth = lawnmower(options.keyframes);
   const Character character = character_of(key.estimator);
   add_path(run, truth, character, options.size * (1.0 + static_cast<double>(key.cell)), random,
@@ -148,6 +149,7 @@ StudyDescription fixture_study(const FixtureOptions& options) {
   StudyDescription study;
   study.title = "Loops & <noise>: 50 % of a_b </script>";
   study.alignment = "origin";
+  study.surveys = options.surveys;
   study.trials = options.trials;
   if (!options.separations.empty()) {
     study.axes.push_back(
@@ -162,8 +164,10 @@ StudyDescription fixture_study(const FixtureOptions& options) {
   study.estimators = {
       {"iterated", "trajectory_iekf"}, {"a&b_<c>%", "ekf"}, {"graph", "ceres_pose_graph"}};
   study.metrics = {"mean_position_error_m", "rpe_10_keyframes_m", "anees", "total_ms"};
-  study.configuration = {
-      {"association.mode", "shared"}, {"seed", "1"}, {"dataset.path", "a,b \"c\" <d>"}};
+  study.configuration = {{"association.mode", "shared"},
+                         {"seed", "1"},
+                         {"dataset.path", "a,b \"c\" <d>"},
+                         {"dataset.type", options.data_set}};
   return study;
 }
 
@@ -173,9 +177,10 @@ void write_fixture(const std::filesystem::path& folder, const FixtureOptions& op
       folder, study,
       R"({"fathom": "0.1.0", "date": "2026-01-02T03:04:05Z", "machine": {"cpu": "<Two> & a half"}})");
   for (std::size_t cell = 0; cell < study.cell_count(); ++cell) {
-    for (std::size_t trial = 0; trial < options.trials; ++trial) {
+    for (std::size_t i = 0; i < options.surveys * options.trials; ++i) {
       for (const char* name : {kDeadReckoning, "iterated", "a&b_<c>%", "graph"}) {
-        store.add(fixture_run({cell, trial, name}, options, study.cell_count()));
+        const RunKey key{cell, i / options.trials, i % options.trials, name};
+        store.add(fixture_run(key, options, study.cell_count()));
       }
     }
   }

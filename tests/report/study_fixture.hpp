@@ -11,6 +11,8 @@ namespace fathom::test {
 /// series of docs/formats.md. The errors are Gaussian walks of known spread; the second estimator
 /// states a spread that is half the true one; the third is twice as wrong as the first.
 struct FixtureOptions {
+  std::string data_set = "simulated";
+  std::size_t surveys = 1;
   std::size_t trials = 6;
   std::size_t keyframes = 40;
   std::vector<std::string> separations{"5", "10", "20"};
@@ -24,8 +26,9 @@ struct FixtureOptions {
 
 StudyDescription fixture_study(const FixtureOptions& options = {});
 
-/// In the last cell the second estimator diverges on trial 0 and fails on trial 1, and the third
-/// stops at its iteration limit on trial 0; those that failed have no metrics but `keyframes`.
+/// In the last cell and in every survey the second estimator diverges on trial 0 and fails on trial
+/// 1, and the third stops at its iteration limit on trial 0; those that failed have no metrics but
+/// `keyframes`.
 void write_fixture(const std::filesystem::path& folder, const FixtureOptions& options = {});
 
 }  // namespace fathom::test

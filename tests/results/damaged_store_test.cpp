@@ -53,6 +53,7 @@ INSTANTIATE_TEST_SUITE_P(
                     "UPDATE metric SET name = 'total_mt' WHERE name = 'total_ms'",
                     "UPDATE run SET outcome = 'diverged' WHERE run = 1",
                     "UPDATE run SET trial = 4 WHERE run = 1",
+                    "UPDATE run SET survey = 1 WHERE run = 1",
                     "UPDATE run SET cell = -1 WHERE run = 1",
                     "UPDATE run SET estimator = 9 WHERE run = 1",
                     "UPDATE run SET run = 77 WHERE run = 1",
@@ -65,6 +66,7 @@ INSTANTIATE_TEST_SUITE_P(
                     "UPDATE axis_value SET axis = 8 WHERE axis = 0 AND place = 1",
                     "UPDATE study SET value = '99999999999999999999' WHERE key = 'trials'",
                     "UPDATE study SET value = 'x' WHERE key = 'trials'",
+                    "UPDATE study SET value = '2' WHERE key = 'surveys'",
                     "UPDATE configuration SET value = '3' WHERE key = 'seed'"));
 
 TEST(DamagedStore, TheRunThatIsDamagedIsNamed) {
@@ -75,9 +77,11 @@ TEST(DamagedStore, TheRunThatIsDamagedIsNamed) {
     store.finish();
   }
   damage(folder.path(), "UPDATE value SET value = 0 WHERE run = 1 AND metric = 1");
-  EXPECT_THAT(input_error_of([&] { ResultStore::open(folder.path()); }),
-              HasSubstr("run 'plain', trial 1, cell 'separation 10, noise none' is not what was "
-                        "stored (its checksum differs); take the file from a copy"));
+  EXPECT_THAT(
+      input_error_of([&] { ResultStore::open(folder.path()); }),
+      HasSubstr(
+          "run 'plain', trial 1 of survey 0, cell 'separation 10, noise none' is not what was "
+          "stored (its checksum differs); take the file from a copy"));
 }
 
 // Every bit of the pages that hold the numbers of one run: refused, or without any effect on what

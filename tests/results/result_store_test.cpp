@@ -62,6 +62,7 @@ TEST(ResultStore, GivesBackWhatWasStored) {
   const StudyDescription study = store.study();
   EXPECT_EQ(study.title, "two by three");
   EXPECT_EQ(study.alignment, "origin");
+  EXPECT_EQ(study.surveys, 1u);
   EXPECT_EQ(study.trials, 2u);
   ASSERT_EQ(study.axes.size(), 2u);
   EXPECT_EQ(study.axes[1].key, "dataset.odometry.covariance");
@@ -75,29 +76,31 @@ TEST(ResultStore, GivesBackWhatWasStored) {
 
   const std::vector<RunRecord> runs = store.runs();
   ASSERT_EQ(runs.size(), 3u);
-  EXPECT_EQ(runs[0].key, (RunKey{0, 0, "iterated"}));
-  EXPECT_EQ(runs[1].key, (RunKey{3, 1, kDeadReckoning}));
-  EXPECT_EQ(runs[2].key, (RunKey{3, 1, "plain"}));
+  EXPECT_EQ(runs[0].key, (RunKey{0, 0, 0, "iterated"}));
+  EXPECT_EQ(runs[1].key, (RunKey{3, 0, 1, kDeadReckoning}));
+  EXPECT_EQ(runs[2].key, (RunKey{3, 0, 1, "plain"}));
   EXPECT_EQ(runs[2].outcome, "converged");
   EXPECT_EQ(runs[2].log_hash, "00ff");
   EXPECT_EQ(runs[2].jobs, 2);
   EXPECT_EQ(runs[2].metrics, record(3, 1, "plain").metrics);
-  EXPECT_EQ(store.series({3, 1, "plain"}, "x"), record(0, 0, "").series.at("x"));
-  EXPECT_EQ(store.series({3, 1, "plain"}, "empty"), std::vector<double>{});
-  EXPECT_FALSE(store.series({3, 1, "plain"}, "y"));
-  EXPECT_FALSE(store.series({3, 0, "plain"}, "x"));
+  EXPECT_EQ(store.series({3, 0, 1, "plain"}, "x"), record(0, 0, "").series.at("x"));
+  EXPECT_EQ(store.series({3, 0, 1, "plain"}, "empty"), std::vector<double>{});
+  EXPECT_FALSE(store.series({3, 0, 1, "plain"}, "y"));
+  EXPECT_FALSE(store.series({3, 0, 0, "plain"}, "x"));
 }
 
 TEST(ResultStore, GoesOnWithWhatIsThere) {
   const TemporaryFolder folder;
   { ResultStore::write(folder.path(), description(), "first").add(record(0, 0, "plain")); }
   StudyDescription more = description();
+  more.surveys = 3;
   more.trials = 7;
   more.title = "another title";
   ResultStore store = ResultStore::write(folder.path(), more, "second");
   ASSERT_EQ(store.runs().size(), 1u);
-  EXPECT_EQ(store.runs()[0].key, (RunKey{0, 0, "plain"}));
+  EXPECT_EQ(store.runs()[0].key, (RunKey{0, 0, 0, "plain"}));
   EXPECT_THAT(store.manifests(), ElementsAre("first", "second"));
+  EXPECT_EQ(store.study().surveys, 3u);
   EXPECT_EQ(store.study().trials, 7u);
   EXPECT_EQ(store.study().title, "another title");
   RunRecord other = record(0, 0, "plain");

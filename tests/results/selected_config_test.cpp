@@ -24,6 +24,7 @@ Selection chosen(std::size_t estimator, const StudyDescription& study,
   selection.cells = std::move(cells);
   selection.cells_asked = selection.cells.size();
   selection.fewest_trials = selection.most_trials = 20;
+  selection.repeats = "1 survey × 20 trials";
   for (const StudyEstimator& described : study.estimators) {
     EstimatorEvidence evidence;
     evidence.name = described.name;
@@ -80,7 +81,7 @@ TEST(SelectedConfiguration, IsARunWithTheValuesOfTheStudy) {
 TEST(SelectedConfiguration, SaysHowItWasChosenAndNoMoreThanItNeeds) {
   EXPECT_EQ(
       config_of(kStudy, 1, {0}),
-      R"(# graph, chosen by 'fathom select' from the study 'What noise does': cells 1, trials 20
+      R"(# graph, chosen by 'fathom select' from the study 'What noise does': cells 1; each 1 survey × 20 trials
 # It meets mean_position_error_m <= 0.1 in every cell;
 # least total_ms: 12.3 [12, 12.7], 95 % of the mean
 dataset:

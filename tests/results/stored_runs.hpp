@@ -21,7 +21,7 @@ inline StudyDescription description() {
 
 inline RunRecord record(std::size_t cell, std::size_t trial, const std::string& estimator) {
   RunRecord run;
-  run.key = {cell, trial, estimator};
+  run.key = {cell, 0, trial, estimator};
   run.outcome = "converged";
   run.log_hash = "00ff";
   run.jobs = 2;

@@ -55,6 +55,7 @@ CandidateReference by_contender(const EstimatorConfiguration& estimator);
 /// What a comparison has beside a run.
 struct StudyOptions {
   std::string title;
+  int surveys = 1;
   int trials = 1;
   int jobs = 1;
   Association association = Association::shared;

@@ -13,8 +13,10 @@ namespace fathom {
 struct Study {
   StudyDescription description;
   std::vector<Configuration> cells;  ///< in the order of the description
-  /// What noise streams are seeded from, a cell each: the base seed and the cell's values, so that
-  /// no draw depends on which other cells there are. Without a sweep: the base seed.
+  /// What the noise streams of a cell's trials are seeded from, by `survey_seed`: the base seed and
+  /// the cell's values, so that no draw depends on which other cells there are. Without a sweep:
+  /// the base seed. What a survey has once depends on no cell, but on `survey_seed` of the base
+  /// seed.
   std::vector<std::uint64_t> noise_seeds;
 };
 

@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "fathom/datasets/data_set.hpp"
+
 namespace fathom {
 
 /// One axis of a study's sweep: a key and the values that it takes, in order.
@@ -28,12 +30,14 @@ struct StudyEstimator {
 /// axis running fastest; without axes there is one cell.
 struct StudyDescription {
   std::string title;
-  std::string alignment;   ///< of errors: none, origin or se2; of the cells that sweep no other
-  std::size_t trials = 1;  ///< asked for, per cell
+  std::string alignment;    ///< of errors: none, origin or se2; of the cells that sweep no other
+  std::size_t surveys = 1;  ///< asked for, per cell
+  std::size_t trials = 1;   ///< asked for, per survey
   std::vector<StudyAxis> axes;
   std::vector<StudyEstimator> estimators;
   std::vector<std::string> metrics;  ///< for tables and charts, in this order
-  /// Every key that results depend on, with its value; the sweep's too. Neither trials nor jobs.
+  /// Every key that results depend on, with its value; the sweep's too. Not surveys, trials or
+  /// jobs.
   std::vector<std::pair<std::string, std::string>> configuration;
   /// Every file of the data sets with the hash of its content.
   std::vector<std::pair<std::string, std::string>> data;
@@ -50,7 +54,22 @@ struct StudyDescription {
   std::string selected_by(std::size_t cell) const;
   /// How a cell's estimates were aligned for their errors.
   std::string alignment_of(std::size_t cell) const;
+  /// What of a cell's data set is drawn again. Of a type that is not known: surveys, which claims
+  /// the fewest independent draws that repeat.
+  Repetition repetition_of(std::size_t cell) const;
 };
+
+/// What a figure is over: "10 surveys × 10 trials", of recorded pictures "one set of pictures, 10
+/// trials", of logs that are drawn whole "10 trials", of a recorded graph "one graph, 10 trials".
+std::string repeats_text(Repetition repetition, std::size_t surveys, std::size_t trials);
+
+/// What intervals over the trials of one survey, or of what was recorded once, do not speak of;
+/// empty where trials draw everything.
+std::string limits_of_one_survey(Repetition repetition);
+
+/// Of so many surveys and trials in all those that are independent draws, pictures included: what a
+/// χ² interval may count. Trials over the same pictures share the errors of their registrations.
+std::size_t independent_draws(Repetition repetition, std::size_t surveys, std::size_t trials);
 
 /// The name under which dead reckoning, the baseline, stands among the estimators' runs. It is no
 /// estimator of the registry, and none may be called so.

@@ -11,6 +11,10 @@ namespace fathom {
 /// it keeps base seed and trial apart.
 std::uint64_t stream_seed(std::uint64_t base_seed, std::string_view stream, std::uint64_t trial);
 
+/// The seed of one survey of a study: of all that is drawn once for its trials. Survey 0 has the
+/// base seed itself, so that a study of one survey is what a single run with that seed sees.
+std::uint64_t survey_seed(std::uint64_t base_seed, std::uint64_t survey);
+
 /// A noise stream. Same seed, same numbers, whatever the standard library.
 class RandomStream {
  public:

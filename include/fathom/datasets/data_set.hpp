@@ -23,7 +23,7 @@ namespace fathom {
 /// Values by option key, without the `dataset.` of the configuration.
 using DataSetValues = std::map<std::string, OptionValue>;
 
-/// The noise streams of one trial: which seed, which trial.
+/// The noise streams of one trial: which seed, that of its survey, and which trial.
 struct TrialNoise {
   std::uint64_t seed = 0;
   std::uint64_t trial = 0;
@@ -52,7 +52,7 @@ class DataSet {
  public:
   virtual ~DataSet() = default;
 
-  /// The pictures; motions and altitudes may be those of no trial. Null for a pose graph.
+  /// The pictures; motions may be those of no trial. Null for a pose graph.
   virtual const FrameSource* frames() const { return nullptr; }
 
   /// The measurements of a pose graph; null for pictures.
@@ -72,6 +72,16 @@ class DataSetOptions {
   virtual ~DataSetOptions() = default;
   virtual void describe(OptionTable& table) = 0;
   virtual std::vector<IgnoredKey> ignored_keys() const = 0;
+  /// Why every survey of these options is the same; empty where surveys differ, or are not drawn.
+  virtual std::string why_surveys_are_alike() const = 0;
+};
+
+/// What is drawn again where a study repeats a data set.
+enum class Repetition {
+  surveys,   ///< floor, attitude and sensors once a survey; dead reckoning in each of its trials
+  pictures,  ///< recorded: noise that is added, in each trial
+  logs,      ///< all measurements, in each trial
+  graph      ///< recorded: false loops alone, in each trial
 };
 
 /// One kind of data set, a word of `dataset.type`.
@@ -85,6 +95,10 @@ struct DataSetEntry {
   std::vector<OptionDescription> trial_options;
   /// Whether a trial has anything to draw: noise of pictures, or measurements.
   bool draws_trials() const { return !is_graph || !trial_options.empty(); }
+  Repetition repetition() const {
+    if (is_graph) return draws_trials() ? Repetition::logs : Repetition::graph;
+    return makes_pictures ? Repetition::surveys : Repetition::pictures;
+  }
   std::function<std::unique_ptr<DataSetOptions>()> make_options;
   /// What is the same in all trials follows from the seed alone. Throws InputError that names the
   /// whole key.
@@ -110,7 +124,8 @@ Options options_of(const DataSetValues& values) {
 
 /// Makes the entry of a data set from its option struct. It has `describe(OptionTable&)` and, where
 /// there are such options, `describe_trial(OptionTable&)` for those of a trial and `ignored_keys()`
-/// for those that others leave without effect. `open` takes (const Options&, std::uint64_t seed).
+/// for those that others leave without effect; also `why_surveys_are_alike()`. `open` takes (const
+/// Options&, std::uint64_t seed).
 template <class Options, class Open>
 DataSetEntry make_data_set(std::string name, std::string help, Open open) {
   class Described : public DataSetOptions {
@@ -118,6 +133,12 @@ DataSetEntry make_data_set(std::string name, std::string help, Open open) {
     void describe(OptionTable& table) override { options_.describe(table); }
     std::vector<IgnoredKey> ignored_keys() const override {
       if constexpr (requires { options_.ignored_keys(); }) return options_.ignored_keys();
+      return {};
+    }
+    std::string why_surveys_are_alike() const override {
+      if constexpr (requires { options_.why_surveys_are_alike(); }) {
+        return options_.why_surveys_are_alike();
+      }
       return {};
     }
 

@@ -17,7 +17,8 @@
 
 namespace fathom {
 
-/// Altitude over the floor: base + amplitude · sin(2π t / period), measured with noise.
+/// Altitude over the floor: base + amplitude · sin(2π t / period), measured with noise that is
+/// drawn once a survey.
 struct AltitudeOptions {
   double base_m = 2.0;
   double amplitude_m = 0.0;
@@ -25,8 +26,6 @@ struct AltitudeOptions {
   double altimeter_sigma_m = 0.01;
 
   void describe(OptionTable& table);
-  /// `altimeter_sigma_m` alone.
-  void describe_trial(OptionTable& table);
 };
 
 struct SimulatedSurveyOptions {
@@ -40,10 +39,12 @@ struct SimulatedSurveyOptions {
 
   /// In a config these keys stand under `dataset.`.
   void describe(OptionTable& table);
-  /// Of them those that only say what a trial measures.
+  /// Of them those that only say what a trial measures: dead reckoning.
   void describe_trial(OptionTable& table);
   /// Keys that the kind of mission has no use for.
   std::vector<IgnoredKey> ignored_keys() const;
+  /// Over a given picture, of which nothing else is drawn.
+  std::string why_surveys_are_alike() const;
 };
 
 /// A survey of a floor with noisy measurements and known ground truth. The pose of frame 0 is the
@@ -51,19 +52,20 @@ struct SimulatedSurveyOptions {
 /// drawn when the first of them is. Copies share the floor.
 class SimulatedSurvey : public FrameSource {
  public:
-  /// Floor, attitude and all else in the pictures depend on the seed alone, the noise on seed and
-  /// trial; each kind of noise has its stream ("altimeter", "dead_reckoning"). Throws InputError
+  /// Floor, attitude, all else in the pictures and measured altitudes depend on the seed alone,
+  /// dead reckoning on seed and trial; each kind of noise has its stream ("altimeter",
+  /// "dead_reckoning"). Throws InputError
   /// naming the key, with `dataset.` in front: an option out of its bounds, an altitude that
   /// reaches zero, a covariance that is not positive definite, a frame that sees beyond the world's
   /// picture.
   explicit SimulatedSurvey(const SimulatedSurveyOptions& options, std::uint64_t seed,
                            std::uint64_t trial = 0);
 
-  /// The same pictures measured again, as another trial of a study does: the floor is shared, only
-  /// altitudes and motions are new. They are those that the constructor would draw with this seed
-  /// and trial. Throws InputError as the constructor does.
-  SimulatedSurvey remeasured(const OdometryOptions& odometry, double altimeter_sigma_m,
-                             std::uint64_t noise_seed, std::uint64_t trial) const;
+  /// The same survey with dead reckoning of its own, as another trial of a study has it: floor and
+  /// altitudes are shared, only motions are new. They are those that the constructor would draw
+  /// with this seed and trial. Throws InputError as the constructor does.
+  SimulatedSurvey remeasured(const OdometryOptions& odometry, std::uint64_t noise_seed,
+                             std::uint64_t trial) const;
 
   const Camera& camera() const override { return camera_; }
   std::size_t size() const override { return infos_.size(); }
@@ -87,8 +89,8 @@ class SimulatedSurvey : public FrameSource {
   class Floor;
 
   void fly(const SimulatedSurveyOptions& options);
-  void measure(const OdometryOptions& odometry, double altimeter_sigma_m, std::uint64_t seed,
-               std::uint64_t trial);
+  void measure_altitudes(double sigma_m, std::uint64_t seed);
+  void measure_motions(const OdometryOptions& odometry, std::uint64_t seed, std::uint64_t trial);
   void plan_views(const SimulatedSurveyOptions& options, std::uint64_t seed);
   void plan_floor(const WorldOptions& options, std::uint64_t seed);
 

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "fathom/evaluation/clustered.hpp"
 #include "fathom/evaluation/interval.hpp"
 #include "fathom/evaluation/signed_rank.hpp"
 #include "fathom/evaluation/statistics.hpp"
@@ -19,7 +20,9 @@ std::vector<double> holm(std::span<const double> p_values);
 
 /// One figure of two methods over the same trials.
 struct PairedDifference {
-  std::size_t count = 0;             ///< of trials
+  std::size_t count = 0;             ///< of what is tested: trials, or surveys
+  std::size_t trials = 0;            ///< that both methods have the figure of
+  bool is_over_surveys = false;      ///< whether `count` is of surveys, else of trials
   double mean = 0.0;                 ///< of a − b
   std::optional<Interval> interval;  ///< of that mean, by bootstrap; nothing of a single trial
   SignedRankTest signed_rank;        ///< of the differences
@@ -32,5 +35,12 @@ struct PairedDifference {
 std::optional<PairedDifference> paired_difference(std::span<const double> a,
                                                   std::span<const double> b,
                                                   const BootstrapOptions& options = {});
+
+/// The same of the differences a − b by survey. Of several surveys mean, interval and test are over
+/// the surveys' mean differences, as trials of one survey are no independent draws; of a single one
+/// over its trials, which says nothing of other surveys. A trial that either method failed has no
+/// difference; a survey without any is not there.
+std::optional<PairedDifference> difference_over_surveys(const ClusteredValues& differences,
+                                                        const BootstrapOptions& options = {});
 
 }  // namespace fathom

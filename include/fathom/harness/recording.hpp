@@ -47,24 +47,25 @@ struct Recording {
 Recording record(const Configuration& configuration, const EstimatorRegistry& registry,
                  const Progress& progress = {}, RegistrationCache* cache = nullptr);
 
-/// A data set, opened once to be recorded again and again: by other estimators, in other trials.
-/// May be used from several threads at once.
+/// A survey of a data set, opened once to be recorded again and again: by other estimators, in
+/// other trials. May be used from several threads at once.
 class Recorder {
  public:
-  /// Opens the data set. The cache must outlive this. Throws InputError.
-  explicit Recorder(const Configuration& configuration, RegistrationCache* cache = nullptr);
+  /// Opens a survey of the data set. The cache must outlive this. Throws InputError.
+  explicit Recorder(const Configuration& configuration, RegistrationCache* cache = nullptr,
+                    std::size_t survey = 0);
 
-  /// A trial of a configuration whose picture_settings are those of the data set. Loop candidates
-  /// are selected by the reference; `automatic` is settled by the frames of this trial. False
-  /// loops, where the study has them, are added afterwards: the reference never sees them.
+  /// A trial of a configuration whose picture_settings are those of the data set; `noise` is that
+  /// of the survey. Loop candidates are selected by the reference; `automatic` is settled by the
+  /// frames of this trial. False loops, where the study has them, are added afterwards: the
+  /// reference never sees them.
   Recording record(const Configuration& configuration, const CandidateReference& reference,
                    const EstimatorRegistry& registry, const TrialNoise& noise,
                    const Progress& progress = {}) const;
 
   const DataSet& data() const { return pictures_ ? pictures_->data() : *graph_data_; }
 
-  /// The pictures; nothing for a pose graph. Their motions and altitudes may not be those of any
-  /// trial.
+  /// The pictures; nothing for a pose graph. Their motions may not be those of any trial.
   const FrameSource* pictures() const;
 
  private:

@@ -52,15 +52,15 @@ struct ExampleRun {
 
 struct StudyRun {
   bool is_finished = false;  ///< false where it was stopped before the end
-  /// Trial 0 of the first cell as it was stored, by estimator; empty if not finished.
+  /// Survey 0, trial 0 of the first cell as it was stored, by estimator; empty if not finished.
   std::vector<ExampleRun> example;
 };
 
-/// Runs what of a study is not yet in its store: every estimator on every trial of every cell, and
-/// dead reckoning beside them. What is stored does not depend on the number of jobs, nor on the
-/// order or on what was there before, cost apart. Runs of the example that an earlier session
-/// stored are replayed, and keep their stored metrics. Throws InputError where the data set or the
-/// store fails; what is stored stays.
+/// Runs what of a study is not yet in its store: every estimator on every trial of every survey of
+/// every cell, and dead reckoning beside them. What is stored does not depend on the number of
+/// jobs, nor on the order or on what was there before, cost apart. Runs of the example that an
+/// earlier session stored are replayed, and keep their stored metrics. Throws InputError where the
+/// data set or the store fails; what is stored stays.
 StudyRun run_study(const Study& study, const EstimatorRegistry& registry, ResultStore& store,
                    const StudyRunOptions& options);
 

@@ -16,13 +16,14 @@ namespace fathom {
 /// "FILE:LINE: dataset.altitude.base_m: …".
 InputError at_origin(const Configuration& configuration, const InputError& error);
 
-/// What all trials of a data set share: its pictures, and their registrations. May be used from
+/// What all trials of a survey share: its pictures, and their registrations. May be used from
 /// several threads at once.
 class Pictures {
  public:
-  /// Opens the data set, which must be one of pictures. Registrations are looked up in the cache
-  /// and kept there, where there is one; it must outlive this. Throws InputError.
-  explicit Pictures(const Configuration& configuration, RegistrationCache* cache = nullptr);
+  /// Opens a survey of the data set, which must be one of pictures. Registrations are looked up in
+  /// the cache and kept there, where there is one; it must outlive this. Throws InputError.
+  explicit Pictures(const Configuration& configuration, RegistrationCache* cache = nullptr,
+                    std::size_t survey = 0);
 
   const DataSet& data() const { return *data_; }
   const FrameSource& source() const { return *data_->frames(); }
@@ -34,11 +35,13 @@ class Pictures {
 };
 
 /// All keys that pictures and their registrations depend on, with their values: configurations of
-/// which these are the same may share them.
+/// which these are the same may share them, survey by survey.
 std::string picture_settings(const Configuration& configuration);
 
-/// Opens the data set of a configuration. Throws InputError at the origin of the key that is wrong.
-std::unique_ptr<const DataSet> open_data_set(const Configuration& configuration);
+/// Opens a survey of a configuration's data set: what follows from its `survey_seed`. Throws
+/// InputError at the origin of the key that is wrong.
+std::unique_ptr<const DataSet> open_data_set(const Configuration& configuration,
+                                             std::size_t survey = 0);
 
 /// All keys that the data set itself depends on, with their values.
 std::string data_settings(const Configuration& configuration);
@@ -46,7 +49,7 @@ std::string data_settings(const Configuration& configuration);
 /// The frames of one trial of a configuration's data set, with dead reckoning whatever its source.
 class Survey {
  public:
-  /// Trial 0 of a data set of its own. Throws InputError.
+  /// Trial 0 of survey 0 of a data set of its own. Throws InputError.
   explicit Survey(const Configuration& configuration, RegistrationCache* cache = nullptr);
   /// A trial over pictures that others share. Throws InputError.
   Survey(std::shared_ptr<Pictures> pictures, const Configuration& configuration,
@@ -65,7 +68,7 @@ class Survey {
   void open(const Configuration& configuration, const TrialNoise& noise);
 
   std::shared_ptr<Pictures> pictures_;
-  std::unique_ptr<FrameSource> measured_;  ///< where every trial measures anew
+  std::unique_ptr<FrameSource> measured_;  ///< where every trial draws dead reckoning
   std::unique_ptr<VisualOdometry> visual_odometry_;
   std::unique_ptr<NoisyOdometry> noisy_odometry_;
 };

@@ -13,12 +13,25 @@
 
 namespace fathom {
 
-/// One run: an estimator (or dead reckoning) on a trial of a cell.
+/// One trial of a cell. Trials are numbered within their survey.
+struct TrialKey {
+  std::size_t survey = 0;
+  std::size_t trial = 0;
+
+  auto operator<=>(const TrialKey&) const = default;
+};
+
+/// "trial 3 of survey 2".
+std::string text_of(const TrialKey& trial);
+
+/// One run: an estimator (or dead reckoning) on a trial of a cell's survey.
 struct RunKey {
   std::size_t cell = 0;
+  std::size_t survey = 0;
   std::size_t trial = 0;
   std::string estimator;
 
+  TrialKey trial_key() const { return {survey, trial}; }
   auto operator<=>(const RunKey&) const = default;
 };
 
@@ -45,8 +58,8 @@ class ResultStore {
 
   /// Makes the store of a study in a folder, or goes on with what is there: only with the same
   /// configuration and data, else InputError says what differs. Title, metrics, names and labels of
-  /// the axes become those of `study`; trials may only grow. `manifest` (JSON) is that of this
-  /// session. One process at a time may write; another one is refused.
+  /// the axes become those of `study`; surveys and trials may only grow. `manifest` (JSON) is that
+  /// of this session. One process at a time may write; another one is refused.
   static ResultStore write(const std::filesystem::path& folder, const StudyDescription& study,
                            const std::string& manifest);
 
@@ -57,8 +70,8 @@ class ResultStore {
   /// The manifests of the sessions that wrote, in order.
   std::vector<std::string> manifests() const;
 
-  /// All runs without their series, in the order of cell, trial and estimator (dead reckoning
-  /// first, then as in the study).
+  /// All runs without their series, in the order of cell, survey, trial and estimator (dead
+  /// reckoning first, then as in the study).
   std::vector<RunRecord> runs() const;
   /// A series of one run; nothing where the run has none of that name.
   std::optional<std::vector<double>> series(const RunKey& key, const std::string& name) const;

@@ -8,25 +8,25 @@
 
 namespace fathom {
 
-/// An index of the runs of a study by estimator, cell and trial: which are stored, which missing.
-/// Every run of a store has the content that was stored (ResultStore checks it).
+/// An index of the runs of a study by estimator, cell, survey and trial: which are stored, which
+/// missing. Every run of a store has the content that was stored (ResultStore checks it).
 class RunIndex {
  public:
-  using Trials = std::map<std::size_t, const RunRecord*>;
+  using Trials = std::map<TrialKey, const RunRecord*>;
 
   explicit RunIndex(const ResultStore& store);
   RunIndex(const RunIndex&) = delete;
   RunIndex& operator=(const RunIndex&) = delete;
 
   const StudyDescription& study() const { return study_; }
-  /// In the order of cell, trial and estimator.
+  /// In the order of cell, survey, trial and estimator.
   const std::vector<RunRecord>& runs() const { return runs_; }
   /// Whether a run is there, so that it need not be made again; it may have failed.
   bool has(const RunKey& key) const;
   /// All runs of an estimator in a cell, failed ones too.
   const Trials& of(const std::string& estimator, std::size_t cell) const;
   /// The trials of a cell that every estimator of the study has a run of.
-  std::vector<std::size_t> common_trials(std::size_t cell) const;
+  std::vector<TrialKey> common_trials(std::size_t cell) const;
   /// Names of all metrics that any run has, in order.
   std::vector<std::string> metrics() const;
   /// The most runs that were at work at the same time, over the cells.
@@ -39,6 +39,10 @@ class RunIndex {
   std::vector<RunRecord> runs_;
   std::map<std::string, std::map<std::size_t, Trials>> by_estimator_;
 };
+
+/// What trials a figure is over: "10 surveys × 10 trials"; where surveys have more or fewer trials
+/// "10 surveys × 10 trials (97 of 100)".
+std::string repeats_text(Repetition repetition, const std::vector<TrialKey>& trials);
 
 /// Whether the estimate of a run cannot be used; false of dead reckoning. An outcome that is not
 /// known is a failure.

@@ -40,7 +40,8 @@ struct SelectionQuery {
   double allowed_failures = 0.0;  ///< share of an estimator's runs, 0 to 1, that may have failed
 };
 
-/// A mean over trials with the 95 % bootstrap interval of it; none where a cell has one trial only.
+/// A mean over trials, of several surveys over the surveys' means, with the 95 % bootstrap interval
+/// of it; none where a cell has one trial only.
 struct TrialMean {
   std::size_t count = 0;  ///< of runs
   double mean = 0.0;
@@ -73,15 +74,18 @@ struct EstimatorEvidence {
 struct Lead {
   std::size_t runner_up = 0;                   ///< place in `Selection::estimators`
   std::optional<PairedDifference> difference;  ///< of the objective, chosen − runner-up
-  /// The interval of the difference leaves 0 out and Wilcoxon's p is at most 0.05.
+  /// The interval of the difference leaves 0 out and Wilcoxon's p is at most 0.05; of several
+  /// surveys both are over the surveys.
   bool is_significant = false;
 };
 
 struct Selection {
   std::vector<std::size_t> cells;  ///< looked at: asked for, and with runs
   std::size_t cells_asked = 0;
-  std::size_t fewest_trials = 0;  ///< that all estimators have, over the cells
+  std::size_t fewest_trials = 0;  ///< that all estimators have, of all surveys, over the cells
   std::size_t most_trials = 0;
+  std::size_t surveys = 0;  ///< that these trials are of
+  std::string repeats;      ///< what they are, in words: "10 surveys × 10 trials"
   std::vector<EstimatorEvidence> estimators;  ///< as in the study
   std::optional<EstimatorEvidence> baseline;  ///< dead reckoning; never chosen
   std::optional<std::size_t> chosen;          ///< place in `estimators`

@@ -18,8 +18,8 @@ class SimulatedDataSet : public DataSet {
   Trial trial(const DataSetValues& values, const TrialNoise& noise) const override {
     const auto options = options_of<SimulatedSurveyOptions>(values);
     Trial trial;
-    trial.frames = std::make_unique<SimulatedSurvey>(survey_.remeasured(
-        options.odometry, options.altitude.altimeter_sigma_m, noise.seed, noise.trial));
+    trial.frames = std::make_unique<SimulatedSurvey>(
+        survey_.remeasured(options.odometry, noise.seed, noise.trial));
     if (!trial.frames->has_odometry()) {
       trial.added_noise = options.odometry.noise_covariance("dataset.odometry.");
     }

@@ -118,19 +118,16 @@ SimulatedSurvey::SimulatedSurvey(const SimulatedSurveyOptions& given, std::uint6
   effects_.check(kPrefix);
   options.attitude.check(kPrefix + "attitude.");
   fly(options);
-  measure(options.odometry, options.altitude.altimeter_sigma_m, seed, trial);
+  measure_altitudes(options.altitude.altimeter_sigma_m, seed);
+  measure_motions(options.odometry, seed, trial);
   plan_views(options, seed);
   plan_floor(options.world, seed);
 }
 
 SimulatedSurvey SimulatedSurvey::remeasured(const OdometryOptions& odometry,
-                                            double altimeter_sigma_m, std::uint64_t noise_seed,
-                                            std::uint64_t trial) const {
-  AltitudeOptions altitude;
-  altitude.altimeter_sigma_m = altimeter_sigma_m;
-  checked(altitude, "dataset.altitude");
+                                            std::uint64_t noise_seed, std::uint64_t trial) const {
   SimulatedSurvey survey = *this;
-  survey.measure(checked(odometry, "dataset.odometry"), altimeter_sigma_m, noise_seed, trial);
+  survey.measure_motions(checked(odometry, "dataset.odometry"), noise_seed, trial);
   return survey;
 }
 
@@ -148,16 +145,21 @@ void SimulatedSurvey::fly(const SimulatedSurveyOptions& options) {
   }
 }
 
-void SimulatedSurvey::measure(const OdometryOptions& odometry, double altimeter_sigma_m,
-                              std::uint64_t seed, std::uint64_t trial) {
+void SimulatedSurvey::measure_altitudes(double sigma_m, std::uint64_t seed) {
+  RandomStream altimeter(seed, "altimeter");
+  for (std::size_t i = 0; i < infos_.size(); ++i) {
+    infos_[i].altitude_m = measured_altitude(views_[i].altitude_m, sigma_m, altimeter);
+  }
+}
+
+void SimulatedSurvey::measure_motions(const OdometryOptions& odometry, std::uint64_t seed,
+                                      std::uint64_t trial) {
   const Eigen::Matrix3d covariance = odometry.noise_covariance(kPrefix + "odometry.");
   const MotionNoise noise(covariance);
   has_odometry_ = odometry.source == OdometrySource::kNoisyMotion;
-  RandomStream altimeter(seed, "altimeter", trial);
   RandomStream dead_reckoning(seed, "dead_reckoning", trial);
   for (std::size_t i = 0; i < infos_.size(); ++i) {
     FrameInfo& info = infos_[i];
-    info.altitude_m = measured_altitude(views_[i].altitude_m, altimeter_sigma_m, altimeter);
     info.motion.reset();
     if (!has_odometry_ || i == 0) continue;
     const Pose motion = between(*infos_[i - 1].ground_truth, *info.ground_truth);

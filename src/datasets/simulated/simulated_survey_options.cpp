@@ -1,26 +1,12 @@
 #include "fathom/datasets/simulated_survey.hpp"
 
 namespace fathom {
-namespace {
-
-// The part of the altitude's options that a trial draws.
-struct AltimeterOptions {
-  AltitudeOptions& altitude;
-
-  void describe(OptionTable& table) const { altitude.describe_trial(table); }
-};
-
-}  // namespace
 
 void AltitudeOptions::describe(OptionTable& table) {
   table.real("base_m", base_m, Range::positive(), "m",
              "mean altitude of the camera over the floor");
   table.real("amplitude_m", amplitude_m, Range::at_least(0), "m", "of its sine over time");
   table.real("period_s", period_s, Range::positive(), "s", "of its sine over time");
-  describe_trial(table);
-}
-
-void AltitudeOptions::describe_trial(OptionTable& table) {
   table.real("altimeter_sigma_m", altimeter_sigma_m, Range::at_least(0), "m",
              "standard deviation of a measured altitude");
 }
@@ -37,9 +23,16 @@ void SimulatedSurveyOptions::describe(OptionTable& table) {
 }
 
 void SimulatedSurveyOptions::describe_trial(OptionTable& table) {
-  AltimeterOptions altimeter{altitude};
-  table.group("altitude", altimeter);
   table.group("odometry", odometry);
+}
+
+std::string SimulatedSurveyOptions::why_surveys_are_alike() const {
+  const bool draws = world.picture.empty() || world.relief_m > 0.0 || !attitude.is_level() ||
+                     effects.is_random() || altitude.altimeter_sigma_m > 0.0;
+  if (draws) return "";
+  return "over the picture of dataset.world a level camera, exact altitudes and clear pictures "
+         "leave "
+         "nothing to draw";
 }
 
 std::vector<IgnoredKey> SimulatedSurveyOptions::ignored_keys() const {

@@ -1,6 +1,6 @@
 // The charts as cards: each has a title, a caption, its own choices, and its plots.
 const metricChoices = (cost) => Object.keys(study.metrics).filter((name) => cost === undefined || study.metrics[name].cost === cost);
-const exampleNote = () => `Trial ${cellNow().example.trial}`;
+const exampleNote = () => sentence(cellNow().example.text);
 
 const charts = [
   {id: 'trajectories', title: 'Trajectories', wide: true, plots: trajectoryPlots,
@@ -19,10 +19,9 @@ const charts = [
       const notSwept = (key, value) => (study.axes[state.axis].key === key ? '' : value);
       const association = notSwept('association.mode', cell.association);
       const alignment = notSwept('evaluation.alignment', cell.alignment);
-      const counts = [...new Set(sweepCells().map((one) => one.n))].sort((a, b) => a - b);
       const jobs = study.metrics[state.sweepMetric].cost ? ' ' + jobsNote(cell) : '';
       const parts = [...fixed, alignment && `alignment ${alignment}`,
-        association && `association ${association}`, `n = ${counts.join(', ')} a point`];
+        association && `association ${association}`, `${repeatsOf(sweepCells())} a point`];
       return parts.filter(Boolean).join(', ') + failuresOf(sweepCells()) +
         '. Band: mean ± 2 standard deviations over trials. Right: twice the root mean square position error, ' +
         'and the mean of 2·√(Pxx + Pyy) that the estimator states; an honest one has them equal.' + jobs;
@@ -38,13 +37,12 @@ const charts = [
         : `Mean ${metricLabel(state.regimeMetric)}.`;
       const choice = study.regimes ? ` Last map: by mean ${metricLabel(study.regimes.cost)} the cheapest of those whose mean ` +
         `${metricLabel(study.regimes.metric)} is at most 5 % above the best.` : '';
-      const counts = [...new Set(regimeCells().map((one) => one.n))].sort((a, b) => a - b);
-      return `${fixed.join('')}n = ${counts.join(', ')} trials a square. ${meaning} An estimator that failed a trial is in no comparison.${choice}`;
+      return `${fixed.join('')}${repeatsOf(regimeCells())} a square. ${meaning} An estimator that failed a trial is in no comparison.${choice}`;
     }},
   {id: 'keyframes', title: 'Error and consistency over keyframes', wide: true, plots: keyframePlots,
     exists: (cell) => sum(cell.estimators.map((one) => one.keyframes.keyframe.length)) > 0,
     caption: (cell) => `${conditions(cell)}. Position in metres. NEES / 3 of an honest estimator is 1; ` +
-      'the grey band holds 95 % of its means over trials at one keyframe. Above: overconfident.'},
+      'the grey band holds 95 % of its means over independent draws at one keyframe. Above: overconfident.'},
   {id: 'updates', title: 'Cost of an update', plots: updatePlots,
     exists: (cell) => sum(cell.estimators.map((one) => one.updates.keyframe.length)) > 0,
     caption: (cell) => `${conditions(cell)}. Milliseconds, median over trials, logarithmic. ${jobsNote(cell)}`},

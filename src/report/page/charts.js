@@ -84,7 +84,7 @@ function keyframePlots(card) {
   return [
     {spec: 'keyframe_error', heading: 'Position error and its 2σ band', data: {rows: rows.error}, width},
     {spec: 'keyframe_bounds', heading: 'Empirical (solid) and estimated (dashed) 2σ', data: {rows: rows.bounds}, width},
-    {spec: 'keyframe_nees', heading: `NEES / 3 and the χ² interval of ${rows.trials} trial${rows.trials === 1 ? '' : 's'}`,
+    {spec: 'keyframe_nees', heading: `NEES / 3 and the χ² interval of ${rows.draws} independent draw${rows.draws === 1 ? '' : 's'}`,
       data: {rows: rows.nees, interval: rows.interval}, width,
       adjust: (spec) => { spec.axes[1].values = roundValues([...rows.nees.map((row) => row.value), ...rows.interval.flatMap((row) => [row.low, row.high])]); }},
   ].filter((plot) => plot.data.rows.length > 0);

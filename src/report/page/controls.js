@@ -49,7 +49,7 @@ function makeHead() {
   const alignments = [...new Set(study.cells.map((cell) => cell.alignment))].filter(Boolean);
   document.getElementById('subtitle').textContent = [
     count(estimators, 'estimator'), count(study.cells.length, 'cell'),
-    `${count(study.trials, 'trial')} each`,
+    `${repeatsOf(study.cells)} each`,
     alignments.length > 0 ? `alignment ${alignments.join(', ')}` : ''].filter(Boolean).join(' · ');
   const text = document.getElementById('data').textContent;
   document.getElementById('download').href = URL.createObjectURL(new Blob([text], {type: 'application/json'}));

@@ -22,7 +22,7 @@ function sweepRows() {
         const spread = 2 * (metric.sd || 0);
         const low = metric.mean >= 0 ? Math.max(0, metric.mean - spread) : metric.mean - spread;
         errors.push({...row, mean: metric.mean, low, high: metric.mean + spread,
-          tooltip: `${labelOf(one.name)}, ${text}: ${withInterval(metric)}, n = ${metric.n}` +
+          tooltip: `${labelOf(one.name)}, ${text}: ${withInterval(metric)}, n = ${metric.n}${metric.surveys > 1 ? ` of ${metric.surveys} surveys` : ''}` +
             (metric.sd ? `, sd ${digits(metric.sd)}` : '')});
       }
       for (const kind of ['empirical', 'estimated']) {
@@ -114,14 +114,14 @@ function keyframeRows(cell) {
       if (all.anees[i] > 0) rows.nees.push({...row, k, value: all.anees[i]});
     });
   }
-  // The estimator with the most trials has the interval drawn.
-  const trialsOf = (one) => Math.max(0, ...one.keyframes.nees_n);
-  const most = cell.estimators.reduce((a, b) => (trialsOf(b) > trialsOf(a) ? b : a));
+  // The estimator with the most independent draws has the interval drawn.
+  const drawsOf = (one) => Math.max(0, ...one.keyframes.nees_draws);
+  const most = cell.estimators.reduce((a, b) => (drawsOf(b) > drawsOf(a) ? b : a));
   most.keyframes.keyframe.forEach((k, i) => {
     const {low, high} = most.keyframes.nees_interval;
     if (low[i] !== null) rows.interval.push({k, low: low[i], high: high[i]});
   });
-  rows.trials = trialsOf(most);
+  rows.draws = drawsOf(most);
   return rows;
 }
 
@@ -203,7 +203,7 @@ function paretoRows(cell) {
 function outcomeRows(cell) {
   const order = ['converged', 'iteration_limit', 'diverged', 'numerical_failure', 'not run'];
   return cell.estimators.filter((one) => one.name !== kBaseline).flatMap((one) => {
-    const counts = {...one.outcomes, 'not run': Math.max(0, study.trials - one.runs)};
+    const counts = {...one.outcomes, 'not run': Math.max(0, study.surveys * study.trials - one.runs)};
     return order.filter((name) => counts[name] > 0).map((name) => {
       const text = `${counts[name]} ${name.replaceAll('_', ' ')}`;
       return {estimator: one.name, label: labelOf(one.name), count: counts[name], text,

@@ -56,9 +56,13 @@ function conditions(cell) {
   if (cell.alignment) parts.push(`alignment ${cell.alignment}`);
   if (cell.association) parts.push(`association ${cell.association}`);
   if (cell.selected_by) parts.push(`loops selected by ${cell.selected_by}`);
-  parts.push(`n = ${cell.n}`);
+  parts.push(cell.repeats);
   return parts.join(', ') + failuresOf([cell]);
 }
+
+// "10 surveys × 10 trials": all that occur among some cells.
+const repeatsOf = (cells) => [...new Set(cells.map((cell) => cell.repeats))].join(' or ');
+const sentence = (text) => text.charAt(0).toUpperCase() + text.slice(1);
 
 // What a mean over these cells leaves out.
 function failuresOf(cells) {

@@ -53,7 +53,7 @@ function drawSummary() {
   document.getElementById('summary-words').replaceChildren(...cell.estimators.filter((one) => one.words.length > 0)
     .map((one) => element('li', {textContent: `${labelOf(one.name)}: ${one.words.join(' ')}`})));
   document.getElementById('summary-caption').textContent = `${cell.caption}. ` +
-    (cell.n > 1 ? 'Means over the trials that were done, with the 95 % bootstrap interval of the mean.' : 'A single trial: values without intervals.') +
+    (cell.n > 1 ? study.intervals : 'A single trial: values without intervals.') + (cell.limits ? ` ${cell.limits}` : '') +
     (metrics.some((name) => study.metrics[name].cost) ? ` Cost: ${jobsNote(cell)}` : '');
 }
 
@@ -63,9 +63,11 @@ function drawPaired() {
   document.getElementById('paired').hidden = tests.length === 0;
   document.getElementById('paired-title').textContent = `Differences to ${first} (${tests.length})`;
   document.getElementById('paired-caption').textContent =
-    `The estimator minus ${first}, over the trials that both did: mean with its 95 % interval, Wilcoxon’s signed-rank test, and its p-value adjusted after Holm over the tests of this table.`;
+    `The estimator minus ${first}, ${tests.some((one) => one.over === 'surveys') ? 'over the surveys’ mean differences of the trials' : 'over the trials'} that both did: ` +
+    'mean with its 95 % interval, Wilcoxon’s signed-rank test, and its p-value adjusted after Holm over the tests of this table.' +
+    (cellNow().limits ? ` ${cellNow().limits}` : '');
   const rows = tests.map((one) => [
-    [swatch(one.estimator), labelOf(one.estimator)], metricLabel(one.metric), String(one.n), withInterval(one), digits(one.p), digits(one.holm_p)]);
+    [swatch(one.estimator), labelOf(one.estimator)], metricLabel(one.metric), `${one.n} ${one.over}`, withInterval(one), digits(one.p), digits(one.holm_p)]);
   const made = tableOf(['estimator', 'metric', 'pairs', 'mean difference', 'p', 'p (Holm)'], rows);
   for (const row of made.rows) row.cells[1].className = 'text';
   document.getElementById('paired-table').replaceChildren(made);
