@@ -34,7 +34,7 @@ class Runner {
         store_(store),
         options_(options),
         data_sets_(study, options.registrations),
-        tasks_(tasks_of(study, store, data_sets_)),
+        tasks_(tasks_of(study, store, data_sets_, static_cast<std::size_t>(options.jobs))),
         threads_(std::min(static_cast<std::size_t>(options.jobs),
                           std::max<std::size_t>(tasks_.size(), 1))) {
     for (const Task& task : tasks_) data_sets_.expect_trial(task.cell, task.survey);

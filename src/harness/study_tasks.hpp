@@ -21,10 +21,11 @@ struct Task {
   RunKey run_of(const std::string& estimator) const { return {cell, survey, trial, estimator}; }
 };
 
-/// What of a study is not in its store. Survey by survey, and cells over the same pictures one
-/// after the other, so that few surveys are open at a time.
+/// What of a study is not in its store. As many surveys take turns as there are jobs, since trials
+/// of one survey wait for the same pictures and registrations; cells over the same pictures come
+/// one after the other, so that few surveys are open at a time.
 std::vector<Task> tasks_of(const Study& study, const ResultStore& store,
-                           const StudyDataSets& data_sets);
+                           const StudyDataSets& data_sets, std::size_t jobs);
 
 /// Of all cells and surveys, done or not.
 std::size_t trials_in_all(const Study& study);

@@ -4,6 +4,7 @@
 #include <optional>
 #include <set>
 
+#include "fathom/core/chi_squared.hpp"
 #include "fathom/evaluation/consistency.hpp"
 #include "fathom/report/table.hpp"
 
@@ -67,6 +68,14 @@ class Figures {
     return level_of(*summary, 1.0, anees_interval(draws_, dof, kProbability));
   }
 
+  // A true error of one pose has a χ² of 3 degrees of freedom. Beyond that, whatever the draws, the
+  // estimate is not where the measurements put it.
+  bool is_off_the_optimum() const {
+    const MetricSummary* summary = find("chi2_gap");
+    const double most = chi_squared_quantile(0.5 * (1.0 + kProbability), 3.0);
+    return summary != nullptr && summary->interval && summary->interval->low > most;
+  }
+
   bool is_correlated() const {
     const MetricSummary* summary = find("picture_error_correlation");
     return summary != nullptr && summary->interval && summary->interval->low > 0.0;
@@ -81,6 +90,11 @@ class Figures {
 std::string cause_of_high(const Figures& figures) {
   const Level cost = figures.level_of_cost();
   const Level nis = figures.level("mean_nis_truth", 3.0);
+  if (figures.is_off_the_optimum()) {
+    return "The estimate is not at the optimum of the measurements: its F is above it by " +
+           figures.text("chi2_gap") +
+           ". Its linearisation, or a wrong minimum, is in every figure.";
+  }
   if (figures.level("anchored_anees", 1.0) == Level::expected && !figures.is_any_motion_high()) {
     return "With other keyframes held it is " + figures.text("anchored_anees") +
            ": what is wrong is the first picture, from which every pose is measured.";
@@ -125,9 +139,9 @@ std::string cause_of_low(const Figures& figures) {
 }  // namespace
 
 bool is_of_words(const std::string& metric) {
-  static const std::set<std::string> metrics{"anees",          "anchored_anees",
-                                             "mean_nis_truth", "picture_error_correlation",
-                                             "chi2_per_dof",   "registrations"};
+  static const std::set<std::string> metrics{
+      "anees",        "anchored_anees", "mean_nis_truth", "picture_error_correlation",
+      "chi2_per_dof", "registrations",  "chi2_gap"};
   return metrics.contains(metric) || metric.starts_with(kRelative);
 }
 

@@ -63,6 +63,18 @@ TEST(HonestyWords, AnIntervalThatHoldsOneIsNoEvidence) {
   EXPECT_THAT(honesty_words(wide, kDraws), SizeIs(1));
 }
 
+// 9.35 is the 97.5 % quantile of χ² of 3 degrees of freedom, the error of one pose.
+TEST(HonestyWords, AnEstimateThatIsNotAtTheOptimum) {
+  Figures figures = honest(4.0);
+  figures["chi2_per_dof"] = figure(0.5, 0.02);
+  figures["chi2_gap"] = figure(12.0, 2.6);
+  EXPECT_THAT(
+      honesty_words(figures, kDraws)[1],
+      HasSubstr("not at the optimum of the measurements: its F is above it by 12 [9.4, 15]"));
+  figures["chi2_gap"] = figure(12.0, 2.7);
+  EXPECT_THAT(honesty_words(figures, kDraws)[1], HasSubstr("share errors"));
+}
+
 TEST(HonestyWords, ABadFirstPicture) {
   Figures figures = honest(4.9);
   figures["anchored_anees"] = figure(1.1, 0.2);
