@@ -80,7 +80,8 @@ TEST(SurveyDraws, TrialsShareAltitudesAndPicturesAndDrawDeadReckoning) {
   const Configuration configuration = configured(std::string(kSmallSurvey) + kSea);
   const Recorder recorder(configuration, nullptr, 3);
   const auto trial = [&](std::uint64_t number) {
-    return recorder.record(configuration, 0, builtin_estimators(), {survey_seed(1, 3), number});
+    return recorder.record(configuration, configuration.reference, builtin_estimators(),
+                           {survey_seed(1, 3), number});
   };
   const Recording first = trial(0);
   const Recording second = trial(1);
@@ -88,8 +89,8 @@ TEST(SurveyDraws, TrialsShareAltitudesAndPicturesAndDrawDeadReckoning) {
   EXPECT_EQ(first.frame_altitudes_m[4], recorder.pictures()->info(4).altitude_m);
   EXPECT_NE(first.frame_dead_reckoning, second.frame_dead_reckoning);
   const Recorder other(configuration, nullptr, 4);
-  const Recording elsewhere =
-      other.record(configuration, 0, builtin_estimators(), {survey_seed(1, 4), 0});
+  const Recording elsewhere = other.record(configuration, configuration.reference,
+                                           builtin_estimators(), {survey_seed(1, 4), 0});
   EXPECT_NE(first.frame_altitudes_m, elsewhere.frame_altitudes_m);
   EXPECT_NE(first.frame_dead_reckoning, elsewhere.frame_dead_reckoning);
 }
@@ -105,7 +106,8 @@ TEST(SurveyDraws, APairIsRegisteredOnceASurvey) {
   test::MapCache cache;
   const auto record = [&](std::size_t survey, std::uint64_t trial) {
     Recorder(configuration, &cache, survey)
-        .record(configuration, 0, builtin_estimators(), {survey_seed(1, survey), trial});
+        .record(configuration, configuration.reference, builtin_estimators(),
+                {survey_seed(1, survey), trial});
     return cache.size();
   };
   const std::size_t of_one_survey = record(0, 0);
