@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # From a fresh Debian 12 to a comparison: installs what is missing, builds build/release/fathom, and
-# compares three estimators on one simulated survey. Further arguments go to `fathom compare`:
+# compares three estimators on six simulated surveys. Further arguments go to `fathom compare`:
 #
 #     scripts/quickstart.sh --seed 7 --out runs/seed_7
 #

@@ -89,6 +89,7 @@ class Workshop:
 
     def study(self, name, configuration, settings=(), trials=None, jobs=None):
         """Runs a study, `settings` being KEY=VALUE, and reads its tables."""
+        surveys = "surveys:" in (self.top / configuration).read_text("utf-8")
         jobs = jobs or self.jobs
         arguments = ["compare", configuration, "--out", "{out}/study", "--quiet", "--no-mosaic",
                      "--jobs", jobs]
@@ -97,6 +98,8 @@ class Workshop:
         trials = 1 if self.is_small else trials
         if trials:
             arguments += ["--trials", trials]
+        if self.is_small and surveys:
+            arguments += ["--surveys", 1]
         # Status 1: an estimator of which no run could be used, which is a result, too.
         folder = self.run(name, "fathom", *arguments, statuses=(0, 1), jobs=jobs)
         return Study(folder / "study")

@@ -4,29 +4,64 @@ from layout import code, interval, significant, table
 from maker import maker
 
 ESTIMATORS = ("trajectory_iekf", "ekf", "ceres_pose_graph")
+OF_THE_SWEEP = ("trajectory_iekf", "iekf_1", "ekf", "ceres_pose_graph")
 ERROR = "mean_position_error_m"
+SWEEP = "`fathom compare configs/studies/paper_simulated.yaml`"
 
 
-def _errors(study, unit_scale, digits, **cell):
-    return [interval(study.row(e, ERROR, **cell), digits, unit_scale) for e in ESTIMATORS]
+def _errors(study, unit_scale, digits, estimators=ESTIMATORS, **cell):
+    return [interval(study.row(e, ERROR, **cell), digits, unit_scale) for e in estimators]
 
 
 def _loops(study, **cell):
     return f"{study.mean_over(ESTIMATORS, 'loop_closures', **cell):.0f}"
 
 
-@maker("docs/paper.md", "paper-sweep", "slow",
-       "`fathom compare configs/studies/paper_simulated.yaml`, association `own`", 30)
+def _sweep(work):
+    return work.study("paper-simulated", "configs/studies/paper_simulated.yaml", jobs=2)
+
+
+@maker("docs/paper.md", "paper-sweep", "slow", SWEEP, 30)
 def paper_sweep(work):
-    study = work.study("paper-simulated", "configs/studies/paper_simulated.yaml")
+    study = _sweep(work)
     rows = []
     for separation in (5, 10):
         for level in range(1, 6):
-            cell = {"association": "own", "separation": separation, "noise level": level}
+            cell = {"separation": separation, "noise level": level}
             rows.append([separation, level, interval(study.row("dead_reckoning", ERROR, **cell)),
-                         *_errors(study, 1e3, 3, **cell), _loops(study, **cell)])
+                         *_errors(study, 1e3, 3, OF_THE_SWEEP, **cell), _loops(study, **cell)])
     return table(["separation", "level", "dead reckoning (m)",
-                  *(f"`{e}` (mm)" for e in ESTIMATORS), "loops"], rows)
+                  *(f"`{e}` (mm)" for e in OF_THE_SWEEP), "loops"], rows)
+
+
+@maker("docs/paper.md", "paper-consistency", "slow", SWEEP, 1)
+def paper_consistency(work):
+    study = _sweep(work)
+    rows = []
+    for separation in (5, 10):
+        for level in (1, 5):
+            for estimator in OF_THE_SWEEP:
+                cell = {"separation": separation, "noise level": level}
+                row = [study.row(estimator, metric, **cell)
+                       for metric in ("anees", "share_inside_2_sigma", "chi2_gap")]
+                rows.append([separation, level, f"`{estimator}`",
+                             *(interval(one) for one in row)])
+    return table(["separation", "level", "estimator", "ANEES", "inside 2σ", "F above the optimum"],
+                 rows)
+
+
+@maker("docs/paper.md", "paper-cost", "time", SWEEP + ", noise level 5, two jobs", 1)
+def paper_cost(work):
+    study = _sweep(work)
+    rows = []
+    for separation in (5, 10):
+        cell = {"separation": separation, "noise level": 5}
+        for estimator in OF_THE_SWEEP:
+            rows.append([separation, _loops(study, **cell), f"`{estimator}`",
+                         *(significant(study.mean(estimator, metric, **cell))
+                           for metric in ("total_ms", "total_with_covariance_ms"))])
+    return table(["separation", "loops", "estimator", "estimate (ms)",
+                  "estimate and covariance (ms)"], rows)
 
 
 @maker("docs/paper.md", "paper-pool", "slow",

@@ -1,0 +1,49 @@
+"""docs/studies.md: by how much the registrations of a picture are not independent."""
+
+from layout import interval, significant, table
+from maker import maker
+
+PAGE = "docs/studies.md"
+ESTIMATOR = "incremental_smoother"
+
+
+def _rows(study, axis, values, told):
+    rows = []
+    for value, text in values:
+        for reach in (1.3, 1.6, 2.5):
+            for label, said in told:
+                cell = {axis: value, "reach_m": reach, told_axis(axis): label}
+                loops = study.mean(ESTIMATOR, "registrations", **cell)
+                keyframes = study.mean(ESTIMATOR, "keyframes", **cell)
+                figures = [study.row(ESTIMATOR, metric, **cell) for metric in
+                           ("anees", "anchored_anees", "picture_error_correlation")]
+                rows.append([text, significant(loops / keyframes, 2), said,
+                             interval(study.row(ESTIMATOR, "mean_position_error_m", **cell), 2, 1e3),
+                             *(interval(one, 2) for one in figures),
+                             significant(study.mean(ESTIMATOR, "mean_nis_truth", **cell)),
+                             significant(study.mean(ESTIMATOR, "chi2_per_dof", **cell), 2)])
+    return rows
+
+
+def told_axis(axis):
+    return "told_m" if axis == "altimeter_m" else "told"
+
+
+HEADER = ["loops a keyframe", "told", "error (mm)", "ANEES", "anchored ANEES",
+          "correlation in a picture", "NIS against truth", "F per degree of freedom"]
+
+
+@maker(PAGE, "shared-altimeter", "slow",
+       "`fathom compare configs/studies/shared_errors_altimeter.yaml`", 60)
+def shared_altimeter(work):
+    study = work.study("shared-altimeter", "configs/studies/shared_errors_altimeter.yaml", jobs=2)
+    values = [(v, f"{100 * v:g} cm") for v in (0, 0.005, 0.01, 0.02)]
+    return table(["altimeter", *HEADER],
+                 _rows(study, "altimeter_m", values, ((0, "no"), (0.01, "1 cm"))))
+
+
+@maker(PAGE, "shared-tilt", "slow", "`fathom compare configs/studies/shared_errors_tilt.yaml`", 60)
+def shared_tilt(work):
+    study = work.study("shared-tilt", "configs/studies/shared_errors_tilt.yaml", jobs=2)
+    values = [(v, v) for v in ("0°", "0.5°", "1°", "2°")]
+    return table(["roll, pitch", *HEADER], _rows(study, "tilt", values, (("no", "no"), ("1°", "1°"))))
