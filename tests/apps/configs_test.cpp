@@ -60,8 +60,10 @@ TEST_F(Configs, AreAllTestedHere) {
     fathom_done({"check", entry.path().string()});
   }
   EXPECT_THAT(studies,
-              ElementsAreArray({"paper_pool.yaml", "paper_simulated.yaml", "real_pictures.yaml",
-                                "regimes.yaml", "regimes_survey.yaml", "wrong_loops.yaml"}));
+              ElementsAreArray({"false_loops_drawn.yaml", "paper_pool.yaml", "paper_simulated.yaml",
+                                "real_pictures.yaml", "regimes.yaml", "regimes_survey.yaml",
+                                "shared_errors_altimeter.yaml", "shared_errors_tilt.yaml",
+                                "wrong_loops.yaml"}));
 }
 
 // Whatever a study sweeps, its camera and front end are those of its first cell.
@@ -138,6 +140,15 @@ TEST_F(Configs, WrongLoopsRuns) {
                                  "dataset.mission.leg_length_m=3", "trials=1"}),
               "truncated/metrics.json");
   EXPECT_EQ(ResultStore::open(path("out")).runs().size(), 12u * 10u);
+}
+
+TEST_F(Configs, FalseLoopsDrawnRuns) {
+  expect_runs("compare", "studies/false_loops_drawn.yaml",
+              {"dataset.mission.legs=2", "dataset.mission.leg_length_m=8",
+               "dataset.mission.loop_length_m=8", "dataset.mission.loop_width_m=4",
+               "dataset.mission.loop_overrun_m=4", "trials=1"},
+              "truncated/metrics.json");
+  EXPECT_EQ(ResultStore::open(path("out")).runs().size(), 96u * 6u);
 }
 
 TEST_F(Configs, RegimesRun) {
