@@ -2,6 +2,9 @@
 // and compared with one reference for all, the least-squares optimum of the same graph without
 // them. A share of 0 tells what a back end makes of the clean graph. Prints a Markdown table.
 //
+// False loops of one draw share their fate, so the column `draws` counts independent trials: those
+// in which a false loop is kept. `errors m` has the error of every draw, least first.
+//
 //   wrong_loops [--seeds N] [--shares 0,0.1,0.3,0.5] [--kinds random,local,grouped]
 //               [--back-ends NAME,…] GRAPH.g2o …
 
@@ -82,11 +85,22 @@ struct Case {
   std::string kind;
 };
 
+std::string listed(const std::vector<double>& values) {
+  std::string text;
+  for (const double value : values) {
+    char number[32];
+    std::snprintf(number, sizeof number, "%s%.4f", text.empty() ? "" : " ", value);
+    text += number;
+  }
+  return text;
+}
+
 void print_row(const Case& one, const BackEnd& back_end, int seeds) {
   std::vector<double> errors;
   std::size_t false_loops = 0;
   std::size_t kept = 0;
   std::size_t lost = 0;
+  int draws_with_kept = 0;
   double cpu_ms = 0.0;
   for (int seed = 1; seed <= seeds; ++seed) {
     SpoilOptions options;
@@ -96,18 +110,22 @@ void print_row(const Case& one, const BackEnd& back_end, int seeds) {
     const Replay solved = solve(spoiled.log, back_end);
     errors.push_back(mean_distance_m(solved.trajectory, one.optimum));
     cpu_ms += solved.cpu_ms / seeds;
+    const std::size_t kept_so_far = kept;
     for (std::size_t j = 0; j < spoiled.is_false.size(); ++j) {
       const bool is_kept = solved.loop_weights[j] > 0.5;
       if (spoiled.is_false[j]) ++false_loops;
       if (spoiled.is_false[j] && is_kept) ++kept;
       if (!spoiled.is_false[j] && !is_kept) ++lost;
     }
+    if (kept > kept_so_far) ++draws_with_kept;
   }
   std::sort(errors.begin(), errors.end());
-  std::printf("| %s | %.0f %% | %s | %s | %.4f | %.4f | %zu of %zu | %zu of %zu | %.0f |\n",
-              one.graph.c_str(), 100.0 * one.share, one.kind.c_str(), back_end.name.c_str(),
-              errors[errors.size() / 2], errors.back(), kept, false_loops, lost,
-              one.log.registration_count() * static_cast<std::size_t>(seeds), cpu_ms);
+  std::printf(
+      "| %s | %.0f %% | %s | %s | %.4f | %.4f | %zu of %zu | %zu of %zu | %d of %d | %s | %.0f |\n",
+      one.graph.c_str(), 100.0 * one.share, one.kind.c_str(), back_end.name.c_str(),
+      errors[errors.size() / 2], errors.back(), kept, false_loops, lost,
+      one.log.registration_count() * static_cast<std::size_t>(seeds), draws_with_kept, seeds,
+      listed(errors).c_str(), cpu_ms);
   std::fflush(stdout);
 }
 
@@ -127,8 +145,9 @@ void print_rows(const std::string& graph, const Recording& recording,
 
 void run(const Flags& flags) {
   std::printf(
-      "| graph | false | kind | back end | median error m | worst | false kept | right lost | CPU "
-      "ms |\n|---|---|---|---|---|---|---|---|---|\n");
+      "| graph | false | kind | back end | median error m | worst | false kept | right lost | "
+      "draws "
+      "| errors m | CPU ms |\n|---|---|---|---|---|---|---|---|---|---|---|\n");
   for (const std::string& path : flags.graphs) {
     const Recording recording = record_graph(path);
     const std::vector<Pose> optimum = reference_poses(recording, builtin_estimators());

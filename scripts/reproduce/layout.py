@@ -31,6 +31,34 @@ def interval(row, digits=3, scale=1.0):
     return f"{text} [{low}, {high}]"
 
 
+def _binomial_tail(k, n, p):
+    """P(X ≥ k) of n draws."""
+    return sum(math.comb(n, i) * p**i * (1 - p) ** (n - i) for i in range(k, n + 1))
+
+
+def _bisected(rises):
+    low, high = 0.0, 1.0
+    for _ in range(50):
+        middle = (low + high) / 2
+        low, high = (low, middle) if rises(middle) > 0 else (middle, high)
+    return (low + high) / 2
+
+
+def share_interval(k, n):
+    """The exact 95 % interval of a share of which k of n were seen (Clopper and Pearson 1934)."""
+    low = _bisected(lambda p: _binomial_tail(k, n, p) - 0.025) if k else 0.0
+    high = _bisected(lambda p: _binomial_tail(k + 1, n, p) - 0.975) if k < n else 1.0
+    return low, high
+
+
+def share(k, n):
+    """A count with the interval of its share: 3 of 60 [1, 14] %."""
+    if n == 0:
+        return NOTHING
+    low, high = (significant(100 * value, 2) for value in share_interval(k, n))
+    return f"{k} of {n} [{low}, {high}] %"
+
+
 def table(header, rows):
     """A Markdown table."""
     lines = ["| " + " | ".join(header) + " |", "|" + "---|" * len(header)]

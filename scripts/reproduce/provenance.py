@@ -11,7 +11,7 @@ from pathlib import Path
 # What figures depend on: programs and configurations. Pages and makers are no part of it.
 SOURCES = ("CMakeLists.txt", "CMakePresets.json", "apps", "benchmarks", "cmake", "configs",
            "estimators", "include", "src")
-GENERATED = re.compile(r"^\*(Made by |Recorded figures, )")
+GENERATED = re.compile(r"^\*(Made by |Recorded figures, |Not made yet\. )")
 
 
 def program_sources():
@@ -88,9 +88,14 @@ def recorded_line(how):
     return f"*Recorded figures, not made again at this commit. To make them: {how}.*"
 
 
+def missing_line(how):
+    """The line in a part that has no figures yet, as those of other settings are none."""
+    return f"*Not made yet. To make it: {how}.*"
+
+
 def is_line_of(line, how):
     """Whether a generated line names these commands."""
-    return line == recorded_line(how) or line.startswith(f"*Made by {how};") or (
+    return line in (recorded_line(how), missing_line(how)) or line.startswith(f"*Made by {how};") or (
         line == made_line(how, []))
 
 
@@ -102,5 +107,7 @@ def state(lines):
         found = re.search(r"; commit ([^,]+), .*, (\d{4}-\d\d-\d\d)\.\*$", line)
         if found:
             return f"{found[1]}, {found[2]}"
+        if line.startswith("*Not"):
+            return "not made"
         return "recorded" if line.startswith("*Recorded") else "made"
     return "no line"

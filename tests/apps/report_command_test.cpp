@@ -19,6 +19,7 @@ class ReportCommand : public CommandLine {
  protected:
   void SetUp() override {
     FixtureOptions options;
+    options.surveys = 6;
     options.trials = 2;
     options.noises.clear();
     write_fixture(path("study"), options);
