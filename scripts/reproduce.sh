@@ -20,7 +20,7 @@ command -v python3 > /dev/null || {
 }
 
 # No __pycache__ among the sources.
-[[ ${1:-} != --test ]] || exec python3 -B tests/docs/reproduce_test.py
+[[ ${1:-} != --test ]] || exec python3 -B -m unittest discover -s tests/docs -p '*_test.py'
 
 arguments=()
 build=yes

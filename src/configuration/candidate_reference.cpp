@@ -66,8 +66,9 @@ CandidateReference configure_reference(const Settings& settings,
   if (found != estimators.end()) return by_contender(*found);
   std::vector<std::string> names{kGroundTruth, kAutomatic};
   for (const EstimatorConfiguration& estimator : estimators) names.push_back(estimator.name);
-  refuse(*word,
-         std::string(kKey) + ": no estimator is called '" + name + "'" + suggestion(name, names));
+  refuse(*word, std::string(kKey) + ": no estimator is called '" + name + "'" +
+                    suggestion(name, names) + "; expected " + joined(names, ", ") +
+                    ", or a map with a type");
 }
 
 KeyValues reference_values(const CandidateReference& reference, const EstimatorRegistry& registry) {

@@ -12,6 +12,15 @@ std::string worded(std::string name) {
   return name;
 }
 
+// Of the runs that are done; dead reckoning has none to lack.
+std::size_t without_loops(const EstimatorResults& estimator) {
+  if (estimator.name == kDeadReckoning) return 0;
+  return static_cast<std::size_t>(std::ranges::count_if(estimator.runs, [](const RunRecord& run) {
+    const auto loops = run.metrics.find("loop_closures");
+    return !is_failed(run) && loops != run.metrics.end() && loops->second == 0.0;
+  }));
+}
+
 }  // namespace
 
 std::string display_name(const std::string& estimator) {
@@ -34,6 +43,9 @@ std::string outcome_text(const EstimatorResults& estimator, const StudyDescripti
     if (name == "converged") continue;
     text += ", " + std::to_string(count) + " " +
             (name == "iteration_limit" ? "at iteration limit" : worded(name));
+  }
+  if (const std::size_t count = without_loops(estimator); count > 0) {
+    text += ", " + std::to_string(count) + " without loops";
   }
   if (estimator.runs.size() < wanted) {
     text += ", " + std::to_string(wanted - estimator.runs.size()) + " not run";

@@ -75,7 +75,7 @@ enum class MetricsOf { study, runs };
 /// Throws InputError on a store without runs.
 StudyResults study_results(const ResultStore& store, MetricsOf metrics = MetricsOf::runs);
 
-/// "98/100 done, 2 diverged"; also those at the iteration limit and those that are yet to run.
+/// "98/100 done, 2 diverged"; also those at the iteration limit, without loops and yet to run.
 std::string outcome_text(const EstimatorResults& estimator, const StudyDescription& study);
 
 /// "2", or "1, 4" where they differ.

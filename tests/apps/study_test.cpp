@@ -70,6 +70,15 @@ TEST_F(Studies, KilledAgainAndAgainItEndsAsAnUndisturbedOneDoes) {
   EXPECT_EQ(content(path("whole")), content(path("killed")));
 }
 
+// Its estimates are dead reckoning, and somebody who set the reach too short must see it.
+TEST_F(Studies, RunsWithoutLoopsSayIt) {
+  write("s.yaml",
+        "dataset:\n  type: simulated_log\n  loops: {max_distance_m: 0.001}\n"
+        "estimators:\n  - {type: ekf}\ntrials: 2\n");
+  EXPECT_THAT(fathom_done({"compare", "s.yaml", "--out", "one"}).out,
+              HasSubstr("2/2 done, 2 without loops"));
+}
+
 TEST_F(Studies, InterruptedItSaysHowToGoOn) {
   write("s.yaml", kStudy);
   bool is_asked = false;
