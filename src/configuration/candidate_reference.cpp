@@ -4,6 +4,7 @@
 
 #include "estimator_list.hpp"
 #include "fathom/configuration/study.hpp"
+#include "fathom/core/text.hpp"
 
 namespace fathom {
 namespace {
@@ -50,8 +51,9 @@ CandidateReference configure_reference(const Settings& settings,
   const Setting* word = settings.find(kKey);
   const Settings own = settings.below(kPrefix);
   if (word != nullptr && !own.all().empty()) {
-    refuse(*word, std::string(kKey) + ": is given as a map, too, by " + own.all().front().origin +
-                      "; expected one of them");
+    std::string right = suggestion(name, names);
+    if (right.empty()) right = "; expected " + joined(names, ", ") + ", or a map with a type";
+    refuse(*word, std::string(kKey) + ": no estimator is called '" + name + "'" + right);
   }
   if (!own.all().empty()) return of_map(own, registry);
   CandidateReference reference = automatic_reference(registry);
