@@ -159,7 +159,8 @@ TEST(SimulatedSurvey, FliesOverAGivenPicture) {
   options.mission.leg_length_m = 6.0;
   options.mission.legs = 2;
   const SimulatedSurvey survey(options, 1);
-  EXPECT_EQ(survey.world().picture.size(), cv::Size(4272, 2848));
+  // 4272 × 2848 pixels of 4 mm, those of the camera are 4 mm: once twice as fine.
+  EXPECT_EQ(survey.world().picture.size(), cv::Size(8544, 5696));
   std::vector<cv::KeyPoint> keypoints;
   cv::SIFT::create()->detect(survey.image(0), keypoints);
   EXPECT_GT(keypoints.size(), 100U);
