@@ -51,9 +51,8 @@ CandidateReference configure_reference(const Settings& settings,
   const Setting* word = settings.find(kKey);
   const Settings own = settings.below(kPrefix);
   if (word != nullptr && !own.all().empty()) {
-    std::string right = suggestion(name, names);
-    if (right.empty()) right = "; expected " + joined(names, ", ") + ", or a map with a type";
-    refuse(*word, std::string(kKey) + ": no estimator is called '" + name + "'" + right);
+    refuse(*word, std::string(kKey) + ": is given as a map, too, by " + own.all().front().origin +
+                      "; expected one of them");
   }
   if (!own.all().empty()) return of_map(own, registry);
   CandidateReference reference = automatic_reference(registry);
@@ -68,9 +67,9 @@ CandidateReference configure_reference(const Settings& settings,
   if (found != estimators.end()) return by_contender(*found);
   std::vector<std::string> names{kGroundTruth, kAutomatic};
   for (const EstimatorConfiguration& estimator : estimators) names.push_back(estimator.name);
-  refuse(*word, std::string(kKey) + ": no estimator is called '" + name + "'" +
-                    suggestion(name, names) + "; expected " + joined(names, ", ") +
-                    ", or a map with a type");
+  std::string right = suggestion(name, names);
+  if (right.empty()) right = "; expected " + joined(names, ", ") + ", or a map with a type";
+  refuse(*word, std::string(kKey) + ": no estimator is called '" + name + "'" + right);
 }
 
 KeyValues reference_values(const CandidateReference& reference, const EstimatorRegistry& registry) {
