@@ -2,6 +2,7 @@
 #include <cctype>
 
 #include "fathom/core/text.hpp"
+#include "fathom/results/run_index.hpp"
 #include "study_results.hpp"
 
 namespace fathom {
