@@ -92,8 +92,7 @@ std::string cause_of_high(const Figures& figures) {
   const Level nis = figures.level("mean_nis_truth", 3.0);
   if (figures.is_off_the_optimum()) {
     return "The estimate is not at the optimum of the measurements: its F is above it by " +
-           figures.text("chi2_gap") +
-           ". Its linearisation, or a wrong minimum, is in every figure.";
+           figures.text("chi2_gap") + ", by its linearisation or a wrong minimum.";
   }
   if (figures.level("anchored_anees", 1.0) == Level::expected && !figures.is_any_motion_high()) {
     return "With other keyframes held it is " + figures.text("anchored_anees") +

@@ -48,6 +48,13 @@ std::vector<std::string> with_small_camera(std::vector<std::string> settings) {
   return settings;
 }
 
+/// Two legs of 3 m, once.
+std::vector<std::string> with_short_legs(std::vector<std::string> settings) {
+  settings.insert(settings.end(), {"dataset.mission.legs=2", "dataset.mission.leg_length_m=3",
+                                   "surveys=1", "trials=1"});
+  return with_small_camera(std::move(settings));
+}
+
 TEST_F(Configs, AreAllTestedHere) {
   std::set<std::string> names;
   for (const auto& entry : fs::directory_iterator(folder())) names.insert(entry.path().filename());
@@ -91,15 +98,15 @@ TEST_F(Configs, RegisterTakesEveryOne) {
 TEST_F(Configs, RunRuns) {
   expect_runs(
       "run", "run.yaml",
-      with_small_camera({"dataset.world.metres_per_pixel=0.01", "dataset.mission.loop_length_m=3",
-                         "dataset.mission.loop_width_m=2", "dataset.mission.loop_overrun_m=1"}),
+      with_small_camera({"dataset.mission.loop_length_m=3", "dataset.mission.loop_width_m=2",
+                         "dataset.mission.loop_overrun_m=1"}),
       "metrics.json");
 }
 
 TEST_F(Configs, QuickstartRuns) {
   expect_runs("compare", "quickstart.yaml",
-              with_small_camera({"dataset.world.metres_per_pixel=0.01", "dataset.mission.legs=2",
-                                 "dataset.mission.leg_length_m=3", "surveys=1", "trials=2"}),
+              with_small_camera({"dataset.mission.legs=2", "dataset.mission.leg_length_m=3",
+                                 "surveys=1", "trials=2"}),
               "incremental_smoother/metrics.json");
 }
 
@@ -113,11 +120,7 @@ TEST_F(Configs, DunesRuns) {
 
 // The first level has no added noise: over a short way loops add little to visual odometry.
 TEST_F(Configs, PaperSimulatedRuns) {
-  expect_runs("compare", "studies/paper_simulated.yaml",
-              with_small_camera(
-                  {"dataset.world.metres_per_pixel=0.01", "dataset.mission.legs=2",
-                   "dataset.mission.leg_length_m=3", "dataset.attitude.both_sigma_rad=0",
-                   "dataset.altitude.altimeter_sigma_m=0", "surveys=1", "trials=1", "jobs=1"}),
+  expect_runs("compare", "studies/paper_simulated.yaml", with_short_legs({"jobs=1"}),
               "ekf/metrics.json", 1.2);
   EXPECT_EQ(ResultStore::open(path("out")).runs().size(), 10u * 5u);
 }
@@ -138,10 +141,7 @@ TEST_F(Configs, RealPicturesRuns) {
 }
 
 TEST_F(Configs, WrongLoopsRuns) {
-  expect_runs("compare", "studies/wrong_loops.yaml",
-              with_small_camera({"dataset.world.metres_per_pixel=0.01", "dataset.mission.legs=2",
-                                 "dataset.mission.leg_length_m=3", "surveys=1", "trials=1"}),
-              "truncated/metrics.json");
+  expect_runs("compare", "studies/wrong_loops.yaml", with_short_legs({}), "truncated/metrics.json");
   EXPECT_EQ(ResultStore::open(path("out")).runs().size(), 12u * 10u);
 }
 
@@ -166,17 +166,13 @@ TEST_F(Configs, RegimesSurveyRun) {
 }
 
 TEST_F(Configs, SharedErrorsOfTheAltimeterRun) {
-  expect_runs("compare", "studies/shared_errors_altimeter.yaml",
-              with_small_camera({"dataset.world.metres_per_pixel=0.01", "dataset.mission.legs=2",
-                                 "dataset.mission.leg_length_m=3", "surveys=1", "trials=1"}),
+  expect_runs("compare", "studies/shared_errors_altimeter.yaml", with_short_legs({}),
               "ekf/metrics.json");
   EXPECT_EQ(ResultStore::open(path("out")).runs().size(), 24u * 4u);
 }
 
 TEST_F(Configs, SharedErrorsOfATiltRun) {
-  expect_runs("compare", "studies/shared_errors_tilt.yaml",
-              with_small_camera({"dataset.world.metres_per_pixel=0.01", "dataset.mission.legs=2",
-                                 "dataset.mission.leg_length_m=3", "surveys=1", "trials=1"}),
+  expect_runs("compare", "studies/shared_errors_tilt.yaml", with_short_legs({}),
               "ekf/metrics.json");
   EXPECT_EQ(ResultStore::open(path("out")).runs().size(), 24u * 4u);
 }
