@@ -87,21 +87,60 @@ std::vector<double> heights(const std::vector<SweepLine>& lines,
   return values;
 }
 
+// Values whose largest is so many times their least have a logarithmic axis: on a linear one
+// dead reckoning presses all estimates onto zero.
+constexpr double kWideRange = 20.0;
+
+// Of points, and of bands about them that may reach zero and beyond.
+ChartAxis axis_of(const AxisTitle& title, const std::vector<double>& points,
+                  const std::vector<double>& bands) {
+  const auto [least, most] = std::minmax_element(points.begin(), points.end());
+  if (!points.empty() && *least > 0.0 && *most > kWideRange * *least) {
+    return logarithmic_axis_over(title, points);
+  }
+  std::vector<double> all = points;
+  all.insert(all.end(), bands.begin(), bands.end());
+  return axis_over(title, all, true);
+}
+
 // Estimated 2σ is thin with rings, empirical 2σ is broad with discs.
-void draw_line(Canvas& canvas, const Points& points, const LineStyle& style, bool is_estimated) {
-  const double width = is_estimated ? 0.6 : 1.3;
+void draw_line(Canvas& canvas, const Points& points, const LineStyle& style, bool is_estimated,
+               double size = 1.0) {
+  const double width = size * (is_estimated ? 0.6 : 1.3);
+  const double radius = 1.8 * size;
   canvas.line(points, pen_of(style, width));
   for (const Eigen::Vector2d& point : points) {
-    canvas.disc(point, 1.8, is_estimated ? palette::white : style.colour);
-    if (is_estimated) canvas.ring(point, 1.8, {style.colour, width, {}, 1.0});
+    canvas.disc(point, radius, is_estimated ? palette::white : style.colour);
+    if (is_estimated) canvas.ring(point, radius, {style.colour, width, {}, 1.0});
   }
 }
 
+// Within the chart: a band that reaches zero has no end on a logarithmic axis.
 void draw_band(Canvas& canvas, const ChartFrame& frame, const SweepLine& line, Colour colour) {
   Points band = frame.at(line.low);
   const Points high = frame.at(line.high);
   band.insert(band.end(), high.rbegin(), high.rend());
+  for (Eigen::Vector2d& point : band) {
+    point.y() = std::clamp(point.y(), frame.box().top, frame.box().bottom());
+  }
   canvas.area(band, colour, 0.13);
+}
+
+// Later ones are smaller, so that those below them can be seen.
+void draw_lines(Canvas& canvas, const std::vector<SweepLine>& lines,
+                const std::map<std::string, LineStyle>& styles,
+                const std::vector<ChartFrame>& frames) {
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const LineStyle& style = styles.at(lines[i].estimator);
+    const double size =
+        lines[i].estimator == kDeadReckoning
+            ? 1.0
+            : 1.0 + static_cast<double>(lines.size() - 1 - i) / static_cast<double>(lines.size());
+    draw_line(canvas, frames[0].at(lines[i].mean), style, false, size);
+    if (frames.size() == 1) continue;
+    draw_line(canvas, frames[1].at(lines[i].empirical), style, false, size);
+    draw_line(canvas, frames[1].at(lines[i].estimated), style, true, size);
+  }
 }
 
 std::string conditions_of(const FigureInput& input, const Sweep& sweep) {
@@ -149,21 +188,18 @@ StudyFigure sweep_figure(const FigureInput& input, const Sweep& sweep, const std
   const FigureLayout layout(charts, legend_of(lines, styles, !bounds.empty()),
                             conditions_of(input, sweep));
   const ChartAxis x = sweep_axis(sweep, input.results.study.axes[sweep.axis]);
-  const auto errors = heights(lines, {&SweepLine::low, &SweepLine::high});
-  std::vector<ChartFrame> frames{{x, axis_over(axis_title(metric), errors, true), layout.chart(0)}};
+  const ChartAxis errors = axis_of(axis_title(metric), heights(lines, {&SweepLine::mean}),
+                                   heights(lines, {&SweepLine::low, &SweepLine::high}));
+  std::vector<ChartFrame> frames{{x, errors, layout.chart(0)}};
   if (!bounds.empty()) {
-    frames.push_back({x, axis_over({"2σ of position", "m"}, bounds, true), layout.chart(1)});
+    frames.push_back({x, axis_of({"2σ of position", "m"}, bounds, {}), layout.chart(1)});
   }
   return {"", layout.height(), [lines, styles, layout, frames](Canvas& canvas) {
             for (const ChartFrame& frame : frames) frame.draw(canvas);
             for (const SweepLine& line : lines) {
-              const LineStyle& style = styles.at(line.estimator);
-              draw_band(canvas, frames[0], line, style.colour);
-              draw_line(canvas, frames[0].at(line.mean), style, false);
-              if (frames.size() == 1) continue;
-              draw_line(canvas, frames[1].at(line.empirical), style, false);
-              draw_line(canvas, frames[1].at(line.estimated), style, true);
+              draw_band(canvas, frames[0], line, styles.at(line.estimator).colour);
             }
+            draw_lines(canvas, lines, styles, frames);
             layout.draw_footer(canvas);
           }};
 }

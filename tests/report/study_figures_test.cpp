@@ -1,9 +1,12 @@
 #include "src/report/study_figures.hpp"
 
+#include <algorithm>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "fathom/core/files.hpp"
+#include "fathom/core/text.hpp"
 #include "fathom/report/study_report.hpp"
 #include "report/placed_texts.hpp"
 #include "report/study_fixture.hpp"
@@ -76,6 +79,32 @@ TEST(StudyFigures, WithoutGroundTruthOnlyTrajectoriesAreThere) {
   write_report(folder, options);
   EXPECT_THAT(names_in(folder / "out" / "figures"),
               UnorderedElementsAre("trajectories.svg", "trajectories.pdf"));
+}
+
+std::size_t zeros_in(const std::vector<PlacedText>& texts) {
+  return static_cast<std::size_t>(std::count_if(
+      texts.begin(), texts.end(), [](const auto& one) { return parse_real(one.text) == 0.0; }));
+}
+
+// On a linear axis, which begins at 0, a thousandfold error presses the others onto zero.
+TEST(StudyFigures, DeadReckoningFarAboveTheRestHasALogarithmicAxis) {
+  for (const double factor : {1.0, 1000.0}) {
+    const TemporaryFolder folder;
+    FixtureOptions options;
+    options.noises.clear();
+    options.dead_reckoning = factor;
+    write_fixture(folder / "study", options);
+    const ResultStore store = ResultStore::open(folder / "study");
+    const StudyResults results = study_results(store);
+    const auto series = study_series(store, results);
+    for (const StudyFigure& figure : study_figures({store, results, series})) {
+      if (figure.name != "error_by_separation") continue;
+      const PageSize page{kFigureWidth, figure.height};
+      const auto texts = texts_of(page, figure.draw);
+      expect_tidy(texts, page);
+      EXPECT_EQ(zeros_in(texts) > 0, factor == 1.0);
+    }
+  }
 }
 
 // The share of a channel as cairo writes it: 0x72 is 44.7 %.

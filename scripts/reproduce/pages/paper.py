@@ -21,9 +21,26 @@ def _sweep(work):
     return work.study("paper-simulated", "configs/studies/paper_simulated.yaml", jobs=2)
 
 
-@maker("docs/paper.md", "paper-sweep", "slow", SWEEP, 30)
+# The paper's figures 5, 6 and 8: pictures of the docs by figures of the studies.
+SWEEP_PICTURES = {
+    **{f"docs/images/paper_noise_{s}.svg": f"error_by_noise_level_separation_{s}.svg"
+       for s in (5, 10)},
+    **{f"docs/images/paper_sweep_{s}.svg": f"trajectories_separation_{s}_noise_level_5.svg"
+       for s in (5, 10)}}
+POOL_PICTURES = {
+    f"docs/images/pool_{mission}.svg": f"trajectories_mission_{mission}_separation_10.svg"
+    for mission in ("single_loop", "sweep")}
+
+
+def _take_pictures(work, study, pictures):
+    for target, source in pictures.items():
+        work.picture(target, study.folder / "figures" / source)
+
+
+@maker("docs/paper.md", "paper-sweep", "slow", SWEEP, 30, pictures=tuple(SWEEP_PICTURES))
 def paper_sweep(work):
     study = _sweep(work)
+    _take_pictures(work, study, SWEEP_PICTURES)
     rows = []
     for separation in (5, 10):
         for level in range(1, 6):
@@ -65,9 +82,10 @@ def paper_cost(work):
 
 
 @maker("docs/paper.md", "paper-pool", "slow",
-       "`fathom compare configs/studies/paper_pool.yaml`", 40)
+       "`fathom compare configs/studies/paper_pool.yaml`", 40, pictures=tuple(POOL_PICTURES))
 def paper_pool(work):
     study = work.study("paper-pool", "configs/studies/paper_pool.yaml")
+    _take_pictures(work, study, POOL_PICTURES)
     rows = []
     for mission in ("single_loop", "sweep"):
         for separation in (10, 20, 30, 90):
