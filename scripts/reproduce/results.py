@@ -1,6 +1,8 @@
 """Reads what a study wrote."""
 
 import csv
+import json
+import re
 from pathlib import Path
 
 
@@ -43,6 +45,17 @@ class Study:
     def values(self, estimator, metric, **cell):
         """Of every run, None where it has none."""
         return [_number(row[metric]) for row in self.runs_of(estimator, **cell)]
+
+    def bounds(self, estimator, **cell):
+        """Its 2σ over all keyframes: a dict of `empirical_m` and `estimated_m`, see docs/report.md."""
+        page = (self.folder / "report.html").read_text("utf-8")
+        data = json.loads(re.search(r'id="data">(.*?)</script>', page, re.DOTALL).group(1))
+        axes = [(axis["name"], axis["labels"]) for axis in data["axes"]]
+        for one in data["cells"]:
+            labels = {name: values[place] for (name, values), place in zip(axes, one["places"])}
+            if all(same(labels[axis], label) for axis, label in cell.items()):
+                return next(e["bounds"] for e in one["estimators"] if e["name"] == estimator)
+        raise LookupError(f"{self.folder}: no cell {cell}")
 
     def runs_of(self, estimator, **cell):
         """Rows of runs.csv."""

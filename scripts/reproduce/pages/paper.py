@@ -67,18 +67,37 @@ def paper_consistency(work):
                  rows)
 
 
-@maker("docs/paper.md", "paper-cost", "time", SWEEP + ", noise level 5, two jobs", 1)
-def paper_cost(work):
+@maker("docs/paper.md", "paper-bounds", "slow", SWEEP, 1)
+def paper_bounds(work):
     study = _sweep(work)
     rows = []
     for separation in (5, 10):
-        cell = {"separation": separation, "noise level": 5}
+        for level in range(1, 6):
+            cell = {"separation": separation, "noise level": level}
+            bounds = [study.bounds(e, **cell) for e in ("dead_reckoning", "trajectory_iekf")]
+            rows.append([separation, level,
+                         *(significant(scale * one[key]) for one, scale in
+                           zip(bounds, (1, 1e3)) for key in ("empirical_m", "estimated_m"))])
+    return table(["separation", "level", "dead reckoning, empirical (m)", "estimated (m)",
+                  "`trajectory_iekf`, empirical (mm)", "estimated (mm)"], rows)
+
+
+@maker("docs/paper.md", "paper-cost", "time",
+       "`fathom compare configs/studies/paper_separation.yaml`", 15)
+def paper_cost(work):
+    study = work.study("paper-separation", "configs/studies/paper_separation.yaml", jobs=1)
+    rows = []
+    for separation in (2, 3, 5, 10):
+        cell = {"separation": separation}
         for estimator in OF_THE_SWEEP:
-            rows.append([separation, _loops(study, **cell), f"`{estimator}`",
-                         *(significant(study.mean(estimator, metric, **cell))
-                           for metric in ("total_ms", "total_with_covariance_ms"))])
-    return table(["separation", "loops", "estimator", "estimate (ms)",
-                  "estimate and covariance (ms)"], rows)
+            mean = {m: study.mean(estimator, m, **cell) for m in
+                    ("keyframes", "registrations", ERROR, "total_ms", "total_with_covariance_ms")}
+            rows.append([separation, f"{mean['keyframes']:.0f}", f"{mean['registrations']:.0f}",
+                         f"`{estimator}`", f"{1e3 * mean[ERROR]:.1f}",
+                         significant(mean["total_ms"], 2),
+                         significant(mean["total_with_covariance_ms"], 2)])
+    return table(["separation", "keyframes", "registrations", "estimator", "error (mm)",
+                  "estimate (ms)", "estimate and covariance (ms)"], rows)
 
 
 @maker("docs/paper.md", "paper-pool", "slow",

@@ -22,6 +22,7 @@ def _figures(work, name, arguments):
     """The JSON of a run over the four floors and dunes."""
     if work.is_small:
         arguments = re.sub(r"(--pairs-per-cell) [1-9]\d*", r"\1 1", arguments)
+        arguments = re.sub(r"--floors \S+ ", "", arguments)
         arguments += " --floors mud,ripples --conditions clean,noise"
     else:
         arguments += f" --world {work.data / DUNES}:0.004"
@@ -42,24 +43,32 @@ def _listed(cells, text):
     return ", ".join(text(cell) for cell in cells)
 
 
-CONDITIONS_RUN = ("--buckets 3,4,6,8 --pairs-per-cell 16 --skip-opencv --seed 31 --negatives 0")
+# The shared error was calibrated on four of these floors, with another seed; on `mixed` and dunes
+# nothing was.
+CONDITIONS_RUN = ("--floors mixed,ripples,mud,pebbles,patches --buckets 3,4,6,8 "
+                  "--pairs-per-cell 16 --skip-opencv --seed 31 --negatives 0")
+
+
+def _mean_nis(cells):
+    nis = [cell["ours"]["nis"] for cell in cells]
+    return sum(one["mean"] * one["count"] for one in nis) / sum(one["count"] for one in nis)
 
 
 @maker(PAGE, "conditions", "slow",
-       f"`registration_benchmark {CONDITIONS_RUN} --world dunes.jpg:0.004`", 40, **BENCH)
+       f"`registration_benchmark {CONDITIONS_RUN} --world dunes.jpg:0.004`", 25, **BENCH)
 def conditions(work):
     rows = []
     for name, cells in _by_condition(_figures(work, "conditions", CONDITIONS_RUN)).items():
         ours = [cell["ours"] for cell in cells]
-        counts = [one["nis"]["count"] for one in ours]
-        nis = sum(one["nis"]["mean"] * n for one, n in zip(ours, counts)) / sum(counts)
         accepted = [one["recall"]["successes"] for one in ours]
+        seen, unseen = ([c for c in cells if (c["floor"] in FLOORS) == of] for of in (True, False))
         rows.append([CONDITIONS[name], ", ".join(map(str, accepted)), sum(accepted),
                      sum(one["wrong_motions"]["successes"] for one in ours),
                      _listed(ours, lambda c: fixed(c["translation_px"]["median"], 2)),
-                     _listed(ours, lambda c: fixed(c["nis"]["mean"], 1)), fixed(nis, 1)])
-    return table(["condition", "right of 64", "of 320", "wrong", "median error, px", "mean NIS",
-                  "all floors"], rows)
+                     _listed(ours, lambda c: fixed(c["nis"]["mean"], 1)),
+                     *(fixed(_mean_nis(part), 1) if part else "" for part in (unseen, seen))])
+    return table(["condition", "right of 64", "of 384", "wrong", "median error, px", "mean NIS",
+                  "mixed, dunes", "the other four"], rows)
 
 
 NEGATIVES_RUN = "--negatives 25500 --pool 245 --pairs-per-cell 0 --skip-opencv --seed 51"
