@@ -28,7 +28,7 @@ SWEEP_PICTURES = {
     **{f"docs/images/paper_sweep_{s}.svg": f"trajectories_separation_{s}_noise_level_5.svg"
        for s in (5, 10)}}
 POOL_PICTURES = {
-    f"docs/images/pool_{mission}.svg": f"trajectories_mission_{mission}_separation_10.svg"
+    f"docs/images/pool_{mission}.svg": f"trajectories_mission_{mission}_separation_30.svg"
     for mission in ("single_loop", "sweep")}
 
 
