@@ -6,6 +6,9 @@ from maker import maker
 ESTIMATORS = ("trajectory_iekf", "ekf", "ceres_pose_graph")
 OF_THE_SWEEP = ("trajectory_iekf", "iekf_1", "ekf", "ceres_pose_graph")
 ERROR = "mean_position_error_m"
+HONESTY = {"anees": "ANEES", "mean_nis_truth": "NIS against truth",
+           "picture_error_correlation": "correlation in a picture",
+           "chi2_per_dof": "F per degree of freedom"}
 SWEEP = "`fathom compare configs/studies/paper_simulated.yaml`"
 
 
@@ -113,6 +116,22 @@ def paper_pool(work):
                          interval(study.row("dead_reckoning", ERROR, **cell)),
                          *_errors(study, 1, 2, **cell), _loops(study, **cell)])
     return table(["mission", "separation", "dead reckoning", *code(ESTIMATORS), "loops"], rows)
+
+
+@maker("docs/paper.md", "paper-pool-consistency", "slow",
+       "`fathom compare configs/studies/paper_pool.yaml`", 1)
+def paper_pool_consistency(work):
+    study = work.study("paper-pool", "configs/studies/paper_pool.yaml")
+    rows = []
+    for mission in ("single_loop", "sweep"):
+        for separation in (10, 20, 30, 90):
+            cell = {"mission": mission, "separation": separation}
+            of = {m: study.row("trajectory_iekf", m, **cell) for m in
+                  ("registrations", "keyframes", *HONESTY)}
+            rows.append([mission.replace("_", " "), separation,
+                         significant(of["registrations"]["mean"] / of["keyframes"]["mean"], 2),
+                         *(interval(of[m], 2) for m in HONESTY)])
+    return table(["mission", "separation", "loops a keyframe", *HONESTY.values()], rows)
 
 
 @maker("docs/paper.md", "paper-real", "slow",
