@@ -116,10 +116,22 @@ TEST(ReportPage, MetricsSayWhatIsBetter) {
   write_fixture(folder.path());
   const Json metrics = data_of(page_of(ResultStore::open(folder.path())))["metrics"];
   EXPECT_EQ(metrics["mean_position_error_m"],
-            (Json{{"label", "mean position error (m)"}, {"cost", false}, {"better", "lower"}}));
+            (Json{{"label", "mean position error (m)"},
+                  {"title", "mean position error"},
+                  {"unit", "m"},
+                  {"cost", false},
+                  {"better", "lower"}}));
   EXPECT_EQ(metrics["total_ms"],
-            (Json{{"label", "estimate, time (ms)"}, {"cost", true}, {"better", "lower"}}));
-  EXPECT_EQ(metrics["anees"], (Json{{"label", "ANEES"}, {"cost", false}, {"better", "neither"}}));
+            (Json{{"label", "estimate, time (ms)"},
+                  {"title", "estimate, time"},
+                  {"unit", "ms"},
+                  {"cost", true},
+                  {"better", "lower"}}));
+  EXPECT_EQ(metrics["anees"], (Json{{"label", "ANEES"},
+                                     {"title", "ANEES"},
+                                     {"unit", ""},
+                                     {"cost", false},
+                                     {"better", "neither"}}));
 }
 
 TEST(ReportPage, EveryCellHasItsAlignment) {
