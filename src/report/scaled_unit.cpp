@@ -87,10 +87,14 @@ std::string quantity(double value, const std::string& unit) {
 
 std::string quantity(double value, const std::optional<Interval>& interval,
                      const std::string& unit) {
-  constexpr int kDigits = 3;
   double greatest = std::abs(value);
   if (interval) greatest = std::max({greatest, std::abs(interval->low), std::abs(interval->high)});
-  const ScaledUnit scale = reading_unit(unit, greatest);
+  return quantity(value, interval, reading_unit(unit, greatest));
+}
+
+std::string quantity(double value, const std::optional<Interval>& interval,
+                     const ScaledUnit& scale) {
+  constexpr int kDigits = 3;
   std::string text = format_number(value * scale.factor, kDigits);
   if (!scale.text.empty()) text += " " + scale.text;
   if (!interval) return text;

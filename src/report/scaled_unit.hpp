@@ -31,6 +31,10 @@ std::string quantity(double value, const std::string& unit);
 std::string quantity(double value, const std::optional<Interval>& interval,
                      const std::string& unit);
 
+/// The same in a given unit.
+std::string quantity(double value, const std::optional<Interval>& interval,
+                     const ScaledUnit& scale);
+
 /// "10⁻⁷"
 std::string power_of_ten(int exponent);
 

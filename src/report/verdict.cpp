@@ -20,9 +20,9 @@ const EstimatorResults* find(const CellResults& cell, const std::string& name) {
 }
 
 // "+0.002 mm [-0.02, 0.03]": with its sign, as its interval holds 0.
-std::string signed_text(const RankedEstimator& one, const std::string& unit) {
+std::string signed_text(const RankedEstimator& one, const ScaledUnit& scale) {
   const PairedDifference& difference = *one.difference;
-  const std::string text = quantity(difference.mean, difference.interval, unit);
+  const std::string text = quantity(difference.mean, difference.interval, scale);
   return difference.mean > 0.0 ? "+" + text : text;
 }
 
@@ -32,19 +32,32 @@ std::string share_text(const RankedEstimator& one, const Ranking& ranking) {
   return " (" + format_number(100.0 * std::abs(one.difference->mean) / best, 2) + " % of the best)";
 }
 
+// One unit for all differences that a sentence names.
+ScaledUnit scale_of(const Ranking& ranking, const std::string& unit, bool told_apart) {
+  double greatest = 0.0;
+  for (const RankedEstimator& one : ranking.estimators) {
+    if (!one.difference || !one.difference->interval || one.is_told_apart() != told_apart) continue;
+    greatest = std::max({greatest, std::abs(one.difference->interval->low),
+                         std::abs(one.difference->interval->high)});
+  }
+  return reading_unit(unit, greatest);
+}
+
 void add_others(const Ranking& ranking, const std::string& unit,
                 std::vector<std::string>& sentences) {
   std::vector<std::string> alike;
   std::vector<std::string> worse;
   bool is_small = true;
+  const ScaledUnit scale_alike = scale_of(ranking, unit, false);
+  const ScaledUnit scale_worse = scale_of(ranking, unit, true);
   for (const RankedEstimator& one : ranking.estimators) {
     if (!one.difference || !one.difference->interval) continue;
     if (one.is_told_apart()) {
-      worse.push_back(one.name + " by " + distance_text(one, unit) + share_text(one, ranking));
+      worse.push_back(one.name + " by " + distance_text(one, scale_worse) + share_text(one, ranking));
       is_small = is_small && std::abs(one.difference->mean) <
                                  0.01 * std::abs(ranking.best().summary.moments.mean);
     } else {
-      alike.push_back(one.name + " (" + signed_text(one, unit) + ")");
+      alike.push_back(one.name + " (" + signed_text(one, scale_alike) + ")");
     }
   }
   if (!alike.empty()) {
@@ -73,19 +86,19 @@ std::vector<std::string> answer_of(const CellResults& cell, const std::optional<
   if (!ranking) return {"No estimator is ranked: none did all its runs."};
   const Metric metric = described(ranking->metric);
   const RankedEstimator& best = ranking->best();
-  const bool is_alone = ranking->estimators.size() == 1;
-  std::vector<std::string> sentences{(is_alone ? "Only " : "Best by ") +
-                                     (is_alone ? best.name + " is ranked, by " : "") +
-                                     metric.label + ": " + (is_alone ? "" : best.name + ", ") +
-                                     mean_text(best.summary, metric.unit) + "."};
+  const std::string mean = best.name + ", " + mean_text(best.summary, metric.unit) + ".";
+  const char* which = metric.better == Better::lower ? "Lowest " : "Highest ";
+  std::vector<std::string> sentences{ranking->estimators.size() == 1
+                                         ? "Only one is ranked by " + metric.label + ": " + mean
+                                         : which + metric.label + ": " + mean};
   add_others(*ranking, metric.unit, sentences);
   add_means(*ranking, metric.unit, sentences);
   const EstimatorResults* baseline = find(cell, kDeadReckoning);
   if (baseline == nullptr || !baseline->metrics.contains(metric.name)) return sentences;
-  const double mean = baseline->metrics.at(metric.name).moments.mean;
-  std::string text = "Dead reckoning: " + quantity(mean, metric.unit);
+  const double of_baseline = baseline->metrics.at(metric.name).moments.mean;
+  std::string text = "Dead reckoning: " + quantity(of_baseline, metric.unit);
   if (metric.better == Better::lower && best.summary.moments.mean > 0.0) {
-    text += ", " + format_number(mean / best.summary.moments.mean, 2) + " times the best";
+    text += ", " + format_number(of_baseline / best.summary.moments.mean, 2) + " times the lowest";
   }
   sentences.push_back(text + ".");
   return sentences;
@@ -166,11 +179,11 @@ std::string counted(std::size_t count, const std::string& noun) {
   return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
 }
 
-std::string distance_text(const RankedEstimator& one, const std::string& unit) {
+std::string distance_text(const RankedEstimator& one, const ScaledUnit& scale) {
   const PairedDifference& difference = *one.difference;
   std::optional<Interval> interval = difference.interval;
   if (interval && difference.mean < 0.0) interval = Interval{-interval->high, -interval->low};
-  return quantity(std::abs(difference.mean), interval, unit);
+  return quantity(std::abs(difference.mean), interval, scale);
 }
 
 CellVerdict cell_verdict(const CellResults& cell, const StudyDescription& study,

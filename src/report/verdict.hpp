@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "ranking.hpp"
+#include "scaled_unit.hpp"
 
 namespace fathom {
 
@@ -61,6 +62,6 @@ std::string listed(const std::vector<std::string>& names);
 std::string counted(std::size_t count, const std::string& noun);
 
 /// "3.5 mm [0.2, 10.4]": how far an estimator is from the best, without a sign.
-std::string distance_text(const RankedEstimator& one, const std::string& unit);
+std::string distance_text(const RankedEstimator& one, const ScaledUnit& scale);
 
 }  // namespace fathom

@@ -10,12 +10,26 @@ const charts = [
       const marks = cell.n > 1 && cell.rankings[state.metric] ? ' Dashed line: the best. Hollow: told apart from it.' : '';
       return `${intervals}${sentence(conditions(cell))}.${marks}`;
     }},
-  {id: 'trajectories', title: 'Trajectories', wide: true, plots: trajectoryPlots,
+  {id: 'trajectories', title: 'Trajectories', wide: () => !mapIsTall(), plots: trajectoryPlots,
     choices: () => [{label: '2σ ellipses', signal: 'show_ellipses'}, {label: 'loops', signal: 'show_loops'}],
     exists: (cell) => cell.example.truth !== null || cell.example.estimators.some((one) => one.path),
     caption: (cell) => `${exampleNote()}; ${conditions(cell)}. x up, y to the left. ` +
       'Thin lines: loops used; dashed with ×: rejected, with △: lost; ellipses: 2σ. ' +
       'Wheel: zoom, drag: move, double click: all.'},
+  {id: 'pareto', title: 'Accuracy against cost', plots: paretoPlots,
+    exists: () => Object.values(study.metrics).some((metric) => metric.cost),
+    choices: () => [
+      {label: 'accuracy', key: 'accuracy', values: metricChoices(false).map((name) => [name, metricTitle(name)])},
+      {label: 'cost', key: 'cost', values: metricChoices(true).map((name) => [name, metricTitle(name)])}],
+    caption: (cell) => {
+      const {better} = study.metrics[state.accuracy];
+      const front = better === 'neither' ? 'No value of this metric is the better one, so none is ringed.'
+        : `Ringed, on the dashed line: no other is both better (${better}) and cheaper.`;
+      return `${sentence(conditions(cell))}. Means with 95 % intervals. ${front} Grey line: dead reckoning. ${jobsNote(cell)}`;
+    }},
+  {id: 'updates', title: 'Cost of an update', plots: updatePlots,
+    exists: (cell) => sum(cell.estimators.map((one) => one.updates.keyframe.length)) > 0,
+    caption: (cell) => `${sentence(conditions(cell))}. Median over trials. ${jobsNote(cell)}`},
   {id: 'sweep', title: 'Error against the sweep', wide: true, plots: sweepPlots,
     exists: () => study.axes.some((axis) => axis.labels.length > 1),
     choices: () => [
@@ -29,7 +43,7 @@ const charts = [
       const jobs = study.metrics[state.sweepMetric].cost ? ' ' + jobsNote(cell) : '';
       const parts = [...fixed, alignment && `alignment ${alignment}`,
         association && `association ${association}`, `${repeatsOf(sweepCells())} a point`];
-      return parts.filter(Boolean).join(', ') + failuresOf(sweepCells()) +
+      return sentence(parts.filter(Boolean).join(', ')) + failuresOf(sweepCells()) +
         '. Band: mean ± 2 standard deviations over trials. Right: twice the root mean square position error, ' +
         'and the mean of 2·√(Pxx + Pyy) that the estimator states; an honest one has them equal.' + jobs;
     }},
@@ -40,30 +54,16 @@ const charts = [
       const [across, up] = regimeAxes();
       const fixed = study.axes.map((axis, i) => (i === across || i === up || axis.labels.length < 2 ? '' : `${axis.name} ${axis.labels[cell.places[i]]}, `));
       const relative = regimeIsRelative();
-      const meaning = relative ? `Mean ${metricTitle(state.regimeMetric)} over that of the best estimator at the same place: 1 is the best, ten times is dark.`
-        : `Mean ${metricTitle(state.regimeMetric)}.`;
-      const choice = study.regimes ? ` Last map: by mean ${metricTitle(study.regimes.cost)} the cheapest of those whose mean ` +
-        `${metricTitle(study.regimes.metric)} is at most 5 % above the best.` : '';
+      const meaning = relative ? `${sentence(meanTitle(state.regimeMetric))} over that of the best estimator at the same place: 1 is the best, ten times is dark.`
+        : `${sentence(meanTitle(state.regimeMetric))}.`;
+      const choice = study.regimes ? ` Last map: by ${meanTitle(study.regimes.cost)} the cheapest of those whose ` +
+        `${meanTitle(study.regimes.metric)} is at most 5 % above the best.` : '';
       return `${fixed.join('')}${repeatsOf(regimeCells())} a square. ${meaning} An estimator that failed a trial is in no comparison.${choice}`;
     }},
   {id: 'keyframes', title: 'Error and consistency over keyframes', wide: true, plots: keyframePlots,
     exists: (cell) => sum(cell.estimators.map((one) => one.keyframes.keyframe.length)) > 0,
     caption: (cell) => `${sentence(conditions(cell))}. NEES / 3 of an honest estimator is 1; ` +
       'the grey band holds 95 % of its means over independent draws at one keyframe. Above: overconfident.'},
-  {id: 'updates', title: 'Cost of an update', plots: updatePlots,
-    exists: (cell) => sum(cell.estimators.map((one) => one.updates.keyframe.length)) > 0,
-    caption: (cell) => `${sentence(conditions(cell))}. Median over trials. ${jobsNote(cell)}`},
-  {id: 'pareto', title: 'Accuracy against cost', plots: paretoPlots,
-    exists: () => Object.values(study.metrics).some((metric) => metric.cost),
-    choices: () => [
-      {label: 'accuracy', key: 'accuracy', values: metricChoices(false).map((name) => [name, metricTitle(name)])},
-      {label: 'cost', key: 'cost', values: metricChoices(true).map((name) => [name, metricTitle(name)])}],
-    caption: (cell) => {
-      const {better} = study.metrics[state.accuracy];
-      const front = better === 'neither' ? 'No value of this metric is the better one, so none is ringed.'
-        : `Ringed, on the dashed line: no other is both better (${better}) and cheaper.`;
-      return `${sentence(conditions(cell))}. Means with 95 % intervals. ${front} Grey line: dead reckoning. ${jobsNote(cell)}`;
-    }},
   {id: 'outcomes', title: 'Outcomes', wide: true, plots: outcomePlots,
     exists: (cell) => cell.estimators.some((one) => Object.keys(one.outcomes).length > 0),
     caption: (cell) => `${sentence(conditions(cell))}. ` +
@@ -77,6 +77,9 @@ const charts = [
 // Those that stand two in a row; one without a neighbour takes the row.
 function layOut() {
   for (const chart of charts) document.getElementById('chart-' + chart.id).hidden = !chart.exists(cellNow());
+  for (const chart of charts.filter((one) => typeof one.wide === 'function')) {
+    document.getElementById('chart-' + chart.id).classList.toggle('wide', chart.wide());
+  }
   const cards = charts.filter((chart) => !chart.host).map((chart) => document.getElementById('chart-' + chart.id)).filter((card) => !card.hidden);
   let left = null;
   for (const card of cards) {
@@ -134,7 +137,7 @@ function drawChart(chart) {
 function makeCards() {
   for (const chart of charts) {
     const choices = chart.choices && chart.exists(cellNow()) ? chart.choices().filter((choice) => choice.signal || choice.values.length > 1) : [];
-    document.getElementById(chart.host || 'charts').append(element('article', {id: 'chart-' + chart.id, className: 'card' + (chart.wide ? ' wide' : '')}, [
+    document.getElementById(chart.host || 'charts').append(element('article', {id: 'chart-' + chart.id, className: 'card' + (chart.wide === true ? ' wide' : '')}, [
       element('div', {className: 'card-head'}, [
         element('h3', {textContent: chart.title}),
         element('div', {className: 'choices'}, choices.map((choice) =>

@@ -18,7 +18,7 @@ const inRows = (card, plots, least) => {
 // A plot of one set of rows whose values go up. `title` is its axis without the unit.
 function fittedPlot({rows, fields, unit, usual, title, keys = ['k'], adjust, signals = {}, data = {}, ...plot}) {
   const fit = fitted(rows, fields, unit, usual);
-  return {...plot, fit, data: {...data, rows: fit.rows}, off: fit.off, refused: fit.refused,
+  return {...plot, fit, title, data: {...data, rows: fit.rows}, off: fit.off, refused: fit.refused,
     same: coincidence(fit, fields[0], keys), signals: {...signals, y_title: titled(title, fit.unit)},
     adjust: (spec) => {
       setScale(spec, 'y', fit);
@@ -51,16 +51,36 @@ function mapExtent(paths) {
   return near.length === 0 || sizeOf(all) <= 2.5 * sizeOf(most) ? all : most;
 }
 
+// A map that goes further up than to the sides leaves room beside it for another chart.
+function mapIsTall() {
+  const {x0, x1, y0, y1} = mapExtent(trajectoryRows(cellNow()).paths);
+  return x1 - x0 > 1.2 * (y1 - y0);
+}
+
+// Paths that the map draws on one another.
+function coincidentPaths(paths, metresPerPixel) {
+  const byName = new Map();
+  for (const row of paths.filter((one) => one.estimator !== kTruth)) {
+    if (!byName.has(row.estimator)) byName.set(row.estimator, []);
+    byName.get(row.estimator).push(row);
+  }
+  return groupsOf([...byName.keys()], (a, b) => {
+    const [one, other] = [byName.get(a), byName.get(b)];
+    return one.length === other.length &&
+      one.every((row, k) => Math.hypot(row.x - other[k].x, row.y - other[k].y) <= metresPerPixel);
+  });
+}
+
 function trajectoryPlots(card) {
   const rows = trajectoryRows(cellNow());
   const width = widthOf(card) - 70;
-  const height = Math.min(620, Math.max(360, Math.round(width * 0.5)));
+  const height = Math.min(620, Math.max(360, Math.round(width * (mapIsTall() ? 0.8 : 0.5))));
   const {x0, x1, y0, y1} = mapExtent(rows.paths);
   const metresPerPixel = 1.08 * Math.max((y1 - y0) / width, (x1 - x0) / height, 1e-6);
   const around = (middle, pixels) => [middle - (pixels * metresPerPixel) / 2, middle + (pixels * metresPerPixel) / 2];
   const signals = {start_h: around((y0 + y1) / 2, width).reverse(), start_v: around((x0 + x1) / 2, height),
     show_ellipses: state.show_ellipses, show_loops: state.show_loops};
-  return [{spec: 'trajectories', data: rows, width, height, signals}];
+  return [{spec: 'trajectories', data: rows, width, height, signals, same: coincidentPaths(rows.paths, metresPerPixel), title: 'map'}];
 }
 
 function sweepPlots(card) {
@@ -141,7 +161,7 @@ function paretoPlots(card) {
     setScale(spec, 'x', x);
     setScale(spec, 'y', y);
   };
-  return inRows(card, [{spec: 'pareto', data, signals, adjust, off: y.off, refused: x.refused || y.refused}]);
+  return inRows(card, [{spec: 'pareto', data, signals, adjust, title: metricTitle(state.accuracy), off: y.off, refused: x.refused || y.refused}]);
 }
 
 function forestPlots(card) {
@@ -157,7 +177,7 @@ function forestPlots(card) {
       Object.assign(spec.scales.find((scale) => scale.name === name), {domain: names, range: fit.rows.map((row) => row[field])});
     }
   };
-  return inRows(card, [{spec: 'forest', data: {rows: fit.rows, best}, height: 70 + 34 * names.length, off: fit.off, refused: fit.refused,
+  return inRows(card, [{spec: 'forest', data: {rows: fit.rows, best}, height: 70 + 34 * names.length, title: metricTitle(state.metric), off: fit.off, refused: fit.refused,
     signals: {x_title: titled(metricTitle(state.metric), fit.unit)}, adjust}]);
 }
 

@@ -27,7 +27,7 @@ function fitted(rows, fields, unit, usual = 'linear') {
   const scale = readingUnit(unit, greatestOf(of(kept, fields)));
   const scaled = (row) => ({...row, ...Object.fromEntries(fields.filter((name) => Number.isFinite(row[name])).map((name) => [name, row[name] * scale.factor]))});
   return {rows: kept.map(scaled), logarithmic, unit: scale.text, factor: scale.factor,
-    off: hides ? `${labelOf(kBaseline)}: ${baseline.length > 1 ? 'up to ' : ''}${quantity(highest, unit)}, off the scale` : '',
+    off: hides ? `${baseline.length > 1 ? 'up to ' : ''}${quantity(highest, unit)}` : '',
     refused: isOf('log', usual) && !logarithmic && shown.length > 0};
 }
 
@@ -44,6 +44,17 @@ function setScale(spec, name, fit) {
   }
 }
 
+// Names that are the same as the first of their group, "a, b and c; d and e".
+function groupsOf(names, areSame) {
+  const groups = [];
+  for (const name of names) {
+    const group = groups.find(([first]) => areSame(first, name));
+    if (group) group.push(name);
+    else groups.push([name]);
+  }
+  return groups.filter((group) => group.length > 1).map((group) => namesOf(group.map(labelOf))).join('; ');
+}
+
 // Estimators whose lines are within a pixel of each other, in words.
 function coincidence(fit, field, keys) {
   const lines = new Map();
@@ -56,22 +67,18 @@ function coincidence(fit, field, keys) {
   const [low, high] = [all.reduce((a, b) => Math.min(a, b), Infinity), all.reduce((a, b) => Math.max(a, b), -Infinity)];
   const pixel = (fit.logarithmic ? high - low : high - Math.min(0, low)) / 250;
   const same = (a, b) => a.size === b.size && [...a].every(([key, value]) => b.has(key) && Math.abs(value - b.get(key)) <= pixel);
-  const groups = [];
-  for (const [name, line] of lines) {
-    const group = groups.find(([first]) => same(lines.get(first), line));
-    if (group) group.push(name);
-    else groups.push([name]);
-  }
-  return groups.filter((group) => group.length > 1)
-    .map((group) => `${namesOf(group.map(labelOf))} lie on one another`).join('; ');
+  return groupsOf([...lines.keys()], (a, b) => same(lines.get(a), lines.get(b)));
 }
 
 // What stands below the plots of a chart.
 function notesOf(plots) {
-  const sentences = (key) => [...new Set(plots.map((plot) => plot[key]).filter(Boolean))];
-  const parts = [...sentences('off')];
-  const same = sentences('same');
-  parts.push(...(same.length === 1 ? same : plots.filter((plot) => plot.same).map((plot) => `${plot.heading}: ${plot.same}`)));
-  if (plots.some((plot) => plot.refused)) parts.push('Some values are not above zero: the axis is linear');
-  return parts.map((part) => sentence(part) + '.').join(' ');
+  const parts = [];
+  const off = plots.filter((plot) => plot.off).map((plot) => `${plot.title} ${plot.off}`);
+  if (off.length > 0) parts.push(`${sentence(labelOf(kBaseline))} is off the scale: ${namesOf(off)}.`);
+  const alike = plots.filter((plot) => plot.same);
+  const inAll = alike.length === plots.length && new Set(alike.map((plot) => plot.same)).size === 1;
+  if (inAll) parts.push(`On one another, within a pixel: ${alike[0].same}.`);
+  else parts.push(...alike.map((plot) => `On one another (${plot.title}), within a pixel: ${plot.same}.`));
+  if (plots.some((plot) => plot.refused)) parts.push('Some values are not above zero: the axis is linear.');
+  return parts.join(' ');
 }

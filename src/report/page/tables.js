@@ -41,23 +41,23 @@ function drawSummary() {
   const metrics = study.study_metrics.filter((name) => cell.estimators.some((one) => one.metrics[name]));
   const scaleOf = (metric, isBaseline) => readingUnit(unitOf(metric), greatestOf(cell.estimators
     .filter((one) => one.metrics[metric] && (one.name === kBaseline) === isBaseline).map((one) => one.metrics[metric].mean)));
-  const scales = metrics.map((metric) => scaleOf(metric, false));
   // Dead reckoning may be of another size.
-  const cellOf = (one, metric, i) => {
+  const cellOf = (one, metric, scale) => {
     if (!one.metrics[metric]) return '–';
-    const own = one.name === kBaseline ? scaleOf(metric, true) : scales[i];
+    const own = one.name === kBaseline ? scaleOf(metric, true) : scale;
     const parts = valueParts(one.metrics[metric], own, one);
-    if (own.text !== scales[i].text) parts[0].textContent += ` ${own.text || '× 1'}`;
+    if (own.text !== scale.text) parts[0].textContent += ` ${own.text || '× 1'}`;
     return parts;
   };
-  const rows = cell.estimators.map((one) => [
-    [swatch(one.name), labelOf(one.name)], one.name === kBaseline ? '–' : one.outcome_text,
-    ...metrics.map((metric, i) => cellOf(one, metric, i))]);
-  const made = tableOf(['estimator', 'outcome', ...metrics.map((metric, i) => titled(metricTitle(metric), scales[i].text))], rows);
-  cell.estimators.forEach((one, i) => {
-    made.tBodies[0].rows[i].cells[1].className = 'text wrapped' + (one.done < one.runs ? ' failed' : '');
+  const rows = metrics.map((metric) => {
+    const scale = scaleOf(metric, false);
+    return [titled(metricTitle(metric), scale.text), ...cell.estimators.map((one) => cellOf(one, metric, scale))];
   });
-  made.tHead.rows[0].cells[1].className = 'text';
+  const outcomes = cell.estimators.map((one) => (one.name === kBaseline ? '–' : one.outcome_text));
+  const made = tableOf(['', ...cell.estimators.map((one) => [swatch(one.name), labelOf(one.name)])], [['outcome', ...outcomes], ...rows]);
+  cell.estimators.forEach((one, i) => {
+    made.tBodies[0].rows[0].cells[i + 1].className = 'wrapped' + (one.done < one.runs ? ' failed' : '');
+  });
   document.getElementById('summary-title').textContent = study.cells.length > 1 ? `All metrics of ${cell.label}` : 'All metrics';
   document.getElementById('summary-table').replaceChildren(made);
   document.getElementById('summary-words').replaceChildren(...cell.estimators.filter((one) => one.words.length > 0)

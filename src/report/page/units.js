@@ -23,18 +23,23 @@ function readingUnit(unit, value) {
   return {text: kPrefixes[thousands + 4] + name, factor: 1000 ** (own - thousands)};
 }
 
-// A number with three digits, never in exponents where a reader would rather not see them.
+// A number with three digits.
 function digits(value, count = 3) {
   if (value === null || value === undefined) return '–';
   if (value === 0) return '0';
   const size = Math.abs(value);
-  if (size >= 1e7 || size < 1e-4) return value.toExponential(count - 1);
+  if (size >= 1e7 || size < 1e-4) {
+    const [mantissa, exponent] = value.toExponential(count - 1).split('e');
+    return `${mantissa} × ${powerOfTen(Number(exponent))}`;
+  }
   const whole = Math.floor(Math.log10(size)) + 1;
   return value.toFixed(Math.min(8, Math.max(0, count - whole)));
 }
 
 const numberIn = (value, scale) => (value === null || value === undefined ? '–' : digits(value * scale.factor));
 const followedBy = (text, unit) => (unit ? `${text} ${unit}` : text);
+// "Mean ATE RMSE", but not "Mean mean position error".
+const meanTitle = (name) => (metricTitle(name).startsWith('mean ') ? metricTitle(name) : `mean ${metricTitle(name)}`);
 const titled = (title, unit) => (unit ? `${title} (${unit})` : title);
 
 // "17.4 mm"

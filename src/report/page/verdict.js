@@ -14,8 +14,9 @@ function drawVerdict() {
   if (study.verdict.rule) parts.push(element('p', {className: 'caption', textContent: study.verdict.rule}));
   const cell = cellNow();
   if (study.cells.length > 1) {
-    parts.push(element('details', {}, [
-      element('summary', {textContent: `The cell ${cell.label}`}), ...verdictParts(cell.verdict)]));
+    parts.push(element('details', {open: true}, [
+      element('summary', {textContent: `The cell ${cell.label}`}),
+      ...verdictParts({...cell.verdict, doubts: cell.verdict.doubts.filter((text) => !study.verdict.doubts.includes(text))})]));
   }
   document.getElementById('verdict').replaceChildren(...parts);
 }
