@@ -27,7 +27,7 @@ struct RankedEstimator {
 struct Ranking {
   std::string metric;
   std::vector<RankedEstimator> estimators;  ///< one or more
-  double level = 0.95;                      ///< of each interval: 1 − 0.05 / number of differences
+  double level = 0.95;  ///< of each interval: 1 − 0.05 / number of differences
 
   const RankedEstimator& best() const { return estimators.front(); }
   const RankedEstimator* find(const std::string& estimator) const;

@@ -53,7 +53,8 @@ void add_others(const Ranking& ranking, const std::string& unit,
   for (const RankedEstimator& one : ranking.estimators) {
     if (!one.difference || !one.difference->interval) continue;
     if (one.is_told_apart()) {
-      worse.push_back(one.name + " by " + distance_text(one, scale_worse) + share_text(one, ranking));
+      worse.push_back(one.name + " by " + distance_text(one, scale_worse) +
+                      share_text(one, ranking));
       is_small = is_small && std::abs(one.difference->mean) <
                                  0.01 * std::abs(ranking.best().summary.moments.mean);
     } else {

@@ -26,19 +26,24 @@ void add_few_draws(const CellResults& cell, std::vector<Doubt>& doubts) {
 
 // Where the interval and the test disagree. Of few pairs no p can be small: say so.
 void add_disagreement(const Ranking& ranking, std::vector<Doubt>& doubts) {
-  const double tests = static_cast<double>(ranking.estimators.size()) - 1.0;
+  const std::size_t tests = ranking.estimators.size() - 1;
+  std::vector<std::string> names;
+  std::string limit;
   for (const RankedEstimator& one : ranking.estimators) {
     if (!one.is_told_apart() || !one.holm_p || *one.holm_p < kSignificant) continue;
-    const PairedDifference& difference = *one.difference;
-    const double least = std::exp2(1.0 - static_cast<double>(difference.count));
-    const std::string over = difference.is_over_surveys ? "survey" : "trial";
-    std::string text = one.name + ": the interval of its difference excludes 0, but its adjusted p is " +
-                       format_number(*one.holm_p, 2);
-    if (least * tests > kSignificant) {
-      text += "; with " + counted(difference.count, over) + " it cannot be below 0.05 for all";
-    }
-    doubts.push_back({text + ".", "an interval excludes 0 where the adjusted p is above 0.05"});
+    names.push_back(one.name + " (p = " + format_number(*one.holm_p, 2) + ")");
+    const std::size_t count = one.difference->count;
+    const double least = static_cast<double>(tests) * std::exp2(1.0 - static_cast<double>(count));
+    if (least < kSignificant || !limit.empty()) continue;
+    limit = " With " + counted(count, one.difference->is_over_surveys ? "survey" : "trial") +
+            " and " + counted(tests, "comparison") + " no p is below " +
+            format_number(std::min(1.0, least), 2) + ".";
   }
+  if (names.empty()) return;
+  doubts.push_back(
+      {"The interval of the difference excludes 0, but the adjusted p is above 0.05: " +
+           listed(names) + "." + limit,
+       "an interval excludes 0 where the adjusted p is above 0.05"});
 }
 
 void add_overconfidence(const CellResults& cell, std::vector<Doubt>& doubts) {
@@ -55,8 +60,8 @@ void add_overconfidence(const CellResults& cell, std::vector<Doubt>& doubts) {
     }
     if (names.empty()) continue;
     doubts.push_back({kind + ", where 1 is expected: " + listed(names) + "." + cause,
-                      "estimators are " +
-                          std::string(kind == "Overconfident" ? "overconfident" : "underconfident")});
+                      "estimators are " + std::string(kind == "Overconfident" ? "overconfident"
+                                                                              : "underconfident")});
   }
 }
 
@@ -78,16 +83,17 @@ void add_loops(const CellResults& cell, std::vector<Doubt>& doubts) {
     if (runs_without_loops(one) > 0) names.push_back(one.name);
   }
   if (names.empty()) return;
-  doubts.push_back({"The means of " + listed(names) +
-                        " hold runs without loop closures, which are no better than dead reckoning.",
-                    "means hold runs without loop closures"});
+  doubts.push_back(
+      {"The means of " + listed(names) +
+           " hold runs without loop closures, which are no better than dead reckoning.",
+       "means hold runs without loop closures"});
 }
 
 // The reference that selected the loops may be one of those that are compared.
 void add_reference(const CellResults& cell, std::vector<Doubt>& doubts) {
   if (!cell.selected_by.ends_with(", a contender")) return;
-  const std::string text = "Loops were selected by " + cell.selected_by +
-                           ": the others replay what suited it.";
+  const std::string text =
+      "Loops were selected by " + cell.selected_by + ": the others replay what suited it.";
   doubts.push_back({text, text});
 }
 
@@ -98,16 +104,14 @@ void add_baseline(const CellResults& cell, const Ranking& ranking, std::vector<D
   };
   const auto baseline = of(kDeadReckoning);
   if (baseline == cell.estimators.end() || !baseline->metrics.contains(ranking.metric)) return;
-  const auto difference =
-      difference_between(*baseline, *of(ranking.best().name), ranking.metric);
+  const auto difference = difference_between(*baseline, *of(ranking.best().name), ranking.metric);
   if (!difference || !difference->interval) return;
   const bool is_lower = described(ranking.metric).better == Better::lower;
   if (is_lower ? difference->interval->low > 0.0 : difference->interval->high < 0.0) return;
-  doubts.push_back({"The best is not told apart from dead reckoning, whose difference to it is " +
-                        quantity(difference->mean, difference->interval,
-                                 described(ranking.metric).unit) +
-                        ".",
-                    "the best is not told apart from dead reckoning"});
+  doubts.push_back(
+      {"The best is not told apart from dead reckoning, whose difference to it is " +
+           quantity(difference->mean, difference->interval, described(ranking.metric).unit) + ".",
+       "the best is not told apart from dead reckoning"});
 }
 
 void add_jobs(const CellResults& cell, std::vector<Doubt>& doubts) {

@@ -50,8 +50,8 @@ void add_verdict(const StudyResults& results, Json& page) {
     cell["verdict"] = cell_json(verdict.cells[i]);
     cell["rankings"] = Json::object();
     for (const std::string& metric : results.study.metrics) {
-      const auto ranked = metric == verdict.metric ? verdict.cells[i].ranking
-                                                   : ranking(results.cells[i], metric);
+      const auto ranked =
+          metric == verdict.metric ? verdict.cells[i].ranking : ranking(results.cells[i], metric);
       if (ranked) cell["rankings"][metric] = ranking_json(*ranked);
     }
   }

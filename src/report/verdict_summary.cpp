@@ -45,8 +45,7 @@ void add_worse(const StudyResults& results, StudyVerdict& verdict) {
                                      std::abs(entry.one->difference->interval->high));
     const ScaledUnit scale = reading_unit(described(*verdict.metric).unit, furthest);
     verdict.answer.push_back(name + " is worse than the best in " + in + ", most of all at " +
-                             entry.cell->label + ": by " +
-                             distance_text(*entry.one, scale) + ", " +
+                             entry.cell->label + ": by " + distance_text(*entry.one, scale) + ", " +
                              format_number(100.0 * entry.share, 2) + " % of the best.");
   }
 }

@@ -20,13 +20,13 @@ const dashesOf = (style) => style.dashes.map((length) => 1.6 * length);
 
 // Lines that lie on one another stay visible: the first estimator's is the broadest and the lowest.
 // Where none do, the step is small.
-const kBroadest = 6.4;
-const kThinnest = 1.6;
+const kBroadest = 7.4;
+const kThinnest = 1.8;
 function thicknessOf(name, lieOnOneAnother) {
   const compared = study.estimators.filter((one) => one.name !== kBaseline).map((one) => one.name);
   const place = compared.indexOf(name);
   if (place < 0) return kThinnest;
-  const step = Math.min(lieOnOneAnother ? 2.2 : 0.5, (kBroadest - kThinnest) / Math.max(1, compared.length - 1));
+  const step = Math.min(lieOnOneAnother ? 2.8 : 0.5, (kBroadest - kThinnest) / Math.max(1, compared.length - 1));
   return kThinnest + step * (compared.length - 1 - place);
 }
 
