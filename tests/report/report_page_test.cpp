@@ -132,33 +132,6 @@ TEST(ReportPage, MetricsSayWhatIsBetter) {
                                     {"better", "neither"}}));
 }
 
-// The fixture's first estimator is the best by far; of the last cell one failed and is not ranked.
-TEST(ReportPage, HasTheVerdictAndTheRankings) {
-  const Json data = data_of(fixture_page());
-  EXPECT_EQ(data["verdict"]["metric"], "mean_position_error_m");
-  EXPECT_THAT(data["verdict"]["answer"].dump(), HasSubstr("graph is worse than the best in"));
-  EXPECT_THAT(data["verdict"]["failed"].dump(),
-              HasSubstr("a&b_<c>% failed in 2 of 36 runs, in 1 of 6 cells, where it is not ranked."));
-  const Json& rankings = data["cells"][0]["rankings"];
-  EXPECT_FALSE(rankings.contains("anees"));
-  const Json& ranking = rankings["mean_position_error_m"];
-  EXPECT_EQ(ranking["best"], "iterated");
-  EXPECT_NEAR(ranking["level"], 0.975, 1e-12);
-  ASSERT_EQ(ranking["others"].size(), 2u);
-  const Json& estimators = data["cells"][0]["estimators"];
-  for (const Json& other : ranking["others"]) {
-    const Json& one = estimators[other["estimator"] == "graph" ? 3 : 2];
-    ASSERT_EQ(one["name"], other["estimator"]);
-    const auto mean = [](const Json& entry) {
-      return entry["metrics"]["mean_position_error_m"]["mean"].get<double>();
-    };
-    EXPECT_NEAR(other["mean"], mean(one) - mean(estimators[1]), 1e-5);
-    EXPECT_EQ(other["told_apart"], other["low"] > 0.0);
-  }
-  EXPECT_EQ(data["cells"][5]["rankings"]["mean_position_error_m"]["others"].size(), 1u);
-  EXPECT_THAT(data["cells"][5]["verdict"]["failed"].dump(), HasSubstr("and is not ranked"));
-}
-
 TEST(ReportPage, EveryCellHasItsAlignment) {
   const TemporaryFolder folder;
   FixtureOptions options;
