@@ -39,13 +39,17 @@ void add_worse(const StudyResults& results, StudyVerdict& verdict) {
       }
     }
   }
-  for (const auto& [name, entry] : worst) {
+  // The furthest first.
+  std::vector<std::pair<std::string, Worst>> order(worst.begin(), worst.end());
+  std::ranges::stable_sort(
+      order, [](const auto& a, const auto& b) { return a.second.share > b.second.share; });
+  for (const auto& [name, entry] : order) {
     const std::string in = of_cells(entry.cells, results.cells.size());
     const double furthest = std::max(std::abs(entry.one->difference->interval->low),
                                      std::abs(entry.one->difference->interval->high));
     const ScaledUnit scale = reading_unit(described(*verdict.metric).unit, furthest);
-    verdict.answer.push_back(name + " is worse than the best in " + in + ", most of all at " +
-                             entry.cell->label + ": by " + distance_text(*entry.one, scale) + ", " +
+    verdict.answer.push_back(name + " is worse in " + in + ", most at " + entry.cell->label +
+                             ": by " + distance_text(*entry.one, scale) + ", " +
                              format_number(100.0 * entry.share, 2) + " % of the best.");
   }
 }

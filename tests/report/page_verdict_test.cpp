@@ -30,7 +30,7 @@ Json data_of(const FixtureOptions& options) {
 TEST(PageVerdict, HasTheVerdictAndTheRankings) {
   const Json data = data_of({});
   EXPECT_EQ(data["verdict"]["metric"], "mean_position_error_m");
-  EXPECT_THAT(data["verdict"]["answer"].dump(), HasSubstr("graph is worse than the best in"));
+  EXPECT_THAT(data["verdict"]["answer"].dump(), HasSubstr("graph is worse in"));
   EXPECT_THAT(
       data["verdict"]["failed"].dump(),
       HasSubstr("a&b_<c>% failed in 2 of 36 runs, in 1 of 6 cells, where it is not ranked."));

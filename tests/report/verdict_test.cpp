@@ -182,9 +182,8 @@ TEST(Verdict, SeveralCellsAreSummedUp) {
   ASSERT_EQ(verdict.answer.size(), 2u);
   EXPECT_EQ(verdict.answer[0],
             "In 1 of 2 cells no estimator can be told apart from the best by mean position error.");
-  EXPECT_THAT(verdict.answer[1],
-              StartsWith("other is worse than the best in 1 of 2 cells, most of all at noise 2: by "
-                         "3.10 mm ["));
+  EXPECT_THAT(verdict.answer[1], StartsWith("other is worse in 1 of 2 cells, most at noise 2: by "
+                                            "3.10 mm ["));
   EXPECT_THAT(verdict.cost_words,
               ElementsAre(HasSubstr("best in all 2 cells; estimate, time 1.00")));
   EXPECT_THAT(verdict.failed,

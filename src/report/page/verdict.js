@@ -26,8 +26,10 @@ function columnUnits(names) {
   const meansOf = (wanted) => study.cells.flatMap((cell) => cell.estimators
     .filter((one) => wanted(one.name) && one.metrics[state.metric]).map((one) => one.metrics[state.metric].mean));
   const unit = unitOf(state.metric);
-  const estimators = readingUnit(unit, greatestOf(meansOf((name) => name !== kBaseline)));
-  const baseline = readingUnit(unit, greatestOf(meansOf((name) => name === kBaseline)));
+  // The middle one: cells may be of very different sizes.
+  const middleOf = (values) => values.map(Math.abs).sort((a, b) => a - b)[Math.floor(values.length / 2)] || 0;
+  const estimators = readingUnit(unit, middleOf(meansOf((name) => name !== kBaseline)));
+  const baseline = readingUnit(unit, middleOf(meansOf((name) => name === kBaseline)));
   return names.map((name) => (name === kBaseline ? baseline : estimators));
 }
 
