@@ -12,13 +12,12 @@ function verdictParts({answer, cost, failed, doubts}) {
 function drawVerdict() {
   const parts = verdictParts(study.verdict);
   if (study.verdict.rule) parts.push(element('p', {className: 'caption', textContent: study.verdict.rule}));
-  const cell = cellNow();
-  if (study.cells.length > 1) {
-    parts.push(element('details', {open: true}, [
-      element('summary', {textContent: `The cell ${cell.label}`}),
-      ...verdictParts({...cell.verdict, doubts: cell.verdict.doubts.filter((text) => !study.verdict.doubts.includes(text))})]));
-  }
   document.getElementById('verdict').replaceChildren(...parts);
+  if (study.cells.length < 2) return;
+  const {label, verdict} = cellNow();
+  const doubts = verdict.doubts.filter((text) => !study.verdict.doubts.includes(text));
+  document.getElementById('cell-verdict').replaceChildren(element('details', {open: true}, [
+    element('summary', {textContent: `In the cell ${label}`}), ...verdictParts({...verdict, doubts})]));
 }
 
 // One unit for each column, so that its values can be compared; one for all estimators.
@@ -46,6 +45,9 @@ function standingCell(cell, name, scale) {
   return {parts, standing};
 }
 
+// A zero-width space behind each underscore.
+const breakable = (name) => name.replaceAll('_', '_\u200b');
+
 function drawTable() {
   const names = study.estimators.map((one) => one.name)
     .filter((name) => study.cells.some((cell) => cell.estimators.some((one) => one.name === name && one.metrics[state.metric])));
@@ -55,7 +57,7 @@ function drawTable() {
   const rows = study.cells.map((cell, i) => [
     ...(several ? [element('button', {className: 'link', textContent: cell.label, onclick: () => chooseCell(i)})] : []),
     ...standings[i].map((one) => one.parts)]);
-  const header = [...(several ? ['cell'] : []), ...names.map((name, i) => [swatch(name), titled(labelOf(name), units[i].text)])];
+  const header = [...(several ? ['cell'] : []), ...names.map((name, i) => [swatch(name), titled(breakable(labelOf(name)), units[i].text)])];
   const made = tableOf(header, rows);
   const first = several ? 1 : 0;
   standings.forEach((row, i) => {
