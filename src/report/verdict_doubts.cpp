@@ -65,6 +65,25 @@ void add_overconfidence(const CellResults& cell, std::vector<Doubt>& doubts) {
   }
 }
 
+// Where no words have named it as a cause. It is a figure of the registrations, so that of one
+// estimator stands for all.
+void add_correlation(const CellResults& cell, std::vector<Doubt>& doubts) {
+  if (std::ranges::any_of(cell.estimators, [](const auto& one) { return !one.words.empty(); })) {
+    return;
+  }
+  for (const EstimatorResults& one : cell.estimators) {
+    const auto found = one.consistency.find("picture_error_correlation");
+    if (found == one.consistency.end()) continue;
+    const auto& [figures, surveys, interval] = found->second;
+    if (!interval || interval->low <= 0.0) continue;
+    doubts.push_back({"Registrations of one picture share errors (correlation " +
+                          quantity(figures.mean, interval, "") +
+                          "), which estimators take as independent.",
+                      "registrations of one picture share errors"});
+    return;
+  }
+}
+
 void add_optimum(const CellResults& cell, std::vector<Doubt>& doubts) {
   std::vector<std::string> names;
   for (const EstimatorResults& one : cell.estimators) {
@@ -131,6 +150,7 @@ std::vector<Doubt> doubts_of(const CellResults& cell, const CellVerdict& verdict
     add_baseline(cell, *verdict.ranking, doubts);
   }
   add_overconfidence(cell, doubts);
+  add_correlation(cell, doubts);
   add_optimum(cell, doubts);
   add_loops(cell, doubts);
   add_reference(cell, doubts);

@@ -172,6 +172,19 @@ TEST(Verdict, WordsOfConsistencyAndTheOptimumAreDoubts) {
                   "F above the optimum of the measurements: over by 30.0 [9.40, 50.0]."));
 }
 
+TEST(Verdict, ErrorsThatRegistrationsShareAreADoubt) {
+  EstimatorResults one = six("one", kBest);
+  MetricSummary& correlation = one.consistency["picture_error_correlation"];
+  correlation.moments.mean = 0.26;
+  correlation.interval = Interval{0.2, 0.31};
+  const EstimatorResults other = six("other", kAlike);
+  EXPECT_THAT(doubts_of_one(surveyed({one, other})),
+              ElementsAre("Registrations of one picture share errors (correlation 0.260 [0.200, "
+                          "0.310]), which estimators take as independent."));
+  correlation.interval = Interval{-0.01, 0.31};
+  EXPECT_THAT(doubts_of_one(surveyed({one, other})), IsEmpty());
+}
+
 TEST(Verdict, SeveralCellsAreSummedUp) {
   CellResults alike = surveyed({six("best", kBest), six("other", kAlike)});
   CellResults apart = surveyed({six("best", kBest), six("other", kWorse)});
