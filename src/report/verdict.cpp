@@ -195,7 +195,7 @@ CellVerdict cell_verdict(const CellResults& cell, const StudyDescription& study,
     verdict.ranking = ranking(cell, *metric);
     verdict.answer = answer_of(cell, verdict.ranking);
   } else {
-    verdict.answer = {"No metric of this study says which estimator is better."};
+    verdict.answer = {"Not ranked: no metric of this study that says which is better has a value."};
   }
   if (verdict.ranking && cost) {
     verdict.cheapest = cheapest_of_the_best(cell, *metric, *cost);

@@ -57,7 +57,7 @@ void add_worse(const StudyResults& results, StudyVerdict& verdict) {
 void add_answer(const StudyResults& results, StudyVerdict& verdict) {
   const std::size_t all = results.cells.size();
   if (!verdict.metric) {
-    verdict.answer = {"No metric of this study says which estimator is better."};
+    verdict.answer = {"Not ranked: no metric of this study that says which is better has a value."};
     return;
   }
   std::size_t alike = 0;

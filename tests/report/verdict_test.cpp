@@ -211,8 +211,9 @@ TEST(Verdict, WithoutAMetricThatRanksNothingIsRanked) {
   StudyResults results = study_of({surveyed({six("a", kBest), six("b", kWorse)})}, 6, 1);
   results.study.metrics = {"anees", "total_ms"};
   const StudyVerdict verdict = study_verdict(results);
-  EXPECT_THAT(verdict.answer,
-              ElementsAre("No metric of this study says which estimator is better."));
+  EXPECT_THAT(
+      verdict.answer,
+      ElementsAre("Not ranked: no metric of this study that says which is better has a value."));
   EXPECT_THAT(verdict.cost_words, IsEmpty());
   EXPECT_THAT(verdict_text(verdict), Not(HasSubstr("Told apart")));
 }
