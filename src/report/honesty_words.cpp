@@ -68,13 +68,7 @@ class Figures {
     return level_of(*summary, 1.0, anees_interval(draws_, dof, kProbability));
   }
 
-  // A true error of one pose has a χ² of 3 degrees of freedom. Beyond that, whatever the draws, the
-  // estimate is not where the measurements put it.
-  bool is_off_the_optimum() const {
-    const MetricSummary* summary = find("chi2_gap");
-    const double most = chi_squared_quantile(0.5 * (1.0 + kProbability), 3.0);
-    return summary != nullptr && summary->interval && summary->interval->low > most;
-  }
+  bool is_off_the_optimum() const { return fathom::is_off_the_optimum(figures_); }
 
   bool is_correlated() const {
     const MetricSummary* summary = find("picture_error_correlation");
@@ -142,6 +136,14 @@ bool is_of_words(const std::string& metric) {
       "anees",        "anchored_anees", "mean_nis_truth", "picture_error_correlation",
       "chi2_per_dof", "registrations",  "chi2_gap"};
   return metrics.contains(metric) || metric.starts_with(kRelative);
+}
+
+// A true error of one pose has a χ² of 3 degrees of freedom. Beyond that, whatever the draws, the
+// estimate is not where the measurements put it.
+bool is_off_the_optimum(const std::map<std::string, MetricSummary>& figures) {
+  const auto found = figures.find("chi2_gap");
+  const double most = chi_squared_quantile(0.5 * (1.0 + kProbability), 3.0);
+  return found != figures.end() && found->second.interval && found->second.interval->low > most;
 }
 
 std::vector<std::string> honesty_words(const std::map<std::string, MetricSummary>& figures,

@@ -12,6 +12,10 @@ namespace fathom {
 /// Whether honesty_words looks at a metric.
 bool is_of_words(const std::string& metric);
 
+/// Whether an estimate lies so far above the optimum of the measurements that no honest one would.
+/// F above it has an interval above the 97.5 % quantile of χ² of 3 degrees of freedom.
+bool is_off_the_optimum(const std::map<std::string, MetricSummary>& figures);
+
 /// What the consistency of an estimator on a cell means, in at most two sentences; none where the
 /// figures are as expected or say nothing. `figures` are means over runs by metric, `draws` how
 /// many independent draws they are over.

@@ -12,6 +12,7 @@
 #include "regime_map.hpp"
 #include "study_figures.hpp"
 #include "study_styles.hpp"
+#include "verdict_page.hpp"
 
 namespace fathom {
 namespace {
@@ -204,6 +205,8 @@ Json page_data(const ResultStore& store, const StudyResults& results,
   for (const std::string& name : results.metrics) {
     const Metric metric = described(name);
     json["metrics"][name] = {{"label", metric.label_with_unit()},
+                             {"title", metric.label},
+                             {"unit", metric.unit},
                              {"cost", metric.is_cost},
                              {"better", better_text(metric.better)}};
   }
@@ -213,6 +216,7 @@ Json page_data(const ResultStore& store, const StudyResults& results,
     json["cells"].push_back(cell_json(store, results.cells[i], series[i], study, most));
   }
   add_regimes(results, json);
+  add_verdict(results, json);
   json["configuration"] = Json::object();
   for (const auto& [key, value] : study.configuration) json["configuration"][key] = value;
   json["manifests"] = Json::array();

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <string_view>
 
+#include "fathom/report/table.hpp"
+
 namespace fathom {
 namespace {
 
@@ -59,6 +61,45 @@ ScaledUnit scaled_unit(const std::string& unit, double greatest) {
   const int place = thousands + kNoPrefix;
   const std::string prefix(kPrefixes[static_cast<std::size_t>(place)]);
   return {prefix + std::string(base.unit), std::pow(1000.0, base.thousands - thousands)};
+}
+
+ScaledUnit reading_unit(const std::string& unit, double value) {
+  const double size = std::abs(value);
+  if (!(size > 0.0) || !std::isfinite(size)) return {unit, 1.0};
+  const Base base = base_of(unit);
+  if (base.unit.empty()) {
+    if (size >= 0.001 && size < 1e6) return {unit, 1.0};
+    const int thousands = thousands_of(size);
+    const std::string power = "× " + power_of_ten(3 * thousands);
+    return {power + (unit.empty() ? "" : " " + unit), std::pow(1000.0, -thousands)};
+  }
+  int thousands = thousands_of(size) + base.thousands;
+  const double in_next = size * std::pow(1000.0, base.thousands - thousands - 1);
+  if (thousands < -1 && in_next >= 0.00999) ++thousands;
+  thousands = std::clamp(thousands, base.least, base.most);
+  const std::string prefix(kPrefixes[static_cast<std::size_t>(thousands + kNoPrefix)]);
+  return {prefix + std::string(base.unit), std::pow(1000.0, base.thousands - thousands)};
+}
+
+std::string quantity(double value, const std::string& unit) {
+  return quantity(value, std::nullopt, unit);
+}
+
+std::string quantity(double value, const std::optional<Interval>& interval,
+                     const std::string& unit) {
+  double greatest = std::abs(value);
+  if (interval) greatest = std::max({greatest, std::abs(interval->low), std::abs(interval->high)});
+  return quantity(value, interval, reading_unit(unit, greatest));
+}
+
+std::string quantity(double value, const std::optional<Interval>& interval,
+                     const ScaledUnit& scale) {
+  constexpr int kDigits = 3;
+  std::string text = format_number(value * scale.factor, kDigits);
+  if (!scale.text.empty()) text += " " + scale.text;
+  if (!interval) return text;
+  return text + " [" + format_number(interval->low * scale.factor, kDigits) + ", " +
+         format_number(interval->high * scale.factor, kDigits) + "]";
 }
 
 }  // namespace fathom

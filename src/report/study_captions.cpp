@@ -6,23 +6,18 @@
 #include "study_results.hpp"
 
 namespace fathom {
-namespace {
-
 std::string worded(std::string name) {
   for (char& letter : name) letter = letter == '_' ? ' ' : letter;
   return name;
 }
 
-// Of the runs that are done; dead reckoning has none to lack.
-std::size_t without_loops(const EstimatorResults& estimator) {
+std::size_t runs_without_loops(const EstimatorResults& estimator) {
   if (estimator.name == kDeadReckoning) return 0;
   return static_cast<std::size_t>(std::ranges::count_if(estimator.runs, [](const RunRecord& run) {
     const auto loops = run.metrics.find("loop_closures");
     return !is_failed(run) && loops != run.metrics.end() && loops->second == 0.0;
   }));
 }
-
-}  // namespace
 
 std::string display_name(const std::string& estimator) {
   return estimator == kDeadReckoning ? "dead reckoning" : estimator;
@@ -45,7 +40,7 @@ std::string outcome_text(const EstimatorResults& estimator, const StudyDescripti
     text += ", " + std::to_string(count) + " " +
             (name == "iteration_limit" ? "at iteration limit" : worded(name));
   }
-  if (const std::size_t count = without_loops(estimator); count > 0) {
+  if (const std::size_t count = runs_without_loops(estimator); count > 0) {
     text += ", " + std::to_string(count) + " without loops";
   }
   if (estimator.runs.size() < wanted) {

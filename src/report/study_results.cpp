@@ -60,26 +60,9 @@ void sum_up(EstimatorResults& estimator, const std::vector<std::string>& metrics
   for (const RunRecord& run : estimator.runs) {
     if (!is_failed(run)) surveys.insert(run.key.survey);
   }
-  estimator.words = honesty_words(summaries(estimator, {of_words.begin(), of_words.end()}),
+  estimator.consistency = summaries(estimator, {of_words.begin(), of_words.end()});
+  estimator.words = honesty_words(estimator.consistency,
                                   independent_draws(repetition, surveys.size(), estimator.done));
-}
-
-std::optional<PairedDifference> difference(const EstimatorResults& one,
-                                           const EstimatorResults& first,
-                                           const std::string& metric) {
-  std::map<TrialKey, double> of_first;
-  for (const RunRecord& run : first.runs) {
-    const auto value = metric_of(run, metric);
-    if (!is_failed(run) && value) of_first[run.key.trial_key()] = *value;
-  }
-  ClusteredValues differences;
-  for (const RunRecord& run : one.runs) {
-    const auto value = metric_of(run, metric);
-    const auto other = of_first.find(run.key.trial_key());
-    if (is_failed(run) || !value || other == of_first.end()) continue;
-    differences[run.key.survey].push_back(*value - other->second);
-  }
-  return difference_over_surveys(differences);
 }
 
 // One family of tests a cell: what a reader of its block looks over at once. A single trial tests
@@ -109,7 +92,7 @@ void compare(CellResults& cell, const StudyDescription& study) {
   }
   for (auto other = first + 1; other != cell.estimators.end(); ++other) {
     for (const std::string& metric : study.metrics) {
-      const auto paired = difference(*other, *first, metric);
+      const auto paired = difference_between(*other, *first, metric);
       if (paired) cell.paired.push_back({other->name, metric, *paired, std::nullopt});
     }
   }
@@ -159,6 +142,25 @@ CellResults runs_of(const RunIndex& index, std::size_t number) {
 }
 
 }  // namespace
+
+std::optional<PairedDifference> difference_between(const EstimatorResults& one,
+                                                   const EstimatorResults& other,
+                                                   const std::string& metric,
+                                                   const BootstrapOptions& options) {
+  std::map<TrialKey, double> of_other;
+  for (const RunRecord& run : other.runs) {
+    const auto value = metric_of(run, metric);
+    if (!is_failed(run) && value) of_other[run.key.trial_key()] = *value;
+  }
+  ClusteredValues differences;
+  for (const RunRecord& run : one.runs) {
+    const auto value = metric_of(run, metric);
+    const auto found = of_other.find(run.key.trial_key());
+    if (is_failed(run) || !value || found == of_other.end()) continue;
+    differences[run.key.survey].push_back(*value - found->second);
+  }
+  return difference_over_surveys(differences, options);
+}
 
 StudyResults study_results(const ResultStore& store, MetricsOf metrics) {
   const RunIndex index(store);

@@ -30,6 +30,8 @@ struct EstimatorResults {
   std::map<std::string, MetricSummary> metrics;
   /// What its consistency means; none where it is as expected or not known.
   std::vector<std::string> words = {};
+  /// The figures that the words are made from, whether the study reports them or not.
+  std::map<std::string, MetricSummary> consistency = {};
 
   std::size_t failures() const { return runs.size() - done; }
 };
@@ -57,6 +59,13 @@ struct CellResults {
   std::vector<EstimatorResults> estimators;  ///< dead reckoning first, then as in the study
   std::vector<PairedResult> paired;          ///< of the study's metrics
 };
+
+/// A metric of one minus that of another, over the trials that both did and that have it; nothing
+/// where there is no such trial.
+std::optional<PairedDifference> difference_between(const EstimatorResults& one,
+                                                   const EstimatorResults& other,
+                                                   const std::string& metric,
+                                                   const BootstrapOptions& options = {});
 
 /// What all tables, charts and figures are made from; the intervals are computed once, here.
 struct StudyResults {
@@ -103,6 +112,12 @@ std::string example_text(const CellResults& cell, const TrialKey& trial);
 
 /// "; failed: ekf 2/30", what a mean over the cell leaves out; empty where nothing failed.
 std::string failures_text(const CellResults& cell);
+
+/// Runs that are done and closed no loop; dead reckoning has none to lack.
+std::size_t runs_without_loops(const EstimatorResults& estimator);
+
+/// "numerical failure" for numerical_failure.
+std::string worded(std::string name);
 
 /// "dead reckoning" for kDeadReckoning, else the name.
 std::string display_name(const std::string& estimator);

@@ -6,6 +6,7 @@
 #include "fathom/report/study_report.hpp"
 #include "fathom/report/table.hpp"
 #include "study_results.hpp"
+#include "verdict.hpp"
 
 namespace fathom {
 namespace {
@@ -169,16 +170,19 @@ std::string study_table(const ResultStore& store, StudyTable extent) {
     }
   }
   for (const std::string& limit : limits) text += limit.empty() ? "" : limit + "\n";
-  return text;
+  const std::string verdict = verdict_text(study_verdict(results));
+  return verdict.empty() ? text : text + "\n" + verdict;
 }
 
 std::string study_remarks(const ResultStore& store) {
+  const StudyResults results = study_results(store, MetricsOf::study);
   std::string text;
-  for (const CellResults& cell : study_results(store, MetricsOf::study).cells) {
+  for (const CellResults& cell : results.cells) {
     const std::string words = words_of(cell);
     if (!words.empty()) text += cell_caption(cell) + words + "\n";
   }
-  return text;
+  const std::string verdict = verdict_text(study_verdict(results));
+  return verdict.empty() ? text : text + verdict + "\n";
 }
 
 }  // namespace fathom

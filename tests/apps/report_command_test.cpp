@@ -30,6 +30,7 @@ TEST_F(ReportCommand, WritesIntoTheStudysFolder) {
   const Ended ended = fathom_done({"report", "study"});
   // The second estimator of the fixture states half of its spread.
   EXPECT_THAT(ended.out, ::testing::HasSubstr("\na&b_<c>%: Overconfident: ANEES is "));
+  EXPECT_THAT(ended.out, ::testing::HasSubstr("\nVerdict\n"));
   EXPECT_THAT(ended.out, ::testing::EndsWith("\nwrote study/report.html\n"));
   EXPECT_THAT(tree(), IsSupersetOf({"study/report.html", "study/runs.csv", "study/summary.csv",
                                     "study/tables.tex", "study/figures/error_by_separation.pdf",

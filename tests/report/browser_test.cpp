@@ -79,8 +79,9 @@ TEST_F(Browser, DrawsEveryChartAndTakesAnEstimatorOffAllOfThem) {
   const Json result = self_test_of({});
   ASSERT_FALSE(result.is_null()) << "the page's scripts did not run to their end";
   EXPECT_EQ(result["errors"], Json::array());
-  const std::vector<std::string> charts{"trajectories", "sweep",  "regimes",  "keyframes",
-                                        "updates",      "pareto", "outcomes", "registrations"};
+  const std::vector<std::string> charts{"forest",  "trajectories", "sweep",
+                                        "regimes", "keyframes",    "updates",
+                                        "pareto",  "outcomes",     "registrations"};
   EXPECT_EQ(result["marks"].size(), charts.size());
   for (const char* name : {"iterated", "a&b_<c>%", "graph"}) {
     const Json& one = result["estimators"].at(name);
@@ -91,7 +92,7 @@ TEST_F(Browser, DrawsEveryChartAndTakesAnEstimatorOffAllOfThem) {
     }
   }
   const Json& baseline = result["estimators"].at(kDeadReckoning);
-  for (const char* chart : {"trajectories", "sweep", "keyframes", "pareto"}) {
+  for (const char* chart : {"forest", "trajectories", "sweep", "keyframes", "pareto"}) {
     EXPECT_GT(baseline["before"].at(chart), 0) << chart;
     EXPECT_EQ(baseline["off"].at(chart), 0) << chart;
   }
@@ -111,9 +112,54 @@ TEST_F(Browser, DrawsEveryCellAndTable) {
   // In the last cell an estimator has no path on trial 0, but outcomes of two kinds more.
   EXPECT_LT(result["cells"][5]["trajectories"], result["cells"][0]["trajectories"]);
   EXPECT_GT(result["cells"][5]["outcomes"], result["cells"][0]["outcomes"]);
-  EXPECT_EQ(result["tables"]["summary-table"], 5);  // a header and four rows
+  EXPECT_EQ(result["tables"]["cells-table"], 7);    // a header and six cells
+  EXPECT_EQ(result["tables"]["summary-table"], 6);  // a header, the outcome and four metrics
   EXPECT_EQ(result["tables"]["paired-table"], 9);   // and two estimators by four metrics
   EXPECT_EQ(result["theme"], "dark");
+}
+
+TEST_F(Browser, AnswersFirstAndMarksTheBestOfEveryRow) {
+  FixtureOptions options;
+  options.size = 0.01;
+  const Json answer = self_test_of(options)["answer"];
+  ASSERT_FALSE(answer["words"].empty());
+  EXPECT_THAT(answer["words"].dump(), ::testing::HasSubstr("mean position error"));
+  EXPECT_THAT(answer["doubts"].dump(), ::testing::HasSubstr("One survey: intervals"));
+  EXPECT_EQ(answer["best"], 6);
+  EXPECT_THAT(answer["header"].dump(), ::testing::HasSubstr("iterated (mm)"));
+  EXPECT_EQ(answer["overflow"], Json::array());
+  // The choice above the table changes both the table and the first chart.
+  EXPECT_EQ(answer["other"]["title"], "Estimate, time in every cell");
+  EXPECT_THAT(answer["other"]["header"].dump(), ::testing::HasSubstr("iterated (ms)"));
+  EXPECT_GT(answer["other"]["forest"], 0);
+}
+
+TEST_F(Browser, AxesSwitchAndDeadReckoningLeavesTheScaleThatItHides) {
+  FixtureOptions options;
+  options.separations.clear();
+  options.noises.clear();
+  options.baseline = 10.0;
+  const Json answer = self_test_of(options)["answer"];
+  const Json usual{{"forest", {"linear"}},
+                   {"keyframes", {"linear", "linear", "log"}},
+                   {"updates", {"log"}},
+                   {"pareto", {"linear"}}};
+  EXPECT_EQ(answer["usual"], usual);
+  for (const auto& [axes, chart] : {std::pair("linear", "linear"), std::pair("log", "log")}) {
+    for (const auto& [name, types] : answer[axes].items()) {
+      for (const Json& type : types) EXPECT_EQ(type, chart) << name;
+    }
+  }
+  const std::string note = "Dead reckoning is off the scale: mean position error ";
+  EXPECT_THAT(answer["notes"].dump(), ::testing::HasSubstr(note));
+  EXPECT_THAT(answer["notes"].dump(), ::testing::HasSubstr("position error up to "));
+  EXPECT_THAT(answer["notesOnScale"].dump(), ::testing::Not(::testing::HasSubstr("off the scale")));
+  EXPECT_THAT(self_test_of({})["answer"]["notes"].dump(),
+              ::testing::Not(::testing::HasSubstr("off the scale")));
+  // A page of one cell speaks of none.
+  EXPECT_EQ(answer["best"], 1);
+  EXPECT_THAT(answer["words"].dump() + answer["doubts"].dump() + answer["header"].dump(),
+              ::testing::Not(::testing::HasSubstr("cell")));
 }
 
 TEST_F(Browser, TheMapHasEqualAxesXUpYToTheLeftAndZooms) {

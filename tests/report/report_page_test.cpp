@@ -111,15 +111,18 @@ TEST(ReportPage, EveryEstimatorHasTheLineOfItsPlace) {
   EXPECT_EQ(data["manifests"][0], "no JSON");
 }
 
-TEST(ReportPage, MetricsSayWhatIsBetter) {
-  const TemporaryFolder folder;
-  write_fixture(folder.path());
-  const Json metrics = data_of(page_of(ResultStore::open(folder.path())))["metrics"];
+TEST(ReportPage, MetricsSayTheirUnitAndWhatIsBetter) {
+  const Json metrics = data_of(fixture_page())["metrics"];
+  const auto metric = [](const char* label, const char* title, const char* unit, bool cost,
+                         const char* better) {
+    return Json{
+        {"label", label}, {"title", title}, {"unit", unit}, {"cost", cost}, {"better", better}};
+  };
   EXPECT_EQ(metrics["mean_position_error_m"],
-            (Json{{"label", "mean position error (m)"}, {"cost", false}, {"better", "lower"}}));
+            metric("mean position error (m)", "mean position error", "m", false, "lower"));
   EXPECT_EQ(metrics["total_ms"],
-            (Json{{"label", "estimate, time (ms)"}, {"cost", true}, {"better", "lower"}}));
-  EXPECT_EQ(metrics["anees"], (Json{{"label", "ANEES"}, {"cost", false}, {"better", "neither"}}));
+            metric("estimate, time (ms)", "estimate, time", "ms", true, "lower"));
+  EXPECT_EQ(metrics["anees"], metric("ANEES", "ANEES", "", false, "neither"));
 }
 
 TEST(ReportPage, EveryCellHasItsAlignment) {

@@ -92,7 +92,7 @@ TEST(StudyFigures, DeadReckoningFarAboveTheRestHasALogarithmicAxis) {
     const TemporaryFolder folder;
     FixtureOptions options;
     options.noises.clear();
-    options.dead_reckoning = factor;
+    options.baseline = factor;
     write_fixture(folder / "study", options);
     const ResultStore store = ResultStore::open(folder / "study");
     const StudyResults results = study_results(store);

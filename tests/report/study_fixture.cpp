@@ -131,8 +131,8 @@ RunRecord fixture_run(const RunKey& key, const FixtureOptions& options, std::siz
                       key.estimator.size());
   const Path truth = lawnmower(options.keyframes);
   const Character character = character_of(key.estimator);
-  const double scale = options.size * (baseline ? options.dead_reckoning : 1.0);
-  add_path(run, truth, character, scale * (1.0 + static_cast<double>(key.cell)), random,
+  const double size = options.size * (baseline ? options.baseline : 1.0);
+  add_path(run, truth, character, size * (1.0 + static_cast<double>(key.cell)), random,
            options.ground_truth);
   if (!baseline && options.loops) add_loops(run, options.keyframes, character.update_ms);
   if (baseline && options.ground_truth) {

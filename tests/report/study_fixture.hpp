@@ -21,8 +21,8 @@ struct FixtureOptions {
   bool ground_truth = true;               ///< else no accuracy, consistency, or truth
   bool loops = true;
   int jobs = 2;
-  double size = 1.0;            ///< of all errors
-  double dead_reckoning = 1.0;  ///< factor of its errors
+  double size = 1.0;      ///< of all errors
+  double baseline = 1.0;  ///< of dead reckoning's, times `size`
 };
 
 StudyDescription fixture_study(const FixtureOptions& options = {});

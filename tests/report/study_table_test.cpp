@@ -106,6 +106,18 @@ TEST(StudyTable, SaysWhatTrialsOfOneSurveyDoNotSpeakOf) {
   EXPECT_THAT(table_of(options), HasSubstr("alignment origin, 6 trials, jobs 2\n"));
 }
 
+TEST(StudyTable, EndsWithTheVerdict) {
+  FixtureOptions options;
+  options.separations.clear();
+  options.noises.clear();
+  const std::string table = table_of(options);
+  const std::size_t verdict = table.find("\nVerdict\nLowest mean position error: iterated, ");
+  ASSERT_NE(verdict, std::string::npos);
+  EXPECT_GT(verdict, table.find("p: signed-rank test"));
+  EXPECT_THAT(table.substr(verdict), HasSubstr("\nDoubt: One survey: intervals over its trials"));
+  EXPECT_THAT(table.substr(verdict), HasSubstr("\nTold apart: the interval of the paired"));
+}
+
 TEST(StudyTable, DeadReckoningComesFirst) {
   const std::string table = table_of({});
   EXPECT_LT(table.find("dead reckoning"), table.find("iterated"));

@@ -13,13 +13,15 @@ namespace fathom {
 /// first estimator over the trials that both did, with the p-value of Wilcoxon's signed-rank test,
 /// also adjusted after Holm over the tests of the block.
 /// Where the consistency of an estimator means something, a line says what (docs/report.md).
+/// The verdict ends it: which estimators can be told apart, what they cost, what failed, and what
+/// makes that doubtful.
 /// In brief: without these lines and the differences, and with the first metrics alone, as many as
 /// fit a line.
 enum class StudyTable { full, brief };
 std::string study_table(const ResultStore& store, StudyTable extent = StudyTable::full);
 
-/// What the consistency of the estimators means, a line each under its cell; empty where it is as
-/// expected.
+/// What the consistency of the estimators means, a line each under its cell where it is not as
+/// expected; then the verdict.
 std::string study_remarks(const ResultStore& store);
 
 /// Renders a study from its store alone (docs/report.md): report.html, runs.csv, summary.csv,

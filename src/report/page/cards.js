@@ -3,17 +3,38 @@ const metricChoices = (cost) => Object.keys(study.metrics).filter((name) => cost
 const exampleNote = () => sentence(cellNow().example.text);
 
 const charts = [
-  {id: 'trajectories', title: 'Trajectories', wide: true, plots: trajectoryPlots,
+  {id: 'forest', title: 'Means', host: 'answer-chart', plots: forestPlots,
+    exists: (cell) => cell.estimators.some((one) => one.metrics[state.metric]),
+    caption: (cell) => {
+      const intervals = cell.n > 1 ? 'Mean with its 95 % interval. ' : 'The values of one trial. ';
+      const marks = cell.n > 1 && cell.rankings[state.metric] ? ' Dashed line: the best. Hollow: told apart from it.' : '';
+      return `${intervals}${sentence(conditions(cell))}.${marks}`;
+    }},
+  {id: 'trajectories', title: 'Trajectories', wide: () => !mapIsTall(), plots: trajectoryPlots,
     choices: () => [{label: '2σ ellipses', signal: 'show_ellipses'}, {label: 'loops', signal: 'show_loops'}],
     exists: (cell) => cell.example.truth !== null || cell.example.estimators.some((one) => one.path),
-    caption: (cell) => `${exampleNote()}; ${conditions(cell)}. Metres; x up, y to the left. ` +
+    caption: (cell) => `${exampleNote()}; ${conditions(cell)}. x up, y to the left. ` +
       'Thin lines: loops used; dashed with ×: rejected, with △: lost; ellipses: 2σ. ' +
       'Wheel: zoom, drag: move, double click: all.'},
+  {id: 'pareto', title: 'Accuracy against cost', plots: paretoPlots,
+    exists: () => Object.values(study.metrics).some((metric) => metric.cost),
+    choices: () => [
+      {label: 'accuracy', key: 'accuracy', values: metricChoices(false).map((name) => [name, metricTitle(name)])},
+      {label: 'cost', key: 'cost', values: metricChoices(true).map((name) => [name, metricTitle(name)])}],
+    caption: (cell) => {
+      const {better} = study.metrics[state.accuracy];
+      const front = better === 'neither' ? 'No value of this metric is the better one, so none is ringed.'
+        : `Ringed, on the dashed line: no other is both better (${better}) and cheaper.`;
+      return `${sentence(conditions(cell))}. Means with 95 % intervals. ${front} Grey line: dead reckoning. ${jobsNote(cell)}`;
+    }},
+  {id: 'updates', title: 'Cost of an update', plots: updatePlots,
+    exists: (cell) => sum(cell.estimators.map((one) => one.updates.keyframe.length)) > 0,
+    caption: (cell) => `${sentence(conditions(cell))}. Median over trials. ${jobsNote(cell)}`},
   {id: 'sweep', title: 'Error against the sweep', wide: true, plots: sweepPlots,
     exists: () => study.axes.some((axis) => axis.labels.length > 1),
     choices: () => [
       {label: 'axis', key: 'axis', values: study.axes.map((axis, i) => [i, axis.name]).filter(([i]) => study.axes[i].labels.length > 1)},
-      {label: 'metric', key: 'sweepMetric', values: metricChoices().map((name) => [name, metricLabel(name)])}],
+      {label: 'metric', key: 'sweepMetric', values: metricChoices().map((name) => [name, metricTitle(name)])}],
     caption: (cell) => {
       const fixed = study.axes.map((axis, i) => (i === state.axis ? '' : `${axis.name} ${axis.labels[cell.places[i]]}`));
       const notSwept = (key, value) => (study.axes[state.axis].key === key ? '' : value);
@@ -22,50 +43,53 @@ const charts = [
       const jobs = study.metrics[state.sweepMetric].cost ? ' ' + jobsNote(cell) : '';
       const parts = [...fixed, alignment && `alignment ${alignment}`,
         association && `association ${association}`, `${repeatsOf(sweepCells())} a point`];
-      return parts.filter(Boolean).join(', ') + failuresOf(sweepCells()) +
+      return sentence(parts.filter(Boolean).join(', ')) + failuresOf(sweepCells()) +
         '. Band: mean ± 2 standard deviations over trials. Right: twice the root mean square position error, ' +
         'and the mean of 2·√(Pxx + Pyy) that the estimator states; an honest one has them equal.' + jobs;
     }},
   {id: 'regimes', title: 'Regime map', wide: true, plots: regimePlots,
     exists: () => regimeAxes().length === 2,
-    choices: () => [{label: 'metric', key: 'regimeMetric', values: metricChoices().map((name) => [name, metricLabel(name)])}],
+    choices: () => [{label: 'metric', key: 'regimeMetric', values: metricChoices().map((name) => [name, metricTitle(name)])}],
     caption: (cell) => {
       const [across, up] = regimeAxes();
       const fixed = study.axes.map((axis, i) => (i === across || i === up || axis.labels.length < 2 ? '' : `${axis.name} ${axis.labels[cell.places[i]]}, `));
       const relative = regimeIsRelative();
-      const meaning = relative ? `Mean ${metricLabel(state.regimeMetric)} over that of the best estimator at the same place: 1 is the best, ten times is dark.`
-        : `Mean ${metricLabel(state.regimeMetric)}.`;
-      const choice = study.regimes ? ` Last map: by mean ${metricLabel(study.regimes.cost)} the cheapest of those whose mean ` +
-        `${metricLabel(study.regimes.metric)} is at most 5 % above the best.` : '';
+      const meaning = relative ? `${sentence(meanTitle(state.regimeMetric))} over that of the best estimator at the same place: 1 is the best, ten times is dark.`
+        : `${sentence(meanTitle(state.regimeMetric))}.`;
+      const choice = study.regimes ? ` Last map: by ${meanTitle(study.regimes.cost)} the cheapest of those whose ` +
+        `${meanTitle(study.regimes.metric)} is at most 5 % above the best.` : '';
       return `${fixed.join('')}${repeatsOf(regimeCells())} a square. ${meaning} An estimator that failed a trial is in no comparison.${choice}`;
     }},
   {id: 'keyframes', title: 'Error and consistency over keyframes', wide: true, plots: keyframePlots,
     exists: (cell) => sum(cell.estimators.map((one) => one.keyframes.keyframe.length)) > 0,
-    caption: (cell) => `${conditions(cell)}. Position in metres. NEES / 3 of an honest estimator is 1; ` +
+    caption: (cell) => `${sentence(conditions(cell))}. NEES / 3 of an honest estimator is 1; ` +
       'the grey band holds 95 % of its means over independent draws at one keyframe. Above: overconfident.'},
-  {id: 'updates', title: 'Cost of an update', plots: updatePlots,
-    exists: (cell) => sum(cell.estimators.map((one) => one.updates.keyframe.length)) > 0,
-    caption: (cell) => `${conditions(cell)}. Milliseconds, median over trials, logarithmic. ${jobsNote(cell)}`},
-  {id: 'pareto', title: 'Accuracy against cost', plots: paretoPlots,
-    exists: () => Object.values(study.metrics).some((metric) => metric.cost),
-    choices: () => [
-      {label: 'accuracy', key: 'accuracy', values: metricChoices(false).map((name) => [name, metricLabel(name)])},
-      {label: 'cost', key: 'cost', values: metricChoices(true).map((name) => [name, metricLabel(name)])}],
-    caption: (cell) => {
-      const {better} = study.metrics[state.accuracy];
-      const front = better === 'neither' ? 'No value of this metric is the better one, so none is ringed.'
-        : `Ringed, on the dashed line: no other is both better (${better}) and cheaper.`;
-      return `${conditions(cell)}. Means with 95 % intervals. ${front} Grey line: dead reckoning. ${jobsNote(cell)}`;
-    }},
   {id: 'outcomes', title: 'Outcomes', wide: true, plots: outcomePlots,
     exists: (cell) => cell.estimators.some((one) => Object.keys(one.outcomes).length > 0),
-    caption: (cell) => `${conditions(cell)}. ` +
+    caption: (cell) => `${sentence(conditions(cell))}. ` +
       `Trials by how their run ended. Converged and iteration limit count as done; all means are over those.`},
   {id: 'registrations', title: 'Registration map', wide: true, plots: registrationPlots,
     exists: (cell) => cell.example.estimators.some((one) => one.loops.length > 0),
     caption: (cell) => `${exampleNote()}; ${conditions(cell)}. ` +
       `Keyframe by keyframe: filled square used, × rejected by the gate, △ lost with a failed update.`},
 ];
+
+// Those that stand two in a row; one without a neighbour takes the row.
+function layOut() {
+  for (const chart of charts) document.getElementById('chart-' + chart.id).hidden = !chart.exists(cellNow());
+  for (const chart of charts.filter((one) => typeof one.wide === 'function')) {
+    document.getElementById('chart-' + chart.id).classList.toggle('wide', chart.wide());
+  }
+  const cards = charts.filter((chart) => !chart.host).map((chart) => document.getElementById('chart-' + chart.id)).filter((card) => !card.hidden);
+  let left = null;
+  for (const card of cards) {
+    card.classList.remove('alone');
+    const isWide = card.classList.contains('wide');
+    if (isWide && left) left.classList.add('alone');
+    left = isWide || left ? null : card;
+  }
+  if (left) left.classList.add('alone');
+}
 
 const chartViews = {};
 
@@ -91,18 +115,21 @@ function chooser(choice, redraw) {
 
 function drawChart(chart) {
   const card = document.getElementById('chart-' + chart.id);
-  const exists = chart.exists(cellNow());
-  card.hidden = !exists;
+  const exists = !card.hidden;
   for (const view of chartViews[chart.id] || []) view.finalize();
   chartViews[chart.id] = [];
   const plots = card.querySelector('.plots');
   plots.replaceChildren();
   if (!exists) return;
   card.querySelector('.caption').textContent = chart.caption(cellNow());
-  for (const plot of chart.plots(card)) {
+  const drawn = chart.plots(card);
+  card.querySelector('.notes').textContent = notesOf(drawn);
+  for (const plot of drawn) {
     const container = element('div');
-    plots.append(element('div', {className: 'plot'}, [
-      ...(plot.heading ? [element('h4', {textContent: plot.heading})] : []), container]));
+    const place = element('div', {className: 'plot'}, [
+      ...(plot.heading ? [element('h4', {textContent: plot.heading})] : []), container]);
+    if (plot.spec !== 'registrations' && plot.width) place.style.width = `${plot.width}px`;
+    plots.append(place);
     chartViews[chart.id].push(drawPlot(container, plot.spec, plot));
   }
 }
@@ -110,14 +137,18 @@ function drawChart(chart) {
 function makeCards() {
   for (const chart of charts) {
     const choices = chart.choices && chart.exists(cellNow()) ? chart.choices().filter((choice) => choice.signal || choice.values.length > 1) : [];
-    document.getElementById('charts').append(element('article', {id: 'chart-' + chart.id, className: 'card' + (chart.wide ? ' wide' : '')}, [
+    document.getElementById(chart.host || 'charts').append(element('article', {id: 'chart-' + chart.id, className: 'card' + (chart.wide === true ? ' wide' : '')}, [
       element('div', {className: 'card-head'}, [
         element('h3', {textContent: chart.title}),
         element('div', {className: 'choices'}, choices.map((choice) =>
           choice.signal ? signalSwitch(choice, chart) : chooser(choice, () => drawChart(chart))))]),
       element('p', {className: 'caption'}),
-      element('div', {className: 'plots'})]));
+      element('div', {className: 'plots'}),
+      element('p', {className: 'caption notes'})]));
   }
 }
 
-const drawCharts = () => charts.forEach(drawChart);
+function drawCharts() {
+  layOut();
+  charts.forEach(drawChart);
+}

@@ -1,7 +1,30 @@
 // The plots that each chart is made of, from the rows and the width of its card.
+const kGap = 18;
 const widthOf = (card) => Math.max(260, card.clientWidth - 34);
-const halves = (card) => (widthOf(card) > 800 ? Math.floor((widthOf(card) - 20) / 2) : widthOf(card));
-const thirds = (card) => (widthOf(card) > 1000 ? Math.floor((widthOf(card) - 40) / 3) : widthOf(card));
+
+// The width of each of some plots, in rows of as many as have the least width; every row is full.
+function widthsOf(card, count, least = 380) {
+  const most = Math.max(1, Math.floor((widthOf(card) + kGap) / (least + kGap)));
+  const rows = Math.ceil(count / most);
+  return Array.from({length: rows}, (_, row) => Math.floor(count / rows) + (row < count % rows ? 1 : 0))
+    .flatMap((own) => Array(own).fill(Math.floor((widthOf(card) - kGap * (own - 1)) / own)));
+}
+
+const inRows = (card, plots, least) => {
+  const widths = widthsOf(card, plots.length, least);
+  return plots.map((plot, i) => ({...plot, width: widths[i]}));
+};
+
+// A plot of one set of rows whose values go up. `title` is its axis without the unit.
+function fittedPlot({rows, fields, unit, usual, title, keys = ['k'], adjust, signals = {}, data = {}, ...plot}) {
+  const fit = fitted(rows, fields, unit, usual);
+  return {...plot, fit, title, data: {...data, rows: fit.rows}, off: fit.off, refused: fit.refused,
+    same: coincidence(fit, fields[0], keys), signals: {...signals, y_title: titled(title, fit.unit)},
+    adjust: (spec) => {
+      setScale(spec, 'y', fit);
+      if (adjust) adjust(spec, fit);
+    }};
+}
 
 const isShown = (name) => !state.hidden.has(name);
 const sum = (list) => list.reduce((a, b) => a + b, 0);
@@ -28,16 +51,36 @@ function mapExtent(paths) {
   return near.length === 0 || sizeOf(all) <= 2.5 * sizeOf(most) ? all : most;
 }
 
+// A map that goes further up than to the sides leaves room beside it for another chart.
+function mapIsTall() {
+  const {x0, x1, y0, y1} = mapExtent(trajectoryRows(cellNow()).paths);
+  return x1 - x0 > 1.2 * (y1 - y0);
+}
+
+// Paths that the map draws on one another.
+function coincidentPaths(paths, metresPerPixel) {
+  const byName = new Map();
+  for (const row of paths.filter((one) => one.estimator !== kTruth)) {
+    if (!byName.has(row.estimator)) byName.set(row.estimator, []);
+    byName.get(row.estimator).push(row);
+  }
+  return groupsOf([...byName.keys()], (a, b) => {
+    const [one, other] = [byName.get(a), byName.get(b)];
+    return one.length === other.length &&
+      one.every((row, k) => Math.hypot(row.x - other[k].x, row.y - other[k].y) <= metresPerPixel);
+  });
+}
+
 function trajectoryPlots(card) {
   const rows = trajectoryRows(cellNow());
   const width = widthOf(card) - 70;
-  const height = Math.min(620, Math.max(360, Math.round(width * 0.5)));
+  const height = Math.min(620, Math.max(360, Math.round(width * (mapIsTall() ? 0.8 : 0.5))));
   const {x0, x1, y0, y1} = mapExtent(rows.paths);
   const metresPerPixel = 1.08 * Math.max((y1 - y0) / width, (x1 - x0) / height, 1e-6);
   const around = (middle, pixels) => [middle - (pixels * metresPerPixel) / 2, middle + (pixels * metresPerPixel) / 2];
   const signals = {start_h: around((y0 + y1) / 2, width).reverse(), start_v: around((x0 + x1) / 2, height),
     show_ellipses: state.show_ellipses, show_loops: state.show_loops};
-  return [{spec: 'trajectories', data: rows, width, height, signals}];
+  return [{spec: 'trajectories', data: rows, width, height, signals, same: coincidentPaths(rows.paths, metresPerPixel), title: 'map'}];
 }
 
 function sweepPlots(card) {
@@ -49,13 +92,13 @@ function sweepPlots(card) {
     Object.assign(scale, {type: 'linear', zero: false, nice: false, padding: 20, domain: {data: 'rows', field: 'x'}});
     spec.axes[0].values = study.axes[state.axis].labels.map(Number);
   };
-  const width = halves(card);
-  const plots = [{spec: 'sweep_error', heading: 'Mean over trials and its 2σ band', data: {rows: errors}, width,
-    signals: {...signals, y_title: metricLabel(state.sweepMetric)}, adjust}];
+  const plots = [fittedPlot({spec: 'sweep_error', heading: 'Mean over trials and its 2σ band', rows: errors, fields: ['mean', 'low', 'high'],
+    unit: unitOf(state.sweepMetric), title: metricTitle(state.sweepMetric), keys: ['x'], signals, adjust})];
   if (bounds.length > 0) {
-    plots.push({spec: 'sweep_bounds', heading: 'Empirical (solid) and estimated (dashed) 2σ', data: {rows: bounds}, width, signals, adjust});
+    plots.push(fittedPlot({spec: 'sweep_bounds', heading: 'Empirical (solid) and estimated (dashed) 2σ', rows: bounds, fields: ['value'],
+      unit: 'm', title: '2σ of position', keys: ['x', 'kind'], signals, adjust}));
   }
-  return plots;
+  return inRows(card, plots);
 }
 
 function regimePlots(card) {
@@ -64,10 +107,10 @@ function regimePlots(card) {
   const domains = [study.axes[across].labels, study.axes[up].labels];
   const height = Math.max(110, 30 * domains[1].length + 50);
   const adjust = (spec) => domains.forEach((domain, i) => { spec.scales[i].domain = domain; });
-  const plot = (heading, rows) => ({spec: 'regimes', heading, data: {rows}, width: thirds(card), height, signals, adjust});
+  const plot = (heading, rows) => ({spec: 'regimes', heading, data: {rows}, height, signals, adjust});
   const plots = study.estimators.filter((one) => one.name !== kBaseline)
     .map((one) => plot(one.label, regimeRows(one.name)));
-  return study.regimes ? [...plots, plot('Cheapest of the best', cheapestRows())] : plots;
+  return inRows(card, study.regimes ? [...plots, plot('Cheapest of the best', cheapestRows())] : plots, 300);
 }
 
 // 1, 2 and 5 times the powers of ten between the least and the greatest.
@@ -78,36 +121,73 @@ function roundValues(values) {
   return decades.flatMap((ten) => [ten, 2 * ten, 5 * ten]).filter((value) => value >= low && value <= high);
 }
 
+function neesPlot(rows) {
+  const heading = `NEES / 3 and the χ² interval of ${rows.draws} independent draw${rows.draws === 1 ? '' : 's'}`;
+  return fittedPlot({spec: 'keyframe_nees', heading, rows: rows.nees, fields: ['value'], unit: '', usual: 'log',
+    title: 'NEES / 3, mean over trials', data: {interval: rows.interval},
+    adjust: (spec, fit) => {
+      const drawn = [...fit.rows.map((row) => row.value), ...rows.interval.flatMap((row) => [row.low, row.high])];
+      if (fit.logarithmic) spec.axes[1].values = roundValues(drawn);
+    }});
+}
+
 function keyframePlots(card) {
   const rows = keyframeRows(cellNow());
-  const width = thirds(card);
-  return [
-    {spec: 'keyframe_error', heading: 'Position error and its 2σ band', data: {rows: rows.error}, width},
-    {spec: 'keyframe_bounds', heading: 'Empirical (solid) and estimated (dashed) 2σ', data: {rows: rows.bounds}, width},
-    {spec: 'keyframe_nees', heading: `NEES / 3 and the χ² interval of ${rows.draws} independent draw${rows.draws === 1 ? '' : 's'}`,
-      data: {rows: rows.nees, interval: rows.interval}, width,
-      adjust: (spec) => { spec.axes[1].values = roundValues([...rows.nees.map((row) => row.value), ...rows.interval.flatMap((row) => [row.low, row.high])]); }},
-  ].filter((plot) => plot.data.rows.length > 0);
+  const plots = [
+    fittedPlot({spec: 'keyframe_error', heading: 'Position error and its 2σ band', rows: rows.error, fields: ['mean', 'low', 'high'],
+      unit: 'm', title: 'position error'}),
+    fittedPlot({spec: 'keyframe_bounds', heading: 'Empirical (solid) and estimated (dashed) 2σ', rows: rows.bounds, fields: ['value'],
+      unit: 'm', title: '2σ of position', keys: ['k', 'kind']}),
+    neesPlot(rows),
+  ];
+  return inRows(card, plots.filter((plot) => plot.data.rows.length > 0), 330);
 }
 
 function updatePlots(card) {
   const rows = updateRows(cellNow());
-  return rows.length > 0 ? [{spec: 'update_cost', data: {rows}, width: widthOf(card)}] : [];
+  if (rows.length === 0) return [];
+  return inRows(card, [fittedPlot({spec: 'update_cost', rows, fields: ['value'], unit: 'ms', usual: 'log', title: 'time of an update'})]);
 }
 
 function paretoPlots(card) {
-  const data = paretoRows(cellNow());
-  if (data.rows.length === 0) return [];
-  const signals = {x_title: metricLabel(state.cost), y_title: metricLabel(state.accuracy)};
-  return [{spec: 'pareto', data, width: widthOf(card), signals}];
+  const {rows, baseline} = paretoRows(cellNow());
+  if (rows.length === 0) return [];
+  const y = fitted([...rows, ...baseline], ['mean', 'low', 'high'], unitOf(state.accuracy));
+  const x = fitted(y.rows.filter((row) => row.cost !== undefined), ['cost', 'x_low', 'x_high'], unitOf(state.cost), 'log');
+  const data = {rows: x.rows, baseline: y.rows.filter((row) => row.cost === undefined),
+    front: x.rows.filter((row) => row.front).sort((a, b) => a.cost - b.cost)};
+  const signals = {x_title: titled(metricTitle(state.cost), x.unit), y_title: titled(metricTitle(state.accuracy), y.unit)};
+  const adjust = (spec) => {
+    setScale(spec, 'x', x);
+    setScale(spec, 'y', y);
+  };
+  return inRows(card, [{spec: 'pareto', data, signals, adjust, title: metricTitle(state.accuracy), off: y.off, refused: x.refused || y.refused}]);
+}
+
+function forestPlots(card) {
+  const fit = fitted(forestRows(cellNow()), ['mean', 'low', 'high'], unitOf(state.metric));
+  if (fit.rows.length === 0) return [];
+  const ranking = cellNow().rankings[state.metric];
+  const best = fit.rows.filter((row) => ranking && row.estimator === ranking.best);
+  const names = fit.rows.map((row) => row.estimator);
+  const adjust = (spec) => {
+    setScale(spec, 'x', fit);
+    Object.assign(spec.scales.find((scale) => scale.name === 'y'), {domain: names});
+    for (const [name, field] of [['label', 'label'], ['text', 'text']]) {
+      Object.assign(spec.scales.find((scale) => scale.name === name), {domain: names, range: fit.rows.map((row) => row[field])});
+    }
+  };
+  return inRows(card, [{spec: 'forest', data: {rows: fit.rows, best}, height: 70 + 34 * names.length, title: metricTitle(state.metric), off: fit.off, refused: fit.refused,
+    signals: {x_title: titled(metricTitle(state.metric), fit.unit)}, adjust}]);
 }
 
 function registrationPlots(card) {
   const drawn = cellNow().example.estimators.filter((one) => one.loops.length > 0);
   const shown = drawn.filter((one) => isShown(one.name));
   const ends = drawn.flatMap((one) => one.loops.map(([from, to]) => Math.max(from, to)));
-  const columns = Math.max(2, Math.min(3, drawn.length));
-  const side = Math.min(330, Math.floor(widthOf(card) / (widthOf(card) > 700 ? columns : 1)) - 75);
+  const most = Math.max(1, Math.min(4, Math.floor(widthOf(card) / 260)));
+  const columns = Math.ceil(shown.length / Math.ceil(shown.length / most));
+  const side = Math.min(460, Math.floor((widthOf(card) - kGap * (columns - 1)) / columns) - 75);
   const fates = ['used', 'rejected', 'lost'];
   const countOf = (one, fate) => one.loops.filter((loop) => loop[2] === fate).length;
   const countsText = (one) => fates.map((name, fate) => [countOf(one, fate), name])

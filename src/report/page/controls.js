@@ -1,10 +1,10 @@
-// The switches of estimators, the choice of a cell, the theme; and the first drawing of all.
+// The switches of estimators, the choice of a cell, the axes, the theme; and the first drawing.
 function switchEstimator(name, shown) {
   if (shown) state.hidden.delete(name);
   else state.hidden.add(name);
-  // The others keep their zoom: only these are made of what is shown.
   for (const chart of charts) {
-    if (chart.id === 'pareto' || chart.id === 'registrations') drawChart(chart);
+    // The map keeps its zoom.
+    if (chart.id !== 'trajectories') drawChart(chart);
     else for (const view of chartViews[chart.id]) view.signal('hidden', [...state.hidden]).run();
   }
 }
@@ -20,18 +20,34 @@ function makeSwitches() {
 }
 
 function drawCell() {
+  drawVerdict();
+  drawTable();
   drawSummary();
   drawPaired();
   drawCharts();
 }
 
+function chooseCell(place) {
+  state.cell = place;
+  document.getElementById('cell').value = String(place);
+  drawCell();
+}
+
+function makeAxes() {
+  const kinds = [['usual', 'as each chart is made'], ['linear', 'linear'], ['log', 'logarithmic']];
+  const select = chooser({label: '', key: 'axes', values: kinds}, drawCharts);
+  select.querySelector('select').setAttribute('aria-label', 'Axes');
+  const box = element('input', {type: 'checkbox', checked: state.baselineOnScale, onchange: () => {
+    state.baselineOnScale = box.checked;
+    drawCharts();
+  }});
+  document.getElementById('axes').append(select, element('label', {id: 'baseline-on-scale'}, [box, 'dead reckoning on every scale']));
+}
+
 function makeCellChooser() {
   const field = document.getElementById('cells');
   field.hidden = study.cells.length < 2;
-  const select = element('select', {id: 'cell', onchange: () => {
-    state.cell = Number(select.value);
-    drawCell();
-  }});
+  const select = element('select', {id: 'cell', onchange: () => chooseCell(Number(select.value))});
   study.cells.forEach((cell, i) => select.append(element('option', {value: i, textContent: cell.label})));
   select.setAttribute('aria-label', 'Cell');
   field.append(select);
@@ -48,8 +64,8 @@ function makeHead() {
   const count = (n, noun) => `${n} ${noun}${n === 1 ? '' : 's'}`;
   const alignments = [...new Set(study.cells.map((cell) => cell.alignment))].filter(Boolean);
   document.getElementById('subtitle').textContent = [
-    count(estimators, 'estimator'), count(study.cells.length, 'cell'),
-    `${repeatsOf(study.cells)} each`,
+    count(estimators, 'estimator'), study.cells.length > 1 ? count(study.cells.length, 'cell') : '',
+    `${repeatsOf(study.cells)}${study.cells.length > 1 ? ' each' : ''}`,
     alignments.length > 0 ? `alignment ${alignments.join(', ')}` : ''].filter(Boolean).join(' · ');
   const text = document.getElementById('data').textContent;
   document.getElementById('download').href = URL.createObjectURL(new Blob([text], {type: 'application/json'}));
@@ -61,13 +77,14 @@ function makeHead() {
 }
 
 makeHead();
-// A long table is not to stand between the summary and the charts.
-document.getElementById('paired').open = cellNow().paired.length <= 12;
+document.getElementById('all-metrics').open = study.cells.length === 1;
 showTheme();
 makeSwitches();
 makeCellChooser();
+makeAxes();
 drawManifest();
 makeCards();
+makeMetricChooser();
 drawCell();
 
 // Print is on white paper; the widths are those of the window.

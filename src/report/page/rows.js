@@ -22,13 +22,13 @@ function sweepRows() {
         const spread = 2 * (metric.sd || 0);
         const low = metric.mean >= 0 ? Math.max(0, metric.mean - spread) : metric.mean - spread;
         errors.push({...row, mean: metric.mean, low, high: metric.mean + spread,
-          tooltip: `${labelOf(one.name)}, ${text}: ${withInterval(metric)}, n = ${metric.n}${metric.surveys > 1 ? ` of ${metric.surveys} surveys` : ''}` +
-            (metric.sd ? `, sd ${digits(metric.sd)}` : '')});
+          tooltip: `${labelOf(one.name)}, ${text}: ${withInterval(metric, state.sweepMetric)}, n = ${metric.n}${metric.surveys > 1 ? ` of ${metric.surveys} surveys` : ''}` +
+            (metric.sd ? `, sd ${quantity(metric.sd, unitOf(state.sweepMetric))}` : '')});
       }
       for (const kind of ['empirical', 'estimated']) {
         const value = one.bounds && one.bounds[kind + '_m'];
         if (value === undefined || value === null || value === false) continue;
-        bounds.push({...row, kind, value, tooltip: `${labelOf(one.name)}, ${text}: ${kind} ${digits(value)} m`});
+        bounds.push({...row, kind, value, tooltip: `${labelOf(one.name)}, ${text}: ${kind} ${quantity(value, 'm')}`});
       }
     }
   }
@@ -85,8 +85,8 @@ function regimeRows(name) {
     const relative = regimeIsRelative() && best > 0;
     const value = relative ? mean / best : mean;
     const share = relative ? Math.min(1, Math.log(value) / Math.log(10)) : most > least ? (mean - least) / (most - least) : 0;
-    return {...row, fill: mixed('#0072b2', 0.06 + 0.94 * share), ink: share > 0.5 ? '#ffffff' : '#000000', text: digits(value),
-      tooltip: `${labelOf(name)}: ${metricLabel(state.regimeMetric)} ${withInterval(one.metrics[state.regimeMetric])}`};
+    return {...row, fill: mixed('#0072b2', 0.06 + 0.94 * share), ink: share > 0.5 ? '#ffffff' : '#000000', text: relative ? digits(value) : quantity(value, unitOf(state.regimeMetric)),
+      tooltip: `${labelOf(name)}: ${metricTitle(state.regimeMetric)} ${withInterval(one.metrics[state.regimeMetric], state.regimeMetric)}`};
   });
 }
 
@@ -105,13 +105,14 @@ function keyframeRows(cell) {
       const mean = all.mean_m[i];
       if (mean !== null) {
         const spread = 2 * (all.sd_m[i] || 0);
-        rows.error.push({...row, k, mean, low: Math.max(0, mean - spread), high: mean + spread});
+        rows.error.push({...row, k, mean, low: Math.max(0, mean - spread), high: mean + spread,
+          label: `${row.label}, keyframe ${k}: ${quantity(mean, 'm')}`});
       }
       for (const kind of ['empirical', 'estimated']) {
         const value = all[kind + '_m'][i];
-        if (value !== null) rows.bounds.push({...row, k, kind, value, label: `${row.label}, ${kind}`});
+        if (value !== null) rows.bounds.push({...row, k, kind, value, label: `${row.label}, keyframe ${k}: ${kind} ${quantity(value, 'm')}`});
       }
-      if (all.anees[i] > 0) rows.nees.push({...row, k, value: all.anees[i]});
+      if (all.anees[i] > 0) rows.nees.push({...row, k, value: all.anees[i], label: `${row.label}, keyframe ${k}: ${digits(all.anees[i])}`});
     });
   }
   // The estimator with the most independent draws has the interval drawn.
@@ -127,7 +128,8 @@ function keyframeRows(cell) {
 
 function updateRows(cell) {
   return cell.estimators.flatMap((one) => one.updates.keyframe.map((k, i) => ({
-    estimator: one.name, label: labelOf(one.name), k, value: one.updates.median_ms[i],
+    estimator: one.name, k, value: one.updates.median_ms[i],
+    label: `${labelOf(one.name)}, keyframe ${k}: ${quantity(one.updates.median_ms[i], 'ms')}`,
   }))).filter((row) => row.value > 0);
 }
 
@@ -169,6 +171,28 @@ function trajectoryRows(cell) {
   return rows;
 }
 
+// One row an estimator that has the metric; those told apart from the best are said.
+function forestRows(cell) {
+  const ranking = cell.rankings[state.metric];
+  return cell.estimators.filter((one) => one.metrics[state.metric]).map((one) => {
+    const metric = one.metrics[state.metric];
+    const {mean, low = mean, high = mean} = metric;
+    return {estimator: one.name, label: labelOf(one.name), mean, low, high, text: quantity(mean, unitOf(state.metric)),
+      open: standingOf(ranking, one.name) === 'worse',
+      tooltip: `${labelOf(one.name)}: ${withInterval(metric, state.metric)}, n = ${metric.n}`};
+  });
+}
+
+// Beside the best of a cell: 'best', 'alike' where it cannot be told apart, 'worse'; empty where it
+// is not ranked or has no interval.
+function standingOf(ranking, name) {
+  if (!ranking) return '';
+  if (ranking.best === name) return 'best';
+  const other = ranking.others.find((one) => one.estimator === name);
+  if (!other || other.low === undefined) return '';
+  return other.told_apart ? 'worse' : 'alike';
+}
+
 function paretoRows(cell) {
   const rows = [];
   const baseline = [];
@@ -181,11 +205,11 @@ function paretoRows(cell) {
     if (cost && cost.mean > 0) {
       rows.push({estimator: one.name, cost: cost.mean, mean: error.mean, low, high, front: false,
         x_low: cost.low > 0 ? cost.low : cost.mean, x_high: cost.high > 0 ? cost.high : cost.mean,
-        tooltip: `${labelOf(one.name)}: ${metricLabel(state.accuracy)} ${withInterval(error)}, ` +
-          `${metricLabel(state.cost)} ${withInterval(cost)}`});
+        tooltip: `${labelOf(one.name)}: ${metricTitle(state.accuracy)} ${withInterval(error, state.accuracy)}, ` +
+          `${metricTitle(state.cost)} ${withInterval(cost, state.cost)}`});
     } else if (one.name === kBaseline) {
       baseline.push({estimator: one.name, mean: error.mean,
-        tooltip: `${labelOf(one.name)}: ${withInterval(error)}, at no cost`});
+        tooltip: `${labelOf(one.name)}: ${withInterval(error, state.accuracy)}, at no cost`});
     }
   }
   // The cheaper the better, and the metric says which of its values is; of some neither.

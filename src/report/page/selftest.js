@@ -43,6 +43,40 @@ async function mapTest() {
   return looks;
 }
 
+const textOf = (selector) => [...document.querySelectorAll(selector)].map((one) => one.textContent);
+
+// What the page says first, what its table marks, and what the axes become.
+async function answerTest() {
+  const choose = async (selector, value) => {
+    const select = document.querySelector(selector);
+    select.value = value;
+    select.dispatchEvent(new Event('change'));
+    await drawn();
+  };
+  const scaleTypes = () => Object.fromEntries(['forest', 'keyframes', 'updates', 'pareto']
+    .map((id) => [id, (chartViews[id] || []).map((view) => view.scale(id === 'forest' ? 'x' : 'y').type)]));
+  const result = {
+    words: textOf('#verdict > ul:first-child li'), doubts: textOf('#verdict > ul.doubts li'),
+    best: document.querySelectorAll('#cells-table td.best').length, header: textOf('#cells-table th'),
+    first: textOf('#cells-table tbody tr:first-child td'), notes: textOf('.notes'), usual: scaleTypes(),
+    overflow: ['cells-table', 'summary-table'].filter((id) => {
+      const box = document.getElementById(id);
+      return box.scrollWidth > box.clientWidth;
+    }),
+  };
+  for (const axes of ['linear', 'log', 'usual']) {
+    await choose('#axes select', axes);
+    result[axes] = scaleTypes();
+  }
+  document.querySelector('#baseline-on-scale input').click();
+  await drawn();
+  result.notesOnScale = textOf('.notes');
+  document.querySelector('#baseline-on-scale input').click();
+  await choose('#cells-metric select', 'total_ms');
+  result.other = {title: textOf('#cells-title')[0], header: textOf('#cells-table th'), forest: marksOf('forest')};
+  return result;
+}
+
 async function selfTest() {
   await drawn();
   const result = {marks: marksOfAll(), estimators: {}, cells: [], tables: {}};
@@ -73,10 +107,11 @@ async function selfTest() {
     await drawn();
     result.cells.push(marksOfAll());
   }
+  result.answer = await answerTest();
   document.getElementById('theme').click();
   await drawn();
   result.theme = document.documentElement.dataset.theme;
-  for (const part of ['summary-table', 'paired-table', 'manifest']) {
+  for (const part of ['cells-table', 'summary-table', 'paired-table', 'manifest']) {
     result.tables[part] = document.querySelectorAll(`#${part} tr`).length;
   }
   result.errors = pageErrors;

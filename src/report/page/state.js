@@ -13,6 +13,9 @@ const costMetric = firstOf([
 
 const state = {
   hidden: new Set(),
+  axes: 'usual',  // linear or logarithmic as each chart is made, or all 'linear' or 'log'
+  baselineOnScale: false,  // also where it hides the rest
+  metric: study.verdict.metric || accuracyMetric,  // of the first chart and the table
   cell: 0,  // place in study.cells
   // The longest one: levels of noise rather than a pair of modes.
   axis: study.axes.reduce((best, axis, i) => (axis.labels.length > study.axes[best].labels.length ? i : best), 0),
@@ -28,20 +31,10 @@ const state = {
 const cellNow = () => study.cells[state.cell];
 const styleOf = (name) => study.estimators.find((one) => one.name === name);
 const labelOf = (name) => (styleOf(name) ? styleOf(name).label : name);
+const unitOf = (name) => (study.metrics[name] ? study.metrics[name].unit : '');
+const metricTitle = (name) => (study.metrics[name] ? study.metrics[name].title : name);
+const namesOf = (names) => (names.length < 2 ? names.join('') : `${names.slice(0, -1).join(', ')} and ${names[names.length - 1]}`);
 const metricLabel = (name) => (study.metrics[name] ? study.metrics[name].label : name);
-
-// A number with three digits, never in exponents where a reader would rather not see them.
-function digits(value, count = 3) {
-  if (value === null || value === undefined) return '–';
-  if (value === 0) return '0';
-  const size = Math.abs(value);
-  if (size >= 1e7 || size < 1e-4) return value.toExponential(count - 1);
-  const whole = Math.floor(Math.log10(size)) + 1;
-  return value.toFixed(Math.min(8, Math.max(0, count - whole)));
-}
-
-const withInterval = (one) =>
-  digits(one.mean) + (one.low === undefined ? '' : ` [${digits(one.low)}, ${digits(one.high)}]`);
 
 function element(tag, properties = {}, children = []) {
   const made = Object.assign(document.createElement(tag), properties);
@@ -78,5 +71,5 @@ function jobsNote(cell) {
   if (!cell.jobs) return '';
   const alone = cell.jobs === '1';
   return `Measured with ${cell.jobs} job${alone ? '' : 's'} at a time` +
-    (alone ? '.' : '; comparable at 1 alone.');
+    (alone ? '.' : '; comparable at 1 job alone.');
 }

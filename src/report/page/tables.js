@@ -26,33 +26,43 @@ function swatch(name) {
   return mark;
 }
 
-function valueCell(one, metric) {
-  const value = one.metrics[metric];
-  if (!value) return '–';
-  const parts = [digits(value.mean)];
-  const few = value.n < one.done ? `, n = ${value.n}` : '';
-  if (value.low !== undefined || few) {
-    parts.push(element('span', {className: 'interval',
-      textContent: (value.low === undefined ? '' : ` [${digits(value.low)}, ${digits(value.high)}]`) + few}));
+// A mean in the unit of its column, and below it its interval and its n where that is not all.
+function valueParts(value, scale, one) {
+  const parts = [element('span', {textContent: numberIn(value.mean, scale)})];
+  if (value.low !== undefined) {
+    parts.push(element('span', {className: 'interval', textContent: `[${numberIn(value.low, scale)}, ${numberIn(value.high, scale)}]`}));
   }
+  if (value.n < one.done) parts.push(element('span', {className: 'interval', textContent: `n = ${value.n}`}));
   return parts;
 }
 
 function drawSummary() {
   const cell = cellNow();
   const metrics = study.study_metrics.filter((name) => cell.estimators.some((one) => one.metrics[name]));
-  const rows = cell.estimators.map((one) => [
-    [swatch(one.name), labelOf(one.name)], one.name === kBaseline ? '–' : one.outcome_text,
-    ...metrics.map((metric) => valueCell(one, metric))]);
-  const made = tableOf(['estimator', 'outcome', ...metrics.map(metricLabel)], rows);
-  cell.estimators.forEach((one, i) => {
-    made.tBodies[0].rows[i].cells[1].className = 'text' + (one.done < one.runs ? ' failed' : '');
+  const scaleOf = (metric, isBaseline) => readingUnit(unitOf(metric), greatestOf(cell.estimators
+    .filter((one) => one.metrics[metric] && (one.name === kBaseline) === isBaseline).map((one) => one.metrics[metric].mean)));
+  // Dead reckoning may be of another size.
+  const cellOf = (one, metric, scale) => {
+    if (!one.metrics[metric]) return '–';
+    const own = one.name === kBaseline ? scaleOf(metric, true) : scale;
+    const parts = valueParts(one.metrics[metric], own, one);
+    if (own.text !== scale.text) parts[0].textContent += ` ${own.text || '× 1'}`;
+    return parts;
+  };
+  const rows = metrics.map((metric) => {
+    const scale = scaleOf(metric, false);
+    return [titled(metricTitle(metric), scale.text), ...cell.estimators.map((one) => cellOf(one, metric, scale))];
   });
-  made.tHead.rows[0].cells[1].className = 'text';
+  const outcomes = cell.estimators.map((one) => (one.name === kBaseline ? '–' : one.outcome_text));
+  const made = tableOf(['', ...cell.estimators.map((one) => [swatch(one.name), labelOf(one.name)])], [['outcome', ...outcomes], ...rows]);
+  cell.estimators.forEach((one, i) => {
+    made.tBodies[0].rows[0].cells[i + 1].className = 'wrapped' + (one.done < one.runs ? ' failed' : '');
+  });
+  document.getElementById('summary-title').textContent = study.cells.length > 1 ? `All metrics of ${cell.label}` : 'All metrics';
   document.getElementById('summary-table').replaceChildren(made);
   document.getElementById('summary-words').replaceChildren(...cell.estimators.filter((one) => one.words.length > 0)
     .map((one) => element('li', {textContent: `${labelOf(one.name)}: ${one.words.join(' ')}`})));
-  document.getElementById('summary-caption').textContent = `${cell.caption}. ` +
+  document.getElementById('summary-caption').textContent = `${sentence(conditions(cell))}. ` +
     (cell.n > 1 ? study.intervals : 'A single trial: values without intervals.') + (cell.limits ? ` ${cell.limits}` : '') +
     (metrics.some((name) => study.metrics[name].cost) ? ` Cost: ${jobsNote(cell)}` : '');
 }
@@ -61,13 +71,13 @@ function drawPaired() {
   const tests = cellNow().paired.filter((one) => one.n > 1);
   const first = study.estimators.length > 1 ? study.estimators[1].label : '';
   document.getElementById('paired').hidden = tests.length === 0;
-  document.getElementById('paired-title').textContent = `Differences to ${first} (${tests.length})`;
+  document.getElementById('paired-title').textContent = `Paired tests: differences to ${first} (${tests.length})`;
   document.getElementById('paired-caption').textContent =
     `The estimator minus ${first}, ${tests.some((one) => one.over === 'surveys') ? 'over the surveys’ mean differences of the trials' : 'over the trials'} that both did: ` +
     'mean with its 95 % interval, Wilcoxon’s signed-rank test, and its p-value adjusted after Holm over the tests of this table.' +
     (cellNow().limits ? ` ${cellNow().limits}` : '');
   const rows = tests.map((one) => [
-    [swatch(one.estimator), labelOf(one.estimator)], metricLabel(one.metric), `${one.n} ${one.over}`, withInterval(one), digits(one.p), digits(one.holm_p)]);
+    [swatch(one.estimator), labelOf(one.estimator)], metricTitle(one.metric), `${one.n} ${one.over}`, withInterval(one, one.metric), digits(one.p), digits(one.holm_p)]);
   const made = tableOf(['estimator', 'metric', 'pairs', 'mean difference', 'p', 'p (Holm)'], rows);
   for (const row of made.rows) row.cells[1].className = 'text';
   document.getElementById('paired-table').replaceChildren(made);

@@ -1,0 +1,84 @@
+// How rows fit an axis: linear or logarithmic, in which unit, and with dead reckoning or without.
+const kHides = 5;  // times the others: what lies so far above them leaves no scale for the rest
+
+const isOf = (kind, usual) => (state.axes === 'usual' ? usual : state.axes) === kind;
+
+// Rows in the unit of their axis. `fields` are the values along it, the one that counts first;
+// `usual` is what the axis is unless the reader says. `off` is how high dead reckoning is where it
+// is left out.
+function fitted(rows, fields, unit, usual = 'linear') {
+  const of = (list, names) => list.flatMap((row) => names.map((name) => row[name])).filter((value) => Number.isFinite(value));
+  const shown = rows.filter((row) => row.estimator === undefined || isShown(row.estimator));
+  const main = fields.slice(0, 1);
+  const logarithmic = isOf('log', usual) && of(shown, main).some((value) => value > 0) &&
+    !of(shown, main).some((value) => value < 0);
+  const baseline = shown.filter((row) => row.estimator === kBaseline);
+  const others = shown.filter((row) => row.estimator !== kBaseline);
+  const highest = greatestOf(of(baseline, main));
+  const hides = !logarithmic && !state.baselineOnScale && others.length > 0 &&
+    highest > kHides * greatestOf(of(others, main));
+  let kept = hides ? others : shown;
+  if (logarithmic) {
+    kept = kept.filter((row) => row[main[0]] > 0);
+    // What reaches below zero is drawn down to the least value.
+    const least = of(kept, main).reduce((a, b) => Math.min(a, b), Infinity);
+    kept = kept.map((row) => ({...row, ...Object.fromEntries(fields.slice(1).map((name) => [name, Math.max(row[name], least / 2)]))}));
+  }
+  const scale = readingUnit(unit, greatestOf(of(kept, fields)));
+  const scaled = (row) => ({...row, ...Object.fromEntries(fields.filter((name) => Number.isFinite(row[name])).map((name) => [name, row[name] * scale.factor]))});
+  return {rows: kept.map(scaled), logarithmic, unit: scale.text, factor: scale.factor,
+    off: hides ? `${baseline.length > 1 ? 'up to ' : ''}${quantity(highest, unit)}` : '',
+    refused: isOf('log', usual) && !logarithmic && shown.length > 0};
+}
+
+// Makes an axis of a specification as its rows were fitted.
+function setScale(spec, name, fit) {
+  const scale = spec.scales.find((one) => one.name === name);
+  const axis = spec.axes.find((one) => one.scale === name);
+  scale.type = fit.logarithmic ? 'log' : 'linear';
+  if (fit.logarithmic) {
+    delete scale.zero;
+    axis.format = '~g';
+  } else {
+    delete axis.format;
+  }
+}
+
+// Names that are the same as the first of their group, "a, b and c; d and e".
+function groupsOf(names, areSame) {
+  const groups = [];
+  for (const name of names) {
+    const group = groups.find(([first]) => areSame(first, name));
+    if (group) group.push(name);
+    else groups.push([name]);
+  }
+  return groups.filter((group) => group.length > 1).map((group) => namesOf(group.map(labelOf))).join('; ');
+}
+
+// Estimators whose lines are within a pixel of each other, in words.
+function coincidence(fit, field, keys) {
+  const lines = new Map();
+  for (const row of fit.rows) {
+    if (!lines.has(row.estimator)) lines.set(row.estimator, new Map());
+    const value = fit.logarithmic ? Math.log(row[field]) : row[field];
+    lines.get(row.estimator).set(keys.map((key) => row[key]).join(' '), value);
+  }
+  const all = [...lines.values()].flatMap((line) => [...line.values()]);
+  const [low, high] = [all.reduce((a, b) => Math.min(a, b), Infinity), all.reduce((a, b) => Math.max(a, b), -Infinity)];
+  const pixel = (fit.logarithmic ? high - low : high - Math.min(0, low)) / 250;
+  const same = (a, b) => a.size === b.size && [...a].every(([key, value]) => b.has(key) && Math.abs(value - b.get(key)) <= pixel);
+  return groupsOf([...lines.keys()], (a, b) => same(lines.get(a), lines.get(b)));
+}
+
+// What stands below the plots of a chart.
+function notesOf(plots) {
+  const parts = [];
+  const off = plots.filter((plot) => plot.off).map((plot) => `${plot.title} ${plot.off}`);
+  if (off.length > 0) parts.push(`${sentence(labelOf(kBaseline))} is off the scale: ${namesOf(off)}.`);
+  const alike = plots.filter((plot) => plot.same);
+  const inAll = alike.length === plots.length && new Set(alike.map((plot) => plot.same)).size === 1;
+  if (inAll) parts.push(`On one another, within a pixel: ${alike[0].same}.`);
+  else parts.push(...alike.map((plot) => `On one another (${plot.title}), within a pixel: ${plot.same}.`));
+  if (plots.some((plot) => plot.refused)) parts.push('Some values are not above zero: the axis is linear.');
+  return parts.join(' ');
+}

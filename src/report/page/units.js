@@ -1,0 +1,58 @@
+// Values with the prefix in which they read best. The rule is that of scaled_unit.cpp.
+const kPrefixes = ['p', 'n', 'µ', 'm', '', 'k', 'M', 'G', 'T'];
+// By unit: what the prefix stands before, its power of a thousand, the least and the greatest.
+const kBases = {m: ['m', 0, -4, 1], rad: ['rad', 0, -4, 0], s: ['s', 0, -4, 0], ms: ['s', -1, -4, 0], bytes: ['B', 0, 0, 4]};
+const kSuperscripts = '⁰¹²³⁴⁵⁶⁷⁸⁹';
+const powerOfTen = (exponent) =>
+  '10' + [...String(exponent)].map((letter) => (letter === '-' ? '⁻' : kSuperscripts[Number(letter)])).join('');
+
+// A value times `factor` is in `text`, which may be empty.
+function readingUnit(unit, value) {
+  const size = Math.abs(value);
+  if (!(size > 0) || !Number.isFinite(size)) return {text: unit, factor: 1};
+  const thousandsOf = Math.floor(Math.log10(size) / 3 + 1e-9);
+  const base = kBases[unit];
+  if (!base) {
+    if (size >= 0.001 && size < 1e6) return {text: unit, factor: 1};
+    return {text: `× ${powerOfTen(3 * thousandsOf)}${unit ? ' ' + unit : ''}`, factor: 1000 ** -thousandsOf};
+  }
+  const [name, own, least, most] = base;
+  let thousands = thousandsOf + own;
+  if (thousands < -1 && size * 1000 ** (own - thousands - 1) >= 0.00999) ++thousands;
+  thousands = Math.min(most, Math.max(least, thousands));
+  return {text: kPrefixes[thousands + 4] + name, factor: 1000 ** (own - thousands)};
+}
+
+// A number with three digits.
+function digits(value, count = 3) {
+  if (value === null || value === undefined) return '–';
+  if (value === 0) return '0';
+  const size = Math.abs(value);
+  if (size >= 1e7 || size < 1e-4) {
+    const [mantissa, exponent] = value.toExponential(count - 1).split('e');
+    return `${mantissa} × ${powerOfTen(Number(exponent))}`;
+  }
+  const whole = Math.floor(Math.log10(size)) + 1;
+  return value.toFixed(Math.min(8, Math.max(0, count - whole)));
+}
+
+const numberIn = (value, scale) => (value === null || value === undefined ? '–' : digits(value * scale.factor));
+const followedBy = (text, unit) => (unit ? `${text} ${unit}` : text);
+// "Mean ATE RMSE", but not "Mean mean position error".
+const meanTitle = (name) => (metricTitle(name).startsWith('mean ') ? metricTitle(name) : `mean ${metricTitle(name)}`);
+const titled = (title, unit) => (unit ? `${title} (${unit})` : title);
+
+// "17.4 mm"
+function quantity(value, unit) {
+  const scale = readingUnit(unit, value);
+  return followedBy(numberIn(value, scale), scale.text);
+}
+
+const greatestOf = (values) => values.reduce((most, value) => Math.max(most, Math.abs(value || 0)), 0);
+
+// "17.4 mm [16.1, 18.4]" of a mean of a metric.
+function withInterval(one, metric) {
+  const scale = readingUnit(unitOf(metric), greatestOf([one.mean, one.low, one.high]));
+  const interval = one.low === undefined ? '' : ` [${numberIn(one.low, scale)}, ${numberIn(one.high, scale)}]`;
+  return followedBy(numberIn(one.mean, scale), scale.text) + interval;
+}

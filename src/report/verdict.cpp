@@ -1,0 +1,211 @@
+#include "verdict.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fathom/report/table.hpp"
+#include "regime_map.hpp"
+#include "scaled_unit.hpp"
+
+namespace fathom {
+namespace {
+
+std::string mean_text(const MetricSummary& summary, const std::string& unit) {
+  return quantity(summary.moments.mean, summary.interval, unit);
+}
+
+const EstimatorResults* find(const CellResults& cell, const std::string& name) {
+  const auto found = std::ranges::find(cell.estimators, name, &EstimatorResults::name);
+  return found == cell.estimators.end() ? nullptr : &*found;
+}
+
+// "+0.002 mm [-0.02, 0.03]": with its sign, as its interval holds 0.
+std::string signed_text(const RankedEstimator& one, const ScaledUnit& scale) {
+  const PairedDifference& difference = *one.difference;
+  const std::string text = quantity(difference.mean, difference.interval, scale);
+  return difference.mean > 0.0 ? "+" + text : text;
+}
+
+std::string share_text(const RankedEstimator& one, const Ranking& ranking) {
+  const double best = std::abs(ranking.best().summary.moments.mean);
+  if (!(best > 0.0)) return "";
+  return " (" + format_number(100.0 * std::abs(one.difference->mean) / best, 2) + " % of the best)";
+}
+
+// One unit for all differences that a sentence names.
+ScaledUnit scale_of(const Ranking& ranking, const std::string& unit, bool told_apart) {
+  double greatest = 0.0;
+  for (const RankedEstimator& one : ranking.estimators) {
+    if (!one.difference || !one.difference->interval || one.is_told_apart() != told_apart) continue;
+    greatest = std::max({greatest, std::abs(one.difference->interval->low),
+                         std::abs(one.difference->interval->high)});
+  }
+  return reading_unit(unit, greatest);
+}
+
+void add_others(const Ranking& ranking, const std::string& unit,
+                std::vector<std::string>& sentences) {
+  std::vector<std::string> alike;
+  std::vector<std::string> worse;
+  bool is_small = true;
+  const ScaledUnit scale_alike = scale_of(ranking, unit, false);
+  const ScaledUnit scale_worse = scale_of(ranking, unit, true);
+  for (const RankedEstimator& one : ranking.estimators) {
+    if (!one.difference || !one.difference->interval) continue;
+    if (one.is_told_apart()) {
+      worse.push_back(one.name + " by " + distance_text(one, scale_worse) +
+                      share_text(one, ranking));
+      is_small = is_small && std::abs(one.difference->mean) <
+                                 0.01 * std::abs(ranking.best().summary.moments.mean);
+    } else {
+      alike.push_back(one.name + " (" + signed_text(one, scale_alike) + ")");
+    }
+  }
+  if (!alike.empty()) {
+    sentences.push_back("Cannot be told apart from " + ranking.best().name + ": " + listed(alike) +
+                        ".");
+  }
+  if (!worse.empty()) {
+    sentences.push_back("Worse: " + listed(worse) + "." +
+                        (is_small ? " That is less than 1 % of the best." : ""));
+  }
+}
+
+// One trial has no interval: the means alone.
+void add_means(const Ranking& ranking, const std::string& unit,
+               std::vector<std::string>& sentences) {
+  std::vector<std::string> others;
+  for (const RankedEstimator& one : ranking.estimators) {
+    const bool has_interval = one.difference && one.difference->interval;
+    if (&one == &ranking.best() || has_interval) continue;
+    others.push_back(one.name + " " + mean_text(one.summary, unit));
+  }
+  if (!others.empty()) sentences.push_back("Not compared by an interval: " + listed(others) + ".");
+}
+
+std::vector<std::string> answer_of(const CellResults& cell, const std::optional<Ranking>& ranking) {
+  if (!ranking) return {"No estimator is ranked: none did all its runs."};
+  const Metric metric = described(ranking->metric);
+  const RankedEstimator& best = ranking->best();
+  const std::string mean = best.name + ", " + mean_text(best.summary, metric.unit) + ".";
+  const char* which = metric.better == Better::lower ? "Lowest " : "Highest ";
+  std::vector<std::string> sentences{ranking->estimators.size() == 1
+                                         ? "Only one is ranked by " + metric.label + ": " + mean
+                                         : which + metric.label + ": " + mean};
+  add_others(*ranking, metric.unit, sentences);
+  add_means(*ranking, metric.unit, sentences);
+  const EstimatorResults* baseline = find(cell, kDeadReckoning);
+  if (baseline == nullptr || !baseline->metrics.contains(metric.name)) return sentences;
+  const double of_baseline = baseline->metrics.at(metric.name).moments.mean;
+  std::string text = "Dead reckoning: " + quantity(of_baseline, metric.unit);
+  if (metric.better == Better::lower && best.summary.moments.mean > 0.0) {
+    text += ", " + format_number(of_baseline / best.summary.moments.mean, 2) + " times the lowest";
+  }
+  sentences.push_back(text + ".");
+  return sentences;
+}
+
+// What the estimators that are as good as the best cost.
+std::vector<std::string> cost_of(const CellResults& cell, const Ranking& by_accuracy,
+                                 const std::string& cheapest, const std::string& cost) {
+  const Metric metric = described(cost);
+  std::vector<std::string> good;
+  for (const RankedEstimator& one : by_accuracy.estimators) {
+    const auto relative = relative_to_best(cell, *find(cell, one.name), by_accuracy.metric);
+    if (relative && *relative <= 1.0 + kAsGoodAsBest) good.push_back(one.name);
+  }
+  const auto by_cost = ranking(cell, cost, good);
+  if (!by_cost) return {};
+  std::string text = "Cheapest of those within 5 % of the best: " + cheapest + ", " + metric.label +
+                     " " + mean_text(find(cell, cheapest)->metrics.at(cost), metric.unit) + ".";
+  std::vector<std::string> alike;
+  std::vector<std::string> dearer;
+  for (const RankedEstimator& one : by_cost->estimators) {
+    if (one.name == cheapest) continue;
+    if (one.is_told_apart() || !one.difference || !one.difference->interval) {
+      dearer.push_back(one.name + " " + quantity(one.summary.moments.mean, metric.unit));
+    } else {
+      alike.push_back(one.name);
+    }
+  }
+  if (!alike.empty()) text += " In cost " + listed(alike) + " cannot be told apart from it.";
+  if (!dearer.empty()) text += " The others: " + listed(dearer) + ".";
+  return {text};
+}
+
+std::string outcomes_text(const EstimatorResults& one) {
+  std::vector<std::string> parts;
+  for (const auto& [outcome, count] : one.outcomes) {
+    if (outcome == "converged" || outcome == "iteration_limit") continue;
+    parts.push_back(std::to_string(count) + " " + worded(outcome));
+  }
+  return parts.empty() ? "" : " (" + listed(parts) + ")";
+}
+
+std::vector<std::string> failed_of(const CellResults& cell, const StudyDescription& study) {
+  std::vector<std::string> sentences;
+  const std::size_t wanted = study.surveys * study.trials;
+  for (const EstimatorResults& one : cell.estimators) {
+    if (one.name == kDeadReckoning) continue;
+    const std::string of_runs = " of " + counted(one.runs.size(), "run");
+    const auto add = [&](std::size_t count, const std::string& verb, const std::string& end) {
+      if (count == 0) return;
+      sentences.push_back(one.name + " " + verb + " in " + std::to_string(count) + of_runs + end);
+    };
+    add(one.failures(), "failed", outcomes_text(one) + " and is not ranked.");
+    const auto limit = one.outcomes.find("iteration_limit");
+    add(limit == one.outcomes.end() ? 0 : limit->second, "stopped at its iteration limit",
+        "; these count as done.");
+    add(runs_without_loops(one), "closed no loop", ".");
+    if (one.runs.size() < wanted) {
+      sentences.push_back(one.name + ": " + std::to_string(wanted - one.runs.size()) + " of " +
+                          counted(wanted, "run") + " are missing.");
+    }
+  }
+  return sentences;
+}
+
+}  // namespace
+
+std::string listed(const std::vector<std::string>& names) {
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (i > 0) text += i + 1 == names.size() ? " and " : ", ";
+    text += names[i];
+  }
+  return text;
+}
+
+std::string counted(std::size_t count, const std::string& noun) {
+  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
+}
+
+std::string distance_text(const RankedEstimator& one, const ScaledUnit& scale) {
+  const PairedDifference& difference = *one.difference;
+  std::optional<Interval> interval = difference.interval;
+  if (interval && difference.mean < 0.0) interval = Interval{-interval->high, -interval->low};
+  return quantity(std::abs(difference.mean), interval, scale);
+}
+
+CellVerdict cell_verdict(const CellResults& cell, const StudyDescription& study,
+                         const std::optional<std::string>& metric,
+                         const std::optional<std::string>& cost) {
+  CellVerdict verdict;
+  if (metric) {
+    verdict.ranking = ranking(cell, *metric);
+    verdict.answer = answer_of(cell, verdict.ranking);
+  } else {
+    verdict.answer = {"Not ranked: no metric of this study that says which is better has a value."};
+  }
+  if (verdict.ranking && cost) {
+    verdict.cheapest = cheapest_of_the_best(cell, *metric, *cost);
+    if (verdict.cheapest) {
+      verdict.cost = cost_of(cell, *verdict.ranking, *verdict.cheapest, *cost);
+    }
+  }
+  verdict.failed = failed_of(cell, study);
+  verdict.doubts = doubts_of(cell, verdict);
+  return verdict;
+}
+
+}  // namespace fathom

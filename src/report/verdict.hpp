@@ -1,0 +1,67 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "ranking.hpp"
+#include "scaled_unit.hpp"
+
+namespace fathom {
+
+/// What makes an answer doubtful: of one cell with its figures, of several without.
+struct Doubt {
+  std::string text;
+  std::string in_general;
+};
+
+/// The answer of one cell, in sentences.
+struct CellVerdict {
+  std::optional<Ranking> ranking;       ///< by the study's metric; nothing where none is ranked
+  std::optional<std::string> cheapest;  ///< of those as good as the best
+  std::vector<std::string> answer;      ///< which is best, which is worse, by how much
+  std::vector<std::string> cost;
+  std::vector<std::string> failed;
+  std::vector<Doubt> doubts;
+};
+
+/// The answer of a study in sentences, and that of each of its cells.
+struct StudyVerdict {
+  std::optional<std::string> metric;  ///< by which estimators are ranked
+  std::optional<std::string> cost;
+  std::vector<CellVerdict> cells;  ///< as those of the results
+  std::string rule;                ///< when two estimators are told apart
+  std::vector<std::string> answer;
+  std::vector<std::string> cost_words;
+  std::vector<std::string> failed;
+  std::vector<std::string> doubts;
+};
+
+/// Fewer surveys than these say little of another one.
+inline constexpr std::size_t kFewSurveys = 5;
+
+/// Of a study of one cell it is that cell's.
+StudyVerdict study_verdict(const StudyResults& results);
+
+/// For a terminal: a line a sentence. Empty where there is nothing to say.
+std::string verdict_text(const StudyVerdict& verdict);
+
+// Its parts.
+/// Of one cell. `metric` ranks; nothing is said of cost without `cost`.
+CellVerdict cell_verdict(const CellResults& cell, const StudyDescription& study,
+                         const std::optional<std::string>& metric,
+                         const std::optional<std::string>& cost);
+
+/// What makes the answer of a cell doubtful.
+std::vector<Doubt> doubts_of(const CellResults& cell, const CellVerdict& verdict);
+
+/// "a, b and c"
+std::string listed(const std::vector<std::string>& names);
+
+/// "3 runs", "1 run"
+std::string counted(std::size_t count, const std::string& noun);
+
+/// "3.5 mm [0.2, 10.4]": how far an estimator is from the best, without a sign.
+std::string distance_text(const RankedEstimator& one, const ScaledUnit& scale);
+
+}  // namespace fathom

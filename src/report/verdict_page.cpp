@@ -1,0 +1,60 @@
+#include "verdict_page.hpp"
+
+#include "page_numbers.hpp"
+
+namespace fathom {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json ranking_json(const Ranking& ranking) {
+  Json json{{"best", ranking.best().name}, {"level", page_number(ranking.level)}};
+  json["others"] = Json::array();
+  for (const RankedEstimator& one : ranking.estimators) {
+    if (&one == &ranking.best()) continue;
+    Json other{{"estimator", one.name}, {"told_apart", one.is_told_apart()}};
+    if (const auto& difference = one.difference) {
+      other["n"] = difference->count;
+      other["over"] = difference->is_over_surveys ? "surveys" : "trials";
+      other["mean"] = page_number(difference->mean);
+      if (difference->interval) {
+        other["low"] = page_number(difference->interval->low);
+        other["high"] = page_number(difference->interval->high);
+      }
+    }
+    if (one.holm_p) other["holm_p"] = page_number(*one.holm_p);
+    json["others"].push_back(other);
+  }
+  return json;
+}
+
+Json cell_json(const CellVerdict& verdict) {
+  Json json{{"answer", verdict.answer}, {"cost", verdict.cost}, {"failed", verdict.failed}};
+  json["doubts"] = Json::array();
+  for (const Doubt& doubt : verdict.doubts) json["doubts"].push_back(doubt.text);
+  return json;
+}
+
+}  // namespace
+
+void add_verdict(const StudyResults& results, Json& page) {
+  const StudyVerdict verdict = study_verdict(results);
+  page["verdict"] = {{"metric", verdict.metric ? Json(*verdict.metric) : Json()},
+                     {"rule", verdict.rule},
+                     {"answer", verdict.answer},
+                     {"cost", verdict.cost_words},
+                     {"failed", verdict.failed},
+                     {"doubts", verdict.doubts}};
+  for (std::size_t i = 0; i < results.cells.size(); ++i) {
+    Json& cell = page["cells"][i];
+    cell["verdict"] = cell_json(verdict.cells[i]);
+    cell["rankings"] = Json::object();
+    for (const std::string& metric : results.study.metrics) {
+      const auto ranked =
+          metric == verdict.metric ? verdict.cells[i].ranking : ranking(results.cells[i], metric);
+      if (ranked) cell["rankings"][metric] = ranking_json(*ranked);
+    }
+  }
+}
+
+}  // namespace fathom

@@ -1,0 +1,225 @@
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <map>
+
+#include "fathom/report/table.hpp"
+#include "scaled_unit.hpp"
+#include "study_figures.hpp"
+#include "verdict.hpp"
+
+namespace fathom {
+namespace {
+
+// An estimator in the cell where it is furthest from the best.
+struct Worst {
+  std::size_t cells = 0;
+  const RankedEstimator* one = nullptr;
+  const CellResults* cell = nullptr;
+  double share = 0.0;
+};
+
+std::string of_cells(std::size_t count, std::size_t all) {
+  return count == all ? "all " + std::to_string(all) + " cells"
+                      : std::to_string(count) + " of " + std::to_string(all) + " cells";
+}
+
+void add_worse(const StudyResults& results, StudyVerdict& verdict) {
+  std::map<std::string, Worst> worst;
+  for (std::size_t i = 0; i < results.cells.size(); ++i) {
+    const auto& ranking = verdict.cells[i].ranking;
+    if (!ranking) continue;
+    for (const RankedEstimator* one : ranking->told_apart()) {
+      const double best = std::abs(ranking->best().summary.moments.mean);
+      const double share = best > 0.0 ? std::abs(one->difference->mean) / best : 0.0;
+      Worst& entry = worst[one->name];
+      ++entry.cells;
+      if (entry.one == nullptr || share > entry.share) {
+        entry = {entry.cells, one, &results.cells[i], share};
+      }
+    }
+  }
+  // The furthest first.
+  std::vector<std::pair<std::string, Worst>> order(worst.begin(), worst.end());
+  std::ranges::stable_sort(
+      order, [](const auto& a, const auto& b) { return a.second.share > b.second.share; });
+  for (const auto& [name, entry] : order) {
+    const std::string in = of_cells(entry.cells, results.cells.size());
+    const double furthest = std::max(std::abs(entry.one->difference->interval->low),
+                                     std::abs(entry.one->difference->interval->high));
+    const ScaledUnit scale = reading_unit(described(*verdict.metric).unit, furthest);
+    verdict.answer.push_back(name + " is worse in " + in + ", most at " + entry.cell->label +
+                             ": by " + distance_text(*entry.one, scale) + ", " +
+                             format_number(100.0 * entry.share, 2) + " % of the best.");
+  }
+}
+
+void add_answer(const StudyResults& results, StudyVerdict& verdict) {
+  const std::size_t all = results.cells.size();
+  if (!verdict.metric) {
+    verdict.answer = {"Not ranked: no metric of this study that says which is better has a value."};
+    return;
+  }
+  std::size_t alike = 0;
+  std::size_t compared = 0;
+  for (const CellVerdict& cell : verdict.cells) {
+    const bool has_interval =
+        cell.ranking && std::ranges::any_of(cell.ranking->estimators, [](const auto& one) {
+          return one.difference && one.difference->interval;
+        });
+    compared += has_interval ? 1 : 0;
+    alike += has_interval && cell.ranking->told_apart().empty() ? 1 : 0;
+  }
+  const std::string label = described(*verdict.metric).label;
+  if (compared == 0) {
+    verdict.answer.push_back("Estimators are ranked by " + label +
+                             ", but no cell has an interval of a difference.");
+  } else if (alike > 0) {
+    verdict.answer.push_back("In " + of_cells(alike, all) +
+                             " no estimator can be told apart from the best by " + label + ".");
+  } else {
+    verdict.answer.push_back("By " + label + " the best is told apart from another in " +
+                             of_cells(compared, all) + ".");
+  }
+  add_worse(results, verdict);
+}
+
+void add_cost(const StudyResults& results, StudyVerdict& verdict) {
+  std::map<std::string, std::size_t> cheapest;
+  double least = INFINITY;
+  double most = 0.0;
+  for (std::size_t i = 0; i < results.cells.size(); ++i) {
+    const auto& name = verdict.cells[i].cheapest;
+    if (!name) continue;
+    ++cheapest[*name];
+    for (const EstimatorResults& one : results.cells[i].estimators) {
+      if (one.name != *name) continue;
+      least = std::min(least, one.metrics.at(*verdict.cost).moments.mean);
+      most = std::max(most, one.metrics.at(*verdict.cost).moments.mean);
+    }
+  }
+  if (cheapest.empty()) return;
+  std::vector<std::string> parts;
+  for (const auto& [name, count] : cheapest) {
+    parts.push_back(name + " in " + of_cells(count, results.cells.size()));
+  }
+  const Metric metric = described(*verdict.cost);
+  verdict.cost_words = {"Cheapest of those within 5 % of the best: " + listed(parts) + "; " +
+                        metric.label + " " + quantity(least, metric.unit) + " to " +
+                        quantity(most, metric.unit) + "."};
+}
+
+// Over all cells, with the number of those where it happened.
+void add_failed(const StudyResults& results, StudyVerdict& verdict) {
+  struct Count {
+    std::size_t failed = 0;
+    std::size_t without_loops = 0;
+    std::size_t runs = 0;
+    std::size_t cells_failed = 0;
+    std::size_t cells_without = 0;
+  };
+  std::map<std::string, Count> counts;
+  std::vector<std::string> order;
+  for (const CellResults& cell : results.cells) {
+    for (const EstimatorResults& one : cell.estimators) {
+      if (one.name == kDeadReckoning) continue;
+      if (!counts.contains(one.name)) order.push_back(one.name);
+      Count& count = counts[one.name];
+      count.failed += one.failures();
+      count.without_loops += runs_without_loops(one);
+      count.runs += one.runs.size();
+      count.cells_failed += one.failures() > 0 ? 1 : 0;
+      count.cells_without += runs_without_loops(one) > 0 ? 1 : 0;
+    }
+  }
+  for (const std::string& name : order) {
+    const Count& count = counts[name];
+    const auto add = [&](std::size_t runs, std::size_t cells, const std::string& verb,
+                         const std::string& end) {
+      if (runs == 0) return;
+      verdict.failed.push_back(name + " " + verb + " in " + std::to_string(runs) + " of " +
+                               counted(count.runs, "run") + ", in " +
+                               of_cells(cells, results.cells.size()) + end);
+    };
+    add(count.failed, count.cells_failed, "failed", ", where it is not ranked.");
+    add(count.without_loops, count.cells_without, "closed no loop", ".");
+  }
+}
+
+void add_doubts(StudyVerdict& verdict) {
+  std::vector<std::string> order;
+  std::map<std::string, std::size_t> cells;
+  for (const CellVerdict& cell : verdict.cells) {
+    std::vector<std::string> own;
+    for (const Doubt& doubt : cell.doubts) {
+      if (std::ranges::find(own, doubt.in_general) == own.end()) own.push_back(doubt.in_general);
+    }
+    for (const std::string& text : own) {
+      if (++cells[text] == 1) order.push_back(text);
+    }
+  }
+  for (std::string text : order) {
+    const std::size_t count = cells[text];
+    if (text.ends_with('.') && count == verdict.cells.size()) {
+      verdict.doubts.push_back(text);
+      continue;
+    }
+    if (text.ends_with('.')) text.pop_back();
+    const char* between = std::isupper(static_cast<unsigned char>(text.front())) ? ": " : " ";
+    verdict.doubts.push_back("In " + of_cells(count, verdict.cells.size()) + between + text + ".");
+  }
+}
+
+std::string rule_of(const StudyVerdict& verdict) {
+  std::size_t most = 0;
+  for (const CellVerdict& cell : verdict.cells) {
+    if (cell.ranking) most = std::max(most, cell.ranking->told_apart().size());
+    if (cell.ranking) most = std::max(most, cell.ranking->estimators.size() - 1);
+  }
+  if (most == 0) return "";
+  std::string text =
+      "Told apart: the interval of the paired difference to the best mean excludes 0";
+  if (most == 1) return text + " (95 %).";
+  return text + ". The intervals of " + (verdict.cells.size() > 1 ? "a cell" : "all differences") +
+         " hold together with 95 %.";
+}
+
+}  // namespace
+
+StudyVerdict study_verdict(const StudyResults& results) {
+  StudyVerdict verdict;
+  verdict.metric = ranking_metric(results);
+  verdict.cost = first_metric(results, true);
+  for (const CellResults& cell : results.cells) {
+    verdict.cells.push_back(cell_verdict(cell, results.study, verdict.metric, verdict.cost));
+  }
+  verdict.rule = rule_of(verdict);
+  if (verdict.cells.size() == 1) {
+    const CellVerdict& only = verdict.cells.front();
+    verdict.answer = only.answer;
+    verdict.cost_words = only.cost;
+    verdict.failed = only.failed;
+    for (const Doubt& doubt : only.doubts) verdict.doubts.push_back(doubt.text);
+    return verdict;
+  }
+  add_answer(results, verdict);
+  add_cost(results, verdict);
+  add_failed(results, verdict);
+  add_doubts(verdict);
+  return verdict;
+}
+
+std::string verdict_text(const StudyVerdict& verdict) {
+  std::string text;
+  const auto add = [&text](const std::string& title, const std::vector<std::string>& sentences) {
+    for (const std::string& sentence : sentences) text += title + sentence + "\n";
+  };
+  add("", verdict.answer);
+  add("", verdict.cost_words);
+  add("", verdict.failed);
+  add("Doubt: ", verdict.doubts);
+  if (!verdict.rule.empty()) text += verdict.rule + "\n";
+  return text.empty() ? "" : "Verdict\n" + text;
+}
+
+}  // namespace fathom

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "fathom/evaluation/clustered.hpp"
+#include "src/report/study_results.hpp"
+
+namespace fathom::test {
+
+inline constexpr const char* kError = "mean_position_error_m";
+
+/// An estimator with one run a survey, or a trial of one survey, and these errors.
+inline EstimatorResults made(const std::string& name, const std::vector<double>& errors,
+                             bool of_surveys = false) {
+  EstimatorResults one;
+  one.name = name;
+  ClusteredValues values;
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    RunRecord run;
+    run.key = {0, of_surveys ? i : 0, of_surveys ? 0 : i, name};
+    run.outcome = "converged";
+    run.metrics = {{kError, errors[i]}, {"loop_closures", 7.0}};
+    one.runs.push_back(run);
+    values[run.key.survey].push_back(errors[i]);
+  }
+  one.done = errors.size();
+  one.outcomes["converged"] = errors.size();
+  if (errors.empty()) return one;
+  MetricSummary& summary = one.metrics[kError];
+  summary.moments = *moments(errors);
+  summary.interval = hierarchical_interval(values);
+  summary.surveys = values.size();
+  return one;
+}
+
+/// A cost that is the same in all its runs.
+inline EstimatorResults costing(EstimatorResults one, double total_ms) {
+  for (RunRecord& run : one.runs) run.metrics["total_ms"] = total_ms;
+  one.metrics["total_ms"].moments.mean = total_ms;
+  return one;
+}
+
+inline CellResults cell_of(std::vector<EstimatorResults> estimators) {
+  CellResults cell;
+  cell.label = "all";
+  cell.surveys = 1;
+  for (const EstimatorResults& one : estimators) {
+    cell.trials = std::max(cell.trials, one.runs.size());
+  }
+  cell.estimators = std::move(estimators);
+  return cell;
+}
+
+}  // namespace fathom::test

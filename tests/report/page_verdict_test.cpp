@@ -1,0 +1,58 @@
+// The answer in the data of report.html.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "fathom/core/files.hpp"
+#include "fathom/report/study_report.hpp"
+#include "report/study_fixture.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace fathom::test {
+namespace {
+
+using Json = nlohmann::json;
+using ::testing::HasSubstr;
+
+// The data of the page of a made-up study.
+Json data_of(const FixtureOptions& options) {
+  const TemporaryFolder folder;
+  write_fixture(folder / "study", options);
+  write_study_report(ResultStore::open(folder / "study"), folder / "out");
+  const std::string page = read_file(folder / "out" / "report.html");
+  const std::string opening = "<script type=\"application/json\" id=\"data\">";
+  const std::size_t begin = page.find(opening) + opening.size();
+  return Json::parse(page.substr(begin, page.find("</script>", begin) - begin));
+}
+
+// The fixture's first estimator is the best by far; of the last cell one failed and is not ranked.
+TEST(PageVerdict, HasTheVerdictAndTheRankings) {
+  const Json data = data_of({});
+  EXPECT_EQ(data["verdict"]["metric"], "mean_position_error_m");
+  EXPECT_THAT(data["verdict"]["answer"].dump(), HasSubstr("graph is worse in"));
+  EXPECT_THAT(
+      data["verdict"]["failed"].dump(),
+      HasSubstr("a&b_<c>% failed in 2 of 36 runs, in 1 of 6 cells, where it is not ranked."));
+  const Json& rankings = data["cells"][0]["rankings"];
+  EXPECT_FALSE(rankings.contains("anees"));
+  const Json& ranking = rankings["mean_position_error_m"];
+  EXPECT_EQ(ranking["best"], "iterated");
+  EXPECT_NEAR(ranking["level"], 0.975, 1e-12);
+  ASSERT_EQ(ranking["others"].size(), 2u);
+  const Json& estimators = data["cells"][0]["estimators"];
+  for (const Json& other : ranking["others"]) {
+    const Json& one = estimators[other["estimator"] == "graph" ? 3 : 2];
+    ASSERT_EQ(one["name"], other["estimator"]);
+    const auto mean = [](const Json& entry) {
+      return entry["metrics"]["mean_position_error_m"]["mean"].get<double>();
+    };
+    EXPECT_NEAR(other["mean"], mean(one) - mean(estimators[1]), 1e-5);
+    EXPECT_EQ(other["told_apart"], other["low"] > 0.0);
+  }
+  EXPECT_EQ(data["cells"][5]["rankings"]["mean_position_error_m"]["others"].size(), 1u);
+  EXPECT_THAT(data["cells"][5]["verdict"]["failed"].dump(), HasSubstr("and is not ranked"));
+}
+
+}  // namespace
+}  // namespace fathom::test

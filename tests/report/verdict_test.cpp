@@ -1,0 +1,222 @@
+#include "src/report/verdict.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "report/made_cells.hpp"
+
+namespace fathom::test {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+using ::testing::StartsWith;
+
+const std::vector<double> kBest{0.010, 0.012, 0.009, 0.011, 0.010, 0.011};
+const std::vector<double> kAlike{0.011, 0.011, 0.008, 0.013, 0.009, 0.0115};
+const std::vector<double> kWorse{0.013, 0.0152, 0.0121, 0.0141, 0.0130, 0.0142};
+
+StudyResults study_of(std::vector<CellResults> cells, std::size_t surveys, std::size_t trials) {
+  StudyResults results;
+  results.study.surveys = surveys;
+  results.study.trials = trials;
+  results.study.metrics = {"anees", kError, "total_ms"};
+  results.metrics = results.study.metrics;
+  results.cells = std::move(cells);
+  return results;
+}
+
+// Six surveys of one trial each.
+CellResults surveyed(std::vector<EstimatorResults> estimators) {
+  CellResults cell = cell_of(std::move(estimators));
+  cell.surveys = cell.trials;
+  return cell;
+}
+
+EstimatorResults six(const std::string& name, const std::vector<double>& errors,
+                     double total_ms = 1.0) {
+  return costing(made(name, errors, true), total_ms);
+}
+
+std::vector<std::string> doubts_of_one(const CellResults& cell) {
+  return study_verdict(study_of({cell}, 6, 1)).doubts;
+}
+
+TEST(Verdict, SaysWhichIsBestWhichCannotBeToldApartAndWhichIsWorse) {
+  const StudyVerdict verdict = study_verdict(
+      study_of({surveyed({six(kDeadReckoning, {1.0, 1.1, 0.9, 1.2, 1.0, 1.1}), six("best", kBest),
+                          six("alike", kAlike), six("worse", kWorse)})},
+               6, 1));
+  ASSERT_EQ(verdict.answer.size(), 4u);
+  EXPECT_EQ(verdict.metric, kError);  // ANEES says not which is better
+  EXPECT_THAT(verdict.answer[0], StartsWith("Lowest mean position error: best, 10.5 mm ["));
+  EXPECT_THAT(verdict.answer[1], StartsWith("Cannot be told apart from best: alike (+"));
+  EXPECT_THAT(verdict.answer[1], HasSubstr(" mm [-"));
+  EXPECT_EQ(verdict.answer[2], "Worse: worse by 3.10 mm [3.00, 3.20] (30 % of the best).");
+  EXPECT_THAT(verdict.answer[3], StartsWith("Dead reckoning: 1.05 m, 100 times the lowest."));
+  EXPECT_THAT(verdict.rule, HasSubstr("hold together with 95 %"));
+}
+
+TEST(Verdict, ADifferenceThatIsSmallBesideTheBestSaysSo) {
+  std::vector<double> close = kBest;
+  for (std::size_t i = 0; i < close.size(); ++i) close[i] += 1e-5 + 1e-7 * static_cast<double>(i);
+  const auto answer =
+      study_verdict(study_of({surveyed({six("best", kBest), six("close", close)})}, 6, 1)).answer;
+  EXPECT_THAT(answer[1], AllOf(StartsWith("Worse: close by 0.0103 mm ["),
+                               HasSubstr("That is less than 1 % of the best.")));
+}
+
+TEST(Verdict, TheCheapestIsOneOfTheGoodOnes) {
+  const StudyVerdict verdict =
+      study_verdict(study_of({surveyed({six("best", kBest, 8.0), six("alike", kAlike, 0.0035),
+                                        six("worse", kWorse, 0.001)})},
+                             6, 1));
+  EXPECT_EQ(verdict.cells[0].cheapest, "alike");
+  EXPECT_THAT(
+      verdict.cost_words,
+      ElementsAre("Cheapest of those within 5 % of the best: alike, estimate, time 3.50 µs. "
+                  "The others: best 8.00 ms."));
+}
+
+TEST(Verdict, FailuresAreCountedAndNotRanked) {
+  EstimatorResults failed = six("failed", {0.001, 0.001, 0.001, 0.001, 0.001, 0.001});
+  failed.runs[0].outcome = "diverged";
+  failed.runs[1].outcome = "numerical_failure";
+  failed.runs[2].metrics["loop_closures"] = 0.0;
+  failed.outcomes = {{"converged", 4}, {"diverged", 1}, {"numerical_failure", 1}};
+  failed.done = 4;
+  const StudyVerdict verdict =
+      study_verdict(study_of({surveyed({failed, six("best", kBest)})}, 7, 1));
+  EXPECT_THAT(verdict.answer[0], StartsWith("Only one is ranked by mean position error: best, "));
+  EXPECT_THAT(
+      verdict.failed,
+      ElementsAre("failed failed in 2 of 6 runs (1 diverged and 1 numerical failure) and is "
+                  "not ranked.",
+                  "failed closed no loop in 1 of 6 runs.", "failed: 1 of 7 runs are missing.",
+                  "best: 1 of 7 runs are missing."));
+  EXPECT_THAT(verdict.doubts, Contains(StartsWith("The means of failed hold runs without loop")));
+}
+
+TEST(Verdict, FewSurveysAreADoubt) {
+  const auto first = [](const std::vector<double>& all, std::size_t count) {
+    return std::vector<double>(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(count));
+  };
+  const auto doubts = [&](std::size_t count) {
+    return doubts_of_one(
+        surveyed({six("best", first(kBest, count)), six("b", first(kAlike, count))}));
+  };
+  EXPECT_THAT(doubts(4), Contains("Only 4 surveys: others may give another order."));
+  EXPECT_THAT(doubts(5), IsEmpty());
+  CellResults one = cell_of({made("best", kBest), made("b", kAlike)});
+  EXPECT_THAT(doubts_of_one(one), ElementsAre(StartsWith("One survey: intervals over its trials")));
+  one.repetition = Repetition::logs;
+  EXPECT_THAT(doubts_of_one(one), IsEmpty());
+  EXPECT_THAT(doubts_of_one(cell_of({made("best", {1.0}), made("b", {2.0})})),
+              ElementsAre(StartsWith("A single trial")));
+}
+
+// Five pairs of one sign: the interval excludes 0, and no p of five pairs is below 2⁻⁴.
+TEST(Verdict, NamesWhereIntervalAndTestDisagree) {
+  const CellResults cell =
+      cell_of({made("best", {1.0, 1.1, 1.2, 1.3, 1.4}), made("b", {1.5, 1.61, 1.69, 1.8, 1.92})});
+  EXPECT_THAT(
+      doubts_of_one(cell),
+      Contains("The interval of the difference excludes 0, but the adjusted p is above 0.05: b "
+               "(p = 0.062). With 5 trials and 1 comparison no p is below 0.062."));
+  EXPECT_THAT(doubts_of_one(surveyed({six("best", kBest), six("worse", kWorse)})), IsEmpty());
+}
+
+TEST(Verdict, DeadReckoningThatIsAsGoodIsADoubt) {
+  EXPECT_THAT(doubts_of_one(surveyed({six(kDeadReckoning, kAlike), six("best", kBest)})),
+              ElementsAre(StartsWith("The best is not told apart from dead reckoning")));
+  EXPECT_THAT(doubts_of_one(surveyed({six(kDeadReckoning, kWorse), six("best", kBest)})),
+              IsEmpty());
+}
+
+TEST(Verdict, AContenderThatSelectsAndJobsAreDoubts) {
+  CellResults cell = surveyed({six("best", kBest), six("alike", kAlike)});
+  cell.selected_by = "the estimate of ekf, no contender";
+  cell.jobs = {1};
+  EXPECT_THAT(doubts_of_one(cell), IsEmpty());
+  StudyDescription study;
+  study.configuration = {{"association.mode", "shared"},
+                         {"association.reference", "best"},
+                         {"dataset.type", "simulated"}};
+  cell.selected_by = study.selected_by(0);
+  cell.jobs = {1, 2};
+  EXPECT_THAT(doubts_of_one(cell),
+              ElementsAre(HasSubstr("selected by the estimate of best, a contender"),
+                          "Costs were measured with 1, 2 jobs at a time; they are comparable at 1 "
+                          "alone."));
+}
+
+TEST(Verdict, WordsOfConsistencyAndTheOptimumAreDoubts) {
+  EstimatorResults over = six("over", kBest);
+  over.words = {"Overconfident: ANEES is 5.0, where 1 is expected.",
+                "The registrations share errors."};
+  over.consistency["anees"].moments.mean = 5.0;
+  MetricSummary& gap = over.consistency["chi2_gap"];
+  gap.moments.mean = 30.0;
+  gap.interval = Interval{9.4, 50.0};
+  EstimatorResults near = six("near", kAlike);
+  near.consistency["chi2_gap"].moments.mean = 30.0;
+  near.consistency["chi2_gap"].interval = Interval{9.3, 50.0};
+  EXPECT_THAT(
+      doubts_of_one(surveyed({over, near})),
+      ElementsAre("Overconfident, where 1 is expected: over (ANEES 5.00). The registrations "
+                  "share errors.",
+                  "F above the optimum of the measurements: over by 30.0 [9.40, 50.0]."));
+}
+
+TEST(Verdict, ErrorsThatRegistrationsShareAreADoubt) {
+  EstimatorResults one = six("one", kBest);
+  MetricSummary& correlation = one.consistency["picture_error_correlation"];
+  correlation.moments.mean = 0.26;
+  correlation.interval = Interval{0.2, 0.31};
+  const EstimatorResults other = six("other", kAlike);
+  EXPECT_THAT(doubts_of_one(surveyed({one, other})),
+              ElementsAre("Registrations of one picture share errors (correlation 0.260 [0.200, "
+                          "0.310]), which estimators take as independent."));
+  correlation.interval = Interval{-0.01, 0.31};
+  EXPECT_THAT(doubts_of_one(surveyed({one, other})), IsEmpty());
+}
+
+TEST(Verdict, SeveralCellsAreSummedUp) {
+  CellResults alike = surveyed({six("best", kBest), six("other", kAlike)});
+  CellResults apart = surveyed({six("best", kBest), six("other", kWorse)});
+  alike.label = "noise 1";
+  apart.label = "noise 2";
+  apart.estimators[1].runs[0].metrics["loop_closures"] = 0.0;
+  const StudyVerdict verdict = study_verdict(study_of({alike, apart}, 6, 1));
+  ASSERT_EQ(verdict.answer.size(), 2u);
+  EXPECT_EQ(verdict.answer[0],
+            "In 1 of 2 cells no estimator can be told apart from the best by mean position error.");
+  EXPECT_THAT(verdict.answer[1], StartsWith("other is worse in 1 of 2 cells, most at noise 2: by "
+                                            "3.10 mm ["));
+  EXPECT_THAT(verdict.cost_words,
+              ElementsAre(HasSubstr("best in all 2 cells; estimate, time 1.00")));
+  EXPECT_THAT(verdict.failed,
+              ElementsAre("other closed no loop in 1 of 12 runs, in 1 of 2 cells."));
+  EXPECT_THAT(verdict.doubts,
+              ElementsAre("In 1 of 2 cells means hold runs without loop closures."));
+  EXPECT_THAT(verdict_text(verdict), AllOf(StartsWith("Verdict\nIn 1 of 2 cells"),
+                                           HasSubstr("\nDoubt: In 1 of 2 cells means")));
+}
+
+TEST(Verdict, WithoutAMetricThatRanksNothingIsRanked) {
+  StudyResults results = study_of({surveyed({six("a", kBest), six("b", kWorse)})}, 6, 1);
+  results.study.metrics = {"anees", "total_ms"};
+  const StudyVerdict verdict = study_verdict(results);
+  EXPECT_THAT(
+      verdict.answer,
+      ElementsAre("Not ranked: no metric of this study that says which is better has a value."));
+  EXPECT_THAT(verdict.cost_words, IsEmpty());
+  EXPECT_THAT(verdict_text(verdict), Not(HasSubstr("Told apart")));
+}
+
+}  // namespace
+}  // namespace fathom::test
