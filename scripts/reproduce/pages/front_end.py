@@ -61,9 +61,10 @@ def quickstart(work):
     study = work.study("quickstart", "configs/quickstart.yaml", jobs=2)
     work.picture("docs/images/quickstart.png", study.folder / "trajectories.png")
     lines = (study.folder / "table.txt").read_text("utf-8").split("\n")
-    # Of the blocks of columns the first, and the verdict.
+    # Of the blocks of columns the first, and the verdict without its rule.
     first = next(i for i, line in enumerate(lines) if line.startswith("----"))
     end = next(i for i in range(first, len(lines)) if not lines[i].strip())
     verdict = lines.index("Verdict")
-    shown = [*lines[:end], "", *lines[verdict:]]
+    shown = [*lines[:end], "",
+             *(line for line in lines[verdict:] if not line.startswith("Told apart:"))]
     return fenced("\n".join(line.rstrip() for line in shown).rstrip())
