@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <ctime>
 #include <fstream>
+#include <unistd.h>
 
 #include <nlohmann/json.hpp>
 
@@ -35,12 +36,18 @@ std::string utc_now() {
   return buffer;
 }
 
+std::string host_name() {
+  char name[256] = {};
+  return ::gethostname(name, sizeof name - 1) == 0 ? name : "unknown";
+}
+
 Json build_and_machine(int jobs) {
   Json json;
   json["build"] = {{"type", FATHOM_BUILD_TYPE},     {"compiler", FATHOM_COMPILER},
                    {"flags", FATHOM_FLAGS},         {"ceres", FATHOM_CERES_VERSION},
                    {"eigen", FATHOM_EIGEN_VERSION}, {"opencv", FATHOM_OPENCV_VERSION}};
-  json["machine"] = {{"cpu", cpu_model()}, {"estimator_threads", 1}, {"jobs", jobs}};
+  json["machine"] = {
+      {"cpu", cpu_model()}, {"host", host_name()}, {"estimator_threads", 1}, {"jobs", jobs}};
   return json;
 }
 
@@ -57,6 +64,12 @@ Json session(const std::string& command_line, int jobs) {
 
 std::string session_json(const std::string& command_line, int jobs) {
   return session(command_line, jobs).dump(2) + "\n";
+}
+
+std::string session_json(const ShardPlan& plan, int jobs) {
+  Json json = session(plan.command_line, jobs);
+  json["shard"] = {{"index", plan.shard.index}, {"of", plan.shard.of}, {"runs", plan.runs}};
+  return json.dump(2) + "\n";
 }
 
 std::string manifest_json(const std::string& command_line,
