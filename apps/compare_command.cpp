@@ -9,8 +9,8 @@
 #include <opencv2/core/utility.hpp>
 
 #include "apps/command.hpp"
-#include "apps/compare_modes.hpp"
 #include "apps/common.hpp"
+#include "apps/compare_modes.hpp"
 #include "apps/memory_meter.hpp"
 #include "apps/pin_threads.hpp"
 #include "fathom/core/files.hpp"
@@ -109,14 +109,13 @@ void add_compare(CLI::App& program, Context& context) {
   command.integer("--trials", flags->trials, Range::any(), "N",
                   "Trials in every survey, for a quick look");
   command.integer("--jobs", flags->jobs, Range::any(), "N", "Trials at work at the same time");
-  const Flag cache =
-      command.text("--cache", flags->cache, "DIR",
-                   "Folder of the registrations that are kept from study to study "
-                   "(default: $FATHOM_CACHE, or ~/.cache/fathom)");
+  const Flag cache = command.text("--cache", flags->cache, "DIR",
+                                  "Folder of the registrations that are kept from study to study "
+                                  "(default: $FATHOM_CACHE, or ~/.cache/fathom)");
   const Flag read_only = command.text("--read-only-cache", flags->read_only_cache, "DIR",
                                       "The same, only read: many machines may do so at once");
-  const Flag no_cache = command.boolean("--no-cache", flags->no_cache,
-                                        "Neither read nor write kept registrations");
+  const Flag no_cache =
+      command.boolean("--no-cache", flags->no_cache, "Neither read nor write kept registrations");
   command.text("--shard", flags->shard, "K/N",
                "Do the K-th of N parts of the study; 'fathom merge' makes one of them");
   command.text("--scratch", flags->scratch, "DIR",

@@ -82,7 +82,8 @@ void run_shard(const Study& study, const Shard& shard, const fs::path& out,
                const FrameSource* pictures, StudyRunOptions& options, const CompareFlags& flags,
                Context& context) {
   const ShardPlan plan{shard, runs_of(study, shard), context.command_line};
-  const fs::path scratch = flags.scratch.empty() ? fs::temp_directory_path() : fs::path(flags.scratch);
+  const fs::path scratch =
+      flags.scratch.empty() ? fs::temp_directory_path() : fs::path(flags.scratch);
   ScratchStore store(out, scratch, study.description, session_json(plan, options.jobs));
   options.shard = shard;
   options.progress = [&store](const StudyProgress&) { store.publish_when_due(); };

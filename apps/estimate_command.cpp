@@ -58,8 +58,10 @@ Demand demand_of(const Study& study, const StudySample& measured) {
   }
   const auto sampled = static_cast<double>(measured.trials);
   const auto groups = static_cast<double>(registrations_s.size());
-  demand.store_mib = measured.store_mib / sampled * trials * static_cast<double>(study.cells.size());
-  demand.cache_mib = measured.cache_mib / groups * surveys * static_cast<double>(measured.groups.size());
+  demand.store_mib =
+      measured.store_mib / sampled * trials * static_cast<double>(study.cells.size());
+  demand.cache_mib =
+      measured.cache_mib / groups * surveys * static_cast<double>(measured.groups.size());
   return demand;
 }
 
@@ -69,14 +71,14 @@ std::string request_of(const Demand& demand, const StudySample& measured, int sh
   const double hours = demand.runs_h / shards;
   const auto minutes = static_cast<long>(std::ceil(kMargin * 60.0 * hours)) + 1;
   const auto mib = 256 * static_cast<long>(std::ceil(kMargin * measured.memory_mib / 256.0));
-  return "#SBATCH --array=1-" + std::to_string(shards) + " --cpus-per-task=1 --time=" +
-         std::to_string(minutes) + " --mem=" + std::to_string(mib) + "M\n";
+  return "#SBATCH --array=1-" + std::to_string(shards) +
+         " --cpus-per-task=1 --time=" + std::to_string(minutes) + " --mem=" + std::to_string(mib) +
+         "M\n";
 }
 
 void print(const Study& study, const StudySample& measured, const EstimateFlags& flags) {
   const Demand demand = demand_of(study, measured);
-  const std::size_t trials =
-      trials_in_all(study);
+  const std::size_t trials = trials_in_all(study);
   Table table({"", "processor hours", "disk (MiB)", "of"});
   table.add_row({"registrations", format_number(demand.registrations_h, 2),
                  format_number(demand.cache_mib, 2),
@@ -85,11 +87,14 @@ void print(const Study& study, const StudySample& measured, const EstimateFlags&
                  std::to_string(trials) + " trials with " +
                      std::to_string(study.description.estimators.size()) + " estimators"});
   std::printf("%s\n", table.text().c_str());
-  std::printf("Memory: %.0f MiB a job. From %zu trials that were run here; other trials register "
-              "pairs of their own, and other machines are faster or slower.\n",
-              std::ceil(measured.memory_mib), measured.trials);
-  std::printf("A request of twice that, in %d shard%s, pictures registered before:\n%s", flags.shards,
-              flags.shards == 1 ? "" : "s", request_of(demand, measured, flags.shards).c_str());
+  std::printf(
+      "Memory: %.0f MiB a job. From %zu trial%s run here; other trials register "
+      "pairs of their own, and other machines are faster or slower.\n",
+      std::ceil(measured.memory_mib), measured.trials,
+      measured.trials == 1 ? " that was" : "s that were");
+  std::printf("A request of twice that, in %d shard%s, pictures registered before:\n%s",
+              flags.shards, flags.shards == 1 ? "" : "s",
+              request_of(demand, measured, flags.shards).c_str());
 }
 
 void estimate(const EstimateFlags& flags) {
@@ -97,8 +102,8 @@ void estimate(const EstimateFlags& flags) {
   settle_reference(study, builtin_estimators());
   study.description.data = data_of(study);
   ProgressLine line("sampling", flags.common.quiet);
-  const StudySample sample = sample_study(study, builtin_estimators(), flags.seconds, pin_threads,
-                                          line.callback());
+  const StudySample sample =
+      sample_study(study, builtin_estimators(), flags.seconds, pin_threads, line.callback());
   print(study, sample, flags);
 }
 
@@ -114,7 +119,8 @@ void add_estimate(CLI::App& program, Context& context) {
   flags->common.add_settings_to(command);
   command.real("--seconds", flags->seconds, Range::at_least(0), "S",
                "No further trial begins after so long");
-  command.integer("--shards", flags->shards, Range::between(1, 1e6), "N", "Shards that the study is cut in");
+  command.integer("--shards", flags->shards, Range::between(1, 1e6), "N",
+                  "Shards that the study is cut in");
   command.on_run([flags, &context] {
     context.status = kDone;
     estimate(*flags);

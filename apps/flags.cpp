@@ -83,7 +83,8 @@ Flag Command::arguments(const std::string& name, std::vector<std::string>& field
         for (const std::string& text : given) field.push_back(word_of(name, text));
       },
       help);
-  return Flag(*option->type_name("")->required()->expected(1, CLI::detail::expected_max_vector_size));
+  return Flag(
+      *option->type_name("")->required()->expected(1, CLI::detail::expected_max_vector_size));
 }
 
 Flag Command::text(const std::string& name, std::string& field, const std::string& value_name,

@@ -150,8 +150,7 @@ ClaimHolder FolderClaim::holder_of(const fs::path& folder, ClaimTimes times) {
   const std::string there = content_of(file);
   if (there.empty()) return {};
   const Claimant who = claimant_of(there);
-  const bool is_alive =
-      !is_dead(who) && changes_within(file, there, times.beat + times.beat / 2);
+  const bool is_alive = !is_dead(who) && changes_within(file, there, times.beat + times.beat / 2);
   return {who.host, who.process, is_alive};
 }
 

@@ -110,10 +110,9 @@ class Runner {
     const bool is_own = configuration.study.association == Association::own;
     for (const std::size_t e : task.estimators) {
       if (is_stopped()) return;
-      recorder->record(
-          configuration,
-          is_own ? by_contender(configuration.estimators[e]) : configuration.reference, registry_,
-          noise_of(task));
+      recorder->record(configuration,
+                       is_own ? by_contender(configuration.estimators[e]) : configuration.reference,
+                       registry_, noise_of(task));
       if (!is_own) break;
     }
     data_sets_.trial_done(task.cell, task.survey);

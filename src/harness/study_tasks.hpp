@@ -46,9 +46,9 @@ class ShardTrials {
   std::vector<bool> is_own_;  ///< by cell, survey and trial
 };
 
-/// What of a shard is not in its store; all of it where there is none. As many surveys take turns as there are jobs, since trials
-/// of one survey wait for the same pictures and registrations; cells over the same pictures come
-/// one after the other, so that few surveys are open at a time.
+/// What of a shard is not in its store; all of it where there is none. As many surveys take turns
+/// as there are jobs, since trials of one survey wait for the same pictures and registrations;
+/// cells over the same pictures come one after the other, so that few surveys are open at a time.
 std::vector<Task> tasks_of(const Study& study, const RunIndex* there,
                            const StudyDataSets& data_sets, const ShardTrials& own,
                            std::size_t jobs);

@@ -53,9 +53,8 @@ std::string summary_line(const EstimatorResults& one, const std::string& metric,
   const std::string machine = is_cost_metric(metric) ? one.cost_machine : "";
   const auto found = one.metrics.find(metric);
   if (found == one.metrics.end()) {
-    append(fields,
-           {one.name, metric, "0", "0", std::to_string(one.failures()), "", "", "", "", "",
-            machine});
+    append(fields, {one.name, metric, "0", "0", std::to_string(one.failures()), "", "", "", "", "",
+                    machine});
     return line_of(fields);
   }
   const Moments& moments = found->second.moments;

@@ -150,10 +150,10 @@ std::string words_in_brief(const StudyResults& results) {
 // Costs on the kinds of processor that the blocks above say nothing of.
 std::string costs_elsewhere(const ResultStore& store, const StudyResults& results) {
   std::string text;
-  for (const StudyResults& other :
-       results_of_other_machines(store, results, MetricsOf::study)) {
+  for (const StudyResults& other : results_of_other_machines(store, results, MetricsOf::study)) {
     const std::string& machine = other.cost_machine;
-    text += "Costs on " + (machine.empty() ? std::string("an unknown processor") : machine) + "\n\n";
+    text +=
+        "Costs on " + (machine.empty() ? std::string("an unknown processor") : machine) + "\n\n";
     for (const CellResults& cell : other.cells) {
       text += cell_caption(cell) + "\n";
       text += estimator_table(cell, other.study, StudyTable::full, true) + "\n";

@@ -135,8 +135,7 @@ Copies copies_of(const std::vector<Source>& sources) {
   Copies copies;
   for (const Source& source : sources) {
     for (const RunRecord& run : source.store.runs()) {
-      copies[run.key].push_back(
-          {&source, &source.manifests.at(run.session), text_of_costs(run)});
+      copies[run.key].push_back({&source, &source.manifests.at(run.session), text_of_costs(run)});
     }
   }
   for (auto& [key, own] : copies) {
@@ -210,8 +209,7 @@ MergeSummary merge_stores(const std::vector<fs::path>& folders, const fs::path& 
     if (key.estimator != kDeadReckoning) ++summary.runs;
     if (own.size() > 1) ++summary.repeated;
   }
-  summary.of =
-      study.cell_count() * study.surveys * study.trials * study.estimators.size();
+  summary.of = study.cell_count() * study.surveys * study.trials * study.estimators.size();
   summary.machines = machines_of(sources).size();
   std::vector<ShardFolder> shards;
   for (const Source& source : sources) shards.push_back(shard_folder(source.folder, source.store));

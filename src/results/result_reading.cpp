@@ -84,11 +84,9 @@ class RunReader {
 
  private:
   void read_keys() {
-    SQLite::Statement rows(
-        database_,
-        std::string("SELECT ") + kColumns +
-            " FROM run LEFT JOIN estimator USING (estimator) "
-            "ORDER BY cell, survey, trial, estimator");
+    SQLite::Statement rows(database_, std::string("SELECT ") + kColumns +
+                                          " FROM run LEFT JOIN estimator USING (estimator) "
+                                          "ORDER BY cell, survey, trial, estimator");
     while (rows.executeStep()) {
       StoredRun run = stored_run(rows);
       set_session(run.record, sessions_, rows.getColumn(10).getInt64());

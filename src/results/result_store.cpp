@@ -115,8 +115,7 @@ std::optional<RunRecord> ResultStore::run(const RunKey& key) const {
 
 void ResultStore::begin_session(const std::string& manifest) {
   const std::lock_guard hold(database_->mutex);
-  database_->guard(
-      [&] { database_->session = insert_session(*database_->sqlite, manifest); });
+  database_->guard([&] { database_->session = insert_session(*database_->sqlite, manifest); });
 }
 
 void ResultStore::add(const RunRecord& run) {

@@ -35,8 +35,8 @@ fs::path place_for(const fs::path& folder, const fs::path& scratch) {
 std::optional<std::size_t> runs_in(const fs::path& folder, const StudyDescription& study) {
   try {
     const ResultStore store = ResultStore::open(folder / kFile);
-    const bool is_same = difference(store.study(), study).empty() &&
-                         data_difference(store.study(), study).empty();
+    const bool is_same =
+        difference(store.study(), study).empty() && data_difference(store.study(), study).empty();
     return is_same ? std::optional(store.runs().size()) : std::nullopt;
   } catch (const InputError&) {
     return std::nullopt;
@@ -64,7 +64,13 @@ ScratchStore::ScratchStore(const fs::path& folder, const fs::path& scratch,
                            const StudyDescription& study, const std::string& manifest,
                            ClaimTimes times)
     : folder_(made(folder)), scratch_(made(place_for(folder, scratch))), claim_(folder_, times) {
-  open(study, manifest);
+  try {
+    open(study, manifest);
+  } catch (const InputError&) {
+    std::error_code not_empty;
+    fs::remove(scratch_, not_empty);
+    throw;
+  }
 }
 
 void ScratchStore::open(const StudyDescription& study, const std::string& manifest) {
@@ -79,7 +85,8 @@ void ScratchStore::open(const StudyDescription& study, const std::string& manife
     remove_store(scratch_);
     std::error_code error;
     if (is_published) fs::copy_file(folder_ / kFile, scratch_ / kFile, error);
-    if (error) throw InputError((scratch_ / kFile).string(), "cannot be written: " + error.message());
+    if (error)
+      throw InputError((scratch_ / kFile).string(), "cannot be written: " + error.message());
   }
   store_.emplace(ResultStore::write(scratch_, study, manifest));
 }

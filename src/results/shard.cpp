@@ -49,7 +49,8 @@ Shard parse_shard(const std::string& text) {
   const auto of = slash == std::string::npos ? std::nullopt : parse_integer(text.substr(slash + 1));
   constexpr std::int64_t kMost = 1'000'000;
   if (!index || !of || *index < 1 || *of < 1 || *index > *of || *of > kMost) {
-    throw InputError("--shard: '" + text + "' is no part of a study; expected K/N with K from 1 to "
+    throw InputError("--shard: '" + text +
+                     "' is no part of a study; expected K/N with K from 1 to "
                      "N, for example 3/7");
   }
   return {static_cast<std::size_t>(*index), static_cast<std::size_t>(*of)};
@@ -76,7 +77,7 @@ std::string command_line_of(const std::string& manifest) {
   const auto json = nlohmann::json::parse(manifest, nullptr, false);
   const auto line = json.is_object() ? json.find("command_line") : json.end();
   return json.is_object() && line != json.end() && line->is_string() ? line->get<std::string>()
-                                                                      : "";
+                                                                     : "";
 }
 
 std::string command_of(const ShardPlan& plan, std::size_t index) {

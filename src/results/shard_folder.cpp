@@ -78,9 +78,9 @@ std::vector<MissingPart> missing_parts(const std::vector<ShardFolder>& folders,
   const auto shards = all_shards(folders);
   for (const auto& [number, shard] : shards) {
     if (shard.done >= shard.plan.runs) continue;
-    missing.push_back({"shard " + text_of(shard.plan.shard) + ": " +
-                           count_text(shard.done, shard.plan.runs),
-                       shard.plan.command_line});
+    missing.push_back(
+        {"shard " + text_of(shard.plan.shard) + ": " + count_text(shard.done, shard.plan.runs),
+         shard.plan.command_line});
   }
   const bool is_one_division =
       !shards.empty() && shards.begin()->first.first == shards.rbegin()->first.first;
@@ -94,8 +94,8 @@ std::vector<MissingPart> missing_parts(const std::vector<ShardFolder>& folders,
   }
   for (const ShardFolder& folder : folders) {
     if (!folder.shards.empty() || folder.done >= folder.of) continue;
-    missing.push_back({folder.folder.string() + ": " + count_text(folder.done, folder.of),
-                       folder.command_line});
+    missing.push_back(
+        {folder.folder.string() + ": " + count_text(folder.done, folder.of), folder.command_line});
   }
   if (missing.empty()) {
     missing.push_back({std::to_string(missing_runs) + " runs",

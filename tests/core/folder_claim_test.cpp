@@ -18,8 +18,8 @@ namespace fathom {
 namespace {
 
 using std::chrono_literals::operator""ms;
-using ::testing::HasSubstr;
 using test::TemporaryFolder;
+using ::testing::HasSubstr;
 
 constexpr ClaimTimes kQuick{20ms, 400ms};
 

@@ -78,8 +78,9 @@ TEST(StudyShard, AreOfLikeCost) {
     costs.push_back(static_cast<double>(runs_of(many, {index, 3})));
   }
   EXPECT_EQ(costs[0] + costs[1] + costs[2], 900.0);
-  // The order is cell by cell: 300 of the cheap, 300 of the middle, 300 of the dear. These have more
-  // than nine tenths of the cost, so that each shard has about 100 of them, and the first the rest.
+  // The order is cell by cell: 300 of the cheap, 300 of the middle, 300 of the dear. These have
+  // more than nine tenths of the cost, so that each shard has about 100 of them, and the first the
+  // rest.
   EXPECT_GT(costs[0], 600.0);
   EXPECT_NEAR(costs[1], costs[2], 1.0);
   EXPECT_NEAR(costs[1], 105.0, 12.0);

@@ -20,12 +20,12 @@ namespace fathom {
 namespace {
 
 namespace fs = std::filesystem;
-using ::testing::AllOf;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 using test::description;
 using test::record;
 using test::TemporaryFolder;
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 
 std::string manifest(std::size_t index, std::size_t of, std::size_t runs,
                      const std::string& cpu = "one kind") {
@@ -144,15 +144,15 @@ TEST_F(Merging, RefusesAnotherResultOfTheSameRun) {
   const auto a = write("a", runs, manifest(1, 2, 12));
   runs[4].metrics["anees"] = 0.25;
   const auto b = write("b", runs, manifest(2, 2, 12));
-  EXPECT_THAT(refusal({a, b}), AllOf(HasSubstr("shard "), HasSubstr("iterated, trial 0 of survey 0"),
-                                     HasSubstr("anees"), HasSubstr("0.25"), HasSubstr("run it again")));
+  EXPECT_THAT(refusal({a, b}),
+              AllOf(HasSubstr("shard "), HasSubstr("iterated, trial 0 of survey 0"),
+                    HasSubstr("anees"), HasSubstr("0.25"), HasSubstr("run it again")));
   runs = runs_of_trial(0);
   runs[4].series["x"][1] = 0.3333333333333334;
   EXPECT_THAT(refusal({a, write("c", runs, manifest(2, 2, 12))}), HasSubstr("series x"));
   runs = runs_of_trial(0);
   runs[4].outcome = "diverged";
-  EXPECT_THAT(refusal({a, write("d", runs, manifest(2, 2, 12))}),
-              HasSubstr("outcome"));
+  EXPECT_THAT(refusal({a, write("d", runs, manifest(2, 2, 12))}), HasSubstr("outcome"));
 }
 
 TEST_F(Merging, RefusesShardsOfTwoStudies) {
@@ -219,8 +219,8 @@ TEST_F(Merging, OfAStoreThatWasNotDividedSaysItsCommand) {
 TEST(Shards, AreReadStrictly) {
   EXPECT_EQ(parse_shard("3/7"), (Shard{3, 7}));
   EXPECT_EQ(parse_shard("1/1"), (Shard{1, 1}));
-  for (const char* wrong : {"", "3", "0/3", "4/3", "-1/3", "a/3", "1/", "/3", "1/3/5", "1.5/3", "1/0",
-                            "1/1000001"}) {
+  for (const char* wrong :
+       {"", "3", "0/3", "4/3", "-1/3", "a/3", "1/", "/3", "1/3/5", "1.5/3", "1/0", "1/1000001"}) {
     EXPECT_THROW(parse_shard(wrong), InputError) << wrong;
   }
 }

@@ -19,10 +19,10 @@ namespace {
 
 namespace fs = std::filesystem;
 using std::chrono_literals::operator""ms;
-using ::testing::HasSubstr;
 using test::description;
 using test::record;
 using test::TemporaryFolder;
+using ::testing::HasSubstr;
 
 constexpr ClaimTimes kQuick{20ms, 400ms};
 

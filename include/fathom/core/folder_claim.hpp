@@ -25,8 +25,8 @@ struct ClaimHolder {
 
 /// Keeps other machines out of a folder on a file system that they share, as long as it lives: the
 /// file `results.owner`, rewritten every beat. A lock of the system (`FileLock`) does not always
-/// reach over machines. The claim of a process of this machine that is dead is taken over at once, any other
-/// once its file has not changed for `patience`.
+/// reach over machines. The claim of a process of this machine that is dead is taken over at once,
+/// any other once its file has not changed for `patience`.
 class FolderClaim {
  public:
   /// Throws InputError where another process holds the folder, or where it cannot be written.

@@ -38,13 +38,13 @@ struct RunKey {
 /// What is kept of a run. What is not known is absent; nothing in it is NaN.
 struct RunRecord {
   RunKey key;
-  std::string outcome;                    ///< name_of(Outcome); empty for dead reckoning
-  std::string fault;                      ///< how the estimator broke its contract; else empty
-  std::string log_hash;                   ///< FNV-1a of the measurement log as g2o
-  int jobs = 1;                           ///< runs that were at work at the same time
+  std::string outcome;      ///< name_of(Outcome); empty for dead reckoning
+  std::string fault;        ///< how the estimator broke its contract; else empty
+  std::string log_hash;     ///< FNV-1a of the measurement log as g2o
+  int jobs = 1;             ///< runs that were at work at the same time
   std::size_t session = 0;  ///< place of its manifest in `manifests`; set by the store
   std::string machine;      ///< model of its processor, as that manifest says; set by the store
-  std::map<std::string, double> metrics;  ///< docs/formats.md lists them
+  std::map<std::string, double> metrics;              ///< docs/formats.md lists them
   std::map<std::string, std::vector<double>> series;  ///< likewise
 };
 
