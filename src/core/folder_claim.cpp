@@ -1,18 +1,14 @@
 #include "fathom/core/folder_claim.hpp"
 
 #include <algorithm>
-#include <cerrno>
-#include <csignal>
-#include <cstdio>
 #include <fstream>
 #include <iterator>
-#include <random>
 #include <sstream>
 #include <system_error>
-#include <unistd.h>
 
 #include "fathom/core/files.hpp"
 #include "fathom/core/input_error.hpp"
+#include "fathom/core/system.hpp"
 
 namespace fathom {
 namespace {
@@ -22,35 +18,13 @@ using Clock = std::chrono::steady_clock;
 
 constexpr const char* kFile = "results.owner";
 
-std::string first_line(const char* path) {
-  std::ifstream file(path);
-  std::string line;
-  std::getline(file, line);
-  return line;
-}
-
-// Within one of these a process has one number: a boot of a machine, and a container of it.
-std::string process_space() {
-  char link[128] = {};
-  const auto length = ::readlink("/proc/self/ns/pid", link, sizeof link - 1);
-  return first_line("/proc/sys/kernel/random/boot_id") + (length > 0 ? std::string(link) : "");
-}
-
-std::string host_name() {
-  char name[256] = {};
-  return ::gethostname(name, sizeof name - 1) == 0 && name[0] != '\0' ? name : "unknown";
-}
-
 // Tells claims of one process apart, too.
 std::string new_token() {
-  std::random_device random;
-  std::ostringstream text;
-  text << host_name() << ' ' << ::getpid() << ' ' << process_space() << ' ' << std::hex << random()
-       << random();
-  return text.str();
+  return host_name() + " " + std::to_string(process_number()) + " " + process_space() + " " +
+         unique_word();
 }
 
-// "HOST PID SPACE RANDOM COUNT"; empty where there is no such file.
+// "HOST PROCESS SPACE WORD COUNT"; empty where there is no such file.
 std::string content_of(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
@@ -74,7 +48,7 @@ bool is_here(const Claimant& who) {
 }
 
 bool is_dead(const Claimant& who) {
-  return is_here(who) && ::kill(static_cast<pid_t>(who.process), 0) != 0 && errno == ESRCH;
+  return is_here(who) && is_dead_process(who.process);
 }
 
 // Whether a file changes while one waits.

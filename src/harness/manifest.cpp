@@ -4,12 +4,12 @@
 #include <cstdio>
 #include <ctime>
 #include <fstream>
-#include <unistd.h>
 
 #include <nlohmann/json.hpp>
 
 #include "build_info.hpp"
 #include "fathom/core/hash.hpp"
+#include "fathom/core/system.hpp"
 #include "fathom/core/version.hpp"
 #include "fathom/datasets/fingerprint.hpp"
 #include "fathom/measurements/g2o.hpp"
@@ -34,11 +34,6 @@ std::string utc_now() {
   char buffer[32];
   std::strftime(buffer, sizeof buffer, "%Y-%m-%dT%H:%M:%SZ", &calendar);
   return buffer;
-}
-
-std::string host_name() {
-  char name[256] = {};
-  return ::gethostname(name, sizeof name - 1) == 0 ? name : "unknown";
 }
 
 Json build_and_machine(int jobs) {

@@ -5,10 +5,9 @@
 #include <filesystem>
 #include <map>
 #include <string>
-#include <sys/resource.h>
 #include <system_error>
-#include <unistd.h>
 
+#include "fathom/core/system.hpp"
 #include "fathom/front_end/registration_store.hpp"
 #include "fathom/harness/study_run.hpp"
 #include "fathom/harness/survey.hpp"
@@ -17,22 +16,6 @@ namespace fathom {
 namespace {
 
 namespace fs = std::filesystem;
-
-// Of this process, all its threads.
-double processor_seconds() {
-  rusage usage{};
-  ::getrusage(RUSAGE_SELF, &usage);
-  const auto seconds = [](const timeval& time) {
-    return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
-  };
-  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
-}
-
-double peak_memory_mib() {
-  rusage usage{};
-  ::getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_maxrss) / 1024.0;
-}
 
 double mib_of(const fs::path& file) {
   std::error_code error;
@@ -44,7 +27,7 @@ double mib_of(const fs::path& file) {
 class TemporaryFolder {
  public:
   TemporaryFolder()
-      : path_(fs::temp_directory_path() / ("fathom-estimate-" + std::to_string(::getpid()))) {
+      : path_(fs::temp_directory_path() / ("fathom-estimate-" + std::to_string(process_number()))) {
     fs::create_directories(path_);
   }
   ~TemporaryFolder() {

@@ -1,14 +1,11 @@
 #include "fathom/results/scratch_store.hpp"
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <fcntl.h>
 #include <system_error>
-#include <unistd.h>
 
 #include "fathom/core/hash.hpp"
 #include "fathom/core/input_error.hpp"
+#include "fathom/core/system.hpp"
 #include "result_schema.hpp"
 
 namespace fathom {
@@ -28,7 +25,7 @@ fs::path made(const fs::path& folder) {
 // One for each folder that is written into, and user.
 fs::path place_for(const fs::path& folder, const fs::path& scratch) {
   const std::string name = fs::absolute(folder).lexically_normal().string();
-  return scratch / ("fathom-" + std::to_string(::getuid()) + "-" + hash_text(name));
+  return scratch / ("fathom-" + std::to_string(user_number()) + "-" + hash_text(name));
 }
 
 // Runs that a store has of a study; nothing where it is none, damaged, or of another study.
@@ -48,14 +45,6 @@ void remove_store(const fs::path& folder) {
   for (const char* ending : {"", "-wal", "-shm", "-journal"}) {
     fs::remove(folder / (std::string(kFile) + ending), ignored);
   }
-}
-
-void sync_to_disk(const fs::path& file) {
-  const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
-  const bool is_synced = descriptor >= 0 && ::fsync(descriptor) == 0;
-  const int error = errno;
-  if (descriptor >= 0) ::close(descriptor);
-  if (!is_synced) throw InputError(file.string(), std::strerror(error));
 }
 
 }  // namespace

@@ -57,8 +57,8 @@ const std::vector<ThirdParty>& third_parties() {
       {"boost/math/", {"src/core/chi_squared.cpp", "src/evaluation/distributions.cpp"}},
       {"ceres/", {"estimators/ceres_pose_graph/"}},
       {"yaml-cpp/", {"src/configuration/", "src/datasets/image_folder/camera_yaml.cpp"}},
-      {"SQLiteCpp/", {"src/results/", "src/front_end/registration_store.cpp"}},
-      {"sqlite3.h", {"src/results/", "src/front_end/registration_store.cpp"}},
+      {"SQLiteCpp/", {"src/results/", "src/front_end/registration_"}},
+      {"sqlite3.h", {"src/results/", "src/front_end/registration_"}},
       {"nlohmann/", {"src/results/", "src/harness/", "src/report/"}},
       {"cairo", {"src/report/"}},
       {"cblas.h", {"src/core/blas_memory.cpp", "src/vision/", "apps/pin_threads.cpp"}},
@@ -66,12 +66,13 @@ const std::vector<ThirdParty>& third_parties() {
       {"glog/", {"apps/main.cpp"}},
       {"omp.h", {"apps/pin_threads.cpp"}},
       {"malloc.h", {"apps/memory_meter.cpp"}},
-      {"signal.h", {"src/core/files.cpp"}},
-      {"fcntl.h", {"src/core/file_lock.cpp"}},
+      {"signal.h", {"src/core/files.cpp", "src/core/system.cpp"}},
+      {"fcntl.h", {"src/core/file_lock.cpp", "src/core/system.cpp"}},
       {"sys/mman.h", {"estimators/support/filter/growing_memory.cpp", "src/core/blas_memory.cpp"}},
       {"sys/file.h", {"src/core/file_lock.cpp"}},
+      {"sys/resource.h", {"src/core/system.cpp"}},
       {"unistd.h",
-       {"src/core/files.cpp", "src/core/file_lock.cpp", "apps/common.cpp",
+       {"src/core/files.cpp", "src/core/file_lock.cpp", "src/core/system.cpp", "apps/common.cpp",
         "apps/out_of_memory.cpp"}}};
   return list;
 }
