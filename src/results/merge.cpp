@@ -212,6 +212,7 @@ MergeSummary merge_stores(const std::vector<fs::path>& folders, const fs::path& 
   summary.of = study.cell_count() * study.surveys * study.trials * study.estimators.size();
   summary.machines = machines_of(sources).size();
   std::vector<ShardFolder> shards;
+  shards.reserve(sources.size());
   for (const Source& source : sources) shards.push_back(shard_folder(source.folder, source.store));
   summary.missing = missing_parts(shards, summary.of - summary.runs);
   write_merged(staged.path(), study, copies);

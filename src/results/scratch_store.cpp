@@ -103,11 +103,12 @@ void ScratchStore::publish() {
   try {
     store_->copy_to(part);
     sync_to_disk(part);
-  } catch (const InputError& problem) {
+  } catch (const InputError&) {
     fs::remove(part, error);
-    throw InputError(folder_.string(), "cannot be written (" + std::string(problem.what()) +
-                                           "); what is done is in " + scratch_.string() +
-                                           ": make room and run the same command again");
+    fs::remove(part.string() + "-journal", error);
+    throw InputError(folder_.string(),
+                     "cannot be written, or its disk is full; what is done is in " +
+                         scratch_.string() + ": make room and run the same command again");
   }
   fs::rename(part, folder_ / kFile, error);
   if (error) throw InputError(folder_.string(), "cannot be written: " + error.message());

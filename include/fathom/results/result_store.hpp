@@ -32,6 +32,7 @@ struct RunKey {
   std::string estimator;
 
   TrialKey trial_key() const { return {survey, trial}; }
+  // NOLINTNEXTLINE(modernize-use-nullptr): said of what the compiler writes for it
   auto operator<=>(const RunKey&) const = default;
 };
 
