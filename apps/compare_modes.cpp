@@ -48,7 +48,7 @@ auto stoppable(StudyRunOptions& options, bool quiet, Action action) {
     line.show(progress);
     if (also) also(progress);
   };
-  const auto done = action();
+  auto done = action();
   std::signal(SIGINT, SIG_DFL);
   std::signal(SIGTERM, SIG_DFL);
   return done;

@@ -18,6 +18,7 @@ struct TrialKey {
   std::size_t survey = 0;
   std::size_t trial = 0;
 
+  // NOLINTNEXTLINE(modernize-use-nullptr): said of what the compiler writes for it
   auto operator<=>(const TrialKey&) const = default;
 };
 
