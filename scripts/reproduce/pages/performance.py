@@ -126,7 +126,7 @@ def smoother_graphs(work):
         cells.append([graph, significant(row_of(rows, f"scale/{graph}")["cpu_ms"]),
                       significant(whole["total_ms"]), significant(whole["longest_ms"], 2),
                       f"**{significant(smoother['total_ms'])}**",
-                      fixed(smoother["median_ms"], 3), fixed(smoother["p95_ms"], 2),
+                      fixed(smoother["median_ms"], 3), fixed(smoother["p95_ms"], 3),
                       significant(smoother["longest_ms"], 2), f"{smoother['worst_gap']:.1e}"])
     return table(["graph", "Ceres, once", "whole graph: all", "longest", "**smoother: all**",
                   "median", "95 %", "longest", "F over the optimum"], cells)
