@@ -16,6 +16,7 @@ struct Factorisation {
   double* signs;
   double* packed;
   int negative = 0;
+  double* inverses = nullptr;  ///< 1 / the diagonal of L, for substitutions
 
   // Row block `row` of columns [0, depth) of a panel, times D, as the right side of a product.
   FATHOM_INLINE void pack(const double* panel, int stride, int row, int depth,
@@ -127,6 +128,9 @@ struct Factorisation {
       const int stride = s.panel_rows() * B;
       double* sign = signs + at(s.first * B);
       if (!factor_panel(s, panel, stride, sign)) return false;
+      for (int k = 0; k < s.width * B; ++k) {
+        inverses[at(s.first * B + k)] = 1.0 / panel[at(k) * at(stride) + at(k)];
+      }
       for (int u = s.updates; u < s.updates + s.update_count; ++u) {
         update(s, symbolic.updates[at(u)], panel, stride, sign);
       }
