@@ -28,7 +28,7 @@ struct SolverTuning {
   /// error, so it has to promise less than a Newton step.
   double chord_below = 1e-3;
   double chord_contraction = 1e-2;
-  double chord_share = 1e-2;
+  double chord_share = 5e-2;
   /// Levenberg-Marquardt damping after a step that failed; then more after each that
   /// fails and less after each that does not (Marquardt 1963). Below the least there is none;
   /// beyond the largest no step is left in 16 digits.

@@ -54,16 +54,23 @@ struct Factorisation {
     return true;
   }
 
+  // The rows below a diagonal block, a row of its B columns at a time.
   FATHOM_INLINE void solve_below(double* block, int stride, int count, const double* sign,
                                  const double* inverse) const {
+    double L[B][B];
     for (int j = 0; j < B; ++j) {
-      double* column = block + B + at(j * stride);
-      for (int p = 0; p < j; ++p) {
-        const double* left = block + B + at(p * stride);
-        const double factor = sign[p] * block[j + p * stride];
-        for (int i = 0; i < count; ++i) column[i] -= factor * left[i];
+      for (int p = 0; p < j; ++p) L[j][p] = sign[p] * block[j + p * stride];
+    }
+    double* const below = block + B;
+#pragma GCC ivdep
+    for (int i = 0; i < count; ++i) {
+      double row[B];
+      for (int j = 0; j < B; ++j) {
+        row[j] = below[i + j * stride];
+        for (int p = 0; p < j; ++p) row[j] -= L[j][p] * row[p];
+        row[j] *= inverse[j];
+        below[i + j * stride] = row[j];
       }
-      for (int i = 0; i < count; ++i) column[i] *= inverse[j];
     }
   }
 
