@@ -52,7 +52,7 @@ class Batch {
     if (is_trusted) {
       first = from_headings(turned);
       is_trusted = worst_turn(headings_of(first)) < kTrustedTurnRad;
-      if (is_trusted && try_from(first)) return;
+      if (is_trusted && try_from(std::move(first))) return;
     }
     if (try_from(lifted())) return;
     if (!is_trusted) try_from(first.empty() ? from_headings(turned) : std::move(first));
@@ -121,9 +121,8 @@ class Batch {
     equations_.linearise(turned, Hessian::measured);
     if (!equations_.factorise()) return turned;
     equations_.solve_step();
-    std::vector<Node> placed;
-    equations_.move(turned, placed);
-    return placed;
+    equations_.move(turned, turned);
+    return turned;
   }
 
   static std::vector<double> headings_of(const std::vector<Node>& nodes) {

@@ -49,7 +49,7 @@ class NormalEquations {
   /// Largest absolute element of the gradient of F.
   double gradient_norm() const;
 
-  /// The estimate moved by the last step.
+  /// The estimate moved by the last step; `to` may be where it is.
   void move(std::span<const Node> from, std::vector<Node>& to) const;
   /// Whether every number of the last step is small beside that of the estimate.
   bool step_is_small(std::span<const Node> nodes, double tolerance) const;
