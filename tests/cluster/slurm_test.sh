@@ -138,7 +138,7 @@ printf 'submitted; the merge is job %s\n' "$last"
 
 # The third shard is killed as soon as it has something to lose, and must be seen to run again.
 killed=no
-for ((i = 0; i < 1200; ++i)); do
+for ((i = 0; i < 3000; ++i)); do
   if [[ $killed == no ]]; then
     pid=$(pgrep -f "^$fathom compare .*--shard 3/8 .*--scratch" | head -n 1 || true)
     if [[ -n $pid ]] && compgen -G "$TMPDIR/fathom-*/results.sqlite" > /dev/null; then
@@ -157,7 +157,7 @@ for ((i = 0; i < 1200; ++i)); do
   done
   sleep 0.2
 done
-[[ $state == COMPLETED ]] || fail "the merge is $state after four minutes"
+[[ $state == COMPLETED ]] || fail "the merge is $state after ten minutes"
 [[ $killed == yes ]] || fail "no task could be killed: they were too quick"
 grep -q 'Killed\|killed' study/logs/shards-3.log || fail "shard 3/8 was not killed"
 
