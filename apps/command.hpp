@@ -28,5 +28,8 @@ void add_report(CLI::App& program, Context& context);
 void add_mosaic(CLI::App& program, Context& context);
 void add_select(CLI::App& program, Context& context);
 void add_spoil(CLI::App& program, Context& context);
+void add_merge(CLI::App& program, Context& context);
+void add_estimate(CLI::App& program, Context& context);
+void add_status(CLI::App& program, Context& context);
 
 }  // namespace fathom

@@ -75,6 +75,18 @@ Flag Command::argument(const std::string& name, std::string& field,
   return Flag(*option->required()->check(CLI::IsMember(choices))->type_name(""));
 }
 
+Flag Command::arguments(const std::string& name, std::vector<std::string>& field,
+                        const std::string& help) {
+  CLI::Option* option = command_->add_option_function<Values>(
+      name,
+      [&field, name](const Values& given) {
+        for (const std::string& text : given) field.push_back(word_of(name, text));
+      },
+      help);
+  return Flag(
+      *option->type_name("")->required()->expected(1, CLI::detail::expected_max_vector_size));
+}
+
 Flag Command::text(const std::string& name, std::string& field, const std::string& value_name,
                    const std::string& help) {
   return add(name, value_name, help, field,

@@ -45,6 +45,9 @@ class Command {
   Flag argument(const std::string& name, std::string& field,
                 const std::vector<std::string>& choices, const std::string& help);
 
+  /// One word or more.
+  Flag arguments(const std::string& name, std::vector<std::string>& field, const std::string& help);
+
   /// `value_name` stands for the value in --help: "DIR", "N".
   Flag text(const std::string& name, std::string& field, const std::string& value_name,
             const std::string& help);

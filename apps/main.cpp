@@ -17,6 +17,7 @@
 #include "apps/out_of_memory.hpp"
 #include "apps/pin_threads.hpp"
 #include "fathom/core/options.hpp"
+#include "fathom/core/text.hpp"
 #include "fathom/core/version.hpp"
 
 namespace fathom {
@@ -27,9 +28,10 @@ void silence_ceres() {
   FLAGS_minloglevel = google::GLOG_FATAL;
 }
 
+// As it may be typed again.
 std::string joined(int argc, char** argv) {
   std::string line = "fathom";
-  for (int i = 1; i < argc; ++i) line += std::string(" ") + argv[i];
+  for (int i = 1; i < argc; ++i) line += " " + shell_word(argv[i]);
   return line;
 }
 
@@ -82,7 +84,8 @@ int main_function(int argc, char** argv) {
   app.require_subcommand(1);
   app.footer("Each command has its own --help. Exit status: 0 done, 1 failed, 2 bad input.");
   for (const auto add : {add_run, add_compare, add_solve, add_register, add_simulate, add_evaluate,
-                         add_list, add_check, add_report, add_select, add_mosaic, add_spoil}) {
+                         add_list, add_check, add_report, add_select, add_mosaic, add_spoil,
+                         add_merge, add_status, add_estimate}) {
     add(app, context);
   }
   try {

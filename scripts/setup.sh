@@ -5,6 +5,7 @@
 #     scripts/setup.sh          # what the build needs, its tests and benchmarks included
 #     scripts/setup.sh lint     # and what scripts/lint.sh needs
 #     scripts/setup.sh docs     # and what scripts/docs.sh needs
+#     scripts/setup.sh cluster  # and a SLURM for the test of docs/cluster.md
 set -euo pipefail
 
 # libopencv-dev and not OpenCV's smaller packages: it alone holds OpenCVConfig.cmake, which refuses
@@ -21,6 +22,7 @@ packages=(
 # clang needs an omp.h of its own to read what g++ compiles with -fopenmp.
 lint_packages=(clang clang-tidy libomp-dev)
 docs_packages=(mkdocs mkdocs-material doxygen)
+cluster_packages=(slurm-wlm munge)
 
 fail() {
   printf 'setup: error: %s\n' "$1" >&2
@@ -31,7 +33,8 @@ case "${1:-}" in
   '') ;;
   lint) packages+=("${lint_packages[@]}") ;;
   docs) packages+=("${docs_packages[@]}") ;;
-  *) fail "unknown argument '$1'; use none, lint or docs" ;;
+  cluster) packages+=("${cluster_packages[@]}") ;;
+  *) fail "unknown argument '$1'; use none, lint, docs or cluster" ;;
 esac
 
 missing() {

@@ -21,6 +21,14 @@ FileLock::FileLock(const std::filesystem::path& file, const std::string& busy)
   throw InputError(busy);
 }
 
+bool FileLock::is_held(const std::filesystem::path& file) {
+  const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) return false;
+  const bool is_free = ::flock(descriptor, LOCK_SH | LOCK_NB) == 0;
+  ::close(descriptor);
+  return !is_free;
+}
+
 FileLock::~FileLock() {
   ::unlink(file_.c_str());
   ::close(descriptor_);

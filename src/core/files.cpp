@@ -124,7 +124,9 @@ void StagedFolder::commit(const std::vector<std::string>& own) {
     for (const std::string& name : own) fs::remove_all(target_ / name);
     for (const fs::directory_entry& entry : fs::directory_iterator(staging_)) {
       const fs::path destination = target_ / entry.path().filename();
-      fs::remove_all(destination);
+      // A file is replaced in one step: killed in between, one of the two is there.
+      const bool is_folder = fs::is_directory(fs::symlink_status(destination));
+      if (is_folder || entry.is_directory()) fs::remove_all(destination);
       fs::rename(entry.path(), destination);
     }
     fs::remove(staging_);

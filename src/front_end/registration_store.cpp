@@ -3,15 +3,15 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <chrono>
 #include <cstdlib>
-#include <cstring>
 #include <exception>
 #include <map>
 #include <mutex>
 #include <sqlite3.h>
 #include <system_error>
-#include <vector>
 
+#include "fathom/core/input_error.hpp"
 #include "registration_row.hpp"
+#include "registration_table.hpp"
 
 namespace fathom {
 namespace {
@@ -19,8 +19,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kFileName = "registrations.sqlite";
-constexpr int kSchemaVersion = 1;
-constexpr int kBusyTimeoutMs = 5'000;
+constexpr const char* kSelect =
+    "SELECT found, numbers, inliers, checksum FROM registration WHERE key = ?";
 constexpr std::size_t kFlushCount = 200;
 constexpr std::chrono::seconds kFlushInterval{1};
 
@@ -29,47 +29,7 @@ std::string environment(const char* name) {
   return value == nullptr ? "" : value;
 }
 
-// Whatever was there: other versions of this program, or something else that took the name.
-void drop_all(SQLite::Database& sqlite) {
-  std::vector<std::string> objects;
-  SQLite::Statement query(sqlite,
-                          "SELECT type || ' \"' || replace(name, '\"', '\"\"') || '\"' FROM "
-                          "sqlite_master WHERE type IN ('table', 'view') AND name NOT LIKE "
-                          "'sqlite\\_%' ESCAPE '\\'");
-  while (query.executeStep()) objects.push_back(query.getColumn(0).getString());
-  query.reset();
-  for (const std::string& object : objects) sqlite.exec("DROP " + object);
-}
-
-void prepare_schema(SQLite::Database& sqlite) {
-  sqlite.exec("PRAGMA journal_mode = WAL");
-  sqlite.exec("PRAGMA synchronous = NORMAL");
-  const auto is_ours = [&] {
-    return sqlite.execAndGet("PRAGMA user_version").getInt() == kSchemaVersion;
-  };
-  if (is_ours()) return;
-  SQLite::Transaction transaction(sqlite, SQLite::TransactionBehavior::IMMEDIATE);
-  if (is_ours()) return;  // another process was quicker
-  drop_all(sqlite);
-  sqlite.exec(
-      "CREATE TABLE registration (key BLOB PRIMARY KEY, found INTEGER NOT NULL, "
-      "numbers BLOB NOT NULL, inliers INTEGER NOT NULL, checksum INTEGER NOT NULL) WITHOUT ROWID");
-  sqlite.exec("PRAGMA user_version = " + std::to_string(kSchemaVersion));
-  transaction.commit();
-}
-
 }  // namespace
-
-fs::path default_cache_folder() {
-  if (const std::string own = environment("FATHOM_CACHE"); !own.empty()) return own;
-  if (const std::string xdg = environment("XDG_CACHE_HOME"); !xdg.empty()) {
-    return fs::path(xdg) / "fathom";
-  }
-  if (const std::string home = environment("HOME"); !home.empty()) {
-    return fs::path(home) / ".cache" / "fathom";
-  }
-  return {};
-}
 
 class RegistrationStore::File {
  public:
@@ -82,13 +42,23 @@ class RegistrationStore::File {
       std::error_code error;
       fs::create_directories(folder, error);
       sqlite_ = std::make_unique<SQLite::Database>(
-          path_.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE, kBusyTimeoutMs);
+          path_.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE, kRegistrationBusyMs);
       prepare_schema(*sqlite_);
-      select_ = std::make_unique<SQLite::Statement>(
-          *sqlite_, "SELECT found, numbers, inliers, checksum FROM registration WHERE key = ?");
+      select_ = std::make_unique<SQLite::Statement>(*sqlite_, kSelect);
       insert_ = std::make_unique<SQLite::Statement>(
           *sqlite_, "INSERT OR REPLACE INTO registration VALUES (?, ?, ?, ?, ?)");
     });
+  }
+
+  // To read alone.
+  static std::unique_ptr<File> read_only(const fs::path& folder) {
+    std::unique_ptr<File> file(new File);
+    file->path_ = folder / kFileName;
+    file->guard([&] {
+      file->sqlite_ = open_to_read(file->path_);
+      file->select_ = std::make_unique<SQLite::Statement>(*file->sqlite_, kSelect);
+    });
+    return file;
   }
 
   std::optional<PairRegistration> find(const RegistrationKey& key) {
@@ -111,12 +81,27 @@ class RegistrationStore::File {
     write();
   }
 
+  std::vector<std::pair<RegistrationKey, PairRegistration>> all() {
+    const std::lock_guard lock(mutex_);
+    std::vector<std::pair<RegistrationKey, PairRegistration>> rows;
+    guard([&] { rows = intact_rows(*sqlite_); });
+    return rows;
+  }
+
+  void finish() {
+    flush();
+    const std::lock_guard lock(mutex_);
+    if (sqlite_) sqlite_->tryExec("PRAGMA journal_mode = DELETE");
+  }
+
   std::string problem() const {
     const std::lock_guard lock(mutex_);
     return problem_;
   }
 
  private:
+  File() = default;
+
   // What goes wrong closes the file: what is not written stays in memory, as all that follows.
   template <class Action>
   void guard(Action action) {
@@ -145,16 +130,7 @@ class RegistrationStore::File {
     select_->reset();
     select_->bind(1, words.data(), sizeof words);
     std::optional<PairRegistration> value;
-    if (select_->executeStep()) {
-      RegistrationNumbers numbers{};
-      const SQLite::Column blob = select_->getColumn(1);
-      if (blob.getBytes() == sizeof numbers) {
-        std::memcpy(numbers.data(), blob.getBlob(), sizeof numbers);
-        const PairRegistration read = registration_of(select_->getColumn(0).getInt() != 0, numbers,
-                                                      select_->getColumn(2).getInt());
-        if (checksum(key, read) == select_->getColumn(3).getInt64()) value = read;
-      }
-    }
+    if (select_->executeStep()) value = intact_row(*select_, key);
     select_->reset();
     return value;
   }
@@ -174,7 +150,7 @@ class RegistrationStore::File {
 
   void write() {
     last_flush_ = std::chrono::steady_clock::now();
-    if (unwritten_.empty()) return;
+    if (unwritten_.empty() || insert_ == nullptr) return;
     guard([&] {
       SQLite::Transaction transaction(*sqlite_, SQLite::TransactionBehavior::IMMEDIATE);
       for (const auto& [key, value] : unwritten_) insert(key, value);
@@ -183,7 +159,7 @@ class RegistrationStore::File {
     });
   }
 
-  const fs::path path_;
+  fs::path path_;
   mutable std::mutex mutex_;
   std::string problem_;
   std::map<RegistrationKey, PairRegistration> unwritten_;
@@ -193,8 +169,32 @@ class RegistrationStore::File {
   std::unique_ptr<SQLite::Statement> insert_;
 };
 
+fs::path default_cache_folder() {
+  if (const std::string own = environment("FATHOM_CACHE"); !own.empty()) return own;
+  if (const std::string xdg = environment("XDG_CACHE_HOME"); !xdg.empty()) {
+    return fs::path(xdg) / "fathom";
+  }
+  if (const std::string home = environment("HOME"); !home.empty()) {
+    return fs::path(home) / ".cache" / "fathom";
+  }
+  return {};
+}
+
 RegistrationStore::RegistrationStore(const fs::path& folder)
     : file_(std::make_unique<File>(folder)) {}
+
+RegistrationStore::RegistrationStore(std::unique_ptr<File> file) : file_(std::move(file)) {}
+
+std::unique_ptr<RegistrationStore> RegistrationStore::read_only(const fs::path& folder) {
+  if (!has_registrations(folder)) {
+    throw InputError(folder.string(), std::string("there is no ") + kFileName +
+                                          "; 'fathom compare --only-registrations' and 'fathom "
+                                          "merge' make it");
+  }
+  std::unique_ptr<RegistrationStore> store(new RegistrationStore(File::read_only(folder)));
+  if (const std::string problem = store->problem(); !problem.empty()) throw InputError(problem);
+  return store;
+}
 
 RegistrationStore::~RegistrationStore() {
   file_->flush();
@@ -210,6 +210,14 @@ void RegistrationStore::put(const RegistrationKey& key, const PairRegistration& 
 
 void RegistrationStore::flush() {
   file_->flush();
+}
+
+std::vector<std::pair<RegistrationKey, PairRegistration>> RegistrationStore::all() const {
+  return file_->all();
+}
+
+void RegistrationStore::finish() {
+  file_->finish();
 }
 
 std::string RegistrationStore::problem() const {

@@ -9,6 +9,7 @@
 
 #include "build_info.hpp"
 #include "fathom/core/hash.hpp"
+#include "fathom/core/system.hpp"
 #include "fathom/core/version.hpp"
 #include "fathom/datasets/fingerprint.hpp"
 #include "fathom/measurements/g2o.hpp"
@@ -40,7 +41,8 @@ Json build_and_machine(int jobs) {
   json["build"] = {{"type", FATHOM_BUILD_TYPE},     {"compiler", FATHOM_COMPILER},
                    {"flags", FATHOM_FLAGS},         {"ceres", FATHOM_CERES_VERSION},
                    {"eigen", FATHOM_EIGEN_VERSION}, {"opencv", FATHOM_OPENCV_VERSION}};
-  json["machine"] = {{"cpu", cpu_model()}, {"estimator_threads", 1}, {"jobs", jobs}};
+  json["machine"] = {
+      {"cpu", cpu_model()}, {"host", host_name()}, {"estimator_threads", 1}, {"jobs", jobs}};
   return json;
 }
 
@@ -57,6 +59,12 @@ Json session(const std::string& command_line, int jobs) {
 
 std::string session_json(const std::string& command_line, int jobs) {
   return session(command_line, jobs).dump(2) + "\n";
+}
+
+std::string session_json(const ShardPlan& plan, int jobs) {
+  Json json = session(plan.command_line, jobs);
+  json["shard"] = {{"index", plan.shard.index}, {"of", plan.shard.of}, {"runs", plan.runs}};
+  return json.dump(2) + "\n";
 }
 
 std::string manifest_json(const std::string& command_line,

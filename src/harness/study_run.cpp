@@ -4,7 +4,6 @@
 #include <exception>
 #include <map>
 #include <mutex>
-#include <set>
 #include <system_error>
 #include <thread>
 
@@ -27,24 +26,28 @@ struct RecordedTrial {
 
 class Runner {
  public:
-  Runner(const Study& study, const EstimatorRegistry& registry, ResultStore& store,
+  // Without a store pictures are registered, and that is all.
+  Runner(const Study& study, const EstimatorRegistry& registry, ResultStore* store,
          const StudyRunOptions& options)
       : study_(study),
         registry_(registry),
         store_(store),
         options_(options),
         data_sets_(study, options.registrations),
-        tasks_(tasks_of(study, store, data_sets_, static_cast<std::size_t>(options.jobs))),
+        own_(options.sample ? ShardTrials(study, *options.sample)
+                            : ShardTrials(study, data_sets_, options.shard)),
+        tasks_(tasks_to_do()),
         threads_(std::min(static_cast<std::size_t>(options.jobs),
                           std::max<std::size_t>(tasks_.size(), 1))) {
     for (const Task& task : tasks_) data_sets_.expect_trial(task.cell, task.survey);
-    progress_.of = trials_in_all(study) * study.description.estimators.size();
+    progress_.of = own_.count() * study.description.estimators.size();
     std::size_t missing = 0;
     for (const Task& task : tasks_) missing += task.estimators.size();
     progress_.earlier = progress_.done = progress_.of - missing;
   }
 
-  StudyRun run() {
+  /// False where it was stopped before the end.
+  bool run() {
     {
       std::vector<std::jthread> others;
       others.reserve(threads_);
@@ -52,14 +55,26 @@ class Runner {
       work();
     }
     if (failure_) std::rethrow_exception(failure_);
-    if (done_tasks_ < tasks_.size()) return {};
+    return done_tasks_ == tasks_.size();
+  }
+
+  /// After the run. Empty where it is another shard's.
+  std::vector<ExampleRun> example() {
+    if (!own_.has(0, {0, 0})) return {};
     complete_example();
-    StudyRun done{true, {}};
-    for (auto& [estimator, run] : example_) done.example.push_back(std::move(run));
-    return done;
+    std::vector<ExampleRun> runs;
+    for (auto& [estimator, run] : example_) runs.push_back(std::move(run));
+    return runs;
   }
 
  private:
+  std::vector<Task> tasks_to_do() const {
+    const auto jobs = static_cast<std::size_t>(options_.jobs);
+    if (store_ == nullptr) return tasks_of(study_, nullptr, data_sets_, own_, jobs);
+    const RunIndex there(*store_);
+    return tasks_of(study_, &there, data_sets_, own_, jobs);
+  }
+
   bool is_stopped() const { return failed_ || (options_.stop != nullptr && options_.stop->load()); }
 
   // Where the system has no further thread fewer do the same work.
@@ -76,13 +91,35 @@ class Runner {
       const auto meter = options_.make_meter ? options_.make_meter() : nullptr;
       for (std::size_t next = next_task_++; next < tasks_.size() && !is_stopped();
            next = next_task_++) {
-        run_trial(tasks_[next], meter.get());
+        if (store_ == nullptr) {
+          register_trial(tasks_[next]);
+        } else {
+          run_trial(tasks_[next], meter.get());
+        }
       }
     } catch (...) {
       const std::lock_guard hold(mutex_);
       if (!failure_) failure_ = std::current_exception();
       failed_ = true;
     }
+  }
+
+  void register_trial(const Task& task) {
+    const Configuration& configuration = study_.cells[task.cell];
+    const std::shared_ptr<const Recorder> recorder = data_sets_.of(task.cell, task.survey);
+    const bool is_own = configuration.study.association == Association::own;
+    for (const std::size_t e : task.estimators) {
+      if (is_stopped()) return;
+      recorder->record(configuration,
+                       is_own ? by_contender(configuration.estimators[e]) : configuration.reference,
+                       registry_, noise_of(task));
+      if (!is_own) break;
+    }
+    data_sets_.trial_done(task.cell, task.survey);
+    ++done_tasks_;
+    const std::lock_guard hold(mutex_);
+    progress_.done += task.estimators.size();
+    if (options_.progress) options_.progress(progress_);
   }
 
   void run_trial(const Task& task, MemoryMeter* meter) {
@@ -117,7 +154,7 @@ class Runner {
     RunRecord run = baseline_record(recording, metric_options(study_.cells[task.cell]));
     run.key = task.run_of(kDeadReckoning);
     run.jobs = static_cast<int>(threads_);
-    store_.add(run);
+    store_->add(run);
   }
 
   void add_run(const Task& task, std::size_t estimator, const RecordedTrial& trial,
@@ -131,7 +168,7 @@ class Runner {
     RunRecord run = run_record(*trial.recording, result, trial.facts.log_hash);
     run.key = task.run_of(configuration.estimators[estimator].name);
     run.jobs = static_cast<int>(threads_);
-    store_.add(run);
+    store_->add(run);
     const std::lock_guard hold(mutex_);
     ++progress_.done;
     if (!result.is_done()) ++progress_.failed;
@@ -146,7 +183,7 @@ class Runner {
   // What an earlier session stored of the example is replayed; its cost is that of the stored run.
   void complete_example() {
     const Configuration& configuration = study_.cells.front();
-    const RunIndex stored(store_);
+    const RunIndex stored(*store_);
     const bool is_own = configuration.study.association == Association::own;
     std::shared_ptr<const Recording> shared;
     if (!is_own && !example_.empty()) shared = example_.begin()->second.recording;
@@ -168,9 +205,10 @@ class Runner {
 
   const Study& study_;
   const EstimatorRegistry& registry_;
-  ResultStore& store_;
+  ResultStore* store_;
   const StudyRunOptions& options_;
   StudyDataSets data_sets_;
+  ShardTrials own_;
   std::vector<Task> tasks_;
   std::size_t threads_;
   std::atomic<std::size_t> next_task_ = 0;
@@ -184,24 +222,16 @@ class Runner {
 
 }  // namespace
 
-Fingerprint data_of(const Study& study) {
-  std::set<std::string> opened;
-  std::map<std::string, std::string> files;
-  for (const Configuration& cell : study.cells) {
-    if (!opened.insert(data_settings(cell)).second) continue;
-    for (const auto& [file, hash] : fingerprint(open_data_set(cell)->files())) files[file] = hash;
-  }
-  return {files.begin(), files.end()};
-}
-
-int jobs_of(const Study& study) {
-  const auto jobs = static_cast<std::size_t>(study.cells.front().study.jobs);
-  return static_cast<int>(std::min(jobs, trials_in_all(study)));
-}
-
 StudyRun run_study(const Study& study, const EstimatorRegistry& registry, ResultStore& store,
                    const StudyRunOptions& options) {
-  return Runner(study, registry, store, options).run();
+  Runner runner(study, registry, &store, options);
+  if (!runner.run()) return {};
+  return {true, runner.example()};
+}
+
+bool register_pictures(const Study& study, const EstimatorRegistry& registry,
+                       const StudyRunOptions& options) {
+  return Runner(study, registry, nullptr, options).run();
 }
 
 }  // namespace fathom

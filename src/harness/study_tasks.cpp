@@ -1,34 +1,111 @@
 #include "study_tasks.hpp"
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 
+#include "fathom/harness/study_run.hpp"
+#include "fathom/harness/survey.hpp"
 #include "fathom/results/run_index.hpp"
 
 namespace fathom {
 namespace {
 
 // What is missing of one trial.
-Task task_of(const Study& study, const RunIndex& there, std::size_t cell, const TrialKey& trial) {
+Task task_of(const Study& study, const RunIndex* there, std::size_t cell, const TrialKey& trial) {
   Task task{cell, trial.survey, trial.trial, {}, false};
-  task.baseline = !there.has(task.run_of(kDeadReckoning));
+  const auto is_there = [there](const RunKey& run) { return there != nullptr && there->has(run); };
+  task.baseline = !is_there(task.run_of(kDeadReckoning));
   for (std::size_t e = 0; e < study.description.estimators.size(); ++e) {
-    if (!there.has(task.run_of(study.description.estimators[e].name))) {
+    if (!is_there(task.run_of(study.description.estimators[e].name))) {
       task.estimators.push_back(e);
     }
   }
   return task;
 }
 
-}  // namespace
-
-std::vector<Task> tasks_of(const Study& study, const ResultStore& store,
-                           const StudyDataSets& data_sets, std::size_t jobs) {
-  const RunIndex there(store);
+// Those over the same pictures one after the other.
+std::vector<std::size_t> cells_in_order(const Study& study, const StudyDataSets& data_sets) {
   std::vector<std::size_t> cells(study.cells.size());
   std::iota(cells.begin(), cells.end(), std::size_t{0});
   std::ranges::stable_sort(cells, {},
                            [&](std::size_t cell) { return data_sets.shared_with(cell); });
+  return cells;
+}
+
+// Of a data set; of a graph its keyframes, of which it is said whether they are.
+struct Size {
+  std::size_t count = 1;
+  bool is_graph = true;
+};
+
+Size size_of(const DataSet& data) {
+  if (const FrameSource* frames = data.frames()) return {frames->size(), false};
+  return {data.graph() != nullptr ? data.graph()->size() : 1, true};
+}
+
+// Of a trial, by cell.
+std::vector<double> costs_of(const Study& study) {
+  std::map<std::string, Size> sizes;
+  std::vector<double> costs;
+  for (const Configuration& cell : study.cells) {
+    const auto [size, is_new] = sizes.emplace(data_settings(cell), Size{});
+    if (is_new) size->second = size_of(*open_data_set(cell));
+    const int frames_apart = size->second.is_graph ? 1 : cell.front_end.separation_frames;
+    const auto keyframes = static_cast<double>(size->second.count) / frames_apart;
+    costs.push_back(std::max(keyframes * keyframes, 1.0));
+  }
+  return costs;
+}
+
+}  // namespace
+
+ShardTrials::ShardTrials(const Study& study, const StudyDataSets& data_sets, const Shard& shard)
+    : surveys_(study.description.surveys),
+      trials_(study.description.trials),
+      is_own_(trials_in_all(study), shard.is_whole()) {
+  count_ = shard.is_whole() ? is_own_.size() : 0;
+  if (shard.is_whole()) return;
+  const std::vector<std::size_t> cells = cells_in_order(study, data_sets);
+  const std::vector<double> costs = costs_of(study);
+  // The same operations in the same order on every machine.
+  const double of_a_survey =
+      std::accumulate(costs.begin(), costs.end(), 0.0) * static_cast<double>(trials_);
+  const double share = of_a_survey * static_cast<double>(surveys_) / static_cast<double>(shard.of);
+  double before = 0.0;
+  for (std::size_t survey = 0; survey < surveys_; ++survey) {
+    for (const std::size_t cell : cells) {
+      for (std::size_t trial = 0; trial < trials_; ++trial, before += costs[cell]) {
+        // A trial belongs where its middle lies.
+        const auto index = static_cast<std::size_t>((before + 0.5 * costs[cell]) / share);
+        if (std::min(index, shard.of - 1) + 1 != shard.index) continue;
+        is_own_[place_of(cell, {survey, trial})] = true;
+        ++count_;
+      }
+    }
+  }
+}
+
+ShardTrials::ShardTrials(const Study& study, std::size_t cell)
+    : surveys_(study.description.surveys),
+      trials_(study.description.trials),
+      count_(1),
+      is_own_(trials_in_all(study)) {
+  is_own_[place_of(cell, {0, 0})] = true;
+}
+
+std::size_t ShardTrials::place_of(std::size_t cell, const TrialKey& trial) const {
+  return (cell * surveys_ + trial.survey) * trials_ + trial.trial;
+}
+
+bool ShardTrials::has(std::size_t cell, const TrialKey& trial) const {
+  return is_own_[place_of(cell, trial)];
+}
+
+std::vector<Task> tasks_of(const Study& study, const RunIndex* there,
+                           const StudyDataSets& data_sets, const ShardTrials& own,
+                           std::size_t jobs) {
+  const std::vector<std::size_t> cells = cells_in_order(study, data_sets);
   const std::size_t surveys = study.description.surveys;
   const std::size_t together = std::max<std::size_t>(jobs, 1);
   std::vector<Task> tasks;
@@ -36,6 +113,7 @@ std::vector<Task> tasks_of(const Study& study, const ResultStore& store,
     for (const std::size_t cell : cells) {
       for (std::size_t trial = 0; trial < study.description.trials; ++trial) {
         for (std::size_t s = first; s < std::min(first + together, surveys); ++s) {
+          if (!own.has(cell, {s, trial})) continue;
           Task task = task_of(study, there, cell, {s, trial});
           if (task.baseline || !task.estimators.empty()) tasks.push_back(std::move(task));
         }
@@ -43,10 +121,6 @@ std::vector<Task> tasks_of(const Study& study, const ResultStore& store,
     }
   }
   return tasks;
-}
-
-std::size_t trials_in_all(const Study& study) {
-  return study.cells.size() * study.description.surveys * study.description.trials;
 }
 
 }  // namespace fathom

@@ -6,6 +6,8 @@
 
 #include "fathom/configuration/study.hpp"
 #include "fathom/results/result_store.hpp"
+#include "fathom/results/run_index.hpp"
+#include "fathom/results/shard.hpp"
 #include "study_data_sets.hpp"
 
 namespace fathom {
@@ -21,13 +23,34 @@ struct Task {
   RunKey run_of(const std::string& estimator) const { return {cell, survey, trial, estimator}; }
 };
 
-/// What of a study is not in its store. As many surveys take turns as there are jobs, since trials
-/// of one survey wait for the same pictures and registrations; cells over the same pictures come
-/// one after the other, so that few surveys are open at a time.
-std::vector<Task> tasks_of(const Study& study, const ResultStore& store,
-                           const StudyDataSets& data_sets, std::size_t jobs);
+/// Which trials of a study are a shard's. The trials stand in one order, survey by survey and in it
+/// the cells over the same pictures one after the other, and are cut where their estimated cost is
+/// divided evenly: the shards of one division have every trial once, whatever machine asks. The
+/// cost of a trial is taken to grow with the square of its keyframes.
+class ShardTrials {
+ public:
+  ShardTrials(const Study& study, const StudyDataSets& data_sets, const Shard& shard);
 
-/// Of all cells and surveys, done or not.
-std::size_t trials_in_all(const Study& study);
+  /// The first trial of the first survey of a cell alone.
+  ShardTrials(const Study& study, std::size_t cell);
+
+  bool has(std::size_t cell, const TrialKey& trial) const;
+  std::size_t count() const { return count_; }
+
+ private:
+  std::size_t place_of(std::size_t cell, const TrialKey& trial) const;
+
+  std::size_t surveys_;
+  std::size_t trials_;
+  std::size_t count_ = 0;
+  std::vector<bool> is_own_;  ///< by cell, survey and trial
+};
+
+/// What of a shard is not in its store; all of it where there is none. As many surveys take turns
+/// as there are jobs, since trials of one survey wait for the same pictures and registrations;
+/// cells over the same pictures come one after the other, so that few surveys are open at a time.
+std::vector<Task> tasks_of(const Study& study, const RunIndex* there,
+                           const StudyDataSets& data_sets, const ShardTrials& own,
+                           std::size_t jobs);
 
 }  // namespace fathom

@@ -94,7 +94,7 @@ KeyframeStatistics keyframe_statistics(const ResultStore& store, const Estimator
 UpdateCost update_cost(const ResultStore& store, const EstimatorResults& runs) {
   std::map<std::size_t, std::vector<double>> costs;
   for (const RunRecord& run : runs.runs) {
-    if (is_failed(run)) continue;
+    if (is_failed(run) || run.machine != runs.cost_machine) continue;
     const auto keyframes = series_or_none(store, run.key, "update_keyframe");
     const auto times = series_or_none(store, run.key, "update_ms");
     for (std::size_t i = 0; i < std::min(keyframes.size(), times.size()); ++i) {

@@ -111,6 +111,16 @@ std::string intervals_text(const StudyResults& results) {
          "of the mean by a bootstrap over surveys and their trials.";
 }
 
+std::string machines_text(const StudyResults& results) {
+  if (results.machines.size() < 2) return "";
+  std::size_t runs = 0;
+  for (const auto& [machine, count] : results.machines) runs += count;
+  const std::string& shown = results.cost_machine;
+  return "Costs are of " + (shown.empty() ? std::string("an unknown processor") : shown) + " (" +
+         std::to_string(results.machines.at(shown)) + " of " + std::to_string(runs) +
+         " runs); those of other processors are not averaged with them.";
+}
+
 std::string limits_text(const CellResults& cell) {
   if (cell.surveys > 1 || cell.trials < 2) return "";
   std::string text = limits_of_one_survey(cell.repetition);

@@ -40,7 +40,7 @@ void append(std::vector<std::string>& fields, std::vector<std::string> more) {
 std::string run_line(const RunRecord& run, std::vector<std::string> fields,
                      const std::vector<std::string>& metrics) {
   append(fields, {std::to_string(run.key.survey), std::to_string(run.key.trial), run.key.estimator,
-                  run.outcome, std::to_string(run.jobs)});
+                  run.outcome, std::to_string(run.jobs), run.machine});
   for (const std::string& metric : metrics) {
     const auto found = run.metrics.find(metric);
     fields.push_back(found == run.metrics.end() ? "" : exact(found->second));
@@ -50,10 +50,11 @@ std::string run_line(const RunRecord& run, std::vector<std::string> fields,
 
 std::string summary_line(const EstimatorResults& one, const std::string& metric,
                          std::vector<std::string> fields) {
+  const std::string machine = is_cost_metric(metric) ? one.cost_machine : "";
   const auto found = one.metrics.find(metric);
   if (found == one.metrics.end()) {
-    append(fields,
-           {one.name, metric, "0", "0", std::to_string(one.failures()), "", "", "", "", ""});
+    append(fields, {one.name, metric, "0", "0", std::to_string(one.failures()), "", "", "", "", "",
+                    machine});
     return line_of(fields);
   }
   const Moments& moments = found->second.moments;
@@ -61,7 +62,8 @@ std::string summary_line(const EstimatorResults& one, const std::string& metric,
                   std::to_string(moments.count), std::to_string(one.failures()),
                   exact(moments.mean), number(moments.standard_deviation), exact(moments.median)});
   const std::optional<Interval>& interval = found->second.interval;
-  append(fields, {interval ? exact(interval->low) : "", interval ? exact(interval->high) : ""});
+  append(fields,
+         {interval ? exact(interval->low) : "", interval ? exact(interval->high) : "", machine});
   return line_of(fields);
 }
 
@@ -76,7 +78,7 @@ std::string csv_field(std::string_view text) {
 
 std::string runs_csv(const StudyResults& results) {
   std::vector<std::string> header = cell_header(results.study);
-  append(header, {"survey", "trial", "estimator", "outcome", "jobs"});
+  append(header, {"survey", "trial", "estimator", "outcome", "jobs", "machine"});
   append(header, results.metrics);
   std::string text = line_of(header);
   for (const CellResults& cell : results.cells) {
@@ -88,18 +90,23 @@ std::string runs_csv(const StudyResults& results) {
   return text;
 }
 
-std::string summary_csv(const StudyResults& results) {
+std::string summary_csv(const StudyResults& results, const std::vector<StudyResults>& others) {
   std::vector<std::string> header = cell_header(results.study);
   append(header, {"estimator", "metric", "surveys", "n", "failures", "mean", "sd", "median",
-                  "low_95", "high_95"});
+                  "low_95", "high_95", "machine"});
   std::string text = line_of(header);
-  for (const CellResults& cell : results.cells) {
-    for (const EstimatorResults& one : cell.estimators) {
-      for (const std::string& metric : results.metrics) {
-        text += summary_line(one, metric, cell_fields(cell, results.study));
+  const auto add = [&text](const StudyResults& of, bool only_cost) {
+    for (const CellResults& cell : of.cells) {
+      for (const EstimatorResults& one : cell.estimators) {
+        for (const std::string& metric : of.metrics) {
+          if (only_cost && !is_cost_metric(metric)) continue;
+          text += summary_line(one, metric, cell_fields(cell, of.study));
+        }
       }
     }
-  }
+  };
+  add(results, false);
+  for (const StudyResults& other : others) add(other, true);
   return text;
 }
 

@@ -2,6 +2,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "study_results.hpp"
 
@@ -13,7 +14,8 @@ std::string csv_field(std::string_view text);
 /// One line a run; a metric that a run lacks is an empty field.
 std::string runs_csv(const StudyResults& results);
 
-/// One line per cell, estimator and metric; n is 0 where no run that was done has the metric.
-std::string summary_csv(const StudyResults& results);
+/// One line per cell, estimator and metric; n is 0 where no run that was done has the metric. Lines
+/// of cost are over the runs of one kind of processor; those of the others follow.
+std::string summary_csv(const StudyResults& results, const std::vector<StudyResults>& others = {});
 
 }  // namespace fathom

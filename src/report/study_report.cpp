@@ -29,7 +29,8 @@ void write_study_report(const ResultStore& store, const std::filesystem::path& f
   StagedFolder out(folder);
   const auto series = study_series(store, results);
   write_file(out.path() / "runs.csv", runs_csv(results));
-  write_file(out.path() / "summary.csv", summary_csv(results));
+  write_file(out.path() / "summary.csv",
+             summary_csv(results, results_of_other_machines(store, results)));
   write_file(out.path() / "tables.tex", latex_tables(results));
   write_file(out.path() / "report.html", report_page(store, results, series));
   write_figures({store, results, series}, out.path() / "figures");

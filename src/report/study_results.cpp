@@ -10,16 +10,25 @@
 namespace fathom {
 namespace {
 
-std::optional<double> metric_of(const RunRecord& run, const std::string& metric) {
+// Nothing of a run that is not asked for: costs of other machines are no part of a figure.
+std::optional<double> metric_of(const RunRecord& run, const std::string& metric,
+                                const std::string* machine) {
+  if (machine != nullptr && run.machine != *machine) return std::nullopt;
   const auto found = run.metrics.find(metric);
   if (found == run.metrics.end() || !std::isfinite(found->second)) return std::nullopt;
   return found->second;
 }
 
+// That a metric's figures are restricted to; null where they are not.
+const std::string* machine_of(const EstimatorResults& estimator, const std::string& metric) {
+  return is_cost_metric(metric) ? &estimator.cost_machine : nullptr;
+}
+
 ClusteredValues values_of(const EstimatorResults& estimator, const std::string& metric) {
   ClusteredValues values;
+  const std::string* machine = machine_of(estimator, metric);
   for (const RunRecord& run : estimator.runs) {
-    const auto value = metric_of(run, metric);
+    const auto value = metric_of(run, metric, machine);
     if (!is_failed(run) && value) values[run.key.survey].push_back(*value);
   }
   return values;
@@ -111,7 +120,7 @@ std::vector<std::string> all_metrics(const RunIndex& index) {
 }
 
 // All runs of a cell: dead reckoning first, then the estimators as in the study.
-CellResults runs_of(const RunIndex& index, std::size_t number) {
+CellResults runs_of(const RunIndex& index, std::size_t number, const std::string& cost_machine) {
   const StudyDescription& study = index.study();
   CellResults cell;
   cell.cell = number;
@@ -125,6 +134,7 @@ CellResults runs_of(const RunIndex& index, std::size_t number) {
   for (const std::string& name : names) {
     EstimatorResults one;
     one.name = name;
+    one.cost_machine = cost_machine;
     for (const auto& [trial, run] : index.of(name, number)) {
       trials.insert(trial);
       if (name != kDeadReckoning) cell.jobs.insert(run->jobs);
@@ -148,13 +158,14 @@ std::optional<PairedDifference> difference_between(const EstimatorResults& one,
                                                    const std::string& metric,
                                                    const BootstrapOptions& options) {
   std::map<TrialKey, double> of_other;
+  const std::string* machine = machine_of(one, metric);
   for (const RunRecord& run : other.runs) {
-    const auto value = metric_of(run, metric);
+    const auto value = metric_of(run, metric, machine);
     if (!is_failed(run) && value) of_other[run.key.trial_key()] = *value;
   }
   ClusteredValues differences;
   for (const RunRecord& run : one.runs) {
-    const auto value = metric_of(run, metric);
+    const auto value = metric_of(run, metric, machine);
     const auto found = of_other.find(run.key.trial_key());
     if (is_failed(run) || !value || found == of_other.end()) continue;
     differences[run.key.survey].push_back(*value - found->second);
@@ -162,15 +173,20 @@ std::optional<PairedDifference> difference_between(const EstimatorResults& one,
   return difference_over_surveys(differences, options);
 }
 
-StudyResults study_results(const ResultStore& store, MetricsOf metrics) {
+StudyResults study_results(const ResultStore& store, MetricsOf metrics,
+                           const std::optional<std::string>& machine) {
   const RunIndex index(store);
   if (index.runs().empty()) throw InputError("the study has no results yet; nothing to report");
   StudyResults results;
   results.study = index.study();
+  results.machines = index.machines();
+  results.cost_machine = machine.value_or(index.cost_machine());
   results.metrics = metrics == MetricsOf::study ? results.study.metrics : all_metrics(index);
+  const std::string machines = machines_text(results);
   for (std::size_t number = 0; number < results.study.cell_count(); ++number) {
-    CellResults cell = runs_of(index, number);
+    CellResults cell = runs_of(index, number, results.cost_machine);
     if (cell.estimators.empty()) continue;
+    cell.machines = machines;
     for (EstimatorResults& one : cell.estimators) {
       sum_up(one, results.metrics, cell.repetition);
     }
@@ -178,6 +194,16 @@ StudyResults study_results(const ResultStore& store, MetricsOf metrics) {
     results.cells.push_back(std::move(cell));
   }
   return results;
+}
+
+std::vector<StudyResults> results_of_other_machines(const ResultStore& store,
+                                                    const StudyResults& results,
+                                                    MetricsOf metrics) {
+  std::vector<StudyResults> others;
+  for (const auto& [machine, runs] : results.machines) {
+    if (machine != results.cost_machine) others.push_back(study_results(store, metrics, machine));
+  }
+  return others;
 }
 
 }  // namespace fathom

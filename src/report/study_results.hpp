@@ -24,6 +24,7 @@ struct MetricSummary {
 /// All runs of one estimator, or of dead reckoning, on one cell.
 struct EstimatorResults {
   std::string name;
+  std::string cost_machine;     ///< the processor whose runs figures of cost are over
   std::vector<RunRecord> runs;  ///< in order of survey and trial
   std::size_t done = 0;
   std::map<std::string, std::size_t> outcomes;
@@ -52,6 +53,7 @@ struct CellResults {
   std::string selected_by;  ///< what selected the loops of all; empty where the study names none
   std::string alignment;    ///< of its errors; empty where the study names none
   std::set<int> jobs;
+  std::string machines;  ///< machines_text of the study
   Repetition repetition = Repetition::surveys;
   std::size_t surveys = 0;                   ///< that have any run
   std::size_t trials = 0;                    ///< likewise, of all surveys
@@ -70,7 +72,9 @@ std::optional<PairedDifference> difference_between(const EstimatorResults& one,
 /// What all tables, charts and figures are made from; the intervals are computed once, here.
 struct StudyResults {
   StudyDescription study;
-  std::vector<CellResults> cells;    ///< those with runs
+  std::map<std::string, std::size_t> machines;  ///< runs by kind of processor
+  std::string cost_machine;                     ///< the one whose runs figures of cost are over
+  std::vector<CellResults> cells;               ///< those with runs
   std::vector<std::string> metrics;  ///< all that occur: the study's in its order, then by name
 };
 
@@ -81,8 +85,18 @@ Metric described(const std::string& metric);
 /// Which metrics are worked up: their intervals are what takes time.
 enum class MetricsOf { study, runs };
 
-/// Throws InputError on a store without runs.
-StudyResults study_results(const ResultStore& store, MetricsOf metrics = MetricsOf::runs);
+/// Figures of cost are over the runs of `machine`; without it, of the one that has most. Throws
+/// InputError on a store without runs.
+StudyResults study_results(const ResultStore& store, MetricsOf metrics = MetricsOf::runs,
+                           const std::optional<std::string>& machine = std::nullopt);
+
+/// The same with the costs of each of the other kinds of processor.
+std::vector<StudyResults> results_of_other_machines(const ResultStore& store,
+                                                    const StudyResults& results,
+                                                    MetricsOf metrics = MetricsOf::runs);
+
+/// Whose costs are shown where runs are from several kinds of processor, a sentence; else empty.
+std::string machines_text(const StudyResults& results);
 
 /// "98/100 done, 2 diverged"; also those at the iteration limit, without loops and yet to run.
 std::string outcome_text(const EstimatorResults& estimator, const StudyDescription& study);

@@ -76,9 +76,10 @@ std::string table_in_parts(const std::vector<std::string>& header, const Rows& r
 }
 
 std::string estimator_table(const CellResults& cell, const StudyDescription& study,
-                            StudyTable extent) {
+                            StudyTable extent, bool only_cost = false) {
   std::vector<std::string> metrics;
   for (const std::string& metric : study.metrics) {
+    if (only_cost && !is_cost_metric(metric)) continue;
     if (std::any_of(cell.estimators.begin(), cell.estimators.end(),
                     [&](const auto& one) { return one.metrics.contains(metric); })) {
       metrics.push_back(metric);
@@ -146,6 +147,21 @@ std::string words_in_brief(const StudyResults& results) {
          ".\n";
 }
 
+// Costs on the kinds of processor that the blocks above say nothing of.
+std::string costs_elsewhere(const ResultStore& store, const StudyResults& results) {
+  std::string text;
+  for (const StudyResults& other : results_of_other_machines(store, results, MetricsOf::study)) {
+    const std::string& machine = other.cost_machine;
+    text +=
+        "Costs on " + (machine.empty() ? std::string("an unknown processor") : machine) + "\n\n";
+    for (const CellResults& cell : other.cells) {
+      text += cell_caption(cell) + "\n";
+      text += estimator_table(cell, other.study, StudyTable::full, true) + "\n";
+    }
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string study_table(const ResultStore& store, StudyTable extent) {
@@ -161,6 +177,7 @@ std::string study_table(const ResultStore& store, StudyTable extent) {
     limits.insert(limits_text(cell));
   }
   if (extent == StudyTable::brief) text += words_in_brief(results);
+  if (extent == StudyTable::full) text += costs_elsewhere(store, results);
   if (const std::string intervals = intervals_text(results); !intervals.empty()) {
     text += intervals + "\n";
     if (extent == StudyTable::full) {

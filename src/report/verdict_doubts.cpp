@@ -140,6 +140,10 @@ void add_jobs(const CellResults& cell, std::vector<Doubt>& doubts) {
   doubts.push_back({text, text});
 }
 
+void add_machines(const CellResults& cell, std::vector<Doubt>& doubts) {
+  if (!cell.machines.empty()) doubts.push_back({cell.machines, cell.machines});
+}
+
 }  // namespace
 
 std::vector<Doubt> doubts_of(const CellResults& cell, const CellVerdict& verdict) {
@@ -154,7 +158,10 @@ std::vector<Doubt> doubts_of(const CellResults& cell, const CellVerdict& verdict
   add_optimum(cell, doubts);
   add_loops(cell, doubts);
   add_reference(cell, doubts);
-  if (!verdict.cost.empty()) add_jobs(cell, doubts);
+  if (!verdict.cost.empty()) {
+    add_jobs(cell, doubts);
+    add_machines(cell, doubts);
+  }
   return doubts;
 }
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <map>
 
+#include "fathom/core/input_error.hpp"
 #include "result_schema.hpp"
 
 namespace fathom {
@@ -48,6 +49,20 @@ std::string difference(const StudyDescription& there, const StudyDescription& he
     if (!now.contains(key)) say(key, value, "absent");
   }
   return text;
+}
+
+void require_same(const StudyDescription& there, const StudyDescription& here,
+                  const std::filesystem::path& file) {
+  constexpr const char* kOtherOut = "); use another --out, or remove the folder";
+  const std::string differs = difference(there, here);
+  if (!differs.empty()) {
+    throw InputError(file.string(),
+                     "holds results of another configuration (" + differs + kOtherOut);
+  }
+  const std::string changes = data_difference(there, here);
+  if (!changes.empty()) {
+    throw InputError(file.string(), "holds results of other data (" + changes + kOtherOut);
+  }
 }
 
 }  // namespace fathom

@@ -14,6 +14,11 @@ namespace fathom {
 /// DamagedStore where any run, its series included, is not what was stored.
 std::vector<RunRecord> read_runs(SQLite::Database& database, const StudyDescription& study);
 
+/// A run with its series; nothing where there is none. Throws DamagedStore where it is not what was
+/// stored.
+std::optional<RunRecord> read_run(SQLite::Database& database, const StudyDescription& study,
+                                  const RunKey& key);
+
 /// A series of one run; nothing where the run has none of that name.
 std::optional<std::vector<double>> read_series(SQLite::Database& database, const RunKey& key,
                                                const std::string& name);

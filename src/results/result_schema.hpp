@@ -37,6 +37,11 @@ StudyDescription read_study(SQLite::Database& database);
 /// What of two configurations differs, one line: "seed: 1 there, 2 here; …". Empty if nothing.
 std::string difference(const StudyDescription& there, const StudyDescription& here);
 
+/// Throws InputError that names the file and what differs, unless configuration and data are the
+/// same.
+void require_same(const StudyDescription& there, const StudyDescription& here,
+                  const std::filesystem::path& file);
+
 /// Which files of their data differ, one line: "a/1.png has changed; …". Empty if none.
 std::string data_difference(const StudyDescription& there, const StudyDescription& here);
 

@@ -20,10 +20,8 @@ std::unique_ptr<FileLock> lock_of(const fs::path& folder) {
                                         "or use another --out");
 }
 
-// What of a study may change from session to session, and the session itself. Returns its number.
-std::int64_t begin_session(SQLite::Database& sqlite, const StudyDescription& study,
-                           const std::string& manifest) {
-  update_study(sqlite, study);
+// Returns its number.
+std::int64_t insert_session(SQLite::Database& sqlite, const std::string& manifest) {
   SQLite::Statement session(sqlite, "INSERT INTO session (manifest) VALUES (?)");
   session.bind(1, manifest);
   session.exec();
@@ -39,6 +37,7 @@ std::string text_of(const TrialKey& trial) {
 ResultStore::ResultStore(std::unique_ptr<Database> database) : database_(std::move(database)) {}
 ResultStore::~ResultStore() = default;
 ResultStore::ResultStore(ResultStore&&) noexcept = default;
+ResultStore& ResultStore::operator=(ResultStore&&) noexcept = default;
 
 ResultStore ResultStore::open(const fs::path& path) {
   const fs::path file = fs::is_directory(path) ? path / kFileName : path;
@@ -68,23 +67,16 @@ ResultStore ResultStore::write(const fs::path& folder, const StudyDescription& s
     const bool is_store = database->is_store();
     if (is_store) {
       const StudyDescription there = read_study(sqlite);
-      const std::string differs = difference(there, study);
-      if (!differs.empty()) {
-        throw InputError(file.string(), "holds results of another configuration (" + differs +
-                                            "); use another --out, or remove the folder");
-      }
-      const std::string changes = data_difference(there, study);
-      if (!changes.empty()) {
-        throw InputError(file.string(), "holds results of other data (" + changes +
-                                            "); use another --out, or remove the folder");
-      }
+      require_same(there, study, file);
       read_runs(sqlite, there);
     }
     sqlite.exec("PRAGMA journal_mode = WAL");
     sqlite.exec("PRAGMA synchronous = NORMAL");
     SQLite::Transaction transaction(sqlite);
     if (!is_store) create_schema(sqlite, study);
-    database->session = begin_session(sqlite, study, manifest);
+    // What of a study may change from session to session.
+    update_study(sqlite, study);
+    database->session = insert_session(sqlite, manifest);
     transaction.commit();
     database->study = read_study(sqlite);
   });
@@ -93,6 +85,10 @@ ResultStore ResultStore::write(const fs::path& folder, const StudyDescription& s
 
 const StudyDescription& ResultStore::study() const {
   return database_->study;
+}
+
+const fs::path& ResultStore::file() const {
+  return database_->file;
 }
 
 std::vector<std::string> ResultStore::manifests() const {
@@ -113,11 +109,29 @@ std::optional<std::vector<double>> ResultStore::series(const RunKey& key,
   return database_->guard([&] { return read_series(*database_->sqlite, key, name); });
 }
 
+std::optional<RunRecord> ResultStore::run(const RunKey& key) const {
+  return database_->guard([&] { return read_run(*database_->sqlite, database_->study, key); });
+}
+
+void ResultStore::begin_session(const std::string& manifest) {
+  const std::lock_guard hold(database_->mutex);
+  database_->guard([&] { database_->session = insert_session(*database_->sqlite, manifest); });
+}
+
 void ResultStore::add(const RunRecord& run) {
   const std::lock_guard hold(database_->mutex);
   database_->guard([&] {
     SQLite::Transaction transaction(*database_->sqlite, SQLite::TransactionBehavior::IMMEDIATE);
     if (insert_run(*database_->sqlite, run, database_->session)) transaction.commit();
+  });
+}
+
+void ResultStore::copy_to(const fs::path& file) const {
+  const std::lock_guard hold(database_->mutex);
+  database_->guard([&] {
+    SQLite::Statement copy(*database_->sqlite, "VACUUM INTO ?");
+    copy.bind(1, file.string());
+    copy.exec();
   });
 }
 

@@ -43,6 +43,13 @@ std::vector<TrialKey> missing_of(const RunIndex::Trials& there, const StudyDescr
 RunIndex::RunIndex(const ResultStore& store) : study_(store.study()), runs_(store.runs()) {
   for (const RunRecord& run : runs_) {
     by_estimator_[run.key.estimator][run.key.cell][run.key.trial_key()] = &run;
+    if (run.key.estimator != kDeadReckoning) ++machines_[run.machine];
+  }
+  std::size_t most = 0;
+  for (const auto& [machine, count] : machines_) {
+    if (count <= most) continue;
+    cost_machine_ = machine;
+    most = count;
   }
 }
 

@@ -5,6 +5,7 @@
 
 #include "cell_means.hpp"
 #include "fathom/core/input_error.hpp"
+#include "fathom/evaluation/metrics.hpp"
 
 namespace fathom {
 namespace {
@@ -14,9 +15,11 @@ namespace {
 std::optional<ClusteredValues> values_in(const Compared& compared, const std::string& estimator,
                                          std::size_t c, const std::string& metric) {
   ClusteredValues values;
+  const bool is_cost = is_cost_metric(metric);
   for (const TrialKey& trial : compared.trials[c]) {
     const RunRecord* run = done_run(compared, estimator, c, trial);
     if (run == nullptr) continue;
+    if (is_cost && run->machine != compared.runs.cost_machine()) continue;
     const auto value = run->metrics.find(metric);
     if (value == run->metrics.end()) return std::nullopt;
     values[trial.survey].push_back(value->second);

@@ -78,6 +78,14 @@ std::vector<std::string> remarks_on(const Compared& compared, const Selection& s
     remarks.push_back("measured with " + std::to_string(jobs) +
                       " jobs at a time: costs are comparable at 1 alone");
   }
+  const auto& machines = compared.runs.machines();
+  if (machines.size() > 1 && asks_for(query, is_cost)) {
+    const std::string& machine = compared.runs.cost_machine();
+    remarks.push_back("runs are from " + std::to_string(machines.size()) +
+                      " kinds of processor: costs are those of " +
+                      (machine.empty() ? "an unknown one" : machine) + " alone, " +
+                      std::to_string(machines.at(machine)) + " runs of the study");
+  }
   return remarks;
 }
 

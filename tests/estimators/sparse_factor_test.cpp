@@ -185,5 +185,29 @@ TEST(SelectedInverse, EqualsTheDenseInverseOnTheDiagonal) {
   }
 }
 
+// All linked with all: one supernode by its pattern, which is kept as several.
+TEST(BlockCholesky, KeepsAWideSupernodeInPieces) {
+  RandomStream random(9, "wide");
+  constexpr int kNodes = 2 * kWidestSupernode + 5;
+  std::vector<Link> links;
+  for (int a = 0; a < kNodes; ++a) {
+    for (int b = 0; b < a; ++b) links.push_back({a, b});
+  }
+  const Symbolic symbolic = analyse(adjacency_of(kNodes, links));
+  EXPECT_EQ(symbolic.supernodes.size(), 3U);
+  for (const Supernode& s : symbolic.supernodes) EXPECT_LE(s.width, kWidestSupernode);
+  BlockCholesky<3> factor(symbolic);
+  const Eigen::MatrixXd A = fill(factor, links, 100.0, random);
+  ASSERT_TRUE(factor.factorise());
+  const Eigen::VectorXd right = Eigen::VectorXd::Ones(3 * kNodes);
+  EXPECT_LT((A * solve(factor, right) - right).norm(), 1e-10);
+  const Eigen::MatrixXd expected = A.inverse();
+  const SelectedInverse inverse(factor);
+  for (int k = 0; k < kNodes; ++k) {
+    const Eigen::Matrix3d block = expected.block<3, 3>(3 * k, 3 * k);
+    EXPECT_LT((inverse.block(k) - block).norm(), 1e-10 * block.norm());
+  }
+}
+
 }  // namespace
 }  // namespace fathom::sparse

@@ -6,7 +6,7 @@
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
-#include "estimators/support/pose_graph/normal_equations.hpp"
+#include "estimators/support/pose_graph/solver.hpp"
 #include "tests/estimators/graph_parts.hpp"
 #include "tests/estimators/logs.hpp"
 #include "tests/estimators/naive_least_squares.hpp"
@@ -74,6 +74,52 @@ TEST(SparseGaussNewtonDerivatives, AreThoseOfTheCost) {
     const auto i = static_cast<Eigen::Index>(3 * (k - 1));
     EXPECT_NEAR(nodes[k].x + gauss_newton(i), textbook[k].x, 1e-8);
     EXPECT_NEAR(nodes[k].y + gauss_newton(i + 1), textbook[k].y, 1e-8);
+  }
+}
+
+// The gradient alone is that of the whole, and leaves the factor of before where it was.
+TEST(SparseGaussNewtonDerivatives, GradientAloneLeavesTheFactor) {
+  const MeasurementLog log = test::circle_of(60);
+  const test::GraphParts parts = test::parts_of(log);
+  const sparse::Symbolic symbolic = parts.analysed();
+  NormalEquations whole(symbolic, parts.edges);
+  NormalEquations apart(symbolic, parts.edges);
+  whole.linearise(parts.nodes, Hessian::exact);
+  ASSERT_TRUE(whole.factorise());
+  whole.solve_step();
+  std::vector<Node> moved;
+  whole.move(parts.nodes, moved);
+  const double F = apart.linearise(moved, Hessian::exact);
+  EXPECT_EQ(whole.differentiate(moved), F);
+  EXPECT_EQ(whole.gradient(), apart.gradient());
+  const std::vector<double> chord = whole.solve_step();
+  whole.linearise(parts.nodes, Hessian::exact);
+  ASSERT_TRUE(whole.factorise());
+  std::vector<double> expected = apart.gradient();
+  for (double& g : expected) g = -g;
+  whole.solve(expected.data());
+  EXPECT_EQ(chord, expected);
+}
+
+// With chords and without: the same minimum, of which both say that it is one.
+TEST(SparseGaussNewtonDerivatives, ChordsEndWhereNewtonDoes) {
+  for (const double noise : {0.3, 1.0, 3.0, 10.0}) {
+    const test::GraphParts parts = test::parts_of(test::circle_of(300, noise));
+    const sparse::Symbolic symbolic = parts.analysed();
+    NormalEquations equations(symbolic, parts.edges);
+    SolverTuning without;
+    without.chord_below = 0.0;
+    std::vector<Node> with_chords = parts.nodes;
+    std::vector<Node> by_newton = parts.nodes;
+    const SolveResult chords = minimise(equations, with_chords, {50, 1e-8});
+    const SolveResult newton = minimise(equations, by_newton, {50, 1e-14}, without);
+    EXPECT_EQ(chords.outcome, Outcome::converged);
+    EXPECT_EQ(chords.is_local_minimum, newton.is_local_minimum);
+    EXPECT_NEAR(chords.cost, newton.cost, 1e-8 * newton.cost) << noise;
+    for (std::size_t k = 0; k < by_newton.size(); ++k) {
+      EXPECT_NEAR(with_chords[k].x, by_newton[k].x, 1e-4) << noise << " at " << k;
+      EXPECT_NEAR(with_chords[k].theta, by_newton[k].theta, 1e-4) << noise << " at " << k;
+    }
   }
 }
 

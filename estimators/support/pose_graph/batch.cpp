@@ -26,7 +26,7 @@ class Batch {
         try_from(nodes_);
         break;
       case Start::lago:
-        try_from(lago());
+        try_from(from_headings(lago_headings()));
         break;
       case Start::chordal:
         try_from(from_headings(settled(chordal_start())));
@@ -44,12 +44,18 @@ class Batch {
   }
 
  private:
+  // The headings of LAGO are judged before the positions are computed for them, and with them.
   void run_automatic() {
-    std::vector<Node> first = lago();
-    const bool is_trusted = worst_turn(first) < kTrustedTurnRad;
-    if (is_trusted && try_from(first)) return;
+    const std::vector<double> turned = lago_headings();
+    std::vector<Node> first;
+    bool is_trusted = worst_turn(turned) < kTrustedTurnRad;
+    if (is_trusted) {
+      first = from_headings(turned);
+      is_trusted = worst_turn(headings_of(first)) < kTrustedTurnRad;
+      if (is_trusted && try_from(std::move(first))) return;
+    }
     if (try_from(lifted())) return;
-    if (!is_trusted) try_from(std::move(first));
+    if (!is_trusted) try_from(first.empty() ? from_headings(turned) : std::move(first));
     try_from(nodes_);
   }
 
@@ -72,12 +78,13 @@ class Batch {
     return *headings_;
   }
 
-  std::vector<Node> lago() {
+  std::vector<double> lago_headings() {
     std::vector<double> theta{nodes_[0].theta};
+    theta.reserve(nodes_.size());
     for (std::size_t k = 1; k < nodes_.size(); ++k) {
       theta.push_back(theta.back() + wrap_angle(nodes_[k].theta - nodes_[k - 1].theta));
     }
-    return from_headings(headings().solve(theta));
+    return headings().solve(theta);
   }
 
   std::vector<double> chordal_start() const {
@@ -114,16 +121,21 @@ class Batch {
     equations_.linearise(turned, Hessian::measured);
     if (!equations_.factorise()) return turned;
     equations_.solve_step();
-    std::vector<Node> placed;
-    equations_.move(turned, placed);
-    return placed;
+    equations_.move(turned, turned);
+    return turned;
   }
 
-  double worst_turn(const std::vector<Node>& nodes) const {
+  static std::vector<double> headings_of(const std::vector<Node>& nodes) {
+    std::vector<double> theta;
+    theta.reserve(nodes.size());
+    for (const Node& node : nodes) theta.push_back(node.theta);
+    return theta;
+  }
+
+  double worst_turn(const std::vector<double>& theta) const {
     double worst = 0.0;
     for (const Edge& edge : edges_) {
-      const double turn = nodes[static_cast<std::size_t>(edge.to)].theta -
-                          nodes[static_cast<std::size_t>(edge.from)].theta;
+      const double turn = theta[at(edge.to)] - theta[at(edge.from)];
       worst = std::max(worst, std::abs(wrap_angle(turn - edge.theta)));
     }
     return worst;

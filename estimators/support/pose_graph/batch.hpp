@@ -17,9 +17,10 @@ enum class Start {
   lifted      ///< headings by lifted_headings
 };
 
-/// LAGO's headings are trusted if every edge keeps its turn to this: a wrong multiple of 2π leaves
-/// more on the edges of some loop. On the sets of docs/estimators/sparse_gauss_newton.md it is
-/// 0.13 rad at most where the rounding is right, 0.7 rad and more where it is wrong.
+/// LAGO's headings are trusted if every edge keeps its turn to this, before the positions are
+/// computed and after: a wrong multiple of 2π leaves more on the edges of some loop. On the sets of
+/// docs/estimators/sparse_gauss_newton.md it is 0.13 rad at most where the rounding is right, 0.7
+/// rad and more where it is wrong.
 inline constexpr double kTrustedTurnRad = 0.5;
 /// Least squares in the headings are solved again until none turns by more, so often at most. The
 /// joint solve that follows corrects what is left.

@@ -8,6 +8,7 @@ namespace fathom::pose_graph {
 std::vector<double> chordal_headings(const sparse::Symbolic& symbolic, std::span<const Edge> edges,
                                      double first_rad) {
   sparse::BlockCholesky<2> factor(symbolic);
+  factor.clear();
   const std::vector<int>& position = symbolic.position;
   std::vector<double> z(2 * position.size(), 0.0);
   for (const Edge& edge : edges) {

@@ -65,33 +65,56 @@ double NormalEquations::add_edges(std::span<const Node> nodes) {
     loss_.apply(e, kHessian == Hessian::exact, t);
     cost += t.cost;
     const Targets& target = targets_[e];
+    add_gradient(t, target);
     if (target.to >= 0) add_to_end(t, target.to);
     if (target.from >= 0) add_to_begin<kHessian>(t, target);
   }
   return cost;
 }
 
-// H_kk and g_k.
+double NormalEquations::differentiate(std::span<const Node> nodes) {
+  std::fill(gradient_.begin(), gradient_.end(), 0.0);
+  double cost = 0.0;
+  for (std::size_t e = 0; e < edges_.size(); ++e) {
+    if (loss_.leaves_out(e)) continue;
+    const Edge& edge = edges_[e];
+    EdgeTerms t = linearise_edge(edge, nodes[at(edge.from)], nodes[at(edge.to)]);
+    loss_.apply(e, false, t);
+    cost += t.cost;
+    add_gradient(t, targets_[e]);
+  }
+  return cost;
+}
+
+// g_k = m and g_i = −Tᵀ m.
+inline void NormalEquations::add_gradient(const EdgeTerms& t, const Targets& target) {
+  const auto& m = t.m;
+  if (target.to >= 0) {
+    double* g = gradient_.data() + 3 * at(target.to);
+    for (int a = 0; a < 3; ++a) g[a] += m[at(a)];
+  }
+  if (target.from >= 0) {
+    double* g = gradient_.data() + 3 * at(target.from);
+    g[0] -= m[0];
+    g[1] -= m[1];
+    g[2] -= -t.dy * m[0] + t.dx * m[1] + m[2];
+  }
+}
+
+// H_kk.
 inline void NormalEquations::add_to_end(const EdgeTerms& t, int position) {
-  double* g = gradient_.data() + 3 * at(position);
-  for (int a = 0; a < 3; ++a) g[a] += t.m[at(a)];
   auto& H = diagonal_sums_[at(position)];
   for (std::size_t a = 0; a < 6; ++a) H[a] += t.M[a];
 }
 
-// H_ii and g_i, and H_ik where k is free.
+// H_ii, and H_ik where k is free.
 template <Hessian kHessian>
 inline void NormalEquations::add_to_begin(const EdgeTerms& t, const Targets& target) {
   const auto& M = t.M;
-  const auto& m = t.m;
   // Row θ of Tᵀ M, and below element (θ, θ) of Tᵀ M T.
   const double rx = -t.dy * M[0] + t.dx * M[1] + M[2];
   const double ry = -t.dy * M[1] + t.dx * M[3] + M[4];
   const double rt = -t.dy * M[2] + t.dx * M[4] + M[5];
-  double* g = gradient_.data() + 3 * at(target.from);
-  g[0] -= m[0];
-  g[1] -= m[1];
-  g[2] -= -t.dy * m[0] + t.dx * m[1] + m[2];
   auto& H = diagonal_sums_[at(target.from)];
   H[0] += M[0];
   H[1] += M[1];
@@ -102,6 +125,7 @@ inline void NormalEquations::add_to_begin(const EdgeTerms& t, const Targets& tar
   double tx = -rx;
   double ty = -ry;
   if constexpr (kHessian == Hessian::exact) {
+    const auto& m = t.m;
     H[2] += m[1];
     H[4] -= m[0];
     H[5] -= m[0] * t.dx + m[1] * t.dy;

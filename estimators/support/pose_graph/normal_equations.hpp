@@ -32,6 +32,9 @@ class NormalEquations {
   /// Adds both up at the estimate; the diagonal is multiplied by 1 + damping. Returns F.
   double linearise(std::span<const Node> nodes, Hessian hessian, double damping = 0.0);
 
+  /// The gradient alone; the factor stays that of another estimate. Returns F.
+  double differentiate(std::span<const Node> nodes);
+
   bool factorise() { return factor_.factorise(); }
   int negative_pivots() const { return factor_.negative_pivots(); }
   /// Of the factor of an undamped matrix: whether no pivot is but rounding (kLeastPivotShare).
@@ -39,14 +42,14 @@ class NormalEquations {
 
   /// x ← H⁻¹ x; nodes in the order of elimination.
   void solve(double* x) { factor_.solve(x); }
-  /// −H⁻¹ g; nodes in the order of elimination.
+  /// −H⁻¹ g, with the matrix that was factored last; nodes in the order of elimination.
   const std::vector<double>& solve_step();
   /// gᵀ H⁻¹ g of the last step: by how much F would fall if it were quadratic.
   double predicted_decrease() const;
   /// Largest absolute element of the gradient of F.
   double gradient_norm() const;
 
-  /// The estimate moved by the last step.
+  /// The estimate moved by the last step; `to` may be where it is.
   void move(std::span<const Node> from, std::vector<Node>& to) const;
   /// Whether every number of the last step is small beside that of the estimate.
   bool step_is_small(std::span<const Node> nodes, double tolerance) const;
@@ -66,6 +69,7 @@ class NormalEquations {
 
   template <Hessian kHessian>
   double add_edges(std::span<const Node> nodes);
+  void add_gradient(const EdgeTerms& t, const Targets& target);
   void add_to_end(const EdgeTerms& t, int position);
   template <Hessian kHessian>
   void add_to_begin(const EdgeTerms& t, const Targets& target);

@@ -40,16 +40,15 @@ class Minimiser {
     const double promised = equations_.predicted_decrease();
     if (!std::isfinite(promised)) return raise_damping();
     equations_.move(nodes_, trial_);
-    const bool small = promised <= limits_.tolerance * result_.cost ||
-                       promised <= tuning_.least_promise_chi2 ||
-                       equations_.step_is_small(nodes_, limits_.tolerance);
-    if (small && damping_ == 0.0) {
+    if (is_small(promised) && damping_ == 0.0) {
       if (hessian_ == Hessian::exact || is_indefinite_here_) {
         result_.outcome = Outcome::converged;
         nodes_.swap(trial_);
         return false;
       }
       hessian_ = Hessian::exact;
+    } else if (ends_with_chords(promised)) {
+      return false;
     } else if (promised < newton_below_ * result_.cost) {
       hessian_ = Hessian::exact;
     }
@@ -61,6 +60,35 @@ class Minimiser {
       return true;
     }
     return raise_damping();
+  }
+
+  bool is_small(double promised) const {
+    return promised <= limits_.tolerance * result_.cost || promised <= tuning_.least_promise_chi2 ||
+           equations_.step_is_small(nodes_, limits_.tolerance);
+  }
+
+  // More steps with the factor of this one, from its end on, as long as each promises far less than
+  // the one before. Whether that ended the solve; if not, `trial_` is where they led.
+  bool ends_with_chords(double promised) {
+    if (hessian_ != Hessian::exact || is_indefinite_here_ || damping_ != 0.0) return false;
+    if (promised > tuning_.chord_below * result_.cost) return false;
+    if (result_.iterations == limits_.max_iterations) return false;
+    const double enough = tuning_.chord_share * limits_.tolerance * result_.cost;
+    while (is_no_rise(equations_.differentiate(trial_))) {
+      equations_.solve_step();
+      const double left = equations_.predicted_decrease();
+      if (!(left <= tuning_.chord_contraction * promised)) return false;
+      equations_.move(trial_, chord_);
+      trial_.swap(chord_);
+      if (left <= std::max(enough, tuning_.least_promise_chi2)) {
+        ++result_.iterations;
+        result_.outcome = Outcome::converged;
+        nodes_.swap(trial_);
+        return true;
+      }
+      promised = left;
+    }
+    return false;
   }
 
   // Of an exact Hessian that is not positive definite, its Gauss-Newton part is taken.
@@ -114,7 +142,7 @@ class Minimiser {
   }
 
   void finish() {
-    result_.cost = equations_.linearise(nodes_, Hessian::gauss_newton);
+    result_.cost = equations_.differentiate(nodes_);
     result_.gradient_norm = equations_.gradient_norm();
     // What was found on the way says nothing of where it stopped.
     if (result_.outcome != Outcome::converged) result_.is_local_minimum.reset();
@@ -127,6 +155,7 @@ class Minimiser {
   SolverTuning tuning_;
   SolveResult result_;
   std::vector<Node> trial_;
+  std::vector<Node> chord_;
   std::optional<PositionProblem> positions_;
   Hessian hessian_ = Hessian::gauss_newton;
   double damping_ = 0.0;

@@ -22,6 +22,13 @@ struct SolverTuning {
   /// by a smaller share; and by `after_indefinite` of it where that Hessian was not definite.
   double newton_below = 0.05;
   double after_indefinite = 1e-2;
+  /// After a Newton step that promises to lower F by a smaller share, its factor serves on: chords
+  /// (Ortega and Rheinboldt 1970), as long as each promises at most `chord_contraction` of what the
+  /// one before did, until one promises `chord_share` of the tolerance. A chord does not square the
+  /// error, so it has to promise less than a Newton step.
+  double chord_below = 1e-3;
+  double chord_contraction = 1e-2;
+  double chord_share = 5e-2;
   /// Levenberg-Marquardt damping after a step that failed; then more after each that
   /// fails and less after each that does not (Marquardt 1963). Below the least there is none;
   /// beyond the largest no step is left in 16 digits.
@@ -49,7 +56,8 @@ struct SolveResult {
 
 /// Minimises F from `nodes` on, in place. Undamped steps as long as F falls, Gauss-Newton first,
 /// Newton near the end; else Levenberg-Marquardt damping until it does. It has converged when a
-/// step promises to lower F, or moves the poses, by less than the tolerance, as a share.
+/// step promises to lower F, or moves the poses, by less than the tolerance, as a share: one with
+/// the exact Hessian of the estimate, or of one just before it (SolverTuning::chord_share).
 SolveResult minimise(NormalEquations& equations, std::vector<Node>& nodes,
                      const SolveLimits& limits, const SolverTuning& tuning = {});
 

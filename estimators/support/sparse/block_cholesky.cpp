@@ -9,8 +9,10 @@
 namespace fathom::sparse {
 template <int B>
 BlockCholesky<B>::BlockCholesky(const Symbolic& symbolic)
-    : symbolic_(&symbolic), signs_(at(symbolic.size()) * B, 1.0) {
-  panels_.resize(symbolic.panel_blocks * kBlockNumbers<B> + kReadAhead);
+    : symbolic_(&symbolic),
+      panels_(symbolic.panel_blocks * kBlockNumbers<B> + kReadAhead),
+      signs_(at(symbolic.size()) * B, 1.0),
+      inverses_(at(symbolic.size()) * B, 1.0) {
   int widest = 0;
   int highest = 0;
   for (const Supernode& s : symbolic.supernodes) {
@@ -39,7 +41,8 @@ BlockPlace BlockCholesky<B>::place(int node_a, int node_b) const {
 
 template <int B>
 bool BlockCholesky<B>::factorise() {
-  Factorisation<B> run{*symbolic_, panels_.data(), signs_.data(), packed_.data()};
+  Factorisation<B> run{*symbolic_, panels_.data(),  signs_.data(), packed_.data(),
+                       0,          inverses_.data()};
   const bool done = run_for_processor(run);
   negative_pivots_ = run.negative;
   return done;
@@ -47,7 +50,8 @@ bool BlockCholesky<B>::factorise() {
 
 template <int B>
 void BlockCholesky<B>::solve(double* x) {
-  Substitution<B> run{*symbolic_, panels_.data(), signs_.data(), x, gathered_.data()};
+  const double* signs = negative_pivots_ > 0 ? signs_.data() : nullptr;
+  Substitution<B> run{*symbolic_, panels_.data(), signs, inverses_.data(), x, gathered_.data()};
   run_for_processor(run);
 }
 

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "estimators/support/sparse/panel_memory.hpp"
 #include "estimators/support/sparse/symbolic.hpp"
 
 namespace fathom::sparse {
@@ -22,7 +23,7 @@ struct BlockPlace {
 template <int B>
 class BlockCholesky {
  public:
-  /// The pattern must outlive it and stay as it is.
+  /// The pattern must outlive it and stay as it is. A holds nothing before the first clear().
   explicit BlockCholesky(const Symbolic& symbolic);
 
   /// Sets A to zero, before it is added up.
@@ -44,13 +45,12 @@ class BlockCholesky {
   const double* panel(const Supernode& s) const {
     return panels_.data() + s.panel * kBlockNumbers<B>;
   }
-  /// D, one sign a scalar column.
-  const std::vector<double>& signs() const { return signs_; }
 
  private:
   const Symbolic* symbolic_;
-  std::vector<double> panels_;
-  std::vector<double> signs_;
+  PanelMemory panels_;
+  std::vector<double> signs_;     ///< D, one sign a scalar column
+  std::vector<double> inverses_;  ///< 1 / the diagonal of L, likewise
   std::vector<double> packed_;    ///< right sides of products
   std::vector<double> gathered_;  ///< the rows below a supernode
   int negative_pivots_ = 0;

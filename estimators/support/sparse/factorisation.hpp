@@ -16,6 +16,7 @@ struct Factorisation {
   double* signs;
   double* packed;
   int negative = 0;
+  double* inverses = nullptr;  ///< 1 / the diagonal of L, for substitutions
 
   // Row block `row` of columns [0, depth) of a panel, times D, as the right side of a product.
   FATHOM_INLINE void pack(const double* panel, int stride, int row, int depth,
@@ -53,16 +54,23 @@ struct Factorisation {
     return true;
   }
 
+  // The rows below a diagonal block, a row of its B columns at a time.
   FATHOM_INLINE void solve_below(double* block, int stride, int count, const double* sign,
                                  const double* inverse) const {
+    double L[B][B];
     for (int j = 0; j < B; ++j) {
-      double* column = block + B + at(j * stride);
-      for (int p = 0; p < j; ++p) {
-        const double* left = block + B + at(p * stride);
-        const double factor = sign[p] * block[j + p * stride];
-        for (int i = 0; i < count; ++i) column[i] -= factor * left[i];
+      for (int p = 0; p < j; ++p) L[j][p] = sign[p] * block[j + p * stride];
+    }
+    double* const below = block + B;
+#pragma GCC ivdep
+    for (int i = 0; i < count; ++i) {
+      double row[B];
+      for (int j = 0; j < B; ++j) {
+        row[j] = below[i + j * stride];
+        for (int p = 0; p < j; ++p) row[j] -= L[j][p] * row[p];
+        row[j] *= inverse[j];
+        below[i + j * stride] = row[j];
       }
-      for (int i = 0; i < count; ++i) column[i] *= inverse[j];
     }
   }
 
@@ -127,6 +135,9 @@ struct Factorisation {
       const int stride = s.panel_rows() * B;
       double* sign = signs + at(s.first * B);
       if (!factor_panel(s, panel, stride, sign)) return false;
+      for (int k = 0; k < s.width * B; ++k) {
+        inverses[at(s.first * B + k)] = 1.0 / panel[at(k) * at(stride) + at(k)];
+      }
       for (int u = s.updates; u < s.updates + s.update_count; ++u) {
         update(s, symbolic.updates[at(u)], panel, stride, sign);
       }

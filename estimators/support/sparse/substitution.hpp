@@ -6,27 +6,49 @@
 namespace fathom::sparse {
 
 /// Forward and backward substitution with the panels of L D Lᵀ: the work of BlockCholesky::solve.
+/// By block columns, so that each number of the right side is fetched once for B columns.
 template <int B>
 struct Substitution {
   const Symbolic& symbolic;
   const double* panels;
-  const double* signs;
+  const double* signs;     ///< null: all are 1
+  const double* inverses;  ///< 1 / the diagonal of L
   double* x;
   double* gathered;
+
+  // L y = x for the diagonal block, in place.
+  FATHOM_INLINE void solve_diagonal(const double* block, int stride, const double* inverse,
+                                    double* y) const {
+    for (int b = 0; b < B; ++b) {
+      y[b] *= inverse[b];
+      for (int i = b + 1; i < B; ++i) y[i] -= block[i + b * stride] * y[b];
+    }
+  }
 
   FATHOM_INLINE void forward(const Supernode& s) const {
     const double* panel = panels + s.panel * kBlockNumbers<B>;
     const int stride = s.panel_rows() * B;
     const int* rows = symbolic.rows.data() + s.rows;
+    const double* inverse = inverses + at(s.first * B);
     double* own = x + at(s.first * B);
     const int width = s.width * B;
     const int height = s.height * B;
-    for (int i = 0; i < height; ++i) gathered[i] = 0.0;
-    for (int k = 0; k < width; ++k) {
-      const double* column = panel + at(k) * at(stride);
-      const double value = own[k] /= column[k];
-      for (int i = k + 1; i < width; ++i) own[i] -= column[i] * value;
-      for (int i = 0; i < height; ++i) gathered[i] += column[width + i] * value;
+    for (int k = 0; k < width; k += B) {
+      const double* columns = panel + at(k) * at(stride);
+      solve_diagonal(columns + k, stride, inverse + k, own + k);
+      double y[B];
+      for (int b = 0; b < B; ++b) y[b] = own[k + b];
+      const auto product = [&](int i) {
+        double sum = columns[i] * y[0];
+        for (int b = 1; b < B; ++b) sum += columns[i + b * stride] * y[b];
+        return sum;
+      };
+      for (int i = k + B; i < width; ++i) own[i] -= product(i);
+      if (k == 0) {
+        for (int i = 0; i < height; ++i) gathered[i] = product(width + i);
+      } else {
+        for (int i = 0; i < height; ++i) gathered[i] += product(width + i);
+      }
     }
     for (int i = 0; i < s.height; ++i) {
       for (int a = 0; a < B; ++a) x[rows[i] * B + a] -= gathered[i * B + a];
@@ -37,30 +59,40 @@ struct Substitution {
     const double* panel = panels + s.panel * kBlockNumbers<B>;
     const int stride = s.panel_rows() * B;
     const int* rows = symbolic.rows.data() + s.rows;
+    const double* inverse = inverses + at(s.first * B);
     double* own = x + at(s.first * B);
     const int width = s.width * B;
     const int height = s.height * B;
     for (int i = 0; i < s.height; ++i) {
       for (int a = 0; a < B; ++a) gathered[i * B + a] = x[rows[i] * B + a];
     }
-    for (int k = width - 1; k >= 0; --k) {
-      const double* column = panel + at(k) * at(stride);
-      // Four sums: one alone waits for itself.
-      double sum[4] = {own[k], 0.0, 0.0, 0.0};
-      for (int i = k + 1; i < width; ++i) sum[i % 4] -= column[i] * own[i];
-      int i = 0;
-      for (; i + 4 <= height; i += 4) {
-        for (int v = 0; v < 4; ++v) sum[v] -= column[width + i + v] * gathered[i + v];
+    for (int k = width - B; k >= 0; k -= B) {
+      const double* columns = panel + at(k) * at(stride);
+      // Sums of every B-th row each: one alone waits for itself.
+      double sum[B][B] = {};
+      const auto add = [&](const double* from, const double* right, int count) {
+        for (int i = 0; i < count; i += B) {
+          for (int b = 0; b < B; ++b) {
+            for (int a = 0; a < B; ++a) sum[b][a] += from[i + a + b * stride] * right[i + a];
+          }
+        }
+      };
+      add(columns + k + B, own + k + B, width - k - B);
+      add(columns + width, gathered, height);
+      const double* block = columns + k;
+      for (int b = B - 1; b >= 0; --b) {
+        double value = own[k + b];
+        for (int a = 0; a < B; ++a) value -= sum[b][a];
+        for (int i = b + 1; i < B; ++i) value -= block[i + b * stride] * own[k + i];
+        own[k + b] = value * inverse[k + b];
       }
-      for (; i < height; ++i) sum[0] -= column[width + i] * gathered[i];
-      own[k] = (sum[0] + sum[1] + (sum[2] + sum[3])) / column[k];
     }
   }
 
   FATHOM_INLINE bool run() {
     const std::vector<Supernode>& all = symbolic.supernodes;
     for (std::size_t i = 0; i < all.size(); ++i) forward(all[i]);
-    for (int i = 0; i < symbolic.size() * B; ++i) x[i] *= signs[i];
+    for (int i = 0; signs != nullptr && i < symbolic.size() * B; ++i) x[i] *= signs[i];
     for (std::size_t i = all.size(); i > 0; --i) backward(all[i - 1]);
     return true;
   }

@@ -53,6 +53,30 @@ Columns fill_of(const Adjacency& graph, const Symbolic& result, const std::vecto
   return columns;
 }
 
+// As supernodes of at most kWidestSupernode columns; the rows below a piece begin with the columns
+// of the next ones.
+void append_in_pieces(const Supernode& merged, const Columns& columns, Symbolic& result) {
+  const int end = merged.first + merged.width;
+  const auto below = columns.rows.begin() + long(columns.start[at(end - 1)]);
+  for (int first = merged.first; first < end;) {
+    Supernode s;
+    s.first = first;
+    s.width = std::min(end - first, kWidestSupernode);
+    s.height = end - (first + s.width) + merged.height;
+    s.rows = static_cast<int>(result.rows.size());
+    s.panel = result.panel_blocks;
+    for (int row = first + s.width; row < end; ++row) result.rows.push_back(row);
+    result.rows.insert(result.rows.end(), below, below + merged.height);
+    std::sort(result.rows.end() - merged.height, result.rows.end());
+    result.panel_blocks += at(s.width) * at(s.panel_rows());
+    for (int j = first; j < first + s.width; ++j) {
+      result.supernode_of[at(j)] = static_cast<int>(result.supernodes.size());
+    }
+    result.supernodes.push_back(s);
+    first += s.width;
+  }
+}
+
 void make_supernodes(const Columns& columns, const std::vector<int>& parent, Symbolic& result) {
   struct Merged {
     Supernode supernode;
@@ -82,20 +106,7 @@ void make_supernodes(const Columns& columns, const std::vector<int>& parent, Sym
     stack.push_back(next);
   }
   result.supernode_of.resize(at(result.size()));
-  for (const Merged& merged : stack) {
-    Supernode s = merged.supernode;
-    const int last = s.first + s.width - 1;
-    s.rows = static_cast<int>(result.rows.size());
-    s.panel = result.panel_blocks;
-    result.rows.insert(result.rows.end(), columns.rows.begin() + long(columns.start[at(last)]),
-                       columns.rows.begin() + long(columns.start[at(last) + 1]));
-    std::sort(result.rows.begin() + s.rows, result.rows.end());
-    result.panel_blocks += at(s.width) * at(s.panel_rows());
-    for (int j = s.first; j <= last; ++j) {
-      result.supernode_of[at(j)] = static_cast<int>(result.supernodes.size());
-    }
-    result.supernodes.push_back(s);
-  }
+  for (const Merged& merged : stack) append_in_pieces(merged.supernode, columns, result);
 }
 
 // For each supernode and each later one that it touches: where its rows lie there. Both lists of

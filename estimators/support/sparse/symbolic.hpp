@@ -7,6 +7,10 @@
 
 namespace fathom::sparse {
 
+/// Columns of a supernode at most. A wider one, at the top of a large graph, is several that follow
+/// each other: each is still in the cache when it is subtracted from the next ones.
+inline constexpr int kWidestSupernode = 32;
+
 /// Consecutive columns of the factor with (nearly) the same rows below them, kept as one dense
 /// panel. Rows and columns count blocks.
 struct Supernode {

@@ -12,6 +12,10 @@ class FileLock {
   /// has it: then with `busy` as the message.
   FileLock(const std::filesystem::path& file, const std::string& busy);
   ~FileLock();
+
+  /// Whether a process of this machine holds `file`.
+  static bool is_held(const std::filesystem::path& file);
+
   FileLock(const FileLock&) = delete;
   FileLock& operator=(const FileLock&) = delete;
 

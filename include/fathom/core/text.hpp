@@ -19,6 +19,10 @@ std::string_view trim(std::string_view text);
 /// The words with the separator between them.
 std::string joined(const std::vector<std::string>& words, const std::string& separator);
 
+/// A word as a shell takes it back: in single quotes where it has more than letters, digits and
+/// what names, numbers and settings are written with.
+std::string shell_word(std::string_view word);
+
 /// The whole text as a finite number, or nothing: "1.5x", "nan" and "inf" are nothing.
 std::optional<double> parse_real(std::string_view text);
 std::optional<std::int64_t> parse_integer(std::string_view text);

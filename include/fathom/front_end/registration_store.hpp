@@ -1,9 +1,12 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "fathom/front_end/registration_cache.hpp"
 
@@ -17,6 +20,10 @@ std::filesystem::path default_cache_folder();
 /// the file is damaged or cannot be read or written, this goes on in memory alone.
 class RegistrationStore : public RegistrationCache {
  public:
+  /// Opens what another one has finished, to read alone: many processes of many machines may do so
+  /// at once. What is not in it is kept in memory. Throws InputError where there is none.
+  static std::unique_ptr<RegistrationStore> read_only(const std::filesystem::path& folder);
+
   /// Makes the folder if need be. An empty path: memory alone.
   explicit RegistrationStore(const std::filesystem::path& folder);
   /// Writes what is not yet written.
@@ -32,10 +39,31 @@ class RegistrationStore : public RegistrationCache {
   /// Why the file is not used; empty where it is.
   std::string problem() const;
 
+  /// Every registration of the file that is intact.
+  std::vector<std::pair<RegistrationKey, PairRegistration>> all() const;
+  /// Leaves one file that opens from a read-only folder.
+  void finish();
+
  private:
   class File;
+  explicit RegistrationStore(std::unique_ptr<File> file);
 
   std::unique_ptr<File> file_;
 };
+
+/// How many registrations a merge of caches found.
+struct MergedRegistrations {
+  std::size_t count = 0;     ///< in the merged cache
+  std::size_t repeated = 0;  ///< that several had
+};
+
+/// Makes one cache of those of several folders, and of that of `out` where there is one; it appears
+/// whole or not at all. Throws InputError that names the folder where one has no cache, or another
+/// registration of the same pictures by the same settings.
+MergedRegistrations merge_registrations(const std::vector<std::filesystem::path>& folders,
+                                        const std::filesystem::path& out);
+
+/// Whether a folder has a cache of registrations.
+bool has_registrations(const std::filesystem::path& folder);
 
 }  // namespace fathom

@@ -8,6 +8,7 @@
 #include "fathom/datasets/fingerprint.hpp"
 #include "fathom/harness/recording.hpp"
 #include "fathom/harness/result.hpp"
+#include "fathom/results/shard.hpp"
 
 namespace fathom {
 
@@ -21,5 +22,7 @@ std::string manifest_json(const std::string& command_line,
 
 /// The manifest of a session of a study: versions, build, machine, command line, date, jobs.
 std::string session_json(const std::string& command_line, int jobs);
+/// The same of a session that does a shard, which it names.
+std::string session_json(const ShardPlan& plan, int jobs);
 
 }  // namespace fathom

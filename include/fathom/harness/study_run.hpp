@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "fathom/configuration/study.hpp"
@@ -13,6 +14,7 @@
 #include "fathom/harness/replay.hpp"
 #include "fathom/harness/result.hpp"
 #include "fathom/results/result_store.hpp"
+#include "fathom/results/shard.hpp"
 
 namespace fathom {
 
@@ -25,6 +27,9 @@ struct StudyProgress {
 };
 
 struct StudyRunOptions {
+  Shard shard;  ///< the part of the study that is run; all of it if not given
+  /// In place of a shard: the first trial of the first survey of this cell alone.
+  std::optional<std::size_t> sample;
   int jobs = 1;  ///< trials at work at the same time, at most
   RegistrationCache* registrations = nullptr;
   /// A meter for the thread that calls; none: memory is not measured.
@@ -41,6 +46,12 @@ struct StudyRunOptions {
 /// opened once. Throws InputError.
 Fingerprint data_of(const Study& study);
 
+/// Trials of all cells and surveys.
+std::size_t trials_in_all(const Study& study);
+
+/// Runs of estimators that are a shard's, done or not.
+std::size_t runs_of(const Study& study, const Shard& shard);
+
 /// Jobs that can be at work: no more than there are trials.
 int jobs_of(const Study& study);
 
@@ -52,7 +63,8 @@ struct ExampleRun {
 
 struct StudyRun {
   bool is_finished = false;  ///< false where it was stopped before the end
-  /// Survey 0, trial 0 of the first cell as it was stored, by estimator; empty if not finished.
+  /// Survey 0, trial 0 of the first cell as it was stored, by estimator; empty if not finished, or
+  /// where it is another shard's.
   std::vector<ExampleRun> example;
 };
 
@@ -63,5 +75,10 @@ struct StudyRun {
 /// data set or the store fails; what is stored stays.
 StudyRun run_study(const Study& study, const EstimatorRegistry& registry, ResultStore& store,
                    const StudyRunOptions& options);
+
+/// Registers the pictures that a study's trials need, into `options.registrations`; no estimator
+/// runs but those that select loop candidates. False where it was stopped before the end.
+bool register_pictures(const Study& study, const EstimatorRegistry& registry,
+                       const StudyRunOptions& options);
 
 }  // namespace fathom

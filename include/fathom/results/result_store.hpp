@@ -18,6 +18,7 @@ struct TrialKey {
   std::size_t survey = 0;
   std::size_t trial = 0;
 
+  // NOLINTNEXTLINE(modernize-use-nullptr): said of what the compiler writes for it
   auto operator<=>(const TrialKey&) const = default;
 };
 
@@ -32,17 +33,20 @@ struct RunKey {
   std::string estimator;
 
   TrialKey trial_key() const { return {survey, trial}; }
+  // NOLINTNEXTLINE(modernize-use-nullptr): said of what the compiler writes for it
   auto operator<=>(const RunKey&) const = default;
 };
 
 /// What is kept of a run. What is not known is absent; nothing in it is NaN.
 struct RunRecord {
   RunKey key;
-  std::string outcome;                    ///< name_of(Outcome); empty for dead reckoning
-  std::string fault;                      ///< how the estimator broke its contract; else empty
-  std::string log_hash;                   ///< FNV-1a of the measurement log as g2o
-  int jobs = 1;                           ///< runs that were at work at the same time
-  std::map<std::string, double> metrics;  ///< docs/formats.md lists them
+  std::string outcome;      ///< name_of(Outcome); empty for dead reckoning
+  std::string fault;        ///< how the estimator broke its contract; else empty
+  std::string log_hash;     ///< FNV-1a of the measurement log as g2o
+  int jobs = 1;             ///< runs that were at work at the same time
+  std::size_t session = 0;  ///< place of its manifest in `manifests`; set by the store
+  std::string machine;      ///< model of its processor, as that manifest says; set by the store
+  std::map<std::string, double> metrics;              ///< docs/formats.md lists them
   std::map<std::string, std::vector<double>> series;  ///< likewise
 };
 
@@ -65,8 +69,11 @@ class ResultStore {
 
   ~ResultStore();
   ResultStore(ResultStore&&) noexcept;
+  ResultStore& operator=(ResultStore&&) noexcept;
 
   const StudyDescription& study() const;
+  /// The file itself.
+  const std::filesystem::path& file() const;
   /// The manifests of the sessions that wrote, in order.
   std::vector<std::string> manifests() const;
 
@@ -76,9 +83,16 @@ class ResultStore {
   /// A series of one run; nothing where the run has none of that name.
   std::optional<std::vector<double>> series(const RunKey& key, const std::string& name) const;
 
+  /// A run with its series; nothing where there is none.
+  std::optional<RunRecord> run(const RunKey& key) const;
+
+  /// Begins another session: runs that are added from now on are of it.
+  void begin_session(const std::string& manifest);
   /// Stores a run, whole or not at all; one that is there already is left as it is. May be called
   /// from several threads.
   void add(const RunRecord& run);
+  /// Writes all that is stored now into another file, which must not be there.
+  void copy_to(const std::filesystem::path& file) const;
   /// Ends the writing: leaves one file that opens from a read-only folder.
   void finish();
 

@@ -31,6 +31,11 @@ class RunIndex {
   std::vector<std::string> metrics() const;
   /// The most runs that were at work at the same time, over the cells.
   int most_jobs(const std::vector<std::size_t>& cells) const;
+  /// The kinds of processor that estimators ran on, and how many runs each has.
+  const std::map<std::string, std::size_t>& machines() const { return machines_; }
+  /// The kind that has most runs, of several the first by name: figures of cost are over its runs
+  /// alone, as those of different processors are no one quantity.
+  const std::string& cost_machine() const { return cost_machine_; }
   /// What there is and what is missing of these cells; empty where they are finished.
   std::string unfinished(const std::vector<std::size_t>& cells) const;
 
@@ -38,6 +43,8 @@ class RunIndex {
   StudyDescription study_;
   std::vector<RunRecord> runs_;
   std::map<std::string, std::map<std::size_t, Trials>> by_estimator_;
+  std::map<std::string, std::size_t> machines_;
+  std::string cost_machine_;
 };
 
 /// What trials a figure is over: "10 surveys × 10 trials"; where surveys have more or fewer trials

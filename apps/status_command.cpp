@@ -1,0 +1,131 @@
+// fathom status: how far the shards of a study are.
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "apps/command.hpp"
+#include "fathom/core/file_lock.hpp"
+#include "fathom/core/folder_claim.hpp"
+#include "fathom/core/input_error.hpp"
+#include "fathom/report/table.hpp"
+#include "fathom/results/shard_folder.hpp"
+
+namespace fathom {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct StatusFlags {
+  std::vector<std::string> folders;
+};
+
+/// What is said of one folder.
+struct FolderStatus {
+  std::string folder;
+  std::optional<ShardFolder> content;  ///< none where there is no store yet, or a damaged one
+  std::string problem;                 ///< why a store cannot be read
+  std::string at_work;                 ///< who is; empty where nobody
+};
+
+std::string worker_of(const fs::path& folder) {
+  const ClaimHolder holder = FolderClaim::holder_of(folder);
+  if (holder.is_alive) {
+    return "process " + std::to_string(holder.process) + " on " + holder.host;
+  }
+  return FileLock::is_held(folder / "results.lock") ? "a process of this machine" : "";
+}
+
+FolderStatus status_of(const std::string& folder) {
+  FolderStatus status{folder, std::nullopt, "", worker_of(folder)};
+  if (!fs::exists(fs::path(folder) / "results.sqlite")) return status;
+  try {
+    status.content = shard_folder(folder, ResultStore::open(folder));
+  } catch (const InputError& error) {
+    status.problem = error.what();
+  }
+  return status;
+}
+
+std::string shards_text(const ShardFolder& content) {
+  std::string text;
+  for (const ShardProgress& shard : content.shards) {
+    text += (text.empty() ? "" : " ") + text_of(shard.plan.shard);
+  }
+  return text.empty() ? "-" : text;
+}
+
+std::string state_of(const FolderStatus& status) {
+  if (!status.problem.empty()) return "damaged";
+  if (!status.at_work.empty()) return "running: " + status.at_work;
+  if (!status.content) return "nothing yet";
+  return status.content->done < status.content->own() ? "stopped" : "done";
+}
+
+std::string totals_text(const std::vector<ShardFolder>& folders) {
+  std::size_t done = 0;
+  std::size_t failed = 0;
+  std::size_t of = 0;
+  for (const ShardFolder& folder : folders) {
+    done += folder.done;
+    failed += folder.failed;
+    of = std::max(of, folder.of);
+  }
+  return std::to_string(done) + " of " + std::to_string(of) + " runs are done, " +
+         std::to_string(failed) + " of them failed; " + std::to_string(of - std::min(of, done)) +
+         " are left\n";
+}
+
+void print_missing(const std::vector<ShardFolder>& folders) {
+  std::size_t done = 0;
+  for (const ShardFolder& folder : folders) done += folder.done;
+  const std::size_t of = folders.front().of;
+  for (const MissingPart& part : missing_parts(folders, of - std::min(of, done))) {
+    std::printf("  %s%s%s\n", part.what.c_str(), part.command.empty() ? "" : ": ",
+                part.command.c_str());
+  }
+}
+
+void show_status(const StatusFlags& flags, Context& context) {
+  context.status = kDone;
+  Table table({"folder", "shard", "done", "of", "failed", "state"});
+  std::vector<ShardFolder> found;
+  std::vector<std::string> problems;
+  for (const std::string& folder : flags.folders) {
+    const FolderStatus status = status_of(folder);
+    if (!status.problem.empty()) problems.push_back(status.problem);
+    if (status.content) {
+      const ShardFolder& content = *status.content;
+      table.add_row({folder, shards_text(content), std::to_string(content.done),
+                     std::to_string(content.own()), std::to_string(content.failed),
+                     state_of(status)});
+      found.push_back(content);
+    } else {
+      table.add_row({folder, "-", "-", "-", "-", state_of(status)});
+    }
+  }
+  std::printf("%s", table.text().c_str());
+  if (!found.empty()) {
+    std::printf("\n%s", totals_text(found).c_str());
+    print_missing(found);
+  }
+  for (const std::string& problem : problems) {
+    std::fprintf(stderr, "fathom: error: %s\n", problem.c_str());
+    context.status = kFailed;
+  }
+}
+
+}  // namespace
+
+void add_status(CLI::App& program, Context& context) {
+  auto flags = std::make_shared<StatusFlags>();
+  Command command(program, "status", "Say how far the shards of a study are",
+                  "Example: fathom status runs/shard-*\n"
+                  "Says of every folder what is done, running, failed and left, and which command "
+                  "goes on.");
+  command.arguments("folders", flags->folders, "Folders of the shards, or of studies");
+  command.on_run([flags, &context] { show_status(*flags, context); });
+}
+
+}  // namespace fathom

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace fathom {
+
+/// Name of this machine in its network; "unknown" where it has none.
+std::string host_name();
+
+/// Number of this process, and what it is one among: a boot of a machine, and a container of it.
+/// Within one such space a number belongs to one process at a time.
+long process_number();
+std::string process_space();
+
+/// Whether no process of this space has a number.
+bool is_dead_process(long number);
+
+/// Number of the user whose process this is.
+unsigned user_number();
+
+/// A word that no other call on any machine returns.
+std::string unique_word();
+
+/// Processor time of this process so far, of all its threads, in seconds.
+double processor_seconds();
+
+/// The most memory that this process has had, in MiB.
+double peak_memory_mib();
+
+/// Returns once the content of a file is on its disk. Throws InputError.
+void sync_to_disk(const std::filesystem::path& file);
+
+}  // namespace fathom

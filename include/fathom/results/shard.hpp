@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+
+namespace fathom {
+
+/// A part of a study, one of so many: counted from 1.
+struct Shard {
+  std::size_t index = 1;
+  std::size_t of = 1;
+
+  bool is_whole() const { return of == 1; }
+  bool operator==(const Shard&) const = default;
+};
+
+/// Reads `K/N`, K from 1 to N. Throws InputError, beginning with `--shard`.
+Shard parse_shard(const std::string& text);
+
+/// "3/7".
+std::string text_of(const Shard& shard);
+
+/// What a session of a study was to do, as its manifest says: `command_line` and
+/// `shard: {index, of, runs}`.
+struct ShardPlan {
+  Shard shard;
+  std::size_t runs = 0;  ///< of estimators, in the whole shard
+  std::string command_line;
+};
+
+/// Nothing where the session was not one of a shard, or the manifest is not one.
+std::optional<ShardPlan> shard_plan(const std::string& manifest);
+
+/// What was typed to begin a session; empty where the manifest does not say.
+std::string command_line_of(const std::string& manifest);
+
+/// The command of another shard: the same with its number, in --out, too, where that ends in it;
+/// else --out has the number added.
+std::string command_of(const ShardPlan& plan, std::size_t index);
+
+}  // namespace fathom

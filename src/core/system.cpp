@@ -1,0 +1,79 @@
+#include "fathom/core/system.hpp"
+
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <fcntl.h>
+#include <fstream>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include "fathom/core/input_error.hpp"
+
+namespace fathom {
+namespace {
+
+std::string first_line(const char* path) {
+  std::ifstream file(path);
+  std::string line;
+  std::getline(file, line);
+  return line;
+}
+
+rusage usage() {
+  rusage used{};
+  ::getrusage(RUSAGE_SELF, &used);
+  return used;
+}
+
+double seconds(const timeval& time) {
+  return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+}
+
+}  // namespace
+
+std::string host_name() {
+  char name[256] = {};
+  return ::gethostname(name, sizeof name - 1) == 0 && name[0] != '\0' ? name : "unknown";
+}
+
+long process_number() {
+  return ::getpid();
+}
+
+std::string process_space() {
+  char link[128] = {};
+  const auto length = ::readlink("/proc/self/ns/pid", link, sizeof link - 1);
+  return first_line("/proc/sys/kernel/random/boot_id") + (length > 0 ? link : "");
+}
+
+bool is_dead_process(long number) {
+  return ::kill(static_cast<pid_t>(number), 0) != 0 && errno == ESRCH;
+}
+
+unsigned user_number() {
+  return ::getuid();
+}
+
+std::string unique_word() {
+  return first_line("/proc/sys/kernel/random/uuid");
+}
+
+double processor_seconds() {
+  const rusage used = usage();
+  return seconds(used.ru_utime) + seconds(used.ru_stime);
+}
+
+double peak_memory_mib() {
+  return static_cast<double>(usage().ru_maxrss) / 1024.0;
+}
+
+void sync_to_disk(const std::filesystem::path& file) {
+  const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
+  const bool is_synced = descriptor >= 0 && ::fsync(descriptor) == 0;
+  const int error = errno;
+  if (descriptor >= 0) ::close(descriptor);
+  if (!is_synced) throw InputError(file.string(), std::strerror(error));
+}
+
+}  // namespace fathom

@@ -1,0 +1,124 @@
+#include "fathom/results/scratch_store.hpp"
+
+#include <algorithm>
+#include <system_error>
+
+#include "fathom/core/hash.hpp"
+#include "fathom/core/input_error.hpp"
+#include "fathom/core/system.hpp"
+#include "result_schema.hpp"
+
+namespace fathom {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kFile = "results.sqlite";
+
+fs::path made(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw InputError(folder.string(), "cannot be made: " + error.message());
+  return folder;
+}
+
+// One for each folder that is written into, and user.
+fs::path place_for(const fs::path& folder, const fs::path& scratch) {
+  const std::string name = fs::absolute(folder).lexically_normal().string();
+  return scratch / ("fathom-" + std::to_string(user_number()) + "-" + hash_text(name));
+}
+
+// Runs that a store has of a study; nothing where it is none, damaged, or of another study.
+std::optional<std::size_t> runs_in(const fs::path& folder, const StudyDescription& study) {
+  try {
+    const ResultStore store = ResultStore::open(folder / kFile);
+    const bool is_same =
+        difference(store.study(), study).empty() && data_difference(store.study(), study).empty();
+    return is_same ? std::optional(store.runs().size()) : std::nullopt;
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
+}
+
+void remove_store(const fs::path& folder) {
+  std::error_code ignored;
+  for (const char* ending : {"", "-wal", "-shm", "-journal"}) {
+    fs::remove(folder / (std::string(kFile) + ending), ignored);
+  }
+}
+
+}  // namespace
+
+ScratchStore::ScratchStore(const fs::path& folder, const fs::path& scratch,
+                           const StudyDescription& study, const std::string& manifest,
+                           ClaimTimes times)
+    : folder_(made(folder)), scratch_(made(place_for(folder, scratch))), claim_(folder_, times) {
+  try {
+    open(study, manifest);
+  } catch (const InputError&) {
+    std::error_code not_empty;
+    fs::remove(scratch_, not_empty);
+    throw;
+  }
+}
+
+void ScratchStore::open(const StudyDescription& study, const std::string& manifest) {
+  const bool is_published = fs::exists(folder_ / kFile);
+  if (is_published) {
+    // Says what is wrong with it, by its own name.
+    const ResultStore there = ResultStore::open(folder_ / kFile);
+    require_same(there.study(), study, folder_ / kFile);
+  }
+  const auto left = runs_in(scratch_, study);
+  if (!left || (is_published && *left < *runs_in(folder_, study))) {
+    remove_store(scratch_);
+    std::error_code error;
+    if (is_published) fs::copy_file(folder_ / kFile, scratch_ / kFile, error);
+    if (error)
+      throw InputError((scratch_ / kFile).string(), "cannot be written: " + error.message());
+  }
+  store_.emplace(ResultStore::write(scratch_, study, manifest));
+}
+
+ScratchStore::~ScratchStore() {
+  bool is_published = false;
+  try {
+    store_->finish();
+    publish();
+    is_published = true;
+  } catch (const InputError&) {
+    // What is on this disk stays; the next session goes on from it.
+  }
+  store_.reset();
+  std::error_code ignored;
+  if (is_published) fs::remove_all(scratch_, ignored);
+}
+
+void ScratchStore::publish() {
+  const auto start = Clock::now();
+  claim_.require_held();
+  const fs::path part = folder_ / (std::string(kFile) + ".part");
+  std::error_code error;
+  fs::remove(part, error);
+  try {
+    store_->copy_to(part);
+    sync_to_disk(part);
+  } catch (const InputError&) {
+    fs::remove(part, error);
+    fs::remove(part.string() + "-journal", error);
+    throw InputError(folder_.string(),
+                     "cannot be written, or its disk is full; what is done is in " +
+                         scratch_.string() + ": make room and run the same command again");
+  }
+  fs::rename(part, folder_ / kFile, error);
+  if (error) throw InputError(folder_.string(), "cannot be written: " + error.message());
+  published_ = Clock::now();
+  took_ = published_ - start;
+}
+
+void ScratchStore::publish_when_due() {
+  constexpr Clock::duration kPeriod = std::chrono::minutes(1);
+  if (Clock::now() - published_ >= std::max(kPeriod, 20 * took_)) publish();
+}
+
+}  // namespace fathom

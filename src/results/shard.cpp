@@ -1,0 +1,101 @@
+#include "fathom/results/shard.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cstdint>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "fathom/core/input_error.hpp"
+#include "fathom/core/text.hpp"
+
+namespace fathom {
+namespace {
+
+std::vector<std::string> words_of(const std::string& line) {
+  std::vector<std::string> words;
+  for (std::size_t begin = 0; begin < line.size();) {
+    const std::size_t end = std::min(line.find(' ', begin), line.size());
+    if (end > begin) words.push_back(line.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return words;
+}
+
+// "runs/shard-3" for "runs/shard-5"; a folder without the number gets the other's behind it.
+std::string folder_of(const std::string& folder, const Shard& shard, std::size_t index) {
+  std::size_t end = folder.size();
+  while (end > 0 && folder[end - 1] == '/') --end;
+  std::size_t begin = end;
+  while (begin > 0 && std::isdigit(static_cast<unsigned char>(folder[begin - 1])) != 0) --begin;
+  const std::string digits = folder.substr(begin, end - begin);
+  if (parse_integer(digits) != static_cast<std::int64_t>(shard.index)) {
+    return folder.substr(0, end) + "-" + std::to_string(index);
+  }
+  std::string number = std::to_string(index);
+  // 003: as many digits as before.
+  if (digits.front() == '0' && number.size() < digits.size()) {
+    number.insert(0, digits.size() - number.size(), '0');
+  }
+  return folder.substr(0, begin) + number;
+}
+
+}  // namespace
+
+Shard parse_shard(const std::string& text) {
+  const std::size_t slash = text.find('/');
+  const auto index = parse_integer(text.substr(0, slash));
+  const auto of = slash == std::string::npos ? std::nullopt : parse_integer(text.substr(slash + 1));
+  constexpr std::int64_t kMost = 1'000'000;
+  if (!index || !of || *index < 1 || *of < 1 || *index > *of || *of > kMost) {
+    throw InputError("--shard: '" + text +
+                     "' is no part of a study; expected K/N with K from 1 to "
+                     "N, for example 3/7");
+  }
+  return {static_cast<std::size_t>(*index), static_cast<std::size_t>(*of)};
+}
+
+std::string text_of(const Shard& shard) {
+  return std::to_string(shard.index) + "/" + std::to_string(shard.of);
+}
+
+std::optional<ShardPlan> shard_plan(const std::string& manifest) {
+  const auto json = nlohmann::json::parse(manifest, nullptr, false);
+  if (!json.is_object() || !json.contains("shard")) return std::nullopt;
+  try {
+    const auto& shard = json.at("shard");
+    return ShardPlan{{shard.at("index").get<std::size_t>(), shard.at("of").get<std::size_t>()},
+                     shard.at("runs").get<std::size_t>(),
+                     json.at("command_line").get<std::string>()};
+  } catch (const nlohmann::json::exception&) {
+    return std::nullopt;
+  }
+}
+
+std::string command_line_of(const std::string& manifest) {
+  const auto json = nlohmann::json::parse(manifest, nullptr, false);
+  const auto line = json.is_object() ? json.find("command_line") : json.end();
+  return json.is_object() && line != json.end() && line->is_string() ? line->get<std::string>()
+                                                                     : "";
+}
+
+std::string command_of(const ShardPlan& plan, std::size_t index) {
+  if (index == plan.shard.index) return plan.command_line;
+  std::vector<std::string> words = words_of(plan.command_line);
+  const std::string number = text_of(Shard{index, plan.shard.of});
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const bool has_next = i + 1 < words.size();
+    if (words[i] == "--shard" && has_next) words[i + 1] = number;
+    if (words[i].starts_with("--shard=")) words[i] = "--shard=" + number;
+    if (words[i] == "--out" && has_next) words[i + 1] = folder_of(words[i + 1], plan.shard, index);
+    if (words[i].starts_with("--out=")) {
+      words[i] = "--out=" + folder_of(words[i].substr(6), plan.shard, index);
+    }
+  }
+  std::string line;
+  for (const std::string& word : words) line += (line.empty() ? "" : " ") + word;
+  return line;
+}
+
+}  // namespace fathom
