@@ -171,7 +171,6 @@ void write_merged(const fs::path& folder, const StudyDescription& study, const C
       ResultStore::write(folder, study, sessions.empty() ? "{}\n" : sessions.begin()->first);
   for (auto session = sessions.begin(); session != sessions.end(); ++session) {
     if (session != sessions.begin()) merged.begin_session(session->first);
-    std::vector<RunRecord> runs;
     for (const RunKey& key : session->second) {
       const std::vector<Copy>& own = copies.at(key);
       const RunRecord kept = own.front().source->store.run(key).value();

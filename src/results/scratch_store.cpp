@@ -52,7 +52,7 @@ void remove_store(const fs::path& folder) {
 ScratchStore::ScratchStore(const fs::path& folder, const fs::path& scratch,
                            const StudyDescription& study, const std::string& manifest,
                            ClaimTimes times)
-    : folder_(made(folder)), scratch_(made(place_for(folder, scratch))), claim_(folder_, times) {
+    : folder_(made(folder)), claim_(folder_, times), scratch_(made(place_for(folder, scratch))) {
   try {
     open(study, manifest);
   } catch (const InputError&) {

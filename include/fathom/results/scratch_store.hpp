@@ -39,8 +39,8 @@ class ScratchStore {
   using Clock = std::chrono::steady_clock;
 
   std::filesystem::path folder_;
-  std::filesystem::path scratch_;
   FolderClaim claim_;
+  std::filesystem::path scratch_;
   std::optional<ResultStore> store_;
   Clock::time_point published_ = Clock::now();
   Clock::duration took_{};
