@@ -51,7 +51,7 @@ void Candidates(benchmark::State& state) {
   for (std::size_t k = 0; k < kKeyframes; ++k) {
     poses.append({0.5 * static_cast<double>(k % 100), 0.5 * static_cast<double>(k / 100), 0.1});
   }
-  const fathom::CandidateSearch search(fathom::Camera(), options);
+  fathom::CandidateSearch search(fathom::Camera(), options);
   const std::vector<double> altitudes_m(kKeyframes, 2.0);
   std::size_t left_out = 0;
   for (auto _ : state) left_out = search.find(poses, altitudes_m, kKeyframes - 1).left_out;

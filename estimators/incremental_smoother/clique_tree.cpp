@@ -8,6 +8,8 @@
 namespace fathom::incremental_smoother {
 
 void CliqueTree::clear() {
+  settle();
+  followers_.clear();
   unmark();
   free_.clear();
   for (int i = static_cast<int>(cliques_.size()) - 1; i >= 0; --i) free_.push_back(i);
@@ -69,6 +71,7 @@ void CliqueTree::find_affected(std::span<const int> keyframes) {
     }
   }
   for (const int i : marked_) {
+    settle_path(i);
     const Clique& c = cliques_[at(i)];
     affected_.insert(affected_.end(), c.variables.begin(), c.variables.begin() + c.width);
   }
@@ -129,6 +132,8 @@ void CliqueTree::build(int newest) {
     c.height = front.height;
     c.children.clear();
     c.variables.clear();
+    c.followed = {};
+    c.followed.settled_in = step_;
     for (int j = 0; j < front.width; ++j) {
       const int v = affected_[at(elimination_.node_at(front.first + j))];
       c.variables.push_back(v);
@@ -177,6 +182,7 @@ bool CliqueTree::relinearise(std::span<const int> keyframes) {
   unmark();
   for (const int v : keyframes) mark_up(v);
   sort_marked();
+  for (const int i : marked_) settle_path(i);
   const bool done = factor(marked_);
   unmark();
   if (!done) clear();
@@ -196,7 +202,7 @@ bool CliqueTree::factor(std::span<const int> which) {
     buffers_.give_back(std::move(c.panel));
     buffers_.give_back(std::move(c.update));
     c.panel = buffers_.take((width + height) * width + kReadAhead);
-    c.update = buffers_.take(height * height);
+    c.update = buffers_.take(c.update_column(c.height));
     c.layout.resize(width + height);
   }
   FrontFactorisation run{problem_,       cliques_,       which,        order_.data(),

@@ -43,14 +43,24 @@ class CliqueTree {
   /// Propagates the step H⁻¹ b from the root down: the keyframes of a clique follow one of their
   /// separators as if they were joined rigidly, and what is left of the separators' motion bends
   /// them. Where that is less than `negligible` squared sigmas, and b is zero below, all that is
-  /// below follows rigidly; or stays, if it would not move by more either.
+  /// below follows rigidly, which is noted once at its top; or stays, if it would not move by more
+  /// either. Nodes that are changed are saved.
   void propagate(double negligible);
 
-  /// Of the last propagate: keyframes that moved, and of them those that did not just follow.
-  const std::vector<int>& moved() const { return moved_; }
+  /// Of the last propagate: keyframes that moved and did not just follow.
   const std::vector<int>& bent() const { return bent_; }
-  /// Where a moved keyframe was.
-  const Node& before(int keyframe) const { return before_[at(keyframe)]; }
+
+  /// The node of a keyframe is up to date after this, until the next propagate; or those of all.
+  void settle(int keyframe);
+  void settle();
+
+  /// Nobody follows what is noted and not yet passed on.
+  void drop_motions();
+
+  /// From here on forget_update takes back what cliques were to follow.
+  void begin_update();
+  /// With Problem::restore_saved all keyframes are where they were when the update began.
+  void forget_update();
 
   /// One keyframe of each clique that the last propagate has bent, and whose keyframes have turned
   /// by more than `limit_rad` to each other since it was factored, or moved by more than `limit_m`
@@ -79,6 +89,9 @@ class CliqueTree {
   bool has_moved(const Clique& clique, double negligible) const;
   void bend(int clique, double negligible);
   void follow(int clique, const RigidMotion& rigid);
+  void settle_clique(int clique);
+  void settle_path(int clique);
+  void note_before_update(int clique);
 
   Problem& problem_;
   std::vector<Clique> cliques_;
@@ -107,10 +120,14 @@ class CliqueTree {
   std::vector<double> x_;  ///< b, then y, three numbers a keyframe
   std::vector<int> stack_;
 
-  std::vector<Node> before_;
-  std::vector<int> moved_;
+  std::vector<Node> before_;  ///< the last propagate: where its bent keyframes were
   std::vector<int> bent_;
   std::vector<int> bent_cliques_;
+
+  long update_ = 0;
+  long step_ = 0;               ///< how often propagate was called
+  bool has_followers_ = false;  ///< whether there may be cliques with a motion to follow
+  std::vector<int> followers_;  ///< those that this update has told to
 };
 
 }  // namespace fathom::incremental_smoother

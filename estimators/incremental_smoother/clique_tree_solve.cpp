@@ -71,7 +71,7 @@ double CliqueTree::forward_all(const std::vector<Vec3>& gradient) {
 }
 
 void CliqueTree::propagate(double negligible) {
-  moved_.clear();
+  ++step_;
   bent_.clear();
   bent_cliques_.clear();
   before_[0] = problem_.nodes[0];
@@ -113,6 +113,7 @@ void CliqueTree::bend(int clique, double negligible) {
     if (has_moved(c, negligible)) follow(clique, rigid);
     return;
   }
+  settle_clique(clique);
   for (int j = 0; j < c.width; ++j) {
     const double* y = x_.data() + 3 * at(c.variables[at(j)]);
     for (int a = 0; a < 3; ++a) gathered_[at(3 * j + a)] = c.is_marked ? y[a] : 0.0;
@@ -123,29 +124,12 @@ void CliqueTree::bend(int clique, double negligible) {
     const int v = c.variables[at(j)];
     Node& node = problem_.nodes[at(v)];
     before_[at(v)] = node;
+    problem_.save(v, node);
     node = corrected(rigid(node), gathered_.data() + 3 * at(j));
-    moved_.push_back(v);
     bent_.push_back(v);
   }
   bent_cliques_.push_back(clique);
   stack_.insert(stack_.end(), c.children.begin(), c.children.end());
-}
-
-void CliqueTree::follow(int clique, const RigidMotion& rigid) {
-  const std::size_t bottom = stack_.size();
-  stack_.push_back(clique);
-  while (stack_.size() > bottom) {
-    const Clique& c = cliques_[at(stack_.back())];
-    stack_.pop_back();
-    for (int j = 0; j < c.width; ++j) {
-      const int v = c.variables[at(j)];
-      Node& node = problem_.nodes[at(v)];
-      before_[at(v)] = node;
-      node = rigid(node);
-      moved_.push_back(v);
-    }
-    stack_.insert(stack_.end(), c.children.begin(), c.children.end());
-  }
 }
 
 void CliqueTree::find_to_relinearise(double limit_m, double limit_rad,

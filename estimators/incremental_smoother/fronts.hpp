@@ -43,8 +43,9 @@ struct FrontFactorisation {
       stride = c.rows() * B;
       return c.panel.data() + at(column * B) * at(stride) + at(row * B);
     }
-    stride = c.height * B;
-    return c.update.data() + at((column - c.width) * B) * at(stride) + at((row - c.width) * B);
+    const int j = column - c.width;
+    stride = (c.height - j) * B;
+    return c.update.data() + c.update_column(j) + at((row - column) * B);
   }
 
   FATHOM_INLINE void add_edges(Clique& c) const {
@@ -66,12 +67,13 @@ struct FrontFactorisation {
   }
 
   FATHOM_INLINE void add_child(Clique& c, const Clique& child) const {
-    const int stride = child.height * B;
     for (int j = 0; j < child.height; ++j) {
+      const int stride = (child.height - j) * B;
+      const double* below = child.update.data() + child.update_column(j);
       const int column = row_of[child.variables[at(child.width + j)]];
       for (int i = j; i < child.height; ++i) {
         const int row = row_of[child.variables[at(child.width + i)]];
-        const double* from = child.update.data() + at(j * B) * at(stride) + at(i * B);
+        const double* from = below + at((i - j) * B);
         int along = 0;
         if (row >= column) {
           double* to = place(c, row, column, along);
@@ -99,12 +101,15 @@ struct FrontFactorisation {
       for (int k = 0; k < depth; ++k) {
         for (int j = 0; j < B; ++j) packed[k * B + j] = below[at(k) * at(stride) + at(column + j)];
       }
-      double* to = c.update.data() + at(column) * at(height);
+      double* to = c.update.data() + c.update_column(column / B);
+      const int to_stride = height - column;
       for (int row = column; row < height; row += kTileRows) {
         const int rows = std::min(kTileRows, height - row);
         sparse::multiply_rows<B>(rows, below + row, stride, packed, depth, out);
         for (int j = 0; j < B; ++j) {
-          for (int i = 0; i < rows; ++i) to[row + i + j * height] -= out[i + j * kTileRows];
+          for (int i = 0; i < rows; ++i) {
+            to[row - column + i + j * to_stride] -= out[i + j * kTileRows];
+          }
         }
       }
     }

@@ -33,11 +33,15 @@ IncrementalSmoother::IncrementalSmoother(const EstimatorSetup& setup,
 IncrementalSmoother::~IncrementalSmoother() = default;
 
 std::size_t IncrementalSmoother::size() const {
-  return smoother_->problem().nodes.size();
+  return smoother_->size();
 }
 
 Pose IncrementalSmoother::pose(std::size_t k) const {
   return smoother_->pose(k);
+}
+
+MovedPoses IncrementalSmoother::moved_since(std::uint64_t revision) const {
+  return smoother_->moved_since(revision);
 }
 
 void IncrementalSmoother::add_keyframe(const RelativePose& step) {
@@ -86,6 +90,11 @@ std::optional<Eigen::MatrixXd> IncrementalSmoother::joint_covariance(
     std::span<const std::size_t> keyframes) const {
   const auto& problem = smoother_->problem();
   return pose_graph::joint_covariance(problem.edges, problem.nodes, keyframes);
+}
+
+std::optional<Eigen::Matrix3d> IncrementalSmoother::newest_covariance() const {
+  if (const auto covariance = smoother_->newest_covariance()) return covariance;
+  return Estimator::newest_covariance();
 }
 
 std::optional<std::vector<UncertainPose>> IncrementalSmoother::motions_to_newest() const {

@@ -40,9 +40,13 @@ class IncrementalSmoother final : public Estimator {
   std::optional<Eigen::Matrix3d> covariance(std::size_t k) const override;
   std::optional<Eigen::MatrixXd> joint_covariance(
       std::span<const std::size_t> keyframes) const override;
+  /// From the factor that the updates keep, in which every clique is linearised where it was within
+  /// `relinearise_m` and `relinearise_rad`: costs what a gate costs.
+  std::optional<Eigen::Matrix3d> newest_covariance() const override;
   std::optional<std::vector<UncertainPose>> motions_to_newest() const override;
   std::size_t size() const override;
   Pose pose(std::size_t k) const override;
+  MovedPoses moved_since(std::uint64_t revision) const override;
 
   const incremental_smoother::Smoother& smoother() const { return *smoother_; }
 

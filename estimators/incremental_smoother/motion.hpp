@@ -14,6 +14,11 @@ class RigidMotion {
         c_(to.c * from.c + to.s * from.s),
         s_(to.s * from.c - to.c * from.s) {}
 
+  /// This one after an earlier one.
+  RigidMotion after(const RigidMotion& earlier) const {
+    return RigidMotion(earlier.from_, (*this)(earlier.to_));
+  }
+
   Node operator()(const Node& v) const {
     const double dx = v.x - from_.x;
     const double dy = v.y - from_.y;

@@ -20,7 +20,7 @@ struct Weight {
 /// The estimate and the measurements, and which of them belong to a keyframe.
 class Problem {
  public:
-  explicit Problem(const Node& origin) : nodes{origin}, weights(1), first_{-1} {}
+  explicit Problem(const Node& origin) : nodes{origin}, weights(1), saved_in_{-1}, first_{-1} {}
 
   int size() const { return static_cast<int>(nodes.size()); }
   int edge_count() const { return static_cast<int>(edges.size()); }
@@ -28,6 +28,7 @@ class Problem {
   void add_node(const Node& node) {
     nodes.push_back(node);
     weights.emplace_back();
+    saved_in_.push_back(-1);
     first_.push_back(-1);
   }
 
@@ -64,6 +65,23 @@ class Problem {
     }
   }
 
+  /// From here on nodes are saved before they change, so that they can be restored.
+  void begin_update() {
+    ++update_;
+    saved_.clear();
+  }
+
+  /// Where a keyframe was when the update began; the first to say so counts.
+  void save(int keyframe, const Node& node) {
+    if (saved_in_[at(keyframe)] == update_) return;
+    saved_in_[at(keyframe)] = update_;
+    saved_.push_back({keyframe, node});
+  }
+
+  void restore_saved() {
+    for (const Saved& saved : saved_) nodes[at(saved.keyframe)] = saved.node;
+  }
+
   std::vector<Node> nodes;
   std::vector<Edge> edges;
   std::vector<Weight> weights;  ///< by keyframe
@@ -77,6 +95,14 @@ class Problem {
     weights[at(edge.to)].position += position;
     weights[at(edge.to)].heading += edge.W[5];
   }
+
+  struct Saved {
+    int keyframe;
+    Node node;
+  };
+  std::vector<Saved> saved_;
+  std::vector<long> saved_in_;  ///< by keyframe: the last update that saved it
+  long update_ = 0;
 
   // A list of ends: 2 e is the begin of edge e, 2 e + 1 its end.
   std::vector<int> first_;

@@ -14,12 +14,22 @@ Smoother::Smoother(const Pose& origin, const SmootherLimits& limits)
       tree_(problem_),
       gradient_(problem_),
       ignored_(1),
-      changed_in_(1, -1),
-      saved_in_(1, -1) {}
+      changed_in_(1, -1) {}
 
-Pose Smoother::pose(std::size_t k) const {
+Pose Smoother::pose(std::size_t k) {
+  tree_.settle(static_cast<int>(k));
   const Node& node = problem_.nodes[k];
   return {node.x, node.y, wrap_angle(node.theta)};
+}
+
+MovedPoses Smoother::moved_since(std::uint64_t revision) const {
+  if (revision < moved_in_) return {revision_, std::nullopt};
+  return {revision_, consecutive(size() - (revision_ - revision), size())};
+}
+
+const Problem& Smoother::problem() {
+  tree_.settle();
+  return problem_;
 }
 
 void Smoother::add_keyframe(const RelativePose& step) {
@@ -27,10 +37,10 @@ void Smoother::add_keyframe(const RelativePose& step) {
   const Pose next = compose(pose(problem_.nodes.size() - 1), forward.motion);
   outside_steps_.push_back({forward.motion, forward.covariance()});
   problem_.add_node(make_node(next.x, next.y, next.theta));
+  ++revision_;
   gradient_.add_keyframe();
   ignored_.emplace_back();
   changed_in_.push_back(-1);
-  saved_in_.push_back(-1);
   append_edge(step);
 }
 
@@ -43,6 +53,7 @@ void Smoother::append_edge(const RelativePose& measurement) {
 
 // What is left of the gradient then is ignored.
 void Smoother::evaluate_all() {
+  tree_.settle();
   gradient_.evaluate_all();
   ignored_ = gradient_.by_keyframe();
 }
@@ -55,11 +66,13 @@ void Smoother::note_changed(int k) {
 
 SmootherResult Smoother::add_registrations(std::span<const RelativePose> registrations) {
   ++update_;
-  saved_.clear();
+  problem_.begin_update();
+  tree_.begin_update();
   touched_.clear();
   changed_.clear();
   const int edges_before = problem_.edge_count();
   for (const RelativePose& z : registrations) {
+    for (const auto end : {z.from, z.to}) tree_.settle(static_cast<int>(end));
     append_edge(z);
     for (const auto end : {z.from, z.to}) {
       if (end == 0) continue;
@@ -73,6 +86,7 @@ SmootherResult Smoother::add_registrations(std::span<const RelativePose> registr
     if (!relinearise() || !is_determined()) result.outcome = Outcome::numerical_failure;
   }
   if (!is_done(result.outcome)) undo(edges_before);
+  moved_in_ = ++revision_;
   return result;
 }
 
@@ -96,8 +110,8 @@ bool Smoother::relinearise() {
 }
 
 // Measurements that are alike in their information always are.
-bool Smoother::is_determined() const {
-  return !spread_.is_wide() || pose_graph::is_determined(problem_.edges, problem_.nodes);
+bool Smoother::is_determined() {
+  return !spread_.is_wide() || pose_graph::is_determined(problem().edges, problem_.nodes);
 }
 
 // Linearises everything at the estimate.
@@ -142,6 +156,7 @@ bool Smoother::prepare_step(const Progress& progress) {
   if (!progress.is_whole) return true;
   ++counts_.whole_steps;
   slack_ = 0.0;
+  before_step_ = problem().nodes;
   return relinearise();
 }
 
@@ -153,11 +168,14 @@ void Smoother::take_step(Progress& progress) {
   const double allowed = limits_.tolerance * gradient_.cost() + limits_.least_promise_chi2;
   if (progress.is_whole && promised <= allowed) return end(progress, Outcome::converged);
   const double before = gradient_.cost();
-  tree_.propagate(limits_.bend_share * limits_.tolerance);
-  for (const int v : tree_.moved()) save(v, tree_.before(v));
+  tree_.propagate(limits_.tolerance *
+                  std::max(limits_.bend_share, limits_.bend_share_of_cost * before));
   reevaluate_bent();
   // A sum that was large before has rounding of its own.
-  if (gradient_.cost() < limits_.cancellation * before) gradient_.evaluate_all();
+  if (gradient_.cost() < limits_.cancellation * before) {
+    tree_.settle();
+    gradient_.evaluate_all();
+  }
   if (!(gradient_.cost() <= before + allowed + limits_.rounding_chi2)) return retreat(progress);
   progress.is_fresh = false;
   tree_.find_to_relinearise(limits_.relinearise_m, limits_.relinearise_rad, to_relinearise_);
@@ -170,9 +188,15 @@ void Smoother::take_step(Progress& progress) {
   progress.is_whole = true;
 }
 
-// Where a step made F rise: once more, with everything linearised here; else in batch.
+// Where a step made F rise: once more, with everything linearised here; else in batch. A local step
+// is the first of its update.
 void Smoother::retreat(Progress& progress) {
-  for (const int v : tree_.moved()) problem_.nodes[at(v)] = tree_.before(v);
+  if (progress.is_whole) {
+    tree_.drop_motions();
+    problem_.nodes = before_step_;
+  } else {
+    restore();
+  }
   // From where F may have been anything, infinite too.
   gradient_.evaluate_all();
   if (!progress.is_fresh) {
@@ -187,10 +211,10 @@ void Smoother::retreat(Progress& progress) {
   end(progress, solved.outcome);
 }
 
-void Smoother::save(int k, const Node& node) {
-  if (saved_in_[at(k)] == update_) return;
-  saved_in_[at(k)] = update_;
-  saved_.push_back({k, node});
+void Smoother::restore() {
+  tree_.forget_update();
+  problem_.restore_saved();
+  tree_.settle();
 }
 
 // A motion that keyframes share changes nothing of what lies between them.
@@ -201,6 +225,7 @@ void Smoother::reevaluate_bent() {
     problem_.for_each_edge(v, [&](int e, int other) {
       if (edge_pass_[at(e)] == pass_) return;
       edge_pass_[at(e)] = pass_;
+      tree_.settle(other);
       gradient_.evaluate(e);
       note_changed(other);
     });
@@ -209,11 +234,11 @@ void Smoother::reevaluate_bent() {
 
 SmootherResult Smoother::solve_batch() {
   ++counts_.batch_solves;
-  std::vector<Node> nodes = problem_.nodes;
+  std::vector<Node> nodes = problem().nodes;
   const auto solved = pose_graph::solve_batch(problem_.edges, nodes, pose_graph::Start::given,
                                               {limits_.max_iterations, limits_.tolerance});
   if (is_done(solved.outcome)) {
-    for (int k = 1; k < problem_.size(); ++k) save(k, problem_.nodes[at(k)]);
+    for (int k = 1; k < problem_.size(); ++k) problem_.save(k, problem_.nodes[at(k)]);
     problem_.nodes = std::move(nodes);
     evaluate_all();
     if (!rebuild()) return {Outcome::numerical_failure, solved.iterations};
@@ -222,7 +247,7 @@ SmootherResult Smoother::solve_batch() {
 }
 
 void Smoother::undo(int edges_before) {
-  for (const Saved& saved : saved_) problem_.nodes[at(saved.keyframe)] = saved.node;
+  restore();
   problem_.forget_edges(edges_before);
   edge_pass_.resize(at(edges_before));
   evaluate_all();

@@ -23,6 +23,8 @@ struct SmootherLimits {
   /// What propagation leaves of a step behind it, as a share of what F may exceed its optimum by:
   /// it adds up over the branches of the tree (docs/estimators/incremental_smoother.md).
   double bend_share = 0.1;
+  /// Where F is large, so is what it may exceed its optimum by: this share of it.
+  double bend_share_of_cost = 4e-5;
   /// As of SolverTuning: differences of F that are rounding, and the least that a step may promise.
   double rounding_chi2 = 1e-12;
   double least_promise_chi2 = 1e-20;
@@ -49,8 +51,12 @@ class Smoother {
  public:
   Smoother(const Pose& origin, const SmootherLimits& limits);
 
-  const Problem& problem() const { return problem_; }
-  Pose pose(std::size_t k) const;
+  /// Keyframes that follow a part of the map are moved when they are asked for.
+  const Problem& problem();
+  std::size_t size() const { return problem_.nodes.size(); }
+  Pose pose(std::size_t k);
+  /// As of TrajectoryView; registrations may move any.
+  MovedPoses moved_since(std::uint64_t revision) const;
 
   /// A keyframe at the newest one ⊕ the step. It enters the factor with the next registrations.
   void add_keyframe(const RelativePose& step);
@@ -60,6 +66,10 @@ class Smoother {
   /// Covariance of ν = z − h(x) for each of these registrations; nothing where there is none.
   std::optional<std::vector<Eigen::Matrix3d>> innovation_covariances(
       std::span<const RelativePose> forward_loops);
+
+  /// Of (x, y, θ) of the newest keyframe, world axes, keyframe 0 fixed; nothing where there is
+  /// none.
+  std::optional<Eigen::Matrix3d> newest_covariance();
 
   const Counts& counts() const { return counts_; }
 
@@ -77,17 +87,19 @@ class Smoother {
   bool refactor();
   bool relinearise();
   bool rebuild();
-  bool is_determined() const;
+  bool is_determined();
   SmootherResult iterate();
   bool prepare_step(const Progress& progress);
   void take_step(Progress& progress);
   void retreat(Progress& progress);
   static void end(Progress& progress, Outcome outcome);
-  void save(int keyframe, const Node& node);
+  void restore();
   void note_changed(int keyframe);
   void reevaluate_bent();
   SmootherResult solve_batch();
   void undo(int edges_before);
+  /// One that could not be built again after a failure knows nothing.
+  bool has_tree() const { return at(problem_.size() - first_outside_) == outside_steps_.size(); }
   Eigen::Matrix3d motion_covariance(int from);
 
   SmootherLimits limits_;
@@ -95,8 +107,9 @@ class Smoother {
   CliqueTree tree_;
   Gradient gradient_;
   InformationSpread spread_;
-  std::vector<Vec3> ignored_;  ///< what earlier updates left of it
-  double slack_ = 0.0;         ///< the slack on the cost: by how much F may exceed its optimum
+  std::vector<Node> before_step_;  ///< all nodes, of a step of the whole gradient
+  std::vector<Vec3> ignored_;      ///< what earlier updates left of it
+  double slack_ = 0.0;             ///< the slack on the cost: by how much F may exceed its optimum
 
   int first_outside_ = 1;                     ///< the first keyframe that is not in the tree
   std::vector<UncertainPose> outside_steps_;  ///< to this keyframe and those that follow it
@@ -108,12 +121,8 @@ class Smoother {
   long pass_ = 0;
   long update_ = 0;
 
-  struct Saved {
-    int keyframe;
-    Node node;
-  };
-  std::vector<Saved> saved_;    ///< before the update
-  std::vector<long> saved_in_;  ///< by keyframe: the last update that moved it
+  std::uint64_t revision_ = 1;  ///< one more with every keyframe and with every update
+  std::uint64_t moved_in_ = 1;  ///< the revision of the last update
   Counts counts_;
 };
 

@@ -1,4 +1,4 @@
-// The gate's question to a Smoother.
+// What a Smoother's tree says of uncertainty.
 
 #include <algorithm>
 
@@ -8,8 +8,7 @@ namespace fathom::incremental_smoother {
 
 std::optional<std::vector<Eigen::Matrix3d>> Smoother::innovation_covariances(
     std::span<const RelativePose> forward_loops) {
-  // A tree that could not be built again after a failure knows nothing.
-  if (at(problem_.size() - first_outside_) != outside_steps_.size()) return std::nullopt;
+  if (!has_tree()) return std::nullopt;
   std::vector<Eigen::Matrix3d> result;
   for (const RelativePose& z : forward_loops) {
     result.push_back(motion_covariance(static_cast<int>(z.from)) + z.covariance());
@@ -17,11 +16,20 @@ std::optional<std::vector<Eigen::Matrix3d>> Smoother::innovation_covariances(
   return result;
 }
 
+// The origin is exact, so the motion from it is all that is uncertain.
+std::optional<Eigen::Matrix3d> Smoother::newest_covariance() {
+  if (!has_tree()) return std::nullopt;
+  Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
+  R.topLeftCorner<2, 2>() = rotation(problem_.nodes[0].theta);
+  return transport(R, motion_covariance(0));
+}
+
 // Of the motion from a keyframe to the newest: by the tree as far as it goes, then step by step.
 Eigen::Matrix3d Smoother::motion_covariance(int from) {
   const int last = first_outside_ - 1;
   UncertainPose motion{{}, Eigen::Matrix3d::Zero()};
   if (from < last) {
+    for (const int k : {from, last}) tree_.settle(k);
     const Node& i = problem_.nodes[at(from)];
     const Node& k = problem_.nodes[at(last)];
     double h[3];

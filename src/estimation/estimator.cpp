@@ -47,6 +47,13 @@ std::optional<Eigen::Matrix3d> Estimator::covariance(std::size_t k) const {
   return Eigen::Matrix3d(*joint);
 }
 
+std::optional<Eigen::Matrix3d> Estimator::newest_covariance() const {
+  const std::size_t newest = size() - 1;
+  const auto joint = joint_covariance(std::span(&newest, 1));
+  if (!joint) return std::nullopt;
+  return Eigen::Matrix3d(*joint);
+}
+
 std::optional<std::vector<UncertainPose>> Estimator::motions_to_newest() const {
   std::vector<UncertainPose> motions;
   const std::size_t newest = size() - 1;

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <tuple>
+#include <utility>
 
 #include <Eigen/Eigenvalues>
 
@@ -66,30 +68,60 @@ bool CandidateSearch::accepts(const Pose& step, double altitude_from_m,
              : step.position().norm() <= options_.max_distance_m;
 }
 
-Candidates CandidateSearch::find(const TrajectoryView& trajectory,
-                                 std::span<const double> altitudes_m, std::size_t end) const {
-  const std::size_t newest = altitudes_m.size() - 1;
-  const Pose pose = trajectory.pose(newest);
-  std::optional<std::vector<UncertainPose>> motions;
-  if (options_.method == CandidateMethod::mahalanobis) motions = trajectory.motions_to_newest();
-  const auto may_be_near = [&](const UncertainPose& motion) {
+// Positions further apart than this radius are of no candidate, so the grid's cells are as large.
+std::vector<std::size_t> CandidateSearch::within_reach(const TrajectoryView& trajectory,
+                                                       std::span<const double> altitudes_m) {
+  for (; altitudes_ < altitudes_m.size(); ++altitudes_) {
+    highest_m_ = std::max(highest_m_, altitudes_m[altitudes_]);
+  }
+  const double radius_m =
+      options_.method == CandidateMethod::overlap
+          ? reach_per_metre_ * (highest_m_ + altitudes_m.back()) + 2.0 * mount_m_
+          : options_.max_distance_m;
+  if (!grid_) grid_.emplace(radius_m > 0.0 ? radius_m : 1.0);
+  grid_->follow(trajectory);
+  return grid_->near(trajectory.pose(altitudes_m.size() - 1).position(), radius_m);
+}
+
+bool CandidateSearch::is_candidate(const Pose& from, const Pose& newest, double altitude_from_m,
+                                   double altitude_newest_m) const {
+  return options_.method == CandidateMethod::overlap
+             ? overlap(between(from, newest), altitude_from_m, altitude_newest_m) >=
+                   options_.min_overlap
+             : (from.position() - newest.position()).norm() <= options_.max_distance_m;
+}
+
+std::vector<std::size_t> CandidateSearch::perhaps_near(const TrajectoryView& trajectory,
+                                                       std::size_t end) const {
+  const auto motions = trajectory.motions_to_newest();
+  std::vector<std::size_t> found;
+  if (!motions) return found;
+  for (std::size_t k = 0; k < end; ++k) {
+    const UncertainPose& motion = (*motions)[k];
     const Eigen::Vector2d d = motion.mean.position();
     const Eigen::Matrix2d S = motion.covariance.topLeftCorner<2, 2>();
     // No eigenvalue is larger than the trace: most are told by it.
     const double gap_m = d.norm() - options_.max_distance_m;
-    if (gap_m > 0.0 && gap_m * gap_m > quantile_ * S.trace()) return false;
-    return squared_distance_to_disc(d, S, options_.max_distance_m) <= quantile_;
-  };
+    if (gap_m > 0.0 && gap_m * gap_m > quantile_ * S.trace()) continue;
+    if (squared_distance_to_disc(d, S, options_.max_distance_m) <= quantile_) found.push_back(k);
+  }
+  return found;
+}
+
+Candidates CandidateSearch::find(const TrajectoryView& trajectory,
+                                 std::span<const double> altitudes_m, std::size_t end) {
+  const std::size_t newest = altitudes_m.size() - 1;
+  const Pose pose = trajectory.pose(newest);
   std::vector<std::size_t> found;
-  for (std::size_t k = 0; k < end; ++k) {
-    const Pose from = trajectory.pose(k);
-    const bool is_candidate =
-        options_.method == CandidateMethod::overlap
-            ? overlap(between(from, pose), altitudes_m[k], altitudes_m[newest]) >=
-                  options_.min_overlap
-            : (from.position() - pose.position()).norm() <= options_.max_distance_m ||
-                  (motions && may_be_near((*motions)[k]));
-    if (is_candidate) found.push_back(k);
+  for (const std::size_t k : within_reach(trajectory, altitudes_m)) {
+    if (k >= end) break;
+    if (is_candidate(trajectory.pose(k), pose, altitudes_m[k], altitudes_m[newest])) {
+      found.push_back(k);
+    }
+  }
+  if (options_.method == CandidateMethod::mahalanobis) {
+    const std::vector<std::size_t> near = std::exchange(found, {});
+    std::ranges::set_union(near, perhaps_near(trajectory, end), std::back_inserter(found));
   }
   return best(trajectory, altitudes_m, std::move(found));
 }

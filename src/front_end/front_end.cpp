@@ -67,7 +67,7 @@ void FrontEnd::announce_next_keyframes() const {
   }
 }
 
-Candidates FrontEnd::candidates(const TrajectoryView& trajectory) const {
+Candidates FrontEnd::candidates(const TrajectoryView& trajectory) {
   const std::size_t newest = keyframes_.size() - 1;
   // With a keyframe every frame visual odometry's step is that very registration.
   const bool step_is_registration =

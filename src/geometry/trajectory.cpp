@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <numeric>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -13,6 +14,17 @@
 #include "fathom/core/text.hpp"
 
 namespace fathom {
+
+std::vector<std::size_t> consecutive(std::size_t begin, std::size_t end) {
+  std::vector<std::size_t> keyframes(end - begin);
+  std::iota(keyframes.begin(), keyframes.end(), begin);
+  return keyframes;
+}
+
+// Its revision is its length.
+MovedPoses GivenTrajectory::moved_since(std::uint64_t revision) const {
+  return {poses_.size(), consecutive(revision, poses_.size())};
+}
 
 std::vector<Pose> poses_of(const TrajectoryView& view) {
   std::vector<Pose> poses;

@@ -1,5 +1,6 @@
 #include "candidate_guide.hpp"
 
+#include <cstdint>
 #include <string>
 
 #include "fathom/harness/ground_truth.hpp"
@@ -26,15 +27,24 @@ class EstimateGuide : public CandidateGuide {
   }
 
   const TrajectoryView& trajectory() override {
-    for (std::size_t k = 0; k < estimator_.size() && estimator_.fault().empty(); ++k) {
-      estimator_.pose(k);
-    }
+    look_for_faults();
     if (estimator_.fault().empty()) return estimator_;
     return dead_reckoning_;
   }
 
  private:
+  // The guard looks at every pose that it is asked for.
+  void look_for_faults() {
+    const MovedPoses moved = estimator_.moved_since(revision_);
+    revision_ = moved.revision;
+    for (const std::size_t k : moved.keyframes.value_or(consecutive(0, estimator_.size()))) {
+      if (!estimator_.fault().empty()) return;
+      estimator_.pose(k);
+    }
+  }
+
   GuardedEstimator estimator_;
+  std::uint64_t revision_ = 0;
   GivenTrajectory dead_reckoning_;
   Pose newest_;
 };

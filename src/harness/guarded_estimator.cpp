@@ -91,6 +91,20 @@ Pose GuardedEstimator::pose(std::size_t k) const {
   return pose;
 }
 
+// After a fault any pose is another: NaN.
+MovedPoses GuardedEstimator::moved_since(std::uint64_t revision) const {
+  MovedPoses moved;
+  guarded("moved_since", [&] {
+    moved = estimator_->moved_since(revision);
+    if (!moved.keyframes) return;
+    for (const std::size_t k : *moved.keyframes) {
+      if (k >= size_) throw ContractViolation("names keyframe " + std::to_string(k));
+    }
+  });
+  if (!fault_.empty()) moved.keyframes.reset();
+  return moved;
+}
+
 std::optional<std::vector<UncertainPose>> GuardedEstimator::motions_to_newest() const {
   std::optional<std::vector<UncertainPose>> motions;
   guarded("motions_to_newest", [&] {
@@ -142,6 +156,16 @@ std::optional<Eigen::Matrix3d> GuardedEstimator::covariance(std::size_t k) const
     if (covariance && !covariance->allFinite()) {
       throw ContractViolation("that of keyframe " + std::to_string(k) + " is not finite");
     }
+  });
+  if (!fault_.empty()) covariance.reset();
+  return covariance;
+}
+
+std::optional<Eigen::Matrix3d> GuardedEstimator::newest_covariance() const {
+  std::optional<Eigen::Matrix3d> covariance;
+  guarded("newest_covariance", [&] {
+    covariance = estimator_->newest_covariance();
+    if (covariance && !covariance->allFinite()) throw ContractViolation("it is not finite");
   });
   if (!fault_.empty()) covariance.reset();
   return covariance;

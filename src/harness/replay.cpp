@@ -69,10 +69,9 @@ class NewestCovariances {
 
   void ask(const Estimator& estimator) {
     if (!asks_) return;
-    const std::size_t newest = estimator.size() - 1;
     if (options_.memory != nullptr) options_.memory->pause();
     const auto start = Clock::now();
-    const bool is_known = estimator.joint_covariance(std::span(&newest, 1)).has_value();
+    const bool is_known = estimator.newest_covariance().has_value();
     result_.newest_covariance_ms.push_back(milliseconds_since(start));
     if (options_.memory != nullptr) options_.memory->resume();
     if (is_known) return;

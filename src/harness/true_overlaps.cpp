@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "fathom/front_end/keyframe_grid.hpp"
 #include "fathom/harness/recording_facts.hpp"
 #include "fathom/vision/camera.hpp"
 
@@ -25,10 +26,14 @@ std::optional<TrueOverlaps> true_overlaps(const Recording& recording) {
   for (const double altitude_m : recording.keyframe_altitudes_m) {
     reaches_m.push_back(reach_m(*recording.camera, altitude_m));
   }
+  if (truth.empty()) return overlaps;
+  const double most_m = std::ranges::max(reaches_m);
+  KeyframeGrid grid(most_m > 0.0 ? 2.0 * most_m : 1.0);
+  grid.follow(GivenTrajectory(truth));
   for (std::size_t i = 0; i < truth.size(); ++i) {
-    for (std::size_t k = i + 1; k < truth.size(); ++k) {
+    for (const std::size_t k : grid.near(truth[i].position(), reaches_m[i] + most_m)) {
       const double apart_m = (truth[i].position() - truth[k].position()).norm();
-      if (apart_m > reaches_m[i] + reaches_m[k]) continue;
+      if (k <= i || apart_m > reaches_m[i] + reaches_m[k]) continue;
       const double overlap =
           footprint_overlap(*recording.camera, recording.keyframe_altitudes_m[i],
                             recording.keyframe_altitudes_m[k], between(truth[i], truth[k]));

@@ -46,6 +46,28 @@ TEST_P(Conformance, JointCovariancesOfAnExactLogAreThoseOfTheInformationMatrix) 
   }
 }
 
+// Exact measurements are linearised at the truth, wherever an estimator linearised last.
+TEST_P(Conformance, TheNewestCovarianceOfAnExactLogIsThatOfTheInformationMatrix) {
+  LogOptions options;
+  options.noise = 0.0;
+  options.keyframes = 20;
+  options.origin = {-4.0, 1.0, 2.0};
+  const MeasurementLog log = circle_log(options);
+  const auto estimator = make(log.origin());
+  EXPECT_EQ(*estimator->newest_covariance(), Eigen::Matrix3d::Zero());
+  MeasurementLog so_far(log.origin());
+  for (std::size_t k = 1; k < log.size(); ++k) {
+    so_far.add_keyframe(log.arrival(k).step);
+    for (const RelativePose& z : log.arrival(k).registrations) so_far.add_registration(z);
+    estimator->add_keyframe(log.arrival(k).step);
+    if (!log.arrival(k).registrations.empty()) estimator->close_loops(log.arrival(k).registrations);
+    const auto covariance = estimator->newest_covariance();
+    ASSERT_TRUE(covariance);
+    const Eigen::Matrix3d expected = least_squares(so_far, 1).marginal(k);
+    EXPECT_LT((*covariance - expected).norm(), 1e-7 * expected.norm()) << "keyframe " << k;
+  }
+}
+
 TEST_P(Conformance, TheJointCovarianceOfKeyframeZeroAloneOrOfNoneIsZero) {
   const auto estimator = make();
   const auto expect_zero = [&](const std::vector<std::size_t>& keyframes) {

@@ -108,6 +108,7 @@ TEST(IncrementalTree, IsTheFactorOfTheWholeMatrixHoweverItGrew) {
     EXPECT_NEAR(grown.tree.forward_all(gradient), promised, 1e-8 * promised);
     const Problem before = grown.problem;
     grown.tree.propagate(0.0);
+    grown.tree.settle();
     const Eigen::VectorXd step = -inverse * g;
     double worst = 0.0;
     for (int k = 1; k < before.size(); ++k) {
@@ -162,6 +163,7 @@ TEST(IncrementalTree, IsLinearisedAnewWhereItIsStale) {
   ASSERT_GT(std::abs(stale - fresh), 0.01 * fresh);
   EXPECT_NEAR(grown.tree.forward_all(gradient), stale, 1e-8 * stale);
   grown.tree.propagate(0.0);
+  grown.tree.settle();
   std::vector<int> keyframes;
   grown.tree.find_to_relinearise(1e-3, 1e-3, keyframes);
   ASSERT_TRUE(grown.tree.relinearise(keyframes));
@@ -183,6 +185,7 @@ TEST(IncrementalTree, RigidMotionOfAPartMovesAllOfIt) {
   const Problem before = grown.problem;
   grown.tree.forward(keyframes, gradient, ignored);
   grown.tree.propagate(1e-9);
+  grown.tree.settle();
   for (int k = 11; k <= 40; ++k) {
     double was[3];
     double now[3];
@@ -194,7 +197,10 @@ TEST(IncrementalTree, RigidMotionOfAPartMovesAllOfIt) {
   offset_of(before.nodes[40], grown.problem.nodes[40], moved_by);
   EXPECT_GT(std::hypot(moved_by[0], moved_by[1]), 3e-4);
   EXPECT_LT(grown.tree.bent().size(), 30U);
-  EXPECT_EQ(grown.tree.moved().size(), 40U);
+  for (int k = 1; k <= 40; ++k) {
+    offset_of(before.nodes[at(k)], grown.problem.nodes[at(k)], moved_by);
+    EXPECT_GT(std::hypot(moved_by[0], moved_by[1]), 0.0) << k;
+  }
 }
 
 TEST(IncrementalTree, SaysWhatIsNotDefinite) {

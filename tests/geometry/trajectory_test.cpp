@@ -159,5 +159,14 @@ TEST_F(Tum, RealGroundTruth) {
   EXPECT_NEAR(truth.back().pose.theta, 2 * std::atan2(0.707108079859, 0.707105482511), 1e-12);
 }
 
+TEST(GivenTrajectory, SaysWhatIsNew) {
+  GivenTrajectory trajectory({{1, 2, 3}, {4, 5, 6}});
+  const MovedPoses all = trajectory.moved_since(0);
+  EXPECT_EQ(all.keyframes, (std::vector<std::size_t>{0, 1}));
+  EXPECT_EQ(trajectory.moved_since(all.revision).keyframes, std::vector<std::size_t>{});
+  trajectory.append({7, 8, 9});
+  EXPECT_EQ(trajectory.moved_since(all.revision).keyframes, std::vector<std::size_t>{2});
+}
+
 }  // namespace
 }  // namespace fathom

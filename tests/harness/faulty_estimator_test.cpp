@@ -10,6 +10,7 @@
 #include "configuration/settings_of.hpp"
 #include "fathom/configuration/study.hpp"
 #include "fathom/estimators/builtin.hpp"
+#include "fathom/harness/guarded_estimator.hpp"
 #include "fathom/harness/replay.hpp"
 #include "fathom/harness/result.hpp"
 #include "fathom/harness/run_folder.hpp"
@@ -100,6 +101,14 @@ TEST(FaultyEstimator, GetsAVerdictWithTheReason) {
     EXPECT_THAT(result.loop_weights, Each(0.0)) << message;
     EXPECT_FALSE(result.covariances) << message;
   }
+}
+
+TEST(FaultyEstimator, MovesOnlyKeyframesThatThereAre) {
+  Script script;
+  script.moved = {0, 7};
+  GuardedEstimator guarded(scripted(script), {}, {});
+  EXPECT_FALSE(guarded.moved_since(0).keyframes);
+  EXPECT_EQ(guarded.fault(), "moved_since at keyframe 0: names keyframe 7");
 }
 
 TEST(FaultyEstimator, IsFoundOutInABatch) {

@@ -29,6 +29,9 @@ struct Script {
   /// So many calls of joint_covariance have an answer, the identity; each is among `calls`.
   std::size_t joint_covariances = 0;
 
+  /// What moved_since names.
+  std::optional<std::vector<std::size_t>> moved;
+
   std::vector<std::string> calls;
 };
 
@@ -46,6 +49,8 @@ class ScriptedEstimator : public Estimator {
     constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
     return script_.nan_pose == k ? Pose{kNaN, 0, 0} : poses_[k];
   }
+
+  MovedPoses moved_since(std::uint64_t /*revision*/) const override { return {1, script_.moved}; }
 
   void add_keyframe(const RelativePose& step) override {
     script_.calls.push_back("add " + std::to_string(step.to));

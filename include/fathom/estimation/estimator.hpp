@@ -92,6 +92,12 @@ class Estimator : public TrajectoryView {
   /// taken from unless an estimator has a faster way.
   virtual std::optional<Eigen::Matrix3d> covariance(std::size_t k) const;
 
+  /// The 3×3 covariance of (x, y, θ) of the newest keyframe, for whoever asks after every keyframe:
+  /// as of joint_covariance, which is what it is taken from unless an estimator has a faster way.
+  /// One that linearises again only what has moved by more than it says may take its matrix as it
+  /// is.
+  virtual std::optional<Eigen::Matrix3d> newest_covariance() const;
+
   /// As of TrajectoryView, from the joint covariance of each keyframe and the newest unless an
   /// estimator has a faster way.
   std::optional<std::vector<UncertainPose>> motions_to_newest() const override;

@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 
 #include "fathom/core/options.hpp"
+#include "fathom/front_end/keyframe_grid.hpp"
 #include "fathom/geometry/trajectory.hpp"
 #include "fathom/vision/camera.hpp"
 
@@ -39,8 +40,9 @@ struct Candidates {
   std::size_t left_out = 0;            ///< candidates beyond max_per_keyframe
 };
 
-/// Finds loop candidates in an estimate: a pure function of its arguments, with one test for each
-/// keyframe. With `mahalanobis` it asks for the covariances of the estimate, too.
+/// Finds loop candidates in one trajectory that grows and moves. Keyframes that are out of reach
+/// are not looked at (KeyframeGrid); what is found is what a test of each keyframe would find. With
+/// `mahalanobis` each is tested, as the covariances of all motions are asked for in any case.
 class CandidateSearch {
  public:
   CandidateSearch(const Camera& camera, const CandidateOptions& options);
@@ -48,13 +50,18 @@ class CandidateSearch {
   /// Those among keyframes 0 … end − 1 for the newest, which is the last of `altitudes_m`, the
   /// altitudes of all keyframes as measured. The trajectory must hold them all.
   Candidates find(const TrajectoryView& trajectory, std::span<const double> altitudes_m,
-                  std::size_t end) const;
+                  std::size_t end);
 
   /// Whether a keyframe `step` away, at these altitudes, is a candidate for certain.
   bool accepts(const Pose& step, double altitude_from_m, double altitude_to_m) const;
 
  private:
   double overlap(const Pose& motion, double altitude_from_m, double altitude_to_m) const;
+  std::vector<std::size_t> within_reach(const TrajectoryView& trajectory,
+                                        std::span<const double> altitudes_m);
+  bool is_candidate(const Pose& from, const Pose& newest, double altitude_from_m,
+                    double altitude_newest_m) const;
+  std::vector<std::size_t> perhaps_near(const TrajectoryView& trajectory, std::size_t end) const;
   Candidates best(const TrajectoryView& trajectory, std::span<const double> altitudes_m,
                   std::vector<std::size_t> keyframes) const;
 
@@ -63,6 +70,9 @@ class CandidateSearch {
   double reach_per_metre_ = 0.0;  ///< of a footprint, from below the camera
   double mount_m_ = 0.0;          ///< from the body's origin to the camera
   double quantile_ = 0.0;         ///< of χ², 2 degrees of freedom
+  double highest_m_ = 0.0;        ///< of the altitudes so far
+  std::size_t altitudes_ = 0;     ///< so many of them
+  std::optional<KeyframeGrid> grid_;
 };
 
 /// The least (d − p)ᵀ S⁻¹ (d − p) over the points p within `radius_m` ≥ 0 of the origin: the

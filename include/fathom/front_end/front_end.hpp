@@ -66,7 +66,7 @@ class FrontEnd {
 
  private:
   Keyframe add_keyframe(std::size_t frame, const FrameInfo& info, const UncertainPose& since);
-  Candidates candidates(const TrajectoryView& trajectory) const;
+  Candidates candidates(const TrajectoryView& trajectory);
   MeasuredFrame measured(std::size_t frame) const;
   void announce_next_keyframes() const;
 

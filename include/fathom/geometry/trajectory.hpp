@@ -14,6 +14,16 @@
 
 namespace fathom {
 
+/// Poses that may have changed since an earlier revision of a trajectory.
+struct MovedPoses {
+  std::uint64_t revision = 0;  ///< of the trajectory as it is
+  /// Those that moved, and those that are new, in any order; absent: any may have moved.
+  std::optional<std::vector<std::size_t>> keyframes;
+};
+
+/// begin … end − 1.
+std::vector<std::size_t> consecutive(std::size_t begin, std::size_t end);
+
 /// Read-only view of an estimate: the poses of all keyframes so far, in the world frame.
 class TrajectoryView {
  public:
@@ -21,6 +31,12 @@ class TrajectoryView {
   virtual std::size_t size() const = 0;
   /// k < size().
   virtual Pose pose(std::size_t k) const = 0;
+
+  /// What changed since `revision`, a number that this call gave earlier, or 0 for everything.
+  virtual MovedPoses moved_since(std::uint64_t revision) const {
+    (void)revision;
+    return {};
+  }
 
   /// The motion ⊖X_k ⊕ X_n to the newest keyframe n from every earlier keyframe k, size() − 1 of
   /// them, with the covariance of its (x, y, θ) in the axes of k: first order at the estimate, the
@@ -39,6 +55,7 @@ class GivenTrajectory : public TrajectoryView {
   void append(const Pose& pose) { poses_.push_back(pose); }
   std::size_t size() const override { return poses_.size(); }
   Pose pose(std::size_t k) const override { return poses_[k]; }
+  MovedPoses moved_since(std::uint64_t revision) const override;
 
  private:
   std::vector<Pose> poses_;

@@ -24,12 +24,15 @@ class GuardedEstimator : public Estimator {
   /// Keyframes given, whatever the estimator says.
   std::size_t size() const override { return size_; }
   Pose pose(std::size_t k) const override;
+  /// Names keyframes that there are.
+  MovedPoses moved_since(std::uint64_t revision) const override;
   std::optional<std::vector<UncertainPose>> motions_to_newest() const override;
   void add_keyframe(const RelativePose& step) override;
   /// Has one decision for each registration, in their order.
   UpdateReport close_loops(std::span<const RelativePose> registrations) override;
   UpdateReport finish(std::span<const Pose> start) override;
   std::optional<Eigen::Matrix3d> covariance(std::size_t k) const override;
+  std::optional<Eigen::Matrix3d> newest_covariance() const override;
   std::optional<Eigen::MatrixXd> joint_covariance(
       std::span<const std::size_t> keyframes) const override;
   double loss(double chi2) const override;
