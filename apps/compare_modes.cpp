@@ -21,7 +21,8 @@ namespace fs = std::filesystem;
 
 std::atomic<bool> stop_asked = false;
 
-// The first one lets the trials at work end; the second ends the program, which harms no store.
+// The first one ends the trials at work at their next keyframe; the second ends the program, which
+// harms no store.
 extern "C" void ask_to_stop(int signal) {
   stop_asked = true;
   std::signal(signal, SIG_DFL);

@@ -20,9 +20,15 @@ void StudyProgressLine::show(const StudyProgress& progress) {
   if (quiet_ || since_s < (is_terminal_ ? 0.2 : 30.0)) return;
   last_ = now;
   shown_ = true;
-  std::fprintf(stderr, "%s%zu of %zu runs%s, %zu failed%s", is_terminal_ ? "\r\033[K" : "",
+  std::fprintf(stderr, "%s%zu of %zu runs%s, %zu failed%s%s", is_terminal_ ? "\r\033[K" : "",
                progress.done, progress.of, pace(progress, now).c_str(), progress.failed,
-               is_terminal_ ? "" : "\n");
+               front_end(progress).c_str(), is_terminal_ ? "" : "\n");
+}
+
+std::string StudyProgressLine::front_end(const StudyProgress& progress) {
+  if (progress.frames == 0) return "";
+  return ", front end at frame " + std::to_string(progress.frame) + " of " +
+         std::to_string(progress.frames);
 }
 
 // From the second run on: the first one waits for most of the registrations.

@@ -14,6 +14,7 @@
 #include "fathom/results/run_index.hpp"
 #include "study_data_sets.hpp"
 #include "study_tasks.hpp"
+#include "study_watch.hpp"
 
 namespace fathom {
 namespace {
@@ -38,12 +39,9 @@ class Runner {
                             : ShardTrials(study, data_sets_, options.shard)),
         tasks_(tasks_to_do()),
         threads_(std::min(static_cast<std::size_t>(options.jobs),
-                          std::max<std::size_t>(tasks_.size(), 1))) {
+                          std::max<std::size_t>(tasks_.size(), 1))),
+        watch_(options, runs() - missing_runs(), runs()) {
     for (const Task& task : tasks_) data_sets_.expect_trial(task.cell, task.survey);
-    progress_.of = own_.count() * study.description.estimators.size();
-    std::size_t missing = 0;
-    for (const Task& task : tasks_) missing += task.estimators.size();
-    progress_.earlier = progress_.done = progress_.of - missing;
   }
 
   /// False where it was stopped before the end.
@@ -75,7 +73,15 @@ class Runner {
     return tasks_of(study_, &there, data_sets_, own_, jobs);
   }
 
-  bool is_stopped() const { return failed_ || (options_.stop != nullptr && options_.stop->load()); }
+  std::size_t runs() const { return own_.count() * study_.description.estimators.size(); }
+
+  std::size_t missing_runs() const {
+    std::size_t missing = 0;
+    for (const Task& task : tasks_) missing += task.estimators.size();
+    return missing;
+  }
+
+  bool is_stopped() const { return failed_ || watch_.is_stopped(); }
 
   // Where the system has no further thread fewer do the same work.
   void start_others(std::vector<std::jthread>& others, std::size_t count) {
@@ -97,6 +103,8 @@ class Runner {
           run_trial(tasks_[next], meter.get());
         }
       }
+    } catch (const Stopped&) {
+      // What is stored is whole.
     } catch (...) {
       const std::lock_guard hold(mutex_);
       if (!failure_) failure_ = std::current_exception();
@@ -112,23 +120,22 @@ class Runner {
       if (is_stopped()) return;
       recorder->record(configuration,
                        is_own ? by_contender(configuration.estimators[e]) : configuration.reference,
-                       registry_, noise_of(task));
+                       registry_, noise_of(task), watch_.of_front_end());
       if (!is_own) break;
     }
     data_sets_.trial_done(task.cell, task.survey);
     ++done_tasks_;
-    const std::lock_guard hold(mutex_);
-    progress_.done += task.estimators.size();
-    if (options_.progress) options_.progress(progress_);
+    watch_.runs_done(task.estimators.size(), 0);
   }
 
   void run_trial(const Task& task, MemoryMeter* meter) {
     const Configuration& configuration = study_.cells[task.cell];
     const std::shared_ptr<const Recorder> recorder = data_sets_.of(task.cell, task.survey);
     const auto record_by = [&](const CandidateReference& reference) {
-      RecordedTrial made{std::make_shared<const Recording>(
-                             recorder->record(configuration, reference, registry_, noise_of(task))),
-                         {}};
+      RecordedTrial made{
+          std::make_shared<const Recording>(recorder->record(
+              configuration, reference, registry_, noise_of(task), watch_.of_front_end())),
+          {}};
       if (!task.estimators.empty()) made.facts = study_facts(*made.recording, registry_);
       return made;
     };
@@ -162,6 +169,7 @@ class Runner {
     const Configuration& configuration = study_.cells[task.cell];
     ReplayOptions asked = replay_options(configuration, configuration.estimators[estimator]);
     asked.memory = meter;
+    asked.progress = watch_.unless_stopped();
     Result result =
         evaluate(*trial.recording, configuration.estimators[estimator], registry_,
                  {.metrics = metric_options(configuration), .facts = &trial.facts}, asked);
@@ -169,10 +177,8 @@ class Runner {
     run.key = task.run_of(configuration.estimators[estimator].name);
     run.jobs = static_cast<int>(threads_);
     store_->add(run);
+    watch_.runs_done(1, result.is_done() ? 0 : 1);
     const std::lock_guard hold(mutex_);
-    ++progress_.done;
-    if (!result.is_done()) ++progress_.failed;
-    if (options_.progress) options_.progress(progress_);
     if (is_example(task)) example_[estimator] = {trial.recording, std::move(result)};
   }
 
@@ -214,8 +220,8 @@ class Runner {
   std::atomic<std::size_t> next_task_ = 0;
   std::atomic<std::size_t> done_tasks_ = 0;
   std::atomic<bool> failed_ = false;
+  StudyWatch watch_;
   std::mutex mutex_;
-  StudyProgress progress_;
   std::map<std::size_t, ExampleRun> example_;
   std::exception_ptr failure_;
 };
