@@ -10,7 +10,9 @@
 #include "apps/mosaics.hpp"
 #include "apps/pictures.hpp"
 #include "fathom/core/files.hpp"
+#include "fathom/core/input_error.hpp"
 #include "fathom/estimators/builtin.hpp"
+#include "fathom/front_end/registration_store.hpp"
 #include "fathom/harness/manifest.hpp"
 #include "fathom/harness/run_folder.hpp"
 
@@ -20,8 +22,16 @@ namespace {
 struct RunFlags {
   CommonFlags common;
   std::string config;
+  std::string cache;
   bool no_mosaic = false;
 };
+
+std::unique_ptr<RegistrationStore> open_cache(const std::string& folder) {
+  if (folder.empty()) return nullptr;
+  auto cache = std::make_unique<RegistrationStore>(folder);
+  if (const std::string problem = cache->problem(); !problem.empty()) throw InputError(problem);
+  return cache;
+}
 
 Recording record_with_progress(const Recorder& recorder, const Configuration& configuration,
                                bool quiet) {
@@ -88,7 +98,8 @@ void run(const RunFlags& flags, Context& context) {
       configure(settings, ConfigurationKind::single, builtin_estimators());
   StagedFolder folder(flags.common.folder_or(stem_of(flags.config)),
                       inputs_of(flags.config, settings));
-  const Recorder recorder(configuration);
+  const std::unique_ptr<RegistrationStore> cache = open_cache(flags.cache);
+  const Recorder recorder(configuration, cache.get());
   const Recording recording = record_with_progress(recorder, configuration, flags.common.quiet);
   const std::vector<Result> results{evaluate_with_progress(
       recording, configuration, configuration.estimators.front(), flags.common.quiet)};
@@ -123,6 +134,9 @@ void add_run(CLI::App& program, Context& context) {
   command.argument("config", flags->config, "Configuration (YAML)");
   flags->common.add_settings_to(command);
   flags->common.add_out_to(command, "Output folder (default: runs/CONFIG's name)");
+  command.text("--cache", flags->cache, "DIR",
+               "Keep registrations in this folder, as compare does: a run that was killed makes "
+               "none of them again");
   command.boolean("--no-mosaic", flags->no_mosaic, "No mosaic of the pictures");
   command.on_run([flags, &context] { run(*flags, context); });
 }
