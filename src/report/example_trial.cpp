@@ -1,6 +1,7 @@
 #include "example_trial.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include "keyframe_series.hpp"
 #include "page_numbers.hpp"
@@ -38,22 +39,47 @@ Json ellipses_json(const ResultStore& store, const RunKey& key) {
   return json;
 }
 
-// [from, to, fate, NIS or null]
-Json loops_json(const ResultStore& store, const RunKey& key) {
-  Json json = Json::array();
+// What the page says of the loops of one run: those that it draws, each [from, to, fate, NIS or
+// null], and how many there are of every fate.
+struct ExampleLoops {
+  Json drawn = Json::array();
+  std::array<std::size_t, 3> counts{};
+};
+
+// Evenly thinned; loops that were not used are fewer and say more, so half of all places are
+// theirs.
+std::vector<std::size_t> drawn_loops(const std::vector<std::size_t>& used,
+                                     const std::vector<std::size_t>& others, std::size_t most) {
+  const std::size_t of_others =
+      std::min(others.size(), std::max(most / 2, most - std::min(most, used.size())));
+  std::vector<std::size_t> drawn = picked(others, thinned(others.size(), of_others));
+  const auto more = picked(used, thinned(used.size(), most - of_others));
+  drawn.insert(drawn.end(), more.begin(), more.end());
+  std::ranges::sort(drawn);
+  return drawn;
+}
+
+ExampleLoops example_loops(const ResultStore& store, const RunKey& key, std::size_t most) {
+  ExampleLoops loops;
   const Series from = store.series(key, "loop_from");
   const Series to = store.series(key, "loop_to");
   const Series fate = store.series(key, "loop_fate");
   const Series nis = store.series(key, "loop_nis");
-  if (!from || !to || !fate) return json;
+  if (!from || !to || !fate) return loops;
   const std::size_t count = std::min({from->size(), to->size(), fate->size()});
+  std::vector<std::size_t> used;
+  std::vector<std::size_t> others;
   for (std::size_t i = 0; i < count; ++i) {
     if (!((*from)[i] >= 0.0 && (*to)[i] >= 0.0)) continue;
-    const bool has_nis = nis && i < nis->size() && (*nis)[i] >= 0.0;
-    json.push_back({page_number((*from)[i]), page_number((*to)[i]), page_number((*fate)[i]),
-                    has_nis ? page_number((*nis)[i]) : Json()});
+    if ((*fate)[i] >= 0.0 && (*fate)[i] < 3.0) ++loops.counts[static_cast<std::size_t>((*fate)[i])];
+    ((*fate)[i] == 0.0 ? used : others).push_back(i);
   }
-  return json;
+  for (const std::size_t i : drawn_loops(used, others, most)) {
+    const bool has_nis = nis && i < nis->size() && (*nis)[i] >= 0.0;
+    loops.drawn.push_back({page_number((*from)[i]), page_number((*to)[i]), page_number((*fate)[i]),
+                           has_nis ? page_number((*nis)[i]) : Json()});
+  }
+  return loops;
 }
 
 // Where the loops of one run begin and end: their keyframes may have been thinned out of the path.
@@ -77,19 +103,20 @@ Json loop_ends_json(const ResultStore& store, const RunKey& key, const Json& loo
 
 }  // namespace
 
-Json example_trial(const ResultStore& store, const CellResults& cell, std::size_t most) {
+Json example_trial(const ResultStore& store, const CellResults& cell, std::size_t most_keyframes,
+                   std::size_t most_loops) {
   const TrialKey trial = first_trial(cell);
   const RunKey baseline{cell.cell, trial.survey, trial.trial, kDeadReckoning};
   Json json{{"survey", trial.survey},
             {"trial", trial.trial},
             {"text", example_text(cell, trial)},
             {"truth", path_json(store.series(baseline, "truth_x_m"),
-                                store.series(baseline, "truth_y_m"), most)}};
+                                store.series(baseline, "truth_y_m"), most_keyframes)}};
   json["estimators"] = Json::array();
   for (const EstimatorResults& one : cell.estimators) {
     const RunKey key{cell.cell, trial.survey, trial.trial, one.name};
-    const Json path = path_json(store.series(key, "x_m"), store.series(key, "y_m"), most);
-    const Json loops = loops_json(store, key);
+    const Json path = path_json(store.series(key, "x_m"), store.series(key, "y_m"), most_keyframes);
+    const ExampleLoops loops = example_loops(store, key, most_loops);
     const auto run = std::find_if(one.runs.begin(), one.runs.end(),
                                   [&trial](const auto& r) { return r.key.trial_key() == trial; });
     if (run == one.runs.end()) continue;
@@ -99,8 +126,9 @@ Json example_trial(const ResultStore& store, const CellResults& cell, std::size_
          {"path", path},
          // Dead reckoning's would cover the map.
          {"ellipses", one.name == kDeadReckoning ? Json::array() : ellipses_json(store, key)},
-         {"loops", loops},
-         {"loop_ends_m", loop_ends_json(store, key, loops)}});
+         {"loops_in_all", loops.counts},
+         {"loops", loops.drawn},
+         {"loop_ends_m", loop_ends_json(store, key, loops.drawn)}});
   }
   return json;
 }

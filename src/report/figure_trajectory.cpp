@@ -3,6 +3,8 @@
 #include <memory>
 
 #include "fathom/results/run_index.hpp"
+#include "keyframe_series.hpp"
+#include "page_numbers.hpp"
 #include "study_figures.hpp"
 #include "trajectory_map.hpp"
 
@@ -19,6 +21,9 @@ std::vector<Pose> path_of(const ResultStore& store, const RunKey& key, const cha
   return poses;
 }
 
+// So many loops at most, evenly thinned: more would be one grey area, and a large file.
+constexpr std::size_t kMostLoops = 5000;
+
 void add_loops(PlotSeries& series, const ResultStore& store, const RunKey& key) {
   const auto from = store.series(key, "loop_from");
   const auto to = store.series(key, "loop_to");
@@ -32,6 +37,7 @@ void add_loops(PlotSeries& series, const ResultStore& store, const RunKey& key) 
     series.loops.emplace_back(static_cast<std::size_t>((*from)[i]),
                               static_cast<std::size_t>((*to)[i]));
   }
+  series.loops = picked(series.loops, thinned(series.loops.size(), kMostLoops));
 }
 
 bool is_done_at(const EstimatorResults& one, const TrialKey& trial) {

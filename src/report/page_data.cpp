@@ -21,6 +21,8 @@ using Json = nlohmann::ordered_json;
 
 // Keyframes of one list over all cells and estimators together: what keeps the page at a few MB.
 constexpr std::size_t kKeyframesInAll = 24000;
+// The same of the loops that maps show.
+constexpr std::size_t kLoopsInAll = 20000;
 constexpr std::size_t kFewestKeyframes = 120;
 constexpr double kProbability = 0.95;
 
@@ -108,7 +110,7 @@ Json paired_json(const PairedResult& paired) {
 
 Json cell_json(const ResultStore& store, const CellResults& cell,
                const std::vector<EstimatorSeries>& series, const StudyDescription& study,
-               std::size_t most) {
+               std::size_t most, std::size_t most_loops) {
   Json json{{"cell", cell.cell},
             {"label", cell.label},
             {"caption", cell_caption(cell)},
@@ -127,7 +129,7 @@ Json cell_json(const ResultStore& store, const CellResults& cell,
   }
   json["paired"] = Json::array();
   for (const PairedResult& one : cell.paired) json["paired"].push_back(paired_json(one));
-  json["example"] = example_trial(store, cell, most);
+  json["example"] = example_trial(store, cell, most, most_loops);
   return json;
 }
 
@@ -200,6 +202,7 @@ Json page_data(const ResultStore& store, const StudyResults& results,
   const StudyDescription& study = results.study;
   const std::size_t lists = results.cells.size() * (study.estimators.size() + 1);
   const std::size_t most = std::max(kFewestKeyframes, kKeyframesInAll / lists);
+  const std::size_t most_loops = std::max(kFewestKeyframes, kLoopsInAll / lists);
   Json json = study_json(study);
   json["metrics"] = Json::object();
   for (const std::string& name : results.metrics) {
@@ -213,7 +216,7 @@ Json page_data(const ResultStore& store, const StudyResults& results,
   json["intervals"] = intervals_text(results);
   json["cells"] = Json::array();
   for (std::size_t i = 0; i < results.cells.size(); ++i) {
-    json["cells"].push_back(cell_json(store, results.cells[i], series[i], study, most));
+    json["cells"].push_back(cell_json(store, results.cells[i], series[i], study, most, most_loops));
   }
   add_regimes(results, json);
   add_verdict(results, json);

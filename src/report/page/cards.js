@@ -15,6 +15,7 @@ const charts = [
     exists: (cell) => cell.example.truth !== null || cell.example.estimators.some((one) => one.path),
     caption: (cell) => `${exampleNote()}; ${conditions(cell)}. x up, y to the left. ` +
       'Thin lines: loops used; dashed with ×: rejected, with △: lost; ellipses: 2σ. ' +
+      (cell.example.estimators.some(thinnedNote) ? 'Loops are thinned evenly. ' : '') +
       'Wheel: zoom, drag: move, double click: all.'},
   {id: 'pareto', title: 'Accuracy against cost', plots: paretoPlots,
     exists: () => Object.values(study.metrics).some((metric) => metric.cost),

@@ -181,6 +181,12 @@ function forestPlots(card) {
     signals: {x_title: titled(metricTitle(state.metric), fit.unit)}, adjust}]);
 }
 
+// Of very many loops only some are drawn.
+function thinnedNote(one) {
+  const all = one.loops_in_all.reduce((sum, n) => sum + n, 0);
+  return one.loops.length < all ? `; ${one.loops.length} drawn` : '';
+}
+
 function registrationPlots(card) {
   const drawn = cellNow().example.estimators.filter((one) => one.loops.length > 0);
   const shown = drawn.filter((one) => isShown(one.name));
@@ -189,9 +195,8 @@ function registrationPlots(card) {
   const columns = Math.ceil(shown.length / Math.ceil(shown.length / most));
   const side = Math.min(460, Math.floor((widthOf(card) - kGap * (columns - 1)) / columns) - 75);
   const fates = ['used', 'rejected', 'lost'];
-  const countOf = (one, fate) => one.loops.filter((loop) => loop[2] === fate).length;
-  const countsText = (one) => fates.map((name, fate) => [countOf(one, fate), name])
-    .filter(([n], fate) => n > 0 || fate === 0).map((pair) => pair.join(' ')).join(', ');
+  const countsText = (one) => fates.map((name, fate) => [one.loops_in_all[fate], name])
+    .filter(([n], fate) => n > 0 || fate === 0).map((pair) => pair.join(' ')).join(', ') + thinnedNote(one);
   return shown.map((one) => ({
     spec: 'registrations', width: side, height: side, data: {rows: loopRows(one)},
     heading: `${labelOf(one.name)}: ${countsText(one)}`,
