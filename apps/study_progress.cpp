@@ -22,13 +22,13 @@ void StudyProgressLine::show(const StudyProgress& progress) {
   shown_ = true;
   std::fprintf(stderr, "%s%zu of %zu runs%s, %zu failed%s%s", is_terminal_ ? "\r\033[K" : "",
                progress.done, progress.of, pace(progress, now).c_str(), progress.failed,
-               front_end(progress).c_str(), is_terminal_ ? "" : "\n");
+               stage(progress).c_str(), is_terminal_ ? "" : "\n");
 }
 
-std::string StudyProgressLine::front_end(const StudyProgress& progress) {
-  if (progress.frames == 0) return "";
-  return ", front end at frame " + std::to_string(progress.frame) + " of " +
-         std::to_string(progress.frames);
+std::string StudyProgressLine::stage(const StudyProgress& progress) {
+  if (progress.stage.empty()) return "";
+  return ", " + progress.stage + " " + std::to_string(progress.step) + " of " +
+         std::to_string(progress.steps);
 }
 
 // From the second run on: the first one waits for most of the registrations.

@@ -22,7 +22,7 @@ class StudyProgressLine {
  private:
   using Clock = std::chrono::steady_clock;
 
-  static std::string front_end(const StudyProgress& progress);
+  static std::string stage(const StudyProgress& progress);
   std::string pace(const StudyProgress& progress, Clock::time_point now) const;
 
   bool quiet_;

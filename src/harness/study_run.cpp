@@ -40,7 +40,7 @@ class Runner {
         tasks_(tasks_to_do()),
         threads_(std::min(static_cast<std::size_t>(options.jobs),
                           std::max<std::size_t>(tasks_.size(), 1))),
-        watch_(options, runs() - missing_runs(), runs()) {
+        watch_(options, runs() - runs_in(tasks_), runs()) {
     for (const Task& task : tasks_) data_sets_.expect_trial(task.cell, task.survey);
   }
 
@@ -74,12 +74,6 @@ class Runner {
   }
 
   std::size_t runs() const { return own_.count() * study_.description.estimators.size(); }
-
-  std::size_t missing_runs() const {
-    std::size_t missing = 0;
-    for (const Task& task : tasks_) missing += task.estimators.size();
-    return missing;
-  }
 
   bool is_stopped() const { return failed_ || watch_.is_stopped(); }
 
@@ -120,7 +114,7 @@ class Runner {
       if (is_stopped()) return;
       recorder->record(configuration,
                        is_own ? by_contender(configuration.estimators[e]) : configuration.reference,
-                       registry_, noise_of(task), watch_.of_front_end());
+                       registry_, noise_of(task), watch_.over("front end at frame"));
       if (!is_own) break;
     }
     data_sets_.trial_done(task.cell, task.survey);
@@ -130,26 +124,36 @@ class Runner {
 
   void run_trial(const Task& task, MemoryMeter* meter) {
     const Configuration& configuration = study_.cells[task.cell];
-    const std::shared_ptr<const Recorder> recorder = data_sets_.of(task.cell, task.survey);
+    std::shared_ptr<const Recorder> recorder = data_sets_.of(task.cell, task.survey);
     const auto record_by = [&](const CandidateReference& reference) {
-      RecordedTrial made{
-          std::make_shared<const Recording>(recorder->record(
-              configuration, reference, registry_, noise_of(task), watch_.of_front_end())),
-          {}};
-      if (!task.estimators.empty()) made.facts = study_facts(*made.recording, registry_);
-      return made;
+      return RecordedTrial{std::make_shared<const Recording>(
+                               recorder->record(configuration, reference, registry_, noise_of(task),
+                                                watch_.over("front end at frame"))),
+                           {}};
+    };
+    const auto judge_by_facts = [&](RecordedTrial& trial) {
+      if (!task.estimators.empty()) trial.facts = study_facts(*trial.recording, registry_);
     };
     const bool is_own = configuration.study.association == Association::own;
-    std::optional<RecordedTrial> trial;
-    if (!is_own || task.estimators.empty()) trial = record_by(configuration.reference);
+    RecordedTrial trial;
+    if (!is_own || task.estimators.empty()) {
+      trial = record_by(configuration.reference);
+      // Pictures and features are not held while solvers run that need none of them.
+      recorder.reset();
+      data_sets_.trial_done(task.cell, task.survey);
+      judge_by_facts(trial);
+    }
     for (const std::size_t e : task.estimators) {
       if (is_stopped()) return;
-      if (is_own) trial = record_by(by_contender(configuration.estimators[e]));
-      if (task.baseline && e == task.estimators.front()) add_baseline(task, *trial->recording);
-      add_run(task, e, *trial, meter);
+      if (is_own) {
+        trial = record_by(by_contender(configuration.estimators[e]));
+        judge_by_facts(trial);
+      }
+      if (task.baseline && e == task.estimators.front()) add_baseline(task, *trial.recording);
+      add_run(task, e, trial, meter);
     }
-    if (task.baseline && task.estimators.empty()) add_baseline(task, *trial->recording);
-    data_sets_.trial_done(task.cell, task.survey);
+    if (task.baseline && task.estimators.empty()) add_baseline(task, *trial.recording);
+    if (recorder) data_sets_.trial_done(task.cell, task.survey);
     ++done_tasks_;
   }
 
@@ -169,7 +173,7 @@ class Runner {
     const Configuration& configuration = study_.cells[task.cell];
     ReplayOptions asked = replay_options(configuration, configuration.estimators[estimator]);
     asked.memory = meter;
-    asked.progress = watch_.unless_stopped();
+    asked.progress = watch_.over(configuration.estimators[estimator].name + " at keyframe");
     Result result =
         evaluate(*trial.recording, configuration.estimators[estimator], registry_,
                  {.metrics = metric_options(configuration), .facts = &trial.facts}, asked);

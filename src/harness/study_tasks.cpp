@@ -123,4 +123,10 @@ std::vector<Task> tasks_of(const Study& study, const RunIndex* there,
   return tasks;
 }
 
+std::size_t runs_in(const std::vector<Task>& tasks) {
+  std::size_t runs = 0;
+  for (const Task& task : tasks) runs += task.estimators.size();
+  return runs;
+}
+
 }  // namespace fathom

@@ -53,4 +53,7 @@ std::vector<Task> tasks_of(const Study& study, const RunIndex* there,
                            const StudyDataSets& data_sets, const ShardTrials& own,
                            std::size_t jobs);
 
+/// Runs of estimators in all of them.
+std::size_t runs_in(const std::vector<Task>& tasks);
+
 }  // namespace fathom

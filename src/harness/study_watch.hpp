@@ -3,6 +3,8 @@
 #include <atomic>
 #include <chrono>
 #include <mutex>
+#include <string>
+#include <utility>
 
 #include "fathom/harness/study_run.hpp"
 
@@ -30,23 +32,17 @@ class StudyWatch {
     if (options_.progress) options_.progress(progress_);
   }
 
-  /// For what calls it at every keyframe. Throws Stopped.
-  Progress unless_stopped() const {
-    return [this](std::size_t, std::size_t) {
-      if (is_stopped()) throw Stopped{};
-    };
-  }
-
-  /// The same for the front end, which takes long.
-  Progress of_front_end() {
-    return [this](std::size_t frame, std::size_t frames) {
+  /// For a part of a trial that calls it at every step. Throws Stopped.
+  Progress over(std::string stage) {
+    return [this, stage = std::move(stage)](std::size_t step, std::size_t steps) {
       if (is_stopped()) throw Stopped{};
       const std::lock_guard hold(mutex_);
       const auto now = Clock::now();
-      if (frame < frames && now - heard_ < std::chrono::seconds(1)) return;
+      if (now - heard_ < std::chrono::seconds(1)) return;
       heard_ = now;
-      progress_.frame = frame;
-      progress_.frames = frame < frames ? frames : 0;
+      progress_.stage = stage;
+      progress_.step = step;
+      progress_.steps = steps;
       if (options_.progress) options_.progress(progress_);
     };
   }

@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "fathom/configuration/study.hpp"
@@ -24,8 +25,10 @@ struct StudyProgress {
   std::size_t earlier = 0;  ///< of them, those that were there already
   std::size_t of = 0;
   std::size_t failed = 0;  ///< of this session's runs: diverged or numerical failure
-  std::size_t frame = 0;   ///< that the front end is at, of the trial last heard of
-  std::size_t frames = 0;  ///< of that trial; 0: the front end is not at work
+  /// What the trial last heard of is at: "front end at frame", or an estimator "at keyframe".
+  std::string stage;
+  std::size_t step = 0;
+  std::size_t steps = 0;
 };
 
 struct StudyRunOptions {
@@ -38,8 +41,8 @@ struct StudyRunOptions {
   std::function<std::unique_ptr<MemoryMeter>()> make_meter;
   /// Called on every thread before its first trial: pins the threads of BLAS and the like.
   std::function<void()> on_thread_start;
-  /// Called after every run, and every second or so while the front end is at work; by one thread
-  /// at a time.
+  /// Called after every run, and every second or so during one that takes longer; by one thread at
+  /// a time.
   std::function<void(const StudyProgress&)> progress;
   /// Set by somebody else to end the study: trials at work are left at their next keyframe. What is
   /// stored stays, and so do the registrations.

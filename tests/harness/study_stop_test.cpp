@@ -1,0 +1,90 @@
+// A study that is stopped in the middle of a trial: nothing half done is stored, and it goes on.
+
+#include <algorithm>
+#include <atomic>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "configuration/settings_of.hpp"
+#include "fathom/configuration/study.hpp"
+#include "fathom/estimators/builtin.hpp"
+#include "fathom/harness/study_run.hpp"
+#include "harness/scripted_estimator.hpp"
+#include "harness/small_config.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace fathom {
+namespace {
+
+using test::Script;
+using test::scripted;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+
+EstimatorRegistry registry_of(Script& script) {
+  EstimatorRegistry registry;
+  registry.add(builtin_estimators().find("ekf"));
+  registry.add(scripted(script));
+  return registry;
+}
+
+Study study_of(const EstimatorRegistry& registry, const std::string& text) {
+  return configure_study(test::settings_of(text), registry);
+}
+
+constexpr const char* kLog = R"(
+dataset:
+  type: simulated_log
+  mission: {type: single_loop, loop_length_m: 20, loop_width_m: 2}
+estimators: [{type: ekf}, {type: scripted}]
+)";
+
+// The batch optimum comes first and ends with `finish`; the estimator's own run follows.
+TEST(StudyStop, LeavesAReplayAtItsNextKeyframe) {
+  Script script;
+  std::atomic<bool> stop = false;
+  std::size_t added = 0;
+  script.in_every_call = [&] {
+    const bool is_own_run = !script.calls.empty() && script.calls.front() == "create batch" &&
+                            script.calls.back().starts_with("add ") &&
+                            std::count(script.calls.begin(), script.calls.end(), "create") == 1;
+    if (is_own_run && ++added == 3) stop = true;
+  };
+  const EstimatorRegistry registry = registry_of(script);
+  const Study study = study_of(registry, kLog);
+  const test::TemporaryFolder folder;
+  ResultStore store = ResultStore::write(folder.path(), study.description, "{}");
+  StudyRunOptions options;
+  options.stop = &stop;
+  const StudyRun stopped = run_study(study, registry, store, options);
+  EXPECT_FALSE(stopped.is_finished);
+  EXPECT_THAT(stopped.example, IsEmpty());
+  EXPECT_EQ(added, 3u);
+  EXPECT_THAT(store.runs(), SizeIs(2));  // dead reckoning and the filter
+
+  stop = false;
+  EXPECT_TRUE(run_study(study, registry, store, options).is_finished);
+  EXPECT_GT(added, 10u);
+  EXPECT_THAT(store.runs(), SizeIs(3));
+}
+
+TEST(StudyStop, LeavesTheFrontEndAtItsNextKeyframe) {
+  Script script;
+  std::atomic<bool> stop = true;
+  const EstimatorRegistry registry = registry_of(script);
+  const Study study = study_of(registry, std::string(test::kSmallSurvey) +
+                                             "estimators: [{type: ekf}, {type: scripted}]\n");
+  const test::TemporaryFolder folder;
+  ResultStore store = ResultStore::write(folder.path(), study.description, "{}");
+  StudyRunOptions options;
+  options.stop = &stop;
+  EXPECT_FALSE(register_pictures(study, registry, options));
+  EXPECT_FALSE(run_study(study, registry, store, options).is_finished);
+  EXPECT_THAT(store.runs(), IsEmpty());
+  EXPECT_THAT(script.calls, IsEmpty());
+}
+
+}  // namespace
+}  // namespace fathom
