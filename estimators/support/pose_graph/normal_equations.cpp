@@ -7,13 +7,13 @@
 
 namespace fathom::pose_graph {
 sparse::Symbolic analyse_graph(std::span<const Edge> edges, int keyframes,
-                               sparse::ChainElimination chains) {
+                               sparse::ChainElimination chains, Workers* workers) {
   std::vector<sparse::Link> links;
   links.reserve(edges.size());
   for (const Edge& edge : edges) {
     if (edge.from > 0 && edge.to > 0) links.push_back({edge.from - 1, edge.to - 1});
   }
-  return sparse::analyse(sparse::adjacency_of(keyframes - 1, links), chains);
+  return sparse::analyse(sparse::adjacency_of(keyframes - 1, links), chains, workers);
 }
 
 NormalEquations::NormalEquations(const sparse::Symbolic& symbolic, std::span<const Edge> edges)
