@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "estimators/support/pose_graph/edge.hpp"
+#include "estimators/support/pose_graph/edge_parts.hpp"
 #include "estimators/support/sparse/block_cholesky.hpp"
 
 namespace fathom::pose_graph {
@@ -69,17 +69,22 @@ class NormalEquations {
   };
 
   template <Hessian kHessian>
-  double add_edges(std::span<const Node> nodes);
-  void add_gradient(const EdgeTerms& t, const Targets& target);
+  void add_edges(const EdgePart& part, std::span<const Node> nodes);
+  void add_gradient_at_end(const EdgeTerms& t, int position);
+  void add_gradient_at_begin(const EdgeTerms& t, int position);
   void add_to_end(const EdgeTerms& t, int position);
   template <Hessian kHessian>
-  void add_to_begin(const EdgeTerms& t, const Targets& target);
+  void add_to_begin(const EdgeTerms& t, const EdgePart& part, const Targets& target);
+  double sum_of_costs() const;
   void write_diagonal(double damping);
+  Workers* workers() const { return factor_.symbolic().workers; }
 
   std::span<const Edge> edges_;
   EdgeLoss loss_;
+  EdgeParts parts_;
   sparse::BlockCholesky<3> factor_;
   std::vector<Targets> targets_;
+  std::vector<double> costs_;                 ///< by edge; 0 where it is left out
   std::vector<sparse::BlockPlace> diagonal_;  ///< by position
   std::vector<std::array<double, 6>> diagonal_sums_;
   std::vector<double> gradient_;

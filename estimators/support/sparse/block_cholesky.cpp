@@ -19,7 +19,7 @@ constexpr std::size_t kClearedAtOnce = std::size_t{1} << 18;
 template <int B>
 BlockCholesky<B>::BlockCholesky(const Symbolic& symbolic)
     : symbolic_(&symbolic),
-      panels_(symbolic.panel_blocks * kBlockNumbers<B> + kReadAhead),
+      panels_(symbolic.panel_blocks * kBlockNumbers<B> + kReadAhead, symbolic.workers),
       signs_(at(symbolic.size()) * B, 1.0),
       inverses_(at(symbolic.size()) * B, 1.0) {
   int widest = 0;
@@ -58,12 +58,8 @@ BlockPlace BlockCholesky<B>::place(int node_a, int node_b) const {
 
 template <int B>
 Factorisation<B> BlockCholesky<B>::factorisation(int thread) {
-  return {*symbolic_,
-          panels_.data(),
-          signs_.data(),
-          packed_.data() + at(thread) * packed_numbers_,
-          0,
-          inverses_.data()};
+  return {*symbolic_, panels_.data(),  signs_.data(), packed_.data() + at(thread) * packed_numbers_,
+          0,          inverses_.data()};
 }
 
 template <int B>

@@ -169,7 +169,9 @@ struct Factorisation {
     return true;
   }
 
-  FATHOM_INLINE bool run() { return run(0, static_cast<int>(symbolic.supernodes.size())); }
+  FATHOM_INLINE bool run() {
+    return run(0, static_cast<int>(symbolic.supernodes.size()));
+  }
 };
 
 }  // namespace fathom::sparse

@@ -25,11 +25,11 @@ struct Pull {
 /// branches, which share no column: what a branch subtracts outside itself goes to the top alone.
 /// The top, which is closed upwards, is worked on supernode by supernode, several threads at each.
 struct TreeCut {
-  std::vector<Branch> branches;   ///< rising
-  std::vector<int> by_work;       ///< branches, the one with most work first
-  std::vector<int> top;           ///< supernodes, rising
-  std::vector<int> pull_start;    ///< by place in `top`: begin of its updates in `pulls`; and the end
-  std::vector<Pull> pulls;        ///< rising sources
+  std::vector<Branch> branches;  ///< rising
+  std::vector<int> by_work;      ///< branches, the one with most work first
+  std::vector<int> top;          ///< supernodes, rising
+  std::vector<int> pull_start;  ///< by place in `top`: begin of its updates in `pulls`; and the end
+  std::vector<Pull> pulls;      ///< rising sources
   std::size_t deferred_rows = 0;  ///< of all branches
 };
 
