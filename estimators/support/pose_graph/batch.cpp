@@ -18,8 +18,7 @@ class Batch {
       : edges_(edges),
         nodes_(nodes),
         limits_(limits),
-        symbolic_(analyse_graph(edges, static_cast<int>(nodes.size()), sparse::ChainElimination::on,
-                                workers)),
+        symbolic_(analyse_graph(edges, static_cast<int>(nodes.size()), workers)),
         equations_(symbolic_, edges) {}
 
   SolveResult run(Start start) {

@@ -6,8 +6,8 @@
 #include "fathom/estimation/precision.hpp"
 
 namespace fathom::pose_graph {
-sparse::Symbolic analyse_graph(std::span<const Edge> edges, int keyframes,
-                               sparse::ChainElimination chains, Workers* workers) {
+sparse::Symbolic analyse_graph(std::span<const Edge> edges, int keyframes, Workers* workers,
+                               sparse::ChainElimination chains) {
   std::vector<sparse::Link> links;
   links.reserve(edges.size());
   for (const Edge& edge : edges) {

@@ -10,8 +10,8 @@ namespace fathom::pose_graph {
 
 /// Who is linked with whom among keyframes 1 …: node k − 1 is keyframe k, 0 is fixed.
 sparse::Symbolic analyse_graph(std::span<const Edge> edges, int keyframes,
-                               sparse::ChainElimination chains = sparse::ChainElimination::on,
-                               Workers* workers = nullptr);
+                               Workers* workers = nullptr,
+                               sparse::ChainElimination chains = sparse::ChainElimination::on);
 
 /// The second derivatives to work with.
 enum class Hessian {

@@ -101,10 +101,13 @@ struct Factorisation {
       if (!factor_diagonal(diagonal, stride, own, inverse)) return false;
       solve_rows(diagonal, diagonal + B, stride, rows - (column + 1) * B, own, inverse);
     }
+    return true;
+  }
+
+  FATHOM_INLINE void invert_diagonal(const Supernode& s, const double* panel, int stride) const {
     for (int k = 0; k < s.width * B; ++k) {
       inverses[at(s.first * B + k)] = 1.0 / panel[at(k) * at(stride) + at(k)];
     }
-    return true;
   }
 
   // Scalar rows [begin, end) below the diagonal block, which is done.
@@ -160,6 +163,7 @@ struct Factorisation {
       const int stride = s.panel_rows() * B;
       double* sign = signs + at(s.first * B);
       if (!factor_panel(s, panel, stride, stride, sign)) return false;
+      invert_diagonal(s, panel, stride);
       for (int j = s.updates; j < s.updates + s.update_count; ++j) {
         const Update& u = symbolic.updates[at(j)];
         if (u.target >= end) break;

@@ -93,6 +93,7 @@ struct SharedFactorisation {
     const bool is_whole = end == t.panel_rows();
     const int rows = is_whole ? end : t.width;
     const bool is_done = own.factor_panel(t, panel, stride, rows * B, sign);
+    if (is_done) own.invert_diagonal(t, panel, stride);
     if (!is_done) progress.failed_at = place;
     progress.diagonals.store(place + 1, std::memory_order_release);
     if (is_done && !is_whole) own.factor_below(t, panel, stride, rows * B, end * B, sign);
