@@ -64,7 +64,7 @@ Factorisation<B> BlockCholesky<B>::factorisation(int thread) {
 
 template <int B>
 bool BlockCholesky<B>::factorise() {
-  if (symbolic_->workers != nullptr) return factorise_shared();
+  if (!symbolic_->cut.is_empty()) return factorise_shared();
   Factorisation<B> run = factorisation(0);
   const bool done = run_for_processor(run);
   negative_pivots_ = run.negative;
@@ -95,7 +95,7 @@ Substitution<B> BlockCholesky<B>::substitution(double* x, int thread) {
 
 template <int B>
 void BlockCholesky<B>::solve(double* x) {
-  if (symbolic_->workers != nullptr) return solve_shared(x);
+  if (!symbolic_->cut.is_empty()) return solve_shared(x);
   Substitution<B> run = substitution(x, 0);
   run_for_processor(run);
 }

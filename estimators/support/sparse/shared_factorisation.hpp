@@ -10,17 +10,18 @@ namespace fathom::sparse {
 
 /// How far a factorisation by several threads has come.
 struct FactorisationProgress {
-  FactorisationProgress(const TreeCut& cut, int threads) : claims(cut.top.size()), done(threads) {}
+  FactorisationProgress(const TreeCut& cut, int threads)
+      : claims(cut.steps.size()), done(threads) {}
 
   bool has_failed() const { return failed_at != std::numeric_limits<int>::max(); }
 
   std::atomic<int> next_branch{0};
-  std::vector<std::atomic<int>> claims;  ///< by place in the top: chunks of rows taken so far
-  std::atomic<int> diagonals{0};         ///< of the top: how many diagonal blocks are done
-  /// Where in the top it has failed; −1: in a branch.
+  std::vector<std::atomic<int>> claims;  ///< by step of the top: chunks of rows taken so far
+  std::atomic<int> diagonals{0};         ///< steps of the top whose diagonal blocks are done
+  /// The step in which it has failed; −1: in a branch.
   std::atomic<int> failed_at{std::numeric_limits<int>::max()};
   std::atomic<int> negative{0};
-  Barrier done;  ///< the branches, then a supernode of the top
+  Barrier done;  ///< the branches, then a step of the top
 };
 
 /// What one of several threads does of a factorisation. Each number gets the same products
@@ -38,7 +39,12 @@ struct SharedFactorisation {
   static constexpr int kGuard = 4;
 
   const TreeCut& cut() const { return own.symbolic.cut; }
-  bool has_failed_before(int place) const { return progress.failed_at < place; }
+  const Supernode& supernode(int place) const {
+    return own.symbolic.supernodes[at(cut().top[at(place)])];
+  }
+  double* panel(const Supernode& s) const { return own.panels + s.panel * kBlockNumbers<B>; }
+  double* sign(const Supernode& s) const { return own.signs + at(s.first * B); }
+  bool has_failed_before(int step) const { return progress.failed_at < step; }
 
   // Rows of a panel in chunks: the first has the diagonal block.
   struct Chunks {
@@ -53,7 +59,7 @@ struct SharedFactorisation {
 
   FATHOM_INLINE Chunks chunks_of(const Supernode& t) const {
     const int all = t.panel_rows();
-    if (t.height < kGuard || t.width * B < kTileRows) return {all, kChunkUnit, all};
+    if (!is_large(t) || t.width * B < kTileRows) return {all, kChunkUnit, all};
     const int share = (t.height - kGuard) / (3 * threads);
     return {t.width + kGuard, (share / kChunkUnit + 1) * kChunkUnit, all};
   }
@@ -70,33 +76,40 @@ struct SharedFactorisation {
       const int* first = begin == 0 ? places : std::lower_bound(places, stop, begin);
       const int* last = end == t.panel_rows() ? stop : std::lower_bound(first, stop, end);
       if (first == last) continue;
-      own.update(s, u, own.panels + s.panel * kBlockNumbers<B>, s.panel_rows() * B,
-                 own.signs + at(s.first * B), u.begin + static_cast<int>(first - places),
+      own.update(s, u, panel(s), s.panel_rows() * B, sign(s),
+                 u.begin + static_cast<int>(first - places),
                  u.begin + static_cast<int>(last - places));
     }
   }
 
-  FATHOM_INLINE void factor_chunk(int place, const Supernode& t, const Chunks& chunks, int chunk) {
+  // Rows below the diagonal block, once that is done.
+  FATHOM_INLINE void factor_lower_chunk(int step, const Chunks& chunks, int chunk) const {
+    const int place = cut().steps[at(step)];
+    const Supernode& t = supernode(place);
     const int begin = chunks.begin(chunk);
     const int end = chunks.end(chunk);
     pull(place, t, begin, end);
-    double* panel = own.panels + t.panel * kBlockNumbers<B>;
-    const int stride = t.panel_rows() * B;
-    double* sign = own.signs + at(t.first * B);
-    if (chunk > 0) {
-      wait_until([&] { return progress.diagonals.load(std::memory_order_acquire) > place; });
-      if (!has_failed_before(place + 1)) {
-        own.factor_below(t, panel, stride, begin * B, end * B, sign);
-      }
-      return;
+    wait_until([&] { return progress.diagonals.load(std::memory_order_acquire) > step; });
+    if (has_failed_before(step + 1)) return;
+    own.factor_below(t, panel(t), t.panel_rows() * B, begin * B, end * B, sign(t));
+  }
+
+  // The diagonal block and the rows beside it; or whole supernodes, of a step of one thread.
+  FATHOM_INLINE void factor_first_chunk(int step, const Chunks& chunks) {
+    const bool is_shared = chunks.count() > 1;
+    bool is_done = true;
+    for (int place = cut().steps[at(step)]; place < cut().steps[at(step) + 1] && is_done; ++place) {
+      const Supernode& t = supernode(place);
+      const int stride = t.panel_rows() * B;
+      pull(place, t, 0, is_shared ? chunks.first_end : t.panel_rows());
+      is_done = own.factor_panel(t, panel(t), stride, is_shared ? t.width * B : stride, sign(t));
+      if (is_done) own.invert_diagonal(t, panel(t), stride);
     }
-    const bool is_whole = end == t.panel_rows();
-    const int rows = is_whole ? end : t.width;
-    const bool is_done = own.factor_panel(t, panel, stride, rows * B, sign);
-    if (is_done) own.invert_diagonal(t, panel, stride);
-    if (!is_done) progress.failed_at = place;
-    progress.diagonals.store(place + 1, std::memory_order_release);
-    if (is_done && !is_whole) own.factor_below(t, panel, stride, rows * B, end * B, sign);
+    if (!is_done) progress.failed_at = step;
+    progress.diagonals.store(step + 1, std::memory_order_release);
+    if (!is_done || !is_shared) return;
+    const Supernode& t = supernode(cut().steps[at(step)]);
+    own.factor_below(t, panel(t), t.panel_rows() * B, t.width * B, chunks.first_end * B, sign(t));
   }
 
   FATHOM_INLINE void factor_branches() {
@@ -108,20 +121,25 @@ struct SharedFactorisation {
     progress.done.wait();
   }
 
-  // All threads leave at the same place, so that none waits for one that has left.
+  FATHOM_INLINE void factor_step(int step) {
+    const Chunks chunks = chunks_of(supernode(cut().steps[at(step)]));
+    for (int chunk; (chunk = progress.claims[at(step)].fetch_add(1)) < chunks.count();) {
+      if (chunk == 0) {
+        factor_first_chunk(step, chunks);
+      } else {
+        factor_lower_chunk(step, chunks, chunk);
+      }
+    }
+    progress.done.wait();
+  }
+
+  // All threads leave at the same step, so that none waits for one that has left.
   FATHOM_INLINE bool run() {
     factor_branches();
-    const int count = static_cast<int>(cut().top.size());
-    for (int place = 0; place < count && !has_failed_before(place); ++place) {
-      const Supernode& t = own.symbolic.supernodes[at(cut().top[at(place)])];
-      const Chunks chunks = chunks_of(t);
-      for (int chunk; (chunk = progress.claims[at(place)].fetch_add(1)) < chunks.count();) {
-        factor_chunk(place, t, chunks, chunk);
-      }
-      progress.done.wait();
-    }
+    const int count = static_cast<int>(cut().steps.size()) - 1;
+    for (int step = 0; step < count && !has_failed_before(step); ++step) factor_step(step);
     progress.negative += own.negative;
-    return !has_failed_before(count);
+    return true;
   }
 };
 

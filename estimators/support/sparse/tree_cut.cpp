@@ -12,6 +12,13 @@ namespace {
 // leave more to the top.
 constexpr double kBranchesPerThread = 8.0;
 
+// A factorisation is shared where that lowers the arithmetic that has to wait for each other to
+// this share.
+constexpr double kWorthIt = 0.8;
+// Block columns and rows below that a supernode needs for threads to share its rows.
+constexpr int kLargeWidth = 4;
+constexpr int kLargeHeight = 32;
+
 // Products of a panel with its own rows: half of width · rows².
 double multiplications_of(const Supernode& s) {
   double sum = 0.0;
@@ -81,6 +88,25 @@ void gather_branches(const Symbolic& symbolic, const std::vector<char>& is_top,
                    [&](int a, int b) { return sums[at(a)] > sums[at(b)]; });
 }
 
+void list_steps(const Symbolic& symbolic, TreeCut& cut) {
+  bool is_open = false;
+  for (std::size_t place = 0; place < cut.top.size(); ++place) {
+    const bool is_alone = is_large(symbolic.supernodes[at(cut.top[place])]);
+    if (is_alone || !is_open) cut.steps.push_back(static_cast<int>(place));
+    is_open = !is_alone;
+  }
+  cut.steps.push_back(static_cast<int>(cut.top.size()));
+}
+
+// The arithmetic that no number of threads can do at the same time, and a share of the rest.
+bool is_worth_it(const Symbolic& symbolic, const TreeCut& cut, const std::vector<double>& work,
+                 int threads) {
+  double alone = 0.0;
+  for (const int s : cut.top) alone += is_large(symbolic.supernodes[at(s)]) ? 0.0 : work[at(s)];
+  const double all = std::accumulate(work.begin(), work.end(), 0.0);
+  return alone + (all - alone) / threads < kWorthIt * all;
+}
+
 void list_pulls(const Symbolic& symbolic, TreeCut& cut) {
   std::vector<int> place(symbolic.supernodes.size(), -1);
   for (std::size_t i = 0; i < cut.top.size(); ++i) place[at(cut.top[i])] = static_cast<int>(i);
@@ -102,6 +128,10 @@ void list_pulls(const Symbolic& symbolic, TreeCut& cut) {
 
 }  // namespace
 
+bool is_large(const Supernode& s) {
+  return s.width >= kLargeWidth && s.height >= kLargeHeight;
+}
+
 double multiplications_of(const Symbolic& symbolic) {
   double sum = 0.0;
   for (const Supernode& s : symbolic.supernodes) sum += multiplications_of(s);
@@ -115,6 +145,8 @@ TreeCut cut_tree(const Symbolic& symbolic, int threads) {
   work.reserve(symbolic.supernodes.size());
   const std::vector<char> is_top = find_top(symbolic, share, work);
   gather_branches(symbolic, is_top, work, share, cut);
+  if (!is_worth_it(symbolic, cut, work, threads)) return {};
+  list_steps(symbolic, cut);
   for (Branch& branch : cut.branches) {
     branch.deferred = cut.deferred_rows;
     cut.deferred_rows += rows_outside(symbolic, branch);
