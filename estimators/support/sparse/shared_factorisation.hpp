@@ -114,7 +114,8 @@ struct SharedFactorisation {
 
   FATHOM_INLINE void factor_branches() {
     const int count = static_cast<int>(cut().branches.size());
-    for (int i; (i = progress.next_branch.fetch_add(1)) < count && !has_failed_before(0);) {
+    for (int i = progress.next_branch++; i < count && !has_failed_before(0);
+         i = progress.next_branch++) {
       const Branch& branch = cut().branches[at(cut().by_work[at(i)])];
       if (!own.run(branch.begin, branch.end)) progress.failed_at = -1;
     }
@@ -123,7 +124,8 @@ struct SharedFactorisation {
 
   FATHOM_INLINE void factor_step(int step) {
     const Chunks chunks = chunks_of(supernode(cut().steps[at(step)]));
-    for (int chunk; (chunk = progress.claims[at(step)].fetch_add(1)) < chunks.count();) {
+    std::atomic<int>& next = progress.claims[at(step)];
+    for (int chunk = next++; chunk < chunks.count(); chunk = next++) {
       if (chunk == 0) {
         factor_first_chunk(step, chunks);
       } else {

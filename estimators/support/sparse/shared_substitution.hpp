@@ -47,7 +47,7 @@ struct SharedSubstitution {
       const Supernode& s = supernode(i);
       const int inside = rows_inside(own.symbolic, s, branch.end);
       own.subtract(s, kept, inside, s.height);
-      kept += (s.height - inside) * B;
+      kept += at((s.height - inside) * B);
     }
   }
 
@@ -65,13 +65,13 @@ struct SharedSubstitution {
 
   FATHOM_INLINE bool run() {
     const int count = static_cast<int>(cut().branches.size());
-    for (int i; (i = progress.next_forward.fetch_add(1)) < count;) {
+    for (int i = progress.next_forward++; i < count; i = progress.next_forward++) {
       forward(cut().branches[at(cut().by_work[at(i)])]);
     }
     progress.done.wait();
     if (is_first) solve_top();
     progress.done.wait();
-    for (int i; (i = progress.next_backward.fetch_add(1)) < count;) {
+    for (int i = progress.next_backward++; i < count; i = progress.next_backward++) {
       const Branch& branch = cut().branches[at(cut().by_work[at(i)])];
       for (int s = branch.end; s > branch.begin; --s) own.backward(supernode(s - 1));
     }

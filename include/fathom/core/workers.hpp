@@ -35,9 +35,9 @@ class Workers {
   std::condition_variable begun_;
   std::condition_variable done_;
   const std::function<void(int)>* part_ = nullptr;
-  long task_ = 0;          ///< counts the tasks; −1: no more will come
-  int at_work_ = 0;        ///< helpers that have not done the present task
-  double cpu_seconds_ = 0; ///< of helpers, for the present task
+  long task_ = 0;             ///< counts the tasks; −1: no more will come
+  int at_work_ = 0;           ///< helpers that have not done the present task
+  double cpu_seconds_ = 0.0;  ///< of helpers, for the present task
   std::vector<std::jthread> helpers_;
 };
 
