@@ -8,6 +8,7 @@
 #include "estimators/support/pose_graph/normal_equations.hpp"
 #include "fathom/core/input_error.hpp"
 #include "fathom/core/system.hpp"
+#include "fathom/core/workers.hpp"
 #include "fathom/estimators/builtin.hpp"
 #include "survey.hpp"
 
@@ -100,12 +101,14 @@ std::string solve_here(const std::string& shape, std::size_t keyframes, const Ma
     if (log.arrival(k).registrations.empty()) continue;
     estimator->close_loops(log.arrival(k).registrations);
   }
+  const double cpu_start_s = thread_processor_seconds();
   const auto start = Clock::now();
   const UpdateReport report = estimator->finish({});
   const std::chrono::duration<double> elapsed = Clock::now() - start;
+  const double cpu_s = thread_processor_seconds() - cpu_start_s;
   const double mib = peak_memory_mib();
   char line[256];
-  std::snprintf(line, sizeof line, "%.6g %.6g %.17g %s\n", elapsed.count(), mib,
+  std::snprintf(line, sizeof line, "%.6g %.6g %.6g %.17g %s\n", elapsed.count(), cpu_s, mib,
                 chi2(log, poses_of(*estimator)), name_of(report.outcome).c_str());
   return line;
 }
@@ -113,7 +116,8 @@ std::string solve_here(const std::string& shape, std::size_t keyframes, const Ma
 std::optional<MapSolve> parse_solve(const std::string& line) {
   std::istringstream words(line);
   MapSolve solve;
-  if (words >> solve.seconds >> solve.mib >> solve.chi2 >> solve.outcome) return solve;
+  if (words >> solve.seconds >> solve.cpu_s >> solve.mib >> solve.chi2 >> solve.outcome)
+    return solve;
   return std::nullopt;
 }
 

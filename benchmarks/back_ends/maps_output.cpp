@@ -26,8 +26,8 @@ std::string header_of(const std::string& shape, const std::vector<MapSolver>& so
       "\n| " + shape + ": keyframes | loops | largest separator | 10⁹ multiply-adds | factor, MiB";
   std::string rule = "\n|---|---|---|---|---";
   for (const MapSolver& solver : solvers) {
-    text += " | " + solver.name() + ", s | MiB";
-    rule += "|---|---";
+    text += " | " + solver.name() + ", s | CPU, s | MiB";
+    rule += "|---|---|---";
   }
   return text + " |" + rule + "|\n";
 }
@@ -38,7 +38,9 @@ std::string row_of(const MapCost& cost) {
                      " | " + std::to_string(bound.separator) + " | " +
                      number(1e-9 * bound.multiply_adds) + " | " + number(bound.factor_mib);
   for (const auto& solve : cost.solves) {
-    text += solve ? " | " + number(solve->seconds) + " | " + number(solve->mib) : " | – | –";
+    text += solve ? " | " + number(solve->seconds) + " | " + number(solve->cpu_s) + " | " +
+                        number(solve->mib)
+                  : " | – | – | –";
     if (solve && solve->outcome != "converged") text += " (" + solve->outcome + ")";
   }
   return text + " |\n";

@@ -12,46 +12,80 @@ namespace fathom::pose_graph {
 /// Keyframes or edges that a thread takes at once where each costs the same.
 inline constexpr std::size_t kAtOnce = 4096;
 
-/// A range of positions in the order of elimination, and the edges with an end there.
-struct EdgePart {
-  int begin = 0;
-  int end = 0;
-  std::vector<int> edges;     ///< rising; none where `all_edges` is given
-  std::size_t all_edges = 0;  ///< of the only part: all edges of the graph, so many
+/// The position of a keyframe in the order of elimination, −1 of the fixed one.
+inline int position_of(const sparse::Symbolic& symbolic, int keyframe) {
+  return keyframe > 0 ? symbolic.position[at(keyframe - 1)] : -1;
+}
 
-  /// False of the fixed keyframe, whose position is −1.
-  bool has(int position) const { return position >= begin && position < end; }
-
-  template <class Visit>
-  void for_each(const Visit& visit) const {
-    for (std::size_t e = 0; e < all_edges; ++e) visit(e);
-    for (const int e : edges) visit(static_cast<std::size_t>(e));
-  }
+/// All keyframes but the fixed one.
+struct AllPositions {
+  bool has(int position) const { return position >= 0; }
 };
 
-/// What edges add to keyframes and pairs of them, added up part by part. Who has a keyframe adds up
-/// all that is its own in the order of the edges, so the sums do not depend on the number of parts.
+/// A range of positions, and the edges with an end there.
+struct EdgePart {
+  struct Member {
+    int edge = 0;
+    bool is_counted = false;  ///< of its parts, this one counts its term of a sum
+  };
+  int begin = 0;
+  int end = 0;
+  std::vector<Member> edges;  ///< rising
+
+  bool has(int position) const { return position >= begin && position < end; }
+};
+
+/// What edges add to keyframes and pairs of them, added up part by part, each by whoever is free.
+/// Who has a keyframe adds up all that is its own in the order of the edges, and who has the first
+/// of a pair what is the pair's, so the sums do not depend on the number of parts.
 class EdgeParts {
  public:
   /// One part where the pattern has no workers.
   EdgeParts(const sparse::Symbolic& symbolic, std::span<const Edge> edges);
 
-  /// add(part) for each part, by whoever is free.
-  template <class Add>
-  void for_each(const Add& add) const {
-    for_ranges(workers_, parts_.size(), 1, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) add(parts_[i]);
+  /// visit(edge, part): once where there is one part, AllPositions; else for each part that has an
+  /// end of the edge.
+  template <class Visit>
+  void for_each(const Visit& visit) const {
+    if (workers_ == nullptr) {
+      for (std::size_t e = 0; e < edges_; ++e) visit(e, AllPositions{});
+      return;
+    }
+    share([&](const EdgePart& part) {
+      for (const EdgePart::Member& member : part.edges) visit(at(member.edge), part);
     });
   }
 
- private:
-  Workers* workers_;
-  std::vector<EdgePart> parts_;
-};
+  /// The same; and the sum of what it returns for the edges, in their order.
+  template <class Visit>
+  double sum(const Visit& visit) {
+    double result = 0.0;
+    if (workers_ == nullptr) {
+      for (std::size_t e = 0; e < edges_; ++e) result += visit(e, AllPositions{});
+      return result;
+    }
+    share([&](const EdgePart& part) {
+      for (const EdgePart::Member& member : part.edges) {
+        const double term = visit(at(member.edge), part);
+        if (member.is_counted) terms_[at(member.edge)] = term;
+      }
+    });
+    for (const double term : terms_) result += term;
+    return result;
+  }
 
-/// The position of a keyframe, −1 of the fixed one.
-inline int position_of(const sparse::Symbolic& symbolic, int keyframe) {
-  return keyframe > 0 ? symbolic.position[at(keyframe - 1)] : -1;
-}
+ private:
+  template <class Task>
+  void share(const Task& task) const {
+    for_ranges(workers_, parts_.size(), 1, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) task(parts_[i]);
+    });
+  }
+
+  Workers* workers_;
+  std::size_t edges_;
+  std::vector<EdgePart> parts_;  ///< none without workers
+  std::vector<double> terms_;    ///< by edge
+};
 
 }  // namespace fathom::pose_graph

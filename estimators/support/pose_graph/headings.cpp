@@ -10,17 +10,14 @@ HeadingProblem::HeadingProblem(const sparse::Symbolic& symbolic, std::span<const
     for (std::size_t e = begin; e < end; ++e) weights_[e] = heading_information(edges[e]);
   });
   double* const data = factor_.data();
-  parts_.for_each([&](const EdgePart& part) {
-    part.for_each([&](std::size_t e) {
-      const Edge& edge = edges[e];
-      for (const int keyframe : {edge.from, edge.to}) {
-        if (!part.has(position_of(symbolic, keyframe))) continue;
-        data[factor_.place(keyframe - 1, keyframe - 1).offset] += weights_[e];
-      }
-      const auto [first, last] =
-          std::minmax({position_of(symbolic, edge.from), position_of(symbolic, edge.to)});
-      if (part.has(first)) data[factor_.place(edge.from - 1, edge.to - 1).offset] -= weights_[e];
-    });
+  parts_.for_each([&](std::size_t e, const auto& part) {
+    const Edge& edge = edges[e];
+    const int from = position_of(symbolic, edge.from);
+    const int to = position_of(symbolic, edge.to);
+    if (part.has(from)) data[factor_.place(edge.from - 1, edge.from - 1).offset] += weights_[e];
+    if (part.has(to)) data[factor_.place(edge.to - 1, edge.to - 1).offset] += weights_[e];
+    if (from < 0 || to < 0 || !part.has(std::min(from, to))) return;
+    data[factor_.place(edge.from - 1, edge.to - 1).offset] -= weights_[e];
   });
   is_solvable_ = factor_.factorise();
 }
@@ -30,16 +27,14 @@ std::vector<double> HeadingProblem::solve(std::span<const double> theta) {
   if (!is_solvable_) return result;
   const sparse::Symbolic& symbolic = factor_.symbolic();
   std::vector<double> turn(theta.size() - 1, 0.0);
-  parts_.for_each([&](const EdgePart& part) {
-    part.for_each([&](std::size_t e) {
-      const Edge& edge = edges_[e];
-      const double r =
-          weights_[e] * wrap_angle(edge.theta - theta[at(edge.to)] + theta[at(edge.from)]);
-      const int to = position_of(symbolic, edge.to);
-      const int from = position_of(symbolic, edge.from);
-      if (part.has(to)) turn[at(to)] += r;
-      if (part.has(from)) turn[at(from)] -= r;
-    });
+  parts_.for_each([&](std::size_t e, const auto& part) {
+    const Edge& edge = edges_[e];
+    const double r =
+        weights_[e] * wrap_angle(edge.theta - theta[at(edge.to)] + theta[at(edge.from)]);
+    const int to = position_of(symbolic, edge.to);
+    const int from = position_of(symbolic, edge.from);
+    if (part.has(to)) turn[at(to)] += r;
+    if (part.has(from)) turn[at(from)] -= r;
   });
   factor_.solve(turn.data());
   for (std::size_t k = 1; k < result.size(); ++k) result[k] += turn[at(symbolic.position[k - 1])];

@@ -21,7 +21,6 @@ NormalEquations::NormalEquations(const sparse::Symbolic& symbolic, std::span<con
       parts_(symbolic, edges),
       factor_(symbolic),
       targets_(edges.size()),
-      costs_(edges.size()),
       diagonal_(at(symbolic.size())),
       diagonal_sums_(at(symbolic.size())),
       gradient_(3 * at(symbolic.size())),
@@ -46,54 +45,53 @@ double NormalEquations::linearise(std::span<const Node> nodes, Hessian hessian, 
   factor_.clear();
   std::fill(gradient_.begin(), gradient_.end(), 0.0);
   std::fill(diagonal_sums_.begin(), diagonal_sums_.end(), std::array<double, 6>{});
-  parts_.for_each([&](const EdgePart& part) {
-    switch (hessian) {
-      case Hessian::gauss_newton:
-        return add_edges<Hessian::gauss_newton>(part, nodes);
-      case Hessian::measured:
-        return add_edges<Hessian::measured>(part, nodes);
-      case Hessian::exact:
-        return add_edges<Hessian::exact>(part, nodes);
-    }
-  });
+  double cost = 0.0;
+  switch (hessian) {
+    case Hessian::gauss_newton:
+      cost = add_edges<Hessian::gauss_newton>(nodes);
+      break;
+    case Hessian::measured:
+      cost = add_edges<Hessian::measured>(nodes);
+      break;
+    case Hessian::exact:
+      cost = add_edges<Hessian::exact>(nodes);
+      break;
+  }
   write_diagonal(damping);
-  return sum_of_costs();
+  return cost;
 }
 
 template <Hessian kHessian>
-void NormalEquations::add_edges(const EdgePart& part, std::span<const Node> nodes) {
+double NormalEquations::add_edges(std::span<const Node> nodes) {
   constexpr Lever kLever = kHessian == Hessian::measured ? Lever::measured : Lever::estimated;
-  part.for_each([&](std::size_t e) {
-    if (loss_.leaves_out(e)) return;
+  return parts_.sum([&](std::size_t e, const auto& part) {
+    if (loss_.leaves_out(e)) return 0.0;
     const Edge& edge = edges_[e];
     EdgeTerms t = linearise_edge(edge, nodes[at(edge.from)], nodes[at(edge.to)], kLever);
     loss_.apply(e, kHessian == Hessian::exact, t);
     const Targets& target = targets_[e];
-    if (part.has(target.to >= 0 ? target.to : target.from)) costs_[e] = t.cost;
     if (part.has(target.to)) {
       add_gradient_at_end(t, target.to);
       add_to_end(t, target.to);
     }
     if (part.has(target.from)) add_gradient_at_begin(t, target.from);
     add_to_begin<kHessian>(t, part, target);
+    return t.cost;
   });
 }
 
 double NormalEquations::differentiate(std::span<const Node> nodes) {
   std::fill(gradient_.begin(), gradient_.end(), 0.0);
-  parts_.for_each([&](const EdgePart& part) {
-    part.for_each([&](std::size_t e) {
-      if (loss_.leaves_out(e)) return;
-      const Edge& edge = edges_[e];
-      EdgeTerms t = linearise_edge(edge, nodes[at(edge.from)], nodes[at(edge.to)]);
-      loss_.apply(e, false, t);
-      const Targets& target = targets_[e];
-      if (part.has(target.to >= 0 ? target.to : target.from)) costs_[e] = t.cost;
-      if (part.has(target.to)) add_gradient_at_end(t, target.to);
-      if (part.has(target.from)) add_gradient_at_begin(t, target.from);
-    });
+  return parts_.sum([&](std::size_t e, const auto& part) {
+    if (loss_.leaves_out(e)) return 0.0;
+    const Edge& edge = edges_[e];
+    EdgeTerms t = linearise_edge(edge, nodes[at(edge.from)], nodes[at(edge.to)]);
+    loss_.apply(e, false, t);
+    const Targets& target = targets_[e];
+    if (part.has(target.to)) add_gradient_at_end(t, target.to);
+    if (part.has(target.from)) add_gradient_at_begin(t, target.from);
+    return t.cost;
   });
-  return sum_of_costs();
 }
 
 // g_k = m.
@@ -118,8 +116,8 @@ inline void NormalEquations::add_to_end(const EdgeTerms& t, int position) {
 }
 
 // H_ii, and H_ik where k is free; each where the part has it.
-template <Hessian kHessian>
-inline void NormalEquations::add_to_begin(const EdgeTerms& t, const EdgePart& part,
+template <Hessian kHessian, class Part>
+inline void NormalEquations::add_to_begin(const EdgeTerms& t, const Part& part,
                                           const Targets& target) {
   const auto& M = t.M;
   // Row θ of Tᵀ M, and below element (θ, θ) of Tᵀ M T.
@@ -154,14 +152,6 @@ inline void NormalEquations::add_to_begin(const EdgeTerms& t, const EdgePart& pa
       to[row * down + column * along] += block[at(3 * row + column)];
     }
   }
-}
-
-double NormalEquations::sum_of_costs() const {
-  double sum = 0.0;
-  for (std::size_t e = 0; e < costs_.size(); ++e) {
-    if (!loss_.leaves_out(e)) sum += costs_[e];
-  }
-  return sum;
 }
 
 void NormalEquations::write_diagonal(double damping) {

@@ -69,13 +69,12 @@ class NormalEquations {
   };
 
   template <Hessian kHessian>
-  void add_edges(const EdgePart& part, std::span<const Node> nodes);
+  double add_edges(std::span<const Node> nodes);
   void add_gradient_at_end(const EdgeTerms& t, int position);
   void add_gradient_at_begin(const EdgeTerms& t, int position);
   void add_to_end(const EdgeTerms& t, int position);
-  template <Hessian kHessian>
-  void add_to_begin(const EdgeTerms& t, const EdgePart& part, const Targets& target);
-  double sum_of_costs() const;
+  template <Hessian kHessian, class Part>
+  void add_to_begin(const EdgeTerms& t, const Part& part, const Targets& target);
   void write_diagonal(double damping);
   Workers* workers() const { return factor_.symbolic().workers; }
 
@@ -84,7 +83,6 @@ class NormalEquations {
   EdgeParts parts_;
   sparse::BlockCholesky<3> factor_;
   std::vector<Targets> targets_;
-  std::vector<double> costs_;                 ///< by edge; 0 where it is left out
   std::vector<sparse::BlockPlace> diagonal_;  ///< by position
   std::vector<std::array<double, 6>> diagonal_sums_;
   std::vector<double> gradient_;

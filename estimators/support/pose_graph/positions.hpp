@@ -23,7 +23,7 @@ class PositionProblem {
   bool solve(std::vector<Node>& nodes);
 
  private:
-  void add_up(const EdgePart& part, std::span<const Node> nodes);
+  void add_up(std::span<const Node> nodes);
 
   std::span<const Edge> edges_;
   EdgeLoss loss_;
