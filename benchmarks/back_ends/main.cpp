@@ -3,7 +3,7 @@
 //
 //     back_ends [GRAPH.g2o ...] [--estimators sparse_gauss_newton,ceres_pose_graph]
 //               [--repeats 5] [--budget 60] [--growth FILE.svg] [--largest 100000]
-//     back_ends --maps FILE.svg [--keyframes 1000,10000,…] [--limit 120]
+//     back_ends --maps FILE.svg [--keyframes 1000,10000,…] [--limit 300]
 //
 // The second way measures one batch solve of large maps, each in a process of its own.
 //
