@@ -3,6 +3,9 @@
 //
 //     back_ends [GRAPH.g2o ...] [--estimators sparse_gauss_newton,ceres_pose_graph]
 //               [--repeats 5] [--budget 60] [--growth FILE.svg] [--largest 100000]
+//     back_ends --maps FILE.svg [--keyframes 1000,10000,…] [--limit 300]
+//
+// The second way measures one batch solve of large maps, each in a process of its own.
 //
 // Options of the estimators at their defaults, batch solves from dead reckoning or from what the
 // estimator finds by itself, all through the harness. Totals are CPU times of the thread, of the
@@ -22,6 +25,7 @@
 #include "fathom/core/input_error.hpp"
 #include "fathom/estimators/builtin.hpp"
 #include "fathom/measurements/g2o.hpp"
+#include "maps.hpp"
 #include "output.hpp"
 #include "survey.hpp"
 
@@ -33,6 +37,10 @@ constexpr std::array<std::size_t, 6> kKeyframes{300, 1000, 3000, 10000, 30000, 1
 constexpr std::array<std::size_t, 5> kLoops{20, 60, 200, 600, 1800};
 
 struct Settings {
+  std::string maps;
+  std::string solve;  ///< one solve of a map of this shape, in this process
+  int threads = 1;
+  MapSettings map;
   std::vector<std::string> graphs;
   std::vector<std::string> estimators;
   Effort effort;
@@ -103,7 +111,25 @@ Growth measure_growth(const Settings& settings, const std::vector<const Estimato
   return growth;
 }
 
+void write_chart(const std::string& path, const std::string& svg) {
+  std::ofstream file(path);
+  file << svg;
+  if (!file.flush()) throw InputError(path + ": cannot be written");
+}
+
+void run_maps(const Settings& settings) {
+  if (!settings.solve.empty()) {
+    const MapSolver solver{settings.estimators.at(0), settings.threads};
+    std::printf("%s", solve_here(settings.solve, settings.map.keyframes.at(0), solver).c_str());
+    return;
+  }
+  const std::vector<MapCost> costs = measure_maps(settings.map);
+  std::printf("%s", markdown(costs, settings.map.solvers).c_str());
+  write_chart(settings.maps, chart(costs, settings.map.solvers));
+}
+
 void run(const Settings& settings) {
+  if (!settings.maps.empty() || !settings.solve.empty()) return run_maps(settings);
   const EstimatorRegistry registry = builtin_estimators();
   const std::vector<const EstimatorEntry*> entries = chosen(registry, settings);
   std::printf("BLAS on %d thread, OpenMP not nested: one thread in all. Totals are its CPU time.\n",
@@ -115,18 +141,10 @@ void run(const Settings& settings) {
   if (settings.growth.empty()) return;
   const Growth growth = measure_growth(settings, entries);
   std::printf("%s", markdown(growth).c_str());
-  std::ofstream file(settings.growth);
-  file << chart(growth);
-  if (!file.flush()) throw InputError(settings.growth + ": cannot be written");
+  write_chart(settings.growth, chart(growth));
 }
 
-}  // namespace
-}  // namespace fathom::benchmarks
-
-int main(int argc, char** argv) {
-  fathom::pin_threads();
-  fathom::benchmarks::Settings settings;
-  CLI::App app("What the estimators cost on whole pose graphs");
+void add_options(CLI::App& app, Settings& settings) {
   app.add_option("graphs", settings.graphs, "g2o files")->check(CLI::ExistingFile);
   app.add_option("--estimators", settings.estimators, "those to run; default: all; Ceres always")
       ->delimiter(',');
@@ -140,6 +158,31 @@ int main(int argc, char** argv) {
   app.add_option("--growth", settings.growth, "measure growth, too, and draw it to this SVG file");
   app.add_option("--largest", settings.largest, "keyframes that growth goes up to")
       ->capture_default_str();
+  app.add_option("--maps", settings.maps,
+                 "measure batch solves of large maps, and draw them to this SVG file");
+  app.add_option("--keyframes", settings.map.keyframes, "sizes of those maps")
+      ->delimiter(',')
+      ->capture_default_str();
+  app.add_option("--limit", settings.map.limit_s, "s that a process of one solve may take")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  app.add_option("--solve", settings.solve,
+                 "one solve of a map of this shape by the first of --estimators, as a line")
+      ->check(CLI::IsMember(kShapes));
+  app.add_option("--threads", settings.threads, "of --solve")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+}
+
+}  // namespace
+}  // namespace fathom::benchmarks
+
+int main(int argc, char** argv) {
+  fathom::pin_threads();
+  fathom::benchmarks::Settings settings;
+  settings.map.program = std::filesystem::read_symlink("/proc/self/exe");
+  CLI::App app("What the estimators cost on whole pose graphs");
+  fathom::benchmarks::add_options(app, settings);
   try {
     app.parse(argc, argv);
     fathom::benchmarks::run(settings);

@@ -1,19 +1,17 @@
 #include "measure.hpp"
 
-#include <ctime>
 #include <memory>
 #include <vector>
 
 #include "apps/memory_meter.hpp"
+#include "fathom/core/workers.hpp"
 #include "fathom/harness/replay.hpp"
 
 namespace fathom::benchmarks {
 namespace {
 
 double thread_cpu_ms() {
-  std::timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
+  return 1e3 * thread_processor_seconds();
 }
 
 // Ends a replay between two keyframes; a batch solve is not interrupted.

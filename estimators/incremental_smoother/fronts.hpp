@@ -129,7 +129,8 @@ struct FrontFactorisation {
     sparse::Supernode shape;
     shape.width = c.width;
     shape.height = c.height;
-    if (!dense.factor_panel(shape, c.panel.data(), c.rows() * B, signs)) return false;
+    const int stride = c.rows() * B;
+    if (!dense.factor_panel(shape, c.panel.data(), stride, stride, signs)) return false;
     if (dense.negative > 0) return false;
     complement(c);
     return true;

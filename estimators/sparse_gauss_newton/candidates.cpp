@@ -23,7 +23,7 @@ Candidates::Candidates(const LoopGraph& graph, std::vector<std::size_t> edges,
     : indices_(std::move(edges)),
       edges_(pick(graph.edges, indices_)),
       is_loop_(pick(graph.is_loop, indices_)),
-      symbolic_(analyse_graph(edges_, static_cast<int>(keyframes))),
+      symbolic_(analyse_graph(edges_, static_cast<int>(keyframes), graph.workers)),
       equations_(symbolic_, edges_) {}
 
 SolveResult Candidates::solve(std::vector<Node>& nodes, std::span<const double> weights,

@@ -6,8 +6,13 @@
 
 namespace fathom::sparse_gauss_newton {
 
-Graph::Graph(const Pose& origin, const RobustOptions& robust)
-    : robust_(robust), nodes_{make_node(origin.x, origin.y, origin.theta)} {}
+Graph::Graph(const Pose& origin, const RobustOptions& robust, int threads)
+    : robust_(robust), threads_(threads), nodes_{make_node(origin.x, origin.y, origin.theta)} {}
+
+Workers* Graph::workers() {
+  if (threads_ > 1 && !workers_) workers_ = std::make_unique<Workers>(threads_);
+  return workers_.get();
+}
 
 Pose Graph::pose(std::size_t k) const {
   return {nodes_[k].x, nodes_[k].y, wrap_angle(nodes_[k].theta)};
@@ -59,7 +64,7 @@ SolveResult Graph::accept(SolveResult result, std::vector<Node> nodes,
 
 SolveResult Graph::solve(Start start, const SolveLimits& limits) {
   std::vector<Node> nodes = nodes_;
-  const SolveResult result = pose_graph::solve_batch(edges_, nodes, start, limits);
+  const SolveResult result = pose_graph::solve_batch(edges_, nodes, start, limits, workers());
   return accept(result, std::move(nodes), weights_);
 }
 
@@ -71,8 +76,8 @@ SolveResult Graph::solve_robust(const SolveLimits& limits, bool from_scratch) {
       known[e] = is_loop_[e] != 0 ? kNewLoop : 1.0;
   }
   std::vector<Node> nodes = nodes_;
-  RobustResult robust =
-      sparse_gauss_newton::solve_robust({edges_, is_loop_}, nodes, robust_, limits, known);
+  RobustResult robust = sparse_gauss_newton::solve_robust({edges_, is_loop_, workers()}, nodes,
+                                                          robust_, limits, known);
   const SolveResult result = accept(robust.solved, std::move(nodes), robust.weights);
   if (is_done(result.outcome)) {
     weights_ = std::move(robust.weights);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -15,7 +16,8 @@ namespace fathom::sparse_gauss_newton {
 /// The poses and measurements of a log, and what is asked of them.
 class Graph {
  public:
-  Graph(const Pose& origin, const RobustOptions& robust);
+  /// `threads`: who solves it; no thread is started before the first solve.
+  Graph(const Pose& origin, const RobustOptions& robust, int threads);
 
   std::size_t size() const { return nodes_.size(); }
   Pose pose(std::size_t k) const;
@@ -54,12 +56,15 @@ class Graph {
 
  private:
   void changed() { marginals_.reset(); }
+  Workers* workers();
 
   std::vector<Edge> weighted_edges(const std::vector<double>& weights) const;
   SolveResult accept(SolveResult result, std::vector<Node> nodes,
                      const std::vector<double>& weights);
 
   RobustOptions robust_;
+  int threads_;
+  std::unique_ptr<Workers> workers_;
   std::vector<Node> nodes_;
   std::vector<Edge> edges_;
   std::vector<char> is_loop_;    ///< by edge

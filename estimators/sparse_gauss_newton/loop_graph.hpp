@@ -30,6 +30,7 @@ using sparse::at;
 struct LoopGraph {
   std::span<const Edge> edges;
   std::span<const char> is_loop;
+  Workers* workers = nullptr;  ///< who solves it; null: the calling thread alone
 };
 
 }  // namespace fathom::sparse_gauss_newton

@@ -18,7 +18,7 @@ class RobustBatch {
       : graph_(graph),
         options_(options),
         limits_(limits),
-        symbolic_(analyse_graph(graph.edges, static_cast<int>(keyframes))),
+        symbolic_(analyse_graph(graph.edges, static_cast<int>(keyframes), graph.workers)),
         equations_(symbolic_, graph.edges) {}
 
   RobustResult descend(std::vector<Node>& nodes) {
@@ -120,7 +120,8 @@ class RobustBatch {
       for (double& element : kept.back().W) element *= best.weights[e];
     }
     std::vector<Node> other = nodes;
-    const SolveResult solved = pose_graph::solve_batch(kept, other, Start::automatic, limits_);
+    const SolveResult solved =
+        pose_graph::solve_batch(kept, other, Start::automatic, limits_, graph_.workers);
     iterations_ += solved.iterations;
     if (!is_done(solved.outcome) || solved.cost >= best.solved.cost * (1.0 - kRounding)) return;
     Consensus consensus = consensus_from(best.weights, other);

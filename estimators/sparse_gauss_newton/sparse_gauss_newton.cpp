@@ -14,6 +14,9 @@ using sparse_gauss_newton::SolveLimits;
 using sparse_gauss_newton::SolveResult;
 using sparse_gauss_newton::Start;
 
+// More are a slip of the hand.
+constexpr int kMostThreads = 1024;
+
 void note(const SolveResult& result, UpdateReport& report) {
   report.outcome = result.outcome;
   report.iterations = result.iterations;
@@ -48,6 +51,8 @@ void SparseGaussNewtonOptions::describe(OptionTable& table) {
       "geman_mcclure, truncated: from where graduated non-convexity leads to the loss");
   table.group("truncated", truncated);
   gate.describe(table);
+  table.integer("threads", threads, Range::between(1, kMostThreads), "",
+                "threads that solve a large graph; the result is the same for any number");
 }
 
 void SparseGaussNewtonOptions::check(const EstimatorSetup& setup) const {
@@ -81,7 +86,8 @@ SparseGaussNewton::SparseGaussNewton(const EstimatorSetup& setup,
       mode_(setup.mode),
       loss_(options.loss),
       gate_(options.gate),
-      graph_(std::make_unique<sparse_gauss_newton::Graph>(setup.origin, robust_options(options))) {}
+      graph_(std::make_unique<sparse_gauss_newton::Graph>(setup.origin, robust_options(options),
+                                                          options.threads)) {}
 
 SparseGaussNewton::~SparseGaussNewton() = default;
 

@@ -23,6 +23,7 @@ struct SparseGaussNewtonOptions {
   sparse_gauss_newton::Graduation graduation = sparse_gauss_newton::Graduation::off;
   sparse_gauss_newton::LoopJudgement truncated;
   GateOptions gate;
+  int threads = 1;
 
   void describe(OptionTable& table);
   /// A batch solve has no innovation to gate; an incremental one always starts where it is, and so

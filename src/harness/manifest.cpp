@@ -41,8 +41,7 @@ Json build_and_machine(int jobs) {
   json["build"] = {{"type", FATHOM_BUILD_TYPE},     {"compiler", FATHOM_COMPILER},
                    {"flags", FATHOM_FLAGS},         {"ceres", FATHOM_CERES_VERSION},
                    {"eigen", FATHOM_EIGEN_VERSION}, {"opencv", FATHOM_OPENCV_VERSION}};
-  json["machine"] = {
-      {"cpu", cpu_model()}, {"host", host_name()}, {"estimator_threads", 1}, {"jobs", jobs}};
+  json["machine"] = {{"cpu", cpu_model()}, {"host", host_name()}, {"jobs", jobs}};
   return json;
 }
 

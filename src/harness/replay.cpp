@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <ctime>
 
+#include "fathom/core/workers.hpp"
 #include "fathom/geometry/covariance.hpp"
 #include "fathom/harness/guarded_estimator.hpp"
 
@@ -17,12 +17,6 @@ double milliseconds_since(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-double thread_cpu_ms() {
-  std::timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
-}
-
 // Wall and CPU time of one call of the estimator, added to the totals.
 class CallTimer {
  public:
@@ -31,13 +25,13 @@ class CallTimer {
   double stop() const {
     const double elapsed_ms = milliseconds_since(start_);
     result_.total_ms += elapsed_ms;
-    result_.cpu_ms += thread_cpu_ms() - cpu_start_ms_;
+    result_.cpu_ms += 1e3 * (thread_processor_seconds() - cpu_start_s_);
     return elapsed_ms;
   }
 
  private:
   Replay& result_;
-  double cpu_start_ms_ = thread_cpu_ms();
+  double cpu_start_s_ = thread_processor_seconds();
   Clock::time_point start_ = Clock::now();
 };
 

@@ -41,6 +41,15 @@ TEST_F(Threads, AGraphSolveKeepsToOne) {
   }
 }
 
+TEST_F(Threads, AreAsManyAsTheEstimatorIsGiven) {
+  write("g.g2o", square_graph(3000, 3));
+  for (const auto& [threads, started] : {std::pair{"1", 0u}, std::pair{"3", 2u}}) {
+    EXPECT_EQ(started_by({"solve", "g.g2o", "--mode", "batch", "--estimator", "sparse_gauss_newton",
+                          "--set", std::string("estimator.threads=") + threads, "--out", "out"}),
+              started);
+  }
+}
+
 TEST_F(Threads, FiltersKeepToOne) {
   write("g.g2o", square_graph(900, 4));
   for (const std::string estimator : {"trajectory_iekf", "ekf", "incremental_smoother"}) {

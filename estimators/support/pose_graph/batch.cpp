@@ -13,11 +13,12 @@ namespace {
 
 class Batch {
  public:
-  Batch(std::span<const Edge> edges, std::vector<Node>& nodes, const SolveLimits& limits)
+  Batch(std::span<const Edge> edges, std::vector<Node>& nodes, const SolveLimits& limits,
+        Workers* workers)
       : edges_(edges),
         nodes_(nodes),
         limits_(limits),
-        symbolic_(analyse_graph(edges, static_cast<int>(nodes.size()))),
+        symbolic_(analyse_graph(edges, static_cast<int>(nodes.size()), workers)),
         equations_(symbolic_, edges) {}
 
   SolveResult run(Start start) {
@@ -156,8 +157,8 @@ class Batch {
 }  // namespace
 
 SolveResult solve_batch(std::span<const Edge> edges, std::vector<Node>& nodes, Start start,
-                        const SolveLimits& limits) {
-  return Batch(edges, nodes, limits).run(start);
+                        const SolveLimits& limits, Workers* workers) {
+  return Batch(edges, nodes, limits, workers).run(start);
 }
 
 }  // namespace fathom::pose_graph

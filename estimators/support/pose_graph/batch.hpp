@@ -34,6 +34,6 @@ inline constexpr int kHeadingSolves = 10;
 /// to what it measured, no multiple of 2π was rounded wrongly, and its minimum is taken. Else it
 /// takes that of `lifted`; if that is none, the least F of these and of the given start.
 SolveResult solve_batch(std::span<const Edge> edges, std::vector<Node>& nodes, Start start,
-                        const SolveLimits& limits);
+                        const SolveLimits& limits, Workers* workers = nullptr);
 
 }  // namespace fathom::pose_graph

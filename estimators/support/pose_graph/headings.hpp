@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "estimators/support/pose_graph/edge.hpp"
+#include "estimators/support/pose_graph/edge_parts.hpp"
 #include "estimators/support/sparse/block_cholesky.hpp"
 
 namespace fathom::pose_graph {
@@ -18,12 +18,15 @@ class HeadingProblem {
 
   /// Rounds at these headings, solves, and returns the solution; `theta` need not be wrapped.
   /// With headings composed along the odometry it is LAGO with the odometry as spanning tree.
+  /// Where the information does not determine the headings they stay as they were.
   std::vector<double> solve(std::span<const double> theta);
 
  private:
   std::span<const Edge> edges_;
+  EdgeParts parts_;
   std::vector<double> weights_;
   sparse::BlockCholesky<1> factor_;
+  bool is_solvable_ = false;
 };
 
 }  // namespace fathom::pose_graph

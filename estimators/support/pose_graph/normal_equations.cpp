@@ -6,32 +6,39 @@
 #include "fathom/estimation/precision.hpp"
 
 namespace fathom::pose_graph {
-sparse::Symbolic analyse_graph(std::span<const Edge> edges, int keyframes,
+sparse::Symbolic analyse_graph(std::span<const Edge> edges, int keyframes, Workers* workers,
                                sparse::ChainElimination chains) {
   std::vector<sparse::Link> links;
   links.reserve(edges.size());
   for (const Edge& edge : edges) {
     if (edge.from > 0 && edge.to > 0) links.push_back({edge.from - 1, edge.to - 1});
   }
-  return sparse::analyse(sparse::adjacency_of(keyframes - 1, links), chains);
+  return sparse::analyse(sparse::adjacency_of(keyframes - 1, links), chains, workers);
 }
 
 NormalEquations::NormalEquations(const sparse::Symbolic& symbolic, std::span<const Edge> edges)
     : edges_(edges),
+      parts_(symbolic, edges),
       factor_(symbolic),
+      targets_(edges.size()),
+      diagonal_(at(symbolic.size())),
       diagonal_sums_(at(symbolic.size())),
       gradient_(3 * at(symbolic.size())),
       step_(3 * at(symbolic.size())) {
-  targets_.reserve(edges.size());
-  for (const Edge& edge : edges) {
-    Targets t;
-    if (edge.from > 0) t.from = symbolic.position[at(edge.from - 1)];
-    if (edge.to > 0) t.to = symbolic.position[at(edge.to - 1)];
-    if (t.from >= 0 && t.to >= 0) t.cross = factor_.place(edge.from - 1, edge.to - 1);
-    targets_.push_back(t);
-  }
-  diagonal_.reserve(at(symbolic.size()));
-  for (const int node : symbolic.node) diagonal_.push_back(factor_.place(node, node));
+  for_ranges(workers(), edges.size(), kAtOnce, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t e = begin; e < end; ++e) {
+      Targets& t = targets_[e];
+      t.from = position_of(symbolic, edges[e].from);
+      t.to = position_of(symbolic, edges[e].to);
+      if (t.from < 0 || t.to < 0) continue;
+      t.cross = factor_.place(edges[e].from - 1, edges[e].to - 1);
+    }
+  });
+  for_ranges(workers(), diagonal_.size(), kAtOnce, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t p = begin; p < end; ++p) {
+      diagonal_[p] = factor_.place(symbolic.node[p], symbolic.node[p]);
+    }
+  });
 }
 
 double NormalEquations::linearise(std::span<const Node> nodes, Hessian hessian, double damping) {
@@ -57,48 +64,49 @@ double NormalEquations::linearise(std::span<const Node> nodes, Hessian hessian, 
 template <Hessian kHessian>
 double NormalEquations::add_edges(std::span<const Node> nodes) {
   constexpr Lever kLever = kHessian == Hessian::measured ? Lever::measured : Lever::estimated;
-  double cost = 0.0;
-  for (std::size_t e = 0; e < edges_.size(); ++e) {
-    if (loss_.leaves_out(e)) continue;
+  return parts_.sum([&](std::size_t e, const auto& part) {
+    if (loss_.leaves_out(e)) return 0.0;
     const Edge& edge = edges_[e];
     EdgeTerms t = linearise_edge(edge, nodes[at(edge.from)], nodes[at(edge.to)], kLever);
     loss_.apply(e, kHessian == Hessian::exact, t);
-    cost += t.cost;
     const Targets& target = targets_[e];
-    add_gradient(t, target);
-    if (target.to >= 0) add_to_end(t, target.to);
-    if (target.from >= 0) add_to_begin<kHessian>(t, target);
-  }
-  return cost;
+    if (part.has(target.to)) {
+      add_gradient_at_end(t, target.to);
+      add_to_end(t, target.to);
+    }
+    if (part.has(target.from)) add_gradient_at_begin(t, target.from);
+    add_to_begin<kHessian>(t, part, target);
+    return t.cost;
+  });
 }
 
 double NormalEquations::differentiate(std::span<const Node> nodes) {
   std::fill(gradient_.begin(), gradient_.end(), 0.0);
-  double cost = 0.0;
-  for (std::size_t e = 0; e < edges_.size(); ++e) {
-    if (loss_.leaves_out(e)) continue;
+  return parts_.sum([&](std::size_t e, const auto& part) {
+    if (loss_.leaves_out(e)) return 0.0;
     const Edge& edge = edges_[e];
     EdgeTerms t = linearise_edge(edge, nodes[at(edge.from)], nodes[at(edge.to)]);
     loss_.apply(e, false, t);
-    cost += t.cost;
-    add_gradient(t, targets_[e]);
-  }
-  return cost;
+    const Targets& target = targets_[e];
+    if (part.has(target.to)) add_gradient_at_end(t, target.to);
+    if (part.has(target.from)) add_gradient_at_begin(t, target.from);
+    return t.cost;
+  });
 }
 
-// g_k = m and g_i = −Tᵀ m.
-inline void NormalEquations::add_gradient(const EdgeTerms& t, const Targets& target) {
+// g_k = m.
+inline void NormalEquations::add_gradient_at_end(const EdgeTerms& t, int position) {
+  double* g = gradient_.data() + 3 * at(position);
+  for (int a = 0; a < 3; ++a) g[a] += t.m[at(a)];
+}
+
+// g_i = −Tᵀ m.
+inline void NormalEquations::add_gradient_at_begin(const EdgeTerms& t, int position) {
   const auto& m = t.m;
-  if (target.to >= 0) {
-    double* g = gradient_.data() + 3 * at(target.to);
-    for (int a = 0; a < 3; ++a) g[a] += m[at(a)];
-  }
-  if (target.from >= 0) {
-    double* g = gradient_.data() + 3 * at(target.from);
-    g[0] -= m[0];
-    g[1] -= m[1];
-    g[2] -= -t.dy * m[0] + t.dx * m[1] + m[2];
-  }
+  double* g = gradient_.data() + 3 * at(position);
+  g[0] -= m[0];
+  g[1] -= m[1];
+  g[2] -= -t.dy * m[0] + t.dx * m[1] + m[2];
 }
 
 // H_kk.
@@ -107,32 +115,33 @@ inline void NormalEquations::add_to_end(const EdgeTerms& t, int position) {
   for (std::size_t a = 0; a < 6; ++a) H[a] += t.M[a];
 }
 
-// H_ii, and H_ik where k is free.
-template <Hessian kHessian>
-inline void NormalEquations::add_to_begin(const EdgeTerms& t, const Targets& target) {
+// H_ii, and H_ik where k is free; each where the part has it.
+template <Hessian kHessian, class Part>
+inline void NormalEquations::add_to_begin(const EdgeTerms& t, const Part& part,
+                                          const Targets& target) {
   const auto& M = t.M;
   // Row θ of Tᵀ M, and below element (θ, θ) of Tᵀ M T.
   const double rx = -t.dy * M[0] + t.dx * M[1] + M[2];
   const double ry = -t.dy * M[1] + t.dx * M[3] + M[4];
   const double rt = -t.dy * M[2] + t.dx * M[4] + M[5];
-  auto& H = diagonal_sums_[at(target.from)];
-  H[0] += M[0];
-  H[1] += M[1];
-  H[2] += rx;
-  H[3] += M[3];
-  H[4] += ry;
-  H[5] += -t.dy * rx + t.dx * ry + rt;
-  double tx = -rx;
-  double ty = -ry;
-  if constexpr (kHessian == Hessian::exact) {
-    const auto& m = t.m;
-    H[2] += m[1];
-    H[4] -= m[0];
-    H[5] -= m[0] * t.dx + m[1] * t.dy;
-    tx -= m[1];
-    ty += m[0];
+  const auto& m = t.m;
+  if (part.has(target.from)) {
+    auto& H = diagonal_sums_[at(target.from)];
+    H[0] += M[0];
+    H[1] += M[1];
+    H[2] += rx;
+    H[3] += M[3];
+    H[4] += ry;
+    H[5] += -t.dy * rx + t.dx * ry + rt;
+    if constexpr (kHessian == Hessian::exact) {
+      H[2] += m[1];
+      H[4] -= m[0];
+      H[5] -= m[0] * t.dx + m[1] * t.dy;
+    }
   }
-  if (target.to < 0) return;
+  if (!part.has(std::min(target.from, target.to))) return;
+  const double tx = kHessian == Hessian::exact ? -rx - m[1] : -rx;
+  const double ty = kHessian == Hessian::exact ? -ry + m[0] : -ry;
   // −Tᵀ M has the rows of `from` and the columns of `to`.
   const std::array<double, 9> block{-M[0], -M[1], -M[2], -M[1], -M[3], -M[4], tx, ty, -rt};
   double* const to = factor_.data() + target.cross.offset;
@@ -146,17 +155,19 @@ inline void NormalEquations::add_to_begin(const EdgeTerms& t, const Targets& tar
 }
 
 void NormalEquations::write_diagonal(double damping) {
-  for (std::size_t p = 0; p < diagonal_.size(); ++p) {
-    double* const to = factor_.data() + diagonal_[p].offset;
-    const int stride = diagonal_[p].stride;
-    const auto& H = diagonal_sums_[p];
-    to[0] = H[0] * (1.0 + damping);
-    to[1] = H[1];
-    to[2] = H[2];
-    to[1 + stride] = H[3] * (1.0 + damping);
-    to[2 + stride] = H[4];
-    to[2 + 2 * stride] = H[5] * (1.0 + damping);
-  }
+  for_ranges(workers(), diagonal_.size(), kAtOnce, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t p = begin; p < end; ++p) {
+      double* const to = factor_.data() + diagonal_[p].offset;
+      const int stride = diagonal_[p].stride;
+      const auto& H = diagonal_sums_[p];
+      to[0] = H[0] * (1.0 + damping);
+      to[1] = H[1];
+      to[2] = H[2];
+      to[1 + stride] = H[3] * (1.0 + damping);
+      to[2 + stride] = H[4];
+      to[2 + 2 * stride] = H[5] * (1.0 + damping);
+    }
+  });
 }
 
 bool NormalEquations::keeps_digits() const {
@@ -195,10 +206,13 @@ void NormalEquations::move(std::span<const Node> from, std::vector<Node>& to) co
   to.resize(from.size());
   to[0] = from[0];
   const std::vector<int>& position = factor_.symbolic().position;
-  for (std::size_t k = 1; k < from.size(); ++k) {
-    const double* d = step_.data() + 3 * at(position[k - 1]);
-    to[k] = make_node(from[k].x + d[0], from[k].y + d[1], from[k].theta + d[2]);
-  }
+  for_ranges(workers(), position.size(), kAtOnce, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t node = begin; node < end; ++node) {
+      const double* d = step_.data() + 3 * at(position[node]);
+      const Node& pose = from[node + 1];
+      to[node + 1] = make_node(pose.x + d[0], pose.y + d[1], pose.theta + d[2]);
+    }
+  });
 }
 
 bool NormalEquations::step_is_small(std::span<const Node> nodes, double tolerance) const {

@@ -3,13 +3,14 @@
 #include <span>
 #include <vector>
 
-#include "estimators/support/pose_graph/edge.hpp"
+#include "estimators/support/pose_graph/edge_parts.hpp"
 #include "estimators/support/sparse/block_cholesky.hpp"
 
 namespace fathom::pose_graph {
 
 /// Who is linked with whom among keyframes 1 …: node k − 1 is keyframe k, 0 is fixed.
 sparse::Symbolic analyse_graph(std::span<const Edge> edges, int keyframes,
+                               Workers* workers = nullptr,
                                sparse::ChainElimination chains = sparse::ChainElimination::on);
 
 /// The second derivatives to work with.
@@ -69,14 +70,17 @@ class NormalEquations {
 
   template <Hessian kHessian>
   double add_edges(std::span<const Node> nodes);
-  void add_gradient(const EdgeTerms& t, const Targets& target);
+  void add_gradient_at_end(const EdgeTerms& t, int position);
+  void add_gradient_at_begin(const EdgeTerms& t, int position);
   void add_to_end(const EdgeTerms& t, int position);
-  template <Hessian kHessian>
-  void add_to_begin(const EdgeTerms& t, const Targets& target);
+  template <Hessian kHessian, class Part>
+  void add_to_begin(const EdgeTerms& t, const Part& part, const Targets& target);
   void write_diagonal(double damping);
+  Workers* workers() const { return factor_.symbolic().workers; }
 
   std::span<const Edge> edges_;
   EdgeLoss loss_;
+  EdgeParts parts_;
   sparse::BlockCholesky<3> factor_;
   std::vector<Targets> targets_;
   std::vector<sparse::BlockPlace> diagonal_;  ///< by position

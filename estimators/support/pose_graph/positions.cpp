@@ -1,16 +1,18 @@
 #include "estimators/support/pose_graph/positions.hpp"
 
-#include <array>
+#include <algorithm>
 
 namespace fathom::pose_graph {
 PositionProblem::PositionProblem(const sparse::Symbolic& symbolic, std::span<const Edge> edges,
                                  const EdgeLoss& loss)
-    : edges_(edges), loss_(loss), factor_(symbolic) {}
+    : edges_(edges),
+      loss_(loss),
+      parts_(symbolic, edges),
+      factor_(symbolic),
+      step_(2 * at(symbolic.size())) {}
 
-bool PositionProblem::solve(std::vector<Node>& nodes) {
-  const std::vector<int>& position = factor_.symbolic().position;
-  std::vector<double> step(2 * position.size(), 0.0);
-  factor_.clear();
+void PositionProblem::add_up(std::span<const Node> nodes) {
+  const sparse::Symbolic& symbolic = factor_.symbolic();
   const auto add = [&](int a, int b, const std::array<double, 6>& M, double sign) {
     const sparse::BlockPlace place = factor_.place(a - 1, b - 1);
     double* to = factor_.data() + place.offset;
@@ -19,25 +21,35 @@ bool PositionProblem::solve(std::vector<Node>& nodes) {
     to[place.stride] += sign * M[1];
     to[place.stride + 1] += sign * M[3];
   };
-  for (std::size_t e = 0; e < edges_.size(); ++e) {
-    if (loss_.leaves_out(e)) continue;
+  const auto add_at = [&](int keyframe, int position, const EdgeTerms& t, double sign) {
+    add(keyframe, keyframe, t.M, 1.0);
+    double* s = step_.data() + 2 * at(position);
+    s[0] += sign * t.m[0];
+    s[1] += sign * t.m[1];
+  };
+  parts_.for_each([&](std::size_t e, const auto& part) {
+    if (loss_.leaves_out(e)) return;
     const Edge& edge = edges_[e];
     EdgeTerms t = linearise_edge(edge, nodes[at(edge.from)], nodes[at(edge.to)]);
     loss_.apply(e, false, t);
-    for (const int keyframe : {edge.from, edge.to}) {
-      if (keyframe == 0) continue;
-      add(keyframe, keyframe, t.M, 1.0);
-      const double sign = keyframe == edge.from ? 1.0 : -1.0;
-      double* s = step.data() + 2 * at(position[at(keyframe - 1)]);
-      s[0] += sign * t.m[0];
-      s[1] += sign * t.m[1];
-    }
-    if (edge.from > 0 && edge.to > 0) add(edge.from, edge.to, t.M, -1.0);
-  }
+    const int from = position_of(symbolic, edge.from);
+    const int to = position_of(symbolic, edge.to);
+    if (part.has(from)) add_at(edge.from, from, t, 1.0);
+    if (part.has(to)) add_at(edge.to, to, t, -1.0);
+    if (from < 0 || to < 0 || !part.has(std::min(from, to))) return;
+    add(edge.from, edge.to, t.M, -1.0);
+  });
+}
+
+bool PositionProblem::solve(std::vector<Node>& nodes) {
+  factor_.clear();
+  std::fill(step_.begin(), step_.end(), 0.0);
+  add_up(nodes);
   if (!factor_.factorise() || factor_.negative_pivots() > 0) return false;
-  factor_.solve(step.data());
+  factor_.solve(step_.data());
+  const std::vector<int>& position = factor_.symbolic().position;
   for (std::size_t k = 1; k < nodes.size(); ++k) {
-    const double* s = step.data() + 2 * at(position[k - 1]);
+    const double* s = step_.data() + 2 * at(position[k - 1]);
     nodes[k].x += s[0];
     nodes[k].y += s[1];
   }

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "estimators/support/pose_graph/edge.hpp"
+#include "estimators/support/pose_graph/edge_parts.hpp"
 #include "estimators/support/sparse/block_cholesky.hpp"
 
 namespace fathom::pose_graph {
@@ -23,9 +23,13 @@ class PositionProblem {
   bool solve(std::vector<Node>& nodes);
 
  private:
+  void add_up(std::span<const Node> nodes);
+
   std::span<const Edge> edges_;
   EdgeLoss loss_;
+  EdgeParts parts_;
   sparse::BlockCholesky<2> factor_;
+  std::vector<double> step_;
 };
 
 }  // namespace fathom::pose_graph

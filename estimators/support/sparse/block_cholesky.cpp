@@ -3,14 +3,23 @@
 #include <algorithm>
 
 #include "estimators/support/sparse/dense_kernel.hpp"
-#include "estimators/support/sparse/factorisation.hpp"
-#include "estimators/support/sparse/substitution.hpp"
+#include "estimators/support/sparse/shared_factorisation.hpp"
+#include "estimators/support/sparse/shared_substitution.hpp"
 
 namespace fathom::sparse {
+namespace {
+
+// Between what two threads write: a cache line, and one that the processor fetches beside it.
+constexpr std::size_t kApart = 16;
+// Numbers, 2 MiB.
+constexpr std::size_t kClearedAtOnce = std::size_t{1} << 18;
+
+}  // namespace
+
 template <int B>
 BlockCholesky<B>::BlockCholesky(const Symbolic& symbolic)
     : symbolic_(&symbolic),
-      panels_(symbolic.panel_blocks * kBlockNumbers<B> + kReadAhead),
+      panels_(symbolic.panel_blocks * kBlockNumbers<B> + kReadAhead, symbolic.workers),
       signs_(at(symbolic.size()) * B, 1.0),
       inverses_(at(symbolic.size()) * B, 1.0) {
   int widest = 0;
@@ -19,13 +28,21 @@ BlockCholesky<B>::BlockCholesky(const Symbolic& symbolic)
     widest = std::max(widest, s.width);
     highest = std::max(highest, s.height);
   }
-  packed_.resize(at(widest) * kBlockNumbers<B>);
-  gathered_.resize(at(highest) * B);
+  packed_numbers_ = at(widest) * kBlockNumbers<B> + kApart;
+  gathered_numbers_ = at(highest) * B + kApart;
+  const std::size_t threads = symbolic.workers == nullptr ? 1 : at(symbolic.workers->size());
+  packed_.resize(threads * packed_numbers_);
+  gathered_.resize(threads * gathered_numbers_);
+  deferred_.resize(symbolic.cut.deferred_rows * B);
 }
 
 template <int B>
 void BlockCholesky<B>::clear() {
-  std::fill(panels_.begin(), panels_.end(), 0.0);
+  double* const numbers = panels_.begin();
+  for_ranges(symbolic_->workers, at(panels_.end() - numbers), kClearedAtOnce,
+             [numbers](std::size_t begin, std::size_t end) {
+               std::fill(numbers + begin, numbers + end, 0.0);
+             });
 }
 
 template <int B>
@@ -40,19 +57,56 @@ BlockPlace BlockCholesky<B>::place(int node_a, int node_b) const {
 }
 
 template <int B>
+Factorisation<B> BlockCholesky<B>::factorisation(int thread) {
+  return {*symbolic_, panels_.data(),  signs_.data(), packed_.data() + at(thread) * packed_numbers_,
+          0,          inverses_.data()};
+}
+
+template <int B>
 bool BlockCholesky<B>::factorise() {
-  Factorisation<B> run{*symbolic_, panels_.data(),  signs_.data(), packed_.data(),
-                       0,          inverses_.data()};
+  if (!symbolic_->cut.is_empty()) return factorise_shared();
+  Factorisation<B> run = factorisation(0);
   const bool done = run_for_processor(run);
   negative_pivots_ = run.negative;
   return done;
 }
 
 template <int B>
+bool BlockCholesky<B>::factorise_shared() {
+  const int threads = symbolic_->workers->size();
+  FactorisationProgress progress(symbolic_->cut, threads);
+  symbolic_->workers->run([&](int thread) {
+    SharedFactorisation<B> part{factorisation(thread), progress, threads};
+    run_for_processor(part);
+  });
+  negative_pivots_ = progress.negative;
+  return !progress.has_failed();
+}
+
+template <int B>
+Substitution<B> BlockCholesky<B>::substitution(double* x, int thread) {
+  return {*symbolic_,
+          panels_.data(),
+          negative_pivots_ > 0 ? signs_.data() : nullptr,
+          inverses_.data(),
+          x,
+          gathered_.data() + at(thread) * gathered_numbers_};
+}
+
+template <int B>
 void BlockCholesky<B>::solve(double* x) {
-  const double* signs = negative_pivots_ > 0 ? signs_.data() : nullptr;
-  Substitution<B> run{*symbolic_, panels_.data(), signs, inverses_.data(), x, gathered_.data()};
+  if (!symbolic_->cut.is_empty()) return solve_shared(x);
+  Substitution<B> run = substitution(x, 0);
   run_for_processor(run);
+}
+
+template <int B>
+void BlockCholesky<B>::solve_shared(double* x) {
+  SubstitutionProgress progress(symbolic_->workers->size());
+  symbolic_->workers->run([&](int thread) {
+    SharedSubstitution<B> part{substitution(x, thread), progress, deferred_.data(), thread == 0};
+    run_for_processor(part);
+  });
 }
 
 template class BlockCholesky<1>;

@@ -8,6 +8,11 @@
 
 namespace fathom::sparse {
 
+template <int B>
+struct Factorisation;
+template <int B>
+struct Substitution;
+
 /// Where a block lies: its first element and the distance between its columns.
 struct BlockPlace {
   std::size_t offset = 0;
@@ -47,12 +52,20 @@ class BlockCholesky {
   }
 
  private:
+  Factorisation<B> factorisation(int thread);
+  Substitution<B> substitution(double* x, int thread);
+  bool factorise_shared();
+  void solve_shared(double* x);
+
   const Symbolic* symbolic_;
+  std::size_t packed_numbers_ = 0;    ///< of a thread
+  std::size_t gathered_numbers_ = 0;  ///< likewise
   PanelMemory panels_;
   std::vector<double> signs_;     ///< D, one sign a scalar column
   std::vector<double> inverses_;  ///< 1 / the diagonal of L, likewise
-  std::vector<double> packed_;    ///< right sides of products
-  std::vector<double> gathered_;  ///< the rows below a supernode
+  std::vector<double> packed_;    ///< right sides of products, of each thread
+  std::vector<double> gathered_;  ///< the rows below a supernode, of each thread
+  std::vector<double> deferred_;  ///< what branches subtract from the top of a right side
   int negative_pivots_ = 0;
 };
 

@@ -54,49 +54,74 @@ struct Factorisation {
     return true;
   }
 
-  // The rows below a diagonal block, a row of its B columns at a time.
-  FATHOM_INLINE void solve_below(double* block, int stride, int count, const double* sign,
-                                 const double* inverse) const {
+  // Rows below a diagonal block, a row of its B columns at a time.
+  FATHOM_INLINE void solve_rows(const double* block, double* rows, int stride, int count,
+                                const double* sign, const double* inverse) const {
     double L[B][B];
     for (int j = 0; j < B; ++j) {
       for (int p = 0; p < j; ++p) L[j][p] = sign[p] * block[j + p * stride];
     }
-    double* const below = block + B;
 #pragma GCC ivdep
     for (int i = 0; i < count; ++i) {
       double row[B];
       for (int j = 0; j < B; ++j) {
-        row[j] = below[i + j * stride];
+        row[j] = rows[i + j * stride];
         for (int p = 0; p < j; ++p) row[j] -= L[j][p] * row[p];
         row[j] *= inverse[j];
-        below[i + j * stride] = row[j];
+        rows[i + j * stride] = row[j];
       }
     }
   }
 
-  FATHOM_INLINE bool factor_panel(const Supernode& s, double* panel, int stride, double* sign) {
+  // Subtracts the products of the block columns before `column`, of scalar rows [begin, end).
+  FATHOM_INLINE void subtract_before(double* panel, int stride, int column, int begin, int end,
+                                     const double* sign) const {
+    if (column == 0) return;
     alignas(32) double out[kTileRows * B];
-    const int all = s.panel_rows() * B;
-    for (int column = 0; column < s.width; ++column) {
-      double* top = panel + at(column * B) * at(stride);
-      if (column > 0) {
-        pack(panel, stride, column, column * B, sign);
-        for (int row = column * B; row < all; row += kTileRows) {
-          const int rows = std::min(kTileRows, all - row);
-          multiply_rows<B>(rows, panel + row, stride, packed, column * B, out);
-          for (int j = 0; j < B; ++j) {
-            double* to = top + row + at(j * stride);
-            for (int i = 0; i < rows; ++i) to[i] -= out[i + j * kTileRows];
-          }
-        }
+    double* top = panel + at(column * B) * at(stride);
+    pack(panel, stride, column, column * B, sign);
+    for (int row = begin; row < end; row += kTileRows) {
+      const int rows = std::min(kTileRows, end - row);
+      multiply_rows<B>(rows, panel + row, stride, packed, column * B, out);
+      for (int j = 0; j < B; ++j) {
+        double* to = top + row + at(j * stride);
+        for (int i = 0; i < rows; ++i) to[i] -= out[i + j * kTileRows];
       }
+    }
+  }
+
+  // The first `rows` scalar rows, the diagonal block among them.
+  FATHOM_INLINE bool factor_panel(const Supernode& s, double* panel, int stride, int rows,
+                                  double* sign) {
+    for (int column = 0; column < s.width; ++column) {
+      subtract_before(panel, stride, column, column * B, rows, sign);
       double inverse[B];
-      double* diagonal = top + at(column * B);
+      double* diagonal = panel + at(column * B) * at(stride) + at(column * B);
       double* own = sign + at(column * B);
       if (!factor_diagonal(diagonal, stride, own, inverse)) return false;
-      solve_below(diagonal, stride, all - (column + 1) * B, own, inverse);
+      solve_rows(diagonal, diagonal + B, stride, rows - (column + 1) * B, own, inverse);
     }
     return true;
+  }
+
+  FATHOM_INLINE void invert_diagonal(const Supernode& s, const double* panel, int stride) const {
+    for (int k = 0; k < s.width * B; ++k) {
+      inverses[at(s.first * B + k)] = 1.0 / panel[at(k) * at(stride) + at(k)];
+    }
+  }
+
+  // Scalar rows [begin, end) below the diagonal block, which is done.
+  FATHOM_INLINE void factor_below(const Supernode& s, double* panel, int stride, int begin, int end,
+                                  const double* sign) const {
+    for (int column = 0; column < s.width; ++column) {
+      subtract_before(panel, stride, column, begin, end, sign);
+      double* top = panel + at(column * B) * at(stride);
+      const double* diagonal = top + at(column * B);
+      const double* own = sign + at(column * B);
+      double inverse[B];
+      for (int j = 0; j < B; ++j) inverse[j] = own[j] / diagonal[j + j * stride];
+      solve_rows(diagonal, top + begin, stride, end - begin, own, inverse);
+    }
   }
 
   FATHOM_INLINE void subtract(const double* out, int blocks, const int* places, double* to,
@@ -109,19 +134,20 @@ struct Factorisation {
     }
   }
 
+  // Of the source's rows below, those of [first, last).
   FATHOM_INLINE void update(const Supernode& s, const Update& u, const double* panel, int stride,
-                            const double* sign) const {
+                            const double* sign, int first, int last) const {
     alignas(32) double out[kTileRows * B];
     constexpr int kTileBlocks = kTileRows / B;
     const Supernode& t = symbolic.supernodes[at(u.target)];
     const int t_stride = t.panel_rows() * B;
     double* target = panels + t.panel * kBlockNumbers<B>;
     const int* places = symbolic.places.data() + u.places - u.begin;
-    for (int column = u.begin; column < u.end; ++column) {
+    for (int column = u.begin; column < std::min(u.end, last); ++column) {
       pack(panel, stride, s.width + column, s.width * B, sign);
       double* to = target + at(places[column] * B) * at(t_stride);
-      for (int row = column; row < s.height; row += kTileBlocks) {
-        const int blocks = std::min(kTileBlocks, s.height - row);
+      for (int row = std::max(column, first); row < last; row += kTileBlocks) {
+        const int blocks = std::min(kTileBlocks, last - row);
         multiply_rows<B>(blocks * B, panel + at((s.width + row) * B), stride, packed, s.width * B,
                          out);
         subtract(out, blocks, places + row, to, t_stride);
@@ -129,20 +155,26 @@ struct Factorisation {
     }
   }
 
-  FATHOM_INLINE bool run() {
-    for (const Supernode& s : symbolic.supernodes) {
+  // Supernodes [begin, end), one after the other; updates of supernodes from `end` on are left.
+  FATHOM_INLINE bool run(int begin, int end) {
+    for (int i = begin; i < end; ++i) {
+      const Supernode& s = symbolic.supernodes[at(i)];
       double* panel = panels + s.panel * kBlockNumbers<B>;
       const int stride = s.panel_rows() * B;
       double* sign = signs + at(s.first * B);
-      if (!factor_panel(s, panel, stride, sign)) return false;
-      for (int k = 0; k < s.width * B; ++k) {
-        inverses[at(s.first * B + k)] = 1.0 / panel[at(k) * at(stride) + at(k)];
-      }
-      for (int u = s.updates; u < s.updates + s.update_count; ++u) {
-        update(s, symbolic.updates[at(u)], panel, stride, sign);
+      if (!factor_panel(s, panel, stride, stride, sign)) return false;
+      invert_diagonal(s, panel, stride);
+      for (int j = s.updates; j < s.updates + s.update_count; ++j) {
+        const Update& u = symbolic.updates[at(j)];
+        if (u.target >= end) break;
+        update(s, u, panel, stride, sign, 0, s.height);
       }
     }
     return true;
+  }
+
+  FATHOM_INLINE bool run() {
+    return run(0, static_cast<int>(symbolic.supernodes.size()));
   }
 };
 

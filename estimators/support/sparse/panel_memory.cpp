@@ -12,21 +12,27 @@ constexpr std::size_t kCacheLine = 64;
 constexpr std::size_t kPage = 4096;
 // From here on malloc takes pages of their own, which are new each time (its M_MMAP_THRESHOLD).
 constexpr std::size_t kFreshPages = std::size_t{128} * 1024;
+// Bytes that a thread asks for at a time.
+constexpr std::size_t kPagesAtOnce = std::size_t{4} * 1024 * 1024;
 
 std::size_t rounded_up(std::size_t bytes, std::size_t unit) {
   return (bytes + unit - 1) / unit * unit;
 }
 
 // A hint: systems without it, older than Linux 5.14, refuse it and nothing is lost.
-void ask_for_pages(double* memory, std::size_t bytes) {
+void ask_for_pages(double* memory, std::size_t bytes, Workers* workers) {
 #ifdef MADV_POPULATE_WRITE
   const auto address = reinterpret_cast<std::uintptr_t>(memory);
   const std::size_t skipped = rounded_up(address, kPage) - address;
   const std::size_t whole = (bytes - skipped) / kPage * kPage;
-  madvise(reinterpret_cast<char*>(memory) + skipped, whole, MADV_POPULATE_WRITE);
+  char* const first = reinterpret_cast<char*>(memory) + skipped;
+  for_ranges(workers, whole, kPagesAtOnce, [first](std::size_t begin, std::size_t end) {
+    madvise(first + begin, end - begin, MADV_POPULATE_WRITE);
+  });
 #else
   static_cast<void>(memory);
   static_cast<void>(bytes);
+  static_cast<void>(workers);
 #endif
 }
 
@@ -36,11 +42,11 @@ void PanelMemory::Free::operator()(double* memory) const {
   std::free(memory);
 }
 
-PanelMemory::PanelMemory(std::size_t count) : count_(count) {
+PanelMemory::PanelMemory(std::size_t count, Workers* workers) : count_(count) {
   const std::size_t bytes = rounded_up(count * sizeof(double), kCacheLine);
   numbers_.reset(static_cast<double*>(std::aligned_alloc(kCacheLine, bytes)));
   if (!numbers_) throw std::bad_alloc();
-  if (bytes >= kFreshPages) ask_for_pages(numbers_.get(), bytes);
+  if (bytes >= kFreshPages) ask_for_pages(numbers_.get(), bytes, workers);
 }
 
 }  // namespace fathom::sparse

@@ -25,10 +25,10 @@ struct Substitution {
     }
   }
 
-  FATHOM_INLINE void forward(const Supernode& s) const {
+  // Leaves in `products` what is to be subtracted from the rows below.
+  FATHOM_INLINE void solve_own(const Supernode& s, double* products) const {
     const double* panel = panels + s.panel * kBlockNumbers<B>;
     const int stride = s.panel_rows() * B;
-    const int* rows = symbolic.rows.data() + s.rows;
     const double* inverse = inverses + at(s.first * B);
     double* own = x + at(s.first * B);
     const int width = s.width * B;
@@ -45,14 +45,25 @@ struct Substitution {
       };
       for (int i = k + B; i < width; ++i) own[i] -= product(i);
       if (k == 0) {
-        for (int i = 0; i < height; ++i) gathered[i] = product(width + i);
+        for (int i = 0; i < height; ++i) products[i] = product(width + i);
       } else {
-        for (int i = 0; i < height; ++i) gathered[i] += product(width + i);
+        for (int i = 0; i < height; ++i) products[i] += product(width + i);
       }
     }
-    for (int i = 0; i < s.height; ++i) {
-      for (int a = 0; a < B; ++a) x[rows[i] * B + a] -= gathered[i * B + a];
+  }
+
+  // From the rows [first, last) below; the products begin with those of `first`.
+  FATHOM_INLINE void subtract(const Supernode& s, const double* products, int first,
+                              int last) const {
+    const int* rows = symbolic.rows.data() + s.rows + first;
+    for (int i = 0; i < last - first; ++i) {
+      for (int a = 0; a < B; ++a) x[rows[i] * B + a] -= products[i * B + a];
     }
+  }
+
+  FATHOM_INLINE void forward(const Supernode& s) const {
+    solve_own(s, gathered);
+    subtract(s, gathered, 0, s.height);
   }
 
   FATHOM_INLINE void backward(const Supernode& s) const {
@@ -89,10 +100,14 @@ struct Substitution {
     }
   }
 
+  FATHOM_INLINE void apply_signs() const {
+    for (int i = 0; signs != nullptr && i < symbolic.size() * B; ++i) x[i] *= signs[i];
+  }
+
   FATHOM_INLINE bool run() {
     const std::vector<Supernode>& all = symbolic.supernodes;
     for (std::size_t i = 0; i < all.size(); ++i) forward(all[i]);
-    for (int i = 0; signs != nullptr && i < symbolic.size() * B; ++i) x[i] *= signs[i];
+    apply_signs();
     for (std::size_t i = all.size(); i > 0; --i) backward(all[i - 1]);
     return true;
   }

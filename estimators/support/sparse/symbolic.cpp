@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "estimators/support/sparse/dense_kernel.hpp"
 #include "estimators/support/sparse/elimination_tree.hpp"
 
 namespace fathom::sparse {
@@ -137,7 +138,33 @@ void place_updates(Symbolic& result) {
   }
 }
 
+// A tile that reads past the end of one thread's panels must not meet what another one writes.
+void part_panels(Symbolic& result) {
+  std::vector<char> is_end(result.supernodes.size(), 0);
+  for (const int s : result.cut.top) is_end[at(s)] = 1;
+  for (const Branch& branch : result.cut.branches) is_end[at(branch.end - 1)] = 1;
+  std::size_t shift = 0;
+  for (std::size_t i = 0; i < is_end.size(); ++i) {
+    result.supernodes[i].panel += shift;
+    if (is_end[i] != 0) shift += kReadAhead;
+  }
+  result.panel_blocks += shift;
+}
+
+void share_among(Workers* workers, std::size_t least_shared, Symbolic& result) {
+  if (workers == nullptr || workers->size() < 2 || result.panel_blocks < least_shared) return;
+  result.workers = workers;
+  result.cut = cut_tree(result, workers->size());
+  part_panels(result);
+}
+
 }  // namespace
+
+int rows_inside(const Symbolic& symbolic, const Supernode& s, int end) {
+  const int* rows = symbolic.rows.data() + s.rows;
+  const Supernode& last = symbolic.supernodes[at(end - 1)];
+  return static_cast<int>(std::lower_bound(rows, rows + s.height, last.first + last.width) - rows);
+}
 
 int Symbolic::panel_row(int row, const Supernode& s) const {
   if (row < s.first + s.width) return row - s.first;
@@ -145,7 +172,8 @@ int Symbolic::panel_row(int row, const Supernode& s) const {
   return s.width + static_cast<int>(std::lower_bound(begin, begin + s.height, row) - begin);
 }
 
-Symbolic analyse(const Adjacency& graph, ChainElimination chains) {
+Symbolic analyse(const Adjacency& graph, ChainElimination chains, Workers* workers,
+                 std::size_t least_shared) {
   Symbolic result;
   const std::vector<int> order = elimination_order(graph, chains);
   const std::vector<int> tree = elimination_tree(graph, order, inverse_of(order));
@@ -161,6 +189,7 @@ Symbolic analyse(const Adjacency& graph, ChainElimination chains) {
   result.position = inverse_of(result.node);
   make_supernodes(fill_of(graph, result, parent), parent, result);
   place_updates(result);
+  share_among(workers, least_shared, result);
   return result;
 }
 

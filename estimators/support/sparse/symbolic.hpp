@@ -4,6 +4,8 @@
 #include <vector>
 
 #include "estimators/support/sparse/ordering.hpp"
+#include "estimators/support/sparse/tree_cut.hpp"
+#include "fathom/core/workers.hpp"
 
 namespace fathom::sparse {
 
@@ -47,6 +49,9 @@ struct Symbolic {
   std::vector<Update> updates;
   std::vector<int> places;
   std::size_t panel_blocks = 0;
+  /// Who factors and substitutes; null: the calling thread alone. The results are the same.
+  Workers* workers = nullptr;
+  TreeCut cut;  ///< for `workers`
 
   int size() const { return static_cast<int>(node.size()); }
 
@@ -55,6 +60,14 @@ struct Symbolic {
   int panel_row(int row, const Supernode& supernode) const;
 };
 
-Symbolic analyse(const Adjacency& graph, ChainElimination chains = ChainElimination::on);
+/// How many of the rows below a supernode are columns of supernodes before `end`.
+int rows_inside(const Symbolic& symbolic, const Supernode& s, int end);
+
+/// Of fewer blocks in all panels, waking threads costs more than they do.
+inline constexpr std::size_t kLeastSharedBlocks = 30000;
+
+/// `workers` get the work where it is worth it, that is, from `least_shared` blocks on.
+Symbolic analyse(const Adjacency& graph, ChainElimination chains = ChainElimination::on,
+                 Workers* workers = nullptr, std::size_t least_shared = kLeastSharedBlocks);
 
 }  // namespace fathom::sparse

@@ -80,7 +80,7 @@ struct Replay {
   /// Of the covariances for loop candidates, where asked for: a part of total_ms.
   std::optional<double> candidate_covariance_ms;
   double total_ms = 0.0;  ///< of all calls but the covariances of poses and of `motions`
-  double cpu_ms = 0.0;    ///< of the thread, over the same calls
+  double cpu_ms = 0.0;    ///< of the thread and its Workers, over the same calls
   double covariance_ms = 0.0;
   std::optional<std::int64_t> memory_bytes;
   /// Those asked for, each with its covariances where they are to be had.

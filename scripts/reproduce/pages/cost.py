@@ -51,6 +51,26 @@ def growth_tables(work):
     return "\n".join(table(header, rows) for header, rows in growth(work)[1:])
 
 
+@maker("docs/cost.md", "cost-maps", "time", "`build/release/back_ends --maps FILE.svg`", 40,
+       programs=("back_ends",), pictures=("docs/images/maps.svg",))
+def large_maps(work):
+    few = work.size([], ["--keyframes", "1000,3000"])
+    folder = work.run("maps", "back_ends", "--maps", "{out}/maps.svg", *few)
+    work.picture("docs/images/maps.svg", folder / "maps.svg")
+    parts = []
+    for header, rows in tables_of((folder / "stdout.txt").read_text("utf-8")):
+        one, two = (next(i for i, text in enumerate(header) if text.endswith(ending))
+                    for ending in ("`sparse_gauss_newton`, s", "2 threads, s"))
+        parts.append(table([*header[:two + 1], "gain", *header[two + 1:]],
+                           [[*row[:two + 1], _gain(row[one], row[two]), *row[two + 1:]]
+                            for row in rows]))
+    return "\n".join(parts)
+
+
+def _gain(one, two):
+    return NOTHING if NOTHING in (one, two) else fixed(float(one) / float(two), 2)
+
+
 @maker("docs/cost.md", "cost-smoother-update", **GROWTH)
 def smoother_update(work):
     header, rows = growth(work)[1]

@@ -66,7 +66,7 @@ std::vector<Metric> cost_metrics() {
                 "total_ms",
                 replay_field(&ReplayFacts::candidate_covariance_ms)},
                {"cpu_ms", "CPU time", "ms", Better::lower,
-                "CPU time of its thread over the same calls", replay_field(&ReplayFacts::cpu_ms)},
+                "CPU time of its threads over the same calls", replay_field(&ReplayFacts::cpu_ms)},
                {"covariance_ms", "covariance time", "ms", Better::lower,
                 "wall time of the covariances of all keyframes, asked for once, at the end",
                 replay_field(&ReplayFacts::covariance_ms)},
