@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "estimators/support/pose_graph/batch.hpp"
 #include "estimators/support/pose_graph/information.hpp"
 
 namespace fathom::incremental_smoother {
@@ -188,35 +187,6 @@ void Smoother::take_step(Progress& progress) {
   progress.is_whole = true;
 }
 
-// Where a step made F rise: once more, with everything linearised here; else in batch. A local step
-// is the first of its update.
-void Smoother::retreat(Progress& progress) {
-  if (progress.is_whole) {
-    tree_.drop_motions();
-    problem_.nodes = before_step_;
-  } else {
-    restore();
-  }
-  // From where F may have been anything, infinite too.
-  gradient_.evaluate_all();
-  if (!progress.is_fresh) {
-    progress.is_fresh = true;
-    progress.is_whole = true;
-    to_relinearise_.clear();
-    for (int k = 1; k < problem_.size(); ++k) to_relinearise_.push_back(k);
-    return;
-  }
-  const SmootherResult solved = solve_batch();
-  progress.result.iterations += solved.iterations;
-  end(progress, solved.outcome);
-}
-
-void Smoother::restore() {
-  tree_.forget_update();
-  problem_.restore_saved();
-  tree_.settle();
-}
-
 // A motion that keyframes share changes nothing of what lies between them.
 void Smoother::reevaluate_bent() {
   ++pass_;
@@ -230,28 +200,6 @@ void Smoother::reevaluate_bent() {
       note_changed(other);
     });
   }
-}
-
-SmootherResult Smoother::solve_batch() {
-  ++counts_.batch_solves;
-  std::vector<Node> nodes = problem().nodes;
-  const auto solved = pose_graph::solve_batch(problem_.edges, nodes, pose_graph::Start::given,
-                                              {limits_.max_iterations, limits_.tolerance});
-  if (is_done(solved.outcome)) {
-    for (int k = 1; k < problem_.size(); ++k) problem_.save(k, problem_.nodes[at(k)]);
-    problem_.nodes = std::move(nodes);
-    evaluate_all();
-    if (!rebuild()) return {Outcome::numerical_failure, solved.iterations};
-  }
-  return {solved.outcome, solved.iterations};
-}
-
-void Smoother::undo(int edges_before) {
-  restore();
-  problem_.forget_edges(edges_before);
-  edge_pass_.resize(at(edges_before));
-  evaluate_all();
-  rebuild();
 }
 
 }  // namespace fathom::incremental_smoother
