@@ -121,9 +121,18 @@ int CliqueTree::new_clique() {
   return i;
 }
 
-void CliqueTree::build(int newest) {
-  elimination_.analyse(quotient_,
-                       minimum_degree_.order(quotient_, index_of_[at(newest)], quotient_.size - 1));
+// How many of the affected keyframes are older than this one; none where there are few.
+int CliqueTree::older_than(int keyframe) const {
+  constexpr int kFew = 50;
+  const auto end = affected_.end() - 1;  // keyframe 0
+  const auto older = static_cast<int>(std::ranges::lower_bound(affected_.begin(), end, keyframe) -
+                                      affected_.begin());
+  return older < kFew ? 0 : older;
+}
+
+void CliqueTree::build(int first, int newest) {
+  elimination_.analyse(quotient_, minimum_degree_.order(quotient_, first, index_of_[at(newest)],
+                                                        quotient_.size - 1));
   built_.clear();
   for (const Front& front : elimination_.fronts()) {
     const int i = new_clique();
@@ -171,7 +180,7 @@ bool CliqueTree::refactor(std::span<const int> keyframes, int newest) {
   find_affected(keyframes);
   form_quotient_graph();
   release_marked();
-  build(newest);
+  build(older_than(*std::ranges::min_element(keyframes)), newest);
   for (const int v : affected_) index_of_[at(v)] = -1;
   if (factor(built_)) return true;
   clear();

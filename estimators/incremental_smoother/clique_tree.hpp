@@ -79,7 +79,8 @@ class CliqueTree {
   void find_affected(std::span<const int> keyframes);
   void form_quotient_graph();
   void release_marked();
-  void build(int newest);
+  int older_than(int keyframe) const;
+  void build(int first, int newest);
   int new_clique();
   void attach(int clique);
   bool factor(std::span<const int> which);

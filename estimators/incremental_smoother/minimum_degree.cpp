@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <utility>
 
 namespace fathom::incremental_smoother {
 namespace {
@@ -35,10 +36,11 @@ void QuotientGraph::clear() {
   element_nodes.clear();
 }
 
-const std::vector<int>& MinimumDegree::order(const QuotientGraph& graph, int newest, int fixed) {
+const std::vector<int>& MinimumDegree::order(const QuotientGraph& graph, int first, int newest,
+                                             int fixed) {
   order_.clear();
   if (graph.size <= kMostBits) {
-    order_by_bits(graph, newest, fixed);
+    order_by_bits(graph, first, newest, fixed);
   } else {
     order_approximately(graph);
     std::erase_if(order_, [&](int v) { return v == newest || v == fixed; });
@@ -105,22 +107,33 @@ void MinimumDegree::take(int v) {
   }
 }
 
-void MinimumDegree::order_by_bits(const QuotientGraph& graph, int newest, int fixed) {
+void MinimumDegree::order_by_bits(const QuotientGraph& graph, int first, int newest, int fixed) {
   const int n = graph.size;
   words_ = (n + kWord - 1) / kWord;
   fill_rows(graph);
-  degree_.resize(at(n));
+  degree_.assign(at(n), 0);
   next_.resize(at(n));
   previous_.resize(at(n));
   head_.assign(at(n), -1);
   tail_.assign(at(n), -1);
   const auto is_kept = [&](int v) { return v == newest || v == fixed; };
-  for (int v = 0; v < n; ++v) {
-    degree_[at(v)] = count(v);
-    if (!is_kept(v)) put(v);
-  }
+  // Those whose turn it is; the others wait.
+  int begin = 0;
+  int end = first > 0 ? first : n;
+  const auto put_all = [&] {
+    for (int v = begin; v < end; ++v) {
+      degree_[at(v)] = count(v);
+      if (!is_kept(v)) put(v);
+    }
+  };
+  put_all();
   int least = 0;
   for (int left = n; left > 2; --left) {
+    if (left == n - first && first > 0) {
+      begin = std::exchange(end, n);
+      put_all();
+      least = 0;
+    }
     while (head_[at(least)] < 0) ++least;
     const int v = head_[at(least)];
     // All that are left are linked with one another.
@@ -133,7 +146,7 @@ void MinimumDegree::order_by_bits(const QuotientGraph& graph, int newest, int fi
       for (int w = 0; w < words_; ++w) to[w] |= from[w];
       reset(to, u);
       reset(to, v);
-      if (is_kept(u)) return;
+      if (is_kept(u) || u < begin || u >= end) return;
       take(u);
       degree_[at(u)] = count(u);
       put(u);

@@ -27,10 +27,11 @@ struct QuotientGraph {
 /// minimum degree.
 class MinimumDegree {
  public:
-  const std::vector<int>& order(const QuotientGraph& graph, int newest, int fixed);
+  /// Nodes 0 … first − 1 go before all others, but where approximate minimum degree is at work.
+  const std::vector<int>& order(const QuotientGraph& graph, int first, int newest, int fixed);
 
  private:
-  void order_by_bits(const QuotientGraph& graph, int newest, int fixed);
+  void order_by_bits(const QuotientGraph& graph, int first, int newest, int fixed);
   void order_approximately(const QuotientGraph& graph);
   std::uint64_t* row(int v) { return bits_.data() + at(v) * at(words_); }
   void fill_rows(const QuotientGraph& graph);

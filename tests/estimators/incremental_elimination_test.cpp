@@ -66,7 +66,7 @@ TEST(IncrementalOrder, HasLittleFillAndKeepsTheLastTwo) {
     const QuotientGraph graph = random_graph(std::max(n, 5), n / 4, random);
     const int newest = graph.size / 2;
     const int fixed = graph.size - 1;
-    const std::vector<int> order = minimum_degree.order(graph, newest, fixed);
+    const std::vector<int> order = minimum_degree.order(graph, 0, newest, fixed);
     ASSERT_EQ(order.size(), static_cast<std::size_t>(graph.size));
     EXPECT_EQ(order[order.size() - 1], fixed);
     EXPECT_EQ(order[order.size() - 2], newest);
@@ -81,13 +81,31 @@ TEST(IncrementalOrder, HasLittleFillAndKeepsTheLastTwo) {
   }
 }
 
+TEST(IncrementalOrder, TakesTheFirstBeforeAllOthers) {
+  RandomStream random(3, "first");
+  MinimumDegree minimum_degree;
+  for (const int n : {20, 65, 300}) {
+    const QuotientGraph graph = random_graph(n, n / 4, random);
+    for (const int first : {1, n / 3, n - 3}) {
+      const std::vector<int> order = minimum_degree.order(graph, first, n - 2, n - 1);
+      std::vector<int> sorted = order;
+      const auto end = sorted.begin() + first;
+      std::sort(sorted.begin(), end);
+      std::sort(end, sorted.end());
+      for (int v = 0; v < n; ++v) ASSERT_EQ(sorted[at(v)], v);
+      EXPECT_EQ(order[order.size() - 2], n - 2);
+      EXPECT_EQ(order.back(), n - 1);
+    }
+  }
+}
+
 TEST(IncrementalOrder, OfAChainIsFlat) {
   QuotientGraph chain;
   chain.size = 1001;
   chain.links.push_back({1000, 0});
   for (int k = 1; k < 1000; ++k) chain.links.push_back({k - 1, k});
   MinimumDegree minimum_degree;
-  const std::vector<int> order = minimum_degree.order(chain, 999, 1000);
+  const std::vector<int> order = minimum_degree.order(chain, 0, 999, 1000);
   Elimination elimination;
   elimination.analyse(chain, order);
   // Of a front: how many lie above it.
@@ -115,7 +133,7 @@ TEST(IncrementalElimination, HasTheRowsThatEliminationMakes) {
   Elimination elimination;
   for (const int n : {5, 12, 70, 2500}) {
     const QuotientGraph graph = random_graph(n, n / 10, random);
-    elimination.analyse(graph, minimum_degree.order(graph, 2, n - 1));
+    elimination.analyse(graph, minimum_degree.order(graph, 0, 2, n - 1));
     std::vector<int> position(at(n), -1);
     for (int p = 0; p < n; ++p) position[at(elimination.node_at(p))] = p;
     const auto rows = naive_fill(graph, position);
