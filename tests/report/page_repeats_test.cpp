@@ -68,5 +68,29 @@ TEST(PageRepeats, SaysSurveysAndTrialsAndWhatTheyDoNotSpeakOf) {
   EXPECT_THAT(cell_of()["limits"].get<std::string>(), HasSubstr("One set of pictures: "));
 }
 
+// 30 000 loops of three estimators; those that were not used are few, and all of them are drawn.
+TEST(PageRepeats, OfVeryManyLoopsSomeAreDrawn) {
+  FixtureOptions options;
+  options.trials = 1;
+  options.keyframes = 10'010;
+  options.separations = {"5"};
+  options.noises.clear();
+  const Json cell = data_of(options)["cells"][0];
+  for (std::size_t e = 1; e < 4; ++e) {
+    const Json& one = cell["example"]["estimators"][e];
+    const auto all = one["loops_in_all"].get<std::vector<std::size_t>>();
+    ASSERT_EQ(all.size(), 3u);
+    EXPECT_EQ(all[0] + all[1] + all[2], 10'000u);
+    std::vector<std::size_t> drawn(3);
+    for (const Json& loop : one["loops"]) ++drawn.at(loop[2].get<std::size_t>());
+    EXPECT_EQ(drawn[1], all[1]);
+    EXPECT_EQ(drawn[2], all[2]);
+    EXPECT_LT(drawn[0] + drawn[1] + drawn[2], 5'010u);
+    EXPECT_GT(drawn[0], 2'000u);
+    EXPECT_EQ(one["loop_ends_m"].size(), one["loops"].size());
+    EXPECT_LT(one["path"]["x_m"].size(), 6'010u);
+  }
+}
+
 }  // namespace
 }  // namespace fathom::test
