@@ -24,22 +24,16 @@ using fathom::Pose;
 constexpr std::size_t kKeyframes = 10'000;
 
 /// Poses that are known, and, of the motions between them, that each step adds 1 cm.
-class Known : public fathom::TrajectoryView {
+class Known : public fathom::GivenTrajectory {
  public:
-  void append(const Pose& pose) { poses_.push_back(pose); }
-  std::size_t size() const override { return poses_.size(); }
-  Pose pose(std::size_t k) const override { return poses_[k]; }
   std::optional<std::vector<fathom::UncertainPose>> motions_to_newest() const override {
-    std::vector<fathom::UncertainPose> motions(poses_.size() - 1);
+    std::vector<fathom::UncertainPose> motions(size() - 1);
     for (std::size_t k = 0; k < motions.size(); ++k) {
       const double steps = static_cast<double>(motions.size() - k);
-      motions[k] = {between(poses_[k], poses_.back()), 1e-4 * steps * Eigen::Matrix3d::Identity()};
+      motions[k] = {between(pose(k), pose(size() - 1)), 1e-4 * steps * Eigen::Matrix3d::Identity()};
     }
     return motions;
   }
-
- private:
-  std::vector<Pose> poses_;
 };
 
 // Legs of 100 keyframes, 0.5 m apart.
