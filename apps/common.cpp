@@ -39,6 +39,15 @@ std::vector<std::filesystem::path> inputs_of(const std::string& path, const Sett
   return inputs;
 }
 
+std::unique_ptr<RegistrationStore> open_registrations(const std::filesystem::path& folder,
+                                                      bool quiet) {
+  auto store = std::make_unique<RegistrationStore>(folder);
+  if (const std::string problem = store->problem(); !problem.empty() && !quiet) {
+    std::fprintf(stderr, "fathom: note: no registration cache: %s\n", problem.c_str());
+  }
+  return store;
+}
+
 std::string stem_of(const std::string& path) {
   const std::string stem = std::filesystem::path(path).stem().string();
   return stem.empty() ? "run" : stem;

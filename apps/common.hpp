@@ -10,6 +10,7 @@
 
 #include "apps/flags.hpp"
 #include "fathom/configuration/configuration.hpp"
+#include "fathom/front_end/registration_store.hpp"
 #include "fathom/harness/recording.hpp"
 
 namespace fathom {
@@ -32,6 +33,11 @@ struct CommonFlags {
 
 /// What a configuration from `path` has the program read: itself, its data set, its floor.
 std::vector<std::filesystem::path> inputs_of(const std::string& path, const Settings& settings);
+
+/// The registrations kept in a folder. Where it cannot be used a note says so, unless quiet, and
+/// they are kept in memory only.
+std::unique_ptr<RegistrationStore> open_registrations(const std::filesystem::path& folder,
+                                                      bool quiet);
 
 /// Whether standard error is a terminal.
 bool is_error_terminal();

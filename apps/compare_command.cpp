@@ -27,13 +27,10 @@ namespace fs = std::filesystem;
 std::unique_ptr<RegistrationStore> open_cache(const CompareFlags& flags) {
   if (flags.no_cache) return nullptr;
   if (!flags.read_only_cache.empty()) return RegistrationStore::read_only(flags.read_only_cache);
-  auto cache = std::make_unique<RegistrationStore>(flags.cache.empty() ? default_cache_folder()
-                                                                       : fs::path(flags.cache));
-  const std::string problem = cache->problem();
-  if (!problem.empty() && flags.only_registrations) throw InputError(problem);
-  if (!problem.empty() && !flags.common.quiet) {
-    std::fprintf(stderr, "fathom: note: no registration cache: %s\n", problem.c_str());
-  }
+  auto cache =
+      open_registrations(flags.cache.empty() ? default_cache_folder() : fs::path(flags.cache),
+                         flags.common.quiet || flags.only_registrations);
+  if (flags.only_registrations && !cache->problem().empty()) throw InputError(cache->problem());
   return cache;
 }
 

@@ -10,7 +10,6 @@
 #include "apps/mosaics.hpp"
 #include "apps/pictures.hpp"
 #include "fathom/core/files.hpp"
-#include "fathom/core/input_error.hpp"
 #include "fathom/estimators/builtin.hpp"
 #include "fathom/front_end/registration_store.hpp"
 #include "fathom/harness/manifest.hpp"
@@ -25,13 +24,6 @@ struct RunFlags {
   std::string cache;
   bool no_mosaic = false;
 };
-
-std::unique_ptr<RegistrationStore> open_cache(const std::string& folder) {
-  if (folder.empty()) return nullptr;
-  auto cache = std::make_unique<RegistrationStore>(folder);
-  if (const std::string problem = cache->problem(); !problem.empty()) throw InputError(problem);
-  return cache;
-}
 
 Recording record_with_progress(const Recorder& recorder, const Configuration& configuration,
                                bool quiet) {
@@ -98,7 +90,8 @@ void run(const RunFlags& flags, Context& context) {
       configure(settings, ConfigurationKind::single, builtin_estimators());
   StagedFolder folder(flags.common.folder_or(stem_of(flags.config)),
                       inputs_of(flags.config, settings));
-  const std::unique_ptr<RegistrationStore> cache = open_cache(flags.cache);
+  const std::unique_ptr<RegistrationStore> cache =
+      flags.cache.empty() ? nullptr : open_registrations(flags.cache, flags.common.quiet);
   const Recorder recorder(configuration, cache.get());
   const Recording recording = record_with_progress(recorder, configuration, flags.common.quiet);
   const std::vector<Result> results{evaluate_with_progress(

@@ -4,7 +4,6 @@
 
 #include "fathom/results/run_index.hpp"
 #include "keyframe_series.hpp"
-#include "page_numbers.hpp"
 #include "study_figures.hpp"
 #include "trajectory_map.hpp"
 
