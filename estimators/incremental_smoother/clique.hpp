@@ -21,6 +21,9 @@ struct FollowedMotion {
   long settled_in = -1;  ///< the last step since which it and those above have none
 };
 
+/// Whether a clique has its update; one that lasts is not dropped (CliqueTree::drop_updates).
+enum class Kept { no, yes, lasting };
+
 /// Keyframes that are eliminated together, given the separator: those of its ancestors that they
 /// are linked with, directly or by what was eliminated before. Lengths count keyframes, three
 /// numbers each.
@@ -38,6 +41,11 @@ struct Clique {
   /// What the subtree says of its separator: the Schur complement, its lower blocks alone, by block
   /// columns (update_column), each column-major from its diagonal block down.
   std::vector<double> update;
+  Kept kept = Kept::no;
+  long used_in = -1;       ///< the update of the estimate that needed `update` last
+  long queued_in = -1;     ///< what `used_in` was when it was queued
+  bool is_queued = false;  ///< to be dropped
+  int dropped = 0;         ///< keyframes to eliminate again to have it back
   /// Where the variables lay when it was factored, seen from the last of them.
   std::vector<double> layout;
 

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "estimators/incremental_smoother/fronts.hpp"
-
 namespace fathom::incremental_smoother {
 
 void CliqueTree::clear() {
@@ -12,7 +10,13 @@ void CliqueTree::clear() {
   followers_.clear();
   unmark();
   free_.clear();
-  for (int i = static_cast<int>(cliques_.size()) - 1; i >= 0; --i) free_.push_back(i);
+  for (int i = static_cast<int>(cliques_.size()) - 1; i >= 0; --i) {
+    release_update(cliques_[at(i)]);
+    cliques_[at(i)].is_queued = false;
+    free_.push_back(i);
+  }
+  queue_.clear();
+  has_dropped_ = false;
   std::fill(clique_of_.begin(), clique_of_.end(), -1);
   root_ = -1;
 }
@@ -107,6 +111,7 @@ void CliqueTree::form_quotient_graph() {
 }
 
 void CliqueTree::release_marked() {
+  for (const int i : marked_) release_update(cliques_[at(i)]);
   free_.insert(free_.end(), marked_.begin(), marked_.end());
   unmark();
 }
@@ -196,27 +201,6 @@ bool CliqueTree::relinearise(std::span<const int> keyframes) {
   unmark();
   if (!done) clear();
   return done;
-}
-
-bool CliqueTree::factor(std::span<const int> which) {
-  refactored_ = 0;
-  for (const int i : which) {
-    Clique& c = cliques_[at(i)];
-    const std::size_t width = 3 * at(c.width);
-    const std::size_t height = 3 * at(c.height);
-    refactored_ += c.width;
-    packed_.resize(std::max(packed_.size(), 3 * width));
-    signs_.resize(std::max(signs_.size(), width));
-    gathered_.resize(std::max(gathered_.size(), width + height));
-    buffers_.give_back(std::move(c.panel));
-    buffers_.give_back(std::move(c.update));
-    c.panel = buffers_.take((width + height) * width + kReadAhead);
-    c.update = buffers_.take(c.update_column(c.height));
-    c.layout.resize(width + height);
-  }
-  FrontFactorisation run{problem_,       cliques_,       which,        order_.data(),
-                         row_of_.data(), packed_.data(), signs_.data()};
-  return sparse::run_for_processor(run);
 }
 
 }  // namespace fathom::incremental_smoother

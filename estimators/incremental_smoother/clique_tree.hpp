@@ -1,5 +1,6 @@
 #pragma once
 
+#include <deque>
 #include <span>
 #include <vector>
 
@@ -20,8 +21,9 @@ namespace fathom::incremental_smoother {
 /// lie to each other, and nothing of where they are in the world.
 class CliqueTree {
  public:
-  /// The problem must outlive it.
-  explicit CliqueTree(Problem& problem) : problem_(problem) {}
+  /// The problem must outlive it. Schur complements beyond so many bytes may be dropped.
+  CliqueTree(Problem& problem, std::size_t most_kept_bytes)
+      : problem_(problem), most_kept_(most_kept_bytes / sizeof(double)) {}
 
   void clear();
 
@@ -57,7 +59,8 @@ class CliqueTree {
   /// Nobody follows what is noted and not yet passed on.
   void drop_motions();
 
-  /// From here on forget_update takes back what cliques were to follow.
+  /// From here on forget_update takes back what cliques were to follow. Schur complements that
+  /// are too many are dropped, those first that were not needed for longest.
   void begin_update();
   /// With Problem::restore_saved all keyframes are where they were when the update began.
   void forget_update();
@@ -84,6 +87,13 @@ class CliqueTree {
   int new_clique();
   void attach(int clique);
   bool factor(std::span<const int> which);
+  bool factor_some(std::span<const int> which);
+  void add_dropped(std::span<const int> which);
+  void make_room(Clique& clique);
+  void queue(int clique);
+  void release_update(Clique& clique);
+  void drop_update(Clique& clique);
+  void drop_updates();
   void set_right_side(const std::vector<Vec3>& gradient, const std::vector<Vec3>* ignored);
   double substitute();
   bool bend_separator(const Clique& clique, const RigidMotion& rigid, double negligible);
@@ -111,7 +121,13 @@ class CliqueTree {
   MinimumDegree minimum_degree_;
   Elimination elimination_;
   std::vector<int> built_;
+  std::vector<int> to_factor_;
   int refactored_ = 0;
+
+  std::deque<int> queue_;  ///< cliques whose update may be dropped
+  std::size_t most_kept_ = 0;
+  std::size_t kept_ = 0;      ///< numbers in updates that may be
+  bool has_dropped_ = false;  ///< whether any was
 
   // Workspace.
   std::vector<int> row_of_;

@@ -16,6 +16,7 @@ Motion composed(const Motion& later, const Motion& earlier) {
 }  // namespace
 
 void CliqueTree::begin_update() {
+  drop_updates();
   ++update_;
   followers_.clear();
 }

@@ -10,7 +10,7 @@ namespace fathom::incremental_smoother {
 Smoother::Smoother(const Pose& origin, const SmootherLimits& limits)
     : limits_(limits),
       problem_(make_node(origin.x, origin.y, origin.theta)),
-      tree_(problem_),
+      tree_(problem_, limits.most_kept_bytes),
       gradient_(problem_),
       ignored_(1),
       changed_in_(1, -1) {}
@@ -159,6 +159,13 @@ bool Smoother::prepare_step(const Progress& progress) {
   return relinearise();
 }
 
+// In squared sigmas.
+double Smoother::negligible_bend() const {
+  const double mean_cost = gradient_.cost() / static_cast<double>(problem_.size());
+  return limits_.tolerance *
+         std::max(limits_.bend_share, limits_.bend_share_of_mean_cost * mean_cost);
+}
+
 void Smoother::take_step(Progress& progress) {
   const double promised = progress.is_whole
                               ? tree_.forward_all(gradient_.by_keyframe())
@@ -167,8 +174,7 @@ void Smoother::take_step(Progress& progress) {
   const double allowed = limits_.tolerance * gradient_.cost() + limits_.least_promise_chi2;
   if (progress.is_whole && promised <= allowed) return end(progress, Outcome::converged);
   const double before = gradient_.cost();
-  tree_.propagate(limits_.tolerance *
-                  std::max(limits_.bend_share, limits_.bend_share_of_cost * before));
+  tree_.propagate(negligible_bend());
   reevaluate_bent();
   // A sum that was large before has rounding of its own.
   if (gradient_.cost() < limits_.cancellation * before) {

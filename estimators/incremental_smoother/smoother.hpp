@@ -23,14 +23,18 @@ struct SmootherLimits {
   /// What propagation leaves of a step behind it, as a share of what F may exceed its optimum by:
   /// it adds up over the branches of the tree (docs/estimators/incremental_smoother.md).
   double bend_share = 0.1;
-  /// Where F is large, so is what it may exceed its optimum by: this share of it.
-  double bend_share_of_cost = 4e-5;
+  /// Where F is large, so is what it may exceed its optimum by: this many times F a keyframe. What
+  /// an update leaves does not grow with the map then, and full steps are as much rarer as they are
+  /// longer.
+  double bend_share_of_mean_cost = 12.0;
   /// As of SolverTuning: differences of F that are rounding, and the least that a step may promise.
   double rounding_chi2 = 1e-12;
   double least_promise_chi2 = 1e-20;
   /// Where F falls below this share of what it was, its running sum is added up anew: ten digits of
   /// it are left.
   double cancellation = 1e-6;
+  /// Of Schur complements; some more are kept whatever their bytes.
+  std::size_t most_kept_bytes = std::size_t{256} << 20U;
 };
 
 struct SmootherResult {
@@ -90,6 +94,7 @@ class Smoother {
   bool is_determined();
   SmootherResult iterate();
   bool prepare_step(const Progress& progress);
+  double negligible_bend() const;
   void take_step(Progress& progress);
   void retreat(Progress& progress);
   static void end(Progress& progress, Outcome outcome);

@@ -32,8 +32,11 @@ Node moved(const Node& node, const Eigen::Vector3d& d) {
 // Grown as an estimator grows it: some keyframes, then loops, again and again.
 struct Grown {
   Problem problem{make_node(1.0, 2.0, 3.0)};
-  CliqueTree tree{problem};
+  CliqueTree tree;
   RandomStream random{3, "grown"};
+
+  explicit Grown(std::size_t most_kept_bytes = std::size_t{1} << 30U)
+      : tree(problem, most_kept_bytes) {}
 
   void add_keyframes(int count) {
     for (int j = 0; j < count; ++j) {
@@ -62,6 +65,7 @@ struct Grown {
       add_edge(j % 2 == 0 ? other : newest, j % 2 == 0 ? newest : other);
       if (other > 0) touched.push_back(other);
     }
+    tree.begin_update();
     return tree.refactor(touched, newest);
   }
 
@@ -97,28 +101,55 @@ struct Grown {
   }
 };
 
+void expect_factor(Grown& grown) {
+  const Eigen::MatrixXd inverse = grown.dense().inverse();
+  const std::vector<Vec3> gradient = grown.small_gradient();
+  const Eigen::VectorXd g = Grown::stacked(gradient);
+  const double promised = g.dot(inverse * g);
+  EXPECT_NEAR(grown.tree.forward_all(gradient), promised, 1e-8 * promised);
+  const Problem before = grown.problem;
+  grown.tree.propagate(0.0);
+  grown.tree.settle();
+  const Eigen::VectorXd step = -inverse * g;
+  double worst = 0.0;
+  for (int k = 1; k < before.size(); ++k) {
+    double d[3];
+    offset_of(before.nodes[at(k)], grown.problem.nodes[at(k)], d);
+    for (int a = 0; a < 3; ++a) worst = std::max(worst, std::abs(d[a] - step(3 * (k - 1) + a)));
+  }
+  EXPECT_LT(worst, 1e-5 * step.cwiseAbs().maxCoeff());
+  grown.problem.nodes = before.nodes;
+}
+
 TEST(IncrementalTree, IsTheFactorOfTheWholeMatrixHoweverItGrew) {
   Grown grown;
   for (const int keyframes : {6, 1, 4, 12, 1, 1, 30, 2}) {
     ASSERT_TRUE(grown.update(keyframes, 3));
-    const Eigen::MatrixXd inverse = grown.dense().inverse();
-    const std::vector<Vec3> gradient = grown.small_gradient();
-    const Eigen::VectorXd g = Grown::stacked(gradient);
-    const double promised = g.dot(inverse * g);
-    EXPECT_NEAR(grown.tree.forward_all(gradient), promised, 1e-8 * promised);
-    const Problem before = grown.problem;
-    grown.tree.propagate(0.0);
-    grown.tree.settle();
-    const Eigen::VectorXd step = -inverse * g;
-    double worst = 0.0;
-    for (int k = 1; k < before.size(); ++k) {
-      double d[3];
-      offset_of(before.nodes[at(k)], grown.problem.nodes[at(k)], d);
-      for (int a = 0; a < 3; ++a) worst = std::max(worst, std::abs(d[a] - step(3 * (k - 1) + a)));
-    }
-    EXPECT_LT(worst, 1e-5 * step.cwiseAbs().maxCoeff());
-    grown.problem.nodes = before.nodes;
+    expect_factor(grown);
   }
+}
+
+TEST(IncrementalTree, IsTheFactorWhateverItHadToDrop) {
+  Grown keeps;
+  Grown drops(0);
+  int kept = 0;
+  int dropped = 0;
+  for (int j = 0; j < 60; ++j) {
+    const int keyframes = j % 7 == 0 ? 12 : 3;
+    ASSERT_TRUE(keeps.update(keyframes, 1));
+    ASSERT_TRUE(drops.update(keyframes, 1));
+    kept += keeps.tree.refactored();
+    dropped += drops.tree.refactored();
+    if (j % 5 == 0) expect_factor(drops);
+    if (j % 5 == 0) keeps.small_gradient();  // the same random numbers
+  }
+  EXPECT_GT(dropped, kept);
+  // It can begin anew.
+  drops.tree.clear();
+  std::vector<int> all(at(drops.problem.size() - 1));
+  std::iota(all.begin(), all.end(), 1);
+  ASSERT_TRUE(drops.tree.refactor(all, all.back()));
+  expect_factor(drops);
 }
 
 TEST(IncrementalTree, SolvesForAFewKeyframesAndGivesVariances) {

@@ -1,0 +1,145 @@
+// The factorisation of CliqueTree, and which cliques keep what they say of their separators.
+//
+// The Schur complements take some ten times the memory of the factor, and only those at the border
+// of what is eliminated are needed. Those that were not for longest are dropped. Who needs one that
+// was dropped eliminates its subtree again, down to where they are kept: one is for every
+// kMostDropped keyframes, whatever its age.
+
+#include <algorithm>
+
+#include "estimators/incremental_smoother/clique_tree.hpp"
+#include "estimators/incremental_smoother/fronts.hpp"
+
+namespace fathom::incremental_smoother {
+namespace {
+
+constexpr int kMostDropped = 128;
+// Cliques that are factored before some of their updates may be dropped.
+constexpr std::size_t kMostAtOnce = 512;
+
+}  // namespace
+
+bool CliqueTree::factor(std::span<const int> which) {
+  refactored_ = 0;
+  add_dropped(which);
+  std::span<const int> left = to_factor_;
+  while (left.size() > kMostAtOnce) {
+    const auto some = left.first(kMostAtOnce);
+    left = left.subspan(kMostAtOnce);
+    if (!factor_some(some)) return false;
+    for (const int i : some) {
+      for (const int child : cliques_[at(i)].children) {
+        if (kept_ > most_kept_) drop_update(cliques_[at(child)]);
+      }
+    }
+  }
+  return factor_some(left);
+}
+
+bool CliqueTree::factor_some(std::span<const int> which) {
+  for (const int i : which) {
+    Clique& c = cliques_[at(i)];
+    refactored_ += c.width;
+    make_room(c);
+    queue(i);
+    c.used_in = update_;
+    for (const int child : c.children) cliques_[at(child)].used_in = update_;
+  }
+  FrontFactorisation run{problem_,       cliques_,       which,        order_.data(),
+                         row_of_.data(), packed_.data(), signs_.data()};
+  return sparse::run_for_processor(run);
+}
+
+// Those to factor: before these cliques come those whose updates they need and which have none.
+void CliqueTree::add_dropped(std::span<const int> which) {
+  for (const int i : which) {
+    Clique& c = cliques_[at(i)];
+    if (c.kept == Kept::no) c.kept = Kept::yes;
+  }
+  to_factor_.clear();
+  const auto add_children = [&](const Clique& c) {
+    for (const int i : c.children) {
+      Clique& child = cliques_[at(i)];
+      if (child.kept != Kept::no) continue;
+      child.kept = Kept::yes;
+      to_factor_.push_back(i);
+    }
+  };
+  if (has_dropped_) {
+    for (const int i : which) add_children(cliques_[at(i)]);
+    for (std::size_t next = 0; next < to_factor_.size(); ++next) {
+      add_children(cliques_[at(to_factor_[next])]);
+    }
+    for (const int i : to_factor_) settle_path(i);
+    std::ranges::reverse(to_factor_);
+  }
+  to_factor_.insert(to_factor_.end(), which.begin(), which.end());
+}
+
+void CliqueTree::make_room(Clique& c) {
+  const std::size_t width = 3 * at(c.width);
+  const std::size_t height = 3 * at(c.height);
+  packed_.resize(std::max(packed_.size(), 3 * width));
+  signs_.resize(std::max(signs_.size(), width));
+  gathered_.resize(std::max(gathered_.size(), width + height));
+  buffers_.give_back(std::move(c.panel));
+  release_update(c);
+  c.panel = buffers_.take((width + height) * width + kReadAhead);
+  c.update = buffers_.take(c.update_column(c.height));
+  c.layout.resize(width + height);
+  c.kept = Kept::yes;
+  kept_ += c.update.size();
+}
+
+void CliqueTree::release_update(Clique& c) {
+  if (c.kept == Kept::yes) kept_ -= c.update.size();
+  c.kept = Kept::no;
+  buffers_.give_back(std::move(c.update));
+  c.update = {};
+}
+
+void CliqueTree::queue(int clique) {
+  Clique& c = cliques_[at(clique)];
+  if (c.is_queued) return;
+  c.is_queued = true;
+  c.queued_in = update_;
+  queue_.push_back(clique);
+}
+
+void CliqueTree::drop_update(Clique& c) {
+  if (c.kept != Kept::yes) return;
+  c.dropped = c.width;
+  for (const int i : c.children) {
+    const Clique& child = cliques_[at(i)];
+    if (child.kept == Kept::no) c.dropped += child.dropped;
+  }
+  if (c.dropped >= kMostDropped) {
+    c.kept = Kept::lasting;
+    kept_ -= c.update.size();
+  } else {
+    // Not to the pool: the memory is wanted back.
+    kept_ -= c.update.size();
+    c.kept = Kept::no;
+    std::vector<double>().swap(c.update);
+    has_dropped_ = true;
+  }
+}
+
+// All but those that the last update needed. Each is looked at once.
+void CliqueTree::drop_updates() {
+  for (std::size_t left = queue_.size(); left > 0 && kept_ > most_kept_; --left) {
+    const int i = queue_.front();
+    queue_.pop_front();
+    Clique& c = cliques_[at(i)];
+    c.is_queued = false;
+    if (c.kept != Kept::yes) continue;
+    if (c.used_in >= update_ || c.used_in > c.queued_in) {
+      queue(i);
+      c.queued_in = c.used_in;
+    } else {
+      drop_update(c);
+    }
+  }
+}
+
+}  // namespace fathom::incremental_smoother
