@@ -92,6 +92,13 @@ class CliqueTree {
   void make_room(Clique& clique);
   void queue(int clique);
   void release_update(Clique& clique);
+  template <class Use>
+  void for_each_dropped_above(const Clique& clique, Use use) {
+    for (int i = clique.parent; i >= 0 && cliques_[at(i)].kept == Kept::no;
+         i = cliques_[at(i)].parent) {
+      use(cliques_[at(i)]);
+    }
+  }
   void drop_update(Clique& clique);
   void drop_updates();
   void set_right_side(const std::vector<Vec3>& gradient, const std::vector<Vec3>* ignored);

@@ -62,13 +62,17 @@ void CliqueTree::add_dropped(std::span<const int> which) {
       Clique& child = cliques_[at(i)];
       if (child.kept != Kept::no) continue;
       child.kept = Kept::yes;
-      to_factor_.push_back(i);
+      stack_.push_back(i);
     }
   };
   if (has_dropped_) {
+    stack_.clear();
     for (const int i : which) add_children(cliques_[at(i)]);
-    for (std::size_t next = 0; next < to_factor_.size(); ++next) {
-      add_children(cliques_[at(to_factor_[next])]);
+    while (!stack_.empty()) {
+      const int i = stack_.back();
+      stack_.pop_back();
+      to_factor_.push_back(i);
+      add_children(cliques_[at(i)]);
     }
     for (const int i : to_factor_) settle_path(i);
     std::ranges::reverse(to_factor_);
@@ -106,6 +110,8 @@ void CliqueTree::queue(int clique) {
   queue_.push_back(clique);
 }
 
+// Not where too many keyframes would have to be eliminated again at once, those of what was dropped
+// above it among them.
 void CliqueTree::drop_update(Clique& c) {
   if (c.kept != Kept::yes) return;
   c.dropped = c.width;
@@ -113,16 +119,19 @@ void CliqueTree::drop_update(Clique& c) {
     const Clique& child = cliques_[at(i)];
     if (child.kept == Kept::no) c.dropped += child.dropped;
   }
-  if (c.dropped >= kMostDropped) {
+  int most = c.dropped;
+  for_each_dropped_above(
+      c, [&](const Clique& above) { most = std::max(most, above.dropped + c.dropped); });
+  kept_ -= c.update.size();
+  if (most >= kMostDropped) {
     c.kept = Kept::lasting;
-    kept_ -= c.update.size();
-  } else {
-    // Not to the pool: the memory is wanted back.
-    kept_ -= c.update.size();
-    c.kept = Kept::no;
-    std::vector<double>().swap(c.update);
-    has_dropped_ = true;
+    return;
   }
+  for_each_dropped_above(c, [&](Clique& above) { above.dropped += c.dropped; });
+  // Not to the pool: the memory is wanted back.
+  c.kept = Kept::no;
+  std::vector<double>().swap(c.update);
+  has_dropped_ = true;
 }
 
 // All but those that the last update needed. Each is looked at once.

@@ -7,7 +7,9 @@
 namespace fathom {
 
 double TrueOverlaps::of(std::size_t i, std::size_t k) const {
-  const auto key = [](const Pair& pair) { return std::pair(pair.i, pair.k); };
+  const auto key = [](const Pair& pair) {
+    return std::pair<std::size_t, std::size_t>(pair.i, pair.k);
+  };
   const auto found = std::ranges::lower_bound(pairs, std::pair(i, k), {}, key);
   return found != pairs.end() && key(*found) == std::pair(i, k) ? found->overlap : 0.0;
 }

@@ -37,9 +37,12 @@ std::optional<TrueOverlaps> true_overlaps(const Recording& recording) {
       const double overlap =
           footprint_overlap(*recording.camera, recording.keyframe_altitudes_m[i],
                             recording.keyframe_altitudes_m[k], between(truth[i], truth[k]));
-      if (overlap > 0.0) overlaps.pairs.push_back({i, k, overlap});
+      if (!(overlap > 0.0)) continue;
+      overlaps.pairs.push_back(
+          {static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(k), overlap});
     }
   }
+  overlaps.pairs.shrink_to_fit();
   return overlaps;
 }
 

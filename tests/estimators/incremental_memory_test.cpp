@@ -63,6 +63,22 @@ TEST(IncrementalMemory, ASurveyEliminatesLittleMore) {
   EXPECT_LT(drops.counts().eliminated, 2 * keeps.counts().eliminated);
 }
 
+// To a part that was not looked at for long: of the map some Schur complements last.
+TEST(IncrementalMemory, ALongLoopEliminatesAPartOfTheMap) {
+  const MeasurementLog log = test::tracks_log(12000, 30);
+  SmootherLimits little;
+  little.most_kept_bytes = std::size_t{1} << 20U;
+  Smoother smoother(log.origin(), little);
+  for (std::size_t k = 1; k < log.size(); ++k) arrive(smoother, log, k);
+  const std::size_t last = log.size() - 1;
+  const RelativePose back =
+      RelativePose::from_covariance(100, last, between(smoother.pose(100), smoother.pose(last)),
+                                    test::full_covariance(0.03, 0.01));
+  const long before = smoother.counts().eliminated;
+  EXPECT_EQ(smoother.add_registrations(std::vector{back}).outcome, Outcome::converged);
+  EXPECT_LT(smoother.counts().eliminated - before, 4000);
+}
+
 TEST(IncrementalMemory, AFailedUpdateLeavesNothing) {
   const MeasurementLog log = test::wandering_log(200, 9);
   SmootherLimits little = exact_limits();

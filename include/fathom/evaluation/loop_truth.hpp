@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
@@ -31,8 +32,8 @@ struct JudgedLoop {
 /// Pairs of keyframes that truly overlap: the ground truth of loop detection.
 struct TrueOverlaps {
   struct Pair {
-    std::size_t i = 0;
-    std::size_t k = 0;
+    std::uint32_t i = 0;
+    std::uint32_t k = 0;
     double overlap = 0.0;  ///< 0 to 1
   };
   /// Those that overlap at all, i < k, by rising i and k: of a long survey a small part of all.

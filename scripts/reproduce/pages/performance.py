@@ -2,6 +2,7 @@
 
 from layout import code, fixed, significant, table
 from maker import maker
+from markdown import tables_of
 
 PAGE = "docs/performance.md"
 ESTIMATORS = ("trajectory_iekf", "ekf", "ceres_pose_graph", "sparse_gauss_newton",
@@ -65,6 +66,18 @@ def long_survey(work):
                                                           "features_MB"))])
     return table(["bound on features held", "peak at keyframe 100", "peak at 10 000",
                   "of it features"], cells)
+
+
+@maker(PAGE, "survey-growth", "time",
+       "`build/release/survey_growth configs/studies/long_survey.yaml --out DIR --svg FILE.svg`",
+       120, programs=("survey_growth", "fathom"), pictures=("docs/images/survey_growth.svg",))
+def survey_growth(work):
+    legs = work.size((10, 32, 100, 316, 995), (2, 4))
+    folder = work.run("survey-growth", "survey_growth", "configs/studies/long_survey.yaml",
+                      "--out", "{out}/runs", "--svg", "{out}/growth.svg", "--legs", *legs)
+    work.picture("docs/images/survey_growth.svg", folder / "growth.svg")
+    (header, rows), = tables_of((folder / "stdout.txt").read_text("utf-8"))
+    return table(header, rows)
 
 
 @maker(PAGE, "candidates", "time", "`build/release/long_survey_benchmark "
