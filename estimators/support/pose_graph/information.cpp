@@ -19,7 +19,7 @@ class Information {
   }
 
   bool is_definite() const { return is_definite_; }
-  const sparse::BlockCholesky<3>& factor() const { return equations_.factor(); }
+  sparse::BlockCholesky<3>& factor() { return equations_.factor(); }
 
   /// The three columns of the covariance that belong to a keyframe other than 0.
   Eigen::MatrixX3d columns(std::size_t keyframe) {
@@ -56,7 +56,7 @@ std::optional<std::vector<Eigen::Matrix3d>> marginals(std::span<const Edge> edge
                                                       std::span<const Node> nodes) {
   Information information(edges, nodes);
   if (!information.is_definite()) return std::nullopt;
-  const sparse::SelectedInverse inverse(information.factor());
+  const auto inverse = sparse::SelectedInverse::in_place_of(information.factor());
   std::vector<Eigen::Matrix3d> result{Eigen::Matrix3d::Zero()};
   result.reserve(nodes.size());
   for (int node = 0; node + 1 < static_cast<int>(nodes.size()); ++node) {
@@ -90,8 +90,8 @@ std::optional<std::vector<UncertainPose>> motions_to_newest(std::span<const Edge
   if (newest == 0) return motions;
   Information information(edges, nodes);
   if (!information.is_definite()) return std::nullopt;
-  const sparse::SelectedInverse inverse(information.factor());
   const Eigen::MatrixX3d to_newest = information.columns(newest);
+  const auto inverse = sparse::SelectedInverse::in_place_of(information.factor());
   PairCovariance pair;
   pair.B = information.block(to_newest, newest);
   for (std::size_t k = 0; k < newest; ++k) {

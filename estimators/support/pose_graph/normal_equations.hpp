@@ -56,7 +56,7 @@ class NormalEquations {
   bool step_is_small(std::span<const Node> nodes, double tolerance) const;
 
   std::span<const Edge> edges() const { return edges_; }
-  const sparse::BlockCholesky<3>& factor() const { return factor_; }
+  sparse::BlockCholesky<3>& factor() { return factor_; }
   /// ½ ∂F/∂x; nodes in the order of elimination.
   const std::vector<double>& gradient() const { return gradient_; }
 

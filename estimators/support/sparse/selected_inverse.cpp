@@ -20,8 +20,7 @@ struct Workspace {
 
 struct Recursion {
   const Symbolic& symbolic;
-  const double* factor;
-  double* sigma;
+  double* panels;  // of supernodes that are done Σ, of the others L
   Workspace& work;
 
   FATHOM_INLINE void gather_below(const Supernode& s) const {
@@ -34,7 +33,7 @@ struct Recursion {
       const int* places = symbolic.places.data() + u.places - u.begin;
       for (int column = u.begin; column < u.end; ++column) {
         const double* from =
-            sigma + t.panel * kBlockNumbers<B> + at(places[column] * B) * at(stride);
+            panels + t.panel * kBlockNumbers<B> + at(places[column] * B) * at(stride);
         for (int row = column; row < s.height; ++row) {
           const double* block = from + at(places[row] * B);
           for (int b = 0; b < B; ++b) {
@@ -108,11 +107,11 @@ struct Recursion {
     const int stride = s.panel_rows() * B;
     const int width = s.width * B;
     const int height = s.height * B;
-    const double* panel = factor + s.panel * kBlockNumbers<B>;
-    double* result = sigma + s.panel * kBlockNumbers<B>;
+    double* result = panels + s.panel * kBlockNumbers<B>;
     gather_below(s);
-    invert_top(panel, stride, width);
-    solve_Y(panel, stride, width, height);
+    invert_top(result, stride, width);
+    solve_Y(result, stride, width, height);
+    // L of this supernode is not needed any more.
     const double* inverse = work.inverse.data();
     for (int j = 0; j < width; ++j) {
       for (int i = 0; i < width; ++i) {
@@ -165,11 +164,24 @@ Workspace workspace_for(const Symbolic& symbolic) {
 SelectedInverse::SelectedInverse(const BlockCholesky<3>& factor)
     : factor_(&factor),
       symbolic_(&factor.symbolic()),
-      panels_(symbolic_->panel_blocks * kBlockNumbers<B>) {
+      own_(factor.data(), factor.data() + symbolic_->panel_blocks * kBlockNumbers<B>),
+      panels_(own_.data()) {
+  run(own_.data());
+}
+
+SelectedInverse::SelectedInverse(const BlockCholesky<3>& factor, double* panels)
+    : factor_(&factor), symbolic_(&factor.symbolic()), panels_(panels) {
+  run(panels);
+}
+
+SelectedInverse SelectedInverse::in_place_of(BlockCholesky<3>& factor) {
+  return {factor, factor.data()};
+}
+
+void SelectedInverse::run(double* panels) const {
   if (symbolic_->supernodes.empty()) return;
   Workspace work = workspace_for(*symbolic_);
-  Recursion recursion{*symbolic_, factor.panel(symbolic_->supernodes.front()), panels_.data(),
-                      work};
+  Recursion recursion{*symbolic_, panels, work};
   run_for_processor(recursion);
 }
 
@@ -178,7 +190,7 @@ Eigen::Matrix3d SelectedInverse::block(int node) const {
   const Supernode& s = symbolic_->supernodes[at(symbolic_->supernode_of[at(column)])];
   const int stride = s.panel_rows() * B;
   const int local = (column - s.first) * B;
-  const double* from = panels_.data() + s.panel * kBlockNumbers<B> + at(local) * at(stride) + local;
+  const double* from = panels_ + s.panel * kBlockNumbers<B> + at(local) * at(stride) + local;
   Eigen::Matrix3d result;
   for (int a = 0; a < B; ++a) {
     for (int b = 0; b <= a; ++b) result(a, b) = result(b, a) = from[a + b * stride];

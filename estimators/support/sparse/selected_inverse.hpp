@@ -19,6 +19,8 @@ class SelectedInverse {
  public:
   /// Of a factor of a positive definite matrix, which must outlive this.
   explicit SelectedInverse(const BlockCholesky<3>& factor);
+  /// In the memory of the factor, which is none any more.
+  static SelectedInverse in_place_of(BlockCholesky<3>& factor);
 
   /// The diagonal block of a node.
   Eigen::Matrix3d block(int node) const;
@@ -26,9 +28,13 @@ class SelectedInverse {
   Eigen::Matrix3d block(int a, int b) const;
 
  private:
+  SelectedInverse(const BlockCholesky<3>& factor, double* panels);
+  void run(double* panels) const;
+
   const BlockCholesky<3>* factor_;
   const Symbolic* symbolic_;
-  std::vector<double> panels_;
+  std::vector<double> own_;  ///< where it is not in place
+  const double* panels_;
 };
 
 }  // namespace fathom::sparse
