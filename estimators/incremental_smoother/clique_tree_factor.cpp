@@ -13,7 +13,7 @@
 namespace fathom::incremental_smoother {
 namespace {
 
-constexpr int kMostDropped = 128;
+constexpr int kMostDropped = 512;
 // Cliques that are factored before some of their updates may be dropped.
 constexpr std::size_t kMostAtOnce = 512;
 

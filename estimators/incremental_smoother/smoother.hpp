@@ -34,7 +34,7 @@ struct SmootherLimits {
   /// it are left.
   double cancellation = 1e-6;
   /// Of Schur complements; some more are kept whatever their bytes.
-  std::size_t most_kept_bytes = std::size_t{256} << 20U;
+  std::size_t most_kept_bytes = std::size_t{128} << 20U;
 };
 
 struct SmootherResult {
