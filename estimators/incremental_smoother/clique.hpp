@@ -70,13 +70,16 @@ class BufferPool {
     } else {
       buffer = std::move(free.back());
       free.pop_back();
+      held_ -= buffer.capacity();
     }
     buffer.assign(size, 0.0);
     return buffer;
   }
 
-  void give_back(std::vector<double>&& buffer) {
-    if (buffer.capacity() == 0) return;
+  /// Where it holds enough, the memory goes back to the heap.
+  void give_back(std::vector<double> buffer) {
+    if (buffer.capacity() == 0 || held_ + buffer.capacity() > kMostHeld) return;
+    held_ += buffer.capacity();
     free_[class_of(buffer.capacity())].push_back(std::move(buffer));
   }
 
@@ -93,7 +96,11 @@ class BufferPool {
     return 4 * static_cast<std::size_t>(std::bit_width(rounded - 1)) + eighths - 5;
   }
 
+  // 64 MiB.
+  static constexpr std::size_t kMostHeld = std::size_t{8} << 20U;
+
   std::array<std::vector<std::vector<double>>, 260> free_;
+  std::size_t held_ = 0;
 };
 
 }  // namespace fathom::incremental_smoother
