@@ -3,6 +3,7 @@
 #include "apps/common.hpp"
 #include "fathom/core/files.hpp"
 #include "fathom/core/input_error.hpp"
+#include "fathom/core/system.hpp"
 #include "fathom/report/picture.hpp"
 #include "fathom/report/table.hpp"
 
@@ -23,6 +24,8 @@ std::vector<PlacedPicture> placed_pictures(const Recording& recording,
 
 std::vector<std::string> write_mosaics(const FrameSource& source,
                                        const std::vector<RunMosaic>& mosaics, bool quiet) {
+  // Of solvers that are done: mosaics and the floor of a simulation need memory of their own.
+  return_free_memory();
   MosaicOptions options;
   options.most_pixels /= static_cast<double>(mosaics.size());
   std::vector<std::string> lines;

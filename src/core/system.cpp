@@ -5,6 +5,7 @@
 #include <cstring>
 #include <fcntl.h>
 #include <fstream>
+#include <malloc.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -74,6 +75,12 @@ void sync_to_disk(const std::filesystem::path& file) {
   const int error = errno;
   if (descriptor >= 0) ::close(descriptor);
   if (!is_synced) throw InputError(file.string(), std::strerror(error));
+}
+
+void return_free_memory() {
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
 }
 
 }  // namespace fathom

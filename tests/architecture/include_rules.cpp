@@ -65,7 +65,7 @@ const std::vector<ThirdParty>& third_parties() {
       {"CLI/", {"apps/"}},
       {"glog/", {"apps/main.cpp"}},
       {"omp.h", {"apps/pin_threads.cpp"}},
-      {"malloc.h", {"apps/memory_meter.cpp"}},
+      {"malloc.h", {"apps/memory_meter.cpp", "src/core/system.cpp"}},
       {"signal.h", {"src/core/files.cpp", "src/core/system.cpp"}},
       {"fcntl.h", {"src/core/file_lock.cpp", "src/core/system.cpp"}},
       {"sys/mman.h",

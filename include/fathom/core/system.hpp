@@ -28,6 +28,10 @@ double processor_seconds();
 /// The most memory that this process has had, in MiB.
 double peak_memory_mib();
 
+/// Gives memory that the heap holds and nobody uses back to the system, where the system's heap
+/// can.
+void return_free_memory();
+
 /// Returns once the content of a file is on its disk. Throws InputError.
 void sync_to_disk(const std::filesystem::path& file);
 
