@@ -152,7 +152,7 @@ std::string table_of(const std::vector<Survey>& surveys) {
   for (const Survey& s : surveys) {
     char row[256];
     std::snprintf(row, sizeof row,
-                  "| %.0f | %.0f | %.0f | %.0f | %.3g | %.3g | %.2g | %.0f | %.0f | %.1f |\n",
+                  "| %.0f | %.0f | %.0f | %.0f | %.1f | %.1f | %.2g | %.0f | %.0f | %.1f |\n",
                   s.pictures, s.registrations, s.registering.cpu_s, s.registering.peak_mib,
                   s.comparing.cpu_s, s.smoother_s, 1e3 * s.smoother_s / s.pictures,
                   s.comparing.peak_mib, s.smoother_mib, s.page_mb);
