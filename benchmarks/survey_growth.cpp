@@ -8,12 +8,9 @@
 // again: a program that was stopped goes on where it was, as `fathom compare` does, but costs of
 // the command that was stopped are those of its end alone.
 
-#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
-#include <map>
-#include <sstream>
 #include <string>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -21,6 +18,7 @@
 #include <vector>
 
 #include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
 
 #include "back_ends/curves.hpp"
 #include "fathom/core/files.hpp"
@@ -95,29 +93,6 @@ Cost cost_of(const fs::path& file, const std::vector<std::string>& command) {
   return cost;
 }
 
-std::vector<std::string> cells_of(const std::string& line) {
-  std::vector<std::string> cells;
-  std::istringstream in(line);
-  for (std::string cell; std::getline(in, cell, ',');) cells.push_back(cell);
-  return cells;
-}
-
-// The last run of runs.csv: that of the estimator, behind dead reckoning.
-std::map<std::string, double> last_run_of(const fs::path& file) {
-  std::istringstream in(read_file(file));
-  std::string line;
-  std::getline(in, line);
-  const std::vector<std::string> names = cells_of(line);
-  std::string last;
-  while (std::getline(in, line)) last = line;
-  const std::vector<std::string> cells = cells_of(last);
-  std::map<std::string, double> values;
-  for (std::size_t i = 0; i < std::min(names.size(), cells.size()); ++i) {
-    values[names[i]] = std::strtod(cells[i].c_str(), nullptr);
-  }
-  return values;
-}
-
 Survey measured(const Settings& settings, int legs) {
   const fs::path folder = settings.out / std::to_string(legs);
   fs::create_directories(folder);
@@ -135,11 +110,11 @@ Survey measured(const Settings& settings, int legs) {
   survey.registering = cost_of(folder / "registering.txt", command({"--only-registrations"}));
   const fs::path study = folder / "study";
   survey.comparing = cost_of(folder / "comparing.txt", command({"--out", study.string()}));
-  const std::map<std::string, double> run = last_run_of(study / "runs.csv");
-  survey.pictures = run.at("keyframes");
-  survey.registrations = run.at("registrations");
-  survey.smoother_s = 1e-3 * run.at("cpu_ms");
-  survey.smoother_mib = run.at("memory_bytes") / (1 << 20);
+  const nlohmann::json run = nlohmann::json::parse(read_file(study / "metrics.json")).at(0);
+  survey.pictures = run.at("keyframes").get<double>();
+  survey.registrations = run.at("registrations").get<double>();
+  survey.smoother_s = 1e-3 * run.at("cpu_ms").get<double>();
+  survey.smoother_mib = run.at("memory_bytes").get<double>() / (1 << 20);
   survey.page_mb = 1e-6 * static_cast<double>(fs::file_size(study / "report.html"));
   return survey;
 }

@@ -99,7 +99,6 @@ void CliqueTree::release_update(Clique& c) {
   if (c.kept == Kept::yes) kept_ -= c.update.size();
   c.kept = Kept::no;
   buffers_.give_back(std::move(c.update));
-  c.update = {};
 }
 
 void CliqueTree::queue(int clique) {

@@ -23,9 +23,8 @@ struct SmootherLimits {
   /// What propagation leaves of a step behind it, as a share of what F may exceed its optimum by:
   /// it adds up over the branches of the tree (docs/estimators/incremental_smoother.md).
   double bend_share = 0.1;
-  /// Where F is large, so is what it may exceed its optimum by: this many times F a keyframe. What
-  /// an update leaves does not grow with the map then, and full steps are as much rarer as they are
-  /// longer.
+  /// Where F is large, so is what it may exceed its optimum by: this many times F a keyframe. It
+  /// does not grow with the map, so full steps become rarer as they become longer.
   double bend_share_of_mean_cost = 12.0;
   /// As of SolverTuning: differences of F that are rounding, and the least that a step may promise.
   double rounding_chi2 = 1e-12;
