@@ -1,7 +1,9 @@
 // fathom check: what is in a file or folder, and what is wrong with it.
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <iterator>
 #include <memory>
 
 #include "apps/command.hpp"
@@ -10,6 +12,7 @@
 #include "fathom/datasets/folder_summary.hpp"
 #include "fathom/datasets/image_folder.hpp"
 #include "fathom/estimators/builtin.hpp"
+#include "fathom/harness/outlook.hpp"
 #include "fathom/harness/recording.hpp"
 #include "fathom/harness/replay.hpp"
 #include "fathom/measurements/graph_check.hpp"
@@ -106,10 +109,15 @@ void check_graph(const std::string& path) {
 
 void check_folder(const std::string& path) {
   const ImageFolder folder(path);
-  const FolderSummary summary = summarise_frames(folder);
+  FolderSummary summary = summarise_frames(folder);
   std::printf("image folder\n");
   for (const std::string& fact : summary.facts) std::printf("  %s\n", fact.c_str());
   refuse(summary.faults);
+  const FrontEndOptions front_end;
+  const Outlook expected = outlook(folder, front_end);
+  std::printf("what 'fathom run %s' will find\n", path.c_str());
+  for (const std::string& fact : facts_of(expected)) std::printf("  %s\n", fact.c_str());
+  std::ranges::copy(warnings_of(expected, front_end), std::back_inserter(summary.warnings));
   print_warnings(summary.warnings);
 }
 

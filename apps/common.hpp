@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "apps/flags.hpp"
@@ -25,11 +26,16 @@ struct CommonFlags {
   void add_settings_to(Command& command);
   void add_out_to(Command& command, const std::string& what);
 
-  /// The file's settings (none for an empty path), then --set, then --seed.
+  /// The file's settings (none for an empty path; of a folder, that it is the data set), then
+  /// --set, then --seed.
   Settings settings(const std::string& path) const;
   /// --out, or `runs/` and a name of its own.
   std::string folder_or(const std::string& name) const;
 };
+
+/// Of a folder of pictures that is given in place of a configuration: that it is the data set, and
+/// that its camera is no more level than small vehicles are.
+Settings settings_of_folder(const std::string& path);
 
 /// What a configuration from `path` has the program read: itself, its data set, its floor.
 std::vector<std::filesystem::path> inputs_of(const std::string& path, const Settings& settings);
@@ -41,6 +47,9 @@ std::unique_ptr<RegistrationStore> open_registrations(const std::filesystem::pat
 
 /// Whether standard error is a terminal.
 bool is_error_terminal();
+
+/// Writes to standard error from a signal handler, which may call little else.
+void say_from_signal(std::string_view text) noexcept;
 
 /// The name of a file without folder and ending.
 std::string stem_of(const std::string& path);

@@ -98,7 +98,8 @@ void add_compare(CLI::App& program, Context& context) {
       "Example: fathom compare configs/quickstart.yaml --out runs/quickstart\n"
       "         fathom compare configs/studies/paper_simulated.yaml --trials 5 --jobs 2\n"
       "A study that was stopped or killed goes on where it was: run the same command again.");
-  command.argument("config", flags->config, "Study (YAML)");
+  command.argument("config", flags->config,
+                   "Study (YAML), or a folder of pictures in the EuRoC/ASL layout");
   flags->common.add_settings_to(command);
   flags->common.add_out_to(command, "Output folder (default: runs/CONFIG's name)");
   command.integer("--surveys", flags->surveys, Range::any(), "N",

@@ -20,12 +20,17 @@ namespace {
 namespace fs = std::filesystem;
 
 std::atomic<bool> stop_asked = false;
+std::atomic<bool> stop_silently = false;
 
 // The first one ends the trials at work at their next keyframe; the second ends the program, which
 // harms no store.
 extern "C" void ask_to_stop(int signal) {
   stop_asked = true;
   std::signal(signal, SIG_DFL);
+  if (stop_silently) return;
+  say_from_signal(
+      "\nfathom: stopping: the trials at work end at their next keyframe, and what is registered "
+      "is kept; again to end at once\n");
 }
 
 // An estimator that no trial of any cell could use has failed.
@@ -43,6 +48,7 @@ auto stoppable(StudyRunOptions& options, bool quiet, Action action) {
   std::signal(SIGINT, ask_to_stop);
   std::signal(SIGTERM, ask_to_stop);
   options.stop = &stop_asked;
+  stop_silently = quiet;
   StudyProgressLine line(quiet);
   const auto also = options.progress;
   options.progress = [&line, also](const StudyProgress& progress) {

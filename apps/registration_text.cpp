@@ -22,11 +22,21 @@ std::string line(const char* name, const std::string& value) {
   return printed("  %-16s ", name) + value + '\n';
 }
 
+// As many decimals as leave its uncertainty two digits.
+std::string uncertain(double value, double sigma, const char* unit) {
+  constexpr int kMost = 9;
+  const int decimals =
+      sigma > 0.0 ? std::clamp(1 - static_cast<int>(std::floor(std::log10(sigma))), 0, kMost)
+                  : kMost;
+  return printed("%9.*f%s%s +- %.*f", decimals, value, *unit == 0 ? "" : " ", unit, decimals,
+                 sigma);
+}
+
 std::string verdict(const Registration& registration, double metres_per_pixel) {
   if (!registration.found) return "not found: " + registration.reason + '\n';
   const Pose& z = registration.motion;
   const auto number = [&](double value, const char* unit, int i) {
-    return printed("%9.4f %-3s +- %.4f", value, unit, std::sqrt(registration.covariance(i, i)));
+    return uncertain(value, std::sqrt(registration.covariance(i, i)), unit);
   };
   return "found: pose of B in the frame of A\n" + line("x", number(z.x, "m", 0)) +
          line("y", number(z.y, "m", 1)) + line("heading", number(z.theta, "rad", 2)) +
@@ -47,7 +57,7 @@ std::string scale_text(const Evidence& evidence) {
   constexpr double kShare = 0.02;
   const double off = std::abs(evidence.scale - 1.0);
   const bool is_off = off > kSigmas * evidence.scale_sigma && off > kShare;
-  return printed("%.4f +- %.4f, ", evidence.scale, evidence.scale_sigma) +
+  return uncertain(evidence.scale, evidence.scale_sigma, "") + ", " +
          (is_off ? "not applied: the altitudes may be wrong" : "as the altitudes say");
 }
 

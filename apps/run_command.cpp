@@ -13,10 +13,13 @@
 #include "fathom/estimators/builtin.hpp"
 #include "fathom/front_end/registration_store.hpp"
 #include "fathom/harness/manifest.hpp"
+#include "fathom/harness/remarks.hpp"
 #include "fathom/harness/run_folder.hpp"
 
 namespace fathom {
 namespace {
+
+constexpr const char* kBatchOptimum = "batch_optimum";
 
 struct RunFlags {
   CommonFlags common;
@@ -54,7 +57,7 @@ void print_front_end(const Recording& recording) {
               recording.frames.size(), recording.log.size(), recording.registrations_tried,
               recording.log.registration_count());
   if (recording.registrations_left_out > 0) {
-    std::printf(", %zu left out by max_per_keyframe", recording.registrations_left_out);
+    std::printf(", %zu left out beyond the budget", recording.registrations_left_out);
   }
   std::printf("\n");
   if (recording.visual_odometry) {
@@ -66,11 +69,49 @@ void print_front_end(const Recording& recording) {
 }
 
 std::string manifest_of(const Context& context, const Configuration& configuration,
-                        const Recorder& recorder, const Recording& recording,
-                        const Result& result) {
+                        const Recorder& recorder, const Recording& recording, const Result& result,
+                        const std::vector<std::string>& remarks) {
   return manifest_json(context.command_line, configuration.in_force,
                        fingerprint(recorder.data().files()), recording, result,
-                       builtin_estimators());
+                       builtin_estimators(), remarks);
+}
+
+// What looks wrong, and the batch optimum of the log where the estimate does not fit it.
+struct Judgement {
+  std::vector<std::string> remarks;
+  std::optional<Result> optimum;
+};
+
+Judgement judged(const Recording& recording, const Configuration& configuration,
+                 const Result& result) {
+  Judgement judgement;
+  const std::vector<Pose>& estimate = result.replay.trajectory;
+  judgement.remarks = loop_remarks(recording, configuration.front_end, estimate);
+  const auto optimum = batch_optimum(recording.log, builtin_estimators());
+  const auto fit = optimum ? map_fit(recording.log, estimate, *optimum) : std::nullopt;
+  if (!fit) return judgement;
+  for (const std::string& remark : map_remarks(*fit, result.estimator.name, optimum->solver)) {
+    judgement.remarks.push_back(remark);
+  }
+  if (fit->estimate_fits()) return judgement;
+  ReplayOptions options;
+  options.mode = SolveMode::batch;
+  judgement.optimum =
+      evaluate(recording, {kBatchOptimum, optimum->solver, {}}, builtin_estimators(),
+               {.metrics = metric_options(configuration)}, options);
+  return judgement;
+}
+
+// Of all there is to draw: the run's, and its batch optimum's in a folder below.
+std::vector<std::string> write_all_mosaics(const FrameSource& pictures, const Recording& recording,
+                                           const std::vector<Result>& results,
+                                           const std::filesystem::path& folder, bool quiet) {
+  std::vector<RunMosaic> mosaics;
+  for (const Result& result : results) {
+    mosaics.push_back({mosaics.empty() ? folder : folder / kBatchOptimum,
+                       placed_pictures(recording, result.replay.trajectory)});
+  }
+  return write_mosaics(pictures, mosaics, quiet);
 }
 
 void print_table(const Recording& recording, const std::vector<Result>& results,
@@ -94,20 +135,26 @@ void run(const RunFlags& flags, Context& context) {
       flags.cache.empty() ? nullptr : open_registrations(flags.cache, flags.common.quiet);
   const Recorder recorder(configuration, cache.get());
   const Recording recording = record_with_progress(recorder, configuration, flags.common.quiet);
-  const std::vector<Result> results{evaluate_with_progress(
+  std::vector<Result> results{evaluate_with_progress(
       recording, configuration, configuration.estimators.front(), flags.common.quiet)};
+  Judgement judgement = judged(recording, configuration, results.front());
+  write_run(
+      folder.path(), recording, results.front(),
+      manifest_of(context, configuration, recorder, recording, results.front(), judgement.remarks));
+  if (judgement.optimum) {
+    results.push_back(std::move(*judgement.optimum));
+    std::filesystem::create_directory(folder.path() / kBatchOptimum);
+    write_file(folder.path() / kBatchOptimum / "trajectory.tum",
+               to_tum(keyframe_trajectory(recording, results.back().replay.trajectory)));
+  }
   const Result& result = results.front();
-  write_run(folder.path(), recording, result,
-            manifest_of(context, configuration, recorder, recording, result));
   write_trajectory_picture(folder.path() / "trajectory.png",
                            stem_of(flags.config) + ", " + result.estimator.name, recording,
                            results);
-  std::string mosaic;
+  std::vector<std::string> mosaics;
   if (recorder.pictures() != nullptr && !flags.no_mosaic) {
-    mosaic = write_mosaics(*recorder.pictures(),
-                           {{folder.path(), placed_pictures(recording, result.replay.trajectory)}},
-                           flags.common.quiet)
-                 .front();
+    mosaics = write_all_mosaics(*recorder.pictures(), recording, results, folder.path(),
+                                flags.common.quiet);
   }
   folder.commit(optional_run_files());
   context.status = result.is_done() ? kDone : kFailed;
@@ -115,7 +162,10 @@ void run(const RunFlags& flags, Context& context) {
   print_front_end(recording);
   print_table(recording, results, configuration);
   std::printf("\nwrote %s\n", (folder.target() / "trajectory.png").c_str());
-  if (!mosaic.empty()) std::printf("      %s\n", mosaic.c_str());
+  for (const std::string& mosaic : mosaics) std::printf("      %s\n", mosaic.c_str());
+  for (const std::string& remark : judgement.remarks) {
+    std::printf("\nwarning: %s\n", remark.c_str());
+  }
 }
 
 }  // namespace
@@ -123,8 +173,10 @@ void run(const RunFlags& flags, Context& context) {
 void add_run(CLI::App& program, Context& context) {
   auto flags = std::make_shared<RunFlags>();
   Command command(program, "run", "Run one estimator over one data set",
-                  "Example: fathom run configs/run.yaml --set estimator.type=ekf --out runs/ekf");
-  command.argument("config", flags->config, "Configuration (YAML)");
+                  "Example: fathom run configs/run.yaml --set estimator.type=ekf --out runs/ekf\n"
+                  "         fathom run my_survey");
+  command.argument("config", flags->config,
+                   "Configuration (YAML), or a folder of pictures in the EuRoC/ASL layout");
   flags->common.add_settings_to(command);
   flags->common.add_out_to(command, "Output folder (default: runs/CONFIG's name)");
   command.text("--cache", flags->cache, "DIR",

@@ -80,7 +80,7 @@ double peak_megabytes() {
 void LongSurvey(benchmark::State& state) {
   const fathom::SimulatedSurvey survey(long_survey(), 1);
   fathom::FrontEndOptions options;
-  options.separation_frames = 1;
+  options.keyframes.separation_frames = 1;
   options.candidates.method = CandidateMethod::overlap;
   options.candidates.min_overlap = 0.3;
   options.candidates.max_per_keyframe = 3;

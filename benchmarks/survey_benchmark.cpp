@@ -68,7 +68,8 @@ void Survey(benchmark::State& state) {
   static const fathom::SimulatedSurvey survey = sweep();
   static const Rendered frames(survey);
   FrontEndOptions options;
-  options.separation_frames = static_cast<int>(state.range(0));
+  options.keyframes.separation_frames = static_cast<int>(state.range(0));
+  options.candidates.max_distance_m = 3.0;
   options.features.max_features = static_cast<int>(state.range(1));
   const int threads_before = cv::getNumThreads();
   cv::setNumThreads(static_cast<int>(state.range(2)));
@@ -99,12 +100,12 @@ void Survey(benchmark::State& state) {
 }
 BENCHMARK(Survey)
     ->ArgNames({"separation_frames", "max_features", "threads"})
-    ->Args({FrontEndOptions().separation_frames, FrontEndOptions().features.max_features, 1})
-    ->Args({FrontEndOptions().separation_frames, FrontEndOptions().features.max_features, 2})
+    ->Args({10, FrontEndOptions().features.max_features, 1})
+    ->Args({10, FrontEndOptions().features.max_features, 2})
     ->Args({3, FrontEndOptions().features.max_features, 1})
     ->Args({3, FrontEndOptions().features.max_features, 2})
-    ->Args({FrontEndOptions().separation_frames, 1000, 1})
-    ->Args({FrontEndOptions().separation_frames, 1000, 2})
+    ->Args({10, 1000, 1})
+    ->Args({10, 1000, 2})
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime();
 

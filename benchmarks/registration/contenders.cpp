@@ -62,8 +62,10 @@ Answer opencv(const FloorFeatures& from, const FloorFeatures& to,
   const Stopwatch solve_watch;
   if (pairs.p.size() < 2) return answer;
   cv::Mat inliers;
+  const double max_error_m = options.ransac.max_error_on_floor(
+      std::max(from.viewpoint.metres_per_pixel, to.viewpoint.metres_per_pixel));
   const cv::Mat affine = cv::estimateAffinePartial2D(pairs.q, pairs.p, inliers, cv::RANSAC,
-                                                     options.ransac.max_error_m / metres_per_pixel);
+                                                     max_error_m / metres_per_pixel);
   answer.solve_ms = solve_watch.milliseconds();
   if (affine.empty() || cv::countNonZero(inliers) < options.ransac.min_inliers) return answer;
   answer.motion =

@@ -119,6 +119,17 @@ void add_unused_references(const Settings& settings, const Configuration& config
   }
 }
 
+void check_front_end(const Settings& settings, const FrontEndOptions& options) {
+  try {
+    options.check();
+  } catch (const InputError& error) {
+    const std::string what = std::string(kFrontEnd) + "." + error.what();
+    const Setting* about = settings.find(what.substr(0, what.find(':')));
+    if (about == nullptr) throw InputError(what);
+    refuse(*about, what);
+  }
+}
+
 DataSetValues given_values(const Settings& settings) {
   DataSetValues values;
   const Settings own = settings.below(std::string(kDataSet) + ".");
@@ -187,6 +198,7 @@ Configuration configure(const Settings& settings, ConfigurationKind kind,
     configuration.origins[setting.key] = setting.origin;
   }
   configuration.dataset.values = given_values(settings);
+  check_front_end(settings, configuration.front_end);
   check_study(settings, configuration.study, entry, *data_set);
   std::vector<IgnoredKey> ignored = ignored_keys(configuration, *data_set);
   std::ranges::copy(ignored_of_false_loops(settings, configuration.study.false_loops),

@@ -1,5 +1,6 @@
 #include "fathom/datasets/picture_file.hpp"
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,20 @@ bool is_cut_short(std::string_view bytes) {
   return false;
 }
 
+// Cameras of 10, 12 or 14 bits fill the lower part of 16: the bits that nearly all pixels have are
+// spread over 8, the few above are cut off.
+cv::Mat in_eight_bits(const cv::Mat& picture) {
+  constexpr double kShare = 0.999;
+  std::vector<ushort> greys(picture.begin<ushort>(), picture.end<ushort>());
+  const auto rank = static_cast<std::ptrdiff_t>(kShare * static_cast<double>(greys.size() - 1));
+  std::nth_element(greys.begin(), greys.begin() + rank, greys.end());
+  double range = 256.0;
+  while (range <= greys[static_cast<std::size_t>(rank)]) range *= 2.0;
+  cv::Mat eight;
+  picture.convertTo(eight, CV_8U, 256.0 / range, -0.5);
+  return eight;
+}
+
 }  // namespace
 
 cv::Mat read_grey_picture(const std::filesystem::path& path) {
@@ -34,15 +49,17 @@ cv::Mat decode_grey_picture(std::string_view bytes, const std::filesystem::path&
   try {
     if (!bytes.empty() && !is_cut_short(bytes)) {
       const std::vector<uchar> buffer(bytes.begin(), bytes.end());
-      picture = cv::imdecode(buffer, cv::IMREAD_GRAYSCALE | cv::IMREAD_IGNORE_ORIENTATION);
+      picture = cv::imdecode(
+          buffer, cv::IMREAD_GRAYSCALE | cv::IMREAD_ANYDEPTH | cv::IMREAD_IGNORE_ORIENTATION);
     }
   } catch (const cv::Exception&) {
     picture.release();
   }
-  if (picture.empty()) {
+  if (picture.type() == CV_16U && !picture.empty()) picture = in_eight_bits(picture);
+  if (picture.empty() || picture.type() != CV_8U) {
     throw InputError(path.string(),
                      "is no picture that can be read; expected a whole PNG, JPEG, "
-                     "TIFF, BMP or WebP file");
+                     "TIFF, BMP, PGM or WebP file of 8 or 16 bit");
   }
   return picture;
 }

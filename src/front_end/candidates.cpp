@@ -13,44 +13,19 @@
 
 namespace fathom {
 
-void CandidateOptions::describe(OptionTable& table) {
-  table.enumeration("method", method,
-                    {{"distance", CandidateMethod::distance},
-                     {"mahalanobis", CandidateMethod::mahalanobis},
-                     {"overlap", CandidateMethod::overlap}},
-                    "loop candidates: near as estimated; perhaps near, by the estimator's "
-                    "uncertainty; or pictures that overlap");
-  table.real("max_distance_m", max_distance_m, Range::at_least(0.0), "m",
-             "distance, mahalanobis: keyframes within this distance of the newest, as estimated");
-  table.real("probability", probability, Range::between(1e-6, 0.999999999999), "",
-             "mahalanobis: and those whose confidence ellipse of so much reaches within it");
-  table.real("min_overlap", min_overlap, Range{0.0, 1.0, true}, "",
-             "overlap: share of the smaller footprint that both pictures see, as estimated");
-  table.integer_or_off("max_per_keyframe", max_per_keyframe, Range::at_least(1), "keyframes",
-                       "so many candidates at most, those of most overlap as estimated");
-}
-
-std::vector<std::string> CandidateOptions::ignored_keys() const {
-  switch (method) {
-    case CandidateMethod::mahalanobis:
-      return {"min_overlap"};
-    case CandidateMethod::overlap:
-      return {"max_distance_m", "probability"};
-    case CandidateMethod::distance:
-      break;
-  }
-  return {"probability", "min_overlap"};
-}
-
 CandidateSearch::CandidateSearch(const Camera& camera, const CandidateOptions& options)
     : camera_(camera),
       options_(options),
+      method_(options.method_in_force()),
       mount_m_(std::hypot(camera.model().mount_x_m, camera.model().mount_y_m)),
       quantile_(chi_squared_quantile(options.probability, 2.0)) {
+  options.check();
   const Eigen::Vector2d mount{camera.model().mount_x_m, camera.model().mount_y_m};
   for (const Eigen::Vector2d& corner : camera.footprint(1.0)) {
     reach_per_metre_ = std::max(reach_per_metre_, (corner - mount).norm());
   }
+  const auto corners = camera.footprint(1.0);
+  side_per_metre_ = std::max((corners[1] - corners[0]).norm(), (corners[2] - corners[1]).norm());
 }
 
 // Footprints further apart than both reach need no polygons.
@@ -61,11 +36,23 @@ double CandidateSearch::overlap(const Pose& motion, double altitude_from_m,
   return footprint_overlap(camera_, altitude_from_m, altitude_to_m, motion);
 }
 
+bool CandidateSearch::by_overlap() const {
+  return method_ == CandidateMethod::overlap || method_ == CandidateMethod::possible_overlap;
+}
+
+// Further apart no two pictures share min_overlap of a footprint, as long as they lie alike; turned
+// to each other they may, by little.
+double CandidateSearch::reach_m(double altitude_from_m, double altitude_newest_m) const {
+  if (!by_overlap()) return *options_.max_distance_m;
+  return (1.0 - options_.min_overlap) * 0.5 * side_per_metre_ *
+             (altitude_from_m + altitude_newest_m) +
+         2.0 * mount_m_;
+}
+
 bool CandidateSearch::accepts(const Pose& step, double altitude_from_m,
                               double altitude_to_m) const {
-  return options_.method == CandidateMethod::overlap
-             ? overlap(step, altitude_from_m, altitude_to_m) >= options_.min_overlap
-             : step.position().norm() <= options_.max_distance_m;
+  return by_overlap() ? overlap(step, altitude_from_m, altitude_to_m) >= options_.min_overlap
+                      : step.position().norm() <= *options_.max_distance_m;
 }
 
 // Positions further apart than this radius are of no candidate, so the grid's cells are as large.
@@ -75,9 +62,8 @@ std::vector<std::size_t> CandidateSearch::within_reach(const TrajectoryView& tra
     highest_m_ = std::max(highest_m_, altitudes_m[altitudes_]);
   }
   const double radius_m =
-      options_.method == CandidateMethod::overlap
-          ? reach_per_metre_ * (highest_m_ + altitudes_m.back()) + 2.0 * mount_m_
-          : options_.max_distance_m;
+      by_overlap() ? reach_per_metre_ * (highest_m_ + altitudes_m.back()) + 2.0 * mount_m_
+                   : *options_.max_distance_m;
   if (!grid_) grid_.emplace(radius_m > 0.0 ? radius_m : 1.0);
   grid_->follow(trajectory);
   return grid_->near(trajectory.pose(altitudes_m.size() - 1).position(), radius_m);
@@ -85,66 +71,103 @@ std::vector<std::size_t> CandidateSearch::within_reach(const TrajectoryView& tra
 
 bool CandidateSearch::is_candidate(const Pose& from, const Pose& newest, double altitude_from_m,
                                    double altitude_newest_m) const {
-  return options_.method == CandidateMethod::overlap
-             ? overlap(between(from, newest), altitude_from_m, altitude_newest_m) >=
-                   options_.min_overlap
-             : (from.position() - newest.position()).norm() <= options_.max_distance_m;
+  return by_overlap() ? overlap(between(from, newest), altitude_from_m, altitude_newest_m) >=
+                            options_.min_overlap
+                      : (from.position() - newest.position()).norm() <= *options_.max_distance_m;
 }
 
-std::vector<std::size_t> CandidateSearch::perhaps_near(const TrajectoryView& trajectory,
-                                                       std::size_t end) const {
+std::vector<CandidateSearch::Chance> CandidateSearch::perhaps_near(
+    const TrajectoryView& trajectory, std::span<const double> altitudes_m, std::size_t end) const {
   const auto motions = trajectory.motions_to_newest();
-  std::vector<std::size_t> found;
+  std::vector<Chance> found;
   if (!motions) return found;
   for (std::size_t k = 0; k < end; ++k) {
     const UncertainPose& motion = (*motions)[k];
     const Eigen::Vector2d d = motion.mean.position();
     const Eigen::Matrix2d S = motion.covariance.topLeftCorner<2, 2>();
+    const double radius_m = reach_m(altitudes_m[k], altitudes_m.back());
     // No eigenvalue is larger than the trace: most are told by it.
-    const double gap_m = d.norm() - options_.max_distance_m;
+    const double gap_m = d.norm() - radius_m;
     if (gap_m > 0.0 && gap_m * gap_m > quantile_ * S.trace()) continue;
-    if (squared_distance_to_disc(d, S, options_.max_distance_m) <= quantile_) found.push_back(k);
+    const double squared_sigmas = squared_distance_to_disc(d, S, radius_m);
+    if (squared_sigmas <= quantile_) found.push_back({k, squared_sigmas});
   }
+  return found;
+}
+
+// Those found by the estimate itself are as near as can be.
+std::vector<CandidateSearch::Chance> CandidateSearch::all(const TrajectoryView& trajectory,
+                                                          std::span<const double> altitudes_m,
+                                                          std::size_t end) {
+  const std::size_t newest = altitudes_m.size() - 1;
+  const Pose pose = trajectory.pose(newest);
+  std::vector<Chance> found;
+  for (const std::size_t k : within_reach(trajectory, altitudes_m)) {
+    if (k >= end) break;
+    if (is_candidate(trajectory.pose(k), pose, altitudes_m[k], altitudes_m[newest])) {
+      found.push_back({k, 0.0});
+    }
+  }
+  if (!options_.asks_covariances()) return found;
+  const std::vector<Chance> near = std::exchange(found, {});
+  std::ranges::set_union(near, perhaps_near(trajectory, altitudes_m, end),
+                         std::back_inserter(found), {}, &Chance::keyframe, &Chance::keyframe);
   return found;
 }
 
 Candidates CandidateSearch::find(const TrajectoryView& trajectory,
                                  std::span<const double> altitudes_m, std::size_t end) {
-  const std::size_t newest = altitudes_m.size() - 1;
-  const Pose pose = trajectory.pose(newest);
-  std::vector<std::size_t> found;
-  for (const std::size_t k : within_reach(trajectory, altitudes_m)) {
-    if (k >= end) break;
-    if (is_candidate(trajectory.pose(k), pose, altitudes_m[k], altitudes_m[newest])) {
-      found.push_back(k);
-    }
+  const std::vector<Chance> found = all(trajectory, altitudes_m, end);
+  const bool by_passes = method_ == CandidateMethod::possible_overlap;
+  const std::optional<int> most = by_passes ? options_.budget : options_.max_per_keyframe;
+  std::vector<std::size_t> keyframes;
+  if (!most || found.size() <= static_cast<std::size_t>(*most)) {
+    for (const Chance& candidate : found) keyframes.push_back(candidate.keyframe);
+    return {std::move(keyframes), 0};
   }
-  if (options_.method == CandidateMethod::mahalanobis) {
-    const std::vector<std::size_t> near = std::exchange(found, {});
-    std::ranges::set_union(near, perhaps_near(trajectory, end), std::back_inserter(found));
+  const std::vector<Rank> ranks = ranked(trajectory, altitudes_m, found);
+  for (const std::size_t place : by_passes ? order_by_passes(ranks) : order_of(ranks)) {
+    keyframes.push_back(ranks[place].keyframe);
   }
-  return best(trajectory, altitudes_m, std::move(found));
+  keyframes.resize(static_cast<std::size_t>(*most));
+  std::ranges::sort(keyframes);
+  return {std::move(keyframes), found.size() - keyframes.size()};
 }
 
-// Most overlap first, then the nearest, then the earliest.
-Candidates CandidateSearch::best(const TrajectoryView& trajectory,
-                                 std::span<const double> altitudes_m,
-                                 std::vector<std::size_t> keyframes) const {
-  const std::size_t found = keyframes.size();
-  const auto budget = static_cast<std::size_t>(options_.max_per_keyframe.value_or(0));
-  if (!options_.max_per_keyframe || found <= budget) return {std::move(keyframes), 0};
+// Most overlap first, then the likeliest, the nearest, the earliest.
+std::vector<CandidateSearch::Rank> CandidateSearch::ranked(
+    const TrajectoryView& trajectory, std::span<const double> altitudes_m,
+    const std::vector<Chance>& candidates) const {
   const std::size_t newest = altitudes_m.size() - 1;
-  std::vector<std::tuple<double, double, std::size_t>> order;
-  for (const std::size_t k : keyframes) {
+  std::vector<Rank> ranks;
+  for (const auto& [k, squared_sigmas] : candidates) {
     const Pose motion = between(trajectory.pose(k), trajectory.pose(newest));
-    order.emplace_back(-overlap(motion, altitudes_m[k], altitudes_m[newest]),
-                       motion.position().norm(), k);
+    ranks.push_back({-overlap(motion, altitudes_m[k], altitudes_m[newest]), squared_sigmas,
+                     motion.position().norm(), k});
   }
-  std::sort(order.begin(), order.end());
-  keyframes.resize(budget);
-  for (std::size_t i = 0; i < budget; ++i) keyframes[i] = std::get<2>(order[i]);
-  std::sort(keyframes.begin(), keyframes.end());
-  return {std::move(keyframes), found - budget};
+  return ranks;
+}
+
+std::vector<std::size_t> CandidateSearch::order_of(const std::vector<Rank>& ranks) {
+  std::vector<std::size_t> order = consecutive(0, ranks.size());
+  std::ranges::sort(order, {}, [&](std::size_t place) { return ranks[place]; });
+  return order;
+}
+
+// The best of each pass, by their rank, then the second best of each, and so on. `ranks` are by
+// rising keyframe.
+std::vector<std::size_t> CandidateSearch::order_by_passes(const std::vector<Rank>& ranks) {
+  std::vector<std::size_t> pass(ranks.size(), 0);
+  for (std::size_t i = 1; i < ranks.size(); ++i) {
+    const bool follows = ranks[i].keyframe == ranks[i - 1].keyframe + 1;
+    pass[i] = pass[i - 1] + (follows ? 0 : 1);
+  }
+  std::vector<std::size_t> order = order_of(ranks);
+  std::vector<std::size_t> taken(ranks.size(), 0);
+  std::vector<std::size_t> round(ranks.size());
+  for (const std::size_t place : order) round[place] = taken[pass[place]]++;
+  std::ranges::stable_sort(order, {}, [&](std::size_t place) { return round[place]; });
+  return order;
 }
 
 // The nearest point is p = (1 + λ S)⁻¹ d with the multiplier λ ≥ 0 that puts it on the circle. In

@@ -1,31 +1,44 @@
 #include "fathom/front_end/front_end.hpp"
 
+#include <algorithm>
+#include <utility>
+
 #include "fathom/core/input_error.hpp"
 #include "fathom/geometry/covariance.hpp"
 
 namespace fathom {
+
+namespace {
+
+Spread spread(std::vector<double>& values) {
+  std::ranges::sort(values);
+  return {values.front(), values[values.size() / 2], values.back()};
+}
+
+}  // namespace
 
 FrontEnd::FrontEnd(const FrameSource& source, PairRegistrar& registrar,
                    const FrontEndOptions& options)
     : source_(source),
       registrar_(registrar),
       options_(options),
-      search_(source.camera(), options.candidates) {
+      search_(source.camera(), options.candidates),
+      schedule_(source, options.keyframes) {
   if (!source.has_odometry()) {
     throw InputError("the data set has no dead reckoning; visual odometry can make it");
   }
 }
 
-// The paper's section 2: dead reckoning is composed frame by frame, every so many frames one
-// becomes a keyframe; register_newest() then registers it.
+// The paper's section 2: dead reckoning is composed frame by frame, some become keyframes;
+// register_newest() then registers them.
 std::optional<Keyframe> FrontEnd::next_keyframe() {
-  const auto separation = static_cast<std::size_t>(options_.separation_frames);
+  const std::size_t next = schedule_.frame(keyframes_.size()).value_or(source_.size());
   UncertainPose since;  // the last keyframe
   while (frames_.size() < source_.size()) {
     const std::size_t frame = frames_.size();
     const FrameInfo& info = source_.info(frame);
     if (frame > 0) since = compose(since, *info.motion);
-    if (frame % separation == 0) return add_keyframe(frame, info, since);
+    if (frame == next) return add_keyframe(frame, info, since);
     frames_.push_back({info.time_ns, keyframes_.size() - 1, since.mean});
   }
   return std::nullopt;
@@ -51,27 +64,27 @@ MeasuredFrame FrontEnd::measured(std::size_t frame) const {
 
 // A keyframe is registered with the one before if its step makes it a candidate; only then is it
 // sure that its picture is needed, if the pair is not known. Visual odometry looks ahead itself.
-void FrontEnd::announce_next_keyframes() const {
+void FrontEnd::announce_next_keyframes() {
   if (source_.is_visual_odometry()) return;
-  const auto separation = static_cast<std::size_t>(options_.separation_frames);
   std::size_t frame = keyframes_.back().frame;
-  for (std::size_t n = 0; n < PairRegistrar::look_ahead(); ++n, frame += separation) {
-    const std::size_t next = frame + separation;
-    if (next >= source_.size()) return;
+  for (std::size_t n = 0; n < PairRegistrar::look_ahead(); ++n) {
+    const auto next = schedule_.frame(keyframes_.size() + n);
+    if (!next) return;
     Pose step;
-    for (std::size_t i = frame + 1; i <= next; ++i)
+    for (std::size_t i = frame + 1; i <= *next; ++i)
       step = compose(step, source_.info(i).motion->mean);
     const MeasuredFrame from = measured(frame);
-    const MeasuredFrame to = measured(next);
+    const MeasuredFrame to = measured(*next);
     if (search_.accepts(step, from.altitude_m, to.altitude_m)) registrar_.announce(from, to);
+    frame = *next;
   }
 }
 
 Candidates FrontEnd::candidates(const TrajectoryView& trajectory) {
   const std::size_t newest = keyframes_.size() - 1;
-  // With a keyframe every frame visual odometry's step is that very registration.
-  const bool step_is_registration =
-      source_.is_visual_odometry() && options_.separation_frames == 1 && newest > 0;
+  // From one frame to the next visual odometry's step is that very registration.
+  const bool step_is_registration = source_.is_visual_odometry() && newest > 0 &&
+                                    keyframes_[newest].frame == keyframes_[newest - 1].frame + 1;
   return search_.find(trajectory, altitudes_m_, step_is_registration ? newest - 1 : newest);
 }
 
@@ -86,7 +99,10 @@ std::vector<RelativePose> FrontEnd::register_newest(const TrajectoryView& trajec
   const auto results = registrar_.of_all(from, measured(keyframes_[newest].frame));
   std::vector<RelativePose> registrations;
   for (std::size_t c = 0; c < near.size(); ++c) {
-    if (!results[c].found) continue;
+    if (!results[c].found) {
+      most_refused_inliers_ = std::max(most_refused_inliers_, results[c].inliers);
+      continue;
+    }
     registrations.push_back(
         RelativePose::from_covariance(near[c], newest, results[c].motion, results[c].covariance));
     registrations.back().inliers = results[c].inliers;
@@ -95,6 +111,30 @@ std::vector<RelativePose> FrontEnd::register_newest(const TrajectoryView& trajec
   found_ += registrations.size();
   left_out_ += left_out;
   return registrations;
+}
+
+FrontEndInMetres FrontEnd::in_metres() const {
+  KeyframeLengths lengths{altitudes_m_, {}, {}};
+  for (std::size_t k = 1; k < keyframes_.size(); ++k) {
+    lengths.steps_m.push_back(keyframes_[k].step->motion.position().norm());
+    lengths.separation_frames.push_back(
+        static_cast<double>(keyframes_[k].frame - keyframes_[k - 1].frame));
+  }
+  return fathom::in_metres(options_, source_.camera(), std::move(lengths));
+}
+
+FrontEndInMetres in_metres(const FrontEndOptions& options, const Camera& camera,
+                           KeyframeLengths keyframes) {
+  const CandidateSearch search(camera, options.candidates);
+  std::vector<double> errors_m;
+  std::vector<double> reaches_m;
+  for (const double altitude_m : keyframes.altitudes_m) {
+    errors_m.push_back(options.registration.ransac.max_error_on_floor(
+        metres_per_pixel(camera.model(), altitude_m)));
+    reaches_m.push_back(search.reach_m(altitude_m, altitude_m));
+  }
+  return {spread(errors_m), spread(reaches_m), spread(keyframes.steps_m),
+          spread(keyframes.separation_frames)};
 }
 
 }  // namespace fathom

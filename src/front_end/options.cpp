@@ -3,12 +3,15 @@
 namespace fathom {
 
 void FrontEndOptions::describe(OptionTable& table) {
-  table.integer("keyframes.separation_frames", separation_frames, Range::at_least(1), "frames",
-                "a keyframe every so many frames");
+  table.group("keyframes", keyframes);
   table.group("candidates", candidates);
   describe_registration(table);
-  table.real("visual_odometry.fallback_sigma_m", visual_odometry.sigma_m, Range::positive(), "m",
-             "uncertainty of a motion repeated because consecutive pictures do not register");
+  table.real("visual_odometry.fallback_sigma_altitudes", visual_odometry.sigma_altitudes,
+             Range::positive(), "altitudes",
+             "uncertainty in x and y of a motion repeated because consecutive pictures do not "
+             "register");
+  table.real_or_off("visual_odometry.fallback_sigma_m", visual_odometry.sigma_m, Range::positive(),
+                    "m", "likewise, whatever the altitude");
   table.real("visual_odometry.fallback_sigma_rad", visual_odometry.sigma_rad, Range::positive(),
              "rad", "likewise, of its heading");
 }
@@ -18,10 +21,24 @@ void FrontEndOptions::describe_registration(OptionTable& table) {
   registration.describe(table);
 }
 
+void FrontEndOptions::check() const {
+  candidates.check();
+}
+
 std::vector<IgnoredKey> FrontEndOptions::ignored_keys() const {
   std::vector<IgnoredKey> ignored;
+  for (const std::string& key : keyframes.ignored_keys()) {
+    ignored.push_back({"keyframes." + key, "keyframes.separation_frames"});
+  }
   for (const std::string& key : candidates.ignored_keys()) {
-    ignored.push_back({"candidates." + key, "candidates.method"});
+    ignored.push_back({"candidates." + key, "candidates." + candidates.chooser()});
+  }
+  if (visual_odometry.sigma_m) {
+    ignored.push_back(
+        {"visual_odometry.fallback_sigma_altitudes", "visual_odometry.fallback_sigma_m"});
+  }
+  if (registration.ransac.max_error_m) {
+    ignored.push_back({"ransac.max_error_px", "ransac.max_error_m"});
   }
   const bool by_inliers = registration.decision.method == DecisionOptions::Method::inliers;
   ignored.push_back({by_inliers ? "decision.max_false_alarms" : "ransac.score", "decision.method"});

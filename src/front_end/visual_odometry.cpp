@@ -37,7 +37,8 @@ UncertainPose VisualOdometry::next_motion() const {
     last_motion_ = registration.motion;
   } else {
     ++failures_;
-    const double sigma_m = fallback_.sigma_m;
+    const double sigma_m =
+        fallback_.sigma_m.value_or(fallback_.sigma_altitudes * measured(to).altitude_m);
     const double sigma_rad = fallback_.sigma_rad;
     motion.covariance.diagonal() << sigma_m * sigma_m, sigma_m * sigma_m, sigma_rad * sigma_rad;
   }

@@ -68,10 +68,11 @@ class TruthGuide : public CandidateGuide {
 
 std::unique_ptr<CandidateGuide> make_guide(const CandidateReference& reference,
                                            const EstimatorRegistry& registry,
-                                           const FrameSource& frames, int separation_frames) {
+                                           const FrameSource& frames,
+                                           const KeyframeOptions& keyframes) {
   using Kind = CandidateReference::Kind;
   if (reference.kind != Kind::estimate) {
-    const auto missing = keyframe_without_truth(frames, separation_frames);
+    const auto missing = keyframe_without_truth(frames, keyframes);
     if (!missing) return std::make_unique<TruthGuide>(frames);
     if (reference.kind == Kind::ground_truth) throw no_ground_truth(*missing);
   }

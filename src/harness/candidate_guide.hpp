@@ -21,11 +21,12 @@ class CandidateGuide {
   virtual const TrajectoryView& trajectory() = 0;
 };
 
-/// The guide that a reference asks for. `automatic` is ground truth where all keyframes of these
-/// frames have it, one every `separation_frames`. Throws InputError that begins with the key where
+/// The guide that a reference asks for. `automatic` is ground truth where all frames that may be
+/// keyframes have it (keyframe_without_truth). Throws InputError that begins with the key where
 /// ground truth is asked for and one has none.
 std::unique_ptr<CandidateGuide> make_guide(const CandidateReference& reference,
                                            const EstimatorRegistry& registry,
-                                           const FrameSource& frames, int separation_frames);
+                                           const FrameSource& frames,
+                                           const KeyframeOptions& keyframes);
 
 }  // namespace fathom

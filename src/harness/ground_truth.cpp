@@ -18,7 +18,7 @@ class TrueFrames {
     if (find_data_set(cell.dataset.type).makes_pictures) return std::nullopt;
     auto& data = opened_[data_settings(cell)];
     if (!data) data = open_data_set(cell);
-    return keyframe_without_truth(*data->frames(), cell.front_end.separation_frames);
+    return keyframe_without_truth(*data->frames(), cell.front_end.keyframes);
   }
 
  private:
@@ -28,8 +28,8 @@ class TrueFrames {
 }  // namespace
 
 std::optional<std::size_t> keyframe_without_truth(const FrameSource& frames,
-                                                  int separation_frames) {
-  const auto separation = static_cast<std::size_t>(separation_frames);
+                                                  const KeyframeOptions& keyframes) {
+  const auto separation = static_cast<std::size_t>(keyframes.separation_frames.value_or(1));
   for (std::size_t frame = 0; frame < frames.size(); frame += separation) {
     if (!frames.info(frame).ground_truth) return frame;
   }

@@ -45,6 +45,18 @@ Json build_and_machine(int jobs) {
   return json;
 }
 
+// Least, median, most over the keyframes.
+Json spread(const Spread& values) {
+  return Json::array({values.least, values.median, values.most});
+}
+
+Json in_metres(const FrontEndInMetres& values) {
+  return {{"max_error_m", spread(values.max_error_m)},
+          {"candidate_reach_m", spread(values.reach_m)},
+          {"keyframe_step_m", spread(values.step_m)},
+          {"keyframe_separation_frames", spread(values.separation_frames)}};
+}
+
 Json session(const std::string& command_line, int jobs) {
   Json json;
   json["fathom"] = version();
@@ -69,7 +81,8 @@ std::string session_json(const ShardPlan& plan, int jobs) {
 std::string manifest_json(const std::string& command_line,
                           const std::vector<std::pair<std::string, std::string>>& configuration,
                           const Fingerprint& data, const Recording& recording, const Result& result,
-                          const EstimatorRegistry& registry) {
+                          const EstimatorRegistry& registry,
+                          const std::vector<std::string>& remarks) {
   Json json = session(command_line, 1);
   json["data"] = {{"files", data.size()}, {"fingerprint", fingerprint_text(data)}};
   json["measurements_fnv1a64"] = hash_text(to_g2o(recording.log));
@@ -83,7 +96,7 @@ std::string manifest_json(const std::string& command_line,
                        {"type", result.estimator.type},
                        {"mode", result.mode == SolveMode::batch ? "batch" : "incremental"},
                        {"options", options}};
-  if (!recording.frames.empty())
+  if (!recording.frames.empty()) {
     json["front_end"] = {{"frames", recording.frames.size()},
                          {"keyframes", recording.log.size()},
                          {"registrations_tried", recording.registrations_tried},
@@ -91,6 +104,9 @@ std::string manifest_json(const std::string& command_line,
                          {"registrations_left_out", recording.registrations_left_out},
                          {"visual_odometry", recording.visual_odometry},
                          {"visual_odometry_failures", recording.visual_odometry_failures}};
+    if (recording.in_metres) json["front_end"]["in_metres"] = in_metres(*recording.in_metres);
+  }
+  if (!remarks.empty()) json["remarks"] = remarks;
   return json.dump(2) + "\n";
 }
 

@@ -36,13 +36,18 @@ std::vector<StampedPose> frame_ground_truth_of(const FrameSource& frames, std::s
   return truth;
 }
 
-InputError single_keyframe(int separation_frames, std::size_t frames) {
+InputError single_keyframe(const KeyframeOptions& keyframes, std::size_t frames) {
   const std::string count = std::to_string(frames) + (frames == 1 ? " frame" : " frames");
   if (frames < 2) return InputError("dataset: has " + count + "; a survey has two or more");
-  return InputError("front_end.keyframes.separation_frames: " + std::to_string(separation_frames) +
-                    " leads beyond the last of " + count +
-                    ", so there is a single keyframe; expected at most " +
-                    std::to_string(frames - 1));
+  if (!keyframes.separation_frames) {
+    return InputError("front_end.keyframes.min_overlap: by dead reckoning all of " + count +
+                      " share so much of the floor, so there is a single keyframe; expected " +
+                      "front_end.keyframes.separation_frames");
+  }
+  return InputError(
+      "front_end.keyframes.separation_frames: " + std::to_string(*keyframes.separation_frames) +
+      " leads beyond the last of " + count + ", so there is a single keyframe; expected at most " +
+      std::to_string(frames - 1));
 }
 
 // The paper from pictures to measurements. A guide runs along, as the candidates of section 3 are
@@ -75,7 +80,9 @@ void take_keyframes(Recording& recording, const FrameSource& source, const Front
     recording.keyframe_altitudes_m.push_back(source.info(keyframe.frame).altitude_m);
   }
   recording.ground_truth = ground_truth_of(source, front_end.keyframes());
+  recording.in_metres = front_end.in_metres();
   recording.registrations_tried = front_end.registrations_tried();
+  recording.most_refused_inliers = front_end.most_refused_inliers();
   recording.registrations_left_out = front_end.registrations_left_out();
 }
 
@@ -93,8 +100,7 @@ std::unique_ptr<CandidateGuide> guide_of(const Survey& survey, const Configurati
                                          const CandidateReference& reference,
                                          const EstimatorRegistry& registry) {
   try {
-    return make_guide(reference, registry, survey.measured(),
-                      configuration.front_end.separation_frames);
+    return make_guide(reference, registry, survey.measured(), configuration.front_end.keyframes);
   } catch (const InputError& error) {
     throw at_origin(configuration, error);
   }
@@ -110,7 +116,7 @@ Recording record_survey(Survey& survey, const Configuration& configuration,
   recording.log = log_of(front_end, *guide, source.size(), progress);
   if (front_end.keyframes().size() < 2) {
     throw at_origin(configuration,
-                    single_keyframe(configuration.front_end.separation_frames, source.size()));
+                    single_keyframe(configuration.front_end.keyframes, source.size()));
   }
   take_keyframes(recording, source, front_end);
   take_frames(recording, source, front_end);

@@ -22,7 +22,7 @@ std::optional<BatchOptimum> batch_optimum(const MeasurementLog& log,
     if (!is_done(solved.outcome)) continue;
     const double cost = chi2(log, solved.trajectory);
     if (!std::isfinite(cost) || (best && cost >= best->chi2)) continue;
-    best = BatchOptimum{std::move(solved.trajectory), cost};
+    best = BatchOptimum{std::move(solved.trajectory), cost, entry.name};
   }
   return best;
 }

@@ -117,8 +117,7 @@ ReplayOptions replay_options(const Configuration& configuration,
                        (reference.is_contender && reference.estimator.name == estimator.name);
   const bool has_pictures = !find_data_set(configuration.dataset.type).is_graph;
   options.candidate_covariances =
-      selects && has_pictures &&
-      configuration.front_end.candidates.method == CandidateMethod::mahalanobis;
+      selects && has_pictures && configuration.front_end.candidates.asks_covariances();
   return options;
 }
 

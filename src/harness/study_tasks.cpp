@@ -51,7 +51,9 @@ std::vector<double> costs_of(const Study& study) {
   for (const Configuration& cell : study.cells) {
     const auto [size, is_new] = sizes.emplace(data_settings(cell), Size{});
     if (is_new) size->second = size_of(*open_data_set(cell));
-    const int frames_apart = size->second.is_graph ? 1 : cell.front_end.separation_frames;
+    // By overlap every frame may be a keyframe.
+    const int frames_apart =
+        size->second.is_graph ? 1 : cell.front_end.keyframes.separation_frames.value_or(1);
     const auto keyframes = static_cast<double>(size->second.count) / frames_apart;
     costs.push_back(std::max(keyframes * keyframes, 1.0));
   }

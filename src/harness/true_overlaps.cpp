@@ -18,25 +18,21 @@ double reach_m(const Camera& camera, double altitude_m) {
 
 }  // namespace
 
-std::optional<TrueOverlaps> true_overlaps(const Recording& recording) {
-  if (!recording.ground_truth || !recording.camera) return std::nullopt;
-  const std::vector<Pose>& truth = *recording.ground_truth;
+TrueOverlaps overlaps_at(std::span<const Pose> poses, const Camera& camera,
+                         std::span<const double> altitudes_m) {
   TrueOverlaps overlaps;
   std::vector<double> reaches_m;
-  for (const double altitude_m : recording.keyframe_altitudes_m) {
-    reaches_m.push_back(reach_m(*recording.camera, altitude_m));
-  }
-  if (truth.empty()) return overlaps;
+  for (const double altitude_m : altitudes_m) reaches_m.push_back(reach_m(camera, altitude_m));
+  if (poses.empty()) return overlaps;
   const double most_m = std::ranges::max(reaches_m);
   KeyframeGrid grid(most_m > 0.0 ? 2.0 * most_m : 1.0);
-  grid.follow(GivenTrajectory(truth));
-  for (std::size_t i = 0; i < truth.size(); ++i) {
-    for (const std::size_t k : grid.near(truth[i].position(), reaches_m[i] + most_m)) {
-      const double apart_m = (truth[i].position() - truth[k].position()).norm();
+  grid.follow(GivenTrajectory({poses.begin(), poses.end()}));
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    for (const std::size_t k : grid.near(poses[i].position(), reaches_m[i] + most_m)) {
+      const double apart_m = (poses[i].position() - poses[k].position()).norm();
       if (k <= i || apart_m > reaches_m[i] + reaches_m[k]) continue;
       const double overlap =
-          footprint_overlap(*recording.camera, recording.keyframe_altitudes_m[i],
-                            recording.keyframe_altitudes_m[k], between(truth[i], truth[k]));
+          footprint_overlap(camera, altitudes_m[i], altitudes_m[k], between(poses[i], poses[k]));
       if (!(overlap > 0.0)) continue;
       overlaps.pairs.push_back(
           {static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(k), overlap});
@@ -44,6 +40,11 @@ std::optional<TrueOverlaps> true_overlaps(const Recording& recording) {
   }
   overlaps.pairs.shrink_to_fit();
   return overlaps;
+}
+
+std::optional<TrueOverlaps> true_overlaps(const Recording& recording) {
+  if (!recording.ground_truth || !recording.camera) return std::nullopt;
+  return overlaps_at(*recording.ground_truth, *recording.camera, recording.keyframe_altitudes_m);
 }
 
 }  // namespace fathom

@@ -34,7 +34,7 @@ Evidence weigh_at(double error_m, const Hypothesis& best, int rival_places, cons
 
 Evidence weigh(const Hypothesis& best, const Hypothesis& rival, const MatchSet& nearest,
                const RegistrationOptions& options) {
-  const double coarse_m = options.ransac.max_error_m;
+  const double coarse_m = *options.ransac.max_error_m;
   const double fine_m = coarse_m / options.tuning.decision.fine_divisor;
   const Evidence coarse = weigh_at(coarse_m, best, rival.places, nearest, options);
   const Evidence fine = weigh_at(fine_m, best, 0, nearest, options);

@@ -51,17 +51,21 @@ cv::Mat prepared(const cv::Mat& picture, const FeatureOptions& options,
 
 }  // namespace
 
+double metres_per_pixel(const CameraModel& camera, double altitude_m) {
+  return altitude_m / std::sqrt(camera.fx * camera.fy);
+}
+
 FloorFeatures on_floor(Features features, const Camera& camera, double altitude_m) {
   FloorFeatures result;
   result.points = camera.floor_points(features.pixels, altitude_m);
   const CameraModel& model = camera.model();
-  const double metres_per_pixel = altitude_m / std::sqrt(model.fx * model.fy);
+  const double pixel_m = metres_per_pixel(model, altitude_m);
   for (std::size_t row = 0; row < features.sizes_px.size(); ++row) {
-    result.sizes_m.push_back(metres_per_pixel * features.sizes_px[row]);
+    result.sizes_m.push_back(pixel_m * features.sizes_px[row]);
     result.headings_rad.push_back(camera.heading(features.turns_rad[row]));
   }
   result.features = std::move(features);
-  result.viewpoint = {{model.mount_x_m, model.mount_y_m}, altitude_m, metres_per_pixel};
+  result.viewpoint = {{model.mount_x_m, model.mount_y_m}, altitude_m, pixel_m};
   return result;
 }
 

@@ -54,7 +54,7 @@ std::vector<int> within_gate(const Pose& z, const MatchSet& matches, double max_
 MotionFit fit_motion(const Pose& start, const MatchSet& matches,
                      const RegistrationOptions& options) {
   const FitTuning& tuning = options.tuning.fit;
-  const double max_error_m = options.ransac.max_error_m;
+  const double max_error_m = *options.ransac.max_error_m;
   MotionFit fit;
   fit.motion = start;
   fit.inliers = matches.pairs().inliers(start, max_error_m);

@@ -73,7 +73,7 @@ class ShiftGrid {
 
 // Nearer to another than this a motion lives on its support.
 double rival_distance_m(const RegistrationOptions& options) {
-  return options.tuning.decision.rival_distance * options.ransac.max_error_m;
+  return options.tuning.decision.rival_distance * *options.ransac.max_error_m;
 }
 
 }  // namespace
@@ -81,7 +81,7 @@ double rival_distance_m(const RegistrationOptions& options) {
 Hypothesis find_hypothesis(const MatchSet& putative, const MatchSet& nearest,
                            const RegistrationOptions& options, std::uint64_t seed) {
   const DecisionTuning& tuning = options.tuning.decision;
-  const double max_error_m = options.ransac.max_error_m;
+  const double max_error_m = *options.ransac.max_error_m;
   RansacOptions any = options.ransac;
   any.min_inliers = 2;
   any.min_places = 1;

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "fathom/core/input_error.hpp"
 #include "fathom/core/random.hpp"
 #include "fathom/vision/rigid_motion.hpp"
 #include "pair_ransac.hpp"
@@ -29,7 +30,11 @@ class Ransac {
  public:
   Ransac(const PointPairs& pairs, const RansacOptions& options, const RansacTuning& tuning,
          std::uint64_t seed)
-      : pairs_(pairs), options_(options), tuning_(tuning), random_(seed) {}
+      : pairs_(pairs),
+        options_(options),
+        tuning_(tuning),
+        max_error_m_(options.max_error_on_floor(0.0)),
+        random_(seed) {}
 
   // The figure accepts a motion with more than β inliers; `min_inliers` itself is enough here.
   Consensus run() {
@@ -39,10 +44,10 @@ class Ransac {
     for (int i = 0; i < needed; ++i) {
       const std::optional<Pose> trial = fit_sample();  // 1
       if (!trial) continue;
-      const int support = pairs_.count_inliers(*trial, options_.max_error_m);  // 2
+      const int support = pairs_.count_inliers(*trial, max_error_m_);  // 2
       most_inliers_ = std::max(most_inliers_, support);
       if (support < options_.min_inliers || cannot_win(support, best)) continue;  // 3
-      std::vector<int> inliers = pairs_.inliers(*trial, options_.max_error_m);
+      std::vector<int> inliers = pairs_.inliers(*trial, max_error_m_);
       if (inliers == best.inliers) continue;  // the same fit again
       if (!has_enough_places(inliers)) continue;
       Consensus fitted = fit(std::move(inliers));  // 4
@@ -82,12 +87,11 @@ class Ransac {
     for (int redraw = 0; redraw < tuning_.redraws; ++redraw) {
       draw_sample();
       // What cannot agree as a whole is no sample of right matches: not worth a fit.
-      if (sample_.size() == 2 &&
-          !pairs_.fit_together(sample_[0], sample_[1], options_.max_error_m)) {
+      if (sample_.size() == 2 && !pairs_.fit_together(sample_[0], sample_[1], max_error_m_)) {
         return std::nullopt;
       }
       gather(sample_);
-      if (spread(from_) > options_.max_error_m && spread(to_) > options_.max_error_m) {
+      if (spread(from_) > max_error_m_ && spread(to_) > max_error_m_) {
         return find_motion(from_, to_);
       }
     }
@@ -95,7 +99,7 @@ class Ransac {
   }
 
   bool has_enough_places(const std::vector<int>& inliers) {
-    const int places = pairs_.count_places(inliers, options_.max_error_m, options_.min_places);
+    const int places = pairs_.count_places(inliers, max_error_m_, options_.min_places);
     most_places_ = std::max(most_places_, places);
     return places >= options_.min_places;
   }
@@ -130,7 +134,7 @@ class Ransac {
 
   void refit(Consensus& best) {
     for (int round = 0; round < tuning_.refit_rounds; ++round) {
-      std::vector<int> inliers = pairs_.inliers(*best.motion, options_.max_error_m);
+      std::vector<int> inliers = pairs_.inliers(*best.motion, max_error_m_);
       if (inliers == best.inliers || inliers.size() < best.inliers.size()) return;
       if (!has_enough_places(inliers)) return;
       Consensus fitted = fit(std::move(inliers));
@@ -151,6 +155,7 @@ class Ransac {
   const PointPairs& pairs_;
   const RansacOptions& options_;
   const RansacTuning& tuning_;
+  double max_error_m_;
   RandomStream random_;
   int most_inliers_ = 0;
   int most_places_ = 0;
@@ -168,15 +173,25 @@ void RansacOptions::describe(OptionTable& table) {
              "end once a sample of inliers alone was drawn with this probability; 1 is off");
   table.integer("sample_size", sample_size, Range::between(2, 100), "matches",
                 "matches in a sample (the paper's N)");
-  table.real("max_error_m", max_error_m, Range::positive(), "m",
-             "a match agrees with a motion within this distance on the floor");
+  table.real("max_error_px", max_error_px, Range::positive(), "pixels",
+             "a match agrees with a motion within so many pixels of the coarser picture");
+  table.real_or_off("max_error_m", max_error_m, Range::positive(), "m",
+                    "or within this distance on the floor, whatever the altitude");
   table.integer("min_inliers", min_inliers, Range::at_least(3), "matches",
                 "with fewer that agree, no motion is found");
   table.integer("min_places", min_places, Range::between(1, 1000), "places",
-                "nor with those that agree in fewer places, further apart than max_error_m");
+                "nor with those that agree in fewer places, further apart than the largest error");
   table.enumeration(
       "score", score, {{"inliers", RansacScore::inliers}, {"paper", RansacScore::paper}},
       "keep most inliers, then least RMS; or, as the paper, the least sum of squared errors");
+}
+
+double RansacOptions::max_error_on_floor(double metres_per_pixel) const {
+  const double error_m = max_error_m.value_or(max_error_px * metres_per_pixel);
+  if (error_m > 0.0 && std::isfinite(error_m)) return error_m;
+  throw InputError(
+      "ransac.max_error_px: without pictures and their altitudes it is no distance; "
+      "expected ransac.max_error_m");
 }
 
 Consensus ransac(std::span<const Eigen::Vector2d> p, std::span<const Eigen::Vector2d> q,

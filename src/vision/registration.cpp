@@ -1,5 +1,6 @@
 #include "fathom/vision/registration.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <utility>
 
@@ -124,6 +125,14 @@ Registration by_false_alarms(const Pair& pair, const NearestRows& neighbours) {
   return accepted(std::move(result), pair, fit_motion(*best.motion, nearest, options), nearest);
 }
 
+// With the largest error in metres, which all steps below take it in.
+RegistrationOptions in_metres(RegistrationOptions options, const Viewpoint& from,
+                              const Viewpoint& to) {
+  options.ransac.max_error_m =
+      options.ransac.max_error_on_floor(std::max(from.metres_per_pixel, to.metres_per_pixel));
+  return options;
+}
+
 }  // namespace
 
 void DecisionOptions::describe(OptionTable& table) {
@@ -158,7 +167,8 @@ Registration register_pair(const FloorFeatures& from, const FloorFeatures& to,
                            const RegistrationOptions& options, std::uint64_t seed) {
   require_points(from);
   require_points(to);
-  const Pair pair{from, to, options, seed};
+  const RegistrationOptions in_force = in_metres(options, from.viewpoint, to.viewpoint);
+  const Pair pair{from, to, in_force, seed};
   const NearestRows neighbours = find_nearest(from.features, to.features);
   return options.decision.method == DecisionOptions::Method::inliers
              ? by_inliers(pair, neighbours)

@@ -138,7 +138,7 @@ TEST_F(Commands, CandidatesAreFoundByEachMethodWithinTheirBudget) {
     EXPECT_EQ(json_of("out/metrics.json").at("registrations_tried"),
               front_end.at("registrations_tried"));
     const std::size_t left_out = front_end.at("registrations_left_out");
-    EXPECT_EQ(ended.out.find("left out by max_per_keyframe") != std::string::npos, left_out > 0);
+    EXPECT_EQ(ended.out.find("left out beyond the budget") != std::string::npos, left_out > 0);
     return std::pair<std::size_t, std::size_t>(front_end.at("registrations_tried"), left_out);
   };
   const auto near = run("distance", {});

@@ -29,7 +29,8 @@ TEST(Configure, NothingGivenIsAllDefaults) {
   EXPECT_EQ(configuration.dataset.type, "simulated");
   EXPECT_TRUE(configuration.dataset.values.empty());
   EXPECT_EQ(configuration.seed, Configuration{}.seed);
-  EXPECT_EQ(configuration.front_end.separation_frames, FrontEndOptions{}.separation_frames);
+  EXPECT_EQ(configuration.front_end.keyframes.separation_frames,
+            FrontEndOptions{}.keyframes.separation_frames);
   ASSERT_EQ(configuration.estimators.size(), 1u);
   EXPECT_EQ(configuration.estimators[0].type, builtin_estimators().entries().front().name);
   EXPECT_TRUE(configuration.estimators[0].values.empty());
@@ -55,7 +56,7 @@ TEST(Configure, SetsEveryLevel) {
   EXPECT_EQ(simulation.mission.type, MissionType::kWaypoints);
   EXPECT_THAT(simulation.mission.waypoints_m, ElementsAre(0, 0, 5, 0, 5, 4));
   EXPECT_EQ(simulation.camera.cx, 310.5);
-  EXPECT_EQ(configuration.front_end.separation_frames, 4);
+  EXPECT_EQ(configuration.front_end.keyframes.separation_frames, 4);
   EXPECT_EQ(configuration.front_end.features.type, "orb");
   EXPECT_TRUE(configuration.front_end.features.clahe);
   EXPECT_EQ(configuration.front_end.registration.ransac.score, RansacScore::paper);
@@ -141,7 +142,7 @@ TEST(Configure, RefusesWrongTypesAndRangesWithTheBound) {
       {"front_end: {matching: {ratio: nan}}\n", "front_end.matching.ratio: expected a number"},
       {"front_end: {matching: {ratio: .inf}}\n", "front_end.matching.ratio: expected a number"},
       {"front_end: {matching: {mutual: maybe}}\n", "expected true or false, got 'maybe'"},
-      {"front_end: {ransac: {max_error_m: 0}}\n", "expected a number in m > 0, got '0'"},
+      {"front_end: {ransac: {max_error_m: 0}}\n", "expected a number in m > 0 or off, got '0'"},
       {"front_end: {keyframes: {separation_frames: 0}}\n", "expected a whole number >= 1"},
       {"front_end: {features: {type: surf}}\n", "expected one of sift, orb, akaze, brisk"},
       {"dataset: {altitude: {base_m: -2}}\n", "expected a number in m > 0, got '-2'"},

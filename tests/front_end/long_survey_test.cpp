@@ -97,7 +97,7 @@ class View : public TrajectoryView {
 TEST(LongSurvey, FeaturesStayWithinTheirBoundAndPicturesAreNotKept) {
   const ManyFrames frames;
   FrontEndOptions options;
-  options.separation_frames = 1;
+  options.keyframes.separation_frames = 1;
   options.candidates.max_distance_m = 1.1;
   options.candidates.max_per_keyframe = 3;
   options.features.max_features = 30;

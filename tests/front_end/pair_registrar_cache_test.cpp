@@ -86,7 +86,7 @@ struct Run {
 
   static FrontEndOptions options() {
     FrontEndOptions options;
-    options.separation_frames = 2;
+    options.keyframes.separation_frames = 2;
     options.candidates.max_distance_m = 0.9;
     return options;
   }

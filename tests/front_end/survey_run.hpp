@@ -19,7 +19,7 @@ inline Eigen::Matrix3d step_covariance() {
 
 inline FrontEndOptions keyframe_every(int frames, double max_distance_m = 100.0) {
   FrontEndOptions options;
-  options.separation_frames = frames;
+  options.keyframes.separation_frames = frames;
   options.candidates.max_distance_m = max_distance_m;
   return options;
 }

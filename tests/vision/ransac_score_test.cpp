@@ -21,7 +21,7 @@ TEST(RansacScore, PaperScoreFavoursTheSmallSet) {
   const Pose other{-3.0, 1.0, -0.4};
   add_true(pairs, random, kTruth, 60, 0.008);
   add_true(pairs, random, other, 20, 0.0001);
-  RansacOptions options;
+  RansacOptions options{.max_error_m = 0.03};
   const Consensus most = pairs.found(options);
   ASSERT_TRUE(most.motion.has_value());
   EXPECT_NEAR(most.motion->x, kTruth.x, 0.01);
@@ -47,7 +47,7 @@ TEST(RansacScore, PaperScoreIsTheSumOfSquares) {
   Pairs pairs;
   add_circle(pairs, kTruth, 20, 1e-4);
   add_circle(pairs, {-3.0, 1.0, -0.4}, 14, 1.3e-4);
-  RansacOptions options;
+  RansacOptions options{.max_error_m = 0.03};
   options.score = RansacScore::paper;
   const Consensus found = pairs.found(options);
   ASSERT_TRUE(found.motion.has_value());

@@ -26,7 +26,7 @@ TEST(Ransac, FindsTheMotionAmongMostlyWrongMatches) {
     add_true(pairs, random, kTruth, 60, 0.005);
     add_wrong(pairs, random, 140);
     for (const int sample_size : {2, 3}) {
-      RansacOptions options;
+      RansacOptions options{.max_error_m = 0.03};
       options.sample_size = sample_size;
       const Consensus found = pairs.found(options, seed);
       ASSERT_TRUE(found.motion.has_value());
@@ -44,7 +44,7 @@ TEST(Ransac, TheMotionIsTheFitOfItsInliersAndNoMoreMatchesAgreeWithIt) {
     Pairs pairs;
     add_true(pairs, random, kTruth, 80, 0.012);  // a good part beyond max_error_m
     add_wrong(pairs, random, 40);
-    const RansacOptions options;
+    const RansacOptions options{.max_error_m = 0.03};
     const Consensus found = pairs.found(options);
     ASSERT_TRUE(found.motion.has_value());
     Points p;
@@ -59,7 +59,7 @@ TEST(Ransac, TheMotionIsTheFitOfItsInliersAndNoMoreMatchesAgreeWithIt) {
     std::vector<int> within;
     for (std::size_t j = 0; j < pairs.p.size(); ++j) {
       const double error_m = (pairs.p[j] - transform(*found.motion, pairs.q[j])).norm();
-      if (error_m <= options.max_error_m) within.push_back(static_cast<int>(j));
+      if (error_m <= *options.max_error_m) within.push_back(static_cast<int>(j));
     }
     // Settled, or a last round would have lost some.
     EXPECT_TRUE(within == found.inliers || within.size() < found.inliers.size());
@@ -95,7 +95,7 @@ TEST(Ransac, ManyMatchesInFewPlacesAreFewVotes) {
     const Eigen::Vector2d centre = anywhere(random);
     for (int i = 0; i < 10; ++i) pairs.add(kTruth, centre + 0.001 * anywhere(random));
   }
-  RansacOptions options;
+  RansacOptions options{.max_error_m = 0.03};
   const Consensus refused = pairs.found(options);
   EXPECT_FALSE(refused.motion.has_value());
   EXPECT_EQ(refused.most_inliers, 50);
@@ -121,7 +121,7 @@ TEST(Ransac, SamplesWithoutAHeadingAreDrawnAgain) {
   Pairs pairs;
   for (int i = 0; i < 180; ++i) pairs.add(kTruth, {0.1, 0.2});
   add_true(pairs, random, kTruth, 20, 0.001);
-  RansacOptions options;
+  RansacOptions options{.max_error_m = 0.03};
   options.iterations = 5;
   const Consensus found = pairs.found(options);
   ASSERT_TRUE(found.motion.has_value());
@@ -168,7 +168,7 @@ TEST(Ransac, SampleAsLargeAsTheSetIsEveryPair) {
   RandomStream random(70);
   Pairs pairs;
   add_true(pairs, random, kTruth, 20, 0.001);
-  RansacOptions options;
+  RansacOptions options{.max_error_m = 0.03};
   options.sample_size = 20;
   options.iterations = 1;
   EXPECT_TRUE(pairs.found(options).motion.has_value());
@@ -177,7 +177,7 @@ TEST(Ransac, SampleAsLargeAsTheSetIsEveryPair) {
 }
 
 TEST(RansacOptions, RefuseWhatMakesNoSense) {
-  RansacOptions options;
+  RansacOptions options{.max_error_m = 0.03};
   OptionTable table;
   options.describe(table);
   EXPECT_THROW(table.set("sample_size", OptionValue::scalar("1")), InputError);

@@ -7,7 +7,8 @@
 
 namespace fathom {
 
-/// A picture as 8-bit grey, in the rows and columns of the sensor: a rotation tag is ignored.
+/// A picture as 8-bit grey, in the rows and columns of the sensor: a rotation tag is ignored. Of 16
+/// bits the lower part that nearly all pixels use is spread over 8.
 /// Throws InputError naming the file.
 cv::Mat read_grey_picture(const std::filesystem::path& path);
 

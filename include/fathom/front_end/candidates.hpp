@@ -1,5 +1,6 @@
 #pragma once
 
+#include <compare>
 #include <cstddef>
 #include <optional>
 #include <span>
@@ -16,35 +17,53 @@
 namespace fathom {
 
 enum class CandidateMethod {
-  distance,     ///< as in the paper: near the newest, as estimated
-  mahalanobis,  ///< that, and those whose confidence ellipse reaches so near
-  overlap       ///< pictures that overlap, as estimated
+  automatic,        ///< distance where a distance is given, else possible_overlap
+  distance,         ///< as in the paper: near the newest, as estimated
+  mahalanobis,      ///< that, and those whose confidence ellipse reaches so near
+  overlap,          ///< pictures that overlap, as estimated
+  possible_overlap  ///< that, and those that may, by the estimate's uncertainty; within a budget
 };
 
 struct CandidateOptions {
-  CandidateMethod method = CandidateMethod::distance;
-  double max_distance_m = 3.0;          ///< of distance and mahalanobis
-  double probability = 0.99;            ///< of mahalanobis
-  double min_overlap = 0.1;             ///< of overlap
-  std::optional<int> max_per_keyframe;  ///< the best so many; absent: all
+  CandidateMethod method = CandidateMethod::automatic;
+  std::optional<double> max_distance_m;  ///< of distance and mahalanobis
+  double probability = 0.99;             ///< of mahalanobis and possible_overlap
+  double min_overlap = 0.1;              ///< of overlap and possible_overlap
+  int budget = 12;                       ///< of possible_overlap
+  std::optional<int> max_per_keyframe;   ///< of the others: the best so many; absent: all
 
   void describe(OptionTable& table);
 
-  /// Keys, as described, that have no effect with this method.
+  /// What `automatic` stands for here; else the method itself.
+  CandidateMethod method_in_force() const;
+  /// Whether the method asks the estimate for its covariances.
+  bool asks_covariances() const;
+  /// The key that decides which method is in force, and the keys that have no effect with it; as
+  /// described.
+  std::string chooser() const;
   std::vector<std::string> ignored_keys() const;
+  /// Throws InputError where the method needs a distance and none is given.
+  void check() const;
 };
 
 /// Which earlier keyframes the newest is registered with.
 struct Candidates {
   std::vector<std::size_t> keyframes;  ///< rising
-  std::size_t left_out = 0;            ///< candidates beyond max_per_keyframe
+  std::size_t left_out = 0;            ///< candidates beyond max_per_keyframe or the budget
 };
 
 /// Finds loop candidates in one trajectory that grows and moves. Keyframes that are out of reach
 /// are not looked at (KeyframeGrid); what is found is what a test of each keyframe would find. With
-/// `mahalanobis` each is tested, as the covariances of all motions are asked for in any case.
+/// `mahalanobis` and `possible_overlap` each is tested, as the covariances of all motions are asked
+/// for in any case.
+///
+/// `possible_overlap` keeps `budget` candidates, the best of each pass over the place first: a pass
+/// is a row of candidates that followed each other, and consecutive pictures of one pass say much
+/// the same. Of a pass the one of most overlap comes first, then the one that most probably
+/// overlaps.
 class CandidateSearch {
  public:
+  /// Throws InputError as CandidateOptions::check.
   CandidateSearch(const Camera& camera, const CandidateOptions& options);
 
   /// Those among keyframes 0 … end − 1 for the newest, which is the last of `altitudes_m`, the
@@ -55,19 +74,45 @@ class CandidateSearch {
   /// Whether a keyframe `step` away, at these altitudes, is a candidate for certain.
   bool accepts(const Pose& step, double altitude_from_m, double altitude_to_m) const;
 
+  /// How far apart two keyframes at these altitudes may be to be candidates: the distance given, or
+  /// that at which their pictures, level and turned alike, share min_overlap along the longer side.
+  double reach_m(double altitude_from_m, double altitude_newest_m) const;
+
  private:
+  /// A keyframe, and how far from overlap (or reach) it is: squared, in sigmas.
+  struct Chance {
+    std::size_t keyframe = 0;
+    double squared_sigmas = 0.0;
+  };
+  /// The same to be compared: the best first.
+  struct Rank {
+    double lack_of_overlap = 0.0;
+    double squared_sigmas = 0.0;
+    double distance_m = 0.0;
+    std::size_t keyframe = 0;
+    auto operator<=>(const Rank&) const = default;
+  };
+
+  bool by_overlap() const;
   double overlap(const Pose& motion, double altitude_from_m, double altitude_to_m) const;
   std::vector<std::size_t> within_reach(const TrajectoryView& trajectory,
                                         std::span<const double> altitudes_m);
   bool is_candidate(const Pose& from, const Pose& newest, double altitude_from_m,
                     double altitude_newest_m) const;
-  std::vector<std::size_t> perhaps_near(const TrajectoryView& trajectory, std::size_t end) const;
-  Candidates best(const TrajectoryView& trajectory, std::span<const double> altitudes_m,
-                  std::vector<std::size_t> keyframes) const;
+  std::vector<Chance> perhaps_near(const TrajectoryView& trajectory,
+                                   std::span<const double> altitudes_m, std::size_t end) const;
+  std::vector<Chance> all(const TrajectoryView& trajectory, std::span<const double> altitudes_m,
+                          std::size_t end);
+  std::vector<Rank> ranked(const TrajectoryView& trajectory, std::span<const double> altitudes_m,
+                           const std::vector<Chance>& candidates) const;
+  static std::vector<std::size_t> order_of(const std::vector<Rank>& ranks);
+  static std::vector<std::size_t> order_by_passes(const std::vector<Rank>& ranks);
 
   Camera camera_;
   CandidateOptions options_;
+  CandidateMethod method_;
   double reach_per_metre_ = 0.0;  ///< of a footprint, from below the camera
+  double side_per_metre_ = 0.0;   ///< of a footprint, the longer one
   double mount_m_ = 0.0;          ///< from the body's origin to the camera
   double quantile_ = 0.0;         ///< of χ², 2 degrees of freedom
   double highest_m_ = 0.0;        ///< of the altitudes so far

@@ -31,6 +31,32 @@ struct FramePlace {
   Pose motion_since_keyframe;
 };
 
+/// Least, median and most of a number over the keyframes.
+struct Spread {
+  double least = 0.0;
+  double median = 0.0;
+  double most = 0.0;
+};
+
+/// What the options came to on a survey.
+struct FrontEndInMetres {
+  Spread max_error_m;        ///< of a match, by the altitude of a picture
+  Spread reach_m;            ///< of candidates, as estimated, between pictures from one altitude
+  Spread step_m;             ///< between keyframes, by dead reckoning
+  Spread separation_frames;  ///< likewise
+};
+
+/// The altitude of every keyframe, and how far each but the first is from the one before.
+struct KeyframeLengths {
+  std::vector<double> altitudes_m;
+  std::vector<double> steps_m;
+  std::vector<double> separation_frames;
+};
+
+/// Of two keyframes at least. Throws InputError as CandidateOptions::check.
+FrontEndInMetres in_metres(const FrontEndOptions& options, const Camera& camera,
+                           KeyframeLengths keyframes);
+
 /// Turns frames into keyframe events: the paper's section 2. Use:
 ///
 ///     while (auto keyframe = front_end.next_keyframe()) {
@@ -47,38 +73,44 @@ class FrontEnd {
   /// otherwise.
   FrontEnd(const FrameSource& source, PairRegistrar& registrar, const FrontEndOptions& options);
 
-  /// The next keyframe: frame 0, then one every `separation_frames`. Nothing at the end.
+  /// The next keyframe, by KeyframeSchedule. Nothing at the end.
   std::optional<Keyframe> next_keyframe();
 
   /// Registers the newest keyframe with every candidate (CandidateSearch) of the given trajectory,
-  /// which must hold all keyframes so far. What was found, by rising `from`. Where every frame of
-  /// visual odometry is a keyframe, the one before is no candidate: its registration is the step
-  /// already, and no measurement may count twice.
+  /// which must hold all keyframes so far. What was found, by rising `from`. Where the keyframe
+  /// before is the frame before and dead reckoning is visual odometry, it is no candidate: its
+  /// registration is the step already, and no measurement may count twice.
   std::vector<RelativePose> register_newest(const TrajectoryView& trajectory);
 
   const std::vector<Keyframe>& keyframes() const { return keyframes_; }
   /// Of all frames passed so far, the ones after the last keyframe included.
   const std::vector<FramePlace>& frames() const { return frames_; }
+  /// Of the keyframes so far, two at least.
+  FrontEndInMetres in_metres() const;
   std::size_t registrations_tried() const { return tried_; }
+  /// Of those not found: most matches that agreed with a motion.
+  int most_refused_inliers() const { return most_refused_inliers_; }
   std::size_t registrations_found() const { return found_; }
-  /// Candidates beyond `max_per_keyframe`.
+  /// Candidates beyond what a keyframe may have.
   std::size_t registrations_left_out() const { return left_out_; }
 
  private:
   Keyframe add_keyframe(std::size_t frame, const FrameInfo& info, const UncertainPose& since);
   Candidates candidates(const TrajectoryView& trajectory);
   MeasuredFrame measured(std::size_t frame) const;
-  void announce_next_keyframes() const;
+  void announce_next_keyframes();
 
   const FrameSource& source_;
   PairRegistrar& registrar_;
   FrontEndOptions options_;
   CandidateSearch search_;
+  KeyframeSchedule schedule_;
   std::vector<Keyframe> keyframes_;
   std::vector<double> altitudes_m_;  ///< of the keyframes
   std::vector<FramePlace> frames_;
   std::size_t tried_ = 0;
   std::size_t found_ = 0;
+  int most_refused_inliers_ = 0;
   std::size_t left_out_ = 0;
 };
 

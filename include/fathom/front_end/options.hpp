@@ -1,11 +1,13 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "fathom/core/ignored_key.hpp"
 #include "fathom/core/options.hpp"
 #include "fathom/front_end/candidates.hpp"
+#include "fathom/front_end/keyframes.hpp"
 #include "fathom/vision/features.hpp"
 #include "fathom/vision/registration.hpp"
 
@@ -14,12 +16,13 @@ namespace fathom {
 /// What visual odometry says of a motion where consecutive pictures do not register: the last
 /// motion again, this uncertain.
 struct VisualOdometryFallback {
-  double sigma_m = 0.3;
+  double sigma_altitudes = 0.15;  ///< in x and y, in altitudes
+  std::optional<double> sigma_m;  ///< in metres instead
   double sigma_rad = 0.1;
 };
 
 struct FrontEndOptions {
-  int separation_frames = 10;  ///< a keyframe every so many frames
+  KeyframeOptions keyframes;
   CandidateOptions candidates;
   FeatureOptions features;
   RegistrationOptions registration;
@@ -29,6 +32,10 @@ struct FrontEndOptions {
   void describe(OptionTable& table);
   /// Of them those that a registration depends on.
   void describe_registration(OptionTable& table);
+
+  /// Throws InputError where options need another one that is not given; it begins with the key,
+  /// without `front_end.`.
+  void check() const;
 
   /// Keys that the methods chosen have no use for, without `front_end.`.
   std::vector<IgnoredKey> ignored_keys() const;

@@ -6,12 +6,14 @@
 #include "fathom/configuration/study.hpp"
 #include "fathom/core/input_error.hpp"
 #include "fathom/datasets/frame_source.hpp"
+#include "fathom/front_end/keyframes.hpp"
 
 namespace fathom {
 
-/// The first frame of a keyframe, one every `separation_frames` from frame 0 on, without a true
-/// pose; nothing where all have one.
-std::optional<std::size_t> keyframe_without_truth(const FrameSource& frames, int separation_frames);
+/// The first frame without a true pose of those that may be keyframes: one every
+/// `separation_frames`, or any frame where keyframes go by overlap. Nothing where all have one.
+std::optional<std::size_t> keyframe_without_truth(const FrameSource& frames,
+                                                  const KeyframeOptions& keyframes);
 
 /// What refuses `association.reference: ground_truth` of frames that lack it.
 InputError no_ground_truth(std::size_t frame);

@@ -18,7 +18,8 @@ namespace fathom {
 std::string manifest_json(const std::string& command_line,
                           const std::vector<std::pair<std::string, std::string>>& configuration,
                           const Fingerprint& data, const Recording& recording, const Result& result,
-                          const EstimatorRegistry& registry);
+                          const EstimatorRegistry& registry,
+                          const std::vector<std::string>& remarks = {});
 
 /// The manifest of a session of a study: versions, build, machine, command line, date, jobs.
 std::string session_json(const std::string& command_line, int jobs);

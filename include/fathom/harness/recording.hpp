@@ -31,8 +31,11 @@ struct Recording {
   std::vector<double> keyframe_altitudes_m;
   std::optional<Camera> camera;
   std::vector<StampedPose> frame_ground_truth;  ///< of the frames that have it
+  std::optional<FrontEndInMetres> in_metres;    ///< absent for a graph
   std::size_t registrations_tried = 0;
-  /// Loop candidates beyond `max_per_keyframe`.
+  /// Of the pairs tried and not found: most matches that agreed in one of them.
+  int most_refused_inliers = 0;
+  /// Loop candidates beyond what a keyframe may have.
   std::size_t registrations_left_out = 0;
   /// By registration of the log, in order; empty where none was added, or it is not known.
   std::vector<bool> is_false_loop;

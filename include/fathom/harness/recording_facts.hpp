@@ -24,6 +24,10 @@ RecordingFacts run_facts(const Recording& recording);
 /// The facts of a study's run.
 RecordingFacts study_facts(const Recording& recording, const EstimatorRegistry& registry);
 
+/// Of keyframes at these poses, with a camera that took their pictures from these altitudes.
+TrueOverlaps overlaps_at(std::span<const Pose> poses, const Camera& camera,
+                         std::span<const double> altitudes_m);
+
 /// From ground truth, altitudes and camera; nothing where one of them is not known.
 std::optional<TrueOverlaps> true_overlaps(const Recording& recording);
 
@@ -31,6 +35,7 @@ std::optional<TrueOverlaps> true_overlaps(const Recording& recording);
 struct BatchOptimum {
   std::vector<Pose> poses;
   double chi2 = 0.0;
+  std::string solver;  ///< the type of the estimator that reached it
 };
 
 /// Over all estimators of the registry that can solve a batch, each with its default options and

@@ -43,6 +43,9 @@ struct FloorFeatures {
   std::size_t size() const { return points.size(); }
 };
 
+/// How wide a pixel is on the floor: altitude over focal length, the geometric mean of both.
+double metres_per_pixel(const CameraModel& camera, double altitude_m);
+
 /// Throws InputError on an altitude that is not positive.
 FloorFeatures on_floor(Features features, const Camera& camera, double altitude_m);
 

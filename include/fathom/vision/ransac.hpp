@@ -23,12 +23,17 @@ struct RansacOptions {
   int iterations = 10000;
   double confidence = 0.999999;
   int sample_size = 2;
-  double max_error_m = 0.03;
+  double max_error_px = 7.5;          ///< of the picture with the coarser pixels
+  std::optional<double> max_error_m;  ///< on the floor instead, at every altitude
   int min_inliers = 12;
   int min_places = 8;
   RansacScore score = RansacScore::inliers;
 
   void describe(OptionTable& table);
+
+  /// The largest error of a match that agrees, for pictures whose coarser pixels are so wide on the
+  /// floor. Throws InputError where that is no positive number of metres.
+  double max_error_on_floor(double metres_per_pixel) const;
 };
 
 /// What RANSAC agrees on.
@@ -68,7 +73,8 @@ struct Consensus {
 /// share of inliers, N the size of a sample (Fischler and Bolles 1981). With score `paper` the
 /// motion that wins need not be the one with most inliers, and all are made.
 ///
-/// Same arguments, same answer. Throws InputError where the two counts differ.
+/// Points have no pixels, so `max_error_m` must be given. Same arguments, same answer. Throws
+/// InputError where the two counts differ, or without `max_error_m`.
 Consensus ransac(std::span<const Eigen::Vector2d> p, std::span<const Eigen::Vector2d> q,
                  const RansacOptions& options, std::uint64_t seed, const RansacTuning& tuning = {});
 

@@ -75,7 +75,7 @@ std::vector<Metric> log_metrics() {
        "pairs of keyframes given to registration; absent of a pose graph",
        [](const JudgedRun& run) { return number(run.facts.registrations_tried); }},
       {"registrations_left_out", "registrations left out", "", Better::neither,
-       "loop candidates beyond max_per_keyframe; absent of a pose graph",
+       "loop candidates beyond max_per_keyframe or budget; absent of a pose graph",
        [](const JudgedRun& run) { return number(run.facts.registrations_left_out); }},
   };
 }

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "fathom/front_end/options.hpp"
+#include "fathom/harness/recording.hpp"
+#include "fathom/harness/recording_facts.hpp"
+
+namespace fathom {
+
+/// How the measurements of a log agree with each other, and an estimate with them.
+struct MapFit {
+  double chi2 = 0.0;                ///< F of the estimate
+  double chi2_optimum = 0.0;        ///< F of the batch optimum
+  double steps_at_optimum = 0.0;    ///< the part of it that is of dead reckoning
+  double degrees_of_freedom = 0.0;  ///< of the optimum: three a registration
+  double unknowns = 0.0;            ///< three a keyframe but the first
+  /// Of registrations at the optimum: root mean squares of their residuals, and of what their
+  /// covariances say.
+  double registration_rms_m = 0.0;
+  double registration_rms_rad = 0.0;
+  double registration_sigma_m = 0.0;
+  double registration_sigma_rad = 0.0;
+
+  /// F per degree of freedom at the optimum: 1 is expected of right loops and covariances.
+  double per_degree_of_freedom() const { return chi2_optimum / degrees_of_freedom; }
+
+  /// Whether F of the estimate lies above its optimum by no more than 99 of 100 draws from the
+  /// posterior would: F − F* is χ² with as many degrees of freedom as there are unknowns. Where F
+  /// per degree of freedom is above 1 already, all covariances are taken to be so much larger.
+  bool estimate_fits() const;
+};
+
+/// Nothing without registrations.
+std::optional<MapFit> map_fit(const MeasurementLog& log, std::span<const Pose> estimate,
+                              const BatchOptimum& optimum);
+
+/// What of a survey's loops looks wrong: each one line with its numbers and the likeliest remedy.
+/// `estimate` is of all keyframes.
+std::vector<std::string> loop_remarks(const Recording& recording, const FrontEndOptions& options,
+                                      std::span<const Pose> estimate);
+
+/// What of a map looks wrong: an estimate that does not fit its measurements, or measurements that
+/// do not fit each other.
+std::vector<std::string> map_remarks(const MapFit& fit, const std::string& estimator,
+                                     const std::string& solver);
+
+}  // namespace fathom

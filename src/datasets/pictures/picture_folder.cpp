@@ -1,0 +1,252 @@
+#include "fathom/datasets/picture_folder.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "exif.hpp"
+#include "fathom/core/files.hpp"
+#include "fathom/core/hash.hpp"
+#include "fathom/core/input_error.hpp"
+#include "fathom/core/text.hpp"
+#include "fathom/datasets/picture_file.hpp"
+#include "picture_table.hpp"
+
+namespace fathom {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+bool is_digit(char letter) {
+  return letter >= '0' && letter <= '9';
+}
+
+// The run of digits that begins at `place`, without leading zeros; moves behind it.
+std::string_view number_at(const std::string& name, std::size_t& place) {
+  const std::size_t begin = place;
+  while (place < name.size() && is_digit(name[place])) ++place;
+  const std::string_view digits(name.data() + begin, place - begin);
+  return digits.substr(std::min(digits.find_first_not_of('0'), digits.size()));
+}
+
+bool is_picture(const fs::path& file) {
+  std::string ending = file.extension().string();
+  std::ranges::transform(ending, ending.begin(), [](unsigned char letter) {
+    return letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a')
+                                          : static_cast<char>(letter);
+  });
+  const std::vector<std::string> endings{".jpg", ".jpeg", ".png", ".tif", ".tiff",
+                                         ".bmp", ".pgm",  ".ppm", ".webp"};
+  return std::ranges::find(endings, ending) != endings.end();
+}
+
+std::string missing_focal_length(const fs::path& picture, int width) {
+  std::string text =
+      "dataset.camera.focal_px: not given; it is fx of a calibration, or width in pixels x focal "
+      "length in mm / sensor width in mm; or give dataset.camera.field_of_view_rad";
+  if (const auto focal_mm = read_exif(picture).focal_35mm_mm) {
+    constexpr double kFrameWidthMm = 36.0;
+    char hint[96];
+    std::snprintf(hint, sizeof hint, " (by the EXIF of %s it is about %.0f in air)",
+                  picture.filename().c_str(), *focal_mm / kFrameWidthMm * width);
+    text += hint;
+  }
+  return text;
+}
+
+double focal_length(const PictureFolderOptions& options, const fs::path& picture, int width) {
+  if (options.focal_px && options.field_of_view_rad) {
+    throw InputError(
+        "dataset.camera.field_of_view_rad: there is a focal_px, too; expected one of them");
+  }
+  if (options.focal_px) return *options.focal_px;
+  if (!options.field_of_view_rad) throw InputError(missing_focal_length(picture, width));
+  return 0.5 * width / std::tan(0.5 * *options.field_of_view_rad);
+}
+
+Camera camera_of(const PictureFolderOptions& options, const fs::path& picture) {
+  const cv::Mat first = read_grey_picture(picture);
+  CameraModel model;
+  model.width = first.cols;
+  model.height = first.rows;
+  model.fx = focal_length(options, picture, first.cols);
+  model.fy = options.focal_y_px.value_or(model.fx);
+  model.cx = options.cx.value_or((model.width - 1) / 2.0);
+  model.cy = options.cy.value_or((model.height - 1) / 2.0);
+  if (!options.distortion.empty() && options.distortion.size() != model.distortion.size()) {
+    throw InputError("dataset.camera.distortion: expected [k1, k2, p1, p2, k3]");
+  }
+  std::ranges::copy(options.distortion, model.distortion.begin());
+  model.mount_x_m = options.mount_x_m;
+  model.mount_y_m = options.mount_y_m;
+  model.mount_yaw_rad = options.mount_yaw_rad;
+  return Camera(model);
+}
+
+}  // namespace
+
+bool is_before(const std::string& a, const std::string& b) {
+  std::size_t i = 0;
+  std::size_t j = 0;
+  while (i < a.size() && j < b.size()) {
+    if (is_digit(a[i]) && is_digit(b[j])) {
+      const std::string_view m = number_at(a, i);
+      const std::string_view n = number_at(b, j);
+      if (m.size() != n.size()) return m.size() < n.size();
+      if (m != n) return m < n;
+    } else {
+      if (a[i] != b[j]) {
+        return static_cast<unsigned char>(a[i]) < static_cast<unsigned char>(b[j]);
+      }
+      ++i;
+      ++j;
+    }
+  }
+  const bool a_ended = i == a.size();
+  const bool b_ended = j == b.size();
+  if (a_ended != b_ended) return a_ended;
+  return a < b;  // alike but for leading zeros
+}
+
+void PictureFolderOptions::describe(OptionTable& table) {
+  table.text("path", path, "the folder of the pictures; relative to the working folder");
+  table.real_or_off("altitude_m", altitude_m, Range::positive(), "m",
+                    "height over the floor of all pictures");
+  table.text("altitudes", altitudes, "or a CSV file with the height of each: filename, metres");
+  table.text("odometry", odometry,
+             "a CSV file: filename, p_x, p_y, theta, step_var_x, step_var_y, step_var_theta; none: "
+             "visual odometry");
+  table.real("interval_s", interval_s, Range::positive(), "s",
+             "between pictures that do not say when they were taken");
+  table.real_or_off("camera.focal_px", focal_px, Range::positive(), "pixels", "focal length");
+  table.real_or_off("camera.field_of_view_rad", field_of_view_rad, Range{0.0, 3.0, true}, "rad",
+                    "or the angle that the picture's width covers");
+  table.real_or_off("camera.focal_y_px", focal_y_px, Range::positive(), "pixels",
+                    "focal length along v; off: that along u");
+  table.real_or_off("camera.cx", cx, Range::any(), "pixels", "off: the middle of the picture");
+  table.real_or_off("camera.cy", cy, Range::any(), "pixels", "off: the middle of the picture");
+  table.reals("camera.distortion", distortion, 5, "", "k1, k2, p1, p2, k3; none: []");
+  table.real("camera.mount_x_m", mount_x_m, Range::any(), "m", "camera ahead of the body's origin");
+  table.real("camera.mount_y_m", mount_y_m, Range::any(), "m", "and to port of it");
+  table.real("camera.mount_yaw_rad", mount_yaw_rad, Range::any(), "rad",
+             "counter-clockwise from above; 0: the top of the picture looks forward");
+}
+
+PictureFolder::PictureFolder(const PictureFolderOptions& options) : folder_(options.path) {
+  find_pictures();
+  camera_ = camera_of(options, pictures_.front());
+  infos_.resize(pictures_.size());
+  set_times(options.interval_s);
+  set_altitudes(options);
+  if (!options.odometry.empty()) read_odometry(options.odometry);
+  ids_ = std::vector<PictureId>(pictures_.size());
+}
+
+void PictureFolder::find_pictures() {
+  if (folder_.empty()) throw InputError("dataset.path: say where the folder of the pictures is");
+  std::error_code error;
+  if (!fs::is_directory(folder_, error)) throw InputError(folder_.string(), "is no folder");
+  for (const auto& entry : fs::directory_iterator(folder_)) {
+    if (entry.is_regular_file() && is_picture(entry.path())) pictures_.push_back(entry.path());
+  }
+  if (pictures_.empty()) {
+    throw InputError(folder_.string(),
+                     "holds no pictures; expected files such as .jpg, .png, .tif or .pgm");
+  }
+  std::ranges::sort(pictures_, [](const fs::path& a, const fs::path& b) {
+    return is_before(a.filename().string(), b.filename().string());
+  });
+}
+
+void PictureFolder::set_times(double interval_s) {
+  constexpr double kSecond = 1e9;
+  for (std::size_t i = 0; i < infos_.size(); ++i) {
+    infos_[i].time_ns = std::llround(static_cast<double>(i) * interval_s * kSecond);
+  }
+  std::vector<std::int64_t> times_ns;
+  for (const fs::path& picture : pictures_) {
+    const auto time_ns = read_exif(picture).time_ns;
+    if (!time_ns || (!times_ns.empty() && *time_ns <= times_ns.back())) return;
+    times_ns.push_back(*time_ns);
+  }
+  for (std::size_t i = 0; i < infos_.size(); ++i) infos_[i].time_ns = times_ns[i];
+}
+
+void PictureFolder::set_altitudes(const PictureFolderOptions& options) {
+  if (options.altitude_m && !options.altitudes.empty()) {
+    throw InputError("dataset.altitudes: there is an altitude_m, too; expected one of them");
+  }
+  if (options.altitude_m) {
+    for (FrameInfo& info : infos_) info.altitude_m = *options.altitude_m;
+    return;
+  }
+  if (options.altitudes.empty()) {
+    throw InputError(
+        "dataset.altitude_m: not given; without the height over the floor pixels cannot become "
+        "metres; a CSV file, dataset.altitudes, has one for each picture");
+  }
+  const PictureTable table(options.altitudes, "filename, altitude", pictures_);
+  tables_.emplace_back(options.altitudes);
+  for (std::size_t i = 0; i < infos_.size(); ++i) {
+    const double altitude_m = table.real(i, 1);
+    if (!(altitude_m > 0.0)) {
+      table.refuse(i, "the altitude is not above the floor; expected metres > 0");
+    }
+    infos_[i].altitude_m = altitude_m;
+  }
+}
+
+void PictureFolder::read_odometry(const fs::path& csv) {
+  const PictureTable table(csv, "filename, p_x, p_y, theta, step_var_x, step_var_y, step_var_theta",
+                           pictures_);
+  tables_.push_back(csv);
+  Pose last;
+  for (std::size_t i = 0; i < infos_.size(); ++i) {
+    const Pose pose{table.real(i, 1), table.real(i, 2), wrap_angle(table.real(i, 3))};
+    Eigen::Matrix3d C =
+        Eigen::Vector3d(table.real(i, 4), table.real(i, 5), table.real(i, 6)).asDiagonal();
+    if (table.columns(i) >= 10) {
+      C(0, 1) = C(1, 0) = table.real(i, 7);
+      C(0, 2) = C(2, 0) = table.real(i, 8);
+      C(1, 2) = C(2, 1) = table.real(i, 9);
+    }
+    if (i > 0) {
+      if (!is_positive_definite(C)) {
+        table.refuse(i, "the covariance of the step is not positive definite");
+      }
+      infos_[i].motion = UncertainPose{between(last, pose), C};
+    }
+    last = pose;
+  }
+  has_odometry_ = true;
+}
+
+cv::Mat PictureFolder::image(std::size_t i) const {
+  cv::Mat picture = read_grey_picture(pictures_[i]);
+  const CameraModel& model = camera_.model();
+  if (picture.cols == model.width && picture.rows == model.height) return picture;
+  const auto size = [](int width, int height) {
+    return std::to_string(width) + " x " + std::to_string(height);
+  };
+  throw InputError(pictures_[i].string(),
+                   "has " + size(picture.cols, picture.rows) + " pixels, the first picture " +
+                       size(model.width, model.height) + "; expected pictures of one camera");
+}
+
+std::uint64_t PictureFolder::picture_id(std::size_t i) const {
+  PictureId& id = ids_[i];
+  // What throws is tried again by the next one who asks.
+  std::call_once(
+      id.once, [&] { id.value = Hash().add("picture file").add(read_file(pictures_[i])).value(); });
+  return id.value;
+}
+
+std::vector<fs::path> PictureFolder::files() const {
+  std::vector<fs::path> files = pictures_;
+  files.insert(files.end(), tables_.begin(), tables_.end());
+  std::ranges::sort(files);
+  return files;
+}
+
+}  // namespace fathom

@@ -1,0 +1,49 @@
+#include "fathom/front_end/keyframes.hpp"
+
+#include "fathom/geometry/pose.hpp"
+#include "fathom/vision/camera.hpp"
+
+namespace fathom {
+
+void KeyframeOptions::describe(OptionTable& table) {
+  table.real("min_overlap", min_overlap, Range{0.0, 1.0, true}, "",
+             "a keyframe at the last frame that shares so much of its footprint with the keyframe "
+             "before, by dead reckoning");
+  table.integer_or_off("separation_frames", separation_frames, Range::at_least(1), "frames",
+                       "a keyframe every so many frames, whatever they share");
+}
+
+std::vector<std::string> KeyframeOptions::ignored_keys() const {
+  if (separation_frames) return {"min_overlap"};
+  return {};
+}
+
+std::optional<std::size_t> KeyframeSchedule::after(std::size_t keyframe) const {
+  if (options_.separation_frames) {
+    const std::size_t next = keyframe + static_cast<std::size_t>(*options_.separation_frames);
+    return next < source_.size() ? std::optional(next) : std::nullopt;
+  }
+  const double altitude_m = source_.info(keyframe).altitude_m;
+  Pose motion;
+  for (std::size_t frame = keyframe + 1; frame < source_.size(); ++frame) {
+    const FrameInfo& info = source_.info(frame);
+    motion = compose(motion, info.motion->mean);
+    const double overlap = footprint_overlap(source_.camera(), altitude_m, info.altitude_m, motion);
+    if (!(overlap < options_.min_overlap)) continue;
+    return frame - 1 > keyframe ? frame - 1 : frame;
+  }
+  return std::nullopt;
+}
+
+std::optional<std::size_t> KeyframeSchedule::frame(std::size_t k) {
+  while (frames_.size() <= k) {
+    const auto next = frames_.empty()
+                          ? (source_.size() > 0 ? std::optional<std::size_t>(0) : std::nullopt)
+                          : after(frames_.back());
+    if (!next) return std::nullopt;
+    frames_.push_back(*next);
+  }
+  return frames_[k];
+}
+
+}  // namespace fathom

@@ -1,0 +1,133 @@
+#include "fathom/harness/outlook.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <utility>
+
+#include "fathom/front_end/candidates.hpp"
+#include "fathom/front_end/keyframes.hpp"
+#include "fathom/vision/features.hpp"
+
+namespace fathom {
+namespace {
+
+std::string number(double value) {
+  char buffer[32];
+  std::snprintf(buffer, sizeof buffer, "%.3g", value);
+  return buffer;
+}
+
+std::string range_text(const Spread& spread, const std::string& unit) {
+  const std::string least = number(spread.least);
+  const std::string most = number(spread.most);
+  return (least == most ? least : least + " to " + most) + unit;
+}
+
+void measure_footprint(const FrameSource& frames, Outlook& outlook) {
+  std::vector<double> altitudes_m;
+  for (std::size_t i = 0; i < frames.size(); ++i) altitudes_m.push_back(frames.info(i).altitude_m);
+  const auto middle = altitudes_m.begin() + static_cast<std::ptrdiff_t>(altitudes_m.size() / 2);
+  std::nth_element(altitudes_m.begin(), middle, altitudes_m.end());
+  const auto corners = frames.camera().footprint(*middle);
+  outlook.footprint_width_m = (corners[1] - corners[0]).norm();
+  outlook.footprint_height_m = (corners[2] - corners[1]).norm();
+}
+
+// As the front end takes its keyframes, and dead reckoning for the estimate.
+void count_candidates(const FrameSource& frames, const FrontEndOptions& options, Outlook& outlook) {
+  KeyframeSchedule schedule(frames, options.keyframes);
+  CandidateSearch search(frames.camera(), options.candidates);
+  KeyframeLengths lengths;
+  GivenTrajectory trajectory;
+  Pose pose;
+  std::size_t frame = 0;
+  while (const auto next = schedule.frame(lengths.altitudes_m.size())) {
+    const Pose before = pose;
+    const std::size_t frame_before = frame;
+    for (; frame < *next; ++frame) pose = compose(pose, frames.info(frame + 1).motion->mean);
+    if (!lengths.altitudes_m.empty()) {
+      lengths.steps_m.push_back((pose.position() - before.position()).norm());
+      lengths.separation_frames.push_back(static_cast<double>(frame - frame_before));
+    }
+    trajectory.append(pose);
+    lengths.altitudes_m.push_back(frames.info(frame).altitude_m);
+    const std::size_t newest = trajectory.size() - 1;
+    for (const std::size_t k : search.find(trajectory, lengths.altitudes_m, newest).keyframes) {
+      ++(k + 1 == newest ? outlook.consecutive_candidates : outlook.other_candidates);
+    }
+  }
+  outlook.keyframes = trajectory.size();
+  if (outlook.keyframes > 1) {
+    outlook.in_metres = in_metres(options, frames.camera(), std::move(lengths));
+  }
+}
+
+void look_at_texture(const FrameSource& frames, const FrontEndOptions& options, Outlook& outlook) {
+  constexpr std::size_t kLooked = 5;
+  const FeatureExtractor extractor(options.features, options.registration.tuning.features);
+  const std::size_t count = std::min(kLooked, frames.size());
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t frame = (2 * i + 1) * frames.size() / (2 * count);
+    outlook.features.emplace_back(frame, extractor.extract(frames.image(frame)).size());
+  }
+}
+
+}  // namespace
+
+Outlook outlook(const FrameSource& frames, const FrontEndOptions& options) {
+  Outlook outlook;
+  if (frames.size() == 0) return outlook;
+  measure_footprint(frames, outlook);
+  if (frames.has_odometry()) count_candidates(frames, options, outlook);
+  look_at_texture(frames, options, outlook);
+  return outlook;
+}
+
+std::vector<std::string> facts_of(const Outlook& outlook) {
+  std::vector<std::string> facts{"footprint: " + number(outlook.footprint_width_m) + " m x " +
+                                 number(outlook.footprint_height_m) +
+                                 " m from the median altitude"};
+  if (const auto& metres = outlook.in_metres) {
+    facts.push_back("keyframes: " + std::to_string(outlook.keyframes) + ", " +
+                    range_text(metres->step_m, " m") + " apart, median " +
+                    number(metres->step_m.median) + " m");
+    facts.push_back(
+        "candidates by dead reckoning: " + std::to_string(outlook.consecutive_candidates) +
+        " of consecutive keyframes, " + std::to_string(outlook.other_candidates) +
+        " others, within " + range_text(metres->reach_m, " m"));
+    facts.push_back("a match agrees within " + range_text(metres->max_error_m, " m"));
+  }
+  if (!outlook.features.empty()) {
+    std::string text = "features in pictures";
+    for (const auto& [frame, count] : outlook.features) {
+      text +=
+          (text.back() == 's' ? " " : ", ") + std::to_string(frame) + ": " + std::to_string(count);
+    }
+    facts.push_back(text);
+  }
+  return facts;
+}
+
+std::vector<std::string> warnings_of(const Outlook& outlook, const FrontEndOptions& options) {
+  std::vector<std::string> warnings;
+  if (outlook.keyframes == 1) {
+    warnings.emplace_back("by dead reckoning the vehicle never moves: there is a single keyframe");
+  }
+  if (outlook.in_metres && outlook.other_candidates == 0) {
+    warnings.emplace_back(
+        "by dead reckoning no picture overlaps an earlier one but the one before it: nothing to "
+        "close a loop with");
+  }
+  constexpr std::size_t kFew = 10;
+  const auto few = kFew * static_cast<std::size_t>(options.registration.ransac.min_inliers);
+  for (const auto& [frame, count] : outlook.features) {
+    if (count >= few) continue;
+    warnings.push_back("picture " + std::to_string(frame) + " has " + std::to_string(count) +
+                       " features; a registration needs " +
+                       std::to_string(options.registration.ransac.min_inliers) +
+                       " of them to agree: too little texture, too dark or blurred");
+  }
+  return warnings;
+}
+
+}  // namespace fathom

@@ -1,0 +1,162 @@
+#include "fathom/datasets/picture_folder.hpp"
+
+#include <cmath>
+#include <fstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
+
+#include "fathom/datasets/picture_file.hpp"
+#include "support/input_error.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace fathom {
+namespace {
+
+using test::input_error_of;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+class Pictures : public ::testing::Test {
+ protected:
+  Pictures() {
+    options.path = root.path().string();
+    options.altitude_m = 2.0;
+    options.focal_px = 10.0;
+  }
+
+  void add(const std::string& name, int grey = 90, cv::Size size = {8, 6}) const {
+    cv::imwrite((root / name).string(), cv::Mat(size, CV_8UC1, cv::Scalar(grey)));
+  }
+
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream(root / name) << text;
+  }
+
+  std::string error() const {
+    return input_error_of([this] { PictureFolder folder(options); });
+  }
+
+  test::TemporaryFolder root;
+  PictureFolderOptions options;
+};
+
+TEST_F(Pictures, StandInTheOrderOfTheirNumbers) {
+  add("shot10.png", 10);
+  add("shot9.PNG", 9);
+  add("shot010b.png", 11);
+  add("shot100.pgm", 100);
+  write("notes.txt", "not a picture");
+  const PictureFolder folder(options);
+  ASSERT_EQ(folder.size(), 4u);
+  EXPECT_EQ(folder.image(0).at<uchar>(0, 0), 9);
+  EXPECT_EQ(folder.image(1).at<uchar>(0, 0), 10);
+  EXPECT_EQ(folder.image(2).at<uchar>(0, 0), 11);
+  EXPECT_EQ(folder.image(3).at<uchar>(0, 0), 100);
+  EXPECT_EQ(folder.info(3).time_ns, 3'000'000'000);
+  EXPECT_EQ(folder.info(3).altitude_m, 2.0);
+  EXPECT_FALSE(folder.has_odometry());
+  EXPECT_NE(folder.picture_id(0), folder.picture_id(1));
+  EXPECT_EQ(folder.files().size(), 4u);
+}
+
+TEST(PictureNames, AreOrderedStrictly) {
+  const std::vector<std::string> rising{"", "1", "01", "2", "10", "a", "a1", "a1b", "a02", "a10"};
+  for (std::size_t i = 0; i < rising.size(); ++i) {
+    for (std::size_t j = 0; j < rising.size(); ++j) {
+      // "01" and "1" are one number: which of them comes first is no matter, but one does.
+      if (rising[i] == "01" || rising[j] == "01") continue;
+      EXPECT_EQ(is_before(rising[i], rising[j]), i < j) << rising[i] << " " << rising[j];
+    }
+  }
+  EXPECT_NE(is_before("1", "01"), is_before("01", "1"));
+  EXPECT_TRUE(is_before("99999999999999999999998", "99999999999999999999999"));
+}
+
+TEST_F(Pictures, FocalLengthOrFieldOfViewMakeTheCamera) {
+  add("a.png");
+  EXPECT_EQ(PictureFolder(options).camera().model().fx, 10.0);
+  EXPECT_EQ(PictureFolder(options).camera().model().cx, 3.5);
+  options.focal_px.reset();
+  EXPECT_THAT(error(), AllOf(HasSubstr("dataset.camera.focal_px"), HasSubstr("sensor width"),
+                             HasSubstr("field_of_view_rad")));
+  options.field_of_view_rad = M_PI / 2;
+  EXPECT_NEAR(PictureFolder(options).camera().model().fx, 4.0, 1e-12);
+  options.focal_px = 10.0;
+  EXPECT_THAT(error(), HasSubstr("field_of_view_rad"));
+}
+
+TEST_F(Pictures, AltitudesAndOdometryAreByName) {
+  for (const char* name : {"a.png", "b.png", "c.png"}) add(name);
+  options.altitude_m.reset();
+  EXPECT_THAT(error(), HasSubstr("dataset.altitude_m"));
+  options.altitudes = (root / "altitudes.csv").string();
+  write("altitudes.csv", "# filename, metres\na.png, 1.5\nb.png,2\r\nc.png,2.5\n");
+  options.odometry = (root / "odometry.csv").string();
+  write("odometry.csv",
+        "a.png,5,5,1.5707963267948966,0,0,0\n"
+        "b.png,5,7,1.5707963267948966,0.01,0.02,0.003\n"
+        "c.png,4,7,3.1,0.01,0.02,0.003,0.001,0.002,-0.001\n");
+  const PictureFolder folder(options);
+  EXPECT_EQ(folder.info(2).altitude_m, 2.5);
+  ASSERT_TRUE(folder.has_odometry());
+  EXPECT_FALSE(folder.info(0).motion);
+  EXPECT_NEAR(folder.info(1).motion->mean.x, 2.0, 1e-12);
+  EXPECT_NEAR(folder.info(1).motion->mean.y, 0.0, 1e-12);
+  EXPECT_NEAR(folder.info(2).motion->mean.y, 1.0, 1e-12);
+  EXPECT_EQ(folder.info(2).motion->covariance(0, 2), 0.002);
+  EXPECT_EQ(folder.files().size(), 5u);
+}
+
+TEST_F(Pictures, TablesThatDoNotFitAreRefusedByTheirLine) {
+  for (const char* name : {"a.png", "b.png"}) add(name);
+  options.altitude_m.reset();
+  options.altitudes = (root / "t.csv").string();
+  const auto refused = [&](const std::string& text) {
+    write("t.csv", text);
+    return error();
+  };
+  EXPECT_THAT(refused("a.png,2\n"), AllOf(HasSubstr("t.csv"), HasSubstr("no row for b.png")));
+  EXPECT_THAT(refused("b.png,2\na.png,2\n"), AllOf(HasSubstr("t.csv:1"), HasSubstr("'a.png'")));
+  EXPECT_THAT(refused("a.png,2\nb.png,2\nc.png,2\n"), HasSubstr("t.csv:3: there are only 2"));
+  EXPECT_THAT(refused("a.png,2\nb.png,-2\n"), HasSubstr("t.csv:2: the altitude is not above"));
+  EXPECT_THAT(refused("a.png,2\nb.png,nan\n"), HasSubstr("t.csv:2: 'nan' is not a finite"));
+  EXPECT_THAT(refused("a.png,2\nb.png\n"), HasSubstr("t.csv:2: expected the columns"));
+}
+
+TEST_F(Pictures, OfAnotherSizeAreRefusedByName) {
+  add("a.png");
+  add("b.png", 90, {6, 8});
+  const PictureFolder folder(options);
+  EXPECT_THAT(input_error_of([&] { folder.image(1); }),
+              AllOf(HasSubstr("b.png"), HasSubstr("6 x 8"), HasSubstr("8 x 6")));
+}
+
+TEST_F(Pictures, AFolderWithoutAnyIsRefused) {
+  EXPECT_THAT(error(), HasSubstr("holds no pictures"));
+  options.path = (root / "nowhere").string();
+  EXPECT_THAT(error(), HasSubstr("is no folder"));
+}
+
+// A ramp of 12 bits in 16, one pixel of it saturated: 4095 becomes white, half of it grey.
+TEST_F(Pictures, OfSixteenBitUseTheBitsThatTheyHave) {
+  cv::Mat ramp(64, 64, CV_16UC1);
+  for (int i = 0; i < 4096; ++i) ramp.at<ushort>(i / 64, i % 64) = static_cast<ushort>(i);
+  ramp.at<ushort>(0, 0) = 65535;
+  cv::imwrite((root / "ramp.png").string(), ramp);
+  const cv::Mat grey = read_grey_picture(root / "ramp.png");
+  ASSERT_EQ(grey.type(), CV_8U);
+  EXPECT_EQ(grey.at<uchar>(0, 0), 255);
+  EXPECT_EQ(grey.at<uchar>(63, 63), 255);
+  EXPECT_NEAR(grey.at<uchar>(32, 0), 128, 1);
+  EXPECT_NEAR(grey.at<uchar>(0, 32), 2, 1);
+  cv::Mat colour;
+  cv::merge(std::vector<cv::Mat>{ramp, ramp, ramp}, colour);
+  cv::imwrite((root / "colour.tif").string(), colour);
+  EXPECT_LE(cv::norm(read_grey_picture(root / "colour.tif"), grey, cv::NORM_INF), 1.0);
+}
+
+}  // namespace
+}  // namespace fathom
