@@ -58,6 +58,8 @@ std::vector<std::string> CandidateOptions::ignored_keys() const {
     case CandidateMethod::overlap:
       return {"max_distance_m", "probability", "budget"};
     case CandidateMethod::possible_overlap:
+      // Of `automatic`, that no distance is given is what decides.
+      if (method == CandidateMethod::automatic) return {"max_per_keyframe"};
       return {"max_distance_m", "max_per_keyframe"};
     case CandidateMethod::automatic:
     case CandidateMethod::distance:

@@ -131,7 +131,8 @@ Candidates CandidateSearch::find(const TrajectoryView& trajectory,
   }
   keyframes.resize(static_cast<std::size_t>(*most));
   std::ranges::sort(keyframes);
-  return {std::move(keyframes), found.size() - keyframes.size()};
+  const std::size_t left_out = found.size() - keyframes.size();
+  return {std::move(keyframes), left_out};
 }
 
 // Most overlap first, then the likeliest, the nearest, the earliest.

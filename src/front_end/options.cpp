@@ -40,6 +40,9 @@ std::vector<IgnoredKey> FrontEndOptions::ignored_keys() const {
   if (registration.ransac.max_error_m) {
     ignored.push_back({"ransac.max_error_px", "ransac.max_error_m"});
   }
+  if (registration.covariance.floor_sigma_m) {
+    ignored.push_back({"covariance.floor_sigma_px", "covariance.floor_sigma_m"});
+  }
   const bool by_inliers = registration.decision.method == DecisionOptions::Method::inliers;
   ignored.push_back({by_inliers ? "decision.max_false_alarms" : "ransac.score", "decision.method"});
   const auto ignore_tuning = [&](const std::string& group, const std::string& chooser) {

@@ -37,7 +37,8 @@ struct Pass {
 };
 
 // The nearest that dead reckoning comes to where it was before: of keyframes with a path between
-// them of several times the reach. Of a long survey some keyframes stand for all.
+// them of several times the reach, and of twice their distance, so that it turned back. Of a long
+// survey some keyframes stand for all.
 Pass nearest_pass(const std::vector<Pose>& poses, double reach_m) {
   constexpr double kPath = 4.0;
   constexpr std::size_t kLooked = 2000;
@@ -50,6 +51,7 @@ Pass nearest_pass(const std::vector<Pose>& poses, double reach_m) {
   for (std::size_t k = 0; k < poses.size(); k += stride) {
     for (std::size_t j = 0; j < k && path_m[k] - path_m[j] > kPath * reach_m; j += stride) {
       const double distance_m = (poses[k].position() - poses[j].position()).norm();
+      if (2.0 * distance_m > path_m[k] - path_m[j]) continue;
       if (distance_m < nearest.distance_m) nearest = {distance_m, j, k};
     }
   }
@@ -166,7 +168,8 @@ std::optional<std::string> wrong_scale(const Recording& recording) {
 
 bool MapFit::estimate_fits() const {
   constexpr double kProbability = 0.99;
-  return chi2 - chi2_optimum <= chi_squared_quantile(kProbability, unknowns);
+  const double scale = std::max(1.0, per_degree_of_freedom());
+  return chi2 - chi2_optimum <= scale * chi_squared_quantile(kProbability, unknowns);
 }
 
 std::optional<MapFit> map_fit(const MeasurementLog& log, std::span<const Pose> estimate,
@@ -175,12 +178,23 @@ std::optional<MapFit> map_fit(const MeasurementLog& log, std::span<const Pose> e
   MapFit fit;
   fit.chi2 = chi2(log, estimate);
   fit.chi2_optimum = optimum.chi2;
+  Eigen::Vector3d squares = Eigen::Vector3d::Zero();
+  Eigen::Vector3d variances = Eigen::Vector3d::Zero();
   for (std::size_t k = 1; k < log.size(); ++k) {
     const RelativePose& step = log.arrival(k).step;
     const Eigen::Vector3d e =
         residual(step.motion, optimum.poses[step.from], optimum.poses[step.to]);
     fit.steps_at_optimum += e.dot(step.information * e);
+    for (const RelativePose& z : log.arrival(k).registrations) {
+      squares += residual(z.motion, optimum.poses[z.from], optimum.poses[z.to]).cwiseAbs2();
+      variances += z.covariance().diagonal();
+    }
   }
+  const auto count = static_cast<double>(log.registration_count());
+  fit.registration_rms_m = std::sqrt((squares.x() + squares.y()) / count);
+  fit.registration_rms_rad = std::sqrt(squares.z() / count);
+  fit.registration_sigma_m = std::sqrt((variances.x() + variances.y()) / count);
+  fit.registration_sigma_rad = std::sqrt(variances.z() / count);
   fit.degrees_of_freedom = 3.0 * static_cast<double>(log.registration_count());
   fit.unknowns = 3.0 * static_cast<double>(log.size() - 1);
   return fit;
@@ -218,9 +232,16 @@ std::vector<std::string> map_remarks(const MapFit& fit, const std::string& estim
         "the measurements do not fit each other: F per degree of freedom is " +
         number(fit.per_degree_of_freedom()) + " at its best, and 1 is expected; " +
         number(100.0 * share, 2) + " % of F is of dead reckoning, so " +
-        (share > 0.5 ? "its covariance is too small for what loops say (dataset.added_noise)"
-                     : "covariances of registrations are too small (front_end.covariance: tilt, "
-                       "altitude) or some loops are wrong (a robust loss, a gate)"));
+        (share > 0.5
+             ? "its covariance is too small for what loops say (dataset.added_noise)"
+             : "covariances of registrations are too small (front_end.covariance) or some loops "
+               "are wrong (a robust loss, a gate): registrations are off by " +
+                   number(fit.registration_rms_m, 2) + " m and " +
+                   number(fit.registration_rms_rad, 2) +
+                   " rad there (rms), where their "
+                   "covariances say " +
+                   number(fit.registration_sigma_m, 2) + " m and " +
+                   number(fit.registration_sigma_rad, 2) + " rad"));
   }
   return remarks;
 }

@@ -116,7 +116,7 @@ Eigen::Matrix3d fit_covariance(const MotionFit& fit, const MatchSet& matches,
   covariance += linear.altitude_and_tilt(from.viewpoint, to.viewpoint, told);
   covariance += shared_error(fit.rms_m, tuning.shared_error);
   covariance.diagonal() +=
-      Eigen::Vector3d(told.floor_sigma_m, told.floor_sigma_m, told.floor_sigma_rad).cwiseAbs2();
+      Eigen::Vector3d(*told.floor_sigma_m, *told.floor_sigma_m, told.floor_sigma_rad).cwiseAbs2();
   return covariance;
 }
 

@@ -125,11 +125,19 @@ Registration by_false_alarms(const Pair& pair, const NearestRows& neighbours) {
   return accepted(std::move(result), pair, fit_motion(*best.motion, nearest, options), nearest);
 }
 
-// With the largest error in metres, which all steps below take it in.
+// With the lengths that may be in pixels in metres, which all steps below take them in.
 RegistrationOptions in_metres(RegistrationOptions options, const Viewpoint& from,
                               const Viewpoint& to) {
-  options.ransac.max_error_m =
-      options.ransac.max_error_on_floor(std::max(from.metres_per_pixel, to.metres_per_pixel));
+  const double coarser_m = std::max(from.metres_per_pixel, to.metres_per_pixel);
+  options.ransac.max_error_m = options.ransac.max_error_on_floor(coarser_m);
+  CovarianceOptions& covariance = options.covariance;
+  covariance.floor_sigma_m =
+      covariance.floor_sigma_m.value_or(covariance.floor_sigma_px * coarser_m);
+  if (!(*covariance.floor_sigma_m > 0.0)) {
+    throw InputError(
+        "covariance.floor_sigma_px: without pictures and their altitudes it is no distance; "
+        "expected covariance.floor_sigma_m");
+  }
   return options;
 }
 
@@ -149,8 +157,11 @@ void CovarianceOptions::describe(OptionTable& table) {
              "standard deviation of an altitude's error, a floor's relief included");
   table.real("tilt_sigma_rad", tilt_sigma_rad, Range{0.0, 0.5}, "rad",
              "standard deviation of the camera's roll and of its pitch");
-  table.real("floor_sigma_m", floor_sigma_m, Range::positive(), "m",
-             "standard deviation added to a registration's x and y");
+  table.real("floor_sigma_px", floor_sigma_px, Range::positive(), "pixels",
+             "standard deviation added to a registration's x and y, in pixels of the coarser "
+             "picture");
+  table.real_or_off("floor_sigma_m", floor_sigma_m, Range::positive(), "m",
+                    "the same, whatever the altitude");
   table.real("floor_sigma_rad", floor_sigma_rad, Range::positive(), "rad",
              "standard deviation added to a registration's heading");
 }

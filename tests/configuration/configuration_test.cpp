@@ -149,7 +149,7 @@ TEST(Configure, RefusesWrongTypesAndRangesWithTheBound) {
       {"dataset: {odometry: {covariance: [1, 2, 3]}}\n", "a multiple of 6 numbers"},
       {"dataset: {odometry: {covariance: [1, 2, 3, 4, 5, x]}}\n", "expected a list of numbers"},
       {"dataset: {type: video}\n",
-       "expected one of simulated, image_folder, g2o, simulated_log, got 'video'"},
+       "expected one of simulated, image_folder, pictures, g2o, simulated_log, got 'video'"},
       {"evaluation: {alignment: sim3}\n", "expected one of none, origin, se2, got 'sim3'"},
       {"estimator: {max_iterations: 0}\n",
        "estimator.max_iterations: expected a whole number >= 1"},
@@ -186,7 +186,7 @@ TEST(Configure, ListsTheDataSetsWithTheirOptions) {
     }
     EXPECT_NO_THROW(configured(text)) << text;
   }
-  EXPECT_THAT(names, ElementsAre("g2o", "image_folder", "simulated", "simulated_log"));
+  EXPECT_THAT(names, ElementsAre("g2o", "image_folder", "pictures", "simulated", "simulated_log"));
 }
 
 TEST(Configure, AnOverrideNamesItselfInItsError) {

@@ -56,11 +56,20 @@ TEST(Configure, TunedNumbersOfTheRegistrationAreKeys) {
 
 TEST(Configure, RefusesKeysThatTheCandidatesMethodIgnores) {
   const std::vector<std::pair<std::string, std::string>> cases{
-      {"{probability: 0.9}",
+      {"{method: distance, max_distance_m: 2, probability: 0.9}",
        "candidates.probability: front_end.candidates.method distance has no use"},
-      {"{min_overlap: 0.9}",
-       "candidates.min_overlap: front_end.candidates.method distance has no use"},
-      {"{method: mahalanobis, min_overlap: 0.9}", "candidates.method mahalanobis has no use"},
+      {"{max_distance_m: 2, min_overlap: 0.9}",
+       "candidates.min_overlap: front_end.candidates.max_distance_m 2 has no use"},
+      {"{max_distance_m: 2, budget: 9}",
+       "candidates.budget: front_end.candidates.max_distance_m 2 has no use"},
+      {"{method: mahalanobis, max_distance_m: 2, min_overlap: 0.9}",
+       "candidates.method mahalanobis has no use"},
+      {"{method: possible_overlap, max_distance_m: 2}",
+       "candidates.max_distance_m: front_end.candidates.method possible_overlap has no use"},
+      {"{max_per_keyframe: 2}",
+       "candidates.max_per_keyframe: front_end.candidates.method automatic has no use"},
+      {"{method: distance}",
+       "config.yaml:2: front_end.candidates.method: this one needs candidates.max_distance_m"},
       {"{method: overlap, max_distance_m: 2}",
        "candidates.max_distance_m: front_end.candidates.method"},
       {"{method: overlap, probability: 0.9}", "candidates.method overlap has no use"}};
@@ -80,8 +89,23 @@ TEST(Configure, InForceAreTheKeysOfTheCandidatesMethod) {
   EXPECT_EQ(overlap.front_end.candidates.max_per_keyframe, 7);
   EXPECT_EQ(in_force(overlap, prefix + "min_overlap"), "0.4");
   EXPECT_EQ(in_force(overlap, prefix + "max_distance_m"), "(none)");
-  EXPECT_EQ(in_force(configured(""), prefix + "max_per_keyframe"), "off");
-  EXPECT_EQ(in_force(configured(""), prefix + "probability"), "(none)");
+  EXPECT_EQ(in_force(configured(""), prefix + "max_distance_m"), "off");
+  EXPECT_EQ(in_force(configured(""), prefix + "max_per_keyframe"), "(none)");
+  EXPECT_EQ(in_force(configured(""), prefix + "probability"), "0.99");
+  const Configuration distance = configured("front_end: {candidates: {max_distance_m: 2}}\n");
+  EXPECT_EQ(in_force(distance, prefix + "max_per_keyframe"), "off");
+  EXPECT_EQ(in_force(distance, prefix + "probability"), "(none)");
+}
+
+// What is given in metres takes the place of what scales.
+TEST(Configure, RefusesWhatAKeyInMetresLeavesWithoutEffect) {
+  EXPECT_THAT(refusal("front_end: {ransac: {max_error_m: 0.1, max_error_px: 3}}\n"),
+              HasSubstr("max_error_px: front_end.ransac.max_error_m 0.1 has no use for it"));
+  EXPECT_THAT(refusal("front_end: {keyframes: {separation_frames: 2, min_overlap: 0.5}}\n"),
+              HasSubstr("min_overlap: front_end.keyframes.separation_frames 2 has no use for it"));
+  EXPECT_THAT(refusal("front_end: {visual_odometry: {fallback_sigma_m: 1, "
+                      "fallback_sigma_altitudes: 1}}\n"),
+              HasSubstr("fallback_sigma_altitudes: front_end.visual_odometry.fallback_sigma_m 1"));
 }
 
 TEST(Configure, RefusesKeysThatTheMissionIgnores) {

@@ -79,6 +79,11 @@ void expect_pinned(const PairRegistration& found, const Pinned& expected,
 }
 
 struct Case {
+  Case() {
+    registration.ransac.max_error_m = 0.03;
+    registration.covariance.floor_sigma_m = 1e-5;
+  }
+
   FeatureOptions features;
   RegistrationOptions registration;
 };

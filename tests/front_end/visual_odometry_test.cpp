@@ -105,11 +105,21 @@ TEST(VisualOdometry, AddedNoiseAddsItsCovariance) {
   }
 }
 
+TEST(VisualOdometry, TheFallbackScalesWithTheAltitude) {
+  FloorSurvey survey(bend(4));
+  survey.make_blank(2);
+  FrontEndOptions options;
+  options.visual_odometry.sigma_altitudes = 0.2;
+  const auto motions = Odometry(survey, {}, kSeed, options).motions();
+  const double sigma_m = 0.2 * test::kAltitudeM;
+  EXPECT_NEAR(motions[1].covariance(0, 0), sigma_m * sigma_m, 1e-15);
+}
+
 TEST(VisualOdometry, RepeatsTheLastMotionWherePicturesDoNotRegister) {
   FloorSurvey survey(bend(6));
   survey.make_blank(2);
   FrontEndOptions options;
-  options.visual_odometry = {0.5, 0.25};
+  options.visual_odometry = {.sigma_m = 0.5, .sigma_rad = 0.25};
   const Odometry odometry(survey, {}, kSeed, options);
   const auto motions = odometry.motions();
   const Eigen::Matrix3d fallback = Eigen::Vector3d(0.25, 0.25, 0.0625).asDiagonal();

@@ -113,6 +113,9 @@ TEST(MapFit, AddsUpAndIsJudgedByThePosterior) {
   }
   EXPECT_EQ(fit->chi2, fit->chi2_optimum);
   EXPECT_NEAR(fit->steps_at_optimum, steps, 1e-12 * steps);
+  EXPECT_NEAR(fit->registration_sigma_m, std::sqrt(0.1 * 6e-4), 1e-12);
+  EXPECT_NEAR(fit->registration_sigma_rad, std::sqrt(0.1 * 1e-4), 1e-12);
+  EXPECT_GT(fit->registration_rms_m, 0.0);
   EXPECT_EQ(fit->degrees_of_freedom, 12.0);
   EXPECT_EQ(fit->unknowns, 21.0);
   EXPECT_TRUE(fit->estimate_fits());
@@ -121,12 +124,18 @@ TEST(MapFit, AddsUpAndIsJudgedByThePosterior) {
 
 // χ² with three degrees of freedom is below 11.345 in 99 of 100 draws.
 TEST(MapFit, AnEstimateFitsIfThePosteriorWouldDrawIt) {
-  MapFit fit{.chi2_optimum = 100.0, .degrees_of_freedom = 90.0, .unknowns = 3.0};
+  MapFit fit{.chi2_optimum = 100.0, .degrees_of_freedom = 100.0, .unknowns = 3.0};
   fit.chi2 = 111.34;
   EXPECT_TRUE(fit.estimate_fits());
   EXPECT_THAT(map_remarks(fit, "ekf", "solver"), IsEmpty());
   fit.chi2 = 111.36;
   EXPECT_FALSE(fit.estimate_fits());
+  // With covariances that are too small by four, F counts a quarter.
+  fit.degrees_of_freedom = 25.0;
+  EXPECT_TRUE(fit.estimate_fits());
+  fit.chi2 = 145.40;
+  EXPECT_FALSE(fit.estimate_fits());
+  fit.degrees_of_freedom = 100.0;
   fit.chi2 = std::numeric_limits<double>::quiet_NaN();
   EXPECT_FALSE(fit.estimate_fits());
   EXPECT_THAT(map_remarks(fit, "ekf", "solver"),

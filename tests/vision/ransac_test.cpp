@@ -71,7 +71,7 @@ TEST(Ransac, SaysNotFoundWhereNothingAgrees) {
     RandomStream random(seed);
     Pairs pairs;
     add_wrong(pairs, random, 300);
-    const Consensus found = pairs.found({}, seed);
+    const Consensus found = pairs.found({.max_error_m = 0.03}, seed);
     EXPECT_FALSE(found.motion.has_value());
     EXPECT_TRUE(found.inliers.empty());
     EXPECT_LT(found.most_inliers, 12);
@@ -82,10 +82,10 @@ TEST(Ransac, CountsFromTheMinimumNumberOfInliers) {
   RandomStream random(30);
   Pairs pairs;
   add_true(pairs, random, kTruth, 11, 0.0);
-  EXPECT_FALSE(pairs.found({}).motion.has_value());
-  EXPECT_EQ(pairs.found({}).most_inliers, 11);
+  EXPECT_FALSE(pairs.found({.max_error_m = 0.03}).motion.has_value());
+  EXPECT_EQ(pairs.found({.max_error_m = 0.03}).most_inliers, 11);
   add_true(pairs, random, kTruth, 1, 0.0);
-  EXPECT_TRUE(pairs.found({}).motion.has_value());
+  EXPECT_TRUE(pairs.found({.max_error_m = 0.03}).motion.has_value());
 }
 
 TEST(Ransac, ManyMatchesInFewPlacesAreFewVotes) {
@@ -112,7 +112,7 @@ TEST(Ransac, ASpreadMatchedToOnePlaceIsNoPlacesAtAll) {
     pairs.p.push_back(anywhere(random));
     pairs.q.push_back({0.3, 0.3});
   }
-  EXPECT_FALSE(pairs.found({}).motion.has_value());
+  EXPECT_FALSE(pairs.found({.max_error_m = 0.03}).motion.has_value());
 }
 
 TEST(Ransac, SamplesWithoutAHeadingAreDrawnAgain) {
@@ -131,7 +131,7 @@ TEST(Ransac, SamplesWithoutAHeadingAreDrawnAgain) {
 TEST(Ransac, AllInOnePlaceEndsAsNotFound) {
   Pairs pairs;
   for (int i = 0; i < 100; ++i) pairs.add(kTruth, {0.1, 0.2});
-  const Consensus found = pairs.found({});
+  const Consensus found = pairs.found({.max_error_m = 0.03});
   EXPECT_FALSE(found.motion.has_value());
   EXPECT_EQ(found.most_inliers, 0);
 }
@@ -141,8 +141,8 @@ TEST(Ransac, SameSeedSameAnswer) {
   Pairs pairs;
   add_true(pairs, random, kTruth, 40, 0.01);
   add_wrong(pairs, random, 100);
-  const Consensus a = pairs.found({}, 5);
-  const Consensus b = pairs.found({}, 5);
+  const Consensus a = pairs.found({.max_error_m = 0.03}, 5);
+  const Consensus b = pairs.found({.max_error_m = 0.03}, 5);
   ASSERT_TRUE(a.motion.has_value());
   EXPECT_EQ(*a.motion, *b.motion);
   EXPECT_EQ(a.inliers, b.inliers);
@@ -150,17 +150,17 @@ TEST(Ransac, SameSeedSameAnswer) {
 
 TEST(Ransac, TooFewOrBrokenPairsAreNotFound) {
   const Pairs none;
-  EXPECT_FALSE(none.found({}).motion.has_value());
+  EXPECT_FALSE(none.found({.max_error_m = 0.03}).motion.has_value());
   Pairs one;
   one.add(kTruth, {0.0, 0.0});
-  EXPECT_FALSE(one.found({}).motion.has_value());
+  EXPECT_FALSE(one.found({.max_error_m = 0.03}).motion.has_value());
   const double nan = std::numeric_limits<double>::quiet_NaN();
   Pairs broken;
   for (int i = 0; i < 50; ++i) {
     broken.p.emplace_back(nan, i);
     broken.q.emplace_back(i, nan);
   }
-  EXPECT_FALSE(broken.found({}).motion.has_value());
+  EXPECT_FALSE(broken.found({.max_error_m = 0.03}).motion.has_value());
   EXPECT_THROW(ransac(broken.p, one.q, {}, 1), InputError);
 }
 

@@ -105,6 +105,7 @@ FeaturePair seen(double noise_sigma, const FeatureTuning& tuning) {
 std::string results(const RegistrationTuning& tuning, const std::vector<FeaturePair>& pairs) {
   RegistrationOptions options;
   options.tuning = tuning;
+  options.ransac.max_error_m = 0.03;
   std::string text;
   const auto register_by = [&](const FeaturePair& pair, DecisionOptions::Method method) {
     options.decision.method = method;

@@ -23,8 +23,8 @@ struct RansacOptions {
   int iterations = 10000;
   double confidence = 0.999999;
   int sample_size = 2;
-  double max_error_px = 7.5;          ///< of the picture with the coarser pixels
-  std::optional<double> max_error_m;  ///< on the floor instead, at every altitude
+  double max_error_px = 7.5;                         ///< of the picture with the coarser pixels
+  std::optional<double> max_error_m = std::nullopt;  ///< on the floor instead, at every altitude
   int min_inliers = 12;
   int min_places = 8;
   RansacScore score = RansacScore::inliers;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,7 +32,10 @@ struct DecisionOptions {
 struct CovarianceOptions {
   double altitude_sigma_m = 0.0;  ///< of each altitude; stands for the relief of a floor too
   double tilt_sigma_rad = 0.0;    ///< of roll and of pitch, at each picture
-  double floor_sigma_m = 1e-5;    ///< added to x and y as variances, whatever else is known
+  /// Added to x and y as variances, whatever else is known: in pixels of the picture with the
+  /// coarser ones, or in metres.
+  double floor_sigma_px = 0.0025;
+  std::optional<double> floor_sigma_m = std::nullopt;
   double floor_sigma_rad = 1e-5;  ///< and to the heading
 
   void describe(OptionTable& table);
