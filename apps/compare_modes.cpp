@@ -9,6 +9,7 @@
 #include "apps/study_files.hpp"
 #include "apps/study_progress.hpp"
 #include "fathom/estimators/builtin.hpp"
+#include "fathom/harness/loop_remarks.hpp"
 #include "fathom/harness/manifest.hpp"
 #include "fathom/results/run_index.hpp"
 #include "fathom/results/scratch_store.hpp"
@@ -83,6 +84,16 @@ void write_example(const fs::path& out, const Study& study, const StudyRun& done
                 flags.no_mosaic ? nullptr : pictures, flags.common.quiet, context);
 }
 
+// What looks wrong with the loops of the trial that is drawn; the page says what its figures show.
+void print_remarks(const Study& study, const StudyRun& done) {
+  if (done.example.empty()) return;
+  const ExampleRun& example = done.example.front();
+  for (const std::string& remark : loop_remarks(*example.recording, study.cells.front().front_end,
+                                                example.result.replay.trajectory)) {
+    std::printf("\nwarning: %s\n", remark.c_str());
+  }
+}
+
 }  // namespace
 
 void run_shard(const Study& study, const Shard& shard, const fs::path& out,
@@ -118,6 +129,7 @@ void run_whole(const Study& study, const fs::path& out, const FrameSource* pictu
   store.finish();
   write_example(out, study, done, pictures, flags, context);
   write_study_files(store, out, flags.common.quiet);
+  if (!flags.common.quiet) print_remarks(study, done);
   context.status = status_of(store);
 }
 

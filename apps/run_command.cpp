@@ -12,8 +12,9 @@
 #include "fathom/core/files.hpp"
 #include "fathom/estimators/builtin.hpp"
 #include "fathom/front_end/registration_store.hpp"
+#include "fathom/harness/loop_remarks.hpp"
 #include "fathom/harness/manifest.hpp"
-#include "fathom/harness/remarks.hpp"
+#include "fathom/harness/map_fit.hpp"
 #include "fathom/harness/run_folder.hpp"
 
 namespace fathom {

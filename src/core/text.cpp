@@ -103,6 +103,12 @@ std::string exact(double value) {
   return {buffer, static_cast<std::size_t>(length)};
 }
 
+std::string short_number(double value, int digits) {
+  char buffer[32];
+  std::snprintf(buffer, sizeof buffer, "%.*g", digits, value);
+  return buffer;
+}
+
 std::string seconds_text(std::int64_t nanoseconds) {
   constexpr std::int64_t kPerSecond = 1'000'000'000;
   const std::int64_t fraction = std::abs(nanoseconds % kPerSecond);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "fathom/core/input_error.hpp"
 #include "fathom/core/text.hpp"
@@ -12,9 +11,7 @@ namespace fathom {
 namespace {
 
 std::string number(double value, int digits = 4) {
-  char buffer[32];
-  std::snprintf(buffer, sizeof buffer, "%.*g", digits, value);
-  return buffer;
+  return short_number(value, digits);
 }
 
 std::string percent(double share) {

@@ -1,9 +1,9 @@
 #include "fathom/harness/outlook.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <utility>
 
+#include "fathom/core/text.hpp"
 #include "fathom/front_end/candidates.hpp"
 #include "fathom/front_end/keyframes.hpp"
 #include "fathom/vision/features.hpp"
@@ -11,15 +11,9 @@
 namespace fathom {
 namespace {
 
-std::string number(double value) {
-  char buffer[32];
-  std::snprintf(buffer, sizeof buffer, "%.3g", value);
-  return buffer;
-}
-
 std::string range_text(const Spread& spread, const std::string& unit) {
-  const std::string least = number(spread.least);
-  const std::string most = number(spread.most);
+  const std::string least = short_number(spread.least);
+  const std::string most = short_number(spread.most);
   return (least == most ? least : least + " to " + most) + unit;
 }
 
@@ -84,13 +78,13 @@ Outlook outlook(const FrameSource& frames, const FrontEndOptions& options) {
 }
 
 std::vector<std::string> facts_of(const Outlook& outlook) {
-  std::vector<std::string> facts{"footprint: " + number(outlook.footprint_width_m) + " m x " +
-                                 number(outlook.footprint_height_m) +
+  std::vector<std::string> facts{"footprint: " + short_number(outlook.footprint_width_m) + " m x " +
+                                 short_number(outlook.footprint_height_m) +
                                  " m from the median altitude"};
   if (const auto& metres = outlook.in_metres) {
     facts.push_back("keyframes: " + std::to_string(outlook.keyframes) + ", " +
                     range_text(metres->step_m, " m") + " apart, median " +
-                    number(metres->step_m.median) + " m");
+                    short_number(metres->step_m.median) + " m");
     facts.push_back(
         "candidates by dead reckoning: " + std::to_string(outlook.consecutive_candidates) +
         " of consecutive keyframes, " + std::to_string(outlook.other_candidates) +

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fathom/core/text.hpp"
 #include "fathom/report/table.hpp"
 #include "honesty_words.hpp"
 #include "scaled_unit.hpp"
@@ -96,16 +97,79 @@ void add_optimum(const CellResults& cell, std::vector<Doubt>& doubts) {
                     "estimates are not at the optimum of the measurements"});
 }
 
+std::optional<double> mean_of(const EstimatorResults& one, const std::string& metric) {
+  double sum = 0.0;
+  std::size_t count = 0;
+  for (const RunRecord& run : one.runs) {
+    const auto found = run.metrics.find(metric);
+    if (found == run.metrics.end() || !std::isfinite(found->second)) continue;
+    sum += found->second;
+    ++count;
+  }
+  if (count == 0) return std::nullopt;
+  return sum / static_cast<double>(count);
+}
+
+// ": of 610 candidate pairs 0 registered"; empty of a pose graph.
+std::string front_end_text(const CellResults& cell) {
+  for (const EstimatorResults& one : cell.estimators) {
+    const auto tried = mean_of(one, "registrations_tried");
+    const auto found = mean_of(one, "registrations");
+    if (!tried || !found) continue;
+    if (*tried == 0.0) {
+      return ": there were no candidate pairs; 'fathom check' of the data says what to expect";
+    }
+    return ": of " + short_number(*tried, 4) + " candidate pairs a trial " +
+           short_number(*found, 4) + " registered";
+  }
+  return {};
+}
+
 void add_loops(const CellResults& cell, std::vector<Doubt>& doubts) {
   std::vector<std::string> names;
   for (const EstimatorResults& one : cell.estimators) {
     if (runs_without_loops(one) > 0) names.push_back(one.name);
   }
   if (names.empty()) return;
-  doubts.push_back(
-      {"The means of " + listed(names) +
-           " hold runs without loop closures, which are no better than dead reckoning.",
-       "means hold runs without loop closures"});
+  doubts.push_back({"The means of " + listed(names) +
+                        " hold runs without loop closures, which are no better than dead "
+                        "reckoning" +
+                        front_end_text(cell) + ".",
+                    "means hold runs without loop closures"});
+}
+
+// By ground truth. Where candidates were left out, a budget explains it.
+void add_few_loops(const CellResults& cell, std::vector<Doubt>& doubts) {
+  constexpr double kFew = 0.5;
+  std::optional<double> recall;
+  for (const EstimatorResults& one : cell.estimators) {
+    if (mean_of(one, "registrations_left_out").value_or(0.0) > 0.0) return;
+    const auto mean = mean_of(one, "loop_recall");
+    if (mean && one.name != kDeadReckoning) recall = std::max(recall.value_or(0.0), *mean);
+  }
+  if (!recall || *recall >= kFew) return;
+  doubts.push_back({"Of the pairs of keyframes that overlap well no more than " +
+                        format_number(100.0 * *recall, 2) + " % are loops" + front_end_text(cell) +
+                        ".",
+                    "few of the pairs that overlap are loops"});
+}
+
+// Of a recording, so that that of one estimator stands for all.
+void add_disagreeing_measurements(const CellResults& cell, std::vector<Doubt>& doubts) {
+  constexpr double kTooMuch = 3.0;
+  for (const EstimatorResults& one : cell.estimators) {
+    const auto optimum = mean_of(one, "chi2_optimum");
+    const auto registrations = mean_of(one, "registrations");
+    if (one.name == kDeadReckoning || !optimum || !registrations || *registrations <= 0.0) continue;
+    const double per_degree = *optimum / (3.0 * *registrations);
+    if (per_degree <= kTooMuch) return;
+    doubts.push_back({"Measurements do not fit each other: F per degree of freedom is " +
+                          format_number(per_degree, 3) +
+                          " at its best, where 1 is expected; covariances of registrations or of "
+                          "dead reckoning are too small, or loops are wrong.",
+                      "measurements do not fit each other"});
+    return;
+  }
 }
 
 // The reference that selected the loops may be one of those that are compared.
@@ -157,6 +221,8 @@ std::vector<Doubt> doubts_of(const CellResults& cell, const CellVerdict& verdict
   add_correlation(cell, doubts);
   add_optimum(cell, doubts);
   add_loops(cell, doubts);
+  add_few_loops(cell, doubts);
+  add_disagreeing_measurements(cell, doubts);
   add_reference(cell, doubts);
   if (!verdict.cost.empty()) {
     add_jobs(cell, doubts);

@@ -30,7 +30,7 @@ TEST_F(BadConfiguration, IsRefusedAtItsLine) {
       {"\n\nfront_end: {keyframes: {separation_frames: 0}}\n",
        "c.yaml:3: front_end.keyframes.separation_frames: expected a whole number >= 1"},
       {"estimator: {type: efk}\n", "did you mean 'ekf'?"},
-      {"dataset: {type: vidio}\n", "expected one of simulated, image_folder, g2o"},
+      {"dataset: {type: vidio}\n", "expected one of simulated, image_folder, pictures, g2o"},
       {"seed: [1, 2\n", "not YAML: "},
       {"seed: 1\nseed: 1\n", "c.yaml:2: 'seed' is given twice"},
       {"seed:\n", "c.yaml:1: seed: has no value"},

@@ -5,6 +5,7 @@
 
 #include "fathom/evaluation/clustered.hpp"
 #include "src/report/study_results.hpp"
+#include "src/report/verdict.hpp"
 
 namespace fathom::test {
 
@@ -50,6 +51,37 @@ inline CellResults cell_of(std::vector<EstimatorResults> estimators) {
   }
   cell.estimators = std::move(estimators);
   return cell;
+}
+
+inline const std::vector<double> kBest{0.010, 0.012, 0.009, 0.011, 0.010, 0.011};
+inline const std::vector<double> kAlike{0.011, 0.011, 0.008, 0.013, 0.009, 0.0115};
+inline const std::vector<double> kWorse{0.013, 0.0152, 0.0121, 0.0141, 0.0130, 0.0142};
+
+inline StudyResults study_of(std::vector<CellResults> cells, std::size_t surveys,
+                             std::size_t trials) {
+  StudyResults results;
+  results.study.surveys = surveys;
+  results.study.trials = trials;
+  results.study.metrics = {"anees", kError, "total_ms"};
+  results.metrics = results.study.metrics;
+  results.cells = std::move(cells);
+  return results;
+}
+
+// Six surveys of one trial each.
+inline CellResults surveyed(std::vector<EstimatorResults> estimators) {
+  CellResults cell = cell_of(std::move(estimators));
+  cell.surveys = cell.trials;
+  return cell;
+}
+
+inline EstimatorResults six(const std::string& name, const std::vector<double>& errors,
+                            double total_ms = 1.0) {
+  return costing(made(name, errors, true), total_ms);
+}
+
+inline std::vector<std::string> doubts_of_one(const CellResults& cell) {
+  return study_verdict(study_of({cell}, 6, 1)).doubts;
 }
 
 }  // namespace fathom::test

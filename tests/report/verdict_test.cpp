@@ -16,36 +16,6 @@ using ::testing::IsEmpty;
 using ::testing::Not;
 using ::testing::StartsWith;
 
-const std::vector<double> kBest{0.010, 0.012, 0.009, 0.011, 0.010, 0.011};
-const std::vector<double> kAlike{0.011, 0.011, 0.008, 0.013, 0.009, 0.0115};
-const std::vector<double> kWorse{0.013, 0.0152, 0.0121, 0.0141, 0.0130, 0.0142};
-
-StudyResults study_of(std::vector<CellResults> cells, std::size_t surveys, std::size_t trials) {
-  StudyResults results;
-  results.study.surveys = surveys;
-  results.study.trials = trials;
-  results.study.metrics = {"anees", kError, "total_ms"};
-  results.metrics = results.study.metrics;
-  results.cells = std::move(cells);
-  return results;
-}
-
-// Six surveys of one trial each.
-CellResults surveyed(std::vector<EstimatorResults> estimators) {
-  CellResults cell = cell_of(std::move(estimators));
-  cell.surveys = cell.trials;
-  return cell;
-}
-
-EstimatorResults six(const std::string& name, const std::vector<double>& errors,
-                     double total_ms = 1.0) {
-  return costing(made(name, errors, true), total_ms);
-}
-
-std::vector<std::string> doubts_of_one(const CellResults& cell) {
-  return study_verdict(study_of({cell}, 6, 1)).doubts;
-}
-
 TEST(Verdict, SaysWhichIsBestWhichCannotBeToldApartAndWhichIsWorse) {
   const StudyVerdict verdict = study_verdict(
       study_of({surveyed({six(kDeadReckoning, {1.0, 1.1, 0.9, 1.2, 1.0, 1.1}), six("best", kBest),
@@ -183,6 +153,46 @@ TEST(Verdict, ErrorsThatRegistrationsShareAreADoubt) {
                           "0.310]), which estimators take as independent."));
   correlation.interval = Interval{-0.01, 0.31};
   EXPECT_THAT(doubts_of_one(surveyed({one, other})), IsEmpty());
+}
+
+TEST(Verdict, WhereLoopsAreMissingTheFrontEndSaysWhy) {
+  EstimatorResults one = six("best", kBest);
+  for (RunRecord& run : one.runs) {
+    run.metrics["loop_closures"] = 0.0;
+    run.metrics["registrations"] = 0.0;
+    run.metrics["registrations_tried"] = 610.0;
+  }
+  EXPECT_THAT(doubts_of_one(surveyed({one})),
+              Contains(HasSubstr("of 610 candidate pairs a trial 0 registered")));
+  for (RunRecord& run : one.runs) run.metrics["registrations_tried"] = 0.0;
+  EXPECT_THAT(doubts_of_one(surveyed({one})), Contains(HasSubstr("there were no candidate pairs")));
+}
+
+TEST(Verdict, FewLoopsAmongTheOverlappingPairsAreADoubt) {
+  EstimatorResults one = six("best", kBest);
+  const auto with = [&](double recall, double left_out) {
+    for (RunRecord& run : one.runs) {
+      run.metrics["loop_recall"] = recall;
+      run.metrics["registrations_left_out"] = left_out;
+    }
+    return doubts_of_one(surveyed({one}));
+  };
+  EXPECT_THAT(with(0.21, 0.0), Contains(HasSubstr("no more than 21 % are loops")));
+  EXPECT_THAT(with(0.51, 0.0), Not(Contains(HasSubstr("overlap well"))));
+  EXPECT_THAT(with(0.21, 3.0), Not(Contains(HasSubstr("overlap well"))));
+}
+
+TEST(Verdict, MeasurementsThatDoNotFitEachOtherAreADoubt) {
+  EstimatorResults one = six("best", kBest);
+  const auto with = [&](double chi2_optimum) {
+    for (RunRecord& run : one.runs) {
+      run.metrics["registrations"] = 100.0;
+      run.metrics["chi2_optimum"] = chi2_optimum;
+    }
+    return doubts_of_one(surveyed({one}));
+  };
+  EXPECT_THAT(with(9000.0), Contains(HasSubstr("F per degree of freedom is 30.0 at its best")));
+  EXPECT_THAT(with(899.0), Not(Contains(HasSubstr("do not fit"))));
 }
 
 TEST(Verdict, SeveralCellsAreSummedUp) {

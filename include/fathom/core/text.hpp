@@ -37,6 +37,9 @@ std::string exact(double value);
 /// The shortest text that reads back to the same bits: 0.1 stays "0.1".
 std::string number_text(double value);
 
+/// So many significant digits, for messages: 0.02, 1.5e+06.
+std::string short_number(double value, int digits = 3);
+
 /// Nanoseconds as decimal seconds, digit by digit: a double would lose them.
 std::string seconds_text(std::int64_t nanoseconds);
 

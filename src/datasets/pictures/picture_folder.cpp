@@ -18,18 +18,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-bool is_digit(char letter) {
-  return letter >= '0' && letter <= '9';
-}
-
-// The run of digits that begins at `place`, without leading zeros; moves behind it.
-std::string_view number_at(const std::string& name, std::size_t& place) {
-  const std::size_t begin = place;
-  while (place < name.size() && is_digit(name[place])) ++place;
-  const std::string_view digits(name.data() + begin, place - begin);
-  return digits.substr(std::min(digits.find_first_not_of('0'), digits.size()));
-}
-
 bool is_picture(const fs::path& file) {
   std::string ending = file.extension().string();
   std::ranges::transform(ending, ending.begin(), [](unsigned char letter) {
@@ -85,53 +73,6 @@ Camera camera_of(const PictureFolderOptions& options, const fs::path& picture) {
 }
 
 }  // namespace
-
-bool is_before(const std::string& a, const std::string& b) {
-  std::size_t i = 0;
-  std::size_t j = 0;
-  while (i < a.size() && j < b.size()) {
-    if (is_digit(a[i]) && is_digit(b[j])) {
-      const std::string_view m = number_at(a, i);
-      const std::string_view n = number_at(b, j);
-      if (m.size() != n.size()) return m.size() < n.size();
-      if (m != n) return m < n;
-    } else {
-      if (a[i] != b[j]) {
-        return static_cast<unsigned char>(a[i]) < static_cast<unsigned char>(b[j]);
-      }
-      ++i;
-      ++j;
-    }
-  }
-  const bool a_ended = i == a.size();
-  const bool b_ended = j == b.size();
-  if (a_ended != b_ended) return a_ended;
-  return a < b;  // alike but for leading zeros
-}
-
-void PictureFolderOptions::describe(OptionTable& table) {
-  table.text("path", path, "the folder of the pictures; relative to the working folder");
-  table.real_or_off("altitude_m", altitude_m, Range::positive(), "m",
-                    "height over the floor of all pictures");
-  table.text("altitudes", altitudes, "or a CSV file with the height of each: filename, metres");
-  table.text("odometry", odometry,
-             "a CSV file: filename, p_x, p_y, theta, step_var_x, step_var_y, step_var_theta; none: "
-             "visual odometry");
-  table.real("interval_s", interval_s, Range::positive(), "s",
-             "between pictures that do not say when they were taken");
-  table.real_or_off("camera.focal_px", focal_px, Range::positive(), "pixels", "focal length");
-  table.real_or_off("camera.field_of_view_rad", field_of_view_rad, Range{0.0, 3.0, true}, "rad",
-                    "or the angle that the picture's width covers");
-  table.real_or_off("camera.focal_y_px", focal_y_px, Range::positive(), "pixels",
-                    "focal length along v; off: that along u");
-  table.real_or_off("camera.cx", cx, Range::any(), "pixels", "off: the middle of the picture");
-  table.real_or_off("camera.cy", cy, Range::any(), "pixels", "off: the middle of the picture");
-  table.reals("camera.distortion", distortion, 5, "", "k1, k2, p1, p2, k3; none: []");
-  table.real("camera.mount_x_m", mount_x_m, Range::any(), "m", "camera ahead of the body's origin");
-  table.real("camera.mount_y_m", mount_y_m, Range::any(), "m", "and to port of it");
-  table.real("camera.mount_yaw_rad", mount_yaw_rad, Range::any(), "rad",
-             "counter-clockwise from above; 0: the top of the picture looks forward");
-}
 
 PictureFolder::PictureFolder(const PictureFolderOptions& options) : folder_(options.path) {
   find_pictures();

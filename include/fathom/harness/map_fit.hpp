@@ -5,9 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "fathom/front_end/options.hpp"
-#include "fathom/harness/recording.hpp"
 #include "fathom/harness/recording_facts.hpp"
+#include "fathom/measurements/measurement_log.hpp"
 
 namespace fathom {
 
@@ -37,11 +36,6 @@ struct MapFit {
 /// Nothing without registrations.
 std::optional<MapFit> map_fit(const MeasurementLog& log, std::span<const Pose> estimate,
                               const BatchOptimum& optimum);
-
-/// What of a survey's loops looks wrong: each one line with its numbers and the likeliest remedy.
-/// `estimate` is of all keyframes.
-std::vector<std::string> loop_remarks(const Recording& recording, const FrontEndOptions& options,
-                                      std::span<const Pose> estimate);
 
 /// What of a map looks wrong: an estimate that does not fit its measurements, or measurements that
 /// do not fit each other.

@@ -1,32 +1,21 @@
-#include "fathom/harness/remarks.hpp"
+#include "fathom/harness/loop_remarks.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
+#include <optional>
 #include <utility>
 
-#include "fathom/core/chi_squared.hpp"
+#include "fathom/core/text.hpp"
+#include "fathom/harness/recording_facts.hpp"
 #include "fathom/vision/camera.hpp"
 
 namespace fathom {
 namespace {
 
-std::string number(double value, int digits = 3) {
-  char buffer[32];
-  std::snprintf(buffer, sizeof buffer, "%.*g", digits, value);
-  return buffer;
-}
-
-std::string whole(double value) {
-  char buffer[32];
-  std::snprintf(buffer, sizeof buffer, "%.0f", value);
-  return buffer;
-}
-
 std::string range_text(const Spread& spread) {
-  const std::string least = number(spread.least);
-  const std::string most = number(spread.most);
+  const std::string least = short_number(spread.least);
+  const std::string most = short_number(spread.most);
   return least == most ? least : least + " to " + most;
 }
 
@@ -70,7 +59,7 @@ std::string no_candidates(const Recording& recording) {
            "correct it";
   }
   return text + "by dead reckoning the nearest pass, keyframes " + std::to_string(pass.from) +
-         " and " + std::to_string(pass.to) + ", is " + number(pass.distance_m) +
+         " and " + std::to_string(pass.to) + ", is " + short_number(pass.distance_m) +
          " m away: a larger front_end.candidates.max_distance_m, or a dead reckoning whose "
          "covariance says how far it may be off";
 }
@@ -157,7 +146,7 @@ std::optional<std::string> wrong_scale(const Recording& recording) {
   std::nth_element(ratios.begin(), middle, ratios.end());
   const double factor = *middle;
   if (factor < kFactor && factor > 1.0 / kFactor) return std::nullopt;
-  return "registered motions are " + number(factor) +
+  return "registered motions are " + short_number(factor) +
          " times as long as dead reckoning has them (median of " + std::to_string(ratios.size()) +
          " between near keyframes): the altitude or the focal length is too " +
          (factor > 1.0 ? "large" : "small") +
@@ -165,40 +154,6 @@ std::optional<std::string> wrong_scale(const Recording& recording) {
 }
 
 }  // namespace
-
-bool MapFit::estimate_fits() const {
-  constexpr double kProbability = 0.99;
-  const double scale = std::max(1.0, per_degree_of_freedom());
-  return chi2 - chi2_optimum <= scale * chi_squared_quantile(kProbability, unknowns);
-}
-
-std::optional<MapFit> map_fit(const MeasurementLog& log, std::span<const Pose> estimate,
-                              const BatchOptimum& optimum) {
-  if (log.registration_count() == 0) return std::nullopt;
-  MapFit fit;
-  fit.chi2 = chi2(log, estimate);
-  fit.chi2_optimum = optimum.chi2;
-  Eigen::Vector3d squares = Eigen::Vector3d::Zero();
-  Eigen::Vector3d variances = Eigen::Vector3d::Zero();
-  for (std::size_t k = 1; k < log.size(); ++k) {
-    const RelativePose& step = log.arrival(k).step;
-    const Eigen::Vector3d e =
-        residual(step.motion, optimum.poses[step.from], optimum.poses[step.to]);
-    fit.steps_at_optimum += e.dot(step.information * e);
-    for (const RelativePose& z : log.arrival(k).registrations) {
-      squares += residual(z.motion, optimum.poses[z.from], optimum.poses[z.to]).cwiseAbs2();
-      variances += z.covariance().diagonal();
-    }
-  }
-  const auto count = static_cast<double>(log.registration_count());
-  fit.registration_rms_m = std::sqrt((squares.x() + squares.y()) / count);
-  fit.registration_rms_rad = std::sqrt(squares.z() / count);
-  fit.registration_sigma_m = std::sqrt((variances.x() + variances.y()) / count);
-  fit.registration_sigma_rad = std::sqrt(variances.z() / count);
-  fit.degrees_of_freedom = 3.0 * static_cast<double>(log.registration_count());
-  fit.unknowns = 3.0 * static_cast<double>(log.size() - 1);
-  return fit;
-}
 
 std::vector<std::string> loop_remarks(const Recording& recording, const FrontEndOptions& options,
                                       std::span<const Pose> estimate) {
@@ -210,38 +165,11 @@ std::vector<std::string> loop_remarks(const Recording& recording, const FrontEnd
   constexpr std::size_t kEnough = 5;
   constexpr double kShare = 0.5;
   const Overlapping count = overlapping(recording, estimate);
-  if (count.pairs >= kEnough &&
-      static_cast<double>(count.registered) < kShare * static_cast<double>(count.pairs)) {
+  // A budget may leave pairs untried.
+  const std::size_t expected = std::min(count.pairs, recording.registrations_tried);
+  if (expected >= kEnough &&
+      static_cast<double>(count.registered) < kShare * static_cast<double>(expected)) {
     remarks.push_back(few_registered(recording, count));
-  }
-  return remarks;
-}
-
-std::vector<std::string> map_remarks(const MapFit& fit, const std::string& estimator,
-                                     const std::string& solver) {
-  std::vector<std::string> remarks;
-  if (!fit.estimate_fits()) {
-    remarks.push_back("the map of " + estimator + " does not fit its own measurements: F is " +
-                      whole(fit.chi2) + ", and " + whole(fit.chi2_optimum) +
-                      " where a batch solve of the same log ends; " + solver + " would do");
-  }
-  constexpr double kTooMuch = 3.0;
-  if (fit.per_degree_of_freedom() > kTooMuch) {
-    const double share = fit.steps_at_optimum / fit.chi2_optimum;
-    remarks.push_back(
-        "the measurements do not fit each other: F per degree of freedom is " +
-        number(fit.per_degree_of_freedom()) + " at its best, and 1 is expected; " +
-        number(100.0 * share, 2) + " % of F is of dead reckoning, so " +
-        (share > 0.5
-             ? "its covariance is too small for what loops say (dataset.added_noise)"
-             : "covariances of registrations are too small (front_end.covariance) or some loops "
-               "are wrong (a robust loss, a gate): registrations are off by " +
-                   number(fit.registration_rms_m, 2) + " m and " +
-                   number(fit.registration_rms_rad, 2) +
-                   " rad there (rms), where their "
-                   "covariances say " +
-                   number(fit.registration_sigma_m, 2) + " m and " +
-                   number(fit.registration_sigma_rad, 2) + " rad"));
   }
   return remarks;
 }

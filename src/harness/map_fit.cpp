@@ -1,0 +1,74 @@
+#include "fathom/harness/map_fit.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fathom/core/chi_squared.hpp"
+#include "fathom/core/text.hpp"
+
+namespace fathom {
+
+bool MapFit::estimate_fits() const {
+  constexpr double kProbability = 0.99;
+  const double scale = std::max(1.0, per_degree_of_freedom());
+  return chi2 - chi2_optimum <= scale * chi_squared_quantile(kProbability, unknowns);
+}
+
+std::optional<MapFit> map_fit(const MeasurementLog& log, std::span<const Pose> estimate,
+                              const BatchOptimum& optimum) {
+  if (log.registration_count() == 0) return std::nullopt;
+  MapFit fit;
+  fit.chi2 = chi2(log, estimate);
+  fit.chi2_optimum = optimum.chi2;
+  Eigen::Vector3d squares = Eigen::Vector3d::Zero();
+  Eigen::Vector3d variances = Eigen::Vector3d::Zero();
+  for (std::size_t k = 1; k < log.size(); ++k) {
+    const RelativePose& step = log.arrival(k).step;
+    const Eigen::Vector3d e =
+        residual(step.motion, optimum.poses[step.from], optimum.poses[step.to]);
+    fit.steps_at_optimum += e.dot(step.information * e);
+    for (const RelativePose& z : log.arrival(k).registrations) {
+      squares += residual(z.motion, optimum.poses[z.from], optimum.poses[z.to]).cwiseAbs2();
+      variances += z.covariance().diagonal();
+    }
+  }
+  const auto count = static_cast<double>(log.registration_count());
+  fit.registration_rms_m = std::sqrt((squares.x() + squares.y()) / count);
+  fit.registration_rms_rad = std::sqrt(squares.z() / count);
+  fit.registration_sigma_m = std::sqrt((variances.x() + variances.y()) / count);
+  fit.registration_sigma_rad = std::sqrt(variances.z() / count);
+  fit.degrees_of_freedom = 3.0 * static_cast<double>(log.registration_count());
+  fit.unknowns = 3.0 * static_cast<double>(log.size() - 1);
+  return fit;
+}
+
+std::vector<std::string> map_remarks(const MapFit& fit, const std::string& estimator,
+                                     const std::string& solver) {
+  std::vector<std::string> remarks;
+  if (!fit.estimate_fits()) {
+    remarks.push_back("the map of " + estimator + " does not fit its own measurements: F is " +
+                      short_number(fit.chi2, 6) + ", and " + short_number(fit.chi2_optimum, 6) +
+                      " where a batch solve of the same log ends; " + solver + " would do");
+  }
+  constexpr double kTooMuch = 3.0;
+  if (fit.per_degree_of_freedom() > kTooMuch) {
+    const double share = fit.steps_at_optimum / fit.chi2_optimum;
+    remarks.push_back(
+        "the measurements do not fit each other: F per degree of freedom is " +
+        short_number(fit.per_degree_of_freedom()) + " at its best, and 1 is expected; " +
+        short_number(100.0 * share, 2) + " % of F is of dead reckoning, so " +
+        (share > 0.5
+             ? "its covariance is too small for what loops say (dataset.added_noise)"
+             : "covariances of registrations are too small (front_end.covariance) or some loops "
+               "are wrong (a robust loss, a gate): registrations are off by " +
+                   short_number(fit.registration_rms_m, 2) + " m and " +
+                   short_number(fit.registration_rms_rad, 2) +
+                   " rad there (rms), where their "
+                   "covariances say " +
+                   short_number(fit.registration_sigma_m, 2) + " m and " +
+                   short_number(fit.registration_sigma_rad, 2) + " rad"));
+  }
+  return remarks;
+}
+
+}  // namespace fathom
