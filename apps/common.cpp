@@ -18,19 +18,10 @@ void CommonFlags::add_out_to(Command& command, const std::string& what) {
   command.text("--out", out, "DIR", what);
 }
 
-namespace {
-
-// No vehicle keeps its camera level: without a word on it, 0.3°. At 0 estimates would be certain to
-// a fraction of a millimetre.
-constexpr const char* kAssumedTilt = "front_end.covariance.tilt_sigma_rad";
-
-}  // namespace
-
 Settings settings_of_folder(const std::string& path) {
   Settings settings;
   settings.put({"dataset.type", OptionValue::scalar("image_folder"), path});
   settings.put({"dataset.path", OptionValue::scalar(path), path});
-  settings.put({kAssumedTilt, OptionValue::scalar("0.005"), path});
   return settings;
 }
 

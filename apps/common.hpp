@@ -33,8 +33,7 @@ struct CommonFlags {
   std::string folder_or(const std::string& name) const;
 };
 
-/// Of a folder of pictures that is given in place of a configuration: that it is the data set, and
-/// that its camera is no more level than small vehicles are.
+/// Of a folder of pictures that is given in place of a configuration: that it is the data set.
 Settings settings_of_folder(const std::string& path);
 
 /// What a configuration from `path` has the program read: itself, its data set, its floor.

@@ -58,7 +58,7 @@ std::vector<std::string> assumptions(const ImageFolder& frames) {
 
 std::string header(const std::string& what, const std::vector<std::string>& facts,
                    const std::vector<std::string>& assumed) {
-  std::string text = "# " + what + " Every value below is in force without it.\n";
+  std::string text = "# " + what + " Every value below is the default.\n";
   for (const std::string& fact : facts) text += "#   " + fact + "\n";
   text += "# Assumed:\n";
   for (const std::string& one : assumed) text += "#   " + one + "\n";
