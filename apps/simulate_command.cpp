@@ -21,11 +21,13 @@ struct SimulateFlags {
   std::string config;
 };
 
-// A configuration that runs the folder as the simulation would have been: same front end and seed.
+// A configuration that runs the folder as the simulation would have been: same front end and seed,
+// with the keys that were given.
 std::string folder_configuration(const Configuration& configuration, const std::string& folder) {
   std::vector<ConfigLine> lines{{"dataset.type", "image_folder", false, ""},
                                 {"dataset.path", folder, false, ""}};
   for (const auto& [key, value] : configuration.in_force) {
+    if (key != "seed" && !configuration.origins.contains(key)) continue;
     if (key == "seed" || key == "evaluation.alignment" || key.starts_with("front_end.")) {
       lines.push_back({key, value, value.starts_with('['), ""});
     }

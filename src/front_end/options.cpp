@@ -45,6 +45,12 @@ std::vector<IgnoredKey> FrontEndOptions::ignored_keys() const {
   }
   const bool by_inliers = registration.decision.method == DecisionOptions::Method::inliers;
   ignored.push_back({by_inliers ? "decision.max_false_alarms" : "ransac.score", "decision.method"});
+  if (by_inliers) {
+    ignored.push_back({"decision.first_features", "decision.method"});
+    ignored.push_back({"decision.first_max_false_alarms", "decision.method"});
+  } else if (!registration.decision.first_features) {
+    ignored.push_back({"decision.first_max_false_alarms", "decision.first_features"});
+  }
   const auto ignore_tuning = [&](const std::string& group, const std::string& chooser) {
     RegistrationTuning tuning;
     OptionTable table;

@@ -8,6 +8,7 @@
 
 #include <opencv2/core.hpp>
 
+#include "byte_distances.hpp"
 #include "fathom/core/blas_memory.hpp"
 #include "nearest_scan.hpp"
 
@@ -73,16 +74,24 @@ cv::Mat_<float> with_norms(const cv::Mat& descriptors, Side side) {
 
 // ‖a‖² + ‖b‖² − 2 a·b, all in one matrix product per block. SIFT's whole numbers up to 255 keep
 // every sum below 2²⁴, so that the squared distances are exact.
-NearestRows find_euclidean(const cv::Mat& from, const cv::Mat& to) {
+NearestRows find_by_product(const cv::Mat& from, const cv::Mat& to) {
   const cv::Mat_<float> a = with_norms(from, Side::from);
   const cv::Mat_<float> b = with_norms(to, Side::to);
-  const auto costs_of = [&](int first, int rows, float* block, int stride) {
+  return find_by_cost(from.rows, to.rows, [&](int first, int rows, float* block, int stride) {
     const BlasMemory memory;
     cblas_sgemm(CblasRowMajor, CblasNoTrans, CblasTrans, rows, b.rows, a.cols, 1.0F, a[first],
                 static_cast<int>(a.step1()), b[0], static_cast<int>(b.step1()), 0.0F, block,
                 stride);
-  };
-  NearestRows found = find_by_cost(from.rows, to.rows, costs_of);
+  });
+}
+
+NearestRows find_euclidean(const cv::Mat& from, const cv::Mat& to) {
+  const auto bytes = ByteDistances::between(from, to);
+  NearestRows found = bytes ? find_by_cost(from.rows, to.rows,
+                                           [&](int first, int rows, float* block, int stride) {
+                                             bytes->fill(first, rows, block, stride);
+                                           })
+                            : find_by_product(from, to);
   // Rounding may leave a square just below zero.
   const auto distance_of = [](float square) { return std::sqrt(std::max(square, 0.0F)); };
   for (std::vector<Nearest>* side : {&found.in_to, &found.in_from}) {

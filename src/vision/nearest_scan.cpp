@@ -22,6 +22,10 @@ struct EightLanes {
   using Floats = float __attribute__((vector_size(32)));
   using Ints = int __attribute__((vector_size(32)));
 };
+struct SixteenLanes {
+  using Floats = float __attribute__((vector_size(64)));
+  using Ints = int __attribute__((vector_size(64)));
+};
 
 // The nearest and the next nearest of a row, from those of each lane.
 Nearest nearest_of(std::span<const float> cost, std::span<const float> next_cost,
@@ -86,6 +90,11 @@ FATHOM_FOR_AVX2 Nearest scan_by_avx2(int row, const float* costs, std::size_t co
   return scan<EightLanes>(row, costs, count, back);
 }
 
+FATHOM_FOR_AVX512 Nearest scan_by_avx512(int row, const float* costs, std::size_t count,
+                                         NearestBack& back) {
+  return scan<SixteenLanes>(row, costs, count, back);
+}
+
 }  // namespace
 
 void NearestBack::merge(const NearestBack& other) {
@@ -99,6 +108,7 @@ void NearestBack::merge(const NearestBack& other) {
 }
 
 Nearest scan_row(int row, const float* costs, std::size_t count, NearestBack& back) {
+  if (has_avx512()) return scan_by_avx512(row, costs, count, back);
   if (has_avx2()) return scan_by_avx2(row, costs, count, back);
   return scan<FourLanes>(row, costs, count, back);
 }

@@ -25,7 +25,7 @@ struct NearestBack {
 };
 
 /// Most columns that are looked at side by side.
-inline constexpr std::size_t kMostLanes = 8;
+inline constexpr std::size_t kMostLanes = 16;
 
 /// The nearest rows of `to` for a row of `from`, by its cost to each of them. The same look at the
 /// costs brings `back` up to date. `count` is a multiple of kMostLanes; the costs beyond the last

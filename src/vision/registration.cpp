@@ -105,6 +105,56 @@ Registration by_inliers(const Pair& pair, const NearestRows& neighbours) {
   return accepted(std::move(result), pair, fit, putative);
 }
 
+// The strongest features alone; a picture has them in this order.
+FloorFeatures strongest(const FloorFeatures& picture, std::size_t count) {
+  FloorFeatures first;
+  const std::size_t kept = std::min(count, picture.size());
+  const auto take = [kept](auto& to, const auto& from) {
+    to.assign(from.begin(),
+              from.begin() + static_cast<std::ptrdiff_t>(std::min(kept, from.size())));
+  };
+  take(first.points, picture.points);
+  take(first.sizes_m, picture.sizes_m);
+  take(first.headings_rad, picture.headings_rad);
+  first.features.descriptors = picture.features.descriptors.rowRange(0, static_cast<int>(kept));
+  first.viewpoint = picture.viewpoint;
+  return first;
+}
+
+// Most pairs that do not overlap are told by a part of their features, for a part of the time: the
+// same test as of all of them, but lenient. Nothing is refused that is not as good by chance.
+std::optional<Registration> refused_at_first(const Pair& pair) {
+  const DecisionOptions& decision = pair.options.decision;
+  if (!decision.first_features) return std::nullopt;
+  const auto count = static_cast<std::size_t>(*decision.first_features);
+  // Where few are left out there is nothing to gain.
+  if (2 * pair.from.size() * pair.to.size() < 3 * count * count) return std::nullopt;
+  const FloorFeatures from = strongest(pair.from, count);
+  const FloorFeatures to = strongest(pair.to, count);
+  const Pair first{from, to, pair.options, pair.seed};
+  const NearestRows neighbours = find_nearest(from.features, to.features);
+  const MatchSet putative =
+      first.set(match(neighbours, pair.options.matching), MatchSet::Use::sizes);
+  const MatchSet nearest = first.set(all_nearest(neighbours), MatchSet::Use::sizes);
+  Registration result;
+  result.putative = putative.matches();
+  const Hypothesis best = find_hypothesis(putative, nearest, pair.options, pair.seed);
+  const std::string of = "of the " + std::to_string(count) + " strongest features ";
+  if (!best.motion) return refused(std::move(result), of + "no two matches agree");
+  const Hypothesis rival = find_rival(best, putative, nearest, pair.options, pair.seed);
+  result.evidence = weigh(best, rival, nearest, pair.options);
+  constexpr int kFewest = 3;  // two make any motion
+  if (result.evidence.places >= kFewest &&
+      result.evidence.false_alarms <= decision.first_max_false_alarms) {
+    return std::nullopt;
+  }
+  result.inliers = picked(nearest, best.support);
+  return refused(std::move(result),
+                 of + std::to_string(result.evidence.support) + " matches agree, in " +
+                     std::to_string(result.evidence.places) + " places; another motion has " +
+                     std::to_string(result.evidence.rival_places));
+}
+
 // Ours: figure 2 makes the hypothesis; an a-contrario test against its strongest rival decides, and
 // a weighted fit to all matches that are nearest one way at least follows.
 Registration by_false_alarms(const Pair& pair, const NearestRows& neighbours) {
@@ -150,6 +200,11 @@ void DecisionOptions::describe(OptionTable& table) {
                     "enough matches agree");
   table.real("max_false_alarms", max_false_alarms, Range{1e-300, 1.0}, "",
              "with false_alarms: the chance of so much support, at most");
+  table.integer_or_off("first_features", first_features, Range::between(50, 1e6), "features",
+                       "with false_alarms: so many of the strongest features are tried first; a "
+                       "pair in which chance does as well is given up");
+  table.real("first_max_false_alarms", first_max_false_alarms, Range{1e-300, 1.0}, "",
+             "the chance of the support of these, at most");
 }
 
 void CovarianceOptions::describe(OptionTable& table) {
@@ -180,10 +235,11 @@ Registration register_pair(const FloorFeatures& from, const FloorFeatures& to,
   require_points(to);
   const RegistrationOptions in_force = in_metres(options, from.viewpoint, to.viewpoint);
   const Pair pair{from, to, in_force, seed};
-  const NearestRows neighbours = find_nearest(from.features, to.features);
-  return options.decision.method == DecisionOptions::Method::inliers
-             ? by_inliers(pair, neighbours)
-             : by_false_alarms(pair, neighbours);
+  if (options.decision.method == DecisionOptions::Method::inliers) {
+    return by_inliers(pair, find_nearest(from.features, to.features));
+  }
+  if (auto refused = refused_at_first(pair)) return std::move(*refused);
+  return by_false_alarms(pair, find_nearest(from.features, to.features));
 }
 
 }  // namespace fathom

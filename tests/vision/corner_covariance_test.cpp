@@ -37,6 +37,7 @@ Scatter scatter_of(double side_m) {
       p.push_back(transform(kTruth, q.back()) + Eigen::Vector2d(dx, dy));
     }
     RegistrationOptions options;
+    options.covariance.tilt_sigma_rad = 0.0;
     options.decision.method = DecisionOptions::Method::inliers;
     options.ransac.iterations = 100;
     const Registration result = register_pair(test::labelled(p), test::labelled(q), options,

@@ -1,6 +1,6 @@
 // Registration of rendered pictures whose motion is known, a small part of the benchmark
 // fathom_registration_benchmark (docs/registration.md): recall, wrong motions, false acceptances
-// and honesty. Default options throughout.
+// and honesty. Default options throughout, of a level camera.
 
 #include <cmath>
 #include <map>
@@ -16,6 +16,12 @@
 
 namespace fathom {
 namespace {
+
+RegistrationOptions level() {
+  RegistrationOptions options;
+  options.covariance.tilt_sigma_rad = 0.0;
+  return options;
+}
 
 constexpr double kSideM = 10.0;
 
@@ -73,7 +79,7 @@ TEST_P(EveryFloor, NoPairWithoutOverlapIsAccepted) {
         continue;
       }
       ++apart;
-      const Registration result = register_pair(features[i], features[k], {}, i * kPool + k);
+      const Registration result = register_pair(features[i], features[k], level(), i * kPool + k);
       EXPECT_FALSE(result.found) << i << " " << k << ": " << result.evidence.false_alarms;
     }
   }
@@ -101,7 +107,7 @@ Outcome registered(const std::string& name, FloorKind kind, const std::string& c
     for (test::ViewPair& pair : pairs) {
       test::draw_condition(pair.b, condition, looks);
       const FloorFeatures b = features_of(renderer, pair.b, condition.effects);
-      const Registration result = register_pair(a, b, {}, index);
+      const Registration result = register_pair(a, b, level(), index);
       if (!result.found) continue;
       ++outcome.found;
       Eigen::Vector3d error = result.motion.vector() - pair.motion().vector();

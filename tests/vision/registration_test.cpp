@@ -152,6 +152,7 @@ TEST(RegisterPair, AddsTheFloorToTheResidualsCovariance) {
     p.push_back(transform(z, q.back()) + Eigen::Vector2d(dx, dy));
   }
   RegistrationOptions options;
+  options.covariance.tilt_sigma_rad = 0.0;
   options.covariance.floor_sigma_m = 0.1;
   options.covariance.floor_sigma_rad = 0.02;
   const Registration result = register_pair(labelled(p), labelled(q), options, 1);
@@ -175,6 +176,7 @@ TEST(RegisterPair, ItsCovarianceIsHonestUnderWrongMatches) {
   const Pose truth{0.5, -0.3, 0.8};
   RegistrationOptions options;
   options.ransac.iterations = 100;
+  options.covariance.tilt_sigma_rad = 0.0;
   options.covariance.floor_sigma_m = 1e-6;
   options.covariance.floor_sigma_rad = 1e-6;
   RandomStream random(11);
