@@ -26,8 +26,8 @@ struct DecisionOptions {
   double max_false_alarms = 1e-7;
   /// Of false_alarms: so many of the strongest features of either picture are tried first. Where
   /// chance would do as well with these, by `first_max_false_alarms`, no more are looked at.
-  std::optional<int> first_features = 1000;
-  double first_max_false_alarms = 0.2;
+  std::optional<int> first_features = 1200;
+  double first_max_false_alarms = 0.5;
 
   void describe(OptionTable& table);
 };
