@@ -57,6 +57,7 @@ const std::vector<ThirdParty>& third_parties() {
       {"boost/math/", {"src/core/chi_squared.cpp", "src/evaluation/distributions.cpp"}},
       {"ceres/", {"estimators/ceres_pose_graph/"}},
       {"yaml-cpp/", {"src/configuration/", "src/datasets/image_folder/camera_yaml.cpp"}},
+      {"immintrin.h", {"include/fathom/core/cpu.hpp"}},
       {"libexif/", {"src/datasets/pictures/exif.cpp"}},
       {"SQLiteCpp/", {"src/results/", "src/front_end/registration_"}},
       {"sqlite3.h", {"src/results/", "src/front_end/registration_"}},

@@ -53,7 +53,8 @@ TEST(RegistrationKeys, EveryNumberOfTheCameraCounts) {
 // Sets the key to the first of some values that it takes and that is new to it.
 bool change(OptionTable& table, const std::string& key) {
   const std::string before = table.value(key);
-  for (const char* value : {"0.5", "3", "7", "77", "true", "false", "orb", "paper", "inliers"}) {
+  for (const char* value :
+       {"0.5", "0.25", "3", "7", "77", "true", "false", "orb", "paper", "inliers"}) {
     try {
       table.set(key, OptionValue::scalar(value));
     } catch (const InputError&) {

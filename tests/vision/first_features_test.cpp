@@ -1,0 +1,73 @@
+// The strongest features are tried first: what that refuses is refused, and all else is as without.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "fathom/vision/registration.hpp"
+#include "vision/textured_floor.hpp"
+
+namespace fathom {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+FloorFeatures seen_at(const Pose& pose) {
+  static const TexturedFloor floor(1200, 0.004, 5);
+  CameraModel model;
+  model.width = 400;
+  model.height = 300;
+  model.fx = model.fy = 350.0;
+  model.cx = 199.5;
+  model.cy = 149.5;
+  const Camera camera(model);
+  constexpr double kAltitudeM = 1.2;
+  return on_floor(FeatureExtractor().extract(floor.seen(camera, pose, kAltitudeM)), camera,
+                  kAltitudeM);
+}
+
+RegistrationOptions first(std::optional<int> features) {
+  RegistrationOptions options;
+  options.decision.first_features = features;
+  return options;
+}
+
+TEST(FirstFeatures, APairThatPassesIsRegisteredAsIfTheyWereNot) {
+  const FloorFeatures a = seen_at({});
+  for (const Pose& pose : {Pose{0.1, 0.2, 0.3}, Pose{-0.5, 0.3, 2.0}, Pose{0.6, -0.6, -1.0}}) {
+    const FloorFeatures b = seen_at(pose);
+    const Registration with = register_pair(a, b, first(150), 3);
+    const Registration without = register_pair(a, b, first(std::nullopt), 3);
+    ASSERT_TRUE(with.found) << with.reason;
+    EXPECT_EQ(with.motion, without.motion);
+    EXPECT_EQ(with.covariance, without.covariance);
+    EXPECT_EQ(with.inliers, without.inliers);
+    EXPECT_EQ(with.evidence.false_alarms, without.evidence.false_alarms);
+  }
+}
+
+TEST(FirstFeatures, APairWithoutOverlapIsToldByThem) {
+  const FloorFeatures a = seen_at({-1.3, -1.2, 0.0});
+  const FloorFeatures b = seen_at({1.0, 1.2, 0.4});
+  ASSERT_GT(a.size(), 300U);
+  int told = 0;
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    const Registration with = register_pair(a, b, first(150), seed);
+    EXPECT_FALSE(with.found);
+    told += with.reason.find("of the 150 strongest features") == 0 ? 1 : 0;
+    EXPECT_THAT(register_pair(a, b, first(std::nullopt), seed).reason,
+                Not(HasSubstr("strongest features")));
+  }
+  EXPECT_GE(told, 8);
+}
+
+// Where few features would be left out there is nothing to gain.
+TEST(FirstFeatures, AreNotTriedWhereTheyAreNearlyAll) {
+  const FloorFeatures a = seen_at({-1.3, -1.2, 0.0});
+  const FloorFeatures b = seen_at({1.0, 1.2, 0.4});
+  const auto all = static_cast<int>(std::max(a.size(), b.size()));
+  EXPECT_THAT(register_pair(a, b, first(all), 1).reason, Not(HasSubstr("strongest features")));
+}
+
+}  // namespace
+}  // namespace fathom
