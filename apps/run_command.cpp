@@ -112,7 +112,9 @@ std::vector<std::string> write_all_mosaics(const FrameSource& pictures, const Re
     mosaics.push_back({mosaics.empty() ? folder : folder / kBatchOptimum,
                        placed_pictures(recording, result.replay.trajectory)});
   }
-  return write_mosaics(pictures, mosaics, quiet);
+  std::vector<std::string> lines = write_mosaics(pictures, mosaics, quiet);
+  for (std::size_t i = 1; i < lines.size(); ++i) lines[i] = kBatchOptimum + ("/" + lines[i]);
+  return lines;
 }
 
 void print_table(const Recording& recording, const std::vector<Result>& results,

@@ -48,7 +48,10 @@ FATHOM_FOR_AVX512_VNNI void fill_tile(const Tile& tile, float* costs, int stride
   for (int k = 0; k < steps; ++k) {
     SixteenInts columns[kVectors];
     for (int v = 0; v < kVectors; ++v) {
-      std::memcpy(&columns[v], tile.to + (static_cast<std::ptrdiff_t>(v) * steps + k) * 64, 64);
+      const std::size_t place = (static_cast<std::size_t>(v) * static_cast<std::size_t>(steps) +
+                                 static_cast<std::size_t>(k)) *
+                                kStep;
+      std::memcpy(&columns[v], tile.to + place, kStep);
     }
     for (int r = 0; r < Rows; ++r) {
       int four = 0;
@@ -154,4 +157,5 @@ void ByteDistances::fill(int first, int rows, float* costs, int stride) const {
     }
   }
 }
+
 }  // namespace fathom

@@ -144,6 +144,28 @@ TEST_F(YourSurvey, ARunWithoutLoopsSaysWhy) {
               HasSubstr("no loop candidates"));
 }
 
+// Few loops after much drift: one linearisation is not enough, and the batch solve stands beside.
+TEST_F(YourSurvey, AMapThatDoesNotFitHasTheBatchOptimumBesideIt) {
+  write("survey.yaml", survey(1.0));
+  const std::vector<std::string> run{"run",   "survey.yaml",
+                                     "--out", "out",
+                                     "--set", "estimator.type=ekf",
+                                     "--set", "front_end.keyframes.separation_frames=4",
+                                     "--set", "front_end.candidates.max_distance_m=0.8"};
+  std::vector<std::string> drifting = run;
+  drifting.insert(drifting.end(), {"--set", "dataset.odometry.sigma_theta_rad=0.1"});
+  const Ended ended = fathom_done(drifting);
+  EXPECT_THAT(ended.out, AllOf(ContainsRegex("batch_optimum +converged"),
+                               HasSubstr("      batch_optimum/mosaic.png: "),
+                               HasSubstr("warning: the map of ekf does not fit its own")));
+  EXPECT_EQ(tum("out/batch_optimum/trajectory.tum").size(), tum("out/trajectory.tum").size());
+  expect_picture("out/batch_optimum/mosaic.png");
+  // A run that fits takes the older one's away.
+  const Ended fits = fathom_done(run);
+  EXPECT_THAT(fits.out, Not(HasSubstr("batch_optimum")));
+  EXPECT_FALSE(fs::exists(path("out/batch_optimum")));
+}
+
 // Altitudes that are 3.28 times too large show in the length of registered motions.
 TEST_F(YourSurvey, AnAltitudeInFeetIsNoticed) {
   simulate("data");
