@@ -5,6 +5,7 @@
 #     scripts/setup.sh          # what the build needs, its tests and benchmarks included
 #     scripts/setup.sh lint     # and what scripts/lint.sh needs
 #     scripts/setup.sh docs     # and what scripts/docs.sh needs
+#     scripts/setup.sh import   # and what reads bags and writes maps for geographic programs
 #     scripts/setup.sh cluster  # and a SLURM for the test of docs/cluster.md
 set -euo pipefail
 
@@ -22,6 +23,12 @@ packages=(
 # clang needs an omp.h of its own to read what g++ compiles with -fopenmp.
 lint_packages=(clang clang-tidy libomp-dev)
 docs_packages=(mkdocs mkdocs-material doxygen)
+# librosbag-storage-dev and libfastcdr-dev read bags, the libraries of messages and gdal-bin are for
+# the tests alone: they write bags and read maps independently of Fathom.
+import_packages=(
+  librosbag-storage-dev libfastcdr-dev libexif-dev libgeotiff-dev libproj-dev
+  libsensor-msgs-dev libnav-msgs-dev libgeometry-msgs-dev libstd-msgs-dev gdal-bin
+)
 cluster_packages=(slurm-wlm munge)
 
 fail() {
@@ -33,8 +40,9 @@ case "${1:-}" in
   '') ;;
   lint) packages+=("${lint_packages[@]}") ;;
   docs) packages+=("${docs_packages[@]}") ;;
+  import) packages+=("${import_packages[@]}") ;;
   cluster) packages+=("${cluster_packages[@]}") ;;
-  *) fail "unknown argument '$1'; use none, lint, docs or cluster" ;;
+  *) fail "unknown argument '$1'; use none, lint, docs, import or cluster" ;;
 esac
 
 missing() {

@@ -10,7 +10,7 @@ cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/.."
 preset=${1:-release}
 jobs=$(nproc)
 
-scripts/setup.sh
+scripts/setup.sh import
 scripts/format.sh --check
 [[ -f build/$preset/build.ninja ]] || cmake --preset "$preset"
 cmake --build --preset "$preset" --parallel "$jobs"
