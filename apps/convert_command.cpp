@@ -69,8 +69,7 @@ void flatten(SpatialTrajectory& trajectory, const std::string& plane_name, Notes
   const Projection projection = project(trajectory.poses, axes, body);
   const auto cells = loss_cells(plane_text(plane, axes), projection.loss);
   for (std::size_t i = 0; i < cells.size(); ++i) notes.push_back(loss_rows()[i] + ": " + cells[i]);
-  for (const auto& warning :
-       projection_warnings(trajectory.poses, axes, projection, body, "the trajectory")) {
+  for (const auto& warning : projection_warnings(axes, projection, body, "the trajectory")) {
     notes.push_back("warning: " + warning);
   }
   trajectory.poses = to_space(projection.trajectory);

@@ -10,6 +10,8 @@
 #include "fathom/core/input_error.hpp"
 #include "fathom/core/text.hpp"
 #include "fathom/evaluation/association.hpp"
+#include "fathom/evaluation/spatial_accuracy.hpp"
+#include "fathom/report/table.hpp"
 
 namespace fathom {
 namespace {
@@ -50,6 +52,9 @@ bool are_paired_by_index(const EvaluateFlags& flags, const SpatialTrajectory& es
                          (estimate.has_times ? flags.estimate : flags.reference) +
                          " have: --times FILE names a file with a time per pose, in seconds");
   }
+  if (flags.time_offset_s != 0.0) {
+    throw InputError("--time-offset: neither trajectory has times; they are paired by index");
+  }
   if (estimate.poses.size() != reference.poses.size()) {
     throw InputError(flags.estimate, "has " + std::to_string(estimate.poses.size()) + " poses, " +
                                          flags.reference + " " +
@@ -87,14 +92,16 @@ std::vector<StampedPose> stamps_of(const SpatialTrajectory& trajectory) {
                        " lets both begin together, and --max-difference may be larger");
 }
 
-SpatialPairs paired(const EvaluateFlags& flags, const SpatialTrajectory& estimate,
-                    const SpatialTrajectory& reference) {
-  const bool by_index = are_paired_by_index(flags, estimate, reference);
+struct Paired {
+  std::vector<StampedSpatialPose> estimate;
+  std::vector<StampedSpatialPose> reference;
+};
+
+Paired paired(const EvaluateFlags& flags, const SpatialTrajectory& estimate,
+              const SpatialTrajectory& reference) {
   const auto pairs = associate(stamps_of(estimate), stamps_of(reference), flags.max_difference_s);
   if (pairs.empty()) refuse_no_pair(flags, estimate, reference);
-  SpatialPairs result;
-  result.by_index = by_index;
-  result.estimate_size = estimate.poses.size();
+  Paired result;
   for (const auto& [e, r] : pairs) {
     result.estimate.push_back(estimate.poses[e]);
     result.reference.push_back(reference.poses[r]);
@@ -124,13 +131,19 @@ void evaluate_files(EvaluateFlags flags, Context& context) {
   if (!flags.times.empty() && !has_kitti) {
     throw InputError("--times: only KITTI poses need times; neither trajectory is of that format");
   }
+  const bool by_index = are_paired_by_index(flags, estimate, reference);
   shift_times(estimate, flags.time_offset_s);
-  const SpatialPairs pairs = paired(flags, estimate, reference);
-  const Judged judged =
-      judge(pairs, plane_of(flags.of_estimate, flags.plane, "--plane", estimate.format),
-            plane_of(flags.of_reference, flags.plane, "--reference-plane", reference.format),
-            alignment, flags.estimate);
-  print_judged(judged, pairs, flags.alignment, {flags.steps, flags.distances_m});
+  const Paired pairs = paired(flags, estimate, reference);
+  const PlanePair planes{
+      plane_of(flags.of_estimate, flags.plane, "--plane", estimate.format),
+      plane_of(flags.of_reference, flags.plane, "--reference-plane", reference.format)};
+  const SpatialAccuracy judged =
+      spatial_accuracy(pairs.estimate, pairs.reference, planes, alignment);
+  if (leaves_an_error(pairs.estimate.size(), on_plane(alignment)) && !judged.accuracy) {
+    throw InputError(flags.estimate, "has errors too large for a number");
+  }
+  print_evaluation(judged, {flags.alignment, estimate.poses.size(), by_index},
+                   {flags.steps, flags.distances_m});
   context.status = kDone;
 }
 

@@ -4,29 +4,16 @@
 #include <cstdio>
 
 #include "apps/trajectories.hpp"
-#include "fathom/core/input_error.hpp"
 #include "fathom/evaluation/error_statistics.hpp"
+#include "fathom/report/table.hpp"
 
 namespace fathom {
 namespace {
 
-Projected projected(const std::vector<StampedSpatialPose>& trajectory, Plane plane) {
-  Projected result;
-  result.plane = plane;
-  result.axes = axes_of(plane, trajectory);
+std::vector<double> absolute(const std::vector<double>& values) {
+  std::vector<double> result;
+  for (const double value : values) result.push_back(std::abs(value));
   return result;
-}
-
-std::vector<Pose> poses_of(const Projected& projected) {
-  std::vector<Pose> poses;
-  for (const StampedPose& stamped : projected.projection.trajectory) poses.push_back(stamped.pose);
-  return poses;
-}
-
-// Axes of a camera beside those of a vehicle, for example.
-bool are_mounted_alike(const BodyAxes& a, const BodyAxes& b) {
-  constexpr double kHalf = 0.5;
-  return a.mean_up.dot(b.mean_up) >= kHalf * a.mean_up.norm() * b.mean_up.norm();
 }
 
 Table relative_table(const AssociatedPoses& poses, const RelativeLengths& lengths) {
@@ -52,7 +39,7 @@ Table relative_table(const AssociatedPoses& poses, const RelativeLengths& length
   return table;
 }
 
-Table absolute_table(const Judged& judged) {
+Table absolute_table(const SpatialAccuracy& judged) {
   const Accuracy& accuracy = *judged.accuracy;
   const auto position = error_statistics(judged.position_errors_m);
   const auto heading = error_statistics(judged.heading_errors_rad);
@@ -80,17 +67,17 @@ Table absolute_table(const Judged& judged) {
 }
 
 // Of two that lie on plane xy there is nothing to say.
-bool is_planar(const Judged& judged) {
-  const auto is_plain = [](const Projected& of) {
+bool is_planar(const SpatialAccuracy& judged) {
+  const auto is_plain = [](const ProjectedTrajectory& of) {
     return of.plane == Plane::xy && is_flat(of.projection.loss);
   };
-  const auto heights = error_statistics(judged.height_errors_m);
-  return is_plain(judged.estimate) && is_plain(judged.reference) && heights && heights->sse < 1e-18;
+  const auto heights = error_statistics(absolute(judged.height_errors_m));
+  return is_plain(judged.estimate) && is_plain(judged.reference) && heights && heights->max < 1e-9;
 }
 
-void print_losses(const Judged& judged, const std::string& alignment) {
+void print_losses(const SpatialAccuracy& judged, const std::string& alignment) {
   Table table({"left out by the projection", "estimate", "reference"});
-  const auto cells = [](const Projected& of) {
+  const auto cells = [](const ProjectedTrajectory& of) {
     return loss_cells(plane_text(of.plane, of.axes), of.projection.loss);
   };
   const auto estimate = cells(judged.estimate);
@@ -99,79 +86,47 @@ void print_losses(const Judged& judged, const std::string& alignment) {
     table.add_row({loss_rows()[i], estimate[i], reference[i]});
   }
   std::printf("\n%s", table.text().c_str());
-  double heights = 0.0;
-  double positions = 0.0;
-  for (std::size_t k = 0; k < judged.height_errors_m.size(); ++k) {
-    heights += judged.height_errors_m[k] * judged.height_errors_m[k];
-    positions += judged.position_errors_m[k] * judged.position_errors_m[k];
-  }
-  const double count = static_cast<double>(judged.height_errors_m.size());
+  const auto heights = error_statistics(absolute(judged.height_errors_m));
+  const auto all = error_statistics(with_heights(judged.position_errors_m, judged.height_errors_m));
+  const auto rmse = [](const std::optional<ErrorStatistics>& statistics) {
+    return statistics ? format_number(statistics->rmse, 6) : "-";
+  };
   std::printf("height error, alignment %s: RMSE %s m; with the position error on the plane %s m\n",
-              alignment.c_str(), format_number(std::sqrt(heights / count), 6).c_str(),
-              format_number(std::sqrt((heights + positions) / count), 6).c_str());
+              alignment.c_str(), rmse(heights).c_str(), rmse(all).c_str());
+}
+
+void print_warnings(const SpatialAccuracy& judged) {
+  for (const auto& [which, of] : {std::pair{"the estimate", &judged.estimate},
+                                  std::pair{"the reference", &judged.reference}}) {
+    for (const std::string& warning :
+         projection_warnings(of->axes, of->projection, judged.body, which)) {
+      std::printf("warning: %s\n", warning.c_str());
+    }
+  }
+  if (judged.is_mounted_alike) return;
+  std::printf(
+      "warning: different axes of the body point up in the estimate and in the reference: headings "
+      "and relative errors compare different axes, and alignment origin rests on them\n");
 }
 
 }  // namespace
 
-Judged judge(const SpatialPairs& pairs, Plane plane_of_estimate, Plane plane_of_reference,
-             SpatialAlignment alignment, const std::string& name) {
-  Judged judged;
-  judged.estimate = projected(pairs.estimate, plane_of_estimate);
-  judged.reference = projected(pairs.reference, plane_of_reference);
-  // Heading is of one axis of the body in both: the reference says which.
-  const BodyAxes body = body_axes(pairs.reference, judged.reference.axes);
-  judged.estimate.projection = project(pairs.estimate, judged.estimate.axes, body);
-  judged.reference.projection = project(pairs.reference, judged.reference.axes, body);
-  judged.poses = {poses_of(judged.estimate), poses_of(judged.reference)};
-  judged.accuracy = accuracy(judged.poses.estimate, judged.poses.reference, on_plane(alignment));
-  if (leaves_an_error(pairs.estimate.size(), on_plane(alignment)) && !judged.accuracy) {
-    throw InputError(name, "has errors too large for a number");
-  }
-  const Aligned aligned = align(judged.poses.estimate, judged.poses.reference, on_plane(alignment));
-  judged.position_errors_m = position_errors_m(aligned.poses, judged.poses.reference);
-  for (const double e : heading_errors_rad(aligned.poses, judged.poses.reference)) {
-    judged.heading_errors_rad.push_back(std::abs(e));
-  }
-  const auto& heights_m = judged.estimate.projection.heights_m;
-  const auto& true_heights_m = judged.reference.projection.heights_m;
-  const double shift_m = height_shift_m(heights_m, true_heights_m, alignment);
-  for (std::size_t k = 0; k < heights_m.size(); ++k) {
-    judged.height_errors_m.push_back(heights_m[k] + shift_m - true_heights_m[k]);
-  }
-  const auto add = [&](const std::vector<StampedSpatialPose>& trajectory, const Projected& of,
-                       const std::string& which) {
-    for (auto& warning : projection_warnings(trajectory, of.axes, of.projection, body, which)) {
-      judged.warnings.push_back(std::move(warning));
-    }
-  };
-  add(pairs.estimate, judged.estimate, "the estimate");
-  add(pairs.reference, judged.reference, "the reference");
-  if (!are_mounted_alike(body, body_axes(pairs.estimate, judged.estimate.axes))) {
-    judged.warnings.push_back(
-        "different axes of the body point up in the estimate and in the reference: their headings "
-        "are of different axes, and only errors of alignment none, se2 or yaw in position count");
-  }
-  return judged;
-}
-
-void print_judged(const Judged& judged, const SpatialPairs& pairs, const std::string& alignment,
-                  const RelativeLengths& lengths) {
+void print_evaluation(const SpatialAccuracy& judged, const EvaluationHead& head,
+                      const RelativeLengths& lengths) {
   const Table relative = relative_table(judged.poses, lengths);  // refuses before any output
   std::printf("%zu of %zu poses have a reference; alignment %s, scale as it is\n",
-              pairs.estimate.size(), pairs.estimate_size, alignment.c_str());
-  if (pairs.by_index) std::printf("paired by index: neither trajectory has times\n");
+              judged.poses.estimate.size(), head.estimate_size, head.alignment.c_str());
+  if (head.is_paired_by_index) std::printf("paired by index: neither trajectory has times\n");
   std::printf("\n");
   if (judged.accuracy) {
     std::printf("%s", absolute_table(judged).text().c_str());
   } else {
     std::printf("no error can be given: alignment %s lays a single pose on its reference\n",
-                alignment.c_str());
+                head.alignment.c_str());
   }
   std::printf("\n%s", relative.text().c_str());
-  if (!is_planar(judged)) print_losses(judged, alignment);
-  for (const std::string& warning : judged.warnings) {
-    std::printf("warning: %s\n", warning.c_str());
-  }
+  if (!is_planar(judged)) print_losses(judged, head.alignment);
+  print_warnings(judged);
 }
 
 }  // namespace fathom

@@ -20,25 +20,25 @@ std::string span_text(const SpatialTrajectory& trajectory) {
   return seconds_text(poses.front().time_ns) + " to " + seconds_text(poses.back().time_ns) + " s";
 }
 
-std::vector<std::string> projection_warnings(const std::vector<StampedSpatialPose>& trajectory,
-                                             const PlaneAxes& axes, const Projection& projection,
+std::vector<std::string> projection_warnings(const PlaneAxes& axes, const Projection& projection,
                                              const BodyAxes& body, const std::string& which) {
+  const ProjectionLoss& loss = projection.loss;
+  if (loss.better) {
+    return {which + " is off plane " + name_of(axes.named) + " by " +
+            format_number(loss.height_rms_m, 3) + " m (RMS), and off plane " +
+            name_of(*loss.better) + " by less than a quarter of that: --plane " +
+            name_of(*loss.better) + " may be meant"};
+  }
   std::vector<std::string> warnings;
-  if (const auto better = better_plane(trajectory, axes)) {
-    warnings.push_back(which + " leaves plane " + name_of(axes.named) + " by " +
-                       format_number(projection.loss.height_rms_m, 3) + " m (RMS), and plane " +
-                       name_of(*better) + " by less than a quarter of that: --plane " +
-                       name_of(*better) + " may be meant");
-  }
   if (body.forward.z() != 0.0) {
-    warnings.push_back("the x axis of " + which +
-                       " points up or down: its heading is that of its z axis");
+    warnings.push_back("the x axis of the body points up or down in " + which +
+                       ": the heading is that of its z axis");
   }
-  if (projection.loss.open_headings > 0) {
-    warnings.push_back(std::to_string(projection.loss.open_headings) + " of " +
-                       std::to_string(trajectory.size()) + " poses of " + which +
-                       " have their forward axis within 10 degrees of the vertical: their headings "
-                       "say little, and errors that rest on them");
+  if (loss.open_headings > 0) {
+    warnings.push_back(std::to_string(loss.open_headings) + " of " +
+                       std::to_string(projection.trajectory.size()) + " poses of " + which +
+                       " point within 10 degrees of up or down: their headings say little, and so "
+                       "do errors that rest on them");
   }
   return warnings;
 }

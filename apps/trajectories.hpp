@@ -34,8 +34,7 @@ struct TrajectoryFlags {
 std::string span_text(const SpatialTrajectory& trajectory);
 
 /// What looks wrong with a projection, in sentences; `which` is "the estimate", for example.
-std::vector<std::string> projection_warnings(const std::vector<StampedSpatialPose>& trajectory,
-                                             const PlaneAxes& axes, const Projection& projection,
+std::vector<std::string> projection_warnings(const PlaneAxes& axes, const Projection& projection,
                                              const BodyAxes& body, const std::string& which);
 
 /// "xz", or "fit: xy, tilted by 0.031 rad".

@@ -76,6 +76,23 @@ double height_rms(const Eigen::Matrix3d& spread, const Eigen::Vector3d& normal) 
   return std::sqrt(std::max(0.0, normal.dot(spread * normal)));
 }
 
+std::optional<Plane> better_plane(Trajectory trajectory, const PlaneAxes& chosen) {
+  const Eigen::Matrix3d squares = spread(trajectory);
+  const Eigen::Vector3d normal = chosen.plane_from_world.row(2);
+  const double lost_m = height_rms(squares, normal);
+  const double extent_m = std::sqrt(std::max(0.0, squares.trace() - lost_m * lost_m));
+  if (!(lost_m > 0.1 * extent_m)) return std::nullopt;
+  std::optional<Plane> better;
+  double least_m = lost_m / 4.0;
+  for (const Plane plane : {Plane::xy, Plane::xz, Plane::yz}) {
+    const double other_m = height_rms(squares, named_axes(plane).row(2));
+    if (other_m >= least_m) continue;
+    least_m = other_m;
+    better = plane;
+  }
+  return better;
+}
+
 }  // namespace
 
 const std::vector<std::pair<std::string, Plane>>& plane_names() {
@@ -137,6 +154,7 @@ Projection project(Trajectory trajectory, const PlaneAxes& axes, const BodyAxes&
     loss.pitch_rms_rad += pitch * pitch;
     if (std::abs(pitch) > kVertical) ++loss.open_headings;
   }
+  loss.better = better_plane(trajectory, axes);
   const double count = static_cast<double>(std::max<std::size_t>(trajectory.size(), 1));
   for (double* square : {&loss.height_rms_m, &loss.roll_rms_rad, &loss.pitch_rms_rad}) {
     *square = std::sqrt(*square / count);
@@ -152,23 +170,6 @@ std::vector<StampedSpatialPose> to_space(std::span<const StampedPose> trajectory
          {{pose.x, pose.y, 0.0}, {std::cos(pose.theta / 2), 0, 0, std::sin(pose.theta / 2)}}});
   }
   return spatial;
-}
-
-std::optional<Plane> better_plane(Trajectory trajectory, const PlaneAxes& chosen) {
-  const Eigen::Matrix3d squares = spread(trajectory);
-  const Eigen::Vector3d normal = chosen.plane_from_world.row(2);
-  const double lost_m = height_rms(squares, normal);
-  const double extent_m = std::sqrt(std::max(0.0, squares.trace() - lost_m * lost_m));
-  if (!(lost_m > 0.1 * extent_m)) return std::nullopt;
-  std::optional<Plane> better;
-  double least_m = lost_m / 4.0;
-  for (const Plane plane : {Plane::xy, Plane::xz, Plane::yz}) {
-    const double other_m = height_rms(squares, named_axes(plane).row(2));
-    if (other_m >= least_m) continue;
-    least_m = other_m;
-    better = plane;
-  }
-  return better;
 }
 
 }  // namespace fathom

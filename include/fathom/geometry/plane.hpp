@@ -63,6 +63,10 @@ struct ProjectionLoss {
   double pitch_rms_rad = 0.0;
   /// Poses whose forward axis is within 10° of the vertical: their heading is next to open.
   std::size_t open_headings = 0;
+  /// The named plane that would leave out far less height: where the heights are above a tenth of
+  /// the extent on the plane (root mean squares about the mean), and those off another below a
+  /// quarter of them.
+  std::optional<Plane> better;
 };
 
 /// A trajectory on its plane: x forward, y left, headings counter-clockwise seen from above.
@@ -77,11 +81,5 @@ Projection project(std::span<const StampedSpatialPose> trajectory, const PlaneAx
 
 /// Back in space, at height 0 and level, in forward, left and up.
 std::vector<StampedSpatialPose> to_space(std::span<const StampedPose> trajectory);
-
-/// The named plane that would lose far less: where the heights off the plane chosen are above a
-/// tenth of the extent on it (root mean squares about the mean), and less than a quarter of that
-/// off another.
-std::optional<Plane> better_plane(std::span<const StampedSpatialPose> trajectory,
-                                  const PlaneAxes& chosen);
 
 }  // namespace fathom
