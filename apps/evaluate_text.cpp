@@ -106,7 +106,8 @@ void print_warnings(const SpatialAccuracy& judged) {
   if (judged.is_mounted_alike) return;
   std::printf(
       "warning: different axes of the body point up in the estimate and in the reference: headings "
-      "and relative errors compare different axes, and alignment origin rests on them\n");
+      "and relative errors compare different axes, and alignment origin rests on them; has one of "
+      "them another plane?\n");
 }
 
 }  // namespace

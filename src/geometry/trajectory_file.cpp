@@ -27,13 +27,15 @@ TrajectoryFormat recognised(const LineOfFile& line) {
       std::to_string(fields));
 }
 
-template <class Poses, class Read>
-Poses rising(const Lines& lines, const Read& read) {
-  Poses poses;
+template <class Read>
+std::vector<StampedSpatialPose> rising(const Lines& lines, const Read& read,
+                                       const std::string& remedy) {
+  std::vector<StampedSpatialPose> poses;
   for (const LineOfFile& line : lines) {
     poses.push_back(read(line));
     if (poses.size() > 1 && poses.back().time_ns <= poses[poses.size() - 2].time_ns) {
-      line.refuse("time stamps must rise from line to line");
+      line.refuse("time stamps must rise from line to line; " + remedy +
+                  " orders them and keeps one of each");
     }
   }
   return poses;
@@ -42,18 +44,19 @@ Poses rising(const Lines& lines, const Read& read) {
 // Nothing that moves is known more than 10 000 times a second: such time stamps are of another
 // unit.
 void require_nanoseconds(const std::vector<StampedSpatialPose>& poses, const std::string& name) {
-  constexpr std::int64_t kLeastStep = 100'000;
+  constexpr std::uint64_t kLeastStep = 100'000;
   if (poses.size() < 2) return;
-  const std::int64_t steps = static_cast<std::int64_t>(poses.size()) - 1;
-  const std::int64_t step_ns = poses.back().time_ns / steps - poses.front().time_ns / steps;
+  // They rise, and may be further apart than a signed difference can tell.
+  const std::uint64_t span_ns = static_cast<std::uint64_t>(poses.back().time_ns) -
+                                static_cast<std::uint64_t>(poses.front().time_ns);
+  const std::uint64_t step_ns = span_ns / (poses.size() - 1);
   if (step_ns >= kLeastStep) return;
-  throw InputError(name, "the time stamps are " +
-                             std::to_string(std::max<std::int64_t>(step_ns, 1)) +
+  throw InputError(name, "the time stamps are " + std::to_string(step_ns) +
                              " ns apart; an EuRoC file has whole nanoseconds, 1 s is 1000000000");
 }
 
 std::vector<StampedSpatialPose> read_euroc(const Lines& lines, const std::string& name) {
-  auto poses = rising<std::vector<StampedSpatialPose>>(lines, euroc_pose);
+  auto poses = rising(lines, euroc_pose, "sort -u -t , -k1,1n");
   require_nanoseconds(poses, name);
   return poses;
 }
@@ -112,7 +115,7 @@ SpatialTrajectory read_trajectory(const TrajectorySource& source) {
                                " can be for a KITTI trajectory alone");
   }
   if (trajectory.format == TrajectoryFormat::tum) {
-    trajectory.poses = rising<std::vector<StampedSpatialPose>>(lines, tum_pose);
+    trajectory.poses = rising(lines, tum_pose, "sort -u -k1,1n");
   } else if (is_kitti) {
     trajectory.poses = read_kitti(source, lines);
     trajectory.has_times = !source.times.empty();

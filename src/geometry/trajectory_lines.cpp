@@ -53,6 +53,9 @@ Eigen::Quaterniond nearest_rotation(const LineOfFile& line, const Eigen::Matrix3
         "columns 1 to 3, 5 to 7 and 9 to 11 must be a rotation matrix, not a reflection "
         "(determinant -1)");
   }
+  // One of all digits is left as it is.
+  constexpr double kRounding = 1e-14;
+  if (excess.cwiseAbs().maxCoeff() < kRounding) return Eigen::Quaterniond(matrix).normalized();
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(matrix, Eigen::ComputeFullU | Eigen::ComputeFullV);
   const Eigen::Matrix3d rotation = svd.matrixU() * svd.matrixV().transpose();
   return Eigen::Quaterniond(rotation).normalized();
