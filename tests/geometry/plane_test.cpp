@@ -132,20 +132,23 @@ TEST(PlaneTest, NearGimbalLockHeadingIsThatOfAnotherAxisOrSaidToBeOpen) {
 }
 
 TEST(PlaneTest, FitFindsATiltedPlane) {
-  Level drawn = level(30);
-  const Quaterniond tilt(AngleAxisd(0.2, Vector3d(1, 2, 0).normalized()));
-  for (auto& [time, pose] : drawn.spatial) {
-    pose.position_m = tilt * pose.position_m;
-    pose.rotation = tilt * pose.rotation;
+  // Whichever way the normal comes out of the decomposition, up stays up.
+  for (const double azimuth : {0.3, 1.5, 2.5, 4.0, 5.5}) {
+    const Quaterniond tilt(AngleAxisd(0.2, Vector3d(std::cos(azimuth), std::sin(azimuth), 0)));
+    Level drawn = level(30);
+    for (auto& [time, pose] : drawn.spatial) {
+      pose.position_m = tilt * pose.position_m;
+      pose.rotation = tilt * pose.rotation;
+    }
+    const PlaneAxes axes = axes_of(Plane::fit, drawn.spatial);
+    EXPECT_EQ(axes.named, Plane::xy);
+    EXPECT_NEAR(axes.tilt_rad, 0.2, 1e-12);
+    const Projection projection = projected(drawn.spatial, Plane::fit);
+    EXPECT_LT(projection.loss.height_max_m, 1e-12);
+    // The smallest rotation undoes the tilt, so that the poses are those of before.
+    expect_poses(projection, drawn.planar, 1e-11);
+    EXPECT_GT(projected(drawn.spatial, Plane::xy).loss.height_rms_m, 0.5);
   }
-  const PlaneAxes axes = axes_of(Plane::fit, drawn.spatial);
-  EXPECT_EQ(axes.named, Plane::xy);
-  EXPECT_NEAR(axes.tilt_rad, 0.2, 1e-12);
-  const Projection projection = projected(drawn.spatial, Plane::fit);
-  EXPECT_LT(projection.loss.height_max_m, 1e-12);
-  // The smallest rotation undoes the tilt, so that the poses are those of before.
-  expect_poses(projection, drawn.planar, 1e-11);
-  EXPECT_GT(projected(drawn.spatial, Plane::xy).loss.height_rms_m, 0.5);
 }
 
 TEST(PlaneTest, FitOfALineIsRefused) {
