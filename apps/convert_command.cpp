@@ -1,6 +1,5 @@
 // fathom convert: trajectories and pose graphs from one format to another.
 
-#include <cctype>
 #include <cstdio>
 #include <memory>
 
@@ -31,7 +30,10 @@ bool is_graph(const std::string& path) {
   const std::string content = read_text(path);
   for (const std::string_view line : split(content, "\n")) {
     const std::string_view text = trim(line.substr(0, line.find('#')));
-    if (!text.empty()) return std::isalpha(static_cast<unsigned char>(text.front())) != 0;
+    if (text.empty()) continue;
+    const auto opens_with = [&](std::string_view tag) { return text.starts_with(tag); };
+    return opens_with("VERTEX") || opens_with("EDGE") || opens_with("FIX") || opens_with("EQUIV") ||
+           opens_with("PARAMS");
   }
   return false;
 }
@@ -117,8 +119,8 @@ void convert(const ConvertFlags& flags, Context& context) {
   }
   if (is_graph(flags.input) != to_graph) {
     throw InputError(flags.input, to_graph ? "is no pose graph; --to takes tum, kitti or euroc"
-                                           : "is a pose graph, if anything; --to takes g2o or "
-                                             "toro, and fathom solve writes its trajectory");
+                                           : "is a pose graph; --to takes g2o or toro, and fathom "
+                                             "solve writes its trajectory");
   }
   const Notes notes = to_graph ? convert_graph_file(flags) : convert_trajectory_file(flags);
   context.status = kDone;

@@ -84,11 +84,13 @@ std::vector<StampedPose> stamps_of(const SpatialTrajectory& trajectory) {
                                      : ", which holds none";
     throw InputError(flags.estimate, what);
   }
-  const double apart_s = static_cast<double>(reference.poses.front().time_ns) / 1e9 -
-                         static_cast<double>(estimate.poses.front().time_ns) / 1e9;
+  // In 64 bits: doubles of Unix times are good to 0.1 microseconds.
+  const auto apart_ns = static_cast<long double>(reference.poses.front().time_ns) -
+                        static_cast<long double>(estimate.poses.front().time_ns);
+  const double offset_s = flags.time_offset_s + static_cast<double>(apart_ns / 1e9L);
   throw InputError(flags.estimate,
                    what + ": it is from " + span_text(estimate) + ", the reference from " +
-                       span_text(reference) + "; --time-offset " + number_text(apart_s) +
+                       span_text(reference) + "; --time-offset " + number_text(offset_s) +
                        " lets both begin together, and --max-difference may be larger");
 }
 
@@ -164,7 +166,7 @@ void add_evaluate(CLI::App& program, Context& context) {
   command.real("--time-offset", flags->time_offset_s, Range::between(-9e9, 9e9), "S",
                "Added to the time stamps of the trajectory (s)");
   command.text("--plane", flags->plane, "PLANE",
-               "What both are projected onto: xy, xz, yz or fit; else xz for KITTI and xy");
+               "What both are projected onto: xy, xz, yz or fit; else xz for KITTI, xy for others");
   command.text("--reference-plane", flags->of_reference.plane, "PLANE",
                "Of the reference, where it has other axes");
   command.text("--from", flags->of_estimate.format, "FORMAT",

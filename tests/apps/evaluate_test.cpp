@@ -108,6 +108,8 @@ TEST_F(Commands, EvaluateReadsTimesOfKittiAndAnOffset) {
       refusal({"evaluate", "then.tum", "now.tum"}),
       HasSubstr("it is from 0.250000000 to 1.250000000 s, the reference from 1000.500000000 "
                 "to 1001.500000000 s; --time-offset 1000.25 lets both begin together"));
+  EXPECT_THAT(refusal({"evaluate", "then.tum", "now.tum", "--time-offset", "5"}),
+              HasSubstr("--time-offset 1000.25 lets"));
   EXPECT_THAT(fathom_done({"evaluate", "then.tum", "now.tum", "--time-offset", "1000.25"}).out,
               HasSubstr("2 of 2 poses"));
 }
