@@ -5,6 +5,8 @@
 #include <unistd.h>
 #include <utility>
 
+#include "fathom/datasets/picture_folder.hpp"
+
 namespace fathom {
 
 void CommonFlags::add_settings_to(Command& command) {
@@ -20,7 +22,8 @@ void CommonFlags::add_out_to(Command& command, const std::string& what) {
 
 Settings settings_of_folder(const std::string& path) {
   Settings settings;
-  settings.put({"dataset.type", OptionValue::scalar("image_folder"), path});
+  const std::string type = is_plain_picture_folder(path) ? "pictures" : "image_folder";
+  settings.put({"dataset.type", OptionValue::scalar(type), path});
   settings.put({"dataset.path", OptionValue::scalar(path), path});
   return settings;
 }

@@ -33,7 +33,8 @@ struct CommonFlags {
   std::string folder_or(const std::string& name) const;
 };
 
-/// Of a folder of pictures that is given in place of a configuration: that it is the data set.
+/// Of a folder of pictures that is given in place of a configuration: that it is the data set, in
+/// the EuRoC/ASL layout or plain.
 Settings settings_of_folder(const std::string& path);
 
 /// What a configuration from `path` has the program read: itself, its data set, its floor.

@@ -178,8 +178,9 @@ void add_run(CLI::App& program, Context& context) {
   Command command(program, "run", "Run one estimator over one data set",
                   "Example: fathom run configs/run.yaml --set estimator.type=ekf --out runs/ekf\n"
                   "         fathom run my_survey");
-  command.argument("config", flags->config,
-                   "Configuration (YAML), or a folder of pictures in the EuRoC/ASL layout");
+  command.argument(
+      "config", flags->config,
+      "Configuration (YAML), or a folder of pictures, plain or in the EuRoC/ASL layout");
   flags->common.add_settings_to(command);
   flags->common.add_out_to(command, "Output folder (default: runs/CONFIG's name)");
   command.text("--cache", flags->cache, "DIR",
