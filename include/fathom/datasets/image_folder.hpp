@@ -41,6 +41,8 @@ class ImageFolder : public FrameSource {
   bool has_odometry() const override { return has_odometry_; }
   /// The pictures and the files of all sensors, each a regular file.
   std::vector<std::filesystem::path> files() const;
+  /// The file of frame i's picture.
+  const std::filesystem::path& picture(std::size_t i) const { return pictures_[i]; }
   /// Whether every frame has ground truth.
   bool has_ground_truth() const override { return has_ground_truth_; }
 

@@ -1,4 +1,4 @@
-#include "camera_yaml.hpp"
+#include "fathom/datasets/asl_files.hpp"
 
 #include <cmath>
 #include <optional>

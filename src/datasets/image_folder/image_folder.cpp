@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "camera_yaml.hpp"
+#include "fathom/datasets/asl_files.hpp"
 #include "fathom/core/files.hpp"
 #include "fathom/core/hash.hpp"
 #include "fathom/core/input_error.hpp"
