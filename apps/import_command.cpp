@@ -53,8 +53,7 @@ void import_into(const ImportFlags& flags, ImportKind kind, StagedFolder& folder
     std::printf("\nwrote %s\nlook at it with: fathom check %s\n",
                 (folder.target() / "mav0").c_str(), target.c_str());
   } else {
-    std::printf("\nwrote %s\n      %s\n",
-                (folder.target() / "state_groundtruth_estimate0").c_str(),
+    std::printf("\nwrote %s\n      %s\n", (folder.target() / "state_groundtruth_estimate0").c_str(),
                 (folder.target() / "reference.tum").c_str());
   }
 }
@@ -117,7 +116,8 @@ void add_value_flags(Command& command, ImportFlags& flags) {
 void add_import(CLI::App& program, Context& context) {
   auto flags = std::make_shared<ImportFlags>();
   Command command(
-      program, "import", "Make an image folder of a ROS bag, or a reference of another tool's poses",
+      program, "import",
+      "Make an image folder of a ROS bag, or a reference of another tool's poses",
       "Examples: fathom import dive.bag --list\n"
       "          fathom import dive.bag --images /cam/image_raw --altitude /dvl/range --out dive\n"
       "          fathom import colmap_text --survey dive --scale 1.83 --out dive/mav0\n"

@@ -72,7 +72,8 @@ ImportReport import_bag(const std::filesystem::path& bag, const BagImportOptions
 /// How poses of another tool become a reference.
 struct PoseImportOptions {
   /// The survey whose pictures they are: its time stamps are taken, by the names of the pictures
-  /// (COLMAP) or by their order (KITTI). Without it KITTI needs `times`; COLMAP's poses are numbered.
+  /// (COLMAP) or by their order (KITTI). Without it KITTI needs `times`; COLMAP's poses are
+  /// numbered.
   std::filesystem::path survey;
   std::filesystem::path times;  ///< of KITTI: seconds, one a line
   double scale = 1.0;           ///< metres per unit of the poses

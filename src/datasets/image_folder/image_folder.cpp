@@ -4,10 +4,10 @@
 #include <optional>
 #include <string>
 
-#include "fathom/datasets/asl_files.hpp"
 #include "fathom/core/files.hpp"
 #include "fathom/core/hash.hpp"
 #include "fathom/core/input_error.hpp"
+#include "fathom/datasets/asl_files.hpp"
 #include "fathom/datasets/picture_file.hpp"
 #include "sensor_csv.hpp"
 #include "sensor_series.hpp"

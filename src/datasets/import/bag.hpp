@@ -20,7 +20,7 @@ struct BagTopic {
 };
 
 struct BagMessage {
-  std::size_t topic = 0;           ///< its index among the topics
+  std::size_t topic = 0;            ///< its index among the topics
   std::int64_t record_time_ns = 0;  ///< when it was written to the bag
   MessageReader& reader;
 };

@@ -17,8 +17,8 @@ void set_distortion(const CameraInfoMessage& info, CameraModel& model) {
   if (std::ranges::all_of(info.D, is_zero)) return;
   const bool is_polynomial =
       info.distortion_model == "plumb_bob" || info.distortion_model == "rational_polynomial";
-  const bool is_plain = info.D.size() <= kPlumbBob ||
-                        std::all_of(info.D.begin() + kPlumbBob, info.D.end(), is_zero);
+  const bool is_plain =
+      info.D.size() <= kPlumbBob || std::all_of(info.D.begin() + kPlumbBob, info.D.end(), is_zero);
   if (!is_polynomial || !is_plain) {
     throw InputError("its distortion model " + in_quotes(info.distortion_model) +
                      " is not read; expected plumb_bob, or rectified pictures (image_rect of "
@@ -50,8 +50,8 @@ bool is_rectified(const std::string& image_topic) {
   return image_topic.find("/image_rect") != std::string::npos;
 }
 
-CameraModel camera_of(const CameraInfoMessage& info, const std::string& image_topic,
-                      int width, int height) {
+CameraModel camera_of(const CameraInfoMessage& info, const std::string& image_topic, int width,
+                      int height) {
   CameraModel model;
   model.width = width;
   model.height = height;

@@ -12,8 +12,8 @@ namespace fathom {
 /// region of interest applied. Throws InputError on a camera that is not calibrated, on pictures of
 /// another size than it says, and on a model other than plumb_bob, and rational_polynomial where it
 /// is no more than that.
-CameraModel camera_of(const CameraInfoMessage& info, const std::string& image_topic,
-                      int width, int height);
+CameraModel camera_of(const CameraInfoMessage& info, const std::string& image_topic, int width,
+                      int height);
 
 bool is_rectified(const std::string& image_topic);
 

@@ -88,7 +88,8 @@ ImportReport import_bag(const fs::path& path, const BagImportOptions& options,
   report.facts.insert(report.facts.begin(), lines.begin(), lines.end());
   std::ranges::copy(choice.notes, std::back_inserter(report.notes));
   if (left_out > 0) {
-    report.notes.push_back(std::to_string(left_out) + " of the pictures left out: not between two " +
+    report.notes.push_back(std::to_string(left_out) +
+                           " of the pictures left out: not between two " +
                            (choice.odometry ? "altitudes and two poses of odometry" : "altitudes") +
                            " at most 2 s apart");
   }

@@ -61,9 +61,9 @@ BagPicture picture_of(const ImageMessage& message) {
   const std::size_t row_bytes = message.width * CV_ELEM_SIZE(encoding->type);
   const bool is_size = message.width > 0 && message.height > 0 && message.width <= kLargestSide &&
                        message.height <= kLargestSide;
-  const bool is_whole = message.step >= row_bytes &&
-                        message.data.size() >= std::size_t{message.step} * (message.height - 1) +
-                                                   row_bytes;
+  const bool is_whole =
+      message.step >= row_bytes &&
+      message.data.size() >= std::size_t{message.step} * (message.height - 1) + row_bytes;
   if (!is_size || !is_whole) {
     throw InputError("a picture of " + std::to_string(message.width) + " x " +
                      std::to_string(message.height) + " pixels in " +

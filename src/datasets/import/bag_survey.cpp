@@ -47,8 +47,8 @@ void BagSurvey::take(const BagMessage& message) {
     if (choice_.heading == message.topic) take_heading(message);
   } catch (const InputError& error) {
     const std::string what = error.what();
-    throw InputError(what.find(topic.name) == std::string::npos ? "topic " + topic.name + ": " + what
-                                                                : what);
+    throw InputError(
+        what.find(topic.name) == std::string::npos ? "topic " + topic.name + ": " + what : what);
   }
 }
 

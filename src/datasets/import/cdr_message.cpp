@@ -4,7 +4,6 @@
 #ifdef FATHOM_FASTCDR
 
 #include <cstddef>
-
 #include <fastcdr/Cdr.h>
 #include <fastcdr/FastBuffer.h>
 #include <fastcdr/exceptions/Exception.h>

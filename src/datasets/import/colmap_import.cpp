@@ -128,7 +128,8 @@ ImportReport import_colmap(const fs::path& model, const PoseImportOptions& optio
     std::erase_if(cameras, [&](const NamedCamera& camera) { return !survey->frame(camera.name); });
     if (cameras.empty()) {
       throw InputError(file.string(), "none of its images is a picture of " +
-                                          options.survey.string() + "; they are told by their names");
+                                          options.survey.string() +
+                                          "; they are told by their names");
     }
   }
   std::vector<CameraPose> poses;
@@ -138,7 +139,8 @@ ImportReport import_colmap(const fs::path& model, const PoseImportOptions& optio
   for (std::size_t i = 0; i < cameras.size(); ++i) {
     const std::size_t frame = survey ? *survey->frame(cameras[i].name) : i;
     if (!by_frame.emplace(frame, planar.poses[i]).second) {
-      throw InputError(file.string(), "has two images by the name of " + in_quotes(cameras[i].name));
+      throw InputError(file.string(),
+                       "has two images by the name of " + in_quotes(cameras[i].name));
     }
   }
   constexpr std::int64_t kSecond = 1'000'000'000;
@@ -159,10 +161,10 @@ ImportReport import_colmap(const fs::path& model, const PoseImportOptions& optio
   write_reference_poses(reference, folder);
   report.facts.push_back(std::to_string(reference.size()) + " poses of " + std::to_string(images) +
                          " images");
-  report.facts.push_back("off the plane that fits best: " +
-                         short_number(planar.rms_off_plane * options.scale) +
-                         " m rms; tilt of the optical axes: median " +
-                         degrees(planar.median_tilt_rad) + ", most " + degrees(planar.most_tilt_rad));
+  report.facts.push_back(
+      "off the plane that fits best: " + short_number(planar.rms_off_plane * options.scale) +
+      " m rms; tilt of the optical axes: median " + degrees(planar.median_tilt_rad) + ", most " +
+      degrees(planar.most_tilt_rad));
   if (planar.is_normal_by_view) {
     report.notes.emplace_back(
         "the cameras lie along a line: the plane is that across their mean optical axis");

@@ -107,7 +107,8 @@ ImportReport import_kitti(const fs::path& path, const PoseImportOptions& options
   }
   write_reference_poses(reference, folder);
   ImportReport report;
-  report.facts.push_back(std::to_string(reference.size()) + " poses, in the plane of z (forward) "
+  report.facts.push_back(std::to_string(reference.size()) +
+                         " poses, in the plane of z (forward) "
                          "and x (to starboard)");
   report.facts.push_back("height left out: at most " +
                          short_number(poses.most_height * options.scale) + " m from the origin");

@@ -113,10 +113,10 @@ OdometryRows odometry_rows(const std::vector<OdometryReading>& readings,
   }
   auto rows = rows_by(readings, random_walk(sigma_m, sigma_rad));
   if (!rows) throw InputError("--odometry-sigma-m and --odometry-sigma-rad must be above zero");
-  return {std::move(*rows),
-          is_given ? walk
-                   : "none that could be one in the bag, so " + walk +
-                         ": say yours by --odometry-sigma-m and --odometry-sigma-rad"};
+  return {std::move(*rows), is_given
+                                ? walk
+                                : "none that could be one in the bag, so " + walk +
+                                      ": say yours by --odometry-sigma-m and --odometry-sigma-rad"};
 }
 
 }  // namespace fathom

@@ -21,10 +21,10 @@ struct CameraPose {
 struct PlanarCameras {
   /// x forward, y to port; the first is the origin. In the units of the model.
   std::vector<Pose> poses;
-  double rms_off_plane = 0.0;       ///< of the centres, in the units of the model
-  double most_tilt_rad = 0.0;       ///< of an optical axis against the plane's normal
+  double rms_off_plane = 0.0;  ///< of the centres, in the units of the model
+  double most_tilt_rad = 0.0;  ///< of an optical axis against the plane's normal
   double median_tilt_rad = 0.0;
-  bool is_normal_by_view = false;   ///< the centres lie along a line: by the optical axes alone
+  bool is_normal_by_view = false;  ///< the centres lie along a line: by the optical axes alone
 };
 
 /// `cameras` is not empty. The plane's upper side is the one that the cameras lie on, looking down,

@@ -7,11 +7,10 @@
 
 #include <algorithm>
 #include <map>
-#include <set>
-#include <string_view>
-
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
+#include <set>
+#include <string_view>
 
 #include "ros1_records.hpp"
 
@@ -41,8 +40,7 @@ class Ros1Bag : public Bag {
       std::vector<std::uint8_t> bytes;
       for (const rosbag::MessageInstance& message : view) {
         bytes.resize(message.size());
-        ros::serialization::OStream stream(bytes.data(),
-                                           static_cast<std::uint32_t>(bytes.size()));
+        ros::serialization::OStream stream(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
         message.write(stream);
         const auto reader =
             ros1_message({reinterpret_cast<const char*>(bytes.data()), bytes.size()});

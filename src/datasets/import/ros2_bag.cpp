@@ -1,8 +1,7 @@
+#include <SQLiteCpp/SQLiteCpp.h>
 #include <map>
 #include <set>
 #include <string_view>
-
-#include <SQLiteCpp/SQLiteCpp.h>
 
 #include "bag.hpp"
 #include "fathom/core/input_error.hpp"
@@ -59,8 +58,8 @@ class Ros2Bag : public Bag {
     while (rows.executeStep()) {
       const std::string format = rows.getColumn(2).getString();
       if (format != "cdr") {
-        throw InputError(file.string(), "has messages in the format " + in_quotes(format) +
-                                            "; expected cdr");
+        throw InputError(file.string(),
+                         "has messages in the format " + in_quotes(format) + "; expected cdr");
       }
       BagTopic& topic = found[rows.getColumn(0).getString()];
       topic.name = rows.getColumn(0).getString();
@@ -108,9 +107,10 @@ class Ros2Bag : public Bag {
       SQLite::Database bag(file.string(), SQLite::OPEN_READONLY);
       action(bag);
     } catch (const SQLite::Exception& error) {
-      throw InputError(file.string(),
-                       std::string("cannot be read as a ROS 2 bag, is it cut short? SQLite says: ") +
-                           error.what());
+      throw InputError(
+          file.string(),
+          std::string("cannot be read as a ROS 2 bag, is it cut short? SQLite says: ") +
+              error.what());
     }
   }
 

@@ -44,8 +44,8 @@ std::vector<fs::path> named_files(const fs::path& folder, const fs::path& metada
     // Early versions wrote the bag's own folder before the name.
     files.push_back(folder / fs::path(file.Scalar()).filename());
     if (!fs::is_regular_file(files.back())) {
-      throw InputError(metadata.string(), "names " + in_quotes(file.Scalar()) +
-                                              ", which is not in the folder");
+      throw InputError(metadata.string(),
+                       "names " + in_quotes(file.Scalar()) + ", which is not in the folder");
     }
   }
   if (files.empty()) throw InputError(metadata.string(), "names no file of messages");

@@ -46,11 +46,10 @@ double StampedTopic::delay_s() const {
 }
 
 void StampedTopic::check_rate() const {
-  constexpr double kShortest = 1.0;    // seconds: of less nothing can be said
+  constexpr double kShortest = 1.0;     // seconds: of less nothing can be said
   constexpr double kMostRatio = 100.0;  // between a clock and another one, both in the same unit
   if (clock_ != BagClock::automatic || times_ns_.size() < 2) return;
-  const double span_s =
-      static_cast<double>(times_ns_.back() - times_ns_.front()) * kSecondsPerNs;
+  const double span_s = static_cast<double>(times_ns_.back() - times_ns_.front()) * kSecondsPerNs;
   const double recorded_s =
       span_s + static_cast<double>(delays_ns_.back() - delays_ns_.front()) * kSecondsPerNs;
   const bool is_like = span_s < kMostRatio * recorded_s && recorded_s < kMostRatio * span_s;
@@ -66,8 +65,8 @@ void check_clocks(const StampedTopic& pictures, const StampedTopic& other, doubl
   const double ahead_s = pictures.delay_s() - other.delay_s();
   if (std::abs(ahead_s) <= max_offset_s) return;
   throw InputError("two clocks disagree: against the times of recording, " + other.name() + " is " +
-                   short_number(std::abs(ahead_s), 6) + " s " + (ahead_s > 0.0 ? "ahead of " : "behind ") +
-                   pictures.name() + "; " + kRemedy +
+                   short_number(std::abs(ahead_s), 6) + " s " +
+                   (ahead_s > 0.0 ? "ahead of " : "behind ") + pictures.name() + "; " + kRemedy +
                    ", --clock header takes all stamps as they are");
 }
 

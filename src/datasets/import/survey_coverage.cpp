@@ -55,7 +55,8 @@ void check_spans(const std::vector<WrittenPicture>& pictures, const std::string&
     const double offset_s = static_cast<double>(begin - first) * kSecondsPerNs;
     throw InputError("two clocks disagree: " + span_text(picture_topic, first, last) + ", " +
                      span_text(other.topic, begin, end) + ", " +
-                     short_number(std::abs(offset_s), 6) + (offset_s > 0.0 ? " s later" : " s earlier") +
+                     short_number(std::abs(offset_s), 6) +
+                     (offset_s > 0.0 ? " s later" : " s earlier") +
                      "; --clock record takes the times of recording of both");
   }
 }

@@ -23,7 +23,11 @@ class SurveyWriter {
  public:
   SurveyWriter(const BagSurvey& survey, const std::vector<BagTopic>& topics,
                const TopicChoice& choice, const BagImportOptions& options, fs::path mav0)
-      : survey_(survey), topics_(topics), choice_(choice), options_(options), mav0_(std::move(mav0)) {}
+      : survey_(survey),
+        topics_(topics),
+        choice_(choice),
+        options_(options),
+        mav0_(std::move(mav0)) {}
 
   ImportReport write() {
     write_pictures();
@@ -78,8 +82,9 @@ class SurveyWriter {
     fact(count(survey_.pictures.size(), "picture") + " of " +
          size_text(survey_.width, survey_.height) + " from " + topic(choice_.images).name);
     if (options_.camera_yaml.empty() && !options_.mount_yaw_rad) {
-      note("the camera is taken to be at the body's origin, the top of its picture forward: "
-           "--mount-x, --mount-y and --mount-yaw say where it is");
+      note(
+          "the camera is taken to be at the body's origin, the top of its picture forward: "
+          "--mount-x, --mount-y and --mount-yaw say where it is");
     }
   }
 
@@ -143,9 +148,10 @@ class SurveyWriter {
     }
     const std::string& name = topic(choice_.heading).name;
     if (rows.empty()) return note("no heading: " + name + " says that it has no orientation");
-    write_sensor(mav0_ / "compass0", "timestamp [ns],heading [rad],variance [rad^2]", rows,
-                 "sensor_type: compass # yaw of the body in the world of the bag, counter-clockwise "
-                 "seen from above\n");
+    write_sensor(
+        mav0_ / "compass0", "timestamp [ns],heading [rad],variance [rad^2]", rows,
+        "sensor_type: compass # yaw of the body in the world of the bag, counter-clockwise "
+        "seen from above\n");
     fact(count(survey_.headings.size(), "heading") + " from " + name +
          ", in compass0; a run does not use them");
     if (unknown > 0) {

@@ -116,8 +116,8 @@ class Chooser {
       }
       return all;
     };
-    choice_.camera_info = chosen("camera-info", options_.camera_info, {"sensor_msgs/CameraInfo"},
-                                 guess);
+    choice_.camera_info =
+        chosen("camera-info", options_.camera_info, {"sensor_msgs/CameraInfo"}, guess);
     if (!choice_.camera_info) {
       throw InputError(file_,
                        "has no sensor_msgs/CameraInfo; --camera FILE takes a sensor.yaml in its "
@@ -190,8 +190,8 @@ class Chooser {
                        const Guess& guess) {
     const auto topic = chosen(flag, given, types, guess);
     if (topic) return *topic;
-    throw InputError(file_, "has no pictures: no topic of type " + joined(types, " or ") +
-                                " with messages");
+    throw InputError(
+        file_, "has no pictures: no topic of type " + joined(types, " or ") + " with messages");
   }
 
   // Several of them are no error, as a survey does without.

@@ -1,12 +1,11 @@
 // CDR as OMG's specification has it: four bytes that say the byte order, then each number at a
 // multiple of its size from there on, texts and lists after their length.
 
+#include <SQLiteCpp/SQLiteCpp.h>
 #include <algorithm>
 #include <bit>
 #include <cstring>
 #include <map>
-
-#include <SQLiteCpp/SQLiteCpp.h>
 
 #include "support/bags/bag_writer.hpp"
 
