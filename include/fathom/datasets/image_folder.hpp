@@ -10,6 +10,8 @@
 
 namespace fathom {
 
+class SensorCsv;
+
 /// A recorded survey in the EuRoC/ASL folder layout (docs/formats.md).
 ///
 /// Frames are the rows of `cam0/data.csv`. Other sensors may run at other rates: a reading with a
@@ -48,6 +50,7 @@ class ImageFolder : public FrameSource {
 
  private:
   void read_frames();
+  void refuse_other_units(const SensorCsv& csv) const;
   void read_altitudes();
   void read_odometry();
   void read_ground_truth();

@@ -1,6 +1,7 @@
 #include "bag_picture.hpp"
 
 #include <cstddef>
+#include <cstring>
 #include <map>
 #include <string_view>
 #include <vector>
@@ -70,15 +71,14 @@ BagPicture picture_of(const ImageMessage& message) {
                      std::to_string(message.data.size()) + " bytes, " +
                      std::to_string(message.step) + " a row, is not whole");
   }
-  // Only read, but cv::Mat has one kind of memory.
-  const cv::Mat seen(static_cast<int>(message.height), static_cast<int>(message.width),
-                     encoding->type, const_cast<char*>(message.data.data()), message.step);
+  // Row by row: a message may put a row, and so a pixel of two bytes, at any place.
+  cv::Mat seen(static_cast<int>(message.height), static_cast<int>(message.width), encoding->type);
+  for (int row = 0; row < seen.rows; ++row) {
+    std::memcpy(seen.ptr(row), message.data.data() + std::size_t{message.step} * row, row_bytes);
+  }
+  if (message.is_bigendian && seen.depth() == CV_16U) swap_bytes(seen);
   cv::Mat picture = seen;
   if (encoding->conversion != kAsItIs) cv::cvtColor(seen, picture, encoding->conversion);
-  if (message.is_bigendian && picture.depth() == CV_16U) {
-    picture = seen.clone();
-    swap_bytes(picture);
-  }
   std::vector<uchar> png;
   if (!cv::imencode(".png", picture, png)) throw InputError("a picture cannot be encoded as PNG");
   return {".png", {png.begin(), png.end()}, picture.cols, picture.rows};

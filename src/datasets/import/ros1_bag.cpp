@@ -6,6 +6,7 @@
 #ifdef FATHOM_ROSBAG
 
 #include <algorithm>
+#include <console_bridge/console.h>
 #include <map>
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
@@ -20,6 +21,8 @@ namespace {
 class Ros1Bag : public Bag {
  public:
   explicit Ros1Bag(const std::filesystem::path& path) : path_(path.string()) {
+    // It prints what it throws as well.
+    console_bridge::setLogLevel(console_bridge::CONSOLE_BRIDGE_LOG_NONE);
     check_ros1_records(path);
     guarded([this] {
       bag_.open(path_, rosbag::bagmode::Read);
