@@ -70,9 +70,9 @@ void compare_as(const std::optional<Shard>& shard, const CompareFlags& flags, Co
   if (flags.only_registrations) {
     only_register(study, *cache, options, flags, context);
   } else if (shard) {
-    run_shard(study, *shard, out, data_set.pictures(), options, flags, context);
+    run_shard(study, *shard, out, data_set.pictures(), options, cache.get(), flags, context);
   } else {
-    run_whole(study, out, data_set.pictures(), options, flags, context);
+    run_whole(study, out, data_set.pictures(), options, cache.get(), flags, context);
   }
 }
 

@@ -31,10 +31,10 @@ struct RunFlags {
 
 Recording record_with_progress(const Recorder& recorder, const Configuration& configuration,
                                bool quiet) {
-  ProgressLine line("front end, frame", quiet);
+  ProgressLine line("front end, picture", quiet);
   const TrialNoise noise{static_cast<std::uint64_t>(configuration.seed), 0};
   return recorder.record(configuration, configuration.reference, builtin_estimators(), noise,
-                         line.callback());
+                         line.front_end_callback());
 }
 
 Result evaluate_with_progress(const Recording& recording, const Configuration& configuration,

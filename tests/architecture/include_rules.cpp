@@ -83,7 +83,7 @@ const std::vector<ThirdParty>& third_parties() {
       {"sys/resource.h", {"src/core/system.cpp"}},
       {"unistd.h",
        {"src/core/files.cpp", "src/core/file_lock.cpp", "src/core/system.cpp", "apps/common.cpp",
-        "apps/out_of_memory.cpp"}}};
+        "apps/out_of_memory.cpp", "apps/stop_signal.cpp"}}};
   return list;
 }
 
