@@ -69,5 +69,60 @@ TEST_P(BagRoundTrip, ListSaysWhatTopicsAreTakenFor) {
   EXPECT_THAT(lines, Contains(HasSubstr("geometry_msgs/PointStamped")));
 }
 
+// What is stored in other ways than the plain one: the same folder comes of it.
+class BagStorage : public ::testing::Test {
+ protected:
+  std::string odometry_of(const std::filesystem::path& bag) const {
+    import_bag(bag, {}, folder_ / "out");
+    return read_file(folder_ / "out" / "mav0" / "odometry0" / "data.csv");
+  }
+
+  SimulatedSurvey survey_{test::small_survey(), 2};
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(BagStorage, CompressedChunksOfRos1) {
+  using test::BagCompression;
+  if (test::ros1_bag_writer(folder_ / "probe.bag") == nullptr) {
+    GTEST_SKIP() << "built without librosbag or the message classes of ROS";
+  }
+  std::vector<std::string> rows;
+  for (const auto compression : {BagCompression::none, BagCompression::bz2, BagCompression::lz4}) {
+    const auto bag = folder_ / (std::to_string(rows.size()) + ".bag");
+    test::write_survey_bag(survey_, *test::ros1_bag_writer(bag, compression));
+    rows.push_back(odometry_of(bag));
+  }
+  EXPECT_LT(std::filesystem::file_size(folder_ / "1.bag"),
+            std::filesystem::file_size(folder_ / "0.bag"));
+  EXPECT_EQ(rows[1], rows[0]);
+  EXPECT_EQ(rows[2], rows[0]);
+}
+
+TEST_F(BagStorage, BigEndianMessagesOfRos2) {
+  test::write_survey_bag(survey_, *test::ros2_bag_writer(folder_ / "little.db3"));
+  test::write_survey_bag(survey_, *test::ros2_bag_writer(folder_ / "big.db3", true));
+  EXPECT_EQ(odometry_of(folder_ / "big.db3"), odometry_of(folder_ / "little.db3"));
+}
+
+// The recorder begins a new file when one is full.
+TEST_F(BagStorage, FolderOfSeveralFilesOfRos2) {
+  const auto bag = folder_ / "bag";
+  std::filesystem::create_directories(bag);
+  test::SurveyBag later;
+  later.begin_ns += 1'000'000'000'000;
+  test::write_survey_bag(survey_, *test::ros2_bag_writer(bag / "b_0.db3"));
+  test::write_survey_bag(survey_, *test::ros2_bag_writer(bag / "a_1.db3"), later);
+  write_file(bag / "metadata.yaml",
+             "rosbag2_bagfile_information:\n  version: 5\n  storage_identifier: sqlite3\n"
+             "  compression_format: \"\"\n  relative_file_paths: [b_0.db3, a_1.db3]\n");
+  BagImportOptions options;
+  options.odometry_sigma_m = 0.1;
+  import_bag(bag, options, folder_ / "out");
+  EXPECT_EQ(ImageFolder(folder_ / "out").size(), 2 * survey_.size());
+  std::filesystem::remove(bag / "a_1.db3");
+  EXPECT_THAT(test::input_error_of([&] { import_bag(bag, options, folder_ / "out"); }),
+              HasSubstr("names 'a_1.db3', which is not in the folder"));
+}
+
 }  // namespace
 }  // namespace fathom

@@ -75,8 +75,11 @@ class BagWriter {
   virtual void word(const std::string& topic, Stamps stamps, const std::string& word) = 0;
 };
 
+enum class BagCompression { none, bz2, lz4 };
+
 /// By rosbag::Bag and the message classes of ROS; nothing where Fathom is built without librosbag.
-std::unique_ptr<BagWriter> ros1_bag_writer(const std::filesystem::path& path);
+std::unique_ptr<BagWriter> ros1_bag_writer(const std::filesystem::path& path,
+                                           BagCompression compression = BagCompression::none);
 
 /// A `.db3` with the tables of rosbag2 and CDR of our own.
 std::unique_ptr<BagWriter> ros2_bag_writer(const std::filesystem::path& path,

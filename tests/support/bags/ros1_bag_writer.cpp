@@ -49,8 +49,11 @@ void copy(const From& from, To& to) {
 
 class Ros1BagWriter : public BagWriter {
  public:
-  explicit Ros1BagWriter(const std::filesystem::path& path)
-      : bag_(path.string(), rosbag::bagmode::Write) {}
+  Ros1BagWriter(const std::filesystem::path& path, BagCompression compression)
+      : bag_(path.string(), rosbag::bagmode::Write) {
+    if (compression == BagCompression::bz2) bag_.setCompression(rosbag::compression::BZ2);
+    if (compression == BagCompression::lz4) bag_.setCompression(rosbag::compression::LZ4);
+  }
 
   void image(const std::string& topic, Stamps stamps, const RawImage& from) override {
     sensor_msgs::Image image;
@@ -152,8 +155,9 @@ class Ros1BagWriter : public BagWriter {
 
 }  // namespace
 
-std::unique_ptr<BagWriter> ros1_bag_writer(const std::filesystem::path& path) {
-  return std::make_unique<Ros1BagWriter>(path);
+std::unique_ptr<BagWriter> ros1_bag_writer(const std::filesystem::path& path,
+                                           BagCompression compression) {
+  return std::make_unique<Ros1BagWriter>(path, compression);
 }
 
 }  // namespace fathom::test
@@ -162,7 +166,8 @@ std::unique_ptr<BagWriter> ros1_bag_writer(const std::filesystem::path& path) {
 
 namespace fathom::test {
 
-std::unique_ptr<BagWriter> ros1_bag_writer(const std::filesystem::path& /*path*/) {
+std::unique_ptr<BagWriter> ros1_bag_writer(const std::filesystem::path& /*path*/,
+                                           BagCompression /*compression*/) {
   return nullptr;
 }
 
