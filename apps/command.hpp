@@ -22,6 +22,7 @@ void add_solve(CLI::App& program, Context& context);
 void add_register(CLI::App& program, Context& context);
 void add_simulate(CLI::App& program, Context& context);
 void add_evaluate(CLI::App& program, Context& context);
+void add_convert(CLI::App& program, Context& context);
 void add_list(CLI::App& program, Context& context);
 void add_import(CLI::App& program, Context& context);
 void add_init(CLI::App& program, Context& context);

@@ -12,16 +12,16 @@
 namespace fathom {
 namespace {
 
-struct Plane {
+struct FloorPlane {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();
   bool is_by_view = false;
 };
 
-Plane best_plane(const std::vector<CameraPose>& cameras) {
+FloorPlane best_plane(const std::vector<CameraPose>& cameras) {
   // Of the second extent to the first: below it the centres lie along a line.
   constexpr double kLeastWidth = 0.01;
-  Plane plane;
+  FloorPlane plane;
   Eigen::Vector3d up = Eigen::Vector3d::Zero();
   for (const CameraPose& camera : cameras) {
     plane.origin += camera.centre / static_cast<double>(cameras.size());
@@ -51,7 +51,7 @@ Plane best_plane(const std::vector<CameraPose>& cameras) {
 }  // namespace
 
 PlanarCameras project_to_plane(const std::vector<CameraPose>& cameras) {
-  const Plane plane = best_plane(cameras);
+  const FloorPlane plane = best_plane(cameras);
   const Eigen::Vector3d& up = plane.normal;
   // The top of the picture is against its y axis.
   const auto forward = [&](const CameraPose& camera) {
