@@ -1,4 +1,6 @@
-// A folder of one's own, without a configuration: check, run, compare, init; and plain pictures.
+// A folder of one's own, without a configuration: check, run, compare, init.
+
+#include "apps/your_survey.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +10,6 @@
 #include <gmock/gmock.h>
 #include <opencv2/imgproc.hpp>
 
-#include "apps/commands.hpp"
 #include "fathom/measurements/g2o.hpp"
 #include "support/data.hpp"
 
@@ -21,50 +22,6 @@ using ::testing::AllOf;
 using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using ::testing::Not;
-
-// A loop of some metres, from `scale` times 2 m: all lengths as long, nothing else.
-std::string survey(double scale) {
-  char text[1024];
-  std::snprintf(text, sizeof text,
-                "dataset:\n  type: simulated\n"
-                "  world: {metres_per_pixel: %.17g}\n"
-                "  mission: {type: single_loop, loop_length_m: %.17g, loop_width_m: %.17g, "
-                "loop_overrun_m: %.17g, turn_radius_m: %.17g, speed_m_s: %.17g}\n"
-                "  altitude: {base_m: %.17g, amplitude_m: %.17g, altimeter_sigma_m: %.17g}\n"
-                "  camera: {width: 160, height: 120, fx: 130, fy: 130}\n"
-                "  odometry: {sigma_x_m: %.17g, sigma_y_m: %.17g, sigma_theta_rad: 0.01}\n",
-                0.01 * scale, 2.4 * scale, 1.6 * scale, 0.8 * scale, 0.4 * scale, 0.5 * scale,
-                2.0 * scale, 0.1 * scale, 0.005 * scale, 0.01 * scale, 0.01 * scale);
-  return text;
-}
-
-class YourSurvey : public Commands {
- protected:
-  void simulate(const std::string& folder) const {
-    write("survey.yaml", survey(1.0));
-    fathom_done({"simulate", "survey.yaml", "--out", folder});
-  }
-
-  /// Spots of many sizes, 12 m x 12 m at 1 cm a pixel.
-  void write_floor(const std::string& name) const {
-    cv::RNG random(7);
-    cv::Mat floor(1200, 1200, CV_32F, cv::Scalar(128));
-    for (const int side_px : {2, 5, 12, 30}) {
-      cv::Mat noise(1200 / side_px, 1200 / side_px, CV_32F);
-      random.fill(noise, cv::RNG::NORMAL, 0.0, 25.0);
-      cv::Mat wide;
-      cv::resize(noise, wide, floor.size(), 0.0, 0.0, cv::INTER_CUBIC);
-      floor += wide;
-    }
-    cv::Mat grey;
-    floor.convertTo(grey, CV_8U);
-    cv::imwrite(path(name).string(), grey);
-  }
-
-  double number(const std::string& run, const std::string& metric) const {
-    return json_of(run + "/metrics.json").at(metric).get<double>();
-  }
-};
 
 TEST_F(YourSurvey, AFolderNeedsNoConfiguration) {
   simulate("data");
@@ -184,58 +141,6 @@ TEST_F(YourSurvey, AnAltitudeInFeetIsNoticed) {
   write("data/mav0/altimeter0/data.csv", feet);
   const Ended ended = fathom({"run", "data", "--out", "out", "--no-mosaic"});
   EXPECT_THAT(ended.out, ContainsRegex("registered motions are 3\\.[123][0-9]* times as long"));
-}
-
-// The survey's pictures as a camera would have left them, and a height that is about right.
-TEST_F(YourSurvey, PlainPicturesCloseTheirLoops) {
-  simulate("data");
-  fs::create_directory(path("pictures"));
-  std::vector<fs::path> taken;
-  for (const auto& file : fs::directory_iterator(path("data/mav0/cam0/data"))) {
-    taken.push_back(file.path());
-  }
-  const auto time_of = [](const fs::path& file) { return std::stoll(file.stem().string()); };
-  std::ranges::sort(taken, {}, time_of);
-  for (std::size_t i = 0; i < taken.size(); ++i) {
-    const cv::Mat picture = cv::imread(taken[i].string(), cv::IMREAD_GRAYSCALE);
-    cv::imwrite(path("pictures/shot" + std::to_string(i) + ".jpg").string(), picture);
-  }
-  write("run.yaml",
-        "dataset:\n  type: pictures\n  path: pictures\n  altitude_m: 2.0\n"
-        "  camera: {focal_px: 130}\nestimator: {type: incremental_smoother}\n");
-  const Ended ended = fathom_done({"run", "run.yaml", "--out", "out"});
-  EXPECT_THAT(ended.out, HasSubstr("dead reckoning by visual odometry"));
-  // Without a configuration what the pictures do not say is asked for.
-  EXPECT_THAT(refusal({"run", "pictures"}), HasSubstr("dataset.camera.focal_px"));
-  EXPECT_THAT(refusal({"check", "pictures"}), HasSubstr("fathom init pictures"));
-  const Arguments given{"--set", "dataset.altitude_m=2.0", "--set", "dataset.camera.focal_px=130"};
-  const auto with_given = [&given](Arguments all) {
-    all.insert(all.end(), given.begin(), given.end());
-    return all;
-  };
-  const Arguments smoother{"--set", "estimator.type=incremental_smoother", "--no-mosaic"};
-  Arguments run = with_given({"run", "pictures", "--out", "given"});
-  run.insert(run.end(), smoother.begin(), smoother.end());
-  fathom_done(run);
-  EXPECT_EQ(bytes_of("given/trajectory.tum"), bytes_of("out/trajectory.tum"));
-  fathom_done(with_given({"init", "pictures", "--out", "config"}));
-  Arguments configured{"run", "config/run.yaml", "--out", "configured"};
-  configured.insert(configured.end(), smoother.begin(), smoother.end());
-  fathom_done(configured);
-  EXPECT_EQ(bytes_of("configured/trajectory.tum"), bytes_of("out/trajectory.tum"));
-  EXPECT_GT(number("out", "loop_closures"), 10);
-  expect_picture("out/mosaic.png");
-  // The same survey with its sensors: the maps agree, up to the pictures' times.
-  fathom_done({"run", "data", "--out", "known", "--no-mosaic"});
-  const auto frames = tum("out/frames.tum");
-  const auto truth = tum("known/ground_truth.tum");
-  ASSERT_EQ(frames.size(), truth.size());
-  double error_m = 0.0;
-  for (std::size_t i = 0; i < frames.size(); ++i) {
-    const Pose expected = between(truth.front().pose, truth[i].pose);
-    error_m += (frames[i].pose.position() - expected.position()).norm();
-  }
-  EXPECT_LT(error_m / static_cast<double>(frames.size()), 0.1);
 }
 
 TEST_F(YourSurvey, OnTheKiteTheDefaultsClose220Loops) {

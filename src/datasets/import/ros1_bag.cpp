@@ -1,31 +1,56 @@
-// The one file that includes headers of ROS.
+#include <algorithm>
+#include <dlfcn.h>
+#include <map>
+#include <memory>
+#include <set>
+#include <stdexcept>
+#include <string_view>
 
 #include "bag.hpp"
 #include "fathom/core/input_error.hpp"
-
-#ifdef FATHOM_ROSBAG
-
-#include <algorithm>
-#include <console_bridge/console.h>
-#include <map>
-#include <rosbag/bag.h>
-#include <rosbag/view.h>
-#include <set>
-#include <string_view>
-
+#include "ros1_recording.hpp"
 #include "ros1_records.hpp"
 
 namespace fathom {
 namespace {
 
+// Where it is installed, else where it was built.
+OpenRos1Recording* load_module(const std::filesystem::path& bag) {
+  const std::string module = FATHOM_ROS1_MODULE;
+  if (module.empty()) {
+    throw InputError(bag.string(),
+                     "is a bag of ROS 1, and this Fathom was built without librosbag-storage-dev; "
+                     "'scripts/setup.sh import' installs it, then build again");
+  }
+  const std::filesystem::path built(module);
+  std::error_code ignored;
+  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", ignored);
+  const std::filesystem::path installed =
+      program.parent_path() / FATHOM_ROS1_INSTALLED / built.filename();
+  std::string problem;
+  for (const std::filesystem::path& candidate : {installed, built}) {
+    std::error_code error;
+    if (!std::filesystem::exists(candidate, error)) continue;
+    // It stays: what it opens needs its code.
+    if (void* library = ::dlopen(candidate.c_str(), RTLD_NOW | RTLD_LOCAL)) {
+      if (void* open = ::dlsym(library, kOpenRos1Recording)) {
+        return reinterpret_cast<OpenRos1Recording*>(open);
+      }
+    }
+    problem = ::dlerror();
+  }
+  throw InputError(bag.string(),
+                   "is a bag of ROS 1; " + (problem.empty() ? module + " is missing" : problem) +
+                       "; 'scripts/setup.sh import' installs what it needs, then build again");
+}
+
 class Ros1Bag : public Bag {
  public:
   explicit Ros1Bag(const std::filesystem::path& path) : path_(path.string()) {
-    // It prints what it throws as well.
-    console_bridge::setLogLevel(console_bridge::CONSOLE_BRIDGE_LOG_NONE);
+    OpenRos1Recording* open = load_module(path);
     check_ros1_records(path);
-    guarded([this] {
-      bag_.open(path_, rosbag::bagmode::Read);
+    guarded([&] {
+      recording_.reset(open(path_.c_str()));
       find_topics();
     });
   }
@@ -37,39 +62,27 @@ class Ros1Bag : public Bag {
     std::set<std::string> names;
     for (const std::size_t topic : topics) names.insert(topics_[topic].name);
     guarded([&] {
-      rosbag::View view(bag_, [&](const rosbag::ConnectionInfo* connection) {
-        return names.contains(connection->topic);
+      recording_->read(names, [&](const std::string& topic, std::int64_t record_time_ns,
+                                  std::string_view bytes) {
+        const auto reader = ros1_message(bytes);
+        take({indices_.at(topic), record_time_ns, *reader});
       });
-      std::vector<std::uint8_t> bytes;
-      for (const rosbag::MessageInstance& message : view) {
-        bytes.resize(message.size());
-        ros::serialization::OStream stream(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
-        message.write(stream);
-        const auto reader =
-            ros1_message({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
-        take({indices_.at(message.getTopic()),
-              static_cast<std::int64_t>(message.getTime().toNSec()), *reader});
-      }
     });
   }
 
  private:
   void find_topics() {
     std::map<std::string, BagTopic> found;
-    rosbag::View all(bag_);
-    for (const rosbag::ConnectionInfo* connection : all.getConnections()) {
-      BagTopic& topic = found[connection->topic];
+    for (const Ros1Connection& connection : recording_->connections()) {
+      BagTopic& topic = found[connection.topic];
       // Two publishers may disagree; neither is read then.
-      const bool agrees = topic.type.empty() || topic.type == connection->datatype;
-      topic.type = agrees ? connection->datatype : "several types";
-      topic.md5 = connection->md5sum;
+      const bool agrees = topic.type.empty() || topic.type == connection.type;
+      topic.type = agrees ? connection.type : "several types";
+      topic.md5 = connection.md5;
     }
     for (auto& [name, topic] : found) {
       topic.name = name;
-      rosbag::View view(bag_, [&name = name](const rosbag::ConnectionInfo* connection) {
-        return connection->topic == name;
-      });
-      topic.messages = view.size();
+      topic.messages = recording_->messages_of(name);
       indices_[name] = topics_.size();
       topics_.push_back(topic);
     }
@@ -80,16 +93,15 @@ class Ros1Bag : public Bag {
   void guarded(const Action& action) const {
     try {
       action();
-    } catch (const rosbag::BagException& error) {
-      throw InputError(path_, std::string("cannot be read as a bag: ") + error.what() +
-                                  "; 'rosbag reindex' or 'rosbag check' may help");
-    } catch (const ros::Exception& error) {
+    } catch (const InputError&) {
+      throw;
+    } catch (const std::runtime_error& error) {
       throw InputError(path_, std::string("cannot be read as a bag: ") + error.what());
     }
   }
 
   std::string path_;
-  rosbag::Bag bag_;
+  std::unique_ptr<Ros1Recording> recording_;
   std::vector<BagTopic> topics_;
   std::map<std::string, std::size_t> indices_;
 };
@@ -101,17 +113,3 @@ std::unique_ptr<Bag> open_ros1_bag(const std::filesystem::path& path) {
 }
 
 }  // namespace fathom
-
-#else
-
-namespace fathom {
-
-std::unique_ptr<Bag> open_ros1_bag(const std::filesystem::path& path) {
-  throw InputError(path.string(),
-                   "is a bag of ROS 1, and this Fathom was built without librosbag-storage-dev; "
-                   "'scripts/setup.sh import' installs it, then build again");
-}
-
-}  // namespace fathom
-
-#endif
