@@ -47,6 +47,11 @@ Extent extent_of(const Corners& corners) {
   return extent;
 }
 
+// Metres, to 1e-6: what lies below depends on the last bit of a pose.
+std::string micrometres(double value_m) {
+  return number_text(std::round(1e6 * value_m) / 1e6 + 0.0);
+}
+
 /// Finds the overlaps of all keyframes.
 class Overlaps {
  public:
@@ -150,7 +155,7 @@ std::string footprints_csv(std::span<const Footprint> footprints) {
   for (const Footprint& one : footprints) {
     text += std::to_string(one.keyframe) + "," + std::to_string(one.time_ns);
     for (const Eigen::Vector2d& corner : one.corners) {
-      text += "," + exact(corner.x()) + "," + exact(corner.y());
+      text += "," + micrometres(corner.x()) + "," + micrometres(corner.y());
     }
     text += "," + (one.overlap_previous ? share(*one.overlap_previous) : "");
     text += "," + share(one.overlap_other_pass) + ",";

@@ -129,7 +129,7 @@ TEST_F(GeoTiffTest, AMarkLiesWhereItShouldToAPixel) {
     EXPECT_EQ(info.at("geoTransform").at(1), -info.at("geoTransform").at(5).get<double>());
     const Eigen::Vector2d pixel = middle_of_mark(read_by_gdal("m.tif"));
     const Eigen::Vector2d expected = gdal_projected(origin.latitude_deg, origin.longitude_deg,
-                                                    origin.heading_deg, mark, earth.epsg());
+                                                    origin.heading_deg, {mark}, earth.epsg())[0];
     const double off_m = (gdal_place(info, pixel.x(), pixel.y()) - expected).norm();
     EXPECT_LT(off_m, 0.5 * kPixel_m);
   }
@@ -149,7 +149,7 @@ TEST_F(GeoTiffTest, TheWorldFilePutsTheMarkThereToo) {
     const EarthFrame earth(origin);
     write_file(path("m.pgw"), world_file(plan, cv::Rect({0, 0}, plan.size), earth));
     const Eigen::Vector2d expected = gdal_projected(origin.latitude_deg, origin.longitude_deg,
-                                                    origin.heading_deg, mark, earth.epsg());
+                                                    origin.heading_deg, {mark}, earth.epsg())[0];
     const nlohmann::json info = gdal_info(path("m.png"));
     EXPECT_LT((gdal_place(info, pixel.x(), pixel.y()) - expected).norm(), 0.5 * kPixel_m);
     // A part of it has the world file of its own first pixel.

@@ -1,12 +1,13 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <iomanip>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include <Eigen/Core>
 #include <nlohmann/json.hpp>
@@ -44,21 +45,29 @@ inline Eigen::Vector2d gdal_place(const nlohmann::json& info, double column, dou
           t[3] + (column + 0.5) * t[4] + (row + 0.5) * t[5]};
 }
 
-/// Where a point of a map lies in the plane of a projection: gdaltransform takes it from an
-/// azimuthal equidistant plane about the start. `map`: x ahead, y to port; heading clockwise.
-inline Eigen::Vector2d gdal_projected(double latitude_deg, double longitude_deg, double heading_deg,
-                                      const Eigen::Vector2d& map, int epsg) {
+/// Where points of a map lie in the plane of a projection: gdaltransform takes them from an
+/// azimuthal equidistant plane about the start. x ahead, y to port; heading clockwise.
+inline std::vector<Eigen::Vector2d> gdal_projected(double latitude_deg, double longitude_deg,
+                                                   double heading_deg,
+                                                   const std::vector<Eigen::Vector2d>& map,
+                                                   int epsg) {
   const double heading = heading_deg * 3.14159265358979323846 / 180.0;
-  const double east = map.x() * std::sin(heading) - map.y() * std::cos(heading);
-  const double north = map.x() * std::cos(heading) + map.y() * std::sin(heading);
   std::ostringstream command;
-  command << std::setprecision(17) << "echo " << east << ' ' << north
-          << " | gdaltransform -s_srs '+proj=aeqd +lat_0=" << latitude_deg
+  command << std::setprecision(17) << "printf -- '";
+  for (const Eigen::Vector2d& point : map) {
+    const double east = point.x() * std::sin(heading) - point.y() * std::cos(heading);
+    const double north = point.x() * std::cos(heading) + point.y() * std::sin(heading);
+    command << east << ' ' << north << "\\n";
+  }
+  command << "' | gdaltransform -s_srs '+proj=aeqd +lat_0=" << latitude_deg
           << " +lon_0=" << longitude_deg << " +ellps=WGS84 +type=crs' -t_srs EPSG:" << epsg;
   std::istringstream out(printed_by(command.str()));
-  Eigen::Vector2d place = Eigen::Vector2d::Constant(-1.0);
-  out >> place.x() >> place.y();
-  return place;
+  std::vector<Eigen::Vector2d> places(map.size(), Eigen::Vector2d::Constant(-1.0));
+  for (Eigen::Vector2d& place : places) {
+    double height = 0.0;
+    out >> place.x() >> place.y() >> height;
+  }
+  return places;
 }
 
 }  // namespace fathom::test

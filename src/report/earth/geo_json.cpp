@@ -19,6 +19,10 @@ double rounded(double degrees) {
   return std::round(degrees * 1e9) / 1e9;
 }
 
+double share(double value) {
+  return std::round(value * 1e6) / 1e6;
+}
+
 Json position(const LonLat& place) {
   return {rounded(place.x()), rounded(place.y())};
 }
@@ -130,8 +134,8 @@ std::string footprints_geojson(const EarthFrame& earth, std::span<const Footprin
       ring.push_back(lon_lat(earth.on_earth({corner.x(), corner.y(), 0.0})));
     }
     Json properties{{"keyframe", one.keyframe}, {"time_s", seconds(one.time_ns)}};
-    if (one.overlap_previous) properties["overlap_previous"] = *one.overlap_previous;
-    properties["overlap_other_pass"] = one.overlap_other_pass;
+    if (one.overlap_previous) properties["overlap_previous"] = share(*one.overlap_previous);
+    properties["overlap_other_pass"] = share(one.overlap_other_pass);
     if (one.other_pass) properties["other_pass"] = *one.other_pass;
     features.push_back(feature(polygon_geometry(ring), std::move(properties)));
   }
