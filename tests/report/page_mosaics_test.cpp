@@ -9,9 +9,8 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "fathom/core/files.hpp"
-#include "fathom/report/mosaic.hpp"
-#include "fathom/report/picture.hpp"
 #include "fathom/report/study_report.hpp"
+#include "report/made_mosaic.hpp"
 #include "report/study_fixture.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -46,7 +45,6 @@ cv::Mat picture_of(const Json& one) {
   return cv::imdecode(bytes_of_base64(address.substr(start.size())), cv::IMREAD_UNCHANGED);
 }
 
-/// A study whose example has mosaics: 8 m by 6 m at 1 cm, x from −1 to 7 and y from −3 to 3.
 class PageMosaics : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -56,31 +54,9 @@ class PageMosaics : public ::testing::Test {
     write_fixture(folder_ / "study", options);
   }
 
-  // Grey 100 with a bright square of 1 m at (x, y); x below 0 is seen by no picture.
   void write_mosaic(const std::string& name, double x, double y,
                     double metres_per_pixel = 0.01) const {
-    MosaicPlan plan;
-    plan.metres_per_pixel = metres_per_pixel;
-    plan.top_left_m = {7.0, 3.0};
-    plan.size = cv::Size(static_cast<int>(std::lround(6.0 / metres_per_pixel)),
-                         static_cast<int>(std::lround(8.0 / metres_per_pixel)));
-    cv::Mat grey(plan.size, CV_8U, cv::Scalar(100));
-    for (int v = 0; v < grey.rows; ++v) {
-      for (int u = 0; u < grey.cols; ++u) {
-        const double at_x = 7.0 - (v + 0.5) * metres_per_pixel;
-        const double at_y = 3.0 - (u + 0.5) * metres_per_pixel;
-        if (std::abs(at_x - x) < 0.5 && std::abs(at_y - y) < 0.5)
-          grey.at<unsigned char>(v, u) = 220;
-        if (at_x < 0.0) grey.at<unsigned char>(v, u) = kUnseen;
-      }
-    }
-    const fs::path own = folder_ / "study" / name;
-    fs::create_directories(own);
-    write_file(own / "mosaic.png", encode_png(grey));
-    write_file(own / "mosaic.json", mosaic_json(plan));
-    write_file(own / "trajectory.tum", "0 0 0 0 0 0 0 1\n1 4 0 0 0 0 0 1\n2 4 2 0 0 0 0 1\n");
-    write_file(own / "registrations.csv",
-               "from,to,fate,nis,weight\n0,2,used,1,1\n0,1,rejected,1,0\n1,9,used,1,1\n");
+    write_made_mosaic(study() / name, x, y, metres_per_pixel);
   }
 
   fs::path study() const { return folder_ / "study"; }
