@@ -3,7 +3,7 @@
 #include "fathom/core/files.hpp"
 #include "figure_file.hpp"
 #include "latex_tables.hpp"
-#include "pictures/page_mosaics.hpp"
+#include "page_mosaics.hpp"
 #include "ranking.hpp"
 #include "report_page.hpp"
 #include "study_csv.hpp"

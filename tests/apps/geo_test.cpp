@@ -1,6 +1,5 @@
 // Maps on Earth and mosaics by tiles, through the real program; GDAL reads them back.
 
-#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -18,7 +17,6 @@
 namespace fathom::test {
 namespace {
 
-using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 /// Without distortion, so that the four corners of a footprint are all of its outline.
@@ -186,7 +184,7 @@ TEST_F(Geo, TilesPutTogetherAreTheMosaic) {
   write("c.yaml", kSmallSurvey);
   fathom_done({"run", "c.yaml", "--out", "out"});
   EXPECT_THAT(fathom_done({"mosaic", "out", "--tile-size", "100", "--out", "tiles"}).out,
-              AllOf(HasSubstr("in 12 tiles\n"), HasSubstr("/tiles/tiles\n")));
+              HasSubstr("in 12 tiles\n"));
   const cv::Mat whole = cv::imread(path("out/mosaic.png").string(), cv::IMREAD_UNCHANGED);
   const nlohmann::json index = json_of("tiles/mosaic.json");
   EXPECT_EQ(index.at("tile_px"), 100);

@@ -37,26 +37,23 @@ LonLat lon_lat(const EarthPose& pose) {
   return {pose.longitude_deg, pose.latitude_deg};
 }
 
-Json feature(Json geometry, Json properties) {
-  return {{"type", "Feature"},
-          {"geometry", std::move(geometry)},
-          {"properties", std::move(properties)}};
-}
-
-Json collection(Json features) {
-  return {{"type", "FeatureCollection"}, {"features", std::move(features)}};
-}
-
-// A feature a line: files of long surveys are read by people, too.
-std::string text_of(const Json& collection) {
-  std::string text = "{\"type\": \"FeatureCollection\", \"features\": [";
-  const char* separator = "\n";
-  for (const Json& one : collection["features"]) {
-    text += separator + one.dump();
-    separator = ",\n";
+/// A FeatureCollection as text, a line a feature: a long survey has more than memory has room for
+/// as objects.
+class FeatureCollection {
+ public:
+  void add(Json geometry, Json properties) {
+    const Json feature{{"type", "Feature"},
+                       {"geometry", std::move(geometry)},
+                       {"properties", std::move(properties)}};
+    text_ += (text_.empty() ? "\n" : ",\n") + feature.dump();
   }
-  return text + "\n]}\n";
-}
+  std::string text() const {
+    return "{\"type\": \"FeatureCollection\", \"features\": [" + text_ + "\n]}\n";
+  }
+
+ private:
+  std::string text_;
+};
 
 Json line_geometry(const std::vector<LonLat>& line) {
   const auto parts = cut_line(line);
@@ -74,8 +71,9 @@ Json polygon_geometry(const std::vector<LonLat>& ring) {
   return {{"type", "MultiPolygon"}, {"coordinates", coordinates}};
 }
 
+// 15 and not 15.000000000000002.
 double seconds(std::int64_t time_ns) {
-  return 1e-9 * static_cast<double>(time_ns);
+  return static_cast<double>(time_ns) / 1e9;
 }
 
 Json keyframe_properties(std::size_t k, const TrackPoint& point, const EarthPose& earth) {
@@ -96,38 +94,38 @@ Json keyframe_properties(std::size_t k, const TrackPoint& point, const EarthPose
 
 std::string track_geojson(const EarthFrame& earth, std::span<const TrackPoint> track) {
   if (track.empty()) throw InputError("a track needs at least one keyframe");
+  std::vector<EarthPose> poses;
   std::vector<LonLat> line;
-  Json points = Json::array();
-  for (std::size_t k = 0; k < track.size(); ++k) {
-    const EarthPose pose = earth.on_earth(track[k].pose);
-    line.push_back(lon_lat(pose));
-    points.push_back(feature({{"type", "Point"}, {"coordinates", position(line.back())}},
-                             keyframe_properties(k, track[k], pose)));
+  for (const TrackPoint& point : track) {
+    poses.push_back(earth.on_earth(point.pose));
+    line.push_back(lon_lat(poses.back()));
   }
-  Json features = Json::array();
+  FeatureCollection features;
   if (line.size() > 1) {
-    features.push_back(feature(line_geometry(line), {{"keyframes", track.size()},
-                                                     {"begin_s", seconds(track.front().time_ns)},
-                                                     {"end_s", seconds(track.back().time_ns)}}));
+    features.add(line_geometry(line), {{"keyframes", track.size()},
+                                       {"begin_s", seconds(track.front().time_ns)},
+                                       {"end_s", seconds(track.back().time_ns)}});
   }
-  for (Json& point : points) features.push_back(std::move(point));
-  return text_of(collection(std::move(features)));
+  for (std::size_t k = 0; k < track.size(); ++k) {
+    features.add({{"type", "Point"}, {"coordinates", position(line[k])}},
+                 keyframe_properties(k, track[k], poses[k]));
+  }
+  return features.text();
 }
 
 std::string loops_geojson(const EarthFrame& earth, std::span<const TrackPoint> track,
                           std::span<const TrackLoop> loops) {
-  Json features = Json::array();
+  FeatureCollection features;
   for (const TrackLoop& loop : loops) {
     const std::vector<LonLat> ends{lon_lat(earth.on_earth(track[loop.from].pose)),
                                    lon_lat(earth.on_earth(track[loop.to].pose))};
-    features.push_back(
-        feature(line_geometry(ends), {{"from", loop.from}, {"to", loop.to}, {"fate", loop.fate}}));
+    features.add(line_geometry(ends), {{"from", loop.from}, {"to", loop.to}, {"fate", loop.fate}});
   }
-  return text_of(collection(std::move(features)));
+  return features.text();
 }
 
 std::string footprints_geojson(const EarthFrame& earth, std::span<const Footprint> footprints) {
-  Json features = Json::array();
+  FeatureCollection features;
   for (const Footprint& one : footprints) {
     std::vector<LonLat> ring;
     for (const Eigen::Vector2d& corner : one.corners) {
@@ -137,9 +135,9 @@ std::string footprints_geojson(const EarthFrame& earth, std::span<const Footprin
     if (one.overlap_previous) properties["overlap_previous"] = share(*one.overlap_previous);
     properties["overlap_other_pass"] = share(one.overlap_other_pass);
     if (one.other_pass) properties["other_pass"] = *one.other_pass;
-    features.push_back(feature(polygon_geometry(ring), std::move(properties)));
+    features.add(polygon_geometry(ring), std::move(properties));
   }
-  return text_of(collection(std::move(features)));
+  return features.text();
 }
 
 }  // namespace fathom
