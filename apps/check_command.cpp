@@ -11,6 +11,7 @@
 #include "fathom/configuration/study.hpp"
 #include "fathom/datasets/folder_summary.hpp"
 #include "fathom/datasets/image_folder.hpp"
+#include "fathom/datasets/picture_folder.hpp"
 #include "fathom/estimators/builtin.hpp"
 #include "fathom/harness/outlook.hpp"
 #include "fathom/harness/recording.hpp"
@@ -108,6 +109,11 @@ void check_graph(const std::string& path) {
 }
 
 void check_folder(const std::string& path) {
+  if (is_plain_picture_folder(path)) {
+    throw InputError(path, "is a folder of plain pictures, which do not say all; 'fathom init " +
+                               path +
+                               "' says what to expect of them, and asks for what it needs to know");
+  }
   const ImageFolder folder(path);
   FolderSummary summary = summarise_frames(folder);
   std::printf("image folder\n");

@@ -5,6 +5,8 @@
 #include <unistd.h>
 #include <utility>
 
+#include "fathom/datasets/picture_folder.hpp"
+
 namespace fathom {
 
 void CommonFlags::add_settings_to(Command& command) {
@@ -20,7 +22,8 @@ void CommonFlags::add_out_to(Command& command, const std::string& what) {
 
 Settings settings_of_folder(const std::string& path) {
   Settings settings;
-  settings.put({"dataset.type", OptionValue::scalar("image_folder"), path});
+  const std::string type = is_plain_picture_folder(path) ? "pictures" : "image_folder";
+  settings.put({"dataset.type", OptionValue::scalar(type), path});
   settings.put({"dataset.path", OptionValue::scalar(path), path});
   return settings;
 }
@@ -69,11 +72,6 @@ bool is_error_terminal() {
   return ::isatty(STDERR_FILENO) != 0;
 }
 
-void say_from_signal(std::string_view text) noexcept {
-  // What cannot be said is not said.
-  [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, text.data(), text.size());
-}
-
 ProgressLine::ProgressLine(std::string what, bool quiet)
     : what_(std::move(what)), enabled_(!quiet && is_error_terminal()) {}
 
@@ -86,16 +84,55 @@ Progress ProgressLine::callback() {
   return [this](std::size_t done, std::size_t of) { show(done, of); };
 }
 
-void ProgressLine::show(std::size_t done, std::size_t of) {
+FrontEndProgressCallback ProgressLine::front_end_callback() {
+  if (!enabled_) return {};
+  return [this](const FrontEndProgress& at) {
+    if (!is_due(at.is_done())) return;
+    const std::string left = at.left_s ? ", " + duration_text(*at.left_s) + " left" : "";
+    std::fprintf(stderr, "\r\033[K%s: %zu of %zu, %s%s", what_.c_str(), at.pictures, at.of_pictures,
+                 pairs_text(at.pairs, at.of_pairs).c_str(), left.c_str());
+  };
+}
+
+bool ProgressLine::is_due(bool is_last) {
   const auto now = Clock::now();
-  const std::chrono::duration<double> since_last = now - last_;
-  if (since_last.count() < 0.2 && done < of) return;
+  if (shown_ && !is_last && now - last_ < std::chrono::milliseconds(200)) return false;
   last_ = now;
   shown_ = true;
-  const double elapsed_s = std::chrono::duration<double>(now - start_).count();
-  const double left_s =
-      done == 0 ? 0.0 : elapsed_s * static_cast<double>(of - done) / static_cast<double>(done);
-  std::fprintf(stderr, "\r\033[K%s: %zu of %zu, %.0f s left", what_.c_str(), done, of, left_s);
+  return true;
+}
+
+// The first one may have waited for what all need.
+void ProgressLine::show(std::size_t done, std::size_t of) {
+  if (!first_ && done > 0) first_ = {Clock::now(), done};
+  if (!is_due(done == of)) return;
+  std::string left;
+  if (first_ && done > first_->second) {
+    const std::chrono::duration<double> elapsed = last_ - first_->first;
+    left = ", " +
+           duration_text(elapsed.count() * static_cast<double>(of - done) /
+                         static_cast<double>(done - first_->second)) +
+           " left";
+  }
+  std::fprintf(stderr, "\r\033[K%s: %zu of %zu%s", what_.c_str(), done, of, left.c_str());
+}
+
+std::string duration_text(double seconds) {
+  char text[64];
+  // Rounded by less than a tenth.
+  if (seconds < 600.0) {
+    std::snprintf(text, sizeof text, "%.0f s", seconds);
+  } else if (seconds < 36000.0) {
+    std::snprintf(text, sizeof text, "%.0f min", seconds / 60.0);
+  } else {
+    std::snprintf(text, sizeof text, "%.1f h", seconds / 3600.0);
+  }
+  return text;
+}
+
+std::string pairs_text(std::size_t pairs, const std::optional<std::size_t>& of_pairs) {
+  const std::string text = "pair " + std::to_string(pairs);
+  return of_pairs ? text + " of about " + std::to_string(*of_pairs) : text;
 }
 
 }  // namespace fathom

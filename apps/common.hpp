@@ -6,7 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "apps/flags.hpp"
@@ -33,7 +33,8 @@ struct CommonFlags {
   std::string folder_or(const std::string& name) const;
 };
 
-/// Of a folder of pictures that is given in place of a configuration: that it is the data set.
+/// Of a folder of pictures that is given in place of a configuration: that it is the data set, in
+/// the EuRoC/ASL layout or plain.
 Settings settings_of_folder(const std::string& path);
 
 /// What a configuration from `path` has the program read: itself, its data set, its floor.
@@ -47,11 +48,14 @@ std::unique_ptr<RegistrationStore> open_registrations(const std::filesystem::pat
 /// Whether standard error is a terminal.
 bool is_error_terminal();
 
-/// Writes to standard error from a signal handler, which may call little else.
-void say_from_signal(std::string_view text) noexcept;
-
 /// The name of a file without folder and ending.
 std::string stem_of(const std::string& path);
+
+/// "95 s", "12 min", "13.4 h".
+std::string duration_text(double seconds);
+
+/// Of what a front end has tried: "pair 310 of about 1405".
+std::string pairs_text(std::size_t pairs, const std::optional<std::size_t>& of_pairs);
 
 /// Progress on the terminal with an estimate of what is left; silent when quiet or when standard
 /// error is no terminal.
@@ -63,16 +67,19 @@ class ProgressLine {
   ProgressLine& operator=(const ProgressLine&) = delete;
 
   Progress callback();
+  FrontEndProgressCallback front_end_callback();
 
  private:
   void show(std::size_t done, std::size_t of);
+  bool is_due(bool is_last);
 
   using Clock = std::chrono::steady_clock;
   std::string what_;
   bool shown_ = false;
   bool enabled_;
-  Clock::time_point start_ = Clock::now();
-  Clock::time_point last_ = start_;
+  /// When so many were done for the first time.
+  std::optional<std::pair<Clock::time_point, std::size_t>> first_;
+  Clock::time_point last_ = Clock::now();
 };
 
 }  // namespace fathom

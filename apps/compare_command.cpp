@@ -70,9 +70,9 @@ void compare_as(const std::optional<Shard>& shard, const CompareFlags& flags, Co
   if (flags.only_registrations) {
     only_register(study, *cache, options, flags, context);
   } else if (shard) {
-    run_shard(study, *shard, out, data_set.pictures(), options, flags, context);
+    run_shard(study, *shard, out, data_set.pictures(), options, cache.get(), flags, context);
   } else {
-    run_whole(study, out, data_set.pictures(), options, flags, context);
+    run_whole(study, out, data_set.pictures(), options, cache.get(), flags, context);
   }
 }
 
@@ -99,7 +99,7 @@ void add_compare(CLI::App& program, Context& context) {
       "         fathom compare configs/studies/paper_simulated.yaml --trials 5 --jobs 2\n"
       "A study that was stopped or killed goes on where it was: run the same command again.");
   command.argument("config", flags->config,
-                   "Study (YAML), or a folder of pictures in the EuRoC/ASL layout");
+                   "Study (YAML), or a folder of pictures, plain or in the EuRoC/ASL layout");
   flags->common.add_settings_to(command);
   flags->common.add_out_to(command, "Output folder (default: runs/CONFIG's name)");
   command.integer("--surveys", flags->surveys, Range::any(), "N",

@@ -1,10 +1,9 @@
 #include "apps/compare_modes.hpp"
 
-#include <atomic>
-#include <csignal>
 #include <cstdio>
 #include <set>
 
+#include "apps/stop_signal.hpp"
 #include "apps/study_example.hpp"
 #include "apps/study_files.hpp"
 #include "apps/study_progress.hpp"
@@ -20,20 +19,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::atomic<bool> stop_asked = false;
-std::atomic<bool> stop_silently = false;
-
-// The first one ends the trials at work at their next keyframe; the second ends the program, which
-// harms no store.
-extern "C" void ask_to_stop(int signal) {
-  stop_asked = true;
-  std::signal(signal, SIG_DFL);
-  if (stop_silently) return;
-  say_from_signal(
-      "\nfathom: stopping: the trials at work end at their next keyframe, and what is registered "
-      "is kept; again to end at once\n");
-}
-
 // An estimator that no trial of any cell could use has failed.
 int status_of(const ResultStore& store) {
   std::set<std::string> usable;
@@ -45,25 +30,23 @@ int status_of(const ResultStore& store) {
 
 // Runs an action that shows its progress and can be asked to stop.
 template <class Action>
-auto stoppable(StudyRunOptions& options, bool quiet, Action action) {
-  std::signal(SIGINT, ask_to_stop);
-  std::signal(SIGTERM, ask_to_stop);
-  options.stop = &stop_asked;
-  stop_silently = quiet;
+auto stoppable(StudyRunOptions& options, RegistrationStore* cache, bool quiet, Action action) {
+  const StopSignal stop(quiet, [cache] {
+    if (cache != nullptr) cache->flush();
+  });
+  options.stop = stop.flag();
   StudyProgressLine line(quiet);
   const auto also = options.progress;
   options.progress = [&line, also](const StudyProgress& progress) {
     line.show(progress);
     if (also) also(progress);
   };
-  auto done = action();
-  std::signal(SIGINT, SIG_DFL);
-  std::signal(SIGTERM, SIG_DFL);
-  return done;
+  return action();
 }
 
-StudyRun run(const Study& study, ResultStore& store, StudyRunOptions& options, bool quiet) {
-  return stoppable(options, quiet,
+StudyRun run(const Study& study, ResultStore& store, StudyRunOptions& options,
+             RegistrationStore* cache, bool quiet) {
+  return stoppable(options, cache, quiet,
                    [&] { return run_study(study, builtin_estimators(), store, options); });
 }
 
@@ -97,15 +80,15 @@ void print_remarks(const Study& study, const StudyRun& done) {
 }  // namespace
 
 void run_shard(const Study& study, const Shard& shard, const fs::path& out,
-               const FrameSource* pictures, StudyRunOptions& options, const CompareFlags& flags,
-               Context& context) {
+               const FrameSource* pictures, StudyRunOptions& options, RegistrationStore* cache,
+               const CompareFlags& flags, Context& context) {
   const ShardPlan plan{shard, runs_of(study, shard), context.command_line};
   const fs::path scratch =
       flags.scratch.empty() ? fs::temp_directory_path() : fs::path(flags.scratch);
   ScratchStore store(out, scratch, study.description, session_json(plan, options.jobs));
   options.shard = shard;
   options.progress = [&store](const StudyProgress&) { store.publish_when_due(); };
-  const StudyRun done = run(study, store.store(), options, flags.common.quiet);
+  const StudyRun done = run(study, store.store(), options, cache, flags.common.quiet);
   store.publish();
   if (!done.is_finished) {
     say_stopped(store.store().runs().size(), out, context);
@@ -118,10 +101,11 @@ void run_shard(const Study& study, const Shard& shard, const fs::path& out,
 }
 
 void run_whole(const Study& study, const fs::path& out, const FrameSource* pictures,
-               StudyRunOptions& options, const CompareFlags& flags, Context& context) {
+               StudyRunOptions& options, RegistrationStore* cache, const CompareFlags& flags,
+               Context& context) {
   StoreFolder folder(out, study.description, session_json(context.command_line, options.jobs));
   ResultStore& store = folder.store();
-  const StudyRun done = run(study, store, options, flags.common.quiet);
+  const StudyRun done = run(study, store, options, cache, flags.common.quiet);
   if (!done.is_finished) {
     say_stopped(store.runs().size(), out, context);
     return;
@@ -135,7 +119,7 @@ void run_whole(const Study& study, const fs::path& out, const FrameSource* pictu
 
 void only_register(const Study& study, RegistrationStore& cache, StudyRunOptions& options,
                    const CompareFlags& flags, Context& context) {
-  const bool is_finished = stoppable(options, flags.common.quiet, [&] {
+  const bool is_finished = stoppable(options, &cache, flags.common.quiet, [&] {
     return register_pictures(study, builtin_estimators(), options);
   });
   cache.flush();

@@ -38,14 +38,16 @@ struct CompareFlags {
   }
 };
 
-/// A study, with its page and files. All modes can be asked to stop by SIGINT and SIGTERM.
+/// A study, with its page and files. All modes can be asked to stop by SIGINT and SIGTERM
+/// (StopSignal); `cache` may be null.
 void run_whole(const Study& study, const std::filesystem::path& out, const FrameSource* pictures,
-               StudyRunOptions& options, const CompareFlags& flags, Context& context);
+               StudyRunOptions& options, RegistrationStore* cache, const CompareFlags& flags,
+               Context& context);
 
 /// A part of a study: its store is made on a disk of this machine, and no page is written of it.
 void run_shard(const Study& study, const Shard& shard, const std::filesystem::path& out,
-               const FrameSource* pictures, StudyRunOptions& options, const CompareFlags& flags,
-               Context& context);
+               const FrameSource* pictures, StudyRunOptions& options, RegistrationStore* cache,
+               const CompareFlags& flags, Context& context);
 
 /// The registrations of a study or a part of it.
 void only_register(const Study& study, RegistrationStore& cache, StudyRunOptions& options,

@@ -9,9 +9,9 @@
 #include "apps/common.hpp"
 #include "fathom/configuration/config_text.hpp"
 #include "fathom/core/files.hpp"
-#include "fathom/datasets/image_folder.hpp"
 #include "fathom/estimators/builtin.hpp"
 #include "fathom/harness/outlook.hpp"
+#include "fathom/harness/survey.hpp"
 #include "fathom/report/table.hpp"
 
 namespace fathom {
@@ -27,31 +27,31 @@ std::string comment_of(const OptionDescription& option) {
 }
 
 // The data set, and what most users will want to change of the front end.
-std::vector<ConfigLine> lines_of(const Configuration& configuration, const std::string& folder) {
+std::vector<ConfigLine> lines_of(const Configuration& configuration, const Settings& settings) {
   std::map<std::string, std::string> comments;
   const std::map<std::string, std::string> values(configuration.in_force.begin(),
                                                   configuration.in_force.end());
   for (const OptionDescription& option : keys_in_force(values)) {
     comments[option.key] = comment_of(option);
   }
-  std::vector<ConfigLine> lines{{"dataset.type", "image_folder", false, ""},
-                                {"dataset.path", folder, false, ""}};
+  std::vector<ConfigLine> lines;
   for (const auto& [key, value] : configuration.in_force) {
-    if (!key.starts_with("front_end.") || key.starts_with("front_end.registration_tuning.")) {
-      continue;
-    }
+    const bool is_given = key.starts_with("dataset.") && settings.find(key) != nullptr;
+    const bool is_front_end =
+        key.starts_with("front_end.") && !key.starts_with("front_end.registration_tuning.");
+    if (!is_given && !is_front_end) continue;
     lines.push_back({key, value, value.starts_with('['), comments[key]});
   }
   return lines;
 }
 
-std::vector<std::string> assumptions(const ImageFolder& frames) {
+std::vector<std::string> assumptions(const FrameSource& frames) {
   std::vector<std::string> assumed{
       "the camera tilts by 0.005 rad and altitudes are exact: give "
       "front_end.covariance.tilt_sigma_rad and altitude_sigma_m what your vehicle and sensor have"};
   assumed.emplace_back(frames.has_odometry()
-                           ? "the covariance in odometry0 is right: candidates go by it"
-                           : "there is no odometry0: dead reckoning is visual odometry");
+                           ? "the covariance of odometry is right: candidates go by it"
+                           : "there is no odometry: dead reckoning is visual odometry");
   if (!frames.has_ground_truth()) assumed.emplace_back("no ground truth: no error is computed");
   return assumed;
 }
@@ -75,13 +75,15 @@ std::string estimator_list() {
 
 void init(const InitFlags& flags, Context& context) {
   const std::string path = std::filesystem::absolute(flags.folder).lexically_normal().string();
-  const ImageFolder frames(path);
+  const Settings settings = flags.common.settings(path);
   const Configuration configuration =
-      configure(flags.common.settings(path), ConfigurationKind::single, builtin_estimators());
+      configure(settings, ConfigurationKind::single, builtin_estimators());
+  const std::unique_ptr<const DataSet> data = open_data_set(configuration);
+  const FrameSource& frames = *data->frames();
   const Outlook expected = outlook(frames, configuration.front_end);
   const std::vector<std::string> facts = facts_of(expected);
   const std::vector<std::string> assumed = assumptions(frames);
-  std::vector<ConfigLine> lines = lines_of(configuration, path);
+  std::vector<ConfigLine> lines = lines_of(configuration, settings);
   StagedFolder folder(flags.common.folder_or(stem_of(path) + "-config"), {path});
   write_file(folder.path() / "study.yaml",
              header("Compares back ends over " + path + ".", facts, assumed) + config_text(lines) +
@@ -111,8 +113,10 @@ void add_init(CLI::App& program, Context& context) {
   auto flags = std::make_shared<InitFlags>();
   Command command(program, "init", "Write a configuration and a study for a folder of pictures",
                   "Example: fathom init my_survey --out my_survey_config\n"
+                  "         fathom init photos --set dataset.altitude_m=2.1 "
+                  "--set dataset.camera.focal_px=1850\n"
                   "Both have every key of the front end with its value and meaning.");
-  command.argument("folder", flags->folder, "Folder in the EuRoC/ASL layout");
+  command.argument("folder", flags->folder, "Folder in the EuRoC/ASL layout, or of plain pictures");
   flags->common.add_settings_to(command);
   flags->common.add_out_to(command, "Output folder (default: runs/FOLDER's name-config)");
   command.on_run([flags, &context] { init(*flags, context); });

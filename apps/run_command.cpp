@@ -34,10 +34,10 @@ struct RunFlags {
 
 Recording record_with_progress(const Recorder& recorder, const Configuration& configuration,
                                bool quiet) {
-  ProgressLine line("front end, frame", quiet);
+  ProgressLine line("front end, picture", quiet);
   const TrialNoise noise{static_cast<std::uint64_t>(configuration.seed), 0};
   return recorder.record(configuration, configuration.reference, builtin_estimators(), noise,
-                         line.callback());
+                         line.front_end_callback());
 }
 
 Result evaluate_with_progress(const Recording& recording, const Configuration& configuration,
@@ -200,8 +200,9 @@ void add_run(CLI::App& program, Context& context) {
   Command command(program, "run", "Run one estimator over one data set",
                   "Example: fathom run configs/run.yaml --set estimator.type=ekf --out runs/ekf\n"
                   "         fathom run my_survey");
-  command.argument("config", flags->config,
-                   "Configuration (YAML), or a folder of pictures in the EuRoC/ASL layout");
+  command.argument(
+      "config", flags->config,
+      "Configuration (YAML), or a folder of pictures, plain or in the EuRoC/ASL layout");
   flags->common.add_settings_to(command);
   flags->common.add_out_to(command, "Output folder (default: runs/CONFIG's name)");
   command.text("--cache", flags->cache, "DIR",

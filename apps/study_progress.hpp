@@ -1,9 +1,7 @@
 #pragma once
 
 #include <chrono>
-#include <optional>
 #include <string>
-#include <utility>
 
 #include "fathom/harness/study_run.hpp"
 
@@ -23,12 +21,11 @@ class StudyProgressLine {
   using Clock = std::chrono::steady_clock;
 
   static std::string stage(const StudyProgress& progress);
-  std::string pace(const StudyProgress& progress, Clock::time_point now) const;
+  static std::string left(const StudyProgress& progress);
 
   bool quiet_;
   bool is_terminal_;
   bool shown_ = false;
-  std::optional<std::pair<Clock::time_point, std::size_t>> first_;
   Clock::time_point last_ = Clock::now();
 };
 

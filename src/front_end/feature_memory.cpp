@@ -38,8 +38,10 @@ FeatureMemory::FeatureMemory(const FrameSource& source, const FeatureExtractor& 
   if (cv::getNumThreads() > 1) cv::parallel_for_(cv::Range(0, 2), [](const cv::Range&) {});
 }
 
-FeatureMemory::Held FeatureMemory::extract(std::size_t frame) const {
-  return std::make_shared<const PackedFeatures>(extractor_.extract(source_.image(frame)));
+FeatureMemory::Held FeatureMemory::extract(std::size_t frame) {
+  return extracted_.measure([&] {
+    return std::make_shared<const PackedFeatures>(extractor_.extract(source_.image(frame)));
+  });
 }
 
 FeatureMemory::Held FeatureMemory::of(std::size_t frame) {

@@ -81,11 +81,11 @@ FloorFeatures PairRegistrar::on_floor_of(const MeasuredFrame& frame) {
 // Pixels in, registration out: features, their points on the floor, the motion and its covariance.
 PairRegistration PairRegistrar::register_anew(const MeasuredFrame& from, const MeasuredFrame& to,
                                               const FloorFeatures& features_to) {
-  const Registration found =
-      register_pair(on_floor_of(from), features_to, options_, seed_of(from, to));
+  const FloorFeatures features_from = on_floor_of(from);
+  const Registration found = registered_.measure(
+      [&] { return register_pair(features_from, features_to, options_, seed_of(from, to)); });
   PairRegistration value{found.found, found.motion, found.covariance,
                          static_cast<int>(found.inliers.size())};
-  ++registered_;
   if (cache_ != nullptr) cache_->put(cache_key(from, to), value);
   return value;
 }

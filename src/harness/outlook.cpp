@@ -4,8 +4,7 @@
 #include <utility>
 
 #include "fathom/core/text.hpp"
-#include "fathom/front_end/candidates.hpp"
-#include "fathom/front_end/keyframes.hpp"
+#include "fathom/front_end/registration_plan.hpp"
 #include "fathom/vision/features.hpp"
 
 namespace fathom {
@@ -27,32 +26,13 @@ void measure_footprint(const FrameSource& frames, Outlook& outlook) {
   outlook.footprint_height_m = (corners[2] - corners[1]).norm();
 }
 
-// As the front end takes its keyframes, and dead reckoning for the estimate.
 void count_candidates(const FrameSource& frames, const FrontEndOptions& options, Outlook& outlook) {
-  KeyframeSchedule schedule(frames, options.keyframes);
-  CandidateSearch search(frames.camera(), options.candidates);
-  KeyframeLengths lengths;
-  GivenTrajectory trajectory;
-  Pose pose;
-  std::size_t frame = 0;
-  while (const auto next = schedule.frame(lengths.altitudes_m.size())) {
-    const Pose before = pose;
-    const std::size_t frame_before = frame;
-    for (; frame < *next; ++frame) pose = compose(pose, frames.info(frame + 1).motion->mean);
-    if (!lengths.altitudes_m.empty()) {
-      lengths.steps_m.push_back((pose.position() - before.position()).norm());
-      lengths.separation_frames.push_back(static_cast<double>(frame - frame_before));
-    }
-    trajectory.append(pose);
-    lengths.altitudes_m.push_back(frames.info(frame).altitude_m);
-    const std::size_t newest = trajectory.size() - 1;
-    for (const std::size_t k : search.find(trajectory, lengths.altitudes_m, newest).keyframes) {
-      ++(k + 1 == newest ? outlook.consecutive_candidates : outlook.other_candidates);
-    }
-  }
-  outlook.keyframes = trajectory.size();
+  RegistrationPlan plan = plan_registrations(frames, options);
+  outlook.keyframes = plan.candidates.size();
+  outlook.consecutive_candidates = plan.consecutive;
+  outlook.other_candidates = plan.all_candidates() - plan.consecutive;
   if (outlook.keyframes > 1) {
-    outlook.in_metres = in_metres(options, frames.camera(), std::move(lengths));
+    outlook.in_metres = in_metres(options, frames.camera(), std::move(plan.lengths));
   }
 }
 

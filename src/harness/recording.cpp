@@ -52,9 +52,10 @@ InputError single_keyframe(const KeyframeOptions& keyframes, std::size_t frames)
 
 // The paper from pictures to measurements. A guide runs along, as the candidates of section 3 are
 // picked by a trajectory; the log of measurements is all that is kept of it.
-MeasurementLog log_of(FrontEnd& front_end, CandidateGuide& guide, std::size_t frames,
-                      const Progress& progress) {
+MeasurementLog log_of(FrontEnd& front_end, CandidateGuide& guide,
+                      const std::function<void()>& say_progress) {
   MeasurementLog log;
+  say_progress();
   // Section 2: every so many frames a keyframe, with the dead reckoning since the last one.
   while (const auto keyframe = front_end.next_keyframe()) {
     // Section 3, augmentation: the state grows by the motion to the new keyframe.
@@ -69,8 +70,9 @@ MeasurementLog log_of(FrontEnd& front_end, CandidateGuide& guide, std::size_t fr
       // Section 3, update: all registrations of the keyframe stacked, and iterated.
       if (!found.empty()) guide.close_loops(found);
     }
-    if (progress) progress(front_end.frames().size(), frames);
+    say_progress();
   }
+  say_progress();
   return log;
 }
 
@@ -108,12 +110,16 @@ std::unique_ptr<CandidateGuide> guide_of(const Survey& survey, const Configurati
 
 Recording record_survey(Survey& survey, const Configuration& configuration,
                         const CandidateReference& reference, const EstimatorRegistry& registry,
-                        const Progress& progress) {
+                        const FrontEndProgressCallback& progress) {
   const FrameSource& source = survey.frames();
   FrontEnd front_end(source, survey.registrar(), configuration.front_end);
   const auto guide = guide_of(survey, configuration, reference, registry);
+  std::optional<FrontEndPace> pace;
+  if (progress) pace.emplace(source, survey.registrar(), configuration.front_end);
   Recording recording;
-  recording.log = log_of(front_end, *guide, source.size(), progress);
+  recording.log = log_of(front_end, *guide, [&] {
+    if (progress) progress(pace->at(front_end));
+  });
   if (front_end.keyframes().size() < 2) {
     throw at_origin(configuration,
                     single_keyframe(configuration.front_end.keyframes, source.size()));
@@ -206,7 +212,7 @@ Recorder::Recorder(const Configuration& configuration, RegistrationCache* cache,
 
 Recording Recorder::record(const Configuration& configuration, const CandidateReference& reference,
                            const EstimatorRegistry& registry, const TrialNoise& noise,
-                           const Progress& progress) const {
+                           const FrontEndProgressCallback& progress) const {
   Recording recording;
   if (graph_) {
     auto drawn = draw_graph(*graph_data_, configuration, noise);
@@ -227,7 +233,7 @@ const FrameSource* Recorder::pictures() const {
 }
 
 Recording record(const Configuration& configuration, const EstimatorRegistry& registry,
-                 const Progress& progress, RegistrationCache* cache) {
+                 const FrontEndProgressCallback& progress, RegistrationCache* cache) {
   const TrialNoise noise{static_cast<std::uint64_t>(configuration.seed), 0};
   return Recorder(configuration, cache)
       .record(configuration, configuration.reference, registry, noise, progress);

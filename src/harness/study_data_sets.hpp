@@ -11,6 +11,7 @@
 #include "fathom/configuration/study.hpp"
 #include "fathom/front_end/registration_cache.hpp"
 #include "fathom/harness/recording.hpp"
+#include "fathom/harness/study_pace.hpp"
 
 namespace fathom {
 
@@ -32,6 +33,9 @@ class StudyDataSets {
 
   /// The first cell whose data set this cell shares.
   std::size_t shared_with(std::size_t cell) const { return first_cell_[cell]; }
+  SharedSurvey shared(std::size_t cell, std::size_t survey) const {
+    return {first_cell_[cell], survey};
+  }
 
   /// Says that a trial of this cell and survey is to come.
   void expect_trial(std::size_t cell, std::size_t survey) { ++entry_of(cell, survey).trials; }

@@ -12,18 +12,13 @@
 #include "fathom/harness/run_record.hpp"
 #include "fathom/harness/survey.hpp"
 #include "fathom/results/run_index.hpp"
+#include "recorded_trial.hpp"
 #include "study_data_sets.hpp"
 #include "study_tasks.hpp"
 #include "study_watch.hpp"
 
 namespace fathom {
 namespace {
-
-/// A recording with what all its runs are judged by.
-struct RecordedTrial {
-  std::shared_ptr<const Recording> recording;
-  RecordingFacts facts;
-};
 
 class Runner {
  public:
@@ -40,7 +35,8 @@ class Runner {
         tasks_(tasks_to_do()),
         threads_(std::min(static_cast<std::size_t>(options.jobs),
                           std::max<std::size_t>(tasks_.size(), 1))),
-        watch_(options, runs() - runs_in(tasks_), runs()) {
+        watch_(options, runs() - runs_in(tasks_), runs(),
+               StudyPace(work_of(study, data_sets_, tasks_, store != nullptr), threads_)) {
     for (const Task& task : tasks_) data_sets_.expect_trial(task.cell, task.survey);
   }
 
@@ -114,22 +110,22 @@ class Runner {
       if (is_stopped()) return;
       recorder->record(configuration,
                        is_own ? by_contender(configuration.estimators[e]) : configuration.reference,
-                       registry_, noise_of(task), watch_.over("front end at frame"));
+                       registry_, noise_of(task),
+                       watch_.over_front_end(data_sets_.shared(task.cell, task.survey)));
       if (!is_own) break;
     }
     data_sets_.trial_done(task.cell, task.survey);
     ++done_tasks_;
-    watch_.runs_done(task.estimators.size(), 0);
+    watch_.registered(task.estimators.size());
   }
 
   void run_trial(const Task& task, MemoryMeter* meter) {
     const Configuration& configuration = study_.cells[task.cell];
     std::shared_ptr<const Recorder> recorder = data_sets_.of(task.cell, task.survey);
     const auto record_by = [&](const CandidateReference& reference) {
-      return RecordedTrial{std::make_shared<const Recording>(
-                               recorder->record(configuration, reference, registry_, noise_of(task),
-                                                watch_.over("front end at frame"))),
-                           {}};
+      const auto progress = watch_.over_front_end(data_sets_.shared(task.cell, task.survey));
+      return RecordedTrial(
+          recorder->record(configuration, reference, registry_, noise_of(task), progress));
     };
     const auto judge_by_facts = [&](RecordedTrial& trial) {
       if (!task.estimators.empty()) trial.facts = study_facts(*trial.recording, registry_);
@@ -168,12 +164,11 @@ class Runner {
     store_->add(run);
   }
 
-  void add_run(const Task& task, std::size_t estimator, const RecordedTrial& trial,
-               MemoryMeter* meter) {
+  void add_run(const Task& task, std::size_t estimator, RecordedTrial& trial, MemoryMeter* meter) {
     const Configuration& configuration = study_.cells[task.cell];
     ReplayOptions asked = replay_options(configuration, configuration.estimators[estimator]);
     asked.memory = meter;
-    asked.progress = watch_.over(configuration.estimators[estimator].name + " at keyframe");
+    asked.progress = watch_.over_run(configuration.estimators[estimator].name + " at keyframe");
     Result result =
         evaluate(*trial.recording, configuration.estimators[estimator], registry_,
                  {.metrics = metric_options(configuration), .facts = &trial.facts}, asked);
@@ -181,7 +176,7 @@ class Runner {
     run.key = task.run_of(configuration.estimators[estimator].name);
     run.jobs = static_cast<int>(threads_);
     store_->add(run);
-    watch_.runs_done(1, result.is_done() ? 0 : 1);
+    watch_.run_done(estimator, trial.lap_s(), !result.is_done());
     const std::lock_guard hold(mutex_);
     if (is_example(task)) example_[estimator] = {trial.recording, std::move(result)};
   }

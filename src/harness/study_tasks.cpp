@@ -125,6 +125,23 @@ std::vector<Task> tasks_of(const Study& study, const RunIndex* there,
   return tasks;
 }
 
+StudyWork work_of(const Study& study, const StudyDataSets& data_sets,
+                  const std::vector<Task>& tasks, bool with_runs) {
+  StudyWork work;
+  for (const Task& task : tasks) {
+    const Configuration& configuration = study.cells[task.cell];
+    if (!find_data_set(configuration.dataset.type).is_graph) {
+      const bool is_own =
+          configuration.study.association == Association::own && !task.estimators.empty();
+      work.front_ends[data_sets.shared(task.cell, task.survey)] +=
+          is_own ? task.estimators.size() : 1;
+    }
+    if (!with_runs) continue;
+    for (const std::size_t e : task.estimators) ++work.runs[e];
+  }
+  return work;
+}
+
 std::size_t runs_in(const std::vector<Task>& tasks) {
   std::size_t runs = 0;
   for (const Task& task : tasks) runs += task.estimators.size();

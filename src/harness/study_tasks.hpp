@@ -53,6 +53,10 @@ std::vector<Task> tasks_of(const Study& study, const RunIndex* there,
                            const StudyDataSets& data_sets, const ShardTrials& own,
                            std::size_t jobs);
 
+/// What they come to, with the runs or without.
+StudyWork work_of(const Study& study, const StudyDataSets& data_sets,
+                  const std::vector<Task>& tasks, bool with_runs);
+
 /// Runs of estimators in all of them.
 std::size_t runs_in(const std::vector<Task>& tasks);
 

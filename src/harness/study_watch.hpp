@@ -4,8 +4,8 @@
 #include <chrono>
 #include <mutex>
 #include <string>
-#include <utility>
 
+#include "fathom/harness/study_pace.hpp"
 #include "fathom/harness/study_run.hpp"
 
 namespace fathom {
@@ -13,45 +13,34 @@ namespace fathom {
 /// Leaves a trial in the middle.
 struct Stopped {};
 
-/// Says how far a study has come, and whether somebody asked it to stop. May be used from several
-/// threads at once.
+/// Says how far a study has come and what is left, and whether somebody asked it to stop. May be
+/// used from several threads at once.
 class StudyWatch {
  public:
-  /// The options must outlive it.
-  StudyWatch(const StudyRunOptions& options, std::size_t done, std::size_t of) : options_(options) {
-    progress_.earlier = progress_.done = done;
-    progress_.of = of;
-  }
+  /// The options must outlive it. `done` runs of `of` were there before.
+  StudyWatch(const StudyRunOptions& options, std::size_t done, std::size_t of, StudyPace pace);
 
   bool is_stopped() const { return options_.stop != nullptr && options_.stop->load(); }
 
-  void runs_done(std::size_t runs, std::size_t failed) {
-    const std::lock_guard hold(mutex_);
-    progress_.done += runs;
-    progress_.failed += failed;
-    if (options_.progress) options_.progress(progress_);
-  }
+  /// A run that took so long, with what was computed for it alone.
+  void run_done(std::size_t estimator, double seconds, bool is_failed);
+  /// Runs that were only prepared.
+  void registered(std::size_t runs);
 
-  /// For a part of a trial that calls it at every step. Throws Stopped.
-  Progress over(std::string stage) {
-    return [this, stage = std::move(stage)](std::size_t step, std::size_t steps) {
-      if (is_stopped()) throw Stopped{};
-      const std::lock_guard hold(mutex_);
-      const auto now = Clock::now();
-      if (now - heard_ < std::chrono::seconds(1)) return;
-      heard_ = now;
-      progress_.stage = stage;
-      progress_.step = step;
-      progress_.steps = steps;
-      if (options_.progress) options_.progress(progress_);
-    };
-  }
+  /// For a pass of the front end over a survey's pictures. What it returns throws Stopped.
+  FrontEndProgressCallback over_front_end(const SharedSurvey& survey);
+  /// For an estimator's run. What it returns throws Stopped.
+  Progress over_run(std::string stage);
 
  private:
   using Clock = std::chrono::steady_clock;
 
+  bool is_due();
+  void say();
+
   const StudyRunOptions& options_;
   std::mutex mutex_;
+  StudyPace pace_;
   StudyProgress progress_;
   Clock::time_point heard_ = Clock::now();
 };

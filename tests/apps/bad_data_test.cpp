@@ -165,7 +165,7 @@ TEST_F(BadData, EvaluateRefusesWhatIsNoTrajectory) {
   EXPECT_THAT(refused("later.tum"), HasSubstr("no pose is within 0.01"));
   EXPECT_THAT(refused("empty.tum"), HasSubstr("no pose is within"));
   EXPECT_THAT(refusal({"evaluate", "good.tum", "good.tum", "--alignment", "sim3"}),
-              HasSubstr("expected none, origin or se2"));
+              HasSubstr("expected none, origin, se2 or yaw"));
   EXPECT_THAT(refusal({"check", "empty.tum"}), HasSubstr("holds no pose"));
 }
 

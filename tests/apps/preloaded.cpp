@@ -4,13 +4,16 @@
 // made at once, so that it is there, and empty, where none is.
 // FATHOM_KILL_AT_WRITE=N: the program is killed when it is about to write to a database for the
 // N-th time.
+// FATHOM_DISK_BYTES=N: files take so many bytes in all, then the disk is full.
 
 #include <atomic>
+#include <cerrno>
 #include <csignal>
 #include <cstdlib>
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <pthread.h>
+#include <sys/uio.h>
 #include <unistd.h>
 
 namespace {
@@ -36,9 +39,33 @@ void count_write() {
   if (at != nullptr && ++writes == std::atoi(at)) ::raise(SIGKILL);
 }
 
+// Whether a file takes so many bytes more; standard streams are none.
+bool has_room(int file, size_t bytes) {
+  static std::atomic<long long> written = 0;
+  static const char* const room = std::getenv("FATHOM_DISK_BYTES");
+  if (room == nullptr || file <= STDERR_FILENO) return true;
+  if ((written += static_cast<long long>(bytes)) <= std::atoll(room)) return true;
+  errno = ENOSPC;
+  return false;
+}
+
 }  // namespace
 
 extern "C" {
+
+ssize_t write(int file, const void* bytes, size_t size) {
+  static decltype(::write)* next = nullptr;
+  find_next(next, "write");
+  return has_room(file, size) ? next(file, bytes, size) : -1;
+}
+
+ssize_t writev(int file, const iovec* parts, int count) {
+  static decltype(::writev)* next = nullptr;
+  find_next(next, "writev");
+  size_t size = 0;
+  for (int i = 0; i < count; ++i) size += parts[i].iov_len;
+  return has_room(file, size) ? next(file, parts, count) : -1;
+}
 
 int pthread_create(pthread_t* thread, const pthread_attr_t* attributes, void* (*start)(void*),
                    void* argument) {

@@ -205,6 +205,24 @@ TEST_F(YourSurvey, PlainPicturesCloseTheirLoops) {
         "  camera: {focal_px: 130}\nestimator: {type: incremental_smoother}\n");
   const Ended ended = fathom_done({"run", "run.yaml", "--out", "out"});
   EXPECT_THAT(ended.out, HasSubstr("dead reckoning by visual odometry"));
+  // Without a configuration what the pictures do not say is asked for.
+  EXPECT_THAT(refusal({"run", "pictures"}), HasSubstr("dataset.camera.focal_px"));
+  EXPECT_THAT(refusal({"check", "pictures"}), HasSubstr("fathom init pictures"));
+  const Arguments given{"--set", "dataset.altitude_m=2.0", "--set", "dataset.camera.focal_px=130"};
+  const auto with_given = [&given](Arguments all) {
+    all.insert(all.end(), given.begin(), given.end());
+    return all;
+  };
+  const Arguments smoother{"--set", "estimator.type=incremental_smoother", "--no-mosaic"};
+  Arguments run = with_given({"run", "pictures", "--out", "given"});
+  run.insert(run.end(), smoother.begin(), smoother.end());
+  fathom_done(run);
+  EXPECT_EQ(bytes_of("given/trajectory.tum"), bytes_of("out/trajectory.tum"));
+  fathom_done(with_given({"init", "pictures", "--out", "config"}));
+  Arguments configured{"run", "config/run.yaml", "--out", "configured"};
+  configured.insert(configured.end(), smoother.begin(), smoother.end());
+  fathom_done(configured);
+  EXPECT_EQ(bytes_of("configured/trajectory.tum"), bytes_of("out/trajectory.tum"));
   EXPECT_GT(number("out", "loop_closures"), 10);
   expect_picture("out/mosaic.png");
   // The same survey with its sensors: the maps agree, up to the pictures' times.

@@ -57,7 +57,9 @@ const std::vector<ThirdParty>& third_parties() {
         "include/fathom/report/picture.hpp", "apps/"}},
       {"boost/math/", {"src/core/chi_squared.cpp", "src/evaluation/distributions.cpp"}},
       {"ceres/", {"estimators/ceres_pose_graph/"}},
-      {"yaml-cpp/", {"src/configuration/", "src/datasets/image_folder/camera_yaml.cpp"}},
+      {"yaml-cpp/",
+       {"src/configuration/", "src/datasets/image_folder/camera_yaml.cpp",
+        "src/datasets/import/ros2_metadata.cpp"}},
       {"immintrin.h", {"include/fathom/core/cpu.hpp"}},
       {"geo_normalize.h", {"src/report/earth/geo_tiff.cpp"}},
       {"geodesic.h", {"src/report/earth/earth_frame.cpp"}},
@@ -65,7 +67,11 @@ const std::vector<ThirdParty>& third_parties() {
       {"proj.h", {"src/report/earth/earth_frame.cpp"}},
       {"xtiffio.h", {"src/report/earth/geo_tiff.cpp"}},
       {"libexif/", {"src/datasets/pictures/exif.cpp"}},
-      {"SQLiteCpp/", {"src/results/", "src/front_end/registration_"}},
+      {"console_bridge/", {"src/datasets/import/ros1_bag.cpp"}},
+      {"rosbag/", {"src/datasets/import/ros1_bag.cpp"}},
+      {"fastcdr/", {"src/datasets/import/cdr_message.cpp"}},
+      {"SQLiteCpp/",
+       {"src/results/", "src/front_end/registration_", "src/datasets/import/ros2_bag.cpp"}},
       {"sqlite3.h", {"src/results/", "src/front_end/registration_"}},
       {"nlohmann/", {"src/results/", "src/harness/", "src/report/"}},
       {"cairo", {"src/report/"}},
@@ -83,7 +89,7 @@ const std::vector<ThirdParty>& third_parties() {
       {"sys/resource.h", {"src/core/system.cpp"}},
       {"unistd.h",
        {"src/core/files.cpp", "src/core/file_lock.cpp", "src/core/system.cpp", "apps/common.cpp",
-        "apps/out_of_memory.cpp"}}};
+        "apps/out_of_memory.cpp", "apps/stop_signal.cpp"}}};
   return list;
 }
 

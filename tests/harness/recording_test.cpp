@@ -39,16 +39,48 @@ Result evaluated(const Recording& recording, const EstimatorEntry& entry) {
   return evaluate(recording, {entry.name, entry.name, {}}, builtin_estimators(), {}, {});
 }
 
-TEST(Record, MakesALogOfASurvey) {
-  std::size_t last = 0;
+TEST(Record, SaysHowFarItHasCome) {
   const Configuration configuration = small_survey();
-  const Recording recording =
-      record(configuration, builtin_estimators(), [&](std::size_t done, std::size_t of) {
-        EXPECT_GE(done, last);
-        EXPECT_EQ(of, 33u);
-        last = done;
-      });
-  EXPECT_GT(last, 30u);
+  const Recorder recorder(configuration);
+  const auto progress_of_a_pass = [&] {
+    std::vector<FrontEndProgress> said;
+    const Recording recording =
+        recorder.record(configuration, configuration.reference, builtin_estimators(), {5, 0},
+                        [&](const FrontEndProgress& at) { said.push_back(at); });
+    EXPECT_EQ(said.back().pairs, recording.registrations_tried);
+    return said;
+  };
+  const std::vector<FrontEndProgress> said = progress_of_a_pass();
+  EXPECT_EQ(said.front().pictures, 0u);
+  EXPECT_TRUE(said.back().is_done());
+  ASSERT_TRUE(said.back().of_pairs && said.front().of_pairs);
+  EXPECT_EQ(*said.back().of_pairs, said.back().pairs);
+  // Dead reckoning promised about as many.
+  EXPECT_NEAR(static_cast<double>(*said.front().of_pairs), static_cast<double>(said.back().pairs),
+              0.25 * static_cast<double>(said.back().pairs));
+  for (std::size_t i = 1; i < said.size(); ++i) {
+    EXPECT_EQ(said[i].of_pictures, 33u);
+    EXPECT_GE(said[i].pictures, said[i - 1].pictures);
+    EXPECT_GE(said[i].pairs, said[i - 1].pairs);
+  }
+  EXPECT_EQ(said.back().left_s, 0.0);
+  EXPECT_EQ(said.back().anew, 1.0);
+  // All is known the second time.
+  EXPECT_EQ(progress_of_a_pass().back().anew, 0.0);
+}
+
+TEST(Record, SaysHowFarItHasComeWithVisualOdometryToo) {
+  const Configuration configuration = small_survey(kVisualOdometry);
+  std::vector<FrontEndProgress> said;
+  record(configuration, builtin_estimators(),
+         [&](const FrontEndProgress& at) { said.push_back(at); });
+  EXPECT_FALSE(said.front().of_pairs);
+  EXPECT_TRUE(said.back().is_done());
+  EXPECT_TRUE(said[said.size() / 2].left_s);
+}
+
+TEST(Record, MakesALogOfASurvey) {
+  const Recording recording = record(small_survey(), builtin_estimators());
   EXPECT_EQ(recording.frames.size(), 33u);
   EXPECT_EQ(recording.frame_dead_reckoning.size(), 33u);
   EXPECT_EQ(recording.log.size(), 11u);

@@ -10,6 +10,8 @@
 
 namespace fathom {
 
+class SensorCsv;
+
 /// A recorded survey in the EuRoC/ASL folder layout (docs/formats.md).
 ///
 /// Frames are the rows of `cam0/data.csv`. Other sensors may run at other rates: a reading with a
@@ -41,11 +43,14 @@ class ImageFolder : public FrameSource {
   bool has_odometry() const override { return has_odometry_; }
   /// The pictures and the files of all sensors, each a regular file.
   std::vector<std::filesystem::path> files() const;
+  /// The file of frame i's picture.
+  const std::filesystem::path& picture(std::size_t i) const { return pictures_[i]; }
   /// Whether every frame has ground truth.
   bool has_ground_truth() const override { return has_ground_truth_; }
 
  private:
   void read_frames();
+  void refuse_other_units(const SensorCsv& csv) const;
   void read_altitudes();
   void read_odometry();
   void read_ground_truth();

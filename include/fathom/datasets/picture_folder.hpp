@@ -76,6 +76,9 @@ class PictureFolder : public FrameSource {
   bool has_odometry_ = false;
 };
 
+/// Whether a folder has pictures in it, and none of the EuRoC/ASL layout.
+bool is_plain_picture_folder(const std::filesystem::path& path);
+
 /// Whether a name comes before another one: runs of digits by their value, the rest by its bytes.
 bool is_before(const std::string& a, const std::string& b);
 

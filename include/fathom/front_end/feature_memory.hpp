@@ -1,6 +1,9 @@
 #pragma once
 
+#include <atomic>
+#include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -9,6 +12,28 @@
 #include "fathom/vision/features.hpp"
 
 namespace fathom {
+
+/// Pieces of work of one kind that are done, and the time that threads were at them, together.
+class WorkMeter {
+ public:
+  /// Does one piece.
+  template <class Work>
+  auto measure(const Work& work) {
+    const auto start = std::chrono::steady_clock::now();
+    auto result = work();
+    const std::chrono::nanoseconds time = std::chrono::steady_clock::now() - start;
+    time_ns_ += time.count();
+    ++count_;
+    return result;
+  }
+
+  std::size_t count() const { return count_; }
+  double seconds() const { return 1e-9 * static_cast<double>(time_ns_); }
+
+ private:
+  std::atomic<std::int64_t> time_ns_ = 0;
+  std::atomic<std::size_t> count_ = 0;
+};
 
 /// Features in little memory: SIFT's descriptors are whole numbers from 0 to 255, so a byte holds
 /// each of them without loss. Descriptors that a byte cannot hold are kept as they are.
@@ -44,14 +69,17 @@ class FeatureMemory {
 
   /// Of the features held that were asked for.
   std::size_t bytes() const { return held_.cost(); }
+  /// What extraction took.
+  const WorkMeter& extracted() const { return extracted_; }
 
  private:
   using Held = std::shared_ptr<const PackedFeatures>;
 
-  Held extract(std::size_t frame) const;
+  Held extract(std::size_t frame);
 
   const FrameSource& source_;
   FeatureExtractor extractor_;
+  WorkMeter extracted_;
   OnceMap<std::size_t, Held> held_;
 };
 

@@ -53,9 +53,17 @@ class PairRegistrar {
   /// nothing.
   void announce(const MeasuredFrame& from, const MeasuredFrame& to);
 
+  /// Whether a pair is known without registering it.
+  bool is_known(const MeasuredFrame& from, const MeasuredFrame& to) {
+    return known(from, to).has_value();
+  }
+
   /// Pairs registered anew so far, and pairs that the cache knew.
-  std::size_t registered() const { return registered_; }
+  std::size_t registered() const { return registered_.count(); }
   std::size_t from_cache() const { return from_cache_; }
+  /// What registering pairs took, and what extracting features of pictures.
+  const WorkMeter& work_on_pairs() const { return registered_; }
+  const WorkMeter& work_on_pictures() const { return features_.extracted(); }
   /// What the features held take.
   std::size_t feature_bytes() const { return features_.bytes(); }
 
@@ -78,7 +86,7 @@ class PairRegistrar {
   RegistrationKeys keys_;
   FeatureMemory features_;
   OnceMap<PairKey, PairRegistration> pairs_;
-  std::atomic<std::size_t> registered_ = 0;
+  WorkMeter registered_;
   std::atomic<std::size_t> from_cache_ = 0;
 };
 

@@ -9,6 +9,7 @@
 #include "fathom/configuration/configuration.hpp"
 #include "fathom/estimation/estimator.hpp"
 #include "fathom/front_end/front_end.hpp"
+#include "fathom/harness/front_end_pace.hpp"
 #include "fathom/harness/survey.hpp"
 #include "fathom/measurements/measurement_log.hpp"
 
@@ -48,7 +49,7 @@ struct Recording {
 /// Of a g2o data set: the graph, with vertex ids as whole seconds. Registrations that the cache
 /// knows are not made again; the recording is the same with a cache and without.
 Recording record(const Configuration& configuration, const EstimatorRegistry& registry,
-                 const Progress& progress = {}, RegistrationCache* cache = nullptr);
+                 const FrontEndProgressCallback& progress = {}, RegistrationCache* cache = nullptr);
 
 /// A survey of a data set, opened once to be recorded again and again: by other estimators, in
 /// other trials. May be used from several threads at once.
@@ -64,7 +65,7 @@ class Recorder {
   /// reference never sees them.
   Recording record(const Configuration& configuration, const CandidateReference& reference,
                    const EstimatorRegistry& registry, const TrialNoise& noise,
-                   const Progress& progress = {}) const;
+                   const FrontEndProgressCallback& progress = {}) const;
 
   const DataSet& data() const { return pictures_ ? pictures_->data() : *graph_data_; }
 

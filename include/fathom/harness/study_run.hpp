@@ -25,10 +25,16 @@ struct StudyProgress {
   std::size_t earlier = 0;  ///< of them, those that were there already
   std::size_t of = 0;
   std::size_t failed = 0;  ///< of this session's runs: diverged or numerical failure
-  /// What the trial last heard of is at: "front end at frame", or an estimator "at keyframe".
+  /// What the trial last heard of is at: "front end at picture", or an estimator "at keyframe".
   std::string stage;
   std::size_t step = 0;
   std::size_t steps = 0;
+  /// Of the front end: pairs of pictures tried, of about how many (FrontEndProgress).
+  std::optional<std::size_t> pairs;
+  std::optional<std::size_t> of_pairs;
+  /// Of this session's runs and registrations. Absent as long as nothing tells.
+  std::optional<double> left_s;
+  bool left_is_least = false;  ///< of a part nothing tells yet, so more is left
 };
 
 struct StudyRunOptions {

@@ -1,5 +1,3 @@
-#include "camera_yaml.hpp"
-
 #include <cmath>
 #include <optional>
 #include <vector>
@@ -10,6 +8,7 @@
 #include "fathom/core/input_error.hpp"
 #include "fathom/core/options.hpp"
 #include "fathom/core/text.hpp"
+#include "fathom/datasets/asl_files.hpp"
 
 namespace fathom {
 namespace {

@@ -4,10 +4,10 @@
 #include <optional>
 #include <string>
 
-#include "camera_yaml.hpp"
 #include "fathom/core/files.hpp"
 #include "fathom/core/hash.hpp"
 #include "fathom/core/input_error.hpp"
+#include "fathom/datasets/asl_files.hpp"
 #include "fathom/datasets/picture_file.hpp"
 #include "sensor_csv.hpp"
 #include "sensor_series.hpp"
@@ -24,7 +24,9 @@ fs::path mav0_of(const fs::path& path) {
   for (const fs::path& candidate : {path / "mav0", path}) {
     if (fs::is_directory(candidate / "cam0", error)) return candidate;
   }
-  throw InputError(path.string(), "has no mav0/cam0; expected a folder in the EuRoC/ASL layout");
+  throw InputError(path.string(),
+                   "has no mav0/cam0; expected a folder in the EuRoC/ASL layout, or pictures with "
+                   "dataset.type: pictures");
 }
 
 // The sensor's data.csv if its folder is there. A folder without one is a mistake, not an absence.
@@ -67,6 +69,19 @@ void ImageFolder::read_frames() {
     infos_.push_back(info);
     pictures_.push_back(picture);
   }
+  refuse_other_units(csv);
+}
+
+// Pictures closer than that are none of a camera's; whole seconds are a nanosecond apart.
+void ImageFolder::refuse_other_units(const SensorCsv& csv) const {
+  constexpr std::int64_t kLeastIntervalNs = 1000;
+  const auto intervals = static_cast<std::int64_t>(infos_.size()) - 1;
+  if (intervals == 0) return;
+  const std::int64_t mean_ns = (infos_.back().time_ns - infos_.front().time_ns) / intervals;
+  if (mean_ns >= kLeastIntervalNs) return;
+  csv.refuse(csv.rows().back(), "pictures are " + std::to_string(mean_ns) +
+                                    " ns apart in the mean; are the time stamps seconds? "
+                                    "expected nanoseconds");
 }
 
 void ImageFolder::read_altitudes() {

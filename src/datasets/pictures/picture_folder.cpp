@@ -190,4 +190,17 @@ std::vector<fs::path> PictureFolder::files() const {
   return files;
 }
 
+bool is_plain_picture_folder(const fs::path& path) {
+  std::error_code error;
+  if (fs::is_directory(path / "mav0", error) || fs::is_directory(path / "cam0", error)) {
+    return false;
+  }
+  fs::directory_iterator entry(path, error);
+  for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
+    std::error_code unreadable;
+    if (entry->is_regular_file(unreadable) && is_picture(entry->path())) return true;
+  }
+  return false;
+}
+
 }  // namespace fathom

@@ -173,24 +173,23 @@ Json page_mosaics(const fs::path& study_folder, const std::vector<std::string>& 
   std::vector<std::string> order = estimators;
   std::stable_partition(order.begin(), order.end(),
                         [&](const std::string& name) { return name == best; });
-});
-std::optional<Example> first;
-std::map<std::string, Json> by_name;
-for (const std::string& name : order) {
-  auto example = read_example(study_folder / name, name);
-  if (!example) continue;
-  by_name[name] = example_json(*example, most_pixels);
-  if (first) {
-    json["differences"].push_back(difference_json(*first, *example, most_pixels));
-  } else {
-    first = std::move(example);
+  std::optional<Example> first;
+  std::map<std::string, Json> by_name;
+  for (const std::string& name : order) {
+    auto example = read_example(study_folder / name, name);
+    if (!example) continue;
+    by_name[name] = example_json(*example, most_pixels);
+    if (first) {
+      json["differences"].push_back(difference_json(*first, *example, most_pixels));
+    } else {
+      first = std::move(example);
+    }
   }
-}
-for (const std::string& name : estimators) {
-  if (by_name.contains(name)) json["mosaics"].push_back(std::move(by_name[name]));
-}
-if (json["mosaics"].empty()) return nullptr;
-return json;
+  for (const std::string& name : estimators) {
+    if (by_name.contains(name)) json["mosaics"].push_back(std::move(by_name[name]));
+  }
+  if (json["mosaics"].empty()) return nullptr;
+  return json;
 }
 
 }  // namespace fathom

@@ -1,0 +1,161 @@
+// fathom convert: trajectories and pose graphs from one format to another.
+
+#include <cstdio>
+#include <memory>
+
+#include "apps/command.hpp"
+#include "apps/trajectories.hpp"
+#include "fathom/core/files.hpp"
+#include "fathom/core/input_error.hpp"
+#include "fathom/core/text.hpp"
+#include "fathom/measurements/graph_conversion.hpp"
+
+namespace fathom {
+namespace {
+
+struct ConvertFlags {
+  std::string input;
+  std::string to;
+  std::string out;
+  TrajectoryFlags trajectory;
+  std::string times_out;
+  bool quiet = false;
+};
+
+// What is said once all is written.
+using Notes = std::vector<std::string>;
+
+// A line of a graph opens with its tag, one of a trajectory with a number.
+bool is_graph(const std::string& path) {
+  const std::string content = read_text(path);
+  for (const std::string_view line : split(content, "\n")) {
+    const std::string_view text = trim(line.substr(0, line.find('#')));
+    if (text.empty()) continue;
+    const auto opens_with = [&](std::string_view tag) { return text.starts_with(tag); };
+    return opens_with("VERTEX") || opens_with("EDGE") || opens_with("FIX") || opens_with("EQUIV") ||
+           opens_with("PARAMS");
+  }
+  return false;
+}
+
+void refuse_flags_of_trajectories(const ConvertFlags& flags) {
+  const std::pair<const char*, const std::string*> all[]{{"--from", &flags.trajectory.format},
+                                                         {"--plane", &flags.trajectory.plane},
+                                                         {"--times", &flags.trajectory.times},
+                                                         {"--times-out", &flags.times_out}};
+  for (const auto& [flag, value] : all) {
+    if (!value->empty()) throw InputError(std::string(flag) + ": is for trajectories alone");
+  }
+}
+
+Notes convert_graph_file(const ConvertFlags& flags) {
+  refuse_flags_of_trajectories(flags);
+  const GraphFormat to = flags.to == "g2o" ? GraphFormat::g2o : GraphFormat::toro;
+  const ConvertedGraph graph = convert_graph(read_text(flags.input), flags.input, to);
+  write_file(flags.out, graph.text);
+  Notes notes{std::to_string(graph.vertices) + " vertices, " + std::to_string(graph.edges) +
+              " edges"};
+  for (const auto& [tag, count] : graph.left_out) {
+    notes.push_back("left out: " + std::to_string(count) + (count == 1 ? " line " : " lines ") +
+                    tag + ", which " + (to == GraphFormat::toro ? "TORO" : "g2o") +
+                    " does not have");
+  }
+  return notes;
+}
+
+// On its plane, at height 0 and level.
+void flatten(SpatialTrajectory& trajectory, const std::string& plane_name, Notes& notes) {
+  const Plane plane = named("--plane", plane_name, plane_names());
+  const PlaneAxes axes = axes_of(plane, trajectory.poses);
+  const BodyAxes body = body_axes(trajectory.poses, axes);
+  const Projection projection = project(trajectory.poses, axes, body);
+  const auto cells = loss_cells(plane_text(plane, axes), projection.loss);
+  for (std::size_t i = 0; i < cells.size(); ++i) notes.push_back(loss_rows()[i] + ": " + cells[i]);
+  for (const auto& warning : projection_warnings(axes, projection, body, "the trajectory")) {
+    notes.push_back("warning: " + warning);
+  }
+  trajectory.poses = to_space(projection.trajectory);
+}
+
+void add_what_is_lost(const ConvertFlags& flags, const SpatialTrajectory& read, TrajectoryFormat to,
+                      Notes& notes) {
+  if (read.further_columns > 0) {
+    notes.push_back("left out: columns 9 to " + std::to_string(8 + read.further_columns) +
+                    " (velocity, biases)");
+  }
+  if (to == TrajectoryFormat::kitti && read.has_times && flags.times_out.empty()) {
+    notes.push_back("left out: the times, which KITTI does not have; --times-out FILE writes them");
+  }
+  if (to != TrajectoryFormat::kitti && !read.has_times) {
+    notes.push_back(
+        "KITTI poses have no times: the time is the index, in seconds; --times FILE "
+        "gives them");
+  }
+}
+
+Notes convert_trajectory_file(const ConvertFlags& flags) {
+  const TrajectoryFormat to = named("--to", flags.to, trajectory_format_names());
+  SpatialTrajectory trajectory = flags.trajectory.read(flags.input, "--from");
+  if (trajectory.poses.empty()) throw InputError(flags.input, "holds no pose");
+  if (!flags.times_out.empty() && !trajectory.has_times) {
+    throw InputError("--times-out: " + flags.input + " has no times; --times FILE gives them");
+  }
+  Notes notes{std::to_string(trajectory.poses.size()) + " poses, " + title_of(trajectory.format) +
+              " to " + title_of(to)};
+  add_what_is_lost(flags, trajectory, to, notes);
+  if (!flags.trajectory.plane.empty()) flatten(trajectory, flags.trajectory.plane, notes);
+  write_file(flags.out, to_text(trajectory.poses, to));
+  if (!flags.times_out.empty()) write_file(flags.times_out, times_text(trajectory.poses));
+  return notes;
+}
+
+void convert(const ConvertFlags& flags, Context& context) {
+  const bool to_graph = flags.to == "g2o" || flags.to == "toro";
+  for (const std::string& output : {flags.out, flags.times_out}) {
+    if (!output.empty()) refuse_replacing(output, {flags.input, flags.trajectory.times});
+  }
+  if (flags.out == flags.times_out) {
+    throw InputError("--times-out: is the same file as --out");
+  }
+  if (is_graph(flags.input) != to_graph) {
+    throw InputError(flags.input, to_graph ? "is no pose graph; --to takes tum, kitti or euroc"
+                                           : "is a pose graph; --to takes g2o or toro, and fathom "
+                                             "solve writes its trajectory");
+  }
+  const Notes notes = to_graph ? convert_graph_file(flags) : convert_trajectory_file(flags);
+  context.status = kDone;
+  if (flags.quiet) return;
+  for (const std::string& note : notes) std::printf("%s\n", note.c_str());
+  std::printf("wrote %s\n", flags.out.c_str());
+  if (!flags.times_out.empty()) std::printf("      %s\n", flags.times_out.c_str());
+}
+
+}  // namespace
+
+void add_convert(CLI::App& program, Context& context) {
+  auto flags = std::make_shared<ConvertFlags>();
+  Command command(
+      program, "convert", "Write a trajectory or a pose graph in another format",
+      "Example: fathom convert mav0/state_groundtruth_estimate0/data.csv --to tum --out "
+      "truth.tum\n"
+      "         fathom convert poses.txt --times times.txt --plane xz --to tum --out "
+      "flat.tum\n"
+      "         fathom convert intel.g2o --to toro --out intel.graph");
+  command.argument("input", flags->input,
+                   "Trajectory (TUM, KITTI or EuRoC) or pose graph (g2o or TORO)");
+  command
+      .choice("--to", flags->to, {"tum", "kitti", "euroc", "g2o", "toro"}, "FORMAT",
+              "Format to write")
+      .required();
+  command.text("--out", flags->out, "FILE", "File to write").required();
+  command.text("--from", flags->trajectory.format, "FORMAT",
+               "tum, kitti or euroc; else by the content");
+  command.text("--plane", flags->trajectory.plane, "PLANE",
+               "Project onto it, and level: xy, xz, yz or fit");
+  command.text("--times", flags->trajectory.times, "FILE", "Times of KITTI poses, one a line (s)");
+  command.text("--times-out", flags->times_out, "FILE", "Write the times there, one a line (s)");
+  command.boolean("--quiet", flags->quiet, "No output but errors");
+  command.on_run([flags, &context] { convert(*flags, context); });
+}
+
+}  // namespace fathom

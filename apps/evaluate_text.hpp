@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "fathom/evaluation/spatial_accuracy.hpp"
+
+namespace fathom {
+
+/// What stands over the figures of an evaluation.
+struct EvaluationHead {
+  std::string alignment;
+  std::size_t estimate_size = 0;  ///< poses of the estimate, with and without a partner
+  bool is_paired_by_index = false;
+};
+
+/// What relative errors are over.
+struct RelativeLengths {
+  std::vector<std::size_t> steps;
+  std::vector<double> distances_m;
+};
+
+/// Prints all figures. Throws InputError, before any output, where a relative error does.
+void print_evaluation(const SpatialAccuracy& judged, const EvaluationHead& head,
+                      const RelativeLengths& lengths);
+
+}  // namespace fathom

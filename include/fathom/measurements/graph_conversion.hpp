@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace fathom {
+
+/// How a 2-D pose graph is written. Both give the pose of j in i; the information is in the order
+/// xx xy xt yy yt tt in g2o, xx xy yy tt xt yt in TORO.
+enum class GraphFormat {
+  g2o,   ///< VERTEX_SE2, EDGE_SE2, FIX
+  toro,  ///< VERTEX2, EDGE2
+};
+
+struct ConvertedGraph {
+  std::string text;
+  std::size_t vertices = 0;
+  std::size_t edges = 0;
+  /// Elements that the other format has no line for, each tag with its number of lines.
+  std::vector<std::pair<std::string, std::size_t>> left_out;
+};
+
+/// Writes a graph of either format, or of both mixed as some collections have it, in one. Numbers
+/// keep their characters, lines and comments their order, so that what is converted there and back
+/// is the same text but for blanks, and but for what is left out: FIX, priors and landmarks in
+/// TORO, EQUIV in g2o. `name` stands for the file in messages.
+/// Throws InputError with file and line on anything that read_g2o refuses in a vertex or an edge,
+/// on an unknown tag and on a text without either.
+ConvertedGraph convert_graph(const std::string& content, const std::string& name, GraphFormat to);
+
+}  // namespace fathom

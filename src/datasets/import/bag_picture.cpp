@@ -1,0 +1,97 @@
+#include "bag_picture.hpp"
+
+#include <cstddef>
+#include <cstring>
+#include <map>
+#include <string_view>
+#include <vector>
+
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "fathom/core/input_error.hpp"
+#include "fathom/core/text.hpp"
+#include "fathom/datasets/picture_file.hpp"
+
+namespace fathom {
+namespace {
+
+constexpr int kAsItIs = -1;
+
+// How an encoding of sensor_msgs/image_encodings.h lies in memory and becomes grey or BGR.
+struct Encoding {
+  int type = CV_8UC1;
+  int conversion = kAsItIs;
+};
+
+const Encoding* encoding_of(const std::string& name) {
+  // OpenCV names a Bayer mosaic by its second row and column, ROS by its first.
+  static const std::map<std::string, Encoding> encodings{
+      {"mono8", {CV_8UC1, kAsItIs}},
+      {"8UC1", {CV_8UC1, kAsItIs}},
+      {"mono16", {CV_16UC1, kAsItIs}},
+      {"16UC1", {CV_16UC1, kAsItIs}},
+      {"bgr8", {CV_8UC3, kAsItIs}},
+      {"8UC3", {CV_8UC3, kAsItIs}},
+      {"rgb8", {CV_8UC3, cv::COLOR_RGB2BGR}},
+      {"bgra8", {CV_8UC4, cv::COLOR_BGRA2BGR}},
+      {"rgba8", {CV_8UC4, cv::COLOR_RGBA2BGR}},
+      {"bayer_rggb8", {CV_8UC1, cv::COLOR_BayerBG2BGR}},
+      {"bayer_bggr8", {CV_8UC1, cv::COLOR_BayerRG2BGR}},
+      {"bayer_gbrg8", {CV_8UC1, cv::COLOR_BayerGR2BGR}},
+      {"bayer_grbg8", {CV_8UC1, cv::COLOR_BayerGB2BGR}}};
+  const auto found = encodings.find(name);
+  return found == encodings.end() ? nullptr : &found->second;
+}
+
+void swap_bytes(cv::Mat& picture) {
+  for (ushort& value : cv::Mat_<ushort>(picture)) {
+    value = static_cast<ushort>((value << 8) | (value >> 8));
+  }
+}
+
+}  // namespace
+
+BagPicture picture_of(const ImageMessage& message) {
+  const Encoding* encoding = encoding_of(message.encoding);
+  if (encoding == nullptr) {
+    throw InputError("encoding " + in_quotes(message.encoding) +
+                     " is not read; expected mono8, mono16, rgb8, bgr8, rgba8, bgra8 or bayer_…8");
+  }
+  constexpr std::uint32_t kLargestSide = 100'000;
+  const std::size_t row_bytes = message.width * CV_ELEM_SIZE(encoding->type);
+  const bool is_size = message.width > 0 && message.height > 0 && message.width <= kLargestSide &&
+                       message.height <= kLargestSide;
+  const bool is_whole =
+      message.step >= row_bytes &&
+      message.data.size() >= std::size_t{message.step} * (message.height - 1) + row_bytes;
+  if (!is_size || !is_whole) {
+    throw InputError("a picture of " + std::to_string(message.width) + " x " +
+                     std::to_string(message.height) + " pixels in " +
+                     std::to_string(message.data.size()) + " bytes, " +
+                     std::to_string(message.step) + " a row, is not whole");
+  }
+  // Row by row: a message may put a row, and so a pixel of two bytes, at any place.
+  cv::Mat seen(static_cast<int>(message.height), static_cast<int>(message.width), encoding->type);
+  for (int row = 0; row < seen.rows; ++row) {
+    std::memcpy(seen.ptr(row), message.data.data() + std::size_t{message.step} * row, row_bytes);
+  }
+  if (message.is_bigendian && seen.depth() == CV_16U) swap_bytes(seen);
+  cv::Mat picture = seen;
+  if (encoding->conversion != kAsItIs) cv::cvtColor(seen, picture, encoding->conversion);
+  std::vector<uchar> png;
+  if (!cv::imencode(".png", picture, png)) throw InputError("a picture cannot be encoded as PNG");
+  return {".png", {png.begin(), png.end()}, picture.cols, picture.rows};
+}
+
+BagPicture picture_of(const CompressedImageMessage& message) {
+  using namespace std::string_view_literals;
+  const bool is_jpeg = message.data.starts_with("\xFF\xD8"sv);
+  if (!is_jpeg && !message.data.starts_with("\x89PNG"sv)) {
+    throw InputError("format " + in_quotes(message.format) + " is not read; expected JPEG or PNG");
+  }
+  const cv::Mat picture = decode_grey_picture(message.data, "a compressed picture");
+  return {is_jpeg ? ".jpg" : ".png", std::string(message.data), picture.cols, picture.rows};
+}
+
+}  // namespace fathom

@@ -1,0 +1,121 @@
+#include "bag_survey.hpp"
+
+#include <cmath>
+
+#include "bag_picture.hpp"
+#include "fathom/core/files.hpp"
+#include "fathom/core/input_error.hpp"
+#include "fathom/core/text.hpp"
+
+namespace fathom {
+namespace {
+
+std::string size_text(int width, int height) {
+  return std::to_string(width) + " x " + std::to_string(height) + " pixels";
+}
+
+BagPicture picture_in(const BagMessage& message, const BagTopic& topic, std::int64_t& stamp_ns) {
+  if (topic.type == "sensor_msgs/Image") {
+    const ImageMessage image = read_image(message.reader);
+    stamp_ns = image.stamp_ns;
+    return picture_of(image);
+  }
+  const CompressedImageMessage image = read_compressed_image(message.reader);
+  stamp_ns = image.stamp_ns;
+  return picture_of(image);
+}
+
+}  // namespace
+
+BagSurvey::BagSurvey(const std::vector<BagTopic>& topics, const TopicChoice& choice,
+                     const BagImportOptions& options, std::filesystem::path pictures_folder)
+    : topics_(topics), choice_(choice), options_(options), folder_(std::move(pictures_folder)) {
+  for (const BagTopic& topic : topics) stamps_.emplace_back(topic.name, options.clock);
+}
+
+void BagSurvey::take(const BagMessage& message) {
+  const BagTopic& topic = topics_[message.topic];
+  try {
+    if (choice_.images == message.topic) take_picture(message, topic);
+    if (choice_.camera_info == message.topic && !camera_info) {
+      camera_info = read_camera_info(message.reader);
+    }
+    if (choice_.altitude == message.topic) take_altitude(message, topic);
+    if (choice_.odometry == message.topic || choice_.reference == message.topic) {
+      take_pose(message, topic);
+    }
+    if (choice_.heading == message.topic) take_heading(message);
+  } catch (const InputError& error) {
+    const std::string what = error.what();
+    throw InputError(
+        what.find(topic.name) == std::string::npos ? "topic " + topic.name + ": " + what : what);
+  }
+}
+
+std::optional<std::int64_t> BagSurvey::time_of(const BagMessage& message,
+                                               std::optional<std::int64_t> stamp_ns) {
+  const auto time_ns = stamps_[message.topic].next(message.record_time_ns, stamp_ns);
+  if (!time_ns) ++repeated;
+  return time_ns;
+}
+
+void BagSurvey::take_picture(const BagMessage& message, const BagTopic& topic) {
+  std::int64_t stamp_ns = 0;
+  const BagPicture picture = picture_in(message, topic, stamp_ns);
+  const auto time_ns = time_of(message, stamp_ns);
+  if (!time_ns) return;
+  if (pictures.empty()) {
+    width = picture.width;
+    height = picture.height;
+  }
+  if (picture.width != width || picture.height != height) {
+    throw InputError("picture " + std::to_string(pictures.size() + 1) + " has " +
+                     size_text(picture.width, picture.height) + ", the first has " +
+                     size_text(width, height) + "; all must have the same size");
+  }
+  pictures.push_back({*time_ns, std::to_string(*time_ns) + picture.extension});
+  write_file(folder_ / pictures.back().file, picture.bytes);
+}
+
+void BagSurvey::take_altitude(const BagMessage& message, const BagTopic& topic) {
+  const int axis = options_.altitude_axis.front() - 'x';
+  const ScalarMessage scalar = read_scalar(topic.type, axis, message.reader);
+  const auto time_ns = time_of(message, scalar.stamp_ns);
+  if (!time_ns) return;
+  if (std::isfinite(scalar.value) && scalar.value > 0.0) {
+    altitudes.emplace_back(*time_ns, scalar.value);
+  } else {
+    ++bad_altitudes;
+  }
+}
+
+void BagSurvey::take_pose(const BagMessage& message, const BagTopic& topic) {
+  const PoseMessage pose = read_pose(topic.type, message.reader);
+  const auto time_ns = time_of(message, pose.stamp_ns);
+  if (!time_ns) return;
+  planar_pose(pose);  // refuses what is none
+  if (choice_.odometry == message.topic) odometry.push_back({*time_ns, pose});
+  if (choice_.reference == message.topic) reference.push_back({*time_ns, pose});
+}
+
+void BagSurvey::take_heading(const BagMessage& message) {
+  const ImuMessage imu = read_imu(message.reader);
+  const auto time_ns = time_of(message, imu.stamp_ns);
+  if (!time_ns || !imu.has_rotation) return;
+  PoseMessage pose;
+  pose.rotation = imu.rotation;
+  headings.push_back({*time_ns, planar_pose(pose).theta, imu.yaw_variance});
+}
+
+void BagSurvey::check_times() const {
+  if (options_.clock != BagClock::automatic) return;
+  const StampedTopic& of_pictures = stamps_[*choice_.images];
+  for (const auto& topic :
+       {choice_.images, choice_.altitude, choice_.odometry, choice_.reference, choice_.heading}) {
+    if (!topic) continue;
+    stamps_[*topic].check_rate();
+    check_clocks(of_pictures, stamps_[*topic], options_.max_clock_offset_s);
+  }
+}
+
+}  // namespace fathom

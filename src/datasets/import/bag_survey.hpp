@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bag.hpp"
+#include "bag_messages.hpp"
+#include "fathom/datasets/import.hpp"
+#include "odometry_steps.hpp"
+#include "stamped_topic.hpp"
+#include "topic_choice.hpp"
+
+namespace fathom {
+
+/// A picture that is written.
+struct WrittenPicture {
+  std::int64_t time_ns = 0;
+  std::string file;  ///< in cam0/data
+};
+
+struct HeadingReading {
+  std::int64_t time_ns = 0;
+  double yaw_rad = 0.0;
+  double variance = 0.0;  ///< rad²; 0: unknown
+};
+
+/// What is taken from a bag as its messages arrive: pictures are written at once, the rest is held.
+class BagSurvey {
+ public:
+  /// Pictures are written to `pictures`, which must be there.
+  BagSurvey(const std::vector<BagTopic>& topics, const TopicChoice& choice,
+            const BagImportOptions& options, std::filesystem::path pictures);
+
+  /// Throws InputError that names the topic.
+  void take(const BagMessage& message);
+
+  /// Once all are taken: throws InputError where clocks or spans of time do not agree.
+  void check_times() const;
+
+  std::vector<WrittenPicture> pictures;
+  int width = 0;
+  int height = 0;
+  std::optional<CameraInfoMessage> camera_info;
+  std::vector<std::pair<std::int64_t, double>> altitudes;
+  std::size_t bad_altitudes = 0;  ///< not above zero, or outside of what the sensor measures
+  std::vector<OdometryReading> odometry;
+  std::vector<OdometryReading> reference;
+  std::vector<HeadingReading> headings;
+  std::size_t repeated = 0;  ///< messages with the time of the one before
+
+ private:
+  void take_picture(const BagMessage& message, const BagTopic& topic);
+  void take_altitude(const BagMessage& message, const BagTopic& topic);
+  void take_pose(const BagMessage& message, const BagTopic& topic);
+  void take_heading(const BagMessage& message);
+  /// The time that counts, of a message of a topic.
+  std::optional<std::int64_t> time_of(const BagMessage& message,
+                                      std::optional<std::int64_t> stamp_ns);
+
+  const std::vector<BagTopic>& topics_;
+  const TopicChoice& choice_;
+  const BagImportOptions& options_;
+  std::filesystem::path folder_;
+  std::vector<StampedTopic> stamps_;  ///< of every topic
+};
+
+}  // namespace fathom

@@ -1,0 +1,98 @@
+#include "fathom/core/input_error.hpp"
+#include "message_reader.hpp"
+
+#ifdef FATHOM_FASTCDR
+
+#include <cstddef>
+#include <fastcdr/Cdr.h>
+#include <fastcdr/FastBuffer.h>
+#include <fastcdr/exceptions/Exception.h>
+
+namespace fathom {
+namespace {
+
+using eprosima::fastcdr::Cdr;
+using eprosima::fastcdr::FastBuffer;
+
+class CdrMessage : public MessageReader {
+ public:
+  // The buffer is only read, but Fast CDR has one kind of buffer.
+  explicit CdrMessage(std::string_view bytes)
+      : end_(bytes.data() + bytes.size()),
+        buffer_(const_cast<char*>(bytes.data()), bytes.size()),
+        cdr_(buffer_, Cdr::DEFAULT_ENDIAN, Cdr::DDS_CDR) {
+    guarded([this] { cdr_.read_encapsulation(); });
+  }
+
+  std::uint8_t u8() override { return number<std::uint8_t>(); }
+  std::uint32_t u32() override { return number<std::uint32_t>(); }
+  float f32() override { return number<float>(); }
+  double f64() override { return number<double>(); }
+  std::string text() override {
+    std::string value;
+    guarded([&] { cdr_.deserialize(value); });
+    return value;
+  }
+  std::string_view bytes() override {
+    const std::size_t size = u32();
+    const char* const begin = cdr_.getCurrentPosition();
+    if (size > static_cast<std::size_t>(end_ - begin)) too_short();
+    cdr_.jump(size);
+    return {begin, size};
+  }
+  void skip_sequence_number() override {}
+
+ private:
+  [[noreturn]] static void too_short() {
+    throw InputError("a message is shorter than its type says");
+  }
+
+  template <class Action>
+  static void guarded(const Action& action) {
+    try {
+      action();
+    } catch (const eprosima::fastcdr::exception::Exception&) {
+      too_short();
+    }
+  }
+
+  template <class Number>
+  Number number() {
+    Number value{};
+    guarded([&] { cdr_.deserialize(value); });
+    return value;
+  }
+
+  const char* end_;
+  FastBuffer buffer_;
+  Cdr cdr_;
+};
+
+}  // namespace
+
+std::unique_ptr<MessageReader> cdr_message(std::string_view bytes) {
+  return std::make_unique<CdrMessage>(bytes);
+}
+
+void require_cdr() {}
+
+}  // namespace fathom
+
+#else
+
+namespace fathom {
+
+void require_cdr() {
+  throw InputError(
+      "this Fathom reads no bags of ROS 2: it was built without libfastcdr-dev; "
+      "'scripts/setup.sh import' installs it, then build again");
+}
+
+std::unique_ptr<MessageReader> cdr_message(std::string_view /*bytes*/) {
+  require_cdr();
+  return nullptr;
+}
+
+}  // namespace fathom
+
+#endif

@@ -1,0 +1,186 @@
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <optional>
+#include <sstream>
+#include <string>
+
+#include <Eigen/Geometry>
+
+#include "fathom/core/files.hpp"
+#include "fathom/core/input_error.hpp"
+#include "fathom/core/text.hpp"
+#include "fathom/datasets/image_folder.hpp"
+#include "fathom/datasets/import.hpp"
+#include "pose_table.hpp"
+
+namespace fathom {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+struct NamedCamera {
+  std::string name;
+  CameraPose pose;
+};
+
+// IMAGE_ID, QW, QX, QY, QZ, TX, TY, TZ, CAMERA_ID, NAME; the pose is that of the world in the
+// camera.
+NamedCamera parse_image(const std::string& file, std::size_t line, std::string_view text) {
+  constexpr std::size_t kNumbers = 9;
+  constexpr double kMostOff = 0.02;
+  const auto words = split(text);
+  std::array<double, kNumbers> numbers{};
+  bool is_image = words.size() > kNumbers;
+  for (std::size_t i = 0; is_image && i < kNumbers; ++i) {
+    const auto number = parse_real(words[i]);
+    is_image = number.has_value();
+    if (number) numbers[i] = *number;
+  }
+  Eigen::Quaterniond rotation(numbers[1], numbers[2], numbers[3], numbers[4]);
+  if (!is_image || std::abs(rotation.norm() - 1.0) > kMostOff) {
+    throw InputError(file, line,
+                     "expected IMAGE_ID QW QX QY QZ TX TY TZ CAMERA_ID NAME, the quaternion of "
+                     "length 1, and a line of points after each");
+  }
+  NamedCamera camera;
+  camera.pose.axes = rotation.normalized().toRotationMatrix().transpose();
+  camera.pose.centre = -camera.pose.axes * Eigen::Vector3d(numbers[5], numbers[6], numbers[7]);
+  // A name may have blanks in it.
+  camera.name = std::string(trim({words[kNumbers].data(), text.data() + text.size()}));
+  return camera;
+}
+
+// In the order of their names, which is that of the recording as a rule.
+std::vector<NamedCamera> read_images(const fs::path& path) {
+  std::istringstream lines(read_text(path));
+  std::vector<NamedCamera> cameras;
+  std::size_t number = 0;
+  for (std::string line; std::getline(lines, line);) {
+    ++number;
+    const std::string_view text = trim(line);
+    if (text.empty() || text.front() == '#') continue;
+    cameras.push_back(parse_image(path.string(), number, text));
+    // Its points, of which there may be none.
+    std::getline(lines, line);
+    ++number;
+  }
+  if (cameras.empty()) throw InputError(path.string(), "has no images");
+  std::ranges::sort(cameras, {}, &NamedCamera::name);
+  return cameras;
+}
+
+/// The pictures of a survey by their names.
+class Survey {
+ public:
+  explicit Survey(const fs::path& path) : folder_(path) {
+    for (std::size_t i = 0; i < folder_.size(); ++i) {
+      frames_[folder_.picture(i).filename().string()] = i;
+    }
+  }
+
+  const ImageFolder& folder() const { return folder_; }
+
+  std::optional<std::size_t> frame(const std::string& name) const {
+    const auto found = frames_.find(fs::path(name).filename().string());
+    if (found == frames_.end()) return std::nullopt;
+    return found->second;
+  }
+
+ private:
+  ImageFolder folder_;
+  std::map<std::string, std::size_t> frames_;
+};
+
+// Metres of odometry per unit of the model, over motions between consecutive frames.
+std::optional<double> scale_by_odometry(const ImageFolder& folder,
+                                        const std::map<std::size_t, Pose>& poses) {
+  if (!folder.has_odometry()) return std::nullopt;
+  double metres = 0.0;
+  double units = 0.0;
+  for (const auto& [frame, pose] : poses) {
+    const auto next = poses.find(frame + 1);
+    if (next == poses.end()) continue;
+    metres += folder.info(frame + 1).motion->mean.position().norm();
+    units += (next->second.position() - pose.position()).norm();
+  }
+  if (!(metres > 0.0 && units > 0.0)) return std::nullopt;
+  return metres / units;
+}
+
+std::string degrees(double radians) {
+  return short_number(radians * 180.0 / std::numbers::pi) + " deg";
+}
+
+}  // namespace
+
+ImportReport import_colmap(const fs::path& model, const PoseImportOptions& options,
+                           const fs::path& folder) {
+  const fs::path file = model / "images.txt";
+  std::vector<NamedCamera> cameras = read_images(file);
+  ImportReport report;
+  const std::size_t images = cameras.size();
+  std::optional<Survey> survey;
+  if (!options.survey.empty()) {
+    survey.emplace(options.survey);
+    std::erase_if(cameras, [&](const NamedCamera& camera) { return !survey->frame(camera.name); });
+    if (cameras.empty()) {
+      throw InputError(file.string(), "none of its images is a picture of " +
+                                          options.survey.string() +
+                                          "; they are told by their names");
+    }
+  }
+  std::vector<CameraPose> poses;
+  for (const NamedCamera& camera : cameras) poses.push_back(camera.pose);
+  const PlanarCameras planar = project_to_plane(poses);
+  std::map<std::size_t, Pose> by_frame;
+  for (std::size_t i = 0; i < cameras.size(); ++i) {
+    const std::size_t frame = survey ? *survey->frame(cameras[i].name) : i;
+    if (!by_frame.emplace(frame, planar.poses[i]).second) {
+      throw InputError(file.string(),
+                       "has two images by the name of " + in_quotes(cameras[i].name));
+    }
+  }
+  constexpr std::int64_t kSecond = 1'000'000'000;
+  std::vector<StampedPose> reference;
+  for (auto& [frame, pose] : by_frame) {
+    pose.x *= options.scale;
+    pose.y *= options.scale;
+    // The body's, where the survey says how the camera is mounted.
+    Pose body = pose;
+    std::int64_t time_ns = static_cast<std::int64_t>(frame) * kSecond;
+    if (survey) {
+      const CameraModel& camera = survey->folder().camera().model();
+      body = compose(pose, inverse(Pose{camera.mount_x_m, camera.mount_y_m, camera.mount_yaw_rad}));
+      time_ns = survey->folder().info(frame).time_ns;
+    }
+    reference.push_back({time_ns, body});
+  }
+  write_reference_poses(reference, folder);
+  report.facts.push_back(std::to_string(reference.size()) + " poses of " + std::to_string(images) +
+                         " images");
+  report.facts.push_back(
+      "off the plane that fits best: " + short_number(planar.rms_off_plane * options.scale) +
+      " m rms; tilt of the optical axes: median " + degrees(planar.median_tilt_rad) + ", most " +
+      degrees(planar.most_tilt_rad));
+  if (planar.is_normal_by_view) {
+    report.notes.emplace_back(
+        "the cameras lie along a line: the plane is that across their mean optical axis");
+  }
+  report.notes.push_back("a model has no scale: one unit is taken for " +
+                         short_number(options.scale, 6) + " m (--scale)");
+  if (survey) {
+    if (const auto scale = scale_by_odometry(survey->folder(), by_frame)) {
+      report.notes.push_back("by the odometry of the survey one unit is " +
+                             short_number(*scale * options.scale, 4) + " m");
+    }
+  } else {
+    report.notes.emplace_back(
+        "no --survey: poses are numbered by the names of their images, a second apart");
+  }
+  return report;
+}
+
+}  // namespace fathom

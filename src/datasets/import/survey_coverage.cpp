@@ -1,0 +1,82 @@
+#include "survey_coverage.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <system_error>
+
+#include "fathom/core/input_error.hpp"
+#include "fathom/core/text.hpp"
+#include "fathom/datasets/image_folder.hpp"
+
+namespace fathom {
+namespace {
+
+bool is_covered(const std::vector<std::int64_t>& times_ns, std::int64_t time_ns) {
+  const auto after = std::ranges::lower_bound(times_ns, time_ns);
+  if (after == times_ns.end()) return false;
+  if (*after == time_ns) return true;
+  return after != times_ns.begin() &&
+         *after - *std::prev(after) <= ImageFolder::kMaxInterpolationGapNs;
+}
+
+std::string span_text(const std::string& topic, std::int64_t first_ns, std::int64_t last_ns) {
+  return topic + " is from " + seconds_text(first_ns) + " to " + seconds_text(last_ns) + " s";
+}
+
+}  // namespace
+
+std::vector<NeededTimes> needed_times(const BagSurvey& survey, const TopicChoice& choice,
+                                      const std::vector<BagTopic>& topics) {
+  std::vector<NeededTimes> needed;
+  if (choice.altitude) {
+    needed.push_back({topics[*choice.altitude].name, {}});
+    for (const auto& reading : survey.altitudes) needed.back().times_ns.push_back(reading.first);
+  }
+  if (choice.odometry) {
+    needed.push_back({topics[*choice.odometry].name, {}});
+    for (const auto& reading : survey.odometry) needed.back().times_ns.push_back(reading.time_ns);
+  }
+  return needed;
+}
+
+void check_spans(const std::vector<WrittenPicture>& pictures, const std::string& picture_topic,
+                 const std::vector<NeededTimes>& needed) {
+  constexpr double kSecondsPerNs = 1e-9;
+  if (pictures.empty()) throw InputError("topic " + picture_topic + " has no pictures");
+  const std::int64_t first = pictures.front().time_ns;
+  const std::int64_t last = pictures.back().time_ns;
+  for (const NeededTimes& other : needed) {
+    if (other.times_ns.empty()) {
+      throw InputError("topic " + other.topic + " has no value that could be used");
+    }
+    const std::int64_t begin = other.times_ns.front();
+    const std::int64_t end = other.times_ns.back();
+    if (begin <= last && end >= first) continue;
+    const double offset_s = static_cast<double>(begin - first) * kSecondsPerNs;
+    throw InputError("two clocks disagree: " + span_text(picture_topic, first, last) + ", " +
+                     span_text(other.topic, begin, end) + ", " +
+                     short_number(std::abs(offset_s), 6) +
+                     (offset_s > 0.0 ? " s later" : " s earlier") +
+                     "; --clock record takes the times of recording of both");
+  }
+}
+
+std::size_t leave_out_uncovered(std::vector<WrittenPicture>& pictures,
+                                const std::filesystem::path& folder,
+                                const std::vector<NeededTimes>& needed) {
+  const std::size_t left_out = std::erase_if(pictures, [&](const WrittenPicture& picture) {
+    const bool is_usable = std::ranges::all_of(needed, [&](const NeededTimes& other) {
+      return is_covered(other.times_ns, picture.time_ns);
+    });
+    std::error_code error;
+    if (!is_usable) std::filesystem::remove(folder / picture.file, error);
+    return !is_usable;
+  });
+  if (!pictures.empty()) return left_out;
+  std::vector<std::string> names;
+  for (const NeededTimes& other : needed) names.push_back(other.topic);
+  throw InputError("no picture lies between two readings of " + joined(names, " and ") +
+                   " at most 2 s apart");
+}
+
+}  // namespace fathom

@@ -1,0 +1,179 @@
+#include "survey_writer.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "bag_camera.hpp"
+#include "fathom/core/input_error.hpp"
+#include "fathom/core/text.hpp"
+#include "fathom/datasets/asl_files.hpp"
+#include "odometry_steps.hpp"
+
+namespace fathom {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string count(std::size_t number, const std::string& what) {
+  return std::to_string(number) + " " + what + (number == 1 ? "" : "s");
+}
+
+class SurveyWriter {
+ public:
+  SurveyWriter(const BagSurvey& survey, const std::vector<BagTopic>& topics,
+               const TopicChoice& choice, const BagImportOptions& options, fs::path mav0)
+      : survey_(survey),
+        topics_(topics),
+        choice_(choice),
+        options_(options),
+        mav0_(std::move(mav0)) {}
+
+  ImportReport write() {
+    write_pictures();
+    write_altitudes();
+    if (choice_.odometry) write_odometry0();
+    if (choice_.reference) write_reference0();
+    if (choice_.heading) write_headings();
+    if (survey_.repeated > 0) {
+      note(count(survey_.repeated, "message") + " left out: at the time of the one before");
+    }
+    return report_;
+  }
+
+ private:
+  void fact(const std::string& line) { report_.facts.push_back(line); }
+  void note(const std::string& line) { report_.notes.push_back(line); }
+  const BagTopic& topic(const std::optional<std::size_t>& index) const { return topics_[*index]; }
+
+  std::string size_text(int width, int height) const {
+    return std::to_string(width) + " x " + std::to_string(height) + " pixels";
+  }
+
+  CameraModel camera_of_file() const {
+    const CameraModel model = read_camera_yaml(options_.camera_yaml).model();
+    if (model.width == survey_.width && model.height == survey_.height) return model;
+    throw InputError(options_.camera_yaml.string(),
+                     "is of " + size_text(model.width, model.height) + ", the pictures have " +
+                         size_text(survey_.width, survey_.height));
+  }
+
+  CameraModel camera_of_bag() {
+    const std::string& images = topic(choice_.images).name;
+    const std::string& info = topic(choice_.camera_info).name;
+    if (is_rectified(images)) note("rectified pictures: P of " + info + ", no distortion");
+    try {
+      return camera_of(survey_.camera_info.value(), images, survey_.width, survey_.height);
+    } catch (const InputError& error) {
+      throw InputError("topic " + info + ": " + error.what());
+    }
+  }
+
+  void write_pictures() {
+    std::string rows;
+    for (const WrittenPicture& picture : survey_.pictures) {
+      rows += std::to_string(picture.time_ns) + ',' + picture.file + '\n';
+    }
+    CameraModel model = options_.camera_yaml.empty() ? camera_of_bag() : camera_of_file();
+    model.mount_x_m = options_.mount_x_m.value_or(model.mount_x_m);
+    model.mount_y_m = options_.mount_y_m.value_or(model.mount_y_m);
+    model.mount_yaw_rad = options_.mount_yaw_rad.value_or(model.mount_yaw_rad);
+    write_camera(mav0_, rows, Camera(model).model());
+    fact(count(survey_.pictures.size(), "picture") + " of " +
+         size_text(survey_.width, survey_.height) + " from " + topic(choice_.images).name);
+    if (options_.camera_yaml.empty() && !options_.mount_yaw_rad) {
+      note(
+          "the camera is taken to be at the body's origin, the top of its picture forward: "
+          "--mount-x, --mount-y and --mount-yaw say where it is");
+    }
+  }
+
+  void write_altitudes() {
+    std::string rows;
+    if (options_.altitude_m) {
+      for (const WrittenPicture& picture : survey_.pictures) {
+        rows += sensor_row(picture.time_ns, {*options_.altitude_m});
+      }
+      fact("altitude: " + short_number(*options_.altitude_m, 6) + " m at all pictures");
+    } else {
+      for (const auto& [time_ns, altitude_m] : survey_.altitudes) {
+        rows += sensor_row(time_ns, {altitude_m});
+      }
+      const BagTopic& from = topic(choice_.altitude);
+      fact(count(survey_.altitudes.size(), "altitude") + " from " + from.name +
+           (from.type == "geometry_msgs/PointStamped" ? ", its " + options_.altitude_axis : ""));
+    }
+    write_altimeter(mav0_, rows);
+    if (survey_.bad_altitudes > 0) {
+      note(count(survey_.bad_altitudes, "altitude") +
+           " left out: not above zero, or outside of what the sensor measures");
+    }
+  }
+
+  void write_odometry0() {
+    const OdometryRows odometry = odometry_rows(survey_.odometry, options_);
+    std::string rows;
+    for (const OdometryRow& row : odometry.rows) {
+      const Eigen::Matrix3d& C = row.step_covariance;
+      rows += sensor_row(row.time_ns, {row.pose.x, row.pose.y, row.pose.theta, C(0, 0), C(1, 1),
+                                       C(2, 2), C(0, 1), C(0, 2), C(1, 2)});
+    }
+    write_odometry(mav0_, rows);
+    fact(count(odometry.rows.size(), "pose") + " of odometry from " + topic(choice_.odometry).name);
+    note("covariance of a step of odometry: " + odometry.covariance_from);
+  }
+
+  void write_reference0() {
+    std::string rows;
+    for (const OdometryReading& reading : survey_.reference) {
+      const Eigen::Vector3d& p = reading.message.position;
+      const Eigen::Quaterniond& q = reading.message.rotation;
+      rows += sensor_row(reading.time_ns, {p.x(), p.y(), p.z(), q.w(), q.x(), q.y(), q.z()});
+    }
+    if (rows.empty()) return;
+    write_reference(mav0_ / "state_groundtruth_estimate0", rows);
+    fact(count(survey_.reference.size(), "pose") + " of reference (ground truth) from " +
+         topic(choice_.reference).name);
+  }
+
+  void write_headings() {
+    const double sigma_rad = options_.default_heading_sigma_rad;
+    std::string rows;
+    std::size_t unknown = 0;
+    for (const HeadingReading& heading : survey_.headings) {
+      const bool is_known = heading.variance > 0.0 && std::isfinite(heading.variance);
+      unknown += is_known ? 0 : 1;
+      rows += sensor_row(heading.time_ns,
+                         {heading.yaw_rad, is_known ? heading.variance : sigma_rad * sigma_rad});
+    }
+    const std::string& name = topic(choice_.heading).name;
+    if (rows.empty()) return note("no heading: " + name + " says that it has no orientation");
+    write_sensor(
+        mav0_ / "compass0", "timestamp [ns],heading [rad],variance [rad^2]", rows,
+        "sensor_type: compass # yaw of the body in the world of the bag, counter-clockwise "
+        "seen from above\n");
+    fact(count(survey_.headings.size(), "heading") + " from " + name +
+         ", in compass0; a run does not use them");
+    if (unknown > 0) {
+      note(count(unknown, "heading") + " without variance in the bag: taken for good to " +
+           short_number(sigma_rad) + " rad");
+    }
+  }
+
+  const BagSurvey& survey_;
+  const std::vector<BagTopic>& topics_;
+  const TopicChoice& choice_;
+  const BagImportOptions& options_;
+  fs::path mav0_;
+  ImportReport report_;
+};
+
+}  // namespace
+
+ImportReport write_survey(const BagSurvey& survey, const std::vector<BagTopic>& topics,
+                          const TopicChoice& choice, const BagImportOptions& options,
+                          const fs::path& mav0) {
+  return SurveyWriter(survey, topics, choice, options, mav0).write();
+}
+
+}  // namespace fathom

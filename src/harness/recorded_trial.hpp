@@ -1,0 +1,32 @@
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <utility>
+
+#include "fathom/harness/recording.hpp"
+#include "fathom/harness/run_record.hpp"
+
+namespace fathom {
+
+/// A recording with what all its runs are judged by, and a clock for what they take.
+struct RecordedTrial {
+  std::shared_ptr<const Recording> recording;
+  RecordingFacts facts;
+
+  RecordedTrial() = default;
+  explicit RecordedTrial(Recording made)
+      : recording(std::make_shared<const Recording>(std::move(made))) {}
+
+  /// Since it was made, or since the last call.
+  double lap_s() {
+    const auto before = std::exchange(last_, Clock::now());
+    return std::chrono::duration<double>(last_ - before).count();
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point last_ = Clock::now();
+};
+
+}  // namespace fathom

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstdint>
+
+#include "fathom/datasets/frame_source.hpp"
+#include "support/bags/bag_writer.hpp"
+
+namespace fathom::test {
+
+/// How a survey is written as a bag. Topics: /camera/image_raw, /camera/camera_info, /altitude,
+/// /odom, /ground_truth/pose, /imu, /chatter.
+struct SurveyBag {
+  /// Of a survey's time 0: a bag of ROS 1 has no message at that.
+  std::int64_t begin_ns = 1'700'000'000'123'456'789;
+  std::int64_t record_delay_ns = 20'000'000;  ///< from header to recording
+  std::int64_t altitude_clock_ns = 0;         ///< how far the altimeter's clock is ahead
+  std::int64_t stamp_unit = 1;                ///< header stamps are divided by it
+};
+
+void write_survey_bag(const FrameSource& survey, BagWriter& writer, const SurveyBag& how = {});
+
+}  // namespace fathom::test
