@@ -61,6 +61,11 @@ void list(const std::string& what, Context& context) {
       print_heading(entry.name, entry.help);
       print_options("dataset.", entry.options);
     }
+    EarthOriginOptions origin;
+    OptionTable table;
+    table.group("origin", origin);
+    print_heading("origin", "where a survey of pictures starts on Earth, of whatever type");
+    print_options("dataset.", table.descriptions());
   }
 }
 

@@ -8,6 +8,7 @@
 
 #include "apps/command.hpp"
 #include "apps/common.hpp"
+#include "apps/map_files.hpp"
 #include "apps/mosaics.hpp"
 #include "fathom/core/files.hpp"
 #include "fathom/core/input_error.hpp"
@@ -28,6 +29,7 @@ struct MosaicFlags {
   std::string trajectory;
   std::optional<double> metres_per_pixel;
   double max_difference_s = 0.01;
+  std::optional<int> tile_px;
 
   /// The run's settings, then --set and --seed.
   Settings settings() const {
@@ -83,9 +85,33 @@ void mark_fillers(std::vector<PlacedPicture>& pictures, const FrameSource& frame
   }
 }
 
+// What the mosaic shows of the keyframes, or of every pose of a trajectory that is given.
+KeyframeMap keyframe_map_of(const std::vector<PlacedPicture>& pictures, const FrameSource& frames) {
+  KeyframeMap map{frames.camera(), {}, {}};
+  for (const PlacedPicture& picture : pictures) {
+    if (picture.is_filler) continue;
+    map.track.push_back({frames.info(picture.frame).time_ns, picture.pose, std::nullopt});
+    map.altitudes_m.push_back(picture.altitude_m);
+  }
+  return map;
+}
+
+// Returns what was laid, in words.
+std::string lay(const MosaicFlags& flags, const fs::path& folder, const FrameSource& frames,
+                const std::vector<PlacedPicture>& pictures, const EarthFrame* earth) {
+  if (!flags.tile_px) {
+    return write_mosaic(folder, frames, pictures, {flags.metres_per_pixel, earth},
+                        flags.common.quiet);
+  }
+  return write_tiled_mosaic(folder, frames, pictures, {flags.metres_per_pixel, earth},
+                            *flags.tile_px, flags.common.quiet);
+}
+
 void make(const MosaicFlags& flags, Context& context) {
   const Configuration configuration =
       configure(flags.settings(), ConfigurationKind::single, builtin_estimators());
+  const std::optional<EarthFrame> earth = earth_of(configuration);
+  const EarthFrame* on_earth = earth ? &*earth : nullptr;
   const Survey survey(configuration);
   const FrameSource& frames = survey.measured();
   std::vector<PlacedPicture> pictures =
@@ -93,21 +119,20 @@ void make(const MosaicFlags& flags, Context& context) {
   if (flags.trajectory.empty()) {
     mark_fillers(pictures, frames, fs::path(flags.run) / "trajectory.tum");
   }
-  MosaicOptions options;
-  options.metres_per_pixel = flags.metres_per_pixel;
-  const MosaicPlan plan = plan_mosaic(frames.camera(), pictures, options);
   std::vector<fs::path> inputs = inputs_of(fs::path(flags.run) / "run.json", flags.settings());
   inputs.push_back(flags.trajectory_file());
   StagedFolder folder(flags.common.folder_or(flags.default_folder()), inputs);
-  {
-    ProgressLine line("mosaic, picture", flags.common.quiet);
-    write_mosaic(folder.path(), plan, make_mosaics(frames, {&plan, 1}, line.callback()).front());
-  }
-  folder.commit();
+  const std::string laid = lay(flags, folder.path(), frames, pictures, on_earth);
+  write_map_files(folder.path(), keyframe_map_of(pictures, frames), on_earth);
+  folder.commit(mosaic_file_names());
   context.status = kDone;
   if (flags.common.quiet) return;
   std::printf("%zu of %zu frames have a pose; laid: %s\n\nwrote %s\n", pictures.size(),
-              frames.size(), mosaic_text(plan).c_str(), (folder.target() / "mosaic.png").c_str());
+              frames.size(), laid.c_str(),
+              (folder.target() / (flags.tile_px ? "tiles" : "mosaic.png")).c_str());
+  if (earth) {
+    std::printf("      %s (%s)\n", (folder.target() / "mosaic.tif").c_str(), earth->name().c_str());
+  }
 }
 
 }  // namespace
@@ -117,7 +142,12 @@ void add_mosaic(CLI::App& program, Context& context) {
   Command command(
       program, "mosaic", "Lay a run's pictures where a trajectory has them",
       "Example: fathom mosaic runs/run --trajectory runs/run/ground_truth.tum --out truth\n"
-      "Writes mosaic.png, x up and y to the left, and mosaic.json, which says where it lies.");
+      "         fathom mosaic runs/run --tile-size 2048 --out tiles\n"
+      "Writes mosaic.png, x up and y to the left, and mosaic.json and mosaic.pgw, which say where "
+      "it\n"
+      "lies; footprints.csv; where dataset.origin says where the survey starts on Earth, "
+      "mosaic.tif,\n"
+      "north up, trajectory.geojson and footprints.geojson.");
   command.argument("run", flags->run, "Folder of a run over pictures");
   command.text("--trajectory", flags->trajectory, "FILE",
                "Trajectory (TUM), of all frames or some (default: the run's frames.tum)");
@@ -125,6 +155,9 @@ void add_mosaic(CLI::App& program, Context& context) {
                "Metres per pixel (default: what a pixel of a picture covers)");
   command.real("--max-difference", flags->max_difference_s, Range::at_least(0.0), "S",
                "A pose is of a picture whose time stamp differs by no more (s)");
+  command.integer("--tile-size", flags->tile_px, Range::between(64, 16384), "PX",
+                  "Tiles of so many pixels a side in place of one picture: full resolution and "
+                  "little memory, however large the mosaic");
   flags->common.add_settings_to(command);
   flags->common.add_out_to(command, "Output folder (default: runs/RUN's name-TRAJECTORY's name)");
   command.on_run([flags, &context] { make(*flags, context); });

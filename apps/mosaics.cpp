@@ -1,13 +1,107 @@
 #include "apps/mosaics.hpp"
 
 #include "apps/common.hpp"
+#include "apps/map_files.hpp"
 #include "fathom/core/files.hpp"
 #include "fathom/core/input_error.hpp"
 #include "fathom/core/system.hpp"
+#include "fathom/report/geo_tiff.hpp"
 #include "fathom/report/picture.hpp"
 #include "fathom/report/table.hpp"
+#include "fathom/report/world_file.hpp"
 
 namespace fathom {
+namespace {
+
+/// Tiles of a GeoTIFF that is made tile by tile.
+constexpr int kGeoTiffTile_px = 1024;
+
+// A mosaic and where it goes.
+struct PlannedMosaic {
+  std::filesystem::path folder;
+  MosaicPlan plan;
+  bool is_north_up = false;  ///< of the GeoTIFF, on the grid of its projection
+};
+
+std::string world_file_of(const MosaicPlan& plan, const cv::Rect& window, const EarthFrame* earth) {
+  return earth == nullptr ? world_file(plan, window) : world_file(plan, window, *earth);
+}
+
+MosaicFiles files_of(const EarthFrame* earth) {
+  MosaicFiles files;
+  if (earth != nullptr) files.world_file_epsg = earth->epsg();
+  return files;
+}
+
+void write(const PlannedMosaic& planned, const cv::Mat& mosaic, const EarthFrame* earth) {
+  if (planned.is_north_up) {
+    write_geotiff(planned.folder / "mosaic.tif", *earth, planned.plan, mosaic);
+  } else {
+    const MosaicPlan& plan = planned.plan;
+    write_file(planned.folder / "mosaic.png", encode_png(mosaic));
+    write_file(planned.folder / "mosaic.pgw",
+               world_file_of(plan, cv::Rect({0, 0}, plan.size), earth));
+    write_file(planned.folder / "mosaic.json", mosaic_json(plan, files_of(earth)));
+  }
+}
+
+// Every tile as a picture with its world file; returns their names.
+std::vector<std::string> write_tiles(const std::filesystem::path& folder, const FrameSource& source,
+                                     const MosaicPlan& plan, int tile_px, const EarthFrame* earth,
+                                     bool quiet) {
+  std::filesystem::create_directory(folder / "tiles");
+  std::vector<std::string> names;
+  const auto take = [&](const MosaicTile& tile) {
+    if (cv::countNonZero(tile.picture != kUnseen) == 0) return;
+    const std::string name =
+        "tiles/r" + std::to_string(tile.row) + "_c" + std::to_string(tile.column);
+    write_file(folder / (name + ".png"), encode_png(tile.picture));
+    write_file(folder / (name + ".pgw"), world_file_of(plan, tile.window, earth));
+    names.push_back(name + ".png");
+  };
+  ProgressLine line("mosaic, tile", quiet);
+  make_tiles(source, plan, {.side_px = tile_px}, take, line.callback());
+  return names;
+}
+
+void write_tiled_geotiff(const std::filesystem::path& folder, const FrameSource& source,
+                         const MosaicPlan& plan, const EarthFrame& earth, bool quiet) {
+  GeoTiff file(folder / "mosaic.tif", earth, plan, kGeoTiffTile_px);
+  ProgressLine line("mosaic.tif, tile", quiet);
+  make_tiles(
+      source, plan, {.side_px = kGeoTiffTile_px}, [&](const MosaicTile& tile) { file.write(tile); },
+      line.callback());
+  file.finish();
+}
+
+// A picture of the survey is read once for all of them.
+void make_and_write(const FrameSource& source, const std::vector<PlannedMosaic>& planned,
+                    const EarthFrame* earth, bool quiet) {
+  std::vector<MosaicPlan> plans;
+  for (const PlannedMosaic& one : planned) plans.push_back(one.plan);
+  ProgressLine line("mosaic, picture", quiet);
+  const std::vector<cv::Mat> made = make_mosaics(source, plans, line.callback());
+  for (std::size_t i = 0; i < made.size(); ++i) write(planned[i], made[i], earth);
+}
+
+// The mosaic of a run, and north up on Earth; returns a line that says what they are.
+std::string plan_both(const FrameSource& source, const RunMosaic& mosaic,
+                      const MosaicOptions& options, const EarthFrame* earth,
+                      std::vector<PlannedMosaic>& planned) {
+  std::string line = "no mosaic: ";
+  try {
+    planned.push_back({mosaic.folder, plan_mosaic(source.camera(), mosaic.pictures, options)});
+    line = "mosaic.png: " + mosaic_text(planned.back().plan);
+    if (earth == nullptr) return line;
+    const auto north_up = placed_on_grid(*earth, source.camera(), mosaic.pictures);
+    planned.push_back({mosaic.folder, plan_mosaic(source.camera(), north_up, options), true});
+    return line + "; mosaic.tif: " + earth->name();
+  } catch (const InputError& error) {
+    return (line.starts_with("no") ? line : line + "; no mosaic.tif: ") + error.what();
+  }
+}
+
+}  // namespace
 
 std::vector<PlacedPicture> placed_pictures(const Recording& recording,
                                            const std::vector<Pose>& keyframes) {
@@ -23,33 +117,59 @@ std::vector<PlacedPicture> placed_pictures(const Recording& recording,
 }
 
 std::vector<std::string> write_mosaics(const FrameSource& source,
-                                       const std::vector<RunMosaic>& mosaics, bool quiet) {
+                                       const std::vector<RunMosaic>& mosaics,
+                                       const EarthFrame* earth, bool quiet) {
   // Of solvers that are done: mosaics and the floor of a simulation need memory of their own.
   return_free_memory();
   MosaicOptions options;
-  options.most_pixels /= static_cast<double>(mosaics.size());
+  options.most_pixels /= static_cast<double>(mosaics.size()) * (earth == nullptr ? 1.0 : 2.0);
   std::vector<std::string> lines;
-  std::vector<MosaicPlan> plans;
-  std::vector<std::filesystem::path> folders;
+  std::vector<PlannedMosaic> planned;
   for (const RunMosaic& mosaic : mosaics) {
-    try {
-      plans.push_back(plan_mosaic(source.camera(), mosaic.pictures, options));
-      folders.push_back(mosaic.folder);
-      lines.push_back("mosaic.png: " + mosaic_text(plans.back()));
-    } catch (const InputError& error) {
-      lines.push_back(std::string("no mosaic: ") + error.what());
-    }
+    lines.push_back(plan_both(source, mosaic, options, earth, planned));
   }
-  ProgressLine line("mosaic, picture", quiet);
-  const std::vector<cv::Mat> made = make_mosaics(source, plans, line.callback());
-  for (std::size_t i = 0; i < made.size(); ++i) write_mosaic(folders[i], plans[i], made[i]);
+  make_and_write(source, planned, earth, quiet);
   return lines;
 }
 
-void write_mosaic(const std::filesystem::path& folder, const MosaicPlan& plan,
-                  const cv::Mat& mosaic) {
-  write_file(folder / "mosaic.png", encode_png(mosaic));
-  write_file(folder / "mosaic.json", mosaic_json(plan));
+std::string write_mosaic(const std::filesystem::path& folder, const FrameSource& source,
+                         const std::vector<PlacedPicture>& pictures, const AskedMosaic& asked,
+                         bool quiet) {
+  MosaicOptions options;
+  options.metres_per_pixel = asked.metres_per_pixel;
+  if (asked.earth != nullptr) options.most_pixels /= 2.0;
+  std::vector<PlannedMosaic> planned{
+      {folder, plan_mosaic(source.camera(), pictures, options), false}};
+  if (asked.earth != nullptr) {
+    const auto north_up = placed_on_grid(*asked.earth, source.camera(), pictures);
+    planned.push_back({folder, plan_mosaic(source.camera(), north_up, options), true});
+  }
+  make_and_write(source, planned, asked.earth, quiet);
+  return mosaic_text(planned.front().plan);
+}
+
+std::string write_tiled_mosaic(const std::filesystem::path& folder, const FrameSource& source,
+                               const std::vector<PlacedPicture>& pictures, const AskedMosaic& asked,
+                               int tile_px, bool quiet) {
+  MosaicOptions options = MosaicOptions::of_tiles();
+  options.metres_per_pixel = asked.metres_per_pixel;
+  const MosaicPlan plan = plan_mosaic(source.camera(), pictures, options);
+  MosaicFiles files = files_of(asked.earth);
+  files.tile_px = tile_px;
+  files.tiles = write_tiles(folder, source, plan, tile_px, asked.earth, quiet);
+  write_file(folder / "mosaic.json", mosaic_json(plan, files));
+  if (asked.earth != nullptr) {
+    const auto north_up = placed_on_grid(*asked.earth, source.camera(), pictures);
+    write_tiled_geotiff(folder, source, plan_mosaic(source.camera(), north_up, options),
+                        *asked.earth, quiet);
+  }
+  return mosaic_text(plan) + " in " + std::to_string(files.tiles.size()) + " tiles";
+}
+
+std::vector<std::string> mosaic_file_names() {
+  std::vector<std::string> names = map_file_names();
+  names.insert(names.end(), {"mosaic.json", "mosaic.pgw", "mosaic.png", "mosaic.tif", "tiles"});
+  return names;
 }
 
 std::string mosaic_text(const MosaicPlan& plan) {

@@ -1,12 +1,14 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "fathom/datasets/frame_source.hpp"
 #include "fathom/harness/recording.hpp"
 #include "fathom/harness/result.hpp"
+#include "fathom/report/earth_frame.hpp"
 #include "fathom/report/mosaic.hpp"
 
 namespace fathom {
@@ -21,15 +23,33 @@ struct RunMosaic {
 std::vector<PlacedPicture> placed_pictures(const Recording& recording,
                                            const std::vector<Pose>& keyframes);
 
-/// Writes `mosaic.png` and `mosaic.json` of each, all together no larger than one may be. What has
-/// no mosaic, such as an estimate gone wild, gets none: a run is worth keeping without. Returns for
-/// each one line of what was written, or why it was not.
+/// Writes `mosaic.png`, `mosaic.pgw` and `mosaic.json` of each, on Earth also `mosaic.tif`, all
+/// together no larger than one may be. What has no mosaic, such as an estimate gone wild, gets
+/// none: a run is worth keeping without. Returns for each one line of what was written, or why it
+/// was not.
 std::vector<std::string> write_mosaics(const FrameSource& source,
-                                       const std::vector<RunMosaic>& mosaics, bool quiet);
+                                       const std::vector<RunMosaic>& mosaics,
+                                       const EarthFrame* earth, bool quiet);
 
-/// Writes `mosaic.png` and `mosaic.json`.
-void write_mosaic(const std::filesystem::path& folder, const MosaicPlan& plan,
-                  const cv::Mat& mosaic);
+/// A single mosaic, as it is asked for.
+struct AskedMosaic {
+  std::optional<double> metres_per_pixel;  ///< as in MosaicOptions
+  const EarthFrame* earth = nullptr;       ///< on Earth also `mosaic.tif`
+};
+
+/// Writes `mosaic.png`, `mosaic.pgw` and `mosaic.json`. Throws InputError. Returns what was laid.
+std::string write_mosaic(const std::filesystem::path& folder, const FrameSource& source,
+                         const std::vector<PlacedPicture>& pictures, const AskedMosaic& asked,
+                         bool quiet);
+
+/// The same of a mosaic that may be larger than memory: `tiles/`, each tile with its world file,
+/// and `mosaic.json`.
+std::string write_tiled_mosaic(const std::filesystem::path& folder, const FrameSource& source,
+                               const std::vector<PlacedPicture>& pictures, const AskedMosaic& asked,
+                               int tile_px, bool quiet);
+
+/// All names that a mosaic and the map files beside it may have.
+std::vector<std::string> mosaic_file_names();
 
 /// "57 pictures, 2310 x 1780 pixels of 0.0041 m", and why they are coarser than wanted.
 std::string mosaic_text(const MosaicPlan& plan);

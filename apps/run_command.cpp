@@ -1,11 +1,14 @@
 // fathom run: a data set, one estimator.
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <iterator>
 #include <memory>
 
 #include "apps/command.hpp"
 #include "apps/common.hpp"
+#include "apps/map_files.hpp"
 #include "apps/memory_meter.hpp"
 #include "apps/mosaics.hpp"
 #include "apps/pictures.hpp"
@@ -106,14 +109,36 @@ Judgement judged(const Recording& recording, const Configuration& configuration,
 // Of all there is to draw: the run's, and its batch optimum's in a folder below.
 std::vector<std::string> write_all_mosaics(const FrameSource& pictures, const Recording& recording,
                                            const std::vector<Result>& results,
-                                           const std::filesystem::path& folder, bool quiet) {
+                                           const std::filesystem::path& folder,
+                                           const EarthFrame* earth, bool quiet) {
   std::vector<RunMosaic> mosaics;
   for (const Result& result : results) {
     mosaics.push_back({mosaics.empty() ? folder : folder / kBatchOptimum,
                        placed_pictures(recording, result.replay.trajectory)});
   }
-  std::vector<std::string> lines = write_mosaics(pictures, mosaics, quiet);
+  std::vector<std::string> lines = write_mosaics(pictures, mosaics, earth, quiet);
   for (std::size_t i = 1; i < lines.size(); ++i) lines[i] = kBatchOptimum + ("/" + lines[i]);
+  return lines;
+}
+
+// Mosaics, footprints, and where the survey lies on Earth; returns a line each, of what was written
+// and of what could not be.
+std::vector<std::string> write_maps(const RunFlags& flags, const Configuration& configuration,
+                                    const Recorder& recorder, const Recording& recording,
+                                    const std::vector<Result>& results,
+                                    const std::filesystem::path& folder) {
+  if (recorder.pictures() == nullptr) return {};
+  std::vector<std::string> lines;
+  const EarthOrWhyNot earth = earth_or_why_not(configuration);
+  if (!earth.why_not.empty()) lines.push_back(earth.why_not);
+  const EarthFrame* on_earth = earth.frame ? &*earth.frame : nullptr;
+  if (!flags.no_mosaic) {
+    std::ranges::copy(write_all_mosaics(*recorder.pictures(), recording, results, folder, on_earth,
+                                        flags.common.quiet),
+                      std::back_inserter(lines));
+  }
+  const auto problem = try_map_files(folder, keyframe_map(recording, results.front()), on_earth);
+  if (problem) lines.push_back(*problem);
   return lines;
 }
 
@@ -154,18 +179,15 @@ void run(const RunFlags& flags, Context& context) {
   write_trajectory_picture(folder.path() / "trajectory.png",
                            stem_of(flags.config) + ", " + result.estimator.name, recording,
                            results);
-  std::vector<std::string> mosaics;
-  if (recorder.pictures() != nullptr && !flags.no_mosaic) {
-    mosaics = write_all_mosaics(*recorder.pictures(), recording, results, folder.path(),
-                                flags.common.quiet);
-  }
+  const std::vector<std::string> maps =
+      write_maps(flags, configuration, recorder, recording, results, folder.path());
   folder.commit(optional_run_files());
   context.status = result.is_done() ? kDone : kFailed;
   if (flags.common.quiet) return;
   print_front_end(recording);
   print_table(recording, results, configuration);
   std::printf("\nwrote %s\n", (folder.target() / "trajectory.png").c_str());
-  for (const std::string& mosaic : mosaics) std::printf("      %s\n", mosaic.c_str());
+  for (const std::string& map : maps) std::printf("      %s\n", map.c_str());
   for (const std::string& remark : judgement.remarks) {
     std::printf("\nwarning: %s\n", remark.c_str());
   }

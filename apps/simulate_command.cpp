@@ -28,7 +28,8 @@ std::string folder_configuration(const Configuration& configuration, const std::
                                 {"dataset.path", folder, false, ""}};
   for (const auto& [key, value] : configuration.in_force) {
     if (key != "seed" && !configuration.origins.contains(key)) continue;
-    if (key == "seed" || key == "evaluation.alignment" || key.starts_with("front_end.")) {
+    if (key == "seed" || key == "evaluation.alignment" || key.starts_with("front_end.") ||
+        key.starts_with("dataset.origin.")) {
       lines.push_back({key, value, value.starts_with('['), ""});
     }
   }

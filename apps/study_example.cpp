@@ -1,5 +1,8 @@
 #include "apps/study_example.hpp"
 
+#include <cstdio>
+
+#include "apps/map_files.hpp"
 #include "apps/mosaics.hpp"
 #include "apps/pictures.hpp"
 #include "fathom/core/files.hpp"
@@ -16,6 +19,9 @@ void write_example(const fs::path& out, const Study& study, const std::vector<Ex
                    const Context& context) {
   const Configuration& configuration = study.cells.front();
   StagedFolder folder(out);
+  const EarthOrWhyNot earth = earth_or_why_not(configuration);
+  if (!earth.why_not.empty() && !quiet) std::printf("warning: %s\n", earth.why_not.c_str());
+  const EarthFrame* on_earth = earth.frame ? &*earth.frame : nullptr;
   std::vector<Result> results;
   std::vector<RunMosaic> mosaics;
   for (std::size_t e = 0; e < example.size(); ++e) {
@@ -27,10 +33,11 @@ void write_example(const fs::path& out, const Study& study, const std::vector<Ex
                             *recording, result, builtin_estimators()));
     write_trajectory_picture(own / "trajectory.png", title + ", " + result.estimator.name,
                              *recording, {result}, e);
+    if (recording->camera) try_map_files(own, keyframe_map(*recording, result), on_earth);
     mosaics.push_back({own, placed_pictures(*recording, result.replay.trajectory)});
     results.push_back(result);
   }
-  if (pictures != nullptr) write_mosaics(*pictures, mosaics, quiet);
+  if (pictures != nullptr) write_mosaics(*pictures, mosaics, on_earth, quiet);
   const Recording& last = *example.back().recording;
   write_trajectory_picture(folder.path() / "trajectories.png", title, last, results);
   write_file(folder.path() / "metrics.json", comparison_json(results, last));

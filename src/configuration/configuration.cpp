@@ -7,6 +7,7 @@
 
 #include "estimator_list.hpp"
 #include "fathom/configuration/study.hpp"
+#include "origin_keys.hpp"
 #include "study_options.hpp"
 
 namespace fathom {
@@ -132,9 +133,11 @@ void check_front_end(const Settings& settings, const FrontEndOptions& options) {
 
 DataSetValues given_values(const Settings& settings) {
   DataSetValues values;
-  const Settings own = settings.below(std::string(kDataSet) + ".");
-  for (const Setting& setting : own.all()) {
-    if (setting.key != "type") values[setting.key] = setting.value;
+  const std::string prefix = std::string(kDataSet) + ".";
+  for (const Setting& setting : settings.all()) {
+    const bool is_general = setting.key == "dataset.type" || is_origin_key(setting.key);
+    if (is_general || !setting.key.starts_with(prefix)) continue;
+    values[setting.key.substr(prefix.size())] = setting.value;
   }
   return values;
 }
@@ -189,6 +192,7 @@ Configuration configure(const Settings& settings, ConfigurationKind kind,
   const DataSetEntry& entry = find_data_set(configuration.dataset.type);
   const std::unique_ptr<DataSetOptions> data_set = entry.make_options();
   table.group(kDataSet, *data_set);
+  bind_origin(configuration.dataset.type, configuration.origin, table);
   if (kind == ConfigurationKind::comparison) configuration.study.describe(table);
   refuse_keys_of_other_kind(settings, kind);
   std::vector<std::string> known = table.keys();
@@ -199,6 +203,7 @@ Configuration configure(const Settings& settings, ConfigurationKind kind,
   }
   configuration.dataset.values = given_values(settings);
   check_front_end(settings, configuration.front_end);
+  check_origin(settings, configuration.origin);
   check_study(settings, configuration.study, entry, *data_set);
   std::vector<IgnoredKey> ignored = ignored_keys(configuration, *data_set);
   std::ranges::copy(ignored_of_false_loops(settings, configuration.study.false_loops),
@@ -208,6 +213,8 @@ Configuration configure(const Settings& settings, ConfigurationKind kind,
   configure_estimators(configuration, settings, kind, registry);
   for (const OptionDescription& option : table.descriptions()) {
     configuration.types[option.key] = option.type;
+    // A survey that is nowhere on Earth has no such keys: no result depends on them.
+    if (is_origin_key(option.key) && !configuration.origin.is_given()) continue;
     if (is_among(ignored, option.key)) continue;
     configuration.in_force.emplace_back(option.key, table.value(option.key));
   }
@@ -222,6 +229,7 @@ std::vector<OptionDescription> keys_in_force(const std::map<std::string, std::st
   if (type != values.end()) configuration.dataset.type = type->second;
   const auto data_set = find_data_set(configuration.dataset.type).make_options();
   table.group(kDataSet, *data_set);
+  bind_origin(configuration.dataset.type, configuration.origin, table);
   for (const OptionDescription& option : table.descriptions()) {
     const auto value = values.find(option.key);
     // A list decides over no other key.

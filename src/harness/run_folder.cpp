@@ -119,8 +119,10 @@ void write_recording(const std::filesystem::path& folder, const Recording& recor
 }
 
 const std::vector<std::string>& optional_run_files() {
-  static const std::vector<std::string> names{"batch_optimum", "frames.tum", "ground_truth.tum",
-                                              "mosaic.json", "mosaic.png"};
+  static const std::vector<std::string> names{
+      "batch_optimum",    "footprints.csv", "footprints.geojson", "frames.tum",
+      "ground_truth.tum", "loops.geojson",  "mosaic.json",        "mosaic.pgw",
+      "mosaic.png",       "mosaic.tif",     "trajectory.geojson"};
   return names;
 }
 

@@ -12,7 +12,14 @@ namespace {
 // A script element ends at "</" whatever the JSON means by it; an escaped "<" means the same.
 std::string within_script(std::string_view json) {
   std::string text;
-  for (const char letter : json) text += letter == '<' ? "\\u003c" : std::string(1, letter);
+  text.reserve(json.size());
+  for (const char letter : json) {
+    if (letter == '<') {
+      text += "\\u003c";
+    } else {
+      text += letter;
+    }
+  }
   return text;
 }
 
@@ -45,16 +52,19 @@ std::string html_text(std::string_view text) {
 }
 
 std::string report_page(const ResultStore& store, const StudyResults& results,
-                        const std::vector<std::vector<EstimatorSeries>>& series) {
+                        const std::vector<std::vector<EstimatorSeries>>& series,
+                        const nlohmann::ordered_json& mosaics) {
   // Bytes that are not UTF-8 become the replacement character: a name may hold any.
-  const std::string data =
-      page_data(store, results, series)
-          .dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+  const auto text_of = [](const nlohmann::ordered_json& json) {
+    return within_script(
+        json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+  };
   const std::string& title = results.study.title;
-  const std::array<std::pair<std::string_view, std::string>, 5> parts{
+  const std::array<std::pair<std::string_view, std::string>, 6> parts{
       {{"@title@", html_text(title.empty() ? "Study" : title)},
        {"@style@", std::string(kPageStyle)},
-       {"@data@", within_script(data)},
+       {"@data@", text_of(page_data(store, results, series))},
+       {"@mosaics@", text_of(mosaics)},
        {"@specs@", std::string(kPageSpecs)},
        {"@scripts@", std::string(kPageScripts)}}};
   std::string page;

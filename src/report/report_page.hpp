@@ -3,6 +3,8 @@
 #include <string>
 #include <string_view>
 
+#include <nlohmann/json.hpp>
+
 #include "keyframe_series.hpp"
 
 namespace fathom {
@@ -10,8 +12,10 @@ namespace fathom {
 /// Text within HTML: its five special characters as entities.
 std::string html_text(std::string_view text);
 
-/// The whole report.html: it loads nothing, from nowhere. Its data is the JSON in #data.
+/// The whole report.html: it loads nothing, from nowhere. Its data is the JSON in #data; `mosaics`
+/// that in #mosaics-data.
 std::string report_page(const ResultStore& store, const StudyResults& results,
-                        const std::vector<std::vector<EstimatorSeries>>& series);
+                        const std::vector<std::vector<EstimatorSeries>>& series,
+                        const nlohmann::ordered_json& mosaics);
 
 }  // namespace fathom

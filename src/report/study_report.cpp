@@ -3,6 +3,8 @@
 #include "fathom/core/files.hpp"
 #include "figure_file.hpp"
 #include "latex_tables.hpp"
+#include "page_mosaics.hpp"
+#include "ranking.hpp"
 #include "report_page.hpp"
 #include "study_csv.hpp"
 #include "study_figures.hpp"
@@ -21,9 +23,25 @@ void write_figures(const FigureInput& input, const std::filesystem::path& folder
   }
 }
 
+// Of the first cell, whose example `compare` writes.
+nlohmann::ordered_json example_mosaics(const StudyResults& results,
+                                       const std::filesystem::path& study_folder) {
+  std::vector<std::string> names;
+  for (const auto& [name, type] : results.study.estimators) names.push_back(name);
+  const auto metric = ranking_metric(results);
+  const auto ranked = metric ? ranking(results.cells.front(), *metric) : std::nullopt;
+  return page_mosaics(study_folder, names,
+                      ranked ? std::optional(ranked->best().name) : std::nullopt);
+}
+
 }  // namespace
 
 void write_study_report(const ResultStore& store, const std::filesystem::path& folder) {
+  write_study_report(store, folder, folder);
+}
+
+void write_study_report(const ResultStore& store, const std::filesystem::path& folder,
+                        const std::filesystem::path& study_folder) {
   const StudyResults results = study_results(store);
   // Before the work: a folder that cannot be written is said at once.
   StagedFolder out(folder);
@@ -32,7 +50,8 @@ void write_study_report(const ResultStore& store, const std::filesystem::path& f
   write_file(out.path() / "summary.csv",
              summary_csv(results, results_of_other_machines(store, results)));
   write_file(out.path() / "tables.tex", latex_tables(results));
-  write_file(out.path() / "report.html", report_page(store, results, series));
+  write_file(out.path() / "report.html",
+             report_page(store, results, series, example_mosaics(results, study_folder)));
   write_figures({store, results, series}, out.path() / "figures");
   out.commit();
 }

@@ -1,31 +1,68 @@
 #include <algorithm>
+#include <cmath>
 #include <vector>
-
-#include <opencv2/imgproc.hpp>
 
 #include "fathom/vision/camera.hpp"
 
 namespace fathom {
 namespace {
 
-std::vector<cv::Point2f> polygon(const Camera& camera, double altitude_m, const Pose& pose) {
-  std::vector<cv::Point2f> corners;
-  for (const Eigen::Vector2d& corner : camera.footprint(altitude_m)) {
-    const Eigen::Vector2f point = transform(pose, corner).cast<float>();
-    corners.emplace_back(point.x(), point.y());
+using Polygon = std::vector<Eigen::Vector2d>;
+
+double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
+// Positive: counter-clockwise.
+double signed_area(const Polygon& polygon) {
+  double twice = 0.0;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    twice += cross(polygon[i] - polygon[0], polygon[(i + 1) % polygon.size()] - polygon[0]);
   }
+  return 0.5 * twice;
+}
+
+Polygon counter_clockwise(const Camera& camera, double altitude_m, const Pose& pose) {
+  Polygon corners;
+  for (const Eigen::Vector2d& corner : camera.footprint(altitude_m)) {
+    corners.push_back(transform(pose, corner));
+  }
+  if (signed_area(corners) < 0.0) std::reverse(corners.begin(), corners.end());
   return corners;
+}
+
+// What of a convex polygon lies to the left of the line from a to b, or on it.
+Polygon left_of(const Polygon& polygon, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  Polygon left;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Eigen::Vector2d& here = polygon[i];
+    const Eigen::Vector2d& next = polygon[(i + 1) % polygon.size()];
+    const double side_here = cross(b - a, here - a);
+    const double side_next = cross(b - a, next - a);
+    if (side_here >= 0.0) left.push_back(here);
+    if ((side_here > 0.0 && side_next < 0.0) || (side_here < 0.0 && side_next > 0.0)) {
+      left.push_back(here + side_here / (side_here - side_next) * (next - here));
+    }
+  }
+  return left;
 }
 
 }  // namespace
 
+// Clipped side by side (Sutherland and Hodgman), and not by OpenCV's intersectConvexConvex, which
+// fails where sides lie on one another, as those of parallel legs do: 0 in place of 0.75.
 double footprint_overlap(const Camera& camera, double altitude_a_m, double altitude_b_m,
                          const Pose& motion) {
-  const auto a = polygon(camera, altitude_a_m, {});
-  const auto b = polygon(camera, altitude_b_m, motion);
-  std::vector<cv::Point2f> common;
-  const double shared = cv::intersectConvexConvex(a, b, common);
-  return shared / std::min(cv::contourArea(a), cv::contourArea(b));
+  const Polygon a = counter_clockwise(camera, altitude_a_m, {});
+  const Polygon b = counter_clockwise(camera, altitude_b_m, motion);
+  Polygon common = a;
+  for (std::size_t i = 0; i < b.size() && !common.empty(); ++i) {
+    common = left_of(common, b[i], b[(i + 1) % b.size()]);
+  }
+  const double shared = common.size() < 3 ? 0.0 : signed_area(common);
+  // Unmoved: far away its area would be lost in rounding.
+  const double area_b = signed_area(counter_clockwise(camera, altitude_b_m, {}));
+  return std::clamp(shared / std::min(signed_area(a), area_b), 0.0, 1.0);
 }
 
 }  // namespace fathom

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "fathom/report/study_report.hpp"
+#include "report/made_mosaic.hpp"
 #include "report/study_fixture.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -49,10 +50,13 @@ std::string without_entities(std::string text) {
 
 // Null where the page did not get that far. The browser's time is virtual: a busy machine changes
 // nothing but how long the test takes, and the limit only ends a browser that hangs.
-Json self_test_of(const FixtureOptions& options) {
+Json self_test_of(const FixtureOptions& options, const std::vector<std::string>& mosaics = {}) {
   const TemporaryFolder folder;
   write_fixture(folder / "study", options);
-  write_study_report(ResultStore::open(folder / "study"), folder / "out");
+  for (std::size_t i = 0; i < mosaics.size(); ++i) {
+    write_made_mosaic(folder / "study" / mosaics[i], 4.0, 2.0 - static_cast<double>(i));
+  }
+  write_study_report(ResultStore::open(folder / "study"), folder / "out", folder / "study");
   const std::string page = output_of(
       "timeout 800 '" + browser() +
       "' --headless --no-sandbox --disable-gpu --disable-quic --no-first-run"
@@ -194,6 +198,27 @@ TEST_F(Browser, OneTrialWithoutGroundTruthOrLoopsIsNoError) {
   EXPECT_GT(result["marks"].at("trajectories"), 0);
   EXPECT_FALSE(result["marks"].contains("sweep"));
   EXPECT_FALSE(result["marks"].contains("registrations"));
+}
+
+TEST_F(Browser, ShowsTheMosaicsWithTheirEstimatesAndWhereTheyDiffer) {
+  FixtureOptions options;
+  options.separations.clear();
+  options.noises.clear();
+  EXPECT_EQ(self_test_of(options)["mosaics"]["hidden"], true);
+  const Json result = self_test_of(options, {"iterated", "a&b_<c>%", "graph"});
+  EXPECT_EQ(result["errors"], Json::array());
+  const Json& mosaics = result["mosaics"];
+  EXPECT_EQ(mosaics["hidden"], false);
+  ASSERT_EQ(mosaics["estimate"].size(), 3u);
+  for (const Json& one : mosaics["estimate"]) {
+    EXPECT_EQ(one["width"], 600);
+    EXPECT_EQ(one["lines"], 3);  // a loop, the track, and white below it
+  }
+  EXPECT_THAT(mosaics["estimate"][2]["caption"].dump(), ::testing::HasSubstr("poses of "));
+  EXPECT_EQ(mosaics["bare"]["lines"], 0);
+  ASSERT_EQ(mosaics["difference"].size(), 2u);
+  EXPECT_THAT(mosaics["difference"][0]["caption"].dump(),
+              ::testing::HasSubstr("4.8 % of the 42 m² that both show differ by more than 16"));
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 
 #include "fathom/configuration/config_file.hpp"
 #include "fathom/datasets/data_set.hpp"
+#include "fathom/datasets/earth_origin.hpp"
 #include "fathom/estimation/registry.hpp"
 #include "fathom/evaluation/alignment.hpp"
 #include "fathom/front_end/options.hpp"
@@ -86,6 +87,7 @@ struct StudyOptions {
 /// A whole configuration, checked: every key is known and every value within its bounds.
 struct Configuration {
   DataSetConfiguration dataset;
+  EarthOriginOptions origin;  ///< where the survey starts; all of it or nothing
   FrontEndOptions front_end;
   /// One for `run`, which selects its loop candidates itself; for `compare` several.
   std::vector<EstimatorConfiguration> estimators;

@@ -30,6 +30,11 @@ struct MosaicOptions {
   std::optional<double> metres_per_pixel;
   /// The largest mosaic. It takes 9 bytes a pixel while it is made.
   double most_pixels = 64e6;
+  /// The longest side. Some viewers and readers of PNG files end at 2^16.
+  double longest_px = 65'000.0;
+
+  /// Of a mosaic that is made tile by tile: neither memory nor a reader of pictures bounds it.
+  static MosaicOptions of_tiles() { return {std::nullopt, 1e11, 1e9}; }
 };
 
 /// Which pictures a mosaic is made of, and where its pixels lie: x up and y to the left.
@@ -73,7 +78,36 @@ using MosaicProgress = std::function<void(std::size_t done, std::size_t of)>;
 std::vector<cv::Mat> make_mosaics(const FrameSource& source, std::span<const MosaicPlan> plans,
                                   const MosaicProgress& progress = {});
 
+/// A tile of a mosaic.
+struct MosaicTile {
+  int row = 0;  ///< of tiles, from the top
+  int column = 0;
+  cv::Rect window;  ///< its pixels in the whole mosaic; at the right and lower border it is cut
+  cv::Mat picture;  ///< 8-bit, of the window's size
+};
+
+struct TileOptions {
+  int side_px = 1024;
+  /// Decoded pictures that are kept, as several tiles need each.
+  std::size_t cache_bytes = std::size_t{256} << 20;
+};
+
+/// The mosaic tile by tile, row by row, the rows to and fro: those tiles alone that a picture may
+/// reach. Put together they are that of make_mosaics bit for bit, whatever their size. Memory: a
+/// tile at 9 bytes a pixel, the cache, and some 200 bytes a picture. Progress counts tiles. Throws
+/// InputError where a picture cannot be read.
+void make_tiles(const FrameSource& source, const MosaicPlan& plan, const TileOptions& options,
+                const std::function<void(const MosaicTile&)>& take,
+                const MosaicProgress& progress = {});
+
+/// What `mosaic.json` says of the files beside it.
+struct MosaicFiles {
+  std::optional<int> world_file_epsg;  ///< of the world files' coordinates; none: the map's
+  std::optional<int> tile_px;          ///< the side of a tile; none: one picture
+  std::vector<std::string> tiles;      ///< names of the tiles
+};
+
 /// The content of `mosaic.json`: where the pixels of a mosaic lie (docs/formats.md).
-std::string mosaic_json(const MosaicPlan& plan);
+std::string mosaic_json(const MosaicPlan& plan, const MosaicFiles& files = {});
 
 }  // namespace fathom

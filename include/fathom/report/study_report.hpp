@@ -24,10 +24,14 @@ std::string study_table(const ResultStore& store, StudyTable extent = StudyTable
 /// expected; then the verdict.
 std::string study_remarks(const ResultStore& store);
 
-/// Renders a study from its store alone (docs/report.md): report.html, runs.csv, summary.csv,
-/// tables.tex and figures/ with every figure as SVG and PDF. The folder is made if need be; its
-/// files of these names are replaced, all or none.
+/// Renders a study from its store (docs/report.md): report.html, runs.csv, summary.csv, tables.tex
+/// and figures/ with every figure as SVG and PDF. The page also shows the mosaics of the study's
+/// example, where they lie in `study_folder` as `compare` writes them. The folder is made if need
+/// be; its files of these names are replaced, all or none.
 /// Throws InputError on a store without runs and where the folder cannot be written.
+void write_study_report(const ResultStore& store, const std::filesystem::path& folder,
+                        const std::filesystem::path& study_folder);
+/// Of a study whose folder this is.
 void write_study_report(const ResultStore& store, const std::filesystem::path& folder);
 
 }  // namespace fathom

@@ -85,6 +85,7 @@ makeAxes();
 drawManifest();
 makeCards();
 makeMetricChooser();
+makeMosaics();
 drawCell();
 
 // Print is on white paper; the widths are those of the window.

@@ -77,6 +77,33 @@ async function answerTest() {
   return result;
 }
 
+// The mosaics shown: of each choice the width of the picture once it is decoded, what is drawn over
+// it, and the caption.
+async function mosaicTest() {
+  const shown = async (id) => {
+    const card = document.getElementById(id);
+    const image = card.querySelector('img');
+    if (card.hidden || !image) return null;
+    await image.decode();
+    return {width: image.naturalWidth, lines: card.querySelectorAll('polyline').length, caption: card.querySelector('.caption').textContent};
+  };
+  const all = async (id) => {
+    const looks = [await shown(id)];
+    const select = document.querySelector(`#${id} select`);
+    for (const option of select ? [...select.options].slice(1) : []) {
+      select.value = option.value;
+      select.dispatchEvent(new Event('change'));
+      looks.push(await shown(id));
+    }
+    return looks;
+  };
+  const result = {hidden: document.getElementById('mosaics').hidden, estimate: await all('mosaic-estimate')};
+  for (const box of document.querySelectorAll('#mosaic-estimate input')) box.click();
+  result.bare = await shown('mosaic-estimate');
+  result.difference = await all('mosaic-difference');
+  return result;
+}
+
 async function selfTest() {
   await drawn();
   const result = {marks: marksOfAll(), estimators: {}, cells: [], tables: {}};
@@ -108,6 +135,7 @@ async function selfTest() {
     result.cells.push(marksOfAll());
   }
   result.answer = await answerTest();
+  result.mosaics = await mosaicTest();
   document.getElementById('theme').click();
   await drawn();
   result.theme = document.documentElement.dataset.theme;

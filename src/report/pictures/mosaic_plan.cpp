@@ -15,8 +15,6 @@ namespace {
 
 /// Of the shorter side of a footprint: how far a corner moves from one picture laid to the next.
 constexpr double kStep = 1.0 / 3.0;
-/// Some viewers and readers of PNG files end at 2^16.
-constexpr double kLongestPx = 65'000.0;
 
 using Corners = std::array<Eigen::Vector2d, 4>;
 
@@ -135,11 +133,12 @@ Eigen::Vector2d size_px(const Box& box, double metres_per_pixel) {
   return {extent.y(), extent.x()};
 }
 
-double fitting_resolution(const Box& box, double metres_per_pixel, double most_pixels) {
+double fitting_resolution(const Box& box, double metres_per_pixel, const MosaicOptions& options) {
   while (true) {
     const Eigen::Vector2d size = size_px(box, metres_per_pixel);
-    const double excess = std::max(std::sqrt(size.prod() / most_pixels),
-                                   size.maxCoeff() / std::min(kLongestPx, most_pixels));
+    const double excess =
+        std::max(std::sqrt(size.prod() / options.most_pixels),
+                 size.maxCoeff() / std::min(options.longest_px, options.most_pixels));
     if (excess <= 1.0) return metres_per_pixel;
     // A little more than it takes, as sizes are rounded up.
     metres_per_pixel *= 1.001 * excess;
@@ -185,8 +184,7 @@ MosaicPlan plan_mosaic(const Camera& camera, std::span<const PlacedPicture> pict
   const Box box = box_of(camera, plan.pictures);
   plan.wanted_metres_per_pixel =
       options.metres_per_pixel.value_or(median_of(laid, &Footprint::metres_per_pixel));
-  plan.metres_per_pixel =
-      fitting_resolution(box, plan.wanted_metres_per_pixel, options.most_pixels);
+  plan.metres_per_pixel = fitting_resolution(box, plan.wanted_metres_per_pixel, options);
   require_no_specks(box, plan, median_of(laid, &Footprint::shorter_side_m));
   const Eigen::Vector2d size = size_px(box, plan.metres_per_pixel);
   plan.size = cv::Size(static_cast<int>(size.x()), static_cast<int>(size.y()));
@@ -194,12 +192,19 @@ MosaicPlan plan_mosaic(const Camera& camera, std::span<const PlacedPicture> pict
   return plan;
 }
 
-std::string mosaic_json(const MosaicPlan& plan) {
+std::string mosaic_json(const MosaicPlan& plan, const MosaicFiles& files) {
   nlohmann::ordered_json json;
   json["metres_per_pixel"] = plan.metres_per_pixel;
   json["x_of_top_left_m"] = plan.top_left_m.x();
   json["y_of_top_left_m"] = plan.top_left_m.y();
+  json["width_px"] = plan.size.width;
+  json["height_px"] = plan.size.height;
   json["pictures"] = plan.pictures.size();
+  if (files.world_file_epsg) json["world_file_epsg"] = *files.world_file_epsg;
+  if (files.tile_px) {
+    json["tile_px"] = *files.tile_px;
+    json["tiles"] = files.tiles;
+  }
   return json.dump(2) + "\n";
 }
 

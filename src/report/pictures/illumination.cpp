@@ -1,0 +1,53 @@
+#include "illumination.hpp"
+
+#include <algorithm>
+
+#include "flat_field.hpp"
+
+namespace fathom {
+namespace {
+
+/// Pictures that the illumination is learnt from.
+constexpr std::size_t kMostSamples = 40;
+
+// Pictures whose middles lie further apart than the shorter side of a footprint show another piece
+// of floor each.
+double independent_count(const Camera& camera, const std::vector<PlacedPicture>& pictures) {
+  const CameraModel& model = camera.model();
+  const Eigen::Vector2d middle_px(0.5 * (model.width - 1), 0.5 * (model.height - 1));
+  std::vector<Eigen::Vector2d> apart;
+  for (const PlacedPicture& picture : pictures) {
+    const auto corners = camera.footprint(picture.altitude_m);
+    const double side_m =
+        std::min((corners[1] - corners[0]).norm(), (corners[2] - corners[1]).norm());
+    const Eigen::Vector2d middle =
+        transform(picture.pose, camera.floor_point(middle_px, picture.altitude_m));
+    const bool is_new = std::ranges::all_of(
+        apart, [&](const Eigen::Vector2d& other) { return (middle - other).norm() >= side_m; });
+    if (is_new) apart.push_back(middle);
+  }
+  return static_cast<double>(apart.size());
+}
+
+}  // namespace
+
+cv::Mat learnt_gain(const FrameSource& source, const std::vector<PlacedPicture>& pictures) {
+  std::vector<PlacedPicture> samples;
+  const std::size_t count = std::min(pictures.size(), kMostSamples);
+  for (std::size_t i = 0; i < count; ++i) {
+    samples.push_back(pictures[i * pictures.size() / count]);
+  }
+  const CameraModel& model = source.camera().model();
+  FlatField field(cv::Size(model.width, model.height));
+  for (const PlacedPicture& sample : samples) field.add(source.image(sample.frame));
+  return field.gain(independent_count(source.camera(), samples));
+}
+
+cv::Mat lit_evenly(const cv::Mat& picture, const cv::Mat& gain) {
+  cv::Mat even;
+  picture.convertTo(even, CV_32F);
+  cv::multiply(even, gain, even);
+  return even;
+}
+
+}  // namespace fathom

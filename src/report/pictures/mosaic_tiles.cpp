@@ -1,0 +1,129 @@
+#include <algorithm>
+#include <list>
+#include <map>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "blend.hpp"
+#include "fathom/core/input_error.hpp"
+#include "illumination.hpp"
+
+namespace fathom {
+namespace {
+
+/// Pictures as they were decoded; those not asked for longest make room.
+class DecodedPictures {
+ public:
+  DecodedPictures(const FrameSource& source, std::size_t most_bytes)
+      : source_(source), most_bytes_(most_bytes) {}
+
+  cv::Mat picture(std::size_t frame) {
+    const auto known = places_.find(frame);
+    if (known != places_.end()) {
+      latest_first_.splice(latest_first_.begin(), latest_first_, known->second);
+      return known->second->second;
+    }
+    latest_first_.emplace_front(frame, source_.image(frame));
+    places_[frame] = latest_first_.begin();
+    bytes_ += bytes_of(latest_first_.front().second);
+    while (bytes_ > most_bytes_ && latest_first_.size() > 1) forget_last();
+    return latest_first_.front().second;
+  }
+
+ private:
+  using Entry = std::pair<std::size_t, cv::Mat>;
+
+  static std::size_t bytes_of(const cv::Mat& picture) {
+    return picture.total() * picture.elemSize();
+  }
+  void forget_last() {
+    bytes_ -= bytes_of(latest_first_.back().second);
+    places_.erase(latest_first_.back().first);
+    latest_first_.pop_back();
+  }
+
+  const FrameSource& source_;
+  std::size_t most_bytes_;
+  std::size_t bytes_ = 0;
+  std::list<Entry> latest_first_;
+  std::unordered_map<std::size_t, std::list<Entry>::iterator> places_;
+};
+
+using PicturesByColumn = std::map<int, std::vector<const PlacedPicture*>>;
+
+// Which pictures each tile needs, by row and column of tiles: tiles without one take no room.
+std::map<int, PicturesByColumn> pictures_by_tile(const Camera& camera, const MosaicPlan& plan,
+                                                 int side_px) {
+  // In the order of frames, in which make_mosaics adds them up.
+  std::vector<const PlacedPicture*> in_order;
+  for (const PlacedPicture& place : plan.pictures) in_order.push_back(&place);
+  std::ranges::stable_sort(in_order, {}, &PlacedPicture::frame);
+  std::map<int, PicturesByColumn> tiles;
+  for (const PlacedPicture* place : in_order) {
+    const cv::Rect box = Blend::box_of(camera, plan, *place);
+    if (box.empty()) continue;
+    for (int row = box.y / side_px; row <= (box.y + box.height - 1) / side_px; ++row) {
+      for (int column = box.x / side_px; column <= (box.x + box.width - 1) / side_px; ++column) {
+        tiles[row][column].push_back(place);
+      }
+    }
+  }
+  return tiles;
+}
+
+/// Makes one tile after the other.
+class TileMaker {
+ public:
+  TileMaker(const FrameSource& source, const MosaicPlan& plan, const TileOptions& options)
+      : source_(source),
+        plan_(plan),
+        side_px_(options.side_px),
+        gain_(learnt_gain(source, plan.pictures)),
+        decoded_(source, options.cache_bytes) {}
+
+  MosaicTile tile(int row, int column, const std::vector<const PlacedPicture*>& pictures) {
+    MosaicTile tile{row, column, {column * side_px_, row * side_px_, side_px_, side_px_}, {}};
+    tile.window &= cv::Rect({0, 0}, plan_.size);
+    Blend blend(source_.camera(), plan_, tile.window);
+    for (const PlacedPicture* place : pictures) {
+      blend.lay(lit_evenly(decoded_.picture(place->frame), gain_), *place);
+    }
+    tile.picture = blend.finish();
+    return tile;
+  }
+
+ private:
+  const FrameSource& source_;
+  const MosaicPlan& plan_;
+  int side_px_;
+  cv::Mat gain_;
+  DecodedPictures decoded_;
+};
+
+}  // namespace
+
+void make_tiles(const FrameSource& source, const MosaicPlan& plan, const TileOptions& options,
+                const std::function<void(const MosaicTile&)>& take,
+                const MosaicProgress& progress) {
+  if (options.side_px < 1) throw InputError("a tile has one pixel a side at least");
+  const auto rows = pictures_by_tile(source.camera(), plan, options.side_px);
+  std::size_t count = 0;
+  for (const auto& [row, columns] : rows) count += columns.size();
+  TileMaker maker(source, plan, options);
+  std::size_t done = 0;
+  const auto make = [&](int row, const auto& entry) {
+    take(maker.tile(row, entry.first, entry.second));
+    if (progress) progress(++done, count);
+  };
+  // To and fro, so that a row begins with the pictures that the last one ended with.
+  for (const auto& [row, columns] : rows) {
+    if (row % 2 == 0) {
+      for (auto at = columns.begin(); at != columns.end(); ++at) make(row, *at);
+    } else {
+      for (auto at = columns.rbegin(); at != columns.rend(); ++at) make(row, *at);
+    }
+  }
+}
+
+}  // namespace fathom

@@ -1,0 +1,49 @@
+// What a mosaic takes in memory, whole and by tiles.
+
+#include <fstream>
+
+#include <gmock/gmock.h>
+
+#include "apps/command_line.hpp"
+#include "harness/small_config.hpp"
+
+namespace fathom::test {
+namespace {
+
+class TileMemory : public CommandLine {
+ protected:
+  // The most that the program ever held, MiB.
+  double peak_MiB(const Arguments& arguments) const {
+    double peak = 0.0;
+    const Ended ended = fathom(arguments, [&](pid_t process) {
+      std::ifstream status("/proc/" + std::to_string(process) + "/status");
+      for (std::string line; std::getline(status, line);) {
+        if (line.starts_with("VmHWM:")) peak = std::stod(line.substr(6)) / 1024.0;
+      }
+    });
+    EXPECT_EQ(ended.status, 0) << ended.err;
+    return peak;
+  }
+};
+
+TEST_F(TileMemory, OfTilesDoesNotGrowWithTheMosaic) {
+  if (!FATHOM_MEASURES_MEMORY) GTEST_SKIP() << "a sanitizer takes memory of its own";
+  write("c.yaml", kSmallSurvey);
+  fathom_done({"run", "c.yaml", "--out", "out", "--no-mosaic"});
+  // 60 megapixels, whole at 9 bytes each: 540 MiB.
+  const Arguments large{"mosaic", "out", "--resolution", "0.00062", "--quiet", "--out"};
+  const auto with = [&](std::initializer_list<std::string> more) {
+    Arguments all = large;
+    all.insert(all.end(), more);
+    return all;
+  };
+  const double whole = peak_MiB(with({"whole"}));
+  const double tiles = peak_MiB(with({"tiles", "--tile-size", "512"}));
+  EXPECT_GT(whole, 400.0);
+  EXPECT_LT(tiles, 0.4 * whole);
+  RecordProperty("whole_MiB", static_cast<int>(whole));
+  RecordProperty("tiles_MiB", static_cast<int>(tiles));
+}
+
+}  // namespace
+}  // namespace fathom::test
