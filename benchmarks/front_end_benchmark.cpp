@@ -10,6 +10,7 @@
 
 #include <benchmark/benchmark.h>
 #include <opencv2/core.hpp>
+#include <opencv2/features2d.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "fathom/core/random.hpp"
@@ -92,6 +93,32 @@ void Extraction(benchmark::State& state) {
   label(state);
 }
 BENCHMARK(Extraction)->Apply(name_detectors);
+
+// What extraction by SIFT consists of, with 1000 features: all of it; that without flattening; of
+// this the detection alone, pyramid and orientations included. What is left describes.
+enum SiftPart : std::int64_t { kAll, kUnflattened, kDetection };
+
+void SiftParts(benchmark::State& state) {
+  FeatureOptions options;
+  options.max_features = 1000;
+  options.flatten = state.range(0) == kAll;
+  const FeatureExtractor extractor(options);
+  const cv::Ptr<cv::Feature2D> finder =
+      fathom::find_detector("sift").make(options.detector, options.max_features).finder;
+  std::vector<cv::KeyPoint> keypoints;
+  std::size_t frame = 0;
+  for (auto _ : state) {
+    const cv::Mat& picture = frames()[frame++ % frames().size()];
+    if (state.range(0) == kDetection) {
+      finder->detect(picture, keypoints);
+    } else {
+      benchmark::DoNotOptimize(extractor.extract(picture));
+    }
+  }
+  constexpr std::array kLabels{"all", "unflattened", "detection"};
+  state.SetLabel(kLabels[static_cast<std::size_t>(state.range(0))]);
+}
+BENCHMARK(SiftParts)->DenseRange(kAll, kDetection)->Unit(benchmark::kMillisecond)->UseRealTime();
 
 void Matching(benchmark::State& state) {
   const FloorFeatures a = features_of(options_of(state), 0);

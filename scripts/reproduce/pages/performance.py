@@ -47,6 +47,12 @@ def stages(work):
 
     cells = [[f"extraction, {name}, flattening included", *ms("Extraction", name)]
              for name in ("sift", "orb", "akaze", "brisk")]
+    part = {label: by_label["SiftParts", label]["real_time"]
+            for label in ("all", "unflattened", "detection")}
+    for what, time in (("flattening", part["all"] - part["unflattened"]),
+                       ("detection, orientations included", part["detection"]),
+                       ("description", part["unflattened"] - part["detection"])):
+        cells.append([f"sift, of it {what}", "1000", f"{significant(time, 2)} ms"])
     cells.append(["matching, sift", *ms("Matching", "sift")])
     cells.append(["RANSAC, 500 matches, all right", "",
                   f"{significant(ransac['real_time'], 2)} ms"])

@@ -34,6 +34,9 @@ class Bag {
   /// By name.
   virtual const std::vector<BagTopic>& topics() const = 0;
 
+  /// What cannot be read of it.
+  virtual std::vector<std::string> notes() const { return {}; }
+
   /// Hands over the messages of some topics in the order of recording, one at a time; they are
   /// valid during the call alone.
   virtual void read(const std::vector<std::size_t>& topics,

@@ -56,6 +56,7 @@ std::vector<std::string> bag_topic_list(const fs::path& path, const BagImportOpt
   }
   std::vector<std::string> lines = topic_lines(bag->topics(), choice);
   std::ranges::copy(choice.notes, std::back_inserter(lines));
+  std::ranges::copy(bag->notes(), std::back_inserter(lines));
   if (!why.empty()) lines.push_back("not yet to be imported: " + why);
   return lines;
 }
@@ -87,6 +88,7 @@ ImportReport import_bag(const fs::path& path, const BagImportOptions& options,
   const std::vector<std::string> lines = topic_lines(topics, choice);
   report.facts.insert(report.facts.begin(), lines.begin(), lines.end());
   std::ranges::copy(choice.notes, std::back_inserter(report.notes));
+  std::ranges::copy(bag->notes(), std::back_inserter(report.notes));
   if (left_out > 0) {
     report.notes.push_back(std::to_string(left_out) +
                            " of the pictures left out: not between two " +

@@ -57,6 +57,15 @@ class Ros1Bag : public Bag {
 
   const std::vector<BagTopic>& topics() const override { return topics_; }
 
+  std::vector<std::string> notes() const override {
+    std::vector<std::string> lines;
+    for (const auto& [text, times] : recording_->left_out()) {
+      lines.push_back("librosbag leaves out " + std::to_string(times) +
+                      (times == 1 ? " message: " : " messages: ") + text);
+    }
+    return lines;
+  }
+
   void read(const std::vector<std::size_t>& topics,
             const std::function<void(const BagMessage&)>& take) const override {
     std::set<std::string> names;

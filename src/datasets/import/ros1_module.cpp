@@ -10,6 +10,23 @@
 namespace fathom {
 namespace {
 
+// What librosbag would print: it leaves out messages recorded at time 0, where the clock of a
+// simulation begins, and prints what it throws.
+class Printed : public console_bridge::OutputHandler {
+ public:
+  void log(const std::string& text, console_bridge::LogLevel /*level*/, const char* /*file*/,
+           int /*line*/) override {
+    ++lines[text];
+  }
+
+  std::map<std::string, std::size_t> lines;
+};
+
+Printed& printed() {
+  static Printed handler;
+  return handler;
+}
+
 // What librosbag throws becomes a standard error; all else passes.
 template <class Action>
 auto guarded(const Action& action) {
@@ -26,10 +43,14 @@ auto guarded(const Action& action) {
 class Librosbag : public Ros1Recording {
  public:
   explicit Librosbag(const char* path) {
-    // It prints what it throws as well.
-    console_bridge::setLogLevel(console_bridge::CONSOLE_BRIDGE_LOG_NONE);
+    console_bridge::useOutputHandler(&printed());
+    console_bridge::setLogLevel(console_bridge::CONSOLE_BRIDGE_LOG_WARN);
+    printed().lines.clear();
     guarded([&] { bag_.open(path, rosbag::bagmode::Read); });
+    left_out_ = printed().lines;
   }
+
+  std::map<std::string, std::size_t> left_out() const override { return left_out_; }
 
   std::vector<Ros1Connection> connections() const override {
     return guarded([this] {
@@ -71,6 +92,7 @@ class Librosbag : public Ros1Recording {
   }
 
   rosbag::Bag bag_;
+  std::map<std::string, std::size_t> left_out_;
 };
 
 }  // namespace

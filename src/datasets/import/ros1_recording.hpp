@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <set>
 #include <string>
@@ -23,6 +24,8 @@ class Ros1Recording {
 
   /// One for each publisher: a topic may have several.
   virtual std::vector<Ros1Connection> connections() const = 0;
+  /// What librosbag left out, in its words, with how often.
+  virtual std::map<std::string, std::size_t> left_out() const = 0;
   virtual std::size_t messages_of(const std::string& topic) const = 0;
 
   /// The bytes are valid during the call alone.

@@ -29,6 +29,8 @@ std::vector<cv::Mat> make_mosaics(const FrameSource& source, std::span<const Mos
     }
   }
   if (largest == nullptr) return {};
+  // The first picture may take long, where a simulated floor is drawn for it.
+  if (progress) progress(0, uses.size());
   const cv::Mat gain = learnt_gain(source, largest->pictures);
   std::size_t done = 0;
   for (const auto& [frame, mosaics] : uses) {
