@@ -151,31 +151,16 @@ class Search {
     return group;
   }
 
-  std::size_t loops_inside() const {
-    std::size_t count = 0;
-    for (std::size_t j = 0; j < own_.size(); ++j) {
-      if (candidates_->is_loop(j) && own_[j] > 0.0) ++count;
-    }
-    return count;
-  }
-
-  // A group of most loops is not given up for a few others unless that makes truncated_cost less:
-  // each loop given up costs the scale.
-  bool outweighs(std::size_t loops, double chi2, std::size_t inside) const {
-    return 2 * loops > inside && chi2 <= scale_ * static_cast<double>(loops);
-  }
-
   // Of the groups that the rest contradicts, those with most against each of their loops.
   bool reject_groups() {
-    const std::size_t inside = loops_inside();
     std::vector<std::pair<double, std::vector<std::size_t>>> contradicted;
     double most = 0.0;
     for (std::vector<std::size_t>& group : candidates_->groups(own_, tuning().group_reach)) {
       if (group.size() < 2 || settled_groups_.contains(in_graph(group))) continue;
       const double chi2 = candidates_->group_chi2(group, own_, nodes_);
       if (chi2 <= tuning().settled_group_share * scale_) settled_groups_.insert(in_graph(group));
-      if (chi2 <= limit() || outweighs(group.size(), chi2, inside)) continue;
       const double each = chi2 / static_cast<double>(group.size());
+      if (chi2 <= limit() || each <= tuning().group_loop_share * scale_) continue;
       most = std::max(most, each);
       contradicted.emplace_back(each, std::move(group));
     }

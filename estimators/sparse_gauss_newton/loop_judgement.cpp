@@ -12,6 +12,8 @@ void LoopJudgement::describe(OptionTable& table) {
                 "a loop that was rejected so often is not readmitted");
   table.real("settled_group_share", settled_group_share, share, "",
              "of a squared scale: a group below it is not judged again");
+  table.real("group_loop_share", group_loop_share, share, "",
+             "likewise: a group is rejected only where each of its loops has more against it");
   table.real("candidate_reach", candidate_reach, Range::positive(), "",
              "squared scales within which a rejected loop may be readmitted");
   table.real("drift_reach", drift_reach, Range::positive(), "",

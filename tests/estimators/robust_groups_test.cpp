@@ -26,6 +26,7 @@ MeasurementLog there_and_back(std::size_t keyframes, std::size_t loops, double s
     truth.push_back({static_cast<double>(is_back ? keyframes - 1 - k : k), is_back ? 0.5 : 0.0,
                      is_back ? std::numbers::pi : 0.0});
   }
+  RandomStream random(4, "loops");
   MeasurementLog log;
   for (std::size_t k = 1; k < keyframes; ++k) {
     log.add_keyframe(RelativePose::from_covariance(k - 1, k, between(truth[k - 1], truth[k]),
@@ -35,8 +36,9 @@ MeasurementLog there_and_back(std::size_t keyframes, std::size_t loops, double s
       if (2 * k < keyframes || from >= keyframes / 2 || log.registration_count() == loops) continue;
       Pose shifted = truth[k];
       shifted.x += shift_m;
-      log.add_registration(RelativePose::from_covariance(from, k, between(truth[from], shifted),
-                                                         0.0025 * Eigen::Matrix3d::Identity()));
+      log.add_registration(RelativePose::from_covariance(
+          from, k, test::perturbed(between(truth[from], shifted), 0.05, 0.05, random),
+          0.0025 * Eigen::Matrix3d::Identity()));
     }
   }
   return log;
