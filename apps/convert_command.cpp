@@ -1,6 +1,7 @@
 // fathom convert: trajectories and pose graphs from one format to another.
 
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 
 #include "apps/command.hpp"
@@ -114,7 +115,11 @@ void convert(const ConvertFlags& flags, Context& context) {
   for (const std::string& output : {flags.out, flags.times_out}) {
     if (!output.empty()) refuse_replacing(output, {flags.input, flags.trajectory.times});
   }
-  if (flags.out == flags.times_out) {
+  const auto whole = [](const std::string& path) {
+    std::error_code ignored;
+    return std::filesystem::weakly_canonical(std::filesystem::absolute(path), ignored);
+  };
+  if (!flags.times_out.empty() && whole(flags.out) == whole(flags.times_out)) {
     throw InputError("--times-out: is the same file as --out");
   }
   if (is_graph(flags.input) != to_graph) {

@@ -2,8 +2,10 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <functional>
 #include <memory>
 
+#include "apps/child_process.hpp"
 #include "apps/command.hpp"
 #include "apps/common.hpp"
 #include "fathom/core/files.hpp"
@@ -58,6 +60,24 @@ void import_into(const ImportFlags& flags, ImportKind kind, StagedFolder& folder
   }
 }
 
+// librosbag takes lengths and offsets within a chunk on trust.
+void do_safely(ImportKind kind, const std::string& source, const std::function<void()>& action) {
+  if (kind == ImportKind::ros1_bag) {
+    in_child_process(source, action);
+  } else {
+    action();
+  }
+}
+
+// Data of the user's are not replaced.
+void refuse_existing(const std::filesystem::path& out, bool is_bag) {
+  const std::filesystem::path there = out / (is_bag ? "mav0" : "state_groundtruth_estimate0");
+  std::error_code error;
+  if (!std::filesystem::exists(there, error)) return;
+  throw InputError(there.string(),
+                   "is there already; give another --out, or move it out of the way");
+}
+
 void import_source(ImportFlags& flags, Context& context) {
   flags.bag.camera_yaml = flags.camera;
   flags.bag.clock = flags.clock == "record"   ? BagClock::record
@@ -70,14 +90,17 @@ void import_source(ImportFlags& flags, Context& context) {
   context.status = kDone;
   if (flags.list) {
     if (!is_bag) throw InputError("--list: " + flags.source + " is no bag, it has no topics");
-    for (const std::string& line : bag_topic_list(flags.source, flags.bag)) {
-      std::printf("%s\n", line.c_str());
-    }
+    do_safely(kind, flags.source, [&] {
+      for (const std::string& line : bag_topic_list(flags.source, flags.bag)) {
+        std::printf("%s\n", line.c_str());
+      }
+    });
     return;
   }
-  StagedFolder folder(flags.out.empty() ? "runs/" + stem_of(flags.source) + "-data" : flags.out,
-                      {flags.source, flags.camera, flags.times});
-  import_into(flags, kind, folder);
+  const std::string out = flags.out.empty() ? "runs/" + stem_of(flags.source) + "-data" : flags.out;
+  refuse_existing(out, is_bag);
+  StagedFolder folder(out, {flags.source, flags.camera, flags.times});
+  do_safely(kind, flags.source, [&] { import_into(flags, kind, folder); });
 }
 
 void add_topic_flags(Command& command, BagImportOptions& bag) {

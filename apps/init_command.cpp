@@ -36,7 +36,7 @@ std::vector<ConfigLine> lines_of(const Configuration& configuration, const Setti
   }
   std::vector<ConfigLine> lines;
   for (const auto& [key, value] : configuration.in_force) {
-    const bool is_given = key.starts_with("dataset.") && settings.find(key) != nullptr;
+    const bool is_given = key != "estimator.type" && settings.find(key) != nullptr;
     const bool is_front_end =
         key.starts_with("front_end.") && !key.starts_with("front_end.registration_tuning.");
     if (!is_given && !is_front_end) continue;
@@ -58,7 +58,7 @@ std::vector<std::string> assumptions(const FrameSource& frames) {
 
 std::string header(const std::string& what, const std::vector<std::string>& facts,
                    const std::vector<std::string>& assumed) {
-  std::string text = "# " + what + " Every value below is the default.\n";
+  std::string text = "# " + what + " Every value below that was not given is the default.\n";
   for (const std::string& fact : facts) text += "#   " + fact + "\n";
   text += "# Assumed:\n";
   for (const std::string& one : assumed) text += "#   " + one + "\n";
@@ -79,6 +79,10 @@ void init(const InitFlags& flags, Context& context) {
   const Configuration configuration =
       configure(settings, ConfigurationKind::single, builtin_estimators());
   const std::unique_ptr<const DataSet> data = open_data_set(configuration);
+  if (!std::filesystem::is_directory(path) || data->frames() == nullptr) {
+    throw InputError(path,
+                     "is no folder of pictures; 'fathom init' writes a configuration for one");
+  }
   const FrameSource& frames = *data->frames();
   const Outlook expected = outlook(frames, configuration.front_end);
   const std::vector<std::string> facts = facts_of(expected);

@@ -23,7 +23,7 @@ void say_from_signal(std::string_view text) noexcept {
 }
 
 extern "C" void ask_to_stop(int signal) {
-  by_a_person = signal == SIGINT;
+  if (signal == SIGINT) by_a_person = true;
   stop_asked = true;
   std::signal(signal, SIG_DFL);
   if (stop_silently) return;

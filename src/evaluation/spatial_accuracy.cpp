@@ -41,8 +41,10 @@ void put_errors(SpatialAccuracy& result, SpatialAlignment alignment) {
 SpatialAccuracy spatial_accuracy(Trajectory estimate, Trajectory reference, PlanePair planes,
                                  SpatialAlignment alignment) {
   SpatialAccuracy result;
-  result.estimate = {planes.estimate, axes_of(planes.estimate, estimate), {}};
   result.reference = {planes.reference, axes_of(planes.reference, reference), {}};
+  const std::optional<Plane> next_to =
+      planes.reference == Plane::fit ? std::optional(result.reference.axes.named) : std::nullopt;
+  result.estimate = {planes.estimate, axes_of(planes.estimate, estimate, next_to), {}};
   result.body = body_axes(reference, result.reference.axes);
   result.is_mounted_alike =
       are_mounted_alike(result.body, body_axes(estimate, result.estimate.axes));

@@ -43,7 +43,7 @@ PlaneAxes named(Plane plane) {
   return {plane, 0.0, named_axes(plane), named_axes(plane)};
 }
 
-PlaneAxes fitted(Trajectory trajectory) {
+PlaneAxes fitted(Trajectory trajectory, std::optional<Plane> next_to) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(spread(trajectory));
   const Eigen::Vector3d squares = solver.eigenvalues();
   constexpr double kLine = 1e-12;
@@ -53,11 +53,14 @@ PlaneAxes fitted(Trajectory trajectory) {
         "yz");
   }
   const Eigen::Vector3d normal = solver.eigenvectors().col(0);
+  const auto cosine = [&](const Eigen::Matrix3d& of) { return std::abs(of.row(2).dot(normal)); };
   PlaneAxes axes = named(Plane::xy);
   for (const Plane plane : {Plane::xz, Plane::yz}) {
-    const auto cosine = [&](const Eigen::Matrix3d& of) { return std::abs(of.row(2).dot(normal)); };
     if (cosine(named_axes(plane)) > cosine(axes.plane_from_world)) axes = named(plane);
   }
+  // Two nearly the same planes half way between two named ones are seen from the same side.
+  constexpr double kNear = 0.5;
+  if (next_to && cosine(named_axes(*next_to)) >= kNear) axes = named(*next_to);
   Eigen::Vector3d up = axes.plane_from_world * normal;
   if (up.z() < 0.0) up = -up;
   const auto tilt = Eigen::Quaterniond::FromTwoVectors(up, Eigen::Vector3d::UnitZ());
@@ -112,8 +115,8 @@ Plane usual_plane(TrajectoryFormat format) {
   return format == TrajectoryFormat::kitti ? Plane::xz : Plane::xy;
 }
 
-PlaneAxes axes_of(Plane plane, Trajectory trajectory) {
-  return plane == Plane::fit ? fitted(trajectory) : named(plane);
+PlaneAxes axes_of(Plane plane, Trajectory trajectory, std::optional<Plane> next_to) {
+  return plane == Plane::fit ? fitted(trajectory, next_to) : named(plane);
 }
 
 BodyAxes body_axes(Trajectory trajectory, const PlaneAxes& axes) {

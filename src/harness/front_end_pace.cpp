@@ -15,15 +15,15 @@ constexpr std::size_t kFirstKeyframes = 2;
 
 FrontEndPace::FrontEndPace(const FrameSource& frames, PairRegistrar& registrar,
                            const FrontEndOptions& options)
-    : frames_(frames),
-      registrar_(registrar),
-      start_(Clock::now()),
-      registered_before_(registrar.registered()) {
+    : frames_(frames), registrar_(registrar), registered_before_(registrar.registered()) {
   if (!frames.is_visual_odometry()) plan_ = plan_registrations(frames, options);
 }
 
 FrontEndProgress FrontEndPace::at(const FrontEnd& front_end) {
-  if (front_end.keyframes().size() <= kFirstKeyframes) {
+  // What was known took no time to speak of.
+  const bool is_first_work = !has_worked_ && registrar_.registered() == registered_before_;
+  has_worked_ = has_worked_ || !is_first_work;
+  if (front_end.keyframes().size() <= kFirstKeyframes || is_first_work) {
     start_ = Clock::now();
     pictures_at_start_ = Work::of(registrar_.work_on_pictures());
     pairs_at_start_ = Work::of(registrar_.work_on_pairs());
@@ -76,7 +76,8 @@ std::optional<double> FrontEndPace::left_s(const FrontEnd& front_end) {
   const double done_s = pictures.seconds + pairs.seconds;
   if (!plan_ || (done_s <= 0.0 && is_all_known())) {
     const auto passed = static_cast<double>(front_end.frames().size());
-    return elapsed_s * (static_cast<double>(frames_.size()) - passed) / passed;
+    return std::chrono::duration<double>(Clock::now() - begin_).count() *
+           (static_cast<double>(frames_.size()) - passed) / passed;
   }
   // Where what comes is not known, all that was known tells nothing of its time.
   if (done_s <= 0.0) return std::nullopt;

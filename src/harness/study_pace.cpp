@@ -11,28 +11,33 @@ class StudyPace::Sum {
     if (times == 0) return;
     if (seconds) {
       seconds_ += *seconds * static_cast<double>(times);
+      longest_s_ = std::max(longest_s_, *seconds);
       is_known_ = true;
     } else {
       lacks_ = true;
     }
   }
 
+  void lack() { lacks_ = true; }
+  /// A pass or a run has one thread, so that the longest of them bounds all.
   std::optional<Left> over(std::size_t threads) const {
     if (!is_known_ && lacks_) return std::nullopt;
-    return Left{seconds_ / static_cast<double>(threads), lacks_};
+    return Left{std::max(seconds_ / static_cast<double>(threads), longest_s_), lacks_};
   }
 
  private:
   double seconds_ = 0.0;
+  double longest_s_ = 0.0;
   bool is_known_ = false;
   bool lacks_ = false;
 };
 
-// A survey that was registered in part before it was stopped says what a whole one takes.
+// A survey that was registered in part before it was stopped says what a whole one takes, if what
+// it took is of registering and not of all else.
 std::optional<double> StudyPace::Pass::all_s() const {
-  if (!progress.left_s) return std::nullopt;
-  const double s = elapsed_s + *progress.left_s;
-  return progress.anew > 0.0 ? s / progress.anew : s;
+  constexpr double kLeastAnew = 0.2;
+  if (!progress.left_s || progress.anew < kLeastAnew) return std::nullopt;
+  return (elapsed_s + *progress.left_s) / progress.anew;
 }
 
 std::size_t StudyPace::begin_front_end(const SharedSurvey& survey) {
@@ -46,10 +51,12 @@ void StudyPace::front_end_at(std::size_t pass, double elapsed_s, const FrontEndP
   at->second.elapsed_s = elapsed_s;
   at->second.progress = progress;
   if (!progress.is_done()) return;
-  if (at->second.is_first) {
-    first_.add(at->second.all_s().value_or(elapsed_s));
-  } else {
+  if (!at->second.is_first) {
     later_.add(elapsed_s);
+  } else if (const auto all_s = at->second.all_s()) {
+    first_.add(*all_s);
+  } else {
+    known_.add(elapsed_s);
   }
   at_work_.erase(at);
 }
@@ -71,21 +78,24 @@ StudyPace::Mean StudyPace::first_pass() const {
   return expected;
 }
 
+std::optional<double> StudyPace::left_of(const Pass& pass) const {
+  const Mean& alike = pass.is_first ? first_ : later_;
+  const bool is_told = pass.progress.left_s && (pass.is_first || alike.count == 0);
+  if (is_told || alike.count == 0) return pass.progress.left_s;
+  return std::max(0.0, *alike.value() - pass.elapsed_s);
+}
+
 void StudyPace::add_front_ends(Sum& sum) const {
-  for (const auto& [number, pass] : at_work_) {
-    std::optional<double> left_s = pass.progress.left_s;
-    if (!left_s) {
-      left_s = (pass.is_first ? first_ : later_).value();
-      if (left_s) left_s = std::max(0.0, *left_s - pass.elapsed_s);
-    }
-    sum.add(left_s);
-  }
+  for (const auto& [number, pass] : at_work_) sum.add(left_of(pass));
   for (const auto& [survey, passes] : to_do_.front_ends) {
     const auto begun = begun_.find(survey);
     const std::size_t done = begun == begun_.end() ? 0 : begun->second;
     if (done >= passes) continue;
     const std::size_t first = done == 0 ? 1 : 0;
-    sum.add(first_pass().value(), first);
+    const auto anew_s = first_pass().value();
+    sum.add(anew_s ? anew_s : known_.value(), first);
+    // All surveys so far were known; the next may not be.
+    if (first > 0 && !anew_s) sum.lack();
     sum.add(later_.value(), passes - done - first);
   }
 }

@@ -40,13 +40,14 @@ void StudyWatch::registered(std::size_t runs) {
 }
 
 FrontEndProgressCallback StudyWatch::over_front_end(const SharedSurvey& survey) {
-  const std::lock_guard hold(mutex_);
-  const std::size_t pass = pace_.begin_front_end(survey);
-  return [this, pass, start = Clock::now()](const FrontEndProgress& at) {
+  // A graph has no front end, and never calls.
+  std::optional<std::size_t> pass;
+  return [this, survey, pass, start = Clock::now()](const FrontEndProgress& at) mutable {
     if (is_stopped()) throw Stopped{};
-    const std::lock_guard also_hold(mutex_);
+    const std::lock_guard hold(mutex_);
     const auto now = Clock::now();
-    pace_.front_end_at(pass, std::chrono::duration<double>(now - start).count(), at);
+    if (!pass) pass = pace_.begin_front_end(survey);
+    pace_.front_end_at(*pass, std::chrono::duration<double>(now - start).count(), at);
     // That a survey is begun is said at once: its first picture may take long.
     if (!is_due() && at.pictures > 0) return;
     progress_.stage = "front end at picture";

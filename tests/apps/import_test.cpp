@@ -1,5 +1,7 @@
 // fathom import: bags, COLMAP models and KITTI poses through the command line.
 
+#include <cstdint>
+#include <cstring>
 #include <fstream>
 
 #include <gmock/gmock.h>
@@ -82,12 +84,38 @@ TEST_F(Import, FullDiskIsOneLineAndLeavesNothing) {
   EXPECT_THAT(refusal({"import", "dive.db3", "--out", "dive"}), HasSubstr("not full?"));
 }
 
-TEST_F(Import, OlderFolderStaysWhereAnImportFails) {
+TEST_F(Import, WhatIsThereIsNotReplaced) {
   write_db3("dive.db3");
   fathom_done({"import", "dive.db3", "--out", "dive"});
-  const auto before = tree();
-  refusal({"import", "dive.db3", "--out", "dive", "--altitude", "/nowhere"});
-  EXPECT_EQ(tree(), before);
+  EXPECT_THAT(refusal({"import", "dive.db3", "--out", "dive"}),
+              HasSubstr("dive/mav0: is there already; give another --out"));
+}
+
+// librosbag follows the offset of a message in its chunk wherever it leads.
+TEST_F(Import, DamageWithinABagIsOneLine) {
+  if (ros1_bag_writer(path("probe.bag")) == nullptr) {
+    GTEST_SKIP() << "built without librosbag or the message classes of ROS";
+  }
+  write_survey_bag(ImageFolder(path("simulated")), *ros1_bag_writer(path("dive.bag")));
+  std::string bytes = bytes_of("dive.bag");
+  const auto word_at = [&bytes](std::size_t place) {
+    std::uint32_t word = 0;
+    std::memcpy(&word, &bytes[place], sizeof word);
+    return word;
+  };
+  std::size_t damaged = 0;
+  const std::size_t first_record = std::string("#ROSBAG V2.0\n").size();
+  for (std::size_t place = first_record; place < bytes.size();) {
+    const std::size_t header = place + 4;
+    const std::size_t data = header + word_at(place) + 4;
+    const bool is_index = bytes.substr(header, word_at(place)).find("op=\x04") != std::string::npos;
+    const std::uint32_t offset = 0x70000000;
+    if (is_index && ++damaged > 0) std::memcpy(&bytes[data + 8], &offset, sizeof offset);
+    place = data + word_at(data - 4);
+  }
+  ASSERT_GT(damaged, 0u);
+  write("damaged.bag", bytes);
+  EXPECT_THAT(refusal({"import", "damaged.bag", "--out", "out"}), HasSubstr("damaged.bag: "));
 }
 
 TEST_F(Import, CameraOfAFileTakesThePlaceOfTheBags) {
@@ -109,8 +137,11 @@ TEST_F(Import, KittiPosesBecomeTheReferenceOfASurvey) {
     poses += "1 0 0 0 0 1 0 0 0 0 1 " + std::to_string(i) + "\n";
   }
   write("poses.txt", poses);
-  fathom_done({"import", "poses.txt", "--survey", "simulated", "--scale", "0.5", "--out",
-               "simulated/mav0"});
+  const Arguments import{"import",  "poses.txt", "--survey", "simulated",
+                         "--scale", "0.5",       "--out",    "simulated/mav0"};
+  EXPECT_THAT(refusal(import), HasSubstr("state_groundtruth_estimate0: is there already"));
+  fs::remove_all(path("simulated/mav0/state_groundtruth_estimate0"));
+  fathom_done(import);
   const ImageFolder survey(path("simulated"));
   EXPECT_EQ(survey.info(4).ground_truth->x, 2.0);
   EXPECT_EQ(tum("simulated/mav0/reference.tum").size(), survey.size());

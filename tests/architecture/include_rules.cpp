@@ -87,10 +87,12 @@ const std::vector<ThirdParty>& third_parties() {
        {"estimators/support/filter/growing_memory.cpp",
         "estimators/support/sparse/panel_memory.cpp", "src/core/blas_memory.cpp"}},
       {"sys/file.h", {"src/core/file_lock.cpp"}},
+      {"sys/wait.h", {"apps/child_process.cpp"}},
       {"sys/resource.h", {"src/core/system.cpp"}},
       {"unistd.h",
-       {"src/core/files.cpp", "src/core/file_lock.cpp", "src/core/system.cpp", "apps/common.cpp",
-        "apps/out_of_memory.cpp", "apps/stop_signal.cpp"}}};
+       {"src/core/files.cpp", "src/core/file_lock.cpp", "src/core/system.cpp",
+        "apps/child_process.cpp", "apps/common.cpp", "apps/out_of_memory.cpp",
+        "apps/stop_signal.cpp"}}};
   return list;
 }
 

@@ -124,5 +124,19 @@ TEST_F(BagStorage, FolderOfSeveralFilesOfRos2) {
               HasSubstr("names 'a_1.db3', which is not in the folder"));
 }
 
+// A recorder that crashed leaves no metadata: the tenth file is not the second.
+TEST_F(BagStorage, FilesWithoutMetadataAreInOrderOfTheirNumbers) {
+  const auto bag = folder_ / "bag";
+  std::filesystem::create_directories(bag);
+  test::SurveyBag later;
+  later.begin_ns += 1'000'000'000'000;
+  test::write_survey_bag(survey_, *test::ros2_bag_writer(bag / "bag_9.db3"));
+  test::write_survey_bag(survey_, *test::ros2_bag_writer(bag / "bag_10.db3"), later);
+  BagImportOptions options;
+  options.odometry_sigma_m = 0.1;
+  import_bag(bag, options, folder_ / "out");
+  EXPECT_EQ(ImageFolder(folder_ / "out").size(), 2 * survey_.size());
+}
+
 }  // namespace
 }  // namespace fathom

@@ -25,10 +25,11 @@ std::vector<Pose> path() {
   return poses;
 }
 
-/// A line of images.txt and its points: a camera that looks down on the floor from 2 m, forward at
-/// the heading of the pose, in a world turned by `turn` and counted in units of `metres` metres.
+/// A line of images.txt and its points: a camera that looks down on the floor, 2 m above it,
+/// forward at the heading of the pose, in a world turned by `turn` and counted in units of `metres`
+/// metres.
 std::string image_line(int id, const Pose& pose, const Eigen::Quaterniond& turn, double metres,
-                       const std::string& name) {
+                       const std::string& name, double altitude_m = 2.0) {
   const double c = std::cos(pose.theta);
   const double s = std::sin(pose.theta);
   Eigen::Matrix3d axes;
@@ -36,7 +37,7 @@ std::string image_line(int id, const Pose& pose, const Eigen::Quaterniond& turn,
   axes.col(1) = Eigen::Vector3d(-c, -s, 0.0);     // aft
   axes.col(2) = Eigen::Vector3d(0.0, 0.0, -1.0);  // down
   const Eigen::Matrix3d world_from_camera = turn.toRotationMatrix() * axes;
-  const Eigen::Vector3d centre = turn * Eigen::Vector3d(pose.x, pose.y, 2.0) / metres;
+  const Eigen::Vector3d centre = turn * Eigen::Vector3d(pose.x, pose.y, altitude_m) / metres;
   const Eigen::Quaterniond q(Eigen::Matrix3d(world_from_camera.transpose()));
   const Eigen::Vector3d t = -(q * centre);
   std::string line = std::to_string(id);
@@ -92,6 +93,26 @@ TEST_F(PoseImport, ColmapCamerasAlongALineKeepTheirTurns) {
   const ImportReport report = import_colmap(folder_ / "model", {}, folder_.path());
   expect_same_motions(reference(), line);
   EXPECT_THAT(report.notes, Contains(HasSubstr("along a line")));
+}
+
+// The plane that fits best stands on edge there.
+TEST_F(PoseImport, ColmapLegWhoseAltitudeChangesIsSeenFromAbove) {
+  std::vector<Pose> leg;
+  std::string model;
+  for (int i = 0; i <= 20; ++i) {
+    leg.push_back({5.0 * i, 0.3 * std::sin(1.7 * i), 0.0});
+    model += image_line(i + 1, leg.back(), Eigen::Quaterniond::Identity(), 1.0,
+                        "p" + std::to_string(100 + i) + ".png", 10.0 + 2.0 * std::cos(0.9 * i));
+  }
+  write("model/images.txt", model);
+  import_colmap(folder_ / "model", {}, folder_.path());
+  const std::vector<StampedPose> seen = reference();
+  ASSERT_EQ(seen.size(), leg.size());
+  for (std::size_t i = 0; i < leg.size(); ++i) {
+    const Pose expected = between(leg.front(), leg[i]);
+    EXPECT_NEAR(seen[i].pose.x, expected.x, 0.1) << i;
+    EXPECT_NEAR(seen[i].pose.y, expected.y, 0.02) << i;
+  }
 }
 
 TEST_F(PoseImport, ColmapTakesTimesMountingAndScaleOfTheSurvey) {

@@ -151,6 +151,20 @@ TEST(PlaneTest, FitFindsATiltedPlane) {
   }
 }
 
+// Half way between xy and xz each plane alone would choose another side to be seen from.
+TEST(PlaneTest, FitTakesTheSideOfAnotherOne) {
+  for (const double angle : {0.24 * kPi, 0.26 * kPi}) {
+    const Quaterniond tilt(AngleAxisd(angle, Vector3d::UnitX()));
+    Level drawn = level(30);
+    for (auto& [time, pose] : drawn.spatial) pose.position_m = tilt * pose.position_m;
+    const Plane alone = axes_of(Plane::fit, drawn.spatial).named;
+    EXPECT_EQ(alone, angle < 0.25 * kPi ? Plane::xy : Plane::xz);
+    EXPECT_EQ(axes_of(Plane::fit, drawn.spatial, Plane::xy).named, Plane::xy);
+    // A plane far from that one keeps its own.
+    EXPECT_EQ(axes_of(Plane::fit, drawn.spatial, Plane::yz).named, alone);
+  }
+}
+
 TEST(PlaneTest, FitOfALineIsRefused) {
   Trajectory line;
   for (int k = 0; k < 5; ++k) line.push_back({k, {{2.0 * k, -k * 1.0, 0.5 * k}, {1, 0, 0, 0}}});

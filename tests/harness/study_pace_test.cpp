@@ -84,10 +84,30 @@ TEST(StudyPace, OfASurveyThatWasKnownInPartTheWholeIsReckoned) {
   EXPECT_DOUBLE_EQ(pace.left()->seconds, 40.0);
 }
 
-TEST(StudyPace, OfSurveysThatAreKnownTheOthersAre) {
-  StudyPace pace({{{kFirst, 1}, {kSecond, 1}}, {}}, 1);
+TEST(StudyPace, OfSurveysThatAreKnownTheOthersAreAtLeast) {
+  constexpr SharedSurvey third{0, 2};
+  StudyPace pace({{{kFirst, 1}, {kSecond, 1}, {third, 1}}, {}}, 1);
   pass(pace, kFirst, 3.0, 0.0);
-  EXPECT_DOUBLE_EQ(pace.left()->seconds, 3.0);
+  EXPECT_DOUBLE_EQ(pace.left()->seconds, 6.0);
+  EXPECT_TRUE(pace.left()->is_least);
+  // One that was not known tells of the others.
+  pace.front_end_at(pace.begin_front_end(kSecond), 20.0, at(40, 40.0));
+  EXPECT_DOUBLE_EQ(pace.left()->seconds, 40.0 + 60.0);
+  EXPECT_FALSE(pace.left()->is_least);
+}
+
+TEST(StudyPace, ALastPassTakesItsTimeWhateverTheThreads) {
+  StudyPace pace({{{kFirst, 1}}, {}}, 8);
+  pace.front_end_at(pace.begin_front_end(kFirst), 1.0, at(2, 59.0));
+  EXPECT_DOUBLE_EQ(pace.left()->seconds, 59.0);
+}
+
+TEST(StudyPace, ALaterPassIsAsLongAsOthersWere) {
+  StudyPace pace({{{kFirst, 3}}, {}}, 1);
+  pass(pace, kFirst, 40.0, 1.0);
+  pass(pace, kFirst, 2.0, 0.05);
+  pace.front_end_at(pace.begin_front_end(kFirst), 0.5, at(50, 28.0, 0.05));
+  EXPECT_DOUBLE_EQ(pace.left()->seconds, 1.5);
 }
 
 TEST(StudyPace, EndsAtNothing) {

@@ -41,8 +41,11 @@ struct PlaneAxes {
   Eigen::Matrix3d level_from_body = Eigen::Matrix3d::Identity();
 };
 
-/// Throws InputError where positions on a line leave the plane of least squares open.
-PlaneAxes axes_of(Plane plane, std::span<const StampedSpatialPose> trajectory);
+/// `fit` takes its axes and its upper side from the named plane next to it, or from `next_to`, that
+/// of a trajectory to be compared with, if its normal is within 60 degrees of that one's. Throws
+/// InputError where positions on a line leave the plane of least squares open.
+PlaneAxes axes_of(Plane plane, std::span<const StampedSpatialPose> trajectory,
+                  std::optional<Plane> next_to = std::nullopt);
 
 /// How a body is mounted: the axis of it (±x, ±y, ±z after level_from_body) that points up on the
 /// mean, and the one whose direction on the plane is its heading. That is x, so that the heading is

@@ -58,7 +58,9 @@ class FrontEndPace {
   PairRegistrar& registrar_;
   std::optional<RegistrationPlan> plan_;
   std::optional<bool> is_all_known_;
-  Clock::time_point start_;
+  Clock::time_point begin_ = Clock::now();
+  Clock::time_point start_ = begin_;  ///< from which on work is measured
+  bool has_worked_ = false;           ///< that a pair was registered anew
   Work pictures_at_start_;
   Work pairs_at_start_;
   std::size_t registered_before_;  ///< pairs

@@ -60,6 +60,7 @@ class StudyPace {
   class Sum;
 
   Mean first_pass() const;
+  std::optional<double> left_of(const Pass& pass) const;
   void add_front_ends(Sum& sum) const;
 
   StudyWork to_do_;
@@ -67,7 +68,8 @@ class StudyPace {
   std::map<SharedSurvey, std::size_t> begun_;
   std::size_t passes_ = 0;
   std::map<std::size_t, Pass> at_work_;
-  Mean first_;  ///< of passes that are done, as if they had found nothing known
+  Mean first_;  ///< of first passes that are done, as if they had found nothing known
+  Mean known_;  ///< of first passes that found all known, or nearly all
   Mean later_;
   std::map<std::size_t, Mean> runs_;
 };

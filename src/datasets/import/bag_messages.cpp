@@ -132,8 +132,9 @@ ImuMessage read_imu(MessageReader& reader) {
   imu.rotation = read_rotation(reader);
   std::array<double, 9> covariance{};
   read_numbers(reader, covariance);
-  // By the definition, -1 in the first place says that there is no orientation.
-  imu.has_rotation = covariance.front() != -1.0;
+  // By the definition, -1 in the first place says that there is no orientation. Many drivers leave
+  // the quaternion at zero in place of that.
+  imu.has_rotation = covariance.front() != -1.0 && imu.rotation.norm() > 0.0;
   imu.yaw_variance = covariance.back();
   return imu;
 }

@@ -36,15 +36,18 @@ FloorPlane best_plane(const std::vector<CameraPose>& cameras) {
   // In rising order of the eigenvalues, which are squares of extents.
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(scatter);
   const Eigen::Vector3d extents = axes.eigenvalues().cwiseMax(0.0).cwiseSqrt();
-  if (extents[1] <= kLeastWidth * extents[2]) {
+  const Eigen::Vector3d fitted = axes.eigenvectors().col(0);
+  // A leg whose altitude changes by more than its width is best fitted by a plane that stands on
+  // edge: what the cameras look at decides there.
+  constexpr double kLeastCosine = 0.8660254037844386;  // 30 degrees
+  if (extents[1] <= kLeastWidth * extents[2] || std::abs(fitted.dot(up)) < kLeastCosine) {
     const Eigen::Vector3d along = axes.eigenvectors().col(2);
     const bool is_line = extents[2] > 0.0;
     plane.normal = is_line ? Eigen::Vector3d(up - along * along.dot(up)).normalized() : up;
     plane.is_by_view = true;
     return plane;
   }
-  plane.normal = axes.eigenvectors().col(0);
-  if (plane.normal.dot(up) < 0.0) plane.normal = -plane.normal;
+  plane.normal = fitted.dot(up) < 0.0 ? Eigen::Vector3d(-fitted) : fitted;
   return plane;
 }
 

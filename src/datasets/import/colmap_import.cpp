@@ -167,7 +167,9 @@ ImportReport import_colmap(const fs::path& model, const PoseImportOptions& optio
       degrees(planar.most_tilt_rad));
   if (planar.is_normal_by_view) {
     report.notes.emplace_back(
-        "the cameras lie along a line: the plane is that across their mean optical axis");
+        "the cameras lie along a line, or their heights differ by more than the survey is wide: "
+        "the "
+        "plane is that across their mean optical axis");
   }
   report.notes.push_back("a model has no scale: one unit is taken for " +
                          short_number(options.scale, 6) + " m (--scale)");

@@ -10,6 +10,7 @@
 #include "fathom/core/files.hpp"
 #include "fathom/core/input_error.hpp"
 #include "fathom/core/text.hpp"
+#include "fathom/datasets/picture_folder.hpp"
 
 namespace fathom {
 
@@ -57,7 +58,10 @@ std::vector<fs::path> all_files(const fs::path& folder) {
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     if (entry.path().extension() == ".db3") files.push_back(entry.path());
   }
-  std::ranges::sort(files);
+  // bag_10 comes after bag_9.
+  std::ranges::sort(files, [](const fs::path& a, const fs::path& b) {
+    return is_before(a.filename().string(), b.filename().string());
+  });
   if (files.empty()) throw InputError(folder.string(), "has no .db3 file of a ROS 2 bag");
   return files;
 }

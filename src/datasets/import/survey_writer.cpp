@@ -63,9 +63,13 @@ class SurveyWriter {
     const std::string& info = topic(choice_.camera_info).name;
     if (is_rectified(images)) note("rectified pictures: P of " + info + ", no distortion");
     try {
-      return camera_of(survey_.camera_info.value(), images, survey_.width, survey_.height);
+      return Camera(camera_of(survey_.camera_info.value(), images, survey_.width, survey_.height))
+          .model();
     } catch (const InputError& error) {
-      throw InputError("topic " + info + ": " + error.what());
+      std::string why = error.what();
+      if (why.find("--camera") == std::string::npos)
+        why += "; --camera FILE takes a sensor.yaml in its place";
+      throw InputError("topic " + info + ": " + why);
     }
   }
 
@@ -134,6 +138,14 @@ class SurveyWriter {
     write_reference(mav0_ / "state_groundtruth_estimate0", rows);
     fact(count(survey_.reference.size(), "pose") + " of reference (ground truth) from " +
          topic(choice_.reference).name);
+    const std::int64_t first_ns = survey_.reference.front().time_ns;
+    const std::int64_t last_ns = survey_.reference.back().time_ns;
+    const auto is_covered = [&](const WrittenPicture& picture) {
+      return picture.time_ns >= first_ns && picture.time_ns <= last_ns;
+    };
+    if (std::ranges::none_of(survey_.pictures, is_covered)) {
+      note("the reference shares no time with the pictures: no error can be computed by it");
+    }
   }
 
   void write_headings() {
