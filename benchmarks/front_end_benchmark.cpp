@@ -145,7 +145,9 @@ void Ransac(benchmark::State& state) {
   }
   std::size_t inliers = 0;
   std::uint64_t seed = 0;
-  for (auto _ : state) inliers = fathom::ransac(p, q, {}, seed++).inliers.size();
+  fathom::RansacOptions options;
+  options.max_error_m = 0.03;
+  for (auto _ : state) inliers = fathom::ransac(p, q, options, seed++).inliers.size();
   state.counters["inliers"] = static_cast<double>(inliers);
 }
 BENCHMARK(Ransac)
