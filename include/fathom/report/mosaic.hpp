@@ -64,7 +64,7 @@ MosaicPlan plan_mosaic(const Camera& camera, std::span<const PlacedPicture> pict
 /// The grey level of what no picture shows; what one shows is 254 at most.
 inline constexpr unsigned char kUnseen = 255;
 
-/// Progress callback: pictures done, of how many; first with none done.
+/// Progress callback: pictures done, of how many; make_mosaics begins at none.
 using MosaicProgress = std::function<void(std::size_t done, std::size_t of)>;
 
 /// The mosaics, one each: 8-bit, one channel, of the plan's size. Pictures are flat-field
