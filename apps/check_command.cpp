@@ -8,39 +8,22 @@
 
 #include "apps/command.hpp"
 #include "apps/common.hpp"
+#include "apps/graph_text.hpp"
 #include "fathom/configuration/study.hpp"
 #include "fathom/datasets/folder_summary.hpp"
 #include "fathom/datasets/image_folder.hpp"
 #include "fathom/datasets/picture_folder.hpp"
+#include "fathom/datasets/sensor_summary.hpp"
 #include "fathom/estimators/builtin.hpp"
 #include "fathom/harness/outlook.hpp"
 #include "fathom/harness/recording.hpp"
 #include "fathom/harness/replay.hpp"
+#include "fathom/measurements/connected_guess.hpp"
 #include "fathom/measurements/graph_check.hpp"
 #include "fathom/report/table.hpp"
 
 namespace fathom {
 namespace {
-
-std::string plural(std::size_t count, const std::string& noun) {
-  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
-}
-
-void print_graph(const GraphSummary& graph) {
-  const auto sigma = [](double value) { return format_number(value, 3); };
-  std::printf("pose graph\n");
-  std::printf("  poses        %zu%s\n", graph.poses,
-              graph.vertices == 0 ? ", the file defines no vertices" : "");
-  std::printf("  edges        %zu\n", graph.edges);
-  std::printf("  odometry     %zu\n", graph.odometry_edges);
-  std::printf("  loops        %zu", graph.loops);
-  if (graph.backward_loops > 0) std::printf(", %zu written backwards", graph.backward_loops);
-  std::printf("\n  components   %zu\n", graph.components);
-  if (graph.edges == 0) return;
-  std::printf("  sigma        %s to %s m, %s to %s rad\n", sigma(graph.smallest_sigma_m).c_str(),
-              sigma(graph.largest_sigma_m).c_str(), sigma(graph.smallest_sigma_rad).c_str(),
-              sigma(graph.largest_sigma_rad).c_str());
-}
 
 // A batch solve tells how large the residuals of this graph are; it is quick.
 std::vector<std::string> check_information(const MeasurementLog& log) {
@@ -83,7 +66,6 @@ void print_warnings(const std::vector<std::string>& warnings) {
 
 void refuse(const std::vector<std::string>& faults) {
   if (faults.empty()) return;
-  constexpr std::size_t kShown = 20;
   for (std::size_t i = 0; i < std::min(faults.size(), kShown); ++i) {
     std::printf("fault: %s\n", faults[i].c_str());
   }
@@ -98,14 +80,44 @@ void check_graph(const std::string& path) {
   refuse(graph.faults);
   const MeasurementLog log = record_graph(path).log;
   if (log.guess) std::printf("  F            %.10g at the file's guess\n", chi2(log, *log.guess));
-  std::printf("  F            %.10g at odometry\n", chi2(log, log.odometry()));
+  const bool is_guessed = log.hole_count() > 0 || log.start().is_free;
+  std::printf("  F            %.10g at %s\n",
+              chi2(log, is_guessed ? connected_guess(log) : log.odometry()),
+              is_guessed ? "what a batch solve starts from" : "odometry");
   std::vector<std::string> warnings = check_information(log);
   if (graph.badly_conditioned > 0) {
     warnings.push_back(plural(graph.badly_conditioned, "edge") +
                        " with badly conditioned information (above 1e8)");
   }
-  if (graph.loops == 0) warnings.push_back("no loops: nothing can correct the dead reckoning");
+  if (graph.loops == 0 && graph.priors.count() == 0) {
+    warnings.push_back("no loops: nothing can correct the dead reckoning");
+  }
+  if (graph.priors.of_nothing > 0) {
+    warnings.push_back(plural(graph.priors.of_nothing, "prior") + " without any information");
+  }
   print_warnings(warnings);
+}
+
+struct OpenedFolder {
+  std::unique_ptr<ImageFolder> with_holes;  ///< where odometry stops for five of its intervals
+  std::unique_ptr<ImageFolder> plain;       ///< as a run has it by default; null: refused
+  const ImageFolder* folder = nullptr;      ///< that of the two to look at
+  std::string refusal;
+};
+
+// A folder that a run refuses for want of odometry is described all the same.
+OpenedFolder open_folder(const std::string& path) {
+  OpenedFolder opened;
+  OdometryGaps gaps;
+  gaps.least_intervals = 5.0;
+  opened.with_holes = std::make_unique<ImageFolder>(path, gaps);
+  try {
+    opened.plain = std::make_unique<ImageFolder>(path);
+  } catch (const InputError& error) {
+    opened.refusal = error.what();
+  }
+  opened.folder = opened.plain ? opened.plain.get() : opened.with_holes.get();
+  return opened;
 }
 
 void check_folder(const std::string& path) {
@@ -114,8 +126,12 @@ void check_folder(const std::string& path) {
                                path +
                                "' says what to expect of them, and asks for what it needs to know");
   }
-  const ImageFolder folder(path);
+  const OpenedFolder opened = open_folder(path);
+  const ImageFolder& folder = *opened.folder;
   FolderSummary summary = summarise_frames(folder);
+  sum_up_sensors(folder.sensors(), summary);
+  sum_up_holes(*opened.with_holes, summary);
+  if (!opened.refusal.empty()) summary.faults.push_back(opened.refusal);
   std::printf("image folder\n");
   for (const std::string& fact : summary.facts) std::printf("  %s\n", fact.c_str());
   refuse(summary.faults);

@@ -112,6 +112,8 @@ void add_topic_flags(Command& command, BagImportOptions& bag) {
                "Dead reckoning: Odometry, PoseWithCovarianceStamped or PoseStamped; or none");
   command.text("--reference", bag.reference, "TOPIC", "Ground truth: the same types; or none");
   command.text("--heading", bag.heading, "TOPIC", "Imu with an orientation; or none");
+  command.text("--attitude", bag.attitude, "TOPIC",
+               "Roll and pitch: Imu with an orientation (default: that of the heading); or none");
 }
 
 void add_value_flags(Command& command, ImportFlags& flags) {
@@ -130,6 +132,8 @@ void add_value_flags(Command& command, ImportFlags& flags) {
                "Error of dead reckoning in one second, in place of the bag's covariances");
   command.real("--odometry-sigma-rad", bag.odometry_sigma_rad, Range::positive(), "RAD",
                "The same of its heading");
+  command.real("--attitude-sigma", bag.attitude_sigma_rad, Range::between(0, 0.5), "RAD",
+               "Error of roll and of pitch, in place of the bag's covariances");
   command.choice("--clock", flags.clock, {"auto", "header", "record"}, "CLOCK",
                  "Times: of the headers, checked against recording; of the headers; of recording");
 }

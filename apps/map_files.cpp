@@ -7,7 +7,7 @@
 namespace fathom {
 
 KeyframeMap keyframe_map(const Recording& recording, const Result& result) {
-  KeyframeMap map{*recording.camera, {}, recording.keyframe_altitudes_m, std::vector<TrackLoop>{}};
+  KeyframeMap map{*recording.camera, {}, recording.keyframe_stances, std::vector<TrackLoop>{}};
   const Replay& replay = result.replay;
   for (std::size_t k = 0; k < replay.trajectory.size(); ++k) {
     TrackPoint point{recording.keyframe_times_ns[k], replay.trajectory[k], std::nullopt};
@@ -26,7 +26,7 @@ void write_map_files(const std::filesystem::path& folder, const KeyframeMap& map
                      const EarthFrame* earth) {
   std::vector<KeyframePicture> keyframes;
   for (std::size_t k = 0; k < map.track.size(); ++k) {
-    keyframes.push_back({map.track[k].time_ns, map.altitudes_m[k], map.track[k].pose});
+    keyframes.push_back({map.track[k].time_ns, map.stances[k], map.track[k].pose});
   }
   const std::vector<Footprint> all = footprints(map.camera, keyframes);
   write_file(folder / "footprints.csv", footprints_csv(all));

@@ -17,7 +17,7 @@ namespace fathom {
 struct KeyframeMap {
   Camera camera;
   std::vector<TrackPoint> track;
-  std::vector<double> altitudes_m;  ///< one a keyframe
+  std::vector<Stance> stances;  ///< one a keyframe
   std::optional<std::vector<TrackLoop>> loops = std::nullopt;
 };
 

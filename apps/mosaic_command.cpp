@@ -64,7 +64,7 @@ std::vector<PlacedPicture> pictures_on(const fs::path& file, const FrameSource& 
   for (std::size_t i = 0; i < frames.size(); ++i) times.push_back({frames.info(i).time_ns, {}});
   std::vector<PlacedPicture> pictures;
   for (const PosePair& pair : associate(trajectory, times, max_difference_s)) {
-    pictures.push_back({pair.reference, frames.info(pair.reference).altitude_m,
+    pictures.push_back({pair.reference, frames.info(pair.reference).stance(),
                         trajectory[pair.estimate].pose, false});
   }
   if (pictures.empty()) {
@@ -91,7 +91,7 @@ KeyframeMap keyframe_map_of(const std::vector<PlacedPicture>& pictures, const Fr
   for (const PlacedPicture& picture : pictures) {
     if (picture.is_filler) continue;
     map.track.push_back({frames.info(picture.frame).time_ns, picture.pose, std::nullopt});
-    map.altitudes_m.push_back(picture.altitude_m);
+    map.stances.push_back(picture.stance);
   }
   return map;
 }

@@ -109,7 +109,7 @@ std::vector<PlacedPicture> placed_pictures(const Recording& recording,
   for (std::size_t i = 0; i < recording.frames.size(); ++i) {
     const FramePlace& place = recording.frames[i];
     const bool is_keyframe = place.time_ns == recording.keyframe_times_ns[place.keyframe];
-    pictures.push_back({i, recording.frame_altitudes_m[i],
+    pictures.push_back({i, recording.frame_stances[i],
                         compose(keyframes[place.keyframe], place.motion_since_keyframe),
                         !is_keyframe});
   }

@@ -9,7 +9,8 @@
 namespace fathom {
 namespace {
 
-PlotSeries series_of(const Result& result, std::size_t place, bool with_details) {
+PlotSeries series_of(const MeasurementLog& log, const Result& result, std::size_t place,
+                     bool with_details) {
   PlotSeries series;
   series.name = result.estimator.name;
   series.style = estimator_style(place);
@@ -21,6 +22,13 @@ PlotSeries series_of(const Result& result, std::size_t place, bool with_details)
   for (const LoopDecision& loop : result.replay.loops) {
     if (loop.fate == LoopFate::used) series.loops.emplace_back(loop.from, loop.to);
   }
+  std::size_t next = 0;
+  for (std::size_t k = 0; k < log.size(); ++k) {
+    for (const AbsolutePose& z : log.arrival(k).absolute) {
+      const bool is_used = result.replay.absolute[next++].fate == LoopFate::used;
+      series.absolute.push_back(absolute_mark(z, is_used));
+    }
+  }
   return series;
 }
 
@@ -30,10 +38,13 @@ struct Column {
   const char* metric;
   int digits;
   bool needs_ground_truth = false;  ///< left out where there is none
+  bool needs_absolute = false;      ///< likewise
 };
 
 constexpr Column kColumns[] = {{"loops", "loop_closures", 0},
                                {"rejected", "rejected", 0},
+                               {"absolute", "absolute_used", 0, false, true},
+                               {"absolute rejected", "absolute_rejected", 0, false, true},
                                {"chi2", "chi2", 6},
                                {"mean error (m)", "mean_position_error_m", 4, true},
                                {"ATE RMSE (m)", "ate_rmse_m", 4, true},
@@ -71,24 +82,26 @@ void write_trajectory_picture(const std::filesystem::path& path, const std::stri
   }
   plot.series.push_back({"dead reckoning", dead_reckoning_style(), odometry, {}, {}, true});
   for (std::size_t place = 0; place < results.size(); ++place) {
-    plot.series.push_back(series_of(results[place], first_place + place, results.size() == 1));
+    plot.series.push_back(
+        series_of(recording.log, results[place], first_place + place, results.size() == 1));
   }
   write_file(path, trajectory_png(plot));
 }
 
 std::string result_table(const Recording& recording, const std::vector<Result>& results) {
-  std::vector<std::string> header{"", "outcome"};
+  std::vector<Column> columns;
   for (const Column& column : kColumns) {
-    if (recording.ground_truth || !column.needs_ground_truth) header.emplace_back(column.heading);
+    if (column.needs_ground_truth && !recording.ground_truth) continue;
+    if (column.needs_absolute && recording.log.absolute_count() == 0) continue;
+    columns.push_back(column);
   }
+  std::vector<std::string> header{"", "outcome"};
+  for (const Column& column : columns) header.emplace_back(column.heading);
   Table table(header);
   const auto add_row = [&](const std::string& name, const std::string& outcome,
                            const std::map<std::string, double>& metrics) {
     std::vector<std::string> row{name, outcome};
-    for (const Column& column : kColumns) {
-      if (recording.ground_truth || !column.needs_ground_truth)
-        row.push_back(cell_of(column, metrics));
-    }
+    for (const Column& column : columns) row.push_back(cell_of(column, metrics));
     table.add_row(row);
   };
   const MetricOptions options = results.empty() ? MetricOptions() : results.front().options;

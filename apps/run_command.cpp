@@ -51,10 +51,23 @@ Result evaluate_with_progress(const Recording& recording, const Configuration& c
                   {.metrics = metric_options(configuration)}, options);
 }
 
+// Of what a log may have beside steps and registrations.
+void print_absolute(const MeasurementLog& log) {
+  if (log.absolute_count() > 0) {
+    std::printf("%zu headings and fixes; keyframe 0 begins at %.3g, %.3g m, %.3g rad%s\n",
+                log.absolute_count(), log.origin().x, log.origin().y, log.origin().theta,
+                log.start().is_fixed() ? ", held" : "");
+  }
+  if (log.hole_count() > 0) {
+    std::printf("%zu of %zu steps of dead reckoning are holes\n", log.hole_count(), log.size() - 1);
+  }
+}
+
 void print_front_end(const Recording& recording) {
   if (recording.frames.empty()) {
     std::printf("%zu poses, %zu loop closures\n", recording.log.size(),
                 recording.log.registration_count());
+    print_absolute(recording.log);
     return;
   }
   std::printf("%zu frames, %zu keyframes, %zu registrations tried, %zu found",
@@ -70,6 +83,7 @@ void print_front_end(const Recording& recording) {
         "match\n",
         recording.visual_odometry_failures, recording.frames.size() - 1);
   }
+  print_absolute(recording.log);
 }
 
 std::string manifest_of(const Context& context, const Configuration& configuration,

@@ -1,5 +1,6 @@
 // fathom simulate: a simulated survey, written as an image folder.
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -21,6 +22,19 @@ struct SimulateFlags {
   std::string config;
 };
 
+// Whether a key of a simulation has the same meaning for the folder that it makes.
+bool is_of_folder(const std::string& key) {
+  static const std::vector<std::string> kKeys{"seed",
+                                              "evaluation.alignment",
+                                              "dataset.compass.interval_s",
+                                              "dataset.fixes.interval_s",
+                                              "dataset.gap_sigma_m",
+                                              "dataset.gap_sigma_rad",
+                                              "dataset.speed_limit_m_s"};
+  return std::ranges::find(kKeys, key) != kKeys.end() || key.starts_with("front_end.") ||
+         key.starts_with("dataset.origin.") || key.starts_with("dataset.start.");
+}
+
 // A configuration that runs the folder as the simulation would have been: same front end and seed,
 // with the keys that were given.
 std::string folder_configuration(const Configuration& configuration, const std::string& folder) {
@@ -28,9 +42,10 @@ std::string folder_configuration(const Configuration& configuration, const std::
                                 {"dataset.path", folder, false, ""}};
   for (const auto& [key, value] : configuration.in_force) {
     if (key != "seed" && !configuration.origins.contains(key)) continue;
-    if (key == "seed" || key == "evaluation.alignment" || key.starts_with("front_end.") ||
-        key.starts_with("dataset.origin.")) {
-      lines.push_back({key, value, value.starts_with('['), ""});
+    if (is_of_folder(key)) lines.push_back({key, value, value.starts_with('['), ""});
+    // No row of odometry is left out but over holes.
+    if (key == "dataset.holes.count" && value != "0") {
+      lines.push_back({"dataset.gap_intervals", "1.5", false, ""});
     }
   }
   // Of a comparison, the contender that selects the loop candidates, if one does, or the first.
@@ -60,7 +75,7 @@ void simulate(const SimulateFlags& flags, Context& context) {
   const Survey survey(configuration);
   StagedFolder folder(out);
   const std::string run = folder_configuration(configuration, folder.target().string());
-  write_image_folder(survey.frames(), folder.path());
+  write_image_folder(survey.frames(), folder.path(), survey.readings());
   write_file(folder.path() / "run.yaml", run);
   folder.commit();
   context.status = kDone;

@@ -1,10 +1,13 @@
 // fathom solve: a pose graph from a g2o file.
 
+#include <algorithm>
 #include <cstdio>
+#include <iterator>
 #include <memory>
 
 #include "apps/command.hpp"
 #include "apps/common.hpp"
+#include "apps/graph_keys.hpp"
 #include "apps/memory_meter.hpp"
 #include "apps/pictures.hpp"
 #include "fathom/core/files.hpp"
@@ -25,6 +28,7 @@ struct SolveFlags {
   std::string init = "odometry";
   std::string ground_truth;
   std::string false_loops;
+  std::optional<int> component;
 };
 
 EstimatorConfiguration estimator_of(const SolveFlags& flags, const Settings& settings,
@@ -40,7 +44,7 @@ EstimatorConfiguration estimator_of(const SolveFlags& flags, const Settings& set
       Settings seed;
       seed.put(setting);
       configure(seed, ConfigurationKind::single, builtin_estimators());
-    } else if (!setting.key.starts_with("estimator.")) {
+    } else if (!setting.key.starts_with("estimator.") && !is_graph_key(setting.key)) {
       other = &setting;
     }
   }
@@ -49,8 +53,9 @@ EstimatorConfiguration estimator_of(const SolveFlags& flags, const Settings& set
     std::vector<std::string> known{"seed", "estimator.type"};
     for (const OptionDescription& option : entry.options)
       known.push_back("estimator." + option.key);
+    std::ranges::copy(graph_keys(), std::back_inserter(known));
     refuse(*other, "unknown key '" + other->key + "'" + suggestion(other->key, known) +
-                       " ('solve' takes estimator.… and seed)");
+                       " ('solve' takes estimator.…, seed, and of dataset.… what a graph has)");
   }
   mode = flags.mode == "batch" || (flags.mode.empty() && entry.can_batch) ? SolveMode::batch
                                                                           : SolveMode::incremental;
@@ -82,10 +87,23 @@ std::string chi2_text(const Result& result, const char* metric) {
   return format_number(result.metric(metric), kDigits);
 }
 
+std::string counted(std::size_t count, const std::string& noun) {
+  return ", " + std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
+}
+
+std::string also_text(const MeasurementLog& log) {
+  std::string text;
+  if (log.absolute_count() > 0) text += counted(log.absolute_count(), "absolute measurement");
+  if (log.hole_count() > 0) text += counted(log.hole_count(), "hole");
+  if (log.start().is_free) return text + ", free start";
+  return log.start().is_fixed() ? text : text + ", uncertain start";
+}
+
 void print(const SolveFlags& flags, const Recording& recording, const Result& result) {
-  std::printf("%s: %zu poses, %zu edges, %zu of them loop closures\n", flags.graph.c_str(),
-              recording.log.size(), recording.log.size() - 1 + recording.log.registration_count(),
-              recording.log.registration_count());
+  const MeasurementLog& log = recording.log;
+  std::printf("%s: %zu poses, %zu edges, %zu of them loop closures%s\n", flags.graph.c_str(),
+              log.size(), log.size() - 1 - log.hole_count() + log.registration_count(),
+              log.registration_count(), also_text(log).c_str());
   std::printf("%s, %s: %s after %d iterations\n", result.estimator.type.c_str(),
               result.mode == SolveMode::batch ? "batch" : "incremental",
               name_of(result.replay.outcome).c_str(), result.replay.iterations);
@@ -98,6 +116,11 @@ void print(const SolveFlags& flags, const Recording& recording, const Result& re
     }
     std::printf("\n");
   }
+  if (const auto given = result.metric("absolute_measurements")) {
+    std::printf("absolute measurements: %.0f of %.0f used, %.0f rejected, %.0f lost, chi2 %s\n",
+                result.metrics.at("absolute_used"), *given, result.metrics.at("absolute_rejected"),
+                result.metrics.at("absolute_lost"), chi2_text(result, "absolute_chi2").c_str());
+  }
   if (const auto false_loops = result.metric("false_loops")) {
     std::printf("%.0f of %.0f false loops kept, %.0f right ones lost\n",
                 result.metrics.at("false_loops_kept"), *false_loops,
@@ -109,8 +132,14 @@ void print(const SolveFlags& flags, const Recording& recording, const Result& re
 
 void solve(const SolveFlags& flags, Context& context) {
   SolveMode mode = SolveMode::incremental;
-  const EstimatorConfiguration estimator = estimator_of(flags, flags.common.settings(""), mode);
-  Recording recording = record_graph(flags.graph);
+  const Settings settings = flags.common.settings("");
+  const EstimatorConfiguration estimator = estimator_of(flags, settings, mode);
+  const GraphOptions graph = graph_options(settings, flags.component);
+  Recording recording = record_graph(flags.graph, graph);
+  // Keyframe by keyframe needs a start; one solve takes it from all that there is.
+  if (mode == SolveMode::incremental) {
+    recording.log = with_start_of_priors(recording.log, flags.graph);
+  }
   if (!flags.ground_truth.empty()) attach_ground_truth(recording, flags.ground_truth);
   if (!flags.false_loops.empty()) {
     recording.is_false_loop = read_false_loops(flags.false_loops, recording.log);
@@ -130,8 +159,9 @@ void solve(const SolveFlags& flags, Context& context) {
   ProgressLine line(estimator.type + ", keyframe", flags.common.quiet);
   options.progress = line.callback();
   const Result result = evaluate(recording, estimator, builtin_estimators(), {}, options);
-  const std::vector<std::pair<std::string, std::string>> configuration{{"graph", flags.graph},
-                                                                       {"init", flags.init}};
+  std::vector<std::pair<std::string, std::string>> configuration{{"graph", flags.graph},
+                                                                 {"init", flags.init}};
+  std::ranges::copy(in_force(graph, recording.log), std::back_inserter(configuration));
   write_run(folder.path(), recording, result,
             manifest_json(context.command_line, configuration, fingerprint({flags.graph}),
                           recording, result, builtin_estimators()));
@@ -162,6 +192,8 @@ void add_solve(CLI::App& program, Context& context) {
                "True poses (TUM, vertex ids as time stamps), to judge by");
   command.text("--false-loops", flags->false_loops, "FILE",
                "Which loops are false, as 'spoil' wrote it, to judge by");
+  command.integer("--component", flags->component, Range::at_least(1), "K",
+                  "Of a graph that falls into several, this one ('check' lists them)");
   flags->common.add_settings_to(command);
   flags->common.add_out_to(command, "Output folder (default: runs/GRAPH-ESTIMATOR)");
   command.on_run([flags, &context] { solve(*flags, context); });

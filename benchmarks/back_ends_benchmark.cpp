@@ -97,13 +97,13 @@ void update(benchmark::State& state, const fathom::EstimatorEntry& entry) {
   for (; k < keyframes; ++k) {
     estimator->add_keyframe(log.arrival(k).step);
     if (log.arrival(k).registrations.empty()) continue;
-    estimator->close_loops(log.arrival(k).registrations);
+    estimator->update({log.arrival(k).registrations});
   }
   int linearisations = 0;
   for (auto _ : state) {
     estimator->add_keyframe(log.arrival(k).step);
     const auto start = Clock::now();
-    const fathom::UpdateReport report = estimator->close_loops(log.arrival(k).registrations);
+    const fathom::UpdateReport report = estimator->update({log.arrival(k).registrations});
     state.SetIterationTime(std::chrono::duration<double>(Clock::now() - start).count());
     linearisations += report.iterations;
     ++k;
@@ -121,7 +121,7 @@ void motions(benchmark::State& state, const fathom::EstimatorEntry& entry) {
   const auto estimator = entry.create({log.origin()}, {});
   for (std::size_t k = 1; k < log.size(); ++k) {
     estimator->add_keyframe(log.arrival(k).step);
-    estimator->close_loops(log.arrival(k).registrations);
+    estimator->update({log.arrival(k).registrations});
   }
   for (auto _ : state) benchmark::DoNotOptimize(estimator->motions_to_newest());
 }

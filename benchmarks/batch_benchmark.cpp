@@ -29,7 +29,7 @@ void solve(benchmark::State& state) {
     for (std::size_t k = 1; k < log.size(); ++k) {
       estimator->add_keyframe(log.arrival(k).step);
       if (log.arrival(k).registrations.empty()) continue;
-      estimator->close_loops(log.arrival(k).registrations);
+      estimator->update({log.arrival(k).registrations});
     }
     const auto start = Clock::now();
     const fathom::UpdateReport report = estimator->finish({});

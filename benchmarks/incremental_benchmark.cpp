@@ -43,7 +43,7 @@ double thread_s() {
 
 void arrive(Estimator& estimator, const MeasurementLog& log, std::size_t k) {
   estimator.add_keyframe(log.arrival(k).step);
-  if (!log.arrival(k).registrations.empty()) estimator.close_loops(log.arrival(k).registrations);
+  if (!log.arrival(k).registrations.empty()) estimator.update({log.arrival(k).registrations});
 }
 
 MeasurementLog prefix_of(const MeasurementLog& log, std::size_t last) {

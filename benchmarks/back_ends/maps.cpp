@@ -99,7 +99,7 @@ std::string solve_here(const std::string& shape, std::size_t keyframes, const Ma
   for (std::size_t k = 1; k < log.size(); ++k) {
     estimator->add_keyframe(log.arrival(k).step);
     if (log.arrival(k).registrations.empty()) continue;
-    estimator->close_loops(log.arrival(k).registrations);
+    estimator->update({log.arrival(k).registrations});
   }
   const double cpu_start_s = thread_processor_seconds();
   const auto start = Clock::now();

@@ -32,7 +32,7 @@ CeresPoseGraph::CeresPoseGraph(const EstimatorSetup& setup, const CeresPoseGraph
       mode_(setup.mode),
       loss_(options.loss),
       gate_(options.gate),
-      graph_(std::make_unique<Graph>(setup.origin, options)) {}
+      graph_(std::make_unique<Graph>(setup.start.pose, setup.mode, options)) {}
 
 CeresPoseGraph::~CeresPoseGraph() = default;
 
@@ -77,7 +77,7 @@ UpdateReport CeresPoseGraph::update(std::span<const RelativePose> registrations)
 
 bool CeresPoseGraph::judge(std::span<const RelativePose> registrations, UpdateReport& report) {
   const auto covariances = [&](std::span<const RelativePose> forward) {
-    return graph_->innovation_covariances(forward);
+    return graph_->predicted_covariances(forward);
   };
   return fathom::judge(gate_, *this, registrations, covariances, report);
 }
@@ -85,7 +85,11 @@ bool CeresPoseGraph::judge(std::span<const RelativePose> registrations, UpdateRe
 UpdateReport CeresPoseGraph::finish(std::span<const Pose> start) {
   if (mode_ != SolveMode::batch || graph_->size() < 2) return {};
   if (!start.empty()) graph_->set_poses(start);
-  return graph_->solve();
+  return loss_.is_on() ? graph_->solve_robust() : graph_->solve();
+}
+
+void CeresPoseGraph::bridge(std::size_t node, const Pose& motion) {
+  graph_->bridge(node, motion);
 }
 
 std::optional<Eigen::Matrix3d> CeresPoseGraph::covariance(std::size_t k) const {
@@ -104,13 +108,13 @@ std::optional<std::vector<UncertainPose>> CeresPoseGraph::motions_to_newest() co
 std::vector<double> CeresPoseGraph::loop_weights() const {
   std::vector<double> of_used(graph_->registration_count());
   for (std::size_t j = 0; j < of_used.size(); ++j) {
-    of_used[j] = loss_.weight(graph_->registration_chi2(j));
+    of_used[j] = graph_->registration_weight(j);
   }
   return used_loops_.weights(of_used);
 }
 
 EstimatorEntry ceres_pose_graph_entry() {
-  return make_entry<CeresPoseGraphOptions>(
+  return make_relative_entry<CeresPoseGraphOptions>(
       "ceres_pose_graph", "pose-graph least squares with Ceres, incremental or batch", true,
       [](const EstimatorSetup& setup, const CeresPoseGraphOptions& options) {
         return std::make_unique<CeresPoseGraph>(setup, options);

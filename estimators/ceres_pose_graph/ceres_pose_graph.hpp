@@ -3,9 +3,8 @@
 #include <memory>
 #include <vector>
 
-#include "fathom/estimation/estimator.hpp"
 #include "fathom/estimation/gate.hpp"
-#include "fathom/estimation/registry.hpp"
+#include "fathom/estimation/relative_estimator.hpp"
 #include "fathom/estimation/robust_loss.hpp"
 #include "fathom/estimation/used_loops.hpp"
 
@@ -26,7 +25,7 @@ struct CeresPoseGraphOptions {
 /// Pose-graph least squares with Ceres: Levenberg-Marquardt over all keyframe poses, sparse
 /// Cholesky of SuiteSparse. Incremental: warm-started whenever loops arrive.
 /// docs/estimators/ceres_pose_graph.md.
-class CeresPoseGraph final : public Estimator {
+class CeresPoseGraph final : public RelativeEstimator {
  public:
   CeresPoseGraph(const EstimatorSetup& setup, const CeresPoseGraphOptions& options);
   ~CeresPoseGraph() override;
@@ -34,6 +33,7 @@ class CeresPoseGraph final : public Estimator {
   void add_keyframe(const RelativePose& step) override;
   UpdateReport close_loops(std::span<const RelativePose> registrations) override;
   UpdateReport finish(std::span<const Pose> start) override;
+  void bridge(std::size_t node, const Pose& motion) override;
 
   /// From the Gauss-Newton Hessian at the estimate, the loss applied as a weight; a rejected
   /// registration has no part in it.
@@ -42,7 +42,7 @@ class CeresPoseGraph final : public Estimator {
       std::span<const std::size_t> keyframes) const override;
   /// From that same Hessian.
   std::optional<std::vector<UncertainPose>> motions_to_newest() const override;
-  double loss(double chi2) const override { return loss_.at(chi2).rho; }
+  double loss(double chi2, int rank) const override { return loss_.of_rank(rank).at(chi2).rho; }
   std::vector<double> loop_weights() const override;
   std::size_t size() const override;
   Pose pose(std::size_t k) const override;

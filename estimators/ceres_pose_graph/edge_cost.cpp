@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include <Eigen/Cholesky>
+#include "fathom/estimation/loop_rows.hpp"
 
 namespace fathom {
 namespace {
@@ -16,7 +16,7 @@ Pose pose_at(const double* parameters) {
 }  // namespace
 
 EdgeCost::EdgeCost(const RelativePose& measurement)
-    : motion_(measurement.motion), upper_(measurement.information.llt().matrixU()) {}
+    : motion_(measurement.motion), upper_(whitening(measurement.information)) {}
 
 bool EdgeCost::Evaluate(double const* const* parameters, double* residuals,
                         double** jacobians) const {

@@ -19,7 +19,7 @@ class EdgeCost final : public ceres::SizedCostFunction<3, 3, 3> {
 
  private:
   Pose motion_;
-  Eigen::Matrix3d upper_;  ///< Lᵀ
+  Eigen::Matrix3d upper_;  ///< Lᵀ, or rows of a semi-definite Ω
 };
 
 }  // namespace fathom

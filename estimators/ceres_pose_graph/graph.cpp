@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <ceres/crs_matrix.h>
 #include <ceres/loss_function.h>
@@ -11,6 +12,7 @@
 #include "estimators/ceres_pose_graph/hessian_inverse.hpp"
 #include "fathom/core/blas_memory.hpp"
 #include "fathom/estimation/joint_covariance.hpp"
+#include "fathom/estimation/loop_rows.hpp"
 #include "fathom/geometry/covariance.hpp"
 
 namespace fathom {
@@ -19,10 +21,10 @@ namespace {
 // A loss as Ceres asks for it: ρ, ρ' and ρ'' of s.
 class CeresLoss final : public ceres::LossFunction {
  public:
-  explicit CeresLoss(const RobustLoss& loss) : loss_(loss) {}
+  CeresLoss(const RobustLoss& loss, const bool& is_plain) : loss_(loss), is_plain_(is_plain) {}
 
   void Evaluate(double s, double rho[3]) const override {
-    const LossValue value = loss_.at(s);
+    const LossValue value = is_plain_ ? LossValue{s} : loss_.at(s);
     rho[0] = value.rho;
     rho[1] = value.weight;
     rho[2] = value.curvature;
@@ -30,11 +32,13 @@ class CeresLoss final : public ceres::LossFunction {
 
  private:
   RobustLoss loss_;
+  const bool& is_plain_;
 };
 
-ceres::LossFunction* make_loss(const CeresPoseGraphOptions& options) {
-  const RobustLoss loss(options.loss);
-  return loss.is_on() ? new CeresLoss(loss) : nullptr;
+ceres::LossFunction* make_loss(const CeresPoseGraphOptions& options, int rank,
+                               const bool& is_plain) {
+  const RobustLoss loss = RobustLoss(options.loss).of_rank(rank);
+  return loss.is_on() ? new CeresLoss(loss, is_plain) : nullptr;
 }
 
 // Its checks look each block up in a tree, for overlaps: here they are elements of one deque, and a
@@ -73,8 +77,9 @@ Outcome outcome_of(const ceres::Solver::Summary& summary) {
 
 }  // namespace
 
-CeresPoseGraph::Graph::Graph(const Pose& origin, const CeresPoseGraphOptions& options)
-    : options_(options), problem_(problem_options()) {
+CeresPoseGraph::Graph::Graph(const Pose& origin, SolveMode mode,
+                             const CeresPoseGraphOptions& options)
+    : options_(options), is_batch_(mode == SolveMode::batch), problem_(problem_options()) {
   poses_.push_back({origin.x, origin.y, origin.theta});
   problem_.AddParameterBlock(block(0), 3);
   problem_.SetParameterBlockConstant(block(0));
@@ -94,23 +99,47 @@ void CeresPoseGraph::Graph::set_poses(std::span<const Pose> poses) {
 void CeresPoseGraph::Graph::add_keyframe(const RelativePose& step) {
   const Pose next = compose(pose(size() - 1), step.forward().motion);
   poses_.push_back({next.x, next.y, next.theta});
-  spread_.add(step);
-  problem_.AddResidualBlock(new EdgeCost(step), nullptr, block(step.from), block(step.to));
+  if (is_batch_ && step.is_hole) {
+    problem_.AddParameterBlock(block(size() - 1), 3);
+  } else {
+    spread_.add(step);
+    const auto residual =
+        problem_.AddResidualBlock(new EdgeCost(step), nullptr, block(step.from), block(step.to));
+    if (step.is_hole) holes_[size() - 1] = {step.forward(), residual};
+  }
+  changed();
+}
+
+void CeresPoseGraph::Graph::bridge(std::size_t node, const Pose& motion) {
+  Hole& hole = holes_.at(node);
+  problem_.RemoveResidualBlock(hole.block);
+  hole.step.motion = motion;
+  hole.block =
+      problem_.AddResidualBlock(new EdgeCost(hole.step), nullptr, block(node - 1), block(node));
+  const Pose before = pose(node);
+  const Pose after = compose(pose(node - 1), motion);
+  for (std::size_t k = node; k < size(); ++k) {
+    const Pose moved = compose(after, between(before, pose(k)));
+    poses_[k] = {moved.x, moved.y, moved.theta};
+  }
   changed();
 }
 
 void CeresPoseGraph::Graph::add_registration(const RelativePose& registration) {
+  const int rank = rank_of(registration.information);
   registration_blocks_.push_back(
-      problem_.AddResidualBlock(new EdgeCost(registration), make_loss(options_),
+      problem_.AddResidualBlock(new EdgeCost(registration), make_loss(options_, rank, is_plain_),
                                 block(registration.from), block(registration.to)));
   registrations_.push_back(registration);
+  registration_ranks_.push_back(rank);
   spread_.add(registration);
   changed();
 }
 
-double CeresPoseGraph::Graph::registration_chi2(std::size_t index) const {
+double CeresPoseGraph::Graph::registration_weight(std::size_t index) const {
   const RelativePose& z = registrations_[index];
-  return chi2(z, pose(z.from), pose(z.to));
+  const RobustLoss loss = RobustLoss(options_.loss).of_rank(registration_ranks_[index]);
+  return loss.weight(chi2(z, pose(z.from), pose(z.to)));
 }
 
 void CeresPoseGraph::Graph::forget_registrations(std::size_t count) {
@@ -118,6 +147,7 @@ void CeresPoseGraph::Graph::forget_registrations(std::size_t count) {
     problem_.RemoveResidualBlock(registration_blocks_.back());
     registration_blocks_.pop_back();
     registrations_.pop_back();
+    registration_ranks_.pop_back();
   }
   changed();
 }
@@ -144,89 +174,38 @@ UpdateReport CeresPoseGraph::Graph::solve() {
   report.iterations = summary.num_successful_steps + summary.num_unsuccessful_steps;
   report.outcome = outcome_of(summary);
   if (!is_finite() || !is_determined()) report.outcome = Outcome::numerical_failure;
-  if (!is_done(report.outcome)) std::copy(before.begin(), before.end(), poses_.begin());
   changed();
+  if (!is_done(report.outcome)) restore(before);
   return report;
 }
 
-std::optional<std::vector<Eigen::Matrix3d>> CeresPoseGraph::Graph::innovation_covariances(
-    std::span<const RelativePose> forward_loops) {
-  std::vector<std::size_t> ends;
-  for (const RelativePose& z : forward_loops) ends.insert(ends.end(), {z.from, z.to});
-  const auto joint = joint_covariance(ends);
-  if (!joint) return std::nullopt;
-  std::vector<Eigen::Matrix3d> innovations;
-  for (const RelativePose& z : forward_loops) {
-    const auto row = static_cast<Eigen::Index>(6 * innovations.size());
-    const PairCovariance pair{joint->block<3, 3>(row, row), joint->block<3, 3>(row + 3, row + 3),
-                              joint->block<3, 3>(row, row + 3)};
-    innovations.push_back(between(pose(z.from), pose(z.to), pair).covariance + z.covariance());
+double CeresPoseGraph::Graph::cost() {
+  double cost = std::numeric_limits<double>::infinity();
+  problem_.Evaluate({}, &cost, nullptr, nullptr, nullptr);
+  return cost;
+}
+
+void CeresPoseGraph::Graph::restore(const std::deque<Block>& poses) {
+  std::copy(poses.begin(), poses.end(), poses_.begin());
+  changed();
+}
+
+UpdateReport CeresPoseGraph::Graph::solve_robust() {
+  const std::deque<Block> start = poses_;
+  const UpdateReport given = solve();
+  const std::deque<Block> reached = poses_;
+  const double least = cost();
+  restore(start);
+  is_plain_ = true;
+  const int plain_iterations = solve().iterations;
+  is_plain_ = false;
+  if (!is_done(given.outcome) || cost() < least) {
+    UpdateReport report = solve();
+    report.iterations += given.iterations + plain_iterations;
+    if (is_done(report.outcome) && (!is_done(given.outcome) || cost() < least)) return report;
   }
-  return innovations;
-}
-
-void CeresPoseGraph::Graph::compute_marginals() {
-  marginals_.emplace();
-  if (size() > 1) {
-    const auto H = hessian();
-    const auto blocks = H ? inverse_blocks(*H) : std::nullopt;
-    if (!blocks) return;
-    *marginals_ = blocks->own;
-  }
-  marginals_->insert(marginals_->begin(), Eigen::Matrix3d::Zero());
-}
-
-std::optional<Eigen::Matrix3d> CeresPoseGraph::Graph::marginal(std::size_t k) {
-  if (!marginals_) compute_marginals();
-  if (marginals_->empty()) return std::nullopt;
-  return (*marginals_)[k];
-}
-
-std::optional<Eigen::MatrixXd> CeresPoseGraph::Graph::joint_covariance(
-    std::span<const std::size_t> keyframes) {
-  std::vector<std::size_t> blocks = free_keyframes(keyframes);
-  if (blocks.empty()) return in_order_of(keyframes, {});
-  for (std::size_t& block : blocks) --block;  // of the Hessian, which has none for keyframe 0
-  const auto H = hessian();
-  const auto joint = H ? inverse_between(*H, blocks) : std::nullopt;
-  if (!joint) return std::nullopt;
-  return in_order_of(keyframes, *joint);
-}
-
-// The Hessian of the poses but the first, which is fixed, the loss applied as a weight. There must
-// be one: asked for no poses, Ceres takes all. Nothing where it is not finite, of which
-// Ceres would print a warning.
-std::unique_ptr<const Eigen::SparseMatrix<double>> CeresPoseGraph::Graph::hessian() {
-  if (!is_finite()) return nullptr;
-  ceres::Problem::EvaluateOptions evaluate;
-  evaluate.num_threads = 1;
-  for (std::size_t k = 1; k < size(); ++k) evaluate.parameter_blocks.push_back(block(k));
-  ceres::CRSMatrix J;
-  if (!problem_.Evaluate(evaluate, nullptr, nullptr, nullptr, &J)) return nullptr;
-  const Eigen::SparseMatrix<double> by_columns =
-      Eigen::Map<const Eigen::SparseMatrix<double, Eigen::RowMajor>>(
-          J.num_rows, J.num_cols, static_cast<Eigen::Index>(J.values.size()), J.rows.data(),
-          J.cols.data(), J.values.data());
-  return std::make_unique<const Eigen::SparseMatrix<double>>(by_columns.transpose() * by_columns);
-}
-
-std::optional<std::vector<UncertainPose>> CeresPoseGraph::Graph::motions_to_newest() {
-  std::vector<UncertainPose> motions;
-  const std::size_t n = size() - 1;
-  if (n == 0) return motions;
-  const auto H = hessian();
-  const auto blocks = H ? inverse_blocks(*H) : std::nullopt;
-  if (!blocks) return std::nullopt;
-  PairCovariance pair;
-  pair.B = blocks->own[n - 1];
-  for (std::size_t k = 0; k < n; ++k) {
-    if (k > 0) {
-      pair.A = blocks->own[k - 1];
-      pair.cross = blocks->with_last[k - 1];
-    }
-    motions.push_back(between(pose(k), pose(n), pair));
-  }
-  return motions;
+  restore(reached);
+  return given;
 }
 
 }  // namespace fathom

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <deque>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -19,7 +20,7 @@ namespace fathom {
 /// The Ceres problem: one 3-vector block a keyframe, one EdgeCost a measurement.
 class CeresPoseGraph::Graph {
  public:
-  Graph(const Pose& origin, const CeresPoseGraphOptions& options);
+  Graph(const Pose& origin, SolveMode mode, const CeresPoseGraphOptions& options);
 
   std::size_t size() const { return poses_.size(); }
   Pose pose(std::size_t k) const;
@@ -28,18 +29,23 @@ class CeresPoseGraph::Graph {
   /// A keyframe at the newest one ⊕ the step.
   void add_keyframe(const RelativePose& step);
   void add_registration(const RelativePose& registration);
+  /// As of RelativeEstimator.
+  void bridge(std::size_t node, const Pose& motion);
   /// Takes the last registrations back, down to `count` of them.
   void forget_registrations(std::size_t count);
   std::size_t registration_count() const { return registrations_.size(); }
-  /// eᵀ Ω e of one of them at the estimate.
-  double registration_chi2(std::size_t index) const;
+  /// What one of them weighs under the loss, at the estimate.
+  double registration_weight(std::size_t index) const;
 
   /// Solves from the present poses; keeps them as they were if it fails.
   UpdateReport solve();
+  /// With a loss, of a whole graph: from the present poses and, if the loss holds the least squares
+  /// of all for better than where that ends, from there too. Where steps are weak or missing dead
+  /// reckoning is no place to begin.
+  UpdateReport solve_robust();
 
-  /// Covariance of ν = z − h(x) for each of these registrations, from the joint covariance of
-  /// their keyframes; nothing where they cannot be computed.
-  std::optional<std::vector<Eigen::Matrix3d>> innovation_covariances(
+  /// As of PredictedCovariances, from the joint covariance of their keyframes.
+  std::optional<std::vector<Eigen::Matrix3d>> predicted_covariances(
       std::span<const RelativePose> forward_loops);
 
   std::optional<Eigen::Matrix3d> marginal(std::size_t k);
@@ -55,6 +61,8 @@ class CeresPoseGraph::Graph {
 
   double* block(std::size_t k) { return poses_[k].data(); }
   bool is_finite() const;
+  double cost();
+  void restore(const std::deque<Block>& poses);
   bool is_determined();
   void changed() { marginals_.reset(); }
   void compute_marginals();
@@ -62,9 +70,17 @@ class CeresPoseGraph::Graph {
   std::unique_ptr<const Eigen::SparseMatrix<double>> hessian();
 
   CeresPoseGraphOptions options_;
+  bool is_batch_;
+  bool is_plain_ = false;    ///< the loss is left out
   std::deque<Block> poses_;  ///< a deque keeps the addresses that the problem knows
   ceres::Problem problem_;
+  struct Hole {
+    RelativePose step;
+    ceres::ResidualBlockId block;
+  };
+  std::map<std::size_t, Hole> holes_;  ///< by the keyframe after it
   std::vector<RelativePose> registrations_;
+  std::vector<int> registration_ranks_;
   InformationSpread spread_;
   std::vector<ceres::ResidualBlockId> registration_blocks_;
   /// Of all keyframes; absent: to be computed, empty: could not be.

@@ -7,20 +7,22 @@
 
 #include <Eigen/Cholesky>
 
+#include "fathom/estimation/loop_rows.hpp"
 #include "fathom/estimation/precision.hpp"
 #include "fathom/geometry/covariance.hpp"
 
 namespace fathom {
 
-/// One registration against the present state: ν = z − h(x), h = ⊖X_from ⊕ X_to.
+/// One loop against the present state: ν = z − h(x), h = ⊖X_from ⊕ X_to, and of a semi-definite one
+/// the rows that it measures.
 struct Ekf::Innovation {
   std::size_t from = 0;
   std::size_t to = 0;
   Pose motion;
+  LoopRows rows;
   Eigen::Vector3d nu;
   Eigen::Matrix3d H_from;
   Eigen::Matrix3d H_to;
-  Eigen::Matrix3d R;
 };
 
 /// Registrations of one update, stacked.
@@ -43,7 +45,9 @@ void EkfOptions::describe(OptionTable& table) {
 }
 
 Ekf::Ekf(const EstimatorSetup& setup, const EkfOptions& options)
-    : divergence_factor_(options.divergence_factor), gate_(options.gate), poses_{setup.origin} {}
+    : divergence_factor_(options.divergence_factor),
+      gate_(options.gate),
+      poses_{setup.start.pose} {}
 
 void Ekf::add_keyframe(const RelativePose& step) {
   const RelativePose u = step.forward();
@@ -62,10 +66,10 @@ void Ekf::add_keyframe(const RelativePose& step) {
   poses_.push_back(next);
 }
 
-Eigen::Vector3d Ekf::innovation_of(std::size_t from, std::size_t to, const Pose& motion) const {
-  Eigen::Vector3d nu = motion.vector() - between(poses_[from], poses_[to]).vector();
+Eigen::Vector3d Ekf::innovation_of(const Innovation& z) const {
+  Eigen::Vector3d nu = z.motion.vector() - between(poses_[z.from], poses_[z.to]).vector();
   nu.z() = wrap_angle(nu.z());
-  return nu;
+  return z.rows.is_whole() ? nu : z.rows.C * nu;
 }
 
 Ekf::Innovation Ekf::innovate(const RelativePose& z) const {
@@ -73,9 +77,13 @@ Ekf::Innovation Ekf::innovate(const RelativePose& z) const {
   innovation.from = z.from;
   innovation.to = z.to;
   innovation.motion = z.motion;
+  innovation.rows = loop_rows(z);
   between(poses_[z.from], poses_[z.to], &innovation.H_from, &innovation.H_to);
-  innovation.nu = innovation_of(z.from, z.to, z.motion);
-  innovation.R = z.covariance();
+  innovation.nu = innovation_of(innovation);
+  if (!innovation.rows.is_whole()) {
+    innovation.H_from = innovation.rows.C * innovation.H_from;
+    innovation.H_to = innovation.rows.C * innovation.H_to;
+  }
   return innovation;
 }
 
@@ -93,9 +101,9 @@ UpdateReport Ekf::close_loops(std::span<const RelativePose> registrations) {
   for (const RelativePose& registration : registrations) {
     const Innovation innovation = innovate(registration.forward());
     const Eigen::MatrixX3d PHt = covariance_times_transposed(innovation);
-    const Eigen::Matrix3d S = projected(std::span(&innovation, 1), PHt) + innovation.R;
+    const Eigen::Matrix3d S = projected(std::span(&innovation, 1), PHt) + innovation.rows.R;
     const double nis = normalised_innovation_squared(innovation.nu, S);
-    const bool passes = !gate_.is_on() || gate_.passes(nis);
+    const bool passes = !gate_.is_on() || gate_.passes(nis, innovation.rows.rank);
     report.loops.push_back({registration.from, registration.to, fate_of(passes), nis});
     if (passes) accepted.push_back(innovation);
   }
@@ -138,7 +146,7 @@ Ekf::Stack Ekf::stack(std::span<const Innovation> loops) const {
   stack.HPHt = projected(loops, stack.PHt);
   stack.S = stack.HPHt;
   for (Eigen::Index j = 0; j < rows; j += 3) {
-    stack.S.block<3, 3>(j, j) += loops[static_cast<std::size_t>(j / 3)].R;
+    stack.S.block<3, 3>(j, j) += loops[static_cast<std::size_t>(j / 3)].rows.R;
   }
   return stack;
 }
@@ -147,8 +155,10 @@ Ekf::Stack Ekf::stack(std::span<const Innovation> loops) const {
 void Ekf::gate_together(std::vector<Innovation>& accepted, UpdateReport& report) const {
   if (!gate_.is_joint_on() || accepted.empty()) return;
   const Stack all = stack(accepted);
+  std::vector<int> ranks;
+  for (const Innovation& z : accepted) ranks.push_back(z.rows.rank);
   const std::vector<bool> together =
-      gate_.pass_together(all.nu, all.S, std::vector<bool>(accepted.size(), true));
+      gate_.pass_together(all.nu, all.S, std::vector<bool>(accepted.size(), true), ranks);
   std::vector<Innovation> kept;
   std::size_t next = 0;
   for (LoopDecision& loop : report.loops) {
@@ -164,7 +174,7 @@ Outcome Ekf::update(std::span<const Innovation> accepted) {
   const auto& [PHt, nu, HPHt, S] = stack(accepted);
   double prior_cost = 0.0;
   for (const Innovation& z : accepted) {
-    prior_cost += normalised_innovation_squared(z.nu, z.R);
+    prior_cost += normalised_innovation_squared(z.nu, z.rows.R);
   }
   const Eigen::LLT<Eigen::MatrixXd> llt(S);
   if (!nu.allFinite() || llt.info() != Eigen::Success) return Outcome::numerical_failure;
@@ -183,7 +193,7 @@ Outcome Ekf::update(std::span<const Innovation> accepted) {
   // dxᵀ P⁻¹ dx = λᵀ H P Hᵀ λ, so the cost of the update needs no inverse of P.
   double cost = lambda.dot(HPHt * lambda);
   for (const Innovation& z : accepted) {
-    cost += normalised_innovation_squared(innovation_of(z.from, z.to, z.motion), z.R);
+    cost += normalised_innovation_squared(innovation_of(z), z.rows.R);
   }
   if (!(cost <= divergence_factor_ * std::max(prior_cost, 1.0))) {
     poses_ = before;
@@ -194,7 +204,7 @@ Outcome Ekf::update(std::span<const Innovation> accepted) {
 }
 
 EstimatorEntry ekf_entry() {
-  EstimatorEntry entry = make_entry<EkfOptions>(
+  EstimatorEntry entry = make_relative_entry<EkfOptions>(
       "ekf", "plain EKF on absolute keyframe poses (delayed state), one linearisation", false,
       [](const EstimatorSetup& setup, const EkfOptions& options) {
         return std::make_unique<Ekf>(setup, options);

@@ -5,9 +5,8 @@
 #include <Eigen/Core>
 
 #include "estimators/support/filter/packed_covariance.hpp"
-#include "fathom/estimation/estimator.hpp"
 #include "fathom/estimation/gate.hpp"
-#include "fathom/estimation/registry.hpp"
+#include "fathom/estimation/relative_estimator.hpp"
 
 namespace fathom {
 
@@ -27,12 +26,13 @@ struct EkfOptions {
 
 /// The plain delayed-state EKF: the state is the stack of absolute keyframe poses 1 … n (keyframe 0
 /// is fixed and has no entry), each update linearised once. docs/estimators/ekf.md.
-class Ekf final : public Estimator {
+class Ekf final : public RelativeEstimator {
  public:
   Ekf(const EstimatorSetup& setup, const EkfOptions& options);
 
   void add_keyframe(const RelativePose& step) override;
   UpdateReport close_loops(std::span<const RelativePose> registrations) override;
+  void bridge(std::size_t node, const Pose& motion) override;
   std::optional<Eigen::Matrix3d> covariance(std::size_t k) const override;
   std::optional<Eigen::MatrixXd> joint_covariance(
       std::span<const std::size_t> keyframes) const override;
@@ -53,7 +53,7 @@ class Ekf final : public Estimator {
   Innovation innovate(const RelativePose& z) const;
   Eigen::MatrixX3d covariance_times_transposed(const Innovation& innovation) const;
   static Eigen::MatrixXd projected(std::span<const Innovation> stack, const Eigen::MatrixXd& PHt);
-  Eigen::Vector3d innovation_of(std::size_t from, std::size_t to, const Pose& motion) const;
+  Eigen::Vector3d innovation_of(const Innovation& z) const;
   Stack stack(std::span<const Innovation> loops) const;
   void gate_together(std::vector<Innovation>& accepted, UpdateReport& report) const;
   Outcome update(std::span<const Innovation> accepted);

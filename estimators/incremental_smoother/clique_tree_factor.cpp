@@ -45,8 +45,8 @@ bool CliqueTree::factor_some(std::span<const int> which) {
     c.used_in = update_;
     for (const int child : c.children) cliques_[at(child)].used_in = update_;
   }
-  FrontFactorisation run{problem_,       cliques_,       which,        order_.data(),
-                         row_of_.data(), packed_.data(), signs_.data()};
+  FrontFactorisation run{problem_,      problem_.loops, cliques_,       which,
+                         order_.data(), row_of_.data(), packed_.data(), signs_.data()};
   return sparse::run_for_processor(run);
 }
 

@@ -20,6 +20,7 @@ inline constexpr int B = 3;
 /// 1983). Each takes its edges and the updates of its children.
 struct FrontFactorisation {
   const Problem& problem;
+  LoopWeights& loops;
   std::vector<Clique>& cliques;
   std::span<const int> which;
   const long* order;  ///< of elimination, by keyframe
@@ -55,8 +56,8 @@ struct FrontFactorisation {
         // Eliminated before, and so in a child's update.
         if (order[other] < order[v]) return;
         const Edge& edge = problem.edges[at(e)];
-        const EdgeBlocks b =
-            blocks_of(edge, problem.nodes[at(edge.from)], problem.nodes[at(edge.to)]);
+        EdgeBlocks b = blocks_of(edge, problem.nodes[at(edge.from)], problem.nodes[at(edge.to)]);
+        if (loops.has(e)) b.scale(loops.factor(e));
         const int from = row_of[edge.from];
         const int to = row_of[edge.to];
         add_block(c, from, from, b.from_from.data());

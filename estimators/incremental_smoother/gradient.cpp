@@ -12,8 +12,8 @@ void Gradient::add_edge() {
 void Gradient::evaluate(int e) {
   const Edge& edge = problem_.edges[at(e)];
   EdgeGradient& t = terms_[at(e)];
-  const EdgeGradient next =
-      gradient_of(edge, problem_.nodes[at(edge.from)], problem_.nodes[at(edge.to)]);
+  EdgeGradient next = gradient_of(edge, problem_.nodes[at(edge.from)], problem_.nodes[at(edge.to)]);
+  if (problem_.loops.is_on()) problem_.loops.apply(e, next);
   Vec3& from = by_keyframe_[at(edge.from)];
   Vec3& to = by_keyframe_[at(edge.to)];
   for (std::size_t a = 0; a < 3; ++a) {

@@ -6,11 +6,11 @@
 
 namespace fathom::incremental_smoother {
 
-/// F and the gradient of ½F, kept edge by edge.
+/// F and the gradient of ½F, kept edge by edge; says what loops weigh.
 class Gradient {
  public:
   /// The problem must outlive it.
-  explicit Gradient(const Problem& problem) : problem_(problem), by_keyframe_(1) {}
+  explicit Gradient(Problem& problem) : problem_(problem), by_keyframe_(1) {}
 
   void add_keyframe() { by_keyframe_.emplace_back(); }
   /// The newest edge of the problem.
@@ -25,7 +25,7 @@ class Gradient {
   const std::vector<Vec3>& by_keyframe() const { return by_keyframe_; }
 
  private:
-  const Problem& problem_;
+  Problem& problem_;
   std::vector<EdgeGradient> terms_;  ///< by edge
   std::vector<Vec3> by_keyframe_;
   double cost_ = 0.0;

@@ -20,15 +20,23 @@ void IncrementalSmootherOptions::describe(OptionTable& table) {
              "keyframes are linearised again when they moved by more to each other");
   table.real("relinearise_rad", relinearise_rad, Range::positive(), "rad",
              "likewise, when they turned by more, or moved by more of their distance");
+  loss.describe(table);
   gate.describe(table);
+}
+
+void IncrementalSmootherOptions::check(const EstimatorSetup&) const {
+  loss.check();
 }
 
 IncrementalSmoother::IncrementalSmoother(const EstimatorSetup& setup,
                                          const IncrementalSmootherOptions& options)
-    : gate_(options.gate),
-      smoother_(std::make_unique<Smoother>(
-          setup.origin, SmootherLimits{options.max_iterations, options.tolerance,
-                                       options.relinearise_m, options.relinearise_rad})) {}
+    : loss_(options.loss),
+      gate_(options.gate),
+      smoother_(
+          std::make_unique<Smoother>(setup.start.pose,
+                                     SmootherLimits{options.max_iterations, options.tolerance,
+                                                    options.relinearise_m, options.relinearise_rad},
+                                     loss_)) {}
 
 IncrementalSmoother::~IncrementalSmoother() = default;
 
@@ -50,6 +58,18 @@ void IncrementalSmoother::add_keyframe(const RelativePose& step) {
 }
 
 UpdateReport IncrementalSmoother::close_loops(std::span<const RelativePose> registrations) {
+  UpdateReport report = update(registrations);
+  if (loss_.is_on()) used_loops_.note(report);
+  return report;
+}
+
+// Without a loss the fates of the loops say what they weigh.
+std::vector<double> IncrementalSmoother::loop_weights() const {
+  if (!loss_.is_on()) return {};
+  return used_loops_.weights(smoother_->loop_weights());
+}
+
+UpdateReport IncrementalSmoother::update(std::span<const RelativePose> registrations) {
   UpdateReport report;
   if (registrations.empty()) return report;
   if (!judge(registrations, report)) {
@@ -69,17 +89,21 @@ UpdateReport IncrementalSmoother::close_loops(std::span<const RelativePose> regi
   return report;
 }
 
+void IncrementalSmoother::bridge(std::size_t node, const Pose& motion) {
+  marginals_.reset();
+  smoother_->bridge(node, motion);
+}
+
 bool IncrementalSmoother::judge(std::span<const RelativePose> registrations, UpdateReport& report) {
   const auto covariances = [&](std::span<const RelativePose> forward) {
-    return smoother_->innovation_covariances(forward);
+    return smoother_->predicted_covariances(forward);
   };
   return fathom::judge(gate_, *this, registrations, covariances, report);
 }
 
 std::optional<Eigen::Matrix3d> IncrementalSmoother::covariance(std::size_t k) const {
   if (!marginals_) {
-    const auto& problem = smoother_->problem();
-    marginals_ = pose_graph::marginals(problem.edges, problem.nodes)
+    marginals_ = pose_graph::marginals(smoother_->weighted_edges(), smoother_->problem().nodes)
                      .value_or(std::vector<Eigen::Matrix3d>{});
   }
   if (marginals_->empty()) return std::nullopt;
@@ -88,22 +112,21 @@ std::optional<Eigen::Matrix3d> IncrementalSmoother::covariance(std::size_t k) co
 
 std::optional<Eigen::MatrixXd> IncrementalSmoother::joint_covariance(
     std::span<const std::size_t> keyframes) const {
-  const auto& problem = smoother_->problem();
-  return pose_graph::joint_covariance(problem.edges, problem.nodes, keyframes);
+  return pose_graph::joint_covariance(smoother_->weighted_edges(), smoother_->problem().nodes,
+                                      keyframes);
 }
 
 std::optional<Eigen::Matrix3d> IncrementalSmoother::newest_covariance() const {
   if (const auto covariance = smoother_->newest_covariance()) return covariance;
-  return Estimator::newest_covariance();
+  return RelativeEstimator::newest_covariance();
 }
 
 std::optional<std::vector<UncertainPose>> IncrementalSmoother::motions_to_newest() const {
-  const auto& problem = smoother_->problem();
-  return pose_graph::motions_to_newest(problem.edges, problem.nodes);
+  return pose_graph::motions_to_newest(smoother_->weighted_edges(), smoother_->problem().nodes);
 }
 
 EstimatorEntry incremental_smoother_entry() {
-  return make_entry<IncrementalSmootherOptions>(
+  return make_relative_entry<IncrementalSmootherOptions>(
       "incremental_smoother",
       "pose-graph least squares, an estimate per keyframe: eliminates again only what loops touch",
       false, [](const EstimatorSetup& setup, const IncrementalSmootherOptions& options) {

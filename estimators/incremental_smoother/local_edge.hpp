@@ -27,6 +27,12 @@ struct EdgeBlocks {
   std::array<double, 9> from_from{};
   std::array<double, 9> to_from{};
   std::array<double, 9> to_to{};
+
+  void scale(double factor) {
+    for (auto* block : {&from_from, &to_from, &to_to}) {
+      for (double& element : *block) element *= factor;
+    }
+  }
 };
 
 inline EdgeGradient gradient_of(const Edge& edge, const Node& i, const Node& k) {

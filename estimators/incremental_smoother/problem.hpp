@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <vector>
 
-#include "estimators/incremental_smoother/local_edge.hpp"
+#include "estimators/incremental_smoother/loop_weights.hpp"
 #include "estimators/support/sparse/ordering.hpp"
 
 namespace fathom::incremental_smoother {
-
-using sparse::at;
 
 /// What a correction of a keyframe counts, in squared sigmas per m² and rad², as far as its own
 /// measurements tell.
@@ -20,7 +18,8 @@ struct Weight {
 /// The estimate and the measurements, and which of them belong to a keyframe.
 class Problem {
  public:
-  explicit Problem(const Node& origin) : nodes{origin}, weights(1), saved_in_{-1}, first_{-1} {}
+  explicit Problem(const Node& origin, const RobustLoss& loss = {})
+      : nodes{origin}, weights(1), loops(loss), saved_in_{-1}, first_{-1} {}
 
   int size() const { return static_cast<int>(nodes.size()); }
   int edge_count() const { return static_cast<int>(edges.size()); }
@@ -32,9 +31,10 @@ class Problem {
     first_.push_back(-1);
   }
 
-  void add_edge(const Edge& edge) {
+  void add_edge(const Edge& edge, bool is_loop = false, int rank = 3) {
     const int e = edge_count();
     edges.push_back(edge);
+    loops.add(is_loop, rank);
     next_.push_back(first_[at(edge.from)]);
     next_.push_back(first_[at(edge.to)]);
     first_[at(edge.from)] = 2 * e;
@@ -52,6 +52,7 @@ class Problem {
       next_.pop_back();
       edges.pop_back();
     }
+    loops.forget(edge_count());
     std::fill(weights.begin(), weights.end(), Weight{});
     for (const Edge& edge : edges) weigh(edge);
   }
@@ -84,7 +85,8 @@ class Problem {
 
   std::vector<Node> nodes;
   std::vector<Edge> edges;
-  std::vector<Weight> weights;  ///< by keyframe
+  std::vector<Weight> weights;  ///< by keyframe; of loops that count in full
+  LoopWeights loops;
 
  private:
   void weigh(const Edge& edge) {

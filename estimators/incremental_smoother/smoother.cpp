@@ -5,11 +5,12 @@
 #include <limits>
 
 #include "estimators/support/pose_graph/information.hpp"
+#include "fathom/estimation/loop_rows.hpp"
 
 namespace fathom::incremental_smoother {
-Smoother::Smoother(const Pose& origin, const SmootherLimits& limits)
+Smoother::Smoother(const Pose& origin, const SmootherLimits& limits, const RobustLoss& loss)
     : limits_(limits),
-      problem_(make_node(origin.x, origin.y, origin.theta)),
+      problem_(make_node(origin.x, origin.y, origin.theta), loss),
       tree_(problem_, limits.most_kept_bytes),
       gradient_(problem_),
       ignored_(1),
@@ -40,11 +41,13 @@ void Smoother::add_keyframe(const RelativePose& step) {
   gradient_.add_keyframe();
   ignored_.emplace_back();
   changed_in_.push_back(-1);
-  append_edge(step);
+  append_edge(step, false);
 }
 
-void Smoother::append_edge(const RelativePose& measurement) {
-  problem_.add_edge(pose_graph::make_edge(measurement));
+void Smoother::append_edge(const RelativePose& measurement, bool is_loop) {
+  const bool is_robust = is_loop && problem_.loops.is_on();
+  const int rank = is_robust ? rank_of(measurement.information) : 3;
+  problem_.add_edge(pose_graph::make_edge(measurement), is_loop, rank);
   spread_.add(measurement);
   edge_pass_.push_back(-1);
   gradient_.add_edge();
@@ -72,7 +75,7 @@ SmootherResult Smoother::add_registrations(std::span<const RelativePose> registr
   const int edges_before = problem_.edge_count();
   for (const RelativePose& z : registrations) {
     for (const auto end : {z.from, z.to}) tree_.settle(static_cast<int>(end));
-    append_edge(z);
+    append_edge(z, true);
     for (const auto end : {z.from, z.to}) {
       if (end == 0) continue;
       touched_.push_back(static_cast<int>(end));
@@ -110,7 +113,7 @@ bool Smoother::relinearise() {
 
 // Measurements that are alike in their information always are.
 bool Smoother::is_determined() {
-  return !spread_.is_wide() || pose_graph::is_determined(problem().edges, problem_.nodes);
+  return !spread_.is_wide() || pose_graph::is_determined(weighted_edges(), problem_.nodes);
 }
 
 // Linearises everything at the estimate.
@@ -149,10 +152,11 @@ SmootherResult Smoother::iterate() {
   return progress.result;
 }
 
-// A step of the whole gradient wants a tree that is linearised where it matters.
+// A step of the whole gradient wants a tree that is linearised where it matters, and so does a
+// further one of what the update has changed.
 bool Smoother::prepare_step(const Progress& progress) {
   ++counts_.steps;
-  if (!progress.is_whole) return true;
+  if (!progress.is_whole) return relinearise();
   ++counts_.whole_steps;
   slack_ = 0.0;
   before_step_ = problem().nodes;
@@ -172,7 +176,9 @@ void Smoother::take_step(Progress& progress) {
                               : tree_.forward(changed_, gradient_.by_keyframe(), ignored_);
   if (!std::isfinite(promised)) return end(progress, Outcome::numerical_failure);
   const double allowed = limits_.tolerance * gradient_.cost() + limits_.least_promise_chi2;
-  if (progress.is_whole && promised <= allowed) return end(progress, Outcome::converged);
+  if (progress.is_whole && promised <= (1.0 - progress.lost_curvature) * allowed) {
+    return end(progress, Outcome::converged);
+  }
   const double before = gradient_.cost();
   tree_.propagate(negligible_bend());
   reevaluate_bent();
@@ -184,12 +190,12 @@ void Smoother::take_step(Progress& progress) {
   if (!(gradient_.cost() <= before + allowed + limits_.rounding_chi2)) return retreat(progress);
   progress.is_fresh = false;
   tree_.find_to_relinearise(limits_.relinearise_m, limits_.relinearise_rad, to_relinearise_);
-  // What a step promises is what it brings but for terms of third order, and what it leaves is of
-  // fourth: while the one differs from the other by little, it leaves less.
-  slack_ += std::abs(promised - (before - gradient_.cost()));
-  if (slack_ <= limits_.tolerance * gradient_.cost() + limits_.least_promise_chi2) {
-    return end(progress, Outcome::converged);
-  }
+  const double left = left_by_step(progress, promised, before - gradient_.cost());
+  const double most_slack = limits_.tolerance * gradient_.cost() + limits_.least_promise_chi2;
+  if (goes_on_locally(progress, left, most_slack)) return;
+  slack_ += left;
+  if (slack_ <= most_slack) return end(progress, Outcome::converged);
+  if (wants_newton(progress)) return solve_whole(progress);
   progress.is_whole = true;
 }
 
@@ -204,6 +210,11 @@ void Smoother::reevaluate_bent() {
       tree_.settle(other);
       gradient_.evaluate(e);
       note_changed(other);
+      if (problem_.loops.has_left_tree(e, limits_.reweight_share)) {
+        for (const int end : {v, other}) {
+          if (end != 0) to_relinearise_.push_back(end);
+        }
+      }
     });
   }
 }

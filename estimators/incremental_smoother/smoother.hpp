@@ -29,6 +29,16 @@ struct SmootherLimits {
   /// As of SolverTuning: differences of F that are rounding, and the least that a step may promise.
   double rounding_chi2 = 1e-12;
   double least_promise_chi2 = 1e-20;
+  /// A loop is eliminated again where its weight has left that in the tree by more, as a share. Of
+  /// a matrix that is off by a share δ, a step leaves at most δ² of what F exceeds its minimum by:
+  /// one in a hundred, as of a chord that goes on (SolverTuning::chord_contraction).
+  double reweight_share = 0.1;
+  /// With a loss an update takes so many steps of its own gradient at most, then so many of the
+  /// whole one, then Newton's of the whole graph. A step leaves λ² of what F exceeds its minimum by
+  /// (left_by_step); where that is a half, ten steps leave a thousandth.
+  int steps_of_a_kind = 10;
+  /// Of λ as one step shows it: the next ones show more.
+  double most_lost_curvature = 0.99;
   /// Where F falls below this share of what it was, its running sum is added up anew: ten digits of
   /// it are left.
   double cancellation = 1e-6;
@@ -52,7 +62,7 @@ struct Counts {
 /// The estimate of a growing pose graph, kept at its optimum.
 class Smoother {
  public:
-  Smoother(const Pose& origin, const SmootherLimits& limits);
+  Smoother(const Pose& origin, const SmootherLimits& limits, const RobustLoss& loss = {});
 
   /// Keyframes that follow a part of the map are moved when they are asked for.
   const Problem& problem();
@@ -63,18 +73,26 @@ class Smoother {
 
   /// A keyframe at the newest one ⊕ the step. It enters the factor with the next registrations.
   void add_keyframe(const RelativePose& step);
+  /// As of RelativeEstimator.
+  void bridge(std::size_t node, const Pose& motion);
   /// Minimises F with these registrations added; as it was before where that fails.
   SmootherResult add_registrations(std::span<const RelativePose> registrations);
 
   /// Covariance of ν = z − h(x) for each of these registrations; nothing where there is none.
-  std::optional<std::vector<Eigen::Matrix3d>> innovation_covariances(
+  std::optional<std::vector<Eigen::Matrix3d>> predicted_covariances(
       std::span<const RelativePose> forward_loops);
 
   /// Of (x, y, θ) of the newest keyframe, world axes, keyframe 0 fixed; nothing where there is
   /// none.
   std::optional<Eigen::Matrix3d> newest_covariance();
 
+  /// What each of the registrations added weighs at the estimate, in their order; and the edges
+  /// with the information that is left of theirs. With a loss; without one all weigh 1.
+  std::vector<double> loop_weights() const;
+  std::span<const Edge> weighted_edges();
+
   const Counts& counts() const { return counts_; }
+  const LoopWeights& loops() const { return problem_.loops; }
 
  private:
   /// Where an update stands.
@@ -82,10 +100,13 @@ class Smoother {
     bool is_whole = false;  ///< the next step is of the gradient at all keyframes
     bool is_fresh = false;  ///< the whole tree is linearised at the estimate
     bool is_over = false;
+    int local_steps = 0;
+    int whole_steps = 0;
+    double lost_curvature = 0.0;  ///< λ of the last step
     SmootherResult result;
   };
 
-  void append_edge(const RelativePose& measurement);
+  void append_edge(const RelativePose& measurement, bool is_loop);
   void evaluate_all();
   bool refactor();
   bool relinearise();
@@ -95,12 +116,17 @@ class Smoother {
   bool prepare_step(const Progress& progress);
   double negligible_bend() const;
   void take_step(Progress& progress);
+  double left_by_step(Progress& progress, double promised, double brought) const;
+  bool goes_on_locally(Progress& progress, double left, double most_slack) const;
+  bool wants_newton(Progress& progress) const;
   void retreat(Progress& progress);
   static void end(Progress& progress, Outcome outcome);
   void restore();
   void note_changed(int keyframe);
   void reevaluate_bent();
+  void solve_whole(Progress& progress);
   SmootherResult solve_batch();
+  SmootherResult minimise_whole(std::vector<Node>& nodes) const;
   void undo(int edges_before);
   /// One that could not be built again after a failure knows nothing.
   bool has_tree() const { return at(problem_.size() - first_outside_) == outside_steps_.size(); }
@@ -122,6 +148,7 @@ class Smoother {
   std::vector<int> changed_;      ///< keyframes whose gradient this update has changed
   std::vector<long> changed_in_;  ///< by keyframe: the last update that did
   std::vector<long> edge_pass_;
+  std::vector<Edge> weighted_;  ///< of weighted_edges
   long pass_ = 0;
   long update_ = 0;
 

@@ -1,7 +1,6 @@
 // What a Smoother does where a step or an update fails.
 
 #include "estimators/incremental_smoother/smoother.hpp"
-#include "estimators/support/pose_graph/batch.hpp"
 
 namespace fathom::incremental_smoother {
 
@@ -23,6 +22,11 @@ void Smoother::retreat(Progress& progress) {
     for (int k = 1; k < problem_.size(); ++k) to_relinearise_.push_back(k);
     return;
   }
+  solve_whole(progress);
+}
+
+void Smoother::solve_whole(Progress& progress) {
+  slack_ = 0.0;
   const SmootherResult solved = solve_batch();
   progress.result.iterations += solved.iterations;
   end(progress, solved.outcome);
@@ -37,8 +41,7 @@ void Smoother::restore() {
 SmootherResult Smoother::solve_batch() {
   ++counts_.batch_solves;
   std::vector<Node> nodes = problem().nodes;
-  const auto solved = pose_graph::solve_batch(problem_.edges, nodes, pose_graph::Start::given,
-                                              {limits_.max_iterations, limits_.tolerance});
+  const SmootherResult solved = minimise_whole(nodes);
   if (is_done(solved.outcome)) {
     for (int k = 1; k < problem_.size(); ++k) problem_.save(k, problem_.nodes[at(k)]);
     problem_.nodes = std::move(nodes);

@@ -6,12 +6,12 @@
 
 namespace fathom::incremental_smoother {
 
-std::optional<std::vector<Eigen::Matrix3d>> Smoother::innovation_covariances(
+std::optional<std::vector<Eigen::Matrix3d>> Smoother::predicted_covariances(
     std::span<const RelativePose> forward_loops) {
   if (!has_tree()) return std::nullopt;
   std::vector<Eigen::Matrix3d> result;
   for (const RelativePose& z : forward_loops) {
-    result.push_back(motion_covariance(static_cast<int>(z.from)) + z.covariance());
+    result.push_back(motion_covariance(static_cast<int>(z.from)));
   }
   return result;
 }

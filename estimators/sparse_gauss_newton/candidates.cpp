@@ -23,6 +23,7 @@ Candidates::Candidates(const LoopGraph& graph, std::vector<std::size_t> edges,
     : indices_(std::move(edges)),
       edges_(pick(graph.edges, indices_)),
       is_loop_(pick(graph.is_loop, indices_)),
+      ranks_(graph.ranks.empty() ? std::vector<char>() : pick(graph.ranks, indices_)),
       symbolic_(analyse_graph(edges_, static_cast<int>(keyframes), graph.workers)),
       equations_(symbolic_, edges_) {}
 
@@ -34,14 +35,14 @@ SolveResult Candidates::solve(std::vector<Node>& nodes, std::span<const double> 
 
 std::vector<double> Candidates::leave_one_out(std::span<const double> weights,
                                               std::span<const Node> nodes) {
-  return sparse_gauss_newton::leave_one_out(equations_, is_loop_, weights, nodes);
+  return sparse_gauss_newton::leave_one_out(equations_, {edges_, is_loop_, ranks_}, weights, nodes);
 }
 
 std::vector<std::vector<std::size_t>> Candidates::groups(std::span<const double> weights,
                                                          int reach) const {
   std::vector<std::size_t> kept;
   for (std::size_t e = 0; e < edges_.size(); ++e) {
-    if (is_loop_[e] != 0 && weights[e] > 0.0) kept.push_back(e);
+    if (is_registration(e) && weights[e] > 0.0) kept.push_back(e);
   }
   const auto any = [](const Edge&, const Edge&) { return true; };
   return group_loops(edges_, std::move(kept), reach, any);

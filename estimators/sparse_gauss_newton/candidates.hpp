@@ -19,6 +19,10 @@ class Candidates {
   /// Of a candidate, in the graph.
   std::size_t index(std::size_t candidate) const { return indices_[candidate]; }
   bool is_loop(std::size_t candidate) const { return is_loop_[candidate] != 0; }
+  /// A loop that measures all of a motion.
+  bool is_registration(std::size_t candidate) const {
+    return is_loop(candidate) && (ranks_.empty() || ranks_[candidate] == 3);
+  }
 
   SolveResult solve(std::vector<Node>& nodes, std::span<const double> weights,
                     const SolveLimits& limits);
@@ -35,6 +39,7 @@ class Candidates {
   std::vector<std::size_t> indices_;
   std::vector<Edge> edges_;
   std::vector<char> is_loop_;
+  std::vector<char> ranks_;  ///< empty: all 3
   sparse::Symbolic symbolic_;
   NormalEquations equations_;
 };

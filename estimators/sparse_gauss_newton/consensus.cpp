@@ -50,8 +50,10 @@ class Search {
   const LoopJudgement& tuning() const { return options_.judgement; }
   double limit() const { return tuning().reject_at * scale_; }
 
-  double chi2_of(const Edge& edge) const {
-    return linearise_edge(edge, nodes_[at(edge.from)], nodes_[at(edge.to)]).cost;
+  double chi2_of(std::size_t e) const {
+    const Edge& edge = graph_.edges[e];
+    return graph_.as_registration(
+        e, linearise_edge(edge, nodes_[at(edge.from)], nodes_[at(edge.to)]).cost);
   }
 
   double share_inside() const {
@@ -67,10 +69,10 @@ class Search {
 
   bool may_return(std::size_t e, const Drift& drift, bool few_inside) const {
     if (rejections_[e] >= tuning().max_rejections) return false;
-    const Edge& edge = graph_.edges[e];
-    if (chi2_of(edge) < tuning().candidate_reach * scale_) return true;
+    if (chi2_of(e) < tuning().candidate_reach * scale_) return true;
     return (few_inside || is_new_[e] != 0) &&
-           least_chi2(drift, edge, nodes_) < tuning().drift_reach * scale_;
+           graph_.as_registration(e, least_chi2(drift, graph_.edges[e], graph_.rank(e), nodes_)) <
+               tuning().drift_reach * scale_;
   }
 
   void choose_candidates() {
@@ -115,7 +117,8 @@ class Search {
     if (options_.squared_scale) return;
     std::vector<double> inside;
     for (std::size_t j = 0; j < own_.size(); ++j) {
-      if (candidates_->is_loop(j) && own_[j] > 0.0) inside.push_back(chi2[j]);
+      // What an absolute measurement says of its σ is no word on that of registrations.
+      if (candidates_->is_registration(j) && own_[j] > 0.0) inside.push_back(chi2[j]);
     }
     if (inside.size() < static_cast<std::size_t>(tuning().scale_loops)) return;
     const auto place =
@@ -225,7 +228,8 @@ double truncated_cost(const LoopGraph& graph, std::span<const double> weights,
   for (std::size_t e = 0; e < graph.edges.size(); ++e) {
     const Edge& edge = graph.edges[e];
     const double chi2 = linearise_edge(edge, nodes[at(edge.from)], nodes[at(edge.to)]).cost;
-    sum += weights[e] * chi2 + (1.0 - weights[e]) * squared_scale;
+    const double scale = squared_scale * squared_scale_share(LossKind::truncated, graph.rank(e));
+    sum += weights[e] * chi2 + (1.0 - weights[e]) * scale;
   }
   return sum;
 }

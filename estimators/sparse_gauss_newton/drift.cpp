@@ -9,6 +9,9 @@
 namespace fathom::sparse_gauss_newton {
 namespace {
 
+// Of a step that was not measured, m² and rad²: beyond any residual.
+constexpr double kHoleVariance = 1e12;
+
 const Node& node_of(std::span<const Node> nodes, int k) {
   return nodes[static_cast<std::size_t>(k)];
 }
@@ -32,13 +35,19 @@ Eigen::Matrix3d turn(double c, double s) {
 Drift::Drift(std::span<const Edge> edges, std::span<const char> is_loop,
              std::span<const Node> nodes)
     : sums_(nodes.size(), Eigen::Matrix3d::Zero()) {
+  std::vector<char> has_step(nodes.size(), 0);
   for (std::size_t e = 0; e < edges.size(); ++e) {
     if (is_loop[e] != 0) continue;
     const Edge& step = edges[e];
     const auto newest = static_cast<std::size_t>(std::max(step.from, step.to));
     const Node& from = node_of(nodes, step.from);
     const Eigen::Matrix3d world = transport(turn(from.c, from.s), covariance_of(step));
-    sums_[newest] = sums_[newest - 1] + transport(carry(node_of(nodes, step.to), -1.0), world);
+    sums_[newest] = transport(carry(node_of(nodes, step.to), -1.0), world);
+    has_step[newest] = 1;
+  }
+  for (std::size_t k = 1; k < nodes.size(); ++k) {
+    if (has_step[k] == 0) sums_[k] = kHoleVariance * Eigen::Matrix3d::Identity();
+    sums_[k] = sums_[k - 1] + sums_[k];
   }
 }
 
@@ -51,11 +60,19 @@ Eigen::Matrix3d Drift::of(const Edge& edge, std::span<const Node> nodes) const {
   return transport(turn(from.c, -from.s), at_end);
 }
 
-double least_chi2(const Drift& drift, const Edge& edge, std::span<const Node> nodes) {
+double least_chi2(const Drift& drift, const Edge& edge, int rank, std::span<const Node> nodes) {
   const Node& i = node_of(nodes, edge.from);
   const Node& k = node_of(nodes, edge.to);
-  const Eigen::Vector3d nu = residual_of(edge, i, k);
-  const Eigen::LLT<Eigen::Matrix3d> S(covariance_of(edge) + drift.of(edge, nodes));
+  Eigen::Vector3d nu = residual_of(edge, i, k);
+  Eigen::LLT<Eigen::Matrix3d> S;
+  if (rank == 3) {
+    S.compute(covariance_of(edge) + drift.of(edge, nodes));
+  } else {
+    const InformationRows measured = rows_of(full(edge.W));
+    nu = measured.rows * nu;
+    S.compute(transport(measured.rows, drift.of(edge, nodes)) +
+              Eigen::Matrix3d(measured.variances.asDiagonal()));
+  }
   return S.info() == Eigen::Success ? nu.dot(S.solve(nu)) : 0.0;
 }
 

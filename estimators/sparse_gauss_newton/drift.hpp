@@ -28,6 +28,6 @@ class Drift {
 };
 
 /// νᵀ (R + drift)⁻¹ ν: no estimate, whatever loops it uses, would have less against this loop.
-double least_chi2(const Drift& drift, const Edge& edge, std::span<const Node> nodes);
+double least_chi2(const Drift& drift, const Edge& edge, int rank, std::span<const Node> nodes);
 
 }  // namespace fathom::sparse_gauss_newton

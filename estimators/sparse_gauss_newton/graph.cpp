@@ -1,13 +1,19 @@
 #include "estimators/sparse_gauss_newton/graph.hpp"
 
+#include <algorithm>
 #include <utility>
 
+#include "estimators/support/pose_graph/bridge.hpp"
 #include "estimators/support/pose_graph/information.hpp"
+#include "fathom/estimation/loop_rows.hpp"
 
 namespace fathom::sparse_gauss_newton {
 
-Graph::Graph(const Pose& origin, const RobustOptions& robust, int threads)
-    : robust_(robust), threads_(threads), nodes_{make_node(origin.x, origin.y, origin.theta)} {}
+Graph::Graph(const EstimatorSetup& setup, const RobustOptions& robust, int threads)
+    : robust_(robust),
+      is_batch_(setup.mode == SolveMode::batch),
+      threads_(threads),
+      nodes_{make_node(setup.start.pose.x, setup.start.pose.y, setup.start.pose.theta)} {}
 
 Workers* Graph::workers() {
   if (threads_ > 1 && !workers_) workers_ = std::make_unique<Workers>(threads_);
@@ -28,24 +34,37 @@ void Graph::set_poses(std::span<const Pose> poses) {
 void Graph::add_keyframe(const RelativePose& step) {
   const Pose next = compose(pose(size() - 1), step.forward().motion);
   nodes_.push_back(make_node(next.x, next.y, next.theta));
-  edges_.push_back(make_edge(step));
-  spread_.add(step);
-  is_loop_.push_back(0);
-  weights_.push_back(1.0);
+  if (!is_batch_ || !step.is_hole) add_edge(step, 0, 3);
   changed();
 }
 
 void Graph::add_registration(const RelativePose& registration) {
-  edges_.push_back(make_edge(registration));
-  spread_.add(registration);
-  is_loop_.push_back(1);
-  weights_.push_back(1.0);
+  add_edge(registration, 1, rank_of(registration.information));
   changed();
+}
+
+void Graph::bridge(std::size_t node, const Pose& motion) {
+  pose_graph::bridge(node, motion, edges_, nodes_);
+  changed();
+}
+
+void Graph::add_edge(const RelativePose& measurement, char is_loop, int rank) {
+  edges_.push_back(make_edge(measurement));
+  spread_.add(measurement);
+  is_loop_.push_back(is_loop);
+  ranks_.push_back(static_cast<char>(rank));
+  weights_.push_back(1.0);
+}
+
+std::span<const char> Graph::ranks() const {
+  const bool are_whole = std::ranges::all_of(ranks_, [](char rank) { return rank == 3; });
+  return are_whole ? std::span<const char>() : ranks_;
 }
 
 void Graph::forget_edges(std::size_t count) {
   edges_.resize(count);
   is_loop_.resize(count);
+  ranks_.resize(count);
   weights_.resize(count);
   changed();
 }
@@ -76,8 +95,8 @@ SolveResult Graph::solve_robust(const SolveLimits& limits, bool from_scratch) {
       known[e] = is_loop_[e] != 0 ? kNewLoop : 1.0;
   }
   std::vector<Node> nodes = nodes_;
-  RobustResult robust = sparse_gauss_newton::solve_robust({edges_, is_loop_, workers()}, nodes,
-                                                          robust_, limits, known);
+  RobustResult robust = sparse_gauss_newton::solve_robust({edges_, is_loop_, ranks(), workers()},
+                                                          nodes, robust_, limits, known);
   const SolveResult result = accept(robust.solved, std::move(nodes), robust.weights);
   if (is_done(result.outcome)) {
     weights_ = std::move(robust.weights);
@@ -123,9 +142,9 @@ std::optional<std::vector<UncertainPose>> Graph::motions_to_newest() const {
   return pose_graph::motions_to_newest(weighted_edges(weights_), nodes_);
 }
 
-std::optional<std::vector<Eigen::Matrix3d>> Graph::innovation_covariances(
+std::optional<std::vector<Eigen::Matrix3d>> Graph::predicted_covariances(
     std::span<const RelativePose> forward_loops) const {
-  return pose_graph::innovation_covariances(weighted_edges(weights_), nodes_, forward_loops);
+  return pose_graph::predicted_covariances(weighted_edges(weights_), nodes_, forward_loops);
 }
 
 }  // namespace fathom::sparse_gauss_newton

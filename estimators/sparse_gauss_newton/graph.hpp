@@ -9,6 +9,7 @@
 
 #include "estimators/sparse_gauss_newton/robust.hpp"
 #include "fathom/estimation/precision.hpp"
+#include "fathom/estimation/registry.hpp"
 #include "fathom/geometry/covariance.hpp"
 
 namespace fathom::sparse_gauss_newton {
@@ -17,7 +18,7 @@ namespace fathom::sparse_gauss_newton {
 class Graph {
  public:
   /// `threads`: who solves it; no thread is started before the first solve.
-  Graph(const Pose& origin, const RobustOptions& robust, int threads);
+  Graph(const EstimatorSetup& setup, const RobustOptions& robust, int threads);
 
   std::size_t size() const { return nodes_.size(); }
   Pose pose(std::size_t k) const;
@@ -26,6 +27,9 @@ class Graph {
   /// A keyframe at the newest one ⊕ the step.
   void add_keyframe(const RelativePose& step);
   void add_registration(const RelativePose& registration);
+
+  /// As of RelativeEstimator.
+  void bridge(std::size_t node, const Pose& motion);
 
   std::size_t edge_count() const { return edges_.size(); }
   /// Takes the last edges back, down to `count` of them.
@@ -49,25 +53,29 @@ class Graph {
   /// As of TrajectoryView.
   std::optional<std::vector<UncertainPose>> motions_to_newest() const;
 
-  /// Covariance of ν = z − h(x) for each of these registrations, which end at the newest keyframe;
-  /// nothing where they cannot be computed.
-  std::optional<std::vector<Eigen::Matrix3d>> innovation_covariances(
+  /// As of PredictedCovariances, for loops that end at the newest keyframe.
+  std::optional<std::vector<Eigen::Matrix3d>> predicted_covariances(
       std::span<const RelativePose> forward_loops) const;
 
  private:
   void changed() { marginals_.reset(); }
   Workers* workers();
+  void add_edge(const RelativePose& measurement, char is_loop, int rank);
+  /// Empty where all are 3.
+  std::span<const char> ranks() const;
 
   std::vector<Edge> weighted_edges(const std::vector<double>& weights) const;
   SolveResult accept(SolveResult result, std::vector<Node> nodes,
                      const std::vector<double>& weights);
 
   RobustOptions robust_;
+  bool is_batch_;
   int threads_;
   std::unique_ptr<Workers> workers_;
   std::vector<Node> nodes_;
   std::vector<Edge> edges_;
   std::vector<char> is_loop_;    ///< by edge
+  std::vector<char> ranks_;      ///< by edge, of its information
   std::vector<double> weights_;  ///< by edge
   InformationSpread spread_;
   std::size_t judged_ = 0;  ///< edges of the last robust solve that was done

@@ -17,15 +17,23 @@ double chi2_of(const Eigen::Vector3d& nu, const Eigen::Matrix3d& S) {
   return nu.dot(llt.solve(nu));
 }
 
-double without(const Edge& edge, double w, const sparse::SelectedInverse& inverse, const Node& from,
-               const Node& to) {
+double without(const Edge& edge, int rank, double w, const sparse::SelectedInverse& inverse,
+               const Node& from, const Node& to) {
   PairCovariance pair;
   if (edge.from > 0) pair.A = inverse.block(edge.from - 1);
   if (edge.to > 0) pair.B = inverse.block(edge.to - 1);
   if (edge.from > 0 && edge.to > 0) pair.cross = inverse.block(edge.from - 1, edge.to - 1);
-  const Eigen::Matrix3d C = between(pose_of(from), pose_of(to), pair).covariance;
-  const Eigen::Vector3d nu = residual_of(edge, from, to);
-  const Eigen::Matrix3d R = covariance_of(edge);
+  Eigen::Matrix3d C = between(pose_of(from), pose_of(to), pair).covariance;
+  Eigen::Vector3d nu = residual_of(edge, from, to);
+  Eigen::Matrix3d R;
+  if (rank == 3) {
+    R = covariance_of(edge);
+  } else {
+    const InformationRows measured = rows_of(full(edge.W));
+    C = transport(measured.rows, C);
+    nu = measured.rows * nu;
+    R = measured.variances.asDiagonal();
+  }
   if (w == 0.0) return chi2_of(nu, R + C);
   const Eigen::Matrix3d weighted = R / w;
   const Eigen::Matrix3d A_inverse = (weighted - C).inverse();
@@ -37,7 +45,7 @@ double without(const Edge& edge, double w, const sparse::SelectedInverse& invers
 
 }  // namespace
 
-std::vector<double> leave_one_out(NormalEquations& equations, std::span<const char> is_loop,
+std::vector<double> leave_one_out(NormalEquations& equations, const LoopGraph& graph,
                                   std::span<const double> weights, std::span<const Node> nodes) {
   const std::span<const Edge> edges = equations.edges();
   std::vector<double> chi2(edges.size(), 0.0);
@@ -46,9 +54,9 @@ std::vector<double> leave_one_out(NormalEquations& equations, std::span<const ch
   if (!equations.factorise() || equations.negative_pivots() > 0) return chi2;
   const sparse::SelectedInverse inverse(equations.factor());
   for (std::size_t e = 0; e < edges.size(); ++e) {
-    if (is_loop[e] == 0) continue;
-    chi2[e] =
-        without(edges[e], weights[e], inverse, nodes[at(edges[e].from)], nodes[at(edges[e].to)]);
+    if (graph.is_loop[e] == 0) continue;
+    chi2[e] = graph.as_registration(e, without(edges[e], graph.rank(e), weights[e], inverse,
+                                               nodes[at(edges[e].from)], nodes[at(edges[e].to)]));
   }
   return chi2;
 }

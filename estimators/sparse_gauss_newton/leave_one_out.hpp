@@ -17,7 +17,10 @@ namespace fathom::sparse_gauss_newton {
 ///
 /// and of a loop with weight 0 ν₋ = ν, S₋ = R + C. `equations` hold the same edges; they are given
 /// these weights. `nodes` is their minimum.
-std::vector<double> leave_one_out(NormalEquations& equations, std::span<const char> is_loop,
+///
+/// Of a loop with semi-definite W all this is of the rows that it measures, and the result, of less
+/// degrees of freedom, is scaled to what is as unlikely of 3.
+std::vector<double> leave_one_out(NormalEquations& equations, const LoopGraph& graph,
                                   std::span<const double> weights, std::span<const Node> nodes);
 
 }  // namespace fathom::sparse_gauss_newton

@@ -30,7 +30,14 @@ using sparse::at;
 struct LoopGraph {
   std::span<const Edge> edges;
   std::span<const char> is_loop;
-  Workers* workers = nullptr;  ///< who solves it; null: the calling thread alone
+  std::span<const char> ranks{};  ///< of each edge's information; empty: all 3
+  Workers* workers = nullptr;     ///< who solves it; null: the calling thread alone
+
+  int rank(std::size_t edge) const { return ranks.empty() ? 3 : ranks[edge]; }
+  /// χ² of an edge with so many degrees of freedom as one of a registration: what is as unlikely.
+  double as_registration(std::size_t edge, double chi2) const {
+    return ranks.empty() ? chi2 : chi2 / squared_scale_share(LossKind::truncated, ranks[edge]);
+  }
 };
 
 }  // namespace fathom::sparse_gauss_newton

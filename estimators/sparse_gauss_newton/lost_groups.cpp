@@ -38,7 +38,8 @@ std::vector<std::vector<std::size_t>> lost_groups(const LoopGraph& graph,
                                                   const LoopJudgement& judgement) {
   std::vector<std::size_t> lost;
   for (std::size_t e = 0; e < graph.edges.size(); ++e) {
-    if (graph.is_loop[e] != 0 && consensus.weights[e] == 0.0) lost.push_back(e);
+    const bool is_registration = graph.is_loop[e] != 0 && graph.rank(e) == 3;
+    if (is_registration && consensus.weights[e] == 0.0) lost.push_back(e);
   }
   const double limit = judgement.lost_group_slack * consensus.squared_scale;
   const auto belong = [&](const Edge& a, const Edge& b) { return agree(a, b, nodes, limit); };

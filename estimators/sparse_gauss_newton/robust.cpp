@@ -1,6 +1,7 @@
 #include "estimators/sparse_gauss_newton/robust.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "estimators/sparse_gauss_newton/lost_groups.hpp"
@@ -21,13 +22,12 @@ class RobustBatch {
         symbolic_(analyse_graph(graph.edges, static_cast<int>(keyframes), graph.workers)),
         equations_(symbolic_, graph.edges) {}
 
-  RobustResult descend(std::vector<Node>& nodes) {
-    graduate(nodes, {});
-    RobustResult result;
-    result.solved = minimise_with(options_.loss, nodes, {}, limits_);
-    result.solved.iterations = iterations_;
-    result.weights = weights_at(nodes, options_.loss);
-    return result;
+  RobustResult descend(std::vector<Node>& nodes, bool from_scratch) {
+    const std::vector<Node> start = nodes;
+    SolveResult solved = descent(nodes);
+    if (from_scratch) try_plain_descent(start, nodes, solved);
+    solved.iterations = iterations_;
+    return {solved, weights_at(nodes, options_.loss)};
   }
 
   // Geman-McClure leads near, then the loops are judged by one another.
@@ -39,6 +39,7 @@ class RobustBatch {
     const std::vector<Node> start = nodes;
     Consensus best = attempt(nodes, {});
     try_lost_groups(start, nodes, best);
+    try_plain_attempt(start, nodes, best);
     try_free_start(nodes, best);
     best.solved.iterations += iterations_;
     return {best.solved, std::move(best.weights)};
@@ -63,7 +64,7 @@ class RobustBatch {
 
   SolveResult minimise_with(const RobustLoss& loss, std::vector<Node>& nodes,
                             const std::vector<char>& is_robust, const SolveLimits& limits) {
-    equations_.set_loss({loss, is_robust.empty() ? graph_.is_loop : is_robust});
+    equations_.set_loss({loss, is_robust.empty() ? graph_.is_loop : is_robust, {}, graph_.ranks});
     const SolveResult solved = minimise(equations_, nodes, limits);
     iterations_ += solved.iterations;
     return solved;
@@ -81,6 +82,56 @@ class RobustBatch {
       minimise_with(loss.widened(mu), nodes, is_robust, kGraduationSolve);
       mu /= kGraduationStep;
     }
+  }
+
+  SolveResult descent(std::vector<Node>& nodes) {
+    graduate(nodes, {});
+    return minimise_with(options_.loss, nodes, {}, limits_);
+  }
+
+  // The least squares of the whole graph. Where steps are weak or missing the given start is
+  // worthless, and a loss that starts there ends in a jumble.
+  std::vector<Node> plain_solution(std::vector<Node> nodes) {
+    const SolveResult plain =
+        pose_graph::solve_batch(graph_.edges, nodes, Start::automatic, limits_, graph_.workers);
+    iterations_ += plain.iterations;
+    return nodes;
+  }
+
+  double robust_cost(std::span<const Node> nodes, const RobustLoss& loss) const {
+    double sum = 0.0;
+    for (std::size_t e = 0; e < graph_.edges.size(); ++e) {
+      const double chi2 = chi2_of(e, nodes);
+      sum += graph_.is_loop[e] != 0 ? loss.of_rank(graph_.rank(e)).at(chi2).rho : chi2;
+    }
+    return sum;
+  }
+
+  // From the plain solution too, if the loss holds that for better than where it ended.
+  void try_plain_descent(const std::vector<Node>& start, std::vector<Node>& nodes,
+                         SolveResult& best) {
+    std::vector<Node> other = plain_solution(start);
+    const double reached = robust_cost(nodes, options_.loss);
+    if (is_done(best.outcome) && !(robust_cost(other, options_.loss) < reached)) return;
+    const SolveResult solved = descent(other);
+    if (!is_done(solved.outcome)) return;
+    if (is_done(best.outcome) && !(solved.cost < best.cost)) return;
+    best = solved;
+    nodes = std::move(other);
+  }
+
+  void try_plain_attempt(const std::vector<Node>& start, std::vector<Node>& nodes,
+                         Consensus& best) {
+    std::vector<Node> other = plain_solution(start);
+    const double scale = best.squared_scale;
+    const double reached = truncated_cost(graph_, best.weights, nodes, scale);
+    const RobustLoss loss(LossKind::truncated, std::sqrt(scale));
+    if (is_done(best.solved.outcome) && !(robust_cost(other, loss) < reached)) return;
+    Consensus consensus = attempt(other, {});
+    if (!is_better(consensus, other, best, nodes)) return;
+    iterations_ += best.solved.iterations;
+    best = std::move(consensus);
+    nodes = std::move(other);
   }
 
   // `trusted` loops are taken for right at first.
@@ -146,7 +197,8 @@ class RobustBatch {
   std::vector<double> weights_at(std::span<const Node> nodes, const RobustLoss& loss) const {
     std::vector<double> weights(graph_.edges.size(), 1.0);
     for (std::size_t e = 0; e < weights.size(); ++e) {
-      if (graph_.is_loop[e] != 0) weights[e] = loss.weight(chi2_of(e, nodes));
+      if (graph_.is_loop[e] != 0)
+        weights[e] = loss.of_rank(graph_.rank(e)).weight(chi2_of(e, nodes));
     }
     return weights;
   }
@@ -168,7 +220,7 @@ RobustResult solve_robust(const LoopGraph& graph, std::vector<Node>& nodes,
   RobustBatch batch(graph, options, limits, nodes.size());
   RobustResult result = options.loss.kind() == LossKind::truncated
                             ? batch.agree(result_nodes, known)
-                            : batch.descend(result_nodes);
+                            : batch.descend(result_nodes, known.empty());
   if (is_done(result.solved.outcome)) nodes = std::move(result_nodes);
   return result;
 }

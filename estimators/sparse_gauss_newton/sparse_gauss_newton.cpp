@@ -86,7 +86,7 @@ SparseGaussNewton::SparseGaussNewton(const EstimatorSetup& setup,
       mode_(setup.mode),
       loss_(options.loss),
       gate_(options.gate),
-      graph_(std::make_unique<sparse_gauss_newton::Graph>(setup.origin, robust_options(options),
+      graph_(std::make_unique<sparse_gauss_newton::Graph>(setup, robust_options(options),
                                                           options.threads)) {}
 
 SparseGaussNewton::~SparseGaussNewton() = default;
@@ -141,7 +141,7 @@ std::vector<double> SparseGaussNewton::loop_weights() const {
 
 bool SparseGaussNewton::judge(std::span<const RelativePose> registrations, UpdateReport& report) {
   const auto covariances = [&](std::span<const RelativePose> forward) {
-    return graph_->innovation_covariances(forward);
+    return graph_->predicted_covariances(forward);
   };
   return fathom::judge(gate_, *this, registrations, covariances, report);
 }
@@ -152,6 +152,10 @@ UpdateReport SparseGaussNewton::finish(std::span<const Pose> start) {
   if (!start.empty()) graph_->set_poses(start);
   note(solve(options_.start), report);
   return report;
+}
+
+void SparseGaussNewton::bridge(std::size_t node, const Pose& motion) {
+  graph_->bridge(node, motion);
 }
 
 std::optional<Eigen::Matrix3d> SparseGaussNewton::covariance(std::size_t k) const {
@@ -168,7 +172,7 @@ std::optional<std::vector<UncertainPose>> SparseGaussNewton::motions_to_newest()
 }
 
 EstimatorEntry sparse_gauss_newton_entry() {
-  return make_entry<SparseGaussNewtonOptions>(
+  return make_relative_entry<SparseGaussNewtonOptions>(
       "sparse_gauss_newton",
       "pose-graph least squares, own sparse block solver; finds its start; incremental or batch",
       true, [](const EstimatorSetup& setup, const SparseGaussNewtonOptions& options) {

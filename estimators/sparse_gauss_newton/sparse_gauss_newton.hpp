@@ -4,9 +4,8 @@
 #include <vector>
 
 #include "estimators/sparse_gauss_newton/robust.hpp"
-#include "fathom/estimation/estimator.hpp"
 #include "fathom/estimation/gate.hpp"
-#include "fathom/estimation/registry.hpp"
+#include "fathom/estimation/relative_estimator.hpp"
 #include "fathom/estimation/robust_loss.hpp"
 #include "fathom/estimation/used_loops.hpp"
 
@@ -34,7 +33,7 @@ struct SparseGaussNewtonOptions {
 /// Pose-graph least squares by Gauss-Newton and Newton steps on a sparse block Cholesky
 /// factorisation of its own. Incremental: warm-started whenever loops arrive. Batch: finds its
 /// start by itself. docs/estimators/sparse_gauss_newton.md.
-class SparseGaussNewton final : public Estimator {
+class SparseGaussNewton final : public RelativeEstimator {
  public:
   SparseGaussNewton(const EstimatorSetup& setup, const SparseGaussNewtonOptions& options);
   ~SparseGaussNewton() override;
@@ -42,6 +41,7 @@ class SparseGaussNewton final : public Estimator {
   void add_keyframe(const RelativePose& step) override;
   UpdateReport close_loops(std::span<const RelativePose> registrations) override;
   UpdateReport finish(std::span<const Pose> start) override;
+  void bridge(std::size_t node, const Pose& motion) override;
 
   /// From the Gauss-Newton Hessian at the estimate, the loss applied as a weight; a rejected
   /// registration has no part in it.
@@ -51,7 +51,7 @@ class SparseGaussNewton final : public Estimator {
   std::optional<std::vector<UncertainPose>> motions_to_newest() const override;
   std::size_t size() const override;
   Pose pose(std::size_t k) const override;
-  double loss(double chi2) const override { return loss_.at(chi2).rho; }
+  double loss(double chi2, int rank) const override { return loss_.of_rank(rank).at(chi2).rho; }
   std::vector<double> loop_weights() const override;
 
  private:

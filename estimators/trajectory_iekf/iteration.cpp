@@ -19,7 +19,7 @@ struct TrajectoryIekf::Iterate {
 };
 
 // The products of P with the present linearisation are in sums_.
-Outcome TrajectoryIekf::iterate(std::span<const RelativePose> loops, Linearisation at,
+Outcome TrajectoryIekf::iterate(std::span<const StackedLoop> loops, Linearisation at,
                                 UpdateReport& report) {
   const Eigen::Index length = sums_.matrix().rows();
   Iterate x{Eigen::VectorXd::Zero(length), Eigen::VectorXd::Zero(length), misfit(loops, at.nu)};
@@ -48,14 +48,14 @@ Outcome TrajectoryIekf::iterate(std::span<const RelativePose> loops, Linearisati
   return apply(at, x, report.iterations) ? outcome : Outcome::numerical_failure;
 }
 
-double TrajectoryIekf::cost(std::span<const RelativePose> loops, const Iterate& at) const {
+double TrajectoryIekf::cost(std::span<const StackedLoop> loops, const Iterate& at) const {
   const Stretch stretch = stretch_at(motions_, earliest_from(loops), at.delta);
   return at.delta.dot(at.u) + misfit(loops, innovations(loops, stretch));
 }
 
 // The full step minimises the linearised cost; the first of 1, ½, ¼ … of it that does not raise the
 // true one is taken. False, and no step, if rounding leaves none.
-bool TrajectoryIekf::step_back(std::span<const RelativePose> loops, const Iterate& from,
+bool TrajectoryIekf::step_back(std::span<const StackedLoop> loops, const Iterate& from,
                                Iterate& to) const {
   const Iterate full = to;
   constexpr int kHalvings = 40;  // 1e-12 of a step is rounding

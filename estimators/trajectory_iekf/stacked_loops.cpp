@@ -6,15 +6,15 @@
 
 namespace fathom {
 
-std::vector<std::size_t> froms_of(std::span<const RelativePose> loops) {
-  std::vector<std::size_t> froms;
-  for (const RelativePose& loop : loops) froms.push_back(loop.from);
-  return froms;
+std::vector<StackedLoop> stacked(std::span<const RelativePose> loops) {
+  std::vector<StackedLoop> result;
+  for (const RelativePose& loop : loops) result.emplace_back(loop.forward());
+  return result;
 }
 
-std::size_t earliest_from(std::span<const RelativePose> loops) {
+std::size_t earliest_from(std::span<const StackedLoop> loops) {
   std::size_t first = loops.front().from;
-  for (const RelativePose& loop : loops) first = std::min(first, loop.from);
+  for (const StackedLoop& loop : loops) first = std::min(first, loop.from);
   return first;
 }
 
@@ -24,15 +24,15 @@ Pose moved(const Pose& motion, const Eigen::Vector3d& delta) {
 
 namespace {
 
-Eigen::Vector3d innovation(const RelativePose& loop, const Stretch& stretch) {
+Eigen::Vector3d innovation(const StackedLoop& loop, const Stretch& stretch) {
   Eigen::Vector3d nu = loop.motion.vector() - stretch.h(loop.from).vector();
   nu.z() = wrap_angle(nu.z());
-  return nu;
+  return loop.rows.is_whole() ? nu : loop.rows.C * nu;
 }
 
 }  // namespace
 
-Eigen::VectorXd innovations(std::span<const RelativePose> loops, const Stretch& stretch) {
+Eigen::VectorXd innovations(std::span<const StackedLoop> loops, const Stretch& stretch) {
   Eigen::VectorXd nu(static_cast<Eigen::Index>(3 * loops.size()));
   for (std::size_t j = 0; j < loops.size(); ++j) {
     nu.segment<3>(static_cast<Eigen::Index>(3 * j)) = innovation(loops[j], stretch);
@@ -40,11 +40,19 @@ Eigen::VectorXd innovations(std::span<const RelativePose> loops, const Stretch& 
   return nu;
 }
 
-double misfit(std::span<const RelativePose> loops, const Eigen::VectorXd& nu) {
+StackedJacobian jacobian(std::span<const StackedLoop> loops, const Stretch& stretch) {
+  std::vector<StackedJacobian::Rows> rows;
+  for (const StackedLoop& loop : loops) {
+    rows.push_back({loop.from, loop.rows.is_whole() ? nullptr : &loop.rows.C});
+  }
+  return {stretch, rows};
+}
+
+double misfit(std::span<const StackedLoop> loops, const Eigen::VectorXd& nu) {
   double sum = 0.0;
   for (std::size_t j = 0; j < loops.size(); ++j) {
     sum += normalised_innovation_squared(nu.segment<3>(static_cast<Eigen::Index>(3 * j)),
-                                         loops[j].covariance());
+                                         loops[j].rows.R);
   }
   return sum;
 }

@@ -7,13 +7,23 @@
 #include <Eigen/Core>
 
 #include "estimators/trajectory_iekf/stretch.hpp"
+#include "fathom/estimation/loop_rows.hpp"
 #include "fathom/measurements/relative_pose.hpp"
 
 /// The registrations of one update, written forward and stacked, at a stretch of motions.
 namespace fathom {
 
-std::vector<std::size_t> froms_of(std::span<const RelativePose> loops);
-std::size_t earliest_from(std::span<const RelativePose> loops);
+struct StackedLoop {
+  explicit StackedLoop(const RelativePose& forward)
+      : from(forward.from), motion(forward.motion), rows(loop_rows(forward)) {}
+
+  std::size_t from = 0;
+  Pose motion;  ///< to the newest keyframe
+  LoopRows rows;
+};
+
+std::vector<StackedLoop> stacked(std::span<const RelativePose> loops);
+std::size_t earliest_from(std::span<const StackedLoop> loops);
 
 /// A motion corrected by its part of the state's correction, heading wrapped.
 Pose moved(const Pose& motion, const Eigen::Vector3d& delta);
@@ -22,10 +32,13 @@ Pose moved(const Pose& motion, const Eigen::Vector3d& delta);
 Stretch stretch_at(const std::vector<Pose>& motions, std::size_t first,
                    const Eigen::VectorXd& delta);
 
-/// ν = z − h(x), headings wrapped.
-Eigen::VectorXd innovations(std::span<const RelativePose> loops, const Stretch& stretch);
+/// C (z − h(x)), headings wrapped.
+Eigen::VectorXd innovations(std::span<const StackedLoop> loops, const Stretch& stretch);
+
+/// H of the loops stacked.
+StackedJacobian jacobian(std::span<const StackedLoop> loops, const Stretch& stretch);
 
 /// ν(x)ᵀ R⁻¹ ν(x).
-double misfit(std::span<const RelativePose> loops, const Eigen::VectorXd& nu);
+double misfit(std::span<const StackedLoop> loops, const Eigen::VectorXd& nu);
 
 }  // namespace fathom

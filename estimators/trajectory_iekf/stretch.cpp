@@ -42,18 +42,20 @@ Eigen::Matrix3Xd Stretch::H(std::size_t from) const {
   return H;
 }
 
-StackedJacobian::StackedJacobian(const Stretch& stretch, std::span<const std::size_t> froms)
+StackedJacobian::StackedJacobian(const Stretch& stretch, std::span<const Rows> registrations)
     : A_transposed_(stretch.A_transposed()) {
-  for (const std::size_t from : froms) starts_.push_back(static_cast<Eigen::Index>(from));
+  for (const Rows& z : registrations) starts_.push_back(static_cast<Eigen::Index>(z.from));
   std::sort(starts_.begin(), starts_.end());
   starts_.erase(std::unique(starts_.begin(), starts_.end()), starts_.end());
   E_ = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(3 * starts_.size()),
-                             static_cast<Eigen::Index>(3 * froms.size()));
+                             static_cast<Eigen::Index>(3 * registrations.size()));
   Eigen::Index column = 0;
-  for (const std::size_t from : froms) {
+  for (const Rows& z : registrations) {
     const auto start =
-        std::lower_bound(starts_.begin(), starts_.end(), static_cast<Eigen::Index>(from));
-    E_.block<3, 3>(3 * (start - starts_.begin()), column) = stretch.D(from);
+        std::lower_bound(starts_.begin(), starts_.end(), static_cast<Eigen::Index>(z.from));
+    auto D = E_.block<3, 3>(3 * (start - starts_.begin()), column);
+    D = stretch.D(z.from);
+    if (z.C != nullptr) D = (D * z.C->transpose()).eval();
     column += 3;
   }
 }

@@ -39,8 +39,12 @@ class Stretch {
 /// H of registrations stacked, by its structure: never multiplied out.
 class StackedJacobian {
  public:
-  /// `froms`: that of each registration, in their order.
-  StackedJacobian(const Stretch& stretch, std::span<const std::size_t> froms);
+  /// One registration: H of its `from`, or C H.
+  struct Rows {
+    std::size_t from = 0;
+    const Eigen::Matrix3d* C = nullptr;
+  };
+  StackedJacobian(const Stretch& stretch, std::span<const Rows> registrations);
 
   /// Motions from which on a registration's H is not zero, counted from 0; rising, each once.
   std::span<const Eigen::Index> starts() const { return starts_; }

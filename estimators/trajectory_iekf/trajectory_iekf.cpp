@@ -24,7 +24,7 @@ void TrajectoryIekfOptions::describe(OptionTable& table) {
 
 TrajectoryIekf::TrajectoryIekf(const EstimatorSetup& setup, const TrajectoryIekfOptions& options,
                                MotionCovariance::Form form)
-    : options_(options), gate_(options.gate), poses_{setup.origin}, P_(form) {}
+    : options_(options), gate_(options.gate), poses_{setup.start.pose}, P_(form) {}
 
 void TrajectoryIekf::add_keyframe(const RelativePose& step) {
   const RelativePose u = step.forward();
@@ -34,11 +34,11 @@ void TrajectoryIekf::add_keyframe(const RelativePose& step) {
   covariances_.clear();
 }
 
-TrajectoryIekf::Linearisation TrajectoryIekf::linearise(std::span<const RelativePose> loops,
+TrajectoryIekf::Linearisation TrajectoryIekf::linearise(std::span<const StackedLoop> loops,
                                                         const Eigen::VectorXd& delta,
                                                         int iteration) {
   const Stretch stretch = stretch_at(motions_, earliest_from(loops), delta);
-  StackedJacobian H(stretch, froms_of(loops));
+  StackedJacobian H = jacobian(loops, stretch);
   auto sums = sums_.shaped(delta.size(), static_cast<Eigen::Index>(3 * H.starts().size()));
   // A turn of a motion turns the newest keyframe as much, wherever H is taken: the third column of
   // Aᵀ is the same for all iterates.
@@ -47,11 +47,11 @@ TrajectoryIekf::Linearisation TrajectoryIekf::linearise(std::span<const Relative
 }
 
 // S = H P Hᵀ + R, with P Hᵀ = (P Aᵀ from each start on) E.
-TrajectoryIekf::Linearisation TrajectoryIekf::multiplied(std::span<const RelativePose> loops,
+TrajectoryIekf::Linearisation TrajectoryIekf::multiplied(std::span<const StackedLoop> loops,
                                                          Eigen::VectorXd nu, StackedJacobian H) {
   Eigen::MatrixXd S = H.times(sums_.matrix()) * H.ends();
   for (Eigen::Index row = 0; row < nu.size(); row += 3) {
-    S.block<3, 3>(row, row) += loops[static_cast<std::size_t>(row / 3)].covariance();
+    S.block<3, 3>(row, row) += loops[static_cast<std::size_t>(row / 3)].rows.R;
   }
   return {std::move(nu), std::move(H), std::move(S)};
 }
@@ -59,17 +59,18 @@ TrajectoryIekf::Linearisation TrajectoryIekf::multiplied(std::span<const Relativ
 UpdateReport TrajectoryIekf::close_loops(std::span<const RelativePose> registrations) {
   UpdateReport report;
   if (registrations.empty()) return report;
-  std::vector<RelativePose> loops;
-  for (const RelativePose& z : registrations) loops.push_back(z.forward());
+  std::vector<StackedLoop> loops = stacked(registrations);
   Linearisation prior = linearise_prior(loops);
-  const std::vector<bool> passes = gate_loops(prior, registrations, report);
+  for (const RelativePose& z : registrations)
+    report.loops.push_back({z.from, z.to, LoopFate::used, std::nullopt});
+  const std::vector<bool> passes = gate_loops(prior, loops, report);
   if (!has_finite_nis(report) || !are_resolved(*this, registrations)) {
     lose_all(report, Outcome::numerical_failure);
     return report;
   }
   if (std::find(passes.begin(), passes.end(), false) != passes.end()) {
     std::size_t j = 0;
-    std::erase_if(loops, [&](const RelativePose&) { return !passes[j++]; });
+    std::erase_if(loops, [&](const StackedLoop&) { return !passes[j++]; });
     if (loops.empty()) return report;
     prior = narrowed(prior, loops);
   }
@@ -78,7 +79,7 @@ UpdateReport TrajectoryIekf::close_loops(std::span<const RelativePose> registrat
   return report;
 }
 
-TrajectoryIekf::Linearisation TrajectoryIekf::linearise_prior(std::span<const RelativePose> loops) {
+TrajectoryIekf::Linearisation TrajectoryIekf::linearise_prior(std::span<const StackedLoop> loops) {
   const auto length = static_cast<Eigen::Index>(3 * (motions_.size() - earliest_from(loops)));
   return linearise(loops, Eigen::VectorXd::Zero(length), 1);
 }
@@ -86,11 +87,11 @@ TrajectoryIekf::Linearisation TrajectoryIekf::linearise_prior(std::span<const Re
 // The prior's linearisation for the registrations that are left of those it was made for. As long
 // as they begin with the same motion the products with P are there already.
 TrajectoryIekf::Linearisation TrajectoryIekf::narrowed(const Linearisation& prior,
-                                                       std::span<const RelativePose> loops) {
+                                                       std::span<const StackedLoop> loops) {
   const std::size_t first = earliest_from(loops);
   if (static_cast<Eigen::Index>(first) != prior.H.starts().front()) return linearise_prior(loops);
   const Stretch stretch(first, std::span(motions_).subspan(first));
-  StackedJacobian H(stretch, froms_of(loops));
+  StackedJacobian H = jacobian(loops, stretch);
   auto sums = sums_.matrix();
   Eigen::Index column = 0;
   for (const Eigen::Index start : H.starts()) {
@@ -103,23 +104,32 @@ TrajectoryIekf::Linearisation TrajectoryIekf::narrowed(const Linearisation& prio
   return multiplied(loops, innovations(loops, stretch), std::move(H));
 }
 
+// Decides on every loop, in report.loops.
 std::vector<bool> TrajectoryIekf::gate_loops(const Linearisation& prior,
-                                             std::span<const RelativePose> registrations,
+                                             std::span<const StackedLoop> loops,
                                              UpdateReport& report) const {
   std::vector<bool> passes;
-  for (std::size_t j = 0; j < registrations.size(); ++j) {
+  std::vector<int> ranks;
+  for (std::size_t j = 0; j < loops.size(); ++j) {
     const auto row = static_cast<Eigen::Index>(3 * j);
     const double nis =
         normalised_innovation_squared(prior.nu.segment<3>(row), prior.S.block<3, 3>(row, row));
-    passes.push_back(!gate_.is_on() || gate_.passes(nis));
-    report.loops.push_back(
-        {registrations[j].from, registrations[j].to, fate_of(passes.back()), nis});
+    ranks.push_back(loops[j].rows.rank);
+    passes.push_back(!gate_.is_on() || gate_.passes(nis, ranks.back()));
+    report.loops[j].fate = fate_of(passes.back());
+    report.loops[j].nis = nis;
   }
   if (gate_.is_joint_on() && has_finite_nis(report)) {
-    passes = gate_.pass_together(prior.nu, prior.S, passes);
+    passes = gate_.pass_together(prior.nu, prior.S, passes, ranks);
     for (std::size_t j = 0; j < passes.size(); ++j) report.loops[j].fate = fate_of(passes[j]);
   }
   return passes;
+}
+
+// The motion over a hole is one of the state, and correlated with no other.
+void TrajectoryIekf::bridge(std::size_t node, const Pose& motion) {
+  motions_[node - 1] = motion;
+  recompose();
 }
 
 void TrajectoryIekf::recompose() {
@@ -128,7 +138,7 @@ void TrajectoryIekf::recompose() {
 }
 
 EstimatorEntry trajectory_iekf_entry() {
-  return make_entry<TrajectoryIekfOptions>(
+  return make_relative_entry<TrajectoryIekfOptions>(
       "trajectory_iekf",
       "trajectory-based iterated EKF of Burguera, Bonin-Font and Oliver (relative motions)", false,
       [](const EstimatorSetup& setup, const TrajectoryIekfOptions& options) {

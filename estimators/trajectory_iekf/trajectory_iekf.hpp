@@ -5,10 +5,10 @@
 #include <Eigen/Core>
 
 #include "estimators/trajectory_iekf/motion_covariance.hpp"
+#include "estimators/trajectory_iekf/stacked_loops.hpp"
 #include "estimators/trajectory_iekf/stretch.hpp"
-#include "fathom/estimation/estimator.hpp"
 #include "fathom/estimation/gate.hpp"
-#include "fathom/estimation/registry.hpp"
+#include "fathom/estimation/relative_estimator.hpp"
 
 namespace fathom {
 
@@ -28,7 +28,7 @@ struct TrajectoryIekfOptions {
 /// The trajectory-based iterated EKF of Burguera, Bonin-Font and Oliver, section 3: the state is
 /// the stack of relative motions between consecutive keyframes, X = [x₁⁰; x₂¹; …], so that one loop
 /// corrects every motion in it. docs/estimators/trajectory_iekf.md.
-class TrajectoryIekf final : public Estimator {
+class TrajectoryIekf final : public RelativeEstimator {
  public:
   /// The form of the covariance changes what it costs alone.
   TrajectoryIekf(const EstimatorSetup& setup, const TrajectoryIekfOptions& options,
@@ -39,6 +39,8 @@ class TrajectoryIekf final : public Estimator {
 
   /// One iterated update with all registrations stacked (Bar-Shalom, Li, Kirubarajan).
   UpdateReport close_loops(std::span<const RelativePose> registrations) override;
+
+  void bridge(std::size_t node, const Pose& motion) override;
 
   std::optional<Eigen::Matrix3d> covariance(std::size_t k) const override;
   std::optional<Eigen::MatrixXd> joint_covariance(
@@ -54,18 +56,17 @@ class TrajectoryIekf final : public Estimator {
   struct Linearisation;
   struct Iterate;
 
-  Linearisation linearise(std::span<const RelativePose> loops, const Eigen::VectorXd& delta,
+  Linearisation linearise(std::span<const StackedLoop> loops, const Eigen::VectorXd& delta,
                           int iteration);
-  Linearisation linearise_prior(std::span<const RelativePose> loops);
-  Linearisation narrowed(const Linearisation& prior, std::span<const RelativePose> loops);
-  Linearisation multiplied(std::span<const RelativePose> loops, Eigen::VectorXd nu,
+  Linearisation linearise_prior(std::span<const StackedLoop> loops);
+  Linearisation narrowed(const Linearisation& prior, std::span<const StackedLoop> loops);
+  Linearisation multiplied(std::span<const StackedLoop> loops, Eigen::VectorXd nu,
                            StackedJacobian H);
-  std::vector<bool> gate_loops(const Linearisation& prior,
-                               std::span<const RelativePose> registrations,
+  std::vector<bool> gate_loops(const Linearisation& prior, std::span<const StackedLoop> loops,
                                UpdateReport& report) const;
-  Outcome iterate(std::span<const RelativePose> loops, Linearisation at, UpdateReport& report);
-  double cost(std::span<const RelativePose> loops, const Iterate& at) const;
-  bool step_back(std::span<const RelativePose> loops, const Iterate& from, Iterate& to) const;
+  Outcome iterate(std::span<const StackedLoop> loops, Linearisation at, UpdateReport& report);
+  double cost(std::span<const StackedLoop> loops, const Iterate& at) const;
+  bool step_back(std::span<const StackedLoop> loops, const Iterate& from, Iterate& to) const;
   bool apply(const Linearisation& last, const Iterate& end, int iterations);
   void recompose();
   void compute_covariances() const;

@@ -131,11 +131,12 @@ void check_front_end(const Settings& settings, const FrontEndOptions& options) {
   }
 }
 
-DataSetValues given_values(const Settings& settings) {
+DataSetValues given_values(const Settings& settings, const DataSetEntry& entry) {
   DataSetValues values;
   const std::string prefix = std::string(kDataSet) + ".";
   for (const Setting& setting : settings.all()) {
-    const bool is_general = setting.key == "dataset.type" || is_origin_key(setting.key);
+    const bool is_general =
+        setting.key == "dataset.type" || (is_origin_key(setting.key) && !entry.takes_origin);
     if (is_general || !setting.key.starts_with(prefix)) continue;
     values[setting.key.substr(prefix.size())] = setting.value;
   }
@@ -201,7 +202,7 @@ Configuration configure(const Settings& settings, ConfigurationKind kind,
     if (!is_estimator_key(setting.key)) set(table, setting, known);
     configuration.origins[setting.key] = setting.origin;
   }
-  configuration.dataset.values = given_values(settings);
+  configuration.dataset.values = given_values(settings, entry);
   check_front_end(settings, configuration.front_end);
   check_origin(settings, configuration.origin);
   check_study(settings, configuration.study, entry, *data_set);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "fathom/core/input_error.hpp"
 #include "fathom/core/text.hpp"
@@ -97,6 +98,28 @@ void sum_up_altitude(const FrameSource& source, FolderSummary& summary) {
   warn(summary, jumps, "altitude changes by more than half from the frame before");
 }
 
+// In degrees, so that radians that were degrees stand out.
+void sum_up_attitude(const FrameSource& source, FolderSummary& summary) {
+  if (!source.has_attitude()) return;
+  constexpr double kDegree = std::numbers::pi / 180.0;
+  std::vector<double> rolls, pitches, sigmas;
+  std::vector<std::size_t> steep;
+  for (std::size_t i = 0; i < source.size(); ++i) {
+    const MeasuredTilt& measured = source.info(i).tilt.value();
+    rolls.push_back(measured.tilt.roll_rad / kDegree);
+    pitches.push_back(measured.tilt.pitch_rad / kDegree);
+    sigmas.push_back(measured.sigma_rad / kDegree);
+    constexpr double kSteep = 15.0;
+    if (std::max(std::abs(rolls.back()), std::abs(pitches.back())) > kSteep) steep.push_back(i);
+  }
+  const auto span = [](const std::vector<double>& values) {
+    return range(std::ranges::min(values), std::ranges::max(values));
+  };
+  summary.facts.push_back("attitude: roll " + span(rolls) + " degrees, pitch " + span(pitches) +
+                          " degrees, median sigma " + number(median(sigmas)) + " degrees");
+  warn(summary, steep, "roll or pitch of more than 15 degrees; is attitude0 in radians?");
+}
+
 // How far dead reckoning has left the truth at the end, both from the first frame on.
 void compare_with_truth(const FrameSource& source, const Pose& reckoned, double path_m,
                         FolderSummary& summary) {
@@ -127,8 +150,8 @@ void sum_up_odometry(const FrameSource& source, FolderSummary& summary) {
     const FrameInfo& now = source.info(i);
     path_m += now.motion->mean.position().norm();
     pose = compose(pose, now.motion->mean);
-    overlaps.push_back(footprint_overlap(source.camera(), source.info(i - 1).altitude_m,
-                                         now.altitude_m, now.motion->mean));
+    overlaps.push_back(footprint_overlap(source.camera(), source.info(i - 1).stance(), now.stance(),
+                                         now.motion->mean));
     if (overlaps.back() <= 0.0) apart.push_back(i);
   }
   summary.facts.push_back("odometry: path of " + number(path_m) + " m");
@@ -178,6 +201,7 @@ FolderSummary summarise_frames(const FrameSource& source) {
   sum_up_time(source, summary);
   sum_up_camera(source, summary);
   sum_up_altitude(source, summary);
+  sum_up_attitude(source, summary);
   sum_up_odometry(source, summary);
   sum_up_ground_truth(source, summary);
   look_at_pictures(source, summary);

@@ -41,20 +41,20 @@ bool is_done(Outcome outcome) {
   return outcome <= Outcome::iteration_limit;
 }
 
-std::optional<Eigen::Matrix3d> Estimator::covariance(std::size_t k) const {
+std::optional<Eigen::Matrix3d> Estimate::covariance(std::size_t k) const {
   const auto joint = joint_covariance(std::span(&k, 1));
   if (!joint) return std::nullopt;
   return Eigen::Matrix3d(*joint);
 }
 
-std::optional<Eigen::Matrix3d> Estimator::newest_covariance() const {
+std::optional<Eigen::Matrix3d> Estimate::newest_covariance() const {
   const std::size_t newest = size() - 1;
   const auto joint = joint_covariance(std::span(&newest, 1));
   if (!joint) return std::nullopt;
   return Eigen::Matrix3d(*joint);
 }
 
-std::optional<std::vector<UncertainPose>> Estimator::motions_to_newest() const {
+std::optional<std::vector<UncertainPose>> Estimate::motions_to_newest() const {
   std::vector<UncertainPose> motions;
   const std::size_t newest = size() - 1;
   for (std::size_t k = 0; k < newest; ++k) {

@@ -7,6 +7,7 @@
 #include <Eigen/Cholesky>
 
 #include "fathom/core/chi_squared.hpp"
+#include "fathom/estimation/loop_rows.hpp"
 #include "fathom/estimation/precision.hpp"
 
 namespace fathom {
@@ -23,17 +24,23 @@ void GateOptions::describe_joint(OptionTable& table) {
 }
 
 Gate::Gate(const GateOptions& options) : joint_probability_(options.joint_probability) {
-  if (options.probability) threshold_ = chi_squared_quantile(*options.probability, 3.0);
+  if (!options.probability) return;
+  thresholds_.emplace();
+  for (int rank = 1; rank <= 3; ++rank) {
+    (*thresholds_)[static_cast<std::size_t>(rank)] =
+        chi_squared_quantile(*options.probability, rank);
+  }
 }
 
-bool Gate::passes(double nis) const {
-  return !std::isnan(nis) && (!threshold_ || nis <= *threshold_);
+bool Gate::passes(double nis, int rank) const {
+  return !std::isnan(nis) &&
+         (!thresholds_ || nis <= (*thresholds_)[static_cast<std::size_t>(rank)]);
 }
 
 std::vector<bool> Gate::pass_together(const Eigen::VectorXd& innovation, const Eigen::MatrixXd& S,
-                                      std::vector<bool> passed) const {
+                                      std::vector<bool> passed, std::span<const int> ranks) const {
   if (!joint_probability_) return passed;
-  return jointly_compatible(innovation, S, passed, *joint_probability_);
+  return jointly_compatible(innovation, S, passed, *joint_probability_, ranks);
 }
 
 bool has_finite_nis(const UpdateReport& report) {
@@ -56,7 +63,7 @@ void lose_all(UpdateReport& report, Outcome outcome) {
 }
 
 bool judge(const Gate& gate, const TrajectoryView& estimate,
-           std::span<const RelativePose> registrations, const InnovationCovariances& covariances,
+           std::span<const RelativePose> registrations, const PredictedCovariances& covariances,
            UpdateReport& report) {
   std::vector<RelativePose> forward;
   bool finite = true;
@@ -67,14 +74,18 @@ bool judge(const Gate& gate, const TrajectoryView& estimate,
   }
   if (!finite || !are_resolved(estimate, registrations)) return false;
   if (!gate.is_on()) return true;
-  const auto S = covariances(forward);
-  if (!S) return false;
+  const auto predicted = covariances(forward);
+  if (!predicted) return false;
   for (std::size_t j = 0; j < forward.size(); ++j) {
     const Pose h = between(estimate.pose(forward[j].from), estimate.pose(forward[j].to));
     Eigen::Vector3d nu = forward[j].motion.vector() - h.vector();
     nu.z() = wrap_angle(nu.z());
-    report.loops[j].nis = normalised_innovation_squared(nu, (*S)[j]);
-    report.loops[j].fate = fate_of(gate.passes(*report.loops[j].nis));
+    const LoopRows rows = loop_rows(forward[j]);
+    report.loops[j].nis = rows.is_whole()
+                              ? normalised_innovation_squared(nu, (*predicted)[j] + rows.R)
+                              : normalised_innovation_squared(
+                                    rows.C * nu, transport(rows.C, (*predicted)[j]) + rows.R);
+    report.loops[j].fate = fate_of(gate.passes(*report.loops[j].nis, rows.rank));
   }
   return true;
 }

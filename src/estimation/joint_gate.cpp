@@ -1,4 +1,5 @@
 #include <limits>
+#include <span>
 #include <utility>
 
 #include <Eigen/Cholesky>
@@ -11,11 +12,11 @@ namespace {
 
 class Compatibility {
  public:
-  Compatibility(const Eigen::VectorXd& innovation, const Eigen::MatrixXd& S, double probability)
-      : innovation_(innovation), S_(S), limits_{0.0} {
-    const std::size_t count = static_cast<std::size_t>(innovation.size()) / 3;
-    for (std::size_t m = 1; m <= count; ++m) {
-      limits_.push_back(chi_squared_quantile(probability, 3.0 * static_cast<double>(m)));
+  Compatibility(const Eigen::VectorXd& innovation, const Eigen::MatrixXd& S, double probability,
+                std::span<const int> ranks)
+      : innovation_(innovation), S_(S), ranks_(ranks), limits_{0.0} {
+    for (Eigen::Index m = 1; m <= innovation.size(); ++m) {
+      limits_.push_back(chi_squared_quantile(probability, static_cast<double>(m)));
     }
   }
 
@@ -26,7 +27,7 @@ class Compatibility {
   }
 
   std::vector<std::size_t> drop_the_worst(std::vector<std::size_t> set) const {
-    while (!set.empty() && !(nis(set) <= limits_[set.size()])) {
+    while (!set.empty() && !(nis(set) <= limit_of(set))) {
       double least = std::numeric_limits<double>::infinity();
       std::size_t worst = 0;
       for (std::size_t i = 0; i < set.size(); ++i) {
@@ -46,11 +47,23 @@ class Compatibility {
  private:
   double nis(const std::vector<std::size_t>& set) const { return joint_nis(innovation_, S_, set); }
 
+  std::size_t rank_of(std::size_t candidate) const {
+    return ranks_.empty() ? 3 : static_cast<std::size_t>(ranks_[candidate]);
+  }
+
+  double limit_of(std::span<const std::size_t> set, std::span<const std::size_t> more = {}) const {
+    std::size_t degrees = 0;
+    for (const std::size_t j : set) degrees += rank_of(j);
+    for (const std::size_t j : more) degrees += rank_of(j);
+    return limits_[degrees];
+  }
+
   // With or without candidate `next`. The joint value only grows with a set, so a branch that could
   // not be compatible, larger, or as large and better, even with all that is left, ends.
   void extend(const std::vector<std::size_t>& set, double value, std::size_t next) {
     const std::size_t most = set.size() + candidates_.size() - next;
-    if (value > limits_[most] || most < best_.size()) return;
+    if (most < best_.size()) return;
+    if (value > limit_of(set, std::span(candidates_).subspan(next))) return;
     if (most == best_.size() && value >= best_value_) return;
     if (next == candidates_.size()) {
       best_ = set;
@@ -65,7 +78,8 @@ class Compatibility {
 
   const Eigen::VectorXd& innovation_;
   const Eigen::MatrixXd& S_;
-  std::vector<double> limits_;  ///< by how many
+  std::span<const int> ranks_;
+  std::vector<double> limits_;  ///< by degrees of freedom
   std::vector<std::size_t> candidates_;
   std::vector<std::size_t> best_;
   double best_value_ = std::numeric_limits<double>::infinity();
@@ -94,12 +108,13 @@ double joint_nis(const Eigen::VectorXd& innovation, const Eigen::MatrixXd& S,
 }
 
 std::vector<bool> jointly_compatible(const Eigen::VectorXd& innovation, const Eigen::MatrixXd& S,
-                                     const std::vector<bool>& candidates, double probability) {
+                                     const std::vector<bool>& candidates, double probability,
+                                     std::span<const int> ranks) {
   std::vector<std::size_t> indices;
   for (std::size_t j = 0; j < candidates.size(); ++j) {
     if (candidates[j]) indices.push_back(j);
   }
-  Compatibility test(innovation, S, probability);
+  Compatibility test(innovation, S, probability, ranks);
   const std::vector<std::size_t> set = indices.size() <= kMostSearched
                                            ? test.search(indices)
                                            : test.drop_the_worst(std::move(indices));

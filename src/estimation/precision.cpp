@@ -34,7 +34,9 @@ bool are_resolved(const TrajectoryView& estimate, std::span<const RelativePose> 
   });
 }
 
+// What is not measured is not small.
 void InformationSpread::Bounds::add(double value) {
+  if (value == 0.0) return;
   least = std::min(least, value);
   most = std::max(most, value);
 }
@@ -44,6 +46,7 @@ bool InformationSpread::Bounds::is_wide() const {
 }
 
 void InformationSpread::add(const RelativePose& measurement) {
+  if (measurement.is_hole) return;
   position_.add(position_information(measurement));
   heading_.add(measurement.information(2, 2));
 }

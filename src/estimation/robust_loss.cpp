@@ -1,5 +1,6 @@
 #include "fathom/estimation/robust_loss.hpp"
 
+#include <array>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -17,8 +18,10 @@ void LossOptions::describe(OptionTable& table, bool has_truncated) {
                                                       {"geman_mcclure", LossKind::geman_mcclure},
                                                       {"dcs", LossKind::dcs}};
   if (has_truncated) kinds.emplace_back("truncated", LossKind::truncated);
-  table.enumeration<LossKind>("loss", kind, kinds,
-                              "robust loss on registrations; dead reckoning has none");
+  table.enumeration<LossKind>(
+      "loss", kind, kinds,
+      "robust loss on registrations and absolute measurements; dead reckoning has "
+      "none");
   table.real_or_off("loss_scale", scale, Range::positive(), "sigma",
                     "whitened residual at which the loss sets in; off: that which makes a right "
                     "registration at the 99 % quantile weigh one half");
@@ -30,9 +33,31 @@ void LossOptions::check() const {
   }
 }
 
+namespace {
+
+double share_of(LossKind kind) {
+  return kind == LossKind::truncated ? kTruncatedQuantile : kHalfWeightQuantile;
+}
+
+}  // namespace
+
 double default_scale(LossKind kind) {
-  const double share = kind == LossKind::truncated ? kTruncatedQuantile : kHalfWeightQuantile;
-  return scale_of_half_weight(kind, chi_squared_quantile(share, 3.0));
+  return scale_of_half_weight(kind, chi_squared_quantile(share_of(kind), 3.0));
+}
+
+double squared_scale_share(LossKind kind, int rank) {
+  const auto of_share = [](double share) {
+    std::array<double, 4> shares{};
+    for (std::size_t r = 0; r < shares.size(); ++r) {
+      shares[r] = r == 0 ? 1.0
+                         : chi_squared_quantile(share, static_cast<double>(r)) /
+                               chi_squared_quantile(share, 3.0);
+    }
+    return shares;
+  };
+  static const std::array<double, 4> plain = of_share(kHalfWeightQuantile);
+  static const std::array<double, 4> truncated = of_share(kTruncatedQuantile);
+  return (kind == LossKind::truncated ? truncated : plain)[static_cast<std::size_t>(rank)];
 }
 
 double scale_of_half_weight(LossKind kind, double s) {

@@ -9,7 +9,6 @@
 #include "checks.hpp"
 #include "fathom/core/chi_squared.hpp"
 #include "fathom/core/input_error.hpp"
-#include "fathom/evaluation/alignment.hpp"
 #include "fathom/geometry/covariance.hpp"
 
 namespace fathom {
@@ -35,9 +34,10 @@ Eigen::Vector3d pose_error(const Pose& estimate, const Pose& reference) {
 
 std::optional<Consistency> consistency(std::span<const Pose> estimate,
                                        std::span<const Pose> reference,
-                                       std::span<const Eigen::Matrix3d> covariances) {
+                                       std::span<const Eigen::Matrix3d> covariances,
+                                       Alignment alignment) {
   require_same_length(estimate.size(), covariances.size(), "covariances");
-  const Aligned aligned = align(estimate, reference, Alignment::origin);
+  const Aligned aligned = align(estimate, reference, alignment);
   if (estimate.size() < 2 || !all_finite(estimate) || !all_finite(reference)) return std::nullopt;
   Consistency result;
   std::size_t inside = 0;

@@ -10,7 +10,9 @@ JudgedRun judge(RunFacts facts) {
   const std::span<const Pose> truth = *run.facts.ground_truth;
   run.accuracy = accuracy(run.facts.estimate, truth, run.facts.options.alignment);
   if (run.facts.covariances) {
-    run.consistency = consistency(run.facts.estimate, truth, *run.facts.covariances);
+    const bool is_held = run.facts.log.start().is_fixed();
+    run.consistency = consistency(run.facts.estimate, truth, *run.facts.covariances,
+                                  is_held ? Alignment::origin : Alignment::none);
   }
   return run;
 }

@@ -13,6 +13,17 @@
 
 namespace fathom {
 
+namespace {
+
+// How far a tilt moves a footprint: what the body's vertical meets on the floor.
+double aside_m(const Stance& stance) {
+  if (stance.is_level()) return 0.0;
+  const Eigen::Vector3d down = -stance.tilt.rotation().col(2);
+  return stance.altitude_m * down.head<2>().norm() / -down.z();
+}
+
+}  // namespace
+
 CandidateSearch::CandidateSearch(const Camera& camera, const CandidateOptions& options)
     : camera_(camera),
       options_(options),
@@ -28,12 +39,23 @@ CandidateSearch::CandidateSearch(const Camera& camera, const CandidateOptions& o
   side_per_metre_ = std::max((corners[1] - corners[0]).norm(), (corners[2] - corners[1]).norm());
 }
 
+// The altitude at which the footprint of a level camera reaches as far.
+double CandidateSearch::level_altitude_m(const Stance& stance) const {
+  if (stance.is_level()) return stance.altitude_m;
+  const Eigen::Vector2d mount{camera_.model().mount_x_m, camera_.model().mount_y_m};
+  double reach_m = 0.0;
+  for (const Eigen::Vector2d& corner : camera_.footprint(stance)) {
+    reach_m = std::max(reach_m, (corner - mount).norm());
+  }
+  return reach_m / reach_per_metre_;
+}
+
 // Footprints further apart than both reach need no polygons.
-double CandidateSearch::overlap(const Pose& motion, double altitude_from_m,
-                                double altitude_to_m) const {
-  const double reach_m = reach_per_metre_ * (altitude_from_m + altitude_to_m) + 2.0 * mount_m_;
+double CandidateSearch::overlap(const Pose& motion, const Stance& from, const Stance& to) const {
+  const double reach_m =
+      reach_per_metre_ * (level_altitude_m(from) + level_altitude_m(to)) + 2.0 * mount_m_;
   if (!(motion.position().norm() <= reach_m)) return 0.0;
-  return footprint_overlap(camera_, altitude_from_m, altitude_to_m, motion);
+  return footprint_overlap(camera_, from, to, motion);
 }
 
 bool CandidateSearch::by_overlap() const {
@@ -42,42 +64,43 @@ bool CandidateSearch::by_overlap() const {
 
 // Further apart no two pictures share min_overlap of a footprint, as long as they lie alike; turned
 // to each other they may, by little.
-double CandidateSearch::reach_m(double altitude_from_m, double altitude_newest_m) const {
+double CandidateSearch::reach_m(const Stance& from, const Stance& newest) const {
   if (!by_overlap()) return *options_.max_distance_m;
   return (1.0 - options_.min_overlap) * 0.5 * side_per_metre_ *
-             (altitude_from_m + altitude_newest_m) +
-         2.0 * mount_m_;
+             (from.altitude_m + newest.altitude_m) +
+         2.0 * mount_m_ + aside_m(from) + aside_m(newest);
 }
 
-bool CandidateSearch::accepts(const Pose& step, double altitude_from_m,
-                              double altitude_to_m) const {
-  return by_overlap() ? overlap(step, altitude_from_m, altitude_to_m) >= options_.min_overlap
+bool CandidateSearch::accepts(const Pose& step, const Stance& from, const Stance& to) const {
+  return by_overlap() ? overlap(step, from, to) >= options_.min_overlap
                       : step.position().norm() <= *options_.max_distance_m;
 }
 
 // Positions further apart than this radius are of no candidate, so the grid's cells are as large.
 std::vector<std::size_t> CandidateSearch::within_reach(const TrajectoryView& trajectory,
-                                                       std::span<const double> altitudes_m) {
-  for (; altitudes_ < altitudes_m.size(); ++altitudes_) {
-    highest_m_ = std::max(highest_m_, altitudes_m[altitudes_]);
+                                                       std::span<const Stance> stances) {
+  for (; stances_ < stances.size(); ++stances_) {
+    highest_m_ = std::max(highest_m_, level_altitude_m(stances[stances_]));
   }
   const double radius_m =
-      by_overlap() ? reach_per_metre_ * (highest_m_ + altitudes_m.back()) + 2.0 * mount_m_
-                   : *options_.max_distance_m;
+      by_overlap()
+          ? reach_per_metre_ * (highest_m_ + level_altitude_m(stances.back())) + 2.0 * mount_m_
+          : *options_.max_distance_m;
   if (!grid_) grid_.emplace(radius_m > 0.0 ? radius_m : 1.0);
   grid_->follow(trajectory);
-  return grid_->near(trajectory.pose(altitudes_m.size() - 1).position(), radius_m);
+  return grid_->near(trajectory.pose(stances.size() - 1).position(), radius_m);
 }
 
-bool CandidateSearch::is_candidate(const Pose& from, const Pose& newest, double altitude_from_m,
-                                   double altitude_newest_m) const {
-  return by_overlap() ? overlap(between(from, newest), altitude_from_m, altitude_newest_m) >=
-                            options_.min_overlap
-                      : (from.position() - newest.position()).norm() <= *options_.max_distance_m;
+bool CandidateSearch::is_candidate(const Pose& from, const Pose& newest, const Stance& stance_from,
+                                   const Stance& stance_newest) const {
+  return by_overlap()
+             ? overlap(between(from, newest), stance_from, stance_newest) >= options_.min_overlap
+             : (from.position() - newest.position()).norm() <= *options_.max_distance_m;
 }
 
-std::vector<CandidateSearch::Chance> CandidateSearch::perhaps_near(
-    const TrajectoryView& trajectory, std::span<const double> altitudes_m, std::size_t end) const {
+std::vector<CandidateSearch::Chance> CandidateSearch::perhaps_near(const TrajectoryView& trajectory,
+                                                                   std::span<const Stance> stances,
+                                                                   std::size_t end) const {
   const auto motions = trajectory.motions_to_newest();
   std::vector<Chance> found;
   if (!motions) return found;
@@ -85,7 +108,7 @@ std::vector<CandidateSearch::Chance> CandidateSearch::perhaps_near(
     const UncertainPose& motion = (*motions)[k];
     const Eigen::Vector2d d = motion.mean.position();
     const Eigen::Matrix2d S = motion.covariance.topLeftCorner<2, 2>();
-    const double radius_m = reach_m(altitudes_m[k], altitudes_m.back());
+    const double radius_m = reach_m(stances[k], stances.back());
     // No eigenvalue is larger than the trace: most are told by it.
     const double gap_m = d.norm() - radius_m;
     if (gap_m > 0.0 && gap_m * gap_m > quantile_ * S.trace()) continue;
@@ -97,27 +120,27 @@ std::vector<CandidateSearch::Chance> CandidateSearch::perhaps_near(
 
 // Those found by the estimate itself are as near as can be.
 std::vector<CandidateSearch::Chance> CandidateSearch::all(const TrajectoryView& trajectory,
-                                                          std::span<const double> altitudes_m,
+                                                          std::span<const Stance> stances,
                                                           std::size_t end) {
-  const std::size_t newest = altitudes_m.size() - 1;
+  const std::size_t newest = stances.size() - 1;
   const Pose pose = trajectory.pose(newest);
   std::vector<Chance> found;
-  for (const std::size_t k : within_reach(trajectory, altitudes_m)) {
+  for (const std::size_t k : within_reach(trajectory, stances)) {
     if (k >= end) break;
-    if (is_candidate(trajectory.pose(k), pose, altitudes_m[k], altitudes_m[newest])) {
+    if (is_candidate(trajectory.pose(k), pose, stances[k], stances[newest])) {
       found.push_back({k, 0.0});
     }
   }
   if (!options_.asks_covariances()) return found;
   const std::vector<Chance> near = std::exchange(found, {});
-  std::ranges::set_union(near, perhaps_near(trajectory, altitudes_m, end),
-                         std::back_inserter(found), {}, &Chance::keyframe, &Chance::keyframe);
+  std::ranges::set_union(near, perhaps_near(trajectory, stances, end), std::back_inserter(found),
+                         {}, &Chance::keyframe, &Chance::keyframe);
   return found;
 }
 
-Candidates CandidateSearch::find(const TrajectoryView& trajectory,
-                                 std::span<const double> altitudes_m, std::size_t end) {
-  const std::vector<Chance> found = all(trajectory, altitudes_m, end);
+Candidates CandidateSearch::find(const TrajectoryView& trajectory, std::span<const Stance> stances,
+                                 std::size_t end) {
+  const std::vector<Chance> found = all(trajectory, stances, end);
   const bool by_passes = method_ == CandidateMethod::possible_overlap;
   const std::optional<int> most = by_passes ? options_.budget : options_.max_per_keyframe;
   std::vector<std::size_t> keyframes;
@@ -125,7 +148,7 @@ Candidates CandidateSearch::find(const TrajectoryView& trajectory,
     for (const Chance& candidate : found) keyframes.push_back(candidate.keyframe);
     return {std::move(keyframes), 0};
   }
-  const std::vector<Rank> ranks = ranked(trajectory, altitudes_m, found);
+  const std::vector<Rank> ranks = ranked(trajectory, stances, found);
   for (const std::size_t place : by_passes ? order_by_passes(ranks) : order_of(ranks)) {
     keyframes.push_back(ranks[place].keyframe);
   }
@@ -137,13 +160,13 @@ Candidates CandidateSearch::find(const TrajectoryView& trajectory,
 
 // Most overlap first, then the likeliest, the nearest, the earliest.
 std::vector<CandidateSearch::Rank> CandidateSearch::ranked(
-    const TrajectoryView& trajectory, std::span<const double> altitudes_m,
+    const TrajectoryView& trajectory, std::span<const Stance> stances,
     const std::vector<Chance>& candidates) const {
-  const std::size_t newest = altitudes_m.size() - 1;
+  const std::size_t newest = stances.size() - 1;
   std::vector<Rank> ranks;
   for (const auto& [k, squared_sigmas] : candidates) {
     const Pose motion = between(trajectory.pose(k), trajectory.pose(newest));
-    ranks.push_back({-overlap(motion, altitudes_m[k], altitudes_m[newest]), squared_sigmas,
+    ranks.push_back({-overlap(motion, stances[k], stances[newest]), squared_sigmas,
                      motion.position().norm(), k});
   }
   return ranks;

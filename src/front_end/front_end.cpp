@@ -34,32 +34,35 @@ FrontEnd::FrontEnd(const FrameSource& source, PairRegistrar& registrar,
 std::optional<Keyframe> FrontEnd::next_keyframe() {
   const std::size_t next = schedule_.frame(keyframes_.size()).value_or(source_.size());
   UncertainPose since;  // the last keyframe
+  bool over_hole = false;
   while (frames_.size() < source_.size()) {
     const std::size_t frame = frames_.size();
     const FrameInfo& info = source_.info(frame);
     if (frame > 0) since = compose(since, *info.motion);
-    if (frame == next) return add_keyframe(frame, info, since);
+    over_hole = over_hole || info.is_hole;
+    if (frame == next) return add_keyframe(frame, info, since, over_hole);
     frames_.push_back({info.time_ns, keyframes_.size() - 1, since.mean});
   }
   return std::nullopt;
 }
 
 Keyframe FrontEnd::add_keyframe(std::size_t frame, const FrameInfo& info,
-                                const UncertainPose& since) {
+                                const UncertainPose& since, bool over_hole) {
   Keyframe keyframe{keyframes_.size(), frame, info.time_ns, std::nullopt};
   if (frame > 0) {
     keyframe.step = RelativePose::from_covariance(keyframe.index - 1, keyframe.index, since.mean,
                                                   since.covariance);
+    keyframe.step->is_hole = over_hole;
   }
   frames_.push_back({info.time_ns, keyframe.index, Pose{}});
   keyframes_.push_back(keyframe);
-  altitudes_m_.push_back(info.altitude_m);
+  stances_.push_back(info.stance());
   announce_next_keyframes();
   return keyframe;
 }
 
 MeasuredFrame FrontEnd::measured(std::size_t frame) const {
-  return {frame, source_.info(frame).altitude_m};
+  return MeasuredFrame::of(source_, frame);
 }
 
 // A keyframe is registered with the one before if its step makes it a candidate; only then is it
@@ -75,7 +78,7 @@ void FrontEnd::announce_next_keyframes() {
       step = compose(step, source_.info(i).motion->mean);
     const MeasuredFrame from = measured(frame);
     const MeasuredFrame to = measured(*next);
-    if (search_.accepts(step, from.altitude_m, to.altitude_m)) registrar_.announce(from, to);
+    if (search_.accepts(step, from.stance(), to.stance())) registrar_.announce(from, to);
     frame = *next;
   }
 }
@@ -85,7 +88,7 @@ Candidates FrontEnd::candidates(const TrajectoryView& trajectory) {
   // From one frame to the next visual odometry's step is that very registration.
   const bool step_is_registration = source_.is_visual_odometry() && newest > 0 &&
                                     keyframes_[newest].frame == keyframes_[newest - 1].frame + 1;
-  return search_.find(trajectory, altitudes_m_, step_is_registration ? newest - 1 : newest);
+  return search_.find(trajectory, stances_, step_is_registration ? newest - 1 : newest);
 }
 
 // Loop candidates by the estimate, each registered with the newest keyframe (figure 2); what is
@@ -114,7 +117,8 @@ std::vector<RelativePose> FrontEnd::register_newest(const TrajectoryView& trajec
 }
 
 FrontEndInMetres FrontEnd::in_metres() const {
-  KeyframeLengths lengths{altitudes_m_, {}, {}};
+  KeyframeLengths lengths;
+  for (const Stance& stance : stances_) lengths.altitudes_m.push_back(stance.altitude_m);
   for (std::size_t k = 1; k < keyframes_.size(); ++k) {
     lengths.steps_m.push_back(keyframes_[k].step->motion.position().norm());
     lengths.separation_frames.push_back(

@@ -1,5 +1,6 @@
 #include "fathom/front_end/keyframes.hpp"
 
+#include "fathom/core/input_error.hpp"
 #include "fathom/geometry/pose.hpp"
 #include "fathom/vision/camera.hpp"
 
@@ -23,13 +24,13 @@ std::optional<std::size_t> KeyframeSchedule::after(std::size_t keyframe) const {
     const std::size_t next = keyframe + static_cast<std::size_t>(*options_.separation_frames);
     return next < source_.size() ? std::optional(next) : std::nullopt;
   }
-  const double altitude_m = source_.info(keyframe).altitude_m;
+  const Stance stance = source_.info(keyframe).stance();
   Pose motion;
   for (std::size_t frame = keyframe + 1; frame < source_.size(); ++frame) {
     const FrameInfo& info = source_.info(frame);
     motion = compose(motion, info.motion->mean);
-    const double overlap = footprint_overlap(source_.camera(), altitude_m, info.altitude_m, motion);
-    if (!(overlap < options_.min_overlap)) continue;
+    const double overlap = footprint_overlap(source_.camera(), stance, info.stance(), motion);
+    if (!(overlap < options_.min_overlap) && !info.is_hole) continue;
     return frame - 1 > keyframe ? frame - 1 : frame;
   }
   return std::nullopt;
@@ -44,6 +45,20 @@ std::optional<std::size_t> KeyframeSchedule::frame(std::size_t k) {
     frames_.push_back(*next);
   }
   return frames_[k];
+}
+
+InputError single_keyframe(const KeyframeOptions& keyframes, std::size_t frames) {
+  const std::string count = std::to_string(frames) + (frames == 1 ? " frame" : " frames");
+  if (frames < 2) return InputError("dataset: has " + count + "; a survey has two or more");
+  if (!keyframes.separation_frames) {
+    return InputError("front_end.keyframes.min_overlap: by dead reckoning all of " + count +
+                      " share so much of the floor, so there is a single keyframe; expected " +
+                      "front_end.keyframes.separation_frames");
+  }
+  return InputError(
+      "front_end.keyframes.separation_frames: " + std::to_string(*keyframes.separation_frames) +
+      " leads beyond the last of " + count + ", so there is a single keyframe; expected at most " +
+      std::to_string(frames - 1));
 }
 
 }  // namespace fathom

@@ -47,9 +47,19 @@ PairRegistrar::PairRegistrar(const FrameSource& pictures, const FeatureOptions& 
       features_(pictures, FeatureExtractor(features, registration.tuning.features), feature_bytes) {
 }
 
+PairRegistrar::FrameKey PairRegistrar::frame_key(const MeasuredFrame& frame) {
+  const auto bits = [](double value) { return std::bit_cast<std::uint64_t>(value); };
+  const MeasuredTilt measured = frame.tilt.value_or(MeasuredTilt{});
+  return {frame.frame,
+          bits(frame.altitude_m),
+          frame.tilt.has_value(),
+          bits(measured.tilt.roll_rad),
+          bits(measured.tilt.pitch_rad),
+          bits(measured.sigma_rad)};
+}
+
 PairRegistrar::PairKey PairRegistrar::pair_key(const MeasuredFrame& from, const MeasuredFrame& to) {
-  return {from.frame, std::bit_cast<std::uint64_t>(from.altitude_m), to.frame,
-          std::bit_cast<std::uint64_t>(to.altitude_m)};
+  return {frame_key(from), frame_key(to)};
 }
 
 std::uint64_t PairRegistrar::seed_of(const MeasuredFrame& from, const MeasuredFrame& to) const {
@@ -57,8 +67,8 @@ std::uint64_t PairRegistrar::seed_of(const MeasuredFrame& from, const MeasuredFr
 }
 
 RegistrationKey PairRegistrar::cache_key(const MeasuredFrame& from, const MeasuredFrame& to) const {
-  return keys_.of({pictures_.picture_id(from.frame), from.altitude_m},
-                  {pictures_.picture_id(to.frame), to.altitude_m}, seed_of(from, to));
+  return keys_.of({pictures_.picture_id(from.frame), from.altitude_m, from.tilt},
+                  {pictures_.picture_id(to.frame), to.altitude_m, to.tilt}, seed_of(from, to));
 }
 
 std::optional<PairRegistration> PairRegistrar::known(const MeasuredFrame& from,
@@ -75,7 +85,8 @@ std::optional<PairRegistration> PairRegistrar::known(const MeasuredFrame& from,
 }
 
 FloorFeatures PairRegistrar::on_floor_of(const MeasuredFrame& frame) {
-  return on_floor(features_.of(frame.frame)->unpacked(), pictures_.camera(), frame.altitude_m);
+  return on_floor(features_.of(frame.frame)->unpacked(), pictures_.camera(), frame.altitude_m,
+                  frame.tilt);
 }
 
 // Pixels in, registration out: features, their points on the floor, the motion and its covariance.

@@ -12,6 +12,13 @@ void add_options(Hash& hash, FeatureOptions& features, RegistrationOptions& regi
   for (const std::string& key : table.keys()) hash.add(key).add(table.value(key));
 }
 
+// A picture without roll and pitch has no more words, so that its keys are what they always were.
+void add_tilt(Hash& hash, const char* picture, const std::optional<MeasuredTilt>& measured) {
+  if (!measured) return;
+  hash.add("tilt").add(picture).add(measured->tilt.roll_rad).add(measured->tilt.pitch_rad);
+  hash.add(measured->sigma_rad);
+}
+
 }  // namespace
 
 RegistrationKeys::RegistrationKeys(const CameraModel& camera, FeatureOptions features,
@@ -28,7 +35,10 @@ RegistrationKey RegistrationKeys::of(const SeenPicture& from, const SeenPicture&
                                      std::uint64_t pair_seed) const {
   const auto finished = [&](Hash hash) {
     hash.add(from.picture_id).add(from.altitude_m).add(to.picture_id).add(to.altitude_m);
-    return hash.add(pair_seed).value();
+    hash.add(pair_seed);
+    add_tilt(hash, "from", from.tilt);
+    add_tilt(hash, "to", to.tilt);
+    return hash.value();
   };
   return {finished(first_), finished(second_)};
 }

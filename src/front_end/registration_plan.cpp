@@ -16,6 +16,7 @@ RegistrationPlan plan_registrations(const FrameSource& frames, const FrontEndOpt
   CandidateSearch search(frames.camera(), options.candidates);
   RegistrationPlan plan;
   GivenTrajectory trajectory;
+  std::vector<Stance> stances;
   Pose pose;
   std::size_t frame = 0;
   while (const auto next = schedule.frame(trajectory.size())) {
@@ -28,15 +29,14 @@ RegistrationPlan plan_registrations(const FrameSource& frames, const FrontEndOpt
     }
     trajectory.append(pose);
     plan.lengths.altitudes_m.push_back(frames.info(frame).altitude_m);
+    stances.push_back(frames.info(frame).stance());
     const std::size_t newest = trajectory.size() - 1;
-    const std::vector<std::size_t> found =
-        search.find(trajectory, plan.lengths.altitudes_m, newest).keyframes;
+    const std::vector<std::size_t> found = search.find(trajectory, stances, newest).keyframes;
     plan.candidates.push_back(found.size());
     if (found.empty()) continue;
     if (found.back() + 1 == newest) ++plan.consecutive;
     const std::size_t from = schedule.frame(found.back()).value();
-    plan.last_pair = {{from, plan.lengths.altitudes_m[found.back()]},
-                      {frame, plan.lengths.altitudes_m[newest]}};
+    plan.last_pair = {MeasuredFrame::of(frames, from), MeasuredFrame::of(frames, frame)};
   }
   return plan;
 }

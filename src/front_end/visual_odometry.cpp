@@ -15,6 +15,7 @@ const FrameInfo& VisualOdometry::info(std::size_t i) const {
   while (infos_.size() <= i) {
     FrameInfo info = source_.info(infos_.size());
     info.motion.reset();
+    info.is_hole = false;
     if (!infos_.empty()) info.motion = next_motion();
     infos_.push_back(std::move(info));
   }
@@ -22,7 +23,7 @@ const FrameInfo& VisualOdometry::info(std::size_t i) const {
 }
 
 MeasuredFrame VisualOdometry::measured(std::size_t frame) const {
-  return {frame, source_.info(frame).altitude_m};
+  return MeasuredFrame::of(source_, frame);
 }
 
 UncertainPose VisualOdometry::next_motion() const {

@@ -12,19 +12,18 @@ namespace {
 // The estimate of an estimator. Where it turns out faulty, dead reckoning takes its place.
 class EstimateGuide : public CandidateGuide {
  public:
-  EstimateGuide(const EstimatorEntry& entry, const EstimatorValues& values)
-      : estimator_(entry, {}, values) {}
+  EstimateGuide(const EstimatorEntry& entry, const EstimatorValues& values, const StartPose& start)
+      : estimator_(entry, {start, SolveMode::incremental}, values), newest_(start.pose) {}
 
   void add_keyframe(const Keyframe& keyframe) override {
-    const Pose motion = keyframe.step ? keyframe.step->motion : Pose{};
-    dead_reckoning_.append(keyframe.step ? compose(newest_, motion) : Pose{});
-    newest_ = dead_reckoning_.pose(dead_reckoning_.size() - 1);
-    if (keyframe.step) estimator_.add_keyframe(*keyframe.step);
+    if (keyframe.step) {
+      newest_ = compose(newest_, keyframe.step->motion);
+      estimator_.add_keyframe(*keyframe.step);
+    }
+    dead_reckoning_.append(newest_);
   }
 
-  void close_loops(std::span<const RelativePose> registrations) override {
-    estimator_.close_loops(registrations);
-  }
+  void update(const Measurements& measurements) override { estimator_.update(measurements); }
 
   const TrajectoryView& trajectory() override {
     look_for_faults();
@@ -56,7 +55,7 @@ class TruthGuide : public CandidateGuide {
   void add_keyframe(const Keyframe& keyframe) override {
     truth_.append(frames_.info(keyframe.frame).ground_truth.value());
   }
-  void close_loops(std::span<const RelativePose> /*registrations*/) override {}
+  void update(const Measurements& /*measurements*/) override {}
   const TrajectoryView& trajectory() override { return truth_; }
 
  private:
@@ -69,7 +68,8 @@ class TruthGuide : public CandidateGuide {
 std::unique_ptr<CandidateGuide> make_guide(const CandidateReference& reference,
                                            const EstimatorRegistry& registry,
                                            const FrameSource& frames,
-                                           const KeyframeOptions& keyframes) {
+                                           const KeyframeOptions& keyframes,
+                                           const StartPose& start) {
   using Kind = CandidateReference::Kind;
   if (reference.kind != Kind::estimate) {
     const auto missing = keyframe_without_truth(frames, keyframes);
@@ -77,7 +77,7 @@ std::unique_ptr<CandidateGuide> make_guide(const CandidateReference& reference,
     if (reference.kind == Kind::ground_truth) throw no_ground_truth(*missing);
   }
   const EstimatorConfiguration& estimator = reference.estimator;
-  return std::make_unique<EstimateGuide>(registry.find(estimator.type), estimator.values);
+  return std::make_unique<EstimateGuide>(registry.find(estimator.type), estimator.values, start);
 }
 
 }  // namespace fathom

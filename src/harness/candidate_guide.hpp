@@ -1,9 +1,9 @@
 #pragma once
 
 #include <memory>
-#include <span>
 
 #include "fathom/configuration/configuration.hpp"
+#include "fathom/estimation/estimator.hpp"
 #include "fathom/front_end/front_end.hpp"
 
 namespace fathom {
@@ -15,8 +15,8 @@ class CandidateGuide {
   virtual ~CandidateGuide() = default;
   /// Every keyframe in its order, keyframe 0 too.
   virtual void add_keyframe(const Keyframe& keyframe) = 0;
-  /// The registrations of the newest keyframe, if any.
-  virtual void close_loops(std::span<const RelativePose> registrations) = 0;
+  /// What was measured of the newest keyframe, if anything was.
+  virtual void update(const Measurements& measurements) = 0;
   /// Of all keyframes so far; valid until the next call.
   virtual const TrajectoryView& trajectory() = 0;
 };
@@ -27,6 +27,7 @@ class CandidateGuide {
 std::unique_ptr<CandidateGuide> make_guide(const CandidateReference& reference,
                                            const EstimatorRegistry& registry,
                                            const FrameSource& frames,
-                                           const KeyframeOptions& keyframes);
+                                           const KeyframeOptions& keyframes,
+                                           const StartPose& start);
 
 }  // namespace fathom

@@ -28,11 +28,14 @@ void require_count(std::size_t count, std::size_t expected, const char* of_what)
                           std::to_string(expected));
 }
 
-UpdateReport failed(std::span<const RelativePose> registrations) {
+UpdateReport failed(const Measurements& measurements) {
   UpdateReport report;
   report.outcome = Outcome::numerical_failure;
-  for (const RelativePose& z : registrations) {
+  for (const RelativePose& z : measurements.registrations) {
     report.loops.push_back({z.from, z.to, LoopFate::lost, std::nullopt});
+  }
+  for (const AbsolutePose& z : measurements.absolute) {
+    report.absolute.push_back({z.keyframe, LoopFate::lost, std::nullopt});
   }
   return report;
 }
@@ -121,20 +124,29 @@ void GuardedEstimator::add_keyframe(const RelativePose& step) {
   check_size("add_keyframe");
 }
 
-UpdateReport GuardedEstimator::close_loops(std::span<const RelativePose> registrations) {
+UpdateReport GuardedEstimator::update(const Measurements& measurements) {
+  const auto& [registrations, absolute] = measurements;
   registrations_ += registrations.size();
+  absolute_ += absolute.size();
   UpdateReport report;
   guarded("update", [&] {
-    report = estimator_->close_loops(registrations);
+    report = estimator_->update(measurements);
     require_count(report.loops.size(), registrations.size(), "decisions on registrations");
     for (std::size_t j = 0; j < registrations.size(); ++j) {
       if (is_of(report.loops[j], registrations[j])) continue;
       throw ContractViolation("decision " + std::to_string(j) +
                               " is on other keyframes than registration " + std::to_string(j));
     }
+    require_count(report.absolute.size(), absolute.size(), "decisions on absolute measurements");
+    for (std::size_t j = 0; j < absolute.size(); ++j) {
+      if (report.absolute[j].keyframe == absolute[j].keyframe) continue;
+      throw ContractViolation("decision " + std::to_string(j) +
+                              " is on another keyframe than absolute measurement " +
+                              std::to_string(j));
+    }
   });
   check_size("update");
-  if (!fault_.empty()) report = failed(registrations);
+  if (!fault_.empty()) report = failed(measurements);
   return report;
 }
 
@@ -185,23 +197,32 @@ std::optional<Eigen::MatrixXd> GuardedEstimator::joint_covariance(
   return covariance;
 }
 
-double GuardedEstimator::loss(double chi2) const {
+double GuardedEstimator::loss(double chi2, int rank) const {
   double loss = kNaN;
-  guarded("loss", [&] { loss = estimator_->loss(chi2); });
+  guarded("loss", [&] { loss = estimator_->loss(chi2, rank); });
   return loss;
 }
 
-std::vector<double> GuardedEstimator::loop_weights() const {
+template <class Ask>
+std::vector<double> GuardedEstimator::weights(const char* what, std::size_t count, Ask ask) const {
   std::vector<double> weights;
-  guarded("loop_weights", [&] {
-    weights = estimator_->loop_weights();
-    if (!weights.empty()) require_count(weights.size(), registrations_, "weights");
+  guarded(what, [&] {
+    weights = ask();
+    if (!weights.empty()) require_count(weights.size(), count, "weights");
     for (const double weight : weights) {
       if (!std::isfinite(weight)) throw ContractViolation("a weight is not finite");
     }
   });
   if (!fault_.empty()) weights.clear();
   return weights;
+}
+
+std::vector<double> GuardedEstimator::loop_weights() const {
+  return weights("loop_weights", registrations_, [&] { return estimator_->loop_weights(); });
+}
+
+std::vector<double> GuardedEstimator::absolute_weights() const {
+  return weights("absolute_weights", absolute_, [&] { return estimator_->absolute_weights(); });
 }
 
 }  // namespace fathom

@@ -84,7 +84,7 @@ constexpr double kEnoughOverlap = 0.3;
 
 Overlapping overlapping(const Recording& recording, std::span<const Pose> estimate) {
   const TrueOverlaps overlaps =
-      overlaps_at(estimate, *recording.camera, recording.keyframe_altitudes_m);
+      overlaps_at(estimate, *recording.camera, recording.keyframe_stances);
   Overlapping count;
   for (const TrueOverlaps::Pair& pair : overlaps.pairs) {
     if (pair.overlap >= kEnoughOverlap) ++count.pairs;

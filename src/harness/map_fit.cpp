@@ -16,8 +16,9 @@ bool MapFit::estimate_fits() const {
 
 std::optional<MapFit> map_fit(const MeasurementLog& log, std::span<const Pose> estimate,
                               const BatchOptimum& optimum) {
-  if (log.registration_count() == 0) return std::nullopt;
   MapFit fit;
+  fit.degrees_of_freedom = degrees_of_freedom(log);
+  if (log.registration_count() == 0 || !(fit.degrees_of_freedom > 0.0)) return std::nullopt;
   fit.chi2 = chi2(log, estimate);
   fit.chi2_optimum = optimum.chi2;
   Eigen::Vector3d squares = Eigen::Vector3d::Zero();
@@ -26,7 +27,7 @@ std::optional<MapFit> map_fit(const MeasurementLog& log, std::span<const Pose> e
     const RelativePose& step = log.arrival(k).step;
     const Eigen::Vector3d e =
         residual(step.motion, optimum.poses[step.from], optimum.poses[step.to]);
-    fit.steps_at_optimum += e.dot(step.information * e);
+    if (!step.is_hole) fit.steps_at_optimum += e.dot(step.information * e);
     for (const RelativePose& z : log.arrival(k).registrations) {
       squares += residual(z.motion, optimum.poses[z.from], optimum.poses[z.to]).cwiseAbs2();
       variances += z.covariance().diagonal();
@@ -37,10 +38,37 @@ std::optional<MapFit> map_fit(const MeasurementLog& log, std::span<const Pose> e
   fit.registration_rms_rad = std::sqrt(squares.z() / count);
   fit.registration_sigma_m = std::sqrt((variances.x() + variances.y()) / count);
   fit.registration_sigma_rad = std::sqrt(variances.z() / count);
-  fit.degrees_of_freedom = 3.0 * static_cast<double>(log.registration_count());
-  fit.unknowns = 3.0 * static_cast<double>(log.size() - 1);
+  fit.absolute_at_optimum = absolute_chi2(log, optimum.poses);
+  fit.unknowns = 3.0 * static_cast<double>(log.size() - (log.start().is_fixed() ? 1 : 0));
   return fit;
 }
+
+namespace {
+
+std::string misfit_remark(const MapFit& fit) {
+  const double of_steps = fit.steps_at_optimum / fit.chi2_optimum;
+  const double of_absolute = fit.absolute_at_optimum / fit.chi2_optimum;
+  const std::string text = "the measurements do not fit each other: F per degree of freedom is " +
+                           short_number(fit.per_degree_of_freedom()) +
+                           " at its best, and 1 is expected; ";
+  if (of_absolute > 0.5) {
+    return text + short_number(100.0 * of_absolute, 2) +
+           " % of F is of absolute measurements, so their covariances are too small or some are "
+           "wrong (a robust loss, a gate)";
+  }
+  return text + short_number(100.0 * of_steps, 2) + " % of F is of dead reckoning, so " +
+         (of_steps > 0.5
+              ? "its covariance is too small for what loops say (dataset.added_noise)"
+              : "covariances of registrations are too small (front_end.covariance) or some loops "
+                "are wrong (a robust loss, a gate): registrations are off by " +
+                    short_number(fit.registration_rms_m, 2) + " m and " +
+                    short_number(fit.registration_rms_rad, 2) +
+                    " rad there (rms), where their covariances say " +
+                    short_number(fit.registration_sigma_m, 2) + " m and " +
+                    short_number(fit.registration_sigma_rad, 2) + " rad");
+}
+
+}  // namespace
 
 std::vector<std::string> map_remarks(const MapFit& fit, const std::string& estimator,
                                      const std::string& solver) {
@@ -51,23 +79,7 @@ std::vector<std::string> map_remarks(const MapFit& fit, const std::string& estim
                       " where a batch solve of the same log ends; " + solver + " would do");
   }
   constexpr double kTooMuch = 3.0;
-  if (fit.per_degree_of_freedom() > kTooMuch) {
-    const double share = fit.steps_at_optimum / fit.chi2_optimum;
-    remarks.push_back(
-        "the measurements do not fit each other: F per degree of freedom is " +
-        short_number(fit.per_degree_of_freedom()) + " at its best, and 1 is expected; " +
-        short_number(100.0 * share, 2) + " % of F is of dead reckoning, so " +
-        (share > 0.5
-             ? "its covariance is too small for what loops say (dataset.added_noise)"
-             : "covariances of registrations are too small (front_end.covariance) or some loops "
-               "are wrong (a robust loss, a gate): registrations are off by " +
-                   short_number(fit.registration_rms_m, 2) + " m and " +
-                   short_number(fit.registration_rms_rad, 2) +
-                   " rad there (rms), where their "
-                   "covariances say " +
-                   short_number(fit.registration_sigma_m, 2) + " m and " +
-                   short_number(fit.registration_sigma_rad, 2) + " rad"));
-  }
+  if (fit.per_degree_of_freedom() > kTooMuch) remarks.push_back(misfit_remark(fit));
   return remarks;
 }
 

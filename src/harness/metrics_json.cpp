@@ -38,6 +38,17 @@ Json rejected_loops(const Result& result, const std::vector<std::int64_t>& ids) 
   return rejected;
 }
 
+Json rejected_absolute(const Result& result, const std::vector<std::int64_t>& ids) {
+  Json rejected = Json::array();
+  for (const AbsoluteDecision& z : result.replay.absolute) {
+    if (z.fate != LoopFate::rejected) continue;
+    Json entry{{"keyframe", ids.empty() ? static_cast<std::int64_t>(z.keyframe) : ids[z.keyframe]}};
+    if (z.nis && std::isfinite(*z.nis)) entry["nis"] = *z.nis;
+    rejected.push_back(entry);
+  }
+  return rejected;
+}
+
 Json entry_of(const Result& result, const Recording& recording) {
   Json json;
   json["estimator"] = result.estimator.type;
@@ -54,6 +65,9 @@ Json entry_of(const Result& result, const Recording& recording) {
     json["dead_reckoning"] = json_of(dead_reckoning_metrics(recording, result.options));
   }
   json["rejected_loops"] = rejected_loops(result, recording.log.ids);
+  if (!result.replay.absolute.empty()) {
+    json["rejected_absolute"] = rejected_absolute(result, recording.log.ids);
+  }
   return json;
 }
 

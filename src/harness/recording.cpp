@@ -3,17 +3,18 @@
 #include <cmath>
 
 #include "candidate_guide.hpp"
+#include "carried_readings.hpp"
 #include "fathom/harness/false_loops.hpp"
 #include "fathom/harness/survey.hpp"
-#include "fathom/measurements/g2o.hpp"
 
 namespace fathom {
 namespace {
 
-std::vector<Pose> dead_reckoning_of(const FrameSource& frames, std::size_t count) {
+std::vector<Pose> dead_reckoned_poses(const FrameSource& frames, std::size_t count,
+                                      const Pose& start) {
   std::vector<Pose> motions;
   for (std::size_t i = 1; i < count; ++i) motions.push_back(frames.info(i).motion->mean);
-  return compose_trajectory(Pose{}, motions);
+  return compose_trajectory(start, motions);
 }
 
 std::optional<std::vector<Pose>> ground_truth_of(const FrameSource& frames,
@@ -36,40 +37,29 @@ std::vector<StampedPose> frame_ground_truth_of(const FrameSource& frames, std::s
   return truth;
 }
 
-InputError single_keyframe(const KeyframeOptions& keyframes, std::size_t frames) {
-  const std::string count = std::to_string(frames) + (frames == 1 ? " frame" : " frames");
-  if (frames < 2) return InputError("dataset: has " + count + "; a survey has two or more");
-  if (!keyframes.separation_frames) {
-    return InputError("front_end.keyframes.min_overlap: by dead reckoning all of " + count +
-                      " share so much of the floor, so there is a single keyframe; expected " +
-                      "front_end.keyframes.separation_frames");
-  }
-  return InputError(
-      "front_end.keyframes.separation_frames: " + std::to_string(*keyframes.separation_frames) +
-      " leads beyond the last of " + count + ", so there is a single keyframe; expected at most " +
-      std::to_string(frames - 1));
-}
-
 // The paper from pictures to measurements. A guide runs along, as the candidates of section 3 are
 // picked by a trajectory; the log of measurements is all that is kept of it.
-MeasurementLog log_of(FrontEnd& front_end, CandidateGuide& guide,
+MeasurementLog log_of(FrontEnd& front_end, CandidateGuide& guide, CarriedReadings& readings,
                       const std::function<void()>& say_progress) {
-  MeasurementLog log;
+  MeasurementLog log(readings.start());
   say_progress();
   // Section 2: every so many frames a keyframe, with the dead reckoning since the last one.
   while (const auto keyframe = front_end.next_keyframe()) {
     // Section 3, augmentation: the state grows by the motion to the new keyframe.
     guide.add_keyframe(*keyframe);
+    std::vector<RelativePose> found;
     if (keyframe->step) {
       log.add_keyframe(*keyframe->step);
       // Section 3, data association: the keyframes that the estimate has near; each pair is
       // registered by features, their matches and RANSAC (section 2, figures 1 to 3, equations 1
       // to 3).
-      const std::vector<RelativePose> found = front_end.register_newest(guide.trajectory());
+      found = front_end.register_newest(guide.trajectory());
       for (const RelativePose& registration : found) log.add_registration(registration);
-      // Section 3, update: all registrations of the keyframe stacked, and iterated.
-      if (!found.empty()) guide.close_loops(found);
     }
+    const std::vector<AbsolutePose> absolute = readings.next();
+    for (const AbsolutePose& measurement : absolute) log.add_absolute(measurement);
+    // Section 3, update: all measurements of the keyframe stacked, and iterated.
+    if (!found.empty() || !absolute.empty()) guide.update({found, absolute});
     say_progress();
   }
   say_progress();
@@ -79,7 +69,7 @@ MeasurementLog log_of(FrontEnd& front_end, CandidateGuide& guide,
 void take_keyframes(Recording& recording, const FrameSource& source, const FrontEnd& front_end) {
   for (const Keyframe& keyframe : front_end.keyframes()) {
     recording.keyframe_times_ns.push_back(keyframe.time_ns);
-    recording.keyframe_altitudes_m.push_back(source.info(keyframe.frame).altitude_m);
+    recording.keyframe_stances.push_back(source.info(keyframe.frame).stance());
   }
   recording.ground_truth = ground_truth_of(source, front_end.keyframes());
   recording.in_metres = front_end.in_metres();
@@ -92,17 +82,20 @@ void take_frames(Recording& recording, const FrameSource& source, const FrontEnd
   recording.camera = source.camera();
   recording.frames = front_end.frames();
   for (std::size_t i = 0; i < recording.frames.size(); ++i) {
-    recording.frame_altitudes_m.push_back(source.info(i).altitude_m);
+    recording.frame_stances.push_back(source.info(i).stance());
   }
-  recording.frame_dead_reckoning = dead_reckoning_of(source, recording.frames.size());
+  recording.frame_dead_reckoning =
+      dead_reckoned_poses(source, recording.frames.size(), recording.log.origin());
   recording.frame_ground_truth = frame_ground_truth_of(source, recording.frames.size());
 }
 
 std::unique_ptr<CandidateGuide> guide_of(const Survey& survey, const Configuration& configuration,
                                          const CandidateReference& reference,
-                                         const EstimatorRegistry& registry) {
+                                         const EstimatorRegistry& registry,
+                                         const StartPose& start) {
   try {
-    return make_guide(reference, registry, survey.measured(), configuration.front_end.keyframes);
+    return make_guide(reference, registry, survey.measured(), configuration.front_end.keyframes,
+                      start);
   } catch (const InputError& error) {
     throw at_origin(configuration, error);
   }
@@ -113,11 +106,12 @@ Recording record_survey(Survey& survey, const Configuration& configuration,
                         const FrontEndProgressCallback& progress) {
   const FrameSource& source = survey.frames();
   FrontEnd front_end(source, survey.registrar(), configuration.front_end);
-  const auto guide = guide_of(survey, configuration, reference, registry);
+  CarriedReadings readings(survey, configuration);
+  const auto guide = guide_of(survey, configuration, reference, registry, readings.start());
   std::optional<FrontEndPace> pace;
   if (progress) pace.emplace(source, survey.registrar(), configuration.front_end);
   Recording recording;
-  recording.log = log_of(front_end, *guide, [&] {
+  recording.log = log_of(front_end, *guide, readings, [&] {
     if (progress) progress(pace->at(front_end));
   });
   if (front_end.keyframes().size() < 2) {
@@ -180,8 +174,8 @@ Recording drawn_recording(DrawnGraph drawn) {
 
 }  // namespace
 
-Recording record_graph(const std::filesystem::path& path) {
-  return graph_recording(read_g2o(path), path.string());
+Recording record_graph(const std::filesystem::path& path, const GraphOptions& options) {
+  return graph_recording(read_g2o(path, options), path.string());
 }
 
 void attach_ground_truth(Recording& graph, const std::filesystem::path& path) {
@@ -206,8 +200,8 @@ Recorder::Recorder(const Configuration& configuration, RegistrationCache* cache,
   }
   graph_data_ = open_data_set(configuration, survey);
   const auto files = graph_data_->files();
-  graph_ =
-      graph_recording(*graph_data_->graph(), files.empty() ? "dataset" : files.front().string());
+  const std::string name = files.empty() ? "dataset" : files.front().string();
+  graph_ = graph_recording(with_start_of_priors(*graph_data_->graph(), name), name);
 }
 
 Recording Recorder::record(const Configuration& configuration, const CandidateReference& reference,

@@ -4,9 +4,11 @@
 #include <chrono>
 #include <cmath>
 
+#include "cost_used.hpp"
 #include "fathom/core/workers.hpp"
 #include "fathom/geometry/covariance.hpp"
 #include "fathom/harness/guarded_estimator.hpp"
+#include "fathom/measurements/connected_guess.hpp"
 
 namespace fathom {
 namespace {
@@ -35,6 +37,11 @@ class CallTimer {
   Clock::time_point start_ = Clock::now();
 };
 
+void note_decisions(const UpdateReport& report, Replay& result) {
+  result.loops.insert(result.loops.end(), report.loops.begin(), report.loops.end());
+  result.absolute.insert(result.absolute.end(), report.absolute.begin(), report.absolute.end());
+}
+
 void note(const UpdateReport& report, double elapsed_ms, Replay& result) {
   result.update_ms.push_back(elapsed_ms);
   result.iterations += report.iterations;
@@ -42,7 +49,7 @@ void note(const UpdateReport& report, double elapsed_ms, Replay& result) {
   result.is_local_minimum = report.is_local_minimum;
   result.outcome = worse(result.outcome, report.outcome);
   ++result.outcome_counts[static_cast<std::size_t>(report.outcome)];
-  result.loops.insert(result.loops.end(), report.loops.begin(), report.loops.end());
+  note_decisions(report, result);
 }
 
 // What the front end asks for where the estimator's own uncertainty selects the loop candidates.
@@ -79,49 +86,63 @@ class NewestCovariances {
   bool asks_ = false;
 };
 
-void give_keyframes(const MeasurementLog& log, Estimator& estimator, const ReplayOptions& options,
-                    Replay& result) {
-  const bool batch = options.mode == SolveMode::batch;
-  NewestCovariances newest(options, result);
-  for (std::size_t k = 1; k < log.size(); ++k) {
-    const KeyframeMeasurements& arrival = log.arrival(k);
-    const CallTimer add_timer(result);
-    estimator.add_keyframe(arrival.step);
-    result.add_ms.push_back(add_timer.stop());
-    if (options.candidate_covariances) ask_for_candidates(estimator, result);
-    if (!arrival.registrations.empty()) {
-      const CallTimer update_timer(result);
-      const UpdateReport report = estimator.close_loops(arrival.registrations);
-      const double update_ms = update_timer.stop();
-      // In batch mode nothing is solved here: only the decisions on the registrations count, and
-      // whether they could be taken.
-      if (batch) {
-        if (!is_done(report.outcome)) result.outcome = worse(result.outcome, report.outcome);
-        result.loops.insert(result.loops.end(), report.loops.begin(), report.loops.end());
-      } else {
-        note(report, update_ms, result);
-      }
-    }
-    newest.ask(estimator);
-    if (options.progress) options.progress(k + 1, log.size());
-  }
-  if (!batch) return;
+void give_measurements(const KeyframeMeasurements& arrival, Estimator& estimator,
+                       const ReplayOptions& options, Replay& result) {
+  const Measurements measurements{arrival.registrations, arrival.absolute};
+  if (measurements.is_empty()) return;
   const CallTimer timer(result);
-  const UpdateReport report = estimator.finish(options.start);
-  const double solve_ms = timer.stop();
-  note(report, solve_ms, result);
-  if (is_done(report.outcome)) return;
-  for (LoopDecision& loop : result.loops) {
-    if (loop.fate == LoopFate::used) loop.fate = LoopFate::lost;
+  const UpdateReport report = estimator.update(measurements);
+  const double update_ms = timer.stop();
+  if (options.mode == SolveMode::incremental) return note(report, update_ms, result);
+  // In batch mode nothing is solved here: only the decisions count, and whether they could be
+  // taken.
+  if (!is_done(report.outcome)) result.outcome = worse(result.outcome, report.outcome);
+  note_decisions(report, result);
+}
+
+template <class Decisions>
+void lose_used(Decisions& decisions) {
+  for (auto& decision : decisions) {
+    if (decision.fate == LoopFate::used) decision.fate = LoopFate::lost;
   }
 }
 
-void collect_weights(const Estimator& estimator, Replay& result) {
-  result.loop_weights = estimator.loop_weights();
-  if (result.loop_weights.empty()) result.loop_weights.assign(result.loops.size(), 1.0);
-  for (std::size_t j = 0; j < result.loops.size(); ++j) {
-    if (result.loops[j].fate != LoopFate::used) result.loop_weights[j] = 0.0;
+void give_keyframes(const MeasurementLog& log, Estimator& estimator, const ReplayOptions& options,
+                    Replay& result) {
+  NewestCovariances newest(options, result);
+  give_measurements(log.arrival(0), estimator, options, result);
+  for (std::size_t k = 1; k < log.size(); ++k) {
+    const CallTimer add_timer(result);
+    estimator.add_keyframe(log.arrival(k).step);
+    result.add_ms.push_back(add_timer.stop());
+    if (options.candidate_covariances) ask_for_candidates(estimator, result);
+    give_measurements(log.arrival(k), estimator, options, result);
+    newest.ask(estimator);
+    if (options.progress) options.progress(k + 1, log.size());
   }
+  if (options.mode == SolveMode::incremental) return;
+  // Over a hole dead reckoning is a guess, from which a solve may end anywhere.
+  std::vector<Pose> guess;
+  if (options.start.empty() && (log.hole_count() > 0 || log.start().is_free)) {
+    guess = connected_guess(log);
+  }
+  const CallTimer timer(result);
+  const UpdateReport report = estimator.finish(guess.empty() ? options.start : guess);
+  const double solve_ms = timer.stop();
+  note(report, solve_ms, result);
+  if (is_done(report.outcome)) return;
+  lose_used(result.loops);
+  lose_used(result.absolute);
+}
+
+// Every weight is 1 where the estimator says nothing, and 0 of what is not used.
+template <class Decisions>
+std::vector<double> weights_of(std::vector<double> weights, const Decisions& decisions) {
+  if (weights.empty()) weights.assign(decisions.size(), 1.0);
+  for (std::size_t j = 0; j < decisions.size(); ++j) {
+    if (decisions[j].fate != LoopFate::used) weights[j] = 0.0;
+  }
+  return weights;
 }
 
 void collect_covariances(Estimator& estimator, Replay& result) {
@@ -162,30 +183,13 @@ void collect_motions(const Estimator& estimator, JudgedMotions& motions) {
 void note_fault(const std::string& fault, Replay& result) {
   result.fault = fault;
   result.outcome = Outcome::numerical_failure;
-  for (LoopDecision& loop : result.loops) {
-    if (loop.fate == LoopFate::used) loop.fate = LoopFate::lost;
-  }
+  lose_used(result.loops);
+  lose_used(result.absolute);
   result.loop_weights.assign(result.loops.size(), 0.0);
+  result.absolute_weights.assign(result.absolute.size(), 0.0);
   result.covariances.reset();
   result.newest_covariance_ms.clear();
   for (JudgedMotions& motions : result.motions) motions.covariances.clear();
-}
-
-// The loops of the replay stand in the order of the log's registrations.
-double cost_used(const MeasurementLog& log, const Estimator& estimator, const Replay& result) {
-  double sum = 0.0;
-  std::size_t loop = 0;
-  for (std::size_t k = 1; k < log.size(); ++k) {
-    const KeyframeMeasurements& arrival = log.arrival(k);
-    const auto chi2_of = [&](const RelativePose& z) {
-      return chi2(z, result.trajectory[z.from], result.trajectory[z.to]);
-    };
-    sum += chi2_of(arrival.step);
-    for (const RelativePose& z : arrival.registrations) {
-      if (result.loops[loop++].fate == LoopFate::used) sum += estimator.loss(chi2_of(z));
-    }
-  }
-  return sum;
 }
 
 }  // namespace
@@ -195,21 +199,24 @@ Replay replay(const MeasurementLog& log, const EstimatorEntry& entry, const Esti
   Replay result;
   // Not to be counted as the estimator's.
   result.loops.reserve(log.registration_count());
+  result.absolute.reserve(log.absolute_count());
   result.update_ms.reserve(log.size());
   result.add_ms.reserve(log.size());
   if (options.newest_covariances) result.newest_covariance_ms.reserve(log.size());
   if (options.memory != nullptr) options.memory->start();
-  GuardedEstimator estimator(entry, {log.origin(), options.mode}, values);
+  GuardedEstimator estimator(entry, {log.start(), options.mode}, values);
   give_keyframes(log, estimator, options, result);
   if (options.memory != nullptr) result.memory_bytes = options.memory->stop();
   result.trajectory = poses_of(estimator);
-  collect_weights(estimator, result);
+  result.loop_weights = weights_of(estimator.loop_weights(), result.loops);
+  result.absolute_weights = weights_of(estimator.absolute_weights(), result.absolute);
   if (options.covariances) collect_covariances(estimator, result);
   result.motions = options.motions;
   for (JudgedMotions& motions : result.motions) {
     motions.covariances.clear();
     collect_motions(estimator, motions);
   }
+  result.absolute_cost_used = absolute_cost_used(log, estimator, result);
   result.cost_used = cost_used(log, estimator, result);
   if (!estimator.fault().empty()) note_fault(estimator.fault(), result);
   return result;

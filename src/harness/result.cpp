@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fathom/estimation/loop_rows.hpp"
 #include "fathom/geometry/covariance.hpp"
 #include "fathom/harness/recording_facts.hpp"
+#include "fathom/measurements/connected_guess.hpp"
 
 namespace fathom {
 namespace {
@@ -35,13 +37,38 @@ std::vector<JudgedLoop> judged_loops(const Recording& recording, const Replay& r
   return loops;
 }
 
+std::vector<JudgedAbsolute> judged_absolute(const Recording& recording, const Replay& replay) {
+  std::vector<JudgedAbsolute> judged;
+  judged.reserve(replay.absolute.size());
+  for (std::size_t k = 0; k < recording.log.size(); ++k) {
+    for (const AbsolutePose& z : recording.log.arrival(k).absolute) {
+      const std::size_t j = judged.size();
+      const AbsoluteDecision& decision = replay.absolute[j];
+      JudgedAbsolute one{k, use_of(decision.fate), std::nullopt, rank_of(z.information),
+                         replay.absolute_weights[j]};
+      if (decision.nis && std::isfinite(*decision.nis)) one.nis = decision.nis;
+      judged.push_back(one);
+    }
+  }
+  return judged;
+}
+
+// F where the solve begins.
+double chi2_initial(const MeasurementLog& log, const ReplayOptions& options) {
+  if (!options.start.empty()) return chi2(log, options.start);
+  const bool is_guessed =
+      options.mode == SolveMode::batch && (log.hole_count() > 0 || log.start().is_free);
+  return chi2(log, is_guessed ? connected_guess(log) : log.odometry());
+}
+
 ReplayFacts replay_facts(const Recording& recording, const Replay& replay,
                          const ReplayOptions& options) {
   ReplayFacts facts;
   facts.loops = judged_loops(recording, replay);
-  facts.chi2_initial = options.start.empty() ? chi2(recording.log, recording.log.odometry())
-                                             : chi2(recording.log, options.start);
+  facts.absolute = judged_absolute(recording, replay);
+  facts.chi2_initial = chi2_initial(recording.log, options);
   facts.chi2_used = replay.cost_used;
+  facts.absolute_chi2_used = replay.absolute_cost_used;
   facts.iterations = replay.iterations;
   facts.gradient_norm = replay.gradient_norm;
   facts.is_local_minimum = replay.is_local_minimum;
@@ -157,19 +184,36 @@ Result evaluate(const Recording& recording, const EstimatorConfiguration& estima
   return result;
 }
 
-DeadReckoning judged_dead_reckoning(const Recording& recording, const MetricOptions& options) {
-  DeadReckoning result;
-  const MeasurementLog& log = recording.log;
-  UncertainPose pose{log.origin()};
-  result.covariances.push_back(pose.covariance);
+namespace {
+
+std::vector<Eigen::Matrix3d> reckoned_covariances(const MeasurementLog& log, UncertainPose pose) {
+  std::vector<Eigen::Matrix3d> covariances{pose.covariance};
   for (std::size_t k = 1; k < log.size(); ++k) {
     const RelativePose step = log.arrival(k).step.forward();
     pose = compose(pose, UncertainPose{step.motion, step.covariance()});
-    result.covariances.push_back(pose.covariance);
+    covariances.push_back(pose.covariance);
   }
+  return covariances;
+}
+
+}  // namespace
+
+DeadReckoning judged_dead_reckoning(const Recording& recording, const MetricOptions& options) {
+  DeadReckoning result;
+  const MeasurementLog& log = recording.log;
+  UncertainPose start{log.origin()};
+  if (!log.start().is_free) start.covariance = log.start().covariance;
+  result.covariances = reckoned_covariances(log, start);
   const std::vector<Pose> odometry = log.odometry();
-  RunFacts facts = facts_of(recording, odometry, options);
-  facts.covariances = result.covariances;
+  // Where it begins it does not know itself: it is judged from there on.
+  Recording from_there;
+  if (!log.start().is_fixed()) {
+    from_there = recording;
+    from_there.log.set_start(log.origin());
+  }
+  RunFacts facts = facts_of(log.start().is_fixed() ? recording : from_there, odometry, options);
+  const std::vector<Eigen::Matrix3d> from_held = reckoned_covariances(log, {log.origin()});
+  facts.covariances = from_held;
   const std::vector<JudgedMotions> motions = dead_reckoned_motions(recording, options);
   facts.motions = motions;
   const JudgedRun judged = judge(std::move(facts));

@@ -6,6 +6,7 @@
 
 #include "fathom/core/files.hpp"
 #include "fathom/core/text.hpp"
+#include "fathom/geometry/covariance.hpp"
 #include "fathom/measurements/g2o.hpp"
 
 namespace fathom {
@@ -40,22 +41,41 @@ Setting setting_of(const std::string& key, const std::string& text, const DataSe
   return setting;
 }
 
+std::string id_text(const Recording& recording, std::size_t k) {
+  const auto& ids = recording.log.ids;
+  return std::to_string(ids.empty() ? static_cast<std::int64_t>(k) : ids[k]);
+}
+
 // Every registration in order of arrival and the decision on it.
 std::string registrations_csv(const Recording& recording, const Result& result) {
   const bool knows_false = !recording.is_false_loop.empty();
   std::string text = "from,to,fate,nis,weight";
   text += knows_false ? ",false\n" : "\n";
-  const auto& ids = recording.log.ids;
-  const auto id = [&ids](std::size_t k) {
-    return std::to_string(ids.empty() ? static_cast<std::int64_t>(k) : ids[k]);
-  };
   for (std::size_t j = 0; j < result.replay.loops.size(); ++j) {
     const LoopDecision& loop = result.replay.loops[j];
     const bool has_nis = loop.nis && std::isfinite(*loop.nis);
-    text += id(loop.from) + ',' + id(loop.to) + ',' + name_of(loop.fate) + ',';
+    text += id_text(recording, loop.from) + ',' + id_text(recording, loop.to) + ',' +
+            name_of(loop.fate) + ',';
     text += (has_nis ? exact(*loop.nis) : "") + ',' + exact(result.replay.loop_weights[j]);
     if (knows_false) text += recording.is_false_loop[j] ? ",1" : ",0";
     text += '\n';
+  }
+  return text;
+}
+
+// Every absolute measurement likewise.
+std::string absolute_csv(const Recording& recording, const Result& result) {
+  std::string text = "keyframe,fate,nis,rank,weight\n";
+  std::size_t j = 0;
+  for (std::size_t k = 0; k < recording.log.size(); ++k) {
+    for (const AbsolutePose& z : recording.log.arrival(k).absolute) {
+      const AbsoluteDecision& decision = result.replay.absolute[j];
+      const bool has_nis = decision.nis && std::isfinite(*decision.nis);
+      text += id_text(recording, k) + ',' + name_of(decision.fate) + ',' +
+              (has_nis ? exact(*decision.nis) : "") + ',' +
+              std::to_string(rows_of(z.information).rank) + ',' +
+              exact(result.replay.absolute_weights[j++]) + '\n';
+    }
   }
   return text;
 }
@@ -120,9 +140,9 @@ void write_recording(const std::filesystem::path& folder, const Recording& recor
 
 const std::vector<std::string>& optional_run_files() {
   static const std::vector<std::string> names{
-      "batch_optimum",    "footprints.csv", "footprints.geojson", "frames.tum",
-      "ground_truth.tum", "loops.geojson",  "mosaic.json",        "mosaic.pgw",
-      "mosaic.png",       "mosaic.tif",     "trajectory.geojson"};
+      "absolute.csv", "batch_optimum",    "footprints.csv", "footprints.geojson",
+      "frames.tum",   "ground_truth.tum", "loops.geojson",  "mosaic.json",
+      "mosaic.pgw",   "mosaic.png",       "mosaic.tif",     "trajectory.geojson"};
   return names;
 }
 
@@ -132,6 +152,9 @@ void write_run(const std::filesystem::path& folder, const Recording& recording,
   write_recording(folder, recording);
   write_file(folder / "trajectory.tum", to_tum(keyframe_trajectory(recording, poses)));
   write_file(folder / "registrations.csv", registrations_csv(recording, result));
+  if (recording.log.absolute_count() > 0) {
+    write_file(folder / "absolute.csv", absolute_csv(recording, result));
+  }
   write_file(folder / "metrics.json", metrics_json(result, recording));
   write_file(folder / "run.json", manifest);
   if (!recording.frames.empty()) {

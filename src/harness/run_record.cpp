@@ -83,11 +83,22 @@ void put_loops(RunRecord& run, const Recording& recording, const Replay& replay)
   }
 }
 
+void put_absolute(RunRecord& run, const Replay& replay) {
+  if (!replay.absolute.empty()) run.series["absolute_weight"] = replay.absolute_weights;
+  for (const AbsoluteDecision& z : replay.absolute) {
+    run.series["absolute_keyframe"].push_back(static_cast<double>(z.keyframe));
+    run.series["absolute_fate"].push_back(static_cast<double>(z.fate));
+    const bool has_nis = z.nis && std::isfinite(*z.nis);
+    run.series["absolute_nis"].push_back(has_nis ? *z.nis : -1.0);
+  }
+}
+
 void put_updates(RunRecord& run, const Recording& recording, const Replay& replay) {
   run.series["update_ms"] = replay.update_ms;
   std::vector<double>& keyframes = run.series["update_keyframe"];
-  for (std::size_t k = 1; k < recording.log.size(); ++k) {
-    if (!recording.log.arrival(k).registrations.empty()) {
+  for (std::size_t k = 0; k < recording.log.size(); ++k) {
+    const KeyframeMeasurements& arrival = recording.log.arrival(k);
+    if (!arrival.registrations.empty() || !arrival.absolute.empty()) {
       keyframes.push_back(static_cast<double>(k));
     }
   }
@@ -108,6 +119,7 @@ RunRecord run_record(const Recording& recording, const Result& result,
   if (result.replay.covariances) put_covariances(run, *result.replay.covariances, alignment);
   put_consistency(run, result.consistency);
   put_loops(run, recording, result.replay);
+  put_absolute(run, result.replay);
   put_updates(run, recording, result.replay);
   return run;
 }

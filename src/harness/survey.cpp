@@ -113,6 +113,8 @@ Survey::Survey(std::shared_ptr<Pictures> pictures, const Configuration& configur
 void Survey::open(const Configuration& configuration, const TrialNoise& noise) {
   Trial trial = pictures_->data().trial(configuration.dataset.values, noise);
   measured_ = std::move(trial.frames);
+  readings_ = std::move(trial.absolute);
+  start_ = trial.start;
   const AddedNoise added{trial.added_noise, noise.seed, noise.trial};
   if (!measured().has_odometry() || trial.visual_odometry) {
     visual_odometry_ = std::make_unique<VisualOdometry>(

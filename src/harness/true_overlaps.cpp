@@ -8,9 +8,9 @@ namespace fathom {
 namespace {
 
 // No point of a footprint is further from the body than this.
-double reach_m(const Camera& camera, double altitude_m) {
+double reach_m(const Camera& camera, const Stance& stance) {
   double reach = 0.0;
-  for (const Eigen::Vector2d& corner : camera.footprint(altitude_m)) {
+  for (const Eigen::Vector2d& corner : camera.footprint(stance)) {
     reach = std::max(reach, corner.norm());
   }
   return reach;
@@ -19,10 +19,10 @@ double reach_m(const Camera& camera, double altitude_m) {
 }  // namespace
 
 TrueOverlaps overlaps_at(std::span<const Pose> poses, const Camera& camera,
-                         std::span<const double> altitudes_m) {
+                         std::span<const Stance> stances) {
   TrueOverlaps overlaps;
   std::vector<double> reaches_m;
-  for (const double altitude_m : altitudes_m) reaches_m.push_back(reach_m(camera, altitude_m));
+  for (const Stance& stance : stances) reaches_m.push_back(reach_m(camera, stance));
   if (poses.empty()) return overlaps;
   const double most_m = std::ranges::max(reaches_m);
   KeyframeGrid grid(most_m > 0.0 ? 2.0 * most_m : 1.0);
@@ -32,7 +32,7 @@ TrueOverlaps overlaps_at(std::span<const Pose> poses, const Camera& camera,
       const double apart_m = (poses[i].position() - poses[k].position()).norm();
       if (k <= i || apart_m > reaches_m[i] + reaches_m[k]) continue;
       const double overlap =
-          footprint_overlap(camera, altitudes_m[i], altitudes_m[k], between(poses[i], poses[k]));
+          footprint_overlap(camera, stances[i], stances[k], between(poses[i], poses[k]));
       if (!(overlap > 0.0)) continue;
       overlaps.pairs.push_back(
           {static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(k), overlap});
@@ -44,7 +44,7 @@ TrueOverlaps overlaps_at(std::span<const Pose> poses, const Camera& camera,
 
 std::optional<TrueOverlaps> true_overlaps(const Recording& recording) {
   if (!recording.ground_truth || !recording.camera) return std::nullopt;
-  return overlaps_at(*recording.ground_truth, *recording.camera, recording.keyframe_altitudes_m);
+  return overlaps_at(*recording.ground_truth, *recording.camera, recording.keyframe_stances);
 }
 
 }  // namespace fathom

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <map>
+#include <utility>
 #include <vector>
 
 #include "fathom/core/files.hpp"
 #include "fathom/core/input_error.hpp"
 #include "fathom/core/text.hpp"
 #include "g2o_file.hpp"
+#include "graph_components.hpp"
 
 namespace fathom {
 namespace {
@@ -24,35 +26,98 @@ RelativePose measurement(const G2oFile::Edge& edge, const KeyframeOf& keyframe_o
   return z;
 }
 
-// Where to point at for a keyframe that lacks its odometry edge.
-std::size_t line_about(const G2oFile& file, std::int64_t id,
-                       const std::vector<std::size_t>& edges) {
-  const auto vertex = file.vertices.find(id);
-  if (vertex != file.vertices.end()) return vertex->second.line;
-  return edges.empty() ? file.lines : file.edges[edges.front()].line;
+AbsolutePose absolute(const G2oFile::Prior& prior, std::size_t keyframe) {
+  return {keyframe, prior.pose, prior.information};
 }
 
-MeasurementLog build_log(const G2oFile& file, const G2oFault& fault) {
-  const KeyframeOf keyframe_of = file.keyframes();
-  // Per keyframe, the indices of its edges in file order; its step is one of them.
-  std::vector<std::vector<std::size_t>> edges_of(keyframe_of.size());
-  for (std::size_t e = 0; e < file.edges.size(); ++e) {
-    const G2oFile::Edge& edge = file.edges[e];
-    edges_of[keyframe_of.at(std::max(edge.from, edge.to))].push_back(e);
+// A step that no edge measures: as a comment declares it, else by the file's vertices.
+RelativePose hole(const G2oFile& file, std::size_t k, const std::vector<std::int64_t>& ids,
+                  const GraphOptions& options) {
+  RelativePose step;
+  step.from = k - 1;
+  step.to = k;
+  step.is_hole = true;
+  for (const G2oFile::Edge& declared : file.holes) {
+    if (declared.from != ids[k - 1] || declared.to != ids[k]) continue;
+    step.motion = declared.motion;
+    step.information = declared.information;
+    return step;
   }
-  MeasurementLog log(file.vertices.empty() ? Pose{} : file.vertices.begin()->second.pose);
-  for (const auto& [id, keyframe] : keyframe_of) log.ids.push_back(id);
+  if (!file.vertices.empty()) {
+    step.motion = between(file.vertices.at(ids[k - 1]).pose, file.vertices.at(ids[k]).pose);
+  }
+  const Eigen::Vector3d sigma(options.gap_sigma_m, options.gap_sigma_m, options.gap_sigma_rad);
+  step.information = sigma.cwiseAbs2().cwiseInverse().asDiagonal();
+  return step;
+}
+
+bool is_start(const G2oFile::Prior& prior) {
+  if (!prior.start_covariance) return false;
+  const auto start = AbsolutePose::from_covariance(0, prior.pose, *prior.start_covariance);
+  return start.information.isApprox(prior.information, 1e-9);
+}
+
+// The prior that is the log's own start, if it is one: to_g2o says so. Edited by hand it is a prior
+// as any other.
+const G2oFile::Prior* start_prior(const G2oFile& file, std::int64_t first_id) {
+  if (file.is_start_fixed()) return nullptr;
+  for (const G2oFile::Prior& prior : file.priors) {
+    if (prior.id == first_id && is_start(prior)) return &prior;
+  }
+  return nullptr;
+}
+
+StartPose start_of(const G2oFile& file, const G2oFile::Prior* prior) {
+  StartPose start(file.vertices.empty() ? Pose{} : file.vertices.begin()->second.pose);
+  if (file.vertices.empty() && !file.is_start_fixed()) start.pose = file.priors.front().pose;
+  if (prior != nullptr) {
+    start.pose = prior->pose;
+    start.covariance = *prior->start_covariance;
+  } else {
+    start.is_free = !file.is_start_fixed();
+  }
+  return start;
+}
+
+// The lines of a file by the keyframe that they arrive with, in file order.
+struct Arrivals {
+  explicit Arrivals(const G2oFile& file)
+      : keyframe_of(file.keyframes()), edges(keyframe_of.size()), priors(keyframe_of.size()) {
+    for (std::size_t e = 0; e < file.edges.size(); ++e) {
+      const G2oFile::Edge& edge = file.edges[e];
+      edges[keyframe_of.at(std::max(edge.from, edge.to))].push_back(e);
+    }
+    for (const G2oFile::Prior& prior : file.priors) {
+      priors[keyframe_of.at(prior.id)].push_back(&prior);
+    }
+  }
+
+  KeyframeOf keyframe_of;
+  std::vector<std::vector<std::size_t>> edges;
+  std::vector<std::vector<const G2oFile::Prior*>> priors;
+};
+
+MeasurementLog build_log(const G2oFile& file, const GraphOptions& options) {
+  const Arrivals arrivals(file);
+  const G2oFile::Prior* own_start = start_prior(file, arrivals.keyframe_of.begin()->first);
+  MeasurementLog log(start_of(file, own_start));
+  for (const auto& [id, keyframe] : arrivals.keyframe_of) log.ids.push_back(id);
+  const auto add_priors = [&](std::size_t k) {
+    for (const G2oFile::Prior* prior : arrivals.priors[k]) {
+      if (prior != own_start) log.add_absolute(absolute(*prior, k));
+    }
+  };
+  add_priors(0);
   for (std::size_t k = 1; k < log.ids.size(); ++k) {
-    const auto step = find_step(file, edges_of[k], k, log.ids);
-    if (!step) {
-      fault(line_about(file, log.ids[k], edges_of[k]),
-            "pose " + std::to_string(log.ids[k]) + " has no odometry edge from pose " +
-                std::to_string(log.ids[k - 1]) + ", the one before it");
+    const auto step = find_step(file, arrivals.edges[k], k, log.ids);
+    log.add_keyframe(step ? measurement(file.edges[*step], arrivals.keyframe_of)
+                          : hole(file, k, log.ids, options));
+    for (const std::size_t e : arrivals.edges[k]) {
+      if (!step || e != *step) {
+        log.add_registration(measurement(file.edges[e], arrivals.keyframe_of));
+      }
     }
-    log.add_keyframe(measurement(file.edges[*step], keyframe_of));
-    for (const std::size_t e : edges_of[k]) {
-      if (e != *step) log.add_registration(measurement(file.edges[e], keyframe_of));
-    }
+    add_priors(k);
   }
   if (!file.vertices.empty()) {
     log.guess.emplace();
@@ -61,49 +126,113 @@ MeasurementLog build_log(const G2oFile& file, const G2oFault& fault) {
   return log;
 }
 
+// The component that is asked for, or all of a graph that is one.
+G2oFile wanted_component(G2oFile file, const GraphOptions& options, const std::string& name,
+                         const G2oFault& fault) {
+  if (!options.component) check_fixed(file, fault);
+  const GraphComponents components = components_of(file);
+  const std::size_t count = components.members.size();
+  std::size_t index = 0;
+  if (options.component) {
+    index = static_cast<std::size_t>(*options.component) - 1;
+    if (index >= count) {
+      throw InputError(name, "has no component " + std::to_string(*options.component) +
+                                 "; expected 1" +
+                                 (count > 1 ? " to " + std::to_string(count) : ""));
+    }
+    if (count > 1) file = component_of(file, components, index);
+    check_fixed(file, fault);
+  } else if (count > 1) {
+    fault(line_about(file, components.ids[components.members[1].front()]),
+          several_components(components));
+  }
+  check_held(file, components, index, fault);
+  return file;
+}
+
+std::string upper_triangle(const Eigen::Matrix3d& matrix) {
+  std::string text;
+  for (int row = 0; row < 3; ++row) {
+    for (int column = row; column < 3; ++column) text += ' ' + exact(matrix(row, column));
+  }
+  return text;
+}
+
+std::string pose_text(const Pose& pose) {
+  return ' ' + exact(pose.x) + ' ' + exact(pose.y) + ' ' + exact(pose.theta);
+}
+
 std::string vertex_line(std::int64_t id, const Pose& pose) {
-  return "VERTEX_SE2 " + std::to_string(id) + ' ' + exact(pose.x) + ' ' + exact(pose.y) + ' ' +
-         exact(pose.theta) + '\n';
+  return "VERTEX_SE2 " + std::to_string(id) + pose_text(pose) + '\n';
 }
 
 std::string edge_line(const RelativePose& z, const std::vector<std::int64_t>& ids) {
   std::string line;
   if (z.inliers) line += "# inliers " + std::to_string(*z.inliers) + '\n';
-  line += "EDGE_SE2 " + std::to_string(ids[z.from]) + ' ' + std::to_string(ids[z.to]) + ' ' +
-          exact(z.motion.x) + ' ' + exact(z.motion.y) + ' ' + exact(z.motion.theta);
-  for (int row = 0; row < 3; ++row) {
-    for (int column = row; column < 3; ++column) line += ' ' + exact(z.information(row, column));
+  line += z.is_hole ? "# hole " : "EDGE_SE2 ";
+  line += std::to_string(ids[z.from]) + ' ' + std::to_string(ids[z.to]);
+  return line + pose_text(z.motion) + upper_triangle(z.information) + '\n';
+}
+
+std::string prior_line(const AbsolutePose& z, const std::vector<std::int64_t>& ids) {
+  const std::string id = std::to_string(ids[z.keyframe]);
+  const Eigen::Matrix3d& information = z.information;
+  const bool is_position =
+      z.pose.theta == 0.0 && information.col(2).isZero(0.0) && !information.isZero(0.0);
+  if (!is_position) {
+    return "EDGE_PRIOR_SE2 " + id + pose_text(z.pose) + upper_triangle(information) + '\n';
   }
-  return line + '\n';
+  return "EDGE_PRIOR_SE2_XY " + id + ' ' + exact(z.pose.x) + ' ' + exact(z.pose.y) + ' ' +
+         exact(information(0, 0)) + ' ' + exact(information(0, 1)) + ' ' +
+         exact(information(1, 1)) + '\n';
+}
+
+std::string start_lines(const StartPose& start, const std::vector<std::int64_t>& ids) {
+  if (start.is_fixed()) return "FIX " + std::to_string(ids[0]) + '\n';
+  if (start.is_free) return {};
+  return "# start" + upper_triangle(start.covariance) + '\n' + prior_line(start.measurement(), ids);
 }
 
 }  // namespace
 
-MeasurementLog read_g2o(const std::filesystem::path& path) {
-  return parse_g2o(read_text(path), path.string());
+void GraphOptions::describe(OptionTable& table) {
+  table.real("gap_sigma_m", gap_sigma_m, Range::between(1e-3, 1e6), "m",
+             "standard deviation of the guess for a step without an odometry edge, along x and y");
+  table.real("gap_sigma_rad", gap_sigma_rad, Range::between(1e-4, 100.0), "rad",
+             "the same of its heading");
+  table.integer_or_off("component", component, Range::at_least(1), "",
+                       "of a graph that falls into several: this one alone; off: it must be one");
 }
 
-MeasurementLog parse_g2o(const std::string& content, const std::string& name) {
+MeasurementLog read_g2o(const std::filesystem::path& path, const GraphOptions& options) {
+  return parse_g2o(read_text(path), path.string(), options);
+}
+
+MeasurementLog parse_g2o(const std::string& content, const std::string& name,
+                         const GraphOptions& options) {
   const G2oFault fault = [&name](std::size_t line, const std::string& what) {
     throw InputError(name, line, what);
   };
-  const G2oFile file = scan_g2o(content, fault);
+  G2oFile file = scan_g2o(content, fault);
   if (file.edges.empty() && file.vertices.empty()) {
     throw InputError(name, "holds no pose graph: no vertex and no edge");
   }
   check_references(file, fault);
-  return build_log(file, fault);
+  return build_log(wanted_component(std::move(file), options, name, fault), options);
 }
 
 std::string to_g2o(const MeasurementLog& log) {
   std::vector<std::int64_t> ids = log.ids;
   for (std::size_t k = ids.size(); k < log.size(); ++k) ids.push_back(static_cast<std::int64_t>(k));
   const std::vector<Pose> poses = log.odometry();
-  std::string text = vertex_line(ids[0], poses[0]) + "FIX " + std::to_string(ids[0]) + '\n';
-  for (std::size_t k = 1; k < log.size(); ++k) {
+  std::string text;
+  for (std::size_t k = 0; k < log.size(); ++k) {
     const KeyframeMeasurements& arrival = log.arrival(k);
-    text += vertex_line(ids[k], poses[k]) + edge_line(arrival.step, ids);
+    text += vertex_line(ids[k], poses[k]);
+    text += k == 0 ? start_lines(log.start(), ids)
+                   : edge_line(arrival.step.is_hole ? arrival.step.forward() : arrival.step, ids);
     for (const RelativePose& z : arrival.registrations) text += edge_line(z, ids);
+    for (const AbsolutePose& z : arrival.absolute) text += prior_line(z, ids);
   }
   return text;
 }

@@ -56,6 +56,39 @@ Pose read_pose(const Fields& fields, std::size_t at) {
   return {real(fields[at]), real(fields[at + 1]), wrap_angle(real(fields[at + 2]))};
 }
 
+template <std::size_t Count>
+std::array<double, Count> reals(const Fields& fields, std::size_t at) {
+  std::array<double, Count> values{};
+  for (std::size_t i = 0; i < Count; ++i) values[i] = real(fields[at + i]);
+  return values;
+}
+
+// `# hole i j x y theta` and six information values: a step from i to j that was not measured.
+std::optional<G2oFile::Edge> hole_of(const Fields& words) {
+  if (words.size() != 12) return std::nullopt;
+  try {
+    G2oFile::Edge hole;
+    hole.from = integer(words[1]);
+    hole.to = integer(words[2]);
+    hole.motion = read_pose(words, 3);
+    hole.information = g2o_information(reals<6>(words, 6));
+    return is_positive_definite(hole.information) ? std::optional(hole) : std::nullopt;
+  } catch (const LineFault&) {
+    return std::nullopt;
+  }
+}
+
+// `# start` and six values of a covariance, above the prior that is the log's start.
+std::optional<Eigen::Matrix3d> start_covariance_of(const Fields& words) {
+  if (words.size() != 7) return std::nullopt;
+  try {
+    const Eigen::Matrix3d covariance = g2o_information(reals<6>(words, 1));
+    return is_positive_definite(covariance) ? std::optional(covariance) : std::nullopt;
+  } catch (const LineFault&) {
+    return std::nullopt;
+  }
+}
+
 class Scanner {
  public:
   Scanner(G2oFile& file, const G2oFault& fault) : file_(file), fault_(fault) {}
@@ -83,6 +116,10 @@ class Scanner {
       read_vertex(fields);
     } else if (tag == "EDGE_SE2" || tag == "EDGE2") {
       read_edge(fields, tag == "EDGE2");
+    } else if (tag == "EDGE_PRIOR_SE2") {
+      read_prior(fields);
+    } else if (tag == "EDGE_PRIOR_SE2_XY") {
+      read_position_prior(fields);
     } else if (tag == "FIX") {
       if (fields.size() == 1) fail("FIX without an id");
       for (std::size_t i = 1; i < fields.size(); ++i) {
@@ -90,15 +127,23 @@ class Scanner {
       }
     } else {
       fail("unknown tag " + in_quotes(tag) +
-           "; a 2-D graph has VERTEX_SE2, EDGE_SE2, FIX, VERTEX2, EDGE2");
+           "; a 2-D graph has VERTEX_SE2, EDGE_SE2, FIX, EDGE_PRIOR_SE2, EDGE_PRIOR_SE2_XY, "
+           "VERTEX2, EDGE2");
     }
   }
 
-  // `# inliers N` above an edge, as to_g2o writes it; any other comment is just that.
+  // What to_g2o writes in comments; any other comment is just that.
   void read_comment(const Fields& words) {
-    if (words.size() != 2 || words[0] != "inliers") return;
-    const auto count = parse_integer(words[1]);
-    if (count && *count >= 0 && *count < 1'000'000'000) pending_inliers_ = static_cast<int>(*count);
+    if (words.empty()) return;
+    if (words[0] == "inliers" && words.size() == 2) {
+      const auto count = parse_integer(words[1]);
+      const bool is_count = count && *count >= 0 && *count < 1'000'000'000;
+      if (is_count) pending_inliers_ = static_cast<int>(*count);
+    } else if (words[0] == "hole") {
+      if (const auto hole = hole_of(words)) file_.holes.push_back(*hole);
+    } else if (words[0] == "start") {
+      pending_start_ = start_covariance_of(words);
+    }
   }
 
   void read_vertex(const Fields& fields) {
@@ -120,8 +165,7 @@ class Scanner {
       fail("an edge from pose " + std::to_string(edge.from) + " to itself");
     }
     edge.motion = read_pose(fields, 3);
-    std::array<double, 6> values{};
-    for (std::size_t i = 0; i < values.size(); ++i) values[i] = real(fields[6 + i]);
+    const auto values = reals<6>(fields, 6);
     edge.information = toro ? toro_information(values) : g2o_information(values);
     if (!is_positive_definite(edge.information)) {
       fail("the information matrix is not positive definite");
@@ -131,24 +175,43 @@ class Scanner {
     file_.edges.push_back(edge);
   }
 
+  void read_prior(const Fields& fields) {
+    expect_fields(fields, 11, "id x y theta and six information values");
+    G2oFile::Prior prior;
+    prior.id = integer(fields[1]);
+    prior.pose = read_pose(fields, 2);
+    prior.information = g2o_information(reals<6>(fields, 5));
+    add_prior(prior);
+  }
+
+  void read_position_prior(const Fields& fields) {
+    expect_fields(fields, 7, "id x y and three information values");
+    G2oFile::Prior prior;
+    prior.id = integer(fields[1]);
+    prior.pose = {real(fields[2]), real(fields[3]), 0.0};
+    const auto values = reals<3>(fields, 4);
+    prior.information = g2o_information({values[0], values[1], 0.0, values[2], 0.0, 0.0});
+    add_prior(prior);
+  }
+
+  void add_prior(G2oFile::Prior& prior) {
+    if (!is_positive_semidefinite(prior.information)) {
+      fail(
+          "the information matrix has a negative eigenvalue; expected a positive semi-definite "
+          "one, zero for what is not measured");
+    }
+    prior.start_covariance = std::exchange(pending_start_, std::nullopt);
+    prior.line = file_.lines;
+    file_.priors.push_back(prior);
+  }
+
   G2oFile& file_;
   const G2oFault& fault_;
   std::optional<int> pending_inliers_;
+  std::optional<Eigen::Matrix3d> pending_start_;
 };
 
 }  // namespace
-
-std::map<std::int64_t, std::size_t> G2oFile::keyframes() const {
-  std::map<std::int64_t, std::size_t> keyframe_of;
-  for (const auto& [id, vertex] : vertices) keyframe_of.emplace(id, 0);
-  for (const Edge& edge : edges) {
-    keyframe_of.emplace(edge.from, 0);
-    keyframe_of.emplace(edge.to, 0);
-  }
-  std::size_t next = 0;
-  for (auto& [id, keyframe] : keyframe_of) keyframe = next++;
-  return keyframe_of;
-}
 
 G2oFile scan_g2o(const std::string& content, const G2oFault& fault) {
   G2oFile file;
@@ -159,39 +222,6 @@ G2oFile scan_g2o(const std::string& content, const G2oFault& fault) {
     begin = end + 1;
   }
   return file;
-}
-
-void check_references(const G2oFile& file, const G2oFault& fault) {
-  for (const G2oFile::Edge& edge : file.edges) {
-    for (const std::int64_t id : {edge.from, edge.to}) {
-      if (!file.vertices.empty() && !file.vertices.contains(id)) {
-        fault(edge.line, "the edge refers to vertex " + std::to_string(id) +
-                             ", which the file does not define");
-      }
-    }
-  }
-  if (file.fixed.empty()) return;
-  const auto keyframes = file.keyframes();
-  const std::int64_t lowest = keyframes.begin()->first;
-  for (const G2oFile::Fixed& fixed : file.fixed) {
-    if (fixed.id != lowest) {
-      fault(fixed.line, "FIX " + std::to_string(fixed.id) + ": only the lowest id (" +
-                            std::to_string(lowest) + ") can be fixed, and it always is");
-    }
-  }
-}
-
-std::optional<std::size_t> find_step(const G2oFile& file, const std::vector<std::size_t>& edges,
-                                     std::size_t k, const std::vector<std::int64_t>& ids) {
-  const auto joins = [&](std::int64_t from, std::int64_t to) {
-    return std::find_if(edges.begin(), edges.end(), [&](std::size_t e) {
-      return file.edges[e].from == from && file.edges[e].to == to;
-    });
-  };
-  auto found = joins(ids[k - 1], ids[k]);
-  if (found == edges.end()) found = joins(ids[k], ids[k - 1]);
-  if (found == edges.end()) return std::nullopt;
-  return *found;
 }
 
 }  // namespace fathom

@@ -27,6 +27,14 @@ struct G2oFile {
     std::optional<int> inliers;
     std::size_t line = 0;
   };
+  struct Prior {
+    std::int64_t id = 0;
+    Pose pose;
+    Eigen::Matrix3d information;  ///< positive semi-definite
+    /// What `# start` above it says: the prior is the log's start, of this covariance.
+    std::optional<Eigen::Matrix3d> start_covariance;
+    std::size_t line = 0;
+  };
   struct Fixed {
     std::int64_t id = 0;
     std::size_t line = 0;
@@ -34,11 +42,16 @@ struct G2oFile {
 
   std::map<std::int64_t, Vertex> vertices;
   std::vector<Edge> edges;
+  std::vector<Prior> priors;
+  std::vector<Edge> holes;  ///< `# hole`: what was declared of a step that was not measured
   std::vector<Fixed> fixed;
   std::size_t lines = 0;
 
   /// All ids, of vertices and edges, rising, each with its keyframe index.
   std::map<std::int64_t, std::size_t> keyframes() const;
+
+  /// Whether its lowest id is held: by FIX, or because no prior says where the graph is.
+  bool is_start_fixed() const;
 };
 
 /// Error callback: the line that cannot be used and what is wrong with it. If it returns, the line
@@ -47,13 +60,18 @@ using G2oFault = std::function<void(std::size_t line, const std::string& what)>;
 
 G2oFile scan_g2o(const std::string& content, const G2oFault& fault);
 
-/// Faults of the file as a whole: edges to vertices it does not define, FIX of another id than the
-/// lowest.
+/// Faults of the file as a whole: edges to vertices and priors of vertices that it does not define.
 void check_references(const G2oFile& file, const G2oFault& fault);
+
+/// FIX of another id than the lowest.
+void check_fixed(const G2oFile& file, const G2oFault& fault);
 
 /// Index of the edge that is the dead reckoning of keyframe k ≥ 1, out of `edges`, the indices
 /// of the edges whose later keyframe it is; nothing if there is none. `ids` of all keyframes.
 std::optional<std::size_t> find_step(const G2oFile& file, const std::vector<std::size_t>& edges,
                                      std::size_t k, const std::vector<std::int64_t>& ids);
+
+/// Where to point at for a pose: its vertex, else the first of its edges.
+std::size_t line_about(const G2oFile& file, std::int64_t id);
 
 }  // namespace fathom

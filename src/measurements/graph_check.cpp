@@ -3,41 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include <Eigen/Eigenvalues>
 
 #include "fathom/core/files.hpp"
 #include "g2o_file.hpp"
+#include "graph_components.hpp"
 
 namespace fathom {
 namespace {
-
-class Components {
- public:
-  explicit Components(std::size_t count) : parent_(count), left_(count) {
-    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
-  }
-
-  void connect(std::size_t a, std::size_t b) {
-    a = root(a);
-    b = root(b);
-    if (a == b) return;
-    parent_[b] = a;
-    --left_;
-  }
-
-  std::size_t count() const { return left_; }
-
- private:
-  std::size_t root(std::size_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-
-  std::vector<std::size_t> parent_;
-  std::size_t left_;
-};
 
 void add_edge(const G2oFile::Edge& edge, GraphSummary& summary) {
   using Solver = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>;
@@ -51,34 +25,77 @@ void add_edge(const G2oFile::Edge& edge, GraphSummary& summary) {
   summary.largest_sigma_rad = std::max(summary.largest_sigma_rad, sigma.z());
 }
 
-// Which edges are odometry edges, by the rule of the reader; a keyframe without one is a fault.
-void count_steps(const G2oFile& file, GraphSummary& summary, const G2oFault& fault) {
+// Widens a range; NaN is left out.
+void widen(double value, double& smallest, double& largest) {
+  if (value < smallest) smallest = value;
+  if (value > largest) largest = value;
+}
+
+void add_prior(const G2oFile::Prior& prior, PriorSummary& summary) {
+  const Eigen::Matrix3d& information = prior.information;
+  const Eigen::Matrix2d position = information.topLeftCorner<2, 2>();
+  const bool has_heading = information(2, 2) > 0.0;
+  const bool has_position = !position.isZero(0.0);
+  ++(has_heading    ? has_position ? summary.of_both : summary.of_heading
+     : has_position ? summary.of_position
+                    : summary.of_nothing);
+  // Of each kind by itself: by the eigenvalues, as one direction may not be measured.
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(position, Eigen::EigenvaluesOnly);
+  for (const double value : solver.eigenvalues()) {
+    if (!(value > 1e-12 * position.trace())) continue;
+    widen(1.0 / std::sqrt(value), summary.smallest_sigma_m, summary.largest_sigma_m);
+  }
+  if (!has_heading) return;
+  widen(1.0 / std::sqrt(information(2, 2)), summary.smallest_sigma_rad, summary.largest_sigma_rad);
+}
+
+void count_priors(const G2oFile& file, PriorSummary& summary) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  summary.smallest_sigma_m = kInfinity;
+  summary.smallest_sigma_rad = kInfinity;
+  for (const G2oFile::Prior& prior : file.priors) add_prior(prior, summary);
+}
+
+// Which edges are odometry edges, by the rule of the reader.
+void count_steps(const G2oFile& file, const GraphComponents& components, GraphSummary& summary) {
   const auto keyframe_of = file.keyframes();
-  std::vector<std::vector<std::size_t>> edges_of(keyframe_of.size());
+  const std::vector<std::int64_t>& ids = components.ids;
+  std::vector<std::vector<std::size_t>> edges_of(ids.size());
   for (std::size_t e = 0; e < file.edges.size(); ++e) {
     edges_of[keyframe_of.at(std::max(file.edges[e].from, file.edges[e].to))].push_back(e);
   }
-  std::vector<std::int64_t> ids;
-  ids.reserve(keyframe_of.size());
-  for (const auto& [id, keyframe] : keyframe_of) ids.push_back(id);
   for (std::size_t k = 1; k < ids.size(); ++k) {
     const auto step = find_step(file, edges_of[k], k, ids);
-    if (step) {
-      ++summary.odometry_edges;
-    } else {
-      const auto vertex = file.vertices.find(ids[k]);
-      fault(vertex != file.vertices.end() ? vertex->second.line
-            : edges_of[k].empty()         ? file.lines
-                                          : file.edges[edges_of[k].front()].line,
-            "pose " + std::to_string(ids[k]) + " has no odometry edge from pose " +
-                std::to_string(ids[k - 1]) + ", the one before it");
-    }
+    ++(step ? summary.odometry_edges : summary.holes);
     for (const std::size_t e : edges_of[k]) {
       if (step && e == *step) continue;
       ++summary.loops;
       if (file.edges[e].from > file.edges[e].to) ++summary.backward_loops;
     }
   }
+  summary.holes -= components.borders.size();
+}
+
+// Those that leave the file out of use are faults.
+void check_components(const G2oFile& file, GraphSummary& summary, const G2oFault& fault) {
+  const GraphComponents components = components_of(file);
+  for (const auto& members : components.members) {
+    summary.components.push_back(
+        {members.size(), components.ids[members.front()], components.ids[members.back()]});
+  }
+  summary.borders = components.borders;
+  if (components.members.size() > 1) {
+    fault(line_about(file, summary.components[1].first_id), several_components(components));
+  } else {
+    check_held(file, components, 0, fault);
+  }
+  count_steps(file, components, summary);
+}
+
+// What refers to nothing is left out of what follows.
+void leave_out_strays(G2oFile& file) {
+  const auto keyframe_of = file.keyframes();
+  std::erase_if(file.priors, [&](const auto& prior) { return !keyframe_of.contains(prior.id); });
 }
 
 }  // namespace
@@ -89,38 +106,45 @@ GraphSummary summarise_graph(const std::filesystem::path& path) {
   const G2oFault fault = [&](std::size_t line, const std::string& what) {
     summary.faults.push_back(path.string() + ":" + std::to_string(line) + ": " + what);
   };
-  const G2oFile file = scan_g2o(content, fault);
+  G2oFile file = scan_g2o(content, fault);
   if (file.edges.empty() && file.vertices.empty()) {
     summary.faults.push_back(path.string() + ": holds no pose graph: no vertex and no edge");
     return summary;
   }
   check_references(file, fault);
-  const auto keyframe_of = file.keyframes();
+  leave_out_strays(file);
+  check_fixed(file, fault);
   summary.vertices = file.vertices.size();
-  summary.poses = keyframe_of.size();
+  summary.poses = file.keyframes().size();
   summary.edges = file.edges.size();
+  summary.is_start_fixed = file.is_start_fixed();
   summary.smallest_sigma_m = std::numeric_limits<double>::infinity();
   summary.smallest_sigma_rad = std::numeric_limits<double>::infinity();
-  Components components(keyframe_of.size());
-  for (const G2oFile::Edge& edge : file.edges) {
-    components.connect(keyframe_of.at(edge.from), keyframe_of.at(edge.to));
-    add_edge(edge, summary);
-  }
-  summary.components = components.count();
-  count_steps(file, summary, fault);
+  for (const G2oFile::Edge& edge : file.edges) add_edge(edge, summary);
+  count_priors(file, summary.priors);
+  check_components(file, summary, fault);
   return summary;
 }
 
 std::optional<InformationScale> information_scale(const MeasurementLog& log,
                                                   std::span<const Pose> optimum) {
-  if (log.registration_count() == 0) return std::nullopt;
-  const double degrees = 3.0 * static_cast<double>(log.registration_count());
+  const double degrees = degrees_of_freedom(log);
+  if (!(degrees > 0.0)) return std::nullopt;
   InformationScale scale;
-  for (const RelativePose& z : log.edges()) {
-    const Eigen::Vector3d e = residual(z.motion, optimum[z.from], optimum[z.to]);
-    const Eigen::Vector3d weighted = z.information * e;
+  const auto add = [&](const Eigen::Vector3d& e, const Eigen::Matrix3d& information) {
+    const Eigen::Vector3d weighted = information * e;
     scale.per_degree_of_freedom += e.dot(weighted) / degrees;
     scale.squared += weighted.squaredNorm() / degrees;
+  };
+  for (const RelativePose& z : log.edges()) {
+    add(residual(z.motion, optimum[z.from], optimum[z.to]), z.information);
+  }
+  const AbsolutePose start = log.start().measurement();
+  if (!log.start().is_fixed()) add(residual(start, optimum[0]), start.information);
+  for (std::size_t k = 0; k < log.size(); ++k) {
+    for (const AbsolutePose& z : log.arrival(k).absolute) {
+      add(residual(z, optimum[k]), z.information);
+    }
   }
   scale.looks_like_square_roots =
       scale.per_degree_of_freedom < 0.1 && scale.squared > 0.5 && scale.squared < 2.0;

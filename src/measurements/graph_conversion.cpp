@@ -33,9 +33,10 @@ bool is_left_out(std::string_view tag, GraphFormat to) {
   return to == GraphFormat::toro ? is_one_of(tag, not_in_toro) : tag == "EQUIV";
 }
 
-// Lines of g2o that are kept as they are, and are no pose and no measurement between two.
+// Lines of g2o that are kept as they are, and are nothing that the reader has a check for.
 bool is_kept(std::string_view tag, GraphFormat to) {
-  return to == GraphFormat::g2o && is_left_out(tag, GraphFormat::toro);
+  return to == GraphFormat::g2o && is_left_out(tag, GraphFormat::toro) &&
+         !tag.starts_with("EDGE_PRIOR_SE2");
 }
 
 class Converter {
@@ -58,7 +59,7 @@ class Converter {
     add(converted(words), comment);
   }
 
-  /// The lines that must be a vertex or an edge, in their place.
+  /// The lines that must be a vertex, an edge or a prior, in their place.
   const std::string& checked() const { return checked_; }
   ConvertedGraph& graph() { return graph_; }
 

@@ -1,19 +1,26 @@
 #include "fathom/measurements/measurement_log.hpp"
 
+#include <algorithm>
 #include <cassert>
 
+#include "fathom/geometry/covariance.hpp"
 #include "fathom/geometry/trajectory.hpp"
 
 namespace fathom {
 
 void MeasurementLog::add_keyframe(const RelativePose& step) {
   assert(step.newest() == size() && step.from + step.to + 1 == 2 * size());
-  measurements_.push_back({step, {}});
+  measurements_.push_back({step, {}, {}});
 }
 
 void MeasurementLog::add_registration(const RelativePose& registration) {
-  assert(!measurements_.empty() && registration.newest() + 1 == size());
+  assert(size() > 1 && registration.newest() + 1 == size());
   measurements_.back().registrations.push_back(registration);
+}
+
+void MeasurementLog::add_absolute(const AbsolutePose& measurement) {
+  assert(measurement.keyframe + 1 == size());
+  measurements_.back().absolute.push_back(measurement);
 }
 
 std::size_t MeasurementLog::registration_count() const {
@@ -22,10 +29,23 @@ std::size_t MeasurementLog::registration_count() const {
   return count;
 }
 
+std::size_t MeasurementLog::absolute_count() const {
+  std::size_t count = 0;
+  for (const KeyframeMeasurements& arrival : measurements_) count += arrival.absolute.size();
+  return count;
+}
+
+std::size_t MeasurementLog::hole_count() const {
+  return static_cast<std::size_t>(
+      std::count_if(measurements_.begin() + 1, measurements_.end(),
+                    [](const KeyframeMeasurements& arrival) { return arrival.step.is_hole; }));
+}
+
 std::vector<RelativePose> MeasurementLog::edges() const {
   std::vector<RelativePose> edges;
-  for (const KeyframeMeasurements& arrival : measurements_) {
-    edges.push_back(arrival.step);
+  for (std::size_t k = 1; k < size(); ++k) {
+    const KeyframeMeasurements& arrival = measurements_[k];
+    if (!arrival.step.is_hole) edges.push_back(arrival.step);
     edges.insert(edges.end(), arrival.registrations.begin(), arrival.registrations.end());
   }
   return edges;
@@ -33,21 +53,43 @@ std::vector<RelativePose> MeasurementLog::edges() const {
 
 std::vector<Pose> MeasurementLog::odometry() const {
   std::vector<Pose> motions;
-  for (const KeyframeMeasurements& arrival : measurements_) {
-    motions.push_back(arrival.step.forward().motion);
+  for (std::size_t k = 1; k < size(); ++k) {
+    motions.push_back(measurements_[k].step.forward().motion);
   }
-  return compose_trajectory(origin_, motions);
+  return compose_trajectory(origin(), motions);
 }
 
 double chi2(const MeasurementLog& log, std::span<const Pose> trajectory) {
   assert(trajectory.size() == log.size());
-  double sum = 0.0;
+  double sum = absolute_chi2(log, trajectory);
   for (std::size_t k = 1; k < log.size(); ++k) {
     const KeyframeMeasurements& arrival = log.arrival(k);
-    sum += chi2(arrival.step, trajectory[arrival.step.from], trajectory[arrival.step.to]);
+    if (!arrival.step.is_hole) {
+      sum += chi2(arrival.step, trajectory[arrival.step.from], trajectory[arrival.step.to]);
+    }
     for (const RelativePose& z : arrival.registrations) {
       sum += chi2(z, trajectory[z.from], trajectory[z.to]);
     }
+  }
+  return sum;
+}
+
+// Keyframes take three each, a measured step gives them back, as an uncertain start does.
+double degrees_of_freedom(const MeasurementLog& log) {
+  double degrees = 3.0 * static_cast<double>(log.registration_count());
+  degrees -= 3.0 * static_cast<double>(log.hole_count());
+  if (log.start().is_free) degrees -= 3.0;
+  for (std::size_t k = 0; k < log.size(); ++k) {
+    for (const AbsolutePose& z : log.arrival(k).absolute) degrees += rows_of(z.information).rank;
+  }
+  return degrees;
+}
+
+double absolute_chi2(const MeasurementLog& log, std::span<const Pose> trajectory) {
+  double sum = 0.0;
+  if (!log.start().is_fixed()) sum += chi2(log.start().measurement(), trajectory[0]);
+  for (std::size_t k = 0; k < log.size(); ++k) {
+    for (const AbsolutePose& z : log.arrival(k).absolute) sum += chi2(z, trajectory[k]);
   }
   return sum;
 }

@@ -33,6 +33,7 @@ RelativePose RelativePose::reversed() const {
   const UncertainPose back = inverse(UncertainPose{motion, covariance()});
   RelativePose measurement = from_covariance(to, from, back.mean, back.covariance);
   measurement.inliers = inliers;
+  measurement.is_hole = is_hole;
   return measurement;
 }
 

@@ -132,10 +132,11 @@ Spoiled spoil(const MeasurementLog& log, std::span<const Pose> reference,
   Spoiler spoiler(log, reference, options, RandomStream(seed, "false_loops", trial));
   std::vector<std::vector<RelativePose>> false_loops(log.size());
   for (const RelativePose& z : spoiler.draw(count)) false_loops[z.to].push_back(z);
-  Spoiled spoiled{MeasurementLog(log.origin()), {}};
-  for (std::size_t k = 1; k < log.size(); ++k) {
+  Spoiled spoiled{MeasurementLog(log.start()), {}};
+  for (std::size_t k = 0; k < log.size(); ++k) {
     const KeyframeMeasurements& arrival = log.arrival(k);
-    spoiled.log.add_keyframe(arrival.step);
+    if (k > 0) spoiled.log.add_keyframe(arrival.step);
+    for (const AbsolutePose& z : arrival.absolute) spoiled.log.add_absolute(z);
     for (const RelativePose& z : arrival.registrations) spoiled.log.add_registration(z);
     for (const RelativePose& z : false_loops[k]) spoiled.log.add_registration(z);
     spoiled.is_false.insert(spoiled.is_false.end(), arrival.registrations.size(), false);

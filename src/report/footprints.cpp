@@ -25,7 +25,7 @@ struct Extent {
 using Corners = std::array<Eigen::Vector2d, 4>;
 
 Corners corners_of(const Camera& camera, const KeyframePicture& keyframe, std::size_t index) {
-  Corners corners = camera.footprint(keyframe.altitude_m);
+  Corners corners = camera.footprint(keyframe.stance);
   for (Eigen::Vector2d& corner : corners) {
     corner = transform(keyframe.pose, corner);
     if (corner.allFinite()) continue;
@@ -61,7 +61,7 @@ class Overlaps {
 
   double between(std::size_t i, std::size_t k) const {
     const Pose motion = compose(inverse(keyframes_[i].pose), keyframes_[k].pose);
-    return footprint_overlap(camera_, keyframes_[i].altitude_m, keyframes_[k].altitude_m, motion);
+    return footprint_overlap(camera_, keyframes_[i].stance, keyframes_[k].stance, motion);
   }
 
   void find_other_pass(std::size_t i, Footprint& footprint) const {

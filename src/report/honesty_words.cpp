@@ -62,8 +62,10 @@ class Figures {
   Level level_of_cost() const {
     const MetricSummary* summary = find("chi2_per_dof");
     const MetricSummary* registrations = find("registrations");
+    const MetricSummary* degrees = find("degrees_of_freedom");
     if (summary == nullptr || registrations == nullptr || draws_ == 0) return Level::unknown;
-    const auto dof = static_cast<std::size_t>(3.0 * registrations->moments.mean);
+    const auto dof = static_cast<std::size_t>(std::max(
+        0.0, degrees != nullptr ? degrees->moments.mean : 3.0 * registrations->moments.mean));
     if (dof == 0) return Level::unknown;
     return level_of(*summary, 1.0, anees_interval(draws_, dof, kProbability));
   }
@@ -134,7 +136,7 @@ std::string cause_of_low(const Figures& figures) {
 bool is_of_words(const std::string& metric) {
   static const std::set<std::string> metrics{
       "anees",        "anchored_anees", "mean_nis_truth", "picture_error_correlation",
-      "chi2_per_dof", "registrations",  "chi2_gap"};
+      "chi2_per_dof", "registrations",  "chi2_gap",       "degrees_of_freedom"};
   return metrics.contains(metric) || metric.starts_with(kRelative);
 }
 

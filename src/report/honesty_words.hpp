@@ -25,8 +25,8 @@ bool is_off_the_optimum(const std::map<std::string, MetricSummary>& figures);
 ///   that are the same at all keyframes, and so the widest one;
 /// - its bootstrap interval, where there is one, lies above 1.
 /// Too low likewise. A mean NIS against truth is held to the same interval, three times as large.
-/// F per degree of freedom is held to the χ² interval of `draws` · 3 · registrations degrees of
-/// freedom.
+/// F per degree of freedom is held to the χ² interval of `draws` times its degrees of freedom:
+/// 3 · registrations, unless `degrees_of_freedom` says otherwise.
 std::vector<std::string> honesty_words(const std::map<std::string, MetricSummary>& figures,
                                        std::size_t draws);
 

@@ -1,9 +1,11 @@
 #include "trajectory_map.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include <Eigen/Geometry>
 
+#include "absolute_marks.hpp"
 #include "map_frame.hpp"
 
 namespace fathom {
@@ -199,6 +201,7 @@ std::vector<LegendEntry> TrajectoryMap::legend() const {
     const Pen pen{tint(palette::black, kLoopTint), 0.4, {}, 1.0};
     entries.push_back(line_entry("loop closure", pen));
   }
+  for (LegendEntry& mark : absolute_legend(plot_.series)) entries.push_back(std::move(mark));
   if (any_ellipse) entries.push_back(ellipse_entry());
   if (any_pose) {
     entries.push_back(start_entry());
@@ -218,6 +221,8 @@ void TrajectoryMap::draw(Canvas& canvas, const Box& outer) const {
     for (const PlotSeries& series : plot_.series) {
       draw_ellipses(canvas, frame, series, plot_.max_ellipses);
     }
+    const Placed at = [&](const Eigen::Vector2d& world) { return placed(frame, world); };
+    for (const PlotSeries& series : plot_.series) draw_absolute(canvas, at, series);
     draw_ends(canvas, frame, plot_.series);
   });
 }

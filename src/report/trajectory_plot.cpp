@@ -22,6 +22,12 @@ void check(const TrajectoryPlot& plot) {
                        " poses and " + std::to_string(series.covariances.size()) +
                        " covariances; there must be one per pose, or none");
     }
+    for (const AbsoluteMark& mark : series.absolute) {
+      if (mark.pose < series.poses.size()) continue;
+      throw InputError("'" + series.name + "' has a measurement of pose " +
+                       std::to_string(mark.pose) + ", but only " +
+                       std::to_string(series.poses.size()) + " poses");
+    }
     for (const auto& [from, to] : series.loops) {
       if (std::max(from, to) >= series.poses.size()) {
         throw InputError("'" + series.name + "' has a loop from pose " + std::to_string(from) +

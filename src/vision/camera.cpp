@@ -12,11 +12,31 @@
 namespace fathom {
 namespace {
 
-void require_altitude(double altitude_m) {
-  if (!(altitude_m > 0.0) || !std::isfinite(altitude_m)) {
+void require_sound(const Stance& stance) {
+  if (!(stance.altitude_m > 0.0) || !std::isfinite(stance.altitude_m)) {
     throw InputError("altitude must be a number of metres above zero, got " +
-                     std::to_string(altitude_m));
+                     std::to_string(stance.altitude_m));
   }
+  if (!std::isfinite(stance.tilt.roll_rad) || !std::isfinite(stance.tilt.pitch_rad)) {
+    throw InputError("roll and pitch must be finite numbers of radians");
+  }
+}
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+// The sines of a level camera would be computed for nothing.
+Eigen::Matrix3d rotation_of(const Stance& stance) {
+  return stance.is_level() ? Eigen::Matrix3d::Identity() : stance.tilt.rotation();
+}
+
+Eigen::Vector3d downward(const Eigen::Vector2d& level_ray) {
+  return {level_ray.x(), level_ray.y(), -1.0};
+}
+
+// Where a direction meets a plane one metre below; NaN where it never does.
+Eigen::Vector2d one_metre_below(const Eigen::Vector3d& direction) {
+  if (!(direction.z() < 0.0)) return {kNaN, kNaN};
+  return direction.head<2>() / -direction.z();
 }
 
 void require_numbers(const CameraModel& model) {
@@ -74,27 +94,34 @@ Camera::Camera(const CameraModel& model)
   if (model_.has_distortion()) require_unfolded(model_);
 }
 
-Eigen::Vector2d Camera::on_floor(const Eigen::Vector2d& pixel, double altitude_m) const {
+// Where a level camera a metre above the floor sees a pixel, from the point below it, body frame.
+Eigen::Vector2d Camera::level_ray(const Eigen::Vector2d& pixel) const {
   Eigen::Vector2d image((pixel.x() - model_.cx) / model_.fx, (pixel.y() - model_.cy) / model_.fy);
   if (model_.has_distortion()) {
-    constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
     image = undistort(model_.distortion, image).value_or(Eigen::Vector2d(kNaN, kNaN));
   }
-  return body_from_mount_ * Eigen::Vector2d(-image.y(), -image.x()) * altitude_m +
-         Eigen::Vector2d(model_.mount_x_m, model_.mount_y_m);
+  return body_from_mount_ * Eigen::Vector2d(-image.y(), -image.x());
 }
 
-Eigen::Vector2d Camera::floor_point(const Eigen::Vector2d& pixel, double altitude_m) const {
-  require_altitude(altitude_m);
-  return on_floor(pixel, altitude_m);
+Eigen::Vector2d Camera::on_floor(const Eigen::Vector2d& pixel, const Stance& stance,
+                                 const Eigen::Matrix3d& tilt) const {
+  Eigen::Vector2d ray = level_ray(pixel);
+  if (!stance.is_level()) ray = one_metre_below(tilt * downward(ray));
+  return ray * stance.altitude_m + Eigen::Vector2d(model_.mount_x_m, model_.mount_y_m);
+}
+
+Eigen::Vector2d Camera::floor_point(const Eigen::Vector2d& pixel, const Stance& stance) const {
+  require_sound(stance);
+  return on_floor(pixel, stance, rotation_of(stance));
 }
 
 std::vector<Eigen::Vector2d> Camera::floor_points(std::span<const Eigen::Vector2d> pixels,
-                                                  double altitude_m) const {
-  require_altitude(altitude_m);
+                                                  const Stance& stance) const {
+  require_sound(stance);
+  const Eigen::Matrix3d tilt = rotation_of(stance);
   std::vector<Eigen::Vector2d> points;
   points.reserve(pixels.size());
-  for (const Eigen::Vector2d& pixel : pixels) points.push_back(on_floor(pixel, altitude_m));
+  for (const Eigen::Vector2d& pixel : pixels) points.push_back(on_floor(pixel, stance, tilt));
   return points;
 }
 
@@ -104,19 +131,44 @@ double Camera::heading(double turn_rad) const {
   return std::atan2(way.y(), way.x());
 }
 
-Eigen::Vector2d Camera::pixel(const Eigen::Vector2d& floor_point, double altitude_m) const {
-  require_altitude(altitude_m);
+// With g = R (b, −1) the ray b meets the floor at g_xy / −g_z, so a step db moves that point along
+// dg_xy (−g_z) + g_xy dg_z, dg = R (db, 0); and areas there grow by det R / (−g_z)³.
+Camera::Neighbourhood Camera::neighbourhood(const Eigen::Vector2d& pixel, double turn_rad,
+                                            const Tilt& tilt) const {
+  if (tilt.is_level()) return {heading(turn_rad), 1.0};
+  const Eigen::Matrix3d R = tilt.rotation();
+  const Eigen::Vector3d g = R * downward(level_ray(pixel));
+  const double level = heading(turn_rad);
+  const Eigen::Vector3d dg = R * Eigen::Vector3d(std::cos(level), std::sin(level), 0.0);
+  const Eigen::Vector2d way = dg.head<2>() * -g.z() + g.head<2>() * dg.z();
+  return {std::atan2(way.y(), way.x()), std::pow(-g.z(), -1.5)};
+}
+
+Eigen::Vector2d Camera::pixel(const Eigen::Vector2d& floor_point, const Stance& stance) const {
+  require_sound(stance);
   const Eigen::Vector2d mount(model_.mount_x_m, model_.mount_y_m);
-  const Eigen::Vector2d seen = body_from_mount_.transpose() * (floor_point - mount) / altitude_m;
+  Eigen::Vector2d from_mount = floor_point - mount;
+  if (!stance.is_level()) {
+    const Eigen::Vector2d ray = from_mount / stance.altitude_m;
+    from_mount =
+        stance.altitude_m * one_metre_below(stance.tilt.rotation().transpose() * downward(ray));
+  }
+  const Eigen::Vector2d seen = body_from_mount_.transpose() * from_mount / stance.altitude_m;
   const Eigen::Vector2d image = distort(model_.distortion, {-seen.y(), -seen.x()});
   return {model_.cx + model_.fx * image.x(), model_.cy + model_.fy * image.y()};
 }
 
-std::array<Eigen::Vector2d, 4> Camera::footprint(double altitude_m) const {
+std::array<Eigen::Vector2d, 4> Camera::footprint(const Stance& stance) const {
   const double right = model_.width - 0.5;
   const double bottom = model_.height - 0.5;
-  return {floor_point({-0.5, -0.5}, altitude_m), floor_point({right, -0.5}, altitude_m),
-          floor_point({right, bottom}, altitude_m), floor_point({-0.5, bottom}, altitude_m)};
+  const std::array<Eigen::Vector2d, 4> corners{
+      floor_point({-0.5, -0.5}, stance), floor_point({right, -0.5}, stance),
+      floor_point({right, bottom}, stance), floor_point({-0.5, bottom}, stance)};
+  if (!stance.is_level() && !std::ranges::all_of(corners, &Eigen::Vector2d::allFinite)) {
+    throw InputError("a camera tilted by " + std::to_string(stance.tilt.roll_rad) + " and " +
+                     std::to_string(stance.tilt.pitch_rad) + " rad sees the horizon");
+  }
+  return corners;
 }
 
 }  // namespace fathom

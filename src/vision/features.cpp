@@ -55,17 +55,23 @@ double metres_per_pixel(const CameraModel& camera, double altitude_m) {
   return altitude_m / std::sqrt(camera.fx * camera.fy);
 }
 
-FloorFeatures on_floor(Features features, const Camera& camera, double altitude_m) {
+FloorFeatures on_floor(Features features, const Camera& camera, double altitude_m,
+                       const std::optional<MeasuredTilt>& tilt) {
+  const Stance stance(altitude_m, tilt);
   FloorFeatures result;
-  result.points = camera.floor_points(features.pixels, altitude_m);
+  result.points = camera.floor_points(features.pixels, stance);
   const CameraModel& model = camera.model();
   const double pixel_m = metres_per_pixel(model, altitude_m);
   for (std::size_t row = 0; row < features.sizes_px.size(); ++row) {
-    result.sizes_m.push_back(pixel_m * features.sizes_px[row]);
-    result.headings_rad.push_back(camera.heading(features.turns_rad[row]));
+    const Camera::Neighbourhood near =
+        camera.neighbourhood(features.pixels[row], features.turns_rad[row], stance.tilt);
+    result.sizes_m.push_back(pixel_m * features.sizes_px[row] * near.stretch);
+    result.headings_rad.push_back(near.heading_rad);
   }
   result.features = std::move(features);
   result.viewpoint = {{model.mount_x_m, model.mount_y_m}, altitude_m, pixel_m};
+  result.viewpoint.pitch_rad = stance.tilt.pitch_rad;
+  if (tilt) result.viewpoint.tilt_sigma_rad = tilt->sigma_rad;
   return result;
 }
 

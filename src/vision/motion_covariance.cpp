@@ -12,14 +12,19 @@ namespace fathom {
 namespace {
 
 // What the errors of a picture do to a point of the floor seen at p (body frame): the derivative by
-// altitude, roll (about x) and pitch (about y). For a ray (r, −1), r = (p − camera) / altitude, the
-// tilted one meets the floor at camera + altitude · (r_x − pitch, r_y + roll)
-// · (1 + roll r_y − pitch r_x), to first order.
+// altitude, roll and pitch. A turn by dφ about an axis w, through the camera, moves the ray (r,
+// −1), r = (p − camera) / altitude, by dφ w × (r, −1); pitch turns about y, roll about the x axis
+// that pitch has turned, w = (cos pitch, 0, −sin pitch) (docs/conventions.md). Of a level camera
+// the ray meets the floor at camera + altitude · (r_x − pitch, r_y + roll) · (1 + roll r_y − pitch
+// r_x), to first order.
 Eigen::Matrix<double, 2, 3> derivative(const Viewpoint& view, const Eigen::Vector2d& p) {
   const Eigen::Vector2d r = (p - view.camera_m) / view.altitude_m;
   Eigen::Matrix<double, 2, 3> J;
   J.col(0) = r;
-  J.col(1) = view.altitude_m * Eigen::Vector2d(r.x() * r.y(), 1.0 + r.y() * r.y());
+  const double c = std::cos(view.pitch_rad);
+  const double s = std::sin(view.pitch_rad);
+  J.col(1) = view.altitude_m * Eigen::Vector2d(c * (r.x() * r.y()) + s * r.y(),
+                                               c * (1.0 + r.y() * r.y()) - s * r.x());
   J.col(2) = -view.altitude_m * Eigen::Vector2d(1.0 + r.x() * r.x(), r.x() * r.y());
   return J;
 }
@@ -88,18 +93,29 @@ double LinearFit::clustering(double cell_m, int least_cells) const {
 
 Eigen::Matrix3d LinearFit::altitude_and_tilt(const Viewpoint& from, const Viewpoint& to,
                                              const CovarianceOptions& options) const {
-  const Eigen::Vector3d sigmas(options.altitude_sigma_m, options.tilt_sigma_rad,
-                               options.tilt_sigma_rad);
+  const auto sigmas_of = [&](const Viewpoint& view) {
+    const double tilt_rad = view.tilt_sigma_rad.value_or(options.tilt_sigma_rad);
+    return Eigen::Vector3d(options.altitude_sigma_m, tilt_rad, tilt_rad);
+  };
+  const Eigen::Vector3d sigmas_from = sigmas_of(from);
+  const Eigen::Vector3d sigmas_to = sigmas_of(to);
   const Eigen::Matrix2d R = rotation(z_.theta);
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
   for (int error = 0; error < 3; ++error) {
-    if (sigmas[error] == 0.0) continue;
+    const double sigma_from = sigmas_from[error];
+    const double sigma_to = sigmas_to[error];
+    if (sigma_from == 0.0 && sigma_to == 0.0) continue;
     const Eigen::Vector3d by_from =
         response([&](std::size_t j) { return derivative(from, p_[j]).col(error).eval(); });
     const Eigen::Vector3d by_to =
         response([&](std::size_t j) { return (R * derivative(to, q_[j]).col(error)).eval(); });
-    sum +=
-        sigmas[error] * sigmas[error] * (by_from * by_from.transpose() + by_to * by_to.transpose());
+    // With both alike the sum comes first, as the last bit goes by it.
+    if (sigma_from == sigma_to) {
+      sum += sigma_to * sigma_to * (by_from * by_from.transpose() + by_to * by_to.transpose());
+    } else {
+      sum += sigma_from * sigma_from * by_from * by_from.transpose() +
+             sigma_to * sigma_to * by_to * by_to.transpose();
+    }
   }
   return sum;
 }

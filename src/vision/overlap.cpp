@@ -22,9 +22,9 @@ double signed_area(const Polygon& polygon) {
   return 0.5 * twice;
 }
 
-Polygon counter_clockwise(const Camera& camera, double altitude_m, const Pose& pose) {
+Polygon counter_clockwise(const Camera& camera, const Stance& stance, const Pose& pose) {
   Polygon corners;
-  for (const Eigen::Vector2d& corner : camera.footprint(altitude_m)) {
+  for (const Eigen::Vector2d& corner : camera.footprint(stance)) {
     corners.push_back(transform(pose, corner));
   }
   if (signed_area(corners) < 0.0) std::reverse(corners.begin(), corners.end());
@@ -51,17 +51,17 @@ Polygon left_of(const Polygon& polygon, const Eigen::Vector2d& a, const Eigen::V
 
 // Clipped side by side (Sutherland and Hodgman), and not by OpenCV's intersectConvexConvex, which
 // fails where sides lie on one another, as those of parallel legs do: 0 in place of 0.75.
-double footprint_overlap(const Camera& camera, double altitude_a_m, double altitude_b_m,
+double footprint_overlap(const Camera& camera, const Stance& stance_a, const Stance& stance_b,
                          const Pose& motion) {
-  const Polygon a = counter_clockwise(camera, altitude_a_m, {});
-  const Polygon b = counter_clockwise(camera, altitude_b_m, motion);
+  const Polygon a = counter_clockwise(camera, stance_a, {});
+  const Polygon b = counter_clockwise(camera, stance_b, motion);
   Polygon common = a;
   for (std::size_t i = 0; i < b.size() && !common.empty(); ++i) {
     common = left_of(common, b[i], b[(i + 1) % b.size()]);
   }
   const double shared = common.size() < 3 ? 0.0 : signed_area(common);
   // Unmoved: far away its area would be lost in rounding.
-  const double area_b = signed_area(counter_clockwise(camera, altitude_b_m, {}));
+  const double area_b = signed_area(counter_clockwise(camera, stance_b, {}));
   return std::clamp(shared / std::min(signed_area(a), area_b), 0.0, 1.0);
 }
 

@@ -68,7 +68,8 @@ TEST_F(BadConfiguration, AnOverrideIsNamed) {
 TEST_F(BadConfiguration, SolveTakesItsEstimatorsKeysAlone) {
   write("g.g2o", "EDGE_SE2 0 1 1 0 0 1 0 0 1 0 1\n");
   const std::vector<std::pair<Arguments, std::string>> cases{
-      {{"--set", "front_end.matching.ratio=1"}, "('solve' takes estimator.… and seed)"},
+      {{"--set", "front_end.matching.ratio=1"},
+       "('solve' takes estimator.…, seed, and of dataset.… what a graph has)"},
       {{"--set", "estimater.tolerance=1"}, "did you mean 'estimator.tolerance'?"},
       {{"--set", "estimator=ekf"}, "unknown key 'estimator'"},
       {{"--set", "estimator.type=[]"}, "estimator.type: expected a single word"},

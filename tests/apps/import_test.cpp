@@ -28,6 +28,7 @@ class Import : public Commands {
           "  mission: {type: single_loop, loop_length_m: 2.4, loop_width_m: 1.6, "
           "loop_overrun_m: 0.8, turn_radius_m: 0.4}\n"
           "  camera: {width: 160, height: 120, fx: 130, fy: 130}\n"
+          "  attitude: {both_sigma_rad: 0.02, measured_sigma_rad: 0.004}\n"
           "  odometry: {sigma_x_m: 0.01, sigma_y_m: 0.01, sigma_theta_rad: 0.01}\n");
     fathom_done({"simulate", "survey.yaml", "--out", "simulated"});
   }
@@ -43,7 +44,9 @@ TEST_F(Import, BagIsCheckedAndRunAsTheSurveyItself) {
   EXPECT_THAT(imported.out, AllOf(HasSubstr("--images"), HasSubstr("the growth of the covariance"),
                                   HasSubstr("look at it with: fathom check")));
   EXPECT_THAT(fathom_done({"check", "dive"}).out, HasSubstr("ground truth"));
-  fathom_done({"run", "dive", "--out", "of-bag"});
+  EXPECT_THAT(fathom_done({"run", "dive", "--out", "with-compass"}).out,
+              HasSubstr("headings and fixes"));
+  fathom_done({"run", "dive", "--out", "of-bag", "--set", "dataset.compass.use=false"});
   fathom_done({"run", "simulated", "--out", "of-folder"});
   EXPECT_EQ(json_of("of-bag/metrics.json")["loops_used"],
             json_of("of-folder/metrics.json")["loops_used"]);
@@ -61,7 +64,7 @@ TEST_F(Import, BothGenerationsOfRosGiveTheSameFolder) {
   write_db3("dive.db3");
   fathom_done({"import", "dive.bag", "--out", "one"});
   fathom_done({"import", "dive.db3", "--out", "two"});
-  for (const std::string sensor : {"cam0", "altimeter0", "odometry0", "compass0"}) {
+  for (const std::string sensor : {"cam0", "altimeter0", "attitude0", "odometry0", "compass0"}) {
     const std::string file = "/mav0/" + sensor + "/data.csv";
     EXPECT_EQ(bytes_of("one" + file), bytes_of("two" + file)) << sensor;
   }

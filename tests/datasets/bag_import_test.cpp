@@ -50,14 +50,85 @@ TEST_P(BagRoundTrip, SurveyComesBack) {
   }
 }
 
-TEST_P(BagRoundTrip, HeadingsGoToTheirOwnFolderWithoutHarm) {
+TEST_P(BagRoundTrip, HeadingsGoToTheirOwnFolder) {
   const SimulatedSurvey survey(test::small_survey(), 2);
   write_bag(survey);
   import();
   const std::string rows = read_file(out() / "mav0" / "compass0" / "data.csv");
   const std::string first = std::to_string(1'700'000'000'123'456'789);
   EXPECT_THAT(rows, HasSubstr("\n" + first + ","));
+  const ImageFolder folder(out());
+  EXPECT_EQ(folder.size(), survey.size());
+  const AbsoluteReadings readings = in_world(folder.sensors(), std::nullopt);
+  ASSERT_GT(readings.headings.size(), 1U);
+  for (const MeasuredHeading& reading : readings.headings) {
+    EXPECT_NEAR(reading.sigma_rad, 0.02, 1e-12);
+  }
+}
+
+SimulatedSurveyOptions rolling_survey() {
+  SimulatedSurveyOptions options = test::small_survey();
+  options.attitude.both_sigma_rad = 0.05;
+  options.attitude.measured_sigma_rad = 0.003;
+  return options;
+}
+
+TEST_P(BagRoundTrip, RollAndPitchOfAnImuComeBack) {
+  const SimulatedSurvey survey(rolling_survey(), 6);
+  write_bag(survey);
+  EXPECT_THAT(import().facts, Contains(HasSubstr("from /imu: roll ")));
+  const ImageFolder read(out());
+  ASSERT_EQ(read.size(), survey.size());
+  for (std::size_t i = 0; i < survey.size(); ++i) {
+    const MeasuredTilt& is = read.info(i).tilt.value();
+    const MeasuredTilt& was = survey.info(i).tilt.value();
+    EXPECT_NEAR(is.tilt.roll_rad, was.tilt.roll_rad, 1e-12);
+    EXPECT_NEAR(is.tilt.pitch_rad, was.tilt.pitch_rad, 1e-12);
+    EXPECT_NEAR(is.sigma_rad, was.sigma_rad, 1e-12);
+  }
+}
+
+TEST_P(BagRoundTrip, TheSigmaOfAnAttitudeIsAskedForOrGuessed) {
+  write_bag(SimulatedSurvey(rolling_survey(), 6), {.imu_has_variance = false});
+  EXPECT_THAT(import().notes, Contains(HasSubstr("without variance in the bag: taken for good to "
+                                                 "0.01 rad")));
+  EXPECT_EQ(ImageFolder(out()).info(3).tilt->sigma_rad, 0.01);
+  std::filesystem::remove_all(out());
+  BagImportOptions options;
+  options.attitude_sigma_rad = 0.002;
+  import(options);
+  EXPECT_EQ(ImageFolder(out()).info(3).tilt->sigma_rad, 0.002);
+}
+
+TEST_P(BagRoundTrip, NoAttitudeOfAnImuOnItsSideOrOneThatIsNotAskedFor) {
+  const SimulatedSurvey survey(rolling_survey(), 6);
+  write_bag(survey, {.imu_roll_rad = 1.5707});
+  EXPECT_THAT(import().notes, Contains(HasSubstr("its axes are not the body's")));
+  EXPECT_FALSE(ImageFolder(out()).has_attitude());
+  std::filesystem::remove_all(out());
+  for (const char* flag : {"attitude", "heading"}) {
+    BagImportOptions options;
+    (std::string(flag) == "attitude" ? options.attitude : options.heading) = "none";
+    import(options);
+    EXPECT_FALSE(std::filesystem::exists(out() / "mav0" / "attitude0")) << flag;
+    EXPECT_EQ(std::filesystem::exists(out() / "mav0" / "compass0"), std::string(flag) != "heading");
+    std::filesystem::remove_all(out());
+  }
+}
+
+TEST_P(BagRoundTrip, AnAttitudeThatBeginsLateCostsPicturesIfItIsAskedFor) {
+  const SimulatedSurvey survey(rolling_survey(), 6);
+  write_bag(survey, {.imu_from = 2});
+  EXPECT_THAT(import().notes, Contains(HasSubstr("2 pictures lie outside of its readings; "
+                                                 "--attitude /imu leaves them out")));
+  EXPECT_FALSE(ImageFolder(out()).has_attitude());
   EXPECT_EQ(ImageFolder(out()).size(), survey.size());
+  std::filesystem::remove_all(out());
+  BagImportOptions options;
+  options.attitude = "/imu";
+  import(options);
+  EXPECT_TRUE(ImageFolder(out()).has_attitude());
+  EXPECT_EQ(ImageFolder(out()).size(), survey.size() - 2);
 }
 
 TEST_P(BagRoundTrip, ListSaysWhatTopicsAreTakenFor) {
@@ -66,6 +137,7 @@ TEST_P(BagRoundTrip, ListSaysWhatTopicsAreTakenFor) {
   ASSERT_EQ(lines.size(), 7U);
   EXPECT_THAT(lines, Contains(HasSubstr("--images")));
   EXPECT_THAT(lines, Contains(HasSubstr("--reference")));
+  EXPECT_THAT(lines, Contains(HasSubstr("--heading --attitude")));
   EXPECT_THAT(lines, Contains(HasSubstr("geometry_msgs/PointStamped")));
 }
 

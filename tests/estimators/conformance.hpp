@@ -14,9 +14,9 @@ namespace fathom::test {
 /// What every estimator of the registry must do, whatever its method: the parameter is its name.
 class Conformance : public testing::TestWithParam<std::string> {
  protected:
-  std::unique_ptr<Estimator> make(const Pose& origin = {},
+  std::unique_ptr<Estimator> make(const StartPose& start = {},
                                   const EstimatorValues& values = {}) const {
-    return builtin_estimators().find(GetParam()).create({origin}, values);
+    return builtin_estimators().find(GetParam()).create({start}, values);
   }
 
   /// `none`, and every robust loss of the estimator.

@@ -60,7 +60,7 @@ TEST_P(Conformance, TheNewestCovarianceOfAnExactLogIsThatOfTheInformationMatrix)
     so_far.add_keyframe(log.arrival(k).step);
     for (const RelativePose& z : log.arrival(k).registrations) so_far.add_registration(z);
     estimator->add_keyframe(log.arrival(k).step);
-    if (!log.arrival(k).registrations.empty()) estimator->close_loops(log.arrival(k).registrations);
+    if (!log.arrival(k).registrations.empty()) estimator->update({log.arrival(k).registrations});
     const auto covariance = estimator->newest_covariance();
     ASSERT_TRUE(covariance);
     const Eigen::Matrix3d expected = least_squares(so_far, 1).marginal(k);

@@ -138,7 +138,7 @@ TEST_P(Conformance, NaNIsAFailureAndLeavesTheEstimateAsItWas) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const std::vector<RelativePose> bad{
       RelativePose::from_covariance(0, log.size(), {nan, 0.0, 0.0}, full_covariance(0.1, 0.1))};
-  const UpdateReport report = estimator->close_loops(bad);
+  const UpdateReport report = estimator->update({bad});
   EXPECT_EQ(report.outcome, Outcome::numerical_failure);
   ASSERT_EQ(report.loops.size(), 1U);
   EXPECT_EQ(report.loops.front().fate, LoopFate::lost);
@@ -147,7 +147,7 @@ TEST_P(Conformance, NaNIsAFailureAndLeavesTheEstimateAsItWas) {
   // And it is forgotten: the next update is as good as ever.
   const std::vector<RelativePose> good{RelativePose::from_covariance(
       0, log.size(), between(before.front(), before.back()), full_covariance(0.1, 0.1))};
-  EXPECT_TRUE(is_done(estimator->close_loops(good).outcome));
+  EXPECT_TRUE(is_done(estimator->update({good}).outcome));
 }
 
 // One loop ever more precise, between two free keyframes or from the fixed one. Beyond what doubles
@@ -171,7 +171,7 @@ TEST_P(Conformance, AnUpdateWithoutRegistrationsIsNone) {
   const auto estimator = make();
   estimator->add_keyframe(
       RelativePose::from_covariance(0, 1, {1.0, 0.0, 0.0}, full_covariance(0.1, 0.1)));
-  const UpdateReport report = estimator->close_loops({});
+  const UpdateReport report = estimator->update({});
   EXPECT_EQ(report.outcome, Outcome::converged);
   EXPECT_TRUE(report.loops.empty());
   EXPECT_EQ(estimator->pose(1), (Pose{1.0, 0.0, 0.0}));

@@ -61,7 +61,7 @@ TEST(CrossEstimator, TheGraphsHaveNoCovariancesWhereAPoseIsNotFinite) {
 
 // The Jacobian of the poses of all keyframes but 0 with respect to the motions between them, by the
 // chain rule, pose after pose.
-Eigen::MatrixXd jacobian_of_poses(const Estimator& estimator) {
+Eigen::MatrixXd jacobian_of_poses(const Estimate& estimator) {
   const auto size = static_cast<Eigen::Index>(3 * (estimator.size() - 1));
   Eigen::MatrixXd J = Eigen::MatrixXd::Zero(size, size);
   for (Eigen::Index row = 0; row < size; row += 3) {
@@ -138,7 +138,7 @@ TEST(CrossEstimator, MotionsToTheNewestCountTheLossAsTheCovariancesDo) {
   const auto plain = solved("ceres_pose_graph", log);
   const auto robust =
       solved("ceres_pose_graph", log, test::values({{"loss", "huber"}, {"loss_scale", "0.05"}}));
-  const auto of_last = [&](Estimator& estimator) { return *estimator.covariance(log.size() - 1); };
+  const auto of_last = [&](Estimate& estimator) { return *estimator.covariance(log.size() - 1); };
   const Eigen::Matrix3d motion = robust->motions_to_newest()->front().covariance;
   EXPECT_LT((motion - of_last(*robust)).norm(), 1e-8 * motion.norm());
   EXPECT_GT((motion - of_last(*plain)).norm(), 1e-2 * motion.norm());

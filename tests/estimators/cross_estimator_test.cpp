@@ -116,7 +116,7 @@ TEST(CrossEstimator, ABatchSolveStartsWhereItIsTold) {
             .create({log.origin(), SolveMode::batch}, test::values({{"max_iterations", "1"}}));
     for (std::size_t k = 1; k < log.size(); ++k) {
       graph->add_keyframe(log.arrival(k).step);
-      graph->close_loops(log.arrival(k).registrations);
+      graph->update({log.arrival(k).registrations});
     }
     graph->finish(start);
     return chi2(log, poses_of(*graph));

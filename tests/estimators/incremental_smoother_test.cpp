@@ -19,7 +19,10 @@ using test::tracks_log;
 using test::wandering_log;
 
 const incremental_smoother::Counts& counts_of(const Estimator& estimator) {
-  return dynamic_cast<const IncrementalSmoother&>(estimator).smoother().counts();
+  return dynamic_cast<const IncrementalSmoother&>(
+             dynamic_cast<const AnchoredEstimator&>(estimator).relative())
+      .smoother()
+      .counts();
 }
 
 std::vector<MeasurementLog> logs() {
@@ -139,7 +142,7 @@ TEST(IncrementalSmoother, AnUpdateThatFailsIsForgotten) {
     if (k % 15 != 0) continue;
     const std::vector<Pose> before = poses_of(*ours);
     const std::vector<RelativePose> far{{2, k, {1e200, 0.0, 0.0}, Eigen::Matrix3d::Identity(), {}}};
-    const UpdateReport report = ours->close_loops(far);
+    const UpdateReport report = ours->update({far});
     EXPECT_EQ(report.outcome, Outcome::numerical_failure);
     EXPECT_EQ(report.loops.front().fate, LoopFate::lost);
     EXPECT_EQ(poses_of(*ours), before);

@@ -9,7 +9,7 @@
 #include <Eigen/Core>
 
 #include "fathom/core/random.hpp"
-#include "fathom/estimation/registry.hpp"
+#include "fathom/estimation/relative_estimator.hpp"
 #include "fathom/estimators/builtin.hpp"
 #include "fathom/geometry/covariance.hpp"
 #include "fathom/measurements/measurement_log.hpp"
@@ -128,14 +128,23 @@ inline EstimatorValues values(const std::vector<std::pair<std::string, std::stri
   return result;
 }
 
+/// What is measured of a keyframe.
+inline UpdateReport give(Estimator& estimator, const KeyframeMeasurements& arrival) {
+  return estimator.update({arrival.registrations, arrival.absolute});
+}
+inline UpdateReport give(RelativeEstimator& estimator, const KeyframeMeasurements& arrival) {
+  return estimator.close_loops(arrival.registrations);
+}
+
 /// Gives a whole log to an estimator; the worst outcome.
-inline Outcome feed(Estimator& estimator, const MeasurementLog& log,
-                    std::vector<LoopDecision>* decisions = nullptr) {
+template <class AnyEstimator>
+Outcome feed(AnyEstimator& estimator, const MeasurementLog& log,
+             std::vector<LoopDecision>* decisions = nullptr) {
   Outcome outcome = Outcome::converged;
-  for (std::size_t k = 1; k < log.size(); ++k) {
-    estimator.add_keyframe(log.arrival(k).step);
-    if (log.arrival(k).registrations.empty()) continue;
-    const UpdateReport report = estimator.close_loops(log.arrival(k).registrations);
+  for (std::size_t k = 0; k < log.size(); ++k) {
+    if (k > 0) estimator.add_keyframe(log.arrival(k).step);
+    if (log.arrival(k).registrations.empty() && log.arrival(k).absolute.empty()) continue;
+    const UpdateReport report = give(estimator, log.arrival(k));
     outcome = worse(outcome, report.outcome);
     if (decisions != nullptr) {
       decisions->insert(decisions->end(), report.loops.begin(), report.loops.end());
@@ -146,7 +155,7 @@ inline Outcome feed(Estimator& estimator, const MeasurementLog& log,
 
 inline std::unique_ptr<Estimator> solved(const std::string& type, const MeasurementLog& log,
                                          const EstimatorValues& options = {}) {
-  auto estimator = builtin_estimators().find(type).create({log.origin()}, options);
+  auto estimator = builtin_estimators().find(type).create({log.start()}, options);
   feed(*estimator, log);
   return estimator;
 }

@@ -63,7 +63,8 @@ TEST(GroupChi2, OfOneLoopIsLeaveOneOut) {
   const std::vector<double> all(parts.edges.size(), 1.0);
   std::vector<Node> nodes = parts.nodes;
   minimise(equations, nodes, {50, 1e-14});
-  const std::vector<double> chi2 = leave_one_out(equations, parts.is_loop, all, nodes);
+  const std::vector<double> chi2 =
+      leave_one_out(equations, {parts.edges, parts.is_loop}, all, nodes);
   for (std::size_t e = 0; e < parts.edges.size(); ++e) {
     if (parts.is_loop[e] == 0) continue;
     EXPECT_NEAR(group_chi2(equations, {e}, all, nodes), chi2[e], 1e-6 * (1.0 + chi2[e]));
@@ -89,7 +90,8 @@ void expect_contradicted_as_a_group(const MeasurementLog& log) {
   NormalEquations equations(symbolic, parts.edges);
   const std::vector<double> all(parts.edges.size(), 1.0);
   minimise(equations, parts.nodes, {50, 1e-12});
-  const std::vector<double> chi2 = leave_one_out(equations, parts.is_loop, all, parts.nodes);
+  const std::vector<double> chi2 =
+      leave_one_out(equations, {parts.edges, parts.is_loop}, all, parts.nodes);
   std::vector<std::size_t> group;
   for (std::size_t e = 0; e < parts.edges.size(); ++e) {
     if (parts.is_loop[e] != 0) group.push_back(e);

@@ -164,7 +164,9 @@ TEST(StackedJacobian, ProductsAreThoseOfHMultipliedOut) {
   }
   const Stretch stretch(first, motions);
   const std::vector<std::size_t> froms{first + 9, first, first + 24, first + 9};
-  const StackedJacobian H(stretch, froms);
+  std::vector<StackedJacobian::Rows> rows;
+  for (const std::size_t from : froms) rows.push_back({from});
+  const StackedJacobian H(stretch, rows);
   Eigen::MatrixXd naive(3 * froms.size(), 3 * length);
   for (std::size_t j = 0; j < froms.size(); ++j) {
     naive.middleRows<3>(static_cast<Eigen::Index>(3 * j)) = stretch.H(froms[j]);

@@ -114,7 +114,7 @@ std::vector<Pose> estimate_of(const MeasurementLog& log, SolveMode mode,
   for (std::size_t k = 1; k < log.size(); ++k) {
     estimator->add_keyframe(log.arrival(k).step);
     if (log.arrival(k).registrations.empty()) continue;
-    estimator->close_loops(log.arrival(k).registrations);
+    estimator->update({log.arrival(k).registrations});
   }
   estimator->finish({});
   return poses_of(*estimator);

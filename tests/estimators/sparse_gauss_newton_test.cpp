@@ -30,7 +30,7 @@ Batch batch(const MeasurementLog& log, const std::string& type, const EstimatorV
       builtin_estimators().find(type).create({log.origin(), SolveMode::batch}, values);
   for (std::size_t k = 1; k < log.size(); ++k) {
     result.estimator->add_keyframe(log.arrival(k).step);
-    result.estimator->close_loops(log.arrival(k).registrations);
+    result.estimator->update({log.arrival(k).registrations});
   }
   result.report = result.estimator->finish(start);
   return result;

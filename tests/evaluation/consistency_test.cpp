@@ -48,6 +48,16 @@ struct HonestRun {
   }
 };
 
+// By hand: an error of one standard deviation along x at both keyframes, which `origin` takes away.
+TEST(Consistency, OfAnUncertainStartTheWorldCounts) {
+  const std::vector<Pose> reference{{0, 0, 0}, {1, 0, 0}};
+  const std::vector<Pose> estimate{{0.1, 0, 0}, {1.1, 0, 0}};
+  const std::vector<Eigen::Matrix3d> covariances(2, 0.01 * Eigen::Matrix3d::Identity());
+  EXPECT_NEAR(consistency(estimate, reference, covariances)->anees, 0.0, 1e-15);
+  EXPECT_NEAR(consistency(estimate, reference, covariances, Alignment::none)->anees, 1.0 / 3.0,
+              1e-12);
+}
+
 TEST(Consistency, HonestRunInAnyWorld) {
   for (const Pose& world : {Pose{}, Pose{3, -2, std::numbers::pi / 2}, Pose{-50, 8, -2.7}}) {
     constexpr int kKeyframes = 5000;

@@ -155,5 +155,30 @@ TEST(Candidates, AStepIsJudgedAsAPairOfKeyframesIs) {
   EXPECT_FALSE(CandidateSearch(wide_camera(), options).accepts({1.9, 0, 0}, 1.0, 1.0));
 }
 
+// By the footprints themselves: no shortcut loses a picture that a tilt lets see far.
+TEST(Candidates, OfTiltedPicturesAreThoseThatOverlap) {
+  CandidateOptions options;
+  options.method = CandidateMethod::overlap;
+  options.min_overlap = 0.05;
+  RandomStream random(5, "tilted_candidates");
+  std::vector<Pose> poses;
+  std::vector<Stance> stances;
+  std::size_t found = 0;
+  for (std::size_t n = 0; n < 60; ++n) {
+    poses.push_back({random.uniform(-6, 6), random.uniform(-6, 6), random.uniform(-3, 3)});
+    stances.emplace_back(random.uniform(0.8, 1.2),
+                         Tilt{random.uniform(-0.3, 0.3), random.uniform(-0.3, 0.3)});
+    std::vector<std::size_t> expected;
+    for (std::size_t k = 0; k < n; ++k) {
+      const Pose motion = between(poses[k], poses[n]);
+      const double overlap = footprint_overlap(wide_camera(), stances[k], stances[n], motion);
+      if (overlap >= options.min_overlap) expected.push_back(k);
+    }
+    EXPECT_EQ(candidates(options, Estimate(poses), stances).keyframes, expected) << n;
+    found += expected.size();
+  }
+  EXPECT_GT(found, 100u);
+}
+
 }  // namespace
 }  // namespace fathom

@@ -57,9 +57,9 @@ inline CandidateOptions by(CandidateMethod method) {
 }
 
 inline Candidates candidates(const CandidateOptions& options, const TrajectoryView& estimate,
-                             std::vector<double> altitudes_m = {}) {
-  altitudes_m.resize(estimate.size(), 1.0);
-  return CandidateSearch(wide_camera(), options).find(estimate, altitudes_m, estimate.size() - 1);
+                             std::vector<Stance> stances = {}) {
+  stances.resize(estimate.size(), 1.0);
+  return CandidateSearch(wide_camera(), options).find(estimate, stances, estimate.size() - 1);
 }
 
 }  // namespace fathom::test

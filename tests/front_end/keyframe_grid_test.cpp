@@ -148,14 +148,14 @@ TEST(CandidateSearch, FindsTheSameAlongAMovingTrajectory) {
     options.min_overlap = 0.05;
     CandidateSearch followed(camera, options);
     Moving trajectory(true);
-    std::vector<double> altitudes_m;
+    std::vector<Stance> stances;
     std::size_t found = 0;
     for (std::size_t n = 0; n < 300; ++n) {
       // Legs of 30 keyframes, and an altitude that rises.
       const std::size_t leg = n / 30;
       const double along = static_cast<double>(leg % 2 == 0 ? n % 30 : 29 - n % 30);
       trajectory.append({0.5 * along, 0.8 * static_cast<double>(leg), random.normal()});
-      altitudes_m.push_back(1.5 + 0.005 * static_cast<double>(n) + 0.3 * random.uniform());
+      stances.push_back(1.5 + 0.005 * static_cast<double>(n) + 0.3 * random.uniform());
       for (int j = 0; j < 3; ++j) {
         const std::size_t k = random.index(n + 1);
         const Pose pose = trajectory.pose(k);
@@ -164,13 +164,13 @@ TEST(CandidateSearch, FindsTheSameAlongAMovingTrajectory) {
       }
       std::vector<std::size_t> expected;
       for (std::size_t k = 0; k < n; ++k) {
-        if (followed.accepts(between(trajectory.pose(k), trajectory.pose(n)), altitudes_m[k],
-                             altitudes_m[n])) {
+        if (followed.accepts(between(trajectory.pose(k), trajectory.pose(n)), stances[k],
+                             stances[n])) {
           expected.push_back(k);
         }
       }
-      const auto here = followed.find(trajectory, altitudes_m, n).keyframes;
-      EXPECT_EQ(here, CandidateSearch(camera, options).find(trajectory, altitudes_m, n).keyframes);
+      const auto here = followed.find(trajectory, stances, n).keyframes;
+      EXPECT_EQ(here, CandidateSearch(camera, options).find(trajectory, stances, n).keyframes);
       EXPECT_EQ(here, expected);
       found += here.size();
     }

@@ -44,7 +44,7 @@ TEST(Candidates, ByPossibleOverlapScaleWithTheAltitude) {
     std::vector<Pose> scaled = poses;
     for (Pose& pose : scaled) pose = {scale * pose.x, scale * pose.y, pose.theta};
     return candidates(options, Estimate(scaled, std::vector<double>(59, 0.4 * scale)),
-                      std::vector<double>(60, scale))
+                      std::vector<Stance>(60, scale))
         .keyframes;
   };
   EXPECT_GT(at(1.0).size(), 5u);

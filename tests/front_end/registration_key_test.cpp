@@ -30,6 +30,26 @@ TEST(RegistrationKeys, EveryPartOfAPairCounts) {
   EXPECT_EQ(halves.size(), 14u);
 }
 
+TEST(RegistrationKeys, RollPitchAndTheirSigmaCount) {
+  const RegistrationKeys keys({}, {}, {});
+  const auto of = [&](const std::optional<MeasuredTilt>& from,
+                      const std::optional<MeasuredTilt>& to) {
+    return keys.of({1, 2.0, from}, {3, 4.0, to}, 5);
+  };
+  const MeasuredTilt level{{0.0, 0.0}, 0.0};
+  const std::set<RegistrationKey> different{of({}, {}),
+                                            of(level, {}),
+                                            of({}, level),
+                                            of(level, level),
+                                            of(MeasuredTilt{{0.1, 0.0}, 0.0}, level),
+                                            of(MeasuredTilt{{0.0, 0.1}, 0.0}, level),
+                                            of(MeasuredTilt{{0.0, 0.0}, 0.1}, level),
+                                            of(level, MeasuredTilt{{0.1, 0.0}, 0.0}),
+                                            of(level, MeasuredTilt{{0.0, 0.1}, 0.0}),
+                                            of(level, MeasuredTilt{{0.0, 0.0}, 0.1})};
+  EXPECT_EQ(different.size(), 10u);
+}
+
 TEST(RegistrationKeys, EveryNumberOfTheCameraCounts) {
   std::set<RegistrationKey> different{key_of({}, {}, {})};
   const auto with = [&](auto change) {

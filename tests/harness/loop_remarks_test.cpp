@@ -22,7 +22,7 @@ Recording survey(const std::vector<Pose>& poses) {
         k - 1, k, between(poses[k - 1], poses[k]), 1e-4 * Eigen::Matrix3d::Identity()));
   }
   recording.camera = Camera();
-  recording.keyframe_altitudes_m.assign(poses.size(), kAltitudeM);
+  recording.keyframe_stances.assign(poses.size(), kAltitudeM);
   recording.in_metres.emplace();
   recording.in_metres->reach_m = {2.3, 2.3, 2.3};
   return recording;

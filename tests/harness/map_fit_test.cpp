@@ -67,6 +67,34 @@ TEST(MapFit, MeasurementsThatDoNotFitEachOtherAreBlamedByTheirShare) {
                                 HasSubstr("too small for what loops say"))));
   fit.steps_at_optimum = 100.0;
   EXPECT_THAT(map_remarks(fit, "ekf", "solver"), ElementsAre(HasSubstr("loops are wrong")));
+  fit.absolute_at_optimum = 600.0;
+  EXPECT_THAT(map_remarks(fit, "ekf", "solver"), ElementsAre(HasSubstr("absolute measurements")));
+}
+
+// By hand: a row of a heading, two of a fix, three less of the hole; of keyframe 0 only if it is
+// not held.
+TEST(MapFit, HeadingsFixesAndHolesHaveTheirDegreesOfFreedom) {
+  const MeasurementLog square = test::square_log();
+  const auto dof_of = [&](const StartPose& start, bool with_hole) {
+    MeasurementLog log(start);
+    log.add_absolute(AbsolutePose::heading(0, 0.0, 0.1));
+    for (std::size_t k = 1; k < square.size(); ++k) {
+      RelativePose step = square.arrival(k).step;
+      step.is_hole = with_hole && k == 2;
+      log.add_keyframe(step);
+      for (const RelativePose& z : square.arrival(k).registrations) log.add_registration(z);
+    }
+    const std::size_t last = log.size() - 1;
+    log.add_absolute(AbsolutePose::heading(last, 0.0, 0.1));
+    log.add_absolute(AbsolutePose::position(last, {0.0, 0.0}, Eigen::Matrix2d::Identity()));
+    return map_fit(log, log.odometry(), {log.odometry(), 1.0, ""}).value();
+  };
+  EXPECT_EQ(dof_of(Pose{}, false).degrees_of_freedom, 16.0);
+  EXPECT_EQ(dof_of(Pose{}, true).degrees_of_freedom, 13.0);
+  StartPose uncertain;
+  uncertain.covariance = Eigen::Matrix3d::Identity();
+  EXPECT_EQ(dof_of(uncertain, false).degrees_of_freedom, 16.0);
+  EXPECT_EQ(dof_of(uncertain, false).unknowns, 24.0);
 }
 
 }  // namespace

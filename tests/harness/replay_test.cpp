@@ -221,7 +221,7 @@ TEST(Replay, IsWhatTheEstimatorGivesByItself) {
     for (std::size_t k = 1; k < log.size(); ++k) {
       estimator->add_keyframe(log.arrival(k).step);
       if (log.arrival(k).registrations.empty()) continue;
-      estimator->close_loops(log.arrival(k).registrations);
+      estimator->update({log.arrival(k).registrations});
     }
     EXPECT_EQ(result.trajectory, poses_of(*estimator)) << entry.name;
     ASSERT_TRUE(result.covariances) << entry.name;

@@ -15,7 +15,7 @@ namespace fathom::test {
 
 /// What a ScriptedEstimator is to do, and what it was asked to.
 struct Script {
-  std::vector<UpdateReport> updates;  ///< one per close_loops, its decisions made from `rejected`
+  std::vector<UpdateReport> updates;  ///< one per update, its decisions made from `rejected`
   UpdateReport finish;
   std::set<std::pair<std::size_t, std::size_t>> rejected;  ///< (from, to)
   std::function<double(double)> loss = [](double chi2) { return chi2; };
@@ -39,7 +39,7 @@ struct Script {
 class ScriptedEstimator : public Estimator {
  public:
   ScriptedEstimator(const EstimatorSetup& setup, Script& script)
-      : script_(script), poses_{setup.origin} {
+      : script_(script), poses_{setup.start.pose} {
     script_.calls.push_back(setup.mode == SolveMode::batch ? "create batch" : "create");
     script_.in_every_call();
   }
@@ -58,15 +58,19 @@ class ScriptedEstimator : public Estimator {
     poses_.push_back(compose(poses_.back(), step.motion));
   }
 
-  UpdateReport close_loops(std::span<const RelativePose> registrations) override {
+  UpdateReport update(const Measurements& measurements) override {
     script_.in_every_call();
     UpdateReport report;
     if (updates_ < script_.updates.size()) report = script_.updates[updates_++];
     std::string call = "close";
-    for (const RelativePose& z : registrations) {
+    for (const RelativePose& z : measurements.registrations) {
       call += " " + std::to_string(z.from) + "-" + std::to_string(z.to);
       const bool rejected = script_.rejected.contains({z.from, z.to});
       report.loops.push_back({z.from, z.to, rejected ? LoopFate::rejected : LoopFate::used, 2.5});
+    }
+    for (const AbsolutePose& z : measurements.absolute) {
+      call += " at " + std::to_string(z.keyframe);
+      report.absolute.push_back({z.keyframe, LoopFate::used, 1.5});
     }
     script_.calls.push_back(call);
     script_.spoil_report(report);
@@ -96,7 +100,7 @@ class ScriptedEstimator : public Estimator {
     return Eigen::MatrixXd(Eigen::MatrixXd::Identity(size, size));
   }
 
-  double loss(double chi2) const override { return script_.loss(chi2); }
+  double loss(double chi2, int /*rank*/) const override { return script_.loss(chi2); }
   std::vector<double> loop_weights() const override { return script_.loop_weights; }
 
  private:

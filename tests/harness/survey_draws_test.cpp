@@ -85,13 +85,13 @@ TEST(SurveyDraws, TrialsShareAltitudesAndPicturesAndDrawDeadReckoning) {
   };
   const Recording first = trial(0);
   const Recording second = trial(1);
-  EXPECT_EQ(first.frame_altitudes_m, second.frame_altitudes_m);
-  EXPECT_EQ(first.frame_altitudes_m[4], recorder.pictures()->info(4).altitude_m);
+  EXPECT_EQ(first.frame_stances, second.frame_stances);
+  EXPECT_EQ(first.frame_stances[4], recorder.pictures()->info(4).stance());
   EXPECT_NE(first.frame_dead_reckoning, second.frame_dead_reckoning);
   const Recorder other(configuration, nullptr, 4);
   const Recording elsewhere = other.record(configuration, configuration.reference,
                                            builtin_estimators(), {survey_seed(1, 4), 0});
-  EXPECT_NE(first.frame_altitudes_m, elsewhere.frame_altitudes_m);
+  EXPECT_NE(first.frame_stances, elsewhere.frame_stances);
   EXPECT_NE(first.frame_dead_reckoning, elsewhere.frame_dead_reckoning);
 }
 

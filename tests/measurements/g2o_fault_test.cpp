@@ -88,14 +88,10 @@ INSTANTIATE_TEST_SUITE_P(
 INSTANTIATE_TEST_SUITE_P(
     Graphs, G2oFault,
     testing::Values(
-        Fault{"no_odometry_edge", kGood + "VERTEX_SE2 2 1 0 0\nEDGE_SE2 0 2 1 0 0 1 0 0 1 0 1",
-              "4: ", "pose 2 has no odometry edge from pose 1"},
-        Fault{"lonely_vertex", kGood + "VERTEX_SE2 5 1 0 0", "4: ", "pose 5 has no odometry edge"},
-        Fault{"no_odometry_without_vertices",
-              "EDGE_SE2 0 1 1 0 0 1 0 0 1 0 1\nEDGE_SE2 0 2 1 0 0 1 0 0 1 0 1",
-              "2: ", "pose 2 has no odometry edge from pose 1"},
+        Fault{"lonely_vertex", kGood + "VERTEX_SE2 5 1 0 0", "4: ",
+              "2 components, which no edge and no prior joins (1: 2 poses, 0 to 1; 2: 1 pose, 5)"},
         Fault{"two_components", "EDGE_SE2 0 1 1 0 0 1 0 0 1 0 1\nEDGE_SE2 7 8 1 0 0 1 0 0 1 0 1",
-              "", "pose 7 has no odometry edge from pose 1"},
+              "2: ", "(1: 2 poses, 0 to 1; 2: 2 poses, 7 to 8), with borders at 1|7"},
         Fault{"empty", "", " ", "no vertex and no edge"},
         Fault{"only_comments", "# a\n\n  # b\n", " ", "no vertex and no edge"},
         Fault{"only_fix", "FIX 0\n", " ", "no vertex and no edge"}),
@@ -136,10 +132,13 @@ TEST(G2oFuzz, MutatedGraph) {
   const std::string good =
       kGood +
       "FIX 0\nEDGE_SE2 1 0 -1 0 0 5 1 0 5 0 9\nVERTEX_SE2 2 2 0 1\n"
-      "EDGE_SE2 1 2 1 0 1 2 0 0 2 0 2\n# inliers 5\nEDGE2 0 2 2 0 1 4 0 4 4 0 0\n";
+      "EDGE_SE2 1 2 1 0 1 2 0 0 2 0 2\n# inliers 5\nEDGE2 0 2 2 0 1 4 0 4 4 0 0\n"
+      "VERTEX_SE2 3 2 0 1\n# hole 2 3 0 0 0 1 0 0 1 0 1\nEDGE_SE2 1 3 1 0 1 2 0 0 2 0 2\n"
+      "# start 0.25 0 0 0.25 0 0.5\nEDGE_PRIOR_SE2 0 0 0 0 4 0 0 4 0 2\n"
+      "EDGE_PRIOR_SE2_XY 2 1 2 4 1 4\n";
   expect_read_or_refused(good);
   RandomStream random(2, "mutations");
-  const std::string alphabet = "0123456789+-.eE# \n\tFIXVERTEX_SE2nan";
+  const std::string alphabet = "0123456789+-.eE# \n\tFIXVERTEX_SE2PORnan";
   for (int round = 0; round < 20'000; ++round) {
     std::string text = good;
     for (std::uint64_t i = 0, n = 1 + random.index(4); i < n; ++i) {

@@ -40,7 +40,7 @@ std::vector<KeyframePicture> lawnmower(int legs, int count, double step_m, doubl
 }
 
 double overlap(const std::vector<KeyframePicture>& all, std::size_t i, std::size_t k) {
-  return footprint_overlap(camera(), all[i].altitude_m, all[k].altitude_m,
+  return footprint_overlap(camera(), all[i].stance, all[k].stance,
                            compose(inverse(all[i].pose), all[k].pose));
 }
 
@@ -86,7 +86,7 @@ TEST(Footprints, AgreeWithAllPairs) {
   auto keyframes = lawnmower(6, 25, 0.5, 0.7);
   for (KeyframePicture& one : keyframes) {
     one.pose = compose(one.pose, Pose{noise(random), noise(random), 5 * noise(random)});
-    one.altitude_m += 4.0 * noise(random);
+    one.stance.altitude_m += 4.0 * noise(random);
   }
   const auto all = footprints(camera(), keyframes);
   for (std::size_t i = 0; i < all.size(); ++i) {

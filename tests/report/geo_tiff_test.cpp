@@ -38,8 +38,8 @@ class MarkedFloor : public FrameSource {
     cv::Mat picture(camera_.model().height, camera_.model().width, CV_8U);
     for (int v = 0; v < picture.rows; ++v) {
       for (int u = 0; u < picture.cols; ++u) {
-        const Eigen::Vector2d floor = transform(
-            truth_[i].pose, camera_.floor_point(Eigen::Vector2d(u, v), truth_[i].altitude_m));
+        const Eigen::Vector2d floor =
+            transform(truth_[i].pose, camera_.floor_point(Eigen::Vector2d(u, v), truth_[i].stance));
         picture.at<unsigned char>(v, u) = (floor - mark_).norm() < kMarkRadius_m ? 230 : 100;
       }
     }

@@ -41,7 +41,7 @@ class KnownFloor : public FrameSource {
       for (int u = 0; u < picture.cols; ++u) {
         const Eigen::Vector2d pixel(u, v);
         const Eigen::Vector2d floor =
-            transform(truth_[i].pose, camera_.floor_point(pixel, truth_[i].altitude_m));
+            transform(truth_[i].pose, camera_.floor_point(pixel, truth_[i].stance));
         picture.at<unsigned char>(v, u) =
             cv::saturate_cast<unsigned char>((light_ ? light_(pixel) : 1.0) * floor_grey(floor));
       }

@@ -155,13 +155,30 @@ TEST(Mosaic, TwoPicturesInTheSamePlaceAreAveragedAndNotPicked) {
 TEST(Mosaic, PicturesFromHighAndLowLieOnOneAnother) {
   std::vector<PlacedPicture> truth = legs(3);
   for (PlacedPicture& picture : truth) {
-    if (picture.frame % 4 == 0) picture.altitude_m = 5.0;
+    if (picture.frame % 4 == 0) picture.stance = 5.0;
   }
   const KnownFloor floor(Camera(plain_model()), truth);
   const Made mosaic = made(floor, truth);
   EXPECT_LT(from_floor(mosaic).mean, 2.0);
   // Those from 2 m are more: their pixels say how fine the mosaic is.
   EXPECT_NEAR(mosaic.plan.metres_per_pixel, 2.0 / 120, 0.2 / 120);
+}
+
+TEST(Mosaic, OfTiltedPicturesIsTheFloor) {
+  for (const CameraModel& model : {plain_model(), full_model()}) {
+    std::vector<PlacedPicture> truth = legs(3);
+    for (PlacedPicture& picture : truth) {
+      const auto i = static_cast<double>(picture.frame);
+      picture.stance.tilt = {0.1 * std::sin(1.3 * i), 0.1 * std::cos(0.9 * i)};
+    }
+    const KnownFloor floor(Camera(model), truth);
+    const Difference measured = from_floor(made(floor, truth));
+    EXPECT_LT(measured.mean, 1.0);
+    EXPECT_LT(measured.largest, 8.0);
+    std::vector<PlacedPicture> level = truth;
+    for (PlacedPicture& picture : level) picture.stance.tilt = {};
+    EXPECT_GT(from_floor(made(floor, level)).mean, 5.0 * measured.mean);
+  }
 }
 
 // Darker towards the corners, where 45 % of the light arrive.

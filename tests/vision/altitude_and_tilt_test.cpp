@@ -1,5 +1,9 @@
 // What errors of a picture's altitude, roll and pitch do to a registration.
 
+#include <cmath>
+#include <optional>
+#include <utility>
+
 #include <Eigen/Dense>
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
@@ -26,14 +30,21 @@ struct Error {
   double& operator[](int i) { return i == 0 ? altitude_m : i == 1 ? roll_rad : pitch_rad; }
 };
 
-// Where the ray that a level camera takes for the one to `point` meets the floor with the error, in
-// three dimensions: x ahead, y to the left, z up.
+// A camera of the pitch and of a roll turned by the error; of a level one in the other order.
+Eigen::Matrix3d turn_of(double pitch_rad, const Error& error) {
+  return (Eigen::AngleAxisd(pitch_rad + error.pitch_rad, Eigen::Vector3d::UnitY()) *
+          Eigen::AngleAxisd(error.roll_rad, Eigen::Vector3d::UnitX()))
+      .toRotationMatrix();
+}
+
+// Where the ray that the camera takes for the one to `point` meets the floor with the error, in
+// three dimensions: x ahead, y to the left, z up. A roll of its own changes nothing: the error adds
+// to it about the same axis.
 Eigen::Vector2d moved(const Eigen::Vector2d& point, const Viewpoint& view, const Error& error) {
   const Eigen::Vector3d ray(point.x() - view.camera_m.x(), point.y() - view.camera_m.y(),
                             -view.altitude_m);
   const Eigen::Vector3d turned =
-      Eigen::AngleAxisd(error.roll_rad, Eigen::Vector3d::UnitX()) *
-      (Eigen::AngleAxisd(error.pitch_rad, Eigen::Vector3d::UnitY()) * ray);
+      turn_of(view.pitch_rad, error) * turn_of(view.pitch_rad, {}).transpose() * ray;
   const double length = -(view.altitude_m + error.altitude_m) / turned.z();
   return view.camera_m + length * turned.head<2>();
 }
@@ -44,10 +55,17 @@ Points all_moved(const Points& points, const Viewpoint& view, const Error& error
   return result;
 }
 
+Viewpoint view_from(double altitude_m) {
+  Viewpoint view;
+  view.camera_m = {0.4, -0.1};
+  view.altitude_m = altitude_m;
+  return view;
+}
+
 struct Overlap {
   Pose motion{0.6, -0.4, 0.9};
-  Viewpoint from{{0.4, -0.1}, 2.0, 0.0};
-  Viewpoint to{{0.4, -0.1}, 1.4, 0.0};
+  Viewpoint from = view_from(2.0);
+  Viewpoint to = view_from(1.4);
   Points p, q;
   std::vector<double> weights;
 
@@ -61,8 +79,9 @@ struct Overlap {
 
 // σ² dz dzᵀ over the errors of both pictures, dz by central differences of whole fits.
 Eigen::Matrix3d refitted(const Overlap& seen, const CovarianceOptions& options) {
-  const double sigmas[] = {options.altitude_sigma_m, options.tilt_sigma_rad,
-                           options.tilt_sigma_rad};
+  const auto sigma = [&](const Viewpoint& view, int i) {
+    return i == 0 ? options.altitude_sigma_m : view.tilt_sigma_rad.value_or(options.tilt_sigma_rad);
+  };
   constexpr double kStep = 1e-5;
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
   for (int i = 0; i < 3; ++i) {
@@ -76,7 +95,8 @@ Eigen::Matrix3d refitted(const Overlap& seen, const CovarianceOptions& options) 
     };
     const Eigen::Vector3d by_from = difference(fit(up, {}), fit(down, {})) / (2.0 * kStep);
     const Eigen::Vector3d by_to = difference(fit({}, up), fit({}, down)) / (2.0 * kStep);
-    sum += sigmas[i] * sigmas[i] * (by_from * by_from.transpose() + by_to * by_to.transpose());
+    sum += std::pow(sigma(seen.from, i), 2) * by_from * by_from.transpose() +
+           std::pow(sigma(seen.to, i), 2) * by_to * by_to.transpose();
   }
   return sum;
 }
@@ -92,6 +112,41 @@ TEST(LinearFit, AltitudeAndTiltEqualsRefitsOfMovedPoints) {
     ASSERT_GT(expected.norm(), 1e-5);
     EXPECT_LT((found - expected).norm(), 1e-6 * expected.norm()) << found << "\n\n" << expected;
   }
+}
+
+// Pitch and the σ of each as measured; one of the two alone; and an exact one.
+TEST(LinearFit, MeasuredTiltEqualsRefitsOfMovedPoints) {
+  Overlap seen;
+  seen.from.pitch_rad = 0.3;
+  seen.to.pitch_rad = -0.4;
+  const CovarianceOptions options{0.02, 0.03};
+  const LinearFit fit(seen.motion, seen.p, seen.q, seen.weights);
+  std::vector<double> traces;
+  for (const auto& [of_from, of_to] :
+       {std::pair<std::optional<double>, std::optional<double>>{0.01, 0.002},
+        {0.01, std::nullopt},
+        {std::nullopt, 0.002},
+        {0.0, 0.01},
+        {0.0, 0.0}}) {
+    seen.from.tilt_sigma_rad = of_from;
+    seen.to.tilt_sigma_rad = of_to;
+    const Eigen::Matrix3d expected = refitted(seen, options);
+    const Eigen::Matrix3d found = fit.altitude_and_tilt(seen.from, seen.to, options);
+    EXPECT_LT((found - expected).norm(), 1e-6 * expected.norm()) << found << "\n\n" << expected;
+    traces.push_back(found.trace());
+  }
+  EXPECT_LT(traces[0], 0.5 * traces[1]);
+  EXPECT_LT(traces[4], traces[3]);
+}
+
+// Measured as the options have it is the same to the last bit.
+TEST(LinearFit, AMeasuredSigmaStandsForThatOfTheOptions) {
+  Overlap seen;
+  const CovarianceOptions options{0.02, 0.03};
+  const LinearFit fit(seen.motion, seen.p, seen.q, seen.weights);
+  const Eigen::Matrix3d by_options = fit.altitude_and_tilt(seen.from, seen.to, options);
+  seen.from.tilt_sigma_rad = seen.to.tilt_sigma_rad = 0.03;
+  EXPECT_EQ(fit.altitude_and_tilt(seen.from, seen.to, {0.02, 0.2}), by_options);
 }
 
 TEST(LinearFit, AltitudeAndTiltKnowsOnePictureFromTheOther) {

@@ -7,6 +7,7 @@
 #include "estimators/support/pose_graph/chordal.hpp"
 #include "estimators/support/pose_graph/headings.hpp"
 #include "estimators/support/pose_graph/lifted_headings.hpp"
+#include "estimators/support/pose_graph/turn_graph.hpp"
 
 namespace fathom::pose_graph {
 namespace {
@@ -19,7 +20,8 @@ class Batch {
         nodes_(nodes),
         limits_(limits),
         symbolic_(analyse_graph(edges, static_cast<int>(nodes.size()), workers)),
-        equations_(symbolic_, edges) {}
+        equations_(symbolic_, edges),
+        turns_(edges, nodes) {}
 
   SolveResult run(Start start) {
     switch (start) {
@@ -75,7 +77,7 @@ class Batch {
   }
 
   HeadingProblem& headings() {
-    if (!headings_) headings_.emplace(symbolic_, edges_);
+    if (!headings_) headings_.emplace(symbolic_, turns_.edges());
     return *headings_;
   }
 
@@ -89,11 +91,11 @@ class Batch {
   }
 
   std::vector<double> chordal_start() const {
-    return chordal_headings(symbolic_, edges_, nodes_[0].theta);
+    return chordal_headings(symbolic_, turns_.edges(), nodes_[0].theta);
   }
 
   std::vector<Node> lifted() {
-    return from_headings(settled(lifted_headings(symbolic_, edges_, chordal_start())));
+    return from_headings(settled(lifted_headings(symbolic_, turns_.edges(), chordal_start())));
   }
 
   // Least squares in the headings, rounded again until that changes nothing.
@@ -135,7 +137,7 @@ class Batch {
 
   double worst_turn(const std::vector<double>& theta) const {
     double worst = 0.0;
-    for (const Edge& edge : edges_) {
+    for (const Edge& edge : turns_.edges()) {
       const double turn = theta[at(edge.to)] - theta[at(edge.from)];
       worst = std::max(worst, std::abs(wrap_angle(turn - edge.theta)));
     }
@@ -147,6 +149,7 @@ class Batch {
   SolveLimits limits_;
   sparse::Symbolic symbolic_;
   NormalEquations equations_;
+  TurnGraph turns_;
   std::optional<HeadingProblem> headings_;
   SolveResult best_;
   std::vector<Node> best_nodes_;

@@ -1,7 +1,10 @@
 #include "estimators/support/pose_graph/edge.hpp"
 
+#include <algorithm>
+
 #include <Eigen/LU>
 
+#include "fathom/estimation/precision.hpp"
 #include "fathom/geometry/covariance.hpp"
 
 namespace fathom::pose_graph {
@@ -46,9 +49,19 @@ Eigen::Vector3d residual_of(const Edge& edge, const Node& i, const Node& k) {
 double heading_information(const Edge& edge) {
   const auto& W = edge.W;
   const double determinant = W[0] * W[3] - W[1] * W[1];
+  // Of a position that is measured in one direction at most: what that direction does not explain.
+  if (!(determinant > kLeastPivotShare * W[0] * W[3])) {
+    const double trace = W[0] + W[3];
+    const double along = W[2] * W[2] + W[4] * W[4];
+    return trace > 0.0 ? std::max(W[5] - along / trace, 0.0) : W[5];
+  }
   const double lost =
       (W[3] * W[2] * W[2] - 2.0 * W[1] * W[2] * W[4] + W[0] * W[4] * W[4]) / determinant;
   return W[5] - lost;
+}
+
+bool measures_heading(const Edge& edge) {
+  return heading_information(edge) > kLeastHeadingShare * edge.W[5];
 }
 
 std::vector<Node> nodes_of(std::span<const Pose> poses) {

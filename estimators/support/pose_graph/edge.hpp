@@ -36,6 +36,9 @@ Eigen::Matrix3d covariance_of(const Edge& edge);
 
 /// 1 / variance of the heading that an edge measures, its position left free.
 double heading_information(const Edge& edge);
+/// Whether it measures one: a position fix does not, be it of a point beside the keyframe.
+bool measures_heading(const Edge& edge);
+inline constexpr double kLeastHeadingShare = 1e-9;
 
 /// A pose with the cosine and sine of its heading. The heading need not be wrapped.
 struct Node {
@@ -107,6 +110,7 @@ struct EdgeLoss {
   RobustLoss loss;
   std::span<const char> is_robust;    ///< by edge; empty: the loss is on none
   std::span<const double> weights{};  ///< by edge; empty: all 1
+  std::span<const char> ranks{};      ///< by edge, of W; empty: all 3
 
   bool leaves_out(std::size_t edge) const { return !weights.empty() && weights[edge] == 0.0; }
 
@@ -126,7 +130,7 @@ inline void EdgeLoss::apply(std::size_t edge, bool second_order, EdgeTerms& t) c
     scale(weights[edge], t);
   }
   if (is_robust.empty() || is_robust[edge] == 0) return;
-  const LossValue value = loss.at(t.cost);
+  const LossValue value = (ranks.empty() ? loss : loss.of_rank(ranks[edge])).at(t.cost);
   const std::array<double, 3> m = t.m;
   t.cost = value.rho;
   scale(value.weight, t);

@@ -104,14 +104,14 @@ std::optional<std::vector<UncertainPose>> motions_to_newest(std::span<const Edge
   return motions;
 }
 
-std::optional<std::vector<Eigen::Matrix3d>> innovation_covariances(
+std::optional<std::vector<Eigen::Matrix3d>> predicted_covariances(
     std::span<const Edge> edges, std::span<const Node> nodes,
     std::span<const RelativePose> forward_loops) {
   Information information(edges, nodes);
   if (!information.is_definite()) return std::nullopt;
   const std::size_t newest = nodes.size() - 1;
   const Eigen::MatrixX3d to_newest = information.columns(newest);
-  std::vector<Eigen::Matrix3d> innovations;
+  std::vector<Eigen::Matrix3d> predicted;
   for (const RelativePose& z : forward_loops) {
     PairCovariance pair;
     pair.B = information.block(to_newest, newest);
@@ -120,9 +120,9 @@ std::optional<std::vector<Eigen::Matrix3d>> innovation_covariances(
       pair.cross = information.block(to_newest, z.from);
     }
     const UncertainPose h = between(pose_of(nodes[z.from]), pose_of(nodes[z.to]), pair);
-    innovations.push_back(h.covariance + z.covariance());
+    predicted.push_back(h.covariance);
   }
-  return innovations;
+  return predicted;
 }
 
 }  // namespace fathom::pose_graph

@@ -32,8 +32,8 @@ std::optional<Eigen::MatrixXd> joint_covariance(std::span<const Edge> edges,
 std::optional<std::vector<UncertainPose>> motions_to_newest(std::span<const Edge> edges,
                                                             std::span<const Node> nodes);
 
-/// Covariance of ν = z − h(x) for each of these registrations, which end at the newest keyframe.
-std::optional<std::vector<Eigen::Matrix3d>> innovation_covariances(
+/// As of PredictedCovariances, for loops that end at the newest keyframe.
+std::optional<std::vector<Eigen::Matrix3d>> predicted_covariances(
     std::span<const Edge> edges, std::span<const Node> nodes,
     std::span<const RelativePose> forward_loops);
 

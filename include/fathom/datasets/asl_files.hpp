@@ -28,10 +28,18 @@ std::string sensor_row(std::int64_t time_ns, std::initializer_list<double> value
 void write_sensor(const std::filesystem::path& folder, const std::string& columns,
                   const std::string& rows, const std::string& yaml);
 
+/// Bounds of what `attitude0` may say: no survey of a floor flies more tilted, but degrees taken
+/// for radians are beyond.
+inline constexpr double kMostTiltRad = 1.0;
+inline constexpr double kMostTiltSigmaRad = 0.5;
+
 /// The same for the sensors whose columns are known: each takes its rows.
 void write_camera(const std::filesystem::path& mav0, const std::string& rows,
                   const CameraModel& model);
 void write_altimeter(const std::filesystem::path& mav0, const std::string& rows);
+void write_attitude(const std::filesystem::path& mav0, const std::string& rows);
+/// Columns timestamp, heading, sigma: of the body, counter-clockwise from the world's x axis.
+void write_compass(const std::filesystem::path& mav0, const std::string& rows);
 void write_odometry(const std::filesystem::path& mav0, const std::string& rows);
 /// `folder`: state_groundtruth_estimate0, by its path.
 void write_reference(const std::filesystem::path& folder, const std::string& rows);

@@ -14,7 +14,9 @@
 
 #include "fathom/core/ignored_key.hpp"
 #include "fathom/core/options.hpp"
+#include "fathom/datasets/absolute_readings.hpp"
 #include "fathom/datasets/frame_source.hpp"
+#include "fathom/datasets/start_options.hpp"
 #include "fathom/geometry/trajectory.hpp"
 #include "fathom/measurements/measurement_log.hpp"
 
@@ -45,6 +47,9 @@ struct Trial {
   bool visual_odometry = false;
   /// The measurements that this trial draws; none: pictures, or a graph that is always the same.
   std::optional<DrawnGraph> graph = std::nullopt;
+  /// What compass and positioning system measured of the frames.
+  AbsoluteReadings absolute = {};
+  StartOptions start = {};
 };
 
 /// A data set, opened: either pictures or a pose graph. May be used from several threads at once.
@@ -93,6 +98,8 @@ struct DataSetEntry {
   std::vector<OptionDescription> options;  ///< keys below `dataset`
   /// Of them those that only say what a trial measures: what is opened does not depend on them.
   std::vector<OptionDescription> trial_options;
+  /// Whether `dataset.origin` is among the values that a trial is given.
+  bool takes_origin = false;
   /// Whether a trial has anything to draw: noise of pictures, or measurements.
   bool draws_trials() const { return !is_graph || !trial_options.empty(); }
   Repetition repetition() const {
@@ -118,14 +125,16 @@ Options options_of(const DataSetValues& values) {
   Options options;
   OptionTable table;
   options.describe(table);
+  if constexpr (requires { options.describe_origin(table); }) options.describe_origin(table);
   for (const auto& [key, value] : values) table.set(key, value);
   return options;
 }
 
 /// Makes the entry of a data set from its option struct. It has `describe(OptionTable&)` and, where
 /// there are such options, `describe_trial(OptionTable&)` for those of a trial and `ignored_keys()`
-/// for those that others leave without effect; also `why_surveys_are_alike()`. `open` takes (const
-/// Options&, std::uint64_t seed).
+/// for those that others leave without effect; also `why_surveys_are_alike()`, and
+/// `describe_origin(OptionTable&)` where a trial depends on `dataset.origin`, which every data set
+/// of pictures has anyway. `open` takes (const Options&, std::uint64_t seed).
 template <class Options, class Open>
 DataSetEntry make_data_set(std::string name, std::string help, Open open) {
   class Described : public DataSetOptions {
@@ -157,6 +166,9 @@ DataSetEntry make_data_set(std::string name, std::string help, Open open) {
     defaults.describe_trial(of_trial);
     entry.trial_options = of_trial.descriptions();
   }
+  entry.takes_origin = requires(OptionTable & table) {
+    defaults.describe_origin(table);
+  };
   entry.make_options = [] { return std::make_unique<Described>(); };
   entry.open = [open](const DataSetValues& values, std::uint64_t seed) -> std::unique_ptr<DataSet> {
     return open(options_of<Options>(values), seed);

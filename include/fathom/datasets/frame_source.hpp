@@ -16,11 +16,19 @@ namespace fathom {
 /// All that is known of one frame but its picture.
 struct FrameInfo {
   std::int64_t time_ns = 0;
-  double altitude_m = 0.0;  ///< as measured, > 0
+  double altitude_m = 0.0;  ///< as measured, of the camera's centre over the floor, vertical; > 0
   /// Dead reckoning: the motion since the frame before, in that frame, with its covariance. Absent
   /// at the first frame, and where the source has no odometry.
   std::optional<UncertainPose> motion;
-  std::optional<Pose> ground_truth;
+  std::optional<Pose> ground_truth = std::nullopt;
+  /// Roll and pitch as measured. Absent where the source has none: a camera is taken for level
+  /// then.
+  std::optional<MeasuredTilt> tilt = std::nullopt;
+
+  /// Whether nothing was measured of the motion: it is a guess then, with a declared covariance.
+  bool is_hole = false;
+
+  Stance stance() const { return {altitude_m, tilt}; }
 };
 
 /// A recorded or simulated survey: frames in the order of time.
@@ -42,6 +50,9 @@ class FrameSource {
   /// in whatever source and run. May be called from several threads at once. Throws InputError
   /// naming the file where it is missing or unreadable.
   virtual std::uint64_t picture_id(std::size_t i) const = 0;
+
+  /// Whether every frame has its roll and pitch; else none has.
+  bool has_attitude() const { return size() > 0 && info(0).tilt.has_value(); }
 
   /// Whether every frame after the first has its motion.
   virtual bool has_odometry() const = 0;

@@ -6,7 +6,9 @@
 #include <mutex>
 #include <vector>
 
+#include "fathom/datasets/folder_sensors.hpp"
 #include "fathom/datasets/frame_source.hpp"
+#include "fathom/datasets/odometry_gaps.hpp"
 
 namespace fathom {
 
@@ -18,9 +20,11 @@ class SensorCsv;
 /// picture's own time stamp is taken as it is, else the two around it are interpolated, if they are
 /// no further apart than `kMaxInterpolationGapNs`.
 /// - `altimeter0`: needed at every picture.
+/// - `attitude0`: optional, else needed at every picture.
 /// - `odometry0`: optional, else needed at every picture. The covariance of a frame's motion is
 ///   composed of the steps since the frame before; of a step cut by a picture, each part takes its
-///   share of the covariance by time.
+///   share of the covariance by time. Where it stops a motion is a hole, if OdometryGaps says so.
+/// - `compass0`, `position0`: optional, at any rate (read_folder_sensors).
 /// - `state_groundtruth_estimate0`: optional, absent at frames that it does not cover; the yaw of
 ///   its quaternion is the heading.
 class ImageFolder : public FrameSource {
@@ -30,7 +34,7 @@ class ImageFolder : public FrameSource {
   /// `path`: the folder with `mav0` in it, or `mav0` itself. Pictures must be there, but are
   /// decoded only when asked for, except for the first, whose size is checked. Throws InputError
   /// with file and line.
-  explicit ImageFolder(const std::filesystem::path& path);
+  explicit ImageFolder(const std::filesystem::path& path, const OdometryGaps& gaps = {});
 
   const Camera& camera() const override { return camera_; }
   std::size_t size() const override { return infos_.size(); }
@@ -45,6 +49,8 @@ class ImageFolder : public FrameSource {
   std::vector<std::filesystem::path> files() const;
   /// The file of frame i's picture.
   const std::filesystem::path& picture(std::size_t i) const { return pictures_[i]; }
+  /// Compass and positioning system, as recorded.
+  const FolderSensors& sensors() const { return sensors_; }
   /// Whether every frame has ground truth.
   bool has_ground_truth() const override { return has_ground_truth_; }
 
@@ -52,7 +58,8 @@ class ImageFolder : public FrameSource {
   void read_frames();
   void refuse_other_units(const SensorCsv& csv) const;
   void read_altitudes();
-  void read_odometry();
+  void read_attitude();
+  void read_odometry(const OdometryGaps& gaps);
   void read_ground_truth();
 
   struct PictureId {
@@ -64,6 +71,7 @@ class ImageFolder : public FrameSource {
   Camera camera_;
   std::vector<FrameInfo> infos_;
   std::vector<std::filesystem::path> pictures_;
+  FolderSensors sensors_;
   mutable std::vector<PictureId> ids_;
   bool has_odometry_ = false;
   bool has_ground_truth_ = false;
@@ -71,8 +79,10 @@ class ImageFolder : public FrameSource {
 
 /// Writes a survey as an image folder: PNG pictures named by their time stamps, numbers with 17
 /// digits, `odometry0` with the covariances xy, xt, yt after the variances. ImageFolder reads back
-/// the same frames and bit-identical pictures. `folder/mav0` is written whole or not at all; an
-/// older one is replaced. Throws InputError.
-void write_image_folder(const FrameSource& source, const std::filesystem::path& folder);
+/// the same frames and bit-identical pictures; over a hole `odometry0` has no rows. Headings and
+/// fixes go to `compass0` and `position0`. `folder/mav0` is written whole or not at all; an older
+/// one is replaced. Throws InputError.
+void write_image_folder(const FrameSource& source, const std::filesystem::path& folder,
+                        const AbsoluteReadings& readings = {});
 
 }  // namespace fathom

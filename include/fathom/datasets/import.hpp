@@ -28,6 +28,7 @@ struct BagImportOptions {
   std::string odometry;
   std::string reference;
   std::string heading;
+  std::string attitude;  ///< empty: the heading's
 
   std::filesystem::path camera_yaml;  ///< a sensor.yaml in place of the bag's CameraInfo
   std::optional<double> mount_x_m;    ///< of the camera in the body frame; absent: as camera_yaml
@@ -46,6 +47,10 @@ struct BagImportOptions {
 
   /// Of a heading whose covariance the bag does not say.
   double default_heading_sigma_rad = 0.05;
+
+  /// Of roll and pitch, in place of the covariances in the bag; and where the bag does not say.
+  std::optional<double> attitude_sigma_rad;
+  double default_attitude_sigma_rad = 0.01;
 
   BagClock clock = BagClock::automatic;
   /// By how much the header stamps of two topics may differ against their times of recording.

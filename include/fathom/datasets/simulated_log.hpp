@@ -8,6 +8,8 @@
 #include "fathom/core/options.hpp"
 #include "fathom/datasets/mission.hpp"
 #include "fathom/datasets/motion_noise.hpp"
+#include "fathom/datasets/simulated_sensors.hpp"
+#include "fathom/datasets/start_options.hpp"
 #include "fathom/geometry/trajectory.hpp"
 #include "fathom/measurements/measurement_log.hpp"
 
@@ -34,6 +36,8 @@ struct SimulatedLogOptions {
   int separation_frames = 5;  ///< frames from one keyframe to the next
   DrawnNoiseOptions odometry{"of a frame's motion"};
   SimulatedLoopOptions loops;
+  SimulatedSensorOptions sensors;  ///< the groups compass, fixes, holes and the keys of gaps
+  StartOptions start;
 
   void describe(OptionTable& table);
   void describe_trial(OptionTable& table);
@@ -57,6 +61,9 @@ struct FlownKeyframes {
 /// - shared errors: z is of the poses X ⊕ u, with one draw u a keyframe;
 /// - scale: the translation of z times 1 + `scale_error`;
 /// - heavy tails: ν times `tail_factor` with probability `tail_share`.
+///
+/// Compass, fixes and holes (draw_readings, draw_holes) are of the frames; readings are carried to
+/// keyframes (ReadingCarrier), and a step is a hole if one of its frames is in one.
 ///
 /// Every draw is from a stream of its own (`dead_reckoning`, `loops`, `loop_noise`,
 /// `shared_errors`, `tails`), the same whatever the sizes of the errors are.

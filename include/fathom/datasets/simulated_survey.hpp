@@ -13,6 +13,8 @@
 #include "fathom/datasets/mission.hpp"
 #include "fathom/datasets/motion_noise.hpp"
 #include "fathom/datasets/picture_effects.hpp"
+#include "fathom/datasets/simulated_sensors.hpp"
+#include "fathom/datasets/start_options.hpp"
 #include "fathom/datasets/world.hpp"
 
 namespace fathom {
@@ -35,11 +37,13 @@ struct SimulatedSurveyOptions {
   CameraOptions camera;
   OdometryOptions odometry;
   AttitudeOptions attitude;
-  PictureEffects effects;  ///< the groups `water` and `camera_effects`
+  PictureEffects effects;          ///< the groups `water` and `camera_effects`
+  SimulatedSensorOptions sensors;  ///< the groups compass, fixes, holes and the keys of gaps
+  StartOptions start;
 
   /// In a config these keys stand under `dataset.`.
   void describe(OptionTable& table);
-  /// Of them those that only say what a trial measures: dead reckoning.
+  /// Of them those that only say what a trial measures: dead reckoning, compass and fixes.
   void describe_trial(OptionTable& table);
   /// Keys that the kind of mission has no use for.
   std::vector<IgnoredKey> ignored_keys() const;
@@ -52,9 +56,9 @@ struct SimulatedSurveyOptions {
 /// drawn when the first of them is. Copies share the floor.
 class SimulatedSurvey : public FrameSource {
  public:
-  /// Floor, attitude, all else in the pictures and measured altitudes depend on the seed alone,
-  /// dead reckoning on seed and trial; each kind of noise has its stream ("altimeter",
-  /// "dead_reckoning"). Throws InputError
+  /// Floor, attitude, all else in the pictures, measured altitudes, roll and pitch depend on the
+  /// seed alone, dead reckoning on seed and trial; each kind of noise has its stream ("altimeter",
+  /// "attitude_sensor", "dead_reckoning"). Throws InputError
   /// naming the key, with `dataset.` in front: an option out of its bounds, an altitude that
   /// reaches zero, a covariance that is not positive definite, a frame that sees beyond the world's
   /// picture.
@@ -66,6 +70,12 @@ class SimulatedSurvey : public FrameSource {
   /// with this seed and trial. Throws InputError as the constructor does.
   SimulatedSurvey remeasured(const OdometryOptions& odometry, std::uint64_t noise_seed,
                              std::uint64_t trial) const;
+  /// The same with holes in dead reckoning, a compass and fixes.
+  SimulatedSurvey remeasured(const OdometryOptions& odometry, const SimulatedSensorOptions& sensors,
+                             std::uint64_t noise_seed, std::uint64_t trial) const;
+
+  /// Of compass and positioning system, as this trial has them.
+  const AbsoluteReadings& readings() const { return readings_; }
 
   const Camera& camera() const override { return camera_; }
   std::size_t size() const override { return infos_.size(); }
@@ -91,12 +101,15 @@ class SimulatedSurvey : public FrameSource {
   void fly(const SimulatedSurveyOptions& options);
   void measure_altitudes(double sigma_m, std::uint64_t seed);
   void measure_motions(const OdometryOptions& odometry, std::uint64_t seed, std::uint64_t trial);
+  void measure_sensors(const SimulatedSensorOptions& sensors, std::uint64_t seed,
+                       std::uint64_t trial);
   void plan_views(const SimulatedSurveyOptions& options, std::uint64_t seed);
   void plan_floor(const WorldOptions& options, std::uint64_t seed);
 
   Camera camera_;
   std::vector<FrameInfo> infos_;
   std::vector<View> views_;
+  AbsoluteReadings readings_;
   PictureEffects effects_;
   std::shared_ptr<Floor> floor_;
   bool has_odometry_ = false;

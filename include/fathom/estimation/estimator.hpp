@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 
 #include "fathom/geometry/trajectory.hpp"
+#include "fathom/measurements/absolute_pose.hpp"
 #include "fathom/measurements/relative_pose.hpp"
 
 namespace fathom {
@@ -21,7 +22,7 @@ Outcome worse(Outcome a, Outcome b);
 /// Converged, or stopped at its iteration limit: the estimate can be used.
 bool is_done(Outcome outcome);
 
-/// The decision on one registration: used, rejected by a gate, or lost with an update that failed.
+/// The decision on one measurement: used, rejected by a gate, or lost with an update that failed.
 enum class LoopFate { used, rejected, lost };
 
 std::string name_of(LoopFate fate);
@@ -35,6 +36,22 @@ struct LoopDecision {
   std::optional<double> nis;
 };
 
+/// The decision on one absolute measurement.
+struct AbsoluteDecision {
+  std::size_t keyframe = 0;
+  LoopFate fate = LoopFate::used;
+  /// As of LoopDecision, with as many degrees of freedom as the rank of the information.
+  std::optional<double> nis;
+};
+
+/// What is measured of the newest keyframe.
+struct Measurements {
+  std::span<const RelativePose> registrations;
+  std::span<const AbsolutePose> absolute{};
+
+  bool is_empty() const { return registrations.empty() && absolute.empty(); }
+};
+
 /// The report of one update or solve.
 struct UpdateReport {
   Outcome outcome = Outcome::converged;
@@ -42,6 +59,8 @@ struct UpdateReport {
   int iterations = 0;
   /// One per registration given, in the order given.
   std::vector<LoopDecision> loops;
+  /// One per absolute measurement given, in the order given.
+  std::vector<AbsoluteDecision> absolute{};
   /// Of a solver that says so: the largest absolute element of the gradient of the cost, in metres
   /// and radians, at the estimate.
   std::optional<double> gradient_norm = std::nullopt;
@@ -50,41 +69,13 @@ struct UpdateReport {
   std::optional<bool> is_local_minimum = std::nullopt;
 };
 
-/// A SLAM back end. Five functions make one: size and pose (of TrajectoryView), add_keyframe,
-/// close_loops, joint_covariance. What follows from them has a default that may be overridden; a
-/// batch solver overrides finish, too, and one with a robust loss says what it does.
-///
-/// The same calls for a filter and for a graph:
-///
-///     add_keyframe(step)        once per keyframe, in order
-///     close_loops(registrations)  with all registrations that end at the newest keyframe, if any
-///     finish()                    once, at the end of the log
-///
-/// Contract, tested over every registered estimator (tests/estimators/conformance_test.cpp):
-/// - Keyframe 0 is there from the start, fixed at the origin given to the factory.
-/// - `pose(k)` is in the world frame, heading wrapped; the view is valid after every call.
-/// - Registrations may be written either way round; those of one call form one update.
-/// - The same calls give the same estimate, to the last bit.
-/// - `covariance` and `motions_to_newest` say what their defaults say, of that same estimate.
-/// - Failure is reported, never thrown, and leaves the estimate as it was before the call.
-class Estimator : public TrajectoryView {
+/// An estimate of the poses of all keyframes and what it says of its uncertainty. Covariances are
+/// in world axes, first order, given the start: with keyframe 0 fixed, its rows and columns are
+/// zero.
+class Estimate : public TrajectoryView {
  public:
-  /// Appends the next keyframe by its motion from the newest one.
-  virtual void add_keyframe(const RelativePose& step) = 0;
-
-  /// Uses registrations between the newest keyframe and earlier ones.
-  virtual UpdateReport close_loops(std::span<const RelativePose> registrations) = 0;
-
-  /// Ends the log. In batch mode this is where the whole graph is solved, from `start` (a pose per
-  /// keyframe) or, without one, from dead reckoning; else there is nothing left to do.
-  virtual UpdateReport finish(std::span<const Pose> start = {}) {
-    (void)start;
-    return {};
-  }
-
-  /// The joint covariance of the (x, y, θ) of several keyframes, 3m×3m in the order given: world
-  /// axes, first order, keyframe 0 fixed (its rows and columns are zero). Keyframes may repeat.
-  /// Nothing where it cannot be computed. Not part of the cost of an update.
+  /// The joint covariance of the (x, y, θ) of several keyframes, 3m×3m in the order given.
+  /// Keyframes may repeat. Nothing where it cannot be computed. Not part of the cost of an update.
   virtual std::optional<Eigen::MatrixXd> joint_covariance(
       std::span<const std::size_t> keyframes) const = 0;
 
@@ -102,14 +93,58 @@ class Estimator : public TrajectoryView {
   /// estimator has a faster way.
   std::optional<std::vector<UncertainPose>> motions_to_newest() const override;
 
-  /// ρ(eᵀ Ω e): what a registration counts in the cost that this estimator minimises. The identity
-  /// without a robust loss.
-  virtual double loss(double chi2) const { return chi2; }
+  /// ρ(eᵀ Ω e): what a registration counts in the cost that this estimator minimises, or an
+  /// absolute measurement whose information has so many independent rows. The identity without a
+  /// robust loss.
+  virtual double loss(double chi2, int rank = 3) const {
+    (void)rank;
+    return chi2;
+  }
 
   /// What every registration given so far weighs in the estimate as it is, in the order given: 1 as
   /// it stands, less under a robust loss, 0 where it has no part. Empty: 1 for every one that is
   /// used, 0 for the others.
   virtual std::vector<double> loop_weights() const { return {}; }
+};
+
+/// A SLAM back end. Five functions make one: size and pose (of TrajectoryView), add_keyframe,
+/// update, joint_covariance. What follows from them has a default that may be overridden; a
+/// batch solver overrides finish, too, and one with a robust loss says what it does. One that knows
+/// motions between keyframes alone is easier to write as a RelativeEstimator.
+///
+/// The same calls for a filter and for a graph:
+///
+///     update(measurements)   of keyframe 0, if it is not fixed and something is measured of it
+///     add_keyframe(step)     once per keyframe, in order
+///     update(measurements)   with all that is measured of the newest keyframe, if anything is
+///     finish()               once, at the end of the log
+///
+/// Contract, tested over every registered estimator (tests/estimators/conformance_test.cpp):
+/// - Keyframe 0 is there from the beginning, where the start given to the factory says.
+/// - `pose(k)` is in the world frame, heading wrapped; the view is valid after every call.
+/// - Registrations may be written either way round; measurements of one call form one update.
+/// - The same calls give the same estimate, to the last bit.
+/// - `covariance` and `motions_to_newest` say what their defaults say, of that same estimate.
+/// - Failure is reported, never thrown, and leaves the estimate as it was before the call.
+class Estimator : public Estimate {
+ public:
+  /// Appends the next keyframe by its motion from the newest one. Of a hole (RelativePose::is_hole)
+  /// the covariance is a declared one, except in batch mode, where it has no part in the estimate.
+  virtual void add_keyframe(const RelativePose& step) = 0;
+
+  /// Uses what was measured of the newest keyframe: registrations with earlier ones, and absolute
+  /// poses.
+  virtual UpdateReport update(const Measurements& measurements) = 0;
+
+  /// Ends the log. In batch mode this is where the whole graph is solved, from `start` (a pose per
+  /// keyframe) or, without one, from dead reckoning; else there is nothing left to do.
+  virtual UpdateReport finish(std::span<const Pose> start = {}) {
+    (void)start;
+    return {};
+  }
+
+  /// As loop_weights, of every absolute measurement.
+  virtual std::vector<double> absolute_weights() const { return {}; }
 };
 
 }  // namespace fathom

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <functional>
 #include <optional>
@@ -13,7 +14,8 @@
 
 namespace fathom {
 
-/// The χ² gate of a registration on its normalised innovation, 3 degrees of freedom.
+/// The χ² gate of a measurement on its normalised innovation: 3 degrees of freedom of a
+/// registration, of an absolute measurement as many as its information has rank.
 struct GateOptions {
   /// Share of right registrations that passes, or off.
   std::optional<double> probability;
@@ -29,18 +31,18 @@ class Gate {
  public:
   explicit Gate(const GateOptions& options);
 
-  bool is_on() const { return threshold_.has_value(); }
+  bool is_on() const { return thresholds_.has_value(); }
   /// NaN never passes.
-  bool passes(double nis) const;
+  bool passes(double nis, int rank = 3) const;
 
   bool is_joint_on() const { return joint_probability_.has_value(); }
   /// The joint test of those that passed alone: see jointly_compatible. Those are returned where it
   /// is off.
   std::vector<bool> pass_together(const Eigen::VectorXd& innovation, const Eigen::MatrixXd& S,
-                                  std::vector<bool> passed) const;
+                                  std::vector<bool> passed, std::span<const int> ranks = {}) const;
 
  private:
-  std::optional<double> threshold_;
+  std::optional<std::array<double, 4>> thresholds_;  ///< by rank
   std::optional<double> joint_probability_;
 };
 
@@ -53,9 +55,11 @@ inline constexpr std::size_t kMostSearched = 12;
 /// Neira and Tardos 2001). `innovation` stacks 3 numbers a registration, S is its covariance, with
 /// the correlation that the state brings: loops that agree by themselves may disagree with each
 /// other. Branch and bound up to kMostSearched candidates; from more, the one whose removal lowers
-/// the joint value most is dropped until the rest passes.
+/// the joint value most is dropped until the rest passes. `ranks`: degrees of freedom of each,
+/// where they are not 3; its other rows are zero in the innovation and uncorrelated (LoopRows).
 std::vector<bool> jointly_compatible(const Eigen::VectorXd& innovation, const Eigen::MatrixXd& S,
-                                     const std::vector<bool>& candidates, double probability);
+                                     const std::vector<bool>& candidates, double probability,
+                                     std::span<const int> ranks = {});
 
 /// νᵀ S⁻¹ ν of some of the registrations of a stack; infinite where their S is not positive
 /// definite.
@@ -71,16 +75,17 @@ LoopFate fate_of(bool passes);
 /// Marks an update that failed: what its gate let through is lost.
 void lose_all(UpdateReport& report, Outcome outcome);
 
-/// S for each of some registrations that are written forward and end at the newest keyframe: the
-/// covariance of ν = z − h(x); nothing where they cannot be computed.
-using InnovationCovariances = std::function<std::optional<std::vector<Eigen::Matrix3d>>(
+/// H P Hᵀ for each of some loops that are written forward and end at the newest keyframe: the
+/// covariance that the estimate gives h(x); nothing where they cannot be computed. With that of the
+/// measurement added it is that of the innovation.
+using PredictedCovariances = std::function<std::optional<std::vector<Eigen::Matrix3d>>(
     std::span<const RelativePose> forward)>;
 
-/// Decides on every registration of an update, in report.loops; S is asked for only where the gate
-/// is on. False where they cannot be judged: a number is not finite, beyond what doubles resolve
-/// (are_resolved), or there is no S.
+/// Decides on every loop of an update, in report.loops; covariances are asked for only where the
+/// gate is on. False where they cannot be judged: a number is not finite, beyond what doubles
+/// resolve (are_resolved), or there is no covariance.
 bool judge(const Gate& gate, const TrajectoryView& estimate,
-           std::span<const RelativePose> registrations, const InnovationCovariances& covariances,
+           std::span<const RelativePose> registrations, const PredictedCovariances& covariances,
            UpdateReport& report);
 
 /// νᵀ S⁻¹ ν; NaN where S is not positive definite.

@@ -29,6 +29,7 @@ inline constexpr double kLeastPivotShare = 64.0 * std::numeric_limits<double>::e
 /// and what one says is lost in the rounding of another that says 10¹⁶ times as much.
 class InformationSpread {
  public:
+  /// A hole's declared covariance is no measurement, and is not counted.
   void add(const RelativePose& measurement);
 
   /// Whether the pivots of the factor have to be looked at (kLeastPivotShare): whether one

@@ -17,7 +17,7 @@ enum class SolveMode { incremental, batch };
 
 /// What an estimator is told beside its options.
 struct EstimatorSetup {
-  Pose origin;  ///< where keyframe 0 is fixed
+  StartPose start;  ///< where keyframe 0 is
   SolveMode mode = SolveMode::incremental;
 };
 

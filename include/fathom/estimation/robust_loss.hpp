@@ -42,6 +42,11 @@ struct LossOptions {
   void check() const;
 };
 
+/// What the squared scale of a measurement with so many rows is to that of a registration: the
+/// ratio of the quantiles of χ² with so many and with 3 degrees of freedom, at the share that sets
+/// the default scale. A right measurement is doubted as seldom, whatever it measures.
+double squared_scale_share(LossKind kind, int rank);
+
 class RobustLoss {
  public:
   RobustLoss() = default;
@@ -59,6 +64,10 @@ class RobustLoss {
 
   /// The same loss with another scale, whose square is `factor` times as large.
   RobustLoss widened(double factor) const;
+  /// That of an absolute measurement with so many independent rows.
+  RobustLoss of_rank(int rank) const {
+    return rank == 3 ? *this : widened(squared_scale_share(kind_, rank));
+  }
 
  private:
   LossKind kind_ = LossKind::none;

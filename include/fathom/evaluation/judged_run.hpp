@@ -26,11 +26,24 @@ struct MetricOptions {
   double min_overlap = 0.3;  ///< true overlap from which on a pair should be a loop (loop_recall)
 };
 
+/// One absolute measurement of the log, with an estimator's decision on it.
+struct JudgedAbsolute {
+  std::size_t keyframe = 0;
+  LoopUse use = LoopUse::used;
+  std::optional<double> nis;  ///< as of JudgedLoop, of `rank` degrees of freedom
+  int rank = 0;               ///< of its information
+  double weight = 1.0;        ///< as of JudgedLoop
+
+  bool is_kept() const { return weight > 0.5; }
+};
+
 /// What an estimator did with a log, and what it cost.
 struct ReplayFacts {
-  std::vector<JudgedLoop> loops;  ///< in the order of the log's registrations
-  double chi2_initial = 0.0;      ///< F at the initial guess: dead reckoning, or the file's
-  double chi2_used = 0.0;         ///< Σ ρ(eᵀ Ω e) over what it used
+  std::vector<JudgedLoop> loops;         ///< in the order of the log's registrations
+  std::vector<JudgedAbsolute> absolute;  ///< in the order of the log's absolute measurements
+  double chi2_initial = 0.0;             ///< F at the initial guess: dead reckoning, or the file's
+  double chi2_used = 0.0;                ///< Σ ρ(eᵀ Ω e) over what it used
+  double absolute_chi2_used = 0.0;       ///< of it, absolute measurements and an uncertain start
   int iterations = 0;
   std::optional<double> gradient_norm;
   std::optional<bool> is_local_minimum;

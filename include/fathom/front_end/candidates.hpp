@@ -66,17 +66,18 @@ class CandidateSearch {
   /// Throws InputError as CandidateOptions::check.
   CandidateSearch(const Camera& camera, const CandidateOptions& options);
 
-  /// Those among keyframes 0 … end − 1 for the newest, which is the last of `altitudes_m`, the
-  /// altitudes of all keyframes as measured. The trajectory must hold them all.
-  Candidates find(const TrajectoryView& trajectory, std::span<const double> altitudes_m,
+  /// Those among keyframes 0 … end − 1 for the newest, which is the last of `stances`, those of
+  /// all keyframes as measured. The trajectory must hold them all.
+  Candidates find(const TrajectoryView& trajectory, std::span<const Stance> stances,
                   std::size_t end);
 
-  /// Whether a keyframe `step` away, at these altitudes, is a candidate for certain.
-  bool accepts(const Pose& step, double altitude_from_m, double altitude_to_m) const;
+  /// Whether a keyframe `step` away, with these stances, is a candidate for certain.
+  bool accepts(const Pose& step, const Stance& from, const Stance& to) const;
 
-  /// How far apart two keyframes at these altitudes may be to be candidates: the distance given, or
-  /// that at which their pictures, level and turned alike, share min_overlap along the longer side.
-  double reach_m(double altitude_from_m, double altitude_newest_m) const;
+  /// How far apart two keyframes may be to be candidates: the distance given, or that at which
+  /// their pictures, level and turned alike, share min_overlap along the longer side, and as much
+  /// more as their tilts move what they see.
+  double reach_m(const Stance& from, const Stance& newest) const;
 
  private:
   /// A keyframe, and how far from overlap (or reach) it is: squared, in sigmas.
@@ -94,16 +95,17 @@ class CandidateSearch {
   };
 
   bool by_overlap() const;
-  double overlap(const Pose& motion, double altitude_from_m, double altitude_to_m) const;
+  double level_altitude_m(const Stance& stance) const;
+  double overlap(const Pose& motion, const Stance& from, const Stance& to) const;
   std::vector<std::size_t> within_reach(const TrajectoryView& trajectory,
-                                        std::span<const double> altitudes_m);
-  bool is_candidate(const Pose& from, const Pose& newest, double altitude_from_m,
-                    double altitude_newest_m) const;
+                                        std::span<const Stance> stances);
+  bool is_candidate(const Pose& from, const Pose& newest, const Stance& stance_from,
+                    const Stance& stance_newest) const;
   std::vector<Chance> perhaps_near(const TrajectoryView& trajectory,
-                                   std::span<const double> altitudes_m, std::size_t end) const;
-  std::vector<Chance> all(const TrajectoryView& trajectory, std::span<const double> altitudes_m,
+                                   std::span<const Stance> stances, std::size_t end) const;
+  std::vector<Chance> all(const TrajectoryView& trajectory, std::span<const Stance> stances,
                           std::size_t end);
-  std::vector<Rank> ranked(const TrajectoryView& trajectory, std::span<const double> altitudes_m,
+  std::vector<Rank> ranked(const TrajectoryView& trajectory, std::span<const Stance> stances,
                            const std::vector<Chance>& candidates) const;
   static std::vector<std::size_t> order_of(const std::vector<Rank>& ranks);
   static std::vector<std::size_t> order_by_passes(const std::vector<Rank>& ranks);
@@ -115,8 +117,8 @@ class CandidateSearch {
   double side_per_metre_ = 0.0;   ///< of a footprint, the longer one
   double mount_m_ = 0.0;          ///< from the body's origin to the camera
   double quantile_ = 0.0;         ///< of χ², 2 degrees of freedom
-  double highest_m_ = 0.0;        ///< of the altitudes so far
-  std::size_t altitudes_ = 0;     ///< so many of them
+  double highest_m_ = 0.0;        ///< of the altitudes so far, see level_altitude_m
+  std::size_t stances_ = 0;       ///< so many of them
   std::optional<KeyframeGrid> grid_;
 };
 

@@ -19,7 +19,8 @@ struct Keyframe {
   std::size_t index = 0;  ///< among the keyframes
   std::size_t frame = 0;
   std::int64_t time_ns = 0;
-  /// Dead reckoning from the keyframe before; absent at keyframe 0.
+  /// Dead reckoning from the keyframe before; absent at keyframe 0. A hole where the motion of one
+  /// of its frames is.
   std::optional<RelativePose> step;
 };
 
@@ -61,7 +62,7 @@ FrontEndInMetres in_metres(const FrontEndOptions& options, const Camera& camera,
 ///
 ///     while (auto keyframe = front_end.next_keyframe()) {
 ///       if (keyframe->step) estimator.add_keyframe(*keyframe->step);
-///       estimator.close_loops(front_end.register_newest(estimator));
+///       estimator.update({front_end.register_newest(estimator)});
 ///     }
 ///
 /// A registration that fails never stops the run: dead reckoning carries it.
@@ -95,7 +96,8 @@ class FrontEnd {
   std::size_t registrations_left_out() const { return left_out_; }
 
  private:
-  Keyframe add_keyframe(std::size_t frame, const FrameInfo& info, const UncertainPose& since);
+  Keyframe add_keyframe(std::size_t frame, const FrameInfo& info, const UncertainPose& since,
+                        bool over_hole);
   Candidates candidates(const TrajectoryView& trajectory);
   MeasuredFrame measured(std::size_t frame) const;
   void announce_next_keyframes();
@@ -106,7 +108,7 @@ class FrontEnd {
   CandidateSearch search_;
   KeyframeSchedule schedule_;
   std::vector<Keyframe> keyframes_;
-  std::vector<double> altitudes_m_;  ///< of the keyframes
+  std::vector<Stance> stances_;  ///< of the keyframes
   std::vector<FramePlace> frames_;
   std::size_t tried_ = 0;
   std::size_t found_ = 0;

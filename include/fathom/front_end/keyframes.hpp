@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "fathom/core/input_error.hpp"
 #include "fathom/core/options.hpp"
 #include "fathom/datasets/frame_source.hpp"
 
@@ -25,7 +26,8 @@ struct KeyframeOptions {
 /// time the last frame whose picture still shares `min_overlap` with that of the keyframe before
 /// (the next one, where not even that does). Both shares are of the smaller footprint, with
 /// altitudes as measured and the motion as dead reckoning has it, so the schedule is the same for
-/// all who look at a survey.
+/// all who look at a survey. By overlap the frames on both sides of a hole in dead reckoning are
+/// keyframes, too: nobody knows what they share, and what was measured around it stays known.
 class KeyframeSchedule {
  public:
   /// The source must have odometry where keyframes go by overlap, and outlive this.
@@ -43,5 +45,9 @@ class KeyframeSchedule {
   KeyframeOptions options_;
   std::vector<std::size_t> frames_;  ///< of the first keyframes
 };
+
+/// What refuses a survey of so many frames that comes to a single keyframe, by the key that makes
+/// it so.
+InputError single_keyframe(const KeyframeOptions& keyframes, std::size_t frames);
 
 }  // namespace fathom

@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "fathom/datasets/frame_source.hpp"
@@ -20,6 +21,12 @@ namespace fathom {
 struct MeasuredFrame {
   std::size_t frame = 0;
   double altitude_m = 0.0;  ///< as measured, > 0
+  std::optional<MeasuredTilt> tilt = std::nullopt;
+
+  static MeasuredFrame of(const FrameSource& source, std::size_t frame) {
+    return {frame, source.info(frame).altitude_m, source.info(frame).tilt};
+  }
+  Stance stance() const { return {altitude_m, tilt}; }
 };
 
 /// Registers the frames of a survey, each pair once, for all who ask: the trials of a study share
@@ -30,8 +37,8 @@ class PairRegistrar {
  public:
   static constexpr std::size_t kFeatureBytes = std::size_t{512} << 20;
 
-  /// `pictures` gives camera and pictures, no altitudes; it and the cache must outlive this.
-  /// `feature_bytes` bounds what the features held take; beyond it some are extracted again.
+  /// `pictures` gives camera and pictures, no altitudes nor tilts; it and the cache must outlive
+  /// this. `feature_bytes` bounds what the features held take; beyond it some are extracted again.
   PairRegistrar(const FrameSource& pictures, const FeatureOptions& features,
                 const RegistrationOptions& registration, std::uint64_t seed,
                 RegistrationCache* cache = nullptr, std::size_t feature_bytes = kFeatureBytes);
@@ -68,9 +75,13 @@ class PairRegistrar {
   std::size_t feature_bytes() const { return features_.bytes(); }
 
  private:
-  /// Frames and the bits of their altitudes.
-  using PairKey = std::tuple<std::size_t, std::uint64_t, std::size_t, std::uint64_t>;
+  /// A frame and the bits of what is measured of it: altitude, whether it has a tilt, roll, pitch,
+  /// σ.
+  using FrameKey =
+      std::tuple<std::size_t, std::uint64_t, bool, std::uint64_t, std::uint64_t, std::uint64_t>;
+  using PairKey = std::pair<FrameKey, FrameKey>;
 
+  static FrameKey frame_key(const MeasuredFrame& frame);
   static PairKey pair_key(const MeasuredFrame& from, const MeasuredFrame& to);
   RegistrationKey cache_key(const MeasuredFrame& from, const MeasuredFrame& to) const;
   std::uint64_t seed_of(const MeasuredFrame& from, const MeasuredFrame& to) const;

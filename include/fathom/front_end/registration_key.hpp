@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "fathom/core/hash.hpp"
 #include "fathom/front_end/registration_cache.hpp"
@@ -21,6 +22,7 @@ inline constexpr int kRegistrationVersion = 5;
 struct SeenPicture {
   std::uint64_t picture_id = 0;  ///< as of FrameSource
   double altitude_m = 0.0;       ///< as measured
+  std::optional<MeasuredTilt> tilt = std::nullopt;
 };
 
 /// The keys of registrations with one camera and one set of options: of every option and

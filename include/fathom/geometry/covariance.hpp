@@ -40,12 +40,31 @@ UncertainPose between(const Pose& A, const Pose& B, const PairCovariance& covari
 /// Of none: the exact identity.
 UncertainPose compose_chain(std::span<const UncertainPose> motions);
 
+/// The part of a motion between two shares of it, 0 <= from < to <= 1, at constant velocity in the
+/// axes of its start: in the frame at `from_share`, with its share of the covariance. The whole is
+/// the motion itself, to the last bit.
+UncertainPose part_of(const UncertainPose& motion, double from_share, double to_share);
+
 /// J C Jᵀ, the covariance propagated through J; symmetric to the last bit.
 Eigen::Matrix3d transport(const Eigen::Matrix3d& J, const Eigen::Matrix3d& covariance);
 
 /// Whether a symmetric matrix is positive definite whatever the units of its rows: it is scaled to
 /// a unit diagonal first, so that headings known to 1e-8 rad beside metres do no harm. NaN is not.
 bool is_positive_definite(const Eigen::Matrix3d& matrix);
+
+/// Likewise positive semi-definite: no eigenvalue of the scaled matrix is negative but by rounding,
+/// and a row without a diagonal element is zero.
+bool is_positive_semidefinite(const Eigen::Matrix3d& matrix);
+
+/// What a positive semi-definite information matrix Ω measures, in independent rows:
+/// Ω = rowsᵀ diag(1 / variances) rows. Rows beyond the rank are zero, and have variance 1.
+struct InformationRows {
+  Eigen::Matrix3d rows = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d variances = Eigen::Vector3d::Ones();
+  int rank = 0;
+};
+
+InformationRows rows_of(const Eigen::Matrix3d& information);
 
 /// The inverse of a positive definite matrix, symmetric to the last bit.
 Eigen::Matrix3d symmetric_inverse(const Eigen::Matrix3d& matrix);

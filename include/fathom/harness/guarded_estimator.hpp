@@ -28,25 +28,30 @@ class GuardedEstimator : public Estimator {
   MovedPoses moved_since(std::uint64_t revision) const override;
   std::optional<std::vector<UncertainPose>> motions_to_newest() const override;
   void add_keyframe(const RelativePose& step) override;
-  /// Has one decision for each registration, in their order.
-  UpdateReport close_loops(std::span<const RelativePose> registrations) override;
+  /// Has one decision for each measurement, in their order.
+  UpdateReport update(const Measurements& measurements) override;
   UpdateReport finish(std::span<const Pose> start) override;
   std::optional<Eigen::Matrix3d> covariance(std::size_t k) const override;
   std::optional<Eigen::Matrix3d> newest_covariance() const override;
   std::optional<Eigen::MatrixXd> joint_covariance(
       std::span<const std::size_t> keyframes) const override;
-  double loss(double chi2) const override;
+  double loss(double chi2, int rank) const override;
   /// Empty, or one for each registration given.
   std::vector<double> loop_weights() const override;
+  /// Likewise for each absolute measurement.
+  std::vector<double> absolute_weights() const override;
 
  private:
   template <class Call>
   void guarded(const char* what, Call call) const;
   void check_size(const char* call) const;
+  template <class Ask>
+  std::vector<double> weights(const char* what, std::size_t count, Ask ask) const;
 
   std::unique_ptr<Estimator> estimator_;
   std::size_t size_ = 1;
   std::size_t registrations_ = 0;
+  std::size_t absolute_ = 0;
   mutable std::string fault_;
 };
 

@@ -12,11 +12,12 @@ namespace fathom {
 
 /// How the measurements of a log agree with each other, and an estimate with them.
 struct MapFit {
-  double chi2 = 0.0;                ///< F of the estimate
-  double chi2_optimum = 0.0;        ///< F of the batch optimum
-  double steps_at_optimum = 0.0;    ///< the part of it that is of dead reckoning
-  double degrees_of_freedom = 0.0;  ///< of the optimum: three a registration
-  double unknowns = 0.0;            ///< three a keyframe but the first
+  double chi2 = 0.0;                 ///< F of the estimate
+  double chi2_optimum = 0.0;         ///< F of the batch optimum
+  double steps_at_optimum = 0.0;     ///< the part of it that is of dead reckoning
+  double absolute_at_optimum = 0.0;  ///< the part that is of absolute measurements
+  double degrees_of_freedom = 0.0;   ///< of the optimum (degrees_of_freedom)
+  double unknowns = 0.0;             ///< three a keyframe but the first, if it is fixed
   /// Of registrations at the optimum: root mean squares of their residuals, and of what their
   /// covariances say.
   double registration_rms_m = 0.0;
@@ -33,7 +34,7 @@ struct MapFit {
   bool estimate_fits() const;
 };
 
-/// Nothing without registrations.
+/// Nothing without registrations, or with more holes than they fill.
 std::optional<MapFit> map_fit(const MeasurementLog& log, std::span<const Pose> estimate,
                               const BatchOptimum& optimum);
 

@@ -11,6 +11,7 @@
 #include "fathom/front_end/front_end.hpp"
 #include "fathom/harness/front_end_pace.hpp"
 #include "fathom/harness/survey.hpp"
+#include "fathom/measurements/g2o.hpp"
 #include "fathom/measurements/measurement_log.hpp"
 
 namespace fathom {
@@ -24,12 +25,12 @@ struct Recording {
   MeasurementLog log;
   std::vector<std::int64_t> keyframe_times_ns;
   std::vector<FramePlace> frames;          ///< empty for a pose graph
-  std::vector<Pose> frame_dead_reckoning;  ///< one per frame, from the identity on
-  std::vector<double> frame_altitudes_m;   ///< one per frame, as measured
+  std::vector<Pose> frame_dead_reckoning;  ///< one per frame, from the start on
+  std::vector<Stance> frame_stances;       ///< one per frame, as measured
   /// Of the keyframes, where all of them have it.
   std::optional<std::vector<Pose>> ground_truth;
   /// Of the keyframes, as measured, and the camera that took their pictures; absent for a graph.
-  std::vector<double> keyframe_altitudes_m;
+  std::vector<Stance> keyframe_stances;
   std::optional<Camera> camera;
   std::vector<StampedPose> frame_ground_truth;  ///< of the frames that have it
   std::optional<FrontEndInMetres> in_metres;    ///< absent for a graph
@@ -46,8 +47,8 @@ struct Recording {
 
 /// Runs the front end over the data set once. Loop candidates are selected by
 /// `configuration.reference`, which runs along; the log is all that is kept of it.
-/// Of a g2o data set: the graph, with vertex ids as whole seconds. Registrations that the cache
-/// knows are not made again; the recording is the same with a cache and without.
+/// Of a g2o data set: the graph, with vertex ids as whole seconds, its start known. Registrations
+/// that the cache knows are not made again; the recording is the same with a cache and without.
 Recording record(const Configuration& configuration, const EstimatorRegistry& registry,
                  const FrontEndProgressCallback& progress = {}, RegistrationCache* cache = nullptr);
 
@@ -78,8 +79,9 @@ class Recorder {
   std::shared_ptr<Pictures> pictures_;
 };
 
-/// A pose graph as a recording, read from a file.
-Recording record_graph(const std::filesystem::path& path);
+/// A pose graph as a recording, read from a file. Where its priors hold it, the start is free, as a
+/// batch solve can have it (with_start_of_priors).
+Recording record_graph(const std::filesystem::path& path, const GraphOptions& options = {});
 
 /// Gives a graph its true poses, from a TUM file with vertex ids as time stamps. Throws InputError
 /// where one is missing.

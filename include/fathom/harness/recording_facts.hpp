@@ -24,9 +24,9 @@ RecordingFacts run_facts(const Recording& recording);
 /// The facts of a study's run.
 RecordingFacts study_facts(const Recording& recording, const EstimatorRegistry& registry);
 
-/// Of keyframes at these poses, with a camera that took their pictures from these altitudes.
+/// Of keyframes at these poses, with a camera that took their pictures as it stood there.
 TrueOverlaps overlaps_at(std::span<const Pose> poses, const Camera& camera,
-                         std::span<const double> altitudes_m);
+                         std::span<const Stance> stances);
 
 /// From ground truth, altitudes and camera; nothing where one of them is not known.
 std::optional<TrueOverlaps> true_overlaps(const Recording& recording);

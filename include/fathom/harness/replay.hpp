@@ -34,7 +34,8 @@ class MemoryMeter {
 
 struct ReplayOptions {
   SolveMode mode = SolveMode::incremental;
-  /// Initial guess of a batch solve; empty: dead reckoning.
+  /// Initial guess of a batch solve; empty: dead reckoning, or connected_guess where that has
+  /// holes.
   std::span<const Pose> start;
   /// Covariances of all keyframes are asked for after the replay, outside the timing.
   bool covariances = true;
@@ -67,11 +68,13 @@ struct Replay {
   std::vector<LoopDecision> loops;
   /// The final weight of each (Estimator::loop_weights); 0 of those that are not used.
   std::vector<double> loop_weights;
+  std::vector<AbsoluteDecision> absolute;
+  std::vector<double> absolute_weights;  ///< likewise
   int iterations = 0;
   /// Of the last update, where the estimator says so (UpdateReport).
   std::optional<double> gradient_norm;
   std::optional<bool> is_local_minimum;
-  /// Per update: a close_loops call with registrations, or the batch solve.
+  /// Per update: a call with measurements, or the batch solve.
   std::vector<double> update_ms;
   std::vector<double> add_ms;  ///< per add_keyframe
   /// Per keyframe from 1 on, of the covariance of the newest pose; empty where not asked for or not
@@ -85,8 +88,9 @@ struct Replay {
   std::optional<std::int64_t> memory_bytes;
   /// Those asked for, each with its covariances where they are to be had.
   std::vector<JudgedMotions> motions;
-  /// Σ ρ(eᵀ Ω e) over what the estimator used: rejected registrations left out, loss applied.
+  /// Σ ρ(eᵀ Ω e) over what the estimator used: what was rejected left out, loss applied.
   double cost_used = 0.0;
+  double absolute_cost_used = 0.0;  ///< of it, absolute measurements and an uncertain start
 };
 
 /// Gives a log to an estimator, keyframe by keyframe, and measures.

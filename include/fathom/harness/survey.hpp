@@ -61,6 +61,9 @@ class Survey {
   /// for an altitude costs nothing.
   const FrameSource& measured() const;
   PairRegistrar& registrar() { return pictures_->registrar(); }
+  /// What compass and positioning system measured of the frames, and what is told of the start.
+  const AbsoluteReadings& readings() const { return readings_; }
+  const StartOptions& start() const { return start_; }
   bool uses_visual_odometry() const { return visual_odometry_ != nullptr; }
   std::size_t visual_odometry_failures() const;
 
@@ -71,6 +74,8 @@ class Survey {
   std::unique_ptr<FrameSource> measured_;  ///< where every trial draws dead reckoning
   std::unique_ptr<VisualOdometry> visual_odometry_;
   std::unique_ptr<NoisyOdometry> noisy_odometry_;
+  AbsoluteReadings readings_;
+  StartOptions start_;
 };
 
 }  // namespace fathom

@@ -26,8 +26,8 @@ struct ConvertedGraph {
 /// keep their characters, lines and comments their order, so that what is converted there and back
 /// is the same text but for blanks, and but for what is left out: FIX, priors and landmarks in
 /// TORO, EQUIV in g2o. `name` stands for the file in messages.
-/// Throws InputError with file and line on anything that read_g2o refuses in a vertex or an edge,
-/// on an unknown tag and on a text without either.
+/// Throws InputError with file and line on anything that read_g2o refuses in a vertex, an edge or a
+/// prior that is written, on an unknown tag and on a text without vertex and edge.
 ConvertedGraph convert_graph(const std::string& content, const std::string& name, GraphFormat to);
 
 }  // namespace fathom

@@ -6,41 +6,53 @@
 #include <span>
 #include <vector>
 
+#include "fathom/measurements/absolute_pose.hpp"
 #include "fathom/measurements/relative_pose.hpp"
 
 namespace fathom {
 
-/// The measurements that arrive with keyframe k: its dead-reckoning step (odometry edge) from k − 1
-/// and the registrations (loop edges) of which k is the later keyframe, in order of arrival.
+/// The measurements that arrive with keyframe k: its dead-reckoning step (odometry edge) from
+/// k − 1, the registrations (loop edges) of which k is the later keyframe, and what was measured of
+/// its pose in the world; each in order of arrival. Keyframe 0 has absolute ones alone.
 struct KeyframeMeasurements {
   RelativePose step;
   std::vector<RelativePose> registrations;
+  std::vector<AbsolutePose> absolute;
 };
 
 /// The recorded measurements of a survey, in order of arrival: what every estimator is given.
-/// Keyframes are 0 … size() − 1; keyframe 0 is fixed at `origin`.
+/// Keyframes are 0 … size() − 1; keyframe 0 is where `start` says.
 class MeasurementLog {
  public:
-  explicit MeasurementLog(const Pose& origin = {}) : origin_(origin) {}
+  /// Keyframe 0 is fixed at `origin`.
+  explicit MeasurementLog(const Pose& origin = {}) : MeasurementLog(StartPose{origin}) {}
+  explicit MeasurementLog(const StartPose& start) : start_(start), measurements_(1) {}
 
-  const Pose& origin() const { return origin_; }
-  std::size_t size() const { return measurements_.size() + 1; }
+  const StartPose& start() const { return start_; }
+  void set_start(const StartPose& start) { start_ = start; }
+  const Pose& origin() const { return start_.pose; }
+  std::size_t size() const { return measurements_.size(); }
 
-  /// Appends the next keyframe. `step` joins size() − 1 and size() and has a positive definite
-  /// information matrix (asserted).
+  /// Appends the next keyframe. `step` joins size() − 1 and size(); its information matrix is
+  /// positive definite (asserted), that of a hole too (RelativePose::is_hole).
   void add_keyframe(const RelativePose& step);
   /// A registration between the newest keyframe and an earlier one.
   void add_registration(const RelativePose& registration);
+  /// Of the newest keyframe.
+  void add_absolute(const AbsolutePose& measurement);
 
-  /// The measurements of keyframe k, 1 ≤ k < size().
-  const KeyframeMeasurements& arrival(std::size_t k) const { return measurements_[k - 1]; }
+  /// The measurements of keyframe k; keyframe 0 has no step.
+  const KeyframeMeasurements& arrival(std::size_t k) const { return measurements_[k]; }
 
   std::size_t registration_count() const;
+  std::size_t absolute_count() const;
+  /// Steps that were not measured.
+  std::size_t hole_count() const;
 
-  /// Steps and registrations, in order of arrival.
+  /// Steps and registrations, in order of arrival; holes are left out.
   std::vector<RelativePose> edges() const;
 
-  /// The dead reckoning composed from the origin on.
+  /// The dead reckoning composed from the origin on; over a hole by its guess.
   std::vector<Pose> odometry() const;
 
   /// Ids of the keyframes in the file they came from: rising, else 0, 1, 2 …
@@ -49,11 +61,20 @@ class MeasurementLog {
   std::optional<std::vector<Pose>> guess;
 
  private:
-  Pose origin_;
-  std::vector<KeyframeMeasurements> measurements_;
+  StartPose start_;
+  std::vector<KeyframeMeasurements> measurements_;  ///< of keyframe 0 without a step
 };
 
-/// F = Σ eᵀ Ω e over all edges as written, no ½: the cost that every estimator is compared by.
+/// F = Σ eᵀ Ω e over all edges as written, absolute measurements and an uncertain start, no ½: the
+/// cost that every estimator is compared by. A hole costs nothing.
 double chi2(const MeasurementLog& log, std::span<const Pose> trajectory);
+
+/// What F is on average at its minimum if every covariance is right: three a registration, the rank
+/// of the information an absolute measurement; less three a hole, and three where the start is
+/// free. Below zero or zero: nothing contradicts anything.
+double degrees_of_freedom(const MeasurementLog& log);
+
+/// The part of F that is no edge: absolute measurements and the start.
+double absolute_chi2(const MeasurementLog& log, std::span<const Pose> trajectory);
 
 }  // namespace fathom

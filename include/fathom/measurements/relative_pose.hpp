@@ -25,6 +25,9 @@ struct RelativePose {
   Eigen::Matrix3d information = Eigen::Matrix3d::Identity();
   /// Matches that support a registration; none for dead reckoning, or where not known.
   std::optional<int> inliers;
+  /// Of a step: nothing was measured. `motion` is a guess, and `information` that of a declared,
+  /// wide covariance: what a filter begins with. F does not count it.
+  bool is_hole = false;
 
   /// Of a covariance of ν; it must be positive definite.
   static RelativePose from_covariance(std::size_t from, std::size_t to, const Pose& motion,

@@ -18,7 +18,7 @@ namespace fathom {
 /// A keyframe's picture as an estimate has it.
 struct KeyframePicture {
   std::int64_t time_ns = 0;
-  double altitude_m = 0.0;
+  Stance stance;
   Pose pose;  ///< of the body, in the map
 };
 

@@ -18,7 +18,7 @@ namespace fathom {
 /// A picture of a survey and where it was taken, as a trajectory has it.
 struct PlacedPicture {
   std::size_t frame = 0;
-  double altitude_m = 0.0;
+  Stance stance;
   Pose pose;  ///< of the body, in the world
   /// Laid only where the others leave a gap: a frame between keyframes, whose pose has the dead
   /// reckoning since the last one in it.
@@ -69,9 +69,10 @@ using MosaicProgress = std::function<void(std::size_t done, std::size_t of)>;
 
 /// The mosaics, one each: 8-bit, one channel, of the plan's size. Pictures are flat-field
 /// corrected: divided by the illumination that they have in common, as far as they show one, which
-/// leaves their mean as it was. Each is projected by its camera, altitude and pose; where several
-/// overlap, they are feathered: averaged with weights that fall to zero towards the border of each.
-/// Nothing is selected or aligned: what the trajectory places wrongly is seen twice, or blurred.
+/// leaves their mean as it was. Each is projected by its camera, altitude, roll and pitch where
+/// they are measured, and pose; where several overlap, they are feathered: averaged with weights
+/// that fall to zero towards the border of each. Nothing is selected or aligned: what the
+/// trajectory places wrongly is seen twice, or blurred.
 ///
 /// A picture that several mosaics need is read once, and one picture is held at a time.
 /// `source` must be that of the plans' camera. Throws InputError where a picture cannot be read.

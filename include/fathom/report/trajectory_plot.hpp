@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -8,9 +9,22 @@
 #include <Eigen/Core>
 
 #include "fathom/geometry/pose.hpp"
+#include "fathom/measurements/absolute_pose.hpp"
 #include "fathom/report/palette.hpp"
 
 namespace fathom {
+
+/// An absolute measurement of a pose of a trajectory: a fix is a cross where it says that the pose
+/// is, joined to it; a heading a short line from the pose. What was not used is red.
+struct AbsoluteMark {
+  std::size_t pose = 0;  ///< index into the poses of its series
+  std::optional<Eigen::Vector2d> position;
+  std::optional<double> heading_rad;
+  bool is_used = true;
+};
+
+/// What an absolute measurement says, drawn.
+AbsoluteMark absolute_mark(const AbsolutePose& measurement, bool is_used);
 
 /// One trajectory of a picture.
 struct PlotSeries {
@@ -25,6 +39,7 @@ struct PlotSeries {
   /// Dead reckoning, or a run that failed: where it is so far off that the others could not be
   /// seen, it leaves the picture, and the legend says so.
   bool may_leave = false;
+  std::vector<AbsoluteMark> absolute{};
 };
 
 struct TrajectoryPlot {

@@ -8,6 +8,7 @@
 
 #include "fathom/core/hash.hpp"
 #include "fathom/geometry/pose.hpp"
+#include "fathom/vision/stance.hpp"
 
 namespace fathom {
 
@@ -35,8 +36,11 @@ struct CameraModel {
 ///
 ///     body point = Rot(yaw) · (−(v − c_y)/f_y, −(u − c_x)/f_x) · altitude + (mount_x, mount_y)
 ///
-/// for an undistorted pixel (u, v), u to the right and v down. All calls throw InputError on an
-/// altitude that is not a positive number of metres.
+/// for an undistorted pixel (u, v), u to the right and v down, and a level camera. Of a tilted one
+/// the same ray is turned by Rot_y(pitch) Rot_x(roll) about the camera's centre, which is
+/// `altitude_m` above the floor. The body frame stays level: its axes are the heading's. All calls
+/// throw InputError on an altitude that is not a positive number of metres, and on a tilt that is
+/// not finite.
 class Camera {
  public:
   /// Throws InputError on a size or focal length that is not positive, on numbers that are not
@@ -45,38 +49,49 @@ class Camera {
 
   const CameraModel& model() const { return model_; }
 
-  /// The point of the floor seen at a (distorted) pixel, in the body frame, for a camera
-  /// `altitude_m` above a flat floor. Distortion is undone to 1e-12 of the focal length. NaN for a
-  /// pixel so far outside the picture that the distortion reaches it from nowhere.
-  Eigen::Vector2d floor_point(const Eigen::Vector2d& pixel, double altitude_m) const;
+  /// The point of the floor seen at a (distorted) pixel, in the body frame. Distortion is undone to
+  /// 1e-12 of the focal length. NaN for a pixel so far outside the picture that the distortion
+  /// reaches it from nowhere, and for one that sees the horizon or what is above it.
+  Eigen::Vector2d floor_point(const Eigen::Vector2d& pixel, const Stance& stance) const;
 
   /// floor_point of each pixel.
   std::vector<Eigen::Vector2d> floor_points(std::span<const Eigen::Vector2d> pixels,
-                                            double altitude_m) const;
+                                            const Stance& stance) const;
 
   /// The heading, in the body frame, of a direction in the picture: 0 is u, a quarter turn v. The
   /// two turn opposite ways. Lens distortion, which turns it by little, is not undone.
   double heading(double turn_rad) const;
 
+  /// What a tilt makes of a small neighbourhood of a pixel.
+  struct Neighbourhood {
+    double heading_rad = 0.0;  ///< of a direction in the picture there, as above
+    double stretch = 1.0;  ///< of lengths, their geometric mean, against those of a level camera
+  };
+  Neighbourhood neighbourhood(const Eigen::Vector2d& pixel, double turn_rad,
+                              const Tilt& tilt) const;
+
   /// The pixel at which a body-frame point of the floor is seen, distortion applied. A polynomial
-  /// distortion is good for the picture alone: a point far outside it may come back in.
-  Eigen::Vector2d pixel(const Eigen::Vector2d& floor_point, double altitude_m) const;
+  /// distortion is good for the picture alone: a point far outside it may come back in. NaN for a
+  /// point behind a tilted camera.
+  Eigen::Vector2d pixel(const Eigen::Vector2d& floor_point, const Stance& stance) const;
 
   /// The four corners of what the picture covers, body frame, in the order top left, top right,
   /// bottom right, bottom left of the picture. Pixels are squares about their centres, so the top
-  /// left corner is that of pixel (−0.5, −0.5).
-  std::array<Eigen::Vector2d, 4> footprint(double altitude_m) const;
+  /// left corner is that of pixel (−0.5, −0.5). Throws InputError where one sees the horizon.
+  std::array<Eigen::Vector2d, 4> footprint(const Stance& stance) const;
 
  private:
-  Eigen::Vector2d on_floor(const Eigen::Vector2d& pixel, double altitude_m) const;
+  Eigen::Vector2d level_ray(const Eigen::Vector2d& pixel) const;
+  Eigen::Vector2d on_floor(const Eigen::Vector2d& pixel, const Stance& stance,
+                           const Eigen::Matrix3d& tilt) const;
 
   CameraModel model_;
   Eigen::Matrix2d body_from_mount_;
 };
 
 /// The share of the smaller one of two footprints that both pictures see, 0 to 1. `motion`: the
-/// pose of b in the frame of a. Throws InputError on an altitude that is not positive.
-double footprint_overlap(const Camera& camera, double altitude_a_m, double altitude_b_m,
+/// pose of b in the frame of a. Throws InputError as Camera::footprint.
+double footprint_overlap(const Camera& camera, const Stance& stance_a, const Stance& stance_b,
                          const Pose& motion);
 
 }  // namespace fathom

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,10 +30,13 @@ struct Viewpoint {
   Eigen::Vector2d camera_m = Eigen::Vector2d::Zero();  ///< the point below the camera, body frame
   double altitude_m = 0.0;
   double metres_per_pixel = 0.0;
+  double pitch_rad = 0.0;  ///< about which a roll is turned
+  /// Of roll and of pitch where they are measured; CovarianceOptions has that of the others.
+  std::optional<double> tilt_sigma_rad = std::nullopt;
 };
 
 /// Features with their points in metres on the floor: what registration works on. The conversion is
-/// per picture, with that picture's altitude.
+/// per picture, with that picture's altitude, roll and pitch.
 struct FloorFeatures {
   std::vector<Eigen::Vector2d> points;  ///< body frame, metres
   std::vector<double> sizes_m;          ///< of the keypoints, on the floor
@@ -46,8 +50,10 @@ struct FloorFeatures {
 /// How wide a pixel is on the floor: altitude over focal length, the geometric mean of both.
 double metres_per_pixel(const CameraModel& camera, double altitude_m);
 
-/// Throws InputError on an altitude that is not positive.
-FloorFeatures on_floor(Features features, const Camera& camera, double altitude_m);
+/// Of a camera whose roll and pitch are measured, or that is taken for level. Throws InputError on
+/// an altitude that is not positive.
+FloorFeatures on_floor(Features features, const Camera& camera, double altitude_m,
+                       const std::optional<MeasuredTilt>& tilt = std::nullopt);
 
 struct FeatureOptions {
   std::string type = "sift";  ///< name of a detector (detectors.hpp)

@@ -35,8 +35,9 @@ struct DecisionOptions {
 /// What the residuals of one pair cannot show, because all its matches share it.
 struct CovarianceOptions {
   double altitude_sigma_m = 0.0;  ///< of each altitude; stands for the relief of a floor too
-  /// Of roll and of pitch, at each picture. No vehicle keeps its camera level: without a word on
-  /// it, 0.3°. At 0, registrations would be certain to a fraction of a millimetre.
+  /// Of roll and of pitch, at each picture that does not come with them measured. No vehicle keeps
+  /// its camera level: without a word on it, 0.3°. At 0, registrations would be certain to a
+  /// fraction of a millimetre.
   double tilt_sigma_rad = 0.005;
   /// Added to x and y as variances, whatever else is known: in pixels of the picture with the
   /// coarser ones, or in metres.

@@ -1,4 +1,6 @@
-"""docs/performance.md and the costs in estimators/*.md: programs of Google Benchmark."""
+"""docs/performance.md and the costs in estimators/*.md: programs of Google Benchmark, solves."""
+
+import json
 
 from layout import code, fixed, significant, table
 from maker import maker
@@ -149,6 +151,42 @@ def smoother_graphs(work):
                       significant(smoother["longest_ms"], 2), f"{smoother['worst_gap']:.1e}"])
     return table(["graph", "Ceres, once", "whole graph: all", "longest", "**smoother: all**",
                   "median", "95 %", "longest", "F over the optimum"], cells)
+
+
+LOSSES = ("none", "huber", "cauchy", "geman_mcclure", "dcs")
+LOSS_GRAPHS = (("CSAIL", 0), ("CSAIL", 0.1), ("intel", 0), ("intel", 0.1), ("manhattan", 0))
+
+
+@maker("docs/estimators/incremental_smoother.md", "smoother-losses", "time",
+       "`fathom solve GRAPH.g2o --mode incremental --estimator NAME --set estimator.loss=LOSS`, "
+       "false loops by `fathom spoil --share 0.1`", 3,
+       needs=tuple(f"pose_graphs/{graph}.g2o" for graph in ("CSAIL", "intel", "manhattan")),
+       programs=("fathom",))
+def smoother_losses(work):
+    cells = []
+    for graph, share in work.size(LOSS_GRAPHS, LOSS_GRAPHS[:2]):
+        for loss in LOSSES[1 if share else 0:]:
+            whole, smoother = (_solved(work, graph, share, name, loss)
+                               for name in ("sparse_gauss_newton", "incremental_smoother"))
+            over = smoother["chi2_used"] / whole["chi2_used"] - 1.0
+            cells.append([graph, f"{100 * share:.0f} %", f"`{loss}`",
+                          significant(whole["cpu_ms"]), f"**{significant(smoother['cpu_ms'])}**",
+                          significant(smoother["update_ms.median"], 2),
+                          f"{smoother['chi2_used']:.6g}", f"{over:.1e}"])
+    return table(["graph", "false loops", "loss", "whole graph: all", "**smoother: all**",
+                  "update, median", "F", "over that of the whole graph"], cells)
+
+
+def _solved(work, graph, share, name, loss):
+    """metrics.json of an incremental solve."""
+    file = work.graph(graph)
+    if share:
+        file = str(work.run(f"spoil-{graph}", "fathom", "spoil", file, "--share", share, "--quiet",
+                            "--out", "{out}/spoilt.g2o") / "spoilt.g2o")
+    folder = work.run(f"loss-{graph}-{name}-{loss}", "fathom", "solve", file, "--mode",
+                      "incremental", "--estimator", name, "--set", f"estimator.loss={loss}",
+                      "--quiet", "--out", "{out}/run", statuses=(0, 1))
+    return json.loads((folder / "run" / "metrics.json").read_text("utf-8"))
 
 
 IEKF = dict(kind="time", how="`build/release/trajectory_iekf_benchmark`", minutes=2,

@@ -47,3 +47,34 @@ def shared_tilt(work):
     study = work.study("shared-tilt", "configs/studies/shared_errors_tilt.yaml", jobs=2)
     values = [(v, v) for v in ("0°", "0.5°", "1°", "2°")]
     return table(["roll, pitch", *HEADER], _rows(study, "tilt", values, (("no", "no"), ("1°", "1°"))))
+
+
+def _attitude_row(study, cell, *first):
+    figures = [interval(study.row(ESTIMATOR, metric, **cell), 2)
+               for metric in ("anees", "anchored_anees")]
+    return [*first, interval(study.row(ESTIMATOR, "mean_position_error_m", **cell), 2, 1e3),
+            *figures, significant(study.mean(ESTIMATOR, "mean_nis_truth", **cell))]
+
+
+ATTITUDE_HEADER = ["error (mm)", "ANEES", "anchored ANEES", "NIS against truth"]
+
+
+@maker(PAGE, "attitude", "slow", "`fathom compare configs/studies/attitude.yaml`", 15)
+def attitude(work):
+    study = work.study("attitude", "configs/studies/attitude.yaml", jobs=2)
+    rows = []
+    for label in ("no", "to 0.5°", "to 0.1°"):
+        for reach in (1.3, 2.5):
+            cell = {"measured": label, "reach_m": reach}
+            loops = study.mean(ESTIMATOR, "registrations", **cell)
+            loops /= study.mean(ESTIMATOR, "keyframes", **cell)
+            rows.append(_attitude_row(study, cell, label, significant(loops, 2)))
+    return table(["measured", "loops a keyframe", *ATTITUDE_HEADER], rows)
+
+
+@maker(PAGE, "attitude-mounting", "slow",
+       "`fathom compare configs/studies/attitude_mounting.yaml`", 10)
+def attitude_mounting(work):
+    study = work.study("attitude-mounting", "configs/studies/attitude_mounting.yaml", jobs=2)
+    rows = [_attitude_row(study, {"mounting": label}, label) for label in ("0°", "0.1°", "0.5°")]
+    return table(["error of pitch", *ATTITUDE_HEADER], rows)

@@ -10,15 +10,18 @@ namespace {
 
 struct G2oOptions {
   std::string path;
+  GraphOptions graph;
 
   void describe(OptionTable& table) {
     table.text("path", path, "the g2o file; relative to the working folder");
+    graph.describe(table);
   }
 };
 
 class G2oDataSet : public DataSet {
  public:
-  explicit G2oDataSet(std::filesystem::path path) : path_(std::move(path)), log_(read_g2o(path_)) {}
+  explicit G2oDataSet(const G2oOptions& options)
+      : path_(options.path), log_(read_g2o(path_, options.graph)) {}
 
   const MeasurementLog* graph() const override { return &log_; }
   std::vector<std::filesystem::path> files() const override { return {path_}; }
@@ -36,7 +39,7 @@ DataSetEntry g2o_data_set() {
                                 [](const G2oOptions& options, std::uint64_t /*seed*/) {
                                   if (options.path.empty())
                                     throw InputError("dataset.path: say where the g2o file is");
-                                  return std::make_unique<G2oDataSet>(options.path);
+                                  return std::make_unique<G2oDataSet>(options);
                                 });
   entry.is_graph = true;
   return entry;

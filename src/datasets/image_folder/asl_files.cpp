@@ -34,6 +34,18 @@ void write_altimeter(const fs::path& mav0, const std::string& rows) {
                "sensor_type: altimeter\n");
 }
 
+void write_attitude(const fs::path& mav0, const std::string& rows) {
+  write_sensor(mav0 / "attitude0", "timestamp [ns],roll [rad],pitch [rad],sigma [rad]", rows,
+               "sensor_type: attitude # of the body, right-handed about x forward and y to port, "
+               "pitch applied after roll; sigma of either\n");
+}
+
+void write_compass(const fs::path& mav0, const std::string& rows) {
+  write_sensor(mav0 / "compass0", "timestamp [ns],heading [rad],sigma [rad]", rows,
+               "sensor_type: compass\nconvention: counter_clockwise_from_x # of the world, seen "
+               "from above\n");
+}
+
 void write_odometry(const fs::path& mav0, const std::string& rows) {
   write_sensor(mav0 / "odometry0",
                "timestamp [ns],p_x [m],p_y [m],theta [rad],step_var_x [m^2],step_var_y [m^2],"

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "attitude_series.hpp"
 #include "fathom/core/files.hpp"
 #include "fathom/core/hash.hpp"
 #include "fathom/core/input_error.hpp"
@@ -41,17 +42,20 @@ std::optional<fs::path> sensor_csv(const fs::path& mav0, const std::string& sens
   throw InputError(csv.string(),
                    "no " + what + " at or around the picture's time " +
                        std::to_string(info.time_ns) + " ns: there are " + times.text() +
-                       "; expected neighbours at most 2 s apart, or remove the picture's row");
+                       "; expected neighbours at most 2 s apart, or remove the picture's row" +
+                       (what == "odometry" ? ", or dataset.gap_intervals, which makes holes" : ""));
 }
 
 }  // namespace
 
-ImageFolder::ImageFolder(const fs::path& path) : mav0_(mav0_of(path)) {
+ImageFolder::ImageFolder(const fs::path& path, const OdometryGaps& gaps) : mav0_(mav0_of(path)) {
   camera_ = read_camera_yaml(mav0_ / "cam0" / "sensor.yaml");
   read_frames();
   read_altitudes();
-  read_odometry();
+  read_attitude();
+  read_odometry(gaps);
   read_ground_truth();
+  sensors_ = read_folder_sensors(mav0_, infos_.front().time_ns, infos_.back().time_ns);
   ids_ = std::vector<PictureId>(pictures_.size());
   ImageFolder::image(0);  // refuses what cannot be read before a run starts
 }
@@ -99,15 +103,36 @@ void ImageFolder::read_altitudes() {
   }
 }
 
-void ImageFolder::read_odometry() {
+void ImageFolder::read_attitude() {
+  const auto csv = sensor_csv(mav0_, "attitude0");
+  if (!csv) return;
+  const AttitudeSeries attitude(*csv);
+  for (FrameInfo& info : infos_) {
+    info.tilt = attitude.at(info.time_ns, kMaxInterpolationGapNs);
+    if (!info.tilt) refuse_uncovered(*csv, attitude.times(), "roll and pitch", info);
+    try {
+      camera_.footprint(info.stance());
+    } catch (const InputError& error) {
+      throw InputError(csv->string(), "at the picture's time " + std::to_string(info.time_ns) +
+                                          " ns " + error.what() +
+                                          "; expected a picture of the floor alone, or remove the "
+                                          "picture's row");
+    }
+  }
+}
+
+void ImageFolder::read_odometry(const OdometryGaps& gaps) {
   const auto csv = sensor_csv(mav0_, "odometry0");
   if (!csv) return;
-  const OdometrySeries odometry(*csv);
+  OdometrySeries odometry(*csv);
+  odometry.make_holes(gaps, infos_.front().time_ns, infos_.back().time_ns);
   for (std::size_t i = 0; i < infos_.size(); ++i) {
     if (!odometry.covers(infos_[i].time_ns, kMaxInterpolationGapNs)) {
       refuse_uncovered(*csv, odometry.times(), "odometry", infos_[i]);
     }
-    if (i > 0) infos_[i].motion = odometry.motion(infos_[i - 1].time_ns, infos_[i].time_ns);
+    if (i == 0) continue;
+    infos_[i].motion = odometry.motion(infos_[i - 1].time_ns, infos_[i].time_ns);
+    infos_[i].is_hole = odometry.has_hole(infos_[i - 1].time_ns, infos_[i].time_ns);
   }
   has_odometry_ = true;
 }

@@ -5,6 +5,7 @@
 #include "fathom/datasets/data_set.hpp"
 #include "fathom/datasets/image_folder.hpp"
 #include "fathom/datasets/motion_noise.hpp"
+#include "fathom/datasets/start_options.hpp"
 
 namespace fathom {
 namespace {
@@ -16,9 +17,15 @@ struct ImageFolderOptions {
   std::string path;
   FolderOdometry odometry = FolderOdometry::recorded;
   AddedNoiseOptions added_noise;
+  OdometryGaps gaps;
+  ReadingChoice compass;
+  ReadingChoice fixes;
+  StartOptions start;
+  EarthOriginOptions origin;
 
   void describe(OptionTable& table) {
     table.text("path", path, "the folder that holds mav0; relative to the working folder");
+    gaps.describe(table);
     describe_trial(table);
   }
   void describe_trial(OptionTable& table) {
@@ -28,6 +35,21 @@ struct ImageFolderOptions {
          {"visual_odometry", FolderOdometry::visual_odometry}},
         "dead reckoning: odometry0, where there is one; or registered pictures in any case");
     table.group("added_noise", added_noise);
+    compass.describe(table, "compass", "compass0");
+    fixes.describe(table, "fixes", "position0");
+    table.group("start", start);
+  }
+  void describe_origin(OptionTable& table) { table.group("origin", origin); }
+  std::vector<IgnoredKey> ignored_keys() const {
+    std::vector<IgnoredKey> ignored;
+    if (!gaps.least_intervals) {
+      for (const char* key : {"gap_sigma_m", "gap_sigma_rad", "speed_limit_m_s"}) {
+        ignored.push_back({key, "gap_intervals"});
+      }
+    } else if (gaps.declared.sigma_m) {
+      ignored.push_back({"speed_limit_m_s", "gap_sigma_m"});
+    }
+    return ignored;
   }
   Eigen::Matrix3d noise_covariance() const {
     return added_noise.noise_covariance("dataset.added_noise.");
@@ -36,19 +58,34 @@ struct ImageFolderOptions {
 
 class ImageFolderDataSet : public DataSet {
  public:
-  explicit ImageFolderDataSet(const std::string& path) : folder_(path) {}
+  ImageFolderDataSet(const std::string& path, const OdometryGaps& gaps) : folder_(path, gaps) {}
 
   const FrameSource* frames() const override { return &folder_; }
 
   Trial trial(const DataSetValues& values, const TrialNoise& /*noise*/) const override {
     const auto options = options_of<ImageFolderOptions>(values);
-    return {nullptr, options.noise_covariance(),
-            options.odometry == FolderOdometry::visual_odometry};
+    Trial trial;
+    trial.added_noise = options.noise_covariance();
+    trial.visual_odometry = options.odometry == FolderOdometry::visual_odometry;
+    trial.absolute = readings(options);
+    trial.start = options.start;
+    return trial;
   }
 
   std::vector<std::filesystem::path> files() const override { return folder_.files(); }
 
  private:
+  // What is not used needs no origin either.
+  AbsoluteReadings readings(const ImageFolderOptions& options) const {
+    FolderSensors sensors = folder_.sensors();
+    if (!options.compass.is_used) sensors.compass.reset();
+    if (!options.fixes.is_used) sensors.fixes.reset();
+    AbsoluteReadings readings = in_world(sensors, options.origin.origin());
+    readings.headings = chosen(readings.headings, options.compass);
+    readings.fixes = chosen(readings.fixes, options.fixes);
+    return readings;
+  }
+
   ImageFolder folder_;
 };
 
@@ -63,7 +100,7 @@ DataSetEntry image_folder_data_set() {
         if (options.path.empty()) {
           throw InputError("dataset.path: say where the image folder is");
         }
-        return std::make_unique<ImageFolderDataSet>(options.path);
+        return std::make_unique<ImageFolderDataSet>(options.path, options.gaps);
       });
 }
 

@@ -38,14 +38,27 @@ std::string altitude_rows(const FrameSource& source) {
   return rows;
 }
 
+std::string attitude_rows(const FrameSource& source) {
+  std::string rows;
+  for (std::size_t i = 0; i < source.size(); ++i) {
+    const MeasuredTilt& measured = source.info(i).tilt.value();
+    rows += sensor_row(source.info(i).time_ns,
+                       {measured.tilt.roll_rad, measured.tilt.pitch_rad, measured.sigma_rad});
+  }
+  return rows;
+}
+
 std::string odometry_rows(const FrameSource& source) {
   std::string rows;
   Pose pose;
   for (std::size_t i = 0; i < source.size(); ++i) {
+    // Over a hole there are none but at its ends.
+    const bool leads_on = i + 1 < source.size() && source.info(i + 1).is_hole;
     // No motion leads to the first frame.
     const UncertainPose motion = source.info(i).motion.value_or(UncertainPose{});
     pose = compose(pose, motion.mean);
     const Eigen::Matrix3d& C = motion.covariance;
+    if (source.info(i).is_hole && leads_on) continue;
     rows += sensor_row(source.info(i).time_ns, {pose.x, pose.y, pose.theta, C(0, 0), C(1, 1),
                                                 C(2, 2), C(0, 1), C(0, 2), C(1, 2)});
   }
@@ -65,13 +78,16 @@ std::string reference_rows(const FrameSource& source) {
 
 }  // namespace
 
-void write_image_folder(const FrameSource& source, const fs::path& folder) {
+void write_image_folder(const FrameSource& source, const fs::path& folder,
+                        const AbsoluteReadings& readings) {
   if (source.size() == 0) throw InputError("a survey without frames cannot be written");
   StagedFolder staged(folder);
   const fs::path mav0 = staged.path() / "mav0";
   write_pictures(source, mav0);
   write_altimeter(mav0, altitude_rows(source));
+  if (source.has_attitude()) write_attitude(mav0, attitude_rows(source));
   if (source.has_odometry()) write_odometry(mav0, odometry_rows(source));
+  write_folder_sensors(readings, mav0);
   const std::string reference = reference_rows(source);
   if (!reference.empty()) write_reference(mav0 / "state_groundtruth_estimate0", reference);
   staged.commit();

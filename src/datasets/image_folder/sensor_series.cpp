@@ -9,6 +9,8 @@
 namespace fathom {
 namespace {
 
+constexpr std::int64_t kAnyGap = std::numeric_limits<std::int64_t>::max();
+
 // A share of a motion, at constant velocity in the axes it is given in.
 Pose scaled(const Pose& motion, double share) {
   return {motion.x * share, motion.y * share, motion.theta * share};
@@ -99,22 +101,57 @@ OdometrySeries::OdometrySeries(const std::filesystem::path& path) {
 }
 
 bool OdometrySeries::covers(std::int64_t time_ns, std::int64_t max_gap_ns) const {
-  return times_.around(time_ns, max_gap_ns).has_value();
+  if (times_.around(time_ns, max_gap_ns)) return true;
+  const auto bracket = times_.around(time_ns, kAnyGap);
+  return bracket && !is_hole_.empty() && is_hole_[bracket->after];
 }
 
-UncertainPose OdometrySeries::part(std::size_t row, double from_share, double to_share) const {
-  const UncertainPose& step = steps_[row];
-  if (from_share == 0.0 && to_share == 1.0) return step;
-  const Pose start = scaled(step.mean, from_share);
-  const Pose end = scaled(step.mean, to_share);
-  // The step's covariance is in the axes of its start; the part's is in those of its own.
-  Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
-  R.topLeftCorner<2, 2>() = rotation(-start.theta);
-  return {between(start, end), transport(R, (to_share - from_share) * step.covariance)};
+void OdometrySeries::make_holes(const OdometryGaps& gaps, std::int64_t first_ns,
+                                std::int64_t last_ns) {
+  if (!gaps.least_intervals) return;
+  is_hole_.assign(steps_.size(), false);
+  if (steps_.size() > 1) {
+    std::vector<std::int64_t> intervals_ns;
+    for (std::size_t row = 1; row < steps_.size(); ++row) {
+      intervals_ns.push_back(times_.at(row) - times_.at(row - 1));
+    }
+    std::vector<std::int64_t> sorted = intervals_ns;
+    std::ranges::sort(sorted);
+    const double least_ns = *gaps.least_intervals * static_cast<double>(sorted[sorted.size() / 2]);
+    for (std::size_t row = 1; row < steps_.size(); ++row) {
+      is_hole_[row] = static_cast<double>(intervals_ns[row - 1]) >= least_ns;
+    }
+  }
+  if (first_ns < times_.at(0)) {
+    times_.insert_first(first_ns);
+    steps_.insert(steps_.begin(), UncertainPose{});
+    is_hole_.insert(is_hole_.begin(), false);
+    is_hole_[1] = true;
+  }
+  if (last_ns > times_.at(times_.size() - 1)) {
+    times_.add(last_ns);
+    steps_.emplace_back();
+    is_hole_.push_back(true);
+  }
+  for (std::size_t row = 1; row < steps_.size(); ++row) {
+    if (!is_hole_[row]) continue;
+    constexpr double kSeconds = 1e-9;
+    const auto duration_ns = static_cast<double>(times_.at(row) - times_.at(row - 1));
+    steps_[row] = gaps.declared.motion(duration_ns * kSeconds);
+  }
+}
+
+bool OdometrySeries::has_hole(std::int64_t from_ns, std::int64_t to_ns) const {
+  if (is_hole_.empty()) return false;
+  const Bracket from = times_.around(from_ns, kAnyGap).value();
+  const Bracket to = times_.around(to_ns, kAnyGap).value();
+  const auto step = [this](std::size_t row) {
+    return is_hole_.begin() + static_cast<std::ptrdiff_t>(row);
+  };
+  return std::find(step(from.before + 1), step(to.after + 1), true) != step(to.after + 1);
 }
 
 UncertainPose OdometrySeries::motion(std::int64_t from_ns, std::int64_t to_ns) const {
-  constexpr std::int64_t kAnyGap = std::numeric_limits<std::int64_t>::max();
   const Bracket from = times_.around(from_ns, kAnyGap).value();
   const Bracket to = times_.around(to_ns, kAnyGap).value();
   // Step r leads from row r − 1 to row r; the first one cut is that after `from.before`.
@@ -122,7 +159,7 @@ UncertainPose OdometrySeries::motion(std::int64_t from_ns, std::int64_t to_ns) c
   for (std::size_t row = from.before + 1; row <= to.after; ++row) {
     const double start = row == from.before + 1 ? from.share : 0.0;
     const double end = row == to.after && to.share > 0.0 ? to.share : 1.0;
-    parts.push_back(part(row, start, end));
+    parts.push_back(part_of(steps_[row], start, end));
   }
   return compose_chain(parts);
 }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "fathom/datasets/odometry_gaps.hpp"
 #include "fathom/geometry/covariance.hpp"
 
 namespace fathom {
@@ -23,6 +24,8 @@ class TimeLine {
  public:
   void add(std::int64_t time_ns) { times_ns_.push_back(time_ns); }
   std::int64_t at(std::size_t i) const { return times_ns_[i]; }
+  std::size_t size() const { return times_ns_.size(); }
+  void insert_first(std::int64_t time_ns) { times_ns_.insert(times_ns_.begin(), time_ns); }
 
   /// Nothing where the time is not covered: before the first, after the last, or in a gap wider
   /// than `max_gap_ns`.
@@ -55,18 +58,22 @@ class OdometrySeries {
   /// to no motion and is not looked at.
   explicit OdometrySeries(const std::filesystem::path& csv);
 
+  /// Steps over gaps become holes with the declared motion, and the times from `first_ns` to
+  /// `last_ns` that no row covers. Nothing without `gaps.least_intervals`.
+  void make_holes(const OdometryGaps& gaps, std::int64_t first_ns, std::int64_t last_ns);
+
   bool covers(std::int64_t time_ns, std::int64_t max_gap_ns) const;
   const TimeLine& times() const { return times_; }
 
   /// The motion between two covered times, from < to, in the frame of the first.
   UncertainPose motion(std::int64_t from_ns, std::int64_t to_ns) const;
+  /// Whether one of its steps is a hole.
+  bool has_hole(std::int64_t from_ns, std::int64_t to_ns) const;
 
  private:
-  /// The part of the step that ends at row `row` between two shares of it.
-  UncertainPose part(std::size_t row, double from_share, double to_share) const;
-
   TimeLine times_;
   std::vector<UncertainPose> steps_;  ///< since the row before; the first is empty
+  std::vector<bool> is_hole_;         ///< of each step; empty: none is
 };
 
 /// `state_groundtruth_estimate0/data.csv` of EuRoC: time, position, quaternion w x y z; further

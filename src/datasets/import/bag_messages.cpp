@@ -1,5 +1,7 @@
 #include "bag_messages.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 
@@ -136,6 +138,8 @@ ImuMessage read_imu(MessageReader& reader) {
   // the quaternion at zero in place of that.
   imu.has_rotation = covariance.front() != -1.0 && imu.rotation.norm() > 0.0;
   imu.yaw_variance = covariance.back();
+  const auto [less, more] = std::minmax(covariance[0], covariance[4]);
+  if (less > 0.0 && std::isfinite(more)) imu.tilt_variance = more;
   return imu;
 }
 

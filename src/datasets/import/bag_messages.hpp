@@ -80,7 +80,8 @@ PoseMessage read_pose(const std::string& type, MessageReader& reader);
 struct ImuMessage {
   std::int64_t stamp_ns = 0;
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
-  double yaw_variance = 0.0;  ///< rad²; 0: unknown
+  double yaw_variance = 0.0;   ///< rad²; 0: unknown
+  double tilt_variance = 0.0;  ///< rad², the larger one of roll and pitch; 0: unknown
   bool has_rotation = true;
 };
 ImuMessage read_imu(MessageReader& reader);

@@ -44,7 +44,7 @@ void BagSurvey::take(const BagMessage& message) {
     if (choice_.odometry == message.topic || choice_.reference == message.topic) {
       take_pose(message, topic);
     }
-    if (choice_.heading == message.topic) take_heading(message);
+    if (choice_.heading == message.topic || choice_.attitude == message.topic) take_imu(message);
   } catch (const InputError& error) {
     const std::string what = error.what();
     throw InputError(
@@ -98,20 +98,24 @@ void BagSurvey::take_pose(const BagMessage& message, const BagTopic& topic) {
   if (choice_.reference == message.topic) reference.push_back({*time_ns, pose});
 }
 
-void BagSurvey::take_heading(const BagMessage& message) {
+void BagSurvey::take_imu(const BagMessage& message) {
   const ImuMessage imu = read_imu(message.reader);
   const auto time_ns = time_of(message, imu.stamp_ns);
   if (!time_ns || !imu.has_rotation) return;
   PoseMessage pose;
   pose.rotation = imu.rotation;
-  headings.push_back({*time_ns, planar_pose(pose).theta, imu.yaw_variance});
+  const double yaw_rad = planar_pose(pose).theta;  // refuses what is no orientation
+  if (choice_.heading == message.topic) {
+    headings.push_back({*time_ns, yaw_rad, imu.yaw_variance});
+  }
+  if (choice_.attitude == message.topic) attitudes.push_back(attitude_of(*time_ns, imu));
 }
 
 void BagSurvey::check_times() const {
   if (options_.clock != BagClock::automatic) return;
   const StampedTopic& of_pictures = stamps_[*choice_.images];
-  for (const auto& topic :
-       {choice_.images, choice_.altitude, choice_.odometry, choice_.reference, choice_.heading}) {
+  for (const auto& topic : {choice_.images, choice_.altitude, choice_.odometry, choice_.reference,
+                            choice_.heading, choice_.attitude}) {
     if (!topic) continue;
     stamps_[*topic].check_rate();
     check_clocks(of_pictures, stamps_[*topic], options_.max_clock_offset_s);

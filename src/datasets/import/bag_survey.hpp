@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "attitude_readings.hpp"
 #include "bag.hpp"
 #include "bag_messages.hpp"
 #include "fathom/datasets/import.hpp"
@@ -51,13 +52,14 @@ class BagSurvey {
   std::vector<OdometryReading> odometry;
   std::vector<OdometryReading> reference;
   std::vector<HeadingReading> headings;
+  std::vector<AttitudeReading> attitudes;
   std::size_t repeated = 0;  ///< messages with the time of the one before
 
  private:
   void take_picture(const BagMessage& message, const BagTopic& topic);
   void take_altitude(const BagMessage& message, const BagTopic& topic);
   void take_pose(const BagMessage& message, const BagTopic& topic);
-  void take_heading(const BagMessage& message);
+  void take_imu(const BagMessage& message);
   /// The time that counts, of a message of a topic.
   std::optional<std::int64_t> time_of(const BagMessage& message,
                                       std::optional<std::int64_t> stamp_ns);

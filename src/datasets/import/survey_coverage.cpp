@@ -36,7 +36,23 @@ std::vector<NeededTimes> needed_times(const BagSurvey& survey, const TopicChoice
     needed.push_back({topics[*choice.odometry].name, {}});
     for (const auto& reading : survey.odometry) needed.back().times_ns.push_back(reading.time_ns);
   }
+  if (choice.attitude && choice.is_attitude_needed) {
+    needed.push_back({topics[*choice.attitude].name, attitude_times(survey)});
+  }
   return needed;
+}
+
+std::vector<std::int64_t> attitude_times(const BagSurvey& survey) {
+  std::vector<std::int64_t> times_ns;
+  for (const AttitudeReading& reading : survey.attitudes) times_ns.push_back(reading.time_ns);
+  return times_ns;
+}
+
+std::size_t uncovered(const std::vector<WrittenPicture>& pictures,
+                      const std::vector<std::int64_t>& times_ns) {
+  return static_cast<std::size_t>(std::ranges::count_if(
+      pictures,
+      [&](const WrittenPicture& picture) { return !is_covered(times_ns, picture.time_ns); }));
 }
 
 void check_spans(const std::vector<WrittenPicture>& pictures, const std::string& picture_topic,

@@ -16,9 +16,16 @@ struct NeededTimes {
   std::vector<std::int64_t> times_ns;
 };
 
-/// Those of the altitudes and the odometry, where they are taken from topics.
+/// Those of the altitudes, the odometry and an attitude that was asked for, where they are taken
+/// from topics.
 std::vector<NeededTimes> needed_times(const BagSurvey& survey, const TopicChoice& choice,
                                       const std::vector<BagTopic>& topics);
+
+std::vector<std::int64_t> attitude_times(const BagSurvey& survey);
+
+/// Pictures that no readings lie around.
+std::size_t uncovered(const std::vector<WrittenPicture>& pictures,
+                      const std::vector<std::int64_t>& times_ns);
 
 /// Throws InputError with the offset where the pictures and what they need share no time.
 void check_spans(const std::vector<WrittenPicture>& pictures, const std::string& picture_topic,

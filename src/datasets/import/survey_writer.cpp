@@ -8,6 +8,7 @@
 #include "fathom/core/text.hpp"
 #include "fathom/datasets/asl_files.hpp"
 #include "odometry_steps.hpp"
+#include "survey_coverage.hpp"
 
 namespace fathom {
 
@@ -35,6 +36,7 @@ class SurveyWriter {
     if (choice_.odometry) write_odometry0();
     if (choice_.reference) write_reference0();
     if (choice_.heading) write_headings();
+    if (choice_.attitude) write_attitudes();
     if (survey_.repeated > 0) {
       note(count(survey_.repeated, "message") + " left out: at the time of the one before");
     }
@@ -156,19 +158,39 @@ class SurveyWriter {
       const bool is_known = heading.variance > 0.0 && std::isfinite(heading.variance);
       unknown += is_known ? 0 : 1;
       rows += sensor_row(heading.time_ns,
-                         {heading.yaw_rad, is_known ? heading.variance : sigma_rad * sigma_rad});
+                         {heading.yaw_rad, is_known ? std::sqrt(heading.variance) : sigma_rad});
     }
     const std::string& name = topic(choice_.heading).name;
     if (rows.empty()) return note("no heading: " + name + " says that it has no orientation");
-    write_sensor(
-        mav0_ / "compass0", "timestamp [ns],heading [rad],variance [rad^2]", rows,
-        "sensor_type: compass # yaw of the body in the world of the bag, counter-clockwise "
-        "seen from above\n");
-    fact(count(survey_.headings.size(), "heading") + " from " + name +
-         ", in compass0; a run does not use them");
+    write_compass(mav0_, rows);
+    fact(count(survey_.headings.size(), "heading") + " from " + name + ", in compass0");
+    note(
+        "a run takes them for headings in the world: right of a compass or an AHRS; of a yaw "
+        "that drifts dataset.compass.use: false leaves them out");
     if (unknown > 0) {
       note(count(unknown, "heading") + " without variance in the bag: taken for good to " +
            short_number(sigma_rad) + " rad");
+    }
+  }
+
+  void write_attitudes() {
+    const std::string& name = topic(choice_.attitude).name;
+    const double sigma_rad =
+        options_.attitude_sigma_rad.value_or(options_.default_attitude_sigma_rad);
+    const AttitudeRows attitude =
+        attitude_rows(survey_.attitudes, sigma_rad, options_.attitude_sigma_rad.has_value());
+    if (!attitude.why_not.empty()) return note("no attitude of " + name + ": " + attitude.why_not);
+    const std::size_t without = uncovered(survey_.pictures, attitude_times(survey_));
+    if (without > 0) {
+      return note("no attitude of " + name + ": " + count(without, "picture") +
+                  " lie outside of its readings; --attitude " + name + " leaves them out");
+    }
+    write_attitude(mav0_, attitude.rows);
+    fact(count(survey_.attitudes.size(), "attitude") + " from " + name + ": " + attitude.fact);
+    note("roll and pitch are taken to be those of the body; --attitude none takes it for level");
+    if (attitude.unknown > 0) {
+      note(count(attitude.unknown, "attitude") +
+           " without variance in the bag: taken for good to " + short_number(sigma_rad) + " rad");
     }
   }
 

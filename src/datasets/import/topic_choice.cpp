@@ -56,6 +56,11 @@ class Chooser {
     });
     choice_.heading = optional("heading", options_.heading, {"sensor_msgs/Imu"},
                                [this] { return of_types({"sensor_msgs/Imu"}); });
+    // An Imu that has the heading has roll and pitch too.
+    choice_.is_attitude_needed = !options_.attitude.empty() && options_.attitude != "none";
+    choice_.attitude = options_.attitude.empty()
+                           ? choice_.heading
+                           : chosen("attitude", options_.attitude, {"sensor_msgs/Imu"}, {});
     return choice_;
   }
 
@@ -217,8 +222,9 @@ class Chooser {
 
 std::vector<std::size_t> TopicChoice::all() const {
   std::vector<std::size_t> taken;
-  for (const auto& topic : {images, camera_info, altitude, odometry, reference, heading}) {
-    if (topic) taken.push_back(*topic);
+  for (const auto& topic :
+       {images, camera_info, altitude, odometry, reference, heading, attitude}) {
+    if (topic && std::ranges::count(taken, *topic) == 0) taken.push_back(*topic);
   }
   return taken;
 }
@@ -229,7 +235,8 @@ std::string TopicChoice::use_of(std::size_t topic) const {
   if (altitude == topic) return "altitude";
   if (odometry == topic) return "odometry";
   if (reference == topic) return "reference";
-  if (heading == topic) return "heading";
+  if (heading == topic) return attitude == topic ? "heading --attitude" : "heading";
+  if (attitude == topic) return "attitude";
   return "";
 }
 

@@ -18,6 +18,10 @@ struct TopicChoice {
   std::optional<std::size_t> odometry;
   std::optional<std::size_t> reference;
   std::optional<std::size_t> heading;
+  std::optional<std::size_t> attitude;
+  /// The attitude was asked for: pictures without it are left out. One that is the heading's topic
+  /// for want of a word is left out itself where it does not cover all.
+  bool is_attitude_needed = false;
   std::vector<std::string> notes;  ///< what was guessed or left out, and why
 
   std::vector<std::size_t> all() const;
@@ -27,8 +31,8 @@ struct TopicChoice {
 
 /// The topics that the options name; the others by their types and, where several would do, by
 /// their names (docs/import.md). Throws InputError where a named topic is missing, empty or of a
-/// type that is not read, and, but for the reference and the heading, where a guess would be
-/// arbitrary. `file` is for messages.
+/// type that is not read, and, but for the reference, the heading and the attitude, where a guess
+/// would be arbitrary. `file` is for messages.
 TopicChoice choose_topics(const std::vector<BagTopic>& topics, const BagImportOptions& options,
                           const std::string& file);
 

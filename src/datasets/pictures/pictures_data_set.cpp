@@ -5,6 +5,7 @@
 #include "fathom/datasets/data_set.hpp"
 #include "fathom/datasets/motion_noise.hpp"
 #include "fathom/datasets/picture_folder.hpp"
+#include "fathom/datasets/start_options.hpp"
 
 namespace fathom {
 namespace {
@@ -12,12 +13,16 @@ namespace {
 struct PicturesOptions {
   PictureFolderOptions folder;
   AddedNoiseOptions added_noise;
+  StartOptions start;
 
   void describe(OptionTable& table) {
     folder.describe(table);
     describe_trial(table);
   }
-  void describe_trial(OptionTable& table) { table.group("added_noise", added_noise); }
+  void describe_trial(OptionTable& table) {
+    table.group("added_noise", added_noise);
+    table.group("start", start);
+  }
   Eigen::Matrix3d noise_covariance() const {
     return added_noise.noise_covariance("dataset.added_noise.");
   }
@@ -30,7 +35,11 @@ class PicturesDataSet : public DataSet {
   const FrameSource* frames() const override { return &folder_; }
 
   Trial trial(const DataSetValues& values, const TrialNoise& /*noise*/) const override {
-    return {nullptr, options_of<PicturesOptions>(values).noise_covariance(), false};
+    const auto options = options_of<PicturesOptions>(values);
+    Trial trial;
+    trial.added_noise = options.noise_covariance();
+    trial.start = options.start;
+    return trial;
   }
 
   std::vector<std::filesystem::path> files() const override { return folder_.files(); }

@@ -1,6 +1,7 @@
 // The entry `simulated`: see simulated_survey.hpp.
 
 #include <memory>
+#include <utility>
 
 #include "fathom/datasets/data_set.hpp"
 #include "fathom/datasets/simulated_survey.hpp"
@@ -18,8 +19,11 @@ class SimulatedDataSet : public DataSet {
   Trial trial(const DataSetValues& values, const TrialNoise& noise) const override {
     const auto options = options_of<SimulatedSurveyOptions>(values);
     Trial trial;
-    trial.frames = std::make_unique<SimulatedSurvey>(
-        survey_.remeasured(options.odometry, noise.seed, noise.trial));
+    auto survey = std::make_unique<SimulatedSurvey>(
+        survey_.remeasured(options.odometry, options.sensors, noise.seed, noise.trial));
+    trial.absolute = survey->readings();
+    trial.start = options.start;
+    trial.frames = std::move(survey);
     if (!trial.frames->has_odometry()) {
       trial.added_noise = options.odometry.noise_covariance("dataset.odometry.");
     }

@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "checked_options.hpp"
 #include "fathom/core/hash.hpp"
 #include "fathom/core/input_error.hpp"
 #include "fathom/core/random.hpp"
@@ -19,19 +20,6 @@ namespace fathom {
 namespace {
 
 const std::string kPrefix = "dataset.";
-
-// Options that code filled in keep the same bounds as those of a config: each is set to itself.
-// Lists have no bounds of their own; those who use them check them.
-template <class Options>
-Options checked(Options options, const std::string& group) {
-  OptionTable table;
-  table.group(group, options);
-  for (const OptionDescription& option : table.descriptions()) {
-    if (option.type == "list of real") continue;
-    table.set(option.key, OptionValue::scalar(table.value(option.key)));
-  }
-  return options;
-}
 
 Camera camera_of(const CameraOptions& options) {
   try {
@@ -73,6 +61,17 @@ double measured_altitude(double altitude_m, double sigma_m, RandomStream& stream
   throw InputError(kPrefix +
                    "altitude.altimeter_sigma_m: its noise lets a measured altitude fall " +
                    "below zero; expected a number in m well below " + kPrefix + "altitude.base_m");
+}
+
+// A tilt may be measured where the true one does not see the horizon.
+MeasuredTilt measured_tilt(const Camera& camera, double altitude_m, const MeasuredTilt& measured) {
+  try {
+    camera.footprint({altitude_m, measured.tilt});
+  } catch (const InputError& error) {
+    throw InputError(kPrefix + "attitude.measured_sigma_rad: " + error.what() +
+                     " as measured; expected smaller noise and mounting errors");
+  }
+  return measured;
 }
 
 }  // namespace
@@ -120,15 +119,9 @@ SimulatedSurvey::SimulatedSurvey(const SimulatedSurveyOptions& given, std::uint6
   fly(options);
   measure_altitudes(options.altitude.altimeter_sigma_m, seed);
   measure_motions(options.odometry, seed, trial);
+  measure_sensors(options.sensors, seed, trial);
   plan_views(options, seed);
   plan_floor(options.world, seed);
-}
-
-SimulatedSurvey SimulatedSurvey::remeasured(const OdometryOptions& odometry,
-                                            std::uint64_t noise_seed, std::uint64_t trial) const {
-  SimulatedSurvey survey = *this;
-  survey.measure_motions(checked(odometry, "dataset.odometry"), noise_seed, trial);
-  return survey;
 }
 
 void SimulatedSurvey::fly(const SimulatedSurveyOptions& options) {
@@ -152,26 +145,14 @@ void SimulatedSurvey::measure_altitudes(double sigma_m, std::uint64_t seed) {
   }
 }
 
-void SimulatedSurvey::measure_motions(const OdometryOptions& odometry, std::uint64_t seed,
-                                      std::uint64_t trial) {
-  const Eigen::Matrix3d covariance = odometry.noise_covariance(kPrefix + "odometry.");
-  const MotionNoise noise(covariance);
-  has_odometry_ = odometry.source == OdometrySource::kNoisyMotion;
-  RandomStream dead_reckoning(seed, "dead_reckoning", trial);
-  for (std::size_t i = 0; i < infos_.size(); ++i) {
-    FrameInfo& info = infos_[i];
-    info.motion.reset();
-    if (!has_odometry_ || i == 0) continue;
-    const Pose motion = between(*infos_[i - 1].ground_truth, *info.ground_truth);
-    info.motion = UncertainPose{noise.disturb(motion, dead_reckoning), covariance};
-  }
-}
-
 void SimulatedSurvey::plan_views(const SimulatedSurveyOptions& options, std::uint64_t seed) {
   const double period_s = 1.0 / options.mission.frame_rate_hz;
   const auto tilts = draw_attitude(options.attitude, views_.size(), period_s, seed);
+  const auto measured = measure_attitude(options.attitude, tilts, seed);
   for (std::size_t i = 0; i < views_.size(); ++i) {
     views_[i].tilt = tilts[i];
+    if (!measured.empty())
+      infos_[i].tilt = measured_tilt(camera_, infos_[i].altitude_m, measured[i]);
     views_[i].motion_rad = motion_direction(infos_, i);
     views_[i].seed = stream_seed(seed, "picture_effects", i);
   }

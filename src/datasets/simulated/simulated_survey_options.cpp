@@ -1,3 +1,5 @@
+#include <utility>
+
 #include "fathom/datasets/simulated_survey.hpp"
 
 namespace fathom {
@@ -20,15 +22,20 @@ void SimulatedSurveyOptions::describe(OptionTable& table) {
   table.group("attitude", attitude);
   table.group("water", effects.water);
   table.group("camera_effects", effects.camera);
+  sensors.describe(table);
+  table.group("start", start);
 }
 
 void SimulatedSurveyOptions::describe_trial(OptionTable& table) {
   table.group("odometry", odometry);
+  sensors.describe(table);
+  table.group("start", start);
 }
 
 std::string SimulatedSurveyOptions::why_surveys_are_alike() const {
   const bool draws = world.picture.empty() || world.relief_m > 0.0 || !attitude.is_level() ||
-                     effects.is_random() || altitude.altimeter_sigma_m > 0.0;
+                     attitude.measured_sigma_rad.value_or(0.0) > 0.0 || effects.is_random() ||
+                     altitude.altimeter_sigma_m > 0.0;
   if (draws) return "";
   return "over the picture of dataset.world a level camera, exact altitudes and clear pictures "
          "leave "
@@ -36,7 +43,9 @@ std::string SimulatedSurveyOptions::why_surveys_are_alike() const {
 }
 
 std::vector<IgnoredKey> SimulatedSurveyOptions::ignored_keys() const {
-  return below("mission", mission.ignored_keys());
+  std::vector<IgnoredKey> ignored = below("mission", mission.ignored_keys());
+  for (IgnoredKey& key : sensors.ignored_keys()) ignored.push_back(std::move(key));
+  return ignored;
 }
 
 }  // namespace fathom

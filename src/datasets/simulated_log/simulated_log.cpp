@@ -3,33 +3,51 @@
 #include <algorithm>
 
 #include "fathom/core/random.hpp"
+#include "fathom/datasets/reading_carrier.hpp"
 #include "fathom/geometry/covariance.hpp"
 
 namespace fathom {
 namespace {
 
-// Dead reckoning from one keyframe to the next.
-class Steps {
- public:
-  Steps(const FlownKeyframes& keyframes, const Eigen::Matrix3d& covariance, RandomStream stream)
-      : keyframes_(keyframes), covariance_(covariance), noise_(covariance), stream_(stream) {}
+std::vector<std::int64_t> times_of(const FlownKeyframes& keyframes) {
+  std::vector<std::int64_t> times_ns;
+  for (const StampedPose& frame : keyframes.frames) times_ns.push_back(frame.time_ns);
+  return times_ns;
+}
 
-  /// To keyframe k; to be asked for in order.
-  RelativePose to(std::size_t k) {
-    UncertainPose step;
-    for (std::size_t i = (k - 1) * keyframes_.separation; i < k * keyframes_.separation; ++i) {
-      const Pose motion = between(keyframes_.frames[i].pose, keyframes_.frames[i + 1].pose);
-      step = compose(step, {noise_.disturb(motion, stream_), covariance_});
-    }
-    return RelativePose::from_covariance(k - 1, k, step.mean, step.covariance);
+// Frame by frame; over holes as declared.
+std::vector<DeadReckonedFrame> dead_reckoned(const FlownKeyframes& keyframes,
+                                             const SimulatedLogOptions& options, std::uint64_t seed,
+                                             std::uint64_t trial) {
+  const Eigen::Matrix3d covariance = options.odometry.noise_covariance("dataset.odometry.");
+  const MotionNoise noise(covariance);
+  RandomStream stream(seed, "dead_reckoning", trial);
+  const std::vector<std::int64_t> times_ns = times_of(keyframes);
+  const std::vector<bool> is_hole =
+      draw_holes(options.sensors.holes, times_ns, seed, trial, "dataset.");
+  const auto declared = hole_motions(is_hole, times_ns, options.sensors.gaps);
+  std::vector<DeadReckonedFrame> frames{{times_ns[0], {}, false}};
+  for (std::size_t i = 1; i < times_ns.size(); ++i) {
+    const Pose motion = between(keyframes.frames[i - 1].pose, keyframes.frames[i].pose);
+    const UncertainPose measured{noise.disturb(motion, stream), covariance};
+    frames.push_back({times_ns[i], declared[i].value_or(measured), is_hole[i]});
   }
+  return frames;
+}
 
- private:
-  const FlownKeyframes& keyframes_;
-  Eigen::Matrix3d covariance_;
-  MotionNoise noise_;
-  RandomStream stream_;
-};
+// From keyframe k − 1 to keyframe k.
+RelativePose step_to(std::size_t k, const std::vector<DeadReckonedFrame>& frames,
+                     std::size_t separation) {
+  UncertainPose motion;
+  bool is_hole = false;
+  for (std::size_t i = (k - 1) * separation + 1; i <= k * separation; ++i) {
+    motion = compose(motion, frames[i].motion);
+    is_hole = is_hole || frames[i].is_hole;
+  }
+  RelativePose step = RelativePose::from_covariance(k - 1, k, motion.mean, motion.covariance);
+  step.is_hole = is_hole;
+  return step;
+}
 
 struct Found {
   double distance_m = 0.0;
@@ -109,14 +127,23 @@ class Registrations {
 
 MeasurementLog draw_log(const FlownKeyframes& keyframes, const SimulatedLogOptions& options,
                         std::uint64_t seed, std::uint64_t trial) {
-  Steps steps(keyframes, options.odometry.noise_covariance("dataset.odometry."),
-              RandomStream(seed, "dead_reckoning", trial));
+  const std::vector<DeadReckonedFrame> frames = dead_reckoned(keyframes, options, seed, trial);
+  const DeadReckoning reckoning{frames.size(), [&frames](std::size_t i) { return frames[i]; }};
+  const AbsoluteReadings readings =
+      draw_readings(options.sensors, keyframes.frames, seed, trial, "dataset.");
   Registrations registrations(keyframes, options.loops,
                               options.loops.noise.noise_covariance("dataset.loops."), seed, trial);
-  MeasurementLog log;
-  for (std::size_t k = 1; k < keyframes.size(); ++k) {
-    log.add_keyframe(steps.to(k));
-    for (const RelativePose& registration : registrations.of(k)) log.add_registration(registration);
+  MeasurementLog log(start_of(options.start, readings, reckoning));
+  ReadingCarrier carrier(readings, reckoning, log.start());
+  const std::size_t separation = keyframes.separation;
+  for (std::size_t k = 0; k < keyframes.size(); ++k) {
+    if (k > 0) {
+      log.add_keyframe(step_to(k, frames, separation));
+      for (const RelativePose& z : registrations.of(k)) log.add_registration(z);
+    }
+    const bool is_last = k + 1 == keyframes.size();
+    const auto next = is_last ? std::nullopt : std::optional((k + 1) * separation);
+    for (const AbsolutePose& z : carrier.of(k, k * separation, next)) log.add_absolute(z);
   }
   for (std::size_t k = 0; k < keyframes.size(); ++k) {
     log.ids.push_back(static_cast<std::int64_t>(k));

@@ -1,3 +1,5 @@
+#include <utility>
+
 #include "fathom/datasets/simulated_log.hpp"
 
 namespace fathom {
@@ -31,11 +33,14 @@ void SimulatedLogOptions::describe(OptionTable& table) {
 void SimulatedLogOptions::describe_trial(OptionTable& table) {
   table.group("odometry", odometry);
   table.group("loops", loops);
+  sensors.describe(table);
+  table.group("start", start);
 }
 
 std::vector<IgnoredKey> SimulatedLogOptions::ignored_keys() const {
   std::vector<IgnoredKey> ignored = below("mission", mission.ignored_keys());
   if (loops.tail_share == 0.0) ignored.push_back({"loops.tail_factor", "loops.tail_share"});
+  for (IgnoredKey& key : sensors.ignored_keys()) ignored.push_back(std::move(key));
   return ignored;
 }
 

@@ -19,6 +19,7 @@ const std::vector<Metric>& named_metrics() {
     append(all, honesty_metrics());
     append(all, optimum_metrics());
     append(all, loop_metrics());
+    append(all, absolute_metrics());
     append(all, cost_metrics());
     return all;
   }();

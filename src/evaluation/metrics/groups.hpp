@@ -13,6 +13,7 @@ std::vector<Metric> accuracy_metrics();
 std::vector<Metric> consistency_metrics();
 std::vector<Metric> honesty_metrics();
 std::vector<Metric> loop_metrics();
+std::vector<Metric> absolute_metrics();
 std::vector<Metric> optimum_metrics();
 std::vector<Metric> cost_metrics();
 

@@ -27,12 +27,12 @@ Value mean_nis_truth(const JudgedRun& run) {
   return sum / static_cast<double>(facts.log.registration_count());
 }
 
-// Keyframes after the first and registrations add 3 residuals each, a keyframe takes 3.
 Value chi2_per_dof(const JudgedRun& run) {
   const RunFacts& facts = run.facts;
-  if (!facts.replay || facts.log.registration_count() == 0) return {};
-  return chi2(facts.log, facts.estimate) /
-         (3.0 * static_cast<double>(facts.log.registration_count()));
+  if (!facts.replay) return {};
+  const double degrees = degrees_of_freedom(facts.log);
+  if (!(degrees > 0.0)) return {};
+  return chi2(facts.log, facts.estimate) / degrees;
 }
 
 // Of the registrations that share a picture: Σ u and Σ uᵀu of their whitened errors u.
@@ -85,9 +85,9 @@ std::vector<Metric> honesty_metrics() {
        "of the errors of two registrations that share a picture, against ground truth; 0 expected",
        picture_error_correlation},
       {"chi2_per_dof", "F per degree of freedom", "", Better::neither,
-       "F over three times the registrations; 1 expected at the optimum, below: covariances are "
-       "too "
-       "large, or errors are shared and cancel",
+       "F over its degrees of freedom, three a registration, the rank of each absolute "
+       "measurement, less three a hole and a free start; 1 expected at the optimum, below: "
+       "covariances are too large, or errors are shared and cancel",
        chi2_per_dof},
   };
 }

@@ -18,7 +18,8 @@ std::vector<Metric> optimum_metrics() {
   return {
       {"chi2", "F", "", Better::lower, "F of the whole log at the estimate", cost_at_estimate},
       {"chi2_initial", "F at the start", "", Better::neither,
-       "F at dead reckoning, or at the file's vertices with --init file",
+       "F at dead reckoning, or at the file's vertices with --init file; of a batch solve over "
+       "holes, or with a free start, where it begins",
        replay_field(&ReplayFacts::chi2_initial)},
       {"chi2_used", "F of what was used", "", Better::neither,
        "cost of what was used: rejected loops left out, loss applied",

@@ -12,7 +12,7 @@ std::vector<PlacedPicture> placed_on_grid(const EarthFrame& earth, const Camera&
   for (PlacedPicture& picture : placed) {
     const GridPose grid = earth.on_grid(compose(picture.pose, mount));
     picture.pose = compose(grid.pose, inverse(mount));
-    picture.altitude_m *= grid.scale;
+    picture.stance.altitude_m *= grid.scale;
   }
   return placed;
 }

@@ -30,7 +30,7 @@ float tent(double pixel, int count) {
 }
 
 std::vector<Eigen::Vector2d> outline_of(const Camera& camera, const PlacedPicture& place) {
-  std::vector<Eigen::Vector2d> outline = seen_outline(camera, place.altitude_m);
+  std::vector<Eigen::Vector2d> outline = seen_outline(camera, place.stance);
   for (Eigen::Vector2d& point : outline) point = transform(place.pose, point);
   return outline;
 }
@@ -54,7 +54,7 @@ struct RowOfBox {
   const Camera& camera;
   const cv::Mat& source;  ///< the picture, perhaps reduced
   cv::Size full;          ///< the picture's own size
-  double altitude_m;
+  Stance stance;
   Eigen::Vector2d first;  ///< of the box's first column, in the body frame
   Eigen::Vector2d step;   ///< from column to column
 };
@@ -64,12 +64,12 @@ RowOfBox row_of_box(const Camera& camera, const cv::Mat& source, cv::Size full,
   const Pose body_from_world = inverse(place.pose);
   const Eigen::Vector2d begin = transform(body_from_world, map.point(first.x, first.y));
   const Eigen::Vector2d next = transform(body_from_world, map.point(first.x + 1, first.y));
-  return {camera, source, full, place.altitude_m, begin, next - begin};
+  return {camera, source, full, place.stance, begin, next - begin};
 }
 
 /// Adds a column of a row; `column` counts from the box's first.
 void add_pixel(const RowOfBox& row, int column, float& sum, float& weight) {
-  const Eigen::Vector2d pixel = row.camera.pixel(row.first + column * row.step, row.altitude_m);
+  const Eigen::Vector2d pixel = row.camera.pixel(row.first + column * row.step, row.stance);
   // Never quite zero, so that a picture's border shows where it is alone.
   const float share = std::max(1e-3F, tent(pixel.x(), row.full.width)) *
                       std::max(1e-3F, tent(pixel.y(), row.full.height));
@@ -94,8 +94,8 @@ cv::Rect Blend::box_of(const Camera& camera, const MosaicPlan& plan, const Place
 }
 
 // Where the mosaic is coarser than the picture, its pixels are means and not samples.
-cv::Mat Blend::reduced(const cv::Mat& picture, double altitude_m) const {
-  const auto corners = camera_.footprint(altitude_m);
+cv::Mat Blend::reduced(const cv::Mat& picture, const Stance& stance) const {
+  const auto corners = camera_.footprint(stance);
   const double width_px = (corners[1] - corners[0]).norm() / map_.metres_per_pixel;
   const double factor = std::floor(picture.cols / width_px);
   if (!(factor >= 2.0)) return picture;
@@ -112,7 +112,7 @@ void Blend::lay(const cv::Mat& picture, const PlacedPicture& place) {
   const cv::Rect part = box & window_;
   if (part.empty()) return;
   const cv::Mat mask = mask_of(map_, outline, box);
-  const cv::Mat source = reduced(picture, place.altitude_m);
+  const cv::Mat source = reduced(picture, place.stance);
   // Rows share nothing, so that the number of threads changes no sum.
   cv::parallel_for_({part.y, part.y + part.height}, [&](const cv::Range& rows) {
     for (int v = rows.start; v < rows.end; ++v) {

@@ -28,7 +28,7 @@ class Blend {
   cv::Mat finish();
 
  private:
-  cv::Mat reduced(const cv::Mat& picture, double altitude_m) const;
+  cv::Mat reduced(const cv::Mat& picture, const Stance& stance) const;
 
   Camera camera_;
   FloorMap map_;

@@ -6,7 +6,7 @@
 
 namespace fathom {
 
-std::vector<Eigen::Vector2d> seen_outline(const Camera& camera, double altitude_m) {
+std::vector<Eigen::Vector2d> seen_outline(const Camera& camera, const Stance& stance) {
   const CameraModel& model = camera.model();
   const int steps = model.has_distortion() ? 24 : 1;
   const Eigen::Vector2d size(model.width, model.height);
@@ -17,7 +17,7 @@ std::vector<Eigen::Vector2d> seen_outline(const Camera& camera, double altitude_
     for (int i = 0; i < steps; ++i) {
       const Eigen::Vector2d at =
           corners[side] + (corners[side + 1] - corners[side]) * (i / static_cast<double>(steps));
-      outline.push_back(camera.floor_point(first + at.cwiseProduct(size), altitude_m));
+      outline.push_back(camera.floor_point(first + at.cwiseProduct(size), stance));
     }
   }
   return outline;

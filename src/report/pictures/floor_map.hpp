@@ -29,7 +29,7 @@ struct FloorMap {
 
 /// The border of what a picture covers, in the body frame. Distortion bends it, so that the four
 /// corners alone would not do. Throws InputError on an altitude that is not positive.
-std::vector<Eigen::Vector2d> seen_outline(const Camera& camera, double altitude_m);
+std::vector<Eigen::Vector2d> seen_outline(const Camera& camera, const Stance& stance);
 
 /// The pixels whose middle is within a polygon of world points: 255 there, 0 elsewhere. Only the
 /// part `box` of the map is looked at, and the mask is of its size.

@@ -17,11 +17,11 @@ double independent_count(const Camera& camera, const std::vector<PlacedPicture>&
   const Eigen::Vector2d middle_px(0.5 * (model.width - 1), 0.5 * (model.height - 1));
   std::vector<Eigen::Vector2d> apart;
   for (const PlacedPicture& picture : pictures) {
-    const auto corners = camera.footprint(picture.altitude_m);
+    const auto corners = camera.footprint(picture.stance);
     const double side_m =
         std::min((corners[1] - corners[0]).norm(), (corners[2] - corners[1]).norm());
     const Eigen::Vector2d middle =
-        transform(picture.pose, camera.floor_point(middle_px, picture.altitude_m));
+        transform(picture.pose, camera.floor_point(middle_px, picture.stance));
     const bool is_new = std::ranges::all_of(
         apart, [&](const Eigen::Vector2d& other) { return (middle - other).norm() >= side_m; });
     if (is_new) apart.push_back(middle);

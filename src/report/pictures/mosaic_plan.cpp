@@ -46,7 +46,7 @@ Footprint footprint_of(const Camera& camera, const PlacedPicture& picture) {
   if (!std::isfinite(pose.x) || !std::isfinite(pose.y) || !std::isfinite(pose.theta)) {
     throw InputError("the pose of frame " + std::to_string(picture.frame) + " is not finite");
   }
-  Footprint footprint{camera.footprint(picture.altitude_m), 0.0, 0.0};
+  Footprint footprint{camera.footprint(picture.stance), 0.0, 0.0};
   const double pixels = static_cast<double>(camera.model().width) * camera.model().height;
   footprint.metres_per_pixel = std::sqrt(area_of(footprint.corners) / pixels);
   footprint.shorter_side_m = shorter_side_of(footprint.corners);
@@ -68,7 +68,7 @@ bool is_leap(const Camera& camera, const PlacedPicture& from, const PlacedPictur
   const Pose motion = compose(inverse(from.pose), to.pose);
   // Poses at the end of all numbers may leave none.
   return !motion.position().allFinite() ||
-         footprint_overlap(camera, from.altitude_m, to.altitude_m, motion) < kLeastOverlap;
+         footprint_overlap(camera, from.stance, to.stance, motion) < kLeastOverlap;
 }
 
 // The next picture from i on that is no filler, or the last one.
@@ -116,7 +116,7 @@ struct Box {
 Box box_of(const Camera& camera, const std::vector<PlacedPicture>& pictures) {
   Box box;
   for (const PlacedPicture& picture : pictures) {
-    for (const Eigen::Vector2d& point : seen_outline(camera, picture.altitude_m)) {
+    for (const Eigen::Vector2d& point : seen_outline(camera, picture.stance)) {
       const Eigen::Vector2d world = transform(picture.pose, point);
       box.low = box.low.cwiseMin(world);
       box.high = box.high.cwiseMax(world);

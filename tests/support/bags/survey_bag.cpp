@@ -14,6 +14,15 @@ BodyPose body_pose(const Pose& pose) {
   return body;
 }
 
+// Half angles, by quaternion: yaw, then pitch, then roll.
+std::array<double, 4> rotation_of(double yaw, const Tilt& tilt) {
+  const double cy = std::cos(yaw / 2), sy = std::sin(yaw / 2);
+  const double cp = std::cos(tilt.pitch_rad / 2), sp = std::sin(tilt.pitch_rad / 2);
+  const double cr = std::cos(tilt.roll_rad / 2), sr = std::sin(tilt.roll_rad / 2);
+  return {sr * cp * cy - cr * sp * sy, cr * sp * cy + sr * cp * sy, cr * cp * sy - sr * sp * cy,
+          cr * cp * cy + sr * sp * sy};
+}
+
 CameraInformation information(const CameraModel& model) {
   CameraInformation info;
   info.width = static_cast<std::uint32_t>(model.width);
@@ -62,8 +71,14 @@ void write_survey_bag(const FrameSource& survey, BagWriter& writer, const Survey
     }
     if (info.ground_truth) {
       writer.pose("/ground_truth/pose", stamps, body_pose(*info.ground_truth));
-      writer.imu("/imu", stamps, body_pose(*info.ground_truth).rotation,
-                 {1e-3, 0, 0, 0, 1e-3, 0, 0, 0, 4e-4});
+      if (i >= how.imu_from) {
+        const MeasuredTilt measured = info.tilt.value_or(MeasuredTilt{{}, std::sqrt(1e-3)});
+        const double variance = how.imu_has_variance ? std::pow(measured.sigma_rad, 2) : 0.0;
+        Tilt tilt = measured.tilt;
+        tilt.roll_rad += how.imu_roll_rad;
+        writer.imu("/imu", stamps, rotation_of(info.ground_truth->theta, tilt),
+                   {variance, 0, 0, 0, variance, 0, 0, 0, 4e-4});
+      }
     }
     writer.word("/chatter", stamps, "hello");
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "fathom/datasets/frame_source.hpp"
@@ -15,6 +16,9 @@ struct SurveyBag {
   std::int64_t record_delay_ns = 20'000'000;  ///< from header to recording
   std::int64_t altitude_clock_ns = 0;         ///< how far the altimeter's clock is ahead
   std::int64_t stamp_unit = 1;                ///< header stamps are divided by it
+  std::size_t imu_from = 0;  ///< the first frame that /imu has, with the survey's roll and pitch
+  bool imu_has_variance = true;  ///< of them; of a survey without, level, it is 1e-3 rad²
+  double imu_roll_rad = 0.0;     ///< how the Imu is mounted
 };
 
 void write_survey_bag(const FrameSource& survey, BagWriter& writer, const SurveyBag& how = {});

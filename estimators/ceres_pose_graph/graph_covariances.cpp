@@ -1,0 +1,95 @@
+// Covariances of poses and motions: of the Ceres problem's Hessian.
+
+#include <algorithm>
+#include <utility>
+
+#include <ceres/crs_matrix.h>
+
+#include "estimators/ceres_pose_graph/graph.hpp"
+#include "estimators/ceres_pose_graph/hessian_inverse.hpp"
+#include "fathom/estimation/joint_covariance.hpp"
+#include "fathom/geometry/covariance.hpp"
+
+namespace fathom {
+
+std::optional<std::vector<Eigen::Matrix3d>> CeresPoseGraph::Graph::predicted_covariances(
+    std::span<const RelativePose> forward_loops) {
+  std::vector<std::size_t> ends;
+  for (const RelativePose& z : forward_loops) ends.insert(ends.end(), {z.from, z.to});
+  const auto joint = joint_covariance(ends);
+  if (!joint) return std::nullopt;
+  std::vector<Eigen::Matrix3d> predicted;
+  for (const RelativePose& z : forward_loops) {
+    const auto row = static_cast<Eigen::Index>(6 * predicted.size());
+    const PairCovariance pair{joint->block<3, 3>(row, row), joint->block<3, 3>(row + 3, row + 3),
+                              joint->block<3, 3>(row, row + 3)};
+    predicted.push_back(between(pose(z.from), pose(z.to), pair).covariance);
+  }
+  return predicted;
+}
+
+void CeresPoseGraph::Graph::compute_marginals() {
+  marginals_.emplace();
+  if (size() > 1) {
+    const auto H = hessian();
+    const auto blocks = H ? inverse_blocks(*H) : std::nullopt;
+    if (!blocks) return;
+    *marginals_ = blocks->own;
+  }
+  marginals_->insert(marginals_->begin(), Eigen::Matrix3d::Zero());
+}
+
+std::optional<Eigen::Matrix3d> CeresPoseGraph::Graph::marginal(std::size_t k) {
+  if (!marginals_) compute_marginals();
+  if (marginals_->empty()) return std::nullopt;
+  return (*marginals_)[k];
+}
+
+std::optional<Eigen::MatrixXd> CeresPoseGraph::Graph::joint_covariance(
+    std::span<const std::size_t> keyframes) {
+  std::vector<std::size_t> blocks = free_keyframes(keyframes);
+  if (blocks.empty()) return in_order_of(keyframes, {});
+  for (std::size_t& block : blocks) --block;  // of the Hessian, which has none for keyframe 0
+  const auto H = hessian();
+  const auto joint = H ? inverse_between(*H, blocks) : std::nullopt;
+  if (!joint) return std::nullopt;
+  return in_order_of(keyframes, *joint);
+}
+
+// The Hessian of the poses but the first, which is fixed, the loss applied as a weight. There must
+// be one: asked for no poses, Ceres takes all. Nothing where it is not finite, of which
+// Ceres would print a warning.
+std::unique_ptr<const Eigen::SparseMatrix<double>> CeresPoseGraph::Graph::hessian() {
+  if (!is_finite()) return nullptr;
+  ceres::Problem::EvaluateOptions evaluate;
+  evaluate.num_threads = 1;
+  for (std::size_t k = 1; k < size(); ++k) evaluate.parameter_blocks.push_back(block(k));
+  ceres::CRSMatrix J;
+  if (!problem_.Evaluate(evaluate, nullptr, nullptr, nullptr, &J)) return nullptr;
+  const Eigen::SparseMatrix<double> by_columns =
+      Eigen::Map<const Eigen::SparseMatrix<double, Eigen::RowMajor>>(
+          J.num_rows, J.num_cols, static_cast<Eigen::Index>(J.values.size()), J.rows.data(),
+          J.cols.data(), J.values.data());
+  return std::make_unique<const Eigen::SparseMatrix<double>>(by_columns.transpose() * by_columns);
+}
+
+std::optional<std::vector<UncertainPose>> CeresPoseGraph::Graph::motions_to_newest() {
+  std::vector<UncertainPose> motions;
+  const std::size_t n = size() - 1;
+  if (n == 0) return motions;
+  const auto H = hessian();
+  const auto blocks = H ? inverse_blocks(*H) : std::nullopt;
+  if (!blocks) return std::nullopt;
+  PairCovariance pair;
+  pair.B = blocks->own[n - 1];
+  for (std::size_t k = 0; k < n; ++k) {
+    if (k > 0) {
+      pair.A = blocks->own[k - 1];
+      pair.cross = blocks->with_last[k - 1];
+    }
+    motions.push_back(between(pose(k), pose(n), pair));
+  }
+  return motions;
+}
+
+}  // namespace fathom

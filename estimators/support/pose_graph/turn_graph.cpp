@@ -1,0 +1,64 @@
+#include "estimators/support/pose_graph/turn_graph.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdlib>
+#include <numeric>
+
+namespace fathom::pose_graph {
+namespace {
+
+// Whether steps that measure their turn lead from node 0 to all others: the usual case.
+bool is_chain(std::span<const Edge> edges, std::size_t nodes) {
+  std::vector<char> reached(nodes, 0);
+  std::size_t left = nodes - 1;
+  for (const Edge& edge : edges) {
+    if (!measures_heading(edge)) return false;
+    if (std::abs(edge.from - edge.to) != 1) continue;
+    char& later = reached[at(std::max(edge.from, edge.to))];
+    if (later == 0) --left;
+    later = 1;
+  }
+  return left == 0;
+}
+
+class Parts {
+ public:
+  explicit Parts(std::size_t nodes) : parent_(nodes) {
+    std::iota(parent_.begin(), parent_.end(), 0);
+  }
+  int root(int k) {
+    while (parent_[at(k)] != k) k = parent_[at(k)] = parent_[at(parent_[at(k)])];
+    return k;
+  }
+  // The lowest node is the root.
+  void join(int a, int b) {
+    const auto [low, high] = std::minmax({root(a), root(b)});
+    parent_[at(high)] = low;
+  }
+
+ private:
+  std::vector<int> parent_;
+};
+
+}  // namespace
+
+TurnGraph::TurnGraph(std::span<const Edge> edges, std::span<const Node> nodes) : all_(edges) {
+  if (is_chain(edges, nodes.size())) return;
+  Parts parts(nodes.size());
+  for (const Edge& edge : edges) {
+    if (!measures_heading(edge)) continue;
+    own_.push_back(edge);
+    parts.join(edge.from, edge.to);
+  }
+  for (int k = 1; k < static_cast<int>(nodes.size()); ++k) {
+    if (parts.root(k) != k) continue;
+    Edge turn;
+    turn.to = k;
+    turn.theta = wrap_angle(nodes[at(k)].theta - nodes[0].theta);
+    turn.W = {1.0, 0.0, 0.0, 1.0, 0.0, 1.0};
+    own_.push_back(turn);
+  }
+}
+
+}  // namespace fathom::pose_graph

@@ -1,0 +1,108 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "fathom/estimation/estimator.hpp"
+#include "fathom/estimation/registry.hpp"
+
+namespace fathom {
+
+/// An estimator that knows motions between nodes alone, node 0 fixed: what a pose graph or a filter
+/// on motions is by itself. AnchoredEstimator makes it a whole one, so that absolute measurements
+/// and an uncertain start need no code of its own.
+///
+/// As of Estimator, with nodes for keyframes, and
+/// - Loops from node 0 may have information that is positive semi-definite (rows_of): all that is
+///   measured of the world is one of these.
+/// - In batch mode a step that is a hole has no part in the estimate.
+class RelativeEstimator : public Estimate {
+ public:
+  virtual void add_keyframe(const RelativePose& step) = 0;
+  /// Loops between the newest node and earlier ones; one decision for each.
+  virtual UpdateReport close_loops(std::span<const RelativePose> loops) = 0;
+  virtual UpdateReport finish(std::span<const Pose> start = {}) {
+    (void)start;
+    return {};
+  }
+
+  /// The step to `node`, a hole that no loop has crossed, is taken to be `motion`: all nodes from
+  /// there on move as one, and what is known of the motions among them stays. Its declared
+  /// covariance stays, too. Without this a filter would linearise the first loop over a hole at a
+  /// guess that may be off by any turn.
+  virtual void bridge(std::size_t node, const Pose& motion) = 0;
+};
+
+/// Makes a RelativeEstimator whose node 0 is at `origin`.
+using MakeRelative = std::function<std::unique_ptr<RelativeEstimator>(const EstimatorSetup&)>;
+
+/// A RelativeEstimator in the world (docs/absolute_measurements.md).
+///
+/// With a fixed start node k is keyframe k. An absolute measurement A of keyframe k is a loop from
+/// node 0 with Z = X_0⁻¹ A and the same Ω: the residual is the same. With an uncertain start node 0
+/// is a frame at the start's pose, known exactly, from which a step of no motion with the start's
+/// covariance leads to node 1, keyframe 0; with a free start that step is a hole.
+///
+/// The first loop over a hole says where the map goes on: the hole is bridged by it, so that the
+/// update that follows is linearised there.
+class AnchoredEstimator final : public Estimator {
+ public:
+  AnchoredEstimator(const EstimatorSetup& setup, const MakeRelative& make);
+
+  void add_keyframe(const RelativePose& step) override;
+  UpdateReport update(const Measurements& measurements) override;
+  UpdateReport finish(std::span<const Pose> start) override;
+
+  std::size_t size() const override { return relative_->size() - shift_; }
+  Pose pose(std::size_t k) const override { return relative_->pose(k + shift_); }
+  MovedPoses moved_since(std::uint64_t revision) const override;
+  std::optional<std::vector<UncertainPose>> motions_to_newest() const override;
+  std::optional<Eigen::Matrix3d> covariance(std::size_t k) const override {
+    return relative_->covariance(k + shift_);
+  }
+  std::optional<Eigen::Matrix3d> newest_covariance() const override {
+    return relative_->newest_covariance();
+  }
+  std::optional<Eigen::MatrixXd> joint_covariance(
+      std::span<const std::size_t> keyframes) const override;
+  double loss(double chi2, int rank) const override { return relative_->loss(chi2, rank); }
+  std::vector<double> loop_weights() const override { return weights_of(false); }
+  std::vector<double> absolute_weights() const override { return weights_of(true); }
+
+  const RelativeEstimator& relative() const { return *relative_; }
+
+ private:
+  /// What became of a measurement that was given.
+  enum class Kind : char { registration, absolute, without_effect };
+
+  bool says_something(const AbsolutePose& z) const;
+  RelativePose shifted(RelativePose z) const;
+  RelativePose from_node_0(const AbsolutePose& z) const;
+  UpdateReport passed_on(const Measurements& measurements);
+  UpdateReport close_loops(std::span<const RelativePose> loops);
+  void bridge_by(const RelativePose& loop);
+  std::vector<double> weights_of(bool absolute) const;
+
+  std::unique_ptr<RelativeEstimator> relative_;
+  Pose node_0_;
+  bool is_batch_;
+  std::size_t shift_ = 0;
+  std::vector<std::size_t> open_holes_;  ///< nodes after holes that nothing has crossed, rising
+  std::vector<Kind> given_;              ///< every measurement, in the order given
+};
+
+/// As of make_entry, for a RelativeEstimator: `make` takes (const EstimatorSetup&, const Options&).
+template <class Options, class Make>
+EstimatorEntry make_relative_entry(std::string name, std::string help, bool can_batch, Make make) {
+  return make_entry<Options>(
+      std::move(name), std::move(help), can_batch,
+      [make](const EstimatorSetup& setup, const Options& options) {
+        return std::make_unique<AnchoredEstimator>(
+            setup, [&](const EstimatorSetup& relative) { return make(relative, options); });
+      });
+}
+
+}  // namespace fathom

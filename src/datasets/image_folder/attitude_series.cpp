@@ -1,0 +1,52 @@
+#include "attitude_series.hpp"
+
+#include <cmath>
+#include <string>
+
+#include "fathom/core/text.hpp"
+#include "fathom/datasets/asl_files.hpp"
+#include "sensor_csv.hpp"
+
+namespace fathom {
+namespace {
+
+double angle(const SensorCsv& csv, const SensorRow& row, std::size_t column, const char* name) {
+  const double value_rad = csv.real(row, column);
+  if (std::abs(value_rad) <= kMostTiltRad) return value_rad;
+  csv.refuse(row, name + (" " + row.fields[column]) + " is beyond " + short_number(kMostTiltRad) +
+                      " rad (57 degrees); are these degrees? expected radians, zero of a level "
+                      "body whose z is up");
+}
+
+double sigma(const SensorCsv& csv, const SensorRow& row) {
+  const double sigma_rad = csv.real(row, 3);
+  if (sigma_rad >= 0.0 && sigma_rad <= kMostTiltSigmaRad) return sigma_rad;
+  csv.refuse(row, "sigma " + row.fields[3] +
+                      " is no standard deviation of roll and pitch; expected radians from 0 to " +
+                      short_number(kMostTiltSigmaRad));
+}
+
+}  // namespace
+
+AttitudeSeries::AttitudeSeries(const std::filesystem::path& path) {
+  const SensorCsv csv(path, "timestamp, roll, pitch, sigma");
+  for (const SensorRow& row : csv.rows()) {
+    const Tilt tilt{angle(csv, row, 1, "roll"), angle(csv, row, 2, "pitch")};
+    times_.add(row.time_ns);
+    tilts_.push_back({tilt, sigma(csv, row)});
+  }
+}
+
+std::optional<MeasuredTilt> AttitudeSeries::at(std::int64_t time_ns,
+                                               std::int64_t max_gap_ns) const {
+  const auto bracket = times_.around(time_ns, max_gap_ns);
+  if (!bracket) return std::nullopt;
+  const MeasuredTilt& before = tilts_[bracket->before];
+  const MeasuredTilt& after = tilts_[bracket->after];
+  const double share = bracket->share;
+  return MeasuredTilt{{std::lerp(before.tilt.roll_rad, after.tilt.roll_rad, share),
+                       std::lerp(before.tilt.pitch_rad, after.tilt.pitch_rad, share)},
+                      std::lerp(before.sigma_rad, after.sigma_rad, share)};
+}
+
+}  // namespace fathom

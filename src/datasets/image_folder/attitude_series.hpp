@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "fathom/vision/camera.hpp"
+#include "sensor_series.hpp"
+
+namespace fathom {
+
+/// `attitude0/data.csv`: time, roll and pitch of the body (rad), and the standard deviation of
+/// either (rad, >= 0).
+class AttitudeSeries {
+ public:
+  /// Throws InputError with file and line, also on angles beyond kMostTiltRad and
+  /// kMostTiltSigmaRad.
+  explicit AttitudeSeries(const std::filesystem::path& csv);
+
+  /// All three linear between two readings.
+  std::optional<MeasuredTilt> at(std::int64_t time_ns, std::int64_t max_gap_ns) const;
+  const TimeLine& times() const { return times_; }
+
+ private:
+  TimeLine times_;
+  std::vector<MeasuredTilt> tilts_;
+};
+
+}  // namespace fathom

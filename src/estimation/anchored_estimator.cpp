@@ -1,0 +1,153 @@
+#include <algorithm>
+#include <utility>
+
+#include "fathom/estimation/relative_estimator.hpp"
+#include "fathom/geometry/covariance.hpp"
+
+namespace fathom {
+namespace {
+
+// From node 0 at the start's pose to keyframe 0, which is there but for its uncertainty.
+RelativePose step_to_keyframe_0(const StartPose& start) {
+  RelativePose step;
+  step.from = 0;
+  step.to = 1;
+  step.is_hole = start.is_free;
+  if (!start.is_free) step.information = start.measurement().information;
+  return step;
+}
+
+}  // namespace
+
+AnchoredEstimator::AnchoredEstimator(const EstimatorSetup& setup, const MakeRelative& make)
+    : relative_(make(setup)), node_0_(setup.start.pose), is_batch_(setup.mode == SolveMode::batch) {
+  if (setup.start.is_fixed()) return;
+  shift_ = 1;
+  relative_->add_keyframe(step_to_keyframe_0(setup.start));
+}
+
+RelativePose AnchoredEstimator::shifted(RelativePose z) const {
+  z.from += shift_;
+  z.to += shift_;
+  return z;
+}
+
+RelativePose AnchoredEstimator::from_node_0(const AbsolutePose& z) const {
+  RelativePose loop;
+  loop.from = 0;
+  loop.to = z.keyframe + shift_;
+  loop.motion = between(node_0_, z.pose);
+  loop.information = z.information;
+  return loop;
+}
+
+// Without information, or of a keyframe that is held, it has no part in any estimate.
+bool AnchoredEstimator::says_something(const AbsolutePose& z) const {
+  return z.keyframe + shift_ > 0 && !z.information.isZero(0.0);
+}
+
+void AnchoredEstimator::add_keyframe(const RelativePose& step) {
+  if (step.is_hole && !is_batch_) open_holes_.push_back(relative_->size());
+  relative_->add_keyframe(shifted(step));
+}
+
+// Of several holes that a loop crosses the last one is bridged: it alone is as the loop has it.
+void AnchoredEstimator::bridge_by(const RelativePose& loop) {
+  const auto hole = std::find_if(open_holes_.rbegin(), open_holes_.rend(), [&](std::size_t node) {
+    return loop.from < node && node <= loop.to;
+  });
+  if (hole == open_holes_.rend()) return;
+  const std::size_t node = *hole;
+  open_holes_.erase(std::next(hole).base());
+  if (!is_finite(loop.motion) || !is_positive_definite(loop.information)) return;
+  const Pose end = compose(relative_->pose(loop.from), loop.motion);
+  const Pose moved = compose(end, between(relative_->pose(loop.to), relative_->pose(node)));
+  relative_->bridge(node, between(relative_->pose(node - 1), moved));
+}
+
+UpdateReport AnchoredEstimator::close_loops(std::span<const RelativePose> loops) {
+  for (std::size_t j = 0; j < loops.size() && !open_holes_.empty(); ++j) {
+    bridge_by(loops[j].forward());
+  }
+  return relative_->close_loops(loops);
+}
+
+UpdateReport AnchoredEstimator::update(const Measurements& measurements) {
+  for (std::size_t j = 0; j < measurements.registrations.size(); ++j) {
+    given_.push_back(Kind::registration);
+  }
+  for (const AbsolutePose& z : measurements.absolute) {
+    given_.push_back(says_something(z) ? Kind::absolute : Kind::without_effect);
+  }
+  // The usual case: nothing to write anew.
+  if (shift_ == 0 && measurements.absolute.empty()) {
+    return close_loops(measurements.registrations);
+  }
+  return passed_on(measurements);
+}
+
+UpdateReport AnchoredEstimator::passed_on(const Measurements& measurements) {
+  std::vector<RelativePose> loops;
+  for (const RelativePose& z : measurements.registrations) loops.push_back(shifted(z));
+  for (const AbsolutePose& z : measurements.absolute) {
+    if (says_something(z)) loops.push_back(from_node_0(z));
+  }
+  UpdateReport report = loops.empty() ? UpdateReport{} : close_loops(loops);
+  const std::vector<LoopDecision> decisions = std::exchange(report.loops, {});
+  std::size_t next = 0;
+  for (const RelativePose& z : measurements.registrations) {
+    const LoopDecision& decision = decisions.at(next++);
+    report.loops.push_back({z.from, z.to, decision.fate, decision.nis});
+  }
+  for (const AbsolutePose& z : measurements.absolute) {
+    report.absolute.push_back({z.keyframe, LoopFate::used, std::nullopt});
+    if (!says_something(z)) continue;
+    report.absolute.back().fate = decisions.at(next).fate;
+    report.absolute.back().nis = decisions.at(next++).nis;
+  }
+  return report;
+}
+
+UpdateReport AnchoredEstimator::finish(std::span<const Pose> start) {
+  if (shift_ == 0 || start.empty()) return relative_->finish(start);
+  std::vector<Pose> nodes{node_0_};
+  nodes.insert(nodes.end(), start.begin(), start.end());
+  return relative_->finish(nodes);
+}
+
+MovedPoses AnchoredEstimator::moved_since(std::uint64_t revision) const {
+  MovedPoses moved = relative_->moved_since(revision);
+  if (shift_ == 0 || !moved.keyframes) return moved;
+  std::erase(*moved.keyframes, 0);
+  for (std::size_t& k : *moved.keyframes) --k;
+  return moved;
+}
+
+std::optional<std::vector<UncertainPose>> AnchoredEstimator::motions_to_newest() const {
+  auto motions = relative_->motions_to_newest();
+  if (motions && shift_ > 0) motions->erase(motions->begin());
+  return motions;
+}
+
+std::optional<Eigen::MatrixXd> AnchoredEstimator::joint_covariance(
+    std::span<const std::size_t> keyframes) const {
+  if (shift_ == 0) return relative_->joint_covariance(keyframes);
+  std::vector<std::size_t> nodes(keyframes.begin(), keyframes.end());
+  for (std::size_t& k : nodes) ++k;
+  return relative_->joint_covariance(nodes);
+}
+
+// The relative estimator has one weight for each loop that it was given.
+std::vector<double> AnchoredEstimator::weights_of(bool absolute) const {
+  const std::vector<double> all = relative_->loop_weights();
+  if (all.empty()) return {};
+  std::vector<double> weights;
+  std::size_t next = 0;
+  for (const Kind kind : given_) {
+    const double weight = kind == Kind::without_effect ? 1.0 : all.at(next++);
+    if ((kind != Kind::registration) == absolute) weights.push_back(weight);
+  }
+  return weights;
+}
+
+}  // namespace fathom

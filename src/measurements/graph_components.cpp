@@ -1,0 +1,211 @@
+#include "graph_components.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <set>
+
+#include "fathom/geometry/covariance.hpp"
+
+namespace fathom {
+namespace {
+
+using KeyframeOf = std::map<std::int64_t, std::size_t>;
+
+class Sets {
+ public:
+  explicit Sets(std::size_t count) : parent_(count) {
+    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
+  }
+
+  /// The lower one of two roots is that of both, so a root is the first of its set.
+  void join(std::size_t a, std::size_t b) {
+    const auto [low, high] = std::minmax({root(a), root(b)});
+    parent_[high] = low;
+  }
+
+  std::size_t root(std::size_t i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+
+ private:
+  std::vector<std::size_t> parent_;
+};
+
+// A pose of every keyframe by a chain of edges from the first of its set, which stands at a heading
+// that no axis of a measurement is parallel to by chance.
+std::vector<Pose> chained_poses(const G2oFile& file, const KeyframeOf& keyframe_of) {
+  std::vector<std::vector<const G2oFile::Edge*>> edges_of(keyframe_of.size());
+  for (const G2oFile::Edge& edge : file.edges) {
+    edges_of[keyframe_of.at(edge.from)].push_back(&edge);
+    edges_of[keyframe_of.at(edge.to)].push_back(&edge);
+  }
+  std::vector<Pose> poses(keyframe_of.size());
+  std::vector<bool> is_placed(keyframe_of.size(), false);
+  std::vector<std::size_t> open;
+  for (std::size_t first = 0; first < poses.size(); ++first) {
+    if (is_placed[first]) continue;
+    constexpr double kAnyHeading = 0.7;
+    poses[first] = {0.0, 0.0, kAnyHeading};
+    is_placed[first] = true;
+    open.assign(1, first);
+    while (!open.empty()) {
+      const std::size_t k = open.back();
+      open.pop_back();
+      for (const G2oFile::Edge* edge : edges_of[k]) {
+        const std::size_t from = keyframe_of.at(edge->from);
+        const std::size_t other = from == k ? keyframe_of.at(edge->to) : from;
+        if (is_placed[other]) continue;
+        poses[other] = compose(poses[k], from == k ? edge->motion : inverse(edge->motion));
+        is_placed[other] = true;
+        open.push_back(other);
+      }
+    }
+  }
+  return poses;
+}
+
+// A prior and the place of its keyframe in its set.
+struct Held {
+  Eigen::Vector2d at;
+  Eigen::Matrix3d information;  ///< world axes
+};
+
+Held held(const G2oFile::Prior& prior, const Pose& at) {
+  Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
+  R.topLeftCorner<2, 2>() = rotation(prior.pose.theta);
+  return {at.position(), transport(R, prior.information)};
+}
+
+// Whether priors leave no motion of a rigid set open. A turn by φ about their middle c moves a pose
+// at p by φ J (p − c), so that N = Σ Gᵀ Ω G with G = [I  J (p − c); 0 1] must have full rank.
+bool do_hold(const std::vector<Held>& priors) {
+  double weights = 0.0;
+  Eigen::Vector2d middle = Eigen::Vector2d::Zero();
+  double reach_m = 0.0;
+  for (const Held& prior : priors) {
+    const double weight = prior.information.topLeftCorner<2, 2>().trace();
+    weights += weight;
+    middle += weight * prior.at;
+    reach_m = std::max(reach_m, prior.at.norm());
+  }
+  if (!(weights > 0.0)) return false;
+  middle /= weights;
+  Eigen::Matrix3d N = Eigen::Matrix3d::Zero();
+  for (const Held& prior : priors) {
+    const Eigen::Vector2d arm = prior.at - middle;
+    Eigen::Matrix3d G = Eigen::Matrix3d::Identity();
+    G.topRightCorner<2, 1>() = Eigen::Vector2d(-arm.y(), arm.x());
+    N += transport(G.transpose(), prior.information);
+  }
+  // What the rounding of positions alone would make.
+  constexpr double kRounding = 1e-12;
+  const double least = kRounding * kRounding * weights * reach_m * reach_m;
+  return N(2, 2) > least && is_positive_definite(N);
+}
+
+// The sets that a fixed vertex or their priors hold, by their roots.
+std::set<std::size_t> held_sets(const G2oFile& file, const KeyframeOf& keyframe_of, Sets& sets) {
+  std::set<std::size_t> held_roots;
+  if (file.is_start_fixed()) held_roots.insert(sets.root(0));
+  if (file.priors.empty()) return held_roots;
+  const std::vector<Pose> poses = chained_poses(file, keyframe_of);
+  std::map<std::size_t, std::vector<Held>> priors_of;
+  for (const G2oFile::Prior& prior : file.priors) {
+    const std::size_t k = keyframe_of.at(prior.id);
+    priors_of[sets.root(k)].push_back(held(prior, poses[k]));
+  }
+  for (const auto& [root, priors] : priors_of) {
+    if (do_hold(priors)) held_roots.insert(root);
+  }
+  return held_roots;
+}
+
+// The first few, and how many more there are.
+template <class Items, class Text>
+std::string listed(const Items& items, const char* between, Text text) {
+  constexpr std::size_t kShown = 4;
+  std::string list;
+  for (std::size_t i = 0; i < std::min(items.size(), kShown); ++i) {
+    list += (i > 0 ? between : "") + text(i);
+  }
+  if (items.size() > kShown) list += " and " + std::to_string(items.size() - kShown) + " more";
+  return list;
+}
+
+}  // namespace
+
+GraphComponents components_of(const G2oFile& file) {
+  const KeyframeOf keyframe_of = file.keyframes();
+  Sets sets(keyframe_of.size());
+  for (const G2oFile::Edge& edge : file.edges) {
+    sets.join(keyframe_of.at(edge.from), keyframe_of.at(edge.to));
+  }
+  const std::set<std::size_t> held_roots = held_sets(file, keyframe_of, sets);
+  for (const std::size_t root : held_roots) sets.join(*held_roots.begin(), root);
+
+  GraphComponents components;
+  for (const auto& [id, keyframe] : keyframe_of) components.ids.push_back(id);
+  std::map<std::size_t, std::size_t> place_of;  // by root
+  for (std::size_t k = 0; k < components.ids.size(); ++k) {
+    const std::size_t root = sets.root(k);
+    const auto [place, is_new] = place_of.emplace(root, components.members.size());
+    if (is_new) {
+      components.members.emplace_back();
+      components.is_held.push_back(held_roots.contains(root));
+    }
+    components.members[place->second].push_back(k);
+    if (k > 0 && sets.root(k - 1) != root) {
+      components.borders.emplace_back(components.ids[k - 1], components.ids[k]);
+    }
+  }
+  return components;
+}
+
+std::string several_components(const GraphComponents& components) {
+  const auto& members = components.members;
+  const auto component = [&](std::size_t i) {
+    const std::size_t poses = members[i].size();
+    const std::string first = std::to_string(components.ids[members[i].front()]);
+    return std::to_string(i + 1) + ": " + std::to_string(poses) +
+           (poses == 1
+                ? " pose, " + first
+                : " poses, " + first + " to " + std::to_string(components.ids[members[i].back()]));
+  };
+  const auto border = [&](std::size_t i) {
+    return std::to_string(components.borders[i].first) + "|" +
+           std::to_string(components.borders[i].second);
+  };
+  return "the graph has " + std::to_string(members.size()) +
+         " components, which no edge and no prior joins (" + listed(members, "; ", component) +
+         "), with borders at " + listed(components.borders, ", ", border) +
+         "; expected one: --component K or dataset.component takes it";
+}
+
+void check_held(const G2oFile& file, const GraphComponents& components, std::size_t index,
+                const G2oFault& fault) {
+  if (file.is_start_fixed() || components.is_held[index]) return;
+  const auto has_position = [](const G2oFile::Prior& prior) {
+    return !prior.information.topLeftCorner<2, 2>().isZero(0.0);
+  };
+  const bool is_placed = std::any_of(file.priors.begin(), file.priors.end(), has_position);
+  fault(file.priors.front().line,
+        std::string("no vertex is fixed, and the priors do not say the ") +
+            (is_placed ? "heading (or a direction of the position)" : "position") +
+            " of the graph; expected a prior that says it, or FIX " +
+            std::to_string(components.ids[components.members[index].front()]));
+}
+
+G2oFile component_of(const G2oFile& file, const GraphComponents& components, std::size_t index) {
+  std::set<std::int64_t> ids;
+  for (const std::size_t k : components.members[index]) ids.insert(components.ids[k]);
+  G2oFile part = file;
+  std::erase_if(part.vertices, [&](const auto& entry) { return !ids.contains(entry.first); });
+  std::erase_if(part.edges, [&](const auto& edge) { return !ids.contains(edge.from); });
+  std::erase_if(part.priors, [&](const auto& prior) { return !ids.contains(prior.id); });
+  std::erase_if(part.fixed, [&](const auto& fixed) { return !ids.contains(fixed.id); });
+  return part;
+}
+
+}  // namespace fathom
