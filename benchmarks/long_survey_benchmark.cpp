@@ -46,9 +46,9 @@ void Candidates(benchmark::State& state) {
     poses.append({0.5 * static_cast<double>(k % 100), 0.5 * static_cast<double>(k / 100), 0.1});
   }
   fathom::CandidateSearch search(fathom::Camera(), options);
-  const std::vector<double> altitudes_m(kKeyframes, 2.0);
+  const std::vector<fathom::Stance> stances(kKeyframes, 2.0);
   std::size_t left_out = 0;
-  for (auto _ : state) left_out = search.find(poses, altitudes_m, kKeyframes - 1).left_out;
+  for (auto _ : state) left_out = search.find(poses, stances, kKeyframes - 1).left_out;
   state.counters["left_out"] = static_cast<double>(left_out);
 }
 BENCHMARK(Candidates)
