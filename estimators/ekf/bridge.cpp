@@ -1,4 +1,7 @@
-// Ekf::bridge: all poses after a hole move as one, and their covariance with them.
+// Ekf::bridge: the poses behind a hole move as one, and a loop says where.
+
+#include <cmath>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -17,45 +20,65 @@ Eigen::Matrix3d carried(const Eigen::Vector2d& lever) {
 
 }  // namespace
 
-// With X_k = X_g ⊕ r_k, X_g = X_{g−1} ⊕ u, and u' = u but for its value, r_k and u keep their
-// errors. The poses turn by φ about the new X_g, Φ = diag(Rot(φ), 1):
+// One end of the loop, c, moves, and the other, p, does not. Of the poses that move those relative
+// to c keep their errors, X_k = X_c ⊕ r_k, and X_c' = X_p ⊕ m with m the loop, from p to c. With
+// Φ = diag(Rot(φ), 1) of the turn φ, A_k = [I  J (p_k − p_c)], and ′ for what is after,
 //
-//     δX_g' = δX_g + (C' − C) δX_{g−1},             C = [I  J (p_g − p_{g−1})],
-//     δX_k' = Φ δX_k + A_k' (δX_g' − Φ δX_g),       A_k' = [I  J (p_k' − p_g')].
-void Ekf::bridge(std::size_t node, const Pose& motion) {
+//     δX_k' = Φ (δX_k − A_k δX_c) + A_k' δX_c',     δX_c' = J_p δX_p + J_m δm.
+std::optional<LoopDecision> Ekf::bridge(const Bridge& bridge) {
+  const LoopDecision decision = decide(innovate(bridge.loop));
+  if (!decision.nis || !std::isfinite(*decision.nis)) return std::nullopt;
+  if (decision.fate != LoopFate::used) return decision;
+  const bool is_to = bridge.moves[bridge.loop.to];
+  const std::size_t c = is_to ? bridge.loop.to : bridge.loop.from;
+  const std::size_t p = is_to ? bridge.loop.from : bridge.loop.to;
+  const UncertainPose loop{bridge.loop.motion, bridge.loop.covariance()};
+  const UncertainPose m = is_to ? loop : inverse(loop);
+
   const std::vector<Pose> before = poses_;
-  const Pose& last = before[node - 1];
-  poses_[node] = compose(last, motion);
-  for (std::size_t k = node + 1; k < poses_.size(); ++k) {
-    poses_[k] = compose(poses_[node], between(before[node], before[k]));
+  Eigen::Matrix3d J_p;
+  Eigen::Matrix3d J_m;
+  poses_[c] = compose(before[p], m.mean, &J_p, &J_m);
+  for (std::size_t k = 1; k < poses_.size(); ++k) {
+    if (bridge.moves[k] && k != c) poses_[k] = compose(poses_[c], between(before[c], before[k]));
   }
-  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
-  turn.topLeftCorner<2, 2>() = rotation(poses_[node].theta - before[node].theta);
-  const Eigen::Matrix3d of_last = carried(poses_[node].position() - last.position()) -
-                                  carried(before[node].position() - last.position());
+  const Eigen::Matrix3d turn = planar_rotation(poses_[c].theta - before[c].theta);
+  const auto after_c = [&](std::size_t k) {
+    return carried(poses_[k].position() - poses_[c].position());
+  };
   Eigen::MatrixXd P = P_.full();
-  const Eigen::Index g = 3 * block_of(node);
   // T P by rows, then its transpose by rows again: P is symmetric.
   for (int side = 0; side < 2; ++side) {
-    const Eigen::MatrixXd was = P.middleRows<3>(g);
-    if (node > 1) P.middleRows<3>(g) += of_last * P.middleRows<3>(g - 3);
-    const Eigen::MatrixXd shift = P.middleRows<3>(g) - turn * was;
-    for (std::size_t k = node + 1; k < poses_.size(); ++k) {
+    const Eigen::MatrixXd of_c = P.middleRows<3>(3 * block_of(c));
+    Eigen::MatrixXd end = Eigen::MatrixXd::Zero(3, P.cols());
+    if (p > 0) end = J_p * P.middleRows<3>(3 * block_of(p));
+    for (std::size_t k = 1; k < poses_.size(); ++k) {
+      if (!bridge.moves[k]) continue;
       auto rows = P.middleRows<3>(3 * block_of(k));
-      rows = (turn * rows + carried(poses_[k].position() - poses_[node].position()) * shift).eval();
+      const Eigen::Matrix3d before_c = carried(before[k].position() - before[c].position());
+      rows = (turn * (rows - before_c * of_c) + after_c(k) * end).eval();
     }
     P.transposeInPlace();
   }
+  const Eigen::Matrix3d of_loop = transport(J_m, m.covariance);
   P_ = {};
-  for (Eigen::Index row = 0; row < P.rows(); row += 3) {
+  for (std::size_t i = 1; i < poses_.size(); ++i) {
+    const Eigen::Index row = 3 * block_of(i);
+    if (bridge.moves[i]) {
+      for (std::size_t j = 1; j <= i; ++j) {
+        if (!bridge.moves[j]) continue;
+        P.block<3, 3>(row, 3 * block_of(j)) += after_c(i) * of_loop * after_c(j).transpose();
+      }
+    }
     const Eigen::Matrix3d own = P.block<3, 3>(row, row);
     const Eigen::Matrix3d symmetric = 0.5 * (own + own.transpose());
-    if (row == 0) {
+    if (i == 1) {
       P_.append(symmetric);
     } else {
       P_.append(P.block(row, 0, 3, row), symmetric);
     }
   }
+  return decision;
 }
 
 }  // namespace fathom

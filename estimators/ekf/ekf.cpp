@@ -7,23 +7,10 @@
 
 #include <Eigen/Cholesky>
 
-#include "fathom/estimation/loop_rows.hpp"
 #include "fathom/estimation/precision.hpp"
 #include "fathom/geometry/covariance.hpp"
 
 namespace fathom {
-
-/// One loop against the present state: ν = z − h(x), h = ⊖X_from ⊕ X_to, and of a semi-definite one
-/// the rows that it measures.
-struct Ekf::Innovation {
-  std::size_t from = 0;
-  std::size_t to = 0;
-  Pose motion;
-  LoopRows rows;
-  Eigen::Vector3d nu;
-  Eigen::Matrix3d H_from;
-  Eigen::Matrix3d H_to;
-};
 
 /// Registrations of one update, stacked.
 struct Ekf::Stack {
@@ -95,17 +82,22 @@ Eigen::MatrixX3d Ekf::covariance_times_transposed(const Innovation& innovation) 
   return PHt;
 }
 
+// Each by itself.
+LoopDecision Ekf::decide(const Innovation& z) const {
+  const Eigen::Matrix3d S =
+      projected(std::span(&z, 1), covariance_times_transposed(z)) + z.rows.R;
+  const double nis = normalised_innovation_squared(z.nu, S);
+  return {z.from, z.to, fate_of(!gate_.is_on() || gate_.passes(nis, z.rows.rank)), nis};
+}
+
 UpdateReport Ekf::close_loops(std::span<const RelativePose> registrations) {
   UpdateReport report;
   std::vector<Innovation> accepted;
   for (const RelativePose& registration : registrations) {
     const Innovation innovation = innovate(registration.forward());
-    const Eigen::MatrixX3d PHt = covariance_times_transposed(innovation);
-    const Eigen::Matrix3d S = projected(std::span(&innovation, 1), PHt) + innovation.rows.R;
-    const double nis = normalised_innovation_squared(innovation.nu, S);
-    const bool passes = !gate_.is_on() || gate_.passes(nis, innovation.rows.rank);
-    report.loops.push_back({registration.from, registration.to, fate_of(passes), nis});
-    if (passes) accepted.push_back(innovation);
+    const LoopDecision decision = decide(innovation);
+    report.loops.push_back({registration.from, registration.to, decision.fate, decision.nis});
+    if (decision.fate == LoopFate::used) accepted.push_back(innovation);
   }
   if (!has_finite_nis(report) || !are_resolved(*this, registrations)) {
     lose_all(report, Outcome::numerical_failure);

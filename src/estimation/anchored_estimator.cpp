@@ -19,9 +19,16 @@ RelativePose step_to_keyframe_0(const StartPose& start) {
 
 }  // namespace
 
+Pose Bridge::rigid_motion(const Pose& from, const Pose& to) const {
+  return moves[loop.to] ? compose(compose(from, loop.motion), inverse(to))
+                        : compose(compose(to, inverse(loop.motion)), inverse(from));
+}
+
 AnchoredEstimator::AnchoredEstimator(const EstimatorSetup& setup, const MakeRelative& make)
     : relative_(make(setup)), node_0_(setup.start.pose), is_batch_(setup.mode == SolveMode::batch) {
+  stretches_.add_node(false);
   if (setup.start.is_fixed()) return;
+  stretches_.add_node(false);
   shift_ = 1;
   relative_->add_keyframe(step_to_keyframe_0(setup.start));
 }
@@ -47,29 +54,47 @@ bool AnchoredEstimator::says_something(const AbsolutePose& z) const {
 }
 
 void AnchoredEstimator::add_keyframe(const RelativePose& step) {
-  if (step.is_hole && !is_batch_) open_holes_.push_back(relative_->size());
+  if (!is_batch_) {
+    if (step.is_hole) holes_.push_back(relative_->size());
+    stretches_.add_node(step.is_hole &&
+                        step.covariance()(2, 2) > kLinearTurnRad * kLinearTurnRad);
+  }
   relative_->add_keyframe(shifted(step));
 }
 
-// Of several holes that a loop crosses the last one is bridged: it alone is as the loop has it.
-void AnchoredEstimator::bridge_by(const RelativePose& loop) {
-  const auto hole = std::find_if(open_holes_.rbegin(), open_holes_.rend(), [&](std::size_t node) {
-    return loop.from < node && node <= loop.to;
-  });
-  if (hole == open_holes_.rend()) return;
-  const std::size_t node = *hole;
-  open_holes_.erase(std::next(hole).base());
-  if (!is_finite(loop.motion) || !is_positive_definite(loop.information)) return;
-  const Pose end = compose(relative_->pose(loop.from), loop.motion);
-  const Pose moved = compose(end, between(relative_->pose(loop.to), relative_->pose(node)));
-  relative_->bridge(node, between(relative_->pose(node - 1), moved));
+// Of several holes that a loop crosses the last one is bridged. A hole that a heading or a fix is
+// measured behind is no more: that measurement is the first knowledge of it.
+std::optional<LoopDecision> AnchoredEstimator::bridge_by(const RelativePose& loop) {
+  const auto hole = stretches_.open_hole(loop.from, loop.to);
+  if (!hole || !is_finite(loop.motion)) return std::nullopt;
+  if (!is_positive_definite(loop.information)) {
+    stretches_.keep(loop.from, loop.to);
+    return std::nullopt;
+  }
+  const auto decision = relative_->bridge({*hole, loop, stretches_.held_by(*hole), holes_});
+  if (!decision || decision->fate == LoopFate::used) {
+    stretches_.replace(*hole, loop.from, loop.to);
+  }
+  return decision;
 }
 
 UpdateReport AnchoredEstimator::close_loops(std::span<const RelativePose> loops) {
-  for (std::size_t j = 0; j < loops.size() && !open_holes_.empty(); ++j) {
-    bridge_by(loops[j].forward());
+  if (holes_.empty() || !stretches_.has_open()) return relative_->close_loops(loops);
+  std::vector<std::optional<LoopDecision>> bridged;
+  std::vector<RelativePose> left;
+  for (const RelativePose& loop : loops) {
+    const std::optional<LoopDecision> decision = bridge_by(loop.forward());
+    if (!decision) left.push_back(loop);
+    bridged.push_back(decision);
   }
-  return relative_->close_loops(loops);
+  UpdateReport report = left.empty() ? UpdateReport{} : relative_->close_loops(left);
+  const std::vector<LoopDecision> decisions = std::exchange(report.loops, {});
+  std::size_t next = 0;
+  for (std::size_t j = 0; j < loops.size(); ++j) {
+    const LoopDecision& decision = bridged[j] ? *bridged[j] : decisions.at(next++);
+    report.loops.push_back({loops[j].from, loops[j].to, decision.fate, decision.nis});
+  }
+  return report;
 }
 
 UpdateReport AnchoredEstimator::update(const Measurements& measurements) {

@@ -8,8 +8,21 @@
 
 #include "fathom/estimation/estimator.hpp"
 #include "fathom/estimation/registry.hpp"
+#include "fathom/estimation/stretches.hpp"
 
 namespace fathom {
+
+/// The first loop over a hole.
+struct Bridge {
+  std::size_t node = 0;     ///< the hole is the step to it
+  RelativePose loop;        ///< forward, of full rank; one end of it moves
+  std::vector<bool> moves;  ///< of every node, whether the hole alone holds it to node 0
+  /// All steps that are holes, by the node after each; this one is among them.
+  std::span<const std::size_t> holes;
+
+  /// The motion of those that move, in the world, by which the loop is met; of the loop's ends.
+  Pose rigid_motion(const Pose& from, const Pose& to) const;
+};
 
 /// An estimator that knows motions between nodes alone, node 0 fixed: what a pose graph or a filter
 /// on motions is by itself. AnchoredEstimator makes it a whole one, so that absolute measurements
@@ -29,11 +42,14 @@ class RelativeEstimator : public Estimate {
     return {};
   }
 
-  /// The step to `node`, a hole that no loop has crossed, is taken to be `motion`: all nodes from
-  /// there on move as one, and what is known of the motions among them stays. Its declared
-  /// covariance stays, too. Without this a filter would linearise the first loop over a hole at a
-  /// guess that may be off by any turn.
-  virtual void bridge(std::size_t node, const Pose& motion) = 0;
+  /// Moves the nodes that move as one, until the loop is met exactly; what is known of the motions
+  /// among them stays. Without this the first loop over a hole would be linearised at a guess that
+  /// may be off by any turn.
+  ///
+  /// A graph goes on from there: the loop is still to be given to close_loops (std::nullopt). In a
+  /// filter the loop takes the place of the hole, whose declared covariance is forgotten, and is
+  /// decided here: a gate may reject it by that covariance, and then nothing changes.
+  virtual std::optional<LoopDecision> bridge(const Bridge& bridge) = 0;
 };
 
 /// Makes a RelativeEstimator whose node 0 is at `origin`.
@@ -46,8 +62,8 @@ using MakeRelative = std::function<std::unique_ptr<RelativeEstimator>(const Esti
 /// is a frame at the start's pose, known exactly, from which a step of no motion with the start's
 /// covariance leads to node 1, keyframe 0; with a free start that step is a hole.
 ///
-/// The first loop over a hole says where the map goes on: the hole is bridged by it, so that the
-/// update that follows is linearised there.
+/// The first loop over a hole says where the map goes on: the hole is bridged by it. A hole whose
+/// declared σ of the heading is below kLinearTurnRad is a step like others.
 class AnchoredEstimator final : public Estimator {
  public:
   AnchoredEstimator(const EstimatorSetup& setup, const MakeRelative& make);
@@ -74,6 +90,9 @@ class AnchoredEstimator final : public Estimator {
 
   const RelativeEstimator& relative() const { return *relative_; }
 
+  /// The heading up to which a motion's covariance says what its error does to others.
+  static constexpr double kLinearTurnRad = 0.5;
+
  private:
   /// What became of a measurement that was given.
   enum class Kind : char { registration, absolute, without_effect };
@@ -83,15 +102,16 @@ class AnchoredEstimator final : public Estimator {
   RelativePose from_node_0(const AbsolutePose& z) const;
   UpdateReport passed_on(const Measurements& measurements);
   UpdateReport close_loops(std::span<const RelativePose> loops);
-  void bridge_by(const RelativePose& loop);
+  std::optional<LoopDecision> bridge_by(const RelativePose& loop);
   std::vector<double> weights_of(bool absolute) const;
 
   std::unique_ptr<RelativeEstimator> relative_;
   Pose node_0_;
   bool is_batch_;
   std::size_t shift_ = 0;
-  std::vector<std::size_t> open_holes_;  ///< nodes after holes that nothing has crossed, rising
-  std::vector<Kind> given_;              ///< every measurement, in the order given
+  Stretches stretches_;             ///< of nodes; not in batch
+  std::vector<std::size_t> holes_;  ///< nodes after holes, rising; not in batch
+  std::vector<Kind> given_;         ///< every measurement, in the order given
 };
 
 /// As of make_entry, for a RelativeEstimator: `make` takes (const EstimatorSetup&, const Options&).
