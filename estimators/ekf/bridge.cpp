@@ -1,4 +1,4 @@
-// Ekf::bridge: the poses behind a hole move as one, and a loop says where.
+// Parts of an Ekf's map behind holes, and the loops that put them into place.
 
 #include <cmath>
 #include <vector>
@@ -18,13 +18,51 @@ Eigen::Matrix3d carried(const Eigen::Vector2d& lever) {
   return A;
 }
 
+filter::PackedCovariance packed(const Eigen::MatrixXd& P) {
+  filter::PackedCovariance packed;
+  for (Eigen::Index row = 0; row < P.rows(); row += 3) {
+    const Eigen::Matrix3d own = P.block<3, 3>(row, row);
+    const Eigen::Matrix3d symmetric = 0.5 * (own + own.transpose());
+    if (row == 0) {
+      packed.append(symmetric);
+    } else {
+      packed.append(P.block(row, 0, 3, row), symmetric);
+    }
+  }
+  return packed;
+}
+
 }  // namespace
 
-// One end of the loop, c, moves, and the other, p, does not. Of the poses that move those relative
-// to c keep their errors, X_k = X_c ⊕ r_k, and X_c' = X_p ⊕ m with m the loop, from p to c. With
+Eigen::Matrix3d Ekf::spread_of(std::size_t k, std::size_t l) const {
+  if (part_of_[k] == 0 || part_of_[k] != part_of_[l]) return Eigen::Matrix3d::Zero();
+  const Floating& part = floating_[part_of_[k] - 1];
+  const auto from_first = [&](std::size_t i) {
+    return carried(poses_[i].position() - poses_[part.node].position());
+  };
+  return from_first(k) * part.spread * from_first(l).transpose();
+}
+
+void Ekf::settle(std::size_t part) {
+  if (part == 0) return;
+  Eigen::MatrixXd P = P_.full();
+  for (std::size_t k = 1; k < poses_.size(); ++k) {
+    for (std::size_t l = 1; l <= k; ++l) {
+      if (part_of_[k] != part || part_of_[l] != part) continue;
+      P.block<3, 3>(3 * block_of(k), 3 * block_of(l)) += spread_of(k, l);
+    }
+  }
+  P_ = packed(P);
+  for (std::size_t& of : part_of_) of = of == part ? 0 : of;
+}
+
+// One end of the loop, c, moves, and the other, p, does not. Of the part of c the poses relative to
+// c keep their errors, X_k = X_c ⊕ r_k, and X_c' = X_p ⊕ m with m the loop, from p to c. With
 // Φ = diag(Rot(φ), 1) of the turn φ, A_k = [I  J (p_k − p_c)], and ′ for what is after,
 //
 //     δX_k' = Φ (δX_k − A_k δX_c) + A_k' δX_c',     δX_c' = J_p δX_p + J_m δm.
+//
+// Other parts that hang on it move along, and stay uncorrelated with it.
 std::optional<LoopDecision> Ekf::bridge(const Bridge& bridge) {
   const LoopDecision decision = decide(innovate(bridge.loop));
   if (!decision.nis || !std::isfinite(*decision.nis)) return std::nullopt;
@@ -38,46 +76,44 @@ std::optional<LoopDecision> Ekf::bridge(const Bridge& bridge) {
   const std::vector<Pose> before = poses_;
   Eigen::Matrix3d J_p;
   Eigen::Matrix3d J_m;
-  poses_[c] = compose(before[p], m.mean, &J_p, &J_m);
+  const Pose end = compose(before[p], m.mean, &J_p, &J_m);
   for (std::size_t k = 1; k < poses_.size(); ++k) {
-    if (bridge.moves[k] && k != c) poses_[k] = compose(poses_[c], between(before[c], before[k]));
+    if (bridge.moves[k]) poses_[k] = compose(end, between(before[c], before[k]));
   }
-  const Eigen::Matrix3d turn = planar_rotation(poses_[c].theta - before[c].theta);
+  const Eigen::Matrix3d turn = planar_rotation(end.theta - before[c].theta);
+  const auto is_of_c = [&](std::size_t k) {
+    return bridge.moves[k] && part_of_[k] == part_of_[c];
+  };
   const auto after_c = [&](std::size_t k) {
-    return carried(poses_[k].position() - poses_[c].position());
+    return carried(poses_[k].position() - end.position());
   };
   Eigen::MatrixXd P = P_.full();
   // T P by rows, then its transpose by rows again: P is symmetric.
   for (int side = 0; side < 2; ++side) {
     const Eigen::MatrixXd of_c = P.middleRows<3>(3 * block_of(c));
-    Eigen::MatrixXd end = Eigen::MatrixXd::Zero(3, P.cols());
-    if (p > 0) end = J_p * P.middleRows<3>(3 * block_of(p));
+    Eigen::MatrixXd of_end = Eigen::MatrixXd::Zero(3, P.cols());
+    if (p > 0) of_end = J_p * P.middleRows<3>(3 * block_of(p));
     for (std::size_t k = 1; k < poses_.size(); ++k) {
       if (!bridge.moves[k]) continue;
       auto rows = P.middleRows<3>(3 * block_of(k));
+      rows = (turn * rows).eval();
+      if (!is_of_c(k)) continue;
       const Eigen::Matrix3d before_c = carried(before[k].position() - before[c].position());
-      rows = (turn * (rows - before_c * of_c) + after_c(k) * end).eval();
+      rows += after_c(k) * of_end - turn * before_c * of_c;
     }
     P.transposeInPlace();
   }
   const Eigen::Matrix3d of_loop = transport(J_m, m.covariance);
-  P_ = {};
-  for (std::size_t i = 1; i < poses_.size(); ++i) {
-    const Eigen::Index row = 3 * block_of(i);
-    if (bridge.moves[i]) {
-      for (std::size_t j = 1; j <= i; ++j) {
-        if (!bridge.moves[j]) continue;
-        P.block<3, 3>(row, 3 * block_of(j)) += after_c(i) * of_loop * after_c(j).transpose();
-      }
-    }
-    const Eigen::Matrix3d own = P.block<3, 3>(row, row);
-    const Eigen::Matrix3d symmetric = 0.5 * (own + own.transpose());
-    if (i == 1) {
-      P_.append(symmetric);
-    } else {
-      P_.append(P.block(row, 0, 3, row), symmetric);
+  for (std::size_t k = 1; k < poses_.size(); ++k) {
+    for (std::size_t l = 1; l <= k; ++l) {
+      if (!is_of_c(k) || !is_of_c(l)) continue;
+      P.block<3, 3>(3 * block_of(k), 3 * block_of(l)) +=
+          after_c(k) * of_loop * after_c(l).transpose();
     }
   }
+  P_ = packed(P);
+  const std::size_t part = part_of_[c];
+  for (std::size_t& of : part_of_) of = of == part ? part_of_[p] : of;
   return decision;
 }
 

@@ -42,6 +42,15 @@ void Ekf::add_keyframe(const RelativePose& step) {
   Eigen::Matrix3d J_motion;
   const Pose next = compose(poses_.back(), u.motion, &J_last, &J_motion);
   const Eigen::Matrix3d added = transport(J_motion, u.covariance());
+  if (is_open_hole(step)) {
+    const Eigen::Matrix3d last = *covariance(poses_.size() - 1);
+    floating_.push_back({poses_.size(), transport(J_last, last) + added});
+    P_.append(Eigen::Matrix3d::Zero());
+    poses_.push_back(next);
+    part_of_.push_back(floating_.size());
+    return;
+  }
+  part_of_.push_back(part_of_.back());
   if (poses_.size() == 1) {
     P_.append(added);
   } else {
@@ -84,13 +93,20 @@ Eigen::MatrixX3d Ekf::covariance_times_transposed(const Innovation& innovation) 
 
 // Each by itself.
 LoopDecision Ekf::decide(const Innovation& z) const {
-  const Eigen::Matrix3d S =
-      projected(std::span(&z, 1), covariance_times_transposed(z)) + z.rows.R;
+  Eigen::Matrix3d S = projected(std::span(&z, 1), covariance_times_transposed(z)) + z.rows.R;
+  if (part_of_[z.from] != part_of_[z.to]) {
+    S += transport(z.H_from, spread_of(z.from, z.from)) + transport(z.H_to, spread_of(z.to, z.to));
+  }
   const double nis = normalised_innovation_squared(z.nu, S);
   return {z.from, z.to, fate_of(!gate_.is_on() || gate_.passes(nis, z.rows.rank)), nis};
 }
 
 UpdateReport Ekf::close_loops(std::span<const RelativePose> registrations) {
+  for (const RelativePose& z : registrations) {
+    if (part_of_[z.from] == part_of_[z.to]) continue;
+    settle(part_of_[z.from]);
+    settle(part_of_[z.to]);
+  }
   UpdateReport report;
   std::vector<Innovation> accepted;
   for (const RelativePose& registration : registrations) {

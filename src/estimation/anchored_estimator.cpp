@@ -19,6 +19,11 @@ RelativePose step_to_keyframe_0(const StartPose& start) {
 
 }  // namespace
 
+bool is_open_hole(const RelativePose& step) {
+  constexpr double kLinearTurnRad = 0.5;
+  return step.is_hole && step.covariance()(2, 2) > kLinearTurnRad * kLinearTurnRad;
+}
+
 Pose Bridge::rigid_motion(const Pose& from, const Pose& to) const {
   return moves[loop.to] ? compose(compose(from, loop.motion), inverse(to))
                         : compose(compose(to, inverse(loop.motion)), inverse(from));
@@ -56,8 +61,7 @@ bool AnchoredEstimator::says_something(const AbsolutePose& z) const {
 void AnchoredEstimator::add_keyframe(const RelativePose& step) {
   if (!is_batch_) {
     if (step.is_hole) holes_.push_back(relative_->size());
-    stretches_.add_node(step.is_hole &&
-                        step.covariance()(2, 2) > kLinearTurnRad * kLinearTurnRad);
+    stretches_.add_node(is_open_hole(step));
   }
   relative_->add_keyframe(shifted(step));
 }

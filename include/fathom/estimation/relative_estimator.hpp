@@ -24,6 +24,10 @@ struct Bridge {
   Pose rigid_motion(const Pose& from, const Pose& to) const;
 };
 
+/// Whether a step is a hole whose declared heading is so wide (σ above half a radian) that its
+/// covariance does not say what its error does to others.
+bool is_open_hole(const RelativePose& step);
+
 /// An estimator that knows motions between nodes alone, node 0 fixed: what a pose graph or a filter
 /// on motions is by itself. AnchoredEstimator makes it a whole one, so that absolute measurements
 /// and an uncertain start need no code of its own.
@@ -62,8 +66,8 @@ using MakeRelative = std::function<std::unique_ptr<RelativeEstimator>(const Esti
 /// is a frame at the start's pose, known exactly, from which a step of no motion with the start's
 /// covariance leads to node 1, keyframe 0; with a free start that step is a hole.
 ///
-/// The first loop over a hole says where the map goes on: the hole is bridged by it. A hole whose
-/// declared σ of the heading is below kLinearTurnRad is a step like others.
+/// The first loop over an open hole says where the map goes on: the hole is bridged by it. Other
+/// holes are steps like others.
 class AnchoredEstimator final : public Estimator {
  public:
   AnchoredEstimator(const EstimatorSetup& setup, const MakeRelative& make);
@@ -89,9 +93,6 @@ class AnchoredEstimator final : public Estimator {
   std::vector<double> absolute_weights() const override { return weights_of(true); }
 
   const RelativeEstimator& relative() const { return *relative_; }
-
-  /// The heading up to which a motion's covariance says what its error does to others.
-  static constexpr double kLinearTurnRad = 0.5;
 
  private:
   /// What became of a measurement that was given.
