@@ -81,9 +81,7 @@ std::optional<LoopDecision> Ekf::bridge(const Bridge& bridge) {
     if (bridge.moves[k]) poses_[k] = compose(end, between(before[c], before[k]));
   }
   const Eigen::Matrix3d turn = planar_rotation(end.theta - before[c].theta);
-  const auto is_of_c = [&](std::size_t k) {
-    return bridge.moves[k] && part_of_[k] == part_of_[c];
-  };
+  const auto is_of_c = [&](std::size_t k) { return bridge.moves[k] && part_of_[k] == part_of_[c]; };
   const auto after_c = [&](std::size_t k) {
     return carried(poses_[k].position() - end.position());
   };

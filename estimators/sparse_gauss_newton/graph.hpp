@@ -8,9 +8,9 @@
 #include <Eigen/Core>
 
 #include "estimators/sparse_gauss_newton/robust.hpp"
-#include "fathom/estimation/relative_estimator.hpp"
 #include "fathom/estimation/precision.hpp"
 #include "fathom/estimation/registry.hpp"
+#include "fathom/estimation/relative_estimator.hpp"
 #include "fathom/geometry/covariance.hpp"
 
 namespace fathom::sparse_gauss_newton {

@@ -31,7 +31,8 @@ class MotionTree {
     std::size_t motion = 0;
     bool is_along = true;
   };
-  /// Of the tree of so many motions, all keyframes but the root, each after that it is reached from.
+  /// Of the tree of so many motions, all keyframes but the root, each after that it is reached
+  /// from.
   std::vector<Visit> from(std::size_t root, std::size_t motions) const;
 
   /// Motions begin … end − 1, all along the way or all against it (sign −1).

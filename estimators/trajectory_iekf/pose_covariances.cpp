@@ -117,10 +117,9 @@ std::optional<std::vector<UncertainPose>> TrajectoryIekf::motions_to_newest() co
   if (motions_.empty()) return std::vector<UncertainPose>{};
   const auto length = static_cast<Eigen::Index>(3 * motions_.size());
   const Stretch stretch = stretch_at(tree_, motions_, 0, Eigen::VectorXd::Zero(length));
-  const auto sums =
-      tree_.is_chain()
-          ? P_.congruences(stretch.A_transposed(), MotionCovariance::Over::motions_from)
-          : congruences_from(motions_.size(), stretch.A_transposed());
+  const auto sums = tree_.is_chain() ? P_.congruences(stretch.A_transposed(),
+                                                      MotionCovariance::Over::motions_from)
+                                     : congruences_from(motions_.size(), stretch.A_transposed());
   std::vector<UncertainPose> motions;
   for (std::size_t k = 0; k < motions_.size(); ++k) {
     motions.push_back({stretch.h(k), transport(stretch.D(k).transpose(), sums[k])});

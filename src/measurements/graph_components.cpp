@@ -83,7 +83,8 @@ bool do_hold(const std::vector<Held>& priors) {
 }
 
 // The sets that a fixed vertex or their priors hold, by their roots.
-std::set<std::size_t> held_sets(const G2oFile& file, const KeyframeOf& keyframe_of, DisjointSets& sets) {
+std::set<std::size_t> held_sets(const G2oFile& file, const KeyframeOf& keyframe_of,
+                                DisjointSets& sets) {
   std::set<std::size_t> held_roots;
   if (file.is_start_fixed()) held_roots.insert(sets.root(0));
   if (file.priors.empty()) return held_roots;
