@@ -112,10 +112,9 @@ void CeresPoseGraph::Graph::add_keyframe(const RelativePose& step) {
 
 // The steps of holes, of which nothing is measured, follow: F stays.
 void CeresPoseGraph::Graph::bridge(const Bridge& bridge) {
-  const Pose motion = bridge.rigid_motion(pose(bridge.loop.from), pose(bridge.loop.to));
   for (std::size_t k = 0; k < size(); ++k) {
     if (!bridge.moves[k]) continue;
-    const Pose moved = compose(motion, pose(k));
+    const Pose moved = compose(bridge.motion, pose(k));
     poses_[k] = {moved.x, moved.y, moved.theta};
   }
   for (const std::size_t node : bridge.holes) {

@@ -56,48 +56,53 @@ void Ekf::settle(std::size_t part) {
   for (std::size_t& of : part_of_) of = of == part ? 0 : of;
 }
 
+// Relative to each other they keep their errors: the covariances turn with the map.
+void Ekf::move(const Bridge& bridge, Eigen::MatrixXd& P) {
+  const Eigen::Matrix3d turn = planar_rotation(bridge.motion.theta);
+  for (std::size_t k = 1; k < poses_.size(); ++k) {
+    if (!bridge.moves[k]) continue;
+    poses_[k] = compose(bridge.motion, poses_[k]);
+    P.middleRows<3>(3 * block_of(k)) = (turn * P.middleRows<3>(3 * block_of(k))).eval();
+    P.middleCols<3>(3 * block_of(k)) = (P.middleCols<3>(3 * block_of(k)) * turn.transpose()).eval();
+  }
+}
+
 // One end of the loop, c, moves, and the other, p, does not. Of the part of c the poses relative to
 // c keep their errors, X_k = X_c ⊕ r_k, and X_c' = X_p ⊕ m with m the loop, from p to c. With
-// Φ = diag(Rot(φ), 1) of the turn φ, A_k = [I  J (p_k − p_c)], and ′ for what is after,
+// Φ = diag(Rot(φ), 1) of the turn φ, A_k' = [I  J (p_k' − p_c')], and ′ for what is after,
 //
-//     δX_k' = Φ (δX_k − A_k δX_c) + A_k' δX_c',     δX_c' = J_p δX_p + J_m δm.
+//     δX_k' = Φ δX_k − A_k' Φ δX_c + A_k' δX_c',     δX_c' = J_p δX_p + J_m δm.
 //
 // Other parts that hang on it move along, and stay uncorrelated with it.
 std::optional<LoopDecision> Ekf::bridge(const Bridge& bridge) {
-  const LoopDecision decision = decide(innovate(bridge.loop));
+  Eigen::MatrixXd P = P_.full();
+  if (!bridge.loop) {
+    move(bridge, P);
+    P_ = packed(P);
+    return std::nullopt;
+  }
+  const LoopDecision decision = decide(innovate(*bridge.loop));
   if (!decision.nis || !std::isfinite(*decision.nis)) return std::nullopt;
   if (decision.fate != LoopFate::used) return decision;
-  const bool is_to = bridge.moves[bridge.loop.to];
-  const std::size_t c = is_to ? bridge.loop.to : bridge.loop.from;
-  const std::size_t p = is_to ? bridge.loop.from : bridge.loop.to;
-  const UncertainPose loop{bridge.loop.motion, bridge.loop.covariance()};
+  const bool is_to = bridge.moves[bridge.loop->to];
+  const std::size_t c = is_to ? bridge.loop->to : bridge.loop->from;
+  const std::size_t p = is_to ? bridge.loop->from : bridge.loop->to;
+  const UncertainPose loop{bridge.loop->motion, bridge.loop->covariance()};
   const UncertainPose m = is_to ? loop : inverse(loop);
-
-  const std::vector<Pose> before = poses_;
+  move(bridge, P);
   Eigen::Matrix3d J_p;
   Eigen::Matrix3d J_m;
-  const Pose end = compose(before[p], m.mean, &J_p, &J_m);
-  for (std::size_t k = 1; k < poses_.size(); ++k) {
-    if (bridge.moves[k]) poses_[k] = compose(end, between(before[c], before[k]));
-  }
-  const Eigen::Matrix3d turn = planar_rotation(end.theta - before[c].theta);
+  poses_[c] = compose(poses_[p], m.mean, &J_p, &J_m);
   const auto is_of_c = [&](std::size_t k) { return bridge.moves[k] && part_of_[k] == part_of_[c]; };
-  const auto after_c = [&](std::size_t k) {
-    return carried(poses_[k].position() - end.position());
+  const auto A = [&](std::size_t k) {
+    return carried(poses_[k].position() - poses_[c].position());
   };
-  Eigen::MatrixXd P = P_.full();
   // T P by rows, then its transpose by rows again: P is symmetric.
   for (int side = 0; side < 2; ++side) {
-    const Eigen::MatrixXd of_c = P.middleRows<3>(3 * block_of(c));
-    Eigen::MatrixXd of_end = Eigen::MatrixXd::Zero(3, P.cols());
-    if (p > 0) of_end = J_p * P.middleRows<3>(3 * block_of(p));
+    Eigen::MatrixXd end = -P.middleRows<3>(3 * block_of(c));
+    if (p > 0) end += J_p * P.middleRows<3>(3 * block_of(p));
     for (std::size_t k = 1; k < poses_.size(); ++k) {
-      if (!bridge.moves[k]) continue;
-      auto rows = P.middleRows<3>(3 * block_of(k));
-      rows = (turn * rows).eval();
-      if (!is_of_c(k)) continue;
-      const Eigen::Matrix3d before_c = carried(before[k].position() - before[c].position());
-      rows += after_c(k) * of_end - turn * before_c * of_c;
+      if (is_of_c(k)) P.middleRows<3>(3 * block_of(k)) += A(k) * end;
     }
     P.transposeInPlace();
   }
@@ -105,8 +110,7 @@ std::optional<LoopDecision> Ekf::bridge(const Bridge& bridge) {
   for (std::size_t k = 1; k < poses_.size(); ++k) {
     for (std::size_t l = 1; l <= k; ++l) {
       if (!is_of_c(k) || !is_of_c(l)) continue;
-      P.block<3, 3>(3 * block_of(k), 3 * block_of(l)) +=
-          after_c(k) * of_loop * after_c(l).transpose();
+      P.block<3, 3>(3 * block_of(k), 3 * block_of(l)) += A(k) * of_loop * A(l).transpose();
     }
   }
   P_ = packed(P);

@@ -75,6 +75,8 @@ class Ekf final : public RelativeEstimator {
   Eigen::Matrix3d spread_of(std::size_t k, std::size_t l) const;
   /// The poses of a floating part are in P as they are known, from now on.
   void settle(std::size_t part);
+  /// The nodes that move, and the rows and columns of their covariance.
+  void move(const Bridge& bridge, Eigen::MatrixXd& P);
   Eigen::MatrixX3d covariance_times_transposed(const Innovation& innovation) const;
   static Eigen::MatrixXd projected(std::span<const Innovation> stack, const Eigen::MatrixXd& PHt);
   Eigen::Vector3d innovation_of(const Innovation& z) const;

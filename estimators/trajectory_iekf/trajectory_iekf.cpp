@@ -131,16 +131,25 @@ std::vector<bool> TrajectoryIekf::gate_loops(const Linearisation& prior,
 // The motion over a hole, which is correlated with no other, becomes that of the loop between its
 // ends: what is known of it stays right however the motions between them are corrected.
 std::optional<LoopDecision> TrajectoryIekf::bridge(const Bridge& bridge) {
-  const std::vector<StackedLoop> loops = stacked(std::span(&bridge.loop, 1));
+  if (!bridge.loop) {
+    const auto moved_pose = [&](std::size_t k) {
+      return bridge.moves[k] ? compose(bridge.motion, poses_[k]) : poses_[k];
+    };
+    motions_[bridge.node - 1] = between(moved_pose(bridge.node - 1), moved_pose(bridge.node));
+    recompose();
+    return std::nullopt;
+  }
+  const RelativePose& loop = *bridge.loop;
+  const std::vector<StackedLoop> loops = stacked(std::span(&loop, 1));
   UpdateReport report;
-  report.loops.push_back({bridge.loop.from, bridge.loop.to, LoopFate::used, std::nullopt});
+  report.loops.push_back({loop.from, loop.to, LoopFate::used, std::nullopt});
   gate_loops(linearise_prior(loops), loops, report);
   const LoopDecision decision = report.loops.front();
   if (!has_finite_nis(report)) return std::nullopt;
   if (decision.fate != LoopFate::used) return decision;
-  tree_.set(bridge.node - 1, {bridge.loop.from, bridge.loop.to});
-  motions_[bridge.node - 1] = bridge.loop.motion;
-  P_.replace(static_cast<Eigen::Index>(bridge.node - 1), bridge.loop.covariance());
+  tree_.set(bridge.node - 1, {loop.from, loop.to});
+  motions_[bridge.node - 1] = loop.motion;
+  P_.replace(static_cast<Eigen::Index>(bridge.node - 1), loop.covariance());
   recompose();
   return decision;
 }

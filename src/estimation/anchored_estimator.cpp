@@ -24,11 +24,6 @@ bool is_open_hole(const RelativePose& step) {
   return step.is_hole && step.covariance()(2, 2) > kLinearTurnRad * kLinearTurnRad;
 }
 
-Pose Bridge::rigid_motion(const Pose& from, const Pose& to) const {
-  return moves[loop.to] ? compose(compose(from, loop.motion), inverse(to))
-                        : compose(compose(to, inverse(loop.motion)), inverse(from));
-}
-
 AnchoredEstimator::AnchoredEstimator(const EstimatorSetup& setup, const MakeRelative& make)
     : relative_(make(setup)), node_0_(setup.start.pose), is_batch_(setup.mode == SolveMode::batch) {
   stretches_.add_node(false);
@@ -66,17 +61,35 @@ void AnchoredEstimator::add_keyframe(const RelativePose& step) {
   relative_->add_keyframe(shifted(step));
 }
 
+Bridge AnchoredEstimator::bridge_of(std::size_t hole, const RelativePose& loop) const {
+  Bridge bridge{hole, std::nullopt, {}, stretches_.held_by(hole), holes_};
+  const Pose from = relative_->pose(loop.from);
+  const Pose to = relative_->pose(loop.to);
+  if (is_positive_definite(loop.information)) {
+    bridge.loop = loop;
+    bridge.motion = bridge.moves[loop.to]
+                        ? compose(compose(from, loop.motion), inverse(to))
+                        : compose(compose(to, inverse(loop.motion)), inverse(from));
+  } else if (loop.information.topLeftCorner<2, 2>().isZero(0.0)) {
+    // A heading: the turn about the keyframe behind the hole.
+    const Pose about = relative_->pose(hole);
+    const double turn = from.theta + loop.motion.theta - to.theta;
+    const Pose turned{about.x, about.y, about.theta + turn};
+    bridge.motion = compose(turned, inverse(about));
+  }
+  return bridge;
+}
+
 // Of several holes that a loop crosses the last one is bridged. A hole that a heading or a fix is
-// measured behind is no more: that measurement is the first knowledge of it.
+// measured behind is open no more: that measurement is the first knowledge of it.
 std::optional<LoopDecision> AnchoredEstimator::bridge_by(const RelativePose& loop) {
   const auto hole = stretches_.open_hole(loop.from, loop.to);
   if (!hole || !is_finite(loop.motion)) return std::nullopt;
-  if (!is_positive_definite(loop.information)) {
+  const Bridge bridge = bridge_of(*hole, loop);
+  const auto decision = relative_->bridge(bridge);
+  if (!bridge.loop) {
     stretches_.keep(loop.from, loop.to);
-    return std::nullopt;
-  }
-  const auto decision = relative_->bridge({*hole, loop, stretches_.held_by(*hole), holes_});
-  if (!decision || decision->fate == LoopFate::used) {
+  } else if (!decision || decision->fate == LoopFate::used) {
     stretches_.replace(*hole, loop.from, loop.to);
   }
   return decision;

@@ -6,11 +6,9 @@
 namespace fathom::pose_graph {
 
 void bridge(const Bridge& bridge, std::span<Edge> edges, std::span<Node> nodes) {
-  const Pose motion =
-      bridge.rigid_motion(pose_of(nodes[bridge.loop.from]), pose_of(nodes[bridge.loop.to]));
   for (std::size_t k = 0; k < nodes.size(); ++k) {
     if (!bridge.moves[k]) continue;
-    const Pose moved = compose(motion, pose_of(nodes[k]));
+    const Pose moved = compose(bridge.motion, pose_of(nodes[k]));
     nodes[k] = make_node(moved.x, moved.y, moved.theta);
   }
   for (const std::size_t hole : bridge.holes) {

@@ -12,16 +12,14 @@
 
 namespace fathom {
 
-/// The first loop over a hole.
+/// The first loop over a hole, or the first heading behind it.
 struct Bridge {
-  std::size_t node = 0;     ///< the hole is the step to it
-  RelativePose loop;        ///< forward, of full rank; one end of it moves
-  std::vector<bool> moves;  ///< of every node, whether the hole alone holds it to node 0
+  std::size_t node = 0;              ///< the hole is the step to it
+  std::optional<RelativePose> loop;  ///< forward, of full rank; one end of it moves
+  Pose motion;                       ///< of the nodes that move, in the world
+  std::vector<bool> moves;           ///< of every node, whether the hole alone holds it to node 0
   /// All steps that are holes, by the node after each; this one is among them.
   std::span<const std::size_t> holes;
-
-  /// The motion of those that move, in the world, by which the loop is met; of the loop's ends.
-  Pose rigid_motion(const Pose& from, const Pose& to) const;
 };
 
 /// Whether a step is a hole whose declared heading is so wide (σ above half a radian) that its
@@ -46,13 +44,14 @@ class RelativeEstimator : public Estimate {
     return {};
   }
 
-  /// Moves the nodes that move as one, until the loop is met exactly; what is known of the motions
-  /// among them stays. Without this the first loop over a hole would be linearised at a guess that
-  /// may be off by any turn.
+  /// Moves nodes as one, so that the loop or the heading is met exactly; what is known of the
+  /// motions among them stays. Without this it would be linearised at a guess that may be off by
+  /// any turn.
   ///
-  /// A graph goes on from there: the loop is still to be given to close_loops (std::nullopt). In a
-  /// filter the loop takes the place of the hole, whose declared covariance is forgotten, and is
-  /// decided here: a gate may reject it by that covariance, and then nothing changes.
+  /// A graph goes on from there: what was measured is still to be given to close_loops
+  /// (std::nullopt), and so is a heading. In a filter a loop takes the place of the hole, whose
+  /// declared covariance is forgotten, and is decided here: a gate may reject it by that
+  /// covariance, and then nothing changes.
   virtual std::optional<LoopDecision> bridge(const Bridge& bridge) = 0;
 };
 
@@ -104,6 +103,7 @@ class AnchoredEstimator final : public Estimator {
   UpdateReport passed_on(const Measurements& measurements);
   UpdateReport close_loops(std::span<const RelativePose> loops);
   std::optional<LoopDecision> bridge_by(const RelativePose& loop);
+  Bridge bridge_of(std::size_t hole, const RelativePose& loop) const;
   std::vector<double> weights_of(bool absolute) const;
 
   std::unique_ptr<RelativeEstimator> relative_;
