@@ -29,7 +29,7 @@ TEST_F(BadData, AFaultyGraphIsRefusedAtItsLine) {
       {"EDGE_SE2 0 1 1 0 0 1 0 0 1 0 -1\n", "positive definite"},
       {"EDGE_SE2 1 1 1 0 0 1 0 0 1 0 1\n", "g.g2o:4: "},
       {"EDGE_SE2 1 7 1 0 0 1 0 0 1 0 1\n", "7"},
-      {"VERTEX_SE2 2 2 0 0\n", "odometry"},
+      {"VERTEX_SE2 2 2 0 0\n", "the graph has 2 components"},
       {"FIX 1\n", "g.g2o:4: "}};
   for (const auto& [line, message] : cases) {
     write("g.g2o", kTwoPoses + line);

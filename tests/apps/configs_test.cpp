@@ -68,7 +68,8 @@ TEST_F(Configs, AreAllTestedHere) {
     fathom_done({"check", entry.path().string()});
   }
   EXPECT_THAT(studies,
-              ElementsAreArray({"attitude.yaml", "attitude_mounting.yaml", "false_loops_drawn.yaml",
+              ElementsAreArray({"attitude.yaml", "attitude_mounting.yaml", "compass.yaml",
+                                "false_loops_drawn.yaml", "fixes.yaml", "holes.yaml",
                                 "long_survey.yaml", "paper_pool.yaml", "paper_separation.yaml",
                                 "paper_simulated.yaml", "real_pictures.yaml", "regimes.yaml",
                                 "regimes_survey.yaml", "shared_errors_altimeter.yaml",
@@ -191,6 +192,21 @@ TEST_F(Configs, AttitudeRuns) {
 TEST_F(Configs, AttitudeMountingRuns) {
   expect_runs("compare", "studies/attitude_mounting.yaml", with_short_legs({}), "ekf/metrics.json");
   EXPECT_EQ(ResultStore::open(path("out")).runs().size(), 3u * 4u);
+}
+
+TEST_F(Configs, CompassRuns) {
+  expect_runs("compare", "studies/compass.yaml", {"trials=1"}, "ekf/metrics.json");
+  EXPECT_EQ(ResultStore::open(path("out")).runs().size(), 36u * 6u);
+}
+
+TEST_F(Configs, FixesRun) {
+  expect_runs("compare", "studies/fixes.yaml", {"trials=1"}, "truncated/metrics.json");
+  EXPECT_EQ(ResultStore::open(path("out")).runs().size(), 18u * 14u);
+}
+
+TEST_F(Configs, HolesRun) {
+  expect_runs("compare", "studies/holes.yaml", {"trials=1"}, "incremental_smoother/metrics.json");
+  EXPECT_EQ(ResultStore::open(path("out")).runs().size(), 24u * 6u);
 }
 
 // image_folder.yaml runs as it is in real_data_test.cpp.
