@@ -70,7 +70,7 @@ std::optional<std::size_t> CandidateSearch::places(std::size_t newest) const {
 Candidates CandidateSearch::over_holes(std::span<const RelativePose> found) const {
   if (over_holes_.empty()) return {};
   const std::size_t newest = stretches_.size() - 1;
-  Stretches joined = stretches_;
+  JoinedStretches joined = stretches_;
   for (const RelativePose& z : found) joined.join(z.from, z.to);
   std::vector<std::size_t> open = over_holes_;
   std::erase_if(open, [&](std::size_t k) { return joined.are_joined(k, newest); });

@@ -10,8 +10,8 @@
 #include <Eigen/Core>
 
 #include "fathom/core/options.hpp"
+#include "fathom/front_end/joined_stretches.hpp"
 #include "fathom/front_end/keyframe_grid.hpp"
-#include "fathom/front_end/stretches.hpp"
 #include "fathom/geometry/trajectory.hpp"
 #include "fathom/measurements/relative_pose.hpp"
 #include "fathom/vision/camera.hpp"
@@ -153,7 +153,7 @@ class CandidateSearch {
   double highest_m_ = 0.0;        ///< of the altitudes so far, see level_altitude_m
   std::size_t stances_ = 0;       ///< so many of them
   std::optional<KeyframeGrid> grid_;
-  Stretches stretches_;
+  JoinedStretches stretches_;
   std::vector<std::size_t> over_holes_;  ///< candidates of the newest over open holes
   std::size_t places_over_holes_ = 0;    ///< so many of them at most
   std::vector<RelativePose> noted_;      ///< over open holes, until the next search

@@ -8,7 +8,7 @@ namespace fathom {
 
 /// Keyframes in the stretches that holes in dead reckoning part, and which of these stretches are
 /// joined: it is known how they lie to each other.
-class Stretches {
+class JoinedStretches {
  public:
   /// Takes over keyframes up to `count`, which never falls. `holes`, rising: the keyframes that a
   /// hole leads to, each the first of a stretch that is joined to none.

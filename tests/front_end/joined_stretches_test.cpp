@@ -1,4 +1,4 @@
-#include "fathom/front_end/stretches.hpp"
+#include "fathom/front_end/joined_stretches.hpp"
 
 #include <algorithm>
 #include <map>
@@ -13,16 +13,16 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
-TEST(Stretches, WithoutAHoleAreOne) {
-  Stretches stretches;
+TEST(JoinedStretches, WithoutAHoleAreOne) {
+  JoinedStretches stretches;
   EXPECT_TRUE(stretches.are_one());
   stretches.extend(5, {});
   EXPECT_TRUE(stretches.are_one());
   EXPECT_TRUE(stretches.are_joined(0, 4));
 }
 
-TEST(Stretches, ArePartedByHolesUntilTheyAreJoined) {
-  Stretches stretches;
+TEST(JoinedStretches, ArePartedByHolesUntilTheyAreJoined) {
+  JoinedStretches stretches;
   const std::vector<std::size_t> holes{2, 3, 5};
   stretches.extend(3, std::span(holes).first(1));
   EXPECT_TRUE(stretches.are_joined(0, 1));

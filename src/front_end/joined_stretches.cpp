@@ -1,4 +1,4 @@
-#include "fathom/front_end/stretches.hpp"
+#include "fathom/front_end/joined_stretches.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 
 namespace fathom {
 
-void Stretches::extend(std::size_t count, std::span<const std::size_t> holes) {
+void JoinedStretches::extend(std::size_t count, std::span<const std::size_t> holes) {
   for (std::size_t k = stretch_of_.size(); k < count; ++k) {
     const bool is_parted = std::ranges::binary_search(holes, k);
     if (k == 0 || is_parted) {
@@ -19,7 +19,7 @@ void Stretches::extend(std::size_t count, std::span<const std::size_t> holes) {
   }
 }
 
-void Stretches::join(std::size_t a, std::size_t b) {
+void JoinedStretches::join(std::size_t a, std::size_t b) {
   const auto [first, other] = std::minmax({group(a), group(b)});
   if (first == other) return;
   std::ranges::replace(groups_, other, first);
