@@ -27,6 +27,9 @@ void CandidateOptions::describe(OptionTable& table) {
   table.integer_or_off("max_per_keyframe", max_per_keyframe, Range::at_least(1), "keyframes",
                        "the other methods: so many candidates at most, those of most overlap as "
                        "estimated");
+  table.integer("hole_budget", hole_budget, Range::between(0, 1e6), "keyframes",
+                "every method: over a hole in dead reckoning that is open, so many of those that "
+                "the uncertainty allows; 0: as if there were no hole");
 }
 
 CandidateMethod CandidateOptions::method_in_force() const {

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
-#include <tuple>
-#include <utility>
 
 #include <Eigen/Eigenvalues>
 
@@ -98,14 +96,13 @@ bool CandidateSearch::is_candidate(const Pose& from, const Pose& newest, const S
              : (from.position() - newest.position()).norm() <= *options_.max_distance_m;
 }
 
-std::vector<CandidateSearch::Chance> CandidateSearch::perhaps_near(const TrajectoryView& trajectory,
-                                                                   std::span<const Stance> stances,
-                                                                   std::size_t end) const {
-  const auto motions = trajectory.motions_to_newest();
+// Those that the confidence ellipse of their motion reaches.
+std::vector<CandidateSearch::Chance> CandidateSearch::perhaps_near(
+    const std::vector<UncertainPose>& motions, std::span<const Stance> stances,
+    std::size_t end) const {
   std::vector<Chance> found;
-  if (!motions) return found;
   for (std::size_t k = 0; k < end; ++k) {
-    const UncertainPose& motion = (*motions)[k];
+    const UncertainPose& motion = motions[k];
     const Eigen::Vector2d d = motion.mean.position();
     const Eigen::Matrix2d S = motion.covariance.topLeftCorner<2, 2>();
     const double radius_m = reach_m(stances[k], stances.back());
@@ -119,9 +116,8 @@ std::vector<CandidateSearch::Chance> CandidateSearch::perhaps_near(const Traject
 }
 
 // Those found by the estimate itself are as near as can be.
-std::vector<CandidateSearch::Chance> CandidateSearch::all(const TrajectoryView& trajectory,
-                                                          std::span<const Stance> stances,
-                                                          std::size_t end) {
+std::vector<CandidateSearch::Chance> CandidateSearch::near_as_estimated(
+    const TrajectoryView& trajectory, std::span<const Stance> stances, std::size_t end) {
   const std::size_t newest = stances.size() - 1;
   const Pose pose = trajectory.pose(newest);
   std::vector<Chance> found;
@@ -131,67 +127,45 @@ std::vector<CandidateSearch::Chance> CandidateSearch::all(const TrajectoryView& 
       found.push_back({k, 0.0});
     }
   }
-  if (!options_.asks_covariances()) return found;
-  const std::vector<Chance> near = std::exchange(found, {});
-  std::ranges::set_union(near, perhaps_near(trajectory, stances, end), std::back_inserter(found),
-                         {}, &Chance::keyframe, &Chance::keyframe);
   return found;
 }
 
+std::optional<std::size_t> CandidateSearch::limit() const {
+  if (method_ == CandidateMethod::possible_overlap) return options_.budget;
+  return options_.max_per_keyframe;
+}
+
+std::vector<CandidateSearch::Chance> CandidateSearch::united(const std::vector<Chance>& near,
+                                                             const std::vector<Chance>& perhaps) {
+  std::vector<Chance> both;
+  std::ranges::set_union(near, perhaps, std::back_inserter(both), {}, &Chance::keyframe,
+                         &Chance::keyframe);
+  return both;
+}
+
 Candidates CandidateSearch::find(const TrajectoryView& trajectory, std::span<const Stance> stances,
-                                 std::size_t end) {
-  const std::vector<Chance> found = all(trajectory, stances, end);
-  const bool by_passes = method_ == CandidateMethod::possible_overlap;
-  const std::optional<int> most = by_passes ? options_.budget : options_.max_per_keyframe;
-  std::vector<std::size_t> keyframes;
-  if (!most || found.size() <= static_cast<std::size_t>(*most)) {
-    for (const Chance& candidate : found) keyframes.push_back(candidate.keyframe);
-    return {std::move(keyframes), 0};
-  }
-  const std::vector<Rank> ranks = ranked(trajectory, stances, found);
-  for (const std::size_t place : by_passes ? order_by_passes(ranks) : order_of(ranks)) {
-    keyframes.push_back(ranks[place].keyframe);
-  }
-  keyframes.resize(static_cast<std::size_t>(*most));
-  std::ranges::sort(keyframes);
-  const std::size_t left_out = found.size() - keyframes.size();
-  return {std::move(keyframes), left_out};
-}
-
-// Most overlap first, then the likeliest, the nearest, the earliest.
-std::vector<CandidateSearch::Rank> CandidateSearch::ranked(
-    const TrajectoryView& trajectory, std::span<const Stance> stances,
-    const std::vector<Chance>& candidates) const {
+                                 std::size_t end, std::span<const std::size_t> holes) {
   const std::size_t newest = stances.size() - 1;
-  std::vector<Rank> ranks;
-  for (const auto& [k, squared_sigmas] : candidates) {
-    const Pose motion = between(trajectory.pose(k), trajectory.pose(newest));
-    ranks.push_back({-overlap(motion, stances[k], stances[newest]), squared_sigmas,
-                     motion.position().norm(), k});
+  stretches_.extend(stances.size(), holes);
+  close_holes(trajectory, stances);
+  over_holes_.clear();
+  Candidates result;
+  result.asked_covariances = options_.asks_covariances() || has_open_holes();
+  std::vector<Chance> found = near_as_estimated(trajectory, stances, end);
+  if (result.asked_covariances) {
+    if (const auto motions = trajectory.motions_to_newest()) {
+      close_holes(*motions, stances);
+      std::vector<Chance> perhaps = perhaps_near(*motions, stances, end);
+      take_over_holes(perhaps, found, newest);
+      if (options_.asks_covariances()) found = united(found, perhaps);
+    }
   }
-  return ranks;
-}
-
-std::vector<std::size_t> CandidateSearch::order_of(const std::vector<Rank>& ranks) {
-  std::vector<std::size_t> order = consecutive(0, ranks.size());
-  std::ranges::sort(order, {}, [&](std::size_t place) { return ranks[place]; });
-  return order;
-}
-
-// The best of each pass, by their rank, then the second best of each, and so on. `ranks` are by
-// rising keyframe.
-std::vector<std::size_t> CandidateSearch::order_by_passes(const std::vector<Rank>& ranks) {
-  std::vector<std::size_t> pass(ranks.size(), 0);
-  for (std::size_t i = 1; i < ranks.size(); ++i) {
-    const bool follows = ranks[i].keyframe == ranks[i - 1].keyframe + 1;
-    pass[i] = pass[i - 1] + (follows ? 0 : 1);
-  }
-  std::vector<std::size_t> order = order_of(ranks);
-  std::vector<std::size_t> taken(ranks.size(), 0);
-  std::vector<std::size_t> round(ranks.size());
-  for (const std::size_t place : order) round[place] = taken[pass[place]]++;
-  std::ranges::stable_sort(order, {}, [&](std::size_t place) { return round[place]; });
-  return order;
+  const std::optional<std::size_t> most = places(newest);
+  result.keyframes = best(trajectory, stances, found, most);
+  result.left_out = found.size() - result.keyframes.size();
+  places_over_holes_ = static_cast<std::size_t>(options_.hole_budget);
+  if (most) places_over_holes_ = std::min(places_over_holes_, *limit() - result.keyframes.size());
+  return result;
 }
 
 // The nearest point is p = (1 + λ S)⁻¹ d with the multiplier λ ≥ 0 that puts it on the circle. In

@@ -57,6 +57,7 @@ Keyframe FrontEnd::add_keyframe(std::size_t frame, const FrameInfo& info,
   frames_.push_back({info.time_ns, keyframe.index, Pose{}});
   keyframes_.push_back(keyframe);
   stances_.push_back(info.stance());
+  if (over_hole) holes_.push_back(keyframe.index);
   announce_next_keyframes();
   return keyframe;
 }
@@ -88,31 +89,42 @@ Candidates FrontEnd::candidates(const TrajectoryView& trajectory) {
   // From one frame to the next visual odometry's step is that very registration.
   const bool step_is_registration = source_.is_visual_odometry() && newest > 0 &&
                                     keyframes_[newest].frame == keyframes_[newest - 1].frame + 1;
-  return search_.find(trajectory, stances_, step_is_registration ? newest - 1 : newest);
+  return search_.find(trajectory, stances_, step_is_registration ? newest - 1 : newest, holes_);
 }
 
 // Loop candidates by the estimate, each registered with the newest keyframe (figure 2); what is
 // found is a measurement.
 std::vector<RelativePose> FrontEnd::register_newest(const TrajectoryView& trajectory) {
+  const Candidates near = candidates(trajectory);
+  if (near.asked_covariances) asked_covariances_.push_back(keyframes_.size() - 1);
+  std::vector<RelativePose> registrations = registered(near);
+  const std::vector<RelativePose> others = registered(search_.over_holes(registrations));
+  registrations.insert(registrations.end(), others.begin(), others.end());
+  std::ranges::sort(registrations, {}, &RelativePose::from);
+  search_.note(registrations);
+  return registrations;
+}
+
+std::vector<RelativePose> FrontEnd::registered(const Candidates& candidates) {
   const std::size_t newest = keyframes_.size() - 1;
-  const auto [near, left_out] = candidates(trajectory);
+  left_out_ += candidates.left_out;
+  if (candidates.keyframes.empty()) return {};
   std::vector<MeasuredFrame> from;
-  from.reserve(near.size());
-  for (const std::size_t k : near) from.push_back(measured(keyframes_[k].frame));
+  from.reserve(candidates.keyframes.size());
+  for (const std::size_t k : candidates.keyframes) from.push_back(measured(keyframes_[k].frame));
   const auto results = registrar_.of_all(from, measured(keyframes_[newest].frame));
   std::vector<RelativePose> registrations;
-  for (std::size_t c = 0; c < near.size(); ++c) {
+  for (std::size_t c = 0; c < results.size(); ++c) {
     if (!results[c].found) {
       most_refused_inliers_ = std::max(most_refused_inliers_, results[c].inliers);
       continue;
     }
-    registrations.push_back(
-        RelativePose::from_covariance(near[c], newest, results[c].motion, results[c].covariance));
+    registrations.push_back(RelativePose::from_covariance(
+        candidates.keyframes[c], newest, results[c].motion, results[c].covariance));
     registrations.back().inliers = results[c].inliers;
   }
-  tried_ += near.size();
+  tried_ += candidates.keyframes.size();
   found_ += registrations.size();
-  left_out_ += left_out;
   return registrations;
 }
 

@@ -15,7 +15,8 @@ class CandidateGuide {
   virtual ~CandidateGuide() = default;
   /// Every keyframe in its order, keyframe 0 too.
   virtual void add_keyframe(const Keyframe& keyframe) = 0;
-  /// What was measured of the newest keyframe, if anything was.
+  /// What was measured of the newest keyframe, if anything was: of the world before its candidates
+  /// are searched, registrations after that.
   virtual void update(const Measurements& measurements) = 0;
   /// Of all keyframes so far; valid until the next call.
   virtual const TrajectoryView& trajectory() = 0;

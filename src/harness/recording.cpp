@@ -47,19 +47,20 @@ MeasurementLog log_of(FrontEnd& front_end, CandidateGuide& guide, CarriedReading
   while (const auto keyframe = front_end.next_keyframe()) {
     // Section 3, augmentation: the state grows by the motion to the new keyframe.
     guide.add_keyframe(*keyframe);
-    std::vector<RelativePose> found;
+    if (keyframe->step) log.add_keyframe(*keyframe->step);
+    // What compass and fixes say of it narrows where its candidates can be.
+    const std::vector<AbsolutePose> absolute = readings.next();
+    for (const AbsolutePose& measurement : absolute) log.add_absolute(measurement);
+    if (!absolute.empty()) guide.update({.registrations = {}, .absolute = absolute});
     if (keyframe->step) {
-      log.add_keyframe(*keyframe->step);
       // Section 3, data association: the keyframes that the estimate has near; each pair is
       // registered by features, their matches and RANSAC (section 2, figures 1 to 3, equations 1
       // to 3).
-      found = front_end.register_newest(guide.trajectory());
+      const auto found = front_end.register_newest(guide.trajectory());
       for (const RelativePose& registration : found) log.add_registration(registration);
+      // Section 3, update: all registrations of the keyframe stacked, and iterated.
+      if (!found.empty()) guide.update({.registrations = found});
     }
-    const std::vector<AbsolutePose> absolute = readings.next();
-    for (const AbsolutePose& measurement : absolute) log.add_absolute(measurement);
-    // Section 3, update: all measurements of the keyframe stacked, and iterated.
-    if (!found.empty() || !absolute.empty()) guide.update({found, absolute});
     say_progress();
   }
   say_progress();
@@ -76,6 +77,7 @@ void take_keyframes(Recording& recording, const FrameSource& source, const Front
   recording.registrations_tried = front_end.registrations_tried();
   recording.most_refused_inliers = front_end.most_refused_inliers();
   recording.registrations_left_out = front_end.registrations_left_out();
+  recording.asked_covariances = front_end.asked_covariances();
 }
 
 void take_frames(Recording& recording, const FrameSource& source, const FrontEnd& front_end) {

@@ -122,7 +122,9 @@ void give_keyframes(const MeasurementLog& log, Estimator& estimator, const Repla
     const CallTimer add_timer(result);
     estimator.add_keyframe(log.arrival(k).step);
     result.add_ms.push_back(add_timer.stop());
-    if (options.candidate_covariances) ask_for_candidates(estimator, result);
+    if (std::ranges::binary_search(options.candidate_covariances, k)) {
+      ask_for_candidates(estimator, result);
+    }
     give_measurements(log.arrival(k), estimator, options, result);
     newest.ask(estimator);
     if (options.progress) options.progress(k + 1, log.size());

@@ -143,8 +143,7 @@ ReplayOptions replay_options(const Configuration& configuration,
   const bool selects = configuration.study.association == Association::own ||
                        (reference.is_contender && reference.estimator.name == estimator.name);
   const bool has_pictures = !find_data_set(configuration.dataset.type).is_graph;
-  options.candidate_covariances =
-      selects && has_pictures && configuration.front_end.candidates.asks_covariances();
+  options.own_candidates = selects && has_pictures;
   return options;
 }
 
@@ -161,6 +160,7 @@ Result evaluate(const Recording& recording, const EstimatorConfiguration& estima
   result.mode = options.mode;
   result.options = judging.metrics;
   ReplayOptions asked = options;
+  if (options.own_candidates) asked.candidate_covariances = recording.asked_covariances;
   if (recording.ground_truth) {
     asked.motions = motions_to_judge(*recording.ground_truth, motion_options(judging.metrics));
   }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -56,10 +57,18 @@ inline CandidateOptions by(CandidateMethod method) {
   return options;
 }
 
-inline Candidates candidates(const CandidateOptions& options, const TrajectoryView& estimate,
-                             std::vector<Stance> stances = {}) {
+inline Candidates candidates(CandidateSearch& search, const TrajectoryView& estimate,
+                             std::vector<Stance> stances = {},
+                             std::span<const std::size_t> holes = {}) {
   stances.resize(estimate.size(), 1.0);
-  return CandidateSearch(wide_camera(), options).find(estimate, stances, estimate.size() - 1);
+  return search.find(estimate, stances, estimate.size() - 1, holes);
+}
+
+inline Candidates candidates(const CandidateOptions& options, const TrajectoryView& estimate,
+                             std::vector<Stance> stances = {},
+                             std::span<const std::size_t> holes = {}) {
+  CandidateSearch search(wide_camera(), options);
+  return candidates(search, estimate, std::move(stances), holes);
 }
 
 }  // namespace fathom::test

@@ -12,6 +12,7 @@
 #include "fathom/harness/recording.hpp"
 #include "fathom/harness/result.hpp"
 #include "fathom/harness/survey.hpp"
+#include "harness/scripted_estimator.hpp"
 #include "harness/small_config.hpp"
 #include "support/input_error.hpp"
 #include "support/planar.hpp"
@@ -97,6 +98,39 @@ TEST(AbsoluteRecording, ReadingsChangeNothingElseOfALog) {
   for (std::size_t k = 1; k < with.log.size(); ++k) {
     EXPECT_EQ(with.log.arrival(k).step.motion, without.log.arrival(k).step.motion);
   }
+}
+
+// So that candidates are searched where compass and fixes have the newest keyframe. The log has
+// both in one arrival.
+TEST(AbsoluteRecording, AKeyframesOwnReadingsComeBeforeItsCandidates) {
+  const Configuration configuration = configured(std::string(kSmallSurvey) + kSensors);
+  test::Script script;
+  EstimatorRegistry registry;
+  registry.add(test::scripted(script));
+  const CandidateReference reference{
+      CandidateReference::Kind::estimate, {"scripted", "scripted", {}}, true};
+  const Recording recording =
+      Recorder(configuration).record(configuration, reference, registry, {1, 0});
+  std::vector<std::string> expected{"create"};
+  const auto expect_update = [&](const std::string& measurements) {
+    if (!measurements.empty()) expected.push_back("close" + measurements);
+  };
+  std::size_t both = 0;
+  for (std::size_t k = 0; k < recording.log.size(); ++k) {
+    const auto& [step, registrations, absolute] = recording.log.arrival(k);
+    if (k > 0) expected.push_back("add " + std::to_string(k));
+    std::string at;
+    for (std::size_t j = 0; j < absolute.size(); ++j) at += " at " + std::to_string(k);
+    std::string loops;
+    for (const RelativePose& z : registrations) {
+      loops += " " + std::to_string(z.from) + "-" + std::to_string(z.to);
+    }
+    expect_update(at);
+    expect_update(loops);
+    if (!at.empty() && !loops.empty()) ++both;
+  }
+  EXPECT_EQ(script.calls, expected);
+  EXPECT_GT(both, 5u);
 }
 
 // In the world of the readings, from a start that nobody gave.

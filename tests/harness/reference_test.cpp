@@ -180,16 +180,14 @@ TEST(ReplayOptionsOf, ChargeCandidatesToWhomTheyServe) {
   const auto charged = [](const std::string& text, std::size_t estimator) {
     const Study study = settled(std::string(kSmallSurvey) + kList + text);
     const Configuration& cell = study.cells[0];
-    return replay_options(cell, cell.estimators[estimator]).candidate_covariances;
+    return replay_options(cell, cell.estimators[estimator]).own_candidates;
   };
-  const std::string mahalanobis = "front_end.candidates.method: mahalanobis\n";
-  EXPECT_FALSE(charged(mahalanobis, 0));
-  EXPECT_TRUE(charged(mahalanobis + "association.mode: own\n", 0));
-  EXPECT_FALSE(charged("association.mode: own\n", 0));
-  EXPECT_FALSE(charged(mahalanobis + "association.reference: many\n", 0));
-  EXPECT_TRUE(charged(mahalanobis + "association.reference: many\n", 1));
-  const Configuration run = test::configured(kSmallSurvey + mahalanobis);
-  EXPECT_TRUE(replay_options(run, run.estimators[0]).candidate_covariances);
+  EXPECT_FALSE(charged("", 0));
+  EXPECT_TRUE(charged("association.mode: own\n", 0));
+  EXPECT_FALSE(charged("association.reference: many\n", 0));
+  EXPECT_TRUE(charged("association.reference: many\n", 1));
+  const Configuration run = test::configured(kSmallSurvey);
+  EXPECT_TRUE(replay_options(run, run.estimators[0]).own_candidates);
   EXPECT_TRUE(replay_options(run, run.estimators[0]).newest_covariances);
   const Study without =
       study_of(std::string(kSmallSurvey) + "evaluation.newest_covariance: false\n");

@@ -82,7 +82,7 @@ TEST(ReplayCovariances, OfCandidatesAreChargedToTheEstimate) {
   Script script;
   script.joint_covariances = 100;
   ReplayOptions options;
-  options.candidate_covariances = true;
+  options.candidate_covariances = consecutive(1, square_log().size());
   const Replay result = replayed(script, options);
   EXPECT_THAT(first_calls(script, 6), ElementsAre("create", "add 1", "covariance 0 1", "add 2",
                                                   "covariance 0 2", "covariance 1 2"));
@@ -124,7 +124,7 @@ TEST(ReplayCovariances, LeaveTheEstimateAsItIs) {
   for (const EstimatorEntry& entry : builtin_estimators().entries()) {
     ReplayOptions options;
     options.newest_covariances = true;
-    options.candidate_covariances = true;
+    options.candidate_covariances = consecutive(1, square_log().size());
     const Replay asked = replay(log, entry, {}, options);
     const Replay plain = replay(log, entry, {}, {});
     EXPECT_EQ(asked.trajectory, plain.trajectory) << entry.name;

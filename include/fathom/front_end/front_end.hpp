@@ -94,11 +94,15 @@ class FrontEnd {
   std::size_t registrations_found() const { return found_; }
   /// Candidates beyond what a keyframe may have.
   std::size_t registrations_left_out() const { return left_out_; }
+  /// Keyframes, rising, whose candidates asked the trajectory for covariances.
+  const std::vector<std::size_t>& asked_covariances() const { return asked_covariances_; }
 
  private:
   Keyframe add_keyframe(std::size_t frame, const FrameInfo& info, const UncertainPose& since,
                         bool over_hole);
   Candidates candidates(const TrajectoryView& trajectory);
+  /// The newest keyframe with each of them, where a registration is found.
+  std::vector<RelativePose> registered(const Candidates& candidates);
   MeasuredFrame measured(std::size_t frame) const;
   void announce_next_keyframes();
 
@@ -108,7 +112,9 @@ class FrontEnd {
   CandidateSearch search_;
   KeyframeSchedule schedule_;
   std::vector<Keyframe> keyframes_;
-  std::vector<Stance> stances_;  ///< of the keyframes
+  std::vector<Stance> stances_;     ///< of the keyframes
+  std::vector<std::size_t> holes_;  ///< keyframes that a hole leads to
+  std::vector<std::size_t> asked_covariances_;
   std::vector<FramePlace> frames_;
   std::size_t tried_ = 0;
   std::size_t found_ = 0;

@@ -39,6 +39,8 @@ struct Recording {
   int most_refused_inliers = 0;
   /// Loop candidates beyond what a keyframe may have.
   std::size_t registrations_left_out = 0;
+  /// Keyframes, rising, whose loop candidates asked the reference for covariances.
+  std::vector<std::size_t> asked_covariances;
   /// By registration of the log, in order; empty where none was added, or it is not known.
   std::vector<bool> is_false_loop;
   bool visual_odometry = false;

@@ -43,10 +43,13 @@ struct ReplayOptions {
   /// the same for filters and graphs, timed apart. Of no effect in batch mode, which has no
   /// estimate until the end.
   bool newest_covariances = false;
-  /// After every keyframe is added its motions from all others are asked for with their
-  /// covariances, as the selection of loop candidates does (CandidateMethod::mahalanobis). Their
-  /// time is the estimate's: without them it would have been given another log.
-  bool candidate_covariances = false;
+  /// After each of these keyframes, rising, is added its motions from all others are asked for with
+  /// their covariances, as the selection of loop candidates does. Their time is the estimate's:
+  /// without them it would have been given another log.
+  std::vector<std::size_t> candidate_covariances;
+  /// Whether the estimator's own estimate selected the loop candidates of the log: evaluate() then
+  /// puts here above what the recording says of it.
+  bool own_candidates = false;
   /// Motions whose covariances are asked for after the replay, outside the timing. Those of
   /// `covariances` are not looked at.
   std::vector<JudgedMotions> motions;
