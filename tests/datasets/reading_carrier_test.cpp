@@ -33,7 +33,7 @@ std::vector<DeadReckonedFrame> frames_with_holes(const std::vector<std::size_t>&
   return frames;
 }
 
-DeadReckoning over(const std::vector<DeadReckonedFrame>& frames) {
+ReckonedFrames over(const std::vector<DeadReckonedFrame>& frames) {
   return {frames.size(), [&frames](std::size_t i) { return frames[i]; }};
 }
 

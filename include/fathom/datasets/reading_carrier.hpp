@@ -21,13 +21,13 @@ struct DeadReckonedFrame {
 };
 
 /// The frames of a survey in their order; asked for by rising index.
-struct DeadReckoning {
+struct ReckonedFrames {
   std::size_t size = 0;
   std::function<DeadReckonedFrame(std::size_t)> frame;
 };
 
 /// Of frames that have odometry. They must outlive it.
-DeadReckoning dead_reckoning_of(const FrameSource& frames);
+ReckonedFrames dead_reckoning_of(const FrameSource& frames);
 
 /// What keyframe 0 begins with where `dataset.start` does not say it: as many standard deviations
 /// as a reading has that two others of the first ten agree with. That reading stays in the log, and
@@ -49,7 +49,7 @@ inline constexpr double kHeldSigma_rad = 1e-5;
 /// Throws InputError "dataset.start.heading_rad: …" where there are fixes and nothing says the
 /// heading.
 StartPose start_of(const StartOptions& options, const AbsoluteReadings& readings,
-                   const DeadReckoning& frames);
+                   const ReckonedFrames& frames);
 
 /// Turns readings between keyframes into measurements of keyframes: each is carried to the keyframe
 /// before by dead reckoning, its covariance included; over a hole to the keyframe after, if it was
@@ -59,7 +59,7 @@ StartPose start_of(const StartOptions& options, const AbsoluteReadings& readings
 class ReadingCarrier {
  public:
   /// Readings before the first frame or after the last one are left out.
-  ReadingCarrier(AbsoluteReadings readings, DeadReckoning frames, const StartPose& start);
+  ReadingCarrier(AbsoluteReadings readings, ReckonedFrames frames, const StartPose& start);
 
   /// Of keyframe k, which is frame `frame`; `next` is the frame of the next keyframe, nothing of
   /// the last one. To be asked for in order, all keyframes. In order of time.
@@ -76,7 +76,7 @@ class ReadingCarrier {
   void correct_heading(const MeasuredHeading& measured, double predicted_rad);
 
   AbsoluteReadings readings_;
-  DeadReckoning frames_;
+  ReckonedFrames frames_;
   std::size_t next_heading_ = 0;
   std::size_t next_fix_ = 0;
   double heading_rad_ = 0.0;  ///< of the last frame passed, for linearisation

@@ -29,7 +29,7 @@ struct ReadingCarrier::Place {
   double heading_rad = 0.0;
 };
 
-ReadingCarrier::ReadingCarrier(AbsoluteReadings readings, DeadReckoning frames,
+ReadingCarrier::ReadingCarrier(AbsoluteReadings readings, ReckonedFrames frames,
                                const StartPose& start)
     : readings_(std::move(readings)),
       frames_(std::move(frames)),

@@ -24,7 +24,7 @@ struct Reached {
 // of those behind a hole only one, if it is the first.
 template <class Reading>
 std::vector<Reached<Reading>> first_readings(const std::vector<Reading>& readings,
-                                             const DeadReckoning& frames) {
+                                             const ReckonedFrames& frames) {
   std::vector<Reached<Reading>> first;
   if (frames.size == 0) return first;
   std::int64_t before_ns = frames.frame(0).time_ns;
@@ -84,7 +84,7 @@ struct Known {
 };
 
 Known heading_of(const StartOptions& options, const AbsoluteReadings& readings,
-                 const DeadReckoning& frames) {
+                 const ReckonedFrames& frames) {
   if (options.heading_rad) return {wrap_angle(*options.heading_rad), options.sigma_rad};
   const auto first = first_readings(readings.headings, frames);
   if (first.empty()) {
@@ -114,7 +114,7 @@ struct KnownPosition {
 };
 
 KnownPosition position_of(const StartOptions& options, const AbsoluteReadings& readings,
-                          const DeadReckoning& frames, const Known& heading) {
+                          const ReckonedFrames& frames, const Known& heading) {
   if (options.has_position()) return {{*options.x_m, *options.y_m}, options.sigma_m};
   const auto first = first_readings(readings.fixes, frames);
   if (first.empty()) return {};
@@ -140,7 +140,7 @@ KnownPosition position_of(const StartOptions& options, const AbsoluteReadings& r
 }  // namespace
 
 StartPose start_of(const StartOptions& options, const AbsoluteReadings& readings,
-                   const DeadReckoning& frames) {
+                   const ReckonedFrames& frames) {
   options.check("dataset.start.");
   const Known heading = heading_of(options, readings, frames);
   const KnownPosition position = position_of(options, readings, frames, heading);
@@ -153,7 +153,7 @@ StartPose start_of(const StartOptions& options, const AbsoluteReadings& readings
   return start;
 }
 
-DeadReckoning dead_reckoning_of(const FrameSource& frames) {
+ReckonedFrames dead_reckoning_of(const FrameSource& frames) {
   return {
       frames.size(), [&frames](std::size_t i) {
         const FrameInfo& info = frames.info(i);

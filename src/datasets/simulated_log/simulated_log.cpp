@@ -128,7 +128,7 @@ class Registrations {
 MeasurementLog draw_log(const FlownKeyframes& keyframes, const SimulatedLogOptions& options,
                         std::uint64_t seed, std::uint64_t trial) {
   const std::vector<DeadReckonedFrame> frames = dead_reckoned(keyframes, options, seed, trial);
-  const DeadReckoning reckoning{frames.size(), [&frames](std::size_t i) { return frames[i]; }};
+  const ReckonedFrames reckoning{frames.size(), [&frames](std::size_t i) { return frames[i]; }};
   const AbsoluteReadings readings =
       draw_readings(options.sensors, keyframes.frames, seed, trial, "dataset.");
   Registrations registrations(keyframes, options.loops,
