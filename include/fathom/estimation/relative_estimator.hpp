@@ -52,7 +52,12 @@ class RelativeEstimator : public Estimate {
   /// (std::nullopt), and so is a heading. In a filter a loop takes the place of the hole, whose
   /// declared covariance is forgotten, and is decided here: a gate may reject it by that
   /// covariance, and then nothing changes.
-  virtual std::optional<LoopDecision> bridge(const Bridge& bridge) = 0;
+  ///
+  /// By default nothing moves: the loop is linearised where dead reckoning's guess leads.
+  virtual std::optional<LoopDecision> bridge(const Bridge& bridge) {
+    (void)bridge;
+    return std::nullopt;
+  }
 };
 
 /// Makes a RelativeEstimator whose node 0 is at `origin`.
