@@ -27,7 +27,8 @@ MeasuredParts parts_of(const AbsolutePose& z) {
   const Eigen::Matrix3d C = has_all ? symmetric_inverse(W) : Eigen::Matrix3d::Zero();
   if (has_position) {
     const Eigen::Matrix2d R = rotation(z.pose.theta);
-    const Eigen::Matrix2d own = has_all ? C.topLeftCorner<2, 2>() : W_position.inverse();
+    Eigen::Matrix2d own = W_position.inverse();
+    if (has_all) own = C.topLeftCorner<2, 2>();
     parts.position = z.pose.position();
     parts.position_covariance = R * (0.5 * (own + own.transpose())) * R.transpose();
   }

@@ -15,12 +15,13 @@ using Point = Eigen::Vector2d;
 
 constexpr double kRingRadius = 1.7;
 constexpr double kCrossHalf = 2.4;
-constexpr double kHeadingLength = 7.0;
-constexpr double kLeftOutLength = 9.0;
+constexpr double kHeadingLength = 8.0;
+constexpr double kLeftOutLength = 10.0;
 constexpr double kBarHalf = 1.8;
 constexpr double kArrowLength = 5.0;
 constexpr double kArrowHalf = 2.2;
 constexpr double kTint = 0.55;
+constexpr double kNeedleTint = 0.85;  // of headings, which lie on the line of their trajectory
 
 Pen pen_of(bool is_kept) {
   return {is_kept ? tint(palette::black, kTint) : palette::crimson, is_kept ? 0.6 : 1.0, {}, 1.0};
@@ -44,7 +45,8 @@ void draw_fix(Canvas& canvas, const Point& at, bool is_kept) {
 
 // `direction` on the page, of length 1.
 void draw_heading(Canvas& canvas, const Point& from, const Point& direction, bool is_kept) {
-  const Pen pen = pen_of(is_kept);
+  Pen pen = pen_of(is_kept);
+  if (is_kept) pen.colour = tint(palette::black, kNeedleTint);
   const Point tip = from + (is_kept ? kHeadingLength : kLeftOutLength) * direction;
   canvas.line(from, tip, pen);
   if (is_kept) return;
@@ -87,11 +89,13 @@ struct Count {
 using Counts = std::array<std::array<Count, 2>, 2>;
 
 void count(const PlotSeries& series, Counts& counts) {
-  const auto of = [&counts](const AbsoluteMark& mark) -> Count& {
-    return counts[mark.measured.position ? fix : heading][mark.is_kept ? 0 : 1];
+  const auto add = [&](const AbsoluteMark& mark, std::size_t Count::*number) {
+    const std::size_t left_out = mark.is_kept ? 0 : 1;
+    if (mark.measured.position) ++(counts[fix][left_out].*number);
+    if (mark.measured.heading_rad) ++(counts[heading][left_out].*number);
   };
-  for (const AbsoluteMark& mark : series.absolute) ++of(mark).all;
-  for (const std::size_t i : drawn_marks(series.absolute)) ++of(series.absolute[i]).drawn;
+  for (const AbsoluteMark& mark : series.absolute) add(mark, &Count::all);
+  for (const std::size_t i : drawn_marks(series.absolute)) add(series.absolute[i], &Count::drawn);
 }
 
 LegendEntry entry(std::string text, const Count& count, Kind kind, bool is_kept) {

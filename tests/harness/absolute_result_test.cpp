@@ -110,7 +110,8 @@ TEST(AbsoluteResult, WhatWasMeasuredIsStoredInTheFrameOfTheAlignedEstimate) {
   std::vector<Pose> truth;
   for (const Pose& pose : test::square_truth()) truth.push_back(compose(motion, pose));
   jump.ground_truth = truth;
-  const JudgeOptions judging{{.alignment = Alignment::se2}};
+  JudgeOptions judging;
+  judging.metrics.alignment = Alignment::se2;
   const Result result = evaluate(jump, {"ekf", "ekf", kGate}, builtin_estimators(), judging, {});
   const RunRecord run = run_record(jump, result, "hash");
   const auto at = [&run](const char* name, std::size_t i) { return run.series.at(name).at(i); };

@@ -120,11 +120,11 @@ TEST(AbsoluteMarks, HangOnTheirPose) {
 TEST(AbsoluteMarks, AFarFixLeavesTheScaleAndIsAnArrowAtTheEdge) {
   const double scale = Map({}).pixels_per_metre();
   EXPECT_NEAR(Map({fix(0, {0, 1000}, false)}).pixels_per_metre(), scale, 0.01 * scale);
-  EXPECT_LT(Map({fix(0, {0, 12.4}, false)}).pixels_per_metre(), 0.95 * scale);
-  EXPECT_TRUE(Map({fix(0, {0, 12.4}, false)}).is_red_at(0, 12.4));
+  EXPECT_LT(Map({fix(0, {12.4, 0}, false)}).pixels_per_metre(), 0.95 * scale);
+  EXPECT_TRUE(Map({fix(0, {12.4, 0}, false)}).is_red_at(12.4, 0));
   // A head of 5 × 4.4 points is some 70 pixels; a dashed line has a few.
   for (const Eigen::Vector2d& far :
-       {Eigen::Vector2d(3, 1000), Eigen::Vector2d(-1e8, -50), Eigen::Vector2d(300, -900)}) {
+       {Eigen::Vector2d(3, 1000), Eigen::Vector2d(1e8, -50), Eigen::Vector2d(300, -900)}) {
     const cv::Mat red = where(Map({fix(0, far, false)}).picture(), palette::crimson);
     cv::Mat solid;
     cv::erode(red, solid, cv::Mat::ones(4, 4, CV_8U));
@@ -177,6 +177,13 @@ TEST(AbsoluteMarks, TheLegendSaysWhatThereIs) {
   EXPECT_THAT(legend_of({series}),
               ElementsAre("fix", "fix left out by ekf, an arrow if beyond the map", thinned,
                           "heading left out by ekf"));
+}
+
+TEST(AbsoluteMarks, AWholePoseIsAFixAndAHeading) {
+  PlotSeries series = series_of(0, {{0, 0, 0}});
+  const Eigen::Matrix3d covariance = Eigen::Matrix3d::Identity();
+  series.absolute = {absolute_mark(AbsolutePose::from_covariance(0, {1, 2, 3}, covariance), true)};
+  EXPECT_THAT(legend_of({series}), ElementsAre("fix", "measured heading"));
 }
 
 TEST(AbsoluteMarks, OfSeveralEstimatesThoseOfTheFirstThatLeftOneOut) {

@@ -117,7 +117,7 @@ TEST_F(Browser, TheMapShowsFixesAndHeadingsAndWhatWasLeftOut) {
   const Json& absolute = result["absolute"];
   ASSERT_EQ(absolute["fixes"].size(), 8u);  // three estimators have them at one place
   EXPECT_EQ(absolute["links"].size(), 24u);
-  const Json* jump = with_tooltip(absolute["fixes"], "Fix of keyframe 20, σ 0.500 m and 0.250 m");
+  const Json* jump = with_tooltip(absolute["fixes"], "Fix of keyframe 20, σ 500 mm and 250 mm");
   ASSERT_NE(jump, nullptr) << absolute["fixes"].dump();
   EXPECT_NEAR((*jump)["x"], 2.0, 1e-3);
   EXPECT_NEAR((*jump)["y"], 2.6, 1e-3);

@@ -23,6 +23,9 @@ struct AbsoluteMark {
   bool is_kept = true;
 };
 
+/// What a measurement of a log says, drawn on a trajectory of all keyframes.
+AbsoluteMark absolute_mark(const AbsolutePose& measurement, bool is_kept);
+
 /// One trajectory of a picture.
 struct PlotSeries {
   std::string name;

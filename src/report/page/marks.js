@@ -33,18 +33,10 @@ function headingRow(name, z) {
 // Estimates that are not moved by an alignment of their own have their fixes at one place: these
 // are one mark, which the chart makes of them.
 function markRows(cell) {
-  const rows = {fixes: [], headings: [], fix_ellipses: []};
-  for (const one of cell.example.estimators) {
-    const fixes = one.absolute.filter((z) => z.fix_m);
-    rows.fixes.push(...fixes.map((z) => fixRow(one.name, z)));
-    rows.headings.push(...one.absolute.filter((z) => z.heading_rad !== undefined).map((z) => headingRow(one.name, z)));
-    const kept = fixes.filter((z) => !isLeftOut(z));
-    const every = Math.ceil(kept.length / 25);
-    for (const z of kept.filter((_, i) => i % every === 0)) {
-      rows.fix_ellipses.push(...ellipseRows(one.name, [z.keyframe, ...z.fix_m, ...z.fix_cov_m2]));
-    }
-  }
-  return {...rows, links: rows.fixes, bars: rows.headings.filter((row) => row.left)};
+  const of = (part, row) => cell.example.estimators.flatMap((one) => one.absolute.filter((z) => z[part] !== undefined).map((z) => row(one.name, z)));
+  const fixes = of('fix_m', fixRow);
+  const headings = of('heading_rad', headingRow);
+  return {fixes, links: fixes, headings, bars: headings.filter((row) => row.left)};
 }
 
 // The extent of the paths, and fixes that lie no further from it than a quarter of its size: the
@@ -77,6 +69,6 @@ function marksCaption(cell) {
   });
   const isThinned = all.some((one) => one.absolute.length < sum(Object.values(one.absolute_in_all).flat()));
   return `${sentence(kinds.map((kind) => shapes[kind]).join('; '))}; red, ${kinds.map((kind) => leftShapes[kind]).join(' or ')}: ` +
-    `left out by a gate, or by a loss to half its weight or less. ${leftOut.join(' ')} ` +
+    `left out: rejected by a gate, lost with a failed update, or given at most half its weight by a loss. ${leftOut.join(' ')} ` +
     (isThinned ? 'Marks are thinned evenly. ' : '');
 }
