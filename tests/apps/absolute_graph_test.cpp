@@ -223,16 +223,11 @@ TEST_F(Commands, ThePictureHasTheTruthWhereTheEstimateIs) {
   EXPECT_NEAR(tum("out/trajectory.tum")[0].pose.x, 0.0, 0.01);
   const cv::Mat picture =
       cv::imread(path("out/trajectory.png").string()).rowRange(125, 1090).clone();
-  const auto box_of = [&picture](Colour colour) {
-    return cv::boundingRect(where(picture, colour));
-  };
-  const cv::Rect estimate = box_of(estimator_style(0).colour);
-  const cv::Rect reference = box_of(tint(palette::black, 0.45));
-  ASSERT_GT(estimate.width, 400);
-  EXPECT_NEAR(reference.x, estimate.x, 6);
-  EXPECT_NEAR(reference.y, estimate.y, 6);
-  EXPECT_NEAR(reference.width, estimate.width, 10);
-  EXPECT_NEAR(reference.height, estimate.height, 10);
+  const cv::Mat truth_line = where(picture, tint(palette::black, 0.45));
+  cv::Mat beside;
+  cv::dilate(where(picture, estimator_style(0).colour), beside, cv::Mat::ones(11, 11, CV_8U));
+  ASSERT_GT(cv::countNonZero(truth_line), 1000);
+  EXPECT_GT(cv::countNonZero(truth_line & beside), 0.9 * cv::countNonZero(truth_line));
 }
 
 }  // namespace
