@@ -88,8 +88,9 @@ UpdateReport CeresPoseGraph::finish(std::span<const Pose> start) {
   return loss_.is_on() ? graph_->solve_robust() : graph_->solve();
 }
 
-void CeresPoseGraph::bridge(std::size_t node, const Pose& motion) {
-  graph_->bridge(node, motion);
+std::optional<LoopDecision> CeresPoseGraph::bridge(const Bridge& bridge) {
+  graph_->bridge(bridge);
+  return std::nullopt;
 }
 
 std::optional<Eigen::Matrix3d> CeresPoseGraph::covariance(std::size_t k) const {

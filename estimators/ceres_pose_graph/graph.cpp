@@ -110,17 +110,20 @@ void CeresPoseGraph::Graph::add_keyframe(const RelativePose& step) {
   changed();
 }
 
-void CeresPoseGraph::Graph::bridge(std::size_t node, const Pose& motion) {
-  Hole& hole = holes_.at(node);
-  problem_.RemoveResidualBlock(hole.block);
-  hole.step.motion = motion;
-  hole.block =
-      problem_.AddResidualBlock(new EdgeCost(hole.step), nullptr, block(node - 1), block(node));
-  const Pose before = pose(node);
-  const Pose after = compose(pose(node - 1), motion);
-  for (std::size_t k = node; k < size(); ++k) {
-    const Pose moved = compose(after, between(before, pose(k)));
+// The steps of holes, of which nothing is measured, follow: F stays.
+void CeresPoseGraph::Graph::bridge(const Bridge& bridge) {
+  for (std::size_t k = 0; k < size(); ++k) {
+    if (!bridge.moves[k]) continue;
+    const Pose moved = compose(bridge.motion, pose(k));
     poses_[k] = {moved.x, moved.y, moved.theta};
+  }
+  for (const std::size_t node : bridge.holes) {
+    if (bridge.moves[node - 1] == bridge.moves[node]) continue;
+    Hole& hole = holes_.at(node);
+    problem_.RemoveResidualBlock(hole.block);
+    hole.step.motion = between(pose(node - 1), pose(node));
+    hole.block =
+        problem_.AddResidualBlock(new EdgeCost(hole.step), nullptr, block(node - 1), block(node));
   }
   changed();
 }

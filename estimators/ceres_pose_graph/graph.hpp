@@ -30,7 +30,7 @@ class CeresPoseGraph::Graph {
   void add_keyframe(const RelativePose& step);
   void add_registration(const RelativePose& registration);
   /// As of RelativeEstimator.
-  void bridge(std::size_t node, const Pose& motion);
+  void bridge(const Bridge& bridge);
   /// Takes the last registrations back, down to `count` of them.
   void forget_registrations(std::size_t count);
   std::size_t registration_count() const { return registrations_.size(); }

@@ -1,4 +1,7 @@
-// Ekf::bridge: all poses after a hole move as one, and their covariance with them.
+// Parts of an Ekf's map behind holes, and the loops that put them into place.
+
+#include <cmath>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -15,47 +18,105 @@ Eigen::Matrix3d carried(const Eigen::Vector2d& lever) {
   return A;
 }
 
-}  // namespace
-
-// With X_k = X_g ⊕ r_k, X_g = X_{g−1} ⊕ u, and u' = u but for its value, r_k and u keep their
-// errors. The poses turn by φ about the new X_g, Φ = diag(Rot(φ), 1):
-//
-//     δX_g' = δX_g + (C' − C) δX_{g−1},             C = [I  J (p_g − p_{g−1})],
-//     δX_k' = Φ δX_k + A_k' (δX_g' − Φ δX_g),       A_k' = [I  J (p_k' − p_g')].
-void Ekf::bridge(std::size_t node, const Pose& motion) {
-  const std::vector<Pose> before = poses_;
-  const Pose& last = before[node - 1];
-  poses_[node] = compose(last, motion);
-  for (std::size_t k = node + 1; k < poses_.size(); ++k) {
-    poses_[k] = compose(poses_[node], between(before[node], before[k]));
-  }
-  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
-  turn.topLeftCorner<2, 2>() = rotation(poses_[node].theta - before[node].theta);
-  const Eigen::Matrix3d of_last = carried(poses_[node].position() - last.position()) -
-                                  carried(before[node].position() - last.position());
-  Eigen::MatrixXd P = P_.full();
-  const Eigen::Index g = 3 * block_of(node);
-  // T P by rows, then its transpose by rows again: P is symmetric.
-  for (int side = 0; side < 2; ++side) {
-    const Eigen::MatrixXd was = P.middleRows<3>(g);
-    if (node > 1) P.middleRows<3>(g) += of_last * P.middleRows<3>(g - 3);
-    const Eigen::MatrixXd shift = P.middleRows<3>(g) - turn * was;
-    for (std::size_t k = node + 1; k < poses_.size(); ++k) {
-      auto rows = P.middleRows<3>(3 * block_of(k));
-      rows = (turn * rows + carried(poses_[k].position() - poses_[node].position()) * shift).eval();
-    }
-    P.transposeInPlace();
-  }
-  P_ = {};
+filter::PackedCovariance packed(const Eigen::MatrixXd& P) {
+  filter::PackedCovariance packed;
   for (Eigen::Index row = 0; row < P.rows(); row += 3) {
     const Eigen::Matrix3d own = P.block<3, 3>(row, row);
     const Eigen::Matrix3d symmetric = 0.5 * (own + own.transpose());
     if (row == 0) {
-      P_.append(symmetric);
+      packed.append(symmetric);
     } else {
-      P_.append(P.block(row, 0, 3, row), symmetric);
+      packed.append(P.block(row, 0, 3, row), symmetric);
     }
   }
+  return packed;
+}
+
+}  // namespace
+
+Eigen::Matrix3d Ekf::spread_of(std::size_t k, std::size_t l) const {
+  if (part_of_[k] == 0 || part_of_[k] != part_of_[l]) return Eigen::Matrix3d::Zero();
+  const Floating& part = floating_[part_of_[k] - 1];
+  const auto from_first = [&](std::size_t i) {
+    return carried(poses_[i].position() - poses_[part.node].position());
+  };
+  return from_first(k) * part.spread * from_first(l).transpose();
+}
+
+void Ekf::settle(std::size_t part) {
+  if (part == 0) return;
+  Eigen::MatrixXd P = P_.full();
+  for (std::size_t k = 1; k < poses_.size(); ++k) {
+    for (std::size_t l = 1; l <= k; ++l) {
+      if (part_of_[k] != part || part_of_[l] != part) continue;
+      P.block<3, 3>(3 * block_of(k), 3 * block_of(l)) += spread_of(k, l);
+    }
+  }
+  P_ = packed(P);
+  for (std::size_t& of : part_of_) of = of == part ? 0 : of;
+}
+
+// Relative to each other they keep their errors: the covariances turn with the map.
+void Ekf::move(const Bridge& bridge, Eigen::MatrixXd& P) {
+  const Eigen::Matrix3d turn = planar_rotation(bridge.motion.theta);
+  for (std::size_t k = 1; k < poses_.size(); ++k) {
+    if (!bridge.moves[k]) continue;
+    poses_[k] = compose(bridge.motion, poses_[k]);
+    P.middleRows<3>(3 * block_of(k)) = (turn * P.middleRows<3>(3 * block_of(k))).eval();
+    P.middleCols<3>(3 * block_of(k)) = (P.middleCols<3>(3 * block_of(k)) * turn.transpose()).eval();
+  }
+}
+
+// One end of the loop, c, moves, and the other, p, does not. Of the part of c the poses relative to
+// c keep their errors, X_k = X_c ⊕ r_k, and X_c' = X_p ⊕ m with m the loop, from p to c. With
+// Φ = diag(Rot(φ), 1) of the turn φ, A_k' = [I  J (p_k' − p_c')], and ′ for what is after,
+//
+//     δX_k' = Φ δX_k − A_k' Φ δX_c + A_k' δX_c',     δX_c' = J_p δX_p + J_m δm.
+//
+// Other parts that hang on it move along, and stay uncorrelated with it.
+std::optional<LoopDecision> Ekf::bridge(const Bridge& bridge) {
+  Eigen::MatrixXd P = P_.full();
+  if (!bridge.loop) {
+    move(bridge, P);
+    P_ = packed(P);
+    return std::nullopt;
+  }
+  const LoopDecision decision = decide(innovate(*bridge.loop));
+  if (!decision.nis || !std::isfinite(*decision.nis)) return std::nullopt;
+  if (decision.fate != LoopFate::used) return decision;
+  const bool is_to = bridge.moves[bridge.loop->to];
+  const std::size_t c = is_to ? bridge.loop->to : bridge.loop->from;
+  const std::size_t p = is_to ? bridge.loop->from : bridge.loop->to;
+  const UncertainPose loop{bridge.loop->motion, bridge.loop->covariance()};
+  const UncertainPose m = is_to ? loop : inverse(loop);
+  move(bridge, P);
+  Eigen::Matrix3d J_p;
+  Eigen::Matrix3d J_m;
+  poses_[c] = compose(poses_[p], m.mean, &J_p, &J_m);
+  const auto is_of_c = [&](std::size_t k) { return bridge.moves[k] && part_of_[k] == part_of_[c]; };
+  const auto A = [&](std::size_t k) {
+    return carried(poses_[k].position() - poses_[c].position());
+  };
+  // T P by rows, then its transpose by rows again: P is symmetric.
+  for (int side = 0; side < 2; ++side) {
+    Eigen::MatrixXd end = -P.middleRows<3>(3 * block_of(c));
+    if (p > 0) end += J_p * P.middleRows<3>(3 * block_of(p));
+    for (std::size_t k = 1; k < poses_.size(); ++k) {
+      if (is_of_c(k)) P.middleRows<3>(3 * block_of(k)) += A(k) * end;
+    }
+    P.transposeInPlace();
+  }
+  const Eigen::Matrix3d of_loop = transport(J_m, m.covariance);
+  for (std::size_t k = 1; k < poses_.size(); ++k) {
+    for (std::size_t l = 1; l <= k; ++l) {
+      if (!is_of_c(k) || !is_of_c(l)) continue;
+      P.block<3, 3>(3 * block_of(k), 3 * block_of(l)) += A(k) * of_loop * A(l).transpose();
+    }
+  }
+  P_ = packed(P);
+  const std::size_t part = part_of_[c];
+  for (std::size_t& of : part_of_) of = of == part ? part_of_[p] : of;
+  return decision;
 }
 
 }  // namespace fathom

@@ -7,23 +7,10 @@
 
 #include <Eigen/Cholesky>
 
-#include "fathom/estimation/loop_rows.hpp"
 #include "fathom/estimation/precision.hpp"
 #include "fathom/geometry/covariance.hpp"
 
 namespace fathom {
-
-/// One loop against the present state: ν = z − h(x), h = ⊖X_from ⊕ X_to, and of a semi-definite one
-/// the rows that it measures.
-struct Ekf::Innovation {
-  std::size_t from = 0;
-  std::size_t to = 0;
-  Pose motion;
-  LoopRows rows;
-  Eigen::Vector3d nu;
-  Eigen::Matrix3d H_from;
-  Eigen::Matrix3d H_to;
-};
 
 /// Registrations of one update, stacked.
 struct Ekf::Stack {
@@ -55,6 +42,15 @@ void Ekf::add_keyframe(const RelativePose& step) {
   Eigen::Matrix3d J_motion;
   const Pose next = compose(poses_.back(), u.motion, &J_last, &J_motion);
   const Eigen::Matrix3d added = transport(J_motion, u.covariance());
+  if (is_open_hole(step)) {
+    const Eigen::Matrix3d last = *covariance(poses_.size() - 1);
+    floating_.push_back({poses_.size(), transport(J_last, last) + added});
+    P_.append(Eigen::Matrix3d::Zero());
+    poses_.push_back(next);
+    part_of_.push_back(floating_.size());
+    return;
+  }
+  part_of_.push_back(part_of_.back());
   if (poses_.size() == 1) {
     P_.append(added);
   } else {
@@ -95,17 +91,29 @@ Eigen::MatrixX3d Ekf::covariance_times_transposed(const Innovation& innovation) 
   return PHt;
 }
 
+// Each by itself.
+LoopDecision Ekf::decide(const Innovation& z) const {
+  Eigen::Matrix3d S = projected(std::span(&z, 1), covariance_times_transposed(z)) + z.rows.R;
+  if (part_of_[z.from] != part_of_[z.to]) {
+    S += transport(z.H_from, spread_of(z.from, z.from)) + transport(z.H_to, spread_of(z.to, z.to));
+  }
+  const double nis = normalised_innovation_squared(z.nu, S);
+  return {z.from, z.to, fate_of(!gate_.is_on() || gate_.passes(nis, z.rows.rank)), nis};
+}
+
 UpdateReport Ekf::close_loops(std::span<const RelativePose> registrations) {
+  for (const RelativePose& z : registrations) {
+    if (part_of_[z.from] == part_of_[z.to]) continue;
+    settle(part_of_[z.from]);
+    settle(part_of_[z.to]);
+  }
   UpdateReport report;
   std::vector<Innovation> accepted;
   for (const RelativePose& registration : registrations) {
     const Innovation innovation = innovate(registration.forward());
-    const Eigen::MatrixX3d PHt = covariance_times_transposed(innovation);
-    const Eigen::Matrix3d S = projected(std::span(&innovation, 1), PHt) + innovation.rows.R;
-    const double nis = normalised_innovation_squared(innovation.nu, S);
-    const bool passes = !gate_.is_on() || gate_.passes(nis, innovation.rows.rank);
-    report.loops.push_back({registration.from, registration.to, fate_of(passes), nis});
-    if (passes) accepted.push_back(innovation);
+    const LoopDecision decision = decide(innovation);
+    report.loops.push_back({registration.from, registration.to, decision.fate, decision.nis});
+    if (decision.fate == LoopFate::used) accepted.push_back(innovation);
   }
   if (!has_finite_nis(report) || !are_resolved(*this, registrations)) {
     lose_all(report, Outcome::numerical_failure);

@@ -8,7 +8,7 @@ namespace fathom {
 
 std::optional<Eigen::Matrix3d> Ekf::covariance(std::size_t k) const {
   if (k == 0) return Eigen::Matrix3d::Zero();
-  return P_.block(block_of(k), block_of(k));
+  return P_.block(block_of(k), block_of(k)) + spread_of(k, k);
 }
 
 std::optional<Eigen::MatrixXd> Ekf::joint_covariance(std::span<const std::size_t> keyframes) const {
@@ -17,8 +17,9 @@ std::optional<Eigen::MatrixXd> Ekf::joint_covariance(std::span<const std::size_t
   Eigen::MatrixXd joint(size, size);
   for (Eigen::Index i = 0; i < size; i += 3) {
     for (Eigen::Index j = i; j < size; j += 3) {
-      joint.block<3, 3>(i, j) = P_.block(block_of(free[static_cast<std::size_t>(i / 3)]),
-                                         block_of(free[static_cast<std::size_t>(j / 3)]));
+      const std::size_t a = free[static_cast<std::size_t>(i / 3)];
+      const std::size_t b = free[static_cast<std::size_t>(j / 3)];
+      joint.block<3, 3>(i, j) = P_.block(block_of(a), block_of(b)) + spread_of(a, b);
     }
   }
   return in_order_of(keyframes, joint);
@@ -37,7 +38,12 @@ std::optional<std::vector<UncertainPose>> Ekf::motions_to_newest() const {
       pair.A = P_.block(block_of(k), block_of(k));
       pair.cross = column.middleRows<3>(3 * block_of(k));
     }
-    motions.push_back(between(poses_[k], poses_[n], pair));
+    PairCovariance whole = pair;
+    if (part_of_[k] != part_of_[n]) {
+      whole.A += spread_of(k, k);
+      whole.B += spread_of(n, n);
+    }
+    motions.push_back(between(poses_[k], poses_[n], whole));
   }
   return motions;
 }

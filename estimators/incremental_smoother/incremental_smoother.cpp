@@ -89,9 +89,10 @@ UpdateReport IncrementalSmoother::update(std::span<const RelativePose> registrat
   return report;
 }
 
-void IncrementalSmoother::bridge(std::size_t node, const Pose& motion) {
+std::optional<LoopDecision> IncrementalSmoother::bridge(const Bridge& bridge) {
   marginals_.reset();
-  smoother_->bridge(node, motion);
+  smoother_->bridge(bridge);
+  return std::nullopt;
 }
 
 bool IncrementalSmoother::judge(std::span<const RelativePose> registrations, UpdateReport& report) {

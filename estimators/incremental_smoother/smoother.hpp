@@ -10,6 +10,7 @@
 #include "estimators/incremental_smoother/gradient.hpp"
 #include "fathom/estimation/estimator.hpp"
 #include "fathom/estimation/precision.hpp"
+#include "fathom/estimation/relative_estimator.hpp"
 #include "fathom/geometry/covariance.hpp"
 
 namespace fathom::incremental_smoother {
@@ -74,7 +75,7 @@ class Smoother {
   /// A keyframe at the newest one ⊕ the step. It enters the factor with the next registrations.
   void add_keyframe(const RelativePose& step);
   /// As of RelativeEstimator.
-  void bridge(std::size_t node, const Pose& motion);
+  void bridge(const Bridge& bridge);
   /// Minimises F with these registrations added; as it was before where that fails.
   SmootherResult add_registrations(std::span<const RelativePose> registrations);
 

@@ -6,9 +6,9 @@
 namespace fathom::incremental_smoother {
 
 // All that follows moves, which happens once a hole: the tree is made anew.
-void Smoother::bridge(std::size_t node, const Pose& motion) {
+void Smoother::bridge(const Bridge& bridge) {
   tree_.settle();
-  pose_graph::bridge(node, motion, problem_.edges, problem_.nodes);
+  pose_graph::bridge(bridge, problem_.edges, problem_.nodes);
   evaluate_all();
   rebuild();
   moved_in_ = ++revision_;

@@ -19,9 +19,7 @@ std::optional<std::vector<Eigen::Matrix3d>> Smoother::predicted_covariances(
 // The origin is exact, so the motion from it is all that is uncertain.
 std::optional<Eigen::Matrix3d> Smoother::newest_covariance() {
   if (!has_tree()) return std::nullopt;
-  Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
-  R.topLeftCorner<2, 2>() = rotation(problem_.nodes[0].theta);
-  return transport(R, motion_covariance(0));
+  return transport(planar_rotation(problem_.nodes[0].theta), motion_covariance(0));
 }
 
 // Of the motion from a keyframe to the newest: by the tree as far as it goes, then step by step.
@@ -37,8 +35,7 @@ Eigen::Matrix3d Smoother::motion_covariance(int from) {
     Eigen::Matrix3d T = Eigen::Matrix3d::Identity();
     T(0, 2) = -h[1];
     T(1, 2) = h[0];
-    Eigen::Matrix3d Q = Eigen::Matrix3d::Identity();
-    Q.topLeftCorner<2, 2>() = rotation(h[2]);
+    const Eigen::Matrix3d Q = planar_rotation(h[2]);
     motion = {{h[0], h[1], wrap_angle(h[2])}, tree_.variance(from, -T, last, Q)};
   }
   for (int k = std::max(from, last); k + 1 < problem_.size(); ++k) {

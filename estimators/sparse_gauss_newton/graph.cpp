@@ -43,8 +43,8 @@ void Graph::add_registration(const RelativePose& registration) {
   changed();
 }
 
-void Graph::bridge(std::size_t node, const Pose& motion) {
-  pose_graph::bridge(node, motion, edges_, nodes_);
+void Graph::bridge(const Bridge& bridge) {
+  pose_graph::bridge(bridge, edges_, nodes_);
   changed();
 }
 

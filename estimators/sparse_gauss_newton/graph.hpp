@@ -10,6 +10,7 @@
 #include "estimators/sparse_gauss_newton/robust.hpp"
 #include "fathom/estimation/precision.hpp"
 #include "fathom/estimation/registry.hpp"
+#include "fathom/estimation/relative_estimator.hpp"
 #include "fathom/geometry/covariance.hpp"
 
 namespace fathom::sparse_gauss_newton {
@@ -29,7 +30,7 @@ class Graph {
   void add_registration(const RelativePose& registration);
 
   /// As of RelativeEstimator.
-  void bridge(std::size_t node, const Pose& motion);
+  void bridge(const Bridge& bridge);
 
   std::size_t edge_count() const { return edges_.size(); }
   /// Takes the last edges back, down to `count` of them.

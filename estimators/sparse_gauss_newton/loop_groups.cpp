@@ -3,28 +3,14 @@
 #include <algorithm>
 #include <cstdlib>
 #include <map>
-#include <numeric>
 
 #include <Eigen/Core>
 #include <Eigen/LU>
 
+#include "fathom/core/disjoint_sets.hpp"
+
 namespace fathom::sparse_gauss_newton {
 namespace {
-
-class Sets {
- public:
-  explicit Sets(std::size_t count) : parent_(count) {
-    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
-  }
-  std::size_t find(std::size_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(std::size_t a, std::size_t b) { parent_[find(a)] = find(b); }
-
- private:
-  std::vector<std::size_t> parent_;
-};
 
 Eigen::Matrix3d lever(double dx, double dy) {
   Eigen::Matrix3d T = Eigen::Matrix3d::Identity();
@@ -46,18 +32,18 @@ std::vector<std::vector<std::size_t>> group_loops(
   const auto ends = [&](std::size_t e) { return std::minmax(edges[e].from, edges[e].to); };
   std::stable_sort(loops.begin(), loops.end(),
                    [&](std::size_t a, std::size_t b) { return ends(a).first < ends(b).first; });
-  Sets sets(loops.size());
+  DisjointSets sets(loops.size());
   for (std::size_t i = 0; i < loops.size(); ++i) {
     const std::pair<int, int> a = ends(loops[i]);
     for (std::size_t j = i + 1; j < loops.size(); ++j) {
       const std::pair<int, int> b = ends(loops[j]);
       if (b.first - a.first > reach) break;
-      if (std::abs(b.second - a.second) > reach || sets.find(i) == sets.find(j)) continue;
+      if (std::abs(b.second - a.second) > reach || sets.root(i) == sets.root(j)) continue;
       if (belong(edges[loops[i]], edges[loops[j]])) sets.join(i, j);
     }
   }
   std::map<std::size_t, std::vector<std::size_t>> by_root;
-  for (std::size_t i = 0; i < loops.size(); ++i) by_root[sets.find(i)].push_back(loops[i]);
+  for (std::size_t i = 0; i < loops.size(); ++i) by_root[sets.root(i)].push_back(loops[i]);
   std::vector<std::vector<std::size_t>> groups;
   groups.reserve(by_root.size());
   for (auto& [root, group] : by_root) groups.push_back(std::move(group));

@@ -154,8 +154,9 @@ UpdateReport SparseGaussNewton::finish(std::span<const Pose> start) {
   return report;
 }
 
-void SparseGaussNewton::bridge(std::size_t node, const Pose& motion) {
-  graph_->bridge(node, motion);
+std::optional<LoopDecision> SparseGaussNewton::bridge(const Bridge& bridge) {
+  graph_->bridge(bridge);
+  return std::nullopt;
 }
 
 std::optional<Eigen::Matrix3d> SparseGaussNewton::covariance(std::size_t k) const {

@@ -41,7 +41,7 @@ class SparseGaussNewton final : public RelativeEstimator {
   void add_keyframe(const RelativePose& step) override;
   UpdateReport close_loops(std::span<const RelativePose> registrations) override;
   UpdateReport finish(std::span<const Pose> start) override;
-  void bridge(std::size_t node, const Pose& motion) override;
+  std::optional<LoopDecision> bridge(const Bridge& bridge) override;
 
   /// From the Gauss-Newton Hessian at the estimate, the loss applied as a weight; a rejected
   /// registration has no part in it.

@@ -49,7 +49,7 @@ Outcome TrajectoryIekf::iterate(std::span<const StackedLoop> loops, Linearisatio
 }
 
 double TrajectoryIekf::cost(std::span<const StackedLoop> loops, const Iterate& at) const {
-  const Stretch stretch = stretch_at(motions_, earliest_from(loops), at.delta);
+  const Stretch stretch = stretch_at(tree_, motions_, first_of(loops), at.delta);
   return at.delta.dot(at.u) + misfit(loops, innovations(loops, stretch));
 }
 

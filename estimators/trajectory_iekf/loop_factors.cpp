@@ -31,6 +31,13 @@ void LoopFactors::clear() {
   columns_ = 0;
 }
 
+void LoopFactors::clear_rows(Eigen::Index row) {
+  for (filter::DowndateFactor& factor : factors_) {
+    const Eigen::Index own = row - factor.first_row;
+    if (own >= 0 && own < factor.V.rows()) factor.V.middleRows<3>(own).setZero();
+  }
+}
+
 Eigen::Index LoopFactors::first_correlated(Eigen::Index row) const {
   Eigen::Index first = row;
   for (const filter::DowndateFactor& factor : factors_) {

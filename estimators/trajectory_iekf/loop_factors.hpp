@@ -16,6 +16,8 @@ class LoopFactors {
  public:
   void add(filter::DowndateFactor factor);
   void clear();
+  /// Rows row … row + 2 of all factors become zero.
+  void clear_rows(Eigen::Index row);
 
   bool is_empty() const { return factors_.empty(); }
   std::span<const filter::DowndateFactor> factors() const { return factors_; }

@@ -32,6 +32,31 @@ void MotionCovariance::append(const Eigen::Matrix3d& Q) {
   later_.push_back(Q);
 }
 
+void MotionCovariance::replace(Eigen::Index i, const Eigen::Matrix3d& Q) {
+  factors_.clear_rows(3 * i);
+  if (i < dense_motions()) {
+    dense_.replace(i, Q);
+  } else {
+    later_[static_cast<std::size_t>(i - dense_motions())] = Q;
+  }
+}
+
+Eigen::MatrixX3d MotionCovariance::column(Eigen::Index i) const {
+  Eigen::MatrixX3d column = Eigen::MatrixX3d::Zero(size(), 3);
+  if (i < dense_motions()) {
+    column.topRows(dense_.size()) = dense_.column(i);
+  } else {
+    column.middleRows<3>(3 * i) = later_[static_cast<std::size_t>(i - dense_motions())];
+  }
+  for (const filter::DowndateFactor& factor : factors_.factors()) {
+    const Eigen::Index row = 3 * i - factor.first_row;
+    if (row < 0 || row >= factor.V.rows()) continue;
+    column.middleRows(factor.first_row, factor.V.rows()) -=
+        factor.V * factor.V.middleRows<3>(row).transpose();
+  }
+  return column;
+}
+
 void MotionCovariance::suffix_products(std::span<const Eigen::Index> starts,
                                        const Eigen::MatrixX3d& B,
                                        Eigen::Ref<Eigen::MatrixXd> product, int pass) const {

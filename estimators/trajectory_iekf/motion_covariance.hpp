@@ -34,6 +34,12 @@ class MotionCovariance {
   /// A new motion, independent of those before it.
   void append(const Eigen::Matrix3d& Q);
 
+  /// Motion i anew, uncorrelated with the others.
+  void replace(Eigen::Index i, const Eigen::Matrix3d& Q);
+
+  /// All rows of the columns of motion i: size()×3.
+  Eigen::MatrixX3d column(Eigen::Index i) const;
+
   /// P(:, …) B over the ends of B: as PackedCovariance::suffix_products. `pass` counts the calls
   /// for one update, from 1: after the first, `product` has its third columns from the call before,
   /// with the same third column of B.

@@ -11,10 +11,11 @@ namespace fathom {
 Eigen::MatrixX3d TrajectoryIekf::motions_at_origin() const {
   Eigen::MatrixX3d B(P_.size(), 3);
   const Eigen::Vector2d origin = poses_.front().position();
-  for (std::size_t k = 0; k < motions_.size(); ++k) {
-    const Eigen::Vector2d lever = origin - poses_[k + 1].position();
-    const auto row = static_cast<Eigen::Index>(3 * k);
-    B.block<2, 2>(row, 0) = rotation(-poses_[k].theta);
+  for (std::size_t i = 0; i < motions_.size(); ++i) {
+    const auto [from, to] = tree_.ends(i);
+    const Eigen::Vector2d lever = origin - poses_[to].position();
+    const auto row = static_cast<Eigen::Index>(3 * i);
+    B.block<2, 2>(row, 0) = rotation(-poses_[from].theta);
     B.block<2, 1>(row, 2).setZero();
     B.row(row + 2) << -lever.y(), lever.x(), 1.0;
   }
@@ -29,10 +30,54 @@ Eigen::Matrix3d TrajectoryIekf::from_origin_to(std::size_t keyframe) const {
   return to_keyframe;
 }
 
-// Σ B_iᵀ P_ij B_j over the motions up to k, taken from keyframe 0's place to keyframe k.
+// Rows of B for the motions on the way from keyframe 0, zero for others.
+Eigen::MatrixX3d TrajectoryIekf::on_way_to(std::size_t keyframe, const Eigen::MatrixX3d& B) const {
+  Eigen::MatrixX3d on_way = Eigen::MatrixX3d::Zero(B.rows(), 3);
+  for (const MotionTree::Part& part : tree_.way(0, keyframe, motions_.size())) {
+    const auto begin = static_cast<Eigen::Index>(3 * part.begin);
+    const auto rows = static_cast<Eigen::Index>(3 * (part.end - part.begin));
+    on_way.middleRows(begin, rows) = part.sign * B.middleRows(begin, rows);
+  }
+  return on_way;
+}
+
+// Of each keyframe Σ B_iᵀ P_ij B_j over the motions on the way from the root. Keyframe after
+// keyframe in depth-first order: of the pairs that one adds, those with others on its way come from
+// its columns of P.
+std::vector<Eigen::Matrix3d> TrajectoryIekf::congruences_from(std::size_t root,
+                                                              const Eigen::MatrixX3d& B) const {
+  std::vector<Eigen::Matrix3d> sums(poses_.size(), Eigen::Matrix3d::Zero());
+  std::vector<MotionTree::Visit> visit_of(poses_.size());
+  Eigen::MatrixX3d on_way = Eigen::MatrixX3d::Zero(B.rows(), 3);
+  std::vector<std::size_t> way{root};
+  for (const MotionTree::Visit& v : tree_.from(root, motions_.size())) {
+    visit_of[v.keyframe] = v;
+    const auto row = static_cast<Eigen::Index>(3 * v.motion);
+    if (way.back() != v.from) {
+      const MotionTree::Visit& last = visit_of[v.from];
+      for (; way.back() != last.from; way.pop_back()) {
+        on_way.middleRows<3>(static_cast<Eigen::Index>(3 * visit_of[way.back()].motion)).setZero();
+      }
+      const auto last_row = static_cast<Eigen::Index>(3 * last.motion);
+      on_way.middleRows<3>(last_row) = (last.is_along ? 1.0 : -1.0) * B.middleRows<3>(last_row);
+      way.push_back(v.from);
+    }
+    const Eigen::MatrixX3d column = P_.column(static_cast<Eigen::Index>(v.motion));
+    const Eigen::Matrix3d own = (v.is_along ? 1.0 : -1.0) * B.middleRows<3>(row);
+    const Eigen::Matrix3d cross = own.transpose() * (column.transpose() * on_way);
+    sums[v.keyframe] = sums[v.from] + transport(own.transpose(), column.middleRows<3>(row)) +
+                       cross + cross.transpose();
+  }
+  return sums;
+}
+
+// Σ B_iᵀ P_ij B_j over the motions on the way to k, taken from keyframe 0's place to keyframe k.
 void TrajectoryIekf::compute_covariances() const {
-  const auto sums = P_.congruences(motions_at_origin(), MotionCovariance::Over::motions_up_to);
   covariances_.assign(1, Eigen::Matrix3d::Zero());
+  auto sums = tree_.is_chain()
+                  ? P_.congruences(motions_at_origin(), MotionCovariance::Over::motions_up_to)
+                  : congruences_from(0, motions_at_origin());
+  if (!tree_.is_chain()) sums.erase(sums.begin());
   for (std::size_t k = 0; k < sums.size(); ++k) {
     covariances_.push_back(transport(from_origin_to(k + 1), sums[k]));
   }
@@ -43,7 +88,7 @@ std::optional<Eigen::Matrix3d> TrajectoryIekf::covariance(std::size_t k) const {
   return covariances_[k];
 }
 
-// J P Jᵀ, a product with P for each keyframe: B up to it, zero beyond.
+// J P Jᵀ, a product with P for each keyframe: B on the way to it, zero elsewhere.
 std::optional<Eigen::MatrixXd> TrajectoryIekf::joint_covariance(
     std::span<const std::size_t> keyframes) const {
   const std::vector<std::size_t> free = free_keyframes(keyframes);
@@ -53,14 +98,14 @@ std::optional<Eigen::MatrixXd> TrajectoryIekf::joint_covariance(
   const Eigen::Index start = 0;
   Eigen::MatrixXd product(B.rows(), 3);
   for (std::size_t j = 0; j < free.size(); ++j) {
-    Eigen::MatrixX3d B_j = B;
-    B_j.bottomRows(B.rows() - static_cast<Eigen::Index>(3 * free[j])).setZero();
-    P_.suffix_products(std::span(&start, 1), B_j, product);
+    P_.suffix_products(std::span(&start, 1), on_way_to(free[j], B), product);
     const Eigen::Matrix3d to_j = from_origin_to(free[j]);
     for (std::size_t i = 0; i <= j; ++i) {
-      const auto rows = static_cast<Eigen::Index>(3 * free[i]);
+      const Eigen::Index rows =
+          tree_.is_chain() ? static_cast<Eigen::Index>(3 * free[i]) : B.rows();
+      const Eigen::MatrixX3d B_i = on_way_to(free[i], B);
       joint.block<3, 3>(static_cast<Eigen::Index>(3 * i), static_cast<Eigen::Index>(3 * j)) =
-          from_origin_to(free[i]) * (B.topRows(rows).transpose() * product.topRows(rows)) *
+          from_origin_to(free[i]) * (B_i.topRows(rows).transpose() * product.topRows(rows)) *
           to_j.transpose();
     }
   }
@@ -69,10 +114,14 @@ std::optional<Eigen::MatrixXd> TrajectoryIekf::joint_covariance(
 
 // H P Hᵀ with the H of each stretch: all have the same A.
 std::optional<std::vector<UncertainPose>> TrajectoryIekf::motions_to_newest() const {
-  const Stretch stretch(0, motions_);
-  const auto sums = P_.congruences(stretch.A_transposed(), MotionCovariance::Over::motions_from);
+  if (motions_.empty()) return std::vector<UncertainPose>{};
+  const auto length = static_cast<Eigen::Index>(3 * motions_.size());
+  const Stretch stretch = stretch_at(tree_, motions_, 0, Eigen::VectorXd::Zero(length));
+  const auto sums = tree_.is_chain() ? P_.congruences(stretch.A_transposed(),
+                                                      MotionCovariance::Over::motions_from)
+                                     : congruences_from(motions_.size(), stretch.A_transposed());
   std::vector<UncertainPose> motions;
-  for (std::size_t k = 0; k < sums.size(); ++k) {
+  for (std::size_t k = 0; k < motions_.size(); ++k) {
     motions.push_back({stretch.h(k), transport(stretch.D(k).transpose(), sums[k])});
   }
   return motions;

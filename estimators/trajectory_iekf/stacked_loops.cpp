@@ -12,9 +12,12 @@ std::vector<StackedLoop> stacked(std::span<const RelativePose> loops) {
   return result;
 }
 
-std::size_t earliest_from(std::span<const StackedLoop> loops) {
-  std::size_t first = loops.front().from;
-  for (const StackedLoop& loop : loops) first = std::min(first, loop.from);
+std::size_t first_motion(std::span<const StackedLoop> loops, const MotionTree& tree,
+                         std::size_t motions) {
+  std::size_t first = motions;
+  for (const StackedLoop& loop : loops) {
+    first = std::min(first, tree.way(loop.from, motions, motions).front().begin);
+  }
   return first;
 }
 
@@ -57,13 +60,15 @@ double misfit(std::span<const StackedLoop> loops, const Eigen::VectorXd& nu) {
   return sum;
 }
 
-Stretch stretch_at(const std::vector<Pose>& motions, std::size_t first,
+Stretch stretch_at(const MotionTree& tree, const std::vector<Pose>& motions, std::size_t first,
                    const Eigen::VectorXd& delta) {
-  std::vector<Pose> at(motions.begin() + static_cast<std::ptrdiff_t>(first), motions.end());
-  for (std::size_t i = 0; i < at.size(); ++i) {
-    at[i] = moved(at[i], delta.segment<3>(static_cast<Eigen::Index>(3 * i)));
+  const std::size_t kept = tree.is_chain() ? 0 : first;
+  std::vector<Pose> at(motions.begin() + static_cast<std::ptrdiff_t>(first - kept), motions.end());
+  for (std::size_t i = kept; i < at.size(); ++i) {
+    at[i] = moved(at[i], delta.segment<3>(static_cast<Eigen::Index>(3 * (i - kept))));
   }
-  return {first, at};
+  if (tree.is_chain()) return {first, at};
+  return {tree, first, at};
 }
 
 }  // namespace fathom

@@ -23,13 +23,15 @@ struct StackedLoop {
 };
 
 std::vector<StackedLoop> stacked(std::span<const RelativePose> loops);
-std::size_t earliest_from(std::span<const StackedLoop> loops);
+/// The first motion on the way of any of them to the newest keyframe; of so many motions.
+std::size_t first_motion(std::span<const StackedLoop> loops, const MotionTree& tree,
+                         std::size_t motions);
 
 /// A motion corrected by its part of the state's correction, heading wrapped.
 Pose moved(const Pose& motion, const Eigen::Vector3d& delta);
 
 /// The motions from `first` on, corrected by δ.
-Stretch stretch_at(const std::vector<Pose>& motions, std::size_t first,
+Stretch stretch_at(const MotionTree& tree, const std::vector<Pose>& motions, std::size_t first,
                    const Eigen::VectorXd& delta);
 
 /// C (z − h(x)), headings wrapped.

@@ -8,55 +8,82 @@
 namespace fathom {
 
 Stretch::Stretch(std::size_t first, std::span<const Pose> motions)
-    : first_(first), poses_(compose_trajectory(Pose{}, motions)) {}
+    : first_(first), first_pose_(first), poses_(compose_trajectory(Pose{}, motions)) {}
 
-Pose Stretch::h(std::size_t from) const {
-  return between(poses_[from - first_], poses_.back());
+Stretch::Stretch(const MotionTree& tree, std::size_t first, std::span<const Pose> motions)
+    : first_(first), first_pose_(0), tree_(&tree), poses_(tree.poses(Pose{}, motions)) {}
+
+std::vector<MotionTree::Part> Stretch::way(std::size_t from) const {
+  if (tree_ == nullptr) return {{from, newest(), 1.0}};
+  return tree_->way(from, newest(), newest());
 }
 
-// A translation of motion i acts along the axes of keyframe i − 1; a turn swings the rest of the
-// stretch, from keyframe i to n, about keyframe i.
+Pose Stretch::h(std::size_t from) const {
+  return between(pose(from), poses_.back());
+}
+
+// A translation of a motion acts along the axes of the keyframe it leads from; a turn swings the
+// rest of the way, as far as keyframe n, about the one it leads to.
 Eigen::MatrixX3d Stretch::A_transposed() const {
-  const std::size_t n = poses_.size() - 1;
-  Eigen::MatrixX3d A(static_cast<Eigen::Index>(3 * n), 3);
-  for (std::size_t i = 1; i <= n; ++i) {
-    const auto row = static_cast<Eigen::Index>(3 * (i - 1));
-    const double c = std::cos(poses_[i - 1].theta);
-    const double s = std::sin(poses_[i - 1].theta);
+  const std::size_t n = newest();
+  Eigen::MatrixX3d A(static_cast<Eigen::Index>(3 * (n - first_)), 3);
+  for (std::size_t i = first_; i < n; ++i) {
+    const auto [from, to] = tree_ == nullptr ? MotionTree::Ends{i, i + 1} : tree_->ends(i);
+    const auto row = static_cast<Eigen::Index>(3 * (i - first_));
+    const double c = std::cos(pose(from).theta);
+    const double s = std::sin(pose(from).theta);
     A.row(row) << c, s, 0.0;
     A.row(row + 1) << -s, c, 0.0;
-    A.row(row + 2) << poses_[i].y - poses_[n].y, poses_[n].x - poses_[i].x, 1.0;
+    A.row(row + 2) << pose(to).y - poses_.back().y, poses_.back().x - pose(to).x, 1.0;
   }
   return A;
 }
 
 Eigen::Matrix3d Stretch::D(std::size_t from) const {
-  Eigen::Matrix3d D = Eigen::Matrix3d::Identity();
-  D.topLeftCorner<2, 2>() = rotation(poses_[from - first_].theta);
-  return D;
+  return planar_rotation(pose(from).theta);
 }
 
 Eigen::Matrix3Xd Stretch::H(std::size_t from) const {
-  Eigen::Matrix3Xd H = D(from).transpose() * A_transposed().transpose();
-  H.leftCols(static_cast<Eigen::Index>(3 * (from - first_))).setZero();
+  const Eigen::Matrix3Xd whole = D(from).transpose() * A_transposed().transpose();
+  Eigen::Matrix3Xd H = Eigen::Matrix3Xd::Zero(3, whole.cols());
+  for (const MotionTree::Part& part : way(from)) {
+    const auto begin = static_cast<Eigen::Index>(3 * (part.begin - first_));
+    const auto columns = static_cast<Eigen::Index>(3 * (part.end - part.begin));
+    H.middleCols(begin, columns) = part.sign * whole.middleCols(begin, columns);
+  }
   return H;
 }
 
 StackedJacobian::StackedJacobian(const Stretch& stretch, std::span<const Rows> registrations)
     : A_transposed_(stretch.A_transposed()) {
-  for (const Rows& z : registrations) starts_.push_back(static_cast<Eigen::Index>(z.from));
+  const Eigen::Index end = static_cast<Eigen::Index>(stretch.first()) + A_transposed_.rows() / 3;
+  std::vector<std::vector<MotionTree::Part>> ways;
+  for (const Rows& z : registrations) {
+    ways.push_back(stretch.way(z.from));
+    for (const MotionTree::Part& part : ways.back()) {
+      starts_.push_back(static_cast<Eigen::Index>(part.begin));
+      if (static_cast<Eigen::Index>(part.end) < end) {
+        starts_.push_back(static_cast<Eigen::Index>(part.end));
+      }
+    }
+  }
   std::sort(starts_.begin(), starts_.end());
   starts_.erase(std::unique(starts_.begin(), starts_.end()), starts_.end());
   E_ = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(3 * starts_.size()),
                              static_cast<Eigen::Index>(3 * registrations.size()));
-  Eigen::Index column = 0;
-  for (const Rows& z : registrations) {
-    const auto start =
-        std::lower_bound(starts_.begin(), starts_.end(), static_cast<Eigen::Index>(z.from));
-    auto D = E_.block<3, 3>(3 * (start - starts_.begin()), column);
-    D = stretch.D(z.from);
+  for (std::size_t j = 0; j < registrations.size(); ++j) {
+    const Rows& z = registrations[j];
+    Eigen::Matrix3d D = stretch.D(z.from);
     if (z.C != nullptr) D = (D * z.C->transpose()).eval();
-    column += 3;
+    const auto block_of = [&](std::size_t motion) {
+      const auto start =
+          std::lower_bound(starts_.begin(), starts_.end(), static_cast<Eigen::Index>(motion));
+      return E_.block<3, 3>(3 * (start - starts_.begin()), static_cast<Eigen::Index>(3 * j));
+    };
+    for (const MotionTree::Part& part : ways[j]) {
+      block_of(part.begin) += part.sign * D;
+      if (static_cast<Eigen::Index>(part.end) < end) block_of(part.end) -= part.sign * D;
+    }
   }
 }
 

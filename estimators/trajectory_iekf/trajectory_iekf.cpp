@@ -37,7 +37,7 @@ void TrajectoryIekf::add_keyframe(const RelativePose& step) {
 TrajectoryIekf::Linearisation TrajectoryIekf::linearise(std::span<const StackedLoop> loops,
                                                         const Eigen::VectorXd& delta,
                                                         int iteration) {
-  const Stretch stretch = stretch_at(motions_, earliest_from(loops), delta);
+  const Stretch stretch = stretch_at(tree_, motions_, first_of(loops), delta);
   StackedJacobian H = jacobian(loops, stretch);
   auto sums = sums_.shaped(delta.size(), static_cast<Eigen::Index>(3 * H.starts().size()));
   // A turn of a motion turns the newest keyframe as much, wherever H is taken: the third column of
@@ -61,8 +61,9 @@ UpdateReport TrajectoryIekf::close_loops(std::span<const RelativePose> registrat
   if (registrations.empty()) return report;
   std::vector<StackedLoop> loops = stacked(registrations);
   Linearisation prior = linearise_prior(loops);
-  for (const RelativePose& z : registrations)
+  for (const RelativePose& z : registrations) {
     report.loops.push_back({z.from, z.to, LoopFate::used, std::nullopt});
+  }
   const std::vector<bool> passes = gate_loops(prior, loops, report);
   if (!has_finite_nis(report) || !are_resolved(*this, registrations)) {
     lose_all(report, Outcome::numerical_failure);
@@ -80,7 +81,7 @@ UpdateReport TrajectoryIekf::close_loops(std::span<const RelativePose> registrat
 }
 
 TrajectoryIekf::Linearisation TrajectoryIekf::linearise_prior(std::span<const StackedLoop> loops) {
-  const auto length = static_cast<Eigen::Index>(3 * (motions_.size() - earliest_from(loops)));
+  const auto length = static_cast<Eigen::Index>(3 * (motions_.size() - first_of(loops)));
   return linearise(loops, Eigen::VectorXd::Zero(length), 1);
 }
 
@@ -88,9 +89,10 @@ TrajectoryIekf::Linearisation TrajectoryIekf::linearise_prior(std::span<const St
 // as they begin with the same motion the products with P are there already.
 TrajectoryIekf::Linearisation TrajectoryIekf::narrowed(const Linearisation& prior,
                                                        std::span<const StackedLoop> loops) {
-  const std::size_t first = earliest_from(loops);
+  const std::size_t first = first_of(loops);
   if (static_cast<Eigen::Index>(first) != prior.H.starts().front()) return linearise_prior(loops);
-  const Stretch stretch(first, std::span(motions_).subspan(first));
+  const auto length = static_cast<Eigen::Index>(3 * (motions_.size() - first));
+  const Stretch stretch = stretch_at(tree_, motions_, first, Eigen::VectorXd::Zero(length));
   StackedJacobian H = jacobian(loops, stretch);
   auto sums = sums_.matrix();
   Eigen::Index column = 0;
@@ -126,14 +128,38 @@ std::vector<bool> TrajectoryIekf::gate_loops(const Linearisation& prior,
   return passes;
 }
 
-// The motion over a hole is one of the state, and correlated with no other.
-void TrajectoryIekf::bridge(std::size_t node, const Pose& motion) {
-  motions_[node - 1] = motion;
+// The motion over a hole, which is correlated with no other, becomes that of the loop between its
+// ends: what is known of it stays right however the motions between them are corrected.
+std::optional<LoopDecision> TrajectoryIekf::bridge(const Bridge& bridge) {
+  if (!bridge.loop) {
+    const auto moved_pose = [&](std::size_t k) {
+      return bridge.moves[k] ? compose(bridge.motion, poses_[k]) : poses_[k];
+    };
+    motions_[bridge.node - 1] = between(moved_pose(bridge.node - 1), moved_pose(bridge.node));
+    recompose();
+    return std::nullopt;
+  }
+  const RelativePose& loop = *bridge.loop;
+  const std::vector<StackedLoop> loops = stacked(std::span(&loop, 1));
+  UpdateReport report;
+  report.loops.push_back({loop.from, loop.to, LoopFate::used, std::nullopt});
+  gate_loops(linearise_prior(loops), loops, report);
+  const LoopDecision decision = report.loops.front();
+  if (!has_finite_nis(report)) return std::nullopt;
+  if (decision.fate != LoopFate::used) return decision;
+  tree_.set(bridge.node - 1, {loop.from, loop.to});
+  motions_[bridge.node - 1] = loop.motion;
+  P_.replace(static_cast<Eigen::Index>(bridge.node - 1), loop.covariance());
   recompose();
+  return decision;
+}
+
+std::size_t TrajectoryIekf::first_of(std::span<const StackedLoop> loops) const {
+  return first_motion(loops, tree_, motions_.size());
 }
 
 void TrajectoryIekf::recompose() {
-  poses_ = compose_trajectory(poses_.front(), motions_);
+  poses_ = tree_.poses(poses_.front(), motions_);
   covariances_.clear();
 }
 

@@ -40,7 +40,7 @@ class TrajectoryIekf final : public RelativeEstimator {
   /// One iterated update with all registrations stacked (Bar-Shalom, Li, Kirubarajan).
   UpdateReport close_loops(std::span<const RelativePose> registrations) override;
 
-  void bridge(std::size_t node, const Pose& motion) override;
+  std::optional<LoopDecision> bridge(const Bridge& bridge) override;
 
   std::optional<Eigen::Matrix3d> covariance(std::size_t k) const override;
   std::optional<Eigen::MatrixXd> joint_covariance(
@@ -68,14 +68,18 @@ class TrajectoryIekf final : public RelativeEstimator {
   double cost(std::span<const StackedLoop> loops, const Iterate& at) const;
   bool step_back(std::span<const StackedLoop> loops, const Iterate& from, Iterate& to) const;
   bool apply(const Linearisation& last, const Iterate& end, int iterations);
+  std::size_t first_of(std::span<const StackedLoop> loops) const;
   void recompose();
   void compute_covariances() const;
+  std::vector<Eigen::Matrix3d> congruences_from(std::size_t root, const Eigen::MatrixX3d& B) const;
+  Eigen::MatrixX3d on_way_to(std::size_t keyframe, const Eigen::MatrixX3d& B) const;
   Eigen::MatrixX3d motions_at_origin() const;
   Eigen::Matrix3d from_origin_to(std::size_t keyframe) const;
 
   TrajectoryIekfOptions options_;
   Gate gate_;
   std::vector<Pose> motions_;  ///< x_k of keyframe k stands at k − 1
+  MotionTree tree_;            ///< what they lead between
   std::vector<Pose> poses_;    ///< their composition
   MotionCovariance P_;
   // Of the present linearisation; there is one at a time. The rows are those of the stretch.

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "fathom/core/text.hpp"
+#include "fathom/evaluation/metrics.hpp"
 #include "study_options.hpp"
 
 namespace fathom {
@@ -63,12 +64,14 @@ void check_name(const StudyAxis& axis, const Setting& given, const std::string& 
   const std::string& name = axis.name;
   check_text(name, given, prefix + "name");
   // The other columns of runs.csv and summary.csv.
-  const std::vector<std::string> columns{"cell",    "association", "survey", "trial",  "estimator",
-                                         "outcome", "fault",       "jobs",   "metric", "surveys",
-                                         "n",       "failures",    "mean",   "sd",     "median",
-                                         "low_95",  "high_95"};
+  const std::vector<std::string> columns{
+      "cell",   "association", "survey",  "trial",   "estimator", "outcome", "fault",
+      "jobs",   "metric",      "surveys", "n",       "failures",  "mean",    "sd",
+      "median", "low_95",      "high_95", "machine", "alignment"};
   const bool is_that_column = name == "association" && axis.key == "association.mode";
-  if (is_that_column || std::ranges::find(columns, name) == columns.end()) return;
+  const bool is_column =
+      std::ranges::find(columns, name) != columns.end() || find_metric(name).has_value();
+  if (is_that_column || !is_column) return;
   refuse(given, prefix + "name: '" + name +
                     "' is another column of the tables; give the axis another name");
 }

@@ -19,9 +19,16 @@ RelativePose step_to_keyframe_0(const StartPose& start) {
 
 }  // namespace
 
+bool is_open_hole(const RelativePose& step) {
+  constexpr double kLinearTurnRad = 0.5;
+  return step.is_hole && step.covariance()(2, 2) > kLinearTurnRad * kLinearTurnRad;
+}
+
 AnchoredEstimator::AnchoredEstimator(const EstimatorSetup& setup, const MakeRelative& make)
     : relative_(make(setup)), node_0_(setup.start.pose), is_batch_(setup.mode == SolveMode::batch) {
+  stretches_.add_node(false);
   if (setup.start.is_fixed()) return;
+  stretches_.add_node(false);
   shift_ = 1;
   relative_->add_keyframe(step_to_keyframe_0(setup.start));
 }
@@ -47,29 +54,64 @@ bool AnchoredEstimator::says_something(const AbsolutePose& z) const {
 }
 
 void AnchoredEstimator::add_keyframe(const RelativePose& step) {
-  if (step.is_hole && !is_batch_) open_holes_.push_back(relative_->size());
+  if (!is_batch_) {
+    if (step.is_hole) holes_.push_back(relative_->size());
+    stretches_.add_node(is_open_hole(step));
+  }
   relative_->add_keyframe(shifted(step));
 }
 
-// Of several holes that a loop crosses the last one is bridged: it alone is as the loop has it.
-void AnchoredEstimator::bridge_by(const RelativePose& loop) {
-  const auto hole = std::find_if(open_holes_.rbegin(), open_holes_.rend(), [&](std::size_t node) {
-    return loop.from < node && node <= loop.to;
-  });
-  if (hole == open_holes_.rend()) return;
-  const std::size_t node = *hole;
-  open_holes_.erase(std::next(hole).base());
-  if (!is_finite(loop.motion) || !is_positive_definite(loop.information)) return;
-  const Pose end = compose(relative_->pose(loop.from), loop.motion);
-  const Pose moved = compose(end, between(relative_->pose(loop.to), relative_->pose(node)));
-  relative_->bridge(node, between(relative_->pose(node - 1), moved));
+Bridge AnchoredEstimator::bridge_of(std::size_t hole, const RelativePose& loop) const {
+  Bridge bridge{hole, std::nullopt, {}, stretches_.held_by(hole), holes_};
+  const Pose from = relative_->pose(loop.from);
+  const Pose to = relative_->pose(loop.to);
+  if (is_positive_definite(loop.information)) {
+    bridge.loop = loop;
+    bridge.motion = bridge.moves[loop.to]
+                        ? compose(compose(from, loop.motion), inverse(to))
+                        : compose(compose(to, inverse(loop.motion)), inverse(from));
+  } else if (loop.information.topLeftCorner<2, 2>().isZero(0.0)) {
+    // A heading: the turn about the keyframe behind the hole.
+    const Pose about = relative_->pose(hole);
+    const double turn = from.theta + loop.motion.theta - to.theta;
+    const Pose turned{about.x, about.y, about.theta + turn};
+    bridge.motion = compose(turned, inverse(about));
+  }
+  return bridge;
+}
+
+// Of several holes that a loop crosses the last one is bridged. A hole that a heading or a fix is
+// measured behind is open no more: that measurement is the first knowledge of it.
+std::optional<LoopDecision> AnchoredEstimator::bridge_by(const RelativePose& loop) {
+  const auto hole = stretches_.open_hole(loop.from, loop.to);
+  if (!hole || !is_finite(loop.motion)) return std::nullopt;
+  const Bridge bridge = bridge_of(*hole, loop);
+  const auto decision = relative_->bridge(bridge);
+  if (!bridge.loop) {
+    stretches_.keep(loop.from, loop.to);
+  } else if (!decision || decision->fate == LoopFate::used) {
+    stretches_.replace(*hole, loop.from, loop.to);
+  }
+  return decision;
 }
 
 UpdateReport AnchoredEstimator::close_loops(std::span<const RelativePose> loops) {
-  for (std::size_t j = 0; j < loops.size() && !open_holes_.empty(); ++j) {
-    bridge_by(loops[j].forward());
+  if (holes_.empty() || !stretches_.has_open()) return relative_->close_loops(loops);
+  std::vector<std::optional<LoopDecision>> bridged;
+  std::vector<RelativePose> left;
+  for (const RelativePose& loop : loops) {
+    const std::optional<LoopDecision> decision = bridge_by(loop.forward());
+    if (!decision) left.push_back(loop);
+    bridged.push_back(decision);
   }
-  return relative_->close_loops(loops);
+  UpdateReport report = left.empty() ? UpdateReport{} : relative_->close_loops(left);
+  const std::vector<LoopDecision> decisions = std::exchange(report.loops, {});
+  std::size_t next = 0;
+  for (std::size_t j = 0; j < loops.size(); ++j) {
+    const LoopDecision& decision = bridged[j] ? *bridged[j] : decisions.at(next++);
+    report.loops.push_back({loops[j].from, loops[j].to, decision.fate, decision.nis});
+  }
+  return report;
 }
 
 UpdateReport AnchoredEstimator::update(const Measurements& measurements) {

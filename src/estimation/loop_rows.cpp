@@ -13,8 +13,7 @@ LoopRows loop_rows(const RelativePose& forward) {
     return {Eigen::Matrix3d::Identity(), forward.covariance(), 3};
   }
   const InformationRows measured = rows_of(forward.information);
-  Eigen::Matrix3d D = Eigen::Matrix3d::Identity();
-  D.topLeftCorner<2, 2>() = rotation(forward.motion.theta);
+  const Eigen::Matrix3d D = planar_rotation(forward.motion.theta);
   return {measured.rows * D.transpose(), measured.variances.asDiagonal(), measured.rank};
 }
 

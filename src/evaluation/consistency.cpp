@@ -20,9 +20,7 @@ double mean(const std::vector<double>& values) {
 
 // The covariance in world axes that the alignment turned by theta.
 Eigen::Matrix3d turned(const Eigen::Matrix3d& covariance, double theta_rad) {
-  Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
-  R.topLeftCorner<2, 2>() = rotation(theta_rad);
-  return transport(R, covariance);
+  return transport(planar_rotation(theta_rad), covariance);
 }
 
 Eigen::Vector3d pose_error(const Pose& estimate, const Pose& reference) {

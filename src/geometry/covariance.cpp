@@ -78,10 +78,8 @@ UncertainPose part_of(const UncertainPose& motion, double from_share, double to_
   };
   const Pose start = after(from_share);
   // The covariance is in the axes of the motion's start; the part's is in those of its own.
-  Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
-  R.topLeftCorner<2, 2>() = rotation(-start.theta);
   return {between(start, after(to_share)),
-          transport(R, (to_share - from_share) * motion.covariance)};
+          transport(planar_rotation(-start.theta), (to_share - from_share) * motion.covariance)};
 }
 
 UncertainPose compose_chain(std::span<const UncertainPose> motions) {

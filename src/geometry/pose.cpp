@@ -21,6 +21,12 @@ Eigen::Matrix2d rotation(double theta_rad) {
   return R;
 }
 
+Eigen::Matrix3d planar_rotation(double theta_rad) {
+  Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
+  R.topLeftCorner<2, 2>() = rotation(theta_rad);
+  return R;
+}
+
 bool is_finite(const Pose& pose) {
   return std::isfinite(pose.x) && std::isfinite(pose.y) && std::isfinite(pose.theta);
 }

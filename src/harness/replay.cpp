@@ -107,6 +107,13 @@ void lose_used(Decisions& decisions) {
   }
 }
 
+// Over a hole dead reckoning is a guess, from which a solve may end anywhere.
+std::vector<Pose> guess_over_holes(const MeasurementLog& log, const ReplayOptions& options) {
+  const bool is_needed = options.mode == SolveMode::batch && options.start.empty() &&
+                         (log.hole_count() > 0 || log.start().is_free);
+  return is_needed ? connected_guess(log) : std::vector<Pose>{};
+}
+
 void give_keyframes(const MeasurementLog& log, Estimator& estimator, const ReplayOptions& options,
                     Replay& result) {
   NewestCovariances newest(options, result);
@@ -121,13 +128,8 @@ void give_keyframes(const MeasurementLog& log, Estimator& estimator, const Repla
     if (options.progress) options.progress(k + 1, log.size());
   }
   if (options.mode == SolveMode::incremental) return;
-  // Over a hole dead reckoning is a guess, from which a solve may end anywhere.
-  std::vector<Pose> guess;
-  if (options.start.empty() && (log.hole_count() > 0 || log.start().is_free)) {
-    guess = connected_guess(log);
-  }
   const CallTimer timer(result);
-  const UpdateReport report = estimator.finish(guess.empty() ? options.start : guess);
+  const UpdateReport report = estimator.finish(options.start);
   const double solve_ms = timer.stop();
   note(report, solve_ms, result);
   if (is_done(report.outcome)) return;
@@ -195,8 +197,12 @@ void note_fault(const std::string& fault, Replay& result) {
 }  // namespace
 
 Replay replay(const MeasurementLog& log, const EstimatorEntry& entry, const EstimatorValues& values,
-              const ReplayOptions& options) {
+              const ReplayOptions& asked) {
+  const std::vector<Pose> guess = guess_over_holes(log, asked);
+  ReplayOptions options = asked;
+  if (!guess.empty()) options.start = guess;
   Replay result;
+  result.chi2_initial = chi2(log, options.start.empty() ? log.odometry() : options.start);
   // Not to be counted as the estimator's.
   result.loops.reserve(log.registration_count());
   result.absolute.reserve(log.absolute_count());

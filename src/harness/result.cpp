@@ -6,7 +6,6 @@
 #include "fathom/estimation/loop_rows.hpp"
 #include "fathom/geometry/covariance.hpp"
 #include "fathom/harness/recording_facts.hpp"
-#include "fathom/measurements/connected_guess.hpp"
 
 namespace fathom {
 namespace {
@@ -53,20 +52,11 @@ std::vector<JudgedAbsolute> judged_absolute(const Recording& recording, const Re
   return judged;
 }
 
-// F where the solve begins.
-double chi2_initial(const MeasurementLog& log, const ReplayOptions& options) {
-  if (!options.start.empty()) return chi2(log, options.start);
-  const bool is_guessed =
-      options.mode == SolveMode::batch && (log.hole_count() > 0 || log.start().is_free);
-  return chi2(log, is_guessed ? connected_guess(log) : log.odometry());
-}
-
-ReplayFacts replay_facts(const Recording& recording, const Replay& replay,
-                         const ReplayOptions& options) {
+ReplayFacts replay_facts(const Recording& recording, const Replay& replay) {
   ReplayFacts facts;
   facts.loops = judged_loops(recording, replay);
   facts.absolute = judged_absolute(recording, replay);
-  facts.chi2_initial = chi2_initial(recording.log, options);
+  facts.chi2_initial = replay.chi2_initial;
   facts.chi2_used = replay.cost_used;
   facts.absolute_chi2_used = replay.absolute_cost_used;
   facts.iterations = replay.iterations;
@@ -98,9 +88,9 @@ MotionOptions motion_options(const MetricOptions& options) {
 }
 
 // What is known of an estimate of the keyframes without whose it is.
-RunFacts facts_of(const Recording& recording, const std::vector<Pose>& estimate,
-                  const MetricOptions& options) {
-  RunFacts facts{.log = recording.log, .estimate = estimate, .options = options};
+RunFacts facts_of(const Recording& recording, const MeasurementLog& log,
+                  const std::vector<Pose>& estimate, const MetricOptions& options) {
+  RunFacts facts{.log = log, .estimate = estimate, .options = options};
   if (recording.ground_truth) facts.ground_truth = *recording.ground_truth;
   return facts;
 }
@@ -122,6 +112,16 @@ std::vector<JudgedMotions> dead_reckoned_motions(const Recording& recording,
     }
   }
   return groups;
+}
+
+std::vector<Eigen::Matrix3d> reckoned_covariances(const MeasurementLog& log, UncertainPose pose) {
+  std::vector<Eigen::Matrix3d> covariances{pose.covariance};
+  for (std::size_t k = 1; k < log.size(); ++k) {
+    const RelativePose step = log.arrival(k).step.forward();
+    pose = compose(pose, UncertainPose{step.motion, step.covariance()});
+    covariances.push_back(pose.covariance);
+  }
+  return covariances;
 }
 
 }  // namespace
@@ -166,7 +166,7 @@ Result evaluate(const Recording& recording, const EstimatorConfiguration& estima
   }
   result.replay = replay(recording.log, registry.find(estimator.type), estimator.values, asked);
   const std::vector<Pose>& estimate = result.replay.trajectory;
-  RunFacts facts = facts_of(recording, estimate, judging.metrics);
+  RunFacts facts = facts_of(recording, recording.log, estimate, judging.metrics);
   if (!recording.frames.empty()) {
     facts.registrations_tried = recording.registrations_tried;
     facts.registrations_left_out = recording.registrations_left_out;
@@ -176,27 +176,13 @@ Result evaluate(const Recording& recording, const EstimatorConfiguration& estima
   facts.chi2_optimum = least_known(shared.chi2_optimum, recording.log, estimate, registry);
   if (result.replay.covariances) facts.covariances = *result.replay.covariances;
   facts.motions = result.replay.motions;
-  facts.replay = replay_facts(recording, result.replay, options);
+  facts.replay = replay_facts(recording, result.replay);
   JudgedRun judged = judge(std::move(facts));
   result.metrics = metric_values(judged);
   result.accuracy = judged.accuracy;
   result.consistency = std::move(judged.consistency);
   return result;
 }
-
-namespace {
-
-std::vector<Eigen::Matrix3d> reckoned_covariances(const MeasurementLog& log, UncertainPose pose) {
-  std::vector<Eigen::Matrix3d> covariances{pose.covariance};
-  for (std::size_t k = 1; k < log.size(); ++k) {
-    const RelativePose step = log.arrival(k).step.forward();
-    pose = compose(pose, UncertainPose{step.motion, step.covariance()});
-    covariances.push_back(pose.covariance);
-  }
-  return covariances;
-}
-
-}  // namespace
 
 DeadReckoning judged_dead_reckoning(const Recording& recording, const MetricOptions& options) {
   DeadReckoning result;
@@ -206,12 +192,9 @@ DeadReckoning judged_dead_reckoning(const Recording& recording, const MetricOpti
   result.covariances = reckoned_covariances(log, start);
   const std::vector<Pose> odometry = log.odometry();
   // Where it begins it does not know itself: it is judged from there on.
-  Recording from_there;
-  if (!log.start().is_fixed()) {
-    from_there = recording;
-    from_there.log.set_start(log.origin());
-  }
-  RunFacts facts = facts_of(log.start().is_fixed() ? recording : from_there, odometry, options);
+  std::optional<MeasurementLog> from_there;
+  if (!log.start().is_fixed()) from_there.emplace(log).set_start(log.origin());
+  RunFacts facts = facts_of(recording, from_there ? *from_there : log, odometry, options);
   const std::vector<Eigen::Matrix3d> from_held = reckoned_covariances(log, {log.origin()});
   facts.covariances = from_held;
   const std::vector<JudgedMotions> motions = dead_reckoned_motions(recording, options);

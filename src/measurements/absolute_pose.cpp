@@ -5,16 +5,6 @@
 #include <Eigen/LU>
 
 namespace fathom {
-namespace {
-
-Eigen::Matrix3d planar_rotation(double theta_rad) {
-  Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
-  R.topLeftCorner<2, 2>() = rotation(theta_rad);
-  return R;
-}
-
-}  // namespace
-
 AbsolutePose AbsolutePose::heading(std::size_t keyframe, double heading_rad, double sigma_rad) {
   AbsolutePose measurement{keyframe, {0.0, 0.0, wrap_angle(heading_rad)}};
   measurement.information(2, 2) = 1.0 / (sigma_rad * sigma_rad);

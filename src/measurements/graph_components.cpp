@@ -2,36 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <set>
 
+#include "fathom/core/disjoint_sets.hpp"
 #include "fathom/geometry/covariance.hpp"
 
 namespace fathom {
 namespace {
 
 using KeyframeOf = std::map<std::int64_t, std::size_t>;
-
-class Sets {
- public:
-  explicit Sets(std::size_t count) : parent_(count) {
-    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
-  }
-
-  /// The lower one of two roots is that of both, so a root is the first of its set.
-  void join(std::size_t a, std::size_t b) {
-    const auto [low, high] = std::minmax({root(a), root(b)});
-    parent_[high] = low;
-  }
-
-  std::size_t root(std::size_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-
- private:
-  std::vector<std::size_t> parent_;
-};
 
 // A pose of every keyframe by a chain of edges from the first of its set, which stands at a heading
 // that no axis of a measurement is parallel to by chance.
@@ -73,9 +52,7 @@ struct Held {
 };
 
 Held held(const G2oFile::Prior& prior, const Pose& at) {
-  Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
-  R.topLeftCorner<2, 2>() = rotation(prior.pose.theta);
-  return {at.position(), transport(R, prior.information)};
+  return {at.position(), transport(planar_rotation(prior.pose.theta), prior.information)};
 }
 
 // Whether priors leave no motion of a rigid set open. A turn by φ about their middle c moves a pose
@@ -106,7 +83,8 @@ bool do_hold(const std::vector<Held>& priors) {
 }
 
 // The sets that a fixed vertex or their priors hold, by their roots.
-std::set<std::size_t> held_sets(const G2oFile& file, const KeyframeOf& keyframe_of, Sets& sets) {
+std::set<std::size_t> held_sets(const G2oFile& file, const KeyframeOf& keyframe_of,
+                                DisjointSets& sets) {
   std::set<std::size_t> held_roots;
   if (file.is_start_fixed()) held_roots.insert(sets.root(0));
   if (file.priors.empty()) return held_roots;
@@ -138,7 +116,7 @@ std::string listed(const Items& items, const char* between, Text text) {
 
 GraphComponents components_of(const G2oFile& file) {
   const KeyframeOf keyframe_of = file.keyframes();
-  Sets sets(keyframe_of.size());
+  DisjointSets sets(keyframe_of.size());
   for (const G2oFile::Edge& edge : file.edges) {
     sets.join(keyframe_of.at(edge.from), keyframe_of.at(edge.to));
   }

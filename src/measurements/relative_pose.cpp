@@ -3,17 +3,6 @@
 #include "fathom/geometry/covariance.hpp"
 
 namespace fathom {
-namespace {
-
-// Rot(θ) on (x, y), identity on the heading.
-Eigen::Matrix3d planar_rotation(double theta_rad) {
-  Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
-  R.topLeftCorner<2, 2>() = rotation(theta_rad);
-  return R;
-}
-
-}  // namespace
-
 RelativePose RelativePose::from_covariance(std::size_t from, std::size_t to, const Pose& motion,
                                            const Eigen::Matrix3d& covariance) {
   const Eigen::Matrix3d R = planar_rotation(motion.theta);

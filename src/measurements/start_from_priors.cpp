@@ -17,9 +17,7 @@ namespace {
 using Priors = std::vector<AbsolutePose>;
 
 Eigen::Matrix3d in_world_axes(const AbsolutePose& z) {
-  Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
-  R.topLeftCorner<2, 2>() = rotation(z.pose.theta);
-  return transport(R, z.information);
+  return transport(planar_rotation(z.pose.theta), z.information);
 }
 
 // Measurements that add up: the residual is linear in the pose but for the wrap of its heading.

@@ -139,6 +139,7 @@ TEST(ConfigureStudy, ATextForTheTablesIsShortAndNoOtherColumn) {
                                         "the tables; give the axis another name"));
   EXPECT_THAT(named("estimator"), HasSubstr("is another column"));
   EXPECT_THAT(named("association"), HasSubstr("is another column"));
+  EXPECT_THAT(named("keyframes"), HasSubstr("is another column"));
   EXPECT_NO_THROW(
       study_of("sweep: [{key: association.mode, name: association, values: [own, shared]}]\n"));
   EXPECT_THAT(named("\"a\\nb\""), HasSubstr("sweep.0.name: a line break"));

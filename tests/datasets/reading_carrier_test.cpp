@@ -8,6 +8,7 @@
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 
+#include "fathom/core/random.hpp"
 #include "support/input_error.hpp"
 #include "support/planar.hpp"
 
@@ -200,6 +201,39 @@ TEST(StartOf, FirstFixAndFirstHeadingSayWhereItIs) {
   const double heading_variance = 1e-4 + frames[1].motion.covariance(2, 2);
   EXPECT_NEAR(start.covariance(2, 2), kStartWidth * kStartWidth * heading_variance, 1e-9);
   EXPECT_GT(start.covariance(0, 0), 1e4);
+}
+
+// Of the first fix, or of four among ten, jumps do not say where the survey begins; nor does a
+// heading that is off.
+TEST(StartOf, AJumpIsNoStart) {
+  std::vector<DeadReckonedFrame> frames(30);
+  const Eigen::Matrix3d Q = Eigen::Vector3d(1e-4, 1e-4, 1e-6).asDiagonal();
+  const Pose truth{10.0, 20.0, -2.0};
+  Pose X = truth;
+  AbsoluteReadings readings;
+  readings.lever_m = {1.0, 0.5};
+  RandomStream random(3, "fixes");
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const auto time_ns = static_cast<std::int64_t>(i) * kFrame;
+    frames[i] = {time_ns, {{1.0, 0.0, 0.1}, Q}, false};
+    if (i > 0) X = compose(X, frames[i].motion.mean);
+    if (i % 2 == 1) continue;
+    const bool jumps = i == 0 || i == 6 || i == 8 || i == 14;
+    const Eigen::Vector2d noise(0.5 * random.normal(), 0.5 * random.normal());
+    const Eigen::Vector2d jump =
+        jumps ? Eigen::Vector2d(20.0, 3.0 * static_cast<double>(i)) : Eigen::Vector2d(0.0, 0.0);
+    readings.fixes.push_back({time_ns, transform(X, readings.lever_m) + noise + jump,
+                              0.25 * Eigen::Matrix2d::Identity()});
+    readings.headings.push_back(
+        {time_ns, wrap_angle(X.theta + 0.01 * random.normal() + (i == 0 ? 2.0 : 0.0)), 0.01});
+  }
+  const StartPose start = start_of({}, readings, over(frames));
+  EXPECT_LT(test::distance(start.pose, truth), 1.5);
+  EXPECT_NEAR(start.pose.theta, truth.theta, 0.04);
+  // Narrow enough that a gate refuses the first fix.
+  EXPECT_LT(start.covariance(0, 0), 1.2);
+  EXPECT_GT(start.covariance(0, 0), 0.9);
+  EXPECT_LT(start.covariance(2, 2), 1e-3);
 }
 
 TEST(StartOf, ACompassAloneLeavesThePositionToTheGauge) {

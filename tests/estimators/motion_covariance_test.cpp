@@ -66,6 +66,26 @@ TEST(MotionCovariance, IsTheSameMatrixInEveryForm) {
   EXPECT_EQ(Both(Form::cheapest).ours.dense_motions(), 13);
 }
 
+// Dense motions, and later ones.
+TEST(MotionCovariance, ReplacesAMotionAndGivesColumns) {
+  for (const Form form : kForms) {
+    for (const Eigen::Index i : {0, 10, 31, 32, 33, 39}) {
+      Both both(form);
+      const Eigen::MatrixX3d column = both.plain.middleCols<3>(3 * i);
+      EXPECT_LT((both.ours.column(i) - column).norm(), 1e-12 * column.norm());
+      const Eigen::Matrix3d Q = Eigen::Vector3d(2.0, 3.0, 4.0).asDiagonal();
+      both.plain.middleCols<3>(3 * i).setZero();
+      both.plain.middleRows<3>(3 * i).setZero();
+      both.plain.block<3, 3>(3 * i, 3 * i) = Q;
+      both.ours.replace(i, Q);
+      EXPECT_LT((both.ours.full() - both.plain).norm(), 1e-12 * both.plain.norm());
+      RandomStream stream(9, "after");
+      both.update(0, 3, stream);
+      EXPECT_LT((both.ours.full() - both.plain).norm(), 1e-12 * both.plain.norm());
+    }
+  }
+}
+
 TEST(MotionCovariance, MultipliesByTheEndsOfAMatrixInEveryForm) {
   RandomStream stream(4, "right-hand side");
   for (const Form form : kForms) {

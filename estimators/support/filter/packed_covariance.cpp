@@ -55,6 +55,22 @@ void PackedCovariance::append(const Eigen::Matrix3Xd& cross, const Eigen::Matrix
   Tile(element(tile, row), row - tile, 3) = cross.rightCols(row - tile).transpose();
 }
 
+void PackedCovariance::replace(Eigen::Index i, const Eigen::Matrix3d& covariance) {
+  const Eigen::Index own = 3 * i;
+  const Eigen::Index tile = panel_of(own) * kPanelRows;
+  Tile(element(own, 0), 3, own).setZero();
+  if (own > tile) Tile(element(tile, own), own - tile, 3).setZero();
+  for (Eigen::Index row = own + 3; row < size_;) {
+    const Eigen::Index panel = panel_of(row) * kPanelRows;
+    const Eigen::Index rows = std::min(panel + kPanelRows, size_) - row;
+    Tile(element(row, own), rows, 3).setZero();
+    // The tile on the diagonal has both triangles.
+    if (panel == tile) Tile(element(own, row), 3, rows).setZero();
+    row += rows;
+  }
+  Tile(element(own, own), 3, 3) = covariance;
+}
+
 Eigen::Matrix3d PackedCovariance::block(Eigen::Index i, Eigen::Index j) const {
   if (i >= j) return ConstTile(element(3 * i, 3 * j), 3, 3);
   return ConstTile(element(3 * j, 3 * i), 3, 3).transpose();

@@ -38,6 +38,9 @@ class PackedCovariance {
   /// A new block with its 3×size() cross covariance to the rest.
   void append(const Eigen::Matrix3Xd& cross, const Eigen::Matrix3d& covariance);
 
+  /// Block i anew, uncorrelated with the rest.
+  void replace(Eigen::Index i, const Eigen::Matrix3d& covariance);
+
   /// The 3×3 block of block row i and block column j.
   Eigen::Matrix3d block(Eigen::Index i, Eigen::Index j) const;
 

@@ -1,14 +1,14 @@
 #pragma once
 
-#include <cstddef>
 #include <span>
 
 #include "estimators/support/pose_graph/edge.hpp"
+#include "fathom/estimation/relative_estimator.hpp"
 
 namespace fathom::pose_graph {
 
-/// The step to `node`, a hole, becomes `motion`, and all nodes from there on move as one. As the
-/// step's edge is met exactly, before and after, and the others are relative, F stays.
-void bridge(std::size_t node, const Pose& motion, std::span<Edge> edges, std::span<Node> nodes);
+/// Nodes move as the bridge says, and the edges of holes, of which nothing is measured, follow. As
+/// those are met exactly, before and after, and the others are relative, F stays.
+void bridge(const Bridge& bridge, std::span<Edge> edges, std::span<Node> nodes);
 
 }  // namespace fathom::pose_graph

@@ -10,8 +10,7 @@
 namespace fathom::pose_graph {
 
 Edge make_edge(const RelativePose& measurement) {
-  Eigen::Matrix3d D = Eigen::Matrix3d::Identity();
-  D.topLeftCorner<2, 2>() = rotation(measurement.motion.theta);
+  const Eigen::Matrix3d D = planar_rotation(measurement.motion.theta);
   const Eigen::Matrix3d W = D * measurement.information * D.transpose();
   Edge edge;
   edge.from = static_cast<int>(measurement.from);

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdlib>
-#include <numeric>
+
+#include "fathom/core/disjoint_sets.hpp"
 
 namespace fathom::pose_graph {
 namespace {
@@ -22,37 +23,18 @@ bool is_chain(std::span<const Edge> edges, std::size_t nodes) {
   return left == 0;
 }
 
-class Parts {
- public:
-  explicit Parts(std::size_t nodes) : parent_(nodes) {
-    std::iota(parent_.begin(), parent_.end(), 0);
-  }
-  int root(int k) {
-    while (parent_[at(k)] != k) k = parent_[at(k)] = parent_[at(parent_[at(k)])];
-    return k;
-  }
-  // The lowest node is the root.
-  void join(int a, int b) {
-    const auto [low, high] = std::minmax({root(a), root(b)});
-    parent_[at(high)] = low;
-  }
-
- private:
-  std::vector<int> parent_;
-};
-
 }  // namespace
 
 TurnGraph::TurnGraph(std::span<const Edge> edges, std::span<const Node> nodes) : all_(edges) {
   if (is_chain(edges, nodes.size())) return;
-  Parts parts(nodes.size());
+  DisjointSets parts(nodes.size());
   for (const Edge& edge : edges) {
     if (!measures_heading(edge)) continue;
     own_.push_back(edge);
-    parts.join(edge.from, edge.to);
+    parts.join(at(edge.from), at(edge.to));
   }
   for (int k = 1; k < static_cast<int>(nodes.size()); ++k) {
-    if (parts.root(k) != k) continue;
+    if (parts.root(at(k)) != at(k)) continue;
     Edge turn;
     turn.to = k;
     turn.theta = wrap_angle(nodes[at(k)].theta - nodes[0].theta);

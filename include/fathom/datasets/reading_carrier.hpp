@@ -30,8 +30,11 @@ struct DeadReckoning {
 DeadReckoning dead_reckoning_of(const FrameSource& frames);
 
 /// What keyframe 0 begins with where `dataset.start` does not say it: as many standard deviations
-/// as the first reading has. So wide that it adds nothing to the readings themselves, which stay in
-/// the log: a ten thousandth of one of them.
+/// as a reading has that two others of the first ten agree with. That reading stays in the log, and
+/// counts for 1¼ readings then. Wider, a jump of ten σ would be taken for the place of keyframe 0,
+/// and every right fix after it for a jump.
+inline constexpr double kAgreedStartWidth = 2.0;
+/// Where there are no such three: so wide that the first reading counts once.
 inline constexpr double kStartWidth = 100.0;
 /// Standard deviations of what the gauge holds beside something that is uncertain: a covariance has
 /// to be positive definite.
@@ -40,8 +43,8 @@ inline constexpr double kHeldSigma_rad = 1e-5;
 
 /// Where keyframe 0 is, and how well that is known:
 /// - position and heading as the options give them;
-/// - else by the first fix and the first heading, carried back to frame 0 by dead reckoning,
-///   `kStartWidth` times as wide as these;
+/// - else by a fix and by a heading, those with which most of the first ten agree, carried back to
+///   frame 0 by dead reckoning; `kAgreedStartWidth` or `kStartWidth` times as wide as these;
 /// - else, of what nothing measures, zero and held: the gauge.
 /// Throws InputError "dataset.start.heading_rad: …" where there are fixes and nothing says the
 /// heading.

@@ -8,8 +8,23 @@
 
 #include "fathom/estimation/estimator.hpp"
 #include "fathom/estimation/registry.hpp"
+#include "fathom/estimation/stretches.hpp"
 
 namespace fathom {
+
+/// The first loop over a hole, or the first heading behind it.
+struct Bridge {
+  std::size_t node = 0;              ///< the hole is the step to it
+  std::optional<RelativePose> loop;  ///< forward, of full rank; one end of it moves
+  Pose motion;                       ///< of the nodes that move, in the world
+  std::vector<bool> moves;           ///< of every node, whether the hole alone holds it to node 0
+  /// All steps that are holes, by the node after each; this one is among them.
+  std::span<const std::size_t> holes;
+};
+
+/// Whether a step is a hole whose declared heading is so wide (σ above half a radian) that its
+/// covariance does not say what its error does to others.
+bool is_open_hole(const RelativePose& step);
 
 /// An estimator that knows motions between nodes alone, node 0 fixed: what a pose graph or a filter
 /// on motions is by itself. AnchoredEstimator makes it a whole one, so that absolute measurements
@@ -29,11 +44,15 @@ class RelativeEstimator : public Estimate {
     return {};
   }
 
-  /// The step to `node`, a hole that no loop has crossed, is taken to be `motion`: all nodes from
-  /// there on move as one, and what is known of the motions among them stays. Its declared
-  /// covariance stays, too. Without this a filter would linearise the first loop over a hole at a
-  /// guess that may be off by any turn.
-  virtual void bridge(std::size_t node, const Pose& motion) = 0;
+  /// Moves nodes as one, so that the loop or the heading is met exactly; what is known of the
+  /// motions among them stays. Without this it would be linearised at a guess that may be off by
+  /// any turn.
+  ///
+  /// A graph goes on from there: what was measured is still to be given to close_loops
+  /// (std::nullopt), and so is a heading. In a filter a loop takes the place of the hole, whose
+  /// declared covariance is forgotten, and is decided here: a gate may reject it by that
+  /// covariance, and then nothing changes.
+  virtual std::optional<LoopDecision> bridge(const Bridge& bridge) = 0;
 };
 
 /// Makes a RelativeEstimator whose node 0 is at `origin`.
@@ -46,8 +65,8 @@ using MakeRelative = std::function<std::unique_ptr<RelativeEstimator>(const Esti
 /// is a frame at the start's pose, known exactly, from which a step of no motion with the start's
 /// covariance leads to node 1, keyframe 0; with a free start that step is a hole.
 ///
-/// The first loop over a hole says where the map goes on: the hole is bridged by it, so that the
-/// update that follows is linearised there.
+/// The first loop over an open hole says where the map goes on: the hole is bridged by it. Other
+/// holes are steps like others.
 class AnchoredEstimator final : public Estimator {
  public:
   AnchoredEstimator(const EstimatorSetup& setup, const MakeRelative& make);
@@ -83,15 +102,17 @@ class AnchoredEstimator final : public Estimator {
   RelativePose from_node_0(const AbsolutePose& z) const;
   UpdateReport passed_on(const Measurements& measurements);
   UpdateReport close_loops(std::span<const RelativePose> loops);
-  void bridge_by(const RelativePose& loop);
+  std::optional<LoopDecision> bridge_by(const RelativePose& loop);
+  Bridge bridge_of(std::size_t hole, const RelativePose& loop) const;
   std::vector<double> weights_of(bool absolute) const;
 
   std::unique_ptr<RelativeEstimator> relative_;
   Pose node_0_;
   bool is_batch_;
   std::size_t shift_ = 0;
-  std::vector<std::size_t> open_holes_;  ///< nodes after holes that nothing has crossed, rising
-  std::vector<Kind> given_;              ///< every measurement, in the order given
+  Stretches stretches_;             ///< of nodes; not in batch
+  std::vector<std::size_t> holes_;  ///< nodes after holes, rising; not in batch
+  std::vector<Kind> given_;         ///< every measurement, in the order given
 };
 
 /// As of make_entry, for a RelativeEstimator: `make` takes (const EstimatorSetup&, const Options&).

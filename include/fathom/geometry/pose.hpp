@@ -10,6 +10,9 @@ double wrap_angle(double angle_rad);
 /// Rot(θ): turns the axes of a frame at heading θ into those of its parent.
 Eigen::Matrix2d rotation(double theta_rad);
 
+/// Rot(θ) on (x, y), the identity on the heading.
+Eigen::Matrix3d planar_rotation(double theta_rad);
+
 /// A planar pose (x, y, θ), or, equally, a motion: the pose of one frame in another. Metres and
 /// radians; x forward, y to port, θ counter-clockwise seen from above.
 struct Pose {

@@ -35,7 +35,7 @@ class MemoryMeter {
 struct ReplayOptions {
   SolveMode mode = SolveMode::incremental;
   /// Initial guess of a batch solve; empty: dead reckoning, or connected_guess where that has
-  /// holes.
+  /// holes or the start is free.
   std::span<const Pose> start;
   /// Covariances of all keyframes are asked for after the replay, outside the timing.
   bool covariances = true;
@@ -88,6 +88,7 @@ struct Replay {
   std::optional<std::int64_t> memory_bytes;
   /// Those asked for, each with its covariances where they are to be had.
   std::vector<JudgedMotions> motions;
+  double chi2_initial = 0.0;  ///< F at the initial guess, or at dead reckoning
   /// Σ ρ(eᵀ Ω e) over what the estimator used: what was rejected left out, loss applied.
   double cost_used = 0.0;
   double absolute_cost_used = 0.0;  ///< of it, absolute measurements and an uncertain start

@@ -18,11 +18,11 @@ void StartOptions::describe(OptionTable& table) {
   const Range metres = Range::between(-1e7, 1e7);
   const Range radians = Range::between(-6.2832, 6.2832);
   table.real_or_off("x_m", x_m, metres, "m",
-                    "of keyframe 0 in the world; off: by the first fix, without fixes 0");
+                    "of keyframe 0 in the world; off: by the first fixes, without fixes 0");
   table.real_or_off("y_m", y_m, metres, "m", "likewise");
   table.real_or_off("heading_rad", heading_rad, radians, "rad",
                     "of keyframe 0, counter-clockwise from the world's x; off: by the first "
-                    "heading of a compass, without one 0");
+                    "headings of a compass, without one 0");
   table.real("sigma_m", sigma_m, Range::at_least(0), "m", "of x_m and of y_m; 0: held");
   table.real("sigma_rad", sigma_rad, Range::at_least(0), "rad", "of heading_rad; 0: held");
 }

@@ -50,9 +50,8 @@ Eigen::Matrix3d of_velocity(const Step& step) {
   const auto& velocity = step.after.message.velocity_covariance;
   if (!velocity) return Eigen::Matrix3d::Zero();
   // Of the body as it arrives, in the axes of the body as it set out.
-  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
-  turn.topLeftCorner<2, 2>() = rotation(step.motion.theta);
-  return transport(turn, planar(*velocity) * step.seconds * step.seconds);
+  return transport(planar_rotation(step.motion.theta),
+                   planar(*velocity) * step.seconds * step.seconds);
 }
 
 StepCovariance random_walk(double sigma_m, double sigma_rad) {
