@@ -1,5 +1,6 @@
 #include "apps/pictures.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "fathom/core/files.hpp"
@@ -9,6 +10,18 @@
 namespace fathom {
 namespace {
 
+// Estimators that choose their own keyframes may have another log.
+void add_marks(PlotSeries& series, const MeasurementLog& log, const Replay& replay) {
+  if (log.size() != replay.trajectory.size()) return;
+  if (log.absolute_count() != replay.absolute_weights.size()) return;
+  std::size_t next = 0;
+  for (std::size_t k = 0; k < log.size(); ++k) {
+    for (const AbsolutePose& z : log.arrival(k).absolute) {
+      series.absolute.push_back(absolute_mark(z, replay.absolute_weights[next++] > 0.5));
+    }
+  }
+}
+
 PlotSeries series_of(const MeasurementLog& log, const Result& result, std::size_t place,
                      bool with_details) {
   PlotSeries series;
@@ -17,19 +30,30 @@ PlotSeries series_of(const MeasurementLog& log, const Result& result, std::size_
   const Outcome outcome = result.replay.outcome;
   series.may_leave = outcome != Outcome::converged && outcome != Outcome::iteration_limit;
   series.poses = result.replay.trajectory;
+  add_marks(series, log, result.replay);
   if (!with_details) return series;
   if (result.replay.covariances) series.covariances = *result.replay.covariances;
   for (const LoopDecision& loop : result.replay.loops) {
     if (loop.fate == LoopFate::used) series.loops.emplace_back(loop.from, loop.to);
   }
-  std::size_t next = 0;
-  for (std::size_t k = 0; k < log.size(); ++k) {
-    for (const AbsolutePose& z : log.arrival(k).absolute) {
-      const bool is_used = result.replay.absolute[next++].fate == LoopFate::used;
-      series.absolute.push_back(absolute_mark(z, is_used));
-    }
-  }
   return series;
+}
+
+// Ground truth where the estimates are. A fixed start says where that is. Of an uncertain one the
+// absolute measurements do, and the alignment of the errors says how they lie in the truth's frame.
+std::vector<Pose> truth_in_world(const Recording& recording, const std::vector<Result>& results) {
+  const std::vector<Pose>& truth = *recording.ground_truth;
+  const auto done = std::ranges::find_if(results, [&truth](const Result& result) {
+    return result.is_done() && result.replay.trajectory.size() == truth.size();
+  });
+  if (recording.log.start().is_fixed() || done == results.end()) {
+    return align(truth, recording.log.odometry(), Alignment::origin).poses;
+  }
+  const Pose motion =
+      inverse(alignment_motion(done->replay.trajectory, truth, done->options.alignment));
+  std::vector<Pose> moved;
+  for (const Pose& pose : truth) moved.push_back(compose(motion, pose));
+  return moved;
 }
 
 // A metric as a column of the terminal's table.
@@ -73,18 +97,15 @@ void write_trajectory_picture(const std::filesystem::path& path, const std::stri
   plot.title = title;
   const std::vector<Pose> odometry = recording.log.odometry();
   if (recording.ground_truth) {
-    plot.series.push_back({"ground truth",
-                           ground_truth_style(),
-                           align(*recording.ground_truth, odometry, Alignment::origin).poses,
-                           {},
-                           {},
-                           false});
+    plot.series.push_back(
+        {"ground truth", ground_truth_style(), truth_in_world(recording, results), {}, {}, false});
   }
   plot.series.push_back({"dead reckoning", dead_reckoning_style(), odometry, {}, {}, true});
   for (std::size_t place = 0; place < results.size(); ++place) {
     plot.series.push_back(
         series_of(recording.log, results[place], first_place + place, results.size() == 1));
   }
+  if (results.size() > 1) keep_one_set_of_marks(plot.series);
   write_file(path, trajectory_png(plot));
 }
 

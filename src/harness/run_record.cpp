@@ -1,10 +1,13 @@
 #include "fathom/harness/run_record.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <Eigen/Geometry>
 
 #include "fathom/geometry/covariance.hpp"
+#include "fathom/measurements/measured_parts.hpp"
 
 namespace fathom {
 namespace {
@@ -83,7 +86,39 @@ void put_loops(RunRecord& run, const Recording& recording, const Replay& replay)
   }
 }
 
-void put_absolute(RunRecord& run, const Replay& replay) {
+// What was measured, in the frame of the aligned estimate. NaN: nothing of that kind; where no
+// measurement has it, the series is absent.
+void put_measured(RunRecord& run, const MeasurementLog& log, const Pose& alignment) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  std::vector<MeasuredParts> all;
+  for (std::size_t k = 0; k < log.size(); ++k) {
+    for (const AbsolutePose& z : log.arrival(k).absolute) {
+      all.push_back(parts_of(moved(z, alignment)));
+    }
+  }
+  if (std::ranges::any_of(all, [](const MeasuredParts& one) { return one.position.has_value(); })) {
+    for (const MeasuredParts& one : all) {
+      const Eigen::Vector2d at = one.position.value_or(Eigen::Vector2d::Constant(kNone));
+      const Eigen::Matrix2d C =
+          one.position ? one.position_covariance : Eigen::Matrix2d::Constant(kNone);
+      run.series["absolute_x_m"].push_back(at.x());
+      run.series["absolute_y_m"].push_back(at.y());
+      run.series["absolute_cov_xx"].push_back(C(0, 0));
+      run.series["absolute_cov_xy"].push_back(C(0, 1));
+      run.series["absolute_cov_yy"].push_back(C(1, 1));
+    }
+  }
+  if (std::ranges::any_of(all, [](const auto& one) { return one.heading_rad.has_value(); })) {
+    for (const MeasuredParts& one : all) {
+      run.series["absolute_theta_rad"].push_back(one.heading_rad.value_or(kNone));
+      run.series["absolute_sigma_rad"].push_back(one.heading_rad ? one.heading_sigma_rad : kNone);
+    }
+  }
+}
+
+void put_absolute(RunRecord& run, const Recording& recording, const Replay& replay,
+                  const Pose& alignment) {
+  put_measured(run, recording.log, alignment);
   if (!replay.absolute.empty()) run.series["absolute_weight"] = replay.absolute_weights;
   for (const AbsoluteDecision& z : replay.absolute) {
     run.series["absolute_keyframe"].push_back(static_cast<double>(z.keyframe));
@@ -119,7 +154,7 @@ RunRecord run_record(const Recording& recording, const Result& result,
   if (result.replay.covariances) put_covariances(run, *result.replay.covariances, alignment);
   put_consistency(run, result.consistency);
   put_loops(run, recording, result.replay);
-  put_absolute(run, result.replay);
+  put_absolute(run, recording, result.replay, alignment);
   put_updates(run, recording, result.replay);
   return run;
 }

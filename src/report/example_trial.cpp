@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 
+#include "absolute_marks.hpp"
 #include "keyframe_series.hpp"
 #include "page_numbers.hpp"
+#include "stored_absolute.hpp"
 
 namespace fathom {
 namespace {
@@ -101,22 +103,61 @@ Json loop_ends_json(const ResultStore& store, const RunKey& key, const Json& loo
   return json;
 }
 
+// One absolute measurement; `x` and `y` are where its keyframe was estimated to be.
+Json absolute_json(const StoredAbsolute& one, double x, double y) {
+  Json json{{"keyframe", one.mark.pose},
+            {"fate", one.fate},
+            {"weight", page_number(one.weight)},
+            {"at_m", {page_number(x), page_number(y)}}};
+  if (one.nis) json["nis"] = page_number(*one.nis);
+  const MeasuredParts& measured = one.mark.measured;
+  if (measured.position) {
+    const Eigen::Matrix2d& C = measured.position_covariance;
+    json["fix_m"] = {page_number(measured.position->x()), page_number(measured.position->y())};
+    json["fix_cov_m2"] = {page_number(C(0, 0)), page_number(C(0, 1)), page_number(C(1, 1))};
+  }
+  if (measured.heading_rad) {
+    json["heading_rad"] = page_number(*measured.heading_rad);
+    json["sigma_rad"] = page_number(measured.heading_sigma_rad);
+  }
+  return json;
+}
+
+// Those that the map shows, and how many there are of each kind: kept and left out.
+void add_absolute(Json& json, const ResultStore& store, const RunKey& key, std::size_t most) {
+  json["absolute"] = Json::array();
+  json["absolute_in_all"] = {{"fixes", {0, 0}}, {"headings", {0, 0}}};
+  const Series x = store.series(key, "x_m");
+  const Series y = store.series(key, "y_m");
+  if (!x || !y) return;
+  const auto all = stored_absolute(store, key, std::min(x->size(), y->size()));
+  for (const StoredAbsolute& one : all) {
+    Json& kinds = json["absolute_in_all"][one.mark.measured.position ? "fixes" : "headings"];
+    Json& count = kinds[one.mark.is_kept ? 0 : 1];
+    count = count.get<int>() + 1;
+  }
+  for (const std::size_t i : drawn_marks(marks_of(all), MarkLimits().within(most))) {
+    const std::size_t k = all[i].mark.pose;
+    json["absolute"].push_back(absolute_json(all[i], (*x)[k], (*y)[k]));
+  }
+}
+
 }  // namespace
 
-Json example_trial(const ResultStore& store, const CellResults& cell, std::size_t most_keyframes,
-                   std::size_t most_loops) {
+Json example_trial(const ResultStore& store, const CellResults& cell, const ExampleLimits& limits) {
   const TrialKey trial = first_trial(cell);
   const RunKey baseline{cell.cell, trial.survey, trial.trial, kDeadReckoning};
   Json json{{"survey", trial.survey},
             {"trial", trial.trial},
             {"text", example_text(cell, trial)},
             {"truth", path_json(store.series(baseline, "truth_x_m"),
-                                store.series(baseline, "truth_y_m"), most_keyframes)}};
+                                store.series(baseline, "truth_y_m"), limits.keyframes)}};
   json["estimators"] = Json::array();
   for (const EstimatorResults& one : cell.estimators) {
     const RunKey key{cell.cell, trial.survey, trial.trial, one.name};
-    const Json path = path_json(store.series(key, "x_m"), store.series(key, "y_m"), most_keyframes);
-    const ExampleLoops loops = example_loops(store, key, most_loops);
+    const Json path =
+        path_json(store.series(key, "x_m"), store.series(key, "y_m"), limits.keyframes);
+    const ExampleLoops loops = example_loops(store, key, limits.loops);
     const auto run = std::find_if(one.runs.begin(), one.runs.end(),
                                   [&trial](const auto& r) { return r.key.trial_key() == trial; });
     if (run == one.runs.end()) continue;
@@ -129,6 +170,7 @@ Json example_trial(const ResultStore& store, const CellResults& cell, std::size_
          {"loops_in_all", loops.counts},
          {"loops", loops.drawn},
          {"loop_ends_m", loop_ends_json(store, key, loops.drawn)}});
+    add_absolute(json["estimators"].back(), store, key, limits.absolute);
   }
   return json;
 }

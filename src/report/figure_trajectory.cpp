@@ -4,6 +4,7 @@
 
 #include "fathom/results/run_index.hpp"
 #include "keyframe_series.hpp"
+#include "stored_absolute.hpp"
 #include "study_figures.hpp"
 #include "trajectory_map.hpp"
 
@@ -65,9 +66,11 @@ TrajectoryPlot plot_of(const ResultStore& store, const CellResults& cell, const 
       add_loops(series, store, key);
       has_loops = !series.loops.empty();
     }
+    series.absolute = marks_of(stored_absolute(store, key, series.poses.size()));
     series.may_leave = baseline || !is_done_at(one, trial);
     plot.series.push_back(std::move(series));
   }
+  keep_one_set_of_marks(plot.series);
   if (!plot.series.empty() && !truth.empty()) {
     plot.series.insert(plot.series.begin(),
                        {"ground truth", ground_truth_style(), std::move(truth), {}, {}, false});

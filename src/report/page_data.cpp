@@ -23,6 +23,8 @@ using Json = nlohmann::ordered_json;
 constexpr std::size_t kKeyframesInAll = 24000;
 // The same of the loops that maps show.
 constexpr std::size_t kLoopsInAll = 20000;
+// And of the absolute measurements.
+constexpr std::size_t kAbsoluteInAll = 10000;
 constexpr std::size_t kFewestKeyframes = 120;
 constexpr double kProbability = 0.95;
 
@@ -110,7 +112,7 @@ Json paired_json(const PairedResult& paired) {
 
 Json cell_json(const ResultStore& store, const CellResults& cell,
                const std::vector<EstimatorSeries>& series, const StudyDescription& study,
-               std::size_t most, std::size_t most_loops) {
+               const ExampleLimits& limits) {
   Json json{{"cell", cell.cell},
             {"label", cell.label},
             {"caption", cell_caption(cell)},
@@ -125,11 +127,12 @@ Json cell_json(const ResultStore& store, const CellResults& cell,
             {"limits", limits_text(cell)}};
   json["estimators"] = Json::array();
   for (std::size_t i = 0; i < cell.estimators.size(); ++i) {
-    json["estimators"].push_back(estimator_json(cell.estimators[i], series[i], study, most));
+    json["estimators"].push_back(
+        estimator_json(cell.estimators[i], series[i], study, limits.keyframes));
   }
   json["paired"] = Json::array();
   for (const PairedResult& one : cell.paired) json["paired"].push_back(paired_json(one));
-  json["example"] = example_trial(store, cell, most, most_loops);
+  json["example"] = example_trial(store, cell, limits);
   return json;
 }
 
@@ -201,8 +204,11 @@ Json page_data(const ResultStore& store, const StudyResults& results,
                const std::vector<std::vector<EstimatorSeries>>& series) {
   const StudyDescription& study = results.study;
   const std::size_t lists = results.cells.size() * (study.estimators.size() + 1);
-  const std::size_t most = std::max(kFewestKeyframes, kKeyframesInAll / lists);
-  const std::size_t most_loops = std::max(kFewestKeyframes, kLoopsInAll / lists);
+  const auto share_of = [lists](std::size_t in_all) {
+    return std::max(kFewestKeyframes, in_all / lists);
+  };
+  const ExampleLimits limits{share_of(kKeyframesInAll), share_of(kLoopsInAll),
+                             share_of(kAbsoluteInAll)};
   Json json = study_json(study);
   json["metrics"] = Json::object();
   for (const std::string& name : results.metrics) {
@@ -216,7 +222,7 @@ Json page_data(const ResultStore& store, const StudyResults& results,
   json["intervals"] = intervals_text(results);
   json["cells"] = Json::array();
   for (std::size_t i = 0; i < results.cells.size(); ++i) {
-    json["cells"].push_back(cell_json(store, results.cells[i], series[i], study, most, most_loops));
+    json["cells"].push_back(cell_json(store, results.cells[i], series[i], study, limits));
   }
   add_regimes(results, json);
   add_verdict(results, json);

@@ -41,7 +41,8 @@ void add_sweep_figures(const FigureInput& input, std::vector<StudyFigure>& figur
 void add_regime_figures(const FigureInput& input, std::vector<StudyFigure>& figures);
 /// `nees_CELL`: NEES / 3 over keyframes, mean over trials, with its χ² interval.
 void add_nees_figures(const FigureInput& input, std::vector<StudyFigure>& figures);
-/// `trajectories_CELL`: those of the lowest trial, with the loops of the first estimator used.
+/// `trajectories_CELL`: those of the lowest trial, with the loops of the first estimator used,
+/// and the absolute measurements of the first that left one out.
 void add_trajectory_figures(const FigureInput& input, std::vector<StudyFigure>& figures);
 /// `accuracy_against_cost_CELL`: the first metric of each kind.
 void add_cost_figures(const FigureInput& input, std::vector<StudyFigure>& figures);

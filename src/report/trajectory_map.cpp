@@ -170,7 +170,7 @@ LegendEntry end_entry() {
 
 TrajectoryMap::TrajectoryMap(const TrajectoryPlot& plot)
     : plot_(plot), pens_(pens_of(plot.series)), low_(-1.0, -1.0), high_(1.0, 1.0) {
-  const Eigen::AlignedBox2d extent = extent_of(plot.series);
+  const Eigen::AlignedBox2d extent = with_fixes(extent_of(plot.series), plot.series);
   if (extent.isEmpty()) return;
   low_ = extent.min();
   high_ = extent.max();
@@ -201,7 +201,9 @@ std::vector<LegendEntry> TrajectoryMap::legend() const {
     const Pen pen{tint(palette::black, kLoopTint), 0.4, {}, 1.0};
     entries.push_back(line_entry("loop closure", pen));
   }
-  for (LegendEntry& mark : absolute_legend(plot_.series)) entries.push_back(std::move(mark));
+  for (LegendEntry& mark : absolute_legend(plot_.series, {low_, high_})) {
+    entries.push_back(std::move(mark));
+  }
   if (any_ellipse) entries.push_back(ellipse_entry());
   if (any_pose) {
     entries.push_back(start_entry());
@@ -222,7 +224,7 @@ void TrajectoryMap::draw(Canvas& canvas, const Box& outer) const {
       draw_ellipses(canvas, frame, series, plot_.max_ellipses);
     }
     const Placed at = [&](const Eigen::Vector2d& world) { return placed(frame, world); };
-    for (const PlotSeries& series : plot_.series) draw_absolute(canvas, at, series);
+    for (const PlotSeries& series : plot_.series) draw_absolute(canvas, at, frame.box(), series);
     draw_ends(canvas, frame, plot_.series);
   });
 }

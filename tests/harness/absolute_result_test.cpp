@@ -1,5 +1,7 @@
 // Absolute measurements and holes through replay, judgement, record and files.
 
+#include <cmath>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -98,6 +100,53 @@ TEST(AbsoluteResult, IsWrittenAndStored) {
   const test::TemporaryFolder other;
   write_run(other.path(), plain, without, "{}");
   EXPECT_FALSE(std::filesystem::exists(other / "absolute.csv"));
+}
+
+// The world of the measurements lies anywhere in the frame of the ground truth: what is stored is
+// in the latter, where the stored estimate is.
+TEST(AbsoluteResult, WhatWasMeasuredIsStoredInTheFrameOfTheAlignedEstimate) {
+  Recording jump = recording();
+  const Pose motion{40.0, -7.0, 2.0};
+  std::vector<Pose> truth;
+  for (const Pose& pose : test::square_truth()) truth.push_back(compose(motion, pose));
+  jump.ground_truth = truth;
+  JudgeOptions judging;
+  judging.metrics.alignment = Alignment::se2;
+  const Result result = evaluate(jump, {"ekf", "ekf", kGate}, builtin_estimators(), judging, {});
+  const RunRecord run = run_record(jump, result, "hash");
+  const auto at = [&run](const char* name, std::size_t i) { return run.series.at(name).at(i); };
+  // A heading of keyframe 0, then fixes of 0, 2, 4 and 6.
+  EXPECT_TRUE(std::isnan(at("absolute_x_m", 0)));
+  EXPECT_TRUE(std::isnan(at("absolute_cov_yy", 0)));
+  EXPECT_NEAR(wrap_angle(at("absolute_theta_rad", 0) - truth[0].theta), 0.0, 0.05);
+  EXPECT_NEAR(at("absolute_sigma_rad", 0), 0.1, 1e-12);
+  for (std::size_t i = 1; i < 5; ++i) {
+    EXPECT_TRUE(std::isnan(at("absolute_theta_rad", i)));
+    EXPECT_TRUE(std::isnan(at("absolute_sigma_rad", i)));
+    const std::size_t k = 2 * (i - 1);
+    const Eigen::Vector2d fix(at("absolute_x_m", i), at("absolute_y_m", i));
+    const Eigen::Vector2d off = rotation(motion.theta) * Eigen::Vector2d(k == 6 ? 20.0 : 0.0, 0.0);
+    // The alignment is that of an estimate with errors of a centimetre over 1 m.
+    EXPECT_LT((fix - off - truth[k].position()).norm(), k == 6 ? 0.6 : 0.1) << k;
+    EXPECT_NEAR(at("absolute_cov_xx", i), 1e-2, 1e-9);
+    EXPECT_NEAR(at("absolute_cov_xy", i), 0.0, 1e-9);
+    // As far from the estimate as it was.
+    const Eigen::Vector2d estimate(at("x_m", k), at("y_m", k));
+    const double residual_m = (jump.log.arrival(k).absolute.back().pose.position() -
+                               result.replay.trajectory[k].position())
+                                  .norm();
+    EXPECT_NEAR((fix - estimate).norm(), residual_m, 1e-9) << k;
+  }
+}
+
+// Nothing is stored of what was not measured at all.
+TEST(AbsoluteResult, ACompassAloneHasNoPositions) {
+  Recording compass = test::square();
+  compass.log.add_absolute(AbsolutePose::heading(7, 1.0, 0.1));
+  const RunRecord run = run_record(compass, evaluated(compass), "hash");
+  EXPECT_FALSE(run.series.contains("absolute_x_m"));
+  EXPECT_FALSE(run.series.contains("absolute_cov_xx"));
+  EXPECT_THAT(run.series.at("absolute_theta_rad"), ElementsAre(testing::DoubleNear(1.0, 1e-9)));
 }
 
 TEST(AbsoluteResult, HolesAreCountedAndCostNothing) {

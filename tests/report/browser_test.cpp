@@ -1,83 +1,15 @@
 // report.html in a real browser: its self-test switches estimators, cells, the theme and the map,
 // and writes what became of the charts into the page.
 
-#include <array>
-#include <cstdio>
-#include <cstdlib>
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
-#include "fathom/report/study_report.hpp"
-#include "report/made_mosaic.hpp"
-#include "report/study_fixture.hpp"
-#include "support/temporary_folder.hpp"
+#include "report/browser_page.hpp"
 
 namespace fathom::test {
 namespace {
 
 using Json = nlohmann::json;
-
-std::string output_of(const std::string& command) {
-  FILE* pipe = ::popen(command.c_str(), "r");
-  if (pipe == nullptr) return "";
-  std::string text;
-  std::array<char, 65536> buffer;
-  for (std::size_t got; (got = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0;) {
-    text.append(buffer.data(), got);
-  }
-  ::pclose(pipe);
-  return text;
-}
-
-std::string browser() {
-  std::string path =
-      output_of("command -v chromium || command -v chromium-browser || command -v google-chrome");
-  return path.substr(0, path.find('\n'));
-}
-
-std::string without_entities(std::string text) {
-  const std::array<std::pair<std::string, std::string>, 4> entities{
-      {{"&lt;", "<"}, {"&gt;", ">"}, {"&quot;", "\""}, {"&amp;", "&"}}};
-  for (const auto& [entity, letter] : entities) {
-    for (std::size_t at = 0; (at = text.find(entity, at)) != std::string::npos; ++at) {
-      text.replace(at, entity.size(), letter);
-    }
-  }
-  return text;
-}
-
-// Null where the page did not get that far. The browser's time is virtual: a busy machine changes
-// nothing but how long the test takes, and the limit only ends a browser that hangs.
-Json self_test_of(const FixtureOptions& options, const std::vector<std::string>& mosaics = {}) {
-  const TemporaryFolder folder;
-  write_fixture(folder / "study", options);
-  for (std::size_t i = 0; i < mosaics.size(); ++i) {
-    write_made_mosaic(folder / "study" / mosaics[i], 4.0, 2.0 - static_cast<double>(i));
-  }
-  write_study_report(ResultStore::open(folder / "study"), folder / "out", folder / "study");
-  const std::string page = output_of(
-      "timeout 800 '" + browser() +
-      "' --headless --no-sandbox --disable-gpu --disable-quic --no-first-run"
-      " --disable-background-networking --disable-component-update --disable-sync"
-      " --disable-dev-shm-usage --window-size=1400,2000 --user-data-dir='" +
-      (folder / "profile").string() + "' --virtual-time-budget=20000 --dump-dom 'file://" +
-      (folder / "out" / "report.html").string() + "#selftest' 2>/dev/null");
-  const std::string opening = "<pre id=\"selftest\">";
-  const std::size_t begin = page.find(opening);
-  if (begin == std::string::npos) return nullptr;
-  const std::size_t end = page.find("</pre>", begin);
-  return Json::parse(
-      without_entities(page.substr(begin + opening.size(), end - begin - opening.size())));
-}
-
-class Browser : public ::testing::Test {
- protected:
-  void SetUp() override {
-    if (browser().empty()) GTEST_SKIP() << "no chromium here to open the page with";
-  }
-};
 
 TEST_F(Browser, DrawsEveryChartAndTakesAnEstimatorOffAllOfThem) {
   const Json result = self_test_of({});

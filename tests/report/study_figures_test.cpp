@@ -169,6 +169,34 @@ TEST(StudyFigures, SayTheAlignmentOfTheirCell) {
   EXPECT_EQ(found, 3u);
 }
 
+std::string legend_of(const FixtureOptions& options) {
+  const TemporaryFolder folder;
+  write_fixture(folder / "study", options);
+  const ResultStore store = ResultStore::open(folder / "study");
+  const StudyResults results = study_results(store);
+  const auto series = study_series(store, results);
+  std::string all;
+  for (const StudyFigure& figure : study_figures({store, results, series})) {
+    if (figure.name != "trajectories") continue;
+    const PageSize page{kFigureWidth, figure.height};
+    const auto texts = texts_of(page, figure.draw);
+    expect_tidy(texts, page);
+    for (const PlacedText& text : texts) all += text.text + "; ";
+  }
+  return all;
+}
+
+// "iterated" is the first that left some out.
+TEST(StudyFigures, TheMapHasWhatWasMeasuredAndLeftOut) {
+  FixtureOptions options = one_cell();
+  EXPECT_THAT(legend_of(options), ::testing::Not(HasSubstr("fix")));
+  options.absolute = true;
+  EXPECT_THAT(legend_of(options), HasSubstr("; fix; fix left out by iterated; measured heading; "
+                                            "heading left out by iterated; "));
+  options.absolute_is_old = true;
+  EXPECT_THAT(legend_of(options), ::testing::Not(HasSubstr("fix")));
+}
+
 bool has_front(const FigureInput& input) {
   for (const StudyFigure& figure : study_figures(input)) {
     if (figure.name != "accuracy_against_cost") continue;

@@ -1,6 +1,7 @@
 #include "report/study_fixture.hpp"
 
 #include <cmath>
+#include <limits>
 #include <random>
 
 namespace fathom::test {
@@ -86,6 +87,33 @@ void add_loops(RunRecord& run, std::size_t keyframes, double update_ms) {
   }
 }
 
+void add_absolute(RunRecord& run, const Path& truth, bool is_old) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  const auto put = [&run](const char* name, double value) {
+    run.series["absolute_" + std::string(name)].push_back(value);
+  };
+  const auto add = [&](std::size_t k, bool is_fix, bool is_wrong) {
+    const bool is_rejected = is_wrong && run.key.estimator == "iterated";
+    const bool is_weak = is_wrong && run.key.estimator == "graph";
+    put("keyframe", static_cast<double>(k));
+    put("fate", is_rejected ? 1.0 : 0.0);
+    put("nis", run.key.estimator == "graph" ? -1.0 : is_wrong ? 400.0 : 1.5);
+    put("weight", is_rejected ? 0.0 : is_weak ? 0.1 : 1.0);
+    if (is_old) return;
+    put("x_m", is_fix ? truth.x[k] + (is_wrong ? 2.0 : 0.0) : kNone);
+    put("y_m", is_fix ? truth.y[k] + (is_wrong ? 1.0 : 0.0) : kNone);
+    put("cov_xx", is_fix ? 0.25 : kNone);
+    put("cov_xy", is_fix ? 0.0 : kNone);
+    put("cov_yy", is_fix ? 0.0625 : kNone);
+    put("theta_rad", is_fix ? kNone : truth.theta[k] + (is_wrong ? 0.5 * M_PI : 0.0));
+    put("sigma_rad", is_fix ? kNone : 0.1);
+  };
+  for (std::size_t k = 0; k < truth.x.size(); ++k) {
+    if (k % 5 == 0) add(k, true, k == 20);
+    add(k, false, k == 12);
+  }
+}
+
 double mean_of(const Series& series) {
   double sum = 0.0;
   for (const double value : series) sum += value;
@@ -135,6 +163,7 @@ RunRecord fixture_run(const RunKey& key, const FixtureOptions& options, std::siz
   add_path(run, truth, character, size * (1.0 + static_cast<double>(key.cell)), random,
            options.ground_truth);
   if (!baseline && options.loops) add_loops(run, options.keyframes, character.update_ms);
+  if (!baseline && options.absolute) add_absolute(run, truth, options.absolute_is_old);
   if (baseline && options.ground_truth) {
     run.series["truth_x_m"] = truth.x;
     run.series["truth_y_m"] = truth.y;

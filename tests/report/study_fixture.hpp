@@ -20,6 +20,12 @@ struct FixtureOptions {
   std::vector<std::string> alignments{};  ///< of the last axis; empty: "origin" alone
   bool ground_truth = true;               ///< else no accuracy, consistency, or truth
   bool loops = true;
+  /// Of every fifth keyframe a fix at its true position, with σ of 0.5 and 0.25 m, but that of
+  /// keyframe 20 is 2 m off along x and 1 m along y; of every keyframe a heading, which is true but
+  /// that of keyframe 12, a quarter turn off. "iterated" rejects both, "graph" gives both a weight
+  /// of 0.1, the other one uses them.
+  bool absolute = false;
+  bool absolute_is_old = false;  ///< stored without what was measured
   int jobs = 2;
   double size = 1.0;      ///< of all errors
   double baseline = 1.0;  ///< of dead reckoning's, times `size`

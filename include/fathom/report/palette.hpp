@@ -26,6 +26,8 @@ inline constexpr Colour vermillion{0xD5, 0x5E, 0x00};
 inline constexpr Colour purple{0xCC, 0x79, 0xA7};
 inline constexpr Colour sienna{0xA0, 0x52, 0x2D};
 inline constexpr Colour violet{0x64, 0x40, 0xE8};
+/// Of no line: what an estimator left out.
+inline constexpr Colour crimson{0xC4, 0x00, 0x3C};
 inline constexpr Colour grey{0x8A, 0x8A, 0x8A};
 inline constexpr Colour white{0xFF, 0xFF, 0xFF};
 }  // namespace palette

@@ -9,22 +9,22 @@
 #include <Eigen/Core>
 
 #include "fathom/geometry/pose.hpp"
-#include "fathom/measurements/absolute_pose.hpp"
+#include "fathom/measurements/measured_parts.hpp"
 #include "fathom/report/palette.hpp"
 
 namespace fathom {
 
-/// An absolute measurement of a pose of a trajectory: a fix is a cross where it says that the pose
-/// is, joined to it; a heading a short line from the pose. What was not used is red.
+/// An absolute measurement of a pose of a trajectory, drawn in grey: a fix is a ring where it says
+/// that the pose is, joined to it; a heading a short line from the pose. What was left out (by a
+/// gate, or by a loss to half of its weight or less) is red: the ring a ×, the line with a bar.
 struct AbsoluteMark {
   std::size_t pose = 0;  ///< index into the poses of its series
-  std::optional<Eigen::Vector2d> position;
-  std::optional<double> heading_rad;
-  bool is_used = true;
+  MeasuredParts measured;
+  bool is_kept = true;
 };
 
-/// What an absolute measurement says, drawn.
-AbsoluteMark absolute_mark(const AbsolutePose& measurement, bool is_used);
+/// What a measurement of a log says, drawn on a trajectory of all keyframes.
+AbsoluteMark absolute_mark(const AbsolutePose& measurement, bool is_kept);
 
 /// One trajectory of a picture.
 struct PlotSeries {
@@ -39,7 +39,9 @@ struct PlotSeries {
   /// Dead reckoning, or a run that failed: where it is so far off that the others could not be
   /// seen, it leaves the picture, and the legend says so.
   bool may_leave = false;
+  /// Of many some are drawn, evenly spread, first of all what was left out; the legend says so.
   std::vector<AbsoluteMark> absolute{};
+  std::string absolute_of{};  ///< whose they are, in the legend; empty: there is one estimate
 };
 
 struct TrajectoryPlot {
@@ -48,11 +50,15 @@ struct TrajectoryPlot {
   int max_ellipses = 25;           ///< of one series
 };
 
+/// Estimates differ in what they left out, not in what was measured: of all series with absolute
+/// measurements the first that left one out keeps them, else the first.
+void keep_one_set_of_marks(std::vector<PlotSeries>& series);
+
 /// A map with x up, y to the left and equal axes: a PNG of 1600 × 1200 pixels.
 /// Poses that are not finite, or beyond 1e9 m, are left out of the line, which is broken there, and
 /// counted in the title. A series without poses stands in the legend as empty.
 /// Throws InputError on covariances that are neither none nor one per pose, and on a loop between
-/// poses that are not there.
+/// poses, or a measurement of a pose, that are not there.
 std::string trajectory_png(const TrajectoryPlot& plot);
 
 }  // namespace fathom

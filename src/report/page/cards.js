@@ -11,11 +11,12 @@ const charts = [
       return `${intervals}${sentence(conditions(cell))}.${marks}`;
     }},
   {id: 'trajectories', title: 'Trajectories', wide: () => !mapIsTall(), plots: trajectoryPlots,
-    choices: () => [{label: '2σ ellipses', signal: 'show_ellipses'}, {label: 'loops', signal: 'show_loops'}],
+    choices: () => [{label: '2σ ellipses', signal: 'show_ellipses'}, {label: 'loops', signal: 'show_loops'},
+      ...(study.cells.some(hasMarks) ? [{label: 'fixes and headings', signal: 'show_marks'}] : [])],
     exists: (cell) => cell.example.truth !== null || cell.example.estimators.some((one) => one.path),
     caption: (cell) => `${exampleNote()}; ${conditions(cell)}. x up, y to the left. ` +
       'Thin lines: loops used; dashed with ×: rejected, with △: lost; ellipses: 2σ. ' +
-      (cell.example.estimators.some(thinnedNote) ? 'Loops are thinned evenly. ' : '') +
+      (cell.example.estimators.some(thinnedNote) ? 'Loops are thinned evenly. ' : '') + marksCaption(cell) +
       'Wheel: zoom, drag: move, double click: all.'},
   {id: 'pareto', title: 'Accuracy against cost', plots: paretoPlots,
     exists: () => Object.values(study.metrics).some((metric) => metric.cost),

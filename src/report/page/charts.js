@@ -42,18 +42,18 @@ function extentOf(paths) {
 
 // What the map shows at first: all, unless dead reckoning or a run that failed is so far off that
 // the rest could not be seen.
-function mapExtent(paths) {
+function mapExtent({paths, fixes}) {
   const failed = cellNow().example.estimators.filter((one) => ['diverged', 'numerical_failure'].includes(one.outcome));
   const strays = [kBaseline, ...failed.map((one) => one.name)];
   const near = paths.filter((row) => !strays.includes(row.estimator));
   const [all, most] = [extentOf(paths), extentOf(near)];
   const sizeOf = (extent) => Math.max(extent.x1 - extent.x0, extent.y1 - extent.y0);
-  return near.length === 0 || sizeOf(all) <= 2.5 * sizeOf(most) ? all : most;
+  return withFixes(near.length === 0 || sizeOf(all) <= 2.5 * sizeOf(most) ? all : most, fixes);
 }
 
 // A map that goes further up than to the sides leaves room beside it for another chart.
 function mapIsTall() {
-  const {x0, x1, y0, y1} = mapExtent(trajectoryRows(cellNow()).paths);
+  const {x0, x1, y0, y1} = mapExtent(trajectoryRows(cellNow()));
   return x1 - x0 > 1.2 * (y1 - y0);
 }
 
@@ -75,12 +75,13 @@ function trajectoryPlots(card) {
   const rows = trajectoryRows(cellNow());
   const width = widthOf(card) - 70;
   const height = Math.min(620, Math.max(360, Math.round(width * (mapIsTall() ? 0.8 : 0.5))));
-  const {x0, x1, y0, y1} = mapExtent(rows.paths);
+  const {x0, x1, y0, y1} = mapExtent(rows);
   const metresPerPixel = 1.08 * Math.max((y1 - y0) / width, (x1 - x0) / height, 1e-6);
   const around = (middle, pixels) => [middle - (pixels * metresPerPixel) / 2, middle + (pixels * metresPerPixel) / 2];
   const signals = {start_h: around((y0 + y1) / 2, width).reverse(), start_v: around((x0 + x1) / 2, height),
-    show_ellipses: state.show_ellipses, show_loops: state.show_loops};
-  return [{spec: 'trajectories', data: rows, width, height, signals, same: coincidentPaths(rows.paths, metresPerPixel), title: 'map'}];
+    show_ellipses: state.show_ellipses, show_loops: state.show_loops, show_marks: state.show_marks};
+  return [{spec: 'trajectories', data: rows, width, height, signals, same: coincidentPaths(rows.paths, metresPerPixel), title: 'map',
+    note: beyondNote(rows.fixes, signals.start_h, signals.start_v)}];
 }
 
 function sweepPlots(card) {

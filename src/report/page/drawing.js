@@ -43,7 +43,7 @@ function sharedScales(lieOnOneAnother) {
 function drawPlot(container, specName, {data, width, height, signals = {}, adjust, same}) {
   const spec = structuredClone(specs[specName]);
   spec.scales.push(...sharedScales(Boolean(same)));
-  spec.signals.push({name: 'ink', value: css('--ink')}, {name: 'card', value: css('--card')});
+  spec.signals.push({name: 'ink', value: css('--ink')}, {name: 'card', value: css('--card')}, {name: 'left_out', value: css('--left-out')});
   for (const set of spec.data) set.values = data[set.name] || [];
   for (const [name, value] of Object.entries({...signals, hidden: [...state.hidden]})) {
     spec.signals.find((signal) => signal.name === name).value = value;

@@ -168,7 +168,7 @@ function trajectoryRows(cell) {
     rows.ellipses.push(...one.ellipses.flatMap((entry) => ellipseRows(one.name, entry)));
     rows.loops.push(...loopRows(one).filter((row) => row.x1 !== undefined));
   }
-  return rows;
+  return {...rows, ...markRows(cell)};
 }
 
 // One row an estimator that has the metric; those told apart from the best are said.

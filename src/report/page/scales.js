@@ -80,5 +80,6 @@ function notesOf(plots) {
   if (inAll) parts.push(`On one another, within a pixel: ${alike[0].same}.`);
   else parts.push(...alike.map((plot) => `On one another (${plot.title}), within a pixel: ${plot.same}.`));
   if (plots.some((plot) => plot.refused)) parts.push('Some values are not above zero: the axis is linear.');
+  parts.push(...plots.map((plot) => plot.note).filter(Boolean));
   return parts.join(' ');
 }

@@ -43,6 +43,21 @@ async function mapTest() {
   return looks;
 }
 
+// What the map shows of absolute measurements: where fixes are (m), the direction of headings on the
+// screen, and of each its tooltip and whether it is red.
+function absoluteTest() {
+  const view = (chartViews.trajectories || [])[0];
+  if (!view) return null;
+  const [h, v] = [view.scale('h'), view.scale('v')];
+  const all = (name) => [...document.querySelectorAll(`#chart-trajectories g.${name} > *`)].map((node) => {
+    const [u, w] = node.getAttribute('transform').match(/-?[\d.]+(e-?\d+)?/g).map(Number);
+    return {x: v.invert(w), y: h.invert(u), right: Number(node.getAttribute('x2')), down: Number(node.getAttribute('y2')),
+      isRing: /A/.test(node.getAttribute('d') || ''), isRed: node.getAttribute('stroke') === css('--left-out'), tooltip: node.__data__.tooltip};
+  });
+  return {fixes: all('fixes'), headings: all('headings'), links: all('links'), bars: all('bars').length,
+    caption: textOf('#chart-trajectories .caption')};
+}
+
 const textOf = (selector) => [...document.querySelectorAll(selector)].map((one) => one.textContent);
 
 // What the page says first, what its table marks, and what the axes become.
@@ -107,7 +122,7 @@ async function mosaicTest() {
 
 async function selfTest() {
   await drawn();
-  const result = {marks: marksOfAll(), estimators: {}, cells: [], tables: {}};
+  const result = {marks: marksOfAll(), absolute: absoluteTest(), estimators: {}, cells: [], tables: {}};
   for (const box of document.querySelectorAll('#switches input')) {
     const style = styleOf(box.dataset.estimator);
     if (!style) continue;

@@ -25,6 +25,7 @@ const state = {
   cost: costMetric,
   show_ellipses: true,
   show_loops: true,
+  show_marks: true,
   dark: window.matchMedia('(prefers-color-scheme: dark)').matches,
 };
 
