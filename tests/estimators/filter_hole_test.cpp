@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "support/planar.hpp"
 #include "tests/estimators/cross_estimator.hpp"
 #include "tests/estimators/naive_least_squares.hpp"
 
