@@ -114,7 +114,7 @@ sweep:
   - {key: front_end.keyframes.separation_frames, name: separation, values: [5, 10]}
   - {key: dataset.camera.distortion, name: lens, labels: [bent, straight],
      values: [[-0.05, 0.01, 0, 0, 0], [0, 0, 0, 0, 0]]}
-  - {key: estimators.0.max_iterations, name: iterations, values: [1, 4]}
+  - {key: estimators.0.max_iterations, name: limit, values: [1, 4]}
 )";
 
 TEST(SelectedConfiguration, ASweptKeyHasTheValueOfTheCellsLookedAt) {
