@@ -166,8 +166,7 @@ void collect_motions(const Estimator& estimator, JudgedMotions& motions) {
   std::vector<std::size_t> keyframes;
   for (const auto& [from, to] : motions.pairs) keyframes.insert(keyframes.end(), {from, to});
   std::ranges::sort(keyframes);
-  const auto repeated = std::ranges::unique(keyframes);
-  keyframes.erase(repeated.begin(), repeated.end());
+  keyframes.erase(std::unique(keyframes.begin(), keyframes.end()), keyframes.end());
   const auto joint = estimator.joint_covariance(keyframes);
   if (!joint) return;
   const auto row_of = [&](std::size_t keyframe) {
