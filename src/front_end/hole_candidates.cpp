@@ -46,10 +46,9 @@ void CandidateSearch::close_holes(const std::vector<UncertainPose>& motions,
 void CandidateSearch::take_over_holes(std::vector<Chance>& perhaps, const std::vector<Chance>& near,
                                       std::size_t newest) {
   if (!has_open_holes()) return;
-  const auto over =
-      std::stable_partition(perhaps.begin(), perhaps.end(), [&](const Chance& candidate) {
-        return stretches_.are_joined(candidate.keyframe, newest);
-      });
+  const auto over = std::stable_partition(
+      perhaps.begin(), perhaps.end(),
+      [&](const Chance& candidate) { return stretches_.are_joined(candidate.keyframe, newest); });
   for (auto candidate = over; candidate != perhaps.end(); ++candidate) {
     if (!std::ranges::binary_search(near, candidate->keyframe, {}, &Chance::keyframe)) {
       over_holes_.push_back(candidate->keyframe);
