@@ -8,6 +8,7 @@
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 
+#include "datasets/reckoned_frames.hpp"
 #include "fathom/core/random.hpp"
 #include "support/input_error.hpp"
 #include "support/planar.hpp"
@@ -15,27 +16,12 @@
 namespace fathom {
 namespace {
 
+using test::frames_with_holes;
 using test::homogeneous;
 using test::input_error_of;
+using test::kFrame;
+using test::over;
 using test::t2v;
-
-constexpr std::int64_t kFrame = 1'000'000'000;
-
-/// A turning way of seven frames, a second apart.
-std::vector<DeadReckonedFrame> frames_with_holes(const std::vector<std::size_t>& holes = {}) {
-  RandomStream random(3);
-  std::vector<DeadReckonedFrame> frames{{0, {}, false}};
-  for (std::size_t i = 1; i < 7; ++i) {
-    frames.push_back({static_cast<std::int64_t>(i) * kFrame,
-                      {{0.5, 0.1, 0.3}, test::random_covariance(random, 1e-4)},
-                      std::ranges::find(holes, i) != holes.end()});
-  }
-  return frames;
-}
-
-ReckonedFrames over(const std::vector<DeadReckonedFrame>& frames) {
-  return {frames.size(), [&frames](std::size_t i) { return frames[i]; }};
-}
 
 StartPose start_at(const Pose& pose) {
   return StartPose(pose);
