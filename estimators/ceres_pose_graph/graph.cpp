@@ -59,6 +59,8 @@ ceres::Solver::Options solver_options(const CeresPoseGraphOptions& options) {
   solver.gradient_tolerance = 1e-4 * options.tolerance;
   solver.initial_trust_region_radius = options.initial_trust_region;
   solver.max_trust_region_radius = std::max(1e16, options.initial_trust_region);
+  // Down to the least trust region, and then is_at_minimum decides.
+  solver.max_num_consecutive_invalid_steps = options.max_iterations;
   solver.num_threads = 1;
   solver.logging_type = ceres::SILENT;
   return solver;
@@ -168,6 +170,20 @@ bool CeresPoseGraph::Graph::is_determined() {
   return H && fathom::is_determined(*H);
 }
 
+// Where a step of some directions is known to metres alone, one from the minimum promises rounding,
+// less than nothing as often as more, which Ceres calls an invalid step. It is not known from a
+// factor that fails but here.
+bool CeresPoseGraph::Graph::is_at_minimum() {
+  const auto H = hessian();
+  if (!H) return false;
+  double cost = 0.0;
+  std::vector<double> gradient;
+  problem_.Evaluate(free_poses(), &cost, nullptr, &gradient, nullptr);
+  const auto left =
+      decrease_of_step(*H, Eigen::Map<const Eigen::VectorXd>(gradient.data(), H->rows()));
+  return left && *left <= options_.tolerance * cost;
+}
+
 UpdateReport CeresPoseGraph::Graph::solve() {
   UpdateReport report;
   const std::deque<Block> before = poses_;
@@ -176,6 +192,9 @@ UpdateReport CeresPoseGraph::Graph::solve() {
   ceres::Solve(solver_options(options_), &problem_, &summary);
   report.iterations = summary.num_successful_steps + summary.num_unsuccessful_steps;
   report.outcome = outcome_of(summary);
+  if (summary.iterations.size() > 1 && !summary.iterations.back().step_is_valid) {
+    report.outcome = is_at_minimum() ? Outcome::converged : Outcome::numerical_failure;
+  }
   if (!is_finite() || !is_determined()) report.outcome = Outcome::numerical_failure;
   changed();
   if (!is_done(report.outcome)) restore(before);

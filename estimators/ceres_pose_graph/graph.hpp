@@ -64,6 +64,10 @@ class CeresPoseGraph::Graph {
   double cost();
   void restore(const std::deque<Block>& poses);
   bool is_determined();
+  /// Whether a Gauss-Newton step from here promises no more than the tolerance.
+  bool is_at_minimum();
+  /// All poses but the first. There must be one: asked for no poses, Ceres takes all.
+  ceres::Problem::EvaluateOptions free_poses();
   void changed() { marginals_.reset(); }
   void compute_marginals();
   /// Null where it cannot be evaluated.

@@ -56,16 +56,19 @@ std::optional<Eigen::MatrixXd> CeresPoseGraph::Graph::joint_covariance(
   return in_order_of(keyframes, *joint);
 }
 
-// The Hessian of the poses but the first, which is fixed, the loss applied as a weight. There must
-// be one: asked for no poses, Ceres takes all. Nothing where it is not finite, of which
-// Ceres would print a warning.
-std::unique_ptr<const Eigen::SparseMatrix<double>> CeresPoseGraph::Graph::hessian() {
-  if (!is_finite()) return nullptr;
+ceres::Problem::EvaluateOptions CeresPoseGraph::Graph::free_poses() {
   ceres::Problem::EvaluateOptions evaluate;
   evaluate.num_threads = 1;
   for (std::size_t k = 1; k < size(); ++k) evaluate.parameter_blocks.push_back(block(k));
+  return evaluate;
+}
+
+// The Hessian of the poses but the first, which is fixed, the loss applied as a weight. Nothing
+// where it is not finite, of which Ceres would print a warning.
+std::unique_ptr<const Eigen::SparseMatrix<double>> CeresPoseGraph::Graph::hessian() {
+  if (!is_finite()) return nullptr;
   ceres::CRSMatrix J;
-  if (!problem_.Evaluate(evaluate, nullptr, nullptr, nullptr, &J)) return nullptr;
+  if (!problem_.Evaluate(free_poses(), nullptr, nullptr, nullptr, &J)) return nullptr;
   const Eigen::SparseMatrix<double> by_columns =
       Eigen::Map<const Eigen::SparseMatrix<double, Eigen::RowMajor>>(
           J.num_rows, J.num_cols, static_cast<Eigen::Index>(J.values.size()), J.rows.data(),

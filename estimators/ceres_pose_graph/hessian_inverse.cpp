@@ -81,6 +81,12 @@ bool is_determined(const Sparse& hessian) {
   return is_definite(ldlt) && keeps_digits(ldlt, hessian);
 }
 
+std::optional<double> decrease_of_step(const Sparse& hessian, const Eigen::VectorXd& gradient) {
+  const Ldlt ldlt(hessian);
+  if (!is_definite(ldlt)) return std::nullopt;
+  return 0.5 * gradient.dot(ldlt.solve(gradient));
+}
+
 std::optional<InverseBlocks> inverse_blocks(const Sparse& hessian) {
   const Ldlt ldlt(hessian);
   const Eigen::Index size = hessian.rows();

@@ -26,6 +26,11 @@ std::optional<InverseBlocks> inverse_blocks(const Eigen::SparseMatrix<double>& h
 /// (kLeastPivotShare).
 bool is_determined(const Eigen::SparseMatrix<double>& hessian);
 
+/// ½ gᵀ H⁻¹ g: by how much a full step lowers the quadratic model of the cost. Nothing where H is
+/// not positive definite.
+std::optional<double> decrease_of_step(const Eigen::SparseMatrix<double>& hessian,
+                                       const Eigen::VectorXd& gradient);
+
 /// Of the inverse the rows and columns of these blocks alone, 3m×3m in the order given: a solve for
 /// the columns of each. As inverse_blocks else.
 std::optional<Eigen::MatrixXd> inverse_between(const Eigen::SparseMatrix<double>& hessian,

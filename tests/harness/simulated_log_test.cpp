@@ -195,5 +195,36 @@ TEST(SimulatedLogHonesty, OfErrorsThatAPictureShares) {
   EXPECT_LT(shared.at("chi2_per_dof"), 0.8 * shared.at("mean_nis_truth") / 3.0);
 }
 
+// A compass and holes that loops have not closed: translations known to metres beside registrations
+// of millimetres, where a step from the minimum promises nothing but rounding.
+TEST(SimulatedLogRecording, EveryBackEndSettlesBesideOpenHoles) {
+  const Configuration configuration = configured(R"(dataset:
+  type: simulated_log
+  mission: {type: sweep, legs: 6, leg_length_m: 20, leg_spacing_m: 1.4}
+  odometry: {sigma_x_m: 0.01, sigma_y_m: 0.01, sigma_theta_rad: 0.005}
+  loops: {max_distance_m: 2, max_per_keyframe: 2}
+  compass: {sigma_rad: 0.0175, interval_s: 2.5}
+  holes: {count: 4, length_s: 60}
+  start: {x_m: 0, y_m: 0, heading_rad: 0}
+)");
+  const Recorder recorder(configuration);
+  for (std::uint64_t trial = 0; trial < 8; ++trial) {
+    const MeasurementLog log = trial_of(recorder, configuration, trial).log;
+    for (const EstimatorEntry& entry : builtin_estimators().entries()) {
+      const auto estimator = entry.create({log.start()}, {});
+      Outcome outcome = Outcome::converged;
+      for (std::size_t k = 0; k < log.size(); ++k) {
+        const auto& arrival = log.arrival(k);
+        if (k > 0) estimator->add_keyframe(arrival.step);
+        const Measurements measurements{arrival.registrations, arrival.absolute};
+        if (!measurements.is_empty()) {
+          outcome = worse(outcome, estimator->update(measurements).outcome);
+        }
+      }
+      EXPECT_TRUE(is_done(outcome)) << entry.name << ", trial " << trial;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace fathom
