@@ -8,13 +8,13 @@
 
 #include "apps/command.hpp"
 #include "apps/common.hpp"
+#include "apps/estimators.hpp"
 #include "apps/graph_text.hpp"
 #include "fathom/configuration/study.hpp"
 #include "fathom/datasets/folder_summary.hpp"
 #include "fathom/datasets/image_folder.hpp"
 #include "fathom/datasets/picture_folder.hpp"
 #include "fathom/datasets/sensor_summary.hpp"
-#include "fathom/estimators/builtin.hpp"
 #include "fathom/harness/outlook.hpp"
 #include "fathom/harness/recording.hpp"
 #include "fathom/harness/replay.hpp"
@@ -28,7 +28,7 @@ namespace {
 // A batch solve tells how large the residuals of this graph are; it is quick.
 std::vector<std::string> check_information(const MeasurementLog& log) {
   std::vector<std::string> warnings;
-  const EstimatorEntry& solver = builtin_estimators().find("ceres_pose_graph");
+  const EstimatorEntry& solver = estimators().find("ceres_pose_graph");
   ReplayOptions options;
   options.mode = SolveMode::batch;
   options.covariances = false;
@@ -144,11 +144,12 @@ void check_folder(const std::string& path) {
 }
 
 void check_configuration(const std::string& path) {
-  const Settings settings = read_settings(path);
+  Settings settings = read_settings(path);
+  load_plugins(settings, {});
   const bool is_study = kind_of(settings) == ConfigurationKind::comparison;
   Configuration configuration;
   if (is_study) {
-    const Study study = configure_study(settings, builtin_estimators());
+    const Study study = configure_study(settings, estimators());
     configuration = study.cells.front();
     const StudyDescription& described = study.description;
     std::printf(
@@ -158,7 +159,7 @@ void check_configuration(const std::string& path) {
       std::printf("  swept %s: %zu values\n", axis.key.c_str(), axis.labels.size());
     }
   } else {
-    configuration = configure(settings, ConfigurationKind::single, builtin_estimators());
+    configuration = configure(settings, ConfigurationKind::single, estimators());
     std::printf("configuration for 'run'\n");
   }
   for (const auto& [key, value] : configuration.in_force) {

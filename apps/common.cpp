@@ -5,6 +5,7 @@
 #include <unistd.h>
 #include <utility>
 
+#include "apps/estimators.hpp"
 #include "fathom/datasets/picture_folder.hpp"
 
 namespace fathom {
@@ -12,6 +13,7 @@ namespace fathom {
 void CommonFlags::add_settings_to(Command& command) {
   command.texts("--set", overrides, "KEY=VALUE",
                 "Override a setting, for example estimator.type=ekf");
+  add_plugins_to(command, plugins);
   command.integer("--seed", seed, Range::any(), "N", "Base seed of all noise and of RANSAC");
   command.boolean("--quiet", quiet, "No output but errors");
 }
@@ -37,6 +39,7 @@ Settings CommonFlags::settings(const std::string& path) const {
   }
   for (const std::string& text : overrides) settings.put(parse_override(text));
   if (seed) settings.put({"seed", OptionValue::scalar(std::to_string(*seed)), "--seed"});
+  load_plugins(settings, plugins);
   return settings;
 }
 

@@ -19,6 +19,7 @@ namespace fathom {
 /// The flags of all commands that read a configuration or run an estimator.
 struct CommonFlags {
   std::vector<std::string> overrides;  ///< --set KEY=VALUE
+  std::vector<std::string> plugins;    ///< --plugin FILE
   std::optional<int> seed;
   bool quiet = false;
   std::string out;
@@ -27,7 +28,7 @@ struct CommonFlags {
   void add_out_to(Command& command, const std::string& what);
 
   /// The file's settings (none for an empty path; of a folder, that it is the data set), then
-  /// --set, then --seed.
+  /// --set, then --seed. Plug-ins that are named there or by --plugin are loaded.
   Settings settings(const std::string& path) const;
   /// --out, or `runs/` and a name of its own.
   std::string folder_or(const std::string& name) const;

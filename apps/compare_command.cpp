@@ -11,10 +11,10 @@
 #include "apps/command.hpp"
 #include "apps/common.hpp"
 #include "apps/compare_modes.hpp"
+#include "apps/estimators.hpp"
 #include "apps/memory_meter.hpp"
 #include "apps/pin_threads.hpp"
 #include "fathom/core/files.hpp"
-#include "fathom/estimators/builtin.hpp"
 #include "fathom/front_end/registration_store.hpp"
 #include "fathom/harness/ground_truth.hpp"
 #include "fathom/harness/study_run.hpp"
@@ -47,7 +47,7 @@ void require_separate(const fs::path& out, const Study& study,
 }
 
 void compare_as(const std::optional<Shard>& shard, const CompareFlags& flags, Context& context) {
-  Study study = configure_study(flags.settings(), builtin_estimators());
+  Study study = configure_study(flags.settings(), estimators());
   const fs::path out = flags.common.folder_or(stem_of(flags.config));
   if (!flags.only_registrations) {
     require_separate(out, study, inputs_of(flags.config, flags.settings()));
@@ -55,8 +55,8 @@ void compare_as(const std::optional<Shard>& shard, const CompareFlags& flags, Co
   const std::unique_ptr<RegistrationStore> cache = open_cache(flags);
   // A data set that cannot be opened, or lacks what is asked for, is refused before anything is
   // written.
-  settle_reference(study, builtin_estimators());
-  study.description.data = data_of(study);
+  settle_reference(study, estimators());
+  study.description.data = with_plugins(data_of(study), study.cells.front().estimators);
   const Recorder data_set(study.cells.front(), cache.get());
 
   StudyRunOptions options;

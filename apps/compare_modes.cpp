@@ -3,11 +3,11 @@
 #include <cstdio>
 #include <set>
 
+#include "apps/estimators.hpp"
 #include "apps/stop_signal.hpp"
 #include "apps/study_example.hpp"
 #include "apps/study_files.hpp"
 #include "apps/study_progress.hpp"
-#include "fathom/estimators/builtin.hpp"
 #include "fathom/harness/loop_remarks.hpp"
 #include "fathom/harness/manifest.hpp"
 #include "fathom/results/run_index.hpp"
@@ -47,7 +47,7 @@ auto stoppable(StudyRunOptions& options, RegistrationStore* cache, bool quiet, A
 StudyRun run(const Study& study, ResultStore& store, StudyRunOptions& options,
              RegistrationStore* cache, bool quiet) {
   return stoppable(options, cache, quiet,
-                   [&] { return run_study(study, builtin_estimators(), store, options); });
+                   [&] { return run_study(study, estimators(), store, options); });
 }
 
 std::string title_of(const Study& study, const CompareFlags& flags) {
@@ -120,7 +120,7 @@ void run_whole(const Study& study, const fs::path& out, const FrameSource* pictu
 void only_register(const Study& study, RegistrationStore& cache, StudyRunOptions& options,
                    const CompareFlags& flags, Context& context) {
   const bool is_finished = stoppable(options, &cache, flags.common.quiet, [&] {
-    return register_pictures(study, builtin_estimators(), options);
+    return register_pictures(study, estimators(), options);
   });
   cache.flush();
   if (const std::string problem = cache.problem(); !problem.empty()) throw InputError(problem);

@@ -8,8 +8,8 @@
 
 #include "apps/command.hpp"
 #include "apps/common.hpp"
+#include "apps/estimators.hpp"
 #include "apps/pin_threads.hpp"
-#include "fathom/estimators/builtin.hpp"
 #include "fathom/harness/ground_truth.hpp"
 #include "fathom/harness/study_run.hpp"
 #include "fathom/harness/study_sample.hpp"
@@ -98,12 +98,12 @@ void print(const Study& study, const StudySample& measured, const EstimateFlags&
 }
 
 void estimate(const EstimateFlags& flags) {
-  Study study = configure_study(flags.common.settings(flags.config), builtin_estimators());
-  settle_reference(study, builtin_estimators());
-  study.description.data = data_of(study);
+  Study study = configure_study(flags.common.settings(flags.config), estimators());
+  settle_reference(study, estimators());
+  study.description.data = with_plugins(data_of(study), study.cells.front().estimators);
   ProgressLine line("sampling", flags.common.quiet);
   const StudySample sample =
-      sample_study(study, builtin_estimators(), flags.seconds, pin_threads, line.callback());
+      sample_study(study, estimators(), flags.seconds, pin_threads, line.callback());
   print(study, sample, flags);
 }
 

@@ -7,9 +7,9 @@
 
 #include "apps/command.hpp"
 #include "apps/common.hpp"
+#include "apps/estimators.hpp"
 #include "fathom/configuration/config_text.hpp"
 #include "fathom/core/files.hpp"
-#include "fathom/estimators/builtin.hpp"
 #include "fathom/harness/outlook.hpp"
 #include "fathom/harness/survey.hpp"
 #include "fathom/report/table.hpp"
@@ -67,7 +67,7 @@ std::string header(const std::string& what, const std::vector<std::string>& fact
 
 std::string estimator_list() {
   std::string text = "estimators:  # take away those that you do not want to compare\n";
-  for (const EstimatorEntry& entry : builtin_estimators().entries()) {
+  for (const EstimatorEntry& entry : estimators().entries()) {
     text += "  - {type: " + entry.name + "}\n";
   }
   return text;
@@ -76,8 +76,7 @@ std::string estimator_list() {
 void init(const InitFlags& flags, Context& context) {
   const std::string path = std::filesystem::absolute(flags.folder).lexically_normal().string();
   const Settings settings = flags.common.settings(path);
-  const Configuration configuration =
-      configure(settings, ConfigurationKind::single, builtin_estimators());
+  const Configuration configuration = configure(settings, ConfigurationKind::single, estimators());
   const std::unique_ptr<const DataSet> data = open_data_set(configuration);
   if (!std::filesystem::is_directory(path) || data->frames() == nullptr) {
     throw InputError(path,

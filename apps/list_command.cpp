@@ -4,9 +4,9 @@
 #include <memory>
 
 #include "apps/command.hpp"
+#include "apps/estimators.hpp"
 #include "fathom/configuration/configuration.hpp"
 #include "fathom/core/input_error.hpp"
-#include "fathom/estimators/builtin.hpp"
 #include "fathom/evaluation/metrics.hpp"
 #include "fathom/report/table.hpp"
 
@@ -43,8 +43,10 @@ void print_metrics() {
 void list(const std::string& what, Context& context) {
   context.status = kDone;
   if (what == "estimators") {
-    for (const EstimatorEntry& entry : builtin_estimators().entries()) {
-      print_heading(entry.name, entry.help);
+    for (const EstimatorEntry& entry : estimators().entries()) {
+      const std::string by =
+          entry.is_built_in() ? "" : " (plug-in " + entry.plugin.filename().string() + ")";
+      print_heading(entry.name, entry.help + by);
       print_options("estimator.", entry.options);
     }
   } else if (what == "detectors") {
@@ -73,12 +75,18 @@ void list(const std::string& what, Context& context) {
 
 void add_list(CLI::App& program, Context& context) {
   auto what = std::make_shared<std::string>();
+  auto plugins = std::make_shared<std::vector<std::string>>();
   Command command(program, "list",
                   "List estimators, detectors or datasets with their options, or metrics",
-                  "Example: fathom list estimators");
+                  "Example: fathom list estimators\n"
+                  "         fathom list estimators --plugin mine.so");
   command.argument("what", *what, {"estimators", "detectors", "datasets", "metrics"},
                    "estimators, detectors, datasets or metrics");
-  command.on_run([what, &context] { list(*what, context); });
+  add_plugins_to(command, *plugins);
+  command.on_run([what, plugins, &context] {
+    load_plugins(*plugins);
+    list(*what, context);
+  });
 }
 
 }  // namespace fathom

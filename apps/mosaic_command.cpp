@@ -8,11 +8,11 @@
 
 #include "apps/command.hpp"
 #include "apps/common.hpp"
+#include "apps/estimators.hpp"
 #include "apps/map_files.hpp"
 #include "apps/mosaics.hpp"
 #include "fathom/core/files.hpp"
 #include "fathom/core/input_error.hpp"
-#include "fathom/estimators/builtin.hpp"
 #include "fathom/evaluation/association.hpp"
 #include "fathom/harness/run_folder.hpp"
 #include "fathom/harness/survey.hpp"
@@ -109,7 +109,7 @@ std::string lay(const MosaicFlags& flags, const fs::path& folder, const FrameSou
 
 void make(const MosaicFlags& flags, Context& context) {
   const Configuration configuration =
-      configure(flags.settings(), ConfigurationKind::single, builtin_estimators());
+      configure(flags.settings(), ConfigurationKind::single, estimators());
   const std::optional<EarthFrame> earth = earth_of(configuration);
   const EarthFrame* on_earth = earth ? &*earth : nullptr;
   const Survey survey(configuration);

@@ -6,11 +6,11 @@
 
 #include "apps/command.hpp"
 #include "apps/common.hpp"
+#include "apps/estimators.hpp"
 #include "apps/registration_text.hpp"
 #include "fathom/configuration/study.hpp"
 #include "fathom/core/files.hpp"
 #include "fathom/datasets/picture_file.hpp"
-#include "fathom/estimators/builtin.hpp"
 #include "fathom/front_end/pair_seed.hpp"
 #include "fathom/harness/survey.hpp"
 #include "fathom/report/match_picture.hpp"
@@ -62,7 +62,7 @@ void write_pictures(const std::filesystem::path& folder, const MatchPicture& mat
 
 // Of a study its first cell.
 Configuration configuration_of(const Settings& settings) {
-  const EstimatorRegistry& registry = builtin_estimators();
+  const EstimatorRegistry& registry = estimators();
   const ConfigurationKind kind = kind_of(settings);
   return kind == ConfigurationKind::comparison ? configure_study(settings, registry).cells.front()
                                                : configure(settings, kind, registry);

@@ -8,12 +8,12 @@
 
 #include "apps/command.hpp"
 #include "apps/common.hpp"
+#include "apps/estimators.hpp"
 #include "apps/map_files.hpp"
 #include "apps/memory_meter.hpp"
 #include "apps/mosaics.hpp"
 #include "apps/pictures.hpp"
 #include "fathom/core/files.hpp"
-#include "fathom/estimators/builtin.hpp"
 #include "fathom/front_end/registration_store.hpp"
 #include "fathom/harness/loop_remarks.hpp"
 #include "fathom/harness/manifest.hpp"
@@ -36,7 +36,7 @@ Recording record_with_progress(const Recorder& recorder, const Configuration& co
                                bool quiet) {
   ProgressLine line("front end, picture", quiet);
   const TrialNoise noise{static_cast<std::uint64_t>(configuration.seed), 0};
-  return recorder.record(configuration, configuration.reference, builtin_estimators(), noise,
+  return recorder.record(configuration, configuration.reference, estimators(), noise,
                          line.front_end_callback());
 }
 
@@ -47,8 +47,8 @@ Result evaluate_with_progress(const Recording& recording, const Configuration& c
   ReplayOptions options = replay_options(configuration, estimator);
   options.memory = meter.get();
   options.progress = line.callback();
-  return evaluate(recording, estimator, builtin_estimators(),
-                  {.metrics = metric_options(configuration)}, options);
+  return evaluate(recording, estimator, estimators(), {.metrics = metric_options(configuration)},
+                  options);
 }
 
 // Of what a log may have beside steps and registrations.
@@ -90,8 +90,8 @@ std::string manifest_of(const Context& context, const Configuration& configurati
                         const Recorder& recorder, const Recording& recording, const Result& result,
                         const std::vector<std::string>& remarks) {
   return manifest_json(context.command_line, configuration.in_force,
-                       fingerprint(recorder.data().files()), recording, result,
-                       builtin_estimators(), remarks);
+                       with_plugins(fingerprint(recorder.data().files()), configuration.estimators),
+                       recording, result, estimators(), remarks);
 }
 
 // What looks wrong, and the batch optimum of the log where the estimate does not fit it.
@@ -105,7 +105,7 @@ Judgement judged(const Recording& recording, const Configuration& configuration,
   Judgement judgement;
   const std::vector<Pose>& estimate = result.replay.trajectory;
   judgement.remarks = loop_remarks(recording, configuration.front_end, estimate);
-  const auto optimum = batch_optimum(recording.log, builtin_estimators());
+  const auto optimum = batch_optimum(recording.log, estimators());
   const auto fit = optimum ? map_fit(recording.log, estimate, *optimum) : std::nullopt;
   if (!fit) return judgement;
   for (const std::string& remark : map_remarks(*fit, result.estimator.name, optimum->solver)) {
@@ -114,9 +114,8 @@ Judgement judged(const Recording& recording, const Configuration& configuration,
   if (fit->estimate_fits()) return judgement;
   ReplayOptions options;
   options.mode = SolveMode::batch;
-  judgement.optimum =
-      evaluate(recording, {kBatchOptimum, optimum->solver, {}}, builtin_estimators(),
-               {.metrics = metric_options(configuration)}, options);
+  judgement.optimum = evaluate(recording, {kBatchOptimum, optimum->solver, {}}, estimators(),
+                               {.metrics = metric_options(configuration)}, options);
   return judgement;
 }
 
@@ -169,8 +168,7 @@ void print_table(const Recording& recording, const std::vector<Result>& results,
 
 void run(const RunFlags& flags, Context& context) {
   const Settings settings = flags.common.settings(flags.config);
-  const Configuration configuration =
-      configure(settings, ConfigurationKind::single, builtin_estimators());
+  const Configuration configuration = configure(settings, ConfigurationKind::single, estimators());
   StagedFolder folder(flags.common.folder_or(stem_of(flags.config)),
                       inputs_of(flags.config, settings));
   const std::unique_ptr<RegistrationStore> cache =

@@ -5,8 +5,8 @@
 #include <memory>
 
 #include "apps/command.hpp"
+#include "apps/estimators.hpp"
 #include "fathom/core/files.hpp"
-#include "fathom/estimators/builtin.hpp"
 #include "fathom/report/selection_text.hpp"
 #include "fathom/results/selected_config.hpp"
 #include "fathom/results/selection.hpp"
@@ -61,14 +61,24 @@ std::filesystem::path write_config(const SelectFlags& flags, const std::string& 
   }
 }
 
+// The registry has to know what was chosen.
+void load_plugins_of(const StudyDescription& study) {
+  Settings settings;
+  for (const auto& [key, value] : study.configuration) {
+    if (key == "plugins") settings.put(parse_override(key + "=" + value));
+  }
+  load_plugins(settings, {});
+}
+
 void select(const SelectFlags& flags, Context& context) {
   const SelectionQuery query = query_of(flags);
   const ResultStore store = ResultStore::open(flags.results);
   const Selection selection = select_estimator(store, query);
+  load_plugins_of(store.study());
   std::filesystem::path config;
   if (selection.chosen) {
-    config = write_config(
-        flags, selected_configuration(store.study(), selection, query, builtin_estimators()));
+    config =
+        write_config(flags, selected_configuration(store.study(), selection, query, estimators()));
   }
   context.status = selection.chosen ? kDone : kFailed;
   if (flags.quiet) return;

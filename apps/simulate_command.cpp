@@ -7,11 +7,11 @@
 
 #include "apps/command.hpp"
 #include "apps/common.hpp"
+#include "apps/estimators.hpp"
 #include "fathom/configuration/config_text.hpp"
 #include "fathom/configuration/study.hpp"
 #include "fathom/core/files.hpp"
 #include "fathom/datasets/image_folder.hpp"
-#include "fathom/estimators/builtin.hpp"
 #include "fathom/harness/survey.hpp"
 
 namespace fathom {
@@ -63,7 +63,7 @@ std::string folder_configuration(const Configuration& configuration, const std::
 void simulate(const SimulateFlags& flags, Context& context) {
   const Settings settings = flags.common.settings(flags.config);
   const Configuration configuration =
-      configure(without_sweep(settings), kind_of(settings), builtin_estimators());
+      configure(without_sweep(settings), kind_of(settings), estimators());
   if (!find_data_set(configuration.dataset.type).makes_pictures) {
     throw InputError(flags.config, "dataset.type: 'simulate' takes simulated");
   }

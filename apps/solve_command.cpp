@@ -7,11 +7,11 @@
 
 #include "apps/command.hpp"
 #include "apps/common.hpp"
+#include "apps/estimators.hpp"
 #include "apps/graph_keys.hpp"
 #include "apps/memory_meter.hpp"
 #include "apps/pictures.hpp"
 #include "fathom/core/files.hpp"
-#include "fathom/estimators/builtin.hpp"
 #include "fathom/harness/false_loops.hpp"
 #include "fathom/harness/manifest.hpp"
 #include "fathom/harness/run_folder.hpp"
@@ -43,12 +43,13 @@ EstimatorConfiguration estimator_of(const SolveFlags& flags, const Settings& set
       // Nothing here is random; it is checked as everywhere.
       Settings seed;
       seed.put(setting);
-      configure(seed, ConfigurationKind::single, builtin_estimators());
-    } else if (!setting.key.starts_with("estimator.") && !is_graph_key(setting.key)) {
+      configure(seed, ConfigurationKind::single, estimators());
+    } else if (setting.key != "plugins" && !is_isolation_key(setting.key) &&
+               !setting.key.starts_with("estimator.") && !is_graph_key(setting.key)) {
       other = &setting;
     }
   }
-  const EstimatorEntry& entry = builtin_estimators().find(type.empty() ? "ceres_pose_graph" : type);
+  const EstimatorEntry& entry = estimators().find(type.empty() ? "ceres_pose_graph" : type);
   if (other != nullptr) {
     std::vector<std::string> known{"seed", "estimator.type"};
     for (const OptionDescription& option : entry.options)
@@ -80,6 +81,21 @@ EstimatorConfiguration estimator_of(const SolveFlags& flags, const Settings& set
     if (setting.key != "type") own.put(setting);
   }
   return {entry.name, entry.name, estimator_values(own, entry, {{}, mode}, "estimator.")};
+}
+
+IsolationOptions isolation_of(const Settings& settings) {
+  IsolationOptions options;
+  OptionTable table;
+  options.describe(table);
+  for (const Setting& setting : settings.all()) {
+    if (!is_isolation_key(setting.key)) continue;
+    try {
+      table.set(setting.key, setting.value);
+    } catch (const InputError& error) {
+      refuse(setting, error.what());
+    }
+  }
+  return options;
 }
 
 std::string chi2_text(const Result& result, const char* metric) {
@@ -146,6 +162,7 @@ void solve(const SolveFlags& flags, Context& context) {
   }
   ReplayOptions options;
   options.mode = mode;
+  options.isolation = isolation_of(settings);
   if (flags.init == "file") {
     if (!recording.log.guess) {
       throw InputError(flags.graph, "has no vertices to start from; use --init odometry");
@@ -158,13 +175,14 @@ void solve(const SolveFlags& flags, Context& context) {
   options.memory = meter.get();
   ProgressLine line(estimator.type + ", keyframe", flags.common.quiet);
   options.progress = line.callback();
-  const Result result = evaluate(recording, estimator, builtin_estimators(), {}, options);
+  const Result result = evaluate(recording, estimator, estimators(), {}, options);
   std::vector<std::pair<std::string, std::string>> configuration{{"graph", flags.graph},
                                                                  {"init", flags.init}};
   std::ranges::copy(in_force(graph, recording.log), std::back_inserter(configuration));
   write_run(folder.path(), recording, result,
-            manifest_json(context.command_line, configuration, fingerprint({flags.graph}),
-                          recording, result, builtin_estimators()));
+            manifest_json(context.command_line, configuration,
+                          with_plugins(fingerprint({flags.graph}), {estimator}), recording, result,
+                          estimators()));
   write_trajectory_picture(folder.path() / "trajectory.png",
                            stem_of(flags.graph) + ", " + estimator.type, recording, {result});
   folder.commit(optional_run_files());

@@ -2,11 +2,11 @@
 
 #include <cstdio>
 
+#include "apps/estimators.hpp"
 #include "apps/map_files.hpp"
 #include "apps/mosaics.hpp"
 #include "apps/pictures.hpp"
 #include "fathom/core/files.hpp"
-#include "fathom/estimators/builtin.hpp"
 #include "fathom/harness/manifest.hpp"
 #include "fathom/harness/run_folder.hpp"
 
@@ -30,7 +30,7 @@ void write_example(const fs::path& out, const Study& study, const std::vector<Ex
     fs::create_directory(own);
     write_run(own, *recording, result,
               manifest_json(context.command_line, configuration.in_force, study.description.data,
-                            *recording, result, builtin_estimators()));
+                            *recording, result, estimators()));
     write_trajectory_picture(own / "trajectory.png", title + ", " + result.estimator.name,
                              *recording, {result}, e);
     if (recording->camera) try_map_files(own, keyframe_map(*recording, result), on_earth);

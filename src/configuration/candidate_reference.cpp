@@ -72,6 +72,20 @@ CandidateReference configure_reference(const Settings& settings,
   refuse(*word, std::string(kKey) + ": no estimator is called '" + name + "'" + right);
 }
 
+void add_unused_references(const Settings& settings, const Configuration& configuration,
+                           std::vector<UnusedSetting>& unused) {
+  if (selects_by_reference(configuration)) return;
+  const bool is_own = configuration.study.association == Association::own;
+  for (const Setting& setting : settings.all()) {
+    if (!is_reference_key(setting.key)) continue;
+    const std::string why =
+        is_own ? "nobody's estimate but each one's own picks the loop candidates; "
+                 "use association.mode: shared"
+               : "a " + configuration.dataset.type + " graph has its loops; nothing selects them";
+    unused.push_back({setting.key, setting.origin + ": " + setting.key + ": " + why});
+  }
+}
+
 KeyValues reference_values(const CandidateReference& reference, const EstimatorRegistry& registry) {
   switch (reference.kind) {
     case CandidateReference::Kind::automatic:

@@ -8,6 +8,7 @@
 #include "estimator_list.hpp"
 #include "fathom/configuration/study.hpp"
 #include "origin_keys.hpp"
+#include "run_keys.hpp"
 #include "study_options.hpp"
 
 namespace fathom {
@@ -30,6 +31,7 @@ void bind(Configuration& configuration, OptionTable& table) {
                                "how an estimate is laid on the ground truth; never its scale");
   table.choice("dataset.type", configuration.dataset.type, data_set_names(), "kind of data set");
   table.group(kFrontEnd, configuration.front_end);
+  bind_runs(configuration, table);
 }
 
 // The keys that a comparison alone has.
@@ -105,21 +107,6 @@ std::vector<UnusedSetting> unused_settings(const Settings& settings,
   return unused;
 }
 
-// A reference beside which nothing is left to select; another cell of a sweep may have a use.
-void add_unused_references(const Settings& settings, const Configuration& configuration,
-                           std::vector<UnusedSetting>& unused) {
-  if (selects_by_reference(configuration)) return;
-  const bool is_own = configuration.study.association == Association::own;
-  for (const Setting& setting : settings.all()) {
-    if (!is_reference_key(setting.key)) continue;
-    const std::string why =
-        is_own ? "nobody's estimate but each one's own picks the loop candidates; "
-                 "use association.mode: shared"
-               : "a " + configuration.dataset.type + " graph has its loops; nothing selects them";
-    unused.push_back({setting.key, setting.origin + ": " + setting.key + ": " + why});
-  }
-}
-
 void check_front_end(const Settings& settings, const FrontEndOptions& options) {
   try {
     options.check();
@@ -148,6 +135,7 @@ void configure_estimators(Configuration& configuration, const Settings& settings
   if (kind == ConfigurationKind::comparison) {
     configuration.estimators = configure_list(settings, registry);
     configuration.reference = configure_reference(settings, configuration.estimators, registry);
+    check_selection_isolated(settings, configuration, registry);
     return;
   }
   if (const Setting* scalar = settings.find("estimator")) {
@@ -212,11 +200,13 @@ Configuration configure(const Settings& settings, ConfigurationKind kind,
   unused = unused_settings(settings, ignored, table);
   add_unused_references(settings, configuration, unused);
   configure_estimators(configuration, settings, kind, registry);
+  add_unused_limits(settings, configuration, registry, unused);
   for (const OptionDescription& option : table.descriptions()) {
     configuration.types[option.key] = option.type;
-    // A survey that is nowhere on Earth has no such keys: no result depends on them.
+    // A survey that is nowhere on Earth has no such keys.
     if (is_origin_key(option.key) && !configuration.origin.is_given()) continue;
     if (is_among(ignored, option.key)) continue;
+    if (is_run_key_without_effect(option.key, configuration, registry)) continue;
     configuration.in_force.emplace_back(option.key, table.value(option.key));
   }
   return configuration;

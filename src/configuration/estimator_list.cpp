@@ -68,7 +68,11 @@ EstimatorValues estimator_values(const Settings& settings, const EstimatorEntry&
   }
   // All together, as some depend on others; the message begins with the key that it is about.
   try {
-    entry.create(setup, values);
+    if (entry.check) {
+      entry.check(setup, values);
+    } else {
+      entry.create(setup, values);
+    }
   } catch (const InputError& error) {
     const std::string what = error.what();
     const Setting* about = settings.find(what.substr(0, what.find(':')));

@@ -27,4 +27,8 @@ CandidateReference configure_reference(const Settings& settings,
                                        const std::vector<EstimatorConfiguration>& estimators,
                                        const EstimatorRegistry& registry);
 
+/// Adds a reference beside which nothing is left to select; another cell of a sweep may have a use.
+void add_unused_references(const Settings& settings, const Configuration& configuration,
+                           std::vector<UnusedSetting>& unused);
+
 }  // namespace fathom

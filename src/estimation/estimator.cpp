@@ -16,9 +16,15 @@ std::string name_of(Outcome outcome) {
     case Outcome::diverged:
       return "diverged";
     case Outcome::numerical_failure:
+      return "numerical_failure";
+    case Outcome::crashed:
+      return "crashed";
+    case Outcome::timed_out:
+      return "timed_out";
+    case Outcome::out_of_memory:
       break;
   }
-  return "numerical_failure";
+  return "out_of_memory";
 }
 
 std::string name_of(LoopFate fate) {

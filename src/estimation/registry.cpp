@@ -1,10 +1,22 @@
 #include "fathom/estimation/registry.hpp"
 
+#include <algorithm>
+
 #include "fathom/core/input_error.hpp"
 
 namespace fathom {
 
 void EstimatorRegistry::add(EstimatorEntry entry) {
+  constexpr const char* kAllowed = "abcdefghijklmnopqrstuvwxyz0123456789_";
+  if (entry.name.empty() || entry.name.find_first_not_of(kAllowed) != std::string::npos) {
+    throw InputError("estimator '" + entry.name + "': expected a name of a-z, 0-9 and _");
+  }
+  const auto taken = std::ranges::find(entries_, entry.name, &EstimatorEntry::name);
+  if (taken != entries_.end()) {
+    const std::string by =
+        taken->is_built_in() ? "is built in" : "comes from " + taken->plugin.string();
+    throw InputError("estimator '" + entry.name + "': the name is taken, one of that name " + by);
+  }
   entries_.push_back(std::move(entry));
 }
 

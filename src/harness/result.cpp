@@ -5,6 +5,7 @@
 
 #include "fathom/estimation/loop_rows.hpp"
 #include "fathom/geometry/covariance.hpp"
+#include "fathom/harness/isolated_replay.hpp"
 #include "fathom/harness/recording_facts.hpp"
 
 namespace fathom {
@@ -124,6 +125,14 @@ std::vector<Eigen::Matrix3d> reckoned_covariances(const MeasurementLog& log, Unc
   return covariances;
 }
 
+Replay replayed(const MeasurementLog& log, const EstimatorEntry& entry,
+                const EstimatorValues& values, const ReplayOptions& options) {
+  const IsolationOptions& isolation = options.isolation;
+  if (!isolation.is_isolated(entry)) return replay(log, entry, values, options);
+  return isolated_replay(log, entry, values, options,
+                         {isolation.time_limit_s, std::int64_t{isolation.memory_limit_mib} << 20});
+}
+
 }  // namespace
 
 MetricOptions metric_options(const Configuration& configuration) {
@@ -139,6 +148,7 @@ ReplayOptions replay_options(const Configuration& configuration,
                              const EstimatorConfiguration& estimator) {
   ReplayOptions options;
   options.newest_covariances = configuration.study.newest_covariance;
+  options.isolation = configuration.isolation;
   const CandidateReference& reference = configuration.reference;
   const bool selects = configuration.study.association == Association::own ||
                        (reference.is_contender && reference.estimator.name == estimator.name);
@@ -164,7 +174,7 @@ Result evaluate(const Recording& recording, const EstimatorConfiguration& estima
   if (recording.ground_truth) {
     asked.motions = motions_to_judge(*recording.ground_truth, motion_options(judging.metrics));
   }
-  result.replay = replay(recording.log, registry.find(estimator.type), estimator.values, asked);
+  result.replay = replayed(recording.log, registry.find(estimator.type), estimator.values, asked);
   const std::vector<Pose>& estimate = result.replay.trajectory;
   RunFacts facts = facts_of(recording, recording.log, estimate, judging.metrics);
   if (!recording.frames.empty()) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "fathom/configuration/config_file.hpp"
+#include "fathom/configuration/isolation.hpp"
 #include "fathom/datasets/data_set.hpp"
 #include "fathom/datasets/earth_origin.hpp"
 #include "fathom/estimation/registry.hpp"
@@ -93,7 +94,9 @@ struct Configuration {
   std::vector<EstimatorConfiguration> estimators;
   CandidateReference reference;
   Alignment alignment = Alignment::origin;
-  StudyOptions study;  ///< of a comparison
+  StudyOptions study;                ///< of a comparison
+  std::vector<std::string> plugins;  ///< files; whoever makes the registry loads them
+  IsolationOptions isolation;
   int seed = 1;
   /// Every key with its value in force, defaults included, for the manifest. Keys that have no
   /// effect beside the others are left out.

@@ -14,8 +14,17 @@
 
 namespace fathom {
 
-/// How an update or a solve ended. Ordered by how bad it is: `worse` takes the later.
-enum class Outcome { converged, iteration_limit, diverged, numerical_failure };
+/// How an update or a solve ended, and from `crashed` on how a run in a process of its own did.
+/// Ordered by how bad it is: `worse` takes the later.
+enum class Outcome {
+  converged,
+  iteration_limit,
+  diverged,
+  numerical_failure,
+  crashed,
+  timed_out,
+  out_of_memory
+};
 
 std::string name_of(Outcome outcome);
 Outcome worse(Outcome a, Outcome b);

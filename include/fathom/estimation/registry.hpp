@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <memory>
@@ -35,12 +36,18 @@ struct EstimatorEntry {
   std::vector<std::string> unused_options;
   /// Throws InputError on an unknown key or a bad value.
   std::function<std::unique_ptr<Estimator>(const EstimatorSetup&, const EstimatorValues&)> create;
+  /// The same of the values alone: nothing is made. Absent: `create` has to be asked.
+  std::function<void(const EstimatorSetup&, const EstimatorValues&)> check;
+  std::filesystem::path plugin{};  ///< the shared object that brings it; empty: built in
+
+  bool is_built_in() const { return plugin.empty(); }
 };
 
 /// Name → factory and described options: the one place from which `fathom list`, the configuration
 /// checks and the documentation are made.
 class EstimatorRegistry {
  public:
+  /// Throws InputError where the name is no plain word, or is taken.
   void add(EstimatorEntry entry);
   const std::vector<EstimatorEntry>& entries() const { return entries_; }
   /// Throws InputError naming the nearest known estimator.
@@ -63,13 +70,19 @@ EstimatorEntry make_entry(std::string name, std::string help, bool can_batch, Ma
   OptionTable table;
   defaults.describe(table);
   entry.options = table.descriptions();
-  entry.create = [make](const EstimatorSetup& setup, const EstimatorValues& values) {
+  const auto options_of = [](const EstimatorSetup& setup, const EstimatorValues& values) {
     Options options;
     OptionTable bound;
     options.describe(bound);
     for (const auto& [key, value] : values) bound.set(key, value);
     if constexpr (requires { options.check(setup); }) options.check(setup);
-    return std::unique_ptr<Estimator>(make(setup, options));
+    return options;
+  };
+  entry.create = [make, options_of](const EstimatorSetup& setup, const EstimatorValues& values) {
+    return std::unique_ptr<Estimator>(make(setup, options_of(setup, values)));
+  };
+  entry.check = [options_of](const EstimatorSetup& setup, const EstimatorValues& values) {
+    options_of(setup, values);
   };
   return entry;
 }

@@ -11,6 +11,7 @@
 
 #include <Eigen/Core>
 
+#include "fathom/configuration/isolation.hpp"
 #include "fathom/estimation/registry.hpp"
 #include "fathom/evaluation/relative_consistency.hpp"
 #include "fathom/harness/recording.hpp"
@@ -55,6 +56,8 @@ struct ReplayOptions {
   std::vector<JudgedMotions> motions;
   MemoryMeter* memory = nullptr;
   Progress progress;
+  /// Of evaluate(), which decides by it between replay and isolated_replay.
+  IsolationOptions isolation;
 };
 
 /// One estimator's estimate from a log, and what it cost. Cost is wall time of the estimator's
@@ -65,9 +68,10 @@ struct Replay {
   std::optional<std::vector<Eigen::Matrix3d>> covariances;
   Outcome outcome = Outcome::converged;  ///< the worst of all updates
   /// How the estimator broke its contract (GuardedEstimator), one line; the outcome is
-  /// `numerical_failure` then. Empty: it did not.
+  /// `numerical_failure` then. Or how its process ended. Empty: neither.
   std::string fault;
-  std::array<std::size_t, 4> outcome_counts{};  ///< of updates, by Outcome
+  /// Of updates, by Outcome; no update has one from `crashed` on.
+  std::array<std::size_t, 4> outcome_counts{};
   std::vector<LoopDecision> loops;
   /// The final weight of each (Estimator::loop_weights); 0 of those that are not used.
   std::vector<double> loop_weights;
@@ -100,5 +104,9 @@ struct Replay {
 /// Gives a log to an estimator, keyframe by keyframe, and measures.
 Replay replay(const MeasurementLog& log, const EstimatorEntry& entry, const EstimatorValues& values,
               const ReplayOptions& options);
+
+/// Of a run that left nothing but how it ended: poses are NaN, every measurement is lost.
+Replay lost_replay(const MeasurementLog& log, const ReplayOptions& options, Outcome outcome,
+                   const std::string& fault);
 
 }  // namespace fathom

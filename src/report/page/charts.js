@@ -43,7 +43,7 @@ function extentOf(paths) {
 // What the map shows at first: all, unless dead reckoning or a run that failed is so far off that
 // the rest could not be seen.
 function mapExtent({paths, fixes}) {
-  const failed = cellNow().example.estimators.filter((one) => ['diverged', 'numerical_failure'].includes(one.outcome));
+  const failed = cellNow().example.estimators.filter((one) => !['converged', 'iteration_limit'].includes(one.outcome));
   const strays = [kBaseline, ...failed.map((one) => one.name)];
   const near = paths.filter((row) => !strays.includes(row.estimator));
   const [all, most] = [extentOf(paths), extentOf(near)];

@@ -225,7 +225,8 @@ function paretoRows(cell) {
 }
 
 function outcomeRows(cell) {
-  const order = ['converged', 'iteration_limit', 'diverged', 'numerical_failure', 'not run'];
+  const order = ['converged', 'iteration_limit', 'diverged', 'numerical_failure', 'crashed', 'timed_out',
+    'out_of_memory', 'not run'];
   return cell.estimators.filter((one) => one.name !== kBaseline).flatMap((one) => {
     const counts = {...one.outcomes, 'not run': Math.max(0, study.surveys * study.trials - one.runs)};
     return order.filter((name) => counts[name] > 0).map((name) => {

@@ -1,0 +1,116 @@
+#include "apps/estimators.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <set>
+#include <sstream>
+
+#include "apps/flags.hpp"
+#include "fathom/configuration/config_file.hpp"
+#include "fathom/core/input_error.hpp"
+#include "fathom/estimation/plugin.hpp"
+#include "fathom/estimators/builtin.hpp"
+
+namespace fathom {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kSearchPath = "FATHOM_PLUGIN_PATH";
+
+// A folder stands for the shared objects in it, in the order of their names.
+std::vector<fs::path> shared_objects_of(const fs::path& place) {
+  if (!fs::is_directory(place)) return {place};
+  std::vector<fs::path> files;
+  for (const fs::directory_entry& entry : fs::directory_iterator(place)) {
+    if (entry.path().extension() == ".so") files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+class KnownEstimators {
+ public:
+  KnownEstimators() {
+    const char* const places = std::getenv(kSearchPath);
+    if (places == nullptr) return;
+    std::istringstream words(places);
+    for (std::string place; std::getline(words, place, ':');) {
+      if (place.empty()) continue;
+      try {
+        for (const fs::path& file : shared_objects_of(place)) load(file);
+      } catch (const InputError& error) {
+        throw InputError(std::string(kSearchPath) + ": " + error.what());
+      }
+    }
+  }
+
+  void load(const fs::path& file) {
+    const fs::path known_as = fs::weakly_canonical(file);
+    if (loaded_.contains(known_as)) return;
+    load_plugin(file, registry_);
+    loaded_.insert(known_as);
+  }
+
+  const EstimatorRegistry& registry() const { return registry_; }
+
+ private:
+  EstimatorRegistry registry_ = builtin_estimators();
+  std::set<fs::path> loaded_;
+};
+
+KnownEstimators& known_estimators() {
+  static KnownEstimators known;
+  return known;
+}
+
+}  // namespace
+
+const EstimatorRegistry& estimators() {
+  return known_estimators().registry();
+}
+
+void load_plugins(const std::vector<std::string>& files) {
+  for (const std::string& file : files) known_estimators().load(file);
+}
+
+void add_plugins_to(Command& command, std::vector<std::string>& files) {
+  command.texts("--plugin", files, "FILE", "Shared object with further estimators");
+}
+
+void load_plugins(Settings& settings, const std::vector<std::string>& files) {
+  constexpr const char* kKey = "plugins";
+  const Setting* const given = settings.find(kKey);
+  Setting all{kKey, {{}, true}, "--plugin"};
+  if (given != nullptr) {
+    all = *given;
+    if (!all.value.is_list) refuse(*given, "plugins: expected a list of files, [FILE]");
+    try {
+      load_plugins(all.value.items);
+    } catch (const InputError& error) {
+      refuse(*given, std::string("plugins: ") + error.what());
+    }
+  }
+  load_plugins(files);
+  for (const std::string& file : files) {
+    if (std::ranges::find(all.value.items, file) == all.value.items.end()) {
+      all.value.items.push_back(file);
+    }
+  }
+  if (!all.value.items.empty()) settings.put(all);
+}
+
+Fingerprint with_plugins(Fingerprint data, const std::vector<EstimatorConfiguration>& used) {
+  std::set<fs::path> files;
+  for (const EstimatorConfiguration& one : used) {
+    const EstimatorEntry& entry = estimators().find(one.type);
+    if (!entry.is_built_in()) files.insert(entry.plugin);
+  }
+  const Fingerprint plugins = fingerprint({files.begin(), files.end()});
+  data.insert(data.end(), plugins.begin(), plugins.end());
+  std::sort(data.begin(), data.end());
+  return data;
+}
+
+}  // namespace fathom

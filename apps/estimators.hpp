@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "fathom/configuration/configuration.hpp"
+#include "fathom/datasets/fingerprint.hpp"
+#include "fathom/estimation/registry.hpp"
+
+namespace fathom {
+
+class Command;
+
+/// The estimators that this program knows: those built in, those of the plug-ins that
+/// FATHOM_PLUGIN_PATH names, and those loaded since.
+const EstimatorRegistry& estimators();
+
+/// Loads plug-ins; what is loaded already stays as it is. Throws InputError.
+void load_plugins(const std::vector<std::string>& files);
+
+/// --plugin FILE of a command, each use adds one.
+void add_plugins_to(Command& command, std::vector<std::string>& files);
+
+/// The files of `plugins` in a configuration and of --plugin, which are put there. Throws
+/// InputError at the setting where it is no list of words.
+void load_plugins(Settings& settings, const std::vector<std::string>& files);
+
+/// The data of a study or a run, and the plug-ins that bring its estimators.
+Fingerprint with_plugins(Fingerprint data, const std::vector<EstimatorConfiguration>& used);
+
+}  // namespace fathom

@@ -1,0 +1,98 @@
+#include "fathom/estimation/plugin.hpp"
+
+#include <array>
+#include <dlfcn.h>
+#include <exception>
+#include <string>
+#include <utility>
+
+#include "fathom/core/input_error.hpp"
+
+namespace fathom {
+namespace {
+
+constexpr const char* kExported = "fathom_plugin";
+
+std::string linker_error() {
+  const char* const text = ::dlerror();
+  return text == nullptr ? "unknown error" : text;
+}
+
+const PluginInterface& interface_of(const std::filesystem::path& file) {
+  // A name without a folder would be looked for among the system's libraries.
+  void* const library = ::dlopen(std::filesystem::absolute(file).c_str(), RTLD_NOW | RTLD_LOCAL);
+  if (library == nullptr) throw InputError("the plug-in cannot be loaded: " + linker_error());
+  void* const symbol = ::dlsym(library, kExported);
+  if (symbol == nullptr) {
+    throw InputError(file.string(),
+                     "is no plug-in: it does not export fathom_plugin; see FATHOM_PLUGIN in "
+                     "fathom/estimation/plugin.hpp");
+  }
+  const auto function = reinterpret_cast<const PluginInterface* (*)()>(symbol);
+  const PluginInterface* const found = function();
+  if (found == nullptr) throw InputError(file.string(), "its fathom_plugin returns nothing");
+  return *found;
+}
+
+void require_version(const std::filesystem::path& file, const PluginInterface& plugin) {
+  if (plugin.version == kPluginVersion) return;
+  throw InputError(file.string(), "was made for version " + std::to_string(plugin.version) +
+                                      " of the plug-in interface, this program has version " +
+                                      std::to_string(kPluginVersion) +
+                                      "; build it against the installed Fathom");
+}
+
+void require_build(const std::filesystem::path& file, const PluginBuild& plugin) {
+  const PluginBuild own;
+  const std::array<std::pair<const char*, std::uint32_t PluginBuild::*>, 5> all{
+      {{"the version of Eigen", &PluginBuild::eigen},
+       {"the alignment of Eigen (-march?)", &PluginBuild::eigen_alignment},
+       {"the size of a measurement", &PluginBuild::measurement_bytes},
+       {"the size of a report", &PluginBuild::report_bytes},
+       {"the size of a described estimator", &PluginBuild::entry_bytes}}};
+  for (const auto& [what, field] : all) {
+    if (plugin.*field == own.*field) continue;
+    throw InputError(file.string(), std::string("was compiled otherwise than this program: ") +
+                                        what + " is " + std::to_string(plugin.*field) +
+                                        ", expected " + std::to_string(own.*field) +
+                                        "; build it with the same flags against the same packages");
+  }
+}
+
+EstimatorRegistry estimators_of(const std::filesystem::path& file, const PluginInterface& plugin) {
+  EstimatorRegistry brought;
+  if (plugin.add_estimators == nullptr) throw InputError(file.string(), "brings no estimators");
+  try {
+    plugin.add_estimators(brought);
+  } catch (const std::exception& error) {
+    throw InputError(file.string(), std::string("adding its estimators threw: ") + error.what());
+  } catch (...) {
+    throw InputError(file.string(), "adding its estimators threw what is no std::exception");
+  }
+  if (brought.entries().empty()) throw InputError(file.string(), "brings no estimators");
+  return brought;
+}
+
+}  // namespace
+
+void load_plugin(const std::filesystem::path& file, EstimatorRegistry& registry) {
+  if (!std::filesystem::exists(file)) {
+    throw InputError(file.string(), "there is no such plug-in");
+  }
+  const PluginInterface& plugin = interface_of(file);
+  require_version(file, plugin);
+  require_build(file, plugin.build);
+  EstimatorRegistry both = registry;
+  const EstimatorRegistry brought = estimators_of(file, plugin);
+  for (EstimatorEntry entry : brought.entries()) {
+    entry.plugin = std::filesystem::absolute(file).lexically_normal();
+    try {
+      both.add(std::move(entry));
+    } catch (const InputError& error) {
+      throw InputError(file.string(), error.what());
+    }
+  }
+  registry = std::move(both);
+}
+
+}  // namespace fathom

@@ -1,0 +1,110 @@
+#include "fathom/harness/isolated_replay.hpp"
+
+#include <chrono>
+#include <csignal>
+#include <cstring>
+#include <exception>
+#include <optional>
+#include <string>
+
+#include "fathom/core/input_error.hpp"
+#include "forked_child.hpp"
+#include "replay_bytes.hpp"
+
+namespace fathom {
+namespace {
+
+// The kinds of messages of a child.
+constexpr char kProgress = 'p';
+constexpr char kReplay = 'r';
+constexpr char kBadInput = 'i';
+
+// Progress in pieces that cost a run nothing.
+class RarelySent {
+ public:
+  explicit RarelySent(const MessagePipe& parent) : parent_(parent) {}
+
+  void operator()(std::size_t done, std::size_t of) {
+    const auto now = std::chrono::steady_clock::now();
+    if (now - last_ < std::chrono::milliseconds(50) && done < of) return;
+    last_ = now;
+    const std::size_t both[2] = {done, of};
+    parent_.send(kProgress, {reinterpret_cast<const char*>(both), sizeof both});
+  }
+
+ private:
+  MessagePipe parent_;
+  std::chrono::steady_clock::time_point last_{};
+};
+
+void replay_in_child(const MessagePipe& parent, const MeasurementLog& log,
+                     const EstimatorEntry& entry, const EstimatorValues& values,
+                     ReplayOptions options) {
+  if (options.progress) options.progress = RarelySent(parent);
+  try {
+    parent.send(kReplay, bytes_of(replay(log, entry, values, options)));
+  } catch (const InputError& error) {
+    parent.send(kBadInput, error.what());
+  } catch (const std::bad_alloc&) {
+    ::_exit(kNoMemoryStatus);
+  }
+}
+
+std::string with_last_lines(const std::string& what, const ChildEnd& end) {
+  return end.last_lines.empty() ? what : what + "; it printed last: " + end.last_lines;
+}
+
+// Of a child that left no replay.
+Replay lost_in(const ChildEnd& end, const MeasurementLog& log, const ReplayOptions& options,
+               const ProcessLimits& limits) {
+  const auto number = [](double value) {
+    std::string text = std::to_string(value);
+    text.erase(text.find_last_not_of('0') + 1);
+    if (text.back() == '.') text.pop_back();
+    return text;
+  };
+  const auto lost = [&](Outcome outcome, const std::string& what) {
+    return lost_replay(log, options, outcome, with_last_lines(what, end));
+  };
+  if (end.is_late) {
+    return lost(Outcome::timed_out, "was killed after " + number(limits.time_s) + " s");
+  }
+  // Code in C that finds no memory crashes; a system that has none left kills.
+  const bool is_full =
+      static_cast<double>(end.grown_bytes) > 0.9 * static_cast<double>(limits.memory_bytes);
+  if (end.exit_status == kNoMemoryStatus || end.signal == SIGKILL || (end.signal != 0 && is_full)) {
+    return lost(Outcome::out_of_memory,
+                "found no memory within " + std::to_string(limits.memory_bytes >> 20) + " MiB");
+  }
+  if (end.signal != 0) {
+    return lost(Outcome::crashed, "was ended by signal " + std::to_string(end.signal) + " (" +
+                                      ::strsignal(end.signal) + ")");
+  }
+  return lost(Outcome::crashed,
+              "ended its process itself, with status " + std::to_string(end.exit_status));
+}
+
+}  // namespace
+
+Replay isolated_replay(const MeasurementLog& log, const EstimatorEntry& entry,
+                       const EstimatorValues& values, const ReplayOptions& options,
+                       const ProcessLimits& limits) {
+  std::optional<Replay> result;
+  std::string bad_input;
+  std::size_t at[2] = {0, log.size()};
+  const auto on_message = [&](char kind, const std::string& text) {
+    if (kind == kReplay) result = replay_of(text, options);
+    if (kind == kBadInput) bad_input = text;
+    if (kind == kProgress && text.size() == sizeof at) std::memcpy(at, text.data(), sizeof at);
+    // A run that says nothing can be stopped, too.
+    if (options.progress && (kind == kProgress || kind == 0)) options.progress(at[0], at[1]);
+  };
+  const ChildEnd end = run_child(
+      [&](const MessagePipe& parent) { replay_in_child(parent, log, entry, values, options); },
+      {limits.time_s, limits.memory_bytes}, on_message);
+  if (!bad_input.empty()) throw InputError(bad_input);
+  if (!result || end.signal != 0 || end.exit_status != 0) return lost_in(end, log, options, limits);
+  return std::move(*result);
+}
+
+}  // namespace fathom
