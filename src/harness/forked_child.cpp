@@ -10,6 +10,7 @@
 #include <fstream>
 #include <new>
 #include <poll.h>
+#include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -45,13 +46,10 @@ struct Pipe {
   }
 };
 
-// Of this process, in bytes: its address space and what of that is resident.
-std::array<std::int64_t, 2> memory_now() {
+std::int64_t address_space_now() {
   std::int64_t pages = 0;
-  std::int64_t resident_pages = 0;
-  std::ifstream("/proc/self/statm") >> pages >> resident_pages;
-  const std::int64_t page = ::sysconf(_SC_PAGESIZE);
-  return {pages * page, resident_pages * page};
+  std::ifstream("/proc/self/statm") >> pages;
+  return pages * ::sysconf(_SC_PAGESIZE);
 }
 
 void limit(__rlimit_resource what, std::int64_t bytes) {
@@ -59,6 +57,29 @@ void limit(__rlimit_resource what, std::int64_t bytes) {
   ::getrlimit(what, &now);
   now.rlim_cur = std::min(static_cast<rlim_t>(bytes), now.rlim_max);
   ::setrlimit(what, &now);
+}
+
+// So much has to be left, or a crash is taken for what code in C does that finds no memory.
+std::size_t spare_bytes = 0;
+
+void on_crash(int signal) {
+  if (::mmap(nullptr, spare_bytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0) == MAP_FAILED) {
+    ::_exit(kNoMemoryStatus);
+  }
+  ::signal(signal, SIG_DFL);
+  ::raise(signal);
+}
+
+// On a stack of its own, as the other may have overflown.
+void tell_no_memory_from_crash(std::int64_t limit_bytes) {
+  static std::array<char, 16384> stack;
+  spare_bytes = static_cast<std::size_t>(limit_bytes / 50);
+  const stack_t own{stack.data(), 0, stack.size()};
+  ::sigaltstack(&own, nullptr);
+  struct sigaction action {};
+  action.sa_handler = on_crash;
+  action.sa_flags = SA_ONSTACK | SA_NODEFER;
+  for (const int signal : {SIGSEGV, SIGBUS, SIGABRT}) ::sigaction(signal, &action, nullptr);
 }
 
 [[noreturn]] void be_child(Pipe& messages, Pipe& printed, pid_t parent, const ChildLimits& limits,
@@ -76,7 +97,8 @@ void limit(__rlimit_resource what, std::int64_t bytes) {
   ::dup2(own, kMessages);
   ::close_range(kMessages + 1, ~0U, 0);
   limit(RLIMIT_CORE, 0);
-  limit(RLIMIT_AS, memory_now()[0] + limits.memory_bytes);
+  tell_no_memory_from_crash(limits.memory_bytes);
+  limit(RLIMIT_AS, address_space_now() + limits.memory_bytes);
   std::set_new_handler([] { ::_exit(kNoMemoryStatus); });
   action(MessagePipe(kMessages));
   std::fflush(nullptr);
@@ -149,14 +171,12 @@ class Child {
 
   ChildEnd reap() {
     int status = 0;
-    rusage usage{};
-    while (::wait4(id_, &status, 0, &usage) < 0 && errno == EINTR) {
+    while (::waitpid(id_, &status, 0) < 0 && errno == EINTR) {
     }
     is_reaped_ = true;
     ChildEnd end;
     if (WIFEXITED(status)) end.exit_status = WEXITSTATUS(status);
     if (WIFSIGNALED(status)) end.signal = WTERMSIG(status);
-    end.grown_bytes = usage.ru_maxrss * 1024;
     return end;
   }
 
@@ -234,7 +254,6 @@ ChildEnd run_child(const std::function<void(const MessagePipe&)>& action, const 
                    const std::function<void(char, const std::string&)>& on_message) {
   Pipe messages;
   Pipe printed;
-  const std::int64_t resident = memory_now()[1];
   std::fflush(nullptr);
   const pid_t parent = ::getpid();
   const pid_t id = ::fork();
@@ -243,9 +262,7 @@ ChildEnd run_child(const std::function<void(const MessagePipe&)>& action, const 
   Child child(id);
   messages.close(1);
   printed.close(1);
-  ChildEnd end = watch(child, messages, printed, limits, on_message);
-  end.grown_bytes -= resident;
-  return end;
+  return watch(child, messages, printed, limits, on_message);
 }
 
 }  // namespace fathom

@@ -10,11 +10,10 @@ namespace fathom {
 
 /// How a child process ended, and what it left.
 struct ChildEnd {
-  bool is_late = false;          ///< it was killed at its time limit
-  int exit_status = 0;           ///< where no signal ended it
-  int signal = 0;                ///< 0: none
-  std::int64_t grown_bytes = 0;  ///< by so much its resident memory was above this process's
-  std::string last_lines;        ///< of what it printed, on one line
+  bool is_late = false;    ///< it was killed at its time limit
+  int exit_status = 0;     ///< where no signal ended it
+  int signal = 0;          ///< 0: none
+  std::string last_lines;  ///< of what it printed, on one line
 };
 
 /// What a child may take.
@@ -23,7 +22,7 @@ struct ChildLimits {
   std::int64_t memory_bytes = 0;  ///< of address space beyond what this process has
 };
 
-/// With this status a child ends that finds no memory.
+/// With this status a child ends that finds no memory, or crashes with hardly any left.
 inline constexpr int kNoMemoryStatus = 86;
 
 /// Where a child writes what the parent is to know, in messages of any size.

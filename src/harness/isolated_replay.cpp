@@ -69,10 +69,8 @@ Replay lost_in(const ChildEnd& end, const MeasurementLog& log, const ReplayOptio
   if (end.is_late) {
     return lost(Outcome::timed_out, "was killed after " + number(limits.time_s) + " s");
   }
-  // Code in C that finds no memory crashes; a system that has none left kills.
-  const bool is_full =
-      static_cast<double>(end.grown_bytes) > 0.9 * static_cast<double>(limits.memory_bytes);
-  if (end.exit_status == kNoMemoryStatus || end.signal == SIGKILL || (end.signal != 0 && is_full)) {
+  // The system kills where it has no memory left itself.
+  if (end.exit_status == kNoMemoryStatus || end.signal == SIGKILL) {
     return lost(Outcome::out_of_memory,
                 "found no memory within " + std::to_string(limits.memory_bytes >> 20) + " MiB");
   }
