@@ -42,7 +42,7 @@ class Search {
     result.solved.iterations += iterations_;
     hand_back();
     result.weights = std::move(weights_);
-    result.squared_scale = scale_;
+    result.squared_scales = {scale_, largest_};
     return result;
   }
 
@@ -50,10 +50,13 @@ class Search {
   const LoopJudgement& tuning() const { return options_.judgement; }
   double limit() const { return tuning().reject_at * scale_; }
 
+  // As of a registration, χ² of an edge times this is to be compared with scale_.
+  double to_scale(std::size_t e) const { return graph_.rank(e) == 3 ? 1.0 : scale_ / largest_; }
+
   double chi2_of(std::size_t e) const {
     const Edge& edge = graph_.edges[e];
-    return graph_.as_registration(
-        e, linearise_edge(edge, nodes_[at(edge.from)], nodes_[at(edge.to)]).cost);
+    const double chi2 = linearise_edge(edge, nodes_[at(edge.from)], nodes_[at(edge.to)]).cost;
+    return to_scale(e) * graph_.as_registration(e, chi2);
   }
 
   double share_inside() const {
@@ -70,9 +73,9 @@ class Search {
   bool may_return(std::size_t e, const Drift& drift, bool few_inside) const {
     if (rejections_[e] >= tuning().max_rejections) return false;
     if (chi2_of(e) < tuning().candidate_reach * scale_) return true;
-    return (few_inside || is_new_[e] != 0) &&
-           graph_.as_registration(e, least_chi2(drift, graph_.edges[e], graph_.rank(e), nodes_)) <
-               tuning().drift_reach * scale_;
+    if (!few_inside && is_new_[e] == 0) return false;
+    const double least = least_chi2(drift, graph_.edges[e], graph_.rank(e), nodes_);
+    return to_scale(e) * graph_.as_registration(e, least) < tuning().drift_reach * scale_;
   }
 
   void choose_candidates() {
@@ -101,8 +104,9 @@ class Search {
   bool judge() {
     bool any = false;
     for (int round = 0; round < tuning().rounds; ++round) {
-      const std::vector<double> chi2 = solved_and_left_out();
+      std::vector<double> chi2 = solved_and_left_out();
       adapt_scale(chi2);
+      bring_to_scale(chi2);
       if (reject(chi2)) continue;
       if (readmit(chi2)) {
         any = true;
@@ -127,6 +131,10 @@ class Search {
     scale_ = std::clamp(
         tuning().scale_factor / tuning().reject_at * inside[static_cast<std::size_t>(place)],
         tuning().least_scale_share * largest_, largest_);
+  }
+
+  void bring_to_scale(std::vector<double>& chi2) const {
+    for (std::size_t j = 0; j < chi2.size(); ++j) chi2[j] *= to_scale(candidates_->index(j));
   }
 
   void reject_one(std::size_t j) {
@@ -188,7 +196,8 @@ class Search {
   // Half way to the new weights each time: all at once they may swing.
   void settle_weights() {
     for (int round = 0; round < tuning().weight_rounds; ++round) {
-      const std::vector<double> chi2 = solved_and_left_out();
+      std::vector<double> chi2 = solved_and_left_out();
+      bring_to_scale(chi2);
       double change = 0.0;
       for (std::size_t j = 0; j < own_.size(); ++j) {
         if (!candidates_->is_loop(j)) continue;
@@ -207,8 +216,8 @@ class Search {
   ConsensusOptions options_;
   std::vector<int> rejections_;  ///< by edge
   std::vector<char> is_new_;
-  double scale_ = 0.0;  ///< c²
-  double largest_ = 0.0;
+  double scale_ = 0.0;    ///< c² of registrations
+  double largest_ = 0.0;  ///< that of all others, too
   std::optional<Candidates> candidates_;
   std::vector<double> own_;  ///< weights of the candidates
   std::set<std::vector<std::size_t>> settled_groups_;
@@ -223,13 +232,12 @@ Consensus find_consensus(const LoopGraph& graph, std::vector<double> weights,
 }
 
 double truncated_cost(const LoopGraph& graph, std::span<const double> weights,
-                      std::span<const Node> nodes, double squared_scale) {
+                      std::span<const Node> nodes, const SquaredScales& squared_scales) {
   double sum = 0.0;
   for (std::size_t e = 0; e < graph.edges.size(); ++e) {
     const Edge& edge = graph.edges[e];
     const double chi2 = linearise_edge(edge, nodes[at(edge.from)], nodes[at(edge.to)]).cost;
-    const double scale = squared_scale * squared_scale_share(LossKind::truncated, graph.rank(e));
-    sum += weights[e] * chi2 + (1.0 - weights[e]) * scale;
+    sum += weights[e] * chi2 + (1.0 - weights[e]) * squared_scales.of_rank(graph.rank(e));
   }
   return sum;
 }

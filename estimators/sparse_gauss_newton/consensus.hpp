@@ -11,18 +11,28 @@ namespace fathom::sparse_gauss_newton {
 /// In a first guess of weights, that of a loop of which nothing is known.
 inline constexpr double kNewLoop = -1.0;
 
+/// c² of `truncated`: the squared residual, left out, at which a loop weighs one half. How well
+/// registrations agree says how far their σ are off, and nothing of those of other measurements.
+struct SquaredScales {
+  double registration = 0.0;  ///< the given one, the default, or less
+  double partial = 0.0;       ///< of what measures part of a motion: the given one or the default
+
+  double of_rank(int rank) const {
+    return (rank == 3 ? registration : partial) * squared_scale_share(LossKind::truncated, rank);
+  }
+};
+
 /// Which loops agree, and the least squares of those.
 struct Consensus {
   SolveResult solved;
   std::vector<double> weights;  ///< by edge
-  /// The squared residual, left out, at which a loop weighs one half.
-  double squared_scale = 0.0;
+  SquaredScales squared_scales;
 };
 
 /// How to look for a consensus.
 struct ConsensusOptions {
   LoopJudgement judgement;
-  /// Absent: the default, or less where the loops agree better than they say.
+  /// Absent: the default, or less where the registrations agree better than they say.
   std::optional<double> squared_scale;
   SolveLimits limits;  ///< of the last solve
 };
@@ -39,6 +49,6 @@ Consensus find_consensus(const LoopGraph& graph, std::vector<double> weights,
 
 /// F of the loops kept and the scale for each that is not: the less, the better a consensus.
 double truncated_cost(const LoopGraph& graph, std::span<const double> weights,
-                      std::span<const Node> nodes, double squared_scale);
+                      std::span<const Node> nodes, const SquaredScales& squared_scales);
 
 }  // namespace fathom::sparse_gauss_newton

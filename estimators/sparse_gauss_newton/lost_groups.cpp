@@ -41,7 +41,7 @@ std::vector<std::vector<std::size_t>> lost_groups(const LoopGraph& graph,
     const bool is_registration = graph.is_loop[e] != 0 && graph.rank(e) == 3;
     if (is_registration && consensus.weights[e] == 0.0) lost.push_back(e);
   }
-  const double limit = judgement.lost_group_slack * consensus.squared_scale;
+  const double limit = judgement.lost_group_slack * consensus.squared_scales.registration;
   const auto belong = [&](const Edge& a, const Edge& b) { return agree(a, b, nodes, limit); };
   auto groups = group_loops(graph.edges, std::move(lost), judgement.group_reach, belong);
   std::erase_if(groups, [](const auto& group) { return group.size() < 2; });

@@ -1,7 +1,6 @@
 #include "estimators/sparse_gauss_newton/robust.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "estimators/sparse_gauss_newton/lost_groups.hpp"
@@ -107,6 +106,16 @@ class RobustBatch {
     return sum;
   }
 
+  // Of each loop whichever is less, its χ² or the scale.
+  double least_truncated_cost(std::span<const Node> nodes, const SquaredScales& scales) const {
+    double sum = 0.0;
+    for (std::size_t e = 0; e < graph_.edges.size(); ++e) {
+      const double chi2 = chi2_of(e, nodes);
+      sum += graph_.is_loop[e] != 0 ? std::min(chi2, scales.of_rank(graph_.rank(e))) : chi2;
+    }
+    return sum;
+  }
+
   // From the plain solution too, if the loss holds that for better than where it ended.
   void try_plain_descent(const std::vector<Node>& start, std::vector<Node>& nodes,
                          SolveResult& best) {
@@ -123,10 +132,9 @@ class RobustBatch {
   void try_plain_attempt(const std::vector<Node>& start, std::vector<Node>& nodes,
                          Consensus& best) {
     std::vector<Node> other = plain_solution(start);
-    const double scale = best.squared_scale;
-    const double reached = truncated_cost(graph_, best.weights, nodes, scale);
-    const RobustLoss loss(LossKind::truncated, std::sqrt(scale));
-    if (is_done(best.solved.outcome) && !(robust_cost(other, loss) < reached)) return;
+    const SquaredScales& scales = best.squared_scales;
+    const double reached = truncated_cost(graph_, best.weights, nodes, scales);
+    if (is_done(best.solved.outcome) && !(least_truncated_cost(other, scales) < reached)) return;
     Consensus consensus = attempt(other, {});
     if (!is_better(consensus, other, best, nodes)) return;
     iterations_ += best.solved.iterations;
@@ -184,9 +192,9 @@ class RobustBatch {
   bool is_better(const Consensus& a, const std::vector<Node>& a_nodes, const Consensus& b,
                  const std::vector<Node>& b_nodes) const {
     if (!is_done(a.solved.outcome)) return false;
-    const double scale = b.squared_scale;
-    return !is_done(b.solved.outcome) || truncated_cost(graph_, a.weights, a_nodes, scale) <
-                                             truncated_cost(graph_, b.weights, b_nodes, scale);
+    const SquaredScales& scales = b.squared_scales;
+    return !is_done(b.solved.outcome) || truncated_cost(graph_, a.weights, a_nodes, scales) <
+                                             truncated_cost(graph_, b.weights, b_nodes, scales);
   }
 
   double chi2_of(std::size_t e, std::span<const Node> nodes) const {

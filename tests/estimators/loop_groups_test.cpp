@@ -48,7 +48,7 @@ TEST(LoopGroups, LostOnesAreFoundWhateverWayRoundALoopIsWritten) {
     Consensus none;
     none.weights.assign(parts.edges.size(), 1.0);
     for (const std::size_t e : parts.loops()) none.weights[e] = 0.0;
-    none.squared_scale = 20.0;
+    none.squared_scales = {20.0, 20.0};
     return lost_groups({parts.edges, parts.is_loop}, none, parts.nodes, {});
   };
   const auto straight = lost(log);

@@ -1,6 +1,8 @@
 """docs/absolute_measurements.md: compass, fixes and holes in drawn measurements."""
 
-from layout import interval, significant, table
+import math
+
+from layout import fixed, interval, significant, table
 from maker import maker
 
 PAGE = "docs/absolute_measurements.md"
@@ -64,3 +66,79 @@ def holes(work):
                            for one in ("ekf", "trajectory_iekf", GRAPH))])
     return table(["known by", "holes", "length", "error (m): ekf", "trajectory_iekf",
                   "incremental_smoother", GRAPH, "ANEES: ekf", "trajectory_iekf", GRAPH], rows)
+
+
+# Name in the table, estimator, settings.
+JUDGES = (("ekf_gate", "ekf", ("estimator.gate_probability=0.9999",)),
+          ("iekf_gate", "trajectory_iekf", ("estimator.gate_probability=0.9999",)),
+          *((loss, GRAPH, (f"estimator.loss={loss}",))
+            for loss in ("truncated", "dcs", "geman_mcclure")))
+JUMP_M = 20
+JUMPS = ("dataset.fixes.jump_share=0.2", f"dataset.fixes.jump_m={JUMP_M}")
+
+
+def _one_run(work):
+    """The study's data set as a configuration of `fathom run`, without its jumps."""
+    study = (work.top / "configs/studies/fixes.yaml").read_text("utf-8")
+    dataset = study[study.index("dataset:"):study.index("estimators:")]
+    dataset = dataset.replace(f", jump_m: {JUMP_M}", "")
+    path = work.top / work.folder / "oracle.yaml"
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(dataset + f"estimator: {{type: {GRAPH}}}\nevaluation: {{alignment: none}}\n",
+                    encoding="utf-8")
+    return path
+
+
+def _positions(path):
+    """Of a trajectory in TUM's format."""
+    lines = path.read_text("utf-8").splitlines()
+    return [tuple(map(float, line.split()[1:3])) for line in lines if not line.startswith("#")]
+
+
+def _mean_error(estimate, truth):
+    return sum(map(math.dist, estimate, truth)) / len(truth)
+
+
+def _without_jumps(graph, truth):
+    """The lines of a g2o file less the fixes that are off, the start's among them."""
+    def is_jump(line):
+        words = line.split()
+        if words[0] != "EDGE_PRIOR_SE2" or float(words[5]) == 0:  # a heading alone
+            return False
+        return math.dist(map(float, words[2:4]), truth[int(words[1])]) > JUMP_M / 2
+
+    return "".join(line for line in graph.read_text("utf-8").splitlines(True) if not is_jump(line))
+
+
+def _seed_errors(work, configuration, reach, seed):
+    """By column of the table: without jumps, and of each back end and the oracle with them."""
+    def run(estimator, settings):
+        settings = ("dataset.fixes.interval_s=10", f"dataset.loops.max_distance_m={reach}",
+                    f"estimator.type={estimator}", *settings)
+        options = [word for one in settings for word in ("--set", one)]
+        return work.run("oracle-run", "fathom", "run", configuration, "--seed", seed, *options,
+                        "--quiet", "--out", "{out}/run") / "run"
+
+    plain = run(GRAPH, JUMPS)
+    truth = _positions(plain / "ground_truth.tum")
+    kept = plain / "without_jumps.g2o"
+    kept.write_text(_without_jumps(plain / "measurements.g2o", truth), encoding="utf-8")
+    oracle = work.run("oracle", "fathom", "solve", kept, "--estimator", GRAPH, "--mode",
+                      "incremental", "--quiet", "--out", "{out}/run") / "run"
+    folders = [run(GRAPH, ()), plain, oracle,
+               *(run(estimator, JUMPS + settings) for _, estimator, settings in JUDGES)]
+    return [_mean_error(_positions(one / "trajectory.tum"), truth) for one in folders]
+
+
+@maker(PAGE, "oracle", "slow", "`fathom run` on the data set of `configs/studies/fixes.yaml`, "
+       "`--seed 1` to `40`; oracle: `fathom solve` without the fixes that jumped", 8)
+def oracle(work):
+    configuration = _one_run(work)
+    rows = []
+    for reach in (0, 2):
+        seeds = [_seed_errors(work, configuration, reach, seed)
+                 for seed in range(1, work.size(40, 1) + 1)]
+        means = [sum(column) / len(seeds) for column in zip(*seeds)]
+        rows.append(["yes" if reach else "no",
+                     *(f"{significant(mean)} ({fixed(mean / means[2], 2)})" for mean in means)])
+    return table(["loops", "no jumps", "plain", "oracle", *(name for name, *_ in JUDGES)], rows)
