@@ -212,7 +212,9 @@ ChildEnd watch(Child& child, Pipe& messages, Pipe& printed, const ChildLimits& l
   std::array<pollfd, 2> ends{{{messages.ends[0], POLLIN, 0}, {printed.ends[0], POLLIN, 0}}};
   // A process that the child has left holds the pipes open, so that their end is not awaited.
   for (bool has_ended = false; true;) {
-    const int ready = ::poll(ends.data(), ends.size(), has_ended ? 0 : kLook);
+    // With both at their end it is about to end, too.
+    const int wait_ms = has_ended ? 0 : ends[0].fd < 0 && ends[1].fd < 0 ? 1 : kLook;
+    const int ready = ::poll(ends.data(), ends.size(), wait_ms);
     if (ready > 0) {
       if (ends[0].revents != 0 && !read_some(ends[0].fd, read_on)) ends[0].fd = -1;
       if (ends[1].revents != 0 && !read_some(ends[1].fd, keep)) ends[1].fd = -1;

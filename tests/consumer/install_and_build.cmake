@@ -45,3 +45,21 @@ step(${FOLDER}/build/consumer)
 expect("${output}" "keyframe 3")
 expect("${output}" "trajectory_iekf")
 message(STATUS "${output}")
+
+# The example plug-in, as somebody else would build it, by name in a study.
+step(${CMAKE_COMMAND} -G ${GENERATOR} -S ${SOURCE}/examples/plugin -B ${FOLDER}/plugin
+     -DCMAKE_CXX_COMPILER=${CXX} -DCMAKE_PREFIX_PATH=${prefix})
+step(${CMAKE_COMMAND} --build ${FOLDER}/plugin)
+set(plugin ${FOLDER}/plugin/sparse_least_squares.so)
+step(${prefix}/bin/fathom list estimators --plugin ${plugin})
+expect("${output}" "sparse_least_squares: .*plug-in sparse_least_squares.so")
+file(WRITE ${FOLDER}/study.yaml "dataset:
+  type: simulated_log
+  mission: {type: sweep, legs: 3, leg_length_m: 8, leg_spacing_m: 1.0}
+  loops: {max_distance_m: 1.4}
+plugins: [${plugin}]
+estimators: [{type: sparse_least_squares}, {type: ekf}]
+trials: 2
+")
+step(${prefix}/bin/fathom compare ${FOLDER}/study.yaml --out ${FOLDER}/study)
+expect("${output}" "sparse_least_squares +2/2 done")
