@@ -70,6 +70,11 @@ void measure_the_hole(RelativePose& step) {
   step.information = 1e4 * Eigen::Matrix3d::Identity();
 }
 
+void measure_a_jump(RelativePose& step) {
+  if (step.is_hole) step.motion.x += 100.0;
+  measure_the_hole(step);
+}
+
 // Another number every time.
 void drift(Pose& pose) {
   static double noise = 0.0;
@@ -123,13 +128,13 @@ std::vector<Breach> estimate_breaches() {
               if (all.front().motion.position().norm() < 1e-3) all.clear();
             }}},
       {"loops_at_once",
-       "F, of its minimum, is",
+       "F, of that of dead reckoning, is",
        {.registrations = [](auto& all) { all.resize(1); }}},
       {"loops_at_once",
-       "has 0 decisions on registrations, expected 1",
+       "has 0 decisions on registrations, expected 2",
        {.report = [](auto& report) { report.loops.clear(); }}},
       {"rotated_world",
-       "pose 1 is off by",
+       "pose 0 is off by 2.8 rad, at most 1e-07 allowed",
        {.setup = [](auto& setup, auto&) { setup.start.pose.theta = 0.0; }}},
       {"headings_near_pi",
        "expected above -pi and at most pi",
@@ -184,13 +189,8 @@ std::vector<Breach> loop_breaches() {
                     if (given[j].from > given[j].to) weights[j] *= 0.5;
                   }
                 }}},
-          {"gate_refuses", "the wrong loop from 10 to 40 is used", {.setup = ignore_the_gate}},
-          {"gate_refuses",
-           "has no NIS",
-           {.report =
-                [](auto& report) {
-                  for (LoopDecision& loop : report.loops) loop.nis.reset();
-                }}},
+          {"gate_refuses", "the wrong loop from 10 to 40 is used", {.report = call_it_done}},
+          {"gate_refuses", "the right loop from 0 to 20 has no NIS", {.setup = ignore_the_gate}},
           {"gate_share", "of 40, number 40, at most 30 allowed", {.setup = ignore_the_gate}}};
 }
 
@@ -266,7 +266,7 @@ std::vector<Breach> absolute_breaches() {
            {.setup = ignore_the_gate}},
           {"least_squares_near", "is off by", {.absolute = drop_absolute}},
           {"holes_and_loops", "is off by", {.step = measure_the_hole}},
-          {"holes_and_fixes", "is off by", {.step = measure_the_hole}},
+          {"holes_and_fixes", "is off by", {.step = measure_a_jump}},
           {"holes_in_batch", "is off by", {.step = measure_the_hole}},
           {"free_start", "is off by", {.setup = hold_the_start}}};
 }
