@@ -77,14 +77,18 @@ Flag Command::argument(const std::string& name, std::string& field,
 
 Flag Command::arguments(const std::string& name, std::vector<std::string>& field,
                         const std::string& help) {
+  return optional_arguments(name, field, help).required();
+}
+
+Flag Command::optional_arguments(const std::string& name, std::vector<std::string>& field,
+                                 const std::string& help) {
   CLI::Option* option = command_->add_option_function<Values>(
       name,
       [&field, name](const Values& given) {
         for (const std::string& text : given) field.push_back(word_of(name, text));
       },
       help);
-  return Flag(
-      *option->type_name("")->required()->expected(1, CLI::detail::expected_max_vector_size));
+  return Flag(*option->type_name("")->expected(1, CLI::detail::expected_max_vector_size));
 }
 
 Flag Command::text(const std::string& name, std::string& field, const std::string& value_name,

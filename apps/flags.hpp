@@ -47,6 +47,9 @@ class Command {
 
   /// One word or more.
   Flag arguments(const std::string& name, std::vector<std::string>& field, const std::string& help);
+  /// Any number of words.
+  Flag optional_arguments(const std::string& name, std::vector<std::string>& field,
+                          const std::string& help);
 
   /// `value_name` stands for the value in --help: "DIR", "N".
   Flag text(const std::string& name, std::string& field, const std::string& value_name,

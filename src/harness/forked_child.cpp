@@ -10,6 +10,7 @@
 #include <fstream>
 #include <new>
 #include <poll.h>
+#include <sstream>
 #include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
@@ -239,6 +240,27 @@ ChildEnd watch(Child& child, Pipe& messages, Pipe& printed, const ChildLimits& l
 }
 
 }  // namespace
+
+ChildFailure failure_of(const ChildEnd& end, const ChildLimits& limits) {
+  ChildFailure failure;
+  if (end.is_late) {
+    std::ostringstream seconds;
+    seconds << limits.time_s;
+    failure = {Outcome::timed_out, "was killed after " + seconds.str() + " s"};
+  } else if (end.exit_status == kNoMemoryStatus || end.signal == SIGKILL) {
+    // The system kills where it has no memory left itself.
+    failure = {Outcome::out_of_memory,
+               "found no memory within " + std::to_string(limits.memory_bytes >> 20) + " MiB"};
+  } else if (end.signal != 0) {
+    failure = {Outcome::crashed, "was ended by signal " + std::to_string(end.signal) + " (" +
+                                     ::strsignal(end.signal) + ")"};
+  } else {
+    failure = {Outcome::crashed,
+               "ended its process itself, with status " + std::to_string(end.exit_status)};
+  }
+  if (!end.last_lines.empty()) failure.how += "; it printed last: " + end.last_lines;
+  return failure;
+}
 
 void MessagePipe::send(char kind, const std::string& text) const {
   std::string message(MessageReader::kHead, kind);

@@ -1,9 +1,10 @@
 #include "fathom/harness/isolated_replay.hpp"
 
 #include <chrono>
-#include <csignal>
+#include <cstdlib>
 #include <cstring>
 #include <exception>
+#include <new>
 #include <optional>
 #include <string>
 
@@ -46,40 +47,8 @@ void replay_in_child(const MessagePipe& parent, const MeasurementLog& log,
   } catch (const InputError& error) {
     parent.send(kBadInput, error.what());
   } catch (const std::bad_alloc&) {
-    ::_exit(kNoMemoryStatus);
+    std::_Exit(kNoMemoryStatus);
   }
-}
-
-std::string with_last_lines(const std::string& what, const ChildEnd& end) {
-  return end.last_lines.empty() ? what : what + "; it printed last: " + end.last_lines;
-}
-
-// Of a child that left no replay.
-Replay lost_in(const ChildEnd& end, const MeasurementLog& log, const ReplayOptions& options,
-               const ProcessLimits& limits) {
-  const auto number = [](double value) {
-    std::string text = std::to_string(value);
-    text.erase(text.find_last_not_of('0') + 1);
-    if (text.back() == '.') text.pop_back();
-    return text;
-  };
-  const auto lost = [&](Outcome outcome, const std::string& what) {
-    return lost_replay(log, options, outcome, with_last_lines(what, end));
-  };
-  if (end.is_late) {
-    return lost(Outcome::timed_out, "was killed after " + number(limits.time_s) + " s");
-  }
-  // The system kills where it has no memory left itself.
-  if (end.exit_status == kNoMemoryStatus || end.signal == SIGKILL) {
-    return lost(Outcome::out_of_memory,
-                "found no memory within " + std::to_string(limits.memory_bytes >> 20) + " MiB");
-  }
-  if (end.signal != 0) {
-    return lost(Outcome::crashed, "was ended by signal " + std::to_string(end.signal) + " (" +
-                                      ::strsignal(end.signal) + ")");
-  }
-  return lost(Outcome::crashed,
-              "ended its process itself, with status " + std::to_string(end.exit_status));
 }
 
 }  // namespace
@@ -101,8 +70,9 @@ Replay isolated_replay(const MeasurementLog& log, const EstimatorEntry& entry,
       [&](const MessagePipe& parent) { replay_in_child(parent, log, entry, values, options); },
       {limits.time_s, limits.memory_bytes}, on_message);
   if (!bad_input.empty()) throw InputError(bad_input);
-  if (!result || end.signal != 0 || end.exit_status != 0) return lost_in(end, log, options, limits);
-  return std::move(*result);
+  if (result && end.signal == 0 && end.exit_status == 0) return std::move(*result);
+  const ChildFailure failure = failure_of(end, {limits.time_s, limits.memory_bytes});
+  return lost_replay(log, options, failure.outcome, failure.how);
 }
 
 }  // namespace fathom

@@ -21,9 +21,9 @@ using ::testing::StartsWith;
 class Usage : public CommandLine {};
 
 const std::vector<std::string>& commands() {
-  static const std::vector<std::string> all{"run",      "compare",  "solve",  "register",
-                                            "simulate", "evaluate", "list",   "check",
-                                            "report",   "select",   "mosaic", "convert"};
+  static const std::vector<std::string> all{
+      "run",   "compare", "solve",  "register", "simulate", "evaluate",   "list",
+      "check", "report",  "select", "mosaic",   "convert",  "conformance"};
   return all;
 }
 

@@ -5,9 +5,9 @@
 #include <gtest/gtest.h>
 
 #include "estimators/trajectory_iekf/trajectory_iekf.hpp"
+#include "src/harness/conformance/naive_least_squares.hpp"
 #include "tests/estimators/cross_estimator.hpp"
 #include "tests/estimators/logs.hpp"
-#include "tests/estimators/naive_least_squares.hpp"
 
 namespace fathom {
 namespace {

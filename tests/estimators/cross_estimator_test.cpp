@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "src/harness/conformance/naive_least_squares.hpp"
 #include "tests/estimators/logs.hpp"
-#include "tests/estimators/naive_least_squares.hpp"
 
 namespace fathom {
 namespace {

@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include "src/harness/conformance/naive_least_squares.hpp"
 #include "support/planar.hpp"
 #include "tests/estimators/cross_estimator.hpp"
-#include "tests/estimators/naive_least_squares.hpp"
 
 namespace fathom::test {
 namespace {

@@ -7,9 +7,9 @@
 #include <gtest/gtest.h>
 
 #include "estimators/support/pose_graph/solver.hpp"
+#include "src/harness/conformance/naive_least_squares.hpp"
 #include "tests/estimators/graph_parts.hpp"
 #include "tests/estimators/logs.hpp"
-#include "tests/estimators/naive_least_squares.hpp"
 
 namespace fathom {
 namespace {

@@ -3,8 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "fathom/measurements/g2o.hpp"
+#include "src/harness/conformance/world_logs.hpp"
+#include "tests/estimators/logs.hpp"
 #include "tests/estimators/naive_world_filters.hpp"
-#include "tests/estimators/world_logs.hpp"
 #include "tests/support/data.hpp"
 
 namespace fathom::test {

@@ -2,8 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include "src/harness/conformance/world_logs.hpp"
+#include "tests/estimators/logs.hpp"
 #include "tests/estimators/naive_world_filters.hpp"
-#include "tests/estimators/world_logs.hpp"
 
 namespace fathom::test {
 namespace {

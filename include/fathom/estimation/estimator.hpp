@@ -128,7 +128,7 @@ class Estimate : public TrajectoryView {
 ///     update(measurements)   with all that is measured of the newest keyframe, if anything is
 ///     finish()               once, at the end of the log
 ///
-/// Contract, tested over every registered estimator (tests/estimators/conformance_test.cpp):
+/// Contract, to which `fathom conformance`, and a test over all registered estimators, hold it:
 /// - Keyframe 0 is there from the beginning, where the start given to the factory says.
 /// - `pose(k)` is in the world frame, heading wrapped; the view is valid after every call.
 /// - Registrations may be written either way round; measurements of one call form one update.

@@ -1,33 +1,15 @@
-#pragma once
+#include "world_logs.hpp"
 
-#include <utility>
-#include <vector>
+namespace fathom::conformance {
 
-#include "tests/estimators/logs.hpp"
-
-/// Logs with absolute measurements, made from others.
-namespace fathom::test {
-
-struct WorldOptions {
-  double heading_sigma_rad = 0.02;
-  double position_sigma_m = 0.3;
-  std::size_t heading_every = 1;   ///< keyframes; 0: none
-  std::size_t position_every = 7;  ///< likewise
-  std::size_t pose_every = 0;      ///< all three, with a full covariance
-  double noise = 1.0;              ///< times the sigmas
-  StartPose start{};
-  std::uint64_t seed = 5;
-};
-
-inline Eigen::Matrix2d fix_covariance(double sigma_m) {
+Eigen::Matrix2d fix_covariance(double sigma_m) {
   Eigen::Matrix2d C;
   C << 1.0, 0.4, 0.4, 2.0;
   return sigma_m * sigma_m * C;
 }
 
-/// A log with what a compass and a positioning system say of these poses.
-inline MeasurementLog in_world(const MeasurementLog& plain, std::span<const Pose> truth,
-                               const WorldOptions& options) {
+MeasurementLog in_world(const MeasurementLog& plain, std::span<const Pose> truth,
+                        const WorldOptions& options) {
   RandomStream random(options.seed, "world");
   MeasurementLog log(options.start);
   const auto is_due = [](std::size_t k, std::size_t every) { return every > 0 && k % every == 0; };
@@ -56,16 +38,15 @@ inline MeasurementLog in_world(const MeasurementLog& plain, std::span<const Pose
   return log;
 }
 
-/// The circle with all of that.
-inline MeasurementLog circle_in_world(const WorldOptions& options, LogOptions plain = {}) {
+MeasurementLog circle_in_world(const WorldOptions& options, LogOptions plain) {
   plain.origin = options.start.pose;
   return in_world(circle_log(plain), circle(plain.keyframes, plain.origin), options);
 }
 
-inline StartPose uncertain_start(const Pose& pose, double sigma_m, double sigma_rad) {
+StartPose uncertain_start(const Pose& pose, double sigma_m, double sigma_rad) {
   StartPose start(pose);
   start.covariance = full_covariance(sigma_m, sigma_rad);
   return start;
 }
 
-}  // namespace fathom::test
+}  // namespace fathom::conformance

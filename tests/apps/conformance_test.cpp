@@ -1,0 +1,39 @@
+// conformance: estimators held against the contract.
+
+#include "fathom/harness/conformance.hpp"
+
+#include <gmock/gmock.h>
+
+#include "apps/command_line.hpp"
+
+namespace fathom::test {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::MatchesRegex;
+
+class ConformanceCommand : public CommandLine {};
+
+TEST_F(ConformanceCommand, SumsUpEachEstimatorThatIsNamed) {
+  EXPECT_THAT(fathom_done({"conformance", "ekf", "sparse_gauss_newton"}).out,
+              MatchesRegex("ekf: keeps ([0-9]+) of \\1 clauses, 4 do not apply: no option 'loss', "
+                           "no batch mode\n"
+                           "sparse_gauss_newton: keeps ([0-9]+) of \\2 clauses\n"));
+}
+
+TEST_F(ConformanceCommand, ListsTheClausesWithTheirRules) {
+  const std::string out = fathom_done({"conformance", "--list"}).out;
+  for (const ConformanceClause& clause : conformance_clauses()) {
+    EXPECT_THAT(out, AllOf(HasSubstr(clause.name), HasSubstr(clause.rule)));
+  }
+}
+
+TEST_F(ConformanceCommand, RefusesANameThatThereIsNotBeforeItBegins) {
+  EXPECT_THAT(refusal({"conformance", "ekf", "efk"}),
+              HasSubstr("unknown estimator 'efk'; did you mean 'ekf'?"));
+  EXPECT_THAT(refusal({"conformance", "ekf", "--list"}), HasSubstr("--list"));
+}
+
+}  // namespace
+}  // namespace fathom::test
