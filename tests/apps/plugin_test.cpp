@@ -143,6 +143,16 @@ TEST_F(Plugins, APlugInThatChangedIsAnotherStudy) {
   EXPECT_THAT(fathom({"compare", "s.yaml", "--out", "study"}).err, HasSubstr("mine.so"));
 }
 
+// The example keeps the contract; one that does what none may is found out, and nothing else ends.
+TEST_F(Plugins, AreHeldAgainstTheContract) {
+  const Ended example =
+      fathom({"conformance", "sparse_least_squares", "--plugin", plugin("plugin_example")});
+  EXPECT_EQ(example.status, 0) << example.out;
+  const Ended other = fathom({"conformance", "misbehaving", "--plugin", plugin("misbehaving")});
+  EXPECT_EQ(other.status, 1);
+  EXPECT_THAT(other.out, HasSubstr("misbehaving: breaks "));
+}
+
 class Isolation : public Plugins {};
 
 TEST_F(Isolation, ACrashIsAnOutcomeWithItsSignalAndLastLines) {
