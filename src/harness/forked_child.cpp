@@ -7,16 +7,12 @@
 #include <cstdio>
 #include <cstring>
 #include <fcntl.h>
-#include <fstream>
-#include <new>
 #include <poll.h>
 #include <sstream>
-#include <sys/mman.h>
-#include <sys/prctl.h>
-#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "child_side.hpp"
 #include "fathom/core/input_error.hpp"
 
 namespace fathom {
@@ -24,7 +20,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int kMessages = 3;  ///< the child's descriptor, after its standard ones
 constexpr std::size_t kKept = 2000;
 constexpr int kLastLines = 3;
 
@@ -46,65 +41,6 @@ struct Pipe {
     ends[end] = -1;
   }
 };
-
-std::int64_t address_space_now() {
-  std::int64_t pages = 0;
-  std::ifstream("/proc/self/statm") >> pages;
-  return pages * ::sysconf(_SC_PAGESIZE);
-}
-
-void limit(__rlimit_resource what, std::int64_t bytes) {
-  rlimit now{};
-  ::getrlimit(what, &now);
-  now.rlim_cur = std::min(static_cast<rlim_t>(bytes), now.rlim_max);
-  ::setrlimit(what, &now);
-}
-
-// So much has to be left, or a crash is taken for what code in C does that finds no memory.
-std::size_t spare_bytes = 0;
-
-void on_crash(int signal) {
-  if (::mmap(nullptr, spare_bytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0) == MAP_FAILED) {
-    ::_exit(kNoMemoryStatus);
-  }
-  ::signal(signal, SIG_DFL);
-  ::raise(signal);
-}
-
-// On a stack of its own, as the other may have overflown.
-void tell_no_memory_from_crash(std::int64_t limit_bytes) {
-  static std::array<char, 16384> stack;
-  spare_bytes = static_cast<std::size_t>(limit_bytes / 50);
-  const stack_t own{stack.data(), 0, stack.size()};
-  ::sigaltstack(&own, nullptr);
-  struct sigaction action {};
-  action.sa_handler = on_crash;
-  action.sa_flags = SA_ONSTACK | SA_NODEFER;
-  for (const int signal : {SIGSEGV, SIGBUS, SIGABRT}) ::sigaction(signal, &action, nullptr);
-}
-
-[[noreturn]] void be_child(Pipe& messages, Pipe& printed, pid_t parent, const ChildLimits& limits,
-                           const std::function<void(const MessagePipe&)>& action) {
-  ::setpgid(0, 0);
-  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (::getppid() != parent) ::_exit(1);  // it died before that
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, SIG_DFL);
-  const int null = ::open("/dev/null", O_RDONLY);
-  ::dup2(null, STDIN_FILENO);
-  ::dup2(printed.ends[1], STDOUT_FILENO);
-  ::dup2(printed.ends[1], STDERR_FILENO);
-  // The locks and files of the parent are not the child's to keep open. The pipes may be anywhere.
-  const int own = ::fcntl(messages.ends[1], F_DUPFD, 64);
-  ::dup2(own, kMessages);
-  ::close_range(kMessages + 1, ~0U, 0);
-  limit(RLIMIT_CORE, 0);
-  tell_no_memory_from_crash(limits.memory_bytes);
-  limit(RLIMIT_AS, address_space_now() + limits.memory_bytes);
-  std::set_new_handler([] { ::_exit(kNoMemoryStatus); });
-  action(MessagePipe(kMessages));
-  std::fflush(nullptr);
-  ::_exit(0);
-}
 
 // Takes whole messages off what has come: kind, size, text.
 class MessageReader {
@@ -282,7 +218,7 @@ ChildEnd run_child(const std::function<void(const MessagePipe&)>& action, const 
   const pid_t parent = ::getpid();
   const pid_t id = ::fork();
   if (id < 0) throw InputError("the system has no process left for a run");
-  if (id == 0) be_child(messages, printed, parent, limits, action);
+  if (id == 0) be_child({messages.ends[1], printed.ends[1], parent}, limits, action);
   Child child(id);
   messages.close(1);
   printed.close(1);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <limits>
 
 #include "cost_used.hpp"
 #include "fathom/core/workers.hpp"
@@ -227,28 +226,6 @@ Replay replay(const MeasurementLog& log, const EstimatorEntry& entry, const Esti
   result.absolute_cost_used = absolute_cost_used(log, estimator, result);
   result.cost_used = cost_used(log, estimator, result);
   if (!estimator.fault().empty()) note_fault(estimator.fault(), result);
-  return result;
-}
-
-Replay lost_replay(const MeasurementLog& log, const ReplayOptions& options, Outcome outcome,
-                   const std::string& fault) {
-  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-  Replay result;
-  result.trajectory.assign(log.size(), Pose{kNaN, kNaN, kNaN});
-  for (std::size_t k = 0; k < log.size(); ++k) {
-    const KeyframeMeasurements& arrival = log.arrival(k);
-    for (const RelativePose& z : arrival.registrations) {
-      result.loops.push_back({z.from, z.to, LoopFate::lost, std::nullopt});
-    }
-    for (const AbsolutePose& z : arrival.absolute) {
-      result.absolute.push_back({z.keyframe, LoopFate::lost, std::nullopt});
-    }
-  }
-  result.motions = options.motions;
-  result.chi2_initial = chi2(log, options.start.empty() ? log.odometry() : options.start);
-  result.cost_used = result.absolute_cost_used = kNaN;
-  note_fault(fault, result);
-  result.outcome = outcome;
   return result;
 }
 

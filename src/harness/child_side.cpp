@@ -1,0 +1,81 @@
+#include "child_side.hpp"
+
+#include <algorithm>
+#include <array>
+#include <csignal>
+#include <cstdio>
+#include <fcntl.h>
+#include <fstream>
+#include <new>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+namespace fathom {
+namespace {
+
+constexpr int kMessages = 3;  ///< the child's descriptor, after its standard ones
+
+std::int64_t address_space_now() {
+  std::int64_t pages = 0;
+  std::ifstream("/proc/self/statm") >> pages;
+  return pages * ::sysconf(_SC_PAGESIZE);
+}
+
+void limit(__rlimit_resource what, std::int64_t bytes) {
+  rlimit now{};
+  ::getrlimit(what, &now);
+  now.rlim_cur = std::min(static_cast<rlim_t>(bytes), now.rlim_max);
+  ::setrlimit(what, &now);
+}
+
+// So much has to be left, or a crash is taken for what code in C does that finds no memory.
+std::size_t spare_bytes = 0;
+
+void on_crash(int signal) {
+  if (::mmap(nullptr, spare_bytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0) == MAP_FAILED) {
+    ::_exit(kNoMemoryStatus);
+  }
+  ::signal(signal, SIG_DFL);
+  ::raise(signal);
+}
+
+// On a stack of its own, as the other may have overflown.
+void tell_no_memory_from_crash(std::int64_t limit_bytes) {
+  static std::array<char, 16384> stack;
+  spare_bytes = static_cast<std::size_t>(limit_bytes / 50);
+  const stack_t own{stack.data(), 0, stack.size()};
+  ::sigaltstack(&own, nullptr);
+  struct sigaction action {};
+  action.sa_handler = on_crash;
+  action.sa_flags = SA_ONSTACK | SA_NODEFER;
+  for (const int signal : {SIGSEGV, SIGBUS, SIGABRT}) ::sigaction(signal, &action, nullptr);
+}
+
+}  // namespace
+
+void be_child(const ChildSide& side, const ChildLimits& limits,
+              const std::function<void(const MessagePipe&)>& action) noexcept {
+  ::setpgid(0, 0);
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (::getppid() != side.parent) ::_exit(1);  // it died before that
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, SIG_DFL);
+  const int null = ::open("/dev/null", O_RDONLY);
+  ::dup2(null, STDIN_FILENO);
+  ::dup2(side.printed, STDOUT_FILENO);
+  ::dup2(side.printed, STDERR_FILENO);
+  // The locks and files of the parent are not the child's to keep open. The pipes may be anywhere.
+  const int own = ::fcntl(side.messages, F_DUPFD, 64);
+  ::dup2(own, kMessages);
+  ::close_range(kMessages + 1, ~0U, 0);
+  limit(RLIMIT_CORE, 0);
+  tell_no_memory_from_crash(limits.memory_bytes);
+  limit(RLIMIT_AS, address_space_now() + limits.memory_bytes);
+  std::set_new_handler([] { ::_exit(kNoMemoryStatus); });
+  action(MessagePipe(kMessages));
+  std::fflush(nullptr);
+  ::_exit(0);
+}
+
+}  // namespace fathom

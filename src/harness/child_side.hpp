@@ -1,0 +1,21 @@
+#pragma once
+
+#include <functional>
+
+#include "forked_child.hpp"
+
+namespace fathom {
+
+/// What a child has of its parent: the ends of the pipes to it, and its number.
+struct ChildSide {
+  int messages = -1;
+  int printed = -1;
+  pid_t parent = 0;
+};
+
+/// The life of a child from the fork on, as run_child says. What it throws must not reach the code
+/// around the fork, which is the parent's.
+[[noreturn]] void be_child(const ChildSide& side, const ChildLimits& limits,
+                           const std::function<void(const MessagePipe&)>& action) noexcept;
+
+}  // namespace fathom
