@@ -2,6 +2,8 @@
 
 #include "fathom/harness/conformance.hpp"
 
+#include <regex>
+
 #include <gmock/gmock.h>
 
 #include "apps/command_line.hpp"
@@ -11,15 +13,15 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-using ::testing::MatchesRegex;
 
 class ConformanceCommand : public CommandLine {};
 
 TEST_F(ConformanceCommand, SumsUpEachEstimatorThatIsNamed) {
-  EXPECT_THAT(fathom_done({"conformance", "ekf", "sparse_gauss_newton"}).out,
-              MatchesRegex("ekf: keeps ([0-9]+) of \\1 clauses, 4 do not apply: no option 'loss', "
-                           "no batch mode\n"
-                           "sparse_gauss_newton: keeps ([0-9]+) of \\2 clauses\n"));
+  const std::string out = fathom_done({"conformance", "ekf", "sparse_gauss_newton"}).out;
+  const std::regex summaries(
+      "ekf: keeps (\\d+) of \\1 clauses, 4 do not apply: no option 'loss', no batch mode\n"
+      "sparse_gauss_newton: keeps (\\d+) of \\2 clauses\n");
+  EXPECT_TRUE(std::regex_match(out, summaries)) << out;
 }
 
 TEST_F(ConformanceCommand, ListsTheClausesWithTheirRules) {
