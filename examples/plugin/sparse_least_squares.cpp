@@ -8,6 +8,7 @@
 #include "fathom/estimation/gate.hpp"
 #include "fathom/estimation/joint_covariance.hpp"
 #include "fathom/estimation/plugin.hpp"
+#include "fathom/estimation/precision.hpp"
 #include "fathom/estimation/relative_estimator.hpp"
 
 namespace {
@@ -32,8 +33,18 @@ int row_of(std::size_t k) {
   return 3 * (static_cast<int>(k) - 1);
 }
 
+using Sparse = Eigen::SparseMatrix<double>;
+using Factor = Eigen::SimplicialLDLT<Sparse>;
+
+// Positive definite, and no pivot but what rounding leaves.
+bool is_definite(const Factor& factor, const Sparse& H) {
+  if (factor.info() != Eigen::Success) return false;
+  const Eigen::VectorXd sums = factor.permutationP() * H.diagonal();
+  return (factor.vectorD().array() > kLeastPivotShare * sums.array()).all();
+}
+
 struct NormalEquations {
-  Eigen::SparseMatrix<double> H;
+  Sparse H;
   Eigen::VectorXd gradient;
 
   NormalEquations(const std::vector<RelativePose>& edges, const std::vector<Pose>& poses)
@@ -114,8 +125,9 @@ class SparseLeastSquares final : public RelativeEstimator {
       std::span<const std::size_t> keyframes) const override {
     const std::vector<std::size_t> free = free_keyframes(keyframes);
     if (free.empty()) return in_order_of(keyframes, {});
-    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> H(NormalEquations(edges_, poses_).H);
-    if (H.info() != Eigen::Success) return std::nullopt;
+    const NormalEquations equations(edges_, poses_);
+    const Factor H(equations.H);
+    if (!is_definite(H, equations.H)) return std::nullopt;
     Eigen::MatrixXd selected =
         Eigen::MatrixXd::Zero(H.rows(), static_cast<Eigen::Index>(3 * free.size()));
     for (std::size_t j = 0; j < free.size(); ++j) {
@@ -129,8 +141,8 @@ class SparseLeastSquares final : public RelativeEstimator {
                    int& iterations) const {
     for (iterations = 1; iterations <= options_.max_iterations; ++iterations) {
       const NormalEquations equations(edges, poses);
-      const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> H(equations.H);
-      if (H.info() != Eigen::Success) return Outcome::numerical_failure;
+      const Factor H(equations.H);
+      if (!is_definite(H, equations.H)) return Outcome::numerical_failure;
       const Eigen::VectorXd step = -H.solve(equations.gradient);
       if (!step.allFinite()) return Outcome::numerical_failure;
       for (std::size_t k = 1; k < poses.size(); ++k) {

@@ -2,8 +2,8 @@
 
 #include <optional>
 
+#include "child_failure.hpp"
 #include "fathom/harness/conformance.hpp"
-#include "forked_child.hpp"
 
 namespace fathom {
 

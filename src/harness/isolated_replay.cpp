@@ -1,15 +1,13 @@
 #include "fathom/harness/isolated_replay.hpp"
 
 #include <chrono>
-#include <cstdlib>
 #include <cstring>
 #include <exception>
-#include <new>
 #include <optional>
 #include <string>
 
+#include "child_failure.hpp"
 #include "fathom/core/input_error.hpp"
-#include "forked_child.hpp"
 #include "replay_bytes.hpp"
 
 namespace fathom {
@@ -46,8 +44,6 @@ void replay_in_child(const MessagePipe& parent, const MeasurementLog& log,
     parent.send(kReplay, bytes_of(replay(log, entry, values, options)));
   } catch (const InputError& error) {
     parent.send(kBadInput, error.what());
-  } catch (const std::bad_alloc&) {
-    std::_Exit(kNoMemoryStatus);
   }
 }
 

@@ -70,7 +70,7 @@ const std::vector<ThirdParty>& third_parties() {
       {"libexif/", {"src/datasets/pictures/exif.cpp"}},
       {"console_bridge/", {"src/datasets/import/ros1_module.cpp"}},
       {"rosbag/", {"src/datasets/import/ros1_module.cpp"}},
-      {"dlfcn.h", {"src/datasets/import/ros1_bag.cpp"}},
+      {"dlfcn.h", {"src/datasets/import/ros1_bag.cpp", "src/estimation/plugin.cpp"}},
       {"fastcdr/", {"src/datasets/import/cdr_message.cpp"}},
       {"SQLiteCpp/",
        {"src/results/", "src/front_end/registration_", "src/datasets/import/ros2_bag.cpp"}},
@@ -83,17 +83,22 @@ const std::vector<ThirdParty>& third_parties() {
       {"omp.h", {"apps/pin_threads.cpp"}},
       {"malloc.h", {"apps/memory_meter.cpp", "src/core/system.cpp"}},
       {"signal.h", {"src/core/files.cpp", "src/core/system.cpp"}},
-      {"fcntl.h", {"src/core/file_lock.cpp", "src/core/system.cpp"}},
+      {"fcntl.h",
+       {"src/core/child_side.cpp", "src/core/file_lock.cpp", "src/core/forked_child.cpp",
+        "src/core/system.cpp"}},
       {"sys/mman.h",
        {"estimators/support/filter/growing_memory.cpp",
-        "estimators/support/sparse/panel_memory.cpp", "src/core/blas_memory.cpp"}},
+        "estimators/support/sparse/panel_memory.cpp", "src/core/blas_memory.cpp",
+        "src/core/child_side.cpp"}},
+      {"sys/prctl.h", {"src/core/child_side.cpp"}},
+      {"poll.h", {"src/core/forked_child.cpp"}},
       {"sys/file.h", {"src/core/file_lock.cpp"}},
-      {"sys/wait.h", {"apps/child_process.cpp"}},
-      {"sys/resource.h", {"src/core/system.cpp"}},
+      {"sys/wait.h", {"apps/child_process.cpp", "src/core/forked_child.cpp"}},
+      {"sys/resource.h", {"src/core/child_side.cpp", "src/core/system.cpp"}},
       {"unistd.h",
-       {"src/core/files.cpp", "src/core/file_lock.cpp", "src/core/system.cpp",
-        "apps/child_process.cpp", "apps/common.cpp", "apps/out_of_memory.cpp",
-        "apps/stop_signal.cpp"}}};
+       {"src/core/child_side.cpp", "src/core/files.cpp", "src/core/file_lock.cpp",
+        "src/core/forked_child.cpp", "src/core/system.cpp", "apps/child_process.cpp",
+        "apps/common.cpp", "apps/out_of_memory.cpp", "apps/stop_signal.cpp"}}};
   return list;
 }
 

@@ -1,14 +1,14 @@
-#include "forked_child.hpp"
+#include "fathom/core/forked_child.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <fcntl.h>
 #include <poll.h>
-#include <sstream>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -50,16 +50,14 @@ class MessageReader {
 
   void add(const char* bytes, std::size_t count) {
     pending_.append(bytes, count);
-    while (pending_.size() >= kHead) {
+    while (pending_.size() >= kMessageHead) {
       std::uint64_t size = 0;
       std::memcpy(&size, pending_.data() + 1, sizeof size);
-      if (pending_.size() - kHead < size) return;
-      on_message_(pending_.front(), pending_.substr(kHead, size));
-      pending_.erase(0, kHead + size);
+      if (pending_.size() - kMessageHead < size) return;
+      on_message_(pending_.front(), pending_.substr(kMessageHead, size));
+      pending_.erase(0, kMessageHead + size);
     }
   }
-
-  static constexpr std::size_t kHead = 1 + sizeof(std::uint64_t);
 
  private:
   const std::function<void(char, const std::string&)>& on_message_;
@@ -134,7 +132,7 @@ bool read_some(int descriptor, Take take) {
 
 ChildEnd watch(Child& child, Pipe& messages, Pipe& printed, const ChildLimits& limits,
                const std::function<void(char, const std::string&)>& on_message) {
-  constexpr int kLook = 20;  // ms
+  constexpr int kLook_ms = 20;
   const auto deadline = Clock::now() + std::chrono::duration<double>(limits.time_s);
   MessageReader reader(on_message);
   std::string kept;
@@ -145,30 +143,32 @@ ChildEnd watch(Child& child, Pipe& messages, Pipe& printed, const ChildLimits& l
   const auto read_on = [&reader](const char* bytes, std::size_t count) {
     reader.add(bytes, count);
   };
-  bool is_late = false;
   std::array<pollfd, 2> ends{{{messages.ends[0], POLLIN, 0}, {printed.ends[0], POLLIN, 0}}};
+  const auto read_ready = [&](int wait_ms) {
+    if (::poll(ends.data(), ends.size(), wait_ms) <= 0) return false;
+    if (ends[0].revents != 0 && !read_some(ends[0].fd, read_on)) ends[0].fd = -1;
+    if (ends[1].revents != 0 && !read_some(ends[1].fd, keep)) ends[1].fd = -1;
+    return true;
+  };
+  bool is_late = false;
   // A process that the child has left holds the pipes open, so that their end is not awaited.
-  for (bool has_ended = false; true;) {
-    // With both at their end it is about to end, too.
-    const int wait_ms = has_ended ? 0 : ends[0].fd < 0 && ends[1].fd < 0 ? 1 : kLook;
-    const int ready = ::poll(ends.data(), ends.size(), wait_ms);
-    if (ready > 0) {
-      if (ends[0].revents != 0 && !read_some(ends[0].fd, read_on)) ends[0].fd = -1;
-      if (ends[1].revents != 0 && !read_some(ends[1].fd, keep)) ends[1].fd = -1;
-      if (ends[0].fd >= 0 || ends[1].fd >= 0) {
-        if (has_ended || Clock::now() < deadline) continue;
-      }
-    }
-    if (has_ended) break;
+  for (auto look_at = Clock::now(); true;) {
+    const bool is_over = ends[0].fd < 0 && ends[1].fd < 0;  // about to end, too
+    if (read_ready(is_over ? 1 : kLook_ms) && Clock::now() < look_at) continue;
+    look_at = Clock::now() + std::chrono::milliseconds(kLook_ms);
     on_message(0, "");
-    has_ended = child.has_ended();
-    if (has_ended || Clock::now() < deadline) continue;
+    if (child.has_ended()) break;
+    if (Clock::now() < deadline) continue;
     is_late = true;
     child.kill_group();
     while (!child.has_ended()) ::poll(nullptr, 0, 1);
-    has_ended = true;
+    break;
   }
   child.kill_group();
+  // What is still in the pipes; a process that has left the group may write for ever.
+  const auto until = Clock::now() + std::chrono::seconds(1);
+  while (read_ready(0) && Clock::now() < until) {
+  }
   ChildEnd end = child.reap();
   end.is_late = is_late;
   end.last_lines = last_lines_of(kept);
@@ -176,39 +176,6 @@ ChildEnd watch(Child& child, Pipe& messages, Pipe& printed, const ChildLimits& l
 }
 
 }  // namespace
-
-ChildFailure failure_of(const ChildEnd& end, const ChildLimits& limits) {
-  ChildFailure failure;
-  if (end.is_late) {
-    std::ostringstream seconds;
-    seconds << limits.time_s;
-    failure = {Outcome::timed_out, "was killed after " + seconds.str() + " s"};
-  } else if (end.exit_status == kNoMemoryStatus || end.signal == SIGKILL) {
-    // The system kills where it has no memory left itself.
-    failure = {Outcome::out_of_memory,
-               "found no memory within " + std::to_string(limits.memory_bytes >> 20) + " MiB"};
-  } else if (end.signal != 0) {
-    failure = {Outcome::crashed, "was ended by signal " + std::to_string(end.signal) + " (" +
-                                     ::strsignal(end.signal) + ")"};
-  } else {
-    failure = {Outcome::crashed,
-               "ended its process itself, with status " + std::to_string(end.exit_status)};
-  }
-  if (!end.last_lines.empty()) failure.how += "; it printed last: " + end.last_lines;
-  return failure;
-}
-
-void MessagePipe::send(char kind, const std::string& text) const {
-  std::string message(MessageReader::kHead, kind);
-  const std::uint64_t size = text.size();
-  std::memcpy(message.data() + 1, &size, sizeof size);
-  message += text;
-  for (std::size_t sent = 0; sent < message.size();) {
-    const ssize_t count = ::write(descriptor_, message.data() + sent, message.size() - sent);
-    if (count < 0 && errno != EINTR) ::_exit(1);  // nobody listens
-    if (count > 0) sent += static_cast<std::size_t>(count);
-  }
-}
 
 ChildEnd run_child(const std::function<void(const MessagePipe&)>& action, const ChildLimits& limits,
                    const std::function<void(char, const std::string&)>& on_message) {

@@ -1,16 +1,21 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <functional>
 
-#include "forked_child.hpp"
+#include "fathom/core/forked_child.hpp"
 
 namespace fathom {
+
+/// A message begins with its kind and the size of its text.
+inline constexpr std::size_t kMessageHead = 1 + sizeof(std::uint64_t);
 
 /// What a child has of its parent: the ends of the pipes to it, and its number.
 struct ChildSide {
   int messages = -1;
   int printed = -1;
-  pid_t parent = 0;
+  int parent = 0;
 };
 
 /// The life of a child from the fork on, as run_child says. What it throws must not reach the code

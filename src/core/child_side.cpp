@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <cstring>
 #include <fcntl.h>
 #include <fstream>
 #include <new>
@@ -55,11 +57,26 @@ void tell_no_memory_from_crash(std::int64_t limit_bytes) {
 
 }  // namespace
 
+void MessagePipe::send(char kind, const std::string& text) const {
+  std::string message(kMessageHead, kind);
+  const std::uint64_t size = text.size();
+  std::memcpy(message.data() + 1, &size, sizeof size);
+  message += text;
+  for (std::size_t sent = 0; sent < message.size();) {
+    const ssize_t count = ::write(descriptor_, message.data() + sent, message.size() - sent);
+    if (count < 0 && errno != EINTR) ::_exit(1);  // nobody listens
+    if (count > 0) sent += static_cast<std::size_t>(count);
+  }
+}
+
 void be_child(const ChildSide& side, const ChildLimits& limits,
               const std::function<void(const MessagePipe&)>& action) noexcept {
   ::setpgid(0, 0);
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != side.parent) ::_exit(1);  // it died before that
+  sigset_t none;
+  ::sigemptyset(&none);
+  ::pthread_sigmask(SIG_SETMASK, &none, nullptr);
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, SIG_DFL);
   const int null = ::open("/dev/null", O_RDONLY);
   ::dup2(null, STDIN_FILENO);
@@ -73,7 +90,11 @@ void be_child(const ChildSide& side, const ChildLimits& limits,
   tell_no_memory_from_crash(limits.memory_bytes);
   limit(RLIMIT_AS, address_space_now() + limits.memory_bytes);
   std::set_new_handler([] { ::_exit(kNoMemoryStatus); });
-  action(MessagePipe(kMessages));
+  try {
+    action(MessagePipe(kMessages));
+  } catch (const std::bad_alloc&) {
+    ::_exit(kNoMemoryStatus);
+  }
   std::fflush(nullptr);
   ::_exit(0);
 }

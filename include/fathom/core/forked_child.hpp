@@ -1,12 +1,8 @@
 #pragma once
 
-#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <string>
-#include <sys/types.h>
-
-#include "fathom/estimation/estimator.hpp"
 
 namespace fathom {
 
@@ -38,13 +34,6 @@ class MessagePipe {
  private:
   int descriptor_;
 };
-
-/// What became of a child that did not do all of its work, and one line that says how.
-struct ChildFailure {
-  Outcome outcome = Outcome::crashed;
-  std::string how;
-};
-ChildFailure failure_of(const ChildEnd& end, const ChildLimits& limits);
 
 /// Forks a child that does `action` and nothing else, and waits for its end. `on_message` gets what
 /// it sends, and is called with kind 0 and no text now and then between messages; what it throws

@@ -1,0 +1,30 @@
+#include "child_failure.hpp"
+
+#include <csignal>
+#include <cstring>
+#include <sstream>
+
+namespace fathom {
+
+ChildFailure failure_of(const ChildEnd& end, const ChildLimits& limits) {
+  ChildFailure failure;
+  if (end.is_late) {
+    std::ostringstream seconds;
+    seconds << limits.time_s;
+    failure = {Outcome::timed_out, "was killed after " + seconds.str() + " s"};
+  } else if (end.exit_status == kNoMemoryStatus || end.signal == SIGKILL) {
+    // The system kills where it has no memory left itself.
+    failure = {Outcome::out_of_memory,
+               "found no memory within " + std::to_string(limits.memory_bytes >> 20) + " MiB"};
+  } else if (end.signal != 0) {
+    failure = {Outcome::crashed, "was ended by signal " + std::to_string(end.signal) + " (" +
+                                     ::strsignal(end.signal) + ")"};
+  } else {
+    failure = {Outcome::crashed,
+               "ended its process itself, with status " + std::to_string(end.exit_status)};
+  }
+  if (!end.last_lines.empty()) failure.how += "; it printed last: " + end.last_lines;
+  return failure;
+}
+
+}  // namespace fathom
