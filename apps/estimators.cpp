@@ -81,6 +81,7 @@ void add_plugins_to(Command& command, std::vector<std::string>& files) {
 
 void load_plugins(Settings& settings, const std::vector<std::string>& files) {
   constexpr const char* kKey = "plugins";
+  estimators();  // a fault of the path is not one of a setting
   const Setting* const given = settings.find(kKey);
   Setting all{kKey, {{}, true}, "--plugin"};
   if (given != nullptr) {
@@ -94,23 +95,37 @@ void load_plugins(Settings& settings, const std::vector<std::string>& files) {
   }
   load_plugins(files);
   for (const std::string& file : files) {
-    if (std::ranges::find(all.value.items, file) == all.value.items.end()) {
-      all.value.items.push_back(file);
-    }
+    const auto is_same = [&](const std::string& other) {
+      return fs::weakly_canonical(file) == fs::weakly_canonical(other);
+    };
+    if (std::ranges::none_of(all.value.items, is_same)) all.value.items.push_back(file);
   }
   if (!all.value.items.empty()) settings.put(all);
 }
 
-Fingerprint with_plugins(Fingerprint data, const std::vector<EstimatorConfiguration>& used) {
+Fingerprint with_plugins(Fingerprint data, const std::set<std::string>& types) {
   std::set<fs::path> files;
-  for (const EstimatorConfiguration& one : used) {
-    const EstimatorEntry& entry = estimators().find(one.type);
+  for (const std::string& type : types) {
+    const EstimatorEntry& entry = estimators().find(type);
     if (!entry.is_built_in()) files.insert(entry.plugin);
   }
-  const Fingerprint plugins = fingerprint({files.begin(), files.end()});
-  data.insert(data.end(), plugins.begin(), plugins.end());
+  // Wherever it lies: the same content is the same plug-in.
+  for (const auto& [file, hash] : fingerprint({files.begin(), files.end()})) {
+    data.emplace_back("plug-in " + fs::path(file).filename().string(), hash);
+  }
   std::sort(data.begin(), data.end());
   return data;
+}
+
+std::set<std::string> types_in(const std::vector<Configuration>& cells) {
+  std::set<std::string> types;
+  for (const Configuration& cell : cells) {
+    for (const EstimatorConfiguration& one : cell.estimators) types.insert(one.type);
+    if (cell.reference.kind != CandidateReference::Kind::ground_truth) {
+      types.insert(cell.reference.estimator.type);
+    }
+  }
+  return types;
 }
 
 }  // namespace fathom

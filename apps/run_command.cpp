@@ -89,9 +89,10 @@ void print_front_end(const Recording& recording) {
 std::string manifest_of(const Context& context, const Configuration& configuration,
                         const Recorder& recorder, const Recording& recording, const Result& result,
                         const std::vector<std::string>& remarks) {
-  return manifest_json(context.command_line, configuration.in_force,
-                       with_plugins(fingerprint(recorder.data().files()), configuration.estimators),
-                       recording, result, estimators(), remarks);
+  return manifest_json(
+      context.command_line, configuration.in_force,
+      with_plugins(fingerprint(recorder.data().files()), types_in({configuration})), recording,
+      result, estimators(), remarks);
 }
 
 // What looks wrong, and the batch optimum of the log where the estimate does not fit it.

@@ -1,5 +1,6 @@
 // fathom select: the back end that meets a user's requirements, from the results of a study.
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -62,7 +63,9 @@ std::filesystem::path write_config(const SelectFlags& flags, const std::string& 
 }
 
 // The registry has to know what was chosen.
-void load_plugins_of(const StudyDescription& study) {
+void load_plugins_for(const StudyEstimator& chosen, const StudyDescription& study) {
+  const auto& known = estimators().entries();
+  if (std::ranges::find(known, chosen.type, &EstimatorEntry::name) != known.end()) return;
   Settings settings;
   for (const auto& [key, value] : study.configuration) {
     if (key == "plugins") settings.put(parse_override(key + "=" + value));
@@ -74,7 +77,8 @@ void select(const SelectFlags& flags, Context& context) {
   const SelectionQuery query = query_of(flags);
   const ResultStore store = ResultStore::open(flags.results);
   const Selection selection = select_estimator(store, query);
-  load_plugins_of(store.study());
+  if (selection.chosen)
+    load_plugins_for(store.study().estimators[*selection.chosen], store.study());
   std::filesystem::path config;
   if (selection.chosen) {
     config =

@@ -83,7 +83,7 @@ EstimatorConfiguration estimator_of(const SolveFlags& flags, const Settings& set
   return {entry.name, entry.name, estimator_values(own, entry, {{}, mode}, "estimator.")};
 }
 
-IsolationOptions isolation_of(const Settings& settings) {
+IsolationOptions isolation_of(const Settings& settings, const EstimatorEntry& entry) {
   IsolationOptions options;
   OptionTable table;
   options.describe(table);
@@ -94,6 +94,13 @@ IsolationOptions isolation_of(const Settings& settings) {
     } catch (const InputError& error) {
       refuse(setting, error.what());
     }
+  }
+  if (options.is_isolated(entry)) return options;
+  for (const Setting& setting : settings.all()) {
+    if (!is_isolation_key(setting.key) || setting.key == "isolation") continue;
+    refuse(setting, setting.key + ": " + entry.name +
+                        " runs in no process of its own, and it would be ignored; isolation: "
+                        "process gives it one");
   }
   return options;
 }
@@ -162,7 +169,7 @@ void solve(const SolveFlags& flags, Context& context) {
   }
   ReplayOptions options;
   options.mode = mode;
-  options.isolation = isolation_of(settings);
+  options.isolation = isolation_of(settings, estimators().find(estimator.type));
   if (flags.init == "file") {
     if (!recording.log.guess) {
       throw InputError(flags.graph, "has no vertices to start from; use --init odometry");
@@ -181,8 +188,8 @@ void solve(const SolveFlags& flags, Context& context) {
   std::ranges::copy(in_force(graph, recording.log), std::back_inserter(configuration));
   write_run(folder.path(), recording, result,
             manifest_json(context.command_line, configuration,
-                          with_plugins(fingerprint({flags.graph}), {estimator}), recording, result,
-                          estimators()));
+                          with_plugins(fingerprint({flags.graph}), {estimator.type}), recording,
+                          result, estimators()));
   write_trajectory_picture(folder.path() / "trajectory.png",
                            stem_of(flags.graph) + ", " + estimator.type, recording, {result});
   folder.commit(optional_run_files());

@@ -78,13 +78,15 @@ void be_child(const ChildSide& side, const ChildLimits& limits,
   ::sigemptyset(&none);
   ::pthread_sigmask(SIG_SETMASK, &none, nullptr);
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, SIG_DFL);
+  // The pipes may be anywhere, even where the standard descriptors belong.
+  const int messages = ::fcntl(side.messages, F_DUPFD, kMessages + 1);
+  const int printed = ::fcntl(side.printed, F_DUPFD, kMessages + 1);
   const int null = ::open("/dev/null", O_RDONLY);
-  ::dup2(null, STDIN_FILENO);
-  ::dup2(side.printed, STDOUT_FILENO);
-  ::dup2(side.printed, STDERR_FILENO);
-  // The locks and files of the parent are not the child's to keep open. The pipes may be anywhere.
-  const int own = ::fcntl(side.messages, F_DUPFD, 64);
-  ::dup2(own, kMessages);
+  const bool has_all = messages >= 0 && printed >= 0 && ::dup2(null, STDIN_FILENO) >= 0 &&
+                       ::dup2(printed, STDOUT_FILENO) >= 0 && ::dup2(printed, STDERR_FILENO) >= 0 &&
+                       ::dup3(messages, kMessages, O_CLOEXEC) >= 0;
+  if (!has_all) ::_exit(1);
+  // The locks and files of the parent are not the child's to keep open.
   ::close_range(kMessages + 1, ~0U, 0);
   limit(RLIMIT_CORE, 0);
   tell_no_memory_from_crash(limits.memory_bytes);

@@ -22,6 +22,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t kKept = 2000;
 constexpr int kLastLines = 3;
+constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 36;
 
 struct Pipe {
   std::array<int, 2> ends{-1, -1};
@@ -53,6 +54,7 @@ class MessageReader {
     while (pending_.size() >= kMessageHead) {
       std::uint64_t size = 0;
       std::memcpy(&size, pending_.data() + 1, sizeof size);
+      if (size > kMostBytes) throw DamagedMessage("a message is damaged");
       if (pending_.size() - kMessageHead < size) return;
       on_message_(pending_.front(), pending_.substr(kMessageHead, size));
       pending_.erase(0, kMessageHead + size);
@@ -78,7 +80,9 @@ std::string last_lines_of(const std::string& printed) {
     end = before;
   }
   for (char& letter : text) {
-    if (static_cast<unsigned char>(letter) < 0x20) letter = ' ';
+    const auto code = static_cast<unsigned char>(letter);
+    if (code < 0x20) letter = ' ';
+    if (code > 0x7e) letter = '?';  // of what encoding it is nobody knows, nor where it was cut
   }
   return text;
 }
@@ -95,8 +99,11 @@ class Child {
   Child(const Child&) = delete;
   Child& operator=(const Child&) = delete;
 
-  // The group's number is its own for as long as the child is not reaped.
-  void kill_group() const { ::kill(-id_, SIGKILL); }
+  // The numbers are its own for as long as the child is not reaped. It may have left its group.
+  void kill_group() const {
+    ::kill(-id_, SIGKILL);
+    ::kill(id_, SIGKILL);
+  }
 
   bool has_ended() const {
     siginfo_t info{};

@@ -11,11 +11,15 @@ void EstimatorRegistry::add(EstimatorEntry entry) {
   if (entry.name.empty() || entry.name.find_first_not_of(kAllowed) != std::string::npos) {
     throw InputError("estimator '" + entry.name + "': expected a name of a-z, 0-9 and _");
   }
+  for (const char* const word : {"dead_reckoning", "ground_truth", "automatic"}) {
+    if (entry.name == word) throw InputError("estimator '" + entry.name + "': a word of studies");
+  }
+  if (!entry.create) throw InputError("estimator '" + entry.name + "': it cannot be made");
   const auto taken = std::ranges::find(entries_, entry.name, &EstimatorEntry::name);
   if (taken != entries_.end()) {
     const std::string by =
-        taken->is_built_in() ? "is built in" : "comes from " + taken->plugin.string();
-    throw InputError("estimator '" + entry.name + "': the name is taken, one of that name " + by);
+        taken->is_built_in() ? "is there already" : "comes from " + taken->plugin.string();
+    throw InputError("estimator '" + entry.name + "': the name is taken, another one " + by);
   }
   entries_.push_back(std::move(entry));
 }

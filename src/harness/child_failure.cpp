@@ -12,8 +12,10 @@ ChildFailure failure_of(const ChildEnd& end, const ChildLimits& limits) {
     std::ostringstream seconds;
     seconds << limits.time_s;
     failure = {Outcome::timed_out, "was killed after " + seconds.str() + " s"};
-  } else if (end.exit_status == kNoMemoryStatus || end.signal == SIGKILL) {
-    // The system kills where it has no memory left itself.
+  } else if (end.signal == SIGKILL) {
+    failure = {Outcome::out_of_memory,
+               "was killed by signal 9, as the system does where it has no memory left"};
+  } else if (end.exit_status == kNoMemoryStatus) {
     failure = {Outcome::out_of_memory,
                "found no memory within " + std::to_string(limits.memory_bytes >> 20) + " MiB"};
   } else if (end.signal != 0) {

@@ -28,6 +28,12 @@ void require_count(std::size_t count, std::size_t expected, const char* of_what)
                           std::to_string(expected));
 }
 
+// The others are outcomes of a process.
+void require_outcome(Outcome outcome) {
+  if (outcome >= Outcome::converged && outcome <= Outcome::numerical_failure) return;
+  throw ContractViolation("its outcome is none of an update");
+}
+
 UpdateReport failed(const Measurements& measurements) {
   UpdateReport report;
   report.outcome = Outcome::numerical_failure;
@@ -131,6 +137,7 @@ UpdateReport GuardedEstimator::update(const Measurements& measurements) {
   UpdateReport report;
   guarded("update", [&] {
     report = estimator_->update(measurements);
+    require_outcome(report.outcome);
     require_count(report.loops.size(), registrations.size(), "decisions on registrations");
     for (std::size_t j = 0; j < registrations.size(); ++j) {
       if (is_of(report.loops[j], registrations[j])) continue;
@@ -154,6 +161,7 @@ UpdateReport GuardedEstimator::finish(std::span<const Pose> start) {
   UpdateReport report;
   guarded("finish", [&] {
     report = estimator_->finish(start);
+    require_outcome(report.outcome);
     require_count(report.loops.size(), 0, "decisions on registrations");
   });
   check_size("finish");

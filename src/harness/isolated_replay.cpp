@@ -47,6 +47,27 @@ void replay_in_child(const MessagePipe& parent, const MeasurementLog& log,
   }
 }
 
+// What a child with a damaged heap sends may be anything.
+Replay whole_replay(const std::string& bytes, const MeasurementLog& log,
+                    const ReplayOptions& options) {
+  Replay replay;
+  try {
+    replay = replay_of(bytes, options);
+  } catch (const std::exception& error) {
+    throw DamagedMessage(error.what());
+  }
+  const std::size_t loops = log.registration_count();
+  const std::size_t absolute = log.absolute_count();
+  const bool fits = replay.trajectory.size() == log.size() && replay.loops.size() == loops &&
+                    replay.loop_weights.size() == loops && replay.absolute.size() == absolute &&
+                    replay.absolute_weights.size() == absolute &&
+                    (!replay.covariances || replay.covariances->size() == log.size()) &&
+                    replay.outcome >= Outcome::converged &&
+                    replay.outcome <= Outcome::numerical_failure;
+  if (!fits) throw DamagedMessage("it is not of this log");
+  return replay;
+}
+
 }  // namespace
 
 Replay isolated_replay(const MeasurementLog& log, const EstimatorEntry& entry,
@@ -56,15 +77,21 @@ Replay isolated_replay(const MeasurementLog& log, const EstimatorEntry& entry,
   std::string bad_input;
   std::size_t at[2] = {0, log.size()};
   const auto on_message = [&](char kind, const std::string& text) {
-    if (kind == kReplay) result = replay_of(text, options);
+    if (kind == kReplay) result = whole_replay(text, log, options);
     if (kind == kBadInput) bad_input = text;
     if (kind == kProgress && text.size() == sizeof at) std::memcpy(at, text.data(), sizeof at);
     // A run that says nothing can be stopped, too.
     if (options.progress && (kind == kProgress || kind == 0)) options.progress(at[0], at[1]);
   };
-  const ChildEnd end = run_child(
-      [&](const MessagePipe& parent) { replay_in_child(parent, log, entry, values, options); },
-      {limits.time_s, limits.memory_bytes}, on_message);
+  ChildEnd end;
+  try {
+    end = run_child(
+        [&](const MessagePipe& parent) { replay_in_child(parent, log, entry, values, options); },
+        {limits.time_s, limits.memory_bytes}, on_message);
+  } catch (const DamagedMessage& damage) {
+    return lost_replay(log, options, Outcome::crashed,
+                       std::string("damaged what it sent back: ") + damage.what());
+  }
   if (!bad_input.empty()) throw InputError(bad_input);
   if (result && end.signal == 0 && end.exit_status == 0) return std::move(*result);
   const ChildFailure failure = failure_of(end, {limits.time_s, limits.memory_bytes});

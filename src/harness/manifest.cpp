@@ -69,13 +69,13 @@ Json session(const std::string& command_line, int jobs) {
 }  // namespace
 
 std::string session_json(const std::string& command_line, int jobs) {
-  return session(command_line, jobs).dump(2) + "\n";
+  return session(command_line, jobs).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 std::string session_json(const ShardPlan& plan, int jobs) {
   Json json = session(plan.command_line, jobs);
   json["shard"] = {{"index", plan.shard.index}, {"of", plan.shard.of}, {"runs", plan.runs}};
-  return json.dump(2) + "\n";
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 std::string manifest_json(const std::string& command_line,
@@ -107,7 +107,7 @@ std::string manifest_json(const std::string& command_line,
     if (recording.in_metres) json["front_end"]["in_metres"] = in_metres(*recording.in_metres);
   }
   if (!remarks.empty()) json["remarks"] = remarks;
-  return json.dump(2) + "\n";
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace fathom

@@ -74,13 +74,13 @@ Json entry_of(const Result& result, const Recording& recording) {
 }  // namespace
 
 std::string metrics_json(const Result& result, const Recording& recording) {
-  return entry_of(result, recording).dump(2) + "\n";
+  return entry_of(result, recording).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 std::string comparison_json(const std::vector<Result>& results, const Recording& recording) {
   Json list = Json::array();
   for (const Result& result : results) list.push_back(entry_of(result, recording));
-  return list.dump(2) + "\n";
+  return list.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace fathom

@@ -201,9 +201,18 @@ class Runner {
             {study_.noise_seeds.front(), 0}));
       }
       const EstimatorConfiguration& estimator = configuration.estimators[e];
-      Result result =
-          evaluate(*shared, estimator, registry_, {.metrics = metric_options(configuration)}, {});
-      result.metrics = stored.of(estimator.name, 0).at({0, 0})->metrics;
+      const RunRecord& before = *stored.of(estimator.name, 0).at({0, 0});
+      ReplayOptions again;
+      again.isolation = configuration.isolation;
+      // What took its process with it would do so again: a moment shows as much of it.
+      const bool was_lost = before.outcome == name_of(Outcome::crashed) ||
+                            before.outcome == name_of(Outcome::timed_out) ||
+                            before.outcome == name_of(Outcome::out_of_memory);
+      if (was_lost) again.isolation = {Isolation::process, 1e-3, again.isolation.memory_limit_mib};
+      Result result = evaluate(*shared, estimator, registry_,
+                               {.metrics = metric_options(configuration)}, again);
+      if (was_lost) result.replay.fault = before.fault;
+      result.metrics = before.metrics;
       example_[e] = {shared, std::move(result)};
     }
   }

@@ -6,6 +6,7 @@
 
 #include "fathom/configuration/config_text.hpp"
 #include "fathom/configuration/configuration.hpp"
+#include "fathom/configuration/isolation.hpp"
 #include "fathom/core/text.hpp"
 #include "fathom/core/version.hpp"
 
@@ -69,10 +70,12 @@ class StudyValues {
 };
 
 // Keys of a configuration without its estimator. What is not among them is a comparison's.
-std::vector<ConfigLine> common_lines(const StudyValues& values) {
+std::vector<ConfigLine> common_lines(const StudyValues& values, bool is_built_in) {
   std::vector<ConfigLine> lines;
   for (const OptionDescription& option : keys_in_force(values.words())) {
     const std::string& key = option.key;
+    // They were there for others.
+    if (is_built_in && (key == "plugins" || is_isolation_key(key))) continue;
     if (const ConfigLine* swept = values.swept(key)) {
       lines.push_back(*swept);
       continue;
@@ -177,7 +180,8 @@ std::string selected_configuration(const StudyDescription& study, const Selectio
   if (!selection.chosen)
     throw InputError("no estimator was chosen that a configuration could have");
   const StudyValues values(study, selection);
-  std::vector<ConfigLine> lines = common_lines(values);
+  std::vector<ConfigLine> lines =
+      common_lines(values, registry.find(study.estimators[*selection.chosen].type).is_built_in());
   for (ConfigLine& line : estimator_lines(study, *selection.chosen, values, registry)) {
     lines.push_back(std::move(line));
   }

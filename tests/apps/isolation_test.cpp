@@ -58,7 +58,7 @@ TEST_F(Isolation, ACrashIsAnOutcomeWithItsSignalAndLastLines) {
   EXPECT_EQ(metrics.at("outcome"), "crashed");
   EXPECT_EQ(metrics.at("fault"),
             "was ended by signal 11 (Segmentation fault); it printed last: first line | about to "
-            "crash");
+            "crash ?");
   EXPECT_FALSE(metrics.contains("mean_position_error_m"));
 }
 
@@ -66,6 +66,17 @@ TEST_F(Isolation, AHangIsEndedAtItsTime) {
   const nlohmann::json metrics = run("hang", {"--set", "time_limit_s=0.3"});
   EXPECT_EQ(metrics.at("outcome"), "timed_out");
   EXPECT_EQ(metrics.at("fault"), "was killed after 0.3 s");
+}
+
+// The example of a study that is there already is shown again, and ends as it did.
+TEST_F(Isolation, AStudyThatHungIsShownAgain) {
+  write("s.yaml", std::string(kLog) + "time_limit_s: 0.2\nplugins: [" + plugin("misbehaving") +
+                      "]\nestimators:\n  - {type: ekf}\n  - {type: misbehaving, fault: hang}\n");
+  const Ended first = fathom({"compare", "s.yaml", "--out", "study"});
+  EXPECT_EQ(first.status, 1);
+  const Ended again = fathom({"compare", "s.yaml", "--out", "study"});
+  EXPECT_EQ(again.status, 1);
+  EXPECT_THAT(again.out, HasSubstr("0/1 done, 1 timed out"));
 }
 
 TEST_F(Isolation, MemoryWithoutEndIsEndedAtItsLimit) {

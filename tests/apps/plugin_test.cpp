@@ -44,7 +44,7 @@ TEST_F(Plugins, AreRefusedInOneLine) {
   EXPECT_THAT(refused(plugin("other_build")),
               HasSubstr("the alignment of Eigen (-march?) is 1024, expected"));
   EXPECT_THAT(refused(plugin("taken_name")),
-              HasSubstr("estimator 'ekf': the name is taken, one of that name is built in"));
+              HasSubstr("estimator 'ekf': the name is taken, another one is there already"));
   EXPECT_THAT(refused(plugin("throwing")), HasSubstr("adding its estimators threw: no licence"));
   write("c.yaml", std::string(kLog) + "plugins: [missing.so]\nestimator: {type: ekf}\n");
   EXPECT_THAT(refusal({"run", "c.yaml"}), HasSubstr("c.yaml:5: plugins: missing.so"));

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <stdexcept>
 #include <string>
 
 namespace fathom {
@@ -12,6 +13,11 @@ struct ChildEnd {
   int exit_status = 0;     ///< where no signal ended it
   int signal = 0;          ///< 0: none
   std::string last_lines;  ///< of what it printed, on one line
+};
+
+/// What a child sent is no message.
+struct DamagedMessage : std::runtime_error {
+  using std::runtime_error::runtime_error;
 };
 
 /// What a child may take.
@@ -39,7 +45,8 @@ class MessagePipe {
 /// it sends, and is called with kind 0 and no text now and then between messages; what it throws
 /// kills the child and is passed on. The child has an end of its own for every descriptor but
 /// those that it needs, prints to a pipe, and dies with the thread that called; its process group
-/// is killed when it has ended. Throws InputError where the system refuses a process.
+/// is killed when it has ended. Throws InputError where the system refuses a process,
+/// DamagedMessage where something else wrote to the pipe.
 ChildEnd run_child(const std::function<void(const MessagePipe&)>& action, const ChildLimits& limits,
                    const std::function<void(char, const std::string&)>& on_message);
 

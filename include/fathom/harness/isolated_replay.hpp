@@ -13,8 +13,9 @@ struct ProcessLimits {
 };
 
 /// As of replay, in a child process, to the last bit. Cost is measured there. The child is a fork
-/// of this process at this moment; other threads may run, since all that it does is to replay. What
-/// it prints is kept from both outputs.
+/// of this process at this moment. Other threads may run; a lock that one of them holds then, of a
+/// library that does not know of forks, stays locked in the child, which ends at its time limit.
+/// What it prints is kept from both outputs.
 ///
 /// A crash, a hang or too much memory is an outcome, with its signal and the last lines that the
 /// child printed as the fault. No process is left behind: the child's process group is killed at

@@ -82,7 +82,7 @@ class Misbehaving final : public Estimator {
   void misbehave() {
     switch (fault_) {
       case Fault::crash:
-        std::fprintf(stderr, "first line\nabout to crash\n");
+        std::fprintf(stderr, "first line\nabout to crash \xff\n");
         std::raise(SIGSEGV);
         break;
       case Fault::hang:

@@ -1,6 +1,7 @@
 // Plug-ins that must be refused, each for what REFUSED_FOR says; without it, one that exports
 // nothing.
 
+#include <memory>
 #include <stdexcept>
 
 #include "fathom/estimation/plugin.hpp"
@@ -10,6 +11,9 @@ namespace {
 [[maybe_unused]] void taken_name(fathom::EstimatorRegistry& registry) {
   fathom::EstimatorEntry entry;
   entry.name = "ekf";
+  entry.create = [](const fathom::EstimatorSetup&, const fathom::EstimatorValues&) {
+    return std::unique_ptr<fathom::Estimator>();
+  };
   registry.add(entry);
 }
 
