@@ -131,7 +131,8 @@ void GuardedEstimator::add_keyframe(const RelativePose& step) {
 }
 
 UpdateReport GuardedEstimator::update(const Measurements& measurements) {
-  const auto& [registrations, absolute] = measurements;
+  const std::span<const RelativePose> registrations = measurements.registrations;
+  const std::span<const AbsolutePose> absolute = measurements.absolute;
   registrations_ += registrations.size();
   absolute_ += absolute.size();
   UpdateReport report;
