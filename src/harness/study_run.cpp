@@ -205,9 +205,8 @@ class Runner {
       ReplayOptions again;
       again.isolation = configuration.isolation;
       // What took its process with it would do so again: a moment shows as much of it.
-      const bool was_lost = before.outcome == name_of(Outcome::crashed) ||
-                            before.outcome == name_of(Outcome::timed_out) ||
-                            before.outcome == name_of(Outcome::out_of_memory);
+      const bool was_lost = is_failed(before) && before.outcome != name_of(Outcome::diverged) &&
+                            before.outcome != name_of(Outcome::numerical_failure);
       if (was_lost) again.isolation = {Isolation::process, 1e-3, again.isolation.memory_limit_mib};
       Result result = evaluate(*shared, estimator, registry_,
                                {.metrics = metric_options(configuration)}, again);
