@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "fathom/core/forked_child.hpp"
 #include "fathom/core/input_error.hpp"
 
 namespace fathom {
@@ -32,6 +33,21 @@ const PluginInterface& interface_of(const std::filesystem::path& file) {
   const PluginInterface* const found = function();
   if (found == nullptr) throw InputError(file.string(), "its fathom_plugin returns nothing");
   return *found;
+}
+
+// A file that is damaged, or half written, crashes whoever loads it.
+void require_loadable(const std::filesystem::path& file) {
+  if (!std::filesystem::is_regular_file(file)) {
+    throw InputError("'" + file.string() + "': there is no such plug-in; expected a shared object");
+  }
+  constexpr ChildLimits kLimits{60.0, std::int64_t{4} << 30};
+  const auto load = [&](const MessagePipe&) {
+    ::dlopen(std::filesystem::absolute(file).c_str(), RTLD_NOW | RTLD_LOCAL);
+  };
+  const ChildEnd end = run_child(load, kLimits, [](char, const std::string&) {});
+  if (end.signal == 0 && end.exit_status == 0 && !end.is_late) return;
+  throw InputError(file.string(), "crashes whoever loads it, by signal " +
+                                      std::to_string(end.signal) + "; build it again");
 }
 
 void require_version(const std::filesystem::path& file, const PluginInterface& plugin) {
@@ -76,9 +92,7 @@ EstimatorRegistry estimators_of(const std::filesystem::path& file, const PluginI
 }  // namespace
 
 void load_plugin(const std::filesystem::path& file, EstimatorRegistry& registry) {
-  if (!std::filesystem::exists(file)) {
-    throw InputError(file.string(), "there is no such plug-in");
-  }
+  require_loadable(file);
   const PluginInterface& plugin = interface_of(file);
   require_version(file, plugin);
   require_build(file, plugin.build);

@@ -98,4 +98,11 @@ Replay isolated_replay(const MeasurementLog& log, const EstimatorEntry& entry,
   return lost_replay(log, options, failure.outcome, failure.how);
 }
 
+std::optional<Outcome> end_of_process(const std::string& name) {
+  for (const Outcome one : {Outcome::crashed, Outcome::timed_out, Outcome::out_of_memory}) {
+    if (name == name_of(one)) return one;
+  }
+  return std::nullopt;
+}
+
 }  // namespace fathom

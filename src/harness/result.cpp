@@ -133,6 +133,37 @@ Replay replayed(const MeasurementLog& log, const EstimatorEntry& entry,
                          {isolation.time_limit_s, std::int64_t{isolation.memory_limit_mib} << 20});
 }
 
+ReplayOptions asked_of(const Recording& recording, const JudgeOptions& judging,
+                       const ReplayOptions& options) {
+  ReplayOptions asked = options;
+  if (options.own_candidates) asked.candidate_covariances = recording.asked_covariances;
+  if (recording.ground_truth) {
+    asked.motions = motions_to_judge(*recording.ground_truth, motion_options(judging.metrics));
+  }
+  return asked;
+}
+
+// Metrics, accuracy and consistency of a result that has its replay.
+void judge_replay(Result& result, const Recording& recording, const EstimatorRegistry& registry,
+                  const JudgeOptions& judging) {
+  const std::vector<Pose>& estimate = result.replay.trajectory;
+  RunFacts facts = facts_of(recording, recording.log, estimate, judging.metrics);
+  if (!recording.frames.empty()) {
+    facts.registrations_tried = recording.registrations_tried;
+    facts.registrations_left_out = recording.registrations_left_out;
+  }
+  const RecordingFacts shared = judging.facts != nullptr ? *judging.facts : run_facts(recording);
+  if (shared.true_overlaps) facts.true_overlaps = &*shared.true_overlaps;
+  facts.chi2_optimum = least_known(shared.chi2_optimum, recording.log, estimate, registry);
+  if (result.replay.covariances) facts.covariances = *result.replay.covariances;
+  facts.motions = result.replay.motions;
+  facts.replay = replay_facts(recording, result.replay);
+  JudgedRun judged = judge(std::move(facts));
+  result.metrics = metric_values(judged);
+  result.accuracy = judged.accuracy;
+  result.consistency = std::move(judged.consistency);
+}
+
 }  // namespace
 
 MetricOptions metric_options(const Configuration& configuration) {
@@ -165,32 +196,24 @@ std::optional<double> Result::metric(const std::string& name) const {
 Result evaluate(const Recording& recording, const EstimatorConfiguration& estimator,
                 const EstimatorRegistry& registry, const JudgeOptions& judging,
                 const ReplayOptions& options) {
+  const ReplayOptions asked = asked_of(recording, judging, options);
   Result result;
   result.estimator = estimator;
   result.mode = options.mode;
   result.options = judging.metrics;
-  ReplayOptions asked = options;
-  if (options.own_candidates) asked.candidate_covariances = recording.asked_covariances;
-  if (recording.ground_truth) {
-    asked.motions = motions_to_judge(*recording.ground_truth, motion_options(judging.metrics));
-  }
   result.replay = replayed(recording.log, registry.find(estimator.type), estimator.values, asked);
-  const std::vector<Pose>& estimate = result.replay.trajectory;
-  RunFacts facts = facts_of(recording, recording.log, estimate, judging.metrics);
-  if (!recording.frames.empty()) {
-    facts.registrations_tried = recording.registrations_tried;
-    facts.registrations_left_out = recording.registrations_left_out;
-  }
-  const RecordingFacts shared = judging.facts != nullptr ? *judging.facts : run_facts(recording);
-  if (shared.true_overlaps) facts.true_overlaps = &*shared.true_overlaps;
-  facts.chi2_optimum = least_known(shared.chi2_optimum, recording.log, estimate, registry);
-  if (result.replay.covariances) facts.covariances = *result.replay.covariances;
-  facts.motions = result.replay.motions;
-  facts.replay = replay_facts(recording, result.replay);
-  JudgedRun judged = judge(std::move(facts));
-  result.metrics = metric_values(judged);
-  result.accuracy = judged.accuracy;
-  result.consistency = std::move(judged.consistency);
+  judge_replay(result, recording, registry, judging);
+  return result;
+}
+
+Result evaluate_lost(const Recording& recording, const EstimatorConfiguration& estimator,
+                     const EstimatorRegistry& registry, const JudgeOptions& judging,
+                     Outcome outcome, const std::string& fault) {
+  Result result;
+  result.estimator = estimator;
+  result.options = judging.metrics;
+  result.replay = lost_replay(recording.log, asked_of(recording, judging, {}), outcome, fault);
+  judge_replay(result, recording, registry, judging);
   return result;
 }
 

@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "fathom/core/random.hpp"
+#include "fathom/harness/isolated_replay.hpp"
 #include "fathom/harness/recording.hpp"
 #include "fathom/harness/run_record.hpp"
 #include "fathom/harness/survey.hpp"
@@ -202,15 +203,13 @@ class Runner {
       }
       const EstimatorConfiguration& estimator = configuration.estimators[e];
       const RunRecord& before = *stored.of(estimator.name, 0).at({0, 0});
+      const auto lost = end_of_process(before.outcome);
+      const JudgeOptions judging{.metrics = metric_options(configuration)};
       ReplayOptions again;
       again.isolation = configuration.isolation;
-      // What took its process with it would do so again: a moment shows as much of it.
-      const bool was_lost = is_failed(before) && before.outcome != name_of(Outcome::diverged) &&
-                            before.outcome != name_of(Outcome::numerical_failure);
-      if (was_lost) again.isolation = {Isolation::process, 1e-3, again.isolation.memory_limit_mib};
-      Result result = evaluate(*shared, estimator, registry_,
-                               {.metrics = metric_options(configuration)}, again);
-      if (was_lost) result.replay.fault = before.fault;
+      Result result =
+          lost ? evaluate_lost(*shared, estimator, registry_, judging, *lost, before.fault)
+               : evaluate(*shared, estimator, registry_, judging, again);
       result.metrics = before.metrics;
       example_[e] = {shared, std::move(result)};
     }

@@ -7,6 +7,7 @@
 
 #include "apps/command_line.hpp"
 #include "apps/plugin_files.hpp"
+#include "fathom/core/files.hpp"
 #include "fathom/evaluation/metrics.hpp"
 #include "fathom/results/result_store.hpp"
 
@@ -36,7 +37,11 @@ TEST_F(Plugins, AreRefusedInOneLine) {
   const auto refused = [&](const std::string& file) {
     return refusal({"list", "estimators", "--plugin", file});
   };
-  EXPECT_THAT(refused("missing.so"), HasSubstr("missing.so: there is no such plug-in"));
+  EXPECT_THAT(refused("missing.so"), HasSubstr("'missing.so': there is no such plug-in"));
+  EXPECT_THAT(refused("."), HasSubstr("'.': there is no such plug-in"));
+  const std::string whole = read_file(plugin("plugin_example"));
+  write("half.so", whole.substr(0, whole.size() / 2));
+  EXPECT_THAT(refused("half.so"), HasSubstr("half.so"));
   write("text.so", "no shared object");
   EXPECT_THAT(refused("text.so"), HasSubstr("cannot be loaded"));
   EXPECT_THAT(refused(plugin("no_symbol")), HasSubstr("does not export fathom_plugin"));
@@ -47,7 +52,7 @@ TEST_F(Plugins, AreRefusedInOneLine) {
               HasSubstr("estimator 'ekf': the name is taken, another one is there already"));
   EXPECT_THAT(refused(plugin("throwing")), HasSubstr("adding its estimators threw: no licence"));
   write("c.yaml", std::string(kLog) + "plugins: [missing.so]\nestimator: {type: ekf}\n");
-  EXPECT_THAT(refusal({"run", "c.yaml"}), HasSubstr("c.yaml:5: plugins: missing.so"));
+  EXPECT_THAT(refusal({"run", "c.yaml"}), HasSubstr("c.yaml:5: plugins: 'missing.so'"));
 }
 
 TEST_F(Plugins, TheirKeysAreCheckedAsThoseOfBuiltInOnes) {

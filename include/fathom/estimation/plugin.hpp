@@ -34,7 +34,8 @@ struct PluginInterface {
 };
 
 /// Adds the estimators of a plug-in, a shared object that exports FATHOM_PLUGIN. It stays loaded to
-/// the end of the program. Throws InputError, one line with the file, where it cannot be loaded,
+/// the end of the program. Throws InputError, one line with the file, where it cannot be loaded
+/// (tried in a child process first),
 /// exports no such function, was made for another version or build, or brings an estimator whose
 /// name is taken; the registry is as it was then.
 void load_plugin(const std::filesystem::path& file, EstimatorRegistry& registry);

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
+#include <string>
 
 #include "fathom/harness/replay.hpp"
 
@@ -27,5 +29,8 @@ struct ProcessLimits {
 Replay isolated_replay(const MeasurementLog& log, const EstimatorEntry& entry,
                        const EstimatorValues& values, const ReplayOptions& options,
                        const ProcessLimits& limits);
+
+/// The outcome of this name, if it is one of a process; nothing of one that a replay has.
+std::optional<Outcome> end_of_process(const std::string& name);
 
 }  // namespace fathom

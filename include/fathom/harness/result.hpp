@@ -51,6 +51,11 @@ Result evaluate(const Recording& recording, const EstimatorConfiguration& estima
                 const EstimatorRegistry& registry, const JudgeOptions& judging,
                 const ReplayOptions& options);
 
+/// The same of a run that is known to have left nothing but how it ended: it is not made again.
+Result evaluate_lost(const Recording& recording, const EstimatorConfiguration& estimator,
+                     const EstimatorRegistry& registry, const JudgeOptions& judging,
+                     Outcome outcome, const std::string& fault);
+
 /// Dead reckoning judged as an estimate: the baseline of every table.
 struct DeadReckoning {
   std::map<std::string, double> metrics;

@@ -100,7 +100,7 @@ class Misbehaving final : public Estimator {
         break;
       case Fault::fork:
         if (::fork() == 0) {
-          ::execlp("sleep", "sleep", "7654", nullptr);
+          ::execlp("sleep", "sleep", "7654.03125", nullptr);
           ::_exit(1);
         }
         break;
