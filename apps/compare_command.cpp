@@ -56,7 +56,7 @@ void compare_as(const std::optional<Shard>& shard, const CompareFlags& flags, Co
   // A data set that cannot be opened, or lacks what is asked for, is refused before anything is
   // written.
   settle_reference(study, estimators());
-  study.description.data = with_plugins(data_of(study), types_in(study.cells));
+  study.description.data = with_code(data_of(study), estimators_in(study.cells));
   const Recorder data_set(study.cells.front(), cache.get());
 
   StudyRunOptions options;

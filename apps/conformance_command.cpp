@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <iterator>
 #include <memory>
 #include <string>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "apps/command.hpp"
 #include "apps/estimators.hpp"
 #include "fathom/configuration/isolation.hpp"
+#include "fathom/core/input_error.hpp"
 #include "fathom/core/text.hpp"
 #include "fathom/harness/conformance.hpp"
 #include "fathom/report/table.hpp"
@@ -24,9 +26,16 @@ struct ConformanceFlags {
 
 // An unknown name is refused before any of the others takes its time.
 std::vector<EstimatorEntry> chosen(const std::vector<std::string>& names) {
-  if (names.empty()) return estimators().entries();
   std::vector<EstimatorEntry> entries;
-  for (const std::string& name : names) entries.push_back(estimators().find(name));
+  if (names.empty()) {
+    std::ranges::copy_if(estimators().entries(), std::back_inserter(entries),
+                         [](const EstimatorEntry& entry) { return !entry.runs_program; });
+  }
+  for (const std::string& name : names) {
+    entries.push_back(estimators().find(name));
+    if (!entries.back().runs_program) continue;
+    throw InputError("'" + name + "': what it does is another program's, which its options name");
+  }
   return entries;
 }
 

@@ -9,6 +9,7 @@
 #include "apps/flags.hpp"
 #include "fathom/configuration/config_file.hpp"
 #include "fathom/core/input_error.hpp"
+#include "fathom/core/program.hpp"
 #include "fathom/estimation/plugin.hpp"
 #include "fathom/estimators/builtin.hpp"
 
@@ -33,6 +34,7 @@ std::vector<fs::path> shared_objects_of(const fs::path& place) {
 class KnownEstimators {
  public:
   KnownEstimators() {
+    registry_.add(command_entry());
     const char* const places = std::getenv(kSearchPath);
     if (places == nullptr) return;
     std::istringstream words(places);
@@ -59,6 +61,20 @@ class KnownEstimators {
   EstimatorRegistry registry_ = builtin_estimators();
   std::set<fs::path> loaded_;
 };
+
+// The program, and what it is given as an argument and is a file: a script, or its settings.
+std::set<fs::path> files_of_command(const EstimatorConfiguration& estimator) {
+  std::set<fs::path> files;
+  const auto command = estimator.values.find("command");
+  if (command == estimator.values.end()) return files;
+  const std::vector<std::string> words = words_of_command(command->second.text());
+  if (words.empty()) return files;
+  files.insert(find_program(words.front()));
+  for (const std::string& word : words) {
+    if (fs::is_regular_file(word)) files.insert(word);
+  }
+  return files;
+}
 
 KnownEstimators& known_estimators() {
   static KnownEstimators known;
@@ -103,29 +119,35 @@ void load_plugins(Settings& settings, const std::vector<std::string>& files) {
   if (!all.value.items.empty()) settings.put(all);
 }
 
-Fingerprint with_plugins(Fingerprint data, const std::set<std::string>& types) {
-  std::set<fs::path> files;
-  for (const std::string& type : types) {
-    const EstimatorEntry& entry = estimators().find(type);
-    if (!entry.is_built_in()) files.insert(entry.plugin);
+Fingerprint with_code(Fingerprint data, const std::vector<EstimatorConfiguration>& all) {
+  std::set<fs::path> plugins;
+  std::set<fs::path> programs;
+  for (const EstimatorConfiguration& one : all) {
+    const EstimatorEntry& entry = estimators().find(one.type);
+    if (!entry.is_built_in()) plugins.insert(entry.plugin);
+    if (entry.runs_program) programs.merge(files_of_command(one));
   }
-  // Wherever it lies: the same content is the same plug-in.
-  for (const auto& [file, hash] : fingerprint({files.begin(), files.end()})) {
-    data.emplace_back("plug-in " + fs::path(file).filename().string(), hash);
-  }
+  // Wherever it lies: the same content is the same code.
+  const auto add = [&](const char* what, const std::set<fs::path>& files) {
+    for (const auto& [file, hash] : fingerprint({files.begin(), files.end()})) {
+      data.emplace_back(what + fs::path(file).filename().string(), hash);
+    }
+  };
+  add("plug-in ", plugins);
+  add("program ", programs);
   std::sort(data.begin(), data.end());
   return data;
 }
 
-std::set<std::string> types_in(const std::vector<Configuration>& cells) {
-  std::set<std::string> types;
+std::vector<EstimatorConfiguration> estimators_in(const std::vector<Configuration>& cells) {
+  std::vector<EstimatorConfiguration> all;
   for (const Configuration& cell : cells) {
-    for (const EstimatorConfiguration& one : cell.estimators) types.insert(one.type);
+    all.insert(all.end(), cell.estimators.begin(), cell.estimators.end());
     if (cell.reference.kind != CandidateReference::Kind::ground_truth) {
-      types.insert(cell.reference.estimator.type);
+      all.push_back(cell.reference.estimator);
     }
   }
-  return types;
+  return all;
 }
 
 }  // namespace fathom

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <set>
 #include <string>
 #include <vector>
 
@@ -26,10 +25,10 @@ void add_plugins_to(Command& command, std::vector<std::string>& files);
 /// InputError at the setting where it is no list of words.
 void load_plugins(Settings& settings, const std::vector<std::string>& files);
 
-/// The data of a study or a run, and the plug-ins that bring estimators of these types.
-Fingerprint with_plugins(Fingerprint data, const std::set<std::string>& types);
+/// The data of a study or a run, and the plug-ins and programs that do the work of these.
+Fingerprint with_code(Fingerprint data, const std::vector<EstimatorConfiguration>& all);
 
 /// All that may run in these: those that are compared, and those that select loop candidates.
-std::set<std::string> types_in(const std::vector<Configuration>& cells);
+std::vector<EstimatorConfiguration> estimators_in(const std::vector<Configuration>& cells);
 
 }  // namespace fathom

@@ -68,6 +68,7 @@ std::string header(const std::string& what, const std::vector<std::string>& fact
 std::string estimator_list() {
   std::string text = "estimators:  # take away those that you do not want to compare\n";
   for (const EstimatorEntry& entry : estimators().entries()) {
+    if (entry.runs_program) continue;
     text += "  - {type: " + entry.name + "}\n";
   }
   return text;

@@ -91,7 +91,7 @@ std::string manifest_of(const Context& context, const Configuration& configurati
                         const std::vector<std::string>& remarks) {
   return manifest_json(
       context.command_line, configuration.in_force,
-      with_plugins(fingerprint(recorder.data().files()), types_in({configuration})), recording,
+      with_code(fingerprint(recorder.data().files()), estimators_in({configuration})), recording,
       result, estimators(), remarks);
 }
 

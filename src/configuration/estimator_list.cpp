@@ -141,6 +141,7 @@ std::vector<EstimatorConfiguration> configure_list(const Settings& settings,
   refuse_unused_items(settings, list.size());
   if (!list.empty()) return list;
   for (const EstimatorEntry& entry : registry.entries()) {
+    if (entry.runs_program) continue;
     list.push_back({entry.name, entry.name, {}});
   }
   return list;

@@ -19,7 +19,7 @@ void IsolationOptions::describe(OptionTable& table) {
 
 bool IsolationOptions::is_isolated(const EstimatorEntry& entry) const {
   return isolation == Isolation::process ||
-         (isolation == Isolation::automatic && !entry.is_built_in());
+         (isolation == Isolation::automatic && (!entry.is_built_in() || entry.runs_program));
 }
 
 bool is_isolation_key(const std::string& key) {

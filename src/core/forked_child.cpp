@@ -14,14 +14,13 @@
 
 #include "child_side.hpp"
 #include "fathom/core/input_error.hpp"
+#include "last_lines.hpp"
 
 namespace fathom {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t kKept = 2000;
-constexpr int kLastLines = 3;
 constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 36;
 
 struct Pipe {
@@ -65,27 +64,6 @@ class MessageReader {
   const std::function<void(char, const std::string&)>& on_message_;
   std::string pending_;
 };
-
-std::string last_lines_of(const std::string& printed) {
-  std::string text;
-  std::size_t end = printed.find_last_not_of("\n\r \t");
-  if (end == std::string::npos) return text;
-  ++end;
-  for (int line = 0; line < kLastLines && end > 0; ++line) {
-    const std::size_t before = printed.find_last_of('\n', end - 1);
-    const std::size_t begin = before == std::string::npos ? 0 : before + 1;
-    const std::string one = printed.substr(begin, end - begin);
-    text = text.empty() ? one : one + " | " + text;
-    if (before == std::string::npos) break;
-    end = before;
-  }
-  for (char& letter : text) {
-    const auto code = static_cast<unsigned char>(letter);
-    if (code < 0x20) letter = ' ';
-    if (code > 0x7e) letter = '?';  // of what encoding it is nobody knows, nor where it was cut
-  }
-  return text;
-}
 
 // The parent's side of a child. Whatever happens, nothing of its group is left.
 class Child {
@@ -144,8 +122,7 @@ ChildEnd watch(Child& child, Pipe& messages, Pipe& printed, const ChildLimits& l
   MessageReader reader(on_message);
   std::string kept;
   const auto keep = [&kept](const char* bytes, std::size_t count) {
-    kept.append(bytes, count);
-    if (kept.size() > 2 * kKept) kept.erase(0, kept.size() - kKept);
+    keep_print(bytes, count, kept);
   };
   const auto read_on = [&reader](const char* bytes, std::size_t count) {
     reader.add(bytes, count);

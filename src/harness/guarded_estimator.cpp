@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "fathom/core/input_error.hpp"
+#include "fathom/core/program.hpp"
 
 namespace fathom {
 namespace {
@@ -74,6 +75,9 @@ void GuardedEstimator::guarded(const char* what, Call call) const {
     throw;
   } catch (const ContractViolation& violation) {
     fault_ = at() + ": " + violation.what();
+  } catch (const ProgramFailure& failure) {
+    fault_ = at() + ": " + failure.what();
+    fault_outcome_ = Outcome::crashed;
   } catch (const std::exception& error) {
     fault_ = at() + " threw an exception: " + error.what();
   } catch (...) {

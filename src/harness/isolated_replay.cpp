@@ -58,12 +58,13 @@ Replay whole_replay(const std::string& bytes, const MeasurementLog& log,
   }
   const std::size_t loops = log.registration_count();
   const std::size_t absolute = log.absolute_count();
-  const bool fits = replay.trajectory.size() == log.size() && replay.loops.size() == loops &&
-                    replay.loop_weights.size() == loops && replay.absolute.size() == absolute &&
-                    replay.absolute_weights.size() == absolute &&
-                    (!replay.covariances || replay.covariances->size() == log.size()) &&
-                    replay.outcome >= Outcome::converged &&
-                    replay.outcome <= Outcome::numerical_failure;
+  const bool fits =
+      replay.trajectory.size() == log.size() && replay.loops.size() == loops &&
+      replay.loop_weights.size() == loops && replay.absolute.size() == absolute &&
+      replay.absolute_weights.size() == absolute &&
+      (!replay.covariances || replay.covariances->size() == log.size()) &&
+      replay.outcome >= Outcome::converged &&
+      replay.outcome <= (replay.fault.empty() ? Outcome::numerical_failure : Outcome::crashed);
   if (!fits) throw DamagedMessage("it is not of this log");
   return replay;
 }

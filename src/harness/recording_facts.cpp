@@ -13,7 +13,7 @@ std::optional<BatchOptimum> batch_optimum(const MeasurementLog& log,
                                           std::span<const Pose> start) {
   std::optional<BatchOptimum> best;
   for (const EstimatorEntry& entry : registry.entries()) {
-    if (!entry.can_batch) continue;
+    if (!entry.can_batch || entry.runs_program) continue;
     ReplayOptions options;
     options.mode = SolveMode::batch;
     options.start = start;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "cost_used.hpp"
+#include "fathom/core/program.hpp"
 #include "fathom/core/workers.hpp"
 #include "fathom/geometry/covariance.hpp"
 #include "fathom/harness/guarded_estimator.hpp"
@@ -19,20 +20,31 @@ double milliseconds_since(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-// Wall and CPU time of one call of the estimator, added to the totals.
+// Wall and CPU time of one call of the estimator, added to the totals. Of what it lets programs do
+// only their processor time counts: pipes and files are not theirs.
 class CallTimer {
  public:
   explicit CallTimer(Replay& result) : result_(result) {}
 
   double stop() const {
-    const double elapsed_ms = milliseconds_since(start_);
+    double elapsed_ms = milliseconds_since(start_);
+    double cpu_ms = 1e3 * (thread_processor_seconds() - cpu_start_s_);
+    const ProgramWork& work = program_work();
+    if (work.waited_s != work_.waited_s) {
+      const double by_program_ms = 1e3 * (work.processor_s - work_.processor_s);
+      elapsed_ms += by_program_ms - 1e3 * (work.waited_s - work_.waited_s);
+      cpu_ms += by_program_ms - 1e3 * (work.own_s - work_.own_s);
+      const double start_up_ms = 1e3 * (work.start_up_s - work_.start_up_s);
+      result_.start_up_ms = result_.start_up_ms.value_or(0.0) + start_up_ms;
+    }
     result_.total_ms += elapsed_ms;
-    result_.cpu_ms += 1e3 * (thread_processor_seconds() - cpu_start_s_);
+    result_.cpu_ms += cpu_ms;
     return elapsed_ms;
   }
 
  private:
   Replay& result_;
+  ProgramWork work_ = program_work();
   double cpu_start_s_ = thread_processor_seconds();
   Clock::time_point start_ = Clock::now();
 };
@@ -183,9 +195,9 @@ void collect_motions(const Estimator& estimator, JudgedMotions& motions) {
 }
 
 // After a fault no output of the estimator can be trusted.
-void note_fault(const std::string& fault, Replay& result) {
-  result.fault = fault;
-  result.outcome = Outcome::numerical_failure;
+void note_fault(const GuardedEstimator& estimator, Replay& result) {
+  result.fault = estimator.fault();
+  result.outcome = estimator.fault_outcome();
   lose_used(result.loops);
   lose_used(result.absolute);
   result.loop_weights.assign(result.loops.size(), 0.0);
@@ -210,10 +222,12 @@ Replay replay(const MeasurementLog& log, const EstimatorEntry& entry, const Esti
   result.update_ms.reserve(log.size());
   result.add_ms.reserve(log.size());
   if (options.newest_covariances) result.newest_covariance_ms.reserve(log.size());
+  reset_program_work();
   if (options.memory != nullptr) options.memory->start();
   GuardedEstimator estimator(entry, {log.start(), options.mode}, values);
   give_keyframes(log, estimator, options, result);
   if (options.memory != nullptr) result.memory_bytes = options.memory->stop();
+  if (result.start_up_ms) result.memory_bytes = program_work().peak_bytes;
   result.trajectory = poses_of(estimator);
   result.loop_weights = weights_of(estimator.loop_weights(), result.loops);
   result.absolute_weights = weights_of(estimator.absolute_weights(), result.absolute);
@@ -225,7 +239,7 @@ Replay replay(const MeasurementLog& log, const EstimatorEntry& entry, const Esti
   }
   result.absolute_cost_used = absolute_cost_used(log, estimator, result);
   result.cost_used = cost_used(log, estimator, result);
-  if (!estimator.fault().empty()) note_fault(estimator.fault(), result);
+  if (!estimator.fault().empty()) note_fault(estimator, result);
   return result;
 }
 

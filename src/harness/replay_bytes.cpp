@@ -104,6 +104,7 @@ void fields(Archive& archive, AnyReplay& replay) {
   archive.field(replay.total_ms);
   archive.field(replay.cpu_ms);
   archive.field(replay.covariance_ms);
+  archive.field(replay.start_up_ms);
   archive.field(replay.memory_bytes);
   for (auto& motions : replay.motions) archive.field(motions.covariances);
   archive.field(replay.chi2_initial);

@@ -70,6 +70,7 @@ ReplayFacts replay_facts(const Recording& recording, const Replay& replay) {
   facts.total_ms = replay.total_ms;
   facts.cpu_ms = replay.cpu_ms;
   if (replay.covariances) facts.covariance_ms = replay.covariance_ms;
+  facts.start_up_ms = replay.start_up_ms;
   facts.memory_bytes = replay.memory_bytes;
   return facts;
 }

@@ -1,14 +1,12 @@
 // Runs in processes of their own, through the real command line.
 
-#include <chrono>
 #include <csignal>
-#include <fstream>
-#include <thread>
 
 #include <gmock/gmock.h>
 
 #include "apps/command_line.hpp"
 #include "apps/plugin_files.hpp"
+#include "apps/processes.hpp"
 #include "fathom/evaluation/metrics.hpp"
 #include "fathom/results/result_store.hpp"
 
@@ -17,27 +15,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
-
-/// Every process whose command line has this word.
-std::size_t processes_with(const std::string& word) {
-  std::size_t count = 0;
-  for (const auto& entry : fs::directory_iterator("/proc")) {
-    std::ifstream in(entry.path() / "cmdline", std::ios::binary);
-    const std::string line{std::istreambuf_iterator<char>(in), {}};
-    // A process that is about to be reaped has no command line.
-    if (line.find(word) != std::string::npos) ++count;
-  }
-  return count;
-}
-
-/// A process that was killed may take a while to go.
-bool none_is_left(const std::string& word) {
-  for (int look = 0; look < 1000; ++look) {
-    if (processes_with(word) == 0) return true;
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
-  }
-  return false;
-}
 
 class Isolation : public CommandLine {
  protected:

@@ -85,20 +85,24 @@ const std::vector<ThirdParty>& third_parties() {
       {"signal.h", {"src/core/files.cpp", "src/core/system.cpp"}},
       {"fcntl.h",
        {"src/core/child_side.cpp", "src/core/file_lock.cpp", "src/core/forked_child.cpp",
-        "src/core/system.cpp"}},
+        "src/core/program.cpp", "src/core/program_start.cpp", "src/core/system.cpp"}},
       {"sys/mman.h",
        {"estimators/support/filter/growing_memory.cpp",
         "estimators/support/sparse/panel_memory.cpp", "src/core/blas_memory.cpp",
         "src/core/child_side.cpp"}},
       {"sys/prctl.h", {"src/core/child_side.cpp"}},
-      {"poll.h", {"src/core/forked_child.cpp"}},
+      {"poll.h", {"src/core/forked_child.cpp", "src/core/program.cpp"}},
+      {"spawn.h", {"src/core/program_start.cpp"}},
       {"sys/file.h", {"src/core/file_lock.cpp"}},
-      {"sys/wait.h", {"apps/child_process.cpp", "src/core/forked_child.cpp"}},
-      {"sys/resource.h", {"src/core/child_side.cpp", "src/core/system.cpp"}},
+      {"sys/wait.h",
+       {"apps/child_process.cpp", "src/core/forked_child.cpp", "src/core/program.cpp"}},
+      {"sys/resource.h",
+       {"src/core/child_side.cpp", "src/core/program.cpp", "src/core/system.cpp"}},
       {"unistd.h",
        {"src/core/child_side.cpp", "src/core/files.cpp", "src/core/file_lock.cpp",
-        "src/core/forked_child.cpp", "src/core/system.cpp", "apps/child_process.cpp",
-        "apps/common.cpp", "apps/out_of_memory.cpp", "apps/stop_signal.cpp"}}};
+        "src/core/forked_child.cpp", "src/core/program.cpp", "src/core/program_start.cpp",
+        "src/core/system.cpp", "apps/child_process.cpp", "apps/common.cpp",
+        "apps/out_of_memory.cpp", "apps/stop_signal.cpp"}}};
   return list;
 }
 

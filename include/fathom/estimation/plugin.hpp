@@ -11,7 +11,7 @@ namespace fathom {
 
 /// Version of what a plug-in and a program say to one another. It rises with every change to a
 /// public type of `estimation` or of what that includes.
-inline constexpr std::uint32_t kPluginVersion = 1;
+inline constexpr std::uint32_t kPluginVersion = 2;
 
 /// What the compiler made of those types. It depends on flags too: with `-march=native` Eigen
 /// aligns its matrices otherwise, and an object that passes between two such builds is read
@@ -35,9 +35,8 @@ struct PluginInterface {
 
 /// Adds the estimators of a plug-in, a shared object that exports FATHOM_PLUGIN. It stays loaded to
 /// the end of the program. Throws InputError, one line with the file, where it cannot be loaded
-/// (tried in a child process first),
-/// exports no such function, was made for another version or build, or brings an estimator whose
-/// name is taken; the registry is as it was then.
+/// (tried in a child process first), exports no such function, was made for another version or
+/// build, or brings an estimator whose name is taken; the registry is as it was then.
 void load_plugin(const std::filesystem::path& file, EstimatorRegistry& registry);
 
 }  // namespace fathom

@@ -39,6 +39,9 @@ struct EstimatorEntry {
   /// The same of the values alone: nothing is made. Absent: `create` has to be asked.
   std::function<void(const EstimatorSetup&, const EstimatorValues&)> check;
   std::filesystem::path plugin{};  ///< the shared object that brings it; empty: built in
+  /// Whether a program that its options name does the work. It stands in no list of all estimators,
+  /// and by default has a process of its own.
+  bool runs_program = false;
 
   bool is_built_in() const { return plugin.empty(); }
 };

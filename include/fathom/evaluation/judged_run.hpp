@@ -57,6 +57,7 @@ struct ReplayFacts {
   double total_ms = 0.0;
   double cpu_ms = 0.0;
   std::optional<double> covariance_ms;
+  std::optional<double> start_up_ms;  ///< of programs that do the work
   std::optional<std::int64_t> memory_bytes;
 };
 

@@ -20,6 +20,8 @@ class GuardedEstimator : public Estimator {
 
   /// The first fault, one line, with the call and the keyframe; empty: none so far.
   const std::string& fault() const { return fault_; }
+  /// Of a fault: numerical_failure, or crashed where a program that does the work ended.
+  Outcome fault_outcome() const { return fault_outcome_; }
 
   /// Keyframes given, whatever the estimator says.
   std::size_t size() const override { return size_; }
@@ -53,6 +55,7 @@ class GuardedEstimator : public Estimator {
   std::size_t registrations_ = 0;
   std::size_t absolute_ = 0;
   mutable std::string fault_;
+  mutable Outcome fault_outcome_ = Outcome::numerical_failure;
 };
 
 }  // namespace fathom

@@ -61,14 +61,16 @@ struct ReplayOptions {
 };
 
 /// One estimator's estimate from a log, and what it cost. Cost is wall time of the estimator's
-/// calls alone, on this thread.
+/// calls alone, on this thread; of what programs do for it their processor time, and their peak of
+/// memory.
 struct Replay {
   std::vector<Pose> trajectory;
   /// Of every keyframe; absent where not asked for or not to be had.
   std::optional<std::vector<Eigen::Matrix3d>> covariances;
   Outcome outcome = Outcome::converged;  ///< the worst of all updates
   /// How the estimator broke its contract (GuardedEstimator), one line; the outcome is
-  /// `numerical_failure` then. Or how its process ended. Empty: neither.
+  /// `numerical_failure` then, or `crashed` where a program ended. Or how its process ended. Empty:
+  /// neither.
   std::string fault;
   /// Of updates, by Outcome; no update has one from `crashed` on.
   std::array<std::size_t, 4> outcome_counts{};
@@ -92,6 +94,9 @@ struct Replay {
   double total_ms = 0.0;  ///< of all calls but the covariances of poses and of `motions`
   double cpu_ms = 0.0;    ///< of the thread and its Workers, over the same calls
   double covariance_ms = 0.0;
+  /// Where programs do the work (ProgramWork), the processor time of their start-up, no part of the
+  /// others.
+  std::optional<double> start_up_ms;
   std::optional<std::int64_t> memory_bytes;
   /// Those asked for, each with its covariances where they are to be had.
   std::vector<JudgedMotions> motions;

@@ -70,7 +70,11 @@ std::vector<Metric> cost_metrics() {
                {"covariance_ms", "covariance time", "ms", Better::lower,
                 "wall time of the covariances of all keyframes, asked for once, at the end",
                 replay_field(&ReplayFacts::covariance_ms)},
-               {"memory_bytes", "memory", "bytes", Better::lower, "peak heap of the estimator",
+               {"start_up_ms", "start-up", "ms", Better::lower,
+                "CPU time of the start-up of a program that does the work, no part of the others",
+                replay_field(&ReplayFacts::start_up_ms)},
+               {"memory_bytes", "memory", "bytes", Better::lower,
+                "peak heap of the estimator; of a program all that it had in use",
                 replay_field(&ReplayFacts::memory_bytes)}});
   for (Metric& metric : all) metric.is_cost = true;
   all.push_back({"updates", "updates", "", Better::neither, "how many updates there were",

@@ -1,0 +1,182 @@
+#include "estimators/command/solver_files.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+#include <string_view>
+
+#include "fathom/core/files.hpp"
+#include "fathom/core/program.hpp"
+#include "fathom/core/system.hpp"
+#include "fathom/core/text.hpp"
+#include "fathom/geometry/trajectory_file.hpp"
+
+namespace fathom::command {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kFolder = "fathom-command-";
+
+// A process that was killed has left its folder.
+void remove_folders_of_the_dead() {
+  std::error_code ignored;
+  for (const fs::directory_entry& entry :
+       fs::directory_iterator(fs::temp_directory_path(), ignored)) {
+    const std::string name = entry.path().filename().string();
+    if (!name.starts_with(kFolder)) continue;
+    const auto number =
+        parse_integer(name.substr(kFolder.size(), name.rfind('-') - kFolder.size()));
+    if (number && is_dead_process(static_cast<long>(*number))) fs::remove_all(entry, ignored);
+  }
+}
+
+fs::path new_folder() {
+  remove_folders_of_the_dead();
+  const fs::path folder =
+      fs::temp_directory_path() /
+      (std::string(kFolder) + std::to_string(process_number()) + "-" + unique_word().substr(0, 8));
+  fs::create_directory(folder);
+  return folder;
+}
+
+std::string numbers(const Pose& pose) {
+  return ' ' + exact(pose.x) + ' ' + exact(pose.y) + ' ' + exact(pose.theta);
+}
+
+void replace_all(std::string& text, std::string_view what, const std::string& by) {
+  for (std::size_t at = 0; (at = text.find(what, at)) != std::string::npos; at += by.size()) {
+    text.replace(at, what.size(), by);
+  }
+}
+
+// id x y θ behind the word of a vertex.
+void take_vertex(const std::vector<std::string_view>& words, std::vector<Pose>& poses,
+                 std::vector<bool>& is_there) {
+  const auto id = words.size() == 5 ? parse_integer(words[1]) : std::nullopt;
+  if (!id || *id < 0 || static_cast<std::size_t>(*id) >= poses.size()) {
+    throw std::runtime_error("its output names vertices that it was not given");
+  }
+  Pose& pose = poses[static_cast<std::size_t>(*id)];
+  double* const fields[] = {&pose.x, &pose.y, &pose.theta};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto number = parse_real(words[i + 2]);
+    if (!number) throw std::runtime_error("its output has a vertex that is no four numbers");
+    *fields[i] = *number;
+  }
+  is_there[static_cast<std::size_t>(*id)] = true;
+}
+
+Pose of_tum(const std::vector<std::string_view>& words) {
+  double values[8];
+  for (std::size_t i = 0; i < 8; ++i) {
+    const auto number = parse_real(words[i]);
+    if (!number) throw std::runtime_error("its output is neither g2o nor TUM");
+    values[i] = *number;
+  }
+  return {values[1], values[2], yaw_of({values[7], values[4], values[5], values[6]})};
+}
+
+}  // namespace
+
+std::string to_text(const ProgramGraph& graph) {
+  std::string text;
+  for (std::size_t k = 0; k < graph.poses.size(); ++k) {
+    text += "VERTEX_SE2 " + std::to_string(k) + numbers(graph.poses[k]) + '\n';
+  }
+  text += "FIX 0\n";
+  for (const RelativePose& z : graph.edges) {
+    text += "EDGE_SE2 " + std::to_string(z.from) + ' ' + std::to_string(z.to) + numbers(z.motion);
+    for (int row = 0; row < 3; ++row) {
+      for (int column = row; column < 3; ++column) text += ' ' + exact(z.information(row, column));
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+std::vector<Pose> poses_in(const std::string& text, std::size_t count) {
+  std::vector<Pose> vertices(count);
+  std::vector<bool> is_there(count, false);
+  std::vector<Pose> lines;
+  bool is_g2o = false;
+  std::istringstream all(text);
+  for (std::string line; std::getline(all, line);) {
+    const auto words = split(line);
+    if (words.empty() || words[0].front() == '#') continue;
+    if (words[0] == "VERTEX_SE2" || words[0] == "VERTEX2") {
+      is_g2o = true;
+      take_vertex(words, vertices, is_there);
+    } else if (!is_g2o && words.size() == 8) {
+      lines.push_back(of_tum(words));
+    }
+  }
+  const auto found =
+      is_g2o ? static_cast<std::size_t>(std::ranges::count(is_there, true)) : lines.size();
+  if (found != count) {
+    throw std::runtime_error("its output has " + std::to_string(found) + " poses, expected " +
+                             std::to_string(count));
+  }
+  return is_g2o ? vertices : lines;
+}
+
+SolverFiles::~SolverFiles() {
+  std::error_code ignored;
+  if (!folder_.empty()) fs::remove_all(folder_, ignored);
+}
+
+std::vector<Pose> SolverFiles::call(const ProgramGraph& graph, double& processor_s,
+                                    std::int64_t& peak_bytes) {
+  const std::string input = (folder_ / "input.g2o").string();
+  const std::string output = (folder_ / "output").string();
+  fs::remove(output);
+  write_file(input, to_text(graph));
+  std::vector<std::string> words = words_;
+  for (std::string& word : words) {
+    replace_all(word, "{input}", input);
+    replace_all(word, "{output}", output);
+  }
+  Program program(words);
+  program.finish();
+  processor_s = program.processor_s();
+  peak_bytes = program.peak_bytes();
+  if (!fs::is_regular_file(output)) {
+    throw std::runtime_error("'" + words.front() + "' wrote no " + output);
+  }
+  return poses_in(read_file(output), graph.poses.size());
+}
+
+// What it takes for a graph of two nodes and a step, which leaves nothing to be solved.
+void SolverFiles::measure_start_up(const ProgramGraph& graph) {
+  if (start_up_s_ || graph.edges.empty()) return;
+  start_up_s_ = 0.0;
+  RelativePose step = graph.edges.front();
+  step.from = 0;
+  step.to = 1;
+  const ProgramGraph smallest{{graph.poses[0], compose(graph.poses[0], step.motion)}, {step}};
+  std::int64_t peak_bytes = 0;
+  try {
+    call(smallest, *start_up_s_, peak_bytes);
+  } catch (const std::runtime_error&) {
+    // One that refuses so small a graph has its start-up among the rest.
+    start_up_s_ = 0.0;
+  }
+}
+
+std::vector<Pose> SolverFiles::solve(const ProgramGraph& graph) {
+  ForProgram work;
+  if (folder_.empty()) folder_ = new_folder();
+  measure_start_up(graph);
+  double processor_s = 0.0;
+  std::int64_t peak_bytes = 0;
+  const std::vector<Pose> poses = call(graph, processor_s, peak_bytes);
+  const double start_up_s = std::min(start_up_s_.value_or(0.0), processor_s);
+  work.add_start_up_s(start_up_s);
+  work.add_processor_s(processor_s - start_up_s);
+  work.note_peak(peak_bytes);
+  return poses;
+}
+
+}  // namespace fathom::command
