@@ -1,14 +1,15 @@
-// Parts of an Ekf's map behind holes, and the loops that put them into place.
+// Parts of a filter's map behind holes, and the loops that put them into place.
 
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
 
-#include "estimators/ekf/ekf.hpp"
+#include "estimators/support/filter/delayed_state.hpp"
 #include "fathom/geometry/covariance.hpp"
 
-namespace fathom {
+namespace fathom::filter {
 namespace {
 
 // [I  J p] with J a quarter turn: what a turn about one place does at `lever` from it.
@@ -18,50 +19,37 @@ Eigen::Matrix3d carried(const Eigen::Vector2d& lever) {
   return A;
 }
 
-filter::PackedCovariance packed(const Eigen::MatrixXd& P) {
-  filter::PackedCovariance packed;
-  for (Eigen::Index row = 0; row < P.rows(); row += 3) {
-    const Eigen::Matrix3d own = P.block<3, 3>(row, row);
-    const Eigen::Matrix3d symmetric = 0.5 * (own + own.transpose());
-    if (row == 0) {
-      packed.append(symmetric);
-    } else {
-      packed.append(P.block(row, 0, 3, row), symmetric);
-    }
-  }
-  return packed;
-}
-
 }  // namespace
 
-Eigen::Matrix3d Ekf::spread_of(std::size_t k, std::size_t l) const {
+Eigen::Matrix3d DelayedStateFilter::spread_of(std::size_t k, std::size_t l) const {
   if (part_of_[k] == 0 || part_of_[k] != part_of_[l]) return Eigen::Matrix3d::Zero();
   const Floating& part = floating_[part_of_[k] - 1];
   const auto from_first = [&](std::size_t i) {
-    return carried(poses_[i].position() - poses_[part.node].position());
+    return carried(linearised_at(i).position() - linearised_at(part.node).position());
   };
   return from_first(k) * part.spread * from_first(l).transpose();
 }
 
-void Ekf::settle(std::size_t part) {
+void DelayedStateFilter::settle(std::size_t part) {
   if (part == 0) return;
-  Eigen::MatrixXd P = P_.full();
+  Eigen::MatrixXd P = world_covariance();
   for (std::size_t k = 1; k < poses_.size(); ++k) {
     for (std::size_t l = 1; l <= k; ++l) {
       if (part_of_[k] != part || part_of_[l] != part) continue;
       P.block<3, 3>(3 * block_of(k), 3 * block_of(l)) += spread_of(k, l);
     }
   }
-  P_ = packed(P);
+  set_world_covariance(std::move(P));
   for (std::size_t& of : part_of_) of = of == part ? 0 : of;
 }
 
 // Relative to each other they keep their errors: the covariances turn with the map.
-void Ekf::move(const Bridge& bridge, Eigen::MatrixXd& P) {
+void DelayedStateFilter::move(const Bridge& bridge, Eigen::MatrixXd& P) {
   const Eigen::Matrix3d turn = planar_rotation(bridge.motion.theta);
   for (std::size_t k = 1; k < poses_.size(); ++k) {
     if (!bridge.moves[k]) continue;
     poses_[k] = compose(bridge.motion, poses_[k]);
+    note_moved(k, bridge.motion);
     P.middleRows<3>(3 * block_of(k)) = (turn * P.middleRows<3>(3 * block_of(k))).eval();
     P.middleCols<3>(3 * block_of(k)) = (P.middleCols<3>(3 * block_of(k)) * turn.transpose()).eval();
   }
@@ -74,11 +62,11 @@ void Ekf::move(const Bridge& bridge, Eigen::MatrixXd& P) {
 //     δX_k' = Φ δX_k − A_k' Φ δX_c + A_k' δX_c',     δX_c' = J_p δX_p + J_m δm.
 //
 // Other parts that hang on it move along, and stay uncorrelated with it.
-std::optional<LoopDecision> Ekf::bridge(const Bridge& bridge) {
-  Eigen::MatrixXd P = P_.full();
+std::optional<LoopDecision> DelayedStateFilter::bridge(const Bridge& bridge) {
+  Eigen::MatrixXd P = world_covariance();
   if (!bridge.loop) {
     move(bridge, P);
-    P_ = packed(P);
+    set_world_covariance(std::move(P));
     return std::nullopt;
   }
   const LoopDecision decision = decide(innovate(*bridge.loop));
@@ -93,9 +81,10 @@ std::optional<LoopDecision> Ekf::bridge(const Bridge& bridge) {
   Eigen::Matrix3d J_p;
   Eigen::Matrix3d J_m;
   poses_[c] = compose(poses_[p], m.mean, &J_p, &J_m);
+  if (linearised_at(p) != poses_[p]) J_p = step_jacobian(p, linearised_at(c));
   const auto is_of_c = [&](std::size_t k) { return bridge.moves[k] && part_of_[k] == part_of_[c]; };
   const auto A = [&](std::size_t k) {
-    return carried(poses_[k].position() - poses_[c].position());
+    return carried(linearised_at(k).position() - linearised_at(c).position());
   };
   // T P by rows, then its transpose by rows again: P is symmetric.
   for (int side = 0; side < 2; ++side) {
@@ -113,10 +102,10 @@ std::optional<LoopDecision> Ekf::bridge(const Bridge& bridge) {
       P.block<3, 3>(3 * block_of(k), 3 * block_of(l)) += A(k) * of_loop * A(l).transpose();
     }
   }
-  P_ = packed(P);
+  set_world_covariance(std::move(P));
   const std::size_t part = part_of_[c];
   for (std::size_t& of : part_of_) of = of == part ? part_of_[p] : of;
   return decision;
 }
 
-}  // namespace fathom
+}  // namespace fathom::filter
