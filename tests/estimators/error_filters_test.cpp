@@ -38,6 +38,8 @@ void expect_both(const MeasurementLog& log) {
 // directions and several at once.
 TEST(ErrorFilters, AreTheNaiveOnesOnACircle) {
   WorldOptions options;
+  options.heading_every = 0;
+  options.position_every = 0;
   options.start = StartPose({100.0, -200.0, -3.0});
   const MeasurementLog log = circle_in_world(options);
   EXPECT_GT(log.registration_count(), 5u);
@@ -69,6 +71,8 @@ TEST(InvariantEkf, ExponentialIsThatOfMatrices) {
 // known; the others keep it.
 TEST(ErrorFilters, NoLoopTellsTheHeadingOfTheMap) {
   WorldOptions options;
+  options.heading_every = 0;
+  options.position_every = 0;
   const double sigma_rad = 0.2;
   options.start = uncertain_start({1.0, 2.0, -3.0}, 1e-3, sigma_rad);
   const MeasurementLog log = circle_in_world(options);

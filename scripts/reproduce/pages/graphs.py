@@ -52,6 +52,21 @@ def ekf_graphs(work):
                   for g in ("CSAIL", "ring", "intel")])
 
 
+def _beside_the_ekf(estimator):
+    @maker(f"docs/estimators/{estimator}.md", f"{estimator}-graphs", "quick",
+           f"`fathom solve GRAPH.g2o --estimator {estimator}`, last column `--estimator ekf`", 0.4,
+           needs=_graphs("CSAIL", "ring", "intel"))
+    def graphs(work):
+        return table(["graph", "F", "optimum", "[EKF](ekf.md)"],
+                     [[g, _text(work.solve(g, "--estimator", estimator)["chi2"]),
+                       f"{OPTIMA[g]:.8g}", _text(work.solve(g, "--estimator", "ekf")["chi2"])]
+                      for g in ("CSAIL", "ring", "intel")])
+
+
+_beside_the_ekf("invariant_ekf")
+_beside_the_ekf("first_estimates_ekf")
+
+
 @maker("docs/estimators/trajectory_iekf.md", "iekf-graphs", "quick",
        "`fathom solve GRAPH.g2o --estimator trajectory_iekf`, the heads being options of "
        "`--set estimator.`; last column `--estimator ekf`", 0.5,

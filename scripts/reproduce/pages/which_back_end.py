@@ -65,6 +65,30 @@ def regimes_anees(work):
                     lambda study, e, cell: significant(study.mean(e, "anees", **cell)))
 
 
+def _filters(work, value):
+    estimators = ("ekf", "invariant_ekf", "first_estimates_ekf", "iekf_3", "incremental_smoother")
+    rows = []
+    for name, study, lengths in (("circuit", _circuit(work), (40, 160)),
+                                 ("legs", _legs(work), (10, 40))):
+        for length in lengths:
+            for noise in (0.002, 0.01, 0.05):
+                cell = _cell(noise, length)
+                rows.append([f"{name}, {length} m", noise,
+                             *(_with_failures(study, significant(value(study, e, cell)), e, cell)
+                               for e in estimators)])
+    return table(["mission", "heading noise (rad)", *code(estimators)], rows)
+
+
+@maker(PAGE, "regimes-filters-chi2", "slow", f"`fathom compare {CIRCUIT}` and `{LEGS}`", 20)
+def regimes_filters_chi2(work):
+    return _filters(work, over_optimum)
+
+
+@maker(PAGE, "regimes-filters-anees", "slow", f"`fathom compare {CIRCUIT}` and `{LEGS}`", 20)
+def regimes_filters_anees(work):
+    return _filters(work, lambda study, e, cell: study.mean(e, "anees", **cell))
+
+
 @maker(PAGE, "regimes-cost", "time", f"`fathom compare {CIRCUIT}` and `{LEGS}`, `--jobs 1`", 30)
 def regimes_cost(work):
     estimators = (*FILTERS, "incremental_smoother", "sparse_gauss_newton", "ceres_pose_graph")
