@@ -6,6 +6,7 @@
 #     scripts/setup.sh lint     # and what scripts/lint.sh needs
 #     scripts/setup.sh docs     # and what scripts/docs.sh needs
 #     scripts/setup.sh import   # and what reads bags and writes maps for geographic programs
+#     scripts/setup.sh adapters # and the solvers of others that Debian has, for docs/adapters.md
 #     scripts/setup.sh cluster  # and a SLURM for the test of docs/cluster.md
 set -euo pipefail
 
@@ -30,6 +31,7 @@ import_packages=(
   libsensor-msgs-dev libnav-msgs-dev libgeometry-msgs-dev libstd-msgs-dev gdal-bin
 )
 cluster_packages=(slurm-wlm munge)
+adapter_packages=(libmrpt-graphslam-dev)
 
 fail() {
   printf 'setup: error: %s\n' "$1" >&2
@@ -41,8 +43,9 @@ case "${1:-}" in
   lint) packages+=("${lint_packages[@]}") ;;
   docs) packages+=("${docs_packages[@]}") ;;
   import) packages+=("${import_packages[@]}") ;;
+  adapters) packages+=("${adapter_packages[@]}") ;;
   cluster) packages+=("${cluster_packages[@]}") ;;
-  *) fail "unknown argument '$1'; use none, lint, docs, import or cluster" ;;
+  *) fail "unknown argument '$1'; use none, lint, docs, import, adapters or cluster" ;;
 esac
 
 missing() {

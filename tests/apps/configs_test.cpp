@@ -163,13 +163,13 @@ TEST_F(Configs, FalseLoopsDrawnRuns) {
 
 TEST_F(Configs, RegimesRun) {
   expect_runs("compare", "studies/regimes.yaml", {"trials=1"}, "ekf/metrics.json");
-  EXPECT_EQ(ResultStore::open(path("out")).runs().size(), 36u * 9u);
+  EXPECT_EQ(ResultStore::open(path("out")).runs().size(), 36u * 11u);
   EXPECT_TRUE(fs::exists(path("out/figures/regime_map_loops_6.svg")));
 }
 
 TEST_F(Configs, RegimesSurveyRun) {
   expect_runs("compare", "studies/regimes_survey.yaml", {"trials=1"}, "ekf/metrics.json");
-  EXPECT_EQ(ResultStore::open(path("out")).runs().size(), 24u * 9u);
+  EXPECT_EQ(ResultStore::open(path("out")).runs().size(), 24u * 11u);
 }
 
 TEST_F(Configs, SharedErrorsOfTheAltimeterRun) {

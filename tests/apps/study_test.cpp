@@ -20,7 +20,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 // Of the program, and dead reckoning.
-constexpr std::size_t kEstimators = 5 + 1;
+constexpr std::size_t kEstimators = 7 + 1;
 
 class Studies : public CommandLine {
  protected:

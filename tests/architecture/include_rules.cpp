@@ -25,6 +25,7 @@ const std::map<std::string, Words>& module_rows() {
       {"estimation", {"measurements"}},
       {"evaluation", {"measurements"}},
       {"estimators", {"estimation"}},
+      {"adapters", {"estimation"}},
       {"configuration", {"front_end", "estimation", "evaluation"}},
       {"results", {"configuration", "evaluation"}},
       {"harness", {"front_end", "estimation", "results"}},
@@ -57,6 +58,7 @@ const std::vector<ThirdParty>& third_parties() {
         "include/fathom/report/picture.hpp", "apps/"}},
       {"boost/math/", {"src/core/chi_squared.cpp", "src/evaluation/distributions.cpp"}},
       {"ceres/", {"estimators/ceres_pose_graph/"}},
+      {"mrpt/", {"adapters/mrpt/"}},
       {"yaml-cpp/",
        {"src/configuration/", "src/datasets/image_folder/camera_yaml.cpp",
         "src/datasets/image_folder/sensor_yaml.cpp", "src/datasets/import/ros2_metadata.cpp"}},
@@ -124,7 +126,9 @@ std::optional<std::string> module_of(const std::string& path) {
     return path.substr(root.size(), path.find('/', root.size()) - root.size());
   }
   if (path.starts_with("estimators/")) return "estimators";
-  if (path.starts_with("apps/")) return "apps";
+  for (const std::string folder : {"adapters", "apps"}) {
+    if (path.starts_with(folder + "/")) return folder;
+  }
   return std::nullopt;
 }
 
@@ -135,7 +139,7 @@ std::string folder_of(const std::string& path) {
 // What several estimators are built from: each part, and what it may include of ours.
 const std::map<std::string, Words>& support_rows() {
   static const std::map<std::string, Words> rows{
-      {"sparse", {"core"}}, {"pose_graph", {"sparse", "estimation"}}, {"filter", {"core"}}};
+      {"sparse", {"core"}}, {"pose_graph", {"sparse", "estimation"}}, {"filter", {"estimation"}}};
   return rows;
 }
 

@@ -52,8 +52,8 @@ def ekf_graphs(work):
                   for g in ("CSAIL", "ring", "intel")])
 
 
-def _beside_the_ekf(estimator):
-    @maker(f"docs/estimators/{estimator}.md", f"{estimator}-graphs", "quick",
+def _beside_the_ekf(estimator, name):
+    @maker(f"docs/estimators/{estimator}.md", name, "quick",
            f"`fathom solve GRAPH.g2o --estimator {estimator}`, last column `--estimator ekf`", 0.4,
            needs=_graphs("CSAIL", "ring", "intel"))
     def graphs(work):
@@ -63,8 +63,19 @@ def _beside_the_ekf(estimator):
                       for g in ("CSAIL", "ring", "intel")])
 
 
-_beside_the_ekf("invariant_ekf")
-_beside_the_ekf("first_estimates_ekf")
+_beside_the_ekf("invariant_ekf", "invariant-graphs")
+_beside_the_ekf("first_estimates_ekf", "first-estimates-graphs")
+
+
+@maker("docs/adapters.md", "mrpt-graphs", "slow",
+       "`fathom solve GRAPH.g2o --estimator mrpt --mode batch`", 0.5, needs=_graphs(*OPTIMA))
+def mrpt_graphs(work):
+    plugin = str((work.build / "adapters/mrpt.so").absolute())
+    rows = []
+    for graph, optimum in OPTIMA.items():
+        done = work.solve(graph, "--estimator", "mrpt", "--plugin", plugin, mode="batch")
+        rows.append([graph, done["keyframes"], f"{optimum:.8g}", f"{done['chi2']:.8g}"])
+    return table(["graph", "poses", "optimum", "F reached"], rows)
 
 
 @maker("docs/estimators/trajectory_iekf.md", "iekf-graphs", "quick",
