@@ -64,8 +64,10 @@ TEST_F(Commands, TwoRunsAreTheSameByteForByte) {
 TEST_F(Commands, CompareGivesOneLogToAll) {
   write("c.yaml", kSmallSurvey);
   const Ended ended = fathom_done({"compare", "c.yaml", "--out", "out"});
-  const std::vector<std::string> names{"trajectory_iekf", "ekf", "ceres_pose_graph",
-                                       "sparse_gauss_newton", "incremental_smoother"};
+  const std::vector<std::string> names{"trajectory_iekf",     "ekf",
+                                       "invariant_ekf",       "first_estimates_ekf",
+                                       "ceres_pose_graph",    "sparse_gauss_newton",
+                                       "incremental_smoother"};
   for (const std::string& name : names) {
     EXPECT_THAT(ended.out, HasSubstr(name));
     EXPECT_THAT(bytes_of("out/table.txt"), HasSubstr(name));

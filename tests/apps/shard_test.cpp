@@ -200,7 +200,7 @@ TEST_F(Shards, TwoOnOneFolderAreRefused) {
 
 TEST_F(Shards, WhatAStudyTakesIsEstimatedFromAFewTrials) {
   const std::string text = fathom_done({"estimate", "s.yaml", "--shards", "4"}).out;
-  EXPECT_THAT(text, AllOf(HasSubstr("processor hours"), HasSubstr("10 trials with 5 estimators"),
+  EXPECT_THAT(text, AllOf(HasSubstr("processor hours"), HasSubstr("10 trials with 7 estimators"),
                           HasSubstr("From 2 trials that were run here"),
                           HasSubstr("#SBATCH --array=1-4 --cpus-per-task=1 --time=")));
   // One trial at the least, whatever the time.

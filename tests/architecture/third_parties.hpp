@@ -1,0 +1,74 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace fathom::test {
+
+/// A third party by the way its headers begin, and the folders or files that may use it.
+struct ThirdParty {
+  std::string header;
+  std::vector<std::string> users;
+};
+
+inline const std::vector<ThirdParty>& third_parties() {
+  static const std::vector<ThirdParty> list{
+      {"Eigen/", {""}},
+      {"opencv2/",
+       {"vision/", "datasets/", "front_end/", "src/report/pictures/", "src/report/earth/",
+        "include/fathom/report/geo_tiff.hpp", "include/fathom/report/match_picture.hpp",
+        "include/fathom/report/mosaic.hpp", "include/fathom/report/world_file.hpp",
+        "include/fathom/report/picture.hpp", "apps/"}},
+      {"boost/math/", {"src/core/chi_squared.cpp", "src/evaluation/distributions.cpp"}},
+      {"ceres/", {"estimators/ceres_pose_graph/"}},
+      {"mrpt/", {"adapters/mrpt/"}},
+      {"yaml-cpp/",
+       {"src/configuration/", "src/datasets/image_folder/camera_yaml.cpp",
+        "src/datasets/image_folder/sensor_yaml.cpp", "src/datasets/import/ros2_metadata.cpp"}},
+      {"immintrin.h", {"include/fathom/core/cpu.hpp"}},
+      {"geo_normalize.h", {"src/report/earth/geo_tiff.cpp"}},
+      {"geodesic.h",
+       {"src/datasets/image_folder/earth_fixes.cpp", "src/report/earth/earth_frame.cpp"}},
+      {"geotiffio.h", {"src/report/earth/geo_tiff.cpp"}},
+      {"proj.h", {"src/report/earth/earth_frame.cpp"}},
+      {"xtiffio.h", {"src/report/earth/geo_tiff.cpp"}},
+      {"libexif/", {"src/datasets/pictures/exif.cpp"}},
+      {"console_bridge/", {"src/datasets/import/ros1_module.cpp"}},
+      {"rosbag/", {"src/datasets/import/ros1_module.cpp"}},
+      {"dlfcn.h", {"src/datasets/import/ros1_bag.cpp", "src/estimation/plugin.cpp"}},
+      {"fastcdr/", {"src/datasets/import/cdr_message.cpp"}},
+      {"SQLiteCpp/",
+       {"src/results/", "src/front_end/registration_", "src/datasets/import/ros2_bag.cpp"}},
+      {"sqlite3.h", {"src/results/", "src/front_end/registration_"}},
+      {"nlohmann/", {"src/results/", "src/harness/", "src/report/"}},
+      {"cairo", {"src/report/"}},
+      {"cblas.h", {"src/core/blas_memory.cpp", "src/vision/", "apps/pin_threads.cpp"}},
+      {"CLI/", {"apps/"}},
+      {"glog/", {"apps/main.cpp"}},
+      {"omp.h", {"apps/pin_threads.cpp"}},
+      {"malloc.h", {"apps/memory_meter.cpp", "src/core/system.cpp"}},
+      {"signal.h", {"src/core/files.cpp", "src/core/system.cpp"}},
+      {"fcntl.h",
+       {"src/core/child_side.cpp", "src/core/file_lock.cpp", "src/core/forked_child.cpp",
+        "src/core/program.cpp", "src/core/program_start.cpp", "src/core/system.cpp"}},
+      {"sys/mman.h",
+       {"estimators/support/filter/growing_memory.cpp",
+        "estimators/support/sparse/panel_memory.cpp", "src/core/blas_memory.cpp",
+        "src/core/child_side.cpp"}},
+      {"sys/prctl.h", {"src/core/child_side.cpp"}},
+      {"poll.h", {"src/core/forked_child.cpp", "src/core/program.cpp"}},
+      {"spawn.h", {"src/core/program_start.cpp"}},
+      {"sys/file.h", {"src/core/file_lock.cpp"}},
+      {"sys/wait.h",
+       {"apps/child_process.cpp", "src/core/forked_child.cpp", "src/core/program.cpp"}},
+      {"sys/resource.h",
+       {"src/core/child_side.cpp", "src/core/program.cpp", "src/core/system.cpp"}},
+      {"unistd.h",
+       {"src/core/child_side.cpp", "src/core/files.cpp", "src/core/file_lock.cpp",
+        "src/core/forked_child.cpp", "src/core/program.cpp", "src/core/program_start.cpp",
+        "src/core/system.cpp", "apps/child_process.cpp", "apps/common.cpp",
+        "apps/out_of_memory.cpp", "apps/stop_signal.cpp"}}};
+  return list;
+}
+
+}  // namespace fathom::test
