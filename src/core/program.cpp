@@ -72,13 +72,13 @@ ssize_t write_without_signal(int descriptor, std::string_view text) {
 
 }  // namespace
 
-Program::Program(const std::vector<std::string>& words)
-    : name_(words.front()), own_bytes_(resident_peak_bytes("self")) {
+Program::Program(const std::vector<std::string>& words) : name_(words.front()) {
   ProgramPipes pipes;
   for (std::size_t stream = 0; stream < 3; ++stream) ends_[stream] = pipes.ours(stream);
   ::fcntl(ends_[input], F_SETFL, O_NONBLOCK);
   try {
     id_ = start_program(find_program(name_), words, pipes);
+    own_bytes_ = resident_peak_bytes("self");
   } catch (...) {
     for (const Stream stream : {input, output, errors}) close(stream);
     throw;
@@ -152,9 +152,10 @@ void Program::reap() {
   }
   is_reaped_ = true;
   processor_s_ = seconds(used.ru_utime) + seconds(used.ru_stime);
-  // Its peak counts this process as it was before exec.
+  // It counts this process as it was before exec, up to pages that the kernel had not added yet.
+  constexpr std::int64_t kNotAdded = std::int64_t{1} << 20;
   const std::int64_t peak = std::int64_t{used.ru_maxrss} << 10;
-  if (peak > own_bytes_) peak_bytes_ = std::max(peak_bytes_, peak);
+  if (peak > own_bytes_ + kNotAdded) peak_bytes_ = std::max(peak_bytes_, peak);
 }
 
 void Program::finish() {

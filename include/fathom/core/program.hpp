@@ -71,7 +71,7 @@ class Program {
   int status_ = 0;
   double processor_s_ = 0.0;  ///< after its end
   std::int64_t peak_bytes_ = 0;
-  std::int64_t own_bytes_ = 0;  ///< of this process as it was started
+  std::int64_t own_bytes_ = 0;  ///< the peak of this process as it started the other
 };
 
 /// What programs did for this thread since reset_program_work(), for whoever measures cost.
