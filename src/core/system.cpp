@@ -1,5 +1,6 @@
 #include "fathom/core/system.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstring>
@@ -21,9 +22,9 @@ std::string first_line(const char* path) {
   return line;
 }
 
-rusage usage() {
+rusage usage_of(__rusage_who who) {
   rusage used{};
-  ::getrusage(RUSAGE_SELF, &used);
+  ::getrusage(who, &used);
   return used;
 }
 
@@ -61,12 +62,17 @@ std::string unique_word() {
 }
 
 double processor_seconds() {
-  const rusage used = usage();
-  return seconds(used.ru_utime) + seconds(used.ru_stime);
+  double sum = 0.0;
+  for (const __rusage_who who : {RUSAGE_SELF, RUSAGE_CHILDREN}) {
+    const rusage used = usage_of(who);
+    sum += seconds(used.ru_utime) + seconds(used.ru_stime);
+  }
+  return sum;
 }
 
 double peak_memory_mib() {
-  return static_cast<double>(usage().ru_maxrss) / 1024.0;
+  const auto most = std::max(usage_of(RUSAGE_SELF).ru_maxrss, usage_of(RUSAGE_CHILDREN).ru_maxrss);
+  return static_cast<double>(most) / 1024.0;
 }
 
 void sync_to_disk(const std::filesystem::path& file) {

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 
 #include "fathom/core/input_error.hpp"
+#include "fathom/core/system.hpp"
 
 namespace fathom {
 namespace {
@@ -75,6 +76,14 @@ TEST(Program, ItsPeakIsItsOwn) {
   large.finish();
   EXPECT_GT(large.peak_bytes(), 390 << 20);
   EXPECT_LT(large.peak_bytes(), 440 << 20);
+}
+
+TEST(Program, ItsTimeIsAmongThatOfTheProcessThatWaitedForIt) {
+  const double before_s = processor_seconds();
+  Program program({"dd", "if=/dev/zero", "of=/dev/null", "bs=1M", "count=1000"});
+  program.finish();
+  EXPECT_GT(program.processor_s(), 0.0);
+  EXPECT_GE(processor_seconds() - before_s, program.processor_s());
 }
 
 TEST(Program, WorksWithOneThreadUnlessTheEnvironmentSaysOtherwise) {

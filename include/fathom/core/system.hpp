@@ -22,10 +22,11 @@ unsigned user_number();
 /// A word that no other call on any machine returns.
 std::string unique_word();
 
-/// Processor time of this process so far, of all its threads, in seconds.
+/// Processor time of this process so far, of all its threads and of the processes that it has
+/// waited for, in seconds.
 double processor_seconds();
 
-/// The most memory that this process has had, in MiB.
+/// The most memory that this process, or one that it has waited for, has had, in MiB.
 double peak_memory_mib();
 
 /// Gives memory that the heap holds and nobody uses back to the system, where the system's heap
