@@ -9,21 +9,8 @@
 namespace fathom::command {
 namespace {
 
-std::string numbers(const Pose& pose) {
-  return ' ' + exact(pose.x) + ' ' + exact(pose.y) + ' ' + exact(pose.theta);
-}
-
 std::string vertex_text(std::size_t node, const Pose& pose) {
-  return "ADD VERTEX_XYT " + std::to_string(node) + numbers(pose) + ";\n";
-}
-
-std::string edge_text(std::size_t number, const RelativePose& z) {
-  std::string text = "ADD EDGE_XYT " + std::to_string(number) + ' ' + std::to_string(z.from) + ' ' +
-                     std::to_string(z.to) + numbers(z.motion);
-  for (int row = 0; row < 3; ++row) {
-    for (int column = row; column < 3; ++column) text += ' ' + exact(z.information(row, column));
-  }
-  return text + ";\n";
+  return "ADD VERTEX_XYT " + std::to_string(node) + text_of(pose) + ";\n";
 }
 
 }  // namespace
@@ -43,7 +30,6 @@ std::vector<Pose> Dialogue::query(std::size_t count) {
   }
   std::vector<Pose> poses(count);
   std::vector<bool> is_there(count, false);
-  is_there[0] = true;  // one that holds it may not name it: it is where it starts
   for (;;) {
     const std::string line = program_->next_line();
     const auto words = split(line);
@@ -77,7 +63,9 @@ std::vector<Pose> Dialogue::solve(const ProgramGraph& graph) {
   for (std::size_t k = nodes_; k < graph.poses.size(); ++k) {
     text += vertex_text(k, graph.poses[k]);
   }
-  for (std::size_t j = edges_; j < graph.edges.size(); ++j) text += edge_text(j, graph.edges[j]);
+  for (std::size_t j = edges_; j < graph.edges.size(); ++j) {
+    text += "ADD EDGE_XYT " + std::to_string(j) + text_of(graph.edges[j]) + ";\n";
+  }
   nodes_ = graph.poses.size();
   edges_ = graph.edges.size();
   for (int i = 0; i < solves_; ++i) text += "SOLVE_STATE;\n";

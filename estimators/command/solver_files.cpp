@@ -42,10 +42,6 @@ fs::path new_folder() {
   return folder;
 }
 
-std::string numbers(const Pose& pose) {
-  return ' ' + exact(pose.x) + ' ' + exact(pose.y) + ' ' + exact(pose.theta);
-}
-
 void replace_all(std::string& text, std::string_view what, const std::string& by) {
   for (std::size_t at = 0; (at = text.find(what, at)) != std::string::npos; at += by.size()) {
     text.replace(at, what.size(), by);
@@ -84,16 +80,10 @@ Pose of_tum(const std::vector<std::string_view>& words) {
 std::string to_text(const ProgramGraph& graph) {
   std::string text;
   for (std::size_t k = 0; k < graph.poses.size(); ++k) {
-    text += "VERTEX_SE2 " + std::to_string(k) + numbers(graph.poses[k]) + '\n';
+    text += "VERTEX_SE2 " + std::to_string(k) + text_of(graph.poses[k]) + '\n';
   }
   text += "FIX 0\n";
-  for (const RelativePose& z : graph.edges) {
-    text += "EDGE_SE2 " + std::to_string(z.from) + ' ' + std::to_string(z.to) + numbers(z.motion);
-    for (int row = 0; row < 3; ++row) {
-      for (int column = row; column < 3; ++column) text += ' ' + exact(z.information(row, column));
-    }
-    text += '\n';
-  }
+  for (const RelativePose& z : graph.edges) text += "EDGE_SE2" + text_of(z) + '\n';
   return text;
 }
 
