@@ -1,7 +1,9 @@
 """Solves of small graphs, and refusals."""
 
 import os
+import signal
 import tempfile
+import threading
 import unittest
 
 import fathom
@@ -44,6 +46,21 @@ class Solve(unittest.TestCase):
             fathom.solve(fathom.read_g2o(self.path), "ekff")
         with self.assertRaises(fathom.InputError):
             fathom.read_g2o(self.path + ".none")
+
+    def test_another_thread_runs_on_and_its_interrupt_ends_the_solve(self):
+        count = 4000  # the timer fires long before an EKF is through
+        with open(self.path, "w") as file:
+            for k in range(1, count):
+                file.write(EDGE.format(k - 1, k, 1, 0, 0))
+                if k > 1:
+                    file.write(EDGE.format(k - 2, k, 2, 0, 0))
+        log = fathom.read_g2o(self.path)
+        # Fires only if the solve lets go of the interpreter's lock.
+        timer = threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT))
+        timer.start()
+        with self.assertRaises(KeyboardInterrupt):
+            fathom.solve(log, "ekf")
+        timer.join()
 
 
 if __name__ == "__main__":
