@@ -3,12 +3,11 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <pybind11/numpy.h>
+#include <pybind11/stl.h>
 #include <string>
 #include <utility>
 #include <vector>
-
-#include <pybind11/numpy.h>
-#include <pybind11/stl.h>
 
 #include "fathom/estimators/builtin.hpp"
 #include "fathom/harness/replay.hpp"
@@ -113,8 +112,7 @@ void bind_solve(py::module_& module) {
       .def_property_readonly(
           "outcome", [](const Solution& s) { return name_of(s.replay.outcome); },
           "How it ended: 'converged', ...")
-      .def_property_readonly(
-          "iterations", [](const Solution& s) { return s.replay.iterations; })
+      .def_property_readonly("iterations", [](const Solution& s) { return s.replay.iterations; })
       .def_property_readonly(
           "total_ms", [](const Solution& s) { return s.replay.total_ms; }, "Wall time, ms.");
   module.def("estimators", &names, "Names of the estimators.");
