@@ -7,6 +7,7 @@
 #     scripts/setup.sh docs     # and what scripts/docs.sh needs
 #     scripts/setup.sh import   # and what reads bags and writes maps for geographic programs
 #     scripts/setup.sh adapters # and the solvers of others that Debian has, for docs/adapters.md
+#     scripts/setup.sh python   # and what the Python module is built with
 #     scripts/setup.sh cluster  # and a SLURM for the test of docs/cluster.md
 set -euo pipefail
 
@@ -32,6 +33,7 @@ import_packages=(
 )
 cluster_packages=(slurm-wlm munge)
 adapter_packages=(libmrpt-graphslam-dev)
+python_packages=(pybind11-dev python3-dev python3-numpy)
 
 fail() {
   printf 'setup: error: %s\n' "$1" >&2
@@ -44,8 +46,9 @@ case "${1:-}" in
   docs) packages+=("${docs_packages[@]}") ;;
   import) packages+=("${import_packages[@]}") ;;
   adapters) packages+=("${adapter_packages[@]}") ;;
+  python) packages+=("${python_packages[@]}") ;;
   cluster) packages+=("${cluster_packages[@]}") ;;
-  *) fail "unknown argument '$1'; use none, lint, docs, import, adapters or cluster" ;;
+  *) fail "unknown argument '$1'; use none, lint, docs, import, adapters, python or cluster" ;;
 esac
 
 missing() {

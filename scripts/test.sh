@@ -11,6 +11,7 @@ preset=${1:-release}
 jobs=$(nproc)
 
 scripts/setup.sh import
+scripts/setup.sh python
 scripts/format.sh --check
 [[ -f build/$preset/build.ninja ]] || cmake --preset "$preset"
 cmake --build --preset "$preset" --parallel "$jobs"
