@@ -29,11 +29,21 @@ std::vector<Case> cases() {
 
 class Conformance : public testing::TestWithParam<Case> {};
 
+// A fix is linear in (x, y) and not in a twist: one linearisation ends beside one of a nanometre
+// (docs/estimators/invariant_ekf.md, Fixes).
+bool is_known_breach(const Case& of) {
+  return of.estimator == "invariant_ekf" && of.clause.name == "nanometre_fixes";
+}
+
 TEST_P(Conformance, Keeps) {
   const auto& [estimator, clause] = GetParam();
   const ConformanceVerdict verdict =
       conformance_of(builtin_estimators().find(estimator), clause.name);
   if (verdict.conformity == Conformity::not_applicable) GTEST_SKIP() << verdict.how;
+  if (is_known_breach(GetParam())) {
+    EXPECT_EQ(verdict.conformity, Conformity::broken) << "it is a breach no more";
+    return;
+  }
   EXPECT_EQ(verdict.conformity, Conformity::kept)
       << estimator << " breaks " << clause.name << ": " << verdict.how << "\n"
       << clause.rule;
