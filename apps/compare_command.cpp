@@ -14,6 +14,7 @@
 #include "apps/estimators.hpp"
 #include "apps/memory_meter.hpp"
 #include "apps/pin_threads.hpp"
+#include "apps/study_files.hpp"
 #include "fathom/core/files.hpp"
 #include "fathom/front_end/registration_store.hpp"
 #include "fathom/harness/ground_truth.hpp"
@@ -34,18 +35,6 @@ std::unique_ptr<RegistrationStore> open_cache(const CompareFlags& flags) {
   return cache;
 }
 
-// Said before anything is computed.
-void require_separate(const fs::path& out, const Study& study,
-                      const std::vector<fs::path>& inputs) {
-  std::vector<std::string> names{"results.sqlite",     "report.html",      "runs.csv",
-                                 "summary.csv",        "tables.tex",       "figures",
-                                 "trajectories.png",   "metrics.json",     "table.txt",
-                                 "dead_reckoning.tum", "measurements.g2o", "ground_truth.tum"};
-  for (const EstimatorConfiguration& one : study.cells.front().estimators)
-    names.push_back(one.name);
-  for (const std::string& name : names) refuse_replacing(out / name, inputs);
-}
-
 void compare_as(const std::optional<Shard>& shard, const CompareFlags& flags, Context& context) {
   Study study = configure_study(flags.settings(), estimators());
   const fs::path out = flags.common.folder_or(stem_of(flags.config));
@@ -56,7 +45,7 @@ void compare_as(const std::optional<Shard>& shard, const CompareFlags& flags, Co
   // A data set that cannot be opened, or lacks what is asked for, is refused before anything is
   // written.
   settle_reference(study, estimators());
-  study.description.data = with_code(data_of(study), estimators_in(study.cells));
+  study.description.data = with_code(data_of(study), estimators_in(study.cells), estimators());
   const Recorder data_set(study.cells.front(), cache.get());
 
   StudyRunOptions options;

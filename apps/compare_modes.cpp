@@ -64,7 +64,8 @@ void say_stopped(std::size_t runs, const fs::path& out, Context& context) {
 void write_example(const fs::path& out, const Study& study, const StudyRun& done,
                    const FrameSource* pictures, const CompareFlags& flags, const Context& context) {
   write_example(out, study, done.example, title_of(study, flags),
-                flags.no_mosaic ? nullptr : pictures, flags.common.quiet, context);
+                flags.no_mosaic ? nullptr : pictures, flags.common.quiet, estimators(),
+                context.command_line);
 }
 
 // What looks wrong with the loops of the trial that is drawn; the page says what its figures show.

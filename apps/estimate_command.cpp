@@ -100,7 +100,7 @@ void print(const Study& study, const StudySample& measured, const EstimateFlags&
 void estimate(const EstimateFlags& flags) {
   Study study = configure_study(flags.common.settings(flags.config), estimators());
   settle_reference(study, estimators());
-  study.description.data = with_code(data_of(study), estimators_in(study.cells));
+  study.description.data = with_code(data_of(study), estimators_in(study.cells), estimators());
   ProgressLine line("sampling", flags.common.quiet);
   const StudySample sample =
       sample_study(study, estimators(), flags.seconds, pin_threads, line.callback());

@@ -119,12 +119,15 @@ void load_plugins(Settings& settings, const std::vector<std::string>& files) {
   if (!all.value.items.empty()) settings.put(all);
 }
 
-Fingerprint with_code(Fingerprint data, const std::vector<EstimatorConfiguration>& all) {
+Fingerprint with_code(Fingerprint data, const std::vector<EstimatorConfiguration>& all,
+                      const EstimatorRegistry& registry) {
   std::set<fs::path> plugins;
   std::set<fs::path> programs;
+  std::set<std::pair<std::string, std::string>> code;
   for (const EstimatorConfiguration& one : all) {
-    const EstimatorEntry& entry = estimators().find(one.type);
-    if (!entry.is_built_in()) plugins.insert(entry.plugin);
+    const EstimatorEntry& entry = registry.find(one.type);
+    if (!entry.is_built_in() && entry.code.empty()) plugins.insert(entry.plugin);
+    code.insert(entry.code.begin(), entry.code.end());
     if (entry.runs_program) programs.merge(files_of_command(one));
   }
   // Wherever it lies: the same content is the same code.
@@ -135,6 +138,7 @@ Fingerprint with_code(Fingerprint data, const std::vector<EstimatorConfiguration
   };
   add("plug-in ", plugins);
   add("program ", programs);
+  for (const auto& [name, hash] : code) data.emplace_back("plug-in " + name, hash);
   std::sort(data.begin(), data.end());
   return data;
 }

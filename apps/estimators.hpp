@@ -26,7 +26,8 @@ void add_plugins_to(Command& command, std::vector<std::string>& files);
 void load_plugins(Settings& settings, const std::vector<std::string>& files);
 
 /// The data of a study or a run, and the plug-ins and programs that do the work of these.
-Fingerprint with_code(Fingerprint data, const std::vector<EstimatorConfiguration>& all);
+Fingerprint with_code(Fingerprint data, const std::vector<EstimatorConfiguration>& all,
+                      const EstimatorRegistry& registry);
 
 /// All that may run in these: those that are compared, and those that select loop candidates.
 std::vector<EstimatorConfiguration> estimators_in(const std::vector<Configuration>& cells);

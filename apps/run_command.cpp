@@ -91,8 +91,8 @@ std::string manifest_of(const Context& context, const Configuration& configurati
                         const std::vector<std::string>& remarks) {
   return manifest_json(
       context.command_line, configuration.in_force,
-      with_code(fingerprint(recorder.data().files()), estimators_in({configuration})), recording,
-      result, estimators(), remarks);
+      with_code(fingerprint(recorder.data().files()), estimators_in({configuration}), estimators()),
+      recording, result, estimators(), remarks);
 }
 
 // What looks wrong, and the batch optimum of the log where the estimate does not fit it.

@@ -188,8 +188,8 @@ void solve(const SolveFlags& flags, Context& context) {
   std::ranges::copy(in_force(graph, recording.log), std::back_inserter(configuration));
   write_run(folder.path(), recording, result,
             manifest_json(context.command_line, configuration,
-                          with_code(fingerprint({flags.graph}), {estimator}), recording, result,
-                          estimators()));
+                          with_code(fingerprint({flags.graph}), {estimator}, estimators()),
+                          recording, result, estimators()));
   write_trajectory_picture(folder.path() / "trajectory.png",
                            stem_of(flags.graph) + ", " + estimator.type, recording, {result});
   folder.commit(optional_run_files());

@@ -2,7 +2,6 @@
 
 #include <cstdio>
 
-#include "apps/estimators.hpp"
 #include "apps/map_files.hpp"
 #include "apps/mosaics.hpp"
 #include "apps/pictures.hpp"
@@ -16,7 +15,7 @@ namespace fs = std::filesystem;
 
 void write_example(const fs::path& out, const Study& study, const std::vector<ExampleRun>& example,
                    const std::string& title, const FrameSource* pictures, bool quiet,
-                   const Context& context) {
+                   const EstimatorRegistry& registry, const std::string& command_line) {
   const Configuration& configuration = study.cells.front();
   StagedFolder folder(out);
   const EarthOrWhyNot earth = earth_or_why_not(configuration);
@@ -29,8 +28,8 @@ void write_example(const fs::path& out, const Study& study, const std::vector<Ex
     const fs::path own = folder.path() / result.estimator.name;
     fs::create_directory(own);
     write_run(own, *recording, result,
-              manifest_json(context.command_line, configuration.in_force, study.description.data,
-                            *recording, result, estimators()));
+              manifest_json(command_line, configuration.in_force, study.description.data,
+                            *recording, result, registry));
     write_trajectory_picture(own / "trajectory.png", title + ", " + result.estimator.name,
                              *recording, {result}, e);
     if (recording->camera) try_map_files(own, keyframe_map(*recording, result), on_earth);

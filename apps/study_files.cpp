@@ -1,11 +1,24 @@
 #include "apps/study_files.hpp"
 
 #include <cstdio>
+#include <string>
 
 #include "fathom/core/files.hpp"
 #include "fathom/report/study_report.hpp"
 
 namespace fathom {
+
+void require_separate(const std::filesystem::path& out, const Study& study,
+                      const std::vector<std::filesystem::path>& inputs) {
+  std::vector<std::string> names{"results.sqlite",     "report.html",      "runs.csv",
+                                 "summary.csv",        "tables.tex",       "figures",
+                                 "trajectories.png",   "metrics.json",     "table.txt",
+                                 "dead_reckoning.tum", "measurements.g2o", "ground_truth.tum"};
+  for (const EstimatorConfiguration& one : study.cells.front().estimators) {
+    names.push_back(one.name);
+  }
+  for (const std::string& name : names) refuse_replacing(out / name, inputs);
+}
 
 void write_study_files(const ResultStore& store, const std::filesystem::path& out, bool quiet) {
   write_study_report(store, out);

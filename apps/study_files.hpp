@@ -1,10 +1,17 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
+#include "fathom/configuration/study.hpp"
 #include "fathom/results/result_store.hpp"
 
 namespace fathom {
+
+/// Throws InputError where a file of a study's folder would replace one that it reads: said before
+/// anything is computed.
+void require_separate(const std::filesystem::path& out, const Study& study,
+                      const std::vector<std::filesystem::path>& inputs);
 
 /// Writes the page, tables and figures of a study with runs, and table.txt, and prints the table.
 void write_study_files(const ResultStore& store, const std::filesystem::path& out, bool quiet);

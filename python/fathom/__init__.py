@@ -1,17 +1,63 @@
 """Fathom: comparison of SLAM back ends for robots over a flat floor.
 
 Poses are (x, y, theta) in metres and radians, x forward, y to port, theta counter-clockwise seen
-from above.
+from above. Measurements, residuals and covariances are those of docs/conventions.md.
 """
 
-from ._fathom import InputError, MeasurementLog, Solution, estimators, read_g2o, solve, write_g2o
+from ._estimator import Estimator, Option, UpdateReport
+from ._evaluate import evaluate, read_tum, write_tum
+from ._fathom import (
+    AbsolutePose,
+    InputError,
+    MeasurementLog,
+    Measurements,
+    Registration,
+    RelativePose,
+    Setup,
+    Solution,
+    anees_interval,
+    bootstrap_interval,
+    holm,
+    moments,
+    paired_difference,
+    read_g2o,
+    wilson_interval,
+    write_g2o,
+)
+from ._register import register
+from ._run import estimators, options, replay, run, solve
+from ._study import Results, compare, open_results
 
 __all__ = [
+    "AbsolutePose",
+    "Estimator",
     "InputError",
     "MeasurementLog",
+    "Measurements",
+    "Option",
+    "Registration",
+    "RelativePose",
+    "Results",
+    "Setup",
     "Solution",
+    "UpdateReport",
+    "anees_interval",
+    "bootstrap_interval",
+    "compare",
     "estimators",
+    "evaluate",
+    "holm",
+    "moments",
+    "open_results",
+    "options",
+    "paired_difference",
     "read_g2o",
+    "read_tum",
+    "register",
+    "replay",
+    "run",
     "solve",
+    "wilson_interval",
     "write_g2o",
+    "write_tum",
 ]

@@ -4,6 +4,10 @@
 PYBIND11_MODULE(_fathom, module) {
   module.doc() = "Fathom's library; use the package fathom";
   pybind11::register_exception<fathom::InputError>(module, "InputError", PyExc_ValueError);
-  fathom::bind_logs(module);
-  fathom::bind_solve(module);
+  for (const auto bind :
+       {fathom::bind_settings, fathom::bind_measurements, fathom::bind_logs,
+        fathom::bind_estimators, fathom::bind_solve, fathom::bind_store, fathom::bind_run,
+        fathom::bind_compare, fathom::bind_registration, fathom::bind_evaluation}) {
+    bind(module);
+  }
 }

@@ -3,121 +3,168 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
-#include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "fathom/estimators/builtin.hpp"
-#include "fathom/harness/replay.hpp"
-#include "fathom/harness/result.hpp"
+#include "fathom/configuration/config_file.hpp"
+#include "python/src/arrays.hpp"
 #include "python/src/bindings.hpp"
+#include "python/src/one_thread.hpp"
+#include "python/src/solution.hpp"
 
 namespace fathom {
 namespace {
 
 namespace py = pybind11;
 
-struct Solution {
-  Replay replay;
-  double chi2 = 0.0;
+SolveMode mode_of(const std::string& mode, const EstimatorEntry& entry) {
+  if (mode == "incremental") return SolveMode::incremental;
+  if (mode == "batch" && entry.can_batch) return SolveMode::batch;
+  if (mode == "batch") throw InputError("mode: " + entry.name + " has no batch mode");
+  if (mode != "auto") {
+    throw InputError("mode: expected auto, batch or incremental, got '" + mode + "'");
+  }
+  return entry.can_batch ? SolveMode::batch : SolveMode::incremental;
+}
+
+std::shared_ptr<const Recording> recording_of(const MeasurementLog& log, SolveMode mode) {
+  auto recording = std::make_shared<Recording>();
+  recording->log = mode == SolveMode::batch ? log : with_start_of_priors(log, "log");
+  for (std::size_t k = 0; k < recording->log.size(); ++k) {
+    constexpr std::int64_t kSecond = 1'000'000'000;
+    recording->keyframe_times_ns.push_back(static_cast<std::int64_t>(k) * kSecond);
+  }
+  return recording;
+}
+
+struct HowToSolve {
+  std::string mode = "auto";
+  std::vector<Pose> start;
+  IsolationOptions isolation;
 };
 
-std::string word_of_value(const py::handle& value) {
-  if (py::isinstance<py::bool_>(value)) return value.cast<bool>() ? "true" : "false";
-  return py::str(value).cast<std::string>();
+IsolationOptions isolation_of(const Settings& settings) {
+  IsolationOptions options;
+  OptionTable table;
+  options.describe(table);
+  for (const Setting& one : settings.all()) table.set(one.key, one.value);
+  return options;
 }
 
-OptionValue option_value(const py::handle& value) {
-  if (!py::isinstance<py::list>(value) && !py::isinstance<py::tuple>(value)) {
-    return OptionValue::scalar(word_of_value(value));
-  }
-  OptionValue list{{}, true};
-  for (const py::handle item : value) list.items.push_back(word_of_value(item));
-  return list;
-}
-
-Settings settings_of(const py::kwargs& options) {
-  Settings settings;
-  for (const auto& [key, value] : options) {
-    const std::string name = py::str(key).cast<std::string>();
-    settings.put({name, option_value(value), "solve(" + name + "=...)"});
-  }
-  return settings;
-}
-
-// Ctrl-C ends a replay at its next keyframe.
-void check_signals(std::size_t, std::size_t) {
-  const py::gil_scoped_acquire lock;
-  if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-}
-
-Solution solve(const MeasurementLog& log, const std::string& name, const py::kwargs& options) {
-  const EstimatorEntry& entry = builtin_estimators().find(name);
+Solution solve(const MeasurementLog& log, const EstimatorRegistry& registry,
+               const std::string& name, const Settings& options, const HowToSolve& asked) {
+  const EstimatorEntry& entry = registry.find(name);
   ReplayOptions how;
-  how.mode = entry.can_batch ? SolveMode::batch : SolveMode::incremental;
-  how.progress = check_signals;
+  how.mode = mode_of(asked.mode, entry);
+  if (how.mode == SolveMode::incremental && !asked.start.empty()) {
+    throw InputError("start: an initial guess is for a batch solve");
+  }
+  if (!asked.start.empty() && asked.start.size() != log.size()) {
+    throw InputError("start: has " + std::to_string(asked.start.size()) + " poses, the log " +
+                     std::to_string(log.size()) + " keyframes");
+  }
+  how.start = asked.start;
+  how.isolation = asked.isolation;
+  // Inside of a batch solve nothing looks for Ctrl-C.
+  if (how.mode == SolveMode::batch && how.isolation.isolation == Isolation::automatic) {
+    how.isolation.isolation = Isolation::process;
+  }
+  how.progress = [](std::size_t, std::size_t) { check_signals(); };
   const EstimatorValues values =
-      estimator_values(settings_of(options), entry, {log.start(), how.mode}, "");
-  const py::gil_scoped_release unlocked;
-  Recording recording;
-  recording.log = how.mode == SolveMode::batch ? log : with_start_of_priors(log, "log");
-  for (std::size_t k = 0; k < recording.log.size(); ++k) {
-    constexpr std::int64_t kSecond = 1'000'000'000;
-    recording.keyframe_times_ns.push_back(static_cast<std::int64_t>(k) * kSecond);
-  }
-  Result result = evaluate(recording, {name, name, values}, builtin_estimators(), {}, how);
-  const double chi2 = result.metric("chi2").value_or(std::numeric_limits<double>::quiet_NaN());
-  return {std::move(result.replay), chi2};
-}
-
-py::array_t<double> trajectory(const Solution& solution) {
-  const std::vector<Pose>& poses = solution.replay.trajectory;
-  py::array_t<double> array({static_cast<py::ssize_t>(poses.size()), py::ssize_t{3}});
-  auto rows = array.mutable_unchecked<2>();
-  for (py::ssize_t k = 0; k < rows.shape(0); ++k) {
-    const Eigen::Vector3d pose = poses[static_cast<std::size_t>(k)].vector();
-    for (py::ssize_t i = 0; i < 3; ++i) rows(k, i) = pose(i);
-  }
-  return array;
+      estimator_values(options, entry, {log.start(), how.mode}, "");
+  const auto recording = recording_of(log, how.mode);
+  const OneThread pinned;
+  return {recording, evaluate(*recording, {name, name, values}, registry, {}, how)};
 }
 
 std::optional<py::array_t<double>> covariances(const Solution& solution) {
-  if (!solution.replay.covariances) return std::nullopt;
-  const auto& all = *solution.replay.covariances;
-  py::array_t<double> array({static_cast<py::ssize_t>(all.size()), py::ssize_t{3}, py::ssize_t{3}});
-  auto blocks = array.mutable_unchecked<3>();
-  for (py::ssize_t k = 0; k < blocks.shape(0); ++k) {
-    for (py::ssize_t i = 0; i < 3; ++i) {
-      for (py::ssize_t j = 0; j < 3; ++j) blocks(k, i, j) = all[static_cast<std::size_t>(k)](i, j);
-    }
-  }
-  return array;
+  if (!solution.result.replay.covariances) return std::nullopt;
+  return array_of(*solution.result.replay.covariances);
 }
 
-std::vector<std::string> names() {
-  std::vector<std::string> all;
-  for (const EstimatorEntry& entry : builtin_estimators().entries()) all.push_back(entry.name);
-  return all;
+std::optional<py::array_t<double>> truth(const Solution& solution) {
+  if (!solution.recording->ground_truth) return std::nullopt;
+  return array_of(*solution.recording->ground_truth);
+}
+
+py::list decisions(const Solution& solution) {
+  py::list rows;
+  for (const LoopDecision& loop : solution.result.replay.loops) {
+    rows.append(py::dict(py::arg("from_") = loop.from, py::arg("to") = loop.to,
+                         py::arg("fate") = name_of(loop.fate), py::arg("nis") = loop.nis));
+  }
+  return rows;
+}
+
+template <class Field>
+auto of_replay(Field field) {
+  return [field](const Solution& solution) { return solution.result.replay.*field; };
+}
+
+void bind_solution(py::module_& module) {
+  py::class_<Solution>(module, "Solution", "One estimator's estimate of a log, and what it cost.")
+      .def_property_readonly("estimator",
+                             [](const Solution& s) { return s.result.estimator.name; })
+      .def_property_readonly(
+          "chi2",
+          [](const Solution& s) {
+            return s.result.metric("chi2").value_or(std::numeric_limits<double>::quiet_NaN());
+          },
+          "F at the estimate, no unit; NaN where there is none.")
+      .def_property_readonly(
+          "metrics", [](const Solution& s) { return s.result.metrics; },
+          "Every metric that is known, by name (docs/metrics.md).")
+      .def_property_readonly(
+          "trajectory", [](const Solution& s) { return array_of(s.result.replay.trajectory); },
+          "N x 3: x (m), y (m), theta (rad), world axes.")
+      .def_property_readonly("covariances", &covariances, "N x 3 x 3 of the poses, or None.")
+      .def_property_readonly("ground_truth", &truth, "N x 3 of the keyframes, or None.")
+      .def_property_readonly(
+          "times_ns", [](const Solution& s) { return array_of(s.recording->keyframe_times_ns); },
+          "(N,) of the keyframes, int64 nanoseconds.")
+      .def_property_readonly(
+          "log", [](const Solution& s) { return s.recording->log; }, "What the estimator was given.")
+      .def_property_readonly("loops", &decisions,
+                             "The decision on every registration: from_, to, fate, nis.")
+      .def_property_readonly(
+          "outcome", [](const Solution& s) { return name_of(s.result.replay.outcome); },
+          "How it ended: 'converged', ...")
+      .def_property_readonly("is_done", [](const Solution& s) { return s.result.is_done(); },
+                             "Whether the estimate can be used.")
+      .def_property_readonly("fault", of_replay(&Replay::fault),
+                             "How the estimator broke its contract or its process ended, or ''.")
+      .def_property_readonly("iterations", of_replay(&Replay::iterations))
+      .def_property_readonly("total_ms", of_replay(&Replay::total_ms),
+                             "Wall time of the estimator's calls, covariances apart, ms.")
+      .def_property_readonly("cpu_ms", of_replay(&Replay::cpu_ms), "Processor time of these, ms.")
+      .def_property_readonly(
+          "update_ms", [](const Solution& s) { return array_of(s.result.replay.update_ms); },
+          "Of every update, or of the batch solve, ms.")
+      .def_property_readonly(
+          "add_ms", [](const Solution& s) { return array_of(s.result.replay.add_ms); },
+          "Of every add_keyframe, ms.");
 }
 
 }  // namespace
 
+void check_signals() {
+  const py::gil_scoped_acquire lock;
+  if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+}
+
 void bind_solve(py::module_& module) {
-  py::class_<Solution>(module, "Solution", "One estimator's estimate of a log, and what it cost.")
-      .def_readonly("chi2", &Solution::chi2, "F at the estimate, no unit.")
-      .def_property_readonly("trajectory", &trajectory, "N x 3: x (m), y (m), theta (rad).")
-      .def_property_readonly("covariances", &covariances, "N x 3 x 3 of the poses, or None.")
-      .def_property_readonly(
-          "outcome", [](const Solution& s) { return name_of(s.replay.outcome); },
-          "How it ended: 'converged', ...")
-      .def_property_readonly("iterations", [](const Solution& s) { return s.replay.iterations; })
-      .def_property_readonly(
-          "total_ms", [](const Solution& s) { return s.replay.total_ms; }, "Wall time, ms.");
-  module.def("estimators", &names, "Names of the estimators.");
-  module.def("solve", &solve, py::arg("log"), py::arg("estimator") = "sparse_gauss_newton",
-             "Solves a log; options are the estimator's own.");
+  bind_solution(module);
+  module.def("_solve", [](const MeasurementLog& log, const EstimatorRegistry& registry,
+                          const std::string& name, const Settings& options,
+                          const std::string& mode, const py::object& start,
+                          const Settings& isolation) {
+    HowToSolve how{mode, {}, isolation_of(isolation)};
+    if (!start.is_none()) how.start = poses_of(start, "start");
+    const py::gil_scoped_release unlocked;
+    return solve(log, registry, name, options, how);
+  });
 }
 
 }  // namespace fathom

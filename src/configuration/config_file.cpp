@@ -11,8 +11,15 @@
 namespace fathom {
 namespace {
 
-std::string at(const std::string& file, const YAML::Mark& mark) {
-  return mark.is_null() ? file : file + ":" + std::to_string(mark.line + 1);
+// Where settings come from; of what is no file, a line says nothing.
+struct Source {
+  std::string name;
+  bool is_file = true;
+};
+
+std::string at(const Source& source, const YAML::Mark& mark) {
+  if (mark.is_null() || !source.is_file) return source.name;
+  return source.name + ":" + std::to_string(mark.line + 1);
 }
 
 // An alias may stand inside of what it names; such a value has no end.
@@ -47,7 +54,7 @@ bool is_list_of_maps(const YAML::Node& node) {
 
 class Flattener {
  public:
-  Flattener(std::string file, Settings& settings) : file_(std::move(file)), settings_(settings) {}
+  Flattener(Source file, Settings& settings) : file_(std::move(file)), settings_(settings) {}
 
   void add(const std::string& key, const YAML::Node& node, int depth = 0) {
     const std::string origin = at(file_, node.Mark());
@@ -110,9 +117,32 @@ class Flattener {
     }
   }
 
-  std::string file_;
+  Source file_;
   Settings& settings_;
 };
+
+Settings settings_of(const std::string& content, const Source& source) {
+  // It would end the text there, and all that follows would go unread.
+  if (content.find('\0') != std::string::npos) {
+    throw InputError(source.name, "not YAML: holds a zero byte");
+  }
+  Settings settings;
+  try {
+    const std::vector<YAML::Node> documents = YAML::LoadAll(content);
+    if (documents.empty() || documents.front().IsNull()) return settings;
+    const YAML::Node& root = documents.front();
+    if (documents.size() > 1) {
+      throw InputError(at(source, documents[1].Mark()) +
+                       ": a second document; expected a single one, without '---' in between");
+    }
+    if (!root.IsMap())
+      throw InputError(at(source, root.Mark()) + ": expected a map of keys and values");
+    Flattener(source, settings).add("", root);
+  } catch (const YAML::Exception& error) {
+    throw InputError(at(source, error.mark) + ": not YAML: " + error.msg);
+  }
+  return settings;
+}
 
 }  // namespace
 
@@ -144,26 +174,11 @@ Settings Settings::below(const std::string& prefix) const {
 }
 
 Settings read_settings(const std::filesystem::path& path) {
-  const std::string content = read_text(path);
-  // It would end the text there, and all that follows would go unread.
-  if (content.find('\0') != std::string::npos) {
-    throw InputError(path.string(), "not YAML: holds a zero byte");
-  }
-  Settings settings;
-  try {
-    const std::vector<YAML::Node> documents = YAML::LoadAll(content);
-    if (documents.empty() || documents.front().IsNull()) return settings;
-    const YAML::Node& root = documents.front();
-    if (documents.size() > 1) {
-      throw InputError(at(path.string(), documents[1].Mark()) +
-                       ": a second document; expected a single one, without '---' in between");
-    }
-    if (!root.IsMap()) throw InputError(path.string(), 1, "expected a map of keys and values");
-    Flattener(path.string(), settings).add("", root);
-  } catch (const YAML::Exception& error) {
-    throw InputError(at(path.string(), error.mark) + ": not YAML: " + error.msg);
-  }
-  return settings;
+  return settings_of(read_text(path), {path.string()});
+}
+
+Settings parse_settings(const std::string& yaml, const std::string& source) {
+  return settings_of(yaml, {source, false});
 }
 
 Setting parse_override(const std::string& text) {
@@ -181,7 +196,7 @@ Setting parse_override(const std::string& text) {
     if (!node.IsScalar() && !node.IsSequence()) {
       return {key, OptionValue::scalar(value), origin};
     }
-    Flattener(origin, settings).add(key, node);
+    Flattener({origin}, settings).add(key, node);
   } catch (const YAML::Exception&) {
     return {key, OptionValue::scalar(value), origin};
   }

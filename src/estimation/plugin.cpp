@@ -8,6 +8,7 @@
 
 #include "fathom/core/forked_child.hpp"
 #include "fathom/core/input_error.hpp"
+#include "python_plugins.hpp"
 
 namespace fathom {
 namespace {
@@ -19,7 +20,24 @@ std::string linker_error() {
   return text == nullptr ? "unknown error" : text;
 }
 
+// A file that is damaged, or half written, crashes whoever loads it.
+void require_loadable(const std::filesystem::path& file) {
+  if (!std::filesystem::is_regular_file(file)) {
+    throw InputError("'" + file.string() +
+                     "': there is no such plug-in; expected a shared object or a .py file");
+  }
+  constexpr ChildLimits kLimits{60.0, std::int64_t{4} << 30};
+  const auto load = [&](const MessagePipe&) {
+    ::dlopen(std::filesystem::absolute(file).c_str(), RTLD_NOW | RTLD_LOCAL);
+  };
+  const ChildEnd end = run_child(load, kLimits, [](char, const std::string&) {});
+  if (end.signal == 0 && end.exit_status == 0 && !end.is_late) return;
+  throw InputError(file.string(), "crashes whoever loads it, by signal " +
+                                      std::to_string(end.signal) + "; build it again");
+}
+
 const PluginInterface& interface_of(const std::filesystem::path& file) {
+  require_loadable(file);
   // A name without a folder would be looked for among the system's libraries.
   void* const library = ::dlopen(std::filesystem::absolute(file).c_str(), RTLD_NOW | RTLD_LOCAL);
   if (library == nullptr) throw InputError("the plug-in cannot be loaded: " + linker_error());
@@ -35,21 +53,6 @@ const PluginInterface& interface_of(const std::filesystem::path& file) {
   return *found;
 }
 
-// A file that is damaged, or half written, crashes whoever loads it.
-void require_loadable(const std::filesystem::path& file) {
-  if (!std::filesystem::is_regular_file(file)) {
-    throw InputError("'" + file.string() + "': there is no such plug-in; expected a shared object");
-  }
-  constexpr ChildLimits kLimits{60.0, std::int64_t{4} << 30};
-  const auto load = [&](const MessagePipe&) {
-    ::dlopen(std::filesystem::absolute(file).c_str(), RTLD_NOW | RTLD_LOCAL);
-  };
-  const ChildEnd end = run_child(load, kLimits, [](char, const std::string&) {});
-  if (end.signal == 0 && end.exit_status == 0 && !end.is_late) return;
-  throw InputError(file.string(), "crashes whoever loads it, by signal " +
-                                      std::to_string(end.signal) + "; build it again");
-}
-
 void require_version(const std::filesystem::path& file, const PluginInterface& plugin) {
   if (plugin.version == kPluginVersion) return;
   throw InputError(file.string(), "was made for version " + std::to_string(plugin.version) +
@@ -60,10 +63,11 @@ void require_version(const std::filesystem::path& file, const PluginInterface& p
 
 void require_build(const std::filesystem::path& file, const PluginBuild& plugin) {
   const PluginBuild own;
-  const std::array<std::pair<const char*, std::uint32_t PluginBuild::*>, 5> all{
+  const std::array<std::pair<const char*, std::uint32_t PluginBuild::*>, 6> all{
       {{"the version of Eigen", &PluginBuild::eigen},
        {"the alignment of Eigen (-march?)", &PluginBuild::eigen_alignment},
-       {"the size of a measurement", &PluginBuild::measurement_bytes},
+       {"the size of a relative measurement", &PluginBuild::relative_bytes},
+       {"the size of an absolute measurement", &PluginBuild::absolute_bytes},
        {"the size of a report", &PluginBuild::report_bytes},
        {"the size of a described estimator", &PluginBuild::entry_bytes}}};
   for (const auto& [what, field] : all) {
@@ -75,11 +79,14 @@ void require_build(const std::filesystem::path& file, const PluginBuild& plugin)
   }
 }
 
+// In a registry of their own first: among themselves their names differ, too.
 EstimatorRegistry estimators_of(const std::filesystem::path& file, const PluginInterface& plugin) {
   EstimatorRegistry brought;
   if (plugin.add_estimators == nullptr) throw InputError(file.string(), "brings no estimators");
   try {
     plugin.add_estimators(brought);
+  } catch (const InputError& error) {
+    throw InputError(file.string(), error.what());
   } catch (const std::exception& error) {
     throw InputError(file.string(), std::string("adding its estimators threw: ") + error.what());
   } catch (...) {
@@ -92,8 +99,8 @@ EstimatorRegistry estimators_of(const std::filesystem::path& file, const PluginI
 }  // namespace
 
 void load_plugin(const std::filesystem::path& file, EstimatorRegistry& registry) {
-  require_loadable(file);
-  const PluginInterface& plugin = interface_of(file);
+  const PluginInterface& plugin =
+      file.extension() == ".py" ? python_interface_of(file) : interface_of(file);
   require_version(file, plugin);
   require_build(file, plugin.build);
   EstimatorRegistry both = registry;

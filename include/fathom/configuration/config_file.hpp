@@ -35,6 +35,10 @@ class Settings {
 /// than one document, a key given twice, or a value that is neither scalar nor list.
 Settings read_settings(const std::filesystem::path& path);
 
+/// The same of YAML (JSON among it) that is in no file; `source` stands in messages in its place,
+/// without a line.
+Settings parse_settings(const std::string& yaml, const std::string& source);
+
 /// A `KEY=VALUE` of the command line; the value is YAML, so that lists can be given.
 Setting parse_override(const std::string& text);
 

@@ -11,7 +11,7 @@ namespace fathom {
 
 /// Version of what a plug-in and a program say to one another. It rises with every change to a
 /// public type of `estimation` or of what that includes.
-inline constexpr std::uint32_t kPluginVersion = 2;
+inline constexpr std::uint32_t kPluginVersion = 3;
 
 /// What the compiler made of those types. It depends on flags too: with `-march=native` Eigen
 /// aligns its matrices otherwise, and an object that passes between two such builds is read
@@ -20,7 +20,8 @@ struct PluginBuild {
   std::uint32_t eigen = EIGEN_WORLD_VERSION * 10000U + EIGEN_MAJOR_VERSION * 100U +
                         EIGEN_MINOR_VERSION;              ///< 30400 for 3.4.0
   std::uint32_t eigen_alignment = EIGEN_MAX_ALIGN_BYTES;  ///< bytes
-  std::uint32_t measurement_bytes = sizeof(RelativePose) + sizeof(AbsolutePose);
+  std::uint32_t relative_bytes = sizeof(RelativePose);
+  std::uint32_t absolute_bytes = sizeof(AbsolutePose);
   std::uint32_t report_bytes = sizeof(UpdateReport);
   std::uint32_t entry_bytes = sizeof(EstimatorEntry);  ///< strings, vectors, functions
 };
@@ -33,11 +34,19 @@ struct PluginInterface {
   void (*add_estimators)(EstimatorRegistry& registry) = nullptr;
 };
 
-/// Adds the estimators of a plug-in, a shared object that exports FATHOM_PLUGIN. It stays loaded to
-/// the end of the program. Throws InputError, one line with the file, where it cannot be loaded
-/// (tried in a child process first), exports no such function, was made for another version or
-/// build, or brings an estimator whose name is taken; the registry is as it was then.
+/// Adds the estimators of a plug-in: a shared object that exports FATHOM_PLUGIN, or a `.py` file
+/// with subclasses of the Python class fathom.Estimator. It stays loaded to the end of the program.
+/// Throws InputError, one line with the file, where it cannot be loaded (a shared object is tried
+/// in a child process first), exports no such function, was made for another version or build, or
+/// brings an estimator whose name is taken; the registry is as it was then.
 void load_plugin(const std::filesystem::path& file, EstimatorRegistry& registry);
+
+/// What reads a `.py` file: its interface is valid until the next call. Throws InputError.
+using PythonPlugins = const PluginInterface*(const char* file);
+
+/// Of a process that is a Python interpreter already. Without it the first `.py` file has an
+/// interpreter started.
+void set_python_plugins(PythonPlugins* plugins);
 
 }  // namespace fathom
 

@@ -38,7 +38,9 @@ struct EstimatorEntry {
   std::function<std::unique_ptr<Estimator>(const EstimatorSetup&, const EstimatorValues&)> create;
   /// The same of the values alone: nothing is made. Absent: `create` has to be asked.
   std::function<void(const EstimatorSetup&, const EstimatorValues&)> check;
-  std::filesystem::path plugin{};  ///< the shared object that brings it; empty: built in
+  std::filesystem::path plugin{};  ///< the file that brings it; empty: built in
+  /// Names and hashes of the content that does its work, where that is not the file `plugin` alone.
+  std::vector<std::pair<std::string, std::string>> code{};
   /// Whether a program that its options name does the work. It stands in no list of all estimators,
   /// and by default has a process of its own.
   bool runs_program = false;

@@ -1,0 +1,179 @@
+"""Estimators in Python: the base class, and what is found out about a subclass."""
+
+import importlib.util
+import inspect
+import pathlib
+import re
+import sys
+import uuid
+from dataclasses import dataclass
+from typing import Any, Optional, Sequence
+
+from ._fathom import InputError, _hash_of
+
+
+@dataclass(frozen=True)
+class Option:
+    """An option of an estimator. Its type is that of the default; None is a number that is off."""
+
+    default: Any
+    help: str = ""
+    unit: str = ""
+    at_least: Optional[float] = None
+    at_most: Optional[float] = None
+    choices: Sequence[str] = ()
+
+
+@dataclass
+class UpdateReport:
+    """How an update or a solve ended.
+
+    outcome: 'converged', 'iteration_limit', 'diverged' or 'numerical_failure'.
+    iterations: linearisations made.
+    loops: a decision for each registration given, in the order given: 'used', 'rejected' or
+        'lost', or a tuple of one of these and the normalised innovation squared. None: all used,
+        or all lost where the outcome is a failure.
+    absolute: the same for each absolute measurement.
+    """
+
+    outcome: str = "converged"
+    iterations: int = 0
+    loops: Optional[list] = None
+    absolute: Optional[list] = None
+
+
+class Estimator:
+    """A SLAM back end. A subclass writes __init__, pose, add_keyframe and update, and has:
+
+    name: in studies; a-z, 0-9 and _. Without one, the name of the class in small letters.
+    help: one line; without one, the first line of the docstring.
+    options: a dict of Option, or of plain defaults, by name: keyword arguments of __init__.
+    can_batch: whether finish() solves the whole log (setup.mode is then 'batch' or 'incremental').
+
+    The harness calls, in this order:
+
+        update(measurements)   of keyframe 0, if something absolute is measured of it
+        add_keyframe(step)     once per keyframe, in order
+        update(measurements)   with all that is measured of the newest keyframe, if anything is
+        finish(start)          once, at the end of a log that is solved as a batch
+
+    A call that raises, or returns what it should not, ends the run with the outcome
+    'numerical_failure' and the exception as its fault. `fathom conformance --plugin FILE` tells
+    whether the contract is kept.
+    """
+
+    name = ""
+    help = ""
+    options: dict = {}
+    can_batch = False
+
+    def __init__(self, setup, **options):
+        """Keyframe 0 is there from the beginning, at setup.start."""
+        raise NotImplementedError("an estimator has an __init__(self, setup, **options)")
+
+    def pose(self, k: int):
+        """x (m), y (m), theta (rad) of keyframe k, world axes."""
+        raise NotImplementedError("an estimator has a pose(self, k)")
+
+    def add_keyframe(self, step):
+        """Appends the next keyframe by its motion (RelativePose) from the newest one."""
+        raise NotImplementedError("an estimator has an add_keyframe(self, step)")
+
+    def update(self, measurements):
+        """Uses what was measured of the newest keyframe. Returns an UpdateReport, or None: done."""
+        raise NotImplementedError("an estimator has an update(self, measurements)")
+
+    def joint_covariance(self, keyframes: list):
+        """3m x 3m covariance of (x, y, theta) of m keyframes, world axes, in the order given;
+        keyframes may repeat. None where it is not known."""
+        return None
+
+    def finish(self, start):
+        """Solves the log from `start`, N x 3, or from dead reckoning where that is None. Returns
+        an UpdateReport or None."""
+        return None
+
+    def size(self) -> int:
+        """Keyframes so far. Need not be written: they are counted."""
+        raise NotImplementedError
+
+    def loss(self, chi2: float, rank: int) -> float:
+        """What a measurement counts in the cost that is minimised; the identity without a loss."""
+        return chi2
+
+    def loop_weights(self):
+        """What every registration given so far weighs, in order; empty: 1 for all used."""
+        return []
+
+    def absolute_weights(self):
+        """The same of every absolute measurement."""
+        return []
+
+
+def described(cls) -> dict:
+    """What the registry is told of a subclass of Estimator."""
+    if not (isinstance(cls, type) and issubclass(cls, Estimator)):
+        raise InputError(f"{cls!r} is no subclass of fathom.Estimator")
+    lines = (cls.help or (cls.__doc__ if cls.__doc__ != Estimator.__doc__ else "") or "").strip()
+    options = {
+        key: value if isinstance(value, Option) else Option(value)
+        for key, value in cls.options.items()
+    }
+    place, code = _code_of(cls)
+    return {
+        "name": cls.name or _snake(cls.__name__),
+        "help": lines.splitlines()[0] if lines else "Written in Python",
+        "can_batch": bool(cls.can_batch),
+        "options": options,
+        "place": place,
+        "code": code,
+    }
+
+
+def classes_of(file: str) -> list:
+    """The subclasses of Estimator that a file defines; its folder is searched for its imports."""
+    path = pathlib.Path(file).resolve()
+    if str(path.parent) not in sys.path:
+        sys.path.insert(0, str(path.parent))
+    name = "fathom_plugin_" + re.sub(r"\W", "_", path.stem)
+    spec = importlib.util.spec_from_file_location(name, path)
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[name] = module
+    spec.loader.exec_module(module)
+    return [
+        value
+        for key, value in vars(module).items()
+        if isinstance(value, type)
+        and issubclass(value, Estimator)
+        and value.__module__ == name
+        and not key.startswith("_")
+    ]
+
+
+def _snake(name: str) -> str:
+    return re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "_", name).lower()
+
+
+def _code_of(cls):
+    """The file of a class, and name and hash of what a study must have again to go on: that file
+    and the modules beside it that are loaded. A class without a file, as of a notebook, is new in
+    every session: what else its cells define cannot be told."""
+    try:
+        file = pathlib.Path(inspect.getfile(cls)).resolve()
+    except (TypeError, OSError):
+        file = None
+    if file is None or not file.is_file() or file.suffix != ".py":
+        return f"{cls.__module__}.{cls.__qualname__}", [(cls.__qualname__, _SESSION)]
+    files = {str(file)}
+    for module in list(sys.modules.values()):
+        origin = getattr(module, "__file__", None)
+        if not origin or not origin.endswith(".py"):
+            continue
+        origin = pathlib.Path(origin).resolve()
+        inside = origin.is_relative_to(file.parent)
+        if inside and not {"site-packages", "dist-packages"} & set(origin.parts):
+            files.add(str(origin))
+    return str(file), _hash_of(sorted(files))
+
+
+_SESSION = uuid.uuid4().hex[:16]

@@ -1,0 +1,77 @@
+"""One estimator: over a log, or over a data set."""
+
+import os
+
+from . import _fathom
+from ._estimator import described
+from ._fathom import _Registry
+from ._settings import Asked, is_estimator, settings_of
+
+
+def _registry_with(estimator, plugins=()):
+    """The registry, and the name that the estimator has in it."""
+    _fathom._load_plugins([os.fspath(file) for file in plugins])
+    registry = _Registry()
+    return registry, registry.add(estimator) if is_estimator(estimator) else estimator
+
+
+def estimators(plugins=()) -> list:
+    """Names of the estimators: built in, of FATHOM_PLUGIN_PATH, of these plug-ins and of all
+    loaded before."""
+    return _registry_with("", plugins)[0].names()
+
+
+def options(estimator, plugins=()) -> list:
+    """The options of an estimator: a dict each of key, type, unit, default, range, help."""
+    registry, name = _registry_with(estimator, plugins)
+    return registry.options(name)
+
+
+def solve(
+    log,
+    estimator="sparse_gauss_newton",
+    *,
+    mode="auto",
+    start=None,
+    plugins=(),
+    isolation=None,
+    **values,
+):
+    """Gives a log to an estimator: a name, or a subclass of fathom.Estimator.
+
+    mode: 'batch', 'incremental', or 'auto': batch where the estimator can.
+    start: N x 3, the initial guess of a batch solve; without one, dead reckoning.
+    isolation: a dict of isolation ('automatic', 'process', 'none'), time_limit_s and
+        memory_limit_mib. Automatic: what is not built in, and every batch solve, has a process of
+        its own.
+    Other keywords are the estimator's options. Returns a Solution; raises InputError.
+    """
+    registry, name = _registry_with(estimator, plugins)
+    how = settings_of(isolation or {}, "isolation")
+    source = f"the options of {described(estimator)['name'] if is_estimator(estimator) else name}"
+    return _fathom._solve(log, registry, name, settings_of(values, source), mode, start, how)
+
+
+def replay(log, estimator, **keywords):
+    """As solve, keyframe by keyframe."""
+    return solve(log, estimator, mode="incremental", **keywords)
+
+
+def run(config, estimator=None, *, set={}, plugins=(), out=None, cache=None):
+    """Runs the front end and one estimator over a data set, as `fathom run` does.
+
+    config: a YAML file, a folder of pictures, or a dict of the same keys.
+    estimator: a name or a subclass of fathom.Estimator in place of the configuration's.
+    set: a dict of settings that replace those of the configuration.
+    out: folder of the run's files; without one, none are written.
+    cache: folder of the registrations that are kept; True: the usual one.
+    Returns a Solution.
+    """
+    changes = dict(set)
+    if estimator is not None:
+        changes["estimator.type"] = estimator
+    asked = Asked(config, changes, plugins, "the configuration")
+    folder = None if not cache else "" if cache is True else os.fspath(cache)
+    return _fathom._run(
+        asked.settings, asked.registry, asked.file, os.fspath(out) if out else "", folder
+    )

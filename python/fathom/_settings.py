@@ -1,0 +1,89 @@
+"""Configurations: a file's path, a dict, or both; all checked by the same code."""
+
+import json
+import os
+import pathlib
+
+from ._estimator import Estimator, described
+from ._fathom import InputError, _Registry, _Settings
+
+
+def as_yaml(values: dict) -> str:
+    """A dict as JSON, which is YAML. None is written as `off`."""
+    return json.dumps(_plain(values, ""), ensure_ascii=False)
+
+
+def settings_of(values: dict, source: str) -> _Settings:
+    settings = _Settings()
+    settings.put_yaml(as_yaml(values), source)
+    return settings
+
+
+class Asked:
+    """What a run or a study is asked for: settings, the registry, the file if it is one."""
+
+    def __init__(self, config, changes, plugins, what, added=()):
+        self._what = what
+        self.file = ""
+        if isinstance(config, dict):
+            self.settings = _Settings()
+            self.put(config)
+        else:
+            self.file = os.fspath(config)
+            if os.path.isdir(self.file):
+                self.settings = _Settings.of_folder(self.file)
+            else:
+                self.settings = _Settings.read(self.file)
+        self.put(changes)
+        self.settings.load_plugins([os.fspath(file) for file in plugins])
+        self.registry = _Registry()
+        for one in dict.fromkeys(_classes_in([config, changes, list(added)])):
+            self.registry.add(one)
+        first = self.settings.estimator_count()
+        # A study without a list has all that are known, and so what is added.
+        listed = added if first > 0 else [one for one in added if len(one) > 1]
+        if first == 0 and listed:
+            raise InputError("estimators: one with options needs a study with a list of estimators")
+        for i, one in enumerate(listed):
+            self.put({f"estimators.{first + i}": one})
+
+    def put(self, values: dict):
+        self.settings.put_yaml(as_yaml(values), self._what)
+
+    @property
+    def title(self) -> str:
+        return pathlib.Path(self.file).stem if self.file else "study"
+
+
+def is_estimator(value) -> bool:
+    return isinstance(value, type) and issubclass(value, Estimator)
+
+
+def _classes_in(value) -> list:
+    if is_estimator(value):
+        return [value]
+    if isinstance(value, dict):
+        return [one for inner in value.values() for one in _classes_in(inner)]
+    if isinstance(value, (list, tuple)):
+        return [one for inner in value for one in _classes_in(inner)]
+    return []
+
+
+def _plain(value, key):
+    if value is None:
+        return "off"
+    if isinstance(value, (bool, int, str)):
+        return value
+    if isinstance(value, float):
+        return value if abs(value) < float("inf") else str(value)
+    if is_estimator(value):
+        return described(value)["name"]
+    if isinstance(value, dict):
+        return {str(name): _plain(one, f"{key}.{name}".lstrip(".")) for name, one in value.items()}
+    if hasattr(value, "tolist"):  # of numpy
+        return _plain(value.tolist(), key)
+    if isinstance(value, (list, tuple)):
+        return [_plain(one, key) for one in value]
+    if isinstance(value, os.PathLike):
+        return os.fspath(value)
+    raise InputError(f"{key}: cannot use a value of type {type(value).__name__}")

@@ -1,0 +1,144 @@
+// Accuracy, consistency, statistics over trials.
+
+#include <optional>
+#include <pybind11/stl.h>
+#include <string>
+#include <vector>
+
+#include "fathom/core/files.hpp"
+#include "fathom/core/input_error.hpp"
+#include "fathom/core/text.hpp"
+#include "fathom/evaluation/accuracy.hpp"
+#include "fathom/evaluation/consistency.hpp"
+#include "fathom/evaluation/paired.hpp"
+#include "fathom/evaluation/proportion.hpp"
+#include "fathom/evaluation/statistics.hpp"
+#include "fathom/geometry/trajectory.hpp"
+#include "python/src/arrays.hpp"
+#include "python/src/bindings.hpp"
+
+namespace fathom {
+namespace {
+
+namespace py = pybind11;
+
+Alignment alignment_of(const std::string& name) {
+  std::string known;
+  for (const auto& [word, alignment] : alignment_names()) {
+    if (word == name) return alignment;
+    known += (known.empty() ? "" : ", ") + word;
+  }
+  throw InputError("alignment: expected " + known + ", got '" + name + "'");
+}
+
+py::object pair_of(const std::optional<Interval>& interval) {
+  if (!interval) return py::none();
+  return py::make_tuple(interval->low, interval->high);
+}
+
+py::dict evaluate_poses(const py::object& estimate, const py::object& reference,
+                        const std::string& alignment, const py::object& covariances) {
+  const std::vector<Pose> ours = poses_of(estimate, "estimate");
+  const std::vector<Pose> theirs = poses_of(reference, "reference");
+  const Alignment how = alignment_of(alignment);
+  py::dict row;
+  if (const auto judged = accuracy(ours, theirs, how)) {
+    row["mean_position_error_m"] = judged->mean_position_error_m;
+    row["ate_rmse_m"] = judged->ate_rmse_m;
+    row["max_position_error_m"] = judged->max_position_error_m;
+    row["final_position_error_m"] = judged->final_position_error_m;
+    row["heading_rmse_rad"] = judged->heading_rmse_rad;
+    row["motion_reference_estimate"] = array_of(judged->motion_reference_estimate);
+  }
+  if (covariances.is_none()) return row;
+  const auto honest = consistency(ours, theirs, matrices_of(covariances, "covariances"), how);
+  if (!honest) return row;
+  row["anees"] = honest->anees;
+  row["position_anees"] = honest->position_anees;
+  row["share_inside_2_sigma"] = honest->share_inside_2_sigma;
+  row["pose_nees"] = array_of(honest->pose_nees);
+  return row;
+}
+
+py::object moments_of(const py::object& values) {
+  const auto found = moments(values_of(values, "values"));
+  if (!found) return py::none();
+  return py::dict(py::arg("count") = found->count, py::arg("mean") = found->mean,
+                  py::arg("standard_deviation") = found->standard_deviation,
+                  py::arg("median") = found->median, py::arg("min") = found->min,
+                  py::arg("max") = found->max);
+}
+
+py::object difference_of(const py::object& a, const py::object& b, double probability,
+                         std::uint64_t seed) {
+  BootstrapOptions options;
+  options.probability = probability;
+  options.seed = seed;
+  const auto found = paired_difference(values_of(a, "a"), values_of(b, "b"), options);
+  if (!found) return py::none();
+  return py::dict(py::arg("count") = found->count, py::arg("mean") = found->mean,
+                  py::arg("interval") = pair_of(found->interval),
+                  py::arg("p_value") = found->signed_rank.p_value,
+                  py::arg("exact") = found->signed_rank.exact);
+}
+
+void bind_statistics(py::module_& module) {
+  module.def("moments", &moments_of, py::arg("values"),
+             "Count, mean, standard_deviation (n - 1), median, min, max; None of no values.");
+  module.def(
+      "bootstrap_interval",
+      [](const py::object& values, double probability, std::size_t resamples, std::uint64_t seed) {
+        return pair_of(
+            bootstrap_interval(values_of(values, "values"), {probability, resamples, seed}));
+      },
+      py::arg("values"), py::arg("probability") = 0.95, py::arg("resamples") = 2000,
+      py::arg("seed") = 1,
+      "(low, high) of the mean of independent values, BCa (Efron 1987); None of fewer than two.");
+  module.def("paired_difference", &difference_of, py::arg("a"), py::arg("b"),
+             py::arg("probability") = 0.95, py::arg("seed") = 1,
+             "Of a - b over the same trials: count, mean, its bootstrap interval, and the p-value "
+             "of Wilcoxon's signed-rank test.");
+  module.def(
+      "holm", [](const py::object& p) { return array_of(holm(values_of(p, "p_values"))); },
+      py::arg("p_values"), "Holm's step-down adjustment (1979) of a family of p-values.");
+  module.def(
+      "anees_interval",
+      [](std::size_t trials, std::size_t degrees, double probability) {
+        return pair_of(anees_interval(trials, degrees, probability));
+      },
+      py::arg("trials"), py::arg("degrees_of_freedom") = 3, py::arg("probability") = 0.95,
+      "(low, high) that holds the ANEES over independent trials if covariances are right.");
+  module.def(
+      "wilson_interval",
+      [](std::size_t successes, std::size_t count, double probability) {
+        return pair_of(wilson_interval(successes, count, probability));
+      },
+      py::arg("successes"), py::arg("count"), py::arg("probability") = 0.95,
+      "(low, high) of a proportion (Wilson 1927).");
+}
+
+}  // namespace
+
+void bind_evaluation(py::module_& module) {
+  module.def("_evaluate", &evaluate_poses);
+  bind_statistics(module);
+  module.def("_read_tum", [](const std::string& path) {
+    std::vector<std::int64_t> times;
+    std::vector<Pose> poses;
+    for (const StampedPose& one : read_tum(path)) {
+      times.push_back(one.time_ns);
+      poses.push_back(one.pose);
+    }
+    return py::make_tuple(array_of(times), array_of(poses));
+  });
+  module.def("_write_tum", [](const std::string& path, const std::vector<std::int64_t>& times,
+                              const py::object& trajectory) {
+    const std::vector<Pose> poses = poses_of(trajectory, "trajectory");
+    if (times.size() != poses.size()) throw InputError("times_ns: as many as poses are needed");
+    std::vector<StampedPose> stamped;
+    for (std::size_t k = 0; k < poses.size(); ++k) stamped.push_back({times[k], poses[k]});
+    write_file(path, to_tum(stamped));
+  });
+}
+
+}  // namespace fathom

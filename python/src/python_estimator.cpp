@@ -1,0 +1,250 @@
+#include "python/src/python_estimator.hpp"
+
+#include <memory>
+#include <new>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "fathom/core/input_error.hpp"
+#include "python/src/arrays.hpp"
+#include "python/src/python_options.hpp"
+
+namespace fathom {
+namespace {
+
+namespace py = pybind11;
+
+template <class Name>
+Name named(const py::handle& word, const std::vector<Name>& all, const std::string& what) {
+  const std::string text = py::str(word).cast<std::string>();
+  std::string known;
+  for (const Name name : all) {
+    if (name_of(name) == text) return name;
+    known += (known.empty() ? "" : ", ") + name_of(name);
+  }
+  throw InputError(what + ": got '" + text + "', expected " + known);
+}
+
+Outcome outcome_of(const py::handle& word) {
+  using enum Outcome;
+  return named<Outcome>(word, {converged, iteration_limit, diverged, numerical_failure}, "outcome");
+}
+
+LoopFate fate_of(const py::handle& word) {
+  using enum LoopFate;
+  return named<LoopFate>(word, {used, rejected, lost}, "fate");
+}
+
+// A fate alone, or with the normalised innovation squared: "used", ("rejected", 31.2).
+template <class Decision>
+void decide(const py::handle& given, Decision& decision) {
+  if (!py::isinstance<py::tuple>(given)) {
+    decision.fate = fate_of(given);
+    return;
+  }
+  const auto both = py::reinterpret_borrow<py::tuple>(given);
+  if (both.size() != 2) throw InputError("a decision: expected a fate, or (fate, nis)");
+  decision.fate = fate_of(both[0]);
+  if (!both[1].is_none()) decision.nis = both[1].cast<double>();
+}
+
+// `decisions`: None, all as the outcome says, or a list in the order given.
+template <class Decision>
+void decide_all(const py::object& given, std::vector<Decision>& decisions) {
+  if (given.is_none()) return;
+  const auto list = py::list(given);
+  if (list.size() != decisions.size()) {
+    throw InputError("a report has " + std::to_string(list.size()) + " decisions, expected " +
+                     std::to_string(decisions.size()));
+  }
+  for (std::size_t i = 0; i < decisions.size(); ++i) decide(list[i], decisions[i]);
+}
+
+UpdateReport report_of(const py::object& given, const Measurements& measurements) {
+  UpdateReport report;
+  if (!given.is_none()) {
+    report.outcome = outcome_of(given.attr("outcome"));
+    report.iterations = given.attr("iterations").cast<int>();
+  }
+  const LoopFate fate = is_done(report.outcome) ? LoopFate::used : LoopFate::lost;
+  for (const RelativePose& z : measurements.registrations) {
+    report.loops.push_back({z.from, z.to, fate, std::nullopt});
+  }
+  for (const AbsolutePose& z : measurements.absolute) {
+    report.absolute.push_back({z.keyframe, fate, std::nullopt});
+  }
+  if (given.is_none()) return report;
+  decide_all(given.attr("loops"), report.loops);
+  decide_all(given.attr("absolute"), report.absolute);
+  return report;
+}
+
+// A call with the interpreter's lock; an exception of Python becomes a text.
+template <class Call>
+auto locked(Call call) {
+  const py::gil_scoped_acquire lock;
+  try {
+    return call();
+  } catch (const py::error_already_set& error) {
+    throw std::runtime_error(text_of(error));
+  } catch (const py::cast_error&) {
+    throw std::runtime_error("returned a value of another type than its docstring says");
+  }
+}
+
+// An object of Python behind the interface. Every call takes the interpreter's lock.
+class PythonEstimator : public Estimator {
+ public:
+  PythonEstimator(const py::handle& estimator_class, const EstimatorSetup& setup,
+                  const py::dict& options)
+      : self_(estimator_class(setup, **options)), pose_(self_.attr("pose")) {
+    const py::object base = py::module_::import("fathom").attr("Estimator");
+    const auto overridden = [&](const char* name) -> py::object {
+      if (estimator_class.attr(name).is(base.attr(name))) return {};
+      return self_.attr(name);
+    };
+    add_ = self_.attr("add_keyframe");
+    update_ = self_.attr("update");
+    own_size_ = overridden("size");
+    finish_ = overridden("finish");
+    joint_ = overridden("joint_covariance");
+    loss_ = overridden("loss");
+    loop_weights_ = overridden("loop_weights");
+    absolute_weights_ = overridden("absolute_weights");
+  }
+
+  ~PythonEstimator() override {
+    if (!Py_IsInitialized()) return;
+    const py::gil_scoped_acquire lock;
+    for (py::object* one : {&self_, &pose_, &add_, &update_, &own_size_, &finish_, &joint_, &loss_,
+                            &loop_weights_, &absolute_weights_}) {
+      one->release().dec_ref();
+    }
+  }
+
+  std::size_t size() const override {
+    return own_size_ ? locked([&] { return own_size_().cast<std::size_t>(); }) : size_;
+  }
+
+  Pose pose(std::size_t k) const override {
+    return locked([&] { return pose_of(pose_(k), "pose"); });
+  }
+
+  void add_keyframe(const RelativePose& step) override {
+    locked([&] { add_(step); });
+    ++size_;
+  }
+
+  UpdateReport update(const Measurements& measurements) override {
+    return locked([&] { return report_of(update_(measurements), measurements); });
+  }
+
+  UpdateReport finish(std::span<const Pose> start) override {
+    if (!finish_) return {};
+    return locked([&] {
+      py::object poses = py::none();
+      if (!start.empty()) poses = array_of(std::vector<Pose>(start.begin(), start.end()));
+      return finish_report(finish_(poses));
+    });
+  }
+
+  std::optional<Eigen::MatrixXd> joint_covariance(
+      std::span<const std::size_t> keyframes) const override {
+    if (!joint_) return std::nullopt;
+    return locked([&]() -> std::optional<Eigen::MatrixXd> {
+      py::list list;
+      for (const std::size_t k : keyframes) list.append(k);
+      const py::object given = joint_(list);
+      if (given.is_none()) return std::nullopt;
+      const auto size = static_cast<std::ptrdiff_t>(3 * keyframes.size());
+      const Array array = checked_array(given, {size, size}, "joint_covariance");
+      using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+      return Eigen::Map<const RowMajor>(array.data(), size, size);
+    });
+  }
+
+  double loss(double chi2, int rank) const override {
+    return loss_ ? locked([&] { return loss_(chi2, rank).cast<double>(); }) : chi2;
+  }
+
+  std::vector<double> loop_weights() const override {
+    return weights(loop_weights_, "loop_weights");
+  }
+
+  std::vector<double> absolute_weights() const override {
+    return weights(absolute_weights_, "absolute_weights");
+  }
+
+ private:
+  // A batch solve decides on all measurements of the log, which this has not kept.
+  static UpdateReport finish_report(const py::object& given) {
+    UpdateReport report;
+    if (given.is_none()) return report;
+    report.outcome = outcome_of(given.attr("outcome"));
+    report.iterations = given.attr("iterations").cast<int>();
+    return report;
+  }
+
+  static std::vector<double> weights(const py::object& ask, const char* what) {
+    if (!ask) return {};
+    return locked([&] { return values_of(ask(), what); });
+  }
+
+  py::object self_;
+  py::object pose_;
+  py::object add_;
+  py::object update_;
+  py::object own_size_;
+  py::object finish_;
+  py::object joint_;
+  py::object loss_;
+  py::object loop_weights_;
+  py::object absolute_weights_;
+  std::size_t size_ = 1;
+};
+
+// Of a class, for whoever holds it without the lock.
+std::shared_ptr<py::object> shared(const py::handle& value) {
+  return {new py::object(py::reinterpret_borrow<py::object>(value)), [](py::object* object) {
+            if (!Py_IsInitialized()) return;  // it ends with the process
+            const py::gil_scoped_acquire lock;
+            delete object;
+          }};
+}
+
+}  // namespace
+
+EstimatorEntry entry_of(const py::handle& estimator_class) {
+  EstimatorEntry entry;
+  const py::dict about = py::module_::import("fathom._estimator").attr("described")(estimator_class);
+  entry.name = about["name"].cast<std::string>();
+  entry.help = about["help"].cast<std::string>();
+  entry.can_batch = about["can_batch"].cast<bool>();
+  entry.plugin = about["place"].cast<std::string>();
+  for (const py::handle item : about["code"]) {
+    const auto both = py::reinterpret_borrow<py::tuple>(item);
+    entry.code.emplace_back(both[0].cast<std::string>(), both[1].cast<std::string>());
+  }
+  const PythonOptions defaults = options_of(about["options"]);
+  entry.options = descriptions_of(defaults);
+  entry.check = [defaults](const EstimatorSetup&, const EstimatorValues& values) {
+    with_values(defaults, values);
+  };
+  entry.create = [defaults, held = shared(estimator_class)](
+                     const EstimatorSetup& setup,
+                     const EstimatorValues& values) -> std::unique_ptr<Estimator> {
+    const PythonOptions options = with_values(defaults, values);
+    const py::gil_scoped_acquire lock;
+    try {
+      return std::make_unique<PythonEstimator>(*held, setup, keywords_of(options));
+    } catch (const py::error_already_set& error) {
+      throw std::runtime_error(text_of(error));
+    }
+  };
+  return entry;
+}
+
+}  // namespace fathom

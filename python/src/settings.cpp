@@ -1,0 +1,41 @@
+// Configurations: files and dicts, checked by the same code.
+
+#include <pybind11/stl.h>
+#include <string>
+
+#include "apps/common.hpp"
+#include "apps/estimators.hpp"
+#include "fathom/configuration/config_file.hpp"
+#include "python/src/bindings.hpp"
+
+namespace fathom {
+
+namespace py = pybind11;
+
+void bind_settings(py::module_& module) {
+  py::class_<Settings>(module, "_Settings")
+      .def(py::init<>())
+      .def_static("read", [](const std::string& path) { return read_settings(path); })
+      .def_static("of_folder", &settings_of_folder)
+      .def("put_yaml",
+           [](Settings& settings, const std::string& yaml, const std::string& source) {
+             const Settings given = parse_settings(yaml, source);
+             for (const Setting& one : given.all()) settings.put(one);
+           })
+      .def("estimator_count",
+           [](const Settings& settings) {
+             std::size_t count = 0;
+             while (!settings.below("estimators." + std::to_string(count) + ".").all().empty()) {
+               ++count;
+             }
+             return count;
+           })
+      .def(
+          "load_plugins",
+          [](Settings& settings, const std::vector<std::string>& files) {
+            load_plugins(settings, files);
+          },
+          "Loads those that it names, and these.");
+}
+
+}  // namespace fathom

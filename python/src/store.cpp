@@ -1,0 +1,69 @@
+// The results of a study, out of its folder.
+
+#include <limits>
+#include <memory>
+#include <optional>
+#include <pybind11/stl.h>
+#include <string>
+#include <vector>
+
+#include "fathom/report/study_report.hpp"
+#include "fathom/results/result_store.hpp"
+#include "python/src/arrays.hpp"
+#include "python/src/bindings.hpp"
+
+namespace fathom {
+namespace {
+
+namespace py = pybind11;
+
+py::dict row_of(const RunRecord& run, const StudyDescription& study) {
+  py::dict row;
+  row["cell"] = run.key.cell;
+  const std::vector<std::size_t> places = study.places_of(run.key.cell);
+  for (std::size_t i = 0; i < study.axes.size(); ++i) {
+    row[study.axes[i].name.c_str()] = study.axes[i].labels[places[i]];
+  }
+  row["survey"] = run.key.survey;
+  row["trial"] = run.key.trial;
+  row["estimator"] = run.key.estimator;
+  row["outcome"] = run.outcome;
+  row["fault"] = run.fault;
+  for (const auto& [name, value] : run.metrics) row[name.c_str()] = value;
+  return row;
+}
+
+py::list all_rows(const ResultStore& store) {
+  py::list rows;
+  for (const RunRecord& run : store.runs()) rows.append(row_of(run, store.study()));
+  return rows;
+}
+
+std::vector<std::string> estimator_names(const ResultStore& store) {
+  std::vector<std::string> names;
+  for (const StudyEstimator& one : store.study().estimators) names.push_back(one.name);
+  return names;
+}
+
+}  // namespace
+
+void bind_store(py::module_& module) {
+  py::class_<ResultStore>(module, "_Store")
+      .def(py::init([](const std::string& path) { return ResultStore::open(path); }),
+           py::call_guard<py::gil_scoped_release>())
+      .def("rows", &all_rows)
+      .def("estimators", &estimator_names)
+      .def("title", [](const ResultStore& store) { return store.study().title; })
+      .def("configuration", [](const ResultStore& store) { return store.study().configuration; })
+      .def("table", [](const ResultStore& store) { return study_table(store); })
+      .def("series",
+           [](const ResultStore& store, const std::string& name, const std::string& estimator,
+              std::size_t cell, std::size_t survey,
+              std::size_t trial) -> std::optional<py::array_t<double>> {
+             const auto values = store.series({cell, survey, trial, estimator}, name);
+             if (!values) return std::nullopt;
+             return array_of(*values);
+           });
+}
+
+}  // namespace fathom
