@@ -33,7 +33,7 @@ import_packages=(
 )
 cluster_packages=(slurm-wlm munge)
 adapter_packages=(libmrpt-graphslam-dev)
-python_packages=(pybind11-dev python3-dev python3-numpy)
+python_packages=(pybind11-dev python3-dev python3-numpy python3-pandas)
 
 fail() {
   printf 'setup: error: %s\n' "$1" >&2

@@ -34,20 +34,23 @@ def solve(
     mode="auto",
     start=None,
     plugins=(),
-    isolation=None,
+    isolation="automatic",
+    time_limit_s=None,
+    memory_limit_mib=None,
     **values,
 ):
     """Gives a log to an estimator: a name, or a subclass of fathom.Estimator.
 
     mode: 'batch', 'incremental', or 'auto': batch where the estimator can.
     start: N x 3, the initial guess of a batch solve; without one, dead reckoning.
-    isolation: a dict of isolation ('automatic', 'process', 'none'), time_limit_s and
-        memory_limit_mib. Automatic: what is not built in, and every batch solve, has a process of
-        its own.
+    isolation: 'process', 'none', or 'automatic': what is not built in, and every batch solve,
+        has a process of its own, which may take time_limit_s and memory_limit_mib.
     Other keywords are the estimator's options. Returns a Solution; raises InputError.
     """
     registry, name = _registry_with(estimator, plugins)
-    how = settings_of(isolation or {}, "isolation")
+    limits = {"time_limit_s": time_limit_s, "memory_limit_mib": memory_limit_mib}
+    given = {key: value for key, value in limits.items() if value is not None}
+    how = settings_of({"isolation": isolation, **given}, "solve")
     source = f"the options of {described(estimator)['name'] if is_estimator(estimator) else name}"
     return _fathom._solve(log, registry, name, settings_of(values, source), mode, start, how)
 

@@ -39,12 +39,21 @@ class Asked:
         self.registry = _Registry()
         for one in dict.fromkeys(_classes_in([config, changes, list(added)])):
             self.registry.add(one)
+        self._add(added)
+
+    def _add(self, estimators):
+        """To the list of a study. One without a list has all that are known, classes among them,
+        unless others are given: then it has what is given."""
+        for one in estimators:
+            if not (isinstance(one.get("type"), str) or is_estimator(one.get("type"))):
+                raise InputError(
+                    f"estimators: {one.get('type')!r} is neither a name nor a subclass of "
+                    "fathom.Estimator"
+                )
         first = self.settings.estimator_count()
-        # A study without a list has all that are known, and so what is added.
-        listed = added if first > 0 else [one for one in added if len(one) > 1]
-        if first == 0 and listed:
-            raise InputError("estimators: one with options needs a study with a list of estimators")
-        for i, one in enumerate(listed):
+        if first == 0 and all(is_estimator(one["type"]) and len(one) == 1 for one in estimators):
+            return
+        for i, one in enumerate(estimators):
             self.put({f"estimators.{first + i}": one})
 
     def put(self, values: dict):

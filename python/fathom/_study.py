@@ -1,7 +1,9 @@
 """Studies: several estimators, surveys, trials, a sweep."""
 
 import os
+import shutil
 import tempfile
+import weakref
 
 import numpy
 
@@ -19,8 +21,7 @@ class Results:
     example: by estimator the Solution of the first trial, where the study was run here.
     """
 
-    def __init__(self, folder, example=(), keep=None):
-        self._keep = keep
+    def __init__(self, folder, example=()):
         self._store = _fathom._Store(str(folder))
         self.folder = str(folder)
         self.rows = self._store.rows()
@@ -74,7 +75,8 @@ def compare(
 
     study: a YAML file, a folder of pictures, or a dict of the same keys.
     estimators: names, subclasses of fathom.Estimator, or dicts of type, name and options, that
-        stand beside those of the study. A study without a list has all that are known.
+        stand beside those of the study. A study without a list has these; where all are classes,
+        it has the known ones, too.
     set: a dict of settings that replace those of the study.
     out: its folder; without one, a temporary folder that goes with the results.
     cache: folder of the registrations that are kept; True: the usual one, None: none.
@@ -87,22 +89,21 @@ def compare(
             changes[key] = value
     added = [one if isinstance(one, dict) else {"type": one} for one in estimators]
     asked = Asked(study, changes, plugins, "the study", added)
-    keep = None
-    if out is None:
-        keep = tempfile.TemporaryDirectory(prefix="fathom-")
-        out = os.path.join(keep.name, "study")
+    temporary = tempfile.mkdtemp(prefix="fathom-") if out is None else None
+    out = os.path.join(temporary, "study") if out is None else os.fspath(out)
     folder = None if not cache else "" if cache is True else os.fspath(cache)
-    example = _fathom._compare(
-        asked.settings,
-        asked.registry,
-        asked.file,
-        os.fspath(out),
-        asked.title,
-        folder,
-        mosaics,
-        progress,
-    )
-    return Results(os.fspath(out), example, keep)
+    try:
+        example = _fathom._compare(
+            asked.settings, asked.registry, asked.file, out, asked.title, folder, mosaics, progress
+        )
+        results = Results(out, example)
+    except BaseException:
+        if temporary:
+            shutil.rmtree(temporary, ignore_errors=True)
+        raise
+    if temporary:
+        weakref.finalize(results, shutil.rmtree, temporary, ignore_errors=True)
+    return results
 
 
 def open_results(folder) -> Results:

@@ -62,13 +62,15 @@ std::vector<std::string> names_of(const EstimatorRegistry& registry) {
 
 std::string text_of(const py::error_already_set& error) {
   if (error.matches(PyExc_MemoryError)) throw std::bad_alloc();
-  if (error.matches(PyExc_KeyboardInterrupt)) PyErr_SetInterrupt();
   const std::string type = error.type().attr("__name__").cast<std::string>();
   std::string text = error.value() ? py::str(error.value()).cast<std::string>() : "";
   for (char& letter : text) {
     if (letter == '\n' || letter == '\r') letter = ' ';
   }
-  return type + (text.empty() ? "" : ": " + text) + place_of(error);
+  text = type + (text.empty() ? "" : ": " + text) + place_of(error);
+  // Last, as it is raised by the next call of Python.
+  if (error.matches(PyExc_KeyboardInterrupt)) PyErr_SetInterrupt();
+  return text;
 }
 
 void bind_estimators(py::module_& module) {

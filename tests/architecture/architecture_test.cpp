@@ -47,6 +47,7 @@ TEST(Architecture, EveryLinkIsAllowedByTheDesign) {
           name == "fathom" ? "fathom_apps" : (name.starts_with("fathom_") ? "" : "fathom_") + name;
       std::istringstream words((*found)[3].str());
       for (std::string word; words >> word;) {
+        if (name == "fathom" && word == target) continue;  // the program is its module and main
         EXPECT_THAT(complaint_about_link(target, word), IsEmpty()) << file;
         seen += word.starts_with("fathom_") ? 1 : 0;
       }

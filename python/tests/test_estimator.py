@@ -1,0 +1,260 @@
+"""Estimators in Python: equal to those built in, and their faults are outcomes."""
+
+import os
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import fathom
+import misbehaving
+import numpy
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+EXAMPLES = os.path.join(HERE, "..", "..", "examples", "python")
+CSAIL = os.path.join(os.environ["FATHOM_TEST_DATA"], "pose_graphs", "CSAIL.g2o")
+sys.path.insert(0, EXAMPLES)
+
+from ekf import NumpyEkf  # noqa: E402  (its folder is known only now)
+
+# Clauses of absolute measurements and an uncertain start, which the example refuses; of holes, and
+# of numbers beyond doubles.
+NOT_IN_SIXTY_LINES = set(
+    "nan_absolute beyond_doubles uncertain_zero uncertain_map exact_absolute without_information "
+    "linear_case nanometre_fixes rotated_absolute repeatable_absolute least_squares_near "
+    "holes_and_loops holes_and_fixes".split()
+)
+
+STUDY = {
+    "dataset": {"type": "simulated_log"},
+    "estimators": [{"type": "ekf"}],
+    "trials": 2,
+}
+
+
+def small_log():
+    log = fathom.MeasurementLog()
+    for k in range(1, 7):
+        log.add_keyframe((1, 0, 1.2), numpy.diag([0.01, 0.02, 0.003]))
+        if k > 3:
+            covariance = [[0.02, 0.005, 0.001], [0.005, 0.03, 0.002], [0.001, 0.002, 0.004]]
+            log.add_registration(fathom.RelativePose(k, k - 4, (-0.3, -0.6, 1.4), covariance))
+    return log
+
+
+def children():
+    out = subprocess.run(["ps", "--ppid", str(os.getpid()), "-o", "comm="], capture_output=True)
+    return [name for name in out.stdout.decode().split() if name != "ps"]
+
+
+class Faults(unittest.TestCase):
+    """Each with the outcome, and a part of the fault; no child is left."""
+
+    CASES = [
+        ("Raises", "numerical_failure", "KeyError: 'no such loop' (misbehaving.py:"),
+        ("WrongShape", "numerical_failure", "joint_covariance: expected shape (3, 3), got (4, 4)"),
+        ("NotANumber", "numerical_failure", "pose"),
+        ("TooFewPoses", "numerical_failure", "pose: expected shape (3,), got (2,)"),
+        ("WordForPose", "numerical_failure", "pose: expected numbers of shape (3,), got str"),
+        ("WrongOutcome", "numerical_failure", "got 'convergd', expected converged"),
+        ("TooManyDecisions", "numerical_failure", "has 7 decisions, expected 1"),
+        ("ReportsNothingKnown", "numerical_failure", "AttributeError"),
+        ("RaisesInInit", "numerical_failure", "ValueError: cannot begin (misbehaving.py:"),
+        ("Exits", "numerical_failure", "SystemExit: 3"),
+        ("Dies", "crashed", "about to die"),
+        ("Hangs", "timed_out", ""),
+        ("EatsMemory", "out_of_memory", ""),
+        ("DiesInDestructor", "crashed", "signal 6"),
+    ]
+
+    def test_each_is_an_outcome(self):
+        log = small_log()
+        for name, outcome, fault in self.CASES:
+            with self.subTest(name):
+                limits = {"time_limit_s": 5 if name == "Hangs" else 60, "memory_limit_mib": 2000}
+                ended = fathom.replay(log, getattr(misbehaving, name), **limits)
+                self.assertEqual(ended.outcome, outcome, ended.fault)
+                self.assertIn(fault, ended.fault)
+                self.assertNotIn("\n", ended.fault)
+                self.assertEqual(children(), [])
+
+    def test_what_is_no_fault(self):
+        for kind in (misbehaving.Prints, misbehaving.Forks):
+            self.assertEqual(fathom.replay(small_log(), kind).outcome, "converged")
+            self.assertEqual(children(), [])
+
+    def test_a_study_goes_on_and_counts_them(self):
+        with_them = fathom.compare(
+            dict(STUDY, time_limit_s=5, memory_limit_mib=2000),
+            [misbehaving.Raises, misbehaving.Dies, misbehaving.Hangs, NumpyEkf],
+            jobs=2,
+        )
+        outcomes = {}
+        for row in with_them.rows:
+            outcomes.setdefault(row["estimator"], []).append(row["outcome"])
+        self.assertEqual(outcomes["raises"], ["numerical_failure"] * 2)
+        self.assertEqual(outcomes["dies"], ["crashed"] * 2)
+        self.assertEqual(outcomes["hangs"], ["timed_out"] * 2)
+        self.assertEqual(outcomes["ekf"], ["converged"] * 2)
+        self.assertEqual(outcomes["numpy_ekf"], ["converged"] * 2)
+        alone = fathom.compare(STUDY)
+        numpy.testing.assert_array_equal(
+            with_them.metric("mean_position_error_m", "ekf"),
+            alone.metric("mean_position_error_m", "ekf"),
+        )
+        self.assertEqual(children(), [])
+
+
+class EqualsTheBuiltIn(unittest.TestCase):
+    def assert_equal(self, ours, theirs):
+        self.assertLess(numpy.abs(ours.trajectory - theirs.trajectory).max(), 1e-9)
+        self.assertLess(numpy.abs(ours.covariances - theirs.covariances).max(), 1e-9)
+        self.assertLess(abs(ours.chi2 - theirs.chi2), 1e-7)
+        nis = [[loop["nis"] for loop in one.loops] for one in (ours, theirs)]
+        numpy.testing.assert_allclose(nis[0], nis[1], rtol=1e-6)
+
+    def test_full_covariances_and_loops_written_backwards(self):
+        log = small_log()
+        self.assert_equal(fathom.replay(log, NumpyEkf), fathom.replay(log, "ekf"))
+
+    @unittest.skipUnless(os.path.exists(CSAIL), f"no {CSAIL}")
+    def test_csail_through_compare(self):
+        study = {"dataset": {"type": "g2o", "path": CSAIL}, "estimators": [{"type": "ekf"}]}
+        results = fathom.compare(study, [NumpyEkf])
+        self.assertEqual(results.estimators, ["ekf", "numpy_ekf"])
+        self.assert_equal(results.example["numpy_ekf"], results.example["ekf"])
+        self.assertAlmostEqual(results.metric("chi2", "numpy_ekf")[0], 41.3802, places=4)
+
+
+class Options(unittest.TestCase):
+    def test_are_those_of_the_class_and_checked(self):
+        (gate,) = fathom.options(NumpyEkf)
+        self.assertEqual((gate["key"], gate["default"]), ("gate", "off"))
+        with self.assertRaisesRegex(fathom.InputError, "gate"):
+            fathom.replay(small_log(), NumpyEkf, gate=-1)
+        with self.assertRaisesRegex(fathom.InputError, "did you mean 'gate'"):
+            fathom.replay(small_log(), NumpyEkf, gaet=3)
+        rejecting = fathom.replay(small_log(), NumpyEkf, gate=1e-12)
+        self.assertEqual({loop["fate"] for loop in rejecting.loops}, {"rejected"})
+
+    def test_types_follow_from_defaults(self):
+        class Many(misbehaving.Follows):
+            options = {
+                "flag": True,
+                "count": fathom.Option(3, at_least=1),
+                "share": 0.5,
+                "word": fathom.Option("a", choices=("a", "b")),
+                "list": [1.0, 2.0],
+            }
+
+            def __init__(self, setup, **options):
+                super().__init__(setup)
+                if options != expected:
+                    raise ValueError(options)
+
+        expected = {"flag": False, "count": 4, "share": 0.25, "word": "b", "list": [3.0]}
+        self.assertEqual(fathom.replay(small_log(), Many, **expected).fault, "")
+        for wrong in ({"flag": 2}, {"count": 0}, {"share": "x"}, {"word": "c"}, {"list": 1}):
+            with self.assertRaises(fathom.InputError):
+                fathom.replay(small_log(), Many, **wrong)
+
+    def test_a_name_that_is_taken_or_no_word(self):
+        for name in ("ekf", "Two Words"):
+            kind = type("Named", (misbehaving.Follows,), {"name": name})
+            with self.assertRaisesRegex(fathom.InputError, name):
+                fathom.replay(small_log(), kind)
+
+
+class CommandLine(unittest.TestCase):
+    def fathom(self, *words, path=None):
+        environment = {key: value for key, value in os.environ.items() if key != "PYTHONPATH"}
+        environment.update({"FATHOM_PLUGIN_PATH": path} if path else {})
+        return subprocess.run(
+            [os.environ["FATHOM_BINARY"], *words], capture_output=True, text=True, env=environment
+        )
+
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+
+    def file(self, name, text):
+        path = os.path.join(self.folder.name, name)
+        with open(path, "w") as file:
+            file.write(text)
+        return path
+
+    def test_a_file_is_a_plug_in(self):
+        study = self.file(
+            "study.yaml",
+            "dataset: {type: simulated_log}\n"
+            f"plugins: [{EXAMPLES}/ekf.py]\n"
+            "estimators: [{type: ekf}, {type: numpy_ekf}]\n",
+        )
+        out = os.path.join(self.folder.name, "out")
+        ended = self.fathom("compare", study, "--out", out, "--quiet")
+        self.assertEqual((ended.returncode, ended.stderr), (0, ""))
+        results = fathom.open_results(out)
+        for name in ("mean_position_error_m", "anees", "chi2"):
+            ours, theirs = results.metric(name, "numpy_ekf"), results.metric(name, "ekf")
+            self.assertEqual(len(ours), 1)
+            numpy.testing.assert_allclose(ours, theirs, rtol=1e-7)
+        self.assertGreater(results.metric("memory_bytes", "numpy_ekf")[0], 0)
+
+    def test_its_other_files_belong_to_the_study(self):
+        self.file("part.py", "GATE = 5.0\n")
+        plugin = self.file(
+            "mine.py",
+            "import part\nimport misbehaving\n"
+            "class Mine(misbehaving.Follows):\n    pass\n",
+        )
+        study = {"dataset": {"type": "simulated_log"}, "estimators": [{"type": "mine"}]}
+        out = os.path.join(self.folder.name, "out")
+        code = (
+            "import fathom, sys; sys.path.append(sys.argv[1]); "
+            f"print(len(fathom.compare({study!r}, plugins=[{plugin!r}], out={out!r}).rows))"
+        )
+
+        def run():
+            return subprocess.run(
+                [sys.executable, "-c", code, HERE], capture_output=True, text=True
+            )
+
+        self.assertEqual(run().stdout.strip(), "2")
+        self.assertEqual(run().stdout.strip(), "2")
+        self.file("part.py", "GATE = 6.0\n")
+        self.assertIn("part.py", run().stderr)
+
+    def test_conformance_of_a_file(self):
+        ended = self.fathom("conformance", "numpy_ekf", "--plugin", EXAMPLES + "/ekf.py")
+        broken = re.findall(r"breaks (\w+)", ended.stdout)
+        self.assertTrue(set(broken) <= NOT_IN_SIXTY_LINES, ended.stdout)
+        self.assertIn("numpy_ekf: keeps ", ended.stdout)
+
+    def test_refusals_are_one_line(self):
+        cases = [
+            ("import nothing_of_this_name\n", "ModuleNotFoundError"),
+            ("def broken(:\n", "SyntaxError"),
+            ("x = 1\n", "defines no subclass of fathom.Estimator"),
+            ("import sys\nsys.exit(1)\n", "SystemExit: 1"),
+            (
+                "import fathom\nclass Ekf(fathom.Estimator):\n    pass\n",
+                "estimator 'ekf': the name is taken",
+            ),
+        ]
+        for text, expected in cases:
+            with self.subTest(expected):
+                path = self.file("mine.py", text)
+                ended = self.fathom("list", "estimators", "--plugin", path)
+                self.assertEqual(ended.returncode, 2, ended.stderr)
+                self.assertEqual(ended.stderr.count("\n"), 1, ended.stderr)
+                self.assertIn(expected, ended.stderr)
+                self.assertIn("mine.py", ended.stderr)
+
+    def test_of_the_search_path(self):
+        ended = self.fathom("list", "estimators", path=EXAMPLES + "/ekf.py")
+        self.assertIn("numpy_ekf: ", ended.stdout)
+
+
+if __name__ == "__main__":
+    unittest.main()

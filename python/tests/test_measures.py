@@ -1,0 +1,127 @@
+"""Registration of two pictures, evaluation, statistics, against closed forms."""
+
+import math
+import unittest
+
+import fathom
+import numpy
+
+CAMERA = {"width": 320, "height": 240, "fx": 250.0, "fy": 250.0}
+
+
+def floor(seed=3, size=900):
+    """A grey floor of soft blobs of several sizes."""
+    random = numpy.random.default_rng(seed)
+    total = numpy.zeros((size, size))
+    for period in (4, 9, 20):
+        grid = random.normal(size=(size // period + 2, size // period + 2))
+        rows = numpy.arange(size) / period
+        low = rows.astype(int)
+        share = (rows - low)[:, None]
+        along = grid[low] * (1 - share) + grid[low + 1] * share
+        total += along[:, low] * (1 - share.T) + along[:, low + 1] * share.T
+    total = (total - total.min()) / (total.max() - total.min())
+    return (255 * total).astype(numpy.uint8)
+
+
+class Registration(unittest.TestCase):
+    def setUp(self):
+        self.floor = floor()
+
+    def picture(self, row, column):
+        return numpy.ascontiguousarray(self.floor[row : row + 240, column : column + 320])
+
+    def test_a_shift_in_pixels_is_one_in_metres(self):
+        a, b = self.picture(300, 300), self.picture(250, 340)
+        found = fathom.register(a, b, 2.0, 2.0, CAMERA)
+        self.assertTrue(found, found.reason)
+        # 50 rows up is forward, 40 columns to the right is to starboard; 2 m / 250 px.
+        expected = numpy.array([50 * 2 / 250, -40 * 2 / 250, 0.0])
+        numpy.testing.assert_allclose(found.motion, expected, atol=2e-3)
+        self.assertGreater(numpy.linalg.eigvalsh(found.covariance).min(), 0)
+        self.assertGreater(found.inliers, 20)
+
+    def test_pictures_of_other_places_do_not_match(self):
+        found = fathom.register(self.picture(0, 0), self.picture(600, 500), 2.0, 2.0, CAMERA)
+        self.assertFalse(found)
+        self.assertTrue(found.reason)
+
+    def test_refusals(self):
+        a = self.picture(0, 0)
+        colour = numpy.zeros((240, 320, 3), numpy.uint8)
+        for wrong in (colour, a.astype(float), a[:100], numpy.asfortranarray(a)):
+            with self.assertRaisesRegex(fathom.InputError, "b: "):
+                fathom.register(a, wrong, 2.0, 2.0, CAMERA)
+        with self.assertRaisesRegex(fathom.InputError, "did you mean 'width'"):
+            fathom.register(a, a, 2.0, 2.0, {"widht": 3})
+        with self.assertRaises(fathom.InputError):
+            fathom.register(a, a, -1.0, 2.0, CAMERA)
+        with self.assertRaisesRegex(fathom.InputError, "did you mean"):
+            fathom.register(a, a, 2.0, 2.0, CAMERA, front_end={"ransac.iteratoins": 3})
+
+
+class Evaluation(unittest.TestCase):
+    def test_closed_form(self):
+        reference = numpy.array([[0, 0, 0], [1, 0, 0], [2, 0, 0.0]])
+        estimate = reference + [0, 0.3, 0]
+        none = fathom.evaluate(estimate, reference, alignment="none")
+        self.assertAlmostEqual(none["mean_position_error_m"], 0.3)
+        self.assertAlmostEqual(fathom.evaluate(estimate, reference)["ate_rmse_m"], 0)
+        turned = numpy.array([[0, 0, 0], [0, 1, math.pi / 2], [0, 2, math.pi / 2]])
+        judged = fathom.evaluate(turned, reference, alignment="se2")
+        self.assertAlmostEqual(judged["max_position_error_m"], 0)
+        covariances = numpy.tile(0.09 * numpy.eye(3), (3, 1, 1))
+        moved = reference + [[0, 0, 0], [0, 0.3, 0], [0, 0.3, 0]]
+        judged = fathom.evaluate(moved, reference, covariances=covariances)
+        self.assertAlmostEqual(judged["anees"], 1 / 3)
+        with self.assertRaises(fathom.InputError):
+            fathom.evaluate(estimate, reference[:2])
+        with self.assertRaisesRegex(fathom.InputError, "expected none, origin, se2"):
+            fathom.evaluate(estimate, reference, alignment="scale")
+        with self.assertRaisesRegex(fathom.InputError, "expected shape"):
+            fathom.evaluate(estimate[:, :2], reference)
+
+    def test_statistics(self):
+        values = [1.0, 2.0, 3.0, 10.0]
+        self.assertEqual(fathom.moments(values)["median"], 2.5)
+        self.assertAlmostEqual(
+            fathom.moments(values)["standard_deviation"], numpy.std(values, ddof=1)
+        )
+        self.assertIsNone(fathom.moments([]))
+        low, high = fathom.bootstrap_interval(values)
+        self.assertTrue(1 <= low < 4 < high <= 10)
+        # Six positive differences: the least p of the exact test, 2 / 2^6.
+        test = fathom.paired_difference([1, 2, 3, 4, 5, 6], [0, 0, 0, 0, 0, 0])
+        self.assertEqual((test["p_value"], test["exact"]), (2 / 64, True))
+        numpy.testing.assert_allclose(fathom.holm([0.01, 0.04, 0.03]), [0.03, 0.06, 0.06])
+        low, high = fathom.wilson_interval(5, 10)
+        self.assertAlmostEqual(low + high, 1)
+        low, high = fathom.anees_interval(50)
+        self.assertTrue(0.7 < low < 1 < high < 1.4)
+        with self.assertRaises(fathom.InputError):
+            fathom.holm([2.0])
+
+
+class Logs(unittest.TestCase):
+    def test_chi2_of_a_residual_in_closed_form(self):
+        log = fathom.MeasurementLog()
+        log.add_keyframe((1, 0, 0), numpy.diag([0.01, 0.04, 0.0025]))
+        self.assertEqual(log.chi2(log.dead_reckoning), 0)
+        self.assertAlmostEqual(log.chi2([[0, 0, 0], [1.1, 0.2, 0]]), 1 + 1)
+
+    def test_refusals(self):
+        log = fathom.MeasurementLog()
+        with self.assertRaisesRegex(fathom.InputError, "positive definite"):
+            log.add_keyframe((1, 0, 0), numpy.zeros((3, 3)))
+        with self.assertRaisesRegex(fathom.InputError, "finite"):
+            log.add_keyframe((math.nan, 0, 0), numpy.eye(3))
+        log.add_keyframe((1, 0, 0), numpy.eye(3))
+        for ends in ((0, 0), (0, 7), (5, 1)):
+            with self.assertRaisesRegex(fathom.InputError, "newest keyframe"):
+                log.add_registration(fathom.RelativePose(*ends, (0, 0, 0), numpy.eye(3)))
+        with self.assertRaises(fathom.InputError):
+            log.chi2(numpy.zeros((7, 3)))
+
+
+if __name__ == "__main__":
+    unittest.main()
