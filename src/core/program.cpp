@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstring>
 #include <ctime>
@@ -158,33 +159,37 @@ void Program::reap() {
   if (peak > own_bytes_ + kNotAdded) peak_bytes_ = std::max(peak_bytes_, peak);
 }
 
+bool Program::has_ended() const {
+  siginfo_t info{};
+  return ::waitid(P_PID, static_cast<id_t>(id_), &info, WEXITED | WNOHANG | WNOWAIT) == 0 &&
+         info.si_pid == id_;
+}
+
 void Program::finish() {
   close(input);
   while (ends_[output] >= 0 || ends_[errors] >= 0) {
     wait_ready(false);
     read_ = output_.size();
-    siginfo_t info{};
-    const bool has_ended =
-        ::waitid(P_PID, static_cast<id_t>(id_), &info, WEXITED | WNOHANG | WNOWAIT) == 0 &&
-        info.si_pid == id_;
     // What it has left running may hold its streams open.
-    if (has_ended && !wait_ready(false)) break;
+    if (has_ended() && !wait_ready(false)) break;
   }
   reap();
   if (status_ != 0) fail("failed");
 }
 
-void Program::fail(const std::string& why) {
-  if (!is_reaped_) {
-    // It may be about to end, and to say why.
-    for (int look = 0; look < 50 && (ends_[output] >= 0 || ends_[errors] >= 0); ++look) {
-      wait_ready(false);
-      read_ = output_.size();
-    }
-    siginfo_t info{};
-    ::waitid(P_PID, static_cast<id_t>(id_), &info, WEXITED | WNOHANG | WNOWAIT);
-    if (info.si_pid == id_) reap();
+void Program::await_end() {
+  // Its streams close a moment before its status can be had, so they do not tell its end.
+  const auto latest = std::chrono::steady_clock::now() + std::chrono::seconds(2);
+  bool is_silent = false;
+  while (!(has_ended() && is_silent) && std::chrono::steady_clock::now() < latest) {
+    is_silent = !wait_ready(false);
+    read_ = output_.size();
   }
+  if (has_ended()) reap();
+}
+
+void Program::fail(const std::string& why) {
+  if (!is_reaped_) await_end();
   std::string text = "'" + name_ + "' " + why;
   if (is_reaped_ && WIFSIGNALED(status_)) {
     text += ": signal " + std::to_string(WTERMSIG(status_)) + " (" +

@@ -58,6 +58,10 @@ class Program {
   /// Waits until something can be read, or written; reads what there is.
   bool wait_ready(bool to_write);
   void take(Stream stream);
+  /// It has ended; its status is not taken.
+  bool has_ended() const;
+  /// Where it may be about to end, and to say why: reads on, and takes its status if it comes soon.
+  void await_end();
   [[noreturn]] void fail(const std::string& why);
   void reap();
 
