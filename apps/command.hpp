@@ -35,5 +35,6 @@ void add_merge(CLI::App& program, Context& context);
 void add_estimate(CLI::App& program, Context& context);
 void add_status(CLI::App& program, Context& context);
 void add_conformance(CLI::App& program, Context& context);
+void add_pages(CLI::App& program, Context& context);
 
 }  // namespace fathom

@@ -112,7 +112,7 @@ void add_conformance(CLI::App& program, Context& context) {
                   "Exit status: 0 every clause that applies is kept, 1 one is broken.\n"
                   "Example: fathom conformance ekf\n"
                   "         fathom conformance --plugin mine.so my_filter");
-  const Flag names = command.optional_arguments("name", flags->names, "Estimators; none: all");
+  const Flag names = command.optional_arguments("estimator", flags->names, "Estimators; none: all");
   add_plugins_to(command, flags->plugins);
   command.boolean("--list", flags->list, "The clauses and their rules").excludes(names);
   command.on_run([flags, &context] { judge(*flags, context); });

@@ -159,7 +159,7 @@ void add_evaluate(CLI::App& program, Context& context) {
                   "--align yaw");
   command.argument("estimate", flags->estimate, "Trajectory (TUM, KITTI or EuRoC)");
   command.argument("reference", flags->reference, "Reference trajectory (the same)");
-  command.text("--align,--alignment", flags->alignment, "NAME",
+  command.text("--align,--alignment", flags->alignment, "ALIGNMENT",
                "none, origin, se2 or yaw; never scale");
   command.real("--tolerance,--max-difference", flags->max_difference_s, Range::at_least(0.0), "S",
                "Time stamps that belong together differ by no more (s)");

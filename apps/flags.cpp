@@ -168,6 +168,10 @@ Flag Command::boolean(const std::string& name, bool& field, const std::string& h
   return Flag(*command_->add_flag(name, field, help));
 }
 
+void Command::hidden() {
+  command_->group("");
+}
+
 void Command::on_run(std::function<void()> action) {
   command_->callback(std::move(action));
 }

@@ -74,6 +74,9 @@ class Command {
                 const std::string& value_name, const std::string& help);
   Flag boolean(const std::string& name, bool& field, const std::string& help);
 
+  /// Not listed by --help of the program.
+  void hidden();
+
   /// What the command does, once all is read.
   void on_run(std::function<void()> action);
 

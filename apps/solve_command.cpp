@@ -208,7 +208,8 @@ void add_solve(CLI::App& program, Context& context) {
                   "         fathom solve ring.g2o --estimator trajectory_iekf --set "
                   "estimator.max_iterations=3");
   command.argument("graph", flags->graph, "Pose graph (g2o)");
-  command.text("--estimator", flags->estimator, "NAME", "Estimator (default: ceres_pose_graph)");
+  command.text("--estimator", flags->estimator, "ESTIMATOR",
+               "Estimator (default: ceres_pose_graph)");
   command.choice("--mode", flags->mode, {"incremental", "batch"}, "MODE",
                  "incremental: keyframe by keyframe; batch: one solve (default where it can)");
   command.choice("--init", flags->init, {"odometry", "file"}, "START",

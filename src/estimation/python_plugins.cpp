@@ -29,9 +29,10 @@ PythonPlugins* start_python(const std::string& plugin) {
       return reinterpret_cast<PythonPlugins*>(symbol);
     }
   }
-  throw InputError(plugin,
-                   "is written in Python, and this Fathom was built without it; "
-                   "'scripts/setup.sh python' installs what it needs, then build again");
+  throw InputError(
+      plugin,
+      "is written in Python, which this Fathom lacks; install the package python3-fathom, "
+      "or run 'scripts/setup.sh python' and build again");
 }
 
 }  // namespace
