@@ -1,15 +1,12 @@
 // A plug-in with the pose-graph solver of MRPT: sparse pose adjustment, Levenberg-Marquardt.
 
-#include <cmath>
 #include <memory>
 #include <mrpt/graphs/CNetworkOfPoses.h>
 #include <mrpt/graphslam/levmarq.h>
 #include <vector>
 
-#include "fathom/core/input_error.hpp"
-#include "fathom/estimation/gate.hpp"
+#include "adapters/support/graph_adapter.hpp"
 #include "fathom/estimation/plugin.hpp"
-#include "fathom/estimation/relative_estimator.hpp"
 
 namespace {
 
@@ -36,11 +33,7 @@ struct Options {
     gate.describe(table);
   }
 
-  void check(const EstimatorSetup&) const {
-    if (gate.probability) {
-      throw InputError("gate_probability: there is no covariance to gate with; use off");
-    }
-  }
+  void check(const EstimatorSetup& setup) const { check_gate(gate, setup, false); }
 };
 
 using Graph = mrpt::graphs::CNetworkOfPoses2DInf;
@@ -49,52 +42,22 @@ mrpt::poses::CPose2D to_mrpt(const Pose& pose) {
   return {pose.x, pose.y, pose.theta};
 }
 
-/// Solved anew, from the estimate so far, whenever loops arrive, or once at the end in batch mode.
 /// MRPT has no covariance of the poses.
-class Mrpt final : public RelativeEstimator {
+class Mrpt final : public GraphAdapter {
  public:
   Mrpt(const EstimatorSetup& setup, const Options& options)
-      : options_(options), mode_(setup.mode), poses_{setup.start.pose} {}
-
-  void add_keyframe(const RelativePose& step) override {
-    poses_.push_back(compose(poses_.back(), step.forward().motion));
-    if (mode_ == SolveMode::incremental || !step.is_hole) edges_.push_back(step);
-  }
-
-  UpdateReport close_loops(std::span<const RelativePose> loops) override {
-    edges_.insert(edges_.end(), loops.begin(), loops.end());
-    UpdateReport report;
-    if (mode_ == SolveMode::incremental) report = solve();
-    const bool is_used = is_done(report.outcome);
-    if (!is_used) edges_.resize(edges_.size() - loops.size());
-    for (const RelativePose& z : loops) {
-      report.loops.push_back(
-          {z.from, z.to, is_used ? LoopFate::used : LoopFate::lost, std::nullopt});
-    }
-    return report;
-  }
-
-  UpdateReport finish(std::span<const Pose> start) override {
-    if (mode_ == SolveMode::incremental) return {};
-    const std::vector<Pose> before = poses_;
-    if (!start.empty()) poses_.assign(start.begin(), start.end());
-    const UpdateReport report = solve();
-    if (!is_done(report.outcome)) poses_ = before;
-    return report;
-  }
+      : GraphAdapter(setup, options.gate), options_(options) {}
 
   std::optional<Eigen::MatrixXd> joint_covariance(std::span<const std::size_t>) const override {
     return std::nullopt;
   }
-  std::size_t size() const override { return poses_.size(); }
-  Pose pose(std::size_t k) const override { return poses_[k]; }
 
  private:
-  Graph graph() const {
+  Graph graph_at(const std::vector<Pose>& poses) const {
     Graph graph;
     graph.root = 0;
-    for (std::size_t k = 0; k < poses_.size(); ++k) graph.nodes[k] = to_mrpt(poses_[k]);
-    for (const RelativePose& z : edges_) {
+    for (std::size_t k = 0; k < poses.size(); ++k) graph.nodes[k] = to_mrpt(poses[k]);
+    for (const RelativePose& z : edges()) {
       graph.insertEdge(z.from, z.to,
                        mrpt::poses::CPosePDFGaussianInf(
                            to_mrpt(z.motion), mrpt::math::CMatrixDouble33(z.information)));
@@ -102,41 +65,26 @@ class Mrpt final : public RelativeEstimator {
     return graph;
   }
 
-  UpdateReport solve() {
-    UpdateReport report;
-    if (edges_.empty() || poses_.size() < 2) return report;
-    // With a NaN no step is an improvement to MRPT, and it has converged.
-    for (const RelativePose& z : edges_) {
-      if (is_finite(z.motion) && z.information.allFinite()) continue;
-      report.outcome = Outcome::numerical_failure;
-      return report;
-    }
-    Graph all = graph();
+  UpdateReport solve(std::vector<Pose>& poses) override {
+    Graph graph = graph_at(poses);
     mrpt::containers::yaml settings = mrpt::containers::yaml::Map();
     settings["max_iterations"] = options_.max_iterations;
     settings["initial_lambda"] = options_.initial_lambda;
     settings["e1"] = options_.gradient_tolerance;
     settings["e2"] = options_.tolerance;
     mrpt::graphslam::TResultInfoSpaLevMarq result;
-    mrpt::graphslam::optimize_graph_spa_levmarq(all, result, nullptr, settings);
-    report.iterations = static_cast<int>(result.num_iters);
-    std::vector<Pose> solved{poses_[0]};
-    for (std::size_t k = 1; k < poses_.size(); ++k) {
-      const mrpt::poses::CPose2D& pose = all.nodes.at(k);
-      solved.push_back({pose.x(), pose.y(), wrap_angle(pose.phi())});
-      if (is_finite(solved.back())) continue;
-      report.outcome = Outcome::numerical_failure;
-      return report;
+    mrpt::graphslam::optimize_graph_spa_levmarq(graph, result, nullptr, settings);
+    for (std::size_t k = 0; k < poses.size(); ++k) {
+      const mrpt::poses::CPose2D& pose = graph.nodes.at(k);
+      poses[k] = {pose.x(), pose.y(), wrap_angle(pose.phi())};
     }
-    poses_ = std::move(solved);
+    UpdateReport report;
+    report.iterations = static_cast<int>(result.num_iters);
     if (report.iterations >= options_.max_iterations) report.outcome = Outcome::iteration_limit;
     return report;
   }
 
   Options options_;
-  SolveMode mode_;
-  std::vector<Pose> poses_;
-  std::vector<RelativePose> edges_;
 };
 
 void add_estimators(EstimatorRegistry& registry) {

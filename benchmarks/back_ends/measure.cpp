@@ -17,7 +17,7 @@ double thread_cpu_ms() {
 // Ends a replay between two keyframes; a batch solve is not interrupted.
 struct OverBudget {};
 
-Replay replay_once(const MeasurementLog& log, const EstimatorEntry& entry, SolveMode mode,
+Replay replay_once(const MeasurementLog& log, const Contender& contender, SolveMode mode,
                    const Effort& effort, double until_ms) {
   const auto meter = make_memory_meter();
   ReplayOptions options;
@@ -27,21 +27,21 @@ Replay replay_once(const MeasurementLog& log, const EstimatorEntry& entry, Solve
   options.progress = [until_ms](std::size_t, std::size_t) {
     if (thread_cpu_ms() > until_ms) throw OverBudget();
   };
-  return replay(log, entry, {}, options);
+  return replay(log, *contender.entry, contender.values, options);
 }
 
 }  // namespace
 
-Cost measure(const MeasurementLog& log, const EstimatorEntry& entry, SolveMode mode,
+Cost measure(const MeasurementLog& log, const Contender& contender, SolveMode mode,
              const Effort& effort) {
   Cost cost;
-  cost.estimator = entry.name;
+  cost.estimator = contender.label;
   cost.mode = mode;
   const double until_ms = thread_cpu_ms() + 1e3 * effort.budget_s;
   std::optional<Replay> fastest;
   try {
     for (int i = 0; i < effort.repeats && thread_cpu_ms() < until_ms; ++i) {
-      Replay run = replay_once(log, entry, mode, effort, until_ms);
+      Replay run = replay_once(log, contender, mode, effort, until_ms);
       if (!fastest || run.cpu_ms < fastest->cpu_ms) fastest = std::move(run);
     }
   } catch (const OverBudget&) {

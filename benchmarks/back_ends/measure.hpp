@@ -9,9 +9,17 @@
 
 namespace fathom::benchmarks {
 
+/// An estimator with values for some of its options; the others have their defaults.
+struct Contender {
+  std::string label;
+  const EstimatorEntry* entry = nullptr;
+  EstimatorValues values;
+  bool is_for_batch_alone = false;
+};
+
 /// What one estimator made of one log, and what that cost, in the fastest of several replays.
 struct Cost {
-  std::string estimator;
+  std::string estimator;  ///< the contender's label
   SolveMode mode = SolveMode::incremental;
   Outcome outcome = Outcome::converged;
   bool gave_up = false;  ///< over the budget: only the time is known, and that it is too small
@@ -29,8 +37,8 @@ struct Effort {
   bool covariances = true;
 };
 
-/// Replays a log through an estimator at its defaults.
-Cost measure(const MeasurementLog& log, const EstimatorEntry& entry, SolveMode mode,
+/// Replays a log through an estimator.
+Cost measure(const MeasurementLog& log, const Contender& contender, SolveMode mode,
              const Effort& effort);
 
 }  // namespace fathom::benchmarks

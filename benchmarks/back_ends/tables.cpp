@@ -23,7 +23,8 @@ std::string number(const std::optional<double>& value) {
 double least_chi2(const LogCosts& log) {
   double least = std::numeric_limits<double>::infinity();
   for (const Cost& cost : log.costs) {
-    if (cost.mode == SolveMode::batch && is_done(cost.outcome)) least = std::min(least, cost.chi2);
+    if (cost.gave_up || !is_done(cost.outcome)) continue;
+    if (cost.mode == SolveMode::batch) least = std::min(least, cost.chi2);
   }
   return least;
 }

@@ -9,7 +9,7 @@ import subprocess
 from pathlib import Path
 
 # What figures depend on: programs and configurations. Pages and makers are no part of it.
-SOURCES = ("CMakeLists.txt", "CMakePresets.json", "apps", "benchmarks", "cmake", "configs",
+SOURCES = ("CMakeLists.txt", "CMakePresets.json", "adapters", "apps", "benchmarks", "cmake", "configs",
            "estimators", "include", "src")
 GENERATED = re.compile(r"^\*(Made by |Recorded figures, |Not made yet\. )")
 

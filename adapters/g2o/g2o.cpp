@@ -1,0 +1,237 @@
+// A plug-in with the pose-graph solvers of g2o: Gauss-Newton, Levenberg-Marquardt, dogleg, and
+// Gauss-Newton from g2o's own linear start, with CHOLMOD.
+
+#include <g2o/core/block_solver.h>
+#include <g2o/core/optimization_algorithm_dogleg.h>
+#include <g2o/core/optimization_algorithm_gauss_newton.h>
+#include <g2o/core/optimization_algorithm_levenberg.h>
+#include <g2o/core/sparse_optimizer.h>
+#include <g2o/core/sparse_optimizer_terminate_action.h>
+#include <g2o/solvers/cholmod/linear_solver_cholmod.h>
+#include <g2o/solvers/slam2d_linear/solver_slam2d_linear.h>
+#include <g2o/types/slam2d/edge_se2.h>
+#include <g2o/types/slam2d/vertex_se2.h>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "adapters/support/graph_adapter.hpp"
+#include "fathom/estimation/plugin.hpp"
+
+namespace {
+
+using namespace fathom;
+
+enum class Method { gauss_newton, levenberg_marquardt, dogleg, slam2d_linear };
+
+const std::vector<std::pair<std::string, Method>>& method_names() {
+  static const std::vector<std::pair<std::string, Method>> names{
+      {"gauss_newton", Method::gauss_newton},
+      {"levenberg_marquardt", Method::levenberg_marquardt},
+      {"dogleg", Method::dogleg},
+      {"slam2d_linear", Method::slam2d_linear}};
+  return names;
+}
+
+struct Options {
+  Method method = Method::gauss_newton;
+  int max_iterations = 100;
+  double gain = 1e-6;  // the default of the program g2o
+  GateOptions gate;
+
+  void describe(OptionTable& table) {
+    table.enumeration("method", method, method_names(),
+                      "slam2d_linear: Gauss-Newton from headings that are solved for first");
+    table.integer("max_iterations", max_iterations, Range::at_least(1), "",
+                  "iterations of one solve at most");
+    table.real("gain", gain, Range::positive(), "",
+               "a solve ends when an iteration lowers F by a smaller share");
+    gate.describe(table);
+  }
+
+  void check(const EstimatorSetup& setup) const { check_gate(gate, setup, true); }
+};
+
+using Algorithm = g2o::OptimizationAlgorithmWithHessian;
+using BlockSolver = g2o::BlockSolverPL<3, 3>;
+
+std::unique_ptr<Algorithm> make_algorithm(Method method) {
+  auto linear = std::make_unique<g2o::LinearSolverCholmod<BlockSolver::PoseMatrixType>>();
+  linear->setBlockOrdering(true);
+  auto solver = std::make_unique<BlockSolver>(std::move(linear));
+  switch (method) {
+    case Method::gauss_newton:
+      break;
+    case Method::levenberg_marquardt:
+      return std::make_unique<g2o::OptimizationAlgorithmLevenberg>(std::move(solver));
+    case Method::dogleg:
+      return std::make_unique<g2o::OptimizationAlgorithmDogleg>(std::move(solver));
+    case Method::slam2d_linear:
+      return std::make_unique<g2o::SolverSLAM2DLinear>(std::move(solver));
+  }
+  return std::make_unique<g2o::OptimizationAlgorithmGaussNewton>(std::move(solver));
+}
+
+g2o::SE2 to_g2o(const Pose& pose) {
+  return {pose.x, pose.y, pose.theta};
+}
+
+class G2o final : public GraphAdapter {
+ public:
+  G2o(const EstimatorSetup& setup, const Options& options)
+      : GraphAdapter(setup, options.gate), options_(options) {
+    algorithm_ = make_algorithm(options.method).release();
+    optimizer_.setAlgorithm(algorithm_);  // owns it
+    optimizer_.setForceStopFlag(&is_stopped_);
+  }
+
+  /// Of every keyframe alone at once, and kept: whoever asks for one asks for all.
+  std::optional<Eigen::Matrix3d> covariance(std::size_t k) const override {
+    if (k == 0) return Eigen::Matrix3d::Zero();
+    if (!linearise()) return std::nullopt;
+    if (!diagonal_) {
+      std::vector<std::pair<int, int>> blocks;
+      for (std::size_t i = 1; i < size(); ++i) blocks.emplace_back(row_of(i), row_of(i));
+      diagonal_.emplace();
+      has_diagonal_ = optimizer_.computeMarginals(*diagonal_, blocks);
+    }
+    if (!has_diagonal_) return std::nullopt;
+    return Eigen::Matrix3d(*diagonal_->block(row_of(k), row_of(k)));
+  }
+
+  std::optional<Eigen::MatrixXd> joint_covariance(
+      std::span<const std::size_t> keyframes) const override {
+    const std::vector<std::size_t> free = free_keyframes(keyframes);
+    if (free.empty()) return in_order_of(keyframes, {});
+    if (!linearise()) return std::nullopt;
+    std::vector<std::pair<int, int>> blocks;
+    for (const std::size_t i : free) {
+      for (const std::size_t k : free) {
+        if (row_of(i) <= row_of(k)) blocks.emplace_back(row_of(i), row_of(k));
+      }
+    }
+    g2o::SparseBlockMatrix<g2o::MatrixX> inverse;
+    if (!optimizer_.computeMarginals(inverse, blocks)) return std::nullopt;
+    const auto m = static_cast<Eigen::Index>(3 * free.size());
+    Eigen::MatrixXd joint(m, m);
+    for (Eigen::Index i = 0; i < m; i += 3) {
+      for (Eigen::Index k = i; k < m; k += 3) {
+        const int row = row_of(free[static_cast<std::size_t>(i / 3)]);
+        const int column = row_of(free[static_cast<std::size_t>(k / 3)]);
+        joint.block<3, 3>(i, k) = row <= column
+                                      ? Eigen::Matrix3d(*inverse.block(row, column))
+                                      : Eigen::Matrix3d(inverse.block(column, row)->transpose());
+      }
+    }
+    return in_order_of(keyframes, joint);
+  }
+
+ private:
+  g2o::VertexSE2* vertex(std::size_t k) const {
+    return static_cast<g2o::VertexSE2*>(optimizer_.vertex(static_cast<int>(k)));
+  }
+  int row_of(std::size_t k) const { return vertex(k)->hessianIndex(); }
+
+  // What has come since the last solve is added; the graph stays.
+  void extend() const {
+    for (std::size_t k = optimizer_.vertices().size(); k < size(); ++k) {
+      auto* added = new g2o::VertexSE2;  // the graph owns what it is given
+      added->setId(static_cast<int>(k));
+      added->setFixed(k == 0);
+      optimizer_.addVertex(added);
+    }
+    for (; edge_count_ < edges().size(); ++edge_count_) {
+      const RelativePose& z = edges()[edge_count_];
+      auto* added = new g2o::EdgeSE2;
+      added->setVertex(0, vertex(z.from));
+      added->setVertex(1, vertex(z.to));
+      added->setMeasurement(to_g2o(z.motion));
+      added->setInformation(z.information);
+      optimizer_.addEdge(added);
+    }
+  }
+
+  void edges_replaced() override {
+    optimizer_.clear();
+    edge_count_ = 0;
+    is_linearised_ = false;
+  }
+
+  void place(const std::vector<Pose>& poses) const {
+    for (std::size_t k = 0; k < poses.size(); ++k) vertex(k)->setEstimate(to_g2o(poses[k]));
+  }
+
+  UpdateReport solve(std::vector<Pose>& poses) override {
+    is_linearised_ = false;
+    extend();
+    place(poses);
+    UpdateReport report;
+    if (!optimizer_.initializeOptimization()) {
+      report.outcome = Outcome::numerical_failure;
+      return report;
+    }
+    g2o::SparseOptimizerTerminateAction small_gain;
+    small_gain.setGainThreshold(options_.gain);
+    is_stopped_ = false;
+    optimizer_.addPostIterationAction(&small_gain);
+    report.iterations = optimizer_.optimize(options_.max_iterations);
+    optimizer_.removePostIterationAction(&small_gain);
+    if (report.iterations <= 0) {
+      report.iterations = 0;
+      report.outcome = Outcome::numerical_failure;
+      return report;
+    }
+    // Where F is rounding alone, the gain is a share of nothing and ends no solve.
+    constexpr double kRounding = 1e-9;
+    if (report.iterations >= options_.max_iterations && optimizer_.activeChi2() > kRounding) {
+      report.outcome = Outcome::iteration_limit;
+    }
+    for (std::size_t k = 0; k < poses.size(); ++k) {
+      const g2o::SE2& pose = vertex(k)->estimate();
+      poses[k] = {pose.translation().x(), pose.translation().y(),
+                  wrap_angle(pose.rotation().angle())};
+    }
+    return report;
+  }
+
+  // The Hessian that a solve leaves is that of before its last step, and steps may have come since.
+  bool linearise() const {
+    if (is_linearised_ && linearised_size_ == size()) return true;
+    extend();
+    place(poses());
+    if (!optimizer_.initializeOptimization() || !algorithm_->init() ||
+        !algorithm_->buildLinearStructure()) {
+      return false;
+    }
+    optimizer_.computeActiveErrors();
+    algorithm_->updateLinearSystem();
+    diagonal_.reset();
+    is_linearised_ = true;
+    linearised_size_ = size();
+    return true;
+  }
+
+  Options options_;
+  Algorithm* algorithm_ = nullptr;
+  // What g2o keeps is the same graph as edges() and poses(); questions may bring it up to date.
+  mutable g2o::SparseOptimizer optimizer_;
+  mutable std::size_t edge_count_ = 0;
+  mutable bool is_linearised_ = false;
+  mutable std::size_t linearised_size_ = 0;
+  mutable std::optional<g2o::SparseBlockMatrix<g2o::MatrixX>> diagonal_;
+  mutable bool has_diagonal_ = false;
+  bool is_stopped_ = false;
+};
+
+void add_estimators(EstimatorRegistry& registry) {
+  EstimatorEntry entry = make_relative_entry<Options>(
+      "g2o", "g2o with CHOLMOD on the pose graph, solved anew at each update", true,
+      [](const EstimatorSetup& setup, const Options& options) {
+        return std::make_unique<G2o>(setup, options);
+      });
+  registry.add(std::move(entry));
+}
+
+}  // namespace
+
+FATHOM_PLUGIN(add_estimators)
