@@ -129,6 +129,12 @@ std::string judge_quoted(const Include& include) {
   if (include.file.starts_with("estimators/support/")) {
     return complaint_about_support(support_part_of(include.file), support.empty() ? *to : support);
   }
+  if (include.target.starts_with("adapters/")) {
+    const std::string folder = folder_of(include.target);
+    return folder == folder_of(include.file) || folder == "adapters/support/"
+               ? ""
+               : "is another adapter's";
+  }
   if (!include.target.starts_with("estimators/")) return "";
   if (from == "estimators" && !support.empty()) return "";
   const bool is_own = folder_of(include.file) == folder_of(include.target);
