@@ -25,6 +25,7 @@ inline const std::vector<ThirdParty>& third_parties() {
       {"g2o/", {"adapters/g2o/"}},
       {"gtsam/", {"adapters/gtsam/"}},
       {"mrpt/", {"adapters/mrpt/"}},
+      {"tbb/", {"adapters/gtsam/"}},
       {"yaml-cpp/",
        {"src/configuration/", "src/datasets/image_folder/camera_yaml.cpp",
         "src/datasets/image_folder/sensor_yaml.cpp", "src/datasets/import/ros2_metadata.cpp"}},
