@@ -23,6 +23,13 @@ set(changelog ${PROJECT_BINARY_DIR}/changelog)
 configure_file(${PROJECT_SOURCE_DIR}/cmake/package/changelog.in ${changelog} @ONLY)
 execute_process(COMMAND gzip -9nkf ${changelog} COMMAND_ERROR_IS_FATAL ANY)
 
+# The licence that the page shows is that of the package, too: lines begin with a blank there.
+file(READ ${PROJECT_SOURCE_DIR}/src/report/page/vega_licence.txt vega_licence)
+string(STRIP "${vega_licence}" vega_licence)
+string(REPLACE "\n" "\n " vega_licence " ${vega_licence}")
+string(REPLACE "\n \n" "\n .\n" vega_licence "${vega_licence}")
+configure_file(${PROJECT_SOURCE_DIR}/cmake/package/copyright.in ${PROJECT_BINARY_DIR}/copyright @ONLY)
+
 # fathom_package(COMPONENT PACKAGE SECTION DEPENDS SYNOPSIS TEXT): what the component is packed as.
 set(CPACK_COMPONENTS_ALL "")
 function(fathom_package component name section depends synopsis text)
@@ -37,7 +44,7 @@ and reports how accurate, how consistent and how expensive each of them is.
 ${text}" PARENT_SCOPE)
   list(APPEND CPACK_COMPONENTS_ALL ${component})
   set(CPACK_COMPONENTS_ALL ${CPACK_COMPONENTS_ALL} PARENT_SCOPE)
-  install(FILES ${PROJECT_SOURCE_DIR}/cmake/package/copyright ${changelog}.gz
+  install(FILES ${PROJECT_BINARY_DIR}/copyright ${changelog}.gz
           DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${name} COMPONENT ${component})
   # Why some have a path of their own to the libraries: cmake/ThreadSafeBlas.cmake.
   set(overrides ${PROJECT_SOURCE_DIR}/cmake/package/${name}.lintian-overrides)

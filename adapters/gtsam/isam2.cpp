@@ -52,6 +52,7 @@ class Isam2 final : public RelativeEstimator {
     const Pose guess = compose(pose(size() - 1), step.forward().motion);
     waiting_.poses.insert(size(), to_gtsam(guess));
     add_edge(waiting_.factors, step, options_.exact_jacobians);
+    edges_.push_back(step);
     ahead_.push_back(guess);
     marginals_.reset();
   }
@@ -70,10 +71,32 @@ class Isam2 final : public RelativeEstimator {
     }
     if (batch.factors.size() == waiting_.factors.size()) return report;
     report.iterations = options_.updates;
-    if (take(batch, loops)) return report;
+    if (take(batch, loops)) {
+      for (std::size_t j = 0; j < loops.size(); ++j) {
+        if (report.loops[j].fate == LoopFate::used) edges_.push_back(loops[j]);
+      }
+      return report;
+    }
     restore();
     lose_all(report, Outcome::numerical_failure);
     return report;
+  }
+
+  /// ISAM2 cannot be told where a node is: it begins again, with all edges at the moved poses.
+  std::optional<LoopDecision> bridge(const Bridge& bridge) override {
+    std::vector<Pose> poses;
+    for (std::size_t k = 0; k < size(); ++k) poses.push_back(pose(k));
+    move_behind_hole(bridge, poses, edges_);
+    isam_ = gtsam::ISAM2(parameters(options_));
+    history_.clear();
+    waiting_ = {};
+    add_prior(waiting_.factors, poses[0]);
+    for (const RelativePose& z : edges_) add_edge(waiting_.factors, z, options_.exact_jacobians);
+    for (std::size_t k = 0; k < poses.size(); ++k) waiting_.poses.insert(k, to_gtsam(poses[k]));
+    solved_ = 0;
+    ahead_ = std::move(poses);
+    marginals_.reset();
+    return std::nullopt;
   }
 
   std::size_t size() const override { return solved_ + ahead_.size(); }
@@ -168,6 +191,7 @@ class Isam2 final : public RelativeEstimator {
   Gate gate_;
   gtsam::ISAM2 isam_;
   std::vector<Batch> history_;
+  std::vector<RelativePose> edges_;  ///< steps and loops that are used
   std::size_t solved_ = 0;
   Batch waiting_;
   std::vector<Pose> ahead_;  ///< of the nodes from solved_ on

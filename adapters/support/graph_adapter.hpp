@@ -30,6 +30,18 @@ inline std::optional<std::vector<Eigen::Matrix3d>> predicted_covariances(
   return covariances;
 }
 
+/// What is behind a hole moves as one, and the hole's edge with it.
+inline void move_behind_hole(const Bridge& bridge, std::vector<Pose>& poses,
+                             std::vector<RelativePose>& edges) {
+  for (std::size_t k = 0; k < poses.size(); ++k) {
+    if (bridge.moves[k]) poses[k] = compose(bridge.motion, poses[k]);
+  }
+  for (RelativePose& edge : edges) {
+    if (!edge.is_hole || bridge.moves[edge.from] == bridge.moves[edge.to]) continue;
+    edge.motion = between(poses[edge.from], poses[edge.to]);
+  }
+}
+
 /// What is alike in adapters to solvers of whole pose graphs: the graph is solved anew, from the
 /// estimate so far, whenever loops arrive, or once at the end in batch mode. Node 0 is fixed.
 class GraphAdapter : public RelativeEstimator {
@@ -69,15 +81,8 @@ class GraphAdapter : public RelativeEstimator {
     return solve_from(start.empty() ? poses_ : std::vector<Pose>(start.begin(), start.end()));
   }
 
-  /// What is behind a hole moves as one, and the hole's edge with it.
   std::optional<LoopDecision> bridge(const Bridge& bridge) override {
-    for (std::size_t k = 0; k < size(); ++k) {
-      if (bridge.moves[k]) poses_[k] = compose(bridge.motion, poses_[k]);
-    }
-    for (RelativePose& edge : edges_) {
-      if (!edge.is_hole || bridge.moves[edge.from] == bridge.moves[edge.to]) continue;
-      edge.motion = between(poses_[edge.from], poses_[edge.to]);
-    }
+    move_behind_hole(bridge, poses_, edges_);
     edges_replaced();
     return std::nullopt;
   }
