@@ -36,7 +36,7 @@ const std::vector<std::pair<std::string, Method>>& method_names() {
 struct Options {
   Method method = Method::gauss_newton;
   int max_iterations = 100;
-  double gain = 1e-6;  // the default of the program g2o
+  double tolerance = 1e-6;  // the gain that the program g2o ends at
   GateOptions gate;
 
   void describe(OptionTable& table) {
@@ -44,8 +44,8 @@ struct Options {
                       "slam2d_linear: Gauss-Newton from headings that are solved for first");
     table.integer("max_iterations", max_iterations, Range::at_least(1), "",
                   "iterations of one solve at most");
-    table.real("gain", gain, Range::positive(), "",
-               "a solve ends when an iteration lowers F by a smaller share");
+    table.real("tolerance", tolerance, Range::positive(), "",
+               "g2o's gain: a solve ends when an iteration lowers F by a smaller share");
     gate.describe(table);
   }
 
@@ -80,15 +80,16 @@ class G2o final : public GraphAdapter {
  public:
   G2o(const EstimatorSetup& setup, const Options& options)
       : GraphAdapter(setup, options.gate), options_(options) {
-    algorithm_ = make_algorithm(options.method).release();
-    optimizer_.setAlgorithm(algorithm_);  // owns it
+    const bool is_batch = setup.mode == SolveMode::batch;
+    use(options.method == Method::slam2d_linear && !is_batch ? Method::gauss_newton
+                                                             : options.method);
     optimizer_.setForceStopFlag(&is_stopped_);
   }
 
   /// Of every keyframe alone at once, and kept: whoever asks for one asks for all.
   std::optional<Eigen::Matrix3d> covariance(std::size_t k) const override {
     if (k == 0) return Eigen::Matrix3d::Zero();
-    if (!linearise()) return std::nullopt;
+    if (!has_marginals() || !linearise()) return std::nullopt;
     if (!diagonal_) {
       std::vector<std::pair<int, int>> blocks;
       for (std::size_t i = 1; i < size(); ++i) blocks.emplace_back(row_of(i), row_of(i));
@@ -103,7 +104,7 @@ class G2o final : public GraphAdapter {
       std::span<const std::size_t> keyframes) const override {
     const std::vector<std::size_t> free = free_keyframes(keyframes);
     if (free.empty()) return in_order_of(keyframes, {});
-    if (!linearise()) return std::nullopt;
+    if (!has_marginals() || !linearise()) return std::nullopt;
     std::vector<std::pair<int, int>> blocks;
     for (const std::size_t i : free) {
       for (const std::size_t k : free) {
@@ -127,6 +128,23 @@ class G2o final : public GraphAdapter {
   }
 
  private:
+  void use(Method method) {
+    algorithm_ = make_algorithm(method).release();
+    algorithm_->setWriteDebug(false);     // a file in the working directory
+    optimizer_.setAlgorithm(algorithm_);  // owns it, and frees the one before
+  }
+
+  // g2o numbers the elements of the inverse by an int: with more rows they are others.
+  bool has_marginals() const {
+    constexpr std::size_t kMostRows = 46340;
+    return 3 * (size() - 1) <= kMostRows;
+  }
+
+  // Active are the vertices of edges alone.
+  bool is_ready() const {
+    return optimizer_.initializeOptimization() && optimizer_.indexMapping().size() + 1 == size();
+  }
+
   g2o::VertexSE2* vertex(std::size_t k) const {
     return static_cast<g2o::VertexSE2*>(optimizer_.vertex(static_cast<int>(k)));
   }
@@ -163,15 +181,20 @@ class G2o final : public GraphAdapter {
 
   UpdateReport solve(std::vector<Pose>& poses) override {
     is_linearised_ = false;
+    // Headings would be taken from edges that measure none.
+    const auto is_whole = [](const RelativePose& z) { return is_positive_definite(z.information); };
+    if (options_.method == Method::slam2d_linear && !std::ranges::all_of(edges(), is_whole)) {
+      use(Method::gauss_newton);
+    }
     extend();
     place(poses);
     UpdateReport report;
-    if (!optimizer_.initializeOptimization()) {
+    if (!is_ready()) {
       report.outcome = Outcome::numerical_failure;
       return report;
     }
     g2o::SparseOptimizerTerminateAction small_gain;
-    small_gain.setGainThreshold(options_.gain);
+    small_gain.setGainThreshold(options_.tolerance);
     is_stopped_ = false;
     optimizer_.addPostIterationAction(&small_gain);
     report.iterations = optimizer_.optimize(options_.max_iterations);
@@ -196,11 +219,10 @@ class G2o final : public GraphAdapter {
 
   // The Hessian that a solve leaves is that of before its last step, and steps may have come since.
   bool linearise() const {
-    if (is_linearised_ && linearised_size_ == size()) return true;
+    if (is_linearised_ && linearised_size_ == size() && edge_count_ == edges().size()) return true;
     extend();
     place(poses());
-    if (!optimizer_.initializeOptimization() || !algorithm_->init() ||
-        !algorithm_->buildLinearStructure()) {
+    if (!is_ready() || !algorithm_->init() || !algorithm_->buildLinearStructure()) {
       return false;
     }
     optimizer_.computeActiveErrors();

@@ -1,3 +1,4 @@
+#include <cmath>
 #include <gtsam/nonlinear/DoglegOptimizer.h>
 #include <gtsam/nonlinear/GaussNewtonOptimizer.h>
 #include <gtsam/nonlinear/LevenbergMarquardtOptimizer.h>
@@ -19,8 +20,7 @@ struct GtsamOptions {
   Method method = Method::levenberg_marquardt;
   Start start = Start::given;
   int max_iterations = 100;
-  double relative_tolerance = 1e-5;
-  double absolute_tolerance = 1e-5;
+  double tolerance = 1e-5;
   bool exact_jacobians = false;
   bool nested_dissection = false;
   GateOptions gate;
@@ -35,10 +35,9 @@ struct GtsamOptions {
                       "where a batch solve starts: where it is told to, or GTSAM's LAGO");
     table.integer("max_iterations", max_iterations, Range::at_least(1), "",
                   "iterations of one solve at most");
-    table.real("relative_tolerance", relative_tolerance, Range::at_least(0.0), "",
-               "GTSAM's relativeErrorTol: it stops where F falls by a smaller share");
-    table.real("absolute_tolerance", absolute_tolerance, Range::at_least(0.0), "",
-               "GTSAM's absoluteErrorTol: it stops where half of F falls by less");
+    table.real("tolerance", tolerance, Range::at_least(0.0), "",
+               "GTSAM's relativeErrorTol and absoluteErrorTol: it stops where half of F falls by a "
+               "smaller share, or by less");
     table.boolean("exact_jacobians", exact_jacobians,
                   "factors of the adapter, with Jacobians that GTSAM leaves a part out of");
     table.boolean("nested_dissection", nested_dissection,
@@ -92,8 +91,8 @@ class GtsamGraph final : public GraphAdapter {
   Parameters parameters() const {
     Parameters parameters;
     parameters.maxIterations = static_cast<std::size_t>(options_.max_iterations);
-    parameters.relativeErrorTol = options_.relative_tolerance;
-    parameters.absoluteErrorTol = options_.absolute_tolerance;
+    parameters.relativeErrorTol = options_.tolerance;
+    parameters.absoluteErrorTol = options_.tolerance;
     if (options_.nested_dissection) parameters.orderingType = gtsam::Ordering::METIS;
     return parameters;
   }
@@ -118,7 +117,34 @@ class GtsamGraph final : public GraphAdapter {
   bool has_given_up(const gtsam::NonlinearOptimizer& solver) const {
     const auto* damped = dynamic_cast<const gtsam::LevenbergMarquardtOptimizer*>(&solver);
     return damped != nullptr && damped->lambda() >= damped->params().lambdaUpperBound &&
-           solver.error() > options_.absolute_tolerance;
+           solver.error() > options_.tolerance;
+  }
+
+  // The loop of NonlinearOptimizer::optimize, which takes an iteration that raised F for the last
+  // of a convergence.
+  Outcome minimise(gtsam::NonlinearOptimizer& solver) const {
+    const auto limit = static_cast<std::size_t>(options_.max_iterations);
+    double before = 0.0;
+    double error = solver.error();
+    do {
+      before = error;
+      solver.iterate();
+      error = solver.error();
+    } while (solver.iterations() < limit && std::isfinite(error) &&
+             !gtsam::checkConvergence(options_.tolerance, options_.tolerance, 0.0, before, error));
+    if (!(error <= before + options_.tolerance * (1.0 + before))) return Outcome::diverged;
+    const bool has_time = solver.iterations() < limit;
+    return has_time && !has_given_up(solver) ? Outcome::converged : Outcome::iteration_limit;
+  }
+
+  // LAGO needs an edge of full rank from each node to the next.
+  gtsam::Values start_of(const std::vector<Pose>& poses) const {
+    if (options_.start == Start::given || !is_batch_) return values_of(poses);
+    try {
+      return lago_start(edges(), poses[0]);
+    } catch (const std::exception&) {
+      return values_of(poses);
+    }
   }
 
   UpdateReport solve(std::vector<Pose>& poses) override {
@@ -126,18 +152,12 @@ class GtsamGraph final : public GraphAdapter {
     UpdateReport report;
     try {
       extend();
-      const bool from_lago = options_.start == Start::lago && is_batch_;
-      const auto solver = optimizer(from_lago ? lago_start(edges(), poses[0]) : values_of(poses));
-      const double start_error = solver->error();
-      const gtsam::Values solved = solver->optimize();
+      const auto solver = optimizer(start_of(poses));
+      report.outcome = minimise(*solver);
       report.iterations = static_cast<int>(solver->iterations());
       for (std::size_t k = 0; k < poses.size(); ++k) {
-        poses[k] = from_gtsam(solved.at<gtsam::Pose2>(k));
+        poses[k] = from_gtsam(solver->values().at<gtsam::Pose2>(k));
       }
-      if (report.iterations >= options_.max_iterations || has_given_up(*solver)) {
-        report.outcome = Outcome::iteration_limit;
-      }
-      if (solver->error() > start_error) report.outcome = Outcome::diverged;
     } catch (const std::exception&) {
       report.outcome = Outcome::numerical_failure;
     }
@@ -145,7 +165,8 @@ class GtsamGraph final : public GraphAdapter {
   }
 
   const Linearised* linearise() const {
-    if (linearised_ && linearised_->poses.size() == size()) return &*linearised_;
+    const bool is_fresh = linearised_ && edge_count_ == edges().size();
+    if (is_fresh && linearised_->poses.size() == size()) return &*linearised_;
     try {
       extend();
       const gtsam::Values values = values_of(poses());

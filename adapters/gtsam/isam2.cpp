@@ -15,6 +15,8 @@ struct Isam2Options {
   int relinearize_skip = 10;
   double wildfire_threshold = 1e-3;
   int updates = 1;
+  int max_iterations = 1;
+  double tolerance = 1e-5;
   bool exact_jacobians = false;
   GateOptions gate;
 
@@ -27,6 +29,10 @@ struct Isam2Options {
                "back-substitution goes on where a node moves by more");
     table.integer("updates", updates, Range::at_least(1), "",
                   "calls of update() after each keyframe with loops; each is an iteration");
+    table.integer("max_iterations", max_iterations, Range::at_least(1), "",
+                  "of other estimators; of no effect here, see updates");
+    table.real("tolerance", tolerance, Range::at_least(0.0), "",
+               "of other estimators; of no effect here");
     table.boolean("exact_jacobians", exact_jacobians,
                   "factors of the adapter, with Jacobians that GTSAM leaves a part out of");
     gate.describe(table);
@@ -202,11 +208,13 @@ class Isam2 final : public RelativeEstimator {
 }  // namespace
 
 EstimatorEntry gtsam_isam2_entry() {
-  return make_relative_entry<Isam2Options>(
+  EstimatorEntry entry = make_relative_entry<Isam2Options>(
       "gtsam_isam2", "ISAM2 of GTSAM, fluid relinearisation in a Bayes tree", false,
       [](const EstimatorSetup& setup, const Isam2Options& options) {
         return std::make_unique<Isam2>(setup, options);
       });
+  entry.unused_options = {"max_iterations", "tolerance"};
+  return entry;
 }
 
 }  // namespace fathom

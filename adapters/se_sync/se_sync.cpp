@@ -53,6 +53,7 @@ void write_poses(const SESync::Matrix& xhat, Eigen::Index n, const char* file) {
     const double theta = std::atan2(xhat(1, n + 2 * k), xhat(0, n + 2 * k));
     out << "VERTEX_SE2 " << k << ' ' << xhat(0, k) << ' ' << xhat(1, k) << ' ' << theta << '\n';
   }
+  if (!out.flush()) throw std::runtime_error(std::string(file) + " cannot be written");
 }
 
 int solve(const char* input, const char* output) {
@@ -60,6 +61,7 @@ int solve(const char* input, const char* output) {
   SESync::SESyncOpts options;
   options.num_threads = 1;
   const SESync::SESyncResult result = SESync::SESync(edges, options);
+  if (result.status != SESync::GlobalOpt) throw std::runtime_error("no certified optimum");
   write_poses(result.xhat, static_cast<Eigen::Index>(pose_count(edges)), output);
   return 0;
 }

@@ -96,7 +96,7 @@ class GraphAdapter : public RelativeEstimator {
   const std::vector<Pose>& poses() const { return poses_; }
 
   /// Minimises F over `poses`, of which there are two or more, from where they are. All edges are
-  /// finite. On failure `poses` may be anything.
+  /// finite. The map may end elsewhere as a whole. On failure `poses` may be anything.
   virtual UpdateReport solve(std::vector<Pose>& poses) = 0;
   /// edges() are others than at the last solve, and not only more.
   virtual void edges_replaced() {}
@@ -111,13 +111,22 @@ class GraphAdapter : public RelativeEstimator {
     });
     if (finite) {
       report = solve(poses);
-      poses[0] = poses_[0];
+      put_node_0_back(poses);
     }
     if (!finite || !std::ranges::all_of(poses, [](const Pose& X) { return is_finite(X); })) {
       report.outcome = Outcome::numerical_failure;
     }
     if (is_done(report.outcome)) poses_ = std::move(poses);
     return report;
+  }
+
+  /// Some solvers begin by putting it at the origin, or keep it where a given start has it. No edge
+  /// says where the map is, so that it moves as a whole.
+  void put_node_0_back(std::vector<Pose>& poses) const {
+    if (poses[0] == poses_[0]) return;
+    const Pose back = compose(poses_[0], inverse(poses[0]));
+    for (Pose& pose : poses) pose = compose(back, pose);
+    poses[0] = poses_[0];
   }
 
   SolveMode mode_;

@@ -39,7 +39,7 @@ std::optional<double> ceres_ms(const LogCosts& log) {
 std::string chi2_cells(const Cost& cost, double optimum) {
   if (cost.gave_up) return " | – | –";
   char buffer[64];
-  const double gap = std::max(0.0, cost.chi2 - optimum);
+  const double gap = std::isnan(cost.chi2) ? cost.chi2 : std::max(0.0, cost.chi2 - optimum);
   std::snprintf(buffer, sizeof buffer, " | %.8g | %s", cost.chi2,
                 gap < 1e-6 * optimum || gap < 1e-9 ? "0" : number(gap).c_str());
   return buffer;
@@ -47,13 +47,16 @@ std::string chi2_cells(const Cost& cost, double optimum) {
 
 std::string row(const Cost& cost, const LogCosts& log) {
   const std::optional<double> ceres = ceres_ms(log);
-  std::string text =
-      "| `" + cost.estimator + "` | " + (cost.gave_up ? "gave up" : name_of(cost.outcome)) + " | " +
-      std::to_string(cost.linearisations) + " | " + (cost.gave_up ? "> " : "") +
-      number(cost.total_ms) + " | " + (ceres ? number(cost.total_ms / *ceres) : kNothing);
+  std::string text = "| `" + cost.estimator + "` | " +
+                     (cost.gave_up ? "gave up" : name_of(cost.outcome)) + " | " +
+                     std::to_string(cost.linearisations) + " | " + (cost.gave_up ? "> " : "") +
+                     number(cost.total_ms) + " | " + (ceres && cost.gave_up ? "> " : "") +
+                     (ceres ? number(cost.total_ms / *ceres) : kNothing);
   if (cost.update_ms) {
     text += " | " + number(cost.update_ms->median) + " | " + number(cost.update_ms->p95) + " | " +
             number(cost.update_ms->max);
+  } else if (cost.mode == SolveMode::incremental) {
+    text += " | – | – | –";
   }
   return text + chi2_cells(cost, least_chi2(log)) + " | " + number(cost.covariance_ms) + " | " +
          number(cost.memory_mib) + " |\n";

@@ -93,7 +93,8 @@ def _summary(number, head, time):
         words = [] if row["outcome"] == "converged" else [f"`{row['outcome']}`"]
         share = float(row["chi2"]) / optimum - 1
         if not share < 1e-6:
-            words.append(f"F +{100 * share:.2g} %" if share < 1 else f"F × {significant(1 + share, 2)}")
+            words.append(f"F +{significant(100 * share, 2)} %" if share < 1
+                         else f"F × {significant(1 + share, 2)}")
         return row[time] + (f" ({', '.join(words)})" if words else "")
 
     def summary(work):
@@ -101,7 +102,7 @@ def _summary(number, head, time):
         for graph in GRAPHS:
             tables = costs(work, graph)
             optimum = min(float(row[tables[0][0].index("chi2")]) for row in tables[0][1]
-                          if row[1] == "converged")
+                          if row[1] in ("converged", "iteration_limit"))
             header, rows = tables[number]
             columns.append({row[0]: cell(dict(zip(header, row)), optimum) for row in rows})
         return table([head, *GRAPHS], [[name, *(column[name] for column in columns)]
