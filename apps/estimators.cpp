@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <map>
+#include <mutex>
 #include <set>
 #include <sstream>
 
@@ -49,17 +51,27 @@ class KnownEstimators {
   }
 
   void load(const fs::path& file) {
+    const std::lock_guard lock(changing_);
     const fs::path known_as = fs::weakly_canonical(file);
-    if (loaded_.contains(known_as)) return;
-    load_plugin(file, registry_);
-    loaded_.insert(known_as);
+    const auto loaded = loaded_.find(known_as);
+    if (loaded == loaded_.end()) {
+      load_plugin(file, registry_);
+      loaded_[known_as] = fingerprint({known_as});
+    } else if (loaded->second != fingerprint({known_as})) {
+      throw InputError(file.string(), "has changed since it was loaded; start the program again");
+    }
   }
 
   const EstimatorRegistry& registry() const { return registry_; }
+  EstimatorRegistry copy() {
+    const std::lock_guard lock(changing_);
+    return registry_;
+  }
 
  private:
+  std::recursive_mutex changing_;  ///< a plug-in in Python may ask for the others as it is read
   EstimatorRegistry registry_ = builtin_estimators();
-  std::set<fs::path> loaded_;
+  std::map<fs::path, Fingerprint> loaded_;  ///< with the content at that time
 };
 
 // The program, and what it is given as an argument and is a file: a script, or its settings.
@@ -87,12 +99,16 @@ const EstimatorRegistry& estimators() {
   return known_estimators().registry();
 }
 
+EstimatorRegistry known_estimators_now() {
+  return known_estimators().copy();
+}
+
 void load_plugins(const std::vector<std::string>& files) {
   for (const std::string& file : files) known_estimators().load(file);
 }
 
 void add_plugins_to(Command& command, std::vector<std::string>& files) {
-  command.texts("--plugin", files, "FILE", "Shared object with further estimators");
+  command.texts("--plugin", files, "FILE", "Further estimators: a shared object, or a .py file");
 }
 
 void load_plugins(Settings& settings, const std::vector<std::string>& files) {

@@ -15,7 +15,11 @@ class Command;
 /// FATHOM_PLUGIN_PATH names, and those loaded since.
 const EstimatorRegistry& estimators();
 
-/// Loads plug-ins; what is loaded already stays as it is. Throws InputError.
+/// A copy of these, for whoever shares them with threads that load plug-ins.
+EstimatorRegistry known_estimators_now();
+
+/// Loads plug-ins; what is loaded already stays as it is. Throws InputError, also where the content
+/// of such a file has changed since.
 void load_plugins(const std::vector<std::string>& files);
 
 /// --plugin FILE of a command, each use adds one.

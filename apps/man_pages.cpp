@@ -122,6 +122,7 @@ Footer footer_of(const DescribedCommand& command) {
     const std::string_view text = colon == std::string::npos ? line : trim(line.substr(colon + 1));
     // A line that is no command goes on with the one above.
     const bool goes_on = is_in_examples && !text.starts_with("fathom");
+    if (goes_on && !footer.examples.empty()) footer.examples.back() += " \\";
     (is_in_examples ? footer.examples : footer.prose)
         .push_back((goes_on ? "    " : "") + std::string(text));
   }

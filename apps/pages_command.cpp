@@ -1,5 +1,7 @@
 // fathom pages: man pages and completion, from the descriptions that --help prints.
 
+#include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <memory>
 
@@ -30,7 +32,14 @@ WordsOfValues known_words() {
     words["ESTIMATOR"].push_back(entry.name);
     words["estimator"].push_back(entry.name);
   }
-  for (const Metric& metric : metric_catalogue()) words["METRIC"].push_back(metric.name);
+  // rpe_D_m_m stands for many: a metric for each distance.
+  const auto is_pattern = [](const std::string& name) {
+    return std::ranges::any_of(name,
+                               [](unsigned char letter) { return std::isupper(letter) != 0; });
+  };
+  for (const Metric& metric : metric_catalogue()) {
+    if (!is_pattern(metric.name)) words["METRIC"].push_back(metric.name);
+  }
   words["PLANE"] = names_in(plane_names());
   words["FORMAT"] = names_in(trajectory_format_names());
   words["ALIGNMENT"] = names_in(spatial_alignment_names());

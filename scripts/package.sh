@@ -9,7 +9,7 @@ scripts/setup.sh
 umask 022
 # Packages that were made from other sources are none of this build.
 rm -rf build/package/packages
-[[ -f build/package/build.ninja ]] || cmake --preset package
+cmake --preset package  # always: what is installed may have changed
 cmake --build --preset package --parallel "$(nproc)"
 cpack --preset package
 rm -rf build/package/packages/_CPack_Packages

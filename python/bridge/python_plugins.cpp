@@ -32,9 +32,13 @@ void start_interpreter() {
   config.parse_argv = 0;
   // Another interpreter on the PATH has another standard library.
   const PyStatus named = PyConfig_SetBytesString(&config, &config.program_name, FATHOM_PYTHON);
-  const PyStatus started = PyStatus_Exception(named) != 0 ? named : Py_InitializeFromConfig(&config);
+  const PyStatus started =
+      PyStatus_Exception(named) != 0 ? named : Py_InitializeFromConfig(&config);
   PyConfig_Clear(&config);
   require(started);
+  // Without it Python has no table of signals, and an interrupt that is raised reads one.
+  PyObject* const signals = PyImport_ImportModule("_signal");
+  if (signals == nullptr) PyErr_Clear();
 }
 
 std::string error_text() {
@@ -58,7 +62,8 @@ PythonPlugins* import_reader() {
   PyObject* const capsule =
       module != nullptr ? PyObject_GetAttrString(module, "_python_plugins") : nullptr;
   void* const reader = capsule != nullptr ? PyCapsule_GetPointer(capsule, kReader) : nullptr;
-  if (reader == nullptr) throw InputError("the Python package fathom cannot be used: " + error_text());
+  if (reader == nullptr)
+    throw InputError("the Python package fathom cannot be used: " + error_text());
   return reinterpret_cast<PythonPlugins*>(reader);
 }
 

@@ -1,15 +1,14 @@
 """Estimators in Python: the base class, and what is found out about a subclass."""
 
 import importlib.util
-import inspect
 import pathlib
 import re
 import sys
-import uuid
 from dataclasses import dataclass
 from typing import Any, Optional, Sequence
 
-from ._fathom import InputError, _hash_of
+from ._fathom import InputError
+from ._sources import code_of, note_definition, require_own_imports
 
 
 @dataclass(frozen=True)
@@ -30,9 +29,9 @@ class UpdateReport:
 
     outcome: 'converged', 'iteration_limit', 'diverged' or 'numerical_failure'.
     iterations: linearisations made.
-    loops: a decision for each registration given, in the order given: 'used', 'rejected' or
-        'lost', or a tuple of one of these and the normalised innovation squared. None: all used,
-        or all lost where the outcome is a failure.
+    loops: of an update, a decision for each registration given, in the order given: 'used',
+        'rejected' or 'lost', or a tuple of one of these and the normalised innovation squared.
+        None: all used, or all lost where the outcome is a failure. Of a solve, None.
     absolute: the same for each absolute measurement.
     """
 
@@ -66,6 +65,10 @@ class Estimator:
     help = ""
     options: dict = {}
     can_batch = False
+
+    def __init_subclass__(cls, **arguments):
+        super().__init_subclass__(**arguments)
+        note_definition(cls)
 
     def __init__(self, setup, **options):
         """Keyframe 0 is there from the beginning, at setup.start."""
@@ -114,12 +117,17 @@ def described(cls) -> dict:
     """What the registry is told of a subclass of Estimator."""
     if not (isinstance(cls, type) and issubclass(cls, Estimator)):
         raise InputError(f"{cls!r} is no subclass of fathom.Estimator")
+    if not isinstance(cls.options, dict):
+        raise InputError(f"{cls.__qualname__}.options: expected a dict")
+    for what in ("name", "help"):
+        if not isinstance(getattr(cls, what), str):
+            raise InputError(f"{cls.__qualname__}.{what}: expected text")
     lines = (cls.help or (cls.__doc__ if cls.__doc__ != Estimator.__doc__ else "") or "").strip()
     options = {
         key: value if isinstance(value, Option) else Option(value)
         for key, value in cls.options.items()
     }
-    place, code = _code_of(cls)
+    place, code = code_of(cls)
     return {
         "name": cls.name or _snake(cls.__name__),
         "help": lines.splitlines()[0] if lines else "Written in Python",
@@ -140,6 +148,7 @@ def classes_of(file: str) -> list:
     module = importlib.util.module_from_spec(spec)
     sys.modules[name] = module
     spec.loader.exec_module(module)
+    require_own_imports(path)
     return [
         value
         for key, value in vars(module).items()
@@ -152,28 +161,3 @@ def classes_of(file: str) -> list:
 
 def _snake(name: str) -> str:
     return re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "_", name).lower()
-
-
-def _code_of(cls):
-    """The file of a class, and name and hash of what a study must have again to go on: that file
-    and the modules beside it that are loaded. A class without a file, as of a notebook, is new in
-    every session: what else its cells define cannot be told."""
-    try:
-        file = pathlib.Path(inspect.getfile(cls)).resolve()
-    except (TypeError, OSError):
-        file = None
-    if file is None or not file.is_file() or file.suffix != ".py":
-        return f"{cls.__module__}.{cls.__qualname__}", [(cls.__qualname__, _SESSION)]
-    files = {str(file)}
-    for module in list(sys.modules.values()):
-        origin = getattr(module, "__file__", None)
-        if not origin or not origin.endswith(".py"):
-            continue
-        origin = pathlib.Path(origin).resolve()
-        inside = origin.is_relative_to(file.parent)
-        if inside and not {"site-packages", "dist-packages"} & set(origin.parts):
-            files.add(str(origin))
-    return str(file), _hash_of(sorted(files))
-
-
-_SESSION = uuid.uuid4().hex[:16]

@@ -5,12 +5,12 @@ import os
 from . import _fathom
 from ._estimator import described
 from ._fathom import _Registry
-from ._settings import Asked, is_estimator, settings_of
+from ._settings import Asked, files_of, is_estimator, settings_of
 
 
 def _registry_with(estimator, plugins=()):
     """The registry, and the name that the estimator has in it."""
-    _fathom._load_plugins([os.fspath(file) for file in plugins])
+    _fathom._load_plugins(files_of(plugins))
     registry = _Registry()
     return registry, registry.add(estimator) if is_estimator(estimator) else estimator
 
@@ -37,16 +37,22 @@ def solve(
     isolation="automatic",
     time_limit_s=None,
     memory_limit_mib=None,
+    options=None,
     **values,
 ):
     """Gives a log to an estimator: a name, or a subclass of fathom.Estimator.
 
     mode: 'batch', 'incremental', or 'auto': batch where the estimator can.
-    start: N x 3, the initial guess of a batch solve; without one, dead reckoning.
+    start: N x 3, the initial guess of a batch solve; without one, dead reckoning. A word is the
+        estimator's option of that name.
     isolation: 'process', 'none', or 'automatic': what is not built in, and every batch solve,
         has a process of its own, which may take time_limit_s and memory_limit_mib.
-    Other keywords are the estimator's options. Returns a Solution; raises InputError.
+    Other keywords, and the dict `options`, are the estimator's options. Returns a Solution; raises
+    InputError.
     """
+    values = {**(options or {}), **values}
+    if isinstance(start, str):
+        values["start"], start = start, None
     registry, name = _registry_with(estimator, plugins)
     limits = {"time_limit_s": time_limit_s, "memory_limit_mib": memory_limit_mib}
     given = {key: value for key, value in limits.items() if value is not None}

@@ -35,7 +35,7 @@ class Asked:
             else:
                 self.settings = _Settings.read(self.file)
         self.put(changes)
-        self.settings.load_plugins([os.fspath(file) for file in plugins])
+        self.settings.load_plugins(files_of(plugins))
         self.registry = _Registry()
         for one in dict.fromkeys(_classes_in([config, changes, list(added)])):
             self.registry.add(one)
@@ -62,6 +62,12 @@ class Asked:
     @property
     def title(self) -> str:
         return pathlib.Path(self.file).stem if self.file else "study"
+
+
+def files_of(plugins) -> list:
+    if isinstance(plugins, (str, os.PathLike)):
+        raise InputError("plugins: expected a list of files, [FILE]")
+    return [os.fspath(file) for file in plugins]
 
 
 def is_estimator(value) -> bool:

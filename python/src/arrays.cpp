@@ -1,6 +1,7 @@
 #include "python/src/arrays.hpp"
 
 #include <algorithm>
+#include <string_view>
 
 #include "fathom/core/input_error.hpp"
 
@@ -77,7 +78,13 @@ py::array_t<std::int64_t> array_of(const std::vector<std::int64_t>& values) {
 
 Array checked_array(const py::handle& value, const std::vector<std::ptrdiff_t>& shape,
                     const std::string& what) {
-  Array array = Array::ensure(value);
+  // Words that look like numbers are none, and complex ones would lose a part.
+  const auto is_real = [](const py::array& given) {
+    return std::string_view("biufO").find(given.dtype().kind()) != std::string_view::npos;
+  };
+  const py::array given = py::array::ensure(value);
+  Array array =
+      given && is_real(given) ? Array::ensure(given) : Array(py::reinterpret_steal<Array>(nullptr));
   if (!array) {
     PyErr_Clear();
     throw InputError(what + ": expected numbers of shape " + text_of(shape) + ", got " +
@@ -94,6 +101,12 @@ Pose pose_of(const py::handle& value, const std::string& what) {
   return {data[0], data[1], data[2]};
 }
 
+Pose finite_pose_of(const py::handle& value, const std::string& what) {
+  const Pose pose = pose_of(value, what);
+  if (!is_finite(pose)) throw InputError(what + ": expected finite numbers");
+  return pose;
+}
+
 std::vector<Pose> poses_of(const py::handle& value, const std::string& what) {
   const Array array = checked_array(value, {-1, 3}, what);
   std::vector<Pose> poses;
@@ -106,6 +119,16 @@ std::vector<Pose> poses_of(const py::handle& value, const std::string& what) {
 
 Eigen::Matrix3d matrix_of(const py::handle& value, const std::string& what) {
   return matrix_at(checked_array(value, {3, 3}, what).data());
+}
+
+Eigen::Matrix3d symmetric_of(const py::handle& value, const std::string& what) {
+  constexpr double kRounding = 1e-9;
+  const Eigen::Matrix3d matrix = matrix_of(value, what);
+  const double difference = (matrix - matrix.transpose()).norm();
+  if (!(difference <= kRounding * matrix.norm())) {
+    throw InputError(what + ": expected a symmetric matrix of finite numbers");
+  }
+  return matrix;
 }
 
 std::vector<Eigen::Matrix3d> matrices_of(const py::handle& value, const std::string& what) {

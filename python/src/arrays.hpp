@@ -27,11 +27,14 @@ pybind11::array_t<std::int64_t> array_of(const std::vector<std::int64_t>& values
 Array checked_array(const pybind11::handle& value, const std::vector<std::ptrdiff_t>& shape,
                     const std::string& what);
 
-/// Of three numbers x, y (m), theta (rad); finite unless said. Throws InputError.
+/// Of three numbers x, y (m), theta (rad). Throws InputError.
 Pose pose_of(const pybind11::handle& value, const std::string& what);
+Pose finite_pose_of(const pybind11::handle& value, const std::string& what);
 /// N x 3.
 std::vector<Pose> poses_of(const pybind11::handle& value, const std::string& what);
 Eigen::Matrix3d matrix_of(const pybind11::handle& value, const std::string& what);
+/// Symmetric but by rounding.
+Eigen::Matrix3d symmetric_of(const pybind11::handle& value, const std::string& what);
 /// N x 3 x 3.
 std::vector<Eigen::Matrix3d> matrices_of(const pybind11::handle& value, const std::string& what);
 std::vector<double> values_of(const pybind11::handle& value, const std::string& what);

@@ -66,8 +66,8 @@ class StoppableStudy {
   }
 
   StudyRun run(const Study& study, const EstimatorRegistry& registry, ResultStore& store) {
-    auto done = std::async(std::launch::async,
-                           [&] { return run_study(study, registry, store, options_); });
+    auto done =
+        std::async(std::launch::async, [&] { return run_study(study, registry, store, options_); });
     while (done.wait_for(std::chrono::milliseconds(50)) != std::future_status::ready) {
       try {
         if (!thrown_) check_signals();
@@ -130,8 +130,7 @@ void bind_compare(py::module_& module) {
   module.def("_compare",
              [](const Settings& settings, const EstimatorRegistry& registry,
                 const std::string& config, const std::string& out, const std::string& title,
-                const std::optional<std::string>& cache, bool mosaics,
-                const py::object& progress) {
+                const std::optional<std::string>& cache, bool mosaics, const py::object& progress) {
                const Asked asked{config, out, title, cache, mosaics, progress};
                const py::gil_scoped_release unlocked;
                return compare(settings, registry, asked);

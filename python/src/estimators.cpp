@@ -1,11 +1,12 @@
 // The estimators that studies and solves find by name: built in, of plug-ins, written in Python.
 
+#include "apps/estimators.hpp"
+
 #include <new>
 #include <pybind11/stl.h>
 #include <string>
 #include <vector>
 
-#include "apps/estimators.hpp"
 #include "fathom/core/input_error.hpp"
 #include "fathom/estimation/plugin.hpp"
 #include "python/src/bindings.hpp"
@@ -42,14 +43,30 @@ const PluginInterface* read_python_plugin(const char* file) {
   return &interface;
 }
 
-// The innermost place, without the folder.
+// The innermost place outside of installed packages, without the folder: a line of the estimator's,
+// not of what it calls.
 std::string place_of(const py::error_already_set& error) {
-  py::object trace = error.trace();
-  if (!trace || trace.is_none()) return "";
-  while (!trace.attr("tb_next").is_none()) trace = trace.attr("tb_next");
-  const std::string file = trace.attr("tb_frame").attr("f_code").attr("co_filename").cast<std::string>();
-  return " (" + file.substr(file.rfind('/') + 1) + ":" +
-         std::to_string(trace.attr("tb_lineno").cast<int>()) + ")";
+  std::string place;
+  bool is_own = false;
+  for (py::object trace = error.trace(); trace && !trace.is_none(); trace = trace.attr("tb_next")) {
+    const auto file = trace.attr("tb_frame").attr("f_code").attr("co_filename").cast<std::string>();
+    const bool is_here = file.find("-packages/") == std::string::npos && !file.starts_with('<');
+    if (is_own && !is_here) continue;
+    is_own = is_here;
+    place = " (" + file.substr(file.rfind('/') + 1) + ":" +
+            std::to_string(trace.attr("tb_lineno").cast<int>()) + ")";
+  }
+  return place;
+}
+
+// What an exception says of itself, if it can.
+std::string message_of(const py::object& value) {
+  if (!value) return "";
+  try {
+    return py::str(value).attr("encode")("utf-8", "backslashreplace").cast<std::string>();
+  } catch (const py::error_already_set&) {
+    return "its text cannot be had";
+  }
 }
 
 std::vector<std::string> names_of(const EstimatorRegistry& registry) {
@@ -63,7 +80,7 @@ std::vector<std::string> names_of(const EstimatorRegistry& registry) {
 std::string text_of(const py::error_already_set& error) {
   if (error.matches(PyExc_MemoryError)) throw std::bad_alloc();
   const std::string type = error.type().attr("__name__").cast<std::string>();
-  std::string text = error.value() ? py::str(error.value()).cast<std::string>() : "";
+  std::string text = message_of(error.value());
   for (char& letter : text) {
     if (letter == '\n' || letter == '\r') letter = ' ';
   }
@@ -80,7 +97,11 @@ void bind_estimators(py::module_& module) {
   module.attr("_python_plugins") =
       py::capsule(reinterpret_cast<void*>(read_python_plugin), "fathom_python_plugins");
   py::class_<EstimatorRegistry>(module, "_Registry")
-      .def(py::init([] { return estimators(); }), "Those known now.")
+      .def(py::init([] {
+             const py::gil_scoped_release unlocked;
+             return known_estimators_now();
+           }),
+           "Those known now.")
       .def("names", &names_of)
       .def("add",
            [](EstimatorRegistry& registry, const py::object& estimator_class) {
@@ -98,10 +119,10 @@ void bind_estimators(py::module_& module) {
         }
         return rows;
       });
-  module.def("_load_plugins", [](const std::vector<std::string>& files) { load_plugins(files); });
-  module.def("_hash_of", [](const std::vector<std::string>& files) {
-    return fingerprint({files.begin(), files.end()});
-  });
+  // Without the interpreter's lock, which a plug-in in Python takes on whatever thread reads it.
+  module.def(
+      "_load_plugins", [](const std::vector<std::string>& files) { load_plugins(files); },
+      py::call_guard<py::gil_scoped_release>());
 }
 
 }  // namespace fathom

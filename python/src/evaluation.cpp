@@ -60,6 +60,13 @@ py::dict evaluate_poses(const py::object& estimate, const py::object& reference,
   return row;
 }
 
+// A call without the interpreter's lock.
+template <class Call>
+auto unlocked(Call call) {
+  const py::gil_scoped_release released;
+  return call();
+}
+
 py::object moments_of(const py::object& values) {
   const auto found = moments(values_of(values, "values"));
   if (!found) return py::none();
@@ -74,7 +81,9 @@ py::object difference_of(const py::object& a, const py::object& b, double probab
   BootstrapOptions options;
   options.probability = probability;
   options.seed = seed;
-  const auto found = paired_difference(values_of(a, "a"), values_of(b, "b"), options);
+  const std::vector<double> values_a = values_of(a, "a");
+  const std::vector<double> values_b = values_of(b, "b");
+  const auto found = unlocked([&] { return paired_difference(values_a, values_b, options); });
   if (!found) return py::none();
   return py::dict(py::arg("count") = found->count, py::arg("mean") = found->mean,
                   py::arg("interval") = pair_of(found->interval),
@@ -88,8 +97,10 @@ void bind_statistics(py::module_& module) {
   module.def(
       "bootstrap_interval",
       [](const py::object& values, double probability, std::size_t resamples, std::uint64_t seed) {
-        return pair_of(
-            bootstrap_interval(values_of(values, "values"), {probability, resamples, seed}));
+        const std::vector<double> all = values_of(values, "values");
+        return pair_of(unlocked([&] {
+          return bootstrap_interval(all, {probability, resamples, seed});
+        }));
       },
       py::arg("values"), py::arg("probability") = 0.95, py::arg("resamples") = 2000,
       py::arg("seed") = 1,
@@ -125,7 +136,7 @@ void bind_evaluation(py::module_& module) {
   module.def("_read_tum", [](const std::string& path) {
     std::vector<std::int64_t> times;
     std::vector<Pose> poses;
-    for (const StampedPose& one : read_tum(path)) {
+    for (const StampedPose& one : unlocked([&] { return read_tum(path); })) {
       times.push_back(one.time_ns);
       poses.push_back(one.pose);
     }
@@ -137,7 +148,7 @@ void bind_evaluation(py::module_& module) {
     if (times.size() != poses.size()) throw InputError("times_ns: as many as poses are needed");
     std::vector<StampedPose> stamped;
     for (std::size_t k = 0; k < poses.size(); ++k) stamped.push_back({times[k], poses[k]});
-    write_file(path, to_tum(stamped));
+    unlocked([&] { write_file(path, to_tum(stamped)); });
   });
 }
 

@@ -29,7 +29,7 @@ void require_usable(const RelativePose& measurement, const char* what) {
 void add_keyframe(MeasurementLog& log, const py::object& motion, const py::object& covariance) {
   const std::size_t newest = log.size() - 1;
   const RelativePose step = RelativePose::from_covariance(
-      newest, newest + 1, pose_of(motion, "motion"), matrix_of(covariance, "covariance"));
+      newest, newest + 1, finite_pose_of(motion, "motion"), symmetric_of(covariance, "covariance"));
   require_usable(step, "add_keyframe");
   log.add_keyframe(step);
 }
@@ -93,7 +93,7 @@ void bind_logs(py::module_& module) {
   py::class_<MeasurementLog>(module, "MeasurementLog",
                              "What every estimator is given, keyframe by keyframe.")
       .def(py::init([](const py::object& start) {
-             return MeasurementLog(pose_of(start, "start"));
+             return MeasurementLog(finite_pose_of(start, "start"));
            }),
            py::arg("start") = py::make_tuple(0.0, 0.0, 0.0),
            "Keyframe 0 alone, held at `start`: x (m), y (m), theta (rad).")
@@ -111,7 +111,8 @@ void bind_logs(py::module_& module) {
           "dead_reckoning", [](const MeasurementLog& log) { return array_of(log.odometry()); },
           "N x 3: the steps composed.")
       .def("chi2", &chi2_of, py::arg("trajectory"), "F of a trajectory, N x 3; no unit.")
-      .def("to_g2o", &to_g2o, "The log as text in the g2o format.");
+      .def("to_g2o", &to_g2o, py::call_guard<py::gil_scoped_release>(),
+           "The log as text in the g2o format.");
   bind_files(module);
 }
 

@@ -7,6 +7,7 @@
 #include "fathom/estimation/registry.hpp"
 #include "python/src/arrays.hpp"
 #include "python/src/bindings.hpp"
+#include "python/src/given_measurements.hpp"
 
 namespace fathom {
 namespace {
@@ -19,8 +20,8 @@ void bind_relative(py::module_& module) {
       "A measured motion between two keyframes: the pose of `to` in the frame of `from_`.")
       .def(py::init([](std::size_t from, std::size_t to, const py::object& motion,
                        const py::object& covariance) {
-             return RelativePose::from_covariance(from, to, pose_of(motion, "motion"),
-                                                  matrix_of(covariance, "covariance"));
+             return RelativePose::from_covariance(from, to, finite_pose_of(motion, "motion"),
+                                                  symmetric_of(covariance, "covariance"));
            }),
            py::arg("from_"), py::arg("to"), py::arg("motion"), py::arg("covariance"),
            "`covariance`: 3 x 3 of nu = z - h(x), in the frame of `from_`, positive definite.")
@@ -54,24 +55,15 @@ void bind_absolute(py::module_& module) {
           "3 x 3, positive semi-definite, of t2v(A^-1 X), in the axes of A.");
 }
 
-template <class Measurement>
-std::vector<Measurement> copied(std::span<const Measurement> measurements) {
-  return {measurements.begin(), measurements.end()};
-}
-
 }  // namespace
 
 void bind_measurements(py::module_& module) {
   bind_relative(module);
   bind_absolute(module);
-  py::class_<Measurements>(module, "Measurements",
-                           "What is measured of the newest keyframe; valid during the call.")
-      .def_property_readonly(
-          "registrations", [](const Measurements& all) { return copied(all.registrations); },
-          "List of RelativePose; either end may be the newest keyframe.")
-      .def_property_readonly(
-          "absolute", [](const Measurements& all) { return copied(all.absolute); },
-          "List of AbsolutePose.");
+  py::class_<GivenMeasurements>(module, "Measurements", "What is measured of the newest keyframe.")
+      .def_readonly("registrations", &GivenMeasurements::registrations,
+                    "List of RelativePose; either end may be the newest keyframe.")
+      .def_readonly("absolute", &GivenMeasurements::absolute, "List of AbsolutePose.");
   py::class_<EstimatorSetup>(module, "Setup", "What an estimator is told beside its options.")
       .def_property_readonly(
           "start", [](const EstimatorSetup& setup) { return array_of(setup.start.pose); },
@@ -80,8 +72,8 @@ void bind_measurements(py::module_& module) {
           "start_covariance",
           [](const EstimatorSetup& setup) { return array_of(setup.start.covariance); },
           "3 x 3, world axes; zero: keyframe 0 is held at `start`.")
-      .def_property_readonly(
-          "start_is_fixed", [](const EstimatorSetup& setup) { return setup.start.is_fixed(); })
+      .def_property_readonly("start_is_fixed",
+                             [](const EstimatorSetup& setup) { return setup.start.is_fixed(); })
       .def_property_readonly(
           "start_is_free", [](const EstimatorSetup& setup) { return setup.start.is_free; },
           "Nothing is known of keyframe 0 but what absolute measurements say.")

@@ -2,8 +2,8 @@
 
 namespace fathom {
 
-/// As long as it lives BLAS and OpenMP have one thread, as costs are measured on one; afterwards
-/// what they had.
+/// As long as one of these lives BLAS has one thread, and OpenMP on this thread, as costs are
+/// measured on one; afterwards what they had.
 class OneThread {
  public:
   OneThread();
@@ -15,8 +15,7 @@ class OneThread {
   static void pin_this_thread();
 
  private:
-  int blas_threads_;
-  int active_levels_;
+  int active_levels_;  ///< of this thread: OpenMP keeps them for each
 };
 
 }  // namespace fathom

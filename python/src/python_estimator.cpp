@@ -10,6 +10,7 @@
 
 #include "fathom/core/input_error.hpp"
 #include "python/src/arrays.hpp"
+#include "python/src/given_measurements.hpp"
 #include "python/src/python_options.hpp"
 
 namespace fathom {
@@ -139,7 +140,8 @@ class PythonEstimator : public Estimator {
   }
 
   UpdateReport update(const Measurements& measurements) override {
-    return locked([&] { return report_of(update_(measurements), measurements); });
+    return locked(
+        [&] { return report_of(update_(GivenMeasurements(measurements)), measurements); });
   }
 
   UpdateReport finish(std::span<const Pose> start) override {
@@ -185,6 +187,9 @@ class PythonEstimator : public Estimator {
     if (given.is_none()) return report;
     report.outcome = outcome_of(given.attr("outcome"));
     report.iterations = given.attr("iterations").cast<int>();
+    if (!given.attr("loops").is_none() || !given.attr("absolute").is_none()) {
+      throw InputError("the report of a solve has decisions, which are those of the updates");
+    }
     return report;
   }
 
@@ -219,7 +224,8 @@ std::shared_ptr<py::object> shared(const py::handle& value) {
 
 EstimatorEntry entry_of(const py::handle& estimator_class) {
   EstimatorEntry entry;
-  const py::dict about = py::module_::import("fathom._estimator").attr("described")(estimator_class);
+  const py::dict about =
+      py::module_::import("fathom._estimator").attr("described")(estimator_class);
   entry.name = about["name"].cast<std::string>();
   entry.help = about["help"].cast<std::string>();
   entry.can_batch = about["can_batch"].cast<bool>();

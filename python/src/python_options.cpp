@@ -69,13 +69,24 @@ PythonOptions options_of(const py::handle& options) {
   PythonOptions all;
   for (const auto& [key, given] : py::reinterpret_borrow<py::dict>(options)) {
     PythonOption option;
-    option.key = key.cast<std::string>();
-    option.help = given.attr("help").cast<std::string>();
-    option.unit = given.attr("unit").cast<std::string>();
-    option.range = Range::between(bound(given, "at_least", -kInfinity),
-                                  bound(given, "at_most", kInfinity));
-    option.choices = given.attr("choices").cast<std::vector<std::string>>();
-    set_default(option, given.attr("default"));
+    const char* field = "name";
+    try {
+      option.key = key.cast<std::string>();
+      option.help = given.attr(field = "help").cast<std::string>();
+      option.unit = given.attr(field = "unit").cast<std::string>();
+      const double low = bound(given, field = "at_least", -kInfinity);
+      const double high = bound(given, field = "at_most", kInfinity);
+      option.range = Range::between(low, high);
+      option.choices = given.attr(field = "choices").cast<std::vector<std::string>>();
+      set_default(option, given.attr(field = "default"));
+    } catch (const py::cast_error&) {
+      throw InputError("option " + py::repr(key).cast<std::string>() + ": " + field +
+                       ": is of another type than that of fathom.Option, or too large");
+    }
+    const bool is_bounded = option.range.text() != Range::any().text();
+    if (is_bounded && std::holds_alternative<std::vector<double>>(option.value)) {
+      throw InputError("option '" + option.key + "': a list has no bounds");
+    }
     all.push_back(std::move(option));
   }
   EstimatorValues values;

@@ -1,5 +1,8 @@
 // Registration of two pictures.
 
+#include "fathom/vision/registration.hpp"
+
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <pybind11/stl.h>
@@ -10,7 +13,6 @@
 #include "fathom/datasets/camera_options.hpp"
 #include "fathom/front_end/options.hpp"
 #include "fathom/front_end/pair_seed.hpp"
-#include "fathom/vision/registration.hpp"
 #include "python/src/arrays.hpp"
 #include "python/src/bindings.hpp"
 
@@ -58,7 +60,12 @@ struct View {
 std::optional<MeasuredTilt> tilt_of(const py::object& given, const std::string& what) {
   if (given.is_none()) return std::nullopt;
   const Array values = checked_array(given, {3}, what);
-  return MeasuredTilt{{values.data()[0], values.data()[1]}, values.data()[2]};
+  const double* const tilt = values.data();
+  if (!std::isfinite(tilt[0]) || !std::isfinite(tilt[1]) || !std::isfinite(tilt[2]) ||
+      tilt[2] < 0.0) {
+    throw InputError(what + ": expected finite roll and pitch and a sigma of at least 0, rad");
+  }
+  return MeasuredTilt{{tilt[0], tilt[1]}, tilt[2]};
 }
 
 Registration registration_of(const View& a, const View& b, const Camera& camera,
@@ -82,14 +89,16 @@ void bind_result(py::module_& module) {
       .def_property_readonly(
           "covariance", [](const Registration& r) { return array_of(r.covariance); },
           "3 x 3 of (x, y, theta), axes of the first.")
-      .def_property_readonly("inliers", [](const Registration& r) { return r.inliers.size(); },
-                             "Matches that agree with the motion.")
-      .def_property_readonly("putative", [](const Registration& r) { return r.putative.size(); },
-                             "Matches that were tried.")
+      .def_property_readonly(
+          "inliers", [](const Registration& r) { return r.inliers.size(); },
+          "Matches that agree with the motion.")
+      .def_property_readonly(
+          "putative", [](const Registration& r) { return r.putative.size(); },
+          "Matches that were tried.")
       .def_readonly("rms_m", &Registration::rms_m, "Of the inliers' errors.")
-      .def_property_readonly("false_alarms",
-                             [](const Registration& r) { return r.evidence.false_alarms; },
-                             "The probability of a false alarm.")
+      .def_property_readonly(
+          "false_alarms", [](const Registration& r) { return r.evidence.false_alarms; },
+          "The probability of a false alarm.")
       .def_readonly("reason", &Registration::reason, "Of not found.");
 }
 
@@ -97,18 +106,17 @@ void bind_result(py::module_& module) {
 
 void bind_registration(py::module_& module) {
   bind_result(module);
-  module.def("_register", [](const py::array& a, const py::array& b, double altitude_a,
-                             double altitude_b, const Settings& camera_settings,
-                             const Settings& front_end_settings, const py::object& tilt_a,
-                             const py::object& tilt_b, std::uint64_t seed) {
-    const Camera camera(
-        set_options(CameraOptions{}, camera_settings).model("camera."));
-    const FrontEndOptions options = set_options(FrontEndOptions{}, front_end_settings);
-    const View view_a{grey(a, camera.model(), "a"), altitude_a, tilt_of(tilt_a, "tilt_a")};
-    const View view_b{grey(b, camera.model(), "b"), altitude_b, tilt_of(tilt_b, "tilt_b")};
-    const py::gil_scoped_release unlocked;
-    return registration_of(view_a, view_b, camera, options, seed);
-  });
+  module.def(
+      "_register", [](const py::array& a, const py::array& b, double altitude_a, double altitude_b,
+                      const Settings& camera_settings, const Settings& front_end_settings,
+                      const py::object& tilt_a, const py::object& tilt_b, std::uint64_t seed) {
+        const Camera camera(set_options(CameraOptions{}, camera_settings).model("camera."));
+        const FrontEndOptions options = set_options(FrontEndOptions{}, front_end_settings);
+        const View view_a{grey(a, camera.model(), "a"), altitude_a, tilt_of(tilt_a, "tilt_a")};
+        const View view_b{grey(b, camera.model(), "b"), altitude_b, tilt_of(tilt_b, "tilt_b")};
+        const py::gil_scoped_release unlocked;
+        return registration_of(view_a, view_b, camera, options, seed);
+      });
 }
 
 }  // namespace fathom

@@ -72,8 +72,7 @@ Solution solve(const MeasurementLog& log, const EstimatorRegistry& registry,
     how.isolation.isolation = Isolation::process;
   }
   how.progress = [](std::size_t, std::size_t) { check_signals(); };
-  const EstimatorValues values =
-      estimator_values(options, entry, {log.start(), how.mode}, "");
+  const EstimatorValues values = estimator_values(options, entry, {log.start(), how.mode}, "");
   const auto recording = recording_of(log, how.mode);
   const OneThread pinned;
   return {recording, evaluate(*recording, {name, name, values}, registry, {}, how)};
@@ -105,8 +104,7 @@ auto of_replay(Field field) {
 
 void bind_solution(py::module_& module) {
   py::class_<Solution>(module, "Solution", "One estimator's estimate of a log, and what it cost.")
-      .def_property_readonly("estimator",
-                             [](const Solution& s) { return s.result.estimator.name; })
+      .def_property_readonly("estimator", [](const Solution& s) { return s.result.estimator.name; })
       .def_property_readonly(
           "chi2",
           [](const Solution& s) {
@@ -125,14 +123,16 @@ void bind_solution(py::module_& module) {
           "times_ns", [](const Solution& s) { return array_of(s.recording->keyframe_times_ns); },
           "(N,) of the keyframes, int64 nanoseconds.")
       .def_property_readonly(
-          "log", [](const Solution& s) { return s.recording->log; }, "What the estimator was given.")
+          "log", [](const Solution& s) { return s.recording->log; },
+          "What the estimator was given.")
       .def_property_readonly("loops", &decisions,
                              "The decision on every registration: from_, to, fate, nis.")
       .def_property_readonly(
           "outcome", [](const Solution& s) { return name_of(s.result.replay.outcome); },
           "How it ended: 'converged', ...")
-      .def_property_readonly("is_done", [](const Solution& s) { return s.result.is_done(); },
-                             "Whether the estimate can be used.")
+      .def_property_readonly(
+          "is_done", [](const Solution& s) { return s.result.is_done(); },
+          "Whether the estimate can be used.")
       .def_property_readonly("fault", of_replay(&Replay::fault),
                              "How the estimator broke its contract or its process ended, or ''.")
       .def_property_readonly("iterations", of_replay(&Replay::iterations))
@@ -157,9 +157,8 @@ void check_signals() {
 void bind_solve(py::module_& module) {
   bind_solution(module);
   module.def("_solve", [](const MeasurementLog& log, const EstimatorRegistry& registry,
-                          const std::string& name, const Settings& options,
-                          const std::string& mode, const py::object& start,
-                          const Settings& isolation) {
+                          const std::string& name, const Settings& options, const std::string& mode,
+                          const py::object& start, const Settings& isolation) {
     HowToSolve how{mode, {}, isolation_of(isolation)};
     if (!start.is_none()) how.start = poses_of(start, "start");
     const py::gil_scoped_release unlocked;

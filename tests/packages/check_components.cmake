@@ -1,6 +1,6 @@
-# The steps of the test `packages`. Variables: BUILD (of Fathom, built), FOLDER (to work in), LIB and
-# PYTHON (the folders of libraries and of Python packages below a prefix), VERSION, and what was
-# built: HAS_ROS1, HAS_PYTHON, HAS_MRPT, HAS_PAGES.
+# The steps of the test `packages`. Variables: BUILD (of Fathom, built), FOLDER (to work in), LIB (the
+# folder of libraries below a prefix), VERSION, and what was built: HAS_ROS1, HAS_PYTHON, HAS_MRPT,
+# HAS_PAGES.
 cmake_minimum_required(VERSION 3.25)
 
 function(install_component component)
@@ -63,6 +63,7 @@ expect_only(dev "^(${LIB}/(libfathom_[a-z_]+[.]a|cmake/fathom/.*[.]cmake)|includ
 
 if(HAS_PYTHON)
   install_component(python)
+  file(GLOB PYTHON RELATIVE ${FOLDER}/python ${FOLDER}/python/lib/python3*/dist-packages)
   expect(python ${PYTHON}/fathom/__init__.py)
   expect_only(python "^(${PYTHON}/fathom/[a-z0-9_.-]+|${LIB}/fathom/fathom_python.so|share/.*)$")
   if(NOT "${python_files}" MATCHES "fathom/_fathom[.][a-z0-9_-]+[.]so")
