@@ -1,12 +1,15 @@
 // Other people's solvers as plug-ins, where they were found.
 
+#include <fstream>
 #include <regex>
 #include <set>
+#include <sstream>
 
 #include <gmock/gmock.h>
 
 #include "apps/command_line.hpp"
 #include "apps/plugin_files.hpp"
+#include "fathom/geometry/pose.hpp"
 #include "support/data.hpp"
 
 namespace fathom::test {
@@ -17,6 +20,7 @@ using ::testing::HasSubstr;
 using ::testing::IsSupersetOf;
 
 struct Adapter {
+  std::string label;
   std::string plugin;
   std::string estimator;
   std::vector<std::string> exact;   ///< settings with which it ends at the least F
@@ -26,7 +30,7 @@ struct Adapter {
 };
 
 std::ostream& operator<<(std::ostream& out, const Adapter& adapter) {
-  return out << adapter.estimator;
+  return out << adapter.label;
 }
 
 class Adapters : public CommandLine, public ::testing::WithParamInterface<Adapter> {
@@ -77,6 +81,7 @@ TEST_P(Adapters, ReachTheOptimumOfRealGraphs) {
 // The contract is about covariances, failures, holes and fixes, too.
 TEST_P(Adapters, KeepTheContractButForWhatThePageSays) {
   if (!GetParam().has_covariances) GTEST_SKIP() << "has no covariances, which most clauses need";
+  if (GetParam().label != GetParam().estimator) GTEST_SKIP() << "takes no settings";
   const Ended result = fathom({"conformance", GetParam().estimator, "--plugin", file()});
   std::set<std::string> broken;
   const std::regex breaks(GetParam().estimator + ": breaks (\\w+):");
@@ -86,6 +91,56 @@ TEST_P(Adapters, KeepTheContractButForWhatThePageSays) {
   }
   EXPECT_THAT(GetParam().may_break, IsSupersetOf(broken)) << text;
   EXPECT_THAT(text, HasSubstr("clauses"));
+}
+
+// Four sides of ten steps, and loops from each keyframe of the fourth side to the first keyframes;
+// `error` is that of their x.
+std::string square(double error) {
+  std::ostringstream graph;
+  graph << "VERTEX_SE2 0 10 20 1.5\n";
+  std::vector<Pose> poses{{10.0, 20.0, 1.5}};
+  const auto edge = [&](std::size_t from, std::size_t to, double off) {
+    const Pose z = between(poses[from], poses[to]);
+    graph.precision(17);
+    graph << "EDGE_SE2 " << from << ' ' << to << ' ' << z.x + off << ' ' << z.y << ' ' << z.theta
+          << " 100 3 2 80 1 900\n";
+  };
+  for (std::size_t k = 1; k <= 40; ++k) {
+    poses.push_back(compose(poses.back(), {1.0, 0.05, k % 10 == 0 ? 1.55 : 0.01}));
+    edge(k - 1, k, 0.0);
+    if (k > 30) edge(k, k - 31, error);
+  }
+  return graph.str();
+}
+
+// Some solvers begin by putting node 0 at the origin, and none may be torn from its map.
+TEST_P(Adapters, KeepTheMapWhereItBegins) {
+  write("square.g2o", square(0.3));
+  fathom_done({"solve", "square.g2o", "--out", "ours", "--quiet"});
+  const double optimum = json_of("ours/metrics.json").at("chi2").get<double>();
+  fathom_done(solve("square.g2o"));
+  EXPECT_NEAR(json_of("out/metrics.json").at("chi2").get<double>(), optimum, 1e-2 * optimum);
+  std::ifstream first(path("out/trajectory.tum"));
+  std::string time;
+  double x = 0.0;
+  double y = 0.0;
+  first >> time >> x >> y;
+  EXPECT_EQ(x, 10.0);
+  EXPECT_EQ(y, 20.0);
+}
+
+// Where nothing is to be lowered, the last digit of F rises and falls.
+TEST_P(Adapters, UseLoopsThatAgree) {
+  write("square.g2o", square(0.0));
+  for (const std::string mode : {"incremental", "batch"}) {
+    if (mode == "batch" && !GetParam().can_batch) continue;
+    std::vector<std::string> words = solve("square.g2o");
+    words.insert(words.end(), {"--mode", mode});
+    fathom_done(words);
+    const nlohmann::json metrics = json_of("out/metrics.json");
+    EXPECT_EQ(metrics.at("outcome"), "converged") << mode;
+    EXPECT_EQ(metrics.at("loop_closures"), 10) << mode;
+  }
 }
 
 TEST_P(Adapters, RefuseAGateWhereThereIsNoInnovation) {
@@ -101,21 +156,22 @@ TEST_P(Adapters, RefuseAGateWhereThereIsNoInnovation) {
 
 INSTANTIATE_TEST_SUITE_P(
     Every, Adapters,
-    ::testing::Values(Adapter{"gtsam",
-                              "gtsam",
-                              {"method=gauss_newton", "exact_jacobians=true"},
-                              {"beyond_doubles", "holes_in_batch", "free_start"}},
-                      Adapter{"gtsam",
-                              "gtsam_isam2",
-                              {"relinearize_threshold=0.01", "relinearize_skip=1",
-                               "exact_jacobians=true"},
-                              {"loops_at_once", "beyond_doubles", "either_direction",
-                               "nanometre_fixes", "holes_and_loops"},
-                              true,
-                              false},
-                      Adapter{"g2o", "g2o", {}, {"beyond_doubles", "free_start"}},
-                      Adapter{"mrpt", "mrpt", {}, {}, false}),
-    [](const ::testing::TestParamInfo<Adapter>& one) { return one.param.estimator; });
+    ::testing::Values(
+        Adapter{"gtsam",
+                "gtsam",
+                {"method=gauss_newton", "exact_jacobians=true"},
+                {"beyond_doubles", "holes_in_batch", "free_start"}},
+        Adapter{"gtsam",
+                "gtsam_isam2",
+                {"relinearize_threshold=0.01", "relinearize_skip=1", "exact_jacobians=true"},
+                {"loops_at_once", "beyond_doubles", "either_direction", "nanometre_fixes",
+                 "holes_and_loops"},
+                true,
+                false},
+        Adapter{"g2o", "g2o", "g2o", {}, {"beyond_doubles"}},
+        Adapter{"g2o_linear", "g2o", "g2o", {"method=slam2d_linear"}, {"beyond_doubles"}},
+        Adapter{"mrpt", "mrpt", "mrpt", {}, {}, false}),
+    [](const ::testing::TestParamInfo<Adapter>& one) { return one.param.label; });
 
 // Its cost is another one: near the optimum of F, not at it.
 TEST_F(CommandLine, SESyncIsCalledByCommand) {

@@ -94,7 +94,8 @@ def _summary(number, head, time):
         share = float(row["chi2"]) / optimum - 1
         if not share < 1e-6:
             words.append(f"F +{significant(100 * share, 2)} %" if share < 1
-                         else f"F × {significant(1 + share, 2)}")
+                         else f"F × {significant(1 + share, 2)}" if share < 1e4
+                         else f"F × {share:.0e}")
         return row[time] + (f" ({', '.join(words)})" if words else "")
 
     def summary(work):
