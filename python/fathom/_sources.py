@@ -3,6 +3,7 @@
 import ast
 import hashlib
 import inspect
+import os
 import pathlib
 import sys
 import uuid
@@ -75,7 +76,11 @@ def _file_of(cls):
         file = pathlib.Path(inspect.getfile(cls)).resolve()
     except (TypeError, OSError):
         return None
-    return file if file.is_file() and file.suffix == ".py" else None
+    if not file.is_file() or file.suffix != ".py":
+        return None
+    # The module's file is not the class's where its code was typed or made.
+    made_in = {one.__code__.co_filename for one in vars(cls).values() if inspect.isfunction(one)}
+    return file if not made_in or str(file) in map(os.path.realpath, made_in) else None
 
 
 def _hash(file: pathlib.Path) -> str:

@@ -58,9 +58,13 @@ def run(code, *arguments, timeout=60, **environment):
     )
 
 
-def compare(*words):
+def compare(*words, cwd=None):
     return subprocess.run(
-        [os.environ["FATHOM_BINARY"], *map(str, words)], capture_output=True, text=True, timeout=60
+        [os.environ["FATHOM_BINARY"], *map(str, words)],
+        capture_output=True,
+        text=True,
+        timeout=60,
+        cwd=cwd,
     )
 
 
@@ -113,16 +117,14 @@ class Code(unittest.TestCase):
             self.assertIn(f"{changed}: has changed since it was loaded", done.stderr)
 
     def test_what_it_imports_belongs_to_the_study_wherever_it_lies(self):
-        out = self.top / "out"
-        first = plugin(self.top / "a")
-        second = plugin(self.top / "b")
-        (self.top / "b" / "unrelated.py").write_text("raise RuntimeError\n")
-        done = compare("compare", self.study, "--plugin", first, "--out", out)
-        self.assertEqual(done.returncode, 0, done.stderr)
-        done = compare("compare", self.study, "--plugin", second, "--out", out)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        words = ("compare", self.study, "--plugin", "mine.py", "--out", self.top / "out")
+        for folder in ("a", "b"):
+            plugin(self.top / folder)
+            (self.top / folder / "unrelated.py").write_text(f"raise RuntimeError  # {folder}\n")
+            done = compare(*words, cwd=self.top / folder)
+            self.assertEqual(done.returncode, 0, done.stderr)
         plugin(self.top / "b", offset=1.0)
-        done = compare("compare", self.study, "--plugin", second, "--out", out)
+        done = compare(*words, cwd=self.top / "b")
         self.assertEqual(done.returncode, 2)
         self.assertIn("plug-in part.py has changed", done.stderr)
 

@@ -97,16 +97,21 @@ TEST_P(Adapters, KeepTheContractButForWhatThePageSays) {
 // `error` is that of their x.
 std::string square(double error) {
   std::ostringstream graph;
-  graph << "VERTEX_SE2 0 10 20 1.5\n";
-  std::vector<Pose> poses{{10.0, 20.0, 1.5}};
+  graph.precision(17);
+  std::vector<Pose> poses;
+  const auto add = [&](const Pose& pose) {
+    graph << "VERTEX_SE2 " << poses.size() << ' ' << pose.x << ' ' << pose.y << ' ' << pose.theta
+          << '\n';
+    poses.push_back(pose);
+  };
   const auto edge = [&](std::size_t from, std::size_t to, double off) {
     const Pose z = between(poses[from], poses[to]);
-    graph.precision(17);
     graph << "EDGE_SE2 " << from << ' ' << to << ' ' << z.x + off << ' ' << z.y << ' ' << z.theta
           << " 100 3 2 80 1 900\n";
   };
+  add({10.0, 20.0, 1.5});
   for (std::size_t k = 1; k <= 40; ++k) {
-    poses.push_back(compose(poses.back(), {1.0, 0.05, k % 10 == 0 ? 1.55 : 0.01}));
+    add(compose(poses.back(), {1.0, 0.05, k % 10 == 0 ? 1.55 : 0.01}));
     edge(k - 1, k, 0.0);
     if (k > 30) edge(k, k - 31, error);
   }
@@ -120,7 +125,11 @@ TEST_P(Adapters, KeepTheMapWhereItBegins) {
   const double optimum = json_of("ours/metrics.json").at("chi2").get<double>();
   fathom_done(solve("square.g2o"));
   EXPECT_NEAR(json_of("out/metrics.json").at("chi2").get<double>(), optimum, 1e-2 * optimum);
-  std::ifstream first(path("out/trajectory.tum"));
+  std::ifstream file(path("out/trajectory.tum"));
+  std::string line;
+  while (std::getline(file, line) && line.starts_with('#')) {
+  }
+  std::istringstream first(line);
   std::string time;
   double x = 0.0;
   double y = 0.0;
@@ -159,13 +168,14 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(
         Adapter{"gtsam",
                 "gtsam",
+                "gtsam",
                 {"method=gauss_newton", "exact_jacobians=true"},
                 {"beyond_doubles", "holes_in_batch", "free_start"}},
-        Adapter{"gtsam",
+        Adapter{"gtsam_isam2",
+                "gtsam",
                 "gtsam_isam2",
                 {"relinearize_threshold=0.01", "relinearize_skip=1", "exact_jacobians=true"},
-                {"loops_at_once", "beyond_doubles", "either_direction", "nanometre_fixes",
-                 "holes_and_loops"},
+                {"loops_at_once", "beyond_doubles", "either_direction", "nanometre_fixes"},
                 true,
                 false},
         Adapter{"g2o", "g2o", "g2o", {}, {"beyond_doubles"}},
