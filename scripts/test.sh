@@ -12,6 +12,7 @@ jobs=$(nproc)
 
 scripts/setup.sh import
 scripts/setup.sh python
+scripts/setup.sh adapters
 scripts/format.sh --check
 [[ -f build/$preset/build.ninja ]] || cmake --preset "$preset"
 cmake --build --preset "$preset" --parallel "$jobs"
