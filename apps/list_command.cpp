@@ -6,6 +6,7 @@
 #include "apps/command.hpp"
 #include "apps/estimators.hpp"
 #include "fathom/configuration/configuration.hpp"
+#include "fathom/core/features.hpp"
 #include "fathom/core/input_error.hpp"
 #include "fathom/evaluation/metrics.hpp"
 #include "fathom/report/table.hpp"
@@ -40,6 +41,16 @@ void print_metrics() {
   std::printf("%s", table.text().c_str());
 }
 
+void print_features() {
+  Table table({"feature", "built", "gives", "packages", "installed and built by"});
+  for (const Feature& feature : features()) {
+    table.add_row({std::string(feature.name), feature.is_built ? "yes" : "no",
+                   std::string(feature.gives), std::string(feature.packages),
+                   feature.is_built ? "" : remedy_for(feature)});
+  }
+  std::printf("%s", table.text().c_str());
+}
+
 void list(const std::string& what, Context& context) {
   context.status = kDone;
   if (what == "estimators") {
@@ -58,6 +69,8 @@ void list(const std::string& what, Context& context) {
     print_options("front_end.", table.descriptions());
   } else if (what == "metrics") {
     print_metrics();
+  } else if (what == "features") {
+    print_features();
   } else {
     for (const DataSetEntry& entry : data_sets()) {
       print_heading(entry.name, entry.help);
@@ -77,11 +90,11 @@ void add_list(CLI::App& program, Context& context) {
   auto what = std::make_shared<std::string>();
   auto plugins = std::make_shared<std::vector<std::string>>();
   Command command(program, "list",
-                  "List estimators, detectors or datasets with their options, or metrics",
+                  "List estimators, detectors or datasets with their options, metrics, or features",
                   "Example: fathom list estimators\n"
                   "         fathom list estimators --plugin mine.so");
-  command.argument("what", *what, {"estimators", "detectors", "datasets", "metrics"},
-                   "estimators, detectors, datasets or metrics");
+  command.argument("what", *what, {"estimators", "detectors", "datasets", "metrics", "features"},
+                   "estimators, detectors, datasets, metrics, or features of this build");
   add_plugins_to(command, *plugins);
   command.on_run([what, plugins, &context] {
     load_plugins(*plugins);

@@ -74,7 +74,7 @@ foreach(pair EXIF:libexif-dev PROJ:libproj-dev GEOTIFF:libgeotiff-dev GEOTIFF:li
   string(REPLACE ":" ";" pair ${pair})
   list(GET pair 0 part)
   list(GET pair 1 package)
-  if(FATHOM_${part})
+  if(FATHOM_HAS_${part})
     list(APPEND headers ${package})
   endif()
 endforeach()

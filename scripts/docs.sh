@@ -11,14 +11,17 @@ cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/.."
 
 need() {
   command -v "$1" > /dev/null && return
-  printf 'docs: skipped: %s is not installed (scripts/setup.sh docs installs it)\n' "$1"
+  printf "docs: skipped: %s is not installed; 'scripts/setup.sh docs' installs it\n" "$1"
   exit 77
 }
 
 site() {
   need mkdocs
-  # No __pycache__ among the sources.
-  PYTHONDONTWRITEBYTECODE=1 mkdocs build --strict --quiet --config-file docs/site/mkdocs.yml --site-dir "$1"
+  # No __pycache__ among the sources. What it says is of interest where it fails; --quiet would hide
+  # the warning that it fails for.
+  local said
+  said=$(PYTHONDONTWRITEBYTECODE=1 mkdocs build --strict --config-file docs/site/mkdocs.yml \
+    --site-dir "$1" 2>&1) || { printf '%s\n' "$said" >&2 && return 1; }
 }
 
 reference() {

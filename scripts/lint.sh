@@ -1,20 +1,65 @@
 #!/usr/bin/env bash
-# Style and static analysis: clang-format and clang-tidy (.clang-format, .clang-tidy), on compile
-# commands of clang in build/lint. Takes minutes.
+# Style and static analysis of the whole tree: clang-format and clang-tidy (.clang-format,
+# .clang-tidy), autopep8 and flake8.
 #
-#     scripts/lint.sh                      # all of src, estimators and apps
-#     scripts/lint.sh src/vision/*.cpp     # some files
+#     scripts/lint.sh                       # all; clang-tidy takes half an hour on two cores
+#     scripts/lint.sh --since v0.2.0        # clang-tidy of what has changed since that commit
+#     scripts/lint.sh --since-release       # … since the last release
+#     scripts/lint.sh src/vision/*.cpp      # … of some files
+#
+# clang-tidy reads the compile commands of clang in build/lint, one source at a time.
 set -euo pipefail
 cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/.."
 
-scripts/setup.sh lint
-scripts/format.sh --check
-cmake -G Ninja -S . -B build/lint -DCMAKE_CXX_COMPILER=clang++ \
-  -DFATHOM_TESTS=OFF -DFATHOM_BENCHMARKS=OFF -DFATHOM_PRECOMPILED_HEADERS=OFF > /dev/null
+fail() {
+  printf 'lint: error: %s\n' "$1" >&2
+  exit 1
+}
 
-sources=("$@")
-[[ ${#sources[@]} -gt 0 ]] || mapfile -t sources < <(find src estimators apps -name '*.cpp' | sort)
+# The commit of the last release: its tag, or else the one that set the version.
+last_release() {
+  git describe --tags --abbrev=0 --match 'v[0-9]*' 2> /dev/null ||
+    git log -1 --format=%H -G'^project\(fathom VERSION' -- CMakeLists.txt
+}
+
+# Sources that have changed since a commit, and for each header that has, those that include it
+# under its name; of many the first three.
+changed_since() {
+  local files header
+  files=$(git diff --name-only --diff-filter=d "$1" -- '*.cpp' '*.hpp')
+  grep '\.cpp$' <<< "$files" || true
+  for header in $(grep '\.hpp$' <<< "$files"); do
+    git grep -l --fixed-strings "$(sed -E 's|^(include\|tests)/||' <<< "$header")\"" -- '*.cpp' | head -3
+  done
+}
+
+base=
+case "${1:-}" in
+  --since) base=${2:?which commit?} && shift 2 ;;
+  --since-release)
+    base=$(last_release)
+    [[ -n $base ]] || fail "the history of this clone has no release; use --since COMMIT"
+    shift
+    ;;
+  -*) fail "unknown flag '$1'; there are --since COMMIT and --since-release" ;;
+esac
+
+scripts/setup.sh lint import python adapters
+scripts/format.sh --check
+git ls-files -z '*.py' |
+  xargs -0 /usr/bin/python3 -m flake8 --max-line-length 100 --extend-ignore E203,W503,W504
+
+cmake -G Ninja -S . -B build/lint -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_UNITY_BUILD=OFF \
+  -DFATHOM_PRECOMPILED_HEADERS=OFF > /dev/null
+# What is compiled at all, from the top of the checkout: not the examples that others build.
+mapfile -t sources < <(sed -n "s|^  \"file\": \"$PWD/\(.*\)\",\?$|\1|p" build/lint/compile_commands.json |
+  grep -v '^build/' | sort -u)
+if [[ -n $base ]]; then
+  mapfile -t sources < <(comm -12 <(printf '%s\n' "${sources[@]}") <(changed_since "$base" | sort -u))
+elif [[ $# -gt 0 ]]; then
+  sources=("$@")
+fi
 # One file at a time and $(nproc) at once; xargs fails where one of them does.
 printf '%s\0' "${sources[@]}" |
-  xargs -0 -n 1 -P "$(nproc)" clang-tidy -p build/lint --quiet
+  xargs -0 --no-run-if-empty -n 1 -P "$(nproc)" clang-tidy -p build/lint --quiet
 printf 'lint: %d files are clean\n' "${#sources[@]}"

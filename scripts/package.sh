@@ -1,16 +1,16 @@
 #!/usr/bin/env bash
 # Makes the Debian packages in build/package/packages (docs/packages.md). What they have beyond the
-# program follows what is installed here: `scripts/setup.sh import`, `adapters` and `python`.
+# program follows what is installed, and the groups that are named:
+#
+#     scripts/package.sh import python adapters
 set -euo pipefail
 cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/.."
 
-scripts/setup.sh
 # No group may write into a folder that is packed.
 umask 022
 # Packages that were made from other sources are none of this build.
 rm -rf build/package/packages
-cmake --preset package  # always: what is installed may have changed
-cmake --build --preset package --parallel "$(nproc)"
+scripts/build.sh --preset package "$@"
 cpack --preset package
 rm -rf build/package/packages/_CPack_Packages
 # A program that looks for code in a folder of who built it would run what somebody else puts there.

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# From a fresh Debian 12 to a comparison: installs what is missing, builds build/release/fathom, and
-# compares three estimators on six simulated surveys. Further arguments go to `fathom compare`:
+# From a fresh Debian 12 or 13 to a comparison: installs what is missing, builds build/release/fathom,
+# and compares three estimators on eight simulated surveys. Further arguments go to `fathom compare`:
 #
 #     scripts/quickstart.sh --seed 7 --out runs/seed_7
 #
@@ -13,8 +13,5 @@ for argument in "$@"; do
   case "$argument" in --out | --out=*) out=() ;; esac
 done
 
-scripts/setup.sh
-# A configured folder configures itself again where it must.
-[[ -f build/release/build.ninja ]] || cmake --preset release
-cmake --build --preset release --parallel "$(nproc)" --target fathom
+scripts/build.sh --target fathom
 build/release/fathom compare configs/quickstart.yaml "${out[@]}" "$@"

@@ -4,16 +4,14 @@
 #     scripts/test.sh                        # preset release
 #     scripts/test.sh asan                   # or debug, tsan
 #     scripts/test.sh release -R geometry    # further arguments go to ctest
+#
+# At the end it lists what was skipped, and what makes it run.
 set -euo pipefail
 cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/.."
 
 preset=${1:-release}
-jobs=$(nproc)
-
-scripts/setup.sh import
-scripts/setup.sh python
-scripts/setup.sh adapters
-scripts/format.sh --check
-[[ -f build/$preset/build.ninja ]] || cmake --preset "$preset"
-cmake --build --preset "$preset" --parallel "$jobs"
-ctest --preset "$preset" --parallel "$jobs" "${@:2}"
+scripts/build.sh --preset "$preset" import python adapters docs
+status=0
+ctest --preset "$preset" --parallel "$(nproc)" "${@:2}" || status=$?
+scripts/skipped_tests.py "build/$preset/Testing/Temporary/LastTest.log"
+exit "$status"

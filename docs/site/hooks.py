@@ -1,15 +1,52 @@
-"""What mkdocs.yml cannot say: its own folder is no part of the site, the reference is."""
+"""What mkdocs.yml cannot say: its own folder is no part of the site, the reference is, and so are
+the examples that pages link to outside docs/."""
 
+import os
+import re
+
+from mkdocs.structure.files import File
 from mkdocs.structure.nav import Link
+
+TOP = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+OUTSIDE = re.compile(r"\[([^]]*)\]\(\.\./([\w./-]+)\)")
 
 
 def on_files(files, config):
     for file in list(files):
-        if file.src_path.startswith("site/") and not file.src_path.endswith(".css"):
+        if file.src_path.startswith("site/") and not file.src_path.endswith((".css", ".js")):
             files.remove(file)
+    for file in list(files.documentation_pages()):
+        if os.path.dirname(file.src_path):
+            continue
+        with open(file.abs_src_path, encoding="utf-8") as page:
+            linked = {path for _, path in OUTSIDE.findall(page.read())}
+        for path in sorted(linked):
+            if os.path.isfile(os.path.join(TOP, path)) and not files.get_file_from_path(path):
+                files.append(File(path, TOP, config["site_dir"], use_directory_urls=False))
     return files
+
+
+def on_page_markdown(markdown, page, config, files):
+    """A file outside docs/ lies in the site at its path; of a folder only its name stays."""
+    if os.path.dirname(page.file.src_path):
+        return markdown
+
+    def inside(link):
+        text, path = link.groups()
+        return f"[{text}]({path})" if files.get_file_from_path(path) else f"`{text}`"
+
+    return OUTSIDE.sub(inside, markdown)
 
 
 def on_nav(nav, config, files):
     nav.items.append(Link("Reference", "reference/index.html"))
     return nav
+
+
+def on_post_build(config):
+    """The index of the search as a script, for pages that are opened as files."""
+    folder = os.path.join(config["site_dir"], "search")
+    with open(os.path.join(folder, "search_index.json"), encoding="utf-8") as index:
+        text = index.read()
+    with open(os.path.join(folder, "search_index.js"), "w", encoding="utf-8") as script:
+        script.write(f"const __search = {{index: Promise.resolve({text})}};\n")

@@ -1,4 +1,4 @@
-"""What code an estimator in Python is: the content of its file and of what that imports beside it."""
+"""What code an estimator in Python is: the content of its file and of its imports beside it."""
 
 import ast
 import hashlib
@@ -108,5 +108,6 @@ def _files_of(base: pathlib.Path, dotted: str) -> list:
     files = []
     for part in dotted.split("."):
         base = base / part
-        files += [one for one in (base.with_name(part + ".py"), base / "__init__.py") if one.is_file()]
+        either = (base.with_name(part + ".py"), base / "__init__.py")
+        files += [one for one in either if one.is_file()]
     return [file.resolve() for file in files]

@@ -31,7 +31,8 @@ class Mine(fathom.Estimator):
         x, y, t = self.poses[-1]
         u = step.forward().motion
         c, s = fathom_cos(t), fathom_sin(t)
-        self.poses.append(fathom_array([x + c * u[0] - s * u[1], y + s * u[0] + c * u[1], t + u[2]]))
+        moved = [x + c * u[0] - s * u[1], y + s * u[0] + c * u[1], t + u[2]]
+        self.poses.append(fathom_array(moved))
 
     def update(self, measurements):
         {update}
@@ -189,9 +190,8 @@ class Inputs(unittest.TestCase):
         for given in ({"n": 2**40}, {"n": fathom.Option(1, help=None)}, {5: 1}):
             self.refused("option .*type", lambda: fathom.options(with_options(given)))
         self.refused("expected a dict", lambda: fathom.options(with_options(None)))
-        self.refused(
-            "no bounds", lambda: fathom.options(with_options({"n": fathom.Option([1.0], at_least=3)}))
-        )
+        bounded = {"n": fathom.Option([1.0], at_least=3)}
+        self.refused("no bounds", lambda: fathom.options(with_options(bounded)))
         self.refused("a list of files", lambda: fathom.estimators(plugins="mine.py"))
 
     def test_an_option_of_the_name_of_a_keyword(self):

@@ -9,7 +9,8 @@ import sys
 import types
 import unittest
 
-FOLDER = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "examples", "notebook")
+HERE = os.path.dirname(os.path.abspath(__file__))
+FOLDER = os.path.join(HERE, "..", "..", "examples", "notebook")
 
 
 class Image:

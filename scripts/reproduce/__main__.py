@@ -21,7 +21,7 @@ def parsed(arguments):
         prog="reproduce.sh", description="Makes every table and figure of the docs, or of PAGE, "
         "from shipped configurations, and writes them between their markers.")
     add = parser.add_argument
-    add("pages", nargs="*", metavar="PAGE", 
+    add("pages", nargs="*", metavar="PAGE",
         help="cost.md, estimators/ekf.md, README.md; default: all")
     add("--only", action="append", default=[], metavar="NAME", help="the maker of this name alone")
     add("--quick", action="store_true", help="only what takes seconds")

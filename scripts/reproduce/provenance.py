@@ -9,8 +9,8 @@ import subprocess
 from pathlib import Path
 
 # What figures depend on: programs and configurations. Pages and makers are no part of it.
-SOURCES = ("CMakeLists.txt", "CMakePresets.json", "adapters", "apps", "benchmarks", "cmake", "configs",
-           "estimators", "include", "src")
+SOURCES = ("CMakeLists.txt", "CMakePresets.json", "adapters", "apps", "benchmarks", "cmake",
+           "configs", "estimators", "include", "src")
 GENERATED = re.compile(r"^\*(Made by |Recorded figures, |Not made yet\. )")
 
 
@@ -40,8 +40,8 @@ def _git(top, *arguments):
 
 
 def commit(top):
-    """The short hash of the last commit that changed the sources, "+ changes" where they differ from
-    it, "unknown" outside of git. Later commits, of pages alone, do not make figures older."""
+    """The short hash of the last commit that changed the sources, "+ changes" where they differ
+    from it, "unknown" outside of git. Later commits, of pages alone, do not make figures older."""
     head = _git(top, "log", "-1", "--format=%h", "--", *SOURCES)
     if not head:
         return "unknown"
@@ -95,8 +95,8 @@ def missing_line(how):
 
 def is_line_of(line, how):
     """Whether a generated line names these commands."""
-    return line in (recorded_line(how), missing_line(how)) or line.startswith(f"*Made by {how};") or (
-        line == made_line(how, []))
+    return (line in (recorded_line(how), missing_line(how), made_line(how, []))
+            or line.startswith(f"*Made by {how};"))
 
 
 def state(lines):

@@ -124,7 +124,7 @@ def _root(falls):
 
 
 def fitted(pairs):
-    """Tilt and floor of heading with which the mean NIS of translation is 2 and that of heading 1."""
+    """Tilt and floor of heading for which the mean NIS of translation is 2, of heading 1."""
     tilt = _root(lambda t: mean(p.nis_of_translation((t, 0.0)) for p in pairs) - 2)
     floor = _root(lambda f: mean(p.nis_of_heading((tilt, f)) for p in pairs) - 1)
     return tilt, floor

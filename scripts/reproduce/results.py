@@ -47,7 +47,7 @@ class Study:
         return [_number(row[metric]) for row in self.runs_of(estimator, **cell)]
 
     def bounds(self, estimator, **cell):
-        """Its 2σ over all keyframes: a dict of `empirical_m` and `estimated_m`, see docs/report.md."""
+        """Its 2σ over all keyframes: a dict of `empirical_m` and `estimated_m` (docs/report.md)."""
         page = (self.folder / "report.html").read_text("utf-8")
         data = json.loads(re.search(r'id="data">(.*?)</script>', page, re.DOTALL).group(1))
         axes = [(axis["name"], axis["labels"]) for axis in data["axes"]]

@@ -20,8 +20,8 @@ class Workshop:
     """Runs programs of one build on one data folder into one scratch folder.
 
     Results lie in OUT/SOURCES/NAME-ARGUMENTS, hashes of the sources, and of the arguments with the
-    files that they name: a command that has ended is not run again, one that was interrupted goes on
-    where `fathom compare` can, and no result of other sources is ever taken.
+    files that they name: a command that has ended is not run again, one that was interrupted goes
+    on where `fathom compare` can, and no result of other sources is ever taken.
 
     `is_small` asks for the least that shows that a maker works: one trial of a study.
     """

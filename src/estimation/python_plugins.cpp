@@ -4,6 +4,7 @@
 #include <string>
 #include <system_error>
 
+#include "fathom/core/features.hpp"
 #include "fathom/core/input_error.hpp"
 
 namespace fathom {
@@ -12,6 +13,13 @@ namespace {
 namespace fs = std::filesystem;
 
 PythonPlugins* python_plugins = nullptr;
+
+std::string python_is_missing() {
+  const Feature& python = feature("python");
+  if (!python.is_built) return refusal_without(python.name);
+  return "its module is not there; install the package python3-fathom, or '" + remedy_for(python) +
+         "' builds it again";
+}
 
 // The interpreter is in a module of its own: who has no Python needs none. Where it is installed,
 // else where it was built.
@@ -29,10 +37,7 @@ PythonPlugins* start_python(const std::string& plugin) {
       return reinterpret_cast<PythonPlugins*>(symbol);
     }
   }
-  throw InputError(
-      plugin,
-      "is written in Python, which this Fathom lacks; install the package python3-fathom, "
-      "or run 'scripts/setup.sh python' and build again");
+  throw InputError(plugin, "is written in Python, and " + python_is_missing());
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "fathom/core/files.hpp"
 #include "fathom/report/earth_frame.hpp"
 #include "harness/small_config.hpp"
+#include "support/features.hpp"
 #include "support/gdal.hpp"
 
 namespace fathom::test {
@@ -43,7 +44,7 @@ class Geo : public CommandLine {
 class OnEarth : public Geo {
  protected:
   void SetUp() override {
-    if (!EarthFrame::is_built_in()) GTEST_SKIP() << "built without PROJ and libgeotiff";
+    FATHOM_REQUIRE_FEATURE("geotiff");
     if (!has_gdal()) GTEST_SKIP() << kNoGdal;
   }
 

@@ -10,6 +10,7 @@
 #include "fathom/datasets/image_folder.hpp"
 #include "support/bags/survey_bag.hpp"
 #include "support/data.hpp"
+#include "support/features.hpp"
 
 namespace fathom::test {
 namespace {
@@ -58,7 +59,7 @@ TEST_F(Import, BagIsCheckedAndRunAsTheSurveyItself) {
 
 TEST_F(Import, BothGenerationsOfRosGiveTheSameFolder) {
   if (ros1_bag_writer(path("probe.bag")) == nullptr) {
-    GTEST_SKIP() << "built without librosbag or the message classes of ROS";
+    GTEST_SKIP() << kNoRos1Writer;
   }
   write_survey_bag(ImageFolder(path("simulated")), *ros1_bag_writer(path("dive.bag")));
   write_db3("dive.db3");
@@ -97,7 +98,7 @@ TEST_F(Import, WhatIsThereIsNotReplaced) {
 // librosbag follows the offset of a message in its chunk wherever it leads.
 TEST_F(Import, DamageWithinABagIsOneLine) {
   if (ros1_bag_writer(path("probe.bag")) == nullptr) {
-    GTEST_SKIP() << "built without librosbag or the message classes of ROS";
+    GTEST_SKIP() << kNoRos1Writer;
   }
   write_survey_bag(ImageFolder(path("simulated")), *ros1_bag_writer(path("dive.bag")));
   std::string bytes = bytes_of("dive.bag");

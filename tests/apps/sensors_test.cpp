@@ -6,6 +6,7 @@
 
 #include "apps/command_line.hpp"
 #include "fathom/core/files.hpp"
+#include "support/features.hpp"
 
 namespace fathom::test {
 namespace {
@@ -90,7 +91,7 @@ TEST_F(Sensors, LatitudeWithoutAnOriginIsRefusedAndTakenWithOne) {
   const Ended ended =
       fathom({"run", "data/run.yaml", "--out", "r", "--set", "dataset.origin.latitude=40", "--set",
               "dataset.origin.longitude=3", "--set", "dataset.origin.heading=30"});
-  if (ended.err.find("built without PROJ") != std::string::npos) GTEST_SKIP() << ended.err;
+  FATHOM_REQUIRE_FEATURE("proj");
   EXPECT_EQ(ended.status, 0) << ended.err;
 }
 

@@ -9,7 +9,8 @@ COST_SERIES = "update_ms"
 
 def content(folder):
     """All runs of a study by key: outcome, metrics and series as they are stored."""
-    with sqlite3.connect(f"file:{pathlib.Path(folder) / 'results.sqlite'}?mode=ro", uri=True) as database:
+    path = pathlib.Path(folder) / "results.sqlite"
+    with sqlite3.connect(f"file:{path}?mode=ro", uri=True) as database:
         keys = {run: key for run, *key in database.execute(
             "SELECT run, cell, survey, trial, name, outcome, fault, log_hash "
             "FROM run JOIN estimator USING (estimator)")}

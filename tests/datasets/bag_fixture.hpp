@@ -10,6 +10,7 @@
 #include "fathom/datasets/import.hpp"
 #include "small_survey.hpp"
 #include "support/bags/survey_bag.hpp"
+#include "support/features.hpp"
 #include "support/input_error.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -19,8 +20,11 @@ namespace fathom::test {
 class BagTest : public ::testing::TestWithParam<int> {
  protected:
   void SetUp() override {
+    if (GetParam() == 2) {
+      FATHOM_REQUIRE_FEATURE("fastcdr");
+    }
     if (GetParam() == 1 && ros1_bag_writer(folder_ / "probe.bag") == nullptr) {
-      GTEST_SKIP() << "built without librosbag or the message classes of ROS";
+      GTEST_SKIP() << kNoRos1Writer;
     }
   }
 

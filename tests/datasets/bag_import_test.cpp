@@ -4,6 +4,7 @@
 
 #include "bag_fixture.hpp"
 #include "fathom/core/files.hpp"
+#include "support/features.hpp"
 #include "support/planar.hpp"
 
 namespace fathom {
@@ -156,7 +157,7 @@ class BagStorage : public ::testing::Test {
 TEST_F(BagStorage, CompressedChunksOfRos1) {
   using test::BagCompression;
   if (test::ros1_bag_writer(folder_ / "probe.bag") == nullptr) {
-    GTEST_SKIP() << "built without librosbag or the message classes of ROS";
+    GTEST_SKIP() << test::kNoRos1Writer;
   }
   std::vector<std::string> rows;
   for (const auto compression : {BagCompression::none, BagCompression::bz2, BagCompression::lz4}) {

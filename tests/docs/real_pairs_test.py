@@ -36,9 +36,10 @@ class RealPairs(InAFolder):
         for found, right in zip(pair.tilt, (1, 0, 0, 0, 0, 0)):
             self.assertAlmostEqual(found, right, places=12)
         x, y, t = pair.error
-        self.assertAlmostEqual(pair.nis((3.0, 4.0)), x * x / 10 + y * y / 4 + t * t / 25, places=12)
-        self.assertAlmostEqual(pair.nis_of_translation((3.0, 4.0)), x * x / 10 + y * y / 4, places=12)
-        self.assertAlmostEqual(pair.nis_of_heading((3.0, 4.0)), t * t / 25, places=12)
+        for found, right in ((pair.nis, x * x / 10 + y * y / 4 + t * t / 25),
+                             (pair.nis_of_translation, x * x / 10 + y * y / 4),
+                             (pair.nis_of_heading, t * t / 25)):
+            self.assertAlmostEqual(found((3.0, 4.0)), right, places=12)
 
     def test_inverse_of_a_full_matrix(self):
         a, b, c, d, e, f = m = (4.0, 1.0, -0.5, 3.0, 0.7, 2.0)

@@ -22,13 +22,14 @@ from workshop import CommandFailed, Workshop  # noqa: E402
 
 
 def table_of(*rows):
-    return markdown.read_text("page", "\n".join(["| a | b | c |", "|---|---|---|", *rows])).tables[0]
+    text = "\n".join(["| a | b | c |", "|---|---|---|", *rows])
+    return markdown.read_text("page", text).tables[0]
 
 
 class Rule(unittest.TestCase):
     def test_numbers_however_they_are_dressed(self):
-        for cell in ("1", "−0.5", "**0.0067, 0**", "`3`", "< 2", "below 0.1 ms", "4.91 [4.87, 4.93]",
-                     ".5", "10 %", "(3)", "about 7"):
+        for cell in ("1", "−0.5", "**0.0067, 0**", "`3`", "< 2", "below 0.1 ms",
+                     "4.91 [4.87, 4.93]", ".5", "10 %", "(3)", "about 7"):
             self.assertTrue(markdown.is_number(cell), cell)
         for cell in ("", "–", "converged", "χ²", "σ² A⁻¹", "level 5", "below the floor"):
             self.assertFalse(markdown.is_number(cell), cell)
@@ -118,7 +119,8 @@ class Audit(InAFolder):
         self.assertEqual(self.problems(self.PART), [])
 
     def test_a_table_without_a_maker_fails(self):
-        self.assertRegex(self.problems(self.PART + self.TABLE)[0], r"^README.md:\d+: a table of numbers")
+        self.assertRegex(self.problems(self.PART + self.TABLE)[0],
+                         r"^README.md:\d+: a table of numbers")
 
     def test_an_exception_lets_it_pass_and_is_refused_where_nothing_needs_it(self):
         place = {("README.md", "| a | b |"): "because"}
@@ -139,8 +141,8 @@ class Audit(InAFolder):
         self.write("docs/images/a.png", "")
         self.assertRegex(self.problems(self.PART)[0], "without a maker")
         self.assertEqual(self.problems(self.PART, pictures=("docs/images/a.png",)), [])
-        self.assertRegex(self.problems(self.PART, pictures=("docs/images/a.png", "docs/images/b"))[0],
-                         "is not there")
+        pictures = ("docs/images/a.png", "docs/images/b")
+        self.assertRegex(self.problems(self.PART, pictures=pictures)[0], "is not there")
 
     def test_an_exception_needs_a_reason(self):
         with self.assertRaises(markdown.PageError):
@@ -151,7 +153,7 @@ class Shop(InAFolder):
     def shop(self, **options):
         program = self.write("build/program", "#!/bin/sh\necho $1 >> count\ntest $1 != bad\n")
         program.chmod(0o755)
-        return Workshop(self.top, self.top / "out", self.top / "build", self.top / "data", **options)
+        return Workshop(self.top, *(self.top / of for of in ("out", "build", "data")), **options)
 
     def calls(self):
         count = self.top / "count"

@@ -1,4 +1,5 @@
 #include "fathom/report/earth_frame.hpp"
+#include "support/features.hpp"
 
 #include <cmath>
 #include <limits>
@@ -95,7 +96,7 @@ const std::vector<Case>& cases() {
 class EarthFrameTest : public ::testing::Test {
  protected:
   void SetUp() override {
-    if (!EarthFrame::is_built_in()) GTEST_SKIP() << "built without PROJ and libgeotiff";
+    FATHOM_REQUIRE_FEATURE("geotiff");
   }
 };
 
@@ -183,11 +184,11 @@ TEST_F(EarthFrameTest, RefusesWhatIsFarOrNoNumber) {
 }
 
 TEST(EarthFrame, WithoutPROJTheMessageSaysHowToHaveIt) {
-  if (EarthFrame::is_built_in()) GTEST_SKIP() << "built with PROJ and libgeotiff";
+  if (feature("geotiff").is_built) GTEST_SKIP() << "does not apply: built with libgeotiff";
   EXPECT_THAT(input_error_of([] {
                 EarthFrame({47.0, 8.0, 0.0});
               }),
-              HasSubstr("scripts/setup.sh import"));
+              HasSubstr("'scripts/build.sh import' installs"));
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 #include "fathom/report/geo_json.hpp"
+#include "support/features.hpp"
 
 #include <cmath>
 
@@ -16,7 +17,7 @@ using nlohmann::json;
 class GeoJsonTest : public ::testing::Test {
  protected:
   void SetUp() override {
-    if (!EarthFrame::is_built_in()) GTEST_SKIP() << "built without PROJ and libgeotiff";
+    FATHOM_REQUIRE_FEATURE("geotiff");
   }
   static EarthFrame earth() { return EarthFrame({0.0, 20.0, 90.0}); }
 };

@@ -12,6 +12,7 @@
 #include "fathom/core/files.hpp"
 #include "fathom/report/picture.hpp"
 #include "fathom/report/world_file.hpp"
+#include "support/features.hpp"
 #include "support/gdal.hpp"
 #include "support/input_error.hpp"
 #include "support/temporary_folder.hpp"
@@ -88,7 +89,7 @@ Eigen::Vector2d middle_of_mark(const cv::Mat& picture) {
 class GeoTiffTest : public ::testing::Test {
  protected:
   void SetUp() override {
-    if (!EarthFrame::is_built_in()) GTEST_SKIP() << "built without PROJ and libgeotiff";
+    FATHOM_REQUIRE_FEATURE("geotiff");
     if (!test::has_gdal()) GTEST_SKIP() << test::kNoGdal;
   }
   std::filesystem::path path(const std::string& name) const { return folder_ / name; }

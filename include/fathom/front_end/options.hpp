@@ -33,8 +33,8 @@ struct FrontEndOptions {
   /// Of them those that a registration depends on.
   void describe_registration(OptionTable& table);
 
-  /// Throws InputError where options need another one that is not given; it begins with the key,
-  /// without `front_end.`.
+  /// Throws InputError where options need another one that is not given. Its message begins with
+  /// the key as it stands below `front_end`.
   void check() const;
 
   /// Keys that the methods chosen have no use for, without `front_end.`.

@@ -30,10 +30,7 @@ struct GridPose {
 /// south UPS. Not for several threads at once.
 class EarthFrame {
  public:
-  /// Whether Fathom was built with PROJ and libgeotiff; else the constructor throws InputError that
-  /// says how to have them.
-  static bool is_built_in();
-
+  /// Throws InputError that says how to have it where this build lacks the feature "geotiff".
   explicit EarthFrame(const EarthOrigin& origin);
   ~EarthFrame();
   EarthFrame(EarthFrame&&) noexcept;

@@ -20,7 +20,8 @@ def compass(work):
     rows = []
     for reach in (0, 2):
         cases = [("none", "1°", "0°")]
-        cases += [(every, sigma, "0°") for sigma in ("5°", "1°", "0.1°") for every in ("10 s", "1 s")]
+        cases += [(every, sigma, "0°")
+                  for sigma in ("5°", "1°", "0.1°") for every in ("10 s", "1 s")]
         cases += [("1 s", "1°", "1°"), ("1 s", "0.1°", "1°")]
         for every, sigma, bias in cases:
             cell = {"interval": every, "sigma": sigma, "bias": bias, "reach_m": reach}

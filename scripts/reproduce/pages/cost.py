@@ -84,9 +84,10 @@ def _graph(name):
 for _name in GRAPHS:
     _graph(_name)
 
+
 def _summary(number, head, time):
-    """A row for each solver, a column for each graph: its time, and in brackets its gap where that is
-    above a millionth of F, or its outcome where that is no convergence."""
+    """A row for each solver, a column for each graph: its time, and in brackets its gap where that
+    is above a millionth of F, or its outcome where that is no convergence."""
     def cell(row, optimum):
         if row["outcome"] == "gave up":
             return NOTHING

@@ -140,9 +140,9 @@ def drawn_kept(work):
             for name, _ in DRAWN:
                 cell = {"shared_m": shared, "false": of_all}
                 runs = _done(study, name, **cell)
-                text = share(sum(float(run["false_loops_kept"] or 0) > 0 for run in runs), len(runs))
+                keeping = sum(float(run["false_loops_kept"] or 0) > 0 for run in runs)
                 failed = len(study.runs_of(name, **cell)) - len(runs)
-                texts.append(text + (f"; {failed} failed" if failed else ""))
+                texts.append(share(keeping, len(runs)) + (f"; {failed} failed" if failed else ""))
             rows.append([f"{1e3 * shared:g} mm", f"{100 * of_all:g} %", *texts])
     return table(["shared error", "false loops", *(text for _, text in DRAWN)], rows)
 

@@ -1,4 +1,4 @@
-"""docs/front_end.md: the covariance of configs/image_folder.yaml, on pictures that did not set it."""
+"""docs/front_end.md: configs/image_folder.yaml's covariance, on pictures that did not set it."""
 
 import json
 

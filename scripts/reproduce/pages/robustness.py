@@ -107,7 +107,8 @@ def _survey_cell(study, name, share, kinds):
     failed = max(int(float(row["failures"])) for row in rows)
     text = _range([row["mean"] and 1e3 * row["mean"] for row in rows], significant)
     if share:
-        kept = _range([study.mean(name, "false_loops_kept", **cell) for cell in cells], "{:.3g}".format)
+        kept = _range([study.mean(name, "false_loops_kept", **cell) for cell in cells],
+                      "{:.3g}".format)
         text += f" ({kept})"
     return text + (f"; {failed} failed" if failed else "")
 

@@ -17,8 +17,8 @@ def _rows(study, axis, values, told):
                 keyframes = study.mean(ESTIMATOR, "keyframes", **cell)
                 figures = [study.row(ESTIMATOR, metric, **cell) for metric in
                            ("anees", "anchored_anees", "picture_error_correlation")]
-                rows.append([text, significant(loops / keyframes, 2), said,
-                             interval(study.row(ESTIMATOR, "mean_position_error_m", **cell), 2, 1e3),
+                error = study.row(ESTIMATOR, "mean_position_error_m", **cell)
+                rows.append([text, significant(loops / keyframes, 2), said, interval(error, 2, 1e3),
                              *(interval(one, 2) for one in figures),
                              significant(study.mean(ESTIMATOR, "mean_nis_truth", **cell)),
                              significant(study.mean(ESTIMATOR, "chi2_per_dof", **cell), 2)])
@@ -46,7 +46,8 @@ def shared_altimeter(work):
 def shared_tilt(work):
     study = work.study("shared-tilt", "configs/studies/shared_errors_tilt.yaml", jobs=2)
     values = [(v, v) for v in ("0°", "0.5°", "1°", "2°")]
-    return table(["roll, pitch", *HEADER], _rows(study, "tilt", values, (("no", "no"), ("1°", "1°"))))
+    return table(["roll, pitch", *HEADER],
+                 _rows(study, "tilt", values, (("no", "no"), ("1°", "1°"))))
 
 
 def _attitude_row(study, cell, *first):

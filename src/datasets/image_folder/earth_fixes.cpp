@@ -1,6 +1,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "fathom/core/features.hpp"
 #include "fathom/core/input_error.hpp"
 #include "fathom/core/text.hpp"
 #include "fathom/datasets/folder_sensors.hpp"
@@ -56,9 +57,7 @@ Eigen::Vector2d world_position(const EarthOrigin& origin, double latitude_deg,
 #else
 Eigen::Vector2d world_position(const EarthOrigin& /*origin*/, double /*latitude_deg*/,
                                double /*longitude_deg*/) {
-  throw InputError(
-      "this Fathom was built without PROJ, which fixes in latitude and longitude need; "
-      "'scripts/setup.sh import' installs it, then build again");
+  throw InputError("fixes in latitude and longitude: " + refusal_without("proj"));
 }
 #endif
 

@@ -1,3 +1,4 @@
+#include "fathom/core/features.hpp"
 #include "fathom/core/input_error.hpp"
 #include "message_reader.hpp"
 
@@ -83,9 +84,7 @@ void require_cdr() {}
 namespace fathom {
 
 void require_cdr() {
-  throw InputError(
-      "this Fathom reads no bags of ROS 2: it was built without libfastcdr-dev; "
-      "'scripts/setup.sh import' installs it, then build again");
+  throw InputError("bags of ROS 2: " + refusal_without("fastcdr"));
 }
 
 std::unique_ptr<MessageReader> cdr_message(std::string_view /*bytes*/) {

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "bag.hpp"
+#include "fathom/core/features.hpp"
 #include "fathom/core/input_error.hpp"
 #include "ros1_recording.hpp"
 #include "ros1_records.hpp"
@@ -18,9 +19,7 @@ namespace {
 OpenRos1Recording* load_module(const std::filesystem::path& bag) {
   const std::string module = FATHOM_ROS1_MODULE;
   if (module.empty()) {
-    throw InputError(bag.string(),
-                     "is a bag of ROS 1, and this Fathom was built without librosbag-storage-dev; "
-                     "'scripts/setup.sh import' installs it, then build again");
+    throw InputError(bag.string(), "is a bag of ROS 1; " + refusal_without("rosbag"));
   }
   const std::filesystem::path built(module);
   std::error_code ignored;
@@ -39,9 +38,9 @@ OpenRos1Recording* load_module(const std::filesystem::path& bag) {
     }
     problem = ::dlerror();
   }
-  throw InputError(bag.string(),
-                   "is a bag of ROS 1; " + (problem.empty() ? module + " is missing" : problem) +
-                       "; 'scripts/setup.sh import' installs what it needs, then build again");
+  throw InputError(bag.string(), "is a bag of ROS 1; " +
+                                     (problem.empty() ? module + " is missing" : problem) + "; '" +
+                                     remedy_for(feature("rosbag")) + "' builds it again");
 }
 
 class Ros1Bag : public Bag {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "fathom/core/features.hpp"
 #include "fathom/core/input_error.hpp"
 
 #ifdef FATHOM_GEOTIFF
@@ -79,10 +80,6 @@ struct EarthFrame::Projection {
   Eigen::Vector2d origin_en;  ///< easting and northing of keyframe 0
 };
 
-bool EarthFrame::is_built_in() {
-  return true;
-}
-
 EarthFrame::EarthFrame(const EarthOrigin& origin)
     : projection_(std::make_unique<Projection>(origin)) {}
 
@@ -132,14 +129,8 @@ struct EarthFrame::Projection {
   std::string name;
 };
 
-bool EarthFrame::is_built_in() {
-  return false;
-}
-
 EarthFrame::EarthFrame(const EarthOrigin& /*origin*/) {
-  throw InputError(
-      "this Fathom was built without PROJ and libgeotiff, which maps on Earth need; "
-      "'scripts/setup.sh import' installs them, then build again");
+  throw InputError("maps on Earth: " + refusal_without("geotiff"));
 }
 
 EarthPose EarthFrame::on_earth(const Pose& /*map*/) const {

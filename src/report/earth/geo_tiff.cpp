@@ -1,5 +1,6 @@
 #include "fathom/report/geo_tiff.hpp"
 
+#include "fathom/core/features.hpp"
 #include "fathom/core/input_error.hpp"
 
 #ifdef FATHOM_GEOTIFF
@@ -134,7 +135,7 @@ struct GeoTiff::File {};
 // An EarthFrame cannot be had either: none of this is called.
 GeoTiff::GeoTiff(const std::filesystem::path& path, const EarthFrame& /*earth*/,
                  const MosaicPlan& /*plan*/, int /*side_px*/) {
-  throw InputError(path.string(), "this Fathom was built without libgeotiff");
+  throw InputError(path.string(), refusal_without("geotiff"));
 }
 GeoTiff::~GeoTiff() = default;
 void GeoTiff::write(const MosaicTile& /*tile*/) {}

@@ -124,7 +124,8 @@ def main():
             run(f'{command} --save_results r.zip --no_warnings', folder)
             with zipfile.ZipFile(folder / 'r.zip') as archive:
                 stats = json.loads(archive.read('stats.json'))
-            print(','.join([case] + [repr(float(stats[f])) for f in FIGURES] + [command]), flush=True)
+            figures = [repr(float(stats[f])) for f in FIGURES]
+            print(','.join([case] + figures + [command]), flush=True)
 
 
 if __name__ == '__main__':

@@ -60,7 +60,8 @@ def drawn(count, interval_s, late_s, drift, spatial, rng):
             dx, dy = dx + rng.gauss(0, 0.03), dy + rng.gauss(0, 0.03)
             dyaw, dz = dyaw + rng.gauss(0, 0.01), dz + rng.gauss(0, 0.02)
             c, s = math.cos(0.4), math.sin(0.4)
-            x, y, yaw = 3 + c * (x + dx) - s * (y + dy), -2 + s * (x + dx) + c * (y + dy), yaw + 0.4 + dyaw
+            x, y, yaw = (3 + c * (x + dx) - s * (y + dy), -2 + s * (x + dx) + c * (y + dy),
+                         yaw + 0.4 + dyaw)
             if spatial:
                 z += 1.5 + dz
                 pitch, roll = pitch + rng.gauss(0, 0.01), roll + rng.gauss(0, 0.01)
@@ -83,9 +84,11 @@ def tum(rows):
 
 
 def euroc(rows):
-    head = '#timestamp, p_RS_R_x [m], p_RS_R_y [m], p_RS_R_z [m], q_RS_w [], q_RS_x [], q_RS_y [], q_RS_z [], v_RS_R_x [m s^-1]\n'
+    head = ('#timestamp, p_RS_R_x [m], p_RS_R_y [m], p_RS_R_z [m], '
+            'q_RS_w [], q_RS_x [], q_RS_y [], q_RS_z [], v_RS_R_x [m s^-1]\n')
     return head + ''.join(f'{seconds(t).replace(".", "")},{p[0]:.9f},{p[1]:.9f},{p[2]:.9f},'
-                          f'{q[0]:.12f},{q[1]:.12f},{q[2]:.12f},{q[3]:.12f},0.5\n' for t, p, q in rows)
+                          f'{q[0]:.12f},{q[1]:.12f},{q[2]:.12f},{q[3]:.12f},0.5\n'
+                          for t, p, q in rows)
 
 
 def kitti(rows):
