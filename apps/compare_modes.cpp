@@ -10,6 +10,7 @@
 #include "apps/study_progress.hpp"
 #include "fathom/harness/loop_remarks.hpp"
 #include "fathom/harness/manifest.hpp"
+#include "fathom/results/result_store.hpp"
 #include "fathom/results/run_index.hpp"
 #include "fathom/results/scratch_store.hpp"
 #include "fathom/results/store_folder.hpp"
@@ -57,7 +58,7 @@ std::string title_of(const Study& study, const CompareFlags& flags) {
 void say_stopped(std::size_t runs, const fs::path& out, Context& context) {
   std::fprintf(stderr,
                "fathom: stopped; %zu runs are in %s. The same command goes on from there.\n", runs,
-               (out / "results.sqlite").c_str());
+               (out / kResultsFile).c_str());
   context.status = kStopped;
 }
 
@@ -98,7 +99,7 @@ void run_shard(const Study& study, const Shard& shard, const fs::path& out,
   if (!done.example.empty()) write_example(out, study, done, pictures, flags, context);
   if (flags.common.quiet) return;
   std::printf("shard %s: %zu runs are in %s\n'fathom merge' makes one study of all shards.\n",
-              text_of(shard).c_str(), plan.runs, (out / "results.sqlite").c_str());
+              text_of(shard).c_str(), plan.runs, (out / kResultsFile).c_str());
 }
 
 void run_whole(const Study& study, const fs::path& out, const FrameSource* pictures,

@@ -1,5 +1,7 @@
 #include "apps/completion.hpp"
 
+#include "fathom/core/text.hpp"
+
 namespace fathom {
 namespace {
 
@@ -36,14 +38,8 @@ constexpr const char* kEnd = R"(}
 complete -o default -F _fathom fathom
 )";
 
-std::string joined(const std::vector<std::string>& words, const std::string& between = " ") {
-  std::string all;
-  for (const std::string& word : words) all += (all.empty() ? "" : between) + word;
-  return all;
-}
-
 std::string words_call(const std::vector<std::string>& words) {
-  return "_fathom_words '" + joined(words) + "'";
+  return "_fathom_words '" + joined(words, " ") + "'";
 }
 
 // What completes the value of a flag; nothing said of a file, which bash completes.

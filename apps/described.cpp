@@ -28,7 +28,7 @@ void read_type(const std::string& type, DescribedFlag& flag) {
   for (const std::string_view choice : split(choices, ",")) flag.choices.emplace_back(choice);
 }
 
-DescribedFlag described(const CLI::Option& option) {
+DescribedFlag described_flag(const CLI::Option& option) {
   DescribedFlag flag;
   flag.names = names_of(option);
   read_type(option.get_type_name(), flag);
@@ -48,7 +48,7 @@ DescribedFlag described(const CLI::Option& option) {
 DescribedCommand described(const CLI::App& command) {
   DescribedCommand all{command.get_name(), command.get_description(), command.get_footer(), {}, {}};
   for (const CLI::Option* option : command.get_options()) {
-    (option->get_positional() ? all.arguments : all.flags).push_back(described(*option));
+    (option->get_positional() ? all.arguments : all.flags).push_back(described_flag(*option));
   }
   return all;
 }

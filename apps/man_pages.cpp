@@ -58,12 +58,6 @@ std::string head(const std::string& name, const std::string& help) {
          ".SH NAME\n" + escaped(name) + " \\- " + escaped(help) + "\n";
 }
 
-std::string joined(const std::vector<std::string>& words, const std::string& between) {
-  std::string all;
-  for (const std::string& word : words) all += (all.empty() ? "" : between) + word;
-  return all;
-}
-
 // As sentences, since the page has no columns for them.
 std::string remarks(const DescribedFlag& flag) {
   std::string text;

@@ -76,7 +76,7 @@ void merge_caches(const MergeFlags& flags) {
 void merge(const MergeFlags& flags, Context& context) {
   context.status = kDone;
   const bool are_caches = std::ranges::all_of(flags.folders, [](const std::string& folder) {
-    return has_registrations(folder) && !fs::exists(fs::path(folder) / "results.sqlite");
+    return has_registrations(folder) && !fs::exists(fs::path(folder) / kResultsFile);
   });
   if (are_caches) {
     merge_caches(flags);

@@ -96,14 +96,14 @@ std::string manifest_of(const Context& context, const Configuration& configurati
 }
 
 // What looks wrong, and the batch optimum of the log where the estimate does not fit it.
-struct Judgement {
+struct RunJudgement {
   std::vector<std::string> remarks;
   std::optional<Result> optimum;
 };
 
-Judgement judged(const Recording& recording, const Configuration& configuration,
-                 const Result& result) {
-  Judgement judgement;
+RunJudgement judged(const Recording& recording, const Configuration& configuration,
+                    const Result& result) {
+  RunJudgement judgement;
   const std::vector<Pose>& estimate = result.replay.trajectory;
   judgement.remarks = loop_remarks(recording, configuration.front_end, estimate);
   const auto optimum = batch_optimum(recording.log, estimators());
@@ -178,7 +178,7 @@ void run(const RunFlags& flags, Context& context) {
   const Recording recording = record_with_progress(recorder, configuration, flags.common.quiet);
   std::vector<Result> results{evaluate_with_progress(
       recording, configuration, configuration.estimators.front(), flags.common.quiet)};
-  Judgement judgement = judged(recording, configuration, results.front());
+  RunJudgement judgement = judged(recording, configuration, results.front());
   write_run(
       folder.path(), recording, results.front(),
       manifest_of(context, configuration, recorder, recording, results.front(), judgement.remarks));

@@ -10,6 +10,7 @@
 #include "fathom/core/folder_claim.hpp"
 #include "fathom/core/input_error.hpp"
 #include "fathom/report/table.hpp"
+#include "fathom/results/result_store.hpp"
 #include "fathom/results/shard_folder.hpp"
 
 namespace fathom {
@@ -39,7 +40,7 @@ std::string worker_of(const fs::path& folder) {
 
 FolderStatus status_of(const std::string& folder) {
   FolderStatus status{folder, std::nullopt, "", worker_of(folder)};
-  if (!fs::exists(fs::path(folder) / "results.sqlite")) return status;
+  if (!fs::exists(fs::path(folder) / kResultsFile)) return status;
   try {
     status.content = shard_folder(folder, ResultStore::open(folder));
   } catch (const InputError& error) {

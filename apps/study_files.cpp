@@ -5,12 +5,13 @@
 
 #include "fathom/core/files.hpp"
 #include "fathom/report/study_report.hpp"
+#include "fathom/results/result_store.hpp"
 
 namespace fathom {
 
 void require_separate(const std::filesystem::path& out, const Study& study,
                       const std::vector<std::filesystem::path>& inputs) {
-  std::vector<std::string> names{"results.sqlite",     "report.html",      "runs.csv",
+  std::vector<std::string> names{kResultsFile,         "report.html",      "runs.csv",
                                  "summary.csv",        "tables.tex",       "figures",
                                  "trajectories.png",   "metrics.json",     "table.txt",
                                  "dead_reckoning.tum", "measurements.g2o", "ground_truth.tum"};

@@ -17,8 +17,9 @@ function(fathom_module name)
   set_property(GLOBAL APPEND PROPERTY FATHOM_MODULES fathom_${name})
 endfunction()
 
-# Warnings and sanitizers of a target of ours; never of a user's.
+# Warnings, optimisation and sanitizers of a target of ours; never of a user's.
 function(fathom_own_target target)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O2>)
   target_compile_options(${target} PRIVATE
     -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -Wcast-qual
     -Wformat=2 -Wimplicit-fallthrough)
@@ -43,4 +44,10 @@ function(fathom_own_target target)
       target_compile_options(${target} PRIVATE -Wno-maybe-uninitialized)
     endif()
   endif()
+endfunction()
+
+# fathom_kernels(SOURCES …): compiled with -O3, where it is measured to pay (docs/performance.md).
+function(fathom_kernels)
+  set_source_files_properties(${ARGN} PROPERTIES
+    COMPILE_OPTIONS $<$<CONFIG:Release>:-O3> SKIP_PRECOMPILE_HEADERS ON)
 endfunction()

@@ -9,11 +9,11 @@
 namespace fathom::benchmarks {
 namespace {
 
-constexpr PageSize kPage{520.0, 280.0};
+constexpr PageSize kMapPage{520.0, 280.0};
 // What the dashed line takes a processor to do: multiply-adds of one factorisation a second.
 constexpr double kRate = 1e10;
 
-std::string number(double value) {
+std::string of_size(double value) {
   char buffer[32];
   std::snprintf(buffer, sizeof buffer, value < 1e3 ? "%.3g" : "%.0f", value);
   return buffer;
@@ -34,10 +34,10 @@ std::string row_of(const MapCost& cost) {
   const MapBound& bound = cost.bound;
   std::string text = "| " + std::to_string(bound.keyframes) + " | " + std::to_string(bound.loops) +
                      " | " + std::to_string(bound.separator) + " | " +
-                     number(1e-9 * bound.multiply_adds) + " | " + number(bound.factor_mib);
+                     of_size(1e-9 * bound.multiply_adds) + " | " + of_size(bound.factor_mib);
   for (const auto& solve : cost.solves) {
-    text += solve ? " | " + number(solve->seconds) + " | " + number(solve->cpu_s) + " | " +
-                        number(solve->mib)
+    text += solve ? " | " + of_size(solve->seconds) + " | " + of_size(solve->cpu_s) + " | " +
+                        of_size(solve->mib)
                   : " | – | – | –";
     if (solve && solve->outcome != "converged") text += " (" + solve->outcome + ")";
   }
@@ -80,7 +80,7 @@ std::string markdown(const std::vector<MapCost>& costs, const std::vector<MapSol
 }
 
 std::string chart(const std::vector<MapCost>& costs, const std::vector<MapSolver>& solvers) {
-  return render_figure(FigureFormat::svg, kPage, [&](Canvas& canvas) {
+  return render_figure(FigureFormat::svg, kMapPage, [&](Canvas& canvas) {
     draw_curves(canvas, curves_of(costs, kShapes[0]), {"keyframes, survey", ""},
                 {"batch solve", "s"}, {12.0, 12.0, 240.0, 216.0});
     draw_curves(canvas, curves_of(costs, kShapes[1]), {"keyframes, city", ""}, {"batch solve", "s"},
@@ -93,7 +93,7 @@ std::string chart(const std::vector<MapCost>& costs, const std::vector<MapSolver
     }
     entries.push_back(
         line_entry("multiply-adds of one factorisation at 10 a nanosecond", bound_pen()));
-    ChartLegend(std::move(entries), kPage.width - 24.0).draw(canvas, {12.0, 238.0});
+    ChartLegend(std::move(entries), kMapPage.width - 24.0).draw(canvas, {12.0, 238.0});
   });
 }
 

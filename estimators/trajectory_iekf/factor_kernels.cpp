@@ -14,7 +14,7 @@ using FourDoubles = double __attribute__((vector_size(32)));
 // So many numbers of a column ahead of use are asked for: a column goes over many pages, and at
 // each the memory waits otherwise.
 constexpr Eigen::Index kAhead = 256;
-constexpr Eigen::Index kCacheLine = 8;
+constexpr Eigen::Index kDoublesPerLine = 8;
 
 template <class Doubles>
 constexpr Eigen::Index kLanes = static_cast<Eigen::Index>(sizeof(Doubles) / sizeof(double));
@@ -29,7 +29,7 @@ template <class Doubles>
                                               Doubles (&to)[3]) {
 #pragma GCC unroll 3
   for (int c = 0; c < 3; ++c) load(V.data + V.stride * c + row, to[c]);
-  if (row % kCacheLine != 0) return;
+  if (row % kDoublesPerLine != 0) return;
 #pragma GCC unroll 3
   for (int c = 0; c < 3; ++c) __builtin_prefetch(V.data + V.stride * c + row + kAhead, 0, 2);
 }

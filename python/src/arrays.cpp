@@ -10,7 +10,7 @@ namespace {
 
 namespace py = pybind11;
 
-std::string text_of(const std::vector<std::ptrdiff_t>& shape) {
+std::string shape_text(const std::vector<std::ptrdiff_t>& shape) {
   std::string text;
   for (const std::ptrdiff_t size : shape) {
     text += (text.empty() ? "" : ", ") + (size < 0 ? "N" : std::to_string(size));
@@ -87,12 +87,12 @@ Array checked_array(const py::handle& value, const std::vector<std::ptrdiff_t>& 
       given && is_real(given) ? Array::ensure(given) : Array(py::reinterpret_steal<Array>(nullptr));
   if (!array) {
     PyErr_Clear();
-    throw InputError(what + ": expected numbers of shape " + text_of(shape) + ", got " +
+    throw InputError(what + ": expected numbers of shape " + shape_text(shape) + ", got " +
                      py::str(py::type::of(value).attr("__name__")).cast<std::string>());
   }
   if (fits(array, shape)) return array;
   const std::vector<std::ptrdiff_t> got(array.shape(), array.shape() + array.ndim());
-  throw InputError(what + ": expected shape " + text_of(shape) + ", got " + text_of(got));
+  throw InputError(what + ": expected shape " + shape_text(shape) + ", got " + shape_text(got));
 }
 
 Pose pose_of(const py::handle& value, const std::string& what) {

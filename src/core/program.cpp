@@ -16,13 +16,10 @@
 
 #include "last_lines.hpp"
 #include "program_start.hpp"
+#include "time_value.hpp"
 
 namespace fathom {
 namespace {
-
-double seconds(const timeval& time) {
-  return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
-}
 
 // A line of /proc/ID/status in KiB: the largest resident memory of a process that runs.
 std::int64_t resident_peak_bytes(const std::string& process) {

@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "fathom/core/input_error.hpp"
+#include "time_value.hpp"
 
 namespace fathom {
 namespace {
@@ -26,10 +27,6 @@ rusage usage_of(__rusage_who who) {
   rusage used{};
   ::getrusage(who, &used);
   return used;
-}
-
-double seconds(const timeval& time) {
-  return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
 }
 
 }  // namespace

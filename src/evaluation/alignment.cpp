@@ -17,16 +17,16 @@ Eigen::Vector2d centroid(std::span<const Pose> poses) {
 }
 
 /// Sums over the centred positions p′ of the estimate and q′ of the reference.
-struct Moments {
+struct ProductSums {
   double dot = 0.0;    ///< Σ p′ · q′
   double cross = 0.0;  ///< Σ p′ × q′
   double estimate_spread = 0.0;
   double reference_spread = 0.0;
 };
 
-Moments moments(std::span<const Pose> estimate, const Eigen::Vector2d& estimate_centre,
-                std::span<const Pose> reference, const Eigen::Vector2d& reference_centre) {
-  Moments sums;
+ProductSums product_sums(std::span<const Pose> estimate, const Eigen::Vector2d& estimate_centre,
+                         std::span<const Pose> reference, const Eigen::Vector2d& reference_centre) {
+  ProductSums sums;
   for (std::size_t k = 0; k < estimate.size(); ++k) {
     const Eigen::Vector2d p = estimate[k].position() - estimate_centre;
     const Eigen::Vector2d q = reference[k].position() - reference_centre;
@@ -49,7 +49,7 @@ bool is_one_place(double spread, std::span<const Pose> poses) {
 }
 
 // Also open where the positions of one list mirror the other's evenly: the sums then cancel.
-bool positions_fix_rotation(const Moments& sums, std::span<const Pose> estimate,
+bool positions_fix_rotation(const ProductSums& sums, std::span<const Pose> estimate,
                             std::span<const Pose> reference) {
   if (is_one_place(sums.estimate_spread, estimate)) return false;
   if (is_one_place(sums.reference_spread, reference)) return false;
@@ -71,7 +71,7 @@ double mean_heading_difference(std::span<const Pose> estimate, std::span<const P
 Pose least_squares_motion(std::span<const Pose> estimate, std::span<const Pose> reference) {
   const Eigen::Vector2d estimate_centre = centroid(estimate);
   const Eigen::Vector2d reference_centre = centroid(reference);
-  const Moments sums = moments(estimate, estimate_centre, reference, reference_centre);
+  const ProductSums sums = product_sums(estimate, estimate_centre, reference, reference_centre);
   const bool not_a_number = std::isnan(sums.dot) || std::isnan(sums.cross);
   const double theta = not_a_number || positions_fix_rotation(sums, estimate, reference)
                            ? std::atan2(sums.cross, sums.dot)

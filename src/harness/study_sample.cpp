@@ -11,6 +11,7 @@
 #include "fathom/front_end/registration_store.hpp"
 #include "fathom/harness/study_run.hpp"
 #include "fathom/harness/survey.hpp"
+#include "fathom/results/result_store.hpp"
 
 namespace fathom {
 namespace {
@@ -83,8 +84,8 @@ class Sampler {
   double store_mib() {
     store_.finish();
     ResultStore::write(folder_.path() / "empty", study_.description, "{}\n").finish();
-    return std::max(0.0, mib_of(folder_.path() / "store" / "results.sqlite") -
-                             mib_of(folder_.path() / "empty" / "results.sqlite"));
+    return std::max(0.0, mib_of(folder_.path() / "store" / kResultsFile) -
+                             mib_of(folder_.path() / "empty" / kResultsFile));
   }
   double cache_mib() {
     cache_.finish();

@@ -80,25 +80,26 @@ void draw_exit(Canvas& canvas, const Box& frame, const Point& from, const Point&
 
 enum Kind { fix, heading };
 
-struct Count {
+struct MarkCount {
   std::size_t drawn = 0;
   std::size_t all = 0;
 };
 
 // By kind, and whether it was left out.
-using Counts = std::array<std::array<Count, 2>, 2>;
+using Counts = std::array<std::array<MarkCount, 2>, 2>;
 
 void count(const PlotSeries& series, Counts& counts) {
-  const auto add = [&](const AbsoluteMark& mark, std::size_t Count::*number) {
+  const auto add = [&](const AbsoluteMark& mark, std::size_t MarkCount::*number) {
     const std::size_t left_out = mark.is_kept ? 0 : 1;
     if (mark.measured.position) ++(counts[fix][left_out].*number);
     if (mark.measured.heading_rad) ++(counts[heading][left_out].*number);
   };
-  for (const AbsoluteMark& mark : series.absolute) add(mark, &Count::all);
-  for (const std::size_t i : drawn_marks(series.absolute)) add(series.absolute[i], &Count::drawn);
+  for (const AbsoluteMark& mark : series.absolute) add(mark, &MarkCount::all);
+  for (const std::size_t i : drawn_marks(series.absolute))
+    add(series.absolute[i], &MarkCount::drawn);
 }
 
-LegendEntry entry(std::string text, const Count& count, Kind kind, bool is_kept) {
+LegendEntry entry(std::string text, const MarkCount& count, Kind kind, bool is_kept) {
   if (count.drawn < count.all) {
     text += " (" + std::to_string(count.drawn) + " of " + std::to_string(count.all) + ")";
   }
@@ -227,7 +228,7 @@ std::vector<LegendEntry> absolute_legend(const std::vector<PlotSeries>& all,
   std::vector<LegendEntry> entries;
   for (const Kind kind : {fix, heading}) {
     for (const int is_left_out : {0, 1}) {
-      const Count& of = counts[kind][is_left_out];
+      const MarkCount& of = counts[kind][is_left_out];
       if (of.all > 0) entries.push_back(entry(texts[kind][is_left_out], of, kind, !is_left_out));
     }
   }

@@ -44,7 +44,7 @@ std::optional<std::pair<Eigen::Vector2d, Eigen::Vector2d>> near_part(const Eigen
 
 // Of very many points those that lie apart as drawn: steps below a tenth of a point are not seen,
 // and make large files.
-std::vector<Eigen::Vector2d> thinned(std::span<const Eigen::Vector2d> points) {
+std::vector<Eigen::Vector2d> visible_steps(std::span<const Eigen::Vector2d> points) {
   constexpr std::size_t kMany = 5000;
   constexpr double kUnseen = 0.1;
   std::vector<Eigen::Vector2d> kept;
@@ -89,7 +89,7 @@ void Canvas::stroke(const Pen& pen) {
 
 void Canvas::line(std::span<const Eigen::Vector2d> points, const Pen& pen) {
   if (points.size() < 2) return;
-  trace(context_, thinned(points));
+  trace(context_, visible_steps(points));
   stroke(pen);
 }
 
@@ -100,7 +100,7 @@ void Canvas::line(const Eigen::Vector2d& from, const Eigen::Vector2d& to, const 
 void Canvas::area(std::span<const Eigen::Vector2d> outline, Colour colour, double opacity) {
   if (outline.size() < 3) return;
   cairo_new_path(context_);
-  for (const Eigen::Vector2d& corner : thinned(outline)) {
+  for (const Eigen::Vector2d& corner : visible_steps(outline)) {
     cairo_line_to(context_, std::clamp(corner.x(), -kFarthest, kFarthest),
                   std::clamp(corner.y(), -kFarthest, kFarthest));
   }

@@ -10,8 +10,8 @@ namespace {
 
 constexpr double kRow = 1.45 * kFontSize;
 constexpr double kSample = 16.0;
-constexpr double kGap = 4.0;
-constexpr double kBetween = 10.0;
+constexpr double kEntryGap = 4.0;
+constexpr double kBetweenEntries = 10.0;
 
 }  // namespace
 
@@ -32,15 +32,15 @@ ChartLegend::ChartLegend(std::vector<LegendEntry> entries, double width)
     : entries_(std::move(entries)) {
   double left = 0.0;
   for (LegendEntry& entry : entries_) {
-    entry.text = shortened(entry.text, kFontSize, width - kSample - kGap);
-    const double needed = kSample + kGap + text_width(entry.text, kFontSize);
+    entry.text = shortened(entry.text, kFontSize, width - kSample - kEntryGap);
+    const double needed = kSample + kEntryGap + text_width(entry.text, kFontSize);
     if (rows_ == 0) rows_ = 1;
     if (left > 0.0 && left + needed > width) {
       left = 0.0;
       ++rows_;
     }
     places_.push_back({left, rows_ - 1});
-    left += needed + kBetween;
+    left += needed + kBetweenEntries;
   }
 }
 
@@ -53,7 +53,7 @@ void ChartLegend::draw(Canvas& canvas, const Eigen::Vector2d& top_left) const {
     const double left = top_left.x() + places_[i].left;
     const double baseline = top_left.y() + places_[i].row * kRow + kFontSize;
     entries_[i].sample(canvas, {left + 0.5 * kSample, baseline - 0.35 * kFontSize});
-    canvas.text(entries_[i].text, {left + kSample + kGap, baseline}, {.size = kFontSize});
+    canvas.text(entries_[i].text, {left + kSample + kEntryGap, baseline}, {.size = kFontSize});
   }
 }
 

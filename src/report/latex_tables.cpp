@@ -10,15 +10,15 @@ namespace fathom {
 namespace {
 
 constexpr std::size_t kMostTables = 6;
-constexpr int kDigits = 3;
+constexpr int kLatexDigits = 3;
 
-std::string value_text(const EstimatorResults& one, const std::string& metric) {
+std::string latex_value(const EstimatorResults& one, const std::string& metric) {
   const auto found = one.metrics.find(metric);
   if (found == one.metrics.end()) return "--";
-  std::string text = latex_number(found->second.moments.mean, kDigits);
+  std::string text = latex_number(found->second.moments.mean, kLatexDigits);
   if (const auto& interval = found->second.interval) {
-    text += " {\\scriptsize [" + latex_number(interval->low, kDigits) + ", " +
-            latex_number(interval->high, kDigits) + "]}";
+    text += " {\\scriptsize [" + latex_number(interval->low, kLatexDigits) + ", " +
+            latex_number(interval->high, kLatexDigits) + "]}";
   }
   return text;
 }
@@ -39,7 +39,7 @@ std::string table_of(const std::string& caption, const std::string& label,
   return text + "    \\bottomrule\n  \\end{tabular}\n\\end{table}\n";
 }
 
-std::string counts_text(const EstimatorResults& one) {
+std::string run_counts(const EstimatorResults& one) {
   if (one.name == kDeadReckoning) return "--";
   return std::to_string(one.done) + "/" + std::to_string(one.runs.size());
 }
@@ -70,8 +70,8 @@ std::string cell_table(const CellResults& cell, const StudyResults& results) {
     header.push_back(latex_text(described(metric).label_with_unit()));
   std::vector<std::vector<std::string>> rows;
   for (const EstimatorResults& one : cell.estimators) {
-    rows.push_back({latex_text(display_name(one.name)), counts_text(one)});
-    for (const std::string& metric : metrics) rows.back().push_back(value_text(one, metric));
+    rows.push_back({latex_text(display_name(one.name)), run_counts(one)});
+    for (const std::string& metric : metrics) rows.back().push_back(latex_value(one, metric));
   }
   const std::string caption = title_of(results.study) + latex_text(cell_caption(cell)) + "." +
                               (cell.trials > 1 ? meaning_of(results) : "");
@@ -119,9 +119,9 @@ std::string metric_table(const std::string& metric, std::size_t number,
     for (const std::string& name : names) {
       const auto one = std::find_if(cell.estimators.begin(), cell.estimators.end(),
                                     [&](const auto& known) { return known.name == name; });
-      std::string text = one == cell.estimators.end() ? "--" : value_text(*one, metric);
+      std::string text = one == cell.estimators.end() ? "--" : latex_value(*one, metric);
       if (one != cell.estimators.end() && one->failures() > 0) {
-        text += " (" + counts_text(*one) + ")";
+        text += " (" + run_counts(*one) + ")";
         fails = true;
       }
       rows.back().push_back(text);

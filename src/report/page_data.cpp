@@ -26,7 +26,7 @@ constexpr std::size_t kLoopsInAll = 20000;
 // And of the absolute measurements.
 constexpr std::size_t kAbsoluteInAll = 10000;
 constexpr std::size_t kFewestKeyframes = 120;
-constexpr double kProbability = 0.95;
+constexpr double kBoundsProbability = 0.95;
 
 Json metric_json(const MetricSummary& summary) {
   const Moments& moments = summary.moments;
@@ -47,7 +47,7 @@ Json nees_interval_json(const std::vector<std::size_t>& counts) {
   Json high = Json::array();
   for (const std::size_t count : counts) {
     const bool known = count > 0;
-    const Interval interval = anees_interval(known ? count : 1, 3, kProbability);
+    const Interval interval = anees_interval(known ? count : 1, 3, kBoundsProbability);
     low.push_back(known ? page_number(interval.low) : Json());
     high.push_back(known ? page_number(interval.high) : Json());
   }

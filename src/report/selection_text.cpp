@@ -10,7 +10,7 @@
 namespace fathom {
 namespace {
 
-constexpr int kDigits = 4;
+constexpr int kSelectionDigits = 4;
 
 std::string counted(std::size_t count, const std::string& word) {
   return std::to_string(count) + " " + word + (count == 1 ? "" : "s");
@@ -18,12 +18,12 @@ std::string counted(std::size_t count, const std::string& word) {
 
 std::string interval_text(const std::optional<TrialMean>& value) {
   if (!value || !value->interval) return "-";
-  return "[" + format_number(value->interval->low, kDigits) + ", " +
-         format_number(value->interval->high, kDigits) + "]";
+  return "[" + format_number(value->interval->low, kSelectionDigits) + ", " +
+         format_number(value->interval->high, kSelectionDigits) + "]";
 }
 
 std::string mean_text(const std::optional<TrialMean>& value) {
-  return value ? format_number(value->mean, kDigits) : "-";
+  return value ? format_number(value->mean, kSelectionDigits) : "-";
 }
 
 // "in all 10 cells", and of which there is nothing to say.
@@ -126,10 +126,11 @@ std::string lead_text(const Selection& selection, const SelectionQuery& query) {
   const auto& difference = selection.lead->difference;
   std::string numbers;
   if (difference) {
-    numbers = " (difference of " + query.objective + " " + format_number(difference->mean, kDigits);
+    numbers = " (difference of " + query.objective + " " +
+              format_number(difference->mean, kSelectionDigits);
     if (difference->interval) {
-      numbers += " [" + format_number(difference->interval->low, kDigits) + ", " +
-                 format_number(difference->interval->high, kDigits) + "]";
+      numbers += " [" + format_number(difference->interval->low, kSelectionDigits) + ", " +
+                 format_number(difference->interval->high, kSelectionDigits) + "]";
     }
     numbers +=
         " over " + counted(difference->count, difference->is_over_surveys ? "survey" : "run");

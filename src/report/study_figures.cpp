@@ -10,7 +10,7 @@
 namespace fathom {
 namespace {
 
-constexpr double kMargin = 6.0;
+constexpr double kPageMargin = 6.0;
 constexpr double kBetween = 6.0;  // charts, legend
 constexpr double kSmallSize = 6.0;
 constexpr double kSmallLine = 1.3 * kSmallSize;
@@ -24,18 +24,18 @@ std::string figure_title(const std::string& what, const std::string& label, bool
 FigureLayout::FigureLayout(std::vector<double> chart_heights, std::vector<LegendEntry> legend,
                            const std::string& conditions)
     : chart_heights_(std::move(chart_heights)),
-      legend_(std::move(legend), kFigureWidth - 2.0 * kMargin),
-      conditions_(wrapped(conditions, kSmallSize, kFigureWidth - 2.0 * kMargin)) {}
+      legend_(std::move(legend), kFigureWidth - 2.0 * kPageMargin),
+      conditions_(wrapped(conditions, kSmallSize, kFigureWidth - 2.0 * kPageMargin)) {}
 
 double FigureLayout::height() const {
   return footer_top() + legend_.height() + kSmallLine * static_cast<double>(conditions_.size()) +
-         kMargin;
+         kPageMargin;
 }
 
 Box FigureLayout::chart(std::size_t place) const {
-  double top = kMargin;
+  double top = kPageMargin;
   for (std::size_t i = 0; i < place; ++i) top += chart_heights_[i] + kBetween;
-  return {kMargin, top, kFigureWidth - 2.0 * kMargin, chart_heights_[place]};
+  return {kPageMargin, top, kFigureWidth - 2.0 * kPageMargin, chart_heights_[place]};
 }
 
 double FigureLayout::footer_top() const {
@@ -43,10 +43,10 @@ double FigureLayout::footer_top() const {
 }
 
 void FigureLayout::draw_footer(Canvas& canvas) const {
-  legend_.draw(canvas, {kMargin, footer_top()});
+  legend_.draw(canvas, {kPageMargin, footer_top()});
   double baseline = footer_top() + legend_.height() + kSmallSize;
   for (const std::string& line : conditions_) {
-    canvas.text(line, {kMargin, baseline}, {kSmallSize, kSoftInk});
+    canvas.text(line, {kPageMargin, baseline}, {kSmallSize, kSoftInk});
     baseline += kSmallLine;
   }
 }

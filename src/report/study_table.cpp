@@ -12,13 +12,13 @@ namespace fathom {
 namespace {
 
 constexpr std::size_t kWidth = 160;
-constexpr int kDigits = 3;
+constexpr int kTableDigits = 3;
 
 using Rows = std::vector<std::vector<std::string>>;
 
 std::string interval_text(const std::optional<Interval>& interval) {
-  return interval ? " [" + format_number(interval->low, kDigits) + ", " +
-                        format_number(interval->high, kDigits) + "]"
+  return interval ? " [" + format_number(interval->low, kTableDigits) + ", " +
+                        format_number(interval->high, kTableDigits) + "]"
                   : "";
 }
 
@@ -27,7 +27,8 @@ std::string value_text(const EstimatorResults& estimator, const std::string& met
   const auto found = estimator.metrics.find(metric);
   if (found == estimator.metrics.end()) return "-";
   const MetricSummary& summary = found->second;
-  std::string text = format_number(summary.moments.mean, kDigits) + interval_text(summary.interval);
+  std::string text =
+      format_number(summary.moments.mean, kTableDigits) + interval_text(summary.interval);
   if (summary.moments.count < estimator.done) {
     text += " n=" + std::to_string(summary.moments.count);
   }
@@ -107,9 +108,9 @@ std::string paired_table(const CellResults& cell, const StudyDescription& study)
     if (one.difference.count < 2) continue;
     rows.push_back(
         {one.estimator, described(one.metric).label_with_unit(), pairs_text(one.difference),
-         format_number(one.difference.mean, kDigits) + interval_text(one.difference.interval),
-         format_number(one.difference.signed_rank.p_value, kDigits),
-         format_number(one.holm_p, kDigits)});
+         format_number(one.difference.mean, kTableDigits) + interval_text(one.difference.interval),
+         format_number(one.difference.signed_rank.p_value, kTableDigits),
+         format_number(one.holm_p, kTableDigits)});
   }
   if (rows.empty()) return "";
   const std::string first = study.estimators.front().name;

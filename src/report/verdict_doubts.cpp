@@ -97,7 +97,7 @@ void add_optimum(const CellResults& cell, std::vector<Doubt>& doubts) {
                     "estimates are not at the optimum of the measurements"});
 }
 
-std::optional<double> mean_of(const EstimatorResults& one, const std::string& metric) {
+std::optional<double> finite_mean_of(const EstimatorResults& one, const std::string& metric) {
   double sum = 0.0;
   std::size_t count = 0;
   for (const RunRecord& run : one.runs) {
@@ -113,8 +113,8 @@ std::optional<double> mean_of(const EstimatorResults& one, const std::string& me
 // ": of 610 candidate pairs 0 registered"; empty of a pose graph.
 std::string front_end_text(const CellResults& cell) {
   for (const EstimatorResults& one : cell.estimators) {
-    const auto tried = mean_of(one, "registrations_tried");
-    const auto found = mean_of(one, "registrations");
+    const auto tried = finite_mean_of(one, "registrations_tried");
+    const auto found = finite_mean_of(one, "registrations");
     if (!tried || !found) continue;
     if (*tried == 0.0) {
       return ": there were no candidate pairs; 'fathom check' of the data says what to expect";
@@ -143,8 +143,8 @@ void add_few_loops(const CellResults& cell, std::vector<Doubt>& doubts) {
   constexpr double kFew = 0.5;
   std::optional<double> recall;
   for (const EstimatorResults& one : cell.estimators) {
-    if (mean_of(one, "registrations_left_out").value_or(0.0) > 0.0) return;
-    const auto mean = mean_of(one, "loop_recall");
+    if (finite_mean_of(one, "registrations_left_out").value_or(0.0) > 0.0) return;
+    const auto mean = finite_mean_of(one, "loop_recall");
     if (mean && one.name != kDeadReckoning) recall = std::max(recall.value_or(0.0), *mean);
   }
   if (!recall || *recall >= kFew) return;
@@ -158,8 +158,8 @@ void add_few_loops(const CellResults& cell, std::vector<Doubt>& doubts) {
 void add_disagreeing_measurements(const CellResults& cell, std::vector<Doubt>& doubts) {
   constexpr double kTooMuch = 3.0;
   for (const EstimatorResults& one : cell.estimators) {
-    const auto optimum = mean_of(one, "chi2_optimum");
-    const auto registrations = mean_of(one, "registrations");
+    const auto optimum = finite_mean_of(one, "chi2_optimum");
+    const auto registrations = finite_mean_of(one, "registrations");
     if (one.name == kDeadReckoning || !optimum || !registrations || *registrations <= 0.0) continue;
     const double per_degree = *optimum / (3.0 * *registrations);
     if (per_degree <= kTooMuch) return;

@@ -19,8 +19,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kFile = "results.sqlite";
-
 struct Source {
   fs::path folder;
   ResultStore store;
@@ -38,7 +36,7 @@ ResultStore open_source(const fs::path& folder) {
 // Each folder once, by whatever path it is named.
 std::vector<Source> open_sources(const std::vector<fs::path>& folders, const fs::path& out) {
   std::vector<fs::path> wanted = folders;
-  if (fs::exists(out / kFile)) wanted.push_back(out);
+  if (fs::exists(out / kResultsFile)) wanted.push_back(out);
   std::set<fs::path> seen;
   std::vector<Source> sources;
   for (const fs::path& folder : wanted) {

@@ -128,17 +128,6 @@ std::string checksum_of(const StudyDescription& study) {
   return std::to_string(hash.value());
 }
 
-std::vector<std::string> words_of(const std::string& text) {
-  std::vector<std::string> words;
-  std::size_t begin = 0;
-  while (begin < text.size()) {
-    const std::size_t end = std::min(text.find(' ', begin), text.size());
-    words.push_back(text.substr(begin, end - begin));
-    begin = end + 1;
-  }
-  return words;
-}
-
 Words read_words(SQLite::Database& database, const std::string& query) {
   Words words;
   SQLite::Statement select(database, query);
@@ -169,7 +158,8 @@ StudyDescription stored_study(SQLite::Database& database) {
   StudyDescription study;
   study.title = study_word(database, "title");
   study.alignment = study_word(database, "alignment");
-  study.metrics = words_of(study_word(database, "metrics"));
+  const std::string metrics = study_word(database, "metrics");
+  for (const auto metric : split(metrics, " ")) study.metrics.emplace_back(metric);
   study.surveys = study_count(database, "surveys");
   study.trials = study_count(database, "trials");
   SQLite::Statement axes(database, "SELECT name, key FROM axis ORDER BY axis");

@@ -11,8 +11,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kFileName = "results.sqlite";
-
 std::unique_ptr<FileLock> lock_of(const fs::path& folder) {
   return std::make_unique<FileLock>(folder / "results.lock",
                                     folder.string() +
@@ -40,7 +38,7 @@ ResultStore::ResultStore(ResultStore&&) noexcept = default;
 ResultStore& ResultStore::operator=(ResultStore&&) noexcept = default;
 
 ResultStore ResultStore::open(const fs::path& path) {
-  const fs::path file = fs::is_directory(path) ? path / kFileName : path;
+  const fs::path file = fs::is_directory(path) ? path / kResultsFile : path;
   if (!fs::is_regular_file(file)) {
     throw InputError(file.string(), "there are no results; 'fathom compare' writes them");
   }
@@ -58,7 +56,7 @@ ResultStore ResultStore::write(const fs::path& folder, const StudyDescription& s
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) throw InputError(folder.string(), "cannot be made: " + error.message());
-  const fs::path file = folder / kFileName;
+  const fs::path file = folder / kResultsFile;
   auto lock = lock_of(folder);
   auto database = std::make_unique<Database>(file, SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
   database->lock = std::move(lock);

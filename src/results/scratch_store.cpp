@@ -13,8 +13,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kFile = "results.sqlite";
-
 fs::path made(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
@@ -31,7 +29,7 @@ fs::path place_for(const fs::path& folder, const fs::path& scratch) {
 // Runs that a store has of a study; nothing where it is none, damaged, or of another study.
 std::optional<std::size_t> runs_in(const fs::path& folder, const StudyDescription& study) {
   try {
-    const ResultStore store = ResultStore::open(folder / kFile);
+    const ResultStore store = ResultStore::open(folder / kResultsFile);
     const bool is_same =
         difference(store.study(), study).empty() && data_difference(store.study(), study).empty();
     return is_same ? std::optional(store.runs().size()) : std::nullopt;
@@ -43,7 +41,7 @@ std::optional<std::size_t> runs_in(const fs::path& folder, const StudyDescriptio
 void remove_store(const fs::path& folder) {
   std::error_code ignored;
   for (const char* ending : {"", "-wal", "-shm", "-journal"}) {
-    fs::remove(folder / (std::string(kFile) + ending), ignored);
+    fs::remove(folder / (std::string(kResultsFile) + ending), ignored);
   }
 }
 
@@ -63,19 +61,19 @@ ScratchStore::ScratchStore(const fs::path& folder, const fs::path& scratch,
 }
 
 void ScratchStore::open(const StudyDescription& study, const std::string& manifest) {
-  const bool is_published = fs::exists(folder_ / kFile);
+  const bool is_published = fs::exists(folder_ / kResultsFile);
   if (is_published) {
     // Says what is wrong with it, by its own name.
-    const ResultStore there = ResultStore::open(folder_ / kFile);
-    require_same(there.study(), study, folder_ / kFile);
+    const ResultStore there = ResultStore::open(folder_ / kResultsFile);
+    require_same(there.study(), study, folder_ / kResultsFile);
   }
   const auto left = runs_in(scratch_, study);
   if (!left || (is_published && *left < *runs_in(folder_, study))) {
     remove_store(scratch_);
     std::error_code error;
-    if (is_published) fs::copy_file(folder_ / kFile, scratch_ / kFile, error);
+    if (is_published) fs::copy_file(folder_ / kResultsFile, scratch_ / kResultsFile, error);
     if (error)
-      throw InputError((scratch_ / kFile).string(), "cannot be written: " + error.message());
+      throw InputError((scratch_ / kResultsFile).string(), "cannot be written: " + error.message());
   }
   store_.emplace(ResultStore::write(scratch_, study, manifest));
 }
@@ -97,7 +95,7 @@ ScratchStore::~ScratchStore() {
 void ScratchStore::publish() {
   const auto start = Clock::now();
   claim_.require_held();
-  const fs::path part = folder_ / (std::string(kFile) + ".part");
+  const fs::path part = folder_ / (std::string(kResultsFile) + ".part");
   std::error_code error;
   fs::remove(part, error);
   try {
@@ -110,7 +108,7 @@ void ScratchStore::publish() {
                      "cannot be written, or its disk is full; what is done is in " +
                          scratch_.string() + ": make room and run the same command again");
   }
-  fs::rename(part, folder_ / kFile, error);
+  fs::rename(part, folder_ / kResultsFile, error);
   if (error) throw InputError(folder_.string(), "cannot be written: " + error.message());
   published_ = Clock::now();
   took_ = published_ - start;

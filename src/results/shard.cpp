@@ -13,16 +13,6 @@
 namespace fathom {
 namespace {
 
-std::vector<std::string> words_of(const std::string& line) {
-  std::vector<std::string> words;
-  for (std::size_t begin = 0; begin < line.size();) {
-    const std::size_t end = std::min(line.find(' ', begin), line.size());
-    if (end > begin) words.push_back(line.substr(begin, end - begin));
-    begin = end + 1;
-  }
-  return words;
-}
-
 // "runs/shard-3" for "runs/shard-5"; a folder without the number gets the other's behind it.
 std::string folder_of(const std::string& folder, const Shard& shard, std::size_t index) {
   std::size_t end = folder.size();
@@ -82,7 +72,8 @@ std::string command_line_of(const std::string& manifest) {
 
 std::string command_of(const ShardPlan& plan, std::size_t index) {
   if (index == plan.shard.index) return plan.command_line;
-  std::vector<std::string> words = words_of(plan.command_line);
+  const auto typed = split(plan.command_line, " ");
+  std::vector<std::string> words(typed.begin(), typed.end());
   const std::string number = text_of(Shard{index, plan.shard.of});
   for (std::size_t i = 0; i < words.size(); ++i) {
     const bool has_next = i + 1 < words.size();

@@ -5,19 +5,13 @@
 #include "fathom/core/input_error.hpp"
 
 namespace fathom {
-namespace {
-
-constexpr const char* kFile = "results.sqlite";
-
-}  // namespace
-
 namespace fs = std::filesystem;
 
 StoreFolder::StoreFolder(const fs::path& folder, const StudyDescription& study,
                          const std::string& manifest)
     : folder_(folder),
       is_new_folder_(!fs::exists(folder)),
-      is_new_(!fs::exists(folder / kFile)),
+      is_new_(!fs::exists(folder / kResultsFile)),
       store_(ResultStore::write(folder, study, manifest)) {}
 
 StoreFolder::~StoreFolder() {
@@ -26,7 +20,7 @@ StoreFolder::~StoreFolder() {
   if (!remove) return;
   std::error_code ignored;
   for (const char* ending : {"", "-wal", "-shm"}) {
-    fs::remove(folder_ / (std::string(kFile) + ending), ignored);
+    fs::remove(folder_ / (std::string(kResultsFile) + ending), ignored);
   }
   if (is_new_folder_) fs::remove(folder_, ignored);
 }

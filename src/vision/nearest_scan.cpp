@@ -10,7 +10,7 @@
 namespace fathom {
 namespace {
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr float kFurthest = std::numeric_limits<float>::infinity();
 
 // Columns that are looked at side by side, by the vector extension of g++ and clang++: as many as a
 // register holds, for more are taken one by one.
@@ -49,14 +49,14 @@ template <class Lanes>
                                            NearestBack& back) {
   using Floats = typename Lanes::Floats;
   using Ints = typename Lanes::Ints;
-  constexpr std::size_t kLanes = sizeof(Floats) / sizeof(float);
-  Floats nearest = Floats{} + kInfinity;
+  constexpr std::size_t kWidth = sizeof(Floats) / sizeof(float);
+  Floats nearest = Floats{} + kFurthest;
   Floats next = nearest;
   Ints nearest_column = Ints{} - 1;
   Ints column{};
-  for (std::size_t lane = 0; lane < kLanes; ++lane) column[lane] = static_cast<int>(lane);
+  for (std::size_t lane = 0; lane < kWidth; ++lane) column[lane] = static_cast<int>(lane);
   const Ints this_row = Ints{} + row;
-  for (std::size_t first = 0; first < count; first += kLanes) {
+  for (std::size_t first = 0; first < count; first += kWidth) {
     Floats cost;
     std::memcpy(&cost, costs + first, sizeof(cost));
     const Ints is_nearer = cost < nearest;
@@ -64,7 +64,7 @@ template <class Lanes>
     next = passed < next ? passed : next;
     nearest = is_nearer ? cost : nearest;
     nearest_column = is_nearer ? column : nearest_column;
-    column += static_cast<int>(kLanes);
+    column += static_cast<int>(kWidth);
 
     Floats back_cost;
     Ints back_row;
@@ -76,9 +76,9 @@ template <class Lanes>
     std::memcpy(back.cost.data() + first, &back_cost, sizeof(back_cost));
     std::memcpy(back.row.data() + first, &back_row, sizeof(back_row));
   }
-  std::array<float, kLanes> costs_of_lanes{};
-  std::array<float, kLanes> next_costs{};
-  std::array<int, kLanes> columns{};
+  std::array<float, kWidth> costs_of_lanes{};
+  std::array<float, kWidth> next_costs{};
+  std::array<int, kWidth> columns{};
   std::memcpy(costs_of_lanes.data(), &nearest, sizeof(nearest));
   std::memcpy(next_costs.data(), &next, sizeof(next));
   std::memcpy(columns.data(), &nearest_column, sizeof(nearest_column));

@@ -13,10 +13,10 @@
 namespace fathom {
 namespace {
 
-using Points = std::vector<Eigen::Vector2d>;
+using PointList = std::vector<Eigen::Vector2d>;
 
 // Root mean square distance from the centre: how well the points fix a heading.
-double spread(const Points& points) {
+double spread(const PointList& points) {
   Eigen::Vector2d mean = Eigen::Vector2d::Zero();
   for (const Eigen::Vector2d& point : points) mean += point;
   mean /= static_cast<double>(points.size());
@@ -160,8 +160,8 @@ class Ransac {
   int most_inliers_ = 0;
   int most_places_ = 0;
   std::vector<int> sample_;
-  Points from_;  // of the pairs last gathered
-  Points to_;
+  PointList from_;  // of the pairs last gathered
+  PointList to_;
 };
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include "apps/commands.hpp"
 #include "apps/graphs.hpp"
+#include "fathom/estimators/builtin.hpp"
 #include "report/pixels.hpp"
 #include "support/data.hpp"
 #include "support/gdal.hpp"
@@ -20,11 +21,6 @@ using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-const std::vector<std::string> kEstimators{"trajectory_iekf",     "ekf",
-                                           "invariant_ekf",       "first_estimates_ekf",
-                                           "ceres_pose_graph",    "sparse_gauss_newton",
-                                           "incremental_smoother"};
-
 // By hand: 1 m of dead reckoning between fixes that are 1.3 m apart, all of one weight, headings
 // known: each of three springs gives 0.1 m, F = 3 · 0.1².
 const std::string kSpring =
@@ -33,11 +29,10 @@ const std::string kSpring =
 
 TEST_F(Commands, SolveTakesPriorsAsTheyStand) {
   write("g.g2o", kSpring);
-  for (const std::string& name : kEstimators) {
+  for (const EstimatorEntry& entry : builtin_estimators().entries()) {
+    const std::string& name = entry.name;
     for (const std::string mode : {"batch", "incremental"}) {
-      if (mode == "batch" && (name.ends_with("ekf") || name == "incremental_smoother")) {
-        continue;
-      }
+      if (mode == "batch" && !entry.can_batch) continue;
       const Ended ended = fathom_done(
           {"solve", "g.g2o", "--estimator", name, "--mode", mode, "--out", "out-" + name});
       const bool is_batch = mode == "batch";
@@ -61,7 +56,8 @@ TEST_F(Commands, SolveOnALogWithPriorsAndHolesIsTheSameToTheLastBit) {
                      "EDGE_SE2 0 5 5 0 0 400 20 -5 300 10 900\n"
                      "EDGE_PRIOR_SE2 0 0.1 0.2 0.3 100 10 0 100 0 50\n"
                      "EDGE_PRIOR_SE2_XY 100 3 4 10 1 5\nEDGE_PRIOR_SE2 30 0 0 3 0 0 0 0 0 9\n");
-  for (const std::string& name : kEstimators) {
+  for (const EstimatorEntry& entry : builtin_estimators().entries()) {
+    const std::string& name = entry.name;
     const Arguments solve{"--estimator", name, "--mode", "incremental"};
     const auto run = [&](const std::string& graph, const std::string& out) {
       Arguments all{"solve", graph, "--out", out};

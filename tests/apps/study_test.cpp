@@ -10,6 +10,7 @@
 #include "apps/study_content.hpp"
 #include "fathom/core/files.hpp"
 #include "fathom/core/input_error.hpp"
+#include "fathom/estimators/builtin.hpp"
 #include "fathom/results/result_store.hpp"
 
 namespace fathom::test {
@@ -19,11 +20,11 @@ namespace fs = std::filesystem;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-// Of the program, and dead reckoning.
-constexpr std::size_t kEstimators = 7 + 1;
-
 class Studies : public CommandLine {
  protected:
+  /// Runs a trial: those of the program, and dead reckoning.
+  const std::size_t estimators_ = builtin_estimators().entries().size() + 1;
+
   std::size_t runs_in(const std::string& folder) const {
     return ResultStore::open(path(folder)).runs().size();
   }
@@ -43,7 +44,7 @@ TEST_F(Studies, TheNumberOfJobsDoesNotMatterNorDoesTheCache) {
   fathom_done({"compare", "s.yaml", "--out", "one", "--cache", "cache"});
   fathom_done({"compare", "s.yaml", "--out", "two", "--cache", "cache", "--jobs", "2"});
   fathom_done({"compare", "s.yaml", "--out", "none", "--no-cache", "--jobs", "64"});
-  EXPECT_EQ(runs_in("one"), 2u * 5u * kEstimators);
+  EXPECT_EQ(runs_in("one"), 2u * 5u * estimators_);
   // Said is what was at work: 2 cells of 5 trials give work to 10.
   for (const RunRecord& run : ResultStore::open(path("none")).runs()) EXPECT_EQ(run.jobs, 10);
   EXPECT_EQ(content(path("one")), content(path("two")));
@@ -135,7 +136,7 @@ TEST_F(Studies, MoreTrialsAreAddedToWhatIsThere) {
   const std::string before = content(path("out"));
   fathom_done({"compare", "s.yaml", "--out", "out"});
   fathom_done({"compare", "s.yaml", "--out", "other"});
-  EXPECT_EQ(runs_in("out"), 2u * 5u * kEstimators);
+  EXPECT_EQ(runs_in("out"), 2u * 5u * estimators_);
   EXPECT_EQ(content(path("out")), content(path("other")));
   EXPECT_NE(content(path("out")), before);
 }

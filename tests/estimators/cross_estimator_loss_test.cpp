@@ -35,12 +35,6 @@ MeasurementLog with_false_loops(const MeasurementLog& log, double share, std::ui
   return spoil(log, poses_of(*clean), {.share = share}, seed).log;
 }
 
-EstimatorValues exactly_with(const std::string& loss) {
-  EstimatorValues values = test::exactly();
-  values["loss"] = OptionValue::scalar(loss);
-  return values;
-}
-
 struct Agreement {
   double cost_share = 1e-9;
   double distance_m = 1e-5;
@@ -49,11 +43,11 @@ struct Agreement {
 
 void expect_agreement(const MeasurementLog& log, const std::string& loss,
                       const std::vector<std::string>& others, const Agreement& within) {
-  const auto ours = test::solved("incremental_smoother", log, exactly_with(loss));
+  const auto ours = test::solved("incremental_smoother", log, test::exactly_with(loss));
   const std::vector<Pose> poses = poses_of(*ours);
   const double cost = robust_cost(log, poses, *ours);
   for (const std::string& name : others) {
-    const auto other = test::solved(name, log, exactly_with(loss));
+    const auto other = test::solved(name, log, test::exactly_with(loss));
     const std::vector<Pose> theirs = poses_of(*other);
     EXPECT_NEAR(robust_cost(log, theirs, *ours) / cost, 1.0, within.cost_share) << name << loss;
     EXPECT_LT(largest_distance(poses, theirs), within.distance_m) << name << loss;
@@ -117,12 +111,12 @@ TEST_P(CrossEstimatorLoss, TheGraphsAgreeOnAbsoluteMeasurements) {
         k, truth[k].position() + Eigen::Vector2d(0.5 * random.normal() + jump_m, 0.0),
         0.25 * Eigen::Matrix2d::Identity()));
   }
-  const auto ours = test::solved("incremental_smoother", log, exactly_with(GetParam()));
+  const auto ours = test::solved("incremental_smoother", log, test::exactly_with(GetParam()));
   const std::vector<double> our_weights = ours->absolute_weights();
   ASSERT_EQ(our_weights.size(), log.absolute_count());
   EXPECT_LT(*std::ranges::min_element(our_weights), 0.5);
   for (const std::string name : {"sparse_gauss_newton", "ceres_pose_graph"}) {
-    const auto other = test::solved(name, log, exactly_with(GetParam()));
+    const auto other = test::solved(name, log, test::exactly_with(GetParam()));
     EXPECT_LT(largest_distance(poses_of(*ours), poses_of(*other)), 1e-5) << name;
     EXPECT_EQ(ours->loss(9.0, 1), other->loss(9.0, 1));
     const std::vector<double> weights = other->absolute_weights();

@@ -38,16 +38,16 @@ struct AutodiffEdge {
   }
 };
 
-using RowMajor = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
+using RowMajor3 = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 
-struct Linearised {
+struct LinearisedCost {
   Eigen::Vector3d r;
-  RowMajor J_a;
-  RowMajor J_b;
+  RowMajor3 J_a;
+  RowMajor3 J_b;
 };
 
-Linearised evaluate(const ceres::CostFunction& cost, const Pose& a, const Pose& b) {
-  Linearised result;
+LinearisedCost evaluate(const ceres::CostFunction& cost, const Pose& a, const Pose& b) {
+  LinearisedCost result;
   const Eigen::Vector3d va = a.vector();
   const Eigen::Vector3d vb = b.vector();
   const std::array<const double*, 2> parameters{va.data(), vb.data()};
@@ -74,8 +74,8 @@ TEST(EdgeCost, EqualsAutomaticDifferentiationWithFullInformation) {
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(z.information);
     const ceres::AutoDiffCostFunction<AutodiffEdge, 3, 3, 3> reference(
         new AutodiffEdge{z.motion, eigen.operatorSqrt()});
-    const Linearised ours = evaluate(EdgeCost(z), a, b);
-    const Linearised other = evaluate(reference, a, b);
+    const LinearisedCost ours = evaluate(EdgeCost(z), a, b);
+    const LinearisedCost other = evaluate(reference, a, b);
     const double scale = 1.0 + other.r.squaredNorm();
     EXPECT_NEAR(ours.r.squaredNorm(), other.r.squaredNorm(), 1e-11 * scale);
     EXPECT_NEAR(ours.r.squaredNorm(), chi2(z, a, b), 1e-11 * scale);
@@ -97,7 +97,7 @@ TEST(EdgeCost, GivesTheResidualAloneWhenAsked) {
   Eigen::Vector3d r;
   EXPECT_TRUE(EdgeCost(z).Evaluate(parameters.data(), r.data(), nullptr));
   EXPECT_LT(r.norm(), 1e-12);
-  RowMajor J_b;
+  RowMajor3 J_b;
   std::array<double*, 2> jacobians{nullptr, J_b.data()};
   EXPECT_TRUE(EdgeCost(z).Evaluate(parameters.data(), r.data(), jacobians.data()));
   EXPECT_GT(J_b.norm(), 1.0);

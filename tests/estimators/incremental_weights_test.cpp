@@ -18,12 +18,6 @@ namespace {
 using test::arrive;
 using test::make;
 
-EstimatorValues exactly_with(const std::string& loss) {
-  EstimatorValues values = test::exactly();
-  values["loss"] = OptionValue::scalar(loss);
-  return values;
-}
-
 // Two rounds of a circle. Two loops that agree with each other and are both wrong by more than a
 // metre come first, with keyframe 34 and 35; from keyframe 36 on all are right.
 MeasurementLog wrong_then_right() {
@@ -43,8 +37,8 @@ MeasurementLog wrong_then_right() {
 
 TEST(IncrementalWeights, FallAndComeBackAsOtherLoopsArrive) {
   const MeasurementLog log = wrong_then_right();
-  const auto ours = make("incremental_smoother", log.origin(), exactly_with("cauchy"));
-  const auto whole = make("sparse_gauss_newton", log.origin(), exactly_with("cauchy"));
+  const auto ours = make("incremental_smoother", log.origin(), test::exactly_with("cauchy"));
+  const auto whole = make("sparse_gauss_newton", log.origin(), test::exactly_with("cauchy"));
   std::vector<double> at_first;
   std::vector<double> while_alone;
   for (std::size_t k = 1; k < log.size(); ++k) {
@@ -73,8 +67,8 @@ TEST(IncrementalWeights, FallAndComeBackAsOtherLoopsArrive) {
 TEST(IncrementalWeights, AnUpdateThatFailsLeavesThemAsTheyWere) {
   const MeasurementLog log = wrong_then_right();
   for (const char* loss : {"huber", "cauchy", "dcs"}) {
-    const auto ours = make("incremental_smoother", log.origin(), exactly_with(loss));
-    const auto undisturbed = make("incremental_smoother", log.origin(), exactly_with(loss));
+    const auto ours = make("incremental_smoother", log.origin(), test::exactly_with(loss));
+    const auto undisturbed = make("incremental_smoother", log.origin(), test::exactly_with(loss));
     std::size_t failed = 0;
     for (std::size_t k = 1; k < log.size(); ++k) {
       arrive(*ours, log, k);
@@ -118,8 +112,8 @@ TEST(IncrementalWeights, RepeatToTheLastBit) {
 // Every loop counts in them with its weight, as in the other graphs.
 TEST(IncrementalWeights, AreInTheCovariances) {
   const MeasurementLog log = wrong_then_right();
-  const auto ours = test::solved("incremental_smoother", log, exactly_with("cauchy"));
-  const auto whole = test::solved("sparse_gauss_newton", log, exactly_with("cauchy"));
+  const auto ours = test::solved("incremental_smoother", log, test::exactly_with("cauchy"));
+  const auto whole = test::solved("sparse_gauss_newton", log, test::exactly_with("cauchy"));
   const auto plain = test::solved("incremental_smoother", log, test::exactly());
   const std::size_t last = log.size() - 1;
   const std::vector<std::size_t> keyframes{3, 35, last};
@@ -136,7 +130,7 @@ TEST(IncrementalWeights, AreInTheCovariances) {
 
 TEST(IncrementalWeights, AreInTheGate) {
   const MeasurementLog log = wrong_then_right();
-  EstimatorValues values = exactly_with("cauchy");
+  EstimatorValues values = test::exactly_with("cauchy");
   values["gate_probability"] = OptionValue::scalar("0.999999999");
   const auto ours = make("incremental_smoother", log.origin(), values);
   const auto whole = make("sparse_gauss_newton", log.origin(), values);
@@ -157,8 +151,8 @@ TEST(IncrementalWeights, AreInTheGate) {
 TEST(IncrementalWeights, TheWholeGraphIsSolvedWithTheLoss) {
   const MeasurementLog plain = test::wandering_log(120, 2);
   const MeasurementLog log = spoil(plain, plain.odometry(), {.share = 0.2}, 2).log;
-  const auto ours = test::solved("incremental_smoother", log, exactly_with("huber"));
-  const auto whole = test::solved("sparse_gauss_newton", log, exactly_with("huber"));
+  const auto ours = test::solved("incremental_smoother", log, test::exactly_with("huber"));
+  const auto whole = test::solved("sparse_gauss_newton", log, test::exactly_with("huber"));
   const auto& smoother = dynamic_cast<const IncrementalSmoother&>(
                              dynamic_cast<const AnchoredEstimator&>(*ours).relative())
                              .smoother();

@@ -45,7 +45,7 @@ TEST(LoopGroups, LostOnesAreFoundWhateverWayRoundALoopIsWritten) {
   const MeasurementLog log = circle_of(60, 0.1);
   const auto lost = [](const MeasurementLog& graph) {
     const GraphParts parts = parts_of(graph);
-    Consensus none;
+    sparse_gauss_newton::Consensus none;
     none.weights.assign(parts.edges.size(), 1.0);
     for (const std::size_t e : parts.loops()) none.weights[e] = 0.0;
     none.squared_scales = {20.0, 20.0};

@@ -15,9 +15,10 @@
 namespace fathom {
 namespace {
 
-using Form = MotionCovariance::Form;
+using CovarianceForm = MotionCovariance::Form;
 
-constexpr std::array kForms{Form::dense, Form::few_loops, Form::cheapest};
+constexpr std::array kForms{CovarianceForm::dense, CovarianceForm::few_loops,
+                            CovarianceForm::cheapest};
 
 Eigen::MatrixXd random(Eigen::Index rows, Eigen::Index columns, RandomStream& stream) {
   Eigen::MatrixXd matrix(rows, columns);
@@ -31,7 +32,7 @@ struct Both {
   MotionCovariance ours;
   Eigen::MatrixXd plain;
 
-  explicit Both(Form form, Eigen::Index motions = 40) : ours(form) {
+  explicit Both(CovarianceForm form, Eigen::Index motions = 40) : ours(form) {
     RandomStream stream(3, "updates");
     for (Eigen::Index n = 1; n <= motions; ++n) {
       Eigen::MatrixXd grown = Eigen::MatrixXd::Zero(3 * n, 3 * n);
@@ -56,19 +57,19 @@ struct Both {
 };
 
 TEST(MotionCovariance, IsTheSameMatrixInEveryForm) {
-  for (const Form form : kForms) {
+  for (const CovarianceForm form : kForms) {
     const Both both(form);
     EXPECT_LT((both.ours.full() - both.plain).norm(), 1e-13 * both.plain.norm());
   }
-  EXPECT_EQ(Both(Form::few_loops).ours.dense_motions(), 0);
-  EXPECT_GE(Both(Form::dense).ours.dense_motions(), 36);
+  EXPECT_EQ(Both(CovarianceForm::few_loops).ours.dense_motions(), 0);
+  EXPECT_GE(Both(CovarianceForm::dense).ours.dense_motions(), 36);
   // Dense and factors at a time, which the products below must hold for, too.
-  EXPECT_EQ(Both(Form::cheapest).ours.dense_motions(), 13);
+  EXPECT_EQ(Both(CovarianceForm::cheapest).ours.dense_motions(), 13);
 }
 
 // Dense motions, and later ones.
 TEST(MotionCovariance, ReplacesAMotionAndGivesColumns) {
-  for (const Form form : kForms) {
+  for (const CovarianceForm form : kForms) {
     for (const Eigen::Index i : {0, 10, 31, 32, 33, 39}) {
       Both both(form);
       const Eigen::MatrixX3d column = both.plain.middleCols<3>(3 * i);
@@ -88,7 +89,7 @@ TEST(MotionCovariance, ReplacesAMotionAndGivesColumns) {
 
 TEST(MotionCovariance, MultipliesByTheEndsOfAMatrixInEveryForm) {
   RandomStream stream(4, "right-hand side");
-  for (const Form form : kForms) {
+  for (const CovarianceForm form : kForms) {
     const Both both(form);
     for (const std::vector<Eigen::Index>& starts :
          {std::vector<Eigen::Index>{0, 7, 38}, {5}, {33, 34, 39}, {39}, {3, 12, 13, 14, 30}}) {
@@ -123,7 +124,7 @@ TEST(MotionCovariance, MultipliesByTheEndsOfAMatrixInEveryForm) {
 
 TEST(MotionCovariance, TransformsEveryStretchFromEitherEnd) {
   RandomStream stream(5, "jacobian");
-  for (const Form form : kForms) {
+  for (const CovarianceForm form : kForms) {
     const Both both(form);
     const Eigen::MatrixX3d B = random(both.plain.rows(), 3, stream);
     const auto up = both.ours.congruences(B, MotionCovariance::Over::motions_up_to);
@@ -196,7 +197,7 @@ TEST(StackedJacobian, ProductsAreThoseOfHMultipliedOut) {
   const Eigen::VectorXd lambda = random(naive.rows(), 1, stream);
   EXPECT_LT((H.transposed_times(lambda) - naive.transpose() * lambda).norm(), 1e-12 * naive.norm());
 
-  for (const Form form : kForms) {
+  for (const CovarianceForm form : kForms) {
     const Both both(form, static_cast<Eigen::Index>(first + length));
     Eigen::MatrixXd sums(naive.cols(), static_cast<Eigen::Index>(3 * H.starts().size()));
     both.ours.suffix_products(H.starts(), H.A_transposed(), sums);

@@ -10,11 +10,11 @@ namespace fathom {
 namespace {
 
 // A state of several blocks with a full covariance, and the same as a plain matrix.
-struct Both {
+struct PackedAndDense {
   filter::PackedCovariance ours;
   Eigen::MatrixXd plain;
 
-  explicit Both(Eigen::Index blocks) {
+  explicit PackedAndDense(Eigen::Index blocks) {
     const Eigen::Index n = 3 * blocks;
     srand(7);
     const Eigen::MatrixXd A = Eigen::MatrixXd::Random(n, n);
@@ -27,7 +27,7 @@ struct Both {
 
 TEST(PackedCovariance, KeepsWhatWasAppendedWhileItGrows) {
   for (const Eigen::Index blocks : {1, 2, 31, 32, 33, 100}) {
-    const Both both(blocks);
+    const PackedAndDense both(blocks);
     EXPECT_EQ(both.ours.size(), 3 * blocks);
     EXPECT_LT((both.ours.full() - both.plain).norm(), 1e-12 * both.plain.norm());
     for (const Eigen::Index k : {Eigen::Index{0}, blocks / 2, blocks - 1}) {
@@ -58,7 +58,7 @@ Eigen::MatrixXd from_block(Eigen::Index block, Eigen::Index first, const Eigen::
 
 TEST(PackedCovariance, MultipliesByTheEndsOfAMatrixInOnePass) {
   for (const Eigen::Index blocks : {1, 7, 8, 9, 17, 50}) {
-    const Both both(blocks);
+    const PackedAndDense both(blocks);
     const Eigen::Index n = 3 * blocks;
     for (const Eigen::Index first : {Eigen::Index{0}, blocks / 3, blocks - 1}) {
       std::vector<Eigen::Index> starts{first};
@@ -89,7 +89,7 @@ TEST(PackedCovariance, MultipliesByTheEndsOfAMatrixInOnePass) {
 
 TEST(PackedCovariance, SumsBothSidesOfTheDiagonal) {
   for (const Eigen::Index blocks : {1, 8, 9, 21}) {
-    const Both both(blocks);
+    const PackedAndDense both(blocks);
     const Eigen::MatrixX3d B = Eigen::MatrixXd::Random(3 * blocks, 3);
     const filter::PackedCovariance::Sides sides = both.ours.side_products(B);
     for (Eigen::Index k = 0; k < blocks; ++k) {
@@ -104,7 +104,7 @@ TEST(PackedCovariance, SumsBothSidesOfTheDiagonal) {
 }
 
 TEST(PackedCovariance, DowndatesAsTheKalmanUpdateDoes) {
-  Both both(20);
+  PackedAndDense both(20);
   const Eigen::MatrixXd H = Eigen::MatrixXd::Random(6, 60);
   const Eigen::MatrixXd S = H * both.plain * H.transpose() + 0.1 * Eigen::MatrixXd::Identity(6, 6);
   const Eigen::MatrixXd expected =
@@ -116,7 +116,7 @@ TEST(PackedCovariance, DowndatesAsTheKalmanUpdateDoes) {
 }
 
 TEST(PackedCovariance, DowndatesByFactorsThatCoverPartOfTheState) {
-  Both both(30);
+  PackedAndDense both(30);
   std::vector<filter::DowndateFactor> factors;
   for (const auto& [first, rows, rank] : {std::array{0, 90, 3}, std::array{30, 27, 6},
                                           std::array{72, 18, 3}, std::array{21, 48, 9}}) {

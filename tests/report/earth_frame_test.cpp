@@ -1,5 +1,4 @@
 #include "fathom/report/earth_frame.hpp"
-#include "support/features.hpp"
 
 #include <cmath>
 #include <limits>
@@ -9,6 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "support/features.hpp"
 #include "support/input_error.hpp"
 
 namespace fathom {
@@ -95,9 +95,7 @@ const std::vector<Case>& cases() {
 
 class EarthFrameTest : public ::testing::Test {
  protected:
-  void SetUp() override {
-    FATHOM_REQUIRE_FEATURE("geotiff");
-  }
+  void SetUp() override { FATHOM_REQUIRE_FEATURE("geotiff"); }
 };
 
 TEST_F(EarthFrameTest, PointsLieWhereGdalHasThem) {

@@ -1,5 +1,4 @@
 #include "fathom/report/geo_json.hpp"
-#include "support/features.hpp"
 
 #include <cmath>
 
@@ -7,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "support/features.hpp"
 #include "support/input_error.hpp"
 
 namespace fathom {
@@ -16,9 +16,7 @@ using nlohmann::json;
 
 class GeoJsonTest : public ::testing::Test {
  protected:
-  void SetUp() override {
-    FATHOM_REQUIRE_FEATURE("geotiff");
-  }
+  void SetUp() override { FATHOM_REQUIRE_FEATURE("geotiff"); }
   static EarthFrame earth() { return EarthFrame({0.0, 20.0, 90.0}); }
 };
 

@@ -11,7 +11,8 @@
 namespace fathom::test {
 
 inline constexpr const char* kNoRos1Writer =
-    "built without librosbag or the message classes of ROS; 'scripts/build.sh import' installs them "
+    "built without librosbag or the message classes of ROS; 'scripts/build.sh import' installs "
+    "them "
     "and builds again";
 
 }  // namespace fathom::test

@@ -31,7 +31,8 @@ inline std::string printed_by(const std::string& command) {
 inline bool has_gdal() {
   return printed_by("gdalinfo --version").starts_with("GDAL");
 }
-inline constexpr const char* kNoGdal = "gdalinfo is not installed ('scripts/setup.sh import' installs it)";
+inline constexpr const char* kNoGdal =
+    "gdalinfo is not installed ('scripts/setup.sh import' installs it)";
 
 /// What gdalinfo says of a file.
 inline nlohmann::json gdal_info(const std::filesystem::path& file) {

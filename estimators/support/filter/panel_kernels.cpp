@@ -36,12 +36,12 @@ template <class Doubles>
 // it waits whenever a page ends, and with the first-level cache as the aim there are too few
 // requests under way.
 constexpr Eigen::Index kAhead = 64 * kPanelRows;
-constexpr Eigen::Index kCacheLine = 8;
+constexpr Eigen::Index kDoublesPerLine = 8;
 
 template <int Columns>
 [[gnu::always_inline]] inline void ask_for_later(const double* panel) {
 #pragma GCC unroll 8
-  for (Eigen::Index i = 0; i < Columns * kPanelRows; i += kCacheLine) {
+  for (Eigen::Index i = 0; i < Columns * kPanelRows; i += kDoublesPerLine) {
     __builtin_prefetch(panel + kAhead + i, 0, 2);
   }
 }

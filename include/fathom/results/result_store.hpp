@@ -50,6 +50,9 @@ struct RunRecord {
   std::map<std::string, std::vector<double>> series;  ///< likewise
 };
 
+/// The name of a study's results in its folder.
+inline constexpr const char* kResultsFile = "results.sqlite";
+
 /// The results of one study: one SQLite file, `results.sqlite` (docs/formats.md has its schema).
 /// Throws InputError on a file that is no such store, is of another schema version, is damaged,
 /// cannot be read or cannot be written (a full disk among them); nothing of a run is ever stored in

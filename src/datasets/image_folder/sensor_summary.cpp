@@ -15,7 +15,7 @@ double seconds(std::int64_t from_ns, std::int64_t to_ns) {
   return 1e-9 * static_cast<double>(to_ns - from_ns);
 }
 
-double median(std::vector<double> values) {
+double median_of(std::vector<double> values) {
   std::ranges::sort(values);
   return values[values.size() / 2];
 }
@@ -40,7 +40,7 @@ void sum_up_fixes(const std::vector<Fix>& fixes, const std::string& frame,
   for (const Fix& fix : fixes) sigmas_m.push_back(std::sqrt(0.5 * fix.covariance.trace()));
   summary.facts.push_back("fixes: " + std::to_string(fixes.size()) + " in " + frame +
                           interval_text(fixes) + ", median sigma " +
-                          short_number(median(sigmas_m)) + " m, antenna at " +
+                          short_number(median_of(sigmas_m)) + " m, antenna at " +
                           short_number(lever_m.x()) + ", " + short_number(lever_m.y()) + " m");
 }
 
@@ -52,14 +52,14 @@ void sum_up_compass(const FolderCompass& compass, FolderSummary& summary) {
   summary.facts.push_back("compass: " + count(compass.readings.size(), "heading", "headings") +
                           (compass.is_from_north ? " from north" : "") +
                           interval_text(compass.readings) + ", median sigma " +
-                          short_number(median(sigmas_deg)) + " degrees, mounting yaw " +
+                          short_number(median_of(sigmas_deg)) + " degrees, mounting yaw " +
                           short_number(compass.mount_yaw_rad) + " rad");
   if (compass.left_out > 0) {
     summary.facts.push_back("compass: " + count(compass.left_out, "heading", "headings") +
                             " outside the time of the pictures, left out");
   }
   constexpr double kVaguest_deg = 45.0;
-  if (median(sigmas_deg) > kVaguest_deg) {
+  if (median_of(sigmas_deg) > kVaguest_deg) {
     summary.warnings.emplace_back(
         "headings of compass0 are known to no better than 45 degrees; is sigma in radians?");
   }

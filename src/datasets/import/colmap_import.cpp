@@ -110,7 +110,7 @@ std::optional<double> scale_by_odometry(const ImageFolder& folder,
   return metres / units;
 }
 
-std::string degrees(double radians) {
+std::string degrees_text(double radians) {
   return short_number(radians * 180.0 / std::numbers::pi) + " deg";
 }
 
@@ -163,8 +163,8 @@ ImportReport import_colmap(const fs::path& model, const PoseImportOptions& optio
                          " images");
   report.facts.push_back(
       "off the plane that fits best: " + short_number(planar.rms_off_plane * options.scale) +
-      " m rms; tilt of the optical axes: median " + degrees(planar.median_tilt_rad) + ", most " +
-      degrees(planar.most_tilt_rad));
+      " m rms; tilt of the optical axes: median " + degrees_text(planar.median_tilt_rad) +
+      ", most " + degrees_text(planar.most_tilt_rad));
   if (planar.is_normal_by_view) {
     report.notes.emplace_back(
         "the cameras lie along a line, or their heights differ by more than the survey is wide: "

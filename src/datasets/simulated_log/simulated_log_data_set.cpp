@@ -9,14 +9,14 @@
 namespace fathom {
 namespace {
 
-constexpr const char* kPrefix = "dataset.";
+constexpr const char* kDataSetPrefix = "dataset.";
 
 FlownKeyframes fly(const SimulatedLogOptions& options) {
   FlownKeyframes keyframes;
-  keyframes.frames = fly_mission(options.mission, std::string(kPrefix) + "mission.");
+  keyframes.frames = fly_mission(options.mission, std::string(kDataSetPrefix) + "mission.");
   keyframes.separation = static_cast<std::size_t>(options.separation_frames);
   if (keyframes.size() < 2) {
-    throw InputError(std::string(kPrefix) +
+    throw InputError(std::string(kDataSetPrefix) +
                      "separation_frames: leads beyond the last frame, so there is a single "
                      "keyframe; expected at most " +
                      std::to_string(keyframes.frames.size() - 1));

@@ -19,7 +19,7 @@ auto with_absolute(Of of) {
   };
 }
 
-auto count_of_use(LoopUse use) {
+auto count_of_absolute_use(LoopUse use) {
   return with_absolute([use](const JudgedRun& run) -> Value {
     const auto& all = run.facts.replay->absolute;
     return static_cast<double>(
@@ -37,7 +37,7 @@ Value kept(const JudgedRun& run) {
       std::ranges::count_if(all, [](const JudgedAbsolute& z) { return z.is_kept(); }));
 }
 
-Value mean_nis(const JudgedRun& run) {
+Value mean_absolute_nis(const JudgedRun& run) {
   double sum = 0.0;
   int degrees = 0;
   for (const JudgedAbsolute& z : run.facts.replay->absolute) {
@@ -49,7 +49,7 @@ Value mean_nis(const JudgedRun& run) {
   return sum / degrees;
 }
 
-Value mean_nis_truth(const JudgedRun& run) {
+Value mean_absolute_nis_truth(const JudgedRun& run) {
   const RunFacts& facts = run.facts;
   if (!facts.ground_truth) return std::nullopt;
   double sum = 0.0;
@@ -100,22 +100,22 @@ std::vector<Metric> absolute_metrics() {
       {"absolute_measurements", "absolute measurements", "", Better::neither,
        "of the log: headings, positions, poses", with_absolute(given)},
       {"absolute_used", "absolute used", "", Better::neither, "absolute measurements used",
-       count_of_use(LoopUse::used)},
+       count_of_absolute_use(LoopUse::used)},
       {"absolute_rejected", "absolute rejected", "", Better::neither,
-       "absolute measurements refused by the gate", count_of_use(LoopUse::rejected)},
+       "absolute measurements refused by the gate", count_of_absolute_use(LoopUse::rejected)},
       {"absolute_lost", "absolute lost", "", Better::lower,
        "absolute measurements let through by the gate, but their update failed",
-       count_of_use(LoopUse::lost)},
+       count_of_absolute_use(LoopUse::lost)},
       {"absolute_kept", "absolute kept", "", Better::neither,
        "absolute measurements that weigh more than one half in the end", with_absolute(kept)},
       {"mean_nis_absolute", "mean NIS of absolute measurements", "", Better::neither,
        "NIS of the used absolute measurements over its degrees of freedom, the rank of each; 1 "
        "expected",
-       with_absolute(mean_nis)},
+       with_absolute(mean_absolute_nis)},
       {"mean_nis_truth_absolute", "mean NIS against truth, absolute", "", Better::neither,
        "the same of the log's absolute measurements at ground truth; 1 expected, above: their "
        "covariances are too small",
-       with_absolute(mean_nis_truth)},
+       with_absolute(mean_absolute_nis_truth)},
       {"absolute_chi2", "F of absolute measurements", "", Better::neither,
        "the part of F that is of absolute measurements and of an uncertain start", cost},
       {"absolute_chi2_used", "F of absolute measurements used", "", Better::neither,

@@ -7,10 +7,6 @@
 namespace fathom {
 namespace {
 
-void append(std::vector<Metric>& all, std::vector<Metric> more) {
-  std::move(more.begin(), more.end(), std::back_inserter(all));
-}
-
 // Those whose names do not depend on options.
 const std::vector<Metric>& named_metrics() {
   static const std::vector<Metric> metrics = [] {

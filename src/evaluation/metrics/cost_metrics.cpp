@@ -31,10 +31,6 @@ std::vector<Metric> times_of(Series series, const std::string& name, const std::
   return metrics;
 }
 
-void append(std::vector<Metric>& all, const std::vector<Metric>& more) {
-  all.insert(all.end(), more.begin(), more.end());
-}
-
 std::optional<double> total_with_covariance_ms(const JudgedRun& run) {
   if (!run.facts.replay || run.facts.replay->newest_covariance_ms.empty()) return std::nullopt;
   const std::span<const double> covariances = run.facts.replay->newest_covariance_ms;

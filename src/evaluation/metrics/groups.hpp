@@ -8,6 +8,10 @@
 
 namespace fathom {
 
+inline void append(std::vector<Metric>& all, const std::vector<Metric>& more) {
+  all.insert(all.end(), more.begin(), more.end());
+}
+
 // A metric is an entry of one of these lists, each in the file of its name.
 std::vector<Metric> accuracy_metrics();
 std::vector<Metric> consistency_metrics();

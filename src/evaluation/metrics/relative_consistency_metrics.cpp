@@ -7,7 +7,7 @@
 namespace fathom {
 namespace {
 
-constexpr const char* kPrefix = "relative_anees_";
+constexpr const char* kAneesPrefix = "relative_anees_";
 
 std::optional<double> value_over(const JudgedRun& run, MotionsOver over,
                                  std::optional<double> amount) {
@@ -25,7 +25,7 @@ Metric member(MotionsOver over, const std::string& number) {
                                         : number == "1" ? " keyframe"
                                                         : " keyframes");
   Metric metric;
-  metric.name = kPrefix + number + (is_keyframes ? "_keyframes" : "_m");
+  metric.name = kAneesPrefix + number + (is_keyframes ? "_keyframes" : "_m");
   metric.label = "ANEES over " + stretch;
   metric.description = "mean NEES of the motions over " + stretch +
                        ", divided by 3; 1 expected, above: overconfident (" +
@@ -62,8 +62,8 @@ std::vector<Metric> relative_consistency_metrics(const std::vector<std::string>&
 }
 
 std::optional<Metric> relative_consistency_metric(const std::string& name) {
-  if (!name.starts_with(kPrefix)) return std::nullopt;
-  const std::size_t begin = std::string(kPrefix).size();
+  if (!name.starts_with(kAneesPrefix)) return std::nullopt;
+  const std::size_t begin = std::string(kAneesPrefix).size();
   for (const auto& [over, ending] : {std::pair(MotionsOver::keyframes, std::string("_keyframes")),
                                      std::pair(MotionsOver::distance_m, std::string("_m"))}) {
     if (!name.ends_with(ending) || name.size() <= begin + ending.size()) continue;

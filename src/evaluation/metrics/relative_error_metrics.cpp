@@ -4,7 +4,7 @@
 namespace fathom {
 namespace {
 
-constexpr const char* kPrefix = "rpe_";
+constexpr const char* kErrorPrefix = "rpe_";
 
 // Of one separation or distance, a number as text: its translation and its rotation.
 struct Kind {
@@ -32,7 +32,7 @@ std::string text_over(const Kind& kind, const std::string& number) {
 Metric member(const Kind& kind, const std::string& number, const std::string& unit) {
   const bool is_translation = unit == "m";
   Metric metric;
-  metric.name = kPrefix + number + kind.infix + unit;
+  metric.name = kErrorPrefix + number + kind.infix + unit;
   metric.label = "RPE over " + text_over(kind, number);
   metric.unit = unit;
   metric.better = Better::lower;
@@ -68,11 +68,11 @@ std::vector<Metric> relative_error_metrics(const std::vector<std::string>& keyfr
 }
 
 std::optional<Metric> relative_error_metric(const std::string& name) {
-  if (!name.starts_with(kPrefix)) return std::nullopt;
+  if (!name.starts_with(kErrorPrefix)) return std::nullopt;
   for (const Kind* kind : {&kOverKeyframes, &kOverDistance}) {
     for (const std::string unit : {"m", "rad"}) {
       const std::string ending = kind->infix + unit;
-      const std::size_t begin = std::string(kPrefix).size();
+      const std::size_t begin = std::string(kErrorPrefix).size();
       if (!name.ends_with(ending) || name.size() <= begin + ending.size()) continue;
       const std::string number = name.substr(begin, name.size() - begin - ending.size());
       const auto over = parse_real(number);

@@ -24,7 +24,7 @@ std::string short_text(double value) {
   return buffer;
 }
 
-struct Footprint {
+struct LaidFootprint {
   Corners corners;  ///< world
   double shorter_side_m = 0.0;
   double metres_per_pixel = 0.0;
@@ -41,12 +41,12 @@ double area_of(const Corners& c) {
   return 0.5 * std::abs(a.x() * b.y() - a.y() * b.x());
 }
 
-Footprint footprint_of(const Camera& camera, const PlacedPicture& picture) {
+LaidFootprint footprint_of(const Camera& camera, const PlacedPicture& picture) {
   const Pose& pose = picture.pose;
   if (!std::isfinite(pose.x) || !std::isfinite(pose.y) || !std::isfinite(pose.theta)) {
     throw InputError("the pose of frame " + std::to_string(picture.frame) + " is not finite");
   }
-  Footprint footprint{camera.footprint(picture.stance), 0.0, 0.0};
+  LaidFootprint footprint{camera.footprint(picture.stance), 0.0, 0.0};
   const double pixels = static_cast<double>(camera.model().width) * camera.model().height;
   footprint.metres_per_pixel = std::sqrt(area_of(footprint.corners) / pixels);
   footprint.shorter_side_m = shorter_side_of(footprint.corners);
@@ -85,8 +85,8 @@ std::vector<std::size_t> laid_of(const Camera& camera, std::span<const PlacedPic
     const PlacedPicture& last = pictures[laid.back()];
     const PlacedPicture& next = pictures[i];
     if (next.is_filler && !is_leap(camera, last, pictures[next_anchor(pictures, i)])) continue;
-    const Footprint from = footprint_of(camera, last);
-    const Footprint to = footprint_of(camera, next);
+    const LaidFootprint from = footprint_of(camera, last);
+    const LaidFootprint to = footprint_of(camera, next);
     const bool is_near = largest_step(from.corners, to.corners) <
                          kStep * std::min(from.shorter_side_m, to.shorter_side_m);
     // What is no filler is worth more than the filler before it.
@@ -99,22 +99,22 @@ std::vector<std::size_t> laid_of(const Camera& camera, std::span<const PlacedPic
 }
 
 template <class Member>
-double median_of(const std::vector<Footprint>& footprints, Member member) {
+double median_of(const std::vector<LaidFootprint>& footprints, Member member) {
   std::vector<double> values;
   values.reserve(footprints.size());
-  for (const Footprint& footprint : footprints) values.push_back(footprint.*member);
+  for (const LaidFootprint& footprint : footprints) values.push_back(footprint.*member);
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
 }
 
-struct Box {
+struct FloorBox {
   Eigen::Vector2d low = Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity());
   Eigen::Vector2d high = -low;
 };
 
-Box box_of(const Camera& camera, const std::vector<PlacedPicture>& pictures) {
-  Box box;
+FloorBox box_of(const Camera& camera, const std::vector<PlacedPicture>& pictures) {
+  FloorBox box;
   for (const PlacedPicture& picture : pictures) {
     for (const Eigen::Vector2d& point : seen_outline(camera, picture.stance)) {
       const Eigen::Vector2d world = transform(picture.pose, point);
@@ -126,14 +126,15 @@ Box box_of(const Camera& camera, const std::vector<PlacedPicture>& pictures) {
 }
 
 // Width and height on the grid of whole pixels, not yet as integers: they may be beyond those.
-Eigen::Vector2d size_px(const Box& box, double metres_per_pixel) {
+Eigen::Vector2d size_px(const FloorBox& box, double metres_per_pixel) {
   const Eigen::Vector2d high = (box.high / metres_per_pixel).array().ceil();
   const Eigen::Vector2d low = (box.low / metres_per_pixel).array().floor();
   const Eigen::Vector2d extent = (high - low).cwiseMax(1.0);
   return {extent.y(), extent.x()};
 }
 
-double fitting_resolution(const Box& box, double metres_per_pixel, const MosaicOptions& options) {
+double fitting_resolution(const FloorBox& box, double metres_per_pixel,
+                          const MosaicOptions& options) {
   while (true) {
     const Eigen::Vector2d size = size_px(box, metres_per_pixel);
     const double excess =
@@ -155,7 +156,7 @@ void require_options(const MosaicOptions& options) {
 }
 
 // A mosaic of which each picture is a few pixels is no map, but a trajectory gone wild.
-void require_no_specks(const Box& box, const MosaicPlan& plan, double shorter_side_m) {
+void require_no_specks(const FloorBox& box, const MosaicPlan& plan, double shorter_side_m) {
   constexpr double kFewestPx = 4.0;
   if (plan.wanted_metres_per_pixel * kFewestPx > shorter_side_m) {
     throw InputError("a resolution of " + short_text(plan.wanted_metres_per_pixel) +
@@ -176,16 +177,16 @@ MosaicPlan plan_mosaic(const Camera& camera, std::span<const PlacedPicture> pict
   require_options(options);
   if (pictures.empty()) throw InputError("a mosaic needs at least one picture with a pose");
   MosaicPlan plan;
-  std::vector<Footprint> laid;
+  std::vector<LaidFootprint> laid;
   for (const std::size_t i : laid_of(camera, pictures)) {
     plan.pictures.push_back(pictures[i]);
     laid.push_back(footprint_of(camera, pictures[i]));
   }
-  const Box box = box_of(camera, plan.pictures);
+  const FloorBox box = box_of(camera, plan.pictures);
   plan.wanted_metres_per_pixel =
-      options.metres_per_pixel.value_or(median_of(laid, &Footprint::metres_per_pixel));
+      options.metres_per_pixel.value_or(median_of(laid, &LaidFootprint::metres_per_pixel));
   plan.metres_per_pixel = fitting_resolution(box, plan.wanted_metres_per_pixel, options);
-  require_no_specks(box, plan, median_of(laid, &Footprint::shorter_side_m));
+  require_no_specks(box, plan, median_of(laid, &LaidFootprint::shorter_side_m));
   const Eigen::Vector2d size = size_px(box, plan.metres_per_pixel);
   plan.size = cv::Size(static_cast<int>(size.x()), static_cast<int>(size.y()));
   plan.top_left_m = (box.high / plan.metres_per_pixel).array().ceil() * plan.metres_per_pixel;

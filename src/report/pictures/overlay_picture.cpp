@@ -16,7 +16,7 @@ namespace fathom {
 namespace {
 
 constexpr double kLongestPx = 1500.0;
-constexpr double kMarginPx = 30.0;
+constexpr double kMapMarginPx = 30.0;
 constexpr double kTextPx = 34.0;
 /// Shares of grey (blue, green, red) that the two pictures give; together they make white.
 const cv::Vec3d kInkA(0.0, 0.5, 1.0);
@@ -25,7 +25,7 @@ const cv::Vec3d kInkB(1.0, 0.5, 0.0);
 using Corners = std::array<Eigen::Vector2d, 4>;
 
 /// Floor metres in the body frame of A to pixels: x up, y to the left.
-struct FloorMap {
+struct OverlayMap {
   Eigen::Vector2d top_left;  ///< greatest x, greatest y
   double pixels_per_metre = 1.0;
   cv::Size size;
@@ -40,7 +40,7 @@ struct FloorMap {
   }
 };
 
-FloorMap map_of(const Corners& a, const Corners& b, double metres_per_pixel) {
+OverlayMap map_of(const Corners& a, const Corners& b, double metres_per_pixel) {
   Eigen::Vector2d low = a[0];
   Eigen::Vector2d high = a[0];
   for (const Corners& corners : {a, b}) {
@@ -50,7 +50,7 @@ FloorMap map_of(const Corners& a, const Corners& b, double metres_per_pixel) {
     }
   }
   const Eigen::Vector2d extent = high - low;
-  FloorMap map;
+  OverlayMap map;
   map.top_left = high;
   map.pixels_per_metre = std::min(1.0 / metres_per_pixel, kLongestPx / extent.maxCoeff());
   constexpr double kLeastShare = 0.02;
@@ -82,7 +82,7 @@ struct Laid {
   cv::Mat mask;
 };
 
-Laid lay(const FloorPicture& picture, const Pose& pose, const FloorMap& map) {
+Laid lay(const FloorPicture& picture, const Pose& pose, const OverlayMap& map) {
   cv::Mat columns(map.size, CV_32F);
   cv::Mat rows(map.size, CV_32F);
   Laid laid;
@@ -140,10 +140,10 @@ void check(const FloorPicture& picture, const std::string& name) {
                    std::to_string(model.width) + " x " + std::to_string(model.height));
 }
 
-void draw_outline(Canvas& canvas, const FloorMap& map, const Corners& corners, Colour colour) {
+void draw_outline(Canvas& canvas, const OverlayMap& map, const Corners& corners, Colour colour) {
   std::vector<Eigen::Vector2d> polygon;
   for (const Eigen::Vector2d& corner : corners) {
-    polygon.push_back(map.pixel(corner) + Eigen::Vector2d(kMarginPx, kMarginPx + kTextPx));
+    polygon.push_back(map.pixel(corner) + Eigen::Vector2d(kMapMarginPx, kMapMarginPx + kTextPx));
   }
   canvas.outline(polygon, {colour, 2.0, {}, 1.0});
 }
@@ -157,20 +157,20 @@ cv::Mat render_overlay(const FloorPicture& a, const FloorPicture& b, const Pose&
   const Corners corners_a = a.camera.footprint(a.altitude_m);
   Corners corners_b = b.camera.footprint(b.altitude_m);
   for (Eigen::Vector2d& corner : corners_b) corner = transform(motion_a_b, corner);
-  const FloorMap map = map_of(corners_a, corners_b, a.altitude_m / a.camera.model().fx);
+  const OverlayMap map = map_of(corners_a, corners_b, a.altitude_m / a.camera.model().fx);
   Laid laid_a = lay(a, {}, map);
   Laid laid_b = lay(b, motion_a_b, map);
   brighten(laid_a, laid_b);
   const cv::Mat picture = blended(laid_a, laid_b);
 
   cv::Mat page;
-  constexpr int kMargin = static_cast<int>(kMarginPx);
+  constexpr int kMargin = static_cast<int>(kMapMarginPx);
   cv::copyMakeBorder(picture, page, kMargin + static_cast<int>(kTextPx), kMargin, kMargin, kMargin,
                      cv::BORDER_CONSTANT, cv::Scalar::all(255));
   return drawn_over(page, [&](Canvas& canvas) {
     draw_outline(canvas, map, corners_a, palette::orange);
     draw_outline(canvas, map, corners_b, palette::blue);
-    canvas.text("A orange, B blue, grey where they agree", {kMarginPx, kMarginPx + 12},
+    canvas.text("A orange, B blue, grey where they agree", {kMapMarginPx, kMapMarginPx + 12},
                 {.size = 22.0});
   });
 }
