@@ -30,8 +30,13 @@ foreach(variable IN LISTS cached)
   endif()
 endforeach()
 
+# What the groups of packages hold on this system, which may not have all.
+execute_process(COMMAND ${PROJECT_SOURCE_DIR}/scripts/setup.sh --list import python adapters
+                OUTPUT_VARIABLE FATHOM_SYSTEM_PACKAGES COMMAND_ERROR_IS_FATAL ANY)
+string(REGEX MATCHALL "[^\n]+" FATHOM_SYSTEM_PACKAGES "${FATHOM_SYSTEM_PACKAGES}")
+
 # fathom_feature(NAME FOUND … GROUP … PACKAGES … GIVES …): FOUND is what was found of it; PACKAGES
-# are Debian's, installed by `scripts/build.sh GROUP`.
+# are Debian's, which `scripts/build.sh GROUP` installs where the system has them.
 macro(fathom_feature name)
   cmake_parse_arguments(arg "" "FOUND;GROUP;GIVES" "PACKAGES" ${ARGN})
   set(default AUTO)
@@ -44,6 +49,12 @@ macro(fathom_feature name)
   string(TOUPPER "${FATHOM_${name}}" asked)
   set(choice ${asked})
   string(REPLACE ";" " " packages "${arg_PACKAGES}")
+  set(group ${arg_GROUP})
+  foreach(package IN LISTS arg_PACKAGES)
+    if(NOT package IN_LIST FATHOM_SYSTEM_PACKAGES)
+      set(group none)
+    endif()
+  endforeach()
   set(FATHOM_HAS_${name} 0)
   set(why "it is not found")
   if(choice STREQUAL "ON" OR choice STREQUAL "AUTO")
@@ -54,7 +65,7 @@ macro(fathom_feature name)
     elseif(arg_FOUND)
       set(FATHOM_HAS_${name} 1)
     elseif(packages)
-      set(why "not found: ${packages}; 'scripts/build.sh ${arg_GROUP}' installs what Debian has")
+      set(why "${packages} is not found; 'scripts/build.sh ${arg_GROUP}' installs what this system has")
     endif()
     if(asked STREQUAL "ON" AND NOT FATHOM_HAS_${name})
       message(FATAL_ERROR "FATHOM_${name} is ON, but ${why}")
@@ -63,7 +74,7 @@ macro(fathom_feature name)
     message(FATAL_ERROR "FATHOM_${name} is '${FATHOM_${name}}'; it takes AUTO, ON or OFF")
   endif()
   list(APPEND FATHOM_FEATURES ${name})
-  set(FATHOM_FEATURE_${name} "${arg_GROUP};${choice};${arg_GIVES};${packages}")
+  set(FATHOM_FEATURE_${name} "${group};${choice};${arg_GIVES};${packages}")
 endmacro()
 
 # Whether all of these are found, each a variable.
@@ -148,7 +159,7 @@ fathom_feature(G2O FOUND ${G2O_FOUND} GROUP adapters PACKAGES libg2o-dev
   GIVES "g2o's solvers as a plug-in")
 
 find_package(SESync QUIET CONFIG)
-fathom_feature(SE_SYNC FOUND ${SESync_FOUND} GROUP adapters
+fathom_feature(SE_SYNC FOUND ${SESync_FOUND} GROUP adapters PACKAGES SE-Sync
   GIVES "SE-Sync as a program for the estimator 'command'")
 
 # For the program, and for the scripts: a line each, "name 0|1 choice group packages …".

@@ -23,11 +23,16 @@ set(changelog ${PROJECT_BINARY_DIR}/changelog)
 configure_file(${PROJECT_SOURCE_DIR}/cmake/package/changelog.in ${changelog} @ONLY)
 execute_process(COMMAND gzip -9nkf ${changelog} COMMAND_ERROR_IS_FATAL ANY)
 
-# The licence that the page shows is that of the package, too: lines begin with a blank there.
-file(READ ${PROJECT_SOURCE_DIR}/src/report/page/vega_licence.txt vega_licence)
-string(STRIP "${vega_licence}" vega_licence)
-string(REPLACE "\n" "\n " vega_licence " ${vega_licence}")
-string(REPLACE "\n \n" "\n .\n" vega_licence "${vega_licence}")
+# Licences in the package's form: lines begin with a blank there.
+function(fathom_licence variable file)
+  file(READ ${PROJECT_SOURCE_DIR}/${file} text)
+  string(STRIP "${text}" text)
+  string(REPLACE "\n" "\n " text " ${text}")
+  string(REPLACE "\n \n" "\n .\n" text "${text}")
+  set(${variable} "${text}" PARENT_SCOPE)
+endfunction()
+fathom_licence(fathom_licence LICENSE)
+fathom_licence(vega_licence src/report/page/vega_licence.txt)
 configure_file(${PROJECT_SOURCE_DIR}/cmake/package/copyright.in ${PROJECT_BINARY_DIR}/copyright @ONLY)
 
 # fathom_package(COMPONENT PACKAGE SECTION DEPENDS SYNOPSIS TEXT): what the component is packed as.

@@ -27,7 +27,10 @@ site() {
 reference() {
   need doxygen
   mkdir -p "$1"
-  { cat docs/site/Doxyfile; printf 'OUTPUT_DIRECTORY = "%s"\nHTML_OUTPUT = reference\n' "$1"; } |
+  local version
+  version=$(sed -n 's/^project(fathom VERSION \([0-9.]*\).*/\1/p' CMakeLists.txt)
+  { cat docs/site/Doxyfile
+    printf 'OUTPUT_DIRECTORY = "%s"\nHTML_OUTPUT = reference\nPROJECT_NUMBER = %s\n' "$1" "$version"; } |
     doxygen -
 }
 

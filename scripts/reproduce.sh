@@ -15,7 +15,7 @@ set -euo pipefail
 cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/.."
 
 command -v python3 > /dev/null || {
-  printf 'reproduce: skipped: python3 is not installed (scripts/setup.sh installs it)\n'
+  printf "reproduce: skipped: python3 is not installed; 'scripts/setup.sh' installs it\n"
   exit 77
 }
 

@@ -4,6 +4,7 @@
 #
 #     scripts/setup.sh                  # what the build needs, its tests and benchmarks included
 #     scripts/setup.sh import python    # and what these groups need:
+#     scripts/setup.sh --list adapters  # says what that is on this system, and installs nothing
 #
 #     import    bags of ROS, maps on Earth    adapters  other people's solvers that the system packs
 #     python    the Python module             docs      the site of docs/ and the reference
@@ -49,8 +50,10 @@ cluster=(slurm-wlm munge)
 cross=(g++-aarch64-linux-gnu)
 
 packages=("${base[@]}")
+is_list=
 for group in "$@"; do
   case "$group" in
+    --list) is_list=yes && packages=() ;;
     import | python | adapters | lint | docs | cluster | cross)
       declare -n chosen=$group
       packages+=("${chosen[@]}")
@@ -58,6 +61,11 @@ for group in "$@"; do
     *) fail "unknown group '$group'; there are import, python, adapters, docs, lint, cluster, cross" ;;
   esac
 done
+
+if [[ -n $is_list ]]; then
+  printf '%s\n' "${packages[@]}"
+  exit 0
+fi
 
 # Those of which the package manager does not say that they are installed whole.
 missing() {

@@ -11,6 +11,13 @@ TOP = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))
 OUTSIDE = re.compile(r"\[([^]]*)\]\(\.\./([\w./-]+)\)")
 
 
+def on_config(config):
+    with open(os.path.join(TOP, "CMakeLists.txt"), encoding="utf-8") as lists:
+        version = re.search(r"project\(fathom VERSION ([\d.]+)", lists.read()).group(1)
+    config["copyright"] = f"Fathom {version}, BSD-3-Clause"
+    return config
+
+
 def on_files(files, config):
     for file in list(files):
         if file.src_path.startswith("site/") and not file.src_path.endswith((".css", ".js")):

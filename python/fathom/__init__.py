@@ -24,11 +24,13 @@ from ._fathom import (
     wilson_interval,
     write_g2o,
 )
+from ._fathom import version as __version__
 from ._register import register
 from ._run import estimators, options, replay, run, solve
 from ._study import Results, compare, open_results
 
 __all__ = [
+    "__version__",
     "AbsolutePose",
     "Estimator",
     "InputError",

@@ -5,6 +5,8 @@ from numpy.typing import ArrayLike, NDArray
 
 Array = NDArray[np.float64]
 
+version: str
+
 class InputError(ValueError): ...
 
 class RelativePose:

@@ -15,7 +15,7 @@ class Results:
     """The results of a study.
 
     rows: a dict for every run: cell, the values of the sweep's axes, survey, trial, estimator,
-        outcome, fault, and its metrics (docs/metrics.md); what is not known is absent.
+        outcome, fault, and its metrics (docs/studies.md); what is not known is absent.
     estimators: their names; dead reckoning has rows beside them.
     folder: where report.html, tables and figures are.
     example: by estimator the Solution of the first trial, where the study was run here.

@@ -1,8 +1,10 @@
 #include "fathom/core/input_error.hpp"
+#include "fathom/core/version.hpp"
 #include "python/src/bindings.hpp"
 
 PYBIND11_MODULE(_fathom, module) {
   module.doc() = "Fathom's library; use the package fathom";
+  module.attr("version") = fathom::version();
   pybind11::register_exception<fathom::InputError>(module, "InputError", PyExc_ValueError);
   for (const auto bind :
        {fathom::bind_settings, fathom::bind_measurements, fathom::bind_logs,

@@ -113,7 +113,7 @@ void bind_solution(py::module_& module) {
           "F at the estimate, no unit; NaN where there is none.")
       .def_property_readonly(
           "metrics", [](const Solution& s) { return s.result.metrics; },
-          "Every metric that is known, by name (docs/metrics.md).")
+          "Every metric that is known, by name (docs/studies.md).")
       .def_property_readonly(
           "trajectory", [](const Solution& s) { return array_of(s.result.replay.trajectory); },
           "N x 3: x (m), y (m), theta (rad), world axes.")

@@ -33,7 +33,7 @@ class Notebooks(unittest.TestCase):
         try:
             import pandas  # noqa: F401
         except ImportError:
-            self.skipTest("no pandas")
+            self.skipTest("no pandas; 'scripts/setup.sh python' installs it")
         display = types.ModuleType("IPython.display")
         display.Image = Image
         sys.modules.setdefault("IPython", types.ModuleType("IPython"))

@@ -38,6 +38,12 @@ def names_of_the_module():
 
 
 class Stubs(unittest.TestCase):
+
+    def test_the_version_is_that_of_the_build(self):
+        lists = os.path.join(os.path.dirname(__file__), "..", "..", "CMakeLists.txt")
+        with open(lists) as file:
+            self.assertIn(f"project(fathom VERSION {fathom.__version__} ", file.read())
+
     def test_are_complete(self):
         stub, module = names_of_the_stub(), names_of_the_module()
         self.assertEqual(set(stub), set(module))

@@ -74,7 +74,7 @@ class Studies(unittest.TestCase):
         try:
             import pandas  # noqa: F401
         except ImportError:
-            self.skipTest("no pandas")
+            self.skipTest("no pandas; 'scripts/setup.sh python' installs it")
         frame = self.results.to_frame()
         mean = frame[(frame.estimator == "ekf") & (frame.cell == 0)].mean_position_error_m.mean()
         self.assertEqual(mean, self.results.metric("mean_position_error_m", "ekf").mean())

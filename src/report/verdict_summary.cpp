@@ -2,6 +2,7 @@
 #include <cctype>
 #include <cmath>
 #include <map>
+#include <optional>
 
 #include "fathom/report/table.hpp"
 #include "scaled_unit.hpp"
@@ -104,9 +105,10 @@ void add_cost(const StudyResults& results, StudyVerdict& verdict) {
     parts.push_back(name + " in " + of_cells(count, results.cells.size()));
   }
   const Metric metric = described(*verdict.cost);
+  const ScaledUnit unit = reading_unit(metric.unit, most);
   verdict.cost_words = {"Cheapest of those within 5 % of the best: " + listed(parts) + "; " +
-                        metric.label + " " + quantity(least, metric.unit) + " to " +
-                        quantity(most, metric.unit) + "."};
+                        metric.label + " " + quantity(least, std::nullopt, unit) + " to " +
+                        quantity(most, std::nullopt, unit) + "."};
 }
 
 // Over all cells, with the number of those where it happened.

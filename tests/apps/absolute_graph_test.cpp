@@ -174,7 +174,7 @@ TEST_F(Commands, AStudyOverAGraphWithPriorsHasThemInItsTable) {
 TEST_F(Commands, BatchSolvesAgreeWithAnIndependentOne) {
   FATHOM_REQUIRE_DATA("pose_graphs/ring.g2o");
   if (printed_by("/usr/bin/python3 -c 'import scipy, numpy; print(1)'") != "1\n") {
-    GTEST_SKIP() << "Python has no SciPy here";
+    GTEST_SKIP() << "Python has no SciPy here; 'scripts/setup.sh python' installs it";
   }
   const std::string graph = data_path("pose_graphs/ring.g2o").string();
   const std::string truth = data_path("pose_graphs/ring.groundtruth.tum").string();

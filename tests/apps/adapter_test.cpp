@@ -11,6 +11,7 @@
 #include "apps/plugin_files.hpp"
 #include "fathom/geometry/pose.hpp"
 #include "support/data.hpp"
+#include "support/requirements.hpp"
 
 namespace fathom::test {
 namespace {
@@ -35,11 +36,7 @@ std::ostream& operator<<(std::ostream& out, const Adapter& adapter) {
 
 class Adapters : public CommandLine, public ::testing::WithParamInterface<Adapter> {
  protected:
-  void SetUp() override {
-    if (!std::filesystem::exists(file())) {
-      GTEST_SKIP() << "built without " << GetParam().plugin << " (docs/adapters.md)";
-    }
-  }
+  void SetUp() override { FATHOM_REQUIRE_FEATURE(GetParam().plugin); }
 
   std::string file() const { return FATHOM_ADAPTER_FOLDER + GetParam().plugin + ".so"; }
 
@@ -80,8 +77,9 @@ TEST_P(Adapters, ReachTheOptimumOfRealGraphs) {
 
 // The contract is about covariances, failures, holes and fixes, too.
 TEST_P(Adapters, KeepTheContractButForWhatThePageSays) {
-  if (!GetParam().has_covariances) GTEST_SKIP() << "has no covariances, which most clauses need";
-  if (GetParam().label != GetParam().estimator) GTEST_SKIP() << "takes no settings";
+  if (!GetParam().has_covariances)
+    GTEST_SKIP() << "does not apply: has no covariances, which most clauses need";
+  if (GetParam().label != GetParam().estimator) GTEST_SKIP() << "does not apply: takes no settings";
   const Ended result = fathom({"conformance", GetParam().estimator, "--plugin", file()});
   std::set<std::string> broken;
   const std::regex breaks(GetParam().estimator + ": breaks (\\w+):");
@@ -153,7 +151,7 @@ TEST_P(Adapters, UseLoopsThatAgree) {
 }
 
 TEST_P(Adapters, RefuseAGateWhereThereIsNoInnovation) {
-  if (!GetParam().can_batch) GTEST_SKIP() << "has no batch mode";
+  if (!GetParam().can_batch) GTEST_SKIP() << "does not apply: has no batch mode";
   write("g.g2o", "EDGE_SE2 0 1 1 0 0 1 0 0 1 0 1\n");
   std::vector<std::string> words = solve("g.g2o");
   words.insert(words.end(), {"--mode", "batch", "--set", "estimator.gate_probability=0.99"});
@@ -186,7 +184,7 @@ INSTANTIATE_TEST_SUITE_P(
 // Its cost is another one: near the optimum of F, not at it.
 TEST_F(CommandLine, SESyncIsCalledByCommand) {
   const std::string program = FATHOM_ADAPTER_FOLDER "se_sync";
-  if (!std::filesystem::exists(program)) GTEST_SKIP() << "built without SE-Sync";
+  FATHOM_REQUIRE_FEATURE("se_sync");
   FATHOM_REQUIRE_DATA("pose_graphs/ring.g2o");
   fathom_done({"solve", data_path("pose_graphs/ring.g2o").string(), "--estimator", "command",
                "--mode", "batch", "--set", "estimator.command=" + program + " {input} {output}",

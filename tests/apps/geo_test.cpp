@@ -12,8 +12,8 @@
 #include "fathom/core/files.hpp"
 #include "fathom/report/earth_frame.hpp"
 #include "harness/small_config.hpp"
-#include "support/features.hpp"
 #include "support/gdal.hpp"
+#include "support/requirements.hpp"
 
 namespace fathom::test {
 namespace {

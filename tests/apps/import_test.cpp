@@ -10,7 +10,7 @@
 #include "fathom/datasets/image_folder.hpp"
 #include "support/bags/survey_bag.hpp"
 #include "support/data.hpp"
-#include "support/features.hpp"
+#include "support/requirements.hpp"
 
 namespace fathom::test {
 namespace {

@@ -110,7 +110,9 @@ TEST_F(Pages, NameEveryFlagAndSayWhatItDoes) {
 }
 
 TEST_F(Pages, ManReadsThem) {
-  if (std::system("command -v man > /dev/null") != 0) GTEST_SKIP() << "no man here";
+  if (std::system("command -v man > /dev/null") != 0) {
+    GTEST_SKIP() << "no man here; 'scripts/setup.sh' installs it";
+  }
   EXPECT_THAT(lines_of("export LC_ALL=C.UTF-8 MANWIDTH=100\nfor page in pages/man1/*; do\n"
                        "  man --warnings -l $page 2>&1 > /dev/null\ndone\n"),
               ElementsAre());

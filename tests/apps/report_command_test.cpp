@@ -1,12 +1,12 @@
 // fathom report: a study's folder, or its file, into the files of a report.
 
 #include <filesystem>
-#include <unistd.h>
 
 #include <gmock/gmock.h>
 
 #include "apps/command_line.hpp"
 #include "report/study_fixture.hpp"
+#include "support/requirements.hpp"
 
 namespace fathom::test {
 namespace {
@@ -50,7 +50,7 @@ TEST_F(ReportCommand, RefusesWhatIsNoStudy) {
 }
 
 TEST_F(ReportCommand, AReadOnlyFolderNeedsOut) {
-  if (::geteuid() == 0) GTEST_SKIP() << "root may write anywhere";
+  FATHOM_REQUIRE_NO_ROOT();
   fs::permissions(path("study"), fs::perms::owner_read | fs::perms::owner_exec);
   EXPECT_THAT(refusal({"report", "study"}), HasSubstr("--out DIR takes another folder"));
   fathom_done({"report", "study", "--out", "out"});

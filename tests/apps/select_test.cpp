@@ -1,7 +1,6 @@
 // fathom select, on small synthetic stores.
 
 #include <filesystem>
-#include <unistd.h>
 
 #include <gmock/gmock.h>
 
@@ -9,6 +8,7 @@
 #include "fathom/core/files.hpp"
 #include "harness/small_config.hpp"
 #include "harness/small_study.hpp"
+#include "support/requirements.hpp"
 
 namespace fathom::test {
 namespace {
@@ -147,7 +147,7 @@ TEST_F(Select, BadInputIsRefusedWithWhatWouldBeRight) {
 }
 
 TEST_F(Select, AReadOnlyFolderTakesAnOutFolder) {
-  if (::geteuid() == 0) GTEST_SKIP() << "root can write anywhere";
+  FATHOM_REQUIRE_NO_ROOT();
   store("study");
   fs::permissions(path("study"), fs::perms::owner_read | fs::perms::owner_exec);
   EXPECT_THAT(refusal({"select", "study"}), HasSubstr("--out DIR says where selected.yaml"));

@@ -6,7 +6,7 @@
 
 #include "apps/command_line.hpp"
 #include "fathom/core/files.hpp"
-#include "support/features.hpp"
+#include "support/requirements.hpp"
 
 namespace fathom::test {
 namespace {

@@ -2,13 +2,13 @@
 
 #include <filesystem>
 #include <regex>
-#include <unistd.h>
 
 #include <gmock/gmock.h>
 
 #include "apps/command_line.hpp"
 #include "apps/graphs.hpp"
 #include "harness/small_config.hpp"
+#include "support/requirements.hpp"
 
 namespace fathom::test {
 namespace {
@@ -116,7 +116,7 @@ TEST_F(Usage, AnOutFolderThatCannotBeIsRefused) {
 }
 
 TEST_F(Usage, AReadOnlyOutFolderIsRefused) {
-  if (::geteuid() == 0) GTEST_SKIP() << "root can write anywhere";
+  FATHOM_REQUIRE_NO_ROOT();
   write("g.g2o", kTwoPoses);
   namespace fs = std::filesystem;
   fs::create_directory(path("locked"));

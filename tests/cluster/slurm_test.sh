@@ -12,7 +12,7 @@ sources=$2
 
 for program in munged slurmctld slurmd sbatch srun scontrol squeue sacctmgr python3; do
   command -v "$program" > /dev/null || [[ -x /usr/sbin/$program ]] || {
-    printf 'skipped: %s is not installed (scripts/setup.sh cluster installs it)\n' "$program"
+    printf "skipped: %s is not installed; 'scripts/setup.sh cluster' installs it\n" "$program"
     exit 0
   }
 done

@@ -10,8 +10,8 @@
 #include "fathom/datasets/import.hpp"
 #include "small_survey.hpp"
 #include "support/bags/survey_bag.hpp"
-#include "support/features.hpp"
 #include "support/input_error.hpp"
+#include "support/requirements.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace fathom::test {

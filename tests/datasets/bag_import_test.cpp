@@ -4,8 +4,8 @@
 
 #include "bag_fixture.hpp"
 #include "fathom/core/files.hpp"
-#include "support/features.hpp"
 #include "support/planar.hpp"
+#include "support/requirements.hpp"
 
 namespace fathom {
 namespace {

@@ -12,9 +12,9 @@
 #include "fathom/datasets/image_folder.hpp"
 #include "fathom/datasets/sensor_summary.hpp"
 #include "folder_fixture.hpp"
-#include "support/features.hpp"
 #include "support/input_error.hpp"
 #include "support/planar.hpp"
+#include "support/requirements.hpp"
 
 namespace fathom {
 namespace {

@@ -39,7 +39,9 @@ TEST_P(Conformance, Keeps) {
   const auto& [estimator, clause] = GetParam();
   const ConformanceVerdict verdict =
       conformance_of(builtin_estimators().find(estimator), clause.name);
-  if (verdict.conformity == Conformity::not_applicable) GTEST_SKIP() << verdict.how;
+  if (verdict.conformity == Conformity::not_applicable) {
+    GTEST_SKIP() << "does not apply: " << verdict.how;
+  }
   if (is_known_breach(GetParam())) {
     EXPECT_EQ(verdict.conformity, Conformity::broken) << "it is a breach no more";
     return;

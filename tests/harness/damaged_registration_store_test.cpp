@@ -7,7 +7,6 @@
 #include <fstream>
 #include <iterator>
 #include <string>
-#include <unistd.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -15,6 +14,7 @@
 #include "fathom/core/random.hpp"
 #include "fathom/front_end/registration_store.hpp"
 #include "harness/registration_values.hpp"
+#include "support/requirements.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace fathom {
@@ -56,7 +56,7 @@ TEST(RegistrationStore, AFolderThatCannotBeLeavesMemory) {
 }
 
 TEST(RegistrationStore, AReadOnlyFolderLeavesMemory) {
-  if (::geteuid() == 0) GTEST_SKIP() << "root may write anywhere";
+  FATHOM_REQUIRE_NO_ROOT();
   const test::TemporaryFolder folder;
   fs::permissions(folder.path(), fs::perms::owner_read | fs::perms::owner_exec);
   expect_works_in_memory(folder.path(), "unable to open");

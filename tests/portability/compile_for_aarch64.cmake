@@ -21,7 +21,7 @@ endif()
 
 find_program(compiler NAMES aarch64-linux-gnu-g++ aarch64-linux-gnu-g++-12)
 if(NOT compiler)
-  message(STATUS "skipped: no aarch64-linux-gnu-g++ here (Debian: g++-aarch64-linux-gnu)")
+  message(STATUS "skipped: no aarch64-linux-gnu-g++ here; 'scripts/setup.sh cross' installs it")
   return()
 endif()
 # Headers of libraries that differ by architecture are those of this machine, after the compiler's.

@@ -74,7 +74,8 @@ inline nlohmann::json self_test_of(const FixtureOptions& options,
 class Browser : public ::testing::Test {
  protected:
   void SetUp() override {
-    if (browser().empty()) GTEST_SKIP() << "no chromium here to open the page with";
+    if (browser().empty())
+      GTEST_SKIP() << "no chromium here to open the page with; 'scripts/setup.sh' installs it";
   }
 };
 

@@ -8,8 +8,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "support/features.hpp"
 #include "support/input_error.hpp"
+#include "support/requirements.hpp"
 
 namespace fathom {
 namespace {

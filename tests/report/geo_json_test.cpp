@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "support/features.hpp"
 #include "support/input_error.hpp"
+#include "support/requirements.hpp"
 
 namespace fathom {
 namespace {

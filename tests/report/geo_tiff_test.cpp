@@ -12,9 +12,9 @@
 #include "fathom/core/files.hpp"
 #include "fathom/report/picture.hpp"
 #include "fathom/report/world_file.hpp"
-#include "support/features.hpp"
 #include "support/gdal.hpp"
 #include "support/input_error.hpp"
+#include "support/requirements.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace fathom {

@@ -48,7 +48,8 @@ void expect_exact(const cv::Mat& from, const cv::Mat& to) {
 class Bytes : public ::testing::Test {
  protected:
   void SetUp() override {
-    if (!has_avx512_vnni()) GTEST_SKIP() << "this processor has no products of bytes";
+    if (!has_avx512_vnni())
+      GTEST_SKIP() << "does not apply: this processor has no products of bytes";
   }
 };
 

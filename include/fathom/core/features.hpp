@@ -12,8 +12,9 @@ struct Feature {
   std::string_view name;  ///< such as "geotiff"; the CMake option is FATHOM_GEOTIFF
   bool is_built = false;
   std::string_view gives;
-  std::string_view packages;  ///< of Debian, with blanks between; empty: it packs none
-  std::string_view group;     ///< `scripts/build.sh GROUP` installs them and builds again
+  std::string_view packages;  ///< of Debian, with blanks between
+  std::string_view
+      group;  ///< `scripts/build.sh GROUP` installs them; "none": the system packs none
 };
 
 /// All that this Fathom knows of, built or not.
@@ -22,11 +23,12 @@ std::span<const Feature> features();
 /// Of that name. Throws std::out_of_range for a name of none.
 const Feature& feature(std::string_view name);
 
-/// How a build gets the feature: "scripts/build.sh import", or where its packages are described.
+/// What gets the feature: the command "scripts/build.sh import", or the page that says how.
 std::string remedy_for(const Feature& feature);
 
 /// What the message says that refuses something for want of a feature: "this Fathom was built
-/// without libfastcdr-dev; 'scripts/build.sh import' installs it and builds again".
+/// without libfastcdr-dev; 'scripts/build.sh import' installs it and builds again", or "…; see
+/// docs/adapters.md".
 std::string refusal_without(std::string_view name);
 
 }  // namespace fathom
