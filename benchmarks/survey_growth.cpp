@@ -20,7 +20,7 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-#include "back_ends/curves.hpp"
+#include "benchmarks/back_ends/curves.hpp"
 #include "fathom/core/files.hpp"
 #include "fathom/core/input_error.hpp"
 #include "src/report/chart_legend.hpp"

@@ -90,7 +90,7 @@ endfunction()
 find_package(PkgConfig REQUIRED)
 
 pkg_check_modules(LIBEXIF QUIET IMPORTED_TARGET libexif)
-fathom_feature(EXIF FOUND ${LIBEXIF_FOUND} GROUP import PACKAGES libexif-dev
+fathom_feature(EXIF FOUND ${LIBEXIF_FOUND} GROUP base PACKAGES libexif-dev
   GIVES "times and focal lengths that cameras write into pictures")
 
 pkg_check_modules(PROJ QUIET IMPORTED_TARGET proj)

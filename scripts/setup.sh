@@ -53,7 +53,8 @@ packages=("${base[@]}")
 is_list=
 for group in "$@"; do
   case "$group" in
-    --list) is_list=yes && packages=() ;;
+    --list) is_list=yes ;;
+    base) ;;
     import | python | adapters | lint | docs | cluster | cross)
       declare -n chosen=$group
       packages+=("${chosen[@]}")

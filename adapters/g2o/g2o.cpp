@@ -1,76 +1,22 @@
 // A plug-in with the pose-graph solvers of g2o: Gauss-Newton, Levenberg-Marquardt, dogleg, and
 // Gauss-Newton from g2o's own linear start, with CHOLMOD.
 
-#include <g2o/core/block_solver.h>
-#include <g2o/core/optimization_algorithm_dogleg.h>
-#include <g2o/core/optimization_algorithm_gauss_newton.h>
-#include <g2o/core/optimization_algorithm_levenberg.h>
 #include <g2o/core/sparse_optimizer.h>
 #include <g2o/core/sparse_optimizer_terminate_action.h>
-#include <g2o/solvers/cholmod/linear_solver_cholmod.h>
-#include <g2o/solvers/slam2d_linear/solver_slam2d_linear.h>
 #include <g2o/types/slam2d/edge_se2.h>
 #include <g2o/types/slam2d/vertex_se2.h>
 #include <memory>
 #include <utility>
 #include <vector>
 
+#include "adapters/g2o/algorithm.hpp"
 #include "adapters/support/graph_adapter.hpp"
 #include "fathom/estimation/plugin.hpp"
 
 namespace {
 
 using namespace fathom;
-
-enum class Method { gauss_newton, levenberg_marquardt, dogleg, slam2d_linear };
-
-const std::vector<std::pair<std::string, Method>>& method_names() {
-  static const std::vector<std::pair<std::string, Method>> names{
-      {"gauss_newton", Method::gauss_newton},
-      {"levenberg_marquardt", Method::levenberg_marquardt},
-      {"dogleg", Method::dogleg},
-      {"slam2d_linear", Method::slam2d_linear}};
-  return names;
-}
-
-struct Options {
-  Method method = Method::gauss_newton;
-  int max_iterations = 100;
-  double tolerance = 1e-6;  // the gain that the program g2o ends at
-  GateOptions gate;
-
-  void describe(OptionTable& table) {
-    table.enumeration("method", method, method_names(),
-                      "slam2d_linear: Gauss-Newton from headings that are solved for first");
-    table.integer("max_iterations", max_iterations, Range::at_least(1), "",
-                  "iterations of one solve at most");
-    table.real("tolerance", tolerance, Range::positive(), "",
-               "g2o's gain: a solve ends when an iteration lowers F by a smaller share");
-    gate.describe(table);
-  }
-
-  void check(const EstimatorSetup& setup) const { check_gate(gate, setup, true); }
-};
-
-using Algorithm = g2o::OptimizationAlgorithmWithHessian;
-using BlockSolver = g2o::BlockSolverPL<3, 3>;
-
-std::unique_ptr<Algorithm> make_algorithm(Method method) {
-  auto linear = std::make_unique<g2o::LinearSolverCholmod<BlockSolver::PoseMatrixType>>();
-  linear->setBlockOrdering(true);
-  auto solver = std::make_unique<BlockSolver>(std::move(linear));
-  switch (method) {
-    case Method::gauss_newton:
-      break;
-    case Method::levenberg_marquardt:
-      return std::make_unique<g2o::OptimizationAlgorithmLevenberg>(std::move(solver));
-    case Method::dogleg:
-      return std::make_unique<g2o::OptimizationAlgorithmDogleg>(std::move(solver));
-    case Method::slam2d_linear:
-      return std::make_unique<g2o::SolverSLAM2DLinear>(std::move(solver));
-  }
-  return std::make_unique<g2o::OptimizationAlgorithmGaussNewton>(std::move(solver));
-}
+using namespace fathom::g2o_adapter;
 
 g2o::SE2 to_g2o(const Pose& pose) {
   return {pose.x, pose.y, pose.theta};

@@ -12,76 +12,12 @@
 #include "python/src/arrays.hpp"
 #include "python/src/given_measurements.hpp"
 #include "python/src/python_options.hpp"
+#include "python/src/python_report.hpp"
 
 namespace fathom {
 namespace {
 
 namespace py = pybind11;
-
-template <class Name>
-Name named(const py::handle& word, const std::vector<Name>& all, const std::string& what) {
-  const std::string text = py::str(word).cast<std::string>();
-  std::string known;
-  for (const Name name : all) {
-    if (name_of(name) == text) return name;
-    known += (known.empty() ? "" : ", ") + name_of(name);
-  }
-  throw InputError(what + ": got '" + text + "', expected " + known);
-}
-
-Outcome outcome_of(const py::handle& word) {
-  using enum Outcome;
-  return named<Outcome>(word, {converged, iteration_limit, diverged, numerical_failure}, "outcome");
-}
-
-LoopFate fate_of(const py::handle& word) {
-  using enum LoopFate;
-  return named<LoopFate>(word, {used, rejected, lost}, "fate");
-}
-
-// A fate alone, or with the normalised innovation squared: "used", ("rejected", 31.2).
-template <class Decision>
-void decide(const py::handle& given, Decision& decision) {
-  if (!py::isinstance<py::tuple>(given)) {
-    decision.fate = fate_of(given);
-    return;
-  }
-  const auto both = py::reinterpret_borrow<py::tuple>(given);
-  if (both.size() != 2) throw InputError("a decision: expected a fate, or (fate, nis)");
-  decision.fate = fate_of(both[0]);
-  if (!both[1].is_none()) decision.nis = both[1].cast<double>();
-}
-
-// `decisions`: None, all as the outcome says, or a list in the order given.
-template <class Decision>
-void decide_all(const py::object& given, std::vector<Decision>& decisions) {
-  if (given.is_none()) return;
-  const auto list = py::list(given);
-  if (list.size() != decisions.size()) {
-    throw InputError("a report has " + std::to_string(list.size()) + " decisions, expected " +
-                     std::to_string(decisions.size()));
-  }
-  for (std::size_t i = 0; i < decisions.size(); ++i) decide(list[i], decisions[i]);
-}
-
-UpdateReport report_of(const py::object& given, const Measurements& measurements) {
-  UpdateReport report;
-  if (!given.is_none()) {
-    report.outcome = outcome_of(given.attr("outcome"));
-    report.iterations = given.attr("iterations").cast<int>();
-  }
-  const LoopFate fate = is_done(report.outcome) ? LoopFate::used : LoopFate::lost;
-  for (const RelativePose& z : measurements.registrations) {
-    report.loops.push_back({z.from, z.to, fate, std::nullopt});
-  }
-  for (const AbsolutePose& z : measurements.absolute) {
-    report.absolute.push_back({z.keyframe, fate, std::nullopt});
-  }
-  if (given.is_none()) return report;
-  decide_all(given.attr("loops"), report.loops);
-  decide_all(given.attr("absolute"), report.absolute);
-  return report;
-}
 
 // A call with the interpreter's lock; an exception of Python becomes a text.
 template <class Call>
@@ -149,7 +85,7 @@ class PythonEstimator : public Estimator {
     return locked([&] {
       py::object poses = py::none();
       if (!start.empty()) poses = array_of(std::vector<Pose>(start.begin(), start.end()));
-      return finish_report(finish_(poses));
+      return report_of_solve(finish_(poses));
     });
   }
 
@@ -181,18 +117,6 @@ class PythonEstimator : public Estimator {
   }
 
  private:
-  // A batch solve decides on all measurements of the log, which this has not kept.
-  static UpdateReport finish_report(const py::object& given) {
-    UpdateReport report;
-    if (given.is_none()) return report;
-    report.outcome = outcome_of(given.attr("outcome"));
-    report.iterations = given.attr("iterations").cast<int>();
-    if (!given.attr("loops").is_none() || !given.attr("absolute").is_none()) {
-      throw InputError("the report of a solve has decisions, which are those of the updates");
-    }
-    return report;
-  }
-
   static std::vector<double> weights(const py::object& ask, const char* what) {
     if (!ask) return {};
     return locked([&] { return values_of(ask(), what); });

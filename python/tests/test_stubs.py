@@ -38,7 +38,6 @@ def names_of_the_module():
 
 
 class Stubs(unittest.TestCase):
-
     def test_the_version_is_that_of_the_build(self):
         lists = os.path.join(os.path.dirname(__file__), "..", "..", "CMakeLists.txt")
         with open(lists) as file:

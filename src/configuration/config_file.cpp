@@ -207,9 +207,9 @@ Setting parse_override(const std::string& text) {
   return {key, settings.all().front().value, origin};
 }
 
-const std::string& word_of(const Setting& setting, const std::string& key) {
+const std::string& word_of(const Setting& setting, std::string_view key) {
   if (setting.value.is_list || setting.value.items.size() != 1) {
-    refuse(setting, key + ": expected a single word");
+    refuse(setting, std::string(key) + ": expected a single word");
   }
   return setting.value.items.front();
 }

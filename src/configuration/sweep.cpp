@@ -24,9 +24,11 @@ OptionValue value_of(const std::string& text) {
   return list;
 }
 
-const Setting& required(const Settings& own, const std::string& key, const std::string& prefix) {
-  if (const Setting* setting = own.find(key)) return *setting;
-  refuse(own.all().front(), prefix + key + " is missing: an axis of a sweep has a key and values");
+const Setting& required(const Settings& own, std::string_view key, std::string_view prefix) {
+  const std::string word(key);
+  if (const Setting* setting = own.find(word)) return *setting;
+  refuse(own.all().front(),
+         std::string(prefix) + word + " is missing: an axis of a sweep has a key and values");
 }
 
 void refuse_unknown(const Settings& own, const std::string& prefix) {

@@ -20,7 +20,8 @@ std::vector<std::string> sources(const std::vector<std::string>& folders) {
 }
 
 TEST(Architecture, EveryIncludeIsAllowedByTheDesign) {
-  const auto files = sources({"include", "src", "estimators", "adapters", "apps"});
+  const auto files =
+      sources({"include", "src", "estimators", "adapters", "apps", "python", "benchmarks"});
   ASSERT_GT(files.size(), 100u);
   std::size_t seen = 0;
   for (const std::string& file : files) {
@@ -38,7 +39,8 @@ TEST(Architecture, EveryLinkIsAllowedByTheDesign) {
   const std::regex call(
       R"((fathom_module|fathom_estimator|fathom_support|target_link_libraries)\s*\(\s*(\w+)([^)]*)\))");
   std::size_t seen = 0;
-  for (const std::string& file : files_below({"src", "estimators", "apps"}, R"(CMakeLists\.txt)")) {
+  for (const std::string& file :
+       files_below({"src", "estimators", "adapters", "apps", "python"}, R"(CMakeLists\.txt)")) {
     const std::string text = content_of(file);
     for (std::sregex_iterator found(text.begin(), text.end(), call), end; found != end; ++found) {
       const bool is_support = (*found)[1] == "fathom_support";
@@ -124,6 +126,15 @@ TEST(IncludeRules, RefuseWhatTheTableDoesNotAllow) {
       {"adapters/g2o/a.cpp", "\"fathom/harness/replay.hpp\"", "adapters may not"},
       {"apps/main.cpp", "\"estimators/support/pose_graph/edge.hpp\"", "estimator's own"},
       {"apps/main.cpp", "\"estimators/ekf/ekf.hpp\"", "estimator's own"},
+      {"apps/main.cpp", "\"src/report/canvas.hpp\"", "module's own"},
+      {"apps/main.cpp", "\"python/src/arrays.hpp\"", "apps may not include python"},
+      {"src/harness/a.cpp", "\"benchmarks/output.hpp\"", "harness may not include benchmarks"},
+      {"python/src/a.cpp", "\"estimators/ekf/ekf.hpp\"", "estimator's own"},
+      {"python/src/a.cpp", "\"benchmarks/output.hpp\"", "python may not include benchmarks"},
+      {"python/src/a.cpp", "<opencv2/core.hpp>", "not for this folder"},
+      {"benchmarks/a.cpp", "\"python/src/arrays.hpp\"", "benchmarks may not include python"},
+      {"benchmarks/a.cpp", "\"support/data.hpp\"", "neither ours nor private"},
+      {"benchmarks/a.cpp", "<pybind11/stl.h>", "not for this folder"},
       {"src/geometry/a.cpp", "\"fathom/odds/ends.hpp\"", "of no module"},
       {"src/odds/a.cpp", "<vector>", "lies in no module"},
       {"src/geometry/a.cpp", "\"../core/secret.hpp\"", "neither ours nor private"},
@@ -162,6 +173,12 @@ TEST(IncludeRules, AllowWhatTheTableAllows) {
       {"estimators/support/pose_graph/a.cpp", "\"fathom/core/options.hpp\"", ""},
       {"estimators/support/sparse/a.cpp", "\"estimators/support/sparse/b.hpp\"", ""},
       {"estimators/ceres_pose_graph/a.cpp", "<ceres/problem.h>", ""},
+      {"python/src/a.cpp", "\"apps/estimators.hpp\"", ""},
+      {"python/src/a.cpp", "<pybind11/numpy.h>", ""},
+      {"benchmarks/a.cpp", "\"estimators/ekf/ekf.hpp\"", ""},
+      {"benchmarks/a.cpp", "\"src/report/canvas.hpp\"", ""},
+      {"benchmarks/a.cpp", "\"support/pairs/pairs.hpp\"", ""},
+      {"benchmarks/a.cpp", "<benchmark/benchmark.h>", ""},
       {"apps/main.cpp", "\"fathom/estimators/builtin.hpp\"", ""}};
   for (const Case& c : cases) EXPECT_THAT(judged(c), IsEmpty());
 }

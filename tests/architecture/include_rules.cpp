@@ -32,7 +32,9 @@ const std::map<std::string, Words>& module_rows() {
       {"results", {"configuration", "evaluation"}},
       {"harness", {"front_end", "estimation", "results"}},
       {"report", {"harness"}},
-      {"apps", {"harness", "report", "estimators"}}};
+      {"apps", {"harness", "report", "estimators"}},
+      {"python", {"apps"}},
+      {"benchmarks", {"apps"}}};
   return rows;
 }
 
@@ -62,7 +64,7 @@ std::optional<std::string> module_of(const std::string& path) {
     return path.substr(root.size(), path.find('/', root.size()) - root.size());
   }
   if (path.starts_with("estimators/")) return "estimators";
-  for (const std::string folder : {"adapters", "apps"}) {
+  for (const std::string folder : {"adapters", "apps", "python", "benchmarks"}) {
     if (path.starts_with(folder + "/")) return folder;
   }
   return std::nullopt;
@@ -114,13 +116,19 @@ std::string judge_angled(const Include& include) {
 std::string judge_quoted(const Include& include) {
   const std::string from = *module_of(include.file);
   const auto to = module_of(include.target);
+  const bool measures = from == "benchmarks";
   if (!to) {
-    // A private header of the same folder.
+    // A private header of the same folder; what tests and benchmarks draw alike.
     const bool is_private = include.target.find('/') == std::string::npos;
-    return is_private && include.file.starts_with("src/") ? "" : "is neither ours nor private";
+    const bool has_private = include.file.starts_with("src/") || measures;
+    const bool is_shared = measures && include.target.starts_with("support/pairs/");
+    return (is_private && has_private) || is_shared ? "" : "is neither ours nor private";
   }
   if (!module_rows().contains(*to)) return "is of no module that the design names";
   if (!may_use(from, *to)) return from + " may not include " + *to;
+  if (measures) return "";  // the inside of a module or an estimator, too
+  if (include.target.starts_with("src/"))
+    return "is a module's own; only its folder may include it";
   const bool sees_a_camera = include.target == "fathom/vision/camera.hpp";
   if (from == "datasets" && *to == "vision" && !sees_a_camera) {
     return "datasets may include no more of vision than its camera";

@@ -13,14 +13,14 @@ namespace {
 
 using ::testing::HasSubstr;
 
-std::string text_of(const std::string& file) {
+std::string content_of(const std::string& file) {
   std::ostringstream text;
   text << std::ifstream(std::string(FATHOM_SOURCE_DIR "/") + file).rdbuf();
   return text.str();
 }
 
 std::string found_in(const std::string& file, const std::string& pattern) {
-  const std::string text = text_of(file);
+  const std::string text = content_of(file);
   std::smatch found;
   return std::regex_search(text, found, std::regex(pattern)) ? found[1].str() : "";
 }
@@ -39,10 +39,10 @@ TEST(Release, TheChangelogAndTheCitationAreOfOneDay) {
 }
 
 TEST(Release, TheLicenceIsTheSameEverywhere) {
-  EXPECT_THAT(text_of("LICENSE"), HasSubstr("BSD 3-Clause License"));
+  EXPECT_THAT(content_of("LICENSE"), HasSubstr("BSD 3-Clause License"));
   for (const char* file : {"README.md", "CONTRIBUTING.md", "CITATION.cff", "docs/library.md",
                            "cmake/package/copyright.in"}) {
-    EXPECT_THAT(text_of(file), HasSubstr("BSD-3-Clause")) << file;
+    EXPECT_THAT(content_of(file), HasSubstr("BSD-3-Clause")) << file;
   }
 }
 

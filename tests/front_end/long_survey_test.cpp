@@ -84,9 +84,9 @@ class ManyFrames : public FrameSource {
   mutable std::vector<cv::Mat> handed_out_;
 };
 
-class View : public TrajectoryView {
+class TrueView : public TrajectoryView {
  public:
-  explicit View(const ManyFrames& frames) : frames_(frames) {}
+  explicit TrueView(const ManyFrames& frames) : frames_(frames) {}
   std::size_t size() const override { return frames_.size(); }
   Pose pose(std::size_t k) const override { return frames_.pose(k); }
 
@@ -109,7 +109,7 @@ TEST(LongSurvey, FeaturesStayWithinTheirBoundAndPicturesAreNotKept) {
   constexpr std::size_t kBytes = 1'200'000;
   PairRegistrar registrar(frames, options.features, options.registration, 1, nullptr, kBytes);
   FrontEnd front_end(frames, registrar, options);
-  const View view(frames);
+  const TrueView view(frames);
   std::size_t most_bytes = 0;
   std::size_t most_pictures = 0;
   while (const auto keyframe = front_end.next_keyframe()) {

@@ -10,19 +10,16 @@
 #include "fathom/front_end/visual_odometry.hpp"
 #include "front_end/floor_survey.hpp"
 #include "front_end/map_cache.hpp"
+#include "front_end/measured_frames.hpp"
 
 namespace fathom {
 namespace {
 
+using test::at;
 using test::bend;
 using test::FloorSurvey;
+using test::kSeed;
 using test::MapCache;
-
-constexpr std::uint64_t kSeed = 5;
-
-MeasuredFrame at(std::size_t frame) {
-  return {frame, test::kAltitudeM};
-}
 
 TEST(PairRegistrar, WhatTheCacheKnowsDecodesNothing) {
   const FloorSurvey first(bend(5));

@@ -10,23 +10,19 @@
 #include "fathom/front_end/pair_seed.hpp"
 #include "front_end/floor_survey.hpp"
 #include "front_end/map_cache.hpp"
+#include "front_end/measured_frames.hpp"
 #include "support/input_error.hpp"
 
 namespace fathom {
 namespace {
 
+using test::at;
 using test::bend;
 using test::FloorSurvey;
 using test::input_error_of;
-using test::kAltitudeM;
+using test::kSeed;
 using test::MapCache;
 using ::testing::HasSubstr;
-
-constexpr std::uint64_t kSeed = 5;
-
-MeasuredFrame at(std::size_t frame, double altitude_m = kAltitudeM) {
-  return {frame, altitude_m};
-}
 
 // With descriptors as they are extracted, as floats.
 PairRegistration registered_plainly(const FloorSurvey& survey, const MeasuredFrame& from,

@@ -8,6 +8,7 @@
 
 #include "fathom/front_end/pair_seed.hpp"
 #include "front_end/floor_survey.hpp"
+#include "front_end/measured_frames.hpp"
 #include "support/planar.hpp"
 
 namespace fathom {
@@ -15,8 +16,7 @@ namespace {
 
 using test::bend;
 using test::FloorSurvey;
-
-constexpr std::uint64_t kSeed = 5;
+using test::kSeed;
 
 Eigen::Matrix3d noise_covariance() {
   Eigen::Matrix3d C;

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "fathom/core/options.hpp"
@@ -44,7 +45,7 @@ Setting parse_override(const std::string& text);
 
 /// The single word that a setting gives; a list is refused in the name of `key`, the setting's own
 /// key before any prefix was taken off.
-const std::string& word_of(const Setting& setting, const std::string& key);
+const std::string& word_of(const Setting& setting, std::string_view key);
 
 /// Throws InputError at the origin of a setting.
 [[noreturn]] void refuse(const Setting& setting, const std::string& message);

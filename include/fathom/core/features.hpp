@@ -13,8 +13,7 @@ struct Feature {
   bool is_built = false;
   std::string_view gives;
   std::string_view packages;  ///< of Debian, with blanks between
-  std::string_view
-      group;  ///< `scripts/build.sh GROUP` installs them; "none": the system packs none
+  std::string_view group;     ///< `scripts/build.sh GROUP` installs them, "none": nothing does
 };
 
 /// All that this Fathom knows of, built or not.

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <fastcdr/Cdr.h>
 #include <fastcdr/FastBuffer.h>
+#include <fastcdr/config.h>
 #include <fastcdr/exceptions/Exception.h>
 
 namespace fathom {
@@ -15,13 +16,26 @@ namespace {
 using eprosima::fastcdr::Cdr;
 using eprosima::fastcdr::FastBuffer;
 
+// Names that version 2 has changed.
+#if FASTCDR_VERSION_MAJOR >= 2
+constexpr auto kVersion = eprosima::fastcdr::CdrVersion::DDS_CDR;
+const char* position_of(Cdr& cdr) {
+  return cdr.get_current_position();
+}
+#else
+constexpr auto kVersion = Cdr::DDS_CDR;
+const char* position_of(Cdr& cdr) {
+  return cdr.getCurrentPosition();
+}
+#endif
+
 class CdrMessage : public MessageReader {
  public:
   // The buffer is only read, but Fast CDR has one kind of buffer.
   explicit CdrMessage(std::string_view bytes)
       : end_(bytes.data() + bytes.size()),
         buffer_(const_cast<char*>(bytes.data()), bytes.size()),
-        cdr_(buffer_, Cdr::DEFAULT_ENDIAN, Cdr::DDS_CDR) {
+        cdr_(buffer_, Cdr::DEFAULT_ENDIAN, kVersion) {
     guarded([this] { cdr_.read_encapsulation(); });
   }
 
@@ -36,7 +50,7 @@ class CdrMessage : public MessageReader {
   }
   std::string_view bytes() override {
     const std::size_t size = u32();
-    const char* const begin = cdr_.getCurrentPosition();
+    const char* const begin = position_of(cdr_);
     if (size > static_cast<std::size_t>(end_ - begin)) too_short();
     cdr_.jump(size);
     return {begin, size};
