@@ -1,9 +1,10 @@
-# fathom_module(NAME SOURCES ... [PUBLIC ...] [PRIVATE ...])
+# fathom_module(NAME [HOT] SOURCES ... [PUBLIC ...] [PRIVATE ...])
 #
 # One static library `fathom_NAME`, alias `fathom::NAME`, per module of the design. PUBLIC and
-# PRIVATE are exactly the edges that the module may have.
+# PRIVATE are exactly the edges that the module may have. HOT is one whose loops set the time of a
+# run, where -O3 pays (docs/performance.md).
 function(fathom_module name)
-  cmake_parse_arguments(arg "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(arg "HOT" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
   add_library(fathom_${name} STATIC ${arg_SOURCES})
   add_library(fathom::${name} ALIAS fathom_${name})
   target_include_directories(fathom_${name} PUBLIC
@@ -12,14 +13,25 @@ function(fathom_module name)
   target_link_libraries(fathom_${name} PUBLIC ${arg_PUBLIC} PRIVATE ${arg_PRIVATE})
   target_compile_features(fathom_${name} PUBLIC cxx_std_20)
   set_target_properties(fathom_${name} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
-  fathom_own_target(fathom_${name})
-  fathom_reuse_precompiled(fathom_${name} fathom_headers)
+  if(arg_HOT)
+    fathom_own_target(fathom_${name} HOT)
+    fathom_reuse_precompiled(fathom_${name} fathom_hot_headers)
+    # In a large unit less is inlined.
+    set_target_properties(fathom_${name} PROPERTIES UNITY_BUILD OFF)
+  else()
+    fathom_own_target(fathom_${name})
+    fathom_reuse_precompiled(fathom_${name} fathom_headers)
+  endif()
   set_property(GLOBAL APPEND PROPERTY FATHOM_MODULES fathom_${name})
 endfunction()
 
-# Warnings, optimisation and sanitizers of a target of ours; never of a user's.
+# Warnings, optimisation and sanitizers of a target of ours; never of a user's. HOT as above.
 function(fathom_own_target target)
-  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O2>)
+  if(ARGN STREQUAL "HOT")
+    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O3>)
+  else()
+    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O2>)
+  endif()
   target_compile_options(${target} PRIVATE
     -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -Wcast-qual
     -Wformat=2 -Wimplicit-fallthrough)
@@ -44,10 +56,4 @@ function(fathom_own_target target)
       target_compile_options(${target} PRIVATE -Wno-maybe-uninitialized)
     endif()
   endif()
-endfunction()
-
-# fathom_kernels(SOURCES …): compiled with -O3, where it is measured to pay (docs/performance.md).
-function(fathom_kernels)
-  set_source_files_properties(${ARGN} PROPERTIES
-    COMPILE_OPTIONS $<$<CONFIG:Release>:-O3> SKIP_PRECOMPILE_HEADERS ON)
 endfunction()

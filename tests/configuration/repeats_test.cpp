@@ -3,24 +3,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "configuration/settings_of.hpp"
-#include "fathom/configuration/study.hpp"
-#include "fathom/estimators/builtin.hpp"
-#include "support/input_error.hpp"
+#include "configuration/study_of.hpp"
 
 namespace fathom {
 namespace {
 
-using test::input_error_of;
+using test::refusal_of_study;
+using test::study_of;
 using ::testing::HasSubstr;
-
-Study study_of(const std::string& text) {
-  return configure_study(test::settings_of(text), builtin_estimators());
-}
-
-std::string refusal(const std::string& text) {
-  return input_error_of([&] { study_of(text); });
-}
 
 TEST(Repeats, SaysWhatItsRepeatsAre) {
   const auto said = [](const std::string& text) {
@@ -50,31 +40,31 @@ TEST(Repeats, CountsTheDrawsThatAreIndependent) {
 
 TEST(Repeats, RefusesSurveysWhereNothingIsDrawnForThem) {
   const std::string one = "; expected 1";
-  EXPECT_THAT(refusal("surveys: 2\ndataset: {type: image_folder, path: a}\n"),
+  EXPECT_THAT(refusal_of_study("surveys: 2\ndataset: {type: image_folder, path: a}\n"),
               HasSubstr(":1: surveys: an image_folder is one set of pictures, of which nothing is "
                         "drawn again" +
                         one));
-  EXPECT_THAT(refusal("surveys: 2\ndataset: {type: simulated_log}\n"),
+  EXPECT_THAT(refusal_of_study("surveys: 2\ndataset: {type: simulated_log}\n"),
               HasSubstr("surveys: simulated_log draws everything in each of its trials" + one));
-  EXPECT_THAT(refusal("surveys: 2\ndataset: {type: g2o, path: a}\n"),
+  EXPECT_THAT(refusal_of_study("surveys: 2\ndataset: {type: g2o, path: a}\n"),
               HasSubstr("surveys: a g2o graph is always the same" + one));
   const std::string over_a_picture =
       "surveys: 2\ndataset: {world: {picture: a.png}, altitude: {altimeter_sigma_m: ";
-  EXPECT_THAT(refusal(over_a_picture + "0}}\n"), HasSubstr("leave nothing to draw" + one));
+  EXPECT_THAT(refusal_of_study(over_a_picture + "0}}\n"), HasSubstr("leave nothing to draw" + one));
   EXPECT_EQ(study_of(over_a_picture + "0.01}}\n").description.surveys, 2u);
-  EXPECT_THAT(refusal("surveys: 2\nsweep: [{key: dataset.type, values: [simulated, "
-                      "simulated_log]}]\n"),
+  EXPECT_THAT(refusal_of_study("surveys: 2\nsweep: [{key: dataset.type, values: [simulated, "
+                               "simulated_log]}]\n"),
               HasSubstr("surveys: simulated_log draws everything"));
 }
 
 TEST(Repeats, RefusesMoreRunsThanAStudyCanHave) {
-  EXPECT_THAT(refusal("surveys: 0\n"), HasSubstr("surveys: expected a whole number >= 1"));
+  EXPECT_THAT(refusal_of_study("surveys: 0\n"), HasSubstr("surveys: expected a whole number >= 1"));
   EXPECT_THAT(
-      refusal("trials: 2000\nsurveys: 1000\n"),
+      refusal_of_study("trials: 2000\nsurveys: 1000\n"),
       HasSubstr(":2: surveys: 1000 of 2000 trials each are too many; expected surveys times "
                 "trials of at most 1000000"));
   EXPECT_EQ(study_of("trials: 1000\nsurveys: 1000\n").description.surveys, 1000u);
-  EXPECT_THAT(refusal("sweep: [{key: surveys, values: [1, 2]}]\n"),
+  EXPECT_THAT(refusal_of_study("sweep: [{key: surveys, values: [1, 2]}]\n"),
               HasSubstr("surveys is the study's own and cannot be swept"));
 }
 

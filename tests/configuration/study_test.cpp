@@ -1,36 +1,20 @@
 #include "fathom/configuration/study.hpp"
 
-#include <fstream>
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "configuration/study_of.hpp"
 #include "fathom/core/random.hpp"
 #include "fathom/datasets/simulated_survey.hpp"
-#include "fathom/estimators/builtin.hpp"
-#include "support/input_error.hpp"
-#include "support/temporary_folder.hpp"
 
 namespace fathom {
 namespace {
 
-using test::input_error_of;
+using test::refusal_of_study;
+using test::settings_of;
+using test::study_of;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-
-Settings settings_of(const std::string& text) {
-  const test::TemporaryFolder folder;
-  std::ofstream(folder / "study.yaml") << text;
-  return read_settings(folder / "study.yaml");
-}
-
-Study study_of(const std::string& text) {
-  return configure_study(settings_of(text), builtin_estimators());
-}
-
-std::string refusal(const std::string& text) {
-  return input_error_of([&] { study_of(text); });
-}
 
 std::string value_of(const Study& study, const std::string& key) {
   for (const auto& [name, value] : study.description.configuration) {
@@ -109,9 +93,9 @@ TEST(ConfigureStudy, NoiseIsSeededByValuesAndNotBySpellings) {
 
 TEST(ConfigureStudy, TwoSpellingsOfOneValueAreRefused) {
   const std::string sweep = "sweep: [{key: front_end.candidates.max_distance_m, values: ";
-  EXPECT_THAT(refusal(sweep + "[0.01, 1e-2]}]\n"),
+  EXPECT_THAT(refusal_of_study(sweep + "[0.01, 1e-2]}]\n"),
               HasSubstr("study.yaml:1: sweep.0.values: '0.01' and '1e-2' are the same value"));
-  EXPECT_THAT(refusal(sweep + "[0.01, 1e-2], labels: [a, b]}]\n"),
+  EXPECT_THAT(refusal_of_study(sweep + "[0.01, 1e-2], labels: [a, b]}]\n"),
               HasSubstr("'a' and 'b' are the same value"));
   EXPECT_NO_THROW(
       study_of("dataset.type: image_folder\n"
@@ -133,7 +117,7 @@ TEST(ConfigureStudy, ItsIdentityIsOfValuesAndNotOfSpellingsOrLabels) {
 
 TEST(ConfigureStudy, ATextForTheTablesIsShortAndNoOtherColumn) {
   const auto named = [](const std::string& name) {
-    return refusal("sweep: [{key: seed, name: " + name + ", values: [1, 2]}]\n");
+    return refusal_of_study("sweep: [{key: seed, name: " + name + ", values: [1, 2]}]\n");
   };
   EXPECT_THAT(named("trial"), HasSubstr("study.yaml:1: sweep.0.name: 'trial' is another column of "
                                         "the tables; give the axis another name"));
@@ -144,10 +128,10 @@ TEST(ConfigureStudy, ATextForTheTablesIsShortAndNoOtherColumn) {
       study_of("sweep: [{key: association.mode, name: association, values: [own, shared]}]\n"));
   EXPECT_THAT(named("\"a\\nb\""), HasSubstr("sweep.0.name: a line break"));
   EXPECT_THAT(named("''"), HasSubstr("sweep.0.name: a text is empty"));
-  EXPECT_THAT(
-      refusal("sweep: [{key: seed, values: [1, 2], labels: [a, " + std::string(300, 'x') + "]}]\n"),
-      HasSubstr("sweep.0.labels: 'xxxxxxxxxxxxxxxxxxxx…' has 300 characters; a table has "
-                "room for 80"));
+  EXPECT_THAT(refusal_of_study("sweep: [{key: seed, values: [1, 2], labels: [a, " +
+                               std::string(300, 'x') + "]}]\n"),
+              HasSubstr("sweep.0.labels: 'xxxxxxxxxxxxxxxxxxxx…' has 300 characters; a table has "
+                        "room for 80"));
 }
 
 // Where the swept value decides which keys have an effect, one cell that uses a key is enough.
@@ -157,7 +141,7 @@ TEST(ConfigureStudy, RefusesAKeyThatNoCellUses) {
   const Study study = study_of(keys + sweep);
   EXPECT_EQ(value_of(study, "dataset.mission.loop_length_m"), "5");
   EXPECT_EQ(value_of(study, "dataset.mission.legs"), "3");
-  EXPECT_THAT(refusal("dataset.mission.waypoints_m: [0, 0, 1, 1]\n" + sweep),
+  EXPECT_THAT(refusal_of_study("dataset.mission.waypoints_m: [0, 0, 1, 1]\n" + sweep),
               HasSubstr("study.yaml:1: dataset.mission.waypoints_m: dataset.mission.type "
                         "single_loop has no use for it"));
 }
@@ -196,14 +180,15 @@ TEST(ConfigureStudy, RefusesWhatIsNoSweep) {
        "study.yaml:1: association.reference: nobody's estimate but each one's own picks the loop "
        "candidates"},
       {"estimators: [{type: ekf, name: dead_reckoning}]\n", "is the baseline of every table"}};
-  for (const auto& [text, message] : cases) EXPECT_THAT(refusal(text), HasSubstr(message)) << text;
+  for (const auto& [text, message] : cases)
+    EXPECT_THAT(refusal_of_study(text), HasSubstr(message)) << text;
 }
 
 TEST(ConfigureStudy, AGraphHasNoNoiseToDraw) {
   const std::string graph = "dataset: {type: g2o, path: a.g2o}\n";
-  EXPECT_THAT(refusal(graph + "trials: 2\n"),
+  EXPECT_THAT(refusal_of_study(graph + "trials: 2\n"),
               HasSubstr("trials: a pose graph without false loops"));
-  EXPECT_THAT(refusal(graph + "association: {mode: own}\n"),
+  EXPECT_THAT(refusal_of_study(graph + "association: {mode: own}\n"),
               HasSubstr("association.mode: a pose graph has its loops"));
   EXPECT_EQ(study_of(graph).cells.size(), 1u);
 }
@@ -211,9 +196,9 @@ TEST(ConfigureStudy, AGraphHasNoNoiseToDraw) {
 TEST(ConfigureStudy, ADrawnLogHasTrials) {
   const std::string drawn = "dataset: {type: simulated_log}\n";
   EXPECT_EQ(study_of(drawn + "trials: 2\n").description.trials, 2u);
-  EXPECT_THAT(refusal(drawn + "association: {mode: own}\n"),
+  EXPECT_THAT(refusal_of_study(drawn + "association: {mode: own}\n"),
               HasSubstr("association.mode: a pose graph has its loops"));
-  EXPECT_THAT(refusal(drawn + "dataset.loops.tail_factor: 5\n"),
+  EXPECT_THAT(refusal_of_study(drawn + "dataset.loops.tail_factor: 5\n"),
               HasSubstr("dataset.loops.tail_factor"));
 }
 

@@ -16,8 +16,8 @@ using ::testing::AllOf;
 using ::testing::Contains;
 using ::testing::HasSubstr;
 
-constexpr std::int64_t kSecond = 1'000'000'000;
-constexpr std::int64_t kBegin = 1'700'000'000 * kSecond;
+using test::kBegin;
+using test::kSecond;
 
 test::Stamps at(double seconds) {
   const std::int64_t time_ns = kBegin + std::llround(seconds * 1e9);

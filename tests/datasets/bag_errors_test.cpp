@@ -14,8 +14,8 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-constexpr std::int64_t kSecond = 1'000'000'000;
-constexpr std::int64_t kBegin = 1'700'000'000 * kSecond;
+using test::kBegin;
+using test::kSecond;
 
 class BagErrors : public test::BagTest {
  protected:

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
 #include <memory>
 #include <string>
 
@@ -15,6 +16,9 @@
 #include "support/temporary_folder.hpp"
 
 namespace fathom::test {
+
+inline constexpr std::int64_t kSecond = 1'000'000'000;
+inline constexpr std::int64_t kBegin = 1'700'000'000 * kSecond;
 
 /// The same tests for both generations of ROS.
 class BagTest : public ::testing::TestWithParam<int> {

@@ -25,7 +25,7 @@ using testing::Not;
 
 const char* const kAttitude = "attitude0/data.csv";
 
-SimulatedSurveyOptions rolling_survey() {
+SimulatedSurveyOptions measured_rolling_survey() {
   SimulatedSurveyOptions options = test::small_survey();
   options.attitude.both_sigma_rad = 0.03;
   options.attitude.measured_sigma_rad = 0.002;
@@ -79,7 +79,7 @@ TEST(MeasuredAttitude, IsTheTrueOneWithNoiseAndMountingError) {
 
 // All else of a survey is what it is without.
 TEST(MeasuredAttitude, LeavesPicturesAltitudesAndMotionsAsTheyAre) {
-  SimulatedSurveyOptions options = rolling_survey();
+  SimulatedSurveyOptions options = measured_rolling_survey();
   const SimulatedSurvey with(options, 5);
   options.attitude.measured_sigma_rad.reset();
   const SimulatedSurvey without(options, 5);
@@ -122,7 +122,7 @@ TEST(MeasuredAttitude, TakesTheTiltOutOfARegistration) {
 
 TEST(MeasuredAttitude, IsWrittenAndReadBackToTheSameBits) {
   const test::TemporaryFolder folder;
-  const SimulatedSurvey survey(rolling_survey(), 6);
+  const SimulatedSurvey survey(measured_rolling_survey(), 6);
   write_image_folder(survey, folder / "out");
   const ImageFolder read(folder / "out");
   ASSERT_TRUE(read.has_attitude());

@@ -11,7 +11,7 @@
 namespace fathom {
 namespace {
 
-const Eigen::AlignedBox2d kWorld(Eigen::Vector2d(-6, -6), Eigen::Vector2d(6, 6));
+const Eigen::AlignedBox2d kWorldBox(Eigen::Vector2d(-6, -6), Eigen::Vector2d(6, 6));
 
 // Overlap by counting points of a grid over the smaller footprint.
 double counted_overlap(const Camera& camera, const test::ViewPair& pair) {
@@ -38,7 +38,7 @@ TEST(Pairs, OverlapAsTheirBucketsSay) {
   double least_ratio = 2.0, greatest_ratio = 0.5;
   for (int i = 0; i < 30; ++i) {
     const auto buckets = test::tenths();
-    const auto pairs = test::draw_pairs(camera, kWorld, buckets, stream);
+    const auto pairs = test::draw_pairs(camera, kWorldBox, buckets, stream);
     ASSERT_EQ(pairs.size(), 10U);
     for (std::size_t k = 0; k < 10; ++k) {
       EXPECT_GE(pairs[k].overlap, buckets[k].low - 1e-5);

@@ -11,6 +11,7 @@
 
 #include "fathom/datasets/sea_floor.hpp"
 #include "flat_world.hpp"
+#include "same_picture.hpp"
 #include "support/input_error.hpp"
 
 namespace fathom {
@@ -18,12 +19,9 @@ namespace {
 
 using test::grey_world;
 using test::renderer_of;
+using test::same;
 
 const View kView{{0.1, -0.2, 0.4}, 2.0, {}, 0.0, 3};
-
-bool same(const cv::Mat& a, const cv::Mat& b) {
-  return cv::norm(a, b, cv::NORM_INF) == 0.0;
-}
 
 World textured_world() {
   return {draw_sea_floor({1100, 1100}, 0.005, 3), 0.005, {}};

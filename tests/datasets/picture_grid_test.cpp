@@ -18,7 +18,7 @@
 namespace fathom {
 namespace {
 
-constexpr double kAltitudeM = 2.0;
+constexpr double kGridAltitudeM = 2.0;
 
 // The usual pixels, a quarter of them.
 Camera small_camera() {
@@ -31,7 +31,7 @@ Camera small_camera() {
 }
 
 double pixel_m() {
-  return finest_pixel_m(small_camera().model(), kAltitudeM);
+  return finest_pixel_m(small_camera().model(), kGridAltitudeM);
 }
 
 struct Setting {
@@ -78,12 +78,12 @@ std::pair<View, View> draw_views(const Setting& setting, double floor_pixel, Ran
     return (whole + setting.phase.value_or(stream.uniform())) * floor_pixel;
   };
   View a;
-  a.altitude_m = kAltitudeM;
+  a.altitude_m = kGridAltitudeM;
   a.pose.x = on_grid();
   a.pose.y = on_grid();
   a.pose.theta = heading();
   View b;
-  b.altitude_m = kAltitudeM * stream.uniform(0.96, 1.04);
+  b.altitude_m = kGridAltitudeM * stream.uniform(0.96, 1.04);
   b.pose.x = a.pose.x + stream.uniform(-0.15, 0.15);
   b.pose.y = a.pose.y + stream.uniform(-0.15, 0.15);
   b.pose.theta = heading();

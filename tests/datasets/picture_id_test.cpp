@@ -11,6 +11,7 @@
 #include "fathom/datasets/image_folder.hpp"
 #include "fathom/datasets/simulated_survey.hpp"
 #include "folder_fixture.hpp"
+#include "same_picture.hpp"
 #include "small_survey.hpp"
 #include "support/input_error.hpp"
 
@@ -18,11 +19,8 @@ namespace fathom {
 namespace {
 
 using test::full_survey;
+using test::same;
 using test::small_survey;
-
-bool same(const cv::Mat& a, const cv::Mat& b) {
-  return a.size() == b.size() && cv::norm(a, b, cv::NORM_INF) == 0.0;
-}
 
 TEST(LazyFloor, IsDrawnForTheFirstPictureAlone) {
   const SimulatedSurvey survey(full_survey(), 5);

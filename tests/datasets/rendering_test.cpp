@@ -62,14 +62,14 @@ Eigen::Vector2d centroid(const cv::Mat& picture, const Eigen::Vector2d& about) {
   return sum / weight;
 }
 
-struct View {
+struct SeenFrom {
   const char* name;
   double altitude_m;
   double heading_rad;  ///< of frame 0 in the picture
   bool full_camera;    ///< distortion and mounting
 };
 
-class Rendering : public testing::TestWithParam<View> {
+class Rendering : public testing::TestWithParam<SeenFrom> {
  protected:
   static SimulatedSurveyOptions options(const std::filesystem::path& world) {
     SimulatedSurveyOptions o;
@@ -130,9 +130,9 @@ TEST_P(Rendering, DotsLieWhereTheCameraProjectsThem) {
 // The camera's pixels have 4.3 to 8.7 mm on the floor, those of the world 5 mm: it is doubled once.
 INSTANTIATE_TEST_SUITE_P(
     Views, Rendering,
-    testing::Values(View{"Straight", 1.5, 0.0, false}, View{"Turned", 1.5, 2.1, false},
-                    View{"TurnedBack", 1.3, -1.2, true}, View{"FullCamera", 1.5, 0.0, true},
-                    View{"High", 2.6, 0.3, false}, View{"HighFullCamera", 2.3, -0.2, true}),
+    testing::Values(SeenFrom{"Straight", 1.5, 0.0, false}, SeenFrom{"Turned", 1.5, 2.1, false},
+                    SeenFrom{"TurnedBack", 1.3, -1.2, true}, SeenFrom{"FullCamera", 1.5, 0.0, true},
+                    SeenFrom{"High", 2.6, 0.3, false}, SeenFrom{"HighFullCamera", 2.3, -0.2, true}),
     [](const auto& test_case) { return std::string(test_case.param.name); });
 
 // What lies ahead is at the top, what lies to port at the left: no mirror anywhere.

@@ -10,12 +10,12 @@
 namespace fathom {
 namespace {
 
-constexpr double kMetresPerPixel = 0.004;
+constexpr double kFloorMetresPerPixel = 0.004;
 
 class SeaFloors : public testing::TestWithParam<std::pair<std::string, FloorKind>> {
  protected:
   static cv::Mat draw(cv::Size size, std::uint64_t seed = 7) {
-    return draw_sea_floor(size, kMetresPerPixel, seed, GetParam().second);
+    return draw_sea_floor(size, kFloorMetresPerPixel, seed, GetParam().second);
   }
 };
 
@@ -59,7 +59,7 @@ INSTANTIATE_TEST_SUITE_P(Kinds, SeaFloors, testing::ValuesIn(floor_kinds()),
 
 // How well the best other place agrees with a square of 0.6 m, a wavelength away or more.
 double best_other_agreement(FloorKind kind) {
-  cv::Mat floor = draw_sea_floor({1000, 1000}, kMetresPerPixel, 8, kind);
+  cv::Mat floor = draw_sea_floor({1000, 1000}, kFloorMetresPerPixel, 8, kind);
   cv::GaussianBlur(floor, floor, cv::Size(), 3.0);
   cv::Mat agreement;
   cv::matchTemplate(floor, floor(cv::Rect(425, 425, 150, 150)), agreement, cv::TM_CCOEFF_NORMED);
@@ -78,7 +78,7 @@ TEST(SeaFloor, RipplesRepeatAndPebblesDoNot) {
 // Recorded from the version before there were kinds; a grey of leeway for another libm.
 TEST(SeaFloor, TheMixedOneIsWhatItAlwaysWas) {
   const int recorded[] = {149, 165, 141, 124, 138, 125, 101, 152, 140, 136, 126, 129};
-  const cv::Mat floor = draw_sea_floor({640, 480}, kMetresPerPixel, 21);
+  const cv::Mat floor = draw_sea_floor({640, 480}, kFloorMetresPerPixel, 21);
   for (int i = 0; i < 12; ++i) {
     EXPECT_NEAR(floor.at<uchar>(17 + 37 * i, 29 + 51 * i), recorded[i], 1) << i;
   }

@@ -10,6 +10,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "fathom/datasets/sea_floor.hpp"
+#include "same_picture.hpp"
 #include "small_survey.hpp"
 #include "support/data.hpp"
 #include "support/planar.hpp"
@@ -18,11 +19,8 @@ namespace fathom {
 namespace {
 
 using test::full_survey;
+using test::same;
 using test::small_survey;
-
-bool same(const cv::Mat& a, const cv::Mat& b) {
-  return a.size() == b.size() && a.type() == b.type() && cv::norm(a, b, cv::NORM_INF) == 0.0;
-}
 
 TEST(SimulatedSurvey, IsAFrameSourceOfItsMission) {
   const SimulatedSurvey survey(small_survey(), 1);

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
-#include <numbers>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -13,6 +12,7 @@
 
 #include "support/data.hpp"
 #include "support/input_error.hpp"
+#include "support/numbers.hpp"
 #include "support/planar.hpp"
 
 namespace fathom {
@@ -20,10 +20,10 @@ namespace {
 
 using test::homogeneous;
 using test::input_error_of;
+using test::kPi;
 using test::t2v;
 using testing::HasSubstr;
 
-constexpr double kPi = std::numbers::pi;
 const double kBad[] = {std::numeric_limits<double>::quiet_NaN(),
                        std::numeric_limits<double>::infinity()};
 

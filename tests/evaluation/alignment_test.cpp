@@ -1,14 +1,13 @@
 #include "fathom/evaluation/alignment.hpp"
 
 #include <cmath>
-#include <limits>
-#include <numbers>
 #include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "support/input_error.hpp"
+#include "support/numbers.hpp"
 #include "support/planar.hpp"
 
 namespace fathom {
@@ -17,11 +16,10 @@ namespace {
 using test::distance;
 using test::homogeneous;
 using test::input_error_of;
+using test::kNaN;
+using test::kPi;
 using test::random_pose;
 using test::t2v;
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kPi = std::numbers::pi;
 
 std::vector<Pose> random_poses(std::size_t count, std::uint64_t seed, double extent_m = 10.0) {
   RandomStream random(seed, "poses");

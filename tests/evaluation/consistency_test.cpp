@@ -1,7 +1,6 @@
 #include "fathom/evaluation/consistency.hpp"
 
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <numeric>
 #include <vector>
@@ -13,17 +12,17 @@
 
 #include "fathom/evaluation/alignment.hpp"
 #include "support/input_error.hpp"
+#include "support/numbers.hpp"
 #include "support/planar.hpp"
 
 namespace fathom {
 namespace {
 
 using test::input_error_of;
+using test::kNaN;
 using test::random_covariance;
 using test::random_pose;
 using testing::HasSubstr;
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 // A run whose errors are drawn from exactly the covariances it states, in a world of its own.
 struct HonestRun {

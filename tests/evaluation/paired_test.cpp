@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -10,17 +9,17 @@
 
 #include "fathom/core/random.hpp"
 #include "support/input_error.hpp"
+#include "support/numbers.hpp"
 
 namespace fathom {
 namespace {
 
 using test::input_error_of;
+using test::kInfinity;
+using test::kNaN;
 using testing::DoubleNear;
 using testing::HasSubstr;
 using testing::Pointwise;
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // The example of the documentation of Pingouin's holm(), and that of Wikipedia's article on the
 // Holm–Bonferroni method, of which two are rejected at 0.05.

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <limits>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -11,15 +10,15 @@
 
 #include "fathom/core/random.hpp"
 #include "support/input_error.hpp"
+#include "support/numbers.hpp"
 
 namespace fathom {
 namespace {
 
 using test::input_error_of;
+using test::kInfinity;
+using test::kNaN;
 using testing::HasSubstr;
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // 1 … n, each third negative.
 std::vector<double> each_third_negative(int n) {

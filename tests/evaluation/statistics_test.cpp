@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <numeric>
 #include <vector>
 
@@ -11,15 +10,15 @@
 
 #include "fathom/core/random.hpp"
 #include "support/input_error.hpp"
+#include "support/numbers.hpp"
 
 namespace fathom {
 namespace {
 
 using test::input_error_of;
+using test::kInfinity;
+using test::kNaN;
 using testing::HasSubstr;
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 const std::vector<double> kSkewed{0.25, 1, 1.5, 0.5, 7, 2, 0.75, 3, 1.25, 12, 0.5, 2.25};
 const std::vector<double> kEven{4.1, 3.7, 5.2, 4.4, 3.9, 4.8, 4.6, 5.0,

@@ -1,19 +1,19 @@
 #include "fathom/evaluation/summary.hpp"
 
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "support/input_error.hpp"
+#include "support/numbers.hpp"
 
 namespace fathom {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+using test::kInfinity;
+using test::kNaN;
 
 TEST(Summary, HandNumbers) {
   const auto five = summarise(std::vector<double>{5, 1, 4, 2, 3});

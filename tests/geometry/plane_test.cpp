@@ -1,7 +1,6 @@
 #include "fathom/geometry/plane.hpp"
 
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -10,17 +9,17 @@
 
 #include "fathom/core/random.hpp"
 #include "support/input_error.hpp"
+#include "support/numbers.hpp"
 #include "support/planar.hpp"
 
 namespace fathom {
 namespace {
 
+using test::kPi;
 using Trajectory = std::vector<StampedSpatialPose>;
 using Eigen::AngleAxisd;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
-
-constexpr double kPi = std::numbers::pi;
 
 Quaterniond attitude(double yaw, double pitch, double roll) {
   return AngleAxisd(yaw, Vector3d::UnitZ()) * AngleAxisd(pitch, Vector3d::UnitY()) *

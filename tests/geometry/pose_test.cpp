@@ -2,23 +2,22 @@
 
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "support/numbers.hpp"
 #include "support/planar.hpp"
 
 namespace fathom {
 namespace {
 
 using test::homogeneous;
+using test::kInfinity;
+using test::kNaN;
+using test::kPi;
 using test::numerical_jacobian;
 using test::t2v;
-
-constexpr double kPi = std::numbers::pi;
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 TEST(WrapAngle, KeepsWhatIsInRange) {
   for (const double angle : {0.0, 1e-300, -1e-300, 3.0, -3.0, kPi, std::nextafter(-kPi, 0.0)}) {

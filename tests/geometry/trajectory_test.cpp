@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <fstream>
-#include <numbers>
 #include <string>
 #include <vector>
 
@@ -12,6 +11,7 @@
 #include "fathom/core/files.hpp"
 #include "support/data.hpp"
 #include "support/input_error.hpp"
+#include "support/numbers.hpp"
 #include "support/planar.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -19,9 +19,8 @@ namespace fathom {
 namespace {
 
 using test::input_error_of;
+using test::kPi;
 using testing::HasSubstr;
-
-constexpr double kPi = std::numbers::pi;
 
 class Tum : public testing::Test {
  protected:

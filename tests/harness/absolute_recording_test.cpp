@@ -12,6 +12,7 @@
 #include "fathom/harness/recording.hpp"
 #include "fathom/harness/result.hpp"
 #include "fathom/harness/survey.hpp"
+#include "harness/recorded.hpp"
 #include "harness/scripted_estimator.hpp"
 #include "harness/small_config.hpp"
 #include "support/input_error.hpp"
@@ -24,15 +25,12 @@ namespace {
 using test::configured;
 using test::input_error_of;
 using test::kSmallSurvey;
+using test::recorded;
 
 constexpr const char* kSensors = R"(
 dataset.compass: {interval_s: 0.7, sigma_rad: 0.02}
 dataset.fixes: {interval_s: 3.1, covariance: [0.04, 0.01, 0.02], lever_x_m: 0.5, lever_y_m: -0.2}
 )";
-
-Recording recorded(const Configuration& configuration) {
-  return record(configuration, builtin_estimators());
-}
 
 void expect_same(const AbsolutePose& a, const AbsolutePose& b) {
   EXPECT_EQ(a.keyframe, b.keyframe);

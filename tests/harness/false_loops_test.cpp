@@ -22,7 +22,7 @@ using test::kComparison;
 using test::refusal;
 using ::testing::HasSubstr;
 
-Recording square_recording() {
+Recording square_with_ids() {
   Recording recording;
   recording.log = test::square_log();
   for (std::size_t k = 0; k < recording.log.size(); ++k) {
@@ -33,7 +33,7 @@ Recording square_recording() {
 }
 
 TEST(FalseLoops, AreJudgedByTheTruthOrTheOptimum) {
-  Recording recording = square_recording();
+  Recording recording = square_with_ids();
   const std::vector<Pose> optimum = reference_poses(recording, builtin_estimators());
   EXPECT_LT(chi2(recording.log, optimum), 0.1 * chi2(recording.log, recording.log.odometry()));
   recording.ground_truth = test::square_truth();
@@ -41,19 +41,19 @@ TEST(FalseLoops, AreJudgedByTheTruthOrTheOptimum) {
 }
 
 TEST(FalseLoops, StandInARecordingByRegistration) {
-  Recording recording = square_recording();
+  Recording recording = square_with_ids();
   spoil_recording(recording, {.share = 0.5}, builtin_estimators(), 1, 0);
   EXPECT_EQ(recording.log.registration_count(), 8u);
   EXPECT_EQ(recording.is_false_loop.size(), 8u);
   EXPECT_EQ(std::count(recording.is_false_loop.begin(), recording.is_false_loop.end(), true), 4);
-  Recording other = square_recording();
+  Recording other = square_with_ids();
   spoil_recording(other, {.share = 0.5}, builtin_estimators(), 1, 1);
   EXPECT_NE(to_g2o(other.log), to_g2o(recording.log));
 }
 
 TEST(FalseLoops, TheListReadsBack) {
   const test::TemporaryFolder folder;
-  const Recording recording = square_recording();
+  const Recording recording = square_with_ids();
   const Spoiled spoiled = spoil(recording.log, test::square_truth(), {.share = 0.5}, 3);
   write_file(folder / "g.g2o", to_g2o(spoiled.log));
   write_file(folder / "list.csv", false_loops_csv(spoiled));
@@ -70,7 +70,7 @@ TEST(FalseLoops, TheListReadsBack) {
 
 TEST(FalseLoops, ARunLeavesTheWeightOfEveryRegistration) {
   const test::TemporaryFolder folder;
-  Recording recording = square_recording();
+  Recording recording = square_with_ids();
   // The square of the loop 3-7 is off by 5 m in what a robust loss is told.
   RelativePose wrong = recording.log.arrival(7).registrations[0];
   wrong.motion.x += 5.0;
@@ -82,9 +82,9 @@ TEST(FalseLoops, ARunLeavesTheWeightOfEveryRegistration) {
   const Result result = evaluate(recording, estimator, builtin_estimators(), {}, {});
   EXPECT_EQ(result.metric("false_loops_kept"), 0.0);
   EXPECT_EQ(result.metric("loops_kept"), 4.0);
-  const std::string json = metrics_json(result, recording);
-  EXPECT_THAT(json, HasSubstr("\"false_loops\": 1"));
-  EXPECT_THAT(json, HasSubstr("\"right_loops_lost\": 0"));
+  const std::string written = metrics_json(result, recording);
+  EXPECT_THAT(written, HasSubstr("\"false_loops\": 1"));
+  EXPECT_THAT(written, HasSubstr("\"right_loops_lost\": 0"));
   write_run(folder.path(), recording, result, "{}");
   const std::string csv = read_file(folder / "registrations.csv");
   EXPECT_THAT(csv, HasSubstr("from,to,fate,nis,weight,false\n0,40,used,,"));

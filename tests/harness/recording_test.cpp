@@ -13,6 +13,7 @@
 #include "fathom/harness/result.hpp"
 #include "fathom/harness/survey.hpp"
 #include "fathom/measurements/g2o.hpp"
+#include "harness/recorded.hpp"
 #include "harness/small_config.hpp"
 #include "support/planar.hpp"
 #include "support/temporary_folder.hpp"
@@ -24,15 +25,12 @@ using test::configured;
 using test::input_error_of;
 using test::kSmallSurvey;
 using test::kVisualOdometry;
+using test::recorded;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 Configuration small_survey(const std::string& more = "") {
   return configured(kSmallSurvey + more);
-}
-
-Recording recorded(const Configuration& configuration) {
-  return record(configuration, builtin_estimators());
 }
 
 Result evaluated(const Recording& recording, const EstimatorEntry& entry) {

@@ -9,36 +9,22 @@
 #include "fathom/estimators/builtin.hpp"
 #include "fathom/harness/replay.hpp"
 #include "harness/scripted_estimator.hpp"
+#include "harness/scripted_replay.hpp"
 #include "harness/square_log.hpp"
 
 namespace fathom {
 namespace {
 
+using test::FakeMeter;
+using test::replayed;
 using test::Script;
-using test::scripted;
 using test::square_log;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
-Replay replayed(Script& script, const ReplayOptions& options) {
-  return replay(square_log(), scripted(script), {}, options);
-}
-
 std::vector<std::string> first_calls(const Script& script, std::ptrdiff_t count) {
   return {script.calls.begin(), script.calls.begin() + count};
 }
-
-class FakeMeter : public MemoryMeter {
- public:
-  explicit FakeMeter(Script& script) : script_(script) {}
-  void start() override { script_.calls.push_back("start"); }
-  std::int64_t stop() override { return 1; }
-  void pause() override { script_.calls.push_back("pause"); }
-  void resume() override { script_.calls.push_back("resume"); }
-
- private:
-  Script& script_;
-};
 
 // The same duty whatever the keyframe brought, and after its update. Its memory is not counted.
 TEST(ReplayCovariances, TheNewestIsAskedForOnceAKeyframe) {

@@ -10,12 +10,15 @@
 
 #include "fathom/estimators/builtin.hpp"
 #include "harness/scripted_estimator.hpp"
+#include "harness/scripted_replay.hpp"
 #include "harness/square_log.hpp"
 #include "support/planar.hpp"
 
 namespace fathom {
 namespace {
 
+using test::FakeMeter;
+using test::replayed;
 using test::Script;
 using test::scripted;
 using test::square_log;
@@ -23,10 +26,6 @@ using ::testing::Each;
 using ::testing::ElementsAre;
 using ::testing::Ge;
 using ::testing::IsEmpty;
-
-Replay replayed(Script& script, const ReplayOptions& options = {}) {
-  return replay(square_log(), scripted(script), {}, options);
-}
 
 TEST(Replay, GivesTheLogInItsOrder) {
   Script script;
@@ -134,19 +133,6 @@ TEST(Replay, TellsItsProgress) {
   replayed(script, options);
   EXPECT_THAT(done, ElementsAre(2, 3, 4, 5, 6, 7, 8));
 }
-
-class FakeMeter : public MemoryMeter {
- public:
-  explicit FakeMeter(Script& script) : script_(script) {}
-  void start() override { script_.calls.push_back("start"); }
-  std::int64_t stop() override {
-    script_.calls.push_back("stop");
-    return 4242;
-  }
-
- private:
-  Script& script_;
-};
 
 TEST(Replay, MeasuresMemoryFromBirthToTheLastUpdate) {
   Script script;

@@ -28,7 +28,7 @@ sweep:
 trials: 5
 )";
 
-Study study() {
+Study study_of_logs() {
   return configure_study(test::settings_of(kLogs), builtin_estimators());
 }
 
@@ -52,7 +52,7 @@ std::set<RunKey> runs_of_shard(const Study& study, const Shard& shard) {
 }
 
 TEST(StudyShard, HaveEveryRunOnceWhateverTheirNumber) {
-  const Study whole = study();
+  const Study whole = study_of_logs();
   const std::set<RunKey> all = runs_of_shard(whole, {});
   EXPECT_EQ(all.size(), 2u * 3u * 5u);
   for (const std::size_t of : {1u, 2u, 7u, 64u}) {
@@ -69,7 +69,7 @@ TEST(StudyShard, HaveEveryRunOnceWhateverTheirNumber) {
 }
 
 TEST(StudyShard, AreOfLikeCost) {
-  Study many = study();
+  Study many = study_of_logs();
   many.description.trials = 300;
   // Trials of the dear cell and of the cheap ones: of two shards one has few of the former. Each
   // has its half of the cost, to within one trial of the dearest.
@@ -87,7 +87,7 @@ TEST(StudyShard, AreOfLikeCost) {
 }
 
 TEST(StudyShard, AreTheSameWhateverIsThereAlready) {
-  const Study whole = study();
+  const Study whole = study_of_logs();
   const TemporaryFolder folder;
   ResultStore store = ResultStore::write(folder.path(), whole.description, "{}");
   StudyRunOptions options;
@@ -99,7 +99,7 @@ TEST(StudyShard, AreTheSameWhateverIsThereAlready) {
 }
 
 TEST(StudyShard, ASampleIsOneTrialOfItsCell) {
-  const Study whole = study();
+  const Study whole = study_of_logs();
   const TemporaryFolder folder;
   ResultStore store = ResultStore::write(folder.path(), whole.description, "{}");
   StudyRunOptions options;

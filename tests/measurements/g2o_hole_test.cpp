@@ -8,6 +8,7 @@
 #include "fathom/core/files.hpp"
 #include "fathom/measurements/g2o.hpp"
 #include "fathom/measurements/graph_check.hpp"
+#include "measurements/parsed_graph.hpp"
 #include "support/input_error.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -15,6 +16,7 @@ namespace fathom {
 namespace {
 
 using test::input_error_of;
+using test::parse;
 using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -23,10 +25,6 @@ using testing::Pair;
 std::string edge(int from, int to, double x) {
   return "EDGE_SE2 " + std::to_string(from) + " " + std::to_string(to) + " " + std::to_string(x) +
          " 0 0 1 0 0 1 0 1\n";
-}
-
-MeasurementLog parse(const std::string& text, const GraphOptions& options = {}) {
-  return parse_g2o(text, "graph.g2o", options);
 }
 
 TEST(G2oHole, IsAStepThatNoEdgeMeasures) {

@@ -9,6 +9,7 @@
 #include "fathom/core/random.hpp"
 #include "fathom/measurements/connected_guess.hpp"
 #include "fathom/measurements/g2o.hpp"
+#include "measurements/parsed_graph.hpp"
 #include "support/input_error.hpp"
 #include "support/planar.hpp"
 
@@ -16,15 +17,12 @@ namespace fathom {
 namespace {
 
 using test::input_error_of;
+using test::parse;
 using testing::AllOf;
 using testing::HasSubstr;
 
 const std::string kStep = "EDGE_SE2 0 1 1 0 0 1 0 0 1 0 1\n";
 const std::string kPose = " 2 3 0.5 4 1 0 5 0 6\n";
-
-MeasurementLog parse(const std::string& text) {
-  return parse_g2o(text, "graph.g2o");
-}
 
 TEST(G2oPrior, ArrivesWithItsKeyframe) {
   const MeasurementLog log =

@@ -7,17 +7,15 @@
 
 #include "fathom/core/files.hpp"
 #include "fathom/measurements/g2o.hpp"
+#include "measurements/parsed_graph.hpp"
 #include "support/planar.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace fathom {
 namespace {
 
+using test::parse;
 using testing::ElementsAre;
-
-MeasurementLog parse(const std::string& text) {
-  return parse_g2o(text, "graph.g2o");
-}
 
 const std::string kInformation = " 100 1 2 200 3 300";
 

@@ -15,12 +15,12 @@ namespace {
 const std::vector<FalseLoopKind> kKinds{FalseLoopKind::random, FalseLoopKind::local,
                                         FalseLoopKind::grouped};
 
-struct Case {
+struct LogAndTruth {
   MeasurementLog log;
   std::vector<Pose> truth;
 };
 
-Case circle_case(std::size_t keyframes = 120) {
+LogAndTruth circle_case(std::size_t keyframes = 120) {
   test::LogOptions options;
   options.keyframes = keyframes;
   options.loop_every = 2;
@@ -111,7 +111,7 @@ TEST(Spoil, GroupsAgree) {
 }
 
 TEST(Spoil, IsReproducible) {
-  const Case circle = circle_case();
+  const LogAndTruth circle = circle_case();
   const SpoilOptions options{.share = 0.3};
   const auto motions = [&](std::uint64_t seed, std::uint64_t trial) {
     std::vector<Eigen::Vector3d> all;

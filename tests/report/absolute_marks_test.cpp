@@ -11,6 +11,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "pixels.hpp"
+#include "report/plot_series.hpp"
 #include "support/input_error.hpp"
 
 namespace fathom {
@@ -18,6 +19,7 @@ namespace {
 
 using test::count;
 using test::mean_position;
+using test::series_of;
 using test::where;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -28,14 +30,6 @@ AbsoluteMark fix(std::size_t pose, const Eigen::Vector2d& at, bool is_kept) {
 
 AbsoluteMark heading(std::size_t pose, double heading_rad, bool is_kept) {
   return absolute_mark(AbsolutePose::heading(pose, heading_rad, 0.1), is_kept);
-}
-
-PlotSeries series_of(std::size_t place, std::vector<Pose> poses) {
-  PlotSeries series;
-  series.name = "estimator " + std::to_string(place);
-  series.style = estimator_style(place);
-  series.poses = std::move(poses);
-  return series;
 }
 
 // A picture of marks on poses at (0, 0), with a blue, a green and a purple point at the origin, 10

@@ -10,21 +10,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "report/level_camera.hpp"
 #include "support/input_error.hpp"
 
 namespace fathom {
 namespace {
 
-// At 2 m a picture covers 1.2 m ahead and behind of 1.6 m to both sides.
-Camera camera() {
-  CameraModel model;
-  model.width = 160;
-  model.height = 120;
-  model.fx = model.fy = 200;
-  model.cx = 79.5;
-  model.cy = 59.5;
-  return Camera(model);
-}
+using test::camera;
 
 // A lawnmower: legs of `count` keyframes, to and fro.
 std::vector<KeyframePicture> lawnmower(int legs, int count, double step_m, double apart_m) {

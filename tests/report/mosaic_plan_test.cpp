@@ -6,24 +6,15 @@
 #include <nlohmann/json.hpp>
 
 #include "fathom/report/mosaic.hpp"
+#include "report/level_camera.hpp"
 #include "support/input_error.hpp"
 
 namespace fathom {
 namespace {
 
+using test::camera;
 using test::input_error_of;
 using testing::HasSubstr;
-
-// At 2 m a picture covers 1.2 m ahead and behind of 1.6 m to both sides, 1 cm a pixel.
-Camera camera() {
-  CameraModel model;
-  model.width = 160;
-  model.height = 120;
-  model.fx = model.fy = 200;
-  model.cx = 79.5;
-  model.cy = 59.5;
-  return Camera(model);
-}
 
 std::vector<PlacedPicture> straight(int count, double step_m) {
   std::vector<PlacedPicture> pictures;
@@ -84,11 +75,11 @@ TEST(MosaicPlan, CoversAllFootprintsOnAGridThroughTheOrigin) {
   EXPECT_NEAR(plan.top_left_m.y(), 0.8, 0.0101);
   EXPECT_NEAR(plan.size.height, 321, 1);
   EXPECT_NEAR(plan.size.width, 160, 2);
-  const auto json = nlohmann::json::parse(mosaic_json(plan));
-  EXPECT_EQ(json.at("metres_per_pixel"), plan.metres_per_pixel);
-  EXPECT_EQ(json.at("x_of_top_left_m"), plan.top_left_m.x());
-  EXPECT_EQ(json.at("y_of_top_left_m"), plan.top_left_m.y());
-  EXPECT_EQ(json.at("pictures"), 3);
+  const auto written = nlohmann::json::parse(mosaic_json(plan));
+  EXPECT_EQ(written.at("metres_per_pixel"), plan.metres_per_pixel);
+  EXPECT_EQ(written.at("x_of_top_left_m"), plan.top_left_m.x());
+  EXPECT_EQ(written.at("y_of_top_left_m"), plan.top_left_m.y());
+  EXPECT_EQ(written.at("pictures"), 3);
 }
 
 TEST(MosaicPlan, IsCoarserWhereItWouldBeTooLarge) {

@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "fathom/core/files.hpp"
 #include "report/browser_page.hpp"
+#include "report/page_data.hpp"
 
 namespace fathom::test {
 namespace {
@@ -25,13 +25,7 @@ FixtureOptions with_absolute(bool is_old = false) {
 
 // The estimators of the example on the page of a store.
 Json estimators_of(const ResultStore& store) {
-  const TemporaryFolder folder;
-  write_study_report(store, folder / "out");
-  const std::string page = read_file(folder / "out" / "report.html");
-  const std::string opening = "<script type=\"application/json\" id=\"data\">";
-  const std::size_t begin = page.find(opening) + opening.size();
-  const Json data = Json::parse(page.substr(begin, page.find("</script>", begin) - begin));
-  return data["cells"][0]["example"]["estimators"];
+  return data_of_page(page_of(store))["cells"][0]["example"]["estimators"];
 }
 
 Json estimators_of(const FixtureOptions& options) {

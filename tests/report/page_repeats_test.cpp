@@ -4,28 +4,15 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "fathom/core/files.hpp"
 #include "fathom/evaluation/consistency.hpp"
-#include "fathom/report/study_report.hpp"
+#include "report/page_data.hpp"
 #include "report/study_fixture.hpp"
-#include "support/temporary_folder.hpp"
 
 namespace fathom::test {
 namespace {
 
 using Json = nlohmann::json;
 using ::testing::HasSubstr;
-
-// The data of the page of a made-up study.
-Json data_of(const FixtureOptions& options) {
-  const TemporaryFolder folder;
-  write_fixture(folder / "study", options);
-  write_study_report(ResultStore::open(folder / "study"), folder / "out");
-  const std::string page = read_file(folder / "out" / "report.html");
-  const std::string opening = "<script type=\"application/json\" id=\"data\">";
-  const std::size_t begin = page.find(opening) + opening.size();
-  return Json::parse(page.substr(begin, page.find("</script>", begin) - begin));
-}
 
 TEST(PageRepeats, TheIntervalOfNeesCountsIndependentDraws) {
   FixtureOptions options;

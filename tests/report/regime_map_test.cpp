@@ -12,8 +12,8 @@ namespace {
 using ::testing::DoubleEq;
 using ::testing::Optional;
 
-EstimatorResults made(const std::string& name, double error_m, double total_ms,
-                      std::size_t failures = 0) {
+EstimatorResults with_means(const std::string& name, double error_m, double total_ms,
+                            std::size_t failures = 0) {
   EstimatorResults one;
   one.name = name;
   one.runs.resize(10);
@@ -24,15 +24,16 @@ EstimatorResults made(const std::string& name, double error_m, double total_ms,
   return one;
 }
 
-CellResults cell_of(std::vector<EstimatorResults> estimators) {
+CellResults bare_cell(std::vector<EstimatorResults> estimators) {
   CellResults cell;
   cell.estimators = std::move(estimators);
   return cell;
 }
 
 TEST(RegimeMap, TheCheapestIsOneOfThoseAsGoodAsTheBest) {
-  const CellResults cell = cell_of({made("best", 1.0, 5.0), made("as_good", 1.04, 2.0),
-                                    made("dearer", 1.01, 3.0), made("worse", 1.06, 1.0)});
+  const CellResults cell =
+      bare_cell({with_means("best", 1.0, 5.0), with_means("as_good", 1.04, 2.0),
+                 with_means("dearer", 1.01, 3.0), with_means("worse", 1.06, 1.0)});
   EXPECT_EQ(cheapest_of_the_best(cell, "mean_position_error_m", "total_ms"), "as_good");
   EXPECT_THAT(relative_to_best(cell, cell.estimators[3], "mean_position_error_m"),
               Optional(DoubleEq(1.06)));
@@ -40,20 +41,21 @@ TEST(RegimeMap, TheCheapestIsOneOfThoseAsGoodAsTheBest) {
 
 // Dead reckoning is no choice; a mean that leaves out the trials that failed flatters.
 TEST(RegimeMap, DeadReckoningAndEstimatorsThatFailedAreInNoComparison) {
-  const CellResults cell = cell_of(
-      {made(kDeadReckoning, 0.1, 0.1), made("failed", 0.5, 0.5, 1), made("good", 1.0, 5.0)});
+  const CellResults cell =
+      bare_cell({with_means(kDeadReckoning, 0.1, 0.1), with_means("failed", 0.5, 0.5, 1),
+                 with_means("good", 1.0, 5.0)});
   EXPECT_EQ(cheapest_of_the_best(cell, "mean_position_error_m", "total_ms"), "good");
   EXPECT_EQ(relative_to_best(cell, cell.estimators[0], "mean_position_error_m"), std::nullopt);
   EXPECT_EQ(relative_to_best(cell, cell.estimators[1], "mean_position_error_m"), std::nullopt);
   EXPECT_THAT(relative_to_best(cell, cell.estimators[2], "mean_position_error_m"),
               Optional(DoubleEq(1.0)));
-  const CellResults none = cell_of({made("failed", 0.5, 0.5, 10)});
+  const CellResults none = bare_cell({with_means("failed", 0.5, 0.5, 10)});
   EXPECT_EQ(cheapest_of_the_best(none, "mean_position_error_m", "total_ms"), std::nullopt);
 }
 
 // ANEES has no best: 1 is honest, and less is not better.
 TEST(RegimeMap, AMetricWithoutABestHasNoChoice) {
-  const CellResults cell = cell_of({made("a", 1.0, 5.0), made("b", 2.0, 2.0)});
+  const CellResults cell = bare_cell({with_means("a", 1.0, 5.0), with_means("b", 2.0, 2.0)});
   EXPECT_EQ(cheapest_of_the_best(cell, "anees", "total_ms"), std::nullopt);
   EXPECT_EQ(relative_to_best(cell, cell.estimators[0], "anees"), std::nullopt);
 }

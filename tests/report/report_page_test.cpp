@@ -7,10 +7,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "fathom/core/files.hpp"
 #include "fathom/evaluation/consistency.hpp"
 #include "fathom/report/palette.hpp"
-#include "fathom/report/study_report.hpp"
+#include "report/page_data.hpp"
 #include "report/study_fixture.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -22,26 +21,10 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-std::string page_of(const ResultStore& store) {
-  const TemporaryFolder folder;
-  write_study_report(store, folder / "out");
-  return read_file(folder / "out" / "report.html");
-}
-
 std::string fixture_page(const FixtureOptions& options = {}) {
   const TemporaryFolder folder;
   write_fixture(folder.path(), options);
   return page_of(ResultStore::open(folder.path()));
-}
-
-std::string element_of(const std::string& page, const std::string& id) {
-  const std::string opening = "<script type=\"application/json\" id=\"" + id + "\">";
-  const std::size_t begin = page.find(opening) + opening.size();
-  return page.substr(begin, page.find("</script>", begin) - begin);
-}
-
-Json data_of(const std::string& page) {
-  return Json::parse(element_of(page, "data"));
 }
 
 // The elements and attributes that make a browser fetch something.
@@ -74,7 +57,7 @@ TEST(ReportPage, NamesAreEscaped) {
   EXPECT_THAT(page, HasSubstr("<title>Loops &amp; &lt;noise&gt;: 50 % of a_b &lt;/script&gt;"
                               "</title>"));
   EXPECT_EQ(element_of(page, "data").find('<'), std::string::npos);
-  const Json data = data_of(page);
+  const Json data = data_of_page(page);
   EXPECT_EQ(data["title"], "Loops & <noise>: 50 % of a_b </script>");
   EXPECT_EQ(data["estimators"][2]["name"], "a&b_<c>%");
   EXPECT_EQ(data["configuration"]["dataset.path"], "a,b \"c\" <d>");
@@ -82,7 +65,7 @@ TEST(ReportPage, NamesAreEscaped) {
 }
 
 TEST(ReportPage, AnEstimatorHasTheColourOfItsTypeAndNoneTheSame) {
-  const Json estimators = data_of(fixture_page())["estimators"];
+  const Json estimators = data_of_page(fixture_page())["estimators"];
   EXPECT_EQ(estimators[0]["colour"], "#8a8a8a");
   EXPECT_EQ(estimators[1]["colour"], "#0072b2");
   EXPECT_EQ(estimators[2]["colour"], "#d55e00");
@@ -100,7 +83,7 @@ TEST(ReportPage, EveryEstimatorHasTheLineOfItsPlace) {
   run.outcome = "converged";
   store.add(run);
   store.finish();
-  const Json data = data_of(page_of(ResultStore::open(folder.path())));
+  const Json data = data_of_page(page_of(ResultStore::open(folder.path())));
   ASSERT_EQ(data["estimators"].size(), 21u);
   EXPECT_EQ(data["estimators"][0]["colour"], hex(dead_reckoning_style().colour));
   for (std::size_t place = 0; place < 20; ++place) {
@@ -112,7 +95,7 @@ TEST(ReportPage, EveryEstimatorHasTheLineOfItsPlace) {
 }
 
 TEST(ReportPage, MetricsSayTheirUnitAndWhatIsBetter) {
-  const Json metrics = data_of(fixture_page())["metrics"];
+  const Json metrics = data_of_page(fixture_page())["metrics"];
   const auto metric = [](const char* label, const char* title, const char* unit, bool cost,
                          const char* better) {
     return Json{
@@ -131,7 +114,7 @@ TEST(ReportPage, EveryCellHasItsAlignment) {
   options.trials = 1;
   options.alignments = {"origin", "none"};
   write_fixture(folder.path(), options);
-  const Json data = data_of(page_of(ResultStore::open(folder.path())));
+  const Json data = data_of_page(page_of(ResultStore::open(folder.path())));
   ASSERT_EQ(data["cells"].size(), 12u);
   for (std::size_t i = 0; i < 12; ++i) {
     const std::string expected = i % 2 == 0 ? "origin" : "none";
@@ -145,7 +128,7 @@ TEST(ReportPage, KeyframeStatisticsAreThoseOfTheRunsDone) {
   const TemporaryFolder folder;
   write_fixture(folder.path());
   const ResultStore store = ResultStore::open(folder.path());
-  const Json cell = data_of(page_of(store))["cells"][5];
+  const Json cell = data_of_page(page_of(store))["cells"][5];
   const Json& one = cell["estimators"][2];
   ASSERT_EQ(one["name"], "a&b_<c>%");
   EXPECT_EQ(one["runs"], 6);
@@ -186,7 +169,7 @@ TEST(ReportPage, TheExampleIsTheLowestTrialAlone) {
   const TemporaryFolder folder;
   write_fixture(folder.path());
   const ResultStore store = ResultStore::open(folder.path());
-  const Json example = data_of(page_of(store))["cells"][0]["example"];
+  const Json example = data_of_page(page_of(store))["cells"][0]["example"];
   EXPECT_EQ(example["trial"], 0);
   EXPECT_EQ(example["truth"]["x_m"].size(), 40u);
   ASSERT_EQ(example["estimators"].size(), 4u);
@@ -204,7 +187,7 @@ TEST(ReportPage, WhatIsNotKnownIsLeftOut) {
   options.ground_truth = false;
   options.loops = false;
   options.noises.clear();
-  const Json data = data_of(fixture_page(options));
+  const Json data = data_of_page(fixture_page(options));
   EXPECT_FALSE(data["metrics"].contains("anees"));
   const Json& cell = data["cells"][0];
   EXPECT_TRUE(cell["example"]["truth"].is_null());
@@ -221,7 +204,7 @@ TEST(ReportPage, StaysSmallOverManyCellsTrialsAndKeyframes) {
   options.separations = {"1", "2", "3", "4", "5"};
   options.noises = {"a", "b", "c", "d"};
   const std::string page = fixture_page(options);
-  const Json data = data_of(page);
+  const Json data = data_of_page(page);
   ASSERT_EQ(data["cells"].size(), 20u);
   EXPECT_EQ(data["cells"][19]["estimators"][1]["keyframes"]["keyframe"].size(), 120u);
   EXPECT_LT(page.size(), 6000000u);
@@ -235,7 +218,7 @@ TEST(ReportPage, LongRunsAreThinnedToTheirFirstAndLastKeyframe) {
   options.noises.clear();
   options.loops = false;
   const std::string page = fixture_page(options);
-  const Json keyframes = data_of(page)["cells"][0]["estimators"][1]["keyframes"]["keyframe"];
+  const Json keyframes = data_of_page(page)["cells"][0]["estimators"][1]["keyframes"]["keyframe"];
   EXPECT_EQ(keyframes.front(), 0);
   EXPECT_EQ(keyframes.back(), 29999);
   EXPECT_LT(page.size(), 6000000u);

@@ -13,6 +13,7 @@
 #include "fathom/core/random.hpp"
 #include "fathom/report/picture.hpp"
 #include "pixels.hpp"
+#include "report/plot_series.hpp"
 #include "support/input_error.hpp"
 
 namespace fathom {
@@ -22,6 +23,7 @@ using test::count;
 using test::input_error_of;
 using test::mean_position;
 using test::same;
+using test::series_of;
 using testing::HasSubstr;
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
@@ -32,14 +34,6 @@ TrajectoryPlot plot_of(std::vector<PlotSeries> series, const std::string& title 
   plot.title = title;
   plot.series = std::move(series);
   return plot;
-}
-
-PlotSeries series_of(std::size_t place, std::vector<Pose> poses) {
-  PlotSeries series;
-  series.name = "estimator " + std::to_string(place);
-  series.style = estimator_style(place);
-  series.poses = std::move(poses);
-  return series;
 }
 
 cv::Mat render(const TrajectoryPlot& plot) {

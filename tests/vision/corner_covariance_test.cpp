@@ -13,7 +13,7 @@
 namespace fathom {
 namespace {
 
-const Pose kTruth{0.3, -0.2, 0.7};
+using test::kTrueMotion;
 
 // NIS and the standard deviation of the heading, over draws of `count` inliers in a square.
 struct Scatter {
@@ -34,7 +34,7 @@ Scatter scatter_of(double side_m) {
       q.emplace_back(x, random.uniform(1.0 - side_m, 1.0));
       const double dx = 0.004 * random.normal();
       const double dy = 0.004 * random.normal();
-      p.push_back(transform(kTruth, q.back()) + Eigen::Vector2d(dx, dy));
+      p.push_back(transform(kTrueMotion, q.back()) + Eigen::Vector2d(dx, dy));
     }
     RegistrationOptions options;
     options.covariance.tilt_sigma_rad = 0.0;
@@ -43,8 +43,8 @@ Scatter scatter_of(double side_m) {
     const Registration result = register_pair(test::labelled(p), test::labelled(q), options,
                                               static_cast<std::uint64_t>(trial));
     if (!result.found) return {};
-    const Eigen::Vector3d nu(result.motion.x - kTruth.x, result.motion.y - kTruth.y,
-                             wrap_angle(result.motion.theta - kTruth.theta));
+    const Eigen::Vector3d nu(result.motion.x - kTrueMotion.x, result.motion.y - kTrueMotion.y,
+                             wrap_angle(result.motion.theta - kTrueMotion.theta));
     mean.nis += nu.dot(result.covariance.ldlt().solve(nu)) / kTrials;
     mean.sigma_rad += std::sqrt(result.covariance(2, 2)) / kTrials;
     mean.sigma_m += std::sqrt(result.covariance(0, 0)) / kTrials;

@@ -12,19 +12,20 @@
 #include "fathom/core/random.hpp"
 #include "fathom/vision/registration.hpp"
 #include "vision/labelled.hpp"
+#include "vision/points.hpp"
 
 namespace fathom {
 namespace {
 
+using test::kTrueMotion;
 using test::labelled;
+using test::Points;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::MatchesRegex;
 using ::testing::StartsWith;
 
-using Points = std::vector<Eigen::Vector2d>;
-
-Eigen::Vector2d anywhere(RandomStream& random) {
+Eigen::Vector2d in_picture(RandomStream& random) {
   const double x = random.uniform(-1.3, 1.3);
   return {x, random.uniform(-1.0, 1.0)};
 }
@@ -37,18 +38,16 @@ struct Seen {
   }
 };
 
-const Pose kTruth{0.3, -0.2, 0.7};
-
 // `right` matches of a motion, errors of 2 mm, and `wrong` ones.
 Seen some_right(int right, int wrong, std::uint64_t seed) {
   RandomStream random(seed);
   Seen seen;
   for (int i = 0; i < right + wrong; ++i) {
-    seen.q.push_back(anywhere(random));
+    seen.q.push_back(in_picture(random));
     const double dx = 0.002 * random.normal();
     const double dy = 0.002 * random.normal();
-    seen.p.push_back(i < right ? transform(kTruth, seen.q.back()) + Eigen::Vector2d(dx, dy)
-                               : anywhere(random));
+    seen.p.push_back(i < right ? transform(kTrueMotion, seen.q.back()) + Eigen::Vector2d(dx, dy)
+                               : in_picture(random));
   }
   return seen;
 }
@@ -128,7 +127,7 @@ Seen lattice() {
     const auto column = static_cast<double>(random.index(3));
     const Eigen::Vector2d shift = kSpacingM * Eigen::Vector2d(column, double(random.index(3)));
     seen.q.push_back(q);
-    seen.p.push_back(transform(kTruth, q + shift));
+    seen.p.push_back(transform(kTrueMotion, q + shift));
   }
   return seen;
 }
@@ -180,7 +179,7 @@ TEST(ScaleCheck, TellsTheRatioOfAltitudesAndLeavesTheMotion) {
   // 2 mm over √(200 · (1.3² + 1²) / 3) m, more where what the scale explains counts as an error.
   EXPECT_GT(result.evidence.scale_sigma, 0.0001);
   EXPECT_LT(4.0 * result.evidence.scale_sigma, 0.01);
-  EXPECT_NEAR(result.motion.theta, kTruth.theta, 0.001);
+  EXPECT_NEAR(result.motion.theta, kTrueMotion.theta, 0.001);
 }
 
 // The same match again, but for its keypoint's size or orientation in `to`.
@@ -192,7 +191,7 @@ TEST(Decision, KeypointsOfAnotherSizeOrTurnBearNoWitness) {
     from.sizes_m.push_back(0.03);
     from.headings_rad.push_back(0.1 * static_cast<double>(i));
     to.sizes_m.push_back(0.03 * (i < 10 ? 2.0 : i < 20 ? 0.5 : 1.1));
-    to.headings_rad.push_back(from.headings_rad.back() - kTruth.theta + (i < 30 ? 0.1 : 0.9));
+    to.headings_rad.push_back(from.headings_rad.back() - kTrueMotion.theta + (i < 30 ? 0.1 : 0.9));
   }
   const Registration result = register_pair(from, to, {}, 1);
   EXPECT_EQ(result.putative.size(), 40U);  // by size

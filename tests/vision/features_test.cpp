@@ -7,21 +7,18 @@
 
 #include <gtest/gtest.h>
 
-#include "vision/textured_floor.hpp"
+#include "vision/textured_picture.hpp"
 
 namespace fathom {
 namespace {
+
+using test::picture;
 
 FeatureOptions options_of(const std::string& type, int max_features = 2000) {
   FeatureOptions options;
   options.type = type;
   options.max_features = max_features;
   return options;
-}
-
-const cv::Mat& picture() {
-  static const cv::Mat texture = TexturedFloor(500, 0.005, 11).picture();
-  return texture;
 }
 
 bool equal(const Features& a, const Features& b) {

@@ -4,27 +4,14 @@
 #include <gtest/gtest.h>
 
 #include "fathom/vision/registration.hpp"
-#include "vision/textured_floor.hpp"
+#include "vision/sea_floor.hpp"
 
 namespace fathom {
 namespace {
 
+using test::seen_at;
 using ::testing::HasSubstr;
 using ::testing::Not;
-
-FloorFeatures seen_at(const Pose& pose) {
-  static const TexturedFloor floor(1200, 0.004, 5);
-  CameraModel model;
-  model.width = 400;
-  model.height = 300;
-  model.fx = model.fy = 350.0;
-  model.cx = 199.5;
-  model.cy = 149.5;
-  const Camera camera(model);
-  constexpr double kAltitudeM = 1.2;
-  return on_floor(FeatureExtractor().extract(floor.seen(camera, pose, kAltitudeM)), camera,
-                  kAltitudeM);
-}
 
 RegistrationOptions first(std::optional<int> features) {
   RegistrationOptions options;

@@ -8,10 +8,9 @@
 
 #include "fathom/core/random.hpp"
 #include "fathom/geometry/pose.hpp"
+#include "vision/points.hpp"
 
 namespace fathom::test {
-
-using Points = std::vector<Eigen::Vector2d>;
 
 inline Points random_points(RandomStream& random, int count, const Eigen::Vector2d& middle) {
   Points points;
@@ -20,11 +19,6 @@ inline Points random_points(RandomStream& random, int count, const Eigen::Vector
     points.push_back(middle + Eigen::Vector2d(x, random.uniform(-1.0, 1.0)));
   }
   return points;
-}
-
-inline Eigen::Vector2d noise(RandomStream& random, double sigma_m) {
-  const double x = sigma_m * random.normal();
-  return {x, sigma_m * random.normal()};
 }
 
 inline Points seen_from(const Pose& z, const Points& q) {

@@ -7,15 +7,12 @@
 #include <opencv2/imgproc.hpp>
 
 #include "fathom/vision/features.hpp"
-#include "vision/textured_floor.hpp"
+#include "vision/textured_picture.hpp"
 
 namespace fathom {
 namespace {
 
-const cv::Mat& picture() {
-  static const cv::Mat texture = TexturedFloor(500, 0.005, 11).picture();
-  return texture;
-}
+using test::picture;
 
 // The share of the keypoints of one picture that the other one has within a pixel.
 double share_found_again(const Features& some, const Features& others) {

@@ -4,11 +4,15 @@
 
 #include <opencv2/core.hpp>
 
+#include "fathom/geometry/pose.hpp"
 #include "fathom/vision/features.hpp"
 
 namespace fathom::test {
 
 inline constexpr double kMetresPerPixel = 0.004;
+
+/// Between two pictures of such points.
+inline const Pose kTrueMotion{0.3, -0.2, 0.7};
 
 /// Points with descriptors of their own, so that row i of one such picture matches row i of another
 /// one and no other. They have neither sizes nor orientations.

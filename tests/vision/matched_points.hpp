@@ -1,16 +1,14 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 #include <Eigen/Core>
 
 #include "fathom/core/random.hpp"
 #include "fathom/vision/ransac.hpp"
+#include "vision/points.hpp"
 
 namespace fathom::test {
-
-using Points = std::vector<Eigen::Vector2d>;
 
 /// Matched points: p = z ⊕ q, with errors.
 struct Pairs {
@@ -29,11 +27,6 @@ struct Pairs {
 inline Eigen::Vector2d anywhere(RandomStream& random, double size_m = 1.0) {
   const double x = random.uniform(-size_m, size_m);
   return {x, random.uniform(-size_m, size_m)};
-}
-
-inline Eigen::Vector2d noise(RandomStream& random, double sigma_m) {
-  const double x = sigma_m * random.normal();
-  return {x, sigma_m * random.normal()};
 }
 
 inline void add_true(Pairs& pairs, RandomStream& random, const Pose& z, int count, double sigma_m) {

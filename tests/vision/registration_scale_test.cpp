@@ -6,23 +6,12 @@
 
 #include "fathom/core/input_error.hpp"
 #include "fathom/vision/registration.hpp"
-#include "vision/textured_floor.hpp"
+#include "vision/sea_floor.hpp"
 
 namespace fathom {
 namespace {
 
-FloorFeatures seen_at(const Pose& pose, double altitude_m) {
-  static const TexturedFloor floor(1200, 0.004, 5);
-  CameraModel model;
-  model.width = 400;
-  model.height = 300;
-  model.fx = model.fy = 350.0;
-  model.cx = 199.5;
-  model.cy = 149.5;
-  const Camera camera(model);
-  return on_floor(FeatureExtractor().extract(floor.seen(camera, pose, altitude_m)), camera,
-                  altitude_m);
-}
+using test::seen_at;
 
 // The same picture from twice as far has pixels twice as wide, and all it sees is twice as large.
 TEST(RegisterPair, ErrorsInPixelsScaleWithTheAltitude) {

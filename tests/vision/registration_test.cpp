@@ -12,18 +12,14 @@
 #include "fathom/vision/motion_covariance.hpp"
 #include "fathom/vision/rigid_motion.hpp"
 #include "vision/labelled.hpp"
-#include "vision/textured_floor.hpp"
+#include "vision/sea_floor.hpp"
 
 namespace fathom {
 namespace {
 
 using test::labelled;
+using test::sea_floor;
 using ::testing::HasSubstr;
-
-const TexturedFloor& sea_floor() {
-  static const TexturedFloor floor(1200, 0.004, 5);
-  return floor;
-}
 
 // Forty centimetres of mounting offset and a yaw: a wrong sign anywhere shows.
 CameraModel mounted() {
@@ -38,8 +34,8 @@ CameraModel mounted() {
   return model;
 }
 
-FloorFeatures seen_at(const Pose& pose, double altitude_m, const std::string& type = "sift",
-                      const Camera& camera = Camera(mounted())) {
+FloorFeatures features_at(const Pose& pose, double altitude_m, const std::string& type = "sift",
+                          const Camera& camera = Camera(mounted())) {
   FeatureOptions options;
   options.type = type;
   return on_floor(FeatureExtractor(options).extract(sea_floor().seen(camera, pose, altitude_m)),
@@ -58,7 +54,7 @@ void expect_motion(const Registration& result, const Pose& motion, double tolera
 TEST(RegisterPair, FindsTheMotionBetweenTwoPictures) {
   const Pose A{0.1, -0.2, 0.3};
   for (const Pose& B : {Pose{0.3, -0.1, 0.5}, Pose{0.0, 0.1, -2.8}, A}) {
-    const Registration result = register_pair(seen_at(A, 1.5), seen_at(B, 1.5), {}, 1);
+    const Registration result = register_pair(features_at(A, 1.5), features_at(B, 1.5), {}, 1);
     expect_motion(result, between(A, B), 0.004);
   }
 }
@@ -66,23 +62,24 @@ TEST(RegisterPair, FindsTheMotionBetweenTwoPictures) {
 TEST(RegisterPair, AccountsForTheAltitudeOfEachPicture) {
   const Pose A{0.1, -0.2, 0.3};
   const Pose B{0.2, 0.0, 1.0};
-  expect_motion(register_pair(seen_at(A, 1.3), seen_at(B, 2.1), {}, 1), between(A, B), 0.006);
+  expect_motion(register_pair(features_at(A, 1.3), features_at(B, 2.1), {}, 1), between(A, B),
+                0.006);
 }
 
 TEST(RegisterPair, UndoesTheDistortionOfTheLens) {
   CameraModel model = mounted();
   model.distortion = {-0.25, 0.05, 0.001, -0.0005, 0.0};
   const Pose B{0.1, 0.15, 2.0};
-  const FloorFeatures a = seen_at({}, 1.5, "sift", Camera(model));
-  const FloorFeatures b = seen_at(B, 1.5, "sift", Camera(model));
+  const FloorFeatures a = features_at({}, 1.5, "sift", Camera(model));
+  const FloorFeatures b = features_at(B, 1.5, "sift", Camera(model));
   const Registration result = register_pair(a, b, {}, 1);
   expect_motion(result, B, 0.004);
   EXPECT_LT(result.rms_m, 0.006);
 }
 
 TEST(RegisterPair, OfTheSwappedPairIsTheInverse) {
-  const FloorFeatures a = seen_at({0.0, 0.0, 0.0}, 1.5);
-  const FloorFeatures b = seen_at({0.25, 0.1, 0.7}, 1.6);
+  const FloorFeatures a = features_at({0.0, 0.0, 0.0}, 1.5);
+  const FloorFeatures b = features_at({0.25, 0.1, 0.7}, 1.6);
   const Registration forward = register_pair(a, b, {}, 1);
   const Registration backward = register_pair(b, a, {}, 1);
   expect_motion(backward, inverse(forward.motion), 0.003);
@@ -92,15 +89,15 @@ TEST(RegisterPair, WorksWithEveryDetector) {
   const Pose B{0.15, 0.05, 0.2};
   for (const DetectorEntry& detector : detectors()) {
     SCOPED_TRACE(detector.name);
-    expect_motion(
-        register_pair(seen_at({}, 1.5, detector.name), seen_at(B, 1.5, detector.name), {}, 1), B,
-        0.01);
+    expect_motion(register_pair(features_at({}, 1.5, detector.name),
+                                features_at(B, 1.5, detector.name), {}, 1),
+                  B, 0.01);
   }
 }
 
 TEST(RegisterPair, SaysThatPicturesDoNotOverlap) {
-  const FloorFeatures a = seen_at({-1.3, -1.2, 0.0}, 1.2);
-  const FloorFeatures b = seen_at({1.0, 1.2, 0.4}, 1.2);
+  const FloorFeatures a = features_at({-1.3, -1.2, 0.0}, 1.2);
+  const FloorFeatures b = features_at({1.0, 1.2, 0.4}, 1.2);
   ASSERT_GT(a.size(), 300U);
   ASSERT_GT(b.size(), 300U);
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
@@ -112,7 +109,7 @@ TEST(RegisterPair, SaysThatPicturesDoNotOverlap) {
 }
 
 TEST(RegisterPair, SaysWhyThereIsNoMotionInNumbers) {
-  const FloorFeatures a = seen_at({}, 1.5);
+  const FloorFeatures a = features_at({}, 1.5);
   RegistrationOptions options;
   options.ransac.max_error_m = 0.03;
   options.covariance.floor_sigma_m = 1e-5;

@@ -10,11 +10,12 @@
 
 #include "fathom/core/input_error.hpp"
 #include "fathom/core/random.hpp"
+#include "vision/points.hpp"
 
 namespace fathom {
 namespace {
 
-using Points = std::vector<Eigen::Vector2d>;
+using test::Points;
 
 Points random_points(RandomStream& random, int count, double size_m) {
   Points points;

@@ -174,9 +174,8 @@ TEST(TiltedCamera, TheHorizonIsNoFloor) {
   EXPECT_TRUE(camera.floor_point({600.0, 240.0}, steep).allFinite());
   // What is behind a camera that looks to port is in no picture, though a line leads there.
   EXPECT_TRUE(std::isnan(camera.pixel({0.0, -9.0}, {2.0, Tilt{1.4, 0.0}}).x()));
-  const double kNaN = std::numeric_limits<double>::quiet_NaN();
-  const double kInfinity = std::numeric_limits<double>::infinity();
-  for (const double bad : {kNaN, kInfinity}) {
+  for (const double bad :
+       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
     EXPECT_NE(test::input_error_of([&] {
                 camera.floor_point({0, 0}, {2.0, Tilt{0.0, bad}});
               }).find("roll and pitch must be finite"),
