@@ -14,7 +14,7 @@
 namespace fathom {
 namespace {
 
-double mean_of(const std::vector<double>& values) {
+double common_mean(const std::vector<double>& values) {
   // Where all are equal a sum would round.
   if (std::ranges::adjacent_find(values, std::not_equal_to<>()) == values.end()) {
     return values.front();
@@ -25,7 +25,7 @@ double mean_of(const std::vector<double>& values) {
 std::vector<double> without_mean(std::vector<double> values) {
   // Twice, as the first mean was rounded to its own size.
   for (int pass = 0; pass < 2; ++pass) {
-    const double mean = mean_of(values);
+    const double mean = common_mean(values);
     for (double& value : values) value -= mean;
   }
   return values;
@@ -126,13 +126,13 @@ Interval interval_about(double estimate, const std::vector<SurveyOfCells>& surve
 std::vector<double> survey_means(const ClusteredValues& values) {
   std::vector<double> means;
   means.reserve(values.size());
-  for (const auto& [survey, own] : values) means.push_back(mean_of(own));
+  for (const auto& [survey, own] : values) means.push_back(common_mean(own));
   return means;
 }
 
 double clustered_mean(const ClusteredValues& values) {
   assert(!values.empty());
-  return mean_of(survey_means(values));
+  return common_mean(survey_means(values));
 }
 
 std::optional<Interval> hierarchical_interval(const ClusteredValues& values,

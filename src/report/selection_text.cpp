@@ -6,15 +6,12 @@
 #include <vector>
 
 #include "fathom/report/table.hpp"
+#include "verdict.hpp"
 
 namespace fathom {
 namespace {
 
 constexpr int kSelectionDigits = 4;
-
-std::string counted(std::size_t count, const std::string& word) {
-  return std::to_string(count) + " " + word + (count == 1 ? "" : "s");
-}
 
 std::string interval_text(const std::optional<TrialMean>& value) {
   if (!value || !value->interval) return "-";

@@ -125,7 +125,7 @@ TEST_F(Pages, ValuesAreOffered) {
   EXPECT_THAT(offered("fathom solve g.g2o --estimator tr"), ElementsAre("trajectory_iekf"));
   EXPECT_THAT(offered("fathom conformance ek"), ElementsAre("ekf"));
   EXPECT_THAT(offered("fathom list ''"),
-              ElementsAre("estimators", "detectors", "datasets", "metrics"));
+              ElementsAre("estimators", "detectors", "datasets", "metrics", "features"));
   EXPECT_THAT(offered("fathom select d --minimise anee"), Contains("anees"));
   EXPECT_THAT(offered("fathom evaluate a b --align s"), ElementsAre("se2"));
 }

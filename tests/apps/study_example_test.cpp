@@ -6,7 +6,7 @@
 namespace fathom::test {
 namespace {
 
-constexpr const char* kStudy = R"(
+constexpr const char* kExampleStudy = R"(
 dataset:
   type: simulated
   world: {metres_per_pixel: 0.01}
@@ -23,7 +23,7 @@ using StudyExample = CommandLine;
 TEST_F(StudyExample, IsTheRunThatWasStored) {
   for (const std::string mode : {"own", "shared"}) {
     const std::string out = "out_" + mode;
-    const Arguments command{"compare",  write("study.yaml", kStudy),
+    const Arguments command{"compare",  write("study.yaml", kExampleStudy),
                             "--set",    "association.mode=" + mode,
                             "--trials", "1",
                             "--out",    out,

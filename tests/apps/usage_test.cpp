@@ -89,7 +89,7 @@ TEST_F(Usage, MisuseIsOneLineAndStatusTwo) {
       {{"solve", "g.g2o", "--mode", "sideways"}, "--mode"},
       {{"solve", "g.g2o", "--init", "guess"}, "--init"},
       {{"list"}, "what is required"},
-      {{"list", "robots"}, "robots not in {estimators,detectors,datasets,metrics}"},
+      {{"list", "robots"}, "robots not in {estimators,detectors,datasets,metrics,features}"},
       {{"evaluate", "a.tum"}, "reference is required"},
       {{"register", "a.png", "b.png"}, "--altitude-a is required"},
       {{"register", "a.png", "b.png", "--altitude-a", "0", "--altitude-b", "1"}, "--altitude-a"},

@@ -94,7 +94,7 @@ TEST(ConfigureStudy, NoiseIsSeededByValuesAndNotBySpellings) {
 TEST(ConfigureStudy, TwoSpellingsOfOneValueAreRefused) {
   const std::string sweep = "sweep: [{key: front_end.candidates.max_distance_m, values: ";
   EXPECT_THAT(refusal_of_study(sweep + "[0.01, 1e-2]}]\n"),
-              HasSubstr("study.yaml:1: sweep.0.values: '0.01' and '1e-2' are the same value"));
+              HasSubstr("config.yaml:1: sweep.0.values: '0.01' and '1e-2' are the same value"));
   EXPECT_THAT(refusal_of_study(sweep + "[0.01, 1e-2], labels: [a, b]}]\n"),
               HasSubstr("'a' and 'b' are the same value"));
   EXPECT_NO_THROW(
@@ -119,7 +119,7 @@ TEST(ConfigureStudy, ATextForTheTablesIsShortAndNoOtherColumn) {
   const auto named = [](const std::string& name) {
     return refusal_of_study("sweep: [{key: seed, name: " + name + ", values: [1, 2]}]\n");
   };
-  EXPECT_THAT(named("trial"), HasSubstr("study.yaml:1: sweep.0.name: 'trial' is another column of "
+  EXPECT_THAT(named("trial"), HasSubstr("config.yaml:1: sweep.0.name: 'trial' is another column of "
                                         "the tables; give the axis another name"));
   EXPECT_THAT(named("estimator"), HasSubstr("is another column"));
   EXPECT_THAT(named("association"), HasSubstr("is another column"));
@@ -142,13 +142,13 @@ TEST(ConfigureStudy, RefusesAKeyThatNoCellUses) {
   EXPECT_EQ(value_of(study, "dataset.mission.loop_length_m"), "5");
   EXPECT_EQ(value_of(study, "dataset.mission.legs"), "3");
   EXPECT_THAT(refusal_of_study("dataset.mission.waypoints_m: [0, 0, 1, 1]\n" + sweep),
-              HasSubstr("study.yaml:1: dataset.mission.waypoints_m: dataset.mission.type "
+              HasSubstr("config.yaml:1: dataset.mission.waypoints_m: dataset.mission.type "
                         "single_loop has no use for it"));
 }
 
 TEST(ConfigureStudy, RefusesWhatIsNoSweep) {
   const std::vector<std::pair<std::string, std::string>> cases{
-      {"sweep: 3\n", "study.yaml:1: sweep: expected a list of axes"},
+      {"sweep: 3\n", "config.yaml:1: sweep: expected a list of axes"},
       {"sweep: [{values: [1]}]\n", "sweep.0.key is missing"},
       {"sweep: [{key: seed}]\n", "sweep.0.values is missing"},
       {"sweep: [{key: seed, values: 3}]\n", "sweep.0.values: expected a list"},
@@ -157,12 +157,12 @@ TEST(ConfigureStudy, RefusesWhatIsNoSweep) {
       {"sweep: [{key: seed, value: [1]}]\n", "did you mean 'values'?"},
       {"sweep: [{key: seed, values: [1, 2], labels: [a]}]\n", "expected one for each of the 2"},
       {"sweep: [{key: seeed, values: [1]}]\n", "unknown key 'seeed'; did you mean 'seed'?"},
-      {"sweep: [{key: seed, values: [x]}]\n", "study.yaml:1: seed: expected a whole number"},
+      {"sweep: [{key: seed, values: [x]}]\n", "config.yaml:1: seed: expected a whole number"},
       {"sweep: [{key: trials, values: [1]}]\n", "trials is the study's own"},
       {"sweep: [{key: report.title, values: [1]}]\n", "report.title is the study's own"},
       {"sweep: [{key: seed, values: [1]}, {key: seed, values: [2]}]\n", "two axes are 'seed'"},
       {"seed: 4\nsweep: [{key: seed, values: [1]}]\n",
-       "study.yaml:1: seed: is swept, so this value would go unread; change sweep.0.values"},
+       "config.yaml:1: seed: is swept, so this value would go unread; change sweep.0.values"},
       {"estimators: [{type: ekf}]\nsweep: [{key: estimators.0.max_iteration, values: [1]}]\n",
        "did you mean 'estimators.0.max_iterations'?"},
       {"estimators: [{type: ekf}]\nsweep: [{key: estimators.1.type, values: [ekf]}]\n",
@@ -170,14 +170,14 @@ TEST(ConfigureStudy, RefusesWhatIsNoSweep) {
       {"estimators: [{type: ekf}]\nsweep: [{key: estimators.0.name, values: [a, b]}]\n",
        "names change from cell to cell"},
       {"estimators: [{type: ekf, tolerance: 1}]\n",
-       "study.yaml:1: estimators.0.tolerance: ekf has no use for it and would ignore it"},
+       "config.yaml:1: estimators.0.tolerance: ekf has no use for it and would ignore it"},
       {"estimators: [{type: ekf}]\nsweep: [{key: estimators.0.max_iterations, values: [1, 5]}]\n",
        "estimators.0.max_iterations: ekf has no use for it"},
       {"trials: 0\n", "trials: expected a whole number"},
       {"evaluation: {rpe_keyframes: [1.5]}\n", "evaluation.rpe_keyframes: expected whole numbers"},
       {"evaluation: {rpe_distances_m: [0]}\n", "evaluation.rpe_distances_m: expected numbers in m"},
       {"association: {mode: own, reference: ekf}\n",
-       "study.yaml:1: association.reference: nobody's estimate but each one's own picks the loop "
+       "config.yaml:1: association.reference: nobody's estimate but each one's own picks the loop "
        "candidates"},
       {"estimators: [{type: ekf, name: dead_reckoning}]\n", "is the baseline of every table"}};
   for (const auto& [text, message] : cases)

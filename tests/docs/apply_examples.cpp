@@ -13,10 +13,14 @@ int main(int count, char** arguments) {
     const fs::path source = arguments[2];
     const fs::path folder = arguments[3];
     fs::create_directories(folder);
-    for (const char* name : {"include", "src", "estimators", "apps", "cmake"}) {
+    for (const char* name :
+         {"include", "src", "estimators", "adapters", "apps", "python", "cmake"}) {
       fs::copy(source / name, folder / name, fs::copy_options::recursive);
     }
-    fs::copy_file(source / "CMakeLists.txt", folder / "CMakeLists.txt");
+    fs::create_directories(folder / "scripts");
+    for (const char* name : {"CMakeLists.txt", "LICENSE", "scripts/setup.sh"}) {
+      fs::copy_file(source / name, folder / name);
+    }
     const auto changes =
         fathom::test::apply_examples(fathom::test::read_markdown(arguments[1]), folder);
     for (const fathom::test::FileChange& change : changes) {
