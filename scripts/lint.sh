@@ -2,7 +2,8 @@
 # Style and static analysis of the whole tree: clang-format and clang-tidy (.clang-format,
 # .clang-tidy), autopep8 and flake8.
 #
-#     scripts/lint.sh                       # all; clang-tidy takes half an hour on two cores
+#     scripts/lint.sh                       # all; clang-tidy takes long
+#     scripts/lint.sh --style               # format and flake8 alone, which take seconds
 #     scripts/lint.sh --since v0.2.0        # clang-tidy of what has changed since that commit
 #     scripts/lint.sh --since-release       # … since the last release
 #     scripts/lint.sh src/vision/*.cpp      # … of some files
@@ -34,20 +35,23 @@ changed_since() {
 }
 
 base=
+is_style=
 case "${1:-}" in
+  --style) is_style=yes ;;
   --since) base=${2:?which commit?} && shift 2 ;;
   --since-release)
     base=$(last_release)
     [[ -n $base ]] || fail "the history of this clone has no release; use --since COMMIT"
     shift
     ;;
-  -*) fail "unknown flag '$1'; there are --since COMMIT and --since-release" ;;
+  -*) fail "unknown flag '$1'; there are --style, --since COMMIT and --since-release" ;;
 esac
 
 scripts/setup.sh lint import python adapters
 scripts/format.sh --check
 git ls-files -z '*.py' |
   xargs -0 /usr/bin/python3 -m flake8 --max-line-length 100 --extend-ignore E203,W503,W504
+if [[ -n $is_style ]]; then exit 0; fi
 
 cmake -G Ninja -S . -B build/lint -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_UNITY_BUILD=OFF \
   -DFATHOM_PRECOMPILED_HEADERS=OFF > /dev/null
@@ -63,3 +67,10 @@ fi
 printf '%s\0' "${sources[@]}" |
   xargs -0 --no-run-if-empty -n 1 -P "$(nproc)" clang-tidy -p build/lint --quiet
 printf 'lint: %d files are clean\n' "${#sources[@]}"
+
+# What sources of a module that are compiled together take from one another.
+if [[ $# -eq 0 && -z $base ]]; then
+  cmake -G Ninja -S . -B build/unity -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=0 \
+    -DFATHOM_PRECOMPILED_HEADERS=OFF > /dev/null
+  /usr/bin/python3 scripts/unity_leaks.py build/unity
+fi

@@ -44,7 +44,7 @@ case "$system" in
   *) adapters=(libmrpt-graphslam-dev libgtsam-dev libg2o-dev) ;;
 esac
 # clang needs an omp.h of its own to read what g++ compiles with -fopenmp.
-lint=(clang clang-tidy clang-format libomp-dev black flake8)
+lint=(clang clang-tidy clang-format libomp-dev python3-clang python3-autopep8 flake8)
 docs=(mkdocs mkdocs-material doxygen)
 cluster=(slurm-wlm munge)
 cross=(g++-aarch64-linux-gnu)
