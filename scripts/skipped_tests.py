@@ -8,8 +8,8 @@ import collections
 import re
 import sys
 
-# What CTest writes around the output of a test.
-TEST = re.compile(r"^\d+/\d+ Testing: (.*?)\n(.*?)^Test (\w+)\.$", re.MULTILINE | re.DOTALL)
+# What CTest writes before the output of a test.
+TEST = re.compile(r"^\d+/\d+ Testing: (.*)$", re.MULTILINE)
 # How GoogleTest, a script of ours, and unittest say why.
 REASONS = (
     re.compile(r"^\S+:\d+: Skipped\n(.+)$", re.MULTILINE),
@@ -21,22 +21,20 @@ REASONS = (
 def reasons_of(log):
     """Names of tests by the reason for which they, or a part of one, were skipped."""
     skipped = collections.defaultdict(list)
-    for name, output, end in TEST.findall(log):
+    _, *parts = TEST.split(log)
+    for name, output in zip(parts[::2], parts[1::2]):
         found = [reason for pattern in REASONS for reason in pattern.findall(output)]
-        if end == "Skipped" and not found:
-            found = ["without a reason"]
         for reason in dict.fromkeys(found):
-            skipped[reason].append(name)
+            skipped[reason].append(name.split("  # GetParam()")[0])
     return skipped
 
 
 def main():
     with open(sys.argv[1], encoding="utf-8", errors="replace") as file:
         skipped = reasons_of(file.read())
-    # What a conformance clause does not apply to cannot be made to run.
-    for reason in [reason for reason in skipped if reason.startswith("does not apply")]:
-        print(f"\nNot applicable: {len(skipped[reason])} tests ({reason})")
-        del skipped[reason]
+    # What a test does not apply to cannot be made to run.
+    for reason in [reason for reason in skipped if reason.startswith("does not apply: ")]:
+        print(f"\nNot applicable: {len(skipped.pop(reason))} tests: {reason[16:]}")
     if not skipped:
         print("\nNo test was skipped.")
         return
