@@ -41,6 +41,8 @@ void Candidates(benchmark::State& state) {
   fathom::CandidateOptions options;
   options.method = static_cast<CandidateMethod>(state.range(0));
   options.max_per_keyframe = 20;
+  // Two legs to either side.
+  if (options.method != CandidateMethod::overlap) options.max_distance_m = 1.0;
   Known poses;
   for (std::size_t k = 0; k < kKeyframes; ++k) {
     poses.append({0.5 * static_cast<double>(k % 100), 0.5 * static_cast<double>(k / 100), 0.1});

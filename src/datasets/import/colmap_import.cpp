@@ -114,73 +114,97 @@ std::string degrees_text(double radians) {
   return short_number(radians * 180.0 / std::numbers::pi) + " deg";
 }
 
+// Those that are pictures of the survey, by their names.
+void keep_pictures_of(const Survey& survey, const fs::path& folder, const fs::path& file,
+                      std::vector<NamedCamera>& cameras) {
+  std::erase_if(cameras, [&](const NamedCamera& camera) { return !survey.frame(camera.name); });
+  if (cameras.empty()) {
+    throw InputError(file.string(), "none of its images is a picture of " + folder.string() +
+                                        "; they are told by their names");
+  }
+}
+
+// The cameras' poses in the plane by their frames, in the units of the model.
+std::map<std::size_t, Pose> poses_by_frame(const std::vector<NamedCamera>& cameras,
+                                           const std::vector<Pose>& poses,
+                                           const std::optional<Survey>& survey,
+                                           const fs::path& file) {
+  std::map<std::size_t, Pose> by_frame;
+  for (std::size_t i = 0; i < cameras.size(); ++i) {
+    const std::size_t frame = survey ? *survey->frame(cameras[i].name) : i;
+    if (!by_frame.emplace(frame, poses[i]).second) {
+      throw InputError(file.string(),
+                       "has two images by the name of " + in_quotes(cameras[i].name));
+    }
+  }
+  return by_frame;
+}
+
+// The body's poses in metres, where the survey says how the camera is mounted; else the camera's,
+// a second apart.
+std::vector<StampedPose> reference_of(const std::map<std::size_t, Pose>& by_frame, double scale,
+                                      const std::optional<Survey>& survey) {
+  constexpr std::int64_t kSecond = 1'000'000'000;
+  std::vector<StampedPose> reference;
+  reference.reserve(by_frame.size());
+  for (const auto& [frame, in_model] : by_frame) {
+    const Pose pose{in_model.x * scale, in_model.y * scale, in_model.theta};
+    if (survey) {
+      const CameraModel& camera = survey->folder().camera().model();
+      const Pose mount{camera.mount_x_m, camera.mount_y_m, camera.mount_yaw_rad};
+      reference.push_back({survey->folder().info(frame).time_ns, compose(pose, inverse(mount))});
+    } else {
+      reference.push_back({static_cast<std::int64_t>(frame) * kSecond, pose});
+    }
+  }
+  return reference;
+}
+
+// What the plane and the scale are worth.
+void say_geometry(const PlanarCameras& planar, double scale, ImportReport& report) {
+  report.facts.push_back(
+      "off the plane that fits best: " + short_number(planar.rms_off_plane * scale) +
+      " m rms; tilt of the optical axes: median " + degrees_text(planar.median_tilt_rad) +
+      ", most " + degrees_text(planar.most_tilt_rad));
+  if (planar.is_normal_by_view) {
+    report.notes.emplace_back(
+        "the cameras lie along a line, or their heights differ by more than the survey is wide: "
+        "the plane is that across their mean optical axis");
+  }
+  report.notes.push_back("a model has no scale: one unit is taken for " + short_number(scale, 6) +
+                         " m (--scale)");
+}
+
 }  // namespace
 
 ImportReport import_colmap(const fs::path& model, const PoseImportOptions& options,
                            const fs::path& folder) {
   const fs::path file = model / "images.txt";
   std::vector<NamedCamera> cameras = read_images(file);
-  ImportReport report;
   const std::size_t images = cameras.size();
   std::optional<Survey> survey;
   if (!options.survey.empty()) {
     survey.emplace(options.survey);
-    std::erase_if(cameras, [&](const NamedCamera& camera) { return !survey->frame(camera.name); });
-    if (cameras.empty()) {
-      throw InputError(file.string(), "none of its images is a picture of " +
-                                          options.survey.string() +
-                                          "; they are told by their names");
-    }
+    keep_pictures_of(*survey, options.survey, file, cameras);
   }
   std::vector<CameraPose> poses;
+  poses.reserve(cameras.size());
   for (const NamedCamera& camera : cameras) poses.push_back(camera.pose);
   const PlanarCameras planar = project_to_plane(poses);
-  std::map<std::size_t, Pose> by_frame;
-  for (std::size_t i = 0; i < cameras.size(); ++i) {
-    const std::size_t frame = survey ? *survey->frame(cameras[i].name) : i;
-    if (!by_frame.emplace(frame, planar.poses[i]).second) {
-      throw InputError(file.string(),
-                       "has two images by the name of " + in_quotes(cameras[i].name));
-    }
-  }
-  constexpr std::int64_t kSecond = 1'000'000'000;
-  std::vector<StampedPose> reference;
-  for (auto& [frame, pose] : by_frame) {
-    pose.x *= options.scale;
-    pose.y *= options.scale;
-    // The body's, where the survey says how the camera is mounted.
-    Pose body = pose;
-    std::int64_t time_ns = static_cast<std::int64_t>(frame) * kSecond;
-    if (survey) {
-      const CameraModel& camera = survey->folder().camera().model();
-      body = compose(pose, inverse(Pose{camera.mount_x_m, camera.mount_y_m, camera.mount_yaw_rad}));
-      time_ns = survey->folder().info(frame).time_ns;
-    }
-    reference.push_back({time_ns, body});
-  }
+  const std::map<std::size_t, Pose> by_frame = poses_by_frame(cameras, planar.poses, survey, file);
+  const std::vector<StampedPose> reference = reference_of(by_frame, options.scale, survey);
   write_reference_poses(reference, folder);
+
+  ImportReport report;
   report.facts.push_back(std::to_string(reference.size()) + " poses of " + std::to_string(images) +
                          " images");
-  report.facts.push_back(
-      "off the plane that fits best: " + short_number(planar.rms_off_plane * options.scale) +
-      " m rms; tilt of the optical axes: median " + degrees_text(planar.median_tilt_rad) +
-      ", most " + degrees_text(planar.most_tilt_rad));
-  if (planar.is_normal_by_view) {
-    report.notes.emplace_back(
-        "the cameras lie along a line, or their heights differ by more than the survey is wide: "
-        "the "
-        "plane is that across their mean optical axis");
-  }
-  report.notes.push_back("a model has no scale: one unit is taken for " +
-                         short_number(options.scale, 6) + " m (--scale)");
-  if (survey) {
-    if (const auto scale = scale_by_odometry(survey->folder(), by_frame)) {
-      report.notes.push_back("by the odometry of the survey one unit is " +
-                             short_number(*scale * options.scale, 4) + " m");
-    }
-  } else {
+  say_geometry(planar, options.scale, report);
+  if (!survey) {
     report.notes.emplace_back(
         "no --survey: poses are numbered by the names of their images, a second apart");
+  } else if (const auto scale = scale_by_odometry(survey->folder(), by_frame)) {
+    report.notes.push_back("by the odometry of the survey one unit is " + short_number(*scale, 4) +
+                           " m");
   }
   return report;
 }
