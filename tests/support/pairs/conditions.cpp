@@ -44,12 +44,12 @@ const std::vector<Condition>& conditions() {
   return all;
 }
 
-const Condition& condition_named(const std::string& name) {
+const Condition& condition_named(std::string_view name) {
   const auto found = std::ranges::find(conditions(), name, &Condition::name);
   if (found != conditions().end()) return *found;
   std::vector<std::string> names;
   for (const Condition& condition : conditions()) names.push_back(condition.name);
-  throw InputError("no condition '" + name + "'" + suggestion(name, names));
+  throw InputError("no condition '" + std::string(name) + "'" + suggestion(name, names));
 }
 
 void draw_condition(View& view, const Condition& condition, RandomStream& stream) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "fathom/core/random.hpp"
@@ -26,7 +27,7 @@ struct Condition {
 const std::vector<Condition>& conditions();
 
 /// Throws InputError on a name that is none.
-const Condition& condition_named(const std::string& name);
+const Condition& condition_named(std::string_view name);
 
 /// A view of its own under a condition: tilt, direction of motion and all that is new in every
 /// picture are drawn; pose and altitude are left.
