@@ -49,7 +49,8 @@ const Condition& condition_named(std::string_view name) {
   if (found != conditions().end()) return *found;
   std::vector<std::string> names;
   for (const Condition& condition : conditions()) names.push_back(condition.name);
-  throw InputError("no condition '" + std::string(name) + "'" + suggestion(name, names));
+  const std::string wanted(name);
+  throw InputError("no condition '" + wanted + "'" + suggestion(wanted, names));
 }
 
 void draw_condition(View& view, const Condition& condition, RandomStream& stream) {
