@@ -2,13 +2,13 @@
 # Style and static analysis of the whole tree: clang-format and clang-tidy (.clang-format,
 # .clang-tidy), autopep8 and flake8.
 #
-#     scripts/lint.sh                       # all; clang-tidy takes long
+#     scripts/lint.sh                       # all; clang-tidy takes ten minutes on two cores
 #     scripts/lint.sh --style               # format and flake8 alone, which take seconds
 #     scripts/lint.sh --since v0.2.0        # clang-tidy of what has changed since that commit
 #     scripts/lint.sh --since-release       # … since the last release
 #     scripts/lint.sh src/vision/*.cpp      # … of some files
 #
-# clang-tidy reads the compile commands of clang in build/lint, one source at a time.
+# clang-tidy, and with it the warnings of clang, reads the compile commands in build/lint.
 set -euo pipefail
 cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/.."
 
@@ -53,20 +53,38 @@ git ls-files -z '*.py' |
   xargs -0 /usr/bin/python3 -m flake8 --max-line-length 100 --extend-ignore E203,W503,W504
 if [[ -n $is_style ]]; then exit 0; fi
 
-cmake -G Ninja -S . -B build/lint -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_UNITY_BUILD=OFF \
-  -DFATHOM_PRECOMPILED_HEADERS=OFF > /dev/null
-# What is compiled at all, from the top of the checkout: not the examples that others build.
-mapfile -t sources < <(sed -n "s|^  \"file\": \"$PWD/\(.*\)\",\?$|\1|p" build/lint/compile_commands.json |
-  grep -v '^build/' | sort -u)
+# As units of twelve sources: most of what clang-tidy reads are headers.
+cmake -G Ninja -S . -B build/lint -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_BUILD_TYPE=Debug \
+  -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=12 -DFATHOM_PRECOMPILED_HEADERS=OFF > /dev/null
+
+# Units of what is compiled at all: not the examples that others build, nor what the build writes.
+units_of() {
+  local unit
+  while read -r unit; do
+    case "$unit" in
+      */Unity/*) sed -n "s|^#include \"$PWD/\(.*\)\"$|$unit \1|p" "$unit" ;;
+      "$PWD"/build/*) ;;
+      *) printf '%s %s\n' "$unit" "${unit#"$PWD"/}" ;;
+    esac
+  done < <(sed -n 's|^  "file": "\(.*\)",\?$|\1|p' build/lint/compile_commands.json)
+}
 if [[ -n $base ]]; then
-  mapfile -t sources < <(comm -12 <(printf '%s\n' "${sources[@]}") <(changed_since "$base" | sort -u))
-elif [[ $# -gt 0 ]]; then
-  sources=("$@")
+  mapfile -t chosen < <(changed_since "$base" | sort -u)
+else
+  chosen=("$@")
 fi
-# One file at a time and $(nproc) at once; xargs fails where one of them does.
-printf '%s\0' "${sources[@]}" |
-  xargs -0 --no-run-if-empty -n 1 -P "$(nproc)" clang-tidy -p build/lint --quiet
-printf 'lint: %d files are clean\n' "${#sources[@]}"
+if [[ -n $base || $# -gt 0 ]]; then
+  # A file that is no source of the build has no unit.
+  mapfile -t units < <(units_of |
+    awk 'NR == FNR { chosen[$0]; next } $2 in chosen { print $1 }' <(printf '%s\n' "${chosen[@]}") - | sort -u)
+else
+  mapfile -t units < <(units_of | cut -d ' ' -f 1 | sort -u)
+fi
+# One unit at a time and $(nproc) at once; xargs fails where one of them does. A unit includes sources.
+printf '%s\n' "${units[@]}" | sed '/^$/d' |
+  xargs -d '\n' --no-run-if-empty -n 1 -P "$(nproc)" \
+    clang-tidy -p build/lint --quiet --checks=-bugprone-suspicious-include
+printf 'lint: %d units of sources are clean\n' "${#units[@]}"
 
 # What sources of a module that are compiled together take from one another.
 if [[ $# -eq 0 && -z $base ]]; then

@@ -35,10 +35,12 @@ namespace fs = std::filesystem;
   const int out_file =
       ::open(is_redirected ? surroundings.standard_output.c_str() : out.c_str(), kFlags, 0600);
   const int err_file = ::open(err.c_str(), kFlags, 0600);
-  if (surroundings.address_space_bytes > 0) {
-    const rlimit limit{surroundings.address_space_bytes, surroundings.address_space_bytes};
-    if (::setrlimit(RLIMIT_AS, &limit) != 0) ::_exit(127);
-  }
+  const auto bound = [](auto resource, rlim_t most) {
+    const rlimit limit{most, most};
+    if (most > 0 && ::setrlimit(resource, &limit) != 0) ::_exit(127);
+  };
+  bound(RLIMIT_AS, surroundings.address_space_bytes);
+  bound(RLIMIT_CPU, surroundings.processor_s);
   if (::chdir(folder.c_str()) == 0 && ::dup2(out_file, 1) == 1 && ::dup2(err_file, 2) == 2) {
     ::execv(FATHOM_BINARY, argv.data());
   }

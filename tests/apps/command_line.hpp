@@ -27,6 +27,7 @@ struct Surroundings {
   std::map<std::string, std::string> environment;  ///< beside what the test itself has
   std::string standard_output;                     ///< a file in place of what `Ended` holds
   std::size_t address_space_bytes = 0;             ///< at most; 0: no bound
+  unsigned processor_s = 0;                        ///< likewise
 };
 
 /// Runs the real program in a new folder of the test's own.
