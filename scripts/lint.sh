@@ -80,10 +80,19 @@ if [[ -n $base || $# -gt 0 ]]; then
 else
   mapfile -t units < <(units_of | cut -d ' ' -f 1 | sort -u)
 fi
-# One unit at a time and $(nproc) at once; xargs fails where one of them does. A unit includes sources.
-printf '%s\n' "${units[@]}" | sed '/^$/d' |
-  xargs -d '\n' --no-run-if-empty -n 1 -P "$(nproc)" \
-    clang-tidy -p build/lint --quiet --checks=-bugprone-suspicious-include
+# clang-tidy of units by a pattern of their paths, with less of the checks; one unit at a time and
+# $(nproc) at once. A unit includes sources. xargs fails where one of them does.
+tidy() {
+  printf '%s\n' "${units[@]}" | grep "$1" "$2" |
+    xargs -d '\n' --no-run-if-empty -n 1 -P "$(nproc)" \
+      clang-tidy -p build/lint --quiet --checks="-bugprone-suspicious-include$3" || return 1
+}
+# Tests and benchmarks may be plain and slow, and may do on purpose what elsewhere is a slip.
+plain=,-performance-*,-bugprone-implicit-widening-of-multiplication-result
+plain+=,-bugprone-misplaced-widening-cast,-bugprone-integer-division
+plain+=,-bugprone-suspicious-memory-comparison,-clang-analyzer-security.FloatLoopCounter
+tidy -v '/\(tests\|benchmarks\)/' ''
+tidy -e '/\(tests\|benchmarks\)/' "$plain"
 printf 'lint: %d units of sources are clean\n' "${#units[@]}"
 
 # What sources of a module that are compiled together take from one another.
