@@ -11,6 +11,7 @@ struct ThirdParty {
   std::vector<std::string> users;
 };
 
+// NOLINTNEXTLINE(readability-function-size): a table
 inline const std::vector<ThirdParty>& third_parties() {
   static const std::vector<ThirdParty> list{
       {"Eigen/", {""}},

@@ -1,6 +1,7 @@
 // Parts of the map that follow a loop as one are moved when somebody asks where they are: whoever
 // asks, and whenever, is told the same.
 
+#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 

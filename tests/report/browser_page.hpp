@@ -21,7 +21,7 @@ inline std::string output_of(const std::string& command) {
   if (pipe == nullptr) return "";
   std::string text;
   std::array<char, 65536> buffer;
-  for (std::size_t got; (got = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0;) {
+  for (std::size_t got = 0; (got = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0;) {
     text.append(buffer.data(), got);
   }
   ::pclose(pipe);

@@ -174,7 +174,7 @@ TEST_F(Merging, NamesAShardThatIsTornOrMissing) {
   const std::string whole = read_file(b / "results.sqlite");
   std::ofstream(b / "results.sqlite", std::ios::binary) << whole.substr(0, whole.size() / 2);
   EXPECT_THAT(refusal({a, b}), AllOf(HasSubstr("shard " + b.string()), HasSubstr("damaged")));
-  std::ofstream(b / "results.sqlite", std::ios::binary | std::ios::trunc);
+  std::ofstream(b / "results.sqlite", std::ios::binary | std::ios::trunc).flush();
   EXPECT_THAT(refusal({a, b}), HasSubstr("shard " + b.string()));
   EXPECT_THAT(refusal({a, path("nowhere")}),
               AllOf(HasSubstr("shard " + path("nowhere").string()), HasSubstr("no results")));
