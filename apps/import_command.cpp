@@ -11,6 +11,7 @@
 #include "fathom/core/files.hpp"
 #include "fathom/datasets/image_folder.hpp"
 #include "fathom/datasets/import.hpp"
+#include "fathom/workflow/inputs.hpp"
 
 namespace fathom {
 namespace {
@@ -97,7 +98,8 @@ void import_source(ImportFlags& flags, Context& context) {
     });
     return;
   }
-  const std::string out = flags.out.empty() ? "runs/" + stem_of(flags.source) + "-data" : flags.out;
+  const std::string out =
+      flags.out.empty() ? "runs/" + workflow::stem_of(flags.source) + "-data" : flags.out;
   refuse_existing(out, is_bag);
   StagedFolder folder(out, {flags.source, flags.camera, flags.times});
   do_safely(kind, flags.source, [&] { import_into(flags, kind, folder); });
