@@ -8,6 +8,7 @@
 #include "apps/child_process.hpp"
 #include "apps/command.hpp"
 #include "apps/common.hpp"
+#include "apps/terminal.hpp"
 #include "fathom/core/files.hpp"
 #include "fathom/datasets/image_folder.hpp"
 #include "fathom/datasets/import.hpp"
@@ -42,8 +43,8 @@ void import_into(const ImportFlags& flags, ImportKind kind, StagedFolder& folder
   } else if (kind == ImportKind::kitti) {
     report = import_kitti(flags.source, flags.poses, folder.path());
   } else {
-    ProgressLine progress("import", flags.quiet);
-    report = import_bag(flags.source, flags.bag, folder.path(), progress.callback());
+    Terminal terminal(flags.quiet);
+    report = import_bag(flags.source, flags.bag, folder.path(), terminal.progress_of("import"));
     // What a run would refuse is refused here.
     const ImageFolder readable(folder.path());
     is_survey = true;

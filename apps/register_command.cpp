@@ -61,8 +61,7 @@ void write_pictures(const std::filesystem::path& folder, const MatchPicture& mat
 }
 
 // Of a study its first cell.
-Configuration configuration_of(const Settings& settings) {
-  const EstimatorRegistry& registry = flags.common.estimators();
+Configuration configuration_of(const Settings& settings, const EstimatorRegistry& registry) {
   const ConfigurationKind kind = kind_of(settings);
   return kind == ConfigurationKind::comparison ? configure_study(settings, registry).cells.front()
                                                : configure(settings, kind, registry);
@@ -70,7 +69,7 @@ Configuration configuration_of(const Settings& settings) {
 
 void register_pictures(const RegisterFlags& flags, Context& context) {
   const Settings settings = flags.common.settings(flags.config);
-  const Configuration configuration = configuration_of(settings);
+  const Configuration configuration = configuration_of(settings, flags.common.estimators());
   const Camera camera = Pictures(configuration).source().camera();
   const cv::Mat a = picture_for(camera, flags.a);
   const cv::Mat b = picture_for(camera, flags.b);
