@@ -8,7 +8,6 @@
 
 #include "apps/command.hpp"
 #include "apps/common.hpp"
-#include "apps/estimators.hpp"
 #include "apps/graph_text.hpp"
 #include "fathom/configuration/study.hpp"
 #include "fathom/datasets/folder_summary.hpp"
@@ -26,9 +25,10 @@ namespace fathom {
 namespace {
 
 // A batch solve tells how large the residuals of this graph are; it is quick.
-std::vector<std::string> check_information(const MeasurementLog& log) {
+std::vector<std::string> check_information(const MeasurementLog& log,
+                                           const EstimatorRegistry& registry) {
   std::vector<std::string> warnings;
-  const EstimatorEntry& solver = estimators().find("ceres_pose_graph");
+  const EstimatorEntry& solver = registry.find("ceres_pose_graph");
   ReplayOptions options;
   options.mode = SolveMode::batch;
   options.covariances = false;
@@ -74,7 +74,7 @@ void refuse(const std::vector<std::string>& faults) {
 }
 
 // What 'run' and 'solve' refuse is refused here: all read the graph by record_graph.
-void check_graph(const std::string& path) {
+void check_graph(const std::string& path, const EstimatorRegistry& registry) {
   const GraphSummary graph = summarise_graph(path);
   print_graph(graph);
   refuse(graph.faults);
@@ -84,7 +84,7 @@ void check_graph(const std::string& path) {
   std::printf("  F            %.10g at %s\n",
               chi2(log, is_guessed ? connected_guess(log) : log.odometry()),
               is_guessed ? "what a batch solve starts from" : "odometry");
-  std::vector<std::string> warnings = check_information(log);
+  std::vector<std::string> warnings = check_information(log, registry);
   if (graph.badly_conditioned > 0) {
     warnings.push_back(plural(graph.badly_conditioned, "edge") +
                        " with badly conditioned information (above 1e8)");
@@ -143,13 +143,14 @@ void check_folder(const std::string& path) {
   print_warnings(summary.warnings);
 }
 
-void check_configuration(const std::string& path) {
+void check_configuration(const std::string& path, workflow::KnownEstimators& estimators) {
   Settings settings = read_settings(path);
-  load_plugins(settings, {});
+  estimators.load(settings, {});
+  const EstimatorRegistry& registry = estimators.registry();
   const bool is_study = kind_of(settings) == ConfigurationKind::comparison;
   Configuration configuration;
   if (is_study) {
-    const Study study = configure_study(settings, estimators());
+    const Study study = configure_study(settings, registry);
     configuration = study.cells.front();
     const StudyDescription& described = study.description;
     std::printf(
@@ -159,7 +160,7 @@ void check_configuration(const std::string& path) {
       std::printf("  swept %s: %zu values\n", axis.key.c_str(), axis.labels.size());
     }
   } else {
-    configuration = configure(settings, ConfigurationKind::single, estimators());
+    configuration = configure(settings, ConfigurationKind::single, registry);
     std::printf("configuration for 'run'\n");
   }
   for (const auto& [key, value] : configuration.in_force) {
@@ -188,11 +189,11 @@ void check(const std::string& path, Context& context) {
   if (std::filesystem::is_directory(path)) {
     check_folder(path);
   } else if (ending == ".yaml" || ending == ".yml") {
-    check_configuration(path);
+    check_configuration(path, context.estimators());
   } else if (ending == ".tum" || ending == ".txt") {
     check_trajectory(path);
   } else {
-    check_graph(path);
+    check_graph(path, context.estimators().registry());
   }
 }
 

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "apps/flags.hpp"
+#include "fathom/workflow/known_estimators.hpp"
 
 namespace fathom {
 
@@ -13,6 +15,13 @@ enum ExitStatus : int { kDone = 0, kFailed = 1, kBadInput = 2, kStopped = 130 };
 struct Context {
   std::string command_line;  ///< as typed, for the manifest
   int status = kDone;        ///< set by the command that ran
+
+  /// Those built in, those of the plug-ins that FATHOM_PLUGIN_PATH names, and those loaded since.
+  /// Throws InputError of that path, the first time.
+  workflow::KnownEstimators& estimators();
+
+ private:
+  std::optional<workflow::KnownEstimators> estimators_;
 };
 
 // Each adds its subcommand to the command line.

@@ -1,29 +1,47 @@
 // fathom compare: a study. A data set, several estimators, surveys, many trials, perhaps a sweep.
 
-#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <optional>
 
-#include <opencv2/core/utility.hpp>
-
 #include "apps/command.hpp"
 #include "apps/common.hpp"
-#include "apps/compare_modes.hpp"
-#include "apps/estimators.hpp"
-#include "apps/memory_meter.hpp"
-#include "apps/pin_threads.hpp"
-#include "apps/study_files.hpp"
-#include "fathom/core/files.hpp"
-#include "fathom/front_end/registration_store.hpp"
-#include "fathom/harness/ground_truth.hpp"
-#include "fathom/harness/study_run.hpp"
+#include "apps/stop_signal.hpp"
+#include "apps/terminal.hpp"
+#include "fathom/workflow/compare.hpp"
+#include "fathom/workflow/inputs.hpp"
 
 namespace fathom {
 namespace {
 
 namespace fs = std::filesystem;
+
+// The flags of `compare`.
+struct CompareFlags {
+  CommonFlags common;
+  std::string config;
+  std::optional<int> surveys;
+  std::optional<int> trials;
+  std::optional<int> jobs;
+  std::string cache;
+  std::string read_only_cache;
+  bool no_cache = false;
+  bool only_registrations = false;
+  std::string shard;
+  std::string scratch;
+  bool no_mosaic = false;
+
+  Settings settings() const {
+    Settings settings = common.settings(config);
+    if (surveys) {
+      settings.put({"surveys", OptionValue::scalar(std::to_string(*surveys)), "--surveys"});
+    }
+    if (trials) settings.put({"trials", OptionValue::scalar(std::to_string(*trials)), "--trials"});
+    if (jobs) settings.put({"jobs", OptionValue::scalar(std::to_string(*jobs)), "--jobs"});
+    return settings;
+  }
+};
 
 std::unique_ptr<RegistrationStore> open_cache(const CompareFlags& flags) {
   if (flags.no_cache) return nullptr;
@@ -35,33 +53,61 @@ std::unique_ptr<RegistrationStore> open_cache(const CompareFlags& flags) {
   return cache;
 }
 
-void compare_as(const std::optional<Shard>& shard, const CompareFlags& flags, Context& context) {
-  Study study = configure_study(flags.settings(), estimators());
-  const fs::path out = flags.common.folder_or(stem_of(flags.config));
-  if (!flags.only_registrations) {
-    require_separate(out, study, inputs_of(flags.config, flags.settings()));
+void register_only(const CompareFlags& flags, const workflow::CompareRequest& request,
+                   Terminal& terminal, Context& context) {
+  if (workflow::register_study(request, flags.common.estimators(), this_program(), terminal)) {
+    return;
   }
-  const std::unique_ptr<RegistrationStore> cache = open_cache(flags);
-  // A data set that cannot be opened, or lacks what is asked for, is refused before anything is
-  // written.
-  settle_reference(study, estimators());
-  study.description.data = with_code(data_of(study), estimators_in(study.cells), estimators());
-  const Recorder data_set(study.cells.front(), cache.get());
+  std::fprintf(stderr, "fathom: stopped; what is registered is kept.\n");
+  context.status = kStopped;
+}
 
-  StudyRunOptions options;
-  options.jobs = jobs_of(study);
-  // The threads there are for all jobs together; no result depends on them.
-  cv::setNumThreads(std::max(1, cv::getNumThreads() / options.jobs));
-  options.registrations = cache.get();
-  options.make_meter = make_memory_meter;
-  options.on_thread_start = pin_threads;
-  if (shard) options.shard = *shard;
+void run_study(const CompareFlags& flags, const workflow::CompareRequest& request,
+               Terminal& terminal, Context& context) {
+  const workflow::CompareOutcome done =
+      workflow::compare(request, flags.common.estimators(), this_program(), terminal);
+  const std::string store = (request.out / kResultsFile).string();
+  if (!done.is_finished) {
+    std::fprintf(stderr,
+                 "fathom: stopped; %zu runs are in %s. The same command goes on from there.\n",
+                 done.runs, store.c_str());
+    context.status = kStopped;
+    return;
+  }
+  context.status = done.all_usable ? kDone : kFailed;
+  if (flags.common.quiet) return;
+  if (request.shard) {
+    std::printf("shard %s: %zu runs are in %s\n'fathom merge' makes one study of all shards.\n",
+                text_of(*request.shard).c_str(), done.runs, store.c_str());
+    return;
+  }
+  std::printf("%s\n", done.table.c_str());
+  terminal.print_written();
+  terminal.print_remarks();
+}
+
+void compare_as(const std::optional<Shard>& shard, const CompareFlags& flags, Context& context) {
+  workflow::CompareRequest request;
+  request.settings = flags.settings();
+  request.inputs = workflow::inputs_of(flags.config, request.settings);
+  request.title = workflow::stem_of(flags.config);
+  if (!flags.only_registrations) request.out = flags.common.folder_or(request.title);
+  request.made_by = context.command_line;
+  request.mosaics = !flags.no_mosaic;
+  request.shard = shard;
+  request.scratch = flags.scratch;
+  const std::unique_ptr<RegistrationStore> cache = open_cache(flags);
+  request.registrations = cache.get();
+  // It may be asked to end at any time from here on.
+  const StopSignal stop(flags.common.quiet, [&cache] {
+    if (cache) cache->flush();
+  });
+  request.stop = stop.flag();
+  Terminal terminal(flags.common.quiet);
   if (flags.only_registrations) {
-    only_register(study, *cache, options, flags, context);
-  } else if (shard) {
-    run_shard(study, *shard, out, data_set.pictures(), options, cache.get(), flags, context);
+    register_only(flags, request, terminal, context);
   } else {
-    run_whole(study, out, data_set.pictures(), options, cache.get(), flags, context);
+    run_study(flags, request, terminal, context);
   }
 }
 
@@ -89,7 +135,7 @@ void add_compare(CLI::App& program, Context& context) {
       "A study that was stopped or killed goes on where it was: run the same command again.");
   command.argument("config", flags->config,
                    "Study (YAML), or a folder of pictures, plain or in the EuRoC/ASL layout");
-  flags->common.add_settings_to(command);
+  flags->common.add_settings_to(command, context);
   flags->common.add_out_to(command, "Output folder (default: runs/CONFIG's name)");
   command.integer("--surveys", flags->surveys, Range::any(), "N",
                   "Surveys in every cell: floor, attitude and sensors drawn anew");

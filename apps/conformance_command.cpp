@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "apps/command.hpp"
-#include "apps/estimators.hpp"
 #include "fathom/configuration/isolation.hpp"
 #include "fathom/core/input_error.hpp"
 #include "fathom/core/text.hpp"
@@ -25,14 +24,15 @@ struct ConformanceFlags {
 };
 
 // An unknown name is refused before any of the others takes its time.
-std::vector<EstimatorEntry> chosen(const std::vector<std::string>& names) {
+std::vector<EstimatorEntry> chosen(const std::vector<std::string>& names,
+                                   const EstimatorRegistry& registry) {
   std::vector<EstimatorEntry> entries;
   if (names.empty()) {
-    std::ranges::copy_if(estimators().entries(), std::back_inserter(entries),
+    std::ranges::copy_if(registry.entries(), std::back_inserter(entries),
                          [](const EstimatorEntry& entry) { return !entry.runs_program; });
   }
   for (const std::string& name : names) {
-    entries.push_back(estimators().find(name));
+    entries.push_back(registry.find(name));
     if (!entries.back().runs_program) continue;
     throw InputError("'" + name + "': what it does is another program's, which its options name");
   }
@@ -97,8 +97,8 @@ void judge(const ConformanceFlags& flags, Context& context) {
     print_clauses();
     return;
   }
-  load_plugins(flags.plugins);
-  for (const EstimatorEntry& entry : chosen(flags.names)) {
+  for (const std::string& file : flags.plugins) context.estimators().load(file);
+  for (const EstimatorEntry& entry : chosen(flags.names, context.estimators().registry())) {
     if (!conforms(entry)) context.status = kFailed;
   }
 }

@@ -8,9 +8,11 @@
 #include "apps/child_process.hpp"
 #include "apps/command.hpp"
 #include "apps/common.hpp"
+#include "apps/terminal.hpp"
 #include "fathom/core/files.hpp"
 #include "fathom/datasets/image_folder.hpp"
 #include "fathom/datasets/import.hpp"
+#include "fathom/workflow/inputs.hpp"
 
 namespace fathom {
 namespace {
@@ -41,8 +43,8 @@ void import_into(const ImportFlags& flags, ImportKind kind, StagedFolder& folder
   } else if (kind == ImportKind::kitti) {
     report = import_kitti(flags.source, flags.poses, folder.path());
   } else {
-    ProgressLine progress("import", flags.quiet);
-    report = import_bag(flags.source, flags.bag, folder.path(), progress.callback());
+    Terminal terminal(flags.quiet);
+    report = import_bag(flags.source, flags.bag, folder.path(), terminal.progress_of("import"));
     // What a run would refuse is refused here.
     const ImageFolder readable(folder.path());
     is_survey = true;
@@ -97,7 +99,8 @@ void import_source(ImportFlags& flags, Context& context) {
     });
     return;
   }
-  const std::string out = flags.out.empty() ? "runs/" + stem_of(flags.source) + "-data" : flags.out;
+  const std::string out =
+      flags.out.empty() ? "runs/" + workflow::stem_of(flags.source) + "-data" : flags.out;
   refuse_existing(out, is_bag);
   StagedFolder folder(out, {flags.source, flags.camera, flags.times});
   do_safely(kind, flags.source, [&] { import_into(flags, kind, folder); });

@@ -7,12 +7,12 @@
 
 #include "apps/command.hpp"
 #include "apps/common.hpp"
-#include "apps/estimators.hpp"
 #include "fathom/configuration/config_text.hpp"
 #include "fathom/core/files.hpp"
 #include "fathom/harness/outlook.hpp"
 #include "fathom/harness/survey.hpp"
 #include "fathom/report/table.hpp"
+#include "fathom/workflow/inputs.hpp"
 
 namespace fathom {
 namespace {
@@ -65,9 +65,9 @@ std::string header(const std::string& what, const std::vector<std::string>& fact
   return text;
 }
 
-std::string estimator_list() {
+std::string estimator_list(const EstimatorRegistry& registry) {
   std::string text = "estimators:  # take away those that you do not want to compare\n";
-  for (const EstimatorEntry& entry : estimators().entries()) {
+  for (const EstimatorEntry& entry : registry.entries()) {
     if (entry.runs_program) continue;
     text += "  - {type: " + entry.name + "}\n";
   }
@@ -77,7 +77,8 @@ std::string estimator_list() {
 void init(const InitFlags& flags, Context& context) {
   const std::string path = std::filesystem::absolute(flags.folder).lexically_normal().string();
   const Settings settings = flags.common.settings(path);
-  const Configuration configuration = configure(settings, ConfigurationKind::single, estimators());
+  const EstimatorRegistry& registry = flags.common.estimators();
+  const Configuration configuration = configure(settings, ConfigurationKind::single, registry);
   const std::unique_ptr<const DataSet> data = open_data_set(configuration);
   if (!std::filesystem::is_directory(path) || data->frames() == nullptr) {
     throw InputError(path,
@@ -88,10 +89,10 @@ void init(const InitFlags& flags, Context& context) {
   const std::vector<std::string> facts = facts_of(expected);
   const std::vector<std::string> assumed = assumptions(frames);
   std::vector<ConfigLine> lines = lines_of(configuration, settings);
-  StagedFolder folder(flags.common.folder_or(stem_of(path) + "-config"), {path});
+  StagedFolder folder(flags.common.folder_or(workflow::stem_of(path) + "-config"), {path});
   write_file(folder.path() / "study.yaml",
              header("Compares back ends over " + path + ".", facts, assumed) + config_text(lines) +
-                 estimator_list());
+                 estimator_list(registry));
   const std::string type = configuration.estimators.front().type;
   lines.push_back({"estimator.type", type, false, "'fathom list estimators' has the others"});
   write_file(folder.path() / "run.yaml",
@@ -121,7 +122,7 @@ void add_init(CLI::App& program, Context& context) {
                   "--set dataset.camera.focal_px=1850\n"
                   "Both have every key of the front end with its value and meaning.");
   command.argument("folder", flags->folder, "Folder in the EuRoC/ASL layout, or of plain pictures");
-  flags->common.add_settings_to(command);
+  flags->common.add_settings_to(command, context);
   flags->common.add_out_to(command, "Output folder (default: runs/FOLDER's name-config)");
   command.on_run([flags, &context] { init(*flags, context); });
 }

@@ -4,7 +4,6 @@
 #include <memory>
 
 #include "apps/command.hpp"
-#include "apps/estimators.hpp"
 #include "fathom/configuration/configuration.hpp"
 #include "fathom/core/features.hpp"
 #include "fathom/core/input_error.hpp"
@@ -54,7 +53,7 @@ void print_features() {
 void list(const std::string& what, Context& context) {
   context.status = kDone;
   if (what == "estimators") {
-    for (const EstimatorEntry& entry : estimators().entries()) {
+    for (const EstimatorEntry& entry : context.estimators().registry().entries()) {
       const std::string by =
           entry.is_built_in() ? "" : " (plug-in " + entry.plugin.filename().string() + ")";
       print_heading(entry.name, entry.help + by);
@@ -97,7 +96,7 @@ void add_list(CLI::App& program, Context& context) {
                    "estimators, detectors, datasets, metrics, or features of this build");
   add_plugins_to(command, *plugins);
   command.on_run([what, plugins, &context] {
-    load_plugins(*plugins);
+    for (const std::string& file : *plugins) context.estimators().load(file);
     list(*what, context);
   });
 }

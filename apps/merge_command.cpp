@@ -1,16 +1,13 @@
 // fathom merge: one study of its shards, or one cache of registrations of several.
 
-#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 
 #include "apps/command.hpp"
-#include "apps/study_files.hpp"
-#include "fathom/core/files.hpp"
+#include "apps/terminal.hpp"
 #include "fathom/front_end/registration_store.hpp"
-#include "fathom/results/merge.hpp"
-#include "fathom/results/result_store.hpp"
+#include "fathom/workflow/merge.hpp"
 
 namespace fathom {
 namespace {
@@ -25,31 +22,13 @@ struct MergeFlags {
   std::vector<fs::path> paths() const { return {folders.begin(), folders.end()}; }
 };
 
-// The example of a study, which one shard has: runs with their files, and what they share.
-void copy_example(const std::vector<fs::path>& folders, const fs::path& out,
-                  const StudyDescription& study) {
-  const auto has_example = [](const fs::path& folder) {
-    return fs::exists(folder / "trajectories.png");
-  };
-  const auto source = std::ranges::find_if(folders, has_example);
-  if (source == folders.end() || fs::equivalent(*source, out)) return;
-  std::vector<std::string> names{"metrics.json", "trajectories.png", "dead_reckoning.tum",
-                                 "measurements.g2o", "ground_truth.tum"};
-  for (const StudyEstimator& estimator : study.estimators) names.push_back(estimator.name);
-  StagedFolder staged(out);
-  for (const std::string& name : names) {
-    if (!fs::exists(*source / name)) continue;
-    fs::copy(*source / name, staged.path() / name, fs::copy_options::recursive);
-  }
-  staged.commit();
-}
-
 void merge_studies(const MergeFlags& flags, Context& context) {
-  const MergeSummary merged = merge_stores(flags.paths(), flags.out);
-  const ResultStore store = ResultStore::open(flags.out);
-  copy_example(flags.paths(), flags.out, store.study());
-  if (merged.runs > 0) write_study_files(store, flags.out, flags.quiet);
+  Terminal terminal(flags.quiet);
+  const workflow::MergeOutcome done = workflow::merge_studies(flags.paths(), flags.out, terminal);
+  const MergeSummary& merged = done.merged;
   if (!flags.quiet) {
+    if (!done.table.empty()) std::printf("%s\n", done.table.c_str());
+    terminal.print_written();
     std::printf("%zu folders: %zu of %zu runs", merged.sources, merged.runs, merged.of);
     if (merged.repeated > 0) std::printf(", %zu of them in several, alike", merged.repeated);
     if (merged.machines > 1) {
@@ -75,10 +54,7 @@ void merge_caches(const MergeFlags& flags) {
 
 void merge(const MergeFlags& flags, Context& context) {
   context.status = kDone;
-  const bool are_caches = std::ranges::all_of(flags.folders, [](const std::string& folder) {
-    return has_registrations(folder) && !fs::exists(fs::path(folder) / kResultsFile);
-  });
-  if (are_caches) {
+  if (workflow::are_caches(flags.paths())) {
     merge_caches(flags);
   } else {
     merge_studies(flags, context);

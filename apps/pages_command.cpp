@@ -7,7 +7,6 @@
 
 #include "apps/command.hpp"
 #include "apps/completion.hpp"
-#include "apps/estimators.hpp"
 #include "apps/man_pages.hpp"
 #include "fathom/core/files.hpp"
 #include "fathom/evaluation/metrics.hpp"
@@ -26,9 +25,9 @@ std::vector<std::string> names_in(const std::vector<std::pair<std::string, Value
   return names;
 }
 
-WordsOfValues known_words() {
+WordsOfValues known_words(const EstimatorRegistry& registry) {
   WordsOfValues words;
-  for (const EstimatorEntry& entry : estimators().entries()) {
+  for (const EstimatorEntry& entry : registry.entries()) {
     words["ESTIMATOR"].push_back(entry.name);
     words["estimator"].push_back(entry.name);
   }
@@ -46,7 +45,8 @@ WordsOfValues known_words() {
   return words;
 }
 
-void write_pages(const CLI::App& program, const std::filesystem::path& out) {
+void write_pages(const CLI::App& program, const EstimatorRegistry& registry,
+                 const std::filesystem::path& out) {
   const DescribedCommand whole = described(program);
   const std::vector<DescribedCommand> commands = described_commands(program);
   std::filesystem::create_directories(out / "man1");
@@ -54,7 +54,7 @@ void write_pages(const CLI::App& program, const std::filesystem::path& out) {
   for (const DescribedCommand& command : commands) {
     write_file(out / "man1" / ("fathom-" + command.name + ".1"), command_page(command));
   }
-  write_file(out / "fathom.bash", bash_completion(whole, commands, known_words()));
+  write_file(out / "fathom.bash", bash_completion(whole, commands, known_words(registry)));
 }
 
 }  // namespace
@@ -67,7 +67,7 @@ void add_pages(CLI::App& program, Context& context) {
   command.hidden();
   command.text("--out", *out, "DIR", "Output folder").required();
   command.on_run([&program, out, &context] {
-    write_pages(program, *out);
+    write_pages(program, context.estimators().registry(), *out);
     context.status = kDone;
   });
 }

@@ -6,7 +6,6 @@
 
 #include "apps/command.hpp"
 #include "apps/common.hpp"
-#include "apps/estimators.hpp"
 #include "apps/registration_text.hpp"
 #include "fathom/configuration/study.hpp"
 #include "fathom/core/files.hpp"
@@ -16,6 +15,7 @@
 #include "fathom/report/match_picture.hpp"
 #include "fathom/report/picture.hpp"
 #include "fathom/vision/registration.hpp"
+#include "fathom/workflow/inputs.hpp"
 
 namespace fathom {
 namespace {
@@ -61,8 +61,7 @@ void write_pictures(const std::filesystem::path& folder, const MatchPicture& mat
 }
 
 // Of a study its first cell.
-Configuration configuration_of(const Settings& settings) {
-  const EstimatorRegistry& registry = estimators();
+Configuration configuration_of(const Settings& settings, const EstimatorRegistry& registry) {
   const ConfigurationKind kind = kind_of(settings);
   return kind == ConfigurationKind::comparison ? configure_study(settings, registry).cells.front()
                                                : configure(settings, kind, registry);
@@ -70,11 +69,11 @@ Configuration configuration_of(const Settings& settings) {
 
 void register_pictures(const RegisterFlags& flags, Context& context) {
   const Settings settings = flags.common.settings(flags.config);
-  const Configuration configuration = configuration_of(settings);
+  const Configuration configuration = configuration_of(settings, flags.common.estimators());
   const Camera camera = Pictures(configuration).source().camera();
   const cv::Mat a = picture_for(camera, flags.a);
   const cv::Mat b = picture_for(camera, flags.b);
-  std::vector<std::filesystem::path> inputs = inputs_of(flags.config, settings);
+  std::vector<std::filesystem::path> inputs = workflow::inputs_of(flags.config, settings);
   inputs.insert(inputs.end(), {flags.a, flags.b});
   StagedFolder folder(flags.common.folder_or("register"), inputs);
   const RegistrationOptions& options = configuration.front_end.registration;
@@ -116,7 +115,7 @@ void add_register(CLI::App& program, Context& context) {
       .real("--altitude-b", flags->altitude_b_m, Range::positive(), "M",
             "Height of B over the floor (m)")
       .required();
-  flags->common.add_settings_to(command);
+  flags->common.add_settings_to(command, context);
   flags->common.add_out_to(command, "Output folder (default: runs/register)");
   command.on_run([flags, &context] { register_pictures(*flags, context); });
 }

@@ -4,9 +4,7 @@
 #include <memory>
 
 #include "apps/command.hpp"
-#include "fathom/core/files.hpp"
-#include "fathom/core/input_error.hpp"
-#include "fathom/report/study_report.hpp"
+#include "fathom/workflow/report.hpp"
 
 namespace fathom {
 namespace {
@@ -16,26 +14,9 @@ struct ReportFlags {
   std::string out;
 };
 
-// The folder of a study may be an archive.
-void check_writable(const std::filesystem::path& folder) {
-  try {
-    const StagedFolder probe(folder);
-  } catch (const InputError&) {
-    throw InputError(folder.string(), "cannot be written; --out DIR takes another folder");
-  }
-}
-
 void report(const ReportFlags& flags) {
-  const ResultStore store = ResultStore::open(flags.study);
-  std::filesystem::path study = flags.study;
-  if (!std::filesystem::is_directory(study)) study = study.parent_path();
-  if (study.empty()) study = ".";
-  const std::filesystem::path folder = flags.out.empty() ? study : std::filesystem::path(flags.out);
-  refuse_replacing(folder / "figures", {flags.study});
-  if (flags.out.empty()) check_writable(folder);
-  write_study_report(store, folder, study);
-  std::printf("%swrote %s\n", study_remarks(store).c_str(),
-              (folder / "report.html").string().c_str());
+  const workflow::ReportOutcome done = workflow::report(flags.study, flags.out);
+  std::printf("%swrote %s\n", done.findings.c_str(), done.page.c_str());
 }
 
 }  // namespace

@@ -6,7 +6,6 @@
 #include <memory>
 
 #include "apps/command.hpp"
-#include "apps/estimators.hpp"
 #include "fathom/core/files.hpp"
 #include "fathom/report/selection_text.hpp"
 #include "fathom/results/selected_config.hpp"
@@ -63,14 +62,15 @@ std::filesystem::path write_config(const SelectFlags& flags, const std::string& 
 }
 
 // The registry has to know what was chosen.
-void load_plugins_for(const StudyEstimator& chosen, const StudyDescription& study) {
-  const auto& known = estimators().entries();
+void load_plugins_for(const StudyEstimator& chosen, const StudyDescription& study,
+                      workflow::KnownEstimators& estimators) {
+  const auto& known = estimators.registry().entries();
   if (std::ranges::find(known, chosen.type, &EstimatorEntry::name) != known.end()) return;
   Settings settings;
   for (const auto& [key, value] : study.configuration) {
     if (key == "plugins") settings.put(parse_override(key + "=" + value));
   }
-  load_plugins(settings, {});
+  estimators.load(settings, {});
 }
 
 void select(const SelectFlags& flags, Context& context) {
@@ -78,11 +78,12 @@ void select(const SelectFlags& flags, Context& context) {
   const ResultStore store = ResultStore::open(flags.results);
   const Selection selection = select_estimator(store, query);
   if (selection.chosen)
-    load_plugins_for(store.study().estimators[*selection.chosen], store.study());
+    load_plugins_for(store.study().estimators[*selection.chosen], store.study(),
+                     context.estimators());
   std::filesystem::path config;
   if (selection.chosen) {
-    config =
-        write_config(flags, selected_configuration(store.study(), selection, query, estimators()));
+    config = write_config(flags, selected_configuration(store.study(), selection, query,
+                                                        context.estimators().registry()));
   }
   context.status = selection.chosen ? kDone : kFailed;
   if (flags.quiet) return;

@@ -7,12 +7,12 @@
 
 #include "apps/command.hpp"
 #include "apps/common.hpp"
-#include "apps/estimators.hpp"
 #include "fathom/configuration/config_text.hpp"
 #include "fathom/configuration/study.hpp"
 #include "fathom/core/files.hpp"
 #include "fathom/datasets/image_folder.hpp"
 #include "fathom/harness/survey.hpp"
+#include "fathom/workflow/inputs.hpp"
 
 namespace fathom {
 namespace {
@@ -63,14 +63,15 @@ std::string folder_configuration(const Configuration& configuration, const std::
 void simulate(const SimulateFlags& flags, Context& context) {
   const Settings settings = flags.common.settings(flags.config);
   const Configuration configuration =
-      configure(without_sweep(settings), kind_of(settings), estimators());
+      configure(without_sweep(settings), kind_of(settings), flags.common.estimators());
   if (!find_data_set(configuration.dataset.type).makes_pictures) {
     throw InputError(flags.config, "dataset.type: 'simulate' takes simulated");
   }
-  const std::string out = flags.common.folder_or(stem_of(flags.config) + "-data");
+  const std::string out = flags.common.folder_or(workflow::stem_of(flags.config) + "-data");
   // Before the pictures are drawn.
   for (const char* name : {"mav0", "run.yaml"}) {
-    refuse_replacing(std::filesystem::path(out) / name, inputs_of(flags.config, settings));
+    refuse_replacing(std::filesystem::path(out) / name,
+                     workflow::inputs_of(flags.config, settings));
   }
   const Survey survey(configuration);
   StagedFolder folder(out);
@@ -91,7 +92,7 @@ void add_simulate(CLI::App& program, Context& context) {
   Command command(program, "simulate", "Write a simulated survey as an image folder",
                   "Example: fathom simulate configs/quickstart.yaml --out survey");
   command.argument("config", flags->config, "Configuration (YAML)");
-  flags->common.add_settings_to(command);
+  flags->common.add_settings_to(command, context);
   flags->common.add_out_to(command, "Output folder (default: runs/CONFIG's name-data)");
   command.on_run([flags, &context] { simulate(*flags, context); });
 }

@@ -1,21 +1,14 @@
 // fathom solve: a pose graph from a g2o file.
 
-#include <algorithm>
 #include <cstdio>
-#include <iterator>
 #include <memory>
 
 #include "apps/command.hpp"
 #include "apps/common.hpp"
-#include "apps/estimators.hpp"
-#include "apps/graph_keys.hpp"
-#include "apps/memory_meter.hpp"
-#include "apps/pictures.hpp"
-#include "fathom/core/files.hpp"
-#include "fathom/harness/false_loops.hpp"
-#include "fathom/harness/manifest.hpp"
-#include "fathom/harness/run_folder.hpp"
+#include "apps/terminal.hpp"
 #include "fathom/report/table.hpp"
+#include "fathom/workflow/result_table.hpp"
+#include "fathom/workflow/solve.hpp"
 
 namespace fathom {
 namespace {
@@ -30,80 +23,6 @@ struct SolveFlags {
   std::string false_loops;
   std::optional<int> component;
 };
-
-EstimatorConfiguration estimator_of(const SolveFlags& flags, const Settings& settings,
-                                    SolveMode& mode) {
-  std::string type = flags.estimator;
-  const Setting* other = nullptr;
-  for (const Setting& setting : settings.all()) {
-    if (setting.key == "estimator.type") {
-      if (!flags.estimator.empty()) refuse(setting, "--estimator says it already");
-      type = word_of(setting, setting.key);
-    } else if (setting.key == "seed") {
-      // Nothing here is random; it is checked as everywhere.
-      Settings seed;
-      seed.put(setting);
-      configure(seed, ConfigurationKind::single, estimators());
-    } else if (setting.key != "plugins" && !is_isolation_key(setting.key) &&
-               !setting.key.starts_with("estimator.") && !is_graph_key(setting.key)) {
-      other = &setting;
-    }
-  }
-  const EstimatorEntry& entry = estimators().find(type.empty() ? "ceres_pose_graph" : type);
-  if (other != nullptr) {
-    std::vector<std::string> known{"seed", "estimator.type"};
-    for (const OptionDescription& option : entry.options)
-      known.push_back("estimator." + option.key);
-    std::ranges::copy(graph_keys(), std::back_inserter(known));
-    refuse(*other, "unknown key '" + other->key + "'" + suggestion(other->key, known) +
-                       " ('solve' takes estimator.…, seed, and of dataset.… what a graph has)");
-  }
-  mode = flags.mode == "batch" || (flags.mode.empty() && entry.can_batch) ? SolveMode::batch
-                                                                          : SolveMode::incremental;
-  if (mode == SolveMode::batch && !entry.can_batch) {
-    throw InputError("--mode batch: " + entry.name +
-                     " takes a log in its order, keyframe by keyframe; use --mode incremental");
-  }
-  if (mode == SolveMode::incremental && flags.init == "file") {
-    throw InputError("--init file: only a batch solve has a start; use --mode batch");
-  }
-  const Setting* start = settings.find("estimator.start");
-  if (start != nullptr && flags.init == "file") {
-    const std::string& word = word_of(*start, "estimator.start");
-    if (word != "auto" && word != "given") {
-      refuse(*start,
-             "estimator.start: " + word + " makes a start of its own and would ignore --init file");
-    }
-  }
-  Settings own;
-  const Settings given = settings.below("estimator.");
-  for (const Setting& setting : given.all()) {
-    if (setting.key != "type") own.put(setting);
-  }
-  return {entry.name, entry.name, estimator_values(own, entry, {{}, mode}, "estimator.")};
-}
-
-IsolationOptions isolation_of(const Settings& settings, const EstimatorEntry& entry) {
-  IsolationOptions options;
-  OptionTable table;
-  options.describe(table);
-  for (const Setting& setting : settings.all()) {
-    if (!is_isolation_key(setting.key)) continue;
-    try {
-      table.set(setting.key, setting.value);
-    } catch (const InputError& error) {
-      refuse(setting, error.what());
-    }
-  }
-  if (options.is_isolated(entry)) return options;
-  for (const Setting& setting : settings.all()) {
-    if (!is_isolation_key(setting.key) || setting.key == "isolation") continue;
-    refuse(setting, setting.key + ": " + entry.name +
-                        " runs in no process of its own, and it would be ignored; isolation: "
-                        "process gives it one");
-  }
-  return options;
-}
 
 std::string chi2_text(const Result& result, const char* metric) {
   constexpr int kDigits = 10;
@@ -150,53 +69,29 @@ void print(const SolveFlags& flags, const Recording& recording, const Result& re
                 result.metrics.at("right_loops_lost"));
   }
   std::printf("\n");
-  std::printf("%s", result_table(recording, {result}).c_str());
+  std::printf("%s", workflow::result_table(recording, {result}).c_str());
 }
 
 void solve(const SolveFlags& flags, Context& context) {
-  SolveMode mode = SolveMode::incremental;
-  const Settings settings = flags.common.settings("");
-  const EstimatorConfiguration estimator = estimator_of(flags, settings, mode);
-  const GraphOptions graph = graph_options(settings, flags.component);
-  Recording recording = record_graph(flags.graph, graph);
-  // Keyframe by keyframe needs a start; one solve takes it from all that there is.
-  if (mode == SolveMode::incremental) {
-    recording.log = with_start_of_priors(recording.log, flags.graph);
-  }
-  if (!flags.ground_truth.empty()) attach_ground_truth(recording, flags.ground_truth);
-  if (!flags.false_loops.empty()) {
-    recording.is_false_loop = read_false_loops(flags.false_loops, recording.log);
-  }
-  ReplayOptions options;
-  options.mode = mode;
-  options.isolation = isolation_of(settings, estimators().find(estimator.type));
-  if (flags.init == "file") {
-    if (!recording.log.guess) {
-      throw InputError(flags.graph, "has no vertices to start from; use --init odometry");
-    }
-    options.start = *recording.log.guess;
-  }
-  StagedFolder folder(flags.common.folder_or(stem_of(flags.graph) + "-" + estimator.type),
-                      {flags.graph, flags.ground_truth, flags.false_loops});
-  const auto meter = make_memory_meter();
-  options.memory = meter.get();
-  ProgressLine line(estimator.type + ", keyframe", flags.common.quiet);
-  options.progress = line.callback();
-  const Result result = evaluate(recording, estimator, estimators(), {}, options);
-  std::vector<std::pair<std::string, std::string>> configuration{{"graph", flags.graph},
-                                                                 {"init", flags.init}};
-  std::ranges::copy(in_force(graph, recording.log), std::back_inserter(configuration));
-  write_run(folder.path(), recording, result,
-            manifest_json(context.command_line, configuration,
-                          with_code(fingerprint({flags.graph}), {estimator}, estimators()),
-                          recording, result, estimators()));
-  write_trajectory_picture(folder.path() / "trajectory.png",
-                           stem_of(flags.graph) + ", " + estimator.type, recording, {result});
-  folder.commit(optional_run_files());
-  context.status = result.is_done() ? kDone : kFailed;
+  workflow::SolveGraphRequest request;
+  request.graph = flags.graph;
+  request.settings = flags.common.settings("");
+  request.estimator = flags.estimator;
+  request.mode = flags.mode;
+  request.starts_from_file = flags.init == "file";
+  request.ground_truth = flags.ground_truth;
+  request.false_loops = flags.false_loops;
+  request.component = flags.component;
+  request.out = flags.common.out;
+  request.made_by = context.command_line;
+  Terminal terminal(flags.common.quiet);
+  const workflow::SolveOutcome done =
+      workflow::solve_graph(request, flags.common.estimators(), this_program(), terminal);
+  context.status = done.result.is_done() ? kDone : kFailed;
   if (flags.common.quiet) return;
-  print(flags, recording, result);
-  std::printf("\nwrote %s\n", (folder.target() / "trajectory.png").c_str());
+  print(flags, done.recording, done.result);
+  std::printf("\n");
+  terminal.print_written();
 }
 
 }  // namespace
@@ -220,7 +115,7 @@ void add_solve(CLI::App& program, Context& context) {
                "Which loops are false, as 'spoil' wrote it, to judge by");
   command.integer("--component", flags->component, Range::at_least(1), "K",
                   "Of a graph that falls into several, this one ('check' lists them)");
-  flags->common.add_settings_to(command);
+  flags->common.add_settings_to(command, context);
   flags->common.add_out_to(command, "Output folder (default: runs/GRAPH-ESTIMATOR)");
   command.on_run([flags, &context] { solve(*flags, context); });
 }

@@ -6,7 +6,6 @@
 
 #include "apps/command.hpp"
 #include "apps/common.hpp"
-#include "apps/estimators.hpp"
 #include "fathom/core/files.hpp"
 #include "fathom/harness/false_loops.hpp"
 #include "fathom/measurements/g2o.hpp"
@@ -53,7 +52,7 @@ void spoil_graph(const SpoilFlags& flags, Context& context) {
                      "has no loop whose motion and information a false one could take");
   }
   if (!flags.ground_truth.empty()) attach_ground_truth(recording, flags.ground_truth);
-  const std::vector<Pose> reference = reference_poses(recording, estimators());
+  const std::vector<Pose> reference = reference_poses(recording, context.estimators().registry());
   const Spoiled spoiled =
       spoil(recording.log, reference, options, static_cast<std::uint64_t>(flags.seed));
   write_file(flags.out, to_g2o(spoiled.log));

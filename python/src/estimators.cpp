@@ -1,7 +1,5 @@
 // The estimators that studies and solves find by name: built in, of plug-ins, written in Python.
 
-#include "apps/estimators.hpp"
-
 #include <new>
 #include <pybind11/stl.h>
 #include <string>
@@ -11,6 +9,7 @@
 #include "fathom/estimation/plugin.hpp"
 #include "python/src/bindings.hpp"
 #include "python/src/python_estimator.hpp"
+#include "python/src/shared_estimators.hpp"
 
 namespace fathom {
 namespace {

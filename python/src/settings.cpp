@@ -3,10 +3,10 @@
 #include <pybind11/stl.h>
 #include <string>
 
-#include "apps/common.hpp"
-#include "apps/estimators.hpp"
 #include "fathom/configuration/config_file.hpp"
+#include "fathom/workflow/inputs.hpp"
 #include "python/src/bindings.hpp"
+#include "python/src/shared_estimators.hpp"
 
 namespace fathom {
 
@@ -16,7 +16,7 @@ void bind_settings(py::module_& module) {
   py::class_<Settings>(module, "_Settings")
       .def(py::init<>())
       .def_static("read", [](const std::string& path) { return read_settings(path); })
-      .def_static("of_folder", &settings_of_folder)
+      .def_static("of_folder", [](const std::string& path) { return workflow::settings_of(path); })
       .def("put_yaml",
            [](Settings& settings, const std::string& yaml, const std::string& source) {
              const Settings given = parse_settings(yaml, source);

@@ -3,6 +3,7 @@
 #include <memory>
 #include <pybind11/pybind11.h>
 #include <string>
+#include <vector>
 
 #include "fathom/harness/recording.hpp"
 #include "fathom/harness/result.hpp"
@@ -13,6 +14,7 @@ namespace fathom {
 struct Solution {
   std::shared_ptr<const Recording> recording;
   Result result;
+  std::vector<std::string> remarks{};  ///< what looks wrong, sentences
 };
 
 /// Ctrl-C ends a replay at its next keyframe, in a child at once. To be called without the lock.

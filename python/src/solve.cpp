@@ -1,5 +1,7 @@
 // One estimator over one log.
 
+#include "fathom/workflow/solve.hpp"
+
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -13,37 +15,28 @@
 #include "python/src/bindings.hpp"
 #include "python/src/one_thread.hpp"
 #include "python/src/solution.hpp"
+#include "python/src/work.hpp"
 
 namespace fathom {
 namespace {
 
 namespace py = pybind11;
 
-SolveMode mode_of(const std::string& mode, const EstimatorEntry& entry) {
-  if (mode == "incremental") return SolveMode::incremental;
-  if (mode == "batch" && entry.can_batch) return SolveMode::batch;
-  if (mode == "batch") throw InputError("mode: " + entry.name + " has no batch mode");
-  if (mode != "auto") {
-    throw InputError("mode: expected auto, batch or incremental, got '" + mode + "'");
-  }
-  return entry.can_batch ? SolveMode::batch : SolveMode::incremental;
-}
-
-std::shared_ptr<const Recording> recording_of(const MeasurementLog& log, SolveMode mode) {
-  auto recording = std::make_shared<Recording>();
-  recording->log = mode == SolveMode::batch ? log : with_start_of_priors(log, "log");
-  for (std::size_t k = 0; k < recording->log.size(); ++k) {
-    constexpr std::int64_t kSecond = 1'000'000'000;
-    recording->keyframe_times_ns.push_back(static_cast<std::int64_t>(k) * kSecond);
-  }
-  return recording;
-}
-
 struct HowToSolve {
   std::string mode = "auto";
   std::vector<Pose> start;
   IsolationOptions isolation;
 };
+
+SolveMode mode_of(const HowToSolve& asked, const EstimatorEntry& entry) {
+  if (asked.mode != "auto" && asked.mode != "batch" && asked.mode != "incremental") {
+    throw InputError("mode: expected auto, batch or incremental, got '" + asked.mode + "'");
+  }
+  if (asked.mode == "batch" && !entry.can_batch) {
+    throw InputError("mode: " + entry.name + " has no batch mode");
+  }
+  return workflow::solve_mode(asked.mode == "auto" ? "" : asked.mode, entry);
+}
 
 IsolationOptions isolation_of(const Settings& settings) {
   IsolationOptions options;
@@ -56,26 +49,29 @@ IsolationOptions isolation_of(const Settings& settings) {
 Solution solve(const MeasurementLog& log, const EstimatorRegistry& registry,
                const std::string& name, const Settings& options, const HowToSolve& asked) {
   const EstimatorEntry& entry = registry.find(name);
-  ReplayOptions how;
-  how.mode = mode_of(asked.mode, entry);
-  if (how.mode == SolveMode::incremental && !asked.start.empty()) {
+  workflow::SolveRequest request;
+  request.mode = mode_of(asked, entry);
+  if (request.mode == SolveMode::incremental && !asked.start.empty()) {
     throw InputError("start: an initial guess is for a batch solve");
   }
   if (!asked.start.empty() && asked.start.size() != log.size()) {
     throw InputError("start: has " + std::to_string(asked.start.size()) + " poses, the log " +
                      std::to_string(log.size()) + " keyframes");
   }
-  how.start = asked.start;
-  how.isolation = asked.isolation;
+  request.start = asked.start;
+  request.isolation = asked.isolation;
   // Inside of a batch solve nothing looks for Ctrl-C.
-  if (how.mode == SolveMode::batch && how.isolation.isolation == Isolation::automatic) {
-    how.isolation.isolation = Isolation::process;
+  if (request.mode == SolveMode::batch && request.isolation.isolation == Isolation::automatic) {
+    request.isolation.isolation = Isolation::process;
   }
-  how.progress = [](std::size_t, std::size_t) { check_signals(); };
-  const EstimatorValues values = estimator_values(options, entry, {log.start(), how.mode}, "");
-  const auto recording = recording_of(log, how.mode);
+  request.estimator = {name, name,
+                       estimator_values(options, entry, {log.start(), request.mode}, "")};
+  auto recording =
+      std::make_shared<const Recording>(workflow::recording_of(log, request.mode, "log"));
+  InterruptibleWork work;
   const OneThread pinned;
-  return {recording, evaluate(*recording, {name, name, values}, registry, {}, how)};
+  Result result = workflow::solve(*recording, request, registry, this_process(), work);
+  return {std::move(recording), std::move(result)};
 }
 
 std::optional<py::array_t<double>> covariances(const Solution& solution) {
@@ -135,6 +131,7 @@ void bind_solution(py::module_& module) {
           "Whether the estimate can be used.")
       .def_property_readonly("fault", of_replay(&Replay::fault),
                              "How the estimator broke its contract or its process ended, or ''.")
+      .def_readonly("remarks", &Solution::remarks, "What looks wrong with it, sentences.")
       .def_property_readonly("iterations", of_replay(&Replay::iterations))
       .def_property_readonly("total_ms", of_replay(&Replay::total_ms),
                              "Wall time of the estimator's calls, covariances apart, ms.")

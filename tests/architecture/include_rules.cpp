@@ -32,8 +32,9 @@ const std::map<std::string, Words>& module_rows() {
       {"results", {"configuration", "evaluation"}},
       {"harness", {"front_end", "estimation", "results"}},
       {"report", {"harness"}},
-      {"apps", {"harness", "report", "estimators"}},
-      {"python", {"apps"}},
+      {"workflow", {"harness", "report"}},
+      {"apps", {"workflow", "estimators"}},
+      {"python", {"workflow", "estimators"}},
       {"benchmarks", {"apps"}}};
   return rows;
 }

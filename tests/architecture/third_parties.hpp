@@ -19,7 +19,7 @@ inline const std::vector<ThirdParty>& third_parties() {
        {"vision/", "datasets/", "front_end/", "src/report/pictures/", "src/report/earth/",
         "include/fathom/report/geo_tiff.hpp", "include/fathom/report/match_picture.hpp",
         "include/fathom/report/mosaic.hpp", "include/fathom/report/world_file.hpp",
-        "include/fathom/report/picture.hpp", "apps/", "benchmarks/"}},
+        "include/fathom/report/picture.hpp", "src/workflow/", "apps/", "benchmarks/"}},
       {"pybind11/", {"python/"}},
       {"Python.h", {"python/bridge/"}},
       {"benchmark/", {"benchmarks/"}},
@@ -81,7 +81,7 @@ inline const std::vector<ThirdParty>& third_parties() {
       {"unistd.h",
        {"benchmarks/", "src/core/child_side.cpp", "src/core/files.cpp", "src/core/file_lock.cpp",
         "src/core/forked_child.cpp", "src/core/program.cpp", "src/core/program_start.cpp",
-        "src/core/system.cpp", "apps/child_process.cpp", "apps/common.cpp",
+        "src/core/system.cpp", "apps/child_process.cpp", "apps/progress.cpp",
         "apps/out_of_memory.cpp", "apps/stop_signal.cpp"}}};
   return list;
 }

@@ -1,19 +1,23 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "fathom/configuration/study.hpp"
 #include "fathom/results/result_store.hpp"
+#include "fathom/workflow/observer.hpp"
 
-namespace fathom {
+namespace fathom::workflow {
 
 /// Throws InputError where a file of a study's folder would replace one that it reads: said before
 /// anything is computed.
 void require_separate(const std::filesystem::path& out, const Study& study,
                       const std::vector<std::filesystem::path>& inputs);
 
-/// Writes the page, tables and figures of a study with runs, and table.txt, and prints the table.
-void write_study_files(const ResultStore& store, const std::filesystem::path& out, bool quiet);
+/// Writes the page, tables and figures of a study with runs, and table.txt. Returns the table, of
+/// many cells in brief: all of it would scroll away.
+std::string write_study_files(const ResultStore& store, const std::filesystem::path& out,
+                              Observer& observer);
 
-}  // namespace fathom
+}  // namespace fathom::workflow

@@ -8,7 +8,7 @@
 #include "fathom/configuration/config_file.hpp"
 #include "fathom/measurements/g2o.hpp"
 
-namespace fathom {
+namespace fathom::workflow {
 
 /// The keys of a g2o data set but its path, `dataset.` before each.
 std::vector<std::string> graph_keys();
@@ -21,4 +21,4 @@ GraphOptions graph_options(const Settings& settings, std::optional<int> componen
 std::vector<std::pair<std::string, std::string>> in_force(GraphOptions options,
                                                           const MeasurementLog& log);
 
-}  // namespace fathom
+}  // namespace fathom::workflow

@@ -11,7 +11,7 @@
 #include "fathom/report/earth_frame.hpp"
 #include "fathom/report/geo_json.hpp"
 
-namespace fathom {
+namespace fathom::workflow {
 
 /// The keyframes of an estimate over pictures, as they leave for other programs.
 struct KeyframeMap {
@@ -47,4 +47,4 @@ struct EarthOrWhyNot {
 };
 EarthOrWhyNot earth_or_why_not(const Configuration& configuration);
 
-}  // namespace fathom
+}  // namespace fathom::workflow

@@ -1,10 +1,10 @@
-#include "apps/map_files.hpp"
+#include "map_files.hpp"
 
 #include "fathom/core/files.hpp"
 #include "fathom/core/input_error.hpp"
 #include "fathom/report/footprints.hpp"
 
-namespace fathom {
+namespace fathom::workflow {
 
 KeyframeMap keyframe_map(const Recording& recording, const Result& result) {
   KeyframeMap map{*recording.camera, {}, recording.keyframe_stances, std::vector<TrackLoop>{}};
@@ -68,4 +68,4 @@ EarthOrWhyNot earth_or_why_not(const Configuration& configuration) {
   }
 }
 
-}  // namespace fathom
+}  // namespace fathom::workflow

@@ -1,13 +1,10 @@
-#include "apps/study_files.hpp"
-
-#include <cstdio>
-#include <string>
+#include "study_files.hpp"
 
 #include "fathom/core/files.hpp"
 #include "fathom/report/study_report.hpp"
 #include "fathom/results/result_store.hpp"
 
-namespace fathom {
+namespace fathom::workflow {
 
 void require_separate(const std::filesystem::path& out, const Study& study,
                       const std::vector<std::filesystem::path>& inputs) {
@@ -21,23 +18,18 @@ void require_separate(const std::filesystem::path& out, const Study& study,
   for (const std::string& name : names) refuse_replacing(out / name, inputs);
 }
 
-void write_study_files(const ResultStore& store, const std::filesystem::path& out, bool quiet) {
+std::string write_study_files(const ResultStore& store, const std::filesystem::path& out,
+                              Observer& observer) {
   write_study_report(store, out);
   const std::string table = study_table(store);
   write_file(out / "table.txt", table);
-  if (quiet) return;
-  // A sweep of many cells would scroll away.
-  constexpr std::size_t kCellsInFull = 3;
-  const bool brief = store.study().cell_count() > kCellsInFull;
-  std::printf("%s\nwrote %s\n",
-              brief ? study_table(store, StudyTable::brief).c_str() : table.c_str(),
-              (out / "report.html").c_str());
+  observer.wrote((out / "report.html").string());
   const auto picture = out / "trajectories.png";
-  if (std::filesystem::exists(picture)) std::printf("      %s\n", picture.c_str());
-  if (brief) {
-    std::printf("      %s: all metrics, and the estimators' differences\n",
-                (out / "table.txt").c_str());
-  }
+  if (std::filesystem::exists(picture)) observer.wrote(picture.string());
+  constexpr std::size_t kCellsInFull = 3;
+  if (store.study().cell_count() <= kCellsInFull) return table;
+  observer.wrote((out / "table.txt").string() + ": all metrics, and the estimators' differences");
+  return study_table(store, StudyTable::brief);
 }
 
-}  // namespace fathom
+}  // namespace fathom::workflow

@@ -1,8 +1,8 @@
-#include "apps/graph_keys.hpp"
+#include "graph_keys.hpp"
 
 #include <algorithm>
 
-namespace fathom {
+namespace fathom::workflow {
 namespace {
 
 const std::string kPrefix = "dataset.";
@@ -53,4 +53,4 @@ std::vector<std::pair<std::string, std::string>> in_force(GraphOptions options,
   return values;
 }
 
-}  // namespace fathom
+}  // namespace fathom::workflow

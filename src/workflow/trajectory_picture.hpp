@@ -7,7 +7,7 @@
 #include "fathom/harness/recording.hpp"
 #include "fathom/harness/result.hpp"
 
-namespace fathom {
+namespace fathom::workflow {
 
 /// The picture of a run or comparison: ground truth and dead reckoning, the estimates, the loops
 /// used and 2σ ellipses (of a single estimate only). All are drawn in the frame of keyframe 0.
@@ -16,7 +16,4 @@ void write_trajectory_picture(const std::filesystem::path& path, const std::stri
                               const Recording& recording, const std::vector<Result>& results,
                               std::size_t first_place = 0);
 
-/// One line an estimator, dead reckoning first, with the metrics of the first estimator.
-std::string result_table(const Recording& recording, const std::vector<Result>& results);
-
-}  // namespace fathom
+}  // namespace fathom::workflow

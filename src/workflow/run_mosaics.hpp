@@ -10,8 +10,9 @@
 #include "fathom/harness/result.hpp"
 #include "fathom/report/earth_frame.hpp"
 #include "fathom/report/mosaic.hpp"
+#include "fathom/workflow/observer.hpp"
 
-namespace fathom {
+namespace fathom::workflow {
 
 /// A mosaic that `run` or `compare` writes into the folder of a run.
 struct RunMosaic {
@@ -29,7 +30,7 @@ std::vector<PlacedPicture> placed_pictures(const Recording& recording,
 /// was not.
 std::vector<std::string> write_mosaics(const FrameSource& source,
                                        const std::vector<RunMosaic>& mosaics,
-                                       const EarthFrame* earth, bool quiet);
+                                       const EarthFrame* earth, Observer& observer);
 
 /// A single mosaic, as it is asked for.
 struct AskedMosaic {
@@ -40,13 +41,13 @@ struct AskedMosaic {
 /// Writes `mosaic.png`, `mosaic.pgw` and `mosaic.json`. Throws InputError. Returns what was laid.
 std::string write_mosaic(const std::filesystem::path& folder, const FrameSource& source,
                          const std::vector<PlacedPicture>& pictures, const AskedMosaic& asked,
-                         bool quiet);
+                         Observer& observer);
 
 /// The same of a mosaic that may be larger than memory: `tiles/`, each tile with its world file,
 /// and `mosaic.json`.
 std::string write_tiled_mosaic(const std::filesystem::path& folder, const FrameSource& source,
                                const std::vector<PlacedPicture>& pictures, const AskedMosaic& asked,
-                               int tile_px, bool quiet);
+                               int tile_px, Observer& observer);
 
 /// All names that a mosaic and the map files beside it may have.
 std::vector<std::string> mosaic_file_names();
@@ -54,4 +55,4 @@ std::vector<std::string> mosaic_file_names();
 /// "57 pictures, 2310 x 1780 pixels of 0.0041 m", and why they are coarser than wanted.
 std::string mosaic_text(const MosaicPlan& plan);
 
-}  // namespace fathom
+}  // namespace fathom::workflow

@@ -1,7 +1,5 @@
-#include "apps/mosaics.hpp"
+#include "run_mosaics.hpp"
 
-#include "apps/common.hpp"
-#include "apps/map_files.hpp"
 #include "fathom/core/files.hpp"
 #include "fathom/core/input_error.hpp"
 #include "fathom/core/system.hpp"
@@ -9,8 +7,9 @@
 #include "fathom/report/picture.hpp"
 #include "fathom/report/table.hpp"
 #include "fathom/report/world_file.hpp"
+#include "map_files.hpp"
 
-namespace fathom {
+namespace fathom::workflow {
 namespace {
 
 /// Tiles of a GeoTIFF that is made tile by tile.
@@ -48,7 +47,7 @@ void write(const PlannedMosaic& planned, const cv::Mat& mosaic, const EarthFrame
 // Every tile as a picture with its world file; returns their names.
 std::vector<std::string> write_tiles(const std::filesystem::path& folder, const FrameSource& source,
                                      const MosaicPlan& plan, int tile_px, const EarthFrame* earth,
-                                     bool quiet) {
+                                     Observer& observer) {
   std::filesystem::create_directory(folder / "tiles");
   std::vector<std::string> names;
   const auto take = [&](const MosaicTile& tile) {
@@ -59,28 +58,26 @@ std::vector<std::string> write_tiles(const std::filesystem::path& folder, const 
     write_file(folder / (name + ".pgw"), world_file_of(plan, tile.window, earth));
     names.push_back(name + ".png");
   };
-  ProgressLine line("mosaic, tile", quiet);
-  make_tiles(source, plan, {.side_px = tile_px}, take, line.callback());
+  make_tiles(source, plan, {.side_px = tile_px}, take, observer.progress_of("mosaic, tile"));
   return names;
 }
 
 void write_tiled_geotiff(const std::filesystem::path& folder, const FrameSource& source,
-                         const MosaicPlan& plan, const EarthFrame& earth, bool quiet) {
+                         const MosaicPlan& plan, const EarthFrame& earth, Observer& observer) {
   GeoTiff file(folder / "mosaic.tif", earth, plan, kGeoTiffTile_px);
-  ProgressLine line("mosaic.tif, tile", quiet);
   make_tiles(
       source, plan, {.side_px = kGeoTiffTile_px}, [&](const MosaicTile& tile) { file.write(tile); },
-      line.callback());
+      observer.progress_of("mosaic.tif, tile"));
   file.finish();
 }
 
 // A picture of the survey is read once for all of them.
 void make_and_write(const FrameSource& source, const std::vector<PlannedMosaic>& planned,
-                    const EarthFrame* earth, bool quiet) {
+                    const EarthFrame* earth, Observer& observer) {
   std::vector<MosaicPlan> plans;
   for (const PlannedMosaic& one : planned) plans.push_back(one.plan);
-  ProgressLine line("mosaic, picture", quiet);
-  const std::vector<cv::Mat> made = make_mosaics(source, plans, line.callback());
+  const std::vector<cv::Mat> made =
+      make_mosaics(source, plans, observer.progress_of("mosaic, picture"));
   for (std::size_t i = 0; i < made.size(); ++i) write(planned[i], made[i], earth);
 }
 
@@ -118,7 +115,7 @@ std::vector<PlacedPicture> placed_pictures(const Recording& recording,
 
 std::vector<std::string> write_mosaics(const FrameSource& source,
                                        const std::vector<RunMosaic>& mosaics,
-                                       const EarthFrame* earth, bool quiet) {
+                                       const EarthFrame* earth, Observer& observer) {
   // Of solvers that are done: mosaics and the floor of a simulation need memory of their own.
   return_free_memory();
   MosaicOptions options;
@@ -128,13 +125,13 @@ std::vector<std::string> write_mosaics(const FrameSource& source,
   for (const RunMosaic& mosaic : mosaics) {
     lines.push_back(plan_both(source, mosaic, options, earth, planned));
   }
-  make_and_write(source, planned, earth, quiet);
+  make_and_write(source, planned, earth, observer);
   return lines;
 }
 
 std::string write_mosaic(const std::filesystem::path& folder, const FrameSource& source,
                          const std::vector<PlacedPicture>& pictures, const AskedMosaic& asked,
-                         bool quiet) {
+                         Observer& observer) {
   MosaicOptions options;
   options.metres_per_pixel = asked.metres_per_pixel;
   if (asked.earth != nullptr) options.most_pixels /= 2.0;
@@ -144,24 +141,24 @@ std::string write_mosaic(const std::filesystem::path& folder, const FrameSource&
     const auto north_up = placed_on_grid(*asked.earth, source.camera(), pictures);
     planned.push_back({folder, plan_mosaic(source.camera(), north_up, options), true});
   }
-  make_and_write(source, planned, asked.earth, quiet);
+  make_and_write(source, planned, asked.earth, observer);
   return mosaic_text(planned.front().plan);
 }
 
 std::string write_tiled_mosaic(const std::filesystem::path& folder, const FrameSource& source,
                                const std::vector<PlacedPicture>& pictures, const AskedMosaic& asked,
-                               int tile_px, bool quiet) {
+                               int tile_px, Observer& observer) {
   MosaicOptions options = MosaicOptions::of_tiles();
   options.metres_per_pixel = asked.metres_per_pixel;
   const MosaicPlan plan = plan_mosaic(source.camera(), pictures, options);
   MosaicFiles files = files_of(asked.earth);
   files.tile_px = tile_px;
-  files.tiles = write_tiles(folder, source, plan, tile_px, asked.earth, quiet);
+  files.tiles = write_tiles(folder, source, plan, tile_px, asked.earth, observer);
   write_file(folder / "mosaic.json", mosaic_json(plan, files));
   if (asked.earth != nullptr) {
     const auto north_up = placed_on_grid(*asked.earth, source.camera(), pictures);
     write_tiled_geotiff(folder, source, plan_mosaic(source.camera(), north_up, options),
-                        *asked.earth, quiet);
+                        *asked.earth, observer);
   }
   return mosaic_text(plan) + " in " + std::to_string(files.tiles.size()) + " tiles";
 }
@@ -182,4 +179,4 @@ std::string mosaic_text(const MosaicPlan& plan) {
   return text;
 }
 
-}  // namespace fathom
+}  // namespace fathom::workflow

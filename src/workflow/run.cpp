@@ -1,0 +1,158 @@
+#include "fathom/workflow/run.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include "fathom/core/files.hpp"
+#include "fathom/harness/loop_remarks.hpp"
+#include "fathom/harness/manifest.hpp"
+#include "fathom/harness/map_fit.hpp"
+#include "fathom/harness/run_folder.hpp"
+#include "fathom/workflow/inputs.hpp"
+#include "map_files.hpp"
+#include "run_mosaics.hpp"
+#include "trajectory_picture.hpp"
+
+namespace fathom::workflow {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kBatchOptimum = "batch_optimum";
+
+// A run as it comes about.
+class Run {
+ public:
+  Run(const RunRequest& request, const EstimatorRegistry& registry, const Machine& machine,
+      Observer& observer)
+      : request_(request),
+        registry_(registry),
+        machine_(machine),
+        observer_(observer),
+        configuration_(configure(request.settings, ConfigurationKind::single, registry)) {}
+
+  RunOutcome outcome() {
+    std::optional<StagedFolder> folder;
+    if (!request_.out.empty()) folder.emplace(request_.out, request_.inputs);
+    const Recorder recorder(configuration_, request_.registrations);
+    record(recorder);
+    RunOutcome done{recording_, evaluated(), std::nullopt, configuration_.alignment};
+    std::vector<std::string> remarks;
+    judge(done, remarks);
+    if (folder) {
+      write(*folder, recorder, done, remarks);
+    }
+    for (const std::string& remark : remarks) observer_.remark(remark);
+    return done;
+  }
+
+ private:
+  void record(const Recorder& recorder) {
+    const TrialNoise noise{static_cast<std::uint64_t>(configuration_.seed), 0};
+    recording_ = std::make_shared<const Recording>(
+        recorder.record(configuration_, configuration_.reference, registry_, noise,
+                        [this](const FrontEndProgress& at) { observer_.front_end_progress(at); }));
+  }
+
+  Result evaluated() const {
+    const EstimatorConfiguration& estimator = configuration_.estimators.front();
+    const auto meter = machine_.make_meter ? machine_.make_meter() : nullptr;
+    ReplayOptions options = replay_options(configuration_, estimator);
+    options.memory = meter.get();
+    options.progress = observer_.progress_of(estimator.name + ", keyframe");
+    return evaluate(*recording_, estimator, registry_, {.metrics = metric_options(configuration_)},
+                    options);
+  }
+
+  // What looks wrong, and the batch optimum of the log where the estimate does not fit it.
+  void judge(RunOutcome& done, std::vector<std::string>& remarks) const {
+    const std::vector<Pose>& estimate = done.result.replay.trajectory;
+    remarks = loop_remarks(*recording_, configuration_.front_end, estimate);
+    const auto optimum = batch_optimum(recording_->log, registry_);
+    const auto fit = optimum ? map_fit(recording_->log, estimate, *optimum) : std::nullopt;
+    if (!fit) return;
+    std::ranges::copy(map_remarks(*fit, done.result.estimator.name, optimum->solver),
+                      std::back_inserter(remarks));
+    if (fit->estimate_fits()) return;
+    ReplayOptions options;
+    options.mode = SolveMode::batch;
+    done.optimum = evaluate(*recording_, {kBatchOptimum, optimum->solver, {}}, registry_,
+                            {.metrics = metric_options(configuration_)}, options);
+  }
+
+  void write(StagedFolder& folder, const Recorder& recorder, const RunOutcome& done,
+             const std::vector<std::string>& remarks) const {
+    const Fingerprint data =
+        with_code(fingerprint(recorder.data().files()), estimators_in({configuration_}), registry_);
+    write_run(folder.path(), *recording_, done.result,
+              manifest_json(request_.made_by, configuration_.in_force, data, *recording_,
+                            done.result, registry_, remarks));
+    std::vector<Result> results{done.result};
+    if (done.optimum) {
+      results.push_back(*done.optimum);
+      fs::create_directory(folder.path() / kBatchOptimum);
+      write_file(folder.path() / kBatchOptimum / "trajectory.tum",
+                 to_tum(keyframe_trajectory(*recording_, done.optimum->replay.trajectory)));
+    }
+    write_trajectory_picture(folder.path() / "trajectory.png",
+                             request_.title + ", " + done.result.estimator.name, *recording_,
+                             results);
+    const std::vector<std::string> maps = write_maps(recorder.pictures(), results, folder.path());
+    folder.commit(optional_run_files());
+    observer_.wrote((folder.target() / "trajectory.png").string());
+    for (const std::string& map : maps) observer_.wrote(map);
+  }
+
+  // Mosaics, footprints, and where the survey lies on Earth; returns a line each, of what was
+  // written and of what could not be.
+  std::vector<std::string> write_maps(const FrameSource* pictures,
+                                      const std::vector<Result>& results,
+                                      const fs::path& folder) const {
+    if (pictures == nullptr) return {};
+    std::vector<std::string> lines;
+    const EarthOrWhyNot earth = earth_or_why_not(configuration_);
+    if (!earth.why_not.empty()) lines.push_back(earth.why_not);
+    const EarthFrame* on_earth = earth.frame ? &*earth.frame : nullptr;
+    if (request_.mosaics) {
+      std::ranges::copy(write_all_mosaics(*pictures, results, folder, on_earth),
+                        std::back_inserter(lines));
+    }
+    const auto problem =
+        try_map_files(folder, keyframe_map(*recording_, results.front()), on_earth);
+    if (problem) lines.push_back(*problem);
+    return lines;
+  }
+
+  // The run's, and its batch optimum's in a folder below.
+  std::vector<std::string> write_all_mosaics(const FrameSource& pictures,
+                                             const std::vector<Result>& results,
+                                             const fs::path& folder,
+                                             const EarthFrame* earth) const {
+    std::vector<RunMosaic> mosaics;
+    mosaics.reserve(results.size());
+    for (const Result& result : results) {
+      mosaics.push_back({mosaics.empty() ? folder : folder / kBatchOptimum,
+                         placed_pictures(*recording_, result.replay.trajectory)});
+    }
+    std::vector<std::string> lines = write_mosaics(pictures, mosaics, earth, observer_);
+    for (std::size_t i = 1; i < lines.size(); ++i) lines[i] = kBatchOptimum + ("/" + lines[i]);
+    return lines;
+  }
+
+  const RunRequest& request_;
+  const EstimatorRegistry& registry_;
+  const Machine& machine_;
+  Observer& observer_;
+  Configuration configuration_;
+  std::shared_ptr<const Recording> recording_;
+};
+
+}  // namespace
+
+RunOutcome run(const RunRequest& request, const EstimatorRegistry& registry, const Machine& machine,
+               Observer& observer) {
+  return Run(request, registry, machine, observer).outcome();
+}
+
+}  // namespace fathom::workflow
