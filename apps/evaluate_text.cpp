@@ -12,6 +12,7 @@ namespace {
 
 std::vector<double> absolute(const std::vector<double>& values) {
   std::vector<double> result;
+  result.reserve(values.size());
   for (const double value : values) result.push_back(std::abs(value));
   return result;
 }

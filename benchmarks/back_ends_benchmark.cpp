@@ -100,7 +100,7 @@ void update(benchmark::State& state, const fathom::EstimatorEntry& entry) {
     estimator->update({log.arrival(k).registrations});
   }
   int linearisations = 0;
-  for (auto _ : state) {
+  for ([[maybe_unused]] auto _ : state) {
     estimator->add_keyframe(log.arrival(k).step);
     const auto start = Clock::now();
     const fathom::UpdateReport report = estimator->update({log.arrival(k).registrations});
@@ -123,7 +123,7 @@ void motions(benchmark::State& state, const fathom::EstimatorEntry& entry) {
     estimator->add_keyframe(log.arrival(k).step);
     estimator->update({log.arrival(k).registrations});
   }
-  for (auto _ : state) benchmark::DoNotOptimize(estimator->motions_to_newest());
+  for ([[maybe_unused]] auto _ : state) benchmark::DoNotOptimize(estimator->motions_to_newest());
 }
 
 void register_all() {

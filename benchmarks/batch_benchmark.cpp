@@ -20,10 +20,10 @@ void solve(benchmark::State& state) {
   using Clock = std::chrono::steady_clock;
   const auto keyframes = static_cast<std::size_t>(state.range(0));
   const fathom::MeasurementLog log = fathom::benchmarks::parallel_tracks(keyframes, keyframes / 3);
-  const fathom::EstimatorRegistry registry = fathom::builtin_estimators();
+  const fathom::EstimatorRegistry& registry = fathom::builtin_estimators();
   const fathom::EstimatorValues values{
       {"threads", fathom::OptionValue::scalar(std::to_string(state.range(1)))}};
-  for (auto _ : state) {
+  for ([[maybe_unused]] auto _ : state) {
     const auto estimator = registry.find("sparse_gauss_newton")
                                .create({log.origin(), fathom::SolveMode::batch}, values);
     for (std::size_t k = 1; k < log.size(); ++k) {

@@ -85,7 +85,7 @@ void Extraction(benchmark::State& state) {
   const FeatureExtractor extractor(options_of(state));
   std::size_t frame = 0;
   std::size_t found = 0;
-  for (auto _ : state) {
+  for ([[maybe_unused]] auto _ : state) {
     found = extractor.extract(frames()[frame++ % frames().size()]).size();
   }
   state.SetItemsProcessed(state.iterations());
@@ -107,7 +107,7 @@ void SiftParts(benchmark::State& state) {
       fathom::find_detector("sift").make(options.detector, options.max_features).finder;
   std::vector<cv::KeyPoint> keypoints;
   std::size_t frame = 0;
-  for (auto _ : state) {
+  for ([[maybe_unused]] auto _ : state) {
     const cv::Mat& picture = frames()[frame++ % frames().size()];
     if (state.range(0) == kDetection) {
       finder->detect(picture, keypoints);
@@ -124,7 +124,7 @@ void Matching(benchmark::State& state) {
   const FloorFeatures a = features_of(options_of(state), 0);
   const FloorFeatures b = features_of(options_of(state), 1);
   std::size_t found = 0;
-  for (auto _ : state) found = fathom::match(a.features, b.features, {}).size();
+  for ([[maybe_unused]] auto _ : state) found = fathom::match(a.features, b.features, {}).size();
   state.counters["features"] = static_cast<double>(a.size());
   state.counters["matches"] = static_cast<double>(found);
   label(state);
@@ -147,7 +147,9 @@ void Ransac(benchmark::State& state) {
   std::uint64_t seed = 0;
   fathom::RansacOptions options;
   options.max_error_m = 0.03;
-  for (auto _ : state) inliers = fathom::ransac(p, q, options, seed++).inliers.size();
+  for ([[maybe_unused]] auto _ : state) {
+    inliers = fathom::ransac(p, q, options, seed++).inliers.size();
+  }
   state.counters["inliers"] = static_cast<double>(inliers);
 }
 BENCHMARK(Ransac)
@@ -162,7 +164,7 @@ void FrameWithRegistration(benchmark::State& state) {
   std::size_t frame = 0;
   FloorFeatures previous = features_of(options, frame++);
   std::int64_t registered = 0;
-  for (auto _ : state) {
+  for ([[maybe_unused]] auto _ : state) {
     FloorFeatures current = features_of(options, frame++);
     registered += fathom::register_pair(previous, current, {}, frame).found ? 1 : 0;
     previous = std::move(current);

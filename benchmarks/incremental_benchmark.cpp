@@ -82,7 +82,7 @@ void incremental(benchmark::State& state, const MeasurementLog& log, const std::
   const fathom::EstimatorEntry& entry = fathom::builtin_estimators().find(name);
   std::vector<double> step_ms(log.size() - 1, 1e9);
   double cost = 0.0;
-  for (auto _ : state) {
+  for ([[maybe_unused]] auto _ : state) {
     const auto estimator = entry.create({log.origin()}, {});
     double total_s = 0.0;
     for (std::size_t k = 1; k < log.size(); ++k) {
@@ -106,7 +106,7 @@ void incremental(benchmark::State& state, const MeasurementLog& log, const std::
 
 void scale(benchmark::State& state, const MeasurementLog& log) {
   double least_s = 1e9;
-  for (auto _ : state) {
+  for ([[maybe_unused]] auto _ : state) {
     const auto batch = fathom::builtin_estimators()
                            .find("ceres_pose_graph")
                            .create({log.origin(), SolveMode::batch},

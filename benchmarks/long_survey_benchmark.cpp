@@ -45,12 +45,15 @@ void Candidates(benchmark::State& state) {
   if (options.method != CandidateMethod::overlap) options.max_distance_m = 1.0;
   Known poses;
   for (std::size_t k = 0; k < kKeyframes; ++k) {
-    poses.append({0.5 * static_cast<double>(k % 100), 0.5 * static_cast<double>(k / 100), 0.1});
+    const std::size_t leg = k / 100;
+    poses.append({0.5 * static_cast<double>(k % 100), 0.5 * static_cast<double>(leg), 0.1});
   }
   fathom::CandidateSearch search(fathom::Camera(), options);
   const std::vector<fathom::Stance> stances(kKeyframes, 2.0);
   std::size_t left_out = 0;
-  for (auto _ : state) left_out = search.find(poses, stances, kKeyframes - 1).left_out;
+  for ([[maybe_unused]] auto _ : state) {
+    left_out = search.find(poses, stances, kKeyframes - 1).left_out;
+  }
   state.counters["left_out"] = static_cast<double>(left_out);
 }
 BENCHMARK(Candidates)
@@ -87,7 +90,7 @@ void LongSurvey(benchmark::State& state) {
   options.candidates.min_overlap = 0.3;
   options.candidates.max_per_keyframe = 3;
   options.features.max_features = 300;
-  for (auto _ : state) {
+  for ([[maybe_unused]] auto _ : state) {
     fathom::PairRegistrar registrar(survey, options.features, options.registration, 1, nullptr,
                                     static_cast<std::size_t>(state.range(0)) << 20);
     fathom::FrontEnd front_end(survey, registrar, options);

@@ -77,7 +77,7 @@ void Survey(benchmark::State& state) {
   std::size_t tried = 0;
   std::size_t found = 0;
   std::size_t failures = 0;
-  for (auto _ : state) {
+  for ([[maybe_unused]] auto _ : state) {
     fathom::PairRegistrar registrar(frames, options.features, options.registration, kSeed);
     const fathom::VisualOdometry odometry(frames, registrar, options.visual_odometry);
     fathom::FrontEnd front_end(odometry, registrar, options);

@@ -174,7 +174,7 @@ void measure(const Settings& settings) {
 }  // namespace
 }  // namespace fathom::benchmarks
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   fathom::benchmarks::Settings settings;
   settings.program = std::filesystem::path(argv[0]).replace_filename("fathom").string();
   CLI::App app{"What `fathom compare` costs as a simulated survey grows"};
@@ -187,11 +187,9 @@ int main(int argc, char** argv) {
   app.add_option("--legs", settings.legs, "of the surveys")->check(CLI::PositiveNumber);
   app.add_option("--jobs", settings.jobs, "of each command")->check(CLI::PositiveNumber);
   CLI11_PARSE(app, argc, argv);
-  try {
-    fathom::benchmarks::measure(settings);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "survey_growth: error: %s\n", error.what());
-    return 1;
-  }
+  fathom::benchmarks::measure(settings);
   return 0;
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "survey_growth: error: %s\n", error.what());
+  return 1;
 }

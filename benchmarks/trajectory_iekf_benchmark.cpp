@@ -130,7 +130,7 @@ void update(benchmark::State& state) {
   }
   std::vector<double> times_ms;
   std::vector<double> triangles_ms;
-  for (auto _ : state) {
+  for ([[maybe_unused]] auto _ : state) {
     const std::vector<RelativePose> loops = advance();
     triangles_ms.push_back(triangle.pass_ms());
     const double start = thread_ms();
@@ -152,7 +152,7 @@ void dsyrk(benchmark::State& state) {
   const Eigen::MatrixXd W = 1e-3 * Eigen::MatrixXd::Random(9, n);
   std::vector<double> times_ms;
   std::vector<double> triangles_ms;
-  for (auto _ : state) {
+  for ([[maybe_unused]] auto _ : state) {
     triangles_ms.push_back(triangle.pass_ms());
     const double start = thread_ms();
     cblas_dsyrk(CblasColMajor, CblasLower, CblasTrans, n, 9, -1.0, W.data(), 9, 1.0, P.data(), n);
@@ -167,7 +167,7 @@ void mission(benchmark::State& state) {
   const auto keyframes = static_cast<std::size_t>(state.range(0));
   const auto updates = static_cast<std::size_t>(state.range(1));
   const auto loops = static_cast<std::size_t>(state.range(2));
-  for (auto _ : state) {
+  for ([[maybe_unused]] auto _ : state) {
     fathom::RandomStream noise(1, "survey");
     fathom::TrajectoryIekf estimator = filter(3);
     double longest_ms = 0.0;

@@ -164,7 +164,7 @@ void run(const Flags& flags) {
 }  // namespace
 }  // namespace fathom
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   fathom::pin_threads();
   CLI::App app("Back ends on graphs with false loops");
   fathom::Flags flags;
@@ -178,12 +178,12 @@ int main(int argc, char** argv) {
   app.add_option("graphs", flags.graphs)->required();
   try {
     app.parse(argc, argv);
-    fathom::run(flags);
   } catch (const CLI::CallForHelp& help) {
     return app.exit(help);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "%s\n", error.what());
-    return 2;
   }
+  fathom::run(flags);
   return 0;
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "%s\n", error.what());
+  return 2;
 }

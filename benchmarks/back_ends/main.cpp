@@ -220,7 +220,7 @@ void add_options(CLI::App& app, Settings& settings) {
 }  // namespace
 }  // namespace fathom::benchmarks
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   fathom::pin_threads();
   fathom::benchmarks::Settings settings;
   settings.map.program = std::filesystem::read_symlink("/proc/self/exe");
@@ -228,12 +228,12 @@ int main(int argc, char** argv) {
   fathom::benchmarks::add_options(app, settings);
   try {
     app.parse(argc, argv);
-    fathom::benchmarks::run(settings);
   } catch (const CLI::CallForHelp& help) {
     return app.exit(help);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "back_ends: error: %s\n", error.what());
-    return 2;
   }
+  fathom::benchmarks::run(settings);
   return 0;
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "back_ends: error: %s\n", error.what());
+  return 2;
 }

@@ -91,7 +91,7 @@ MapBound bound_of(const MeasurementLog& log) {
 std::string solve_here(const std::string& shape, std::size_t keyframes, const MapSolver& solver) {
   using Clock = std::chrono::steady_clock;
   const MeasurementLog log = map_of(shape, keyframes);
-  const EstimatorRegistry registry = builtin_estimators();
+  const EstimatorRegistry& registry = builtin_estimators();
   EstimatorValues values;
   if (solver.threads > 1) values["threads"] = OptionValue::scalar(std::to_string(solver.threads));
   const auto estimator =

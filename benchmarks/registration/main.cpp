@@ -93,18 +93,16 @@ void run(Results& results) {
 }  // namespace
 }  // namespace fathom::benchmarks
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   fathom::pin_threads();
   fathom::benchmarks::Results results;
   CLI::App app("Registration of pairs of pictures whose motion is known");
   fathom::benchmarks::add_options(app, results.settings);
   CLI11_PARSE(app, argc, argv);
   if (results.settings.floors == std::vector<std::string>{"none"}) results.settings.floors.clear();
-  try {
-    fathom::benchmarks::run(results);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "registration_benchmark: error: %s\n", error.what());
-    return 2;
-  }
+  fathom::benchmarks::run(results);
   return 0;
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "registration_benchmark: error: %s\n", error.what());
+  return 2;
 }

@@ -53,6 +53,8 @@ class PythonEstimator : public Estimator {
     absolute_weights_ = overridden("absolute_weights");
   }
 
+  // Only taking the lock could throw, if the interpreter had no memory for the thread's state.
+  // NOLINTNEXTLINE(bugprone-exception-escape): there is nobody to tell then
   ~PythonEstimator() override {
     if (!Py_IsInitialized()) return;
     const py::gil_scoped_acquire lock;

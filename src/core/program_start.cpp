@@ -13,8 +13,6 @@
 #include "fathom/core/input_error.hpp"
 #include "fathom/core/program.hpp"
 
-extern char** environ;
-
 namespace fathom {
 namespace {
 
@@ -31,6 +29,7 @@ std::vector<std::string> environment_of_one_thread() {
 
 std::vector<char*> pointers_to(std::vector<std::string>& words) {
   std::vector<char*> pointers;
+  pointers.reserve(words.size() + 1);
   for (std::string& word : words) pointers.push_back(word.data());
   pointers.push_back(nullptr);
   return pointers;

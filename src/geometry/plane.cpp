@@ -45,7 +45,7 @@ PlaneAxes named(Plane plane) {
 
 PlaneAxes fitted(Trajectory trajectory, std::optional<Plane> next_to) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(spread(trajectory));
-  const Eigen::Vector3d squares = solver.eigenvalues();
+  const Eigen::Vector3d& squares = solver.eigenvalues();
   constexpr double kLine = 1e-12;
   if (!(squares(1) > kLine * squares(2))) {
     throw InputError(

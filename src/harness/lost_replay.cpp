@@ -6,11 +6,11 @@ namespace fathom {
 
 Replay lost_replay(const MeasurementLog& log, const ReplayOptions& options, Outcome outcome,
                    const std::string& fault) {
-  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
   Replay result;
   result.outcome = outcome;
   result.fault = fault;
-  result.trajectory.assign(log.size(), Pose{kNaN, kNaN, kNaN});
+  result.trajectory.assign(log.size(), Pose{kUnknown, kUnknown, kUnknown});
   for (std::size_t k = 0; k < log.size(); ++k) {
     const KeyframeMeasurements& arrival = log.arrival(k);
     for (const RelativePose& z : arrival.registrations) {
@@ -25,7 +25,7 @@ Replay lost_replay(const MeasurementLog& log, const ReplayOptions& options, Outc
   result.motions = options.motions;
   for (JudgedMotions& motions : result.motions) motions.covariances.clear();
   result.chi2_initial = chi2(log, options.start.empty() ? log.odometry() : options.start);
-  result.cost_used = result.absolute_cost_used = kNaN;
+  result.cost_used = result.absolute_cost_used = kUnknown;
   return result;
 }
 

@@ -10,6 +10,7 @@
 #include "fathom/report/palette.hpp"
 #include "page_box.hpp"
 
+// NOLINTNEXTLINE(bugprone-reserved-identifier): the name is cairo's
 using cairo_t = struct _cairo;
 
 namespace fathom {

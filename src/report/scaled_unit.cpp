@@ -77,7 +77,8 @@ ScaledUnit reading_unit(const std::string& unit, double value) {
   const double in_next = size * std::pow(1000.0, base.thousands - thousands - 1);
   if (thousands < -1 && in_next >= 0.00999) ++thousands;
   thousands = std::clamp(thousands, base.least, base.most);
-  const std::string prefix(kPrefixes[static_cast<std::size_t>(thousands + kNoPrefix)]);
+  const int place = thousands + kNoPrefix;
+  const std::string prefix(kPrefixes[static_cast<std::size_t>(place)]);
   return {prefix + std::string(base.unit), std::pow(1000.0, base.thousands - thousands)};
 }
 

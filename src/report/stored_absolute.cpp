@@ -64,6 +64,7 @@ std::vector<StoredAbsolute> stored_absolute(const ResultStore& store, const RunK
 
 std::vector<AbsoluteMark> marks_of(const std::vector<StoredAbsolute>& all) {
   std::vector<AbsoluteMark> marks;
+  marks.reserve(all.size());
   for (const StoredAbsolute& one : all) marks.push_back(one.mark);
   return marks;
 }

@@ -101,6 +101,7 @@ void add_cost(const StudyResults& results, StudyVerdict& verdict) {
   }
   if (cheapest.empty()) return;
   std::vector<std::string> parts;
+  parts.reserve(cheapest.size());
   for (const auto& [name, count] : cheapest) {
     parts.push_back(name + " in " + of_cells(count, results.cells.size()));
   }

@@ -55,7 +55,9 @@ FATHOM_FOR_AVX512_VNNI void fill_tile(const Tile& tile, float* costs, int stride
     }
     for (int r = 0; r < Rows; ++r) {
       int four = 0;
-      std::memcpy(&four, tile.from + static_cast<std::ptrdiff_t>(r) * tile.length + k * kTogether,
+      std::memcpy(&four,
+                  tile.from + static_cast<std::ptrdiff_t>(r) * tile.length +
+                      static_cast<std::ptrdiff_t>(k) * kTogether,
                   sizeof(four));
       const SixteenInts row = SixteenInts{} + four;
       for (int v = 0; v < kVectors; ++v) add_byte_products(sums[r][v], row, columns[v]);
@@ -63,12 +65,13 @@ FATHOM_FOR_AVX512_VNNI void fill_tile(const Tile& tile, float* costs, int stride
   }
   for (int r = 0; r < Rows; ++r) {
     for (int v = 0; v < kVectors; ++v) {
+      const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(v) * kLanes;
       SixteenInts squares;
-      std::memcpy(&squares, tile.to_squares + v * kLanes, sizeof(squares));
+      std::memcpy(&squares, tile.to_squares + first, sizeof(squares));
       const Floats cost = __builtin_convertvector(
           squares + (tile.squares[r] - 256 * tile.sums[r]) - 2 * sums[r][v], Floats);
       const int left = std::clamp(tile.columns - v * kLanes, 0, kLanes);
-      std::memcpy(costs + static_cast<std::ptrdiff_t>(r) * stride + v * kLanes, &cost,
+      std::memcpy(costs + static_cast<std::ptrdiff_t>(r) * stride + first, &cost,
                   static_cast<std::size_t>(left) * sizeof(float));
     }
   }
@@ -132,7 +135,7 @@ void ByteDistances::fill(int first, int rows, float* costs, int stride) const {
   for (int group = 0; group < groups_of(to_rows_); ++group) {
     const auto column = static_cast<std::size_t>(group) * kGroup;
     for (int r = 0; r < rows; r += kRows) {
-      const auto row = static_cast<std::size_t>(first + r);
+      const auto row = static_cast<std::size_t>(first) + static_cast<std::size_t>(r);
       const Tile tile{from_.values.data() + row * static_cast<std::size_t>(length_),
                       from_.squares.data() + row,
                       from_.sums.data() + row,
@@ -140,7 +143,7 @@ void ByteDistances::fill(int first, int rows, float* costs, int stride) const {
                       to_squares_.data() + column,
                       length_,
                       std::min(kGroup, to_rows_ - group * kGroup)};
-      float* out = costs + static_cast<std::ptrdiff_t>(r) * stride + group * kGroup;
+      float* out = costs + static_cast<std::ptrdiff_t>(r) * stride + column;
       switch (std::min(kRows, rows - r)) {
         case 4:
           fill_tile<4>(tile, out, stride);

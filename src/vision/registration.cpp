@@ -149,10 +149,11 @@ std::optional<Registration> refused_at_first(const Pair& pair) {
     return std::nullopt;
   }
   result.inliers = picked(nearest, best.support);
-  return refused(std::move(result),
-                 of + std::to_string(result.evidence.support) + " matches agree, in " +
-                     std::to_string(result.evidence.places) + " places; another motion has " +
-                     std::to_string(result.evidence.rival_places));
+  const std::string reason = of + std::to_string(result.evidence.support) + " matches agree, in " +
+                             std::to_string(result.evidence.places) +
+                             " places; another motion has " +
+                             std::to_string(result.evidence.rival_places);
+  return refused(std::move(result), reason);
 }
 
 // Ours: figure 2 makes the hypothesis; an a-contrario test against its strongest rival decides, and

@@ -75,6 +75,7 @@ void write_tiled_geotiff(const std::filesystem::path& folder, const FrameSource&
 void make_and_write(const FrameSource& source, const std::vector<PlannedMosaic>& planned,
                     const EarthFrame* earth, Observer& observer) {
   std::vector<MosaicPlan> plans;
+  plans.reserve(planned.size());
   for (const PlannedMosaic& one : planned) plans.push_back(one.plan);
   const std::vector<cv::Mat> made =
       make_mosaics(source, plans, observer.progress_of("mosaic, picture"));
@@ -121,6 +122,7 @@ std::vector<std::string> write_mosaics(const FrameSource& source,
   MosaicOptions options;
   options.most_pixels /= static_cast<double>(mosaics.size()) * (earth == nullptr ? 1.0 : 2.0);
   std::vector<std::string> lines;
+  lines.reserve(mosaics.size());
   std::vector<PlannedMosaic> planned;
   for (const RunMosaic& mosaic : mosaics) {
     lines.push_back(plan_both(source, mosaic, options, earth, planned));

@@ -50,6 +50,7 @@ std::vector<Pose> truth_in_world(const Recording& recording, const std::vector<R
   const Pose motion =
       inverse(alignment_motion(done->replay.trajectory, truth, done->options.alignment));
   std::vector<Pose> moved;
+  moved.reserve(truth.size());
   for (const Pose& pose : truth) moved.push_back(compose(motion, pose));
   return moved;
 }

@@ -187,6 +187,7 @@ void DelayedStateFilter::gate_together(std::vector<Innovation>& accepted,
   if (!gate_.is_joint_on() || accepted.empty()) return;
   const Stack all = stack(accepted);
   std::vector<int> ranks;
+  ranks.reserve(accepted.size());
   for (const Innovation& z : accepted) ranks.push_back(z.rows.rank);
   const std::vector<bool> together =
       gate_.pass_together(all.nu, all.S, std::vector<bool>(accepted.size(), true), ranks);

@@ -58,6 +58,7 @@ class Batch {
       if (is_trusted && try_from(std::move(first))) return;
     }
     if (try_from(lifted())) return;
+    // NOLINTNEXTLINE(bugprone-use-after-move): moved from above only if it is trusted
     if (!is_trusted) try_from(first.empty() ? from_headings(turned) : std::move(first));
     try_from(nodes_);
   }

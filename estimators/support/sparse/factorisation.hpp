@@ -61,7 +61,9 @@ struct Factorisation {
     for (int j = 0; j < B; ++j) {
       for (int p = 0; p < j; ++p) L[j][p] = sign[p] * block[j + p * stride];
     }
+#ifndef __clang__
 #pragma GCC ivdep
+#endif
     for (int i = 0; i < count; ++i) {
       double row[B];
       for (int j = 0; j < B; ++j) {

@@ -111,6 +111,7 @@ class CandidateSearch {
     double squared_sigmas = 0.0;
     double distance_m = 0.0;
     std::size_t keyframe = 0;
+    // NOLINTNEXTLINE(modernize-use-nullptr): said of what the compiler writes for it
     auto operator<=>(const Rank&) const = default;
   };
 

@@ -116,6 +116,7 @@ bool is_on_earth(const fs::path& csv) {
     const auto fields = split_csv(comment.text);
     if (fields.size() < 3) continue;
     std::vector<std::string> names;
+    names.reserve(fields.size());
     for (const std::string_view field : fields) names.push_back(name_of_column(field));
     const auto has = [&names](const char* name) {
       return std::ranges::find(names, name) != names.end();

@@ -37,6 +37,7 @@ void sum_up_fixes(const std::vector<Fix>& fixes, const std::string& frame,
                   const Eigen::Vector2d& lever_m, FolderSummary& summary) {
   if (fixes.empty()) return;
   std::vector<double> sigmas_m;
+  sigmas_m.reserve(fixes.size());
   for (const Fix& fix : fixes) sigmas_m.push_back(std::sqrt(0.5 * fix.covariance.trace()));
   summary.facts.push_back("fixes: " + std::to_string(fixes.size()) + " in " + frame +
                           interval_text(fixes) + ", median sigma " +

@@ -59,7 +59,7 @@ BagPicture picture_of(const ImageMessage& message) {
                      " is not read; expected mono8, mono16, rgb8, bgr8, rgba8, bgra8 or bayer_…8");
   }
   constexpr std::uint32_t kLargestSide = 100'000;
-  const std::size_t row_bytes = message.width * CV_ELEM_SIZE(encoding->type);
+  const std::size_t row_bytes = std::size_t{message.width} * CV_ELEM_SIZE(encoding->type);
   const bool is_size = message.width > 0 && message.height > 0 && message.width <= kLargestSide &&
                        message.height <= kLargestSide;
   const bool is_whole =

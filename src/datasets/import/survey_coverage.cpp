@@ -57,7 +57,7 @@ std::size_t uncovered(const std::vector<WrittenPicture>& pictures,
 
 void check_spans(const std::vector<WrittenPicture>& pictures, const std::string& picture_topic,
                  const std::vector<NeededTimes>& needed) {
-  constexpr double kSecondsPerNs = 1e-9;
+  constexpr double kNanosecond_s = 1e-9;
   if (pictures.empty()) throw InputError("topic " + picture_topic + " has no pictures");
   const std::int64_t first = pictures.front().time_ns;
   const std::int64_t last = pictures.back().time_ns;
@@ -68,7 +68,7 @@ void check_spans(const std::vector<WrittenPicture>& pictures, const std::string&
     const std::int64_t begin = other.times_ns.front();
     const std::int64_t end = other.times_ns.back();
     if (begin <= last && end >= first) continue;
-    const double offset_s = static_cast<double>(begin - first) * kSecondsPerNs;
+    const double offset_s = static_cast<double>(begin - first) * kNanosecond_s;
     throw InputError("two clocks disagree: " + span_text(picture_topic, first, last) + ", " +
                      span_text(other.topic, begin, end) + ", " +
                      short_number(std::abs(offset_s), 6) +
@@ -90,6 +90,7 @@ std::size_t leave_out_uncovered(std::vector<WrittenPicture>& pictures,
   });
   if (!pictures.empty()) return left_out;
   std::vector<std::string> names;
+  names.reserve(needed.size());
   for (const NeededTimes& other : needed) names.push_back(other.topic);
   throw InputError("no picture lies between two readings of " + joined(names, " and ") +
                    " at most 2 s apart");

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <utility>
 
 #include <opencv2/imgproc.hpp>
@@ -77,7 +78,9 @@ cv::Mat doubled(const cv::Mat& picture) {
       for (int row = 0; row < picture.rows; ++row) {
         const uchar* from = part.ptr(row);
         uchar* to = twice.ptr(2 * row + down) + across;
-        for (int column = 0; column < picture.cols; ++column) to[2 * column] = from[column];
+        for (std::ptrdiff_t column = 0; column < picture.cols; ++column) {
+          to[2 * column] = from[column];
+        }
       }
     }
   }

@@ -52,6 +52,7 @@ Metric anchored_anees_metric() {
 std::vector<Metric> relative_consistency_metrics(const std::vector<std::string>& keyframes,
                                                  const std::vector<std::string>& distances_m) {
   std::vector<Metric> metrics;
+  metrics.reserve(keyframes.size() + distances_m.size());
   for (const std::string& number : keyframes) {
     metrics.push_back(member(MotionsOver::keyframes, number));
   }

@@ -80,7 +80,7 @@ struct GeoTiff::File {
     throw InputError(path.string(), "cannot be written; is the disk full?");
   }
 
-  void put(std::size_t tile, cv::Mat pixels) {
+  void put(std::size_t tile, const cv::Mat& pixels) {
     const auto number = static_cast<std::uint32_t>(tile);
     if (TIFFWriteEncodedTile(tiff.get(), number, pixels.data,
                              static_cast<tmsize_t>(pixels.total())) < 0) {
