@@ -55,9 +55,10 @@ std::unique_ptr<RegistrationStore> open_cache(const CompareFlags& flags) {
 
 void register_only(const CompareFlags& flags, const workflow::CompareRequest& request,
                    Terminal& terminal, Context& context) {
-  if (workflow::register_study(request, flags.common.estimators(), this_program(), terminal)) {
-    return;
-  }
+  const bool is_finished =
+      workflow::register_study(request, flags.common.estimators(), this_program(), terminal);
+  terminal.clear();
+  if (is_finished) return;
   std::fprintf(stderr, "fathom: stopped; what is registered is kept.\n");
   context.status = kStopped;
 }
@@ -66,6 +67,7 @@ void run_study(const CompareFlags& flags, const workflow::CompareRequest& reques
                Terminal& terminal, Context& context) {
   const workflow::CompareOutcome done =
       workflow::compare(request, flags.common.estimators(), this_program(), terminal);
+  terminal.clear();
   const std::string store = (request.out / kResultsFile).string();
   if (!done.is_finished) {
     std::fprintf(stderr,

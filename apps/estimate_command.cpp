@@ -51,9 +51,10 @@ void print(const workflow::Demand& demand, int shards) {
 void estimate(const EstimateFlags& flags) {
   Terminal terminal(flags.common.quiet);
   const Settings settings = flags.common.settings(flags.config);
-  print(workflow::estimate(settings, flags.seconds, flags.common.estimators(), this_program(),
-                           terminal),
-        flags.shards);
+  const workflow::Demand demand = workflow::estimate(
+      settings, flags.seconds, flags.common.estimators(), this_program(), terminal);
+  terminal.clear();
+  print(demand, flags.shards);
 }
 
 }  // namespace

@@ -33,6 +33,7 @@ void make(const MosaicFlags& flags, Context& context) {
   Terminal terminal(flags.common.quiet);
   const workflow::MosaicOutcome done =
       workflow::mosaic(request, flags.common.estimators(), terminal);
+  terminal.clear();
   context.status = kDone;
   if (flags.common.quiet) return;
   std::printf("%zu of %zu frames have a pose; laid: %s\n\n", done.with_pose, done.frames,

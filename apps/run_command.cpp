@@ -81,6 +81,7 @@ void run(const RunFlags& flags, Context& context) {
   Terminal terminal(flags.common.quiet);
   const workflow::RunOutcome done =
       workflow::run(request, flags.common.estimators(), this_program(), terminal);
+  terminal.clear();
   context.status = done.result.is_done() ? kDone : kFailed;
   if (flags.common.quiet) return;
   print_front_end(*done.recording);

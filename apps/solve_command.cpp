@@ -87,6 +87,7 @@ void solve(const SolveFlags& flags, Context& context) {
   Terminal terminal(flags.common.quiet);
   const workflow::SolveOutcome done =
       workflow::solve_graph(request, flags.common.estimators(), this_program(), terminal);
+  terminal.clear();
   context.status = done.result.is_done() ? kDone : kFailed;
   if (flags.common.quiet) return;
   print(flags, done.recording, done.result);

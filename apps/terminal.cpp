@@ -26,7 +26,12 @@ void Terminal::front_end_progress(const FrontEndProgress& at) {
 }
 
 void Terminal::study_progress(const StudyProgress& at) {
-  study_.show(at);
+  if (study_) study_->show(at);
+}
+
+void Terminal::clear() {
+  line_.reset();
+  study_.reset();
 }
 
 void Terminal::print_written() const {

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "apps/progress.hpp"
@@ -13,7 +14,7 @@ namespace fathom {
 /// are asked for, after the command's own lines.
 class Terminal : public workflow::Observer {
  public:
-  explicit Terminal(bool quiet) : quiet_(quiet), study_(quiet) {}
+  explicit Terminal(bool quiet) : quiet_(quiet), study_(std::in_place, quiet) {}
 
   void progress(const std::string& work, std::size_t done, std::size_t of) override;
   void front_end_progress(const FrontEndProgress& at) override;
@@ -21,6 +22,8 @@ class Terminal : public workflow::Observer {
   void remark(const std::string& text) override { remarks_.push_back(text); }
   void wrote(const std::string& line) override { written_.push_back(line); }
 
+  /// Takes progress away: the work is done, and the command prints.
+  void clear();
   /// "wrote runs/a/trajectory.png", and all others below it.
   void print_written() const;
   /// "warning: …" after an empty line, each.
@@ -31,7 +34,7 @@ class Terminal : public workflow::Observer {
 
   bool quiet_;
   std::optional<ProgressLine> line_;  ///< of the work that goes on
-  StudyProgressLine study_;
+  std::optional<StudyProgressLine> study_;
   std::vector<std::string> written_;
   std::vector<std::string> remarks_;
 };

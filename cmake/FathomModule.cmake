@@ -16,7 +16,7 @@ function(fathom_module name)
   if(arg_HOT)
     fathom_own_target(fathom_${name} HOT)
     fathom_reuse_precompiled(fathom_${name} fathom_hot_headers)
-    # In a large unit less is inlined.
+    # In a large unit less is inlined; without optimisation, as lint reads them, that is nothing.
     if(NOT CMAKE_BUILD_TYPE STREQUAL "Debug")
       set_target_properties(fathom_${name} PROPERTIES UNITY_BUILD OFF)
     endif()
