@@ -57,9 +57,8 @@ Notes convert_graph_file(const ConvertFlags& flags) {
   Notes notes{std::to_string(graph.vertices) + " vertices, " + std::to_string(graph.edges) +
               " edges"};
   for (const auto& [tag, count] : graph.left_out) {
-    notes.push_back("left out: " + std::to_string(count) + (count == 1 ? " line " : " lines ") +
-                    tag + ", which " + (to == GraphFormat::toro ? "TORO" : "g2o") +
-                    " does not have");
+    notes.push_back("left out: " + counted(count, "line") + " " + tag + ", which " +
+                    (to == GraphFormat::toro ? "TORO" : "g2o") + " does not have");
   }
   return notes;
 }

@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "apps/trajectories.hpp"
+#include "fathom/core/text.hpp"
 #include "fathom/evaluation/error_statistics.hpp"
 #include "fathom/report/table.hpp"
 
@@ -30,8 +31,7 @@ Table relative_table(const AssociatedPoses& poses, const RelativeLengths& length
          cell(&RelativeError::rotation_mean_rad)});
   };
   for (const std::size_t step : lengths.steps) {
-    add(std::to_string(step) + (step == 1 ? " pose" : " poses"),
-        relative_error(poses.estimate, poses.reference, step));
+    add(counted(step, "pose"), relative_error(poses.estimate, poses.reference, step));
   }
   for (const double distance_m : lengths.distances_m) {
     add(format_number(distance_m, 3) + " m",

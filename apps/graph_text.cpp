@@ -6,13 +6,10 @@
 #include <iterator>
 #include <memory>
 
+#include "fathom/core/text.hpp"
 #include "fathom/report/table.hpp"
 
 namespace fathom {
-
-std::string plural(std::size_t count, const std::string& noun) {
-  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
-}
 
 void print_rest(std::size_t count) {
   if (count > kShown) std::printf("    and %zu more\n", count - kShown);
@@ -21,7 +18,7 @@ void print_rest(std::size_t count) {
 void print_components(const GraphSummary& graph) {
   const auto& components = graph.components;
   for (std::size_t i = 0; i < std::min(components.size(), kShown); ++i) {
-    std::printf("    %-2zu %s, %lld to %lld\n", i + 1, plural(components[i].poses, "pose").c_str(),
+    std::printf("    %-2zu %s, %lld to %lld\n", i + 1, counted(components[i].poses, "pose").c_str(),
                 static_cast<long long>(components[i].first_id),
                 static_cast<long long>(components[i].last_id));
   }
@@ -61,7 +58,7 @@ void print_graph(const GraphSummary& graph) {
               graph.vertices == 0 ? ", the file defines no vertices" : "");
   std::printf("  edges        %zu\n", graph.edges);
   std::printf("  odometry     %zu%s\n", graph.odometry_edges,
-              graph.holes == 0 ? "" : (", " + plural(graph.holes, "hole")).c_str());
+              graph.holes == 0 ? "" : (", " + counted(graph.holes, "hole")).c_str());
   std::printf("  loops        %zu", graph.loops);
   if (graph.backward_loops > 0) std::printf(", %zu written backwards", graph.backward_loops);
   std::printf("\n  components   %zu\n", graph.components.size());

@@ -7,9 +7,6 @@
 
 namespace fathom {
 
-/// "1 pose", "2 poses".
-std::string plural(std::size_t count, const std::string& noun);
-
 /// Lines of one kind that are shown.
 inline constexpr std::size_t kShown = 20;
 

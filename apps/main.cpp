@@ -15,8 +15,8 @@
 #include "apps/command.hpp"
 #include "apps/common.hpp"
 #include "apps/out_of_memory.hpp"
-#include "apps/pin_threads.hpp"
 #include "fathom/core/options.hpp"
+#include "fathom/core/pin_threads.hpp"
 #include "fathom/core/text.hpp"
 #include "fathom/core/version.hpp"
 

@@ -1,20 +1,13 @@
 // fathom select: the back end that meets a user's requirements, from the results of a study.
 
-#include <algorithm>
 #include <cstdio>
-#include <filesystem>
 #include <memory>
 
 #include "apps/command.hpp"
-#include "fathom/core/files.hpp"
-#include "fathom/report/selection_text.hpp"
-#include "fathom/results/selected_config.hpp"
-#include "fathom/results/selection.hpp"
+#include "fathom/workflow/select.hpp"
 
 namespace fathom {
 namespace {
-
-constexpr const char* kConfigName = "selected.yaml";
 
 struct SelectFlags {
   std::string results;
@@ -40,56 +33,15 @@ SelectionQuery query_of(const SelectFlags& flags) {
   return query;
 }
 
-std::filesystem::path folder_of(const SelectFlags& flags) {
-  if (!flags.out.empty()) return flags.out;
-  std::filesystem::path results = flags.results;
-  if (std::filesystem::is_directory(results)) return results;
-  return results.has_parent_path() ? results.parent_path() : ".";
-}
-
-// Returns the file as the user would name it.
-std::filesystem::path write_config(const SelectFlags& flags, const std::string& text) {
-  try {
-    StagedFolder folder(folder_of(flags), {flags.results});
-    write_file(folder.path() / kConfigName, text);
-    folder.commit();
-    return folder_of(flags) / kConfigName;
-  } catch (const InputError& error) {
-    if (!flags.out.empty()) throw;
-    throw InputError(std::string(error.what()) + "; --out DIR says where " + kConfigName +
-                     " may be written");
-  }
-}
-
-// The registry has to know what was chosen.
-void load_plugins_for(const StudyEstimator& chosen, const StudyDescription& study,
-                      workflow::KnownEstimators& estimators) {
-  const auto& known = estimators.registry().entries();
-  if (std::ranges::find(known, chosen.type, &EstimatorEntry::name) != known.end()) return;
-  Settings settings;
-  for (const auto& [key, value] : study.configuration) {
-    if (key == "plugins") settings.put(parse_override(key + "=" + value));
-  }
-  estimators.load(settings, {});
-}
-
 void select(const SelectFlags& flags, Context& context) {
-  const SelectionQuery query = query_of(flags);
-  const ResultStore store = ResultStore::open(flags.results);
-  const Selection selection = select_estimator(store, query);
-  if (selection.chosen)
-    load_plugins_for(store.study().estimators[*selection.chosen], store.study(),
-                     context.estimators());
-  std::filesystem::path config;
-  if (selection.chosen) {
-    config = write_config(flags, selected_configuration(store.study(), selection, query,
-                                                        context.estimators().registry()));
-  }
-  context.status = selection.chosen ? kDone : kFailed;
+  const workflow::SelectOutcome found =
+      workflow::select({flags.results, query_of(flags), flags.out}, context.estimators());
+  context.status = found.selection.chosen ? kDone : kFailed;
   if (flags.quiet) return;
-  std::printf("%s", selection_text(selection, query, store.study()).c_str());
-  if (selection.chosen) {
-    std::printf("\nwrote %s\nrun it with: fathom run %s\n", config.c_str(), config.c_str());
+  std::printf("%s", found.text.c_str());
+  if (found.selection.chosen) {
+    std::printf("\nwrote %s\nrun it with: fathom run %s\n", found.config.c_str(),
+                found.config.c_str());
   }
 }
 

@@ -6,6 +6,7 @@
 #include "apps/command.hpp"
 #include "apps/common.hpp"
 #include "apps/terminal.hpp"
+#include "fathom/core/text.hpp"
 #include "fathom/report/table.hpp"
 #include "fathom/workflow/result_table.hpp"
 #include "fathom/workflow/solve.hpp"
@@ -29,14 +30,11 @@ std::string chi2_text(const Result& result, const char* metric) {
   return format_number(result.metric(metric), kDigits);
 }
 
-std::string counted(std::size_t count, const std::string& noun) {
-  return ", " + std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
-}
-
 std::string also_text(const MeasurementLog& log) {
   std::string text;
-  if (log.absolute_count() > 0) text += counted(log.absolute_count(), "absolute measurement");
-  if (log.hole_count() > 0) text += counted(log.hole_count(), "hole");
+  if (log.absolute_count() > 0)
+    text += ", " + counted(log.absolute_count(), "absolute measurement");
+  if (log.hole_count() > 0) text += ", " + counted(log.hole_count(), "hole");
   if (log.start().is_free) return text + ", free start";
   return log.start().is_fixed() ? text : text + ", uncertain start";
 }

@@ -2,8 +2,8 @@
 
 #include <cstdio>
 
-#include "apps/memory_meter.hpp"
-#include "apps/pin_threads.hpp"
+#include "fathom/core/pin_threads.hpp"
+#include "fathom/memory_meter/memory_meter.hpp"
 
 namespace fathom {
 

@@ -15,8 +15,8 @@
 
 #include <opencv2/core/utility.hpp>
 
-#include "apps/pin_threads.hpp"
 #include "fathom/core/input_error.hpp"
+#include "fathom/core/pin_threads.hpp"
 #include "fathom/datasets/image_folder.hpp"
 #include "fathom/front_end/options.hpp"
 #include "fathom/vision/registration.hpp"

@@ -3,7 +3,7 @@
 
 #include <benchmark/benchmark.h>
 
-#include "apps/pin_threads.hpp"
+#include "fathom/core/pin_threads.hpp"
 
 int main(int argc, char** argv) {
   fathom::pin_threads();

@@ -17,7 +17,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "apps/pin_threads.hpp"
+#include "fathom/core/pin_threads.hpp"
 #include "fathom/estimators/builtin.hpp"
 #include "fathom/harness/false_loops.hpp"
 #include "fathom/harness/replay.hpp"

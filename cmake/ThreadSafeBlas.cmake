@@ -1,7 +1,7 @@
 # Every program of this build runs on OpenBLAS with POSIX threads where Debian has put it
 # (libopenblas0-pthread), whatever the system's choice of alternatives: the build for one thread has
 # no locks, and a product that two threads ask of it at the same time can be wrong. Its pool is not
-# started: apps/pin_threads.cpp.
+# started: src/core/pin_threads.cpp.
 #
 # The programs name libblas and liblapack, too, so that those which Ceres and CHOLMOD ask for are
 # already loaded, and find all three by DT_RPATH, which goes before LD_LIBRARY_PATH and the

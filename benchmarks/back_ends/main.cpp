@@ -23,8 +23,8 @@
 
 #include <CLI/CLI.hpp>
 
-#include "apps/pin_threads.hpp"
 #include "fathom/core/input_error.hpp"
+#include "fathom/core/pin_threads.hpp"
 #include "fathom/core/program.hpp"
 #include "fathom/estimation/plugin.hpp"
 #include "fathom/estimators/builtin.hpp"

@@ -3,9 +3,9 @@
 #include <memory>
 #include <vector>
 
-#include "apps/memory_meter.hpp"
 #include "fathom/core/workers.hpp"
 #include "fathom/harness/replay.hpp"
+#include "fathom/memory_meter/memory_meter.hpp"
 
 namespace fathom::benchmarks {
 namespace {

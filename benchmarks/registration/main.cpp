@@ -13,8 +13,8 @@
 #include <CLI/CLI.hpp>
 #include <opencv2/core.hpp>
 
-#include "apps/pin_threads.hpp"
 #include "fathom/core/input_error.hpp"
+#include "fathom/core/pin_threads.hpp"
 #include "output.hpp"
 
 namespace fathom::benchmarks {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "fathom/core/text.hpp"
 #include "fathom/datasets/data_set.hpp"
 
 namespace fathom {
@@ -29,10 +30,6 @@ bool is_graph(const std::string& data_set) {
   return std::ranges::any_of(data_sets(), [&](const DataSetEntry& entry) {
     return entry.name == data_set && entry.is_graph;
   });
-}
-
-std::string counted(std::size_t count, const std::string& noun) {
-  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "fathom/front_end/keyframes.hpp"
 
 #include "fathom/core/input_error.hpp"
+#include "fathom/core/text.hpp"
 #include "fathom/geometry/pose.hpp"
 #include "fathom/vision/camera.hpp"
 
@@ -48,7 +49,7 @@ std::optional<std::size_t> KeyframeSchedule::frame(std::size_t k) {
 }
 
 InputError single_keyframe(const KeyframeOptions& keyframes, std::size_t frames) {
-  const std::string count = std::to_string(frames) + (frames == 1 ? " frame" : " frames");
+  const std::string count = counted(frames, "frame");
   if (frames < 2) return InputError("dataset: has " + count + "; a survey has two or more");
   if (!keyframes.separation_frames) {
     return InputError("front_end.keyframes.min_overlap: by dead reckoning all of " + count +

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "fathom/core/text.hpp"
 #include "fathom/report/table.hpp"
 #include "verdict.hpp"
 

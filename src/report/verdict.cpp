@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fathom/core/text.hpp"
 #include "fathom/report/table.hpp"
 #include "regime_map.hpp"
 #include "scaled_unit.hpp"
@@ -174,10 +175,6 @@ std::string listed(const std::vector<std::string>& names) {
     text += names[i];
   }
   return text;
-}
-
-std::string counted(std::size_t count, const std::string& noun) {
-  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
 }
 
 std::string distance_text(const RankedEstimator& one, const ScaledUnit& scale) {

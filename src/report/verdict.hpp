@@ -58,9 +58,6 @@ std::vector<Doubt> doubts_of(const CellResults& cell, const CellVerdict& verdict
 /// "a, b and c"
 std::string listed(const std::vector<std::string>& names);
 
-/// "3 runs", "1 run"
-std::string counted(std::size_t count, const std::string& noun);
-
 /// "3.5 mm [0.2, 10.4]": how far an estimator is from the best, without a sign.
 std::string distance_text(const RankedEstimator& one, const ScaledUnit& scale);
 

@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 
+#include "fathom/core/text.hpp"
 #include "fathom/report/table.hpp"
 #include "scaled_unit.hpp"
 #include "study_figures.hpp"

@@ -135,6 +135,7 @@ TEST(IncludeRules, RefuseWhatTheTableDoesNotAllow) {
       {"src/report/a.cpp", "\"fathom/workflow/run.hpp\"", "report may not include workflow"},
       {"python/src/a.cpp", "\"benchmarks/output.hpp\"", "python may not include benchmarks"},
       {"python/src/a.cpp", "<opencv2/core.hpp>", "not for this folder"},
+      {"benchmarks/a.cpp", "\"apps/command.hpp\"", "benchmarks may not include apps"},
       {"benchmarks/a.cpp", "\"python/src/arrays.hpp\"", "benchmarks may not include python"},
       {"benchmarks/a.cpp", "\"support/data.hpp\"", "neither ours nor private"},
       {"benchmarks/a.cpp", "<pybind11/stl.h>", "not for this folder"},

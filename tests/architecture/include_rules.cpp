@@ -31,11 +31,12 @@ const std::map<std::string, Words>& module_rows() {
       {"configuration", {"front_end", "estimation", "evaluation"}},
       {"results", {"configuration", "evaluation"}},
       {"harness", {"front_end", "estimation", "results"}},
+      {"memory_meter", {"harness"}},
       {"report", {"harness"}},
       {"workflow", {"harness", "report"}},
-      {"apps", {"workflow", "estimators"}},
+      {"apps", {"workflow", "estimators", "memory_meter"}},
       {"python", {"workflow", "estimators"}},
-      {"benchmarks", {"apps"}}};
+      {"benchmarks", {"workflow", "estimators", "memory_meter"}}};
   return rows;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -18,6 +19,9 @@ std::string_view trim(std::string_view text);
 
 /// The words with the separator between them.
 std::string joined(const std::vector<std::string>& words, const std::string& separator);
+
+/// "1 run", "3 runs".
+std::string counted(std::size_t count, const std::string& noun);
 
 /// A word as a shell takes it back: in single quotes where it has more than letters, digits and
 /// what names, numbers and settings are written with.

@@ -16,10 +16,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::string count(std::size_t number, const std::string& what) {
-  return std::to_string(number) + " " + what + (number == 1 ? "" : "s");
-}
-
 class SurveyWriter {
  public:
   SurveyWriter(const BagSurvey& survey, const std::vector<BagTopic>& topics,
@@ -38,7 +34,7 @@ class SurveyWriter {
     if (choice_.heading) write_headings();
     if (choice_.attitude) write_attitudes();
     if (survey_.repeated > 0) {
-      note(count(survey_.repeated, "message") + " left out: at the time of the one before");
+      note(counted(survey_.repeated, "message") + " left out: at the time of the one before");
     }
     return report_;
   }
@@ -85,7 +81,7 @@ class SurveyWriter {
     model.mount_y_m = options_.mount_y_m.value_or(model.mount_y_m);
     model.mount_yaw_rad = options_.mount_yaw_rad.value_or(model.mount_yaw_rad);
     write_camera(mav0_, rows, Camera(model).model());
-    fact(count(survey_.pictures.size(), "picture") + " of " +
+    fact(counted(survey_.pictures.size(), "picture") + " of " +
          size_text(survey_.width, survey_.height) + " from " + topic(choice_.images).name);
     if (options_.camera_yaml.empty() && !options_.mount_yaw_rad) {
       note(
@@ -106,12 +102,12 @@ class SurveyWriter {
         rows += sensor_row(time_ns, {altitude_m});
       }
       const BagTopic& from = topic(choice_.altitude);
-      fact(count(survey_.altitudes.size(), "altitude") + " from " + from.name +
+      fact(counted(survey_.altitudes.size(), "altitude") + " from " + from.name +
            (from.type == "geometry_msgs/PointStamped" ? ", its " + options_.altitude_axis : ""));
     }
     write_altimeter(mav0_, rows);
     if (survey_.bad_altitudes > 0) {
-      note(count(survey_.bad_altitudes, "altitude") +
+      note(counted(survey_.bad_altitudes, "altitude") +
            " left out: not above zero, or outside of what the sensor measures");
     }
   }
@@ -125,7 +121,8 @@ class SurveyWriter {
                                        C(2, 2), C(0, 1), C(0, 2), C(1, 2)});
     }
     write_odometry(mav0_, rows);
-    fact(count(odometry.rows.size(), "pose") + " of odometry from " + topic(choice_.odometry).name);
+    fact(counted(odometry.rows.size(), "pose") + " of odometry from " +
+         topic(choice_.odometry).name);
     note("covariance of a step of odometry: " + odometry.covariance_from);
   }
 
@@ -138,7 +135,7 @@ class SurveyWriter {
     }
     if (rows.empty()) return;
     write_reference(mav0_ / "state_groundtruth_estimate0", rows);
-    fact(count(survey_.reference.size(), "pose") + " of reference (ground truth) from " +
+    fact(counted(survey_.reference.size(), "pose") + " of reference (ground truth) from " +
          topic(choice_.reference).name);
     const std::int64_t first_ns = survey_.reference.front().time_ns;
     const std::int64_t last_ns = survey_.reference.back().time_ns;
@@ -163,12 +160,12 @@ class SurveyWriter {
     const std::string& name = topic(choice_.heading).name;
     if (rows.empty()) return note("no heading: " + name + " says that it has no orientation");
     write_compass(mav0_, rows);
-    fact(count(survey_.headings.size(), "heading") + " from " + name + ", in compass0");
+    fact(counted(survey_.headings.size(), "heading") + " from " + name + ", in compass0");
     note(
         "a run takes them for headings in the world: right of a compass or an AHRS; of a yaw "
         "that drifts dataset.compass.use: false leaves them out");
     if (unknown > 0) {
-      note(count(unknown, "heading") + " without variance in the bag: taken for good to " +
+      note(counted(unknown, "heading") + " without variance in the bag: taken for good to " +
            short_number(sigma_rad) + " rad");
     }
   }
@@ -182,14 +179,14 @@ class SurveyWriter {
     if (!attitude.why_not.empty()) return note("no attitude of " + name + ": " + attitude.why_not);
     const std::size_t without = uncovered(survey_.pictures, attitude_times(survey_));
     if (without > 0) {
-      return note("no attitude of " + name + ": " + count(without, "picture") +
+      return note("no attitude of " + name + ": " + counted(without, "picture") +
                   " lie outside of its readings; --attitude " + name + " leaves them out");
     }
     write_attitude(mav0_, attitude.rows);
-    fact(count(survey_.attitudes.size(), "attitude") + " from " + name + ": " + attitude.fact);
+    fact(counted(survey_.attitudes.size(), "attitude") + " from " + name + ": " + attitude.fact);
     note("roll and pitch are taken to be those of the body; --attitude none takes it for level");
     if (attitude.unknown > 0) {
-      note(count(attitude.unknown, "attitude") +
+      note(counted(attitude.unknown, "attitude") +
            " without variance in the bag: taken for good to " + short_number(sigma_rad) + " rad");
     }
   }

@@ -1,4 +1,4 @@
-#include "apps/memory_meter.hpp"
+#include "fathom/memory_meter/memory_meter.hpp"
 
 #include <algorithm>
 #include <cerrno>

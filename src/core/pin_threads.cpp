@@ -1,4 +1,4 @@
-#include "apps/pin_threads.hpp"
+#include "fathom/core/pin_threads.hpp"
 
 #include <cblas.h>
 #include <omp.h>

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fathom/datasets/folder_summary.hpp"
+#include "fathom/estimation/registry.hpp"
+#include "fathom/measurements/graph_check.hpp"
+
+namespace fathom::workflow {
+
+/// What is in a pose graph, and what looks wrong with it.
+struct GraphCheck {
+  GraphSummary graph;  ///< where it has faults, the rest is not known
+  std::optional<double> guess_chi2;  ///< F at the poses that the file gives
+  double start_chi2 = 0.0;           ///< F at what a batch solve starts from
+  bool starts_from_odometry = true;
+  std::optional<double> batch_chi2;  ///< F where a batch solve ends, if that tells of the scale
+  std::optional<InformationScale> scale;
+  std::vector<std::string> warnings;
+};
+
+/// What `run` and `solve` refuse is a fault, or thrown as InputError.
+GraphCheck check_graph(const std::filesystem::path& path, const EstimatorRegistry& registry);
+
+/// What is in an image folder, and what a run will find.
+struct SurveyCheck {
+  FolderSummary folder;               ///< where it has faults, the rest is not known
+  std::vector<std::string> expected;  ///< what the front end will find, in words
+};
+
+/// Throws InputError of a folder of plain pictures, which do not say all.
+SurveyCheck check_survey(const std::filesystem::path& path);
+
+}  // namespace fathom::workflow

@@ -1,0 +1,122 @@
+#include "fathom/workflow/check.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <memory>
+
+#include "fathom/core/input_error.hpp"
+#include "fathom/core/text.hpp"
+#include "fathom/datasets/image_folder.hpp"
+#include "fathom/datasets/picture_folder.hpp"
+#include "fathom/datasets/sensor_summary.hpp"
+#include "fathom/harness/outlook.hpp"
+#include "fathom/harness/recording.hpp"
+#include "fathom/harness/replay.hpp"
+#include "fathom/measurements/connected_guess.hpp"
+#include "fathom/report/table.hpp"
+
+namespace fathom::workflow {
+namespace {
+
+// A batch solve tells how large the residuals of this graph are; it is quick.
+void check_information(const MeasurementLog& log, const EstimatorRegistry& registry,
+                       GraphCheck& checked) {
+  ReplayOptions options;
+  options.mode = SolveMode::batch;
+  options.covariances = false;
+  const Replay solved = replay(log, registry.find("ceres_pose_graph"), {}, options);
+  if (!is_done(solved.outcome)) return;
+  checked.scale = information_scale(log, solved.trajectory);
+  if (!checked.scale) return;
+  checked.batch_chi2 = chi2(log, solved.trajectory);
+  const double per_degree = checked.scale->per_degree_of_freedom;
+  const std::string is = format_number(per_degree, 3);
+  if (checked.scale->looks_like_square_roots) {
+    checked.warnings.push_back(
+        "the information values look like square roots of the right ones: F per degree of freedom "
+        "is " +
+        is + ", with their squares it would be " + format_number(checked.scale->squared, 3) +
+        ", and 1 is expected");
+  } else if (per_degree < 0.1) {
+    checked.warnings.push_back("the information values look too small: F per degree of freedom is " +
+                               is + ", and 1 is expected; covariances will be too large");
+  } else if (per_degree > 10.0) {
+    checked.warnings.push_back("F per degree of freedom is " + is +
+                               ", and 1 is expected: wrong loops, information values that are too "
+                               "large, or a start that ends in a wrong minimum");
+  }
+}
+
+struct OpenedFolder {
+  std::unique_ptr<ImageFolder> with_holes;  ///< where odometry stops for five of its intervals
+  std::unique_ptr<ImageFolder> plain;       ///< as a run has it by default; null: refused
+  const ImageFolder* folder = nullptr;      ///< that of the two to look at
+  std::string refusal;
+};
+
+// A folder that a run refuses for want of odometry is described all the same.
+OpenedFolder open_folder(const std::filesystem::path& path) {
+  OpenedFolder opened;
+  OdometryGaps gaps;
+  gaps.least_intervals = 5.0;
+  opened.with_holes = std::make_unique<ImageFolder>(path, gaps);
+  try {
+    opened.plain = std::make_unique<ImageFolder>(path);
+  } catch (const InputError& error) {
+    opened.refusal = error.what();
+  }
+  opened.folder = opened.plain ? opened.plain.get() : opened.with_holes.get();
+  return opened;
+}
+
+}  // namespace
+
+// All read the graph by record_graph.
+GraphCheck check_graph(const std::filesystem::path& path, const EstimatorRegistry& registry) {
+  GraphCheck checked;
+  checked.graph = summarise_graph(path);
+  const GraphSummary& graph = checked.graph;
+  if (!graph.faults.empty()) return checked;
+  const MeasurementLog log = record_graph(path).log;
+  if (log.guess) checked.guess_chi2 = chi2(log, *log.guess);
+  checked.starts_from_odometry = log.hole_count() == 0 && !log.start().is_free;
+  checked.start_chi2 =
+      chi2(log, checked.starts_from_odometry ? log.odometry() : connected_guess(log));
+  check_information(log, registry, checked);
+  if (graph.badly_conditioned > 0) {
+    checked.warnings.push_back(counted(graph.badly_conditioned, "edge") +
+                               " with badly conditioned information (above 1e8)");
+  }
+  if (graph.loops == 0 && graph.priors.count() == 0) {
+    checked.warnings.emplace_back("no loops: nothing can correct the dead reckoning");
+  }
+  if (graph.priors.of_nothing > 0) {
+    checked.warnings.push_back(counted(graph.priors.of_nothing, "prior") +
+                               " without any information");
+  }
+  return checked;
+}
+
+SurveyCheck check_survey(const std::filesystem::path& path) {
+  if (is_plain_picture_folder(path)) {
+    throw InputError(path.string(),
+                     "is a folder of plain pictures, which do not say all; 'fathom init " +
+                         path.string() +
+                         "' says what to expect of them, and asks for what it needs to know");
+  }
+  const OpenedFolder opened = open_folder(path);
+  const ImageFolder& folder = *opened.folder;
+  SurveyCheck checked;
+  checked.folder = summarise_frames(folder);
+  sum_up_sensors(folder.sensors(), checked.folder);
+  sum_up_holes(*opened.with_holes, checked.folder);
+  if (!opened.refusal.empty()) checked.folder.faults.push_back(opened.refusal);
+  if (!checked.folder.faults.empty()) return checked;
+  const FrontEndOptions front_end;
+  const Outlook expected = outlook(folder, front_end);
+  checked.expected = facts_of(expected);
+  std::ranges::copy(warnings_of(expected, front_end), std::back_inserter(checked.folder.warnings));
+  return checked;
+}
+
+}  // namespace fathom::workflow

@@ -1,0 +1,65 @@
+#include "fathom/workflow/select.hpp"
+
+#include <algorithm>
+
+#include "fathom/core/files.hpp"
+#include "fathom/core/input_error.hpp"
+#include "fathom/report/selection_text.hpp"
+#include "fathom/results/selected_config.hpp"
+
+namespace fathom::workflow {
+namespace {
+
+constexpr const char* kConfigName = "selected.yaml";
+
+std::filesystem::path folder_of(const SelectRequest& request) {
+  if (!request.out.empty()) return request.out;
+  const std::filesystem::path& results = request.results;
+  if (std::filesystem::is_directory(results)) return results;
+  return results.has_parent_path() ? results.parent_path() : ".";
+}
+
+// Returns the file as the user would name it.
+std::filesystem::path write_config(const SelectRequest& request, const std::string& text) {
+  try {
+    StagedFolder folder(folder_of(request), {request.results});
+    write_file(folder.path() / kConfigName, text);
+    folder.commit();
+    return folder_of(request) / kConfigName;
+  } catch (const InputError& error) {
+    if (!request.out.empty()) throw;
+    throw InputError(std::string(error.what()) + "; --out DIR says where " + kConfigName +
+                     " may be written");
+  }
+}
+
+// The registry has to know what was chosen.
+void load_plugins_for(const StudyEstimator& chosen, const StudyDescription& study,
+                      KnownEstimators& estimators) {
+  const auto& known = estimators.registry().entries();
+  if (std::ranges::find(known, chosen.type, &EstimatorEntry::name) != known.end()) return;
+  Settings settings;
+  for (const auto& [key, value] : study.configuration) {
+    if (key == "plugins") settings.put(parse_override(key + "=" + value));
+  }
+  estimators.load(settings, {});
+}
+
+}  // namespace
+
+SelectOutcome select(const SelectRequest& request, KnownEstimators& estimators) {
+  const ResultStore store = ResultStore::open(request.results);
+  SelectOutcome outcome;
+  outcome.selection = select_estimator(store, request.query);
+  if (outcome.selection.chosen) {
+    load_plugins_for(store.study().estimators[*outcome.selection.chosen], store.study(),
+                     estimators);
+    outcome.config =
+        write_config(request, selected_configuration(store.study(), outcome.selection,
+                                                     request.query, estimators.registry()));
+  }
+  outcome.text = selection_text(outcome.selection, request.query, store.study());
+  return outcome;
+}
+
+}  // namespace fathom::workflow
