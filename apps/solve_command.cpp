@@ -46,13 +46,13 @@ void print(const SolveFlags& flags, const Recording& recording, const Result& re
               log.registration_count(), also_text(log).c_str());
   std::printf("%s, %s: %s after %d iterations\n", result.estimator.type.c_str(),
               result.mode == SolveMode::batch ? "batch" : "incremental",
-              name_of(result.replay.outcome).c_str(), result.replay.iterations);
+              name_of(result.run.outcome).c_str(), result.run.iterations);
   std::printf("chi2 %s, from %s at the start\n", chi2_text(result, "chi2").c_str(),
               chi2_text(result, "chi2_initial").c_str());
-  if (result.replay.gradient_norm) {
-    std::printf("gradient %.2g", *result.replay.gradient_norm);
-    if (result.replay.is_local_minimum) {
-      std::printf(", %s", *result.replay.is_local_minimum ? "a local minimum" : "no local minimum");
+  if (result.run.gradient_norm) {
+    std::printf("gradient %.2g", *result.run.gradient_norm);
+    if (result.run.is_local_minimum) {
+      std::printf(", %s", *result.run.is_local_minimum ? "a local minimum" : "no local minimum");
     }
     std::printf("\n");
   }

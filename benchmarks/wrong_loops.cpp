@@ -54,7 +54,7 @@ struct Flags {
   std::vector<std::string> graphs;
 };
 
-Replay solve(const MeasurementLog& log, const BackEnd& back_end) {
+Run solve(const MeasurementLog& log, const BackEnd& back_end) {
   EstimatorValues values;
   for (const auto& [key, value] : back_end.options) values[key] = OptionValue::scalar(value);
   ReplayOptions options;
@@ -107,9 +107,9 @@ void print_row(const Case& one, const BackEnd& back_end, int seeds) {
     options.share = one.share;
     options.kind = kind_of(one.kind);
     const Spoiled spoiled = spoil(one.log, one.optimum, options, static_cast<std::uint64_t>(seed));
-    const Replay solved = solve(spoiled.log, back_end);
+    const Run solved = solve(spoiled.log, back_end);
     errors.push_back(mean_distance_m(solved.trajectory, one.optimum));
-    cpu_ms += solved.cpu_ms / seeds;
+    cpu_ms += solved.costs.cpu_ms / seeds;
     const std::size_t kept_so_far = kept;
     for (std::size_t j = 0; j < spoiled.is_false.size(); ++j) {
       const bool is_kept = solved.loop_weights[j] > 0.5;

@@ -17,8 +17,8 @@ double thread_cpu_ms() {
 // Ends a replay between two keyframes; a batch solve is not interrupted.
 struct OverBudget {};
 
-Replay replay_once(const MeasurementLog& log, const Contender& contender, SolveMode mode,
-                   const Effort& effort, double until_ms) {
+Run replay_once(const MeasurementLog& log, const Contender& contender, SolveMode mode,
+                const Effort& effort, double until_ms) {
   const auto meter = make_memory_meter();
   ReplayOptions options;
   options.mode = mode;
@@ -38,24 +38,24 @@ Cost measure(const MeasurementLog& log, const Contender& contender, SolveMode mo
   cost.estimator = contender.label;
   cost.mode = mode;
   const double until_ms = thread_cpu_ms() + 1e3 * effort.budget_s;
-  std::optional<Replay> fastest;
+  std::optional<Run> fastest;
   try {
     for (int i = 0; i < effort.repeats && thread_cpu_ms() < until_ms; ++i) {
-      Replay run = replay_once(log, contender, mode, effort, until_ms);
-      if (!fastest || run.cpu_ms < fastest->cpu_ms) fastest = std::move(run);
+      Run run = replay_once(log, contender, mode, effort, until_ms);
+      if (!fastest || run.costs.cpu_ms < fastest->costs.cpu_ms) fastest = std::move(run);
     }
   } catch (const OverBudget&) {
   }
-  cost.gave_up = !fastest || fastest->cpu_ms > 1e3 * effort.budget_s;
-  cost.total_ms = fastest ? fastest->cpu_ms : 1e3 * effort.budget_s;
+  cost.gave_up = !fastest || fastest->costs.cpu_ms > 1e3 * effort.budget_s;
+  cost.total_ms = fastest ? fastest->costs.cpu_ms : 1e3 * effort.budget_s;
   if (cost.gave_up) return cost;
   cost.outcome = fastest->outcome;
   cost.linearisations = fastest->iterations;
   cost.chi2 = chi2(log, fastest->trajectory);
-  if (mode == SolveMode::incremental) cost.update_ms = summarise(fastest->update_ms);
-  if (fastest->covariances) cost.covariance_ms = fastest->covariance_ms;
-  if (fastest->memory_bytes) {
-    cost.memory_mib = static_cast<double>(*fastest->memory_bytes) / (1 << 20);
+  if (mode == SolveMode::incremental) cost.update_ms = summarise(fastest->costs.update_ms);
+  cost.covariance_ms = fastest->costs.covariance_ms;
+  if (fastest->costs.memory_bytes) {
+    cost.memory_mib = static_cast<double>(*fastest->costs.memory_bytes) / (1 << 20);
   }
   return cost;
 }

@@ -75,8 +75,8 @@ Solution solve(const MeasurementLog& log, const EstimatorRegistry& registry,
 }
 
 std::optional<py::array_t<double>> covariances(const Solution& solution) {
-  if (!solution.result.replay.covariances) return std::nullopt;
-  return array_of(*solution.result.replay.covariances);
+  if (!solution.result.run.covariances) return std::nullopt;
+  return array_of(*solution.result.run.covariances);
 }
 
 std::optional<py::array_t<double>> truth(const Solution& solution) {
@@ -86,7 +86,7 @@ std::optional<py::array_t<double>> truth(const Solution& solution) {
 
 py::list decisions(const Solution& solution) {
   py::list rows;
-  for (const LoopDecision& loop : solution.result.replay.loops) {
+  for (const LoopDecision& loop : solution.result.run.loops) {
     rows.append(py::dict(py::arg("from_") = loop.from, py::arg("to") = loop.to,
                          py::arg("fate") = name_of(loop.fate), py::arg("nis") = loop.nis));
   }
@@ -94,8 +94,13 @@ py::list decisions(const Solution& solution) {
 }
 
 template <class Field>
-auto of_replay(Field field) {
-  return [field](const Solution& solution) { return solution.result.replay.*field; };
+auto of_run(Field Run::*field) {
+  return [field](const Solution& solution) { return solution.result.run.*field; };
+}
+
+template <class Field>
+auto cost(Field Costs::*field) {
+  return [field](const Solution& solution) { return solution.result.run.costs.*field; };
 }
 
 void bind_solution(py::module_& module) {
@@ -111,7 +116,7 @@ void bind_solution(py::module_& module) {
           "metrics", [](const Solution& s) { return s.result.metrics; },
           "Every metric that is known, by name (docs/studies.md).")
       .def_property_readonly(
-          "trajectory", [](const Solution& s) { return array_of(s.result.replay.trajectory); },
+          "trajectory", [](const Solution& s) { return array_of(s.result.run.trajectory); },
           "N x 3: x (m), y (m), theta (rad), world axes.")
       .def_property_readonly("covariances", &covariances, "N x 3 x 3 of the poses, or None.")
       .def_property_readonly("ground_truth", &truth, "N x 3 of the keyframes, or None.")
@@ -124,23 +129,23 @@ void bind_solution(py::module_& module) {
       .def_property_readonly("loops", &decisions,
                              "The decision on every registration: from_, to, fate, nis.")
       .def_property_readonly(
-          "outcome", [](const Solution& s) { return name_of(s.result.replay.outcome); },
+          "outcome", [](const Solution& s) { return name_of(s.result.run.outcome); },
           "How it ended: 'converged', ...")
       .def_property_readonly(
           "is_done", [](const Solution& s) { return s.result.is_done(); },
           "Whether the estimate can be used.")
-      .def_property_readonly("fault", of_replay(&Replay::fault),
+      .def_property_readonly("fault", of_run(&Run::fault),
                              "How the estimator broke its contract or its process ended, or ''.")
       .def_readonly("remarks", &Solution::remarks, "What looks wrong with it, sentences.")
-      .def_property_readonly("iterations", of_replay(&Replay::iterations))
-      .def_property_readonly("total_ms", of_replay(&Replay::total_ms),
+      .def_property_readonly("iterations", of_run(&Run::iterations))
+      .def_property_readonly("total_ms", cost(&Costs::total_ms),
                              "Wall time of the estimator's calls, covariances apart, ms.")
-      .def_property_readonly("cpu_ms", of_replay(&Replay::cpu_ms), "Processor time of these, ms.")
+      .def_property_readonly("cpu_ms", cost(&Costs::cpu_ms), "Processor time of these, ms.")
       .def_property_readonly(
-          "update_ms", [](const Solution& s) { return array_of(s.result.replay.update_ms); },
+          "update_ms", [](const Solution& s) { return array_of(s.result.run.costs.update_ms); },
           "Of every update, or of the batch solve, ms.")
       .def_property_readonly(
-          "add_ms", [](const Solution& s) { return array_of(s.result.replay.add_ms); },
+          "add_ms", [](const Solution& s) { return array_of(s.result.run.costs.add_ms); },
           "Of every add_keyframe, ms.");
 }
 

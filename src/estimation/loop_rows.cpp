@@ -17,10 +17,6 @@ LoopRows loop_rows(const RelativePose& forward) {
   return {measured.rows * D.transpose(), measured.variances.asDiagonal(), measured.rank};
 }
 
-int rank_of(const Eigen::Matrix3d& information) {
-  return is_positive_definite(information) ? 3 : rows_of(information).rank;
-}
-
 Eigen::Matrix3d whitening(const Eigen::Matrix3d& information) {
   if (is_positive_definite(information)) return information.llt().matrixU();
   const InformationRows measured = rows_of(information);

@@ -14,11 +14,12 @@ double TrueOverlaps::of(std::size_t i, std::size_t k) const {
   return found != pairs.end() && key(*found) == std::pair(i, k) ? found->overlap : 0.0;
 }
 
-std::optional<double> loop_precision(std::span<const JudgedLoop> loops, const TrueOverlaps& truth) {
+std::optional<double> loop_precision(std::span<const LoopDecision> loops,
+                                     const TrueOverlaps& truth) {
   std::size_t used = 0;
   std::size_t right = 0;
-  for (const JudgedLoop& loop : loops) {
-    if (loop.use != LoopUse::used) continue;
+  for (const LoopDecision& loop : loops) {
+    if (loop.fate != LoopFate::used) continue;
     ++used;
     if (truth.of(std::min(loop.from, loop.to), std::max(loop.from, loop.to)) > 0.0) ++right;
   }
@@ -26,11 +27,11 @@ std::optional<double> loop_precision(std::span<const JudgedLoop> loops, const Tr
   return static_cast<double>(right) / static_cast<double>(used);
 }
 
-std::optional<double> loop_recall(std::span<const JudgedLoop> loops, const TrueOverlaps& truth,
+std::optional<double> loop_recall(std::span<const LoopDecision> loops, const TrueOverlaps& truth,
                                   double min_overlap) {
   std::set<std::pair<std::size_t, std::size_t>> used;
-  for (const JudgedLoop& loop : loops) {
-    if (loop.use != LoopUse::used) continue;
+  for (const LoopDecision& loop : loops) {
+    if (loop.fate != LoopFate::used) continue;
     used.emplace(std::min(loop.from, loop.to), std::max(loop.from, loop.to));
   }
   std::size_t pairs = 0;

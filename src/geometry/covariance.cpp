@@ -133,6 +133,10 @@ InformationRows rows_of(const Eigen::Matrix3d& information) {
   return result;
 }
 
+int rank_of(const Eigen::Matrix3d& information) {
+  return is_positive_definite(information) ? 3 : rows_of(information).rank;
+}
+
 Eigen::Matrix3d symmetric_inverse(const Eigen::Matrix3d& matrix) {
   const Eigen::Vector3d scale = unit_diagonal_scale(matrix);
   const Eigen::Matrix3d scaled = scale.asDiagonal() * matrix * scale.asDiagonal();

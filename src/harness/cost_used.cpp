@@ -4,8 +4,7 @@
 
 namespace fathom {
 
-double absolute_cost_used(const MeasurementLog& log, const Estimate& estimate,
-                          const Replay& result) {
+double absolute_cost_used(const MeasurementLog& log, const Estimate& estimate, const Run& result) {
   double sum = 0.0;
   if (!log.start().is_fixed()) sum += chi2(log.start().measurement(), result.trajectory[0]);
   std::size_t next = 0;
@@ -19,8 +18,8 @@ double absolute_cost_used(const MeasurementLog& log, const Estimate& estimate,
 }
 
 // Decisions stand in the order of the log.
-double cost_used(const MeasurementLog& log, const Estimate& estimate, const Replay& result) {
-  double sum = result.absolute_cost_used;
+double cost_used(const MeasurementLog& log, const Estimate& estimate, const Run& result) {
+  double sum = result.absolute_chi2_used;
   std::size_t loop = 0;
   for (std::size_t k = 1; k < log.size(); ++k) {
     const KeyframeMeasurements& arrival = log.arrival(k);

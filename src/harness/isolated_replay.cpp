@@ -8,7 +8,7 @@
 
 #include "child_failure.hpp"
 #include "fathom/core/input_error.hpp"
-#include "replay_bytes.hpp"
+#include "run_bytes.hpp"
 
 namespace fathom {
 namespace {
@@ -48,37 +48,36 @@ void replay_in_child(const MessagePipe& parent, const MeasurementLog& log,
 }
 
 // What a child with a damaged heap sends may be anything.
-Replay whole_replay(const std::string& bytes, const MeasurementLog& log,
-                    const ReplayOptions& options) {
-  Replay replay;
+Run whole_run(const std::string& bytes, const MeasurementLog& log, const ReplayOptions& options) {
+  Run run;
   try {
-    replay = replay_of(bytes, options);
+    run = run_of(bytes, options);
   } catch (const std::exception& error) {
     throw DamagedMessage(error.what());
   }
   const std::size_t loops = log.registration_count();
   const std::size_t absolute = log.absolute_count();
   const bool fits =
-      replay.trajectory.size() == log.size() && replay.loops.size() == loops &&
-      replay.loop_weights.size() == loops && replay.absolute.size() == absolute &&
-      replay.absolute_weights.size() == absolute &&
-      (!replay.covariances || replay.covariances->size() == log.size()) &&
-      replay.outcome >= Outcome::converged &&
-      replay.outcome <= (replay.fault.empty() ? Outcome::numerical_failure : Outcome::crashed);
+      run.trajectory.size() == log.size() && run.loops.size() == loops &&
+      run.loop_weights.size() == loops && run.absolute.size() == absolute &&
+      run.absolute_weights.size() == absolute &&
+      (!run.covariances || run.covariances->size() == log.size()) &&
+      run.outcome >= Outcome::converged &&
+      run.outcome <= (run.fault.empty() ? Outcome::numerical_failure : Outcome::crashed);
   if (!fits) throw DamagedMessage("it is not of this log");
-  return replay;
+  return run;
 }
 
 }  // namespace
 
-Replay isolated_replay(const MeasurementLog& log, const EstimatorEntry& entry,
-                       const EstimatorValues& values, const ReplayOptions& options,
-                       const ProcessLimits& limits) {
-  std::optional<Replay> result;
+Run isolated_replay(const MeasurementLog& log, const EstimatorEntry& entry,
+                    const EstimatorValues& values, const ReplayOptions& options,
+                    const ProcessLimits& limits) {
+  std::optional<Run> result;
   std::string bad_input;
   std::size_t at[2] = {0, log.size()};
   const auto on_message = [&](char kind, const std::string& text) {
-    if (kind == kReplay) result = whole_replay(text, log, options);
+    if (kind == kReplay) result = whole_run(text, log, options);
     if (kind == kBadInput) bad_input = text;
     if (kind == kProgress && text.size() == sizeof at) std::memcpy(at, text.data(), sizeof at);
     // A run that says nothing can be stopped, too.
@@ -90,13 +89,13 @@ Replay isolated_replay(const MeasurementLog& log, const EstimatorEntry& entry,
         [&](const MessagePipe& parent) { replay_in_child(parent, log, entry, values, options); },
         {limits.time_s, limits.memory_bytes}, on_message);
   } catch (const DamagedMessage& damage) {
-    return lost_replay(log, options, Outcome::crashed,
-                       std::string("damaged what it sent back: ") + damage.what());
+    return lost_run(log, options, Outcome::crashed,
+                    std::string("damaged what it sent back: ") + damage.what());
   }
   if (!bad_input.empty()) throw InputError(bad_input);
   if (result && end.signal == 0 && end.exit_status == 0) return std::move(*result);
   const ChildFailure failure = failure_of(end, {limits.time_s, limits.memory_bytes});
-  return lost_replay(log, options, failure.outcome, failure.how);
+  return lost_run(log, options, failure.outcome, failure.how);
 }
 
 std::optional<Outcome> end_of_process(const std::string& name) {

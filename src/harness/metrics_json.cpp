@@ -29,10 +29,10 @@ Json rejected_loops(const Result& result, const std::vector<std::int64_t>& ids) 
     return ids.empty() ? static_cast<std::int64_t>(k) : ids[k];
   };
   Json rejected = Json::array();
-  for (const LoopDecision& loop : result.replay.loops) {
+  for (const LoopDecision& loop : result.run.loops) {
     if (loop.fate != LoopFate::rejected) continue;
     Json entry{{"from", id_of(loop.from)}, {"to", id_of(loop.to)}};
-    if (loop.nis && std::isfinite(*loop.nis)) entry["nis"] = *loop.nis;
+    if (loop.nis) entry["nis"] = *loop.nis;
     rejected.push_back(entry);
   }
   return rejected;
@@ -40,10 +40,10 @@ Json rejected_loops(const Result& result, const std::vector<std::int64_t>& ids) 
 
 Json rejected_absolute(const Result& result, const std::vector<std::int64_t>& ids) {
   Json rejected = Json::array();
-  for (const AbsoluteDecision& z : result.replay.absolute) {
+  for (const AbsoluteDecision& z : result.run.absolute) {
     if (z.fate != LoopFate::rejected) continue;
     Json entry{{"keyframe", ids.empty() ? static_cast<std::int64_t>(z.keyframe) : ids[z.keyframe]}};
-    if (z.nis && std::isfinite(*z.nis)) entry["nis"] = *z.nis;
+    if (z.nis) entry["nis"] = *z.nis;
     rejected.push_back(entry);
   }
   return rejected;
@@ -54,10 +54,10 @@ Json entry_of(const Result& result, const Recording& recording) {
   json["estimator"] = result.estimator.type;
   json["name"] = result.estimator.name;
   json["mode"] = result.mode == SolveMode::batch ? "batch" : "incremental";
-  json["outcome"] = name_of(result.replay.outcome);
-  if (!result.replay.fault.empty()) json["fault"] = result.replay.fault;
-  for (std::size_t i = 0; i < result.replay.outcome_counts.size(); ++i) {
-    json["outcome_counts"][name_of(static_cast<Outcome>(i))] = result.replay.outcome_counts[i];
+  json["outcome"] = name_of(result.run.outcome);
+  if (!result.run.fault.empty()) json["fault"] = result.run.fault;
+  for (std::size_t i = 0; i < result.run.outcome_counts.size(); ++i) {
+    json["outcome_counts"][name_of(static_cast<Outcome>(i))] = result.run.outcome_counts[i];
   }
   if (result.accuracy) json["alignment"] = name_of(result.accuracy->alignment);
   json.update(json_of(result.metrics));
@@ -65,7 +65,7 @@ Json entry_of(const Result& result, const Recording& recording) {
     json["dead_reckoning"] = json_of(dead_reckoning_metrics(recording, result.options));
   }
   json["rejected_loops"] = rejected_loops(result, recording.log.ids);
-  if (!result.replay.absolute.empty()) {
+  if (!result.run.absolute.empty()) {
     json["rejected_absolute"] = rejected_absolute(result, recording.log.ids);
   }
   return json;

@@ -18,7 +18,7 @@ std::optional<BatchOptimum> batch_optimum(const MeasurementLog& log,
     options.mode = SolveMode::batch;
     options.start = start;
     options.covariances = false;
-    Replay solved = replay(log, entry, {}, options);
+    Run solved = replay(log, entry, {}, options);
     if (!is_done(solved.outcome)) continue;
     const double cost = chi2(log, solved.trajectory);
     if (!std::isfinite(cost) || (best && cost >= best->chi2)) continue;

@@ -24,7 +24,7 @@ double milliseconds_since(Clock::time_point start) {
 // only their processor time counts: pipes and files are not theirs.
 class CallTimer {
  public:
-  explicit CallTimer(Replay& result) : result_(result) {}
+  explicit CallTimer(Costs& costs) : costs_(costs) {}
 
   double stop() const {
     double elapsed_ms = milliseconds_since(start_);
@@ -35,27 +35,36 @@ class CallTimer {
       elapsed_ms += by_program_ms - 1e3 * (work.waited_s - work_.waited_s);
       cpu_ms += by_program_ms - 1e3 * (work.own_s - work_.own_s);
       const double start_up_ms = 1e3 * (work.start_up_s - work_.start_up_s);
-      result_.start_up_ms = result_.start_up_ms.value_or(0.0) + start_up_ms;
+      costs_.start_up_ms = costs_.start_up_ms.value_or(0.0) + start_up_ms;
     }
-    result_.total_ms += elapsed_ms;
-    result_.cpu_ms += cpu_ms;
+    costs_.total_ms += elapsed_ms;
+    costs_.cpu_ms += cpu_ms;
     return elapsed_ms;
   }
 
  private:
-  Replay& result_;
+  Costs& costs_;
   ProgramWork work_ = program_work();
   double cpu_start_s_ = thread_processor_seconds();
   Clock::time_point start_ = Clock::now();
 };
 
-void note_decisions(const UpdateReport& report, Replay& result) {
-  result.loops.insert(result.loops.end(), report.loops.begin(), report.loops.end());
-  result.absolute.insert(result.absolute.end(), report.absolute.begin(), report.absolute.end());
+// A NIS that is not finite is none.
+template <class Decision>
+void append(const std::vector<Decision>& more, std::vector<Decision>& all) {
+  for (const Decision& decision : more) {
+    all.push_back(decision);
+    if (decision.nis && !std::isfinite(*decision.nis)) all.back().nis.reset();
+  }
 }
 
-void note(const UpdateReport& report, double elapsed_ms, Replay& result) {
-  result.update_ms.push_back(elapsed_ms);
+void note_decisions(const UpdateReport& report, Run& result) {
+  append(report.loops, result.loops);
+  append(report.absolute, result.absolute);
+}
+
+void note(const UpdateReport& report, double elapsed_ms, Run& result) {
+  result.costs.update_ms.push_back(elapsed_ms);
   result.iterations += report.iterations;
   result.gradient_norm = report.gradient_norm;
   result.is_local_minimum = report.is_local_minimum;
@@ -65,17 +74,18 @@ void note(const UpdateReport& report, double elapsed_ms, Replay& result) {
 }
 
 // What the front end asks for where the estimator's own uncertainty selects the loop candidates.
-void ask_for_candidates(const Estimator& estimator, Replay& result) {
-  const CallTimer timer(result);
+void ask_for_candidates(const Estimator& estimator, Run& result) {
+  const CallTimer timer(result.costs);
   estimator.motions_to_newest();
-  result.candidate_covariance_ms = result.candidate_covariance_ms.value_or(0.0) + timer.stop();
+  result.costs.candidate_covariance_ms =
+      result.costs.candidate_covariance_ms.value_or(0.0) + timer.stop();
 }
 
 // The duty of every back end alike: how well the newest pose is known. Its own block alone, as an
 // estimator may keep what covariance() computes of all.
 class NewestCovariances {
  public:
-  NewestCovariances(const ReplayOptions& options, Replay& result)
+  NewestCovariances(const ReplayOptions& options, Run& result)
       : options_(options),
         result_(result),
         asks_(options.newest_covariances && options.mode == SolveMode::incremental) {}
@@ -85,24 +95,24 @@ class NewestCovariances {
     if (options_.memory != nullptr) options_.memory->pause();
     const auto start = Clock::now();
     const bool is_known = estimator.newest_covariance().has_value();
-    result_.newest_covariance_ms.push_back(milliseconds_since(start));
+    result_.costs.newest_covariance_ms.push_back(milliseconds_since(start));
     if (options_.memory != nullptr) options_.memory->resume();
     if (is_known) return;
     asks_ = false;
-    result_.newest_covariance_ms.clear();
+    result_.costs.newest_covariance_ms.clear();
   }
 
  private:
   const ReplayOptions& options_;
-  Replay& result_;
+  Run& result_;
   bool asks_ = false;
 };
 
 void give_measurements(const KeyframeMeasurements& arrival, Estimator& estimator,
-                       const ReplayOptions& options, Replay& result) {
+                       const ReplayOptions& options, Run& result) {
   const Measurements measurements{arrival.registrations, arrival.absolute};
   if (measurements.is_empty()) return;
-  const CallTimer timer(result);
+  const CallTimer timer(result.costs);
   const UpdateReport report = estimator.update(measurements);
   const double update_ms = timer.stop();
   if (options.mode == SolveMode::incremental) return note(report, update_ms, result);
@@ -127,13 +137,13 @@ std::vector<Pose> guess_over_holes(const MeasurementLog& log, const ReplayOption
 }
 
 void give_keyframes(const MeasurementLog& log, Estimator& estimator, const ReplayOptions& options,
-                    Replay& result) {
+                    Run& result) {
   NewestCovariances newest(options, result);
   give_measurements(log.arrival(0), estimator, options, result);
   for (std::size_t k = 1; k < log.size(); ++k) {
-    const CallTimer add_timer(result);
+    const CallTimer add_timer(result.costs);
     estimator.add_keyframe(log.arrival(k).step);
-    result.add_ms.push_back(add_timer.stop());
+    result.costs.add_ms.push_back(add_timer.stop());
     if (std::ranges::binary_search(options.candidate_covariances, k)) {
       ask_for_candidates(estimator, result);
     }
@@ -142,7 +152,7 @@ void give_keyframes(const MeasurementLog& log, Estimator& estimator, const Repla
     if (options.progress) options.progress(k + 1, log.size());
   }
   if (options.mode == SolveMode::incremental) return;
-  const CallTimer timer(result);
+  const CallTimer timer(result.costs);
   const UpdateReport report = estimator.finish(options.start);
   const double solve_ms = timer.stop();
   note(report, solve_ms, result);
@@ -161,7 +171,7 @@ std::vector<double> weights_of(std::vector<double> weights, const Decisions& dec
   return weights;
 }
 
-void collect_covariances(Estimator& estimator, Replay& result) {
+void collect_covariances(Estimator& estimator, Run& result) {
   const auto start = Clock::now();
   std::vector<Eigen::Matrix3d> covariances;
   for (std::size_t k = 0; k < estimator.size(); ++k) {
@@ -169,7 +179,7 @@ void collect_covariances(Estimator& estimator, Replay& result) {
     if (!covariance) return;
     covariances.push_back(*covariance);
   }
-  result.covariance_ms = milliseconds_since(start);
+  result.costs.covariance_ms = milliseconds_since(start);
   result.covariances = std::move(covariances);
 }
 
@@ -195,7 +205,7 @@ void collect_motions(const Estimator& estimator, JudgedMotions& motions) {
 }
 
 // After a fault no output of the estimator can be trusted.
-void note_fault(const GuardedEstimator& estimator, Replay& result) {
+void note_fault(const GuardedEstimator& estimator, Run& result) {
   result.fault = estimator.fault();
   result.outcome = estimator.fault_outcome();
   lose_used(result.loops);
@@ -203,31 +213,32 @@ void note_fault(const GuardedEstimator& estimator, Replay& result) {
   result.loop_weights.assign(result.loops.size(), 0.0);
   result.absolute_weights.assign(result.absolute.size(), 0.0);
   result.covariances.reset();
-  result.newest_covariance_ms.clear();
+  result.costs.covariance_ms.reset();
+  result.costs.newest_covariance_ms.clear();
   for (JudgedMotions& motions : result.motions) motions.covariances.clear();
 }
 
 }  // namespace
 
-Replay replay(const MeasurementLog& log, const EstimatorEntry& entry, const EstimatorValues& values,
-              const ReplayOptions& asked) {
+Run replay(const MeasurementLog& log, const EstimatorEntry& entry, const EstimatorValues& values,
+           const ReplayOptions& asked) {
   const std::vector<Pose> guess = guess_over_holes(log, asked);
   ReplayOptions options = asked;
   if (!guess.empty()) options.start = guess;
-  Replay result;
+  Run result;
   result.chi2_initial = chi2(log, options.start.empty() ? log.odometry() : options.start);
   // Not to be counted as the estimator's.
   result.loops.reserve(log.registration_count());
   result.absolute.reserve(log.absolute_count());
-  result.update_ms.reserve(log.size());
-  result.add_ms.reserve(log.size());
-  if (options.newest_covariances) result.newest_covariance_ms.reserve(log.size());
+  result.costs.update_ms.reserve(log.size());
+  result.costs.add_ms.reserve(log.size());
+  if (options.newest_covariances) result.costs.newest_covariance_ms.reserve(log.size());
   reset_program_work();
   if (options.memory != nullptr) options.memory->start();
   GuardedEstimator estimator(entry, {log.start(), options.mode}, values);
   give_keyframes(log, estimator, options, result);
-  if (options.memory != nullptr) result.memory_bytes = options.memory->stop();
-  if (result.start_up_ms) result.memory_bytes = program_work().peak_bytes;
+  if (options.memory != nullptr) result.costs.memory_bytes = options.memory->stop();
+  if (result.costs.start_up_ms) result.costs.memory_bytes = program_work().peak_bytes;
   result.trajectory = poses_of(estimator);
   result.loop_weights = weights_of(estimator.loop_weights(), result.loops);
   result.absolute_weights = weights_of(estimator.absolute_weights(), result.absolute);
@@ -237,8 +248,8 @@ Replay replay(const MeasurementLog& log, const EstimatorEntry& entry, const Esti
     motions.covariances.clear();
     collect_motions(estimator, motions);
   }
-  result.absolute_cost_used = absolute_cost_used(log, estimator, result);
-  result.cost_used = cost_used(log, estimator, result);
+  result.absolute_chi2_used = absolute_cost_used(log, estimator, result);
+  result.chi2_used = cost_used(log, estimator, result);
   if (!estimator.fault().empty()) note_fault(estimator, result);
   return result;
 }

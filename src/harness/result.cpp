@@ -1,79 +1,13 @@
 #include "fathom/harness/result.hpp"
 
 #include <algorithm>
-#include <cmath>
 
-#include "fathom/estimation/loop_rows.hpp"
 #include "fathom/geometry/covariance.hpp"
 #include "fathom/harness/isolated_replay.hpp"
 #include "fathom/harness/recording_facts.hpp"
 
 namespace fathom {
 namespace {
-
-LoopUse use_of(LoopFate fate) {
-  switch (fate) {
-    case LoopFate::used:
-      return LoopUse::used;
-    case LoopFate::rejected:
-      return LoopUse::rejected;
-    case LoopFate::lost:
-      break;
-  }
-  return LoopUse::lost;
-}
-
-std::vector<JudgedLoop> judged_loops(const Recording& recording, const Replay& replay) {
-  std::vector<JudgedLoop> loops;
-  loops.reserve(replay.loops.size());
-  for (std::size_t j = 0; j < replay.loops.size(); ++j) {
-    const LoopDecision& loop = replay.loops[j];
-    JudgedLoop judged{loop.from,   loop.to, use_of(loop.fate), std::nullopt, replay.loop_weights[j],
-                      std::nullopt};
-    if (loop.nis && std::isfinite(*loop.nis)) judged.nis = loop.nis;
-    if (!recording.is_false_loop.empty()) judged.is_false = recording.is_false_loop[j];
-    loops.push_back(judged);
-  }
-  return loops;
-}
-
-std::vector<JudgedAbsolute> judged_absolute(const Recording& recording, const Replay& replay) {
-  std::vector<JudgedAbsolute> judged;
-  judged.reserve(replay.absolute.size());
-  for (std::size_t k = 0; k < recording.log.size(); ++k) {
-    for (const AbsolutePose& z : recording.log.arrival(k).absolute) {
-      const std::size_t j = judged.size();
-      const AbsoluteDecision& decision = replay.absolute[j];
-      JudgedAbsolute one{k, use_of(decision.fate), std::nullopt, rank_of(z.information),
-                         replay.absolute_weights[j]};
-      if (decision.nis && std::isfinite(*decision.nis)) one.nis = decision.nis;
-      judged.push_back(one);
-    }
-  }
-  return judged;
-}
-
-ReplayFacts replay_facts(const Recording& recording, const Replay& replay) {
-  ReplayFacts facts;
-  facts.loops = judged_loops(recording, replay);
-  facts.absolute = judged_absolute(recording, replay);
-  facts.chi2_initial = replay.chi2_initial;
-  facts.chi2_used = replay.cost_used;
-  facts.absolute_chi2_used = replay.absolute_cost_used;
-  facts.iterations = replay.iterations;
-  facts.gradient_norm = replay.gradient_norm;
-  facts.is_local_minimum = replay.is_local_minimum;
-  facts.update_ms = replay.update_ms;
-  facts.add_ms = replay.add_ms;
-  facts.newest_covariance_ms = replay.newest_covariance_ms;
-  facts.candidate_covariance_ms = replay.candidate_covariance_ms;
-  facts.total_ms = replay.total_ms;
-  facts.cpu_ms = replay.cpu_ms;
-  if (replay.covariances) facts.covariance_ms = replay.covariance_ms;
-  facts.start_up_ms = replay.start_up_ms;
-  facts.memory_bytes = replay.memory_bytes;
-  return facts;
-}
 
 // An estimate below the optimum that is known has found a better minimum, or rounded otherwise: its
 // bottom is the optimum then.
@@ -126,8 +60,8 @@ std::vector<Eigen::Matrix3d> reckoned_covariances(const MeasurementLog& log, Unc
   return covariances;
 }
 
-Replay replayed(const MeasurementLog& log, const EstimatorEntry& entry,
-                const EstimatorValues& values, const ReplayOptions& options) {
+Run replayed(const MeasurementLog& log, const EstimatorEntry& entry, const EstimatorValues& values,
+             const ReplayOptions& options) {
   const IsolationOptions& isolation = options.isolation;
   if (!isolation.is_isolated(entry)) return replay(log, entry, values, options);
   return isolated_replay(log, entry, values, options,
@@ -147,7 +81,7 @@ ReplayOptions asked_of(const Recording& recording, const JudgeOptions& judging,
 // Metrics, accuracy and consistency of a result that has its replay.
 void judge_replay(Result& result, const Recording& recording, const EstimatorRegistry& registry,
                   const JudgeOptions& judging) {
-  const std::vector<Pose>& estimate = result.replay.trajectory;
+  const std::vector<Pose>& estimate = result.run.trajectory;
   RunFacts facts = facts_of(recording, recording.log, estimate, judging.metrics);
   if (!recording.frames.empty()) {
     facts.registrations_tried = recording.registrations_tried;
@@ -156,9 +90,10 @@ void judge_replay(Result& result, const Recording& recording, const EstimatorReg
   const RecordingFacts shared = judging.facts != nullptr ? *judging.facts : run_facts(recording);
   if (shared.true_overlaps) facts.true_overlaps = &*shared.true_overlaps;
   facts.chi2_optimum = least_known(shared.chi2_optimum, recording.log, estimate, registry);
-  if (result.replay.covariances) facts.covariances = *result.replay.covariances;
-  facts.motions = result.replay.motions;
-  facts.replay = replay_facts(recording, result.replay);
+  if (result.run.covariances) facts.covariances = *result.run.covariances;
+  facts.motions = result.run.motions;
+  facts.run = &result.run;
+  if (!recording.is_false_loop.empty()) facts.is_false_loop = &recording.is_false_loop;
   JudgedRun judged = judge(std::move(facts));
   result.metrics = metric_values(judged);
   result.accuracy = judged.accuracy;
@@ -202,7 +137,7 @@ Result evaluate(const Recording& recording, const EstimatorConfiguration& estima
   result.estimator = estimator;
   result.mode = options.mode;
   result.options = judging.metrics;
-  result.replay = replayed(recording.log, registry.find(estimator.type), estimator.values, asked);
+  result.run = replayed(recording.log, registry.find(estimator.type), estimator.values, asked);
   judge_replay(result, recording, registry, judging);
   return result;
 }
@@ -213,7 +148,7 @@ Result evaluate_lost(const Recording& recording, const EstimatorConfiguration& e
   Result result;
   result.estimator = estimator;
   result.options = judging.metrics;
-  result.replay = lost_replay(recording.log, asked_of(recording, judging, {}), outcome, fault);
+  result.run = lost_run(recording.log, asked_of(recording, judging, {}), outcome, fault);
   judge_replay(result, recording, registry, judging);
   return result;
 }

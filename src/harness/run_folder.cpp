@@ -1,7 +1,5 @@
 #include "fathom/harness/run_folder.hpp"
 
-#include <cmath>
-
 #include <nlohmann/json.hpp>
 
 #include "fathom/core/files.hpp"
@@ -51,12 +49,11 @@ std::string registrations_csv(const Recording& recording, const Result& result) 
   const bool knows_false = !recording.is_false_loop.empty();
   std::string text = "from,to,fate,nis,weight";
   text += knows_false ? ",false\n" : "\n";
-  for (std::size_t j = 0; j < result.replay.loops.size(); ++j) {
-    const LoopDecision& loop = result.replay.loops[j];
-    const bool has_nis = loop.nis && std::isfinite(*loop.nis);
+  for (std::size_t j = 0; j < result.run.loops.size(); ++j) {
+    const LoopDecision& loop = result.run.loops[j];
     text += id_text(recording, loop.from) + ',' + id_text(recording, loop.to) + ',' +
             name_of(loop.fate) + ',';
-    text += (has_nis ? exact(*loop.nis) : "") + ',' + exact(result.replay.loop_weights[j]);
+    text += (loop.nis ? exact(*loop.nis) : "") + ',' + exact(result.run.loop_weights[j]);
     if (knows_false) text += recording.is_false_loop[j] ? ",1" : ",0";
     text += '\n';
   }
@@ -69,12 +66,11 @@ std::string absolute_csv(const Recording& recording, const Result& result) {
   std::size_t j = 0;
   for (std::size_t k = 0; k < recording.log.size(); ++k) {
     for (const AbsolutePose& z : recording.log.arrival(k).absolute) {
-      const AbsoluteDecision& decision = result.replay.absolute[j];
-      const bool has_nis = decision.nis && std::isfinite(*decision.nis);
+      const AbsoluteDecision& decision = result.run.absolute[j];
       text += id_text(recording, k) + ',' + name_of(decision.fate) + ',' +
-              (has_nis ? exact(*decision.nis) : "") + ',' +
+              (decision.nis ? exact(*decision.nis) : "") + ',' +
               std::to_string(rows_of(z.information).rank) + ',' +
-              exact(result.replay.absolute_weights[j++]) + '\n';
+              exact(result.run.absolute_weights[j++]) + '\n';
     }
   }
   return text;
@@ -148,7 +144,7 @@ const std::vector<std::string>& optional_run_files() {
 
 void write_run(const std::filesystem::path& folder, const Recording& recording,
                const Result& result, const std::string& manifest) {
-  const std::vector<Pose>& poses = result.replay.trajectory;
+  const std::vector<Pose>& poses = result.run.trajectory;
   write_recording(folder, recording);
   write_file(folder / "trajectory.tum", to_tum(keyframe_trajectory(recording, poses)));
   write_file(folder / "registrations.csv", registrations_csv(recording, result));

@@ -24,7 +24,7 @@ void check_information(const MeasurementLog& log, const EstimatorRegistry& regis
   ReplayOptions options;
   options.mode = SolveMode::batch;
   options.covariances = false;
-  const Replay solved = replay(log, registry.find("ceres_pose_graph"), {}, options);
+  const Run solved = replay(log, registry.find("ceres_pose_graph"), {}, options);
   if (!is_done(solved.outcome)) return;
   checked.scale = information_scale(log, solved.trajectory);
   if (!checked.scale) return;
@@ -38,8 +38,9 @@ void check_information(const MeasurementLog& log, const EstimatorRegistry& regis
         is + ", with their squares it would be " + format_number(checked.scale->squared, 3) +
         ", and 1 is expected");
   } else if (per_degree < 0.1) {
-    checked.warnings.push_back("the information values look too small: F per degree of freedom is " +
-                               is + ", and 1 is expected; covariances will be too large");
+    checked.warnings.push_back(
+        "the information values look too small: F per degree of freedom is " + is +
+        ", and 1 is expected; covariances will be too large");
   } else if (per_degree > 10.0) {
     checked.warnings.push_back("F per degree of freedom is " + is +
                                ", and 1 is expected: wrong loops, information values that are too "

@@ -134,9 +134,8 @@ class Comparison {
   void say_remarks(const StudyRun& done) const {
     if (done.example.empty()) return;
     const ExampleRun& example = done.example.front();
-    for (const std::string& remark :
-         loop_remarks(*example.recording, study_.cells.front().front_end,
-                      example.result.replay.trajectory)) {
+    for (const std::string& remark : loop_remarks(
+             *example.recording, study_.cells.front().front_end, example.result.run.trajectory)) {
       observer_.remark(remark);
     }
   }

@@ -8,15 +8,15 @@ namespace fathom::workflow {
 
 KeyframeMap keyframe_map(const Recording& recording, const Result& result) {
   KeyframeMap map{*recording.camera, {}, recording.keyframe_stances, std::vector<TrackLoop>{}};
-  const Replay& replay = result.replay;
-  for (std::size_t k = 0; k < replay.trajectory.size(); ++k) {
-    TrackPoint point{recording.keyframe_times_ns[k], replay.trajectory[k], std::nullopt};
-    if (replay.covariances && k < replay.covariances->size()) {
-      point.covariance = (*replay.covariances)[k];
+  const Run& run = result.run;
+  for (std::size_t k = 0; k < run.trajectory.size(); ++k) {
+    TrackPoint point{recording.keyframe_times_ns[k], run.trajectory[k], std::nullopt};
+    if (run.covariances && k < run.covariances->size()) {
+      point.covariance = (*run.covariances)[k];
     }
     map.track.push_back(point);
   }
-  for (const LoopDecision& loop : replay.loops) {
+  for (const LoopDecision& loop : run.loops) {
     map.loops->push_back({loop.from, loop.to, name_of(loop.fate)});
   }
   return map;

@@ -61,7 +61,7 @@ std::string result_table(const Recording& recording, const std::vector<Result>& 
   const MetricOptions options = results.empty() ? MetricOptions() : results.front().options;
   add_row("dead reckoning", "-", dead_reckoning_metrics(recording, options));
   for (const Result& result : results) {
-    add_row(result.estimator.name, name_of(result.replay.outcome), result.metrics);
+    add_row(result.estimator.name, name_of(result.run.outcome), result.metrics);
   }
   return table.text();
 }

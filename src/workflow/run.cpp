@@ -67,7 +67,7 @@ class Run {
 
   // What looks wrong, and the batch optimum of the log where the estimate does not fit it.
   void judge(RunOutcome& done, std::vector<std::string>& remarks) const {
-    const std::vector<Pose>& estimate = done.result.replay.trajectory;
+    const std::vector<Pose>& estimate = done.result.run.trajectory;
     remarks = loop_remarks(*recording_, configuration_.front_end, estimate);
     const auto optimum = batch_optimum(recording_->log, registry_);
     const auto fit = optimum ? map_fit(recording_->log, estimate, *optimum) : std::nullopt;
@@ -93,7 +93,7 @@ class Run {
       results.push_back(*done.optimum);
       fs::create_directory(folder.path() / kBatchOptimum);
       write_file(folder.path() / kBatchOptimum / "trajectory.tum",
-                 to_tum(keyframe_trajectory(*recording_, done.optimum->replay.trajectory)));
+                 to_tum(keyframe_trajectory(*recording_, done.optimum->run.trajectory)));
     }
     write_trajectory_picture(folder.path() / "trajectory.png",
                              request_.title + ", " + done.result.estimator.name, *recording_,
@@ -133,7 +133,7 @@ class Run {
     mosaics.reserve(results.size());
     for (const Result& result : results) {
       mosaics.push_back({mosaics.empty() ? folder : folder / kBatchOptimum,
-                         placed_pictures(*recording_, result.replay.trajectory)});
+                         placed_pictures(*recording_, result.run.trajectory)});
     }
     std::vector<std::string> lines = write_mosaics(pictures, mosaics, earth, observer_);
     for (std::size_t i = 1; i < lines.size(); ++i) lines[i] = kBatchOptimum + ("/" + lines[i]);

@@ -31,7 +31,7 @@ void write_example(const ExamplePlace& place, const Study& study,
     write_trajectory_picture(own / "trajectory.png", place.title + ", " + result.estimator.name,
                              *recording, {result}, e);
     if (recording->camera) try_map_files(own, keyframe_map(*recording, result), on_earth);
-    mosaics.push_back({own, placed_pictures(*recording, result.replay.trajectory)});
+    mosaics.push_back({own, placed_pictures(*recording, result.run.trajectory)});
     results.push_back(result);
   }
   if (place.pictures != nullptr) write_mosaics(*place.pictures, mosaics, on_earth, observer);

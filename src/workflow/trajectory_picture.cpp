@@ -9,13 +9,13 @@ namespace fathom::workflow {
 namespace {
 
 // Estimators that choose their own keyframes may have another log.
-void add_marks(PlotSeries& series, const MeasurementLog& log, const Replay& replay) {
-  if (log.size() != replay.trajectory.size()) return;
-  if (log.absolute_count() != replay.absolute_weights.size()) return;
+void add_marks(PlotSeries& series, const MeasurementLog& log, const Run& run) {
+  if (log.size() != run.trajectory.size()) return;
+  if (log.absolute_count() != run.absolute_weights.size()) return;
   std::size_t next = 0;
   for (std::size_t k = 0; k < log.size(); ++k) {
     for (const AbsolutePose& z : log.arrival(k).absolute) {
-      series.absolute.push_back(absolute_mark(z, replay.absolute_weights[next++] > 0.5));
+      series.absolute.push_back(absolute_mark(z, is_kept(run.absolute_weights[next++])));
     }
   }
 }
@@ -25,13 +25,12 @@ PlotSeries series_of(const MeasurementLog& log, const Result& result, std::size_
   PlotSeries series;
   series.name = result.estimator.name;
   series.style = estimator_style(place);
-  const Outcome outcome = result.replay.outcome;
-  series.may_leave = outcome != Outcome::converged && outcome != Outcome::iteration_limit;
-  series.poses = result.replay.trajectory;
-  add_marks(series, log, result.replay);
+  series.may_leave = !result.is_done();
+  series.poses = result.run.trajectory;
+  add_marks(series, log, result.run);
   if (!with_details) return series;
-  if (result.replay.covariances) series.covariances = *result.replay.covariances;
-  for (const LoopDecision& loop : result.replay.loops) {
+  if (result.run.covariances) series.covariances = *result.run.covariances;
+  for (const LoopDecision& loop : result.run.loops) {
     if (loop.fate == LoopFate::used) series.loops.emplace_back(loop.from, loop.to);
   }
   return series;
@@ -42,13 +41,13 @@ PlotSeries series_of(const MeasurementLog& log, const Result& result, std::size_
 std::vector<Pose> truth_in_world(const Recording& recording, const std::vector<Result>& results) {
   const std::vector<Pose>& truth = *recording.ground_truth;
   const auto done = std::ranges::find_if(results, [&truth](const Result& result) {
-    return result.is_done() && result.replay.trajectory.size() == truth.size();
+    return result.is_done() && result.run.trajectory.size() == truth.size();
   });
   if (recording.log.start().is_fixed() || done == results.end()) {
     return align(truth, recording.log.odometry(), Alignment::origin).poses;
   }
   const Pose motion =
-      inverse(alignment_motion(done->replay.trajectory, truth, done->options.alignment));
+      inverse(alignment_motion(done->run.trajectory, truth, done->options.alignment));
   std::vector<Pose> moved;
   moved.reserve(truth.size());
   for (const Pose& pose : truth) moved.push_back(compose(motion, pose));

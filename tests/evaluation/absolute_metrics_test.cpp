@@ -27,21 +27,16 @@ ExampleRun with_absolute() {
   hole.is_hole = true;
   example.log.add_keyframe(hole);
   example.log.add_registration(RelativePose::from_covariance(0, 2, {2, 0, 0}, one));
+  example.run.absolute = {
+      {0, LoopFate::used, 3.0}, {1, LoopFate::used, 6.0}, {1, LoopFate::rejected, 50.0}};
+  example.run.absolute_weights = {1.0, 0.3, 0.0};
+  example.run.absolute_chi2_used = 4.5;
   return example;
-}
-
-RunFacts facts_of(const ExampleRun& example) {
-  RunFacts facts = example.facts();
-  facts.replay->absolute = {{0, LoopUse::used, 3.0, 1, 1.0},
-                            {1, LoopUse::used, 6.0, 2, 0.3},
-                            {1, LoopUse::rejected, 50.0, 1, 0.0}};
-  facts.replay->absolute_chi2_used = 4.5;
-  return facts;
 }
 
 TEST(AbsoluteMetrics, HandNumbers) {
   const ExampleRun example = with_absolute();
-  const auto values = values_of(facts_of(example));
+  const auto values = values_of(example.facts());
   EXPECT_EQ(values.at("absolute_measurements"), 3.0);
   EXPECT_EQ(values.at("absolute_used"), 2.0);
   EXPECT_EQ(values.at("absolute_rejected"), 1.0);
@@ -69,8 +64,8 @@ TEST(AbsoluteMetrics, AreAbsentOfALogWithoutAny) {
   EXPECT_THAT(values, Not(Contains(Key("holes"))));
   EXPECT_THAT(values, Not(Contains(Key("degrees_of_freedom"))));
   const ExampleRun absolute = with_absolute();
-  RunFacts facts = facts_of(absolute);
-  facts.replay.reset();
+  RunFacts facts = absolute.facts();
+  facts.run = nullptr;
   EXPECT_THAT(values_of(facts), Not(Contains(Key("absolute_chi2"))));
 }
 

@@ -103,17 +103,19 @@ TEST(Metrics, HandNumbers) {
 }
 
 TEST(Metrics, WhatIsNotKnownIsAbsent) {
-  const ExampleRun example;
+  ExampleRun example;
+  example.run.loops = {{0, 2, LoopFate::used, std::nullopt}};
+  example.run.loop_weights = {1.0};
+  example.run.costs.memory_bytes.reset();
+  example.run.costs.update_ms = {};
+  example.run.costs.newest_covariance_ms = {};
+  example.run.costs.candidate_covariance_ms.reset();
   RunFacts facts = example.facts();
+  facts.is_false_loop = nullptr;
   facts.registrations_tried.reset();
   facts.ground_truth.reset();
   facts.true_overlaps = nullptr;
   facts.chi2_optimum.reset();
-  facts.replay->loops = {{0, 2, LoopUse::used, std::nullopt, 1.0, std::nullopt}};
-  facts.replay->memory_bytes.reset();
-  facts.replay->update_ms = {};
-  facts.replay->newest_covariance_ms = {};
-  facts.replay->candidate_covariance_ms.reset();
   const auto values = values_of(facts);
   for (const char* absent : {"registrations_tried",
                              "mean_position_error_m",
@@ -144,7 +146,7 @@ TEST(Metrics, WhatIsNotKnownIsAbsent) {
 TEST(Metrics, OfDeadReckoningThereAreNoLoopsAndNoCost) {
   const ExampleRun example;
   RunFacts facts = example.facts();
-  facts.replay.reset();
+  facts.run = nullptr;
   const auto values = values_of(facts);
   EXPECT_THAT(values, Contains(Key("mean_position_error_m")));
   EXPECT_THAT(values, Contains(Key("keyframes")));

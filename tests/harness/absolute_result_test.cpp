@@ -59,7 +59,7 @@ TEST(AbsoluteResult, CountsWhatIsUsedAndRejected) {
 TEST(AbsoluteResult, PartsOfTheCostAddUp) {
   const Recording jump = recording();
   const Result result = evaluated(jump, "ekf", kGate);
-  const std::vector<Pose>& at = result.replay.trajectory;
+  const std::vector<Pose>& at = result.run.trajectory;
   double edges = 0.0;
   for (const RelativePose& z : jump.log.edges()) edges += chi2(z, at[z.from], at[z.to]);
   double absolute = chi2(jump.log.start().measurement(), at[0]);
@@ -132,9 +132,9 @@ TEST(AbsoluteResult, WhatWasMeasuredIsStoredInTheFrameOfTheAlignedEstimate) {
     EXPECT_NEAR(at("absolute_cov_xy", i), 0.0, 1e-9);
     // As far from the estimate as it was.
     const Eigen::Vector2d estimate(at("x_m", k), at("y_m", k));
-    const double residual_m = (jump.log.arrival(k).absolute.back().pose.position() -
-                               result.replay.trajectory[k].position())
-                                  .norm();
+    const double residual_m =
+        (jump.log.arrival(k).absolute.back().pose.position() - result.run.trajectory[k].position())
+            .norm();
     EXPECT_NEAR((fix - estimate).norm(), residual_m, 1e-9) << k;
   }
 }

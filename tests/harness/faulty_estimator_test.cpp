@@ -91,7 +91,7 @@ TEST(FaultyEstimator, GetsAVerdictWithTheReason) {
   for (const auto& [message, spoil] : faults()) {
     Script script;
     spoil(script);
-    const Replay result = replay(log, scripted(script), {}, {});
+    const auto result = replay(log, scripted(script), {}, {});
     EXPECT_EQ(result.fault, message);
     EXPECT_EQ(result.outcome, Outcome::numerical_failure) << message;
     EXPECT_EQ(result.trajectory.size(), log.size()) << message;
@@ -116,7 +116,7 @@ TEST(FaultyEstimator, IsFoundOutInABatch) {
   script.finish.loops.push_back({0, 4, LoopFate::used, 1.0});
   ReplayOptions options;
   options.mode = SolveMode::batch;
-  const Replay result = replay(square_log(), scripted(script), {}, options);
+  const auto result = replay(square_log(), scripted(script), {}, options);
   EXPECT_EQ(result.fault, "finish at keyframe 7: has 1 decisions on registrations, expected 0");
   EXPECT_EQ(result.outcome, Outcome::numerical_failure);
 }
@@ -125,7 +125,7 @@ TEST(FaultyEstimator, AnHonestFailureIsNoFault) {
   Script script;
   script.updates = {{Outcome::diverged, 3, {}}};
   script.without_covariance = 3;
-  const Replay result = replay(square_log(), scripted(script), {}, {});
+  const auto result = replay(square_log(), scripted(script), {}, {});
   EXPECT_THAT(result.fault, IsEmpty());
   EXPECT_EQ(result.outcome, Outcome::diverged);
 }

@@ -28,7 +28,7 @@ TEST(RecordingFacts, TheOptimumIsTheLeastOfAllBatchSolves) {
     ++solvers;
     ReplayOptions options;
     options.mode = SolveMode::batch;
-    const Replay solved = replay(recording.log, entry, {}, options);
+    const auto solved = replay(recording.log, entry, {}, options);
     EXPECT_LE(optimum->chi2, chi2(recording.log, solved.trajectory)) << entry.name;
   }
   EXPECT_GE(solvers, 2u);

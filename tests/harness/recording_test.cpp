@@ -131,8 +131,8 @@ TEST(Record, EstimatorsOnTheWrittenLogGiveTheSameToTheLastBit) {
   for (const EstimatorEntry& entry : builtin_estimators().entries()) {
     const Result direct = evaluated(recording, entry);
     const Result again = evaluated(read, entry);
-    EXPECT_EQ(direct.replay.trajectory, again.replay.trajectory) << entry.name;
-    EXPECT_EQ(*direct.replay.covariances, *again.replay.covariances) << entry.name;
+    EXPECT_EQ(direct.run.trajectory, again.run.trajectory) << entry.name;
+    EXPECT_EQ(*direct.run.covariances, *again.run.covariances) << entry.name;
     EXPECT_EQ(direct.metric("chi2"), again.metric("chi2")) << entry.name;
     EXPECT_LT(direct.accuracy->mean_position_error_m, 0.02) << entry.name;
   }
@@ -158,8 +158,8 @@ void expect_same_from_disk(const std::string& more) {
   EXPECT_EQ(read.registrations_tried, direct.registrations_tried);
   EXPECT_FALSE(read.visual_odometry);
   const EstimatorEntry& entry = builtin_estimators().find("trajectory_iekf");
-  const std::vector<Pose> estimate = evaluated(direct, entry).replay.trajectory;
-  const std::vector<Pose> again = evaluated(read, entry).replay.trajectory;
+  const std::vector<Pose> estimate = evaluated(direct, entry).run.trajectory;
+  const std::vector<Pose> again = evaluated(read, entry).run.trajectory;
   ASSERT_EQ(estimate.size(), again.size());
   for (std::size_t k = 0; k < estimate.size(); ++k) {
     EXPECT_LT(test::distance(estimate[k], again[k]), 1e-9) << k;

@@ -34,7 +34,7 @@ TEST(ReplayCovariances, TheNewestIsAskedForOnceAKeyframe) {
   ReplayOptions options;
   options.newest_covariances = true;
   options.memory = &meter;
-  const Replay result = replayed(script, options);
+  const auto result = replayed(script, options);
   EXPECT_THAT(first_calls(script, 13),
               ElementsAre("start", "create", "add 1", "pause", "covariance 1", "resume", "add 2",
                           "pause", "covariance 2", "resume", "add 3", "pause", "covariance 3"));
@@ -42,24 +42,24 @@ TEST(ReplayCovariances, TheNewestIsAskedForOnceAKeyframe) {
   ASSERT_NE(update, script.calls.end());
   EXPECT_EQ(*(update - 1), "add 4");
   EXPECT_EQ(*(update + 2), "covariance 4");
-  EXPECT_EQ(result.newest_covariance_ms.size(), 7u);
-  EXPECT_FALSE(result.candidate_covariance_ms);
+  EXPECT_EQ(result.costs.newest_covariance_ms.size(), 7u);
+  EXPECT_FALSE(result.costs.candidate_covariance_ms);
 }
 
 TEST(ReplayCovariances, OfTheNewestAreOfAllKeyframesOrAbsent) {
   ReplayOptions options;
   Script silent;
-  EXPECT_THAT(replayed(silent, options).newest_covariance_ms, IsEmpty());
+  EXPECT_THAT(replayed(silent, options).costs.newest_covariance_ms, IsEmpty());
   EXPECT_EQ(std::ranges::count(silent.calls, "covariance 1"), 0);
   options.newest_covariances = true;
   Script script;
   script.joint_covariances = 3;
-  EXPECT_THAT(replayed(script, options).newest_covariance_ms, IsEmpty());
+  EXPECT_THAT(replayed(script, options).costs.newest_covariance_ms, IsEmpty());
   EXPECT_EQ(std::ranges::count(script.calls, "covariance 4"), 1);
   EXPECT_EQ(std::ranges::count(script.calls, "covariance 5"), 0);
   options.mode = SolveMode::batch;
   Script batch;
-  EXPECT_THAT(replayed(batch, options).newest_covariance_ms, IsEmpty());
+  EXPECT_THAT(replayed(batch, options).costs.newest_covariance_ms, IsEmpty());
   EXPECT_EQ(std::ranges::count(batch.calls, "covariance 1"), 0);
 }
 
@@ -69,19 +69,21 @@ TEST(ReplayCovariances, OfCandidatesAreChargedToTheEstimate) {
   script.joint_covariances = 100;
   ReplayOptions options;
   options.candidate_covariances = consecutive(1, square_log().size());
-  const Replay result = replayed(script, options);
+  const auto result = replayed(script, options);
   EXPECT_THAT(first_calls(script, 6), ElementsAre("create", "add 1", "covariance 0 1", "add 2",
                                                   "covariance 0 2", "covariance 1 2"));
   const auto update = std::ranges::find(script.calls, "close 0-4");
   ASSERT_NE(update, script.calls.end());
   EXPECT_EQ(*(update - 1), "covariance 3 4");
-  ASSERT_TRUE(result.candidate_covariance_ms);
+  ASSERT_TRUE(result.costs.candidate_covariance_ms);
   const auto sum = [](const std::vector<double>& times_ms) {
     return std::accumulate(times_ms.begin(), times_ms.end(), 0.0);
   };
-  EXPECT_NEAR(result.total_ms,
-              sum(result.update_ms) + sum(result.add_ms) + *result.candidate_covariance_ms, 1e-9);
-  EXPECT_THAT(result.newest_covariance_ms, IsEmpty());
+  EXPECT_NEAR(result.costs.total_ms,
+              sum(result.costs.update_ms) + sum(result.costs.add_ms) +
+                  *result.costs.candidate_covariance_ms,
+              1e-9);
+  EXPECT_THAT(result.costs.newest_covariance_ms, IsEmpty());
 }
 
 TEST(ReplayCovariances, OfMotionsAreAskedForOnceAGroup) {
@@ -90,7 +92,7 @@ TEST(ReplayCovariances, OfMotionsAreAskedForOnceAGroup) {
   ReplayOptions options;
   options.motions = {{MotionsOver::keyframes, 2.0, {{1, 3}, {3, 5}, {5, 1}}},
                      {MotionsOver::anchors, 1.0, {{2, 4}}}};
-  const Replay result = replayed(script, options);
+  const auto result = replayed(script, options);
   EXPECT_EQ(std::ranges::count(script.calls, "covariance 1 3 5"), 1);
   ASSERT_EQ(result.motions.size(), 2u);
   ASSERT_EQ(result.motions[0].covariances.size(), 3u);
@@ -111,11 +113,11 @@ TEST(ReplayCovariances, LeaveTheEstimateAsItIs) {
     ReplayOptions options;
     options.newest_covariances = true;
     options.candidate_covariances = consecutive(1, square_log().size());
-    const Replay asked = replay(log, entry, {}, options);
-    const Replay plain = replay(log, entry, {}, {});
+    const auto asked = replay(log, entry, {}, options);
+    const auto plain = replay(log, entry, {}, {});
     EXPECT_EQ(asked.trajectory, plain.trajectory) << entry.name;
     EXPECT_EQ(*asked.covariances, *plain.covariances) << entry.name;
-    EXPECT_EQ(asked.newest_covariance_ms.size(), 7u) << entry.name;
+    EXPECT_EQ(asked.costs.newest_covariance_ms.size(), 7u) << entry.name;
   }
 }
 

@@ -29,7 +29,7 @@ using ::testing::IsEmpty;
 
 TEST(Replay, GivesTheLogInItsOrder) {
   Script script;
-  const Replay result = replayed(script);
+  const auto result = replayed(script);
   EXPECT_THAT(script.calls, ElementsAre("create", "add 1", "add 2", "add 3", "add 4", "close 0-4",
                                         "add 5", "close 1-5 2-5", "add 6", "add 7", "close 3-7"));
   EXPECT_EQ(result.trajectory, square_log().odometry());
@@ -40,7 +40,7 @@ TEST(Replay, CountsOutcomesAndKeepsTheWorst) {
   Script script;
   script.updates = {
       {Outcome::iteration_limit, 20, {}}, {Outcome::diverged, 3, {}}, {Outcome::converged, 4, {}}};
-  const Replay result = replayed(script);
+  const auto result = replayed(script);
   EXPECT_THAT(result.outcome_counts, ElementsAre(1, 1, 1, 0));
   EXPECT_EQ(result.outcome, Outcome::diverged);
   EXPECT_EQ(result.iterations, 27);
@@ -55,27 +55,28 @@ TEST(Replay, ANaNIsAFailureWhateverTheEstimatorSays) {
 TEST(Replay, CostIsTheTimeOfTheCallsAlone) {
   Script script;
   script.in_every_call = [] { std::this_thread::sleep_for(std::chrono::milliseconds(2)); };
-  const Replay result = replayed(script);
-  ASSERT_EQ(result.update_ms.size(), 3u);
-  EXPECT_THAT(result.update_ms, Each(Ge(2.0)));
-  const double updates_ms = std::accumulate(result.update_ms.begin(), result.update_ms.end(), 0.0);
-  EXPECT_GE(result.total_ms, updates_ms + 7 * 2.0);
+  const auto result = replayed(script);
+  ASSERT_EQ(result.costs.update_ms.size(), 3u);
+  EXPECT_THAT(result.costs.update_ms, Each(Ge(2.0)));
+  const double updates_ms =
+      std::accumulate(result.costs.update_ms.begin(), result.costs.update_ms.end(), 0.0);
+  EXPECT_GE(result.costs.total_ms, updates_ms + 7 * 2.0);
 }
 
 TEST(Replay, WithoutLoopsThereIsNoUpdate) {
   MeasurementLog log;
   log.add_keyframe(RelativePose::from_covariance(0, 1, {1, 0, 0}, test::square_covariance()));
   Script script;
-  const Replay result = replay(log, scripted(script), {}, {});
-  EXPECT_THAT(result.update_ms, IsEmpty());
+  const auto result = replay(log, scripted(script), {}, {});
+  EXPECT_THAT(result.costs.update_ms, IsEmpty());
   EXPECT_THAT(result.outcome_counts, Each(0u));
   EXPECT_EQ(result.outcome, Outcome::converged);
-  EXPECT_EQ(result.cost_used, 0.0);
+  EXPECT_EQ(result.chi2_used, 0.0);
 }
 
 TEST(Replay, OneKeyframeAloneIsALog) {
   Script script;
-  const Replay result = replay(MeasurementLog({1, 2, 3}), scripted(script), {}, {});
+  const auto result = replay(MeasurementLog({1, 2, 3}), scripted(script), {}, {});
   EXPECT_THAT(result.trajectory, ElementsAre(Pose{1, 2, 3}));
   EXPECT_EQ(result.outcome, Outcome::converged);
 }
@@ -89,10 +90,10 @@ TEST(Replay, ABatchIsOneUpdate) {
   ReplayOptions options;
   options.mode = SolveMode::batch;
   options.start = start;
-  const Replay result = replayed(script, options);
+  const auto result = replayed(script, options);
   EXPECT_EQ(script.calls.front(), "create batch");
   EXPECT_EQ(script.calls.back(), "finish from 8");
-  EXPECT_EQ(result.update_ms.size(), 1u);
+  EXPECT_EQ(result.costs.update_ms.size(), 1u);
   EXPECT_THAT(result.outcome_counts, ElementsAre(0, 1, 0, 0));
   EXPECT_EQ(result.outcome, Outcome::iteration_limit);
   EXPECT_EQ(result.iterations, 9);
@@ -111,7 +112,7 @@ TEST(Replay, ABatchThatCannotTakeItsMeasurementsFails) {
 
 TEST(Replay, CovariancesAreOfAllKeyframesOrAbsent) {
   Script script;
-  const Replay all = replayed(script);
+  const auto all = replayed(script);
   ASSERT_TRUE(all.covariances);
   ASSERT_EQ(all.covariances->size(), 8u);
   EXPECT_EQ((*all.covariances)[7], 7.0 * Eigen::Matrix3d::Identity());
@@ -138,10 +139,10 @@ TEST(Replay, MeasuresMemoryFromBirthToTheLastUpdate) {
   Script script;
   FakeMeter meter(script);
   ReplayOptions options;
-  EXPECT_FALSE(replayed(script, options).memory_bytes);
+  EXPECT_FALSE(replayed(script, options).costs.memory_bytes);
   script.calls.clear();
   options.memory = &meter;
-  EXPECT_EQ(replayed(script, options).memory_bytes, 4242);
+  EXPECT_EQ(replayed(script, options).costs.memory_bytes, 4242);
   EXPECT_EQ(script.calls[0], "start");
   EXPECT_EQ(script.calls[1], "create");
   EXPECT_EQ(script.calls.back(), "stop");
@@ -170,12 +171,12 @@ TEST(Replay, TheCostUsedLeavesOutWhatWasRejectedAndAppliesTheLoss) {
   Script script;
   script.rejected = {{1, 5}, {3, 7}};
   script.loss = [](double chi2) { return std::sqrt(chi2); };
-  const Replay result = replayed(script);
+  const auto result = replayed(script);
   const auto& loops = log.arrival(5).registrations;
   const double expected = std::sqrt(naive_chi2(log.arrival(4).registrations[0], log.odometry())) +
                           std::sqrt(naive_chi2(loops[1], log.odometry()));
   EXPECT_GT(expected, 1.0);
-  EXPECT_NEAR(result.cost_used, expected, 1e-9 * expected);  // the steps are met exactly
+  EXPECT_NEAR(result.chi2_used, expected, 1e-9 * expected);  // the steps are met exactly
 }
 
 TEST(Replay, TheCostUsedOfARobustSolveIsThatOfTheLoss) {
@@ -186,13 +187,13 @@ TEST(Replay, TheCostUsedOfARobustSolveIsThatOfTheLoss) {
   const auto check = [&](const std::string& name, const std::function<double(double)>& loss) {
     EstimatorValues values{{"loss", OptionValue::scalar(name)}};
     if (name != "none") values["loss_scale"] = OptionValue::scalar("0.1");
-    const Replay result = replay(log, builtin_estimators().find("ceres_pose_graph"), values, {});
+    const auto result = replay(log, builtin_estimators().find("ceres_pose_graph"), values, {});
     const double expected = naive_cost(log, result.trajectory, loss);
-    EXPECT_NEAR(result.cost_used, expected, 1e-9 * expected) << name;
+    EXPECT_NEAR(result.chi2_used, expected, 1e-9 * expected) << name;
     const double plain = chi2(log, result.trajectory);
     EXPECT_NEAR(plain, naive_cost(log, result.trajectory, [](double s) { return s; }),
                 1e-9 * plain);
-    return plain - result.cost_used;
+    return plain - result.chi2_used;
   };
   EXPECT_GT(check("huber", huber), 1e-3);
   EXPECT_GT(check("cauchy", cauchy), 1e-3);
@@ -202,7 +203,7 @@ TEST(Replay, TheCostUsedOfARobustSolveIsThatOfTheLoss) {
 TEST(Replay, IsWhatTheEstimatorGivesByItself) {
   const MeasurementLog log = square_log();
   for (const EstimatorEntry& entry : builtin_estimators().entries()) {
-    const Replay result = replay(log, entry, {}, {});
+    const auto result = replay(log, entry, {}, {});
     const auto estimator = entry.create({log.origin(), SolveMode::incremental}, {});
     for (std::size_t k = 1; k < log.size(); ++k) {
       estimator->add_keyframe(log.arrival(k).step);
@@ -212,7 +213,7 @@ TEST(Replay, IsWhatTheEstimatorGivesByItself) {
     EXPECT_EQ(result.trajectory, poses_of(*estimator)) << entry.name;
     ASSERT_TRUE(result.covariances) << entry.name;
     EXPECT_EQ(result.covariances->back(), *estimator->covariance(7)) << entry.name;
-    EXPECT_EQ(result.update_ms.size(), 3u) << entry.name;
+    EXPECT_EQ(result.costs.update_ms.size(), 3u) << entry.name;
   }
 }
 

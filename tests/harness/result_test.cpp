@@ -114,15 +114,15 @@ TEST(Metrics, HoldWhatTheyShould) {
   EXPECT_EQ(m.at("loop_closures"), 4);
   EXPECT_EQ(m.at("rejected"), 0);
   EXPECT_EQ(m.at("alignment"), "origin");
-  EXPECT_EQ(m.at("chi2"), chi2(recording.log, result.replay.trajectory));
+  EXPECT_EQ(m.at("chi2"), chi2(recording.log, result.run.trajectory));
   EXPECT_EQ(m.at("chi2_initial"), chi2(recording.log, recording.log.odometry()));
   for (const auto& [name, value] : result.metrics) EXPECT_EQ(m.at(name), value) << name;
   EXPECT_EQ(m.at("mean_position_error_m"), result.accuracy->mean_position_error_m);
   EXPECT_EQ(m.at("ate_rmse_m"), result.accuracy->ate_rmse_m);
   EXPECT_EQ(m.at("heading_rmse_rad"), result.accuracy->heading_rmse_rad);
   EXPECT_EQ(m.at("anees"), result.consistency->anees);
-  EXPECT_EQ(m.at("update_ms.max"), *std::ranges::max_element(result.replay.update_ms));
-  EXPECT_EQ(m.at("total_ms"), result.replay.total_ms);
+  EXPECT_EQ(m.at("update_ms.max"), *std::ranges::max_element(result.run.costs.update_ms));
+  EXPECT_EQ(m.at("total_ms"), result.run.costs.total_ms);
   EXPECT_EQ(m.at("outcome_counts").at("converged"), 3);
 }
 

@@ -68,7 +68,7 @@ TEST(RunFolder, HoldsTheTrajectoriesAndTheLog) {
   ASSERT_EQ(trajectory.size(), 8u);
   ASSERT_EQ(frames.size(), 16u);
   for (std::size_t k = 0; k < 8; ++k) {
-    const Pose& pose = result.replay.trajectory[k];
+    const Pose& pose = result.run.trajectory[k];
     EXPECT_EQ(trajectory[k].time_ns, recording.keyframe_times_ns[k]);
     EXPECT_LT(test::distance(trajectory[k].pose, pose), 1e-15);
     EXPECT_LT(test::distance(frames[2 * k].pose, pose), 1e-15);

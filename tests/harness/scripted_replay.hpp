@@ -9,7 +9,7 @@
 namespace fathom::test {
 
 /// What comes of the square's log where an estimator follows the script.
-inline Replay replayed(Script& script, const ReplayOptions& options = {}) {
+inline Run replayed(Script& script, const ReplayOptions& options = {}) {
   return replay(square_log(), scripted(script), {}, options);
 }
 

@@ -122,7 +122,7 @@ TEST(SimulatedLogRecording, EstimatesAreAsHonestAsTheirModel) {
     for (auto& [name, honesty] : estimators) {
       ReplayOptions options;
       options.mode = SolveMode::batch;
-      const Replay estimate = replay(recording.log, builtin_estimators().find(name), {}, options);
+      const auto estimate = replay(recording.log, builtin_estimators().find(name), {}, options);
       ASSERT_TRUE(estimate.covariances) << name;
       const auto found = consistency(estimate.trajectory, truth, *estimate.covariances);
       ASSERT_TRUE(found) << name;

@@ -21,9 +21,6 @@ struct LoopRows {
 /// `forward`: from the earlier node.
 LoopRows loop_rows(const RelativePose& forward);
 
-/// Independent rows of a positive semi-definite information matrix.
-int rank_of(const Eigen::Matrix3d& information);
-
 /// The Lᵀ of Ω = L Lᵀ, three rows, zero beyond the rank: the whitened residual is Lᵀ e.
 Eigen::Matrix3d whitening(const Eigen::Matrix3d& information);
 

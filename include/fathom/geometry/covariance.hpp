@@ -66,6 +66,9 @@ struct InformationRows {
 
 InformationRows rows_of(const Eigen::Matrix3d& information);
 
+/// Independent rows of a positive semi-definite information matrix.
+int rank_of(const Eigen::Matrix3d& information);
+
 /// The inverse of a positive definite matrix, symmetric to the last bit.
 Eigen::Matrix3d symmetric_inverse(const Eigen::Matrix3d& matrix);
 

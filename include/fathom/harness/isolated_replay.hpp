@@ -26,9 +26,9 @@ struct ProcessLimits {
 ///
 /// Throws InputError as replay does, and where the system refuses a process. What `progress` throws
 /// ends the child.
-Replay isolated_replay(const MeasurementLog& log, const EstimatorEntry& entry,
-                       const EstimatorValues& values, const ReplayOptions& options,
-                       const ProcessLimits& limits);
+Run isolated_replay(const MeasurementLog& log, const EstimatorEntry& entry,
+                    const EstimatorValues& values, const ReplayOptions& options,
+                    const ProcessLimits& limits);
 
 /// The outcome of this name, if it is one of a process; nothing of one that a replay has.
 std::optional<Outcome> end_of_process(const std::string& name);

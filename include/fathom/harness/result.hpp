@@ -33,14 +33,14 @@ ReplayOptions replay_options(const Configuration& configuration,
 struct Result {
   EstimatorConfiguration estimator;
   SolveMode mode = SolveMode::incremental;
-  Replay replay;
+  Run run;
   MetricOptions options;                  ///< of the metrics
   std::map<std::string, double> metrics;  ///< those that are known (metric_catalogue)
   std::optional<Accuracy> accuracy;       ///< with ground truth alone
   std::optional<Consistency> consistency;
 
   /// Whether the estimate can be used.
-  bool is_done() const { return fathom::is_done(replay.outcome); }
+  bool is_done() const { return fathom::is_done(run.outcome); }
   /// Nothing where it is not known.
   std::optional<double> metric(const std::string& name) const;
 };

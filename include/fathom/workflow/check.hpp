@@ -13,7 +13,7 @@ namespace fathom::workflow {
 
 /// What is in a pose graph, and what looks wrong with it.
 struct GraphCheck {
-  GraphSummary graph;  ///< where it has faults, the rest is not known
+  GraphSummary graph;                ///< where it has faults, the rest is not known
   std::optional<double> guess_chi2;  ///< F at the poses that the file gives
   double start_chi2 = 0.0;           ///< F at what a batch solve starts from
   bool starts_from_odometry = true;

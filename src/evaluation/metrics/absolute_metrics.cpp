@@ -14,16 +14,15 @@ using Value = std::optional<double>;
 template <class Of>
 auto with_absolute(Of of) {
   return [of](const JudgedRun& run) -> Value {
-    if (!run.facts.replay || run.facts.log.absolute_count() == 0) return std::nullopt;
+    if (run.facts.run == nullptr || run.facts.log.absolute_count() == 0) return std::nullopt;
     return of(run);
   };
 }
 
-auto count_of_absolute_use(LoopUse use) {
-  return with_absolute([use](const JudgedRun& run) -> Value {
-    const auto& all = run.facts.replay->absolute;
+auto count_of_absolute(LoopFate fate) {
+  return with_absolute([fate](const JudgedRun& run) -> Value {
     return static_cast<double>(
-        std::ranges::count_if(all, [use](const JudgedAbsolute& z) { return z.use == use; }));
+        std::ranges::count(run.facts.run->absolute, fate, &AbsoluteDecision::fate));
   });
 }
 
@@ -32,18 +31,20 @@ Value given(const JudgedRun& run) {
 }
 
 Value kept(const JudgedRun& run) {
-  const auto& all = run.facts.replay->absolute;
-  return static_cast<double>(
-      std::ranges::count_if(all, [](const JudgedAbsolute& z) { return z.is_kept(); }));
+  return static_cast<double>(std::ranges::count_if(run.facts.run->absolute_weights, is_kept));
 }
 
 Value mean_absolute_nis(const JudgedRun& run) {
   double sum = 0.0;
   int degrees = 0;
-  for (const JudgedAbsolute& z : run.facts.replay->absolute) {
-    if (z.use != LoopUse::used || !z.nis) continue;
-    sum += *z.nis;
-    degrees += z.rank;
+  std::size_t next = 0;
+  for (std::size_t k = 0; k < run.facts.log.size(); ++k) {
+    for (const AbsolutePose& z : run.facts.log.arrival(k).absolute) {
+      const AbsoluteDecision& decision = run.facts.run->absolute[next++];
+      if (decision.fate != LoopFate::used || !decision.nis) continue;
+      sum += *decision.nis;
+      degrees += rank_of(z.information);
+    }
   }
   if (degrees == 0) return std::nullopt;
   return sum / degrees;
@@ -67,7 +68,7 @@ Value mean_absolute_nis_truth(const JudgedRun& run) {
 // With an uncertain start, too: it is no edge either.
 bool has_world(const JudgedRun& run) {
   const MeasurementLog& log = run.facts.log;
-  return run.facts.replay && (log.absolute_count() > 0 || !log.start().is_fixed());
+  return run.facts.run != nullptr && (log.absolute_count() > 0 || !log.start().is_fixed());
 }
 
 Value cost(const JudgedRun& run) {
@@ -77,12 +78,12 @@ Value cost(const JudgedRun& run) {
 
 Value cost_used(const JudgedRun& run) {
   if (!has_world(run)) return std::nullopt;
-  return run.facts.replay->absolute_chi2_used;
+  return run.facts.run->absolute_chi2_used;
 }
 
 Value holes(const JudgedRun& run) {
   const std::size_t count = run.facts.log.hole_count();
-  if (!run.facts.replay || count == 0) return std::nullopt;
+  if (run.facts.run == nullptr || count == 0) return std::nullopt;
   return static_cast<double>(count);
 }
 
@@ -100,12 +101,12 @@ std::vector<Metric> absolute_metrics() {
       {"absolute_measurements", "absolute measurements", "", Better::neither,
        "of the log: headings, positions, poses", with_absolute(given)},
       {"absolute_used", "absolute used", "", Better::neither, "absolute measurements used",
-       count_of_absolute_use(LoopUse::used)},
+       count_of_absolute(LoopFate::used)},
       {"absolute_rejected", "absolute rejected", "", Better::neither,
-       "absolute measurements refused by the gate", count_of_absolute_use(LoopUse::rejected)},
+       "absolute measurements refused by the gate", count_of_absolute(LoopFate::rejected)},
       {"absolute_lost", "absolute lost", "", Better::lower,
        "absolute measurements let through by the gate, but their update failed",
-       count_of_absolute_use(LoopUse::lost)},
+       count_of_absolute(LoopFate::lost)},
       {"absolute_kept", "absolute kept", "", Better::neither,
        "absolute measurements that weigh more than one half in the end", with_absolute(kept)},
       {"mean_nis_absolute", "mean NIS of absolute measurements", "", Better::neither,

@@ -38,12 +38,12 @@ std::optional<Metric> relative_consistency_metric(const std::string& name);
 
 Metric anchored_anees_metric();
 
-/// The value of a metric that is a field of what the estimator did, a number or an optional one.
+/// The value of a metric that is a member of the run, a number or an optional one.
 template <class Field>
-auto replay_field(Field ReplayFacts::*field) {
+auto run_field(Field Run::*field) {
   return [field](const JudgedRun& run) -> std::optional<double> {
-    if (!run.facts.replay) return std::nullopt;
-    const std::optional value = (*run.facts.replay).*field;
+    if (run.facts.run == nullptr) return std::nullopt;
+    const std::optional value = (*run.facts.run).*field;
     return value ? std::optional(static_cast<double>(*value)) : std::nullopt;
   };
 }

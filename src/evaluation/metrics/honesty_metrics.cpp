@@ -19,7 +19,7 @@ void for_registrations(const MeasurementLog& log, const Visit& visit) {
 
 Value mean_nis_truth(const JudgedRun& run) {
   const RunFacts& facts = run.facts;
-  if (!facts.replay || !facts.ground_truth || facts.log.registration_count() == 0) return {};
+  if (facts.run == nullptr || !facts.ground_truth || facts.log.registration_count() == 0) return {};
   const std::span<const Pose> truth = *facts.ground_truth;
   double sum = 0.0;
   for_registrations(facts.log,
@@ -29,7 +29,7 @@ Value mean_nis_truth(const JudgedRun& run) {
 
 Value chi2_per_dof(const JudgedRun& run) {
   const RunFacts& facts = run.facts;
-  if (!facts.replay) return {};
+  if (facts.run == nullptr) return {};
   const double degrees = degrees_of_freedom(facts.log);
   if (!(degrees > 0.0)) return {};
   return chi2(facts.log, facts.estimate) / degrees;
@@ -56,7 +56,7 @@ struct SharedPicture {
 // the other one. A picture's own error is the same in all of them.
 Value picture_error_correlation(const JudgedRun& run) {
   const RunFacts& facts = run.facts;
-  if (!facts.replay || !facts.ground_truth) return {};
+  if (facts.run == nullptr || !facts.ground_truth) return {};
   const std::span<const Pose> truth = *facts.ground_truth;
   std::vector<SharedPicture> pictures(facts.log.size());
   for_registrations(facts.log, [&](const RelativePose& z) {

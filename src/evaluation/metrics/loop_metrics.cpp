@@ -6,45 +6,46 @@ namespace fathom {
 namespace {
 
 using Value = std::optional<double>;
-using Loops = std::vector<JudgedLoop>;
 
 Value number(std::optional<std::size_t> count) {
   if (!count) return std::nullopt;
   return static_cast<double>(*count);
 }
 
-// How many loops of a run satisfy a condition.
-template <class Condition>
-auto count_of(Condition condition) {
-  return [condition](const JudgedRun& run) -> Value {
-    if (!run.facts.replay) return std::nullopt;
-    const Loops& loops = run.facts.replay->loops;
-    return static_cast<double>(std::count_if(loops.begin(), loops.end(), condition));
+auto count_of(LoopFate fate) {
+  return [fate](const JudgedRun& run) -> Value {
+    if (run.facts.run == nullptr) return std::nullopt;
+    return static_cast<double>(std::ranges::count(run.facts.run->loops, fate, &LoopDecision::fate));
   };
 }
 
-auto count_of_use(LoopUse use) {
-  return count_of([use](const JudgedLoop& loop) { return loop.use == use; });
+Value kept(const JudgedRun& run) {
+  if (run.facts.run == nullptr) return std::nullopt;
+  return static_cast<double>(std::ranges::count_if(run.facts.run->loop_weights, is_kept));
 }
 
-// The same where it is known of all loops which are false.
+// How many loops satisfy a condition on (is false, is kept), where it is known which are false.
 template <class Condition>
 auto count_where_known(Condition condition) {
   return [condition](const JudgedRun& run) -> Value {
-    if (!run.facts.replay) return std::nullopt;
-    const Loops& loops = run.facts.replay->loops;
-    const auto is_known = [](const JudgedLoop& loop) { return loop.is_false.has_value(); };
-    if (loops.empty() || !std::all_of(loops.begin(), loops.end(), is_known)) return std::nullopt;
-    return static_cast<double>(std::count_if(loops.begin(), loops.end(), condition));
+    const RunFacts& facts = run.facts;
+    if (facts.run == nullptr || facts.is_false_loop == nullptr || facts.run->loops.empty()) {
+      return std::nullopt;
+    }
+    std::size_t count = 0;
+    for (std::size_t j = 0; j < facts.run->loops.size(); ++j) {
+      if (condition((*facts.is_false_loop)[j], is_kept(facts.run->loop_weights[j]))) ++count;
+    }
+    return static_cast<double>(count);
   };
 }
 
 Value mean_nis(const JudgedRun& run) {
-  if (!run.facts.replay) return std::nullopt;
+  if (run.facts.run == nullptr) return std::nullopt;
   double sum = 0.0;
   std::size_t count = 0;
-  for (const JudgedLoop& loop : run.facts.replay->loops) {
-    if (loop.use != LoopUse::used || !loop.nis) continue;
+  for (const LoopDecision& loop : run.facts.run->loops) {
+    if (loop.fate != LoopFate::used || !loop.nis) continue;
     sum += *loop.nis;
     ++count;
   }
@@ -53,14 +54,13 @@ Value mean_nis(const JudgedRun& run) {
 }
 
 Value precision(const JudgedRun& run) {
-  if (!run.facts.replay || run.facts.true_overlaps == nullptr) return std::nullopt;
-  return loop_precision(run.facts.replay->loops, *run.facts.true_overlaps);
+  if (run.facts.run == nullptr || run.facts.true_overlaps == nullptr) return std::nullopt;
+  return loop_precision(run.facts.run->loops, *run.facts.true_overlaps);
 }
 
 Value recall(const JudgedRun& run) {
-  if (!run.facts.replay || run.facts.true_overlaps == nullptr) return std::nullopt;
-  return loop_recall(run.facts.replay->loops, *run.facts.true_overlaps,
-                     run.facts.options.min_overlap);
+  if (run.facts.run == nullptr || run.facts.true_overlaps == nullptr) return std::nullopt;
+  return loop_recall(run.facts.run->loops, *run.facts.true_overlaps, run.facts.options.min_overlap);
 }
 
 std::vector<Metric> log_metrics() {
@@ -69,7 +69,8 @@ std::vector<Metric> log_metrics() {
        [](const JudgedRun& run) { return number(run.facts.log.size()); }},
       {"registrations", "registrations", "", Better::neither, "of the log",
        [](const JudgedRun& run) {
-         return run.facts.replay ? number(run.facts.log.registration_count()) : std::nullopt;
+         return run.facts.run != nullptr ? number(run.facts.log.registration_count())
+                                         : std::nullopt;
        }},
       {"registrations_tried", "registrations tried", "", Better::neither,
        "pairs of keyframes given to registration; absent of a pose graph",
@@ -84,14 +85,13 @@ std::vector<Metric> false_loop_metrics() {
   return {
       {"false_loops", "false loops", "", Better::neither,
        "false registrations of the log, where it is known which are",
-       count_where_known([](const JudgedLoop& loop) { return *loop.is_false; })},
+       count_where_known([](bool is_false, bool) { return is_false; })},
       {"false_loops_kept", "false loops kept", "", Better::lower,
        "false registrations that weigh more than one half in the end",
-       count_where_known([](const JudgedLoop& loop) { return *loop.is_false && loop.is_kept(); })},
+       count_where_known([](bool is_false, bool is_kept) { return is_false && is_kept; })},
       {"right_loops_lost", "right loops lost", "", Better::lower,
        "right registrations that do not weigh more than one half in the end",
-       count_where_known(
-           [](const JudgedLoop& loop) { return !*loop.is_false && !loop.is_kept(); })},
+       count_where_known([](bool is_false, bool is_kept) { return !is_false && !is_kept; })},
   };
 }
 
@@ -101,15 +101,13 @@ std::vector<Metric> loop_metrics() {
   std::vector<Metric> all = log_metrics();
   const std::vector<Metric> uses{
       {"loop_closures", "loop closures", "", Better::neither, "registrations used",
-       count_of_use(LoopUse::used)},
+       count_of(LoopFate::used)},
       {"rejected", "rejected", "", Better::neither, "registrations refused by the gate",
-       count_of_use(LoopUse::rejected)},
+       count_of(LoopFate::rejected)},
       {"lost", "lost", "", Better::lower,
-       "registrations let through by the gate, but their update failed",
-       count_of_use(LoopUse::lost)},
+       "registrations let through by the gate, but their update failed", count_of(LoopFate::lost)},
       {"loops_kept", "loops kept", "", Better::neither,
-       "registrations that weigh more than one half in the end",
-       count_of([](const JudgedLoop& loop) { return loop.is_kept(); })},
+       "registrations that weigh more than one half in the end", kept},
       {"mean_nis_accepted", "mean NIS accepted", "", Better::neither,
        "mean normalised innovation squared of the used registrations; 3 expected", mean_nis},
       {"loop_precision", "loop precision", "", Better::higher,

@@ -20,10 +20,9 @@ std::vector<Metric> optimum_metrics() {
       {"chi2_initial", "F at the start", "", Better::neither,
        "F at dead reckoning, or at the file's vertices with --init file; of a batch solve over "
        "holes, or with a free start, where it begins",
-       replay_field(&ReplayFacts::chi2_initial)},
+       run_field(&Run::chi2_initial)},
       {"chi2_used", "F of what was used", "", Better::neither,
-       "cost of what was used: rejected loops left out, loss applied",
-       replay_field(&ReplayFacts::chi2_used)},
+       "cost of what was used: rejected loops left out, loss applied", run_field(&Run::chi2_used)},
       {"chi2_optimum", "F at the optimum", "", Better::neither,
        "the least F that a batch solve of the log reaches from dead reckoning or from the estimate",
        [](const JudgedRun& run) { return run.facts.chi2_optimum; }},
@@ -31,13 +30,13 @@ std::vector<Metric> optimum_metrics() {
       {"gradient_norm", "gradient of F", "", Better::lower,
        "largest absolute element (m, rad) of the gradient of F at the estimate, the last solve's; "
        "of solvers that report it",
-       replay_field(&ReplayFacts::gradient_norm)},
+       run_field(&Run::gradient_norm)},
       {"is_local_minimum", "at a local minimum", "", Better::higher,
        "1 where the exact Hessian of F is positive definite at the estimate, else 0; likewise",
-       replay_field(&ReplayFacts::is_local_minimum)},
+       run_field(&Run::is_local_minimum)},
       {"iterations", "iterations", "", Better::lower,
        "linearisations (filters) or solver iterations, summed over updates",
-       replay_field(&ReplayFacts::iterations)},
+       run_field(&Run::iterations)},
   };
 }
 

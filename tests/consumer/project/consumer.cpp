@@ -32,7 +32,7 @@ int main() {
   fathom::Table table({"estimator", "x (m)", "y (m)", "heading (rad)"});
   bool right = true;
   for (const fathom::EstimatorEntry& entry : fathom::builtin_estimators().entries()) {
-    const fathom::Replay replay = fathom::replay(log, entry, {}, {});
+    const fathom::Run replay = fathom::replay(log, entry, {}, {});
     const fathom::Pose last = replay.trajectory.back();
     table.add_row({entry.name, fathom::format_number(last.x, 3), fathom::format_number(last.y, 3),
                    fathom::format_number(last.theta, 3)});

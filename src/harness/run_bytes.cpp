@@ -1,4 +1,4 @@
-#include "replay_bytes.hpp"
+#include "run_bytes.hpp"
 
 #include <cstring>
 #include <stdexcept>
@@ -30,6 +30,13 @@ class Writer {
   void field(const std::optional<std::vector<Eigen::Matrix3d>>& all) {
     field(all.has_value());
     if (all) field(*all);
+  }
+  // Of motions their covariances: the rest is what was asked for.
+  void field(const std::vector<JudgedMotions>& all) {
+    for (const JudgedMotions& one : all) field(one.covariances);
+  }
+  void field(const Costs& costs) {
+    Costs::each([&](auto, auto, auto, auto, auto member) { field(costs.*member); });
   }
 
   std::string take() { return std::move(bytes_); }
@@ -68,6 +75,12 @@ class Reader {
     field(is_there);
     if (is_there) field(all.emplace());
   }
+  void field(std::vector<JudgedMotions>& all) {
+    for (JudgedMotions& one : all) field(one.covariances);
+  }
+  void field(Costs& costs) {
+    Costs::each([&](auto, auto, auto, auto, auto member) { field(costs.*member); });
+  }
 
   bool is_at_end() const { return bytes_.empty(); }
 
@@ -82,51 +95,26 @@ class Reader {
   std::string_view bytes_;
 };
 
-// Every member of Replay, in order.
-template <class Archive, class AnyReplay>
-void fields(Archive& archive, AnyReplay& replay) {
-  archive.field(replay.trajectory);
-  archive.field(replay.covariances);
-  archive.field(replay.outcome);
-  archive.field(replay.fault);
-  archive.field(replay.outcome_counts);
-  archive.field(replay.loops);
-  archive.field(replay.loop_weights);
-  archive.field(replay.absolute);
-  archive.field(replay.absolute_weights);
-  archive.field(replay.iterations);
-  archive.field(replay.gradient_norm);
-  archive.field(replay.is_local_minimum);
-  archive.field(replay.update_ms);
-  archive.field(replay.add_ms);
-  archive.field(replay.newest_covariance_ms);
-  archive.field(replay.candidate_covariance_ms);
-  archive.field(replay.total_ms);
-  archive.field(replay.cpu_ms);
-  archive.field(replay.covariance_ms);
-  archive.field(replay.start_up_ms);
-  archive.field(replay.memory_bytes);
-  for (auto& motions : replay.motions) archive.field(motions.covariances);
-  archive.field(replay.chi2_initial);
-  archive.field(replay.cost_used);
-  archive.field(replay.absolute_cost_used);
+template <class Archive, class AnyRun>
+void members(Archive& archive, AnyRun& run) {
+  Run::each([&](auto member) { archive.field(run.*member); });
 }
 
 }  // namespace
 
-std::string bytes_of(const Replay& replay) {
+std::string bytes_of(const Run& run) {
   Writer writer;
-  fields(writer, replay);
+  members(writer, run);
   return writer.take();
 }
 
-Replay replay_of(std::string_view bytes, const ReplayOptions& asked) {
-  Replay replay;
-  replay.motions = asked.motions;
+Run run_of(std::string_view bytes, const ReplayOptions& asked) {
+  Run run;
+  run.motions = asked.motions;
   Reader reader(bytes);
-  fields(reader, replay);
+  members(reader, run);
   if (!reader.is_at_end()) throw std::runtime_error("more bytes than expected");
-  return replay;
+  return run;
 }
 
 }  // namespace fathom

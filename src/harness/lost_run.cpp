@@ -4,10 +4,10 @@
 
 namespace fathom {
 
-Replay lost_replay(const MeasurementLog& log, const ReplayOptions& options, Outcome outcome,
-                   const std::string& fault) {
+Run lost_run(const MeasurementLog& log, const ReplayOptions& options, Outcome outcome,
+             const std::string& fault) {
   constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-  Replay result;
+  Run result;
   result.outcome = outcome;
   result.fault = fault;
   result.trajectory.assign(log.size(), Pose{kUnknown, kUnknown, kUnknown});
@@ -25,7 +25,7 @@ Replay lost_replay(const MeasurementLog& log, const ReplayOptions& options, Outc
   result.motions = options.motions;
   for (JudgedMotions& motions : result.motions) motions.covariances.clear();
   result.chi2_initial = chi2(log, options.start.empty() ? log.odometry() : options.start);
-  result.cost_used = result.absolute_cost_used = kUnknown;
+  result.chi2_used = result.absolute_chi2_used = kUnknown;
   return result;
 }
 
