@@ -51,7 +51,7 @@ class CallTimer {
 
 // A NIS that is not finite is none.
 template <class Decision>
-void append(const std::vector<Decision>& more, std::vector<Decision>& all) {
+void append_decisions(const std::vector<Decision>& more, std::vector<Decision>& all) {
   for (const Decision& decision : more) {
     all.push_back(decision);
     if (decision.nis && !std::isfinite(*decision.nis)) all.back().nis.reset();
@@ -59,8 +59,8 @@ void append(const std::vector<Decision>& more, std::vector<Decision>& all) {
 }
 
 void note_decisions(const UpdateReport& report, Run& result) {
-  append(report.loops, result.loops);
-  append(report.absolute, result.absolute);
+  append_decisions(report.loops, result.loops);
+  append_decisions(report.absolute, result.absolute);
 }
 
 void note(const UpdateReport& report, double elapsed_ms, Run& result) {

@@ -7,25 +7,32 @@
 
 #include "fathom/geometry/covariance.hpp"
 #include "fathom/measurements/measured_parts.hpp"
+#include "fathom/results/run_series.hpp"
 
 namespace fathom {
 namespace {
 
-void put_poses(RunRecord& record, const std::string& prefix, const std::vector<Pose>& poses) {
-  std::vector<double>& x = record.series[prefix + "x_m"];
-  std::vector<double>& y = record.series[prefix + "y_m"];
-  std::vector<double>& theta = record.series[prefix + "theta_rad"];
+struct PoseSeries {
+  RunSeries<double> x_m;
+  RunSeries<double> y_m;
+  RunSeries<double> theta_rad;
+};
+
+constexpr PoseSeries kEstimate{series::x_m, series::y_m, series::theta_rad};
+constexpr PoseSeries kTruth{series::truth_x_m, series::truth_y_m, series::truth_theta_rad};
+
+void put_poses(RunRecord& record, const PoseSeries& to, const std::vector<Pose>& poses) {
   for (const Pose& pose : poses) {
-    x.push_back(pose.x);
-    y.push_back(pose.y);
-    theta.push_back(pose.theta);
+    append(record, to.x_m, pose.x);
+    append(record, to.y_m, pose.y);
+    append(record, to.theta_rad, pose.theta);
   }
 }
 
 void put_times(RunRecord& record, const Recording& recording) {
-  std::vector<double>& time = record.series["time_s"];
+  put(record, series::time_s, {});
   for (const std::int64_t time_ns : recording.keyframe_times_ns) {
-    time.push_back(static_cast<double>(time_ns) * 1e-9);
+    append(record, series::time_s, static_cast<double>(time_ns) * 1e-9);
   }
 }
 
@@ -33,15 +40,15 @@ void put_times(RunRecord& record, const Recording& recording) {
 Pose put_estimate(RunRecord& record, const Recording& recording, const std::vector<Pose>& estimate,
                   Alignment alignment) {
   if (!recording.ground_truth || !leaves_an_error(estimate.size(), alignment)) {
-    put_poses(record, "", estimate);
+    put_poses(record, kEstimate, estimate);
     return {};
   }
   const std::vector<Pose>& truth = *recording.ground_truth;
   const Aligned aligned = align(estimate, truth, alignment);
-  put_poses(record, "", aligned.poses);
+  put_poses(record, kEstimate, aligned.poses);
   if (record.metrics.contains("mean_position_error_m")) {
-    record.series["position_error_m"] = position_errors_m(aligned.poses, truth);
-    record.series["heading_error_rad"] = heading_errors_rad(aligned.poses, truth);
+    put(record, series::position_error_m, position_errors_m(aligned.poses, truth));
+    put(record, series::heading_error_rad, heading_errors_rad(aligned.poses, truth));
   }
   return aligned.motion_reference_estimate;
 }
@@ -51,36 +58,33 @@ void put_covariances(RunRecord& record, const std::vector<Eigen::Matrix3d>& cova
                      const Pose& alignment) {
   Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
   turn.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(alignment.theta).toRotationMatrix();
-  const struct {
-    const char* name;
-    Eigen::Index row;
-    Eigen::Index column;
-  } entries[] = {{"cov_xx", 0, 0}, {"cov_xy", 0, 1}, {"cov_xt", 0, 2},
-                 {"cov_yy", 1, 1}, {"cov_yt", 1, 2}, {"cov_tt", 2, 2}};
   for (const Eigen::Matrix3d& covariance : covariances) {
     const Eigen::Matrix3d turned = transport(turn, covariance);
-    for (const auto& entry : entries) {
-      record.series[entry.name].push_back(turned(entry.row, entry.column));
-    }
+    append(record, series::cov_xx, turned(0, 0));
+    append(record, series::cov_xy, turned(0, 1));
+    append(record, series::cov_xt, turned(0, 2));
+    append(record, series::cov_yy, turned(1, 1));
+    append(record, series::cov_yt, turned(1, 2));
+    append(record, series::cov_tt, turned(2, 2));
   }
 }
 
 void put_consistency(RunRecord& record, const std::optional<Consistency>& consistency) {
   if (!consistency) return;
-  record.series["pose_nees"] = consistency->pose_nees;
-  record.series["position_nees"] = consistency->position_nees;
+  put(record, series::pose_nees, consistency->pose_nees);
+  put(record, series::position_nees, consistency->position_nees);
 }
 
 void put_loops(RunRecord& record, const Recording& recording, const Run& run) {
   for (const bool is_false : recording.is_false_loop) {
-    record.series["loop_is_false"].push_back(is_false ? 1.0 : 0.0);
+    append(record, series::loop_is_false, is_false);
   }
-  if (!run.loops.empty()) record.series["loop_weight"] = run.loop_weights;
+  if (!run.loops.empty()) put(record, series::loop_weight, run.loop_weights);
   for (const LoopDecision& loop : run.loops) {
-    record.series["loop_from"].push_back(static_cast<double>(loop.from));
-    record.series["loop_to"].push_back(static_cast<double>(loop.to));
-    record.series["loop_fate"].push_back(static_cast<double>(loop.fate));
-    record.series["loop_nis"].push_back(loop.nis.value_or(-1.0));
+    append(record, series::loop_from, loop.from);
+    append(record, series::loop_to, loop.to);
+    append(record, series::loop_fate, loop.fate);
+    append(record, series::loop_nis, loop.nis);
   }
 }
 
@@ -99,18 +103,17 @@ void put_measured(RunRecord& record, const MeasurementLog& log, const Pose& alig
       const Eigen::Vector2d at = one.position.value_or(Eigen::Vector2d::Constant(kNone));
       const Eigen::Matrix2d C =
           one.position ? one.position_covariance : Eigen::Matrix2d::Constant(kNone);
-      record.series["absolute_x_m"].push_back(at.x());
-      record.series["absolute_y_m"].push_back(at.y());
-      record.series["absolute_cov_xx"].push_back(C(0, 0));
-      record.series["absolute_cov_xy"].push_back(C(0, 1));
-      record.series["absolute_cov_yy"].push_back(C(1, 1));
+      append(record, series::absolute_x_m, at.x());
+      append(record, series::absolute_y_m, at.y());
+      append(record, series::absolute_cov_xx, C(0, 0));
+      append(record, series::absolute_cov_xy, C(0, 1));
+      append(record, series::absolute_cov_yy, C(1, 1));
     }
   }
   if (std::ranges::any_of(all, [](const auto& one) { return one.heading_rad.has_value(); })) {
     for (const MeasuredParts& one : all) {
-      record.series["absolute_theta_rad"].push_back(one.heading_rad.value_or(kNone));
-      record.series["absolute_sigma_rad"].push_back(one.heading_rad ? one.heading_sigma_rad
-                                                                    : kNone);
+      append(record, series::absolute_theta_rad, one.heading_rad.value_or(kNone));
+      append(record, series::absolute_sigma_rad, one.heading_rad ? one.heading_sigma_rad : kNone);
     }
   }
 }
@@ -118,21 +121,21 @@ void put_measured(RunRecord& record, const MeasurementLog& log, const Pose& alig
 void put_absolute(RunRecord& record, const Recording& recording, const Run& run,
                   const Pose& alignment) {
   put_measured(record, recording.log, alignment);
-  if (!run.absolute.empty()) record.series["absolute_weight"] = run.absolute_weights;
+  if (!run.absolute.empty()) put(record, series::absolute_weight, run.absolute_weights);
   for (const AbsoluteDecision& z : run.absolute) {
-    record.series["absolute_keyframe"].push_back(static_cast<double>(z.keyframe));
-    record.series["absolute_fate"].push_back(static_cast<double>(z.fate));
-    record.series["absolute_nis"].push_back(z.nis.value_or(-1.0));
+    append(record, series::absolute_keyframe, z.keyframe);
+    append(record, series::absolute_fate, z.fate);
+    append(record, series::absolute_nis, z.nis);
   }
 }
 
 void put_updates(RunRecord& record, const Recording& recording, const Run& run) {
-  record.series["update_ms"] = run.costs.update_ms;
-  std::vector<double>& keyframes = record.series["update_keyframe"];
+  put(record, series::update_ms, run.costs.update_ms);
+  put(record, series::update_keyframe, {});
   for (std::size_t k = 0; k < recording.log.size(); ++k) {
     const KeyframeMeasurements& arrival = recording.log.arrival(k);
     if (!arrival.registrations.empty() || !arrival.absolute.empty()) {
-      keyframes.push_back(static_cast<double>(k));
+      append(record, series::update_keyframe, k);
     }
   }
 }
@@ -167,7 +170,7 @@ RunRecord baseline_record(const Recording& recording, const MetricOptions& optio
       put_estimate(record, recording, recording.log.odometry(), options.alignment);
   put_covariances(record, judged.covariances, alignment);
   put_consistency(record, judged.consistency);
-  if (recording.ground_truth) put_poses(record, "truth_", *recording.ground_truth);
+  if (recording.ground_truth) put_poses(record, kTruth, *recording.ground_truth);
   return record;
 }
 

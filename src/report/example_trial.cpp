@@ -4,6 +4,7 @@
 #include <array>
 
 #include "absolute_marks.hpp"
+#include "fathom/results/run_series.hpp"
 #include "keyframe_series.hpp"
 #include "page_numbers.hpp"
 #include "stored_absolute.hpp"
@@ -12,11 +13,13 @@ namespace fathom {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using Series = std::optional<std::vector<double>>;
 
 constexpr std::size_t kEllipses = 25;
 
-Json path_json(const Series& x, const Series& y, std::size_t most) {
+Json path_json(const ResultStore& store, const RunKey& key, const RunSeries<double>& x_m,
+               const RunSeries<double>& y_m, std::size_t most) {
+  const auto x = series_of(store, key, x_m);
+  const auto y = series_of(store, key, y_m);
   if (!x || !y || x->size() != y->size()) return {};
   const std::vector<std::size_t> places = thinned(x->size(), most);
   return {{"keyframe", places},
@@ -28,15 +31,16 @@ Json path_json(const Series& x, const Series& y, std::size_t most) {
 Json ellipses_json(const ResultStore& store, const RunKey& key) {
   Json json = Json::array();
   std::vector<std::vector<double>> all;
-  for (const char* name : {"x_m", "y_m", "cov_xx", "cov_xy", "cov_yy"}) {
-    const Series series = store.series(key, name);
-    if (!series || (!all.empty() && series->size() != all.front().size())) return json;
-    all.push_back(*series);
+  for (const RunSeries<double>& one :
+       {series::x_m, series::y_m, series::cov_xx, series::cov_xy, series::cov_yy}) {
+    const auto values = series_of(store, key, one);
+    if (!values || (!all.empty() && values->size() != all.front().size())) return json;
+    all.push_back(*values);
   }
   for (const std::size_t k : thinned(all.front().size(), kEllipses)) {
     if (k == 0) continue;  // fixed
     json.push_back(Json::array({k}));
-    for (const auto& series : all) json.back().push_back(page_number(series[k]));
+    for (const auto& values : all) json.back().push_back(page_number(values[k]));
   }
   return json;
 }
@@ -63,31 +67,31 @@ std::vector<std::size_t> drawn_loops(const std::vector<std::size_t>& used,
 
 ExampleLoops example_loops(const ResultStore& store, const RunKey& key, std::size_t most) {
   ExampleLoops loops;
-  const Series from = store.series(key, "loop_from");
-  const Series to = store.series(key, "loop_to");
-  const Series fate = store.series(key, "loop_fate");
-  const Series nis = store.series(key, "loop_nis");
+  const auto from = series_of(store, key, series::loop_from);
+  const auto to = series_of(store, key, series::loop_to);
+  const auto fate = series_of(store, key, series::loop_fate);
+  const auto nis = series_of(store, key, series::loop_nis);
   if (!from || !to || !fate) return loops;
   const std::size_t count = std::min({from->size(), to->size(), fate->size()});
   std::vector<std::size_t> used;
   std::vector<std::size_t> others;
   for (std::size_t i = 0; i < count; ++i) {
-    if (!((*from)[i] >= 0.0 && (*to)[i] >= 0.0)) continue;
-    if ((*fate)[i] >= 0.0 && (*fate)[i] < 3.0) ++loops.counts[static_cast<std::size_t>((*fate)[i])];
-    ((*fate)[i] == 0.0 ? used : others).push_back(i);
+    ++loops.counts[static_cast<std::size_t>((*fate)[i])];
+    ((*fate)[i] == LoopFate::used ? used : others).push_back(i);
   }
   for (const std::size_t i : drawn_loops(used, others, most)) {
-    const bool has_nis = nis && i < nis->size() && (*nis)[i] >= 0.0;
-    loops.drawn.push_back({page_number((*from)[i]), page_number((*to)[i]), page_number((*fate)[i]),
-                           has_nis ? page_number((*nis)[i]) : Json()});
+    const bool has_nis = nis && i < nis->size() && (*nis)[i];
+    loops.drawn.push_back({page_number(number_of((*from)[i])), page_number(number_of((*to)[i])),
+                           page_number(number_of((*fate)[i])),
+                           has_nis ? page_number(*(*nis)[i]) : Json()});
   }
   return loops;
 }
 
 // Where the loops of one run begin and end: their keyframes may have been thinned out of the path.
 Json loop_ends_json(const ResultStore& store, const RunKey& key, const Json& loops) {
-  const Series x = store.series(key, "x_m");
-  const Series y = store.series(key, "y_m");
+  const auto x = series_of(store, key, series::x_m);
+  const auto y = series_of(store, key, series::y_m);
   Json json = Json::array();
   if (!x || !y) return json;
   for (const Json& loop : loops) {
@@ -106,7 +110,7 @@ Json loop_ends_json(const ResultStore& store, const RunKey& key, const Json& loo
 // One absolute measurement; `x` and `y` are where its keyframe was estimated to be.
 Json absolute_json(const StoredAbsolute& one, double x, double y) {
   Json json{{"keyframe", one.mark.pose},
-            {"fate", one.fate},
+            {"fate", static_cast<int>(one.fate)},
             {"weight", page_number(one.weight)},
             {"at_m", {page_number(x), page_number(y)}}};
   if (one.nis) json["nis"] = page_number(*one.nis);
@@ -127,8 +131,8 @@ Json absolute_json(const StoredAbsolute& one, double x, double y) {
 void add_absolute(Json& json, const ResultStore& store, const RunKey& key, std::size_t most) {
   json["absolute"] = Json::array();
   json["absolute_in_all"] = {{"fixes", {0, 0}}, {"headings", {0, 0}}};
-  const Series x = store.series(key, "x_m");
-  const Series y = store.series(key, "y_m");
+  const auto x = series_of(store, key, series::x_m);
+  const auto y = series_of(store, key, series::y_m);
   if (!x || !y) return;
   const auto all = stored_absolute(store, key, std::min(x->size(), y->size()));
   for (const StoredAbsolute& one : all) {
@@ -150,13 +154,12 @@ Json example_trial(const ResultStore& store, const CellResults& cell, const Exam
   Json json{{"survey", trial.survey},
             {"trial", trial.trial},
             {"text", example_text(cell, trial)},
-            {"truth", path_json(store.series(baseline, "truth_x_m"),
-                                store.series(baseline, "truth_y_m"), limits.keyframes)}};
+            {"truth",
+             path_json(store, baseline, series::truth_x_m, series::truth_y_m, limits.keyframes)}};
   json["estimators"] = Json::array();
   for (const EstimatorResults& one : cell.estimators) {
     const RunKey key{cell.cell, trial.survey, trial.trial, one.name};
-    const Json path =
-        path_json(store.series(key, "x_m"), store.series(key, "y_m"), limits.keyframes);
+    const Json path = path_json(store, key, series::x_m, series::y_m, limits.keyframes);
     const ExampleLoops loops = example_loops(store, key, limits.loops);
     const auto run = std::find_if(one.runs.begin(), one.runs.end(),
                                   [&trial](const auto& r) { return r.key.trial_key() == trial; });

@@ -93,7 +93,7 @@ std::vector<DrawnMap> drawn_maps(const FigureInput& input, const RegimeMap& map,
   return list;
 }
 
-std::vector<double> counted(std::size_t count) {
+std::vector<double> numbers_from_0(std::size_t count) {
   std::vector<double> positions;
   for (std::size_t i = 0; i < count; ++i) positions.push_back(static_cast<double>(i));
   return positions;
@@ -101,7 +101,7 @@ std::vector<double> counted(std::size_t count) {
 
 // Squares lie about whole numbers.
 ChartAxis square_axis(const StudyAxis& axis) {
-  ChartAxis made = labelled_axis(axis.name, counted(axis.labels.size()), axis.labels, 0.0);
+  ChartAxis made = labelled_axis(axis.name, numbers_from_0(axis.labels.size()), axis.labels, 0.0);
   made.low = -0.5;
   made.high = static_cast<double>(axis.labels.size()) - 0.5;
   return made;

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "fathom/results/run_index.hpp"
+#include "fathom/results/run_series.hpp"
 #include "keyframe_series.hpp"
 #include "stored_absolute.hpp"
 #include "study_figures.hpp"
@@ -11,10 +12,10 @@
 namespace fathom {
 namespace {
 
-std::vector<Pose> path_of(const ResultStore& store, const RunKey& key, const char* x_name,
-                          const char* y_name) {
-  const auto x = store.series(key, x_name);
-  const auto y = store.series(key, y_name);
+std::vector<Pose> path_of(const ResultStore& store, const RunKey& key, const RunSeries<double>& x_m,
+                          const RunSeries<double>& y_m) {
+  const auto x = series_of(store, key, x_m);
+  const auto y = series_of(store, key, y_m);
   std::vector<Pose> poses;
   if (!x || !y || x->size() != y->size()) return poses;
   for (std::size_t k = 0; k < x->size(); ++k) poses.push_back({(*x)[k], (*y)[k], 0.0});
@@ -25,17 +26,13 @@ std::vector<Pose> path_of(const ResultStore& store, const RunKey& key, const cha
 constexpr std::size_t kMostLoops = 5000;
 
 void add_loops(PlotSeries& series, const ResultStore& store, const RunKey& key) {
-  const auto from = store.series(key, "loop_from");
-  const auto to = store.series(key, "loop_to");
-  const auto fate = store.series(key, "loop_fate");
+  const auto from = series_of(store, key, series::loop_from);
+  const auto to = series_of(store, key, series::loop_to);
+  const auto fate = series_of(store, key, series::loop_fate);
   if (!from || !to || !fate || from->size() != to->size() || from->size() != fate->size()) return;
-  const auto is_there = [&series](double k) {
-    return k >= 0.0 && k < static_cast<double>(series.poses.size());
-  };
   for (std::size_t i = 0; i < from->size(); ++i) {
-    if ((*fate)[i] != 0.0 || !is_there((*from)[i]) || !is_there((*to)[i])) continue;
-    series.loops.emplace_back(static_cast<std::size_t>((*from)[i]),
-                              static_cast<std::size_t>((*to)[i]));
+    const bool is_there = std::max((*from)[i], (*to)[i]) < series.poses.size();
+    if ((*fate)[i] == LoopFate::used && is_there) series.loops.emplace_back((*from)[i], (*to)[i]);
   }
   series.loops = picked(series.loops, thinned(series.loops.size(), kMostLoops));
 }
@@ -50,13 +47,13 @@ TrajectoryPlot plot_of(const ResultStore& store, const CellResults& cell, const 
                        const std::map<std::string, LineStyle>& styles) {
   TrajectoryPlot plot;
   std::vector<Pose> truth = path_of(store, {cell.cell, trial.survey, trial.trial, kDeadReckoning},
-                                    "truth_x_m", "truth_y_m");
+                                    series::truth_x_m, series::truth_y_m);
   bool has_loops = false;
   for (const EstimatorResults& one : cell.estimators) {
     const RunKey key{cell.cell, trial.survey, trial.trial, one.name};
     PlotSeries series{display_name(one.name),
                       styles.at(one.name),
-                      path_of(store, key, "x_m", "y_m"),
+                      path_of(store, key, series::x_m, series::y_m),
                       {},
                       {},
                       false};

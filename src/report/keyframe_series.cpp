@@ -7,6 +7,7 @@
 
 #include "fathom/evaluation/summary.hpp"
 #include "fathom/results/run_index.hpp"
+#include "fathom/results/run_series.hpp"
 
 namespace fathom {
 namespace {
@@ -23,15 +24,17 @@ struct Sums {
   std::set<std::size_t> nees_surveys;
 };
 
-std::vector<double> series_or_none(const ResultStore& store, const RunKey& key, const char* name) {
-  return store.series(key, name).value_or(std::vector<double>{});
+template <class Entry>
+std::vector<Entry> series_or_none(const ResultStore& store, const RunKey& key,
+                                  const RunSeries<Entry>& series) {
+  return series_of(store, key, series).value_or(std::vector<Entry>{});
 }
 
 void add_run(const ResultStore& store, const RunKey& key, std::vector<Sums>& sums) {
-  const auto errors = series_or_none(store, key, "position_error_m");
-  const auto xx = series_or_none(store, key, "cov_xx");
-  const auto yy = series_or_none(store, key, "cov_yy");
-  const auto nees = series_or_none(store, key, "pose_nees");
+  const auto errors = series_or_none(store, key, series::position_error_m);
+  const auto xx = series_or_none(store, key, series::cov_xx);
+  const auto yy = series_or_none(store, key, series::cov_yy);
+  const auto nees = series_or_none(store, key, series::pose_nees);
   const std::size_t covariances = std::min(xx.size(), yy.size());
   // NEES is known from keyframe 1 on.
   sums.resize(
@@ -95,12 +98,10 @@ UpdateCost update_cost(const ResultStore& store, const EstimatorResults& runs) {
   std::map<std::size_t, std::vector<double>> costs;
   for (const RunRecord& run : runs.runs) {
     if (is_failed(run) || run.machine != runs.cost_machine) continue;
-    const auto keyframes = series_or_none(store, run.key, "update_keyframe");
-    const auto times = series_or_none(store, run.key, "update_ms");
+    const auto keyframes = series_or_none(store, run.key, series::update_keyframe);
+    const auto times = series_or_none(store, run.key, series::update_ms);
     for (std::size_t i = 0; i < std::min(keyframes.size(), times.size()); ++i) {
-      if (keyframes[i] >= 0.0 && std::isfinite(times[i])) {
-        costs[static_cast<std::size_t>(keyframes[i])].push_back(times[i]);
-      }
+      if (std::isfinite(times[i])) costs[keyframes[i]].push_back(times[i]);
     }
   }
   UpdateCost result;

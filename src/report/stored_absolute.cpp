@@ -1,22 +1,24 @@
 #include "stored_absolute.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
-#include <string>
+
+#include "fathom/evaluation/run.hpp"
+#include "fathom/results/run_series.hpp"
 
 namespace fathom {
 namespace {
 
-// A series by the measurements of a run; NaN where it is absent or too short.
+// NaN where a series is absent or too short.
 class Column {
  public:
-  Column(const ResultStore& store, const RunKey& key, const std::string& name)
-      : values_(store.series(key, "absolute_" + name).value_or(std::vector<double>())) {}
+  Column(const ResultStore& store, const RunKey& key, const RunSeries<double>& series)
+      : values_(series_of(store, key, series).value_or(std::vector<double>())) {}
 
   double operator[](std::size_t i) const {
     return i < values_.size() ? values_[i] : std::numeric_limits<double>::quiet_NaN();
   }
-  std::size_t size() const { return values_.size(); }
 
  private:
   std::vector<double> values_;
@@ -26,29 +28,28 @@ class Column {
 
 std::vector<StoredAbsolute> stored_absolute(const ResultStore& store, const RunKey& key,
                                             std::size_t poses) {
-  const auto column = [&](const char* name) { return Column(store, key, name); };
-  const Column keyframe = column("keyframe");
   std::vector<StoredAbsolute> all;
-  if (keyframe.size() == 0) return all;
-  const Column fate = column("fate");
-  const Column weight = column("weight");
-  const Column nis = column("nis");
-  const Column x = column("x_m");
-  const Column y = column("y_m");
-  const Column xx = column("cov_xx");
-  const Column xy = column("cov_xy");
-  const Column yy = column("cov_yy");
-  const Column theta = column("theta_rad");
-  const Column sigma = column("sigma_rad");
-  for (std::size_t i = 0; i < keyframe.size(); ++i) {
-    if (!(keyframe[i] >= 0.0 && keyframe[i] < static_cast<double>(poses))) continue;
-    if (!(fate[i] >= 0.0 && fate[i] < 3.0)) continue;
+  const auto keyframe = series_of(store, key, series::absolute_keyframe);
+  const auto fate = series_of(store, key, series::absolute_fate);
+  const auto nis = series_of(store, key, series::absolute_nis);
+  if (!keyframe || !fate || !nis) return all;
+  const auto column = [&](const RunSeries<double>& series) { return Column(store, key, series); };
+  const Column weight = column(series::absolute_weight);
+  const Column x = column(series::absolute_x_m);
+  const Column y = column(series::absolute_y_m);
+  const Column xx = column(series::absolute_cov_xx);
+  const Column xy = column(series::absolute_cov_xy);
+  const Column yy = column(series::absolute_cov_yy);
+  const Column theta = column(series::absolute_theta_rad);
+  const Column sigma = column(series::absolute_sigma_rad);
+  for (std::size_t i = 0; i < std::min({keyframe->size(), fate->size(), nis->size()}); ++i) {
+    if ((*keyframe)[i] >= poses) continue;
     StoredAbsolute one;
-    one.fate = static_cast<std::size_t>(fate[i]);
+    one.fate = (*fate)[i];
     one.weight = weight[i];
-    if (nis[i] >= 0.0) one.nis = nis[i];
-    one.mark.pose = static_cast<std::size_t>(keyframe[i]);
-    one.mark.is_kept = one.weight > 0.5;
+    one.nis = (*nis)[i];
+    one.mark.pose = (*keyframe)[i];
+    one.mark.is_kept = is_kept(one.weight);
     if (std::isfinite(x[i]) && std::isfinite(y[i])) {
       one.mark.measured.position = Eigen::Vector2d(x[i], y[i]);
       one.mark.measured.position_covariance << xx[i], xy[i], xy[i], yy[i];

@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "fathom/measurements/decision.hpp"
 #include "fathom/report/trajectory_plot.hpp"
 #include "fathom/results/result_store.hpp"
 
@@ -11,7 +12,7 @@ namespace fathom {
 /// An absolute measurement of a run as its study stored it, in the frame of the aligned estimate.
 struct StoredAbsolute {
   AbsoluteMark mark;
-  std::size_t fate = 0;  ///< as of loops: 0 used, 1 rejected, 2 lost
+  LoopFate fate = LoopFate::used;
   double weight = 1.0;
   std::optional<double> nis;
 };

@@ -49,8 +49,7 @@ struct Costs {
           "CPU time of the start-up of a program that does the work, no part of the others",
           &Costs::start_up_ms);
     visit("memory_bytes", "memory", "bytes",
-          "peak heap of the estimator; of a program all that it had in use",
-          &Costs::memory_bytes);
+          "peak heap of the estimator; of a program all that it had in use", &Costs::memory_bytes);
   }
 };
 
