@@ -64,15 +64,35 @@ std::string StudyDescription::association_of(std::size_t cell) const {
   return value_of(*this, cell, "association.mode");
 }
 
-std::string StudyDescription::selected_by(std::size_t cell) const {
-  if (association_of(cell) != "shared" || is_graph(value_of(*this, cell, "dataset.type")))
-    return "";
+LoopSelector StudyDescription::selector_of(std::size_t cell) const {
+  using Kind = LoopSelector::Kind;
+  if (association_of(cell) != "shared" || is_graph(value_of(*this, cell, "dataset.type"))) {
+    return {};
+  }
   const std::string type = value_of(*this, cell, "association.reference.type");
-  if (!type.empty()) return "the estimate of " + type + ", no contender";
+  if (!type.empty()) return {Kind::outsider, type};
   const std::string name = value_of(*this, cell, "association.reference");
-  if (name == kGroundTruth) return "ground truth";
-  if (name == kAutomatic) return "ground truth, where there is no such by an estimate";
-  return name.empty() ? "" : "the estimate of " + name + ", a contender";
+  if (name.empty()) return {};
+  if (name == kGroundTruth) return {Kind::ground_truth, ""};
+  if (name == kAutomatic) return {Kind::automatic, ""};
+  return {Kind::contender, name};
+}
+
+std::string StudyDescription::selected_by(std::size_t cell) const {
+  const LoopSelector selector = selector_of(cell);
+  switch (selector.kind) {
+    case LoopSelector::Kind::ground_truth:
+      return "ground truth";
+    case LoopSelector::Kind::automatic:
+      return "ground truth, where there is no such by an estimate";
+    case LoopSelector::Kind::outsider:
+      return "the estimate of " + selector.estimator + ", no contender";
+    case LoopSelector::Kind::contender:
+      return "the estimate of " + selector.estimator + ", a contender";
+    case LoopSelector::Kind::unknown:
+      break;
+  }
+  return "";
 }
 
 std::string StudyDescription::alignment_of(std::size_t cell) const {

@@ -8,6 +8,7 @@
 #include "example_trial.hpp"
 #include "fathom/evaluation/consistency.hpp"
 #include "fathom/evaluation/metrics.hpp"
+#include "honesty_words.hpp"
 #include "page_numbers.hpp"
 #include "regime_map.hpp"
 #include "study_figures.hpp"
@@ -80,7 +81,7 @@ Json estimator_json(const EstimatorResults& one, const EstimatorSeries& series,
                     const StudyDescription& study, std::size_t most) {
   Json json{{"name", one.name},         {"runs", one.runs.size()},
             {"done", one.done},         {"outcome_text", outcome_text(one, study)},
-            {"outcomes", one.outcomes}, {"words", one.words}};
+            {"outcomes", one.outcomes}, {"words", honesty_words(one)}};
   json["metrics"] = Json::object();
   for (const auto& [metric, summary] : one.metrics) json["metrics"][metric] = metric_json(summary);
   json["keyframes"] = keyframes_json(series.keyframes, most);

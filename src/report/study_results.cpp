@@ -5,7 +5,7 @@
 
 #include "fathom/core/input_error.hpp"
 #include "fathom/results/run_index.hpp"
-#include "honesty_words.hpp"
+#include "honesty.hpp"
 
 namespace fathom {
 namespace {
@@ -59,19 +59,19 @@ void sum_up(EstimatorResults& estimator, const std::vector<std::string>& metrics
     if (!run.outcome.empty()) ++estimator.outcomes[run.outcome];
   }
   estimator.metrics = summaries(estimator, metrics);
-  std::set<std::string> of_words;
+  std::set<std::string> of_honesty;
   for (const RunRecord& run : estimator.runs) {
     for (const auto& [metric, value] : run.metrics) {
-      if (is_of_words(metric)) of_words.insert(metric);
+      if (is_of_honesty(metric)) of_honesty.insert(metric);
     }
   }
   std::set<std::size_t> surveys;
   for (const RunRecord& run : estimator.runs) {
     if (!is_failed(run)) surveys.insert(run.key.survey);
   }
-  estimator.consistency = summaries(estimator, {of_words.begin(), of_words.end()});
-  estimator.words = honesty_words(estimator.consistency,
-                                  independent_draws(repetition, surveys.size(), estimator.done));
+  estimator.consistency = summaries(estimator, {of_honesty.begin(), of_honesty.end()});
+  estimator.honesty = honesty_of(estimator.consistency,
+                                 independent_draws(repetition, surveys.size(), estimator.done));
 }
 
 // One family of tests a cell: what a reader of its block looks over at once. A single trial tests
@@ -127,6 +127,7 @@ CellResults runs_of(const RunIndex& index, std::size_t number, const std::string
   cell.label = study.label_of(number);
   cell.association = study.association_of(number);
   cell.selected_by = study.selected_by(number);
+  cell.contender_selects = study.selector_of(number).kind == LoopSelector::Kind::contender;
   cell.alignment = study.alignment_of(number);
   std::vector<std::string> names{kDeadReckoning};
   for (const StudyEstimator& estimator : study.estimators) names.push_back(estimator.name);

@@ -11,6 +11,7 @@
 #include "fathom/evaluation/paired.hpp"
 #include "fathom/evaluation/statistics.hpp"
 #include "fathom/results/result_store.hpp"
+#include "honesty.hpp"
 
 namespace fathom {
 
@@ -29,9 +30,8 @@ struct EstimatorResults {
   std::size_t done = 0;
   std::map<std::string, std::size_t> outcomes;
   std::map<std::string, MetricSummary> metrics;
-  /// What its consistency means; none where it is as expected or not known.
-  std::vector<std::string> words = {};
-  /// The figures that the words are made from, whether the study reports them or not.
+  std::optional<Honesty> honesty = std::nullopt;
+  /// The figures that it is found from, whether the study reports them or not.
   std::map<std::string, MetricSummary> consistency = {};
 
   std::size_t failures() const { return runs.size() - done; }
@@ -51,7 +51,8 @@ struct CellResults {
   std::string label;
   std::string association;  ///< empty where the study names none
   std::string selected_by;  ///< what selected the loops of all; empty where the study names none
-  std::string alignment;    ///< of its errors; empty where the study names none
+  bool contender_selects = false;  ///< whether that is one of those that are compared
+  std::string alignment;           ///< of its errors; empty where the study names none
   std::set<int> jobs;
   std::string machines;  ///< machines_text of the study
   Repetition repetition = Repetition::surveys;

@@ -5,6 +5,7 @@
 
 #include "fathom/report/study_report.hpp"
 #include "fathom/report/table.hpp"
+#include "honesty_words.hpp"
 #include "study_results.hpp"
 #include "verdict.hpp"
 
@@ -123,9 +124,9 @@ std::string paired_table(const CellResults& cell, const StudyDescription& study)
 std::string words_of(const CellResults& cell) {
   std::string text;
   for (const EstimatorResults& one : cell.estimators) {
-    if (one.words.empty()) continue;
+    if (!one.honesty) continue;
     text += display_name(one.name) + ":";
-    for (const std::string& sentence : one.words) text += " " + sentence;
+    for (const std::string& sentence : honesty_words(one)) text += " " + sentence;
     text += "\n";
   }
   return text.empty() ? "" : "\n" + text;
@@ -136,7 +137,7 @@ std::string words_in_brief(const StudyResults& results) {
   std::map<std::string, std::size_t> cells;
   for (const CellResults& cell : results.cells) {
     for (const EstimatorResults& one : cell.estimators) {
-      if (!one.words.empty()) ++cells[display_name(one.name)];
+      if (one.honesty) ++cells[display_name(one.name)];
     }
   }
   std::string text;

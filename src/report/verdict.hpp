@@ -4,16 +4,11 @@
 #include <string>
 #include <vector>
 
+#include "doubts.hpp"
 #include "ranking.hpp"
 #include "scaled_unit.hpp"
 
 namespace fathom {
-
-/// What makes an answer doubtful: of one cell with its figures, of several without.
-struct Doubt {
-  std::string text;
-  std::string in_general;
-};
 
 /// The answer of one cell, in sentences.
 struct CellVerdict {

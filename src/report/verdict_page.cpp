@@ -31,7 +31,7 @@ Json ranking_json(const Ranking& ranking) {
 Json cell_json(const CellVerdict& verdict) {
   Json json{{"answer", verdict.answer}, {"cost", verdict.cost}, {"failed", verdict.failed}};
   json["doubts"] = Json::array();
-  for (const Doubt& doubt : verdict.doubts) json["doubts"].push_back(doubt.text);
+  for (const Doubt& doubt : verdict.doubts) json["doubts"].push_back(words_of(doubt));
   return json;
 }
 

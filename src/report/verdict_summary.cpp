@@ -156,7 +156,8 @@ void add_doubts(StudyVerdict& verdict) {
   for (const CellVerdict& cell : verdict.cells) {
     std::vector<std::string> own;
     for (const Doubt& doubt : cell.doubts) {
-      if (std::ranges::find(own, doubt.in_general) == own.end()) own.push_back(doubt.in_general);
+      const std::string text = words_in_general(doubt);
+      if (std::ranges::find(own, text) == own.end()) own.push_back(text);
     }
     for (const std::string& text : own) {
       if (++cells[text] == 1) order.push_back(text);
@@ -203,7 +204,7 @@ StudyVerdict study_verdict(const StudyResults& results) {
     verdict.answer = only.answer;
     verdict.cost_words = only.cost;
     verdict.failed = only.failed;
-    for (const Doubt& doubt : only.doubts) verdict.doubts.push_back(doubt.text);
+    for (const Doubt& doubt : only.doubts) verdict.doubts.push_back(words_of(doubt));
     return verdict;
   }
   add_answer(results, verdict);

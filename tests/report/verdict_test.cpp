@@ -117,6 +117,7 @@ TEST(Verdict, AContenderThatSelectsAndJobsAreDoubts) {
                          {"association.reference", "best"},
                          {"dataset.type", "simulated"}};
   cell.selected_by = study.selected_by(0);
+  cell.contender_selects = study.selector_of(0).kind == LoopSelector::Kind::contender;
   cell.jobs = {1, 2};
   EXPECT_THAT(doubts_of_one(cell),
               ElementsAre(HasSubstr("selected by the estimate of best, a contender"),
@@ -126,8 +127,8 @@ TEST(Verdict, AContenderThatSelectsAndJobsAreDoubts) {
 
 TEST(Verdict, WordsOfConsistencyAndTheOptimumAreDoubts) {
   EstimatorResults over = six("over", kBest);
-  over.words = {"Overconfident: ANEES is 5.0, where 1 is expected.",
-                "The registrations share errors."};
+  over.honesty = Honesty{true, HonestyCause::misfit, false, false};
+  over.consistency["chi2_per_dof"].moments.mean = 2.0;
   over.consistency["anees"].moments.mean = 5.0;
   MetricSummary& gap = over.consistency["chi2_gap"];
   gap.moments.mean = 30.0;
@@ -137,8 +138,8 @@ TEST(Verdict, WordsOfConsistencyAndTheOptimumAreDoubts) {
   near.consistency["chi2_gap"].interval = Interval{9.3, 50.0};
   EXPECT_THAT(
       doubts_of_one(surveyed({over, near})),
-      ElementsAre("Overconfident, where 1 is expected: over (ANEES 5.00). The registrations "
-                  "share errors.",
+      ElementsAre("Overconfident, where 1 is expected: over (ANEES 5.00). F per degree of "
+                  "freedom is 2.0: covariances of the log are too small, or loops are false.",
                   "F above the optimum of the measurements: over by 30.0 [9.40, 50.0]."));
 }
 

@@ -26,6 +26,19 @@ struct StudyEstimator {
   std::string type;
 };
 
+/// What selected the loop candidates of a cell whose association is shared.
+struct LoopSelector {
+  enum class Kind {
+    unknown,       ///< nothing did, or the study does not say
+    ground_truth,  ///< truth itself
+    automatic,     ///< ground truth, where there is no such an estimate
+    outsider,      ///< the estimate of one that is not compared
+    contender      ///< the estimate of one that is
+  };
+  Kind kind = Kind::unknown;
+  std::string estimator;  ///< of an estimate: its type or name
+};
+
 /// What a study is, apart from its results. Cells are the Cartesian product of the axes, the last
 /// axis running fastest; without axes there is one cell.
 struct StudyDescription {
@@ -49,8 +62,8 @@ struct StudyDescription {
   std::string label_of(std::size_t cell) const;
   /// How a cell's loop candidates were selected, `shared` or `own`; empty where there are none.
   std::string association_of(std::size_t cell) const;
-  /// What selected the loop candidates of a cell whose association is shared: "ground truth", "the
-  /// estimate of ekf, a contender"; empty where nothing did or the study does not say.
+  LoopSelector selector_of(std::size_t cell) const;
+  /// The same in words: "ground truth", "the estimate of ekf, a contender"; empty where unknown.
   std::string selected_by(std::size_t cell) const;
   /// How a cell's estimates were aligned for their errors.
   std::string alignment_of(std::size_t cell) const;

@@ -1,0 +1,166 @@
+#include <algorithm>
+
+#include "doubts.hpp"
+#include "fathom/core/text.hpp"
+#include "fathom/report/table.hpp"
+#include "scaled_unit.hpp"
+#include "verdict.hpp"
+
+namespace fathom {
+namespace doubt {
+namespace {
+
+// "ekf (ANEES 2.1 [1.5, 2.8]) and smoother (ANEES 3.0)"
+std::string listed_figures(const std::vector<Figure>& all, const std::string& before,
+                           const std::string& after) {
+  std::vector<std::string> texts;
+  texts.reserve(all.size());
+  for (const auto& [estimator, summary] : all) {
+    texts.push_back(estimator + before + quantity(summary.moments.mean, summary.interval, "") +
+                    after);
+  }
+  return listed(texts);
+}
+
+// ": of 610 candidate pairs a trial 0 registered"; empty of a pose graph.
+std::string front_end_words(const std::optional<FrontEnd>& front_end) {
+  if (!front_end) return "";
+  if (front_end->tried == 0.0) {
+    return ": there were no candidate pairs; 'fathom check' of the data says what to expect";
+  }
+  return ": of " + short_number(front_end->tried, 4) + " candidate pairs a trial " +
+         short_number(front_end->registered, 4) + " registered";
+}
+
+// Each with its figures, and in general.
+
+std::string words(const SingleTrial&) {
+  return "A single trial: there is no interval, and the order may be chance.";
+}
+
+std::string words(const FewTrials& found) {
+  return "Only " + std::to_string(found.trials) + " trials.";
+}
+
+std::string words(const OneSurvey& found) {
+  return found.limits;
+}
+
+std::string words(const FewSurveys& found) {
+  return "Only " + std::to_string(found.surveys) + " surveys: others may give another order.";
+}
+
+std::string words(const IntervalAgainstTest& found) {
+  std::vector<std::string> names;
+  names.reserve(found.pairs.size());
+  for (const auto& [estimator, holm_p] : found.pairs) {
+    names.push_back(estimator + " (p = " + format_number(holm_p, 2) + ")");
+  }
+  std::string text =
+      "The interval of the difference excludes 0, but the adjusted p is above 0.05: " +
+      listed(names) + ".";
+  if (const auto& limit = found.limit) {
+    text += " With " + counted(limit->count, limit->is_over_surveys ? "survey" : "trial") +
+            " and " + counted(limit->comparisons, "comparison") + " no p is below " +
+            format_number(std::min(1.0, limit->least_p), 2) + ".";
+  }
+  return text;
+}
+std::string general(const IntervalAgainstTest&) {
+  return "an interval excludes 0 where the adjusted p is above 0.05";
+}
+
+std::string words(const BaselineAsGood& found) {
+  return "The best is not told apart from dead reckoning, whose difference to it is " +
+         quantity(found.difference.mean, found.difference.interval,
+                  described(found.metric).unit) +
+         ".";
+}
+std::string general(const BaselineAsGood&) {
+  return "the best is not told apart from dead reckoning";
+}
+
+std::string words(const WrongConfidence& found) {
+  return std::string(found.is_overconfident ? "Overconfident" : "Underconfident") +
+         ", where 1 is expected: " + listed_figures(found.anees, " (ANEES ", ")") + "." +
+         (found.cause.empty() ? "" : " " + found.cause);
+}
+std::string general(const WrongConfidence& found) {
+  return std::string("estimators are ") +
+         (found.is_overconfident ? "overconfident" : "underconfident");
+}
+
+std::string words(const Correlation& found) {
+  return "Registrations of one picture share errors (correlation " +
+         quantity(found.correlation.moments.mean, found.correlation.interval, "") +
+         "), which estimators take as independent.";
+}
+std::string general(const Correlation&) {
+  return "registrations of one picture share errors";
+}
+
+std::string words(const OffTheOptimum& found) {
+  return "F above the optimum of the measurements: " + listed_figures(found.gaps, " by ", "") + ".";
+}
+std::string general(const OffTheOptimum&) {
+  return "estimates are not at the optimum of the measurements";
+}
+
+std::string words(const WithoutLoops& found) {
+  return "The means of " + listed(found.estimators) +
+         " hold runs without loop closures, which are no better than dead reckoning" +
+         front_end_words(found.front_end) + ".";
+}
+std::string general(const WithoutLoops&) {
+  return "means hold runs without loop closures";
+}
+
+std::string words(const FewLoops& found) {
+  return "Of the pairs of keyframes that overlap well no more than " +
+         format_number(100.0 * found.recall, 2) + " % are loops" +
+         front_end_words(found.front_end) + ".";
+}
+std::string general(const FewLoops&) {
+  return "few of the pairs that overlap are loops";
+}
+
+std::string words(const Misfit& found) {
+  return "Measurements do not fit each other: F per degree of freedom is " +
+         format_number(found.chi2_per_degree, 3) +
+         " at its best, where 1 is expected; covariances of registrations or of dead reckoning "
+         "are too small, or loops are wrong.";
+}
+std::string general(const Misfit&) {
+  return "measurements do not fit each other";
+}
+
+std::string words(const ContenderSelects& found) {
+  return "Loops were selected by " + found.selected_by + ": the others replay what suited it.";
+}
+
+std::string words(const SeveralJobs& found) {
+  return "Costs were measured with " + counts_text(found.jobs) +
+         " jobs at a time; they are comparable at 1 alone.";
+}
+
+std::string words(const SeveralMachines& found) {
+  return found.machines;
+}
+
+}  // namespace
+}  // namespace doubt
+
+std::string words_of(const Doubt& doubt) {
+  return std::visit([](const auto& found) { return doubt::words(found); }, doubt);
+}
+
+std::string words_in_general(const Doubt& doubt) {
+  return std::visit(
+      [](const auto& found) {
+        if constexpr (requires { doubt::general(found); }) return doubt::general(found);
+        return doubt::words(found);
+      },
+      doubt);
+}
+
+}  // namespace fathom

@@ -1,0 +1,115 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <set>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "ranking.hpp"
+
+namespace fathom {
+
+// What makes an answer doubtful: a type for each finding, with its figures. A new one is a type
+// here, a function of verdict_doubts.cpp that finds it, and its words (doubt_words.cpp).
+namespace doubt {
+
+/// An estimator with a figure of its own.
+struct Figure {
+  std::string estimator;
+  MetricSummary summary;
+};
+
+/// What a trial's front end made of its candidate pairs, means.
+struct FrontEnd {
+  double tried = 0.0;
+  double registered = 0.0;
+};
+
+struct SingleTrial {};
+struct FewTrials {
+  std::size_t trials = 0;
+};
+/// Intervals that do not speak of other surveys.
+struct OneSurvey {
+  std::string limits;  ///< limits_text
+};
+struct FewSurveys {
+  std::size_t surveys = 0;
+};
+/// The interval of a difference excludes 0 where the adjusted p is not small.
+struct IntervalAgainstTest {
+  struct Pair {
+    std::string estimator;
+    double holm_p = 1.0;
+  };
+  std::vector<Pair> pairs;
+  /// Where so few pairs cannot have a small p.
+  struct Limit {
+    std::size_t count = 0;
+    bool is_over_surveys = false;
+    std::size_t comparisons = 0;
+    double least_p = 1.0;
+  };
+  std::optional<Limit> limit;
+};
+/// The best is not told apart from dead reckoning.
+struct BaselineAsGood {
+  PairedDifference difference;  ///< dead reckoning minus the best
+  std::string metric;
+};
+struct WrongConfidence {
+  bool is_overconfident = true;
+  std::vector<Figure> anees;
+  std::string cause;  ///< cause_words of the first that has a cause
+};
+/// Registrations of one picture share errors.
+struct Correlation {
+  MetricSummary correlation;
+};
+/// F lies above the optimum of the measurements.
+struct OffTheOptimum {
+  std::vector<Figure> gaps;
+};
+/// Means hold runs without loop closures.
+struct WithoutLoops {
+  std::vector<std::string> estimators;
+  std::optional<FrontEnd> front_end;
+};
+/// Few of the pairs that overlap are loops.
+struct FewLoops {
+  double recall = 0.0;
+  std::optional<FrontEnd> front_end;
+};
+/// Measurements do not fit each other.
+struct Misfit {
+  double chi2_per_degree = 0.0;
+};
+/// One of those that are compared selected the loops.
+struct ContenderSelects {
+  std::string selected_by;
+};
+struct SeveralJobs {
+  std::set<int> jobs;
+};
+struct SeveralMachines {
+  std::string machines;  ///< machines_text
+};
+
+}  // namespace doubt
+
+using Doubt =
+    std::variant<doubt::SingleTrial, doubt::FewTrials, doubt::OneSurvey, doubt::FewSurveys,
+                 doubt::IntervalAgainstTest, doubt::BaselineAsGood, doubt::WrongConfidence,
+                 doubt::Correlation, doubt::OffTheOptimum, doubt::WithoutLoops, doubt::FewLoops,
+                 doubt::Misfit, doubt::ContenderSelects, doubt::SeveralJobs,
+                 doubt::SeveralMachines>;
+
+/// Of one cell, with its figures: sentences.
+std::string words_of(const Doubt& doubt);
+
+/// Of several cells, without figures: a sentence, or what may follow "in 2 of 3 cells".
+std::string words_in_general(const Doubt& doubt);
+
+}  // namespace fathom

@@ -1,0 +1,128 @@
+#include "honesty.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include "fathom/core/chi_squared.hpp"
+#include "fathom/evaluation/consistency.hpp"
+#include "study_results.hpp"
+
+namespace fathom {
+namespace {
+
+constexpr double kProbability = 0.95;
+constexpr const char* kRelative = "relative_anees_";
+
+// Where a figure lies beside what is expected of honest covariances.
+enum class Level { unknown, low, expected, high };
+
+Level level_of(const MetricSummary& summary, double expected, const Interval& chance) {
+  const double ratio = summary.moments.mean / expected;
+  const auto& interval = summary.interval;
+  if (ratio > chance.high && (!interval || interval->low > expected)) return Level::high;
+  if (ratio < chance.low && (!interval || interval->high < expected)) return Level::low;
+  return Level::expected;
+}
+
+class Figures {
+ public:
+  Figures(const std::map<std::string, MetricSummary>& figures, std::size_t draws)
+      : figures_(figures), draws_(draws) {}
+
+  const MetricSummary* find(const std::string& metric) const {
+    const auto found = figures_.find(metric);
+    return found == figures_.end() ? nullptr : &found->second;
+  }
+
+  // Of a figure that errors which are the same everywhere leave with 3 degrees of freedom a draw.
+  Level level(const std::string& metric, double expected) const {
+    const MetricSummary* summary = find(metric);
+    if (summary == nullptr || draws_ == 0) return Level::unknown;
+    return level_of(*summary, expected, anees_interval(draws_, 3, kProbability));
+  }
+
+  // Of the motions over any stretch: high where one of them is.
+  bool is_any_motion_high() const {
+    return std::ranges::any_of(figures_, [&](const auto& figure) {
+      return figure.first.starts_with(kRelative) && level(figure.first, 1.0) == Level::high;
+    });
+  }
+
+  Level level_of_cost() const {
+    const MetricSummary* summary = find("chi2_per_dof");
+    const MetricSummary* registrations = find("registrations");
+    const MetricSummary* degrees = find("degrees_of_freedom");
+    if (summary == nullptr || registrations == nullptr || draws_ == 0) return Level::unknown;
+    const auto dof = static_cast<std::size_t>(std::max(
+        0.0, degrees != nullptr ? degrees->moments.mean : 3.0 * registrations->moments.mean));
+    if (dof == 0) return Level::unknown;
+    return level_of(*summary, 1.0, anees_interval(draws_, dof, kProbability));
+  }
+
+  bool is_off_the_optimum() const { return fathom::is_off_the_optimum(figures_); }
+
+  bool is_correlated() const {
+    const MetricSummary* summary = find("picture_error_correlation");
+    return summary != nullptr && summary->interval && summary->interval->low > 0.0;
+  }
+
+ private:
+  const std::map<std::string, MetricSummary>& figures_;
+  std::size_t draws_ = 0;
+};
+
+// Why covariances are too small, by the figure that says most.
+void explain_high(const Figures& figures, Honesty& honesty) {
+  const Level cost = figures.level_of_cost();
+  const Level nis = figures.level("mean_nis_truth", 3.0);
+  honesty.agrees_too_well = cost == Level::low;
+  honesty.is_correlated = figures.is_correlated();
+  if (figures.is_off_the_optimum()) {
+    honesty.cause = HonestyCause::off_the_optimum;
+  } else if (figures.level("anchored_anees", 1.0) == Level::expected &&
+             !figures.is_any_motion_high()) {
+    honesty.cause = HonestyCause::first_picture;
+  } else if (honesty.agrees_too_well || honesty.is_correlated) {
+    honesty.cause = HonestyCause::shared_errors;
+  } else if (nis == Level::high) {
+    honesty.cause = HonestyCause::small_registrations;
+  } else if (nis == Level::expected) {
+    honesty.cause = HonestyCause::linearisation;
+  } else if (cost == Level::high) {
+    honesty.cause = HonestyCause::misfit;
+  }
+}
+
+}  // namespace
+
+bool is_of_honesty(const std::string& metric) {
+  static const std::set<std::string> metrics{
+      "anees",        "anchored_anees", "mean_nis_truth", "picture_error_correlation",
+      "chi2_per_dof", "registrations",  "chi2_gap",       "degrees_of_freedom"};
+  return metrics.contains(metric) || metric.starts_with(kRelative);
+}
+
+// A true error of one pose has a χ² of 3 degrees of freedom. Beyond that, whatever the draws, the
+// estimate is not where the measurements put it.
+bool is_off_the_optimum(const std::map<std::string, MetricSummary>& figures) {
+  const auto found = figures.find("chi2_gap");
+  const double most = chi_squared_quantile(0.5 * (1.0 + kProbability), 3.0);
+  return found != figures.end() && found->second.interval && found->second.interval->low > most;
+}
+
+std::optional<Honesty> honesty_of(const std::map<std::string, MetricSummary>& figures,
+                                  std::size_t draws) {
+  const Figures known(figures, draws);
+  const Level level = known.level("anees", 1.0);
+  if (level != Level::high && level != Level::low) return std::nullopt;
+  Honesty honesty;
+  honesty.is_overconfident = level == Level::high;
+  if (honesty.is_overconfident) {
+    explain_high(known, honesty);
+  } else if (known.level("mean_nis_truth", 3.0) == Level::low) {
+    honesty.cause = HonestyCause::large_registrations;
+  }
+  return honesty;
+}
+
+}  // namespace fathom

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <string>
+
+namespace fathom {
+
+struct MetricSummary;
+
+/// Why covariances do not fit the errors, by the figure that says most.
+enum class HonestyCause {
+  unknown,
+  off_the_optimum,      ///< the estimate is not where the measurements put it
+  first_picture,        ///< with other keyframes held it is honest
+  shared_errors,        ///< of registrations, which estimators take as independent
+  small_registrations,  ///< covariances of registrations are too small
+  linearisation,        ///< they are right, the estimator's own are too small
+  misfit,               ///< covariances of the log are too small, or loops are false
+  large_registrations   ///< covariances of registrations are too large
+};
+
+/// An estimator whose covariances do not fit its errors.
+struct Honesty {
+  bool is_overconfident = true;  ///< else underconfident
+  HonestyCause cause = HonestyCause::unknown;
+  /// Of an overconfident one, whether its registrations agree with one another better than their
+  /// covariances say, and whether those of one picture are correlated.
+  bool agrees_too_well = false;
+  bool is_correlated = false;
+};
+
+/// Whether honesty_of looks at a metric.
+bool is_of_honesty(const std::string& metric);
+
+/// Whether an estimate lies so far above the optimum of the measurements that no honest one would.
+/// F above it has an interval above the 97.5 % quantile of χ² of 3 degrees of freedom.
+bool is_off_the_optimum(const std::map<std::string, MetricSummary>& figures);
+
+/// Whether the consistency of an estimator on a cell is other than expected; nothing where it is as
+/// expected, or the figures say nothing. `figures` are means over runs by metric, `draws` how many
+/// independent draws they are over.
+///
+/// An ANEES is too high where both hold (docs/conventions.md, consistency):
+/// - it is above the 95 % χ² interval of `draws` · 3 degrees of freedom, which is that of errors
+///   that are the same at all keyframes, and so the widest one;
+/// - its bootstrap interval, where there is one, lies above 1.
+/// Too low likewise. A mean NIS against truth is held to the same interval, three times as large.
+/// F per degree of freedom is held to the χ² interval of `draws` times its degrees of freedom:
+/// 3 · registrations, unless `degrees_of_freedom` says otherwise.
+std::optional<Honesty> honesty_of(const std::map<std::string, MetricSummary>& figures,
+                                  std::size_t draws);
+
+}  // namespace fathom
