@@ -19,7 +19,7 @@ auto count_of(LoopFate fate) {
   };
 }
 
-Value kept(const JudgedRun& run) {
+Value loops_kept(const JudgedRun& run) {
   if (run.facts.run == nullptr) return std::nullopt;
   return static_cast<double>(std::ranges::count_if(run.facts.run->loop_weights, is_kept));
 }
@@ -107,7 +107,7 @@ std::vector<Metric> loop_metrics() {
       {"lost", "lost", "", Better::lower,
        "registrations let through by the gate, but their update failed", count_of(LoopFate::lost)},
       {"loops_kept", "loops kept", "", Better::neither,
-       "registrations that weigh more than one half in the end", kept},
+       "registrations that weigh more than one half in the end", loops_kept},
       {"mean_nis_accepted", "mean NIS accepted", "", Better::neither,
        "mean normalised innovation squared of the used registrations; 3 expected", mean_nis},
       {"loop_precision", "loop precision", "", Better::higher,
