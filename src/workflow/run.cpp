@@ -22,9 +22,9 @@ namespace fs = std::filesystem;
 constexpr const char* kBatchOptimum = "batch_optimum";
 
 // A run as it comes about.
-class Run {
+class OneRun {
  public:
-  Run(const RunRequest& request, const EstimatorRegistry& registry, const Machine& machine,
+  OneRun(const RunRequest& request, const EstimatorRegistry& registry, const Machine& machine,
       Observer& observer)
       : request_(request),
         registry_(registry),
@@ -152,7 +152,7 @@ class Run {
 
 RunOutcome run(const RunRequest& request, const EstimatorRegistry& registry, const Machine& machine,
                Observer& observer) {
-  return Run(request, registry, machine, observer).outcome();
+  return OneRun(request, registry, machine, observer).outcome();
 }
 
 }  // namespace fathom::workflow
