@@ -72,8 +72,7 @@ std::string general(const IntervalAgainstTest&) {
 
 std::string words(const BaselineAsGood& found) {
   return "The best is not told apart from dead reckoning, whose difference to it is " +
-         quantity(found.difference.mean, found.difference.interval,
-                  described(found.metric).unit) +
+         quantity(found.difference.mean, found.difference.interval, described(found.metric).unit) +
          ".";
 }
 std::string general(const BaselineAsGood&) {

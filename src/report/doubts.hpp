@@ -99,12 +99,11 @@ struct SeveralMachines {
 
 }  // namespace doubt
 
-using Doubt =
-    std::variant<doubt::SingleTrial, doubt::FewTrials, doubt::OneSurvey, doubt::FewSurveys,
-                 doubt::IntervalAgainstTest, doubt::BaselineAsGood, doubt::WrongConfidence,
-                 doubt::Correlation, doubt::OffTheOptimum, doubt::WithoutLoops, doubt::FewLoops,
-                 doubt::Misfit, doubt::ContenderSelects, doubt::SeveralJobs,
-                 doubt::SeveralMachines>;
+using Doubt = std::variant<doubt::SingleTrial, doubt::FewTrials, doubt::OneSurvey,
+                           doubt::FewSurveys, doubt::IntervalAgainstTest, doubt::BaselineAsGood,
+                           doubt::WrongConfidence, doubt::Correlation, doubt::OffTheOptimum,
+                           doubt::WithoutLoops, doubt::FewLoops, doubt::Misfit,
+                           doubt::ContenderSelects, doubt::SeveralJobs, doubt::SeveralMachines>;
 
 /// Of one cell, with its figures: sentences.
 std::string words_of(const Doubt& doubt);

@@ -25,7 +25,7 @@ constexpr const char* kBatchOptimum = "batch_optimum";
 class OneRun {
  public:
   OneRun(const RunRequest& request, const EstimatorRegistry& registry, const Machine& machine,
-      Observer& observer)
+         Observer& observer)
       : request_(request),
         registry_(registry),
         machine_(machine),

@@ -108,7 +108,8 @@ std::vector<Metric> absolute_metrics() {
        "absolute measurements let through by the gate, but their update failed",
        count_of_absolute(LoopFate::lost)},
       {"absolute_kept", "absolute kept", "", Better::neither,
-       "absolute measurements that weigh more than one half in the end", with_absolute(absolute_kept)},
+       "absolute measurements that weigh more than one half in the end",
+       with_absolute(absolute_kept)},
       {"mean_nis_absolute", "mean NIS of absolute measurements", "", Better::neither,
        "NIS of the used absolute measurements over its degrees of freedom, the rank of each; 1 "
        "expected",
