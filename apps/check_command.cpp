@@ -6,11 +6,11 @@
 #include <memory>
 
 #include "apps/command.hpp"
-#include "apps/graph_text.hpp"
 #include "fathom/configuration/study.hpp"
 #include "fathom/core/input_error.hpp"
 #include "fathom/core/text.hpp"
 #include "fathom/geometry/trajectory.hpp"
+#include "fathom/report/graph_text.hpp"
 #include "fathom/report/table.hpp"
 #include "fathom/workflow/check.hpp"
 
@@ -24,16 +24,16 @@ void print_warnings(const std::vector<std::string>& warnings) {
 
 void refuse(const std::vector<std::string>& faults) {
   if (faults.empty()) return;
-  for (std::size_t i = 0; i < std::min(faults.size(), kShown); ++i) {
+  for (std::size_t i = 0; i < std::min(faults.size(), kMostLines); ++i) {
     std::printf("fault: %s\n", faults[i].c_str());
   }
-  if (faults.size() > kShown) std::printf("and %zu faults more\n", faults.size() - kShown);
+  if (faults.size() > kMostLines) std::printf("and %zu faults more\n", faults.size() - kMostLines);
   throw InputError(faults.front() + " (" + counted(faults.size(), "fault") + " in all)");
 }
 
 void check_graph(const std::string& path, const EstimatorRegistry& registry) {
   const workflow::GraphCheck found = workflow::check_graph(path, registry);
-  print_graph(found.graph);
+  std::printf("%s", graph_text(found.graph).c_str());
   refuse(found.graph.faults);
   if (found.guess_chi2)
     std::printf("  F            %.10g at the file's guess\n", *found.guess_chi2);

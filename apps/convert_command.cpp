@@ -10,6 +10,7 @@
 #include "fathom/core/input_error.hpp"
 #include "fathom/core/text.hpp"
 #include "fathom/measurements/graph_conversion.hpp"
+#include "fathom/report/projection_text.hpp"
 
 namespace fathom {
 namespace {

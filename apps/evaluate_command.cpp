@@ -5,12 +5,12 @@
 #include <memory>
 
 #include "apps/command.hpp"
-#include "apps/evaluate_text.hpp"
 #include "apps/trajectories.hpp"
 #include "fathom/core/input_error.hpp"
 #include "fathom/core/text.hpp"
 #include "fathom/evaluation/association.hpp"
 #include "fathom/evaluation/spatial_accuracy.hpp"
+#include "fathom/report/evaluation_text.hpp"
 #include "fathom/report/table.hpp"
 
 namespace fathom {
@@ -144,8 +144,8 @@ void evaluate_files(EvaluateFlags flags, Context& context) {
   if (leaves_an_error(pairs.estimate.size(), on_plane(alignment)) && !judged.accuracy) {
     throw InputError(flags.estimate, "has errors too large for a number");
   }
-  print_evaluation(judged, {flags.alignment, estimate.poses.size(), by_index},
-                   {flags.steps, flags.distances_m});
+  const EvaluationHead head{flags.alignment, estimate.poses.size(), by_index};
+  std::printf("%s", evaluation_text(judged, head, {flags.steps, flags.distances_m}).c_str());
   context.status = kDone;
 }
 

@@ -1,10 +1,7 @@
 #include "apps/trajectories.hpp"
 
-#include <algorithm>
-
 #include "fathom/core/input_error.hpp"
 #include "fathom/core/text.hpp"
-#include "fathom/report/table.hpp"
 
 namespace fathom {
 
@@ -18,51 +15,6 @@ SpatialTrajectory TrajectoryFlags::read(const std::string& path,
 std::string span_text(const SpatialTrajectory& trajectory) {
   const auto& poses = trajectory.poses;
   return seconds_text(poses.front().time_ns) + " to " + seconds_text(poses.back().time_ns) + " s";
-}
-
-std::vector<std::string> projection_warnings(const PlaneAxes& axes, const Projection& projection,
-                                             const BodyAxes& body, const std::string& which) {
-  const ProjectionLoss& loss = projection.loss;
-  if (loss.better) {
-    return {which + " is off plane " + name_of(axes.named) + " by " +
-            format_number(loss.height_rms_m, 3) + " m (RMS), and off plane " +
-            name_of(*loss.better) + " by less than a quarter of that: --plane " +
-            name_of(*loss.better) + " may be meant"};
-  }
-  std::vector<std::string> warnings;
-  if (body.forward.z() != 0.0) {
-    warnings.push_back("the x axis of the body points up or down in " + which +
-                       ": the heading is that of its z axis");
-  }
-  if (loss.open_headings > 0) {
-    warnings.push_back(std::to_string(loss.open_headings) + " of " +
-                       std::to_string(projection.trajectory.size()) + " poses of " + which +
-                       " point within 10 degrees of up or down: their headings say little, and so "
-                       "do errors that rest on them");
-  }
-  return warnings;
-}
-
-std::string plane_text(Plane plane, const PlaneAxes& axes) {
-  if (plane != Plane::fit) return name_of(plane);
-  return "fit: " + name_of(axes.named) + " tilted by " + format_number(axes.tilt_rad, 3) + " rad";
-}
-
-const std::vector<std::string>& loss_rows() {
-  static const std::vector<std::string> rows{"plane", "height off it, RMS (m)",
-                                             "height off it, largest (m)", "roll RMS (rad)",
-                                             "pitch RMS (rad)"};
-  return rows;
-}
-
-std::vector<std::string> loss_cells(const std::string& plane, const ProjectionLoss& loss) {
-  return {plane, format_number(loss.height_rms_m, 5), format_number(loss.height_max_m, 5),
-          format_number(loss.roll_rms_rad, 5), format_number(loss.pitch_rms_rad, 5)};
-}
-
-bool is_flat(const ProjectionLoss& loss) {
-  constexpr double kRounding = 1e-9;
-  return std::max({loss.height_max_m, loss.roll_rms_rad, loss.pitch_rms_rad}) < kRounding;
 }
 
 }  // namespace fathom

@@ -71,7 +71,7 @@ fathom_package(program fathom science "${blas}"
   "This package has the program, its man pages and its completion for bash.")
 
 # What find_package(fathom) looks for.
-set(headers libeigen3-dev libopencv-dev libceres-dev libsuitesparse-dev libyaml-cpp-dev
+set(headers libeigen3-dev libopencv-dev libceres-dev libsuitesparse-dev libfmt-dev libyaml-cpp-dev
     libsqlitecpp-dev libsqlite3-dev nlohmann-json3-dev libcairo2-dev libopenblas-dev libboost-dev
     pkg-config)
 foreach(pair EXIF:libexif-dev PROJ:libproj-dev GEOTIFF:libgeotiff-dev GEOTIFF:libtiff-dev

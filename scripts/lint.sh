@@ -6,6 +6,7 @@
 #     scripts/lint.sh --style               # format and flake8 alone, which take seconds
 #     scripts/lint.sh --since v0.2.0        # clang-tidy of what has changed since that commit
 #     scripts/lint.sh --since-release       # … since the last release
+#     scripts/lint.sh --since-release 24    # … at most 24 units, of what has changed last
 #     scripts/lint.sh src/vision/*.cpp      # … of some files
 #
 # clang-tidy, and with it the warnings of clang, reads the compile commands in build/lint.
@@ -17,32 +18,40 @@ fail() {
   exit 1
 }
 
-# The commit of the last release: its tag, or else the one that set the version.
+# The commit of the last release: its tag, or else what CITATION.cff says.
 last_release() {
   git describe --tags --abbrev=0 --match 'v[0-9]*' 2> /dev/null ||
-    git log -1 --format=%H -G'^project\(fathom VERSION' -- CMakeLists.txt
+    sed -n 's/^commit: //p' CITATION.cff
 }
 
-# Sources that have changed since a commit, and for each header that has, those that include it
-# under its name; of many the first three.
+# Sources that have changed since a commit, what has changed last first, and for each header that
+# has, those that include it under its name; of many the first three.
 changed_since() {
-  local files header
-  files=$(git diff --name-only --diff-filter=d "$1" -- '*.cpp' '*.hpp')
-  grep '\.cpp$' <<< "$files" || true
-  for header in $(grep '\.hpp$' <<< "$files"); do
-    git grep -l --fixed-strings "$(sed -E 's|^(include\|tests)/||' <<< "$header")\"" -- '*.cpp' | head -3
-  done
+  local file
+  { git diff --name-only HEAD && git log --format= --name-only "$1.."; } | awk '!seen[$0]++' |
+    while read -r file; do
+      [[ -f $file ]] || continue
+      case "$file" in
+        *.cpp) printf '%s\n' "$file" ;;
+        *.hpp)
+          git grep -l --fixed-strings "$(sed -E 's|^(include\|tests)/||' <<< "$file")\"" -- '*.cpp' |
+            head -3 ;;
+      esac
+    done | awk '!seen[$0]++'
 }
 
 base=
+most=1000000
 is_style=
 case "${1:-}" in
   --style) is_style=yes ;;
   --since) base=${2:?which commit?} && shift 2 ;;
   --since-release)
     base=$(last_release)
-    [[ -n $base ]] || fail "the history of this clone has no release; use --since COMMIT"
-    shift
+    git cat-file -e "$base^{commit}" 2> /dev/null ||
+      fail "the history of this clone has no release; use --since COMMIT"
+    most=${2:-$most}
+    shift $#
     ;;
   -*) fail "unknown flag '$1'; there are --style, --since COMMIT and --since-release" ;;
 esac
@@ -69,14 +78,18 @@ units_of() {
   done < <(sed -n 's|^  "file": "\(.*\)",\?$|\1|p' build/lint/compile_commands.json)
 }
 if [[ -n $base ]]; then
-  mapfile -t chosen < <(changed_since "$base" | sort -u)
+  mapfile -t chosen < <(changed_since "$base")
 else
   chosen=("$@")
 fi
 if [[ -n $base || $# -gt 0 ]]; then
-  # A file that is no source of the build has no unit.
-  mapfile -t units < <(units_of |
-    awk 'NR == FNR { chosen[$0]; next } $2 in chosen { print $1 }' <(printf '%s\n' "${chosen[@]}") - | sort -u)
+  # In the order of the files; one that is no source of the build has no unit.
+  mapfile -t units < <(awk 'NR == FNR { unit[$2] = $1; next }
+    $0 in unit && !seen[unit[$0]]++ { print unit[$0] }' <(units_of) <(printf '%s\n' "${chosen[@]}"))
+  if [[ ${#units[@]} -gt $most ]]; then
+    printf 'lint: %d of %d units, of what has changed last\n' "$most" "${#units[@]}"
+    units=("${units[@]:0:most}")
+  fi
 else
   mapfile -t units < <(units_of | cut -d ' ' -f 1 | sort -u)
 fi
@@ -92,6 +105,10 @@ plain=,-performance-*,-bugprone-implicit-widening-of-multiplication-result
 plain+=,-bugprone-misplaced-widening-cast,-bugprone-suspicious-missing-comma
 plain+=,-bugprone-integer-division
 plain+=,-bugprone-suspicious-memory-comparison,-clang-analyzer-security.FloatLoopCounter
+if [[ ${#units[@]} -eq 0 ]]; then
+  printf 'lint: no source to read\n'
+  exit 0
+fi
 tidy -v '/\(tests\|benchmarks\)/' ''
 tidy -e '/\(tests\|benchmarks\)/' "$plain"
 printf 'lint: %d units of sources are clean\n' "${#units[@]}"

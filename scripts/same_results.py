@@ -57,7 +57,8 @@ size_t malloc_usable_size(void* block) { (void)block; return 0; }
 """
 
 # What says which program it was, on which machine.
-WHO = re.compile(rb'("(?:host|pid|commit|flags|version|fathom|program|code|cpu)": ?)(?:"[^"]*"|\d+)')
+WHO = re.compile(
+    rb'("(?:host|pid|commit|flags|version|fathom|program|code|cpu)": ?)(?:"[^"]*"|\d+)')
 
 
 def small(text):
@@ -117,7 +118,8 @@ def commands():
         ["evaluate", "run/trajectory.tum", "run/ground_truth.tum", "--align", "se2"],
         ["mosaic", "run", "--trajectory", "run/ground_truth.tum", "--out", "truth"],
         ["convert", "run/trajectory.tum", "--to", "kitti", "--out", "trajectory.txt"],
-        ["solve", "run/measurements.g2o", "--ground-truth", "run/ground_truth.tum", "--out", "again"],
+        ["solve", "run/measurements.g2o", "--ground-truth", "run/ground_truth.tum",
+         "--out", "again"],
         ["spoil", "run/measurements.g2o", "--share", "0.3", "--out", "spoilt.g2o"],
         ["check", "run/measurements.g2o"], ["check", "run/trajectory.tum"],
         ["run", str(run), "--out", "batch", "--set", "estimator.type=ceres_pose_graph", *small_run],
@@ -161,8 +163,8 @@ def run_case(program, steps, folder, clock):
     environment = dict(os.environ, LD_PRELOAD=str(clock), FATHOM_CACHE=str(folder / "cache"))
     with open(folder / "said", "wb") as said:
         for step in steps:
-            done = subprocess.run([program, *step], cwd=folder, env=environment, capture_output=True,
-                                  check=False)
+            done = subprocess.run([program, *step], cwd=folder, env=environment,
+                                  capture_output=True, check=False)
             said.write(b"$ fathom " + " ".join(step).encode() + b"\n" + done.stdout + done.stderr +
                        b"status %d\n" % done.returncode)
     shutil.rmtree(folder / "cache", ignore_errors=True)
@@ -201,7 +203,8 @@ def main():
     parser.add_argument("--keep", type=pathlib.Path)
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     arguments = parser.parse_args()
-    programs = {"before": os.path.abspath(arguments.before), "after": os.path.abspath(arguments.after)}
+    programs = {"before": os.path.abspath(arguments.before),
+                "after": os.path.abspath(arguments.after)}
     cases = [case for case in (*configurations(), *graphs(programs["before"]), *commands())
              if arguments.only in case[0]]
     top = arguments.keep or pathlib.Path(tempfile.mkdtemp())

@@ -25,7 +25,7 @@ base=(
   build-essential cmake ninja-build git
   libeigen3-dev libopencv-dev libceres-dev libsuitesparse-dev libgoogle-glog-dev
   libboost-dev libopenblas-dev libopenblas0-pthread
-  libyaml-cpp-dev libsqlitecpp-dev libsqlite3-dev libcli11-dev nlohmann-json3-dev
+  libyaml-cpp-dev libsqlitecpp-dev libsqlite3-dev libcli11-dev libfmt-dev nlohmann-json3-dev
   libcairo2-dev libexif-dev pkg-config libjs-vega
   libgtest-dev libgmock-dev libbenchmark-dev python3 man-db
 )

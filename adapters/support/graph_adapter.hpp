@@ -55,25 +55,9 @@ class GraphAdapter : public RelativeEstimator {
   }
 
   UpdateReport close_loops(std::span<const RelativePose> loops) override {
-    UpdateReport report;
-    const auto covariances = [this](auto forward) { return predicted_covariances(*this, forward); };
-    if (!judge(gate_, *this, loops, covariances, report)) {
-      lose_all(report, Outcome::numerical_failure);
-      return report;
-    }
-    const std::size_t before = edges_.size();
-    for (std::size_t j = 0; j < loops.size(); ++j) {
-      if (report.loops[j].fate == LoopFate::used) edges_.push_back(loops[j]);
-    }
-    if (mode_ == SolveMode::batch || edges_.size() == before) return report;
-    const UpdateReport solved = solve_from(poses_);
-    report.iterations = solved.iterations;
-    report.outcome = solved.outcome;
-    if (is_done(solved.outcome)) return report;
-    edges_.resize(before);
-    edges_replaced();
-    lose_all(report, solved.outcome);
-    return report;
+    return judged_update(
+        gate_, *this, loops, [this](auto forward) { return predicted_covariances(*this, forward); },
+        [this](auto used) { return minimise_with(used); });
   }
 
   UpdateReport finish(std::span<const Pose> start) override {
@@ -102,6 +86,17 @@ class GraphAdapter : public RelativeEstimator {
   virtual void edges_replaced() {}
 
  private:
+  UpdateReport minimise_with(std::span<const RelativePose> loops) {
+    const std::size_t before = edges_.size();
+    edges_.insert(edges_.end(), loops.begin(), loops.end());
+    if (mode_ == SolveMode::batch) return {};
+    const UpdateReport solved = solve_from(poses_);
+    if (is_done(solved.outcome)) return solved;
+    edges_.resize(before);
+    edges_replaced();
+    return solved;
+  }
+
   UpdateReport solve_from(std::vector<Pose> poses) {
     UpdateReport report;
     if (edges_.empty() || poses.size() < 2) return report;

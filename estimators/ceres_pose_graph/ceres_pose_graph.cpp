@@ -49,37 +49,21 @@ void CeresPoseGraph::add_keyframe(const RelativePose& step) {
 }
 
 UpdateReport CeresPoseGraph::close_loops(std::span<const RelativePose> registrations) {
-  UpdateReport report = update(registrations);
+  UpdateReport report = judged_update(
+      gate_, *this, registrations,
+      [this](auto forward) { return graph_->predicted_covariances(forward); },
+      [this](auto used) { return minimise_with(used); });
   used_loops_.note(report);
   return report;
 }
 
-UpdateReport CeresPoseGraph::update(std::span<const RelativePose> registrations) {
-  UpdateReport report;
-  if (registrations.empty()) return report;
-  if (!judge(registrations, report)) {
-    lose_all(report, Outcome::numerical_failure);
-    return report;
-  }
+UpdateReport CeresPoseGraph::minimise_with(std::span<const RelativePose> registrations) {
   const std::size_t before = graph_->registration_count();
-  for (std::size_t j = 0; j < registrations.size(); ++j) {
-    if (report.loops[j].fate == LoopFate::used) graph_->add_registration(registrations[j]);
-  }
-  if (graph_->registration_count() == before || mode_ == SolveMode::batch) return report;
-  const UpdateReport solved = graph_->solve();
-  report.outcome = solved.outcome;
-  report.iterations = solved.iterations;
-  if (is_done(report.outcome)) return report;
-  graph_->forget_registrations(before);
-  lose_all(report, solved.outcome);
-  return report;
-}
-
-bool CeresPoseGraph::judge(std::span<const RelativePose> registrations, UpdateReport& report) {
-  const auto covariances = [&](std::span<const RelativePose> forward) {
-    return graph_->predicted_covariances(forward);
-  };
-  return fathom::judge(gate_, *this, registrations, covariances, report);
+  for (const RelativePose& z : registrations) graph_->add_registration(z);
+  if (mode_ == SolveMode::batch) return {};
+  UpdateReport solved = graph_->solve();
+  if (!is_done(solved.outcome)) graph_->forget_registrations(before);
+  return solved;
 }
 
 UpdateReport CeresPoseGraph::finish(std::span<const Pose> start) {

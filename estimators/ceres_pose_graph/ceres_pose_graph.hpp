@@ -50,8 +50,7 @@ class CeresPoseGraph final : public RelativeEstimator {
  private:
   class Graph;  // keeps Ceres out of this header
 
-  UpdateReport update(std::span<const RelativePose> registrations);
-  bool judge(std::span<const RelativePose> registrations, UpdateReport& report);
+  UpdateReport minimise_with(std::span<const RelativePose> registrations);
 
   CeresPoseGraphOptions options_;
   SolveMode mode_;

@@ -58,7 +58,14 @@ void IncrementalSmoother::add_keyframe(const RelativePose& step) {
 }
 
 UpdateReport IncrementalSmoother::close_loops(std::span<const RelativePose> registrations) {
-  UpdateReport report = update(registrations);
+  UpdateReport report = judged_update(
+      gate_, *this, registrations,
+      [this](auto forward) { return smoother_->predicted_covariances(forward); },
+      [this](auto used) {
+        marginals_.reset();
+        const SmootherResult result = smoother_->add_registrations(used);
+        return UpdateReport{result.outcome, result.iterations, {}};
+      });
   if (loss_.is_on()) used_loops_.note(report);
   return report;
 }
@@ -69,37 +76,10 @@ std::vector<double> IncrementalSmoother::loop_weights() const {
   return used_loops_.weights(smoother_->loop_weights());
 }
 
-UpdateReport IncrementalSmoother::update(std::span<const RelativePose> registrations) {
-  UpdateReport report;
-  if (registrations.empty()) return report;
-  if (!judge(registrations, report)) {
-    lose_all(report, Outcome::numerical_failure);
-    return report;
-  }
-  std::vector<RelativePose> used;
-  for (std::size_t j = 0; j < registrations.size(); ++j) {
-    if (report.loops[j].fate == LoopFate::used) used.push_back(registrations[j]);
-  }
-  if (used.empty()) return report;
-  marginals_.reset();
-  const SmootherResult result = smoother_->add_registrations(used);
-  report.outcome = result.outcome;
-  report.iterations = result.iterations;
-  if (!is_done(result.outcome)) lose_all(report, result.outcome);
-  return report;
-}
-
 std::optional<LoopDecision> IncrementalSmoother::bridge(const Bridge& bridge) {
   marginals_.reset();
   smoother_->bridge(bridge);
   return std::nullopt;
-}
-
-bool IncrementalSmoother::judge(std::span<const RelativePose> registrations, UpdateReport& report) {
-  const auto covariances = [&](std::span<const RelativePose> forward) {
-    return smoother_->predicted_covariances(forward);
-  };
-  return fathom::judge(gate_, *this, registrations, covariances, report);
 }
 
 std::optional<Eigen::Matrix3d> IncrementalSmoother::covariance(std::size_t k) const {

@@ -60,9 +60,6 @@ class IncrementalSmoother final : public RelativeEstimator {
   const incremental_smoother::Smoother& smoother() const { return *smoother_; }
 
  private:
-  UpdateReport update(std::span<const RelativePose> registrations);
-  bool judge(std::span<const RelativePose> registrations, UpdateReport& report);
-
   RobustLoss loss_;
   Gate gate_;
   UsedLoops used_loops_;

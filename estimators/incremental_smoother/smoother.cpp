@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "estimators/support/pose_graph/bridge.hpp"
 #include "estimators/support/pose_graph/information.hpp"
 #include "fathom/estimation/loop_rows.hpp"
 
@@ -13,8 +14,9 @@ Smoother::Smoother(const Pose& origin, const SmootherLimits& limits, const Robus
       problem_(make_node(origin.x, origin.y, origin.theta), loss),
       tree_(problem_, limits.most_kept_bytes),
       gradient_(problem_),
-      ignored_(1),
-      changed_in_(1, -1) {}
+      ignored_(1) {
+  marks_.changed_in.push_back(-1);
+}
 
 Pose Smoother::pose(std::size_t k) {
   tree_.settle(static_cast<int>(k));
@@ -23,8 +25,8 @@ Pose Smoother::pose(std::size_t k) {
 }
 
 MovedPoses Smoother::moved_since(std::uint64_t revision) const {
-  if (revision < moved_in_) return {revision_, std::nullopt};
-  return {revision_, consecutive(size() - (revision_ - revision), size())};
+  if (revision < revisions_.moved_in) return {revisions_.now, std::nullopt};
+  return {revisions_.now, consecutive(size() - (revisions_.now - revision), size())};
 }
 
 const Problem& Smoother::problem() {
@@ -35,12 +37,12 @@ const Problem& Smoother::problem() {
 void Smoother::add_keyframe(const RelativePose& step) {
   const RelativePose forward = step.forward();
   const Pose next = compose(pose(problem_.nodes.size() - 1), forward.motion);
-  outside_steps_.push_back({forward.motion, forward.covariance()});
+  outside_.steps.push_back({forward.motion, forward.covariance()});
   problem_.add_node(make_node(next.x, next.y, next.theta));
-  ++revision_;
+  ++revisions_.now;
   gradient_.add_keyframe();
   ignored_.emplace_back();
-  changed_in_.push_back(-1);
+  marks_.changed_in.push_back(-1);
   append_edge(step, false);
 }
 
@@ -49,7 +51,7 @@ void Smoother::append_edge(const RelativePose& measurement, bool is_loop) {
   const int rank = is_robust ? rank_of(measurement.information) : 3;
   problem_.add_edge(pose_graph::make_edge(measurement), is_loop, rank);
   spread_.add(measurement);
-  edge_pass_.push_back(-1);
+  marks_.edge_pass.push_back(-1);
   gradient_.add_edge();
 }
 
@@ -61,53 +63,74 @@ void Smoother::evaluate_all() {
 }
 
 void Smoother::note_changed(int k) {
-  if (k == 0 || changed_in_[at(k)] == update_) return;
-  changed_in_[at(k)] = update_;
-  changed_.push_back(k);
+  if (k == 0 || marks_.changed_in[at(k)] == marks_.update) return;
+  marks_.changed_in[at(k)] = marks_.update;
+  marks_.changed.push_back(k);
 }
 
+// All that follows moves, which happens once a hole: the tree is made anew.
+void Smoother::bridge(const Bridge& bridge) {
+  tree_.settle();
+  pose_graph::bridge(bridge, problem_.edges, problem_.nodes);
+  evaluate_all();
+  rebuild();
+  revisions_.moved_in = ++revisions_.now;
+}
+
+// As ISAM2's update (Kaess et al. 2012), but that steps are taken until F is at its minimum.
 SmootherResult Smoother::add_registrations(std::span<const RelativePose> registrations) {
-  ++update_;
+  // 1. New factors, and the variables that they touch.
+  const int edges_before = problem_.edge_count();
+  add_loops(registrations);
+  SmootherResult result{Outcome::numerical_failure, 0};
+  // 2. The top of the tree that has these, eliminated again, with the keyframes that are new.
+  if (std::isfinite(gradient_.cost()) && refactor()) {
+    // 3. Steps: each solves the tree for what has changed, is taken where F falls, and marks the
+    //    variables that have left their linearisation point.
+    result = iterate();
+    // 4. Those are linearised again; a matrix that leaves a pose open is a failure.
+    if (!relinearise() || !is_determined()) result.outcome = Outcome::numerical_failure;
+  }
+  // 5. Where any of these failed, the estimate is that of before.
+  if (!is_done(result.outcome)) undo(edges_before);
+  revisions_.moved_in = ++revisions_.now;
+  return result;
+}
+
+void Smoother::add_loops(std::span<const RelativePose> registrations) {
+  ++marks_.update;
   problem_.begin_update();
   tree_.begin_update();
-  touched_.clear();
-  changed_.clear();
-  const int edges_before = problem_.edge_count();
+  marks_.touched.clear();
+  marks_.changed.clear();
   for (const RelativePose& z : registrations) {
     for (const auto end : {z.from, z.to}) tree_.settle(static_cast<int>(end));
     append_edge(z, true);
     for (const auto end : {z.from, z.to}) {
       if (end == 0) continue;
-      touched_.push_back(static_cast<int>(end));
+      marks_.touched.push_back(static_cast<int>(end));
       note_changed(static_cast<int>(end));
     }
   }
-  SmootherResult result{Outcome::numerical_failure, 0};
-  if (std::isfinite(gradient_.cost()) && refactor()) {
-    result = iterate();
-    if (!relinearise() || !is_determined()) result.outcome = Outcome::numerical_failure;
-  }
-  if (!is_done(result.outcome)) undo(edges_before);
-  moved_in_ = ++revision_;
-  return result;
 }
 
 // With what was touched comes what is new.
 bool Smoother::refactor() {
-  for (int k = std::max(1, first_outside_ - 1); k < problem_.size(); ++k) touched_.push_back(k);
-  if (!tree_.refactor(touched_, problem_.size() - 1)) return false;
+  for (int k = std::max(1, outside_.first - 1); k < problem_.size(); ++k)
+    marks_.touched.push_back(k);
+  if (!tree_.refactor(marks_.touched, problem_.size() - 1)) return false;
   counts_.eliminated += tree_.refactored();
-  first_outside_ = problem_.size();
-  outside_steps_.clear();
+  outside_.first = problem_.size();
+  outside_.steps.clear();
   return true;
 }
 
 // Linearises again where the estimate has left its linearisation.
 bool Smoother::relinearise() {
-  if (to_relinearise_.empty()) return true;
-  if (!tree_.relinearise(to_relinearise_)) return false;
+  if (marks_.to_relinearise.empty()) return true;
+  if (!tree_.relinearise(marks_.to_relinearise)) return false;
   counts_.eliminated += tree_.refactored();
-  to_relinearise_.clear();
+  marks_.to_relinearise.clear();
   return true;
 }
 
@@ -119,9 +142,9 @@ bool Smoother::is_determined() {
 // Linearises everything at the estimate.
 bool Smoother::rebuild() {
   tree_.clear();
-  to_relinearise_.clear();
-  touched_.clear();
-  first_outside_ = 1;
+  marks_.to_relinearise.clear();
+  marks_.touched.clear();
+  outside_.first = 1;
   return problem_.size() < 2 || refactor();
 }
 
@@ -147,7 +170,7 @@ SmootherResult Smoother::iterate() {
   if (progress.is_whole) {
     ignored_ = gradient_.by_keyframe();
   } else {
-    for (const int k : changed_) ignored_[at(k)] = gradient_.by_keyframe()[at(k)];
+    for (const int k : marks_.changed) ignored_[at(k)] = gradient_.by_keyframe()[at(k)];
   }
   return progress.result;
 }
@@ -173,7 +196,7 @@ double Smoother::negligible_bend() const {
 void Smoother::take_step(Progress& progress) {
   const double promised = progress.is_whole
                               ? tree_.forward_all(gradient_.by_keyframe())
-                              : tree_.forward(changed_, gradient_.by_keyframe(), ignored_);
+                              : tree_.forward(marks_.changed, gradient_.by_keyframe(), ignored_);
   if (!std::isfinite(promised)) return end(progress, Outcome::numerical_failure);
   const double allowed = limits_.tolerance * gradient_.cost() + limits_.least_promise_chi2;
   if (progress.is_whole && promised <= (1.0 - progress.lost_curvature) * allowed) {
@@ -189,7 +212,7 @@ void Smoother::take_step(Progress& progress) {
   }
   if (!(gradient_.cost() <= before + allowed + limits_.rounding_chi2)) return retreat(progress);
   progress.is_fresh = false;
-  tree_.find_to_relinearise(limits_.relinearise_m, limits_.relinearise_rad, to_relinearise_);
+  tree_.find_to_relinearise(limits_.relinearise_m, limits_.relinearise_rad, marks_.to_relinearise);
   const double left = left_by_step(progress, promised, before - gradient_.cost());
   const double most_slack = limits_.tolerance * gradient_.cost() + limits_.least_promise_chi2;
   if (goes_on_locally(progress, left, most_slack)) return;
@@ -201,18 +224,18 @@ void Smoother::take_step(Progress& progress) {
 
 // A motion that keyframes share changes nothing of what lies between them.
 void Smoother::reevaluate_bent() {
-  ++pass_;
+  ++marks_.pass;
   for (const int v : tree_.bent()) {
     note_changed(v);
     problem_.for_each_edge(v, [&](int e, int other) {
-      if (edge_pass_[at(e)] == pass_) return;
-      edge_pass_[at(e)] = pass_;
+      if (marks_.edge_pass[at(e)] == marks_.pass) return;
+      marks_.edge_pass[at(e)] = marks_.pass;
       tree_.settle(other);
       gradient_.evaluate(e);
       note_changed(other);
       if (problem_.loops.has_left_tree(e, limits_.reweight_share)) {
         for (const int end : {v, other}) {
-          if (end != 0) to_relinearise_.push_back(end);
+          if (end != 0) marks_.to_relinearise.push_back(end);
         }
       }
     });

@@ -107,7 +107,31 @@ class Smoother {
     SmootherResult result;
   };
 
+  /// Keyframes that the tree does not have yet: add_keyframe appends, refactor takes them in.
+  struct Outside {
+    int first = 1;                     ///< the first of them
+    std::vector<UncertainPose> steps;  ///< to this keyframe and those that follow it
+  };
+
+  /// What an update has to look at again. add_registrations begins anew; its steps add.
+  struct Marks {
+    std::vector<int> touched;         ///< keyframes of new edges, to be eliminated again
+    std::vector<int> to_relinearise;  ///< keyframes of cliques to be linearised again
+    std::vector<int> changed;         ///< keyframes whose gradient this update has changed
+    std::vector<long> changed_in;     ///< by keyframe: the last update that did
+    std::vector<long> edge_pass;      ///< by edge: the last pass that evaluated it
+    long pass = 0;
+    long update = 0;
+  };
+
+  /// For moved_since.
+  struct Revisions {
+    std::uint64_t now = 1;       ///< one more with every keyframe and with every update
+    std::uint64_t moved_in = 1;  ///< the revision of the last update
+  };
+
   void append_edge(const RelativePose& measurement, bool is_loop);
+  void add_loops(std::span<const RelativePose> registrations);
   void evaluate_all();
   bool refactor();
   bool relinearise();
@@ -130,7 +154,7 @@ class Smoother {
   SmootherResult minimise_whole(std::vector<Node>& nodes) const;
   void undo(int edges_before);
   /// One that could not be built again after a failure knows nothing.
-  bool has_tree() const { return at(problem_.size() - first_outside_) == outside_steps_.size(); }
+  bool has_tree() const { return at(problem_.size() - outside_.first) == outside_.steps.size(); }
   Eigen::Matrix3d motion_covariance(int from);
 
   SmootherLimits limits_;
@@ -142,19 +166,10 @@ class Smoother {
   std::vector<Vec3> ignored_;      ///< what earlier updates left of it
   double slack_ = 0.0;             ///< the slack on the cost: by how much F may exceed its optimum
 
-  int first_outside_ = 1;                     ///< the first keyframe that is not in the tree
-  std::vector<UncertainPose> outside_steps_;  ///< to this keyframe and those that follow it
-  std::vector<int> to_relinearise_;           ///< keyframes of cliques to be linearised again
-  std::vector<int> touched_;
-  std::vector<int> changed_;      ///< keyframes whose gradient this update has changed
-  std::vector<long> changed_in_;  ///< by keyframe: the last update that did
-  std::vector<long> edge_pass_;
+  Outside outside_;
+  Marks marks_;
   std::vector<Edge> weighted_;  ///< of weighted_edges
-  long pass_ = 0;
-  long update_ = 0;
-
-  std::uint64_t revision_ = 1;  ///< one more with every keyframe and with every update
-  std::uint64_t moved_in_ = 1;  ///< the revision of the last update
+  Revisions revisions_;
   Counts counts_;
 };
 

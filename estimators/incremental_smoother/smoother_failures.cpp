@@ -18,8 +18,8 @@ void Smoother::retreat(Progress& progress) {
   if (!progress.is_fresh) {
     progress.is_fresh = true;
     progress.is_whole = true;
-    to_relinearise_.clear();
-    for (int k = 1; k < problem_.size(); ++k) to_relinearise_.push_back(k);
+    marks_.to_relinearise.clear();
+    for (int k = 1; k < problem_.size(); ++k) marks_.to_relinearise.push_back(k);
     return;
   }
   solve_whole(progress);
@@ -54,7 +54,7 @@ SmootherResult Smoother::solve_batch() {
 void Smoother::undo(int edges_before) {
   restore();
   problem_.forget_edges(edges_before);
-  edge_pass_.resize(at(edges_before));
+  marks_.edge_pass.resize(at(edges_before));
   evaluate_all();
   rebuild();
 }

@@ -24,7 +24,7 @@ std::optional<Eigen::Matrix3d> Smoother::newest_covariance() {
 
 // Of the motion from a keyframe to the newest: by the tree as far as it goes, then step by step.
 Eigen::Matrix3d Smoother::motion_covariance(int from) {
-  const int last = first_outside_ - 1;
+  const int last = outside_.first - 1;
   UncertainPose motion{{}, Eigen::Matrix3d::Zero()};
   if (from < last) {
     for (const int k : {from, last}) tree_.settle(k);
@@ -39,7 +39,7 @@ Eigen::Matrix3d Smoother::motion_covariance(int from) {
     motion = {{h[0], h[1], wrap_angle(h[2])}, tree_.variance(from, -T, last, Q)};
   }
   for (int k = std::max(from, last); k + 1 < problem_.size(); ++k) {
-    motion = compose(motion, outside_steps_[at(k - last)]);
+    motion = compose(motion, outside_.steps[at(k - last)]);
   }
   return motion.covariance;
 }

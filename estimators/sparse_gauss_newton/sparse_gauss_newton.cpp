@@ -17,11 +17,13 @@ using sparse_gauss_newton::Start;
 // More are a slip of the hand.
 constexpr int kMostThreads = 1024;
 
-void note(const SolveResult& result, UpdateReport& report) {
+UpdateReport report_of(const SolveResult& result) {
+  UpdateReport report;
   report.outcome = result.outcome;
   report.iterations = result.iterations;
   report.gradient_norm = result.gradient_norm;
   report.is_local_minimum = result.is_local_minimum;
+  return report;
 }
 
 RobustOptions robust_options(const SparseGaussNewtonOptions& options) {
@@ -104,29 +106,21 @@ void SparseGaussNewton::add_keyframe(const RelativePose& step) {
 }
 
 UpdateReport SparseGaussNewton::close_loops(std::span<const RelativePose> registrations) {
-  UpdateReport report = update(registrations);
+  UpdateReport report = judged_update(
+      gate_, *this, registrations,
+      [this](auto forward) { return graph_->predicted_covariances(forward); },
+      [this](auto used) { return minimise_with(used); });
   used_loops_.note(report);
   return report;
 }
 
-UpdateReport SparseGaussNewton::update(std::span<const RelativePose> registrations) {
-  UpdateReport report;
-  if (registrations.empty()) return report;
-  if (!judge(registrations, report)) {
-    lose_all(report, Outcome::numerical_failure);
-    return report;
-  }
+UpdateReport SparseGaussNewton::minimise_with(std::span<const RelativePose> registrations) {
   const std::size_t before = graph_->edge_count();
-  for (std::size_t j = 0; j < registrations.size(); ++j) {
-    if (report.loops[j].fate == LoopFate::used) graph_->add_registration(registrations[j]);
-  }
-  if (graph_->edge_count() == before || mode_ == SolveMode::batch) return report;
-  const SolveResult solved = solve(Start::given);
-  note(solved, report);
-  if (is_done(report.outcome)) return report;
-  graph_->forget_edges(before);
-  lose_all(report, solved.outcome);
-  return report;
+  for (const RelativePose& z : registrations) graph_->add_registration(z);
+  if (mode_ == SolveMode::batch) return {};
+  const UpdateReport solved = report_of(solve(Start::given));
+  if (!is_done(solved.outcome)) graph_->forget_edges(before);
+  return solved;
 }
 
 SolveResult SparseGaussNewton::solve(Start start) {
@@ -139,19 +133,10 @@ std::vector<double> SparseGaussNewton::loop_weights() const {
   return used_loops_.weights(graph_->registration_weights());
 }
 
-bool SparseGaussNewton::judge(std::span<const RelativePose> registrations, UpdateReport& report) {
-  const auto covariances = [&](std::span<const RelativePose> forward) {
-    return graph_->predicted_covariances(forward);
-  };
-  return fathom::judge(gate_, *this, registrations, covariances, report);
-}
-
 UpdateReport SparseGaussNewton::finish(std::span<const Pose> start) {
-  UpdateReport report;
-  if (mode_ != SolveMode::batch || graph_->size() < 2) return report;
+  if (mode_ != SolveMode::batch || graph_->size() < 2) return {};
   if (!start.empty()) graph_->set_poses(start);
-  note(solve(options_.start), report);
-  return report;
+  return report_of(solve(options_.start));
 }
 
 std::optional<LoopDecision> SparseGaussNewton::bridge(const Bridge& bridge) {

@@ -56,8 +56,7 @@ class SparseGaussNewton final : public RelativeEstimator {
 
  private:
   pose_graph::SolveResult solve(pose_graph::Start start);
-  UpdateReport update(std::span<const RelativePose> registrations);
-  bool judge(std::span<const RelativePose> registrations, UpdateReport& report);
+  UpdateReport minimise_with(std::span<const RelativePose> registrations);
 
   SparseGaussNewtonOptions options_;
   SolveMode mode_;

@@ -87,26 +87,9 @@ class SparseLeastSquares final : public RelativeEstimator {
   }
 
   UpdateReport close_loops(std::span<const RelativePose> registrations) override {
-    UpdateReport report;
-    const auto covariances = [this](auto loops) { return predicted_covariances(loops); };
-    if (!judge(gate_, *this, registrations, covariances, report)) {
-      lose_all(report, Outcome::numerical_failure);
-      return report;
-    }
-    std::vector<RelativePose> edges = edges_;
-    for (std::size_t j = 0; j < registrations.size(); ++j) {
-      if (report.loops[j].fate == LoopFate::used) edges.push_back(registrations[j]);
-    }
-    if (edges.size() == edges_.size()) return report;
-    std::vector<Pose> poses = poses_;
-    report.outcome = minimise(edges, poses, report.iterations);
-    if (!is_done(report.outcome)) {
-      lose_all(report, report.outcome);
-      return report;
-    }
-    edges_ = std::move(edges);
-    poses_ = std::move(poses);
-    return report;
+    return judged_update(
+        gate_, *this, registrations, [this](auto loops) { return predicted_covariances(loops); },
+        [this](auto used) { return minimise_with(used); });
   }
 
   // A hole in dead reckoning: what is behind it moves as one, and its edge with it.
@@ -137,6 +120,19 @@ class SparseLeastSquares final : public RelativeEstimator {
   }
 
  private:
+  // As it was before where that fails.
+  UpdateReport minimise_with(std::span<const RelativePose> loops) {
+    std::vector<RelativePose> edges = edges_;
+    edges.insert(edges.end(), loops.begin(), loops.end());
+    std::vector<Pose> poses = poses_;
+    UpdateReport report;
+    report.outcome = minimise(edges, poses, report.iterations);
+    if (!is_done(report.outcome)) return report;
+    edges_ = std::move(edges);
+    poses_ = std::move(poses);
+    return report;
+  }
+
   Outcome minimise(const std::vector<RelativePose>& edges, std::vector<Pose>& poses,
                    int& iterations) const {
     for (iterations = 1; iterations <= options_.max_iterations; ++iterations) {

@@ -27,7 +27,8 @@ std::vector<std::string> data_set_names() {
 void bind(Configuration& configuration, OptionTable& table) {
   table.integer("seed", configuration.seed, Range::between(0, 2147483647.0), "",
                 "base seed of every noise stream and of RANSAC");
-  table.enumeration<Alignment>("evaluation.alignment", configuration.alignment, alignment_names(),
+  table.enumeration<Alignment>("evaluation.alignment", configuration.study.evaluation.alignment,
+                               alignment_names(),
                                "how an estimate is laid on the ground truth; never its scale");
   table.choice("dataset.type", configuration.dataset.type, data_set_names(), "kind of data set");
   table.group(kFrontEnd, configuration.front_end);

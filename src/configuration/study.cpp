@@ -178,7 +178,7 @@ Study configure_study(const Settings& settings, const EstimatorRegistry& registr
   }
   const Configuration& first = study.cells.front();
   study.description.title = first.study.title;
-  study.description.alignment = name_of(first.alignment);
+  study.description.alignment = name_of(first.study.evaluation.alignment);
   study.description.surveys = static_cast<std::size_t>(first.study.surveys);
   study.description.trials = static_cast<std::size_t>(first.study.trials);
   for (const EstimatorConfiguration& estimator : first.estimators) {

@@ -81,17 +81,17 @@ void StudyOptions::describe(OptionTable& table) {
       "association.mode", association, {{"shared", Association::shared}, {"own", Association::own}},
       "loop candidates by the reference's estimate, for all, or by each estimator's own");
   table.group(kFalseLoops, false_loops);
-  table.reals("evaluation.rpe_keyframes", rpe_keyframes, 1, "keyframes",
+  table.reals("evaluation.rpe_keyframes", evaluation.rpe_keyframes, 1, "keyframes",
               "relative errors over so many keyframes");
-  table.reals("evaluation.rpe_distances_m", rpe_distances_m, 1, "m",
+  table.reals("evaluation.rpe_distances_m", evaluation.rpe_distances_m, 1, "m",
               "relative errors over such distances along the true path");
-  table.integer("evaluation.anchors", anchors, Range::between(1, 1000), "keyframes",
+  table.integer("evaluation.anchors", evaluation.anchors, Range::between(1, 1000), "keyframes",
                 "keyframes held in turn (anchored_anees)");
-  table.integer("evaluation.relative_pairs", relative_pairs, Range::between(1, 1000), "",
+  table.integer("evaluation.relative_pairs", evaluation.relative_pairs, Range::between(1, 1000), "",
                 "motions over each separation or distance, and keyframes for each anchor, at most");
   table.boolean("evaluation.newest_covariance", newest_covariance,
                 "ask for the covariance of the newest pose after every keyframe, and time it");
-  table.real("evaluation.min_overlap", min_overlap, Range::between(0.01, 1.0), "",
+  table.real("evaluation.min_overlap", evaluation.min_overlap, Range::between(0.01, 1.0), "",
              "true overlap from which on a pair of keyframes should be found (loop_recall)");
 }
 
@@ -129,10 +129,11 @@ void check_study(const Settings& settings, const StudyOptions& study, const Data
     refuse(*settings.find("association.mode"),
            "association.mode: a pose graph has its loops; expected shared");
   }
-  require_each(settings, "evaluation.rpe_keyframes", study.rpe_keyframes, "whole numbers >= 1",
+  require_each(settings, "evaluation.rpe_keyframes", study.evaluation.rpe_keyframes,
+               "whole numbers >= 1",
                [](double n) { return n >= 1.0 && n == std::floor(n) && n < 1e9; });
-  require_each(settings, "evaluation.rpe_distances_m", study.rpe_distances_m, "numbers in m > 0",
-               [](double distance_m) { return distance_m > 0.0; });
+  require_each(settings, "evaluation.rpe_distances_m", study.evaluation.rpe_distances_m,
+               "numbers in m > 0", [](double distance_m) { return distance_m > 0.0; });
 }
 
 }  // namespace fathom

@@ -90,6 +90,27 @@ bool judge(const Gate& gate, const TrajectoryView& estimate,
   return true;
 }
 
+UpdateReport judged_update(
+    const Gate& gate, const TrajectoryView& estimate, std::span<const RelativePose> registrations,
+    const PredictedCovariances& covariances,
+    const std::function<UpdateReport(std::span<const RelativePose> used)>& minimise) {
+  UpdateReport report;
+  if (registrations.empty()) return report;
+  if (!judge(gate, estimate, registrations, covariances, report)) {
+    lose_all(report, Outcome::numerical_failure);
+    return report;
+  }
+  std::vector<RelativePose> used;
+  for (std::size_t j = 0; j < registrations.size(); ++j) {
+    if (report.loops[j].fate == LoopFate::used) used.push_back(registrations[j]);
+  }
+  if (used.empty()) return report;
+  UpdateReport solved = minimise(used);
+  solved.loops = std::move(report.loops);
+  if (!is_done(solved.outcome)) lose_all(solved, solved.outcome);
+  return solved;
+}
+
 double normalised_innovation_squared(const Eigen::Vector3d& innovation, const Eigen::Matrix3d& S) {
   const Eigen::LLT<Eigen::Matrix3d> llt(S);
   if (llt.info() != Eigen::Success) return std::numeric_limits<double>::quiet_NaN();

@@ -29,7 +29,7 @@ class TrueFrames {
 
 std::optional<std::size_t> keyframe_without_truth(const FrameSource& frames,
                                                   const KeyframeOptions& keyframes) {
-  const auto separation = static_cast<std::size_t>(keyframes.separation_frames.value_or(1));
+  const auto separation = static_cast<std::size_t>(keyframes.least_separation());
   for (std::size_t frame = 0; frame < frames.size(); frame += separation) {
     if (!frames.info(frame).ground_truth) return frame;
   }

@@ -20,7 +20,8 @@ std::optional<double> least_known(std::optional<double> chi2_optimum, const Meas
 }
 
 MotionOptions motion_options(const MetricOptions& options) {
-  return {options.rpe_keyframes, options.rpe_distances_m, options.anchors, options.relative_pairs};
+  return {options.rpe_keyframes, options.rpe_distances_m, static_cast<std::size_t>(options.anchors),
+          static_cast<std::size_t>(options.relative_pairs)};
 }
 
 // What is known of an estimate of the keyframes without whose it is.
@@ -61,16 +62,16 @@ std::vector<Eigen::Matrix3d> reckoned_covariances(const MeasurementLog& log, Unc
 }
 
 Run replayed(const MeasurementLog& log, const EstimatorEntry& entry, const EstimatorValues& values,
-             const ReplayOptions& options) {
+             const EvaluationOptions& options) {
   const IsolationOptions& isolation = options.isolation;
   if (!isolation.is_isolated(entry)) return replay(log, entry, values, options);
   return isolated_replay(log, entry, values, options,
                          {isolation.time_limit_s, std::int64_t{isolation.memory_limit_mib} << 20});
 }
 
-ReplayOptions asked_of(const Recording& recording, const JudgeOptions& judging,
-                       const ReplayOptions& options) {
-  ReplayOptions asked = options;
+EvaluationOptions asked_of(const Recording& recording, const JudgeOptions& judging,
+                           const EvaluationOptions& options) {
+  EvaluationOptions asked = options;
   if (options.own_candidates) asked.candidate_covariances = recording.asked_covariances;
   if (recording.ground_truth) {
     asked.motions = motions_to_judge(*recording.ground_truth, motion_options(judging.metrics));
@@ -102,18 +103,9 @@ void judge_replay(Result& result, const Recording& recording, const EstimatorReg
 
 }  // namespace
 
-MetricOptions metric_options(const Configuration& configuration) {
-  return {.alignment = configuration.alignment,
-          .rpe_keyframes = configuration.study.rpe_keyframes,
-          .rpe_distances_m = configuration.study.rpe_distances_m,
-          .anchors = static_cast<std::size_t>(configuration.study.anchors),
-          .relative_pairs = static_cast<std::size_t>(configuration.study.relative_pairs),
-          .min_overlap = configuration.study.min_overlap};
-}
-
-ReplayOptions replay_options(const Configuration& configuration,
-                             const EstimatorConfiguration& estimator) {
-  ReplayOptions options;
+EvaluationOptions evaluation_options(const Configuration& configuration,
+                                     const EstimatorConfiguration& estimator) {
+  EvaluationOptions options;
   options.newest_covariances = configuration.study.newest_covariance;
   options.isolation = configuration.isolation;
   const CandidateReference& reference = configuration.reference;
@@ -131,8 +123,8 @@ std::optional<double> Result::metric(const std::string& name) const {
 
 Result evaluate(const Recording& recording, const EstimatorConfiguration& estimator,
                 const EstimatorRegistry& registry, const JudgeOptions& judging,
-                const ReplayOptions& options) {
-  const ReplayOptions asked = asked_of(recording, judging, options);
+                const EvaluationOptions& options) {
+  const EvaluationOptions asked = asked_of(recording, judging, options);
   Result result;
   result.estimator = estimator;
   result.mode = options.mode;

@@ -159,7 +159,7 @@ class Runner {
   }
 
   void add_baseline(const Task& task, const Recording& recording) {
-    RunRecord run = baseline_record(recording, metric_options(study_.cells[task.cell]));
+    RunRecord run = baseline_record(recording, study_.cells[task.cell].study.evaluation);
     run.key = task.run_of(kDeadReckoning);
     run.jobs = static_cast<int>(threads_);
     store_->add(run);
@@ -167,12 +167,13 @@ class Runner {
 
   void add_run(const Task& task, std::size_t estimator, RecordedTrial& trial, MemoryMeter* meter) {
     const Configuration& configuration = study_.cells[task.cell];
-    ReplayOptions asked = replay_options(configuration, configuration.estimators[estimator]);
+    EvaluationOptions asked =
+        evaluation_options(configuration, configuration.estimators[estimator]);
     asked.memory = meter;
     asked.progress = watch_.over_run(configuration.estimators[estimator].name + " at keyframe");
     Result result =
         evaluate(*trial.recording, configuration.estimators[estimator], registry_,
-                 {.metrics = metric_options(configuration), .facts = &trial.facts}, asked);
+                 {.metrics = configuration.study.evaluation, .facts = &trial.facts}, asked);
     RunRecord run = run_record(*trial.recording, result, trial.facts.log_hash);
     run.key = task.run_of(configuration.estimators[estimator].name);
     run.jobs = static_cast<int>(threads_);
@@ -204,8 +205,8 @@ class Runner {
       const EstimatorConfiguration& estimator = configuration.estimators[e];
       const RunRecord& before = *stored.of(estimator.name, 0).at({0, 0});
       const auto lost = end_of_process(before.outcome);
-      const JudgeOptions judging{.metrics = metric_options(configuration)};
-      ReplayOptions again;
+      const JudgeOptions judging{.metrics = configuration.study.evaluation};
+      EvaluationOptions again;
       again.isolation = configuration.isolation;
       Result result =
           lost ? evaluate_lost(*shared, estimator, registry_, judging, *lost, before.fault)

@@ -51,9 +51,8 @@ std::vector<double> costs_of(const Study& study) {
   for (const Configuration& cell : study.cells) {
     const auto [size, is_new] = sizes.emplace(data_settings(cell), Size{});
     if (is_new) size->second = size_of(*open_data_set(cell));
-    // By overlap every frame may be a keyframe.
     const int frames_apart =
-        size->second.is_graph ? 1 : cell.front_end.keyframes.separation_frames.value_or(1);
+        size->second.is_graph ? 1 : cell.front_end.keyframes.least_separation();
     const auto keyframes = static_cast<double>(size->second.count) / frames_apart;
     costs.push_back(std::max(keyframes * keyframes, 1.0));
   }

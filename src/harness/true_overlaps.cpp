@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "fathom/front_end/keyframe_grid.hpp"
+#include "fathom/geometry/keyframe_grid.hpp"
 #include "fathom/harness/recording_facts.hpp"
 #include "fathom/vision/camera.hpp"
 

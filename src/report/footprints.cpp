@@ -7,7 +7,7 @@
 
 #include "fathom/core/input_error.hpp"
 #include "fathom/core/text.hpp"
-#include "fathom/front_end/keyframe_grid.hpp"
+#include "fathom/geometry/keyframe_grid.hpp"
 
 namespace fathom {
 namespace {

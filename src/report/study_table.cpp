@@ -121,7 +121,7 @@ std::string paired_table(const CellResults& cell, const StudyDescription& study)
 }
 
 // A line for each estimator whose consistency means something.
-std::string words_of(const CellResults& cell) {
+std::string honesty_lines(const CellResults& cell) {
   std::string text;
   for (const EstimatorResults& one : cell.estimators) {
     if (!one.honesty) continue;
@@ -174,7 +174,7 @@ std::string study_table(const ResultStore& store, StudyTable extent) {
   for (const CellResults& cell : results.cells) {
     text += cell_caption(cell) + "\n";
     text += estimator_table(cell, study, extent);
-    if (extent == StudyTable::full) text += words_of(cell) + paired_table(cell, study);
+    if (extent == StudyTable::full) text += honesty_lines(cell) + paired_table(cell, study);
     text += "\n";
     limits.insert(limits_text(cell));
   }
@@ -197,7 +197,7 @@ std::string study_remarks(const ResultStore& store) {
   const StudyResults results = study_results(store, MetricsOf::study);
   std::string text;
   for (const CellResults& cell : results.cells) {
-    const std::string words = words_of(cell);
+    const std::string words = honesty_lines(cell);
     if (!words.empty()) text += cell_caption(cell) + words + "\n";
   }
   const std::string verdict = verdict_text(study_verdict(results));

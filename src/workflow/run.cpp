@@ -37,7 +37,8 @@ class OneRun {
     if (!request_.out.empty()) folder.emplace(request_.out, request_.inputs);
     const Recorder recorder(configuration_, request_.registrations);
     record(recorder);
-    RunOutcome done{recording_, evaluated(), std::nullopt, configuration_.alignment};
+    RunOutcome done{recording_, evaluated(), std::nullopt,
+                    configuration_.study.evaluation.alignment};
     std::vector<std::string> remarks;
     judge(done, remarks);
     if (folder) {
@@ -58,10 +59,10 @@ class OneRun {
   Result evaluated() const {
     const EstimatorConfiguration& estimator = configuration_.estimators.front();
     const auto meter = machine_.make_meter ? machine_.make_meter() : nullptr;
-    ReplayOptions options = replay_options(configuration_, estimator);
+    EvaluationOptions options = evaluation_options(configuration_, estimator);
     options.memory = meter.get();
     options.progress = observer_.progress_of(estimator.name + ", keyframe");
-    return evaluate(*recording_, estimator, registry_, {.metrics = metric_options(configuration_)},
+    return evaluate(*recording_, estimator, registry_, {.metrics = configuration_.study.evaluation},
                     options);
   }
 
@@ -75,10 +76,10 @@ class OneRun {
     std::ranges::copy(map_remarks(*fit, done.result.estimator.name, optimum->solver),
                       std::back_inserter(remarks));
     if (fit->estimate_fits()) return;
-    ReplayOptions options;
+    EvaluationOptions options;
     options.mode = SolveMode::batch;
     done.optimum = evaluate(*recording_, {kBatchOptimum, optimum->solver, {}}, registry_,
-                            {.metrics = metric_options(configuration_)}, options);
+                            {.metrics = configuration_.study.evaluation}, options);
   }
 
   void write(StagedFolder& folder, const Recorder& recorder, const RunOutcome& done,

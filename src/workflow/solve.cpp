@@ -148,7 +148,7 @@ Recording recording_of(MeasurementLog log, SolveMode mode, const std::string& so
 Result solve(const Recording& recording, const SolveRequest& request,
              const EstimatorRegistry& registry, const Machine& machine, Observer& observer) {
   const auto meter = machine.make_meter ? machine.make_meter() : nullptr;
-  ReplayOptions options;
+  EvaluationOptions options;
   options.mode = request.mode;
   options.start = request.start;
   options.isolation = request.isolation;

@@ -132,6 +132,7 @@ TEST(IncludeRules, RefuseWhatTheTableDoesNotAllow) {
       {"python/src/a.cpp", "\"estimators/ekf/ekf.hpp\"", "estimator's own"},
       {"python/src/a.cpp", "\"apps/common.hpp\"", "python may not include apps"},
       {"src/workflow/a.cpp", "\"apps/common.hpp\"", "workflow may not include apps"},
+      {"src/report/a.cpp", "\"fathom/harness/replay.hpp\"", "report may not include harness"},
       {"src/report/a.cpp", "\"fathom/workflow/run.hpp\"", "report may not include workflow"},
       {"python/src/a.cpp", "\"benchmarks/output.hpp\"", "python may not include benchmarks"},
       {"python/src/a.cpp", "<opencv2/core.hpp>", "not for this folder"},

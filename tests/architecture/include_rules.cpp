@@ -32,7 +32,7 @@ const std::map<std::string, Words>& module_rows() {
       {"results", {"configuration", "evaluation"}},
       {"harness", {"front_end", "estimation", "results"}},
       {"memory_meter", {"harness"}},
-      {"report", {"harness"}},
+      {"report", {"results"}},
       {"workflow", {"harness", "report"}},
       {"apps", {"workflow", "estimators", "memory_meter"}},
       {"python", {"workflow", "estimators"}},

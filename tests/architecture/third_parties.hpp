@@ -56,6 +56,7 @@ inline const std::vector<ThirdParty>& third_parties() {
        {"src/core/blas_memory.cpp", "src/vision/", "src/core/pin_threads.cpp",
         "python/src/one_thread.cpp", "benchmarks/"}},
       {"CLI/", {"apps/", "benchmarks/"}},
+      {"fmt/", {""}},
       {"glog/", {"apps/main.cpp"}},
       {"omp.h", {"src/core/pin_threads.cpp", "python/src/one_thread.cpp"}},
       {"pthread.h", {"python/src/python_forks.cpp"}},

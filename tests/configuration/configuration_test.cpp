@@ -51,7 +51,7 @@ TEST(Configure, SetsEveryLevel) {
       "  decision: {method: inliers}\n"
       "estimator: {type: ekf, gate_probability: 0.99}\n");
   EXPECT_EQ(configuration.seed, 42);
-  EXPECT_EQ(configuration.alignment, Alignment::se2);
+  EXPECT_EQ(configuration.study.evaluation.alignment, Alignment::se2);
   const auto simulation = options_of<SimulatedSurveyOptions>(configuration.dataset.values);
   EXPECT_EQ(simulation.mission.type, MissionType::kWaypoints);
   EXPECT_THAT(simulation.mission.waypoints_m, ElementsAre(0, 0, 5, 0, 5, 4));

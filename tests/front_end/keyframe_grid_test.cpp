@@ -1,4 +1,4 @@
-#include "fathom/front_end/keyframe_grid.hpp"
+#include "fathom/geometry/keyframe_grid.hpp"
 
 #include <algorithm>
 #include <cmath>

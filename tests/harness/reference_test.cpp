@@ -176,22 +176,23 @@ TEST(Reference, GroundTruthSelectsWhatIsTrulyNear) {
 }
 
 // Charged where an estimator's own uncertainty selects its loops, and there alone.
-TEST(ReplayOptionsOf, ChargeCandidatesToWhomTheyServe) {
+TEST(EvaluationOptionsOf, ChargeCandidatesToWhomTheyServe) {
   const auto charged = [](const std::string& text, std::size_t estimator) {
     const Study study = settled(std::string(kSmallSurvey) + kList + text);
     const Configuration& cell = study.cells[0];
-    return replay_options(cell, cell.estimators[estimator]).own_candidates;
+    return evaluation_options(cell, cell.estimators[estimator]).own_candidates;
   };
   EXPECT_FALSE(charged("", 0));
   EXPECT_TRUE(charged("association.mode: own\n", 0));
   EXPECT_FALSE(charged("association.reference: many\n", 0));
   EXPECT_TRUE(charged("association.reference: many\n", 1));
   const Configuration run = test::configured(kSmallSurvey);
-  EXPECT_TRUE(replay_options(run, run.estimators[0]).own_candidates);
-  EXPECT_TRUE(replay_options(run, run.estimators[0]).newest_covariances);
+  EXPECT_TRUE(evaluation_options(run, run.estimators[0]).own_candidates);
+  EXPECT_TRUE(evaluation_options(run, run.estimators[0]).newest_covariances);
   const Study without =
       study_of(std::string(kSmallSurvey) + "evaluation.newest_covariance: false\n");
-  EXPECT_FALSE(replay_options(without.cells[0], without.cells[0].estimators[0]).newest_covariances);
+  EXPECT_FALSE(
+      evaluation_options(without.cells[0], without.cells[0].estimators[0]).newest_covariances);
 }
 
 }  // namespace

@@ -93,7 +93,7 @@ TEST(Evaluate, AnEstimatorIsBetterThanDeadReckoning) {
 TEST(Evaluate, ABatchFromAGuessStartsThere) {
   const Recording recording = square();
   const std::vector<Pose> start = test::square_truth();
-  ReplayOptions options;
+  EvaluationOptions options;
   options.mode = SolveMode::batch;
   options.start = start;
   const Result result =
@@ -167,7 +167,7 @@ TEST(Metrics, TellLostLoopsFromRejectedOnes) {
   Script script;
   script.updates.assign(3, {});
   script.rejected = {{2, 5}};
-  ReplayOptions options;
+  EvaluationOptions options;
   options.mode = SolveMode::batch;
   script.finish = {Outcome::diverged, 3, {}};
   EstimatorRegistry registry;

@@ -13,7 +13,7 @@
 #include "fathom/datasets/data_set.hpp"
 #include "fathom/datasets/earth_origin.hpp"
 #include "fathom/estimation/registry.hpp"
-#include "fathom/evaluation/alignment.hpp"
+#include "fathom/evaluation/metric_options.hpp"
 #include "fathom/front_end/options.hpp"
 #include "fathom/measurements/spoil.hpp"
 
@@ -62,12 +62,8 @@ struct StudyOptions {
   int jobs = 1;
   Association association = Association::shared;
   SpoilOptions false_loops;  ///< share 0: none
-  std::vector<double> rpe_keyframes{1};
-  std::vector<double> rpe_distances_m;
-  int anchors = 5;
-  int relative_pairs = 20;
+  MetricOptions evaluation;
   bool newest_covariance = true;
-  double min_overlap = 0.3;
   std::vector<std::string> metrics{"mean_position_error_m",
                                    "ate_rmse_m",
                                    "heading_rmse_rad",
@@ -93,7 +89,6 @@ struct Configuration {
   /// One for `run`, which selects its loop candidates itself; for `compare` several.
   std::vector<EstimatorConfiguration> estimators;
   CandidateReference reference;
-  Alignment alignment = Alignment::origin;
   StudyOptions study;                ///< of a comparison
   std::vector<std::string> plugins;  ///< files; whoever makes the registry loads them
   IsolationOptions isolation;

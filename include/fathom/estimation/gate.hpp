@@ -88,6 +88,14 @@ bool judge(const Gate& gate, const TrajectoryView& estimate,
            std::span<const RelativePose> registrations, const PredictedCovariances& covariances,
            UpdateReport& report);
 
+/// The update of an estimator that minimises over a whole graph: each registration is judged, those
+/// that are used go to `minimise`, and they are lost where that fails. `minimise` adds them and
+/// minimises, or keeps them for a batch solve; where it fails, it leaves the graph as it was.
+UpdateReport judged_update(
+    const Gate& gate, const TrajectoryView& estimate, std::span<const RelativePose> registrations,
+    const PredictedCovariances& covariances,
+    const std::function<UpdateReport(std::span<const RelativePose> used)>& minimise);
+
 /// νᵀ S⁻¹ ν; NaN where S is not positive definite.
 double normalised_innovation_squared(const Eigen::Vector3d& innovation, const Eigen::Matrix3d& S);
 

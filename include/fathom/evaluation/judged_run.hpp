@@ -10,21 +10,12 @@
 #include "fathom/evaluation/accuracy.hpp"
 #include "fathom/evaluation/consistency.hpp"
 #include "fathom/evaluation/loop_truth.hpp"
+#include "fathom/evaluation/metric_options.hpp"
 #include "fathom/evaluation/relative_consistency.hpp"
 #include "fathom/evaluation/run.hpp"
 #include "fathom/measurements/measurement_log.hpp"
 
 namespace fathom {
-
-/// The parameters of the metrics.
-struct MetricOptions {
-  Alignment alignment = Alignment::origin;  ///< of the absolute errors
-  std::vector<double> rpe_keyframes{1};     ///< separations of relative errors, whole numbers
-  std::vector<double> rpe_distances_m;      ///< and path lengths
-  std::size_t anchors = 5;                  ///< keyframes held in turn (anchored_anees)
-  std::size_t relative_pairs = 20;          ///< motions over each separation or distance, at most
-  double min_overlap = 0.3;  ///< true overlap from which on a pair should be a loop (loop_recall)
-};
 
 /// All that metrics are computed from: a recording, and what an estimator made of it. What is not
 /// known is absent. Lists belong to the caller and outlive this.

@@ -11,7 +11,7 @@
 
 #include "fathom/core/options.hpp"
 #include "fathom/front_end/joined_stretches.hpp"
-#include "fathom/front_end/keyframe_grid.hpp"
+#include "fathom/geometry/keyframe_grid.hpp"
 #include "fathom/geometry/trajectory.hpp"
 #include "fathom/measurements/relative_pose.hpp"
 #include "fathom/vision/camera.hpp"

@@ -16,6 +16,9 @@ struct KeyframeOptions {
   double min_overlap = 0.85;             ///< of pictures, as dead reckoning has it
   std::optional<int> separation_frames;  ///< one every so many frames instead
 
+  /// Frames from one keyframe to the next, at least: by overlap any frame may be one.
+  int least_separation() const { return separation_frames.value_or(1); }
+
   void describe(OptionTable& table);
 
   /// Keys, as described, that have no effect beside `separation_frames`.

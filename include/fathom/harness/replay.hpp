@@ -10,7 +10,6 @@
 
 #include <Eigen/Core>
 
-#include "fathom/configuration/isolation.hpp"
 #include "fathom/estimation/registry.hpp"
 #include "fathom/evaluation/run.hpp"
 #include "fathom/harness/recording.hpp"
@@ -47,16 +46,11 @@ struct ReplayOptions {
   /// their covariances, as the selection of loop candidates does. Their time is the estimate's:
   /// without them it would have been given another log.
   std::vector<std::size_t> candidate_covariances;
-  /// Whether the estimator's own estimate selected the loop candidates of the log: evaluate() then
-  /// puts here above what the recording says of it.
-  bool own_candidates = false;
   /// Motions whose covariances are asked for after the replay, outside the timing. Those of
   /// `covariances` are not looked at.
   std::vector<JudgedMotions> motions;
   MemoryMeter* memory = nullptr;
   Progress progress;
-  /// Of evaluate(), which decides by it between replay and isolated_replay.
-  IsolationOptions isolation;
 };
 
 /// Gives a log to an estimator, keyframe by keyframe, and measures.

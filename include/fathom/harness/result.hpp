@@ -21,13 +21,19 @@ struct JudgeOptions {
   const RecordingFacts* facts = nullptr;
 };
 
-/// The parameters of the metrics that a configuration asks for.
-MetricOptions metric_options(const Configuration& configuration);
+/// How an estimator is run: what its replay is asked for, and what evaluate() decides.
+struct EvaluationOptions : ReplayOptions {
+  /// Between replay and isolated_replay.
+  IsolationOptions isolation;
+  /// Whether the estimator's own estimate selected the loop candidates of the log:
+  /// `candidate_covariances` are then those that the recording has of it.
+  bool own_candidates = false;
+};
 
-/// What the estimator's replay is asked for in this configuration: the covariance of the newest
-/// pose after every keyframe, and what loop candidates ask for where its own estimate selects them.
-ReplayOptions replay_options(const Configuration& configuration,
-                             const EstimatorConfiguration& estimator);
+/// Those of this configuration: the covariance of the newest pose after every keyframe, and what
+/// loop candidates ask for where its own estimate selects them.
+EvaluationOptions evaluation_options(const Configuration& configuration,
+                                     const EstimatorConfiguration& estimator);
 
 /// One estimator on one recording, evaluated by the harness.
 struct Result {
@@ -49,7 +55,7 @@ struct Result {
 /// trajectories are keyframe indices.
 Result evaluate(const Recording& recording, const EstimatorConfiguration& estimator,
                 const EstimatorRegistry& registry, const JudgeOptions& judging,
-                const ReplayOptions& options);
+                const EvaluationOptions& options);
 
 /// The same of a run that is known to have left nothing but how it ended: it is not made again.
 Result evaluate_lost(const Recording& recording, const EstimatorConfiguration& estimator,

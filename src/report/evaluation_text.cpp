@@ -1,11 +1,11 @@
-#include "apps/evaluate_text.hpp"
+#include "fathom/report/evaluation_text.hpp"
 
 #include <cmath>
-#include <cstdio>
+#include <fmt/format.h>
 
-#include "apps/trajectories.hpp"
 #include "fathom/core/text.hpp"
 #include "fathom/evaluation/error_statistics.hpp"
+#include "fathom/report/projection_text.hpp"
 #include "fathom/report/table.hpp"
 
 namespace fathom {
@@ -76,7 +76,7 @@ bool is_planar(const SpatialAccuracy& judged) {
   return is_plain(judged.estimate) && is_plain(judged.reference) && heights && heights->max < 1e-9;
 }
 
-void print_losses(const SpatialAccuracy& judged, const std::string& alignment) {
+std::string losses_text(const SpatialAccuracy& judged, const std::string& alignment) {
   Table table({"left out by the projection", "estimate", "reference"});
   const auto cells = [](const ProjectedTrajectory& of) {
     return loss_cells(plane_text(of.plane, of.axes), of.projection.loss);
@@ -86,49 +86,48 @@ void print_losses(const SpatialAccuracy& judged, const std::string& alignment) {
   for (std::size_t i = 0; i < estimate.size(); ++i) {
     table.add_row({loss_rows()[i], estimate[i], reference[i]});
   }
-  std::printf("\n%s", table.text().c_str());
   const auto heights = error_statistics(absolute(judged.height_errors_m));
   const auto all = error_statistics(with_heights(judged.position_errors_m, judged.height_errors_m));
   const auto rmse = [](const std::optional<ErrorStatistics>& statistics) {
     return statistics ? format_number(statistics->rmse, 6) : "-";
   };
-  std::printf("height error, alignment %s: RMSE %s m; with the position error on the plane %s m\n",
-              alignment.c_str(), rmse(heights).c_str(), rmse(all).c_str());
+  return fmt::format(
+      "\n{}height error, alignment {}: RMSE {} m; with the position error on the plane {} m\n",
+      table.text(), alignment, rmse(heights), rmse(all));
 }
 
-void print_warnings(const SpatialAccuracy& judged) {
+std::string warnings_text(const SpatialAccuracy& judged) {
+  std::string text;
   for (const auto& [which, of] : {std::pair{"the estimate", &judged.estimate},
                                   std::pair{"the reference", &judged.reference}}) {
     for (const std::string& warning :
          projection_warnings(of->axes, of->projection, judged.body, which)) {
-      std::printf("warning: %s\n", warning.c_str());
+      text += "warning: " + warning + "\n";
     }
   }
-  if (judged.is_mounted_alike) return;
-  std::printf(
-      "warning: different axes of the body point up in the estimate and in the reference: headings "
-      "and relative errors compare different axes, and alignment origin rests on them; has one of "
-      "them another plane?\n");
+  if (judged.is_mounted_alike) return text;
+  return text +
+         "warning: different axes of the body point up in the estimate and in the reference: "
+         "headings and relative errors compare different axes, and alignment origin rests on them; "
+         "has one of them another plane?\n";
 }
 
 }  // namespace
 
-void print_evaluation(const SpatialAccuracy& judged, const EvaluationHead& head,
-                      const RelativeLengths& lengths) {
-  const Table relative = relative_table(judged.poses, lengths);  // refuses before any output
-  std::printf("%zu of %zu poses have a reference; alignment %s, scale as it is\n",
-              judged.poses.estimate.size(), head.estimate_size, head.alignment.c_str());
-  if (head.is_paired_by_index) std::printf("paired by index: neither trajectory has times\n");
-  std::printf("\n");
-  if (judged.accuracy) {
-    std::printf("%s", absolute_table(judged).text().c_str());
-  } else {
-    std::printf("no error can be given: alignment %s lays a single pose on its reference\n",
-                head.alignment.c_str());
-  }
-  std::printf("\n%s", relative.text().c_str());
-  if (!is_planar(judged)) print_losses(judged, head.alignment);
-  print_warnings(judged);
+std::string evaluation_text(const SpatialAccuracy& judged, const EvaluationHead& head,
+                            const RelativeLengths& lengths) {
+  std::string text = fmt::format("{} of {} poses have a reference; alignment {}, scale as it is\n",
+                                 judged.poses.estimate.size(), head.estimate_size, head.alignment);
+  if (head.is_paired_by_index) text += "paired by index: neither trajectory has times\n";
+  text += "\n";
+  text +=
+      judged.accuracy
+          ? absolute_table(judged).text()
+          : fmt::format("no error can be given: alignment {} lays a single pose on its reference\n",
+                        head.alignment);
+  text += "\n" + relative_table(judged.poses, lengths).text();
+  if (!is_planar(judged)) text += losses_text(judged, head.alignment);
+  return text + warnings_text(judged);
 }
 
 }  // namespace fathom

@@ -21,8 +21,9 @@ struct RelativeLengths {
   std::vector<double> distances_m;
 };
 
-/// Prints all figures. Throws InputError, before any output, where a relative error does.
-void print_evaluation(const SpatialAccuracy& judged, const EvaluationHead& head,
-                      const RelativeLengths& lengths);
+/// All figures, as `fathom evaluate` prints them: lines, each with its end. Throws InputError where
+/// a relative error does.
+std::string evaluation_text(const SpatialAccuracy& judged, const EvaluationHead& head,
+                            const RelativeLengths& lengths);
 
 }  // namespace fathom

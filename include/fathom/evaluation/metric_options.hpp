@@ -1,0 +1,19 @@
+#pragma once
+
+#include <vector>
+
+#include "fathom/evaluation/alignment.hpp"
+
+namespace fathom {
+
+/// The parameters of the metrics.
+struct MetricOptions {
+  Alignment alignment = Alignment::origin;  ///< of the absolute errors
+  std::vector<double> rpe_keyframes{1};     ///< separations of relative errors, whole numbers
+  std::vector<double> rpe_distances_m;      ///< and path lengths
+  int anchors = 5;                          ///< keyframes held in turn (anchored_anees)
+  int relative_pairs = 20;                  ///< motions over each separation or distance, at most
+  double min_overlap = 0.3;  ///< true overlap from which on a pair should be a loop (loop_recall)
+};
+
+}  // namespace fathom
