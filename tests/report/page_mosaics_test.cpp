@@ -81,6 +81,14 @@ TEST_F(PageMosaics, AreAbsentWhereCompareWroteNone) {
   EXPECT_TRUE(mosaics().is_null());
 }
 
+TEST_F(PageMosaics, HaveEveryLoopThatWasUsed) {
+  write_mosaic("iterated", 4.0, 2.0);
+  std::string registrations = "from,to,fate,nis,weight\n";
+  for (int i = 0; i < 200; ++i) registrations += "0,2,used,1,1\n";
+  write_file(study() / "iterated" / "registrations.csv", registrations);
+  EXPECT_EQ(mosaics().at("mosaics").at(0).at("loops_in_all"), 200);
+}
+
 TEST_F(PageMosaics, ShowTheEstimateWhereItIs) {
   write_mosaic("iterated", 4.0, 2.0);
   const Json all = mosaics();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -11,6 +12,10 @@ namespace fathom {
 
 /// Splits at any run of the separators; no empty pieces.
 std::vector<std::string_view> split(std::string_view text, std::string_view separators = " \t\r");
+
+/// The pieces refer to the text: not of one that is gone with the statement.
+template <std::same_as<std::string> Text>
+std::vector<std::string_view> split(Text&& text, std::string_view separators = "") = delete;
 
 /// Splits at every comma and trims blanks; empty fields are kept, as CSV has them.
 std::vector<std::string_view> split_csv(std::string_view text);

@@ -58,7 +58,8 @@ std::string data_address(const cv::Mat& picture) {
 std::vector<std::pair<std::size_t, std::size_t>> used_loops(const fs::path& file,
                                                             std::size_t keyframes) {
   std::vector<std::pair<std::size_t, std::size_t>> loops;
-  for (const std::string_view line : split(read_text(file), "\n")) {
+  const std::string content = read_text(file);
+  for (const std::string_view line : split(content, "\n")) {
     const auto fields = split_csv(line);
     if (fields.size() < 3 || fields[2] != "used") continue;
     const auto from = parse_integer(fields[0]);
