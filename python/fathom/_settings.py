@@ -30,10 +30,7 @@ class Asked:
             self.put(config)
         else:
             self.file = os.fspath(config)
-            if os.path.isdir(self.file):
-                self.settings = _Settings.of_folder(self.file)
-            else:
-                self.settings = _Settings.read(self.file)
+            self.settings = _Settings.read(self.file)
         self.put(changes)
         self.settings.load_plugins(files_of(plugins))
         self.registry = _Registry()

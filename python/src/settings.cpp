@@ -15,8 +15,11 @@ namespace py = pybind11;
 void bind_settings(py::module_& module) {
   py::class_<Settings>(module, "_Settings")
       .def(py::init<>())
-      .def_static("read", [](const std::string& path) { return read_settings(path); })
-      .def_static("of_folder", [](const std::string& path) { return workflow::settings_of(path); })
+      .def_static("read",
+                  [](const std::string& path) {
+                    // A configuration without a name is none, not an empty one.
+                    return path.empty() ? read_settings(path) : workflow::settings_of(path);
+                  })
       .def("put_yaml",
            [](Settings& settings, const std::string& yaml, const std::string& source) {
              const Settings given = parse_settings(yaml, source);
