@@ -49,18 +49,15 @@ class CallTimer {
   Clock::time_point start_ = Clock::now();
 };
 
-// A NIS that is not finite is none.
-template <class Decision>
-void append_decisions(const std::vector<Decision>& more, std::vector<Decision>& all) {
-  for (const Decision& decision : more) {
-    all.push_back(decision);
-    if (decision.nis && !std::isfinite(*decision.nis)) all.back().nis.reset();
-  }
-}
-
 void note_decisions(const UpdateReport& report, Run& result) {
-  append_decisions(report.loops, result.loops);
-  append_decisions(report.absolute, result.absolute);
+  const auto append = [](const auto& more, auto& all) {
+    for (auto decision : more) {
+      if (decision.nis && !std::isfinite(*decision.nis)) decision.nis.reset();
+      all.push_back(decision);
+    }
+  };
+  append(report.loops, result.loops);
+  append(report.absolute, result.absolute);
 }
 
 void note(const UpdateReport& report, double elapsed_ms, Run& result) {

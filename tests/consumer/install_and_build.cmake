@@ -66,12 +66,14 @@ expect("${output}" "sparse_least_squares +2/2 done")
 
 # The programs of docs/library.md, the second with the plug-in above.
 function(write_block title)
-  string(FIND "${page}" "title=\"${title}\"\n" begin)
+  set(opening "title=\"${title}\"\n")
+  string(FIND "${page}" "${opening}" begin)
   if(begin EQUAL -1)
     message(FATAL_ERROR "docs/library.md has no ${title}")
   endif()
+  string(LENGTH "${opening}" length)
+  math(EXPR begin "${begin} + ${length}")
   string(SUBSTRING "${page}" ${begin} -1 block)
-  string(REGEX REPLACE "^[^\n]*\n" "" block "${block}")
   string(FIND "${block}" "```" end)
   string(SUBSTRING "${block}" 0 ${end} block)
   file(WRITE ${programs}/${title} "${block}")
@@ -85,14 +87,18 @@ endforeach()
 step(${CMAKE_COMMAND} -G ${GENERATOR} -S ${programs} -B ${programs}/build
      -DCMAKE_CXX_COMPILER=${CXX} -DCMAKE_PREFIX_PATH=${prefix})
 step(${CMAKE_COMMAND} --build ${programs}/build)
-file(COPY ${FOLDER}/study.yaml ${plugin} DESTINATION ${programs})
+file(COPY ${plugin} DESTINATION ${programs})
+# The program names the plug-in itself.
+file(READ ${FOLDER}/study.yaml study)
+string(REPLACE "plugins: [${plugin}]\n" "" study "${study}")
+file(WRITE ${programs}/study.yaml "${study}")
 file(WRITE ${programs}/intel.g2o "VERTEX_SE2 0 0 0 0
 VERTEX_SE2 1 1 0 0
 EDGE_SE2 0 1 1 0 0 10 0 0 10 0 10
 ")
-step(${CMAKE_COMMAND} -E chdir ${programs} build/replay_all)
+step(${CMAKE_COMMAND} -E chdir ${programs} ${programs}/build/replay_all)
 expect("${output}" "sparse_gauss_newton: converged, chi2 0.0000")
-step(${CMAKE_COMMAND} -E chdir ${programs} build/study)
+step(${CMAKE_COMMAND} -E chdir ${programs} ${programs}/build/study)
 expect("${output}" "sparse_least_squares +2/2 done")
 foreach(file report.html summary.csv tables.tex table.txt results.sqlite)
   if(NOT EXISTS ${programs}/runs/study/${file})

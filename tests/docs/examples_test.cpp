@@ -64,12 +64,6 @@ TEST(Extending, TheOthersTouchTwoFiles) {
   }
 }
 
-TEST(Extending, ACommandTouchesItsFileAndALineOfThree) {
-  const Touched touched = touched_by("A command");
-  EXPECT_EQ(touched.new_folders, std::set<std::string>{"apps"});
-  EXPECT_EQ(touched.files.size(), 3u);
-}
-
 TEST(Extending, ExamplesThatDoNotFitAreRefused) {
   const TemporaryFolder top;
   std::ofstream(top / "a.txt") << "one\ntwo\none\ntwo\nthree\n";
