@@ -34,8 +34,9 @@ changed_since() {
       case "$file" in
         *.cpp) printf '%s\n' "$file" ;;
         *.hpp)
-          git grep -l --fixed-strings "$(sed -E 's|^(include\|tests)/||' <<< "$file")\"" -- '*.cpp' |
-            head -3 ;;
+          # head ends before git grep does, or there is none.
+          { git grep -l --fixed-strings "$(sed -E 's|^(include\|tests)/||' <<< "$file")\"" -- '*.cpp' ||
+            true; } | { head -3; cat > /dev/null; } ;;
       esac
     done | awk '!seen[$0]++'
 }
