@@ -22,7 +22,8 @@ def reasons_of(log):
     """Names of tests by the reason for which they, or a part of one, were skipped."""
     skipped = collections.defaultdict(list)
     _, *parts = TEST.split(log)
-    for name, output in zip(parts[::2], parts[1::2]):
+    for name, record in zip(parts[::2], parts[1::2]):
+        output = record.partition("<end of output>")[0]
         found = [reason for pattern in REASONS for reason in pattern.findall(output)]
         for reason in dict.fromkeys(found):
             skipped[reason].append(name.split("  # GetParam()")[0])
