@@ -24,10 +24,10 @@ void print_warnings(const std::vector<std::string>& warnings) {
 
 void refuse(const std::vector<std::string>& faults) {
   if (faults.empty()) return;
-  for (std::size_t i = 0; i < std::min(faults.size(), kMostLines); ++i) {
+  for (std::size_t i = 0; i < std::min(faults.size(), kMostShown); ++i) {
     std::printf("fault: %s\n", faults[i].c_str());
   }
-  if (faults.size() > kMostLines) std::printf("and %zu faults more\n", faults.size() - kMostLines);
+  if (faults.size() > kMostShown) std::printf("and %zu faults more\n", faults.size() - kMostShown);
   throw InputError(faults.front() + " (" + counted(faults.size(), "fault") + " in all)");
 }
 

@@ -10,18 +10,18 @@ namespace fathom {
 namespace {
 
 std::string rest_text(std::size_t count) {
-  return count > kMostLines ? fmt::format("    and {} more\n", count - kMostLines) : "";
+  return count > kMostShown ? fmt::format("    and {} more\n", count - kMostShown) : "";
 }
 
 std::string components_text(const GraphSummary& graph) {
   const auto& components = graph.components;
   std::string text;
-  for (std::size_t i = 0; i < std::min(components.size(), kMostLines); ++i) {
+  for (std::size_t i = 0; i < std::min(components.size(), kMostShown); ++i) {
     text += fmt::format("    {:<2} {}, {} to {}\n", i + 1, counted(components[i].poses, "pose"),
                         components[i].first_id, components[i].last_id);
   }
   text += rest_text(components.size()) + "  borders\n";
-  for (std::size_t i = 0; i < std::min(graph.borders.size(), kMostLines); ++i) {
+  for (std::size_t i = 0; i < std::min(graph.borders.size(), kMostShown); ++i) {
     text += fmt::format("    between {} and {}\n", graph.borders[i].first, graph.borders[i].second);
   }
   return text + rest_text(graph.borders.size());
