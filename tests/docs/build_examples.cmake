@@ -23,7 +23,8 @@ endfunction()
 
 file(REMOVE_RECURSE ${FOLDER})
 set(scratch ${FOLDER}/fathom)
-step(${APPLY} ${PAGE} ${SOURCE} ${scratch})
+# A cost is in a header of half of all sources, and a command needs the whole program again.
+step(${APPLY} ${PAGE} ${SOURCE} ${scratch} "A cost" "A command")
 string(REGEX MATCHALL "[^\n]+" files "${output}")
 
 # What each target is compiled with, the CMake files of the examples included.

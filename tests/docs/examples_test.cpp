@@ -57,11 +57,17 @@ TEST(Extending, ADataSetTouchesItsFolderAndOneLine) {
 }
 
 TEST(Extending, TheOthersTouchTwoFiles) {
-  for (const char* section : {"A loss", "A detector", "A metric", "A message of a bag"}) {
+  for (const char* section : {"A loss", "A detector", "A metric", "A cost", "A message of a bag"}) {
     const Touched touched = touched_by(section);
     EXPECT_TRUE(touched.new_folders.empty()) << section;
     EXPECT_LE(touched.files.size(), 2u) << section;
   }
+}
+
+TEST(Extending, ACommandTouchesItsFileAndALineOfThree) {
+  const Touched touched = touched_by("A command");
+  EXPECT_EQ(touched.new_folders, std::set<std::string>{"apps"});
+  EXPECT_EQ(touched.files.size(), 3u);
 }
 
 TEST(Extending, ExamplesThatDoNotFitAreRefused) {
