@@ -81,8 +81,8 @@ std::string find_program(const std::string& name) {
 ProgramPipes::ProgramPipes() {
   for (auto& pair : pairs_) {
     if (::pipe2(pair.data(), O_CLOEXEC) == 0) continue;
-    for (const auto& made : pairs_) {
-      for (const int end : made) {
+    for (const auto& opened : pairs_) {
+      for (const int end : opened) {
         if (end >= 0) ::close(end);
       }
     }

@@ -24,10 +24,10 @@ class CostMetrics {
     for (const auto& [number, field] : numbers) {
       add(name + "." + number, label + ", " + number, unit,
           std::string(number) + " of the wall times of " + calls,
-          [list, field = field](const Run& run) -> Value {
+          [list, of = field](const Run& run) -> Value {
             const auto summary = summarise(run.costs.*list);
             if (!summary) return std::nullopt;
-            return (*summary).*field;
+            return (*summary).*of;
           });
     }
   }
