@@ -79,9 +79,9 @@ std::vector<DrawnMap> drawn_maps(const FigureInput& input, const RegimeMap& map,
                                  const std::map<std::string, LineStyle>& styles) {
   std::vector<DrawnMap> list;
   for (const auto& [name, type] : input.results.study.estimators) {
-    list.push_back(drawn_map(map, name, [&, name = name](const CellResults& cell) {
+    list.push_back(drawn_map(map, name, [&, of = name](const CellResults& cell) {
       const auto one = std::find_if(cell.estimators.begin(), cell.estimators.end(),
-                                    [&](const EstimatorResults& e) { return e.name == name; });
+                                    [&](const EstimatorResults& e) { return e.name == of; });
       return one == cell.estimators.end() ? Square{} : relative_square(cell, *one, metric);
     }));
   }
