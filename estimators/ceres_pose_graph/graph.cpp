@@ -12,7 +12,6 @@
 #include "estimators/ceres_pose_graph/hessian_inverse.hpp"
 #include "fathom/core/blas_memory.hpp"
 #include "fathom/estimation/joint_covariance.hpp"
-#include "fathom/estimation/loop_rows.hpp"
 #include "fathom/geometry/covariance.hpp"
 
 namespace fathom {

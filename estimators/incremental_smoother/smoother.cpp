@@ -6,7 +6,7 @@
 
 #include "estimators/support/pose_graph/bridge.hpp"
 #include "estimators/support/pose_graph/information.hpp"
-#include "fathom/estimation/loop_rows.hpp"
+#include "fathom/geometry/covariance.hpp"
 
 namespace fathom::incremental_smoother {
 Smoother::Smoother(const Pose& origin, const SmootherLimits& limits, const RobustLoss& loss)

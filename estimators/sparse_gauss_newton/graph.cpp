@@ -5,7 +5,7 @@
 
 #include "estimators/support/pose_graph/bridge.hpp"
 #include "estimators/support/pose_graph/information.hpp"
-#include "fathom/estimation/loop_rows.hpp"
+#include "fathom/geometry/covariance.hpp"
 
 namespace fathom::sparse_gauss_newton {
 

@@ -9,23 +9,23 @@
 namespace fathom {
 
 std::vector<JudgedMotions> motions_to_judge(std::span<const Pose> reference,
-                                            const MotionOptions& options) {
+                                            const MetricOptions& options) {
   std::vector<JudgedMotions> groups;
   const auto add = [&](MotionsOver over, double amount, std::vector<KeyframePair> pairs) {
     if (!pairs.empty()) groups.push_back({over, amount, std::move(pairs)});
   };
   if (!all_finite(reference)) return groups;
-  for (const double amount : options.keyframes) {
+  const auto most = static_cast<std::size_t>(options.relative_pairs);
+  for (const double amount : options.rpe_keyframes) {
     const auto separation = static_cast<std::size_t>(amount);
     add(MotionsOver::keyframes, amount,
-        thinned(pairs_over_keyframes(reference.size(), separation), options.most));
+        thinned(pairs_over_keyframes(reference.size(), separation), most));
   }
-  for (const double amount : options.distances_m) {
-    add(MotionsOver::distance_m, amount,
-        thinned(pairs_over_distance(reference, amount), options.most));
+  for (const double amount : options.rpe_distances_m) {
+    add(MotionsOver::distance_m, amount, thinned(pairs_over_distance(reference, amount), most));
   }
   add(MotionsOver::anchors, static_cast<double>(options.anchors),
-      pairs_with_anchors(reference.size(), options.anchors, options.most));
+      pairs_with_anchors(reference.size(), static_cast<std::size_t>(options.anchors), most));
   return groups;
 }
 

@@ -1,6 +1,6 @@
 #include "cost_used.hpp"
 
-#include "fathom/estimation/loop_rows.hpp"
+#include "fathom/geometry/covariance.hpp"
 
 namespace fathom {
 

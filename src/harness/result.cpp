@@ -19,11 +19,6 @@ std::optional<double> least_known(std::optional<double> chi2_optimum, const Meas
   return below ? std::min(below->chi2, *chi2_optimum) : chi2_optimum;
 }
 
-MotionOptions motion_options(const MetricOptions& options) {
-  return {options.rpe_keyframes, options.rpe_distances_m, static_cast<std::size_t>(options.anchors),
-          static_cast<std::size_t>(options.relative_pairs)};
-}
-
 // What is known of an estimate of the keyframes without whose it is.
 RunFacts facts_of(const Recording& recording, const MeasurementLog& log,
                   const std::vector<Pose>& estimate, const MetricOptions& options) {
@@ -36,7 +31,7 @@ RunFacts facts_of(const Recording& recording, const MeasurementLog& log,
 std::vector<JudgedMotions> dead_reckoned_motions(const Recording& recording,
                                                  const MetricOptions& options) {
   if (!recording.ground_truth) return {};
-  auto groups = motions_to_judge(*recording.ground_truth, motion_options(options));
+  auto groups = motions_to_judge(*recording.ground_truth, options);
   for (JudgedMotions& motions : groups) {
     for (const auto& [from, to] : motions.pairs) {
       std::vector<UncertainPose> steps;
@@ -74,7 +69,7 @@ EvaluationOptions asked_of(const Recording& recording, const JudgeOptions& judgi
   EvaluationOptions asked = options;
   if (options.own_candidates) asked.candidate_covariances = recording.asked_covariances;
   if (recording.ground_truth) {
-    asked.motions = motions_to_judge(*recording.ground_truth, motion_options(judging.metrics));
+    asked.motions = motions_to_judge(*recording.ground_truth, judging.metrics);
   }
   return asked;
 }

@@ -54,8 +54,11 @@ bool read_number(double number, std::optional<double>& entry) {
 }
 
 void refuse_entry(const ResultStore& store, const RunKey& key, const char* series, double number) {
-  throw InputError(store.file().string(), "series " + std::string(series) + " of " + key.estimator +
-                                              " has an entry of " + number_text(number));
+  throw InputError(store.file().string(),
+                   "series " + std::string(series) + " of " + key.estimator + " has an entry of " +
+                       number_text(number) +
+                       ", which 'fathom compare' does not write; run the study "
+                       "again, into another folder");
 }
 
 }  // namespace fathom

@@ -56,7 +56,8 @@ TEST(MotionsToJudge, AreThoseThatTheReferenceHas) {
   std::vector<Pose> path;
   for (int k = 0; k < 30; ++k) path.push_back({0.5 * k, 0, 0});
   const auto groups = motions_to_judge(
-      path, {.keyframes = {1, 40}, .distances_m = {2, 50}, .anchors = 3, .most = 7});
+      path,
+      {.rpe_keyframes = {1, 40}, .rpe_distances_m = {2, 50}, .anchors = 3, .relative_pairs = 7});
   ASSERT_EQ(groups.size(), 3u);
   EXPECT_EQ(groups[0].over, MotionsOver::keyframes);
   EXPECT_EQ(groups[1].over, MotionsOver::distance_m);
@@ -112,7 +113,8 @@ JudgedMotions judged(const Chain& chain, JudgedMotions motions) {
   return motions;
 }
 
-const MotionOptions kOptions{.keyframes = {1, 5}, .distances_m = {4}, .anchors = 4, .most = 10};
+const MetricOptions kOptions{
+    .rpe_keyframes = {1, 5}, .rpe_distances_m = {4}, .anchors = 4, .relative_pairs = 10};
 
 // 1 for every kind of motions, within five standard errors of the mean over the draws.
 TEST(RelativeAnees, IsOneOfErrorsThatAreAsStated) {
@@ -194,7 +196,7 @@ TEST(RelativeAnees, ABadFirstPictureDecidesNothing) {
   for (int draw = 0; draw < kDraws; ++draw) {
     const BadFirstPicture run(static_cast<std::uint64_t>(draw));
     plain += consistency(run.estimate, run.truth, run.covariances)->anees / kDraws;
-    const auto groups = motions_to_judge(run.truth, {.keyframes = {10}, .distances_m = {}});
+    const auto groups = motions_to_judge(run.truth, {.rpe_keyframes = {10}, .rpe_distances_m = {}});
     ASSERT_EQ(groups.size(), 2u);
     relative += run.anees_of(groups[0]) / kDraws;
     anchored += run.anees_of(groups[1]) / kDraws;

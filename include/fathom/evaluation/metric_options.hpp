@@ -12,7 +12,9 @@ struct MetricOptions {
   std::vector<double> rpe_keyframes{1};     ///< separations of relative errors, whole numbers
   std::vector<double> rpe_distances_m;      ///< and path lengths
   int anchors = 5;                          ///< keyframes held in turn (anchored_anees)
-  int relative_pairs = 20;                  ///< motions over each separation or distance, at most
+  /// Motions over each of these, and keyframes for each anchor, at most: it keeps the joint
+  /// covariances, 3 columns a keyframe, small.
+  int relative_pairs = 20;
   double min_overlap = 0.3;  ///< true overlap from which on a pair should be a loop (loop_recall)
 };
 

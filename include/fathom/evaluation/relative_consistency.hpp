@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include "fathom/evaluation/keyframe_pairs.hpp"
+#include "fathom/evaluation/metric_options.hpp"
 #include "fathom/geometry/pose.hpp"
 
 namespace fathom {
@@ -29,18 +30,10 @@ struct JudgedMotions {
   std::vector<Eigen::Matrix3d> covariances = {};
 };
 
-/// Which motions are judged. The bounds keep the joint covariances, 3 columns a keyframe, small.
-struct MotionOptions {
-  std::vector<double> keyframes{1};
-  std::vector<double> distances_m;
-  std::size_t anchors = 5;
-  std::size_t most = 20;  ///< pairs over each amount, and keyframes for each anchor
-};
-
 /// The pairs of every group that these options name and the reference has, without covariances:
 /// keyframes first, then distances, then anchors.
 std::vector<JudgedMotions> motions_to_judge(std::span<const Pose> reference,
-                                            const MotionOptions& options);
+                                            const MetricOptions& options);
 
 /// Mean NEES of the motions divided by its 3 degrees of freedom: 1 expected, above: overconfident.
 /// With h = ⊖X_i ⊕ X_k of the estimate and r that of the reference, e = h − r, heading wrapped, and
