@@ -1,24 +1,50 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
+#include <vector>
 
-#include <nlohmann/json.hpp>
+#include <Eigen/Core>
 
+#include "fathom/geometry/pose.hpp"
+#include "fathom/measurements/decision.hpp"
+#include "fathom/report/trajectory_plot.hpp"
+#include "stored_absolute.hpp"
 #include "study_results.hpp"
 
 namespace fathom {
 
-/// To about so many of each estimator its lists are thinned.
-struct ExampleLimits {
-  std::size_t keyframes = 0;
-  std::size_t loops = 0;
-  std::size_t absolute = 0;
+/// The 2σ ellipse of the position at a keyframe: centre + axes · (cos t, sin t), in metres.
+struct ExampleEllipse {
+  std::size_t keyframe = 0;
+  Eigen::Vector2d centre;
+  Eigen::Matrix2d axes;
 };
 
-/// The lowest trial of a cell's lowest survey, drawn: `survey`, `trial`, `text` (both in words),
-/// `truth` (null where unknown) and per estimator its path, 2σ ellipses, loops and absolute
-/// measurements.
-nlohmann::ordered_json example_trial(const ResultStore& store, const CellResults& cell,
-                                     const ExampleLimits& limits);
+/// One estimator, or dead reckoning, on the trial that is drawn.
+struct ExampleRun {
+  std::string estimator;
+  std::string outcome;
+  bool is_done = false;
+  std::vector<Pose> poses;               ///< aligned as the errors are; headings are not stored
+  std::vector<ExampleEllipse> ellipses;  ///< of some 25 keyframes; dead reckoning has none drawn
+  std::vector<LoopDecision> loops;       ///< in the order of the store
+  std::vector<StoredAbsolute> absolute;
+
+  /// Whether both ends of a loop are among the poses.
+  bool has_ends(const LoopDecision& loop) const;
+  /// What the map draws, without a style and loops.
+  PlotSeries series() const;
+};
+
+/// The lowest trial of a cell's lowest survey: what maps of the page and of the figures show.
+struct ExampleTrial {
+  TrialKey trial;
+  std::vector<Pose> truth;       ///< empty where it is unknown
+  std::vector<ExampleRun> runs;  ///< of the estimators that ran it, in the order of the cell
+};
+
+/// By cell, in the order of `results`.
+std::vector<ExampleTrial> example_trials(const ResultStore& store, const StudyResults& results);
 
 }  // namespace fathom

@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <map>
 
 #include "study_figures.hpp"
@@ -7,47 +6,6 @@ namespace fathom {
 namespace {
 
 using Points = std::vector<Eigen::Vector2d>;
-
-struct CostPoint {
-  std::string estimator;
-  double cost = 0.0;
-  double error = 0.0;
-  Interval costs;
-  Interval errors;
-};
-
-Interval interval_or_point(const MetricSummary& summary) {
-  return summary.interval.value_or(Interval{summary.moments.mean, summary.moments.mean});
-}
-
-std::vector<CostPoint> points_of(const CellResults& cell, const std::string& accuracy,
-                                 const std::string& cost) {
-  std::vector<CostPoint> points;
-  for (const EstimatorResults& one : cell.estimators) {
-    const auto error = one.metrics.find(accuracy);
-    const auto costs = one.metrics.find(cost);
-    if (error == one.metrics.end() || costs == one.metrics.end()) continue;
-    if (!(interval_or_point(costs->second).low > 0.0)) continue;  // has no place on the axis
-    points.push_back({one.name, costs->second.moments.mean, error->second.moments.mean,
-                      interval_or_point(costs->second), interval_or_point(error->second)});
-  }
-  return points;
-}
-
-// The Pareto front by rising cost: the points better than all cheaper ones. Empty for a metric of
-// which neither direction is better.
-std::vector<CostPoint> pareto_front(std::vector<CostPoint> points, Better better) {
-  if (better == Better::neither) return {};
-  const double sign = better == Better::higher ? -1.0 : 1.0;
-  std::sort(points.begin(), points.end(), [sign](const CostPoint& a, const CostPoint& b) {
-    return std::pair(a.cost, sign * a.error) < std::pair(b.cost, sign * b.error);
-  });
-  std::vector<CostPoint> front;
-  for (const CostPoint& point : points) {
-    if (front.empty() || sign * point.error < sign * front.back().error) front.push_back(point);
-  }
-  return front;
-}
 
 ChartFrame frame_of(const std::vector<CostPoint>& points, const std::string& accuracy,
                     const std::string& cost, const Box& outer) {
@@ -103,14 +61,14 @@ void draw_cost(Canvas& canvas, const std::vector<CostPoint>& points,
 
 }  // namespace
 
-void add_cost_figures(const FigureInput& input, std::vector<StudyFigure>& figures) {
+void add_cost_figures(const ChartInput& input, std::vector<StudyFigure>& figures) {
   const StudyResults& results = input.results;
   const auto accuracy = first_metric(results, false);
   const auto cost = first_metric(results, true);
   if (!accuracy || !cost) return;
   const auto styles = line_styles(results.study);
   for (const CellResults& cell : results.cells) {
-    const std::vector<CostPoint> points = points_of(cell, *accuracy, *cost);
+    const std::vector<CostPoint> points = cost_points(cell, *accuracy, *cost);
     if (points.empty()) continue;
     const std::string conditions =
         cell_caption(cell) + failures_text(cell) + "; means, 95 % intervals";

@@ -1,48 +1,11 @@
-#include <algorithm>
 #include <map>
 
-#include "fathom/evaluation/consistency.hpp"
 #include "study_figures.hpp"
 
 namespace fathom {
 namespace {
 
-using Points = std::vector<Eigen::Vector2d>;
-
-struct NeesChart {
-  std::vector<std::pair<std::string, Points>> lines;
-  Points low;  ///< of the χ² interval, of the estimator with the most independent draws
-  Points high;
-  std::size_t draws = 0;
-};
-
-NeesChart chart_of(const CellResults& cell, const std::vector<EstimatorSeries>& series) {
-  NeesChart chart;
-  std::size_t most = 0;
-  for (std::size_t i = 0; i < cell.estimators.size(); ++i) {
-    const KeyframeStatistics& all = series[i].keyframes;
-    Points points;
-    for (std::size_t k = 0; k < all.keyframe.size(); ++k) {
-      const double x = static_cast<double>(all.keyframe[k]);
-      if (all.anees[k] && *all.anees[k] > 0.0) points.emplace_back(x, *all.anees[k]);
-    }
-    if (points.empty()) continue;
-    chart.lines.emplace_back(cell.estimators[i].name, std::move(points));
-    const std::size_t draws = *std::max_element(all.nees_draws.begin(), all.nees_draws.end());
-    if (draws <= most) continue;
-    most = draws;
-    chart.draws = draws;
-    chart.low.clear();
-    chart.high.clear();
-    for (std::size_t k = 0; k < all.keyframe.size(); ++k) {
-      if (all.nees_draws[k] == 0) continue;
-      const Interval interval = anees_interval(all.nees_draws[k], 3, 0.95);
-      chart.low.emplace_back(static_cast<double>(all.keyframe[k]), interval.low);
-      chart.high.emplace_back(static_cast<double>(all.keyframe[k]), interval.high);
-    }
-  }
-  return chart;
-}
+using Points = NeesChart::Points;
 
 ChartFrame frame_of(const NeesChart& chart, const Box& outer) {
   std::vector<double> keyframes;
@@ -92,12 +55,12 @@ void draw_nees(Canvas& canvas, const NeesChart& chart, const ChartFrame& frame,
 
 }  // namespace
 
-void add_nees_figures(const FigureInput& input, std::vector<StudyFigure>& figures) {
+void add_nees_figures(const ChartInput& input, std::vector<StudyFigure>& figures) {
   const StudyResults& results = input.results;
   const auto styles = line_styles(results.study);
   for (std::size_t i = 0; i < results.cells.size(); ++i) {
     const CellResults& cell = results.cells[i];
-    const NeesChart chart = chart_of(cell, input.series[i]);
+    const NeesChart chart = nees_chart(cell, input.series[i]);
     if (chart.lines.empty()) continue;
     const FigureLayout layout({170.0}, legend_of(chart, styles),
                               cell_caption(cell) + failures_text(cell));

@@ -1,8 +1,6 @@
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <map>
-#include <set>
 
 #include "regime_map.hpp"
 #include "study_figures.hpp"
@@ -15,13 +13,11 @@ constexpr double kMapHeight = 92.0;
 constexpr double kHeading = 10.0;
 constexpr double kCellText = 5.5;
 constexpr double kLeastText = 14.0;  // a shorter one is shown whole or not at all
-constexpr double kDarkest = 10.0;    // as many times the best mean, and more
 
 // What one square shows.
 struct Square {
-  Colour fill = palette::white;
+  Shade shade;
   std::string text;
-  Colour ink = palette::black;
 };
 
 // A map by place across, then up.
@@ -42,24 +38,19 @@ std::string relative_text(double relative) {
   return text;
 }
 
-// The best is nearly white, ten times it dark.
 Square relative_square(const CellResults& cell, const EstimatorResults& one,
                        const std::string& metric) {
-  if (one.failures() > 0) {
-    return {tint(palette::grey, 0.35), std::to_string(one.failures()) + " failed", palette::black};
-  }
-  const auto relative = relative_to_best(cell, one, metric);
-  if (!relative) return {};
-  const double share = std::clamp(std::log(*relative) / std::log(kDarkest), 0.0, 1.0);
-  return {tint(palette::blue, 0.06 + 0.94 * share), relative_text(*relative),
-          share > 0.5 ? palette::white : palette::black};
+  if (one.failures() > 0) return {shade_of_none(), std::to_string(one.failures()) + " failed"};
+  const auto square = regime_square(cell, one, metric, {});
+  if (!square || !square->relative) return {};
+  return {square->shade, relative_text(*square->relative)};
 }
 
 Square choice_square(const CellResults& cell, const std::string& metric, const std::string& cost,
                      const std::map<std::string, LineStyle>& styles) {
   const auto choice = cheapest_of_the_best(cell, metric, cost);
   if (!choice) return {};
-  return {tint(styles.at(*choice).colour, 0.55), *choice, palette::black};
+  return {shade_of_choice(styles.at(*choice).colour), *choice};
 }
 
 template <class SquareOf>
@@ -74,7 +65,7 @@ DrawnMap drawn_map(const RegimeMap& map, const std::string& heading, const Squar
   return drawn;
 }
 
-std::vector<DrawnMap> drawn_maps(const FigureInput& input, const RegimeMap& map,
+std::vector<DrawnMap> drawn_maps(const ChartInput& input, const RegimeMap& map,
                                  const std::string& metric, const std::optional<std::string>& cost,
                                  const std::map<std::string, LineStyle>& styles) {
   std::vector<DrawnMap> list;
@@ -118,7 +109,7 @@ void draw_map(Canvas& canvas, const DrawnMap& map, const ChartFrame& frame, cons
       const auto y = static_cast<double>(j);
       const std::vector<Eigen::Vector2d> corners = frame.at(
           {{x - 0.5, y - 0.5}, {x + 0.5, y - 0.5}, {x + 0.5, y + 0.5}, {x - 0.5, y + 0.5}});
-      canvas.area(corners, square.fill);
+      canvas.area(corners, square.shade.fill);
       canvas.outline(corners, {palette::white, 0.6, {}, 1.0});
       const double width = corners[1].x() - corners[0].x() - 1.0;
       const double height = corners[0].y() - corners[2].y() - 1.0;
@@ -127,7 +118,7 @@ void draw_map(Canvas& canvas, const DrawnMap& map, const ChartFrame& frame, cons
       }
       const Eigen::Vector2d middle = frame.at(x, y) + Eigen::Vector2d(0.0, 0.35 * kCellText);
       canvas.text(shortened(square.text, kCellText, width), middle,
-                  {kCellText, square.ink, TextAlign::centre});
+                  {kCellText, square.shade.ink, TextAlign::centre});
     }
   }
 }
@@ -150,12 +141,12 @@ std::vector<LegendEntry> legend_of(const StudyDescription& study,
   std::vector<LegendEntry> legend;
   legend.reserve(study.estimators.size());
   for (const auto& [name, type] : study.estimators) {
-    legend.push_back(disc_entry(name, tint(styles.at(name).colour, 0.55)));
+    legend.push_back(disc_entry(name, shade_of_choice(styles.at(name).colour).fill));
   }
   return legend;
 }
 
-StudyFigure regime_figure(const FigureInput& input, const RegimeMap& map,
+StudyFigure regime_figure(const ChartInput& input, const RegimeMap& map,
                           const std::string& metric) {
   const StudyDescription& study = input.results.study;
   const auto cost = first_metric(input.results, true);
@@ -184,7 +175,7 @@ StudyFigure regime_figure(const FigureInput& input, const RegimeMap& map,
 
 }  // namespace
 
-void add_regime_figures(const FigureInput& input, std::vector<StudyFigure>& figures) {
+void add_regime_figures(const ChartInput& input, std::vector<StudyFigure>& figures) {
   const auto metric = first_metric(input.results, false);
   if (!metric || described(*metric).better != Better::lower) return;
   const std::vector<RegimeMap> maps = regime_maps(input.results);

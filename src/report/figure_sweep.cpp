@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <map>
 
-#include "fathom/core/text.hpp"
 #include "study_figures.hpp"
 
 namespace fathom {
@@ -27,12 +26,8 @@ struct Sweep {
 
 // Numbers lie where they are, other values side by side.
 std::vector<double> positions_of(const std::vector<std::string>& labels) {
+  if (auto numbers = numeric_positions(labels)) return *std::move(numbers);
   std::vector<double> positions;
-  for (const std::string& label : labels) {
-    if (const auto number = parse_real(label)) positions.push_back(*number);
-  }
-  if (positions.size() == labels.size()) return positions;
-  positions.clear();
   for (std::size_t i = 0; i < labels.size(); ++i) positions.push_back(static_cast<double>(i));
   return positions;
 }
@@ -41,18 +36,17 @@ void add_values(SweepLine& line, const EstimatorResults& one, const EstimatorSer
                 const std::string& metric, double x) {
   if (const auto found = one.metrics.find(metric); found != one.metrics.end()) {
     const Moments& moments = found->second.moments;
-    const double spread = 2.0 * moments.standard_deviation.value_or(0.0);
-    line.mean.emplace_back(x, moments.mean);
-    line.low.emplace_back(
-        x, moments.mean < 0.0 ? moments.mean - spread : std::max(0.0, moments.mean - spread));
-    line.high.emplace_back(x, moments.mean + spread);
+    const BandedMean error = banded(moments.mean, moments.standard_deviation);
+    line.mean.emplace_back(x, error.mean);
+    line.low.emplace_back(x, error.low);
+    line.high.emplace_back(x, error.high);
   }
   if (!series.bounds) return;
   line.empirical.emplace_back(x, series.bounds->empirical_m);
   if (series.bounds->estimated_m) line.estimated.emplace_back(x, *series.bounds->estimated_m);
 }
 
-std::vector<SweepLine> lines_of(const FigureInput& input, const Sweep& sweep,
+std::vector<SweepLine> lines_of(const ChartInput& input, const Sweep& sweep,
                                 const std::string& metric) {
   std::vector<SweepLine> lines;
   for (const std::size_t place : sweep.cells) {
@@ -72,7 +66,7 @@ std::vector<SweepLine> lines_of(const FigureInput& input, const Sweep& sweep,
 }
 
 ChartAxis sweep_axis(const Sweep& sweep, const StudyAxis& axis) {
-  const bool numeric = parse_real(axis.labels.front()).has_value();
+  const bool numeric = numeric_positions(axis.labels).has_value();
   return labelled_axis(axis.name, sweep.positions, axis.labels, numeric ? 0.04 : 0.2);
 }
 
@@ -143,7 +137,7 @@ void draw_lines(Canvas& canvas, const std::vector<SweepLine>& lines,
   }
 }
 
-std::string conditions_of(const FigureInput& input, const Sweep& sweep) {
+std::string conditions_of(const ChartInput& input, const Sweep& sweep) {
   const CellResults& first = input.results.cells[sweep.cells.front()];
   std::string text =
       "first of " + std::to_string(sweep.cells.size()) + " points: " + cell_caption(first);
@@ -179,7 +173,7 @@ std::vector<LegendEntry> legend_of(const std::vector<SweepLine>& lines,
   return legend;
 }
 
-StudyFigure sweep_figure(const FigureInput& input, const Sweep& sweep, const std::string& metric) {
+StudyFigure sweep_figure(const ChartInput& input, const Sweep& sweep, const std::string& metric) {
   const std::vector<SweepLine> lines = lines_of(input, sweep, metric);
   const auto styles = line_styles(input.results.study);
   const auto bounds = heights(lines, {&SweepLine::empirical, &SweepLine::estimated});
@@ -234,7 +228,7 @@ std::string name_of_others(const Sweep& sweep, const StudyResults& results) {
 
 }  // namespace
 
-void add_sweep_figures(const FigureInput& input, std::vector<StudyFigure>& figures) {
+void add_sweep_figures(const ChartInput& input, std::vector<StudyFigure>& figures) {
   const auto metric = first_metric(input.results, false);
   if (!metric) return;
   for (std::size_t axis = 0; axis < input.results.study.axes.size(); ++axis) {

@@ -14,18 +14,24 @@ bool is_drawable(const Pose& pose) {
   return is_finite(pose) && std::abs(pose.x) <= kFarthest && std::abs(pose.y) <= kFarthest;
 }
 
-std::vector<Eigen::Vector2d> two_sigma_ellipse(const Eigen::Matrix3d& covariance) {
-  const Eigen::Matrix2d P = covariance.topLeftCorner<2, 2>();
-  if (!P.allFinite()) return {};
+std::optional<Eigen::Matrix2d> two_sigma_axes(const Eigen::Matrix2d& P) {
+  if (!P.allFinite()) return std::nullopt;
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(P);
-  if (solver.info() != Eigen::Success || !(solver.eigenvalues().minCoeff() > 0.0)) return {};
-  const Eigen::Vector2d axes = 2.0 * solver.eigenvalues().cwiseSqrt();
+  if (solver.info() != Eigen::Success || !(solver.eigenvalues().minCoeff() > 0.0)) {
+    return std::nullopt;
+  }
+  const Eigen::Vector2d lengths = 2.0 * solver.eigenvalues().cwiseSqrt();
+  return solver.eigenvectors() * lengths.asDiagonal();
+}
+
+std::vector<Eigen::Vector2d> two_sigma_ellipse(const Eigen::Matrix3d& covariance) {
+  const auto axes = two_sigma_axes(covariance.topLeftCorner<2, 2>());
   std::vector<Eigen::Vector2d> polygon;
+  if (!axes) return polygon;
   constexpr int kCorners = 72;
   for (int i = 0; i < kCorners; ++i) {
     const double angle = 2.0 * std::numbers::pi * i / kCorners;
-    polygon.push_back(solver.eigenvectors() *
-                      Eigen::Vector2d(axes.x() * std::cos(angle), axes.y() * std::sin(angle)));
+    polygon.push_back(*axes * Eigen::Vector2d(std::cos(angle), std::sin(angle)));
   }
   return polygon;
 }

@@ -2,14 +2,13 @@
 
 #include <nlohmann/json.hpp>
 
-#include "keyframe_series.hpp"
+#include "chart_rows.hpp"
 
 namespace fathom {
 
 /// All that the page shows (docs/report.md lists the keys): over all trials the summaries and the
 /// statistics by keyframe, and of one trial a cell, the lowest, its trajectories and loops. Numbers
 /// have 6 digits.
-nlohmann::ordered_json page_data(const ResultStore& store, const StudyResults& results,
-                                 const std::vector<std::vector<EstimatorSeries>>& series);
+nlohmann::ordered_json page_data(const ResultStore& store, const ChartInput& input);
 
 }  // namespace fathom

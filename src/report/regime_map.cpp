@@ -1,6 +1,7 @@
 #include "regime_map.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 namespace fathom {
@@ -22,6 +23,12 @@ std::optional<double> best_of(const CellResults& cell, const std::string& metric
     if (mean && (!best || *mean < *best)) best = mean;
   }
   return best;
+}
+
+constexpr double kDarkest = 10.0;  // as many times the best mean, and more
+
+Shade shade_of(double share) {
+  return {tint(palette::blue, 0.06 + 0.94 * share), share > 0.5 ? palette::white : palette::black};
 }
 
 }  // namespace
@@ -64,6 +71,45 @@ std::optional<double> relative_to_best(const CellResults& cell, const EstimatorR
   const auto mean = mean_of(estimator, metric);
   if (!best || !mean || !(*best > 0.0)) return {};
   return *mean / *best;
+}
+
+Shade shade_of_none() {
+  return {tint(palette::grey, 0.35), palette::black};
+}
+
+Shade shade_of_choice(Colour colour) {
+  return {tint(colour, 0.55), palette::black};
+}
+
+std::optional<MeanRange> range_over(const RegimeMap& map, const std::string& metric) {
+  std::optional<MeanRange> range;
+  for (const auto& column : map.cells) {
+    for (const CellResults* cell : column) {
+      if (cell == nullptr) continue;
+      for (const EstimatorResults& one : cell->estimators) {
+        const auto mean = mean_of(one, metric);
+        if (!mean) continue;
+        if (!range) range = MeanRange{*mean, *mean};
+        range = MeanRange{std::min(range->least, *mean), std::max(range->most, *mean)};
+      }
+    }
+  }
+  return range;
+}
+
+std::optional<RegimeSquare> regime_square(const CellResults& cell,
+                                          const EstimatorResults& estimator,
+                                          const std::string& metric, const MeanRange& range) {
+  const auto mean = mean_of(estimator, metric);
+  if (!mean) return std::nullopt;
+  const auto relative = relative_to_best(cell, estimator, metric);
+  double share = 0.0;
+  if (relative) {
+    share = std::clamp(std::log(*relative) / std::log(kDarkest), 0.0, 1.0);
+  } else if (range.most > range.least) {
+    share = (*mean - range.least) / (range.most - range.least);
+  }
+  return RegimeSquare{relative, shade_of(share)};
 }
 
 std::optional<std::string> cheapest_of_the_best(const CellResults& cell, const std::string& metric,

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "fathom/report/palette.hpp"
 #include "study_results.hpp"
 
 namespace fathom {
@@ -28,6 +29,34 @@ inline constexpr double kAsGoodAsBest = 0.05;
 /// which less is better, estimators that have failed no trial, and a best mean above zero.
 std::optional<double> relative_to_best(const CellResults& cell, const EstimatorResults& estimator,
                                        const std::string& metric);
+
+/// How a square is drawn, and the text in it.
+struct Shade {
+  Colour fill = palette::white;
+  Colour ink = palette::black;
+};
+
+/// Of an estimator that failed a trial or lacks the metric, and of the choice of one with a colour.
+Shade shade_of_none();
+Shade shade_of_choice(Colour colour);
+
+/// The means of a metric that a map compares.
+struct MeanRange {
+  double least = 0.0;
+  double most = 0.0;
+};
+std::optional<MeanRange> range_over(const RegimeMap& map, const std::string& metric);
+
+struct RegimeSquare {
+  std::optional<double> relative;  ///< as `relative_to_best`
+  Shade shade;  ///< the best nearly white, ten times its mean dark; else dark is the most of the
+                ///< range
+};
+
+/// Nothing of an estimator that is in no comparison.
+std::optional<RegimeSquare> regime_square(const CellResults& cell,
+                                          const EstimatorResults& estimator,
+                                          const std::string& metric, const MeanRange& range);
 
 /// The estimator with the least mean cost of those as good as the best one; nothing where none
 /// has done all its trials, or the metric has no best.

@@ -51,19 +51,18 @@ std::string html_text(std::string_view text) {
   return result;
 }
 
-std::string report_page(const ResultStore& store, const StudyResults& results,
-                        const std::vector<std::vector<EstimatorSeries>>& series,
+std::string report_page(const ResultStore& store, const ChartInput& input,
                         const nlohmann::ordered_json& mosaics) {
   // Bytes that are not UTF-8 become the replacement character: a name may hold any.
   const auto text_of = [](const nlohmann::ordered_json& json) {
     return within_script(
         json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
   };
-  const std::string& title = results.study.title;
+  const std::string& title = input.results.study.title;
   const std::array<std::pair<std::string_view, std::string>, 6> parts{
       {{"@title@", html_text(title.empty() ? "Study" : title)},
        {"@style@", std::string(kPageStyle)},
-       {"@data@", text_of(page_data(store, results, series))},
+       {"@data@", text_of(page_data(store, input))},
        {"@mosaics@", text_of(mosaics)},
        {"@specs@", std::string(kPageSpecs)},
        {"@scripts@", std::string(kPageScripts)}}};

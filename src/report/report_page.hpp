@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "keyframe_series.hpp"
+#include "chart_rows.hpp"
 
 namespace fathom {
 
@@ -14,8 +14,7 @@ std::string html_text(std::string_view text);
 
 /// The whole report.html: it loads nothing, from nowhere. Its data is the JSON in #data; `mosaics`
 /// that in #mosaics-data.
-std::string report_page(const ResultStore& store, const StudyResults& results,
-                        const std::vector<std::vector<EstimatorSeries>>& series,
+std::string report_page(const ResultStore& store, const ChartInput& input,
                         const nlohmann::ordered_json& mosaics);
 
 }  // namespace fathom

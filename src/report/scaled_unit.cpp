@@ -12,6 +12,7 @@ namespace {
 
 constexpr std::array<std::string_view, 9> kPrefixes{"p", "n", "µ", "m", "", "k", "M", "G", "T"};
 constexpr int kNoPrefix = 4;
+constexpr int kMostThousands = 102;  // of a double
 
 // A unit as the power of a thousand of another: 1 ms is the -1st of s.
 struct Base {
@@ -27,11 +28,29 @@ Base base_of(const std::string& unit) {
   if (unit == "s") return {"s", 0, -4, 0};
   if (unit == "ms") return {"s", -1, -4, 0};
   if (unit == "bytes") return {"B", 0, 0, 4};
-  return {"", 0, 0, 0};
+  return {"", 0, -kMostThousands, kMostThousands};
 }
 
 int thousands_of(double value) {
   return static_cast<int>(std::floor(std::log10(value) / 3.0 + 1e-9));
+}
+
+// The least value that reads best at this power of a thousand of the base: one, and a hundredth of
+// a thousandth part and of what is less.
+double least_at(const Base& base, int thousands) {
+  const bool has_hundredths = !base.unit.empty() && thousands < 0;
+  return (has_hundredths ? 0.00999 : 1.0 - 7e-9) * std::pow(1000.0, thousands - base.thousands);
+}
+
+// The base at that power, by its prefix or with the power said beside the unit.
+ScaledUnit unit_at(const Base& base, const std::string& unit, int thousands) {
+  if (!base.unit.empty()) {
+    const std::string prefix(kPrefixes[static_cast<std::size_t>(thousands + kNoPrefix)]);
+    return {prefix + std::string(base.unit), std::pow(1000.0, base.thousands - thousands)};
+  }
+  if (thousands == 0) return {unit, 1.0};
+  const std::string power = "× " + power_of_ten(3 * thousands);
+  return {power + (unit.empty() ? "" : " " + unit), std::pow(1000.0, -thousands)};
 }
 
 }  // namespace
@@ -51,35 +70,30 @@ ScaledUnit scaled_unit(const std::string& unit, double greatest) {
   const Base base = base_of(unit);
   const double most = base.unit.empty() ? 1e6 : 1e4;
   if (greatest > 0.00999 && greatest < 1.0001 * most) return {unit, 1.0};
-  if (base.unit.empty()) {
-    // A unit without prefixes, or none: the power of ten is said beside it.
-    const int thousands = thousands_of(greatest);
-    const std::string power = "× " + power_of_ten(3 * thousands);
-    return {power + (unit.empty() ? "" : " " + unit), std::pow(1000.0, -thousands)};
-  }
-  const int thousands = std::clamp(thousands_of(greatest) + base.thousands, base.least, base.most);
-  const int place = thousands + kNoPrefix;
-  const std::string prefix(kPrefixes[static_cast<std::size_t>(place)]);
-  return {prefix + std::string(base.unit), std::pow(1000.0, base.thousands - thousands)};
+  const int thousands = thousands_of(greatest) + base.thousands;
+  return unit_at(base, unit, std::clamp(thousands, base.least, base.most));
 }
 
 ScaledUnit reading_unit(const std::string& unit, double value) {
   const double size = std::abs(value);
   if (!(size > 0.0) || !std::isfinite(size)) return {unit, 1.0};
   const Base base = base_of(unit);
-  if (base.unit.empty()) {
-    if (size >= 0.001 && size < 1e6) return {unit, 1.0};
-    const int thousands = thousands_of(size);
-    const std::string power = "× " + power_of_ten(3 * thousands);
-    return {power + (unit.empty() ? "" : " " + unit), std::pow(1000.0, -thousands)};
+  int thousands = std::clamp(thousands_of(size) + base.thousands + 1, base.least, base.most);
+  while (thousands > base.least && size < least_at(base, thousands)) --thousands;
+  if (base.unit.empty() && (thousands == -1 || thousands == 1)) thousands = 0;
+  return unit_at(base, unit, thousands);
+}
+
+std::vector<UnitStep> reading_units(const std::string& unit) {
+  const Base base = base_of(unit);
+  std::vector<UnitStep> steps;
+  for (int thousands = base.least; thousands <= base.most; ++thousands) {
+    if (base.unit.empty() && (thousands == 0 || thousands == 1)) continue;
+    // A plain number stays as it is from the step below one on.
+    const bool is_plain = base.unit.empty() && thousands == -1;
+    steps.push_back({least_at(base, thousands), unit_at(base, unit, is_plain ? 0 : thousands)});
   }
-  int thousands = thousands_of(size) + base.thousands;
-  const double in_next = size * std::pow(1000.0, base.thousands - thousands - 1);
-  if (thousands < -1 && in_next >= 0.00999) ++thousands;
-  thousands = std::clamp(thousands, base.least, base.most);
-  const int place = thousands + kNoPrefix;
-  const std::string prefix(kPrefixes[static_cast<std::size_t>(place)]);
-  return {prefix + std::string(base.unit), std::pow(1000.0, base.thousands - thousands)};
+  return steps;
 }
 
 std::string quantity(double value, const std::string& unit) {

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "fathom/evaluation/interval.hpp"
 
@@ -21,8 +22,16 @@ ScaledUnit scaled_unit(const std::string& unit, double greatest);
 
 /// The unit in which a value reads best within a text or a table: one to three digits before the
 /// point, and thousandths down to 0.01 (0.040 mm rather than 40 µm). Plain numbers stay from 0.001
-/// to 1 000 000. units.js of the page has the same rule.
+/// to 1 000 000.
 ScaledUnit reading_unit(const std::string& unit, double value);
+
+/// The same rule as a table, by rising magnitude: from `least` on, a value reads best in `unit`;
+/// below the first in the first, and zero in `unit` itself.
+struct UnitStep {
+  double least = 0.0;
+  ScaledUnit unit;
+};
+std::vector<UnitStep> reading_units(const std::string& unit);
 
 /// "17.4 mm", "5.01 × 10⁻⁶"
 std::string quantity(double value, const std::string& unit);

@@ -65,7 +65,7 @@ std::optional<std::string> first_metric(const StudyResults& results, bool cost) 
   return found == wanted.end() ? std::nullopt : std::optional(*found);
 }
 
-std::vector<StudyFigure> study_figures(const FigureInput& input) {
+std::vector<StudyFigure> study_figures(const ChartInput& input) {
   std::vector<StudyFigure> figures;
   add_sweep_figures(input, figures);
   add_regime_figures(input, figures);

@@ -7,7 +7,7 @@
 
 #include "chart_frame.hpp"
 #include "chart_legend.hpp"
-#include "keyframe_series.hpp"
+#include "chart_rows.hpp"
 #include "study_styles.hpp"
 
 namespace fathom {
@@ -21,31 +21,24 @@ struct StudyFigure {
 
 inline constexpr double kFigureWidth = 252.0;
 
-/// What figures are made from; it must outlive them.
-struct FigureInput {
-  const ResultStore& store;
-  const StudyResults& results;
-  const std::vector<std::vector<EstimatorSeries>>& series;
-};
-
-/// All figures of a study: those that its results have something for.
-std::vector<StudyFigure> study_figures(const FigureInput& input);
+/// All figures of a study: those that its results have something for. The input must outlive them.
+std::vector<StudyFigure> study_figures(const ChartInput& input);
 
 // Its parts. Each appends.
 /// `error_by_AXIS`, one for each place on the other axes: mean of the first accuracy metric with
 /// its 2σ band over trials, empirical and estimated 2σ of the position below.
-void add_sweep_figures(const FigureInput& input, std::vector<StudyFigure>& figures);
+void add_sweep_figures(const ChartInput& input, std::vector<StudyFigure>& figures);
 /// `regime_map`, one for each place on the axes after the first two: the first accuracy metric, of
 /// which less must be better, relative to the best estimator over two axes, a map an estimator; and
 /// which is the cheapest of the best.
-void add_regime_figures(const FigureInput& input, std::vector<StudyFigure>& figures);
+void add_regime_figures(const ChartInput& input, std::vector<StudyFigure>& figures);
 /// `nees_CELL`: NEES / 3 over keyframes, mean over trials, with its χ² interval.
-void add_nees_figures(const FigureInput& input, std::vector<StudyFigure>& figures);
+void add_nees_figures(const ChartInput& input, std::vector<StudyFigure>& figures);
 /// `trajectories_CELL`: those of the lowest trial, with the loops of the first estimator used,
 /// and the absolute measurements of the first that left one out.
-void add_trajectory_figures(const FigureInput& input, std::vector<StudyFigure>& figures);
+void add_trajectory_figures(const ChartInput& input, std::vector<StudyFigure>& figures);
 /// `accuracy_against_cost_CELL`: the first metric of each kind.
-void add_cost_figures(const FigureInput& input, std::vector<StudyFigure>& figures);
+void add_cost_figures(const ChartInput& input, std::vector<StudyFigure>& figures);
 
 /// What the name of a figure's file is made from: "trajectories" in a study of one cell, else
 /// "trajectories separation 5".

@@ -12,7 +12,7 @@
 namespace fathom {
 namespace {
 
-void write_figures(const FigureInput& input, const std::filesystem::path& folder) {
+void write_figures(const ChartInput& input, const std::filesystem::path& folder) {
   std::filesystem::create_directory(folder);
   for (const StudyFigure& figure : study_figures(input)) {
     for (const auto& [format, ending] :
@@ -46,13 +46,14 @@ void write_study_report(const ResultStore& store, const std::filesystem::path& f
   // Before the work: a folder that cannot be written is said at once.
   StagedFolder out(folder);
   const auto series = study_series(store, results);
+  const auto examples = example_trials(store, results);
   write_file(out.path() / "runs.csv", runs_csv(results));
   write_file(out.path() / "summary.csv",
              summary_csv(results, results_of_other_machines(store, results)));
   write_file(out.path() / "tables.tex", latex_tables(results));
-  write_file(out.path() / "report.html",
-             report_page(store, results, series, example_mosaics(results, study_folder)));
-  write_figures({store, results, series}, out.path() / "figures");
+  write_file(out.path() / "report.html", report_page(store, {results, series, examples},
+                                                     example_mosaics(results, study_folder)));
+  write_figures({results, series, examples}, out.path() / "figures");
   out.commit();
 }
 

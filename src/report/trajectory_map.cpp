@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include <Eigen/Geometry>
-
 #include "absolute_marks.hpp"
 #include "map_frame.hpp"
 
@@ -45,7 +43,6 @@ Eigen::AlignedBox2d extent_of(const PlotSeries& series) {
   return extent;
 }
 
-// All, unless what may leave is so far off that the rest could not be seen.
 Eigen::AlignedBox2d extent_of(const std::vector<PlotSeries>& all) {
   Eigen::AlignedBox2d near;
   Eigen::AlignedBox2d whole;
@@ -168,9 +165,13 @@ LegendEntry end_entry() {
 
 }  // namespace
 
+Eigen::AlignedBox2d map_extent(const std::vector<PlotSeries>& all) {
+  return with_fixes(extent_of(all), all);
+}
+
 TrajectoryMap::TrajectoryMap(const TrajectoryPlot& plot)
     : plot_(plot), pens_(pens_of(plot.series)), low_(-1.0, -1.0), high_(1.0, 1.0) {
-  const Eigen::AlignedBox2d extent = with_fixes(extent_of(plot.series), plot.series);
+  const Eigen::AlignedBox2d extent = map_extent(plot.series);
   if (extent.isEmpty()) return;
   low_ = extent.min();
   high_ = extent.max();

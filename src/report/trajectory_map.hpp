@@ -2,13 +2,17 @@
 
 #include <vector>
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include "chart_frame.hpp"
 #include "chart_legend.hpp"
 #include "fathom/report/trajectory_plot.hpp"
 
 namespace fathom {
+
+/// The part of the world that a map shows: all poses that can be drawn, unless what may leave is so
+/// far off that the rest could not be seen, and the fixes near it. Empty where nothing is.
+Eigen::AlignedBox2d map_extent(const std::vector<PlotSeries>& all);
 
 /// Trajectories seen from above with x up and y to the left, the same scale along both: what
 /// trajectories.png and the figures for print share.

@@ -7,12 +7,18 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+// Beside the best; empty where there is no interval.
+const char* standing_text(const RankedEstimator& one) {
+  if (!one.difference || !one.difference->interval) return "";
+  return one.is_told_apart() ? "worse" : "alike";
+}
+
 Json ranking_json(const Ranking& ranking) {
   Json json{{"best", ranking.best().name}, {"level", page_number(ranking.level)}};
   json["others"] = Json::array();
   for (const RankedEstimator& one : ranking.estimators) {
     if (&one == &ranking.best()) continue;
-    Json other{{"estimator", one.name}, {"told_apart", one.is_told_apart()}};
+    Json other{{"estimator", one.name}, {"standing", standing_text(one)}};
     if (const auto& difference = one.difference) {
       other["n"] = difference->count;
       other["over"] = difference->is_over_surveys ? "surveys" : "trials";

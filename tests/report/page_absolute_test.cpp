@@ -53,8 +53,12 @@ TEST(PageAbsolute, TheExampleHasItsAbsoluteMeasurements) {
   EXPECT_EQ(gated["absolute_in_all"], Json::parse(R"({"fixes": [7, 1], "headings": [39, 1]})"));
   const Json& fix = entry_of(gated["absolute"], 20, "fix_m");
   EXPECT_EQ(fix["fix_m"], Json::parse("[2, 2.6]"));  // of (0, 1.6)
-  EXPECT_EQ(fix["fix_cov_m2"], Json::parse("[0.25, 0, 0.0625]"));
-  EXPECT_EQ(fix["fate"], 1);
+  EXPECT_EQ(fix["fix_sigma_m"], Json::parse("[0.5, 0.25]"));
+  EXPECT_EQ(fix["fate"], "rejected");
+  EXPECT_EQ(fix["left_out"], true);
+  EXPECT_NEAR(fix["off_m"],
+              std::hypot(fix["at_m"][0].get<double>() - 2.0, fix["at_m"][1].get<double>() - 2.6),
+              1e-4);
   EXPECT_EQ(fix["weight"], 0);
   EXPECT_EQ(fix["nis"], 400);
   EXPECT_FALSE(fix.contains("heading_rad"));
@@ -64,11 +68,12 @@ TEST(PageAbsolute, TheExampleHasItsAbsoluteMeasurements) {
   const Json& heading = entry_of(gated["absolute"], 12, "heading_rad");
   EXPECT_NEAR(heading["heading_rad"], 3.0 + 0.5 * M_PI, 1e-4);
   EXPECT_EQ(heading["sigma_rad"], 0.1);
-  EXPECT_EQ(heading["fate"], 1);
+  EXPECT_EQ(heading["fate"], "rejected");
   EXPECT_FALSE(heading.contains("fix_m"));
   // A loss leaves out what it weighs little; no estimator that has no NIS says one.
   const Json& weak = entry_of(estimators[3]["absolute"], 20, "fix_m");
-  EXPECT_EQ(weak["fate"], 0);
+  EXPECT_EQ(weak["fate"], "used");
+  EXPECT_EQ(weak["left_out"], true);
   EXPECT_EQ(weak["weight"], 0.1);
   EXPECT_FALSE(weak.contains("nis"));
   EXPECT_EQ(estimators[3]["absolute_in_all"]["fixes"], Json::parse("[7, 1]"));

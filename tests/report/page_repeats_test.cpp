@@ -25,7 +25,7 @@ TEST(PageRepeats, TheIntervalOfNeesCountsIndependentDraws) {
     const int draws = keyframes["nees_draws"][7].get<int>();
     const Interval interval = anees_interval(static_cast<std::size_t>(draws), 3, 0.95);
     EXPECT_EQ(keyframes["nees_n"][7], 6);
-    EXPECT_NEAR(keyframes["nees_interval"]["high"][7], interval.high, 1e-5);
+    EXPECT_NEAR(data["cells"][0]["nees_interval"]["high"][6], interval.high, 1e-5);
     return draws;
   };
   EXPECT_EQ(draws_of("simulated"), 3);
@@ -65,16 +65,18 @@ TEST(PageRepeats, OfVeryManyLoopsSomeAreDrawn) {
   const Json cell = data_of(options)["cells"][0];
   for (std::size_t e = 1; e < 4; ++e) {
     const Json& one = cell["example"]["estimators"][e];
-    const auto all = one["loops_in_all"].get<std::vector<std::size_t>>();
+    auto all = one["loops_in_all"].get<std::map<std::string, std::size_t>>();
     ASSERT_EQ(all.size(), 3u);
-    EXPECT_EQ(all[0] + all[1] + all[2], 10'000u);
-    std::vector<std::size_t> drawn(3);
-    for (const Json& loop : one["loops"]) ++drawn.at(loop[2].get<std::size_t>());
-    EXPECT_EQ(drawn[1], all[1]);
-    EXPECT_EQ(drawn[2], all[2]);
-    EXPECT_LT(drawn[0] + drawn[1] + drawn[2], 5'010u);
-    EXPECT_GT(drawn[0], 2'000u);
-    EXPECT_EQ(one["loop_ends_m"].size(), one["loops"].size());
+    EXPECT_EQ(all["used"] + all["rejected"] + all["lost"], 10'000u);
+    std::map<std::string, std::size_t> drawn;
+    for (const Json& loop : one["loops"]) {
+      EXPECT_EQ(loop.size(), 8u);  // with its ends
+      ++drawn[loop[2].get<std::string>()];
+    }
+    EXPECT_EQ(drawn["rejected"], all["rejected"]);
+    EXPECT_EQ(drawn["lost"], all["lost"]);
+    EXPECT_LT(one["loops"].size(), 5'010u);
+    EXPECT_GT(drawn["used"], 2'000u);
     EXPECT_LT(one["path"]["x_m"].size(), 6'010u);
   }
 }

@@ -34,7 +34,7 @@ TEST(PageVerdict, HasTheVerdictAndTheRankings) {
       return entry["metrics"]["mean_position_error_m"]["mean"].get<double>();
     };
     EXPECT_NEAR(other["mean"], mean(one) - mean(estimators[1]), 1e-5);
-    EXPECT_EQ(other["told_apart"], other["low"] > 0.0);
+    EXPECT_EQ(other["standing"], other["low"] > 0.0 ? "worse" : "alike");
   }
   EXPECT_EQ(data["cells"][5]["rankings"]["mean_position_error_m"]["others"].size(), 1u);
   EXPECT_THAT(data["cells"][5]["verdict"]["failed"].dump(), HasSubstr("and is not ranked"));

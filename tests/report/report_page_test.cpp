@@ -151,7 +151,9 @@ TEST(ReportPage, KeyframeStatisticsAreThoseOfTheRunsDone) {
     EXPECT_EQ(keyframes["keyframe"][k], k);
     EXPECT_EQ(keyframes["n"][k], 4);
     EXPECT_NEAR(keyframes["mean_m"][k], sum / 4.0, 1e-5 * sum);
-    EXPECT_NEAR(keyframes["sd_m"][k], std::sqrt((squares - sum * sum / 4.0) / 3.0), 1e-4 * sum);
+    const double sd = std::sqrt((squares - sum * sum / 4.0) / 3.0);
+    EXPECT_NEAR(keyframes["low_m"][k], std::max(0.0, sum / 4.0 - 2.0 * sd), 1e-4 * sum);
+    EXPECT_NEAR(keyframes["high_m"][k], sum / 4.0 + 2.0 * sd, 1e-4 * sum);
     EXPECT_NEAR(keyframes["empirical_m"][k], 2.0 * std::sqrt(squares / 4.0), 1e-5 * sum);
     EXPECT_NEAR(keyframes["estimated_m"][k], stated / 4.0, 1e-5 * stated);
     EXPECT_NEAR(keyframes["anees"][k], nees / 12.0, 1e-5 * nees);
@@ -159,9 +161,11 @@ TEST(ReportPage, KeyframeStatisticsAreThoseOfTheRunsDone) {
     EXPECT_EQ(keyframes["nees_n"][k], 4);
     EXPECT_EQ(keyframes["nees_draws"][k], 1);
     const Interval interval = anees_interval(1, 3, 0.95);
-    EXPECT_NEAR(keyframes["nees_interval"]["low"][k], interval.low, 1e-5);
-    EXPECT_NEAR(keyframes["nees_interval"]["high"][k], interval.high, 1e-5);
+    EXPECT_EQ(cell["nees_interval"]["keyframe"][k - 1], k);
+    EXPECT_NEAR(cell["nees_interval"]["low"][k - 1], interval.low, 1e-5);
+    EXPECT_NEAR(cell["nees_interval"]["high"][k - 1], interval.high, 1e-5);
   }
+  EXPECT_EQ(cell["nees_interval"]["draws"], 1);
   EXPECT_TRUE(one["keyframes"]["anees"][0].is_null());
 }
 
@@ -177,9 +181,14 @@ TEST(ReportPage, TheExampleIsTheLowestTrialAlone) {
   const RunKey key{0, 0, 0, "iterated"};
   EXPECT_NEAR(one["path"]["x_m"][12], store.series(key, "x_m")->at(12), 1e-4);
   ASSERT_EQ(one["loops"].size(), 30u);
-  EXPECT_EQ(one["loops"][3], Json::parse("[6, 13, 1, null]"));  // −1 in the store: no NIS
-  EXPECT_NEAR(one["loop_ends_m"][3][0], store.series(key, "x_m")->at(6), 1e-4);
-  EXPECT_NEAR(one["loop_ends_m"][3][3], store.series(key, "y_m")->at(13), 1e-4);
+  const Json& loop = one["loops"][3];
+  ASSERT_EQ(loop.size(), 8u);
+  EXPECT_EQ(loop[0], 6);
+  EXPECT_EQ(loop[1], 13);
+  EXPECT_EQ(loop[2], "rejected");
+  EXPECT_TRUE(loop[3].is_null());  // −1 in the store: no NIS
+  EXPECT_NEAR(loop[4], store.series(key, "x_m")->at(6), 1e-4);
+  EXPECT_NEAR(loop[7], store.series(key, "y_m")->at(13), 1e-4);
 }
 
 TEST(ReportPage, WhatIsNotKnownIsLeftOut) {

@@ -97,7 +97,8 @@ TEST(StudyFigures, DeadReckoningFarAboveTheRestHasALogarithmicAxis) {
     const ResultStore store = ResultStore::open(folder / "study");
     const StudyResults results = study_results(store);
     const auto series = study_series(store, results);
-    for (const StudyFigure& figure : study_figures({store, results, series})) {
+    const auto examples = example_trials(store, results);
+    for (const StudyFigure& figure : study_figures({results, series, examples})) {
       if (figure.name != "error_by_separation") continue;
       const PageSize page{kFigureWidth, figure.height};
       const auto texts = texts_of(page, figure.draw);
@@ -139,7 +140,8 @@ TEST(StudyFigures, NoTextRunsIntoAnother) {
     const ResultStore store = ResultStore::open(folder / "study");
     const StudyResults results = study_results(store);
     const auto series = study_series(store, results);
-    for (const StudyFigure& figure : study_figures({store, results, series})) {
+    const auto examples = example_trials(store, results);
+    for (const StudyFigure& figure : study_figures({results, series, examples})) {
       SCOPED_TRACE(figure.name.substr(0, 60) + " " + std::to_string(size));
       const PageSize page{kFigureWidth, figure.height};
       const auto texts = texts_of(page, figure.draw);
@@ -157,8 +159,9 @@ TEST(StudyFigures, SayTheAlignmentOfTheirCell) {
   const ResultStore store = ResultStore::open(folder / "study");
   const StudyResults results = study_results(store);
   const auto series = study_series(store, results);
+  const auto examples = example_trials(store, results);
   std::size_t found = 0;
-  for (const StudyFigure& figure : study_figures({store, results, series})) {
+  for (const StudyFigure& figure : study_figures({results, series, examples})) {
     if (!figure.name.ends_with("se2")) continue;
     ++found;
     std::string all;
@@ -176,8 +179,9 @@ std::string legend_of(const FixtureOptions& options) {
   const ResultStore store = ResultStore::open(folder / "study");
   const StudyResults results = study_results(store);
   const auto series = study_series(store, results);
+  const auto examples = example_trials(store, results);
   std::string all;
-  for (const StudyFigure& figure : study_figures({store, results, series})) {
+  for (const StudyFigure& figure : study_figures({results, series, examples})) {
     if (figure.name != "trajectories") continue;
     const PageSize page{kFigureWidth, figure.height};
     const auto texts = texts_of(page, figure.draw);
@@ -198,7 +202,7 @@ TEST(StudyFigures, TheMapHasWhatWasMeasuredAndLeftOut) {
   EXPECT_THAT(legend_of(options), ::testing::Not(HasSubstr("fix")));
 }
 
-bool has_front(const FigureInput& input) {
+bool has_front(const ChartInput& input) {
   for (const StudyFigure& figure : study_figures(input)) {
     if (figure.name != "accuracy_against_cost") continue;
     for (const PlacedText& text : texts_of({kFigureWidth, figure.height}, figure.draw)) {
@@ -215,9 +219,10 @@ TEST(StudyFigures, AMetricWithoutABetterDirectionHasNoFront) {
   const ResultStore store = ResultStore::open(folder / "study");
   StudyResults results = study_results(store);
   const auto series = study_series(store, results);
-  EXPECT_TRUE(has_front({store, results, series}));
+  const auto examples = example_trials(store, results);
+  EXPECT_TRUE(has_front({results, series, examples}));
   results.study.metrics = {"anees", "total_ms"};
-  EXPECT_FALSE(has_front({store, results, series}));
+  EXPECT_FALSE(has_front({results, series, examples}));
 }
 
 TEST(StudyFigures, OldOnesGoWithANewReport) {

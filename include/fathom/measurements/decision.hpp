@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -18,6 +19,10 @@ enum class Outcome {
   out_of_memory
 };
 
+inline constexpr std::array kOutcomes{
+    Outcome::converged, Outcome::iteration_limit, Outcome::diverged,     Outcome::numerical_failure,
+    Outcome::crashed,   Outcome::timed_out,       Outcome::out_of_memory};
+
 std::string name_of(Outcome outcome);
 Outcome worse(Outcome a, Outcome b);
 /// Converged, or stopped at its iteration limit: the estimate can be used.
@@ -25,6 +30,8 @@ bool is_done(Outcome outcome);
 
 /// The decision on one measurement: used, rejected by a gate, or lost with an update that failed.
 enum class LoopFate { used, rejected, lost };
+
+inline constexpr std::array kLoopFates{LoopFate::used, LoopFate::rejected, LoopFate::lost};
 
 std::string name_of(LoopFate fate);
 

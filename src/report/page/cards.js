@@ -50,16 +50,16 @@ const charts = [
         'and the mean of 2·√(Pxx + Pyy) that the estimator states; an honest one has them equal.' + jobs;
     }},
   {id: 'regimes', title: 'Regime map', wide: true, plots: regimePlots,
-    exists: () => regimeAxes().length === 2,
+    exists: () => study.regimes !== undefined,
     choices: () => [{label: 'metric', key: 'regimeMetric', values: metricChoices().map((name) => [name, metricTitle(name)])}],
     caption: (cell) => {
-      const [across, up] = regimeAxes();
+      const {across, up, cheapest} = study.regimes;
       const fixed = study.axes.map((axis, i) => (i === across || i === up || axis.labels.length < 2 ? '' : `${axis.name} ${axis.labels[cell.places[i]]}, `));
       const relative = regimeIsRelative();
       const meaning = relative ? `${sentence(meanTitle(state.regimeMetric))} over that of the best estimator at the same place: 1 is the best, ten times is dark.`
         : `${sentence(meanTitle(state.regimeMetric))}.`;
-      const choice = study.regimes ? ` Last map: by ${meanTitle(study.regimes.cost)} the cheapest of those whose ` +
-        `${meanTitle(study.regimes.metric)} is at most 5 % above the best.` : '';
+      const choice = cheapest ? ` Last map: by ${meanTitle(cheapest.cost)} the cheapest of those whose ` +
+        `${meanTitle(cheapest.metric)} is at most 5 % above the best.` : '';
       return `${fixed.join('')}${repeatsOf(regimeCells())} a square. ${meaning} An estimator that failed a trial is in no comparison.${choice}`;
     }},
   {id: 'keyframes', title: 'Error and consistency over keyframes', wide: true, plots: keyframePlots,

@@ -29,31 +29,12 @@ function fittedPlot({rows, fields, unit, usual, title, keys = ['k'], adjust, sig
 const isShown = (name) => !state.hidden.has(name);
 const sum = (list) => list.reduce((a, b) => a + b, 0);
 
-function extentOf(paths) {
-  const extent = {x0: Infinity, x1: -Infinity, y0: Infinity, y1: -Infinity};
-  for (const {x, y} of paths) {
-    extent.x0 = Math.min(extent.x0, x);
-    extent.x1 = Math.max(extent.x1, x);
-    extent.y0 = Math.min(extent.y0, y);
-    extent.y1 = Math.max(extent.y1, y);
-  }
-  return extent;
-}
-
-// What the map shows at first: all, unless dead reckoning or a run that failed is so far off that
-// the rest could not be seen.
-function mapExtent({paths, fixes}) {
-  const failed = cellNow().example.estimators.filter((one) => !['converged', 'iteration_limit'].includes(one.outcome));
-  const strays = [kBaseline, ...failed.map((one) => one.name)];
-  const near = paths.filter((row) => !strays.includes(row.estimator));
-  const [all, most] = [extentOf(paths), extentOf(near)];
-  const sizeOf = (extent) => Math.max(extent.x1 - extent.x0, extent.y1 - extent.y0);
-  return withFixes(near.length === 0 || sizeOf(all) <= 2.5 * sizeOf(most) ? all : most, fixes);
-}
+// What the map shows at first.
+const mapExtent = () => cellNow().example.extent || {x_m: [-1, 1], y_m: [-1, 1]};
 
 // A map that goes further up than to the sides leaves room beside it for another chart.
 function mapIsTall() {
-  const {x0, x1, y0, y1} = mapExtent(trajectoryRows(cellNow()));
+  const {x_m: [x0, x1], y_m: [y0, y1]} = mapExtent();
   return x1 - x0 > 1.2 * (y1 - y0);
 }
 
@@ -75,7 +56,7 @@ function trajectoryPlots(card) {
   const rows = trajectoryRows(cellNow());
   const width = widthOf(card) - 70;
   const height = Math.min(620, Math.max(360, Math.round(width * (mapIsTall() ? 0.8 : 0.5))));
-  const {x0, x1, y0, y1} = mapExtent(rows);
+  const {x_m: [x0, x1], y_m: [y0, y1]} = mapExtent();
   const metresPerPixel = 1.08 * Math.max((y1 - y0) / width, (x1 - x0) / height, 1e-6);
   const around = (middle, pixels) => [middle - (pixels * metresPerPixel) / 2, middle + (pixels * metresPerPixel) / 2];
   const signals = {start_h: around((y0 + y1) / 2, width).reverse(), start_v: around((x0 + x1) / 2, height),
@@ -88,10 +69,11 @@ function sweepPlots(card) {
   const {errors, bounds} = sweepRows();
   const signals = {x_title: study.axes[state.axis].name};
   const adjust = (spec) => {
-    if (!sweepIsNumeric()) return;
+    const {positions} = study.axes[state.axis];
+    if (!positions) return;
     const scale = spec.scales.find((one) => one.name === 'x');
     Object.assign(scale, {type: 'linear', zero: false, nice: false, padding: 20, domain: {data: 'rows', field: 'x'}});
-    spec.axes[0].values = study.axes[state.axis].labels.map(Number);
+    spec.axes[0].values = positions;
   };
   const plots = [fittedPlot({spec: 'sweep_error', heading: 'Mean over trials and its 2σ band', rows: errors, fields: ['mean', 'low', 'high'],
     unit: unitOf(state.sweepMetric), title: metricTitle(state.sweepMetric), keys: ['x'], signals, adjust})];
@@ -103,7 +85,7 @@ function sweepPlots(card) {
 }
 
 function regimePlots(card) {
-  const [across, up] = regimeAxes();
+  const {across, up} = study.regimes;
   const signals = {x_title: study.axes[across].name, y_title: study.axes[up].name};
   const domains = [study.axes[across].labels, study.axes[up].labels];
   const height = Math.max(110, 30 * domains[1].length + 50);
@@ -111,7 +93,7 @@ function regimePlots(card) {
   const plot = (heading, rows) => ({spec: 'regimes', heading, data: {rows}, height, signals, adjust});
   const plots = study.estimators.filter((one) => one.name !== kBaseline)
     .map((one) => plot(one.label, regimeRows(one.name)));
-  return inRows(card, study.regimes ? [...plots, plot('Cheapest of the best', cheapestRows())] : plots, 300);
+  return inRows(card, study.regimes.cheapest ? [...plots, plot('Cheapest of the best', cheapestRows())] : plots, 300);
 }
 
 // 1, 2 and 5 times the powers of ten between the least and the greatest.
@@ -184,8 +166,7 @@ function forestPlots(card) {
 
 // Of very many loops only some are drawn.
 function thinnedNote(one) {
-  const all = one.loops_in_all.reduce((sum, n) => sum + n, 0);
-  return one.loops.length < all ? `; ${one.loops.length} drawn` : '';
+  return one.loops.length < sum(Object.values(one.loops_in_all)) ? `; ${one.loops.length} drawn` : '';
 }
 
 function registrationPlots(card) {
@@ -195,9 +176,8 @@ function registrationPlots(card) {
   const most = Math.max(1, Math.min(4, Math.floor(widthOf(card) / 260)));
   const columns = Math.ceil(shown.length / Math.ceil(shown.length / most));
   const side = Math.min(460, Math.floor((widthOf(card) - kGap * (columns - 1)) / columns) - 75);
-  const fates = ['used', 'rejected', 'lost'];
-  const countsText = (one) => fates.map((name, fate) => [one.loops_in_all[fate], name])
-    .filter(([n], fate) => n > 0 || fate === 0).map((pair) => pair.join(' ')).join(', ') + thinnedNote(one);
+  const countsText = (one) => Object.entries(one.loops_in_all).filter(([fate, n]) => n > 0 || fate === 'used')
+    .map(([fate, n]) => `${n} ${fate}`).join(', ') + thinnedNote(one);
   return shown.map((one) => ({
     spec: 'registrations', width: side, height: side, data: {rows: loopRows(one)},
     heading: `${labelOf(one.name)}: ${countsText(one)}`,

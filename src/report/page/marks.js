@@ -1,31 +1,28 @@
 // Fixes and headings on the map: what was measured, and what each estimator left out.
-const isLeftOut = ({weight}) => !(weight > 0.5);
 const hasMarks = (cell) => cell.example.estimators.some((one) => one.absolute.length > 0);
 
 function fateText({fate, weight, nis}) {
-  const what = fate === 0 && weight < 1 ? `used with a weight of ${digits(weight)}` : kFates[fate];
+  const what = fate === 'used' && weight < 1 ? `used with a weight of ${digits(weight)}` : study.fates[fate];
   return nis === undefined ? what : `${what}, NIS ${digits(nis)}`;
 }
 
 // "σ 1.00 m", or both axes of the ellipse.
-function fixSigmas([xx, xy, yy]) {
-  const half = Math.hypot((xx - yy) / 2, xy);
-  const [long, short] = [1, -1].map((sign) => Math.sqrt(Math.max(0, (xx + yy) / 2 + sign * half)));
+function fixSigmas([long, short]) {
   return long < 1.02 * short ? `σ ${quantity(long, 'm')}` : `σ ${quantity(long, 'm')} and ${quantity(short, 'm')}`;
 }
 
 function fixRow(name, z) {
   const [x, y] = z.fix_m;
   const [at_x, at_y] = z.at_m;
-  return {estimator: name, x, y, at_x, at_y, left: isLeftOut(z) ? 1 : 0,
-    what: `Fix of keyframe ${z.keyframe}, ${fixSigmas(z.fix_cov_m2)}`,
-    tooltip: `${labelOf(name)}: ${fateText(z)}, ${quantity(Math.hypot(x - at_x, y - at_y), 'm')} from the estimate`};
+  return {estimator: name, x, y, at_x, at_y, left: z.left_out ? 1 : 0,
+    what: `Fix of keyframe ${z.keyframe}, ${fixSigmas(z.fix_sigma_m)}`,
+    tooltip: `${labelOf(name)}: ${fateText(z)}, ${quantity(z.off_m, 'm')} from the estimate`};
 }
 
 // The direction is that of the map: x up, y to the left.
 function headingRow(name, z) {
   const [x, y] = z.at_m;
-  return {estimator: name, x, y, right: -Math.sin(z.heading_rad), down: -Math.cos(z.heading_rad), left: isLeftOut(z) ? 1 : 0,
+  return {estimator: name, x, y, right: -Math.sin(z.heading_rad), down: -Math.cos(z.heading_rad), left: z.left_out ? 1 : 0,
     tooltip: `Heading of keyframe ${z.keyframe}, ${digits((180 / Math.PI) * z.heading_rad)}°, σ ${digits((180 / Math.PI) * z.sigma_rad)}°\n` +
       `${labelOf(name)}: ${fateText(z)}`};
 }
@@ -37,15 +34,6 @@ function markRows(cell) {
   const fixes = of('fix_m', fixRow);
   const headings = of('heading_rad', headingRow);
   return {fixes, links: fixes, headings, bars: headings.filter((row) => row.left)};
-}
-
-// The extent of the paths, and fixes that lie no further from it than a quarter of its size: the
-// rule of absolute_marks.cpp.
-function withFixes(extent, fixes) {
-  const room = 0.25 * Math.max(extent.x1 - extent.x0, extent.y1 - extent.y0);
-  const near = fixes.filter(({x, y}) => x >= extent.x0 - room && x <= extent.x1 + room && y >= extent.y0 - room && y <= extent.y1 + room);
-  const of = extentOf(near);
-  return {x0: Math.min(extent.x0, of.x0), x1: Math.max(extent.x1, of.x1), y0: Math.min(extent.y0, of.y0), y1: Math.max(extent.y1, of.y1)};
 }
 
 // How many of the fixes, each counted once, are not within the first view.

@@ -4,25 +4,18 @@ const specs = JSON.parse(document.getElementById('specs').textContent);
 const kTruth = 'ground truth';
 const kBaseline = study.estimators[0].name;  // dead reckoning
 
-const firstOf = (names) => names.find((name) => study.metrics[name]) || Object.keys(study.metrics)[0];
-const accuracyNames = study.study_metrics.filter((name) => study.metrics[name] && !study.metrics[name].cost);
-const accuracyMetric = accuracyNames[0] || firstOf(['mean_position_error_m', 'chi2']);
-const costMetric = firstOf([
-  ...study.study_metrics.filter((name) => study.metrics[name] && study.metrics[name].cost),
-  'total_ms', 'update_ms.median', 'cpu_ms', 'memory_bytes']);
-
 const state = {
   hidden: new Set(),
   axes: 'usual',  // linear or logarithmic as each chart is made, or all 'linear' or 'log'
   baselineOnScale: false,  // also where it hides the rest
-  metric: study.verdict.metric || accuracyMetric,  // of the first chart and the table
+  metric: study.verdict.metric || study.first.accuracy,  // of the first chart and the table
   cell: 0,  // place in study.cells
   // The longest one: levels of noise rather than a pair of modes.
   axis: study.axes.reduce((best, axis, i) => (axis.labels.length > study.axes[best].labels.length ? i : best), 0),
-  sweepMetric: accuracyMetric,
-  regimeMetric: accuracyMetric,
-  accuracy: accuracyMetric,
-  cost: costMetric,
+  sweepMetric: study.first.accuracy,
+  regimeMetric: study.first.accuracy,
+  accuracy: study.first.accuracy,
+  cost: study.first.cost,
   show_ellipses: true,
   show_loops: true,
   show_marks: true,

@@ -1,7 +1,4 @@
-// Values with the prefix in which they read best. The rule is that of scaled_unit.cpp.
-const kPrefixes = ['p', 'n', 'µ', 'm', '', 'k', 'M', 'G', 'T'];
-// By unit: what the prefix stands before, its power of a thousand, the least and the greatest.
-const kBases = {m: ['m', 0, -4, 1], rad: ['rad', 0, -4, 0], s: ['s', 0, -4, 0], ms: ['s', -1, -4, 0], bytes: ['B', 0, 0, 4]};
+// Values with the prefix in which they read best.
 const kSuperscripts = '⁰¹²³⁴⁵⁶⁷⁸⁹';
 const powerOfTen = (exponent) =>
   '10' + [...String(exponent)].map((letter) => (letter === '-' ? '⁻' : kSuperscripts[Number(letter)])).join('');
@@ -10,17 +7,9 @@ const powerOfTen = (exponent) =>
 function readingUnit(unit, value) {
   const size = Math.abs(value);
   if (!(size > 0) || !Number.isFinite(size)) return {text: unit, factor: 1};
-  const thousandsOf = Math.floor(Math.log10(size) / 3 + 1e-9);
-  const base = kBases[unit];
-  if (!base) {
-    if (size >= 0.001 && size < 1e6) return {text: unit, factor: 1};
-    return {text: `× ${powerOfTen(3 * thousandsOf)}${unit ? ' ' + unit : ''}`, factor: 1000 ** -thousandsOf};
-  }
-  const [name, own, least, most] = base;
-  let thousands = thousandsOf + own;
-  if (thousands < -1 && size * 1000 ** (own - thousands - 1) >= 0.00999) ++thousands;
-  thousands = Math.min(most, Math.max(least, thousands));
-  return {text: kPrefixes[thousands + 4] + name, factor: 1000 ** (own - thousands)};
+  const steps = study.units[unit];
+  const [, text, factor] = steps.findLast(([least]) => size >= least) || steps[0];
+  return {text, factor};
 }
 
 // A number with three digits.
