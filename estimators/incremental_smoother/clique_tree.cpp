@@ -7,7 +7,7 @@ namespace fathom::incremental_smoother {
 
 void CliqueTree::clear() {
   settle();
-  followers_.clear();
+  following_.told.clear();
   unmark();
   free_.clear();
   for (int i = static_cast<int>(cliques_.size()) - 1; i >= 0; --i) {
@@ -15,25 +15,25 @@ void CliqueTree::clear() {
     cliques_[at(i)].is_queued = false;
     free_.push_back(i);
   }
-  queue_.clear();
-  has_dropped_ = false;
-  std::fill(clique_of_.begin(), clique_of_.end(), -1);
-  root_ = -1;
+  updates_.queue.clear();
+  updates_.has_dropped = false;
+  std::fill(order_.clique_of.begin(), order_.clique_of.end(), -1);
+  order_.root = -1;
 }
 
 void CliqueTree::grow() {
   const auto n = at(problem_.size());
-  clique_of_.resize(n, -1);
+  order_.clique_of.resize(n, -1);
   // Keyframe 0 is never eliminated.
-  order_.resize(n, std::numeric_limits<long>::max());
-  index_of_.resize(n, -1);
-  row_of_.resize(n, 0);
+  order_.when.resize(n, std::numeric_limits<long>::max());
+  again_.index_of.resize(n, -1);
+  work_.row_of.resize(n, 0);
   x_.resize(3 * n);
-  before_.resize(n);
+  last_.before.resize(n);
 }
 
 void CliqueTree::mark_up(int keyframe) {
-  for (int i = clique_of_[at(keyframe)]; i >= 0 && !cliques_[at(i)].is_marked;
+  for (int i = order_.clique_of[at(keyframe)]; i >= 0 && !cliques_[at(i)].is_marked;
        i = cliques_[at(i)].parent) {
     cliques_[at(i)].is_marked = true;
     marked_.push_back(i);
@@ -41,8 +41,8 @@ void CliqueTree::mark_up(int keyframe) {
 }
 
 void CliqueTree::mark_all() {
-  if (root_ < 0) return;
-  marked_.push_back(root_);
+  if (order_.root < 0) return;
+  marked_.push_back(order_.root);
   for (std::size_t next = 0; next < marked_.size(); ++next) {
     Clique& c = cliques_[at(marked_[next])];
     c.is_marked = true;
@@ -54,58 +54,62 @@ void CliqueTree::mark_all() {
 // Children before parents.
 void CliqueTree::sort_marked() {
   std::sort(marked_.begin(), marked_.end(), [&](int a, int b) {
-    return order_[at(cliques_[at(a)].variables[0])] < order_[at(cliques_[at(b)].variables[0])];
+    return order_.when[at(cliques_[at(a)].variables[0])] <
+           order_.when[at(cliques_[at(b)].variables[0])];
   });
 }
 
 void CliqueTree::unmark() {
   for (const int i : marked_) cliques_[at(i)].is_marked = false;
   marked_.clear();
+  is_solved_ = false;
 }
 
 void CliqueTree::find_affected(std::span<const int> keyframes) {
   unmark();
-  affected_.clear();
+  again_.affected.clear();
   for (const int v : keyframes) {
-    if (clique_of_[at(v)] >= 0) {
+    if (order_.clique_of[at(v)] >= 0) {
       mark_up(v);
-    } else if (index_of_[at(v)] < 0) {
-      index_of_[at(v)] = 0;
-      affected_.push_back(v);
+    } else if (again_.index_of[at(v)] < 0) {
+      again_.index_of[at(v)] = 0;
+      again_.affected.push_back(v);
     }
   }
   for (const int i : marked_) {
     settle_path(i);
     const Clique& c = cliques_[at(i)];
-    affected_.insert(affected_.end(), c.variables.begin(), c.variables.begin() + c.width);
+    again_.affected.insert(again_.affected.end(), c.variables.begin(),
+                           c.variables.begin() + c.width);
   }
-  std::sort(affected_.begin(), affected_.end());
-  affected_.push_back(0);
-  for (std::size_t i = 0; i < affected_.size(); ++i) {
-    index_of_[at(affected_[i])] = static_cast<int>(i);
+  std::sort(again_.affected.begin(), again_.affected.end());
+  again_.affected.push_back(0);
+  for (std::size_t i = 0; i < again_.affected.size(); ++i) {
+    again_.index_of[at(again_.affected[i])] = static_cast<int>(i);
   }
 }
 
 void CliqueTree::form_quotient_graph() {
-  quotient_.clear();
-  quotient_.size = static_cast<int>(affected_.size());
-  for (const int v : affected_) {
+  again_.quotient.clear();
+  again_.quotient.size = static_cast<int>(again_.affected.size());
+  for (const int v : again_.affected) {
     problem_.for_each_edge(v, [&](int, int other) {
-      if (other < v && index_of_[at(other)] >= 0) {
-        quotient_.links.push_back({index_of_[at(v)], index_of_[at(other)]});
+      if (other < v && again_.index_of[at(other)] >= 0) {
+        again_.quotient.links.push_back({again_.index_of[at(v)], again_.index_of[at(other)]});
       }
     });
   }
-  orphans_.clear();
+  again_.orphans.clear();
   for (const int i : marked_) {
     for (const int child : cliques_[at(i)].children) {
       const Clique& c = cliques_[at(child)];
       if (c.is_marked) continue;
-      orphans_.push_back(child);
+      again_.orphans.push_back(child);
       for (int j = c.width; j < c.rows(); ++j) {
-        quotient_.element_nodes.push_back(index_of_[at(c.variables[at(j)])]);
+        again_.quotient.element_nodes.push_back(again_.index_of[at(c.variables[at(j)])]);
       }
-      quotient_.element_start.push_back(static_cast<int>(quotient_.element_nodes.size()));
+      again_.quotient.element_start.push_back(
+          static_cast<int>(again_.quotient.element_nodes.size()));
     }
   }
 }
@@ -129,17 +133,19 @@ int CliqueTree::new_clique() {
 // How many of the affected keyframes are older than this one; none where there are few.
 int CliqueTree::older_than(int keyframe) const {
   constexpr int kFew = 50;
-  const auto end = affected_.end() - 1;  // keyframe 0
-  const auto older = static_cast<int>(std::ranges::lower_bound(affected_.begin(), end, keyframe) -
-                                      affected_.begin());
+  const auto end = again_.affected.end() - 1;  // keyframe 0
+  const auto older = static_cast<int>(
+      std::ranges::lower_bound(again_.affected.begin(), end, keyframe) - again_.affected.begin());
   return older < kFew ? 0 : older;
 }
 
 void CliqueTree::build(int first, int newest) {
-  elimination_.analyse(quotient_, minimum_degree_.order(quotient_, first, index_of_[at(newest)],
-                                                        quotient_.size - 1));
-  built_.clear();
-  for (const Front& front : elimination_.fronts()) {
+  again_.elimination.analyse(
+      again_.quotient,
+      again_.minimum_degree.order(again_.quotient, first, again_.index_of[at(newest)],
+                                  again_.quotient.size - 1));
+  again_.built.clear();
+  for (const Front& front : again_.elimination.fronts()) {
     const int i = new_clique();
     Clique& c = cliques_[at(i)];
     c.width = front.width;
@@ -147,21 +153,21 @@ void CliqueTree::build(int first, int newest) {
     c.children.clear();
     c.variables.clear();
     c.followed = {};
-    c.followed.settled_in = step_;
+    c.followed.settled_in = last_.number;
     for (int j = 0; j < front.width; ++j) {
-      const int v = affected_[at(elimination_.node_at(front.first + j))];
+      const int v = again_.affected[at(again_.elimination.node_at(front.first + j))];
       c.variables.push_back(v);
-      clique_of_[at(v)] = i;
-      order_[at(v)] = next_order_++;
+      order_.clique_of[at(v)] = i;
+      order_.when[at(v)] = order_.next++;
     }
     for (int j = 0; j < front.height; ++j) {
-      const int position = elimination_.row(front.rows + at(j));
-      c.variables.push_back(affected_[at(elimination_.node_at(position))]);
+      const int position = again_.elimination.row(front.rows + at(j));
+      c.variables.push_back(again_.affected[at(again_.elimination.node_at(position))]);
     }
-    built_.push_back(i);
+    again_.built.push_back(i);
   }
-  for (const int i : built_) attach(i);
-  for (const int i : orphans_) attach(i);
+  for (const int i : again_.built) attach(i);
+  for (const int i : again_.orphans) attach(i);
 }
 
 // To the clique of the separator that is eliminated first.
@@ -170,11 +176,11 @@ void CliqueTree::attach(int clique) {
   c.leader = c.variables[at(c.width)];
   for (int j = c.width + 1; j < c.rows(); ++j) {
     const int v = c.variables[at(j)];
-    if (order_[at(v)] < order_[at(c.leader)]) c.leader = v;
+    if (order_.when[at(v)] < order_.when[at(c.leader)]) c.leader = v;
   }
-  c.parent = clique_of_[at(c.leader)];
+  c.parent = order_.clique_of[at(c.leader)];
   if (c.parent < 0) {
-    root_ = clique;
+    order_.root = clique;
   } else {
     cliques_[at(c.parent)].children.push_back(clique);
   }
@@ -186,8 +192,8 @@ bool CliqueTree::refactor(std::span<const int> keyframes, int newest) {
   form_quotient_graph();
   release_marked();
   build(older_than(*std::ranges::min_element(keyframes)), newest);
-  for (const int v : affected_) index_of_[at(v)] = -1;
-  if (factor(built_)) return true;
+  for (const int v : again_.affected) again_.index_of[at(v)] = -1;
+  if (factor(again_.built)) return true;
   clear();
   return false;
 }

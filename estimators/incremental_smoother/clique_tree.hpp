@@ -22,8 +22,9 @@ namespace fathom::incremental_smoother {
 class CliqueTree {
  public:
   /// The problem must outlive it. Schur complements beyond so many bytes may be dropped.
-  CliqueTree(Problem& problem, std::size_t most_kept_bytes)
-      : problem_(problem), most_kept_(most_kept_bytes / sizeof(double)) {}
+  CliqueTree(Problem& problem, std::size_t most_kept_bytes) : problem_(problem) {
+    updates_.most = most_kept_bytes / sizeof(double);
+  }
 
   void clear();
 
@@ -36,34 +37,47 @@ class CliqueTree {
   /// How many keyframes the last of both has eliminated.
   int refactored() const { return refactored_; }
 
-  /// y = L⁻¹ b for b = ignored − gradient, which must be zero but at these keyframes; the other
-  /// form is for any b. Return yᵀ y = bᵀ H⁻¹ b.
-  double forward(std::span<const int> keyframes, const std::vector<Vec3>& gradient,
-                 const std::vector<Vec3>& ignored);
-  double forward_all(const std::vector<Vec3>& gradient);
+  /// A step that is solved half: y = L⁻¹ b is in the tree.
+  class Step {
+   public:
+    /// yᵀ y = bᵀ H⁻¹ b, by which F falls as far as it is quadratic.
+    double promised() const { return promised_; }
 
-  /// Propagates the step H⁻¹ b from the root down: the keyframes of a clique follow one of their
-  /// separators as if they were joined rigidly, and what is left of the separators' motion bends
-  /// them. Where that is less than `negligible` squared sigmas, and b is zero below, all that is
-  /// below follows rigidly, which is noted once at its top; or stays, if it would not move by more
-  /// either. Nodes that are changed are saved.
-  void propagate(double negligible);
+   private:
+    friend CliqueTree;
+    Step(double promised, long number) : promised_(promised), number_(number) {}
+    double promised_;
+    long number_;
+  };
+
+  /// For b = ignored − gradient, which must be zero but at these keyframes; the other form is for
+  /// any b.
+  Step forward(std::span<const int> keyframes, const std::vector<Vec3>& gradient,
+               const std::vector<Vec3>& ignored);
+  Step forward_all(const std::vector<Vec3>& gradient);
+
+  /// Takes the step that was solved last, before anything else is asked of the tree: propagates
+  /// H⁻¹ b from the root down. The keyframes of a clique follow one of their separators as if they
+  /// were joined rigidly, and what is left of the separators' motion bends them. Where that is less
+  /// than `negligible` squared sigmas, and b is zero below, all that is below follows rigidly,
+  /// which is noted once at its top; or stays, if it would not move by more either. Nodes that are
+  /// changed are saved.
+  void propagate(const Step& step, double negligible);
 
   /// Of the last propagate: keyframes that moved and did not just follow.
-  const std::vector<int>& bent() const { return bent_; }
+  const std::vector<int>& bent() const { return last_.bent; }
 
   /// The node of a keyframe is up to date after this, until the next propagate; or those of all.
   void settle(int keyframe);
   void settle();
 
-  /// Nobody follows what is noted and not yet passed on.
-  void drop_motions();
-
-  /// From here on forget_update takes back what cliques were to follow. Schur complements that
-  /// are too many are dropped, those first that were not needed for longest.
+  /// From here on forget_update can take back what the update does. Schur complements that are too
+  /// many are dropped, those first that were not needed for longest.
   void begin_update();
-  /// With Problem::restore_saved all keyframes are where they were when the update began.
+  /// All keyframes are where they were when the update began.
   void forget_update();
+  /// All keyframes are there; nobody follows what was noted.
+  void place(const std::vector<Node>& nodes);
 
   /// One keyframe of each clique that the last propagate has bent, and whose keyframes have turned
   /// by more than `limit_rad` to each other since it was factored, or moved by more than `limit_m`
@@ -102,6 +116,7 @@ class CliqueTree {
   void drop_update(Clique& clique);
   void drop_updates();
   void set_right_side(const std::vector<Vec3>& gradient, const std::vector<Vec3>* ignored);
+  Step solved();
   double substitute();
   bool bend_separator(const Clique& clique, const RigidMotion& rigid, double negligible);
   bool has_moved(const Clique& clique, double negligible) const;
@@ -111,47 +126,75 @@ class CliqueTree {
   void settle_path(int clique);
   void note_before_update(int clique);
 
+  /// Which keyframe is eliminated where. build changes it, and clear.
+  struct Order {
+    std::vector<int> clique_of;  ///< by keyframe; −1: not in the tree
+    std::vector<long> when;      ///< by keyframe, when it was eliminated
+    long next = 0;
+    int root = -1;
+  };
+
+  /// What refactor eliminates again, and in which order; nobody else looks at it.
+  struct Reordering {
+    std::vector<int> affected;  ///< keyframes to be eliminated, and keyframe 0
+    std::vector<int> orphans;   ///< children of cliques that are gone
+    std::vector<int> index_of;  ///< by keyframe, in affected; −1
+    QuotientGraph quotient;
+    MinimumDegree minimum_degree;
+    Elimination elimination;
+    std::vector<int> built;
+  };
+
+  /// The Schur complements that are kept. factor makes them, drop_updates drops some.
+  struct KeptUpdates {
+    std::size_t most = 0;      ///< numbers in those that may be dropped
+    std::size_t kept = 0;      ///< numbers in those that may be, now
+    std::deque<int> queue;     ///< cliques whose update may be dropped
+    bool has_dropped = false;  ///< whether any was
+    BufferPool buffers;
+  };
+
+  /// Of the last propagate. bend writes it.
+  struct Propagation {
+    std::vector<Node> before;  ///< where its bent keyframes were
+    std::vector<int> bent;
+    std::vector<int> bent_cliques;
+    long number = 0;  ///< how often propagate was called
+  };
+
+  /// Which cliques have a motion to follow. follow and settle change it.
+  struct Following {
+    bool has_any = false;   ///< whether there may be cliques with a motion to follow
+    std::vector<int> told;  ///< those that this update has told to
+  };
+
+  /// Whose content matters to nobody after a call.
+  struct Workspace {
+    std::vector<int> to_factor;
+    std::vector<int> row_of;
+    std::vector<double> packed;
+    std::vector<double> signs;
+    std::vector<double> gathered;
+    std::vector<int> stack;
+  };
+
   Problem& problem_;
   std::vector<Clique> cliques_;
-  std::vector<int> free_;
-  BufferPool buffers_;
-  std::vector<int> clique_of_;  ///< by keyframe; −1: not in the tree
-  std::vector<long> order_;     ///< by keyframe, when it was eliminated
-  long next_order_ = 0;
-  int root_ = -1;
+  std::vector<int> free_;  ///< places in cliques_
+  Order order_;
+  Reordering again_;
+  KeptUpdates updates_;
+  Propagation last_;
+  Following following_;
+  Workspace work_;
+  long update_ = 0;  ///< how many updates of the estimate have begun
 
+  // The solve: from forward to propagate, y is that of the marked cliques and zero elsewhere.
   std::vector<int> marked_;
-  std::vector<int> affected_;  ///< keyframes to be eliminated, and keyframe 0
-  std::vector<int> orphans_;   ///< children of cliques that are gone
-  std::vector<int> index_of_;  ///< by keyframe, in affected_; −1
-  QuotientGraph quotient_;
-  MinimumDegree minimum_degree_;
-  Elimination elimination_;
-  std::vector<int> built_;
-  std::vector<int> to_factor_;
-  int refactored_ = 0;
-
-  std::deque<int> queue_;  ///< cliques whose update may be dropped
-  std::size_t most_kept_ = 0;
-  std::size_t kept_ = 0;      ///< numbers in updates that may be
-  bool has_dropped_ = false;  ///< whether any was
-
-  // Workspace.
-  std::vector<int> row_of_;
-  std::vector<double> packed_;
-  std::vector<double> signs_;
-  std::vector<double> gathered_;
   std::vector<double> x_;  ///< b, then y, three numbers a keyframe
-  std::vector<int> stack_;
-
-  std::vector<Node> before_;  ///< the last propagate: where its bent keyframes were
-  std::vector<int> bent_;
-  std::vector<int> bent_cliques_;
-
-  long update_ = 0;
-  long step_ = 0;               ///< how often propagate was called
-  bool has_followers_ = false;  ///< whether there may be cliques with a motion to follow
-  std::vector<int> followers_;  ///< those that this update has told to
+  long solves_ = 0;
+  bool is_solved_ = false;
+  int refactored_ = 0;
 };
 
 }  // namespace fathom::incremental_smoother

@@ -22,14 +22,14 @@ constexpr std::size_t kMostAtOnce = 512;
 bool CliqueTree::factor(std::span<const int> which) {
   refactored_ = 0;
   add_dropped(which);
-  std::span<const int> left = to_factor_;
+  std::span<const int> left = work_.to_factor;
   while (left.size() > kMostAtOnce) {
     const auto some = left.first(kMostAtOnce);
     left = left.subspan(kMostAtOnce);
     if (!factor_some(some)) return false;
     for (const int i : some) {
       for (const int child : cliques_[at(i)].children) {
-        if (kept_ > most_kept_) drop_update(cliques_[at(child)]);
+        if (updates_.kept > updates_.most) drop_update(cliques_[at(child)]);
       }
     }
   }
@@ -45,8 +45,14 @@ bool CliqueTree::factor_some(std::span<const int> which) {
     c.used_in = update_;
     for (const int child : c.children) cliques_[at(child)].used_in = update_;
   }
-  FrontFactorisation run{problem_,      problem_.loops, cliques_,       which,
-                         order_.data(), row_of_.data(), packed_.data(), signs_.data()};
+  FrontFactorisation run{problem_,
+                         problem_.loops,
+                         cliques_,
+                         which,
+                         order_.when.data(),
+                         work_.row_of.data(),
+                         work_.packed.data(),
+                         work_.signs.data()};
   return sparse::run_for_processor(run);
 }
 
@@ -56,49 +62,49 @@ void CliqueTree::add_dropped(std::span<const int> which) {
     Clique& c = cliques_[at(i)];
     if (c.kept == Kept::no) c.kept = Kept::yes;
   }
-  to_factor_.clear();
+  work_.to_factor.clear();
   const auto add_children = [&](const Clique& c) {
     for (const int i : c.children) {
       Clique& child = cliques_[at(i)];
       if (child.kept != Kept::no) continue;
       child.kept = Kept::yes;
-      stack_.push_back(i);
+      work_.stack.push_back(i);
     }
   };
-  if (has_dropped_) {
-    stack_.clear();
+  if (updates_.has_dropped) {
+    work_.stack.clear();
     for (const int i : which) add_children(cliques_[at(i)]);
-    while (!stack_.empty()) {
-      const int i = stack_.back();
-      stack_.pop_back();
-      to_factor_.push_back(i);
+    while (!work_.stack.empty()) {
+      const int i = work_.stack.back();
+      work_.stack.pop_back();
+      work_.to_factor.push_back(i);
       add_children(cliques_[at(i)]);
     }
-    for (const int i : to_factor_) settle_path(i);
-    std::ranges::reverse(to_factor_);
+    for (const int i : work_.to_factor) settle_path(i);
+    std::ranges::reverse(work_.to_factor);
   }
-  to_factor_.insert(to_factor_.end(), which.begin(), which.end());
+  work_.to_factor.insert(work_.to_factor.end(), which.begin(), which.end());
 }
 
 void CliqueTree::make_room(Clique& c) {
   const std::size_t width = 3 * at(c.width);
   const std::size_t height = 3 * at(c.height);
-  packed_.resize(std::max(packed_.size(), 3 * width));
-  signs_.resize(std::max(signs_.size(), width));
-  gathered_.resize(std::max(gathered_.size(), width + height));
-  buffers_.give_back(std::move(c.panel));
+  work_.packed.resize(std::max(work_.packed.size(), 3 * width));
+  work_.signs.resize(std::max(work_.signs.size(), width));
+  work_.gathered.resize(std::max(work_.gathered.size(), width + height));
+  updates_.buffers.give_back(std::move(c.panel));
   release_update(c);
-  c.panel = buffers_.take((width + height) * width + kReadAhead);
-  c.update = buffers_.take(c.update_column(c.height));
+  c.panel = updates_.buffers.take((width + height) * width + kReadAhead);
+  c.update = updates_.buffers.take(c.update_column(c.height));
   c.layout.resize(width + height);
   c.kept = Kept::yes;
-  kept_ += c.update.size();
+  updates_.kept += c.update.size();
 }
 
 void CliqueTree::release_update(Clique& c) {
-  if (c.kept == Kept::yes) kept_ -= c.update.size();
+  if (c.kept == Kept::yes) updates_.kept -= c.update.size();
   c.kept = Kept::no;
-  buffers_.give_back(std::move(c.update));
+  updates_.buffers.give_back(std::move(c.update));
 }
 
 void CliqueTree::queue(int clique) {
@@ -106,7 +112,7 @@ void CliqueTree::queue(int clique) {
   if (c.is_queued) return;
   c.is_queued = true;
   c.queued_in = update_;
-  queue_.push_back(clique);
+  updates_.queue.push_back(clique);
 }
 
 // Not where too many keyframes would have to be eliminated again at once, those of what was dropped
@@ -121,7 +127,7 @@ void CliqueTree::drop_update(Clique& c) {
   int most = c.dropped;
   for_each_dropped_above(
       c, [&](const Clique& above) { most = std::max(most, above.dropped + c.dropped); });
-  kept_ -= c.update.size();
+  updates_.kept -= c.update.size();
   if (most >= kMostDropped) {
     c.kept = Kept::lasting;
     return;
@@ -130,14 +136,15 @@ void CliqueTree::drop_update(Clique& c) {
   // Not to the pool: the memory is wanted back.
   c.kept = Kept::no;
   std::vector<double>().swap(c.update);
-  has_dropped_ = true;
+  updates_.has_dropped = true;
 }
 
 // All but those that the last update needed. Each is looked at once.
 void CliqueTree::drop_updates() {
-  for (std::size_t left = queue_.size(); left > 0 && kept_ > most_kept_; --left) {
-    const int i = queue_.front();
-    queue_.pop_front();
+  for (std::size_t left = updates_.queue.size(); left > 0 && updates_.kept > updates_.most;
+       --left) {
+    const int i = updates_.queue.front();
+    updates_.queue.pop_front();
     Clique& c = cliques_[at(i)];
     c.is_queued = false;
     if (c.kept != Kept::yes) continue;

@@ -16,9 +16,10 @@ Motion composed(const Motion& later, const Motion& earlier) {
 }  // namespace
 
 void CliqueTree::begin_update() {
+  problem_.begin_update();
   drop_updates();
   ++update_;
-  followers_.clear();
+  following_.told.clear();
 }
 
 void CliqueTree::note_before_update(int clique) {
@@ -26,21 +27,21 @@ void CliqueTree::note_before_update(int clique) {
   if (f.set_in == update_) return;
   f.set_in = update_;
   f.before_update = f.motion;
-  followers_.push_back(clique);
+  following_.told.push_back(clique);
 }
 
 void CliqueTree::follow(int clique, const RigidMotion& rigid) {
   note_before_update(clique);
   FollowedMotion& f = cliques_[at(clique)].followed;
   f.motion = composed(rigid, f.motion);
-  has_followers_ = true;
+  following_.has_any = true;
 }
 
 // All above it must be settled.
 void CliqueTree::settle_clique(int clique) {
   Clique& c = cliques_[at(clique)];
   FollowedMotion& f = c.followed;
-  f.settled_in = step_;
+  f.settled_in = last_.number;
   if (!f.motion) return;
   const bool is_new = f.set_in == update_;
   const Motion& before = is_new ? f.before_update : f.motion;
@@ -61,44 +62,49 @@ void CliqueTree::settle_clique(int clique) {
 }
 
 void CliqueTree::settle_path(int clique) {
-  stack_.clear();
-  for (int i = clique; i >= 0 && cliques_[at(i)].followed.settled_in != step_;
+  work_.stack.clear();
+  for (int i = clique; i >= 0 && cliques_[at(i)].followed.settled_in != last_.number;
        i = cliques_[at(i)].parent) {
-    stack_.push_back(i);
+    work_.stack.push_back(i);
   }
-  for (; !stack_.empty(); stack_.pop_back()) settle_clique(stack_.back());
+  for (; !work_.stack.empty(); work_.stack.pop_back()) settle_clique(work_.stack.back());
 }
 
 void CliqueTree::settle(int keyframe) {
-  if (has_followers_ && at(keyframe) < clique_of_.size()) settle_path(clique_of_[at(keyframe)]);
+  if (following_.has_any && at(keyframe) < order_.clique_of.size()) {
+    settle_path(order_.clique_of[at(keyframe)]);
+  }
 }
 
 void CliqueTree::settle() {
-  if (!has_followers_) return;
-  if (root_ >= 0) stack_.assign(1, root_);
-  while (!stack_.empty()) {
-    const int i = stack_.back();
-    stack_.pop_back();
+  if (!following_.has_any) return;
+  if (order_.root >= 0) work_.stack.assign(1, order_.root);
+  while (!work_.stack.empty()) {
+    const int i = work_.stack.back();
+    work_.stack.pop_back();
     settle_clique(i);
     const std::vector<int>& children = cliques_[at(i)].children;
-    stack_.insert(stack_.end(), children.begin(), children.end());
+    work_.stack.insert(work_.stack.end(), children.begin(), children.end());
   }
-  has_followers_ = false;
+  following_.has_any = false;
 }
 
-void CliqueTree::drop_motions() {
+void CliqueTree::place(const std::vector<Node>& nodes) {
   for (Clique& c : cliques_) {
     c.followed.motion.reset();
     c.followed.before_update.reset();
   }
-  has_followers_ = false;
+  following_.has_any = false;
+  problem_.nodes = nodes;
 }
 
 void CliqueTree::forget_update() {
-  for (const int i : followers_) {
+  for (const int i : following_.told) {
     FollowedMotion& f = cliques_[at(i)].followed;
     if (f.motion) f.motion = f.before_update;
   }
+  problem_.restore_saved();
+  settle();
 }
 
 }  // namespace fathom::incremental_smoother

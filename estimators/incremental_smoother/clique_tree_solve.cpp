@@ -1,6 +1,7 @@
 // The solves of CliqueTree.
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "estimators/incremental_smoother/clique_tree.hpp"
@@ -41,7 +42,7 @@ void CliqueTree::set_right_side(const std::vector<Vec3>& gradient,
 }
 
 double CliqueTree::substitute() {
-  ForwardSubstitution run{cliques_, marked_, x_.data(), gathered_.data()};
+  ForwardSubstitution run{cliques_, marked_, x_.data(), work_.gathered.data()};
   sparse::run_for_processor(run);
   double sum = 0.0;
   for (const int i : marked_) {
@@ -54,31 +55,39 @@ double CliqueTree::substitute() {
   return sum;
 }
 
-double CliqueTree::forward(std::span<const int> keyframes, const std::vector<Vec3>& gradient,
-                           const std::vector<Vec3>& ignored) {
+CliqueTree::Step CliqueTree::solved() {
+  const double promised = substitute();
+  is_solved_ = true;
+  return {promised, ++solves_};
+}
+
+CliqueTree::Step CliqueTree::forward(std::span<const int> keyframes,
+                                     const std::vector<Vec3>& gradient,
+                                     const std::vector<Vec3>& ignored) {
   unmark();
   for (const int v : keyframes) mark_up(v);
   sort_marked();
   set_right_side(gradient, &ignored);
-  return substitute();
+  return solved();
 }
 
-double CliqueTree::forward_all(const std::vector<Vec3>& gradient) {
+CliqueTree::Step CliqueTree::forward_all(const std::vector<Vec3>& gradient) {
   unmark();
   mark_all();
   set_right_side(gradient, nullptr);
-  return substitute();
+  return solved();
 }
 
-void CliqueTree::propagate(double negligible) {
-  ++step_;
-  bent_.clear();
-  bent_cliques_.clear();
-  before_[0] = problem_.nodes[0];
-  if (root_ >= 0) stack_.assign(1, root_);
-  while (!stack_.empty()) {
-    const int i = stack_.back();
-    stack_.pop_back();
+void CliqueTree::propagate([[maybe_unused]] const Step& step, double negligible) {
+  assert(is_solved_ && step.number_ == solves_);
+  ++last_.number;
+  last_.bent.clear();
+  last_.bent_cliques.clear();
+  last_.before[0] = problem_.nodes[0];
+  if (order_.root >= 0) work_.stack.assign(1, order_.root);
+  while (!work_.stack.empty()) {
+    const int i = work_.stack.back();
+    work_.stack.pop_back();
     bend(i, negligible);
   }
   unmark();
@@ -89,8 +98,8 @@ bool CliqueTree::bend_separator(const Clique& c, const RigidMotion& rigid, doubl
   double most = 0.0;
   for (int j = c.width; j < c.rows(); ++j) {
     const auto s = at(c.variables[at(j)]);
-    double* d = gathered_.data() + 3 * at(j);
-    offset_of(rigid(before_[s]), problem_.nodes[s], d);
+    double* d = work_.gathered.data() + 3 * at(j);
+    offset_of(rigid(last_.before[s]), problem_.nodes[s], d);
     most = std::max(most, size_of(d, problem_.weights[s]));
   }
   return most > negligible;
@@ -100,7 +109,7 @@ bool CliqueTree::has_moved(const Clique& c, double negligible) const {
   for (int j = c.width; j < c.rows(); ++j) {
     const auto s = at(c.variables[at(j)]);
     double d[3];
-    offset_of(before_[s], problem_.nodes[s], d);
+    offset_of(last_.before[s], problem_.nodes[s], d);
     if (size_of(d, problem_.weights[s]) > negligible) return true;
   }
   return false;
@@ -108,7 +117,7 @@ bool CliqueTree::has_moved(const Clique& c, double negligible) const {
 
 void CliqueTree::bend(int clique, double negligible) {
   const Clique& c = cliques_[at(clique)];
-  const RigidMotion rigid(before_[at(c.leader)], problem_.nodes[at(c.leader)]);
+  const RigidMotion rigid(last_.before[at(c.leader)], problem_.nodes[at(c.leader)]);
   if (!bend_separator(c, rigid, negligible) && !c.is_marked) {
     if (has_moved(c, negligible)) follow(clique, rigid);
     return;
@@ -116,25 +125,25 @@ void CliqueTree::bend(int clique, double negligible) {
   settle_clique(clique);
   for (int j = 0; j < c.width; ++j) {
     const double* y = x_.data() + 3 * at(c.variables[at(j)]);
-    for (int a = 0; a < 3; ++a) gathered_[at(3 * j + a)] = c.is_marked ? y[a] : 0.0;
+    for (int a = 0; a < 3; ++a) work_.gathered[at(3 * j + a)] = c.is_marked ? y[a] : 0.0;
   }
-  BackwardSubstitution run{c, gathered_.data()};
+  BackwardSubstitution run{c, work_.gathered.data()};
   sparse::run_for_processor(run);
   for (int j = 0; j < c.width; ++j) {
     const int v = c.variables[at(j)];
     Node& node = problem_.nodes[at(v)];
-    before_[at(v)] = node;
+    last_.before[at(v)] = node;
     problem_.save(v, node);
-    node = corrected(rigid(node), gathered_.data() + 3 * at(j));
-    bent_.push_back(v);
+    node = corrected(rigid(node), work_.gathered.data() + 3 * at(j));
+    last_.bent.push_back(v);
   }
-  bent_cliques_.push_back(clique);
-  stack_.insert(stack_.end(), c.children.begin(), c.children.end());
+  last_.bent_cliques.push_back(clique);
+  work_.stack.insert(work_.stack.end(), c.children.begin(), c.children.end());
 }
 
 void CliqueTree::find_to_relinearise(double limit_m, double limit_rad,
                                      std::vector<int>& keyframes) const {
-  for (const int i : bent_cliques_) {
+  for (const int i : last_.bent_cliques) {
     const Clique& c = cliques_[at(i)];
     const Node& seen_from = problem_.nodes[at(c.variables.back())];
     for (int j = 0; j + 1 < c.rows(); ++j) {

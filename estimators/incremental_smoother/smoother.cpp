@@ -99,7 +99,6 @@ SmootherResult Smoother::add_registrations(std::span<const RelativePose> registr
 
 void Smoother::add_loops(std::span<const RelativePose> registrations) {
   ++marks_.update;
-  problem_.begin_update();
   tree_.begin_update();
   marks_.touched.clear();
   marks_.changed.clear();
@@ -194,16 +193,17 @@ double Smoother::negligible_bend() const {
 }
 
 void Smoother::take_step(Progress& progress) {
-  const double promised = progress.is_whole
-                              ? tree_.forward_all(gradient_.by_keyframe())
-                              : tree_.forward(marks_.changed, gradient_.by_keyframe(), ignored_);
+  const CliqueTree::Step step =
+      progress.is_whole ? tree_.forward_all(gradient_.by_keyframe())
+                        : tree_.forward(marks_.changed, gradient_.by_keyframe(), ignored_);
+  const double promised = step.promised();
   if (!std::isfinite(promised)) return end(progress, Outcome::numerical_failure);
   const double allowed = limits_.tolerance * gradient_.cost() + limits_.least_promise_chi2;
   if (progress.is_whole && promised <= (1.0 - progress.lost_curvature) * allowed) {
     return end(progress, Outcome::converged);
   }
   const double before = gradient_.cost();
-  tree_.propagate(negligible_bend());
+  tree_.propagate(step, negligible_bend());
   reevaluate_bent();
   // A sum that was large before has rounding of its own.
   if (gradient_.cost() < limits_.cancellation * before) {

@@ -146,7 +146,6 @@ class Smoother {
   bool wants_newton(Progress& progress) const;
   void retreat(Progress& progress);
   static void end(Progress& progress, Outcome outcome);
-  void restore();
   void note_changed(int keyframe);
   void reevaluate_bent();
   void solve_whole(Progress& progress);

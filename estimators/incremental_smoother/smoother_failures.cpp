@@ -8,10 +8,9 @@ namespace fathom::incremental_smoother {
 // is the first of its update.
 void Smoother::retreat(Progress& progress) {
   if (progress.is_whole) {
-    tree_.drop_motions();
-    problem_.nodes = before_step_;
+    tree_.place(before_step_);
   } else {
-    restore();
+    tree_.forget_update();
   }
   // From where F may have been anything, infinite too.
   gradient_.evaluate_all();
@@ -32,12 +31,6 @@ void Smoother::solve_whole(Progress& progress) {
   end(progress, solved.outcome);
 }
 
-void Smoother::restore() {
-  tree_.forget_update();
-  problem_.restore_saved();
-  tree_.settle();
-}
-
 SmootherResult Smoother::solve_batch() {
   ++counts_.batch_solves;
   std::vector<Node> nodes = problem().nodes;
@@ -52,7 +45,7 @@ SmootherResult Smoother::solve_batch() {
 }
 
 void Smoother::undo(int edges_before) {
-  restore();
+  tree_.forget_update();
   problem_.forget_edges(edges_before);
   marks_.edge_pass.resize(at(edges_before));
   evaluate_all();

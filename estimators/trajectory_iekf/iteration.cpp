@@ -5,8 +5,8 @@
 
 #include <Eigen/Cholesky>
 
-#include "estimators/trajectory_iekf/linearisation.hpp"
 #include "estimators/trajectory_iekf/stacked_loops.hpp"
+#include "estimators/trajectory_iekf/trajectory_iekf.hpp"
 
 namespace fathom {
 
@@ -18,21 +18,20 @@ struct TrajectoryIekf::Iterate {
   double cost = 0.0;
 };
 
-// The products of P with the present linearisation are in sums_.
-Outcome TrajectoryIekf::iterate(std::span<const StackedLoop> loops, Linearisation at,
-                                UpdateReport& report) {
-  const Eigen::Index length = sums_.matrix().rows();
-  Iterate x{Eigen::VectorXd::Zero(length), Eigen::VectorXd::Zero(length), misfit(loops, at.nu)};
+// From the prior, where the registrations are linearised already.
+Outcome TrajectoryIekf::iterate(std::span<const StackedLoop> loops, UpdateReport& report) {
+  const Eigen::Index length = at_.PAt.matrix().rows();
+  Iterate x{Eigen::VectorXd::Zero(length), Eigen::VectorXd::Zero(length), misfit(loops, at_.nu)};
   const double prior_cost = x.cost;
   Outcome outcome = Outcome::iteration_limit;
   for (report.iterations = 1; true; ++report.iterations) {
-    if (report.iterations > 1) at = linearise(loops, x.delta, report.iterations);
-    const Eigen::LLT<Eigen::MatrixXd> S(at.S);
-    if (!at.nu.allFinite() || S.info() != Eigen::Success) return Outcome::numerical_failure;
+    if (report.iterations > 1) linearise(loops, x.delta, report.iterations);
+    const Eigen::LLT<Eigen::MatrixXd> S(at_.S);
+    if (!at_.nu.allFinite() || S.info() != Eigen::Success) return Outcome::numerical_failure;
     // x⁽ⁱ⁺¹⁾ = x⁽⁰⁾ + P Hᵀ S⁻¹ (z − h(x⁽ⁱ⁾) − H (x⁽⁰⁾ − x⁽ⁱ⁾)): always from the prior, with h and H
     // of the present iterate.
-    const Eigen::VectorXd lambda = S.solve(at.nu + at.H.times(x.delta));
-    Iterate next{sums_.matrix() * (at.H.ends() * lambda), at.H.transposed_times(lambda)};
+    const Eigen::VectorXd lambda = S.solve(at_.nu + at_.H.times(x.delta));
+    Iterate next{at_.PAt.matrix() * (at_.H.ends() * lambda), at_.H.transposed_times(lambda)};
     if (!next.delta.allFinite()) return Outcome::numerical_failure;
     const double step = (next.delta - x.delta).cwiseAbs().maxCoeff();
     const bool lowered = !options_.safeguard || step_back(loops, x, next);
@@ -45,7 +44,7 @@ Outcome TrajectoryIekf::iterate(std::span<const StackedLoop> loops, Linearisatio
   const double end_cost = cost(loops, x);
   if (!std::isfinite(end_cost)) return Outcome::numerical_failure;
   if (end_cost > options_.divergence_factor * std::max(prior_cost, 1.0)) return Outcome::diverged;
-  return apply(at, x, report.iterations) ? outcome : Outcome::numerical_failure;
+  return apply(x, report.iterations) ? outcome : Outcome::numerical_failure;
 }
 
 double TrajectoryIekf::cost(std::span<const StackedLoop> loops, const Iterate& at) const {
@@ -72,24 +71,24 @@ bool TrajectoryIekf::step_back(std::span<const StackedLoop> loops, const Iterate
 
 // The covariance is updated once, with the H of the last linearisation. On the stretch δ and P Hᵀ
 // are known; the motions before it move as far as they are correlated with it.
-bool TrajectoryIekf::apply(const Linearisation& last, const Iterate& end, int iterations) {
-  const Eigen::Index start = last.H.starts().front();
+bool TrajectoryIekf::apply(const Iterate& end, int iterations) {
+  const Eigen::Index start = at_.H.starts().front();
   const Eigen::Index begin = P_.first_correlated(start);
   const Eigen::Index head = 3 * (start - begin);
   const Eigen::Index tail = end.delta.size();
   Eigen::VectorXd dx(head + tail);
   dx.tail(tail) = end.delta;
-  auto V = V_.shaped(head + tail, last.nu.size());
-  V.bottomRows(tail).noalias() = sums_.matrix() * last.H.ends();
+  auto V = V_.shaped(head + tail, at_.nu.size());
+  V.bottomRows(tail).noalias() = at_.PAt.matrix() * at_.H.ends();
   if (head > 0) {
     V.topRows(head).noalias() =
-        P_.head_products(last.H.starts(), last.H.A_transposed()) * last.H.ends();
+        P_.head_products(at_.H.starts(), at_.H.A_transposed()) * at_.H.ends();
     Eigen::MatrixX3d u = Eigen::MatrixX3d::Zero(tail, 3);
     u.col(0) = end.u;
-    dx.head(head) = P_.head_products(last.H.starts().first(1), u).col(0);
+    dx.head(head) = P_.head_products(at_.H.starts().first(1), u).col(0);
   }
   // V = P Hᵀ L⁻ᵀ.
-  const Eigen::LLT<Eigen::MatrixXd> S(last.S);
+  const Eigen::LLT<Eigen::MatrixXd> S(at_.S);
   S.matrixU().solveInPlace<Eigen::OnTheRight>(V);
   if (!dx.allFinite() || !V.allFinite()) return false;
   for (std::size_t i = static_cast<std::size_t>(begin); i < motions_.size(); ++i) {

@@ -58,6 +58,7 @@ class StackedJacobian {
     std::size_t from = 0;
     const Eigen::Matrix3d* C = nullptr;
   };
+  StackedJacobian() = default;
   StackedJacobian(const Stretch& stretch, std::span<const Rows> registrations);
 
   /// Motions at which a registration's H begins or ends to be D A or −D A, counted from 0; rising,

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <memory>
+#include <utility>
 
-#include "estimators/trajectory_iekf/linearisation.hpp"
 #include "estimators/trajectory_iekf/stacked_loops.hpp"
 #include "fathom/estimation/precision.hpp"
 
@@ -34,37 +34,35 @@ void TrajectoryIekf::add_keyframe(const RelativePose& step) {
   covariances_.clear();
 }
 
-TrajectoryIekf::Linearisation TrajectoryIekf::linearise(std::span<const StackedLoop> loops,
-                                                        const Eigen::VectorXd& delta,
-                                                        int iteration) {
+void TrajectoryIekf::linearise(std::span<const StackedLoop> loops, const Eigen::VectorXd& delta,
+                               int iteration) {
   const Stretch stretch = stretch_at(tree_, motions_, first_of(loops), delta);
-  StackedJacobian H = jacobian(loops, stretch);
-  auto sums = sums_.shaped(delta.size(), static_cast<Eigen::Index>(3 * H.starts().size()));
+  at_.nu = innovations(loops, stretch);
+  at_.H = jacobian(loops, stretch);
+  auto PAt = at_.PAt.shaped(delta.size(), static_cast<Eigen::Index>(3 * at_.H.starts().size()));
   // A turn of a motion turns the newest keyframe as much, wherever H is taken: the third column of
   // Aᵀ is the same for all iterates.
-  P_.suffix_products(H.starts(), H.A_transposed(), sums, iteration);
-  return multiplied(loops, innovations(loops, stretch), std::move(H));
+  P_.suffix_products(at_.H.starts(), at_.H.A_transposed(), PAt, iteration);
+  multiply(loops);
 }
 
-// S = H P Hᵀ + R, with P Hᵀ = (P Aᵀ from each start on) E.
-TrajectoryIekf::Linearisation TrajectoryIekf::multiplied(std::span<const StackedLoop> loops,
-                                                         Eigen::VectorXd nu, StackedJacobian H) {
-  Eigen::MatrixXd S = H.times(sums_.matrix()) * H.ends();
-  for (Eigen::Index row = 0; row < nu.size(); row += 3) {
-    S.block<3, 3>(row, row) += loops[static_cast<std::size_t>(row / 3)].rows.R;
+// S = H P Hᵀ + R.
+void TrajectoryIekf::multiply(std::span<const StackedLoop> loops) {
+  at_.S = at_.H.times(at_.PAt.matrix()) * at_.H.ends();
+  for (Eigen::Index row = 0; row < at_.nu.size(); row += 3) {
+    at_.S.block<3, 3>(row, row) += loops[static_cast<std::size_t>(row / 3)].rows.R;
   }
-  return {std::move(nu), std::move(H), std::move(S)};
 }
 
 UpdateReport TrajectoryIekf::close_loops(std::span<const RelativePose> registrations) {
   UpdateReport report;
   if (registrations.empty()) return report;
   std::vector<StackedLoop> loops = stacked(registrations);
-  Linearisation prior = linearise_prior(loops);
+  linearise_prior(loops);
   for (const RelativePose& z : registrations) {
     report.loops.push_back({z.from, z.to, LoopFate::used, std::nullopt});
   }
-  const std::vector<bool> passes = gate_loops(prior, loops, report);
+  const std::vector<bool> passes = gate_loops(loops, report);
   if (!has_finite_nis(report) || !are_resolved(*this, registrations)) {
     lose_all(report, Outcome::numerical_failure);
     return report;
@@ -73,56 +71,55 @@ UpdateReport TrajectoryIekf::close_loops(std::span<const RelativePose> registrat
     std::size_t j = 0;
     std::erase_if(loops, [&](const StackedLoop&) { return !passes[j++]; });
     if (loops.empty()) return report;
-    prior = narrowed(prior, loops);
+    narrow_to(loops);
   }
-  report.outcome = iterate(loops, std::move(prior), report);
+  report.outcome = iterate(loops, report);
   if (!is_done(report.outcome)) lose_all(report, report.outcome);
   return report;
 }
 
-TrajectoryIekf::Linearisation TrajectoryIekf::linearise_prior(std::span<const StackedLoop> loops) {
+void TrajectoryIekf::linearise_prior(std::span<const StackedLoop> loops) {
   const auto length = static_cast<Eigen::Index>(3 * (motions_.size() - first_of(loops)));
-  return linearise(loops, Eigen::VectorXd::Zero(length), 1);
+  linearise(loops, Eigen::VectorXd::Zero(length), 1);
 }
 
 // The prior's linearisation for the registrations that are left of those it was made for. As long
 // as they begin with the same motion the products with P are there already.
-TrajectoryIekf::Linearisation TrajectoryIekf::narrowed(const Linearisation& prior,
-                                                       std::span<const StackedLoop> loops) {
+void TrajectoryIekf::narrow_to(std::span<const StackedLoop> loops) {
   const std::size_t first = first_of(loops);
-  if (static_cast<Eigen::Index>(first) != prior.H.starts().front()) return linearise_prior(loops);
+  if (static_cast<Eigen::Index>(first) != at_.H.starts().front()) return linearise_prior(loops);
   const auto length = static_cast<Eigen::Index>(3 * (motions_.size() - first));
   const Stretch stretch = stretch_at(tree_, motions_, first, Eigen::VectorXd::Zero(length));
-  StackedJacobian H = jacobian(loops, stretch);
-  auto sums = sums_.matrix();
+  const StackedJacobian was = std::exchange(at_.H, jacobian(loops, stretch));
+  at_.nu = innovations(loops, stretch);
+  auto PAt = at_.PAt.matrix();
   Eigen::Index column = 0;
-  for (const Eigen::Index start : H.starts()) {
-    const auto was = std::find(prior.H.starts().begin(), prior.H.starts().end(), start);
-    const auto column_was = 3 * static_cast<Eigen::Index>(was - prior.H.starts().begin());
-    if (column_was != column) sums.middleCols<3>(column) = sums.middleCols<3>(column_was);
+  for (const Eigen::Index start : at_.H.starts()) {
+    const auto found = std::ranges::find(was.starts(), start);
+    const auto column_was = 3 * static_cast<Eigen::Index>(found - was.starts().begin());
+    if (column_was != column) PAt.middleCols<3>(column) = PAt.middleCols<3>(column_was);
     column += 3;
   }
-  sums_.keep_columns(column);
-  return multiplied(loops, innovations(loops, stretch), std::move(H));
+  at_.PAt.keep_columns(column);
+  multiply(loops);
 }
 
-// Decides on every loop, in report.loops.
-std::vector<bool> TrajectoryIekf::gate_loops(const Linearisation& prior,
-                                             std::span<const StackedLoop> loops,
+// Decides on every loop, in report.loops, at the prior.
+std::vector<bool> TrajectoryIekf::gate_loops(std::span<const StackedLoop> loops,
                                              UpdateReport& report) const {
   std::vector<bool> passes;
   std::vector<int> ranks;
   for (std::size_t j = 0; j < loops.size(); ++j) {
     const auto row = static_cast<Eigen::Index>(3 * j);
     const double nis =
-        normalised_innovation_squared(prior.nu.segment<3>(row), prior.S.block<3, 3>(row, row));
+        normalised_innovation_squared(at_.nu.segment<3>(row), at_.S.block<3, 3>(row, row));
     ranks.push_back(loops[j].rows.rank);
     passes.push_back(!gate_.is_on() || gate_.passes(nis, ranks.back()));
     report.loops[j].fate = fate_of(passes.back());
     report.loops[j].nis = nis;
   }
   if (gate_.is_joint_on() && has_finite_nis(report)) {
-    passes = gate_.pass_together(prior.nu, prior.S, passes, ranks);
+    passes = gate_.pass_together(at_.nu, at_.S, passes, ranks);
     for (std::size_t j = 0; j < passes.size(); ++j) report.loops[j].fate = fate_of(passes[j]);
   }
   return passes;
@@ -143,7 +140,8 @@ std::optional<LoopDecision> TrajectoryIekf::bridge(const Bridge& bridge) {
   const std::vector<StackedLoop> loops = stacked(std::span(&loop, 1));
   UpdateReport report;
   report.loops.push_back({loop.from, loop.to, LoopFate::used, std::nullopt});
-  gate_loops(linearise_prior(loops), loops, report);
+  linearise_prior(loops);
+  gate_loops(loops, report);
   const LoopDecision decision = report.loops.front();
   if (!has_finite_nis(report)) return std::nullopt;
   if (decision.fate != LoopFate::used) return decision;

@@ -53,21 +53,24 @@ class TrajectoryIekf final : public RelativeEstimator {
   const MotionCovariance& state_covariance() const { return P_; }
 
  private:
-  struct Linearisation;
+  /// The stacked registrations linearised at one iterate.
+  struct Linearisation {
+    Eigen::VectorXd nu;   ///< z − h(x), headings wrapped
+    StackedJacobian H;    ///< over the stretch only; zero elsewhere
+    filter::Scratch PAt;  ///< P Aᵀ, over the motions from each start on; P Hᵀ = (P Aᵀ) E
+    Eigen::MatrixXd S;    ///< H P Hᵀ + R
+  };
   struct Iterate;
 
-  Linearisation linearise(std::span<const StackedLoop> loops, const Eigen::VectorXd& delta,
-                          int iteration);
-  Linearisation linearise_prior(std::span<const StackedLoop> loops);
-  Linearisation narrowed(const Linearisation& prior, std::span<const StackedLoop> loops);
-  Linearisation multiplied(std::span<const StackedLoop> loops, Eigen::VectorXd nu,
-                           StackedJacobian H);
-  std::vector<bool> gate_loops(const Linearisation& prior, std::span<const StackedLoop> loops,
-                               UpdateReport& report) const;
-  Outcome iterate(std::span<const StackedLoop> loops, Linearisation at, UpdateReport& report);
+  void linearise(std::span<const StackedLoop> loops, const Eigen::VectorXd& delta, int iteration);
+  void linearise_prior(std::span<const StackedLoop> loops);
+  void narrow_to(std::span<const StackedLoop> loops);
+  void multiply(std::span<const StackedLoop> loops);
+  std::vector<bool> gate_loops(std::span<const StackedLoop> loops, UpdateReport& report) const;
+  Outcome iterate(std::span<const StackedLoop> loops, UpdateReport& report);
   double cost(std::span<const StackedLoop> loops, const Iterate& at) const;
   bool step_back(std::span<const StackedLoop> loops, const Iterate& from, Iterate& to) const;
-  bool apply(const Linearisation& last, const Iterate& end, int iterations);
+  bool apply(const Iterate& end, int iterations);
   std::size_t first_of(std::span<const StackedLoop> loops) const;
   void recompose();
   void compute_covariances() const;
@@ -82,8 +85,7 @@ class TrajectoryIekf final : public RelativeEstimator {
   MotionTree tree_;            ///< what they lead between
   std::vector<Pose> poses_;    ///< their composition
   MotionCovariance P_;
-  // Of the present linearisation; there is one at a time. The rows are those of the stretch.
-  filter::Scratch sums_;  ///< P Aᵀ, over the motions from each start on
+  Linearisation at_;  ///< the present one
   filter::Scratch V_;
   mutable std::vector<Eigen::Matrix3d> covariances_;  ///< of the poses; empty: to be computed
 };

@@ -134,7 +134,8 @@ TEST(IncrementalLoss, TheTreeHasWhatTheLoopsWeigh) {
           Eigen::Vector3d(g_k[0], g_k[1], g_k[2]);
     }
     const double promised = g.dot(H.bottomRightCorner(n - 3, n - 3).llt().solve(g));
-    EXPECT_NEAR(tree.forward_all(parts.gradient.by_keyframe()), promised, 1e-8 * promised);
+    EXPECT_NEAR(tree.forward_all(parts.gradient.by_keyframe()).promised(), promised,
+                1e-8 * promised);
   }
 }
 

@@ -106,9 +106,10 @@ void expect_factor(Grown& grown) {
   const std::vector<Vec3> gradient = grown.small_gradient();
   const Eigen::VectorXd g = Grown::stacked(gradient);
   const double promised = g.dot(inverse * g);
-  EXPECT_NEAR(grown.tree.forward_all(gradient), promised, 1e-8 * promised);
+  const CliqueTree::Step solved = grown.tree.forward_all(gradient);
+  EXPECT_NEAR(solved.promised(), promised, 1e-8 * promised);
   const Problem before = grown.problem;
-  grown.tree.propagate(0.0);
+  grown.tree.propagate(solved, 0.0);
   grown.tree.settle();
   const Eigen::VectorXd step = -inverse * g;
   double worst = 0.0;
@@ -158,9 +159,10 @@ TEST(IncrementalTree, SolvesForAFewKeyframesAndGivesVariances) {
   const Eigen::VectorXd g = Grown::stacked(gradient);
   const double promised = g.dot(inverse * g);
   const std::vector<int> keyframes{5, 30};
-  EXPECT_NEAR(grown.tree.forward(keyframes, gradient, ignored), promised, 1e-8 * promised);
+  EXPECT_NEAR(grown.tree.forward(keyframes, gradient, ignored).promised(), promised,
+              1e-8 * promised);
   // What is ignored is left out of b.
-  EXPECT_NEAR(grown.tree.forward(keyframes, gradient, gradient), 0.0, 1e-30);
+  EXPECT_NEAR(grown.tree.forward(keyframes, gradient, gradient).promised(), 0.0, 1e-30);
 
   const Eigen::Matrix3d J_i = Eigen::Matrix3d::Random();
   const Eigen::Matrix3d J_k = Eigen::Matrix3d::Random();
@@ -187,13 +189,14 @@ TEST(IncrementalTree, IsLinearisedAnewWhereItIsStale) {
   const double stale = g.dot(old.llt().solve(g));
   const double fresh = g.dot(grown.dense().llt().solve(g));
   ASSERT_GT(std::abs(stale - fresh), 0.01 * fresh);
-  EXPECT_NEAR(grown.tree.forward_all(gradient), stale, 1e-8 * stale);
-  grown.tree.propagate(0.0);
+  const CliqueTree::Step step = grown.tree.forward_all(gradient);
+  EXPECT_NEAR(step.promised(), stale, 1e-8 * stale);
+  grown.tree.propagate(step, 0.0);
   grown.tree.settle();
   std::vector<int> keyframes;
   grown.tree.find_to_relinearise(1e-3, 1e-3, keyframes);
   ASSERT_TRUE(grown.tree.relinearise(keyframes));
-  EXPECT_NEAR(grown.tree.forward_all(gradient), fresh, 1e-5 * fresh);
+  EXPECT_NEAR(grown.tree.forward_all(gradient).promised(), fresh, 1e-5 * fresh);
 }
 
 TEST(IncrementalTree, RigidMotionOfAPartMovesAllOfIt) {
@@ -209,8 +212,7 @@ TEST(IncrementalTree, RigidMotionOfAPartMovesAllOfIt) {
   gradient[10] = {3e-3, -2e-3, 5e-3};
   const std::vector<int> keyframes{10};
   const Problem before = grown.problem;
-  grown.tree.forward(keyframes, gradient, ignored);
-  grown.tree.propagate(1e-9);
+  grown.tree.propagate(grown.tree.forward(keyframes, gradient, ignored), 1e-9);
   grown.tree.settle();
   for (int k = 11; k <= 40; ++k) {
     double was[3];
