@@ -107,7 +107,7 @@ void MinimumDegree::take(int v) {
   }
 }
 
-void MinimumDegree::order_by_bits(const QuotientGraph& graph, int first, int newest, int fixed) {
+void MinimumDegree::begin(const QuotientGraph& graph) {
   const int n = graph.size;
   words_ = (n + kWord - 1) / kWord;
   fill_rows(graph);
@@ -116,12 +116,17 @@ void MinimumDegree::order_by_bits(const QuotientGraph& graph, int first, int new
   previous_.resize(at(n));
   head_.assign(at(n), -1);
   tail_.assign(at(n), -1);
+}
+
+void MinimumDegree::order_by_bits(const QuotientGraph& graph, int first, int newest, int fixed) {
+  const int n = graph.size;
+  begin(graph);
   const auto is_kept = [&](int v) { return v == newest || v == fixed; };
   // Those whose turn it is; the others wait.
-  int begin = 0;
+  int start = 0;
   int end = first > 0 ? first : n;
   const auto put_all = [&] {
-    for (int v = begin; v < end; ++v) {
+    for (int v = start; v < end; ++v) {
       degree_[at(v)] = count(v);
       if (!is_kept(v)) put(v);
     }
@@ -130,7 +135,7 @@ void MinimumDegree::order_by_bits(const QuotientGraph& graph, int first, int new
   int least = 0;
   for (int left = n; left > 2; --left) {
     if (left == n - first && first > 0) {
-      begin = std::exchange(end, n);
+      start = std::exchange(end, n);
       put_all();
       least = 0;
     }
@@ -146,7 +151,7 @@ void MinimumDegree::order_by_bits(const QuotientGraph& graph, int first, int new
       for (int w = 0; w < words_; ++w) to[w] |= from[w];
       reset(to, u);
       reset(to, v);
-      if (is_kept(u) || u < begin || u >= end) return;
+      if (is_kept(u) || u < start || u >= end) return;
       take(u);
       degree_[at(u)] = count(u);
       put(u);

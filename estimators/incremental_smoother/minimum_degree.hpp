@@ -35,6 +35,7 @@ class MinimumDegree {
   void order_approximately(const QuotientGraph& graph);
   std::uint64_t* row(int v) { return bits_.data() + at(v) * at(words_); }
   void fill_rows(const QuotientGraph& graph);
+  void begin(const QuotientGraph& graph);
   int count(int v);
   void put(int v);
   void take(int v);
