@@ -91,7 +91,7 @@ void StudyOptions::describe(OptionTable& table) {
                 "motions over each separation or distance, and keyframes for each anchor, at most");
   table.boolean("evaluation.newest_covariance", newest_covariance,
                 "ask for the covariance of the newest pose after every keyframe, and time it");
-  table.real("evaluation.min_overlap", evaluation.min_overlap, Range::between(0.01, 1.0), "",
+  table.real("evaluation.min_overlap", evaluation.recalled_overlap, Range::between(0.01, 1.0), "",
              "true overlap from which on a pair of keyframes should be found (loop_recall)");
 }
 

@@ -28,7 +28,7 @@ std::optional<double> loop_precision(std::span<const LoopDecision> loops,
 }
 
 std::optional<double> loop_recall(std::span<const LoopDecision> loops, const TrueOverlaps& truth,
-                                  double min_overlap) {
+                                  double recalled_overlap) {
   std::set<std::pair<std::size_t, std::size_t>> used;
   for (const LoopDecision& loop : loops) {
     if (loop.fate != LoopFate::used) continue;
@@ -37,7 +37,7 @@ std::optional<double> loop_recall(std::span<const LoopDecision> loops, const Tru
   std::size_t pairs = 0;
   std::size_t found = 0;
   for (const TrueOverlaps::Pair& pair : truth.pairs) {
-    if (pair.overlap < min_overlap) continue;
+    if (pair.overlap < recalled_overlap) continue;
     ++pairs;
     if (used.contains({pair.i, pair.k})) ++found;
   }

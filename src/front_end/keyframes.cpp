@@ -8,7 +8,7 @@
 namespace fathom {
 
 void KeyframeOptions::describe(OptionTable& table) {
-  table.real("min_overlap", min_overlap, Range{0.0, 1.0, true}, "",
+  table.real("min_overlap", kept_overlap, Range{0.0, 1.0, true}, "",
              "a keyframe at the last frame that shares so much of its footprint with the keyframe "
              "before, by dead reckoning");
   table.integer_or_off("separation_frames", separation_frames, Range::at_least(1), "frames",
@@ -31,7 +31,7 @@ std::optional<std::size_t> KeyframeSchedule::after(std::size_t keyframe) const {
     const FrameInfo& info = source_.info(frame);
     motion = compose(motion, info.motion->mean);
     const double overlap = footprint_overlap(source_.camera(), stance, info.stance(), motion);
-    if (!(overlap < options_.min_overlap) && !info.is_hole) continue;
+    if (!(overlap < options_.kept_overlap) && !info.is_hole) continue;
     return frame - 1 > keyframe ? frame - 1 : frame;
   }
   return std::nullopt;

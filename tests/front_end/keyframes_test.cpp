@@ -28,7 +28,7 @@ std::vector<std::size_t> frames(const FrameSource& survey, const KeyframeOptions
 
 KeyframeOptions overlap(double share) {
   KeyframeOptions options;
-  options.min_overlap = share;
+  options.kept_overlap = share;
   return options;
 }
 

@@ -28,9 +28,9 @@ struct TrueOverlaps {
 std::optional<double> loop_precision(std::span<const LoopDecision> loops,
                                      const TrueOverlaps& truth);
 
-/// Share of the pairs that overlap by `min_overlap` or more that are used loops; nothing where
+/// Share of the pairs that overlap by `recalled_overlap` or more that are used loops; nothing where
 /// there is no such pair.
 std::optional<double> loop_recall(std::span<const LoopDecision> loops, const TrueOverlaps& truth,
-                                  double min_overlap);
+                                  double recalled_overlap);
 
 }  // namespace fathom

@@ -15,7 +15,7 @@ struct MetricOptions {
   /// Motions over each of these, and keyframes for each anchor, at most: it keeps the joint
   /// covariances, 3 columns a keyframe, small.
   int relative_pairs = 20;
-  double min_overlap = 0.3;  ///< true overlap from which on a pair should be a loop (loop_recall)
+  double recalled_overlap = 0.3;  ///< true overlap from which on loop_recall counts a pair
 };
 
 }  // namespace fathom

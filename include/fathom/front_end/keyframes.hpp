@@ -13,7 +13,7 @@ namespace fathom {
 
 /// Which frames become keyframes.
 struct KeyframeOptions {
-  double min_overlap = 0.85;             ///< of pictures, as dead reckoning has it
+  double kept_overlap = 0.85;            ///< of two in a row, as dead reckoning has it
   std::optional<int> separation_frames;  ///< one every so many frames instead
 
   /// Frames from one keyframe to the next, at least: by overlap any frame may be one.
@@ -26,7 +26,7 @@ struct KeyframeOptions {
 };
 
 /// The frames of a survey that are keyframes: frame 0, then one every `separation_frames`, or each
-/// time the last frame whose picture still shares `min_overlap` with that of the keyframe before
+/// time the last frame whose picture still shares `kept_overlap` with that of the keyframe before
 /// (the next one, where not even that does). Both shares are of the smaller footprint, with
 /// altitudes as measured and the motion as dead reckoning has it, so the schedule is the same for
 /// all who look at a survey. By overlap the frames on both sides of a hole in dead reckoning are

@@ -60,7 +60,8 @@ Value precision(const JudgedRun& run) {
 
 Value recall(const JudgedRun& run) {
   if (run.facts.run == nullptr || run.facts.true_overlaps == nullptr) return std::nullopt;
-  return loop_recall(run.facts.run->loops, *run.facts.true_overlaps, run.facts.options.min_overlap);
+  return loop_recall(run.facts.run->loops, *run.facts.true_overlaps,
+                     run.facts.options.recalled_overlap);
 }
 
 std::vector<Metric> log_metrics() {
