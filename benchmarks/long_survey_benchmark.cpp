@@ -13,8 +13,8 @@
 
 #include <benchmark/benchmark.h>
 
-#include "fathom/datasets/simulated_survey.hpp"
 #include "fathom/front_end/front_end.hpp"
+#include "src/datasets/simulated/simulated_survey.hpp"
 
 namespace {
 

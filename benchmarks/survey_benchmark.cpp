@@ -13,9 +13,9 @@
 #include <opencv2/core.hpp>
 #include <opencv2/core/utility.hpp>
 
-#include "fathom/datasets/simulated_survey.hpp"
 #include "fathom/front_end/front_end.hpp"
 #include "fathom/front_end/visual_odometry.hpp"
+#include "src/datasets/simulated/simulated_survey.hpp"
 
 namespace {
 

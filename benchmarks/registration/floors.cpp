@@ -8,7 +8,7 @@
 #include "fathom/core/files.hpp"
 #include "fathom/core/input_error.hpp"
 #include "fathom/datasets/picture_file.hpp"
-#include "fathom/datasets/sea_floor.hpp"
+#include "src/datasets/simulated/sea_floor.hpp"
 
 namespace fathom::benchmarks {
 namespace {

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "fathom/harness/recording.hpp"
-#include "fathom/harness/run_record.hpp"
+#include "run_record.hpp"
 
 namespace fathom {
 

@@ -1,4 +1,4 @@
-#include "fathom/harness/run_record.hpp"
+#include "run_record.hpp"
 
 #include <algorithm>
 #include <limits>

@@ -11,7 +11,7 @@
 #include "fathom/configuration/study.hpp"
 #include "fathom/front_end/registration_cache.hpp"
 #include "fathom/harness/recording.hpp"
-#include "fathom/harness/study_pace.hpp"
+#include "study_pace.hpp"
 
 namespace fathom {
 

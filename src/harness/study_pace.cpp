@@ -1,4 +1,4 @@
-#include "fathom/harness/study_pace.hpp"
+#include "study_pace.hpp"
 
 #include <algorithm>
 

@@ -5,8 +5,8 @@
 #include <mutex>
 #include <string>
 
-#include "fathom/harness/study_pace.hpp"
 #include "fathom/harness/study_run.hpp"
+#include "study_pace.hpp"
 
 namespace fathom {
 

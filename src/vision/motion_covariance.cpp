@@ -1,4 +1,4 @@
-#include "fathom/vision/motion_covariance.hpp"
+#include "motion_covariance.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fathom/vision/motion_covariance.hpp"
-#include "fathom/vision/rigid_motion.hpp"
+#include "motion_covariance.hpp"
+#include "rigid_motion.hpp"
 
 namespace fathom {
 namespace {

@@ -6,8 +6,8 @@
 #include <functional>
 #include <utility>
 
-#include "fathom/vision/rigid_motion.hpp"
 #include "pair_ransac.hpp"
+#include "rigid_motion.hpp"
 
 namespace fathom {
 namespace {

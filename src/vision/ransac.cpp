@@ -7,8 +7,8 @@
 
 #include "fathom/core/input_error.hpp"
 #include "fathom/core/random.hpp"
-#include "fathom/vision/rigid_motion.hpp"
 #include "pair_ransac.hpp"
+#include "rigid_motion.hpp"
 
 namespace fathom {
 namespace {

@@ -1,4 +1,4 @@
-#include "fathom/vision/rigid_motion.hpp"
+#include "rigid_motion.hpp"
 
 #include <cmath>
 #include <cstddef>

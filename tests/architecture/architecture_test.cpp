@@ -94,7 +94,7 @@ TEST(IncludeRules, RefuseWhatTheTableDoesNotAllow) {
       {"include/fathom/core/text.hpp", "\"fathom/geometry/pose.hpp\"", "core may not"},
       {"src/evaluation/a.cpp", "\"fathom/estimation/gate.hpp\"", "evaluation may not include"},
       {"src/harness/a.cpp", "\"fathom/report/table.hpp\"", "harness may not include report"},
-      {"src/vision/a.cpp", "\"fathom/datasets/world.hpp\"", "vision may not include datasets"},
+      {"src/vision/a.cpp", "\"fathom/datasets/data_set.hpp\"", "vision may not include datasets"},
       {"src/results/a.cpp", "\"fathom/harness/replay.hpp\"", "results may not include harness"},
       {"src/configuration/a.cpp", "\"fathom/results/result_store.hpp\"",
        "configuration may not include results"},

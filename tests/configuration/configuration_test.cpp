@@ -8,8 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "configuration/configured.hpp"
-#include "fathom/datasets/simulated_survey.hpp"
 #include "fathom/estimators/builtin.hpp"
+#include "src/datasets/simulated/simulated_survey.hpp"
 #include "support/input_error.hpp"
 
 namespace fathom {

@@ -5,7 +5,7 @@
 
 #include "configuration/study_of.hpp"
 #include "fathom/core/random.hpp"
-#include "fathom/datasets/simulated_survey.hpp"
+#include "src/datasets/simulated/simulated_survey.hpp"
 
 namespace fathom {
 namespace {

@@ -1,13 +1,13 @@
 // Tilts and reliefs: where points of the floor come to lie in a picture.
 
-#include "fathom/datasets/attitude.hpp"
+#include "src/datasets/simulated/attitude.hpp"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "fathom/datasets/height_field.hpp"
 #include "flat_world.hpp"
+#include "src/datasets/simulated/height_field.hpp"
 #include "support/input_error.hpp"
 
 namespace fathom {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "fathom/datasets/floor_renderer.hpp"
+#include "src/datasets/simulated/floor_renderer.hpp"
 
 namespace fathom::test {
 

@@ -1,6 +1,6 @@
 // Each effect against its closed form, on floors of which all is known.
 
-#include "fathom/datasets/picture_effects.hpp"
+#include "src/datasets/simulated/picture_effects.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -9,9 +9,9 @@
 #include <gtest/gtest.h>
 #include <opencv2/imgproc.hpp>
 
-#include "fathom/datasets/sea_floor.hpp"
 #include "flat_world.hpp"
 #include "same_picture.hpp"
+#include "src/datasets/simulated/sea_floor.hpp"
 #include "support/input_error.hpp"
 
 namespace fathom {

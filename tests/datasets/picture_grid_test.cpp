@@ -11,9 +11,9 @@
 #include <gtest/gtest.h>
 
 #include "fathom/core/random.hpp"
-#include "fathom/datasets/floor_renderer.hpp"
-#include "fathom/datasets/sea_floor.hpp"
 #include "fathom/vision/registration.hpp"
+#include "src/datasets/simulated/floor_renderer.hpp"
+#include "src/datasets/simulated/sea_floor.hpp"
 
 namespace fathom {
 namespace {

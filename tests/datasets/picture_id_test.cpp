@@ -9,10 +9,10 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "fathom/datasets/image_folder.hpp"
-#include "fathom/datasets/simulated_survey.hpp"
 #include "folder_fixture.hpp"
 #include "same_picture.hpp"
 #include "small_survey.hpp"
+#include "src/datasets/simulated/simulated_survey.hpp"
 #include "support/input_error.hpp"
 
 namespace fathom {

@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 #include <opencv2/imgcodecs.hpp>
 
-#include "fathom/datasets/simulated_survey.hpp"
+#include "src/datasets/simulated/simulated_survey.hpp"
 #include "support/planar.hpp"
 #include "support/temporary_folder.hpp"
 

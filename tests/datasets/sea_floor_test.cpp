@@ -1,4 +1,4 @@
-#include "fathom/datasets/sea_floor.hpp"
+#include "src/datasets/simulated/sea_floor.hpp"
 
 #include <string>
 

@@ -1,4 +1,4 @@
-#include "fathom/datasets/simulated_log.hpp"
+#include "src/datasets/simulated_log/simulated_log.hpp"
 
 #include <cmath>
 #include <map>

@@ -1,4 +1,4 @@
-#include "fathom/datasets/simulated_survey.hpp"
+#include "src/datasets/simulated/simulated_survey.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -9,9 +9,9 @@
 #include <opencv2/features2d.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "fathom/datasets/sea_floor.hpp"
 #include "same_picture.hpp"
 #include "small_survey.hpp"
+#include "src/datasets/simulated/sea_floor.hpp"
 #include "support/data.hpp"
 #include "support/planar.hpp"
 

@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include "fathom/datasets/simulated_log.hpp"
+#include "src/datasets/simulated_log/simulated_log.hpp"
 
 namespace fathom::test {
 

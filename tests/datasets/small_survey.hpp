@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fathom/datasets/simulated_survey.hpp"
+#include "src/datasets/simulated/simulated_survey.hpp"
 
 namespace fathom::test {
 

@@ -1,6 +1,6 @@
 // What is left of a study, by what its parts took: closed forms over made-up times.
 
-#include "fathom/harness/study_pace.hpp"
+#include "src/harness/study_pace.hpp"
 
 #include <gtest/gtest.h>
 

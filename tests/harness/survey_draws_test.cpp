@@ -8,10 +8,10 @@
 
 #include "configuration/configured.hpp"
 #include "fathom/core/random.hpp"
-#include "fathom/datasets/simulated_survey.hpp"
 #include "fathom/harness/recording.hpp"
 #include "front_end/map_cache.hpp"
 #include "harness/small_config.hpp"
+#include "src/datasets/simulated/simulated_survey.hpp"
 
 namespace fathom {
 namespace {

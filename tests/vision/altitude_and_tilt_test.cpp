@@ -8,8 +8,8 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
-#include "fathom/vision/motion_covariance.hpp"
-#include "fathom/vision/rigid_motion.hpp"
+#include "src/vision/motion_covariance.hpp"
+#include "src/vision/rigid_motion.hpp"
 #include "vision/fitted_points.hpp"
 
 namespace fathom {

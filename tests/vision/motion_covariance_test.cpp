@@ -1,4 +1,4 @@
-#include "fathom/vision/motion_covariance.hpp"
+#include "src/vision/motion_covariance.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
-#include "fathom/vision/rigid_motion.hpp"
+#include "src/vision/rigid_motion.hpp"
 #include "vision/fitted_points.hpp"
 
 namespace fathom {

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "fathom/vision/rigid_motion.hpp"
+#include "src/vision/rigid_motion.hpp"
 #include "vision/matched_points.hpp"
 
 namespace fathom {

@@ -10,8 +10,8 @@
 #include <Eigen/Cholesky>
 #include <gtest/gtest.h>
 
-#include "fathom/datasets/sea_floor.hpp"
 #include "fathom/vision/registration.hpp"
+#include "src/datasets/simulated/sea_floor.hpp"
 #include "support/pairs/pairs.hpp"
 
 namespace fathom {

@@ -9,8 +9,8 @@
 
 #include "fathom/core/random.hpp"
 #include "fathom/geometry/covariance.hpp"
-#include "fathom/vision/motion_covariance.hpp"
-#include "fathom/vision/rigid_motion.hpp"
+#include "src/vision/motion_covariance.hpp"
+#include "src/vision/rigid_motion.hpp"
 #include "vision/labelled.hpp"
 #include "vision/sea_floor.hpp"
 

@@ -1,4 +1,4 @@
-#include "fathom/vision/rigid_motion.hpp"
+#include "src/vision/rigid_motion.hpp"
 
 #include <cmath>
 #include <limits>

@@ -1,4 +1,4 @@
-#include "fathom/datasets/attitude.hpp"
+#include "attitude.hpp"
 
 #include <cmath>
 #include <utility>

@@ -2,7 +2,7 @@
 
 #include <opencv2/core.hpp>
 
-#include "fathom/datasets/floor_renderer.hpp"
+#include "floor_renderer.hpp"
 
 namespace fathom {
 

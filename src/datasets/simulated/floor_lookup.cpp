@@ -5,7 +5,7 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "fathom/datasets/floor_renderer.hpp"
+#include "floor_renderer.hpp"
 
 namespace fathom {
 namespace {

@@ -1,4 +1,4 @@
-#include "fathom/datasets/floor_renderer.hpp"
+#include "floor_renderer.hpp"
 
 #include <algorithm>
 #include <cmath>

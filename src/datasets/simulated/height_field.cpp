@@ -1,4 +1,4 @@
-#include "fathom/datasets/height_field.hpp"
+#include "height_field.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "fathom/datasets/picture_effects.hpp"
+#include "picture_effects.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "fathom/datasets/sea_floor.hpp"
+#include "sea_floor.hpp"
 
 #include <memory>
 

@@ -5,9 +5,9 @@
 
 #include <Eigen/Geometry>
 
-#include "fathom/datasets/floor_renderer.hpp"
 #include "fathom/datasets/frame_source.hpp"
-#include "fathom/datasets/world.hpp"
+#include "floor_renderer.hpp"
+#include "world.hpp"
 
 namespace fathom {
 

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "fathom/datasets/data_set.hpp"
-#include "fathom/datasets/simulated_survey.hpp"
+#include "simulated_survey.hpp"
 
 namespace fathom {
 namespace {

@@ -1,4 +1,4 @@
-#include "fathom/datasets/simulated_survey.hpp"
+#include "simulated_survey.hpp"
 
 #include <algorithm>
 #include <atomic>

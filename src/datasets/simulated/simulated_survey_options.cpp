@@ -1,6 +1,6 @@
 #include <utility>
 
-#include "fathom/datasets/simulated_survey.hpp"
+#include "simulated_survey.hpp"
 
 namespace fathom {
 

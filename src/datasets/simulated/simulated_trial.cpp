@@ -5,7 +5,7 @@
 
 #include "checked_options.hpp"
 #include "fathom/core/random.hpp"
-#include "fathom/datasets/simulated_survey.hpp"
+#include "simulated_survey.hpp"
 
 namespace fathom {
 

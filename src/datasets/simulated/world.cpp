@@ -1,4 +1,4 @@
-#include "fathom/datasets/world.hpp"
+#include "world.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "fathom/datasets/simulated_log.hpp"
+#include "simulated_log.hpp"
 
 #include <algorithm>
 

@@ -4,7 +4,7 @@
 
 #include "fathom/core/input_error.hpp"
 #include "fathom/datasets/data_set.hpp"
-#include "fathom/datasets/simulated_log.hpp"
+#include "simulated_log.hpp"
 
 namespace fathom {
 namespace {

@@ -1,6 +1,6 @@
 #include <utility>
 
-#include "fathom/datasets/simulated_log.hpp"
+#include "simulated_log.hpp"
 
 namespace fathom {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "fathom/core/random.hpp"
-#include "fathom/datasets/floor_renderer.hpp"
+#include "src/datasets/simulated/floor_renderer.hpp"
 
 namespace fathom::test {
 

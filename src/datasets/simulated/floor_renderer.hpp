@@ -6,11 +6,11 @@
 #include <Eigen/Geometry>
 #include <opencv2/core.hpp>
 
-#include "fathom/datasets/attitude.hpp"
-#include "fathom/datasets/picture_effects.hpp"
-#include "fathom/datasets/world.hpp"
+#include "attitude.hpp"
 #include "fathom/geometry/pose.hpp"
 #include "fathom/vision/camera.hpp"
+#include "picture_effects.hpp"
+#include "world.hpp"
 
 namespace fathom {
 

@@ -4,18 +4,18 @@
 #include <memory>
 #include <vector>
 
+#include "attitude.hpp"
 #include "fathom/core/ignored_key.hpp"
 #include "fathom/core/options.hpp"
-#include "fathom/datasets/attitude.hpp"
 #include "fathom/datasets/camera_options.hpp"
-#include "fathom/datasets/floor_renderer.hpp"
 #include "fathom/datasets/frame_source.hpp"
 #include "fathom/datasets/mission.hpp"
 #include "fathom/datasets/motion_noise.hpp"
-#include "fathom/datasets/picture_effects.hpp"
 #include "fathom/datasets/simulated_sensors.hpp"
 #include "fathom/datasets/start_options.hpp"
-#include "fathom/datasets/world.hpp"
+#include "floor_renderer.hpp"
+#include "picture_effects.hpp"
+#include "world.hpp"
 
 namespace fathom {
 

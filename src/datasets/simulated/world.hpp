@@ -10,9 +10,9 @@
 
 #include "fathom/core/hash.hpp"
 #include "fathom/core/options.hpp"
-#include "fathom/datasets/height_field.hpp"
-#include "fathom/datasets/sea_floor.hpp"
 #include "fathom/geometry/pose.hpp"
+#include "height_field.hpp"
+#include "sea_floor.hpp"
 
 namespace fathom {
 
