@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <numbers>
 
 #include "fathom/core/input_error.hpp"
@@ -46,14 +47,13 @@ void warn(FolderSummary& summary, const std::vector<std::size_t>& frames, const 
 
 void sum_up_camera(const FrameSource& source, FolderSummary& summary) {
   const CameraModel& model = source.camera().model();
-  summary.facts.push_back("camera: " + std::to_string(model.width) + " x " +
-                          std::to_string(model.height) + " pixels, f " + number(model.fx, 6) +
-                          ", " + number(model.fy, 6) + ", centre " + number(model.cx, 6) + ", " +
-                          number(model.cy, 6) +
-                          (model.has_distortion() ? ", with distortion" : ", no distortion"));
-  summary.facts.push_back("mounting: x " + number(model.mount_x_m) + " m, y " +
-                          number(model.mount_y_m) + " m, yaw " + number(model.mount_yaw_rad) +
-                          " rad");
+  summary.facts.push_back(
+      fmt::format("camera: {} x {} pixels, f {}, {}, centre {}, {}, {} distortion", model.width,
+                  model.height, number(model.fx, 6), number(model.fy, 6), number(model.cx, 6),
+                  number(model.cy, 6), model.has_distortion() ? "with" : "no"));
+  summary.facts.push_back(fmt::format("mounting: x {} m, y {} m, yaw {} rad",
+                                      number(model.mount_x_m), number(model.mount_y_m),
+                                      number(model.mount_yaw_rad)));
   const bool centred = model.cx > 0.25 * model.width && model.cx < 0.75 * model.width &&
                        model.cy > 0.25 * model.height && model.cy < 0.75 * model.height;
   if (!centred) summary.warnings.emplace_back("the optical axis is far from the picture's middle");
@@ -62,8 +62,8 @@ void sum_up_camera(const FrameSource& source, FolderSummary& summary) {
 void sum_up_time(const FrameSource& source, FolderSummary& summary) {
   const std::int64_t start_ns = source.info(0).time_ns;
   const std::int64_t end_ns = source.info(source.size() - 1).time_ns;
-  summary.facts.push_back("frames: " + std::to_string(source.size()) + " in " +
-                          number(static_cast<double>(end_ns - start_ns) * 1e-9, 6) + " s");
+  summary.facts.push_back(fmt::format("frames: {} in {} s", source.size(),
+                                      number(static_cast<double>(end_ns - start_ns) * 1e-9, 6)));
   if (source.size() < 2) return;
   const auto interval = [&](std::size_t i) {
     return static_cast<double>(source.info(i).time_ns - source.info(i - 1).time_ns);
@@ -93,8 +93,8 @@ void sum_up_altitude(const FrameSource& source, FolderSummary& summary) {
   }
   const CameraModel& model = source.camera().model();
   const double focal = std::sqrt(model.fx * model.fy);
-  summary.facts.push_back("altitude: " + range(low_m, high_m) + " m, " +
-                          range(1e3 * low_m / focal, 1e3 * high_m / focal) + " mm per pixel");
+  summary.facts.push_back(fmt::format("altitude: {} m, {} mm per pixel", range(low_m, high_m),
+                                      range(1e3 * low_m / focal, 1e3 * high_m / focal)));
   warn(summary, jumps, "altitude changes by more than half from the frame before");
 }
 
@@ -126,8 +126,8 @@ void compare_with_truth(const FrameSource& source, const Pose& reckoned, double 
   const Pose truth =
       between(*source.info(0).ground_truth, *source.info(source.size() - 1).ground_truth);
   const double drift_m = (reckoned.position() - truth.position()).norm();
-  summary.facts.push_back("odometry drift at the end: " + number(drift_m) + " m, " +
-                          percent(drift_m / path_m) + " of the path");
+  summary.facts.push_back(fmt::format("odometry drift at the end: {} m, {} of the path",
+                                      number(drift_m), percent(drift_m / path_m)));
   constexpr double kDrift = 0.2;
   if (drift_m > kDrift * path_m) {
     summary.warnings.emplace_back(
@@ -164,9 +164,9 @@ void sum_up_odometry(const FrameSource& source, FolderSummary& summary) {
 void sum_up_ground_truth(const FrameSource& source, FolderSummary& summary) {
   std::size_t known = 0;
   for (std::size_t i = 0; i < source.size(); ++i) known += source.info(i).ground_truth ? 1 : 0;
-  const std::string all = std::to_string(source.size());
-  summary.facts.push_back("ground truth: " +
-                          (known == 0 ? "none" : std::to_string(known) + " of " + all + " frames"));
+  summary.facts.push_back(
+      "ground truth: " +
+      (known == 0 ? "none" : fmt::format("{} of {} frames", known, source.size())));
   if (known > 0 && known < source.size()) {
     summary.warnings.emplace_back(
         "ground truth does not cover every frame, so no accuracy is "

@@ -3,6 +3,7 @@
 #include <array>
 #include <dlfcn.h>
 #include <exception>
+#include <fmt/format.h>
 #include <string>
 #include <utility>
 
@@ -55,10 +56,10 @@ const PluginInterface& interface_of(const std::filesystem::path& file) {
 
 void require_version(const std::filesystem::path& file, const PluginInterface& plugin) {
   if (plugin.version == kPluginVersion) return;
-  throw InputError(file.string(), "was made for version " + std::to_string(plugin.version) +
-                                      " of the plug-in interface, this program has version " +
-                                      std::to_string(kPluginVersion) +
-                                      "; build it against the installed Fathom");
+  throw InputError(file.string(),
+                   fmt::format("was made for version {} of the plug-in interface, this program has "
+                               "version {}; build it against the installed Fathom",
+                               plugin.version, kPluginVersion));
 }
 
 void require_build(const std::filesystem::path& file, const PluginBuild& plugin) {
@@ -72,10 +73,10 @@ void require_build(const std::filesystem::path& file, const PluginBuild& plugin)
        {"the size of a described estimator", &PluginBuild::entry_bytes}}};
   for (const auto& [what, field] : all) {
     if (plugin.*field == own.*field) continue;
-    throw InputError(file.string(), std::string("was compiled otherwise than this program: ") +
-                                        what + " is " + std::to_string(plugin.*field) +
-                                        ", expected " + std::to_string(own.*field) +
-                                        "; build it with the same flags against the same packages");
+    throw InputError(file.string(),
+                     fmt::format("was compiled otherwise than this program: {} is {}, expected {}; "
+                                 "build it with the same flags against the same packages",
+                                 what, plugin.*field, own.*field));
   }
 }
 

@@ -1,5 +1,7 @@
 #include "fathom/front_end/keyframes.hpp"
 
+#include <fmt/format.h>
+
 #include "fathom/core/input_error.hpp"
 #include "fathom/core/text.hpp"
 #include "fathom/geometry/pose.hpp"
@@ -57,9 +59,9 @@ InputError single_keyframe(const KeyframeOptions& keyframes, std::size_t frames)
                       "front_end.keyframes.separation_frames");
   }
   return InputError(
-      "front_end.keyframes.separation_frames: " + std::to_string(*keyframes.separation_frames) +
-      " leads beyond the last of " + count + ", so there is a single keyframe; expected at most " +
-      std::to_string(frames - 1));
+      fmt::format("front_end.keyframes.separation_frames: {} leads beyond the last of {}, so there "
+                  "is a single keyframe; expected at most {}",
+                  *keyframes.separation_frames, count, frames - 1));
 }
 
 }  // namespace fathom

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 
 #include "fathom/core/files.hpp"
 #include "fathom/core/input_error.hpp"
@@ -71,9 +72,9 @@ std::vector<std::int64_t> times_of_kitti(const TrajectorySource& source, const L
   }
   times_ns = read_times(source.times);
   if (times_ns.size() == lines.size()) return times_ns;
-  throw InputError(source.times.string(), "has " + std::to_string(times_ns.size()) +
-                                              " time stamps, " + source.path.string() + " " +
-                                              std::to_string(lines.size()) + " poses");
+  throw InputError(source.times.string(),
+                   fmt::format("has {} time stamps, {} {} poses", times_ns.size(),
+                               source.path.string(), lines.size()));
 }
 
 std::vector<StampedSpatialPose> read_kitti(const TrajectorySource& source, const Lines& lines) {
@@ -110,9 +111,9 @@ SpatialTrajectory read_trajectory(const TrajectorySource& source) {
                                       : recognised(lines.front());
   const bool is_kitti = trajectory.format == TrajectoryFormat::kitti;
   if (!source.times.empty() && !is_kitti) {
-    throw InputError(name, "is a " + title_of(trajectory.format) +
-                               " trajectory, which has times of its own; " + source.times.string() +
-                               " can be for a KITTI trajectory alone");
+    throw InputError(name, fmt::format("is a {} trajectory, which has times of its own; {} can be "
+                                       "for a KITTI trajectory alone",
+                                       title_of(trajectory.format), source.times.string()));
   }
   if (trajectory.format == TrajectoryFormat::tum) {
     trajectory.poses = rising(lines, tum_pose, "sort -u -k1,1n");

@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <fmt/format.h>
 
 #include <Eigen/LU>
 #include <Eigen/SVD>
@@ -34,7 +35,7 @@ Eigen::Quaterniond quaternion(const LineOfFile& line, double w, double x, double
   const double norm_squared = w * w + x * x + y * y + z * z;
   // Few digits are no fault; what is far from 1 is no quaternion, or another column.
   if (!(norm_squared > 0.5 && norm_squared < 2.0)) {
-    line.refuse(order + " must have length 1, not " + std::to_string(std::sqrt(norm_squared)));
+    line.refuse(fmt::format("{} must have length 1, not {:f}", order, std::sqrt(norm_squared)));
   }
   return {w, x, y, z};
 }
@@ -86,8 +87,8 @@ std::vector<LineOfFile> lines_of(std::string_view content, const std::string& na
 std::int64_t time_of(const LineOfFile& line, std::string_view seconds) {
   const double approximate = real(line, seconds);
   if (std::abs(approximate) > 9e9) {
-    line.refuse("the time stamp " + in_quotes(seconds) + " is not in seconds" +
-                (approximate > 9e16 ? " but, it seems, nanoseconds" : ""));
+    line.refuse(fmt::format("the time stamp {} is not in seconds{}", in_quotes(seconds),
+                            approximate > 9e16 ? " but, it seems, nanoseconds" : ""));
   }
   if (seconds.front() == '+') seconds.remove_prefix(1);
   long double value = 0.0L;

@@ -2,6 +2,7 @@
 
 #include <csignal>
 #include <cstring>
+#include <fmt/format.h>
 #include <sstream>
 
 namespace fathom {
@@ -19,8 +20,8 @@ ChildFailure failure_of(const ChildEnd& end, const ChildLimits& limits) {
     failure = {Outcome::out_of_memory,
                "found no memory within " + std::to_string(limits.memory_bytes >> 20) + " MiB"};
   } else if (end.signal != 0) {
-    failure = {Outcome::crashed, "was ended by signal " + std::to_string(end.signal) + " (" +
-                                     ::strsignal(end.signal) + ")"};
+    failure = {Outcome::crashed,
+               fmt::format("was ended by signal {} ({})", end.signal, ::strsignal(end.signal))};
   } else {
     failure = {Outcome::crashed,
                "ended its process itself, with status " + std::to_string(end.exit_status)};

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <exception>
+#include <fmt/format.h>
 #include <limits>
 #include <new>
 #include <stdexcept>
@@ -25,8 +26,7 @@ bool is_of(const LoopDecision& loop, const RelativePose& z) {
 
 void require_count(std::size_t count, std::size_t expected, const char* of_what) {
   if (count == expected) return;
-  throw ContractViolation("has " + std::to_string(count) + " " + of_what + ", expected " +
-                          std::to_string(expected));
+  throw ContractViolation(fmt::format("has {} {}, expected {}", count, of_what, expected));
 }
 
 // The others are outcomes of a process.
@@ -68,7 +68,7 @@ GuardedEstimator::GuardedEstimator(const EstimatorEntry& entry, const EstimatorS
 template <class Call>
 void GuardedEstimator::guarded(const char* what, Call call) const {
   if (!fault_.empty()) return;
-  const auto at = [&] { return std::string(what) + " at keyframe " + std::to_string(size_ - 1); };
+  const auto at = [&] { return fmt::format("{} at keyframe {}", what, size_ - 1); };
   try {
     call();
   } catch (const std::bad_alloc&) {
@@ -89,8 +89,7 @@ void GuardedEstimator::check_size(const char* call) const {
   guarded(call, [&] {
     const std::size_t size = estimator_->size();
     if (size != size_) {
-      throw ContractViolation("size() is " + std::to_string(size) + ", expected " +
-                              std::to_string(size_));
+      throw ContractViolation(fmt::format("size() is {}, expected {}", size, size_));
     }
   });
 }
@@ -146,15 +145,14 @@ UpdateReport GuardedEstimator::update(const Measurements& measurements) {
     require_count(report.loops.size(), registrations.size(), "decisions on registrations");
     for (std::size_t j = 0; j < registrations.size(); ++j) {
       if (is_of(report.loops[j], registrations[j])) continue;
-      throw ContractViolation("decision " + std::to_string(j) +
-                              " is on other keyframes than registration " + std::to_string(j));
+      throw ContractViolation(
+          fmt::format("decision {0} is on other keyframes than registration {0}", j));
     }
     require_count(report.absolute.size(), absolute.size(), "decisions on absolute measurements");
     for (std::size_t j = 0; j < absolute.size(); ++j) {
       if (report.absolute[j].keyframe == absolute[j].keyframe) continue;
-      throw ContractViolation("decision " + std::to_string(j) +
-                              " is on another keyframe than absolute measurement " +
-                              std::to_string(j));
+      throw ContractViolation(
+          fmt::format("decision {0} is on another keyframe than absolute measurement {0}", j));
     }
   });
   check_size("update");

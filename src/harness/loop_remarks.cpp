@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -50,9 +51,9 @@ Pass nearest_pass(const std::vector<Pose>& poses, double reach_m) {
 std::string no_candidates(const Recording& recording) {
   const Spread& reach_m = recording.in_metres->reach_m;
   const Pass pass = nearest_pass(recording.log.odometry(), reach_m.most);
-  std::string text = "no loop candidates among " + std::to_string(recording.log.size()) +
-                     " keyframes: none has an earlier one within reach, " + range_text(reach_m) +
-                     " m; ";
+  std::string text = fmt::format(
+      "no loop candidates among {} keyframes: none has an earlier one within reach, {} m; ",
+      recording.log.size(), range_text(reach_m));
   if (!std::isfinite(pass.distance_m)) {
     return text +
            "by dead reckoning the path never returns to where it was, so there is nothing to "
@@ -65,13 +66,13 @@ std::string no_candidates(const Recording& recording) {
 }
 
 std::string none_registered(const Recording& recording, const FrontEndOptions& options) {
-  return "0 of " + std::to_string(recording.registrations_tried) +
-         " candidate pairs registered: in the best of them " +
-         std::to_string(recording.most_refused_inliers) + " matches agree, where at least " +
-         std::to_string(options.registration.ransac.min_inliers) +
-         " are needed, and more than chance would bring together: look at altitude and focal "
-         "length, at the pictures' texture ('fathom check DIR'), and at a pair that should match "
-         "('fathom register A B')";
+  return fmt::format(
+      "0 of {} candidate pairs registered: in the best of them {} matches agree, where at least {} "
+      "are needed, and more than chance would bring together: look at altitude and focal length, "
+      "at the pictures' texture ('fathom check DIR'), and at a pair that should match ('fathom "
+      "register A B')",
+      recording.registrations_tried, recording.most_refused_inliers,
+      options.registration.ransac.min_inliers);
 }
 
 // Pairs of keyframes that share enough floor for a registration to be expected.
@@ -99,16 +100,16 @@ Overlapping overlapping(const Recording& recording, std::span<const Pose> estima
 }
 
 std::string few_registered(const Recording& recording, const Overlapping& count) {
-  return std::to_string(count.registered) + " registrations, where by the estimate " +
-         std::to_string(count.pairs) + " pairs of keyframes share 30 % of a picture or more (" +
-         std::to_string(recording.registrations_tried) + " tried, " +
-         std::to_string(recording.log.registration_count()) + " found" +
-         (recording.registrations_left_out > 0
-              ? ", " + std::to_string(recording.registrations_left_out) + " beyond the budget"
-              : "") +
-         "; of those refused the best has " + std::to_string(recording.most_refused_inliers) +
-         " matches that agree): altitude and focal length, the pictures' texture and blur, or a "
-         "larger front_end.ransac.max_error_px";
+  return fmt::format(
+      "{} registrations, where by the estimate {} pairs of keyframes share 30 % of a picture or "
+      "more ({} tried, {} found{}; of those refused the best has {} matches that agree): altitude "
+      "and focal length, the pictures' texture and blur, or a larger front_end.ransac.max_error_px",
+      count.registered, count.pairs, recording.registrations_tried,
+      recording.log.registration_count(),
+      recording.registrations_left_out > 0
+          ? fmt::format(", {} beyond the budget", recording.registrations_left_out)
+          : "",
+      recording.most_refused_inliers);
 }
 
 // How long registered motions are in units of dead reckoning's, where that is sure of its own.
@@ -146,11 +147,11 @@ std::optional<std::string> wrong_scale(const Recording& recording) {
   std::nth_element(ratios.begin(), middle, ratios.end());
   const double factor = *middle;
   if (factor < kFactor && factor > 1.0 / kFactor) return std::nullopt;
-  return "registered motions are " + short_number(factor) +
-         " times as long as dead reckoning has them (median of " + std::to_string(ratios.size()) +
-         " between near keyframes): the altitude or the focal length is too " +
-         (factor > 1.0 ? "large" : "small") +
-         " by this factor, or dead reckoning is; 3.28 is feet for metres";
+  return fmt::format(
+      "registered motions are {} times as long as dead reckoning has them (median of {} between "
+      "near keyframes): the altitude or the focal length is too {} by this factor, or dead "
+      "reckoning is; 3.28 is feet for metres",
+      short_number(factor), ratios.size(), factor > 1.0 ? "large" : "small");
 }
 
 }  // namespace

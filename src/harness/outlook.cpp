@@ -1,6 +1,7 @@
 #include "fathom/harness/outlook.hpp"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <utility>
 
 #include "fathom/core/text.hpp"
@@ -58,17 +59,17 @@ Outlook outlook(const FrameSource& frames, const FrontEndOptions& options) {
 }
 
 std::vector<std::string> facts_of(const Outlook& outlook) {
-  std::vector<std::string> facts{"footprint: " + short_number(outlook.footprint_width_m) + " m x " +
-                                 short_number(outlook.footprint_height_m) +
-                                 " m from the median altitude"};
+  std::vector<std::string> facts{fmt::format("footprint: {} m x {} m from the median altitude",
+                                             short_number(outlook.footprint_width_m),
+                                             short_number(outlook.footprint_height_m))};
   if (const auto& metres = outlook.in_metres) {
-    facts.push_back("keyframes: " + std::to_string(outlook.keyframes) + ", " +
-                    range_text(metres->step_m, " m") + " apart, median " +
-                    short_number(metres->step_m.median) + " m");
-    facts.push_back(
-        "candidates by dead reckoning: " + std::to_string(outlook.consecutive_candidates) +
-        " of consecutive keyframes, " + std::to_string(outlook.other_candidates) +
-        " others, within " + range_text(metres->reach_m, " m"));
+    facts.push_back(fmt::format("keyframes: {}, {} apart, median {} m", outlook.keyframes,
+                                range_text(metres->step_m, " m"),
+                                short_number(metres->step_m.median)));
+    facts.push_back(fmt::format(
+        "candidates by dead reckoning: {} of consecutive keyframes, {} others, within {}",
+        outlook.consecutive_candidates, outlook.other_candidates,
+        range_text(metres->reach_m, " m")));
     facts.push_back("a match agrees within " + range_text(metres->max_error_m, " m"));
   }
   if (!outlook.features.empty()) {
@@ -96,10 +97,10 @@ std::vector<std::string> warnings_of(const Outlook& outlook, const FrontEndOptio
   const auto few = kFew * static_cast<std::size_t>(options.registration.ransac.min_inliers);
   for (const auto& [frame, count] : outlook.features) {
     if (count >= few) continue;
-    warnings.push_back("picture " + std::to_string(frame) + " has " + std::to_string(count) +
-                       " features; a registration needs " +
-                       std::to_string(options.registration.ransac.min_inliers) +
-                       " of them to agree: too little texture, too dark or blurred");
+    warnings.push_back(
+        fmt::format("picture {} has {} features; a registration needs {} of them to agree: too "
+                    "little texture, too dark or blurred",
+                    frame, count, options.registration.ransac.min_inliers));
   }
   return warnings;
 }

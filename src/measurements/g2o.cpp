@@ -1,6 +1,7 @@
 #include "fathom/measurements/g2o.hpp"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <map>
 #include <utility>
 #include <vector>
@@ -136,9 +137,8 @@ G2oFile wanted_component(G2oFile file, const GraphOptions& options, const std::s
   if (options.component) {
     index = static_cast<std::size_t>(*options.component) - 1;
     if (index >= count) {
-      throw InputError(name, "has no component " + std::to_string(*options.component) +
-                                 "; expected 1" +
-                                 (count > 1 ? " to " + std::to_string(count) : ""));
+      throw InputError(name, fmt::format("has no component {}; expected 1{}", *options.component,
+                                         count > 1 ? " to " + std::to_string(count) : ""));
     }
     if (count > 1) file = component_of(file, components, index);
     check_fixed(file, fault);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <fmt/format.h>
 #include <string_view>
 #include <utility>
 
@@ -36,8 +37,8 @@ Eigen::Matrix3d toro_information(const std::array<double, 6>& v) {
 
 void expect_fields(const Fields& fields, std::size_t count, const std::string& what) {
   if (fields.size() == count) return;
-  fail(std::string(fields.front()) + " takes " + what + " (" + std::to_string(count - 1) +
-       " values), got " + std::to_string(fields.size() - 1));
+  fail(fmt::format("{} takes {} ({} values), got {}", fields.front(), what, count - 1,
+                   fields.size() - 1));
 }
 
 std::int64_t integer(std::string_view text) {
@@ -151,8 +152,7 @@ class Scanner {
     const std::int64_t id = integer(fields[1]);
     const Pose pose = read_pose(fields, 2);
     if (!file_.vertices.emplace(id, G2oFile::Vertex{pose, file_.lines}).second) {
-      fail("vertex " + std::to_string(id) + " was defined on line " +
-           std::to_string(file_.vertices.at(id).line) + " already");
+      fail(fmt::format("vertex {} was defined on line {} already", id, file_.vertices.at(id).line));
     }
   }
 

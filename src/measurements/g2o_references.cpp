@@ -1,6 +1,7 @@
 // What the lines of a g2o file say together.
 
 #include <algorithm>
+#include <fmt/format.h>
 
 #include "g2o_file.hpp"
 
@@ -56,9 +57,8 @@ void check_fixed(const G2oFile& file, const G2oFault& fault) {
   const std::int64_t lowest = keyframes.begin()->first;
   for (const G2oFile::Fixed& fixed : file.fixed) {
     if (fixed.id != lowest) {
-      fault(fixed.line, "FIX " + std::to_string(fixed.id) + ": only the lowest id (" +
-                            std::to_string(lowest) + ") can be fixed" +
-                            (file.priors.empty() ? ", and it always is" : ""));
+      fault(fixed.line, fmt::format("FIX {}: only the lowest id ({}) can be fixed{}", fixed.id,
+                                    lowest, file.priors.empty() ? ", and it always is" : ""));
     }
   }
 }

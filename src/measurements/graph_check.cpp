@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <limits>
 
 #include <Eigen/Eigenvalues>
@@ -104,7 +105,7 @@ GraphSummary summarise_graph(const std::filesystem::path& path) {
   const std::string content = read_text(path);
   GraphSummary summary;
   const G2oFault fault = [&](std::size_t line, const std::string& what) {
-    summary.faults.push_back(path.string() + ":" + std::to_string(line) + ": " + what);
+    summary.faults.push_back(fmt::format("{}:{}: {}", path.string(), line, what));
   };
   G2oFile file = scan_g2o(content, fault);
   if (file.edges.empty() && file.vertices.empty()) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <set>
 
 #include "fathom/core/disjoint_sets.hpp"
@@ -145,20 +146,18 @@ std::string several_components(const GraphComponents& components) {
   const auto& members = components.members;
   const auto component = [&](std::size_t i) {
     const std::size_t poses = members[i].size();
-    const std::string first = std::to_string(components.ids[members[i].front()]);
-    return std::to_string(i + 1) + ": " + std::to_string(poses) +
-           (poses == 1
-                ? " pose, " + first
-                : " poses, " + first + " to " + std::to_string(components.ids[members[i].back()]));
+    const std::int64_t first = components.ids[members[i].front()];
+    return poses == 1 ? fmt::format("{}: 1 pose, {}", i + 1, first)
+                      : fmt::format("{}: {} poses, {} to {}", i + 1, poses, first,
+                                    components.ids[members[i].back()]);
   };
   const auto border = [&](std::size_t i) {
-    return std::to_string(components.borders[i].first) + "|" +
-           std::to_string(components.borders[i].second);
+    return fmt::format("{}|{}", components.borders[i].first, components.borders[i].second);
   };
-  return "the graph has " + std::to_string(members.size()) +
-         " components, which no edge and no prior joins (" + listed(members, "; ", component) +
-         "), with borders at " + listed(components.borders, ", ", border) +
-         "; expected one: --component K or dataset.component takes it";
+  return fmt::format(
+      "the graph has {} components, which no edge and no prior joins ({}), with borders at {}; "
+      "expected one: --component K or dataset.component takes it",
+      members.size(), listed(members, "; ", component), listed(components.borders, ", ", border));
 }
 
 void check_held(const G2oFile& file, const GraphComponents& components, std::size_t index,
@@ -169,10 +168,10 @@ void check_held(const G2oFile& file, const GraphComponents& components, std::siz
   };
   const bool is_placed = std::any_of(file.priors.begin(), file.priors.end(), has_position);
   fault(file.priors.front().line,
-        std::string("no vertex is fixed, and the priors do not say the ") +
-            (is_placed ? "heading (or a direction of the position)" : "position") +
-            " of the graph; expected a prior that says it, or FIX " +
-            std::to_string(components.ids[components.members[index].front()]));
+        fmt::format("no vertex is fixed, and the priors do not say the {} of the graph; expected a "
+                    "prior that says it, or FIX {}",
+                    is_placed ? "heading (or a direction of the position)" : "position",
+                    components.ids[components.members[index].front()]));
 }
 
 G2oFile component_of(const G2oFile& file, const GraphComponents& components, std::size_t index) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <fmt/format.h>
 
 #include <Eigen/Cholesky>
 
@@ -57,9 +58,9 @@ class Spoiler {
         return group;
       }
     }
-    throw InputError("the keyframes lie so close together that no false loop could be off by " +
-                     std::to_string(options_.min_offset_m) + " m or " +
-                     std::to_string(options_.min_offset_rad) + " rad");
+    throw InputError(fmt::format(
+        "the keyframes lie so close together that no false loop could be off by {:f} m or {:f} rad",
+        options_.min_offset_m, options_.min_offset_rad));
   }
 
   RelativePose draw_one() {

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -111,11 +112,11 @@ MeasurementLog with_start_of_priors(const MeasurementLog& log, const std::string
                                " say its pose only where they overlap, and a filter starts from "
                                "one; expected one EDGE_PRIOR_SE2 in their place, or --mode batch");
   }
-  throw InputError(name, "no vertex is fixed, and the priors of the first pose, " + id +
-                             ", do not say its " + what_not +
-                             ", which a run keyframe by keyframe starts from; expected an "
-                             "EDGE_PRIOR_SE2 of it, FIX " +
-                             id + ", or --mode batch");
+  throw InputError(name,
+                   fmt::format("no vertex is fixed, and the priors of the first pose, {0}, do not "
+                               "say its {1}, which a run keyframe by keyframe starts from; "
+                               "expected an EDGE_PRIOR_SE2 of it, FIX {0}, or --mode batch",
+                               id, what_not));
 }
 
 }  // namespace fathom

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <limits>
 #include <string>
 
@@ -41,8 +42,8 @@ Eigen::Vector2d one_metre_below(const Eigen::Vector3d& direction) {
 
 void require_numbers(const CameraModel& model) {
   if (model.width <= 0 || model.height <= 0) {
-    throw InputError("camera resolution must be positive, got " + std::to_string(model.width) +
-                     " x " + std::to_string(model.height));
+    throw InputError(
+        fmt::format("camera resolution must be positive, got {} x {}", model.width, model.height));
   }
   if (!(model.fx > 0.0) || !(model.fy > 0.0) || !std::isfinite(model.fx) ||
       !std::isfinite(model.fy)) {
@@ -165,8 +166,8 @@ std::array<Eigen::Vector2d, 4> Camera::footprint(const Stance& stance) const {
       floor_point({-0.5, -0.5}, stance), floor_point({right, -0.5}, stance),
       floor_point({right, bottom}, stance), floor_point({-0.5, bottom}, stance)};
   if (!stance.is_level() && !std::ranges::all_of(corners, &Eigen::Vector2d::allFinite)) {
-    throw InputError("a camera tilted by " + std::to_string(stance.tilt.roll_rad) + " and " +
-                     std::to_string(stance.tilt.pitch_rad) + " rad sees the horizon");
+    throw InputError(fmt::format("a camera tilted by {:f} and {:f} rad sees the horizon",
+                                 stance.tilt.roll_rad, stance.tilt.pitch_rad));
   }
   return corners;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <fmt/format.h>
 
 #include "fathom/core/chi_squared.hpp"
 
@@ -45,11 +46,11 @@ std::string reason_to_refuse(const Evidence& evidence, const RegistrationOptions
   const RansacOptions& ransac = options.ransac;
   const std::string agree = std::to_string(evidence.support) + " matches agree";
   if (evidence.support < ransac.min_inliers) {
-    return agree + ", " + std::to_string(ransac.min_inliers) + " are needed";
+    return fmt::format("{}, {} are needed", agree, ransac.min_inliers);
   }
-  const std::string places = agree + ", in " + std::to_string(evidence.places) + " places";
+  const std::string places = fmt::format("{}, in {} places", agree, evidence.places);
   if (evidence.places < ransac.min_places) {
-    return places + ", " + std::to_string(ransac.min_places) + " are needed";
+    return fmt::format("{}, {} are needed", places, ransac.min_places);
   }
   const double most = options.decision.max_false_alarms;
   if (evidence.false_alarms > most) {

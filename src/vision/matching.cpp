@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cblas.h>
 #include <cmath>
+#include <fmt/format.h>
 #include <limits>
 #include <mutex>
 
@@ -116,9 +117,9 @@ NearestRows find_hamming(const cv::Mat& from, const cv::Mat& to) {
 void require_same_kind(const cv::Mat& from, const cv::Mat& to) {
   const bool known = from.type() == CV_32F || from.type() == CV_8U;
   if (!known || from.type() != to.type() || from.cols != to.cols) {
-    throw InputError("descriptors must be of one kind to be matched, got " +
-                     std::to_string(from.cols) + " x " + cv::typeToString(from.type()) + " and " +
-                     std::to_string(to.cols) + " x " + cv::typeToString(to.type()));
+    throw InputError(fmt::format(
+        "descriptors must be of one kind to be matched, got {} x {} and {} x {}", from.cols,
+        cv::typeToString(from.type()), to.cols, cv::typeToString(to.type())));
   }
 }
 

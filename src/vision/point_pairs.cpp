@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <string>
 
 #include "fathom/core/input_error.hpp"
@@ -34,8 +35,8 @@ struct Rigid {
 
 PointPairs::PointPairs(std::span<const Eigen::Vector2d> p, std::span<const Eigen::Vector2d> q) {
   if (p.size() != q.size()) {
-    throw InputError("matched points must come in pairs, got " + std::to_string(p.size()) +
-                     " and " + std::to_string(q.size()));
+    throw InputError(
+        fmt::format("matched points must come in pairs, got {} and {}", p.size(), q.size()));
   }
   for (std::size_t j = 0; j < p.size(); ++j) {
     px_.push_back(p[j].x());

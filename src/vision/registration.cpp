@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <fmt/format.h>
 #include <utility>
 
 #include "decision.hpp"
@@ -16,8 +17,8 @@ namespace {
 void require_points(const FloorFeatures& picture) {
   const std::size_t rows = static_cast<std::size_t>(picture.features.descriptors.rows);
   if (picture.points.size() != rows) {
-    throw InputError("features need a point for each descriptor, got " +
-                     std::to_string(picture.points.size()) + " and " + std::to_string(rows));
+    throw InputError(fmt::format("features need a point for each descriptor, got {} and {}",
+                                 picture.points.size(), rows));
   }
   const bool sized = !picture.sizes_m.empty() || !picture.headings_rad.empty();
   if (sized && (picture.sizes_m.size() != rows || picture.headings_rad.size() != rows)) {
@@ -35,19 +36,17 @@ std::vector<Match> picked(const MatchSet& set, const std::vector<int>& indices) 
 }
 
 std::string too_few(std::size_t matches, const RansacOptions& options) {
-  return std::to_string(matches) + " matches, " + std::to_string(options.min_inliers) +
-         " are needed";
+  return fmt::format("{} matches, {} are needed", matches, options.min_inliers);
 }
 
 std::string why_not(const Consensus& consensus, std::size_t matches, const RansacOptions& options) {
   if (static_cast<int>(matches) < options.min_inliers) return too_few(matches, options);
-  const std::string agree =
-      std::to_string(consensus.most_inliers) + " of " + std::to_string(matches) + " matches agree";
+  const std::string agree = fmt::format("{} of {} matches agree", consensus.most_inliers, matches);
   if (consensus.most_inliers < options.min_inliers) {
-    return agree + ", " + std::to_string(options.min_inliers) + " are needed";
+    return fmt::format("{}, {} are needed", agree, options.min_inliers);
   }
-  return agree + ", in " + std::to_string(consensus.most_places) + " places, " +
-         std::to_string(options.min_places) + " are needed";
+  return fmt::format("{}, in {} places, {} are needed", agree, consensus.most_places,
+                     options.min_places);
 }
 
 std::string no_hypothesis(std::size_t putative, const RegistrationOptions& options) {
@@ -149,10 +148,9 @@ std::optional<Registration> refused_at_first(const Pair& pair) {
     return std::nullopt;
   }
   result.inliers = picked(nearest, best.support);
-  const std::string reason = of + std::to_string(result.evidence.support) + " matches agree, in " +
-                             std::to_string(result.evidence.places) +
-                             " places; another motion has " +
-                             std::to_string(result.evidence.rival_places);
+  const std::string reason =
+      fmt::format("{}{} matches agree, in {} places; another motion has {}", of,
+                  result.evidence.support, result.evidence.places, result.evidence.rival_places);
   return refused(std::move(result), reason);
 }
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <fmt/format.h>
 #include <string>
 #include <vector>
 
@@ -12,8 +13,7 @@ namespace {
 
 void require_pairs(std::size_t p_count, std::size_t q_count) {
   if (p_count != q_count) {
-    throw InputError("points must come in pairs, got " + std::to_string(p_count) + " and " +
-                     std::to_string(q_count));
+    throw InputError(fmt::format("points must come in pairs, got {} and {}", p_count, q_count));
   }
 }
 

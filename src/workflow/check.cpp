@@ -1,6 +1,7 @@
 #include "fathom/workflow/check.hpp"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <iterator>
 #include <memory>
 
@@ -33,10 +34,9 @@ void check_information(const MeasurementLog& log, const EstimatorRegistry& regis
   const std::string is = format_number(per_degree, 3);
   if (checked.scale->looks_like_square_roots) {
     checked.warnings.push_back(
-        "the information values look like square roots of the right ones: F per degree of freedom "
-        "is " +
-        is + ", with their squares it would be " + format_number(checked.scale->squared, 3) +
-        ", and 1 is expected");
+        fmt::format("the information values look like square roots of the right ones: F per degree "
+                    "of freedom is {}, with their squares it would be {}, and 1 is expected",
+                    is, format_number(checked.scale->squared, 3)));
   } else if (per_degree < 0.1) {
     checked.warnings.push_back(
         "the information values look too small: F per degree of freedom is " + is +

@@ -1,5 +1,7 @@
 #include "run_mosaics.hpp"
 
+#include <fmt/format.h>
+
 #include "fathom/core/files.hpp"
 #include "fathom/core/input_error.hpp"
 #include "fathom/core/system.hpp"
@@ -52,8 +54,7 @@ std::vector<std::string> write_tiles(const std::filesystem::path& folder, const 
   std::vector<std::string> names;
   const auto take = [&](const MosaicTile& tile) {
     if (cv::countNonZero(tile.picture != kUnseen) == 0) return;
-    const std::string name =
-        "tiles/r" + std::to_string(tile.row) + "_c" + std::to_string(tile.column);
+    const std::string name = fmt::format("tiles/r{}_c{}", tile.row, tile.column);
     write_file(folder / (name + ".png"), encode_png(tile.picture));
     write_file(folder / (name + ".pgw"), world_file_of(plan, tile.window, earth));
     names.push_back(name + ".png");
@@ -162,7 +163,7 @@ std::string write_tiled_mosaic(const std::filesystem::path& folder, const FrameS
     write_tiled_geotiff(folder, source, plan_mosaic(source.camera(), north_up, options),
                         *asked.earth, observer);
   }
-  return mosaic_text(plan) + " in " + std::to_string(files.tiles.size()) + " tiles";
+  return fmt::format("{} in {} tiles", mosaic_text(plan), files.tiles.size());
 }
 
 std::vector<std::string> mosaic_file_names() {
@@ -172,9 +173,9 @@ std::vector<std::string> mosaic_file_names() {
 }
 
 std::string mosaic_text(const MosaicPlan& plan) {
-  std::string text = std::to_string(plan.pictures.size()) + " pictures, " +
-                     std::to_string(plan.size.width) + " x " + std::to_string(plan.size.height) +
-                     " pixels of " + format_number(plan.metres_per_pixel, 4) + " m";
+  std::string text =
+      fmt::format("{} pictures, {} x {} pixels of {} m", plan.pictures.size(), plan.size.width,
+                  plan.size.height, format_number(plan.metres_per_pixel, 4));
   if (plan.metres_per_pixel > plan.wanted_metres_per_pixel) {
     text += "; of " + format_number(plan.wanted_metres_per_pixel, 4) + " m they would be too many";
   }

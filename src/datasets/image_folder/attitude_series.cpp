@@ -1,6 +1,7 @@
 #include "attitude_series.hpp"
 
 #include <cmath>
+#include <fmt/format.h>
 #include <string>
 
 #include "fathom/core/text.hpp"
@@ -13,9 +14,9 @@ namespace {
 double angle(const SensorCsv& csv, const SensorRow& row, std::size_t column, const char* name) {
   const double value_rad = csv.real(row, column);
   if (std::abs(value_rad) <= kMostTiltRad) return value_rad;
-  csv.refuse(row, name + (" " + row.fields[column]) + " is beyond " + short_number(kMostTiltRad) +
-                      " rad (57 degrees); are these degrees? expected radians, zero of a level "
-                      "body whose z is up");
+  csv.refuse(row, fmt::format("{} {} is beyond {} rad (57 degrees); are these degrees? expected "
+                              "radians, zero of a level body whose z is up",
+                              name, row.fields[column], short_number(kMostTiltRad)));
 }
 
 double sigma(const SensorCsv& csv, const SensorRow& row) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <numbers>
 #include <system_error>
 
@@ -35,9 +36,7 @@ struct Span {
   std::int64_t last_ns = 0;
 
   bool holds(std::int64_t time_ns) const { return time_ns >= first_ns && time_ns <= last_ns; }
-  std::string text() const {
-    return std::to_string(first_ns) + " to " + std::to_string(last_ns) + " ns";
-  }
+  std::string text() const { return fmt::format("{} to {} ns", first_ns, last_ns); }
 };
 
 struct CommentLine {
@@ -138,8 +137,9 @@ bool is_on_earth(const fs::path& csv) {
     on_earth = earth;
   }
   if (on_earth) return *on_earth;
-  throw InputError(csv.string(), std::string("does not name its columns; expected a first line #") +
-                                     kWorldColumns + ", or #" + kEarthColumns);
+  throw InputError(csv.string(),
+                   fmt::format("does not name its columns; expected a first line #{}, or #{}",
+                               kWorldColumns, kEarthColumns));
 }
 
 Eigen::Matrix2d covariance_of(const SensorCsv& csv, const SensorRow& row) {
@@ -178,9 +178,9 @@ FolderFixes read_fixes(const fs::path& folder, const Span& survey) {
           {row.time_ns, {csv.real(row, 1), csv.real(row, 2)}, covariance_of(csv, row)});
     }
     if (survey.holds(row.time_ns)) continue;
-    csv.refuse(row, "a fix at " + std::to_string(row.time_ns) +
-                        " ns is outside the time of the pictures, " + survey.text() +
-                        "; remove its row, or see whether both have the same clock");
+    csv.refuse(row, fmt::format("a fix at {} ns is outside the time of the pictures, {}; remove "
+                                "its row, or see whether both have the same clock",
+                                row.time_ns, survey.text()));
   }
   return fixes;
 }

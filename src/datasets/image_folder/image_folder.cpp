@@ -1,6 +1,7 @@
 #include "fathom/datasets/image_folder.hpp"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <optional>
 #include <string>
 
@@ -39,11 +40,12 @@ std::optional<fs::path> sensor_csv(const fs::path& mav0, const std::string& sens
 
 [[noreturn]] void refuse_uncovered(const fs::path& csv, const TimeLine& times,
                                    const std::string& what, const FrameInfo& info) {
-  throw InputError(csv.string(),
-                   "no " + what + " at or around the picture's time " +
-                       std::to_string(info.time_ns) + " ns: there are " + times.text() +
-                       "; expected neighbours at most 2 s apart, or remove the picture's row" +
-                       (what == "odometry" ? ", or dataset.gap_intervals, which makes holes" : ""));
+  throw InputError(
+      csv.string(),
+      fmt::format("no {} at or around the picture's time {} ns: there are {}; expected neighbours "
+                  "at most 2 s apart, or remove the picture's row{}",
+                  what, info.time_ns, times.text(),
+                  what == "odometry" ? ", or dataset.gap_intervals, which makes holes" : ""));
 }
 
 }  // namespace
@@ -113,10 +115,10 @@ void ImageFolder::read_attitude() {
     try {
       camera_.footprint(info.stance());
     } catch (const InputError& error) {
-      throw InputError(csv->string(), "at the picture's time " + std::to_string(info.time_ns) +
-                                          " ns " + error.what() +
-                                          "; expected a picture of the floor alone, or remove the "
-                                          "picture's row");
+      throw InputError(csv->string(),
+                       fmt::format("at the picture's time {} ns {}; expected a picture of the "
+                                   "floor alone, or remove the picture's row",
+                                   info.time_ns, error.what()));
     }
   }
 }
@@ -165,13 +167,11 @@ cv::Mat ImageFolder::image(std::size_t i) const {
   cv::Mat picture = read_grey_picture(pictures_[i]);
   const CameraModel& model = camera_.model();
   if (picture.cols != model.width || picture.rows != model.height) {
-    const auto size = [](int width, int height) {
-      return std::to_string(width) + " x " + std::to_string(height);
-    };
-    throw InputError(pictures_[i].string(),
-                     "has " + size(picture.cols, picture.rows) +
-                         " pixels, expected the resolution of sensor.yaml, " +
-                         size(model.width, model.height));
+    const auto size = [](int width, int height) { return fmt::format("{} x {}", width, height); };
+    throw InputError(
+        pictures_[i].string(),
+        fmt::format("has {} pixels, expected the resolution of sensor.yaml, {}",
+                    size(picture.cols, picture.rows), size(model.width, model.height)));
   }
   return picture;
 }

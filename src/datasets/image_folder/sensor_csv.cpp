@@ -1,6 +1,7 @@
 #include "sensor_csv.hpp"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <utility>
 
 #include "fathom/core/files.hpp"
@@ -30,8 +31,8 @@ void SensorCsv::add_row(std::string_view text, std::size_t line, std::size_t col
   const auto fields = split_csv(text);
   SensorRow row{line, 0, {fields.begin(), fields.end()}};
   if (fields.size() < column_count) {
-    refuse(row, "expected " + std::to_string(column_count) + " columns " + columns_ + ", got " +
-                    std::to_string(fields.size()));
+    refuse(row,
+           fmt::format("expected {} columns {}, got {}", column_count, columns_, fields.size()));
   }
   const auto time_ns = parse_integer(fields.front());
   if (!time_ns) {
@@ -49,8 +50,8 @@ void SensorCsv::add_row(std::string_view text, std::size_t line, std::size_t col
 double SensorCsv::real(const SensorRow& row, std::size_t column) const {
   const auto value = parse_real(row.fields[column]);
   if (!value) {
-    refuse(row, in_quotes(row.fields[column]) + " in column " + std::to_string(column + 1) +
-                    " of " + columns_ + " is not a finite number");
+    refuse(row, fmt::format("{} in column {} of {} is not a finite number",
+                            in_quotes(row.fields[column]), column + 1, columns_));
   }
   return *value;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <limits>
 
 #include "sensor_csv.hpp"
@@ -60,8 +61,8 @@ std::optional<Bracket> TimeLine::around(std::int64_t time_ns, std::int64_t max_g
 }
 
 std::string TimeLine::text() const {
-  return std::to_string(times_ns_.size()) + " readings from " + std::to_string(times_ns_.front()) +
-         " to " + std::to_string(times_ns_.back()) + " ns";
+  return fmt::format("{} readings from {} to {} ns", times_ns_.size(), times_ns_.front(),
+                     times_ns_.back());
 }
 
 AltitudeSeries::AltitudeSeries(const std::filesystem::path& path) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <numbers>
 
 #include "fathom/core/text.hpp"
@@ -21,7 +22,7 @@ double median_of(std::vector<double> values) {
 }
 
 std::string count(std::size_t number, const std::string& what, const std::string& plural) {
-  return std::to_string(number) + " " + (number == 1 ? what : plural);
+  return fmt::format("{} {}", number, number == 1 ? what : plural);
 }
 
 // ", one in 2 s"; nothing of a single reading.
@@ -39,10 +40,10 @@ void sum_up_fixes(const std::vector<Fix>& fixes, const std::string& frame,
   std::vector<double> sigmas_m;
   sigmas_m.reserve(fixes.size());
   for (const Fix& fix : fixes) sigmas_m.push_back(std::sqrt(0.5 * fix.covariance.trace()));
-  summary.facts.push_back("fixes: " + std::to_string(fixes.size()) + " in " + frame +
-                          interval_text(fixes) + ", median sigma " +
-                          short_number(median_of(sigmas_m)) + " m, antenna at " +
-                          short_number(lever_m.x()) + ", " + short_number(lever_m.y()) + " m");
+  summary.facts.push_back(fmt::format("fixes: {} in {}{}, median sigma {} m, antenna at {}, {} m",
+                                      fixes.size(), frame, interval_text(fixes),
+                                      short_number(median_of(sigmas_m)), short_number(lever_m.x()),
+                                      short_number(lever_m.y())));
 }
 
 void sum_up_compass(const FolderCompass& compass, FolderSummary& summary) {
@@ -50,11 +51,11 @@ void sum_up_compass(const FolderCompass& compass, FolderSummary& summary) {
   for (const MeasuredHeading& reading : compass.readings) {
     sigmas_deg.push_back(reading.sigma_rad * kDegrees);
   }
-  summary.facts.push_back("compass: " + count(compass.readings.size(), "heading", "headings") +
-                          (compass.is_from_north ? " from north" : "") +
-                          interval_text(compass.readings) + ", median sigma " +
-                          short_number(median_of(sigmas_deg)) + " degrees, mounting yaw " +
-                          short_number(compass.mount_yaw_rad) + " rad");
+  summary.facts.push_back(
+      fmt::format("compass: {}{}{}, median sigma {} degrees, mounting yaw {} rad",
+                  count(compass.readings.size(), "heading", "headings"),
+                  compass.is_from_north ? " from north" : "", interval_text(compass.readings),
+                  short_number(median_of(sigmas_deg)), short_number(compass.mount_yaw_rad)));
   if (compass.left_out > 0) {
     summary.facts.push_back("compass: " + count(compass.left_out, "heading", "headings") +
                             " outside the time of the pictures, left out");
@@ -97,8 +98,8 @@ void sum_up_holes(const FrameSource& source, FolderSummary& summary) {
     longest_s = std::max(longest_s, seconds(source.info(first).time_ns, source.info(i).time_ns));
   }
   if (holes == 0) return;
-  summary.facts.push_back("odometry: " + count(holes, "hole", "holes") + ", the longest over " +
-                          short_number(longest_s) + " s of pictures");
+  summary.facts.push_back(fmt::format("odometry: {}, the longest over {} s of pictures",
+                                      count(holes, "hole", "holes"), short_number(longest_s)));
   summary.warnings.emplace_back(
       "odometry0 stops where five of its intervals or more are missing: dataset.gap_intervals: 5 "
       "takes that for holes; without it, it is divided evenly, or refused where a picture lies in "

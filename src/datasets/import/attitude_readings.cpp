@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <numbers>
 
 #include "fathom/core/text.hpp"
@@ -23,8 +24,8 @@ std::string span_text(const std::vector<AttitudeReading>& readings, double Tilt:
     high = std::max(high, reading.tilt.*angle);
     sum += reading.tilt.*angle;
   }
-  return degrees(low) + " to " + degrees(high) + " degrees, mean " +
-         degrees(sum / static_cast<double>(readings.size()));
+  return fmt::format("{} to {} degrees, mean {}", degrees(low), degrees(high),
+                     degrees(sum / static_cast<double>(readings.size())));
 }
 
 }  // namespace
@@ -42,8 +43,8 @@ AttitudeRows attitude_rows(const std::vector<AttitudeReading>& readings, double 
     result.why_not = "no message has an orientation";
     return result;
   }
-  const std::string what = "roll " + span_text(readings, &Tilt::roll_rad) + ", pitch " +
-                           span_text(readings, &Tilt::pitch_rad);
+  const std::string what = fmt::format("roll {}, pitch {}", span_text(readings, &Tilt::roll_rad),
+                                       span_text(readings, &Tilt::pitch_rad));
   result.fact = what;
   for (const AttitudeReading& reading : readings) {
     const Tilt& tilt = reading.tilt;

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <fmt/format.h>
 #include <iterator>
 #include <system_error>
 
@@ -36,8 +37,8 @@ std::vector<std::string> topic_lines(const std::vector<BagTopic>& topics,
     name.resize(name_width, ' ');
     type.resize(type_width, ' ');
     const std::string use = choice.use_of(i);
-    lines.push_back(name + "  " + type + "  " + std::to_string(topics[i].messages) +
-                    (use.empty() ? "" : "  --" + use));
+    lines.push_back(fmt::format("{}  {}  {}{}", name, type, topics[i].messages,
+                                use.empty() ? "" : "  --" + use));
   }
   return lines;
 }
@@ -90,10 +91,9 @@ ImportReport import_bag(const fs::path& path, const BagImportOptions& options,
   std::ranges::copy(choice.notes, std::back_inserter(report.notes));
   std::ranges::copy(bag->notes(), std::back_inserter(report.notes));
   if (left_out > 0) {
-    report.notes.push_back(std::to_string(left_out) +
-                           " of the pictures left out: not between two " +
-                           (choice.odometry ? "altitudes and two poses of odometry" : "altitudes") +
-                           " at most 2 s apart");
+    report.notes.push_back(
+        fmt::format("{} of the pictures left out: not between two {} at most 2 s apart", left_out,
+                    choice.odometry ? "altitudes and two poses of odometry" : "altitudes"));
   }
   return report;
 }

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstring>
+#include <fmt/format.h>
 #include <map>
 #include <string_view>
 #include <vector>
@@ -66,10 +67,8 @@ BagPicture picture_of(const ImageMessage& message) {
       message.step >= row_bytes &&
       message.data.size() >= std::size_t{message.step} * (message.height - 1) + row_bytes;
   if (!is_size || !is_whole) {
-    throw InputError("a picture of " + std::to_string(message.width) + " x " +
-                     std::to_string(message.height) + " pixels in " +
-                     std::to_string(message.data.size()) + " bytes, " +
-                     std::to_string(message.step) + " a row, is not whole");
+    throw InputError(fmt::format("a picture of {} x {} pixels in {} bytes, {} a row, is not whole",
+                                 message.width, message.height, message.data.size(), message.step));
   }
   // Row by row: a message may put a row, and so a pixel of two bytes, at any place.
   cv::Mat seen(static_cast<int>(message.height), static_cast<int>(message.width), encoding->type);

@@ -1,6 +1,7 @@
 #include "bag_survey.hpp"
 
 #include <cmath>
+#include <fmt/format.h>
 
 #include "bag_picture.hpp"
 #include "fathom/core/files.hpp"
@@ -11,7 +12,7 @@ namespace fathom {
 namespace {
 
 std::string size_text(int width, int height) {
-  return std::to_string(width) + " x " + std::to_string(height) + " pixels";
+  return fmt::format("{} x {} pixels", width, height);
 }
 
 BagPicture picture_in(const BagMessage& message, const BagTopic& topic, std::int64_t& stamp_ns) {
@@ -69,9 +70,9 @@ void BagSurvey::take_picture(const BagMessage& message, const BagTopic& topic) {
     height = picture.height;
   }
   if (picture.width != width || picture.height != height) {
-    throw InputError("picture " + std::to_string(pictures.size() + 1) + " has " +
-                     size_text(picture.width, picture.height) + ", the first has " +
-                     size_text(width, height) + "; all must have the same size");
+    throw InputError(fmt::format("picture {} has {}, the first has {}; all must have the same size",
+                                 pictures.size() + 1, size_text(picture.width, picture.height),
+                                 size_text(width, height)));
   }
   pictures.push_back({*time_ns, std::to_string(*time_ns) + picture.extension});
   write_file(folder_ / pictures.back().file, picture.bytes);

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <map>
 #include <numbers>
 #include <optional>
@@ -162,10 +163,10 @@ std::vector<StampedPose> reference_of(const std::map<std::size_t, Pose>& by_fram
 
 // What the plane and the scale are worth.
 void say_geometry(const PlanarCameras& planar, double scale, ImportReport& report) {
-  report.facts.push_back(
-      "off the plane that fits best: " + short_number(planar.rms_off_plane * scale) +
-      " m rms; tilt of the optical axes: median " + degrees_text(planar.median_tilt_rad) +
-      ", most " + degrees_text(planar.most_tilt_rad));
+  report.facts.push_back(fmt::format(
+      "off the plane that fits best: {} m rms; tilt of the optical axes: median {}, most {}",
+      short_number(planar.rms_off_plane * scale), degrees_text(planar.median_tilt_rad),
+      degrees_text(planar.most_tilt_rad)));
   if (planar.is_normal_by_view) {
     report.notes.emplace_back(
         "the cameras lie along a line, or their heights differ by more than the survey is wide: "
@@ -196,8 +197,7 @@ ImportReport import_colmap(const fs::path& model, const PoseImportOptions& optio
   write_reference_poses(reference, folder);
 
   ImportReport report;
-  report.facts.push_back(std::to_string(reference.size()) + " poses of " + std::to_string(images) +
-                         " images");
+  report.facts.push_back(fmt::format("{} poses of {} images", reference.size(), images));
   say_geometry(planar, options.scale, report);
   if (!survey) {
     report.notes.emplace_back(

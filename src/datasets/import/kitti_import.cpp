@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <string>
 
 #include "fathom/core/input_error.hpp"
@@ -41,8 +42,8 @@ ImportReport import_kitti(const fs::path& path, const PoseImportOptions& options
   const std::vector<SpatialPose> poses = read_kitti_poses(path);
   const std::vector<std::int64_t> times = times_of(path, options);
   if (times.size() != poses.size()) {
-    throw InputError(path.string(), "has " + std::to_string(poses.size()) + " poses for " +
-                                        std::to_string(times.size()) + " times");
+    throw InputError(path.string(),
+                     fmt::format("has {} poses for {} times", poses.size(), times.size()));
   }
   std::vector<StampedPose> reference;
   double most_height = 0.0;

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <dlfcn.h>
+#include <fmt/format.h>
 #include <map>
 #include <memory>
 #include <set>
@@ -38,9 +39,9 @@ OpenRos1Recording* load_module(const std::filesystem::path& bag) {
     }
     problem = ::dlerror();
   }
-  throw InputError(bag.string(), "is a bag of ROS 1; " +
-                                     (problem.empty() ? module + " is missing" : problem) + "; '" +
-                                     remedy_for(feature("rosbag")) + "' builds it again");
+  throw InputError(bag.string(), fmt::format("is a bag of ROS 1; {}; '{}' builds it again",
+                                             problem.empty() ? module + " is missing" : problem,
+                                             remedy_for(feature("rosbag"))));
 }
 
 class Ros1Bag : public Bag {
@@ -59,8 +60,8 @@ class Ros1Bag : public Bag {
   std::vector<std::string> notes() const override {
     std::vector<std::string> lines;
     for (const auto& [text, times] : recording_->left_out()) {
-      lines.push_back("librosbag leaves out " + std::to_string(times) +
-                      (times == 1 ? " message: " : " messages: ") + text);
+      lines.push_back(fmt::format("librosbag leaves out {} {}: {}", times,
+                                  times == 1 ? "message" : "messages", text));
     }
     return lines;
   }

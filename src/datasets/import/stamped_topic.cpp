@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 
 #include "fathom/core/input_error.hpp"
 #include "fathom/core/text.hpp"
@@ -20,7 +21,7 @@ std::optional<std::int64_t> StampedTopic::next(std::int64_t record_ns,
                                                std::optional<std::int64_t> stamp_ns) {
   if (clock_ == BagClock::record) stamp_ns.reset();
   if (stamp_ns == 0 && record_ns != 0) {
-    throw InputError("topic " + name_ + ": its header has no time stamp (0); " + kRemedy);
+    throw InputError(fmt::format("topic {}: its header has no time stamp (0); {}", name_, kRemedy));
   }
   const std::int64_t time_ns = stamp_ns.value_or(record_ns);
   if (!times_ns_.empty() && time_ns == times_ns_.back()) {
@@ -28,9 +29,9 @@ std::optional<std::int64_t> StampedTopic::next(std::int64_t record_ns,
     return std::nullopt;
   }
   if (!times_ns_.empty() && time_ns < times_ns_.back()) {
-    throw InputError("topic " + name_ + ": time goes back from " + seconds_text(times_ns_.back()) +
-                     " s to " + seconds_text(time_ns) + " s at message " +
-                     std::to_string(times_ns_.size() + repeated_ + 1) + "; " + kRemedy);
+    throw InputError(fmt::format("topic {}: time goes back from {} s to {} s at message {}; {}",
+                                 name_, seconds_text(times_ns_.back()), seconds_text(time_ns),
+                                 times_ns_.size() + repeated_ + 1, kRemedy));
   }
   times_ns_.push_back(time_ns);
   delays_ns_.push_back(record_ns - time_ns);
@@ -54,10 +55,10 @@ void StampedTopic::check_rate() const {
       span_s + static_cast<double>(delays_ns_.back() - delays_ns_.front()) * kSecondsPerNs;
   const bool is_like = span_s < kMostRatio * recorded_s && recorded_s < kMostRatio * span_s;
   if (is_like || std::max(span_s, recorded_s) < kShortest) return;
-  throw InputError("topic " + name_ + ": its header stamps span " + short_number(span_s) +
-                   " s and its recording " + short_number(recorded_s) +
-                   " s; are they in another unit than seconds and nanoseconds? " + kRemedy +
-                   ", --clock header takes the stamps as they are");
+  throw InputError(fmt::format(
+      "topic {}: its header stamps span {} s and its recording {} s; are they in another unit than "
+      "seconds and nanoseconds? {}, --clock header takes the stamps as they are",
+      name_, short_number(span_s), short_number(recorded_s), kRemedy));
 }
 
 void check_clocks(const StampedTopic& pictures, const StampedTopic& other, double max_offset_s) {

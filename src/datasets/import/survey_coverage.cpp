@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <system_error>
 
 #include "fathom/core/input_error.hpp"
@@ -20,7 +21,7 @@ bool is_covered(const std::vector<std::int64_t>& times_ns, std::int64_t time_ns)
 }
 
 std::string span_text(const std::string& topic, std::int64_t first_ns, std::int64_t last_ns) {
-  return topic + " is from " + seconds_text(first_ns) + " to " + seconds_text(last_ns) + " s";
+  return fmt::format("{} is from {} to {} s", topic, seconds_text(first_ns), seconds_text(last_ns));
 }
 
 }  // namespace
@@ -69,11 +70,10 @@ void check_spans(const std::vector<WrittenPicture>& pictures, const std::string&
     const std::int64_t end = other.times_ns.back();
     if (begin <= last && end >= first) continue;
     const double offset_s = static_cast<double>(begin - first) * kNanosecond_s;
-    throw InputError("two clocks disagree: " + span_text(picture_topic, first, last) + ", " +
-                     span_text(other.topic, begin, end) + ", " +
-                     short_number(std::abs(offset_s), 6) +
-                     (offset_s > 0.0 ? " s later" : " s earlier") +
-                     "; --clock record takes the times of recording of both");
+    throw InputError(fmt::format(
+        "two clocks disagree: {}, {}, {} s {}; --clock record takes the times of recording of both",
+        span_text(picture_topic, first, last), span_text(other.topic, begin, end),
+        short_number(std::abs(offset_s), 6), offset_s > 0.0 ? "later" : "earlier"));
   }
 }
 

@@ -1,6 +1,7 @@
 #include "survey_writer.hpp"
 
 #include <cmath>
+#include <fmt/format.h>
 #include <utility>
 
 #include "bag_camera.hpp"
@@ -45,7 +46,7 @@ class SurveyWriter {
   const BagTopic& topic(const std::optional<std::size_t>& index) const { return topics_[*index]; }
 
   std::string size_text(int width, int height) const {
-    return std::to_string(width) + " x " + std::to_string(height) + " pixels";
+    return fmt::format("{} x {} pixels", width, height);
   }
 
   CameraModel camera_of_file() const {
@@ -67,7 +68,7 @@ class SurveyWriter {
       std::string why = error.what();
       if (why.find("--camera") == std::string::npos)
         why += "; --camera FILE takes a sensor.yaml in its place";
-      throw InputError("topic " + info + ": " + why);
+      throw InputError(fmt::format("topic {}: {}", info, why));
     }
   }
 
@@ -81,8 +82,8 @@ class SurveyWriter {
     model.mount_y_m = options_.mount_y_m.value_or(model.mount_y_m);
     model.mount_yaw_rad = options_.mount_yaw_rad.value_or(model.mount_yaw_rad);
     write_camera(mav0_, rows, Camera(model).model());
-    fact(counted(survey_.pictures.size(), "picture") + " of " +
-         size_text(survey_.width, survey_.height) + " from " + topic(choice_.images).name);
+    fact(fmt::format("{} of {} from {}", counted(survey_.pictures.size(), "picture"),
+                     size_text(survey_.width, survey_.height), topic(choice_.images).name));
     if (options_.camera_yaml.empty() && !options_.mount_yaw_rad) {
       note(
           "the camera is taken to be at the body's origin, the top of its picture forward: "
@@ -121,8 +122,8 @@ class SurveyWriter {
                                        C(2, 2), C(0, 1), C(0, 2), C(1, 2)});
     }
     write_odometry(mav0_, rows);
-    fact(counted(odometry.rows.size(), "pose") + " of odometry from " +
-         topic(choice_.odometry).name);
+    fact(fmt::format("{} of odometry from {}", counted(odometry.rows.size(), "pose"),
+                     topic(choice_.odometry).name));
     note("covariance of a step of odometry: " + odometry.covariance_from);
   }
 
@@ -135,8 +136,8 @@ class SurveyWriter {
     }
     if (rows.empty()) return;
     write_reference(mav0_ / "state_groundtruth_estimate0", rows);
-    fact(counted(survey_.reference.size(), "pose") + " of reference (ground truth) from " +
-         topic(choice_.reference).name);
+    fact(fmt::format("{} of reference (ground truth) from {}",
+                     counted(survey_.reference.size(), "pose"), topic(choice_.reference).name));
     const std::int64_t first_ns = survey_.reference.front().time_ns;
     const std::int64_t last_ns = survey_.reference.back().time_ns;
     const auto is_covered = [&](const WrittenPicture& picture) {
@@ -160,13 +161,13 @@ class SurveyWriter {
     const std::string& name = topic(choice_.heading).name;
     if (rows.empty()) return note("no heading: " + name + " says that it has no orientation");
     write_compass(mav0_, rows);
-    fact(counted(survey_.headings.size(), "heading") + " from " + name + ", in compass0");
+    fact(fmt::format("{} from {}, in compass0", counted(survey_.headings.size(), "heading"), name));
     note(
         "a run takes them for headings in the world: right of a compass or an AHRS; of a yaw "
         "that drifts dataset.compass.use: false leaves them out");
     if (unknown > 0) {
-      note(counted(unknown, "heading") + " without variance in the bag: taken for good to " +
-           short_number(sigma_rad) + " rad");
+      note(fmt::format("{} without variance in the bag: taken for good to {} rad",
+                       counted(unknown, "heading"), short_number(sigma_rad)));
     }
   }
 
@@ -186,8 +187,8 @@ class SurveyWriter {
     fact(counted(survey_.attitudes.size(), "attitude") + " from " + name + ": " + attitude.fact);
     note("roll and pitch are taken to be those of the body; --attitude none takes it for level");
     if (attitude.unknown > 0) {
-      note(counted(attitude.unknown, "attitude") +
-           " without variance in the bag: taken for good to " + short_number(sigma_rad) + " rad");
+      note(fmt::format("{} without variance in the bag: taken for good to {} rad",
+                       counted(attitude.unknown, "attitude"), short_number(sigma_rad)));
     }
   }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <fmt/format.h>
 #include <functional>
 
 #include "bag_messages.hpp"
@@ -156,14 +157,14 @@ class Chooser {
       names.push_back(topics_[i].name);
       if (topics_[i].name != name) continue;
       if (std::ranges::count(types, topics_[i].type) == 0) {
-        throw InputError(file_, "topic " + name + " is of type " + topics_[i].type + "; --" + flag +
-                                    " takes " + joined(types, ", "));
+        throw InputError(file_, fmt::format("topic {} is of type {}; --{} takes {}", name,
+                                            topics_[i].type, flag, joined(types, ", ")));
       }
       if (topics_[i].messages == 0) throw InputError(file_, "topic " + name + " has no messages");
       return i;
     }
-    throw InputError(file_, "has no topic " + in_quotes(name) + suggestion(name, names) +
-                                "; it has " + joined(names, ", "));
+    throw InputError(file_, fmt::format("has no topic {}{}; it has {}", in_quotes(name),
+                                        suggestion(name, names), joined(names, ", ")));
   }
 
   // Of another definition a message would be read wrongly.

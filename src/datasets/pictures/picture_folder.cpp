@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <fmt/format.h>
 
 #include "exif.hpp"
 #include "fathom/core/files.hpp"
@@ -167,12 +168,11 @@ cv::Mat PictureFolder::image(std::size_t i) const {
   cv::Mat picture = read_grey_picture(pictures_[i]);
   const CameraModel& model = camera_.model();
   if (picture.cols == model.width && picture.rows == model.height) return picture;
-  const auto size = [](int width, int height) {
-    return std::to_string(width) + " x " + std::to_string(height);
-  };
-  throw InputError(pictures_[i].string(),
-                   "has " + size(picture.cols, picture.rows) + " pixels, the first picture " +
-                       size(model.width, model.height) + "; expected pictures of one camera");
+  const auto size = [](int width, int height) { return fmt::format("{} x {}", width, height); };
+  throw InputError(
+      pictures_[i].string(),
+      fmt::format("has {} pixels, the first picture {}; expected pictures of one camera",
+                  size(picture.cols, picture.rows), size(model.width, model.height)));
 }
 
 std::uint64_t PictureFolder::picture_id(std::size_t i) const {

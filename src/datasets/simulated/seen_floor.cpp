@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <fmt/format.h>
 #include <iterator>
 
 #include "fathom/core/input_error.hpp"
@@ -44,14 +45,12 @@ Eigen::AlignedBox2d view_box(const ViewRays& rays, const Pose& pose, const View&
 [[noreturn]] void refuse_view(const std::string& what, const FrameInfo& info, std::size_t frame,
                               const Eigen::Vector2d& mission_m, const Eigen::Vector2d& world_m,
                               const std::string& prefix) {
-  std::string message = prefix + "world.picture: frame " + std::to_string(frame);
-  message += " at " + seconds_text(info.time_ns) + " s sees " + what;
-  message += "; the mission sees " + metres(mission_m.x()) + " up by " + metres(mission_m.y());
-  message += " across, the picture has " + metres(world_m.x()) + " by " + metres(world_m.y());
-  message +=
-      ": shorten the mission, fly lower, or change world.metres_per_pixel, heading_rad, "
-      "origin_x_m or origin_y_m";
-  throw InputError(message);
+  throw InputError(
+      fmt::format("{}world.picture: frame {} at {} s sees {}; the mission sees {} up by {} across, "
+                  "the picture has {} by {}: shorten the mission, fly lower, or change "
+                  "world.metres_per_pixel, heading_rad, origin_x_m or origin_y_m",
+                  prefix, frame, seconds_text(info.time_ns), what, metres(mission_m.x()),
+                  metres(mission_m.y()), metres(world_m.x()), metres(world_m.y())));
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // The entry `simulated_log`: see simulated_log.hpp.
 
+#include <fmt/format.h>
 #include <memory>
 
 #include "fathom/core/input_error.hpp"
@@ -16,10 +17,10 @@ FlownKeyframes fly(const SimulatedLogOptions& options) {
   keyframes.frames = fly_mission(options.mission, std::string(kDataSetPrefix) + "mission.");
   keyframes.separation = static_cast<std::size_t>(options.separation_frames);
   if (keyframes.size() < 2) {
-    throw InputError(std::string(kDataSetPrefix) +
-                     "separation_frames: leads beyond the last frame, so there is a single "
-                     "keyframe; expected at most " +
-                     std::to_string(keyframes.frames.size() - 1));
+    throw InputError(
+        fmt::format("{}separation_frames: leads beyond the last frame, so there is a single "
+                    "keyframe; expected at most {}",
+                    kDataSetPrefix, keyframes.frames.size() - 1));
   }
   return keyframes;
 }

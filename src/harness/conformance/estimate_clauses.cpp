@@ -1,4 +1,5 @@
 #include <cmath>
+#include <fmt/format.h>
 
 #include "clauses.hpp"
 #include "expectations.hpp"
@@ -114,9 +115,9 @@ void headings_near_pi(Subject& subject) {
   const GuardedEstimator& back = subject.solved(moved(log, half_turn));
   for (std::size_t k = 0; k < log.size(); ++k) {
     const double heading = back.pose(k).theta;
-    expect(heading > -M_PI && heading <= M_PI, numbered("pose", k) + " has heading " +
-                                                   std::to_string(heading) +
-                                                   " rad, expected above -pi and at most pi");
+    expect(heading > -M_PI && heading <= M_PI,
+           fmt::format("{} has heading {:f} rad, expected above -pi and at most pi",
+                       numbered("pose", k), heading));
     expect_near(numbered("pose", k), back.pose(k), compose(half_turn, ahead.pose(k)), 1e-7);
   }
 }

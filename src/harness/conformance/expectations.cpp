@@ -1,6 +1,7 @@
 #include "expectations.hpp"
 
 #include <cmath>
+#include <fmt/format.h>
 
 #include "fathom/core/text.hpp"
 
@@ -19,14 +20,14 @@ void expect(bool holds, const std::string& how) {
 
 void expect_at_most(const std::string& what, double found, double most, const std::string& unit) {
   if (found <= most) return;
-  throw Broken(what + " " + with_unit(found, unit) + ", at most " + short_number(most) +
-               " allowed");
+  throw Broken(
+      fmt::format("{} {}, at most {} allowed", what, with_unit(found, unit), short_number(most)));
 }
 
 void expect_at_least(const std::string& what, double found, double least, const std::string& unit) {
   if (found >= least) return;
-  throw Broken(what + " " + with_unit(found, unit) + ", at least " + short_number(least) +
-               " expected");
+  throw Broken(fmt::format("{} {}, at least {} expected", what, with_unit(found, unit),
+                           short_number(least)));
 }
 
 void expect_outcome(const std::string& what, Outcome found, Outcome expected) {
@@ -46,8 +47,8 @@ void expect_near(const std::string& what, const Pose& found, const Pose& expecte
 }
 
 void expect_poses(const TrajectoryView& found, std::span<const Pose> expected, double most) {
-  expect(found.size() == expected.size(), "size() is " + std::to_string(found.size()) +
-                                              ", expected " + std::to_string(expected.size()));
+  expect(found.size() == expected.size(),
+         fmt::format("size() is {}, expected {}", found.size(), expected.size()));
   for (std::size_t k = 0; k < expected.size(); ++k) {
     expect_near(numbered("pose", k), found.pose(k), expected[k], most);
   }

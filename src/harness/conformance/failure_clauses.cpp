@@ -1,4 +1,5 @@
 #include <cmath>
+#include <fmt/format.h>
 #include <limits>
 #include <utility>
 
@@ -24,9 +25,9 @@ void nan_registration(Subject& subject) {
       RelativePose::from_covariance(0, log.size(), {kNaN, 0.0, 0.0}, C)};
   const UpdateReport report = estimator.update({bad});
   expect_outcome("an update with NaN", report.outcome, Outcome::numerical_failure);
-  expect(report.loops.front().fate == LoopFate::lost, "the registration with NaN is " +
-                                                          name_of(report.loops.front().fate) +
-                                                          ", expected " + name_of(LoopFate::lost));
+  expect(report.loops.front().fate == LoopFate::lost,
+         fmt::format("the registration with NaN is {}, expected {}",
+                     name_of(report.loops.front().fate), name_of(LoopFate::lost)));
   expect_same_bits(estimator, before);
 
   // And it is forgotten: the next update is as good as ever.
@@ -45,8 +46,8 @@ void nan_absolute(Subject& subject) {
   const UpdateReport report = estimator.update({{}, std::span(&bad, 1)});
   expect_outcome("an update with NaN", report.outcome, Outcome::numerical_failure);
   expect(report.absolute.front().fate == LoopFate::lost,
-         "the measurement with NaN is " + name_of(report.absolute.front().fate) + ", expected " +
-             name_of(LoopFate::lost));
+         fmt::format("the measurement with NaN is {}, expected {}",
+                     name_of(report.absolute.front().fate), name_of(LoopFate::lost)));
   expect_same_bits(estimator, before);
 }
 
@@ -63,8 +64,7 @@ void beyond_doubles(Subject& subject) {
       try {
         expect_poses(estimator, limit, 0.01);
       } catch (const Broken& how) {
-        throw Broken("with a loop of information 1e" + std::to_string(exponent) + ", " +
-                     how.what());
+        throw Broken(fmt::format("with a loop of information 1e{}, {}", exponent, how.what()));
       }
     }
     expect_outcome("a log with a loop of information 1e40", last, Outcome::numerical_failure);
@@ -77,7 +77,7 @@ void expect_refused(Subject& subject, const std::string& option, const std::stri
   } catch (const InputError&) {
     return;
   }
-  throw Broken(option + " = " + given + " is taken, expected InputError");
+  throw Broken(fmt::format("{} = {} is taken, expected InputError", option, given));
 }
 
 void unknown_option(Subject& subject) {

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <fmt/format.h>
 
 #include "clauses.hpp"
 #include "expectations.hpp"
@@ -37,7 +38,7 @@ void either_direction_with_loss(Subject& subject) {
     try {
       expect_no_difference(subject, value("loss", loss));
     } catch (const Broken& how) {
-      throw Broken("with loss = " + loss + ", " + how.what());
+      throw Broken(fmt::format("with loss = {}, {}", loss, how.what()));
     }
   }
 }
@@ -53,13 +54,12 @@ void false_loops_with_loss(Subject& subject) {
     const std::vector<double> straight = subject.solved(log, value("loss", loss)).loop_weights();
     const std::vector<double> turned = subject.solved(mixed, value("loss", loss)).loop_weights();
     expect(turned.size() == straight.size() && straight.size() == log.registration_count(),
-           "with loss = " + loss + ", loop_weights() has " + std::to_string(straight.size()) +
-               " and " + std::to_string(turned.size()) + " weights, expected " +
-               std::to_string(log.registration_count()));
+           fmt::format("with loss = {}, loop_weights() has {} and {} weights, expected {}", loss,
+                       straight.size(), turned.size(), log.registration_count()));
     for (std::size_t j = 0; j < turned.size(); ++j) {
-      expect_at_most("with loss = " + loss + ", the weight of registration " + std::to_string(j) +
-                         " changes by",
-                     std::abs(turned[j] - straight[j]), 0.05);
+      expect_at_most(
+          fmt::format("with loss = {}, the weight of registration {} changes by", loss, j),
+          std::abs(turned[j] - straight[j]), 0.05);
     }
   }
 }
@@ -80,9 +80,9 @@ void gate_refuses(Subject& subject) {
   std::vector<LoopDecision> decisions;
   expect_done("the log", feed(gated, log, &decisions));
   for (const LoopDecision& decision : decisions) {
-    const std::string loop = "the " + std::string(decision.to == k ? "wrong" : "right") +
-                             " loop from " + std::to_string(decision.from) + " to " +
-                             std::to_string(decision.to);
+    const std::string loop =
+        fmt::format("the {} loop from {} to {}", decision.to == k ? "wrong" : "right",
+                    decision.from, decision.to);
     expect((decision.fate == LoopFate::used) == (decision.to != k),
            loop + " is " + name_of(decision.fate));
     expect(decision.nis.has_value(), loop + " has no NIS, and the gate is on");

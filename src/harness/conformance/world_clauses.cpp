@@ -1,4 +1,5 @@
 #include <cmath>
+#include <fmt/format.h>
 
 #include "clauses.hpp"
 #include "expectations.hpp"
@@ -58,11 +59,11 @@ void gate_refuses_fix(Subject& subject) {
     for (std::size_t j = 0; j < report.absolute.size(); ++j) {
       const AbsoluteDecision& decision = report.absolute[j];
       const bool is_wrong = has_jump(k) && j + 1 == report.absolute.size();
-      const std::string what = "absolute measurement " + std::to_string(j) + " of keyframe " +
-                               std::to_string(k) + (is_wrong ? ", which jumps," : "");
+      const std::string what = fmt::format("absolute measurement {} of keyframe {}{}", j, k,
+                                           is_wrong ? ", which jumps," : "");
       const LoopFate expected = is_wrong ? LoopFate::rejected : LoopFate::used;
       expect(decision.fate == expected,
-             what + " is " + name_of(decision.fate) + ", expected " + name_of(expected));
+             fmt::format("{} is {}, expected {}", what, name_of(decision.fate), name_of(expected)));
       if (!is_wrong) continue;
       expect(decision.nis.has_value(), what + " has no NIS, and the gate is on");
       expect_at_least("the NIS of " + what + " is", *decision.nis, 100.0);
