@@ -1,6 +1,7 @@
 #include "fathom/datasets/mission.hpp"
 
 #include <cmath>
+#include <fmt/format.h>
 #include <numbers>
 #include <utility>
 
@@ -154,9 +155,10 @@ std::vector<StampedPose> fly_mission(const MissionOptions& options, const std::s
   const double last =
       std::floor(length_m / options.speed_m_s * options.frame_rate_hz * (1 + 1e-12));
   if (!(last < kMaxFrames)) {
-    throw InputError(prefix + "frame_rate_hz: the mission would have " + std::to_string(last) +
-                     " frames, at most 1000000 are possible; lower it or raise " + prefix +
-                     "speed_m_s");
+    throw InputError(fmt::format(
+        "{0}frame_rate_hz: the mission would have {1:.0f} frames, at most 1000000 are possible; "
+        "lower it or raise {0}speed_m_s",
+        prefix, last));
   }
   std::vector<StampedPose> poses;
   std::size_t current = 0;
