@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <fmt/format.h>
 #include <iterator>
 #include <memory>
 #include <string>
@@ -50,8 +51,8 @@ void print_clauses() {
 // "2 do not apply: no batch mode"; empty where all do.
 std::string without_application(std::size_t count, const std::vector<std::string>& reasons) {
   if (count == 0) return "";
-  return ", " + std::to_string(count) + (count == 1 ? " does" : " do") +
-         " not apply: " + joined(reasons, ", ");
+  return fmt::format(", {} {} not apply: {}", count, count == 1 ? "does" : "do",
+                     joined(reasons, ", "));
 }
 
 // What others wrote may take its process with it.

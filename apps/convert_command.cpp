@@ -2,6 +2,7 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <fmt/format.h>
 #include <memory>
 
 #include "apps/command.hpp"
@@ -55,11 +56,10 @@ Notes convert_graph_file(const ConvertFlags& flags) {
   const GraphFormat to = flags.to == "g2o" ? GraphFormat::g2o : GraphFormat::toro;
   const ConvertedGraph graph = convert_graph(read_text(flags.input), flags.input, to);
   write_file(flags.out, graph.text);
-  Notes notes{std::to_string(graph.vertices) + " vertices, " + std::to_string(graph.edges) +
-              " edges"};
+  Notes notes{fmt::format("{} vertices, {} edges", graph.vertices, graph.edges)};
   for (const auto& [tag, count] : graph.left_out) {
-    notes.push_back("left out: " + counted(count, "line") + " " + tag + ", which " +
-                    (to == GraphFormat::toro ? "TORO" : "g2o") + " does not have");
+    notes.push_back(fmt::format("left out: {} {}, which {} does not have", counted(count, "line"),
+                                tag, to == GraphFormat::toro ? "TORO" : "g2o"));
   }
   return notes;
 }
@@ -101,8 +101,8 @@ Notes convert_trajectory_file(const ConvertFlags& flags) {
   if (!flags.times_out.empty() && !trajectory.has_times) {
     throw InputError("--times-out: " + flags.input + " has no times; --times FILE gives them");
   }
-  Notes notes{std::to_string(trajectory.poses.size()) + " poses, " + title_of(trajectory.format) +
-              " to " + title_of(to)};
+  Notes notes{fmt::format("{} poses, {} to {}", trajectory.poses.size(),
+                          title_of(trajectory.format), title_of(to))};
   add_what_is_lost(flags, trajectory, to, notes);
   if (!flags.trajectory.plane.empty()) flatten(trajectory, flags.trajectory.plane, notes);
   write_file(flags.out, to_text(trajectory.poses, to));

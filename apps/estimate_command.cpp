@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <fmt/format.h>
 #include <memory>
 
 #include "apps/command.hpp"
@@ -26,9 +27,8 @@ std::string request_of(const workflow::Demand& demand, int shards) {
   const double hours = demand.runs_h / shards;
   const auto minutes = static_cast<long>(std::ceil(kMargin * 60.0 * hours)) + 1;
   const auto mib = 256 * static_cast<long>(std::ceil(kMargin * demand.memory_mib / 256.0));
-  return "#SBATCH --array=1-" + std::to_string(shards) +
-         " --cpus-per-task=1 --time=" + std::to_string(minutes) + " --mem=" + std::to_string(mib) +
-         "M\n";
+  return fmt::format("#SBATCH --array=1-{} --cpus-per-task=1 --time={} --mem={}M\n", shards,
+                     minutes, mib);
 }
 
 void print(const workflow::Demand& demand, int shards) {
@@ -36,8 +36,7 @@ void print(const workflow::Demand& demand, int shards) {
   table.add_row({"registrations", format_number(demand.registrations_h, 2),
                  format_number(demand.cache_mib, 2), std::to_string(demand.surveys) + " surveys"});
   table.add_row({"runs", format_number(demand.runs_h, 2), format_number(demand.store_mib, 2),
-                 std::to_string(demand.trials) + " trials with " +
-                     std::to_string(demand.estimators) + " estimators"});
+                 fmt::format("{} trials with {} estimators", demand.trials, demand.estimators)});
   std::printf("%s\n", table.text().c_str());
   std::printf(
       "Memory: %.0f MiB a job. From %zu trial%s run here; other trials register "

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <fmt/format.h>
 #include <memory>
 
 #include "apps/command.hpp"
@@ -56,11 +57,11 @@ bool are_paired_by_index(const EvaluateFlags& flags, const SpatialTrajectory& es
     throw InputError("--time-offset: neither trajectory has times; they are paired by index");
   }
   if (estimate.poses.size() != reference.poses.size()) {
-    throw InputError(flags.estimate, "has " + std::to_string(estimate.poses.size()) + " poses, " +
-                                         flags.reference + " " +
-                                         std::to_string(reference.poses.size()) +
-                                         ": without times they are paired by index, and must be "
-                                         "as many");
+    throw InputError(
+        flags.estimate,
+        fmt::format(
+            "has {} poses, {} {}: without times they are paired by index, and must be as many",
+            estimate.poses.size(), flags.reference, reference.poses.size()));
   }
   return true;
 }
@@ -75,8 +76,8 @@ std::vector<StampedPose> stamps_of(const SpatialTrajectory& trajectory) {
 
 [[noreturn]] void refuse_no_pair(const EvaluateFlags& flags, const SpatialTrajectory& estimate,
                                  const SpatialTrajectory& reference) {
-  std::string what = "no pose is within " + format_number(flags.max_difference_s, 3) +
-                     " s of one of " + flags.reference;
+  std::string what = fmt::format("no pose is within {} s of one of {}",
+                                 format_number(flags.max_difference_s, 3), flags.reference);
   if (estimate.poses.empty() || reference.poses.empty()) {
     const bool neither = estimate.poses.empty() && reference.poses.empty();
     what += neither                  ? "; both hold no pose"
@@ -88,10 +89,11 @@ std::vector<StampedPose> stamps_of(const SpatialTrajectory& trajectory) {
   const auto apart_ns = static_cast<long double>(reference.poses.front().time_ns) -
                         static_cast<long double>(estimate.poses.front().time_ns);
   const double offset_s = flags.time_offset_s + static_cast<double>(apart_ns / 1e9L);
-  throw InputError(flags.estimate,
-                   what + ": it is from " + span_text(estimate) + ", the reference from " +
-                       span_text(reference) + "; --time-offset " + number_text(offset_s) +
-                       " lets both begin together, and --max-difference may be larger");
+  throw InputError(
+      flags.estimate,
+      fmt::format("{}: it is from {}, the reference from {}; --time-offset {} lets both begin "
+                  "together, and --max-difference may be larger",
+                  what, span_text(estimate), span_text(reference), number_text(offset_s)));
 }
 
 struct Paired {

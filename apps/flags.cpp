@@ -1,5 +1,7 @@
 #include "apps/flags.hpp"
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 
 #include "fathom/core/text.hpp"
@@ -10,8 +12,8 @@ namespace {
 [[noreturn]] void refuse(const std::string& name, const std::string& kind, Range range,
                          const std::string& given) {
   const std::string bounds = range.text();
-  throw InputError(name + ": expected " + kind + (bounds.empty() ? "" : " " + bounds) + ", got " +
-                   in_quotes(given) + " (see --help)");
+  throw InputError(fmt::format("{}: expected {}{}, got {} (see --help)", name, kind,
+                               bounds.empty() ? "" : " " + bounds, in_quotes(given)));
 }
 
 double real_of(const std::string& name, Range range, const std::string& text) {

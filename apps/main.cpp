@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <exception>
 #include <filesystem>
+#include <fmt/format.h>
 #include <glog/logging.h>
 #include <iostream>
 #include <new>
@@ -63,12 +64,12 @@ std::string parse_error_text(const CLI::App& app, const CLI::ParseError& error, 
   std::vector<std::string> names;
   for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
   if (argc > 1 && argv[1][0] != '-' && app.get_subcommands().empty()) {
-    return "unknown command '" + std::string(argv[1]) + "'" + suggestion(argv[1], names) +
-           " (fathom --help lists them)";
+    return fmt::format("unknown command '{}'{} (fathom --help lists them)", argv[1],
+                       suggestion(argv[1], names));
   }
   if (argc > 1 && argv[1][0] == '-' && app.get_subcommands().empty()) {
-    return "unknown flag '" + std::string(argv[1]) + "'" +
-           suggestion(argv[1], {"--help", "--version"}) + " (see --help)";
+    return fmt::format("unknown flag '{}'{} (see --help)", argv[1],
+                       suggestion(argv[1], {"--help", "--version"}));
   }
   return std::string(error.what()) + " (see --help)";
 }

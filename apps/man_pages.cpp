@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <fmt/format.h>
 
 #include "fathom/core/text.hpp"
 #include "fathom/core/version.hpp"
@@ -54,8 +55,8 @@ std::string in_capitals(std::string text) {
 }
 
 std::string head(const std::string& name, const std::string& help) {
-  return ".TH " + in_capitals(escaped(name)) + " 1 \"\" \"Fathom " + version() + "\" \"Fathom\"\n" +
-         ".SH NAME\n" + escaped(name) + " \\- " + escaped(help) + "\n";
+  return fmt::format(".TH {} 1 \"\" \"Fathom {}\" \"Fathom\"\n.SH NAME\n{} \\- {}\n",
+                     in_capitals(escaped(name)), version(), escaped(name), escaped(help));
 }
 
 // As sentences, since the page has no columns for them.
@@ -128,11 +129,11 @@ Footer footer_of(const DescribedCommand& command) {
 std::string program_page(const DescribedCommand& program,
                          const std::vector<DescribedCommand>& commands) {
   std::string text = head(program.name, program.help);
-  text += ".SH SYNOPSIS\n" + bold(program.name) + " " + italic("COMMAND") + " [" +
-          italic("OPTIONS") + "] " + italic("ARGUMENTS") + "\n.SH COMMANDS\n";
+  text += fmt::format(".SH SYNOPSIS\n{} {} [{}] {}\n.SH COMMANDS\n", bold(program.name),
+                      italic("COMMAND"), italic("OPTIONS"), italic("ARGUMENTS"));
   for (const DescribedCommand& command : commands) {
-    text +=
-        ".TP\n\\fBfathom\\-" + escaped(command.name) + "\\fR(1)\n" + escaped(command.help) + ".\n";
+    text += fmt::format(".TP\n\\fBfathom\\-{}\\fR(1)\n{}.\n", escaped(command.name),
+                        escaped(command.help));
   }
   return text + section("OPTIONS", program.flags) + ".SH NOTES\n" + escaped(program.footer) + "\n";
 }

@@ -1,6 +1,7 @@
 #include "apps/progress.hpp"
 
 #include <cstdio>
+#include <fmt/format.h>
 #include <unistd.h>
 
 namespace fathom {
@@ -91,8 +92,7 @@ void StudyProgressLine::show(const StudyProgress& progress) {
 
 std::string StudyProgressLine::stage(const StudyProgress& progress) {
   if (progress.stage.empty()) return "";
-  std::string text = "; " + progress.stage + " " + std::to_string(progress.step) + " of " +
-                     std::to_string(progress.steps);
+  std::string text = fmt::format("; {} {} of {}", progress.stage, progress.step, progress.steps);
   if (progress.pairs) text += ", " + pairs_text(*progress.pairs, progress.of_pairs);
   return text;
 }

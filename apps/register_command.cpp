@@ -2,6 +2,7 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <fmt/format.h>
 #include <memory>
 
 #include "apps/command.hpp"
@@ -33,9 +34,8 @@ cv::Mat picture_for(const Camera& camera, const std::string& path) {
   cv::Mat picture = read_grey_picture(path);
   const CameraModel& model = camera.model();
   if (picture.cols != model.width || picture.rows != model.height) {
-    throw InputError(path, "is " + std::to_string(picture.cols) + " x " +
-                               std::to_string(picture.rows) + " pixels, the camera of --config " +
-                               std::to_string(model.width) + " x " + std::to_string(model.height));
+    throw InputError(path, fmt::format("is {} x {} pixels, the camera of --config {} x {}",
+                                       picture.cols, picture.rows, model.width, model.height));
   }
   return picture;
 }

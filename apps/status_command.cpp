@@ -2,6 +2,7 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <fmt/format.h>
 #include <memory>
 #include <optional>
 
@@ -33,7 +34,7 @@ struct FolderStatus {
 std::string worker_of(const fs::path& folder) {
   const ClaimHolder holder = FolderClaim::holder_of(folder);
   if (holder.is_alive) {
-    return "process " + std::to_string(holder.process) + " on " + holder.host;
+    return fmt::format("process {} on {}", holder.process, holder.host);
   }
   return FileLock::is_held(folder / "results.lock") ? "a process of this machine" : "";
 }
@@ -73,9 +74,8 @@ std::string totals_text(const std::vector<ShardFolder>& folders) {
     failed += folder.failed;
     of = std::max(of, folder.of);
   }
-  return std::to_string(done) + " of " + std::to_string(of) + " runs are done, " +
-         std::to_string(failed) + " of them failed; " + std::to_string(of - std::min(of, done)) +
-         " are left\n";
+  return fmt::format("{} of {} runs are done, {} of them failed; {} are left\n", done, of, failed,
+                     of - std::min(of, done));
 }
 
 void print_missing(const std::vector<ShardFolder>& folders) {

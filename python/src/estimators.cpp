@@ -1,5 +1,6 @@
 // The estimators that studies and solves find by name: built in, of plug-ins, written in Python.
 
+#include <fmt/format.h>
 #include <new>
 #include <pybind11/stl.h>
 #include <string>
@@ -52,8 +53,8 @@ std::string place_of(const py::error_already_set& error) {
     const bool is_here = file.find("-packages/") == std::string::npos && !file.starts_with('<');
     if (is_own && !is_here) continue;
     is_own = is_here;
-    place = " (" + file.substr(file.rfind('/') + 1) + ":" +
-            std::to_string(trace.attr("tb_lineno").cast<int>()) + ")";
+    place = fmt::format(" ({}:{})", file.substr(file.rfind('/') + 1),
+                        trace.attr("tb_lineno").cast<int>());
   }
   return place;
 }

@@ -1,5 +1,6 @@
 // MeasurementLog, its files and its arrays.
 
+#include <fmt/format.h>
 #include <pybind11/stl.h>
 #include <string>
 #include <vector>
@@ -61,8 +62,8 @@ std::vector<RelativePose> registrations_of(const MeasurementLog& log) {
 double chi2_of(const MeasurementLog& log, const py::object& trajectory) {
   const std::vector<Pose> poses = poses_of(trajectory, "trajectory");
   if (poses.size() != log.size()) {
-    throw InputError("trajectory: has " + std::to_string(poses.size()) + " poses, the log " +
-                     std::to_string(log.size()) + " keyframes");
+    throw InputError(
+        fmt::format("trajectory: has {} poses, the log {} keyframes", poses.size(), log.size()));
   }
   return chi2(log, poses);
 }

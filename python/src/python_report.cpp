@@ -1,5 +1,6 @@
 #include "python/src/python_report.hpp"
 
+#include <fmt/format.h>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,7 +20,7 @@ Name named(const py::handle& word, const std::vector<Name>& all, const std::stri
     if (name_of(name) == text) return name;
     known += (known.empty() ? "" : ", ") + name_of(name);
   }
-  throw InputError(what + ": got '" + text + "', expected " + known);
+  throw InputError(fmt::format("{}: got '{}', expected {}", what, text, known));
 }
 
 Outcome outcome_of(const py::handle& word) {
@@ -51,8 +52,8 @@ void decide_all(const py::object& given, std::vector<Decision>& decisions) {
   if (given.is_none()) return;
   const auto list = py::list(given);
   if (list.size() != decisions.size()) {
-    throw InputError("a report has " + std::to_string(list.size()) + " decisions, expected " +
-                     std::to_string(decisions.size()));
+    throw InputError(
+        fmt::format("a report has {} decisions, expected {}", list.size(), decisions.size()));
   }
   for (std::size_t i = 0; i < decisions.size(); ++i) decide(list[i], decisions[i]);
 }

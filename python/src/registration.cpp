@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <fmt/format.h>
 #include <optional>
 #include <pybind11/stl.h>
 #include <string>
@@ -43,9 +44,8 @@ cv::Mat grey(const py::array& array, const CameraModel& camera, const std::strin
     throw InputError(what + ": expected a grey picture, a contiguous array of uint8 with 2 axes");
   }
   if (array.shape(0) != camera.height || array.shape(1) != camera.width) {
-    throw InputError(what + ": is " + std::to_string(array.shape(1)) + " x " +
-                     std::to_string(array.shape(0)) + " pixels, the camera " +
-                     std::to_string(camera.width) + " x " + std::to_string(camera.height));
+    throw InputError(fmt::format("{}: is {} x {} pixels, the camera {} x {}", what, array.shape(1),
+                                 array.shape(0), camera.width, camera.height));
   }
   return {static_cast<int>(array.shape(0)), static_cast<int>(array.shape(1)), CV_8UC1,
           const_cast<void*>(array.data())};  // NOLINT(cppcoreguidelines-pro-type-const-cast)

@@ -3,6 +3,7 @@
 #include "fathom/workflow/solve.hpp"
 
 #include <cstdint>
+#include <fmt/format.h>
 #include <limits>
 #include <optional>
 #include <pybind11/stl.h>
@@ -55,8 +56,8 @@ Solution solve(const MeasurementLog& log, const EstimatorRegistry& registry,
     throw InputError("start: an initial guess is for a batch solve");
   }
   if (!asked.start.empty() && asked.start.size() != log.size()) {
-    throw InputError("start: has " + std::to_string(asked.start.size()) + " poses, the log " +
-                     std::to_string(log.size()) + " keyframes");
+    throw InputError(
+        fmt::format("start: has {} poses, the log {} keyframes", asked.start.size(), log.size()));
   }
   request.start = asked.start;
   request.isolation = asked.isolation;

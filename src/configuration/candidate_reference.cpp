@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <fmt/format.h>
 #include <string>
 #include <vector>
 
@@ -51,8 +52,8 @@ CandidateReference configure_reference(const Settings& settings,
   const Setting* word = settings.find(kKey);
   const Settings own = settings.below(kPrefix);
   if (word != nullptr && !own.all().empty()) {
-    refuse(*word, std::string(kKey) + ": is given as a map, too, by " + own.all().front().origin +
-                      "; expected one of them");
+    refuse(*word, fmt::format("{}: is given as a map, too, by {}; expected one of them", kKey,
+                              own.all().front().origin));
   }
   if (!own.all().empty()) return of_map(own, registry);
   CandidateReference reference = automatic_reference(registry);
@@ -69,7 +70,7 @@ CandidateReference configure_reference(const Settings& settings,
   for (const EstimatorConfiguration& estimator : estimators) names.push_back(estimator.name);
   std::string right = suggestion(name, names);
   if (right.empty()) right = "; expected " + joined(names, ", ") + ", or a map with a type";
-  refuse(*word, std::string(kKey) + ": no estimator is called '" + name + "'" + right);
+  refuse(*word, fmt::format("{}: no estimator is called '{}'{}", kKey, name, right));
 }
 
 void add_unused_references(const Settings& settings, const Configuration& configuration,
@@ -82,7 +83,7 @@ void add_unused_references(const Settings& settings, const Configuration& config
         is_own ? "nobody's estimate but each one's own picks the loop candidates; "
                  "use association.mode: shared"
                : "a " + configuration.dataset.type + " graph has its loops; nothing selects them";
-    unused.push_back({setting.key, setting.origin + ": " + setting.key + ": " + why});
+    unused.push_back({setting.key, fmt::format("{}: {}: {}", setting.origin, setting.key, why)});
   }
 }
 

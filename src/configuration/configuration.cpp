@@ -1,6 +1,7 @@
 #include "fathom/configuration/configuration.hpp"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <iterator>
 #include <memory>
 #include <string>
@@ -50,9 +51,9 @@ void set(OptionTable& table, const Setting& setting, const std::vector<std::stri
   if (!table.has(setting.key)) {
     for (const std::string& key : known) {
       if (!key.starts_with(setting.key + ".")) continue;
-      refuse(setting, setting.key + ": expected a map of keys, such as '" + key + "'");
+      refuse(setting, fmt::format("{}: expected a map of keys, such as '{}'", setting.key, key));
     }
-    refuse(setting, "unknown key '" + setting.key + "'" + suggestion(setting.key, known));
+    refuse(setting, fmt::format("unknown key '{}'{}", setting.key, suggestion(setting.key, known)));
   }
   try {
     table.set(setting.key, setting.value);
@@ -92,8 +93,8 @@ bool is_among(const std::vector<IgnoredKey>& ignored, const std::string& key) {
 
 std::string unused_text(const Setting& setting, const std::string& chooser,
                         const std::string& choice) {
-  return setting.origin + ": " + setting.key + ": " + chooser + " " + choice +
-         " has no use for it and would ignore it";
+  return fmt::format("{}: {}: {} {} has no use for it and would ignore it", setting.origin,
+                     setting.key, chooser, choice);
 }
 
 std::vector<UnusedSetting> unused_settings(const Settings& settings,

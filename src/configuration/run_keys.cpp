@@ -1,6 +1,7 @@
 #include "run_keys.hpp"
 
 #include <algorithm>
+#include <fmt/format.h>
 
 #include "fathom/configuration/study.hpp"
 #include "fathom/core/input_error.hpp"
@@ -33,9 +34,9 @@ void add_unused_limits(const Settings& settings, const Configuration& configurat
   for (const char* const key : {"time_limit_s", "memory_limit_mib"}) {
     const Setting* const setting = settings.find(key);
     if (setting == nullptr) continue;
-    unused.push_back({key, setting->origin + ": " + key +
-                               ": no estimator runs in a process of its own, and it would be "
-                               "ignored; isolation: process gives each one"});
+    unused.push_back({key, fmt::format("{}: {}: no estimator runs in a process of its own, and it "
+                                       "would be ignored; isolation: process gives each one",
+                                       setting->origin, key)});
   }
 }
 
@@ -45,9 +46,9 @@ void check_selection_isolated(const Settings& settings, const Configuration& con
   const auto refuse_isolated = [&](const std::string& type, const char* key) {
     if (!configuration.isolation.is_isolated(registry.find(type))) return;
     throw InputError(settings.find(key) == nullptr ? "" : settings.find(key)->origin,
-                     std::string(key) + ": " + type +
-                         " would run beside the front end, which a process of its own cannot; "
-                         "expected isolation: none, or another that selects");
+                     fmt::format("{}: {} would run beside the front end, which a process of its "
+                                 "own cannot; expected isolation: none, or another that selects",
+                                 key, type));
   };
   if (is_own) {
     for (const EstimatorConfiguration& one : configuration.estimators) {

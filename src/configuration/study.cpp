@@ -1,6 +1,7 @@
 #include "fathom/configuration/study.hpp"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <map>
 
 #include "canonical_value.hpp"
@@ -44,8 +45,8 @@ void refuse_same_values(const Axis& axis, const std::string& type) {
     const auto [there, is_new] =
         label_of.emplace(canonical_text(axis.values[i].value, type), label);
     if (is_new) continue;
-    refuse(axis.values[i],
-           axis.prefix + "values: '" + there->second + "' and '" + label + "' are the same value");
+    refuse(axis.values[i], fmt::format("{}values: '{}' and '{}' are the same value", axis.prefix,
+                                       there->second, label));
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 
 #include "fathom/measurements/spoil.hpp"
 
@@ -56,10 +57,11 @@ void check_repeats(const Settings& settings, const StudyOptions& study,
   }
   const double runs = static_cast<double>(study.surveys) * static_cast<double>(study.trials);
   if (runs <= kMostRuns) return;
-  refuse(*settings.find(study.surveys > 1 ? "surveys" : "trials"),
-         "surveys: " + std::to_string(study.surveys) + " of " + std::to_string(study.trials) +
-             " trials each are too many; expected surveys times trials of at most " +
-             std::to_string(static_cast<int>(kMostRuns)));
+  refuse(
+      *settings.find(study.surveys > 1 ? "surveys" : "trials"),
+      fmt::format(
+          "surveys: {} of {} trials each are too many; expected surveys times trials of at most {}",
+          study.surveys, study.trials, static_cast<int>(kMostRuns)));
 }
 
 }  // namespace

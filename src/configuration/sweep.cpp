@@ -1,6 +1,7 @@
 #include "sweep.hpp"
 
 #include <algorithm>
+#include <fmt/format.h>
 
 #include "fathom/core/text.hpp"
 #include "fathom/evaluation/metrics.hpp"
@@ -28,7 +29,7 @@ const Setting& required(const Settings& own, std::string_view key, std::string_v
   const std::string word(key);
   if (const Setting* setting = own.find(word)) return *setting;
   refuse(own.all().front(),
-         std::string(prefix) + word + " is missing: an axis of a sweep has a key and values");
+         fmt::format("{}{} is missing: an axis of a sweep has a key and values", prefix, word));
 }
 
 void refuse_unknown(const Settings& own, const std::string& prefix) {
@@ -51,9 +52,10 @@ void check_text(const std::string& text, const Setting& given, const std::string
   constexpr std::size_t kLongest = 80;
   if (text.empty()) refuse(given, what + ": a text is empty");
   if (text.size() > kLongest) {
-    refuse(given, what + ": '" + text.substr(0, 20) + "…' has " + std::to_string(text.size()) +
-                      " characters; a table has room for " + std::to_string(kLongest) +
-                      ". Give the values short labels");
+    refuse(given,
+           fmt::format(
+               "{}: '{}…' has {} characters; a table has room for {}. Give the values short labels",
+               what, text.substr(0, 20), text.size(), kLongest));
   }
   const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; };
   if (std::ranges::any_of(text, is_control)) {
@@ -84,7 +86,7 @@ void check_texts(const Axis& axis, const Setting& given) {
   std::ranges::sort(labels);
   const auto twice = std::ranges::adjacent_find(labels);
   if (twice == labels.end()) return;
-  refuse(given, axis.prefix + "values: '" + *twice + "' is given twice");
+  refuse(given, fmt::format("{}values: '{}' is given twice", axis.prefix, *twice));
 }
 
 Axis axis_of(const Settings& own, const std::string& prefix) {
@@ -108,8 +110,8 @@ Axis axis_of(const Settings& own, const std::string& prefix) {
   if (const Setting* labels = own.find("labels")) {
     axis.described.labels = list_of(*labels, prefix + "labels");
     if (axis.described.labels.size() != axis.values.size()) {
-      refuse(*labels, prefix + "labels: expected one for each of the " +
-                          std::to_string(axis.values.size()) + " values");
+      refuse(*labels, fmt::format("{}labels: expected one for each of the {} values", prefix,
+                                  axis.values.size()));
     }
   }
   check_texts(axis, own.find("labels") == nullptr ? values : *own.find("labels"));
@@ -148,7 +150,7 @@ std::vector<Axis> axes_of(const Settings& settings) {
     const StudyAxis& newest = axes.back().described;
     for (std::size_t i = 0; i + 1 < axes.size(); ++i) {
       if (axes[i].described.key == newest.key || axes[i].described.name == newest.name) {
-        refuse(own.all().front(), prefix + "key: two axes are '" + newest.name + "'");
+        refuse(own.all().front(), fmt::format("{}key: two axes are '{}'", prefix, newest.name));
       }
     }
     if (const Setting* fixed = settings.find(newest.key)) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <fmt/format.h>
 #include <string>
 
 #include "fathom/core/input_error.hpp"
@@ -14,8 +15,8 @@ namespace {
 void require_rising(std::span<const StampedPose> trajectory, const std::string& name) {
   for (std::size_t k = 1; k < trajectory.size(); ++k) {
     if (trajectory[k].time_ns > trajectory[k - 1].time_ns) continue;
-    throw InputError("the time stamps of the " + name + " must rise; pose " + std::to_string(k) +
-                     " at " + seconds_text(trajectory[k].time_ns) + " s does not");
+    throw InputError(fmt::format("the time stamps of the {} must rise; pose {} at {} s does not",
+                                 name, k, seconds_text(trajectory[k].time_ns)));
   }
 }
 

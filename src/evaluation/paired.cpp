@@ -1,6 +1,7 @@
 #include "fathom/evaluation/paired.hpp"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <numeric>
 #include <string>
 
@@ -48,8 +49,9 @@ std::optional<PairedDifference> paired_difference(std::span<const double> a,
                                                   std::span<const double> b,
                                                   const BootstrapOptions& options) {
   if (a.size() != b.size()) {
-    throw InputError("a paired difference needs two lists of the same trials, got " +
-                     std::to_string(a.size()) + " and " + std::to_string(b.size()));
+    throw InputError(
+        fmt::format("a paired difference needs two lists of the same trials, got {} and {}",
+                    a.size(), b.size()));
   }
   require_finite(a, "a paired difference");
   require_finite(b, "a paired difference");

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <string>
 
 #include "distributions.hpp"
@@ -13,8 +14,8 @@ namespace {
 
 void require_share(std::size_t successes, std::size_t count, double probability) {
   if (successes > count) {
-    throw InputError("a share needs no more successes than trials, got " +
-                     std::to_string(successes) + " of " + std::to_string(count));
+    throw InputError(
+        fmt::format("a share needs no more successes than trials, got {} of {}", successes, count));
   }
   if (!(probability > 0.0 && probability < 1.0)) {
     throw InputError("a probability must be above 0 and below 1, got " +

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <fmt/format.h>
 #include <utility>
 
 #include "keyframe_series.hpp"
@@ -101,7 +102,7 @@ void count(const PlotSeries& series, Counts& counts) {
 
 LegendEntry entry(std::string text, const MarkCount& count, Kind kind, bool is_kept) {
   if (count.drawn < count.all) {
-    text += " (" + std::to_string(count.drawn) + " of " + std::to_string(count.all) + ")";
+    text += fmt::format(" ({} of {})", count.drawn, count.all);
   }
   return {std::move(text), [=](Canvas& canvas, const Point& centre) {
             if (kind == fix) return draw_fix(canvas, centre, is_kept);

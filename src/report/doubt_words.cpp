@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <fmt/format.h>
 
 #include "doubts.hpp"
 #include "fathom/core/text.hpp"
@@ -28,8 +29,8 @@ std::string front_end_words(const std::optional<FrontEnd>& front_end) {
   if (front_end->tried == 0.0) {
     return ": there were no candidate pairs; 'fathom check' of the data says what to expect";
   }
-  return ": of " + short_number(front_end->tried, 4) + " candidate pairs a trial " +
-         short_number(front_end->registered, 4) + " registered";
+  return fmt::format(": of {} candidate pairs a trial {} registered",
+                     short_number(front_end->tried, 4), short_number(front_end->registered, 4));
 }
 
 // Each with its figures, and in general.
@@ -54,15 +55,16 @@ std::string words(const IntervalAgainstTest& found) {
   std::vector<std::string> names;
   names.reserve(found.pairs.size());
   for (const auto& [estimator, holm_p] : found.pairs) {
-    names.push_back(estimator + " (p = " + format_number(holm_p, 2) + ")");
+    names.push_back(fmt::format("{} (p = {})", estimator, format_number(holm_p, 2)));
   }
   std::string text =
       "The interval of the difference excludes 0, but the adjusted p is above 0.05: " +
       listed(names) + ".";
   if (const auto& limit = found.limit) {
-    text += " With " + counted(limit->count, limit->is_over_surveys ? "survey" : "trial") +
-            " and " + counted(limit->comparisons, "comparison") + " no p is below " +
-            format_number(std::min(1.0, limit->least_p), 2) + ".";
+    text += fmt::format(" With {} and {} no p is below {}.",
+                        counted(limit->count, limit->is_over_surveys ? "survey" : "trial"),
+                        counted(limit->comparisons, "comparison"),
+                        format_number(std::min(1.0, limit->least_p), 2));
   }
   return text;
 }
@@ -80,9 +82,9 @@ std::string general(const BaselineAsGood&) {
 }
 
 std::string words(const WrongConfidence& found) {
-  return std::string(found.is_overconfident ? "Overconfident" : "Underconfident") +
-         ", where 1 is expected: " + listed_figures(found.anees, " (ANEES ", ")") + "." +
-         (found.cause.empty() ? "" : " " + found.cause);
+  return fmt::format(
+      "{}, where 1 is expected: {}.{}", found.is_overconfident ? "Overconfident" : "Underconfident",
+      listed_figures(found.anees, " (ANEES ", ")"), found.cause.empty() ? "" : " " + found.cause);
 }
 std::string general(const WrongConfidence& found) {
   return std::string("estimators are ") +
@@ -106,18 +108,17 @@ std::string general(const OffTheOptimum&) {
 }
 
 std::string words(const WithoutLoops& found) {
-  return "The means of " + listed(found.estimators) +
-         " hold runs without loop closures, which are no better than dead reckoning" +
-         front_end_words(found.front_end) + ".";
+  return fmt::format(
+      "The means of {} hold runs without loop closures, which are no better than dead reckoning{}.",
+      listed(found.estimators), front_end_words(found.front_end));
 }
 std::string general(const WithoutLoops&) {
   return "means hold runs without loop closures";
 }
 
 std::string words(const FewLoops& found) {
-  return "Of the pairs of keyframes that overlap well no more than " +
-         format_number(100.0 * found.recall, 2) + " % are loops" +
-         front_end_words(found.front_end) + ".";
+  return fmt::format("Of the pairs of keyframes that overlap well no more than {} % are loops{}.",
+                     format_number(100.0 * found.recall, 2), front_end_words(found.front_end));
 }
 std::string general(const FewLoops&) {
   return "few of the pairs that overlap are loops";

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <fmt/format.h>
 #include <map>
 
 #include "study_figures.hpp"
@@ -139,8 +140,7 @@ void draw_lines(Canvas& canvas, const std::vector<SweepLine>& lines,
 
 std::string conditions_of(const ChartInput& input, const Sweep& sweep) {
   const CellResults& first = input.results.cells[sweep.cells.front()];
-  std::string text =
-      "first of " + std::to_string(sweep.cells.size()) + " points: " + cell_caption(first);
+  std::string text = fmt::format("first of {} points: {}", sweep.cells.size(), cell_caption(first));
   std::size_t failures = 0;
   for (const std::size_t place : sweep.cells) {
     for (const EstimatorResults& one : input.results.cells[place].estimators) {

@@ -1,6 +1,7 @@
 #include "fathom/report/projection_text.hpp"
 
 #include <algorithm>
+#include <fmt/format.h>
 
 #include "fathom/report/table.hpp"
 
@@ -10,10 +11,11 @@ std::vector<std::string> projection_warnings(const PlaneAxes& axes, const Projec
                                              const BodyAxes& body, const std::string& which) {
   const ProjectionLoss& loss = projection.loss;
   if (loss.better) {
-    return {which + " is off plane " + name_of(axes.named) + " by " +
-            format_number(loss.height_rms_m, 3) + " m (RMS), and off plane " +
-            name_of(*loss.better) + " by less than a quarter of that: --plane " +
-            name_of(*loss.better) + " may be meant"};
+    return {
+        fmt::format("{} is off plane {} by {} m (RMS), and off plane {} by less than a quarter of "
+                    "that: --plane {} may be meant",
+                    which, name_of(axes.named), format_number(loss.height_rms_m, 3),
+                    name_of(*loss.better), name_of(*loss.better))};
   }
   std::vector<std::string> warnings;
   if (body.forward.z() != 0.0) {
@@ -21,10 +23,10 @@ std::vector<std::string> projection_warnings(const PlaneAxes& axes, const Projec
                        ": the heading is that of its z axis");
   }
   if (loss.open_headings > 0) {
-    warnings.push_back(std::to_string(loss.open_headings) + " of " +
-                       std::to_string(projection.trajectory.size()) + " poses of " + which +
-                       " point within 10 degrees of up or down: their headings say little, and so "
-                       "do errors that rest on them");
+    warnings.push_back(
+        fmt::format("{} of {} poses of {} point within 10 degrees of up or down: their headings "
+                    "say little, and so do errors that rest on them",
+                    loss.open_headings, projection.trajectory.size(), which));
   }
   return warnings;
 }

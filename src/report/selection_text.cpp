@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <fmt/format.h>
 #include <optional>
 #include <vector>
 
@@ -16,8 +17,8 @@ constexpr int kSelectionDigits = 4;
 
 std::string interval_text(const std::optional<TrialMean>& value) {
   if (!value || !value->interval) return "-";
-  return "[" + format_number(value->interval->low, kSelectionDigits) + ", " +
-         format_number(value->interval->high, kSelectionDigits) + "]";
+  return fmt::format("[{}, {}]", format_number(value->interval->low, kSelectionDigits),
+                     format_number(value->interval->high, kSelectionDigits));
 }
 
 std::string mean_text(const std::optional<TrialMean>& value) {
@@ -27,8 +28,8 @@ std::string mean_text(const std::optional<TrialMean>& value) {
 // "in all 10 cells", and of which there is nothing to say.
 std::string cells_text(const Selection& selection) {
   if (selection.cells.size() < selection.cells_asked) {
-    return "in " + std::to_string(selection.cells.size()) + " of " +
-           counted(selection.cells_asked, "cell") + ", the others without runs";
+    return fmt::format("in {} of {}, the others without runs", selection.cells.size(),
+                       counted(selection.cells_asked, "cell"));
   }
   return selection.cells.size() == 1
              ? "in the one cell"
@@ -74,11 +75,10 @@ std::string obstacle_text(const Selection& selection, const SelectionQuery& quer
 
 std::string none_text(const Selection& selection, const SelectionQuery& query) {
   const std::size_t count = query.requirements.size();
-  return "no back end " +
-         (count == 0 ? std::string("can be chosen")
-                     : "meets " + requirements_text(count) + " " + cells_text(selection)) +
-         ": " + obstacle_text(selection, query) + "; nearest is " +
-         selection.estimators[selection.nearest].name;
+  return fmt::format("no back end {}: {}; nearest is {}",
+                     count == 0 ? "can be chosen"
+                                : "meets " + requirements_text(count) + " " + cells_text(selection),
+                     obstacle_text(selection, query), selection.estimators[selection.nearest].name);
 }
 
 std::vector<const EstimatorEvidence*> rows_of(const Selection& selection) {
@@ -124,8 +124,8 @@ std::string lead_text(const Selection& selection, const SelectionQuery& query) {
   const auto& difference = selection.lead->difference;
   std::string numbers;
   if (difference) {
-    numbers = " (difference of " + query.objective + " " +
-              format_number(difference->mean, kSelectionDigits);
+    numbers = fmt::format(" (difference of {} {}", query.objective,
+                          format_number(difference->mean, kSelectionDigits));
     if (difference->interval) {
       numbers += " [" + format_number(difference->interval->low, kSelectionDigits) + ", " +
                  format_number(difference->interval->high, kSelectionDigits) + "]";

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cctype>
+#include <fmt/format.h>
 
 #include "fathom/core/text.hpp"
 #include "fathom/results/run_index.hpp"
@@ -33,12 +34,11 @@ Metric described(const std::string& metric) {
 
 std::string outcome_text(const EstimatorResults& estimator, const StudyDescription& study) {
   const std::size_t wanted = study.surveys * study.trials;
-  std::string text =
-      std::to_string(estimator.done) + "/" + std::to_string(estimator.runs.size()) + " done";
+  std::string text = fmt::format("{}/{} done", estimator.done, estimator.runs.size());
   for (const auto& [name, count] : estimator.outcomes) {
     if (name == "converged") continue;
-    text += ", " + std::to_string(count) + " " +
-            (name == "iteration_limit" ? "at iteration limit" : worded(name));
+    text += fmt::format(", {} {}", count,
+                        name == "iteration_limit" ? "at iteration limit" : worded(name));
   }
   if (const std::size_t count = runs_without_loops(estimator); count > 0) {
     text += ", " + std::to_string(count) + " without loops";
@@ -59,8 +59,8 @@ std::string failures_text(const CellResults& cell) {
   std::string text;
   for (const EstimatorResults& one : cell.estimators) {
     if (one.failures() == 0) continue;
-    text += (text.empty() ? "; failed: " : ", ") + one.name + " " + std::to_string(one.failures()) +
-            "/" + std::to_string(one.runs.size());
+    text += fmt::format("{}{} {}/{}", text.empty() ? "; failed: " : ", ", one.name, one.failures(),
+                        one.runs.size());
   }
   return text;
 }
@@ -86,7 +86,7 @@ TrialKey first_trial(const CellResults& cell) {
 std::string example_text(const CellResults& cell, const TrialKey& trial) {
   const std::string text = "trial " + std::to_string(trial.trial);
   if (cell.repetition != Repetition::surveys) return text;
-  return "survey " + std::to_string(trial.survey) + ", " + text;
+  return fmt::format("survey {}, {}", trial.survey, text);
 }
 
 std::string repeats_of(const std::vector<const CellResults*>& cells) {
@@ -116,9 +116,9 @@ std::string machines_text(const StudyResults& results) {
   std::size_t runs = 0;
   for (const auto& [machine, count] : results.machines) runs += count;
   const std::string& shown = results.cost_machine;
-  return "Costs are of " + (shown.empty() ? std::string("an unknown processor") : shown) + " (" +
-         std::to_string(results.machines.at(shown)) + " of " + std::to_string(runs) +
-         " runs); those of other processors are not averaged with them.";
+  return fmt::format(
+      "Costs are of {} ({} of {} runs); those of other processors are not averaged with them.",
+      shown.empty() ? "an unknown processor" : shown, results.machines.at(shown), runs);
 }
 
 std::string limits_text(const CellResults& cell) {

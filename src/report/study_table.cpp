@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <fmt/format.h>
 #include <map>
 #include <set>
 #include <sstream>
@@ -18,8 +19,8 @@ constexpr int kTableDigits = 3;
 using Rows = std::vector<std::vector<std::string>>;
 
 std::string interval_text(const std::optional<Interval>& interval) {
-  return interval ? " [" + format_number(interval->low, kTableDigits) + ", " +
-                        format_number(interval->high, kTableDigits) + "]"
+  return interval ? fmt::format(" [{}, {}]", format_number(interval->low, kTableDigits),
+                                format_number(interval->high, kTableDigits))
                   : "";
 }
 
@@ -142,11 +143,10 @@ std::string words_in_brief(const StudyResults& results) {
   }
   std::string text;
   for (const auto& [name, count] : cells) {
-    text += (text.empty() ? "" : ", ") + name + " in " + std::to_string(count);
+    text += fmt::format("{}{} in {}", text.empty() ? "" : ", ", name, count);
   }
   if (text.empty()) return "";
-  return "Over- or underconfident, of " + std::to_string(results.cells.size()) + " cells: " + text +
-         ".\n";
+  return fmt::format("Over- or underconfident, of {} cells: {}.\n", results.cells.size(), text);
 }
 
 // Costs on the kinds of processor that the blocks above say nothing of.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <fmt/format.h>
 #include <utility>
 
 #include "fathom/core/input_error.hpp"
@@ -64,8 +65,8 @@ Table::Table(std::vector<std::string> header) : header_(std::move(header)) {}
 
 void Table::add_row(std::vector<std::string> cells) {
   if (cells.size() != header_.size()) {
-    throw InputError("a row of the table has " + std::to_string(cells.size()) + " cells, not " +
-                     std::to_string(header_.size()));
+    throw InputError(
+        fmt::format("a row of the table has {} cells, not {}", cells.size(), header_.size()));
   }
   rows_.push_back(std::move(cells));
 }

@@ -1,6 +1,7 @@
 #include "fathom/report/trajectory_plot.hpp"
 
 #include <algorithm>
+#include <fmt/format.h>
 
 #include "fathom/core/input_error.hpp"
 #include "figure_file.hpp"
@@ -18,21 +19,19 @@ constexpr double kTitleSize = 11.0;
 void check(const TrajectoryPlot& plot) {
   for (const PlotSeries& series : plot.series) {
     if (!series.covariances.empty() && series.covariances.size() != series.poses.size()) {
-      throw InputError("'" + series.name + "' has " + std::to_string(series.poses.size()) +
-                       " poses and " + std::to_string(series.covariances.size()) +
-                       " covariances; there must be one per pose, or none");
+      throw InputError(
+          fmt::format("'{}' has {} poses and {} covariances; there must be one per pose, or none",
+                      series.name, series.poses.size(), series.covariances.size()));
     }
     for (const AbsoluteMark& mark : series.absolute) {
       if (mark.pose < series.poses.size()) continue;
-      throw InputError("'" + series.name + "' has a measurement of pose " +
-                       std::to_string(mark.pose) + ", but only " +
-                       std::to_string(series.poses.size()) + " poses");
+      throw InputError(fmt::format("'{}' has a measurement of pose {}, but only {} poses",
+                                   series.name, mark.pose, series.poses.size()));
     }
     for (const auto& [from, to] : series.loops) {
       if (std::max(from, to) >= series.poses.size()) {
-        throw InputError("'" + series.name + "' has a loop from pose " + std::to_string(from) +
-                         " to " + std::to_string(to) + ", but only " +
-                         std::to_string(series.poses.size()) + " poses");
+        throw InputError(fmt::format("'{}' has a loop from pose {} to {}, but only {} poses",
+                                     series.name, from, to, series.poses.size()));
       }
     }
   }
@@ -50,10 +49,10 @@ std::size_t count_left_out(const TrajectoryPlot& plot) {
 // What was left out is said whole; a long title gives way to it.
 std::string full_title(const TrajectoryPlot& plot, double most) {
   const std::size_t left_out = count_left_out(plot);
-  const std::string note = left_out == 0 ? ""
-                                         : "  [" + std::to_string(left_out) +
-                                               (left_out == 1 ? " pose is" : " poses are") +
-                                               " not finite or too far, not drawn]";
+  const std::string note = left_out == 0
+                               ? ""
+                               : fmt::format("  [{} {} not finite or too far, not drawn]", left_out,
+                                             left_out == 1 ? "pose is" : "poses are");
   return shortened(plot.title, kTitleSize, most - text_width(note, kTitleSize)) + note;
 }
 

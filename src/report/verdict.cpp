@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 
 #include "fathom/core/text.hpp"
 #include "fathom/report/table.hpp"
@@ -59,12 +60,12 @@ void add_others(const Ranking& ranking, const std::string& unit,
       is_small = is_small && std::abs(one.difference->mean) <
                                  0.01 * std::abs(ranking.best().summary.moments.mean);
     } else {
-      alike.push_back(one.name + " (" + signed_text(one, scale_alike) + ")");
+      alike.push_back(fmt::format("{} ({})", one.name, signed_text(one, scale_alike)));
     }
   }
   if (!alike.empty()) {
-    sentences.push_back("Cannot be told apart from " + ranking.best().name + ": " + listed(alike) +
-                        ".");
+    sentences.push_back(
+        fmt::format("Cannot be told apart from {}: {}.", ranking.best().name, listed(alike)));
   }
   if (!worse.empty()) {
     sentences.push_back("Worse: " + listed(worse) + "." +
@@ -88,11 +89,11 @@ std::vector<std::string> answer_of(const CellResults& cell, const std::optional<
   if (!ranking) return {"No estimator is ranked: none did all its runs."};
   const Metric metric = described(ranking->metric);
   const RankedEstimator& best = ranking->best();
-  const std::string mean = best.name + ", " + mean_text(best.summary, metric.unit) + ".";
+  const std::string mean = fmt::format("{}, {}.", best.name, mean_text(best.summary, metric.unit));
   const char* which = metric.better == Better::lower ? "Lowest " : "Highest ";
-  std::vector<std::string> sentences{ranking->estimators.size() == 1
-                                         ? "Only one is ranked by " + metric.label + ": " + mean
-                                         : which + metric.label + ": " + mean};
+  std::vector<std::string> sentences{
+      fmt::format("{}{}: {}", ranking->estimators.size() == 1 ? "Only one is ranked by " : which,
+                  metric.label, mean)};
   add_others(*ranking, metric.unit, sentences);
   add_means(*ranking, metric.unit, sentences);
   const EstimatorResults* baseline = find(cell, kDeadReckoning);
@@ -117,8 +118,9 @@ std::vector<std::string> cost_of(const CellResults& cell, const Ranking& by_accu
   }
   const auto by_cost = ranking(cell, cost, good);
   if (!by_cost) return {};
-  std::string text = "Cheapest of those within 5 % of the best: " + cheapest + ", " + metric.label +
-                     " " + mean_text(find(cell, cheapest)->metrics.at(cost), metric.unit) + ".";
+  std::string text =
+      fmt::format("Cheapest of those within 5 % of the best: {}, {} {}.", cheapest, metric.label,
+                  mean_text(find(cell, cheapest)->metrics.at(cost), metric.unit));
   std::vector<std::string> alike;
   std::vector<std::string> dearer;
   for (const RankedEstimator& one : by_cost->estimators) {
@@ -159,8 +161,8 @@ std::vector<std::string> failed_of(const CellResults& cell, const StudyDescripti
         "; these count as done.");
     add(runs_without_loops(one), "closed no loop", ".");
     if (one.runs.size() < wanted) {
-      sentences.push_back(one.name + ": " + std::to_string(wanted - one.runs.size()) + " of " +
-                          counted(wanted, "run") + " are missing.");
+      sentences.push_back(fmt::format("{}: {} of {} are missing.", one.name,
+                                      wanted - one.runs.size(), counted(wanted, "run")));
     }
   }
   return sentences;

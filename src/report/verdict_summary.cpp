@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <fmt/format.h>
 #include <map>
 #include <optional>
 
@@ -23,7 +24,7 @@ struct Worst {
 
 std::string of_cells(std::size_t count, std::size_t all) {
   return count == all ? "all " + std::to_string(all) + " cells"
-                      : std::to_string(count) + " of " + std::to_string(all) + " cells";
+                      : fmt::format("{} of {} cells", count, all);
 }
 
 void add_worse(const StudyResults& results, StudyVerdict& verdict) {
@@ -50,9 +51,9 @@ void add_worse(const StudyResults& results, StudyVerdict& verdict) {
     const double furthest = std::max(std::abs(entry.one->difference->interval->low),
                                      std::abs(entry.one->difference->interval->high));
     const ScaledUnit scale = reading_unit(described(*verdict.metric).unit, furthest);
-    verdict.answer.push_back(name + " is worse in " + in + ", most at " + entry.cell->label +
-                             ": by " + distance_text(*entry.one, scale) + ", " +
-                             format_number(100.0 * entry.share, 2) + " % of the best.");
+    verdict.answer.push_back(fmt::format(
+        "{} is worse in {}, most at {}: by {}, {} % of the best.", name, in, entry.cell->label,
+        distance_text(*entry.one, scale), format_number(100.0 * entry.share, 2)));
   }
 }
 
@@ -77,11 +78,11 @@ void add_answer(const StudyResults& results, StudyVerdict& verdict) {
     verdict.answer.push_back("Estimators are ranked by " + label +
                              ", but no cell has an interval of a difference.");
   } else if (alike > 0) {
-    verdict.answer.push_back("In " + of_cells(alike, all) +
-                             " no estimator can be told apart from the best by " + label + ".");
+    verdict.answer.push_back(fmt::format(
+        "In {} no estimator can be told apart from the best by {}.", of_cells(alike, all), label));
   } else {
-    verdict.answer.push_back("By " + label + " the best is told apart from another in " +
-                             of_cells(compared, all) + ".");
+    verdict.answer.push_back(fmt::format("By {} the best is told apart from another in {}.", label,
+                                         of_cells(compared, all)));
   }
   add_worse(results, verdict);
 }
@@ -108,9 +109,9 @@ void add_cost(const StudyResults& results, StudyVerdict& verdict) {
   }
   const Metric metric = described(*verdict.cost);
   const ScaledUnit unit = reading_unit(metric.unit, most);
-  verdict.cost_words = {"Cheapest of those within 5 % of the best: " + listed(parts) + "; " +
-                        metric.label + " " + quantity(least, std::nullopt, unit) + " to " +
-                        quantity(most, std::nullopt, unit) + "."};
+  verdict.cost_words = {fmt::format(
+      "Cheapest of those within 5 % of the best: {}; {} {} to {}.", listed(parts), metric.label,
+      quantity(least, std::nullopt, unit), quantity(most, std::nullopt, unit))};
 }
 
 // Over all cells, with the number of those where it happened.
@@ -141,9 +142,9 @@ void add_failed(const StudyResults& results, StudyVerdict& verdict) {
     const auto add = [&](std::size_t runs, std::size_t cells, const std::string& verb,
                          const std::string& end) {
       if (runs == 0) return;
-      verdict.failed.push_back(name + " " + verb + " in " + std::to_string(runs) + " of " +
-                               counted(count.runs, "run") + ", in " +
-                               of_cells(cells, results.cells.size()) + end);
+      verdict.failed.push_back(fmt::format("{} {} in {} of {}, in {}{}", name, verb, runs,
+                                           counted(count.runs, "run"),
+                                           of_cells(cells, results.cells.size()), end));
     };
     add(count.failed, count.cells_failed, "failed", ", where it is not ranked.");
     add(count.without_loops, count.cells_without, "closed no loop", ".");

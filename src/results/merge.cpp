@@ -1,6 +1,7 @@
 #include "fathom/results/merge.hpp"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <map>
 #include <set>
 #include <tuple>
@@ -29,7 +30,7 @@ ResultStore open_source(const fs::path& folder) {
   try {
     return ResultStore::open(folder);
   } catch (const InputError& error) {
-    throw InputError("shard " + folder.string() + ": " + error.what());
+    throw InputError(fmt::format("shard {}: {}", folder.string(), error.what()));
   }
 }
 
@@ -59,9 +60,9 @@ void require_same_study(const std::vector<Source>& sources) {
     std::string differs = difference(there, here);
     if (differs.empty()) differs = data_difference(there, here);
     if (differs.empty()) continue;
-    throw InputError("shard " + other.folder.string() + ": is of another study than shard " +
-                     first.folder.string() + " (" + differs +
-                     "); merge the shards of one study alone");
+    throw InputError(fmt::format(
+        "shard {}: is of another study than shard {} ({}); merge the shards of one study alone",
+        other.folder.string(), first.folder.string(), differs));
   }
 }
 
@@ -105,8 +106,8 @@ std::string difference_of(const RunRecord& one, const RunRecord& other) {
   if (one.log_hash != other.log_hash) return "other measurements";
   const std::string metric = first_difference(one.metrics, other.metrics, is_cost_metric);
   if (!metric.empty()) {
-    return metric + " " + value_text(one.metrics, metric) + " and " +
-           value_text(other.metrics, metric);
+    return fmt::format("{} {} and {}", metric, value_text(one.metrics, metric),
+                       value_text(other.metrics, metric));
   }
   const std::string series = first_difference(one.series, other.series, is_cost_series);
   return series.empty() ? "" : "series " + series;
@@ -149,11 +150,11 @@ void require_alike(const RunKey& key, const RunRecord& kept, const Source& of_ke
   const RunRecord other = source.store.run(key).value();
   const std::string differs = difference_of(kept, other);
   if (differs.empty()) return;
-  throw InputError("shard " + source.folder.string() + ": " + key.estimator + ", " +
-                   text_of(key.trial_key()) + ", cell '" + study.label_of(key.cell) +
-                   "' is not as in shard " + of_kept.folder.string() + " (" + differs +
-                   "); the same run gives the same result: find out which one is wrong and run it "
-                   "again");
+  throw InputError(
+      fmt::format("shard {}: {}, {}, cell '{}' is not as in shard {} ({}); the same run gives the "
+                  "same result: find out which one is wrong and run it again",
+                  source.folder.string(), key.estimator, text_of(key.trial_key()),
+                  study.label_of(key.cell), of_kept.folder.string(), differs));
 }
 
 // The kept copies by session, sessions in the order of their manifests.

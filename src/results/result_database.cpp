@@ -1,5 +1,6 @@
 #include "result_database.hpp"
 
+#include <fmt/format.h>
 #include <sqlite3.h>
 
 namespace fathom {
@@ -19,9 +20,10 @@ bool ResultStore::Database::is_store() const {
     throw InputError(file.string(), "is a database, but no result store of Fathom");
   }
   if (version != kResultSchemaVersion) {
-    throw InputError(file.string(),
-                     "has schema version " + std::to_string(version) + ", this program has " +
-                         std::to_string(kResultSchemaVersion) + "; use the program that wrote it");
+    throw InputError(
+        file.string(),
+        fmt::format("has schema version {}, this program has {}; use the program that wrote it",
+                    version, kResultSchemaVersion));
   }
   return true;
 }

@@ -1,5 +1,6 @@
 #include <SQLiteCpp/VariadicBind.h>
 #include <cstring>
+#include <fmt/format.h>
 #include <string_view>
 #include <unordered_map>
 
@@ -131,15 +132,15 @@ class RunReader {
 
 std::string text_of(const RunKey& key, const StudyDescription& study) {
   const bool is_known = key.cell < study.cell_count();
-  return "run '" + key.estimator + "', " + text_of(key.trial_key()) + ", cell '" +
-         (is_known ? study.label_of(key.cell) : std::to_string(key.cell)) + "'";
+  return fmt::format("run '{}', {}, cell '{}'", key.estimator, text_of(key.trial_key()),
+                     is_known ? study.label_of(key.cell) : std::to_string(key.cell));
 }
 
 // Throws DamagedStore where a run is not what was stored.
 void require_intact(const StoredRun& run, const Hash& hash, const StudyDescription& study) {
   if (checksum_of(hash) == run.checksum && run.record.key.cell < study.cell_count()) return;
-  throw DamagedStore("is damaged: " + text_of(run.record.key, study) +
-                     " is not what was stored (its checksum differs)" + kRemedy);
+  throw DamagedStore(fmt::format("is damaged: {} is not what was stored (its checksum differs){}",
+                                 text_of(run.record.key, study), kRemedy));
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "fathom/results/result_store.hpp"
 
 #include <SQLiteCpp/VariadicBind.h>
+#include <fmt/format.h>
 
 #include "result_database.hpp"
 #include "result_rows.hpp"
@@ -29,7 +30,7 @@ std::int64_t insert_session(SQLite::Database& sqlite, const std::string& manifes
 }  // namespace
 
 std::string text_of(const TrialKey& trial) {
-  return "trial " + std::to_string(trial.trial) + " of survey " + std::to_string(trial.survey);
+  return fmt::format("trial {} of survey {}", trial.trial, trial.survey);
 }
 
 ResultStore::ResultStore(std::unique_ptr<Database> database) : database_(std::move(database)) {}

@@ -1,6 +1,7 @@
 #include "fathom/results/run_index.hpp"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <set>
 
 #include "fathom/estimation/estimator.hpp"
@@ -105,15 +106,14 @@ std::string RunIndex::unfinished(const std::vector<std::size_t>& cells) const {
       const std::vector<TrialKey> missing = missing_of(trials, study_);
       if (missing.empty()) continue;
       const bool all = missing.size() == wanted;
-      gaps.push_back(estimator.name + " in " + study_.label_of(cell) + " (" +
-                     (all ? "all" : trials_text(missing, study_.surveys == 1)) + ")");
+      gaps.push_back(fmt::format("{} in {} ({})", estimator.name, study_.label_of(cell),
+                                 all ? "all" : trials_text(missing, study_.surveys == 1)));
     }
   }
   if (gaps.empty()) return "";
   constexpr std::size_t kShown = 3;
-  std::string text = "the study is not finished: " + std::to_string(there) + " of " +
-                     std::to_string(cells.size() * wanted * study_.estimators.size()) +
-                     " runs; missing: ";
+  std::string text = fmt::format("the study is not finished: {} of {} runs; missing: ", there,
+                                 cells.size() * wanted * study_.estimators.size());
   for (std::size_t i = 0; i < std::min(gaps.size(), kShown); ++i) {
     text += (i > 0 ? "; " : "") + gaps[i];
   }
@@ -128,7 +128,7 @@ std::string repeats_text(Repetition repetition, const std::vector<TrialKey>& tri
   const std::size_t all = trials_of_survey.size() * most;
   const std::string text = repeats_text(repetition, trials_of_survey.size(), most);
   if (trials.size() == all) return text;
-  return text + " (" + std::to_string(trials.size()) + " of " + std::to_string(all) + ")";
+  return fmt::format("{} ({} of {})", text, trials.size(), all);
 }
 
 bool is_failed(const RunRecord& run) {

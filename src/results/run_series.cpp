@@ -1,6 +1,7 @@
 #include "fathom/results/run_series.hpp"
 
 #include <cmath>
+#include <fmt/format.h>
 
 #include "fathom/core/input_error.hpp"
 #include "fathom/core/text.hpp"
@@ -55,10 +56,9 @@ bool read_number(double number, std::optional<double>& entry) {
 
 void refuse_entry(const ResultStore& store, const RunKey& key, const char* series, double number) {
   throw InputError(store.file().string(),
-                   "series " + std::string(series) + " of " + key.estimator + " has an entry of " +
-                       number_text(number) +
-                       ", which 'fathom compare' does not write; run the study "
-                       "again, into another folder");
+                   fmt::format("series {} of {} has an entry of {}, which 'fathom compare' does "
+                               "not write; run the study again, into another folder",
+                               series, key.estimator, number_text(number)));
 }
 
 }  // namespace fathom

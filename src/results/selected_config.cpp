@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <fmt/format.h>
 #include <set>
 
 #include "fathom/configuration/config_text.hpp"
@@ -146,12 +147,10 @@ std::string comment_line(std::string text) {
 std::string header(const StudyDescription& study, const Selection& selection,
                    const SelectionQuery& query) {
   const EstimatorEvidence& chosen = selection.estimators[*selection.chosen];
-  std::string text =
-      comment_line(chosen.name + ", chosen by 'fathom select' from " +
-                   (study.title.empty() ? "a study" : "the study '" + study.title + "'") +
-                   ": cells " + std::to_string(selection.cells.size()) +
-                   (query.where.empty() ? "" : " (" + joined(query.where, ", ") + ")") + "; each " +
-                   selection.repeats);
+  std::string text = comment_line(fmt::format(
+      "{}, chosen by 'fathom select' from {}: cells {}{}; each {}", chosen.name,
+      study.title.empty() ? "a study" : "the study '" + study.title + "'", selection.cells.size(),
+      query.where.empty() ? "" : " (" + joined(query.where, ", ") + ")", selection.repeats));
   std::vector<std::string> requirements;
   for (const Requirement& requirement : query.requirements) {
     requirements.push_back(requirement.text());

@@ -1,6 +1,7 @@
 #include "selection_query.hpp"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <set>
 
 #include "fathom/core/options.hpp"
@@ -32,8 +33,8 @@ std::size_t axis_of(const StudyDescription& study, const std::string& text,
 std::size_t place_of(const StudyAxis& axis, const std::string& text, const std::string& label) {
   const auto found = std::find(axis.labels.begin(), axis.labels.end(), label);
   if (found == axis.labels.end()) {
-    throw InputError("--where " + in_quotes(text) + ": " + axis.name + " is never '" + label + "'" +
-                     hint(label, axis.labels));
+    throw InputError(fmt::format("--where {}: {} is never '{}'{}", in_quotes(text), axis.name,
+                                 label, hint(label, axis.labels)));
   }
   return static_cast<std::size_t>(found - axis.labels.begin());
 }

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <fmt/format.h>
 #include <set>
 
 #include "fathom/evaluation/metrics.hpp"
@@ -52,9 +53,9 @@ std::vector<std::string> remarks_on(const Compared& compared, const Selection& s
     remarks.push_back(std::move(gaps));
   }
   if (selection.cells.size() < asked.size()) {
-    remarks.push_back(std::to_string(asked.size() - selection.cells.size()) + " of " +
-                      std::to_string(asked.size()) +
-                      " cells have no trial that all estimators have run: nothing is said of them");
+    remarks.push_back(fmt::format(
+        "{} of {} cells have no trial that all estimators have run: nothing is said of them",
+        asked.size() - selection.cells.size(), asked.size()));
   }
   if (selection.fewest_trials == 1) {
     remarks.emplace_back(
@@ -65,9 +66,9 @@ std::vector<std::string> remarks_on(const Compared& compared, const Selection& s
   }
   for (const EstimatorEvidence& evidence : selection.estimators) {
     if (evidence.failed == 0) continue;
-    remarks.push_back(evidence.name + ": " + std::to_string(evidence.failed) + " of " +
-                      std::to_string(evidence.runs) + " runs failed and are left out of its means" +
-                      (evidence.has_too_many_failures ? "; it is out for that" : ""));
+    remarks.push_back(fmt::format("{}: {} of {} runs failed and are left out of its means{}",
+                                  evidence.name, evidence.failed, evidence.runs,
+                                  evidence.has_too_many_failures ? "; it is out for that" : ""));
   }
   const auto is_aligned = [](const Metric& metric) { return metric.is_aligned; };
   const std::string alignments = alignments_remark(compared.runs.study(), selection.cells);
@@ -81,10 +82,9 @@ std::vector<std::string> remarks_on(const Compared& compared, const Selection& s
   const auto& machines = compared.runs.machines();
   if (machines.size() > 1 && asks_for(query, is_cost)) {
     const std::string& machine = compared.runs.cost_machine();
-    remarks.push_back("runs are from " + std::to_string(machines.size()) +
-                      " kinds of processor: costs are those of " +
-                      (machine.empty() ? "an unknown one" : machine) + " alone, " +
-                      std::to_string(machines.at(machine)) + " runs of the study");
+    remarks.push_back(fmt::format(
+        "runs are from {} kinds of processor: costs are those of {} alone, {} runs of the study",
+        machines.size(), machine.empty() ? "an unknown one" : machine, machines.at(machine)));
   }
   return remarks;
 }

@@ -1,6 +1,7 @@
 #include "fathom/results/shard_folder.hpp"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <numeric>
 #include <optional>
 #include <set>
@@ -18,7 +19,7 @@ ShardNumber number_of(const ShardPlan& plan) {
 }
 
 std::string count_text(std::size_t done, std::size_t of) {
-  return std::to_string(of - done) + " of " + std::to_string(of) + " runs";
+  return fmt::format("{} of {} runs", of - done, of);
 }
 
 // The most that any folder has of each shard.
@@ -78,9 +79,9 @@ std::vector<MissingPart> missing_parts(const std::vector<ShardFolder>& folders,
   const auto shards = all_shards(folders);
   for (const auto& [number, shard] : shards) {
     if (shard.done >= shard.plan.runs) continue;
-    missing.push_back(
-        {"shard " + text_of(shard.plan.shard) + ": " + count_text(shard.done, shard.plan.runs),
-         shard.plan.command_line});
+    missing.push_back({fmt::format("shard {}: {}", text_of(shard.plan.shard),
+                                   count_text(shard.done, shard.plan.runs)),
+                       shard.plan.command_line});
   }
   const bool is_one_division =
       !shards.empty() && shards.begin()->first.first == shards.rbegin()->first.first;

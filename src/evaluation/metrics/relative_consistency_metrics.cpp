@@ -1,6 +1,8 @@
 // NEES without keyframe 0 as the only one held: of motions over given stretches, and with several
 // keyframes held in turn.
 
+#include <fmt/format.h>
+
 #include "fathom/core/text.hpp"
 #include "groups.hpp"
 
@@ -27,10 +29,9 @@ Metric member(MotionsOver over, const std::string& number) {
   Metric metric;
   metric.name = kAneesPrefix + number + (is_keyframes ? "_keyframes" : "_m");
   metric.label = "ANEES over " + stretch;
-  metric.description = "mean NEES of the motions over " + stretch +
-                       ", divided by 3; 1 expected, above: overconfident (" +
-                       (is_keyframes ? "evaluation.rpe_keyframes" : "evaluation.rpe_distances_m") +
-                       ")";
+  metric.description = fmt::format(
+      "mean NEES of the motions over {}, divided by 3; 1 expected, above: overconfident ({})",
+      stretch, is_keyframes ? "evaluation.rpe_keyframes" : "evaluation.rpe_distances_m");
   const std::optional<double> amount = parse_real(number);
   metric.value = [over, amount](const JudgedRun& run) -> std::optional<double> {
     return amount ? value_over(run, over, amount) : std::nullopt;

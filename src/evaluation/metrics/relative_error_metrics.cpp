@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include "fathom/core/text.hpp"
 #include "groups.hpp"
 
@@ -36,9 +38,9 @@ Metric member(const Kind& kind, const std::string& number, const std::string& un
   metric.label = "RPE over " + text_over(kind, number);
   metric.unit = unit;
   metric.better = Better::lower;
-  metric.description = std::string("relative error (RMSE) of the ") +
-                       (is_translation ? "translation" : "rotation") + " over " +
-                       text_over(kind, number) + " (" + kind.key + ")";
+  metric.description =
+      fmt::format("relative error (RMSE) of the {} over {} ({})",
+                  is_translation ? "translation" : "rotation", text_over(kind, number), kind.key);
   const double over = parse_real(number).value_or(0.0);
   const auto field =
       is_translation ? &RelativeError::translation_rmse_m : &RelativeError::rotation_rmse_rad;

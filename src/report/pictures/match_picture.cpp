@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <fmt/format.h>
 #include <set>
 
 #include <opencv2/imgproc.hpp>
@@ -181,8 +182,8 @@ cv::Mat render_raw_matches(const MatchPicture& picture) {
     lines += draw(canvas, pair, picture, {matches.others, kMostLines - lines, false});
     std::string caption = "Before RANSAC: " + count_text(all) + lines_text(lines, all);
     if (all > 0) {
-      caption += ".  " + std::to_string(matches.inliers.size()) + " agree (blue), " +
-                 std::to_string(matches.others.size()) + " do not (orange)";
+      caption += fmt::format(".  {} agree (blue), {} do not (orange)", matches.inliers.size(),
+                             matches.others.size());
     }
     draw_caption(canvas, pair, caption);
   });

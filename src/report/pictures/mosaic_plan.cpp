@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <fmt/format.h>
 #include <limits>
 
 #include <nlohmann/json.hpp>
@@ -159,15 +160,15 @@ void require_options(const MosaicOptions& options) {
 void require_no_specks(const FloorBox& box, const MosaicPlan& plan, double shorter_side_m) {
   constexpr double kFewestPx = 4.0;
   if (plan.wanted_metres_per_pixel * kFewestPx > shorter_side_m) {
-    throw InputError("a resolution of " + short_text(plan.wanted_metres_per_pixel) +
-                     " m per pixel is too coarse for pictures of " + short_text(shorter_side_m) +
-                     " m");
+    throw InputError(
+        fmt::format("a resolution of {} m per pixel is too coarse for pictures of {} m",
+                    short_text(plan.wanted_metres_per_pixel), short_text(shorter_side_m)));
   }
   if (plan.metres_per_pixel * kFewestPx <= shorter_side_m) return;
   const Eigen::Vector2d extent = box.high - box.low;
-  throw InputError("the trajectory covers " + short_text(extent.x()) + " m x " +
-                   short_text(extent.y()) + " m, on which pictures of " +
-                   short_text(shorter_side_m) + " m would be specks");
+  throw InputError(
+      fmt::format("the trajectory covers {} m x {} m, on which pictures of {} m would be specks",
+                  short_text(extent.x()), short_text(extent.y()), short_text(shorter_side_m)));
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <fmt/format.h>
 #include <string>
 #include <vector>
 
@@ -135,9 +136,8 @@ void check(const FloorPicture& picture, const std::string& name) {
   const CameraModel& model = picture.camera.model();
   const cv::Size size = as_bgr(picture.image).size();
   if (size == cv::Size(model.width, model.height)) return;
-  throw InputError("picture " + name + " has " + std::to_string(size.width) + " x " +
-                   std::to_string(size.height) + " pixels, its camera " +
-                   std::to_string(model.width) + " x " + std::to_string(model.height));
+  throw InputError(fmt::format("picture {} has {} x {} pixels, its camera {} x {}", name,
+                               size.width, size.height, model.width, model.height));
 }
 
 void draw_outline(Canvas& canvas, const OverlayMap& map, const Corners& corners, Colour colour) {

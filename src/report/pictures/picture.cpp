@@ -1,5 +1,6 @@
 #include "fathom/report/picture.hpp"
 
+#include <fmt/format.h>
 #include <vector>
 
 #include <opencv2/imgcodecs.hpp>
@@ -14,9 +15,9 @@ namespace {
 void require_usable(const cv::Mat& picture) {
   if (picture.empty()) throw InputError("the picture is empty");
   if (picture.type() != CV_8UC1 && picture.type() != CV_8UC3) {
-    throw InputError("a picture must have 8 bits and one or three channels, got " +
-                     std::to_string(8 * picture.elemSize1()) + " bits and " +
-                     std::to_string(picture.channels()) + " channels");
+    throw InputError(fmt::format(
+        "a picture must have 8 bits and one or three channels, got {} bits and {} channels",
+        8 * picture.elemSize1(), picture.channels()));
   }
 }
 
