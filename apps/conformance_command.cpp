@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "apps/command.hpp"
+#include "apps/common.hpp"
 #include "fathom/configuration/isolation.hpp"
 #include "fathom/core/input_error.hpp"
 #include "fathom/core/text.hpp"
