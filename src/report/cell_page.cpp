@@ -26,12 +26,11 @@ Json metric_json(const MetricSummary& summary) {
 Json nees_interval_json(const NeesChart& chart, std::size_t most) {
   Json json{{"draws", chart.draws}, {"keyframe", Json::array()}};
   json["low"] = json["high"] = Json::array();
-  if (chart.low.empty()) return json;
   // At the keyframes of the lines.
   std::size_t i = 0;
-  for (const std::size_t k : thinned(static_cast<std::size_t>(chart.low.back().x()) + 1, most)) {
-    while (chart.low[i].x() < static_cast<double>(k)) ++i;
-    if (chart.low[i].x() > static_cast<double>(k)) continue;
+  for (const std::size_t k : thinned(chart.keyframes, most)) {
+    while (i < chart.low.size() && chart.low[i].x() < static_cast<double>(k)) ++i;
+    if (i == chart.low.size() || chart.low[i].x() > static_cast<double>(k)) continue;
     json["keyframe"].push_back(k);
     json["low"].push_back(page_number(chart.low[i].y()));
     json["high"].push_back(page_number(chart.high[i].y()));

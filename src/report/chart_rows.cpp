@@ -113,6 +113,7 @@ NeesChart nees_chart(const CellResults& cell, const std::vector<EstimatorSeries>
     const std::size_t draws = *std::max_element(all.nees_draws.begin(), all.nees_draws.end());
     if (draws <= chart.draws) continue;
     chart.draws = draws;
+    chart.keyframes = all.keyframe.size();
     chart.low.clear();
     chart.high.clear();
     for (std::size_t k = 0; k < all.keyframe.size(); ++k) {
@@ -131,6 +132,10 @@ std::vector<std::pair<std::string, std::size_t>> outcome_counts(const EstimatorR
   for (const Outcome outcome : kOutcomes) {
     const auto found = estimator.outcomes.find(name_of(outcome));
     if (found != estimator.outcomes.end()) counts.emplace_back(*found);
+  }
+  for (const auto& [name, count] : estimator.outcomes) {
+    const auto is_it = [&name](Outcome outcome) { return name_of(outcome) == name; };
+    if (std::ranges::none_of(kOutcomes, is_it)) counts.emplace_back(name, count);
   }
   const std::size_t wanted = study.surveys * study.trials;
   if (estimator.runs.size() < wanted) {

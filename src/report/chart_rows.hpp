@@ -69,12 +69,14 @@ struct NeesChart {
   std::vector<std::pair<std::string, Points>> lines;  ///< by estimator that has any
   Points low;  ///< of the 95 % interval, of the estimator with the most independent draws
   Points high;
-  std::size_t draws = 0;
+  std::size_t draws = 0;      ///< of that estimator at one keyframe, at most
+  std::size_t keyframes = 0;  ///< that it has
 };
 
 NeesChart nees_chart(const CellResults& cell, const std::vector<EstimatorSeries>& series);
 
-/// Trials by how their runs ended, in the order of `Outcome`; last "not run".
+/// Trials by how their runs ended, in the order of `Outcome`, then what another version called
+/// them; last "not run".
 std::vector<std::pair<std::string, std::size_t>> outcome_counts(const EstimatorResults& estimator,
                                                                 const StudyDescription& study);
 

@@ -113,6 +113,11 @@ Json absolute_json(const StoredAbsolute& one, const Pose& at) {
   return json;
 }
 
+bool has_place(const StoredAbsolute& one, const Pose& at) {
+  const auto& fix = one.mark.measured.position;
+  return is_drawable(at) && (!fix || is_drawable({fix->x(), fix->y(), 0.0}));
+}
+
 // Those that the map shows, and how many there are of each kind: kept and left out.
 void add_absolute(Json& json, const ExampleRun& run, std::size_t most) {
   std::array<std::size_t, 2> fixes{};
@@ -124,11 +129,13 @@ void add_absolute(Json& json, const ExampleRun& run, std::size_t most) {
   json["absolute_in_all"] = {{"fixes", fixes}, {"headings", headings}};
   for (const std::size_t i : drawn_marks(marks_of(run.absolute), MarkLimits().within(most))) {
     const StoredAbsolute& one = run.absolute[i];
-    json["absolute"].push_back(absolute_json(one, run.poses[one.mark.pose]));
+    const Pose& at = run.poses[one.mark.pose];
+    if (has_place(one, at)) json["absolute"].push_back(absolute_json(one, at));
   }
 }
 
-// As of the figure's map; null where nothing can be drawn.
+// By the rule of the figure's map, with the fixes of all estimators; null where nothing can be
+// drawn.
 Json extent_json(const ExampleTrial& example) {
   std::vector<PlotSeries> all;
   for (const ExampleRun& run : example.runs) all.push_back(run.series());
@@ -153,7 +160,6 @@ Json example_json(const ExampleTrial& example, const CellResults& cell,
   json["estimators"] = Json::array();
   for (const ExampleRun& run : example.runs) {
     Json one{{"name", run.estimator},
-             {"outcome", run.outcome},
              {"path", path_json(run.poses, limits.keyframes)},
              {"ellipses", ellipses_json(run.ellipses)}};
     add_loops(one, run, limits.loops);

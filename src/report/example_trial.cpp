@@ -65,7 +65,7 @@ ExampleTrial example_trial(const ResultStore& store, const CellResults& cell) {
         one.runs, [&](const RunRecord& r) { return r.key.trial_key() == example.trial; });
     if (record == one.runs.end()) continue;
     const RunKey key = key_of(one.name);
-    ExampleRun run{one.name, record->outcome, !is_failed(*record), {}, {}, {}, {}};
+    ExampleRun run{one.name, !is_failed(*record), {}, {}, {}, {}};
     run.poses = path_of(store, key, series::x_m, series::y_m);
     // Dead reckoning's would cover the map.
     if (one.name != kDeadReckoning) run.ellipses = ellipses_of(store, key, run.poses);
@@ -79,7 +79,8 @@ ExampleTrial example_trial(const ResultStore& store, const CellResults& cell) {
 }  // namespace
 
 bool ExampleRun::has_ends(const LoopDecision& loop) const {
-  return std::max(loop.from, loop.to) < poses.size();
+  return std::max(loop.from, loop.to) < poses.size() && is_drawable(poses[loop.from]) &&
+         is_drawable(poses[loop.to]);
 }
 
 PlotSeries ExampleRun::series() const {

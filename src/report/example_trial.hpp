@@ -24,14 +24,13 @@ struct ExampleEllipse {
 /// One estimator, or dead reckoning, on the trial that is drawn.
 struct ExampleRun {
   std::string estimator;
-  std::string outcome;
   bool is_done = false;
   std::vector<Pose> poses;               ///< aligned as the errors are; headings are not stored
   std::vector<ExampleEllipse> ellipses;  ///< of some 25 keyframes; dead reckoning has none drawn
   std::vector<LoopDecision> loops;       ///< in the order of the store
   std::vector<StoredAbsolute> absolute;
 
-  /// Whether both ends of a loop are among the poses.
+  /// Whether both ends of a loop are among the poses, and can be drawn.
   bool has_ends(const LoopDecision& loop) const;
   /// What the map draws, without a style and loops.
   PlotSeries series() const;

@@ -50,14 +50,15 @@ Json study_json(const StudyDescription& study) {
   return json;
 }
 
-// What charts show first: the study's own metric, or the first that occurs of some.
+// What charts show first: the study's own metric, or the first that occurs of some, or of all.
 std::string metric_shown_first(const StudyResults& results, bool cost,
                                const std::vector<std::string>& others) {
   if (const auto own = first_metric(results, cost)) return *own;
   for (const std::string& name : others) {
     if (std::ranges::find(results.metrics, name) != results.metrics.end()) return name;
   }
-  return results.metrics.empty() ? "" : results.metrics.front();
+  const auto any = std::ranges::find(results.metrics, cost, is_cost_metric);
+  return any == results.metrics.end() ? "" : *any;
 }
 
 // In which unit a value of a metric reads best, by its magnitude: [least, text, factor].

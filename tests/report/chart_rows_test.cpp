@@ -110,14 +110,14 @@ TEST(ChartRows, ACostWhoseIntervalReachesZeroIsDrawnFromItsMeanOn) {
 
 TEST(ChartRows, OutcomesAreInTheirOrderAndEndWithWhatDidNotRun) {
   EstimatorResults one;
-  one.runs.resize(4);
-  one.outcomes = {{"crashed", 1}, {"converged", 2}, {"iteration_limit", 1}};
+  one.runs.resize(5);
+  one.outcomes = {{"crashed", 1}, {"a new one", 1}, {"converged", 2}, {"iteration_limit", 1}};
   StudyDescription study;
   study.surveys = 2;
   study.trials = 3;
   EXPECT_THAT(outcome_counts(one, study),
               ElementsAre(Pair("converged", 2), Pair("iteration_limit", 1), Pair("crashed", 1),
-                          Pair("not run", 2)));
+                          Pair("a new one", 1), Pair("not run", 1)));
 }
 
 // axes · axesᵀ is 4 P, whatever the directions of the axes are.
@@ -234,13 +234,31 @@ TEST(ChartRows, APoseThatIsNotFiniteIsNullOnThePage) {
   run.outcome = "converged";
   run.series["x_m"] = {0.0, std::nan(""), 4.0, 1e300};
   run.series["y_m"] = {0.0, 1.0, 3.0, 2.0};
+  run.series["loop_from"] = {0.0, 0.0};
+  run.series["loop_to"] = {2.0, 3.0};
+  run.series["loop_fate"] = {0.0, 0.0};
+  run.series["absolute_keyframe"] = {2.0, 1.0, 2.0};
+  run.series["absolute_fate"] = run.series["absolute_nis"] = {0.0, 0.0, 0.0};
+  run.series["absolute_weight"] = {1.0, 1.0, 1.0};
+  run.series["absolute_x_m"] = {4.5, 1.0, 1e300};
+  run.series["absolute_y_m"] = {3.0, 1.0, 3.0};
+  run.series["absolute_cov_xx"] = run.series["absolute_cov_yy"] = {0.01, 0.01, 0.01};
+  run.series["absolute_cov_xy"] = {0.0, 0.0, 0.0};
   store.add(run);
   store.finish();
   const Json data = data_of_page(page_of(ResultStore::open(folder.path())));
   const Json& example = data["cells"][0]["example"];
   EXPECT_EQ(example["estimators"][0]["path"]["x_m"], Json::parse("[0, null, 4, null]"));
   EXPECT_EQ(example["estimators"][0]["path"]["y_m"], Json::parse("[0, null, 3, null]"));
-  EXPECT_EQ(example["extent"], Json::parse(R"({"x_m": [0, 4], "y_m": [0, 3]})"));
+  EXPECT_EQ(example["extent"], Json::parse(R"({"x_m": [0, 4.5], "y_m": [0, 3]})"));
+  // A loop or a mark at such a pose is counted and not drawn.
+  const Json& one = example["estimators"][0];
+  EXPECT_EQ(one["loops_in_all"]["used"], 2);
+  EXPECT_EQ(one["loops"][0].size(), 8u);
+  EXPECT_EQ(one["loops"][1].size(), 4u);
+  EXPECT_EQ(one["absolute_in_all"]["fixes"], Json::parse("[3, 0]"));
+  ASSERT_EQ(one["absolute"].size(), 1u);
+  EXPECT_EQ(one["absolute"][0]["fix_m"], Json::parse("[4.5, 3]"));
 }
 
 }  // namespace

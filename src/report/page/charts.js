@@ -48,7 +48,7 @@ function coincidentPaths(paths, metresPerPixel) {
   return groupsOf([...byName.keys()], (a, b) => {
     const [one, other] = [byName.get(a), byName.get(b)];
     return one.length === other.length &&
-      one.every((row, k) => Math.hypot(row.x - other[k].x, row.y - other[k].y) <= metresPerPixel);
+      one.every((row, k) => (row.x === null) === (other[k].x === null) && Math.hypot(row.x - other[k].x, row.y - other[k].y) <= metresPerPixel);
   });
 }
 

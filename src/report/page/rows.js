@@ -171,12 +171,12 @@ function paretoRows(cell) {
         tooltip: `${labelOf(one.name)}: ${withInterval(error, state.accuracy)}, at no cost`});
     }
   }
-  // On the front are those of the shown ones that none of them beats.
-  const shown = rows.filter((row) => !state.hidden.has(row.estimator)).sort((a, b) => a.cost - b.cost);
+  // On the front are those of the shown ones that none of these beats: as pareto_front in C++, which
+  // knows nothing of what the reader hides.
+  const shown = rows.filter((row) => !state.hidden.has(row.estimator));
   const beats = (a, b) => a.ranks.every((rank, i) => rank <= b.ranks[i]) && a.ranks.some((rank, i) => rank < b.ranks[i]);
-  for (const row of shown) row.front = row.ranks[0] !== undefined && !shown.some((other) => beats(other, row));
-  const front = shown.filter((row) => row.front);
-  return {rows, front, baseline};
+  for (const row of shown) row.front = !row.ranks.includes(undefined) && !shown.some((other) => beats(other, row));
+  return {rows, baseline};
 }
 
 function outcomeRows(cell) {
