@@ -82,10 +82,14 @@ void sum_up_time(const FrameSource& source, FolderSummary& summary) {
 void sum_up_altitude(const FrameSource& source, FolderSummary& summary) {
   double low_m = source.info(0).altitude_m;
   double high_m = low_m;
+  double least_sigma_m = source.info(0).altitude_sigma_m;
+  double most_sigma_m = least_sigma_m;
   std::vector<std::size_t> jumps;
   constexpr double kJump = 1.5;
   for (std::size_t i = 0; i < source.size(); ++i) {
     const double altitude_m = source.info(i).altitude_m;
+    least_sigma_m = std::min(least_sigma_m, source.info(i).altitude_sigma_m);
+    most_sigma_m = std::max(most_sigma_m, source.info(i).altitude_sigma_m);
     low_m = std::min(low_m, altitude_m);
     high_m = std::max(high_m, altitude_m);
     const double last_m = source.info(i > 0 ? i - 1 : 0).altitude_m;
@@ -93,8 +97,10 @@ void sum_up_altitude(const FrameSource& source, FolderSummary& summary) {
   }
   const CameraModel& model = source.camera().model();
   const double focal = std::sqrt(model.fx * model.fy);
-  summary.facts.push_back(fmt::format("altitude: {} m, {} mm per pixel", range(low_m, high_m),
-                                      range(1e3 * low_m / focal, 1e3 * high_m / focal)));
+  summary.facts.push_back(
+      fmt::format("altitude: {} m, {} mm per pixel, sigma {}", range(low_m, high_m),
+                  range(1e3 * low_m / focal, 1e3 * high_m / focal),
+                  most_sigma_m > 0.0 ? range(least_sigma_m, most_sigma_m) + " m" : "not stated"));
   warn(summary, jumps, "altitude changes by more than half from the frame before");
 }
 

@@ -52,6 +52,7 @@ PairRegistrar::FrameKey PairRegistrar::frame_key(const MeasuredFrame& frame) {
   const MeasuredTilt measured = frame.tilt.value_or(MeasuredTilt{});
   return {frame.frame,
           bits(frame.altitude_m),
+          bits(frame.altitude_sigma_m),
           frame.tilt.has_value(),
           bits(measured.tilt.roll_rad),
           bits(measured.tilt.pitch_rad),
@@ -67,8 +68,11 @@ std::uint64_t PairRegistrar::seed_of(const MeasuredFrame& from, const MeasuredFr
 }
 
 RegistrationKey PairRegistrar::cache_key(const MeasuredFrame& from, const MeasuredFrame& to) const {
-  return keys_.of({pictures_.picture_id(from.frame), from.altitude_m, from.tilt},
-                  {pictures_.picture_id(to.frame), to.altitude_m, to.tilt}, seed_of(from, to));
+  const auto seen = [this](const MeasuredFrame& one) {
+    return SeenPicture{pictures_.picture_id(one.frame), one.altitude_m, one.tilt,
+                       one.altitude_sigma_m};
+  };
+  return keys_.of(seen(from), seen(to), seed_of(from, to));
 }
 
 std::optional<PairRegistration> PairRegistrar::known(const MeasuredFrame& from,
@@ -85,8 +89,10 @@ std::optional<PairRegistration> PairRegistrar::known(const MeasuredFrame& from,
 }
 
 FloorFeatures PairRegistrar::on_floor_of(const MeasuredFrame& frame) {
-  return on_floor(features_.of(frame.frame)->unpacked(), pictures_.camera(), frame.altitude_m,
-                  frame.tilt);
+  FloorFeatures features = on_floor(features_.of(frame.frame)->unpacked(), pictures_.camera(),
+                                    frame.altitude_m, frame.tilt);
+  features.viewpoint.altitude_sigma_m = frame.altitude_sigma_m;
+  return features;
 }
 
 // Pixels in, registration out: features, their points on the floor, the motion and its covariance.

@@ -12,11 +12,16 @@ void add_options(Hash& hash, FeatureOptions& features, RegistrationOptions& regi
   for (const std::string& key : table.keys()) hash.add(key).add(table.value(key));
 }
 
-// A picture without roll and pitch has no more words, so that its keys are what they always were.
-void add_tilt(Hash& hash, const char* picture, const std::optional<MeasuredTilt>& measured) {
-  if (!measured) return;
-  hash.add("tilt").add(picture).add(measured->tilt.roll_rad).add(measured->tilt.pitch_rad);
-  hash.add(measured->sigma_rad);
+// A picture without roll and pitch has no more words, so that its keys are what they always were;
+// likewise one whose altimeter states no precision.
+void add_measured(Hash& hash, const char* picture, const SeenPicture& seen) {
+  if (const auto& measured = seen.tilt) {
+    hash.add("tilt").add(picture).add(measured->tilt.roll_rad).add(measured->tilt.pitch_rad);
+    hash.add(measured->sigma_rad);
+  }
+  if (seen.altitude_sigma_m > 0.0) {
+    hash.add("altitude sigma").add(picture).add(seen.altitude_sigma_m);
+  }
 }
 
 }  // namespace
@@ -36,8 +41,8 @@ RegistrationKey RegistrationKeys::of(const SeenPicture& from, const SeenPicture&
   const auto finished = [&](Hash hash) {
     hash.add(from.picture_id).add(from.altitude_m).add(to.picture_id).add(to.altitude_m);
     hash.add(pair_seed);
-    add_tilt(hash, "from", from.tilt);
-    add_tilt(hash, "to", to.tilt);
+    add_measured(hash, "from", from);
+    add_measured(hash, "to", to);
     return hash.value();
   };
   return {finished(first_), finished(second_)};

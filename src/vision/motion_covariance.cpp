@@ -95,7 +95,8 @@ Eigen::Matrix3d LinearFit::altitude_and_tilt(const Viewpoint& from, const Viewpo
                                              const CovarianceOptions& options) const {
   const auto sigmas_of = [&](const Viewpoint& view) {
     const double tilt_rad = view.tilt_sigma_rad.value_or(options.tilt_sigma_rad);
-    return Eigen::Vector3d(options.altitude_sigma_m, tilt_rad, tilt_rad);
+    return Eigen::Vector3d(std::max(options.altitude_sigma_m, view.altitude_sigma_m), tilt_rad,
+                           tilt_rad);
   };
   const Eigen::Vector3d sigmas_from = sigmas_of(from);
   const Eigen::Vector3d sigmas_to = sigmas_of(to);

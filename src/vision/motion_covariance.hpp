@@ -30,8 +30,9 @@ class LinearFit {
   /// than `least_cells` squares.
   double clustering(double cell_m, int least_cells) const;
 
-  /// Of errors that the points of one picture share: of its altitude and its roll and pitch, as
-  /// measured, else as of the options; those of two pictures are independent.
+  /// Of errors that the points of one picture share: of its altitude, by the larger of what its
+  /// sensor and the options state, and of its roll and pitch, as measured, else as of the options;
+  /// those of two pictures are independent.
   Eigen::Matrix3d altitude_and_tilt(const Viewpoint& from, const Viewpoint& to,
                                     const CovarianceOptions& options) const;
 

@@ -208,7 +208,8 @@ void DecisionOptions::describe(OptionTable& table) {
 
 void CovarianceOptions::describe(OptionTable& table) {
   table.real("altitude_sigma_m", altitude_sigma_m, Range::at_least(0.0), "m",
-             "standard deviation of an altitude's error, a floor's relief included");
+             "standard deviation of an altitude's error, a floor's relief included; the "
+             "altimeter's own, where it states more");
   table.real(
       "tilt_sigma_rad", tilt_sigma_rad, Range{0.0, 0.5}, "rad",
       "standard deviation of the camera's roll and of its pitch, where they are not measured");

@@ -111,6 +111,7 @@ SurveyCheck check_survey(const std::filesystem::path& path) {
   checked.folder = summarise_frames(folder);
   sum_up_sensors(folder.sensors(), checked.folder);
   sum_up_holes(*opened.with_holes, checked.folder);
+  std::ranges::copy(folder.remarks(), std::back_inserter(checked.folder.warnings));
   if (!opened.refusal.empty()) checked.folder.faults.push_back(opened.refusal);
   if (!checked.folder.faults.empty()) return checked;
   const FrontEndOptions front_end;

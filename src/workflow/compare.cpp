@@ -132,6 +132,7 @@ class Comparison {
   // What looks wrong with the loops of the trial that is drawn; the page says what its figures
   // show.
   void say_remarks(const StudyRun& done) const {
+    for (const std::string& remark : data_set_.data().remarks()) observer_.remark(remark);
     if (done.example.empty()) return;
     const ExampleRun& example = done.example.front();
     for (const std::string& remark : loop_remarks(

@@ -35,9 +35,16 @@ std::vector<ConfigLine> lines_of(const Configuration& configuration, const Setti
 }
 
 std::vector<std::string> assumptions(const FrameSource& frames) {
-  std::vector<std::string> assumed{
-      "the camera tilts by 0.005 rad and altitudes are exact: give "
-      "front_end.covariance.tilt_sigma_rad and altitude_sigma_m what your vehicle and sensor have"};
+  std::vector<std::string> assumed;
+  const std::string key = "front_end.covariance.";
+  if (!frames.has_attitude()) {
+    assumed.push_back("the camera tilts by 0.005 rad: give " + key +
+                      "tilt_sigma_rad what your vehicle has");
+  }
+  if (!(frames.info(0).altitude_sigma_m > 0.0)) {
+    assumed.push_back("altitudes are exact: give " + key +
+                      "altitude_sigma_m what your altimeter has");
+  }
   assumed.emplace_back(frames.has_odometry()
                            ? "the covariance of odometry is right: candidates go by it"
                            : "there is no odometry: dead reckoning is visual odometry");

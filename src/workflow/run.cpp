@@ -39,7 +39,7 @@ class OneRun {
     record(recorder);
     RunOutcome done{recording_, evaluated(), std::nullopt,
                     configuration_.study.evaluation.alignment};
-    std::vector<std::string> remarks;
+    std::vector<std::string> remarks = recorder.data().remarks();
     judge(done, remarks);
     if (folder) {
       write(*folder, recorder, done, remarks);
@@ -69,7 +69,8 @@ class OneRun {
   // What looks wrong, and the batch optimum of the log where the estimate does not fit it.
   void judge(RunOutcome& done, std::vector<std::string>& remarks) const {
     const std::vector<Pose>& estimate = done.result.run.trajectory;
-    remarks = loop_remarks(*recording_, configuration_.front_end, estimate);
+    std::ranges::copy(loop_remarks(*recording_, configuration_.front_end, estimate),
+                      std::back_inserter(remarks));
     const auto optimum = batch_optimum(recording_->log, registry_);
     const auto fit = optimum ? map_fit(recording_->log, estimate, *optimum) : std::nullopt;
     if (!fit) return;

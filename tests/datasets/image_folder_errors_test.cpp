@@ -37,6 +37,7 @@ TEST_P(BadFolders, AreRefusedWithFileLineAndRemedy) {
 
 const char* const kCam = "cam0/data.csv";
 const char* const kYaml = "cam0/sensor.yaml";
+const char* const kAltimeterYaml = "altimeter0/sensor.yaml";
 const char* const kAltimeter = "altimeter0/data.csv";
 const char* const kOdometry = "odometry0/data.csv";
 const char* const kTruth = "state_groundtruth_estimate0/data.csv";
@@ -139,7 +140,15 @@ INSTANTIATE_TEST_SUITE_P(
                   FATHOM_YAML("[8, 6]", "[9, 9, 4, 3]", "mounting: {x: left}"),
                   "sensor.yaml:3: mounting.x: expected a number"},
         BadFolder{"MountingList", kYaml, FATHOM_YAML("[8, 6]", "[9, 9, 4, 3]", "mounting: [1, 2]"),
-                  "sensor.yaml:3: mounting: expected"}),
+                  "sensor.yaml:3: mounting: expected"},
+        BadFolder{"NegativeSigma", kAltimeterYaml, "sigma_absolute: -0.1\n",
+                  "altimeter0/sensor.yaml:1: sigma_absolute: '-0.1' is no standard deviation"},
+        BadFolder{"SigmaNotANumber", kAltimeterYaml, "a: 1\nsigma_absolute: .nan\n",
+                  "altimeter0/sensor.yaml:2: sigma_absolute: '.nan' is no standard deviation"},
+        BadFolder{"SigmaInPercent", kAltimeterYaml, "sigma_relative: 3\n",
+                  "sigma_relative: '3' is no standard deviation; expected a share of the reading"},
+        BadFolder{"SigmaList", kAltimeterYaml, "sigma_relative: [0.1]\n",
+                  "sigma_relative: what stands here is no standard deviation"}),
     [](const auto& test_case) { return std::string(test_case.param.name); });
 
 TEST(ImageFolderErrors, FolderThatIsNone) {

@@ -145,6 +145,40 @@ TEST(ImageFolder, EurocFilesAreRead) {
   EXPECT_FALSE(folder.has_ground_truth());
 }
 
+TEST(ImageFolder, AnAltimeterMayStateItsPrecision) {
+  FolderFixture fixture;
+  const ImageFolder silent(fixture.write());
+  EXPECT_EQ(silent.info(1).altitude_sigma_m, 0.0);
+  EXPECT_EQ(silent.remarks(), std::vector<std::string>{});
+  fixture.files["altimeter0/sensor.yaml"] =
+      "sensor_type: altimeter\nsigma_absolute: 0.03\nsigma_relative: 0.02 # of the altitude\n";
+  const ImageFolder folder(fixture.write());
+  for (std::size_t i = 0; i < folder.size(); ++i) {  // at 2, 2.5 and 3 m
+    const double relative_m = 0.02 * (2.0 + 0.5 * static_cast<double>(i));
+    EXPECT_DOUBLE_EQ(folder.info(i).altitude_sigma_m,
+                     std::sqrt(0.03 * 0.03 + relative_m * relative_m));
+  }
+  EXPECT_EQ(folder.remarks(), std::vector<std::string>{});
+}
+
+// A misspelt precision would count as none; what EuRoC's files say is not read either.
+TEST(ImageFolder, KeysOfASensorThatNobodyReadsAreNamed) {
+  FolderFixture fixture;
+  fixture.files["altimeter0/sensor.yaml"] =
+      "sensor_type: altimeter\ncomment: none\nrate_hz: 10\nT_BS: {rows: 4}\n"
+      "sigma_realtive: 0.02\n";
+  fixture.files["odometry0/sensor.yaml"] = "# none\nsigma: 1\n";
+  const std::vector<std::string> remarks = ImageFolder(fixture.write()).remarks();
+  ASSERT_EQ(remarks.size(), 2U);
+  EXPECT_TRUE(remarks[0].ends_with(
+      "altimeter0/sensor.yaml:5: 'sigma_realtive' is not read; of altimeter0 known are "
+      "sigma_absolute, sigma_relative; did you mean 'sigma_relative'?"))
+      << remarks[0];
+  EXPECT_TRUE(remarks[1].ends_with(
+      "odometry0/sensor.yaml:2: 'sigma' is not read; of odometry0 its data.csv alone counts"))
+      << remarks[1];
+}
+
 TEST(ImageFolder, GroundTruthIsOptional) {
   FolderFixture fixture;
   fixture.files.erase("state_groundtruth_estimate0/data.csv");

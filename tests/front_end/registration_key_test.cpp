@@ -30,6 +30,18 @@ TEST(RegistrationKeys, EveryPartOfAPairCounts) {
   EXPECT_EQ(halves.size(), 14u);
 }
 
+TEST(RegistrationKeys, TheSigmaOfAnAltitudeCounts) {
+  const RegistrationKeys keys({}, {}, {});
+  const auto of = [&](double from_m, double to_m) {
+    return keys.of({1, 2.0, {}, from_m}, {3, 4.0, {}, to_m}, 5);
+  };
+  const std::set<RegistrationKey> different{of(0.0, 0.0), of(0.1, 0.0), of(0.0, 0.1), of(0.1, 0.1),
+                                            of(0.2, 0.1)};
+  EXPECT_EQ(different.size(), 5u);
+  // Where none is stated, keys are what they always were.
+  EXPECT_EQ(of(0.0, 0.0), keys.of({1, 2.0}, {3, 4.0}, 5));
+}
+
 TEST(RegistrationKeys, RollPitchAndTheirSigmaCount) {
   const RegistrationKeys keys({}, {}, {});
   const auto of = [&](const std::optional<MeasuredTilt>& from,

@@ -80,7 +80,9 @@ struct Overlap {
 // σ² dz dzᵀ over the errors of both pictures, dz by central differences of whole fits.
 Eigen::Matrix3d refitted(const Overlap& seen, const CovarianceOptions& options) {
   const auto sigma = [&](const Viewpoint& view, int i) {
-    return i == 0 ? options.altitude_sigma_m : view.tilt_sigma_rad.value_or(options.tilt_sigma_rad);
+    if (i > 0) return view.tilt_sigma_rad.value_or(options.tilt_sigma_rad);
+    return view.altitude_sigma_m > options.altitude_sigma_m ? view.altitude_sigma_m
+                                                            : options.altitude_sigma_m;
   };
   constexpr double kStep = 1e-5;
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
@@ -137,6 +139,27 @@ TEST(LinearFit, MeasuredTiltEqualsRefitsOfMovedPoints) {
   }
   EXPECT_LT(traces[0], 0.5 * traces[1]);
   EXPECT_LT(traces[4], traces[3]);
+}
+
+// The larger of what sensor and options state, picture by picture.
+TEST(LinearFit, AStatedAltitudeSigmaEqualsRefitsOfMovedPoints) {
+  Overlap seen;
+  const CovarianceOptions options{0.02, 0.0};
+  const LinearFit fit(seen.motion, seen.p, seen.q, seen.weights);
+  const Eigen::Matrix3d by_options = fit.altitude_and_tilt(seen.from, seen.to, options);
+  std::vector<double> traces;
+  for (const auto& [of_from, of_to] :
+       {std::pair{0.01, 0.02}, {0.05, 0.01}, {0.01, 0.05}, {0.05, 0.07}}) {
+    seen.from.altitude_sigma_m = of_from;
+    seen.to.altitude_sigma_m = of_to;
+    const Eigen::Matrix3d expected = refitted(seen, options);
+    const Eigen::Matrix3d found = fit.altitude_and_tilt(seen.from, seen.to, options);
+    EXPECT_LT((found - expected).norm(), 1e-6 * expected.norm()) << found << "\n\n" << expected;
+    traces.push_back(found.trace());
+  }
+  EXPECT_EQ(traces[0], by_options.trace());
+  EXPECT_GT(traces[1], traces[0]);
+  EXPECT_GT(traces[3], traces[2]);
 }
 
 // Measured as the options have it is the same to the last bit.

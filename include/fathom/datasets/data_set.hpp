@@ -67,6 +67,9 @@ class DataSet {
   /// refers to the frames must not outlive the data set. Throws InputError.
   virtual Trial trial(const DataSetValues& values, const TrialNoise& noise) const;
 
+  /// What its files state and nobody reads, a line each, with file and line.
+  virtual std::vector<std::string> remarks() const { return {}; }
+
   /// The files that it reads: they tell this data set from what stood there at another time.
   virtual std::vector<std::filesystem::path> files() const { return {}; }
 };

@@ -17,6 +17,7 @@ namespace fathom {
 struct FrameInfo {
   std::int64_t time_ns = 0;
   double altitude_m = 0.0;  ///< as measured, of the camera's centre over the floor, vertical; > 0
+  double altitude_sigma_m = 0.0;  ///< of that, as its sensor states it; 0: it states none
   /// Dead reckoning: the motion since the frame before, in that frame, with its covariance. Absent
   /// at the first frame, and where the source has no odometry.
   std::optional<UncertainPose> motion;

@@ -19,7 +19,7 @@ class SensorCsv;
 /// Frames are the rows of `cam0/data.csv`. Other sensors may run at other rates: a reading with a
 /// picture's own time stamp is taken as it is, else the two around it are interpolated, if they are
 /// no further apart than `kMaxInterpolationGapNs`.
-/// - `altimeter0`: needed at every picture.
+/// - `altimeter0`: needed at every picture; its `sensor.yaml` may state the precision of altitudes.
 /// - `attitude0`: optional, else needed at every picture.
 /// - `odometry0`: optional, else needed at every picture. The covariance of a frame's motion is
 ///   composed of the steps since the frame before; of a step cut by a picture, each part takes its
@@ -45,6 +45,8 @@ class ImageFolder : public FrameSource {
   /// Of the file's bytes, which are read once.
   std::uint64_t picture_id(std::size_t i) const override;
   bool has_odometry() const override { return has_odometry_; }
+  /// Keys of the sensors' `sensor.yaml` that nobody reads, a line each.
+  const std::vector<std::string>& remarks() const { return remarks_; }
   /// The pictures and the files of all sensors, each a regular file.
   std::vector<std::filesystem::path> files() const;
   /// The file of frame i's picture.
@@ -72,6 +74,7 @@ class ImageFolder : public FrameSource {
   std::vector<FrameInfo> infos_;
   std::vector<std::filesystem::path> pictures_;
   FolderSensors sensors_;
+  std::vector<std::string> remarks_;
   mutable std::vector<PictureId> ids_;
   bool has_odometry_ = false;
   bool has_ground_truth_ = false;

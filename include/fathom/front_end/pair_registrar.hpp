@@ -22,9 +22,11 @@ struct MeasuredFrame {
   std::size_t frame = 0;
   double altitude_m = 0.0;  ///< as measured, > 0
   std::optional<MeasuredTilt> tilt = std::nullopt;
+  double altitude_sigma_m = 0.0;  ///< as of FrameInfo
 
   static MeasuredFrame of(const FrameSource& source, std::size_t frame) {
-    return {frame, source.info(frame).altitude_m, source.info(frame).tilt};
+    const FrameInfo& info = source.info(frame);
+    return {frame, info.altitude_m, info.tilt, info.altitude_sigma_m};
   }
   Stance stance() const { return {altitude_m, tilt}; }
 };
@@ -77,8 +79,8 @@ class PairRegistrar {
  private:
   /// A frame and the bits of what is measured of it: altitude, whether it has a tilt, roll, pitch,
   /// σ.
-  using FrameKey =
-      std::tuple<std::size_t, std::uint64_t, bool, std::uint64_t, std::uint64_t, std::uint64_t>;
+  using FrameKey = std::tuple<std::size_t, std::uint64_t, std::uint64_t, bool, std::uint64_t,
+                              std::uint64_t, std::uint64_t>;
   using PairKey = std::pair<FrameKey, FrameKey>;
 
   static FrameKey frame_key(const MeasuredFrame& frame);

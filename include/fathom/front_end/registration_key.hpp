@@ -23,6 +23,7 @@ struct SeenPicture {
   std::uint64_t picture_id = 0;  ///< as of FrameSource
   double altitude_m = 0.0;       ///< as measured
   std::optional<MeasuredTilt> tilt = std::nullopt;
+  double altitude_sigma_m = 0.0;  ///< as its sensor states it; 0: it states none
 };
 
 /// The keys of registrations with one camera and one set of options: of every option and

@@ -30,7 +30,8 @@ struct Viewpoint {
   Eigen::Vector2d camera_m = Eigen::Vector2d::Zero();  ///< the point below the camera, body frame
   double altitude_m = 0.0;
   double metres_per_pixel = 0.0;
-  double pitch_rad = 0.0;  ///< about which a roll is turned
+  double pitch_rad = 0.0;         ///< about which a roll is turned
+  double altitude_sigma_m = 0.0;  ///< as its sensor states it, if more than CovarianceOptions has
   /// Of roll and of pitch where they are measured; CovarianceOptions has that of the others.
   std::optional<double> tilt_sigma_rad = std::nullopt;
 };

@@ -34,7 +34,8 @@ struct DecisionOptions {
 
 /// What the residuals of one pair cannot show, because all its matches share it.
 struct CovarianceOptions {
-  double altitude_sigma_m = 0.0;  ///< of each altitude; stands for the relief of a floor too
+  /// Of each altitude, unless its sensor states more; stands for the relief of a floor too.
+  double altitude_sigma_m = 0.0;
   /// Of roll and of pitch, at each picture that does not come with them measured. No vehicle keeps
   /// its camera level: without a word on it, 0.3°. At 0, registrations would be certain to a
   /// fraction of a millimetre.

@@ -1,6 +1,7 @@
 #include "fathom/datasets/image_folder.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <optional>
 #include <string>
@@ -13,6 +14,7 @@
 #include "fathom/datasets/picture_file.hpp"
 #include "sensor_csv.hpp"
 #include "sensor_series.hpp"
+#include "sensor_yaml.hpp"
 
 namespace fathom {
 
@@ -58,6 +60,7 @@ ImageFolder::ImageFolder(const fs::path& path, const OdometryGaps& gaps) : mav0_
   read_odometry(gaps);
   read_ground_truth();
   sensors_ = read_folder_sensors(mav0_, infos_.front().time_ns, infos_.back().time_ns);
+  remarks_ = unread_sensor_keys(mav0_);
   ids_ = std::vector<PictureId>(pictures_.size());
   ImageFolder::image(0);  // refuses what cannot be read before a run starts
 }
@@ -98,10 +101,12 @@ void ImageFolder::read_altitudes() {
                      "become metres");
   }
   const AltitudeSeries altimeter(*csv);
+  const SensorYaml yaml = read_sensor_yaml(csv->parent_path() / "sensor.yaml");
   for (FrameInfo& info : infos_) {
     const auto altitude_m = altimeter.at(info.time_ns, kMaxInterpolationGapNs);
     if (!altitude_m) refuse_uncovered(*csv, altimeter.times(), "altitude", info);
     info.altitude_m = *altitude_m;
+    info.altitude_sigma_m = std::hypot(yaml.sigma_absolute, yaml.sigma_relative * *altitude_m);
   }
 }
 

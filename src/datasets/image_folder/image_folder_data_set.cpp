@@ -72,6 +72,8 @@ class ImageFolderDataSet : public DataSet {
     return trial;
   }
 
+  std::vector<std::string> remarks() const override { return folder_.remarks(); }
+
   std::vector<std::filesystem::path> files() const override { return folder_.files(); }
 
  private:

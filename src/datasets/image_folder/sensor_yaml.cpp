@@ -1,5 +1,8 @@
 #include "sensor_yaml.hpp"
 
+#include <algorithm>
+#include <fmt/format.h>
+#include <map>
 #include <system_error>
 
 #include <yaml-cpp/yaml.h>
@@ -46,6 +49,37 @@ void read_mounting(const std::string& file, const YAML::Node& mounting, SensorYa
   }
 }
 
+// A standard deviation, below `most`.
+double read_sigma(const std::string& file, const YAML::Node& root, const char* key, double most,
+                  const char* expected) {
+  const YAML::Node node = root[key];
+  if (!node) return 0.0;
+  const auto value = node.IsScalar() ? parse_real(node.Scalar()) : std::optional<double>();
+  if (value && *value >= 0.0 && *value < most) return *value;
+  throw InputError(
+      file, line_of(node.Mark()),
+      fmt::format("{}: {} is no standard deviation; expected {}, or remove the key", key,
+                  node.IsScalar() ? in_quotes(node.Scalar()) : "what stands here", expected));
+}
+
+// What is read of each sensor, besides what EuRoC's own files say.
+const std::map<std::string, std::vector<std::string>>& keys_by_sensor() {
+  static const std::map<std::string, std::vector<std::string>> keys{
+      {"altimeter0", {"sigma_absolute", "sigma_relative"}},
+      {"attitude0", {}},
+      {"compass0", {"convention", "mounting"}},
+      {"odometry0", {}},
+      {"position0", {"mounting"}}};
+  return keys;
+}
+
+std::string unread_text(const std::string& sensor, const std::string& key) {
+  const std::vector<std::string>& known = keys_by_sensor().at(sensor);
+  return fmt::format("{} is not read; of {} {}", in_quotes(key), sensor,
+                     known.empty() ? "its data.csv alone counts"
+                                   : "known are " + joined(known, ", ") + suggestion(key, known));
+}
+
 }  // namespace
 
 SensorYaml read_sensor_yaml(const std::filesystem::path& path) {
@@ -56,6 +90,10 @@ SensorYaml read_sensor_yaml(const std::filesystem::path& path) {
   if (root.IsNull()) return sensor;
   if (!root.IsMap()) throw InputError(path.string(), "expected the keys of a sensor.yaml");
   if (const YAML::Node mounting = root["mounting"]) read_mounting(path.string(), mounting, sensor);
+  sensor.sigma_absolute =
+      read_sigma(path.string(), root, "sigma_absolute", 1e9, "a number >= 0 in the sensor's unit");
+  sensor.sigma_relative = read_sigma(path.string(), root, "sigma_relative", 1.0,
+                                     "a share of the reading >= 0 and below 1");
   const YAML::Node convention = root["convention"];
   if (!convention) return sensor;
   const std::string name = convention.IsScalar() ? convention.Scalar() : "";
@@ -67,6 +105,28 @@ SensorYaml read_sensor_yaml(const std::filesystem::path& path) {
                          suggestion(name, {"counter_clockwise_from_x", "clockwise_from_north"}));
   }
   return sensor;
+}
+
+std::vector<std::string> unread_sensor_keys(const std::filesystem::path& mav0) {
+  static const std::vector<std::string> kEuRoC{"sensor_type", "comment", "T_BS", "rate_hz"};
+  std::vector<std::string> lines;
+  for (const auto& [sensor, known] : keys_by_sensor()) {
+    const std::filesystem::path path = mav0 / sensor / "sensor.yaml";
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(path, error)) continue;
+    const YAML::Node root = root_of(path);
+    if (!root.IsMap()) continue;
+    for (const auto& entry : root) {
+      const std::string key = entry.first.IsScalar() ? entry.first.Scalar() : "";
+      const auto has = [&key](const auto& keys) {
+        return std::ranges::find(keys, key) != keys.end();
+      };
+      if (has(kEuRoC) || has(known)) continue;
+      lines.push_back(fmt::format("{}:{}: {}", path.string(), line_of(entry.first.Mark()),
+                                  unread_text(sensor, key)));
+    }
+  }
+  return lines;
 }
 
 }  // namespace fathom

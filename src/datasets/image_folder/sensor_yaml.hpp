@@ -2,19 +2,27 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace fathom {
 
-/// The `sensor.yaml` of a compass or a positioning system, as far as it is read.
+/// The `sensor.yaml` of a sensor that is no camera, as far as it is read.
 struct SensorYaml {
   double mount_x_m = 0.0;
   double mount_y_m = 0.0;
   double mount_yaw_rad = 0.0;
-  bool is_from_north = false;  ///< convention: clockwise_from_north
+  bool is_from_north = false;   ///< convention: clockwise_from_north
+  double sigma_absolute = 0.0;  ///< standard deviation of a reading, in its unit; 0: not stated
+  double sigma_relative = 0.0;  ///< likewise, as a share of the reading; the two are independent
 };
 
-/// Keys `mounting` {x, y, yaw} and `convention` (counter_clockwise_from_x or clockwise_from_north),
-/// both optional, as the file is. Throws InputError with file and line.
+/// Keys `mounting` {x, y, yaw}, `convention` (counter_clockwise_from_x or clockwise_from_north),
+/// `sigma_absolute` and `sigma_relative`, all optional, as the file is. Throws InputError with file
+/// and line.
 SensorYaml read_sensor_yaml(const std::filesystem::path& path);
+
+/// Of the sensors in `mav0` that are no camera: keys of their `sensor.yaml` that nobody reads, one
+/// line each with file, line and what is read of this sensor. EuRoC's own are not among them.
+std::vector<std::string> unread_sensor_keys(const std::filesystem::path& mav0);
 
 }  // namespace fathom
