@@ -17,7 +17,6 @@ namespace fathom {
 struct FrameInfo {
   std::int64_t time_ns = 0;
   double altitude_m = 0.0;  ///< as measured, of the camera's centre over the floor, vertical; > 0
-  double altitude_sigma_m = 0.0;  ///< of that, as its sensor states it; 0: it states none
   /// Dead reckoning: the motion since the frame before, in that frame, with its covariance. Absent
   /// at the first frame, and where the source has no odometry.
   std::optional<UncertainPose> motion;
@@ -28,6 +27,8 @@ struct FrameInfo {
 
   /// Whether nothing was measured of the motion: it is a guess then, with a declared covariance.
   bool is_hole = false;
+  /// Of the altitude, as its sensor states it; 0: it states none.
+  double altitude_sigma_m = 0.0;
 
   Stance stance() const { return {altitude_m, tilt}; }
 };
