@@ -57,6 +57,28 @@ TEST_F(YourSurvey, InitWritesWhatRunsAndComparesAlike) {
   fathom_done({"check", "config/study.yaml"});
 }
 
+TEST_F(YourSurvey, WhatTheAltimeterStatesIsUsedAndAMisspeltKeyIsNamed) {
+  simulate("data");
+  const fs::path yaml = path("data/mav0/altimeter0/sensor.yaml");
+  const std::string exact = "altitudes are exact: give ";
+  EXPECT_THAT(fathom_done({"init", "data", "--out", "exact"}).out, HasSubstr(exact));
+  fathom_done({"run", "data", "--out", "silent", "--no-mosaic"});
+  std::ofstream(yaml) << "sigma_absolute: 0.02\n";
+  EXPECT_THAT(fathom_done({"init", "data", "--out", "stated"}).out, Not(HasSubstr(exact)));
+  fathom_done({"run", "data", "--out", "stated_run", "--no-mosaic"});
+  EXPECT_NE(bytes_of("silent/measurements.g2o"), bytes_of("stated_run/measurements.g2o"));
+  // By the key alone it is the same, to the last bit.
+  std::ofstream(yaml) << "sensor_type: altimeter\n";
+  fathom_done({"run", "data", "--out", "keyed", "--no-mosaic", "--set",
+               "front_end.covariance.altitude_sigma_m=0.02"});
+  EXPECT_EQ(bytes_of("keyed/measurements.g2o"), bytes_of("stated_run/measurements.g2o"));
+  std::ofstream(yaml) << "sigma_absolut: 0.02\n";
+  const char* const named = "sensor.yaml:1: 'sigma_absolut' is not read; ";
+  EXPECT_THAT(fathom_done({"check", "data"}).out, HasSubstr(named));
+  const Ended ran = fathom_done({"run", "data", "--out", "named", "--no-mosaic"});
+  EXPECT_THAT(ran.out + ran.err, HasSubstr(named));
+}
+
 TEST_F(YourSurvey, AFolderThatIsNoneSaysWhatIsExpected) {
   fs::create_directory(path("empty"));
   EXPECT_THAT(refusal({"run", "empty"}), HasSubstr("expected a folder in the EuRoC/ASL layout"));

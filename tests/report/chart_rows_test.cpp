@@ -1,4 +1,4 @@
-// The rows of charts: closed forms, a front by brute force, and the page's against the figures'.
+// The rows of charts: closed forms, and a front by brute force.
 
 #include "src/report/chart_rows.hpp"
 
@@ -7,20 +7,13 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
-#include "report/page_data.hpp"
-#include "report/study_fixture.hpp"
 #include "src/report/map_frame.hpp"
-#include "src/report/regime_map.hpp"
 #include "src/report/scaled_unit.hpp"
-#include "src/report/trajectory_map.hpp"
-#include "support/temporary_folder.hpp"
 
 namespace fathom::test {
 namespace {
 
-using Json = nlohmann::json;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 using ::testing::Optional;
@@ -148,117 +141,6 @@ TEST(ChartRows, TheTableOfUnitsSaysWhatTheFunctionSays) {
       EXPECT_EQ(found->unit.factor, expected.factor) << value << " " << unit;
     }
   }
-}
-
-class PageRows : public ::testing::Test {
- protected:
-  void make(const FixtureOptions& options) {
-    write_fixture(folder_ / "study", options);
-    const ResultStore store = ResultStore::open(folder_ / "study");
-    results_ = study_results(store);
-    series_ = study_series(store, results_);
-    examples_ = example_trials(store, results_);
-    page_ = data_of_page(page_of(store));
-  }
-
-  TemporaryFolder folder_;
-  StudyResults results_;
-  std::vector<std::vector<EstimatorSeries>> series_;
-  std::vector<ExampleTrial> examples_;
-  Json page_;
-};
-
-constexpr double kRounding = 1e-5;
-
-TEST_F(PageRows, AreThoseOfTheFigures) {
-  FixtureOptions options;
-  options.absolute = true;
-  make(options);
-  EXPECT_EQ(page_["axes"][0]["positions"], Json::parse("[5, 10, 20]"));
-  EXPECT_TRUE(page_["axes"][1]["positions"].is_null());
-  for (std::size_t c = 0; c < results_.cells.size(); ++c) {
-    const Json& cell = page_["cells"][c];
-    const NeesChart nees = nees_chart(results_.cells[c], series_[c]);
-    ASSERT_EQ(cell["nees_interval"]["low"].size(), nees.low.size());
-    EXPECT_EQ(cell["nees_interval"]["draws"], nees.draws);
-    for (std::size_t i = 0; i < nees.low.size(); ++i) {
-      EXPECT_EQ(cell["nees_interval"]["keyframe"][i], nees.low[i].x());
-      EXPECT_NEAR(cell["nees_interval"]["low"][i], nees.low[i].y(), kRounding);
-      EXPECT_NEAR(cell["nees_interval"]["high"][i], nees.high[i].y(), kRounding * 10.0);
-    }
-    for (std::size_t e = 0; e < results_.cells[c].estimators.size(); ++e) {
-      for (const auto& [metric, summary] : results_.cells[c].estimators[e].metrics) {
-        const Moments& moments = summary.moments;
-        const BandedMean band = banded(moments.mean, moments.standard_deviation);
-        const Json& drawn = cell["estimators"][e]["metrics"][metric]["band"];
-        EXPECT_NEAR(drawn[0], band.low, kRounding * std::abs(band.low));
-        EXPECT_NEAR(drawn[1], band.high, kRounding * std::abs(band.high));
-      }
-    }
-    std::vector<PlotSeries> all;
-    for (const ExampleRun& run : examples_[c].runs) all.push_back(run.series());
-    all.push_back({"ground truth", {}, examples_[c].truth, {}, {}, false});
-    const Eigen::AlignedBox2d extent = map_extent(all);
-    EXPECT_NEAR(cell["example"]["extent"]["x_m"][1], extent.max().x(), 1e-4);
-    EXPECT_NEAR(cell["example"]["extent"]["y_m"][0], extent.min().y(), 1e-4);
-  }
-}
-
-TEST_F(PageRows, SquaresOfTheRegimeMapAreThoseOfTheFigure) {
-  make({});
-  EXPECT_EQ(page_["regimes"]["across"], 0);
-  EXPECT_EQ(page_["regimes"]["up"], 1);
-  const std::string metric = "mean_position_error_m";
-  for (std::size_t c = 0; c < results_.cells.size(); ++c) {
-    const CellResults& cell = results_.cells[c];
-    for (std::size_t e = 0; e < cell.estimators.size(); ++e) {
-      const Json& drawn = page_["cells"][c]["estimators"][e]["metrics"][metric];
-      const auto square = regime_square(cell, cell.estimators[e], metric, {});
-      ASSERT_EQ(drawn.contains("square"), square.has_value()) << c << " " << e;
-      if (!square) continue;
-      EXPECT_EQ(drawn["square"][0], hex(square->shade.fill));
-      EXPECT_EQ(drawn["square"][1], square->shade.ink == palette::white);
-      EXPECT_NEAR(drawn["square"][2], *square->relative, kRounding * *square->relative);
-    }
-  }
-}
-
-// A pose that no map can show breaks the line, and does not decide what is shown.
-TEST(ChartRows, APoseThatIsNotFiniteIsNullOnThePage) {
-  const TemporaryFolder folder;
-  StudyDescription study;
-  study.estimators = {{"a", "ekf"}};
-  ResultStore store = ResultStore::write(folder.path(), study, "{}");
-  RunRecord run;
-  run.key = {0, 0, 0, "a"};
-  run.outcome = "converged";
-  run.series["x_m"] = {0.0, std::nan(""), 4.0, 1e300};
-  run.series["y_m"] = {0.0, 1.0, 3.0, 2.0};
-  run.series["loop_from"] = {0.0, 0.0};
-  run.series["loop_to"] = {2.0, 3.0};
-  run.series["loop_fate"] = {0.0, 0.0};
-  run.series["absolute_keyframe"] = {2.0, 1.0, 2.0};
-  run.series["absolute_fate"] = run.series["absolute_nis"] = {0.0, 0.0, 0.0};
-  run.series["absolute_weight"] = {1.0, 1.0, 1.0};
-  run.series["absolute_x_m"] = {4.5, 1.0, 1e300};
-  run.series["absolute_y_m"] = {3.0, 1.0, 3.0};
-  run.series["absolute_cov_xx"] = run.series["absolute_cov_yy"] = {0.01, 0.01, 0.01};
-  run.series["absolute_cov_xy"] = {0.0, 0.0, 0.0};
-  store.add(run);
-  store.finish();
-  const Json data = data_of_page(page_of(ResultStore::open(folder.path())));
-  const Json& example = data["cells"][0]["example"];
-  EXPECT_EQ(example["estimators"][0]["path"]["x_m"], Json::parse("[0, null, 4, null]"));
-  EXPECT_EQ(example["estimators"][0]["path"]["y_m"], Json::parse("[0, null, 3, null]"));
-  EXPECT_EQ(example["extent"], Json::parse(R"({"x_m": [0, 4.5], "y_m": [0, 3]})"));
-  // A loop or a mark at such a pose is counted and not drawn.
-  const Json& one = example["estimators"][0];
-  EXPECT_EQ(one["loops_in_all"]["used"], 2);
-  EXPECT_EQ(one["loops"][0].size(), 8u);
-  EXPECT_EQ(one["loops"][1].size(), 4u);
-  EXPECT_EQ(one["absolute_in_all"]["fixes"], Json::parse("[3, 0]"));
-  ASSERT_EQ(one["absolute"].size(), 1u);
-  EXPECT_EQ(one["absolute"][0]["fix_m"], Json::parse("[4.5, 3]"));
 }
 
 }  // namespace
