@@ -133,9 +133,9 @@ std::vector<std::pair<std::string, std::size_t>> outcome_counts(const EstimatorR
     const auto found = estimator.outcomes.find(name_of(outcome));
     if (found != estimator.outcomes.end()) counts.emplace_back(*found);
   }
-  for (const auto& [name, count] : estimator.outcomes) {
-    const auto is_it = [&name](Outcome outcome) { return name_of(outcome) == name; };
-    if (std::ranges::none_of(kOutcomes, is_it)) counts.emplace_back(name, count);
+  for (const auto& entry : estimator.outcomes) {
+    const auto is_it = [&entry](Outcome outcome) { return name_of(outcome) == entry.first; };
+    if (std::ranges::none_of(kOutcomes, is_it)) counts.emplace_back(entry);
   }
   const std::size_t wanted = study.surveys * study.trials;
   if (estimator.runs.size() < wanted) {

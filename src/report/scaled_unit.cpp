@@ -45,7 +45,8 @@ double least_at(const Base& base, int thousands) {
 // The base at that power, by its prefix or with the power said beside the unit.
 ScaledUnit unit_at(const Base& base, const std::string& unit, int thousands) {
   if (!base.unit.empty()) {
-    const std::string prefix(kPrefixes[static_cast<std::size_t>(thousands + kNoPrefix)]);
+    const int place = thousands + kNoPrefix;
+    const std::string prefix(kPrefixes[static_cast<std::size_t>(place)]);
     return {prefix + std::string(base.unit), std::pow(1000.0, base.thousands - thousands)};
   }
   if (thousands == 0) return {unit, 1.0};
