@@ -5,6 +5,7 @@
 
 #include "page_box.hpp"
 
+// NOLINTNEXTLINE(bugprone-reserved-identifier): the name is cairo's
 using cairo_t = struct _cairo;
 
 namespace fathom {
