@@ -100,7 +100,9 @@ void sum_up_altitude(const FrameSource& source, FolderSummary& summary) {
   summary.facts.push_back(
       fmt::format("altitude: {} m, {} mm per pixel, sigma {}", range(low_m, high_m),
                   range(1e3 * low_m / focal, 1e3 * high_m / focal),
-                  most_sigma_m > 0.0 ? range(least_sigma_m, most_sigma_m) + " m" : "not stated"));
+                  !(most_sigma_m > 0.0)           ? "not stated"
+                  : least_sigma_m == most_sigma_m ? number(most_sigma_m) + " m"
+                                                  : range(least_sigma_m, most_sigma_m) + " m"));
   warn(summary, jumps, "altitude changes by more than half from the frame before");
 }
 

@@ -34,6 +34,9 @@ TEST(FolderSummary, SaysHowExactAltitudesAre) {
   fixture.files["altimeter0/sensor.yaml"] = "sigma_relative: 0.01\n";
   const FolderSummary summary = summarise_frames(ImageFolder(fixture.write()));
   EXPECT_THAT(summary.facts, Contains(HasSubstr("mm per pixel, sigma 0.02 to 0.03 m")));
+  fixture.files["altimeter0/sensor.yaml"] = "sigma_absolute: 0.02\n";
+  EXPECT_THAT(summarise_frames(ImageFolder(fixture.write())).facts,
+              Contains(HasSubstr("mm per pixel, sigma 0.02 m")));
 }
 
 // Straight flight at constant altitude: the overlap is one less the step over the footprint's

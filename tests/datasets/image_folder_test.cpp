@@ -179,6 +179,16 @@ TEST(ImageFolder, KeysOfASensorThatNobodyReadsAreNamed) {
       << remarks[1];
 }
 
+// What is no YAML is refused where something is read of it, and else named.
+TEST(ImageFolder, AFileOfWhichNothingIsReadMayBeAnything) {
+  FolderFixture fixture;
+  fixture.files["odometry0/sensor.yaml"] = "a: [b\n";
+  const std::vector<std::string> remarks = ImageFolder(fixture.write()).remarks();
+  ASSERT_EQ(remarks.size(), 1U);
+  EXPECT_NE(remarks[0].find("odometry0/sensor.yaml:2: is not valid YAML"), std::string::npos);
+  EXPECT_TRUE(remarks[0].ends_with("; nothing is read of it")) << remarks[0];
+}
+
 TEST(ImageFolder, GroundTruthIsOptional) {
   FolderFixture fixture;
   fixture.files.erase("state_groundtruth_estimate0/data.csv");

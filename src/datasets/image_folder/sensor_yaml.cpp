@@ -114,7 +114,14 @@ std::vector<std::string> unread_sensor_keys(const std::filesystem::path& mav0) {
     const std::filesystem::path path = mav0 / sensor / "sensor.yaml";
     std::error_code error;
     if (!std::filesystem::is_regular_file(path, error)) continue;
-    const YAML::Node root = root_of(path);
+    YAML::Node root;
+    try {
+      root = root_of(path);
+    } catch (const InputError& fault) {
+      // Where something is read of it, its reader has refused it.
+      lines.push_back(std::string(fault.what()) + "; nothing is read of it");
+      continue;
+    }
     if (!root.IsMap()) continue;
     for (const auto& entry : root) {
       const std::string key = entry.first.IsScalar() ? entry.first.Scalar() : "";

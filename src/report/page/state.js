@@ -28,7 +28,6 @@ const labelOf = (name) => (styleOf(name) ? styleOf(name).label : name);
 const unitOf = (name) => (study.metrics[name] ? study.metrics[name].unit : '');
 const metricTitle = (name) => (study.metrics[name] ? study.metrics[name].title : name);
 const namesOf = (names) => (names.length < 2 ? names.join('') : `${names.slice(0, -1).join(', ')} and ${names[names.length - 1]}`);
-const metricLabel = (name) => (study.metrics[name] ? study.metrics[name].label : name);
 
 function element(tag, properties = {}, children = []) {
   const made = Object.assign(document.createElement(tag), properties);
