@@ -8,7 +8,7 @@
 #include "apps/common.hpp"
 #include "fathom/core/files.hpp"
 #include "fathom/harness/false_loops.hpp"
-#include "fathom/measurements/g2o.hpp"
+#include "fathom/measurements/shared_file.hpp"
 
 namespace fathom {
 namespace {
@@ -55,7 +55,7 @@ void spoil_graph(const SpoilFlags& flags, Context& context) {
   const std::vector<Pose> reference = reference_poses(recording, context.estimators().registry());
   const Spoiled spoiled =
       spoil(recording.log, reference, options, static_cast<std::uint64_t>(flags.seed));
-  write_file(flags.out, to_g2o(spoiled.log));
+  write_graph(flags.out, spoiled.log);
   write_file(list, false_loops_csv(spoiled));
   context.status = kDone;
   if (flags.quiet) return;

@@ -122,6 +122,7 @@ std::vector<RelativePose> FrontEnd::registered(const Candidates& candidates) {
     registrations.push_back(RelativePose::from_covariance(
         candidates.keyframes[c], newest, results[c].motion, results[c].covariance));
     registrations.back().inliers = results[c].inliers;
+    registrations.back().shared = std::make_shared<const SharedErrors>(results[c].shared);
   }
   tried_ += candidates.keyframes.size();
   found_ += registrations.size();

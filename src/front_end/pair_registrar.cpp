@@ -102,7 +102,7 @@ PairRegistration PairRegistrar::register_anew(const MeasuredFrame& from, const M
   const Registration found = registered_.measure(
       [&] { return register_pair(features_from, features_to, options_, seed_of(from, to)); });
   PairRegistration value{found.found, found.motion, found.covariance,
-                         static_cast<int>(found.inliers.size())};
+                         static_cast<int>(found.inliers.size()), found.shared};
   if (cache_ != nullptr) cache_->put(cache_key(from, to), value);
   return value;
 }

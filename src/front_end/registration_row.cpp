@@ -6,19 +6,40 @@
 
 namespace fathom {
 
-RegistrationNumbers numbers_of(const PairRegistration& value) {
-  RegistrationNumbers numbers{value.motion.x, value.motion.y, value.motion.theta};
-  for (int i = 0; i < 9; ++i) {
-    numbers[3 + static_cast<std::size_t>(i)] = value.covariance(i / 3, i % 3);
+namespace {
+
+// Every number of a registration, in the order of its row.
+template <class Value, class Use>
+void for_each_number(Value& value, const Use& use) {
+  const auto matrix = [&](auto& m) {
+    for (int i = 0; i < 9; ++i) use(m(i / 3, i % 3));
+  };
+  use(value.motion.x);
+  use(value.motion.y);
+  use(value.motion.theta);
+  matrix(value.covariance);
+  matrix(value.shared.own);
+  for (auto* picture : {&value.shared.from, &value.shared.to}) {
+    matrix(picture->G);
+    for (int i = 0; i < 3; ++i) use(picture->sigma[i]);
   }
+}
+
+}  // namespace
+
+RegistrationNumbers numbers_of(const PairRegistration& value) {
+  RegistrationNumbers numbers{};
+  std::size_t next = 0;
+  for_each_number(value, [&](const double& number) { numbers[next++] = number; });
   return numbers;
 }
 
 PairRegistration registration_of(bool found, const RegistrationNumbers& numbers, int inliers) {
-  PairRegistration value{found, {numbers[0], numbers[1], numbers[2]}, {}, inliers};
-  for (int i = 0; i < 9; ++i) {
-    value.covariance(i / 3, i % 3) = numbers[3 + static_cast<std::size_t>(i)];
-  }
+  PairRegistration value;
+  value.found = found;
+  value.inliers = inliers;
+  std::size_t next = 0;
+  for_each_number(value, [&](double& number) { number = numbers[next++]; });
   return value;
 }
 

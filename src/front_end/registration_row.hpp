@@ -7,8 +7,9 @@
 
 namespace fathom {
 
-/// x, y, θ and the covariance row by row (m, rad), as they lie in a row of the file.
-using RegistrationNumbers = std::array<double, 12>;
+/// x, y, θ, the covariance, then the parts of it: own, G and σ of `from`, of `to`; matrices row by
+/// row (m, rad), as they lie in a row of the file.
+using RegistrationNumbers = std::array<double, 45>;
 
 RegistrationNumbers numbers_of(const PairRegistration& value);
 

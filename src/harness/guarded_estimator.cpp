@@ -208,6 +208,12 @@ std::optional<Eigen::MatrixXd> GuardedEstimator::joint_covariance(
   return covariance;
 }
 
+bool GuardedEstimator::estimates_shared_errors() const {
+  bool estimates = false;
+  guarded("estimates_shared_errors", [&] { estimates = estimator_->estimates_shared_errors(); });
+  return estimates;
+}
+
 double GuardedEstimator::loss(double chi2, int rank) const {
   double loss = kNaN;
   guarded("loss", [&] { loss = estimator_->loss(chi2, rank); });

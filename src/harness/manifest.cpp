@@ -12,7 +12,7 @@
 #include "fathom/core/system.hpp"
 #include "fathom/core/version.hpp"
 #include "fathom/datasets/fingerprint.hpp"
-#include "fathom/measurements/g2o.hpp"
+#include "fathom/measurements/shared_file.hpp"
 
 namespace fathom {
 namespace {
@@ -85,7 +85,7 @@ std::string manifest_json(const std::string& command_line,
                           const std::vector<std::string>& remarks) {
   Json json = session(command_line, 1);
   json["data"] = {{"files", data.size()}, {"fingerprint", fingerprint_text(data)}};
-  json["measurements_fnv1a64"] = hash_text(to_g2o(recording.log));
+  json["measurements_fnv1a64"] = hash_text(text_of(recording.log));
   for (const auto& [key, value] : configuration) json["configuration"][key] = value;
   Json options;
   for (const auto& [key, value] :

@@ -4,7 +4,7 @@
 
 #include "fathom/core/hash.hpp"
 #include "fathom/harness/replay.hpp"
-#include "fathom/measurements/g2o.hpp"
+#include "fathom/measurements/shared_file.hpp"
 
 namespace fathom {
 
@@ -36,7 +36,7 @@ RecordingFacts study_facts(const Recording& recording, const EstimatorRegistry& 
   if (const auto optimum = batch_optimum(recording.log, registry)) {
     facts.chi2_optimum = optimum->chi2;
   }
-  facts.log_hash = hash_text(to_g2o(recording.log));
+  facts.log_hash = hash_text(text_of(recording.log));
   return facts;
 }
 

@@ -9,8 +9,10 @@
 #include "fathom/core/files.hpp"
 #include "fathom/core/input_error.hpp"
 #include "fathom/core/text.hpp"
+#include "fathom/measurements/shared_file.hpp"
 #include "g2o_file.hpp"
 #include "graph_components.hpp"
+#include "shared_lines.hpp"
 
 namespace fathom {
 namespace {
@@ -24,6 +26,7 @@ RelativePose measurement(const G2oFile::Edge& edge, const KeyframeOf& keyframe_o
   z.motion = edge.motion;
   z.information = edge.information;
   z.inliers = edge.inliers;
+  z.shared = edge.shared;
   return z;
 }
 
@@ -205,11 +208,12 @@ void GraphOptions::describe(OptionTable& table) {
 }
 
 MeasurementLog read_g2o(const std::filesystem::path& path, const GraphOptions& options) {
-  return parse_g2o(read_text(path), path.string(), options);
+  const std::optional<SharedText> shared = shared_beside(path);
+  return parse_g2o(read_text(path), path.string(), options, shared ? &*shared : nullptr);
 }
 
 MeasurementLog parse_g2o(const std::string& content, const std::string& name,
-                         const GraphOptions& options) {
+                         const GraphOptions& options, const SharedText* shared) {
   const G2oFault fault = [&name](std::size_t line, const std::string& what) {
     throw InputError(name, line, what);
   };
@@ -218,6 +222,11 @@ MeasurementLog parse_g2o(const std::string& content, const std::string& name,
     throw InputError(name, "holds no pose graph: no vertex and no edge");
   }
   check_references(file, fault);
+  if (shared != nullptr) {
+    read_shared(shared->content, file, name, [shared](std::size_t line, const std::string& what) {
+      throw InputError(shared->name, line, what);
+    });
+  }
   return build_log(wanted_component(std::move(file), options, name, fault), options);
 }
 

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,6 +11,7 @@
 #include <Eigen/Core>
 
 #include "fathom/geometry/pose.hpp"
+#include "fathom/measurements/shared_errors.hpp"
 
 namespace fathom {
 
@@ -25,6 +27,7 @@ struct G2oFile {
     Pose motion;
     Eigen::Matrix3d information;
     std::optional<int> inliers;
+    std::shared_ptr<const SharedErrors> shared;  ///< of a file beside it
     std::size_t line = 0;
   };
   struct Prior {

@@ -35,6 +35,13 @@ std::size_t MeasurementLog::absolute_count() const {
   return count;
 }
 
+bool MeasurementLog::tells_shared_errors() const {
+  return std::ranges::any_of(measurements_, [](const KeyframeMeasurements& arrival) {
+    return std::ranges::any_of(arrival.registrations,
+                               [](const RelativePose& z) { return z.shared != nullptr; });
+  });
+}
+
 std::size_t MeasurementLog::hole_count() const {
   return static_cast<std::size_t>(
       std::count_if(measurements_.begin() + 1, measurements_.end(),

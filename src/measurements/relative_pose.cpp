@@ -23,6 +23,11 @@ RelativePose RelativePose::reversed() const {
   RelativePose measurement = from_covariance(to, from, back.mean, back.covariance);
   measurement.inliers = inliers;
   measurement.is_hole = is_hole;
+  if (shared) {
+    Eigen::Matrix3d J;
+    inverse(motion, &J);
+    measurement.shared = std::make_shared<const SharedErrors>(shared->reversed(J));
+  }
   return measurement;
 }
 

@@ -74,6 +74,7 @@ class Spoiler {
     }
     z.from = std::min(a, b);
     z.to = std::max(a, b);
+    z.shared = nullptr;  // other pictures' errors
     return z;
   }
 
@@ -82,6 +83,7 @@ class Spoiler {
     RelativePose z = templates_[random_.index(templates_.size())];
     z.from = first.from + steps;
     z.to = first.to + steps;
+    z.shared = nullptr;
     const Pose back = between(reference_[z.from], reference_[first.from]);
     const Pose on = between(reference_[first.to], reference_[z.to]);
     const Eigen::LLT<Eigen::Matrix3d> information(z.information);

@@ -91,25 +91,36 @@ double LinearFit::clustering(double cell_m, int least_cells) const {
   return std::isfinite(ratio) ? std::max(1.0, ratio) : 1.0;
 }
 
-Eigen::Matrix3d LinearFit::altitude_and_tilt(const Viewpoint& from, const Viewpoint& to,
-                                             const CovarianceOptions& options) const {
+SharedErrors LinearFit::altitude_and_tilt(const Viewpoint& from, const Viewpoint& to,
+                                          const CovarianceOptions& options) const {
   const auto sigmas_of = [&](const Viewpoint& view) {
     const double tilt_rad = view.tilt_sigma_rad.value_or(options.tilt_sigma_rad);
     return Eigen::Vector3d(std::max(options.altitude_sigma_m, view.altitude_sigma_m), tilt_rad,
                            tilt_rad);
   };
-  const Eigen::Vector3d sigmas_from = sigmas_of(from);
-  const Eigen::Vector3d sigmas_to = sigmas_of(to);
+  SharedErrors shared;
+  shared.from.sigma = sigmas_of(from);
+  shared.to.sigma = sigmas_of(to);
   const Eigen::Matrix2d R = rotation(z_.theta);
+  for (int error = 0; error < 3; ++error) {
+    // Points without a picture have no altitude, and no errors of one.
+    if (!(from.altitude_m > 0.0) || !(to.altitude_m > 0.0)) break;
+    shared.from.G.col(error) =
+        response([&](std::size_t j) { return derivative(from, p_[j]).col(error).eval(); });
+    shared.to.G.col(error) =
+        -response([&](std::size_t j) { return (R * derivative(to, q_[j]).col(error)).eval(); });
+  }
+  return shared;
+}
+
+Eigen::Matrix3d total_of(const PictureErrors& from, const PictureErrors& to) {
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
   for (int error = 0; error < 3; ++error) {
-    const double sigma_from = sigmas_from[error];
-    const double sigma_to = sigmas_to[error];
+    const double sigma_from = from.sigma[error];
+    const double sigma_to = to.sigma[error];
     if (sigma_from == 0.0 && sigma_to == 0.0) continue;
-    const Eigen::Vector3d by_from =
-        response([&](std::size_t j) { return derivative(from, p_[j]).col(error).eval(); });
-    const Eigen::Vector3d by_to =
-        response([&](std::size_t j) { return (R * derivative(to, q_[j]).col(error)).eval(); });
+    const Eigen::Vector3d by_from = from.G.col(error);
+    const Eigen::Vector3d by_to = to.G.col(error);
     // With both alike the sum comes first, as the last bit goes by it.
     if (sigma_from == sigma_to) {
       sum += sigma_to * sigma_to * (by_from * by_from.transpose() + by_to * by_to.transpose());

@@ -32,9 +32,13 @@ class LinearFit {
 
   /// Of errors that the points of one picture share: of its altitude, by the larger of what its
   /// sensor and the options state, and of its roll and pitch, as measured, else as of the options;
-  /// those of two pictures are independent.
-  Eigen::Matrix3d altitude_and_tilt(const Viewpoint& from, const Viewpoint& to,
-                                    const CovarianceOptions& options) const;
+  /// those of two pictures are independent. `own` is left at zero.
+  ///
+  /// n is assumed less true: a point is taken to lie D n from where it does, D its derivative by
+  /// altitude, roll and pitch. In `from` that moves p, and z by the response; in `to` it moves q,
+  /// and z by the opposite.
+  SharedErrors altitude_and_tilt(const Viewpoint& from, const Viewpoint& to,
+                                 const CovarianceOptions& options) const;
 
  private:
   Eigen::Matrix<double, 2, 3> jacobian(std::size_t j) const;
@@ -49,5 +53,8 @@ class LinearFit {
   std::span<const double> weights_;
   Eigen::Matrix3d inverse_;  // A⁻¹
 };
+
+/// Of the parts of two pictures together, without what is the registration's own.
+Eigen::Matrix3d total_of(const PictureErrors& from, const PictureErrors& to);
 
 }  // namespace fathom

@@ -103,20 +103,27 @@ ScaleCheck check_scale(const MotionFit& fit, const MatchSet& matches) {
   return {along / q_spread, std::sqrt(variance / q_spread)};
 }
 
-Eigen::Matrix3d fit_covariance(const MotionFit& fit, const MatchSet& matches,
-                               const FloorFeatures& from, const FloorFeatures& to,
-                               const RegistrationOptions& options) {
+FitCovariance fit_covariance(const MotionFit& fit, const MatchSet& matches,
+                             const FloorFeatures& from, const FloorFeatures& to,
+                             const RegistrationOptions& options) {
   const Points points = points_of(matches, fit.inliers);
   const LinearFit linear(fit.motion, points.p, points.q, points.weights);
   const CovarianceTuning& tuning = options.tuning.covariance;
   const CovarianceOptions& told = options.covariance;
   const double cell_m = tuning.cluster_px * to.viewpoint.metres_per_pixel;
-  Eigen::Matrix3d covariance =
+  const Eigen::Matrix3d fitted =
       linear.covariance() * linear.clustering(cell_m, tuning.least_clusters);
-  covariance += linear.altitude_and_tilt(from.viewpoint, to.viewpoint, told);
-  covariance += shared_error(fit.rms_m, tuning.shared_error);
-  covariance.diagonal() +=
+  const Eigen::Matrix3d alike = shared_error(fit.rms_m, tuning.shared_error);
+  const Eigen::Vector3d floor =
       Eigen::Vector3d(*told.floor_sigma_m, *told.floor_sigma_m, told.floor_sigma_rad).cwiseAbs2();
+  FitCovariance covariance;
+  covariance.parts = linear.altitude_and_tilt(from.viewpoint, to.viewpoint, told);
+  covariance.parts.own = fitted + alike;
+  covariance.parts.own.diagonal() += floor;
+  covariance.total = fitted;
+  covariance.total += total_of(covariance.parts.from, covariance.parts.to);
+  covariance.total += alike;
+  covariance.total.diagonal() += floor;
   return covariance;
 }
 

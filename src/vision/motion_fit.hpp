@@ -24,15 +24,22 @@ struct MotionFit {
 MotionFit fit_motion(const Pose& start, const MatchSet& matches,
                      const RegistrationOptions& options);
 
-/// Its covariance: of (x, y, θ), in axes of `from`. To first order, the sum of
+/// The covariance of a fit, of (x, y, θ), in axes of `from`; and the same apart.
+struct FitCovariance {
+  Eigen::Matrix3d total = Eigen::Matrix3d::Zero();
+  SharedErrors parts;
+};
+
+/// To first order, the sum of
 /// - what the errors show, σ² (Σ w JᵀJ)⁻¹ with σ² = Σ w ‖r‖² / (2n − 3), and more where errors of
 ///   neighbours are alike: times the mean ratio of the cluster-robust covariance (Liang and Zeger
 ///   1986; clusters are squares of `cluster_px`) to it, if above 1;
 /// - a share of the error of one match, which all of a picture have in common;
 /// - that of altitudes and tilts, and the floor, as of the options.
-Eigen::Matrix3d fit_covariance(const MotionFit& fit, const MatchSet& matches,
-                               const FloorFeatures& from, const FloorFeatures& to,
-                               const RegistrationOptions& options);
+/// All but altitudes and tilts is the registration's own.
+FitCovariance fit_covariance(const MotionFit& fit, const MatchSet& matches,
+                             const FloorFeatures& from, const FloorFeatures& to,
+                             const RegistrationOptions& options);
 
 /// Distances in `from` over those in `to` by the inliers of a fit, and its standard deviation.
 struct ScaleCheck {

@@ -82,7 +82,9 @@ Registration accepted(Registration result, const Pair& pair, const MotionFit& fi
   const ScaleCheck check = check_scale(fit, matches);
   result.evidence.scale = check.scale;
   result.evidence.scale_sigma = check.sigma;
-  result.covariance = fit_covariance(fit, matches, pair.from, pair.to, pair.options);
+  const FitCovariance covariance = fit_covariance(fit, matches, pair.from, pair.to, pair.options);
+  result.covariance = covariance.total;
+  result.shared = covariance.parts;
   return result;
 }
 

@@ -77,15 +77,15 @@ struct Overlap {
   }
 };
 
-// σ² dz dzᵀ over the errors of both pictures, dz by central differences of whole fits.
-Eigen::Matrix3d refitted(const Overlap& seen, const CovarianceOptions& options) {
-  const auto sigma = [&](const Viewpoint& view, int i) {
-    if (i > 0) return view.tilt_sigma_rad.value_or(options.tilt_sigma_rad);
-    return view.altitude_sigma_m > options.altitude_sigma_m ? view.altitude_sigma_m
-                                                            : options.altitude_sigma_m;
-  };
+// dz by the errors of either picture, assumed less true, by central differences of whole fits.
+struct Responses {
+  Eigen::Matrix3d from;
+  Eigen::Matrix3d to;
+};
+
+Responses refitted_responses(const Overlap& seen) {
   constexpr double kStep = 1e-5;
-  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+  Responses responses;
   for (int i = 0; i < 3; ++i) {
     Error up, down;
     up[i] = kStep;
@@ -95,12 +95,31 @@ Eigen::Matrix3d refitted(const Overlap& seen, const CovarianceOptions& options) 
                          seen.weights)
           .value();
     };
-    const Eigen::Vector3d by_from = difference(fit(up, {}), fit(down, {})) / (2.0 * kStep);
-    const Eigen::Vector3d by_to = difference(fit({}, up), fit({}, down)) / (2.0 * kStep);
-    sum += std::pow(sigma(seen.from, i), 2) * by_from * by_from.transpose() +
-           std::pow(sigma(seen.to, i), 2) * by_to * by_to.transpose();
+    responses.from.col(i) = difference(fit(up, {}), fit(down, {})) / (2.0 * kStep);
+    responses.to.col(i) = difference(fit({}, up), fit({}, down)) / (2.0 * kStep);
   }
-  return sum;
+  return responses;
+}
+
+// σ² dz dzᵀ over the errors of both pictures.
+Eigen::Matrix3d refitted(const Overlap& seen, const CovarianceOptions& options) {
+  const auto sigmas = [&](const Viewpoint& view) {
+    const double tilt_rad = view.tilt_sigma_rad.value_or(options.tilt_sigma_rad);
+    const double altitude_m = view.altitude_sigma_m > options.altitude_sigma_m
+                                  ? view.altitude_sigma_m
+                                  : options.altitude_sigma_m;
+    return Eigen::Vector3d(altitude_m, tilt_rad, tilt_rad);
+  };
+  const Responses responses = refitted_responses(seen);
+  const Eigen::Matrix3d by_from = responses.from * sigmas(seen.from).asDiagonal();
+  const Eigen::Matrix3d by_to = responses.to * sigmas(seen.to).asDiagonal();
+  return by_from * by_from.transpose() + by_to * by_to.transpose();
+}
+
+Eigen::Matrix3d total(const LinearFit& fit, const Viewpoint& from, const Viewpoint& to,
+                      const CovarianceOptions& options) {
+  const SharedErrors shared = fit.altitude_and_tilt(from, to, options);
+  return total_of(shared.from, shared.to);
 }
 
 TEST(LinearFit, AltitudeAndTiltEqualsRefitsOfMovedPoints) {
@@ -110,10 +129,23 @@ TEST(LinearFit, AltitudeAndTiltEqualsRefitsOfMovedPoints) {
        {CovarianceOptions{0.02, 0.0}, CovarianceOptions{0.0, 0.03},
         CovarianceOptions{0.02, 0.03}}) {
     const Eigen::Matrix3d expected = refitted(seen, options);
-    const Eigen::Matrix3d found = fit.altitude_and_tilt(seen.from, seen.to, options);
+    const Eigen::Matrix3d found = total(fit, seen.from, seen.to, options);
     ASSERT_GT(expected.norm(), 1e-5);
     EXPECT_LT((found - expected).norm(), 1e-6 * expected.norm()) << found << "\n\n" << expected;
   }
+}
+
+// Signs too: an error of one picture moves its registrations together or against each other.
+TEST(LinearFit, ResponsesEqualRefitsOfMovedPoints) {
+  Overlap seen;
+  seen.from.pitch_rad = 0.3;
+  seen.to.pitch_rad = -0.4;
+  const LinearFit fit(seen.motion, seen.p, seen.q, seen.weights);
+  const SharedErrors shared = fit.altitude_and_tilt(seen.from, seen.to, {0.02, 0.03});
+  const Responses expected = refitted_responses(seen);
+  EXPECT_LT((shared.from.G - expected.from).norm(), 1e-6 * expected.from.norm());
+  EXPECT_LT((shared.to.G - expected.to).norm(), 1e-6 * expected.to.norm());
+  EXPECT_EQ(shared.from.sigma, Eigen::Vector3d(0.02, 0.03, 0.03));
 }
 
 // Pitch and the σ of each as measured; one of the two alone; and an exact one.
@@ -133,7 +165,7 @@ TEST(LinearFit, MeasuredTiltEqualsRefitsOfMovedPoints) {
     seen.from.tilt_sigma_rad = of_from;
     seen.to.tilt_sigma_rad = of_to;
     const Eigen::Matrix3d expected = refitted(seen, options);
-    const Eigen::Matrix3d found = fit.altitude_and_tilt(seen.from, seen.to, options);
+    const Eigen::Matrix3d found = total(fit, seen.from, seen.to, options);
     EXPECT_LT((found - expected).norm(), 1e-6 * expected.norm()) << found << "\n\n" << expected;
     traces.push_back(found.trace());
   }
@@ -146,14 +178,14 @@ TEST(LinearFit, AStatedAltitudeSigmaEqualsRefitsOfMovedPoints) {
   Overlap seen;
   const CovarianceOptions options{0.02, 0.0};
   const LinearFit fit(seen.motion, seen.p, seen.q, seen.weights);
-  const Eigen::Matrix3d by_options = fit.altitude_and_tilt(seen.from, seen.to, options);
+  const Eigen::Matrix3d by_options = total(fit, seen.from, seen.to, options);
   std::vector<double> traces;
   for (const auto& [of_from, of_to] :
        {std::pair{0.01, 0.02}, {0.05, 0.01}, {0.01, 0.05}, {0.05, 0.07}}) {
     seen.from.altitude_sigma_m = of_from;
     seen.to.altitude_sigma_m = of_to;
     const Eigen::Matrix3d expected = refitted(seen, options);
-    const Eigen::Matrix3d found = fit.altitude_and_tilt(seen.from, seen.to, options);
+    const Eigen::Matrix3d found = total(fit, seen.from, seen.to, options);
     EXPECT_LT((found - expected).norm(), 1e-6 * expected.norm()) << found << "\n\n" << expected;
     traces.push_back(found.trace());
   }
@@ -167,9 +199,9 @@ TEST(LinearFit, AMeasuredSigmaStandsForThatOfTheOptions) {
   Overlap seen;
   const CovarianceOptions options{0.02, 0.03};
   const LinearFit fit(seen.motion, seen.p, seen.q, seen.weights);
-  const Eigen::Matrix3d by_options = fit.altitude_and_tilt(seen.from, seen.to, options);
+  const Eigen::Matrix3d by_options = total(fit, seen.from, seen.to, options);
   seen.from.tilt_sigma_rad = seen.to.tilt_sigma_rad = 0.03;
-  EXPECT_EQ(fit.altitude_and_tilt(seen.from, seen.to, {0.02, 0.2}), by_options);
+  EXPECT_EQ(total(fit, seen.from, seen.to, {0.02, 0.2}), by_options);
 }
 
 TEST(LinearFit, AltitudeAndTiltKnowsOnePictureFromTheOther) {
@@ -177,8 +209,8 @@ TEST(LinearFit, AltitudeAndTiltKnowsOnePictureFromTheOther) {
   const Overlap seen;
   const LinearFit fit(seen.motion, seen.p, seen.q, seen.weights);
   const CovarianceOptions options{0.02, 0.0};
-  const Eigen::Matrix3d both = fit.altitude_and_tilt(seen.from, seen.to, options);
-  const Eigen::Matrix3d swapped = fit.altitude_and_tilt(seen.to, seen.from, options);
+  const Eigen::Matrix3d both = total(fit, seen.from, seen.to, options);
+  const Eigen::Matrix3d swapped = total(fit, seen.to, seen.from, options);
   EXPECT_GT((both - swapped).norm(), 0.1 * both.norm());
 }
 

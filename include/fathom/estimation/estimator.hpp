@@ -71,6 +71,10 @@ class Estimate : public TrajectoryView {
     return chi2;
   }
 
+  /// Whether what the registrations of a picture share is estimated: the cost that this estimator
+  /// minimises is then shared_chi2, and else chi2, of the log.
+  virtual bool estimates_shared_errors() const { return false; }
+
   /// What every registration given so far weighs in the estimate as it is, in the order given: 1 as
   /// it stands, less under a robust loss, 0 where it has no part. Empty: 1 for every one that is
   /// used, 0 for the others.

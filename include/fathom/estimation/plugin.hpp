@@ -11,7 +11,7 @@ namespace fathom {
 
 /// Version of what a plug-in and a program say to one another. It rises with every change to a
 /// public type of `estimation` or of what that includes.
-inline constexpr std::uint32_t kPluginVersion = 3;
+inline constexpr std::uint32_t kPluginVersion = 4;
 
 /// What the compiler made of those types. It depends on flags too: with `-march=native` Eigen
 /// aligns its matrices otherwise, and an object that passes between two such builds is read

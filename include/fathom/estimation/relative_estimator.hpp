@@ -93,6 +93,7 @@ class AnchoredEstimator final : public Estimator {
   std::optional<Eigen::MatrixXd> joint_covariance(
       std::span<const std::size_t> keyframes) const override;
   double loss(double chi2, int rank) const override { return relative_->loss(chi2, rank); }
+  bool estimates_shared_errors() const override { return relative_->estimates_shared_errors(); }
   std::vector<double> loop_weights() const override { return weights_of(false); }
   std::vector<double> absolute_weights() const override { return weights_of(true); }
 

@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 
 #include "fathom/geometry/pose.hpp"
+#include "fathom/measurements/shared_errors.hpp"
 
 namespace fathom {
 
@@ -16,6 +17,7 @@ struct PairRegistration {
   Pose motion;                                           ///< as of Registration
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< as of Registration
   int inliers = 0;
+  SharedErrors shared = {};  ///< as of Registration
 
   bool operator==(const PairRegistration&) const = default;
 };

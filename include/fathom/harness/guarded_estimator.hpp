@@ -38,6 +38,7 @@ class GuardedEstimator : public Estimator {
   std::optional<Eigen::MatrixXd> joint_covariance(
       std::span<const std::size_t> keyframes) const override;
   double loss(double chi2, int rank) const override;
+  bool estimates_shared_errors() const override;
   /// Empty, or one for each registration given.
   std::vector<double> loop_weights() const override;
   /// Likewise for each absolute measurement.

@@ -36,13 +36,21 @@ struct GraphOptions {
 /// priors and no `FIX` it is free (StartPose): the priors hold the graph. with_start_of_priors
 /// makes a start of them.
 ///
+/// A file beside it may tell the errors of its registrations apart (shared_file_of).
+///
 /// Throws InputError with file and line on anything it cannot use: also on a graph of several
 /// components, and on one that its priors do not hold.
 MeasurementLog read_g2o(const std::filesystem::path& path, const GraphOptions& options = {});
 
+/// A file of shared errors in memory (docs/formats.md); `name` stands for it in messages.
+struct SharedText {
+  std::string content;
+  std::string name;
+};
+
 /// As read_g2o, of text in memory; `name` stands for the file in messages.
 MeasurementLog parse_g2o(const std::string& content, const std::string& name,
-                         const GraphOptions& options = {});
+                         const GraphOptions& options = {}, const SharedText* shared = nullptr);
 
 /// A log in order of arrival: for each keyframe its vertex (the dead-reckoned pose), its step, its
 /// registrations, its absolute measurements. Keyframe 0 has FIX if it is fixed; an uncertain start

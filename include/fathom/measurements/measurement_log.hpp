@@ -46,6 +46,8 @@ class MeasurementLog {
 
   std::size_t registration_count() const;
   std::size_t absolute_count() const;
+  /// Whether any registration has its errors apart.
+  bool tells_shared_errors() const;
   /// Steps that were not measured.
   std::size_t hole_count() const;
 
@@ -68,6 +70,11 @@ class MeasurementLog {
 /// F = Σ eᵀ Ω e over all edges as written, absolute measurements and an uncertain start, no ½: the
 /// cost that every estimator is compared by. A hole costs nothing.
 double chi2(const MeasurementLog& log, std::span<const Pose> trajectory);
+
+/// The same where the errors of a picture's registrations are known to be shared: F minimised over
+/// them, Σ (ν − G n)ᵀ own⁻¹ (ν − G n) + Σ nᵀ Σ⁻¹ n, ν = z − h(x), which is νᵀ C⁻¹ ν with C the
+/// joint covariance of all registrations (docs/shared_errors.md). chi2 where nothing is told.
+double shared_chi2(const MeasurementLog& log, std::span<const Pose> trajectory);
 
 /// What F is on average at its minimum if every covariance is right: three a registration, the rank
 /// of the information an absolute measurement; less three a hole, and three where the start is

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 
 #include <Eigen/Core>
 
 #include "fathom/geometry/pose.hpp"
+#include "fathom/measurements/shared_errors.hpp"
 
 namespace fathom {
 
@@ -28,6 +30,9 @@ struct RelativePose {
   /// Of a step: nothing was measured. `motion` is a guess, and `information` that of a declared,
   /// wide covariance: what a filter begins with. F does not count it.
   bool is_hole = false;
+  /// Of a registration: its errors apart, where that is known. `information` is that of their
+  /// total(), for whoever does not ask.
+  std::shared_ptr<const SharedErrors> shared = nullptr;
 
   /// Of a covariance of ν; it must be positive definite.
   static RelativePose from_covariance(std::size_t from, std::size_t to, const Pose& motion,

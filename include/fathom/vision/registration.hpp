@@ -9,6 +9,7 @@
 
 #include "fathom/core/options.hpp"
 #include "fathom/geometry/pose.hpp"
+#include "fathom/measurements/shared_errors.hpp"
 #include "fathom/vision/features.hpp"
 #include "fathom/vision/matching.hpp"
 #include "fathom/vision/ransac.hpp"
@@ -81,6 +82,9 @@ struct Registration {
   Pose motion;  ///< pose of `to` in the frame of `from`
   /// Of (x, y, θ), that is, of ν = z − h(x): additive, in axes of `from`. Positive definite.
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  /// The same apart: what its pictures share in all their registrations, n = (altitude, roll,
+  /// pitch) of each, and what is its own.
+  SharedErrors shared;
   std::vector<Match> putative;  ///< that passed the ratio test and are mutual, one per place
   std::vector<Match> inliers;   ///< those that agree with the motion; not found: with the best one
   double rms_m = 0.0;           ///< of the inliers' errors

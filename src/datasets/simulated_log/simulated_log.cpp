@@ -1,6 +1,7 @@
 #include "simulated_log.hpp"
 
 #include <algorithm>
+#include <memory>
 
 #include "fathom/core/random.hpp"
 #include "fathom/datasets/reading_carrier.hpp"
@@ -96,7 +97,25 @@ class Registrations {
     const bool is_in_tail = tails_.uniform() < options_.tail_share;
     const Eigen::Vector3d error = (is_in_tail ? options_.tail_factor : 1.0) * noise_.draw(errors_);
     motion = {motion.x + error.x(), motion.y + error.y(), wrap_angle(motion.theta + error.z())};
-    return RelativePose::from_covariance(from, to, motion, covariance_);
+    const bool is_told = options_.shared_is_told &&
+                         (options_.shared_sigma_m > 0.0 || options_.shared_sigma_rad > 0.0);
+    if (!is_told) {
+      return RelativePose::from_covariance(from, to, motion, covariance_);
+    }
+    const SharedErrors shared = told(motion);
+    RelativePose z = RelativePose::from_covariance(from, to, motion, shared.total());
+    z.shared = std::make_shared<const SharedErrors>(shared);
+    return z;
+  }
+
+  // Of z = ⊖u_from ⊕ z₀ ⊕ u_to by both u at zero, z₀ as measured.
+  SharedErrors told(const Pose& z) const {
+    const Eigen::Vector3d sigma(options_.shared_sigma_m, options_.shared_sigma_m,
+                                options_.shared_sigma_rad);
+    SharedErrors shared{
+        {-Eigen::Matrix3d::Identity(), sigma}, {planar_rotation(z.theta), sigma}, covariance_};
+    shared.from.G.topRightCorner<2, 1>() << z.y, -z.x;
+    return shared;
   }
 
   std::vector<RelativePose> nearest(std::vector<Found> found) const {

@@ -24,6 +24,8 @@ struct SimulatedLoopOptions {
   DrawnNoiseOptions noise{"of a registration", 0.005, 0.005, 0.003};
   double shared_sigma_m = 0.0;  ///< error of each keyframe's picture, in all its registrations
   double shared_sigma_rad = 0.0;
+  /// Whether the estimators are told of it (RelativePose::shared).
+  bool shared_is_told = false;
   double scale_error = 0.0;  ///< share by which measured distances are too long
   double tail_share = 0.0;   ///< of registrations whose error is larger than their covariance says
   double tail_factor = 10.0;
@@ -58,7 +60,7 @@ struct FlownKeyframes {
 /// keyframes, with the probability given, a registration z = ⊖X_from ⊕ X_to + ν, ν ~ N(0, R), from
 /// the older to the newer one. Then what the estimators are not told, where asked for:
 ///
-/// - shared errors: z is of the poses X ⊕ u, with one draw u a keyframe;
+/// - shared errors: z is of the poses X ⊕ u, with one draw u a keyframe; or they are told of it;
 /// - scale: the translation of z times 1 + `scale_error`;
 /// - heavy tails: ν times `tail_factor` with probability `tail_share`.
 ///

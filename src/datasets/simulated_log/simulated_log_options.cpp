@@ -13,9 +13,10 @@ void SimulatedLoopOptions::describe(OptionTable& table) {
                        "so many at most, the nearest");
   noise.describe(table);
   table.real("shared_sigma_m", shared_sigma_m, Range::at_least(0), "m",
-             "not in the covariance: error of a keyframe's picture, in all its registrations");
-  table.real("shared_sigma_rad", shared_sigma_rad, Range::at_least(0), "rad",
-             "not in the covariance: the same, heading");
+             "error of a keyframe's picture along x and y each, in all its registrations");
+  table.real("shared_sigma_rad", shared_sigma_rad, Range::at_least(0), "rad", "the same, heading");
+  table.boolean("shared_is_told", shared_is_told,
+                "whether covariances have it, and estimators are told that it is shared");
   table.real("scale_error", scale_error, Range::between(-0.5, 0.5), "",
              "not in the covariance: share by which measured distances are too long");
   table.real("tail_share", tail_share, Range::between(0, 1), "",
@@ -39,6 +40,9 @@ void SimulatedLogOptions::describe_trial(OptionTable& table) {
 
 std::vector<IgnoredKey> SimulatedLogOptions::ignored_keys() const {
   std::vector<IgnoredKey> ignored = below("mission", mission.ignored_keys());
+  if (loops.shared_sigma_m == 0.0 && loops.shared_sigma_rad == 0.0) {
+    ignored.push_back({"loops.shared_is_told", "loops.shared_sigma_m"});
+  }
   if (loops.tail_share == 0.0) ignored.push_back({"loops.tail_factor", "loops.tail_share"});
   for (IgnoredKey& key : sensors.ignored_keys()) ignored.push_back(std::move(key));
   return ignored;

@@ -1,6 +1,7 @@
 #include "naive_least_squares.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -41,10 +42,54 @@ void add_absolute(const AbsolutePose& z, const Pose& X, NormalEquations& equatio
   equations.b.segment<3>(row) += J.transpose() * z.information * e;
 }
 
-NormalEquations linearised(const MeasurementLog& log, const std::vector<Pose>& poses) {
+// All registrations that are told what they share, as one measurement: e = −Dᵀ ν, D =
+// diag(Rot(θ_z), 1), and Cov ν of two of them is what one picture does to both.
+void add_sharing(const std::vector<RelativePose>& sharing, const std::vector<Pose>& poses,
+                 NormalEquations& equations) {
+  const Eigen::Index rows = row_of(sharing.size());
+  Eigen::MatrixXd C = Eigen::MatrixXd::Zero(rows, rows);
+  Eigen::MatrixXd J = Eigen::MatrixXd::Zero(rows, equations.b.size());
+  Eigen::VectorXd e(rows);
+  const auto ends = [](const RelativePose& z) {
+    const Eigen::Matrix3d D = planar_rotation(z.motion.theta).transpose();
+    return std::array{std::pair{z.from, (D * z.shared->from.scaled()).eval()},
+                      std::pair{z.to, (D * z.shared->to.scaled()).eval()}};
+  };
+  for (std::size_t i = 0; i < sharing.size(); ++i) {
+    const RelativePose& z = sharing[i];
+    Eigen::Matrix3d J_from;
+    Eigen::Matrix3d J_to;
+    e.segment<3>(row_of(i)) = residual(z.motion, poses[z.from], poses[z.to], &J_from, &J_to);
+    J.block<3, 3>(row_of(i), row_of(z.from)) = J_from;
+    J.block<3, 3>(row_of(i), row_of(z.to)) = J_to;
+    const Eigen::Matrix3d D = planar_rotation(z.motion.theta);
+    C.block<3, 3>(row_of(i), row_of(i)) = D.transpose() * z.shared->own * D;
+    for (std::size_t j = 0; j < sharing.size(); ++j) {
+      for (const auto& [a, G_a] : ends(z)) {
+        for (const auto& [b, G_b] : ends(sharing[j])) {
+          if (a == b) C.block<3, 3>(row_of(i), row_of(j)) += G_a * G_b.transpose();
+        }
+      }
+    }
+  }
+  const Eigen::LDLT<Eigen::MatrixXd> factor(C);
+  equations.A += J.transpose() * factor.solve(J);
+  equations.b += J.transpose() * factor.solve(e);
+}
+
+NormalEquations linearised(const MeasurementLog& log, const std::vector<Pose>& poses,
+                           RegistrationErrors errors) {
   const Eigen::Index n = row_of(log.size());
   NormalEquations equations{Eigen::MatrixXd::Zero(n, n), Eigen::VectorXd::Zero(n)};
-  for (const RelativePose& z : log.edges()) add_relative(z, poses, equations);
+  std::vector<RelativePose> sharing;
+  for (const RelativePose& z : log.edges()) {
+    if (z.shared && errors == RegistrationErrors::shared) {
+      sharing.push_back(z);
+    } else {
+      add_relative(z, poses, equations);
+    }
+  }
+  add_sharing(sharing, poses, equations);
   for (std::size_t k = 0; k < log.size(); ++k) {
     for (const AbsolutePose& z : log.arrival(k).absolute) add_absolute(z, poses[k], equations);
   }
@@ -92,13 +137,13 @@ double largest_block_difference(const Eigen::MatrixXd& joint, const Eigen::Matri
   return largest;
 }
 
-NaiveLeastSquares least_squares(const MeasurementLog& log, int iterations,
-                                std::vector<Pose> poses) {
+NaiveLeastSquares least_squares(const MeasurementLog& log, int iterations, std::vector<Pose> poses,
+                                RegistrationErrors errors) {
   NaiveLeastSquares result{
       poses.empty() ? log.odometry() : std::move(poses), {}, log.start().is_fixed() ? 1U : 0U};
   const Eigen::Index free = row_of(log.size() - result.first);
   for (int i = 0; i < iterations; ++i) {
-    const NormalEquations equations = linearised(log, result.poses);
+    const NormalEquations equations = linearised(log, result.poses, errors);
     const Eigen::MatrixXd A = equations.A.bottomRightCorner(free, free);
     const Eigen::VectorXd dx = -A.ldlt().solve(equations.b.tail(free));
     for (std::size_t k = result.first; k < log.size(); ++k) {

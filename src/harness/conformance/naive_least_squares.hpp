@@ -29,8 +29,13 @@ struct NaiveLeastSquares {
 /// √(‖C_aa‖ ‖C_bb‖); the difference itself where a keyframe has none.
 double largest_block_difference(const Eigen::MatrixXd& joint, const Eigen::MatrixXd& expected);
 
+/// What of the registrations of a picture is shared: nothing, or as told, by the joint covariance
+/// of all of them.
+enum class RegistrationErrors { independent, shared };
+
 /// `poses`: where to begin; none: dead reckoning.
 NaiveLeastSquares least_squares(const MeasurementLog& log, int iterations,
-                                std::vector<Pose> poses = {});
+                                std::vector<Pose> poses = {},
+                                RegistrationErrors errors = RegistrationErrors::independent);
 
 }  // namespace fathom::conformance

@@ -1,0 +1,14 @@
+#include "fathom/estimation/shared_error_model.hpp"
+
+namespace fathom {
+
+void SharedErrorOptions::describe(OptionTable& table) {
+  table.enumeration("shared_errors", model,
+                    {{"states", SharedErrorModel::states},
+                     {"consider", SharedErrorModel::consider},
+                     {"independent", SharedErrorModel::independent}},
+                    "errors that a picture's registrations share: estimated, in the covariance "
+                    "alone, or left out");
+}
+
+}  // namespace fathom
