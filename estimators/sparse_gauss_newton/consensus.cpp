@@ -55,7 +55,7 @@ class Search {
 
   double chi2_of(std::size_t e) const {
     const Edge& edge = graph_.edges[e];
-    const double chi2 = linearise_edge(edge, nodes_[at(edge.from)], nodes_[at(edge.to)]).cost;
+    const double chi2 = linearise_edge(edge, nodes_).cost;
     return to_scale(e) * graph_.as_registration(e, chi2);
   }
 
@@ -236,7 +236,7 @@ double truncated_cost(const LoopGraph& graph, std::span<const double> weights,
   double sum = 0.0;
   for (std::size_t e = 0; e < graph.edges.size(); ++e) {
     const Edge& edge = graph.edges[e];
-    const double chi2 = linearise_edge(edge, nodes[at(edge.from)], nodes[at(edge.to)]).cost;
+    const double chi2 = linearise_edge(edge, nodes).cost;
     sum += weights[e] * chi2 + (1.0 - weights[e]) * squared_scales.of_rank(graph.rank(e));
   }
   return sum;

@@ -9,8 +9,11 @@
 
 namespace fathom::sparse_gauss_newton {
 
-Graph::Graph(const EstimatorSetup& setup, const RobustOptions& robust, int threads)
+Graph::Graph(const EstimatorSetup& setup, const RobustOptions& robust,
+             SharedErrorModel shared_errors, bool is_gated, int threads)
     : robust_(robust),
+      shared_errors_(shared_errors),
+      states_(!is_gated && !robust.loss.is_on()),
       is_batch_(setup.mode == SolveMode::batch),
       threads_(threads),
       nodes_{make_node(setup.start.pose.x, setup.start.pose.y, setup.start.pose.theta)} {}
@@ -28,6 +31,7 @@ void Graph::set_poses(std::span<const Pose> poses) {
   for (std::size_t k = 1; k < nodes_.size(); ++k) {
     nodes_[k] = make_node(poses[k].x, poses[k].y, poses[k].theta);
   }
+  states_.reset();
   changed();
 }
 
@@ -39,6 +43,9 @@ void Graph::add_keyframe(const RelativePose& step) {
 }
 
 void Graph::add_registration(const RelativePose& registration) {
+  if (registration.shared && shared_errors_ == SharedErrorModel::states) {
+    states_.add(registration, edges_.size());
+  }
   add_edge(registration, 1, rank_of(registration.information));
   changed();
 }
@@ -62,6 +69,7 @@ std::span<const char> Graph::ranks() const {
 }
 
 void Graph::forget_edges(std::size_t count) {
+  states_.forget_from(count);
   edges_.resize(count);
   is_loop_.resize(count);
   ranks_.resize(count);
@@ -69,22 +77,67 @@ void Graph::forget_edges(std::size_t count) {
   changed();
 }
 
-// Keeps the poses of a solve that is done.
-SolveResult Graph::accept(SolveResult result, std::vector<Node> nodes,
+// The graph with what each edge weighs, and without those that weigh nothing.
+ExtendedGraph Graph::weighted(const std::vector<double>& weights) const {
+  ExtendedGraph graph = states_.extended(edges_, nodes_);
+  std::vector<Edge> kept;
+  kept.reserve(graph.edges.size());
+  for (std::size_t e = 0; e < graph.edges.size(); ++e) {
+    if (weights[e] == 0.0) continue;
+    kept.push_back(graph.edges[e]);
+    for (double& element : kept.back().W) element *= weights[e];
+  }
+  graph.own_edges = std::move(kept);
+  graph.edges = graph.own_edges;
+  return graph;
+}
+
+// Keeps the estimate of a solve that is done.
+SolveResult Graph::accept(SolveResult result, const ExtendedGraph& solved,
                           const std::vector<double>& weights) {
   changed();
   if (is_done(result.outcome) && spread_.is_wide() &&
-      !pose_graph::is_determined(weighted_edges(weights), nodes)) {
+      !pose_graph::is_determined(weighted(weights).edges, solved.nodes)) {
     result.outcome = Outcome::numerical_failure;
   }
-  if (is_done(result.outcome)) nodes_ = std::move(nodes);
+  if (is_done(result.outcome)) {
+    states_.keep(solved);
+    nodes_.assign(solved.nodes.begin(),
+                  solved.nodes.begin() + static_cast<std::ptrdiff_t>(nodes_.size()));
+  }
   return result;
 }
 
 SolveResult Graph::solve(Start start, const SolveLimits& limits) {
+  ExtendedGraph graph = states_.extended(edges_, nodes_);
+  const SolveResult result =
+      pose_graph::solve_batch(graph.edges, graph.nodes, start, limits, workers());
+  return accept(result, graph, weights_);
+}
+
+// With states: of `truncated` the loops are judged as independent measurements, by their total
+// covariances, and what is left is solved with states.
+RobustResult Graph::robust_result(ExtendedGraph& graph, const SolveLimits& limits,
+                                  std::span<const double> known) {
+  const auto solve_it = [&](std::span<const Edge> edges, std::vector<Node>& nodes) {
+    return sparse_gauss_newton::solve_robust({edges, is_loop_, ranks(), workers()}, nodes, robust_,
+                                             limits, known);
+  };
+  if (!has_states() || robust_.loss.kind() != LossKind::truncated) {
+    return solve_it(graph.edges, graph.nodes);
+  }
   std::vector<Node> nodes = nodes_;
-  const SolveResult result = pose_graph::solve_batch(edges_, nodes, start, limits, workers());
-  return accept(result, std::move(nodes), weights_);
+  RobustResult robust = solve_it(edges_, nodes);
+  if (!is_done(robust.solved.outcome)) return robust;
+  std::ranges::copy(nodes, graph.nodes.begin());
+  const sparse::Symbolic symbolic =
+      analyse_graph(graph.edges, static_cast<int>(graph.nodes.size()), workers());
+  NormalEquations equations(symbolic, graph.edges);
+  equations.set_loss({RobustLoss(), {}, robust.weights});
+  const int judged = robust.solved.iterations;
+  robust.solved = minimise(equations, graph.nodes, limits);
+  robust.solved.iterations += judged;
+  return robust;
 }
 
 SolveResult Graph::solve_robust(const SolveLimits& limits, bool from_scratch) {
@@ -94,10 +147,9 @@ SolveResult Graph::solve_robust(const SolveLimits& limits, bool from_scratch) {
     for (std::size_t e = judged_; e < known.size(); ++e)
       known[e] = is_loop_[e] != 0 ? kNewLoop : 1.0;
   }
-  std::vector<Node> nodes = nodes_;
-  RobustResult robust = sparse_gauss_newton::solve_robust({edges_, is_loop_, ranks(), workers()},
-                                                          nodes, robust_, limits, known);
-  const SolveResult result = accept(robust.solved, std::move(nodes), robust.weights);
+  ExtendedGraph graph = states_.extended(edges_, nodes_);
+  RobustResult robust = robust_result(graph, limits, known);
+  const SolveResult result = accept(robust.solved, graph, robust.weights);
   if (is_done(result.outcome)) {
     weights_ = std::move(robust.weights);
     judged_ = edges_.size();
@@ -113,21 +165,11 @@ std::vector<double> Graph::registration_weights() const {
   return weights;
 }
 
-std::vector<Edge> Graph::weighted_edges(const std::vector<double>& weights) const {
-  std::vector<Edge> edges;
-  edges.reserve(edges_.size());
-  for (std::size_t e = 0; e < edges_.size(); ++e) {
-    if (weights[e] == 0.0) continue;
-    edges.push_back(edges_[e]);
-    for (double& element : edges.back().W) element *= weights[e];
-  }
-  return edges;
-}
-
 std::optional<Eigen::Matrix3d> Graph::marginal(std::size_t k) {
   if (!marginals_) {
-    marginals_ = pose_graph::marginals(weighted_edges(weights_), nodes_)
-                     .value_or(std::vector<Eigen::Matrix3d>{});
+    const ExtendedGraph graph = weighted(weights_);
+    marginals_ =
+        pose_graph::marginals(graph.edges, graph.nodes).value_or(std::vector<Eigen::Matrix3d>{});
   }
   if (marginals_->empty()) return std::nullopt;
   return (*marginals_)[k];
@@ -135,16 +177,33 @@ std::optional<Eigen::Matrix3d> Graph::marginal(std::size_t k) {
 
 std::optional<Eigen::MatrixXd> Graph::joint_covariance(
     std::span<const std::size_t> keyframes) const {
-  return pose_graph::joint_covariance(weighted_edges(weights_), nodes_, keyframes);
+  const ExtendedGraph graph = weighted(weights_);
+  return pose_graph::joint_covariance(graph.edges, graph.nodes, keyframes);
 }
 
 std::optional<std::vector<UncertainPose>> Graph::motions_to_newest() const {
-  return pose_graph::motions_to_newest(weighted_edges(weights_), nodes_);
+  const ExtendedGraph graph = weighted(weights_);
+  return pose_graph::motions_to_newest(graph.edges, graph.nodes);
 }
 
 std::optional<std::vector<Eigen::Matrix3d>> Graph::predicted_covariances(
     std::span<const RelativePose> forward_loops) const {
-  return pose_graph::predicted_covariances(weighted_edges(weights_), nodes_, forward_loops);
+  const ExtendedGraph graph = weighted(weights_);
+  const bool is_shared =
+      shared_errors_ == SharedErrorModel::states &&
+      std::ranges::any_of(forward_loops, [](const RelativePose& z) { return z.shared != nullptr; });
+  if (!is_shared) {
+    return pose_graph::predicted_covariances(graph.edges, graph.nodes, forward_loops);
+  }
+  return pose_graph::predicted_shared_covariances(graph, forward_loops);
+}
+
+std::vector<RelativePose> Graph::without_errors(std::span<const RelativePose> registrations) const {
+  std::vector<RelativePose> apart;
+  for (const RelativePose& z : registrations) {
+    apart.push_back(shared_errors_ == SharedErrorModel::states ? states_.without_errors(z) : z);
+  }
+  return apart;
 }
 
 }  // namespace fathom::sparse_gauss_newton

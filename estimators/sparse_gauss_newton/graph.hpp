@@ -8,18 +8,24 @@
 #include <Eigen/Core>
 
 #include "estimators/sparse_gauss_newton/robust.hpp"
+#include "estimators/support/pose_graph/picture_states.hpp"
 #include "fathom/estimation/precision.hpp"
 #include "fathom/estimation/registry.hpp"
 #include "fathom/estimation/relative_estimator.hpp"
+#include "fathom/estimation/shared_error_model.hpp"
 #include "fathom/geometry/covariance.hpp"
 
 namespace fathom::sparse_gauss_newton {
 
+using pose_graph::ExtendedGraph;
+
 /// The poses and measurements of a log, and what is asked of them.
 class Graph {
  public:
-  /// `threads`: who solves it; no thread is started before the first solve.
-  Graph(const EstimatorSetup& setup, const RobustOptions& robust, int threads);
+  /// `threads`: who solves it; no thread is started before the first solve. `is_gated`: innovations
+  /// will be asked for.
+  Graph(const EstimatorSetup& setup, const RobustOptions& robust, SharedErrorModel shared_errors,
+        bool is_gated, int threads);
 
   std::size_t size() const { return nodes_.size(); }
   Pose pose(std::size_t k) const;
@@ -58,6 +64,9 @@ class Graph {
   std::optional<std::vector<Eigen::Matrix3d>> predicted_covariances(
       std::span<const RelativePose> forward_loops) const;
 
+  /// Each as its innovation is to be tested (PictureStates::without_errors).
+  std::vector<RelativePose> without_errors(std::span<const RelativePose> registrations) const;
+
  private:
   void changed() { marginals_.reset(); }
   Workers* workers();
@@ -65,11 +74,16 @@ class Graph {
   /// Empty where all are 3.
   std::span<const char> ranks() const;
 
-  std::vector<Edge> weighted_edges(const std::vector<double>& weights) const;
-  SolveResult accept(SolveResult result, std::vector<Node> nodes,
+  bool has_states() const { return !states_.is_empty(); }
+  ExtendedGraph weighted(const std::vector<double>& weights) const;
+  RobustResult robust_result(ExtendedGraph& graph, const SolveLimits& limits,
+                             std::span<const double> known);
+  SolveResult accept(SolveResult result, const ExtendedGraph& solved,
                      const std::vector<double>& weights);
 
   RobustOptions robust_;
+  SharedErrorModel shared_errors_;
+  pose_graph::PictureStates states_;
   bool is_batch_;
   int threads_;
   std::unique_ptr<Workers> workers_;

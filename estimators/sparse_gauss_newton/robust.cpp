@@ -199,7 +199,7 @@ class RobustBatch {
 
   double chi2_of(std::size_t e, std::span<const Node> nodes) const {
     const Edge& edge = graph_.edges[e];
-    return linearise_edge(edge, nodes[at(edge.from)], nodes[at(edge.to)]).cost;
+    return linearise_edge(edge, nodes).cost;
   }
 
   std::vector<double> weights_at(std::span<const Node> nodes, const RobustLoss& loss) const {

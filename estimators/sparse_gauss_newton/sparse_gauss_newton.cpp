@@ -52,6 +52,7 @@ void SparseGaussNewtonOptions::describe(OptionTable& table) {
       "graduation", graduation, {{"off", Graduation::off}, {"convex", Graduation::convex}},
       "geman_mcclure, truncated: from where graduated non-convexity leads to the loss");
   table.group("truncated", truncated);
+  shared.describe(table);
   gate.describe(table);
   table.integer("threads", threads, Range::between(1, kMostThreads), "",
                 "threads that solve a large graph; the result is the same for any number");
@@ -88,8 +89,8 @@ SparseGaussNewton::SparseGaussNewton(const EstimatorSetup& setup,
       mode_(setup.mode),
       loss_(options.loss),
       gate_(options.gate),
-      graph_(std::make_unique<sparse_gauss_newton::Graph>(setup, robust_options(options),
-                                                          options.threads)) {}
+      graph_(std::make_unique<sparse_gauss_newton::Graph>(
+          setup, robust_options(options), options.shared.model, gate_.is_on(), options.threads)) {}
 
 SparseGaussNewton::~SparseGaussNewton() = default;
 
@@ -109,7 +110,8 @@ UpdateReport SparseGaussNewton::close_loops(std::span<const RelativePose> regist
   UpdateReport report = judged_update(
       gate_, *this, registrations,
       [this](auto forward) { return graph_->predicted_covariances(forward); },
-      [this](auto used) { return minimise_with(used); });
+      [this](auto used) { return minimise_with(used); },
+      gate_.is_on() ? graph_->without_errors(registrations) : std::vector<RelativePose>());
   used_loops_.note(report);
   return report;
 }

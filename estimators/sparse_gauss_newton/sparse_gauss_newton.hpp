@@ -7,6 +7,7 @@
 #include "fathom/estimation/gate.hpp"
 #include "fathom/estimation/relative_estimator.hpp"
 #include "fathom/estimation/robust_loss.hpp"
+#include "fathom/estimation/shared_error_model.hpp"
 #include "fathom/estimation/used_loops.hpp"
 
 namespace fathom {
@@ -21,6 +22,7 @@ struct SparseGaussNewtonOptions {
   LossOptions loss;
   sparse_gauss_newton::Graduation graduation = sparse_gauss_newton::Graduation::off;
   sparse_gauss_newton::LoopJudgement truncated;
+  SharedErrorOptions shared;
   GateOptions gate;
   int threads = 1;
 
@@ -53,6 +55,9 @@ class SparseGaussNewton final : public RelativeEstimator {
   Pose pose(std::size_t k) const override;
   double loss(double chi2, int rank) const override { return loss_.of_rank(rank).at(chi2).rho; }
   std::vector<double> loop_weights() const override;
+  bool estimates_shared_errors() const override {
+    return options_.shared.model == SharedErrorModel::states;
+  }
 
  private:
   pose_graph::SolveResult solve(pose_graph::Start start);

@@ -93,10 +93,12 @@ bool judge(const Gate& gate, const TrajectoryView& estimate,
 UpdateReport judged_update(
     const Gate& gate, const TrajectoryView& estimate, std::span<const RelativePose> registrations,
     const PredictedCovariances& covariances,
-    const std::function<UpdateReport(std::span<const RelativePose> used)>& minimise) {
+    const std::function<UpdateReport(std::span<const RelativePose> used)>& minimise,
+    std::span<const RelativePose> as_judged) {
   UpdateReport report;
   if (registrations.empty()) return report;
-  if (!judge(gate, estimate, registrations, covariances, report)) {
+  if (as_judged.empty()) as_judged = registrations;
+  if (!judge(gate, estimate, as_judged, covariances, report)) {
     lose_all(report, Outcome::numerical_failure);
     return report;
   }

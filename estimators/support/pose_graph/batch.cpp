@@ -19,9 +19,11 @@ class Batch {
       : edges_(edges),
         nodes_(nodes),
         limits_(limits),
+        keyframes_(keyframes_of(nodes)),
+        workers_(workers),
         symbolic_(analyse_graph(edges, static_cast<int>(nodes.size()), workers)),
         equations_(symbolic_, edges),
-        turns_(edges, nodes) {}
+        turns_(edges, std::span<const Node>(nodes).first(keyframes_)) {}
 
   SolveResult run(Start start) {
     switch (start) {
@@ -78,25 +80,37 @@ class Batch {
   }
 
   HeadingProblem& headings() {
-    if (!headings_) headings_.emplace(symbolic_, turns_.edges());
+    if (!headings_) headings_.emplace(turn_pattern(), turns_.edges());
     return *headings_;
+  }
+
+  // Headings know nothing of the errors of pictures.
+  const sparse::Symbolic& turn_pattern() {
+    if (keyframes_ == nodes_.size()) return symbolic_;
+    if (!turn_pattern_) {
+      const std::span<const Edge> turns = turns_.edges();
+      std::vector<Edge> apart(turns.begin(), turns.end());
+      for (Edge& edge : apart) edge.shared = nullptr;
+      turn_pattern_ = analyse_graph(apart, static_cast<int>(keyframes_), workers_);
+    }
+    return *turn_pattern_;
   }
 
   std::vector<double> lago_headings() {
     std::vector<double> theta{nodes_[0].theta};
-    theta.reserve(nodes_.size());
-    for (std::size_t k = 1; k < nodes_.size(); ++k) {
+    theta.reserve(keyframes_);
+    for (std::size_t k = 1; k < keyframes_; ++k) {
       theta.push_back(theta.back() + wrap_angle(nodes_[k].theta - nodes_[k - 1].theta));
     }
     return headings().solve(theta);
   }
 
-  std::vector<double> chordal_start() const {
-    return chordal_headings(symbolic_, turns_.edges(), nodes_[0].theta);
+  std::vector<double> chordal_start() {
+    return chordal_headings(turn_pattern(), turns_.edges(), nodes_[0].theta);
   }
 
   std::vector<Node> lifted() {
-    return from_headings(settled(lifted_headings(symbolic_, turns_.edges(), chordal_start())));
+    return from_headings(settled(lifted_headings(turn_pattern(), turns_.edges(), chordal_start())));
   }
 
   // Least squares in the headings, rounded again until that changes nothing.
@@ -116,12 +130,10 @@ class Batch {
   // One step that is exact in the positions, whatever they were, and corrects the headings by what
   // the measured positions say of them.
   std::vector<Node> from_headings(const std::vector<double>& theta) {
-    std::vector<Node> turned;
-    turned.reserve(theta.size());
-    for (std::size_t k = 0; k < theta.size(); ++k) {
-      turned.push_back(make_node(nodes_[k].x, nodes_[k].y, theta[k]));
+    std::vector<Node> turned = nodes_;
+    for (std::size_t k = 1; k < theta.size(); ++k) {
+      turned[k] = make_node(nodes_[k].x, nodes_[k].y, theta[k]);
     }
-    turned[0] = nodes_[0];
     equations_.linearise(turned, Hessian::measured);
     if (!equations_.factorise()) return turned;
     equations_.solve_step();
@@ -129,10 +141,10 @@ class Batch {
     return turned;
   }
 
-  static std::vector<double> headings_of(const std::vector<Node>& nodes) {
+  std::vector<double> headings_of(const std::vector<Node>& nodes) const {
     std::vector<double> theta;
-    theta.reserve(nodes.size());
-    for (const Node& node : nodes) theta.push_back(node.theta);
+    theta.reserve(keyframes_);
+    for (std::size_t k = 0; k < keyframes_; ++k) theta.push_back(nodes[k].theta);
     return theta;
   }
 
@@ -148,9 +160,12 @@ class Batch {
   std::span<const Edge> edges_;
   std::vector<Node>& nodes_;
   SolveLimits limits_;
+  std::size_t keyframes_;
+  Workers* workers_;
   sparse::Symbolic symbolic_;
   NormalEquations equations_;
   TurnGraph turns_;
+  std::optional<sparse::Symbolic> turn_pattern_;  ///< where it is not that of the graph
   std::optional<HeadingProblem> headings_;
   SolveResult best_;
   std::vector<Node> best_nodes_;

@@ -70,12 +70,29 @@ std::vector<Node> nodes_of(std::span<const Pose> poses) {
   return nodes;
 }
 
+std::size_t keyframes_of(std::span<const Node> nodes) {
+  if (nodes.empty() || is_pose(nodes.back())) return nodes.size();
+  return static_cast<std::size_t>(std::ranges::partition_point(nodes, is_pose) - nodes.begin());
+}
+
+Edge without_errors(const Edge& edge, std::span<const Node> nodes) {
+  Edge left = edge;
+  for (const SharedEnds::End* end : {&edge.shared->from, &edge.shared->to}) {
+    if (end->node < 0) continue;
+    const Node& n = nodes[at(end->node)];
+    const Eigen::Vector3d error = end->G * Eigen::Vector3d(n.x, n.y, n.theta);
+    left.x -= error.x();
+    left.y -= error.y();
+    left.theta -= error.z();
+  }
+  return left;
+}
+
 double cost_of(std::span<const Edge> edges, std::span<const Node> nodes) {
   double sum = 0.0;
-  for (const Edge& edge : edges) {
-    sum += linearise_edge(edge, nodes[static_cast<std::size_t>(edge.from)],
-                          nodes[static_cast<std::size_t>(edge.to)])
-               .cost;
+  for (const Edge& edge : edges) sum += linearise_edge(edge, nodes).cost;
+  for (const Node& n : nodes.subspan(keyframes_of(nodes))) {
+    sum += n.x * n.x + n.y * n.y + n.theta * n.theta;
   }
   return sum;
 }

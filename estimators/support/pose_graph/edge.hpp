@@ -16,6 +16,17 @@ namespace fathom::pose_graph {
 
 using sparse::at;
 
+/// What the errors of its two pictures do to a registration, where they are unknowns of the graph
+/// (PictureStates): ν = h − z + G_from n_from + G_to n_to, n in units of their standard deviations.
+struct SharedEnds {
+  struct End {
+    int node = -1;  ///< whose x, y, θ are n; −1: of this picture nothing is shared
+    Eigen::Matrix3d G = Eigen::Matrix3d::Zero();  ///< 3×3, axes of the edge's `from`
+  };
+  End from;
+  End to;
+};
+
 /// A measurement as the solver wants it: ν = h − z instead of e, which has the same cost with
 /// W = D Ω Dᵀ, D = diag(Rot(θ_z), 1) (docs/conventions.md).
 struct Edge {
@@ -24,7 +35,8 @@ struct Edge {
   double x = 0.0;  ///< of z
   double y = 0.0;
   double theta = 0.0;
-  std::array<double, 6> W{};  ///< xx xy xθ yy yθ θθ, axes of `from`
+  std::array<double, 6> W{};           ///< xx xy xθ yy yθ θθ, axes of `from`
+  const SharedEnds* shared = nullptr;  ///< then W is that of the registration's own errors
 };
 
 Edge make_edge(const RelativePose& measurement);
@@ -40,7 +52,9 @@ double heading_information(const Edge& edge);
 bool measures_heading(const Edge& edge);
 inline constexpr double kLeastHeadingShare = 1e-9;
 
-/// A pose with the cosine and sine of its heading. The heading need not be wrapped.
+/// A pose with the cosine and sine of its heading. The heading need not be wrapped. Behind the
+/// keyframes of a graph stand the errors n of its pictures, where they are unknowns; these have
+/// neither cosine nor sine.
 struct Node {
   double x = 0.0;
   double y = 0.0;
@@ -52,6 +66,15 @@ struct Node {
 inline Node make_node(double x, double y, double theta) {
   return {x, y, theta, std::cos(theta), std::sin(theta)};
 }
+inline Node make_errors(double n0, double n1, double n2) {
+  return {n0, n1, n2, 0.0, 0.0};
+}
+inline bool is_pose(const Node& node) {
+  return node.c != 0.0 || node.s != 0.0;
+}
+/// How many of the nodes are keyframes; the errors of pictures stand behind them.
+std::size_t keyframes_of(std::span<const Node> nodes);
+
 std::vector<Node> nodes_of(std::span<const Pose> poses);
 /// With its heading wrapped.
 Pose pose_of(const Node& node);
@@ -105,6 +128,17 @@ inline EdgeTerms linearise_edge(const Edge& edge, const Node& i, const Node& k,
   return t;
 }
 
+/// The same edge with its measurement as the pictures' errors leave it, z − G n.
+Edge without_errors(const Edge& edge, std::span<const Node> nodes);
+
+inline EdgeTerms linearise_edge(const Edge& edge, std::span<const Node> nodes,
+                                Lever lever = Lever::estimated) {
+  const Node& i = nodes[at(edge.from)];
+  const Node& k = nodes[at(edge.to)];
+  if (edge.shared != nullptr) return linearise_edge(without_errors(edge, nodes), i, k, lever);
+  return linearise_edge(edge, i, k, lever);
+}
+
 /// What some edges count: s = νᵀ W ν becomes w s, and ρ of that where a loss is on.
 struct EdgeLoss {
   RobustLoss loss;
@@ -143,7 +177,7 @@ inline void EdgeLoss::apply(std::size_t edge, bool second_order, EdgeTerms& t) c
   }
 }
 
-/// F = Σ νᵀ W ν.
+/// F = Σ νᵀ W ν + Σ nᵀ n.
 double cost_of(std::span<const Edge> edges, std::span<const Node> nodes);
 
 }  // namespace fathom::pose_graph

@@ -58,8 +58,9 @@ std::optional<std::vector<Eigen::Matrix3d>> marginals(std::span<const Edge> edge
   if (!information.is_definite()) return std::nullopt;
   const auto inverse = sparse::SelectedInverse::in_place_of(information.factor());
   std::vector<Eigen::Matrix3d> result{Eigen::Matrix3d::Zero()};
-  result.reserve(nodes.size());
-  for (int node = 0; node + 1 < static_cast<int>(nodes.size()); ++node) {
+  const std::size_t keyframes = keyframes_of(nodes);
+  result.reserve(keyframes);
+  for (int node = 0; node + 1 < static_cast<int>(keyframes); ++node) {
     result.push_back(inverse.block(node));
   }
   return result;
@@ -86,7 +87,7 @@ std::optional<Eigen::MatrixXd> joint_covariance(std::span<const Edge> edges,
 std::optional<std::vector<UncertainPose>> motions_to_newest(std::span<const Edge> edges,
                                                             std::span<const Node> nodes) {
   std::vector<UncertainPose> motions;
-  const std::size_t newest = nodes.size() - 1;
+  const std::size_t newest = keyframes_of(nodes) - 1;
   if (newest == 0) return motions;
   Information information(edges, nodes);
   if (!information.is_definite()) return std::nullopt;
@@ -109,7 +110,7 @@ std::optional<std::vector<Eigen::Matrix3d>> predicted_covariances(
     std::span<const RelativePose> forward_loops) {
   Information information(edges, nodes);
   if (!information.is_definite()) return std::nullopt;
-  const std::size_t newest = nodes.size() - 1;
+  const std::size_t newest = keyframes_of(nodes) - 1;
   const Eigen::MatrixX3d to_newest = information.columns(newest);
   std::vector<Eigen::Matrix3d> predicted;
   for (const RelativePose& z : forward_loops) {
@@ -121,6 +122,42 @@ std::optional<std::vector<Eigen::Matrix3d>> predicted_covariances(
     }
     const UncertainPose h = between(pose_of(nodes[z.from]), pose_of(nodes[z.to]), pair);
     predicted.push_back(h.covariance);
+  }
+  return predicted;
+}
+
+std::optional<std::vector<Eigen::Matrix3d>> predicted_shared_covariances(
+    const ExtendedGraph& graph, std::span<const RelativePose> forward_loops) {
+  Information information(graph.edges, graph.nodes);
+  if (!information.is_definite()) return std::nullopt;
+  std::vector<Eigen::Matrix3d> predicted;
+  for (const RelativePose& z : forward_loops) {
+    Eigen::Matrix3d S = Eigen::Matrix3d::Zero();
+    std::vector<std::pair<std::size_t, Eigen::Matrix3d>> terms(2);
+    between(pose_of(graph.nodes[z.from]), pose_of(graph.nodes[z.to]), &terms[0].second,
+            &terms[1].second);
+    terms[0].first = z.from;
+    terms[1].first = z.to;
+    const auto add_errors = [&](std::size_t keyframe, const Eigen::Matrix3d& G) {
+      const int node = keyframe < graph.node_of.size() ? graph.node_of[keyframe] : -1;
+      if (node < 0) {
+        S += G * G.transpose();
+      } else {
+        terms.emplace_back(at(node), G);
+      }
+    };
+    if (z.shared) {
+      add_errors(z.from, z.shared->from.scaled());
+      add_errors(z.to, z.shared->to.scaled());
+    }
+    for (const auto& [node, J] : terms) {
+      if (node == 0) continue;
+      const Eigen::MatrixX3d columns = information.columns(node);
+      for (const auto& [other, H] : terms) {
+        if (other > 0) S += H * information.block(columns, other) * J.transpose();
+      }
+    }
+    predicted.push_back(0.5 * (S + S.transpose()));
   }
   return predicted;
 }

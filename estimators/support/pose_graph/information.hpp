@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 
 #include "estimators/support/pose_graph/edge.hpp"
+#include "estimators/support/pose_graph/picture_states.hpp"
 #include "fathom/geometry/covariance.hpp"
 #include "fathom/geometry/trajectory.hpp"
 
@@ -36,5 +37,10 @@ std::optional<std::vector<UncertainPose>> motions_to_newest(std::span<const Edge
 std::optional<std::vector<Eigen::Matrix3d>> predicted_covariances(
     std::span<const Edge> edges, std::span<const Node> nodes,
     std::span<const RelativePose> forward_loops);
+
+/// The same of loops that share errors with their pictures: of h(x) + G_from n_from + G_to n_to. A
+/// picture that the graph does not have is as its prior says.
+std::optional<std::vector<Eigen::Matrix3d>> predicted_shared_covariances(
+    const ExtendedGraph& graph, std::span<const RelativePose> forward_loops);
 
 }  // namespace fathom::pose_graph

@@ -1,19 +1,34 @@
 #include "estimators/support/pose_graph/normal_equations.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "fathom/estimation/precision.hpp"
 
 namespace fathom::pose_graph {
-sparse::Symbolic analyse_graph(std::span<const Edge> edges, int keyframes, Workers* workers,
+namespace {
+
+void link_shared(const Edge& edge, std::vector<sparse::Link>& links) {
+  const std::array ends{edge.from, edge.to, edge.shared->from.node, edge.shared->to.node};
+  for (std::size_t a = 2; a < ends.size(); ++a) {
+    for (std::size_t b = 0; b < a; ++b) {
+      if (ends[a] > 0 && ends[b] > 0) links.push_back({ends[a] - 1, ends[b] - 1});
+    }
+  }
+}
+
+}  // namespace
+
+sparse::Symbolic analyse_graph(std::span<const Edge> edges, int nodes, Workers* workers,
                                sparse::ChainElimination chains) {
   std::vector<sparse::Link> links;
   links.reserve(edges.size());
   for (const Edge& edge : edges) {
     if (edge.from > 0 && edge.to > 0) links.push_back({edge.from - 1, edge.to - 1});
+    if (edge.shared != nullptr) link_shared(edge, links);
   }
-  return sparse::analyse(sparse::adjacency_of(keyframes - 1, links), chains, workers);
+  return sparse::analyse(sparse::adjacency_of(nodes - 1, links), chains, workers);
 }
 
 NormalEquations::NormalEquations(const sparse::Symbolic& symbolic, std::span<const Edge> edges)
@@ -39,6 +54,27 @@ NormalEquations::NormalEquations(const sparse::Symbolic& symbolic, std::span<con
       diagonal_[p] = factor_.place(symbolic.node[p], symbolic.node[p]);
     }
   });
+  find_shared(symbolic);
+}
+
+void NormalEquations::find_shared(const sparse::Symbolic& symbolic) {
+  for (std::size_t e = 0; e < edges_.size(); ++e) {
+    const Edge& edge = edges_[e];
+    if (edge.shared == nullptr) continue;
+    const auto end_of = [&](const SharedEnds::End& end) {
+      SharedTargets::End target;
+      if (end.node < 0) return target;
+      target.position = position_of(symbolic, end.node);
+      if (edge.from > 0) target.with_from = factor_.place(end.node - 1, edge.from - 1);
+      if (edge.to > 0) target.with_to = factor_.place(end.node - 1, edge.to - 1);
+      return target;
+    };
+    SharedTargets shared{e, end_of(edge.shared->from), end_of(edge.shared->to), {}};
+    if (shared.from.position >= 0 && shared.to.position >= 0) {
+      shared.between = factor_.place(edge.shared->from.node - 1, edge.shared->to.node - 1);
+    }
+    shared_.push_back(shared);
+  }
 }
 
 double NormalEquations::linearise(std::span<const Node> nodes, Hessian hessian, double damping) {
@@ -57,6 +93,7 @@ double NormalEquations::linearise(std::span<const Node> nodes, Hessian hessian, 
       cost = add_edges<Hessian::exact>(nodes);
       break;
   }
+  if (!is_pose(nodes.back())) cost += add_shared(nodes, hessian);
   write_diagonal(damping);
   return cost;
 }
@@ -67,7 +104,7 @@ double NormalEquations::add_edges(std::span<const Node> nodes) {
   return parts_.sum([&](std::size_t e, const auto& part) {
     if (loss_.leaves_out(e)) return 0.0;
     const Edge& edge = edges_[e];
-    EdgeTerms t = linearise_edge(edge, nodes[at(edge.from)], nodes[at(edge.to)], kLever);
+    EdgeTerms t = linearise_edge(edge, nodes, kLever);
     loss_.apply(e, kHessian == Hessian::exact, t);
     const Targets& target = targets_[e];
     if (part.has(target.to)) {
@@ -82,16 +119,28 @@ double NormalEquations::add_edges(std::span<const Node> nodes) {
 
 double NormalEquations::differentiate(std::span<const Node> nodes) {
   std::fill(gradient_.begin(), gradient_.end(), 0.0);
-  return parts_.sum([&](std::size_t e, const auto& part) {
+  const double cost = parts_.sum([&](std::size_t e, const auto& part) {
     if (loss_.leaves_out(e)) return 0.0;
-    const Edge& edge = edges_[e];
-    EdgeTerms t = linearise_edge(edge, nodes[at(edge.from)], nodes[at(edge.to)]);
+    EdgeTerms t = linearise_edge(edges_[e], nodes);
     loss_.apply(e, false, t);
     const Targets& target = targets_[e];
     if (part.has(target.to)) add_gradient_at_end(t, target.to);
     if (part.has(target.from)) add_gradient_at_begin(t, target.from);
     return t.cost;
   });
+  if (is_pose(nodes.back())) return cost;
+  for (const SharedTargets& target : shared_) {
+    if (loss_.leaves_out(target.edge)) continue;
+    const Edge& edge = edges_[target.edge];
+    EdgeTerms t = linearise_edge(edge, nodes);
+    loss_.apply(target.edge, false, t);
+    const auto add = [&](const SharedEnds::End& end, int position) {
+      if (position >= 0) add_shared_gradient(t, in_world(end.G, nodes[at(edge.from)]), position);
+    };
+    add(edge.shared->from, target.from.position);
+    add(edge.shared->to, target.to.position);
+  }
+  return cost + add_priors(nodes, false);
 }
 
 // g_k = m.
@@ -210,7 +259,8 @@ void NormalEquations::move(std::span<const Node> from, std::vector<Node>& to) co
     for (std::size_t node = begin; node < end; ++node) {
       const double* d = step_.data() + 3 * at(position[node]);
       const Node& pose = from[node + 1];
-      to[node + 1] = make_node(pose.x + d[0], pose.y + d[1], pose.theta + d[2]);
+      to[node + 1] = is_pose(pose) ? make_node(pose.x + d[0], pose.y + d[1], pose.theta + d[2])
+                                   : make_errors(pose.x + d[0], pose.y + d[1], pose.theta + d[2]);
     }
   });
 }

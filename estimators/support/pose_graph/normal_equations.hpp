@@ -8,9 +8,9 @@
 
 namespace fathom::pose_graph {
 
-/// Who is linked with whom among keyframes 1 …: node k − 1 is keyframe k, 0 is fixed.
-sparse::Symbolic analyse_graph(std::span<const Edge> edges, int keyframes,
-                               Workers* workers = nullptr,
+/// Who is linked with whom among nodes 1 …, in the pattern one less: 0 is fixed. The edges may
+/// share errors of pictures, which are among the nodes.
+sparse::Symbolic analyse_graph(std::span<const Edge> edges, int nodes, Workers* workers = nullptr,
                                sparse::ChainElimination chains = sparse::ChainElimination::on);
 
 /// The second derivatives to work with.
@@ -20,7 +20,8 @@ enum class Hessian {
   exact          ///< all of them: Jᵀ W J + Σ (W ν)_r ∇² h_r
 };
 
-/// The matrix and gradient of ½F at an estimate, and the factor of the matrix.
+/// The matrix and gradient of ½F at an estimate, and the factor of the matrix. Of the errors of
+/// pictures, nodes behind the keyframes, F has nᵀ n.
 class NormalEquations {
  public:
   /// The edges must outlive it.
@@ -68,6 +69,26 @@ class NormalEquations {
     sparse::BlockPlace cross;
   };
 
+  /// Where the terms of the errors that an edge shares go: positions and places; −1: of no picture.
+  struct SharedTargets {
+    struct End {
+      int position = -1;
+      sparse::BlockPlace with_from;
+      sparse::BlockPlace with_to;
+    };
+    std::size_t edge = 0;
+    End from;
+    End to;
+    sparse::BlockPlace between;
+  };
+
+  void find_shared(const sparse::Symbolic& symbolic);
+  double add_shared(std::span<const Node> nodes, Hessian hessian);
+  void add_shared_gradient(const EdgeTerms& t, const Eigen::Matrix3d& A, int position);
+  void add_shared_end(const EdgeTerms& t, const Eigen::Matrix3d& A, const Targets& target,
+                      const SharedTargets::End& end);
+  double add_priors(std::span<const Node> nodes, bool with_matrix);
+  void add_block(sparse::BlockPlace place, int row, int column, const Eigen::Matrix3d& block);
   template <Hessian kHessian>
   double add_edges(std::span<const Node> nodes);
   void add_gradient_at_end(const EdgeTerms& t, int position);
@@ -83,10 +104,14 @@ class NormalEquations {
   EdgeParts parts_;
   sparse::BlockCholesky<3> factor_;
   std::vector<Targets> targets_;
+  std::vector<SharedTargets> shared_;
   std::vector<sparse::BlockPlace> diagonal_;  ///< by position
   std::vector<std::array<double, 6>> diagonal_sums_;
   std::vector<double> gradient_;
   std::vector<double> step_;
 };
+
+/// A = diag(Rot(θ_from), 1) G: what an error of a picture does to ν, world axes.
+Eigen::Matrix3d in_world(const Eigen::Matrix3d& G, const Node& from);
 
 }  // namespace fathom::pose_graph

@@ -30,7 +30,7 @@ void PositionProblem::add_up(std::span<const Node> nodes) {
   parts_.for_each([&](std::size_t e, const auto& part) {
     if (loss_.leaves_out(e)) return;
     const Edge& edge = edges_[e];
-    EdgeTerms t = linearise_edge(edge, nodes[at(edge.from)], nodes[at(edge.to)]);
+    EdgeTerms t = linearise_edge(edge, nodes);
     loss_.apply(e, false, t);
     const int from = position_of(symbolic, edge.from);
     const int to = position_of(symbolic, edge.to);
@@ -39,6 +39,10 @@ void PositionProblem::add_up(std::span<const Node> nodes) {
     if (from < 0 || to < 0 || !part.has(std::min(from, to))) return;
     add(edge.from, edge.to, t.M, -1.0);
   });
+  // The errors of pictures stay as they are.
+  for (std::size_t k = keyframes_of(nodes); k < nodes.size(); ++k) {
+    add(static_cast<int>(k), static_cast<int>(k), {1.0, 0.0, 0.0, 1.0, 0.0, 0.0}, 1.0);
+  }
 }
 
 bool PositionProblem::solve(std::vector<Node>& nodes) {

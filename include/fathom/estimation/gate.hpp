@@ -91,10 +91,12 @@ bool judge(const Gate& gate, const TrajectoryView& estimate,
 /// The update of an estimator that minimises over a whole graph: each registration is judged, those
 /// that are used go to `minimise`, and they are lost where that fails. `minimise` adds them and
 /// minimises, or keeps them for a batch solve; where it fails, it leaves the graph as it was.
+/// `as_judged`: each registration as its innovation is to be tested; none: as it is.
 UpdateReport judged_update(
     const Gate& gate, const TrajectoryView& estimate, std::span<const RelativePose> registrations,
     const PredictedCovariances& covariances,
-    const std::function<UpdateReport(std::span<const RelativePose> used)>& minimise);
+    const std::function<UpdateReport(std::span<const RelativePose> used)>& minimise,
+    std::span<const RelativePose> as_judged = {});
 
 /// νᵀ S⁻¹ ν; NaN where S is not positive definite.
 double normalised_innovation_squared(const Eigen::Vector3d& innovation, const Eigen::Matrix3d& S);
