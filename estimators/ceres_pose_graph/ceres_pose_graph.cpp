@@ -15,6 +15,7 @@ void CeresPoseGraphOptions::describe(OptionTable& table) {
   table.real("initial_trust_region", initial_trust_region, Range::positive(), "",
              "initial radius; very large is Gauss-Newton until a step fails");
   loss.describe(table);
+  shared.describe(table);
   gate.describe(table);
 }
 
@@ -52,7 +53,8 @@ UpdateReport CeresPoseGraph::close_loops(std::span<const RelativePose> registrat
   UpdateReport report = judged_update(
       gate_, *this, registrations,
       [this](auto forward) { return graph_->predicted_covariances(forward); },
-      [this](auto used) { return minimise_with(used); });
+      [this](auto used) { return minimise_with(used); },
+      gate_.is_on() ? graph_->without_errors(registrations) : std::vector<RelativePose>());
   used_loops_.note(report);
   return report;
 }

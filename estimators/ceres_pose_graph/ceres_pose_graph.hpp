@@ -6,6 +6,7 @@
 #include "fathom/estimation/gate.hpp"
 #include "fathom/estimation/relative_estimator.hpp"
 #include "fathom/estimation/robust_loss.hpp"
+#include "fathom/estimation/shared_error_model.hpp"
 #include "fathom/estimation/used_loops.hpp"
 
 namespace fathom {
@@ -15,6 +16,7 @@ struct CeresPoseGraphOptions {
   double tolerance = 1e-8;
   double initial_trust_region = 1e16;
   LossOptions loss;
+  SharedErrorOptions shared;
   GateOptions gate;
 
   void describe(OptionTable& table);
@@ -44,6 +46,9 @@ class CeresPoseGraph final : public RelativeEstimator {
   std::optional<std::vector<UncertainPose>> motions_to_newest() const override;
   double loss(double chi2, int rank) const override { return loss_.of_rank(rank).at(chi2).rho; }
   std::vector<double> loop_weights() const override;
+  bool estimates_shared_errors() const override {
+    return options_.shared.model == SharedErrorModel::states;
+  }
   std::size_t size() const override;
   Pose pose(std::size_t k) const override;
 

@@ -81,25 +81,26 @@ Outcome outcome_of(const ceres::Solver::Summary& summary) {
 CeresPoseGraph::Graph::Graph(const Pose& origin, SolveMode mode,
                              const CeresPoseGraphOptions& options)
     : options_(options), is_batch_(mode == SolveMode::batch), problem_(problem_options()) {
-  poses_.push_back({origin.x, origin.y, origin.theta});
+  unknowns_.poses.push_back({origin.x, origin.y, origin.theta});
   problem_.AddParameterBlock(block(0), 3);
   problem_.SetParameterBlockConstant(block(0));
 }
 
 Pose CeresPoseGraph::Graph::pose(std::size_t k) const {
-  return {poses_[k][0], poses_[k][1], wrap_angle(poses_[k][2])};
+  return {unknowns_.poses[k][0], unknowns_.poses[k][1], wrap_angle(unknowns_.poses[k][2])};
 }
 
 void CeresPoseGraph::Graph::set_poses(std::span<const Pose> poses) {
-  for (std::size_t k = 1; k < poses_.size(); ++k) {
-    poses_[k] = {poses[k].x, poses[k].y, poses[k].theta};
+  for (std::size_t k = 1; k < size(); ++k) {
+    unknowns_.poses[k] = {poses[k].x, poses[k].y, poses[k].theta};
   }
+  std::ranges::fill(unknowns_.errors, Block{});
   changed();
 }
 
 void CeresPoseGraph::Graph::add_keyframe(const RelativePose& step) {
   const Pose next = compose(pose(size() - 1), step.forward().motion);
-  poses_.push_back({next.x, next.y, next.theta});
+  unknowns_.poses.push_back({next.x, next.y, next.theta});
   if (is_batch_ && step.is_hole) {
     problem_.AddParameterBlock(block(size() - 1), 3);
   } else {
@@ -116,7 +117,7 @@ void CeresPoseGraph::Graph::bridge(const Bridge& bridge) {
   for (std::size_t k = 0; k < size(); ++k) {
     if (!bridge.moves[k]) continue;
     const Pose moved = compose(bridge.motion, pose(k));
-    poses_[k] = {moved.x, moved.y, moved.theta};
+    unknowns_.poses[k] = {moved.x, moved.y, moved.theta};
   }
   for (const std::size_t node : bridge.holes) {
     if (bridge.moves[node - 1] == bridge.moves[node]) continue;
@@ -131,9 +132,14 @@ void CeresPoseGraph::Graph::bridge(const Bridge& bridge) {
 
 void CeresPoseGraph::Graph::add_registration(const RelativePose& registration) {
   const int rank = rank_of(registration.information);
+  double* const from = block(registration.from);
+  double* const to = block(registration.to);
+  ceres::LossFunction* const loss = make_loss(options_, rank, is_plain_);
   registration_blocks_.push_back(
-      problem_.AddResidualBlock(new EdgeCost(registration), make_loss(options_, rank, is_plain_),
-                                block(registration.from), block(registration.to)));
+      estimates_errors(registration)
+          ? problem_.AddResidualBlock(new SharedEdgeCost(registration), loss, from, to,
+                                      errors(registration.from), errors(registration.to))
+          : problem_.AddResidualBlock(new EdgeCost(registration), loss, from, to));
   registrations_.push_back(registration);
   registration_ranks_.push_back(rank);
   spread_.add(registration);
@@ -141,7 +147,10 @@ void CeresPoseGraph::Graph::add_registration(const RelativePose& registration) {
 }
 
 double CeresPoseGraph::Graph::registration_weight(std::size_t index) const {
-  const RelativePose& z = registrations_[index];
+  const RelativePose& given = registrations_[index];
+  const RelativePose z = estimates_errors(given)
+                             ? without_shared(given, errors_at(given.from), errors_at(given.to))
+                             : given;
   const RobustLoss loss = RobustLoss(options_.loss).of_rank(registration_ranks_[index]);
   return loss.weight(chi2(z, pose(z.from), pose(z.to)));
 }
@@ -157,9 +166,11 @@ void CeresPoseGraph::Graph::forget_registrations(std::size_t count) {
 }
 
 bool CeresPoseGraph::Graph::is_finite() const {
-  return std::all_of(poses_.begin(), poses_.end(), [](const Block& pose) {
-    return std::all_of(pose.begin(), pose.end(), [](double v) { return std::isfinite(v); });
-  });
+  const auto is_block_finite = [](const Block& block) {
+    return std::ranges::all_of(block, [](double v) { return std::isfinite(v); });
+  };
+  return std::ranges::all_of(unknowns_.poses, is_block_finite) &&
+         std::ranges::all_of(unknowns_.errors, is_block_finite);
 }
 
 // Measurements that are alike in their information always are.
@@ -177,7 +188,7 @@ bool CeresPoseGraph::Graph::is_at_minimum() {
   if (!H) return false;
   double cost = 0.0;
   std::vector<double> gradient;
-  problem_.Evaluate(free_poses(), &cost, nullptr, &gradient, nullptr);
+  problem_.Evaluate(free_blocks(), &cost, nullptr, &gradient, nullptr);
   const auto left =
       decrease_of_step(*H, Eigen::Map<const Eigen::VectorXd>(gradient.data(), H->rows()));
   return left && *left <= options_.tolerance * cost;
@@ -185,7 +196,7 @@ bool CeresPoseGraph::Graph::is_at_minimum() {
 
 UpdateReport CeresPoseGraph::Graph::solve() {
   UpdateReport report;
-  const std::deque<Block> before = poses_;
+  const Unknowns before = unknowns_;
   ceres::Solver::Summary summary;
   const BlasMemory memory;  // CHOLMOD's supernodes are products of BLAS
   ceres::Solve(solver_options(options_), &problem_, &summary);
@@ -206,15 +217,16 @@ double CeresPoseGraph::Graph::cost() {
   return cost;
 }
 
-void CeresPoseGraph::Graph::restore(const std::deque<Block>& poses) {
-  std::copy(poses.begin(), poses.end(), poses_.begin());
+void CeresPoseGraph::Graph::restore(const Unknowns& unknowns) {
+  std::ranges::copy(unknowns.poses, unknowns_.poses.begin());
+  std::ranges::copy(unknowns.errors, unknowns_.errors.begin());
   changed();
 }
 
 UpdateReport CeresPoseGraph::Graph::solve_robust() {
-  const std::deque<Block> start = poses_;
+  const Unknowns start = unknowns_;
   const UpdateReport given = solve();
-  const std::deque<Block> reached = poses_;
+  const Unknowns reached = unknowns_;
   const double least = cost();
   restore(start);
   is_plain_ = true;

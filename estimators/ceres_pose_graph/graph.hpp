@@ -17,12 +17,13 @@
 
 namespace fathom {
 
-/// The Ceres problem: one 3-vector block a keyframe, one EdgeCost a measurement.
+/// The Ceres problem: one 3-vector block a keyframe, one EdgeCost a measurement; and where
+/// registrations share errors of pictures, one more block a picture, n in units of σ.
 class CeresPoseGraph::Graph {
  public:
   Graph(const Pose& origin, SolveMode mode, const CeresPoseGraphOptions& options);
 
-  std::size_t size() const { return poses_.size(); }
+  std::size_t size() const { return unknowns_.poses.size(); }
   Pose pose(std::size_t k) const;
   void set_poses(std::span<const Pose> poses);
 
@@ -48,6 +49,9 @@ class CeresPoseGraph::Graph {
   std::optional<std::vector<Eigen::Matrix3d>> predicted_covariances(
       std::span<const RelativePose> forward_loops);
 
+  /// Each as its innovation is to be tested: without the errors of its pictures as estimated.
+  std::vector<RelativePose> without_errors(std::span<const RelativePose> registrations) const;
+
   std::optional<Eigen::Matrix3d> marginal(std::size_t k);
 
   /// As of Estimator.
@@ -59,15 +63,30 @@ class CeresPoseGraph::Graph {
  private:
   using Block = std::array<double, 3>;
 
-  double* block(std::size_t k) { return poses_[k].data(); }
+  /// All unknowns.
+  struct Unknowns {
+    std::deque<Block> poses;  ///< a deque keeps the addresses that the problem knows
+    std::deque<Block> errors;
+  };
+
+  double* block(std::size_t k) { return unknowns_.poses[k].data(); }
+  /// The block of a picture's errors, made with its prior where there is none yet.
+  double* errors(std::size_t keyframe);
+  Eigen::Vector3d errors_at(std::size_t keyframe) const;
+  /// Among the blocks of the Hessian; nothing where the picture has none.
+  std::optional<std::size_t> errors_block(std::size_t keyframe) const;
+  bool estimates_errors(const RelativePose& z) const;
+  std::optional<std::vector<Eigen::Matrix3d>> predicted_with_errors(
+      std::span<const RelativePose> forward_loops);
   bool is_finite() const;
   double cost();
-  void restore(const std::deque<Block>& poses);
+  void restore(const Unknowns& unknowns);
   bool is_determined();
   /// Whether a Gauss-Newton step from here promises no more than the tolerance.
   bool is_at_minimum();
-  /// All poses but the first. There must be one: asked for no poses, Ceres takes all.
-  ceres::Problem::EvaluateOptions free_poses();
+  /// All poses but the first, then the errors of pictures. There must be one pose: asked for
+  /// nothing, Ceres takes all.
+  ceres::Problem::EvaluateOptions free_blocks();
   void changed() { marginals_.reset(); }
   void compute_marginals();
   /// Null where it cannot be evaluated.
@@ -75,8 +94,9 @@ class CeresPoseGraph::Graph {
 
   CeresPoseGraphOptions options_;
   bool is_batch_;
-  bool is_plain_ = false;    ///< the loss is left out
-  std::deque<Block> poses_;  ///< a deque keeps the addresses that the problem knows
+  bool is_plain_ = false;  ///< the loss is left out
+  Unknowns unknowns_;
+  std::vector<std::optional<std::size_t>> errors_of_;  ///< by keyframe, where it has some
   ceres::Problem problem_;
   struct Hole {
     RelativePose step;

@@ -14,6 +14,8 @@ namespace fathom {
 
 std::optional<std::vector<Eigen::Matrix3d>> CeresPoseGraph::Graph::predicted_covariances(
     std::span<const RelativePose> forward_loops) {
+  const auto estimates = [this](const RelativePose& z) { return estimates_errors(z); };
+  if (std::ranges::any_of(forward_loops, estimates)) return predicted_with_errors(forward_loops);
   std::vector<std::size_t> ends;
   for (const RelativePose& z : forward_loops) ends.insert(ends.end(), {z.from, z.to});
   const auto joint = joint_covariance(ends);
@@ -32,7 +34,7 @@ void CeresPoseGraph::Graph::compute_marginals() {
   marginals_.emplace();
   if (size() > 1) {
     const auto H = hessian();
-    const auto blocks = H ? inverse_blocks(*H) : std::nullopt;
+    const auto blocks = H ? inverse_blocks(*H, size() - 1) : std::nullopt;
     if (!blocks) return;
     *marginals_ = blocks->own;
   }
@@ -56,19 +58,20 @@ std::optional<Eigen::MatrixXd> CeresPoseGraph::Graph::joint_covariance(
   return in_order_of(keyframes, *joint);
 }
 
-ceres::Problem::EvaluateOptions CeresPoseGraph::Graph::free_poses() {
+ceres::Problem::EvaluateOptions CeresPoseGraph::Graph::free_blocks() {
   ceres::Problem::EvaluateOptions evaluate;
   evaluate.num_threads = 1;
   for (std::size_t k = 1; k < size(); ++k) evaluate.parameter_blocks.push_back(block(k));
+  for (Block& errors : unknowns_.errors) evaluate.parameter_blocks.push_back(errors.data());
   return evaluate;
 }
 
-// The Hessian of the poses but the first, which is fixed, the loss applied as a weight. Nothing
+// The Hessian of the free blocks, the loss applied as a weight. Nothing
 // where it is not finite, of which Ceres would print a warning.
 std::unique_ptr<const Eigen::SparseMatrix<double>> CeresPoseGraph::Graph::hessian() {
   if (!is_finite()) return nullptr;
   ceres::CRSMatrix J;
-  if (!problem_.Evaluate(free_poses(), nullptr, nullptr, nullptr, &J)) return nullptr;
+  if (!problem_.Evaluate(free_blocks(), nullptr, nullptr, nullptr, &J)) return nullptr;
   const Eigen::SparseMatrix<double> by_columns =
       Eigen::Map<const Eigen::SparseMatrix<double, Eigen::RowMajor>>(
           J.num_rows, J.num_cols, static_cast<Eigen::Index>(J.values.size()), J.rows.data(),
@@ -81,7 +84,7 @@ std::optional<std::vector<UncertainPose>> CeresPoseGraph::Graph::motions_to_newe
   const std::size_t n = size() - 1;
   if (n == 0) return motions;
   const auto H = hessian();
-  const auto blocks = H ? inverse_blocks(*H) : std::nullopt;
+  const auto blocks = H ? inverse_blocks(*H, n) : std::nullopt;
   if (!blocks) return std::nullopt;
   PairCovariance pair;
   pair.B = blocks->own[n - 1];

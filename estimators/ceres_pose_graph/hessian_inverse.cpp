@@ -87,9 +87,9 @@ std::optional<double> decrease_of_step(const Sparse& hessian, const Eigen::Vecto
   return 0.5 * gradient.dot(ldlt.solve(gradient));
 }
 
-std::optional<InverseBlocks> inverse_blocks(const Sparse& hessian) {
+std::optional<InverseBlocks> inverse_blocks(const Sparse& hessian, std::size_t count) {
   const Ldlt ldlt(hessian);
-  const Eigen::Index size = hessian.rows();
+  const auto size = static_cast<Eigen::Index>(3 * count);
   if (!is_definite(ldlt) || !keeps_digits(ldlt, hessian)) return std::nullopt;
   const Eigen::MatrixX3d last = columns_of_inverse(ldlt, size - 3);
   const Sparse& L = ldlt.matrixL().nestedExpression();

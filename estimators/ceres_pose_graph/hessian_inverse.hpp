@@ -10,7 +10,8 @@
 
 namespace fathom {
 
-/// Of the inverse of a Hessian with three rows a block: the 3×3 blocks (k, k), and those (k, last).
+/// Of the inverse of a Hessian with three rows a block: of the first blocks, so many as are asked
+/// for, the 3×3 blocks (k, k), and those (k, last) with the last of them.
 struct InverseBlocks {
   std::vector<Eigen::Matrix3d> own;
   std::vector<Eigen::Matrix3d> with_last;
@@ -20,7 +21,8 @@ struct InverseBlocks {
 /// 1973), which finds the entries of the inverse within the pattern of the Cholesky factor at about
 /// the cost of the factor, and one solve for the last block's columns. Both triangles must be
 /// there, and every diagonal block be dense. Nothing where the matrix is not positive definite.
-std::optional<InverseBlocks> inverse_blocks(const Eigen::SparseMatrix<double>& hessian);
+std::optional<InverseBlocks> inverse_blocks(const Eigen::SparseMatrix<double>& hessian,
+                                            std::size_t count);
 
 /// Whether the Cholesky factor of a Hessian is there and no pivot of it but rounding
 /// (kLeastPivotShare).

@@ -20,6 +20,10 @@ double absolute_cost_used(const MeasurementLog& log, const Estimate& estimate, c
 // Decisions stand in the order of the log.
 double cost_used(const MeasurementLog& log, const Estimate& estimate, const Run& result) {
   double sum = result.absolute_chi2_used;
+  if (result.errors == RegistrationErrors::shared && log.tells_shared_errors()) {
+    return sum + shared_chi2_used(log, result.trajectory, result.loop_weights,
+                                  [&](double value) { return estimate.loss(value); });
+  }
   std::size_t loop = 0;
   for (std::size_t k = 1; k < log.size(); ++k) {
     const KeyframeMeasurements& arrival = log.arrival(k);

@@ -1,5 +1,6 @@
 #include "fathom/harness/recording_facts.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "fathom/core/hash.hpp"
@@ -8,9 +9,26 @@
 
 namespace fathom {
 
+namespace {
+
+// Its default options, but for which F it minimises, where the log lets it choose.
+EstimatorValues values_for(const EstimatorEntry& entry, const MeasurementLog& log,
+                           RegistrationErrors errors) {
+  constexpr const char* kKey = "shared_errors";
+  const bool chooses = log.tells_shared_errors() &&
+                       std::ranges::any_of(entry.options, [](const OptionDescription& option) {
+                         return option.key == kKey;
+                       });
+  if (!chooses) return {};
+  const bool is_shared = errors == RegistrationErrors::shared;
+  return {{kKey, OptionValue::scalar(is_shared ? "states" : "independent")}};
+}
+
+}  // namespace
+
 std::optional<BatchOptimum> batch_optimum(const MeasurementLog& log,
                                           const EstimatorRegistry& registry,
-                                          std::span<const Pose> start) {
+                                          std::span<const Pose> start, RegistrationErrors errors) {
   std::optional<BatchOptimum> best;
   for (const EstimatorEntry& entry : registry.entries()) {
     if (!entry.can_batch || entry.runs_program) continue;
@@ -18,9 +36,9 @@ std::optional<BatchOptimum> batch_optimum(const MeasurementLog& log,
     options.mode = SolveMode::batch;
     options.start = start;
     options.covariances = false;
-    Run solved = replay(log, entry, {}, options);
+    Run solved = replay(log, entry, values_for(entry, log, errors), options);
     if (!is_done(solved.outcome)) continue;
-    const double cost = chi2(log, solved.trajectory);
+    const double cost = chi2(log, solved.trajectory, errors);
     if (!std::isfinite(cost) || (best && cost >= best->chi2)) continue;
     best = BatchOptimum{std::move(solved.trajectory), cost, entry.name};
   }
@@ -28,13 +46,17 @@ std::optional<BatchOptimum> batch_optimum(const MeasurementLog& log,
 }
 
 RecordingFacts run_facts(const Recording& recording) {
-  return {true_overlaps(recording), std::nullopt, ""};
+  return {true_overlaps(recording), std::nullopt, std::nullopt, ""};
 }
 
 RecordingFacts study_facts(const Recording& recording, const EstimatorRegistry& registry) {
   RecordingFacts facts = run_facts(recording);
   if (const auto optimum = batch_optimum(recording.log, registry)) {
     facts.chi2_optimum = optimum->chi2;
+  }
+  if (recording.log.tells_shared_errors()) {
+    const auto optimum = batch_optimum(recording.log, registry, {}, RegistrationErrors::shared);
+    if (optimum) facts.shared_chi2_optimum = optimum->chi2;
   }
   facts.log_hash = hash_text(text_of(recording.log));
   return facts;

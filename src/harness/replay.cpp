@@ -223,7 +223,6 @@ Run replay(const MeasurementLog& log, const EstimatorEntry& entry, const Estimat
   ReplayOptions options = asked;
   if (!guess.empty()) options.start = guess;
   Run result;
-  result.chi2_initial = chi2(log, options.start.empty() ? log.odometry() : options.start);
   // Not to be counted as the estimator's.
   result.loops.reserve(log.registration_count());
   result.absolute.reserve(log.absolute_count());
@@ -233,6 +232,9 @@ Run replay(const MeasurementLog& log, const EstimatorEntry& entry, const Estimat
   reset_program_work();
   if (options.memory != nullptr) options.memory->start();
   GuardedEstimator estimator(entry, {log.start(), options.mode}, values);
+  if (estimator.estimates_shared_errors()) result.errors = RegistrationErrors::shared;
+  result.chi2_initial =
+      chi2(log, options.start.empty() ? log.odometry() : options.start, result.errors);
   give_keyframes(log, estimator, options, result);
   if (options.memory != nullptr) result.costs.memory_bytes = options.memory->stop();
   if (result.costs.start_up_ms) result.costs.memory_bytes = program_work().peak_bytes;

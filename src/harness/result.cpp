@@ -13,9 +13,9 @@ namespace {
 // bottom is the optimum then.
 std::optional<double> least_known(std::optional<double> chi2_optimum, const MeasurementLog& log,
                                   const std::vector<Pose>& estimate,
-                                  const EstimatorRegistry& registry) {
-  if (!chi2_optimum || !(chi2(log, estimate) < *chi2_optimum)) return chi2_optimum;
-  const auto below = batch_optimum(log, registry, estimate);
+                                  const EstimatorRegistry& registry, RegistrationErrors errors) {
+  if (!chi2_optimum || !(chi2(log, estimate, errors) < *chi2_optimum)) return chi2_optimum;
+  const auto below = batch_optimum(log, registry, estimate, errors);
   return below ? std::min(below->chi2, *chi2_optimum) : chi2_optimum;
 }
 
@@ -85,7 +85,8 @@ void judge_replay(Result& result, const Recording& recording, const EstimatorReg
   }
   const RecordingFacts shared = judging.facts != nullptr ? *judging.facts : run_facts(recording);
   if (shared.true_overlaps) facts.true_overlaps = &*shared.true_overlaps;
-  facts.chi2_optimum = least_known(shared.chi2_optimum, recording.log, estimate, registry);
+  facts.chi2_optimum = least_known(shared.optimum(result.run.errors, recording.log), recording.log,
+                                   estimate, registry, result.run.errors);
   if (result.run.covariances) facts.covariances = *result.run.covariances;
   facts.motions = result.run.motions;
   facts.run = &result.run;

@@ -35,6 +35,17 @@ RelativePose RelativePose::forward() const {
   return from <= to ? *this : reversed();
 }
 
+RelativePose without_shared(const RelativePose& z, const Eigen::Vector3d& n_from,
+                            const Eigen::Vector3d& n_to) {
+  if (!z.shared) return z;
+  const Eigen::Vector3d left =
+      z.motion.vector() - z.shared->from.scaled() * n_from - z.shared->to.scaled() * n_to;
+  RelativePose apart = RelativePose::from_covariance(
+      z.from, z.to, {left.x(), left.y(), wrap_angle(left.z())}, z.shared->own);
+  apart.shared = z.shared;
+  return apart;
+}
+
 Eigen::Vector3d residual(const Pose& motion, const Pose& A, const Pose& B,
                          Eigen::Matrix3d* residual_A, Eigen::Matrix3d* residual_B) {
   Eigen::Matrix3d error_prediction;

@@ -23,16 +23,30 @@ struct Told {
 
 class SharedLeastSquares {
  public:
-  SharedLeastSquares(const MeasurementLog& log, std::span<const Pose> trajectory)
-      : row_of_(log.size(), -1) {
-    for (std::size_t k = 0; k < log.size(); ++k) {
-      for (const RelativePose& z : log.arrival(k).registrations) {
-        if (z.shared) add(z, trajectory);
-      }
-    }
+  explicit SharedLeastSquares(std::size_t keyframes) : row_of_(keyframes, -1) {}
+
+  /// One that is told.
+  void add(const RelativePose& z, std::span<const Pose> trajectory, double weight) {
+    Told told;
+    told.from = row_of(z.from);
+    told.to = row_of(z.to);
+    told.G_from = z.shared->from.scaled();
+    told.G_to = z.shared->to.scaled();
+    told.W = symmetric_inverse(z.shared->own);
+    told.nu = -(planar_rotation(z.motion.theta) *
+                residual(z.motion, trajectory[z.from], trajectory[z.to]));
+    const Eigen::Matrix3d W = weight * told.W;
+    add_block(told.from, told.from, told.G_from.transpose() * W * told.G_from);
+    add_block(told.to, told.to, told.G_to.transpose() * W * told.G_to);
+    const Eigen::Matrix3d cross = told.G_from.transpose() * W * told.G_to;
+    add_block(told.from, told.to, cross);
+    add_block(told.to, told.from, cross.transpose());
+    add_gradient(told.from, told.G_from.transpose() * W * told.nu);
+    add_gradient(told.to, told.G_to.transpose() * W * told.nu);
+    told_.push_back(told);
   }
 
-  double minimum() {
+  double minimum(const std::function<double(double)>& loss) {
     Eigen::SparseMatrix<double> A(rows_, rows_);
     A.setFromTriplets(elements_.begin(), elements_.end());
     const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(A);
@@ -42,31 +56,12 @@ class SharedLeastSquares {
     for (const Told& z : told_) {
       const Eigen::Vector3d own =
           z.nu - z.G_from * n.segment<3>(z.from) - z.G_to * n.segment<3>(z.to);
-      sum += own.dot(z.W * own);
+      sum += loss(own.dot(z.W * own));
     }
     return sum;
   }
 
  private:
-  void add(const RelativePose& z, std::span<const Pose> trajectory) {
-    Told told;
-    told.from = row_of(z.from);
-    told.to = row_of(z.to);
-    told.G_from = z.shared->from.scaled();
-    told.G_to = z.shared->to.scaled();
-    told.W = symmetric_inverse(z.shared->own);
-    told.nu = -(planar_rotation(z.motion.theta) *
-                residual(z.motion, trajectory[z.from], trajectory[z.to]));
-    add_block(told.from, told.from, told.G_from.transpose() * told.W * told.G_from);
-    add_block(told.to, told.to, told.G_to.transpose() * told.W * told.G_to);
-    const Eigen::Matrix3d cross = told.G_from.transpose() * told.W * told.G_to;
-    add_block(told.from, told.to, cross);
-    add_block(told.to, told.from, cross.transpose());
-    add_gradient(told.from, told.G_from.transpose() * told.W * told.nu);
-    add_gradient(told.to, told.G_to.transpose() * told.W * told.nu);
-    told_.push_back(told);
-  }
-
   // The prior of n is the identity.
   Eigen::Index row_of(std::size_t k) {
     if (row_of_[k] < 0) {
@@ -97,20 +92,42 @@ class SharedLeastSquares {
 
 }  // namespace
 
-double shared_chi2(const MeasurementLog& log, std::span<const Pose> trajectory) {
-  if (!log.tells_shared_errors()) return chi2(log, trajectory);
-  double sum = absolute_chi2(log, trajectory);
+double shared_chi2_used(const MeasurementLog& log, std::span<const Pose> trajectory,
+                        std::span<const double> weights,
+                        const std::function<double(double)>& loss) {
+  double sum = 0.0;
+  SharedLeastSquares shared(log.size());
+  std::size_t registration = 0;
   for (std::size_t k = 1; k < log.size(); ++k) {
     const KeyframeMeasurements& arrival = log.arrival(k);
-    const auto add = [&](const RelativePose& z) {
-      sum += chi2(z, trajectory[z.from], trajectory[z.to]);
+    const auto chi2_of = [&](const RelativePose& z) {
+      return chi2(z, trajectory[z.from], trajectory[z.to]);
     };
-    if (!arrival.step.is_hole) add(arrival.step);
+    if (!arrival.step.is_hole) sum += chi2_of(arrival.step);
     for (const RelativePose& z : arrival.registrations) {
-      if (!z.shared) add(z);
+      const double weight = weights.empty() ? 1.0 : weights[registration];
+      ++registration;
+      if (weight == 0.0) continue;
+      if (z.shared) {
+        shared.add(z, trajectory, weight);
+      } else {
+        sum += loss(chi2_of(z));
+      }
     }
   }
-  return sum + SharedLeastSquares(log, trajectory).minimum();
+  return sum + shared.minimum(loss);
+}
+
+double shared_chi2(const MeasurementLog& log, std::span<const Pose> trajectory) {
+  if (!log.tells_shared_errors()) return chi2(log, trajectory);
+  return absolute_chi2(log, trajectory) +
+         shared_chi2_used(log, trajectory, {}, [](double value) { return value; });
+}
+
+double chi2(const MeasurementLog& log, std::span<const Pose> trajectory,
+            RegistrationErrors errors) {
+  return errors == RegistrationErrors::shared ? shared_chi2(log, trajectory)
+                                              : chi2(log, trajectory);
 }
 
 }  // namespace fathom

@@ -93,8 +93,9 @@ std::string general(const WrongConfidence& found) {
 
 std::string words(const Correlation& found) {
   return "Registrations of one picture share errors (correlation " +
-         quantity(found.correlation.moments.mean, found.correlation.interval, "") +
-         "), which estimators take as independent.";
+         quantity(found.correlation.moments.mean, found.correlation.interval, "") + "), which " +
+         listed(found.estimators) + (found.estimators.size() == 1 ? " takes" : " take") +
+         " as independent" + (found.is_told ? "; shared_errors: states would estimate them." : ".");
 }
 std::string general(const Correlation&) {
   return "registrations of one picture share errors";

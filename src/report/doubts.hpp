@@ -67,6 +67,8 @@ struct WrongConfidence {
 /// Registrations of one picture share errors.
 struct Correlation {
   MetricSummary correlation;
+  std::vector<std::string> estimators;  ///< that take them as independent
+  bool is_told = false;                 ///< whether they could estimate them
 };
 /// F lies above the optimum of the measurements.
 struct OffTheOptimum {

@@ -96,9 +96,15 @@ void explain_high(const Figures& figures, Honesty& honesty) {
 }  // namespace
 
 bool is_of_honesty(const std::string& metric) {
-  static const std::set<std::string> metrics{
-      "anees",        "anchored_anees", "mean_nis_truth", "picture_error_correlation",
-      "chi2_per_dof", "registrations",  "chi2_gap",       "degrees_of_freedom"};
+  static const std::set<std::string> metrics{"anees",
+                                             "anchored_anees",
+                                             "mean_nis_truth",
+                                             "picture_error_correlation",
+                                             "chi2_per_dof",
+                                             "registrations",
+                                             "chi2_gap",
+                                             "degrees_of_freedom",
+                                             "estimates_shared_errors"};
   return metrics.contains(metric) || metric.starts_with(kRelative);
 }
 
@@ -116,6 +122,10 @@ std::optional<Honesty> honesty_of(const std::map<std::string, MetricSummary>& fi
   const Level level = known.level("anees", 1.0);
   if (level != Level::high && level != Level::low) return std::nullopt;
   Honesty honesty;
+  if (const MetricSummary* estimates = known.find("estimates_shared_errors")) {
+    honesty.is_told = true;
+    honesty.estimates_shared_errors = estimates->moments.mean > 0.5;
+  }
   honesty.is_overconfident = level == Level::high;
   if (honesty.is_overconfident) {
     explain_high(known, honesty);

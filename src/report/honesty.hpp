@@ -29,6 +29,9 @@ struct Honesty {
   /// covariances say, and whether those of one picture are correlated.
   bool agrees_too_well = false;
   bool is_correlated = false;
+  /// Whether the log tells what registrations share, and whether the estimator estimates it.
+  bool is_told = false;
+  bool estimates_shared_errors = false;
 };
 
 /// Whether honesty_of looks at a metric.

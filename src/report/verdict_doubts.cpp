@@ -50,18 +50,23 @@ std::optional<Doubt> wrong_confidence(const CellResults& cell, bool is_overconfi
   return found;
 }
 
-// Where it has not been named as a cause. It is a figure of the registrations, so that of one
-// estimator stands for all.
+// Where it has not been named as a cause. It is a figure of the registrations, less what an
+// estimator estimates of it, so that of one that takes them as independent stands for all those.
 std::optional<Doubt> correlation(const CellResults& cell) {
   if (std::ranges::any_of(cell.estimators, [](const auto& one) { return one.honesty.has_value(); }))
     return std::nullopt;
+  doubt::Correlation doubt;
   for (const EstimatorResults& one : cell.estimators) {
     const auto found = one.consistency.find("picture_error_correlation");
     if (found == one.consistency.end()) continue;
     const auto& interval = found->second.interval;
-    if (interval && interval->low > 0.0) return doubt::Correlation{found->second};
+    if (!interval || !(interval->low > 0.0)) continue;
+    if (doubt.estimators.empty()) doubt.correlation = found->second;
+    doubt.estimators.push_back(one.name);
+    doubt.is_told = one.consistency.contains("estimates_shared_errors");
   }
-  return std::nullopt;
+  if (doubt.estimators.empty()) return std::nullopt;
+  return doubt;
 }
 
 std::optional<Doubt> off_the_optimum(const CellResults& cell) {

@@ -18,7 +18,6 @@
 namespace fathom {
 namespace {
 
-using conformance::RegistrationErrors;
 using pose_graph::EdgeLoss;
 using pose_graph::ExtendedGraph;
 using pose_graph::Hessian;
@@ -124,7 +123,9 @@ std::vector<Way> ways() {
   gated["gate_probability"] = OptionValue::scalar("0.999999999");
   return {{"sparse_gauss_newton", SolveMode::incremental, test::exactly()},
           {"sparse_gauss_newton", SolveMode::batch, test::exactly()},
-          {"sparse_gauss_newton", SolveMode::incremental, gated}};
+          {"sparse_gauss_newton", SolveMode::incremental, gated},
+          {"ceres_pose_graph", SolveMode::incremental, test::exactly()},
+          {"ceres_pose_graph", SolveMode::batch, test::exactly()}};
 }
 
 std::unique_ptr<Estimator> solved(const Way& way, const MeasurementLog& log) {

@@ -14,8 +14,8 @@ namespace {
 TEST(Members, EachOfARunIsVisitedOnce) {
   fathom::Run run;
   const auto& [trajectory, covariances, outcome, fault, outcome_counts, loops, loop_weights,
-               absolute, absolute_weights, iterations, gradient_norm, is_local_minimum, costs,
-               motions, chi2_initial, chi2_used, absolute_chi2_used] = run;
+               absolute, absolute_weights, iterations, errors, gradient_norm, is_local_minimum,
+               costs, motions, chi2_initial, chi2_used, absolute_chi2_used] = run;
   const std::set<const void*> members{&trajectory,   &covariances,       &outcome,
                                       &fault,        &outcome_counts,    &loops,
                                       &loop_weights, &absolute,          &absolute_weights,

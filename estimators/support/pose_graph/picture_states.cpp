@@ -71,13 +71,7 @@ Eigen::Vector3d PictureStates::errors_of(std::size_t keyframe) const {
 }
 
 RelativePose PictureStates::without_errors(const RelativePose& z) const {
-  if (!z.shared) return z;
-  const Eigen::Vector3d left = z.motion.vector() - z.shared->from.scaled() * errors_of(z.from) -
-                               z.shared->to.scaled() * errors_of(z.to);
-  RelativePose apart = RelativePose::from_covariance(
-      z.from, z.to, {left.x(), left.y(), wrap_angle(left.z())}, z.shared->own);
-  apart.shared = z.shared;
-  return apart;
+  return without_shared(z, errors_of(z.from), errors_of(z.to));
 }
 
 }  // namespace fathom::pose_graph

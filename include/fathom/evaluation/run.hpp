@@ -12,6 +12,7 @@
 #include "fathom/evaluation/relative_consistency.hpp"
 #include "fathom/geometry/pose.hpp"
 #include "fathom/measurements/decision.hpp"
+#include "fathom/measurements/measurement_log.hpp"
 
 namespace fathom {
 
@@ -33,6 +34,8 @@ struct Run {
   std::vector<AbsoluteDecision> absolute;  ///< likewise
   std::vector<double> absolute_weights;
   int iterations = 0;
+  /// Which F the estimator minimises (Estimate::estimates_shared_errors): all below is of that one.
+  RegistrationErrors errors = RegistrationErrors::independent;
   /// Of the last update, where the estimator says so (UpdateReport).
   std::optional<double> gradient_norm;
   std::optional<bool> is_local_minimum;
@@ -57,6 +60,7 @@ struct Run {
     visit(&Run::absolute);
     visit(&Run::absolute_weights);
     visit(&Run::iterations);
+    visit(&Run::errors);
     visit(&Run::gradient_norm);
     visit(&Run::is_local_minimum);
     visit(&Run::costs);

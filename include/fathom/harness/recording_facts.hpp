@@ -14,8 +14,16 @@ namespace fathom {
 /// What the evaluation of runs needs and no estimator changes: computed once a recording.
 struct RecordingFacts {
   std::optional<TrueOverlaps> true_overlaps;
-  std::optional<double> chi2_optimum;  ///< F at the batch_optimum; of a study alone
-  std::string log_hash;                ///< of the measurement log as g2o; of a study alone
+  /// F at the batch_optimum; of a study alone.
+  std::optional<double> chi2_optimum;
+  std::optional<double> shared_chi2_optimum;  ///< shared_chi2 at its own
+  std::string log_hash;                       ///< of the measurement log as text; of a study alone
+
+  /// Of the F with these errors.
+  std::optional<double> optimum(RegistrationErrors errors, const MeasurementLog& log) const {
+    const bool is_shared = errors == RegistrationErrors::shared && log.tells_shared_errors();
+    return is_shared ? shared_chi2_optimum : chi2_optimum;
+  }
 };
 
 /// The facts of a single run.
@@ -40,8 +48,9 @@ struct BatchOptimum {
 
 /// Over all estimators of the registry that can solve a batch, each with its default options and
 /// from these poses (dead reckoning, if empty). Nothing where none of them comes to an end.
-std::optional<BatchOptimum> batch_optimum(const MeasurementLog& log,
-                                          const EstimatorRegistry& registry,
-                                          std::span<const Pose> start = {});
+/// `errors` says of which F; estimators that could estimate shared errors do so for that one alone.
+std::optional<BatchOptimum> batch_optimum(
+    const MeasurementLog& log, const EstimatorRegistry& registry, std::span<const Pose> start = {},
+    RegistrationErrors errors = RegistrationErrors::independent);
 
 }  // namespace fathom

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -71,10 +72,22 @@ class MeasurementLog {
 /// cost that every estimator is compared by. A hole costs nothing.
 double chi2(const MeasurementLog& log, std::span<const Pose> trajectory);
 
-/// The same where the errors of a picture's registrations are known to be shared: F minimised over
-/// them, Σ (ν − G n)ᵀ own⁻¹ (ν − G n) + Σ nᵀ Σ⁻¹ n, ν = z − h(x), which is νᵀ C⁻¹ ν with C the
-/// joint covariance of all registrations (docs/shared_errors.md). chi2 where nothing is told.
+/// Whether registrations are taken as independent, each with its total covariance, or with the
+/// errors that those of a picture share as unknowns of their own.
+enum class RegistrationErrors { independent, shared };
+
+/// F where the errors of a picture's registrations are known to be shared: minimised over them,
+/// Σ (ν − G n)ᵀ own⁻¹ (ν − G n) + Σ nᵀ Σ⁻¹ n, ν = z − h(x). It is νᵀ C⁻¹ ν with C the joint
+/// covariance of all registrations (docs/shared_errors.md), and chi2 where nothing is told.
 double shared_chi2(const MeasurementLog& log, std::span<const Pose> trajectory);
+
+/// Of what was used: each registration's own part times its weight decides over n, and counts
+/// loss(its χ²); one with weight 0 does not count. Steps count, absolute measurements do not.
+double shared_chi2_used(const MeasurementLog& log, std::span<const Pose> trajectory,
+                        std::span<const double> weights, const std::function<double(double)>& loss);
+
+/// chi2 or shared_chi2.
+double chi2(const MeasurementLog& log, std::span<const Pose> trajectory, RegistrationErrors errors);
 
 /// What F is on average at its minimum if every covariance is right: three a registration, the rank
 /// of the information an absolute measurement; less three a hole, and three where the start is

@@ -49,6 +49,11 @@ struct RelativePose {
   RelativePose forward() const;
 };
 
+/// A registration that tells its errors apart as it is left when those of its pictures, n in units
+/// of σ, are taken out: z − G_from n_from − G_to n_to, of its own covariance. Else as it is.
+RelativePose without_shared(const RelativePose& z, const Eigen::Vector3d& n_from,
+                            const Eigen::Vector3d& n_to);
+
 /// e = t2v(Z⁻¹ · A⁻¹ · B) for the poses A of `from` and B of `to`; heading wrapped. Optional 3×3
 /// Jacobians with respect to (x, y, θ) of A and B.
 Eigen::Vector3d residual(const Pose& motion, const Pose& A, const Pose& B,

@@ -38,6 +38,9 @@ std::optional<Metric> relative_consistency_metric(const std::string& name);
 
 Metric anchored_anees_metric();
 
+/// F of the whole log at the estimate, as its estimator has it.
+double cost_of(const RunFacts& facts);
+
 /// The value of a metric that is a member of the run, a number or an optional one.
 template <class Field>
 auto run_field(Field Run::*field) {

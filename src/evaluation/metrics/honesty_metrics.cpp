@@ -3,6 +3,7 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "fathom/geometry/covariance.hpp"
 #include "groups.hpp"
 
 namespace fathom {
@@ -32,23 +33,31 @@ Value chi2_per_dof(const JudgedRun& run) {
   if (facts.run == nullptr) return {};
   const double degrees = degrees_of_freedom(facts.log);
   if (!(degrees > 0.0)) return {};
-  return chi2(facts.log, facts.estimate) / degrees;
+  return cost_of(facts) / degrees;
 }
 
-// Of the registrations that share a picture: Σ u and Σ uᵀu of their whitened errors u.
+// Of the registrations that share a picture: Σ u and Σ uᵀu of their whitened errors u, and the same
+// of what of them an estimator takes out as shared, Cov(uᵢ, uⱼ) = Bᵢ Bⱼᵀ.
 struct SharedPicture {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   double squares = 0.0;
   double count = 0.0;
+  Eigen::Matrix3d told = Eigen::Matrix3d::Zero();
+  double told_squares = 0.0;
 
-  // Ω^½ e, with the symmetric root: u is in the axes of `to` as e is.
-  void add(const RelativePose& z, std::span<const Pose> truth) {
-    const Eigen::Vector3d u =
-        Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(z.information).operatorSqrt() *
-        residual(z.motion, truth[z.from], truth[z.to]);
+  // Ω^½ e, with the symmetric root: u is in the axes of `to` as e is, and `to` is the picture.
+  void add(const RelativePose& z, std::span<const Pose> truth, bool is_estimated) {
+    const Eigen::Matrix3d root =
+        Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(z.information).operatorSqrt();
+    const Eigen::Vector3d u = root * residual(z.motion, truth[z.from], truth[z.to]);
     sum += u;
     squares += u.squaredNorm();
     count += 1.0;
+    if (!is_estimated || !z.shared) return;
+    const Eigen::Matrix3d B =
+        root * planar_rotation(z.motion.theta).transpose() * z.shared->to.scaled();
+    told += B;
+    told_squares += B.squaredNorm();
   }
 };
 
@@ -58,15 +67,17 @@ Value picture_error_correlation(const JudgedRun& run) {
   const RunFacts& facts = run.facts;
   if (facts.run == nullptr || !facts.ground_truth) return {};
   const std::span<const Pose> truth = *facts.ground_truth;
+  const bool is_estimated = facts.run->errors == RegistrationErrors::shared;
   std::vector<SharedPicture> pictures(facts.log.size());
   for_registrations(facts.log, [&](const RelativePose& z) {
-    pictures[z.to].add(z, truth);
-    pictures[z.from].add(z.reversed(), truth);
+    pictures[z.to].add(z, truth, is_estimated);
+    pictures[z.from].add(z.reversed(), truth, is_estimated);
   });
   double products = 0.0;  // Σ uᵢᵀuⱼ over the pairs i < j of a picture
   double squares = 0.0;   // Σ (uᵢᵀuᵢ + uⱼᵀuⱼ) / 2 over the same
   for (const SharedPicture& of : pictures) {
     products += 0.5 * (of.sum.squaredNorm() - of.squares);
+    products -= 0.5 * (of.told.squaredNorm() - of.told_squares);
     squares += 0.5 * (of.count - 1.0) * of.squares;
   }
   if (!(squares > 0.0)) return {};
@@ -82,7 +93,8 @@ std::vector<Metric> honesty_metrics() {
        "too small",
        mean_nis_truth},
       {"picture_error_correlation", "correlation of a picture's errors", "", Better::neither,
-       "of the errors of two registrations that share a picture, against ground truth; 0 expected",
+       "of the errors of two registrations that share a picture, against ground truth, less what "
+       "of it the estimator estimates; 0 expected",
        picture_error_correlation},
       {"chi2_per_dof", "F per degree of freedom", "", Better::neither,
        "F over its degrees of freedom, three a registration, the rank of each absolute "

@@ -29,11 +29,8 @@ struct NaiveLeastSquares {
 /// √(‖C_aa‖ ‖C_bb‖); the difference itself where a keyframe has none.
 double largest_block_difference(const Eigen::MatrixXd& joint, const Eigen::MatrixXd& expected);
 
-/// What of the registrations of a picture is shared: nothing, or as told, by the joint covariance
-/// of all of them.
-enum class RegistrationErrors { independent, shared };
-
-/// `poses`: where to begin; none: dead reckoning.
+/// `poses`: where to begin; none: dead reckoning. Errors that are shared are by the joint
+/// covariance of all registrations.
 NaiveLeastSquares least_squares(const MeasurementLog& log, int iterations,
                                 std::vector<Pose> poses = {},
                                 RegistrationErrors errors = RegistrationErrors::independent);
