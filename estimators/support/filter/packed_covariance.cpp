@@ -145,6 +145,30 @@ void PackedCovariance::downdate(std::span<const DowndateFactor> factors) {
   }
 }
 
+// A panel's blocks are put back while it is in the cache.
+void PackedCovariance::downdate_but(std::span<const Eigen::Index> kept,
+                                    const Eigen::Ref<const Eigen::MatrixXd>& V) {
+  std::vector<Eigen::Matrix3d> before;
+  for (std::size_t p = 0; p < panels_.size(); ++p) {
+    const Eigen::Index first = top_of(p) / 3;
+    const Eigen::Index end = first + kPanelRows / 3;
+    // In every row of the panel, the diagonal tile's upper triangle included.
+    const auto rows_begin = std::lower_bound(kept.begin(), kept.end(), first);
+    const auto rows_end = std::lower_bound(kept.begin(), kept.end(), end);
+    const std::span<const Eigen::Index> rows(rows_begin, rows_end);
+    const std::span<const Eigen::Index> columns(kept.begin(), rows_end);
+    before.clear();
+    for (const Eigen::Index j : columns) {
+      for (const Eigen::Index i : rows) before.emplace_back(Tile(element(3 * i, 3 * j), 3, 3));
+    }
+    downdate_rows(p, 0, V);
+    auto block = before.begin();
+    for (const Eigen::Index j : columns) {
+      for (const Eigen::Index i : rows) Tile(element(3 * i, 3 * j), 3, 3) = *block++;
+    }
+  }
+}
+
 void PackedCovariance::downdate_rows(std::size_t panel, Eigen::Index first_row,
                                      const Eigen::Ref<const Eigen::MatrixXd>& V) {
   const Eigen::Index top = top_of(panel);
