@@ -155,9 +155,9 @@ UpdateReport DelayedStateFilter::close_loops(std::span<const RelativePose> regis
     report.loops.push_back({registration.from, registration.to, decision.fate, decision.nis});
     if (decision.fate == LoopFate::used) accepted.push_back(innovation);
   }
-  const bool are_resolved =
+  const bool is_each_resolved =
       std::ranges::all_of(registrations, [&](const auto& z) { return is_resolved_as_used(z); });
-  if (!has_finite_nis(report) || !are_resolved) {
+  if (!has_finite_nis(report) || !is_each_resolved) {
     lose_all(report, Outcome::numerical_failure);
     return report;
   }
