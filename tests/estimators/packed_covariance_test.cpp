@@ -1,5 +1,6 @@
 #include "estimators/support/filter/packed_covariance.hpp"
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -35,6 +36,35 @@ TEST(PackedCovariance, KeepsWhatWasAppendedWhileItGrows) {
                 1e-12 * both.plain.norm());
       EXPECT_LT((both.ours.block(k, 0) - both.plain.block<3, 3>(3 * k, 0)).norm(), 1e-9);
       EXPECT_LT((both.ours.block(0, k) - both.plain.block<3, 3>(0, 3 * k)).norm(), 1e-9);
+    }
+  }
+}
+
+TEST(PackedCovariance, DowndatesButForWhatIsKept) {
+  for (const Eigen::Index blocks : {2, 8, 9, 30}) {
+    Eigen::MatrixXd plain = PackedAndDense(blocks).plain;
+    std::vector<Eigen::Index> kept;
+    for (Eigen::Index k = 1; k < blocks; k += k % 3 == 0 ? 1 : 2) kept.push_back(k);
+    filter::PackedCovariance ours;
+    for (Eigen::Index k = 0; k < blocks; ++k) {
+      for (const Eigen::Index i : kept) {
+        const bool is_kept = std::find(kept.begin(), kept.end(), k) != kept.end();
+        if (is_kept && i != k) plain.block<3, 3>(3 * k, 3 * i).setZero();
+      }
+      ours.append(plain.block(3 * k, 0, 3, 3 * k), plain.block<3, 3>(3 * k, 3 * k));
+    }
+    const Eigen::MatrixXd V = Eigen::MatrixXd::Random(3 * blocks, 5);
+    Eigen::MatrixXd expected = plain - V * V.transpose();
+    for (const Eigen::Index i : kept) {
+      for (const Eigen::Index j : kept) {
+        expected.block<3, 3>(3 * i, 3 * j) = plain.block<3, 3>(3 * i, 3 * j);
+      }
+    }
+    ours.downdate_but(kept, V);
+    EXPECT_LT((ours.full() - expected).norm(), 1e-12 * expected.norm()) << blocks;
+    for (const Eigen::Index i : kept) {
+      EXPECT_EQ(ours.block(i, i), Eigen::Matrix3d(plain.block<3, 3>(3 * i, 3 * i)));
+      EXPECT_TRUE(i == kept.front() || ours.block(i, kept.front()).isZero(0.0));
     }
   }
 }

@@ -5,9 +5,11 @@
 #include <Eigen/Core>
 
 #include "estimators/support/filter/packed_covariance.hpp"
+#include "estimators/support/filter/picture_error_states.hpp"
 #include "fathom/estimation/gate.hpp"
 #include "fathom/estimation/loop_rows.hpp"
 #include "fathom/estimation/relative_estimator.hpp"
+#include "fathom/estimation/shared_error_model.hpp"
 
 namespace fathom::filter {
 
@@ -21,6 +23,7 @@ struct DelayedStateOptions {
   /// helps lowers the cost; ten times as much is no linearisation error.
   double divergence_factor = 10.0;
   GateOptions gate;
+  SharedErrorOptions shared_errors;
 
   void describe(OptionTable& table);
 };
@@ -33,6 +36,12 @@ struct DelayedStateOptions {
 /// With ε the error of the state, P its covariance, and G_k that of world_from_error:
 ///
 ///     δX_k = G_k ε_k,     H_k = ∂h/∂X_k G_k,     ε_{n+1} = G_{n+1}⁻¹ (J_X G_n ε_n + J_u w).
+///
+/// Of a registration that is told what its pictures share (RelativePose::shared) the two n are in P
+/// too, a block of three each, in units of σ: appended with the first such registration of a
+/// picture, uncorrelated, of the prior I. They are corrected like poses (`states`), or only
+/// considered (`consider`): n̂ stays 0 and its block I, while S, the gain of the poses and their
+/// covariance with n are those of the joint state (Schmidt-Kalman). `independent` takes the total.
 class DelayedStateFilter : public RelativeEstimator {
  public:
   DelayedStateFilter(const EstimatorSetup& setup, const DelayedStateOptions& options);
@@ -45,10 +54,12 @@ class DelayedStateFilter : public RelativeEstimator {
       std::span<const std::size_t> keyframes) const override;
   std::size_t size() const override { return poses_.size(); }
   Pose pose(std::size_t k) const override { return poses_[k]; }
+  bool estimates_shared_errors() const override { return model_ == SharedErrorModel::states; }
   /// From the joint blocks of both keyframes.
   std::optional<std::vector<UncertainPose>> motions_to_newest() const override;
-  /// P of the whole state.
+  /// P of the whole state, and which of its blocks are of errors of pictures.
   const PackedCovariance& state_covariance() const { return P_; }
+  const PictureErrorStates& picture_errors() const { return errors_; }
 
  protected:
   /// Where Jacobians with respect to the pose of keyframe k are taken.
@@ -71,7 +82,8 @@ class DelayedStateFilter : public RelativeEstimator {
 
  private:
   /// One loop against the present state: ν = z − h(x), h = ⊖X_from ⊕ X_to, and of a semi-definite
-  /// one the rows that it measures.
+  /// one the rows that it measures. Of one that is told what is shared, less G n̂ of both pictures,
+  /// and R is that of its own errors.
   struct Innovation {
     std::size_t from = 0;
     std::size_t to = 0;
@@ -80,6 +92,9 @@ class DelayedStateFilter : public RelativeEstimator {
     Eigen::Vector3d nu;
     Eigen::Matrix3d H_from;  ///< of errors in the state
     Eigen::Matrix3d H_to;
+    bool is_told = false;
+    Eigen::Matrix3d G_from;  ///< of n in units of σ; where it is told
+    Eigen::Matrix3d G_to;
   };
   struct Stack;
   /// A part of the map behind a hole that nothing has crossed. Its keyframes are in P as if the
@@ -91,8 +106,10 @@ class DelayedStateFilter : public RelativeEstimator {
     Eigen::Matrix3d spread;  ///< covariance of its pose, world axes
   };
 
-  /// Block of keyframe k in the state; keyframe 0 has none.
-  static Eigen::Index block_of(std::size_t k) { return static_cast<Eigen::Index>(k) - 1; }
+  /// Block of the pose of keyframe k in the state, rising with k; keyframe 0 has none.
+  Eigen::Index block_of(std::size_t k) const { return block_of_[k]; }
+  /// Appends the pose of the newest keyframe.
+  void append(const Eigen::Matrix3Xd& cross, const Eigen::Matrix3d& covariance);
 
   /// J_X of X_n ⊕ u = `next`.
   Eigen::Matrix3d step_jacobian(std::size_t n, const Pose& next) const;
@@ -100,6 +117,15 @@ class DelayedStateFilter : public RelativeEstimator {
   Eigen::Matrix3d world_block(std::size_t k, std::size_t l) const;
   Eigen::MatrixXd world_covariance() const;
   void set_world_covariance(Eigen::MatrixXd P);
+  /// Whether the update asks what the registration's pictures share.
+  bool is_told(const RelativePose& z) const {
+    return z.shared != nullptr && model_ != SharedErrorModel::independent;
+  }
+  /// The errors of its pictures enter the state, if they are not in it.
+  void admit(const RelativePose& z);
+  bool is_resolved_as_used(const RelativePose& z) const;
+  /// z, less what n̂ says of it.
+  Pose corrected_motion(const Innovation& z) const;
   Innovation innovate(const RelativePose& z) const;
   LoopDecision decide(const Innovation& z) const;
   /// What the covariance of two poses has beyond its block of P: of one floating part; world axes.
@@ -107,17 +133,24 @@ class DelayedStateFilter : public RelativeEstimator {
   /// The poses of a floating part are in P as they are known, from now on.
   void settle(std::size_t part);
   /// The nodes that move, and the rows and columns of their covariance, world axes.
-  void move(const Bridge& bridge, Eigen::MatrixXd& P);
+  void move(const std::vector<bool>& moves, const Pose& motion, Eigen::MatrixXd& P);
+  /// The loop takes the place of the hole.
+  void join(const Bridge& bridge, const Innovation& z);
   Eigen::MatrixX3d covariance_times_transposed(const Innovation& innovation) const;
-  static Eigen::MatrixXd projected(std::span<const Innovation> stack, const Eigen::MatrixXd& PHt);
+  Eigen::MatrixXd projected(std::span<const Innovation> stack, const Eigen::MatrixXd& PHt) const;
   Eigen::Vector3d innovation_of(const Innovation& z) const;
   Stack stack(std::span<const Innovation> loops) const;
   void gate_together(std::vector<Innovation>& accepted, UpdateReport& report) const;
   Outcome update(std::span<const Innovation> accepted);
+  /// Adds dx to the state.
+  void correct(const Eigen::VectorXd& dx);
 
   double divergence_factor_;
   Gate gate_;
+  SharedErrorModel model_;
   std::vector<Pose> poses_;
+  std::vector<Eigen::Index> block_of_{-1};
+  PictureErrorStates errors_;
   PackedCovariance P_;
   std::vector<Floating> floating_;
   std::vector<std::size_t> part_of_{0};  ///< 0, or 1 + the index of its floating part

@@ -145,6 +145,34 @@ void PackedCovariance::downdate(std::span<const DowndateFactor> factors) {
   }
 }
 
+// In the rows of a panel that are kept, the kept columns become zero again while they are in the
+// cache; only the blocks on the diagonal have to be remembered.
+void PackedCovariance::downdate_but(std::span<const Eigen::Index> kept,
+                                    const Eigen::Ref<const Eigen::MatrixXd>& V) {
+  using PanelColumn = Eigen::Map<Eigen::Array<double, kPanelRows, 1>>;
+  for (std::size_t p = 0; p < panels_.size(); ++p) {
+    const Eigen::Index first = top_of(p) / 3;
+    const auto rows_begin = std::lower_bound(kept.begin(), kept.end(), first);
+    const auto rows_end = std::lower_bound(rows_begin, kept.end(), first + kPanelRows / 3);
+    std::vector<Eigen::Matrix3d> own;
+    Eigen::Array<double, kPanelRows, 1> is_other = Eigen::Array<double, kPanelRows, 1>::Ones();
+    for (auto k = rows_begin; k != rows_end; ++k) {
+      own.push_back(block(*k, *k));
+      is_other.segment<3>(3 * (*k - first)).setZero();
+    }
+    downdate_rows(p, 0, V);
+    if (own.empty()) continue;
+    for (auto k = kept.begin(); k != rows_end; ++k) {
+      for (Eigen::Index column = 3 * *k; column < 3 * *k + 3; ++column) {
+        PanelColumn(element(top_of(p), column)) *= is_other;
+      }
+    }
+    for (auto k = rows_begin; k != rows_end; ++k) {
+      Tile(element(3 * *k, 3 * *k), 3, 3) = own[static_cast<std::size_t>(k - rows_begin)];
+    }
+  }
+}
+
 void PackedCovariance::downdate_rows(std::size_t panel, Eigen::Index first_row,
                                      const Eigen::Ref<const Eigen::MatrixXd>& V) {
   const Eigen::Index top = top_of(panel);

@@ -79,6 +79,10 @@ class PackedCovariance {
   /// Several at once, one after the other; none reaches beyond size().
   void downdate(std::span<const DowndateFactor> factors);
 
+  /// The first, but for the blocks of two of `kept`, rising, which stay: the Schmidt-Kalman update,
+  /// with those blocks what is considered and not estimated. They are uncorrelated with each other.
+  void downdate_but(std::span<const Eigen::Index> kept, const Eigen::Ref<const Eigen::MatrixXd>& V);
+
   /// The whole matrix, both triangles.
   Eigen::MatrixXd full() const;
 
