@@ -8,7 +8,8 @@ namespace fathom {
 /// (docs/shared_errors.md).
 enum class SharedErrorModel {
   states,      ///< n of each picture is estimated beside its pose
-  consider,    ///< poses as if registrations were independent, their covariance with what is shared
+  consider,    ///< n is not estimated, but known to be there: the covariance has it, and gains of
+               ///< filters weigh by it (Schmidt 1966)
   independent  ///< as if registrations were independent
 };
 
