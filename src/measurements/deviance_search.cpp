@@ -60,11 +60,12 @@ DevianceSearch::Optimum DevianceSearch::minimise_from_grid(Eigen::VectorXd at) {
   return minimise(at);
 }
 
-DevianceSearch::Optimum DevianceSearch::minimise(Eigen::VectorXd at, std::vector<bool> held) {
+DevianceSearch::Optimum DevianceSearch::minimise(const Eigen::VectorXd& at,
+                                                 const std::vector<bool>& held, double tolerance) {
   Optimum best{at, likelihood_.fit(at)};
   for (int step = 0; step < kMaxSteps && best.is_finite(); ++step) {
     Eigen::VectorXd move = step_of(best, held);
-    if (-slope_along(best, move) < tolerance_) break;
+    if (-slope_along(best, move) < tolerance) break;
     bool has_fallen = false;
     for (int cut = 0; cut < kMaxCuts && !has_fallen; ++cut, move *= 0.5) {
       const Eigen::VectorXd trial = best.log_sigma + move;
@@ -121,7 +122,8 @@ double DevianceSearch::rise(const Optimum& best, Index j, double log_sigma) {
   held[static_cast<std::size_t>(j)] = true;
   const bool is_alone = std::ranges::all_of(held, [](bool is) { return is; });
   if (is_alone) return likelihood_.deviance(at) - best.fit.deviance;
-  const Optimum profile = minimise(at, held);
+  // An end of an interval is not met closer than to 1000 tolerances.
+  const Optimum profile = minimise(at, held, 100.0 * tolerance_);
   warm_ = profile.log_sigma;
   return profile.is_finite() ? profile.fit.deviance - best.fit.deviance
                              : std::numeric_limits<double>::quiet_NaN();

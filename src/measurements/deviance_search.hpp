@@ -27,9 +27,9 @@ class DevianceSearch {
 
   /// From the best value of a grid along each component, the other one as in `at`.
   Optimum minimise_from_grid(Eigen::VectorXd at);
-  /// From `at`; the components that are `held` stay.
-  Optimum minimise(Eigen::VectorXd at, std::vector<bool> held);
-  Optimum minimise(const Eigen::VectorXd& at) { return minimise(at, held_); }
+  /// From `at`, until a step promises less than the tolerance; the components that are `held` stay.
+  Optimum minimise(const Eigen::VectorXd& at, const std::vector<bool>& held, double tolerance);
+  Optimum minimise(const Eigen::VectorXd& at) { return minimise(at, held_, tolerance_); }
 
   /// The deviance with component j held at log σ, less that of the best.
   double rise(const Optimum& best, Index j, double log_sigma);

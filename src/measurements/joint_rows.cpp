@@ -56,7 +56,6 @@ JointRows::JointRows(const MeasurementLog& log, std::span<const Pose> trajectory
   if (!log.start().is_fixed() && !log.start().is_free) {
     add(log.start().measurement(), trajectory[0]);
   }
-  std::size_t registration = 0;
   for (std::size_t k = 0; k < log.size(); ++k) {
     const KeyframeMeasurements& arrival = log.arrival(k);
     if (k > 0 && (!arrival.step.is_hole || ties.root(k - 1) != ties.root(k))) {
@@ -64,7 +63,9 @@ JointRows::JointRows(const MeasurementLog& log, std::span<const Pose> trajectory
       add(arrival.step, trajectory);
     }
     for (const RelativePose& z : arrival.registrations) {
-      if (is_used(used, registration++)) add(z, trajectory);
+      const bool is_left_out = !is_used(used, registrations_.size());
+      registrations_.push_back(is_left_out ? -1 : static_cast<Index>(residuals_.size()));
+      if (!is_left_out) add(z, trajectory);
     }
     for (const AbsolutePose& z : arrival.absolute) add(z, trajectory[k]);
   }
@@ -137,6 +138,11 @@ JointRows::Index JointRows::picture_column(std::size_t k, const PictureErrors& e
 std::optional<JointRows::Index> JointRows::picture(std::size_t k) const {
   if (picture_[k] < 0) return std::nullopt;
   return picture_[k];
+}
+
+bool JointRows::is_finite() const {
+  const Eigen::Map<const Eigen::VectorXd> elements(B_.valuePtr(), B_.nonZeros());
+  return std::isfinite(log_own_) && c_.allFinite() && elements.allFinite();
 }
 
 std::vector<Pose> JointRows::moved(std::span<const Pose> trajectory,

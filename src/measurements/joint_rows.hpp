@@ -28,7 +28,11 @@ class JointRows {
   Index unknowns() const { return unknowns_; }
   double log_own() const { return log_own_; }  ///< log determinant of what was whitened by
   std::size_t told() const { return told_; }
+  /// Whether all of it is finite; also not where a covariance is not positive definite.
+  bool is_finite() const;
 
+  /// By registration in order of arrival, its first of three rows; −1: not used.
+  const std::vector<Index>& registrations() const { return registrations_; }
   /// First row of n of keyframe k's picture, if it has any, and what is told of its σ.
   std::optional<Index> picture(std::size_t k) const;
   const Eigen::Vector3d& told_sigma(std::size_t k) const { return sigma_of_[k]; }
@@ -57,6 +61,7 @@ class JointRows {
   std::vector<double> residuals_;
   double log_own_ = 0.0;
   std::size_t told_ = 0;
+  std::vector<Index> registrations_;
   Eigen::SparseMatrix<double> B_;
   Eigen::VectorXd c_;
 };

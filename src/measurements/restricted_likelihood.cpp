@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include <Eigen/Eigenvalues>
+
 namespace fathom {
 namespace {
 
@@ -17,6 +19,18 @@ bool are_same(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
     if (a[j] != b[j] && !(std::isnan(a[j]) && std::isnan(b[j]))) return false;
   }
   return true;
+}
+
+// ρᵀ Q⁻¹ ρ over the directions that Q has.
+double pseudo_chi2(const Eigen::Vector3d& rho, const Eigen::Matrix3d& Q) {
+  constexpr double kSmallest = 1e-10;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(Q);
+  double sum = 0.0;
+  for (int i = 0; i < 3; ++i) {
+    const double along = solver.eigenvectors().col(i).dot(rho);
+    if (solver.eigenvalues()[i] > kSmallest) sum += along * along / solver.eigenvalues()[i];
+  }
+  return sum;
 }
 
 }  // namespace
@@ -135,19 +149,46 @@ RestrictedFit RestrictedLikelihood::fit(const Eigen::VectorXd& log_sigma) {
 //   ∂(−2ℓ)/∂log σ_j = 2 (number − Σ (H⁻¹)_rr − ‖u_j‖²)
 //   average information of j, k = 4 u_jᵀ · (H⁻¹ S A n_k)_j,  n_k = S u_k.
 void RestrictedLikelihood::add_derivatives(const Eigen::VectorXd& log_sigma, RestrictedFit& fit) {
-  const Eigen::VectorXd inverse = inverse_diagonal(factor_);
+  const SparseInverse inverse(factor_);
   fit.slope = Eigen::VectorXd::Zero(components());
   Eigen::MatrixXd u = Eigen::MatrixXd::Zero(rows_.unknowns(), components());
   for (Index j = 0; j < components(); ++j) {
     for (const Governed& n : governed_[static_cast<std::size_t>(j)]) {
       if (std::isnan(log_sigma[j]) || n.least >= std::exp(log_sigma[j])) continue;
       u(n.row, j) = v_[n.row];
-      fit.slope[j] += 2.0 * (1.0 - inverse[n.row] - v_[n.row] * v_[n.row]);
+      fit.slope[j] += 2.0 * (1.0 - inverse(n.row, n.row) - v_[n.row] * v_[n.row]);
     }
   }
   const Eigen::MatrixXd moved = A_.selfadjointView<Eigen::Lower>() * (scale_.asDiagonal() * u);
   const Eigen::MatrixXd answer = factor_.solve(scale_.asDiagonal() * moved);
   fit.information = 4.0 * u.transpose() * answer;
+}
+
+// A registration's residual ρ = c_r + B_r y has the covariance Q = I − B_r S H⁻¹ S B_rᵀ; predicted
+// by all others it is Q⁻¹ ρ, of covariance Q⁻¹. Where the others say nothing Q and ρ are zero.
+std::vector<double> RestrictedLikelihood::left_out_chi2(const Eigen::VectorXd& log_sigma) {
+  std::vector<double> chi2(rows_.registrations().size(), std::numeric_limits<double>::quiet_NaN());
+  if (!std::isfinite(deviance(log_sigma))) return chi2;
+  const SparseInverse inverse(factor_);
+  const Eigen::SparseMatrix<double, Eigen::RowMajor> B = rows_.B();
+  const Eigen::VectorXd residuals = rows_.c() + B * scale_.cwiseProduct(v_);
+  for (std::size_t i = 0; i < chi2.size(); ++i) {
+    const Index first = rows_.registrations()[i];
+    if (first < 0) continue;
+    const Index count = B.outerIndexPtr()[first + 1] - B.outerIndexPtr()[first];
+    const auto* const columns = B.innerIndexPtr() + B.outerIndexPtr()[first];
+    Eigen::MatrixXd J(3, count);
+    Eigen::MatrixXd Z(count, count);
+    for (Index a = 0; a < count; ++a) {
+      for (Index b = 0; b < count; ++b) Z(a, b) = inverse(columns[a], columns[b]);
+      for (Index row = 0; row < 3; ++row) {
+        J(row, a) = scale_[columns[a]] * B.valuePtr()[B.outerIndexPtr()[first + row] + a];
+      }
+    }
+    const Eigen::Matrix3d Q = Eigen::Matrix3d::Identity() - J * Z * J.transpose();
+    chi2[i] = pseudo_chi2(residuals.segment<3>(first), Q);
+  }
+  return chi2;
 }
 
 }  // namespace fathom

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "fathom/measurements/variance_components.hpp"
-#include "inverse_diagonal.hpp"
 #include "joint_rows.hpp"
+#include "sparse_inverse.hpp"
 
 namespace fathom {
 
@@ -33,6 +33,9 @@ class RestrictedLikelihood {
   double deviance(const Eigen::VectorXd& log_sigma);
   /// With derivatives.
   RestrictedFit fit(const Eigen::VectorXd& log_sigma);
+
+  /// By registration, what VarianceEstimate::left_out_chi2 says.
+  std::vector<double> left_out_chi2(const Eigen::VectorXd& log_sigma);
 
   const JointRows& rows() const { return rows_; }
   Index components() const { return static_cast<Index>(governed_.size()); }

@@ -6,46 +6,18 @@
 #include <string>
 #include <utility>
 
+#include "contradicted.hpp"
 #include "deviance_search.hpp"
 #include "fathom/core/chi_squared.hpp"
-#include "fathom/core/input_error.hpp"
 #include "restricted_likelihood.hpp"
+#include "variance_checks.hpp"
 
 namespace fathom {
 namespace {
 
-bool governs(const VarianceComponent& component, std::size_t k) {
-  return component.governed.empty() || component.governed[k];
-}
-
-void check_size(std::size_t found, std::size_t expected, const std::string& what) {
-  if (found == expected) return;
-  throw InputError(std::to_string(found) + " " + what + ", expected " + std::to_string(expected));
-}
-
-void check(const MeasurementLog& log, std::span<const VarianceComponent> components) {
-  for (std::size_t j = 0; j < components.size(); ++j) {
-    const VarianceComponent& component = components[j];
-    if (!component.governed.empty()) {
-      check_size(component.governed.size(), log.size(), "marks of governed pictures");
-    }
-    if (!component.least.empty()) {
-      check_size(component.least.size(), log.size(), "least standard deviations");
-    }
-    for (std::size_t i = 0; i < j; ++i) {
-      for (std::size_t k = 0; k < log.size(); ++k) {
-        if (components[i].part == component.part && governs(components[i], k) &&
-            governs(component, k)) {
-          throw InputError("two components govern picture " + std::to_string(k));
-        }
-      }
-    }
-  }
-}
-
 void check(const MeasurementLog& log, std::span<const Pose> trajectory,
            std::span<const VarianceComponent> components, const VarianceOptions& options) {
-  check(log, components);
+  check_components(log, components);
   check_size(trajectory.size(), log.size(), "poses");
   if (!options.used.empty()) {
     check_size(options.used.size(), log.registration_count(), "marks of used registrations");
@@ -75,8 +47,8 @@ SigmaEstimate estimate_of(DevianceSearch& search, const RestrictedLikelihood& li
 class Relinearisation {
  public:
   Relinearisation(const MeasurementLog& log, std::span<const VarianceComponent> components,
-                  const VarianceOptions& options)
-      : log_(log), components_(components), options_(options) {}
+                  const VarianceOptions& options, const std::vector<bool>& used)
+      : log_(log), components_(components), options_(options), used_(used) {}
 
   VarianceEstimate run(std::span<const Pose> trajectory) {
     VarianceEstimate estimate;
@@ -84,7 +56,8 @@ class Relinearisation {
     estimate.trajectory.assign(trajectory.begin(), trajectory.end());
     DevianceSearch::Optimum last;
     for (int i = 0; i < std::max(1, options_.max_linearisations); ++i) {
-      RestrictedLikelihood likelihood(log_, estimate.trajectory, components_, options_.used);
+      RestrictedLikelihood likelihood(log_, estimate.trajectory, components_, used_);
+      if (!likelihood.rows().is_finite()) return failed(std::move(estimate));
       DevianceSearch search(likelihood, components_, options_.tolerance);
       if (search.has_nothing()) return nothing_told(likelihood, std::move(estimate));
       const DevianceSearch::Optimum best =
@@ -116,12 +89,15 @@ class Relinearisation {
     return estimate;
   }
 
-  void conclude(const RestrictedLikelihood& likelihood, DevianceSearch& search,
+  // Without intervals where registrations are to be left out.
+  void conclude(RestrictedLikelihood& likelihood, DevianceSearch& search,
                 const DevianceSearch::Optimum& best, VarianceEstimate& estimate) const {
     estimate.log_likelihood = -0.5 * best.fit.deviance;
     estimate.chi2 = best.fit.chi2;
     estimate.degrees_of_freedom = likelihood.degrees_of_freedom();
     estimate.registrations = likelihood.rows().told();
+    estimate.left_out_chi2 = likelihood.left_out_chi2(best.log_sigma);
+    if (!contradicted(log_, estimate.left_out_chi2, options_.contradiction).empty()) return;
     for (Eigen::Index j = 0; j < likelihood.components(); ++j) {
       estimate.components.push_back(estimate_of(search, likelihood, best, j, options_));
     }
@@ -130,33 +106,8 @@ class Relinearisation {
   const MeasurementLog& log_;
   std::span<const VarianceComponent> components_;
   const VarianceOptions& options_;
+  const std::vector<bool>& used_;
 };
-
-void set_sigmas(PictureErrors& errors, std::size_t k, std::span<const VarianceComponent> components,
-                std::span<const double> sigmas) {
-  for (std::size_t j = 0; j < components.size(); ++j) {
-    if (!governs(components[j], k)) continue;
-    const double least = components[j].least.empty() ? 0.0 : components[j].least[k];
-    const double sigma = std::max(least, sigmas[j]);
-    if (components[j].part == VarianceComponent::Part::altitude) {
-      errors.sigma[0] = sigma;
-    } else {
-      errors.sigma.tail<2>().setConstant(sigma);
-    }
-  }
-}
-
-RelativePose with_sigmas(RelativePose z, std::span<const VarianceComponent> components,
-                         std::span<const double> sigmas) {
-  if (!z.shared) return z;
-  SharedErrors shared = *z.shared;
-  set_sigmas(shared.from, z.from, components, sigmas);
-  set_sigmas(shared.to, z.to, components, sigmas);
-  if (shared == *z.shared) return z;
-  z.information = RelativePose::from_covariance(z.from, z.to, z.motion, shared.total()).information;
-  z.shared = std::make_shared<const SharedErrors>(shared);
-  return z;
-}
 
 }  // namespace
 
@@ -164,7 +115,19 @@ VarianceEstimate estimate_variance(const MeasurementLog& log, std::span<const Po
                                    std::span<const VarianceComponent> components,
                                    const VarianceOptions& options) {
   check(log, trajectory, components, options);
-  return Relinearisation(log, components, options).run(trajectory);
+  std::vector<bool> used = options.used;
+  if (used.empty()) used.assign(log.registration_count(), true);
+  VarianceEstimate estimate;
+  estimate.trajectory.assign(trajectory.begin(), trajectory.end());
+  for (bool is_done = false; !is_done;) {
+    estimate = Relinearisation(log, components, options, used).run(estimate.trajectory);
+    const std::vector<std::size_t> out =
+        contradicted(log, estimate.left_out_chi2, options.contradiction);
+    for (const std::size_t registration : out) used[registration] = false;
+    is_done = out.empty();
+  }
+  estimate.used = used;
+  return estimate;
 }
 
 double restricted_log_likelihood(const MeasurementLog& log, std::span<const Pose> trajectory,
@@ -181,24 +144,6 @@ double restricted_log_likelihood(const MeasurementLog& log, std::span<const Pose
   const RestrictedFit fit = likelihood.fit(log_sigma);
   *likelihood_log_sigma = -0.5 * fit.slope;
   return -0.5 * fit.deviance;
-}
-
-MeasurementLog with_sigmas(const MeasurementLog& log, std::span<const VarianceComponent> components,
-                           std::span<const double> sigmas) {
-  check(log, components);
-  check_size(sigmas.size(), components.size(), "standard deviations");
-  MeasurementLog changed(log.start());
-  for (std::size_t k = 0; k < log.size(); ++k) {
-    const KeyframeMeasurements& arrival = log.arrival(k);
-    if (k > 0) changed.add_keyframe(arrival.step);
-    for (const RelativePose& z : arrival.registrations) {
-      changed.add_registration(with_sigmas(z, components, sigmas));
-    }
-    for (const AbsolutePose& z : arrival.absolute) changed.add_absolute(z);
-  }
-  changed.ids = log.ids;
-  changed.guess = log.guess;
-  return changed;
 }
 
 }  // namespace fathom

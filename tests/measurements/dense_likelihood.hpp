@@ -27,7 +27,17 @@ class DenseLikelihood {
   }
 
   /// −½ (log|C| + log|Jᵀ C⁻¹ J| + rᵀ P r).
-  double value() const {
+  double value() const { return solved().value; }
+  /// rᵀ P r.
+  double chi2() const { return solved().chi2; }
+
+ private:
+  struct Solved {
+    double value;
+    double chi2;
+  };
+
+  Solved solved() const {
     const auto rows = static_cast<Eigen::Index>(rows_.size());
     const auto first = log_.start().is_fixed() ? 3 : 0;
     const auto poses = static_cast<Eigen::Index>(unknowns_) - first;
@@ -48,11 +58,10 @@ class DenseLikelihood {
     const Eigen::LLT<Eigen::MatrixXd> J_factor(information);
     const Eigen::VectorXd estimate = J_factor.solve(J.transpose() * C_factor.solve(r));
     const Eigen::VectorXd left = r - J * estimate;
-    return -0.5 *
-           (log_determinant(C_factor) + log_determinant(J_factor) + left.dot(C_factor.solve(left)));
+    const double chi2 = left.dot(C_factor.solve(left));
+    return {-0.5 * (log_determinant(C_factor) + log_determinant(J_factor) + chi2), chi2};
   }
 
- private:
   struct Row {
     Eigen::VectorXd J;
     Eigen::VectorXd G;

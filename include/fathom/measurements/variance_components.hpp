@@ -33,6 +33,10 @@ struct VarianceOptions {
   /// By registration, in order of arrival, whether it is used; empty: all are. A registration that
   /// a robust estimator or a gate found to be wrong belongs left out.
   std::vector<bool> used = {};
+  /// Registrations that all the others contradict are left out, the worst of each neighbourhood
+  /// first, and all begins anew without them. This is the probability, if all are right, that any
+  /// is; 0 leaves none out. See VarianceEstimate::left_out_chi2.
+  double contradiction = 0.01;
   /// The poses are moved to their optimum and the log is linearised there, so many times at most.
   int max_linearisations = 10;
   /// Change of the deviance −2ℓ that a step of the search or a new linearisation leaves alone. An
@@ -72,7 +76,11 @@ struct VarianceEstimate {
   double chi2 = 0.0;
   double degrees_of_freedom = 0.0;
   std::size_t registrations = 0;  ///< that tell their errors apart and are used
-  std::vector<Pose> trajectory;   ///< the optimum of the poses, where all was linearised last
+  std::vector<bool> used;         ///< by registration in order of arrival
+  /// By registration, its distance from what all the others predict of it, in standard deviations,
+  /// squared: χ² of 3 degrees of freedom where it is right; NaN where it is not used.
+  std::vector<double> left_out_chi2;
+  std::vector<Pose> trajectory;  ///< the optimum of the poses, where all was linearised last
 };
 
 /// Restricted maximum likelihood (Patterson and Thompson 1971; Harville 1977) of standard
@@ -82,8 +90,8 @@ struct VarianceEstimate {
 ///
 /// `trajectory`, by keyframe, is where to begin, near the optimum. One or two components, which
 /// govern different errors. Errors are Gaussian: one false loop is taken for tilt, so that what is
-/// known to be false must be left out (VarianceOptions::used). The interval holds the true value in
-/// 95 of 100 surveys, up to 97.5 near 0.
+/// false must be left out (VarianceOptions::used, contradiction). The interval holds the true value
+/// in 95 of 100 surveys, up to 97.5 near 0.
 ///
 /// Throws InputError where sizes do not fit or two components govern the same.
 VarianceEstimate estimate_variance(const MeasurementLog& log, std::span<const Pose> trajectory,
