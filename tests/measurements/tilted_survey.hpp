@@ -11,9 +11,14 @@
 #include "fathom/core/random.hpp"
 #include "fathom/geometry/covariance.hpp"
 #include "fathom/measurements/measurement_log.hpp"
+#include "fathom/measurements/variance_components.hpp"
 #include "support/planar.hpp"
 
 namespace fathom::test {
+
+inline const std::vector<VarianceComponent> kTilt{{VarianceComponent::Part::tilt}};
+inline const std::vector<VarianceComponent> kBoth{{VarianceComponent::Part::tilt},
+                                                  {VarianceComponent::Part::altitude}};
 
 /// What a survey is drawn with, and what its registrations tell of it.
 struct TiltedSurveyOptions {

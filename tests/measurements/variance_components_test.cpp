@@ -15,13 +15,11 @@ namespace fathom {
 namespace {
 
 using test::DenseLikelihood;
+using test::kBoth;
+using test::kTilt;
 using test::SharedWalk;
 using test::TiltedSurvey;
-using Outcome = VarianceEstimate::Outcome;
-using Part = VarianceComponent::Part;
-
-const std::vector<VarianceComponent> kTilt{{Part::tilt}};
-const std::vector<VarianceComponent> kBoth{{Part::tilt}, {Part::altitude}};
+using VarianceOutcome = VarianceEstimate::Outcome;
 
 double dense(const MeasurementLog& log, const std::vector<Pose>& poses,
              const std::vector<VarianceComponent>& components, const std::vector<double>& sigmas) {
@@ -109,7 +107,7 @@ TEST(VarianceComponents, TheEstimateIsTheHighestOfADenseGrid) {
   const TiltedSurvey survey(
       {.keyframes = 24, .per_keyframe = 3.0, .tilt_rad = 0.02, .altitude_m = 0.01}, 2);
   const VarianceEstimate found = estimate_variance(survey.log, survey.log.odometry(), kBoth);
-  ASSERT_EQ(found.outcome, Outcome::converged);
+  ASSERT_EQ(found.outcome, VarianceOutcome::converged);
   const double tilt = found.components[0].sigma;
   const double altitude = found.components[1].sigma;
   const double best = dense(survey.log, found.trajectory, kBoth, {tilt, altitude});
@@ -127,7 +125,7 @@ TEST(VarianceComponents, TheEstimateIsTheHighestOfADenseGrid) {
 TEST(VarianceComponents, TheIntervalEndsWhereTheProfileFallsByHalfOfThreePointEight) {
   const TiltedSurvey survey({.keyframes = 24, .per_keyframe = 3.0, .tilt_rad = 0.02}, 3);
   const VarianceEstimate found = estimate_variance(survey.log, survey.log.odometry(), kTilt);
-  ASSERT_EQ(found.outcome, Outcome::converged);
+  ASSERT_EQ(found.outcome, VarianceOutcome::converged);
   const SigmaEstimate& tilt = found.components[0];
   EXPECT_LT(tilt.low, tilt.sigma);
   EXPECT_LT(tilt.sigma, tilt.high);
@@ -145,7 +143,7 @@ TEST(VarianceComponents, WhatASensorStatesAtLeastIsNotEstimatedAgain) {
   std::vector<VarianceComponent> components = kTilt;
   components[0].least.assign(survey.log.size(), 0.02);
   const VarianceEstimate found = estimate_variance(survey.log, survey.log.odometry(), components);
-  EXPECT_EQ(found.outcome, Outcome::converged);
+  EXPECT_EQ(found.outcome, VarianceOutcome::converged);
   EXPECT_EQ(found.components[0].sigma, 0.0);
   EXPECT_EQ(found.components[0].low, 0.0);
   EXPECT_GE(found.components[0].high, 0.02);
@@ -171,7 +169,7 @@ TEST(VarianceComponents, AHoleThatAloneTiesTwoPartsSaysNothing) {
   };
   const VarianceEstimate narrow = with_hole(0.1);
   const VarianceEstimate wide = with_hole(3.0);
-  ASSERT_EQ(wide.outcome, Outcome::converged);
+  ASSERT_EQ(wide.outcome, VarianceOutcome::converged);
   EXPECT_NEAR(narrow.components[0].sigma, wide.components[0].sigma, 1e-6);
   EXPECT_NEAR(narrow.components[0].high, wide.components[0].high, 1e-5);
   EXPECT_NEAR(narrow.degrees_of_freedom, wide.degrees_of_freedom, 0.0);

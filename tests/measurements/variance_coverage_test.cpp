@@ -13,13 +13,12 @@
 namespace fathom {
 namespace {
 
+using test::kBoth;
+using test::kTilt;
 using test::TiltedSurvey;
 using test::TiltedSurveyOptions;
-using Outcome = VarianceEstimate::Outcome;
+using VarianceOutcome = VarianceEstimate::Outcome;
 using Part = VarianceComponent::Part;
-
-const std::vector<VarianceComponent> kTilt{{Part::tilt}};
-const std::vector<VarianceComponent> kBoth{{Part::tilt}, {Part::altitude}};
 
 bool holds(const SigmaEstimate& estimate, double sigma) {
   return estimate.low <= sigma && sigma <= estimate.high;
@@ -32,7 +31,7 @@ int covered(const TiltedSurveyOptions& options, const std::vector<VarianceCompon
   for (int i = 0; i < surveys; ++i) {
     const TiltedSurvey survey(options, static_cast<std::uint64_t>(i));
     const VarianceEstimate found = estimate_variance(survey.log, survey.log.odometry(), components);
-    EXPECT_EQ(found.outcome, Outcome::converged);
+    EXPECT_EQ(found.outcome, VarianceOutcome::converged);
     for (std::size_t j = 0; j < components.size(); ++j) {
       const bool is_tilt = components[j].part == Part::tilt;
       held[j] += holds(found.components[j], is_tilt ? options.tilt_rad : options.altitude_m);
@@ -41,13 +40,13 @@ int covered(const TiltedSurveyOptions& options, const std::vector<VarianceCompon
   return *std::ranges::min_element(held);
 }
 
-struct Case {
+struct DrawnSurvey {
   double tilt_rad;
   double per_keyframe;
 };
 
-const std::vector<Case> kCases{{0.0, 1.5},  {0.0, 6.0},  {0.005, 1.5}, {0.005, 6.0},
-                               {0.02, 1.5}, {0.02, 6.0}, {0.05, 1.5},  {0.05, 6.0}};
+const std::vector<DrawnSurvey> kDrawn{{0.0, 1.5},  {0.0, 6.0},  {0.005, 1.5}, {0.005, 6.0},
+                                      {0.02, 1.5}, {0.02, 6.0}, {0.05, 1.5},  {0.05, 6.0}};
 
 // Four standard deviations of a binomial count below 95 %.
 int least_held(int surveys) {
@@ -55,7 +54,7 @@ int least_held(int surveys) {
 }
 
 void expect_coverage(int surveys, std::size_t keyframes) {
-  for (const Case& of : kCases) {
+  for (const DrawnSurvey& of : kDrawn) {
     const TiltedSurveyOptions options{
         .keyframes = keyframes, .per_keyframe = of.per_keyframe, .tilt_rad = of.tilt_rad};
     const int held = covered(options, kTilt, surveys);

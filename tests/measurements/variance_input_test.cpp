@@ -22,13 +22,11 @@ namespace {
 
 using test::DenseLikelihood;
 using test::input_error_of;
+using test::kBoth;
+using test::kTilt;
 using test::TiltedSurvey;
 using testing::HasSubstr;
-using Outcome = VarianceEstimate::Outcome;
-using Part = VarianceComponent::Part;
-
-const std::vector<VarianceComponent> kTilt{{Part::tilt}};
-const std::vector<VarianceComponent> kBoth{{Part::tilt}, {Part::altitude}};
+using VarianceOutcome = VarianceEstimate::Outcome;
 
 TEST(VarianceComponents, WhereNothingIsToldNothingIsFound) {
   TiltedSurvey survey({.keyframes = 12}, 1);
@@ -51,7 +49,7 @@ TEST(VarianceComponents, WhereNothingIsToldNothingIsFound) {
   }
   for (const MeasurementLog* log : {&untold, &alone, &unmoved}) {
     const VarianceEstimate found = estimate_variance(*log, log->odometry(), kBoth);
-    EXPECT_EQ(found.outcome, Outcome::nothing_told);
+    EXPECT_EQ(found.outcome, VarianceOutcome::nothing_told);
     ASSERT_EQ(found.components.size(), 2U);
     EXPECT_FALSE(found.components[0].is_determined());
     EXPECT_EQ(found.components[0].pictures, 0U);
@@ -59,14 +57,14 @@ TEST(VarianceComponents, WhereNothingIsToldNothingIsFound) {
   const std::vector<bool> none(survey.log.registration_count(), false);
   const VarianceEstimate found =
       estimate_variance(survey.log, survey.log.odometry(), kTilt, {.used = none});
-  EXPECT_EQ(found.outcome, Outcome::nothing_told);
+  EXPECT_EQ(found.outcome, VarianceOutcome::nothing_told);
 }
 
 TEST(VarianceComponents, OneLoopHardlyBoundsATilt) {
   const TiltedSurvey survey({.keyframes = 10, .per_keyframe = 0.1, .tilt_rad = 0.005}, 6);
   ASSERT_EQ(survey.log.registration_count(), 1U);
   const VarianceEstimate found = estimate_variance(survey.log, survey.log.odometry(), kTilt);
-  EXPECT_EQ(found.outcome, Outcome::converged);
+  EXPECT_EQ(found.outcome, VarianceOutcome::converged);
   EXPECT_EQ(found.registrations, 1U);
   EXPECT_EQ(found.components[0].pictures, 2U);
   EXPECT_EQ(found.components[0].low, 0.0);
@@ -78,7 +76,8 @@ TEST(VarianceComponents, FailuresAreValues) {
   const TiltedSurvey survey({.keyframes = 12}, 7);
   std::vector<Pose> poses = survey.log.odometry();
   poses[5].x = kNan;
-  EXPECT_EQ(estimate_variance(survey.log, poses, kTilt).outcome, Outcome::numerical_failure);
+  EXPECT_EQ(estimate_variance(survey.log, poses, kTilt).outcome,
+            VarianceOutcome::numerical_failure);
   EXPECT_TRUE(
       std::isnan(restricted_log_likelihood(survey.log, poses, kTilt, std::vector<double>{0.01})));
   for (const auto& spoil : std::vector<std::function<void(SharedErrors&)>>{
@@ -91,7 +90,8 @@ TEST(VarianceComponents, FailuresAreValues) {
     spoil(shared);
     z.shared = std::make_shared<const SharedErrors>(shared);
     log.add_registration(z);
-    EXPECT_EQ(estimate_variance(log, log.odometry(), kTilt).outcome, Outcome::numerical_failure);
+    EXPECT_EQ(estimate_variance(log, log.odometry(), kTilt).outcome,
+              VarianceOutcome::numerical_failure);
   }
   // Headings alone do not say where a free start is.
   MeasurementLog log = survey.log;
@@ -99,7 +99,8 @@ TEST(VarianceComponents, FailuresAreValues) {
   start.is_free = true;
   log.set_start(start);
   log.add_absolute(AbsolutePose::heading(log.size() - 1, 0.0, 0.01));
-  EXPECT_EQ(estimate_variance(log, log.odometry(), kTilt).outcome, Outcome::numerical_failure);
+  EXPECT_EQ(estimate_variance(log, log.odometry(), kTilt).outcome,
+            VarianceOutcome::numerical_failure);
 }
 
 TEST(VarianceComponents, WhatDoesNotFitIsRefused) {
@@ -154,7 +155,7 @@ MeasurementLog with_false(const MeasurementLog& log, const std::vector<std::size
 TEST(LeftOutRegistration, IsOffByWhatTheMinimumFallsWithoutIt) {
   const TiltedSurvey survey({.keyframes = 16, .per_keyframe = 2.0, .tilt_rad = 0.02}, 10);
   const VarianceEstimate found = estimate_variance(survey.log, survey.log.odometry(), kTilt);
-  ASSERT_EQ(found.outcome, Outcome::converged);
+  ASSERT_EQ(found.outcome, VarianceOutcome::converged);
   ASSERT_EQ(found.left_out_chi2.size(), survey.log.registration_count());
   const MeasurementLog log =
       with_sigmas(survey.log, kTilt, std::vector<double>{found.components[0].sigma});
@@ -175,7 +176,7 @@ TEST(LeftOutRegistration, FalseLoopsAreNotTakenForTilt) {
   const VarianceEstimate taken = estimate_variance(log, start, kTilt, {.contradiction = 0.0});
   const VarianceEstimate right =
       estimate_variance(with_false(survey.log, numbers, std::nullopt), start, kTilt);
-  ASSERT_EQ(found.outcome, Outcome::converged);
+  ASSERT_EQ(found.outcome, VarianceOutcome::converged);
   EXPECT_GT(taken.components[0].low, 0.03);
   EXPECT_GT(taken.chi2, 10.0 * taken.degrees_of_freedom);
   for (std::size_t i = 0; i < found.used.size(); ++i) {
