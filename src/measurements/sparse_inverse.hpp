@@ -1,0 +1,38 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/SparseCholesky>
+
+namespace fathom {
+
+using SparseFactor = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower>;
+
+/// The elements of A⁻¹ on the pattern of the factor of A, from its last column to its first
+/// (Takahashi, Fagan and Chin 1973). It costs about as much as the factorisation. The factor must
+/// outlive it.
+class SparseInverse {
+ public:
+  using Index = Eigen::Index;
+
+  explicit SparseInverse(const SparseFactor& factor);
+
+  /// In the order of A; (i, j) must be in the pattern of A, or on the diagonal.
+  double operator()(Index i, Index j) const;
+
+ private:
+  Index begin(Index column) const { return L_.outerIndexPtr()[column]; }
+  Index end(Index column) const { return L_.outerIndexPtr()[column + 1]; }
+  Index row(Index element) const { return L_.innerIndexPtr()[element]; }
+
+  void solve_column(Index j);
+  void subtract_column(Index element);
+
+  const Eigen::SparseMatrix<double>& L_;  // without its diagonal of ones
+  const SparseFactor& factor_;
+  std::vector<double> Z_;  // below the diagonal, at the elements of L
+  Eigen::VectorXd diagonal_;
+  std::vector<Index> in_column_;  // by row, its element of the column in work
+};
+
+}  // namespace fathom

@@ -1,0 +1,58 @@
+// A log with other standard deviations of what pictures share.
+
+#include <algorithm>
+#include <memory>
+
+#include "fathom/measurements/variance_components.hpp"
+#include "variance_checks.hpp"
+
+namespace fathom {
+namespace {
+
+void set_sigmas(PictureErrors& errors, std::size_t k, std::span<const VarianceComponent> components,
+                std::span<const double> sigmas) {
+  for (std::size_t j = 0; j < components.size(); ++j) {
+    if (!governs(components[j], k)) continue;
+    const double least = components[j].least.empty() ? 0.0 : components[j].least[k];
+    const double sigma = std::max(least, sigmas[j]);
+    if (components[j].part == VarianceComponent::Part::altitude) {
+      errors.sigma[0] = sigma;
+    } else {
+      errors.sigma.tail<2>().setConstant(sigma);
+    }
+  }
+}
+
+RelativePose with_sigmas(RelativePose z, std::span<const VarianceComponent> components,
+                         std::span<const double> sigmas) {
+  if (!z.shared) return z;
+  SharedErrors shared = *z.shared;
+  set_sigmas(shared.from, z.from, components, sigmas);
+  set_sigmas(shared.to, z.to, components, sigmas);
+  if (shared == *z.shared) return z;
+  z.information = RelativePose::from_covariance(z.from, z.to, z.motion, shared.total()).information;
+  z.shared = std::make_shared<const SharedErrors>(shared);
+  return z;
+}
+
+}  // namespace
+
+MeasurementLog with_sigmas(const MeasurementLog& log, std::span<const VarianceComponent> components,
+                           std::span<const double> sigmas) {
+  check_components(log, components);
+  check_size(sigmas.size(), components.size(), "standard deviations");
+  MeasurementLog changed(log.start());
+  for (std::size_t k = 0; k < log.size(); ++k) {
+    const KeyframeMeasurements& arrival = log.arrival(k);
+    if (k > 0) changed.add_keyframe(arrival.step);
+    for (const RelativePose& z : arrival.registrations) {
+      changed.add_registration(with_sigmas(z, components, sigmas));
+    }
+    for (const AbsolutePose& z : arrival.absolute) changed.add_absolute(z);
+  }
+  changed.ids = log.ids;
+  changed.guess = log.guess;
+  return changed;
+}
+
+}  // namespace fathom
