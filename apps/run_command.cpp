@@ -52,6 +52,9 @@ void print_front_end(const Recording& recording) {
         "match\n",
         recording.visual_odometry_failures, recording.frames.size() - 1);
   }
+  for (const FoundSigma& sigma : recording.found_sigmas) {
+    std::printf("%s\n", words(sigma).c_str());
+  }
   print_absolute(recording.log);
 }
 

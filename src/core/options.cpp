@@ -102,19 +102,20 @@ void OptionTable::real(const std::string& key, double& field, Range range, const
       [&field] { return number_text(field); });
 }
 
-void OptionTable::real_or_off(const std::string& key, std::optional<double>& field, Range range,
-                              const std::string& unit, const std::string& help) {
+void OptionTable::real_or(const std::string& key, const std::string& word,
+                          std::optional<double>& field, Range range, const std::string& unit,
+                          const std::string& help) {
   const std::string full = prefix_ + key;
   add(
-      key, {"", "real or off", unit, "", range.text() + " or off", help},
-      [&field, full, range, unit](const OptionValue& value) {
-        if (!value.is_list && value.items.size() == 1 && value.items.front() == "off") {
+      key, {"", "real or " + word, unit, "", range.text() + " or " + word, help},
+      [&field, full, word, range, unit](const OptionValue& value) {
+        if (!value.is_list && value.items.size() == 1 && value.items.front() == word) {
           field.reset();
         } else {
-          field = checked_real(full, range, unit, value, " or off");
+          field = checked_real(full, range, unit, value, " or " + word);
         }
       },
-      [&field] { return field ? number_text(*field) : std::string("off"); });
+      [&field, word] { return field ? number_text(*field) : word; });
 }
 
 void OptionTable::text(const std::string& key, std::string& field, const std::string& help) {

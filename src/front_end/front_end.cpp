@@ -1,6 +1,7 @@
 #include "fathom/front_end/front_end.hpp"
 
 #include <algorithm>
+#include <memory>
 #include <utility>
 
 #include "fathom/core/input_error.hpp"
@@ -18,10 +19,11 @@ Spread spread(std::vector<double>& values) {
 }  // namespace
 
 FrontEnd::FrontEnd(const FrameSource& source, PairRegistrar& registrar,
-                   const FrontEndOptions& options)
+                   const FrontEndOptions& options, const EstimatedSigmas& sigmas)
     : source_(source),
       registrar_(registrar),
       options_(options),
+      sigmas_(sigmas),
       search_(source.camera(), options.candidates),
       schedule_(source, options.keyframes) {
   if (!source.has_odometry()) {
@@ -119,10 +121,12 @@ std::vector<RelativePose> FrontEnd::registered(const Candidates& candidates) {
       most_refused_inliers_ = std::max(most_refused_inliers_, results[c].inliers);
       continue;
     }
-    registrations.push_back(RelativePose::from_covariance(
-        candidates.keyframes[c], newest, results[c].motion, results[c].covariance));
-    registrations.back().inliers = results[c].inliers;
-    registrations.back().shared = std::make_shared<const SharedErrors>(results[c].shared);
+    const PairRegistration told =
+        sigmas_.told(results[c], from[c], measured(keyframes_[newest].frame));
+    registrations.push_back(RelativePose::from_covariance(candidates.keyframes[c], newest,
+                                                          told.motion, told.covariance));
+    registrations.back().inliers = told.inliers;
+    registrations.back().shared = std::make_shared<const SharedErrors>(told.shared);
   }
   tried_ += candidates.keyframes.size();
   found_ += registrations.size();

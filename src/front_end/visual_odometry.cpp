@@ -3,13 +3,19 @@
 namespace fathom {
 
 VisualOdometry::VisualOdometry(const FrameSource& source, PairRegistrar& registrar,
-                               const VisualOdometryFallback& fallback, const AddedNoise& noise)
+                               const VisualOdometryFallback& fallback, const AddedNoise& noise,
+                               const EstimatedSigmas& sigmas)
     : source_(source),
       registrar_(registrar),
       fallback_(fallback),
       noise_(noise),
+      sigmas_(sigmas),
       draws_(noise.covariance),
       stream_(noise.seed, "visual_odometry", noise.trial) {}
+
+std::unique_ptr<VisualOdometry> VisualOdometry::told(const EstimatedSigmas& sigmas) const {
+  return std::make_unique<VisualOdometry>(source_, registrar_, fallback_, noise_, sigmas);
+}
 
 const FrameInfo& VisualOdometry::info(std::size_t i) const {
   while (infos_.size() <= i) {
@@ -31,7 +37,9 @@ UncertainPose VisualOdometry::next_motion() const {
   for (std::size_t ahead = to + 1; ahead <= to + PairRegistrar::look_ahead(); ++ahead) {
     if (ahead < source_.size()) registrar_.announce(measured(ahead - 1), measured(ahead));
   }
-  const PairRegistration registration = registrar_.of(measured(to - 1), measured(to));
+  const MeasuredFrame from = measured(to - 1);
+  const PairRegistration registration =
+      sigmas_.told(registrar_.of(from, measured(to)), from, measured(to));
   UncertainPose motion{last_motion_, Eigen::Matrix3d::Zero()};
   if (registration.found) {
     motion = {registration.motion, registration.covariance};

@@ -104,6 +104,9 @@ std::string manifest_json(const std::string& command_line,
                          {"registrations_left_out", recording.registrations_left_out},
                          {"visual_odometry", recording.visual_odometry},
                          {"visual_odometry_failures", recording.visual_odometry_failures}};
+    for (const FoundSigma& sigma : recording.found_sigmas) {
+      json["front_end"]["estimated"].push_back(words(sigma));
+    }
     if (recording.in_metres) json["front_end"]["in_metres"] = in_metres(*recording.in_metres);
   }
   if (!remarks.empty()) json["remarks"] = remarks;

@@ -6,6 +6,7 @@
 #include "carried_readings.hpp"
 #include "fathom/harness/false_loops.hpp"
 #include "fathom/harness/survey.hpp"
+#include "find_sigmas.hpp"
 
 namespace fathom {
 namespace {
@@ -70,6 +71,7 @@ MeasurementLog log_of(FrontEnd& front_end, CandidateGuide& guide, CarriedReading
 void take_keyframes(Recording& recording, const FrameSource& source, const FrontEnd& front_end) {
   for (const Keyframe& keyframe : front_end.keyframes()) {
     recording.keyframe_times_ns.push_back(keyframe.time_ns);
+    recording.keyframe_frames.push_back(keyframe.frame);
     recording.keyframe_stances.push_back(source.info(keyframe.frame).stance());
   }
   recording.ground_truth = ground_truth_of(source, front_end.keyframes());
@@ -103,11 +105,11 @@ std::unique_ptr<CandidateGuide> guide_of(const Survey& survey, const Configurati
   }
 }
 
-Recording record_survey(Survey& survey, const Configuration& configuration,
-                        const CandidateReference& reference, const EstimatorRegistry& registry,
-                        const FrontEndProgressCallback& progress) {
+Recording record_with(const EstimatedSigmas& sigmas, Survey& survey,
+                      const Configuration& configuration, const CandidateReference& reference,
+                      const EstimatorRegistry& registry, const FrontEndProgressCallback& progress) {
   const FrameSource& source = survey.frames();
-  FrontEnd front_end(source, survey.registrar(), configuration.front_end);
+  FrontEnd front_end(source, survey.registrar(), configuration.front_end, sigmas);
   CarriedReadings readings(survey, configuration);
   const auto guide = guide_of(survey, configuration, reference, registry, readings.start());
   std::optional<FrontEndPace> pace;
@@ -124,6 +126,23 @@ Recording record_survey(Survey& survey, const Configuration& configuration,
   take_frames(recording, source, front_end);
   recording.visual_odometry = survey.uses_visual_odometry();
   recording.visual_odometry_failures = survey.visual_odometry_failures();
+  return recording;
+}
+
+// With standard deviations that are to be estimated: once as they are assumed, and again as they
+// are found. Pairs are registered once.
+Recording record_survey(Survey& survey, const Configuration& configuration,
+                        const CandidateReference& reference, const EstimatorRegistry& registry,
+                        const FrontEndProgressCallback& progress) {
+  Recording recording = record_with({}, survey, configuration, reference, registry, progress);
+  const CovarianceOptions& covariance = configuration.front_end.registration.covariance;
+  std::vector<FoundSigma> found = find_sigmas(recording, survey.measured(), covariance, registry);
+  const EstimatedSigmas sigmas = sigmas_of(found);
+  if (!sigmas.is_empty()) {
+    survey.tell(sigmas);
+    recording = record_with(sigmas, survey, configuration, reference, registry, {});
+  }
+  recording.found_sigmas = std::move(found);
   return recording;
 }
 

@@ -134,6 +134,10 @@ const FrameSource& Survey::measured() const {
   return measured_ ? *measured_ : pictures_->source();
 }
 
+void Survey::tell(const EstimatedSigmas& sigmas) {
+  if (visual_odometry_) visual_odometry_ = visual_odometry_->told(sigmas);
+}
+
 std::size_t Survey::visual_odometry_failures() const {
   return visual_odometry_ ? visual_odometry_->failures() : 0;
 }

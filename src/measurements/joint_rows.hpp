@@ -18,9 +18,10 @@ class JointRows {
  public:
   using Index = Eigen::Index;
 
-  /// `used` by registration in order of arrival; empty: all.
+  /// `used` by registration in order of arrival; empty: all. `with_own`: each told registration has
+  /// three unknowns more, an error of its own in units of its own covariance.
   JointRows(const MeasurementLog& log, std::span<const Pose> trajectory,
-            const std::vector<bool>& used);
+            const std::vector<bool>& used, bool with_own);
 
   const Eigen::SparseMatrix<double>& B() const { return B_; }
   const Eigen::VectorXd& c() const { return c_; }
@@ -35,6 +36,8 @@ class JointRows {
   const std::vector<Index>& registrations() const { return registrations_; }
   /// First row of n of keyframe k's picture, if it has any, and what is told of its σ.
   std::optional<Index> picture(std::size_t k) const;
+  /// First rows of the registrations' own errors.
+  const std::vector<Index>& own() const { return own_; }
   const Eigen::Vector3d& told_sigma(std::size_t k) const { return sigma_of_[k]; }
 
   /// The trajectory moved by δ.
@@ -53,6 +56,8 @@ class JointRows {
   Index picture_column(std::size_t k, const PictureErrors& errors);
 
   bool is_first_held_ = false;
+  bool with_own_ = false;
+  std::vector<Index> own_;
   Index poses_ = 0;
   Index unknowns_ = 0;
   std::vector<Index> picture_;  // by keyframe, −1: none

@@ -21,6 +21,11 @@ bool are_same(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
   return true;
 }
 
+bool has_own(std::span<const VarianceComponent> components) {
+  return std::ranges::any_of(components,
+                             [](const VarianceComponent& one) { return !one.is_of_pictures(); });
+}
+
 // ρᵀ Q⁻¹ ρ over the directions that Q has.
 double pseudo_chi2(const Eigen::Vector3d& rho, const Eigen::Matrix3d& Q) {
   constexpr double kSmallest = 1e-10;
@@ -39,7 +44,9 @@ RestrictedLikelihood::RestrictedLikelihood(const MeasurementLog& log,
                                            std::span<const Pose> trajectory,
                                            std::span<const VarianceComponent> components,
                                            const std::vector<bool>& used)
-    : rows_(log, trajectory, used), told_scale_(Eigen::VectorXd::Ones(rows_.unknowns())) {
+    : rows_(log, trajectory, used, has_own(components)),
+      told_scale_(Eigen::VectorXd::Ones(rows_.unknowns())) {
+  for (const Index row : rows_.own()) told_scale_.segment<3>(row).setZero();
   for (std::size_t k = 0; k < log.size(); ++k) {
     if (const auto row = rows_.picture(k)) told_scale_.segment<3>(*row) = rows_.told_sigma(k);
   }
@@ -54,6 +61,12 @@ RestrictedLikelihood::RestrictedLikelihood(const MeasurementLog& log,
 void RestrictedLikelihood::govern(const VarianceComponent& component, std::size_t keyframes) {
   const bool is_tilt = component.part == VarianceComponent::Part::tilt;
   std::vector<Governed>& governed = governed_.emplace_back();
+  if (!component.is_of_pictures()) {
+    for (const Index first : rows_.own()) {
+      for (Index part = 0; part < 3; ++part) governed.push_back({first + part, 0.0, 0.0});
+    }
+    return;
+  }
   for (std::size_t k = 0; k < keyframes; ++k) {
     const auto first = rows_.picture(k);
     if (!first || !(component.governed.empty() || component.governed[k])) continue;

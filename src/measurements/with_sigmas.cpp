@@ -12,7 +12,7 @@ namespace {
 void set_sigmas(PictureErrors& errors, std::size_t k, std::span<const VarianceComponent> components,
                 std::span<const double> sigmas) {
   for (std::size_t j = 0; j < components.size(); ++j) {
-    if (!governs(components[j], k)) continue;
+    if (!components[j].is_of_pictures() || !governs(components[j], k)) continue;
     const double least = components[j].least.empty() ? 0.0 : components[j].least[k];
     const double sigma = std::max(least, sigmas[j]);
     if (components[j].part == VarianceComponent::Part::altitude) {
@@ -29,6 +29,9 @@ RelativePose with_sigmas(RelativePose z, std::span<const VarianceComponent> comp
   SharedErrors shared = *z.shared;
   set_sigmas(shared.from, z.from, components, sigmas);
   set_sigmas(shared.to, z.to, components, sigmas);
+  for (std::size_t j = 0; j < components.size(); ++j) {
+    if (!components[j].is_of_pictures()) shared.own *= 1.0 + sigmas[j] * sigmas[j];
+  }
   if (shared == *z.shared) return z;
   z.information = RelativePose::from_covariance(z.from, z.to, z.motion, shared.total()).information;
   z.shared = std::make_shared<const SharedErrors>(shared);

@@ -94,9 +94,8 @@ double LinearFit::clustering(double cell_m, int least_cells) const {
 SharedErrors LinearFit::altitude_and_tilt(const Viewpoint& from, const Viewpoint& to,
                                           const CovarianceOptions& options) const {
   const auto sigmas_of = [&](const Viewpoint& view) {
-    const double tilt_rad = view.tilt_sigma_rad.value_or(options.tilt_sigma_rad);
-    return Eigen::Vector3d(std::max(options.altitude_sigma_m, view.altitude_sigma_m), tilt_rad,
-                           tilt_rad);
+    const double tilt_rad = view.tilt_sigma_rad.value_or(options.tilt());
+    return Eigen::Vector3d(std::max(options.altitude(), view.altitude_sigma_m), tilt_rad, tilt_rad);
   };
   SharedErrors shared;
   shared.from.sigma = sigmas_of(from);

@@ -120,6 +120,11 @@ FitCovariance fit_covariance(const MotionFit& fit, const MatchSet& matches,
   covariance.parts = linear.altitude_and_tilt(from.viewpoint, to.viewpoint, told);
   covariance.parts.own = fitted + alike;
   covariance.parts.own.diagonal() += floor;
+  if (told.own() != 1.0) {
+    covariance.parts.own *= told.own() * told.own();
+    covariance.total = covariance.parts.total();
+    return covariance;
+  }
   covariance.total = fitted;
   covariance.total += total_of(covariance.parts.from, covariance.parts.to);
   covariance.total += alike;

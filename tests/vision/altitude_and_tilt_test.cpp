@@ -104,10 +104,9 @@ Responses refitted_responses(const Overlap& seen) {
 // σ² dz dzᵀ over the errors of both pictures.
 Eigen::Matrix3d refitted(const Overlap& seen, const CovarianceOptions& options) {
   const auto sigmas = [&](const Viewpoint& view) {
-    const double tilt_rad = view.tilt_sigma_rad.value_or(options.tilt_sigma_rad);
-    const double altitude_m = view.altitude_sigma_m > options.altitude_sigma_m
-                                  ? view.altitude_sigma_m
-                                  : options.altitude_sigma_m;
+    const double tilt_rad = view.tilt_sigma_rad.value_or(options.tilt());
+    const double altitude_m =
+        view.altitude_sigma_m > options.altitude() ? view.altitude_sigma_m : options.altitude();
     return Eigen::Vector3d(altitude_m, tilt_rad, tilt_rad);
   };
   const Responses responses = refitted_responses(seen);

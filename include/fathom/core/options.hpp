@@ -63,7 +63,12 @@ class OptionTable {
             const std::string& help);
   /// A number or the word `off`.
   void real_or_off(const std::string& key, std::optional<double>& field, Range range,
-                   const std::string& unit, const std::string& help);
+                   const std::string& unit, const std::string& help) {
+    real_or(key, "off", field, range, unit, help);
+  }
+  /// A number or the word, which leaves the field empty.
+  void real_or(const std::string& key, const std::string& word, std::optional<double>& field,
+               Range range, const std::string& unit, const std::string& help);
   void text(const std::string& key, std::string& field, const std::string& help);
   void choice(const std::string& key, std::string& field, const std::vector<std::string>& choices,
               const std::string& help);

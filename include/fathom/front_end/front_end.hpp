@@ -7,6 +7,7 @@
 
 #include "fathom/datasets/frame_source.hpp"
 #include "fathom/front_end/candidates.hpp"
+#include "fathom/front_end/estimated_sigmas.hpp"
 #include "fathom/front_end/options.hpp"
 #include "fathom/front_end/pair_registrar.hpp"
 #include "fathom/geometry/trajectory.hpp"
@@ -72,7 +73,8 @@ class FrontEnd {
   /// options it takes keyframes and candidates; how pairs register is the registrar's. The source
   /// must have odometry (VisualOdometry gives it to one that has none); throws InputError
   /// otherwise.
-  FrontEnd(const FrameSource& source, PairRegistrar& registrar, const FrontEndOptions& options);
+  FrontEnd(const FrameSource& source, PairRegistrar& registrar, const FrontEndOptions& options,
+           const EstimatedSigmas& sigmas = {});
 
   /// The next keyframe, by KeyframeSchedule. Nothing at the end.
   std::optional<Keyframe> next_keyframe();
@@ -109,6 +111,7 @@ class FrontEnd {
   const FrameSource& source_;
   PairRegistrar& registrar_;
   FrontEndOptions options_;
+  EstimatedSigmas sigmas_;
   CandidateSearch search_;
   KeyframeSchedule schedule_;
   std::vector<Keyframe> keyframes_;

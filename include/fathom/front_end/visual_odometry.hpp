@@ -3,10 +3,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <memory>
 
 #include "fathom/core/random.hpp"
 #include "fathom/datasets/frame_source.hpp"
 #include "fathom/datasets/motion_noise.hpp"
+#include "fathom/front_end/estimated_sigmas.hpp"
 #include "fathom/front_end/options.hpp"
 #include "fathom/front_end/pair_registrar.hpp"
 
@@ -23,7 +25,11 @@ class VisualOdometry : public FrameSource {
   /// The source and the registrar, which must be of the same pictures, must outlive this. Draws of
   /// the noise come from the stream "visual_odometry".
   VisualOdometry(const FrameSource& source, PairRegistrar& registrar,
-                 const VisualOdometryFallback& fallback, const AddedNoise& noise = {});
+                 const VisualOdometryFallback& fallback, const AddedNoise& noise = {},
+                 const EstimatedSigmas& sigmas = {});
+
+  /// The same with registrations of these.
+  std::unique_ptr<VisualOdometry> told(const EstimatedSigmas& sigmas) const;
 
   const Camera& camera() const override { return source_.camera(); }
   std::size_t size() const override { return source_.size(); }
@@ -45,6 +51,7 @@ class VisualOdometry : public FrameSource {
   PairRegistrar& registrar_;
   VisualOdometryFallback fallback_;
   AddedNoise noise_;
+  EstimatedSigmas sigmas_;
   MotionNoise draws_;
   mutable RandomStream stream_;
   mutable Pose last_motion_;

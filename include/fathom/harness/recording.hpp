@@ -9,6 +9,7 @@
 #include "fathom/configuration/configuration.hpp"
 #include "fathom/estimation/estimator.hpp"
 #include "fathom/front_end/front_end.hpp"
+#include "fathom/harness/found_sigma.hpp"
 #include "fathom/harness/front_end_pace.hpp"
 #include "fathom/harness/survey.hpp"
 #include "fathom/measurements/g2o.hpp"
@@ -24,9 +25,10 @@ using Progress = std::function<void(std::size_t done, std::size_t of)>;
 struct Recording {
   MeasurementLog log;
   std::vector<std::int64_t> keyframe_times_ns;
-  std::vector<FramePlace> frames;          ///< empty for a pose graph
-  std::vector<Pose> frame_dead_reckoning;  ///< one per frame, from the start on
-  std::vector<Stance> frame_stances;       ///< one per frame, as measured
+  std::vector<FramePlace> frames;            ///< empty for a pose graph
+  std::vector<std::size_t> keyframe_frames;  ///< likewise
+  std::vector<Pose> frame_dead_reckoning;    ///< one per frame, from the start on
+  std::vector<Stance> frame_stances;         ///< one per frame, as measured
   /// Of the keyframes, where all of them have it.
   std::optional<std::vector<Pose>> ground_truth;
   /// Of the keyframes, as measured, and the camera that took their pictures; absent for a graph.
@@ -43,6 +45,8 @@ struct Recording {
   std::vector<std::size_t> asked_covariances;
   /// By registration of the log, in order; empty where none was added, or it is not known.
   std::vector<bool> is_false_loop;
+  /// Standard deviations that the survey's own loops were asked for.
+  std::vector<FoundSigma> found_sigmas;
   bool visual_odometry = false;
   std::size_t visual_odometry_failures = 0;
 };

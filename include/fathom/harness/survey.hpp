@@ -66,6 +66,8 @@ class Survey {
   const StartOptions& start() const { return start_; }
   bool uses_visual_odometry() const { return visual_odometry_ != nullptr; }
   std::size_t visual_odometry_failures() const;
+  /// Visual odometry, where that is what it has, anew with registrations of these.
+  void tell(const EstimatedSigmas& sigmas);
 
  private:
   void open(const Configuration& configuration, const TrialNoise& noise);

@@ -13,10 +13,13 @@ namespace fathom {
 
 /// A standard deviation that nobody stated: of the altitude, or of roll and of pitch, of the
 /// pictures it governs. Of picture k it is max(least_k, σ), as the front end takes an altitude's.
+/// Or of what a registration's own covariance leaves out (relief through the lever, distortion), in
+/// units of that covariance, which becomes (1 + σ²) own.
 struct VarianceComponent {
   enum class Part {
     altitude,  ///< m
-    tilt       ///< rad; roll and pitch have one
+    tilt,      ///< rad; roll and pitch have one
+    own        ///< in standard deviations of each told registration
   };
   Part part = Part::tilt;
   /// By keyframe, whether its picture is governed; empty: all are. A picture whose sensor states
@@ -26,6 +29,7 @@ struct VarianceComponent {
   std::vector<double> least = {};
   /// Where the search ends. Beyond 1 rad a tilt does not act as G says; 100 m is any altitude.
   double greatest() const { return part == Part::tilt ? 1.0 : 100.0; }
+  bool is_of_pictures() const { return part != Part::own; }
 };
 
 struct VarianceOptions {

@@ -35,12 +35,22 @@ struct DecisionOptions {
 
 /// What the residuals of one pair cannot show, because all its matches share it.
 struct CovarianceOptions {
-  /// Of each altitude, unless its sensor states more; stands for the relief of a floor too.
-  double altitude_sigma_m = 0.0;
+  /// Of each altitude, unless its sensor states more; stands for the relief of a floor too. Empty:
+  /// estimated from the survey, 0 until then.
+  std::optional<double> altitude_sigma_m = 0.0;
   /// Of roll and of pitch, at each picture that does not come with them measured. No vehicle keeps
-  /// its camera level: without a word on it, 0.3°. At 0, registrations would be certain to a
-  /// fraction of a millimetre.
-  double tilt_sigma_rad = 0.005;
+  /// its camera level. Empty: estimated from the survey; until then, and where it does not tell,
+  /// 0.3°. At 0, registrations would be certain to a fraction of a millimetre.
+  std::optional<double> tilt_sigma_rad = std::nullopt;
+  static constexpr double kAssumedTiltRad = 0.005;
+  /// The standard deviations of a registration's own error are so many times what its residuals
+  /// show: relief that each pair sees from other sides, distortion that calibration leaves. Empty:
+  /// estimated from the survey, 1 until then.
+  std::optional<double> own_factor = std::nullopt;
+
+  double altitude() const { return altitude_sigma_m.value_or(0.0); }
+  double own() const { return own_factor.value_or(1.0); }
+  double tilt() const { return tilt_sigma_rad.value_or(kAssumedTiltRad); }
   /// Added to x and y as variances, whatever else is known: in pixels of the picture with the
   /// coarser ones, or in metres.
   double floor_sigma_px = 0.0025;
