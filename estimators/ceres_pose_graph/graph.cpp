@@ -105,8 +105,7 @@ void CeresPoseGraph::Graph::add_keyframe(const RelativePose& step) {
     problem_.AddParameterBlock(block(size() - 1), 3);
   } else {
     spread_.add(step);
-    const auto residual =
-        problem_.AddResidualBlock(new EdgeCost(step), nullptr, block(step.from), block(step.to));
+    const auto residual = add_residual(step, nullptr);
     if (step.is_hole) holes_[size() - 1] = {step.forward(), residual};
   }
   changed();
@@ -132,14 +131,7 @@ void CeresPoseGraph::Graph::bridge(const Bridge& bridge) {
 
 void CeresPoseGraph::Graph::add_registration(const RelativePose& registration) {
   const int rank = rank_of(registration.information);
-  double* const from = block(registration.from);
-  double* const to = block(registration.to);
-  ceres::LossFunction* const loss = make_loss(options_, rank, is_plain_);
-  registration_blocks_.push_back(
-      estimates_errors(registration)
-          ? problem_.AddResidualBlock(new SharedEdgeCost(registration), loss, from, to,
-                                      errors(registration.from), errors(registration.to))
-          : problem_.AddResidualBlock(new EdgeCost(registration), loss, from, to));
+  registration_blocks_.push_back(add_residual(registration, make_loss(options_, rank, is_plain_)));
   registrations_.push_back(registration);
   registration_ranks_.push_back(rank);
   spread_.add(registration);

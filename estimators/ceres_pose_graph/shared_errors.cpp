@@ -7,7 +7,7 @@
 namespace fathom {
 
 bool CeresPoseGraph::Graph::estimates_errors(const RelativePose& z) const {
-  return z.shared != nullptr && options_.shared.model == SharedErrorModel::states;
+  return z.shared != nullptr && !z.is_hole && options_.shared.model == SharedErrorModel::states;
 }
 
 double* CeresPoseGraph::Graph::errors(std::size_t keyframe) {
@@ -39,6 +39,15 @@ std::vector<RelativePose> CeresPoseGraph::Graph::without_errors(
                                         : z);
   }
   return apart;
+}
+
+ceres::ResidualBlockId CeresPoseGraph::Graph::add_residual(const RelativePose& z,
+                                                           ceres::LossFunction* loss) {
+  double* const from = block(z.from);
+  double* const to = block(z.to);
+  if (!estimates_errors(z)) return problem_.AddResidualBlock(new EdgeCost(z), loss, from, to);
+  return problem_.AddResidualBlock(new SharedEdgeCost(z), loss, from, to, errors(z.from),
+                                   errors(z.to));
 }
 
 // J P Jᵀ over the poses and the errors that a loop is of. A picture without errors among the

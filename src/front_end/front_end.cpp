@@ -55,6 +55,8 @@ Keyframe FrontEnd::add_keyframe(std::size_t frame, const FrameInfo& info,
     keyframe.step = RelativePose::from_covariance(keyframe.index - 1, keyframe.index, since.mean,
                                                   since.covariance);
     keyframe.step->is_hole = over_hole;
+    // Of several motions the frames between share errors, too: they are told as independent.
+    if (keyframes_.back().frame + 1 == frame) keyframe.step->shared = info.motion_errors;
   }
   frames_.push_back({info.time_ns, keyframe.index, Pose{}});
   keyframes_.push_back(keyframe);

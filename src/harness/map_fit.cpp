@@ -19,7 +19,7 @@ std::optional<MapFit> map_fit(const MeasurementLog& log, std::span<const Pose> e
   MapFit fit;
   fit.degrees_of_freedom = degrees_of_freedom(log);
   if (log.registration_count() == 0 || !(fit.degrees_of_freedom > 0.0)) return std::nullopt;
-  fit.chi2 = chi2(log, estimate);
+  fit.chi2 = chi2(log, estimate, optimum.errors);
   fit.chi2_optimum = optimum.chi2;
   Eigen::Vector3d squares = Eigen::Vector3d::Zero();
   Eigen::Vector3d variances = Eigen::Vector3d::Zero();

@@ -36,11 +36,12 @@ std::optional<BatchOptimum> batch_optimum(const MeasurementLog& log,
     options.mode = SolveMode::batch;
     options.start = start;
     options.covariances = false;
-    Run solved = replay(log, entry, values_for(entry, log, errors), options);
+    const EstimatorValues values = values_for(entry, log, errors);
+    Run solved = replay(log, entry, values, options);
     if (!is_done(solved.outcome)) continue;
     const double cost = chi2(log, solved.trajectory, errors);
     if (!std::isfinite(cost) || (best && cost >= best->chi2)) continue;
-    best = BatchOptimum{std::move(solved.trajectory), cost, entry.name};
+    best = BatchOptimum{std::move(solved.trajectory), cost, entry.name, values, errors};
   }
   return best;
 }

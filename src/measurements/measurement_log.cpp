@@ -37,7 +37,8 @@ std::size_t MeasurementLog::absolute_count() const {
 
 bool MeasurementLog::tells_shared_errors() const {
   return std::ranges::any_of(measurements_, [](const KeyframeMeasurements& arrival) {
-    return std::ranges::any_of(arrival.registrations,
+    return arrival.step.shared != nullptr ||
+           std::ranges::any_of(arrival.registrations,
                                [](const RelativePose& z) { return z.shared != nullptr; });
   });
 }

@@ -40,16 +40,18 @@ std::string to_shared(const MeasurementLog& log) {
   };
   std::map<std::size_t, Eigen::Vector3d> pictures;
   std::string registrations;
+  const auto add = [&](const RelativePose& z) {
+    if (!z.shared) return;
+    pictures.emplace(z.from, z.shared->from.sigma);
+    pictures.emplace(z.to, z.shared->to.sigma);
+    registrations += "REGISTRATION " + id(z.from) + ' ' + id(z.to) + ' ' + exact(z.motion.x) + ' ' +
+                     exact(z.motion.y) + ' ' + exact(z.motion.theta) +
+                     numbers_text(z.shared->from.G, false) + numbers_text(z.shared->to.G, false) +
+                     numbers_text(z.shared->own, true) + '\n';
+  };
   for (std::size_t k = 0; k < log.size(); ++k) {
-    for (const RelativePose& z : log.arrival(k).registrations) {
-      if (!z.shared) continue;
-      pictures.emplace(z.from, z.shared->from.sigma);
-      pictures.emplace(z.to, z.shared->to.sigma);
-      registrations += "REGISTRATION " + id(z.from) + ' ' + id(z.to) + ' ' + exact(z.motion.x) +
-                       ' ' + exact(z.motion.y) + ' ' + exact(z.motion.theta) +
-                       numbers_text(z.shared->from.G, false) + numbers_text(z.shared->to.G, false) +
-                       numbers_text(z.shared->own, true) + '\n';
-    }
+    if (!log.arrival(k).step.is_hole) add(log.arrival(k).step);
+    for (const RelativePose& z : log.arrival(k).registrations) add(z);
   }
   if (pictures.empty()) return {};
   std::string text = kHeader;

@@ -71,7 +71,7 @@ class OneRun {
     const std::vector<Pose>& estimate = done.result.run.trajectory;
     std::ranges::copy(loop_remarks(*recording_, configuration_.front_end, estimate),
                       std::back_inserter(remarks));
-    const auto optimum = batch_optimum(recording_->log, registry_);
+    const auto optimum = batch_optimum(recording_->log, registry_, {}, done.result.run.errors);
     const auto fit = optimum ? map_fit(recording_->log, estimate, *optimum) : std::nullopt;
     if (!fit) return;
     std::ranges::copy(map_remarks(*fit, done.result.estimator.name, optimum->solver),
@@ -79,8 +79,8 @@ class OneRun {
     if (fit->estimate_fits()) return;
     EvaluationOptions options;
     options.mode = SolveMode::batch;
-    done.optimum = evaluate(*recording_, {kBatchOptimum, optimum->solver, {}}, registry_,
-                            {.metrics = configuration_.study.evaluation}, options);
+    done.optimum = evaluate(*recording_, {kBatchOptimum, optimum->solver, optimum->values},
+                            registry_, {.metrics = configuration_.study.evaluation}, options);
   }
 
   void write(StagedFolder& folder, const Recorder& recorder, const RunOutcome& done,

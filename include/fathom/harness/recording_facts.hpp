@@ -43,7 +43,9 @@ std::optional<TrueOverlaps> true_overlaps(const Recording& recording);
 struct BatchOptimum {
   std::vector<Pose> poses;
   double chi2 = 0.0;
-  std::string solver;  ///< the type of the estimator that reached it
+  std::string solver;           ///< the type of the estimator that reached it
+  EstimatorValues values = {};  ///< its options
+  RegistrationErrors errors = RegistrationErrors::independent;  ///< of F
 };
 
 /// Over all estimators of the registry that can solve a batch, each with its default options and

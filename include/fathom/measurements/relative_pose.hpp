@@ -30,8 +30,8 @@ struct RelativePose {
   /// Of a step: nothing was measured. `motion` is a guess, and `information` that of a declared,
   /// wide covariance: what a filter begins with. F does not count it.
   bool is_hole = false;
-  /// Of a registration: its errors apart, where that is known. `information` is that of their
-  /// total(), for whoever does not ask.
+  /// Of a registration, or a step that is one: its errors apart, where that is known. `information`
+  /// is that of their total(), for whoever does not ask.
   std::shared_ptr<const SharedErrors> shared = nullptr;
 
   /// Of a covariance of ν; it must be positive definite.
