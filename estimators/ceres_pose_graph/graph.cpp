@@ -139,10 +139,7 @@ void CeresPoseGraph::Graph::add_registration(const RelativePose& registration) {
 }
 
 double CeresPoseGraph::Graph::registration_weight(std::size_t index) const {
-  const RelativePose& given = registrations_[index];
-  const RelativePose z = estimates_errors(given)
-                             ? without_shared(given, errors_at(given.from), errors_at(given.to))
-                             : given;
+  const RelativePose z = without_errors(registrations_[index]);
   const RobustLoss loss = RobustLoss(options_.loss).of_rank(registration_ranks_[index]);
   return loss.weight(chi2(z, pose(z.from), pose(z.to)));
 }

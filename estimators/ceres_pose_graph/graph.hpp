@@ -76,6 +76,7 @@ class CeresPoseGraph::Graph {
   /// Among the blocks of the Hessian; nothing where the picture has none.
   std::optional<std::size_t> errors_block(std::size_t keyframe) const;
   bool estimates_errors(const RelativePose& z) const;
+  RelativePose without_errors(const RelativePose& z) const;
   ceres::ResidualBlockId add_residual(const RelativePose& z, ceres::LossFunction* loss);
   std::optional<std::vector<Eigen::Matrix3d>> predicted_with_errors(
       std::span<const RelativePose> forward_loops);

@@ -31,13 +31,16 @@ std::optional<std::size_t> CeresPoseGraph::Graph::errors_block(std::size_t keyfr
   return size() - 1 + *errors_of_[keyframe];
 }
 
+RelativePose CeresPoseGraph::Graph::without_errors(const RelativePose& z) const {
+  if (!estimates_errors(z)) return z;
+  return without_shared(
+      z, z.shared->from.scaled() * errors_at(z.from) + z.shared->to.scaled() * errors_at(z.to));
+}
+
 std::vector<RelativePose> CeresPoseGraph::Graph::without_errors(
     std::span<const RelativePose> registrations) const {
   std::vector<RelativePose> apart;
-  for (const RelativePose& z : registrations) {
-    apart.push_back(estimates_errors(z) ? without_shared(z, errors_at(z.from), errors_at(z.to))
-                                        : z);
-  }
+  for (const RelativePose& z : registrations) apart.push_back(without_errors(z));
   return apart;
 }
 

@@ -35,11 +35,8 @@ RelativePose RelativePose::forward() const {
   return from <= to ? *this : reversed();
 }
 
-RelativePose without_shared(const RelativePose& z, const Eigen::Vector3d& n_from,
-                            const Eigen::Vector3d& n_to) {
-  if (!z.shared) return z;
-  const Eigen::Vector3d left =
-      z.motion.vector() - z.shared->from.scaled() * n_from - z.shared->to.scaled() * n_to;
+RelativePose without_shared(const RelativePose& z, const Eigen::Vector3d& error) {
+  const Eigen::Vector3d left = z.motion.vector() - error;
   RelativePose apart = RelativePose::from_covariance(
       z.from, z.to, {left.x(), left.y(), wrap_angle(left.z())}, z.shared->own);
   apart.shared = z.shared;

@@ -71,7 +71,9 @@ Eigen::Vector3d PictureStates::errors_of(std::size_t keyframe) const {
 }
 
 RelativePose PictureStates::without_errors(const RelativePose& z) const {
-  return without_shared(z, errors_of(z.from), errors_of(z.to));
+  if (!z.shared) return z;
+  return without_shared(
+      z, z.shared->from.scaled() * errors_of(z.from) + z.shared->to.scaled() * errors_of(z.to));
 }
 
 }  // namespace fathom::pose_graph

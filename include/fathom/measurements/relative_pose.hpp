@@ -30,8 +30,8 @@ struct RelativePose {
   /// Of a step: nothing was measured. `motion` is a guess, and `information` that of a declared,
   /// wide covariance: what a filter begins with. F does not count it.
   bool is_hole = false;
-  /// Of a registration, or a step that is one: its errors apart, where that is known. `information`
-  /// is that of their total(), for whoever does not ask.
+  /// Of a registration, or a step made of some: its errors apart, where that is known.
+  /// `information` is that of their total(), for whoever does not ask.
   std::shared_ptr<const SharedErrors> shared = nullptr;
 
   /// Of a covariance of ν; it must be positive definite.
@@ -49,10 +49,9 @@ struct RelativePose {
   RelativePose forward() const;
 };
 
-/// A registration that tells its errors apart as it is left when those of its pictures, n in units
-/// of σ, are taken out: z − G_from n_from − G_to n_to, of its own covariance. Else as it is.
-RelativePose without_shared(const RelativePose& z, const Eigen::Vector3d& n_from,
-                            const Eigen::Vector3d& n_to);
+/// A registration that tells its errors apart as it is left when what those of its pictures do to
+/// it, G_from n_from + G_to n_to, is taken out: of its own covariance. What a gate tests.
+RelativePose without_shared(const RelativePose& z, const Eigen::Vector3d& error);
 
 /// e = t2v(Z⁻¹ · A⁻¹ · B) for the poses A of `from` and B of `to`; heading wrapped. Optional 3×3
 /// Jacobians with respect to (x, y, θ) of A and B.
