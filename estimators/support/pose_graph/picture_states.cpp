@@ -6,6 +6,16 @@
 
 namespace fathom::pose_graph {
 
+RelativePose without_errors(const RelativePose& z, const Eigen::Vector3d& n_from,
+                            const Eigen::Vector3d& n_to) {
+  const Eigen::Vector3d left =
+      z.motion.vector() - z.shared->from.scaled() * n_from - z.shared->to.scaled() * n_to;
+  RelativePose apart = RelativePose::from_covariance(
+      z.from, z.to, {left.x(), left.y(), wrap_angle(left.z())}, z.shared->own);
+  apart.shared = z.shared;
+  return apart;
+}
+
 void PictureStates::add(const RelativePose& z, std::size_t edge) {
   told_.push_back(
       {edge, z.from, z.to, z.shared->from.scaled(), z.shared->to.scaled(), z.shared->own});
@@ -72,12 +82,7 @@ Eigen::Vector3d PictureStates::errors_of(std::size_t keyframe) const {
 
 RelativePose PictureStates::without_errors(const RelativePose& z) const {
   if (!z.shared) return z;
-  const Eigen::Vector3d left = z.motion.vector() - z.shared->from.scaled() * errors_of(z.from) -
-                               z.shared->to.scaled() * errors_of(z.to);
-  RelativePose apart = RelativePose::from_covariance(
-      z.from, z.to, {left.x(), left.y(), wrap_angle(left.z())}, z.shared->own);
-  apart.shared = z.shared;
-  return apart;
+  return pose_graph::without_errors(z, errors_of(z.from), errors_of(z.to));
 }
 
 }  // namespace fathom::pose_graph

@@ -27,6 +27,11 @@ struct ExtendedGraph {
   std::vector<int> node_of;  ///< by keyframe, that of its picture's errors; −1 or beyond: none
 };
 
+/// A registration as it is left when the errors of its pictures are taken out: of its own
+/// covariance. What a gate tests. It must tell what it shares.
+RelativePose without_errors(const RelativePose& z, const Eigen::Vector3d& n_from,
+                            const Eigen::Vector3d& n_to);
+
 /// The errors that registrations of a picture share, as unknowns of a graph: three numbers n a
 /// picture, in units of their standard deviations (docs/shared_errors.md).
 ///
@@ -53,8 +58,7 @@ class PictureStates {
   /// As keep, at zero.
   void reset();
 
-  /// A registration as it is left when the errors of its pictures, as estimated, are taken out: of
-  /// its own covariance. What a gate tests.
+  /// The same of the errors as estimated; one that tells nothing is as it is.
   RelativePose without_errors(const RelativePose& z) const;
 
  private:
