@@ -54,10 +54,11 @@ struct FrontFactorisation {
     for (int j = 0; j < c.width; ++j) {
       const int v = c.variables[at(j)];
       if (is_errors(v)) add_prior(c, j);
-      problem.for_each_edge_of(v, [&](int e) {
-        const Edge& edge = problem.edges[at(e)];
+      problem.for_each_edge_of(v, [&](int e, int other) {
         // Eliminated before, and so in a child's update.
-        if (eliminated_first(edge) != v) return;
+        if (order[other] < order[v]) return;
+        const Edge& edge = problem.edges[at(e)];
+        if (edge.shared != nullptr && !is_eliminated_first(v, edge)) return;
         EdgeBlocks b = blocks_of(edge, problem.nodes[at(edge.from)], problem.nodes[at(edge.to)]);
         if (loops.has(e)) b.scale(loops.factor(e));
         const int from = row_of[edge.from];
@@ -70,12 +71,10 @@ struct FrontFactorisation {
     }
   }
 
-  FATHOM_INLINE int eliminated_first(const Edge& edge) const {
-    int first = order[edge.to] < order[edge.from] ? edge.to : edge.from;
-    problem.for_each_errors(edge, [&](int v) {
-      if (order[v] < order[first]) first = v;
-    });
-    return first;
+  FATHOM_INLINE bool is_eliminated_first(int v, const Edge& edge) const {
+    bool is_first = true;
+    problem.for_each_errors(edge, [&](int n) { is_first = is_first && order[v] <= order[n]; });
+    return is_first;
   }
 
   FATHOM_INLINE static void add_prior(Clique& c, int column) {

@@ -9,19 +9,7 @@ void Gradient::add_edge() {
   evaluate(problem_.edge_count() - 1);
 }
 
-void Gradient::evaluate(int e) {
-  const Edge& edge = problem_.edges[at(e)];
-  const Node& i = problem_.nodes[at(edge.from)];
-  const Node& k = problem_.nodes[at(edge.to)];
-  EdgeGradient next =
-      edge.shared == nullptr
-          ? gradient_of(edge, i, k)
-          : gradient_of(pose_graph::without_errors(edge, problem_.pictures.errors), i, k);
-  if (problem_.loops.is_on()) problem_.loops.apply(e, next);
-  replace(e, next);
-}
-
-void Gradient::replace(int e, const EdgeGradient& next) {
+inline void Gradient::replace(int e, const EdgeGradient& next) {
   const Edge& edge = problem_.edges[at(e)];
   EdgeGradient& t = terms_[at(e)];
   Vec3& from = by_variable_.poses[at(edge.from)];
@@ -39,13 +27,29 @@ void Gradient::replace(int e, const EdgeGradient& next) {
   t = next;
 }
 
+void Gradient::take_out(int e) {
+  replace(e, {});
+}
+
+void Gradient::evaluate(int e) {
+  const Edge& edge = problem_.edges[at(e)];
+  const Node& i = problem_.nodes[at(edge.from)];
+  const Node& k = problem_.nodes[at(edge.to)];
+  EdgeGradient next =
+      edge.shared == nullptr
+          ? gradient_of(edge, i, k)
+          : gradient_of(pose_graph::without_errors(edge, problem_.pictures.errors), i, k);
+  if (problem_.loops.is_on()) problem_.loops.apply(e, next);
+  replace(e, next);
+}
+
 // Gᵀ W ν. W ν is that of the gradient at `from`, but for the lever.
 void Gradient::add_errors(const Edge& edge, const EdgeGradient& t, double sign) {
   const Eigen::Vector3d Wv = sign * Eigen::Vector3d(-t.from[0], -t.from[1], t.to[2]);
-  for (const auto& [node, G] : {edge.shared->from, edge.shared->to}) {
-    if (node < 0) continue;
-    const Eigen::Vector3d g = G.transpose() * Wv;
-    for (int a = 0; a < 3; ++a) by_variable_.errors[at(node)][at(a)] += g[a];
+  for (const pose_graph::SharedEnds::End* end : {&edge.shared->from, &edge.shared->to}) {
+    if (end->node < 0) continue;
+    const Eigen::Vector3d g = end->G.transpose() * Wv;
+    for (int a = 0; a < 3; ++a) by_variable_.errors[at(end->node)][at(a)] += g[a];
   }
 }
 

@@ -18,7 +18,7 @@ class Gradient {
   /// An edge again, at the present estimate.
   void evaluate(int edge);
   /// As if the edge were not there, until it is evaluated: before its errors become unknowns.
-  void take_out(int edge) { replace(edge, {}); }
+  void take_out(int edge);
   /// The prior of a picture's errors again.
   void evaluate_prior(int keyframe);
   /// All again, as many as there are now.

@@ -109,11 +109,12 @@ class Problem {
     for_each_errors(edge, use);
   }
 
-  /// use(edge index) for each edge of a variable.
+  /// use(edge index, keyframe at the other end) for each edge of a variable.
   template <class Use>
   void for_each_edge_of(int v, Use use) const {
-    for_each_edge(keyframe_of(v), [&](int e, int) {
-      if (!is_errors(v) || edges[at(e)].shared != nullptr) use(e);
+    if (!is_errors(v)) return for_each_edge(v, use);
+    for_each_edge(keyframe_of(v), [&](int e, int other) {
+      if (edges[at(e)].shared != nullptr) use(e, other);
     });
   }
 
@@ -177,10 +178,10 @@ class Problem {
     weights[edge.to].heading += heading;
     if (edge.shared == nullptr) return;
     const Eigen::Matrix3d W = sign * pose_graph::full(edge.W);
-    for (const auto& [node, G] : {edge.shared->from, edge.shared->to}) {
-      if (node < 0) continue;
-      Weight& weight = weights[errors_of(node)];
-      const Eigen::Matrix3d H = G.transpose() * W * G;
+    for (const pose_graph::SharedEnds::End* end : {&edge.shared->from, &edge.shared->to}) {
+      if (end->node < 0) continue;
+      Weight& weight = weights[errors_of(end->node)];
+      const Eigen::Matrix3d H = end->G.transpose() * W * end->G;
       weight.position += 0.5 * (H(0, 0) + H(1, 1));
       weight.heading += H(2, 2);
     }

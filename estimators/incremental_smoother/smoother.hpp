@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -40,6 +41,9 @@ struct SmootherLimits {
   int steps_of_a_kind = 10;
   /// Of λ as one step shows it: the next ones show more.
   double most_lost_curvature = 0.99;
+  /// With the errors of pictures: everything is linearised at the estimate where a whole step
+  /// promises a larger share of what the one before did.
+  double stale_contraction = 0.25;
   /// Where F falls below this share of what it was, its running sum is added up anew: ten digits of
   /// it are left.
   double cancellation = 1e-6;
@@ -113,7 +117,8 @@ class Smoother {
     bool is_over = false;
     int local_steps = 0;
     int whole_steps = 0;
-    double lost_curvature = 0.0;  ///< λ of the last step
+    double lost_curvature = 0.0;                                      ///< λ of the last step
+    double promised_whole = std::numeric_limits<double>::infinity();  ///< by the last whole step
     SmootherResult result;
   };
 
@@ -167,10 +172,13 @@ class Smoother {
   double left_by_step(Progress& progress, double promised, double brought) const;
   bool goes_on_locally(Progress& progress, double left, double most_slack) const;
   bool wants_newton(Progress& progress) const;
+  bool contracts(Progress& progress, double promised) const;
   void retreat(Progress& progress);
+  void linearise_afresh(Progress& progress);
   static void end(Progress& progress, Outcome outcome);
   void note_changed(int variable);
   void reevaluate_bent();
+  void reevaluate_prior(int keyframe);
   void solve_whole(Progress& progress);
   SmootherResult solve_batch();
   pose_graph::ExtendedGraph extended(const std::vector<Edge>& edges) const;

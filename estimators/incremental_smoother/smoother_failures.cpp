@@ -14,15 +14,16 @@ void Smoother::retreat(Progress& progress) {
   }
   // From where F may have been anything, infinite too.
   gradient_.evaluate_all();
-  if (!progress.is_fresh) {
-    progress.is_fresh = true;
-    progress.is_whole = true;
-    marks_.to_relinearise.clear();
-    for (int k = 1; k < problem_.size(); ++k) marks_.to_relinearise.push_back(k);
-    for_each_state([&](int v) { marks_.to_relinearise.push_back(v); });
-    return;
-  }
+  if (!progress.is_fresh) return linearise_afresh(progress);
   solve_whole(progress);
+}
+
+void Smoother::linearise_afresh(Progress& progress) {
+  progress.is_fresh = true;
+  progress.is_whole = true;
+  marks_.to_relinearise.clear();
+  for (int k = 1; k < problem_.size(); ++k) marks_.to_relinearise.push_back(k);
+  for_each_state([&](int v) { marks_.to_relinearise.push_back(v); });
 }
 
 void Smoother::solve_whole(Progress& progress) {

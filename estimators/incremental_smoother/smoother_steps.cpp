@@ -80,7 +80,17 @@ void Smoother::take_step(Progress& progress) {
   slack_ += left;
   if (slack_ <= most_slack) return end(progress, Outcome::converged);
   if (wants_newton(progress)) return solve_whole(progress);
+  if (progress.is_whole && !contracts(progress, promised)) linearise_afresh(progress);
   progress.is_whole = true;
+}
+
+// Whether whole steps lead to the end soon. With the errors of pictures among the unknowns what a
+// registration says is stiffer, by as much as it shares: what the limits of relinearisation leave
+// may then be too much for the softest modes.
+bool Smoother::contracts(Progress& progress, double promised) const {
+  const double before = progress.promised_whole;
+  progress.promised_whole = promised;
+  return problem_.pictures.is_empty() || !(promised > limits_.stale_contraction * before);
 }
 
 // A motion that keyframes share changes nothing of what lies between them.
@@ -88,20 +98,27 @@ void Smoother::reevaluate_bent() {
   ++marks_.pass;
   for (const int v : tree_.bent()) {
     note_changed(v);
-    if (is_errors(v)) gradient_.evaluate_prior(keyframe_of(v));
-    problem_.for_each_edge_of(v, [&](int e) {
+    if (is_errors(v)) reevaluate_prior(keyframe_of(v));
+    problem_.for_each_edge_of(v, [&](int e, int other) {
       if (marks_.edge_pass[at(e)] == marks_.pass) return;
       marks_.edge_pass[at(e)] = marks_.pass;
-      const Edge& edge = problem_.edges[at(e)];
-      for (const int end : {edge.from, edge.to}) tree_.settle(end);
+      tree_.settle(other);
       gradient_.evaluate(e);
-      const bool is_stale = problem_.loops.has_left_tree(e, limits_.reweight_share);
+      note_changed(other);
+      const Edge& edge = problem_.edges[at(e)];
+      Problem::for_each_errors(edge, [&](int n) { note_changed(n); });
+      if (!problem_.loops.has_left_tree(e, limits_.reweight_share)) return;
       Problem::for_each_end(edge, [&](int end) {
-        note_changed(end);
-        if (is_stale && end != 0) marks_.to_relinearise.push_back(end);
+        if (end != 0) marks_.to_relinearise.push_back(end);
       });
     });
   }
+}
+
+void Smoother::reevaluate_prior(int keyframe) {
+  gradient_.evaluate_prior(keyframe);
+  tree_.settle(keyframe);
+  note_changed(keyframe);
 }
 
 }  // namespace fathom::incremental_smoother
