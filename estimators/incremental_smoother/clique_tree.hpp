@@ -89,7 +89,8 @@ class CliqueTree {
     int variable;
     Eigen::Matrix3d J;
   };
-  /// J H⁻¹ Jᵀ of a quantity that depends on these variables of the tree and on keyframe 0.
+  /// J H⁻¹ Jᵀ of a quantity that depends on these variables of the tree and on keyframe 0; what is
+  /// said twice of one adds up.
   Eigen::Matrix3d variance(std::span<const Response> responses);
 
  private:

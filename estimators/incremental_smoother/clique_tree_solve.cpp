@@ -183,7 +183,7 @@ Eigen::Matrix3d CliqueTree::variance(std::span<const Response> responses) {
     for_each_number([](double& x) { x = 0.0; });
     for (const auto& [variable, J] : responses) {
       if (variable == 0) continue;
-      for (int b = 0; b < 3; ++b) x_[variable][at(b)] = J(a, b);
+      for (int b = 0; b < 3; ++b) x_[variable][at(b)] += J(a, b);
     }
     substitute();
     Eigen::Index next = 0;

@@ -15,12 +15,10 @@ using incremental_smoother::SmootherResult;
 
 namespace {
 
-// A picture with one registration has a state of its own where a loss is on what is left without
-// it, or a gate wants to know it.
+// A loss is on what is left without the errors: then a picture with one registration has its own.
 ErrorStates error_states_of(const IncrementalSmootherOptions& options) {
   if (options.shared.model != SharedErrorModel::states) return ErrorStates::none;
-  const bool wants_all = options.gate.probability || options.loss.kind != LossKind::none;
-  return wants_all ? ErrorStates::all : ErrorStates::of_several;
+  return options.loss.kind != LossKind::none ? ErrorStates::all : ErrorStates::of_several;
 }
 
 }  // namespace

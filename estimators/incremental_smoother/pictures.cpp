@@ -43,12 +43,9 @@ void Pictures::unfold(int keyframe, std::vector<Edge>& edges, std::span<const No
   SharedEnds::End& end = end_of(told, edge, keyframe);
   end.node = keyframe;
   set_edge(told, edges);
-  const Edge left = pose_graph::without_errors(edge, errors);
-  const Eigen::Vector3d residual =
-      pose_graph::residual_of(left, poses[at(edge.from)], poses[at(edge.to)]);
   const Eigen::Matrix3d GtW = end.G.transpose() * pose_graph::full(edge.W);
   const Eigen::Matrix3d H = Eigen::Matrix3d::Identity() + GtW * end.G;
-  const Eigen::Vector3d n = -H.llt().solve(GtW * residual);
+  const Eigen::Vector3d n = -H.llt().solve(GtW * residual(edge, poses));
   errors[at(keyframe)] = pose_graph::make_errors(n[0], n[1], n[2]);
 }
 
@@ -118,8 +115,38 @@ void Pictures::keep(const ExtendedGraph& solved) {
   }
 }
 
-RelativePose Pictures::without_errors(const RelativePose& z) const {
-  return pose_graph::without_errors(z, n_of(z.from), n_of(z.to));
+Eigen::Vector3d Pictures::residual(const Edge& edge, std::span<const Node> poses) const {
+  const Edge left = edge.shared == nullptr ? edge : pose_graph::without_errors(edge, errors);
+  return pose_graph::residual_of(left, poses[at(edge.from)], poses[at(edge.to)]);
+}
+
+// Given ν, n of a picture that is folded with G has the mean −Gᵀ W ν and the covariance 1 − Gᵀ W G,
+// W that of the edge as it is folded.
+std::vector<Pictures::Folded> Pictures::folded_of(const RelativePose& z,
+                                                  std::span<const Edge> edges) const {
+  std::vector<Folded> all;
+  const auto add = [&](std::size_t keyframe, const Eigen::Matrix3d& G) {
+    const int e = folded_edge(static_cast<int>(keyframe));
+    if (e < 0) return;
+    const Told& told = told_[pictures_[keyframe].first];
+    const bool is_from = at(edges[at(e)].from) == keyframe;
+    if (all.empty() || all.back().edge != e) all.emplace_back().edge = e;
+    all.back().X += G * (is_from ? told.ends.from : told.ends.to).G.transpose();
+  };
+  add(z.from, z.shared->from.scaled());
+  add(z.to, z.shared->to.scaled());
+  return all;
+}
+
+RelativePose Pictures::without_errors(const RelativePose& z, std::span<const Edge> edges,
+                                      std::span<const Node> poses) const {
+  Eigen::Vector3d error =
+      z.shared->from.scaled() * n_of(z.from) + z.shared->to.scaled() * n_of(z.to);
+  for (const auto& [e, X] : folded_of(z, edges)) {
+    const Edge& edge = edges[at(e)];
+    error -= X * pose_graph::full(edge.W) * residual(edge, poses);
+  }
+  return pose_graph::without_errors(z, error);
 }
 
 Eigen::Vector3d Pictures::n_of(std::size_t keyframe) const {

@@ -51,12 +51,19 @@ class Pictures {
   /// Takes the errors of a solution.
   void keep(const pose_graph::ExtendedGraph& solved);
 
+  /// What a folded edge says of the errors of another registration's pictures: of Σ G n over those
+  /// that are folded into it −X W ν is known, and X W Xᵀ of its covariance Σ G Gᵀ.
+  struct Folded {
+    int edge = 0;
+    Eigen::Matrix3d X = Eigen::Matrix3d::Zero();
+  };
+  std::vector<Folded> folded_of(const RelativePose& z, std::span<const Edge> edges) const;
   /// A registration as it is left when the errors of its pictures, as estimated, are taken out: of
-  /// its own covariance. What a gate tests.
-  RelativePose without_errors(const RelativePose& z) const;
+  /// its own covariance. What a gate tests. The poses of folded edges must be up to date.
+  RelativePose without_errors(const RelativePose& z, std::span<const Edge> edges,
+                              std::span<const Node> poses) const;
 
-  std::vector<Node>
-      errors;  ///< n by keyframe, up to the last that has one; zero where there is none
+  std::vector<Node> errors;  ///< n by keyframe; zero where it is none of the unknowns
 
  private:
   struct Told {
@@ -70,6 +77,8 @@ class Pictures {
     bool is_unknown = false;
   };
 
+  /// Of an edge, less the errors that are unknowns.
+  Eigen::Vector3d residual(const Edge& edge, std::span<const Node> poses) const;
   Eigen::Vector3d n_of(std::size_t keyframe) const;
   void set_unknown(int keyframe, bool is_unknown);
   /// W of its edge, and whether the edge shares.

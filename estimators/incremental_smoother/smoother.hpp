@@ -99,7 +99,7 @@ class Smoother {
 
   /// Each as its innovation is to be tested: the errors of its pictures, as estimated, taken out,
   /// and of its own covariance.
-  std::vector<RelativePose> without_errors(std::span<const RelativePose> registrations) const;
+  std::vector<RelativePose> without_errors(std::span<const RelativePose> registrations);
 
   /// What each of the registrations added weighs at the estimate, in their order; and the graph
   /// with the information that is left of theirs. With a loss; without one all weigh 1.
@@ -192,7 +192,7 @@ class Smoother {
     Pose mean;
     std::vector<CliqueTree::Response> responses{};
   };
-  MotionInTree motion_in_tree(int from);
+  MotionInTree motion_in_tree(int from, int to);
   Eigen::Matrix3d motion_covariance(int from);
   Eigen::Matrix3d shared_covariance(const RelativePose& z);
 

@@ -28,7 +28,7 @@ Eigen::Matrix3d Smoother::motion_covariance(int from) {
   const int last = outside_.first - 1;
   UncertainPose motion{{}, Eigen::Matrix3d::Zero()};
   if (from < last) {
-    MotionInTree in_tree = motion_in_tree(from);
+    const MotionInTree in_tree = motion_in_tree(from, last);
     motion = {in_tree.mean, tree_.variance(in_tree.responses)};
   }
   for (int k = std::max(from, last); k + 1 < problem_.size(); ++k) {
@@ -37,20 +37,18 @@ Eigen::Matrix3d Smoother::motion_covariance(int from) {
   return motion.covariance;
 }
 
-// To the newest keyframe in the tree.
-Smoother::MotionInTree Smoother::motion_in_tree(int from) {
-  const int last = outside_.first - 1;
-  for (const int k : {from, last}) tree_.settle(k);
+Smoother::MotionInTree Smoother::motion_in_tree(int from, int to) {
+  for (const int k : {from, to}) tree_.settle(k);
   double h[3];
-  offset_of(problem_.nodes[at(from)], problem_.nodes[at(last)], h);
+  offset_of(problem_.nodes[at(from)], problem_.nodes[at(to)], h);
   Eigen::Matrix3d T = Eigen::Matrix3d::Identity();
   T(0, 2) = -h[1];
   T(1, 2) = h[0];
-  return {{h[0], h[1], wrap_angle(h[2])}, {{from, -T}, {last, planar_rotation(h[2])}}};
+  return {{h[0], h[1], wrap_angle(h[2])}, {{from, -T}, {to, planar_rotation(h[2])}}};
 }
 
-// Of h(x) + G_from n_from + G_to n_to: what the tree knows of depends on each other. n of a picture
-// that it does not have is as its prior says.
+// Of h(x) + G_from n_from + G_to n_to. n that is not in the tree is as its prior says, and as the
+// edge does that it is folded into.
 Eigen::Matrix3d Smoother::shared_covariance(const RelativePose& z) {
   const int from = static_cast<int>(z.from);
   const int last = outside_.first - 1;
@@ -59,7 +57,7 @@ Eigen::Matrix3d Smoother::shared_covariance(const RelativePose& z) {
     outside = compose(outside, outside_.steps[at(k - last)]);
   }
   MotionInTree motion;
-  if (from < last) motion = motion_in_tree(from);
+  if (from < last) motion = motion_in_tree(from, last);
   Eigen::Matrix3d J_tree;
   Eigen::Matrix3d J_outside;
   compose(motion.mean, outside.mean, &J_tree, &J_outside);
@@ -75,6 +73,19 @@ Eigen::Matrix3d Smoother::shared_covariance(const RelativePose& z) {
   };
   add_errors(z.from, z.shared->from.scaled());
   add_errors(z.to, z.shared->to.scaled());
+  for (const auto& [e, X] : problem_.pictures.folded_of(z, problem_.edges)) {
+    const Edge& edge = problem_.edges[at(e)];
+    const Eigen::Matrix3d XW = X * pose_graph::full(edge.W);
+    S -= transport(X, pose_graph::full(edge.W));
+    const MotionInTree known = motion_in_tree(edge.from, edge.to);
+    for (const CliqueTree::Response& response : known.responses) {
+      motion.responses.push_back({response.variable, -XW * response.J});
+    }
+    if (edge.shared == nullptr) continue;
+    for (const pose_graph::SharedEnds::End* end : {&edge.shared->from, &edge.shared->to}) {
+      if (end->node >= 0) motion.responses.push_back({errors_of(end->node), -XW * end->G});
+    }
+  }
   return S + tree_.variance(motion.responses);
 }
 

@@ -37,11 +37,18 @@ pose_graph::ExtendedGraph Smoother::extended(const std::vector<Edge>& edges) con
   return graph;
 }
 
-std::vector<RelativePose> Smoother::without_errors(
-    std::span<const RelativePose> registrations) const {
+std::vector<RelativePose> Smoother::without_errors(std::span<const RelativePose> registrations) {
   std::vector<RelativePose> apart;
   for (const RelativePose& z : registrations) {
-    apart.push_back(has_states(z) ? problem_.pictures.without_errors(z) : z);
+    if (!has_states(z)) {
+      apart.push_back(z);
+      continue;
+    }
+    for (const auto& folded : problem_.pictures.folded_of(z, problem_.edges)) {
+      const Edge& edge = problem_.edges[at(folded.edge)];
+      for (const int end : {edge.from, edge.to}) tree_.settle(end);
+    }
+    apart.push_back(problem_.pictures.without_errors(z, problem_.edges, problem_.nodes));
   }
   return apart;
 }

@@ -6,10 +6,8 @@
 
 namespace fathom::pose_graph {
 
-RelativePose without_errors(const RelativePose& z, const Eigen::Vector3d& n_from,
-                            const Eigen::Vector3d& n_to) {
-  const Eigen::Vector3d left =
-      z.motion.vector() - z.shared->from.scaled() * n_from - z.shared->to.scaled() * n_to;
+RelativePose without_errors(const RelativePose& z, const Eigen::Vector3d& error) {
+  const Eigen::Vector3d left = z.motion.vector() - error;
   RelativePose apart = RelativePose::from_covariance(
       z.from, z.to, {left.x(), left.y(), wrap_angle(left.z())}, z.shared->own);
   apart.shared = z.shared;
@@ -82,7 +80,8 @@ Eigen::Vector3d PictureStates::errors_of(std::size_t keyframe) const {
 
 RelativePose PictureStates::without_errors(const RelativePose& z) const {
   if (!z.shared) return z;
-  return pose_graph::without_errors(z, errors_of(z.from), errors_of(z.to));
+  return pose_graph::without_errors(
+      z, z.shared->from.scaled() * errors_of(z.from) + z.shared->to.scaled() * errors_of(z.to));
 }
 
 }  // namespace fathom::pose_graph

@@ -27,10 +27,9 @@ struct ExtendedGraph {
   std::vector<int> node_of;  ///< by keyframe, that of its picture's errors; −1 or beyond: none
 };
 
-/// A registration as it is left when the errors of its pictures are taken out: of its own
-/// covariance. What a gate tests. It must tell what it shares.
-RelativePose without_errors(const RelativePose& z, const Eigen::Vector3d& n_from,
-                            const Eigen::Vector3d& n_to);
+/// A registration as it is left when what the errors of its pictures do to it, G n, is taken out:
+/// of its own covariance. What a gate tests. It must tell what it shares.
+RelativePose without_errors(const RelativePose& z, const Eigen::Vector3d& error);
 
 /// The errors that registrations of a picture share, as unknowns of a graph: three numbers n a
 /// picture, in units of their standard deviations (docs/shared_errors.md).
