@@ -91,7 +91,7 @@ class CliqueTree {
   };
   /// J H⁻¹ Jᵀ of a quantity that depends on these variables of the tree and on keyframe 0; what is
   /// said twice of one adds up.
-  Eigen::Matrix3d variance(std::span<const Response> responses);
+  Eigen::Matrix3d variance(const std::vector<Response>& responses);
 
  private:
   void grow();

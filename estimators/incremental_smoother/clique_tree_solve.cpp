@@ -164,7 +164,7 @@ void CliqueTree::find_to_relinearise(double limit_m, double limit_rad,
   }
 }
 
-Eigen::Matrix3d CliqueTree::variance(std::span<const Response> responses) {
+Eigen::Matrix3d CliqueTree::variance(const std::vector<Response>& responses) {
   unmark();
   for (const Response& response : responses) mark_up(response.variable);
   sort_marked();

@@ -128,6 +128,7 @@ void Smoother::touch_ends(const Edge& edge) {
 bool Smoother::refactor() {
   for (int k = std::max(1, outside_.first - 1); k < problem_.size(); ++k)
     marks_.touched.push_back(k);
+  if (outside_.first == 1) for_each_state([&](int v) { marks_.touched.push_back(v); });
   if (!tree_.refactor(marks_.touched, problem_.size() - 1)) return false;
   counts_.eliminated += tree_.refactored();
   outside_.first = problem_.size();
@@ -156,7 +157,6 @@ bool Smoother::rebuild() {
   tree_.clear();
   marks_.to_relinearise.clear();
   marks_.touched.clear();
-  for_each_state([&](int v) { marks_.touched.push_back(v); });
   outside_.first = 1;
   return problem_.size() < 2 || refactor();
 }

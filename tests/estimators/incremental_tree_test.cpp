@@ -164,18 +164,16 @@ TEST(IncrementalTree, SolvesForAFewKeyframesAndGivesVariances) {
   // What is ignored is left out of b.
   EXPECT_NEAR(grown.tree.forward(keyframes, {gradient}, {gradient}).promised(), 0.0, 1e-30);
 
-  using Responses = std::vector<CliqueTree::Response>;
-  const auto variance = [&](const Responses& responses) { return grown.tree.variance(responses); };
   const Eigen::Matrix3d J_i = Eigen::Matrix3d::Random();
   const Eigen::Matrix3d J_k = Eigen::Matrix3d::Random();
   Eigen::MatrixXd J = Eigen::MatrixXd::Zero(3, inverse.cols());
   J.middleCols<3>(3 * (11 - 1)) = J_i;
   J.middleCols<3>(3 * (36 - 1)) = J_k;
-  const Eigen::Matrix3d expected = J * inverse * J.transpose();
-  EXPECT_LT((variance({{11, J_i}, {36, J_k}}) - expected).norm(), 1e-8 * expected.norm());
+  const Eigen::Matrix3d both = J * inverse * J.transpose();
+  EXPECT_LT((grown.tree.variance({{11, J_i}, {36, J_k}}) - both).norm(), 1e-8 * both.norm());
   J.middleCols<3>(3 * (11 - 1)).setZero();
-  const Eigen::Matrix3d from_fixed = J * inverse * J.transpose();
-  EXPECT_LT((variance({{0, J_i}, {36, J_k}}) - from_fixed).norm(), 1e-8 * from_fixed.norm());
+  const Eigen::Matrix3d fixed = J * inverse * J.transpose();
+  EXPECT_LT((grown.tree.variance({{0, J_i}, {36, J_k}}) - fixed).norm(), 1e-8 * fixed.norm());
 }
 
 TEST(IncrementalTree, IsLinearisedAnewWhereItIsStale) {
