@@ -24,17 +24,18 @@ struct FollowedMotion {
 /// Whether a clique has its update; one that lasts is not dropped (CliqueTree::drop_updates).
 enum class Kept { no, yes, lasting };
 
-/// Keyframes that are eliminated together, given the separator: those of its ancestors that they
-/// are linked with, directly or by what was eliminated before. Lengths count keyframes, three
-/// numbers each.
+/// Variables that are eliminated together, given the separator: those of its ancestors that they
+/// are linked with, directly or by what was eliminated before. Lengths count variables, three
+/// numbers each. The errors of a picture are eliminated before its pose; so the pose is in every
+/// separator that has them.
 struct Clique {
   int parent = -1;
-  int width = 0;   ///< keyframes eliminated here
+  int width = 0;   ///< variables eliminated here
   int height = 0;  ///< separator
   int leader = 0;  ///< of the separator, the keyframe that is eliminated first
   bool is_marked = false;
   FollowedMotion followed;
-  std::vector<int> variables;  ///< keyframes, first those eliminated here
+  std::vector<int> variables;  ///< first those eliminated here; the last is a pose
   std::vector<int> children;
   /// L of the columns, all rows, column-major.
   std::vector<double> panel;
@@ -45,8 +46,8 @@ struct Clique {
   long used_in = -1;       ///< the update of the estimate that needed `update` last
   long queued_in = -1;     ///< what `used_in` was when it was queued
   bool is_queued = false;  ///< to be dropped
-  int dropped = 0;         ///< keyframes to eliminate again to have it back
-  /// Where the variables lay when it was factored, seen from the last of them.
+  int dropped = 0;         ///< variables to eliminate again to have it back
+  /// Where the poses lay when it was factored, seen from the last of them.
   std::vector<double> layout;
 
   int rows() const { return width + height; }

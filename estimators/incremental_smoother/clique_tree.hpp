@@ -28,13 +28,13 @@ class CliqueTree {
 
   void clear();
 
-  /// Eliminates again what depends on these keyframes, in an order of its own with `newest` last;
+  /// Eliminates again what depends on these variables, in an order of its own with `newest` last;
   /// those that are not in the tree enter it. False, and the tree is empty, where the matrix is not
   /// positive definite.
-  bool refactor(std::span<const int> keyframes, int newest);
+  bool refactor(std::span<const int> variables, int newest);
   /// The same in the old order: where no measurement is new.
-  bool relinearise(std::span<const int> keyframes);
-  /// How many keyframes the last of both has eliminated.
+  bool relinearise(std::span<const int> variables);
+  /// How many variables the last of both has eliminated.
   int refactored() const { return refactored_; }
 
   /// A step that is solved half: y = L⁻¹ b is in the tree.
@@ -50,11 +50,11 @@ class CliqueTree {
     long number_;
   };
 
-  /// For b = ignored − gradient, which must be zero but at these keyframes; the other form is for
+  /// For b = ignored − gradient, which must be zero but at these variables; the other form is for
   /// any b.
-  Step forward(std::span<const int> keyframes, const std::vector<Vec3>& gradient,
-               const std::vector<Vec3>& ignored);
-  Step forward_all(const std::vector<Vec3>& gradient);
+  Step forward(std::span<const int> variables, const ByVariable<Vec3>& gradient,
+               const ByVariable<Vec3>& ignored);
+  Step forward_all(const ByVariable<Vec3>& gradient);
 
   /// Takes the step that was solved last, before anything else is asked of the tree: propagates
   /// H⁻¹ b from the root down. The keyframes of a clique follow one of their separators as if they
@@ -64,7 +64,7 @@ class CliqueTree {
   /// changed are saved.
   void propagate(const Step& step, double negligible);
 
-  /// Of the last propagate: keyframes that moved and did not just follow.
+  /// Of the last propagate: variables that moved and did not just follow.
   const std::vector<int>& bent() const { return last_.bent; }
 
   /// The node of a keyframe is up to date after this, until the next propagate; or those of all.
@@ -76,27 +76,36 @@ class CliqueTree {
   void begin_update();
   /// All keyframes are where they were when the update began.
   void forget_update();
-  /// All keyframes are there; nobody follows what was noted.
-  void place(const std::vector<Node>& nodes);
+  /// All variables are there; nobody follows what was noted.
+  void place(const ByVariable<Node>& nodes);
 
-  /// One keyframe of each clique that the last propagate has bent, and whose keyframes have turned
+  /// One variable of each clique that the last propagate has bent, and whose keyframes have turned
   /// by more than `limit_rad` to each other since it was factored, or moved by more than `limit_m`
   /// and `limit_rad` of their distance.
-  void find_to_relinearise(double limit_m, double limit_rad, std::vector<int>& keyframes) const;
+  void find_to_relinearise(double limit_m, double limit_rad, std::vector<int>& variables) const;
 
-  /// J H⁻¹ Jᵀ of a quantity with these derivatives by two keyframes, each in its own axes.
-  Eigen::Matrix3d variance(int i, const Eigen::Matrix3d& J_i, int k, const Eigen::Matrix3d& J_k);
+  /// The derivative of a quantity by a variable, of a keyframe in its own axes.
+  struct Response {
+    int variable;
+    Eigen::Matrix3d J;
+  };
+  /// J H⁻¹ Jᵀ of a quantity that depends on these variables of the tree and on keyframe 0; what is
+  /// said twice of one adds up.
+  Eigen::Matrix3d variance(const std::vector<Response>& responses);
 
  private:
   void grow();
-  void mark_up(int keyframe);
+  void mark_up(int variable);
   void mark_all();
   void sort_marked();
   void unmark();
-  void find_affected(std::span<const int> keyframes);
+  void find_affected(std::span<const int> variables);
+  void sort_affected();
   void form_quotient_graph();
+  void form_keyframe_graph();
   void release_marked();
   int older_than(int keyframe) const;
+  const std::vector<int>& ordered(int first, int newest);
   void build(int first, int newest);
   int new_clique();
   void attach(int clique);
@@ -115,7 +124,7 @@ class CliqueTree {
   }
   void drop_update(Clique& clique);
   void drop_updates();
-  void set_right_side(const std::vector<Vec3>& gradient, const std::vector<Vec3>* ignored);
+  void set_right_side(const ByVariable<Vec3>& gradient, const ByVariable<Vec3>* ignored);
   Step solved();
   double substitute();
   bool bend_separator(const Clique& clique, const RigidMotion& rigid, double negligible);
@@ -126,20 +135,26 @@ class CliqueTree {
   void settle_path(int clique);
   void note_before_update(int clique);
 
-  /// Which keyframe is eliminated where. build changes it, and clear.
+  /// Which variable is eliminated where. build changes it, and clear.
   struct Order {
-    std::vector<int> clique_of;  ///< by keyframe; −1: not in the tree
-    std::vector<long> when;      ///< by keyframe, when it was eliminated
+    ByVariable<int> clique_of;  ///< −1: not in the tree
+    ByVariable<long> when;      ///< it was eliminated
     long next = 0;
     int root = -1;
   };
 
   /// What refactor eliminates again, and in which order; nobody else looks at it.
   struct Reordering {
-    std::vector<int> affected;  ///< keyframes to be eliminated, and keyframe 0
-    std::vector<int> orphans;   ///< children of cliques that are gone
-    std::vector<int> index_of;  ///< by keyframe, in affected; −1
+    /// Variables to be eliminated, and keyframe 0: by age, errors before the pose of their picture.
+    std::vector<int> affected;
+    std::vector<int> orphans;  ///< children of cliques that are gone
+    ByVariable<int> index_of;  ///< in affected; −1
     QuotientGraph quotient;
+    bool has_errors = false;         ///< whether some are affected; then the order is that of
+    QuotientGraph keyframes;         ///< the keyframes alone, and errors go with theirs
+    std::vector<int> index_of_pose;  ///< by index in affected, of a pose that among the keyframes
+    std::vector<int> pose_at;        ///< by index among the keyframes, that in affected
+    std::vector<int> order;
     MinimumDegree minimum_degree;
     Elimination elimination;
     std::vector<int> built;
@@ -156,7 +171,7 @@ class CliqueTree {
 
   /// Of the last propagate. bend writes it.
   struct Propagation {
-    std::vector<Node> before;  ///< where its bent keyframes were
+    ByVariable<Node> before;  ///< where what it bent was
     std::vector<int> bent;
     std::vector<int> bent_cliques;
     long number = 0;  ///< how often propagate was called
@@ -171,7 +186,7 @@ class CliqueTree {
   /// Whose content matters to nobody after a call.
   struct Workspace {
     std::vector<int> to_factor;
-    std::vector<int> row_of;
+    ByVariable<int> row_of;
     std::vector<double> packed;
     std::vector<double> signs;
     std::vector<double> gathered;
@@ -191,7 +206,7 @@ class CliqueTree {
 
   // The solve: from forward to propagate, y is that of the marked cliques and zero elsewhere.
   std::vector<int> marked_;
-  std::vector<double> x_;  ///< b, then y, three numbers a keyframe
+  ByVariable<Vec3> x_;  ///< b, then y
   long solves_ = 0;
   bool is_solved_ = false;
   int refactored_ = 0;

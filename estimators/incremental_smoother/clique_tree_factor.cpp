@@ -49,8 +49,8 @@ bool CliqueTree::factor_some(std::span<const int> which) {
                          problem_.loops,
                          cliques_,
                          which,
-                         order_.when.data(),
-                         work_.row_of.data(),
+                         {order_.when.poses.data(), order_.when.errors.data()},
+                         pointer_to(work_.row_of),
                          work_.packed.data(),
                          work_.signs.data()};
   return sparse::run_for_processor(run);

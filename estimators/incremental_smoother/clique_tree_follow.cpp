@@ -47,6 +47,7 @@ void CliqueTree::settle_clique(int clique) {
   const Motion& before = is_new ? f.before_update : f.motion;
   for (int j = 0; j < c.width; ++j) {
     const int v = c.variables[at(j)];
+    if (is_errors(v)) continue;
     Node& node = problem_.nodes[at(v)];
     if (is_new) problem_.save(v, before ? (*before)(node) : node);
     node = (*f.motion)(node);
@@ -71,8 +72,8 @@ void CliqueTree::settle_path(int clique) {
 }
 
 void CliqueTree::settle(int keyframe) {
-  if (following_.has_any && at(keyframe) < order_.clique_of.size()) {
-    settle_path(order_.clique_of[at(keyframe)]);
+  if (following_.has_any && at(keyframe) < order_.clique_of.poses.size()) {
+    settle_path(order_.clique_of[keyframe]);
   }
 }
 
@@ -89,13 +90,14 @@ void CliqueTree::settle() {
   following_.has_any = false;
 }
 
-void CliqueTree::place(const std::vector<Node>& nodes) {
+void CliqueTree::place(const ByVariable<Node>& nodes) {
   for (Clique& c : cliques_) {
     c.followed.motion.reset();
     c.followed.before_update.reset();
   }
   following_.has_any = false;
-  problem_.nodes = nodes;
+  problem_.nodes = nodes.poses;
+  problem_.pictures.errors = nodes.errors;
 }
 
 void CliqueTree::forget_update() {

@@ -10,7 +10,7 @@
 namespace fathom::incremental_smoother {
 namespace {
 
-// A correction of a keyframe in squared sigmas, as far as its own measurements tell.
+// A correction of a variable in squared sigmas, as far as its own measurements tell.
 double size_of(const double* d, const Weight& w) {
   return w.position * (d[0] * d[0] + d[1] * d[1]) + w.heading * d[2] * d[2];
 }
@@ -28,27 +28,26 @@ bool has_left(const double* was, const double* now, double limit_m, double limit
 
 }  // namespace
 
-void CliqueTree::set_right_side(const std::vector<Vec3>& gradient,
-                                const std::vector<Vec3>* ignored) {
+void CliqueTree::set_right_side(const ByVariable<Vec3>& gradient, const ByVariable<Vec3>* ignored) {
   for (const int i : marked_) {
     const Clique& c = cliques_[at(i)];
     for (int j = 0; j < c.width; ++j) {
-      const auto v = at(c.variables[at(j)]);
+      const int v = c.variables[at(j)];
       for (std::size_t a = 0; a < 3; ++a) {
-        x_[3 * v + a] = (ignored != nullptr ? (*ignored)[v][a] : 0.0) - gradient[v][a];
+        x_[v][a] = (ignored != nullptr ? (*ignored)[v][a] : 0.0) - gradient[v][a];
       }
     }
   }
 }
 
 double CliqueTree::substitute() {
-  ForwardSubstitution run{cliques_, marked_, x_.data(), work_.gathered.data()};
+  ForwardSubstitution run{cliques_, marked_, pointer_to(x_), work_.gathered.data()};
   sparse::run_for_processor(run);
   double sum = 0.0;
   for (const int i : marked_) {
     const Clique& c = cliques_[at(i)];
     for (int j = 0; j < c.width; ++j) {
-      const double* y = x_.data() + 3 * at(c.variables[at(j)]);
+      const Vec3& y = x_[c.variables[at(j)]];
       sum += y[0] * y[0] + y[1] * y[1] + y[2] * y[2];
     }
   }
@@ -61,17 +60,17 @@ CliqueTree::Step CliqueTree::solved() {
   return {promised, ++solves_};
 }
 
-CliqueTree::Step CliqueTree::forward(std::span<const int> keyframes,
-                                     const std::vector<Vec3>& gradient,
-                                     const std::vector<Vec3>& ignored) {
+CliqueTree::Step CliqueTree::forward(std::span<const int> variables,
+                                     const ByVariable<Vec3>& gradient,
+                                     const ByVariable<Vec3>& ignored) {
   unmark();
-  for (const int v : keyframes) mark_up(v);
+  for (const int v : variables) mark_up(v);
   sort_marked();
   set_right_side(gradient, &ignored);
   return solved();
 }
 
-CliqueTree::Step CliqueTree::forward_all(const std::vector<Vec3>& gradient) {
+CliqueTree::Step CliqueTree::forward_all(const ByVariable<Vec3>& gradient) {
   unmark();
   mark_all();
   set_right_side(gradient, nullptr);
@@ -97,9 +96,13 @@ void CliqueTree::propagate([[maybe_unused]] const Step& step, double negligible)
 bool CliqueTree::bend_separator(const Clique& c, const RigidMotion& rigid, double negligible) {
   double most = 0.0;
   for (int j = c.width; j < c.rows(); ++j) {
-    const auto s = at(c.variables[at(j)]);
+    const int s = c.variables[at(j)];
     double* d = work_.gathered.data() + 3 * at(j);
-    offset_of(rigid(last_.before[s]), problem_.nodes[s], d);
+    if (is_errors(s)) {
+      errors_between(last_.before[s], problem_.node(s), d);
+    } else {
+      offset_of(rigid(last_.before[s]), problem_.nodes[at(s)], d);
+    }
     most = std::max(most, size_of(d, problem_.weights[s]));
   }
   return most > negligible;
@@ -107,9 +110,10 @@ bool CliqueTree::bend_separator(const Clique& c, const RigidMotion& rigid, doubl
 
 bool CliqueTree::has_moved(const Clique& c, double negligible) const {
   for (int j = c.width; j < c.rows(); ++j) {
-    const auto s = at(c.variables[at(j)]);
+    const int s = c.variables[at(j)];
+    if (is_errors(s)) continue;
     double d[3];
-    offset_of(last_.before[s], problem_.nodes[s], d);
+    offset_of(last_.before[s], problem_.nodes[at(s)], d);
     if (size_of(d, problem_.weights[s]) > negligible) return true;
   }
   return false;
@@ -117,24 +121,25 @@ bool CliqueTree::has_moved(const Clique& c, double negligible) const {
 
 void CliqueTree::bend(int clique, double negligible) {
   const Clique& c = cliques_[at(clique)];
-  const RigidMotion rigid(last_.before[at(c.leader)], problem_.nodes[at(c.leader)]);
+  const RigidMotion rigid(last_.before[c.leader], problem_.nodes[at(c.leader)]);
   if (!bend_separator(c, rigid, negligible) && !c.is_marked) {
     if (has_moved(c, negligible)) follow(clique, rigid);
     return;
   }
   settle_clique(clique);
   for (int j = 0; j < c.width; ++j) {
-    const double* y = x_.data() + 3 * at(c.variables[at(j)]);
-    for (int a = 0; a < 3; ++a) work_.gathered[at(3 * j + a)] = c.is_marked ? y[a] : 0.0;
+    const Vec3& y = x_[c.variables[at(j)]];
+    for (int a = 0; a < 3; ++a) work_.gathered[at(3 * j + a)] = c.is_marked ? y[at(a)] : 0.0;
   }
   BackwardSubstitution run{c, work_.gathered.data()};
   sparse::run_for_processor(run);
   for (int j = 0; j < c.width; ++j) {
     const int v = c.variables[at(j)];
-    Node& node = problem_.nodes[at(v)];
-    last_.before[at(v)] = node;
+    Node& node = problem_.node(v);
+    last_.before[v] = node;
     problem_.save(v, node);
-    node = corrected(rigid(node), work_.gathered.data() + 3 * at(j));
+    const double* d = work_.gathered.data() + 3 * at(j);
+    node = is_errors(v) ? corrected_errors(node, d) : corrected(rigid(node), d);
     last_.bent.push_back(v);
   }
   last_.bent_cliques.push_back(clique);
@@ -142,24 +147,26 @@ void CliqueTree::bend(int clique, double negligible) {
 }
 
 void CliqueTree::find_to_relinearise(double limit_m, double limit_rad,
-                                     std::vector<int>& keyframes) const {
+                                     std::vector<int>& variables) const {
   for (const int i : last_.bent_cliques) {
     const Clique& c = cliques_[at(i)];
     const Node& seen_from = problem_.nodes[at(c.variables.back())];
     for (int j = 0; j + 1 < c.rows(); ++j) {
+      const int v = c.variables[at(j)];
+      // Their part of the residuals is linear.
+      if (is_errors(v)) continue;
       double now[3];
-      offset_of(seen_from, problem_.nodes[at(c.variables[at(j)])], now);
+      offset_of(seen_from, problem_.nodes[at(v)], now);
       if (!has_left(c.layout.data() + 3 * at(j), now, limit_m, limit_rad)) continue;
-      keyframes.push_back(c.variables[0]);
+      variables.push_back(c.variables[0]);
       break;
     }
   }
 }
 
-Eigen::Matrix3d CliqueTree::variance(int i, const Eigen::Matrix3d& J_i, int k,
-                                     const Eigen::Matrix3d& J_k) {
+Eigen::Matrix3d CliqueTree::variance(const std::vector<Response>& responses) {
   unmark();
-  for (const int v : {i, k}) mark_up(v);
+  for (const Response& response : responses) mark_up(response.variable);
   sort_marked();
   Eigen::Index numbers = 0;
   for (const int m : marked_) numbers += 3 * Eigen::Index{cliques_[at(m)].width};
@@ -169,14 +176,14 @@ Eigen::Matrix3d CliqueTree::variance(int i, const Eigen::Matrix3d& J_i, int k,
       for (const int m : marked_) {
         const Clique& c = cliques_[at(m)];
         for (int j = 0; j < c.width; ++j) {
-          for (int b = 0; b < 3; ++b) use(x_[at(3 * c.variables[at(j)] + b)]);
+          for (double& x : x_[c.variables[at(j)]]) use(x);
         }
       }
     };
     for_each_number([](double& x) { x = 0.0; });
-    for (int b = 0; b < 3; ++b) {
-      if (i > 0) x_[at(3 * i + b)] = J_i(a, b);
-      if (k > 0) x_[at(3 * k + b)] = J_k(a, b);
+    for (const auto& [variable, J] : responses) {
+      if (variable == 0) continue;
+      for (int b = 0; b < 3; ++b) x_[variable][at(b)] += J(a, b);
     }
     substitute();
     Eigen::Index next = 0;

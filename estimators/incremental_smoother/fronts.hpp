@@ -5,6 +5,7 @@
 #include <span>
 
 #include "estimators/incremental_smoother/clique.hpp"
+#include "estimators/incremental_smoother/error_blocks.hpp"
 #include "estimators/incremental_smoother/motion.hpp"
 #include "estimators/incremental_smoother/problem.hpp"
 #include "estimators/support/sparse/factorisation.hpp"
@@ -23,8 +24,8 @@ struct FrontFactorisation {
   LoopWeights& loops;
   std::vector<Clique>& cliques;
   std::span<const int> which;
-  const long* order;  ///< of elimination, by keyframe
-  int* row_of;        ///< by keyframe, of the clique at hand
+  VariablePointer<const long> order;  ///< of elimination
+  VariablePointer<int> row_of;        ///< of the clique at hand
   double* packed;
   double* signs;
 
@@ -52,10 +53,12 @@ struct FrontFactorisation {
   FATHOM_INLINE void add_edges(Clique& c) const {
     for (int j = 0; j < c.width; ++j) {
       const int v = c.variables[at(j)];
-      problem.for_each_edge(v, [&](int e, int other) {
+      if (is_errors(v)) add_prior(c, j);
+      problem.for_each_edge_of(v, [&](int e, int other) {
         // Eliminated before, and so in a child's update.
         if (order[other] < order[v]) return;
         const Edge& edge = problem.edges[at(e)];
+        if (edge.shared != nullptr && !is_eliminated_first(v, edge)) return;
         EdgeBlocks b = blocks_of(edge, problem.nodes[at(edge.from)], problem.nodes[at(edge.to)]);
         if (loops.has(e)) b.scale(loops.factor(e));
         const int from = row_of[edge.from];
@@ -63,8 +66,38 @@ struct FrontFactorisation {
         add_block(c, from, from, b.from_from.data());
         add_block(c, to, to, b.to_to.data());
         add_block(c, to, from, b.to_from.data());
+        if (edge.shared != nullptr) add_errors(c, e, edge);
       });
     }
+  }
+
+  FATHOM_INLINE bool is_eliminated_first(int v, const Edge& edge) const {
+    bool is_first = true;
+    problem.for_each_errors(edge, [&](int n) { is_first = is_first && order[v] <= order[n]; });
+    return is_first;
+  }
+
+  FATHOM_INLINE static void add_prior(Clique& c, int column) {
+    int stride = 0;
+    double* to = place(c, column, column, stride);
+    for (int i = 0; i < B; ++i) to[i + i * stride] += 1.0;
+  }
+
+  FATHOM_INLINE void add_errors(Clique& c, int e, const Edge& edge) const {
+    ErrorBlocks b = error_blocks_of(edge, problem.nodes[at(edge.from)], problem.nodes[at(edge.to)]);
+    if (loops.has(e)) b.scale(loops.factor(e));
+    const bool has_from = edge.shared->from.node >= 0;
+    const bool has_to = edge.shared->to.node >= 0;
+    const auto add_end = [&](const ErrorBlocks::End& end, int keyframe) {
+      const int row = row_of[errors_of(keyframe)];
+      add_block(c, row, row_of[edge.from], end.with_from.data());
+      add_block(c, row, row_of[edge.to], end.with_to.data());
+      add_block(c, row, row, end.own.data());
+    };
+    if (has_from) add_end(b.from, edge.from);
+    if (has_to) add_end(b.to, edge.to);
+    if (!has_from || !has_to) return;
+    add_block(c, row_of[errors_of(edge.to)], row_of[errors_of(edge.from)], b.between.data());
   }
 
   FATHOM_INLINE void add_child(Clique& c, const Clique& child) const {
@@ -121,6 +154,7 @@ struct FrontFactorisation {
     for (int i = 0; i < c.rows(); ++i) {
       const int v = c.variables[at(i)];
       row_of[v] = i;
+      if (is_errors(v)) continue;
       offset_of(seen_from, problem.nodes[at(v)], c.layout.data() + 3 * at(i));
     }
     add_edges(c);
@@ -149,7 +183,7 @@ struct FrontFactorisation {
 struct ForwardSubstitution {
   const std::vector<Clique>& cliques;
   std::span<const int> which;
-  double* x;  ///< 3 numbers a keyframe
+  VariablePointer<Vec3> x;
   double* gathered;
 
   FATHOM_INLINE void forward(const Clique& c) const {
@@ -157,7 +191,8 @@ struct ForwardSubstitution {
     const int width = c.width * B;
     for (int i = 0; i < stride; ++i) gathered[i] = 0.0;
     for (int i = 0; i < c.width; ++i) {
-      for (int a = 0; a < B; ++a) gathered[i * B + a] = x[c.variables[at(i)] * B + a];
+      const double* from = x[c.variables[at(i)]].data();
+      for (int a = 0; a < B; ++a) gathered[i * B + a] = from[a];
     }
     for (int k = 0; k < width; ++k) {
       const double* column = c.panel.data() + at(k) * at(stride);
@@ -165,10 +200,12 @@ struct ForwardSubstitution {
       for (int i = k + 1; i < stride; ++i) gathered[i] -= column[i] * value;
     }
     for (int i = 0; i < c.width; ++i) {
-      for (int a = 0; a < B; ++a) x[c.variables[at(i)] * B + a] = gathered[i * B + a];
+      double* to = x[c.variables[at(i)]].data();
+      for (int a = 0; a < B; ++a) to[a] = gathered[i * B + a];
     }
     for (int i = c.width; i < c.rows(); ++i) {
-      for (int a = 0; a < B; ++a) x[c.variables[at(i)] * B + a] += gathered[i * B + a];
+      double* to = x[c.variables[at(i)]].data();
+      for (int a = 0; a < B; ++a) to[a] += gathered[i * B + a];
     }
   }
 

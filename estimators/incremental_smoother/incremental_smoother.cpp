@@ -4,12 +4,24 @@
 
 #include "estimators/incremental_smoother/smoother.hpp"
 #include "estimators/support/pose_graph/information.hpp"
+#include "fathom/core/input_error.hpp"
 
 namespace fathom {
 
+using incremental_smoother::ErrorStates;
 using incremental_smoother::Smoother;
 using incremental_smoother::SmootherLimits;
 using incremental_smoother::SmootherResult;
+
+namespace {
+
+// A loss is on what is left without the errors: then a picture with one registration has its own.
+ErrorStates error_states_of(const IncrementalSmootherOptions& options) {
+  if (options.shared.model != SharedErrorModel::states) return ErrorStates::none;
+  return options.loss.kind != LossKind::none ? ErrorStates::all : ErrorStates::of_several;
+}
+
+}  // namespace
 
 void IncrementalSmootherOptions::describe(OptionTable& table) {
   table.integer("max_iterations", max_iterations, Range::at_least(1), "",
@@ -21,22 +33,27 @@ void IncrementalSmootherOptions::describe(OptionTable& table) {
   table.real("relinearise_rad", relinearise_rad, Range::positive(), "rad",
              "likewise, when they turned by more, or moved by more of their distance");
   loss.describe(table);
+  shared.describe(table);
   gate.describe(table);
 }
 
 void IncrementalSmootherOptions::check(const EstimatorSetup&) const {
   loss.check();
+  if (shared.model == SharedErrorModel::consider) {
+    throw InputError("shared_errors: incremental_smoother takes states or independent");
+  }
 }
 
 IncrementalSmoother::IncrementalSmoother(const EstimatorSetup& setup,
                                          const IncrementalSmootherOptions& options)
     : loss_(options.loss),
+      shared_errors_(options.shared.model),
       gate_(options.gate),
       smoother_(
           std::make_unique<Smoother>(setup.start.pose,
                                      SmootherLimits{options.max_iterations, options.tolerance,
                                                     options.relinearise_m, options.relinearise_rad},
-                                     loss_)) {}
+                                     loss_, error_states_of(options))) {}
 
 IncrementalSmoother::~IncrementalSmoother() = default;
 
@@ -65,7 +82,8 @@ UpdateReport IncrementalSmoother::close_loops(std::span<const RelativePose> regi
         marginals_.reset();
         const SmootherResult result = smoother_->add_registrations(used);
         return UpdateReport{result.outcome, result.iterations, {}};
-      });
+      },
+      gate_.is_on() ? smoother_->without_errors(registrations) : std::vector<RelativePose>());
   if (loss_.is_on()) used_loops_.note(report);
   return report;
 }
@@ -84,8 +102,9 @@ std::optional<LoopDecision> IncrementalSmoother::bridge(const Bridge& bridge) {
 
 std::optional<Eigen::Matrix3d> IncrementalSmoother::covariance(std::size_t k) const {
   if (!marginals_) {
-    marginals_ = pose_graph::marginals(smoother_->weighted_edges(), smoother_->problem().nodes)
-                     .value_or(std::vector<Eigen::Matrix3d>{});
+    const pose_graph::ExtendedGraph graph = smoother_->weighted_graph();
+    marginals_ =
+        pose_graph::marginals(graph.edges, graph.nodes).value_or(std::vector<Eigen::Matrix3d>{});
   }
   if (marginals_->empty()) return std::nullopt;
   return (*marginals_)[k];
@@ -93,8 +112,8 @@ std::optional<Eigen::Matrix3d> IncrementalSmoother::covariance(std::size_t k) co
 
 std::optional<Eigen::MatrixXd> IncrementalSmoother::joint_covariance(
     std::span<const std::size_t> keyframes) const {
-  return pose_graph::joint_covariance(smoother_->weighted_edges(), smoother_->problem().nodes,
-                                      keyframes);
+  const pose_graph::ExtendedGraph graph = smoother_->weighted_graph();
+  return pose_graph::joint_covariance(graph.edges, graph.nodes, keyframes);
 }
 
 std::optional<Eigen::Matrix3d> IncrementalSmoother::newest_covariance() const {
@@ -103,7 +122,8 @@ std::optional<Eigen::Matrix3d> IncrementalSmoother::newest_covariance() const {
 }
 
 std::optional<std::vector<UncertainPose>> IncrementalSmoother::motions_to_newest() const {
-  return pose_graph::motions_to_newest(smoother_->weighted_edges(), smoother_->problem().nodes);
+  const pose_graph::ExtendedGraph graph = smoother_->weighted_graph();
+  return pose_graph::motions_to_newest(graph.edges, graph.nodes);
 }
 
 EstimatorEntry incremental_smoother_entry() {

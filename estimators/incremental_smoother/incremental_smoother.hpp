@@ -9,6 +9,7 @@
 #include "fathom/estimation/gate.hpp"
 #include "fathom/estimation/relative_estimator.hpp"
 #include "fathom/estimation/robust_loss.hpp"
+#include "fathom/estimation/shared_error_model.hpp"
 #include "fathom/estimation/used_loops.hpp"
 
 namespace fathom {
@@ -22,9 +23,11 @@ struct IncrementalSmootherOptions {
   double relinearise_m = 0.01;
   double relinearise_rad = 0.001;
   LossOptions loss;
+  SharedErrorOptions shared;
   GateOptions gate;
 
   void describe(OptionTable& table);
+  /// Errors that are considered and not estimated are for others.
   void check(const EstimatorSetup& setup) const;
 };
 
@@ -56,11 +59,15 @@ class IncrementalSmoother final : public RelativeEstimator {
   MovedPoses moved_since(std::uint64_t revision) const override;
   double loss(double chi2, int rank) const override { return loss_.of_rank(rank).at(chi2).rho; }
   std::vector<double> loop_weights() const override;
+  bool estimates_shared_errors() const override {
+    return shared_errors_ == SharedErrorModel::states;
+  }
 
   const incremental_smoother::Smoother& smoother() const { return *smoother_; }
 
  private:
   RobustLoss loss_;
+  SharedErrorModel shared_errors_;
   Gate gate_;
   UsedLoops used_loops_;
   std::unique_ptr<incremental_smoother::Smoother> smoother_;

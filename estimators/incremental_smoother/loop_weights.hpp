@@ -4,10 +4,9 @@
 #include <vector>
 
 #include "estimators/incremental_smoother/local_edge.hpp"
+#include "estimators/incremental_smoother/variables.hpp"
 
 namespace fathom::incremental_smoother {
-
-using sparse::at;
 
 /// A robust loss on the loops among the edges: F = Σ s over the steps + Σ ρ(s) over the loops, with
 /// s = νᵀ W ν. A loop's gradient and blocks are those of an edge with ρ'(s) W: what it weighs at

@@ -3,11 +3,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "estimators/support/sparse/ordering.hpp"
+#include "estimators/incremental_smoother/variables.hpp"
 
 namespace fathom::incremental_smoother {
-
-using sparse::at;
 
 /// The quotient graph of what is left to eliminate (George and Liu 1981): the nodes 0 … size − 1,
 /// their links, and the elements, each a set of nodes that are all linked with one another by what

@@ -48,4 +48,14 @@ inline Node corrected(const Node& v, const double* d) {
   return make_node(v.x + v.c * d[0] - v.s * d[1], v.y + v.s * d[0] + v.c * d[1], v.theta + d[2]);
 }
 
+/// The same of a picture's errors, which have no axes.
+inline void errors_between(const Node& from, const Node& to, double* d) {
+  d[0] = to.x - from.x;
+  d[1] = to.y - from.y;
+  d[2] = to.theta - from.theta;
+}
+inline Node corrected_errors(const Node& n, const double* d) {
+  return pose_graph::make_errors(n.x + d[0], n.y + d[1], n.theta + d[2]);
+}
+
 }  // namespace fathom::incremental_smoother

@@ -2,20 +2,22 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "estimators/support/pose_graph/bridge.hpp"
 #include "estimators/support/pose_graph/information.hpp"
 #include "fathom/geometry/covariance.hpp"
 
 namespace fathom::incremental_smoother {
-Smoother::Smoother(const Pose& origin, const SmootherLimits& limits, const RobustLoss& loss)
+Smoother::Smoother(const Pose& origin, const SmootherLimits& limits, const RobustLoss& loss,
+                   ErrorStates error_states)
     : limits_(limits),
-      problem_(make_node(origin.x, origin.y, origin.theta), loss),
+      error_states_(error_states),
+      problem_(make_node(origin.x, origin.y, origin.theta), loss,
+               error_states == ErrorStates::of_several),
       tree_(problem_, limits.most_kept_bytes),
       gradient_(problem_),
-      ignored_(1) {
-  marks_.changed_in.push_back(-1);
+      ignored_{std::vector<Vec3>(1)} {
+  marks_.changed_in.poses.push_back(-1);
 }
 
 Pose Smoother::pose(std::size_t k) {
@@ -41,15 +43,17 @@ void Smoother::add_keyframe(const RelativePose& step) {
   problem_.add_node(make_node(next.x, next.y, next.theta));
   ++revisions_.now;
   gradient_.add_keyframe();
-  ignored_.emplace_back();
-  marks_.changed_in.push_back(-1);
+  ignored_.poses.emplace_back();
+  marks_.changed_in.poses.push_back(-1);
   append_edge(step, false);
 }
 
 void Smoother::append_edge(const RelativePose& measurement, bool is_loop) {
   const bool is_robust = is_loop && problem_.loops.is_on();
   const int rank = is_robust ? rank_of(measurement.information) : 3;
-  problem_.add_edge(pose_graph::make_edge(measurement), is_loop, rank);
+  problem_.add_edge(pose_graph::make_edge(measurement), is_loop, rank,
+                    has_states(measurement) ? measurement.shared.get() : nullptr);
+  grow_errors();
   spread_.add(measurement);
   marks_.edge_pass.push_back(-1);
   gradient_.add_edge();
@@ -59,13 +63,13 @@ void Smoother::append_edge(const RelativePose& measurement, bool is_loop) {
 void Smoother::evaluate_all() {
   tree_.settle();
   gradient_.evaluate_all();
-  ignored_ = gradient_.by_keyframe();
+  ignored_ = gradient_.by_variable();
 }
 
-void Smoother::note_changed(int k) {
-  if (k == 0 || marks_.changed_in[at(k)] == marks_.update) return;
-  marks_.changed_in[at(k)] = marks_.update;
-  marks_.changed.push_back(k);
+void Smoother::note_changed(int v) {
+  if (v == 0 || marks_.changed_in[v] == marks_.update) return;
+  marks_.changed_in[v] = marks_.update;
+  marks_.changed.push_back(v);
 }
 
 // All that follows moves, which happens once a hole: the tree is made anew.
@@ -104,19 +108,27 @@ void Smoother::add_loops(std::span<const RelativePose> registrations) {
   marks_.changed.clear();
   for (const RelativePose& z : registrations) {
     for (const auto end : {z.from, z.to}) tree_.settle(static_cast<int>(end));
-    append_edge(z, true);
-    for (const auto end : {z.from, z.to}) {
-      if (end == 0) continue;
-      marks_.touched.push_back(static_cast<int>(end));
-      note_changed(static_cast<int>(end));
+    if (has_states(z)) {
+      for (const auto end : {z.from, z.to}) unfold(static_cast<int>(end));
     }
+    append_edge(z, true);
+    touch_ends(problem_.edges.back());
   }
+}
+
+void Smoother::touch_ends(const Edge& edge) {
+  Problem::for_each_end(edge, [&](int v) {
+    if (v == 0) return;
+    marks_.touched.push_back(v);
+    note_changed(v);
+  });
 }
 
 // With what was touched comes what is new.
 bool Smoother::refactor() {
   for (int k = std::max(1, outside_.first - 1); k < problem_.size(); ++k)
     marks_.touched.push_back(k);
+  if (outside_.first == 1) for_each_state([&](int v) { marks_.touched.push_back(v); });
   if (!tree_.refactor(marks_.touched, problem_.size() - 1)) return false;
   counts_.eliminated += tree_.refactored();
   outside_.first = problem_.size();
@@ -135,7 +147,9 @@ bool Smoother::relinearise() {
 
 // Measurements that are alike in their information always are.
 bool Smoother::is_determined() {
-  return !spread_.is_wide() || pose_graph::is_determined(weighted_edges(), problem_.nodes);
+  if (!spread_.is_wide()) return true;
+  const pose_graph::ExtendedGraph graph = weighted_graph();
+  return pose_graph::is_determined(graph.edges, graph.nodes);
 }
 
 // Linearises everything at the estimate.
@@ -145,101 +159,6 @@ bool Smoother::rebuild() {
   marks_.touched.clear();
   outside_.first = 1;
   return problem_.size() < 2 || refactor();
-}
-
-void Smoother::end(Progress& progress, Outcome outcome) {
-  progress.is_over = true;
-  progress.result.outcome = outcome;
-}
-
-SmootherResult Smoother::iterate() {
-  Progress progress;
-  progress.result.outcome = Outcome::iteration_limit;
-  progress.is_whole = !std::isfinite(slack_);
-  while (!progress.is_over && progress.result.iterations < limits_.max_iterations) {
-    ++progress.result.iterations;
-    if (prepare_step(progress)) {
-      take_step(progress);
-    } else {
-      end(progress, Outcome::numerical_failure);
-    }
-  }
-  // The next update begins where this one was stopped.
-  if (!progress.is_over) slack_ = std::numeric_limits<double>::infinity();
-  if (progress.is_whole) {
-    ignored_ = gradient_.by_keyframe();
-  } else {
-    for (const int k : marks_.changed) ignored_[at(k)] = gradient_.by_keyframe()[at(k)];
-  }
-  return progress.result;
-}
-
-// A step of the whole gradient wants a tree that is linearised where it matters, and so does a
-// further one of what the update has changed.
-bool Smoother::prepare_step(const Progress& progress) {
-  ++counts_.steps;
-  if (!progress.is_whole) return relinearise();
-  ++counts_.whole_steps;
-  slack_ = 0.0;
-  before_step_ = problem().nodes;
-  return relinearise();
-}
-
-// In squared sigmas.
-double Smoother::negligible_bend() const {
-  const double mean_cost = gradient_.cost() / static_cast<double>(problem_.size());
-  return limits_.tolerance *
-         std::max(limits_.bend_share, limits_.bend_share_of_mean_cost * mean_cost);
-}
-
-void Smoother::take_step(Progress& progress) {
-  const CliqueTree::Step step =
-      progress.is_whole ? tree_.forward_all(gradient_.by_keyframe())
-                        : tree_.forward(marks_.changed, gradient_.by_keyframe(), ignored_);
-  const double promised = step.promised();
-  if (!std::isfinite(promised)) return end(progress, Outcome::numerical_failure);
-  const double allowed = limits_.tolerance * gradient_.cost() + limits_.least_promise_chi2;
-  if (progress.is_whole && promised <= (1.0 - progress.lost_curvature) * allowed) {
-    return end(progress, Outcome::converged);
-  }
-  const double before = gradient_.cost();
-  tree_.propagate(step, negligible_bend());
-  reevaluate_bent();
-  // A sum that was large before has rounding of its own.
-  if (gradient_.cost() < limits_.cancellation * before) {
-    tree_.settle();
-    gradient_.evaluate_all();
-  }
-  if (!(gradient_.cost() <= before + allowed + limits_.rounding_chi2)) return retreat(progress);
-  progress.is_fresh = false;
-  tree_.find_to_relinearise(limits_.relinearise_m, limits_.relinearise_rad, marks_.to_relinearise);
-  const double left = left_by_step(progress, promised, before - gradient_.cost());
-  const double most_slack = limits_.tolerance * gradient_.cost() + limits_.least_promise_chi2;
-  if (goes_on_locally(progress, left, most_slack)) return;
-  slack_ += left;
-  if (slack_ <= most_slack) return end(progress, Outcome::converged);
-  if (wants_newton(progress)) return solve_whole(progress);
-  progress.is_whole = true;
-}
-
-// A motion that keyframes share changes nothing of what lies between them.
-void Smoother::reevaluate_bent() {
-  ++marks_.pass;
-  for (const int v : tree_.bent()) {
-    note_changed(v);
-    problem_.for_each_edge(v, [&](int e, int other) {
-      if (marks_.edge_pass[at(e)] == marks_.pass) return;
-      marks_.edge_pass[at(e)] = marks_.pass;
-      tree_.settle(other);
-      gradient_.evaluate(e);
-      note_changed(other);
-      if (problem_.loops.has_left_tree(e, limits_.reweight_share)) {
-        for (const int end : {v, other}) {
-          if (end != 0) marks_.to_relinearise.push_back(end);
-        }
-      }
-    });
-  }
 }
 
 }  // namespace fathom::incremental_smoother

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -40,12 +41,19 @@ struct SmootherLimits {
   int steps_of_a_kind = 10;
   /// Of λ as one step shows it: the next ones show more.
   double most_lost_curvature = 0.99;
+  /// With the errors of pictures: everything is linearised at the estimate where a whole step
+  /// promises a larger share of what the one before did.
+  double stale_contraction = 0.25;
   /// Where F falls below this share of what it was, its running sum is added up anew: ten digits of
   /// it are left.
   double cancellation = 1e-6;
   /// Of Schur complements; some more are kept whatever their bytes.
   std::size_t most_kept_bytes = std::size_t{128} << 20U;
 };
+
+/// Which pictures' errors are unknowns beside the poses: of none; of each whose registrations share
+/// some; or of those alone that have several registrations (Pictures).
+enum class ErrorStates { none, all, of_several };
 
 struct SmootherResult {
   Outcome outcome = Outcome::converged;
@@ -56,14 +64,15 @@ struct SmootherResult {
 struct Counts {
   long steps = 0;
   long whole_steps = 0;  ///< of them those with the gradient at all keyframes
-  long eliminated = 0;   ///< keyframes
+  long eliminated = 0;   ///< variables
   long batch_solves = 0;
 };
 
 /// The estimate of a growing pose graph, kept at its optimum.
 class Smoother {
  public:
-  Smoother(const Pose& origin, const SmootherLimits& limits, const RobustLoss& loss = {});
+  Smoother(const Pose& origin, const SmootherLimits& limits, const RobustLoss& loss = {},
+           ErrorStates error_states = ErrorStates::none);
 
   /// Keyframes that follow a part of the map are moved when they are asked for.
   const Problem& problem();
@@ -79,7 +88,8 @@ class Smoother {
   /// Minimises F with these registrations added; as it was before where that fails.
   SmootherResult add_registrations(std::span<const RelativePose> registrations);
 
-  /// Covariance of ν = z − h(x) for each of these registrations; nothing where there is none.
+  /// Covariance of h(x) for each of these registrations, of h(x) + G_from n_from + G_to n_to where
+  /// n are unknowns; nothing where there is none.
   std::optional<std::vector<Eigen::Matrix3d>> predicted_covariances(
       std::span<const RelativePose> forward_loops);
 
@@ -87,10 +97,14 @@ class Smoother {
   /// none.
   std::optional<Eigen::Matrix3d> newest_covariance();
 
-  /// What each of the registrations added weighs at the estimate, in their order; and the edges
+  /// Each as its innovation is to be tested: the errors of its pictures, as estimated, taken out,
+  /// and of its own covariance.
+  std::vector<RelativePose> without_errors(std::span<const RelativePose> registrations);
+
+  /// What each of the registrations added weighs at the estimate, in their order; and the graph
   /// with the information that is left of theirs. With a loss; without one all weigh 1.
   std::vector<double> loop_weights() const;
-  std::span<const Edge> weighted_edges();
+  pose_graph::ExtendedGraph weighted_graph();
 
   const Counts& counts() const { return counts_; }
   const LoopWeights& loops() const { return problem_.loops; }
@@ -103,7 +117,8 @@ class Smoother {
     bool is_over = false;
     int local_steps = 0;
     int whole_steps = 0;
-    double lost_curvature = 0.0;  ///< λ of the last step
+    double lost_curvature = 0.0;                                      ///< λ of the last step
+    double promised_whole = std::numeric_limits<double>::infinity();  ///< by the last whole step
     SmootherResult result;
   };
 
@@ -115,10 +130,10 @@ class Smoother {
 
   /// What an update has to look at again. add_registrations begins anew; its steps add.
   struct Marks {
-    std::vector<int> touched;         ///< keyframes of new edges, to be eliminated again
-    std::vector<int> to_relinearise;  ///< keyframes of cliques to be linearised again
-    std::vector<int> changed;         ///< keyframes whose gradient this update has changed
-    std::vector<long> changed_in;     ///< by keyframe: the last update that did
+    std::vector<int> touched;         ///< variables of new edges, to be eliminated again
+    std::vector<int> to_relinearise;  ///< variables of cliques to be linearised again
+    std::vector<int> changed;         ///< variables whose gradient this update has changed
+    ByVariable<long> changed_in;      ///< the last update that did
     std::vector<long> edge_pass;      ///< by edge: the last pass that evaluated it
     long pass = 0;
     long update = 0;
@@ -131,6 +146,19 @@ class Smoother {
   };
 
   void append_edge(const RelativePose& measurement, bool is_loop);
+  bool has_states(const RelativePose& z) const {
+    return error_states_ != ErrorStates::none && z.shared != nullptr;
+  }
+  void grow_errors();
+  void unfold(int keyframe);
+  void touch_ends(const Edge& edge);
+  /// use(variable) for all errors that are unknowns.
+  template <class Use>
+  void for_each_state(Use use) const {
+    for (int k = 0; k < static_cast<int>(problem_.error_count()); ++k) {
+      if (problem_.pictures.has(k)) use(errors_of(k));
+    }
+  }
   void add_loops(std::span<const RelativePose> registrations);
   void evaluate_all();
   bool refactor();
@@ -144,30 +172,42 @@ class Smoother {
   double left_by_step(Progress& progress, double promised, double brought) const;
   bool goes_on_locally(Progress& progress, double left, double most_slack) const;
   bool wants_newton(Progress& progress) const;
+  bool contracts(Progress& progress, double promised) const;
   void retreat(Progress& progress);
+  void linearise_afresh(Progress& progress);
   static void end(Progress& progress, Outcome outcome);
-  void note_changed(int keyframe);
+  void note_changed(int variable);
   void reevaluate_bent();
+  void reevaluate_prior(int keyframe);
   void solve_whole(Progress& progress);
   SmootherResult solve_batch();
-  SmootherResult minimise_whole(std::vector<Node>& nodes) const;
+  pose_graph::ExtendedGraph extended(const std::vector<Edge>& edges) const;
+  SmootherResult minimise_whole(pose_graph::ExtendedGraph& graph) const;
   void undo(int edges_before);
   /// One that could not be built again after a failure knows nothing.
   bool has_tree() const { return at(problem_.size() - outside_.first) == outside_.steps.size(); }
+
+  /// A motion by the tree, and its derivatives.
+  struct MotionInTree {
+    Pose mean;
+    std::vector<CliqueTree::Response> responses{};
+  };
+  MotionInTree motion_in_tree(int from, int to);
   Eigen::Matrix3d motion_covariance(int from);
+  Eigen::Matrix3d shared_covariance(const RelativePose& z);
 
   SmootherLimits limits_;
+  ErrorStates error_states_;
   Problem problem_;
   CliqueTree tree_;
   Gradient gradient_;
   InformationSpread spread_;
-  std::vector<Node> before_step_;  ///< all nodes, of a step of the whole gradient
-  std::vector<Vec3> ignored_;      ///< what earlier updates left of it
-  double slack_ = 0.0;             ///< the slack on the cost: by how much F may exceed its optimum
+  ByVariable<Node> before_step_;  ///< all nodes, of a step of the whole gradient
+  ByVariable<Vec3> ignored_;      ///< what earlier updates left of it
+  double slack_ = 0.0;            ///< the slack on the cost: by how much F may exceed its optimum
 
   Outside outside_;
   Marks marks_;
-  std::vector<Edge> weighted_;  ///< of weighted_edges
   Revisions revisions_;
   Counts counts_;
 };

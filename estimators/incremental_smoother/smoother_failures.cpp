@@ -14,14 +14,16 @@ void Smoother::retreat(Progress& progress) {
   }
   // From where F may have been anything, infinite too.
   gradient_.evaluate_all();
-  if (!progress.is_fresh) {
-    progress.is_fresh = true;
-    progress.is_whole = true;
-    marks_.to_relinearise.clear();
-    for (int k = 1; k < problem_.size(); ++k) marks_.to_relinearise.push_back(k);
-    return;
-  }
+  if (!progress.is_fresh) return linearise_afresh(progress);
   solve_whole(progress);
+}
+
+void Smoother::linearise_afresh(Progress& progress) {
+  progress.is_fresh = true;
+  progress.is_whole = true;
+  marks_.to_relinearise.clear();
+  for (int k = 1; k < problem_.size(); ++k) marks_.to_relinearise.push_back(k);
+  for_each_state([&](int v) { marks_.to_relinearise.push_back(v); });
 }
 
 void Smoother::solve_whole(Progress& progress) {
@@ -33,11 +35,13 @@ void Smoother::solve_whole(Progress& progress) {
 
 SmootherResult Smoother::solve_batch() {
   ++counts_.batch_solves;
-  std::vector<Node> nodes = problem().nodes;
-  const SmootherResult solved = minimise_whole(nodes);
+  pose_graph::ExtendedGraph graph = extended(problem().edges);
+  const SmootherResult solved = minimise_whole(graph);
   if (is_done(solved.outcome)) {
     for (int k = 1; k < problem_.size(); ++k) problem_.save(k, problem_.nodes[at(k)]);
-    problem_.nodes = std::move(nodes);
+    for_each_state([&](int v) { problem_.save(v, problem_.node(v)); });
+    problem_.nodes.assign(graph.nodes.begin(), graph.nodes.begin() + problem_.size());
+    problem_.pictures.keep(graph);
     evaluate_all();
     if (!rebuild()) return {Outcome::numerical_failure, solved.iterations};
   }

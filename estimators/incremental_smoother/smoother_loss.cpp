@@ -33,13 +33,14 @@ bool Smoother::wants_newton(Progress& progress) const {
   return ++progress.whole_steps >= limits_.steps_of_a_kind;
 }
 
-// From these nodes on, with Newton steps near the end, and with the loss.
-SmootherResult Smoother::minimise_whole(std::vector<Node>& nodes) const {
-  const sparse::Symbolic symbolic = pose_graph::analyse_graph(problem_.edges, problem_.size());
-  pose_graph::NormalEquations equations(symbolic, problem_.edges);
+// From its nodes on, with Newton steps near the end, and with the loss.
+SmootherResult Smoother::minimise_whole(pose_graph::ExtendedGraph& graph) const {
+  const sparse::Symbolic symbolic =
+      pose_graph::analyse_graph(graph.edges, static_cast<int>(graph.nodes.size()));
+  pose_graph::NormalEquations equations(symbolic, graph.edges);
   equations.set_loss({problem_.loops.loss(), problem_.loops.is_loop(), {}, problem_.loops.ranks()});
   const auto solved =
-      pose_graph::minimise(equations, nodes, {limits_.max_iterations, limits_.tolerance});
+      pose_graph::minimise(equations, graph.nodes, {limits_.max_iterations, limits_.tolerance});
   return {solved.outcome, solved.iterations};
 }
 
@@ -51,14 +52,14 @@ std::vector<double> Smoother::loop_weights() const {
   return weights;
 }
 
-std::span<const Edge> Smoother::weighted_edges() {
+pose_graph::ExtendedGraph Smoother::weighted_graph() {
   tree_.settle();
-  if (!problem_.loops.is_on()) return problem_.edges;
-  weighted_ = problem_.edges;
+  if (!problem_.loops.is_on()) return extended(problem_.edges);
+  std::vector<Edge> weighted = problem_.edges;
   for (int e = 0; e < problem_.edge_count(); ++e) {
-    for (double& element : weighted_[at(e)].W) element *= problem_.loops.present(e);
+    for (double& element : weighted[at(e)].W) element *= problem_.loops.present(e);
   }
-  return weighted_;
+  return problem_.pictures.extended(std::move(weighted), problem_.nodes);
 }
 
 }  // namespace fathom::incremental_smoother

@@ -75,7 +75,7 @@ TEST(IncrementalLoss, TheGradientIsThatOfTheRobustCost) {
     const double F = parts.cost();
     EXPECT_NEAR(parts.gradient.cost(), F, 1e-9 * F);
     double largest = 0.0;
-    for (const Vec3& g : parts.gradient.by_keyframe()) {
+    for (const Vec3& g : parts.gradient.by_variable().poses) {
       for (const double element : g) largest = std::max(largest, std::abs(element));
     }
     for (std::size_t k = 1; k < parts.log.size(); ++k) {
@@ -90,7 +90,7 @@ TEST(IncrementalLoss, TheGradientIsThatOfTheRobustCost) {
         }
         parts.problem.nodes[k] = at_k;
         const double slope = 0.5 * (F_at[1] - F_at[0]) / 2e-6;
-        EXPECT_NEAR(parts.gradient.by_keyframe()[k][at(a)], slope, 1e-6 * largest) << k;
+        EXPECT_NEAR(parts.gradient.by_variable().poses[k][at(a)], slope, 1e-6 * largest) << k;
       }
     }
   }
@@ -129,12 +129,12 @@ TEST(IncrementalLoss, TheTreeHasWhatTheLoopsWeigh) {
     }
     Eigen::VectorXd g(n - 3);
     for (std::size_t k = 1; k < parts.log.size(); ++k) {
-      const Vec3& g_k = parts.gradient.by_keyframe()[k];
+      const Vec3& g_k = parts.gradient.by_variable().poses[k];
       g.segment<3>(static_cast<Eigen::Index>(3 * (k - 1))) =
           Eigen::Vector3d(g_k[0], g_k[1], g_k[2]);
     }
     const double promised = g.dot(H.bottomRightCorner(n - 3, n - 3).llt().solve(g));
-    EXPECT_NEAR(tree.forward_all(parts.gradient.by_keyframe()).promised(), promised,
+    EXPECT_NEAR(tree.forward_all(parts.gradient.by_variable()).promised(), promised,
                 1e-8 * promised);
   }
 }

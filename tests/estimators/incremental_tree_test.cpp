@@ -106,20 +106,20 @@ void expect_factor(Grown& grown) {
   const std::vector<Vec3> gradient = grown.small_gradient();
   const Eigen::VectorXd g = Grown::stacked(gradient);
   const double promised = g.dot(inverse * g);
-  const CliqueTree::Step solved = grown.tree.forward_all(gradient);
+  const CliqueTree::Step solved = grown.tree.forward_all({gradient});
   EXPECT_NEAR(solved.promised(), promised, 1e-8 * promised);
-  const Problem before = grown.problem;
+  const std::vector<Node> before = grown.problem.nodes;
   grown.tree.propagate(solved, 0.0);
   grown.tree.settle();
   const Eigen::VectorXd step = -inverse * g;
   double worst = 0.0;
-  for (int k = 1; k < before.size(); ++k) {
+  for (int k = 1; k < grown.problem.size(); ++k) {
     double d[3];
-    offset_of(before.nodes[at(k)], grown.problem.nodes[at(k)], d);
+    offset_of(before[at(k)], grown.problem.nodes[at(k)], d);
     for (int a = 0; a < 3; ++a) worst = std::max(worst, std::abs(d[a] - step(3 * (k - 1) + a)));
   }
   EXPECT_LT(worst, 1e-5 * step.cwiseAbs().maxCoeff());
-  grown.problem.nodes = before.nodes;
+  grown.problem.nodes = before;
 }
 
 TEST(IncrementalTree, IsTheFactorOfTheWholeMatrixHoweverItGrew) {
@@ -159,21 +159,21 @@ TEST(IncrementalTree, SolvesForAFewKeyframesAndGivesVariances) {
   const Eigen::VectorXd g = Grown::stacked(gradient);
   const double promised = g.dot(inverse * g);
   const std::vector<int> keyframes{5, 30};
-  EXPECT_NEAR(grown.tree.forward(keyframes, gradient, ignored).promised(), promised,
+  EXPECT_NEAR(grown.tree.forward(keyframes, {gradient}, {ignored}).promised(), promised,
               1e-8 * promised);
   // What is ignored is left out of b.
-  EXPECT_NEAR(grown.tree.forward(keyframes, gradient, gradient).promised(), 0.0, 1e-30);
+  EXPECT_NEAR(grown.tree.forward(keyframes, {gradient}, {gradient}).promised(), 0.0, 1e-30);
 
   const Eigen::Matrix3d J_i = Eigen::Matrix3d::Random();
   const Eigen::Matrix3d J_k = Eigen::Matrix3d::Random();
   Eigen::MatrixXd J = Eigen::MatrixXd::Zero(3, inverse.cols());
   J.middleCols<3>(3 * (11 - 1)) = J_i;
   J.middleCols<3>(3 * (36 - 1)) = J_k;
-  const Eigen::Matrix3d expected = J * inverse * J.transpose();
-  EXPECT_LT((grown.tree.variance(11, J_i, 36, J_k) - expected).norm(), 1e-8 * expected.norm());
+  const Eigen::Matrix3d both = J * inverse * J.transpose();
+  EXPECT_LT((grown.tree.variance({{11, J_i}, {36, J_k}}) - both).norm(), 1e-8 * both.norm());
   J.middleCols<3>(3 * (11 - 1)).setZero();
-  const Eigen::Matrix3d from_fixed = J * inverse * J.transpose();
-  EXPECT_LT((grown.tree.variance(0, J_i, 36, J_k) - from_fixed).norm(), 1e-8 * from_fixed.norm());
+  const Eigen::Matrix3d fixed = J * inverse * J.transpose();
+  EXPECT_LT((grown.tree.variance({{0, J_i}, {36, J_k}}) - fixed).norm(), 1e-8 * fixed.norm());
 }
 
 TEST(IncrementalTree, IsLinearisedAnewWhereItIsStale) {
@@ -189,14 +189,14 @@ TEST(IncrementalTree, IsLinearisedAnewWhereItIsStale) {
   const double stale = g.dot(old.llt().solve(g));
   const double fresh = g.dot(grown.dense().llt().solve(g));
   ASSERT_GT(std::abs(stale - fresh), 0.01 * fresh);
-  const CliqueTree::Step step = grown.tree.forward_all(gradient);
+  const CliqueTree::Step step = grown.tree.forward_all({gradient});
   EXPECT_NEAR(step.promised(), stale, 1e-8 * stale);
   grown.tree.propagate(step, 0.0);
   grown.tree.settle();
   std::vector<int> keyframes;
   grown.tree.find_to_relinearise(1e-3, 1e-3, keyframes);
   ASSERT_TRUE(grown.tree.relinearise(keyframes));
-  EXPECT_NEAR(grown.tree.forward_all(gradient).promised(), fresh, 1e-5 * fresh);
+  EXPECT_NEAR(grown.tree.forward_all({gradient}).promised(), fresh, 1e-5 * fresh);
 }
 
 TEST(IncrementalTree, RigidMotionOfAPartMovesAllOfIt) {
@@ -211,22 +211,22 @@ TEST(IncrementalTree, RigidMotionOfAPartMovesAllOfIt) {
   const std::vector<Vec3> ignored = gradient;
   gradient[10] = {3e-3, -2e-3, 5e-3};
   const std::vector<int> keyframes{10};
-  const Problem before = grown.problem;
-  grown.tree.propagate(grown.tree.forward(keyframes, gradient, ignored), 1e-9);
+  const std::vector<Node> before = grown.problem.nodes;
+  grown.tree.propagate(grown.tree.forward(keyframes, {gradient}, {ignored}), 1e-9);
   grown.tree.settle();
   for (int k = 11; k <= 40; ++k) {
     double was[3];
     double now[3];
-    offset_of(before.nodes[10], before.nodes[at(k)], was);
+    offset_of(before[10], before[at(k)], was);
     offset_of(grown.problem.nodes[10], grown.problem.nodes[at(k)], now);
     for (int a = 0; a < 3; ++a) EXPECT_NEAR(now[a], was[a], 3e-5) << k;
   }
   double moved_by[3];
-  offset_of(before.nodes[40], grown.problem.nodes[40], moved_by);
+  offset_of(before[40], grown.problem.nodes[40], moved_by);
   EXPECT_GT(std::hypot(moved_by[0], moved_by[1]), 3e-4);
   EXPECT_LT(grown.tree.bent().size(), 30U);
   for (int k = 1; k <= 40; ++k) {
-    offset_of(before.nodes[at(k)], grown.problem.nodes[at(k)], moved_by);
+    offset_of(before[at(k)], grown.problem.nodes[at(k)], moved_by);
     EXPECT_GT(std::hypot(moved_by[0], moved_by[1]), 0.0) << k;
   }
 }

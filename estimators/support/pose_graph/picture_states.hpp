@@ -53,8 +53,7 @@ class PictureStates {
   /// As keep, at zero.
   void reset();
 
-  /// A registration as it is left when the errors of its pictures, as estimated, are taken out: of
-  /// its own covariance. What a gate tests.
+  /// As of without_shared, of the errors as estimated; one that tells nothing is as it is.
   RelativePose without_errors(const RelativePose& z) const;
 
  private:
