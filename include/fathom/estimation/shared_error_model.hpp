@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "fathom/core/options.hpp"
 
 namespace fathom {
@@ -16,7 +18,8 @@ enum class SharedErrorModel {
 struct SharedErrorOptions {
   SharedErrorModel model = SharedErrorModel::states;
 
-  void describe(OptionTable& table);
+  /// `note`: what else the help says.
+  void describe(OptionTable& table, const std::string& note = {});
 };
 
 }  // namespace fathom
