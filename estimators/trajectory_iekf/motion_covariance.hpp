@@ -24,7 +24,7 @@ class MotionCovariance {
   enum class Form {
     cheapest,   ///< the factors are folded into C once passes over them cost more than C would
     dense,      ///< folded after every update
-    few_loops,  ///< never folded
+    few_loops,  ///< folded only where pictures need it
   };
 
   explicit MotionCovariance(Form form = Form::cheapest) : form_(form) {}

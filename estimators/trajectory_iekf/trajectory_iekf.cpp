@@ -20,7 +20,7 @@ void TrajectoryIekfOptions::describe(OptionTable& table) {
              "an update has diverged at so many times the cost of leaving the state alone");
   gate.describe(table);
   gate.describe_joint(table);
-  shared_errors.describe(table, "; the paper has none of it");
+  shared_errors.describe(table, ", as in the paper");
 }
 
 TrajectoryIekf::TrajectoryIekf(const EstimatorSetup& setup, const TrajectoryIekfOptions& options,
