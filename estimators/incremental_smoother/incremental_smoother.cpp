@@ -39,9 +39,6 @@ void IncrementalSmootherOptions::describe(OptionTable& table) {
 
 void IncrementalSmootherOptions::check(const EstimatorSetup&) const {
   loss.check();
-  if (shared.model == SharedErrorModel::consider) {
-    throw InputError("shared_errors: incremental_smoother takes states or independent");
-  }
 }
 
 IncrementalSmoother::IncrementalSmoother(const EstimatorSetup& setup,

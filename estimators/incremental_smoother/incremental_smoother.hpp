@@ -27,7 +27,6 @@ struct IncrementalSmootherOptions {
   GateOptions gate;
 
   void describe(OptionTable& table);
-  /// Errors that are considered and not estimated are for others.
   void check(const EstimatorSetup& setup) const;
 };
 

@@ -32,8 +32,9 @@ Outcome TrajectoryIekf::iterate(std::span<const StackedLoop> loops, UpdateReport
     // of the present iterate.
     const Eigen::VectorXd lambda = S.solve(at_.nu + at_.H.times(x.delta));
     Iterate next{at_.PAt.matrix() * (at_.H.ends() * lambda), at_.H.transposed_times(lambda)};
+    if (at_.PGt.size() > 0) next.delta += at_.PGt.bottomRows(length) * lambda;
     if (!next.delta.allFinite()) return Outcome::numerical_failure;
-    const double step = (next.delta - x.delta).cwiseAbs().maxCoeff();
+    const double step = largest_change(loops, next.delta - x.delta);
     const bool lowered = !options_.safeguard || step_back(loops, x, next);
     x = std::move(next);
     // A step that no halving makes lower is one of rounding: the gradient is zero as far as it
@@ -48,8 +49,8 @@ Outcome TrajectoryIekf::iterate(std::span<const StackedLoop> loops, UpdateReport
 }
 
 double TrajectoryIekf::cost(std::span<const StackedLoop> loops, const Iterate& at) const {
-  const Stretch stretch = stretch_at(tree_, motions_, first_of(loops), at.delta);
-  return at.delta.dot(at.u) + misfit(loops, innovations(loops, stretch));
+  const Stretch stretch = stretch_of(loops, at.delta);
+  return at.delta.dot(at.u) + misfit(loops, innovations_of(loops, stretch, at.delta));
 }
 
 // The full step minimises the linearised cost; the first of 1, ½, ¼ … of it that does not raise the
@@ -87,17 +88,33 @@ bool TrajectoryIekf::apply(const Iterate& end, int iterations) {
     u.col(0) = end.u;
     dx.head(head) = P_.head_products(at_.H.starts().first(1), u).col(0);
   }
+  if (at_.PGt.size() > 0) V += at_.PGt.bottomRows(head + tail);
   // V = P Hᵀ L⁻ᵀ.
   const Eigen::LLT<Eigen::MatrixXd> S(at_.S);
   S.matrixU().solveInPlace<Eigen::OnTheRight>(V);
   if (!dx.allFinite() || !V.allFinite()) return false;
-  for (std::size_t i = static_cast<std::size_t>(begin); i < motions_.size(); ++i) {
-    const Eigen::Index row = 3 * (static_cast<Eigen::Index>(i) - begin);
-    motions_[i] = moved(motions_[i], dx.segment<3>(row));
+  correct(dx);
+  const std::span<const Eigen::Index> n = blocks_.pictures().blocks();
+  if (model() == SharedErrorModel::consider && !n.empty()) {
+    P_.downdate_but(n, V);
+  } else {
+    P_.downdate(V, iterations);
   }
-  P_.downdate(V, iterations);
   recompose();
   return true;
+}
+
+// By a correction of the last blocks of the state. n̂ that is only considered stays 0. The iterates
+// of the motions are the same whether it does or not: in ν + H δ the n of an iterate cancels.
+void TrajectoryIekf::correct(const Eigen::VectorXd& dx) {
+  const Eigen::Index begin = blocks_.size() - dx.size() / 3;
+  for (std::size_t i = motions_.size(); i-- > 0 && blocks_.of_motion(i) >= begin;) {
+    motions_[i] = moved(motions_[i], dx.segment<3>(3 * (blocks_.of_motion(i) - begin)));
+  }
+  if (blocks_.are_motions_alone() || model() == SharedErrorModel::consider) return;
+  Eigen::VectorXd whole = Eigen::VectorXd::Zero(P_.size());
+  whole.tail(dx.size()) = dx;
+  blocks_.pictures().correct(whole);
 }
 
 }  // namespace fathom

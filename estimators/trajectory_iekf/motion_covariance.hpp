@@ -11,7 +11,8 @@
 
 namespace fathom {
 
-/// The covariance of the stacked motions,
+/// The covariance of the stacked motions, and of errors of pictures among them (StateBlocks): a
+/// block of the state is called a motion here.
 ///
 ///     P = diag(C, Q_{c+1}, …, Q_n) − Σ V Vᵀ,
 ///
@@ -23,7 +24,7 @@ class MotionCovariance {
   enum class Form {
     cheapest,   ///< the factors are folded into C once passes over them cost more than C would
     dense,      ///< folded after every update
-    few_loops,  ///< never folded
+    few_loops,  ///< folded only where pictures need it
   };
 
   explicit MotionCovariance(Form form = Form::cheapest) : form_(form) {}
@@ -37,8 +38,14 @@ class MotionCovariance {
   /// Motion i anew, uncorrelated with the others.
   void replace(Eigen::Index i, const Eigen::Matrix3d& Q);
 
+  /// Motion i anew, with its size()×3 column: correlated with pictures. Folds.
+  void replace(Eigen::Index i, const Eigen::MatrixX3d& column);
+
   /// All rows of the columns of motion i: size()×3.
   Eigen::MatrixX3d column(Eigen::Index i) const;
+
+  /// P(:, blocks) B, all rows; B has three rows for each block.
+  Eigen::MatrixXd products(std::span<const Eigen::Index> blocks, const Eigen::MatrixXd& B) const;
 
   /// P(:, …) B over the ends of B: as PackedCovariance::suffix_products. `pass` counts the calls
   /// for one update, from 1: after the first, `product` has its third columns from the call before,
@@ -55,6 +62,10 @@ class MotionCovariance {
 
   /// P ← P − V Vᵀ after so many passes: see PackedCovariance. V ends with the newest motion.
   void downdate(const Eigen::Ref<const Eigen::MatrixXd>& V, int passes = 1);
+
+  /// The same, but for the blocks of two of `kept`, which stay: PackedCovariance::downdate_but.
+  /// What stays has no factor, so this folds.
+  void downdate_but(std::span<const Eigen::Index> kept, const Eigen::Ref<const Eigen::MatrixXd>& V);
 
   /// Of each motion k, Σ B_iᵀ P_ij B_j over all motions i, j up to k, or from k on.
   enum class Over { motions_up_to, motions_from };

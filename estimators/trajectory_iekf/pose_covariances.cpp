@@ -9,12 +9,12 @@ namespace fathom {
 // B, three rows a motion: with B_iᵀ δx_i the motion of keyframe 0's place, carried along with
 // keyframe i, for a change of motion i. It is the same for all keyframes that come later.
 Eigen::MatrixX3d TrajectoryIekf::motions_at_origin() const {
-  Eigen::MatrixX3d B(P_.size(), 3);
+  Eigen::MatrixX3d B = Eigen::MatrixX3d::Zero(P_.size(), 3);
   const Eigen::Vector2d origin = poses_.front().position();
   for (std::size_t i = 0; i < motions_.size(); ++i) {
     const auto [from, to] = tree_.ends(i);
     const Eigen::Vector2d lever = origin - poses_[to].position();
-    const auto row = static_cast<Eigen::Index>(3 * i);
+    const Eigen::Index row = 3 * blocks_.of_motion(i);
     B.block<2, 2>(row, 0) = rotation(-poses_[from].theta);
     B.block<2, 1>(row, 2).setZero();
     B.row(row + 2) << -lever.y(), lever.x(), 1.0;
@@ -34,8 +34,8 @@ Eigen::Matrix3d TrajectoryIekf::from_origin_to(std::size_t keyframe) const {
 Eigen::MatrixX3d TrajectoryIekf::on_way_to(std::size_t keyframe, const Eigen::MatrixX3d& B) const {
   Eigen::MatrixX3d on_way = Eigen::MatrixX3d::Zero(B.rows(), 3);
   for (const MotionTree::Part& part : tree_.way(0, keyframe, motions_.size())) {
-    const auto begin = static_cast<Eigen::Index>(3 * part.begin);
-    const auto rows = static_cast<Eigen::Index>(3 * (part.end - part.begin));
+    const Eigen::Index begin = 3 * blocks_.of_motion(part.begin);
+    const Eigen::Index rows = 3 * blocks_.of_motion(part.end - 1) + 3 - begin;
     on_way.middleRows(begin, rows) = part.sign * B.middleRows(begin, rows);
   }
   return on_way;
@@ -52,17 +52,17 @@ std::vector<Eigen::Matrix3d> TrajectoryIekf::congruences_from(std::size_t root,
   std::vector<std::size_t> way{root};
   for (const MotionTree::Visit& v : tree_.from(root, motions_.size())) {
     visit_of[v.keyframe] = v;
-    const auto row = static_cast<Eigen::Index>(3 * v.motion);
+    const Eigen::Index row = 3 * blocks_.of_motion(v.motion);
     if (way.back() != v.from) {
       const MotionTree::Visit& last = visit_of[v.from];
       for (; way.back() != last.from; way.pop_back()) {
-        on_way.middleRows<3>(static_cast<Eigen::Index>(3 * visit_of[way.back()].motion)).setZero();
+        on_way.middleRows<3>(3 * blocks_.of_motion(visit_of[way.back()].motion)).setZero();
       }
-      const auto last_row = static_cast<Eigen::Index>(3 * last.motion);
+      const Eigen::Index last_row = 3 * blocks_.of_motion(last.motion);
       on_way.middleRows<3>(last_row) = (last.is_along ? 1.0 : -1.0) * B.middleRows<3>(last_row);
       way.push_back(v.from);
     }
-    const Eigen::MatrixX3d column = P_.column(static_cast<Eigen::Index>(v.motion));
+    const Eigen::MatrixX3d column = P_.column(blocks_.of_motion(v.motion));
     const Eigen::Matrix3d own = (v.is_along ? 1.0 : -1.0) * B.middleRows<3>(row);
     const Eigen::Matrix3d cross = own.transpose() * (column.transpose() * on_way);
     sums[v.keyframe] = sums[v.from] + transport(own.transpose(), column.middleRows<3>(row)) +
@@ -74,9 +74,9 @@ std::vector<Eigen::Matrix3d> TrajectoryIekf::congruences_from(std::size_t root,
 // Σ B_iᵀ P_ij B_j over the motions on the way to k, taken from keyframe 0's place to keyframe k.
 void TrajectoryIekf::compute_covariances() const {
   covariances_.assign(1, Eigen::Matrix3d::Zero());
-  auto sums = tree_.is_chain()
-                  ? P_.congruences(motions_at_origin(), MotionCovariance::Over::motions_up_to)
-                  : congruences_from(0, motions_at_origin());
+  auto sums = tree_.is_chain() ? blocks_.motions_in(P_.congruences(
+                                     motions_at_origin(), MotionCovariance::Over::motions_up_to))
+                               : congruences_from(0, motions_at_origin());
   if (!tree_.is_chain()) sums.erase(sums.begin());
   for (std::size_t k = 0; k < sums.size(); ++k) {
     covariances_.push_back(transport(from_origin_to(k + 1), sums[k]));
@@ -102,7 +102,7 @@ std::optional<Eigen::MatrixXd> TrajectoryIekf::joint_covariance(
     const Eigen::Matrix3d to_j = from_origin_to(free[j]);
     for (std::size_t i = 0; i <= j; ++i) {
       const Eigen::Index rows =
-          tree_.is_chain() ? static_cast<Eigen::Index>(3 * free[i]) : B.rows();
+          tree_.is_chain() ? 3 * blocks_.of_motion(free[i] - 1) + 3 : B.rows();
       const Eigen::MatrixX3d B_i = on_way_to(free[i], B);
       joint.block<3, 3>(static_cast<Eigen::Index>(3 * i), static_cast<Eigen::Index>(3 * j)) =
           from_origin_to(free[i]) * (B_i.topRows(rows).transpose() * product.topRows(rows)) *
@@ -117,9 +117,10 @@ std::optional<std::vector<UncertainPose>> TrajectoryIekf::motions_to_newest() co
   if (motions_.empty()) return std::vector<UncertainPose>{};
   const auto length = static_cast<Eigen::Index>(3 * motions_.size());
   const Stretch stretch = stretch_at(tree_, motions_, 0, Eigen::VectorXd::Zero(length));
-  const auto sums = tree_.is_chain() ? P_.congruences(stretch.A_transposed(),
-                                                      MotionCovariance::Over::motions_from)
-                                     : congruences_from(motions_.size(), stretch.A_transposed());
+  const Eigen::MatrixX3d B = blocks_.spread(stretch.A_transposed(), 0, 0);
+  const auto sums =
+      tree_.is_chain() ? blocks_.motions_in(P_.congruences(B, MotionCovariance::Over::motions_from))
+                       : congruences_from(motions_.size(), B);
   std::vector<UncertainPose> motions;
   for (std::size_t k = 0; k < motions_.size(); ++k) {
     motions.push_back({stretch.h(k), transport(stretch.D(k).transpose(), sums[k])});

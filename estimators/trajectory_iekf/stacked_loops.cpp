@@ -6,9 +6,23 @@
 
 namespace fathom {
 
-std::vector<StackedLoop> stacked(std::span<const RelativePose> loops) {
+StackedLoop::StackedLoop(const RelativePose& forward, SharedErrorModel model)
+    : from(forward.from), to(forward.to), motion(forward.motion) {
+  if (is_told(forward, model)) {
+    shared = forward.shared;
+    rows.R = shared->own;
+  } else {
+    rows = loop_rows(forward);
+  }
+}
+
+bool is_told(const RelativePose& z, SharedErrorModel model) {
+  return z.shared != nullptr && model != SharedErrorModel::independent;
+}
+
+std::vector<StackedLoop> stacked(std::span<const RelativePose> loops, SharedErrorModel model) {
   std::vector<StackedLoop> result;
-  for (const RelativePose& loop : loops) result.emplace_back(loop.forward());
+  for (const RelativePose& loop : loops) result.emplace_back(loop.forward(), model);
   return result;
 }
 
@@ -49,6 +63,33 @@ StackedJacobian jacobian(std::span<const StackedLoop> loops, const Stretch& stre
     rows.push_back({loop.from, loop.rows.is_whole() ? nullptr : &loop.rows.C});
   }
   return {stretch, rows};
+}
+
+PictureJacobian picture_jacobian(std::span<const StackedLoop> loops,
+                                 const filter::PictureErrorStates& pictures) {
+  PictureJacobian jacobian;
+  std::vector<Eigen::Index>& blocks = jacobian.blocks;
+  for (const StackedLoop& loop : loops) {
+    if (!loop.shared) continue;
+    blocks.push_back(pictures.block_of(loop.from));
+    blocks.push_back(pictures.block_of(loop.to));
+  }
+  if (blocks.empty()) return jacobian;
+  std::sort(blocks.begin(), blocks.end());
+  blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
+  jacobian.G = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(3 * loops.size()),
+                                     static_cast<Eigen::Index>(3 * blocks.size()));
+  for (std::size_t j = 0; j < loops.size(); ++j) {
+    const StackedLoop& loop = loops[j];
+    if (!loop.shared) continue;
+    const auto of = [&](std::size_t picture) {
+      const auto block = std::ranges::lower_bound(blocks, pictures.block_of(picture));
+      return jacobian.G.block<3, 3>(static_cast<Eigen::Index>(3 * j), 3 * (block - blocks.begin()));
+    };
+    of(loop.from) = loop.shared->from.scaled();
+    of(loop.to) = loop.shared->to.scaled();
+  }
+  return jacobian;
 }
 
 double misfit(std::span<const StackedLoop> loops, const Eigen::VectorXd& nu) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -8,21 +9,26 @@
 
 #include "estimators/trajectory_iekf/stretch.hpp"
 #include "fathom/estimation/loop_rows.hpp"
+#include "fathom/estimation/shared_error_model.hpp"
 #include "fathom/measurements/relative_pose.hpp"
 
 /// The registrations of one update, written forward and stacked, at a stretch of motions.
 namespace fathom {
 
 struct StackedLoop {
-  explicit StackedLoop(const RelativePose& forward)
-      : from(forward.from), motion(forward.motion), rows(loop_rows(forward)) {}
+  StackedLoop(const RelativePose& forward, SharedErrorModel model);
 
   std::size_t from = 0;
-  Pose motion;  ///< to the newest keyframe
-  LoopRows rows;
+  std::size_t to = 0;  ///< the newest keyframe
+  Pose motion;
+  LoopRows rows;  ///< with R of its own errors, where those of its pictures are told
+  std::shared_ptr<const SharedErrors> shared;  ///< where they are, and are asked for
 };
 
-std::vector<StackedLoop> stacked(std::span<const RelativePose> loops);
+/// Whether an update with this model asks what the registration's pictures share.
+bool is_told(const RelativePose& z, SharedErrorModel model);
+
+std::vector<StackedLoop> stacked(std::span<const RelativePose> loops, SharedErrorModel model);
 /// The first motion on the way of any of them to the newest keyframe; of so many motions.
 std::size_t first_motion(std::span<const StackedLoop> loops, const MotionTree& tree,
                          std::size_t motions);
@@ -39,6 +45,8 @@ Eigen::VectorXd innovations(std::span<const StackedLoop> loops, const Stretch& s
 
 /// H of the loops stacked.
 StackedJacobian jacobian(std::span<const StackedLoop> loops, const Stretch& stretch);
+PictureJacobian picture_jacobian(std::span<const StackedLoop> loops,
+                                 const filter::PictureErrorStates& pictures);
 
 /// ν(x)ᵀ R⁻¹ ν(x).
 double misfit(std::span<const StackedLoop> loops, const Eigen::VectorXd& nu);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "fathom/geometry/trajectory.hpp"
 
@@ -87,6 +88,18 @@ StackedJacobian::StackedJacobian(const Stretch& stretch, std::span<const Rows> r
   }
 }
 
+// The first start moves to the earliest n: A is zero between.
+void StackedJacobian::place_in(const StateBlocks& state, PictureJacobian pictures) {
+  pictures_ = std::move(pictures);
+  if (state.are_motions_alone()) return;
+  const auto first = static_cast<std::size_t>(starts_.front());
+  for (Eigen::Index& start : starts_) start = state.of_motion(static_cast<std::size_t>(start));
+  if (!pictures_.is_empty()) {
+    starts_.front() = std::min(starts_.front(), pictures_.blocks.front());
+  }
+  A_transposed_ = state.spread(A_transposed_, first, starts_.front());
+}
+
 // A X over the motions from each start on, segment after segment from the last; then Eᵀ of it.
 Eigen::MatrixXd StackedJacobian::times(const Eigen::Ref<const Eigen::MatrixXd>& X) const {
   Eigen::MatrixXd sums(E_.rows(), X.cols());
@@ -99,7 +112,8 @@ Eigen::MatrixXd StackedJacobian::times(const Eigen::Ref<const Eigen::MatrixXd>& 
     sums.middleRows<3>(static_cast<Eigen::Index>(3 * s)) = sum;
     end = row_of(s);
   }
-  return E_.transpose() * sums;
+  if (pictures_.is_empty()) return E_.transpose() * sums;
+  return E_.transpose() * sums + pictures_.times(X, starts_.front());
 }
 
 Eigen::VectorXd StackedJacobian::transposed_times(const Eigen::VectorXd& lambda) const {
@@ -111,6 +125,10 @@ Eigen::VectorXd StackedJacobian::transposed_times(const Eigen::VectorXd& lambda)
     const Eigen::Index end = s + 1 < starts_.size() ? row_of(s + 1) : product.size();
     const Eigen::Index rows = end - row_of(s);
     product.segment(row_of(s), rows).noalias() = A_transposed_.middleRows(row_of(s), rows) * sum;
+  }
+  for (std::size_t b = 0; b < pictures_.blocks.size(); ++b) {
+    product.segment<3>(3 * (pictures_.blocks[b] - starts_.front())) =
+        pictures_.G.middleCols<3>(static_cast<Eigen::Index>(3 * b)).transpose() * lambda;
   }
   return product;
 }

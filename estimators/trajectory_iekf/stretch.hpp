@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 
 #include "estimators/trajectory_iekf/motion_tree.hpp"
+#include "estimators/trajectory_iekf/state_blocks.hpp"
 #include "fathom/geometry/pose.hpp"
 
 namespace fathom {
@@ -50,7 +51,8 @@ class Stretch {
   std::vector<Pose> poses_;           ///< of keyframes first … n, in the frame of `first`
 };
 
-/// H of registrations stacked, by its structure: never multiplied out.
+/// H of registrations stacked, by its structure: never multiplied out. Of the motions of a stretch;
+/// or, placed in a state that has errors of pictures too, of the last blocks of that.
 class StackedJacobian {
  public:
   /// One registration: H of its `from`, or C H.
@@ -61,13 +63,18 @@ class StackedJacobian {
   StackedJacobian() = default;
   StackedJacobian(const Stretch& stretch, std::span<const Rows> registrations);
 
-  /// Motions at which a registration's H begins or ends to be D A or −D A, counted from 0; rising,
-  /// each once.
+  /// Among the blocks of a state, with H of n beside that of the motions.
+  void place_in(const StateBlocks& state, PictureJacobian pictures);
+
+  /// Motions (blocks) at which a registration's H begins or ends to be D A or −D A, counted from 0;
+  /// rising, each once. The first is where the stretch begins, with n of its pictures.
   std::span<const Eigen::Index> starts() const { return starts_; }
   const Eigen::MatrixX3d& A_transposed() const { return A_transposed_; }
 
-  /// E, 3 starts × 3 registrations: X Hᵀ is (X Aᵀ summed over the motions from each start on) E.
+  /// E, 3 starts × 3 registrations: X Hᵀ is (X Aᵀ summed over the motions from each start on) E,
+  /// and the part of n.
   const Eigen::MatrixXd& ends() const { return E_; }
+  const PictureJacobian& pictures() const { return pictures_; }
 
   /// H X and Hᵀ λ, X over the stretch.
   Eigen::MatrixXd times(const Eigen::Ref<const Eigen::MatrixXd>& X) const;
@@ -78,7 +85,8 @@ class StackedJacobian {
 
   std::vector<Eigen::Index> starts_;
   Eigen::MatrixXd E_;  ///< D of each registration, in the rows of its starts; −D where it ends
-  Eigen::MatrixX3d A_transposed_;
+  Eigen::MatrixX3d A_transposed_;  ///< zero in the rows of n
+  PictureJacobian pictures_;
 };
 
 }  // namespace fathom

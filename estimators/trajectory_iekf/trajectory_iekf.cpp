@@ -20,6 +20,7 @@ void TrajectoryIekfOptions::describe(OptionTable& table) {
              "an update has diverged at so many times the cost of leaving the state alone");
   gate.describe(table);
   gate.describe_joint(table);
+  shared_errors.describe_of_filter(table, ", as in the paper");
 }
 
 TrajectoryIekf::TrajectoryIekf(const EstimatorSetup& setup, const TrajectoryIekfOptions& options,
@@ -31,24 +32,32 @@ void TrajectoryIekf::add_keyframe(const RelativePose& step) {
   motions_.push_back(u.motion);
   poses_.push_back(compose(poses_.back(), u.motion));
   P_.append(u.covariance());
+  blocks_.add_motion();
   covariances_.clear();
 }
 
 void TrajectoryIekf::linearise(std::span<const StackedLoop> loops, const Eigen::VectorXd& delta,
                                int iteration) {
-  const Stretch stretch = stretch_at(tree_, motions_, first_of(loops), delta);
-  at_.nu = innovations(loops, stretch);
-  at_.H = jacobian(loops, stretch);
+  const Stretch stretch = stretch_of(loops, delta);
+  at_.nu = innovations_of(loops, stretch, delta);
+  at_.H = jacobian_of(loops, stretch);
   auto PAt = at_.PAt.shaped(delta.size(), static_cast<Eigen::Index>(3 * at_.H.starts().size()));
   // A turn of a motion turns the newest keyframe as much, wherever H is taken: the third column of
   // Aᵀ is the same for all iterates.
   P_.suffix_products(at_.H.starts(), at_.H.A_transposed(), PAt, iteration);
+  // So is all of G.
+  if (iteration == 1) at_.PGt = picture_products();
   multiply(loops);
 }
 
 // S = H P Hᵀ + R.
 void TrajectoryIekf::multiply(std::span<const StackedLoop> loops) {
-  at_.S = at_.H.times(at_.PAt.matrix()) * at_.H.ends();
+  if (at_.PGt.size() == 0) {
+    at_.S = at_.H.times(at_.PAt.matrix()) * at_.H.ends();
+  } else {
+    const Eigen::Index length = at_.PAt.matrix().rows();
+    at_.S = at_.H.times(at_.PAt.matrix() * at_.H.ends() + at_.PGt.bottomRows(length));
+  }
   for (Eigen::Index row = 0; row < at_.nu.size(); row += 3) {
     at_.S.block<3, 3>(row, row) += loops[static_cast<std::size_t>(row / 3)].rows.R;
   }
@@ -57,13 +66,14 @@ void TrajectoryIekf::multiply(std::span<const StackedLoop> loops) {
 UpdateReport TrajectoryIekf::close_loops(std::span<const RelativePose> registrations) {
   UpdateReport report;
   if (registrations.empty()) return report;
-  std::vector<StackedLoop> loops = stacked(registrations);
+  for (const RelativePose& z : registrations) admit(z);
+  std::vector<StackedLoop> loops = stacked(registrations, model());
   linearise_prior(loops);
   for (const RelativePose& z : registrations) {
     report.loops.push_back({z.from, z.to, LoopFate::used, std::nullopt});
   }
   const std::vector<bool> passes = gate_loops(loops, report);
-  if (!has_finite_nis(report) || !are_resolved(*this, registrations)) {
+  if (!has_finite_nis(report) || !are_resolved_as_used(registrations)) {
     lose_all(report, Outcome::numerical_failure);
     return report;
   }
@@ -79,19 +89,19 @@ UpdateReport TrajectoryIekf::close_loops(std::span<const RelativePose> registrat
 }
 
 void TrajectoryIekf::linearise_prior(std::span<const StackedLoop> loops) {
-  const auto length = static_cast<Eigen::Index>(3 * (motions_.size() - first_of(loops)));
+  const Eigen::Index length = 3 * (blocks_.size() - begin_of(loops));
   linearise(loops, Eigen::VectorXd::Zero(length), 1);
 }
 
 // The prior's linearisation for the registrations that are left of those it was made for. As long
-// as they begin with the same motion the products with P are there already.
+// as they begin with the same motion, and none is told of n, the products with P are there already.
 void TrajectoryIekf::narrow_to(std::span<const StackedLoop> loops) {
-  const std::size_t first = first_of(loops);
-  if (static_cast<Eigen::Index>(first) != at_.H.starts().front()) return linearise_prior(loops);
-  const auto length = static_cast<Eigen::Index>(3 * (motions_.size() - first));
-  const Stretch stretch = stretch_at(tree_, motions_, first, Eigen::VectorXd::Zero(length));
-  const StackedJacobian was = std::exchange(at_.H, jacobian(loops, stretch));
-  at_.nu = innovations(loops, stretch);
+  const Eigen::Index begin = begin_of(loops);
+  if (begin != at_.H.starts().front() || at_.PGt.size() > 0) return linearise_prior(loops);
+  const Eigen::VectorXd none = Eigen::VectorXd::Zero(3 * (blocks_.size() - begin));
+  const Stretch stretch = stretch_of(loops, none);
+  const StackedJacobian was = std::exchange(at_.H, jacobian_of(loops, stretch));
+  at_.nu = innovations_of(loops, stretch, none);
   auto PAt = at_.PAt.matrix();
   Eigen::Index column = 0;
   for (const Eigen::Index start : at_.H.starts()) {
@@ -137,7 +147,8 @@ std::optional<LoopDecision> TrajectoryIekf::bridge(const Bridge& bridge) {
     return std::nullopt;
   }
   const RelativePose& loop = *bridge.loop;
-  const std::vector<StackedLoop> loops = stacked(std::span(&loop, 1));
+  admit(loop);
+  const std::vector<StackedLoop> loops = stacked(std::span(&loop, 1), model());
   UpdateReport report;
   report.loops.push_back({loop.from, loop.to, LoopFate::used, std::nullopt});
   linearise_prior(loops);
@@ -146,8 +157,7 @@ std::optional<LoopDecision> TrajectoryIekf::bridge(const Bridge& bridge) {
   if (!has_finite_nis(report)) return std::nullopt;
   if (decision.fate != LoopFate::used) return decision;
   tree_.set(bridge.node - 1, {loop.from, loop.to});
-  motions_[bridge.node - 1] = loop.motion;
-  P_.replace(static_cast<Eigen::Index>(bridge.node - 1), loop.covariance());
+  take_place(bridge.node - 1, loops.front());
   recompose();
   return decision;
 }

@@ -9,10 +9,11 @@
 #include <gtest/gtest.h>
 
 #include "estimators/support/filter/delayed_state.hpp"
+#include "estimators/trajectory_iekf/trajectory_iekf.hpp"
 #include "tests/estimators/logs.hpp"
 #include "tests/estimators/redrawn_walk.hpp"
 
-/// The filters on poses with each model of what pictures share.
+/// The filters with each model of what pictures share.
 namespace fathom::test {
 
 /// Errors of this share of a SharedWalk's are linear in a filter, to 1e-6 of themselves.
@@ -20,6 +21,12 @@ constexpr double kSmall = 1e-5;
 
 inline std::vector<std::string> filters_on_poses() {
   return {"ekf", "invariant_ekf", "first_estimates_ekf"};
+}
+
+inline std::vector<std::string> all_filters() {
+  std::vector<std::string> all = filters_on_poses();
+  all.push_back("trajectory_iekf");
+  return all;
 }
 
 inline EstimatorValues sharing(const std::string& model) {
@@ -31,8 +38,14 @@ inline const filter::DelayedStateFilter& filter_of(const Estimator& estimator) {
   return dynamic_cast<const filter::DelayedStateFilter&>(anchored.relative());
 }
 
+inline const filter::PictureErrorStates& picture_errors_of(const Estimator& estimator) {
+  const auto& anchored = dynamic_cast<const AnchoredEstimator&>(estimator);
+  const auto* iekf = dynamic_cast<const TrajectoryIekf*>(&anchored.relative());
+  return iekf != nullptr ? iekf->blocks().pictures() : filter_of(estimator).picture_errors();
+}
+
 /// Of all keyframes but 0.
-inline Eigen::MatrixXd whole_covariance(const Estimator& estimator) {
+inline Eigen::MatrixXd whole_covariance(const Estimate& estimator) {
   std::vector<std::size_t> all(estimator.size() - 1);
   std::iota(all.begin(), all.end(), std::size_t{1});
   return estimator.joint_covariance(all).value();
@@ -57,7 +70,7 @@ inline Eigen::MatrixXd covariance_of_errors(const std::string& type, const Estim
   return M * M.transpose();
 }
 
-/// Every filter on poses with one of the models that ask.
+/// Every filter with one of the models that ask.
 class SharedFilter : public testing::TestWithParam<std::tuple<std::string, std::string>> {
  protected:
   std::string type() const { return std::get<0>(GetParam()); }
@@ -65,8 +78,10 @@ class SharedFilter : public testing::TestWithParam<std::tuple<std::string, std::
   EstimatorValues options() const { return sharing(model()); }
 };
 
-inline const auto kEachFilter =
+inline const auto kEachFilterOnPoses =
     testing::Combine(testing::ValuesIn(filters_on_poses()), testing::Values("states", "consider"));
+inline const auto kEachFilter =
+    testing::Combine(testing::ValuesIn(all_filters()), testing::Values("states", "consider"));
 
 inline std::string name_of(const testing::TestParamInfo<SharedFilter::ParamType>& info) {
   return std::get<0>(info.param) + "_" + std::get<1>(info.param);

@@ -1,4 +1,4 @@
-// The filters on poses where registrations are told what their pictures share, against a dense
+// The filters where registrations are told what their pictures share, against a dense
 // textbook filter, dense least squares and their own errors.
 
 #include "tests/estimators/shared_filter.hpp"
@@ -19,6 +19,10 @@ class SharedFilters : public SharedFilter {};
 
 INSTANTIATE_TEST_SUITE_P(All, SharedFilters, kEachFilter, name_of);
 
+class SharedFiltersOnPoses : public SharedFilter {};
+
+INSTANTIATE_TEST_SUITE_P(All, SharedFiltersOnPoses, kEachFilterOnPoses, name_of);
+
 NaiveError kind_of(const std::string& type) {
   if (type == "ekf") return NaiveError::world;
   return type == "invariant_ekf" ? NaiveError::invariant : NaiveError::first_estimates;
@@ -26,7 +30,7 @@ NaiveError kind_of(const std::string& type) {
 
 // Full covariances, headings through ±π, loops in both directions and several at once, of which
 // some are told nothing.
-TEST_P(SharedFilters, IsTheTextbookFilter) {
+TEST_P(SharedFiltersOnPoses, IsTheTextbookFilter) {
   for (const std::uint64_t seed : {1, 2, 3}) {
     const SharedWalk walk(30, 4, seed);
     const auto estimator = builtin_estimators().find(type()).create({}, options());
@@ -45,7 +49,7 @@ TEST_P(SharedFilters, IsTheTextbookFilter) {
 }
 
 // What nobody estimates stays as it was said, to the last bit.
-TEST_P(SharedFilters, ConsideredErrorsKeepTheirPrior) {
+TEST_P(SharedFiltersOnPoses, ConsideredErrorsKeepTheirPrior) {
   const SharedWalk walk(30, 4, 1);
   const auto estimator = solved(type(), walk.log, options());
   const auto& filter = filter_of(*estimator);
@@ -124,13 +128,13 @@ TEST_P(SharedFilters, IsHonest) {
   expect_of(small.all, dof_of_all);
 }
 
-class FilterOnPoses : public testing::TestWithParam<std::string> {};
+class FilterThatAsks : public testing::TestWithParam<std::string> {};
 
-INSTANTIATE_TEST_SUITE_P(All, FilterOnPoses, testing::ValuesIn(filters_on_poses()),
+INSTANTIATE_TEST_SUITE_P(All, FilterThatAsks, testing::ValuesIn(all_filters()),
                          [](const auto& name) { return name.param; });
 
 // Where everything is linear the filter is the batch.
-TEST_P(FilterOnPoses, OfSmallErrorsIsLeastSquares) {
+TEST_P(FilterThatAsks, OfSmallErrorsIsLeastSquares) {
   const RedrawnWalk walk(SharedWalk(30, 4, 8), kSmall);
   const MeasurementLog log = walk.log(drawn_errors(walk.numbers(), 1));
   for (const auto& [model, errors] : {std::pair{"states", RegistrationErrors::shared},
@@ -145,7 +149,7 @@ TEST_P(FilterOnPoses, OfSmallErrorsIsLeastSquares) {
 }
 
 // To estimate n never makes poses worse.
-TEST_P(FilterOnPoses, ConsideringIsNeverBetterThanEstimating) {
+TEST_P(FilterThatAsks, ConsideringIsNeverBetterThanEstimating) {
   for (const std::uint64_t seed : {3, 4}) {
     const RedrawnWalk walk(SharedWalk(25, 4, seed), kSmall);
     const MeasurementLog log = walk.log(drawn_errors(walk.numbers(), seed));
@@ -171,7 +175,7 @@ bool same_bits(const Estimator& a, const Estimator& b) {
 }
 
 // As if independent is to ask nothing, and who is told nothing need not be asked.
-TEST_P(FilterOnPoses, WithoutPartsTheModelIsOfNoEffect) {
+TEST_P(FilterThatAsks, WithoutPartsTheModelIsOfNoEffect) {
   const SharedWalk walk(30, 4, 6);
   MeasurementLog untold;
   for (std::size_t k = 1; k < walk.log.size(); ++k) {
@@ -185,7 +189,7 @@ TEST_P(FilterOnPoses, WithoutPartsTheModelIsOfNoEffect) {
   for (const char* model : {"states", "consider", "independent"}) {
     EXPECT_TRUE(same_bits(*solved(GetParam(), untold, sharing(model)), *expected)) << model;
   }
-  EXPECT_FALSE(same_bits(*solved(GetParam(), walk.log), *expected));
+  EXPECT_FALSE(same_bits(*solved(GetParam(), walk.log, sharing("states")), *expected));
 }
 
 }  // namespace

@@ -133,10 +133,10 @@ TEST(SharedSmoother, IndependentIsWhatAGraphIsThatIsToldNothing) {
   }
 }
 
-TEST(SharedSmoother, RefusesToConsider) {
-  EXPECT_THROW(
-      test::make("incremental_smoother", {}, test::values({{"shared_errors", "consider"}})),
-      InputError);
+TEST(SharedGraph, RefusesToConsider) {
+  for (const char* graph : {"incremental_smoother", "sparse_gauss_newton", "ceres_pose_graph"}) {
+    EXPECT_THROW(test::make(graph, {}, test::values({{"shared_errors", "consider"}})), InputError);
+  }
 }
 
 }  // namespace

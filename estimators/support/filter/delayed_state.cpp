@@ -16,7 +16,7 @@ void DelayedStateOptions::describe(OptionTable& table) {
              "an update has diverged at so many times the cost of leaving the state alone");
   gate.describe(table);
   gate.describe_joint(table);
-  shared_errors.describe(table);
+  shared_errors.describe_of_filter(table);
 }
 
 DelayedStateFilter::DelayedStateFilter(const EstimatorSetup& setup,

@@ -56,19 +56,25 @@ void PackedCovariance::append(const Eigen::Matrix3Xd& cross, const Eigen::Matrix
 }
 
 void PackedCovariance::replace(Eigen::Index i, const Eigen::Matrix3d& covariance) {
+  Eigen::MatrixX3d column = Eigen::MatrixX3d::Zero(size_, 3);
+  column.middleRows<3>(3 * i) = covariance;
+  replace(i, column);
+}
+
+void PackedCovariance::replace(Eigen::Index i, const Eigen::MatrixX3d& column) {
   const Eigen::Index own = 3 * i;
   const Eigen::Index tile = panel_of(own) * kPanelRows;
-  Tile(element(own, 0), 3, own).setZero();
-  if (own > tile) Tile(element(tile, own), own - tile, 3).setZero();
+  Tile(element(own, 0), 3, own) = column.topRows(own).transpose();
+  if (own > tile) Tile(element(tile, own), own - tile, 3) = column.middleRows(tile, own - tile);
   for (Eigen::Index row = own + 3; row < size_;) {
     const Eigen::Index panel = panel_of(row) * kPanelRows;
     const Eigen::Index rows = std::min(panel + kPanelRows, size_) - row;
-    Tile(element(row, own), rows, 3).setZero();
+    Tile(element(row, own), rows, 3) = column.middleRows(row, rows);
     // The tile on the diagonal has both triangles.
-    if (panel == tile) Tile(element(own, row), 3, rows).setZero();
+    if (panel == tile) Tile(element(own, row), 3, rows) = column.middleRows(row, rows).transpose();
     row += rows;
   }
-  Tile(element(own, own), 3, 3) = covariance;
+  Tile(element(own, own), 3, 3) = column.middleRows<3>(own);
 }
 
 Eigen::Matrix3d PackedCovariance::block(Eigen::Index i, Eigen::Index j) const {

@@ -41,6 +41,9 @@ class PackedCovariance {
   /// Block i anew, uncorrelated with the rest.
   void replace(Eigen::Index i, const Eigen::Matrix3d& covariance);
 
+  /// Block i anew, with its size()×3 column.
+  void replace(Eigen::Index i, const Eigen::MatrixX3d& column);
+
   /// The 3×3 block of block row i and block column j.
   Eigen::Matrix3d block(Eigen::Index i, Eigen::Index j) const;
 

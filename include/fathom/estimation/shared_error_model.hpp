@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "fathom/core/options.hpp"
 
 namespace fathom {
@@ -16,7 +18,10 @@ enum class SharedErrorModel {
 struct SharedErrorOptions {
   SharedErrorModel model = SharedErrorModel::states;
 
+  /// Of a graph: states or independent.
   void describe(OptionTable& table);
+  /// Of a filter, all three; `note`: what else the help says.
+  void describe_of_filter(OptionTable& table, const std::string& note = {});
 };
 
 }  // namespace fathom
