@@ -21,7 +21,7 @@ void TrajectoryIekf::admit(const RelativePose& z) {
 bool TrajectoryIekf::are_resolved_as_used(std::span<const RelativePose> registrations) const {
   const Eigen::Vector3d none = Eigen::Vector3d::Zero();
   return std::ranges::all_of(registrations, [&](const RelativePose& z) {
-    return is_resolved(is_told(z, model()) ? without_shared(z, none, none) : z, poses_[z.from],
+    return is_resolved(is_told(z, model()) ? without_shared(z, none) : z, poses_[z.from],
                        poses_[z.to]);
   });
 }

@@ -12,7 +12,6 @@
 namespace fathom {
 namespace {
 
-using conformance::RegistrationErrors;
 using test::arrive;
 using test::SharedWalk;
 

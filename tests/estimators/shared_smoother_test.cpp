@@ -15,7 +15,6 @@ namespace fathom {
 namespace {
 
 using conformance::NaiveLeastSquares;
-using conformance::RegistrationErrors;
 using test::arrive;
 using test::SharedWalk;
 
