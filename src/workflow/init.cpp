@@ -38,8 +38,8 @@ std::vector<std::string> assumptions(const FrameSource& frames) {
   std::vector<std::string> assumed;
   const std::string key = "front_end.covariance.";
   if (!frames.has_attitude()) {
-    assumed.push_back("how far the camera tilts is estimated from loops: give " + key +
-                      "tilt_sigma_rad what your vehicle has, if you know it");
+    assumed.push_back("the camera tilts by 0.005 rad: give " + key +
+                      "tilt_sigma_rad what your vehicle has, or estimated");
   }
   if (!(frames.info(0).altitude_sigma_m > 0.0)) {
     assumed.push_back("altitudes are exact: give " + key +

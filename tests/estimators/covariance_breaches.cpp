@@ -73,6 +73,9 @@ std::vector<Breach> covariance_breaches() {
           {"overridden_defaults",
            "covariance of the motion to the newest from keyframe 0 is off by",
            {.motions = widen}},
+          {"shared_errors",
+           "covariance of keyframe 1 is off by",
+           {.covariance = times<Eigen::Matrix3d>(1.0 + 1e-3)}},
           {"overridden_defaults",
            "covariance of keyframe 1 is off by",
            {.covariance = times<Eigen::Matrix3d>(1.0 + 1e-6)}}};

@@ -37,6 +37,7 @@ class SpoiltEstimator : public Estimator {
 
   std::size_t size() const override { return spoilt(spoils_.size, good_->size()); }
   Pose pose(std::size_t k) const override { return spoilt(spoils_.pose, good_->pose(k)); }
+  bool estimates_shared_errors() const override { return good_->estimates_shared_errors(); }
   MovedPoses moved_since(std::uint64_t revision) const override {
     return good_->moved_since(revision);
   }

@@ -13,6 +13,7 @@
 #include "fathom/harness/result.hpp"
 #include "fathom/harness/survey.hpp"
 #include "fathom/measurements/g2o.hpp"
+#include "fathom/measurements/shared_file.hpp"
 #include "harness/recorded.hpp"
 #include "harness/small_config.hpp"
 #include "support/planar.hpp"
@@ -126,7 +127,7 @@ TEST(Record, TheReferencePicksTheCandidatesAndNothingElse) {
 TEST(Record, EstimatorsOnTheWrittenLogGiveTheSameToTheLastBit) {
   const Recording recording = recorded(small_survey());
   const test::TemporaryFolder folder;
-  std::ofstream(folder / "log.g2o") << to_g2o(recording.log);
+  write_graph(folder / "log.g2o", recording.log);
   const Recording read = record_graph(folder / "log.g2o");
   for (const EstimatorEntry& entry : builtin_estimators().entries()) {
     const Result direct = evaluated(recording, entry);

@@ -39,14 +39,15 @@ struct CovarianceOptions {
   /// estimated from the survey, 0 until then.
   std::optional<double> altitude_sigma_m = 0.0;
   /// Of roll and of pitch, at each picture that does not come with them measured. No vehicle keeps
-  /// its camera level. Empty: estimated from the survey; until then, and where it does not tell,
-  /// 0.3°. At 0, registrations would be certain to a fraction of a millimetre.
-  std::optional<double> tilt_sigma_rad = std::nullopt;
+  /// its camera level: without a word on it, 0.3°. Empty: estimated from the survey; until then, and
+  /// where it does not tell, that too. At 0, registrations would be certain to a fraction of a
+  /// millimetre.
   static constexpr double kAssumedTiltRad = 0.005;
+  std::optional<double> tilt_sigma_rad = kAssumedTiltRad;
   /// The standard deviations of a registration's own error are so many times what its residuals
   /// show: relief that each pair sees from other sides, distortion that calibration leaves. Empty:
   /// estimated from the survey, 1 until then.
-  std::optional<double> own_factor = std::nullopt;
+  std::optional<double> own_factor = 1.0;
 
   double altitude() const { return altitude_sigma_m.value_or(0.0); }
   double own() const { return own_factor.value_or(1.0); }

@@ -25,6 +25,8 @@ std::vector<Clause> covariance_clauses();
 std::vector<Clause> absolute_clauses();
 /// What absolute measurements make of an estimate with loops.
 std::vector<Clause> world_clauses();
+/// What is made of errors that registrations of one picture share.
+std::vector<Clause> shared_clauses();
 /// Where dead reckoning has a hole, and where the start is free.
 std::vector<Clause> hole_clauses();
 

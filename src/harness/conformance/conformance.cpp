@@ -18,7 +18,7 @@ const std::vector<Clause>& clauses() {
     for (const auto part :
          {conformance::estimate_clauses, conformance::failure_clauses, conformance::loop_clauses,
           conformance::covariance_clauses, conformance::absolute_clauses,
-          conformance::world_clauses, conformance::hole_clauses}) {
+          conformance::world_clauses, conformance::shared_clauses, conformance::hole_clauses}) {
       for (Clause& clause : part()) joined.push_back(std::move(clause));
     }
     return joined;

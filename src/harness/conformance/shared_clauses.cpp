@@ -1,0 +1,81 @@
+// What an estimator makes of errors that registrations of one picture share.
+
+#include <memory>
+
+#include "clauses.hpp"
+#include "expectations.hpp"
+#include "fathom/geometry/covariance.hpp"
+#include "logs.hpp"
+#include "naive_least_squares.hpp"
+
+namespace fathom::conformance {
+namespace {
+
+// The circle, each registration told apart: half of its covariance is its own, and its pictures
+// add theirs.
+MeasurementLog told_circle(double noise) {
+  LogOptions options;
+  options.noise = noise;
+  options.keyframes = 26;
+  const MeasurementLog circle = circle_log(options);
+  MeasurementLog log(circle.start());
+  for (std::size_t k = 1; k < circle.size(); ++k) {
+    log.add_keyframe(circle.arrival(k).step);
+    for (const RelativePose& z : circle.arrival(k).registrations) {
+      const Eigen::Vector3d sigma(kLoopSigmaM, 0.5 * kLoopSigmaM, kLoopSigmaRad);
+      SharedErrors shared{{-Eigen::Matrix3d::Identity(), sigma},
+                          {planar_rotation(z.motion.theta), sigma},
+                          0.5 * z.covariance()};
+      shared.from.G(0, 2) = z.motion.y;
+      shared.from.G(1, 2) = -z.motion.x;
+      RelativePose told = RelativePose::from_covariance(z.from, z.to, z.motion, shared.total());
+      told.shared = std::make_shared<const SharedErrors>(shared);
+      log.add_registration(told);
+    }
+  }
+  return log;
+}
+
+MeasurementLog untold(const MeasurementLog& log) {
+  MeasurementLog result(log.start());
+  for (std::size_t k = 1; k < log.size(); ++k) {
+    result.add_keyframe(log.arrival(k).step);
+    for (RelativePose z : log.arrival(k).registrations) {
+      z.shared = nullptr;
+      result.add_registration(z);
+    }
+  }
+  return result;
+}
+
+void expect_joint_covariances(Subject& subject) {
+  const MeasurementLog log = told_circle(0.0);
+  const GuardedEstimator& estimator = subject.solved(log);
+  const NaiveLeastSquares expected = least_squares(log, 1, {}, RegistrationErrors::shared);
+  expect_poses(estimator, expected.poses, 1e-9);
+  for (std::size_t k = 1; k < log.size(); ++k) {
+    expect_covariance(numbered("covariance of keyframe", k), covariance_of(estimator, k),
+                      expected.marginal(k), 1e-7);
+  }
+}
+
+// One that estimates them, and one that does not ask.
+void shared_errors(Subject& subject) {
+  const MeasurementLog log = told_circle(1.0);
+  const GuardedEstimator& estimator = subject.solved(log);
+  if (estimator.estimates_shared_errors()) return expect_joint_covariances(subject);
+  std::vector<Pose> told;
+  for (std::size_t k = 0; k < log.size(); ++k) told.push_back(estimator.pose(k));
+  expect_same_bits(subject.solved(untold(log)), told);
+}
+
+}  // namespace
+
+std::vector<Clause> shared_clauses() {
+  return {{{"shared_errors",
+            "errors that registrations share are estimated, with the covariances of the joint "
+            "least squares; or they are not asked for, and the log is as if it told nothing"},
+           shared_errors}};
+}
+
+}  // namespace fathom::conformance
