@@ -35,44 +35,26 @@ FrontEnd::FrontEnd(const FrameSource& source, PairRegistrar& registrar,
 // register_newest() then registers them.
 std::optional<Keyframe> FrontEnd::next_keyframe() {
   const std::size_t next = schedule_.frame(keyframes_.size()).value_or(source_.size());
-  Motion since;  // the last keyframe
+  UncertainPose since;  // the last keyframe
   bool over_hole = false;
   while (frames_.size() < source_.size()) {
     const std::size_t frame = frames_.size();
     const FrameInfo& info = source_.info(frame);
-    if (frame > 0) append(since, info);
+    if (frame > 0) since = compose(since, *info.motion);
     over_hole = over_hole || info.is_hole;
     if (frame == next) return add_keyframe(frame, info, since, over_hole);
-    frames_.push_back({info.time_ns, keyframes_.size() - 1, since.pose.mean});
+    frames_.push_back({info.time_ns, keyframes_.size() - 1, since.mean});
   }
   return std::nullopt;
 }
 
-// Pictures between keyframes are in two motions each: what their errors do to one they take back in
-// the next.
-void FrontEnd::append(Motion& since, const FrameInfo& info) {
-  const bool is_first = !since.has_motion;
-  if (is_first) {
-    since.errors = info.motion_errors;
-  } else if (since.errors && info.motion_errors) {
-    since.errors = std::make_shared<const SharedErrors>(
-        compose(since.pose.mean, *since.errors, info.motion->mean, *info.motion_errors));
-  } else {
-    since.errors = nullptr;
-  }
-  since.pose = compose(since.pose, *info.motion);
-  if (!is_first && since.errors) since.pose.covariance = since.errors->total();
-  since.has_motion = true;
-}
-
-Keyframe FrontEnd::add_keyframe(std::size_t frame, const FrameInfo& info, const Motion& since,
-                                bool over_hole) {
+Keyframe FrontEnd::add_keyframe(std::size_t frame, const FrameInfo& info,
+                                const UncertainPose& since, bool over_hole) {
   Keyframe keyframe{keyframes_.size(), frame, info.time_ns, std::nullopt};
   if (frame > 0) {
-    keyframe.step = RelativePose::from_covariance(keyframe.index - 1, keyframe.index,
-                                                  since.pose.mean, since.pose.covariance);
+    keyframe.step = RelativePose::from_covariance(keyframe.index - 1, keyframe.index, since.mean,
+                                                  since.covariance);
     keyframe.step->is_hole = over_hole;
-    keyframe.step->shared = since.errors;
   }
   frames_.push_back({info.time_ns, keyframe.index, Pose{}});
   keyframes_.push_back(keyframe);

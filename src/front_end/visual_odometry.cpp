@@ -22,7 +22,7 @@ const FrameInfo& VisualOdometry::info(std::size_t i) const {
     FrameInfo info = source_.info(infos_.size());
     info.motion.reset();
     info.is_hole = false;
-    if (!infos_.empty()) info.motion = next_motion(info.motion_errors);
+    if (!infos_.empty()) info.motion = next_motion();
     infos_.push_back(std::move(info));
   }
   return infos_[i];
@@ -32,7 +32,7 @@ MeasuredFrame VisualOdometry::measured(std::size_t frame) const {
   return MeasuredFrame::of(source_, frame);
 }
 
-UncertainPose VisualOdometry::next_motion(std::shared_ptr<const SharedErrors>& errors) const {
+UncertainPose VisualOdometry::next_motion() const {
   const std::size_t to = infos_.size();
   for (std::size_t ahead = to + 1; ahead <= to + PairRegistrar::look_ahead(); ++ahead) {
     if (ahead < source_.size()) registrar_.announce(measured(ahead - 1), measured(ahead));
@@ -44,9 +44,6 @@ UncertainPose VisualOdometry::next_motion(std::shared_ptr<const SharedErrors>& e
   if (registration.found) {
     motion = {registration.motion, registration.covariance};
     last_motion_ = registration.motion;
-    SharedErrors apart = registration.shared;
-    apart.own += noise_.covariance;
-    errors = std::make_shared<const SharedErrors>(apart);
   } else {
     ++failures_;
     const double sigma_m =

@@ -4,6 +4,9 @@
 #include <memory>
 #include <string>
 
+#include "fathom/core/input_error.hpp"
+#include "fathom/geometry/trajectory_file.hpp"
+#include "fathom/harness/recording.hpp"
 #include "fathom/harness/survey.hpp"
 
 namespace fathom {
@@ -53,6 +56,20 @@ void settle_reference(Study& study, const EstimatorRegistry& registry) {
     if (missing) all_have_truth = false;
   }
   settle_references(study, all_have_truth ? Kind::ground_truth : Kind::estimate, registry);
+}
+
+void attach_ground_truth(Recording& graph, const std::filesystem::path& path) {
+  const std::vector<StampedPose> truth = read_tum(path);
+  graph.ground_truth.emplace();
+  std::size_t next = 0;
+  for (const std::int64_t time_ns : graph.keyframe_times_ns) {
+    while (next < truth.size() && truth[next].time_ns < time_ns) ++next;
+    if (next == truth.size() || truth[next].time_ns != time_ns) {
+      throw InputError(path.string(),
+                       "has no pose for vertex " + std::to_string(time_ns / 1'000'000'000));
+    }
+    graph.ground_truth->push_back(truth[next].pose);
+  }
 }
 
 }  // namespace fathom

@@ -199,20 +199,6 @@ Recording record_graph(const std::filesystem::path& path, const GraphOptions& op
   return graph_recording(read_g2o(path, options), path.string());
 }
 
-void attach_ground_truth(Recording& graph, const std::filesystem::path& path) {
-  const std::vector<StampedPose> truth = read_tum(path);
-  graph.ground_truth.emplace();
-  std::size_t next = 0;
-  for (const std::int64_t time_ns : graph.keyframe_times_ns) {
-    while (next < truth.size() && truth[next].time_ns < time_ns) ++next;
-    if (next == truth.size() || truth[next].time_ns != time_ns) {
-      throw InputError(path.string(),
-                       "has no pose for vertex " + std::to_string(time_ns / 1'000'000'000));
-    }
-    graph.ground_truth->push_back(truth[next].pose);
-  }
-}
-
 Recorder::Recorder(const Configuration& configuration, RegistrationCache* cache,
                    std::size_t survey) {
   if (!find_data_set(configuration.dataset.type).is_graph) {

@@ -214,10 +214,9 @@ void CovarianceOptions::describe(OptionTable& table) {
                 "altimeter's own, where it states more; estimated: from the survey's own loops");
   table.real_or("tilt_sigma_rad", "estimated", tilt_sigma_rad, Range{0.0, 0.5}, "rad",
                 "standard deviation of the camera's roll and of its pitch, where they are not "
-                "measured; estimated: from the survey's own loops, 0.005 where they do not tell");
+                "measured; estimated: from the survey's own loops");
   table.real_or("own_factor", "estimated", own_factor, Range::at_least(1.0), "",
-                "standard deviations of a registration's own error over what its residuals show; "
-                "estimated: from the survey's own loops, 1 where they do not tell");
+                "of a registration's own sigmas over what its residuals show; estimated likewise");
   table.real("floor_sigma_px", floor_sigma_px, Range::positive(), "pixels",
              "standard deviation added to a registration's x and y, in pixels of the coarser "
              "picture");

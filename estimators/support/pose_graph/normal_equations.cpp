@@ -1,36 +1,11 @@
 #include "estimators/support/pose_graph/normal_equations.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "fathom/estimation/precision.hpp"
 
 namespace fathom::pose_graph {
-namespace {
-
-void link_shared(const Edge& edge, std::vector<sparse::Link>& links) {
-  const std::array ends{edge.from, edge.to, edge.shared->from.node, edge.shared->to.node};
-  for (std::size_t a = 2; a < ends.size(); ++a) {
-    for (std::size_t b = 0; b < a; ++b) {
-      if (ends[a] > 0 && ends[b] > 0) links.push_back({ends[a] - 1, ends[b] - 1});
-    }
-  }
-}
-
-}  // namespace
-
-sparse::Symbolic analyse_graph(std::span<const Edge> edges, int nodes, Workers* workers,
-                               sparse::ChainElimination chains) {
-  std::vector<sparse::Link> links;
-  links.reserve(edges.size());
-  for (const Edge& edge : edges) {
-    if (edge.from > 0 && edge.to > 0) links.push_back({edge.from - 1, edge.to - 1});
-    if (edge.shared != nullptr) link_shared(edge, links);
-  }
-  return sparse::analyse(sparse::adjacency_of(nodes - 1, links), chains, workers);
-}
-
 NormalEquations::NormalEquations(const sparse::Symbolic& symbolic, std::span<const Edge> edges)
     : edges_(edges),
       parts_(symbolic, edges),
@@ -55,26 +30,6 @@ NormalEquations::NormalEquations(const sparse::Symbolic& symbolic, std::span<con
     }
   });
   find_shared(symbolic);
-}
-
-void NormalEquations::find_shared(const sparse::Symbolic& symbolic) {
-  for (std::size_t e = 0; e < edges_.size(); ++e) {
-    const Edge& edge = edges_[e];
-    if (edge.shared == nullptr) continue;
-    const auto end_of = [&](const SharedEnds::End& end) {
-      SharedTargets::End target;
-      if (end.node < 0) return target;
-      target.position = position_of(symbolic, end.node);
-      if (edge.from > 0) target.with_from = factor_.place(end.node - 1, edge.from - 1);
-      if (edge.to > 0) target.with_to = factor_.place(end.node - 1, edge.to - 1);
-      return target;
-    };
-    SharedTargets shared{e, end_of(edge.shared->from), end_of(edge.shared->to), {}};
-    if (shared.from.position >= 0 && shared.to.position >= 0) {
-      shared.between = factor_.place(edge.shared->from.node - 1, edge.shared->to.node - 1);
-    }
-    shared_.push_back(shared);
-  }
 }
 
 double NormalEquations::linearise(std::span<const Node> nodes, Hessian hessian, double damping) {
@@ -129,17 +84,7 @@ double NormalEquations::differentiate(std::span<const Node> nodes) {
     return t.cost;
   });
   if (is_pose(nodes.back())) return cost;
-  for (const SharedTargets& target : shared_) {
-    if (loss_.leaves_out(target.edge)) continue;
-    const Edge& edge = edges_[target.edge];
-    EdgeTerms t = linearise_edge(edge, nodes);
-    loss_.apply(target.edge, false, t);
-    const auto add = [&](const SharedEnds::End& end, int position) {
-      if (position >= 0) add_shared_gradient(t, in_world(end.G, nodes[at(edge.from)]), position);
-    };
-    add(edge.shared->from, target.from.position);
-    add(edge.shared->to, target.to.position);
-  }
+  add_shared_gradients(nodes);
   return cost + add_priors(nodes, false);
 }
 

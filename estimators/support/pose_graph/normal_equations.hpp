@@ -84,6 +84,7 @@ class NormalEquations {
 
   void find_shared(const sparse::Symbolic& symbolic);
   double add_shared(std::span<const Node> nodes, Hessian hessian);
+  void add_shared_gradients(std::span<const Node> nodes);
   void add_shared_gradient(const EdgeTerms& t, const Eigen::Matrix3d& A, int position);
   void add_shared_end(const EdgeTerms& t, const Eigen::Matrix3d& A, const Targets& target,
                       const SharedTargets::End& end);

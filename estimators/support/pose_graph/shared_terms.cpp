@@ -53,6 +53,40 @@ void NormalEquations::add_shared_end(const EdgeTerms& t, const Eigen::Matrix3d& 
   if (target.from >= 0) add_block(end.with_from, end.position, target.from, -AtM * lever_of(t));
 }
 
+void NormalEquations::find_shared(const sparse::Symbolic& symbolic) {
+  for (std::size_t e = 0; e < edges_.size(); ++e) {
+    const Edge& edge = edges_[e];
+    if (edge.shared == nullptr) continue;
+    const auto end_of = [&](const SharedEnds::End& end) {
+      SharedTargets::End target;
+      if (end.node < 0) return target;
+      target.position = position_of(symbolic, end.node);
+      if (edge.from > 0) target.with_from = factor_.place(end.node - 1, edge.from - 1);
+      if (edge.to > 0) target.with_to = factor_.place(end.node - 1, edge.to - 1);
+      return target;
+    };
+    SharedTargets shared{e, end_of(edge.shared->from), end_of(edge.shared->to), {}};
+    if (shared.from.position >= 0 && shared.to.position >= 0) {
+      shared.between = factor_.place(edge.shared->from.node - 1, edge.shared->to.node - 1);
+    }
+    shared_.push_back(shared);
+  }
+}
+
+void NormalEquations::add_shared_gradients(std::span<const Node> nodes) {
+  for (const SharedTargets& target : shared_) {
+    if (loss_.leaves_out(target.edge)) continue;
+    const Edge& edge = edges_[target.edge];
+    EdgeTerms t = linearise_edge(edge, nodes);
+    loss_.apply(target.edge, false, t);
+    const auto add = [&](const SharedEnds::End& end, int position) {
+      if (position >= 0) add_shared_gradient(t, in_world(end.G, nodes[at(edge.from)]), position);
+    };
+    add(edge.shared->from, target.from.position);
+    add(edge.shared->to, target.to.position);
+  }
+}
+
 // With P = diag(Rot(−θ_i), 1) the Jacobian of ν by n is G = P A, so that M and m serve for it.
 double NormalEquations::add_shared(std::span<const Node> nodes, Hessian hessian) {
   const Lever lever = hessian == Hessian::measured ? Lever::measured : Lever::estimated;

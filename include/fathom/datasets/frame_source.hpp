@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,7 +9,6 @@
 #include <opencv2/core.hpp>
 
 #include "fathom/geometry/covariance.hpp"
-#include "fathom/measurements/shared_errors.hpp"
 #include "fathom/vision/camera.hpp"
 
 namespace fathom {
@@ -31,8 +29,6 @@ struct FrameInfo {
   bool is_hole = false;
   /// Of the altitude, as its sensor states it; 0: it states none.
   double altitude_sigma_m = 0.0;
-  /// Of a motion that is a registration of two pictures: its errors apart.
-  std::shared_ptr<const SharedErrors> motion_errors = nullptr;
 
   Stance stance() const { return {altitude_m, tilt}; }
 };

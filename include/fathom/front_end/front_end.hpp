@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <vector>
 
@@ -101,15 +100,7 @@ class FrontEnd {
   const std::vector<std::size_t>& asked_covariances() const { return asked_covariances_; }
 
  private:
-  /// Since a keyframe; what its pictures share where all of it is registrations.
-  struct Motion {
-    UncertainPose pose;
-    std::shared_ptr<const SharedErrors> errors;
-    bool has_motion = false;
-  };
-
-  static void append(Motion& since, const FrameInfo& info);
-  Keyframe add_keyframe(std::size_t frame, const FrameInfo& info, const Motion& since,
+  Keyframe add_keyframe(std::size_t frame, const FrameInfo& info, const UncertainPose& since,
                         bool over_hole);
   Candidates candidates(const TrajectoryView& trajectory);
   /// The newest keyframe with each of them, where a registration is found.

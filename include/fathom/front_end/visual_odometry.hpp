@@ -45,7 +45,7 @@ class VisualOdometry : public FrameSource {
 
  private:
   MeasuredFrame measured(std::size_t frame) const;
-  UncertainPose next_motion(std::shared_ptr<const SharedErrors>& errors) const;
+  UncertainPose next_motion() const;
 
   const FrameSource& source_;
   PairRegistrar& registrar_;

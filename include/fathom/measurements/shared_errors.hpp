@@ -2,8 +2,6 @@
 
 #include <Eigen/Core>
 
-#include "fathom/geometry/pose.hpp"
-
 namespace fathom {
 
 /// What the errors n of one picture do to a registration of it: z moves by G n. n is a draw a
@@ -34,10 +32,5 @@ struct SharedErrors {
 
   bool operator==(const SharedErrors&) const = default;
 };
-
-/// Of A ⊕ B, first order, each with its errors: those of the picture between are in both, and go
-/// into what is its own.
-SharedErrors compose(const Pose& A, const SharedErrors& of_A, const Pose& B,
-                     const SharedErrors& of_B);
 
 }  // namespace fathom
