@@ -16,12 +16,15 @@ TEST(Members, EachOfARunIsVisitedOnce) {
   const auto& [trajectory, covariances, outcome, fault, outcome_counts, loops, loop_weights,
                absolute, absolute_weights, iterations, errors, gradient_norm, is_local_minimum,
                costs, motions, chi2_initial, chi2_used, absolute_chi2_used] = run;
-  const std::set<const void*> members{&trajectory,   &covariances,       &outcome,
-                                      &fault,        &outcome_counts,    &loops,
-                                      &loop_weights, &absolute,          &absolute_weights,
-                                      &iterations,   &gradient_norm,     &is_local_minimum,
-                                      &costs,        &motions,           &chi2_initial,
-                                      &chi2_used,    &absolute_chi2_used};
+  const std::set<const void*> members{&trajectory,       &covariances,
+                                      &outcome,          &fault,
+                                      &outcome_counts,   &loops,
+                                      &loop_weights,     &absolute,
+                                      &absolute_weights, &iterations,
+                                      &errors,           &gradient_norm,
+                                      &is_local_minimum, &costs,
+                                      &motions,          &chi2_initial,
+                                      &chi2_used,        &absolute_chi2_used};
   std::multiset<const void*> visited;
   fathom::Run::each([&](auto member) { visited.insert(&(run.*member)); });
   EXPECT_EQ(std::set(visited.begin(), visited.end()), members);
