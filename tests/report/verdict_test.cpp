@@ -151,7 +151,7 @@ TEST(Verdict, ErrorsThatRegistrationsShareAreADoubt) {
   const EstimatorResults other = six("other", kAlike);
   EXPECT_THAT(doubts_of_one(surveyed({one, other})),
               ElementsAre("Registrations of one picture share errors (correlation 0.260 [0.200, "
-                          "0.310]), which estimators take as independent."));
+                          "0.310]), which one takes as independent."));
   correlation.interval = Interval{-0.01, 0.31};
   EXPECT_THAT(doubts_of_one(surveyed({one, other})), IsEmpty());
 }
