@@ -126,7 +126,9 @@ std::vector<RelativePose> FrontEnd::registered(const Candidates& candidates) {
     registrations.push_back(RelativePose::from_covariance(candidates.keyframes[c], newest,
                                                           told.motion, told.covariance));
     registrations.back().inliers = told.inliers;
-    registrations.back().shared = std::make_shared<const SharedErrors>(told.shared);
+    if (options_.tells()) {
+      registrations.back().shared = std::make_shared<const SharedErrors>(told.shared);
+    }
   }
   tried_ += candidates.keyframes.size();
   found_ += registrations.size();

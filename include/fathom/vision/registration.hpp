@@ -39,8 +39,8 @@ struct CovarianceOptions {
   /// estimated from the survey, 0 until then.
   std::optional<double> altitude_sigma_m = 0.0;
   /// Of roll and of pitch, at each picture that does not come with them measured. No vehicle keeps
-  /// its camera level: without a word on it, 0.3°. Empty: estimated from the survey; until then, and
-  /// where it does not tell, that too. At 0, registrations would be certain to a fraction of a
+  /// its camera level: without a word on it, 0.3°. Empty: estimated from the survey; until then,
+  /// and where it does not tell, that too. At 0, registrations would be certain to a fraction of a
   /// millimetre.
   static constexpr double kAssumedTiltRad = 0.005;
   std::optional<double> tilt_sigma_rad = kAssumedTiltRad;
