@@ -105,7 +105,8 @@ void CeresPoseGraph::Graph::add_keyframe(const RelativePose& step) {
     problem_.AddParameterBlock(block(size() - 1), 3);
   } else {
     spread_.add(step);
-    const auto residual = add_residual(step, nullptr);
+    const auto residual =
+        problem_.AddResidualBlock(new EdgeCost(step), nullptr, block(step.from), block(step.to));
     if (step.is_hole) holes_[size() - 1] = {step.forward(), residual};
   }
   changed();

@@ -7,7 +7,7 @@
 namespace fathom {
 
 bool CeresPoseGraph::Graph::estimates_errors(const RelativePose& z) const {
-  return z.shared != nullptr && !z.is_hole && options_.shared.model == SharedErrorModel::states;
+  return z.shared != nullptr && options_.shared.model == SharedErrorModel::states;
 }
 
 double* CeresPoseGraph::Graph::errors(std::size_t keyframe) {

@@ -51,7 +51,6 @@ void Smoother::add_keyframe(const RelativePose& step) {
 void Smoother::append_edge(const RelativePose& measurement, bool is_loop) {
   const bool is_robust = is_loop && problem_.loops.is_on();
   const int rank = is_robust ? rank_of(measurement.information) : 3;
-  // A step that shares errors is taken with its total covariance.
   const bool shares = is_loop && has_states(measurement);
   problem_.add_edge(pose_graph::make_edge(measurement), is_loop, rank,
                     shares ? measurement.shared.get() : nullptr);

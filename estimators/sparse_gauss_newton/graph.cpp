@@ -38,15 +38,14 @@ void Graph::set_poses(std::span<const Pose> poses) {
 void Graph::add_keyframe(const RelativePose& step) {
   const Pose next = compose(pose(size() - 1), step.forward().motion);
   nodes_.push_back(make_node(next.x, next.y, next.theta));
-  if (!is_batch_ || !step.is_hole) {
-    if (estimates(step)) states_.add(step, edges_.size());
-    add_edge(step, 0, 3);
-  }
+  if (!is_batch_ || !step.is_hole) add_edge(step, 0, 3);
   changed();
 }
 
 void Graph::add_registration(const RelativePose& registration) {
-  if (estimates(registration)) states_.add(registration, edges_.size());
+  if (registration.shared && shared_errors_ == SharedErrorModel::states) {
+    states_.add(registration, edges_.size());
+  }
   add_edge(registration, 1, rank_of(registration.information));
   changed();
 }

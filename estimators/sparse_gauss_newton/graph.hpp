@@ -74,9 +74,6 @@ class Graph {
   /// Empty where all are 3.
   std::span<const char> ranks() const;
 
-  bool estimates(const RelativePose& z) const {
-    return z.shared && !z.is_hole && shared_errors_ == SharedErrorModel::states;
-  }
   bool has_states() const { return !states_.is_empty(); }
   ExtendedGraph weighted(const std::vector<double>& weights) const;
   RobustResult robust_result(ExtendedGraph& graph, const SolveLimits& limits,

@@ -26,7 +26,6 @@ RelativePose measurement(const G2oFile::Edge& edge, const KeyframeOf& keyframe_o
   z.motion = edge.motion;
   z.information = edge.information;
   z.inliers = edge.inliers;
-  z.shared = edge.shared;
   return z;
 }
 
@@ -117,9 +116,10 @@ MeasurementLog build_log(const G2oFile& file, const GraphOptions& options) {
     log.add_keyframe(step ? measurement(file.edges[*step], arrivals.keyframe_of)
                           : hole(file, k, log.ids, options));
     for (const std::size_t e : arrivals.edges[k]) {
-      if (!step || e != *step) {
-        log.add_registration(measurement(file.edges[e], arrivals.keyframe_of));
-      }
+      if (step && e == *step) continue;
+      RelativePose z = measurement(file.edges[e], arrivals.keyframe_of);
+      z.shared = file.edges[e].shared;  // a step shares nothing
+      log.add_registration(z);
     }
     add_priors(k);
   }

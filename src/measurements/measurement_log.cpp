@@ -37,8 +37,7 @@ std::size_t MeasurementLog::absolute_count() const {
 
 bool MeasurementLog::tells_shared_errors() const {
   return std::ranges::any_of(measurements_, [](const KeyframeMeasurements& arrival) {
-    return arrival.step.shared != nullptr ||
-           std::ranges::any_of(arrival.registrations,
+    return std::ranges::any_of(arrival.registrations,
                                [](const RelativePose& z) { return z.shared != nullptr; });
   });
 }

@@ -17,9 +17,8 @@ struct Told {
   Eigen::Index to = 0;
   Eigen::Matrix3d G_from;
   Eigen::Matrix3d G_to;
-  Eigen::Matrix3d W;    // own⁻¹
-  Eigen::Vector3d nu;   // z − h(x)
-  bool is_loop = true;  // else a step, on which there is no loss
+  Eigen::Matrix3d W;   // own⁻¹
+  Eigen::Vector3d nu;  // z − h(x)
 };
 
 class SharedLeastSquares {
@@ -27,9 +26,8 @@ class SharedLeastSquares {
   explicit SharedLeastSquares(std::size_t keyframes) : row_of_(keyframes, -1) {}
 
   /// One that is told.
-  void add(const RelativePose& z, std::span<const Pose> trajectory, double weight, bool is_loop) {
+  void add(const RelativePose& z, std::span<const Pose> trajectory, double weight) {
     Told told;
-    told.is_loop = is_loop;
     told.from = row_of(z.from);
     told.to = row_of(z.to);
     told.G_from = z.shared->from.scaled();
@@ -58,8 +56,7 @@ class SharedLeastSquares {
     for (const Told& z : told_) {
       const Eigen::Vector3d own =
           z.nu - z.G_from * n.segment<3>(z.from) - z.G_to * n.segment<3>(z.to);
-      const double chi2 = own.dot(z.W * own);
-      sum += z.is_loop ? loss(chi2) : chi2;
+      sum += loss(own.dot(z.W * own));
     }
     return sum;
   }
@@ -106,17 +103,13 @@ double shared_chi2_used(const MeasurementLog& log, std::span<const Pose> traject
     const auto chi2_of = [&](const RelativePose& z) {
       return chi2(z, trajectory[z.from], trajectory[z.to]);
     };
-    if (arrival.step.shared && !arrival.step.is_hole) {
-      shared.add(arrival.step, trajectory, 1.0, false);
-    } else if (!arrival.step.is_hole) {
-      sum += chi2_of(arrival.step);
-    }
+    if (!arrival.step.is_hole) sum += chi2_of(arrival.step);
     for (const RelativePose& z : arrival.registrations) {
       const double weight = weights.empty() ? 1.0 : weights[registration];
       ++registration;
       if (weight == 0.0) continue;
       if (z.shared) {
-        shared.add(z, trajectory, weight, true);
+        shared.add(z, trajectory, weight);
       } else {
         sum += loss(chi2_of(z));
       }

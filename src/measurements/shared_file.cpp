@@ -50,7 +50,6 @@ std::string to_shared(const MeasurementLog& log) {
                      numbers_text(z.shared->own, true) + '\n';
   };
   for (std::size_t k = 0; k < log.size(); ++k) {
-    if (!log.arrival(k).step.is_hole) add(log.arrival(k).step);
     for (const RelativePose& z : log.arrival(k).registrations) add(z);
   }
   if (pictures.empty()) return {};

@@ -112,6 +112,24 @@ TEST(SharedFile, ReadsBackToTheSameBits) {
   EXPECT_EQ(text_of(untold), to_g2o(untold));
 }
 
+// With an edge there is no hole (G2oHole), and a step shares nothing: so of the registration that
+// becomes one.
+TEST(SharedFile, WhatStandsOfAStepIsLeftAside) {
+  const SharedWalk walk(12, 4, 3);
+  MeasurementLog log;
+  RelativePose hole = walk.log.arrival(1).step;
+  hole.is_hole = true;
+  log.add_keyframe(hole);
+  RelativePose across = RelativePose::from_covariance(0, 1, hole.motion, hole.covariance());
+  across.shared = std::make_shared<const SharedErrors>(SharedErrors{{}, {}, across.covariance()});
+  log.add_registration(across);
+  const SharedText shared{to_shared(log), "graph.shared"};
+  const MeasurementLog read = parse_g2o(to_g2o(log), "graph.g2o", {}, &shared);
+  EXPECT_EQ(read.registration_count(), 0U);
+  EXPECT_EQ(read.arrival(1).step.shared, nullptr);
+  EXPECT_FALSE(read.tells_shared_errors());
+}
+
 TEST(SharedFile, WithoutItTheGraphIsTheSame) {
   const SharedWalk walk(25, 4, 3);
   const MeasurementLog read = parse_g2o(to_g2o(walk.log), "graph.g2o");

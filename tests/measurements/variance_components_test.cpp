@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -10,6 +11,7 @@
 #include "measurements/dense_likelihood.hpp"
 #include "measurements/shared_log.hpp"
 #include "measurements/tilted_survey.hpp"
+#include "measurements/with_sigmas.hpp"
 
 namespace fathom {
 namespace {
@@ -23,13 +25,16 @@ using VarianceOutcome = VarianceEstimate::Outcome;
 
 double dense(const MeasurementLog& log, const std::vector<Pose>& poses,
              const std::vector<VarianceComponent>& components, const std::vector<double>& sigmas) {
-  return DenseLikelihood(with_sigmas(log, components, sigmas), poses).value();
+  return DenseLikelihood(test::with_sigmas(log, components, sigmas), poses).value();
 }
 
 void expect_dense(const MeasurementLog& log, const std::vector<Pose>& poses,
                   const std::vector<VarianceComponent>& components) {
-  for (const std::vector<double>& both :
-       {std::vector{0.0, 0.0}, {1e-4, 0.3}, {0.02, 0.0}, {0.1, 0.03}, {1.0, 10.0}}) {
+  for (const std::vector<double>& both : {std::vector{0.0, 0.0, 0.0},
+                                          {1e-4, 0.3, 2.0},
+                                          {0.02, 0.0, 0.1},
+                                          {0.1, 0.03, 5.0},
+                                          {1.0, 10.0, 0.5}}) {
     const std::vector<double> sigmas(both.begin(),
                                      both.begin() + static_cast<std::ptrdiff_t>(components.size()));
     const double expected = dense(log, poses, components, sigmas);
@@ -77,6 +82,42 @@ TEST(RestrictedLikelihood, OfSomePicturesAndWithLeastValues) {
     components[1].least.push_back(0.02 * static_cast<double>(k % 4));
   }
   expect_dense(walk.log, walk.truth, components);
+}
+
+// What a registration's own covariance leaves out, alone and with what pictures share.
+TEST(RestrictedLikelihood, OfTheRegistrationsOwnErrors) {
+  const SharedWalk walk(14, 5, 4);
+  const VarianceComponent own{VarianceComponent::Part::own};
+  expect_dense(walk.log, walk.truth, {own});
+  expect_dense(walk.log, walk.log.odometry(), {kBoth[0], kBoth[1], own});
+}
+
+TEST(VarianceComponents, OwnErrorsThatAreToldTooSmallAreFound) {
+  // Nine times the own covariance: σ² = 8 of what is told.
+  constexpr double kFactor = 3.0;
+  int held = 0;
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    const TiltedSurvey survey({.keyframes = 24, .per_keyframe = 3.0, .tilt_rad = 0.02}, seed);
+    MeasurementLog log(survey.log.start());
+    for (std::size_t k = 1; k < survey.log.size(); ++k) {
+      log.add_keyframe(survey.log.arrival(k).step);
+      for (RelativePose z : survey.log.arrival(k).registrations) {
+        SharedErrors shared = *z.shared;
+        shared.own /= kFactor * kFactor;
+        z.information =
+            RelativePose::from_covariance(z.from, z.to, z.motion, shared.total()).information;
+        z.shared = std::make_shared<const SharedErrors>(shared);
+        log.add_registration(z);
+      }
+    }
+    const VarianceEstimate found =
+        estimate_variance(log, log.odometry(),
+                          std::vector{kTilt[0], VarianceComponent{VarianceComponent::Part::own}});
+    const double truth = std::sqrt(kFactor * kFactor - 1.0);
+    if (found.components[1].low <= truth && truth <= found.components[1].high) ++held;
+  }
+  // Of 20 at 95 %: fewer than 16 would be chance once in 400 times.
+  EXPECT_GE(held, 16);
 }
 
 TEST(RestrictedLikelihood, DerivativesAreThoseOfDenseMatrices) {

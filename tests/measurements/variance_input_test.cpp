@@ -15,6 +15,7 @@
 #include "fathom/measurements/variance_components.hpp"
 #include "measurements/dense_likelihood.hpp"
 #include "measurements/tilted_survey.hpp"
+#include "measurements/with_sigmas.hpp"
 #include "support/input_error.hpp"
 
 namespace fathom {
@@ -116,24 +117,6 @@ TEST(VarianceComponents, WhatDoesNotFitIsRefused) {
   EXPECT_THAT(error_of(kTilt, {.used = {true}}), HasSubstr("1 marks of used registrations"));
 }
 
-TEST(VarianceComponents, ALogWithNewSigmasHasNothingElseNew) {
-  const TiltedSurvey survey({.tilt_rad = 0.02}, 9);
-  const MeasurementLog changed = with_sigmas(survey.log, kTilt, std::vector<double>{0.02});
-  for (std::size_t k = 1; k < survey.log.size(); ++k) {
-    const KeyframeMeasurements& arrival = changed.arrival(k);
-    for (std::size_t i = 0; i < arrival.registrations.size(); ++i) {
-      const RelativePose& z = arrival.registrations[i];
-      EXPECT_EQ(z.shared->from.sigma, Eigen::Vector3d(0.0, 0.02, 0.02));
-      EXPECT_TRUE(z.covariance().isApprox(z.shared->total(), 1e-9));
-      EXPECT_GT(z.covariance().trace(),
-                survey.log.arrival(k).registrations[i].covariance().trace());
-    }
-  }
-  const std::vector<double> told{0.005, 0.0};
-  EXPECT_EQ(text_of(with_sigmas(changed, kBoth, told)), text_of(survey.log));
-  EXPECT_EQ(text_of(with_sigmas(survey.log, kBoth, told)), text_of(survey.log));
-}
-
 // The log with registrations, by number in order of arrival, moved by `shift_m`, or without them.
 MeasurementLog with_false(const MeasurementLog& log, const std::vector<std::size_t>& numbers,
                           std::optional<double> shift_m) {
@@ -158,7 +141,7 @@ TEST(LeftOutRegistration, IsOffByWhatTheMinimumFallsWithoutIt) {
   ASSERT_EQ(found.outcome, VarianceOutcome::converged);
   ASSERT_EQ(found.left_out_chi2.size(), survey.log.registration_count());
   const MeasurementLog log =
-      with_sigmas(survey.log, kTilt, std::vector<double>{found.components[0].sigma});
+      test::with_sigmas(survey.log, kTilt, std::vector<double>{found.components[0].sigma});
   const double all = DenseLikelihood(log, found.trajectory).chi2();
   for (std::size_t i = 0; i < found.left_out_chi2.size(); ++i) {
     const MeasurementLog without = with_false(log, {i}, std::nullopt);

@@ -30,7 +30,7 @@ struct RelativePose {
   /// Of a step: nothing was measured. `motion` is a guess, and `information` that of a declared,
   /// wide covariance: what a filter begins with. F does not count it.
   bool is_hole = false;
-  /// Of a registration, or a step that is one: its errors apart, where that is known.
+  /// Of a registration: its errors apart, where that is known.
   /// `information` is that of their total(), for whoever does not ask.
   std::shared_ptr<const SharedErrors> shared = nullptr;
 

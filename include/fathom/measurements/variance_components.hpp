@@ -110,9 +110,4 @@ double restricted_log_likelihood(const MeasurementLog& log, std::span<const Pose
                                  const VarianceOptions& options = {},
                                  Eigen::VectorXd* likelihood_log_sigma = nullptr);
 
-/// The log with one σ a component in all its registrations, used or not, and their information that
-/// of the new total; all else to the last bit. Throws as estimate_variance.
-MeasurementLog with_sigmas(const MeasurementLog& log, std::span<const VarianceComponent> components,
-                           std::span<const double> sigmas);
-
 }  // namespace fathom

@@ -1,18 +1,20 @@
-// A log with other standard deviations of what pictures share.
+#pragma once
 
 #include <algorithm>
 #include <memory>
+#include <span>
 
 #include "fathom/measurements/variance_components.hpp"
-#include "variance_checks.hpp"
 
-namespace fathom {
-namespace {
+namespace fathom::test {
 
-void set_sigmas(PictureErrors& errors, std::size_t k, std::span<const VarianceComponent> components,
-                std::span<const double> sigmas) {
+inline void set_sigmas(PictureErrors& errors, std::size_t k,
+                       std::span<const VarianceComponent> components,
+                       std::span<const double> sigmas) {
   for (std::size_t j = 0; j < components.size(); ++j) {
-    if (!components[j].is_of_pictures() || !governs(components[j], k)) continue;
+    if (!components[j].is_of_pictures() ||
+        (!components[j].governed.empty() && !components[j].governed[k]))
+      continue;
     const double least = components[j].least.empty() ? 0.0 : components[j].least[k];
     const double sigma = std::max(least, sigmas[j]);
     if (components[j].part == VarianceComponent::Part::altitude) {
@@ -23,8 +25,8 @@ void set_sigmas(PictureErrors& errors, std::size_t k, std::span<const VarianceCo
   }
 }
 
-RelativePose with_sigmas(RelativePose z, std::span<const VarianceComponent> components,
-                         std::span<const double> sigmas) {
+inline RelativePose with_sigmas(RelativePose z, std::span<const VarianceComponent> components,
+                                std::span<const double> sigmas) {
   if (!z.shared) return z;
   SharedErrors shared = *z.shared;
   set_sigmas(shared.from, z.from, components, sigmas);
@@ -38,12 +40,11 @@ RelativePose with_sigmas(RelativePose z, std::span<const VarianceComponent> comp
   return z;
 }
 
-}  // namespace
-
-MeasurementLog with_sigmas(const MeasurementLog& log, std::span<const VarianceComponent> components,
-                           std::span<const double> sigmas) {
-  check_components(log, components);
-  check_size(sigmas.size(), components.size(), "standard deviations");
+/// The log with one σ a component in all its registrations, and their information that of the new
+/// total; all else to the last bit.
+inline MeasurementLog with_sigmas(const MeasurementLog& log,
+                                  std::span<const VarianceComponent> components,
+                                  std::span<const double> sigmas) {
   MeasurementLog changed(log.start());
   for (std::size_t k = 0; k < log.size(); ++k) {
     const KeyframeMeasurements& arrival = log.arrival(k);
@@ -58,4 +59,4 @@ MeasurementLog with_sigmas(const MeasurementLog& log, std::span<const VarianceCo
   return changed;
 }
 
-}  // namespace fathom
+}  // namespace fathom::test
