@@ -39,7 +39,9 @@ void CliqueTree::sort_affected() {
   } else {
     std::ranges::sort(affected, {},
                       [](int v) { return 2L * keyframe_of(v) + (is_errors(v) ? 0 : 1); });
-    if (affected.front() == errors_of(0)) std::ranges::rotate(affected, affected.begin() + 1);
+    if (affected.front() == errors_of(0)) {
+      std::rotate(affected.begin(), affected.begin() + 1, affected.end());
+    }
   }
   affected.push_back(0);
 }

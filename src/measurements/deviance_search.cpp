@@ -49,8 +49,8 @@ DevianceSearch::Optimum DevianceSearch::minimise_from_grid(Eigen::VectorXd at) {
   for (Index j = 0; j < at.size(); ++j) {
     if (is_held(j)) continue;
     Eigen::VectorXd trial = at;
-    for (double t = low_[j]; t < high_[j]; t += kDecade) {
-      trial[j] = t;
+    for (int decade = 0; low_[j] + decade * kDecade < high_[j]; ++decade) {
+      trial[j] = low_[j] + decade * kDecade;
       const double deviance = likelihood_.deviance(trial);
       if (!(deviance < least)) continue;
       least = deviance;

@@ -164,6 +164,38 @@ TEST(SharedGraph, EqualsLeastSquaresWithTheJointCovariance) {
   }
 }
 
+// A false loop among those that share errors has no part in the estimate, or little.
+TEST(SharedGraph, LossesLeaveAFalseLoopOut) {
+  const SharedWalk walk(30, 4, 11);
+  MeasurementLog spoilt(walk.log.start());
+  for (std::size_t k = 1; k < walk.log.size(); ++k) {
+    spoilt.add_keyframe(walk.log.arrival(k).step);
+    for (RelativePose z : walk.log.arrival(k).registrations) spoilt.add_registration(z);
+    if (k != 20) continue;
+    RelativePose false_loop = walk.log.arrival(k).registrations.back();
+    ASSERT_TRUE(false_loop.shared);
+    false_loop.motion.x += 2.0;
+    spoilt.add_registration(false_loop);
+  }
+  const auto right = conformance::least_squares(walk.log, 30, {}, RegistrationErrors::shared);
+  const auto wrong = conformance::least_squares(spoilt, 30, {}, RegistrationErrors::shared);
+  const auto off = [&](const auto& pose) {
+    double most = 0.0;
+    for (std::size_t k = 0; k < walk.log.size(); ++k) {
+      most = std::max(most, between(right.poses[k], pose(k)).position().norm());
+    }
+    return most;
+  };
+  ASSERT_GT(off([&](std::size_t k) { return wrong.poses[k]; }), 0.05);
+  for (const SolveMode mode : {SolveMode::incremental, SolveMode::batch}) {
+    for (const char* loss : {"truncated", "geman_mcclure", "cauchy"}) {
+      const auto estimator =
+          solved({"sparse_gauss_newton", mode, test::exactly_with(loss)}, spoilt);
+      EXPECT_LT(off([&](std::size_t k) { return estimator->pose(k); }), 0.02) << loss;
+    }
+  }
+}
+
 TEST(SharedGraph, IndependentIsWhatAGraphIsThatIsToldNothing) {
   const MeasurementLog log = SharedWalk(30, 4, 11).log;
   const MeasurementLog untold = parse_g2o(to_g2o(log), "graph.g2o");
