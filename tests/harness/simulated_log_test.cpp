@@ -13,6 +13,7 @@
 #include "fathom/evaluation/consistency.hpp"
 #include "fathom/harness/recording.hpp"
 #include "fathom/harness/result.hpp"
+#include "harness/honesty.hpp"
 #include "support/input_error.hpp"
 
 namespace fathom {
@@ -73,71 +74,62 @@ TEST(SimulatedLogRecording, NoiseIsThatOfTheCell) {
               HasSubstr("dataset.loops.sigma_x_m: "));
 }
 
-/// Means of NEES over trials, each keyframe against the interval of so many trials.
-class Honesty {
- public:
-  /// The keyframes of one estimate share errors, so that one study has few that are independent;
-  /// many small groups of trials have many.
-  static constexpr std::size_t kGroup = 10;
-
-  void add(const Consistency& trial) {
-    anees_.push_back(trial.anees);
-    sums_.resize(trial.pose_nees.size());
-    for (std::size_t k = 0; k < sums_.size(); ++k) sums_[k] += trial.pose_nees[k];
-    if (anees_.size() % kGroup != 0) return;
-    const Interval interval = anees_interval(kGroup, 3, 0.95);
-    for (double& sum : sums_) {
-      if (interval.contains(sum / (3.0 * kGroup))) ++inside_;
-      ++means_;
-      sum = 0.0;
-    }
-  }
-
-  double share_inside() const { return static_cast<double>(inside_) / static_cast<double>(means_); }
-  const std::vector<double>& anees() const { return anees_; }
-
- private:
-  std::vector<double> anees_;  // by trial
-  std::vector<double> sums_;   // by keyframe, over the trials of the present group
-  std::size_t inside_ = 0;
-  std::size_t means_ = 0;
+struct Judged {
+  std::string name;
+  EstimatorValues values;
+  SolveMode mode = SolveMode::batch;
 };
 
-TEST(SimulatedLogRecording, EstimatesAreAsHonestAsTheirModel) {
+// Of the estimates, and of the measurements themselves: F at the truth is χ² of three degrees of
+// freedom a measurement.
+void expect_honest(const Configuration& configuration, const std::vector<Judged>& estimators) {
   constexpr std::uint64_t kTrials = 1000;
-  const Configuration configuration = configured(kSmallLog);
   const Recorder recorder(configuration);
-  std::map<std::string, Honesty> estimators{{"sparse_gauss_newton", {}}, {"ceres_pose_graph", {}}};
-  double nis = 0.0;
-  std::size_t registrations = 0;
+  std::vector<test::Honesty> honesty(estimators.size());
+  double F = 0.0;
+  double dimensions = 0.0;
   for (std::uint64_t trial = 0; trial < kTrials; ++trial) {
     const Recording recording = trial_of(recorder, configuration, trial);
+    const MeasurementLog& log = recording.log;
     const std::vector<Pose>& truth = *recording.ground_truth;
-    for (std::size_t k = 1; k < recording.log.size(); ++k) {
-      for (const RelativePose& z : recording.log.arrival(k).registrations) {
-        nis += chi2(z, truth[z.from], truth[z.to]);
-        ++registrations;
-      }
-    }
-    for (auto& [name, honesty] : estimators) {
+    F += shared_chi2(log, truth);
+    dimensions += 3.0 * static_cast<double>(log.size() - 1 + log.registration_count());
+    for (std::size_t i = 0; i < estimators.size(); ++i) {
+      const Judged& judged = estimators[i];
       ReplayOptions options;
-      options.mode = SolveMode::batch;
-      const auto estimate = replay(recording.log, builtin_estimators().find(name), {}, options);
-      ASSERT_TRUE(estimate.covariances) << name;
+      options.mode = judged.mode;
+      const auto estimate =
+          replay(log, builtin_estimators().find(judged.name), judged.values, options);
+      ASSERT_TRUE(estimate.covariances) << judged.name;
       const auto found = consistency(estimate.trajectory, truth, *estimate.covariances);
-      ASSERT_TRUE(found) << name;
-      honesty.add(*found);
+      ASSERT_TRUE(found) << judged.name;
+      honesty[i].add(*found);
     }
   }
-  const auto count = static_cast<double>(registrations);
-  EXPECT_NEAR(nis / count, 3.0, 3.0 * std::sqrt(6.0 / count));
-  for (const auto& [name, honesty] : estimators) {
-    const Eigen::Map<const Eigen::ArrayXd> anees(honesty.anees().data(), kTrials);
-    const double variance = (anees - anees.mean()).square().sum() / (kTrials - 1.0);
-    EXPECT_NEAR(anees.mean(), 1.0, 3.0 * std::sqrt(variance / kTrials)) << name;
-    EXPECT_GE(honesty.share_inside(), 0.93) << name;
-    EXPECT_LE(honesty.share_inside(), 0.97) << name;
-  }
+  EXPECT_NEAR(F / dimensions, 1.0, 3.0 * std::sqrt(2.0 / dimensions));
+  for (std::size_t i = 0; i < estimators.size(); ++i) honesty[i].expect(estimators[i].name);
+}
+
+TEST(SimulatedLogRecording, EstimatesAreAsHonestAsTheirModel) {
+  expect_honest(configured(kSmallLog), {{"sparse_gauss_newton", {}}, {"ceres_pose_graph", {}}});
+}
+
+// A picture's error is 2.5 times that of a registration, and estimators are told of both.
+TEST(SimulatedLogRecording, EstimatesThatKnowWhatPicturesShareAreAsHonest) {
+  Settings settings = test::settings_of(kSmallLog);
+  settings.put(parse_override("dataset.mission.legs=5"));
+  settings.put(parse_override("dataset.loops.shared_sigma_m=0.01"));
+  settings.put(parse_override("dataset.loops.shared_is_told=true"));
+  const Configuration told = configure(settings, test::kSingle, builtin_estimators());
+  expect_honest(
+      told, {{"sparse_gauss_newton", {}},
+             {"ceres_pose_graph", {}},
+             {"incremental_smoother", {}, SolveMode::incremental},
+             {"ekf", {}, SolveMode::incremental},
+             {"ekf", {{"shared_errors", OptionValue::scalar("consider")}}, SolveMode::incremental},
+             {"trajectory_iekf",
+              {{"shared_errors", OptionValue::scalar("states")}},
+              SolveMode::incremental}});
 }
 
 // Means over trials of what the registrations say of themselves.
