@@ -2,7 +2,9 @@
 
 import csv
 import json
+import math
 import re
+import statistics
 from pathlib import Path
 
 
@@ -61,6 +63,48 @@ class Study:
         """Rows of runs.csv."""
         return [row for row in self.runs if row["estimator"] == estimator
                 and all(same(row[axis], label) for axis, label in cell.items())]
+
+    def paired(self, one, other, metric, **cell):
+        """Mean of `one` less `other` over the same surveys, with its 95 % t interval, as a row of
+        summary.csv. Trials of one survey share its pictures, so a survey is one pair; where there
+        is but one survey, a trial is.
+        """
+        pairs = {}
+        for run in self.runs_of(one, **cell):
+            pairs.setdefault((run["survey"], run["trial"]), []).append(_number(run[metric]))
+        for run in self.runs_of(other, **cell):
+            pairs.setdefault((run["survey"], run["trial"]), []).append(_number(run[metric]))
+        both = {key: of for key, of in pairs.items() if len(of) == 2 and None not in of}
+        surveys = {survey for survey, _ in both}
+        groups = {}
+        for (survey, trial), of in both.items():
+            groups.setdefault(survey if len(surveys) > 1 else trial, []).append(of[0] - of[1])
+        means = [statistics.fmean(of) for of in groups.values()]
+        row = {"mean": statistics.fmean(means), "low_95": None, "high_95": None}
+        if len(means) > 1:
+            half = t_quantile(len(means) - 1) * statistics.stdev(means) / math.sqrt(len(means))
+            row |= {"low_95": row["mean"] - half, "high_95": row["mean"] + half}
+        return row
+
+
+def t_quantile(freedom):
+    """The 97.5 % quantile of Student's t, by bisection of its integral (Simpson's rule)."""
+    scale = math.exp(math.lgamma((freedom + 1) / 2) - math.lgamma(freedom / 2))
+    scale /= math.sqrt(freedom * math.pi)
+
+    def density(t):
+        return scale * (1 + t * t / freedom) ** (-(freedom + 1) / 2)
+
+    def half(t, steps=2000):
+        h = t / steps
+        inner = sum((4 if i % 2 else 2) * density(i * h) for i in range(1, steps))
+        return h / 3 * (density(0) + inner + density(t))
+
+    low, high = 1.0, 20.0
+    for _ in range(40):
+        middle = (low + high) / 2
+        low, high = (low, middle) if half(middle) > 0.475 else (middle, high)
+    return high
 
 
 _NUMBERS = {"n", "failures", "mean", "sd", "median", "low_95", "high_95"}

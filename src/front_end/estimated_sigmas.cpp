@@ -1,14 +1,12 @@
 #include "fathom/front_end/estimated_sigmas.hpp"
 
-#include <algorithm>
-
 namespace fathom {
 
 PairRegistration EstimatedSigmas::told(PairRegistration found, const MeasuredFrame& from,
                                        const MeasuredFrame& to) const {
   if (is_empty() || !found.found) return found;
   const auto tell = [this](const MeasuredFrame& frame, Eigen::Vector3d& sigma) {
-    if (altitude_m) sigma[0] = std::max(*altitude_m, frame.altitude_sigma_m);
+    if (altitude_m && !(frame.altitude_sigma_m > 0.0)) sigma[0] = *altitude_m;
     if (tilt_rad && !frame.tilt) sigma.tail<2>().setConstant(*tilt_rad);
   };
   tell(from, found.shared.from.sigma);

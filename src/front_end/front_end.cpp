@@ -126,7 +126,8 @@ std::vector<RelativePose> FrontEnd::registered(const Candidates& candidates) {
     registrations.push_back(RelativePose::from_covariance(candidates.keyframes[c], newest,
                                                           told.motion, told.covariance));
     registrations.back().inliers = told.inliers;
-    if (options_.tells()) {
+    const bool is_estimated = options_.registration.covariance.is_estimated() && sigmas_.is_empty();
+    if (told.shared.is_shared() || is_estimated) {
       registrations.back().shared = std::make_shared<const SharedErrors>(told.shared);
     }
   }

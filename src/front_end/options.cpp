@@ -14,8 +14,6 @@ void FrontEndOptions::describe(OptionTable& table) {
                     "m", "likewise, whatever the altitude");
   table.real("visual_odometry.fallback_sigma_rad", visual_odometry.sigma_rad, Range::positive(),
              "rad", "likewise, of its heading");
-  table.boolean("tells_shared_errors", tells_shared_errors,
-                "whether estimators are told what the registrations of a picture share");
 }
 
 void FrontEndOptions::describe_registration(OptionTable& table) {

@@ -57,7 +57,22 @@ DevianceSearch::Optimum DevianceSearch::minimise_from_grid(Eigen::VectorXd at) {
       at = trial;
     }
   }
-  return minimise(at);
+  Optimum best = minimise(at);
+  for (bool has_fallen = best.is_finite(); has_fallen;) {
+    has_fallen = false;
+    for (Index j = 0; j < at.size(); ++j) {
+      if (is_held(j)) continue;
+      at = best.log_sigma;
+      at[j] = low_[j];
+      std::vector<bool> held = held_;
+      held[static_cast<std::size_t>(j)] = true;
+      const Optimum without = minimise(at, held, 100.0 * tolerance_);
+      if (!(without.fit.deviance < best.fit.deviance - 1000.0 * tolerance_)) continue;
+      best = minimise(without.log_sigma);
+      has_fallen = true;
+    }
+  }
+  return best;
 }
 
 DevianceSearch::Optimum DevianceSearch::minimise(const Eigen::VectorXd& at,

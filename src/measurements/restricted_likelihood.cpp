@@ -63,16 +63,15 @@ void RestrictedLikelihood::govern(const VarianceComponent& component, std::size_
   std::vector<Governed>& governed = governed_.emplace_back();
   if (!component.is_of_pictures()) {
     for (const Index first : rows_.own()) {
-      for (Index part = 0; part < 3; ++part) governed.push_back({first + part, 0.0, 0.0});
+      for (Index part = 0; part < 3; ++part) governed.push_back({first + part, 0.0});
     }
     return;
   }
   for (std::size_t k = 0; k < keyframes; ++k) {
     const auto first = rows_.picture(k);
     if (!first || !(component.governed.empty() || component.governed[k])) continue;
-    const double least = component.least.empty() ? 0.0 : component.least[k];
     for (int part = is_tilt ? 1 : 0; part < (is_tilt ? 3 : 1); ++part) {
-      governed.push_back({*first + part, least, rows_.told_sigma(k)[part]});
+      governed.push_back({*first + part, rows_.told_sigma(k)[part]});
     }
   }
 }
@@ -114,7 +113,7 @@ bool RestrictedLikelihood::factorise(const Eigen::VectorXd& log_sigma) {
     if (std::isnan(log_sigma[j])) continue;  // as told
     const double sigma = std::exp(log_sigma[j]);
     for (const Governed& n : governed_[static_cast<std::size_t>(j)]) {
-      scale_[n.row] = std::max(n.least, sigma);
+      scale_[n.row] = sigma;
     }
   }
   for (Index column = 0; column < H_.cols(); ++column) {
@@ -158,7 +157,7 @@ RestrictedFit RestrictedLikelihood::fit(const Eigen::VectorXd& log_sigma) {
   return fit;
 }
 
-// With u_j the part of v that component j governs where σ is not below what is stated:
+// With u_j the part of v that component j governs:
 //   ∂(−2ℓ)/∂log σ_j = 2 (number − Σ (H⁻¹)_rr − ‖u_j‖²)
 //   average information of j, k = 4 u_jᵀ · (H⁻¹ S A n_k)_j,  n_k = S u_k.
 void RestrictedLikelihood::add_derivatives(const Eigen::VectorXd& log_sigma, RestrictedFit& fit) {
@@ -166,8 +165,8 @@ void RestrictedLikelihood::add_derivatives(const Eigen::VectorXd& log_sigma, Res
   fit.slope = Eigen::VectorXd::Zero(components());
   Eigen::MatrixXd u = Eigen::MatrixXd::Zero(rows_.unknowns(), components());
   for (Index j = 0; j < components(); ++j) {
+    if (std::isnan(log_sigma[j])) continue;
     for (const Governed& n : governed_[static_cast<std::size_t>(j)]) {
-      if (std::isnan(log_sigma[j]) || n.least >= std::exp(log_sigma[j])) continue;
       u(n.row, j) = v_[n.row];
       fit.slope[j] += 2.0 * (1.0 - inverse(n.row, n.row) - v_[n.row] * v_[n.row]);
     }

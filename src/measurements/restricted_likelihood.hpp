@@ -51,7 +51,6 @@ class RestrictedLikelihood {
   // A row of n that a component governs.
   struct Governed {
     Index row;
-    double least;
     double told;
   };
 

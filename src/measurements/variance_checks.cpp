@@ -19,9 +19,6 @@ void check_components(const MeasurementLog& log, std::span<const VarianceCompone
     if (!component.governed.empty()) {
       check_size(component.governed.size(), log.size(), "marks of governed pictures");
     }
-    if (!component.least.empty()) {
-      check_size(component.least.size(), log.size(), "least standard deviations");
-    }
     for (std::size_t i = 0; i < j; ++i) {
       for (std::size_t k = 0; k < log.size(); ++k) {
         if (components[i].part == component.part && governs(components[i], k) &&

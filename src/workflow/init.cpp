@@ -38,11 +38,11 @@ std::vector<std::string> assumptions(const FrameSource& frames) {
   std::vector<std::string> assumed;
   const std::string key = "front_end.covariance.";
   if (!frames.has_attitude()) {
-    assumed.push_back("the camera tilts by 0.005 rad: give " + key +
-                      "tilt_sigma_rad what your vehicle has, or estimated");
+    assumed.push_back("loops tell how the camera tilts: if it is known, give " + key +
+                      "tilt_sigma_rad what your vehicle has");
   }
   if (!(frames.info(0).altitude_sigma_m > 0.0)) {
-    assumed.push_back("altitudes are exact: give " + key +
+    assumed.push_back("loops tell how exact altitudes are: if it is known, give " + key +
                       "altitude_sigma_m what your altimeter has");
   }
   assumed.emplace_back(frames.has_odometry()

@@ -67,13 +67,14 @@ TEST_F(Configs, AreAllTestedHere) {
     studies.insert(entry.path().filename());
     fathom_done({"check", entry.path().string()});
   }
-  EXPECT_THAT(studies,
-              ElementsAreArray({"attitude.yaml", "attitude_mounting.yaml", "compass.yaml",
-                                "false_loops_drawn.yaml", "fixes.yaml", "holes.yaml",
-                                "long_survey.yaml", "paper_pool.yaml", "paper_separation.yaml",
-                                "paper_simulated.yaml", "real_pictures.yaml", "regimes.yaml",
-                                "regimes_survey.yaml", "shared_errors_altimeter.yaml",
-                                "shared_errors_tilt.yaml", "wrong_loops.yaml"}));
+  EXPECT_THAT(
+      studies,
+      ElementsAreArray({"attitude.yaml", "attitude_mounting.yaml", "compass.yaml",
+                        "false_loops_drawn.yaml", "fixes.yaml", "holes.yaml", "long_survey.yaml",
+                        "paper_pool.yaml", "paper_separation.yaml", "paper_simulated.yaml",
+                        "real_pictures.yaml", "regimes.yaml", "regimes_survey.yaml",
+                        "shared_errors_altimeter.yaml", "shared_errors_drawn.yaml",
+                        "shared_errors_tilt.yaml", "wrong_loops.yaml"}));
 }
 
 // Whatever a study sweeps, its camera and front end are those of its first cell.
@@ -182,6 +183,11 @@ TEST_F(Configs, SharedErrorsOfATiltRun) {
   expect_runs("compare", "studies/shared_errors_tilt.yaml", with_short_legs({}),
               "ekf/metrics.json");
   EXPECT_EQ(ResultStore::open(path("out")).runs().size(), 24u * 4u);
+}
+
+TEST_F(Configs, SharedErrorsDrawnRun) {
+  expect_runs("compare", "studies/shared_errors_drawn.yaml", {"trials=1"}, "ekf/metrics.json");
+  EXPECT_EQ(ResultStore::open(path("out")).runs().size(), 6u * 12u);
 }
 
 TEST_F(Configs, AttitudeRuns) {

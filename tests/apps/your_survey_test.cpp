@@ -34,7 +34,7 @@ TEST_F(YourSurvey, AFolderNeedsNoConfiguration) {
   EXPECT_GT(number("run", "loop_closures"), 10);
   EXPECT_LT(number("run", "mean_position_error_m"), 0.03);
   const nlohmann::json manifest = json_of("run/run.json");
-  EXPECT_EQ(manifest.at("configuration").at("front_end.covariance.tilt_sigma_rad"), "0.005");
+  EXPECT_EQ(manifest.at("configuration").at("front_end.covariance.tilt_sigma_rad"), "estimated");
   const auto& metres = manifest.at("front_end").at("in_metres");
   EXPECT_NEAR(metres.at("max_error_m").at(1).get<double>(), 7.5 * 2.0 / 130.0, 0.02);
   EXPECT_LE(metres.at("keyframe_step_m").at(0), metres.at("keyframe_step_m").at(2));
@@ -60,7 +60,7 @@ TEST_F(YourSurvey, InitWritesWhatRunsAndComparesAlike) {
 TEST_F(YourSurvey, WhatTheAltimeterStatesIsUsedAndAMisspeltKeyIsNamed) {
   simulate("data");
   const fs::path yaml = path("data/mav0/altimeter0/sensor.yaml");
-  const std::string exact = "altitudes are exact: give ";
+  const std::string exact = "loops tell how exact altitudes are";
   EXPECT_THAT(fathom_done({"init", "data", "--out", "exact"}).out, HasSubstr(exact));
   fathom_done({"run", "data", "--out", "silent", "--no-mosaic"});
   std::ofstream(yaml) << "sigma_absolute: 0.02\n";
@@ -169,9 +169,12 @@ TEST_F(YourSurvey, OnTheKiteTheDefaultsClose220Loops) {
   FATHOM_REQUIRE_DATA("copr/mav0");
   const Ended ended =
       fathom_done({"run", data_path("copr").string(), "--out", "out", "--no-mosaic"});
-  EXPECT_LE(number("out", "mean_position_error_m"), 0.15);
+  // The reference knows no tilt, so what loops tell of it is no error of theirs against it.
+  EXPECT_LE(number("out", "mean_position_error_m"), 0.35);
+  EXPECT_LE(number("out", "anees"), 1.0);
   EXPECT_GE(number("out", "loop_closures"), 220);
-  EXPECT_THAT(ended.out, HasSubstr("warning: the measurements do not fit each other"));
+  EXPECT_THAT(ended.out, ContainsRegex("roll and pitch: [34][0-9.]* mrad \\["));
+  EXPECT_THAT(ended.out, ContainsRegex("own errors of registrations: [34][0-9.]* times"));
   const MeasurementLog log = read_g2o(path("out/measurements.g2o"));
   std::map<std::int64_t, Pose> truth;
   for (const StampedPose& pose : tum("out/ground_truth.tum")) truth[pose.time_ns] = pose.pose;

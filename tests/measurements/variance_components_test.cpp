@@ -74,12 +74,12 @@ TEST(RestrictedLikelihood, IsThatOfDenseMatrices) {
   expect_dense(survey.log, survey.log.odometry(), kBoth);
 }
 
-TEST(RestrictedLikelihood, OfSomePicturesAndWithLeastValues) {
+TEST(RestrictedLikelihood, OfSomePictures) {
   const SharedWalk walk(14, 5, 4);
   std::vector<VarianceComponent> components = kBoth;
   for (std::size_t k = 0; k < walk.log.size(); ++k) {
     components[0].governed.push_back(k % 3 != 0);
-    components[1].least.push_back(0.02 * static_cast<double>(k % 4));
+    components[1].governed.push_back(k % 4 != 1);
   }
   expect_dense(walk.log, walk.truth, components);
 }
@@ -123,8 +123,8 @@ TEST(VarianceComponents, OwnErrorsThatAreToldTooSmallAreFound) {
 TEST(RestrictedLikelihood, DerivativesAreThoseOfDenseMatrices) {
   const SharedWalk walk(14, 5, 5);
   std::vector<VarianceComponent> components = kBoth;
-  components[1].least.assign(walk.log.size(), 0.0);
-  components[1].least[4] = components[1].least[7] = 0.1;
+  components[1].governed.assign(walk.log.size(), true);
+  components[1].governed[4] = components[1].governed[7] = false;
   for (const std::vector<double>& sigmas :
        {std::vector{0.001, 0.2}, {0.03, 0.02}, {0.2, 0.004}, {0.7, 5.0}}) {
     Eigen::VectorXd slope;
@@ -177,17 +177,6 @@ TEST(VarianceComponents, TheIntervalEndsWhereTheProfileFallsByHalfOfThreePointEi
   EXPECT_NEAR(fall(tilt.high), 0.5 * 3.8415, 1e-3);
   EXPECT_NEAR(2.0 * fall(0.0), tilt.against_zero, 1e-3 * tilt.against_zero);
   EXPECT_NEAR(2.0 * fall(0.005), tilt.against_told, 1e-6 * tilt.against_told);
-}
-
-TEST(VarianceComponents, WhatASensorStatesAtLeastIsNotEstimatedAgain) {
-  const TiltedSurvey survey({.tilt_rad = 0.005, .told = {0.0, 0.02, 0.02}}, 4);
-  std::vector<VarianceComponent> components = kTilt;
-  components[0].least.assign(survey.log.size(), 0.02);
-  const VarianceEstimate found = estimate_variance(survey.log, survey.log.odometry(), components);
-  EXPECT_EQ(found.outcome, VarianceOutcome::converged);
-  EXPECT_EQ(found.components[0].sigma, 0.0);
-  EXPECT_EQ(found.components[0].low, 0.0);
-  EXPECT_GE(found.components[0].high, 0.02);
 }
 
 TEST(VarianceComponents, AHoleThatAloneTiesTwoPartsSaysNothing) {

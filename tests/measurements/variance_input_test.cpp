@@ -113,7 +113,6 @@ TEST(VarianceComponents, WhatDoesNotFitIsRefused) {
   };
   EXPECT_THAT(error_of({{}, {}}, {}), HasSubstr("two components govern picture 0"));
   EXPECT_THAT(error_of({{.governed = {true}}}, {}), HasSubstr("1 marks of governed pictures"));
-  EXPECT_THAT(error_of({{.least = {0.1}}}, {}), HasSubstr("1 least standard deviations"));
   EXPECT_THAT(error_of(kTilt, {.used = {true}}), HasSubstr("1 marks of used registrations"));
 }
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <memory>
 #include <span>
 
@@ -15,12 +14,10 @@ inline void set_sigmas(PictureErrors& errors, std::size_t k,
     if (!components[j].is_of_pictures() ||
         (!components[j].governed.empty() && !components[j].governed[k]))
       continue;
-    const double least = components[j].least.empty() ? 0.0 : components[j].least[k];
-    const double sigma = std::max(least, sigmas[j]);
     if (components[j].part == VarianceComponent::Part::altitude) {
-      errors.sigma[0] = sigma;
+      errors.sigma[0] = sigmas[j];
     } else {
-      errors.sigma.tail<2>().setConstant(sigma);
+      errors.sigma.tail<2>().setConstant(sigmas[j]);
     }
   }
 }

@@ -161,14 +161,14 @@ inline Eigen::Matrix3d inverse_of(const Eigen::Matrix3d& world_from_error) {
   return 2.0 * Eigen::Matrix3d::Identity() - world_from_error;
 }
 
-/// An entry for one of these; the options are the same for all.
-template <class Filter>
+/// An entry for one of these; `Options` may have other defaults.
+template <class Filter, class Options = DelayedStateOptions>
 EstimatorEntry delayed_state_entry(std::string name, std::string help) {
-  EstimatorEntry entry = make_relative_entry<DelayedStateOptions>(
-      std::move(name), std::move(help), false,
-      [](const EstimatorSetup& setup, const DelayedStateOptions& options) {
-        return std::make_unique<Filter>(setup, options);
-      });
+  EstimatorEntry entry =
+      make_relative_entry<Options>(std::move(name), std::move(help), false,
+                                   [](const EstimatorSetup& setup, const Options& options) {
+                                     return std::make_unique<Filter>(setup, options);
+                                   });
   entry.unused_options = {"max_iterations", "tolerance"};
   return entry;
 }

@@ -9,7 +9,7 @@ namespace fathom {
 /// Standard deviations of what pictures share that the survey's own loops gave, in place of those
 /// that its registrations were made with (CovarianceOptions, estimated).
 struct EstimatedSigmas {
-  std::optional<double> altitude_m;  ///< of each altitude, unless its sensor states more
+  std::optional<double> altitude_m;  ///< of altitudes whose sensor states none
   std::optional<double> tilt_rad;    ///< of pictures without measured roll and pitch
 
   std::optional<double> own_factor;  ///< of the registration's own standard deviations

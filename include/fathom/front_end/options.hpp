@@ -27,15 +27,6 @@ struct FrontEndOptions {
   FeatureOptions features;
   RegistrationOptions registration;
   VisualOdometryFallback visual_odometry;
-  /// Whether registrations tell their errors apart (RelativePose::shared); those do of a survey
-  /// that is asked for standard deviations.
-  bool tells_shared_errors = false;
-
-  bool tells() const {
-    const CovarianceOptions& covariance = registration.covariance;
-    return tells_shared_errors || !covariance.altitude_sigma_m || !covariance.tilt_sigma_rad ||
-           !covariance.own_factor;
-  }
 
   /// In a config these keys stand under `front_end.`.
   void describe(OptionTable& table);

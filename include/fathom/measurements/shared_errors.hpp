@@ -27,6 +27,8 @@ struct SharedErrors {
 
   /// G_from Σ G_fromᵀ + G_to Σ G_toᵀ + own.
   Eigen::Matrix3d total() const;
+  /// Whether any error of a picture moves it.
+  bool is_shared() const { return !from.scaled().isZero(0.0) || !to.scaled().isZero(0.0); }
   /// Of the same measurement from its other end, J = ∂(⊖z)/∂z.
   SharedErrors reversed(const Eigen::Matrix3d& J) const;
 

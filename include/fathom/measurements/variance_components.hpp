@@ -12,9 +12,8 @@
 namespace fathom {
 
 /// A standard deviation that nobody stated: of the altitude, or of roll and of pitch, of the
-/// pictures it governs. Of picture k it is max(least_k, σ), as the front end takes an altitude's.
-/// Or of what a registration's own covariance leaves out (relief through the lever, distortion), in
-/// units of that covariance, which becomes (1 + σ²) own.
+/// pictures it governs. Or of what a registration's own covariance leaves out (relief through the
+/// lever, distortion), in units of that covariance, which becomes (1 + σ²) own.
 struct VarianceComponent {
   enum class Part {
     altitude,  ///< m
@@ -23,10 +22,8 @@ struct VarianceComponent {
   };
   Part part = Part::tilt;
   /// By keyframe, whether its picture is governed; empty: all are. A picture whose sensor states
-  /// its tilt is not, and keeps what its registrations tell.
+  /// the part is not, and keeps what its registrations tell.
   std::vector<bool> governed = {};
-  /// By keyframe, what its sensor states at least; empty: 0.
-  std::vector<double> least = {};
   /// Where the search ends. Beyond 1 rad a tilt does not act as G says; 100 m is any altitude.
   double greatest() const { return part == Part::tilt ? 1.0 : 100.0; }
   bool is_of_pictures() const { return part != Part::own; }

@@ -36,22 +36,23 @@ struct DecisionOptions {
 /// What the residuals of one pair cannot show, because all its matches share it.
 struct CovarianceOptions {
   /// Of each altitude, unless its sensor states more; stands for the relief of a floor too. Empty:
-  /// estimated from the survey, 0 until then.
-  std::optional<double> altitude_sigma_m = 0.0;
+  /// where no sensor states it estimated from the survey, 0 until then.
+  std::optional<double> altitude_sigma_m = std::nullopt;
   /// Of roll and of pitch, at each picture that does not come with them measured. No vehicle keeps
   /// its camera level: without a word on it, 0.3°. Empty: estimated from the survey; until then,
   /// and where it does not tell, that too. At 0, registrations would be certain to a fraction of a
   /// millimetre.
   static constexpr double kAssumedTiltRad = 0.005;
-  std::optional<double> tilt_sigma_rad = kAssumedTiltRad;
+  std::optional<double> tilt_sigma_rad = std::nullopt;
   /// The standard deviations of a registration's own error are so many times what its residuals
   /// show: relief that each pair sees from other sides, distortion that calibration leaves. Empty:
   /// estimated from the survey, 1 until then.
-  std::optional<double> own_factor = 1.0;
+  std::optional<double> own_factor = std::nullopt;
 
   double altitude() const { return altitude_sigma_m.value_or(0.0); }
   double own() const { return own_factor.value_or(1.0); }
   double tilt() const { return tilt_sigma_rad.value_or(kAssumedTiltRad); }
+  bool is_estimated() const { return !altitude_sigma_m || !tilt_sigma_rad || !own_factor; }
   /// Added to x and y as variances, whatever else is known: in pixels of the picture with the
   /// coarser ones, or in metres.
   double floor_sigma_px = 0.0025;

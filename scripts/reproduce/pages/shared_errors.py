@@ -1,4 +1,5 @@
-"""docs/studies.md: by how much the registrations of a picture are not independent."""
+"""docs/studies.md: by how much the registrations of a picture are not independent; and
+docs/shared_errors.md: what estimators gain that know it."""
 
 from layout import interval, significant, table
 from maker import maker
@@ -79,3 +80,40 @@ def attitude_mounting(work):
     study = work.study("attitude-mounting", "configs/studies/attitude_mounting.yaml", jobs=2)
     rows = [_attitude_row(study, {"mounting": label}, label) for label in ("0°", "0.1°", "0.5°")]
     return table(["error of pitch", *ATTITUDE_HEADER], rows)
+
+
+def _difference(study, one, other, **cell):
+    return interval(study.paired(one, other, "mean_position_error_m", **cell), 2, 1e3)
+
+
+DRAWN = [("sparse_gauss_newton", "`sparse_gauss_newton`", "states"),
+         ("ceres_pose_graph", "`ceres_pose_graph`", "states"),
+         ("incremental_smoother", "`incremental_smoother`", "states"),
+         ("sgn_independent", "`sparse_gauss_newton`", "independent"),
+         ("iekf_states", "`trajectory_iekf`", "states"),
+         ("trajectory_iekf", "`trajectory_iekf`, its default", "independent"),
+         ("invariant_ekf", "`invariant_ekf`", "states"),
+         ("first_estimates_ekf", "`first_estimates_ekf`", "states"),
+         ("ekf_states", "`ekf`", "states"),
+         ("ekf", "`ekf`, its default", "consider"),
+         ("ekf_independent", "`ekf`", "independent")]
+
+
+@maker("docs/shared_errors.md", "shared-drawn", "slow",
+       "`fathom compare configs/studies/shared_errors_drawn.yaml`", 5)
+def shared_drawn(work):
+    study = work.study("shared-drawn", "configs/studies/shared_errors_drawn.yaml", jobs=2)
+    rows = []
+    for loops in (1, 6):
+        for heading in (0.003, 0.01, 0.02):
+            cell = {"heading": heading, "loops": loops}
+            for name, estimator, model in DRAWN:
+                difference = "–" if model == "independent" else _difference(
+                    study, name, "sgn_independent", **cell)
+                rows.append([loops, f"{1e3 * heading:g}", estimator, model,
+                             interval(study.row(name, "anees", **cell), 2),
+                             interval(study.row(name, "chi2_per_dof", **cell), 2),
+                             interval(study.row(name, "mean_position_error_m", **cell), 2, 1e3),
+                             difference])
+    return table(["loops at most", "σ of heading (mrad)", "estimator", "`shared_errors`", "ANEES",
+                  "F per degree of freedom", "error (mm)", "less independent (mm)"], rows)
