@@ -83,4 +83,14 @@ std::vector<std::string> map_remarks(const MapFit& fit, const std::string& estim
   return remarks;
 }
 
+std::optional<std::string> sharing_remark(const MapFit& fit, const std::string& estimator) {
+  constexpr double kTooLittle = 0.6;
+  if (fit.per_degree_of_freedom() > kTooLittle) return std::nullopt;
+  return "F per degree of freedom is " + short_number(fit.per_degree_of_freedom()) +
+         " at its best, and 1 is expected: registrations of a picture share errors, which " +
+         estimator +
+         " takes as independent; where a keyframe has many loops its covariance is too small "
+         "(estimator.shared_errors: states)";
+}
+
 }  // namespace fathom

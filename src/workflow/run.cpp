@@ -74,8 +74,16 @@ class OneRun {
     const auto optimum = batch_optimum(recording_->log, registry_, {}, done.result.run.errors);
     const auto fit = optimum ? map_fit(recording_->log, estimate, *optimum) : std::nullopt;
     if (!fit) return;
-    std::ranges::copy(map_remarks(*fit, done.result.estimator.name, optimum->solver),
+    const EstimatorConfiguration& estimator = done.result.estimator;
+    std::ranges::copy(map_remarks(*fit, estimator.name, optimum->solver),
                       std::back_inserter(remarks));
+    const auto in_force = estimator_options(estimator, registry_.find(estimator.type));
+    const bool is_sharing = std::ranges::any_of(in_force, [](const auto& option) {
+      return option.first == "shared_errors" && option.second == "independent";
+    });
+    if (is_sharing && recording_->log.tells_shared_errors()) {
+      if (auto remark = sharing_remark(*fit, estimator.name)) remarks.push_back(std::move(*remark));
+    }
     if (fit->estimate_fits()) return;
     EvaluationOptions options;
     options.mode = SolveMode::batch;

@@ -71,6 +71,14 @@ TEST(MapFit, MeasurementsThatDoNotFitEachOtherAreBlamedByTheirShare) {
   EXPECT_THAT(map_remarks(fit, "ekf", "solver"), ElementsAre(HasSubstr("absolute measurements")));
 }
 
+TEST(MapFit, RegistrationsThatAgreeTooWellShareErrors) {
+  MapFit fit{.chi2_optimum = 61.0, .degrees_of_freedom = 100.0};
+  EXPECT_FALSE(sharing_remark(fit, "ekf"));
+  fit.chi2_optimum = 43.0;
+  EXPECT_THAT(sharing_remark(fit, "ekf").value(),
+              AllOf(HasSubstr("is 0.43 at its best"), HasSubstr("which ekf takes as independent")));
+}
+
 // By hand: a row of a heading, two of a fix, three less of the hole; of keyframe 0 only if it is
 // not held.
 TEST(MapFit, HeadingsFixesAndHolesHaveTheirDegreesOfFreedom) {

@@ -43,4 +43,8 @@ std::optional<MapFit> map_fit(const MeasurementLog& log, std::span<const Pose> e
 std::vector<std::string> map_remarks(const MapFit& fit, const std::string& estimator,
                                      const std::string& solver);
 
+/// Of an estimator that takes registrations as independent although the log tells what those of a
+/// picture share: whether they agree so much better than their covariances say that it shows.
+std::optional<std::string> sharing_remark(const MapFit& fit, const std::string& estimator);
+
 }  // namespace fathom
