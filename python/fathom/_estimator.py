@@ -96,6 +96,11 @@ class Estimator:
         an UpdateReport or None."""
         return None
 
+    def estimates_shared_errors(self) -> bool:
+        """Whether what registrations of a picture share (RelativePose.shared) is estimated beside
+        the poses: the cost that is minimised is then that of both."""
+        return False
+
     def size(self) -> int:
         """Keyframes so far. Need not be written: they are counted."""
         raise NotImplementedError

@@ -10,6 +10,7 @@
 #include "fathom/core/files.hpp"
 #include "fathom/core/input_error.hpp"
 #include "fathom/measurements/g2o.hpp"
+#include "fathom/measurements/shared_file.hpp"
 #include "python/src/arrays.hpp"
 #include "python/src/bindings.hpp"
 
@@ -83,9 +84,11 @@ void bind_files(py::module_& module) {
       [](const MeasurementLog& log, const py::object& path) {
         const auto file = py::module_::import("os").attr("fspath")(path).cast<std::string>();
         const py::gil_scoped_release unlocked;
-        write_file(file, to_g2o(log));
+        write_graph(file, log);
       },
-      py::arg("log"), py::arg("path"), "Writes a log as g2o; it reads back to the same bits.");
+      py::arg("log"), py::arg("path"),
+      "Writes a log as g2o, and what its registrations share beside it; it reads back to the same "
+      "bits.");
 }
 
 }  // namespace

@@ -1,8 +1,13 @@
 // What an estimator in Python is given.
 
+#include <memory>
+#include <optional>
 #include <pybind11/stl.h>
 #include <vector>
 
+#include <Eigen/Cholesky>
+
+#include "fathom/core/input_error.hpp"
 #include "fathom/estimation/estimator.hpp"
 #include "fathom/estimation/registry.hpp"
 #include "python/src/arrays.hpp"
@@ -13,6 +18,53 @@ namespace fathom {
 namespace {
 
 namespace py = pybind11;
+
+PictureErrors picture_errors(const py::object& G, const py::object& sigma) {
+  const std::vector<double> sigmas = values_of(sigma, "sigma");
+  if (sigmas.size() != 3) throw InputError("sigma: expected shape (3,)");
+  PictureErrors errors{matrix_of(G, "G"), Eigen::Vector3d(sigmas[0], sigmas[1], sigmas[2])};
+  if (!errors.G.allFinite()) throw InputError("G: expected finite numbers");
+  if (!errors.sigma.allFinite() || errors.sigma.minCoeff() < 0.0) {
+    throw InputError("sigma: expected finite standard deviations, 0 or above");
+  }
+  return errors;
+}
+
+void bind_shared(py::module_& module) {
+  py::class_<PictureErrors>(
+      module, "PictureErrors",
+      "What the errors n of one picture do to a registration of it: z moves by G n.")
+      .def(py::init(&picture_errors), py::arg("G"), py::arg("sigma"))
+      .def_property_readonly(
+          "G", [](const PictureErrors& errors) { return array_of(errors.G); },
+          "3 x 3, in the frame of `from_`; columns: altitude (m), roll, pitch (rad).")
+      .def_property_readonly(
+          "sigma",
+          [](const PictureErrors& errors) {
+            return array_of(std::vector<double>(errors.sigma.begin(), errors.sigma.end()));
+          },
+          "(3,): standard deviations of n, whose parts are independent, of zero mean.");
+  py::class_<SharedErrors>(
+      module, "SharedErrors",
+      "A registration's errors apart: nu = G_from n_from + G_to n_to + its own. n of a picture is "
+      "the same in all its registrations.")
+      .def(py::init([](const PictureErrors& from, const PictureErrors& to, const py::object& own) {
+             SharedErrors errors{from, to, symmetric_of(own, "own")};
+             if (Eigen::LLT<Eigen::Matrix3d>(errors.own).info() != Eigen::Success) {
+               throw InputError("own: expected a positive definite covariance");
+             }
+             return errors;
+           }),
+           py::arg("from_"), py::arg("to"), py::arg("own"))
+      .def_readonly("from_", &SharedErrors::from, "PictureErrors of `from_`.")
+      .def_readonly("to", &SharedErrors::to, "PictureErrors of `to`.")
+      .def_property_readonly(
+          "own", [](const SharedErrors& errors) { return array_of(errors.own); },
+          "3 x 3 covariance of what is its own, in the frame of `from_`.")
+      .def_property_readonly(
+          "total", [](const SharedErrors& errors) { return array_of(errors.total()); },
+          "3 x 3: the covariance of the registration alone.");
+}
 
 void bind_relative(py::module_& module) {
   py::class_<RelativePose>(
@@ -25,6 +77,15 @@ void bind_relative(py::module_& module) {
            }),
            py::arg("from_"), py::arg("to"), py::arg("motion"), py::arg("covariance"),
            "`covariance`: 3 x 3 of nu = z - h(x), in the frame of `from_`, positive definite.")
+      .def(py::init([](std::size_t from, std::size_t to, const py::object& motion,
+                       const SharedErrors& shared) {
+             RelativePose z = RelativePose::from_covariance(
+                 from, to, finite_pose_of(motion, "motion"), shared.total());
+             z.shared = std::make_shared<const SharedErrors>(shared);
+             return z;
+           }),
+           py::arg("from_"), py::arg("to"), py::arg("motion"), py::kw_only(), py::arg("shared"),
+           "A registration that tells its errors apart; its covariance is their total.")
       .def_readonly("from_", &RelativePose::from, "Keyframe index.")
       .def_readonly("to", &RelativePose::to, "Keyframe index.")
       .def_property_readonly(
@@ -36,6 +97,12 @@ void bind_relative(py::module_& module) {
       .def_property_readonly(
           "covariance", [](const RelativePose& z) { return array_of(z.covariance()); },
           "3 x 3 of nu = z - h(x), in the frame of `from_`.")
+      .def_property_readonly(
+          "shared",
+          [](const RelativePose& z) {
+            return z.shared ? std::optional<SharedErrors>(*z.shared) : std::nullopt;
+          },
+          "SharedErrors where the registration tells its errors apart, else None.")
       .def_readonly("inliers", &RelativePose::inliers, "Matches that support it, or None.")
       .def_readonly("is_hole", &RelativePose::is_hole,
                     "Of a step: nothing was measured, `motion` is a guess.")
@@ -58,6 +125,7 @@ void bind_absolute(py::module_& module) {
 }  // namespace
 
 void bind_measurements(py::module_& module) {
+  bind_shared(module);
   bind_relative(module);
   bind_absolute(module);
   py::class_<GivenMeasurements>(module, "Measurements", "What is measured of the newest keyframe.")

@@ -51,6 +51,7 @@ class PythonEstimator : public Estimator {
     loss_ = overridden("loss");
     loop_weights_ = overridden("loop_weights");
     absolute_weights_ = overridden("absolute_weights");
+    estimates_shared_ = overridden("estimates_shared_errors");
   }
 
   // Only taking the lock could throw, if the interpreter had no memory for the thread's state.
@@ -59,7 +60,7 @@ class PythonEstimator : public Estimator {
     if (!Py_IsInitialized()) return;
     const py::gil_scoped_acquire lock;
     for (py::object* one : {&self_, &pose_, &add_, &update_, &own_size_, &finish_, &joint_, &loss_,
-                            &loop_weights_, &absolute_weights_}) {
+                            &loop_weights_, &absolute_weights_, &estimates_shared_}) {
       one->release().dec_ref();
     }
   }
@@ -118,6 +119,10 @@ class PythonEstimator : public Estimator {
     return weights(absolute_weights_, "absolute_weights");
   }
 
+  bool estimates_shared_errors() const override {
+    return estimates_shared_ && locked([&] { return estimates_shared_().cast<bool>(); });
+  }
+
  private:
   static std::vector<double> weights(const py::object& ask, const char* what) {
     if (!ask) return {};
@@ -134,6 +139,7 @@ class PythonEstimator : public Estimator {
   py::object loss_;
   py::object loop_weights_;
   py::object absolute_weights_;
+  py::object estimates_shared_;
   std::size_t size_ = 1;
 };
 

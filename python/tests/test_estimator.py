@@ -3,6 +3,7 @@
 import os
 import subprocess
 import sys
+import tempfile
 import unittest
 
 import fathom
@@ -115,6 +116,72 @@ class EqualsTheBuiltIn(unittest.TestCase):
         self.assertEqual(results.estimators, ["ekf", "numpy_ekf"])
         self.assert_equal(results.example["numpy_ekf"], results.example["ekf"])
         self.assertAlmostEqual(results.metric("chi2", "numpy_ekf")[0], 41.3802, places=4)
+
+
+class SharedErrors(unittest.TestCase):
+    """Registrations that tell what those of a picture share."""
+
+    OWN = numpy.diag([0.004, 0.006, 0.0008]) + 0.0005
+
+    def errors(self, lever):
+        G = numpy.array([[0.3, 0.1, 2.0], [-0.2, -2.1, 0.2], [0.01, 0.0, lever]])
+        return fathom.PictureErrors(G, (0.02, 0.01, 0.03))
+
+    def told(self, k, lever):
+        shared = fathom.SharedErrors(self.errors(lever), self.errors(-lever), self.OWN)
+        return fathom.RelativePose(k, k - 4, (-0.3, -0.6, 1.4), shared=shared)
+
+    def log(self):
+        log = fathom.MeasurementLog()
+        for k in range(1, 7):
+            log.add_keyframe((1, 0, 1.2), numpy.diag([0.01, 0.02, 0.003]))
+            if k > 3:
+                log.add_registration(self.told(k, 0.1 * k))
+        return log
+
+    def test_the_covariance_is_the_total_of_the_parts(self):
+        z = self.told(5, 0.4)
+        ends = (z.shared.from_, z.shared.to)
+        of_both = [one.G @ numpy.diag(one.sigma**2) @ one.G.T for one in ends]
+        numpy.testing.assert_allclose(z.shared.total, sum(of_both) + self.OWN, rtol=1e-12)
+        numpy.testing.assert_allclose(z.covariance, z.shared.total, rtol=1e-9)
+        self.assertIsNone(small_log().registrations[0].shared)
+
+    def test_they_are_written_and_read_beside_the_graph(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "graph.g2o")
+            fathom.write_g2o(self.log(), path)
+            again = fathom.read_g2o(path)
+        for one, other in zip(self.log().registrations, again.registrations):
+            numpy.testing.assert_array_equal(one.shared.own, other.shared.own)
+            numpy.testing.assert_array_equal(one.shared.to.G, other.shared.to.G)
+            numpy.testing.assert_array_equal(one.shared.to.sigma, other.shared.to.sigma)
+
+    def test_who_does_not_look_is_given_the_total(self):
+        ours = fathom.replay(self.log(), NumpyEkf)
+        theirs = fathom.replay(self.log(), "ekf", shared_errors="independent")
+        numpy.testing.assert_allclose(ours.trajectory, theirs.trajectory, atol=1e-9)
+        states = fathom.replay(self.log(), "ekf", shared_errors="states")
+        self.assertGreater(numpy.abs(states.trajectory - theirs.trajectory).max(), 1e-4)
+
+    def test_an_estimator_says_which_cost_is_its_own(self):
+        class Estimates(NumpyEkf):
+            def estimates_shared_errors(self):
+                return True
+
+        independent = fathom.replay(self.log(), NumpyEkf)
+        self.assertLess(fathom.replay(self.log(), Estimates).chi2, independent.chi2)
+
+    def test_what_cannot_be_is_refused(self):
+        G = numpy.eye(3)
+        for what, make in {
+            "sigma: expected finite": lambda: fathom.PictureErrors(G, (0.1, -0.1, 0)),
+            "G: expected finite": lambda: fathom.PictureErrors(G * numpy.nan, (0, 0, 0)),
+            "own: expected a positive": lambda: fathom.SharedErrors(
+                self.errors(0), self.errors(0), numpy.diag([1, 1, 0])),
+        }.items():
+            with self.assertRaisesRegex(fathom.InputError, what):
+                make()
 
 
 class Options(unittest.TestCase):

@@ -125,7 +125,7 @@ TEST_F(Configs, DunesRuns) {
 TEST_F(Configs, PaperSimulatedRuns) {
   expect_runs("compare", "studies/paper_simulated.yaml", with_short_legs({"jobs=1"}),
               "ekf/metrics.json", 1.2);
-  EXPECT_EQ(ResultStore::open(path("out")).runs().size(), 10u * 5u);
+  EXPECT_EQ(ResultStore::open(path("out")).runs().size(), 10u * 6u);
 }
 
 TEST_F(Configs, PaperSeparationRuns) {
@@ -136,7 +136,7 @@ TEST_F(Configs, PaperSeparationRuns) {
 TEST_F(Configs, PaperPoolRuns) {
   expect_runs("compare", "studies/paper_pool.yaml", with_small_camera({"surveys=1", "trials=1"}),
               "ekf/metrics.json");
-  EXPECT_EQ(ResultStore::open(path("out")).runs().size(), 8u * 4u);
+  EXPECT_EQ(ResultStore::open(path("out")).runs().size(), 8u * 5u);
 }
 
 TEST_F(Configs, RealPicturesRuns) {
@@ -176,28 +176,28 @@ TEST_F(Configs, RegimesSurveyRun) {
 TEST_F(Configs, SharedErrorsOfTheAltimeterRun) {
   expect_runs("compare", "studies/shared_errors_altimeter.yaml", with_short_legs({}),
               "ekf/metrics.json");
-  EXPECT_EQ(ResultStore::open(path("out")).runs().size(), 24u * 4u);
+  EXPECT_EQ(ResultStore::open(path("out")).runs().size(), 24u * 5u);
 }
 
 TEST_F(Configs, SharedErrorsOfATiltRun) {
   expect_runs("compare", "studies/shared_errors_tilt.yaml", with_short_legs({}),
               "ekf/metrics.json");
-  EXPECT_EQ(ResultStore::open(path("out")).runs().size(), 24u * 4u);
+  EXPECT_EQ(ResultStore::open(path("out")).runs().size(), 24u * 5u);
 }
 
 TEST_F(Configs, SharedErrorsDrawnRun) {
   expect_runs("compare", "studies/shared_errors_drawn.yaml", {"trials=1"}, "ekf/metrics.json");
-  EXPECT_EQ(ResultStore::open(path("out")).runs().size(), 6u * 12u);
+  EXPECT_EQ(ResultStore::open(path("out")).runs().size(), 4u * 12u);
 }
 
 TEST_F(Configs, AttitudeRuns) {
   expect_runs("compare", "studies/attitude.yaml", with_short_legs({}), "ekf/metrics.json");
-  EXPECT_EQ(ResultStore::open(path("out")).runs().size(), 6u * 4u);
+  EXPECT_EQ(ResultStore::open(path("out")).runs().size(), 6u * 5u);
 }
 
 TEST_F(Configs, AttitudeMountingRuns) {
   expect_runs("compare", "studies/attitude_mounting.yaml", with_short_legs({}), "ekf/metrics.json");
-  EXPECT_EQ(ResultStore::open(path("out")).runs().size(), 3u * 4u);
+  EXPECT_EQ(ResultStore::open(path("out")).runs().size(), 3u * 5u);
 }
 
 TEST_F(Configs, CompassRuns) {
