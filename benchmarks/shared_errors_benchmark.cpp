@@ -95,7 +95,8 @@ void add(const std::string& graph, const std::shared_ptr<MeasurementLog>& log) {
   std::map<std::string, std::shared_ptr<MeasurementLog>> logs;
   for (const auto& file : std::filesystem::directory_iterator(folder)) {
     if (file.path().extension() != ".g2o") continue;
-    logs[file.path().stem()] = std::make_shared<MeasurementLog>(told(fathom::read_g2o(file.path())));
+    logs[file.path().stem()] =
+        std::make_shared<MeasurementLog>(told(fathom::read_g2o(file.path())));
   }
   for (const auto& [name, log] : logs) add(name, log);
   return true;

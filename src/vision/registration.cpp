@@ -210,16 +210,13 @@ void DecisionOptions::describe(OptionTable& table) {
 
 void CovarianceOptions::describe(OptionTable& table) {
   table.real_or("altitude_sigma_m", "estimated", altitude_sigma_m, Range::at_least(0.0), "m",
-                "standard deviation of an altitude's error, a floor's relief included; the "
-                "altimeter's own, where it states more; estimated: where it states none, from the "
-                "survey's own loops, 0 where they do not tell");
+                "standard deviation of an altitude's error, relief included; the altimeter's own "
+                "where it states more; estimated by loops where it states none, 0 if they do not");
   table.real_or("tilt_sigma_rad", "estimated", tilt_sigma_rad, Range{0.0, 0.5}, "rad",
-                "standard deviation of the camera's roll and of its pitch, where they are not "
-                "measured; estimated: from the survey's own loops, 0.005 where they do not tell");
-  table.real_or(
-      "own_factor", "estimated", own_factor, Range::at_least(1.0), "",
-      "of a registration's own sigmas over what its residuals show; estimated likewise, 1 "
-      "where loops do not tell");
+                "the same of the camera's roll and of its pitch, where they are not measured; "
+                "estimated by loops, 0.005 if they do not tell");
+  table.real_or("own_factor", "estimated", own_factor, Range::at_least(1.0), "",
+                "of a registration's own sigmas over what its residuals show; likewise, 1");
   table.real("floor_sigma_px", floor_sigma_px, Range::positive(), "pixels",
              "standard deviation added to a registration's x and y, in pixels of the coarser "
              "picture");

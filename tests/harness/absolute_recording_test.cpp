@@ -101,7 +101,8 @@ TEST(AbsoluteRecording, ReadingsChangeNothingElseOfALog) {
 // So that candidates are searched where compass and fixes have the newest keyframe. The log has
 // both in one arrival.
 TEST(AbsoluteRecording, AKeyframesOwnReadingsComeBeforeItsCandidates) {
-  const Configuration configuration = configured(std::string(kSmallSurvey) + kSensors);
+  const Configuration configuration =
+      configured(std::string(kSmallSurvey) + kSensors + test::kStatedSigmas);
   test::Script script;
   EstimatorRegistry registry;
   registry.add(test::scripted(script));

@@ -174,9 +174,7 @@ TEST(Record, ASimulationOnDiskGivesTheSame) {
 
 TEST(Record, ASimulationOnDiskGivesTheSameWithVisualOdometry) {
   // On disk its steps are a sensor's, whose covariance stays as it is whatever loops tell.
-  expect_same_from_disk(kVisualOdometry + std::string("front_end.covariance.altitude_sigma_m: 0\n"
-                                                      "front_end.covariance.tilt_sigma_rad: 0.005\n"
-                                                      "front_end.covariance.own_factor: 1\n"));
+  expect_same_from_disk(std::string(kVisualOdometry) + test::kStatedSigmas);
 }
 
 TEST(Record, AFolderWithoutTruthOrOdometryRunsTheSame) {

@@ -25,4 +25,9 @@ dataset.odometry.source: visual_odometry
 dataset.odometry.covariance: [1.0e-4, 1.0e-5, 0, 1.0e-4, 0, 1.0e-4]
 )";
 
+/// Nothing is left to be estimated; to follow kSmallSurvey.
+inline constexpr const char* kStatedSigmas = R"(
+front_end.covariance: {altitude_sigma_m: 0, tilt_sigma_rad: 0.005, own_factor: 1}
+)";
+
 }  // namespace fathom::test
