@@ -135,8 +135,8 @@ class SharedErrors(unittest.TestCase):
         log = fathom.MeasurementLog()
         for k in range(1, 7):
             log.add_keyframe((1, 0, 1.2), numpy.diag([0.01, 0.02, 0.003]))
-            if k > 3:
-                log.add_registration(self.told(k, 0.1 * k))
+            for lever in (0.1, 0.2) if k > 3 else ():  # two of the same pictures
+                log.add_registration(self.told(k, lever * k))
         return log
 
     def test_the_covariance_is_the_total_of_the_parts(self):

@@ -115,7 +115,8 @@ def _drawn_row(study, name, **cell):
     return [interval(study.row(name, "anees", **cell), 2),
             interval(study.row(name, "chi2_per_dof", **cell), 2),
             interval(study.row(name, "mean_position_error_m", **cell), 2, 1e3),
-            "–" if name == "sgn_independent" else _difference(study, name, "sgn_independent", **cell)]
+            "–" if name == "sgn_independent"
+            else _difference(study, name, "sgn_independent", **cell)]
 
 
 @maker("docs/shared_errors.md", "shared-drawn", "slow",
