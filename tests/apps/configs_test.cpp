@@ -69,12 +69,12 @@ TEST_F(Configs, AreAllTestedHere) {
   }
   EXPECT_THAT(
       studies,
-      ElementsAreArray({"attitude.yaml", "attitude_mounting.yaml", "compass.yaml",
-                        "false_loops_drawn.yaml", "fixes.yaml", "holes.yaml", "long_survey.yaml",
-                        "paper_pool.yaml", "paper_separation.yaml", "paper_simulated.yaml",
-                        "real_pictures.yaml", "regimes.yaml", "regimes_survey.yaml",
-                        "shared_errors_altimeter.yaml", "shared_errors_drawn.yaml",
-                        "shared_errors_tilt.yaml", "wrong_loops.yaml"}));
+      ElementsAreArray(
+          {"attitude.yaml", "attitude_mounting.yaml", "compass.yaml", "false_loops_drawn.yaml",
+           "fixes.yaml", "holes.yaml", "long_survey.yaml", "paper_pool.yaml",
+           "paper_separation.yaml", "paper_simulated.yaml", "real_pictures.yaml", "regimes.yaml",
+           "regimes_survey.yaml", "shared_errors_altimeter.yaml", "shared_errors_drawn.yaml",
+           "shared_errors_models.yaml", "shared_errors_tilt.yaml", "wrong_loops.yaml"}));
 }
 
 // Whatever a study sweeps, its camera and front end are those of its first cell.
@@ -188,6 +188,12 @@ TEST_F(Configs, SharedErrorsOfATiltRun) {
 TEST_F(Configs, SharedErrorsDrawnRun) {
   expect_runs("compare", "studies/shared_errors_drawn.yaml", {"trials=1"}, "ekf/metrics.json");
   EXPECT_EQ(ResultStore::open(path("out")).runs().size(), 4u * 12u);
+}
+
+TEST_F(Configs, SharedErrorsModelsRun) {
+  expect_runs("compare", "studies/shared_errors_models.yaml", with_short_legs({}),
+              "ekf/metrics.json", 1.2);
+  EXPECT_EQ(ResultStore::open(path("out")).runs().size(), 2u * 13u);
 }
 
 TEST_F(Configs, AttitudeRuns) {

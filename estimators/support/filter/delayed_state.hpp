@@ -23,7 +23,9 @@ struct DelayedStateOptions {
   /// helps lowers the cost; ten times as much is no linearisation error.
   double divergence_factor = 10.0;
   GateOptions gate;
-  SharedErrorOptions shared_errors;
+  /// With n as states a registration is so precise that one linearisation of it is not honest
+  /// (docs/shared_errors.md).
+  SharedErrorOptions shared_errors{SharedErrorModel::consider};
 
   void describe(OptionTable& table);
 };
@@ -161,14 +163,14 @@ inline Eigen::Matrix3d inverse_of(const Eigen::Matrix3d& world_from_error) {
   return 2.0 * Eigen::Matrix3d::Identity() - world_from_error;
 }
 
-/// An entry for one of these; `Options` may have other defaults.
-template <class Filter, class Options = DelayedStateOptions>
+/// An entry for one of these; the options are the same for all.
+template <class Filter>
 EstimatorEntry delayed_state_entry(std::string name, std::string help) {
-  EstimatorEntry entry =
-      make_relative_entry<Options>(std::move(name), std::move(help), false,
-                                   [](const EstimatorSetup& setup, const Options& options) {
-                                     return std::make_unique<Filter>(setup, options);
-                                   });
+  EstimatorEntry entry = make_relative_entry<DelayedStateOptions>(
+      std::move(name), std::move(help), false,
+      [](const EstimatorSetup& setup, const DelayedStateOptions& options) {
+        return std::make_unique<Filter>(setup, options);
+      });
   entry.unused_options = {"max_iterations", "tolerance"};
   return entry;
 }

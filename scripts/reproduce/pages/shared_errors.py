@@ -100,23 +100,46 @@ def _difference(study, one, other, **cell):
 
 
 GRAPHS = ["sparse_gauss_newton", "ceres_pose_graph", "incremental_smoother"]
-DRAWN = [(GRAPHS, "graphs", "states"),
+DRAWN = [(GRAPHS, "graphs, their default", "states"),
          (["iekf_states"], "`trajectory_iekf`", "states"),
-         (["invariant_ekf"], "`invariant_ekf`", "states"),
-         (["first_estimates_ekf"], "`first_estimates_ekf`", "states"),
          (["ekf_states"], "`ekf`", "states"),
          (["ekf"], "`ekf`, its default", "consider"),
+         (["invariant_ekf"], "`invariant_ekf`, its default", "consider"),
+         (["first_estimates_ekf"], "`first_estimates_ekf`, its default", "consider"),
          (["sgn_independent"], "graphs", "independent"),
          (["trajectory_iekf"], "`trajectory_iekf`, its default", "independent"),
          (["ekf_independent"], "`ekf`", "independent")]
+OF_PICTURES = [("sparse_gauss_newton", "graphs, their default", "states"),
+               ("iekf_states", "`trajectory_iekf`", "states"),
+               ("ekf_states", "`ekf`", "states"),
+               ("invariant_states", "`invariant_ekf`", "states"),
+               ("first_estimates_states", "`first_estimates_ekf`", "states"),
+               ("iekf_consider", "`trajectory_iekf`", "consider"),
+               ("ekf", "`ekf`, its default", "consider"),
+               ("invariant_ekf", "`invariant_ekf`, its default", "consider"),
+               ("first_estimates_ekf", "`first_estimates_ekf`, its default", "consider"),
+               ("sgn_independent", "graphs", "independent"),
+               ("trajectory_iekf", "`trajectory_iekf`, its default", "independent"),
+               ("ekf_independent", "`ekf`", "independent")]
+MODEL_HEADER = ["estimator", "`shared_errors`", "ANEES", "F per degree of freedom", "error (mm)",
+                "less graphs, independent (mm)"]
 
 
-def _drawn_row(study, name, **cell):
+def _model_row(study, name, **cell):
     return [interval(study.row(name, "anees", **cell), 2),
             interval(study.row(name, "chi2_per_dof", **cell), 2),
             interval(study.row(name, "mean_position_error_m", **cell), 2, 1e3),
             "–" if name == "sgn_independent"
             else _difference(study, name, "sgn_independent", **cell)]
+
+
+@maker("docs/shared_errors.md", "shared-models", "slow",
+       "`fathom compare configs/studies/shared_errors_models.yaml`", 20)
+def shared_models(work):
+    study = work.study("shared-models", "configs/studies/shared_errors_models.yaml", jobs=2)
+    rows = [[level, estimator, model, *_model_row(study, name, **{"noise level": level})]
+            for level in (2, 5) for name, estimator, model in OF_PICTURES]
+    return table(["noise level", *MODEL_HEADER], rows)
 
 
 @maker("docs/shared_errors.md", "shared-drawn", "slow",
@@ -128,8 +151,7 @@ def shared_drawn(work):
         for heading in (0.01, 0.02):
             cell = {"heading": heading, "loops": loops}
             for names, estimator, model in DRAWN:
-                figures = [_drawn_row(study, name, **cell) for name in names]
+                figures = [_model_row(study, name, **cell) for name in names]
                 assert all(row[:3] == figures[0][:3] for row in figures), (names, cell)
                 rows.append([loops, f"{1e3 * heading:g}", estimator, model, *figures[0]])
-    return table(["loops at most", "σ of heading (mrad)", "estimator", "`shared_errors`", "ANEES",
-                  "F per degree of freedom", "error (mm)", "less graphs, independent (mm)"], rows)
+    return table(["loops at most", "σ of heading (mrad)", *MODEL_HEADER], rows)
