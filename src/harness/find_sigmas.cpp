@@ -96,8 +96,9 @@ void refuse_implausible(std::vector<FoundSigma>& found, const CovarianceOptions&
   for (FoundSigma& sigma : found) {
     if (!sigma.is_found()) continue;
     if (is_contradicted(sigma)) {
-      sigma.refusal = fmt::format("{} of {} loops contradict the others", sigma.contradicted,
-                                  sigma.contradicted + sigma.registrations);
+      sigma.refusal =
+          fmt::format("{} of {} loops contradict the others: {}, or loops are", sigma.contradicted,
+                      sigma.contradicted + sigma.registrations, wrong);
     } else if (is_beyond(sigma, altitude_m)) {
       sigma.refusal = fmt::format("by {} loops {}, more than any vehicle has: {}",
                                   sigma.registrations, by_loops(sigma), wrong);

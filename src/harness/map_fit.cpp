@@ -89,8 +89,8 @@ std::optional<std::string> sharing_remark(const MapFit& fit, const std::string& 
   return "F per degree of freedom is " + short_number(fit.per_degree_of_freedom()) +
          " at its best, and 1 is expected: registrations of a picture share errors, which " +
          estimator +
-         " takes as independent; where a keyframe has many loops its covariance is too small "
-         "(estimator.shared_errors: states)";
+         " takes as independent, or covariances are too large; the former makes its own too small "
+         "where a keyframe has many loops (estimator.shared_errors: states estimates them)";
 }
 
 }  // namespace fathom

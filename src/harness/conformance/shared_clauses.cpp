@@ -50,40 +50,39 @@ MeasurementLog untold(const MeasurementLog& log) {
   return result;
 }
 
-void expect_joint_covariances(Subject& subject) {
+using ExpectCovariance = void(std::size_t k, const Eigen::Matrix3d& found,
+                              const Eigen::Matrix3d& joint);
+
+// At the truth, beside the joint least squares.
+void expect_beside_joint(Subject& subject, ExpectCovariance* expect_one) {
   const MeasurementLog log = told_circle(0.0);
   const GuardedEstimator& estimator = subject.solved(log);
-  const NaiveLeastSquares expected = least_squares(log, 1, {}, RegistrationErrors::shared);
-  expect_poses(estimator, expected.poses, 1e-9);
+  const NaiveLeastSquares joint = least_squares(log, 1, {}, RegistrationErrors::shared);
+  expect_poses(estimator, joint.poses, 1e-9);
   for (std::size_t k = 1; k < log.size(); ++k) {
-    expect_covariance(numbered("covariance of keyframe", k), covariance_of(estimator, k),
-                      expected.marginal(k), 1e-7);
+    expect_one(k, covariance_of(estimator, k), joint.marginal(k));
   }
+}
+
+void expect_equal(std::size_t k, const Eigen::Matrix3d& found, const Eigen::Matrix3d& joint) {
+  expect_covariance(numbered("covariance of keyframe", k), found, joint, 1e-7);
 }
 
 // No unbiased linear estimate has a smaller covariance than the joint least squares (Gauss and
 // Markov): what is smaller is not honest.
-void expect_no_less_than_joint_covariances(Subject& subject) {
-  const MeasurementLog log = told_circle(0.0);
-  const GuardedEstimator& estimator = subject.solved(log);
-  const NaiveLeastSquares least = least_squares(log, 1, {}, RegistrationErrors::shared);
-  expect_poses(estimator, least.poses, 1e-9);
-  for (std::size_t k = 1; k < log.size(); ++k) {
-    const Eigen::Matrix3d joint = least.marginal(k);
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> more(covariance_of(estimator, k) - joint,
-                                                              Eigen::EigenvaluesOnly);
-    expect_at_least(numbered("least eigenvalue above the joint covariance, of keyframe", k),
-                    more.eigenvalues()[0] / joint.norm(), -1e-7);
-  }
+void expect_no_less(std::size_t k, const Eigen::Matrix3d& found, const Eigen::Matrix3d& joint) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> more(found - joint, Eigen::EigenvaluesOnly);
+  expect_at_least(numbered("least eigenvalue above the joint covariance, of keyframe", k),
+                  more.eigenvalues()[0] / joint.norm(), -1e-7);
 }
 
 // One that estimates them, one that does not ask, and one that considers them.
 void shared_errors(Subject& subject) {
   const MeasurementLog log = told_circle(1.0);
   const GuardedEstimator& estimator = subject.solved(log);
-  if (estimator.estimates_shared_errors()) return expect_joint_covariances(subject);
+  if (estimator.estimates_shared_errors()) return expect_beside_joint(subject, expect_equal);
   const std::vector<Pose> told = poses_of(estimator);
-  if (poses_of(subject.solved(untold(log))) != told) expect_no_less_than_joint_covariances(subject);
+  if (poses_of(subject.solved(untold(log))) != told) expect_beside_joint(subject, expect_no_less);
 }
 
 }  // namespace
