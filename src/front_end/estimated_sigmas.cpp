@@ -11,6 +11,7 @@ PairRegistration EstimatedSigmas::told(PairRegistration found, const MeasuredFra
   };
   tell(from, found.shared.from.sigma);
   tell(to, found.shared.to.sigma);
+  if (altitude_m) found.shared.own = found.own_beside_altitude;
   if (own_factor) found.shared.own *= *own_factor * *own_factor;
   found.covariance = found.shared.total();
   return found;

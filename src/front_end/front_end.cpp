@@ -6,6 +6,7 @@
 
 #include "fathom/core/input_error.hpp"
 #include "fathom/geometry/covariance.hpp"
+#include "motion_chain.hpp"
 
 namespace fathom {
 
@@ -35,15 +36,15 @@ FrontEnd::FrontEnd(const FrameSource& source, PairRegistrar& registrar,
 // register_newest() then registers them.
 std::optional<Keyframe> FrontEnd::next_keyframe() {
   const std::size_t next = schedule_.frame(keyframes_.size()).value_or(source_.size());
-  UncertainPose since;  // the last keyframe
+  MotionChain since;  // the last keyframe
   bool over_hole = false;
   while (frames_.size() < source_.size()) {
     const std::size_t frame = frames_.size();
     const FrameInfo& info = source_.info(frame);
-    if (frame > 0) since = compose(since, *info.motion);
+    if (frame > 0) since.append(info);
     over_hole = over_hole || info.is_hole;
-    if (frame == next) return add_keyframe(frame, info, since, over_hole);
-    frames_.push_back({info.time_ns, keyframes_.size() - 1, since.mean});
+    if (frame == next) return add_keyframe(frame, info, since.motion(), over_hole);
+    frames_.push_back({info.time_ns, keyframes_.size() - 1, since.motion().mean});
   }
   return std::nullopt;
 }

@@ -101,8 +101,9 @@ PairRegistration PairRegistrar::register_anew(const MeasuredFrame& from, const M
   const FloorFeatures features_from = on_floor_of(from);
   const Registration found = registered_.measure(
       [&] { return register_pair(features_from, features_to, options_, seed_of(from, to)); });
-  PairRegistration value{found.found, found.motion, found.covariance,
-                         static_cast<int>(found.inliers.size()), found.shared};
+  PairRegistration value{found.found,      found.motion,
+                         found.covariance, static_cast<int>(found.inliers.size()),
+                         found.shared,     found.own_beside_altitude};
   if (cache_ != nullptr) cache_->put(cache_key(from, to), value);
   return value;
 }

@@ -7,9 +7,9 @@
 
 namespace fathom {
 
-/// x, y, θ, the covariance, then the parts of it: own, G and σ of `from`, of `to`; matrices row by
-/// row (m, rad), as they lie in a row of the file.
-using RegistrationNumbers = std::array<double, 45>;
+/// x, y, θ, the covariance, then the parts of it: own, own beside altitude, G and σ of `from`, of
+/// `to`; matrices row by row (m, rad), as they lie in a row of the file.
+using RegistrationNumbers = std::array<double, 54>;
 
 RegistrationNumbers numbers_of(const PairRegistration& value);
 

@@ -21,8 +21,9 @@ const FrameInfo& VisualOdometry::info(std::size_t i) const {
   while (infos_.size() <= i) {
     FrameInfo info = source_.info(infos_.size());
     info.motion.reset();
+    info.motion_errors.reset();
     info.is_hole = false;
-    if (!infos_.empty()) info.motion = next_motion();
+    if (!infos_.empty()) measure_motion(info);
     infos_.push_back(std::move(info));
   }
   return infos_[i];
@@ -32,7 +33,7 @@ MeasuredFrame VisualOdometry::measured(std::size_t frame) const {
   return MeasuredFrame::of(source_, frame);
 }
 
-UncertainPose VisualOdometry::next_motion() const {
+void VisualOdometry::measure_motion(FrameInfo& frame) const {
   const std::size_t to = infos_.size();
   for (std::size_t ahead = to + 1; ahead <= to + PairRegistrar::look_ahead(); ++ahead) {
     if (ahead < source_.size()) registrar_.announce(measured(ahead - 1), measured(ahead));
@@ -44,6 +45,9 @@ UncertainPose VisualOdometry::next_motion() const {
   if (registration.found) {
     motion = {registration.motion, registration.covariance};
     last_motion_ = registration.motion;
+    if (registration.shared.is_shared()) {
+      frame.motion_errors = std::make_shared<const SharedErrors>(registration.shared);
+    }
   } else {
     ++failures_;
     const double sigma_m =
@@ -51,7 +55,7 @@ UncertainPose VisualOdometry::next_motion() const {
     const double sigma_rad = fallback_.sigma_rad;
     motion.covariance.diagonal() << sigma_m * sigma_m, sigma_m * sigma_m, sigma_rad * sigma_rad;
   }
-  return {draws_.disturb(motion.mean, stream_), motion.covariance + noise_.covariance};
+  frame.motion = {draws_.disturb(motion.mean, stream_), motion.covariance + noise_.covariance};
 }
 
 }  // namespace fathom

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -22,6 +23,13 @@ class LinearFit {
   LinearFit(const Pose& z, std::span<const Eigen::Vector2d> p, std::span<const Eigen::Vector2d> q,
             std::span<const double> weights);
 
+  /// Fits z again together with the errors of altitude and tilt that are told (σ > 0), which are
+  /// not the registration's own, as unknowns without a prior. From here on r is what is left, and 3
+  /// is the number of unknowns that the matches can tell, up to 8. z stays. Returns the ratio of σ
+  /// to the one before.
+  double take_out_altitude_and_tilt(const Viewpoint& from, const Viewpoint& to,
+                                    const CovarianceOptions& options);
+
   /// σ² A⁻¹ with σ² = Σ w ‖r‖² / (2n − 3), errors taken for independent.
   Eigen::Matrix3d covariance() const;
 
@@ -42,7 +50,10 @@ class LinearFit {
 
  private:
   Eigen::Matrix<double, 2, 3> jacobian(std::size_t j) const;
-  Eigen::Vector2d residual(std::size_t j) const;
+  double variance() const;  // σ²
+  /// √w times J, then times what a shift by each error that is told does to the points.
+  Eigen::MatrixXd whitened_columns(const Viewpoint& from, const Viewpoint& to,
+                                   const CovarianceOptions& options) const;
   /// What a shift of every point by shift(j), p minus z ⊕ q, does to z.
   template <class Shift>
   Eigen::Vector3d response(const Shift& shift) const;
@@ -52,6 +63,8 @@ class LinearFit {
   std::span<const Eigen::Vector2d> q_;
   std::span<const double> weights_;
   Eigen::Matrix3d inverse_;  // A⁻¹
+  std::vector<Eigen::Vector2d> residuals_;
+  double unknowns_ = 3.0;
 };
 
 /// Of the parts of two pictures together, without what is the registration's own.

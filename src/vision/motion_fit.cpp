@@ -107,28 +107,39 @@ FitCovariance fit_covariance(const MotionFit& fit, const MatchSet& matches,
                              const FloorFeatures& from, const FloorFeatures& to,
                              const RegistrationOptions& options) {
   const Points points = points_of(matches, fit.inliers);
-  const LinearFit linear(fit.motion, points.p, points.q, points.weights);
   const CovarianceTuning& tuning = options.tuning.covariance;
   const CovarianceOptions& told = options.covariance;
+  LinearFit linear(fit.motion, points.p, points.q, points.weights);
   const double cell_m = tuning.cluster_px * to.viewpoint.metres_per_pixel;
-  const Eigen::Matrix3d fitted =
-      linear.covariance() * linear.clustering(cell_m, tuning.least_clusters);
-  const Eigen::Matrix3d alike = shared_error(fit.rms_m, tuning.shared_error);
   const Eigen::Vector3d floor =
       Eigen::Vector3d(*told.floor_sigma_m, *told.floor_sigma_m, told.floor_sigma_rad).cwiseAbs2();
+  double left = 1.0;
+  Eigen::Matrix3d fitted;
+  Eigen::Matrix3d alike;
+  const auto own = [&](const CovarianceOptions& apart) {
+    left *= linear.take_out_altitude_and_tilt(from.viewpoint, to.viewpoint, apart);
+    fitted = linear.covariance() * linear.clustering(cell_m, tuning.least_clusters);
+    alike = shared_error(left * fit.rms_m, tuning.shared_error);
+    Eigen::Matrix3d sum = fitted + alike;
+    sum.diagonal() += floor;
+    return (told.own() * told.own() * sum).eval();
+  };
   FitCovariance covariance;
   covariance.parts = linear.altitude_and_tilt(from.viewpoint, to.viewpoint, told);
-  covariance.parts.own = fitted + alike;
-  covariance.parts.own.diagonal() += floor;
+  covariance.parts.own = own(told);
   if (told.own() != 1.0) {
-    covariance.parts.own *= told.own() * told.own();
     covariance.total = covariance.parts.total();
-    return covariance;
+  } else {
+    covariance.total = fitted;
+    covariance.total += total_of(covariance.parts.from, covariance.parts.to);
+    covariance.total += alike;
+    covariance.total.diagonal() += floor;
   }
-  covariance.total = fitted;
-  covariance.total += total_of(covariance.parts.from, covariance.parts.to);
-  covariance.total += alike;
-  covariance.total.diagonal() += floor;
+  // What is to be found is not exact; until then what it does to the matches is their own.
+  CovarianceOptions altitude_told = told;
+  if (!told.altitude_sigma_m) altitude_told.altitude_sigma_m = 1.0;
+  covariance.own_beside_altitude =
+      told.altitude_sigma_m ? covariance.parts.own : own(altitude_told);
   return covariance;
 }
 

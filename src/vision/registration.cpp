@@ -85,6 +85,7 @@ Registration accepted(Registration result, const Pair& pair, const MotionFit& fi
   const FitCovariance covariance = fit_covariance(fit, matches, pair.from, pair.to, pair.options);
   result.covariance = covariance.total;
   result.shared = covariance.parts;
+  result.own_beside_altitude = covariance.own_beside_altitude;
   return result;
 }
 

@@ -24,7 +24,7 @@
 namespace fathom {
 namespace {
 
-constexpr int kPinnedVersion = 6;
+constexpr int kPinnedVersion = 7;
 constexpr double kOfPictures = 2e-4;
 constexpr double kOfPoints = 1e-9;
 
@@ -177,8 +177,8 @@ TEST(PinnedRegistrations, OfRealPictures) {
   expect_pinned(registrar.of({0, survey.info(0).altitude_m}, {2, survey.info(2).altitude_m}),
                 {245,
                  {-6.2412693255671954, 1.457919802539186, -0.062913582658453968},
-                 {0.016857051740035843, -0.00014210844609450354, -9.6691614793660845e-06,
-                  0.017049905367189231, -2.1195731683121314e-05, 0.00015166332185297259}});
+                 {0.016804435722113611, -0.00015576065299708871, -5.2211423433606699e-06,
+                  0.016968428666350271, -1.0021988427608965e-05, 0.00014802280979686546}});
 }
 
 }  // namespace

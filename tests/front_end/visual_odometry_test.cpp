@@ -66,7 +66,9 @@ TEST(VisualOdometry, IsTheRegistrationOfConsecutiveFrames) {
         register_pair(seen(i - 1), seen(i), {}, pair_seed(kSeed, i - 1, i));
     EXPECT_EQ(motions[i - 1].mean, expected.motion);
     EXPECT_EQ(motions[i - 1].covariance, expected.covariance);
+    EXPECT_EQ(*odometry.frames.info(i).motion_errors, expected.shared);
   }
+  EXPECT_EQ(odometry.frames.info(0).motion_errors, nullptr);
 }
 
 TEST(VisualOdometry, LeavesTheRestOfAFrameAsItIs) {
@@ -126,6 +128,7 @@ TEST(VisualOdometry, RepeatsTheLastMotionWherePicturesDoNotRegister) {
   for (const std::size_t failed : {1u, 2u}) {
     EXPECT_EQ(motions[failed].mean, motions[0].mean);
     EXPECT_EQ(motions[failed].covariance, fallback);
+    EXPECT_EQ(odometry.frames.info(failed + 1).motion_errors, nullptr);
   }
   EXPECT_LT(test::distance(motions[3].mean, between(survey.truth(3), survey.truth(4))), 0.006);
   EXPECT_EQ(odometry.frames.failures(), 2u);

@@ -5,77 +5,20 @@
 #include <utility>
 
 #include <Eigen/Dense>
-#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include "src/vision/motion_covariance.hpp"
 #include "src/vision/rigid_motion.hpp"
 #include "vision/fitted_points.hpp"
+#include "vision/moved_points.hpp"
 
 namespace fathom {
 namespace {
 
+using test::all_moved;
+using test::CameraError;
 using test::difference;
-using test::Points;
-using test::random_points;
-using test::random_weights;
-using test::seen_from;
-
-// What a camera is off by: altitude, and turns of the body about its x and y axes.
-struct Error {
-  double altitude_m = 0.0;
-  double roll_rad = 0.0;
-  double pitch_rad = 0.0;
-
-  double& operator[](int i) { return i == 0 ? altitude_m : i == 1 ? roll_rad : pitch_rad; }
-};
-
-// A camera of the pitch and of a roll turned by the error; of a level one in the other order.
-Eigen::Matrix3d turn_of(double pitch_rad, const Error& error) {
-  return (Eigen::AngleAxisd(pitch_rad + error.pitch_rad, Eigen::Vector3d::UnitY()) *
-          Eigen::AngleAxisd(error.roll_rad, Eigen::Vector3d::UnitX()))
-      .toRotationMatrix();
-}
-
-// Where the ray that the camera takes for the one to `point` meets the floor with the error, in
-// three dimensions: x ahead, y to the left, z up. A roll of its own changes nothing: the error adds
-// to it about the same axis.
-Eigen::Vector2d moved(const Eigen::Vector2d& point, const Viewpoint& view, const Error& error) {
-  const Eigen::Vector3d ray(point.x() - view.camera_m.x(), point.y() - view.camera_m.y(),
-                            -view.altitude_m);
-  const Eigen::Vector3d turned =
-      turn_of(view.pitch_rad, error) * turn_of(view.pitch_rad, {}).transpose() * ray;
-  const double length = -(view.altitude_m + error.altitude_m) / turned.z();
-  return view.camera_m + length * turned.head<2>();
-}
-
-Points all_moved(const Points& points, const Viewpoint& view, const Error& error) {
-  Points result;
-  for (const Eigen::Vector2d& point : points) result.push_back(moved(point, view, error));
-  return result;
-}
-
-Viewpoint view_from(double altitude_m) {
-  Viewpoint view;
-  view.camera_m = {0.4, -0.1};
-  view.altitude_m = altitude_m;
-  return view;
-}
-
-struct Overlap {
-  Pose motion{0.6, -0.4, 0.9};
-  Viewpoint from = view_from(2.0);
-  Viewpoint to = view_from(1.4);
-  Points p, q;
-  std::vector<double> weights;
-
-  Overlap() {
-    RandomStream random(8);
-    q = random_points(random, 40, {0.9, 0.3});
-    p = seen_from(motion, q);
-    weights = random_weights(random, q.size());
-  }
-};
+using test::Overlap;
 
 // dz by the errors of either picture, assumed less true, by central differences of whole fits.
 struct Responses {
@@ -87,10 +30,10 @@ Responses refitted_responses(const Overlap& seen) {
   constexpr double kStep = 1e-5;
   Responses responses;
   for (int i = 0; i < 3; ++i) {
-    Error up, down;
+    CameraError up, down;
     up[i] = kStep;
     down[i] = -kStep;
-    const auto fit = [&](const Error& of_from, const Error& of_to) {
+    const auto fit = [&](const CameraError& of_from, const CameraError& of_to) {
       return find_motion(all_moved(seen.p, seen.from, of_from), all_moved(seen.q, seen.to, of_to),
                          seen.weights)
           .value();

@@ -149,6 +149,7 @@ TEST(RegisterPair, AddsTheFloorToTheResidualsCovariance) {
     p.push_back(transform(z, q.back()) + Eigen::Vector2d(dx, dy));
   }
   RegistrationOptions options;
+  options.covariance.altitude_sigma_m = 0.0;
   options.covariance.tilt_sigma_rad = 0.0;
   options.covariance.floor_sigma_m = 0.1;
   options.covariance.floor_sigma_rad = 0.02;

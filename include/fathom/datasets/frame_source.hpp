@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,6 +10,7 @@
 #include <opencv2/core.hpp>
 
 #include "fathom/geometry/covariance.hpp"
+#include "fathom/measurements/shared_errors.hpp"
 #include "fathom/vision/camera.hpp"
 
 namespace fathom {
@@ -29,6 +31,9 @@ struct FrameInfo {
   bool is_hole = false;
   /// Of the altitude, as its sensor states it; 0: it states none.
   double altitude_sigma_m = 0.0;
+  /// Of a motion that is a registration: what it shares with others of the picture of the frame
+  /// before and of this one, a part of its covariance. Null: nothing.
+  std::shared_ptr<const SharedErrors> motion_errors = nullptr;
 
   Stance stance() const { return {altitude_m, tilt}; }
 };

@@ -45,7 +45,8 @@ class VisualOdometry : public FrameSource {
 
  private:
   MeasuredFrame measured(std::size_t frame) const;
-  UncertainPose next_motion() const;
+  /// Of the frame after those in infos_.
+  void measure_motion(FrameInfo& frame) const;
 
   const FrameSource& source_;
   PairRegistrar& registrar_;
