@@ -11,7 +11,7 @@ PairRegistration EstimatedSigmas::told(PairRegistration found, const MeasuredFra
   };
   tell(from, found.shared.from.sigma);
   tell(to, found.shared.to.sigma);
-  if (altitude_m) found.shared.own = found.own_beside_altitude;
+  found.shared.own = found.own.beside(found.shared.from, found.shared.to);
   if (own_factor) found.shared.own *= *own_factor * *own_factor;
   found.covariance = found.shared.total();
   return found;

@@ -103,7 +103,7 @@ PairRegistration PairRegistrar::register_anew(const MeasuredFrame& from, const M
       [&] { return register_pair(features_from, features_to, options_, seed_of(from, to)); });
   PairRegistration value{found.found,      found.motion,
                          found.covariance, static_cast<int>(found.inliers.size()),
-                         found.shared,     found.own_beside_altitude};
+                         found.shared,     found.own};
   if (cache_ != nullptr) cache_->put(cache_key(from, to), value);
   return value;
 }

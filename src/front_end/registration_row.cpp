@@ -19,7 +19,9 @@ void for_each_number(Value& value, const Use& use) {
   use(value.motion.theta);
   matrix(value.covariance);
   matrix(value.shared.own);
-  matrix(value.own_beside_altitude);
+  for (auto& own : value.own.by_told) matrix(own);
+  matrix(value.own.bend_from);
+  matrix(value.own.bend_to);
   for (auto* picture : {&value.shared.from, &value.shared.to}) {
     matrix(picture->G);
     for (int i = 0; i < 3; ++i) use(picture->sigma[i]);

@@ -7,9 +7,9 @@
 
 namespace fathom {
 
-/// x, y, θ, the covariance, then the parts of it: own, own beside altitude, G and σ of `from`, of
+/// x, y, θ, the covariance, then the parts of it: own, own by what is told and bends, G and σ of `from`, of
 /// `to`; matrices row by row (m, rad), as they lie in a row of the file.
-using RegistrationNumbers = std::array<double, 54>;
+using RegistrationNumbers = std::array<double, 99>;
 
 RegistrationNumbers numbers_of(const PairRegistration& value);
 

@@ -129,19 +129,26 @@ Recording record_with(const EstimatedSigmas& sigmas, Survey& survey,
   return recording;
 }
 
-// With standard deviations that are to be estimated: once as they are assumed, and again as they
-// are found. Pairs are registered once.
+// Once with standard deviations as assumed, again as they are found. Pairs are registered once.
 Recording record_survey(Survey& survey, const Configuration& configuration,
                         const CandidateReference& reference, const EstimatorRegistry& registry,
                         const FrontEndProgressCallback& progress) {
   Recording recording = record_with({}, survey, configuration, reference, registry, progress);
-  const CovarianceOptions& covariance = configuration.front_end.registration.covariance;
-  std::vector<FoundSigma> found = find_sigmas(recording, survey.measured(), covariance, registry);
-  const EstimatedSigmas sigmas = sigmas_of(found);
-  if (!sigmas.is_empty()) {
+  const CovarianceOptions& stated = configuration.front_end.registration.covariance;
+  const auto find = [&] { return find_sigmas(recording, survey.measured(), stated, registry); };
+  const auto record_again = [&](const EstimatedSigmas& sigmas) {
     survey.tell(sigmas);
     recording = record_with(sigmas, survey, configuration, reference, registry, {});
+  };
+  std::vector<FoundSigma> found = find();
+  EstimatedSigmas sigmas = sigmas_of(found);
+  // What tilts do to second order is among a registration's own errors, so far by assumed ones.
+  if (sigmas.own_factor > 1.0 && sigmas.tilt_rad > stated.tilt()) {
+    sigmas.own_factor.reset();
+    record_again(sigmas);
+    sigmas = sigmas_of(found = find());
   }
+  if (!sigmas.is_empty()) record_again(sigmas);
   recording.found_sigmas = std::move(found);
   return recording;
 }

@@ -8,26 +8,10 @@
 
 #include <Eigen/Dense>
 
+#include "point_shifts.hpp"
+
 namespace fathom {
 namespace {
-
-// What the errors of a picture do to a point of the floor seen at p (body frame): the derivative by
-// altitude, roll and pitch. A turn by dφ about an axis w, through the camera, moves the ray (r,
-// −1), r = (p − camera) / altitude, by dφ w × (r, −1); pitch turns about y, roll about the x axis
-// that pitch has turned, w = (cos pitch, 0, −sin pitch) (docs/conventions.md). Of a level camera
-// the ray meets the floor at camera + altitude · (r_x − pitch, r_y + roll) · (1 + roll r_y − pitch
-// r_x), to first order.
-Eigen::Matrix<double, 2, 3> derivative(const Viewpoint& view, const Eigen::Vector2d& p) {
-  const Eigen::Vector2d r = (p - view.camera_m) / view.altitude_m;
-  Eigen::Matrix<double, 2, 3> J;
-  J.col(0) = r;
-  const double c = std::cos(view.pitch_rad);
-  const double s = std::sin(view.pitch_rad);
-  J.col(1) = view.altitude_m * Eigen::Vector2d(c * (r.x() * r.y()) + s * r.y(),
-                                               c * (1.0 + r.y() * r.y()) - s * r.x());
-  J.col(2) = -view.altitude_m * Eigen::Vector2d(1.0 + r.x() * r.x(), r.x() * r.y());
-  return J;
-}
 
 constexpr double kLeastPivot = 1e-9;  // of the largest
 
@@ -124,10 +108,12 @@ Eigen::MatrixXd LinearFit::whitened_columns(const Viewpoint& from, const Viewpoi
   for (int error = 0; error < 3; ++error) {
     // At z ⊕ q, not at p: by their difference the altitudes would explain any error of a match.
     if (is_told(from, error)) {
-      add([&](std::size_t j) { return derivative(from, transform(z_, q_[j])).col(error).eval(); });
+      add([&](std::size_t j) {
+        return shift_by_errors(from, transform(z_, q_[j])).col(error).eval();
+      });
     }
     if (is_told(to, error)) {
-      add([&](std::size_t j) { return (R * derivative(to, q_[j]).col(error)).eval(); });
+      add([&](std::size_t j) { return (R * shift_by_errors(to, q_[j]).col(error)).eval(); });
     }
   }
   return B.leftCols(count);
@@ -164,9 +150,9 @@ SharedErrors LinearFit::altitude_and_tilt(const Viewpoint& from, const Viewpoint
     // Points without a picture have no altitude, and no errors of one.
     if (!(from.altitude_m > 0.0) || !(to.altitude_m > 0.0)) break;
     shared.from.G.col(error) =
-        response([&](std::size_t j) { return derivative(from, p_[j]).col(error).eval(); });
-    shared.to.G.col(error) =
-        -response([&](std::size_t j) { return (R * derivative(to, q_[j]).col(error)).eval(); });
+        response([&](std::size_t j) { return shift_by_errors(from, p_[j]).col(error).eval(); });
+    shared.to.G.col(error) = -response(
+        [&](std::size_t j) { return (R * shift_by_errors(to, q_[j]).col(error)).eval(); });
   }
   return shared;
 }

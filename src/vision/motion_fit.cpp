@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
+#include "motion_bends.hpp"
 #include "motion_covariance.hpp"
 #include "rigid_motion.hpp"
 
@@ -47,6 +49,44 @@ std::vector<int> within_gate(const Pose& z, const MatchSet& matches, double max_
     if (squares[k] <= gate * variance) kept.push_back(near[k]);
   }
   return kept;
+}
+
+// The registration's own, by what is fitted beside it.
+Eigen::Matrix3d own_part(LinearFit linear, const MotionFit& fit, const Viewpoint& from,
+                         const Viewpoint& to, const RegistrationOptions& options) {
+  const CovarianceOptions& told = options.covariance;
+  const CovarianceTuning& tuning = options.tuning.covariance;
+  const double left = linear.take_out_altitude_and_tilt(from, to, told);
+  const double cell_m = tuning.cluster_px * to.metres_per_pixel;
+  Eigen::Matrix3d own = linear.covariance() * linear.clustering(cell_m, tuning.least_clusters) +
+                        shared_error(left * fit.rms_m, tuning.shared_error);
+  own.diagonal() +=
+      Eigen::Vector3d(*told.floor_sigma_m, *told.floor_sigma_m, told.floor_sigma_rad).cwiseAbs2();
+  return own;
+}
+
+OwnCovariances own_covariances(const Points& points, const MotionFit& fit, const Viewpoint& from,
+                               const Viewpoint& to, const RegistrationOptions& options) {
+  const LinearFit linear(fit.motion, points.p, points.q, points.weights);
+  OwnCovariances own;
+  for (std::size_t told = 0; told < own.by_told.size(); ++told) {
+    RegistrationOptions as_told = options;
+    std::optional<double>& altitude_m = as_told.covariance.altitude_sigma_m;
+    std::optional<double>& tilt_rad = as_told.covariance.tilt_sigma_rad;
+    if (altitude_m && (told & 1U) != 0) {
+      own.by_told[told] = own.by_told[told - 1];
+    } else if (tilt_rad && (told & 2U) != 0) {
+      own.by_told[told] = own.by_told[told - 2];
+    } else {
+      // Of any size: what is told is fitted without a prior.
+      if (!altitude_m) altitude_m = (told & 1U) != 0 ? 1.0 : 0.0;
+      if (!tilt_rad) tilt_rad = (told & 2U) != 0 ? 1.0 : 0.0;
+      own.by_told[told] = own_part(linear, fit, from, to, as_told);
+    }
+  }
+  std::tie(own.bend_from, own.bend_to) =
+      motion_bends(fit.motion, points.q, points.weights, from, to);
+  return own;
 }
 
 }  // namespace
@@ -103,44 +143,17 @@ ScaleCheck check_scale(const MotionFit& fit, const MatchSet& matches) {
   return {along / q_spread, std::sqrt(variance / q_spread)};
 }
 
-FitCovariance fit_covariance(const MotionFit& fit, const MatchSet& matches,
-                             const FloorFeatures& from, const FloorFeatures& to,
-                             const RegistrationOptions& options) {
+void set_covariance(Registration& result, const MotionFit& fit, const MatchSet& matches,
+                    const FloorFeatures& from, const FloorFeatures& to,
+                    const RegistrationOptions& options) {
   const Points points = points_of(matches, fit.inliers);
-  const CovarianceTuning& tuning = options.tuning.covariance;
+  const LinearFit linear(fit.motion, points.p, points.q, points.weights);
   const CovarianceOptions& told = options.covariance;
-  LinearFit linear(fit.motion, points.p, points.q, points.weights);
-  const double cell_m = tuning.cluster_px * to.viewpoint.metres_per_pixel;
-  const Eigen::Vector3d floor =
-      Eigen::Vector3d(*told.floor_sigma_m, *told.floor_sigma_m, told.floor_sigma_rad).cwiseAbs2();
-  double left = 1.0;
-  Eigen::Matrix3d fitted;
-  Eigen::Matrix3d alike;
-  const auto own = [&](const CovarianceOptions& apart) {
-    left *= linear.take_out_altitude_and_tilt(from.viewpoint, to.viewpoint, apart);
-    fitted = linear.covariance() * linear.clustering(cell_m, tuning.least_clusters);
-    alike = shared_error(left * fit.rms_m, tuning.shared_error);
-    Eigen::Matrix3d sum = fitted + alike;
-    sum.diagonal() += floor;
-    return (told.own() * told.own() * sum).eval();
-  };
-  FitCovariance covariance;
-  covariance.parts = linear.altitude_and_tilt(from.viewpoint, to.viewpoint, told);
-  covariance.parts.own = own(told);
-  if (told.own() != 1.0) {
-    covariance.total = covariance.parts.total();
-  } else {
-    covariance.total = fitted;
-    covariance.total += total_of(covariance.parts.from, covariance.parts.to);
-    covariance.total += alike;
-    covariance.total.diagonal() += floor;
-  }
-  // What is to be found is not exact; until then what it does to the matches is their own.
-  CovarianceOptions altitude_told = told;
-  if (!told.altitude_sigma_m) altitude_told.altitude_sigma_m = 1.0;
-  covariance.own_beside_altitude =
-      told.altitude_sigma_m ? covariance.parts.own : own(altitude_told);
-  return covariance;
+  result.own = own_covariances(points, fit, from.viewpoint, to.viewpoint, options);
+  result.own.scale(told.own() * told.own());
+  result.shared = linear.altitude_and_tilt(from.viewpoint, to.viewpoint, told);
+  result.shared.own = result.own.beside(result.shared.from, result.shared.to);
+  result.covariance = result.shared.own + total_of(result.shared.from, result.shared.to);
 }
 
 }  // namespace fathom

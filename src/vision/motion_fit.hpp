@@ -24,23 +24,17 @@ struct MotionFit {
 MotionFit fit_motion(const Pose& start, const MatchSet& matches,
                      const RegistrationOptions& options);
 
-/// The covariance of a fit, of (x, y, θ), in axes of `from`; and the same apart.
-struct FitCovariance {
-  Eigen::Matrix3d total = Eigen::Matrix3d::Zero();
-  SharedErrors parts;
-  Eigen::Matrix3d own_beside_altitude = Eigen::Matrix3d::Zero();  ///< as of Registration
-};
-
-/// To first order, the sum of
+/// The covariance of a fit, in total and apart: to first order, the sum of
 /// - what the errors show less what those of altitudes and tilts that are told explain, σ² (Σ w
-///   JᵀJ)⁻¹ with σ² = Σ w ‖r‖² / (2n − the unknowns), and more where errors of neighbours are alike: times the mean ratio of the cluster-robust covariance (Liang and Zeger
-///   1986; clusters are squares of `cluster_px`) to it, if above 1;
+///   JᵀJ)⁻¹ with σ² = Σ w ‖r‖² / (2n − the unknowns), and more where errors of neighbours are
+///   alike: times the mean ratio of the cluster-robust covariance (Liang and Zeger 1986; clusters
+///   are squares of `cluster_px`) to it, if above 1;
 /// - a share of the error of one match, which all of a picture have in common;
 /// - that of altitudes and tilts, and the floor, as of the options.
 /// All but altitudes and tilts is the registration's own.
-FitCovariance fit_covariance(const MotionFit& fit, const MatchSet& matches,
-                             const FloorFeatures& from, const FloorFeatures& to,
-                             const RegistrationOptions& options);
+void set_covariance(Registration& result, const MotionFit& fit, const MatchSet& matches,
+                    const FloorFeatures& from, const FloorFeatures& to,
+                    const RegistrationOptions& options);
 
 /// Distances in `from` over those in `to` by the inliers of a fit, and its standard deviation.
 struct ScaleCheck {

@@ -82,10 +82,7 @@ Registration accepted(Registration result, const Pair& pair, const MotionFit& fi
   const ScaleCheck check = check_scale(fit, matches);
   result.evidence.scale = check.scale;
   result.evidence.scale_sigma = check.sigma;
-  const FitCovariance covariance = fit_covariance(fit, matches, pair.from, pair.to, pair.options);
-  result.covariance = covariance.total;
-  result.shared = covariance.parts;
-  result.own_beside_altitude = covariance.own_beside_altitude;
+  set_covariance(result, fit, matches, pair.from, pair.to, pair.options);
   return result;
 }
 
@@ -103,8 +100,8 @@ Registration by_inliers(const Pair& pair, const NearestRows& neighbours) {
   if (!consensus.motion) {
     return refused(std::move(result), why_not(consensus, putative.size(), pair.options.ransac));
   }
-  const MotionFit fit{*consensus.motion, std::move(consensus.inliers), consensus.rms_m};
-  return accepted(std::move(result), pair, fit, putative);
+  return accepted(std::move(result), pair,
+                  {*consensus.motion, std::move(consensus.inliers), consensus.rms_m}, putative);
 }
 
 // The strongest features alone; a picture has them in this order.

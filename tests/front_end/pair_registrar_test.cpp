@@ -33,9 +33,7 @@ PairRegistration registered_plainly(const FloorSurvey& survey, const MeasuredFra
   };
   const Registration r =
       register_pair(seen(from), seen(to), {}, pair_seed(kSeed, from.frame, to.frame));
-  return {r.found,      r.motion,
-          r.covariance, static_cast<int>(r.inliers.size()),
-          r.shared,     r.own_beside_altitude};
+  return {r.found, r.motion, r.covariance, static_cast<int>(r.inliers.size()), r.shared, r.own};
 }
 
 TEST(PairRegistrar, GivesWhatPlainRegistrationGives) {

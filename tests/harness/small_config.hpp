@@ -30,4 +30,9 @@ inline constexpr const char* kStatedSigmas = R"(
 front_end.covariance: {altitude_sigma_m: 0, tilt_sigma_rad: 0.005, own_factor: 1}
 )";
 
+/// Likewise, and pictures have no errors in common.
+inline constexpr const char* kNothingShared = R"(
+front_end.covariance: {altitude_sigma_m: 0, tilt_sigma_rad: 0, own_factor: 1}
+)";
+
 }  // namespace fathom::test

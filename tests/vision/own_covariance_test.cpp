@@ -5,6 +5,7 @@
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
+#include "src/vision/motion_bends.hpp"
 #include "src/vision/motion_covariance.hpp"
 #include "src/vision/rigid_motion.hpp"
 #include "vision/fitted_points.hpp"
@@ -159,6 +160,45 @@ TEST(OwnCovariance, OfPicturesFromOnePlace) {
   const double ratio = fit.take_out_altitude_and_tilt(seen.from, seen.to, kAll);
   EXPECT_TRUE(fit.covariance().allFinite());
   EXPECT_NEAR(ratio * ratio * squares / 117.0, kSigmaM * kSigmaM, 0.5 * kSigmaM * kSigmaM);
+}
+
+// ½ ∂²z/∂n² as second differences of whole fits to moved points, then the second moment of it as a
+// sum over the products of normal variables.
+Eigen::Matrix3d refitted_bend(const Overlap& seen, bool of_from) {
+  constexpr double kStep = 1e-3;
+  const auto fit = [&](double roll, double pitch) {
+    const CameraError error{0.0, kStep * roll, kStep * pitch};
+    return find_motion(of_from ? all_moved(seen.p, seen.from, error) : seen.p,
+                       of_from ? seen.q : all_moved(seen.q, seen.to, error), seen.weights)
+        .value()
+        .vector();
+  };
+  const Eigen::Vector3d at = fit(0.0, 0.0);
+  const Eigen::Vector3d rr = (fit(1.0, 0.0) + fit(-1.0, 0.0) - 2.0 * at) / (kStep * kStep);
+  const Eigen::Vector3d pp = (fit(0.0, 1.0) + fit(0.0, -1.0) - 2.0 * at) / (kStep * kStep);
+  const Eigen::Vector3d rp =
+      (fit(1.0, 1.0) + fit(-1.0, -1.0) - fit(1.0, -1.0) - fit(-1.0, 1.0)) / (4.0 * kStep * kStep);
+  // E r⁴ = 3, E r² p² = 1.
+  return 0.25 * (3.0 * (rr * rr.transpose() + pp * pp.transpose()) + rr * pp.transpose() +
+                 pp * rr.transpose()) +
+         rp * rp.transpose();
+}
+
+TEST(OwnCovariance, BendsEqualSecondDifferencesOfRefits) {
+  for (const double pitch_rad : {0.0, 0.3}) {
+    Overlap seen;
+    seen.from.pitch_rad = pitch_rad;
+    seen.to.pitch_rad = -pitch_rad;
+    const auto [from, to] = motion_bends(seen.motion, seen.q, seen.weights, seen.from, seen.to);
+    const Eigen::Matrix3d of_from = refitted_bend(seen, true);
+    const Eigen::Matrix3d of_to = refitted_bend(seen, false);
+    EXPECT_LT((from - of_from).norm(), 1e-4 * of_from.norm()) << from << "\n\n" << of_from;
+    EXPECT_LT((to - of_to).norm(), 1e-4 * of_to.norm()) << to << "\n\n" << of_to;
+  }
+  const Overlap seen;
+  const auto [from, to] = motion_bends(seen.motion, seen.q, seen.weights, {}, seen.to);
+  EXPECT_EQ(from, Eigen::Matrix3d::Zero());
+  EXPECT_EQ(to, Eigen::Matrix3d::Zero());
 }
 
 TEST(OwnCovariance, OfExactPointsIsZero) {

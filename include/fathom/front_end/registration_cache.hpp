@@ -8,6 +8,7 @@
 
 #include "fathom/geometry/pose.hpp"
 #include "fathom/measurements/shared_errors.hpp"
+#include "fathom/vision/own_covariances.hpp"
 
 namespace fathom {
 
@@ -17,8 +18,8 @@ struct PairRegistration {
   Pose motion;                                           ///< as of Registration
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< as of Registration
   int inliers = 0;
-  SharedErrors shared = {};                                       ///< as of Registration
-  Eigen::Matrix3d own_beside_altitude = Eigen::Matrix3d::Zero();  ///< as of Registration
+  SharedErrors shared = {};  ///< as of Registration
+  OwnCovariances own = {};   ///< as of Registration
 
   bool operator==(const PairRegistration&) const = default;
 };

@@ -12,6 +12,7 @@
 #include "fathom/measurements/shared_errors.hpp"
 #include "fathom/vision/features.hpp"
 #include "fathom/vision/matching.hpp"
+#include "fathom/vision/own_covariances.hpp"
 #include "fathom/vision/ransac.hpp"
 #include "fathom/vision/registration_tuning.hpp"
 
@@ -97,8 +98,7 @@ struct Registration {
   /// The same apart: what its pictures share in all their registrations, n = (altitude, roll,
   /// pitch) of each, and what is its own.
   SharedErrors shared;
-  /// shared.own for where errors of altitude are told as well: of a survey whose loops find them.
-  Eigen::Matrix3d own_beside_altitude = Eigen::Matrix3d::Zero();
+  OwnCovariances own;           ///< shared.own, and what it is where loops find other σ
   std::vector<Match> putative;  ///< that passed the ratio test and are mutual, one per place
   std::vector<Match> inliers;   ///< those that agree with the motion; not found: with the best one
   double rms_m = 0.0;           ///< of the inliers' errors
