@@ -7,8 +7,8 @@
 
 namespace fathom {
 
-/// x, y, θ, the covariance, then the parts of it: own, own by what is told and bends, G and σ of `from`, of
-/// `to`; matrices row by row (m, rad), as they lie in a row of the file.
+/// x, y, θ, the covariance, then the parts of it: own, own by what is told and bends, G and σ of
+/// `from`, of `to`; matrices row by row (m, rad), as they lie in a row of the file.
 using RegistrationNumbers = std::array<double, 99>;
 
 RegistrationNumbers numbers_of(const PairRegistration& value);
