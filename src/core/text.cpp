@@ -84,13 +84,39 @@ std::optional<std::int64_t> parse_integer(std::string_view text) {
   return parse_whole<std::int64_t>(text);
 }
 
+namespace {
+
+// What is not seen, or is taken for a hyphen or a blank: shown by its code point.
+struct Unseen {
+  std::string_view bytes;
+  std::string_view name;
+};
+constexpr Unseen kUnseen[] = {
+    {"\xC2\xA0", "<U+00A0>"},     {"\xC2\xAD", "<U+00AD>"},     {"\xE2\x80\x8B", "<U+200B>"},
+    {"\xE2\x80\x8C", "<U+200C>"}, {"\xE2\x80\x8D", "<U+200D>"}, {"\xE2\x80\x8E", "<U+200E>"},
+    {"\xE2\x80\x8F", "<U+200F>"}, {"\xE2\x80\x90", "<U+2010>"}, {"\xE2\x80\x91", "<U+2011>"},
+    {"\xE2\x80\x92", "<U+2012>"}, {"\xE2\x80\x93", "<U+2013>"}, {"\xE2\x80\xAF", "<U+202F>"},
+    {"\xE2\x81\xA0", "<U+2060>"}, {"\xE2\x88\x92", "<U+2212>"}, {"\xEF\xBB\xBF", "<U+FEFF>"}};
+
+}  // namespace
+
 std::string in_quotes(std::string_view text) {
   std::size_t length = std::min<std::size_t>(text.size(), 60);
   // Never inside a UTF-8 character.
   while (length > 0 && length < text.size() && (text[length] & 0xC0) == 0x80) --length;
-  std::string shown(text.substr(0, length));
-  for (char& letter : shown) {
-    if (static_cast<unsigned char>(letter) < 0x20 || letter == 0x7f) letter = '?';
+  std::string shown;
+  for (std::size_t i = 0; i < length;) {
+    const Unseen* unseen = nullptr;
+    for (const Unseen& one : kUnseen) {
+      if (text.substr(i).starts_with(one.bytes)) unseen = &one;
+    }
+    if (unseen != nullptr) {
+      shown += unseen->name;
+      i += unseen->bytes.size();
+      continue;
+    }
+    const char letter = text[i++];
+    shown += static_cast<unsigned char>(letter) < 0x20 || letter == 0x7f ? '?' : letter;
   }
   return "'" + shown + (text.size() > length ? "…'" : "'");
 }

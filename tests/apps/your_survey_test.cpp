@@ -173,10 +173,10 @@ TEST_F(YourSurvey, OnTheKiteTheDefaultsClose220Loops) {
       fathom_done({"run", data_path("copr").string(), "--out", "out", "--no-mosaic"});
   // The reference knows no tilt, so what loops tell of it is no error of theirs against it.
   EXPECT_LE(number("out", "mean_position_error_m"), 0.35);
-  EXPECT_LE(number("out", "anees"), 1.5);
+  EXPECT_LE(number("out", "anees"), 1.2);
   EXPECT_GE(number("out", "loop_closures"), 220);
   EXPECT_THAT(ended.out, ContainsRegex("roll and pitch: [34][0-9.]* mrad \\["));
-  EXPECT_THAT(ended.out, ContainsRegex("own errors of registrations: 1[0-9.]* times"));
+  EXPECT_THAT(ended.out, ContainsRegex("own errors of registrations: [34][0-9.]* times"));
   const MeasurementLog log = read_g2o(path("out/measurements.g2o"));
   std::map<std::int64_t, Pose> truth;
   for (const StampedPose& pose : tum("out/ground_truth.tum")) truth[pose.time_ns] = pose.pose;

@@ -133,7 +133,7 @@ INSTANTIATE_TEST_SUITE_P(
                   ":1: sigma 5 is no standard deviation of a heading; expected radians > 0, at "
                   "most pi"},
         BadSensor{"NoSigma", kCompass, "0,1\n",
-                  ":1: expected 3 columns timestamp, heading, sigma, got 2"},
+                  ":1: expected 3 columns timestamp, heading, sigma, got 2: '0,1'"},
         BadSensor{"Variances", kCompass, "#timestamp [ns],heading [rad],variance [rad^2]\n0,1,1\n",
                   ":1: the third column is a variance; expected timestamp, heading [rad], sigma "
                   "[rad]: import the bag again, or write square roots"},

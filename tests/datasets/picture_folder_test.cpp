@@ -2,6 +2,8 @@
 
 #include <cmath>
 #include <fstream>
+#include <string>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,6 +12,7 @@
 
 #include "fathom/datasets/picture_file.hpp"
 #include "support/input_error.hpp"
+#include "support/requirements.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace fathom {
@@ -17,6 +20,7 @@ namespace {
 
 using test::input_error_of;
 using ::testing::AllOf;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 class Pictures : public ::testing::Test {
@@ -32,7 +36,7 @@ class Pictures : public ::testing::Test {
   }
 
   void write(const std::string& name, const std::string& text) const {
-    std::ofstream(root / name) << text;
+    std::ofstream(root / name, std::ios::binary) << text;
   }
 
   std::string error() const {
@@ -122,8 +126,53 @@ TEST_F(Pictures, TablesThatDoNotFitAreRefusedByTheirLine) {
   EXPECT_THAT(refused("b.png,2\na.png,2\n"), AllOf(HasSubstr("t.csv:1"), HasSubstr("'a.png'")));
   EXPECT_THAT(refused("a.png,2\nb.png,2\nc.png,2\n"), HasSubstr("t.csv:3: there are only 2"));
   EXPECT_THAT(refused("a.png,2\nb.png,-2\n"), HasSubstr("t.csv:2: the altitude is not above"));
-  EXPECT_THAT(refused("a.png,2\nb.png,nan\n"), HasSubstr("t.csv:2: 'nan' is not a finite"));
-  EXPECT_THAT(refused("a.png,2\nb.png\n"), HasSubstr("t.csv:2: expected the columns"));
+  EXPECT_THAT(refused("a.png,2\nb.png,nan\n"),
+              HasSubstr("t.csv:2: 'nan' in column 2 of filename, altitude is not a finite"));
+  EXPECT_THAT(refused("a.png,2\nb.png\n"), HasSubstr("t.csv:2: expected 2 columns filename"));
+}
+
+TEST_F(Pictures, HiddenFilesAreLeftOutAndCounted) {
+  for (const char* name : {"a.png", "b.png"}) add(name);
+  EXPECT_TRUE(PictureFolder(options).remarks().empty());
+  write("._b.png", std::string("\0\5\26\7", 4));
+  write("._a.png", std::string("\0\5\26\7", 4));
+  const PictureFolder folder(options);
+  EXPECT_EQ(folder.size(), 2u);
+  EXPECT_THAT(folder.remarks(),
+              ElementsAre(AllOf(HasSubstr(": 2 hidden files left out, such as ._a.png"))));
+  const test::TemporaryFolder hidden_alone;
+  std::ofstream(hidden_alone / ".a.png") << "x";
+  EXPECT_FALSE(is_plain_picture_folder(hidden_alone.path()));
+}
+
+// A JPEG with DateTimeOriginal, as a camera writes it: APP1 with one entry, which points to the
+// Exif directory with one entry.
+std::string jpeg_at(const std::string& time) {
+  std::vector<unsigned char> bytes;
+  cv::imencode(".jpg", cv::Mat(6, 8, CV_8UC1, cv::Scalar(90)), bytes);
+  const std::string jpeg(bytes.begin(), bytes.end());
+  using namespace std::string_literals;
+  const std::string tiff = "II*\0\x08\0\0\0"s +
+                           "\x01\0\x69\x87\x04\0\x01\0\0\0\x1A\0\0\0\0\0\0\0"s +
+                           "\x01\0\x03\x90\x02\0\x14\0\0\0\x2C\0\0\0\0\0\0\0"s + time + "\0"s;
+  const std::string body = "Exif\0\0"s + tiff;
+  const auto length = static_cast<char>(body.size() + 2);
+  return jpeg.substr(0, 2) + "\xFF\xE1\0"s + length + body + jpeg.substr(2);
+}
+
+TEST_F(Pictures, HaveTheTimesOfTheirExifIfTheseRise) {
+  FATHOM_REQUIRE_FEATURE("exif");
+  write("a.jpg", jpeg_at("2024:05:17 10:31:02"));
+  write("b.jpg", jpeg_at("2024:05:17 10:31:05"));
+  write("c.jpg", jpeg_at("2024:05:17 10:32:05"));
+  const PictureFolder folder(options);
+  EXPECT_EQ(folder.info(1).time_ns - folder.info(0).time_ns, 3'000'000'000);
+  EXPECT_EQ(folder.info(2).time_ns - folder.info(1).time_ns, 60'000'000'000);
+  EXPECT_TRUE(folder.remarks().empty());
+  write("c.jpg", jpeg_at("2024:05:17 10:31:04"));
+  const PictureFolder rolled(options);
+  EXPECT_EQ(rolled.info(2).time_ns, 2'000'000'000);
+  EXPECT_THAT(rolled.remarks(), ElementsAre(HasSubstr("c.jpg: by its EXIF before the picture")));
 }
 
 TEST_F(Pictures, OfAnotherSizeAreRefusedByName) {

@@ -35,6 +35,7 @@ struct PictureFolderOptions {
 /// The pictures of a folder in the order of their names, in which runs of digits count as numbers:
 /// JPEG, PNG, TIFF, BMP, PGM; grey or colour, 8 or 16 bit (read_grey_picture). Their times are
 /// those of EXIF (DateTimeOriginal) where all have them and they rise, else `interval_s` apart.
+/// Hidden files, whose names begin with a point, are none of them.
 ///
 /// `altitudes` and `odometry` have a row for each picture, by its file name, in the same order.
 /// Odometry is as in `odometry0` of an image folder, with the name for the time stamp: filename,
@@ -55,6 +56,8 @@ class PictureFolder : public FrameSource {
   bool has_ground_truth() const override { return false; }
   /// The pictures and the CSV files.
   std::vector<std::filesystem::path> files() const;
+  /// What was left out, for the user.
+  const std::vector<std::string>& remarks() const { return remarks_; }
 
  private:
   struct PictureId {
@@ -72,6 +75,7 @@ class PictureFolder : public FrameSource {
   std::vector<std::filesystem::path> tables_;
   std::vector<FrameInfo> infos_;
   Camera camera_;
+  std::vector<std::string> remarks_;
   mutable std::vector<PictureId> ids_;
   bool has_odometry_ = false;
 };

@@ -34,11 +34,7 @@ Pose planar_pose(const SensorCsv& csv, const SensorRow& row) {
 Eigen::Matrix3d step_covariance(const SensorCsv& csv, const SensorRow& row) {
   Eigen::Matrix3d C =
       Eigen::Vector3d(csv.real(row, 4), csv.real(row, 5), csv.real(row, 6)).asDiagonal();
-  if (row.fields.size() != 7 && row.fields.size() != 10) {
-    csv.refuse(row, "expected 7 columns, or 10 with the covariances xy, xt, yt, got " +
-                        std::to_string(row.fields.size()));
-  }
-  if (row.fields.size() == 10) {
+  if (row.fields.size() >= 10) {
     C(0, 1) = C(1, 0) = csv.real(row, 7);
     C(0, 2) = C(2, 0) = csv.real(row, 8);
     C(1, 2) = C(2, 1) = csv.real(row, 9);
@@ -84,7 +80,8 @@ std::optional<double> AltitudeSeries::at(std::int64_t time_ns, std::int64_t max_
 }
 
 OdometrySeries::OdometrySeries(const std::filesystem::path& path) {
-  const SensorCsv csv(path, "timestamp, p_x, p_y, theta, step_var_x, step_var_y, step_var_theta");
+  const SensorCsv csv(path, "timestamp, p_x, p_y, theta, step_var_x, step_var_y, step_var_theta",
+                      "step_cov_xy, step_cov_xt, step_cov_yt");
   Pose last;
   for (const SensorRow& row : csv.rows()) {
     const Pose pose{csv.real(row, 1), csv.real(row, 2), wrap_angle(csv.real(row, 3))};

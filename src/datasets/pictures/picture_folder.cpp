@@ -89,8 +89,19 @@ void PictureFolder::find_pictures() {
   if (folder_.empty()) throw InputError("dataset.path: say where the folder of the pictures is");
   std::error_code error;
   if (!fs::is_directory(folder_, error)) throw InputError(folder_.string(), "is no folder");
+  std::vector<std::string> hidden;
   for (const auto& entry : fs::directory_iterator(folder_)) {
-    if (entry.is_regular_file() && is_picture(entry.path())) pictures_.push_back(entry.path());
+    if (!entry.is_regular_file() || !is_picture(entry.path())) continue;
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with('.')) {
+      hidden.push_back(name);
+    } else {
+      pictures_.push_back(entry.path());
+    }
+  }
+  if (!hidden.empty()) {
+    remarks_.push_back(folder_.string() + ": " + counted(hidden.size(), "hidden file") +
+                       " left out, such as " + std::ranges::min(hidden));
   }
   if (pictures_.empty()) {
     throw InputError(folder_.string(),
@@ -109,7 +120,14 @@ void PictureFolder::set_times(double interval_s) {
   std::vector<std::int64_t> times_ns;
   for (const fs::path& picture : pictures_) {
     const auto time_ns = read_exif(picture).time_ns;
-    if (!time_ns || (!times_ns.empty() && *time_ns <= times_ns.back())) return;
+    if (!time_ns) return;
+    if (!times_ns.empty() && *time_ns <= times_ns.back()) {
+      remarks_.push_back(picture.string() + ": by its EXIF " +
+                         (*time_ns == times_ns.back() ? "at the time of" : "before") +
+                         " the picture before it by name; times of EXIF are not used, pictures are "
+                         "taken to be dataset.interval_s apart, in the order of their names");
+      return;
+    }
     times_ns.push_back(*time_ns);
   }
   for (std::size_t i = 0; i < infos_.size(); ++i) infos_[i].time_ns = times_ns[i];
@@ -141,7 +159,7 @@ void PictureFolder::set_altitudes(const PictureFolderOptions& options) {
 
 void PictureFolder::read_odometry(const fs::path& csv) {
   const PictureTable table(csv, "filename, p_x, p_y, theta, step_var_x, step_var_y, step_var_theta",
-                           pictures_);
+                           pictures_, "step_cov_xy, step_cov_xt, step_cov_yt");
   tables_.push_back(csv);
   Pose last;
   for (std::size_t i = 0; i < infos_.size(); ++i) {
@@ -198,7 +216,8 @@ bool is_plain_picture_folder(const fs::path& path) {
   fs::directory_iterator entry(path, error);
   for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
     std::error_code unreadable;
-    if (entry->is_regular_file(unreadable) && is_picture(entry->path())) return true;
+    const bool hidden = entry->path().filename().string().starts_with('.');
+    if (!hidden && entry->is_regular_file(unreadable) && is_picture(entry->path())) return true;
   }
   return false;
 }

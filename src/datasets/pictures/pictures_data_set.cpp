@@ -43,6 +43,7 @@ class PicturesDataSet : public DataSet {
   }
 
   std::vector<std::filesystem::path> files() const override { return folder_.files(); }
+  std::vector<std::string> remarks() const override { return folder_.remarks(); }
 
  private:
   PictureFolder folder_;

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace fathom {
+
+struct CsvRow {
+  std::size_t line = 0;  ///< in the file, from 1
+  std::vector<std::string> fields;
+};
+
+/// A file of comma-separated values; lines that begin with # are comments. What is no such file is
+/// refused with the line and what it looks like: fields parted otherwise, decimal commas, UTF-16,
+/// lines that end in CR alone.
+class CsvFile {
+ public:
+  /// A row has the columns named, and may have all of `more` or what a comment line before it
+  /// names; names are parted by commas. Throws InputError.
+  CsvFile(std::filesystem::path path, std::string columns, const std::string& more = "");
+
+  const std::vector<CsvRow>& rows() const { return rows_; }
+  const std::filesystem::path& path() const { return path_; }
+
+  /// A field as a finite number. Throws InputError with file and line.
+  double real(const CsvRow& row, std::size_t column) const;
+
+  /// Throws InputError with file and line.
+  [[noreturn]] void refuse(const CsvRow& row, const std::string& what) const;
+
+ private:
+  void require_columns(const CsvRow& row, std::string_view text) const;
+
+  std::filesystem::path path_;
+  std::string columns_;
+  std::size_t least_;
+  std::size_t with_more_;
+  std::size_t named_ = 0;  ///< by the comment line with the most names so far
+  std::vector<CsvRow> rows_;
+};
+
+}  // namespace fathom

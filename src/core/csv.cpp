@@ -1,0 +1,115 @@
+#include "fathom/core/csv.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "fathom/core/files.hpp"
+#include "fathom/core/input_error.hpp"
+#include "fathom/core/text.hpp"
+
+namespace fathom {
+namespace {
+
+void require_text(const std::filesystem::path& path, std::string_view content) {
+  const auto refuse = [&](const std::string& what) { throw InputError(path.string(), what); };
+  if (content.starts_with("\xFF\xFE") || content.starts_with("\xFE\xFF")) {
+    refuse("is UTF-16; expected UTF-8");
+  }
+  if (content.find('\0') != std::string_view::npos) {
+    refuse("has bytes of zero, as UTF-16 and binary files have; expected UTF-8");
+  }
+  const bool has_cr = content.find('\r') != std::string_view::npos;
+  if (has_cr && content.find('\n') == std::string_view::npos &&
+      trim(content).find('\r') != content.npos) {
+    refuse("has lines that end in CR alone; expected LF or CR LF");
+  }
+}
+
+bool is_whole(std::string_view field) {
+  if (field.starts_with('-') || field.starts_with('+')) field.remove_prefix(1);
+  return !field.empty() && field.find_first_not_of("0123456789") == std::string_view::npos;
+}
+
+// Of a row with too many fields: each number split in two.
+bool has_decimal_commas(const CsvRow& row) {
+  return std::all_of(row.fields.begin() + 1, row.fields.end(), is_whole);
+}
+
+// Numbers parted by semicolons, whose decimal commas may give as many fields as expected.
+bool has_semicolons(std::string_view text, std::size_t least) {
+  const auto parts = split(text, ";");
+  return parts.size() >= least && least > 1 &&
+         std::all_of(parts.begin() + 1, parts.end(), [](std::string_view part) {
+           return part.find_first_not_of("0123456789+-.,eE \t") == std::string_view::npos;
+         });
+}
+
+// Of a row with too few: what parts its fields, if it is no comma.
+std::string separator_of(std::string_view text) {
+  if (text.find(';') != std::string_view::npos) return "semicolons";
+  if (text.find('\t') != std::string_view::npos) return "tabs";
+  if (text.find(',') == std::string_view::npos && text.find(' ') != std::string_view::npos) {
+    return "blanks";
+  }
+  return {};
+}
+
+}  // namespace
+
+CsvFile::CsvFile(std::filesystem::path path, std::string columns, const std::string& more)
+    : path_(std::move(path)),
+      columns_(std::move(columns)),
+      least_(split_csv(columns_).size()),
+      with_more_(least_ + (more.empty() ? 0 : split_csv(more).size())) {
+  const std::string content = read_text(path_);
+  require_text(path_, content);
+  std::size_t line = 0;
+  for (std::size_t begin = 0; begin < content.size();) {
+    const std::size_t end = std::min(content.find('\n', begin), content.size());
+    const std::string_view text = trim({content.data() + begin, end - begin});
+    begin = end + 1;
+    ++line;
+    if (text.empty()) continue;
+    const auto fields = split_csv(text);
+    if (text.front() == '#') {
+      named_ = std::max(named_, fields.size());
+      continue;
+    }
+    rows_.push_back({line, {fields.begin(), fields.end()}});
+    require_columns(rows_.back(), text);
+  }
+}
+
+void CsvFile::require_columns(const CsvRow& row, std::string_view text) const {
+  const std::size_t count = row.fields.size();
+  const bool is_as_expected =
+      count == least_ || count == with_more_ || (count > least_ && count == named_);
+  if (is_as_expected && !has_semicolons(text, least_)) return;
+  std::string what = "expected " + counted(least_, "column") + " " + columns_;
+  if (with_more_ > least_) what += ", or " + std::to_string(with_more_);
+  what += ", got " + std::to_string(count);
+  if (count < least_ || has_semicolons(text, least_)) {
+    const std::string separator = separator_of(text);
+    if (!separator.empty()) what += ": parted by " + separator + "? expected commas";
+  } else if (has_decimal_commas(row)) {
+    what += ": decimal commas? expected points";
+  } else {
+    what += "; a first line that begins with # and names all columns says that there are more";
+  }
+  refuse(row, what + ": " + in_quotes(text));
+}
+
+double CsvFile::real(const CsvRow& row, std::size_t column) const {
+  const auto value = parse_real(row.fields[column]);
+  if (!value) {
+    refuse(row, in_quotes(row.fields[column]) + " in column " + std::to_string(column + 1) +
+                    " of " + columns_ + " is not a finite number");
+  }
+  return *value;
+}
+
+void CsvFile::refuse(const CsvRow& row, const std::string& what) const {
+  throw InputError(path_.string(), row.line, what);
+}
+
+}  // namespace fathom

@@ -1,0 +1,91 @@
+#include "fathom/core/csv.hpp"
+
+#include <filesystem>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "fathom/core/files.hpp"
+#include "fathom/core/text.hpp"
+#include "support/input_error.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace fathom {
+namespace {
+
+using test::input_error_of;
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::EndsWith;
+using ::testing::HasSubstr;
+
+class Csv : public testing::Test {
+ protected:
+  CsvFile read(const std::string& text, const std::string& more = "") const {
+    write_file(folder_ / "data.csv", text);
+    return CsvFile(folder_ / "data.csv", "time, altitude", more);
+  }
+  std::string refusal(const std::string& text, const std::string& more = "") const {
+    return input_error_of([&] { read(text, more); });
+  }
+
+ private:
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(Csv, HasItsRowsWithTheirLines) {
+  for (const std::string end : {"\n", "\r\n"}) {
+    const CsvFile file =
+        read("\xEF\xBB\xBF# time, altitude" + end + end + "1, 2.5 " + end + "3,-4" + end);
+    ASSERT_EQ(file.rows().size(), 2u);
+    EXPECT_THAT(file.rows()[0].fields, ElementsAre("1", "2.5"));
+    EXPECT_EQ(file.rows()[0].line, 3u);
+    EXPECT_EQ(file.real(file.rows()[1], 1), -4.0);
+  }
+  EXPECT_TRUE(read("").rows().empty());
+  EXPECT_TRUE(read("# no rows\n").rows().empty());
+}
+
+TEST_F(Csv, MoreColumnsNeedTheirNames) {
+  EXPECT_THAT(refusal("#time,altitude\n0,1.5\n1,2.5,7.25\n"),
+              AllOf(HasSubstr("data.csv:3: expected 2 columns time, altitude, got 3"),
+                    HasSubstr("names all columns"), EndsWith("'1,2.5,7.25'")));
+  EXPECT_EQ(read("#time,altitude,range\n1,2.5,7.25\n").rows()[0].fields.size(), 3u);
+  // Names after a row are none of it.
+  EXPECT_THAT(refusal("1,2.5,7.25\n#time,altitude,range\n"), HasSubstr("data.csv:1"));
+  EXPECT_THAT(refusal("#time,altitude,range\n1,2.5,7.25,8.5\n"), HasSubstr("got 4"));
+  EXPECT_EQ(read("1,2.5,7.25\n", "range").rows()[0].fields.size(), 3u);
+  EXPECT_THAT(refusal("1,2.5,7.25\n", "range, gain"), HasSubstr("altitude, or 4, got 3"));
+}
+
+TEST_F(Csv, SaysWhatItLooksLike) {
+  EXPECT_THAT(refusal("1,1,62\n"), HasSubstr("got 3: decimal commas? expected points: '1,1,62'"));
+  EXPECT_THAT(refusal("1;1,62\n"), HasSubstr("parted by semicolons? expected commas"));
+  EXPECT_THAT(refusal("1;1.62\n"), HasSubstr("got 1: parted by semicolons?"));
+  EXPECT_EQ(read("1;b.png,2\n").rows().size(), 1u);
+  EXPECT_THAT(refusal("1\t1.62\n"), HasSubstr("parted by tabs?"));
+  EXPECT_THAT(refusal("1 1.62\n"), HasSubstr("parted by blanks?"));
+  EXPECT_THAT(refusal("1\n"), EndsWith("got 1: '1'"));
+  EXPECT_THAT(refusal("1,2\r2,3\r"), HasSubstr("lines that end in CR alone"));
+  EXPECT_THAT(refusal(std::string("\xFF\xFE") + std::string("1\0,\0002\0", 6)),
+              HasSubstr("is UTF-16"));
+  EXPECT_THAT(refusal(std::string("1\0,\0002\0", 6)), HasSubstr("bytes of zero"));
+}
+
+TEST_F(Csv, ShowsWhatIsNotSeenByItsCodePoint) {
+  const CsvFile file = read(
+      "1,\xC2\xAD"
+      "2\n2,\xE2\x88\x92"
+      "2\n3,2\xC2\xA0\n");
+  const auto refused = [&](std::size_t row) {
+    return input_error_of([&] { file.real(file.rows()[row], 1); });
+  };
+  EXPECT_THAT(refused(0),
+              HasSubstr("data.csv:1: '<U+00AD>2' in column 2 of time, altitude is not"));
+  EXPECT_THAT(refused(1), HasSubstr("data.csv:2: '<U+2212>2'"));
+  EXPECT_THAT(refused(2), HasSubstr("data.csv:3: '2<U+00A0>'"));
+}
+
+}  // namespace
+}  // namespace fathom
