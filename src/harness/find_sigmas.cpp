@@ -13,7 +13,7 @@ using Part = VarianceComponent::Part;
 
 constexpr double kMostOfAltitude = 0.1;
 constexpr double kMostTiltRad = 0.2;
-constexpr double kMostOwn = 10.0;
+constexpr double kMostOwn = 30.0;
 constexpr double kMostContradicted = 0.1;  // of all loops
 
 std::vector<VarianceComponent> unknown_components(const Recording& recording,

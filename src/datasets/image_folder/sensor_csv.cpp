@@ -7,7 +7,8 @@
 
 namespace fathom {
 
-SensorCsv::SensorCsv(std::filesystem::path path, std::string columns, const std::string& more)
+SensorCsv::SensorCsv(std::filesystem::path path, const std::string& columns,
+                     const std::string& more)
     : file_(std::move(path), columns, more) {
   for (const CsvRow& fields : file_.rows()) {
     const std::string& stamp = fields.fields.front();

@@ -19,7 +19,7 @@ struct SensorRow : CsvRow {
 class SensorCsv {
  public:
   /// As CsvFile. Throws InputError with file and line; also on a file without rows.
-  SensorCsv(std::filesystem::path path, std::string columns, const std::string& more = "");
+  SensorCsv(std::filesystem::path path, const std::string& columns, const std::string& more = "");
 
   const std::vector<SensorRow>& rows() const { return rows_; }
   const std::filesystem::path& path() const { return file_.path(); }
