@@ -33,6 +33,11 @@ int integer_of(const std::string& name, Range range, const std::string& text) {
 // An empty word is the slip of a script, such as a variable that is not set.
 const std::string& word_of(const std::string& name, const std::string& text) {
   if (text.empty()) throw InputError(name + ": expected a word, got '' (see --help)");
+  // An empty variable of the shell before it, most often.
+  if (text.starts_with("--")) {
+    throw InputError(name + ": expected a word, got the flag " + in_quotes(text) +
+                     "; a file of this name is ./" + text);
+  }
   return text;
 }
 

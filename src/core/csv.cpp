@@ -63,16 +63,10 @@ CsvFile::CsvFile(std::filesystem::path path, std::string columns, const std::str
       with_more_(least_ + (more.empty() ? 0 : split_csv(more).size())) {
   const std::string content = read_text(path_);
   require_text(path_, content);
-  std::size_t line = 0;
-  for (std::size_t begin = 0; begin < content.size();) {
-    const std::size_t end = std::min(content.find('\n', begin), content.size());
-    const std::string_view text = trim({content.data() + begin, end - begin});
-    begin = end + 1;
-    ++line;
-    if (text.empty()) continue;
+  for (const auto& [line, text] : lines_of(content)) {
     const auto fields = split_csv(text);
     if (text.front() == '#') {
-      named_ = std::max(named_, fields.size());
+      named_.insert(fields.size());
       continue;
     }
     rows_.push_back({line, {fields.begin(), fields.end()}});
@@ -83,7 +77,7 @@ CsvFile::CsvFile(std::filesystem::path path, std::string columns, const std::str
 void CsvFile::require_columns(const CsvRow& row, std::string_view text) const {
   const std::size_t count = row.fields.size();
   const bool is_as_expected =
-      count == least_ || count == with_more_ || (count > least_ && count == named_);
+      count == least_ || count == with_more_ || (count > least_ && named_.contains(count));
   if (is_as_expected && !has_semicolons(text, least_)) return;
   std::string what = "expected " + counted(least_, "column") + " " + columns_;
   if (with_more_ > least_) what += ", or " + std::to_string(with_more_);
@@ -91,9 +85,8 @@ void CsvFile::require_columns(const CsvRow& row, std::string_view text) const {
   if (count < least_ || has_semicolons(text, least_)) {
     const std::string separator = separator_of(text);
     if (!separator.empty()) what += ": parted by " + separator + "? expected commas";
-  } else if (has_decimal_commas(row)) {
-    what += ": decimal commas? expected points";
   } else {
+    if (has_decimal_commas(row)) what += ": decimal commas? expected points";
     what += "; a first line that begins with # and names all columns says that there are more";
   }
   refuse(row, what + ": " + in_quotes(text));

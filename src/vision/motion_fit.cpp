@@ -65,9 +65,8 @@ Eigen::Matrix3d own_part(LinearFit linear, const MotionFit& fit, const Viewpoint
   return own;
 }
 
-OwnCovariances own_covariances(const Points& points, const MotionFit& fit, const Viewpoint& from,
-                               const Viewpoint& to, const RegistrationOptions& options) {
-  const LinearFit linear(fit.motion, points.p, points.q, points.weights);
+OwnCovariances own_by_told(const LinearFit& linear, const MotionFit& fit, const Viewpoint& from,
+                           const Viewpoint& to, const RegistrationOptions& options) {
   OwnCovariances own;
   for (std::size_t told = 0; told < own.by_told.size(); ++told) {
     RegistrationOptions as_told = options;
@@ -84,8 +83,6 @@ OwnCovariances own_covariances(const Points& points, const MotionFit& fit, const
       own.by_told[told] = own_part(linear, fit, from, to, as_told);
     }
   }
-  std::tie(own.bend_from, own.bend_to) =
-      motion_bends(fit.motion, points.q, points.weights, from, to);
   return own;
 }
 
@@ -149,7 +146,9 @@ void set_covariance(Registration& result, const MotionFit& fit, const MatchSet& 
   const Points points = points_of(matches, fit.inliers);
   const LinearFit linear(fit.motion, points.p, points.q, points.weights);
   const CovarianceOptions& told = options.covariance;
-  result.own = own_covariances(points, fit, from.viewpoint, to.viewpoint, options);
+  result.own = own_by_told(linear, fit, from.viewpoint, to.viewpoint, options);
+  std::tie(result.own.bend_from, result.own.bend_to) =
+      motion_bends(fit.motion, points.q, points.weights, from.viewpoint, to.viewpoint);
   result.own.scale(told.own() * told.own());
   result.shared = linear.altitude_and_tilt(from.viewpoint, to.viewpoint, told);
   result.shared.own = result.own.beside(result.shared.from, result.shared.to);

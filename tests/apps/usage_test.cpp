@@ -84,6 +84,7 @@ TEST_F(Usage, MisuseIsOneLineAndStatusTwo) {
       {{"run", "a.yaml", "b.yaml"}, "b.yaml"},
       {{"run", "a.yaml", "--ou", "x"}, "--ou"},
       {{"run", "a.yaml", "--out"}, "--out"},
+      {{"run", "a.yaml", "--out", "--no-mosaic"}, "got the flag '--no-mosaic'; a file of this"},
       {{"run", "a.yaml", "--seed", "x"}, "--seed"},
       {{"run", "a.yaml", "--set"}, "--set"},
       {{"solve", "g.g2o", "--mode", "sideways"}, "--mode"},

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -38,7 +39,7 @@ class CsvFile {
   std::string columns_;
   std::size_t least_;
   std::size_t with_more_;
-  std::size_t named_ = 0;  ///< by the comment line with the most names so far
+  std::set<std::size_t> named_;  ///< as many as comment lines so far name
   std::vector<CsvRow> rows_;
 };
 

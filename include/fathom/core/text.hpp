@@ -22,6 +22,13 @@ std::vector<std::string_view> split_csv(std::string_view text);
 
 std::string_view trim(std::string_view text);
 
+struct TextLine {
+  std::size_t number = 0;  ///< from 1
+  std::string_view text;   ///< trimmed
+};
+/// The lines that are not blank.
+std::vector<TextLine> lines_of(std::string_view content);
+
 /// The words with the separator between them.
 std::string joined(const std::vector<std::string>& words, const std::string& separator);
 

@@ -47,12 +47,7 @@ struct CommentLine {
 std::vector<CommentLine> comments_of(const fs::path& path) {
   std::vector<CommentLine> comments;
   const std::string content = read_text(path);
-  std::size_t line = 0;
-  for (std::size_t begin = 0; begin < content.size();) {
-    const std::size_t end = std::min(content.find('\n', begin), content.size());
-    const std::string_view text = trim({content.data() + begin, end - begin});
-    begin = end + 1;
-    ++line;
+  for (const auto& [line, text] : lines_of(content)) {
     if (text.starts_with('#')) comments.push_back({line, std::string(text.substr(1))});
   }
   return comments;
