@@ -35,6 +35,7 @@ void add_convert(CLI::App& program, Context& context);
 void add_list(CLI::App& program, Context& context);
 void add_import(CLI::App& program, Context& context);
 void add_init(CLI::App& program, Context& context);
+void add_calibrate(CLI::App& program, Context& context);
 void add_check(CLI::App& program, Context& context);
 void add_report(CLI::App& program, Context& context);
 void add_mosaic(CLI::App& program, Context& context);

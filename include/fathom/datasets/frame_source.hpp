@@ -9,6 +9,7 @@
 
 #include <opencv2/core.hpp>
 
+#include "fathom/datasets/odometry_rows.hpp"
 #include "fathom/geometry/covariance.hpp"
 #include "fathom/measurements/shared_errors.hpp"
 #include "fathom/vision/camera.hpp"
@@ -64,6 +65,10 @@ class FrameSource {
   /// Whether every frame after the first has its motion.
   virtual bool has_odometry() const = 0;
   virtual bool has_ground_truth() const = 0;
+
+  /// Dead reckoning as its sensor gives it; by default the frames' motions, composed. Asks for all
+  /// of them. Without rows where there is no odometry.
+  virtual RecordedOdometry recorded_odometry() const;
 
   /// Whether a frame's motion is the registration of its picture with the one before.
   virtual bool is_visual_odometry() const { return false; }

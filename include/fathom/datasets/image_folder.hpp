@@ -13,6 +13,7 @@
 namespace fathom {
 
 class SensorCsv;
+class TimeLine;
 
 /// A recorded survey in the EuRoC/ASL folder layout (docs/formats.md).
 ///
@@ -24,6 +25,8 @@ class SensorCsv;
 /// - `odometry0`: optional, else needed at every picture. The covariance of a frame's motion is
 ///   composed of the steps since the frame before; of a step cut by a picture, each part takes its
 ///   share of the covariance by time. Where it stops a motion is a hole, if OdometryGaps says so.
+/// Where `sensor.yaml` of one of the three says how far its clock is off, pictures before its first
+/// reading and after its last one are left out.
 /// - `compass0`, `position0`: optional, at any rate (read_folder_sensors).
 /// - `state_groundtruth_estimate0`: optional, absent at frames that it does not cover; the yaw of
 ///   its quaternion is the heading.
@@ -45,7 +48,9 @@ class ImageFolder : public FrameSource {
   /// Of the file's bytes, which are read once.
   std::uint64_t picture_id(std::size_t i) const override;
   bool has_odometry() const override { return has_odometry_; }
-  /// Keys of the sensors' `sensor.yaml` that nobody reads, a line each.
+  /// At the sensor's own rate, beyond the frames as well.
+  RecordedOdometry recorded_odometry() const override { return odometry_; }
+  /// Keys of the sensors' `sensor.yaml` that nobody reads, and what was left out; a line each.
   const std::vector<std::string>& remarks() const { return remarks_; }
   /// The pictures and the files of all sensors, each a regular file.
   std::vector<std::filesystem::path> files() const;
@@ -59,6 +64,7 @@ class ImageFolder : public FrameSource {
  private:
   void read_frames();
   void refuse_other_units(const SensorCsv& csv) const;
+  void leave_out_uncovered(const TimeLine& times, const std::filesystem::path& csv);
   void read_altitudes();
   void read_attitude();
   void read_odometry(const OdometryGaps& gaps);
@@ -74,6 +80,7 @@ class ImageFolder : public FrameSource {
   std::vector<FrameInfo> infos_;
   std::vector<std::filesystem::path> pictures_;
   FolderSensors sensors_;
+  RecordedOdometry odometry_;
   std::vector<std::string> remarks_;
   mutable std::vector<PictureId> ids_;
   bool has_odometry_ = false;

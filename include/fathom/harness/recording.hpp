@@ -8,6 +8,7 @@
 
 #include "fathom/configuration/configuration.hpp"
 #include "fathom/estimation/estimator.hpp"
+#include "fathom/front_end/calibration.hpp"
 #include "fathom/front_end/front_end.hpp"
 #include "fathom/harness/found_sigma.hpp"
 #include "fathom/harness/front_end_pace.hpp"
@@ -73,6 +74,11 @@ class Recorder {
   Recording record(const Configuration& configuration, const CandidateReference& reference,
                    const EstimatorRegistry& registry, const TrialNoise& noise,
                    const FrontEndProgressCallback& progress = {}) const;
+
+  /// What the registrations of consecutive keyframes of a recording, made so, say of the set-up. Of
+  /// a pose graph: nothing.
+  Calibration calibration_of(const Recording& recording, const Configuration& configuration,
+                             const TrialNoise& noise) const;
 
   const DataSet& data() const { return pictures_ ? pictures_->data() : *graph_data_; }
 

@@ -29,8 +29,8 @@ double sigma(const SensorCsv& csv, const SensorRow& row) {
 
 }  // namespace
 
-AttitudeSeries::AttitudeSeries(const std::filesystem::path& path) {
-  const SensorCsv csv(path, "timestamp, roll, pitch, sigma");
+AttitudeSeries::AttitudeSeries(const std::filesystem::path& path, const SensorYaml& yaml) {
+  const SensorCsv csv(path, "timestamp, roll, pitch, sigma", "", yaml.time_offset_ns);
   for (const SensorRow& row : csv.rows()) {
     const Tilt tilt{angle(csv, row, 1, "roll"), angle(csv, row, 2, "pitch")};
     times_.add(row.time_ns);

@@ -16,7 +16,7 @@ class AttitudeSeries {
  public:
   /// Throws InputError with file and line, also on angles beyond kMostTiltRad and
   /// kMostTiltSigmaRad.
-  explicit AttitudeSeries(const std::filesystem::path& csv);
+  AttitudeSeries(const std::filesystem::path& csv, const SensorYaml& yaml);
 
   /// All three linear between two readings.
   std::optional<MeasuredTilt> at(std::int64_t time_ns, std::int64_t max_gap_ns) const;

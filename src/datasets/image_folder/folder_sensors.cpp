@@ -80,7 +80,7 @@ FolderCompass read_compass(const fs::path& folder, const Span& survey) {
   const fs::path path = folder / "data.csv";
   const SensorYaml yaml = read_sensor_yaml(folder / "sensor.yaml");
   refuse_variances(path);
-  const SensorCsv csv(path, "timestamp, heading, sigma");
+  const SensorCsv csv(path, "timestamp, heading, sigma", "", yaml.time_offset_ns);
   FolderCompass compass{{}, yaml.is_from_north, yaml.mount_yaw_rad, 0};
   for (const SensorRow& row : csv.rows()) {
     const MeasuredHeading reading = heading_of(csv, row);
@@ -162,9 +162,11 @@ FolderFixes read_fixes(const fs::path& folder, const Span& survey) {
   const SensorYaml yaml = read_sensor_yaml(folder / "sensor.yaml");
   fixes.lever_m = {yaml.mount_x_m, yaml.mount_y_m};
   const bool on_earth = is_on_earth(fixes.csv);
-  const SensorCsv csv(fixes.csv, on_earth ? "timestamp, latitude, longitude, var_north, "
-                                            "cov_north_east, var_east"
-                                          : "timestamp, x, y, var_x, cov_xy, var_y");
+  const SensorCsv csv(fixes.csv,
+                      on_earth ? "timestamp, latitude, longitude, var_north, "
+                                 "cov_north_east, var_east"
+                               : "timestamp, x, y, var_x, cov_xy, var_y",
+                      "", yaml.time_offset_ns);
   for (const SensorRow& row : csv.rows()) {
     if (on_earth) {
       fixes.on_earth.push_back(earth_fix(csv, row));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <iterator>
 #include <optional>
 #include <string>
 
@@ -40,6 +41,10 @@ std::optional<fs::path> sensor_csv(const fs::path& mav0, const std::string& sens
   return mav0 / sensor / "data.csv";
 }
 
+SensorYaml yaml_beside(const fs::path& csv) {
+  return read_sensor_yaml(csv.parent_path() / "sensor.yaml");
+}
+
 [[noreturn]] void refuse_uncovered(const fs::path& csv, const TimeLine& times,
                                    const std::string& what, const FrameInfo& info) {
   throw InputError(
@@ -60,7 +65,7 @@ ImageFolder::ImageFolder(const fs::path& path, const OdometryGaps& gaps) : mav0_
   read_odometry(gaps);
   read_ground_truth();
   sensors_ = read_folder_sensors(mav0_, infos_.front().time_ns, infos_.back().time_ns);
-  remarks_ = unread_sensor_keys(mav0_);
+  std::ranges::move(unread_sensor_keys(mav0_), std::back_inserter(remarks_));
   ids_ = std::vector<PictureId>(pictures_.size());
   ImageFolder::image(0);  // refuses what cannot be read before a run starts
 }
@@ -93,6 +98,30 @@ void ImageFolder::refuse_other_units(const SensorCsv& csv) const {
                                     "expected nanoseconds");
 }
 
+// A clock that is put right leaves pictures at one end without a reading.
+void ImageFolder::leave_out_uncovered(const TimeLine& times, const fs::path& csv) {
+  if (yaml_beside(csv).time_offset_ns == 0) return;
+  const std::int64_t last_ns = times.at(times.size() - 1);
+  std::vector<FrameInfo> infos;
+  std::vector<fs::path> pictures;
+  for (std::size_t i = 0; i < infos_.size(); ++i) {
+    if (infos_[i].time_ns < times.at(0) || infos_[i].time_ns > last_ns) continue;
+    infos.push_back(infos_[i]);
+    pictures.push_back(pictures_[i]);
+  }
+  if (infos.size() == infos_.size()) return;
+  const std::string sensor = csv.parent_path().filename().string();
+  if (infos.empty()) {
+    throw InputError(csv.string(), "no picture is at its time, with the time_offset_s of " +
+                                       sensor + "/sensor.yaml");
+  }
+  remarks_.push_back(fmt::format(
+      "{} of {} pictures are left out: with its time_offset_s {} begins after them or ends before",
+      infos_.size() - infos.size(), infos_.size(), sensor));
+  infos_ = std::move(infos);
+  pictures_ = std::move(pictures);
+}
+
 void ImageFolder::read_altitudes() {
   const auto csv = sensor_csv(mav0_, "altimeter0");
   if (!csv) {
@@ -100,20 +129,23 @@ void ImageFolder::read_altitudes() {
                      "has no altimeter0/data.csv; without altitude pixels cannot "
                      "become metres");
   }
-  const AltitudeSeries altimeter(*csv);
-  const SensorYaml yaml = read_sensor_yaml(csv->parent_path() / "sensor.yaml");
+  const SensorYaml yaml = yaml_beside(*csv);
+  const AltitudeSeries altimeter(*csv, yaml);
+  leave_out_uncovered(altimeter.times(), *csv);
   for (FrameInfo& info : infos_) {
     const auto altitude_m = altimeter.at(info.time_ns, kMaxInterpolationGapNs);
     if (!altitude_m) refuse_uncovered(*csv, altimeter.times(), "altitude", info);
     info.altitude_m = *altitude_m;
-    info.altitude_sigma_m = std::hypot(yaml.sigma_absolute, yaml.sigma_relative * *altitude_m);
+    info.altitude_sigma_m =
+        std::hypot(yaml.scale * yaml.sigma_absolute, yaml.sigma_relative * *altitude_m);
   }
 }
 
 void ImageFolder::read_attitude() {
   const auto csv = sensor_csv(mav0_, "attitude0");
   if (!csv) return;
-  const AttitudeSeries attitude(*csv);
+  const AttitudeSeries attitude(*csv, yaml_beside(*csv));
+  leave_out_uncovered(attitude.times(), *csv);
   for (FrameInfo& info : infos_) {
     info.tilt = attitude.at(info.time_ns, kMaxInterpolationGapNs);
     if (!info.tilt) refuse_uncovered(*csv, attitude.times(), "roll and pitch", info);
@@ -131,7 +163,8 @@ void ImageFolder::read_attitude() {
 void ImageFolder::read_odometry(const OdometryGaps& gaps) {
   const auto csv = sensor_csv(mav0_, "odometry0");
   if (!csv) return;
-  OdometrySeries odometry(*csv);
+  OdometrySeries odometry(*csv, yaml_beside(*csv));
+  leave_out_uncovered(odometry.times(), *csv);
   odometry.make_holes(gaps, infos_.front().time_ns, infos_.back().time_ns);
   for (std::size_t i = 0; i < infos_.size(); ++i) {
     if (!odometry.covers(infos_[i].time_ns, kMaxInterpolationGapNs)) {
@@ -141,6 +174,7 @@ void ImageFolder::read_odometry(const OdometryGaps& gaps) {
     infos_[i].motion = odometry.motion(infos_[i - 1].time_ns, infos_[i].time_ns);
     infos_[i].is_hole = odometry.has_hole(infos_[i - 1].time_ns, infos_[i].time_ns);
   }
+  odometry_ = odometry.recorded();
   has_odometry_ = true;
 }
 

@@ -8,7 +8,7 @@
 namespace fathom {
 
 SensorCsv::SensorCsv(std::filesystem::path path, const std::string& columns,
-                     const std::string& more)
+                     const std::string& more, std::int64_t time_offset_ns)
     : file_(std::move(path), columns, more) {
   for (const CsvRow& fields : file_.rows()) {
     const std::string& stamp = fields.fields.front();
@@ -17,12 +17,13 @@ SensorCsv::SensorCsv(std::filesystem::path path, const std::string& columns,
       file_.refuse(fields,
                    "time stamp " + in_quotes(stamp) + " is not a whole number of nanoseconds");
     }
-    if (!rows_.empty() && *time_ns <= rows_.back().time_ns) {
+    const std::int64_t corrected_ns = *time_ns + time_offset_ns;
+    if (!rows_.empty() && corrected_ns <= rows_.back().time_ns) {
       file_.refuse(fields, "time stamp " + in_quotes(stamp) + " does not come after " +
                                rows_.back().fields.front() +
                                "; rows must be sorted, without repeats");
     }
-    rows_.push_back({fields, *time_ns});
+    rows_.push_back({fields, corrected_ns});
   }
   if (rows_.empty()) {
     throw InputError(file_.path().string(), "has no data; expected rows of " + columns);

@@ -19,7 +19,9 @@ struct SensorRow : CsvRow {
 class SensorCsv {
  public:
   /// As CsvFile. Throws InputError with file and line; also on a file without rows.
-  SensorCsv(std::filesystem::path path, const std::string& columns, const std::string& more = "");
+  /// `time_offset_ns` is added to the time stamps.
+  SensorCsv(std::filesystem::path path, const std::string& columns, const std::string& more = "",
+            std::int64_t time_offset_ns = 0);
 
   const std::vector<SensorRow>& rows() const { return rows_; }
   const std::filesystem::path& path() const { return file_.path(); }

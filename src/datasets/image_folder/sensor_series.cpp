@@ -61,15 +61,15 @@ std::string TimeLine::text() const {
                      times_ns_.back());
 }
 
-AltitudeSeries::AltitudeSeries(const std::filesystem::path& path) {
-  const SensorCsv csv(path, "timestamp, altitude");
+AltitudeSeries::AltitudeSeries(const std::filesystem::path& path, const SensorYaml& yaml) {
+  const SensorCsv csv(path, "timestamp, altitude", "", yaml.time_offset_ns);
   for (const SensorRow& row : csv.rows()) {
     const double altitude_m = csv.real(row, 1);
     if (!(altitude_m > 0.0)) {
       csv.refuse(row, "altitude " + row.fields[1] + " is not above the floor; expected metres > 0");
     }
     times_.add(row.time_ns);
-    altitudes_m_.push_back(altitude_m);
+    altitudes_m_.push_back(yaml.scale * altitude_m);
   }
 }
 
@@ -79,13 +79,17 @@ std::optional<double> AltitudeSeries::at(std::int64_t time_ns, std::int64_t max_
   return std::lerp(altitudes_m_[bracket->before], altitudes_m_[bracket->after], bracket->share);
 }
 
-OdometrySeries::OdometrySeries(const std::filesystem::path& path) {
+OdometrySeries::OdometrySeries(const std::filesystem::path& path, const SensorYaml& yaml) {
   const SensorCsv csv(path, "timestamp, p_x, p_y, theta, step_var_x, step_var_y, step_var_theta",
-                      "step_cov_xy, step_cov_xt, step_cov_yt");
+                      "step_cov_xy, step_cov_xt, step_cov_yt", yaml.time_offset_ns);
+  recorded_.format = yaml.odometry;
+  recorded_.time_offset_s = 1e-9 * static_cast<double>(yaml.time_offset_ns);
   Pose last;
   for (const SensorRow& row : csv.rows()) {
-    const Pose pose{csv.real(row, 1), csv.real(row, 2), wrap_angle(csv.real(row, 3))};
-    const Eigen::Matrix3d covariance = step_covariance(csv, row);
+    const ReckonedRow read{row.time_ns, csv.real(row, 1), csv.real(row, 2), csv.real(row, 3),
+                           false};
+    const Pose pose = yaml.odometry.pose(read);
+    const Eigen::Matrix3d covariance = yaml.odometry.covariance(step_covariance(csv, row));
     const bool first = steps_.empty();
     if (!first && !is_positive_definite(covariance)) {
       csv.refuse(row,
@@ -95,6 +99,7 @@ OdometrySeries::OdometrySeries(const std::filesystem::path& path) {
     times_.add(row.time_ns);
     steps_.push_back(first ? UncertainPose{} : UncertainPose{between(last, pose), covariance});
     last = pose;
+    recorded_.rows.push_back(read);
   }
 }
 
@@ -147,6 +152,16 @@ bool OdometrySeries::has_hole(std::int64_t from_ns, std::int64_t to_ns) const {
     return is_hole_.begin() + static_cast<std::ptrdiff_t>(row);
   };
   return std::find(step(from.before + 1), step(to.after + 1), true) != step(to.after + 1);
+}
+
+RecordedOdometry OdometrySeries::recorded() const {
+  RecordedOdometry recorded = recorded_;
+  // A hole may begin before the first reading.
+  const std::size_t before = times_.at(0) < recorded.rows.front().time_ns ? 1 : 0;
+  for (std::size_t row = 1; row < recorded.rows.size() && !is_hole_.empty(); ++row) {
+    recorded.rows[row].is_after_hole = is_hole_[row + before];
+  }
+  return recorded;
 }
 
 UncertainPose OdometrySeries::motion(std::int64_t from_ns, std::int64_t to_ns) const {

@@ -8,6 +8,7 @@
 
 #include "fathom/datasets/odometry_gaps.hpp"
 #include "fathom/geometry/covariance.hpp"
+#include "sensor_yaml.hpp"
 
 namespace fathom {
 
@@ -41,7 +42,7 @@ class TimeLine {
 /// `altimeter0/data.csv`: time, altitude above the floor (m, > 0).
 class AltitudeSeries {
  public:
-  explicit AltitudeSeries(const std::filesystem::path& csv);
+  AltitudeSeries(const std::filesystem::path& csv, const SensorYaml& yaml);
   std::optional<double> at(std::int64_t time_ns, std::int64_t max_gap_ns) const;
   const TimeLine& times() const { return times_; }
 
@@ -56,7 +57,7 @@ class OdometrySeries {
  public:
   /// Throws InputError on a covariance that is not positive definite; that of the first row belongs
   /// to no motion and is not looked at.
-  explicit OdometrySeries(const std::filesystem::path& csv);
+  OdometrySeries(const std::filesystem::path& csv, const SensorYaml& yaml);
 
   /// Steps over gaps become holes with the declared motion, and the times from `first_ns` to
   /// `last_ns` that no row covers. Nothing without `gaps.least_intervals`.
@@ -69,11 +70,14 @@ class OdometrySeries {
   UncertainPose motion(std::int64_t from_ns, std::int64_t to_ns) const;
   /// Whether one of its steps is a hole.
   bool has_hole(std::int64_t from_ns, std::int64_t to_ns) const;
+  /// As it was read, but for the clock.
+  RecordedOdometry recorded() const;
 
  private:
   TimeLine times_;
   std::vector<UncertainPose> steps_;  ///< since the row before; the first is empty
   std::vector<bool> is_hole_;         ///< of each step; empty: none is
+  RecordedOdometry recorded_;         ///< without its holes
 };
 
 /// `state_groundtruth_estimate0/data.csv` of EuRoC: time, position, quaternion w x y z; further

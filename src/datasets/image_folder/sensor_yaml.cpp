@@ -1,9 +1,11 @@
 #include "sensor_yaml.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <map>
 #include <system_error>
+#include <utility>
 
 #include <yaml-cpp/yaml.h>
 
@@ -49,35 +51,59 @@ void read_mounting(const std::string& file, const YAML::Node& mounting, SensorYa
   }
 }
 
-// A standard deviation, below `most`.
-double read_sigma(const std::string& file, const YAML::Node& root, const char* key, double most,
-                  const char* expected) {
+// A number that `is_right`; without the key the fallback.
+template <class Test>
+double read_number(const std::string& file, const YAML::Node& root, const char* key,
+                   double fallback, Test is_right, const char* expected) {
   const YAML::Node node = root[key];
-  if (!node) return 0.0;
+  if (!node) return fallback;
   const auto value = node.IsScalar() ? parse_real(node.Scalar()) : std::optional<double>();
-  if (value && *value >= 0.0 && *value < most) return *value;
+  if (value && is_right(*value)) return *value;
   throw InputError(
       file, line_of(node.Mark()),
-      fmt::format("{}: {} is no standard deviation; expected {}, or remove the key", key,
+      fmt::format("{}: {} is none; expected {}, or remove the key", key,
                   node.IsScalar() ? in_quotes(node.Scalar()) : "what stands here", expected));
+}
+
+// One of the words, which stand for what is beside them; without the key the first.
+template <class Value>
+Value read_word(const std::string& file, const YAML::Node& root, const char* key,
+                const std::vector<std::pair<std::string, Value>>& words) {
+  const YAML::Node node = root[key];
+  if (!node) return words.front().second;
+  const std::string name = node.IsScalar() ? node.Scalar() : "";
+  std::vector<std::string> names;
+  for (const auto& [word, value] : words) {
+    if (word == name) return value;
+    names.push_back(word);
+  }
+  throw InputError(file, line_of(node.Mark()),
+                   fmt::format("{}: {} is unknown; expected {}{}", key, in_quotes(name),
+                               joined(names, " or "), suggestion(name, names)));
+}
+
+void read_odometry(const std::string& file, const YAML::Node& root, SensorYaml& sensor) {
+  sensor.odometry.convention = read_word(file, root, "convention", odometry_conventions());
+  sensor.odometry.is_in_degrees =
+      read_word<bool>(file, root, "heading_unit", {{"radians", false}, {"degrees", true}});
+  sensor.odometry.scale = sensor.scale;
 }
 
 // What is read of each sensor, besides what EuRoC's own files say.
 const std::map<std::string, std::vector<std::string>>& keys_by_sensor() {
   static const std::map<std::string, std::vector<std::string>> keys{
-      {"altimeter0", {"sigma_absolute", "sigma_relative"}},
-      {"attitude0", {}},
-      {"compass0", {"convention", "mounting"}},
-      {"odometry0", {}},
-      {"position0", {"mounting"}}};
+      {"altimeter0", {"scale", "sigma_absolute", "sigma_relative", "time_offset_s"}},
+      {"attitude0", {"time_offset_s"}},
+      {"compass0", {"convention", "mounting", "time_offset_s"}},
+      {"odometry0", {"convention", "heading_unit", "scale", "time_offset_s"}},
+      {"position0", {"mounting", "time_offset_s"}}};
   return keys;
 }
 
 std::string unread_text(const std::string& sensor, const std::string& key) {
   const std::vector<std::string>& known = keys_by_sensor().at(sensor);
-  return fmt::format("{} is not read; of {} {}", in_quotes(key), sensor,
-                     known.empty() ? "its data.csv alone counts"
-                                   : "known are " + joined(known, ", ") + suggestion(key, known));
+  return fmt::format("{} is not read; of {} known are {}{}", in_quotes(key), sensor,
+                     joined(known, ", "), suggestion(key, known));
 }
 
 }  // namespace
@@ -90,19 +116,31 @@ SensorYaml read_sensor_yaml(const std::filesystem::path& path) {
   if (root.IsNull()) return sensor;
   if (!root.IsMap()) throw InputError(path.string(), "expected the keys of a sensor.yaml");
   if (const YAML::Node mounting = root["mounting"]) read_mounting(path.string(), mounting, sensor);
-  sensor.sigma_absolute =
-      read_sigma(path.string(), root, "sigma_absolute", 1e9, "a number >= 0 in the sensor's unit");
-  sensor.sigma_relative = read_sigma(path.string(), root, "sigma_relative", 1.0,
-                                     "a share of the reading >= 0 and below 1");
-  const YAML::Node convention = root["convention"];
-  if (!convention) return sensor;
-  const std::string name = convention.IsScalar() ? convention.Scalar() : "";
-  sensor.is_from_north = name == "clockwise_from_north";
-  if (!sensor.is_from_north && name != "counter_clockwise_from_x") {
-    throw InputError(path.string(), line_of(convention.Mark()),
-                     "convention: " + in_quotes(name) +
-                         " is unknown; expected counter_clockwise_from_x or clockwise_from_north" +
-                         suggestion(name, {"counter_clockwise_from_x", "clockwise_from_north"}));
+  const std::string file = path.string();
+  const auto is_sigma = [](double most) {
+    return [most](double value) { return value >= 0.0 && value < most; };
+  };
+  sensor.sigma_absolute = read_number(file, root, "sigma_absolute", 0.0, is_sigma(1e9),
+                                      "a standard deviation >= 0 in the sensor's unit");
+  sensor.sigma_relative =
+      read_number(file, root, "sigma_relative", 0.0, is_sigma(1.0),
+                  "a standard deviation as a share of the reading, >= 0 and below 1");
+  sensor.scale = read_number(
+      file, root, "scale", 1.0, [](double value) { return value > 1e-6 && value < 1e6; },
+      "a factor > 0 that makes its readings metres");
+  constexpr double kDayS = 86400.0;
+  constexpr double kNs = 1e9;
+  sensor.time_offset_ns =
+      std::llround(kNs * read_number(
+                             file, root, "time_offset_s", 0.0,
+                             [](double value) { return std::abs(value) <= kDayS; },
+                             "seconds to add to its time stamps, at most a day"));
+  if (path.parent_path().filename() == "odometry0") {
+    read_odometry(file, root, sensor);
+  } else {
+    sensor.is_from_north =
+        read_word<bool>(file, root, "convention",
+                        {{"counter_clockwise_from_x", false}, {"clockwise_from_north", true}});
   }
   return sensor;
 }

@@ -1,8 +1,11 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
+
+#include "fathom/datasets/odometry_rows.hpp"
 
 namespace fathom {
 
@@ -14,11 +17,15 @@ struct SensorYaml {
   bool is_from_north = false;   ///< convention: clockwise_from_north
   double sigma_absolute = 0.0;  ///< standard deviation of a reading, in its unit; 0: not stated
   double sigma_relative = 0.0;  ///< likewise, as a share of the reading; the two are independent
+  double scale = 1.0;           ///< of readings to metres
+  std::int64_t time_offset_ns = 0;  ///< to be added to its time stamps
+  OdometryFormat odometry = {};     ///< of odometry0, `scale` included
 };
 
-/// Keys `mounting` {x, y, yaw}, `convention` (counter_clockwise_from_x or clockwise_from_north),
-/// `sigma_absolute` and `sigma_relative`, all optional, as the file is. Throws InputError with file
-/// and line.
+/// Keys `mounting` {x, y, yaw}, `convention` (of odometry0 as OdometryConvention, else
+/// counter_clockwise_from_x or clockwise_from_north), `heading_unit`, `sigma_absolute`,
+/// `sigma_relative`, `scale` and `time_offset_s`, all optional, as the file is. Throws InputError
+/// with file and line.
 SensorYaml read_sensor_yaml(const std::filesystem::path& path);
 
 /// Of the sensors in `mav0` that are no camera: keys of their `sensor.yaml` that nobody reads, one

@@ -1,0 +1,97 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "fathom/datasets/absolute_readings.hpp"
+#include "fathom/datasets/frame_source.hpp"
+#include "fathom/geometry/trajectory.hpp"
+
+namespace fathom {
+
+/// A registration of two near frames as calibration needs it: whatever the mounting is taken for.
+struct SeenMotion {
+  std::size_t from = 0;  ///< frames
+  std::size_t to = 0;
+  std::int64_t from_ns = 0;
+  std::int64_t to_ns = 0;
+  Pose camera;  ///< of the camera at `to` in that at `from`: x to the top of the picture, y left
+};
+
+/// Of a registration, a motion of the body with the camera mounted as its model says.
+SeenMotion seen_motion(const FrameSource& frames, std::size_t from, std::size_t to,
+                       const Pose& registered);
+
+/// What calibration looks at.
+struct CalibrationInput {
+  std::vector<SeenMotion> motions;  ///< of near frames, by rising `to`
+  RecordedOdometry odometry;        ///< what they are held against
+  bool is_visual_odometry = false;  ///< it is made of the same registrations, and tells nothing
+  std::vector<std::int64_t> frame_times_ns;
+  std::vector<double> altitudes_m;  ///< of the frames
+  CameraModel camera;
+  AbsoluteReadings readings;            ///< headings and fixes as a run has them
+  std::vector<StampedPose> references;  ///< ground truth, where there is some
+};
+
+/// All but the motions. Of frames with dead reckoning.
+CalibrationInput calibration_input(const FrameSource& frames, const AbsoluteReadings& readings);
+
+/// With its standard deviation.
+struct Estimated {
+  double value = 0.0;
+  double sigma = 0.0;
+
+  /// Further from `expected` than `sigmas` standard deviations, and than `least`.
+  bool is_off(double expected, double sigmas, double least) const;
+};
+
+/// What registered motions say against dead reckoning (docs/calibration.md).
+struct SetUp {
+  std::size_t motions = 0;  ///< registrations that dead reckoning covers
+  OdometryFormat format;    ///< of dead reckoning that fits pictures taken as they are
+  bool is_reversed = false;  ///< pictures are counted from the end
+  bool is_related = true;    ///< whether the two have anything to do with each other
+  Estimated scale;           ///< registered motions over those of dead reckoning
+  Estimated yaw_rad;         ///< of the camera's mounting
+  Estimated lever_x_m;
+  Estimated lever_y_m;
+  Estimated time_offset_s;  ///< to be added to the time stamps of dead reckoning
+  double sigma_m = 0.0;     ///< of what is left, a motion
+  double sigma_rad = 0.0;
+  /// Where the scale changes, once: the time, and by which factor it grows.
+  struct Step {
+    std::int64_t time_ns = 0;
+    Estimated factor;
+    double altitude_factor = 1.0;  ///< of the altitudes there
+  };
+  std::optional<Step> step;
+};
+
+/// How headings, fixes or ground truth turn where dead reckoning turns: 1, or −1 where they turn
+/// the other way.
+struct TurnComparison {
+  std::string source;  ///< "compass0", "position0", "ground truth"
+  Estimated slope;
+  std::optional<Estimated> time_offset_s;  ///< of headings: to be added to their time stamps
+};
+
+/// Everything that can be told of a survey's set-up. Lines have no final full stop.
+struct Calibration {
+  std::optional<SetUp> set_up;  ///< without dead reckoning of its own: nothing
+  std::vector<TurnComparison> turns;
+  std::vector<std::string> findings;  ///< what is wrong, with its number and the line to write
+  std::vector<std::string> untold;    ///< what the survey cannot tell
+};
+
+/// Needs some eight motions to say anything of the set-up.
+Calibration calibrate(const CalibrationInput& input);
+
+/// What was measured, a line each.
+std::vector<std::string> facts_of(const Calibration& calibration);
+
+}  // namespace fathom

@@ -1,0 +1,35 @@
+#include <cmath>
+
+#include "fathom/front_end/calibration.hpp"
+
+namespace fathom {
+
+SeenMotion seen_motion(const FrameSource& frames, std::size_t from, std::size_t to,
+                       const Pose& registered) {
+  const CameraModel& camera = frames.camera().model();
+  const Pose mount{camera.mount_x_m, camera.mount_y_m, camera.mount_yaw_rad};
+  return {from, to, frames.info(from).time_ns, frames.info(to).time_ns,
+          compose(inverse(mount), compose(registered, mount))};
+}
+
+CalibrationInput calibration_input(const FrameSource& frames, const AbsoluteReadings& readings) {
+  CalibrationInput input;
+  input.odometry = frames.recorded_odometry();
+  input.is_visual_odometry = frames.is_visual_odometry();
+  input.camera = frames.camera().model();
+  input.readings = readings;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const FrameInfo& info = frames.info(i);
+    input.frame_times_ns.push_back(info.time_ns);
+    input.altitudes_m.push_back(info.altitude_m);
+    if (info.ground_truth) input.references.push_back({info.time_ns, *info.ground_truth});
+  }
+  return input;
+}
+
+bool Estimated::is_off(double expected, double sigmas, double least) const {
+  const double off = std::abs(value - expected);
+  return off > sigmas * sigma && off > least;
+}
+
+}  // namespace fathom

@@ -1,0 +1,134 @@
+#include "findings.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+#include "fathom/core/text.hpp"
+
+namespace fathom {
+namespace {
+
+// What any survey is off by right.
+constexpr double kLeastScale = 0.03;
+constexpr double kLeastYaw_rad = 0.03;
+constexpr double kLeastLever_m = 0.05;
+constexpr double kLeastClock_s = 0.05;
+
+std::string seconds_after_start(const CalibrationInput& input, std::int64_t time_ns) {
+  return short_number(1e-9 * static_cast<double>(time_ns - input.frame_times_ns.front()), 4);
+}
+
+// Factors that have a name.
+std::string named(double factor) {
+  struct Named {
+    double factor;
+    const char* what;
+  };
+  for (const Named& one : {Named{3.2808, "feet are taken for metres"},
+                           Named{1.333, "as a camera calibrated in air has behind a flat port"},
+                           Named{100.0, "centimetres are taken for metres"},
+                           Named{1000.0, "millimetres are taken for metres"}}) {
+    for (const double named : {one.factor, 1.0 / one.factor}) {
+      if (std::abs(std::log(factor / named)) < 0.02) return fmt::format("; {}", one.what);
+    }
+  }
+  return "";
+}
+
+}  // namespace
+
+std::string with_sigma(const Estimated& one, int digits) {
+  return fmt::format("{:.{}f} ± {}", one.value, digits, short_number(one.sigma, 2));
+}
+
+std::string in_file(const std::string& line, const char* sensor) {
+  return fmt::format("'{}' in {}/sensor.yaml", line, sensor);
+}
+
+void find_mounting(const CalibrationInput& input, const SetUp& found, bool is_mirrored,
+                   std::vector<std::string>& findings) {
+  const CameraModel& camera = input.camera;
+  const double sense = is_mirrored ? -1.0 : 1.0;
+  const Estimated yaw{sense * found.yaw_rad.value, found.yaw_rad.sigma};
+  const Estimated y_m{sense * found.lever_y_m.value, found.lever_y_m.sigma};
+  const Estimated off{wrap_angle(yaw.value - camera.mount_yaw_rad), yaw.sigma};
+  const bool is_turned = off.is_off(0.0, kFindingSigmas, kLeastYaw_rad);
+  const bool x_is_off = found.lever_x_m.is_off(camera.mount_x_m, kFindingSigmas, kLeastLever_m);
+  const bool y_is_off = y_m.is_off(camera.mount_y_m, kFindingSigmas, kLeastLever_m);
+  if (!is_turned && !x_is_off && !y_is_off) return;
+  std::string text;
+  if (is_turned) {
+    text = fmt::format("the camera is turned: its mounting has yaw {} rad, and {} is configured",
+                       with_sigma(yaw), short_number(camera.mount_yaw_rad));
+  }
+  if (x_is_off || y_is_off) {
+    text += fmt::format("{}the camera is at x {} m, y {} m of the body, and {}, {} is configured",
+                        text.empty() ? "" : "; ", with_sigma(found.lever_x_m), with_sigma(y_m),
+                        short_number(camera.mount_x_m), short_number(camera.mount_y_m));
+  }
+  findings.push_back(text + "; write " +
+                     in_file(fmt::format("mounting: {{x: {:.3f}, y: {:.3f}, yaw: {:.3f}}}",
+                                         x_is_off ? found.lever_x_m.value : camera.mount_x_m,
+                                         y_is_off ? y_m.value : camera.mount_y_m,
+                                         is_turned ? yaw.value : camera.mount_yaw_rad),
+                             "cam0"));
+}
+
+void find_step(const CalibrationInput& input, const SetUp& found,
+               std::vector<std::string>& findings) {
+  const SetUp::Step& step = *found.step;
+  const double share = std::log(step.altitude_factor) / std::log(step.factor.value);
+  const bool is_altimeter = share > 0.7 && share < 1.4;
+  findings.push_back(fmt::format(
+      "registered motions grow by a factor {} against dead reckoning, {} s after the first "
+      "picture: {}",
+      with_sigma(step.factor), seconds_after_start(input, step.time_ns),
+      is_altimeter ? fmt::format("altimeter0 steps there, by {} (its readings are wrong before or "
+                                 "after; correct them, or run the parts apart)",
+                                 short_number(step.altitude_factor))
+                   : "altimeter0 does not step there, so odometry0's scale does"));
+}
+
+void find_scale(const SetUp& found, std::vector<std::string>& findings) {
+  if (!found.scale.is_off(1.0, kFindingSigmas, kLeastScale)) return;
+  const double factor = found.scale.value;
+  findings.push_back(fmt::format(
+      "registered motions are {} times as long as dead reckoning has them: altitudes are {:.3f} "
+      "times what they should be, or the focal length {:.3f} times, or dead reckoning {:.3f} "
+      "times{}; write {}, fx and fy times {:.3f} in cam0/sensor.yaml, or {}",
+      with_sigma(found.scale), factor, 1.0 / factor, 1.0 / factor, named(factor),
+      in_file(fmt::format("scale: {:.4f}", 1.0 / factor), "altimeter0"), factor,
+      in_file(fmt::format("scale: {:.4f}", factor), "odometry0")));
+}
+
+bool is_late(const SetUp& found) {
+  return found.time_offset_s.is_off(0.0, kFindingSigmas, kLeastClock_s);
+}
+
+void find_clock(const CalibrationInput& input, const SetUp& found,
+                std::vector<std::string>& findings) {
+  if (!is_late(found)) return;
+  const Estimated late{std::abs(found.time_offset_s.value), found.time_offset_s.sigma};
+  findings.push_back(
+      fmt::format("odometry0's clock is {} s {} the pictures'; write {}", with_sigma(late),
+                  found.time_offset_s.value < 0.0 ? "late of" : "early of",
+                  in_file(fmt::format("time_offset_s: {:.3f}",
+                                      input.odometry.time_offset_s + found.time_offset_s.value),
+                          "odometry0")));
+}
+
+// A principal point far from the middle is that of pictures of another size.
+void find_size(const CameraModel& camera, std::vector<std::string>& findings) {
+  constexpr double kFar = 0.25;
+  const double right = (camera.cx + 0.5) / camera.width;
+  const double down = (camera.cy + 0.5) / camera.height;
+  if (std::abs(right - 0.5) < kFar && std::abs(down - 0.5) < kFar) return;
+  findings.push_back(fmt::format(
+      "the pictures' size is not the calibration's: cx, cy are {:.1f}, {:.1f} in pictures of {} x "
+      "{}, as in pictures {:.2f} times as large; divide fx, fy, cx and cy of cam0/sensor.yaml by "
+      "this, unless the pictures are a part that was cut out",
+      camera.cx, camera.cy, camera.width, camera.height, right + down));
+}
+
+}  // namespace fathom

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "fathom/front_end/calibration.hpp"
+
+namespace fathom {
+
+/// A finding is so many standard deviations off; how much at least beyond what any survey is by
+/// right stands with each.
+inline constexpr double kFindingSigmas = 4.0;
+
+/// "1.571 ± 0.0031".
+std::string with_sigma(const Estimated& one, int digits = 3);
+
+/// "'LINE' in SENSOR/sensor.yaml".
+std::string in_file(const std::string& line, const char* sensor);
+
+/// How sources turn against the pictures.
+struct Senses {
+  bool odometry_is_opposite = false;
+  bool is_told = true;  ///< which of the two is wrong, where they are opposite
+  bool pictures_are_mirrored = false;
+  std::vector<std::string> by;  ///< what told it
+};
+
+/// Ground truth decides; else what most of the others say.
+Senses senses_of(const CalibrationInput& input, const Calibration& calibration);
+
+/// Each adds what is wrong. Of odometry0's format, and of mirrored pictures.
+void find_format(const CalibrationInput& input, const SetUp& found, const Senses& senses,
+                 std::vector<std::string>& findings);
+void find_mounting(const CalibrationInput& input, const SetUp& found, bool is_mirrored,
+                   std::vector<std::string>& findings);
+void find_step(const CalibrationInput& input, const SetUp& found,
+               std::vector<std::string>& findings);
+void find_scale(const SetUp& found, std::vector<std::string>& findings);
+/// Whether dead reckoning's clock is off.
+bool is_late(const SetUp& found);
+void find_clock(const CalibrationInput& input, const SetUp& found,
+                std::vector<std::string>& findings);
+/// Of compass and fixes.
+void find_turns(const Calibration& calibration, const Senses& senses,
+                std::vector<std::string>& findings);
+/// Of pictures that have another size than the calibration's.
+void find_size(const CameraModel& camera, std::vector<std::string>& findings);
+
+}  // namespace fathom

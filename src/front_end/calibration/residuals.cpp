@@ -1,0 +1,73 @@
+#include "residuals.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "robust_scale.hpp"
+
+namespace fathom {
+
+Eigen::Matrix2d arm_of(const Beside& one) {
+  return Eigen::Matrix2d::Identity() - rotation(one.seen.theta);
+}
+
+Eigen::Vector2d turned(const Beside& one, const SetUpParameters& p) {
+  return std::exp(p.log_scale) * (rotation(p.yaw_rad) * one.seen.position());
+}
+
+Eigen::Vector3d residual_of(const Beside& one, const SetUpParameters& p) {
+  const Eigen::Vector2d body =
+      arm_of(one) * Eigen::Vector2d(p.lever_x_m, p.lever_y_m) + turned(one, p);
+  Eigen::Vector3d e;
+  e << one.reckoned.position() - body, wrap_angle(one.reckoned.theta - one.seen.theta);
+  return e / one.noise;
+}
+
+double ResidualSpread::squared(const Eigen::Vector3d& e) const {
+  return e.head<2>().squaredNorm() / (sigma_m * sigma_m) + e.z() * e.z() / (sigma_rad * sigma_rad);
+}
+
+double ResidualSpread::weight(const Eigen::Vector3d& e) const {
+  return (kFreedom + 3.0) / (kFreedom + squared(e));
+}
+
+double ResidualSpread::log_density(const std::vector<Beside>& beside,
+                                   const SetUpParameters& p) const {
+  double sum = 0.0;
+  for (const Beside& one : beside) {
+    sum -= 0.5 * (kFreedom + 3.0) * std::log1p(squared(residual_of(one, p)) / kFreedom);
+  }
+  return sum - static_cast<double>(beside.size()) * (2.0 * std::log(sigma_m) + std::log(sigma_rad));
+}
+
+ResidualSpread spread_of(const std::vector<Beside>& beside, const SetUpParameters& p) {
+  constexpr double kLeast_m = 1e-5;
+  constexpr double kLeast_rad = 1e-6;
+  constexpr int kRounds = 20;
+  std::vector<Eigen::Vector3d> residuals;
+  std::vector<double> lengths_m;
+  std::vector<double> turns_rad;
+  for (const Beside& one : beside) {
+    const Eigen::Vector3d e = residual_of(one, p);
+    residuals.push_back(e);
+    lengths_m.push_back(e.head<2>().norm());
+    turns_rad.push_back(std::abs(e.z()));
+  }
+  ResidualSpread spread{std::max(kLeast_m, median(lengths_m) / kRayleighMedian),
+                        std::max(kLeast_rad, median(turns_rad) / kHalfNormalMedian)};
+  // Expectation maximisation of the two scales.
+  const auto count = static_cast<double>(beside.size());
+  for (int round = 0; round < kRounds; ++round) {
+    double squares_m = 0.0;
+    double squares_rad = 0.0;
+    for (const Eigen::Vector3d& e : residuals) {
+      squares_m += spread.weight(e) * e.head<2>().squaredNorm();
+      squares_rad += spread.weight(e) * e.z() * e.z();
+    }
+    spread = {std::max(kLeast_m, std::sqrt(squares_m / (2.0 * count))),
+              std::max(kLeast_rad, std::sqrt(squares_rad / count))};
+  }
+  return spread;
+}
+
+}  // namespace fathom

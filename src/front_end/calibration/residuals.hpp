@@ -1,0 +1,47 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "set_up_fit.hpp"
+
+namespace fathom {
+
+/// A motion beside what dead reckoning says of its time.
+struct Beside {
+  std::size_t index = 0;
+  Pose seen;                                       ///< of the camera
+  Pose reckoned;                                   ///< of the body
+  Eigen::Vector3d rate = Eigen::Vector3d::Zero();  ///< of `reckoned`, by the time offset
+  double noise =
+      1.0;  ///< of dead reckoning: the root of the motion's time, of that of a median one
+};
+
+/// The motion of a body's point: a lever arm l adds (I − R(θ)) l.
+Eigen::Matrix2d arm_of(const Beside& one);
+
+/// The camera's translation, scaled and turned by the mounting's yaw.
+Eigen::Vector2d turned(const Beside& one, const SetUpParameters& p);
+
+/// Reckoned less registered motion, over `noise`; m, m, rad.
+Eigen::Vector3d residual_of(const Beside& one, const SetUpParameters& p);
+
+/// Scales of Student's t with kFreedom degrees of freedom, which residuals are taken to follow:
+/// near normal, with some that are far off.
+struct ResidualSpread {
+  static constexpr double kFreedom = 4.0;
+  double sigma_m = 0.0;
+  double sigma_rad = 0.0;
+
+  double squared(const Eigen::Vector3d& e) const;
+  /// What a residual weighs in least squares that maximise the likelihood.
+  double weight(const Eigen::Vector3d& e) const;
+  /// Of residuals, up to a constant.
+  double log_density(const std::vector<Beside>& beside, const SetUpParameters& p) const;
+};
+
+/// Most likely ones, at least 1e-5 m and 1e-6 rad: dead reckoning without noise has none.
+ResidualSpread spread_of(const std::vector<Beside>& beside, const SetUpParameters& p);
+
+}  // namespace fathom

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <optional>
+
+#include "fathom/front_end/calibration.hpp"
+#include "odometry_track.hpp"
+
+namespace fathom {
+
+/// The format and order that fit best, and what is off then. Nothing where too few motions are
+/// covered.
+std::optional<SetUp> find_set_up(const CalibrationInput& input);
+
+/// The convention of a vehicle whose pictures are mirrored where this one is found of pictures as
+/// they are.
+OdometryConvention mirrored(OdometryConvention convention);
+
+/// By source, how it turns where dead reckoning of the format turns.
+std::vector<TurnComparison> compare_turns(const CalibrationInput& input,
+                                          const OdometryTrack& track);
+
+}  // namespace fathom

@@ -1,0 +1,241 @@
+#include "set_up_fit.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Cholesky>
+#include <Eigen/QR>
+
+#include "residuals.hpp"
+#include "robust_scale.hpp"
+
+namespace fathom {
+namespace {
+
+constexpr double kNanoseconds = 1e9;
+
+std::int64_t nanoseconds(double seconds) {
+  return static_cast<std::int64_t>(std::llround(kNanoseconds * seconds));
+}
+
+class Fit {
+ public:
+  Fit(std::span<const SeenMotion> motions, const OdometryTrack& track, const SetUpPrior& prior)
+      : motions_(motions), track_(track), prior_(prior) {
+    std::vector<double> times_s;
+    for (const SeenMotion& motion : motions_) times_s.push_back(seconds_of(motion));
+    median_s_ = median(times_s);
+  }
+
+  std::optional<SetUpFit> best() {
+    std::vector<std::pair<double, SetUpParameters>> starts;
+    for (double offset_s = -kMostOffset_s; offset_s <= kMostOffset_s; offset_s += kOffsetStep_s) {
+      if (const auto start = start_at(offset_s)) starts.push_back(*start);
+    }
+    if (starts.empty()) return std::nullopt;
+    std::ranges::stable_sort(starts, std::greater<>(), [](const auto& one) { return one.first; });
+    std::optional<SetUpFit> best;
+    for (std::size_t i = 0; i < std::min<std::size_t>(starts.size(), kRefined); ++i) {
+      auto fit = refined(starts[i].second);
+      if (fit && (!best || fit->log_density > best->log_density)) best = std::move(fit);
+    }
+    return best;
+  }
+
+ private:
+  static constexpr double kMostOffset_s = 5.0;
+  static constexpr double kOffsetStep_s = 0.25;
+  static constexpr std::size_t kRefined = 3;
+  static constexpr std::size_t kFewest = 8;
+
+  static double seconds_of(const SeenMotion& motion) {
+    return std::abs(static_cast<double>(motion.to_ns - motion.from_ns)) / kNanoseconds;
+  }
+
+  std::optional<Pose> reckoned(const SeenMotion& motion, double offset_s) const {
+    const std::int64_t shift_ns = nanoseconds(offset_s);
+    return track_.motion(motion.from_ns - shift_ns, motion.to_ns - shift_ns);
+  }
+
+  // All that are covered; nothing where these are fewer than most.
+  std::vector<Beside> beside(double offset_s) const {
+    std::vector<Beside> covered;
+    const double h_s = 0.25 * median_s_;
+    for (std::size_t i = 0; i < motions_.size(); ++i) {
+      const auto at = reckoned(motions_[i], offset_s);
+      if (!at) continue;
+      Beside one{i, motions_[i].camera, *at, Eigen::Vector3d::Zero(),
+                 std::sqrt(seconds_of(motions_[i]) / median_s_)};
+      const auto before = reckoned(motions_[i], offset_s - h_s);
+      const auto after = reckoned(motions_[i], offset_s + h_s);
+      if (before && after) {
+        one.rate = (after->vector() - before->vector()) / (2.0 * h_s);
+        one.rate.z() = wrap_angle(after->theta - before->theta) / (2.0 * h_s);
+      }
+      covered.push_back(one);
+    }
+    constexpr double kMost = 0.7;
+    const bool are_enough =
+        covered.size() >= kFewest &&
+        static_cast<double>(covered.size()) >= kMost * static_cast<double>(motions_.size());
+    return are_enough ? covered : std::vector<Beside>{};
+  }
+
+  static std::vector<double> weights_of(const std::vector<Beside>& beside, const SetUpParameters& p,
+                                        const ResidualSpread& spread) {
+    std::vector<double> weights;
+    weights.reserve(beside.size());
+    for (const Beside& one : beside) weights.push_back(spread.weight(residual_of(one, p)));
+    return weights;
+  }
+
+  // As if all motions were covered: fewer of them must not win.
+  double density_of_all(const std::vector<Beside>& covered, const SetUpParameters& p,
+                        const ResidualSpread& spread) const {
+    return spread.log_density(covered, p) * static_cast<double>(motions_.size()) /
+           static_cast<double>(covered.size());
+  }
+
+  // With the time offset held the rest is linear: t = (I − R(θ)) l + [a −b; b a] t_camera.
+  SetUpParameters linear(const std::vector<Beside>& beside, const std::vector<double>& weights,
+                         double offset_s, double sigma_m) const {
+    Eigen::Matrix4d H = Eigen::Matrix4d::Zero();
+    Eigen::Vector4d g = Eigen::Vector4d::Zero();
+    for (std::size_t i = 0; i < beside.size(); ++i) {
+      const Beside& one = beside[i];
+      Eigen::Matrix<double, 2, 4> J;
+      J << one.seen.x, -one.seen.y, 0.0, 0.0, one.seen.y, one.seen.x, 0.0, 0.0;
+      J.rightCols<2>() = arm_of(one);
+      const double weight = weights[i] / (one.noise * one.noise * sigma_m * sigma_m);
+      H += weight * J.transpose() * J;
+      g += weight * J.transpose() * one.reckoned.position();
+    }
+    const double of_lever = 1.0 / (prior_.sigma_lever_m * prior_.sigma_lever_m);
+    H(2, 2) += of_lever;
+    H(3, 3) += of_lever;
+    g(2) += of_lever * prior_.mean.lever_x_m;
+    g(3) += of_lever * prior_.mean.lever_y_m;
+    H.diagonal().array() += 1e-12;  // pictures that never move tell no scale
+    const Eigen::Vector4d x = H.ldlt().solve(g);
+    return {std::log(std::max(1e-9, std::hypot(x(0), x(1)))), std::atan2(x(1), x(0)), x(2), x(3),
+            offset_s};
+  }
+
+  std::optional<std::pair<double, SetUpParameters>> start_at(double offset_s) const {
+    const std::vector<Beside> covered = beside(offset_s);
+    if (covered.empty()) return std::nullopt;
+    SetUpParameters p = linear(covered, std::vector<double>(covered.size(), 1.0), offset_s, 1.0);
+    constexpr int kRounds = 8;
+    ResidualSpread spread = spread_of(covered, p);
+    for (int round = 0; round < kRounds; ++round) {
+      p = linear(covered, weights_of(covered, p, spread), offset_s, spread.sigma_m);
+      spread = spread_of(covered, p);
+    }
+    return std::pair(density_of_all(covered, p, spread), p);
+  }
+
+  struct Normal {
+    Matrix5 H = Matrix5::Zero();
+    Matrix5 scores = Matrix5::Zero();
+    Vector5 g = Vector5::Zero();
+  };
+
+  Normal normal(const std::vector<Beside>& beside, const SetUpParameters& p,
+                const std::vector<double>& weights, const ResidualSpread& spread) const {
+    Normal normal;
+    const Eigen::Vector3d of_residual =
+        Eigen::Vector3d(spread.sigma_m, spread.sigma_m, spread.sigma_rad).cwiseInverse();
+    for (std::size_t i = 0; i < beside.size(); ++i) {
+      const Beside& one = beside[i];
+      const Eigen::Vector2d seen = turned(one, p);
+      Eigen::Matrix<double, 3, 5> J = Eigen::Matrix<double, 3, 5>::Zero();
+      J.topLeftCorner<2, 1>() = -seen;
+      J.block<2, 1>(0, 1) << seen.y(), -seen.x();
+      J.block<2, 2>(0, 2) = -arm_of(one);
+      J.col(4) = one.rate;
+      J = of_residual.asDiagonal() * J / one.noise;
+      const Eigen::Vector3d e = of_residual.cwiseProduct(residual_of(one, p));
+      const Vector5 score = weights[i] * J.transpose() * e;
+      normal.H += weights[i] * J.transpose() * J;
+      normal.scores += score * score.transpose();
+      normal.g += score;
+    }
+    return normal;
+  }
+
+  Vector5 prior_information() const {
+    Vector5 information = Vector5::Constant(1e-12);
+    information(2) = information(3) = 1.0 / (prior_.sigma_lever_m * prior_.sigma_lever_m);
+    information(4) = 1.0 / (prior_.sigma_time_s * prior_.sigma_time_s);
+    return information;
+  }
+
+  std::optional<SetUpFit> refined(SetUpParameters p) const {
+    constexpr int kRounds = 12;
+    const Vector5 information = prior_information();
+    for (int round = 0; round < kRounds; ++round) {
+      const std::vector<Beside> covered = beside(p.time_offset_s);
+      if (covered.empty()) return std::nullopt;
+      const ResidualSpread spread = spread_of(covered, p);
+      Normal normal = this->normal(covered, p, weights_of(covered, p, spread), spread);
+      normal.H += information.asDiagonal();
+      normal.g += information.cwiseProduct(p.vector() - prior_.mean.vector());
+      Vector5 step = -normal.H.ldlt().solve(normal.g);
+      constexpr double kMostStep_s = 0.25;
+      step *= std::min(1.0, kMostStep_s / std::max(1e-12, std::abs(step(4))));
+      p = SetUpParameters::from_vector(p.vector() + step);
+      p.yaw_rad = wrap_angle(p.yaw_rad);
+    }
+    return described(p);
+  }
+
+  std::optional<SetUpFit> described(const SetUpParameters& p) const {
+    const std::vector<Beside> covered = beside(p.time_offset_s);
+    if (covered.empty()) return std::nullopt;
+    const ResidualSpread spread = spread_of(covered, p);
+    const std::vector<double> weights = weights_of(covered, p, spread);
+    const Normal normal = this->normal(covered, p, weights, spread);
+    SetUpFit fit;
+    fit.value = p;
+    fit.motions = covered.size();
+    fit.sigma_m = spread.sigma_m;
+    fit.sigma_rad = spread.sigma_rad;
+    fit.log_density = density_of_all(covered, p, spread);
+    // Of M-estimates whatever the residuals' distribution (Huber's sandwich), with the prior.
+    const Vector5 information = prior_information();
+    const Matrix5 H = normal.H + Matrix5(information.asDiagonal());
+    const auto count = static_cast<double>(covered.size());
+    const Matrix5 scores =
+        count / (count - 5.0) * normal.scores + Matrix5(information.asDiagonal());
+    const Matrix5 inverse = H.ldlt().solve(Matrix5::Identity());
+    fit.covariance = inverse * scores * inverse.transpose();
+    std::vector<double> lengths_m;
+    for (std::size_t i = 0; i < covered.size(); ++i) {
+      const Beside& one = covered[i];
+      lengths_m.push_back(one.reckoned.position().norm());
+      const Eigen::Vector2d seen = turned(one, p);
+      const Eigen::Vector2d arm = arm_of(one) * Eigen::Vector2d(p.lever_x_m, p.lever_y_m);
+      const double squared = seen.squaredNorm();
+      const double ratio =
+          squared > 0.0 ? (one.reckoned.position() - arm).dot(seen) / squared : 1.0;
+      fit.each.push_back({one.index, ratio, weights[i], residual_of(one, p)});
+    }
+    fit.median_m = median(lengths_m);
+    return fit;
+  }
+
+  std::span<const SeenMotion> motions_;
+  const OdometryTrack& track_;
+  const SetUpPrior& prior_;
+  double median_s_ = 1.0;
+};
+
+}  // namespace
+
+std::optional<SetUpFit> fit_set_up(std::span<const SeenMotion> motions, const OdometryTrack& track,
+                                   const SetUpPrior& prior) {
+  if (motions.empty() || track.is_empty()) return std::nullopt;
+  return Fit(motions, track, prior).best();
+}
+
+}  // namespace fathom

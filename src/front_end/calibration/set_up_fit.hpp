@@ -1,0 +1,65 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "fathom/front_end/calibration.hpp"
+#include "odometry_track.hpp"
+
+namespace fathom {
+
+using Vector5 = Eigen::Matrix<double, 5, 1>;
+using Matrix5 = Eigen::Matrix<double, 5, 5>;
+
+/// What is estimated of a set-up: the logarithm of the factor that makes registered motions as long
+/// as dead reckoning's, the mounting's yaw and lever arm (m), and what is to be added to the time
+/// stamps of dead reckoning (s).
+struct SetUpParameters {
+  double log_scale = 0.0;
+  double yaw_rad = 0.0;
+  double lever_x_m = 0.0;
+  double lever_y_m = 0.0;
+  double time_offset_s = 0.0;
+
+  Vector5 vector() const { return {log_scale, yaw_rad, lever_x_m, lever_y_m, time_offset_s}; }
+  static SetUpParameters from_vector(const Vector5& v) { return {v(0), v(1), v(2), v(3), v(4)}; }
+};
+
+/// How well registrations fit dead reckoning under some format of it.
+struct SetUpFit {
+  SetUpParameters value;
+  Matrix5 covariance = Matrix5::Zero();
+  std::size_t motions = 0;   ///< that dead reckoning covers
+  double sigma_m = 0.0;      ///< scale of a residual, x or y
+  double sigma_rad = 0.0;    ///< of the heading
+  double median_m = 0.0;     ///< length of a reckoned motion
+  double log_density = 0.0;  ///< of all motions, up to a constant
+  /// By motion covered: which one, the reckoned length over the registered one, and the weight of
+  /// it in the fit.
+  struct Motion {
+    std::size_t index = 0;
+    double length_ratio = 1.0;
+    double weight = 0.0;
+    Eigen::Vector3d residual = Eigen::Vector3d::Zero();  ///< m, m, rad
+  };
+  std::vector<Motion> each;
+};
+
+/// Where mounting and clock are expected, and how far they may be off: keeps what the motions do
+/// not tell where it is configured.
+struct SetUpPrior {
+  SetUpParameters mean;
+  double sigma_lever_m = 3.0;
+  double sigma_time_s = 10.0;
+};
+
+/// Most likely with residuals of Student's t (docs/calibration.md): iteratively reweighted least
+/// squares from the best of several time offsets. Nothing where dead reckoning covers too few of
+/// the motions.
+std::optional<SetUpFit> fit_set_up(std::span<const SeenMotion> motions, const OdometryTrack& track,
+                                   const SetUpPrior& prior);
+
+}  // namespace fathom

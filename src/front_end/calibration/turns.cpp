@@ -1,0 +1,126 @@
+#include <algorithm>
+#include <cmath>
+
+#include "heading_track.hpp"
+#include "robust_scale.hpp"
+#include "set_up.hpp"
+
+namespace fathom {
+namespace {
+
+// Two turns over the same time: of dead reckoning and of a source, as angles or as areas.
+struct Turned {
+  double reckoned = 0.0;
+  double said = 0.0;
+};
+
+// Said over reckoned, through zero; wild ones weigh less. Nothing where dead reckoning turns too
+// little against what is left.
+std::optional<Estimated> slope_of(const std::vector<Turned>& turned) {
+  constexpr std::size_t kFewest = 5;
+  constexpr int kRounds = 20;
+  constexpr double kSigmas = 5.0;
+  if (turned.size() < kFewest) return std::nullopt;
+  Estimated slope;
+  std::vector<double> weights(turned.size(), 1.0);
+  for (int round = 0; round < kRounds; ++round) {
+    double xx = 0.0;
+    double xy = 0.0;
+    for (std::size_t i = 0; i < turned.size(); ++i) {
+      xx += weights[i] * turned[i].reckoned * turned[i].reckoned;
+      xy += weights[i] * turned[i].reckoned * turned[i].said;
+    }
+    if (!(xx > 0.0)) return std::nullopt;
+    slope.value = xy / xx;
+    std::vector<double> off;
+    for (const Turned& one : turned) off.push_back(std::abs(one.said - slope.value * one.reckoned));
+    const double sigma = std::max(1e-9, median(off) / kHalfNormalMedian);
+    double scores = 0.0;
+    for (std::size_t i = 0; i < turned.size(); ++i) {
+      const double score = weights[i] * turned[i].reckoned * off[i];
+      scores += score * score;
+      const double in_sigmas = off[i] / (3.0 * sigma);
+      weights[i] = 1.0 / (1.0 + in_sigmas * in_sigmas);
+    }
+    slope.sigma = std::sqrt(scores) / xx;
+  }
+  if (!(std::abs(slope.value) > kSigmas * slope.sigma)) return std::nullopt;
+  return slope;
+}
+
+// Over some five seconds or the source's own interval: long enough to turn, too short to turn half
+// round.
+std::vector<Turned> turned(const HeadingTrack& said, const OdometryTrack& track) {
+  constexpr double kSpan_s = 5.0;
+  constexpr double kMostTurn_rad = 2.5;
+  std::vector<Turned> turned;
+  for (const auto& [from, to] : spans(said, kSpan_s)) {
+    const auto reckoned = reckoned_turn(said, track, from, to, 0.0);
+    const double turn_rad = said.turn_rad(from, to);
+    if (reckoned && std::abs(turn_rad) < kMostTurn_rad && std::abs(*reckoned) < kMostTurn_rad) {
+      turned.push_back({*reckoned, turn_rad});
+    }
+  }
+  return turned;
+}
+
+TurnComparison compared(const std::string& source, const HeadingTrack& said,
+                        const OdometryTrack& track) {
+  TurnComparison comparison;
+  const auto slope = slope_of(turned(said, track));
+  if (!slope) return comparison;
+  comparison.source = source;
+  comparison.slope = *slope;
+  comparison.time_offset_s = clock_of(said, track, slope->value < 0.0 ? -1.0 : 1.0);
+  return comparison;
+}
+
+// Twice the areas of the triangles of each three fixes, far enough apart for their noise: mirrored
+// paths have them negative.
+std::vector<Turned> areas(const std::vector<PositionFix>& fixes, const OdometryTrack& track) {
+  constexpr double kSigmas = 10.0;
+  std::vector<const PositionFix*> corners;
+  std::vector<Turned> areas;
+  for (const PositionFix& fix : fixes) {
+    const double far_m = kSigmas * std::sqrt(0.5 * fix.covariance.trace());
+    if (!corners.empty() && (fix.position_m - corners.back()->position_m).norm() < far_m) continue;
+    corners.push_back(&fix);
+    if (corners.size() < 3) continue;
+    const PositionFix& a = *corners[corners.size() - 3];
+    const PositionFix& b = *corners[corners.size() - 2];
+    const auto ab = track.motion(a.time_ns, b.time_ns);
+    const auto ac = track.motion(a.time_ns, fix.time_ns);
+    if (!ab || !ac) continue;
+    const auto area = [](const Eigen::Vector2d& u, const Eigen::Vector2d& v) {
+      return u.x() * v.y() - u.y() * v.x();
+    };
+    areas.push_back({area(ab->position(), ac->position()),
+                     area(b.position_m - a.position_m, fix.position_m - a.position_m)});
+  }
+  return areas;
+}
+
+}  // namespace
+
+std::vector<TurnComparison> compare_turns(const CalibrationInput& input,
+                                          const OdometryTrack& track) {
+  std::vector<TurnComparison> comparisons;
+  const auto add = [&comparisons](TurnComparison comparison) {
+    if (!comparison.source.empty()) comparisons.push_back(std::move(comparison));
+  };
+  HeadingTrack truth;
+  for (const StampedPose& pose : input.references) truth.add(pose.time_ns, pose.pose.theta);
+  add(compared("ground truth", truth, track));
+  HeadingTrack compass;
+  for (const MeasuredHeading& heading : input.readings.headings) {
+    compass.add(heading.time_ns, heading.heading_rad);
+  }
+  add(compared("compass0", compass, track));
+  // The lever arm of the antenna is short against the triangles.
+  if (const auto slope = slope_of(areas(input.readings.fixes, track))) {
+    add({"position0", *slope, std::nullopt});
+  }
+  return comparisons;
+}
+
+}  // namespace fathom

@@ -1,0 +1,16 @@
+#include "fathom/workflow/calibrate.hpp"
+
+namespace fathom::workflow {
+
+CalibrateOutcome calibrate(const CalibrateRequest& request, const EstimatorRegistry& registry,
+                           Observer& observer) {
+  const Configuration configuration =
+      configure(request.settings, ConfigurationKind::single, registry);
+  const auto pictures = std::make_shared<Pictures>(configuration, request.registrations);
+  Survey survey(pictures, configuration, {static_cast<std::uint64_t>(configuration.seed), 0});
+  return {
+      calibrate_survey(survey, configuration.front_end, observer.progress_of("calibrate, pair")),
+      pictures->data().remarks()};
+}
+
+}  // namespace fathom::workflow
