@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "apps/command.hpp"
+#include "apps/terminal.hpp"
 #include "fathom/configuration/study.hpp"
 #include "fathom/core/input_error.hpp"
 #include "fathom/core/text.hpp"
@@ -47,8 +48,10 @@ void check_graph(const std::string& path, const EstimatorRegistry& registry) {
   print_warnings(found.warnings);
 }
 
-void check_folder(const std::string& path) {
-  const workflow::SurveyCheck found = workflow::check_survey(path);
+void check_folder(const std::string& path, const EstimatorRegistry& registry) {
+  Terminal terminal(false);
+  const workflow::SurveyCheck found = workflow::check_survey(path, registry, terminal);
+  terminal.clear();
   std::printf("image folder\n");
   for (const std::string& fact : found.folder.facts) std::printf("  %s\n", fact.c_str());
   refuse(found.folder.faults);
@@ -101,7 +104,7 @@ void check(const std::string& path, Context& context) {
   const std::string ending = std::filesystem::path(path).extension().string();
   context.status = kDone;
   if (std::filesystem::is_directory(path)) {
-    check_folder(path);
+    check_folder(path, context.estimators().registry());
   } else if (ending == ".yaml" || ending == ".yml") {
     check_configuration(path, context.estimators());
   } else if (ending == ".tum" || ending == ".txt") {

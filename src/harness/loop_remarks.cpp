@@ -112,48 +112,6 @@ std::string few_registered(const Recording& recording, const Overlapping& count)
       recording.most_refused_inliers);
 }
 
-// How long registered motions are in units of dead reckoning's, where that is sure of its own.
-std::vector<double> lengths(const Recording& recording) {
-  constexpr std::size_t kApart = 3;
-  constexpr double kSigmas = 5.0;
-  std::vector<double> ratios;
-  const MeasurementLog& log = recording.log;
-  for (std::size_t k = 1; k < log.size(); ++k) {
-    for (const RelativePose& z : log.arrival(k).registrations) {
-      const auto [first, last] = std::minmax(z.from, z.to);
-      if (last - first > kApart) continue;
-      UncertainPose reckoned;
-      for (std::size_t i = first + 1; i <= last; ++i) {
-        const RelativePose& step = log.arrival(i).step;
-        reckoned = compose(reckoned, {step.motion, step.covariance()});
-      }
-      const double length_m = reckoned.mean.position().norm();
-      const double variance = reckoned.covariance.topLeftCorner<2, 2>().trace();
-      if (length_m > kSigmas * std::sqrt(variance)) {
-        ratios.push_back(z.motion.position().norm() / length_m);
-      }
-    }
-  }
-  return ratios;
-}
-
-// A wrong altitude or focal length scales all registered motions.
-std::optional<std::string> wrong_scale(const Recording& recording) {
-  constexpr std::size_t kEnough = 5;
-  constexpr double kFactor = 1.2;
-  std::vector<double> ratios = lengths(recording);
-  if (recording.visual_odometry || ratios.size() < kEnough) return std::nullopt;
-  const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
-  std::nth_element(ratios.begin(), middle, ratios.end());
-  const double factor = *middle;
-  if (factor < kFactor && factor > 1.0 / kFactor) return std::nullopt;
-  return fmt::format(
-      "registered motions are {} times as long as dead reckoning has them (median of {} between "
-      "near keyframes): the altitude or the focal length is too {} by this factor, or dead "
-      "reckoning is; 3.28 is feet for metres",
-      short_number(factor), ratios.size(), factor > 1.0 ? "large" : "small");
-}
-
 }  // namespace
 
 std::vector<std::string> loop_remarks(const Recording& recording, const FrontEndOptions& options,
@@ -162,7 +120,6 @@ std::vector<std::string> loop_remarks(const Recording& recording, const FrontEnd
   if (recording.registrations_tried == 0) return {no_candidates(recording)};
   if (recording.log.registration_count() == 0) return {none_registered(recording, options)};
   std::vector<std::string> remarks;
-  if (auto scale = wrong_scale(recording)) remarks.push_back(std::move(*scale));
   constexpr std::size_t kEnough = 5;
   constexpr double kShare = 0.5;
   const Overlapping count = overlapping(recording, estimate);

@@ -45,12 +45,13 @@ std::optional<MapFit> map_fit(const MeasurementLog& log, std::span<const Pose> e
 
 namespace {
 
-std::string misfit_remark(const MapFit& fit) {
+std::string misfit_remark(const MapFit& fit, bool set_up_is_wrong) {
   const double of_steps = fit.steps_at_optimum / fit.chi2_optimum;
   const double of_absolute = fit.absolute_at_optimum / fit.chi2_optimum;
   const std::string text = "the measurements do not fit each other: F per degree of freedom is " +
                            short_number(fit.per_degree_of_freedom()) +
                            " at its best, and 1 is expected; ";
+  if (set_up_is_wrong) return text + "the set-up is wrong (above), which comes before covariances";
   if (of_absolute > 0.5) {
     return text + short_number(100.0 * of_absolute, 2) +
            " % of F is of absolute measurements, so their covariances are too small or some are "
@@ -71,7 +72,7 @@ std::string misfit_remark(const MapFit& fit) {
 }  // namespace
 
 std::vector<std::string> map_remarks(const MapFit& fit, const std::string& estimator,
-                                     const std::string& solver) {
+                                     const std::string& solver, bool set_up_is_wrong) {
   std::vector<std::string> remarks;
   if (!fit.estimate_fits()) {
     remarks.push_back("the map of " + estimator + " does not fit its own measurements: F is " +
@@ -79,7 +80,9 @@ std::vector<std::string> map_remarks(const MapFit& fit, const std::string& estim
                       " where a batch solve of the same log ends; " + solver + " would do");
   }
   constexpr double kTooMuch = 3.0;
-  if (fit.per_degree_of_freedom() > kTooMuch) remarks.push_back(misfit_remark(fit));
+  if (fit.per_degree_of_freedom() > kTooMuch) {
+    remarks.push_back(misfit_remark(fit, set_up_is_wrong));
+  }
   return remarks;
 }
 

@@ -15,6 +15,8 @@
 #include "fathom/harness/replay.hpp"
 #include "fathom/measurements/connected_guess.hpp"
 #include "fathom/report/table.hpp"
+#include "fathom/workflow/calibrate.hpp"
+#include "fathom/workflow/inputs.hpp"
 
 namespace fathom::workflow {
 namespace {
@@ -98,7 +100,8 @@ GraphCheck check_graph(const std::filesystem::path& path, const EstimatorRegistr
   return checked;
 }
 
-SurveyCheck check_survey(const std::filesystem::path& path) {
+SurveyCheck check_survey(const std::filesystem::path& path, const EstimatorRegistry& registry,
+                         Observer& observer) {
   if (is_plain_picture_folder(path)) {
     throw InputError(path.string(),
                      "is a folder of plain pictures, which do not say all; 'fathom init " +
@@ -117,6 +120,11 @@ SurveyCheck check_survey(const std::filesystem::path& path) {
   const FrontEndOptions front_end;
   const Outlook expected = outlook(folder, front_end);
   checked.expected = facts_of(expected);
+  const CalibrateOutcome calibrated = calibrate({settings_of(path)}, registry, observer);
+  std::ranges::copy(facts_of(calibrated.done.calibration), std::back_inserter(checked.expected));
+  checked.folder.warnings.insert(checked.folder.warnings.begin(),
+                                 calibrated.done.calibration.findings.begin(),
+                                 calibrated.done.calibration.findings.end());
   std::ranges::copy(warnings_of(expected, front_end), std::back_inserter(checked.folder.warnings));
   return checked;
 }

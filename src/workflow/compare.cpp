@@ -129,9 +129,17 @@ class Comparison {
                   study_, done.example, registry_, observer_);
   }
 
-  // What looks wrong with the loops of the trial that is drawn; the page says what its figures
-  // show.
+  // What looks wrong with set-up and loops of the trial that is drawn; the page says what its
+  // figures show.
   void say_remarks(const StudyRun& done) const {
+    if (!done.example.empty()) {
+      const TrialNoise noise{study_.noise_seeds.front(), 0};
+      const Recording& recording = *done.example.front().recording;
+      for (const std::string& finding :
+           data_set_.calibration_of(recording, study_.cells.front(), noise).findings) {
+        observer_.remark(finding);
+      }
+    }
     for (const std::string& remark : data_set_.data().remarks()) observer_.remark(remark);
     if (done.example.empty()) return;
     const ExampleRun& example = done.example.front();

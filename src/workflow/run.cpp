@@ -39,8 +39,12 @@ class OneRun {
     record(recorder);
     RunOutcome done{recording_, evaluated(), std::nullopt,
                     configuration_.study.evaluation.alignment};
-    std::vector<std::string> remarks = recorder.data().remarks();
-    judge(done, remarks);
+    // What is wrong with the set-up comes first: it makes what follows.
+    std::vector<std::string> remarks =
+        recorder.calibration_of(*recording_, configuration_, noise()).findings;
+    const bool set_up_is_wrong = !remarks.empty();
+    std::ranges::copy(recorder.data().remarks(), std::back_inserter(remarks));
+    judge(done, set_up_is_wrong, remarks);
     if (folder) {
       write(*folder, recorder, done, remarks);
     }
@@ -49,10 +53,11 @@ class OneRun {
   }
 
  private:
+  TrialNoise noise() const { return {static_cast<std::uint64_t>(configuration_.seed), 0}; }
+
   void record(const Recorder& recorder) {
-    const TrialNoise noise{static_cast<std::uint64_t>(configuration_.seed), 0};
     recording_ = std::make_shared<const Recording>(
-        recorder.record(configuration_, configuration_.reference, registry_, noise,
+        recorder.record(configuration_, configuration_.reference, registry_, noise(),
                         [this](const FrontEndProgress& at) { observer_.front_end_progress(at); }));
   }
 
@@ -67,7 +72,7 @@ class OneRun {
   }
 
   // What looks wrong, and the batch optimum of the log where the estimate does not fit it.
-  void judge(RunOutcome& done, std::vector<std::string>& remarks) const {
+  void judge(RunOutcome& done, bool set_up_is_wrong, std::vector<std::string>& remarks) const {
     const std::vector<Pose>& estimate = done.result.run.trajectory;
     std::ranges::copy(loop_remarks(*recording_, configuration_.front_end, estimate),
                       std::back_inserter(remarks));
@@ -75,7 +80,7 @@ class OneRun {
     const auto fit = optimum ? map_fit(recording_->log, estimate, *optimum) : std::nullopt;
     if (!fit) return;
     const EstimatorConfiguration& estimator = done.result.estimator;
-    std::ranges::copy(map_remarks(*fit, estimator.name, optimum->solver),
+    std::ranges::copy(map_remarks(*fit, estimator.name, optimum->solver, set_up_is_wrong),
                       std::back_inserter(remarks));
     const auto in_force = estimator_options(estimator, registry_.find(estimator.type));
     const bool is_sharing = std::ranges::any_of(in_force, [](const auto& option) {

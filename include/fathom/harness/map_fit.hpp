@@ -39,9 +39,10 @@ std::optional<MapFit> map_fit(const MeasurementLog& log, std::span<const Pose> e
                               const BatchOptimum& optimum);
 
 /// What of a map looks wrong: an estimate that does not fit its measurements, or measurements that
-/// do not fit each other.
+/// do not fit each other: for covariances that are too small or wrong loops, unless the set-up is
+/// known to be wrong.
 std::vector<std::string> map_remarks(const MapFit& fit, const std::string& estimator,
-                                     const std::string& solver);
+                                     const std::string& solver, bool set_up_is_wrong = false);
 
 /// Of an estimator that takes registrations as independent although the log tells what those of a
 /// picture share: whether they agree so much better than their covariances say that it shows.

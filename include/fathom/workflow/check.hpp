@@ -8,6 +8,7 @@
 #include "fathom/datasets/folder_summary.hpp"
 #include "fathom/estimation/registry.hpp"
 #include "fathom/measurements/graph_check.hpp"
+#include "fathom/workflow/observer.hpp"
 
 namespace fathom::workflow {
 
@@ -31,7 +32,9 @@ struct SurveyCheck {
   std::vector<std::string> expected;  ///< what the front end will find, in words
 };
 
-/// Throws InputError of a folder of plain pictures, which do not say all.
-SurveyCheck check_survey(const std::filesystem::path& path);
+/// Registers pairs of near pictures (calibrate), whose progress the observer hears. Throws
+/// InputError of a folder of plain pictures, which do not say all.
+SurveyCheck check_survey(const std::filesystem::path& path, const EstimatorRegistry& registry,
+                         Observer& observer);
 
 }  // namespace fathom::workflow

@@ -7,12 +7,43 @@
 
 namespace fathom {
 
+double seconds_of(const SeenMotion& motion) {
+  return 1e-9 * std::abs(static_cast<double>(motion.to_ns - motion.from_ns));
+}
+
+Eigen::Vector3d change_of(std::span<const SeenMotion> motions, std::size_t i) {
+  const SeenMotion& motion = motions[i];
+  Eigen::Vector3d change = Eigen::Vector3d::Zero();
+  double sides = 0.0;
+  const auto add = [&](const SeenMotion& other, double sense) {
+    const double share = seconds_of(motion) / seconds_of(other);
+    const double apart_s = 0.5 * (seconds_of(motion) + seconds_of(other));
+    change += sense * (share * other.camera.vector() - motion.camera.vector()) / apart_s;
+    sides += 1.0;
+  };
+  if (i > 0 && motions[i - 1].to_ns == motion.from_ns) add(motions[i - 1], -1.0);
+  if (i + 1 < motions.size() && motions[i + 1].from_ns == motion.to_ns) add(motions[i + 1], 1.0);
+  // Of pictures counted from the end time runs backwards.
+  if (motion.to_ns < motion.from_ns) change = -change;
+  return sides > 0.0 ? Eigen::Vector3d(change / sides) : change;
+}
+
 Eigen::Matrix2d arm_of(const Beside& one) {
   return Eigen::Matrix2d::Identity() - rotation(one.seen.theta);
 }
 
 Eigen::Vector2d turned(const Beside& one, const SetUpParameters& p) {
   return std::exp(p.log_scale) * (rotation(p.yaw_rad) * one.seen.position());
+}
+
+Eigen::Vector3d shifted(const Beside& one, const SetUpParameters& p) {
+  constexpr double kQuarter = 1.5707963267948966;
+  const Eigen::Matrix2d arm = -one.change.z() * rotation(one.seen.theta + kQuarter);
+  Eigen::Vector3d change;
+  change << arm * Eigen::Vector2d(p.lever_x_m, p.lever_y_m) +
+                std::exp(p.log_scale) * (rotation(p.yaw_rad) * one.change.head<2>()),
+      one.change.z();
+  return -change;
 }
 
 Eigen::Vector3d residual_of(const Beside& one, const SetUpParameters& p) {
@@ -43,7 +74,7 @@ double ResidualSpread::log_density(const std::vector<Beside>& beside,
 ResidualSpread spread_of(const std::vector<Beside>& beside, const SetUpParameters& p) {
   constexpr double kLeast_m = 1e-5;
   constexpr double kLeast_rad = 1e-6;
-  constexpr int kRounds = 20;
+  constexpr int kRounds = 8;
   std::vector<Eigen::Vector3d> residuals;
   std::vector<double> lengths_m;
   std::vector<double> turns_rad;

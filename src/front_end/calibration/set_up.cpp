@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
 
 #include "robust_scale.hpp"
 #include "set_up_fit.hpp"
@@ -28,41 +31,65 @@ SetUpPrior prior_of(const CalibrationInput& input) {
   return prior;
 }
 
-struct Found {
+struct Reading {
   OdometryFormat format;
   bool is_reversed = false;
-  SetUpFit fit;
 };
 
-// What is configured, unless another reading of the same numbers is far more likely: so much, of
-// each motion and of all, that neither one wild motion nor the search among twenty makes it.
-std::optional<Found> best_of_all(const CalibrationInput& input) {
-  constexpr double kOfAll = 20.0;
-  constexpr double kOfEach = 0.1;
-  const SetUpPrior prior = prior_of(input);
-  const std::vector<SeenMotion> from_the_end = reversed(input);
-  std::optional<Found> configured;
-  std::optional<Found> best;
+// All ways to read the same numbers.
+std::vector<Reading> readings_of(const OdometryFormat& configured) {
+  std::vector<Reading> readings{{configured, false}};
   for (const bool is_reversed : {false, true}) {
     for (const bool is_in_degrees : {false, true}) {
-      for (const auto& [word, convention] : odometry_conventions()) {
-        OdometryFormat format = input.odometry.format;
-        const bool is_configured = !is_reversed && is_in_degrees == format.is_in_degrees &&
-                                   convention == format.convention;
-        format.convention = convention;
-        format.is_in_degrees = is_in_degrees;
-        const OdometryTrack track(input.odometry, format);
-        auto fit = fit_set_up(is_reversed ? from_the_end : input.motions, track, prior);
-        if (!fit) continue;
-        if (!best || fit->log_density > best->fit.log_density) best = {format, is_reversed, *fit};
-        if (is_configured) configured = {format, is_reversed, *fit};
+      for (const auto& named : odometry_conventions()) {
+        const bool is_configured = !is_reversed && is_in_degrees == configured.is_in_degrees &&
+                                   named.second == configured.convention;
+        if (is_configured) continue;
+        readings.push_back({{named.second, is_in_degrees, configured.scale}, is_reversed});
       }
     }
   }
-  if (!configured) return best;
-  const double gain = best->fit.log_density - configured->fit.log_density;
-  const bool is_clear = gain > kOfAll && gain > kOfEach * static_cast<double>(input.motions.size());
-  return is_clear ? best : configured;
+  return readings;
+}
+
+// How likely numbers are that are read so. Headings that are made 57 times smaller have residuals
+// so much smaller, which says nothing for them: the density is of the numbers as they are. Of two
+// that say the same, such as headings from x and from y with the camera turned, the one with less
+// to be changed counts.
+double evidence_of(const Reading& reading, const SetUpStart& start, const SetUpPrior& prior,
+                   std::size_t motions) {
+  constexpr double kTurned_rad = 0.1;
+  constexpr double kOfTurned = 5.0;
+  double evidence = start.log_density;
+  if (reading.format.is_in_degrees) {
+    evidence += static_cast<double>(motions) * std::log(std::numbers::pi / 180.0);
+  }
+  const double yaw_rad = wrap_angle(start.value.yaw_rad - prior.mean.yaw_rad);
+  if (std::abs(yaw_rad) > kTurned_rad) evidence -= kOfTurned;
+  return evidence;
+}
+
+// What is configured, unless another reading is far more likely: so much, of each motion and of
+// all, that neither one wild motion nor the search among twenty makes it.
+std::optional<Reading> best_reading(const CalibrationInput& input, const SetUpPrior& prior) {
+  constexpr double kOfAll = 20.0;
+  constexpr double kOfEach = 0.1;
+  const std::vector<SeenMotion> from_the_end = reversed(input);
+  std::optional<Reading> best;
+  double most = -std::numeric_limits<double>::infinity();
+  double margin = kOfAll + kOfEach * static_cast<double>(input.motions.size());
+  for (const Reading& reading : readings_of(input.odometry.format)) {
+    const auto start = start_set_up(reading.is_reversed ? from_the_end : input.motions,
+                                    OdometryTrack(input.odometry, reading.format), prior);
+    if (!start) continue;
+    double evidence = evidence_of(reading, *start, prior, input.motions.size());
+    // The first one is what is configured.
+    if (!best) evidence += std::exchange(margin, 0.0);
+    if (best && !(evidence > most)) continue;
+    best = reading;
+    most = evidence;
+  }
+  return best;
 }
 
 // The one time at which reckoned over registered lengths change, as least absolute deviations have
@@ -154,9 +181,13 @@ OdometryConvention mirrored(OdometryConvention convention) {
 
 std::optional<SetUp> find_set_up(const CalibrationInput& input) {
   if (input.motions.empty() || input.odometry.rows.size() < 2) return std::nullopt;
-  const auto found = best_of_all(input);
+  const SetUpPrior prior = prior_of(input);
+  const auto found = best_reading(input, prior);
   if (!found) return std::nullopt;
-  const SetUpFit& fit = found->fit;
+  const auto fitted = fit_set_up(found->is_reversed ? reversed(input) : input.motions,
+                                 OdometryTrack(input.odometry, found->format), prior);
+  if (!fitted) return std::nullopt;
+  const SetUpFit& fit = *fitted;
   const auto estimated = [&fit](int i) {
     return Estimated{fit.value.vector()(i), std::sqrt(fit.covariance(i, i))};
   };

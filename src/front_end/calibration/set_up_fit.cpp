@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <Eigen/Cholesky>
 #include <Eigen/QR>
@@ -12,10 +13,8 @@
 namespace fathom {
 namespace {
 
-constexpr double kNanoseconds = 1e9;
-
 std::int64_t nanoseconds(double seconds) {
-  return static_cast<std::int64_t>(std::llround(kNanoseconds * seconds));
+  return static_cast<std::int64_t>(std::llround(1e9 * seconds));
 }
 
 class Fit {
@@ -27,30 +26,34 @@ class Fit {
     median_s_ = median(times_s);
   }
 
-  std::optional<SetUpFit> best() {
-    std::vector<std::pair<double, SetUpParameters>> starts;
-    for (double offset_s = -kMostOffset_s; offset_s <= kMostOffset_s; offset_s += kOffsetStep_s) {
-      if (const auto start = start_at(offset_s)) starts.push_back(*start);
-    }
-    if (starts.empty()) return std::nullopt;
-    std::ranges::stable_sort(starts, std::greater<>(), [](const auto& one) { return one.first; });
-    std::optional<SetUpFit> best;
-    for (std::size_t i = 0; i < std::min<std::size_t>(starts.size(), kRefined); ++i) {
-      auto fit = refined(starts[i].second);
-      if (fit && (!best || fit->log_density > best->log_density)) best = std::move(fit);
+  // The likeliest of time offsets so far apart, with the rest by linear least squares. The clocks
+  // agree, unless another offset is far more likely than none.
+  std::optional<SetUpStart> start(double step_s) const {
+    constexpr double kGain = 10.0;
+    auto best = start_at(prior_.mean.time_offset_s);
+    double least = best ? best->log_density + kGain : -std::numeric_limits<double>::infinity();
+    for (double offset_s = -kMostOffset_s; offset_s <= kMostOffset_s; offset_s += step_s) {
+      const auto one = start_at(offset_s);
+      if (!one || !(one->log_density > least)) continue;
+      best = one;
+      least = one->log_density;
     }
     return best;
+  }
+
+  std::optional<SetUpFit> fitted() const {
+    const auto best = start(kOffsetStep_s);
+    auto fit = best ? refined(best->value) : std::nullopt;
+    if (fit && !tells_clock(fit->value)) {
+      fit->covariance(4, 4) = prior_.sigma_time_s * prior_.sigma_time_s;
+    }
+    return fit;
   }
 
  private:
   static constexpr double kMostOffset_s = 5.0;
   static constexpr double kOffsetStep_s = 0.25;
-  static constexpr std::size_t kRefined = 3;
   static constexpr std::size_t kFewest = 8;
-
-  static double seconds_of(const SeenMotion& motion) {
-    return std::abs(static_cast<double>(motion.to_ns - motion.from_ns)) / kNanoseconds;
-  }
 
   std::optional<Pose> reckoned(const SeenMotion& motion, double offset_s) const {
     const std::int64_t shift_ns = nanoseconds(offset_s);
@@ -60,19 +63,11 @@ class Fit {
   // All that are covered; nothing where these are fewer than most.
   std::vector<Beside> beside(double offset_s) const {
     std::vector<Beside> covered;
-    const double h_s = 0.25 * median_s_;
     for (std::size_t i = 0; i < motions_.size(); ++i) {
       const auto at = reckoned(motions_[i], offset_s);
       if (!at) continue;
-      Beside one{i, motions_[i].camera, *at, Eigen::Vector3d::Zero(),
-                 std::sqrt(seconds_of(motions_[i]) / median_s_)};
-      const auto before = reckoned(motions_[i], offset_s - h_s);
-      const auto after = reckoned(motions_[i], offset_s + h_s);
-      if (before && after) {
-        one.rate = (after->vector() - before->vector()) / (2.0 * h_s);
-        one.rate.z() = wrap_angle(after->theta - before->theta) / (2.0 * h_s);
-      }
-      covered.push_back(one);
+      covered.push_back({i, motions_[i].camera, *at, change_of(motions_, i),
+                         std::sqrt(seconds_of(motions_[i]) / median_s_)});
     }
     constexpr double kMost = 0.7;
     const bool are_enough =
@@ -121,17 +116,31 @@ class Fit {
             offset_s};
   }
 
-  std::optional<std::pair<double, SetUpParameters>> start_at(double offset_s) const {
+  std::optional<SetUpStart> start_at(double offset_s) const {
     const std::vector<Beside> covered = beside(offset_s);
     if (covered.empty()) return std::nullopt;
     SetUpParameters p = linear(covered, std::vector<double>(covered.size(), 1.0), offset_s, 1.0);
-    constexpr int kRounds = 8;
+    constexpr int kRounds = 5;
     ResidualSpread spread = spread_of(covered, p);
     for (int round = 0; round < kRounds; ++round) {
       p = linear(covered, weights_of(covered, p, spread), offset_s, spread.sigma_m);
       spread = spread_of(covered, p);
     }
-    return std::pair(density_of_all(covered, p, spread), p);
+    return SetUpStart{p, density_of_all(covered, p, spread)};
+  }
+
+  // Whether a clock a second off would be less likely by much. In an even motion noise alone passes
+  // for changes.
+  bool tells_clock(const SetUpParameters& p) const {
+    constexpr double kOff_s = 1.0;
+    constexpr double kLoss = 10.0;
+    const auto here = start_at(p.time_offset_s);
+    const auto before = start_at(p.time_offset_s - kOff_s);
+    const auto after = start_at(p.time_offset_s + kOff_s);
+    const auto is_lower = [&](const std::optional<SetUpStart>& there) {
+      return !there || there->log_density < here->log_density - kLoss;
+    };
+    return here && is_lower(before) && is_lower(after);
   }
 
   struct Normal {
@@ -152,7 +161,7 @@ class Fit {
       J.topLeftCorner<2, 1>() = -seen;
       J.block<2, 1>(0, 1) << seen.y(), -seen.x();
       J.block<2, 2>(0, 2) = -arm_of(one);
-      J.col(4) = one.rate;
+      J.col(4) = shifted(one, p);
       J = of_residual.asDiagonal() * J / one.noise;
       const Eigen::Vector3d e = of_residual.cwiseProduct(residual_of(one, p));
       const Vector5 score = weights[i] * J.transpose() * e;
@@ -163,16 +172,9 @@ class Fit {
     return normal;
   }
 
-  Vector5 prior_information() const {
-    Vector5 information = Vector5::Constant(1e-12);
-    information(2) = information(3) = 1.0 / (prior_.sigma_lever_m * prior_.sigma_lever_m);
-    information(4) = 1.0 / (prior_.sigma_time_s * prior_.sigma_time_s);
-    return information;
-  }
-
   std::optional<SetUpFit> refined(SetUpParameters p) const {
     constexpr int kRounds = 12;
-    const Vector5 information = prior_information();
+    const Vector5 information = prior_.information();
     for (int round = 0; round < kRounds; ++round) {
       const std::vector<Beside> covered = beside(p.time_offset_s);
       if (covered.empty()) return std::nullopt;
@@ -200,9 +202,8 @@ class Fit {
     fit.motions = covered.size();
     fit.sigma_m = spread.sigma_m;
     fit.sigma_rad = spread.sigma_rad;
-    fit.log_density = density_of_all(covered, p, spread);
     // Of M-estimates whatever the residuals' distribution (Huber's sandwich), with the prior.
-    const Vector5 information = prior_information();
+    const Vector5 information = prior_.information();
     const Matrix5 H = normal.H + Matrix5(information.asDiagonal());
     const auto count = static_cast<double>(covered.size());
     const Matrix5 scores =
@@ -216,9 +217,8 @@ class Fit {
       const Eigen::Vector2d seen = turned(one, p);
       const Eigen::Vector2d arm = arm_of(one) * Eigen::Vector2d(p.lever_x_m, p.lever_y_m);
       const double squared = seen.squaredNorm();
-      const double ratio =
-          squared > 0.0 ? (one.reckoned.position() - arm).dot(seen) / squared : 1.0;
-      fit.each.push_back({one.index, ratio, weights[i], residual_of(one, p)});
+      fit.each.push_back(
+          {one.index, squared > 0.0 ? (one.reckoned.position() - arm).dot(seen) / squared : 1.0});
     }
     fit.median_m = median(lengths_m);
     return fit;
@@ -232,10 +232,17 @@ class Fit {
 
 }  // namespace
 
+std::optional<SetUpStart> start_set_up(std::span<const SeenMotion> motions,
+                                       const OdometryTrack& track, const SetUpPrior& prior) {
+  constexpr double kStep_s = 0.5;
+  if (motions.empty() || track.is_empty()) return std::nullopt;
+  return Fit(motions, track, prior).start(kStep_s);
+}
+
 std::optional<SetUpFit> fit_set_up(std::span<const SeenMotion> motions, const OdometryTrack& track,
                                    const SetUpPrior& prior) {
   if (motions.empty() || track.is_empty()) return std::nullopt;
-  return Fit(motions, track, prior).best();
+  return Fit(motions, track, prior).fitted();
 }
 
 }  // namespace fathom

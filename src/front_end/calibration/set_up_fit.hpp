@@ -32,18 +32,14 @@ struct SetUpParameters {
 struct SetUpFit {
   SetUpParameters value;
   Matrix5 covariance = Matrix5::Zero();
-  std::size_t motions = 0;   ///< that dead reckoning covers
-  double sigma_m = 0.0;      ///< scale of a residual, x or y
-  double sigma_rad = 0.0;    ///< of the heading
-  double median_m = 0.0;     ///< length of a reckoned motion
-  double log_density = 0.0;  ///< of all motions, up to a constant
-  /// By motion covered: which one, the reckoned length over the registered one, and the weight of
-  /// it in the fit.
+  std::size_t motions = 0;  ///< that dead reckoning covers
+  double sigma_m = 0.0;     ///< scale of a residual, x or y
+  double sigma_rad = 0.0;   ///< of the heading
+  double median_m = 0.0;    ///< length of a reckoned motion
+  /// By motion covered: which one, and the reckoned length over the registered one.
   struct Motion {
     std::size_t index = 0;
     double length_ratio = 1.0;
-    double weight = 0.0;
-    Eigen::Vector3d residual = Eigen::Vector3d::Zero();  ///< m, m, rad
   };
   std::vector<Motion> each;
 };
@@ -54,7 +50,23 @@ struct SetUpPrior {
   SetUpParameters mean;
   double sigma_lever_m = 3.0;
   double sigma_time_s = 10.0;
+
+  Vector5 information() const {
+    constexpr double kNone = 1e-12;
+    const double of_lever = 1.0 / (sigma_lever_m * sigma_lever_m);
+    return {kNone, kNone, of_lever, of_lever, 1.0 / (sigma_time_s * sigma_time_s)};
+  }
 };
+
+/// A first estimate, and how likely the motions are with it.
+struct SetUpStart {
+  SetUpParameters value;
+  double log_density = 0.0;  ///< of all motions, up to a constant
+};
+
+/// The likeliest of time offsets half a second apart; what fit_set_up goes on from has finer ones.
+std::optional<SetUpStart> start_set_up(std::span<const SeenMotion> motions,
+                                       const OdometryTrack& track, const SetUpPrior& prior);
 
 /// Most likely with residuals of Student's t (docs/calibration.md): iteratively reweighted least
 /// squares from the best of several time offsets. Nothing where dead reckoning covers too few of
