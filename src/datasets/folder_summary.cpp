@@ -47,10 +47,14 @@ void warn(FolderSummary& summary, const std::vector<std::size_t>& frames, const 
 
 void sum_up_camera(const FrameSource& source, FolderSummary& summary) {
   const CameraModel& model = source.camera().model();
+  const bool is_named = model.distortion_model != DistortionModel::radial_tangential;
+  const std::string distortion = !model.has_distortion() ? "no"
+                                 : is_named              ? entry_of(model.distortion_model).name
+                                                         : "with";
   summary.facts.push_back(
       fmt::format("camera: {} x {} pixels, f {}, {}, centre {}, {}, {} distortion", model.width,
                   model.height, number(model.fx, 6), number(model.fy, 6), number(model.cx, 6),
-                  number(model.cy, 6), model.has_distortion() ? "with" : "no"));
+                  number(model.cy, 6), distortion));
   summary.facts.push_back(fmt::format("mounting: x {} m, y {} m, yaw {} rad",
                                       number(model.mount_x_m), number(model.mount_y_m),
                                       number(model.mount_yaw_rad)));

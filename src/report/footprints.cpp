@@ -91,7 +91,8 @@ class Overlaps {
 
   bool overlap_at_all(std::size_t i, std::size_t k) const {
     const double apart_m = distance_m(i, k);
-    if (apart_m < extents_[i].inner_m + extents_[k].inner_m) return true;
+    const bool is_inner = apart_m < extents_[i].inner_m + extents_[k].inner_m;
+    if (is_inner && camera_.model().has_straight_sides()) return true;
     if (apart_m > extents_[i].outer_m + extents_[k].outer_m) return false;
     return between(i, k) > 0.0;
   }

@@ -6,6 +6,9 @@
 #include <limits>
 #include <string>
 
+#include <Eigen/LU>
+
+#include "camera_checks.hpp"
 #include "distortion.hpp"
 #include "fathom/core/input_error.hpp"
 #include "fathom/geometry/pose.hpp"
@@ -40,40 +43,10 @@ Eigen::Vector2d one_metre_below(const Eigen::Vector3d& direction) {
   return direction.head<2>() / -direction.z();
 }
 
-void require_numbers(const CameraModel& model) {
-  if (model.width <= 0 || model.height <= 0) {
-    throw InputError(
-        fmt::format("camera resolution must be positive, got {} x {}", model.width, model.height));
-  }
-  if (!(model.fx > 0.0) || !(model.fy > 0.0) || !std::isfinite(model.fx) ||
-      !std::isfinite(model.fy)) {
-    throw InputError("camera focal lengths must be positive numbers of pixels, got " +
-                     std::to_string(model.fx) + " and " + std::to_string(model.fy));
-  }
-  bool finite = true;
-  for (const double number :
-       {model.cx, model.cy, model.mount_x_m, model.mount_y_m, model.mount_yaw_rad}) {
-    finite = finite && std::isfinite(number);
-  }
-  for (const double number : model.distortion) finite = finite && std::isfinite(number);
-  if (!finite) {
-    throw InputError("camera centre, distortion and mounting must be finite numbers");
-  }
-}
-
-// Distortion has its extremes at the border, but tangential terms and k3 of the other sign can fold
-// the inside too: a coarse net over the whole picture is looked at.
-void require_unfolded(const CameraModel& model) {
-  constexpr int kCells = 16;
-  for (int row = 0; row <= kCells; ++row) {
-    for (int column = 0; column <= kCells; ++column) {
-      const double u = -0.5 + model.width * column / static_cast<double>(kCells);
-      const double v = -0.5 + model.height * row / static_cast<double>(kCells);
-      if (!undistort(model.distortion, {(u - model.cx) / model.fx, (v - model.cy) / model.fy})) {
-        throw InputError("camera distortion folds the picture over at pixel (" + std::to_string(u) +
-                         ", " + std::to_string(v) + "); coefficients must be k1 k2 p1 p2 k3");
-      }
-    }
+void require_seen(std::span<const Eigen::Vector2d> points, const Stance& stance) {
+  if (!stance.is_level() && !std::ranges::all_of(points, &Eigen::Vector2d::allFinite)) {
+    throw InputError(fmt::format("a camera tilted by {:f} and {:f} rad sees the horizon",
+                                 stance.tilt.roll_rad, stance.tilt.pitch_rad));
   }
 }
 
@@ -81,26 +54,41 @@ void require_unfolded(const CameraModel& model) {
 
 void CameraModel::add_to(Hash& hash) const {
   hash.add(width).add(height).add(fx).add(fy).add(cx).add(cy);
-  for (const double coefficient : distortion) hash.add(coefficient);
+  constexpr std::size_t kRadialTangential = 5;
+  for (std::size_t i = 0; i < kRadialTangential; ++i) hash.add(distortion[i]);
   hash.add(mount_x_m).add(mount_y_m).add(mount_yaw_rad);
+  // A lens of the first model has no more words, so that its keys are what they always were.
+  if (distortion_model == DistortionModel::radial_tangential) return;
+  hash.add(entry_of(distortion_model).name);
+  for (std::size_t i = kRadialTangential; i < distortion.size(); ++i) hash.add(distortion[i]);
 }
 
 bool CameraModel::has_distortion() const {
-  return std::ranges::any_of(distortion, [](double coefficient) { return coefficient != 0.0; });
+  return distortion_model == DistortionModel::equidistant ||
+         std::ranges::any_of(distortion, [](double coefficient) { return coefficient != 0.0; });
+}
+
+bool CameraModel::has_straight_sides() const {
+  return distortion_model == DistortionModel::radial_tangential;
 }
 
 Camera::Camera(const CameraModel& model)
     : model_(model), body_from_mount_(rotation(model.mount_yaw_rad)) {
-  require_numbers(model_);
-  if (model_.has_distortion()) require_unfolded(model_);
+  require_camera(model_);
+  reach_rad_ = reach_of(model_);
+}
+
+// The pixel in focal lengths from the axis, distortion undone.
+Eigen::Vector2d Camera::image_point(const Eigen::Vector2d& pixel) const {
+  const Eigen::Vector2d image((pixel.x() - model_.cx) / model_.fx,
+                              (pixel.y() - model_.cy) / model_.fy);
+  if (!model_.has_distortion()) return image;
+  return undistort(model_, reach_rad_, image).value_or(Eigen::Vector2d(kNaN, kNaN));
 }
 
 // Where a level camera a metre above the floor sees a pixel, from the point below it, body frame.
 Eigen::Vector2d Camera::level_ray(const Eigen::Vector2d& pixel) const {
-  Eigen::Vector2d image((pixel.x() - model_.cx) / model_.fx, (pixel.y() - model_.cy) / model_.fy);
-  if (model_.has_distortion()) {
-    image = undistort(model_.distortion, image).value_or(Eigen::Vector2d(kNaN, kNaN));
-  }
+  const Eigen::Vector2d image = image_point(pixel);
   return body_from_mount_ * Eigen::Vector2d(-image.y(), -image.x());
 }
 
@@ -127,22 +115,38 @@ std::vector<Eigen::Vector2d> Camera::floor_points(std::span<const Eigen::Vector2
 }
 
 double Camera::heading(double turn_rad) const {
-  const Eigen::Vector2d way = body_from_mount_ * Eigen::Vector2d(-std::sin(turn_rad) / model_.fy,
-                                                                 -std::cos(turn_rad) / model_.fx);
+  return heading_of({std::cos(turn_rad) / model_.fx, std::sin(turn_rad) / model_.fy});
+}
+
+double Camera::heading_of(const Eigen::Vector2d& in_image) const {
+  const Eigen::Vector2d way = body_from_mount_ * Eigen::Vector2d(-in_image.y(), -in_image.x());
   return std::atan2(way.y(), way.x());
+}
+
+Camera::Neighbourhood Camera::level_neighbourhood(const Eigen::Vector2d& pixel,
+                                                  double turn_rad) const {
+  if (model_.distortion_model == DistortionModel::radial_tangential) {
+    return {heading(turn_rad), 1.0};
+  }
+  Eigen::Matrix2d distorted_ideal;
+  distort(model_, image_point(pixel), &distorted_ideal);
+  const Eigen::Vector2d shown(std::cos(turn_rad) / model_.fx, std::sin(turn_rad) / model_.fy);
+  return {heading_of(distorted_ideal.inverse() * shown),
+          1.0 / std::sqrt(distorted_ideal.determinant())};
 }
 
 // With g = R (b, −1) the ray b meets the floor at g_xy / −g_z, so a step db moves that point along
 // dg_xy (−g_z) + g_xy dg_z, dg = R (db, 0); and areas there grow by det R / (−g_z)³.
 Camera::Neighbourhood Camera::neighbourhood(const Eigen::Vector2d& pixel, double turn_rad,
                                             const Tilt& tilt) const {
-  if (tilt.is_level()) return {heading(turn_rad), 1.0};
+  const Neighbourhood level = level_neighbourhood(pixel, turn_rad);
+  if (tilt.is_level()) return level;
   const Eigen::Matrix3d R = tilt.rotation();
   const Eigen::Vector3d g = R * downward(level_ray(pixel));
-  const double level = heading(turn_rad);
-  const Eigen::Vector3d dg = R * Eigen::Vector3d(std::cos(level), std::sin(level), 0.0);
+  const Eigen::Vector3d dg =
+      R * Eigen::Vector3d(std::cos(level.heading_rad), std::sin(level.heading_rad), 0.0);
   const Eigen::Vector2d way = dg.head<2>() * -g.z() + g.head<2>() * dg.z();
-  return {std::atan2(way.y(), way.x()), std::pow(-g.z(), -1.5)};
+  return {std::atan2(way.y(), way.x()), level.stretch * std::pow(-g.z(), -1.5)};
 }
 
 Eigen::Vector2d Camera::pixel(const Eigen::Vector2d& floor_point, const Stance& stance) const {
@@ -155,7 +159,7 @@ Eigen::Vector2d Camera::pixel(const Eigen::Vector2d& floor_point, const Stance& 
         stance.altitude_m * one_metre_below(stance.tilt.rotation().transpose() * downward(ray));
   }
   const Eigen::Vector2d seen = body_from_mount_.transpose() * from_mount / stance.altitude_m;
-  const Eigen::Vector2d image = distort(model_.distortion, {-seen.y(), -seen.x()});
+  const Eigen::Vector2d image = distort(model_, {-seen.y(), -seen.x()});
   return {model_.cx + model_.fx * image.x(), model_.cy + model_.fy * image.y()};
 }
 
@@ -165,11 +169,25 @@ std::array<Eigen::Vector2d, 4> Camera::footprint(const Stance& stance) const {
   const std::array<Eigen::Vector2d, 4> corners{
       floor_point({-0.5, -0.5}, stance), floor_point({right, -0.5}, stance),
       floor_point({right, bottom}, stance), floor_point({-0.5, bottom}, stance)};
-  if (!stance.is_level() && !std::ranges::all_of(corners, &Eigen::Vector2d::allFinite)) {
-    throw InputError(fmt::format("a camera tilted by {:f} and {:f} rad sees the horizon",
-                                 stance.tilt.roll_rad, stance.tilt.pitch_rad));
-  }
+  require_seen(corners, stance);
   return corners;
+}
+
+std::vector<Eigen::Vector2d> Camera::outline(const Stance& stance, int steps) const {
+  const Eigen::Vector2d size(model_.width, model_.height);
+  const Eigen::Vector2d first(-0.5, -0.5);
+  const Eigen::Vector2d corners[] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 0}};
+  std::vector<Eigen::Vector2d> points;
+  points.reserve(4 * static_cast<std::size_t>(steps));
+  for (int side = 0; side < 4; ++side) {
+    for (int i = 0; i < steps; ++i) {
+      const Eigen::Vector2d at =
+          corners[side] + (corners[side + 1] - corners[side]) * (i / static_cast<double>(steps));
+      points.push_back(floor_point(first + at.cwiseProduct(size), stance));
+    }
+  }
+  require_seen(points, stance);
+  return points;
 }
 
 }  // namespace fathom

@@ -23,15 +23,21 @@ double signed_area(const Polygon& polygon) {
 }
 
 Polygon counter_clockwise(const Camera& camera, const Stance& stance, const Pose& pose) {
+  constexpr int kStepsASide = 8;
   Polygon corners;
-  for (const Eigen::Vector2d& corner : camera.footprint(stance)) {
-    corners.push_back(transform(pose, corner));
+  if (camera.model().has_straight_sides()) {
+    for (const Eigen::Vector2d& corner : camera.footprint(stance)) {
+      corners.push_back(transform(pose, corner));
+    }
+  } else {
+    corners = camera.outline(stance, kStepsASide);
+    for (Eigen::Vector2d& corner : corners) corner = transform(pose, corner);
   }
   if (signed_area(corners) < 0.0) std::reverse(corners.begin(), corners.end());
   return corners;
 }
 
-// What of a convex polygon lies to the left of the line from a to b, or on it.
+// What of a polygon lies to the left of the line from a to b, or on it.
 Polygon left_of(const Polygon& polygon, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   Polygon left;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -47,6 +53,28 @@ Polygon left_of(const Polygon& polygon, const Eigen::Vector2d& a, const Eigen::V
   return left;
 }
 
+// What of a polygon lies in a convex one, both counter-clockwise.
+double shared_area(Polygon polygon, const Polygon& convex) {
+  for (std::size_t i = 0; i < convex.size() && !polygon.empty(); ++i) {
+    polygon = left_of(polygon, convex[i], convex[(i + 1) % convex.size()]);
+  }
+  return polygon.size() < 3 ? 0.0 : signed_area(polygon);
+}
+
+// The same for any two. The second is a sum of triangles from its first corner, those outside of it
+// taken off again; of a polygon that is not convex a cut may leave parts joined by a seam, which
+// has no area.
+double shared_area_of_bent(const Polygon& a, const Polygon& b) {
+  double shared = 0.0;
+  for (std::size_t i = 1; i + 1 < b.size(); ++i) {
+    Polygon triangle{b[0], b[i], b[i + 1]};
+    const bool is_taken_off = signed_area(triangle) < 0.0;
+    if (is_taken_off) std::swap(triangle[1], triangle[2]);
+    shared += (is_taken_off ? -1.0 : 1.0) * shared_area(a, triangle);
+  }
+  return shared;
+}
+
 }  // namespace
 
 // Clipped side by side (Sutherland and Hodgman), and not by OpenCV's intersectConvexConvex, which
@@ -55,11 +83,8 @@ double footprint_overlap(const Camera& camera, const Stance& stance_a, const Sta
                          const Pose& motion) {
   const Polygon a = counter_clockwise(camera, stance_a, {});
   const Polygon b = counter_clockwise(camera, stance_b, motion);
-  Polygon common = a;
-  for (std::size_t i = 0; i < b.size() && !common.empty(); ++i) {
-    common = left_of(common, b[i], b[(i + 1) % b.size()]);
-  }
-  const double shared = common.size() < 3 ? 0.0 : signed_area(common);
+  const double shared =
+      camera.model().has_straight_sides() ? shared_area(a, b) : shared_area_of_bent(a, b);
   // Unmoved: far away its area would be lost in rounding.
   const double area_b = signed_area(counter_clockwise(camera, stance_b, {}));
   return std::clamp(shared / std::min(signed_area(a), area_b), 0.0, 1.0);

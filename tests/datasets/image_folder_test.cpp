@@ -45,6 +45,7 @@ void expect_same_camera(const CameraModel& a, const CameraModel& b) {
   EXPECT_EQ(a.fy, b.fy);
   EXPECT_EQ(a.cx, b.cx);
   EXPECT_EQ(a.cy, b.cy);
+  EXPECT_EQ(a.distortion_model, b.distortion_model);
   EXPECT_EQ(a.distortion, b.distortion);
   EXPECT_EQ(a.mount_x_m, b.mount_x_m);
   EXPECT_EQ(a.mount_y_m, b.mount_y_m);
@@ -135,7 +136,7 @@ TEST(ImageFolder, EurocFilesAreRead) {
   fixture.files.erase("odometry0/data.csv");
   const ImageFolder folder(fixture.write());
   EXPECT_EQ(folder.camera().model().distortion,
-            (std::array<double, 5>{-0.28340811, 0.07395907, 0.00019359, 1.76187114e-05, 0.0}));
+            (std::array<double, 8>{-0.28340811, 0.07395907, 0.00019359, 1.76187114e-05}));
   EXPECT_EQ(folder.info(1).time_ns, 1403636579813555456);
   EXPECT_FALSE(folder.has_odometry());
   EXPECT_FALSE(folder.info(1).motion.has_value());

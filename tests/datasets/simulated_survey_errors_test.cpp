@@ -59,12 +59,12 @@ INSTANTIATE_TEST_SUITE_P(
                   [](auto& o) {
                     o.camera.distortion = {0.1, 0, 0, 0};
                   },
-                  "dataset.camera.distortion: expected five"},
+                  "dataset.camera.distortion: expected the 5"},
         BadSurvey{"DistortionNaN",
                   [](auto& o) {
                     o.camera.distortion = {kNaN, 0, 0, 0, 0};
                   },
-                  "dataset.camera.distortion: expected five"},
+                  "dataset.camera.distortion: expected the 5"},
         BadSurvey{"DistortionFolds",
                   [](auto& o) {
                     o.camera.distortion = {-2, 0, 0, 0, 0};

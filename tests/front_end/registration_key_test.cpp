@@ -82,6 +82,33 @@ TEST(RegistrationKeys, EveryNumberOfTheCameraCounts) {
   EXPECT_EQ(different.size(), 1u + 2u + 7u + 5u);
 }
 
+TEST(RegistrationKeys, TheModelOfTheLensCounts) {
+  std::set<RegistrationKey> different;
+  for (const DistortionEntry& entry : distortion_models()) {
+    CameraModel camera;
+    camera.distortion_model = entry.model;
+    different.insert(key_of(camera, {}, {}));
+    for (std::size_t i = 0; i < entry.coefficients.size(); ++i) {
+      camera.distortion.fill(0.0);
+      camera.distortion[i] = 1e-9;
+      different.insert(key_of(camera, {}, {}));
+    }
+  }
+  EXPECT_EQ(different.size(), 3u + 5u + 4u + 8u);
+}
+
+// A cache that was made before there were other models is not made again.
+TEST(RegistrationKeys, OfRadialTangentialLensesAreWhatTheyWere) {
+  CameraModel camera;
+  camera.distortion = {0.1, -0.2, 0.003, 0.004, 0.5};
+  Hash expected;
+  expected.add(640).add(480).add(500.0).add(500.0).add(319.5).add(239.5);
+  expected.add(0.1).add(-0.2).add(0.003).add(0.004).add(0.5).add(0.0).add(0.0).add(0.0);
+  Hash hash;
+  camera.add_to(hash);
+  EXPECT_EQ(hash.value(), expected.value());
+}
+
 // Sets the key to the first of some values that it takes and that is new to it.
 bool change(OptionTable& table, const std::string& key) {
   const std::string before = table.value(key);

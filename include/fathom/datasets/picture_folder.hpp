@@ -23,7 +23,8 @@ struct PictureFolderOptions {
   std::optional<double> focal_y_px;         ///< absent: that of x
   std::optional<double> cx;                 ///< absent: the middle of the picture
   std::optional<double> cy;
-  std::vector<double> distortion;  ///< k1 k2 p1 p2 k3, or empty
+  DistortionModel distortion_model = DistortionModel::radial_tangential;
+  std::vector<double> distortion;  ///< its coefficients, or empty
   double mount_x_m = 0.0;
   double mount_y_m = 0.0;
   double mount_yaw_rad = 0.0;

@@ -8,12 +8,13 @@
 
 #include "fathom/core/hash.hpp"
 #include "fathom/geometry/pose.hpp"
+#include "fathom/vision/distortion_model.hpp"
 #include "fathom/vision/stance.hpp"
 
 namespace fathom {
 
-/// A downward pinhole camera with radial-tangential distortion (Brown; OpenCV's k1 k2 p1 p2 k3) and
-/// its mounting in the body frame. Pixels are at their centres: (0, 0) is the centre of the first.
+/// A downward pinhole camera with the distortion of its lens, and its mounting in the body frame.
+/// Pixels are at their centres: (0, 0) is the centre of the first.
 struct CameraModel {
   int width = 640;
   int height = 480;
@@ -21,12 +22,18 @@ struct CameraModel {
   double fy = 500.0;
   double cx = 319.5;
   double cy = 239.5;
-  std::array<double, 5> distortion{};  ///< k1 k2 p1 p2 k3; all zero: none
+  DistortionModel distortion_model = DistortionModel::radial_tangential;
+  std::array<double, 8> distortion{};  ///< its coefficients, zeros behind them
   double mount_x_m = 0.0;              ///< camera centre in the body frame
   double mount_y_m = 0.0;
   double mount_yaw_rad = 0.0;  ///< counter-clockwise seen from above; 0: picture top forward
 
+  /// Whether a straight line is bent: an equidistant lens without coefficients does so, too.
   bool has_distortion() const;
+
+  /// Whether the sides of what the picture covers are taken for straight, from corner to corner: of
+  /// a radial-tangential lens, which bends them by little.
+  bool has_straight_sides() const;
 
   /// All of its numbers.
   void add_to(Hash& hash) const;
@@ -44,7 +51,8 @@ struct CameraModel {
 class Camera {
  public:
   /// Throws InputError on a size or focal length that is not positive, on numbers that are not
-  /// finite, and on a distortion that folds the picture over, so that a pixel has no one ray.
+  /// finite, on a distortion that folds the picture over, so that a pixel has no one ray, and on a
+  /// fisheye's pixel at a quarter turn or more from the axis, where no floor is.
   explicit Camera(const CameraModel& model = {});
 
   const CameraModel& model() const { return model_; }
@@ -59,20 +67,22 @@ class Camera {
                                             const Stance& stance) const;
 
   /// The heading, in the body frame, of a direction in the picture: 0 is u, a quarter turn v. The
-  /// two turn opposite ways. Lens distortion, which turns it by little, is not undone.
+  /// two turn opposite ways. Lens distortion is not undone.
   double heading(double turn_rad) const;
 
-  /// What a tilt makes of a small neighbourhood of a pixel.
+  /// What a tilt, and a lens that is not radial-tangential, make of a small neighbourhood of a
+  /// pixel. Radial-tangential distortion, which turns by little, is not undone.
   struct Neighbourhood {
     double heading_rad = 0.0;  ///< of a direction in the picture there, as above
-    double stretch = 1.0;  ///< of lengths, their geometric mean, against those of a level camera
+    double stretch = 1.0;      ///< of lengths, their geometric mean, against those on the axis of a
+                               ///< level camera
   };
   Neighbourhood neighbourhood(const Eigen::Vector2d& pixel, double turn_rad,
                               const Tilt& tilt) const;
 
-  /// The pixel at which a body-frame point of the floor is seen, distortion applied. A polynomial
-  /// distortion is good for the picture alone: a point far outside it may come back in. NaN for a
-  /// point behind a tilted camera.
+  /// The pixel at which a body-frame point of the floor is seen, distortion applied. Distortion
+  /// is good for the picture alone: a point far outside it may come back in. NaN for a point behind
+  /// a tilted camera.
   Eigen::Vector2d pixel(const Eigen::Vector2d& floor_point, const Stance& stance) const;
 
   /// The four corners of what the picture covers, body frame, in the order top left, top right,
@@ -80,13 +90,21 @@ class Camera {
   /// left corner is that of pixel (−0.5, −0.5). Throws InputError where one sees the horizon.
   std::array<Eigen::Vector2d, 4> footprint(const Stance& stance) const;
 
+  /// The same with so many steps from corner to corner, as distortion bends the sides. Throws
+  /// likewise.
+  std::vector<Eigen::Vector2d> outline(const Stance& stance, int steps) const;
+
  private:
+  Neighbourhood level_neighbourhood(const Eigen::Vector2d& pixel, double turn_rad) const;
+  double heading_of(const Eigen::Vector2d& in_image) const;
+  Eigen::Vector2d image_point(const Eigen::Vector2d& pixel) const;
   Eigen::Vector2d level_ray(const Eigen::Vector2d& pixel) const;
   Eigen::Vector2d on_floor(const Eigen::Vector2d& pixel, const Stance& stance,
                            const Eigen::Matrix3d& tilt) const;
 
   CameraModel model_;
   Eigen::Matrix2d body_from_mount_;
+  double reach_rad_ = 0.0;  ///< of the lens (reach_of)
 };
 
 /// The share of the smaller one of two footprints that both pictures see, 0 to 1. `motion`: the

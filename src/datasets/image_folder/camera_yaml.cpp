@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <vector>
@@ -12,6 +13,8 @@
 
 namespace fathom {
 namespace {
+
+const char* const kNoDistortion = "none";
 
 class CameraReader {
  public:
@@ -83,24 +86,35 @@ class CameraReader {
 
   void read_distortion(CameraModel& model) const {
     const YAML::Node node = root_["distortion_model"];
-    const std::string name = node && node.IsScalar() ? node.Scalar() : "none";
-    if (name == "none") {
-      const YAML::Node unused = root_["distortion_coefficients"];
-      for (const YAML::Node& item : unused) {
-        if (number(item, "distortion_coefficients") == 0.0) continue;
-        refuse(unused,
-               "distortion_coefficients: there is no distortion_model to use them; expected "
-               "distortion_model: radial-tangential, or []");
-      }
+    const std::string name = node && node.IsScalar() ? node.Scalar() : kNoDistortion;
+    if (name == kNoDistortion) return refuse_unused_coefficients();
+    std::vector<std::string> names{kNoDistortion};
+    for (const DistortionEntry& entry : distortion_models()) {
+      names.push_back(entry.name);
+      if (entry.name != name) continue;
+      std::vector<std::string> fewest = entry.coefficients;
+      fewest.resize(entry.fewest);
+      const std::vector<double> values = numbers(
+          "distortion_coefficients",
+          fewest == entry.coefficients ? entry.list()
+                                       : "[" + joined(fewest, ", ") + "] or " + entry.list(),
+          entry.fewest, entry.coefficients.size());
+      model.distortion_model = entry.model;
+      std::ranges::copy(values, model.distortion.begin());
       return;
     }
-    if (name != "radial-tangential") {
-      refuse(node, "distortion_model: " + in_quotes(name) + " is unknown; expected none or " +
-                       "radial-tangential" + suggestion(name, {"none", "radial-tangential"}));
+    refuse(node, "distortion_model: " + in_quotes(name) + " is unknown; expected one of " +
+                     joined(names, ", ") + suggestion(name, names));
+  }
+
+  void refuse_unused_coefficients() const {
+    const YAML::Node unused = root_["distortion_coefficients"];
+    for (const YAML::Node& item : unused) {
+      if (number(item, "distortion_coefficients") == 0.0) continue;
+      refuse(unused,
+             "distortion_coefficients: there is no distortion_model to use them; expected "
+             "distortion_model: radial-tangential, or []");
     }
-    const std::vector<double> values =
-        numbers("distortion_coefficients", "[k1, k2, p1, p2] or [k1, k2, p1, p2, k3]", 4, 5);
-    std::copy(values.begin(), values.end(), model.distortion.begin());
   }
 
   void read_mounting(CameraModel& model) const {
@@ -142,16 +156,18 @@ std::string camera_yaml(const CameraModel& model) {
     for (const double value : values) out << exact(value);
     out << YAML::EndSeq << YAML::Comment(comment);
   };
-  const auto& d = model.distortion;
+  const DistortionEntry& lens = entry_of(model.distortion_model);
+  std::vector<double> coefficients(
+      model.distortion.begin(),
+      model.distortion.begin() + static_cast<std::ptrdiff_t>(lens.coefficients.size()));
+  if (!model.has_distortion()) coefficients.clear();
   out << YAML::BeginMap;
   put("sensor_type") << "camera";
   put("camera_model") << "pinhole";
   put("resolution") << YAML::Flow << YAML::BeginSeq << model.width << model.height << YAML::EndSeq;
   put_list("intrinsics", {model.fx, model.fy, model.cx, model.cy}, "fx, fy, cx, cy [px]");
-  put("distortion_model") << (model.has_distortion() ? "radial-tangential" : "none");
-  put_list("distortion_coefficients",
-           model.has_distortion() ? std::vector<double>(d.begin(), d.end()) : std::vector<double>{},
-           "k1, k2, p1, p2, k3");
+  put("distortion_model") << (model.has_distortion() ? lens.name : kNoDistortion);
+  put_list("distortion_coefficients", coefficients, joined(lens.coefficients, ", ").c_str());
   put("mounting") << YAML::Flow << YAML::BeginMap;
   put("x") << exact(model.mount_x_m);
   put("y") << exact(model.mount_y_m);

@@ -4,11 +4,13 @@
 #include <map>
 #include <numbers>
 #include <optional>
+#include <set>
 #include <sstream>
 #include <string>
 
 #include <Eigen/Geometry>
 
+#include "colmap_camera.hpp"
 #include "fathom/core/files.hpp"
 #include "fathom/core/input_error.hpp"
 #include "fathom/core/text.hpp"
@@ -25,6 +27,7 @@ namespace {
 struct NamedCamera {
   std::string name;
   CameraPose pose;
+  std::int64_t camera_id = 0;
 };
 
 // IMAGE_ID, QW, QX, QY, QZ, TX, TY, TZ, CAMERA_ID, NAME; the pose is that of the world in the
@@ -40,13 +43,15 @@ NamedCamera parse_image(const std::string& file, std::size_t line, std::string_v
     is_image = number.has_value();
     if (number) numbers[i] = *number;
   }
+  const auto camera_id = is_image ? parse_integer(words[kNumbers - 1]) : std::nullopt;
   Eigen::Quaterniond rotation(numbers[1], numbers[2], numbers[3], numbers[4]);
-  if (!is_image || std::abs(rotation.norm() - 1.0) > kMostOff) {
+  if (!camera_id || std::abs(rotation.norm() - 1.0) > kMostOff) {
     throw InputError(file, line,
                      "expected IMAGE_ID QW QX QY QZ TX TY TZ CAMERA_ID NAME, the quaternion of "
                      "length 1, and a line of points after each");
   }
   NamedCamera camera;
+  camera.camera_id = *camera_id;
   camera.pose.axes = rotation.normalized().toRotationMatrix().transpose();
   camera.pose.centre = -camera.pose.axes * Eigen::Vector3d(numbers[5], numbers[6], numbers[7]);
   // A name may have blanks in it.
@@ -199,6 +204,10 @@ ImportReport import_colmap(const fs::path& model, const PoseImportOptions& optio
   ImportReport report;
   report.facts.push_back(fmt::format("{} poses of {} images", reference.size(), images));
   say_geometry(planar, options.scale, report);
+  std::set<std::int64_t> used;
+  for (const NamedCamera& camera : cameras) used.insert(camera.camera_id);
+  write_colmap_camera(model, used, survey ? survey->folder().camera().model() : CameraModel{},
+                      folder, report);
   if (!survey) {
     report.notes.emplace_back(
         "no --survey: poses are numbered by the names of their images, a second apart");

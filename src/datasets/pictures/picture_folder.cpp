@@ -10,6 +10,7 @@
 #include "fathom/core/hash.hpp"
 #include "fathom/core/input_error.hpp"
 #include "fathom/core/text.hpp"
+#include "fathom/datasets/camera_options.hpp"
 #include "fathom/datasets/picture_file.hpp"
 #include "picture_table.hpp"
 
@@ -44,6 +45,16 @@ std::string missing_focal_length(const fs::path& picture, int width) {
   return text;
 }
 
+// Focal lengths from the centre at which a fisheye shows what is at an angle from its axis.
+double equidistant_radius(const std::vector<double>& coefficients, double angle_rad) {
+  double radius = 0.0;
+  double power = angle_rad;
+  for (const double coefficient : coefficients) {
+    radius += coefficient * (power *= angle_rad * angle_rad);
+  }
+  return angle_rad + radius;
+}
+
 double focal_length(const PictureFolderOptions& options, const fs::path& picture, int width) {
   if (options.focal_px && options.field_of_view_rad) {
     throw InputError(
@@ -51,7 +62,11 @@ double focal_length(const PictureFolderOptions& options, const fs::path& picture
   }
   if (options.focal_px) return *options.focal_px;
   if (!options.field_of_view_rad) throw InputError(missing_focal_length(picture, width));
-  return 0.5 * width / std::tan(0.5 * *options.field_of_view_rad);
+  const double half_rad = 0.5 * *options.field_of_view_rad;
+  if (options.distortion_model == DistortionModel::equidistant) {
+    return 0.5 * width / equidistant_radius(options.distortion, half_rad);
+  }
+  return 0.5 * width / std::tan(half_rad);
 }
 
 Camera camera_of(const PictureFolderOptions& options, const fs::path& picture) {
@@ -59,14 +74,12 @@ Camera camera_of(const PictureFolderOptions& options, const fs::path& picture) {
   CameraModel model;
   model.width = first.cols;
   model.height = first.rows;
+  model.distortion_model = options.distortion_model;
+  set_distortion(model, options.distortion, "dataset.camera.distortion");
   model.fx = focal_length(options, picture, first.cols);
   model.fy = options.focal_y_px.value_or(model.fx);
   model.cx = options.cx.value_or((model.width - 1) / 2.0);
   model.cy = options.cy.value_or((model.height - 1) / 2.0);
-  if (!options.distortion.empty() && options.distortion.size() != model.distortion.size()) {
-    throw InputError("dataset.camera.distortion: expected [k1, k2, p1, p2, k3]");
-  }
-  std::ranges::copy(options.distortion, model.distortion.begin());
   model.mount_x_m = options.mount_x_m;
   model.mount_y_m = options.mount_y_m;
   model.mount_yaw_rad = options.mount_yaw_rad;

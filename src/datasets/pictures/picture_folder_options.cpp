@@ -1,3 +1,4 @@
+#include "fathom/datasets/camera_options.hpp"
 #include "fathom/datasets/picture_folder.hpp"
 
 namespace fathom {
@@ -19,7 +20,7 @@ void PictureFolderOptions::describe(OptionTable& table) {
                     "focal length along v; off: that along u");
   table.real_or_off("camera.cx", cx, Range::any(), "pixels", "off: the middle of the picture");
   table.real_or_off("camera.cy", cy, Range::any(), "pixels", "off: the middle of the picture");
-  table.reals("camera.distortion", distortion, 5, "", "k1, k2, p1, p2, k3; none: []");
+  describe_distortion(table, "camera.", distortion_model, distortion);
   table.real("camera.mount_x_m", mount_x_m, Range::any(), "m", "camera ahead of the body's origin");
   table.real("camera.mount_y_m", mount_y_m, Range::any(), "m", "and to port of it");
   table.real("camera.mount_yaw_rad", mount_yaw_rad, Range::any(), "rad",

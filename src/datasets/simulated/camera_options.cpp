@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 
 #include "fathom/core/input_error.hpp"
 
@@ -18,8 +19,7 @@ void CameraOptions::describe(OptionTable& table) {
                     "column of the optical axis; off: the middle of the picture");
   table.real_or_off("cy", cy, Range::any(), "pixels",
                     "row of the optical axis; off: the middle of the picture");
-  table.reals("distortion", distortion, 5, "",
-              "radial-tangential distortion [k1, k2, p1, p2, k3]; []: none");
+  describe_distortion(table, "", base.distortion_model, distortion);
   table.real("mount_x_m", base.mount_x_m, Range::any(), "m", "camera ahead of the body's origin");
   table.real("mount_y_m", base.mount_y_m, Range::any(), "m", "camera to port of the body's origin");
   table.real("mount_yaw_rad", base.mount_yaw_rad, Range::any(), "rad",
@@ -30,13 +30,36 @@ CameraModel CameraOptions::model(const std::string& key_prefix) const {
   CameraModel model = base;
   model.cx = cx.value_or((model.width - 1) / 2.0);
   model.cy = cy.value_or((model.height - 1) / 2.0);
-  const bool finite = std::all_of(distortion.begin(), distortion.end(),
-                                  [](double value) { return std::isfinite(value); });
-  if (!finite || (!distortion.empty() && distortion.size() != model.distortion.size())) {
-    throw InputError(key_prefix + "distortion: expected five numbers [k1, k2, p1, p2, k3], or []");
-  }
-  if (!distortion.empty()) std::ranges::copy(distortion, model.distortion.begin());
+  set_distortion(model, distortion, key_prefix + "distortion");
   return model;
+}
+
+void describe_distortion(OptionTable& table, const std::string& prefix, DistortionModel& model,
+                         std::vector<double>& coefficients) {
+  std::vector<std::pair<std::string, DistortionModel>> names;
+  for (const DistortionEntry& entry : distortion_models()) {
+    names.emplace_back(entry.name, entry.model);
+  }
+  table.enumeration(prefix + "distortion_model", model, names,
+                    "how the lens bends: OpenCV's formulas; a fisheye is equidistant");
+  std::string lists;
+  for (const DistortionEntry& entry : distortion_models()) {
+    lists += (lists.empty() ? "" : ", ") + entry.name + " " + entry.list();
+  }
+  table.reals(prefix + "distortion", coefficients, 1, "", lists + "; []: all zero");
+}
+
+void set_distortion(CameraModel& camera, const std::vector<double>& coefficients,
+                    const std::string& key) {
+  const DistortionEntry& entry = entry_of(camera.distortion_model);
+  const bool finite =
+      std::ranges::all_of(coefficients, [](double value) { return std::isfinite(value); });
+  if (!finite || (!coefficients.empty() && coefficients.size() != entry.coefficients.size())) {
+    throw InputError(fmt::format("{}: expected the {} numbers {} of {} distortion, or []", key,
+                                 entry.coefficients.size(), entry.list(), entry.name));
+  }
+  camera.distortion.fill(0.0);
+  std::ranges::copy(coefficients, camera.distortion.begin());
 }
 
 }  // namespace fathom

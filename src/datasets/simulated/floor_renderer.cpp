@@ -115,7 +115,7 @@ ViewRays::ViewRays(const Camera& camera)
       const Eigen::Vector2d ray = camera.floor_point({u - 0.5, v - 0.5}, 1.0) - mount_m_;
       if (!ray.allFinite()) {
         throw InputError("camera distortion cannot be undone at pixel (" + std::to_string(u) +
-                         ", " + std::to_string(v) + "); expected coefficients k1 k2 p1 p2 k3");
+                         ", " + std::to_string(v) + ")");
       }
       corners_.push_back(ray.cast<float>());
       if (u == 0 || v == 0 || u == width || v == height) border_.push_back(ray);

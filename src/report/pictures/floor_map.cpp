@@ -7,20 +7,7 @@
 namespace fathom {
 
 std::vector<Eigen::Vector2d> seen_outline(const Camera& camera, const Stance& stance) {
-  const CameraModel& model = camera.model();
-  const int steps = model.has_distortion() ? 24 : 1;
-  const Eigen::Vector2d size(model.width, model.height);
-  const Eigen::Vector2d first(-0.5, -0.5);
-  const Eigen::Vector2d corners[] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 0}};
-  std::vector<Eigen::Vector2d> outline;
-  for (int side = 0; side < 4; ++side) {
-    for (int i = 0; i < steps; ++i) {
-      const Eigen::Vector2d at =
-          corners[side] + (corners[side + 1] - corners[side]) * (i / static_cast<double>(steps));
-      outline.push_back(camera.floor_point(first + at.cwiseProduct(size), stance));
-    }
-  }
-  return outline;
+  return camera.outline(stance, camera.model().has_distortion() ? 24 : 1);
 }
 
 cv::Mat mask_of(const FloorMap& map, const std::vector<Eigen::Vector2d>& polygon,

@@ -9,6 +9,7 @@
 
 #include "fathom/core/input_error.hpp"
 #include "fathom/report/mosaic.hpp"
+#include "fathom/vision/features.hpp"
 #include "floor_map.hpp"
 
 namespace fathom {
@@ -48,8 +49,12 @@ LaidFootprint footprint_of(const Camera& camera, const PlacedPicture& picture) {
     throw InputError("the pose of frame " + std::to_string(picture.frame) + " is not finite");
   }
   LaidFootprint footprint{camera.footprint(picture.stance), 0.0, 0.0};
-  const double pixels = static_cast<double>(camera.model().width) * camera.model().height;
-  footprint.metres_per_pixel = std::sqrt(area_of(footprint.corners) / pixels);
+  const CameraModel& model = camera.model();
+  const double pixels = static_cast<double>(model.width) * model.height;
+  // A lens that bends much leaves most of the area between the corners to a few pixels, or to none.
+  footprint.metres_per_pixel = model.has_straight_sides()
+                                   ? std::sqrt(area_of(footprint.corners) / pixels)
+                                   : metres_per_pixel(model, picture.stance.altitude_m);
   footprint.shorter_side_m = shorter_side_of(footprint.corners);
   for (Eigen::Vector2d& corner : footprint.corners) corner = transform(pose, corner);
   return footprint;
