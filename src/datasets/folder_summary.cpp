@@ -55,12 +55,9 @@ void sum_up_camera(const FrameSource& source, FolderSummary& summary) {
       fmt::format("camera: {} x {} pixels, f {}, {}, centre {}, {}, {} distortion", model.width,
                   model.height, number(model.fx, 6), number(model.fy, 6), number(model.cx, 6),
                   number(model.cy, 6), distortion));
-  summary.facts.push_back(fmt::format("mounting: x {} m, y {} m, yaw {} rad",
-                                      number(model.mount_x_m), number(model.mount_y_m),
-                                      number(model.mount_yaw_rad)));
-  const bool centred = model.cx > 0.25 * model.width && model.cx < 0.75 * model.width &&
-                       model.cy > 0.25 * model.height && model.cy < 0.75 * model.height;
-  if (!centred) summary.warnings.emplace_back("the optical axis is far from the picture's middle");
+  summary.facts.push_back(fmt::format(
+      "mounting: x {} m, y {} m, yaw {} rad{}", number(model.mount_x_m), number(model.mount_y_m),
+      number(model.mount_yaw_rad), model.is_mirrored ? "; mirrored" : ""));
 }
 
 void sum_up_time(const FrameSource& source, FolderSummary& summary) {

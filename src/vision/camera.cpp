@@ -57,6 +57,7 @@ void CameraModel::add_to(Hash& hash) const {
   constexpr std::size_t kRadialTangential = 5;
   for (std::size_t i = 0; i < kRadialTangential; ++i) hash.add(distortion[i]);
   hash.add(mount_x_m).add(mount_y_m).add(mount_yaw_rad);
+  if (is_mirrored) hash.add("mirrored");
   // A lens of the first model has no more words, so that its keys are what they always were.
   if (distortion_model == DistortionModel::radial_tangential) return;
   hash.add(entry_of(distortion_model).name);
@@ -88,8 +89,12 @@ Eigen::Vector2d Camera::image_point(const Eigen::Vector2d& pixel) const {
 
 // Where a level camera a metre above the floor sees a pixel, from the point below it, body frame.
 Eigen::Vector2d Camera::level_ray(const Eigen::Vector2d& pixel) const {
-  const Eigen::Vector2d image = image_point(pixel);
-  return body_from_mount_ * Eigen::Vector2d(-image.y(), -image.x());
+  return ray_of(image_point(pixel));
+}
+
+Eigen::Vector2d Camera::ray_of(const Eigen::Vector2d& image) const {
+  const double left = model_.is_mirrored ? image.x() : -image.x();
+  return body_from_mount_ * Eigen::Vector2d(-image.y(), left);
 }
 
 Eigen::Vector2d Camera::on_floor(const Eigen::Vector2d& pixel, const Stance& stance,
@@ -119,7 +124,7 @@ double Camera::heading(double turn_rad) const {
 }
 
 double Camera::heading_of(const Eigen::Vector2d& in_image) const {
-  const Eigen::Vector2d way = body_from_mount_ * Eigen::Vector2d(-in_image.y(), -in_image.x());
+  const Eigen::Vector2d way = ray_of(in_image);
   return std::atan2(way.y(), way.x());
 }
 
@@ -159,23 +164,27 @@ Eigen::Vector2d Camera::pixel(const Eigen::Vector2d& floor_point, const Stance& 
         stance.altitude_m * one_metre_below(stance.tilt.rotation().transpose() * downward(ray));
   }
   const Eigen::Vector2d seen = body_from_mount_.transpose() * from_mount / stance.altitude_m;
-  const Eigen::Vector2d image = distort(model_, {-seen.y(), -seen.x()});
+  const double right = model_.is_mirrored ? seen.y() : -seen.y();
+  const Eigen::Vector2d image = distort(model_, {right, -seen.x()});
   return {model_.cx + model_.fx * image.x(), model_.cy + model_.fy * image.y()};
 }
 
 std::array<Eigen::Vector2d, 4> Camera::footprint(const Stance& stance) const {
-  const double right = model_.width - 0.5;
+  const double far = model_.width - 0.5;
+  const double left = model_.is_mirrored ? far : -0.5;
+  const double right = model_.is_mirrored ? -0.5 : far;
   const double bottom = model_.height - 0.5;
   const std::array<Eigen::Vector2d, 4> corners{
-      floor_point({-0.5, -0.5}, stance), floor_point({right, -0.5}, stance),
-      floor_point({right, bottom}, stance), floor_point({-0.5, bottom}, stance)};
+      floor_point({left, -0.5}, stance), floor_point({right, -0.5}, stance),
+      floor_point({right, bottom}, stance), floor_point({left, bottom}, stance)};
   require_seen(corners, stance);
   return corners;
 }
 
 std::vector<Eigen::Vector2d> Camera::outline(const Stance& stance, int steps) const {
-  const Eigen::Vector2d size(model_.width, model_.height);
-  const Eigen::Vector2d first(-0.5, -0.5);
+  const double width = model_.width;
+  const Eigen::Vector2d size(model_.is_mirrored ? -width : width, model_.height);
+  const Eigen::Vector2d first(model_.is_mirrored ? width - 0.5 : -0.5, -0.5);
   const Eigen::Vector2d corners[] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 0}};
   std::vector<Eigen::Vector2d> points;
   points.reserve(4 * static_cast<std::size_t>(steps));

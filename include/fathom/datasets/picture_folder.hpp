@@ -28,6 +28,7 @@ struct PictureFolderOptions {
   double mount_x_m = 0.0;
   double mount_y_m = 0.0;
   double mount_yaw_rad = 0.0;
+  bool is_mirrored = false;
   double interval_s = 1.0;  ///< between pictures that do not say when they were taken
 
   void describe(OptionTable& table);

@@ -27,6 +27,9 @@ struct CameraModel {
   double mount_x_m = 0.0;              ///< camera centre in the body frame
   double mount_y_m = 0.0;
   double mount_yaw_rad = 0.0;  ///< counter-clockwise seen from above; 0: picture top forward
+  /// Left and right are exchanged in the pictures, as behind a mirror; all numbers above are of the
+  /// pictures as they are.
+  bool is_mirrored = false;
 
   /// Whether a straight line is bent: an equidistant lens without coefficients does so, too.
   bool has_distortion() const;
@@ -43,7 +46,8 @@ struct CameraModel {
 ///
 ///     body point = Rot(yaw) · (−(v − c_y)/f_y, −(u − c_x)/f_x) · altitude + (mount_x, mount_y)
 ///
-/// for an undistorted pixel (u, v), u to the right and v down, and a level camera. Of a tilted one
+/// for an undistorted pixel (u, v), u to the right and v down, and a level camera; of mirrored
+/// pictures +(u − c_x)/f_x. Of a tilted one
 /// the same ray is turned by Rot_y(pitch) Rot_x(roll) about the camera's centre, which is
 /// `altitude_m` above the floor. The body frame stays level: its axes are the heading's. All calls
 /// throw InputError on an altitude that is not a positive number of metres, and on a tilt that is
@@ -87,7 +91,8 @@ class Camera {
 
   /// The four corners of what the picture covers, body frame, in the order top left, top right,
   /// bottom right, bottom left of the picture. Pixels are squares about their centres, so the top
-  /// left corner is that of pixel (−0.5, −0.5). Throws InputError where one sees the horizon.
+  /// left corner is that of pixel (−0.5, −0.5); of mirrored pictures it is the top right one, so
+  /// that the order is that of the floor. Throws InputError where one sees the horizon.
   std::array<Eigen::Vector2d, 4> footprint(const Stance& stance) const;
 
   /// The same with so many steps from corner to corner, as distortion bends the sides. Throws
@@ -97,6 +102,7 @@ class Camera {
  private:
   Neighbourhood level_neighbourhood(const Eigen::Vector2d& pixel, double turn_rad) const;
   double heading_of(const Eigen::Vector2d& in_image) const;
+  Eigen::Vector2d ray_of(const Eigen::Vector2d& image) const;
   Eigen::Vector2d image_point(const Eigen::Vector2d& pixel) const;
   Eigen::Vector2d level_ray(const Eigen::Vector2d& pixel) const;
   Eigen::Vector2d on_floor(const Eigen::Vector2d& pixel, const Stance& stance,

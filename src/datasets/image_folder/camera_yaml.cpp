@@ -42,6 +42,7 @@ class CameraReader {
     model.cy = intrinsics[3];
     read_distortion(model);
     read_mounting(model);
+    read_mirrored(model);
     try {
       return Camera(model);
     } catch (const InputError& error) {
@@ -135,6 +136,14 @@ class CameraReader {
     }
   }
 
+  void read_mirrored(CameraModel& model) const {
+    const YAML::Node node = root_["mirrored"];
+    if (!node) return;
+    const std::string word = node.IsScalar() ? node.Scalar() : "";
+    if (word != "true" && word != "false") refuse(node, "mirrored: expected true or false");
+    model.is_mirrored = word == "true";
+  }
+
   std::string file_;
   YAML::Node root_;
 };
@@ -174,6 +183,7 @@ std::string camera_yaml(const CameraModel& model) {
   put("yaw") << exact(model.mount_yaw_rad) << YAML::EndMap
              << YAML::Comment(
                     "of the camera in the body frame; yaw 0: picture top forward; m, m, rad");
+  if (model.is_mirrored) put("mirrored") << true;
   out << YAML::EndMap;
   return out.c_str() + std::string("\n");
 }

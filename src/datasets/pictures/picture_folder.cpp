@@ -83,6 +83,7 @@ Camera camera_of(const PictureFolderOptions& options, const fs::path& picture) {
   model.mount_x_m = options.mount_x_m;
   model.mount_y_m = options.mount_y_m;
   model.mount_yaw_rad = options.mount_yaw_rad;
+  model.is_mirrored = options.is_mirrored;
   return Camera(model);
 }
 

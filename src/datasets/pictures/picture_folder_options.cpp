@@ -25,6 +25,7 @@ void PictureFolderOptions::describe(OptionTable& table) {
   table.real("camera.mount_y_m", mount_y_m, Range::any(), "m", "and to port of it");
   table.real("camera.mount_yaw_rad", mount_yaw_rad, Range::any(), "rad",
              "counter-clockwise from above; 0: the top of the picture looks forward");
+  table.boolean("camera.mirrored", is_mirrored, "left and right are exchanged in the pictures");
 }
 
 }  // namespace fathom

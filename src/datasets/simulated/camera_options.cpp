@@ -24,6 +24,7 @@ void CameraOptions::describe(OptionTable& table) {
   table.real("mount_y_m", base.mount_y_m, Range::any(), "m", "camera to port of the body's origin");
   table.real("mount_yaw_rad", base.mount_yaw_rad, Range::any(), "rad",
              "turn of the camera, counter-clockwise from above; 0: picture top forward");
+  table.boolean("mirrored", base.is_mirrored, "left and right are exchanged in the pictures");
 }
 
 CameraModel CameraOptions::model(const std::string& key_prefix) const {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <numbers>
 
 #include "fathom/core/text.hpp"
 
@@ -67,11 +68,17 @@ void find_mounting(const CalibrationInput& input, const SetUp& found, bool is_mi
                         text.empty() ? "" : "; ", with_sigma(found.lever_x_m), with_sigma(y_m),
                         short_number(camera.mount_x_m), short_number(camera.mount_y_m));
   }
+  // Cameras are mounted at right angles more often than a little beside.
+  constexpr double kQuarter_rad = std::numbers::pi / 2.0;
+  constexpr double kBeside_rad = 0.02;
+  const double square_rad = kQuarter_rad * std::round(yaw.value / kQuarter_rad);
+  const double written_rad =
+      std::abs(yaw.value - square_rad) < kBeside_rad ? square_rad : yaw.value;
   findings.push_back(text + "; write " +
                      in_file(fmt::format("mounting: {{x: {:.3f}, y: {:.3f}, yaw: {:.3f}}}",
                                          x_is_off ? found.lever_x_m.value : camera.mount_x_m,
                                          y_is_off ? y_m.value : camera.mount_y_m,
-                                         is_turned ? yaw.value : camera.mount_yaw_rad),
+                                         is_turned ? written_rad : camera.mount_yaw_rad),
                              "cam0"));
 }
 
