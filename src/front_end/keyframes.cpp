@@ -1,5 +1,6 @@
 #include "fathom/front_end/keyframes.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 #include "fathom/core/input_error.hpp"
@@ -22,6 +23,20 @@ std::vector<std::string> KeyframeOptions::ignored_keys() const {
   return {};
 }
 
+// As dead reckoning has it. A small footprint within a large one shares all of itself wherever it
+// is; so two of the smaller one, where the altitudes have them, must share half as much.
+bool KeyframeSchedule::shares_enough(const Stance& keyframe, const Stance& frame,
+                                     const Pose& motion) const {
+  const Camera& camera = source_.camera();
+  if (footprint_overlap(camera, keyframe, frame, motion) < options_.kept_overlap) return false;
+  Stance low_keyframe = keyframe;
+  Stance low_frame = frame;
+  low_keyframe.altitude_m = low_frame.altitude_m = std::min(keyframe.altitude_m, frame.altitude_m);
+  constexpr double kHalf = 0.5;
+  return !(footprint_overlap(camera, low_keyframe, low_frame, motion) <
+           kHalf * options_.kept_overlap);
+}
+
 std::optional<std::size_t> KeyframeSchedule::after(std::size_t keyframe) const {
   if (options_.separation_frames) {
     const std::size_t next = keyframe + static_cast<std::size_t>(*options_.separation_frames);
@@ -32,8 +47,7 @@ std::optional<std::size_t> KeyframeSchedule::after(std::size_t keyframe) const {
   for (std::size_t frame = keyframe + 1; frame < source_.size(); ++frame) {
     const FrameInfo& info = source_.info(frame);
     motion = compose(motion, info.motion->mean);
-    const double overlap = footprint_overlap(source_.camera(), stance, info.stance(), motion);
-    if (!(overlap < options_.kept_overlap) && !info.is_hole) continue;
+    if (shares_enough(stance, info.stance(), motion) && !info.is_hole) continue;
     return frame - 1 > keyframe ? frame - 1 : frame;
   }
   return std::nullopt;

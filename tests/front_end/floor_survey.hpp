@@ -50,6 +50,7 @@ class FloorSurvey : public FrameSource {
     }
   }
 
+  void set_altitude(std::size_t frame, double altitude_m) { infos_[frame].altitude_m = altitude_m; }
   void make_blank(std::size_t frame) { blank_.insert(frame); }
   void make_unreadable(std::size_t frame) { unreadable_.insert(frame); }
   int times_taken(std::size_t frame) const { return taken_[frame]; }

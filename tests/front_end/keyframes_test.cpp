@@ -53,6 +53,17 @@ TEST(KeyframeSchedule, WhereNoFrameSharesEnoughTheNextIsTaken) {
               ElementsAre(0, 1, 2, 4, 5, 6));
 }
 
+// From 50 m up frame 1 would see all later ones. Of 1.406 m, 0.75 m ahead leave 0.47 and 1 m 0.29.
+TEST(KeyframeSchedule, NoSingleAltitudeEndsIt) {
+  const std::vector<double> metres{0, 0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 1.75, 2.0};
+  EXPECT_THAT(frames(ahead(metres), overlap(0.8)), ElementsAre(0, 1, 2, 3, 4, 5, 6, 7));
+  FloorSurvey survey = ahead(metres);
+  survey.set_altitude(1, 50.0);
+  EXPECT_THAT(frames(survey, overlap(0.8)), ElementsAre(0, 1, 4, 5, 6, 7));
+  survey.set_altitude(4, 50.0);
+  EXPECT_THAT(frames(survey, overlap(0.8)), ElementsAre(0, 1, 4, 7));
+}
+
 TEST(KeyframeSchedule, OfAVehicleThatWaitsThereIsOne) {
   EXPECT_THAT(frames(ahead({0, 0, 0, 0, 0.01, 0}), overlap(0.9)), ElementsAre(0));
 }

@@ -29,8 +29,10 @@ struct KeyframeOptions {
 /// time the last frame whose picture still shares `kept_overlap` with that of the keyframe before
 /// (the next one, where not even that does). Both shares are of the smaller footprint, with
 /// altitudes as measured and the motion as dead reckoning has it, so the schedule is the same for
-/// all who look at a survey. By overlap the frames on both sides of a hole in dead reckoning are
-/// keyframes, too: nobody knows what they share, and what was measured around it stays known.
+/// all who look at a survey. No single altitude decides it: of two footprints of the smaller of
+/// their altitudes half of `kept_overlap` must be shared, too. By overlap the frames on both sides
+/// of a hole in dead reckoning are keyframes, too: nobody knows what they share, and what was
+/// measured around it stays known.
 class KeyframeSchedule {
  public:
   /// The source must have odometry where keyframes go by overlap, and outlive this.
@@ -42,6 +44,7 @@ class KeyframeSchedule {
   std::optional<std::size_t> frame(std::size_t k);
 
  private:
+  bool shares_enough(const Stance& keyframe, const Stance& frame, const Pose& motion) const;
   std::optional<std::size_t> after(std::size_t keyframe) const;
 
   const FrameSource& source_;
