@@ -5,6 +5,7 @@
 #include "fathom/geometry/covariance.hpp"
 #include "fathom/harness/isolated_replay.hpp"
 #include "fathom/harness/recording_facts.hpp"
+#include "fathom/harness/run_folder.hpp"
 
 namespace fathom {
 namespace {
@@ -19,11 +20,33 @@ std::optional<double> least_known(std::optional<double> chi2_optimum, const Meas
   return below ? std::min(below->chi2, *chi2_optimum) : chi2_optimum;
 }
 
+/// Frames that have ground truth, estimated and true.
+struct JudgedFrames {
+  std::vector<Pose> estimate;
+  std::vector<Pose> truth;
+};
+
+JudgedFrames judged_frames(const Recording& recording, const std::vector<Pose>& keyframes) {
+  JudgedFrames frames;
+  if (!recording.ground_truth) return frames;
+  auto truth = recording.frame_ground_truth.begin();
+  for (const StampedPose& frame : frame_trajectory(recording, keyframes)) {
+    if (truth == recording.frame_ground_truth.end()) break;
+    if (truth->time_ns != frame.time_ns) continue;
+    frames.estimate.push_back(frame.pose);
+    frames.truth.push_back((truth++)->pose);
+  }
+  return frames;
+}
+
 // What is known of an estimate of the keyframes without whose it is.
 RunFacts facts_of(const Recording& recording, const MeasurementLog& log,
-                  const std::vector<Pose>& estimate, const MetricOptions& options) {
+                  const std::vector<Pose>& estimate, const JudgedFrames& frames,
+                  const MetricOptions& options) {
   RunFacts facts{.log = log, .estimate = estimate, .options = options};
   if (recording.ground_truth) facts.ground_truth = *recording.ground_truth;
+  facts.frame_estimate = frames.estimate;
+  facts.frame_ground_truth = frames.truth;
   return facts;
 }
 
@@ -78,7 +101,8 @@ EvaluationOptions asked_of(const Recording& recording, const JudgeOptions& judgi
 void judge_replay(Result& result, const Recording& recording, const EstimatorRegistry& registry,
                   const JudgeOptions& judging) {
   const std::vector<Pose>& estimate = result.run.trajectory;
-  RunFacts facts = facts_of(recording, recording.log, estimate, judging.metrics);
+  const JudgedFrames frames = judged_frames(recording, estimate);
+  RunFacts facts = facts_of(recording, recording.log, estimate, frames, judging.metrics);
   if (!recording.frames.empty()) {
     facts.registrations_tried = recording.registrations_tried;
     facts.registrations_left_out = recording.registrations_left_out;
@@ -151,7 +175,8 @@ DeadReckoning judged_dead_reckoning(const Recording& recording, const MetricOpti
   // Where it begins it does not know itself: it is judged from there on.
   std::optional<MeasurementLog> from_there;
   if (!log.start().is_fixed()) from_there.emplace(log).set_start(log.origin());
-  RunFacts facts = facts_of(recording, from_there ? *from_there : log, odometry, options);
+  const JudgedFrames frames = judged_frames(recording, odometry);
+  RunFacts facts = facts_of(recording, from_there ? *from_there : log, odometry, frames, options);
   const std::vector<Eigen::Matrix3d> from_held = reckoned_covariances(log, {log.origin()});
   facts.covariances = from_held;
   const std::vector<JudgedMotions> motions = dead_reckoned_motions(recording, options);

@@ -5,6 +5,7 @@
 
 #include <opencv2/core/utility.hpp>
 
+#include "fathom/harness/frame_remarks.hpp"
 #include "fathom/harness/ground_truth.hpp"
 #include "fathom/harness/loop_remarks.hpp"
 #include "fathom/harness/manifest.hpp"
@@ -147,6 +148,7 @@ class Comparison {
              *example.recording, study_.cells.front().front_end, example.result.run.trajectory)) {
       observer_.remark(remark);
     }
+    if (const auto remark = frame_remark(*example.recording)) observer_.remark(*remark);
   }
 
   const CompareRequest& request_;

@@ -15,22 +15,25 @@ struct Column {
   int digits;
   bool needs_ground_truth = false;  ///< left out where there is none
   bool needs_absolute = false;      ///< likewise
+  bool needs_frames = false;        ///< likewise
 };
 
-constexpr Column kColumns[] = {{"loops", "loop_closures", 0},
-                               {"rejected", "rejected", 0},
-                               {"absolute", "absolute_used", 0, false, true},
-                               {"absolute rejected", "absolute_rejected", 0, false, true},
-                               {"chi2", "chi2", 6},
-                               {"mean error (m)", "mean_position_error_m", 4, true},
-                               {"ATE RMSE (m)", "ate_rmse_m", 4, true},
-                               {"heading RMSE (rad)", "heading_rmse_rad", 3, true},
-                               {"ANEES", "anees", 3, true},
-                               {"update median (ms)", "update_ms.median", 3},
-                               {"p95", "update_ms.p95", 3},
-                               {"max", "update_ms.max", 3},
-                               {"total (ms)", "total_ms", 4},
-                               {"memory (KiB)", "memory_bytes", 0}};
+constexpr Column kColumns[] = {
+    {"loops", "loop_closures", 0},
+    {"rejected", "rejected", 0},
+    {"absolute", "absolute_used", 0, false, true},
+    {"absolute rejected", "absolute_rejected", 0, false, true},
+    {"chi2", "chi2", 6},
+    {"mean error (m)", "mean_position_error_m", 4, true},
+    {"of all frames (m)", "frame_mean_position_error_m", 4, true, false, true},
+    {"ATE RMSE (m)", "ate_rmse_m", 4, true},
+    {"heading RMSE (rad)", "heading_rmse_rad", 3, true},
+    {"ANEES", "anees", 3, true},
+    {"update median (ms)", "update_ms.median", 3},
+    {"p95", "update_ms.p95", 3},
+    {"max", "update_ms.max", 3},
+    {"total (ms)", "total_ms", 4},
+    {"memory (KiB)", "memory_bytes", 0}};
 
 std::string cell_of(const Column& column, const std::map<std::string, double>& metrics) {
   const auto found = metrics.find(column.metric);
@@ -46,6 +49,7 @@ std::string result_table(const Recording& recording, const std::vector<Result>& 
   std::vector<Column> columns;
   for (const Column& column : kColumns) {
     if (column.needs_ground_truth && !recording.ground_truth) continue;
+    if (column.needs_frames && recording.frames.empty()) continue;
     if (column.needs_absolute && recording.log.absolute_count() == 0) continue;
     columns.push_back(column);
   }

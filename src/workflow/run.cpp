@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "fathom/core/files.hpp"
+#include "fathom/harness/frame_remarks.hpp"
 #include "fathom/harness/loop_remarks.hpp"
 #include "fathom/harness/manifest.hpp"
 #include "fathom/harness/map_fit.hpp"
@@ -76,6 +77,7 @@ class OneRun {
     const std::vector<Pose>& estimate = done.result.run.trajectory;
     std::ranges::copy(loop_remarks(*recording_, configuration_.front_end, estimate),
                       std::back_inserter(remarks));
+    if (auto remark = frame_remark(*recording_)) remarks.push_back(std::move(*remark));
     const auto optimum = batch_optimum(recording_->log, registry_, {}, done.result.run.errors);
     const auto fit = optimum ? map_fit(recording_->log, estimate, *optimum) : std::nullopt;
     if (!fit) return;

@@ -15,6 +15,10 @@ struct ExampleRun {
   std::vector<Pose> truth{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}};
   std::vector<Pose> estimate{{0, 0, 0}, {1, 0, 0}, {2.3, 0, 0.1}};
   std::vector<Eigen::Matrix3d> covariances{3, Eigen::Vector3d(0.09, 0.01, 0.01).asDiagonal()};
+  /// Of them with two frames between, one of them off by 0.5 m.
+  std::vector<Pose> frame_truth{{0, 0, 0}, {0.5, 0, 0}, {1, 0, 0}, {1.5, 0, 0}, {2, 0, 0}};
+  std::vector<Pose> frame_estimate{
+      {0, 0, 0}, {0.5, 0, 0}, {1, 0, 0}, {1.5, -0.5, 0}, {2.3, 0, 0.1}};
   Run run;
   std::vector<bool> is_false_loop{false, false, true, true, false};
   // The motion 1-2 is off by (0.3, 0, 0.1), and so is 0-2.
@@ -53,6 +57,8 @@ struct ExampleRun {
                    .registrations_tried = 11,
                    .registrations_left_out = 2,
                    .ground_truth = truth,
+                   .frame_estimate = frame_estimate,
+                   .frame_ground_truth = frame_truth,
                    .true_overlaps = &overlaps,
                    .chi2_optimum = 0.125,
                    .estimate = estimate,

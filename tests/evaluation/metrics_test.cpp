@@ -27,6 +27,8 @@ std::map<std::string, double> errors_and_costs_by_hand() {
           {"max_position_error_m", 0.3},
           {"final_position_error_m", 0.3},
           {"heading_rmse_rad", 0.1 / std::sqrt(3.0)},
+          {"frame_mean_position_error_m", 0.8 / 5.0},
+          {"frame_max_position_error_m", 0.5},
           {"rpe_1_keyframes_m", 0.3 / std::sqrt(2.0)},
           {"rpe_1_keyframes_rad", 0.1 / std::sqrt(2.0)},
           {"rpe_2_keyframes_m", 0.3},

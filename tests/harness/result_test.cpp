@@ -53,6 +53,33 @@ TEST(Evaluate, JudgesTheTrajectoryItself) {
   EXPECT_EQ(baseline.at("mean_position_error_m"), result.accuracy->mean_position_error_m);
 }
 
+// A schedule that stands still shows in the frames alone: two of them 3 and 4 m behind keyframe 7,
+// by a dead reckoning that has them at it.
+TEST(Evaluate, FramesBetweenKeyframesCount) {
+  Recording recording = square();
+  recording.ground_truth = recording.log.odometry();
+  for (std::size_t k = 0; k < 8; ++k) {
+    const auto time_ns = static_cast<std::int64_t>(k);
+    recording.frames.push_back({time_ns, k, {}});
+    recording.frame_ground_truth.push_back({time_ns, (*recording.ground_truth)[k]});
+  }
+  const Pose last = recording.ground_truth->back();
+  recording.frames.push_back({8, 7, {}});
+  recording.frames.push_back({9, 7, {}});  // without ground truth
+  recording.frames.push_back({10, 7, {}});
+  recording.frame_ground_truth.push_back({8, compose(last, {3.0, 0.0, 0.0})});
+  recording.frame_ground_truth.push_back({10, compose(last, {0.0, 4.0, 0.0})});
+  Script script;  // dead reckoning
+  const Result result = scripted_result(recording, script);
+  EXPECT_EQ(result.metric("mean_position_error_m"), 0.0);
+  EXPECT_NEAR(result.metric("frame_mean_position_error_m").value(), 7.0 / 10.0, 1e-12);
+  EXPECT_NEAR(result.metric("frame_max_position_error_m").value(), 4.0, 1e-12);
+  EXPECT_NEAR(dead_reckoning_metrics(recording, result.options).at("frame_mean_position_error_m"),
+              0.7, 1e-12);
+  recording.frame_ground_truth.clear();
+  EXPECT_FALSE(scripted_result(recording, script).metric("frame_mean_position_error_m"));
+}
+
 // Three steps of 1 m straight on: a heading error of step k moves the end by the way that is left.
 TEST(JudgedDeadReckoning, HasTheCovarianceOfItsSteps) {
   const Eigen::Matrix3d step = Eigen::Vector3d(0.01, 0.02, 0.03).asDiagonal();

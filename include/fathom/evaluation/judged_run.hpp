@@ -24,6 +24,9 @@ struct RunFacts {
   std::optional<std::size_t> registrations_tried = std::nullopt;     ///< absent of a pose graph
   std::optional<std::size_t> registrations_left_out = std::nullopt;  ///< likewise
   std::optional<std::span<const Pose>> ground_truth = std::nullopt;  ///< of the keyframes
+  /// Of the frames that have ground truth, where all keyframes have it; else empty.
+  std::span<const Pose> frame_estimate = {};
+  std::span<const Pose> frame_ground_truth = {};
   const TrueOverlaps* true_overlaps = nullptr;
   /// F at the batch optimum of the log: the least that a batch solve reaches.
   std::optional<double> chi2_optimum = std::nullopt;
@@ -43,6 +46,7 @@ struct JudgedRun {
   RunFacts facts;
   std::optional<Accuracy> accuracy;  ///< with ground truth alone
   std::optional<Consistency> consistency;
+  std::optional<Accuracy> frame_accuracy;  ///< of the frames
 };
 
 JudgedRun judge(RunFacts facts);

@@ -3,11 +3,16 @@
 namespace fathom {
 
 std::vector<Metric> accuracy_metrics() {
-  const auto error = [](double Accuracy::*field) {
-    return [field](const JudgedRun& run) -> std::optional<double> {
-      if (!run.accuracy) return std::nullopt;
-      return (*run.accuracy).*field;
+  using Judged = std::optional<Accuracy> JudgedRun::*;
+  const auto error_of = [](Judged judged, double Accuracy::*field) {
+    return [judged, field](const JudgedRun& run) -> std::optional<double> {
+      if (!(run.*judged)) return std::nullopt;
+      return (*(run.*judged)).*field;
     };
+  };
+  const auto error = [&](double Accuracy::*field) { return error_of(&JudgedRun::accuracy, field); };
+  const auto of_frames = [&](double Accuracy::*field) {
+    return error_of(&JudgedRun::frame_accuracy, field);
   };
   std::vector<Metric> metrics{
       {"mean_position_error_m", "mean position error", "m", Better::lower,
@@ -22,6 +27,13 @@ std::vector<Metric> accuracy_metrics() {
        "distance to ground truth at the last keyframe", error(&Accuracy::final_position_error_m)},
       {"heading_rmse_rad", "heading RMSE", "rad", Better::lower,
        "root mean square of wrapped heading differences", error(&Accuracy::heading_rmse_rad)},
+      {"frame_mean_position_error_m", "mean position error of all frames", "m", Better::lower,
+       "mean distance to ground truth over all frames that have it, each where dead reckoning has "
+       "it from its keyframe on",
+       of_frames(&Accuracy::mean_position_error_m)},
+      {"frame_max_position_error_m", "max position error of all frames", "m", Better::lower,
+       "largest distance to ground truth of those frames",
+       of_frames(&Accuracy::max_position_error_m)},
   };
   for (Metric& metric : metrics) metric.is_aligned = true;
   return metrics;
