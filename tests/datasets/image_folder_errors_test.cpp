@@ -150,6 +150,11 @@ INSTANTIATE_TEST_SUITE_P(
                   "sensor.yaml:3: mounting: expected"},
         BadFolder{"NegativeSigma", kAltimeterYaml, "sigma_absolute: -0.1\n",
                   "altimeter0/sensor.yaml:1: sigma_absolute: '-0.1' is no standard deviation"},
+        BadFolder{"OutliersUnknown", kAltimeterYaml, "outliers: kept\n",
+                  "altimeter0/sensor.yaml:1: outliers: 'kept' is unknown; expected leave_out or "
+                  "keep; did you mean 'keep'?"},
+        BadFolder{"OdometryYamlBroken", "odometry0/sensor.yaml", "a: [b\n",
+                  "odometry0/sensor.yaml:2: is not valid YAML"},
         BadFolder{"SigmaNotANumber", kAltimeterYaml, "a: 1\nsigma_absolute: .nan\n",
                   "altimeter0/sensor.yaml:2: sigma_absolute: '.nan' is no standard deviation"},
         BadFolder{"SigmaInPercent", kAltimeterYaml, "sigma_relative: 3\n",

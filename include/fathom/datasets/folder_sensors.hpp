@@ -20,8 +20,10 @@ struct FolderCompass {
   /// north.
   std::vector<MeasuredHeading> readings;
   bool is_from_north = false;
-  double mount_yaw_rad = 0.0;  ///< of the compass in the body frame
-  std::size_t left_out = 0;    ///< readings outside the survey's time
+  double mount_yaw_rad = 0.0;           ///< of the compass in the body frame
+  std::size_t left_out = 0;             ///< readings outside the survey's time
+  std::vector<std::size_t> lines = {};  ///< of their rows, as read
+  bool keeps_outliers = false;          ///< outliers: keep
 };
 
 /// A fix on Earth (WGS 84).
@@ -39,6 +41,8 @@ struct FolderFixes {
   std::vector<PositionFix> in_world;
   std::vector<EarthFix> on_earth;
   Eigen::Vector2d lever_m = Eigen::Vector2d::Zero();  ///< of the antenna in the body frame
+  std::vector<std::size_t> lines;                     ///< of their rows, as read
+  bool keeps_outliers = false;                        ///< outliers: keep
 
   std::size_t size() const { return in_world.size() + on_earth.size(); }
 };

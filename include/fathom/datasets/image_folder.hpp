@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <filesystem>
 #include <mutex>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "fathom/datasets/folder_sensors.hpp"
@@ -20,6 +22,7 @@ class TimeLine;
 /// Frames are the rows of `cam0/data.csv`. Other sensors may run at other rates: a reading with a
 /// picture's own time stamp is taken as it is, else the two around it are interpolated, if they are
 /// no further apart than `kMaxInterpolationGapNs`.
+/// Readings that others contradict are left out (sensor_outliers.hpp), with a remark.
 /// - `altimeter0`: needed at every picture; its `sensor.yaml` may state the precision of altitudes.
 /// - `attitude0`: optional, else needed at every picture.
 /// - `odometry0`: optional, else needed at every picture. The covariance of a frame's motion is
@@ -50,7 +53,8 @@ class ImageFolder : public FrameSource {
   bool has_odometry() const override { return has_odometry_; }
   /// At the sensor's own rate, beyond the frames as well.
   RecordedOdometry recorded_odometry() const override { return odometry_; }
-  /// Keys of the sensors' `sensor.yaml` that nobody reads, and what was left out; a line each.
+  /// What was made of sensors' readings that cannot be, of pictures without any, and keys of their
+  /// `sensor.yaml` that nobody reads, a line each.
   const std::vector<std::string>& remarks() const { return remarks_; }
   /// The pictures and the files of all sensors, each a regular file.
   std::vector<std::filesystem::path> files() const;
@@ -65,6 +69,7 @@ class ImageFolder : public FrameSource {
   void read_frames();
   void refuse_other_units(const SensorCsv& csv) const;
   void leave_out_uncovered(const TimeLine& times, const std::filesystem::path& csv);
+  void remark(std::optional<std::string> text);
   void read_altitudes();
   void read_attitude();
   void read_odometry(const OdometryGaps& gaps);

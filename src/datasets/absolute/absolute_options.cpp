@@ -52,7 +52,8 @@ void GapOptions::describe(OptionTable& table) {
 void OdometryGaps::describe(OptionTable& table) {
   table.real_or_off("gap_intervals", least_intervals, Range{1.0, 1e9, true}, "",
                     "odometry0 that stops for so many of its median intervals has a hole there, "
-                    "and before its first row and after its last one; off: has none");
+                    "and before its first row and after its last one; off: it has holes only "
+                    "where it starts again, by a jump faster than speed_limit_m_s");
   declared.describe(table);
 }
 

@@ -1,5 +1,6 @@
 #include "attitude_series.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <string>
@@ -7,6 +8,7 @@
 #include "fathom/core/text.hpp"
 #include "fathom/datasets/asl_files.hpp"
 #include "sensor_csv.hpp"
+#include "sensor_outliers.hpp"
 
 namespace fathom {
 namespace {
@@ -35,19 +37,41 @@ AttitudeSeries::AttitudeSeries(const std::filesystem::path& path, const SensorYa
     const Tilt tilt{angle(csv, row, 1, "roll"), angle(csv, row, 2, "pitch")};
     times_.add(row.time_ns);
     tilts_.push_back({tilt, sigma(csv, row)});
+    lines_.push_back(row.line);
   }
+  kept_ = yaml.keeps_outliers ? std::vector<bool>(tilts_.size(), true)
+                              : plausible_tilts(times_, tilts_);
 }
 
 std::optional<MeasuredTilt> AttitudeSeries::at(std::int64_t time_ns,
                                                std::int64_t max_gap_ns) const {
-  const auto bracket = times_.around(time_ns, max_gap_ns);
-  if (!bracket) return std::nullopt;
-  const MeasuredTilt& before = tilts_[bracket->before];
-  const MeasuredTilt& after = tilts_[bracket->after];
-  const double share = bracket->share;
-  return MeasuredTilt{{std::lerp(before.tilt.roll_rad, after.tilt.roll_rad, share),
-                       std::lerp(before.tilt.pitch_rad, after.tilt.pitch_rad, share)},
-                      std::lerp(before.sigma_rad, after.sigma_rad, share)};
+  const auto in_all = times_.around(time_ns, max_gap_ns);
+  if (!in_all) return std::nullopt;
+  const auto [bracket, growth] = filling(times_, kept_, *in_all, time_ns);
+  const MeasuredTilt& before = tilts_[bracket.before];
+  const MeasuredTilt& after = tilts_[bracket.after];
+  const double share = bracket.share;
+  MeasuredTilt found{{std::lerp(before.tilt.roll_rad, after.tilt.roll_rad, share),
+                      std::lerp(before.tilt.pitch_rad, after.tilt.pitch_rad, share)},
+                     std::lerp(before.sigma_rad, after.sigma_rad, share)};
+  if (growth == 0.0) return found;
+  const double spread_rad =
+      std::max(spread_around(bracket, kept_, [this](auto i) { return tilts_[i].tilt.roll_rad; }),
+               spread_around(bracket, kept_, [this](auto i) { return tilts_[i].tilt.pitch_rad; }));
+  found.sigma_rad = std::min(growth * std::max(found.sigma_rad, spread_rad), kMostTiltSigmaRad);
+  return found;
+}
+
+std::optional<std::string> AttitudeSeries::remark() const {
+  const auto first = first_left_out(kept_);
+  if (!first) return std::nullopt;
+  const Tilt& left_out = tilts_[*first].tilt;
+  const Tilt expected = at(times_.at(*first), 0).value().tilt;
+  return left_out_remark(
+      "attitude0", kept_, lines_[*first],
+      fmt::format("roll and pitch {}, {} rad where its neighbours have {}, {} rad",
+                  short_number(left_out.roll_rad), short_number(left_out.pitch_rad),
+                  short_number(expected.roll_rad), short_number(expected.pitch_rad)));
 }
 
 }  // namespace fathom

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "fathom/vision/camera.hpp"
@@ -18,13 +19,18 @@ class AttitudeSeries {
   /// kMostTiltSigmaRad.
   AttitudeSeries(const std::filesystem::path& csv, const SensorYaml& yaml);
 
-  /// All three linear between two readings.
+  /// All three linear between two readings. Where readings were left out that their neighbours
+  /// contradict, sigma is wider: by what readings around differ by, growing with the time without.
   std::optional<MeasuredTilt> at(std::int64_t time_ns, std::int64_t max_gap_ns) const;
   const TimeLine& times() const { return times_; }
+  /// What was left out, if anything was.
+  std::optional<std::string> remark() const;
 
  private:
   TimeLine times_;
   std::vector<MeasuredTilt> tilts_;
+  std::vector<std::size_t> lines_;
+  std::vector<bool> kept_;
 };
 
 }  // namespace fathom

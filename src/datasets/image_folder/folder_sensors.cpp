@@ -81,11 +81,12 @@ FolderCompass read_compass(const fs::path& folder, const Span& survey) {
   const SensorYaml yaml = read_sensor_yaml(folder / "sensor.yaml");
   refuse_variances(path);
   const SensorCsv csv(path, "timestamp, heading, sigma", "", yaml.time_offset_ns);
-  FolderCompass compass{{}, yaml.is_from_north, yaml.mount_yaw_rad, 0};
+  FolderCompass compass{{}, yaml.is_from_north, yaml.mount_yaw_rad, 0, {}, yaml.keeps_outliers};
   for (const SensorRow& row : csv.rows()) {
     const MeasuredHeading reading = heading_of(csv, row);
     if (survey.holds(row.time_ns)) {
       compass.readings.push_back(reading);
+      compass.lines.push_back(row.line);
     } else {
       ++compass.left_out;
     }
@@ -161,6 +162,7 @@ FolderFixes read_fixes(const fs::path& folder, const Span& survey) {
   fixes.csv = folder / "data.csv";
   const SensorYaml yaml = read_sensor_yaml(folder / "sensor.yaml");
   fixes.lever_m = {yaml.mount_x_m, yaml.mount_y_m};
+  fixes.keeps_outliers = yaml.keeps_outliers;
   const bool on_earth = is_on_earth(fixes.csv);
   const SensorCsv csv(fixes.csv,
                       on_earth ? "timestamp, latitude, longitude, var_north, "
@@ -168,6 +170,7 @@ FolderFixes read_fixes(const fs::path& folder, const Span& survey) {
                                : "timestamp, x, y, var_x, cov_xy, var_y",
                       "", yaml.time_offset_ns);
   for (const SensorRow& row : csv.rows()) {
+    fixes.lines.push_back(row.line);
     if (on_earth) {
       fixes.on_earth.push_back(earth_fix(csv, row));
     } else {

@@ -6,6 +6,7 @@
 #include <iterator>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "attitude_series.hpp"
 #include "fathom/core/files.hpp"
@@ -13,6 +14,7 @@
 #include "fathom/core/input_error.hpp"
 #include "fathom/datasets/asl_files.hpp"
 #include "fathom/datasets/picture_file.hpp"
+#include "reading_outliers.hpp"
 #include "sensor_csv.hpp"
 #include "sensor_series.hpp"
 #include "sensor_yaml.hpp"
@@ -65,7 +67,8 @@ ImageFolder::ImageFolder(const fs::path& path, const OdometryGaps& gaps) : mav0_
   read_odometry(gaps);
   read_ground_truth();
   sensors_ = read_folder_sensors(mav0_, infos_.front().time_ns, infos_.back().time_ns);
-  std::ranges::move(unread_sensor_keys(mav0_), std::back_inserter(remarks_));
+  std::ranges::copy(leave_out_contradicted(sensors_, infos_), std::back_inserter(remarks_));
+  std::ranges::copy(unread_sensor_keys(mav0_), std::back_inserter(remarks_));
   ids_ = std::vector<PictureId>(pictures_.size());
   ImageFolder::image(0);  // refuses what cannot be read before a run starts
 }
@@ -122,6 +125,10 @@ void ImageFolder::leave_out_uncovered(const TimeLine& times, const fs::path& csv
   pictures_ = std::move(pictures);
 }
 
+void ImageFolder::remark(std::optional<std::string> text) {
+  if (text) remarks_.push_back(std::move(*text));
+}
+
 void ImageFolder::read_altitudes() {
   const auto csv = sensor_csv(mav0_, "altimeter0");
   if (!csv) {
@@ -132,12 +139,14 @@ void ImageFolder::read_altitudes() {
   const SensorYaml yaml = yaml_beside(*csv);
   const AltitudeSeries altimeter(*csv, yaml);
   leave_out_uncovered(altimeter.times(), *csv);
+  remark(altimeter.remark());
   for (FrameInfo& info : infos_) {
-    const auto altitude_m = altimeter.at(info.time_ns, kMaxInterpolationGapNs);
-    if (!altitude_m) refuse_uncovered(*csv, altimeter.times(), "altitude", info);
-    info.altitude_m = *altitude_m;
-    info.altitude_sigma_m =
-        std::hypot(yaml.scale * yaml.sigma_absolute, yaml.sigma_relative * *altitude_m);
+    const auto found = altimeter.at(info.time_ns, kMaxInterpolationGapNs);
+    if (!found) refuse_uncovered(*csv, altimeter.times(), "altitude", info);
+    info.altitude_m = found->altitude_m;
+    const double stated_m =
+        std::hypot(yaml.scale * yaml.sigma_absolute, yaml.sigma_relative * info.altitude_m);
+    info.altitude_sigma_m = std::hypot(stated_m, found->sigma_m);
   }
 }
 
@@ -146,6 +155,7 @@ void ImageFolder::read_attitude() {
   if (!csv) return;
   const AttitudeSeries attitude(*csv, yaml_beside(*csv));
   leave_out_uncovered(attitude.times(), *csv);
+  remark(attitude.remark());
   for (FrameInfo& info : infos_) {
     info.tilt = attitude.at(info.time_ns, kMaxInterpolationGapNs);
     if (!info.tilt) refuse_uncovered(*csv, attitude.times(), "roll and pitch", info);
@@ -163,8 +173,12 @@ void ImageFolder::read_attitude() {
 void ImageFolder::read_odometry(const OdometryGaps& gaps) {
   const auto csv = sensor_csv(mav0_, "odometry0");
   if (!csv) return;
-  OdometrySeries odometry(*csv, yaml_beside(*csv));
+  const SensorYaml yaml = yaml_beside(*csv);
+  OdometrySeries odometry(*csv, yaml);
   leave_out_uncovered(odometry.times(), *csv);
+  if (!yaml.keeps_outliers) {
+    std::ranges::copy(odometry.mend(gaps.declared.speed_limit_m_s), std::back_inserter(remarks_));
+  }
   odometry.make_holes(gaps, infos_.front().time_ns, infos_.back().time_ns);
   for (std::size_t i = 0; i < infos_.size(); ++i) {
     if (!odometry.covers(infos_[i].time_ns, kMaxInterpolationGapNs)) {

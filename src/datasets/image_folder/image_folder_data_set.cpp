@@ -40,17 +40,6 @@ struct ImageFolderOptions {
     table.group("start", start);
   }
   void describe_origin(OptionTable& table) { table.group("origin", origin); }
-  std::vector<IgnoredKey> ignored_keys() const {
-    std::vector<IgnoredKey> ignored;
-    if (!gaps.least_intervals) {
-      for (const char* key : {"gap_sigma_m", "gap_sigma_rad", "speed_limit_m_s"}) {
-        ignored.push_back({key, "gap_intervals"});
-      }
-    } else if (gaps.declared.sigma_m) {
-      ignored.push_back({"speed_limit_m_s", "gap_sigma_m"});
-    }
-    return ignored;
-  }
   Eigen::Matrix3d noise_covariance() const {
     return added_noise.noise_covariance("dataset.added_noise.");
   }

@@ -5,7 +5,10 @@
 #include <fmt/format.h>
 #include <limits>
 
+#include "fathom/core/text.hpp"
+#include "fathom/datasets/series_outliers.hpp"
 #include "sensor_csv.hpp"
+#include "sensor_outliers.hpp"
 
 namespace fathom {
 namespace {
@@ -63,20 +66,46 @@ std::string TimeLine::text() const {
 
 AltitudeSeries::AltitudeSeries(const std::filesystem::path& path, const SensorYaml& yaml) {
   const SensorCsv csv(path, "timestamp, altitude", "", yaml.time_offset_ns);
+  std::vector<const SensorRow*> not_above;
   for (const SensorRow& row : csv.rows()) {
-    const double altitude_m = csv.real(row, 1);
-    if (!(altitude_m > 0.0)) {
-      csv.refuse(row, "altitude " + row.fields[1] + " is not above the floor; expected metres > 0");
-    }
     times_.add(row.time_ns);
-    altitudes_m_.push_back(yaml.scale * altitude_m);
+    altitudes_m_.push_back(yaml.scale * csv.real(row, 1));
+    lines_.push_back(row.line);
+    if (!(altitudes_m_.back() > 0.0)) not_above.push_back(&row);
   }
+  const std::size_t count = altitudes_m_.size();
+  const bool are_few = count >= OutlierLimits().least_readings && 2 * not_above.size() < count;
+  if (!not_above.empty() && (yaml.keeps_outliers || !are_few)) {
+    const SensorRow& row = *not_above.front();
+    csv.refuse(row, "altitude " + row.fields[1] + " is not above the floor; expected metres > 0");
+  }
+  kept_ = yaml.keeps_outliers ? std::vector<bool>(count, true)
+                              : plausible_altitudes(times_, altitudes_m_);
 }
 
-std::optional<double> AltitudeSeries::at(std::int64_t time_ns, std::int64_t max_gap_ns) const {
-  const auto bracket = times_.around(time_ns, max_gap_ns);
-  if (!bracket) return std::nullopt;
-  return std::lerp(altitudes_m_[bracket->before], altitudes_m_[bracket->after], bracket->share);
+std::optional<AltitudeAt> AltitudeSeries::at(std::int64_t time_ns, std::int64_t max_gap_ns) const {
+  const auto in_all = times_.around(time_ns, max_gap_ns);
+  if (!in_all) return std::nullopt;
+  const auto [bracket, growth] = filling(times_, kept_, *in_all, time_ns);
+  AltitudeAt found;
+  found.altitude_m =
+      std::lerp(altitudes_m_[bracket.before], altitudes_m_[bracket.after], bracket.share);
+  if (growth == 0.0) return found;
+  // Relief between readings is seldom less.
+  constexpr double kLeastShare = 0.01;
+  const double spread_m =
+      spread_around(bracket, kept_, [this](std::size_t i) { return altitudes_m_[i]; });
+  found.sigma_m = growth * std::max(spread_m, kLeastShare * found.altitude_m);
+  return found;
+}
+
+std::optional<std::string> AltitudeSeries::remark() const {
+  const auto first = first_left_out(kept_);
+  if (!first) return std::nullopt;
+  const double expected_m = at(times_.at(*first), 0).value().altitude_m;
+  return left_out_remark("altimeter0", kept_, lines_[*first],
+                         fmt::format("{} m where its neighbours have {} m",
+                                     short_number(altitudes_m_[*first]), short_number(expected_m)));
 }
 
 OdometrySeries::OdometrySeries(const std::filesystem::path& path, const SensorYaml& yaml) {
@@ -97,6 +126,7 @@ OdometrySeries::OdometrySeries(const std::filesystem::path& path, const SensorYa
                  "and correlations between -1 and 1");
     }
     times_.add(row.time_ns);
+    lines_.push_back(row.line);
     steps_.push_back(first ? UncertainPose{} : UncertainPose{between(last, pose), covariance});
     last = pose;
     recorded_.rows.push_back(read);
@@ -111,8 +141,18 @@ bool OdometrySeries::covers(std::int64_t time_ns, std::int64_t max_gap_ns) const
 
 void OdometrySeries::make_holes(const OdometryGaps& gaps, std::int64_t first_ns,
                                 std::int64_t last_ns) {
-  if (!gaps.least_intervals) return;
-  is_hole_.assign(steps_.size(), false);
+  if (gaps.least_intervals) mark_gaps(*gaps.least_intervals, first_ns, last_ns);
+  for (std::size_t row = 1; row < is_hole_.size(); ++row) {
+    if (!is_hole_[row]) continue;
+    constexpr double kSeconds = 1e-9;
+    const auto duration_ns = static_cast<double>(times_.at(row) - times_.at(row - 1));
+    steps_[row] = gaps.declared.motion(duration_ns * kSeconds);
+  }
+}
+
+void OdometrySeries::mark_gaps(double least_intervals, std::int64_t first_ns,
+                               std::int64_t last_ns) {
+  is_hole_.resize(steps_.size(), false);
   if (steps_.size() > 1) {
     std::vector<std::int64_t> intervals_ns;
     for (std::size_t row = 1; row < steps_.size(); ++row) {
@@ -120,9 +160,9 @@ void OdometrySeries::make_holes(const OdometryGaps& gaps, std::int64_t first_ns,
     }
     std::vector<std::int64_t> sorted = intervals_ns;
     std::ranges::sort(sorted);
-    const double least_ns = *gaps.least_intervals * static_cast<double>(sorted[sorted.size() / 2]);
+    const double least_ns = least_intervals * static_cast<double>(sorted[sorted.size() / 2]);
     for (std::size_t row = 1; row < steps_.size(); ++row) {
-      is_hole_[row] = static_cast<double>(intervals_ns[row - 1]) >= least_ns;
+      if (static_cast<double>(intervals_ns[row - 1]) >= least_ns) is_hole_[row] = true;
     }
   }
   if (first_ns < times_.at(0)) {
@@ -135,12 +175,6 @@ void OdometrySeries::make_holes(const OdometryGaps& gaps, std::int64_t first_ns,
     times_.add(last_ns);
     steps_.emplace_back();
     is_hole_.push_back(true);
-  }
-  for (std::size_t row = 1; row < steps_.size(); ++row) {
-    if (!is_hole_[row]) continue;
-    constexpr double kSeconds = 1e-9;
-    const auto duration_ns = static_cast<double>(times_.at(row) - times_.at(row - 1));
-    steps_[row] = gaps.declared.motion(duration_ns * kSeconds);
   }
 }
 

@@ -39,16 +39,32 @@ class TimeLine {
   std::vector<std::int64_t> times_ns_;
 };
 
+struct AltitudeAt {
+  double altitude_m = 0.0;
+  /// For want of a reading that was left out: 1 % of the altitude, or what readings around it
+  /// differ by where that is more, and growing with the time without one; 0 where none was left
+  /// out.
+  double sigma_m = 0.0;
+};
+
 /// `altimeter0/data.csv`: time, altitude above the floor (m, > 0).
 class AltitudeSeries {
  public:
+  /// Readings that their neighbours contradict or that are not above the floor are left out, if
+  /// there are five or more and most are above it; else, and where outliers are kept, one that is
+  /// not above the floor is refused.
   AltitudeSeries(const std::filesystem::path& csv, const SensorYaml& yaml);
-  std::optional<double> at(std::int64_t time_ns, std::int64_t max_gap_ns) const;
+  /// `max_gap_ns` between readings, those that are left out among them.
+  std::optional<AltitudeAt> at(std::int64_t time_ns, std::int64_t max_gap_ns) const;
   const TimeLine& times() const { return times_; }
+  /// What was left out, if anything was.
+  std::optional<std::string> remark() const;
 
  private:
   TimeLine times_;
   std::vector<double> altitudes_m_;
+  std::vector<std::size_t> lines_;
+  std::vector<bool> kept_;
 };
 
 /// `odometry0/data.csv`: time, integrated pose in its own frame, the variances of x, y, θ of the
@@ -59,8 +75,14 @@ class OdometrySeries {
   /// to no motion and is not looked at.
   OdometrySeries(const std::filesystem::path& csv, const SensorYaml& yaml);
 
-  /// Steps over gaps become holes with the declared motion, and the times from `first_ns` to
-  /// `last_ns` that no row covers. Nothing without `gaps.least_intervals`.
+  /// Single rows that jump out and back are moved to where the rows around them have them; a step
+  /// to where odometry starts again, at the pose of the first row or by a jump faster than
+  /// `speed_limit_m_s` and far faster than other steps, is marked as a hole. Nothing where there
+  /// are many jumps. Says what it found; to be called before make_holes.
+  std::vector<std::string> mend(double speed_limit_m_s);
+
+  /// Steps that are marked become holes with the declared motion; with `gaps.least_intervals` also
+  /// those over gaps, and the times from `first_ns` to `last_ns` that no row covers.
   void make_holes(const OdometryGaps& gaps, std::int64_t first_ns, std::int64_t last_ns);
 
   bool covers(std::int64_t time_ns, std::int64_t max_gap_ns) const;
@@ -74,10 +96,13 @@ class OdometrySeries {
   RecordedOdometry recorded() const;
 
  private:
+  void mark_gaps(double least_intervals, std::int64_t first_ns, std::int64_t last_ns);
+
   TimeLine times_;
   std::vector<UncertainPose> steps_;  ///< since the row before; the first is empty
   std::vector<bool> is_hole_;         ///< of each step; empty: none is
   RecordedOdometry recorded_;         ///< without its holes
+  std::vector<std::size_t> lines_;    ///< of the rows
 };
 
 /// `state_groundtruth_estimate0/data.csv` of EuRoC: time, position, quaternion w x y z; further

@@ -92,11 +92,11 @@ void read_odometry(const std::string& file, const YAML::Node& root, SensorYaml& 
 // What is read of each sensor, besides what EuRoC's own files say.
 const std::map<std::string, std::vector<std::string>>& keys_by_sensor() {
   static const std::map<std::string, std::vector<std::string>> keys{
-      {"altimeter0", {"scale", "sigma_absolute", "sigma_relative", "time_offset_s"}},
-      {"attitude0", {"time_offset_s"}},
-      {"compass0", {"convention", "mounting", "time_offset_s"}},
-      {"odometry0", {"convention", "heading_unit", "scale", "time_offset_s"}},
-      {"position0", {"mounting", "time_offset_s"}}};
+      {"altimeter0", {"outliers", "scale", "sigma_absolute", "sigma_relative", "time_offset_s"}},
+      {"attitude0", {"outliers", "time_offset_s"}},
+      {"compass0", {"convention", "mounting", "outliers", "time_offset_s"}},
+      {"odometry0", {"convention", "heading_unit", "outliers", "scale", "time_offset_s"}},
+      {"position0", {"mounting", "outliers", "time_offset_s"}}};
   return keys;
 }
 
@@ -135,6 +135,8 @@ SensorYaml read_sensor_yaml(const std::filesystem::path& path) {
                              file, root, "time_offset_s", 0.0,
                              [](double value) { return std::abs(value) <= kDayS; },
                              "seconds to add to its time stamps, at most a day"));
+  sensor.keeps_outliers =
+      read_word<bool>(file, root, "outliers", {{"leave_out", false}, {"keep", true}});
   if (path.parent_path().filename() == "odometry0") {
     read_odometry(file, root, sensor);
   } else {
@@ -152,14 +154,7 @@ std::vector<std::string> unread_sensor_keys(const std::filesystem::path& mav0) {
     const std::filesystem::path path = mav0 / sensor / "sensor.yaml";
     std::error_code error;
     if (!std::filesystem::is_regular_file(path, error)) continue;
-    YAML::Node root;
-    try {
-      root = root_of(path);
-    } catch (const InputError& fault) {
-      // Where something is read of it, its reader has refused it.
-      lines.push_back(std::string(fault.what()) + "; nothing is read of it");
-      continue;
-    }
+    const YAML::Node root = root_of(path);
     if (!root.IsMap()) continue;
     for (const auto& entry : root) {
       const std::string key = entry.first.IsScalar() ? entry.first.Scalar() : "";

@@ -20,11 +20,13 @@ struct SensorYaml {
   double scale = 1.0;           ///< of readings to metres
   std::int64_t time_offset_ns = 0;  ///< to be added to its time stamps
   OdometryFormat odometry = {};     ///< of odometry0, `scale` included
+  bool keeps_outliers = false;      ///< outliers: keep
 };
 
 /// Keys `mounting` {x, y, yaw}, `convention` (of odometry0 as OdometryConvention, else
 /// counter_clockwise_from_x or clockwise_from_north), `heading_unit`, `sigma_absolute`,
-/// `sigma_relative`, `scale` and `time_offset_s`, all optional, as the file is. Throws InputError
+/// `sigma_relative`, `scale`, `time_offset_s` and `outliers` (keep or
+/// leave_out), all optional, as the file is. Throws InputError
 /// with file and line.
 SensorYaml read_sensor_yaml(const std::filesystem::path& path);
 

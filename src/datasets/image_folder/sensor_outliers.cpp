@@ -1,0 +1,119 @@
+#include "sensor_outliers.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+#include "fathom/datasets/series_outliers.hpp"
+
+namespace fathom {
+namespace {
+
+// Of the logarithm: 43 % more or 30 % less than a neighbour. Relief of a fifth stays, half and
+// double do not.
+constexpr double kAllowedAltitude = 0.36;
+constexpr double kAllowedTilt_rad = 0.2;
+// Of a tilt, by its own standard deviations.
+constexpr double kAllowedSigmas = 10.0;
+
+// The nearest kept reading at or before i.
+std::optional<std::size_t> kept_before(const std::vector<bool>& kept, std::size_t i) {
+  for (std::size_t j = i + 1; j-- > 0;) {
+    if (kept[j]) return j;
+  }
+  return std::nullopt;
+}
+
+std::optional<std::size_t> kept_after(const std::vector<bool>& kept, std::size_t i) {
+  const auto found = std::find(kept.begin() + static_cast<std::ptrdiff_t>(i), kept.end(), true);
+  if (found == kept.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - kept.begin());
+}
+
+}  // namespace
+
+std::optional<std::size_t> first_left_out(const std::vector<bool>& kept) {
+  const auto found = std::find(kept.begin(), kept.end(), false);
+  if (found == kept.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - kept.begin());
+}
+
+std::string left_out_remark(const std::string& sensor, const std::vector<bool>& kept,
+                            std::size_t line_of_first, const std::string& detail) {
+  return fmt::format(
+      "{}: {} of {} readings left out (first: line {}, {}); 'outliers: keep' in its sensor.yaml "
+      "keeps them",
+      sensor, std::count(kept.begin(), kept.end(), false), kept.size(), line_of_first, detail);
+}
+
+std::vector<bool> plausible_altitudes(const TimeLine& times,
+                                      const std::vector<double>& altitudes_m) {
+  std::vector<std::size_t> above_floor;
+  std::vector<std::int64_t> times_ns;
+  std::vector<double> logarithms;
+  for (std::size_t i = 0; i < altitudes_m.size(); ++i) {
+    if (!(altitudes_m[i] > 0.0)) continue;
+    above_floor.push_back(i);
+    times_ns.push_back(times.at(i));
+    logarithms.push_back(std::log(altitudes_m[i]));
+  }
+  const std::vector<bool> kept_above = kept_values(times_ns, logarithms, kAllowedAltitude);
+  std::vector<bool> kept(altitudes_m.size(), false);
+  for (std::size_t i = 0; i < above_floor.size(); ++i) kept[above_floor[i]] = kept_above[i];
+  return kept;
+}
+
+std::vector<bool> plausible_tilts(const TimeLine& times, const std::vector<MeasuredTilt>& tilts) {
+  std::vector<std::int64_t> times_ns;
+  for (std::size_t i = 0; i < tilts.size(); ++i) times_ns.push_back(times.at(i));
+  return kept_readings(
+      {times_ns,
+       [&tilts](std::size_t i, std::size_t j) {
+         const Tilt& a = tilts[i].tilt;
+         const Tilt& b = tilts[j].tilt;
+         return std::max(std::abs(a.roll_rad - b.roll_rad), std::abs(a.pitch_rad - b.pitch_rad));
+       },
+       [&tilts](std::size_t i, std::size_t j) {
+         return std::max(kAllowedTilt_rad,
+                         kAllowedSigmas * std::hypot(tilts[i].sigma_rad, tilts[j].sigma_rad));
+       }});
+}
+
+Filling filling(const TimeLine& times, const std::vector<bool>& kept, const Bracket& in_all,
+                std::int64_t time_ns) {
+  if (kept[in_all.before] && kept[in_all.after]) return {in_all, 0.0};
+  const auto before = kept_before(kept, in_all.before);
+  const auto after = kept_after(kept, in_all.after);
+  if (!before || !after) {
+    const std::size_t nearest = before ? *before : after.value();
+    const auto intervals =
+        static_cast<double>(before ? in_all.after - nearest : nearest - in_all.before);
+    return {{nearest, nearest, 0.0}, std::sqrt(1.0 + 2.0 * intervals)};
+  }
+  const auto since_ns = static_cast<double>(time_ns - times.at(*before));
+  const auto gap_ns = static_cast<double>(times.at(*after) - times.at(*before));
+  return {{*before, *after, since_ns / gap_ns},
+          std::sqrt(1.0 + static_cast<double>(*after - *before))};
+}
+
+double spread_around(const Bracket& bracket, const std::vector<bool>& kept,
+                     const std::function<double(std::size_t)>& value) {
+  constexpr std::size_t kEither = 2;
+  std::vector<double> near;
+  for (std::size_t i = bracket.before + 1; i-- > 0 && near.size() < kEither;) {
+    if (kept[i]) near.push_back(value(i));
+  }
+  const std::size_t first = std::max(bracket.after, bracket.before + 1);
+  for (std::size_t i = first, taken = 0; i < kept.size() && taken < kEither; ++i) {
+    if (!kept[i]) continue;
+    near.push_back(value(i));
+    ++taken;
+  }
+  double mean = 0.0;
+  for (const double one : near) mean += one / static_cast<double>(near.size());
+  double squares = 0.0;
+  for (const double one : near) squares += (one - mean) * (one - mean);
+  return near.size() < 2 ? 0.0 : std::sqrt(squares / static_cast<double>(near.size() - 1));
+}
+
+}  // namespace fathom
