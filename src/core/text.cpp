@@ -25,16 +25,19 @@ std::string_view trim(std::string_view text) {
   return text.substr(begin, text.find_last_not_of(" \t\r\n") - begin + 1);
 }
 
-std::vector<TextLine> lines_of(std::string_view content) {
+std::vector<TextLine> all_lines_of(std::string_view content) {
   std::vector<TextLine> lines;
-  std::size_t number = 0;
   for (std::size_t begin = 0; begin < content.size();) {
     const std::size_t end = std::min(content.find('\n', begin), content.size());
-    const std::string_view text = trim(content.substr(begin, end - begin));
+    lines.push_back({lines.size() + 1, trim(content.substr(begin, end - begin))});
     begin = end + 1;
-    ++number;
-    if (!text.empty()) lines.push_back({number, text});
   }
+  return lines;
+}
+
+std::vector<TextLine> lines_of(std::string_view content) {
+  std::vector<TextLine> lines = all_lines_of(content);
+  std::erase_if(lines, [](const TextLine& line) { return line.text.empty(); });
   return lines;
 }
 

@@ -8,7 +8,9 @@
 #include "fathom/core/input_error.hpp"
 #include "fathom/core/text.hpp"
 #include "fathom/geometry/pose.hpp"
+#include "quaternion_order.hpp"
 #include "trajectory_lines.hpp"
+#include "trajectory_times.hpp"
 
 namespace fathom {
 namespace {
@@ -17,8 +19,24 @@ constexpr std::int64_t kSecond = 1'000'000'000;
 
 using Lines = std::vector<LineOfFile>;
 
-TrajectoryFormat recognised(const LineOfFile& line) {
-  if (line.text().find(',') != std::string_view::npos) return TrajectoryFormat::euroc;
+// Commas are EuRoC's, and those of TUM where any of the stamps has a fraction, as seconds have.
+TrajectoryFormat with_commas(const Lines& lines) {
+  constexpr std::size_t kTumFields = 8;
+  constexpr double kLatest = 9e9;
+  const auto is_in_seconds = [](const LineOfFile& line) {
+    const auto fields = split_csv(line.text());
+    const auto stamp = parse_real(fields.front());
+    return fields.size() == kTumFields && stamp && std::abs(*stamp) < kLatest &&
+           *stamp != std::floor(*stamp);
+  };
+  return std::any_of(lines.begin(), lines.end(), is_in_seconds) ? TrajectoryFormat::tum
+                                                                : TrajectoryFormat::euroc;
+}
+
+TrajectoryFormat recognised(const Lines& lines) {
+  if (lines.empty()) return TrajectoryFormat::tum;
+  const LineOfFile& line = lines.front();
+  if (has_commas(line)) return with_commas(lines);
   const std::size_t fields = split(line.text()).size();
   if (fields == 12) return TrajectoryFormat::kitti;
   if (fields == 8) return TrajectoryFormat::tum;
@@ -29,16 +47,27 @@ TrajectoryFormat recognised(const LineOfFile& line) {
 }
 
 template <class Read>
-std::vector<StampedSpatialPose> rising(const Lines& lines, const Read& read,
-                                       const std::string& remedy) {
+std::vector<StampedSpatialPose> read_all(const Lines& lines, const Read& read) {
   std::vector<StampedSpatialPose> poses;
-  for (const LineOfFile& line : lines) {
-    poses.push_back(read(line));
-    if (poses.size() > 1 && poses.back().time_ns <= poses[poses.size() - 2].time_ns) {
-      line.refuse("time stamps must rise from line to line; " + remedy +
-                  " orders them and keeps one of each");
-    }
-  }
+  poses.reserve(lines.size());
+  for (const LineOfFile& line : lines) poses.push_back(read(line));
+  return poses;
+}
+
+void require_rising_poses(const Lines& lines, const std::vector<StampedSpatialPose>& poses,
+                          const StampRule& rule) {
+  std::vector<std::int64_t> times_ns;
+  times_ns.reserve(poses.size());
+  for (const StampedSpatialPose& pose : poses) times_ns.push_back(pose.time_ns);
+  require_rising(lines, times_ns, rule);
+}
+
+std::vector<StampedSpatialPose> read_tum(const Lines& lines, const std::string& name) {
+  const bool commas = !lines.empty() && has_commas(lines.front());
+  auto poses = read_all(lines, [&](const LineOfFile& line) { return tum_pose(line, commas); });
+  require_rising_poses(lines, poses,
+                       {1.0, commas ? "LC_ALL=C sort -s -t , -k1,1g" : "LC_ALL=C sort -s -k1,1g"});
+  require_order(poses, TrajectoryFormat::tum, name);
   return poses;
 }
 
@@ -46,19 +75,23 @@ std::vector<StampedSpatialPose> rising(const Lines& lines, const Read& read,
 // unit.
 void require_nanoseconds(const std::vector<StampedSpatialPose>& poses, const std::string& name) {
   constexpr std::uint64_t kLeastStep = 100'000;
-  if (poses.size() < 2) return;
-  // They rise, and may be further apart than a signed difference can tell.
+  if (poses.size() < 2 || poses.back().time_ns <= poses.front().time_ns) return;
+  // They may be further apart than a signed difference can tell.
   const std::uint64_t span_ns = static_cast<std::uint64_t>(poses.back().time_ns) -
                                 static_cast<std::uint64_t>(poses.front().time_ns);
   const std::uint64_t step_ns = span_ns / (poses.size() - 1);
   if (step_ns >= kLeastStep) return;
   throw InputError(name, "the time stamps are " + std::to_string(step_ns) +
-                             " ns apart; an EuRoC file has whole nanoseconds, 1 s is 1000000000");
+                             " ns apart; an EuRoC file has whole nanoseconds, 1 s is 1000000000; "
+                             "--from tum reads commas, seconds and qx, qy, qz, qw");
 }
 
 std::vector<StampedSpatialPose> read_euroc(const Lines& lines, const std::string& name) {
-  auto poses = rising(lines, euroc_pose, "sort -u -t , -k1,1n");
+  if (!lines.empty()) has_commas(lines.front());
+  auto poses = read_all(lines, euroc_pose);
   require_nanoseconds(poses, name);
+  require_rising_poses(lines, poses, {1e-9, "LC_ALL=C sort -s -t , -k1,1g"});
+  require_order(poses, TrajectoryFormat::euroc, name);
   return poses;
 }
 
@@ -104,11 +137,9 @@ std::string title_of(TrajectoryFormat format) {
 SpatialTrajectory read_trajectory(const TrajectorySource& source) {
   const std::string name = source.path.string();
   const std::string content = read_text(source.path);
-  const Lines lines = lines_of(content, name);
+  const Lines lines = trajectory_lines(content, name);
   SpatialTrajectory trajectory;
-  trajectory.format = source.format   ? *source.format
-                      : lines.empty() ? TrajectoryFormat::tum
-                                      : recognised(lines.front());
+  trajectory.format = source.format ? *source.format : recognised(lines);
   const bool is_kitti = trajectory.format == TrajectoryFormat::kitti;
   if (!source.times.empty() && !is_kitti) {
     throw InputError(name, fmt::format("is a {} trajectory, which has times of its own; {} can be "
@@ -116,7 +147,7 @@ SpatialTrajectory read_trajectory(const TrajectorySource& source) {
                                        title_of(trajectory.format), source.times.string()));
   }
   if (trajectory.format == TrajectoryFormat::tum) {
-    trajectory.poses = rising(lines, tum_pose, "sort -u -k1,1n");
+    trajectory.poses = read_tum(lines, name);
   } else if (is_kitti) {
     trajectory.poses = read_kitti(source, lines);
     trajectory.has_times = !source.times.empty();
@@ -131,7 +162,7 @@ std::vector<SpatialPose> read_kitti_poses(const std::filesystem::path& path) {
   const std::string name = path.string();
   const std::string content = read_text(path);
   std::vector<SpatialPose> poses;
-  for (const LineOfFile& line : lines_of(content, name)) poses.push_back(kitti_pose(line));
+  for (const LineOfFile& line : trajectory_lines(content, name)) poses.push_back(kitti_pose(line));
   return poses;
 }
 
@@ -139,13 +170,13 @@ std::vector<std::int64_t> read_times(const std::filesystem::path& path) {
   const std::string name = path.string();
   const std::string content = read_text(path);
   std::vector<std::int64_t> times_ns;
-  for (const LineOfFile& line : lines_of(content, name)) {
+  const Lines lines = trajectory_lines(content, name);
+  for (const LineOfFile& line : lines) {
     if (split(line.text()).size() != 1) line.refuse("expected one time stamp, in seconds");
     times_ns.push_back(time_of(line, line.text()));
-    if (times_ns.size() > 1 && times_ns.back() <= times_ns[times_ns.size() - 2]) {
-      line.refuse("time stamps must rise from line to line");
-    }
   }
+  // In order with the poses of another file: sorted alone they would be those of other poses.
+  require_rising(lines, times_ns, {1.0, ""});
   return times_ns;
 }
 

@@ -19,8 +19,32 @@ using Fields = std::vector<std::string_view>;
 
 double real(const LineOfFile& line, std::string_view field) {
   const auto number = parse_real(field);
-  if (!number) line.refuse(in_quotes(field) + " is not a finite number");
-  return *number;
+  if (number) return *number;
+  const bool has_comma = field.find(',') != std::string_view::npos;
+  line.refuse(in_quotes(field) + " is not a finite number" +
+              (has_comma ? ": decimal commas? expected points" : ""));
+}
+
+// A double holds a Unix time only to some 100 ns, the 64 bits of a long double hold it to the
+// nanosecond. The text is that of a number.
+long double long_real(std::string_view text) {
+  if (text.front() == '+') text.remove_prefix(1);
+  long double value = 0.0L;
+  std::from_chars(text.data(), text.data() + text.size(), value);
+  return value;
+}
+
+// Whole nanoseconds, also as 1.7e+18 or with zeros behind a point.
+std::int64_t nanoseconds(const LineOfFile& line, std::string_view text) {
+  if (const auto whole = parse_integer(text)) return *whole;
+  constexpr double kBeyond = 9.2e18;
+  const auto number = parse_real(text);
+  if (number && std::abs(*number) < kBeyond) {
+    const long double exact = long_real(text);
+    if (exact == std::floor(exact)) return static_cast<std::int64_t>(exact);
+  }
+  line.refuse("the time stamp " + in_quotes(text) + " is not in whole nanoseconds" +
+              (number ? "; --from tum reads commas, seconds and qx, qy, qz, qw" : ""));
 }
 
 template <std::size_t N>
@@ -68,36 +92,45 @@ void LineOfFile::refuse(const std::string& what) const {
   throw InputError(*name_, number_, what);
 }
 
-std::vector<LineOfFile> lines_of(std::string_view content, const std::string& name) {
+std::vector<LineOfFile> trajectory_lines(std::string_view content, const std::string& name) {
   std::vector<LineOfFile> lines;
-  std::size_t number = 0;
-  for (std::size_t begin = 0; begin < content.size();) {
-    const std::size_t end = std::min(content.find('\n', begin), content.size());
-    std::string_view line = content.substr(begin, end - begin);
-    line = trim(line.substr(0, line.find('#')));
-    ++number;
-    if (!line.empty()) lines.emplace_back(name, number, line);
-    begin = end + 1;
+  for (const auto& [number, whole] : lines_of(content)) {
+    const std::string_view text = trim(whole.substr(0, whole.find('#')));
+    if (!text.empty()) lines.emplace_back(name, number, text);
   }
   return lines;
 }
 
-// A double holds a Unix time only to some 100 ns, the 64 bits of a long double hold it to the
-// nanosecond.
+bool has_commas(const LineOfFile& line) {
+  constexpr std::size_t kFewest = 8;
+  if (line.text().find(',') == std::string_view::npos) return false;
+  const Fields words = split(line.text(), " \t;");
+  const bool is_inside = std::none_of(words.begin(), words.end(), [](std::string_view word) {
+    return word.front() == ',' || word.back() == ',';
+  });
+  const Fields fields = split_csv(line.text());
+  // Numbers that are all parted by commas, each of them cut in two.
+  const bool are_halves = fields.size() == 2 * kFewest &&
+                          std::all_of(fields.begin(), fields.end(), [](std::string_view field) {
+                            return parse_integer(field).has_value();
+                          });
+  if ((words.size() >= kFewest && is_inside) || are_halves) {
+    line.refuse("decimal commas? expected points: " + in_quotes(line.text()));
+  }
+  return true;
+}
+
 std::int64_t time_of(const LineOfFile& line, std::string_view seconds) {
   const double approximate = real(line, seconds);
   if (std::abs(approximate) > 9e9) {
     line.refuse(fmt::format("the time stamp {} is not in seconds{}", in_quotes(seconds),
                             approximate > 9e16 ? " but, it seems, nanoseconds" : ""));
   }
-  if (seconds.front() == '+') seconds.remove_prefix(1);
-  long double value = 0.0L;
-  std::from_chars(seconds.data(), seconds.data() + seconds.size(), value);
-  return static_cast<std::int64_t>(std::llround(value * 1e9L));
+  return static_cast<std::int64_t>(std::llround(long_real(seconds) * 1e9L));
 }
 
-StampedSpatialPose tum_pose(const LineOfFile& line) {
-  const Fields fields = split(line.text());
+StampedSpatialPose tum_pose(const LineOfFile& line, bool has_commas) {
+  const Fields fields = has_commas ? split_csv(line.text()) : split(line.text());
   if (fields.size() != 8) {
     line.refuse("expected 't x y z qx qy qz qw', got " + std::to_string(fields.size()) + " fields");
   }
@@ -112,13 +145,10 @@ StampedSpatialPose euroc_pose(const LineOfFile& line) {
     line.refuse("expected 't, x, y, z, qw, qx, qy, qz', got " + std::to_string(fields.size()) +
                 " fields");
   }
-  const auto time_ns = parse_integer(fields[0]);
-  if (!time_ns) {
-    line.refuse("the time stamp " + in_quotes(fields[0]) + " is not in whole nanoseconds");
-  }
+  const std::int64_t time_ns = nanoseconds(line, fields[0]);
   fields[0] = "0";
   const auto v = reals<8>(line, fields);
-  return {*time_ns,
+  return {time_ns,
           {{v[1], v[2], v[3]}, quaternion(line, v[4], v[5], v[6], v[7], "qw, qx, qy, qz")}};
 }
 

@@ -16,6 +16,8 @@ class LineOfFile {
   LineOfFile(const std::string& name, std::size_t number, std::string_view text)
       : name_(&name), number_(number), text_(text) {}
 
+  const std::string& file() const { return *name_; }
+  std::size_t number() const { return number_; }
   std::string_view text() const { return text_; }
   [[noreturn]] void refuse(const std::string& what) const;
 
@@ -26,10 +28,13 @@ class LineOfFile {
 };
 
 /// The lines of a text that hold more than blanks and a comment, without the comment.
-std::vector<LineOfFile> lines_of(std::string_view content, const std::string& name);
+std::vector<LineOfFile> trajectory_lines(std::string_view content, const std::string& name);
+
+/// Whether commas part the values of a line. Throws InputError where they are decimal commas.
+bool has_commas(const LineOfFile& line);
 
 /// Each reads one line, and throws InputError where it is none of its format.
-StampedSpatialPose tum_pose(const LineOfFile& line);
+StampedSpatialPose tum_pose(const LineOfFile& line, bool has_commas);
 StampedSpatialPose euroc_pose(const LineOfFile& line);
 SpatialPose kitti_pose(const LineOfFile& line);
 /// Decimal seconds, in nanoseconds.

@@ -133,7 +133,7 @@ TEST_F(Tum, RefusesWithFileAndLine) {
       {"2 0 0 0 0 0 3 4", "length 1, not 5"},
       {"1403636579763555527 0 0 0 0 0 0 1", "not in seconds"},
       {"1 0 0 0 0 0 0 1", "must rise"},
-      {"0.5 0 0 0 0 0 0 1", "must rise"},
+      {"0.5 0 0 0 0 0 0 1", "time goes back from '1' to '0.5'"},
   };
   for (const auto& [line, expected] : faults) {
     const std::string message = error_of(good + line + "\n");

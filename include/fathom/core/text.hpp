@@ -26,6 +26,7 @@ struct TextLine {
   std::size_t number = 0;  ///< from 1
   std::string_view text;   ///< trimmed
 };
+std::vector<TextLine> all_lines_of(std::string_view content);
 /// The lines that are not blank.
 std::vector<TextLine> lines_of(std::string_view content);
 
