@@ -6,11 +6,12 @@
 #include <memory>
 
 #include "apps/command.hpp"
+#include "apps/common.hpp"
 #include "apps/terminal.hpp"
 #include "fathom/configuration/study.hpp"
 #include "fathom/core/input_error.hpp"
 #include "fathom/core/text.hpp"
-#include "fathom/geometry/trajectory.hpp"
+#include "fathom/geometry/trajectory_file.hpp"
 #include "fathom/report/graph_text.hpp"
 #include "fathom/report/table.hpp"
 #include "fathom/workflow/check.hpp"
@@ -32,8 +33,9 @@ void refuse(const std::vector<std::string>& faults) {
   throw InputError(faults.front() + " (" + counted(faults.size(), "fault") + " in all)");
 }
 
-void check_graph(const std::string& path, const EstimatorRegistry& registry) {
-  const workflow::GraphCheck found = workflow::check_graph(path, registry);
+void check_graph(const std::string& path, const EstimatorRegistry& registry,
+                 const GraphOptions& options) {
+  const workflow::GraphCheck found = workflow::check_graph(path, registry, options);
   std::printf("%s", graph_text(found.graph).c_str());
   refuse(found.graph.faults);
   if (found.guess_chi2)
@@ -90,27 +92,29 @@ void check_configuration(const std::string& path, workflow::KnownEstimators& est
 }
 
 void check_trajectory(const std::string& path) {
-  const std::vector<StampedPose> trajectory = read_tum(path);
-  if (trajectory.empty()) throw InputError(path, "holds no pose");
+  const SpatialTrajectory trajectory = read_trajectory({path, {}, {}});
+  const auto& poses = trajectory.poses;
+  if (poses.empty()) throw InputError(path, "holds no pose");
   double length_m = 0.0;
-  for (std::size_t i = 1; i < trajectory.size(); ++i) {
-    length_m += (trajectory[i].pose.position() - trajectory[i - 1].pose.position()).norm();
+  for (std::size_t i = 1; i < poses.size(); ++i) {
+    length_m += (poses[i].pose.position_m - poses[i - 1].pose.position_m).norm();
   }
-  std::printf("trajectory\n  poses        %zu\n  path         %s m\n", trajectory.size(),
+  std::printf("trajectory\n  format       %s\n  poses        %zu\n  path         %s m\n",
+              title_of(trajectory.format).c_str(), poses.size(),
               format_number(length_m, 4).c_str());
 }
 
-void check(const std::string& path, Context& context) {
+void check(const std::string& path, const GraphOptions& options, Context& context) {
   const std::string ending = std::filesystem::path(path).extension().string();
   context.status = kDone;
   if (std::filesystem::is_directory(path)) {
     check_folder(path, context.estimators().registry());
   } else if (ending == ".yaml" || ending == ".yml") {
     check_configuration(path, context.estimators());
-  } else if (ending == ".tum" || ending == ".txt") {
+  } else if (ending == ".tum" || ending == ".txt" || ending == ".csv") {
     check_trajectory(path);
   } else {
-    check_graph(path, context.estimators().registry());
+    check_graph(path, context.estimators().registry(), options);
   }
 }
 
@@ -118,12 +122,14 @@ void check(const std::string& path, Context& context) {
 
 void add_check(CLI::App& program, Context& context) {
   auto path = std::make_shared<std::string>();
+  auto options = std::make_shared<GraphOptions>();
   Command command(program, "check", "Say what is in a file or folder and what is wrong with it",
                   "Example: fathom check intel.g2o\n"
-                  "A folder is an image folder, .yaml a configuration, .tum a trajectory, else a "
-                  "pose graph.");
+                  "A folder is an image folder, .yaml a configuration, .tum, .txt and .csv a "
+                  "trajectory,\nelse a pose graph.");
   command.argument("path", *path, "File or folder");
-  command.on_run([path, &context] { check(*path, context); });
+  add_drop_self_edges_to(command, options->drop_self_edges);
+  command.on_run([path, options, &context] { check(*path, *options, context); });
 }
 
 }  // namespace fathom

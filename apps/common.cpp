@@ -11,6 +11,11 @@ void add_plugins_to(Command& command, std::vector<std::string>& files) {
   command.texts("--plugin", files, "FILE", "Further estimators: a shared object, or a .py file");
 }
 
+void add_drop_self_edges_to(Command& command, bool& field) {
+  command.boolean("--drop-self-edges", field,
+                  "Leave out edges from a pose to itself, which are refused otherwise");
+}
+
 void CommonFlags::add_settings_to(Command& command, Context& context) {
   context_ = &context;
   command.texts("--set", overrides, "KEY=VALUE",

@@ -18,6 +18,9 @@ struct Context;
 /// --plugin FILE of a command, each use adds one.
 void add_plugins_to(Command& command, std::vector<std::string>& files);
 
+/// --drop-self-edges of a command that reads pose graphs.
+void add_drop_self_edges_to(Command& command, bool& field);
+
 /// The flags of all commands that read a configuration or run an estimator.
 struct CommonFlags {
   std::vector<std::string> overrides;  ///< --set KEY=VALUE

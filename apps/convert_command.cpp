@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "apps/command.hpp"
+#include "apps/common.hpp"
 #include "apps/trajectories.hpp"
 #include "fathom/core/files.hpp"
 #include "fathom/core/input_error.hpp"
@@ -22,6 +23,7 @@ struct ConvertFlags {
   std::string out;
   TrajectoryFlags trajectory;
   std::string times_out;
+  ConversionOptions graph;
   bool quiet = false;
 };
 
@@ -31,8 +33,8 @@ using Notes = std::vector<std::string>;
 // A line of a graph opens with its tag, one of a trajectory with a number.
 bool is_graph(const std::string& path) {
   const std::string content = read_text(path);
-  for (const std::string_view line : split(content, "\n")) {
-    const std::string_view text = trim(line.substr(0, line.find('#')));
+  for (const TextLine& line : lines_of(content)) {
+    const std::string_view text = trim(line.text.substr(0, line.text.find('#')));
     if (text.empty()) continue;
     const auto opens_with = [&](std::string_view tag) { return text.starts_with(tag); };
     return opens_with("VERTEX") || opens_with("EDGE") || opens_with("FIX") || opens_with("EQUIV") ||
@@ -54,12 +56,18 @@ void refuse_flags_of_trajectories(const ConvertFlags& flags) {
 Notes convert_graph_file(const ConvertFlags& flags) {
   refuse_flags_of_trajectories(flags);
   const GraphFormat to = flags.to == "g2o" ? GraphFormat::g2o : GraphFormat::toro;
-  const ConvertedGraph graph = convert_graph(read_text(flags.input), flags.input, to);
+  const ConvertedGraph graph = convert_graph(read_text(flags.input), flags.input, to, flags.graph);
   write_file(flags.out, graph.text);
   Notes notes{fmt::format("{} vertices, {} edges", graph.vertices, graph.edges)};
   for (const auto& [tag, count] : graph.left_out) {
-    notes.push_back(fmt::format("left out: {} {}, which {} does not have", counted(count, "line"),
-                                tag, to == GraphFormat::toro ? "TORO" : "g2o"));
+    notes.push_back(
+        fmt::format("left out: {} {}, which TORO does not have", counted(count, "line"), tag));
+  }
+  for (const auto& [tag, count] : graph.landmarks) {
+    notes.push_back(fmt::format("left out: {} {}, of landmarks", counted(count, "line"), tag));
+  }
+  if (graph.self_edges > 0) {
+    notes.push_back("left out: " + counted(graph.self_edges, "edge") + " from a pose to itself");
   }
   return notes;
 }
@@ -95,6 +103,8 @@ void add_what_is_lost(const ConvertFlags& flags, const SpatialTrajectory& read, 
 }
 
 Notes convert_trajectory_file(const ConvertFlags& flags) {
+  if (flags.graph.drop_landmarks) throw InputError("--drop-landmarks: is for pose graphs alone");
+  if (flags.graph.drop_self_edges) throw InputError("--drop-self-edges: is for pose graphs alone");
   const TrajectoryFormat to = named("--to", flags.to, trajectory_format_names());
   SpatialTrajectory trajectory = flags.trajectory.read(flags.input, "--from");
   if (trajectory.poses.empty()) throw InputError(flags.input, "holds no pose");
@@ -159,6 +169,9 @@ void add_convert(CLI::App& program, Context& context) {
                "Project onto it, and level: xy, xz, yz or fit");
   command.text("--times", flags->trajectory.times, "FILE", "Times of KITTI poses, one a line (s)");
   command.text("--times-out", flags->times_out, "FILE", "Write the times there, one a line (s)");
+  command.boolean("--drop-landmarks", flags->graph.drop_landmarks,
+                  "Leave out landmarks and what poses see of them");
+  add_drop_self_edges_to(command, flags->graph.drop_self_edges);
   command.boolean("--quiet", flags->quiet, "No output but errors");
   command.on_run([flags, &context] { convert(*flags, context); });
 }

@@ -23,6 +23,7 @@ struct SolveFlags {
   std::string ground_truth;
   std::string false_loops;
   std::optional<int> component;
+  bool drop_self_edges = false;
 };
 
 std::string chi2_text(const Result& result, const char* metric) {
@@ -80,6 +81,7 @@ void solve(const SolveFlags& flags, Context& context) {
   request.ground_truth = flags.ground_truth;
   request.false_loops = flags.false_loops;
   request.component = flags.component;
+  request.drop_self_edges = flags.drop_self_edges;
   request.out = flags.common.out;
   request.made_by = context.command_line;
   Terminal terminal(flags.common.quiet);
@@ -91,6 +93,7 @@ void solve(const SolveFlags& flags, Context& context) {
   print(flags, done.recording, done.result);
   std::printf("\n");
   terminal.print_written();
+  terminal.print_remarks();
 }
 
 }  // namespace
@@ -114,6 +117,7 @@ void add_solve(CLI::App& program, Context& context) {
                "Which loops are false, as 'spoil' wrote it, to judge by");
   command.integer("--component", flags->component, Range::at_least(1), "K",
                   "Of a graph that falls into several, this one ('check' lists them)");
+  add_drop_self_edges_to(command, flags->drop_self_edges);
   flags->common.add_settings_to(command, context);
   flags->common.add_out_to(command, "Output folder (default: runs/GRAPH-ESTIMATOR)");
   command.on_run([flags, &context] { solve(*flags, context); });

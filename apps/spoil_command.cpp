@@ -20,6 +20,7 @@ struct SpoilFlags {
   std::string kind = "random";
   SpoilOptions options{.share = 0.3};
   int seed = 1;
+  GraphOptions reading;
   bool quiet = false;
 };
 
@@ -46,7 +47,7 @@ void spoil_graph(const SpoilFlags& flags, Context& context) {
   for (const std::string& output : {flags.out, list}) {
     refuse_replacing(output, {flags.graph, flags.ground_truth});
   }
-  Recording recording = record_graph(flags.graph);
+  Recording recording = record_graph(flags.graph, flags.reading);
   if (options.share > 0.0 && recording.log.registration_count() == 0) {
     throw InputError(flags.graph,
                      "has no loop whose motion and information a false one could take");
@@ -86,6 +87,7 @@ void add_spoil(CLI::App& program, Context& context) {
   command.text("--ground-truth", flags->ground_truth, "FILE",
                "True poses (TUM, vertex ids as time stamps); else the optimum of the graph "
                "says which loops are false");
+  add_drop_self_edges_to(command, flags->reading.drop_self_edges);
   command.integer("--seed", flags->seed, Range::at_least(0), "N", "Another seed, other loops");
   command.text("--out", flags->out, "FILE", "Graph to write (g2o); the list lies beside it")
       .required();

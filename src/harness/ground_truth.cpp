@@ -5,9 +5,11 @@
 #include <string>
 
 #include "fathom/core/input_error.hpp"
+#include "fathom/core/text.hpp"
 #include "fathom/geometry/trajectory_file.hpp"
 #include "fathom/harness/recording.hpp"
 #include "fathom/harness/survey.hpp"
+#include "fathom/measurements/graph_numbers.hpp"
 
 namespace fathom {
 namespace {
@@ -58,8 +60,29 @@ void settle_reference(Study& study, const EstimatorRegistry& registry) {
   settle_references(study, all_have_truth ? Kind::ground_truth : Kind::estimate, registry);
 }
 
+namespace {
+
+// Where stamps are places in the order of the ids, a file that goes by other numbers must not fit
+// by chance.
+void require_places(const std::vector<StampedPose>& truth, const MeasurementLog& log,
+                    const std::string& file) {
+  constexpr std::int64_t kSecond = 1'000'000'000;
+  const auto last = static_cast<std::int64_t>(log.size() - 1);
+  if (truth.size() == log.size() && truth.front().time_ns == 0 &&
+      truth.back().time_ns == last * kSecond) {
+    return;
+  }
+  throw InputError(file, "expected a pose for each of the time stamps 0 to " +
+                             std::to_string(last) + ", which stand for the ids up to " +
+                             std::to_string(log.ids.back()) +
+                             " in their order, and no other, got " + counted(truth.size(), "pose"));
+}
+
+}  // namespace
+
 void attach_ground_truth(Recording& graph, const std::filesystem::path& path) {
   const std::vector<StampedPose> truth = read_tum(path);
+  if (has_large_ids(graph.log)) require_places(truth, graph.log, path.string());
   graph.ground_truth.emplace();
   std::size_t next = 0;
   for (const std::int64_t time_ns : graph.keyframe_times_ns) {

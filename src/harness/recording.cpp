@@ -6,6 +6,7 @@
 #include "carried_readings.hpp"
 #include "fathom/harness/false_loops.hpp"
 #include "fathom/harness/survey.hpp"
+#include "fathom/measurements/graph_numbers.hpp"
 #include "find_sigmas.hpp"
 
 namespace fathom {
@@ -167,12 +168,8 @@ void require_finite(const MeasurementLog& log, const std::string& file) {
 Recording graph_recording(MeasurementLog log, const std::string& file) {
   Recording recording;
   constexpr std::int64_t kSecond = 1'000'000'000;
-  for (const std::int64_t id : log.ids) {
-    if (id > 9'000'000'000) {
-      throw InputError(file, "id " + std::to_string(id) +
-                                 " is too large to be a time stamp; ids up to 9e9 work");
-    }
-    recording.keyframe_times_ns.push_back(id * kSecond);
+  for (const std::int64_t stamp : stamps_of(log)) {
+    recording.keyframe_times_ns.push_back(stamp * kSecond);
   }
   require_finite(log, file);
   recording.log = std::move(log);

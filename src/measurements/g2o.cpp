@@ -105,6 +105,7 @@ MeasurementLog build_log(const G2oFile& file, const GraphOptions& options) {
   const G2oFile::Prior* own_start = start_prior(file, arrivals.keyframe_of.begin()->first);
   MeasurementLog log(start_of(file, own_start));
   for (const auto& [id, keyframe] : arrivals.keyframe_of) log.ids.push_back(id);
+  log.self_edges = file.self_edges;
   const auto add_priors = [&](std::size_t k) {
     for (const G2oFile::Prior* prior : arrivals.priors[k]) {
       if (prior != own_start) log.add_absolute(absolute(*prior, k));
@@ -153,49 +154,6 @@ G2oFile wanted_component(G2oFile file, const GraphOptions& options, const std::s
   return file;
 }
 
-std::string upper_triangle(const Eigen::Matrix3d& matrix) {
-  std::string text;
-  for (int row = 0; row < 3; ++row) {
-    for (int column = row; column < 3; ++column) text += ' ' + exact(matrix(row, column));
-  }
-  return text;
-}
-
-std::string pose_text(const Pose& pose) {
-  return ' ' + exact(pose.x) + ' ' + exact(pose.y) + ' ' + exact(pose.theta);
-}
-
-std::string vertex_line(std::int64_t id, const Pose& pose) {
-  return "VERTEX_SE2 " + std::to_string(id) + pose_text(pose) + '\n';
-}
-
-std::string edge_line(const RelativePose& z, const std::vector<std::int64_t>& ids) {
-  std::string line;
-  if (z.inliers) line += "# inliers " + std::to_string(*z.inliers) + '\n';
-  line += z.is_hole ? "# hole " : "EDGE_SE2 ";
-  line += std::to_string(ids[z.from]) + ' ' + std::to_string(ids[z.to]);
-  return line + pose_text(z.motion) + upper_triangle(z.information) + '\n';
-}
-
-std::string prior_line(const AbsolutePose& z, const std::vector<std::int64_t>& ids) {
-  const std::string id = std::to_string(ids[z.keyframe]);
-  const Eigen::Matrix3d& information = z.information;
-  const bool is_position =
-      z.pose.theta == 0.0 && information.col(2).isZero(0.0) && !information.isZero(0.0);
-  if (!is_position) {
-    return "EDGE_PRIOR_SE2 " + id + pose_text(z.pose) + upper_triangle(information) + '\n';
-  }
-  return "EDGE_PRIOR_SE2_XY " + id + ' ' + exact(z.pose.x) + ' ' + exact(z.pose.y) + ' ' +
-         exact(information(0, 0)) + ' ' + exact(information(0, 1)) + ' ' +
-         exact(information(1, 1)) + '\n';
-}
-
-std::string start_lines(const StartPose& start, const std::vector<std::int64_t>& ids) {
-  if (start.is_fixed()) return "FIX " + std::to_string(ids[0]) + '\n';
-  if (start.is_free) return {};
-  return "# start" + upper_triangle(start.covariance) + '\n' + prior_line(start.measurement(), ids);
-}
-
 }  // namespace
 
 void GraphOptions::describe(OptionTable& table) {
@@ -205,6 +163,8 @@ void GraphOptions::describe(OptionTable& table) {
              "the same of its heading");
   table.integer_or_off("component", component, Range::at_least(1), "",
                        "of a graph that falls into several: this one alone; off: it must be one");
+  table.boolean("drop_self_edges", drop_self_edges,
+                "leave out edges from a pose to itself; otherwise they are refused");
 }
 
 MeasurementLog read_g2o(const std::filesystem::path& path, const GraphOptions& options) {
@@ -217,7 +177,7 @@ MeasurementLog parse_g2o(const std::string& content, const std::string& name,
   const G2oFault fault = [&name](std::size_t line, const std::string& what) {
     throw InputError(name, line, what);
   };
-  G2oFile file = scan_g2o(content, fault);
+  G2oFile file = scan_g2o(content, fault, options.drop_self_edges);
   if (file.edges.empty() && file.vertices.empty()) {
     throw InputError(name, "holds no pose graph: no vertex and no edge");
   }
@@ -228,22 +188,6 @@ MeasurementLog parse_g2o(const std::string& content, const std::string& name,
     });
   }
   return build_log(wanted_component(std::move(file), options, name, fault), options);
-}
-
-std::string to_g2o(const MeasurementLog& log) {
-  std::vector<std::int64_t> ids = log.ids;
-  for (std::size_t k = ids.size(); k < log.size(); ++k) ids.push_back(static_cast<std::int64_t>(k));
-  const std::vector<Pose> poses = log.odometry();
-  std::string text;
-  for (std::size_t k = 0; k < log.size(); ++k) {
-    const KeyframeMeasurements& arrival = log.arrival(k);
-    text += vertex_line(ids[k], poses[k]);
-    text += k == 0 ? start_lines(log.start(), ids)
-                   : edge_line(arrival.step.is_hole ? arrival.step.forward() : arrival.step, ids);
-    for (const RelativePose& z : arrival.registrations) text += edge_line(z, ids);
-    for (const AbsolutePose& z : arrival.absolute) text += prior_line(z, ids);
-  }
-  return text;
 }
 
 }  // namespace fathom

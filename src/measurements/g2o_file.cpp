@@ -1,13 +1,14 @@
 #include "g2o_file.hpp"
 
-#include <algorithm>
 #include <array>
 #include <fmt/format.h>
 #include <string_view>
 #include <utility>
 
+#include "edge_information.hpp"
 #include "fathom/core/text.hpp"
 #include "fathom/geometry/covariance.hpp"
+#include "graph_landmarks.hpp"
 
 namespace fathom {
 namespace {
@@ -21,18 +22,6 @@ struct LineFault {
 
 [[noreturn]] void fail(const std::string& what) {
   throw LineFault{what};
-}
-
-/// The upper triangle by rows, as g2o writes it.
-Eigen::Matrix3d g2o_information(const std::array<double, 6>& v) {
-  Eigen::Matrix3d information;
-  information << v[0], v[1], v[2], v[1], v[3], v[4], v[2], v[4], v[5];
-  return information;
-}
-
-/// TORO's order: xx xy yy tt xt yt.
-Eigen::Matrix3d toro_information(const std::array<double, 6>& v) {
-  return g2o_information({v[0], v[1], v[4], v[2], v[5], v[3]});
 }
 
 void expect_fields(const Fields& fields, std::size_t count, const std::string& what) {
@@ -72,7 +61,7 @@ std::optional<G2oFile::Edge> hole_of(const Fields& words) {
     hole.from = integer(words[1]);
     hole.to = integer(words[2]);
     hole.motion = read_pose(words, 3);
-    hole.information = g2o_information(reals<6>(words, 6));
+    hole.information = information_of(reals<6>(words, 6), GraphFormat::g2o);
     return is_positive_definite(hole.information) ? std::optional(hole) : std::nullopt;
   } catch (const LineFault&) {
     return std::nullopt;
@@ -83,7 +72,7 @@ std::optional<G2oFile::Edge> hole_of(const Fields& words) {
 std::optional<Eigen::Matrix3d> start_covariance_of(const Fields& words) {
   if (words.size() != 7) return std::nullopt;
   try {
-    const Eigen::Matrix3d covariance = g2o_information(reals<6>(words, 1));
+    const Eigen::Matrix3d covariance = information_of(reals<6>(words, 1), GraphFormat::g2o);
     return is_positive_definite(covariance) ? std::optional(covariance) : std::nullopt;
   } catch (const LineFault&) {
     return std::nullopt;
@@ -92,15 +81,22 @@ std::optional<Eigen::Matrix3d> start_covariance_of(const Fields& words) {
 
 class Scanner {
  public:
-  Scanner(G2oFile& file, const G2oFault& fault) : file_(file), fault_(fault) {}
+  Scanner(G2oFile& file, const G2oFault& fault, bool drop_self_edges)
+      : file_(file), fault_(fault), drop_self_edges_(drop_self_edges) {}
 
-  void read(std::string_view line) {
-    ++file_.lines;
+  void read(const TextLine& line) {
+    file_.lines = line.number;
     try {
-      read_line(line);
+      read_line(line.text);
     } catch (const LineFault& fault) {
       fault_(file_.lines, fault.what);
     }
+  }
+
+  /// What many lines have in common is told once.
+  void finish() {
+    if (first_landmark_ > 0) refuse_landmarks(landmarks_, first_landmark_, fault_);
+    information_.tell(fault_);
   }
 
  private:
@@ -116,20 +112,36 @@ class Scanner {
     if (tag == "VERTEX_SE2" || tag == "VERTEX2") {
       read_vertex(fields);
     } else if (tag == "EDGE_SE2" || tag == "EDGE2") {
-      read_edge(fields, tag == "EDGE2");
+      read_edge(fields, tag == "EDGE2" ? GraphFormat::toro : GraphFormat::g2o);
     } else if (tag == "EDGE_PRIOR_SE2") {
       read_prior(fields);
     } else if (tag == "EDGE_PRIOR_SE2_XY") {
       read_position_prior(fields);
     } else if (tag == "FIX") {
-      if (fields.size() == 1) fail("FIX without an id");
-      for (std::size_t i = 1; i < fields.size(); ++i) {
-        file_.fixed.push_back({integer(fields[i]), file_.lines});
-      }
-    } else {
-      fail("unknown tag " + in_quotes(tag) +
-           "; a 2-D graph has VERTEX_SE2, EDGE_SE2, FIX, EDGE_PRIOR_SE2, EDGE_PRIOR_SE2_XY, "
-           "VERTEX2, EDGE2");
+      read_fixed(fields);
+    } else if (is_of_landmarks(tag)) {
+      landmarks_.add(tag);
+      if (first_landmark_ == 0) first_landmark_ = file_.lines;
+    } else if (tag != "PARAMS_SE2OFFSET") {  // what goes by it is refused
+      refuse_tag(tag);
+    }
+  }
+
+  [[noreturn]] static void refuse_tag(std::string_view tag) {
+    if (tag == "EQUIV") {
+      fail(
+          "EQUIV says that two ids are one vertex, which is not read; expected one of them in "
+          "place of the other, on all lines, and one line that defines it");
+    }
+    fail("unknown tag " + in_quotes(tag) +
+         "; a 2-D graph has VERTEX_SE2, EDGE_SE2, FIX, EDGE_PRIOR_SE2, EDGE_PRIOR_SE2_XY, "
+         "VERTEX2, EDGE2");
+  }
+
+  void read_fixed(const Fields& fields) {
+    if (fields.size() == 1) fail("FIX without an id");
+    for (std::size_t i = 1; i < fields.size(); ++i) {
+      file_.fixed.push_back({integer(fields[i]), file_.lines});
     }
   }
 
@@ -156,23 +168,31 @@ class Scanner {
     }
   }
 
-  void read_edge(const Fields& fields, bool toro) {
+  void read_edge(const Fields& fields, GraphFormat order) {
     expect_fields(fields, 12, "i j x y theta and six information values");
     G2oFile::Edge edge;
+    edge.inliers = std::exchange(pending_inliers_, std::nullopt);
     edge.from = integer(fields[1]);
     edge.to = integer(fields[2]);
-    if (edge.from == edge.to) {
-      fail("an edge from pose " + std::to_string(edge.from) + " to itself");
-    }
     edge.motion = read_pose(fields, 3);
-    const auto values = reals<6>(fields, 6);
-    edge.information = toro ? toro_information(values) : g2o_information(values);
-    if (!is_positive_definite(edge.information)) {
-      fail("the information matrix is not positive definite");
-    }
-    edge.inliers = std::exchange(pending_inliers_, std::nullopt);
     edge.line = file_.lines;
+    const auto values = reals<6>(fields, 6);
+    if (edge.from == edge.to) return read_self_edge(edge.from);
+    const auto information = information_.read(values, order, edge.line);
+    if (!information) return;
+    edge.information = *information;
     file_.edges.push_back(edge);
+  }
+
+  // Its residual is the same at any pose.
+  void read_self_edge(std::int64_t id) {
+    if (!drop_self_edges_) {
+      fail(
+          fmt::format("an edge from pose {} to itself, which says nothing of any pose; expected "
+                      "none: --drop-self-edges or dataset.drop_self_edges leaves such edges out",
+                      id));
+    }
+    ++file_.self_edges;
   }
 
   void read_prior(const Fields& fields) {
@@ -180,7 +200,7 @@ class Scanner {
     G2oFile::Prior prior;
     prior.id = integer(fields[1]);
     prior.pose = read_pose(fields, 2);
-    prior.information = g2o_information(reals<6>(fields, 5));
+    prior.information = information_of(reals<6>(fields, 5), GraphFormat::g2o);
     add_prior(prior);
   }
 
@@ -190,7 +210,8 @@ class Scanner {
     prior.id = integer(fields[1]);
     prior.pose = {real(fields[2]), real(fields[3]), 0.0};
     const auto values = reals<3>(fields, 4);
-    prior.information = g2o_information({values[0], values[1], 0.0, values[2], 0.0, 0.0});
+    prior.information =
+        information_of({values[0], values[1], 0.0, values[2], 0.0, 0.0}, GraphFormat::g2o);
     add_prior(prior);
   }
 
@@ -207,20 +228,21 @@ class Scanner {
 
   G2oFile& file_;
   const G2oFault& fault_;
+  bool drop_self_edges_;
+  EdgeInformation information_;
+  TagCounts landmarks_;
+  std::size_t first_landmark_ = 0;  ///< line; 0: none
   std::optional<int> pending_inliers_;
   std::optional<Eigen::Matrix3d> pending_start_;
 };
 
 }  // namespace
 
-G2oFile scan_g2o(const std::string& content, const G2oFault& fault) {
+G2oFile scan_g2o(const std::string& content, const G2oFault& fault, bool drop_self_edges) {
   G2oFile file;
-  Scanner scanner(file, fault);
-  for (std::size_t begin = 0; begin < content.size();) {
-    const std::size_t end = std::min(content.find('\n', begin), content.size());
-    scanner.read(std::string_view(content).substr(begin, end - begin));
-    begin = end + 1;
-  }
+  Scanner scanner(file, fault, drop_self_edges);
+  for (const TextLine& line : lines_of(content)) scanner.read(line);
+  scanner.finish();
   return file;
 }
 

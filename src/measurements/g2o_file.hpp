@@ -48,6 +48,7 @@ struct G2oFile {
   std::vector<Prior> priors;
   std::vector<Edge> holes;  ///< `# hole`: what was declared of a step that was not measured
   std::vector<Fixed> fixed;
+  std::size_t self_edges = 0;  ///< from a pose to itself: left out
   std::size_t lines = 0;
 
   /// All ids, of vertices and edges, rising, each with its keyframe index.
@@ -61,7 +62,8 @@ struct G2oFile {
 /// is left out and reading goes on.
 using G2oFault = std::function<void(std::size_t line, const std::string& what)>;
 
-G2oFile scan_g2o(const std::string& content, const G2oFault& fault);
+/// Edges from a pose to itself are faults, or left out and counted.
+G2oFile scan_g2o(const std::string& content, const G2oFault& fault, bool drop_self_edges = false);
 
 /// Faults of the file as a whole: edges to vertices and priors of vertices that it does not define.
 void check_references(const G2oFile& file, const G2oFault& fault);

@@ -101,13 +101,13 @@ void leave_out_strays(G2oFile& file) {
 
 }  // namespace
 
-GraphSummary summarise_graph(const std::filesystem::path& path) {
+GraphSummary summarise_graph(const std::filesystem::path& path, const GraphOptions& options) {
   const std::string content = read_text(path);
   GraphSummary summary;
   const G2oFault fault = [&](std::size_t line, const std::string& what) {
     summary.faults.push_back(fmt::format("{}:{}: {}", path.string(), line, what));
   };
-  G2oFile file = scan_g2o(content, fault);
+  G2oFile file = scan_g2o(content, fault, options.drop_self_edges);
   if (file.edges.empty() && file.vertices.empty()) {
     summary.faults.push_back(path.string() + ": holds no pose graph: no vertex and no edge");
     return summary;

@@ -7,6 +7,7 @@
 #include "fathom/core/input_error.hpp"
 #include "fathom/core/text.hpp"
 #include "g2o_file.hpp"
+#include "graph_landmarks.hpp"
 
 namespace fathom {
 namespace {
@@ -20,35 +21,31 @@ constexpr std::array<std::string_view, 2> kEdge{"EDGE_SE2", "EDGE2"};
 constexpr std::array<std::size_t, 6> kG2oFromToro{0, 1, 4, 2, 5, 3};
 constexpr std::array<std::size_t, 6> kToroFromG2o{0, 1, 3, 5, 2, 4};
 
-bool is_one_of(std::string_view tag, const std::vector<std::string_view>& tags) {
-  return std::find(tags.begin(), tags.end(), tag) != tags.end();
-}
-
-// Elements of 2-D graphs that the format has no line for.
+// Elements of g2o that TORO has no line for and that no measurement between poses goes with.
 bool is_left_out(std::string_view tag, GraphFormat to) {
-  static const std::vector<std::string_view> not_in_toro{
-      "FIX",         "EDGE_PRIOR_SE2",      "EDGE_PRIOR_SE2_XY", "VERTEX_XY",
-      "EDGE_SE2_XY", "EDGE_BEARING_SE2_XY", "EDGE_SE2_OFFSET",   "EDGE_SE2_XY_OFFSET",
-      "EDGE_XY_XY",  "PARAMS_SE2OFFSET"};
-  return to == GraphFormat::toro ? is_one_of(tag, not_in_toro) : tag == "EQUIV";
+  return to == GraphFormat::toro && (tag == "FIX" || tag == "EDGE_PRIOR_SE2" ||
+                                     tag == "EDGE_PRIOR_SE2_XY" || tag == "PARAMS_SE2OFFSET");
 }
 
 // Lines of g2o that are kept as they are, and are nothing that the reader has a check for.
 bool is_kept(std::string_view tag, GraphFormat to) {
-  return to == GraphFormat::g2o && is_left_out(tag, GraphFormat::toro) &&
-         !tag.starts_with("EDGE_PRIOR_SE2");
+  return to == GraphFormat::g2o && (is_of_landmarks(tag) || tag == "EDGE_SE2_OFFSET");
+}
+
+bool is_self_edge(const Words& words) {
+  const bool is_edge = std::find(kEdge.begin(), kEdge.end(), words.front()) != kEdge.end();
+  return is_edge && words.size() == 12 && words[1] == words[2];
 }
 
 class Converter {
  public:
-  explicit Converter(GraphFormat to) : to_(to) {}
+  Converter(GraphFormat to, const ConversionOptions& options) : to_(to), options_(options) {}
 
   void read(std::string_view line) {
     const std::size_t hash = std::min(line.find('#'), line.size());
     const Words words = split(line.substr(0, hash));
     const std::string_view comment = trim(line.substr(hash));
-    if (!words.empty() && is_left_out(words.front(), to_)) {
-      count(words.front());
+    if (!words.empty() && is_dropped(words)) {
       checked_ += '\n';
       if (!comment.empty()) add({}, comment);
       return;
@@ -61,18 +58,26 @@ class Converter {
 
   /// The lines that must be a vertex, an edge or a prior, in their place.
   const std::string& checked() const { return checked_; }
-  ConvertedGraph& graph() { return graph_; }
+  ConvertedGraph graph() && {
+    graph_.left_out = left_out_.counts();
+    graph_.landmarks = landmarks_.counts();
+    return std::move(graph_);
+  }
 
  private:
-  void count(std::string_view tag) {
-    auto& left_out = graph_.left_out;
-    const auto is_tag = [&](const auto& entry) { return entry.first == tag; };
-    const auto found = std::find_if(left_out.begin(), left_out.end(), is_tag);
-    if (found == left_out.end()) {
-      left_out.emplace_back(tag, 1);
+  // Counts what it says of.
+  bool is_dropped(const Words& words) {
+    const std::string_view tag = words.front();
+    if (is_left_out(tag, to_)) {
+      left_out_.add(tag);
+    } else if (options_.drop_landmarks && is_of_landmarks(tag)) {
+      landmarks_.add(tag);
+    } else if (options_.drop_self_edges && is_self_edge(words)) {
+      ++graph_.self_edges;
     } else {
-      ++found->second;
+      return false;
     }
+    return true;
   }
 
   Words converted(Words words) const {
@@ -96,19 +101,19 @@ class Converter {
   }
 
   GraphFormat to_;
+  ConversionOptions options_;
+  TagCounts left_out_;
+  TagCounts landmarks_;
   std::string checked_;
   ConvertedGraph graph_;
 };
 
 }  // namespace
 
-ConvertedGraph convert_graph(const std::string& content, const std::string& name, GraphFormat to) {
-  Converter converter(to);
-  for (std::size_t begin = 0; begin < content.size();) {
-    const std::size_t end = std::min(content.find('\n', begin), content.size());
-    converter.read(std::string_view(content).substr(begin, end - begin));
-    begin = end + 1;
-  }
+ConvertedGraph convert_graph(const std::string& content, const std::string& name, GraphFormat to,
+                             const ConversionOptions& options) {
+  Converter converter(to, options);
+  for (const TextLine& line : all_lines_of(content)) converter.read(line.text);
   const G2oFault fault = [&name](std::size_t line, const std::string& what) {
     throw InputError(name, line, what);
   };
@@ -117,7 +122,7 @@ ConvertedGraph convert_graph(const std::string& content, const std::string& name
     throw InputError(name, "holds no pose graph: no vertex and no edge");
   }
   check_references(file, fault);
-  ConvertedGraph graph = std::move(converter.graph());
+  ConvertedGraph graph = std::move(converter).graph();
   graph.vertices = file.vertices.size();
   graph.edges = file.edges.size();
   return graph;

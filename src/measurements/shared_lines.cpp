@@ -1,6 +1,5 @@
 #include "shared_lines.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <fmt/format.h>
@@ -9,6 +8,8 @@
 #include <string_view>
 #include <utility>
 #include <vector>
+
+#include <Eigen/Cholesky>
 
 #include "fathom/core/input_error.hpp"
 #include "fathom/core/text.hpp"
@@ -64,14 +65,9 @@ class SharedScanner {
 
   template <class Use>
   void for_lines(const std::string& content, const Use& use) {
-    line_ = 0;
-    for (std::size_t begin = 0; begin < content.size();) {
-      const std::size_t end = std::min(content.find('\n', begin), content.size());
-      std::string_view line = std::string_view(content).substr(begin, end - begin);
-      line = line.substr(0, line.find('#'));
-      begin = end + 1;
-      ++line_;
-      const Fields fields = split(line);
+    for (const auto& [number, text] : lines_of(content)) {
+      line_ = number;
+      const Fields fields = split(text.substr(0, text.find('#')));
       if (!fields.empty()) use(fields);
     }
   }

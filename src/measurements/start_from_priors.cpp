@@ -95,6 +95,7 @@ MeasurementLog with_start(const MeasurementLog& log, const StartPose& start, con
   }
   result.ids = log.ids;
   result.guess = log.guess;
+  result.self_edges = log.self_edges;
   return result;
 }
 

@@ -14,6 +14,7 @@
 #include "fathom/harness/recording.hpp"
 #include "fathom/harness/replay.hpp"
 #include "fathom/measurements/connected_guess.hpp"
+#include "fathom/measurements/graph_numbers.hpp"
 #include "fathom/report/table.hpp"
 #include "fathom/workflow/calibrate.hpp"
 #include "fathom/workflow/inputs.hpp"
@@ -75,17 +76,19 @@ OpenedFolder open_folder(const std::filesystem::path& path) {
 }  // namespace
 
 // All read the graph by record_graph.
-GraphCheck check_graph(const std::filesystem::path& path, const EstimatorRegistry& registry) {
+GraphCheck check_graph(const std::filesystem::path& path, const EstimatorRegistry& registry,
+                       const GraphOptions& options) {
   GraphCheck checked;
-  checked.graph = summarise_graph(path);
+  checked.graph = summarise_graph(path, options);
   const GraphSummary& graph = checked.graph;
   if (!graph.faults.empty()) return checked;
-  const MeasurementLog log = record_graph(path).log;
+  const MeasurementLog log = record_graph(path, options).log;
   if (log.guess) checked.guess_chi2 = chi2(log, *log.guess);
   checked.starts_from_odometry = log.hole_count() == 0 && !log.start().is_free;
   checked.start_chi2 =
       chi2(log, checked.starts_from_odometry ? log.odometry() : connected_guess(log));
   check_information(log, registry, checked);
+  std::ranges::copy(graph_remarks(log), std::back_inserter(checked.warnings));
   if (graph.badly_conditioned > 0) {
     checked.warnings.push_back(counted(graph.badly_conditioned, "edge") +
                                " with badly conditioned information (above 1e8)");

@@ -23,7 +23,8 @@ bool is_graph_key(const std::string& key) {
   return std::ranges::find(keys, key) != keys.end();
 }
 
-GraphOptions graph_options(const Settings& settings, std::optional<int> component) {
+GraphOptions graph_options(const Settings& settings, std::optional<int> component,
+                           bool drop_self_edges) {
   GraphOptions options;
   OptionTable table;
   options.describe(table);
@@ -38,6 +39,7 @@ GraphOptions graph_options(const Settings& settings, std::optional<int> componen
     }
   }
   if (component) options.component = component;
+  if (drop_self_edges) options.drop_self_edges = true;
   return options;
 }
 
@@ -47,7 +49,9 @@ std::vector<std::pair<std::string, std::string>> in_force(GraphOptions options,
   options.describe(table);
   std::vector<std::pair<std::string, std::string>> values;
   for (const std::string& key : table.keys()) {
-    const bool counts = key == "component" ? options.component.has_value() : log.hole_count() > 0;
+    const bool counts = key == "component"         ? options.component.has_value()
+                        : key == "drop_self_edges" ? log.self_edges > 0
+                                                   : log.hole_count() > 0;
     if (counts) values.emplace_back(kPrefix + key, table.value(key));
   }
   return values;

@@ -8,6 +8,7 @@
 #include "fathom/harness/false_loops.hpp"
 #include "fathom/harness/manifest.hpp"
 #include "fathom/harness/run_folder.hpp"
+#include "fathom/measurements/graph_numbers.hpp"
 #include "fathom/workflow/inputs.hpp"
 #include "graph_keys.hpp"
 #include "trajectory_picture.hpp"
@@ -120,7 +121,7 @@ std::string manifest_of(const SolveGraphRequest& request, const GraphOptions& gr
   std::ranges::copy(in_force(graph, done.recording.log), std::back_inserter(configuration));
   return manifest_json(request.made_by, configuration,
                        with_code(fingerprint({request.graph}), {done.result.estimator}, registry),
-                       done.recording, done.result, registry);
+                       done.recording, done.result, registry, graph_remarks(done.recording.log));
 }
 
 }  // namespace
@@ -164,7 +165,8 @@ SolveOutcome solve_graph(const SolveGraphRequest& request, const EstimatorRegist
   asked.mode = solve_mode(request.mode, entry);
   check_start(request, asked.mode);
   asked.estimator = configured(request, entry, asked.mode);
-  const GraphOptions graph = graph_options(request.settings, request.component);
+  const GraphOptions graph =
+      graph_options(request.settings, request.component, request.drop_self_edges);
   Recording recording = read(request, graph, asked.mode);
   asked.isolation = isolation_of(request.settings, entry);
   if (request.starts_from_file) {
@@ -186,6 +188,7 @@ SolveOutcome solve_graph(const SolveGraphRequest& request, const EstimatorRegist
                            done.recording, {done.result});
   folder.commit(optional_run_files());
   observer.wrote((folder.target() / "trajectory.png").string());
+  for (const std::string& remark : graph_remarks(done.recording.log)) observer.remark(remark);
   return done;
 }
 

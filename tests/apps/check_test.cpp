@@ -51,11 +51,9 @@ TEST_F(Check, ListsEveryFaultOfABrokenGraph) {
 
 // One validation for all: what a run would refuse in the middle is found here.
 TEST_F(Check, RefusesTheGraphsThatRunAndSolveRefuse) {
-  write("ids.g2o", "EDGE_SE2 3 9000000001 1 0 0 1 0 0 1 0 1\n");
   write("big.g2o", "EDGE_SE2 0 1 1e300 0 0 1 0 0 1 0 1\nEDGE_SE2 0 1 1 0 0 1 0 0 1 0 1\n");
   write("far.g2o", "VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 1e300 0 0\nEDGE_SE2 0 1 1 0 0 1 0 0 1 0 1\n");
   const std::vector<std::pair<std::string, std::string>> cases{
-      {"ids.g2o", "id 9000000001 is too large"},
       {"big.g2o", "F is not finite at dead reckoning"},
       {"far.g2o", "F is not finite at its vertices"}};
   for (const auto& [file, message] : cases) {

@@ -54,8 +54,9 @@ struct Recording {
 
 /// Runs the front end over the data set once. Loop candidates are selected by
 /// `configuration.reference`, which runs along; the log is all that is kept of it.
-/// Of a g2o data set: the graph, with vertex ids as whole seconds, its start known. Registrations
-/// that the cache knows are not made again; the recording is the same with a cache and without.
+/// Of a g2o data set: the graph, with vertex ids (stamps_of) as whole seconds, its start known.
+/// Registrations that the cache knows are not made again; the recording is the same with a cache
+/// and without.
 Recording record(const Configuration& configuration, const EstimatorRegistry& registry,
                  const FrontEndProgressCallback& progress = {}, RegistrationCache* cache = nullptr);
 
@@ -92,11 +93,12 @@ class Recorder {
 };
 
 /// A pose graph as a recording, read from a file. Where its priors hold it, the start is free, as a
-/// batch solve can have it (with_start_of_priors).
+/// batch solve can have it (with_start_of_priors). Times are stamps_of the log.
 Recording record_graph(const std::filesystem::path& path, const GraphOptions& options = {});
 
-/// Gives a graph its true poses, from a TUM file with vertex ids as time stamps. Throws InputError
-/// where one is missing.
+/// Gives a graph its true poses, from a TUM file with vertex ids as time stamps; where they are too
+/// large, with what stands for them (stamps_of) and no other pose. Throws InputError where one is
+/// missing.
 void attach_ground_truth(Recording& graph, const std::filesystem::path& path);
 
 }  // namespace fathom

@@ -18,6 +18,9 @@ struct GraphOptions {
   double gap_sigma_rad = std::numbers::pi;
   /// From 1 on: that component of the graph alone, ids as they are.
   std::optional<int> component;
+  /// Edges from a pose to itself, whose residual no pose changes: left out and counted, else
+  /// refused.
+  bool drop_self_edges = false;
 
   void describe(OptionTable& table);
 };
@@ -26,7 +29,8 @@ struct GraphOptions {
 ///
 /// Understood: `VERTEX_SE2`, `EDGE_SE2`, `FIX`, `EDGE_PRIOR_SE2`, `EDGE_PRIOR_SE2_XY`, TORO's
 /// `VERTEX2` and `EDGE2` (information in the order xx xy yy tt xt yt), `#` comments, files without
-/// vertices, edges written backwards, several edges between one pair, ids with gaps. Replay:
+/// vertices, edges written backwards, several edges between one pair, ids with gaps. Landmarks and
+/// EQUIV are refused. Replay:
 /// keyframes are the ids in rising order; the first edge from the id before to k is k's dead
 /// reckoning (failing one, the first written the other way; failing both, a hole); every other edge
 /// is a registration that arrives with its later keyframe, in file order, as a prior does with its

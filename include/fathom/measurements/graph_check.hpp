@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "fathom/measurements/g2o.hpp"
 #include "fathom/measurements/measurement_log.hpp"
 
 namespace fathom {
@@ -61,7 +62,7 @@ struct GraphSummary {
 inline constexpr double kMaxCondition = 1e8;
 
 /// Throws InputError only where the file cannot be opened.
-GraphSummary summarise_graph(const std::filesystem::path& path);
+GraphSummary summarise_graph(const std::filesystem::path& path, const GraphOptions& options = {});
 
 /// The reduced χ² at an optimum, which tells whether the information values fit the residuals.
 struct InformationScale {

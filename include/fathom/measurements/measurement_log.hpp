@@ -62,6 +62,8 @@ class MeasurementLog {
   std::vector<std::int64_t> ids;
   /// The file's own initial guess of every keyframe, where it gives one.
   std::optional<std::vector<Pose>> guess;
+  /// Edges of the file from a pose to itself, which are left out.
+  std::size_t self_edges = 0;
 
  private:
   StartPose start_;

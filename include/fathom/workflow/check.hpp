@@ -24,7 +24,8 @@ struct GraphCheck {
 };
 
 /// What `run` and `solve` refuse is a fault, or thrown as InputError.
-GraphCheck check_graph(const std::filesystem::path& path, const EstimatorRegistry& registry);
+GraphCheck check_graph(const std::filesystem::path& path, const EstimatorRegistry& registry,
+                       const GraphOptions& options = {});
 
 /// What is in an image folder, and what a run will find.
 struct SurveyCheck {

@@ -47,6 +47,7 @@ struct SolveGraphRequest {
   std::filesystem::path ground_truth;  ///< true poses (TUM, vertex ids as stamps), or empty
   std::filesystem::path false_loops;   ///< as `spoil` wrote it, or empty
   std::optional<int> component;        ///< of a graph that falls into several
+  bool drop_self_edges = false;        ///< as GraphOptions
   std::filesystem::path out;           ///< empty: `runs/` and the names of graph and estimator
   std::string made_by;                 ///< the command line, for run.json
 };

@@ -4,6 +4,7 @@
 
 #include "fathom/datasets/data_set.hpp"
 #include "fathom/measurements/g2o.hpp"
+#include "fathom/measurements/graph_numbers.hpp"
 
 namespace fathom {
 namespace {
@@ -25,6 +26,7 @@ class G2oDataSet : public DataSet {
 
   const MeasurementLog* graph() const override { return &log_; }
   std::vector<std::filesystem::path> files() const override { return {path_}; }
+  std::vector<std::string> remarks() const override { return graph_remarks(log_); }
 
  private:
   std::filesystem::path path_;
