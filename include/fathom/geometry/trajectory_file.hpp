@@ -29,7 +29,7 @@ struct StampedSpatialPose {
 
 /// The formats of trajectories (docs/formats.md).
 enum class TrajectoryFormat {
-  tum,    ///< `t x y z qx qy qz qw` a line, seconds
+  tum,    ///< `t x y z qx qy qz qw` a line, seconds; also with commas
   kitti,  ///< twelve numbers a line, the upper three rows of a 4×4 matrix by rows; no times
   euroc,  ///< CSV `t, x, y, z, qw, qx, qy, qz, …`, whole nanoseconds
 };
@@ -61,8 +61,9 @@ struct TrajectorySource {
 /// trajectory where no format is given.
 ///
 /// Throws InputError with file and line on a malformed line, a number that is not finite, a
-/// quaternion far from unit length, a matrix that is no rotation, times that do not rise, are no
-/// seconds (TUM) or no whole nanoseconds (EuRoC), and on as many times as there are no poses.
+/// quaternion far from unit length, quaternions that look like those of another order, a matrix
+/// that is no rotation, decimal commas, times that do not rise (it says why), are no seconds (TUM)
+/// or no whole nanoseconds (EuRoC), and on as many times as there are no poses.
 SpatialTrajectory read_trajectory(const TrajectorySource& source);
 
 /// The poses of a KITTI file, in its own axes: those of the camera, x right, y down, z forward, the
