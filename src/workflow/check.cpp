@@ -116,7 +116,7 @@ SurveyCheck check_survey(const std::filesystem::path& path, const EstimatorRegis
   SurveyCheck checked;
   checked.folder = summarise_frames(folder);
   sum_up_sensors(folder.sensors(), checked.folder);
-  sum_up_holes(*opened.with_holes, checked.folder);
+  sum_up_holes(*opened.with_holes, opened.plain.get(), checked.folder);
   std::ranges::copy(folder.remarks(), std::back_inserter(checked.folder.warnings));
   if (!opened.refusal.empty()) checked.folder.faults.push_back(opened.refusal);
   if (!checked.folder.faults.empty()) return checked;

@@ -41,7 +41,12 @@ std::vector<std::string> assumptions(const FrameSource& frames) {
     assumed.push_back("loops tell how the camera tilts: if it is known, give " + key +
                       "tilt_sigma_rad what your vehicle has");
   }
-  if (!(frames.info(0).altitude_sigma_m > 0.0)) {
+  // One that stands in for a reading has a sigma all the same.
+  bool is_stated = true;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    is_stated = is_stated && frames.info(i).altitude_sigma_m > 0.0;
+  }
+  if (!is_stated) {
     assumed.push_back("loops tell how exact altitudes are: if it is known, give " + key +
                       "altitude_sigma_m what your altimeter has");
   }

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "fathom/datasets/image_folder.hpp"
+#include "fathom/datasets/sensor_summary.hpp"
 #include "folder_fixture.hpp"
 
 namespace fathom {
@@ -111,6 +112,22 @@ TEST(OdometryFaults, NearTheStartThePoseItselfTells) {
   }
   start_again(odometry, 25);
   EXPECT_TRUE(odometry.folder().info(2).is_hole);
+  OdometryOf early = ahead();
+  start_again(early, 4, early.poses[0]);
+  EXPECT_TRUE(early.folder().info(1).is_hole);
+}
+
+// `check` says that odometry stops where a key would make a hole, and this is none of those.
+TEST(OdometryFaults, ACheckTellsThemFromGaps) {
+  OdometryOf odometry = ahead();
+  start_again(odometry, 30);
+  const ImageFolder plain = odometry.folder();
+  odometry.gaps.least_intervals = 5.0;
+  const ImageFolder with_gaps = odometry.folder();
+  FolderSummary summary;
+  sum_up_holes(with_gaps, &plain, summary);
+  EXPECT_THAT(summary.facts, ElementsAre(HasSubstr("odometry: 1 hole")));
+  EXPECT_THAT(summary.warnings, IsEmpty());
 }
 
 TEST(OdometryFaults, ARowThatJumpsOutAndBackIsMoved) {

@@ -42,7 +42,7 @@ TEST(OdometryGaps, BecomeHolesWithADeclaredMotion) {
   EXPECT_NEAR(folder.info(2).motion->mean.x, 400.0, 1e-9);
   EXPECT_NEAR(folder.info(2).motion->covariance(0, 0), 8.0 + 0.04 + 16.0, 1e-9);
   FolderSummary summary;
-  sum_up_holes(folder, summary);
+  sum_up_holes(folder, nullptr, summary);
   EXPECT_THAT(summary.facts, Contains(HasSubstr("odometry: 1 hole")));
   EXPECT_THAT(summary.warnings, Contains(HasSubstr("dataset.gap_intervals: 5")));
   // Without the option the end is refused, with the remedy.

@@ -14,6 +14,8 @@ namespace {
 // A jump is so many times as fast as what four steps in five stay below, and as its neighbours.
 constexpr double kTimesFaster = 5.0;
 constexpr double kOrdinaryShare = 0.8;
+// A step to the pose of the first row is so many times as long as its neighbours.
+constexpr double kTimesFurther = 2.0;
 constexpr double kStatedSigmas = 10.0;
 // Of fewer steps nobody knows how fast the vehicle is.
 constexpr std::size_t kLeastSteps = 5;
@@ -63,13 +65,13 @@ class OdometrySteps {
     const double turn_rad = std::abs(steps_[r].mean.theta);
     constexpr double kLeast_m = 0.05;
     constexpr double kLeast_rad = 0.1;
-    if (length_m(r) > std::max(kLeast_m, kStatedSigmas * sigma_m(r)) && is_beyond_neighbours(r)) {
+    if (length_m(r) > std::max({kLeast_m, kStatedSigmas * sigma_m(r), kTimesFurther * near_m(r)})) {
       return true;
     }
     const double sigma_rad = std::sqrt(steps_[r].covariance(2, 2));
     return turn_rad > std::max(kLeast_rad, kStatedSigmas * sigma_rad) &&
            std::ranges::all_of(steps_, [&](const UncertainPose& step) {
-             return &step == &steps_[r] || kTimesFaster * std::abs(step.mean.theta) < turn_rad;
+             return &step == &steps_[r] || kTimesFurther * std::abs(step.mean.theta) < turn_rad;
            });
   }
 

@@ -86,11 +86,13 @@ void sum_up_sensors(const FolderSensors& sensors, FolderSummary& summary) {
   }
 }
 
-void sum_up_holes(const FrameSource& source, FolderSummary& summary) {
+void sum_up_holes(const FrameSource& source, const FrameSource* plain, FolderSummary& summary) {
   std::size_t holes = 0;
   double longest_s = 0.0;
+  bool are_gaps = false;
   for (std::size_t i = 1, first = 0; i < source.size(); ++i) {
     if (!source.info(i).is_hole) continue;
+    are_gaps = are_gaps || plain == nullptr || !plain->info(i).is_hole;
     if (!source.info(i - 1).is_hole) {
       ++holes;
       first = i - 1;
@@ -100,6 +102,7 @@ void sum_up_holes(const FrameSource& source, FolderSummary& summary) {
   if (holes == 0) return;
   summary.facts.push_back(fmt::format("odometry: {}, the longest over {} s of pictures",
                                       count(holes, "hole", "holes"), short_number(longest_s)));
+  if (!are_gaps) return;
   summary.warnings.emplace_back(
       "odometry0 stops where five of its intervals or more are missing: dataset.gap_intervals: 5 "
       "takes that for holes; without it, it is divided evenly, or refused where a picture lies in "
