@@ -91,6 +91,18 @@ TEST(Mosaic, OfTheTrueTrajectoryIsTheFloor) {
   }
 }
 
+TEST(Mosaic, OfAFisheyeIsTheFloorAsFineAsOnItsAxis) {
+  CameraModel model = full_model();
+  model.distortion_model = DistortionModel::equidistant;
+  model.distortion = {0.02, -0.01, 0.003, 0.0};
+  const KnownFloor floor(Camera(model), legs(5));
+  const Made mosaic = made(floor, floor.truth());
+  EXPECT_NEAR(mosaic.plan.metres_per_pixel, 2.0 / std::sqrt(120.0 * 125.0), 1e-3);
+  const Difference difference = from_floor(mosaic);
+  EXPECT_LT(difference.mean, 1.0);
+  EXPECT_LT(difference.largest, 6.0);
+}
+
 TEST(Mosaic, AheadIsUpAndPortIsLeft) {
   const KnownFloor floor(Camera(plain_model()), legs(5));
   const Made mosaic = made(floor, floor.truth(), {.metres_per_pixel = 0.02});
