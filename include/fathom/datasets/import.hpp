@@ -45,6 +45,11 @@ struct BagImportOptions {
   double default_odometry_sigma_m = 0.05;
   double default_odometry_sigma_rad = 0.01;
 
+  /// Odometry starts again where it is back at its first pose at so many times its usual speed.
+  double restart_speed_factor = 5.0;
+  /// Heading of the motion there, which is unknown: of the uniform distribution over the circle.
+  double restart_sigma_rad = 1.8;
+
   /// Of a heading whose covariance the bag does not say.
   double default_heading_sigma_rad = 0.05;
 
@@ -55,6 +60,10 @@ struct BagImportOptions {
   BagClock clock = BagClock::automatic;
   /// By how much the header stamps of two topics may differ against their times of recording.
   double max_clock_offset_s = 1.0;
+  /// Messages of a topic that come after newer ones are put in order where they are late by no more
+  /// than this, and not more of them in a row: more is a clock that was set back.
+  double max_late_s = 1.0;
+  std::size_t max_late_in_a_row = 2;
 };
 
 /// What an import did, for the terminal; one line each, no final full stop.

@@ -81,7 +81,7 @@ ImportReport import_bag(const fs::path& path, const BagImportOptions& options,
     survey.take(message);
     if (progress) progress(++done, messages);
   });
-  survey.check_times();
+  survey.finish();
   const std::vector<NeededTimes> needed = needed_times(survey, choice, topics);
   check_spans(survey.pictures, topics[*choice.images].name, needed);
   const std::size_t left_out = leave_out_uncovered(survey.pictures, pictures, needed);

@@ -75,7 +75,7 @@ CompressedImageMessage read_compressed_image(MessageReader& reader) {
 
 CameraInfoMessage read_camera_info(MessageReader& reader) {
   CameraInfoMessage info;
-  read_header(reader);
+  info.stamp_ns = read_header(reader);
   info.height = reader.u32();
   info.width = reader.u32();
   info.distortion_model = reader.text();

@@ -41,6 +41,7 @@ CompressedImageMessage read_compressed_image(MessageReader& reader);
 
 /// sensor_msgs/CameraInfo. K and P are of the whole sensor, before binning.
 struct CameraInfoMessage {
+  std::int64_t stamp_ns = 0;
   std::uint32_t height = 0;
   std::uint32_t width = 0;
   std::string distortion_model;

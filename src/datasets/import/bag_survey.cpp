@@ -1,5 +1,6 @@
 #include "bag_survey.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -30,16 +31,20 @@ BagPicture picture_in(const BagMessage& message, const BagTopic& topic, std::int
 
 BagSurvey::BagSurvey(const std::vector<BagTopic>& topics, const TopicChoice& choice,
                      const BagImportOptions& options, std::filesystem::path pictures_folder)
-    : topics_(topics), choice_(choice), options_(options), folder_(std::move(pictures_folder)) {
-  for (const BagTopic& topic : topics) stamps_.emplace_back(topic.name, options.clock);
+    : camera_info(topics[*choice.images].name),
+      topics_(topics),
+      choice_(choice),
+      options_(options),
+      folder_(std::move(pictures_folder)) {
+  for (const BagTopic& topic : topics) stamps_.emplace_back(topic.name, options);
 }
 
 void BagSurvey::take(const BagMessage& message) {
   const BagTopic& topic = topics_[message.topic];
   try {
     if (choice_.images == message.topic) take_picture(message, topic);
-    if (choice_.camera_info == message.topic && !camera_info) {
-      camera_info = read_camera_info(message.reader);
+    if (choice_.camera_info == message.topic) {
+      camera_info.take(read_camera_info(message.reader), message.record_time_ns);
     }
     if (choice_.altitude == message.topic) take_altitude(message, topic);
     if (choice_.odometry == message.topic || choice_.reference == message.topic) {
@@ -110,6 +115,27 @@ void BagSurvey::take_imu(const BagMessage& message) {
     headings.push_back({*time_ns, yaw_rad, imu.yaw_variance});
   }
   if (choice_.attitude == message.topic) attitudes.push_back(attitude_of(*time_ns, imu));
+}
+
+void BagSurvey::finish() {
+  std::ranges::sort(pictures, {}, &WrittenPicture::time_ns);
+  std::ranges::sort(altitudes);
+  std::ranges::sort(odometry, {}, &OdometryReading::time_ns);
+  std::ranges::sort(reference, {}, &OdometryReading::time_ns);
+  std::ranges::sort(headings, {}, &HeadingReading::time_ns);
+  std::ranges::sort(attitudes, {}, &AttitudeReading::time_ns);
+  check_times();
+}
+
+std::vector<std::string> BagSurvey::late_notes() const {
+  std::vector<std::string> notes;
+  for (const StampedTopic& topic : stamps_) {
+    if (topic.late() == 0) continue;
+    notes.push_back(fmt::format("{} of {} out of order, by {} s at most: put in that of its stamps",
+                                counted(topic.late(), "message"), topic.name(),
+                                short_number(topic.most_late_s())));
+  }
+  return notes;
 }
 
 void BagSurvey::check_times() const {

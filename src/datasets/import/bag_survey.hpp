@@ -10,6 +10,7 @@
 
 #include "attitude_readings.hpp"
 #include "bag.hpp"
+#include "bag_camera.hpp"
 #include "bag_messages.hpp"
 #include "fathom/datasets/import.hpp"
 #include "odometry_steps.hpp"
@@ -40,13 +41,17 @@ class BagSurvey {
   /// Throws InputError that names the topic.
   void take(const BagMessage& message);
 
-  /// Once all are taken: throws InputError where clocks or spans of time do not agree.
-  void check_times() const;
+  /// Once all are taken: puts them in the order of their times. Throws InputError where clocks or
+  /// spans of time do not agree.
+  void finish();
+
+  /// Of each topic that had some, how many messages came out of order.
+  std::vector<std::string> late_notes() const;
 
   std::vector<WrittenPicture> pictures;
   int width = 0;
   int height = 0;
-  std::optional<CameraInfoMessage> camera_info;
+  BagCameraInfo camera_info;
   std::vector<std::pair<std::int64_t, double>> altitudes;
   std::size_t bad_altitudes = 0;  ///< not above zero, or outside of what the sensor measures
   std::vector<OdometryReading> odometry;
@@ -56,6 +61,7 @@ class BagSurvey {
   std::size_t repeated = 0;  ///< messages with the time of the one before
 
  private:
+  void check_times() const;
   void take_picture(const BagMessage& message, const BagTopic& topic);
   void take_altitude(const BagMessage& message, const BagTopic& topic);
   void take_pose(const BagMessage& message, const BagTopic& topic);

@@ -1,5 +1,6 @@
 #include "odometry_steps.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
@@ -7,6 +8,7 @@
 
 #include "fathom/core/input_error.hpp"
 #include "fathom/core/text.hpp"
+#include "odometry_restarts.hpp"
 
 namespace fathom {
 namespace {
@@ -61,7 +63,18 @@ StepCovariance random_walk(double sigma_m, double sigma_rad) {
   };
 }
 
+// Where odometry starts again: anything up to the length of the jump.
+StepCovariance unknown_motion(double sigma_rad) {
+  return [sigma_rad](const Step& step) -> Eigen::Matrix3d {
+    const double variance_m2 = step.motion.position().squaredNorm();
+    return Eigen::Vector3d(variance_m2, variance_m2, sigma_rad * sigma_rad).asDiagonal();
+  };
+}
+
+// `unknown` at the readings at which the odometry starts again. Nothing where a covariance is none.
 std::optional<std::vector<OdometryRow>> rows_by(const std::vector<OdometryReading>& readings,
+                                                const std::vector<std::size_t>& restarts,
+                                                const StepCovariance& unknown,
                                                 const StepCovariance& covariance_of) {
   constexpr double kSecondsPerNs = 1e-9;
   std::vector<OdometryRow> rows;
@@ -70,8 +83,10 @@ std::optional<std::vector<OdometryRow>> rows_by(const std::vector<OdometryReadin
     if (i > 0) {
       const Pose& from = rows.back().pose;
       const auto elapsed_ns = static_cast<double>(row.time_ns - rows.back().time_ns);
-      row.step_covariance = covariance_of({readings[i - 1], readings[i], from,
-                                           between(from, row.pose), elapsed_ns * kSecondsPerNs});
+      const bool is_restart = std::ranges::binary_search(restarts, i);
+      const StepCovariance& covariance = is_restart ? unknown : covariance_of;
+      row.step_covariance = covariance({readings[i - 1], readings[i], from, between(from, row.pose),
+                                        elapsed_ns * kSecondsPerNs});
       if (!is_positive_definite(row.step_covariance)) return std::nullopt;
     }
     rows.push_back(row);
@@ -101,21 +116,27 @@ OdometryRows odometry_rows(const std::vector<OdometryReading>& readings,
   const bool is_given = options.odometry_sigma_m || options.odometry_sigma_rad;
   const std::string walk = "a random walk of " + short_number(sigma_m) + " m and " +
                            short_number(sigma_rad) + " rad in one second";
+  const std::vector<std::size_t> restarts =
+      odometry_restarts(readings, options.restart_speed_factor);
+  const auto rows_of = [&](const StepCovariance& covariance) {
+    return rows_by(readings, restarts, unknown_motion(options.restart_sigma_rad), covariance);
+  };
   if (!is_given) {
-    if (auto rows = rows_by(readings, growth)) {
-      return {std::move(*rows), "the growth of the covariance of its pose"};
+    if (auto rows = rows_of(growth)) {
+      return {std::move(*rows), "the growth of the covariance of its pose", restarts};
     }
-    if (auto rows = rows_by(readings, of_velocity)) {
+    if (auto rows = rows_of(of_velocity)) {
       return {std::move(*rows),
-              "the covariance of its velocity, independent from message to message"};
+              "the covariance of its velocity, independent from message to message", restarts};
     }
   }
-  auto rows = rows_by(readings, random_walk(sigma_m, sigma_rad));
+  auto rows = rows_of(random_walk(sigma_m, sigma_rad));
   if (!rows) throw InputError("--odometry-sigma-m and --odometry-sigma-rad must be above zero");
-  return {std::move(*rows), is_given
-                                ? walk
-                                : "none that could be one in the bag, so " + walk +
-                                      ": say yours by --odometry-sigma-m and --odometry-sigma-rad"};
+  return {std::move(*rows),
+          is_given ? walk
+                   : "none that could be one in the bag, so " + walk +
+                         ": say yours by --odometry-sigma-m and --odometry-sigma-rad",
+          restarts};
 }
 
 }  // namespace fathom

@@ -23,24 +23,39 @@ std::optional<std::int64_t> StampedTopic::next(std::int64_t record_ns,
   if (stamp_ns == 0 && record_ns != 0) {
     throw InputError(fmt::format("topic {}: its header has no time stamp (0); {}", name_, kRemedy));
   }
-  const std::int64_t time_ns = stamp_ns.value_or(record_ns);
-  if (!times_ns_.empty() && time_ns == times_ns_.back()) {
+  const Time time{stamp_ns.value_or(record_ns), record_ns - stamp_ns.value_or(record_ns)};
+  const auto place = std::ranges::upper_bound(times_, time.time_ns, {}, &Time::time_ns);
+  const bool is_repeated = place != times_.begin() && std::prev(place)->time_ns == time.time_ns;
+  if (place != times_.end()) {
+    require_little_late(time, is_repeated);
+  } else if (is_repeated) {
     ++repeated_;
     return std::nullopt;
+  } else {
+    late_in_a_row_ = 0;
   }
-  if (!times_ns_.empty() && time_ns < times_ns_.back()) {
-    throw InputError(fmt::format("topic {}: time goes back from {} s to {} s at message {}; {}",
-                                 name_, seconds_text(times_ns_.back()), seconds_text(time_ns),
-                                 times_ns_.size() + repeated_ + 1, kRemedy));
-  }
-  times_ns_.push_back(time_ns);
-  delays_ns_.push_back(record_ns - time_ns);
-  return time_ns;
+  times_.insert(place, time);
+  return time.time_ns;
+}
+
+void StampedTopic::require_little_late(const Time& late, bool is_repeated) {
+  const std::int64_t newest_ns = times_.back().time_ns;
+  const double late_s = static_cast<double>(newest_ns - late.time_ns) * kSecondsPerNs;
+  ++late_;
+  ++late_in_a_row_;
+  most_late_s_ = std::max(most_late_s_, late_s);
+  if (!is_repeated && late_s <= max_late_s_ && late_in_a_row_ <= max_late_in_a_row_) return;
+  throw InputError(fmt::format("topic {}: time goes back from {} s to {} s at message {}{}; {}",
+                               name_, seconds_text(newest_ns), seconds_text(late.time_ns),
+                               times_.size() + repeated_ + 1,
+                               is_repeated ? ", a time that was there" : "", kRemedy));
 }
 
 double StampedTopic::delay_s() const {
-  if (delays_ns_.empty()) return 0.0;
-  std::vector<std::int64_t> sorted = delays_ns_;
+  if (times_.empty()) return 0.0;
+  std::vector<std::int64_t> sorted;
+  sorted.reserve(times_.size());
+  for (const Time& time : times_) sorted.push_back(time.delay_ns);
   const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
   std::ranges::nth_element(sorted, middle);
   return static_cast<double>(*middle) * kSecondsPerNs;
@@ -49,10 +64,12 @@ double StampedTopic::delay_s() const {
 void StampedTopic::check_rate() const {
   constexpr double kShortest = 1.0;     // seconds: of less nothing can be said
   constexpr double kMostRatio = 100.0;  // between a clock and another one, both in the same unit
-  if (clock_ != BagClock::automatic || times_ns_.size() < 2) return;
-  const double span_s = static_cast<double>(times_ns_.back() - times_ns_.front()) * kSecondsPerNs;
+  if (clock_ != BagClock::automatic || times_.size() < 2) return;
+  const double span_s =
+      static_cast<double>(times_.back().time_ns - times_.front().time_ns) * kSecondsPerNs;
   const double recorded_s =
-      span_s + static_cast<double>(delays_ns_.back() - delays_ns_.front()) * kSecondsPerNs;
+      span_s +
+      static_cast<double>(times_.back().delay_ns - times_.front().delay_ns) * kSecondsPerNs;
   const bool is_like = span_s < kMostRatio * recorded_s && recorded_s < kMostRatio * span_s;
   if (is_like || std::max(span_s, recorded_s) < kShortest) return;
   throw InputError(fmt::format(

@@ -37,6 +37,7 @@ class SurveyWriter {
     if (survey_.repeated > 0) {
       note(counted(survey_.repeated, "message") + " left out: at the time of the one before");
     }
+    for (const std::string& line : survey_.late_notes()) note(line);
     return report_;
   }
 
@@ -62,8 +63,9 @@ class SurveyWriter {
     const std::string& info = topic(choice_.camera_info).name;
     if (is_rectified(images)) note("rectified pictures: P of " + info + ", no distortion");
     try {
-      return Camera(camera_of(survey_.camera_info.value(), images, survey_.width, survey_.height))
-          .model();
+      const auto& message = survey_.camera_info.info();
+      if (!message) throw InputError("has no message that could be read");
+      return Camera(camera_of(*message, images, survey_.width, survey_.height)).model();
     } catch (const InputError& error) {
       std::string why = error.what();
       if (why.find("--camera") == std::string::npos)
@@ -76,6 +78,10 @@ class SurveyWriter {
     std::string rows;
     for (const WrittenPicture& picture : survey_.pictures) {
       rows += std::to_string(picture.time_ns) + ',' + picture.file + '\n';
+    }
+    if (survey_.camera_info.empty() > 0) {
+      note(counted(survey_.camera_info.empty(), "CameraInfo") +
+           " left out: without a calibration or a size");
     }
     CameraModel model = options_.camera_yaml.empty() ? camera_of_bag() : camera_of_file();
     model.mount_x_m = options_.mount_x_m.value_or(model.mount_x_m);
@@ -125,6 +131,14 @@ class SurveyWriter {
     fact(fmt::format("{} of odometry from {}", counted(odometry.rows.size(), "pose"),
                      topic(choice_.odometry).name));
     note("covariance of a step of odometry: " + odometry.covariance_from);
+    for (const std::size_t i : odometry.restarts) {
+      const Pose jump = between(odometry.rows[i - 1].pose, odometry.rows[i].pose);
+      note(fmt::format(
+          "{} starts again at {} s: it jumps {} m back to its first pose. The motion there is "
+          "unknown: its sigma is the length of the jump; or cut the bag there",
+          topic(choice_.odometry).name, seconds_text(odometry.rows[i].time_ns),
+          short_number(jump.position().norm())));
+    }
   }
 
   void write_reference0() {
