@@ -67,10 +67,16 @@ Configuration configuration_of(const Settings& settings, const EstimatorRegistry
                                                : configure(settings, kind, registry);
 }
 
+// That of the survey that the configuration names; a simulated one has nothing in view.
+cv::Mat mask_for(const Configuration& configuration, Pictures& pictures) {
+  return find_data_set(configuration.dataset.type).makes_pictures ? cv::Mat() : pictures.mask();
+}
+
 void register_pictures(const RegisterFlags& flags, Context& context) {
   const Settings settings = flags.common.settings(flags.config);
   const Configuration configuration = configuration_of(settings, flags.common.estimators());
-  const Camera camera = Pictures(configuration).source().camera();
+  Pictures pictures(configuration);
+  const Camera camera = pictures.source().camera();
   const cv::Mat a = picture_for(camera, flags.a);
   const cv::Mat b = picture_for(camera, flags.b);
   std::vector<std::filesystem::path> inputs = workflow::inputs_of(flags.config, settings);
@@ -78,8 +84,9 @@ void register_pictures(const RegisterFlags& flags, Context& context) {
   StagedFolder folder(flags.common.folder_or("register"), inputs);
   const RegistrationOptions& options = configuration.front_end.registration;
   const FeatureExtractor extractor(configuration.front_end.features, options.tuning.features);
-  const FloorFeatures features_a = on_floor(extractor.extract(a), camera, flags.altitude_a_m);
-  const FloorFeatures features_b = on_floor(extractor.extract(b), camera, flags.altitude_b_m);
+  const cv::Mat mask = mask_for(configuration, pictures);
+  const FloorFeatures features_a = on_floor(extractor.extract(a, mask), camera, flags.altitude_a_m);
+  const FloorFeatures features_b = on_floor(extractor.extract(b, mask), camera, flags.altitude_b_m);
   const Registration registration =
       register_pair(features_a, features_b, options,
                     pair_seed(static_cast<std::uint64_t>(configuration.seed), 0, 1));

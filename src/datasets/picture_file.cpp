@@ -1,6 +1,7 @@
 #include "fathom/datasets/picture_file.hpp"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <string>
 #include <vector>
 
@@ -62,6 +63,23 @@ cv::Mat decode_grey_picture(std::string_view bytes, const std::filesystem::path&
                      "TIFF, BMP, PGM or WebP file of 8 or 16 bit");
   }
   return picture;
+}
+
+cv::Mat read_mask(const std::filesystem::path& path, cv::Size size) {
+  const cv::Mat grey = read_grey_picture(path);
+  if (grey.size() != size) {
+    throw InputError(path.string(),
+                     fmt::format("has {} x {} pixels, the pictures {} x {}; expected a mask of "
+                                 "their size, 0 where they are never of the floor",
+                                 grey.cols, grey.rows, size.width, size.height));
+  }
+  const cv::Mat mask = grey != 0;
+  if (cv::countNonZero(mask) == 0) {
+    throw InputError(path.string(),
+                     "hides all of the picture; expected 0 only where it is never "
+                     "of the floor, 255 elsewhere");
+  }
+  return mask;
 }
 
 void write_png(const std::filesystem::path& path, const cv::Mat& picture) {

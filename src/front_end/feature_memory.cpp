@@ -29,9 +29,10 @@ std::size_t PackedFeatures::bytes() const {
 }
 
 FeatureMemory::FeatureMemory(const FrameSource& source, const FeatureExtractor& extractor,
-                             std::size_t bytes)
+                             std::size_t bytes, cv::Mat mask)
     : source_(source),
       extractor_(extractor),
+      mask_(std::move(mask)),
       held_(bytes, [](const Held& features) { return features->bytes(); }) {
   // The pool of threads is made while there is one thread: where one of several fails to make it,
   // for want of memory, the others wait for it for ever.
@@ -40,7 +41,7 @@ FeatureMemory::FeatureMemory(const FrameSource& source, const FeatureExtractor& 
 
 FeatureMemory::Held FeatureMemory::extract(std::size_t frame) {
   return extracted_.measure([&] {
-    return std::make_shared<const PackedFeatures>(extractor_.extract(source_.image(frame)));
+    return std::make_shared<const PackedFeatures>(extractor_.extract(source_.image(frame), mask_));
   });
 }
 

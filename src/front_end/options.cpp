@@ -17,6 +17,10 @@ void FrontEndOptions::describe(OptionTable& table) {
 }
 
 void FrontEndOptions::describe_registration(OptionTable& table) {
+  table.enumeration<MaskUse>("mask", mask,
+                             {{"automatic", MaskUse::automatic}, {"off", MaskUse::off}},
+                             "no features where the picture is no floor: by the data set's mask, "
+                             "else where it stays in place over the survey");
   table.group("features", features);
   registration.describe(table);
 }

@@ -38,14 +38,16 @@ void in_parallel(std::size_t count, const Work& work) {
 
 PairRegistrar::PairRegistrar(const FrameSource& pictures, const FeatureOptions& features,
                              const RegistrationOptions& registration, std::uint64_t seed,
-                             RegistrationCache* cache, std::size_t feature_bytes)
+                             RegistrationCache* cache, std::size_t feature_bytes,
+                             const PictureUse& use)
     : pictures_(pictures),
       options_(registration),
       seed_(seed),
       cache_(cache),
-      keys_(pictures.camera().model(), features, registration),
-      features_(pictures, FeatureExtractor(features, registration.tuning.features), feature_bytes) {
-}
+      keys_(pictures.camera().model(), features, registration, use.mask),
+      use_(use),
+      features_(pictures, FeatureExtractor(features, registration.tuning.features), feature_bytes,
+                use.mask) {}
 
 PairRegistrar::FrameKey PairRegistrar::frame_key(const MeasuredFrame& frame) {
   const auto bits = [](double value) { return std::bit_cast<std::uint64_t>(value); };
@@ -77,6 +79,7 @@ RegistrationKey PairRegistrar::cache_key(const MeasuredFrame& from, const Measur
 
 std::optional<PairRegistration> PairRegistrar::known(const MeasuredFrame& from,
                                                      const MeasuredFrame& to) {
+  if (use_.is_repeated(from.frame) || use_.is_repeated(to.frame)) return PairRegistration{};
   const PairKey pair = pair_key(from, to);
   if (auto value = pairs_.find(pair)) return value;
   if (cache_ == nullptr || pairs_.contains(pair)) return std::nullopt;

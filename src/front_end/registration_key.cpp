@@ -12,6 +12,13 @@ void add_options(Hash& hash, FeatureOptions& features, RegistrationOptions& regi
   for (const std::string& key : table.keys()) hash.add(key).add(table.value(key));
 }
 
+void add_mask(Hash& hash, const cv::Mat& mask) {
+  if (mask.empty()) return;
+  hash.add("mask").add(mask.cols).add(mask.rows);
+  const cv::Mat whole = mask.isContinuous() ? mask : mask.clone();
+  hash.add(std::string_view(reinterpret_cast<const char*>(whole.data), whole.total()));
+}
+
 // A picture without roll and pitch has no more words, so that its keys are what they always were;
 // likewise one whose altimeter states no precision.
 void add_measured(Hash& hash, const char* picture, const SeenPicture& seen) {
@@ -27,12 +34,13 @@ void add_measured(Hash& hash, const char* picture, const SeenPicture& seen) {
 }  // namespace
 
 RegistrationKeys::RegistrationKeys(const CameraModel& camera, FeatureOptions features,
-                                   RegistrationOptions registration)
+                                   RegistrationOptions registration, const cv::Mat& mask)
     : first_(1), second_(2) {
   for (Hash* hash : {&first_, &second_}) {
     hash->add("registration").add(kRegistrationVersion).add(cv::getVersionString());
     camera.add_to(*hash);
     add_options(*hash, features, registration);
+    add_mask(*hash, mask);
   }
 }
 

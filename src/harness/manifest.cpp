@@ -13,6 +13,7 @@
 #include "fathom/core/version.hpp"
 #include "fathom/datasets/fingerprint.hpp"
 #include "fathom/measurements/shared_file.hpp"
+#include "fathom/vision/static_view.hpp"
 
 namespace fathom {
 namespace {
@@ -104,6 +105,9 @@ std::string manifest_json(const std::string& command_line,
                          {"registrations_left_out", recording.registrations_left_out},
                          {"visual_odometry", recording.visual_odometry},
                          {"visual_odometry_failures", recording.visual_odometry_failures}};
+    if (!recording.mask.empty()) {
+      json["front_end"]["masked_share"] = masked_share(recording.mask);
+    }
     for (const FoundSigma& sigma : recording.found_sigmas) {
       json["front_end"]["estimated"].push_back(words(sigma));
     }

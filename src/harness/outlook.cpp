@@ -40,10 +40,12 @@ void count_candidates(const FrameSource& frames, const FrontEndOptions& options,
 void look_at_texture(const FrameSource& frames, const FrontEndOptions& options, Outlook& outlook) {
   constexpr std::size_t kLooked = 5;
   const FeatureExtractor extractor(options.features, options.registration.tuning.features);
+  const PictureUse use = picture_use(frames, options.mask);
+  outlook.remarks = remarks_on(use, frames);
   const std::size_t count = std::min(kLooked, frames.size());
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t frame = (2 * i + 1) * frames.size() / (2 * count);
-    outlook.features.emplace_back(frame, extractor.extract(frames.image(frame)).size());
+    outlook.features.emplace_back(frame, extractor.extract(frames.image(frame), use.mask).size());
   }
 }
 
@@ -84,7 +86,7 @@ std::vector<std::string> facts_of(const Outlook& outlook) {
 }
 
 std::vector<std::string> warnings_of(const Outlook& outlook, const FrontEndOptions& options) {
-  std::vector<std::string> warnings;
+  std::vector<std::string> warnings = outlook.remarks;
   if (outlook.keyframes == 1) {
     warnings.emplace_back("by dead reckoning the vehicle never moves: there is a single keyframe");
   }

@@ -1,13 +1,11 @@
 #include "fathom/harness/recording.hpp"
 
-#include <cmath>
-
 #include "candidate_guide.hpp"
 #include "carried_readings.hpp"
 #include "fathom/harness/false_loops.hpp"
 #include "fathom/harness/survey.hpp"
-#include "fathom/measurements/graph_numbers.hpp"
 #include "find_sigmas.hpp"
+#include "graph_recording.hpp"
 
 namespace fathom {
 namespace {
@@ -125,6 +123,8 @@ Recording record_with(const EstimatedSigmas& sigmas, Survey& survey,
   }
   take_keyframes(recording, source, front_end);
   take_frames(recording, source, front_end);
+  recording.remarks = survey.pictures().remarks();
+  recording.mask = survey.pictures().mask();
   recording.visual_odometry = survey.uses_visual_odometry();
   recording.visual_odometry_failures = survey.visual_odometry_failures();
   return recording;
@@ -154,28 +154,6 @@ Recording record_survey(Survey& survey, const Configuration& configuration,
   return recording;
 }
 
-void require_finite(const MeasurementLog& log, const std::string& file) {
-  const auto require = [&](const std::vector<Pose>& poses, const std::string& name) {
-    if (std::isfinite(chi2(log, poses))) return;
-    throw InputError(file, "F is not finite at " + name +
-                               ": it has numbers beyond what can be computed with; expected "
-                               "metres, radians and their information");
-  };
-  require(log.odometry(), "dead reckoning");
-  if (log.guess) require(*log.guess, "its vertices");
-}
-
-Recording graph_recording(MeasurementLog log, const std::string& file) {
-  Recording recording;
-  constexpr std::int64_t kSecond = 1'000'000'000;
-  for (const std::int64_t stamp : stamps_of(log)) {
-    recording.keyframe_times_ns.push_back(stamp * kSecond);
-  }
-  require_finite(log, file);
-  recording.log = std::move(log);
-  return recording;
-}
-
 std::optional<DrawnGraph> draw_graph(const DataSet& data, const Configuration& configuration,
                                      const TrialNoise& noise) {
   try {
@@ -185,23 +163,7 @@ std::optional<DrawnGraph> draw_graph(const DataSet& data, const Configuration& c
   }
 }
 
-Recording drawn_recording(DrawnGraph drawn) {
-  Recording recording;
-  require_finite(drawn.log, "dataset");
-  recording.ground_truth.emplace();
-  for (const StampedPose& pose : drawn.ground_truth) {
-    recording.keyframe_times_ns.push_back(pose.time_ns);
-    recording.ground_truth->push_back(pose.pose);
-  }
-  recording.log = std::move(drawn.log);
-  return recording;
-}
-
 }  // namespace
-
-Recording record_graph(const std::filesystem::path& path, const GraphOptions& options) {
-  return graph_recording(read_g2o(path, options), path.string());
-}
 
 Recorder::Recorder(const Configuration& configuration, RegistrationCache* cache,
                    std::size_t survey) {

@@ -76,15 +76,34 @@ std::unique_ptr<const DataSet> open_data_set(const Configuration& configuration,
   return data;
 }
 
-Pictures::Pictures(const Configuration& configuration, RegistrationCache* cache,
-                   std::size_t survey) {
+Pictures::Pictures(const Configuration& configuration, RegistrationCache* cache, std::size_t survey)
+    : configuration_(configuration), cache_(cache), survey_(survey) {
   with_origin(configuration, [&] { require_pictures(configuration); });
   data_ = open_data_set(configuration, survey);
-  with_origin(configuration, [&] {
-    registrar_ = std::make_unique<PairRegistrar>(source(), configuration.front_end.features,
-                                                 configuration.front_end.registration,
-                                                 seed_of(configuration, survey), cache);
+}
+
+const PictureUse& Pictures::use() {
+  std::call_once(looked_, [&] { use_ = picture_use(source(), configuration_.front_end.mask); });
+  return use_;
+}
+
+PairRegistrar& Pictures::registrar() {
+  std::call_once(made_, [&] {
+    with_origin(configuration_, [&] {
+      registrar_ = std::make_unique<PairRegistrar>(
+          source(), configuration_.front_end.features, configuration_.front_end.registration,
+          seed_of(configuration_, survey_), cache_, PairRegistrar::kFeatureBytes, use());
+    });
   });
+  return *registrar_;
+}
+
+std::vector<std::string> Pictures::remarks() {
+  return remarks_on(use(), source());
+}
+
+const cv::Mat& Pictures::mask() {
+  return use().mask;
 }
 
 std::string data_settings(const Configuration& configuration) {

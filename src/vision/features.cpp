@@ -26,10 +26,25 @@ bool stronger(const cv::KeyPoint& a, const cv::KeyPoint& b) {
   return key(a) < key(b);
 }
 
-// Row numbers of the strongest `count` keypoints, strongest first.
-std::vector<int> strongest(const std::vector<cv::KeyPoint>& keypoints, std::size_t count) {
-  std::vector<int> order(keypoints.size());
-  std::iota(order.begin(), order.end(), 0);
+// Row numbers of keypoints that describe nothing of what the mask hides.
+std::vector<int> unmasked(const std::vector<cv::KeyPoint>& keypoints, const cv::Mat& mask) {
+  std::vector<int> rows(keypoints.size());
+  std::iota(rows.begin(), rows.end(), 0);
+  if (mask.empty()) return rows;
+  cv::Mat distances_px;
+  cv::distanceTransform(mask, distances_px, cv::DIST_L2, cv::DIST_MASK_5);
+  std::erase_if(rows, [&](int row) {
+    const cv::KeyPoint& keypoint = keypoints[static_cast<std::size_t>(row)];
+    const int u = std::clamp(cvRound(keypoint.pt.x), 0, mask.cols - 1);
+    const int v = std::clamp(cvRound(keypoint.pt.y), 0, mask.rows - 1);
+    return distances_px.at<float>(v, u) <= keypoint.size;
+  });
+  return rows;
+}
+
+// Of these the strongest `count`, strongest first.
+std::vector<int> strongest(const std::vector<cv::KeyPoint>& keypoints, std::vector<int> order,
+                           std::size_t count) {
   std::ranges::stable_sort(order, [&](int a, int b) {
     return stronger(keypoints[static_cast<std::size_t>(a)], keypoints[static_cast<std::size_t>(b)]);
   });
@@ -93,23 +108,27 @@ void FeatureOptions::describe(OptionTable& table) {
                 "CLAHE: tiles along each side of the picture");
 }
 
-Features FeatureExtractor::extract(const cv::Mat& gray) const {
+Features FeatureExtractor::extract(const cv::Mat& gray, const cv::Mat& mask) const {
   if (gray.empty() || gray.type() != CV_8UC1) {
     throw InputError("features need a picture of 8 bits and one channel, got " +
                      (gray.empty() ? std::string("an empty one") : cv::typeToString(gray.type())));
   }
+  if (!mask.empty() && (mask.size() != gray.size() || mask.type() != CV_8UC1)) {
+    throw InputError("features need a mask of 8 bits and of the picture's size");
+  }
   Features features;
   if (std::min(gray.cols, gray.rows) < kSmallestSide) return features;
 
-  const Detector detector =
-      find_detector(options_.type).make(options_.detector, options_.max_features);
+  // A detector keeps the strongest before any are masked.
+  const int most = mask.empty() ? options_.max_features : 2 * options_.max_features;
+  const Detector detector = find_detector(options_.type).make(options_.detector, most);
   std::vector<cv::KeyPoint> keypoints;
   cv::Mat descriptors;
   detector.finder->detectAndCompute(prepared(gray, options_, tuning_), cv::noArray(), keypoints,
                                     descriptors);
 
-  const std::vector<int> order =
-      strongest(keypoints, static_cast<std::size_t>(options_.max_features));
+  const std::vector<int> order = strongest(keypoints, unmasked(keypoints, mask),
+                                           static_cast<std::size_t>(options_.max_features));
   features.pixels.reserve(order.size());
   if (!order.empty()) {
     features.descriptors.create(static_cast<int>(order.size()), descriptors.cols,

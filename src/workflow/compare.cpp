@@ -144,6 +144,7 @@ class Comparison {
     for (const std::string& remark : data_set_.data().remarks()) observer_.remark(remark);
     if (done.example.empty()) return;
     const ExampleRun& example = done.example.front();
+    for (const std::string& remark : example.recording->remarks) observer_.remark(remark);
     for (const std::string& remark : loop_remarks(
              *example.recording, study_.cells.front().front_end, example.result.run.trajectory)) {
       observer_.remark(remark);

@@ -45,6 +45,7 @@ class OneRun {
         recorder.calibration_of(*recording_, configuration_, noise()).findings;
     const bool set_up_is_wrong = !remarks.empty();
     std::ranges::copy(recorder.data().remarks(), std::back_inserter(remarks));
+    std::ranges::copy(recording_->remarks, std::back_inserter(remarks));
     judge(done, set_up_is_wrong, remarks);
     if (folder) {
       write(*folder, recorder, done, remarks);

@@ -59,6 +59,12 @@ class FrameSource {
   /// naming the file where it is missing or unreadable.
   virtual std::uint64_t picture_id(std::size_t i) const = 0;
 
+  /// What of its pictures is no floor: CV_8U, of their size, 0 there; empty: it is not known.
+  virtual cv::Mat given_mask() const { return {}; }
+
+  /// What the picture of frame i is called: its file, where it has one.
+  virtual std::string picture_name(std::size_t i) const { return "frame " + std::to_string(i); }
+
   /// Whether every frame has its roll and pitch; else none has.
   bool has_attitude() const { return size() > 0 && info(0).tilt.has_value(); }
 

@@ -31,6 +31,7 @@ class TimeLine;
 /// Where `sensor.yaml` of one of the three says how far its clock is off, pictures before its first
 /// reading and after its last one are left out.
 /// - `compass0`, `position0`: optional, at any rate (read_folder_sensors).
+/// - `cam0/mask.png`: optional; 0 where pictures are never of the floor.
 /// - `state_groundtruth_estimate0`: optional, absent at frames that it does not cover; the yaw of
 ///   its quaternion is the heading.
 class ImageFolder : public FrameSource {
@@ -50,6 +51,11 @@ class ImageFolder : public FrameSource {
   cv::Mat image(std::size_t i) const override;
   /// Of the file's bytes, which are read once.
   std::uint64_t picture_id(std::size_t i) const override;
+  /// That of `cam0/mask.png`, where there is one.
+  cv::Mat given_mask() const override { return mask_; }
+  std::string picture_name(std::size_t i) const override {
+    return pictures_[i].filename().string();
+  }
   bool has_odometry() const override { return has_odometry_; }
   /// At the sensor's own rate, beyond the frames as well.
   RecordedOdometry recorded_odometry() const override { return odometry_; }
@@ -84,6 +90,7 @@ class ImageFolder : public FrameSource {
   Camera camera_;
   std::vector<FrameInfo> infos_;
   std::vector<std::filesystem::path> pictures_;
+  cv::Mat mask_;
   FolderSensors sensors_;
   RecordedOdometry odometry_;
   std::vector<std::string> remarks_;

@@ -15,6 +15,10 @@ cv::Mat read_grey_picture(const std::filesystem::path& path);
 /// The same of a file's bytes; the path is for messages.
 cv::Mat decode_grey_picture(std::string_view bytes, const std::filesystem::path& path);
 
+/// A mask of pictures of this size: 0 where they are never of the floor. Throws InputError naming
+/// the file where it is of another size, or hides all.
+cv::Mat read_mask(const std::filesystem::path& path, cv::Size size);
+
 /// Writes an 8-bit PNG. Throws InputError naming the file.
 void write_png(const std::filesystem::path& path, const cv::Mat& picture);
 

@@ -18,6 +18,7 @@ struct PictureFolderOptions {
   std::optional<double> altitude_m;         ///< of all pictures; or
   std::string altitudes;                    ///< a CSV file: filename, altitude
   std::string odometry;                     ///< a CSV file, or empty: visual odometry
+  std::string mask;                         ///< a picture, 0 where there is no floor, or empty
   std::optional<double> focal_px;           ///< fx; or
   std::optional<double> field_of_view_rad;  ///< across the width of the picture
   std::optional<double> focal_y_px;         ///< absent: that of x
@@ -54,9 +55,13 @@ class PictureFolder : public FrameSource {
   /// Throws InputError where the picture is of another size than the first.
   cv::Mat image(std::size_t i) const override;
   std::uint64_t picture_id(std::size_t i) const override;
+  cv::Mat given_mask() const override { return mask_; }
+  std::string picture_name(std::size_t i) const override {
+    return pictures_[i].filename().string();
+  }
   bool has_odometry() const override { return has_odometry_; }
   bool has_ground_truth() const override { return false; }
-  /// The pictures and the CSV files.
+  /// The pictures, the CSV files, and the mask.
   std::vector<std::filesystem::path> files() const;
   /// What was left out, for the user.
   const std::vector<std::string>& remarks() const { return remarks_; }
@@ -74,9 +79,10 @@ class PictureFolder : public FrameSource {
 
   std::filesystem::path folder_;
   std::vector<std::filesystem::path> pictures_;
-  std::vector<std::filesystem::path> tables_;
+  std::vector<std::filesystem::path> other_files_;
   std::vector<FrameInfo> infos_;
   Camera camera_;
+  cv::Mat mask_;
   std::vector<std::string> remarks_;
   mutable std::vector<PictureId> ids_;
   bool has_odometry_ = false;

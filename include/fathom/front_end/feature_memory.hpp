@@ -56,8 +56,9 @@ class PackedFeatures {
 /// once: who needs features that another thread extracts waits for them.
 class FeatureMemory {
  public:
-  /// The source must outlive it.
-  FeatureMemory(const FrameSource& source, const FeatureExtractor& extractor, std::size_t bytes);
+  /// The source must outlive it. `mask`: of all its pictures, as of FeatureExtractor.
+  FeatureMemory(const FrameSource& source, const FeatureExtractor& extractor, std::size_t bytes,
+                cv::Mat mask = {});
 
   /// Throws InputError where the picture cannot be read, as often as it is asked for.
   std::shared_ptr<const PackedFeatures> of(std::size_t frame);
@@ -79,6 +80,7 @@ class FeatureMemory {
 
   const FrameSource& source_;
   FeatureExtractor extractor_;
+  cv::Mat mask_;
   WorkMeter extracted_;
   OnceMap<std::size_t, Held> held_;
 };

@@ -8,6 +8,7 @@
 #include "fathom/core/options.hpp"
 #include "fathom/front_end/candidates.hpp"
 #include "fathom/front_end/keyframes.hpp"
+#include "fathom/front_end/picture_use.hpp"
 #include "fathom/vision/features.hpp"
 #include "fathom/vision/registration.hpp"
 
@@ -24,6 +25,7 @@ struct VisualOdometryFallback {
 struct FrontEndOptions {
   KeyframeOptions keyframes;
   CandidateOptions candidates;
+  MaskUse mask = MaskUse::automatic;
   FeatureOptions features;
   RegistrationOptions registration;
   VisualOdometryFallback visual_odometry;

@@ -12,6 +12,7 @@
 #include "fathom/datasets/frame_source.hpp"
 #include "fathom/front_end/feature_memory.hpp"
 #include "fathom/front_end/once_map.hpp"
+#include "fathom/front_end/picture_use.hpp"
 #include "fathom/front_end/registration_cache.hpp"
 #include "fathom/front_end/registration_key.hpp"
 
@@ -41,9 +42,12 @@ class PairRegistrar {
 
   /// `pictures` gives camera and pictures, no altitudes nor tilts; it and the cache must outlive
   /// this. `feature_bytes` bounds what the features held take; beyond it some are extracted again.
+  /// `use`: features where the picture is masked are none, and a frame whose picture repeats the
+  /// one before registers with no other.
   PairRegistrar(const FrameSource& pictures, const FeatureOptions& features,
                 const RegistrationOptions& registration, std::uint64_t seed,
-                RegistrationCache* cache = nullptr, std::size_t feature_bytes = kFeatureBytes);
+                RegistrationCache* cache = nullptr, std::size_t feature_bytes = kFeatureBytes,
+                const PictureUse& use = {});
 
   /// From memory, else from the cache, else registered. Throws InputError where a picture that is
   /// needed cannot be read.
@@ -97,6 +101,7 @@ class PairRegistrar {
   std::uint64_t seed_;
   RegistrationCache* cache_;
   RegistrationKeys keys_;
+  PictureUse use_;
   FeatureMemory features_;
   OnceMap<PairKey, PairRegistration> pairs_;
   WorkMeter registered_;

@@ -16,7 +16,7 @@ namespace fathom {
 /// registrations in caches. Values of options and of
 /// RegistrationTuning need no raise, they are in the key; pinned_registrations_test.cpp tells of
 /// the rest.
-inline constexpr int kRegistrationVersion = 7;
+inline constexpr int kRegistrationVersion = 8;
 
 /// A picture as a registration sees it.
 struct SeenPicture {
@@ -31,8 +31,9 @@ struct SeenPicture {
 /// features these are.
 class RegistrationKeys {
  public:
+  /// `mask`: of all pictures, as of FeatureExtractor; empty: the keys know of none.
   RegistrationKeys(const CameraModel& camera, FeatureOptions features,
-                   RegistrationOptions registration);
+                   RegistrationOptions registration, const cv::Mat& mask = {});
 
   RegistrationKey of(const SeenPicture& from, const SeenPicture& to, std::uint64_t pair_seed) const;
 

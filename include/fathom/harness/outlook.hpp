@@ -25,6 +25,7 @@ struct Outlook {
   std::size_t other_candidates = 0;
   /// Features found in some pictures, by frame: few say that there is little to register.
   std::vector<std::pair<std::size_t, std::size_t>> features;
+  std::vector<std::string> remarks;  ///< on what of the pictures is masked, and which repeat
 };
 
 /// Looks at the positions of all frames and at some pictures. Throws InputError where a picture

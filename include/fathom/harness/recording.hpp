@@ -48,6 +48,8 @@ struct Recording {
   std::vector<bool> is_false_loop;
   /// Standard deviations that the survey's own loops were asked for.
   std::vector<FoundSigma> found_sigmas;
+  std::vector<std::string> remarks;  ///< on its pictures: what is masked, which repeat
+  cv::Mat mask;                      ///< of every picture, as of PictureUse; empty: nothing
   bool visual_odometry = false;
   std::size_t visual_odometry_failures = 0;
 };

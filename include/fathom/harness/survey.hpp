@@ -2,7 +2,9 @@
 
 #include <cstdint>
 #include <memory>
+#include <mutex>
 #include <string>
+#include <vector>
 
 #include "fathom/configuration/configuration.hpp"
 #include "fathom/datasets/data_set.hpp"
@@ -27,10 +29,23 @@ class Pictures {
 
   const DataSet& data() const { return *data_; }
   const FrameSource& source() const { return *data_->frames(); }
-  PairRegistrar& registrar() { return *registrar_; }
+  /// Made when first asked for, as some pictures are looked at for what stays in place in them.
+  PairRegistrar& registrar();
+  /// What is to be said of them: what is masked, which repeat the one before.
+  std::vector<std::string> remarks();
+  /// What is masked of every picture; empty: nothing.
+  const cv::Mat& mask();
 
  private:
+  const PictureUse& use();
+
+  Configuration configuration_;
+  RegistrationCache* cache_;
+  std::size_t survey_;
   std::unique_ptr<const DataSet> data_;
+  std::once_flag looked_;
+  PictureUse use_;
+  std::once_flag made_;
   std::unique_ptr<PairRegistrar> registrar_;
 };
 
@@ -61,6 +76,7 @@ class Survey {
   /// for an altitude costs nothing.
   const FrameSource& measured() const;
   PairRegistrar& registrar() { return pictures_->registrar(); }
+  Pictures& pictures() { return *pictures_; }
   /// What compass and positioning system measured of the frames, and what is told of the start.
   const AbsoluteReadings& readings() const { return readings_; }
   const StartOptions& start() const { return start_; }

@@ -79,9 +79,10 @@ class FeatureExtractor {
   /// The `max_features` features with the strongest response, strongest first; equal ones in the
   /// order of their place in the picture, then size and orientation. A keypoint with several
   /// orientations counts as several. A picture without texture, or too small to hold a keypoint
-  /// (under 32 pixels a side), has none. Throws InputError unless `gray` is 8-bit with one channel
-  /// and not empty.
-  Features extract(const cv::Mat& gray) const;
+  /// (under 32 pixels a side), has none. `mask`, of the picture's size: no feature is kept within
+  /// its own size of a pixel that is 0 there. Throws InputError unless `gray` is 8-bit with one
+  /// channel and not empty, or where the mask does not fit it.
+  Features extract(const cv::Mat& gray, const cv::Mat& mask = {}) const;
 
  private:
   FeatureOptions options_;

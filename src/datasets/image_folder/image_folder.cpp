@@ -61,6 +61,9 @@ SensorYaml yaml_beside(const fs::path& csv) {
 
 ImageFolder::ImageFolder(const fs::path& path, const OdometryGaps& gaps) : mav0_(mav0_of(path)) {
   camera_ = read_camera_yaml(mav0_ / "cam0" / "sensor.yaml");
+  if (const fs::path mask = mav0_ / "cam0" / "mask.png"; fs::exists(mask)) {
+    mask_ = read_mask(mask, {camera_.model().width, camera_.model().height});
+  }
   read_frames();
   read_altitudes();
   read_attitude();
@@ -206,7 +209,7 @@ void ImageFolder::read_ground_truth() {
 std::vector<fs::path> ImageFolder::files() const {
   std::vector<fs::path> files = pictures_;
   for (const auto& sensor : fs::directory_iterator(mav0_)) {
-    for (const char* name : {"data.csv", "sensor.yaml"}) {
+    for (const char* name : {"data.csv", "sensor.yaml", "mask.png"}) {
       const fs::path file = sensor.path() / name;
       std::error_code error;
       if (fs::is_regular_file(file, error)) files.push_back(file);

@@ -96,6 +96,10 @@ PictureFolder::PictureFolder(const PictureFolderOptions& options) : folder_(opti
   set_times(options.interval_s);
   set_altitudes(options);
   if (!options.odometry.empty()) read_odometry(options.odometry);
+  if (!options.mask.empty()) {
+    mask_ = read_mask(options.mask, {camera_.model().width, camera_.model().height});
+    other_files_.emplace_back(options.mask);
+  }
   ids_ = std::vector<PictureId>(pictures_.size());
 }
 
@@ -161,7 +165,7 @@ void PictureFolder::set_altitudes(const PictureFolderOptions& options) {
         "metres; a CSV file, dataset.altitudes, has one for each picture");
   }
   const PictureTable table(options.altitudes, "filename, altitude", pictures_);
-  tables_.emplace_back(options.altitudes);
+  other_files_.emplace_back(options.altitudes);
   for (std::size_t i = 0; i < infos_.size(); ++i) {
     const double altitude_m = table.real(i, 1);
     if (!(altitude_m > 0.0)) {
@@ -174,7 +178,7 @@ void PictureFolder::set_altitudes(const PictureFolderOptions& options) {
 void PictureFolder::read_odometry(const fs::path& csv) {
   const PictureTable table(csv, "filename, p_x, p_y, theta, step_var_x, step_var_y, step_var_theta",
                            pictures_, "step_cov_xy, step_cov_xt, step_cov_yt");
-  tables_.push_back(csv);
+  other_files_.push_back(csv);
   Pose last;
   for (std::size_t i = 0; i < infos_.size(); ++i) {
     const Pose pose{table.real(i, 1), table.real(i, 2), wrap_angle(table.real(i, 3))};
@@ -217,7 +221,7 @@ std::uint64_t PictureFolder::picture_id(std::size_t i) const {
 
 std::vector<fs::path> PictureFolder::files() const {
   std::vector<fs::path> files = pictures_;
-  files.insert(files.end(), tables_.begin(), tables_.end());
+  files.insert(files.end(), other_files_.begin(), other_files_.end());
   std::ranges::sort(files);
   return files;
 }

@@ -11,6 +11,8 @@ void PictureFolderOptions::describe(OptionTable& table) {
   table.text("odometry", odometry,
              "a CSV file: filename, p_x, p_y, theta, step_var_x, step_var_y, step_var_theta; none: "
              "visual odometry");
+  table.text("mask", mask,
+             "a picture of the size of the others, 0 where they are never of the floor");
   table.real("interval_s", interval_s, Range::positive(), "s",
              "between pictures that do not say when they were taken");
   table.real_or_off("camera.focal_px", focal_px, Range::positive(), "pixels", "focal length");
