@@ -67,11 +67,6 @@ Configuration configuration_of(const Settings& settings, const EstimatorRegistry
                                                : configure(settings, kind, registry);
 }
 
-// That of the survey that the configuration names; a simulated one has nothing in view.
-cv::Mat mask_for(const Configuration& configuration, Pictures& pictures) {
-  return find_data_set(configuration.dataset.type).makes_pictures ? cv::Mat() : pictures.mask();
-}
-
 void register_pictures(const RegisterFlags& flags, Context& context) {
   const Settings settings = flags.common.settings(flags.config);
   const Configuration configuration = configuration_of(settings, flags.common.estimators());
@@ -84,7 +79,7 @@ void register_pictures(const RegisterFlags& flags, Context& context) {
   StagedFolder folder(flags.common.folder_or("register"), inputs);
   const RegistrationOptions& options = configuration.front_end.registration;
   const FeatureExtractor extractor(configuration.front_end.features, options.tuning.features);
-  const cv::Mat mask = mask_for(configuration, pictures);
+  const cv::Mat mask = pictures.mask();
   const FloorFeatures features_a = on_floor(extractor.extract(a, mask), camera, flags.altitude_a_m);
   const FloorFeatures features_b = on_floor(extractor.extract(b, mask), camera, flags.altitude_b_m);
   const Registration registration =

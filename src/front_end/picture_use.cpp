@@ -29,17 +29,31 @@ cv::Mat detail_or_nothing(const FrameSource& frames, std::size_t frame) {
   }
 }
 
-std::vector<cv::Mat> some_details(const FrameSource& frames) {
-  const std::size_t count = std::min(kLooked, frames.size());
-  std::vector<cv::Mat> details(count);
-  cv::parallel_for_({0, static_cast<int>(count)}, [&](const cv::Range& range) {
+// Of every other one of `count` frames that are spread over the survey, from `first` on.
+void add_details(const FrameSource& frames, std::size_t first, std::size_t count,
+                 std::vector<cv::Mat>& details) {
+  std::vector<cv::Mat> more((count - first + 1) / 2);
+  cv::parallel_for_({0, static_cast<int>(more.size())}, [&](const cv::Range& range) {
     for (int i = range.start; i < range.end; ++i) {
-      const auto at = static_cast<std::size_t>(i);
-      details[at] = detail_or_nothing(frames, (2 * at + 1) * frames.size() / (2 * count));
+      const std::size_t at = first + 2 * static_cast<std::size_t>(i);
+      more[static_cast<std::size_t>(i)] =
+          detail_or_nothing(frames, (2 * at + 1) * frames.size() / (2 * count));
     }
   });
-  std::erase_if(details, [](const cv::Mat& detail) { return detail.empty(); });
-  return details;
+  std::erase_if(more, [](const cv::Mat& detail) { return detail.empty(); });
+  details.insert(details.end(), more.begin(), more.end());
+}
+
+// Half of the pictures tell of most surveys that nothing stays.
+StaticView static_view_of(const FrameSource& frames) {
+  const std::size_t count = std::min(kLooked, frames.size());
+  if (count == 0) return {};
+  std::vector<cv::Mat> details;
+  add_details(frames, 0, count, details);
+  if (!may_have_static_view(details)) return {};
+  add_details(frames, 1, count, details);
+  const CameraModel& model = frames.camera().model();
+  return find_static_view(details, {model.width, model.height});
 }
 
 std::optional<std::uint64_t> identity(const FrameSource& frames, std::size_t frame) {
@@ -76,12 +90,13 @@ bool moved_in(const FrameSource& frames, std::size_t first, std::size_t last) {
 std::string mask_remark(const PictureUse& use) {
   const char* const how = "front_end.mask: off switches that off";
   if (use.is_given) {
-    return fmt::format("{:.2g} % of the picture are masked, by the data set's mask; {}",
-                       100.0 * masked_share(use.mask), how);
+    return fmt::format("masked: {:.2g} % of the picture ({}), as the data set says; {}",
+                       100.0 * masked_share(use.mask), masked_where(use.mask), how);
   }
   return fmt::format(
-      "{:.2g} % of the picture stay in place while the vehicle moves, in {}: a part "
-      "of the vehicle, text or dirt; masked, so that no feature there is matched; {}",
+      "masked: {:.2g} % of the picture ({}), which stay in place while the vehicle moves: a part "
+      "of "
+      "the vehicle, text or dirt; no feature there is matched; {}",
       100.0 * masked_share(use.mask), masked_where(use.mask), how);
 }
 
@@ -117,8 +132,7 @@ PictureUse picture_use(const FrameSource& frames, MaskUse use) {
     if (found.is_given) found.mask = given;
     return found;
   }
-  const CameraModel& model = frames.camera().model();
-  const StaticView view = find_static_view(some_details(frames), {model.width, model.height});
+  const StaticView view = static_view_of(frames);
   found.mask = view.mask;
   found.is_told = view.is_told || frames.size() < kLooked;
   return found;

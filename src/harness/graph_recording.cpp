@@ -1,8 +1,8 @@
 #include "graph_recording.hpp"
 
-#include "fathom/measurements/graph_numbers.hpp"
-
 #include <cmath>
+
+#include "fathom/measurements/graph_numbers.hpp"
 
 namespace fathom {
 namespace {

@@ -4,6 +4,7 @@
 
 #include "fathom/core/files.hpp"
 #include "fathom/core/text.hpp"
+#include "fathom/datasets/picture_file.hpp"
 #include "fathom/geometry/covariance.hpp"
 #include "fathom/measurements/graph_numbers.hpp"
 #include "fathom/measurements/shared_file.hpp"
@@ -131,6 +132,7 @@ void write_recording(const std::filesystem::path& folder, const Recording& recor
   write_file(folder / "dead_reckoning.tum", to_tum(dead_reckoning(recording)));
   write_graph(folder / "measurements.g2o", recording.log);
   if (has_large_ids(recording.log)) write_file(folder / "ids.csv", ids_csv(recording.log));
+  if (!recording.mask.empty()) write_png(folder / "mask.png", recording.mask);
   if (const auto truth = ground_truth(recording); !truth.empty()) {
     write_file(folder / "ground_truth.tum", to_tum(truth));
   }
@@ -138,9 +140,10 @@ void write_recording(const std::filesystem::path& folder, const Recording& recor
 
 const std::vector<std::string>& optional_run_files() {
   static const std::vector<std::string> names{
-      "absolute.csv",     "batch_optimum", "footprints.csv", "footprints.geojson",  "frames.tum",
-      "ground_truth.tum", "ids.csv",       "loops.geojson",  "measurements.shared", "mosaic.json",
-      "mosaic.pgw",       "mosaic.png",    "mosaic.tif",     "trajectory.geojson"};
+      "absolute.csv", "batch_optimum",       "footprints.csv",    "footprints.geojson",
+      "frames.tum",   "ground_truth.tum",    "ids.csv",           "loops.geojson",
+      "mask.png",     "measurements.shared", "mosaic.json",       "mosaic.pgw",
+      "mosaic.png",   "mosaic.tif",          "trajectory.geojson"};
   return names;
 }
 

@@ -128,6 +128,14 @@ cv::Mat detail_of_view(const cv::Mat& gray, const StaticViewOptions& options) {
   return flattened(reduced, tuning);
 }
 
+bool may_have_static_view(std::span<const cv::Mat> details, const StaticViewOptions& options) {
+  const auto pictures = of_different_places(details, options.most_agreement);
+  if (pictures.size() < details.size()) return true;
+  if (pictures.size() < static_cast<std::size_t>(options.least_pictures)) return true;
+  const Correlation correlation = correlation_of(pictures, options);
+  return cv::countNonZero(cleaned(correlation.at > options.possible_correlation, options)) > 0;
+}
+
 StaticView find_static_view(std::span<const cv::Mat> details, cv::Size size,
                             const StaticViewOptions& options) {
   const auto pictures = of_different_places(details, options.most_agreement);
@@ -150,20 +158,22 @@ double masked_share(const cv::Mat& mask) {
 
 std::string masked_where(const cv::Mat& mask) {
   constexpr double kMostOfASide = 1.0 / 3.0;
+  constexpr double kLeastOfASide = 0.01;  // of the picture's area
   cv::Mat labels;
   cv::Mat numbers;
   cv::Mat centres;
   const int count = cv::connectedComponentsWithStats(mask == 0, labels, numbers, centres);
   std::array<double, 4> at_sides{};
-  int inside = 0;
+  std::size_t others = 0;
   for (int part = 1; part < count; ++part) {
     const int* const row = numbers.ptr<int>(part);
     const auto depth = depths({row[cv::CC_STAT_LEFT], row[cv::CC_STAT_TOP], row[cv::CC_STAT_WIDTH],
                                row[cv::CC_STAT_HEIGHT]},
                               mask.size());
     const auto nearest = std::ranges::min_element(depth);
-    if (*nearest > kMostOfASide) {
-      ++inside;
+    const double area = row[cv::CC_STAT_AREA] / static_cast<double>(mask.total());
+    if (*nearest > kMostOfASide || area < kLeastOfASide) {
+      ++others;
       continue;
     }
     double& side = at_sides[static_cast<std::size_t>(nearest - depth.begin())];
@@ -175,9 +185,7 @@ std::string masked_where(const cv::Mat& mask) {
       places.push_back(fmt::format("the {} {:.0f} %", kSides[side], 100.0 * at_sides[side]));
     }
   }
-  if (inside > 0) {
-    places.push_back(fmt::format("{} part{} further inside", inside, inside > 1 ? "s" : ""));
-  }
+  if (others > 0) places.push_back(counted(others, places.empty() ? "part" : "other part"));
   return joined(places, ", ");
 }
 

@@ -17,6 +17,7 @@ struct StaticViewOptions {
   double least_deviation = 2;  ///< greys: less texture counts as less, not as much noise
   int correlation_px = 7;      ///< of a square about a pixel, from its middle to its border
   double least_correlation = 0.5;
+  double possible_correlation = 0.35;  ///< of half the pictures, for may_have_static_view()
   /// Two pictures that agree so much are of one place, and one of them is left out. Where more
   /// than this share of the picture keeps its content, nothing can be told either.
   double most_agreement = 0.6;
@@ -46,10 +47,14 @@ cv::Mat detail_of_view(const cv::Mat& gray, const StaticViewOptions& options = {
 StaticView find_static_view(std::span<const cv::Mat> details, cv::Size size,
                             const StaticViewOptions& options = {});
 
+/// Whether it is worth to look at more pictures: false where none of these few has a place that
+/// could be found. Said of less than find_static_view() needs.
+bool may_have_static_view(std::span<const cv::Mat> details, const StaticViewOptions& options = {});
+
 /// The share of the picture that is masked.
 double masked_share(const cv::Mat& mask);
 
-/// Where: "the lowest 12 %", "the uppermost 9 % and 3 parts further inside".
+/// Where: "the lowest 12 %", "the uppermost 9 %, 3 other parts".
 std::string masked_where(const cv::Mat& mask);
 
 }  // namespace fathom

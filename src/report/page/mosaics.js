@@ -83,9 +83,21 @@ function drawMosaicDifference() {
   showMosaic(document.getElementById('mosaic-difference'), pair, [], words.join(' '));
 }
 
+function drawMask() {
+  const card = document.getElementById('mask');
+  card.hidden = !mosaics.mask;
+  if (card.hidden) return;
+  showMosaic(card, mosaics.mask, [], `Black: ${mosaics.mask.where}, ${Number((100 * mosaics.mask.share).toPrecision(2))} % of the picture. ` +
+    'No feature there is matched, as it is no floor: given with the data, or found because it stays in place over the survey. front_end.mask: off switches that off.');
+}
+
 function makeMosaics() {
   if (!mosaics) return;
   document.getElementById('mosaics').hidden = false;
+  drawMask();
+  document.getElementById('mosaic-estimate').hidden = mosaics.mosaics.length === 0;
+  document.getElementById('mosaic-difference').hidden = mosaics.differences.length === 0;
+  if (mosaics.mosaics.length === 0) return;
   const best = mosaics.differences.length > 0 ? mosaics.differences[0].a : mosaics.mosaics[0].estimator;
   mosaicChoice.estimator = best;
   const names = mosaics.mosaics.map((one) => [one.estimator, labelOf(one.estimator)]);

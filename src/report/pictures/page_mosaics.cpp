@@ -10,6 +10,7 @@
 #include "fathom/core/input_error.hpp"
 #include "fathom/core/text.hpp"
 #include "fathom/geometry/trajectory.hpp"
+#include "fathom/vision/static_view.hpp"
 #include "mosaic_raster.hpp"
 
 namespace fathom {
@@ -127,6 +128,21 @@ Json example_json(const Example& example, double most_pixels) {
   return json;
 }
 
+// What was masked of every picture, as the first folder that has it; null: nothing.
+Json mask_json(const fs::path& study_folder, const std::vector<std::string>& estimators) {
+  for (const std::string& name : estimators) {
+    const cv::Mat mask =
+        cv::imread((study_folder / name / "mask.png").string(), cv::IMREAD_GRAYSCALE);
+    if (mask.empty()) continue;
+    return {{"picture", data_address(mask)},
+            {"width", mask.cols},
+            {"height", mask.rows},
+            {"share", masked_share(mask)},
+            {"where", masked_where(mask)}};
+  }
+  return nullptr;
+}
+
 // How far apart two estimates are, over the keyframes of the same time.
 Json apart(const Example& a, const Example& b) {
   std::map<std::int64_t, Pose> poses;
@@ -189,7 +205,8 @@ Json page_mosaics(const fs::path& study_folder, const std::vector<std::string>& 
   for (const std::string& name : estimators) {
     if (by_name.contains(name)) json["mosaics"].push_back(std::move(by_name[name]));
   }
-  if (json["mosaics"].empty()) return nullptr;
+  json["mask"] = mask_json(study_folder, estimators);
+  if (json["mosaics"].empty() && json["mask"].is_null()) return nullptr;
   return json;
 }
 
