@@ -42,6 +42,15 @@ std::vector<int> unmasked(const std::vector<cv::KeyPoint>& keypoints, const cv::
   return rows;
 }
 
+// A detector keeps the strongest before any are masked: so many that the rest of the picture should
+// have enough of them, twice over.
+int asked_features(int max_features, const cv::Mat& mask) {
+  if (mask.empty()) return max_features;
+  const int seen = cv::countNonZero(mask);
+  const double times = seen > 0 ? 2.0 * static_cast<double>(mask.total()) / seen : 0.0;
+  return static_cast<int>(std::min(1e6, times * max_features));
+}
+
 // Of these the strongest `count`, strongest first.
 std::vector<int> strongest(const std::vector<cv::KeyPoint>& keypoints, std::vector<int> order,
                            std::size_t count) {
@@ -119,8 +128,8 @@ Features FeatureExtractor::extract(const cv::Mat& gray, const cv::Mat& mask) con
   Features features;
   if (std::min(gray.cols, gray.rows) < kSmallestSide) return features;
 
-  // A detector keeps the strongest before any are masked.
-  const int most = mask.empty() ? options_.max_features : 2 * options_.max_features;
+  const int most = asked_features(options_.max_features, mask);
+  if (most == 0) return features;
   const Detector detector = find_detector(options_.type).make(options_.detector, most);
   std::vector<cv::KeyPoint> keypoints;
   cv::Mat descriptors;

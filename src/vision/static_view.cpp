@@ -29,7 +29,7 @@ cv::Mat sampled(const cv::Mat& numbers) {
 
 double agreement(const cv::Mat& a, const cv::Mat& b) {
   const double energy = a.dot(a) * b.dot(b);
-  return energy > 0.0 ? a.dot(b) / std::sqrt(energy) : 1.0;
+  return energy > 0.0 ? a.dot(b) / std::sqrt(energy) : 0.0;
 }
 
 // Of pictures of one place, as of a vehicle at rest, the first alone.

@@ -42,6 +42,19 @@ TEST(RegistrationKeys, TheSigmaOfAnAltitudeCounts) {
   EXPECT_EQ(of(0.0, 0.0), keys.of({1, 2.0}, {3, 4.0}, 5));
 }
 
+TEST(RegistrationKeys, TheContentOfAMaskCounts) {
+  const auto of = [](const cv::Mat& mask) {
+    return RegistrationKeys({}, {}, {}, mask).of({1, 2.0}, {3, 4.0}, 5);
+  };
+  cv::Mat mask(4, 6, CV_8U, cv::Scalar(255));
+  const RegistrationKey whole = of(mask);
+  mask.at<unsigned char>(1, 2) = 0;
+  const std::set<RegistrationKey> different{of({}), whole, of(mask), of(mask.reshape(1, 6))};
+  EXPECT_EQ(different.size(), 4u);
+  // Without one, keys are what they always were.
+  EXPECT_EQ(of({}), RegistrationKeys({}, {}, {}).of({1, 2.0}, {3, 4.0}, 5));
+}
+
 TEST(RegistrationKeys, RollPitchAndTheirSigmaCount) {
   const RegistrationKeys keys({}, {}, {});
   const auto of = [&](const std::optional<MeasuredTilt>& from,

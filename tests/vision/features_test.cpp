@@ -52,6 +52,22 @@ TEST_P(EveryDetector, KeepsAtMostMaxFeatures) {
   }
 }
 
+TEST_P(EveryDetector, KeepsNoneNearWhatIsMasked) {
+  const FeatureExtractor extractor(options_of(GetParam().name, 100));
+  cv::Mat mask(picture().size(), CV_8U, cv::Scalar(255));
+  EXPECT_TRUE(equal(extractor.extract(picture(), {}), extractor.extract(picture())));
+  mask.rowRange(0, mask.rows / 2).setTo(0);
+  const Features features = extractor.extract(picture(), mask);
+  // As many as without one: the strongest of those that are left.
+  EXPECT_EQ(features.size(), 100u);
+  for (std::size_t i = 0; i < features.size(); ++i) {
+    EXPECT_GT(features.pixels[i].y(), mask.rows / 2.0 - 2.0 + features.sizes_px[i]);
+  }
+  mask.setTo(0);
+  EXPECT_EQ(extractor.extract(picture(), mask).size(), 0u);
+  EXPECT_THROW(extractor.extract(picture(), mask.rowRange(0, 9)), InputError);
+}
+
 TEST_P(EveryDetector, FewFeaturesAreTheStrongestOfMany) {
   // ORB shares its number among the levels of its pyramid, so fewer are not a part of more.
   if (GetParam().name == "orb") return;
