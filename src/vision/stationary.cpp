@@ -1,20 +1,10 @@
 #include "stationary.hpp"
 
 #include <algorithm>
-#include <array>
 #include <fmt/format.h>
 
 namespace fathom {
 namespace {
-
-constexpr double kMostMotionPx = 1.0;
-/// Of matches: the fit leaves out few that agree by chance.
-constexpr double kShareThatStays = 0.95;
-constexpr int kCells = 8;          ///< along each side of the picture
-constexpr int kLeastFeatures = 3;  ///< of a cell that is to have a match
-constexpr double kLeastCells = 0.5;
-
-using Counts = std::array<int, static_cast<std::size_t>(kCells* kCells)>;
 
 struct Box {
   Eigen::Vector2d low;
@@ -30,46 +20,48 @@ Box box_of(const std::vector<Eigen::Vector2d>& pixels) {
   return box;
 }
 
-std::size_t cell_of(const Eigen::Vector2d& pixel, const Box& box) {
-  const auto index = [](double x, double low, double high) {
+std::size_t cell_of(const Eigen::Vector2d& pixel, const Box& box, int cells) {
+  const auto index = [cells](double x, double low, double high) {
     const double share = high > low ? (x - low) / (high - low) : 0.0;
-    return static_cast<std::size_t>(std::clamp(static_cast<int>(kCells * share), 0, kCells - 1));
+    return static_cast<std::size_t>(std::clamp(static_cast<int>(cells * share), 0, cells - 1));
   };
-  return index(pixel.y(), box.low.y(), box.high.y()) * kCells +
+  return index(pixel.y(), box.low.y(), box.high.y()) * static_cast<std::size_t>(cells) +
          index(pixel.x(), box.low.x(), box.high.x());
 }
 
-bool stay(const Features& from, const Features& to, const std::vector<Match>& matches) {
+bool stay(const Features& from, const Features& to, const std::vector<Match>& matches,
+          const StationaryRule& rule) {
   const auto count = std::ranges::count_if(matches, [&](const Match& match) {
     return (from.pixels[static_cast<std::size_t>(match.from)] -
             to.pixels[static_cast<std::size_t>(match.to)])
-               .norm() <= kMostMotionPx;
+               .norm() <= rule.most_motion_px;
   });
-  return static_cast<double>(count) >= kShareThatStays * static_cast<double>(matches.size());
+  return static_cast<double>(count) >= rule.share_of_matches * static_cast<double>(matches.size());
 }
 
 }  // namespace
 
 std::string reason_of_what_stays(const Features& from, const Features& to,
-                                 const std::vector<Match>& matches) {
+                                 const std::vector<Match>& matches, const StationaryRule& rule) {
   // Points that come without pixels are no pictures.
   if (matches.empty() || from.pixels.empty() || to.pixels.empty()) return {};
-  if (!stay(from, to, matches)) return {};
+  if (!stay(from, to, matches, rule)) return {};
   const Box box = box_of(from.pixels);
-  Counts features{};
-  Counts matched{};
-  for (const Eigen::Vector2d& pixel : from.pixels) ++features[cell_of(pixel, box)];
+  const auto all = static_cast<std::size_t>(rule.cells * rule.cells);
+  std::vector<int> features(all);
+  std::vector<int> matched(all);
+  for (const Eigen::Vector2d& pixel : from.pixels) ++features[cell_of(pixel, box, rule.cells)];
   for (const Match& match : matches) {
-    ++matched[cell_of(from.pixels[static_cast<std::size_t>(match.from)], box)];
+    ++matched[cell_of(from.pixels[static_cast<std::size_t>(match.from)], box, rule.cells)];
   }
   int cells = 0;
   int agreeing = 0;
   for (std::size_t cell = 0; cell < features.size(); ++cell) {
-    if (features[cell] < kLeastFeatures) continue;
+    if (features[cell] < rule.least_features) continue;
     ++cells;
     agreeing += matched[cell] > 0 ? 1 : 0;
   }
-  if (agreeing >= kLeastCells * cells) return {};
+  if (agreeing >= rule.least_cells * cells) return {};
   return fmt::format(
       "{} matches agree that nothing moves, in {} of {} parts of the picture: something in view "
       "that moves with the camera, half are needed of a vehicle at rest",

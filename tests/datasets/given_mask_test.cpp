@@ -41,6 +41,8 @@ TEST(GivenMask, OfAnImageFolderIsReadAndAmongItsFiles) {
   expect_left_half_hidden(read.given_mask());
   const auto files = read.files();
   EXPECT_NE(std::ranges::find(files, file), files.end());
+  write_image_folder(read, fixture.root / "again");
+  expect_left_half_hidden(ImageFolder(fixture.root / "again").given_mask());
 }
 
 TEST(GivenMask, OfAnotherSizeOrThatHidesAllIsRefusedByName) {

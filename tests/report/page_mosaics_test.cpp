@@ -81,6 +81,21 @@ TEST_F(PageMosaics, AreAbsentWhereCompareWroteNone) {
   EXPECT_TRUE(mosaics().is_null());
 }
 
+TEST_F(PageMosaics, ShowWhatIsMasked) {
+  write_mosaic("iterated", 4.0, 2.0);
+  EXPECT_TRUE(mosaics().at("mask").is_null());
+  cv::Mat mask(60, 80, CV_8U, cv::Scalar(255));
+  mask.rowRange(45, 60).setTo(0);
+  write_file(study() / "iterated" / "mask.png", encode_png(mask));
+  const Json shown = mosaics().at("mask");
+  EXPECT_EQ(shown.at("share"), 0.25);
+  EXPECT_EQ(shown.at("where"), "the lowest 25 %");
+  const cv::Mat picture = picture_of(shown);
+  ASSERT_EQ(picture.size(), mask.size());
+  EXPECT_LT(picture.at<unsigned char>(55, 40), 10);
+  EXPECT_GT(picture.at<unsigned char>(20, 40), 245);
+}
+
 TEST_F(PageMosaics, HaveEveryLoopThatWasUsed) {
   write_mosaic("iterated", 4.0, 2.0);
   std::string registrations = "from,to,fate,nis,weight\n";

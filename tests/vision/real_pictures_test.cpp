@@ -24,12 +24,14 @@
 
 #include <gtest/gtest.h>
 #include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
 
 #include "fathom/core/files.hpp"
 #include "fathom/core/random.hpp"
 #include "fathom/core/text.hpp"
 #include "fathom/geometry/covariance.hpp"
 #include "fathom/vision/registration.hpp"
+#include "fathom/vision/static_view.hpp"
 #include "support/data.hpp"
 
 namespace fathom {
@@ -94,6 +96,28 @@ class Survey : public ::testing::Test {
 
   inline static std::vector<Picture> pictures_;
 };
+
+TEST_F(Survey, NothingStaysInPlaceUnlessItIsDrawnIn) {
+  const fs::path root = test::data_path("copr/mav0");
+  std::vector<cv::Mat> clean;
+  std::vector<cv::Mat> with_text;
+  for (const auto& row : csv_rows(root / "cam0" / "data.csv")) {
+    cv::Mat picture = cv::imread((root / "cam0" / "data" / row[1]).string(), cv::IMREAD_GRAYSCALE);
+    clean.push_back(detail_of_view(picture));
+    cv::putText(picture, "ROV 12  DIVE 0042", {20, 690}, cv::FONT_HERSHEY_SIMPLEX, 0.8,
+                cv::Scalar(250), 2, cv::LINE_AA);
+    with_text.push_back(detail_of_view(picture));
+  }
+  for (const std::size_t step : {1, 2, 4}) {
+    std::vector<cv::Mat> some;
+    for (std::size_t i = 0; i < clean.size(); i += step) some.push_back(clean[i]);
+    const StaticView view = find_static_view(some, {1068, 712});
+    EXPECT_TRUE(view.is_told && view.mask.empty()) << step;
+    EXPECT_EQ(may_have_static_view(some), false) << step;
+  }
+  EXPECT_TRUE(
+      masked_where(find_static_view(with_text, {1068, 712}).mask).starts_with("the lowest"));
+}
 
 TEST_F(Survey, MostOverlapsAreFoundAndNoneIsWrong) {
   int accepted = 0;

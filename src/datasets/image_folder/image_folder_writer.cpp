@@ -24,6 +24,8 @@ void write_pictures(const FrameSource& source, const fs::path& mav0) {
   write_camera(mav0, rows, source.camera().model());
   std::error_code error;
   fs::create_directories(mav0 / "cam0" / "data", error);
+  const cv::Mat mask = source.given_mask();
+  if (!mask.empty()) write_png(mav0 / "cam0" / "mask.png", mask);
   for (std::size_t i = 0; i < source.size(); ++i) {
     write_png(mav0 / "cam0" / "data" / (std::to_string(source.info(i).time_ns) + ".png"),
               source.image(i));

@@ -9,6 +9,7 @@
 #include "fathom/core/files.hpp"
 #include "fathom/core/input_error.hpp"
 #include "fathom/core/text.hpp"
+#include "fathom/datasets/picture_file.hpp"
 #include "fathom/geometry/trajectory.hpp"
 #include "fathom/vision/static_view.hpp"
 #include "mosaic_raster.hpp"
@@ -128,11 +129,20 @@ Json example_json(const Example& example, double most_pixels) {
   return json;
 }
 
+cv::Mat read_mask_of(const fs::path& folder) {
+  std::error_code error;
+  if (!fs::is_regular_file(folder / "mask.png", error)) return {};
+  try {
+    return read_grey_picture(folder / "mask.png");
+  } catch (const InputError&) {
+    return {};
+  }
+}
+
 // What was masked of every picture, as the first folder that has it; null: nothing.
 Json mask_json(const fs::path& study_folder, const std::vector<std::string>& estimators) {
   for (const std::string& name : estimators) {
-    const cv::Mat mask =
-        cv::imread((study_folder / name / "mask.png").string(), cv::IMREAD_GRAYSCALE);
+    const cv::Mat mask = read_mask_of(study_folder / name);
     if (mask.empty()) continue;
     return {{"picture", data_address(mask)},
             {"width", mask.cols},
