@@ -9,6 +9,7 @@
 
 #include "fathom/core/files.hpp"
 #include "fathom/core/input_error.hpp"
+#include "fathom/core/text.hpp"
 
 namespace fathom {
 
@@ -88,6 +89,19 @@ void write_png(const std::filesystem::path& path, const cv::Mat& picture) {
     throw InputError(path.string(), "cannot be encoded as PNG");
   }
   write_file(path, {reinterpret_cast<const char*>(buffer.data()), buffer.size()});
+}
+
+std::optional<std::string> hidden_pictures_remark(const std::filesystem::path& folder) {
+  std::size_t count = 0;
+  std::string first;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    if (!name.starts_with('.') || entry.path().extension().empty()) continue;
+    if (count == 0 || name < first) first = name;
+    ++count;
+  }
+  if (count == 0) return std::nullopt;
+  return folder.string() + ": " + counted(count, "hidden file") + " left out, such as " + first;
 }
 
 }  // namespace fathom

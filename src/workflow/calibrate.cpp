@@ -1,11 +1,15 @@
 #include "fathom/workflow/calibrate.hpp"
 
+#include "fathom/configuration/study.hpp"
+
 namespace fathom::workflow {
 
 CalibrateOutcome calibrate(const CalibrateRequest& request, const EstimatorRegistry& registry,
                            Observer& observer) {
   const Configuration configuration =
-      configure(request.settings, ConfigurationKind::single, registry);
+      kind_of(request.settings) == ConfigurationKind::single
+          ? configure(request.settings, ConfigurationKind::single, registry)
+          : configure_study(request.settings, registry).cells.front();
   const auto pictures = std::make_shared<Pictures>(configuration, request.registrations);
   Survey survey(pictures, configuration, {static_cast<std::uint64_t>(configuration.seed), 0});
   return {

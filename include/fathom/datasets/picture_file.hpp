@@ -1,6 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
+#include <string>
 #include <string_view>
 
 #include <opencv2/core.hpp>
@@ -18,6 +20,10 @@ cv::Mat decode_grey_picture(std::string_view bytes, const std::filesystem::path&
 /// A mask of pictures of this size: 0 where they are never of the floor. Throws InputError naming
 /// the file where it is of another size, or hides all.
 cv::Mat read_mask(const std::filesystem::path& path, cv::Size size);
+
+/// Says how many files of a folder are hidden (their names begin with a point, as what desktops
+/// leave beside pictures) and so are no pictures, if there are any.
+std::optional<std::string> hidden_pictures_remark(const std::filesystem::path& folder);
 
 /// Writes an 8-bit PNG. Throws InputError naming the file.
 void write_png(const std::filesystem::path& path, const cv::Mat& picture);

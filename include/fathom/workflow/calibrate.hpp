@@ -8,7 +8,7 @@
 namespace fathom::workflow {
 
 struct CalibrateRequest {
-  Settings settings;                           ///< settings_of(survey), or a configuration
+  Settings settings;  ///< settings_of(survey), a configuration, or a study: its first cell
   RegistrationCache* registrations = nullptr;  ///< kept there, where there is one
 };
 

@@ -72,6 +72,7 @@ ImageFolder::ImageFolder(const fs::path& path, const OdometryGaps& gaps) : mav0_
   sensors_ = read_folder_sensors(mav0_, infos_.front().time_ns, infos_.back().time_ns);
   std::ranges::copy(leave_out_contradicted(sensors_, infos_), std::back_inserter(remarks_));
   std::ranges::copy(unread_sensor_keys(mav0_), std::back_inserter(remarks_));
+  remark(hidden_pictures_remark(pictures_.front().parent_path()));
   ids_ = std::vector<PictureId>(pictures_.size());
   ImageFolder::image(0);  // refuses what cannot be read before a run starts
 }

@@ -107,20 +107,11 @@ void PictureFolder::find_pictures() {
   if (folder_.empty()) throw InputError("dataset.path: say where the folder of the pictures is");
   std::error_code error;
   if (!fs::is_directory(folder_, error)) throw InputError(folder_.string(), "is no folder");
-  std::vector<std::string> hidden;
   for (const auto& entry : fs::directory_iterator(folder_)) {
     if (!entry.is_regular_file() || !is_picture(entry.path())) continue;
-    const std::string name = entry.path().filename().string();
-    if (name.starts_with('.')) {
-      hidden.push_back(name);
-    } else {
-      pictures_.push_back(entry.path());
-    }
+    if (!entry.path().filename().string().starts_with('.')) pictures_.push_back(entry.path());
   }
-  if (!hidden.empty()) {
-    remarks_.push_back(folder_.string() + ": " + counted(hidden.size(), "hidden file") +
-                       " left out, such as " + std::ranges::min(hidden));
-  }
+  if (auto hidden = hidden_pictures_remark(folder_)) remarks_.push_back(std::move(*hidden));
   if (pictures_.empty()) {
     throw InputError(folder_.string(),
                      "holds no pictures; expected files such as .jpg, .png, .tif or .pgm");

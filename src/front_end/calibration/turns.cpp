@@ -48,13 +48,16 @@ std::optional<Estimated> slope_of(const std::vector<Turned>& turned) {
   return slope;
 }
 
-// Over some five seconds or the source's own interval: long enough to turn, too short to turn half
-// round.
+// Over some five seconds, of a short survey a twelfth of it, or the source's own interval: long
+// enough to turn, too short to turn half round.
 std::vector<Turned> turned(const HeadingTrack& said, const OdometryTrack& track) {
   constexpr double kSpan_s = 5.0;
+  constexpr double kSpans = 12.0;
   constexpr double kMostTurn_rad = 2.5;
   std::vector<Turned> turned;
-  for (const auto& [from, to] : spans(said, kSpan_s)) {
+  if (said.size() < 2) return turned;
+  const double all_s = 1e-9 * static_cast<double>(said.time_ns(said.size() - 1) - said.time_ns(0));
+  for (const auto& [from, to] : spans(said, std::min(kSpan_s, all_s / kSpans))) {
     const auto reckoned = reckoned_turn(said, track, from, to, 0.0);
     const double turn_rad = said.turn_rad(from, to);
     if (reckoned && std::abs(turn_rad) < kMostTurn_rad && std::abs(*reckoned) < kMostTurn_rad) {
