@@ -69,7 +69,7 @@ std::vector<std::size_t> drawn_loops(const std::vector<LoopDecision>& loops, std
 }
 
 // With the places of its ends, which may have been thinned out of the path, where there are any.
-Json loop_json(const LoopDecision& loop, const ExampleRun& run) {
+Json loop_json(const LoopDecision& loop, const DrawnRun& run) {
   Json json{loop.from, loop.to, name_of(loop.fate), page_number(loop.nis)};
   if (!run.has_ends(loop)) return json;
   for (const Pose* pose : {&run.poses[loop.from], &run.poses[loop.to]}) {
@@ -79,7 +79,7 @@ Json loop_json(const LoopDecision& loop, const ExampleRun& run) {
   return json;
 }
 
-void add_loops(Json& json, const ExampleRun& run, std::size_t most) {
+void add_loops(Json& json, const DrawnRun& run, std::size_t most) {
   json["loops_in_all"] = Json::object();
   for (const LoopFate fate : kLoopFates) {
     json["loops_in_all"][name_of(fate)] = std::ranges::count(run.loops, fate, &LoopDecision::fate);
@@ -119,7 +119,7 @@ bool has_place(const StoredAbsolute& one, const Pose& at) {
 }
 
 // Those that the map shows, and how many there are of each kind: kept and left out.
-void add_absolute(Json& json, const ExampleRun& run, std::size_t most) {
+void add_absolute(Json& json, const DrawnRun& run, std::size_t most) {
   std::array<std::size_t, 2> fixes{};
   std::array<std::size_t, 2> headings{};
   for (const StoredAbsolute& one : run.absolute) {
@@ -138,7 +138,7 @@ void add_absolute(Json& json, const ExampleRun& run, std::size_t most) {
 // drawn.
 Json extent_json(const ExampleTrial& example) {
   std::vector<PlotSeries> all;
-  for (const ExampleRun& run : example.runs) all.push_back(run.series());
+  for (const DrawnRun& run : example.runs) all.push_back(run.series());
   if (!example.truth.empty()) all.push_back({"", {}, example.truth, {}, {}, false});
   const Eigen::AlignedBox2d extent = map_extent(all);
   if (extent.isEmpty()) return {};
@@ -158,7 +158,7 @@ Json example_json(const ExampleTrial& example, const CellResults& cell,
             {"extent", extent_json(example)},
             {"truth", path_json(example.truth, limits.keyframes)}};
   json["estimators"] = Json::array();
-  for (const ExampleRun& run : example.runs) {
+  for (const DrawnRun& run : example.runs) {
     Json one{{"name", run.estimator},
              {"path", path_json(run.poses, limits.keyframes)},
              {"ellipses", ellipses_json(run.ellipses)}};

@@ -65,7 +65,7 @@ ExampleTrial example_trial(const ResultStore& store, const CellResults& cell) {
         one.runs, [&](const RunRecord& r) { return r.key.trial_key() == example.trial; });
     if (record == one.runs.end()) continue;
     const RunKey key = key_of(one.name);
-    ExampleRun run{one.name, !is_failed(*record), {}, {}, {}, {}};
+    DrawnRun run{one.name, !is_failed(*record), {}, {}, {}, {}};
     run.poses = path_of(store, key, series::x_m, series::y_m);
     // Dead reckoning's would cover the map.
     if (one.name != kDeadReckoning) run.ellipses = ellipses_of(store, key, run.poses);
@@ -78,12 +78,12 @@ ExampleTrial example_trial(const ResultStore& store, const CellResults& cell) {
 
 }  // namespace
 
-bool ExampleRun::has_ends(const LoopDecision& loop) const {
+bool DrawnRun::has_ends(const LoopDecision& loop) const {
   return std::max(loop.from, loop.to) < poses.size() && is_drawable(poses[loop.from]) &&
          is_drawable(poses[loop.to]);
 }
 
-PlotSeries ExampleRun::series() const {
+PlotSeries DrawnRun::series() const {
   const bool may_leave = estimator == kDeadReckoning || !is_done;
   return {display_name(estimator), {}, poses, {}, {}, may_leave, marks_of(absolute)};
 }

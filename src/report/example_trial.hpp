@@ -22,7 +22,7 @@ struct ExampleEllipse {
 };
 
 /// One estimator, or dead reckoning, on the trial that is drawn.
-struct ExampleRun {
+struct DrawnRun {
   std::string estimator;
   bool is_done = false;
   std::vector<Pose> poses;               ///< aligned as the errors are; headings are not stored
@@ -39,8 +39,8 @@ struct ExampleRun {
 /// The lowest trial of a cell's lowest survey: what maps of the page and of the figures show.
 struct ExampleTrial {
   TrialKey trial;
-  std::vector<Pose> truth;       ///< empty where it is unknown
-  std::vector<ExampleRun> runs;  ///< of the estimators that ran it, in the order of the cell
+  std::vector<Pose> truth;     ///< empty where it is unknown
+  std::vector<DrawnRun> runs;  ///< of the estimators that ran it, in the order of the cell
 };
 
 /// By cell, in the order of `results`.

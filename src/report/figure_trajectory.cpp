@@ -9,7 +9,7 @@ namespace {
 // So many loops at most, evenly thinned: more would be one grey area, and a large file.
 constexpr std::size_t kMostLoops = 5000;
 
-void add_loops(PlotSeries& series, const ExampleRun& run) {
+void add_loops(PlotSeries& series, const DrawnRun& run) {
   for (const LoopDecision& loop : run.loops) {
     if (loop.fate == LoopFate::used && run.has_ends(loop)) {
       series.loops.emplace_back(loop.from, loop.to);
@@ -22,7 +22,7 @@ TrajectoryPlot plot_of(const ExampleTrial& example,
                        const std::map<std::string, LineStyle>& styles) {
   TrajectoryPlot plot;
   bool has_loops = false;
-  for (const ExampleRun& run : example.runs) {
+  for (const DrawnRun& run : example.runs) {
     PlotSeries series = run.series();
     if (series.poses.empty()) continue;
     series.style = styles.at(run.estimator);

@@ -30,7 +30,7 @@ TEST(MirroredCamera, SeesWhatTheOtherSeesInTheExchangedColumn) {
   const Camera mirrored = exchanged(tilted_lens());
   const Stance stance{1.7, MeasuredTilt{{0.05, -0.1}, 0.0}};
   for (const Eigen::Vector2d& pixel : {Eigen::Vector2d(0, 0), Eigen::Vector2d(600, 30),
-                                      Eigen::Vector2d(320, 240), Eigen::Vector2d(10.5, 470)}) {
+                                       Eigen::Vector2d(320, 240), Eigen::Vector2d(10.5, 470)}) {
     const Eigen::Vector2d exchanged_pixel(camera.model().width - 1 - pixel.x(), pixel.y());
     const Eigen::Vector2d point = camera.floor_point(pixel, stance);
     EXPECT_LT((mirrored.floor_point(exchanged_pixel, stance) - point).norm(), 1e-12);

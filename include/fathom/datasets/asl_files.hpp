@@ -13,8 +13,8 @@ namespace fathom {
 
 /// Reads the `sensor.yaml` of a camera: `resolution`, `intrinsics` [fx, fy, cx, cy],
 /// `distortion_model` (none, or a name of distortion_models()), `distortion_coefficients` and
-/// `mounting` {x, y, yaw}; m and rad; `mirrored`. Other keys are not looked at, so files of EuRoC itself are
-/// read. Throws InputError with file and line.
+/// `mounting` {x, y, yaw}; m and rad; `mirrored`. Other keys are not looked at, so files of EuRoC
+/// itself are read. Throws InputError with file and line.
 Camera read_camera_yaml(const std::filesystem::path& path);
 
 /// The same, as text.

@@ -52,8 +52,8 @@ struct Estimated {
 
 /// What registered motions say against dead reckoning (docs/calibration.md).
 struct SetUp {
-  std::size_t motions = 0;  ///< registrations that dead reckoning covers
-  OdometryFormat format;    ///< of dead reckoning that fits pictures taken as they are
+  std::size_t motions = 0;   ///< registrations that dead reckoning covers
+  OdometryFormat format;     ///< of dead reckoning that fits pictures taken as they are
   bool is_reversed = false;  ///< pictures are counted from the end
   bool is_related = true;    ///< whether the two have anything to do with each other
   Estimated scale;           ///< registered motions over those of dead reckoning
