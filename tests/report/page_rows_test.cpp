@@ -63,7 +63,7 @@ TEST_F(PageRows, AreThoseOfTheFigures) {
       }
     }
     std::vector<PlotSeries> all;
-    for (const ExampleRun& run : examples_[c].runs) all.push_back(run.series());
+    for (const DrawnRun& run : examples_[c].runs) all.push_back(run.series());
     all.push_back({"ground truth", {}, examples_[c].truth, {}, {}, false});
     const Eigen::AlignedBox2d extent = map_extent(all);
     EXPECT_NEAR(cell["example"]["extent"]["x_m"][1], extent.max().x(), 1e-4);
