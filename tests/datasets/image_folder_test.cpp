@@ -173,10 +173,12 @@ TEST(ImageFolder, KeysOfASensorThatNobodyReadsAreNamed) {
   ASSERT_EQ(remarks.size(), 2U);
   EXPECT_TRUE(remarks[0].ends_with(
       "altimeter0/sensor.yaml:5: 'sigma_realtive' is not read; of altimeter0 known are "
-      "outliers, sigma_absolute, sigma_relative; did you mean 'sigma_relative'?"))
+      "outliers, scale, sigma_absolute, sigma_relative, time_offset_s; did you mean "
+      "'sigma_relative'?"))
       << remarks[0];
-  EXPECT_TRUE(remarks[1].ends_with(
-      "odometry0/sensor.yaml:2: 'sigma' is not read; of odometry0 known are outliers"))
+  EXPECT_TRUE(
+      remarks[1].ends_with("odometry0/sensor.yaml:2: 'sigma' is not read; of odometry0 known are "
+                           "convention, heading_unit, outliers, scale, time_offset_s"))
       << remarks[1];
 }
 

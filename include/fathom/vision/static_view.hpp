@@ -10,7 +10,7 @@ namespace fathom {
 
 /// When a place of the picture counts as one that keeps its content. Chosen on simulated floors, on
 /// real pictures from a kite, and on both with a bar, text and spots drawn in
-/// (docs/front_end.md#what-stays-in-place).
+/// (docs/front_end.md).
 struct StaticViewOptions {
   int longest_side_px = 640;   ///< larger pictures are reduced by a whole factor
   double window_px = 7.0;      ///< of the flattening, as FeatureTuning::window_px

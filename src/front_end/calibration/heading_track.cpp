@@ -22,6 +22,7 @@ struct Likely {
 Likely likely(const std::vector<double>& off) {
   constexpr int kRounds = 20;
   std::vector<double> sizes;
+  sizes.reserve(off.size());
   for (const double one : off) sizes.push_back(std::abs(one));
   Likely found{std::max(1e-9, median(sizes) / kHalfNormalMedian), 0.0};
   const auto count = static_cast<double>(off.size());
@@ -92,7 +93,9 @@ std::optional<Estimated> clock_of(const HeadingTrack& said, const OdometryTrack&
   if (all < kFewest) return std::nullopt;
   double offset_s = 0.0;
   double best = -std::numeric_limits<double>::infinity();
-  for (double at_s = -kMost_s; at_s <= kMost_s; at_s += kStep_s) {
+  const int steps = static_cast<int>(std::lround(kMost_s / kStep_s));
+  for (int step = -steps; step <= steps; ++step) {
+    const double at_s = kStep_s * step;
     const std::vector<double> left = known(left_at(at_s));
     if (static_cast<double>(left.size()) < kEnough * static_cast<double>(all)) continue;
     const double each = likely(left).log_density / static_cast<double>(left.size());

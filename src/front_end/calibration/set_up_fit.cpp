@@ -32,8 +32,9 @@ class Fit {
     constexpr double kGain = 10.0;
     auto best = start_at(prior_.mean.time_offset_s);
     double least = best ? best->log_density + kGain : -std::numeric_limits<double>::infinity();
-    for (double offset_s = -kMostOffset_s; offset_s <= kMostOffset_s; offset_s += step_s) {
-      const auto one = start_at(offset_s);
+    const int steps = static_cast<int>(std::lround(kMostOffset_s / step_s));
+    for (int step = -steps; step <= steps; ++step) {
+      const auto one = start_at(step_s * step);
       if (!one || !(one->log_density > least)) continue;
       best = one;
       least = one->log_density;
