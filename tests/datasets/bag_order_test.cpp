@@ -118,8 +118,7 @@ TEST_P(BagOrder, OdometryThatStartsAgainIsNamedAndItsStepUnknown) {
   for (std::size_t i = 1; i < folder.size(); ++i) {
     const Eigen::Matrix3d& C = folder.info(i).motion->covariance;
     if (i == 9) {
-      EXPECT_NEAR(std::sqrt(C(0, 0)), 8.0, 1e-9);
-      EXPECT_NEAR(std::sqrt(C(1, 1)), 8.0, 1e-9);
+      EXPECT_TRUE(folder.info(i).is_hole);
       EXPECT_NEAR(std::sqrt(C(2, 2)), 1.8, 1e-9);
     } else {
       EXPECT_LT(std::sqrt(C(0, 0)), 0.1) << i;

@@ -57,7 +57,7 @@ class TrajectoryTimes : public testing::Test {
   std::string error_of(const Rows& rows) {
     const std::string message = input_error_of([&] { read(text_of(rows)); });
     EXPECT_EQ(message.find('\n'), std::string::npos) << message;
-    EXPECT_THAT(message, AllOf(Not(HasSubstr("-u")), Not(HasSubstr("uniq"))));
+    EXPECT_THAT(message, AllOf(Not(HasSubstr(" -u")), Not(HasSubstr("uniq"))));
     return message;
   }
   std::string at_line(std::size_t line) { return file_.string() + ":" + std::to_string(line); }

@@ -54,15 +54,15 @@ void read_mounting(const std::string& file, const YAML::Node& mounting, SensorYa
 // A number that `is_right`; without the key the fallback.
 template <class Test>
 double read_number(const std::string& file, const YAML::Node& root, const char* key,
-                   double fallback, Test is_right, const char* expected) {
+                   double fallback, Test is_right, const char* what, const char* expected) {
   const YAML::Node node = root[key];
   if (!node) return fallback;
   const auto value = node.IsScalar() ? parse_real(node.Scalar()) : std::optional<double>();
   if (value && is_right(*value)) return *value;
   throw InputError(
       file, line_of(node.Mark()),
-      fmt::format("{}: {} is none; expected {}, or remove the key", key,
-                  node.IsScalar() ? in_quotes(node.Scalar()) : "what stands here", expected));
+      fmt::format("{}: {} is no {}; expected {}, or remove the key", key,
+                  node.IsScalar() ? in_quotes(node.Scalar()) : "what stands here", what, expected));
 }
 
 // One of the words, which stand for what is beside them; without the key the first.
@@ -121,19 +121,19 @@ SensorYaml read_sensor_yaml(const std::filesystem::path& path) {
     return [most](double value) { return value >= 0.0 && value < most; };
   };
   sensor.sigma_absolute = read_number(file, root, "sigma_absolute", 0.0, is_sigma(1e9),
-                                      "a standard deviation >= 0 in the sensor's unit");
+                                      "standard deviation", "a number >= 0 in the sensor's unit");
   sensor.sigma_relative =
-      read_number(file, root, "sigma_relative", 0.0, is_sigma(1.0),
-                  "a standard deviation as a share of the reading, >= 0 and below 1");
+      read_number(file, root, "sigma_relative", 0.0, is_sigma(1.0), "standard deviation",
+                  "a share of the reading >= 0 and below 1");
   sensor.scale = read_number(
-      file, root, "scale", 1.0, [](double value) { return value > 1e-6 && value < 1e6; },
-      "a factor > 0 that makes its readings metres");
+      file, root, "scale", 1.0, [](double value) { return value > 1e-6 && value < 1e6; }, "factor",
+      "a number > 0 that makes its readings metres");
   constexpr double kDayS = 86400.0;
   constexpr double kNs = 1e9;
   sensor.time_offset_ns =
       std::llround(kNs * read_number(
                              file, root, "time_offset_s", 0.0,
-                             [](double value) { return std::abs(value) <= kDayS; },
+                             [](double value) { return std::abs(value) <= kDayS; }, "time",
                              "seconds to add to its time stamps, at most a day"));
   sensor.keeps_outliers =
       read_word<bool>(file, root, "outliers", {{"leave_out", false}, {"keep", true}});

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <utility>
 
 #include "robust_scale.hpp"
@@ -92,73 +93,82 @@ std::optional<Reading> best_reading(const CalibrationInput& input, const SetUpPr
   return best;
 }
 
+// Of the altitudes before a motion and after it, in the median of some.
+double altitude_factor_at(const CalibrationInput& input, const SeenMotion& motion) {
+  constexpr std::size_t kBeside = 5;
+  std::vector<double> low;
+  std::vector<double> high;
+  for (std::size_t i = motion.from - std::min(motion.from, kBeside); i <= motion.from; ++i) {
+    low.push_back(input.altitudes_m[i]);
+  }
+  for (std::size_t i = motion.to; i < std::min(input.altitudes_m.size(), motion.to + kBeside);
+       ++i) {
+    high.push_back(input.altitudes_m[i]);
+  }
+  return median(high) / median(low);
+}
+
+// A series that has one level up to an index, and another from there on.
+struct TwoLevels {
+  std::size_t split = 0;
+  double before = 0.0;
+  double after = 0.0;
+  double sigma = 0.0;  // of their difference
+};
+
+// By least absolute deviations, with so many on either side.
+TwoLevels two_levels(const std::vector<double>& values, std::size_t fewest) {
+  const auto median_of = [&values](std::size_t begin, std::size_t end) {
+    return median({values.begin() + static_cast<std::ptrdiff_t>(begin),
+                   values.begin() + static_cast<std::ptrdiff_t>(end)});
+  };
+  TwoLevels best;
+  std::vector<double> least_off;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t split = fewest; split + fewest <= values.size(); ++split) {
+    const TwoLevels levels{split, median_of(0, split), median_of(split, values.size()), 0.0};
+    std::vector<double> off;
+    off.reserve(values.size());
+    for (std::size_t j = 0; j < values.size(); ++j) {
+      off.push_back(std::abs(values[j] - (j < split ? levels.before : levels.after)));
+    }
+    const double sum = std::accumulate(off.begin(), off.end(), 0.0);
+    if (!(sum < least)) continue;
+    least = sum;
+    best = levels;
+    least_off = std::move(off);
+  }
+  constexpr double kOfMedian = 1.2533;
+  const auto count = static_cast<double>(values.size());
+  const auto first = static_cast<double>(best.split);
+  best.sigma = kOfMedian * median(least_off) / kHalfNormalMedian *
+               std::sqrt(1.0 / first + 1.0 / (count - first));
+  return best;
+}
+
 // The one time at which reckoned over registered lengths change, as least absolute deviations have
 // it; nothing where they do not, by their spread and by 3 %.
 std::optional<SetUp::Step> step_of(const CalibrationInput& input, const SetUpFit& fit) {
   constexpr std::size_t kFewest = 8;
   constexpr double kSigmas = 8.0;
   constexpr double kLeast = 0.05;
-  struct Moved {
-    double log_ratio = 0.0;
-    std::size_t index = 0;
-  };
-  std::vector<Moved> moved;
+  std::vector<double> log_ratios;
+  std::vector<std::size_t> moved;
   for (const SetUpFit::Motion& motion : fit.each) {
     const double length_m = input.motions[motion.index].camera.position().norm();
     if (motion.length_ratio > 0.0 && length_m > 3.0 * fit.sigma_m) {
-      moved.push_back({std::log(motion.length_ratio), motion.index});
+      log_ratios.push_back(std::log(motion.length_ratio));
+      moved.push_back(motion.index);
     }
   }
   if (moved.size() < 2 * kFewest) return std::nullopt;
-  const auto median_of = [&](std::size_t begin, std::size_t end) {
-    std::vector<double> values;
-    for (std::size_t i = begin; i < end; ++i) values.push_back(moved[i].log_ratio);
-    return median(values);
-  };
-  double least = std::numeric_limits<double>::infinity();
-  std::size_t split = 0;
-  double before = 0.0;
-  double after = 0.0;
-  for (std::size_t i = kFewest; i + kFewest <= moved.size(); ++i) {
-    const double low = median_of(0, i);
-    const double high = median_of(i, moved.size());
-    double sum = 0.0;
-    for (std::size_t j = 0; j < moved.size(); ++j) {
-      sum += std::abs(moved[j].log_ratio - (j < i ? low : high));
-    }
-    if (sum < least) {
-      least = sum;
-      split = i;
-      before = low;
-      after = high;
-    }
-  }
-  std::vector<double> off;
-  for (std::size_t j = 0; j < moved.size(); ++j) {
-    off.push_back(std::abs(moved[j].log_ratio - (j < split ? before : after)));
-  }
-  // Of a difference of two medians.
-  constexpr double kOfMedian = 1.2533;
-  const double sigma =
-      kOfMedian * median(off) / kHalfNormalMedian *
-      std::sqrt(1.0 / static_cast<double>(split) + 1.0 / static_cast<double>(moved.size() - split));
-  const Estimated log_factor{before - after, sigma};
+  const TwoLevels levels = two_levels(log_ratios, kFewest);
+  const Estimated log_factor{levels.before - levels.after, levels.sigma};
   if (!log_factor.is_off(0.0, kSigmas, kLeast)) return std::nullopt;
-  const SeenMotion& first = input.motions[moved[split].index];
+  const SeenMotion& first = input.motions[moved[levels.split]];
   const double factor = std::exp(log_factor.value);
-  SetUp::Step step{first.from_ns, {factor, factor * sigma}, 1.0};
-  constexpr std::size_t kBeside = 5;
-  std::vector<double> low;
-  std::vector<double> high;
-  const std::size_t count = input.altitudes_m.size();
-  for (std::size_t i = first.from - std::min(first.from, kBeside); i <= first.from; ++i) {
-    low.push_back(input.altitudes_m[i]);
-  }
-  for (std::size_t i = first.to; i < std::min(count, first.to + kBeside); ++i) {
-    high.push_back(input.altitudes_m[i]);
-  }
-  step.altitude_factor = median(high) / median(low);
-  return step;
+  return SetUp::Step{
+      first.from_ns, {factor, factor * levels.sigma}, altitude_factor_at(input, first)};
 }
 
 }  // namespace

@@ -33,6 +33,7 @@ std::optional<Estimated> slope_of(const std::vector<Turned>& turned) {
     if (!(xx > 0.0)) return std::nullopt;
     slope.value = xy / xx;
     std::vector<double> off;
+    off.reserve(turned.size());
     for (const Turned& one : turned) off.push_back(std::abs(one.said - slope.value * one.reckoned));
     const double sigma = std::max(1e-9, median(off) / kHalfNormalMedian);
     double scores = 0.0;
