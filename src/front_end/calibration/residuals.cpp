@@ -62,6 +62,11 @@ double ResidualSpread::weight(const Eigen::Vector3d& e) const {
   return (kFreedom + 3.0) / (kFreedom + squared(e));
 }
 
+double ResidualSpread::curvature(const Eigen::Vector3d& e) const {
+  const double r2 = squared(e);
+  return weight(e) * (1.0 - 2.0 / 3.0 * r2 / (kFreedom + r2));
+}
+
 double ResidualSpread::log_density(const std::vector<Beside>& beside,
                                    const SetUpParameters& p) const {
   double sum = 0.0;

@@ -49,6 +49,9 @@ struct ResidualSpread {
   double squared(const Eigen::Vector3d& e) const;
   /// What a residual weighs in least squares that maximise the likelihood.
   double weight(const Eigen::Vector3d& e) const;
+  /// By which the gradient grows with a residual, in the mean over its directions: less than its
+  /// weight, as that falls.
+  double curvature(const Eigen::Vector3d& e) const;
   /// Of residuals, up to a constant.
   double log_density(const std::vector<Beside>& beside, const SetUpParameters& p) const;
 };

@@ -146,6 +146,7 @@ class Fit {
 
   struct Normal {
     Matrix5 H = Matrix5::Zero();
+    Matrix5 curvature = Matrix5::Zero();
     Matrix5 scores = Matrix5::Zero();
     Vector5 g = Vector5::Zero();
   };
@@ -167,6 +168,7 @@ class Fit {
       const Eigen::Vector3d e = of_residual.cwiseProduct(residual_of(one, p));
       const Vector5 score = weights[i] * J.transpose() * e;
       normal.H += weights[i] * J.transpose() * J;
+      normal.curvature += spread.curvature(residual_of(one, p)) * J.transpose() * J;
       normal.scores += score * score.transpose();
       normal.g += score;
     }
@@ -205,7 +207,7 @@ class Fit {
     fit.sigma_rad = spread.sigma_rad;
     // Of M-estimates whatever the residuals' distribution (Huber's sandwich), with the prior.
     const Vector5 information = prior_.information();
-    const Matrix5 H = normal.H + Matrix5(information.asDiagonal());
+    const Matrix5 H = normal.curvature + Matrix5(information.asDiagonal());
     const auto count = static_cast<double>(covered.size());
     const Matrix5 scores =
         count / (count - 5.0) * normal.scores + Matrix5(information.asDiagonal());
@@ -242,8 +244,7 @@ std::optional<SetUpStart> start_set_up(std::span<const SeenMotion> motions,
 
 std::optional<SetUpFit> fit_set_up(std::span<const SeenMotion> motions, const OdometryTrack& track,
                                    const SetUpPrior& prior) {
-  if (motions.empty() || track.is_empty()) return std::nullopt;
-  return Fit(motions, track, prior).fitted();
+  return motions.empty() || track.is_empty() ? std::nullopt : Fit(motions, track, prior).fitted();
 }
 
 }  // namespace fathom
