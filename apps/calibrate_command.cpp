@@ -36,7 +36,11 @@ void calibrate(const CalibrateFlags& flags, Context& context) {
   for (const std::string& one : outcome.remarks) terminal.remark(one);
   for (const std::string& one : done.calibration.findings) terminal.remark(one);
   if (done.calibration.findings.empty()) {
-    std::printf("nothing is off by more than its standard deviation explains\n");
+    const bool is_compared = done.calibration.set_up || !done.calibration.turns.empty();
+    std::printf(is_compared
+                    ? "nothing is off by more than its standard deviation explains\n"
+                    : "nothing to hold them against: odometry, a compass, fixes or ground truth of "
+                      "a vehicle that turns\n");
   }
   terminal.print_remarks();
 }

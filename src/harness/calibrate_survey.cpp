@@ -50,6 +50,7 @@ class Registering {
     const auto measured = [&frames](std::size_t i) { return MeasuredFrame::of(frames, i); };
     PairRegistrar& registrar = survey_.registrar();
     std::vector<SeenMotion> motions;
+    chain_ = {};
     for (std::size_t i = 0; i < pairs.size(); ++i) {
       for (std::size_t j = i + 1; j < std::min(pairs.size(), i + 1 + PairRegistrar::look_ahead());
            ++j) {
@@ -58,16 +59,34 @@ class Registering {
       const auto [from, to] = pairs[i];
       const PairRegistration found = registrar.of(measured(from), measured(to));
       ++counts.tried;
-      if (found.found) motions.push_back(seen_motion(frames, from, to, found.motion));
+      if (found.found) {
+        motions.push_back(seen_motion(frames, from, to, found.motion));
+        append(frames.info(from).time_ns, frames.info(to).time_ns, found.motion);
+      }
       if (progress_) progress_(i + 1, pairs.size());
     }
     counts.found += motions.size();
     return motions;
   }
 
+  /// What was registered last as dead reckoning, with holes where it does not go on.
+  RecordedOdometry chain() const { return chain_; }
+
  private:
+  void append(std::int64_t from_ns, std::int64_t to_ns, const Pose& motion) {
+    std::vector<ReckonedRow>& rows = chain_.rows;
+    if (rows.empty() || rows.back().time_ns != from_ns) {
+      const ReckonedRow last = rows.empty() ? ReckonedRow{} : rows.back();
+      rows.push_back({from_ns, last.x_m, last.y_m, last.heading_rad, !rows.empty()});
+    }
+    const ReckonedRow last = rows.back();
+    const Pose next = compose({last.x_m, last.y_m, last.heading_rad}, motion);
+    rows.push_back({to_ns, next.x, next.y, last.heading_rad + motion.theta, false});
+  }
+
   Survey& survey_;
   const Progress& progress_;
+  RecordedOdometry chain_;
 };
 
 // Where frames have no dead reckoning of their own it is that of the recording.
@@ -123,6 +142,10 @@ SurveyCalibration calibrate_survey(Survey& survey, const FrontEndOptions& option
     const auto pairs = sampled(consecutive_frames(frames));
     auto motions = registering.of(pairs, done);
     if (motions.size() > input.motions.size()) input.motions = std::move(motions);
+  }
+  if (!frames.has_odometry()) {
+    input.odometry = registering.chain();
+    input.is_visual_odometry = true;
   }
   done.calibration = calibrate(input);
   return done;

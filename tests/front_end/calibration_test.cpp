@@ -88,6 +88,22 @@ TEST(Calibration, FindsNothingWhereNothingIsWrong) {
   }
 }
 
+// Between two rows noise is averaged: an offset of half a step must not be taken for that.
+TEST(Calibration, NoiseThatInterpolationAveragesIsNoClock) {
+  TurningSurvey survey;
+  survey.odometry_interval_s = 0.5;
+  survey.noise_m = 0.03;
+  survey.turning_rad = 0.4;
+  survey.speed_change = 0.2;
+  survey.noise_rad = 0.03;
+  for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
+    const Calibration found = calibrate(survey.input(seed));
+    ASSERT_TRUE(found.set_up);
+    EXPECT_LT(std::abs(found.set_up->time_offset_s.value), 4.0 * found.set_up->time_offset_s.sigma);
+    EXPECT_THAT(found.findings, IsEmpty()) << seed;
+  }
+}
+
 TEST(Calibration, ATenthOfWrongRegistrationsChangesNothing) {
   TurningSurvey survey;
   survey.mount.theta = std::numbers::pi / 2.0;

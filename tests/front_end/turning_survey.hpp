@@ -14,6 +14,7 @@ namespace fathom::test {
 struct TurningSurvey {
   double picture_interval_s = 0.5;
   std::size_t pictures = 150;
+  double odometry_interval_s = 0.25;
   double noise_m = 0.005;  ///< of dead reckoning, a second
   double noise_rad = 0.003;
   double registration_noise_m = 0.001;
@@ -42,7 +43,6 @@ struct TurningSurvey {
   CalibrationInput input(std::uint64_t seed) const {
     CalibrationInput input;
     RandomStream stream(seed, "turning_survey");
-    constexpr double kInterval_s = 0.25;
     const double last_s = picture_interval_s * static_cast<double>(pictures - 1);
     // Beyond the pictures on both sides, for the clock.
     constexpr double kBeyond_s = 6.0;
@@ -50,10 +50,10 @@ struct TurningSurvey {
     Pose before = truth(0.0);
     double unwrapped_rad = 0.0;
     std::vector<Pose> ahead{{}};
-    for (double t = -kBeyond_s; t <= last_s + kBeyond_s + 1e-9; t += kInterval_s) {
+    for (double t = -kBeyond_s; t <= last_s + kBeyond_s + 1e-9; t += odometry_interval_s) {
       const Pose now = truth(std::max(0.0, t));
       Pose step = between(before, now);
-      const double root = std::sqrt(kInterval_s);
+      const double root = std::sqrt(odometry_interval_s);
       step.x += noise_m * root * stream.normal();
       step.y += noise_m * root * stream.normal();
       step.theta += noise_rad * root * stream.normal();

@@ -77,7 +77,7 @@ struct SetUp {
 struct TurnComparison {
   std::string source;  ///< "compass0", "position0", "ground truth"
   Estimated slope;
-  std::optional<Estimated> time_offset_s;  ///< of headings: to be added to their time stamps
+  std::optional<Estimated> time_offset_s;  ///< of a compass: to be added to its time stamps
 };
 
 /// Everything that can be told of a survey's set-up. Lines have no final full stop.

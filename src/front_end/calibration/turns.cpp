@@ -75,7 +75,6 @@ TurnComparison compared(const std::string& source, const HeadingTrack& said,
   if (!slope) return comparison;
   comparison.source = source;
   comparison.slope = *slope;
-  comparison.time_offset_s = clock_of(said, track, slope->value < 0.0 ? -1.0 : 1.0);
   return comparison;
 }
 
@@ -119,7 +118,11 @@ std::vector<TurnComparison> compare_turns(const CalibrationInput& input,
   for (const MeasuredHeading& heading : input.readings.headings) {
     compass.add(heading.time_ns, heading.heading_rad);
   }
-  add(compared("compass0", compass, track));
+  TurnComparison of_compass = compared("compass0", compass, track);
+  if (!of_compass.source.empty()) {
+    of_compass.time_offset_s = clock_of(compass, track, of_compass.slope.value < 0.0 ? -1.0 : 1.0);
+  }
+  add(std::move(of_compass));
   // The lever arm of the antenna is short against the triangles.
   if (const auto slope = slope_of(areas(input.readings.fixes, track))) {
     add({"position0", *slope, std::nullopt});
