@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "fathom/core/input_error.hpp"
+#include "fathom/core/median.hpp"
 #include "fathom/core/text.hpp"
 #include "fathom/vision/camera.hpp"
 
@@ -22,12 +23,6 @@ std::string percent(double share) {
 
 std::string range(double low, double high) {
   return number(low) + " to " + number(high);
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 // "7 (frames 3, 9, 12, ...)": enough to find them.
@@ -72,7 +67,7 @@ void sum_up_time(const FrameSource& source, FolderSummary& summary) {
   std::vector<double> intervals;
   for (std::size_t i = 1; i < source.size(); ++i) intervals.push_back(interval(i));
   constexpr double kGap = 3.0;
-  const double usual = median(intervals);
+  const double usual = upper_median(intervals);
   std::vector<std::size_t> gaps;
   for (std::size_t i = 1; i < source.size(); ++i) {
     if (interval(i) > kGap * usual) gaps.push_back(i);
@@ -125,7 +120,7 @@ void sum_up_attitude(const FrameSource& source, FolderSummary& summary) {
     return range(std::ranges::min(values), std::ranges::max(values));
   };
   summary.facts.push_back("attitude: roll " + span(rolls) + " degrees, pitch " + span(pitches) +
-                          " degrees, median sigma " + number(median(sigmas)) + " degrees");
+                          " degrees, median sigma " + number(upper_median(sigmas)) + " degrees");
   warn(summary, steep, "roll or pitch of more than 15 degrees; is attitude0 in radians?");
 }
 
@@ -164,8 +159,9 @@ void sum_up_odometry(const FrameSource& source, FolderSummary& summary) {
     if (overlaps.back() <= 0.0) apart.push_back(i);
   }
   summary.facts.push_back("odometry: path of " + number(path_m) + " m");
-  summary.facts.push_back("overlap of consecutive pictures: median " + percent(median(overlaps)) +
-                          ", least " + percent(*std::ranges::min_element(overlaps)));
+  summary.facts.push_back("overlap of consecutive pictures: median " +
+                          percent(upper_median(overlaps)) + ", least " +
+                          percent(*std::ranges::min_element(overlaps)));
   warn(summary, apart, "by dead reckoning no overlap with the picture before");
   if (source.has_ground_truth() && path_m > 0.0) compare_with_truth(source, pose, path_m, summary);
 }

@@ -6,14 +6,10 @@
 #include <numbers>
 #include <optional>
 
+#include "fathom/core/median.hpp"
+
 namespace fathom {
 namespace {
-
-double upper_median(std::vector<double> numbers) {
-  const auto middle = numbers.begin() + static_cast<std::ptrdiff_t>(numbers.size() / 2);
-  std::nth_element(numbers.begin(), middle, numbers.end());
-  return *middle;
-}
 
 /// Which pairs of readings agree.
 class Agreement {

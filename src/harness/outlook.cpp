@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <utility>
 
+#include "fathom/core/median.hpp"
 #include "fathom/core/text.hpp"
 #include "fathom/front_end/registration_plan.hpp"
 #include "fathom/vision/features.hpp"
@@ -20,9 +21,7 @@ std::string range_text(const Spread& spread, const std::string& unit) {
 void measure_footprint(const FrameSource& frames, Outlook& outlook) {
   std::vector<double> altitudes_m;
   for (std::size_t i = 0; i < frames.size(); ++i) altitudes_m.push_back(frames.info(i).altitude_m);
-  const auto middle = altitudes_m.begin() + static_cast<std::ptrdiff_t>(altitudes_m.size() / 2);
-  std::nth_element(altitudes_m.begin(), middle, altitudes_m.end());
-  const auto corners = frames.camera().footprint(*middle);
+  const auto corners = frames.camera().footprint(upper_median(std::move(altitudes_m)));
   outlook.footprint_width_m = (corners[1] - corners[0]).norm();
   outlook.footprint_height_m = (corners[2] - corners[1]).norm();
 }

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <numbers>
 
+#include "fathom/core/median.hpp"
 #include "fathom/core/text.hpp"
 
 namespace fathom {
@@ -14,11 +15,6 @@ constexpr double kDegrees = 180.0 / std::numbers::pi;
 
 double seconds(std::int64_t from_ns, std::int64_t to_ns) {
   return 1e-9 * static_cast<double>(to_ns - from_ns);
-}
-
-double median_of(std::vector<double> values) {
-  std::ranges::sort(values);
-  return values[values.size() / 2];
 }
 
 std::string count(std::size_t number, const std::string& what, const std::string& plural) {
@@ -42,8 +38,8 @@ void sum_up_fixes(const std::vector<Fix>& fixes, const std::string& frame,
   for (const Fix& fix : fixes) sigmas_m.push_back(std::sqrt(0.5 * fix.covariance.trace()));
   summary.facts.push_back(fmt::format("fixes: {} in {}{}, median sigma {} m, antenna at {}, {} m",
                                       fixes.size(), frame, interval_text(fixes),
-                                      short_number(median_of(sigmas_m)), short_number(lever_m.x()),
-                                      short_number(lever_m.y())));
+                                      short_number(upper_median(sigmas_m)),
+                                      short_number(lever_m.x()), short_number(lever_m.y())));
 }
 
 void sum_up_compass(const FolderCompass& compass, FolderSummary& summary) {
@@ -55,13 +51,13 @@ void sum_up_compass(const FolderCompass& compass, FolderSummary& summary) {
       fmt::format("compass: {}{}{}, median sigma {} degrees, mounting yaw {} rad",
                   count(compass.readings.size(), "heading", "headings"),
                   compass.is_from_north ? " from north" : "", interval_text(compass.readings),
-                  short_number(median_of(sigmas_deg)), short_number(compass.mount_yaw_rad)));
+                  short_number(upper_median(sigmas_deg)), short_number(compass.mount_yaw_rad)));
   if (compass.left_out > 0) {
     summary.facts.push_back("compass: " + count(compass.left_out, "heading", "headings") +
                             " outside the time of the pictures, left out");
   }
   constexpr double kVaguest_deg = 45.0;
-  if (median_of(sigmas_deg) > kVaguest_deg) {
+  if (upper_median(sigmas_deg) > kVaguest_deg) {
     summary.warnings.emplace_back(
         "headings of compass0 are known to no better than 45 degrees; is sigma in radians?");
   }

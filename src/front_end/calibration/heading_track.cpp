@@ -4,7 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "robust_scale.hpp"
+#include "fathom/core/median.hpp"
+#include "student_t.hpp"
 
 namespace fathom {
 namespace {
@@ -16,7 +17,8 @@ struct Likely {
   double sigma = 0.0;
   double log_density = 0.0;
 
-  double weight(double off) const { return 5.0 / (4.0 + off * off / (sigma * sigma)); }
+  static constexpr StudentT kT{1.0};
+  double squared(double off) const { return off * off / (sigma * sigma); }
 };
 
 Likely likely(const std::vector<double>& off) {
@@ -24,16 +26,16 @@ Likely likely(const std::vector<double>& off) {
   std::vector<double> sizes;
   sizes.reserve(off.size());
   for (const double one : off) sizes.push_back(std::abs(one));
-  Likely found{std::max(1e-9, median(sizes) / kHalfNormalMedian), 0.0};
+  Likely found{std::max(1e-9, upper_median(sizes) / kHalfNormalMedian), 0.0};
   const auto count = static_cast<double>(off.size());
   for (int round = 0; round < kRounds; ++round) {
     double squares = 0.0;
-    for (const double one : off) squares += found.weight(one) * one * one;
+    for (const double one : off) squares += Likely::kT.weight(found.squared(one)) * one * one;
     found.sigma = std::max(1e-9, std::sqrt(squares / count));
   }
   found.log_density = -count * std::log(found.sigma);
   for (const double one : off) {
-    found.log_density -= 2.5 * std::log1p(one * one / (4.0 * found.sigma * found.sigma));
+    found.log_density += Likely::kT.log_density(found.squared(one));
   }
   return found;
 }
@@ -111,19 +113,22 @@ std::optional<Estimated> clock_of(const HeadingTrack& said, const OdometryTrack&
     const auto after = left_at(offset.value + 0.5 * kStep_s);
     const Likely scale = likely(known(left));
     double H = 0.0;
+    double curvature = 0.0;
     double g = 0.0;
     double scores = 0.0;
     for (std::size_t i = 0; i < left.size(); ++i) {
       if (!left[i] || !before[i] || !after[i]) continue;
       const double J = (*after[i] - *before[i]) / kStep_s;
-      const double weight = scale.weight(*left[i]);
+      const double r2 = scale.squared(*left[i]);
+      const double weight = Likely::kT.weight(r2);
       H += weight * J * J;
+      curvature += Likely::kT.curvature(r2) * J * J;
       g += weight * J * *left[i];
       scores += std::pow(weight * J * *left[i], 2);
     }
-    if (!(H > 0.0)) return std::nullopt;
+    if (!(H > 0.0 && curvature > 0.0)) return std::nullopt;
     offset.value -= std::clamp(g / H, -kStep_s, kStep_s);
-    offset.sigma = std::sqrt(scores) / H;
+    offset.sigma = std::sqrt(scores) / curvature;
   }
   return offset;
 }

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "robust_scale.hpp"
+#include "fathom/core/median.hpp"
 
 namespace fathom {
 
@@ -58,20 +58,11 @@ double ResidualSpread::squared(const Eigen::Vector3d& e) const {
   return e.head<2>().squaredNorm() / (sigma_m * sigma_m) + e.z() * e.z() / (sigma_rad * sigma_rad);
 }
 
-double ResidualSpread::weight(const Eigen::Vector3d& e) const {
-  return (kFreedom + 3.0) / (kFreedom + squared(e));
-}
-
-double ResidualSpread::curvature(const Eigen::Vector3d& e) const {
-  const double r2 = squared(e);
-  return weight(e) * (1.0 - 2.0 / 3.0 * r2 / (kFreedom + r2));
-}
-
 double ResidualSpread::log_density(const std::vector<Beside>& beside,
                                    const SetUpParameters& p) const {
   double sum = 0.0;
   for (const Beside& one : beside) {
-    sum -= 0.5 * (kFreedom + 3.0) * std::log1p(squared(residual_of(one, p)) / kFreedom);
+    sum += kT.log_density(squared(residual_of(one, p)));
   }
   return sum - static_cast<double>(beside.size()) * (2.0 * std::log(sigma_m) + std::log(sigma_rad));
 }
@@ -89,8 +80,8 @@ ResidualSpread spread_of(const std::vector<Beside>& beside, const SetUpParameter
     lengths_m.push_back(e.head<2>().norm());
     turns_rad.push_back(std::abs(e.z()));
   }
-  ResidualSpread spread{std::max(kLeast_m, median(lengths_m) / kRayleighMedian),
-                        std::max(kLeast_rad, median(turns_rad) / kHalfNormalMedian)};
+  ResidualSpread spread{std::max(kLeast_m, upper_median(lengths_m) / kRayleighMedian),
+                        std::max(kLeast_rad, upper_median(turns_rad) / kHalfNormalMedian)};
   // Expectation maximisation of the two scales.
   const auto count = static_cast<double>(beside.size());
   for (int round = 0; round < kRounds; ++round) {

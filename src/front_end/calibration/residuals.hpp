@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 
 #include "set_up_fit.hpp"
+#include "student_t.hpp"
 
 namespace fathom {
 
@@ -39,19 +40,15 @@ Eigen::Vector3d shifted(const Beside& one, const SetUpParameters& p);
 /// Reckoned less registered motion, over `noise`; m, m, rad.
 Eigen::Vector3d residual_of(const Beside& one, const SetUpParameters& p);
 
-/// Scales of Student's t with kFreedom degrees of freedom, which residuals are taken to follow:
-/// near normal, with some that are far off.
+/// Scales of Student's t, which residuals are taken to follow.
 struct ResidualSpread {
-  static constexpr double kFreedom = 4.0;
+  static constexpr StudentT kT{3.0};
   double sigma_m = 0.0;
   double sigma_rad = 0.0;
 
   double squared(const Eigen::Vector3d& e) const;
-  /// What a residual weighs in least squares that maximise the likelihood.
-  double weight(const Eigen::Vector3d& e) const;
-  /// By which the gradient grows with a residual, in the mean over its directions: less than its
-  /// weight, as that falls.
-  double curvature(const Eigen::Vector3d& e) const;
+  double weight(const Eigen::Vector3d& e) const { return kT.weight(squared(e)); }
+  double curvature(const Eigen::Vector3d& e) const { return kT.curvature(squared(e)); }
   /// Of residuals, up to a constant.
   double log_density(const std::vector<Beside>& beside, const SetUpParameters& p) const;
 };

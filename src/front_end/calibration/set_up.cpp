@@ -7,8 +7,9 @@
 #include <numeric>
 #include <utility>
 
-#include "robust_scale.hpp"
+#include "fathom/core/median.hpp"
 #include "set_up_fit.hpp"
+#include "student_t.hpp"
 
 namespace fathom {
 namespace {
@@ -105,7 +106,7 @@ double altitude_factor_at(const CalibrationInput& input, const SeenMotion& motio
        ++i) {
     high.push_back(input.altitudes_m[i]);
   }
-  return median(high) / median(low);
+  return upper_median(high) / upper_median(low);
 }
 
 // A series that has one level up to an index, and another from there on.
@@ -119,8 +120,8 @@ struct TwoLevels {
 // By least absolute deviations, with so many on either side.
 TwoLevels two_levels(const std::vector<double>& values, std::size_t fewest) {
   const auto median_of = [&values](std::size_t begin, std::size_t end) {
-    return median({values.begin() + static_cast<std::ptrdiff_t>(begin),
-                   values.begin() + static_cast<std::ptrdiff_t>(end)});
+    return upper_median({values.begin() + static_cast<std::ptrdiff_t>(begin),
+                         values.begin() + static_cast<std::ptrdiff_t>(end)});
   };
   TwoLevels best;
   std::vector<double> least_off;
@@ -141,7 +142,7 @@ TwoLevels two_levels(const std::vector<double>& values, std::size_t fewest) {
   constexpr double kOfMedian = 1.2533;
   const auto count = static_cast<double>(values.size());
   const auto first = static_cast<double>(best.split);
-  best.sigma = kOfMedian * median(least_off) / kHalfNormalMedian *
+  best.sigma = kOfMedian * upper_median(least_off) / kHalfNormalMedian *
                std::sqrt(1.0 / first + 1.0 / (count - first));
   return best;
 }

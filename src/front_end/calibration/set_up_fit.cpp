@@ -7,8 +7,8 @@
 #include <Eigen/Cholesky>
 #include <Eigen/QR>
 
+#include "fathom/core/median.hpp"
 #include "residuals.hpp"
-#include "robust_scale.hpp"
 
 namespace fathom {
 namespace {
@@ -23,7 +23,7 @@ class Fit {
       : motions_(motions), track_(track), prior_(prior) {
     std::vector<double> times_s;
     for (const SeenMotion& motion : motions_) times_s.push_back(seconds_of(motion));
-    median_s_ = median(times_s);
+    median_s_ = upper_median(times_s);
   }
 
   // The likeliest of time offsets so far apart, with the rest by linear least squares. The clocks
@@ -223,7 +223,7 @@ class Fit {
       fit.each.push_back(
           {one.index, squared > 0.0 ? (one.reckoned.position() - arm).dot(seen) / squared : 1.0});
     }
-    fit.median_m = median(lengths_m);
+    fit.median_m = upper_median(lengths_m);
     return fit;
   }
 

@@ -1,9 +1,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fathom/core/median.hpp"
 #include "heading_track.hpp"
-#include "robust_scale.hpp"
 #include "set_up.hpp"
+#include "student_t.hpp"
 
 namespace fathom {
 namespace {
@@ -35,7 +36,7 @@ std::optional<Estimated> slope_of(const std::vector<Turned>& turned) {
     std::vector<double> off;
     off.reserve(turned.size());
     for (const Turned& one : turned) off.push_back(std::abs(one.said - slope.value * one.reckoned));
-    const double sigma = std::max(1e-9, median(off) / kHalfNormalMedian);
+    const double sigma = std::max(1e-9, upper_median(off) / kHalfNormalMedian);
     double scores = 0.0;
     for (std::size_t i = 0; i < turned.size(); ++i) {
       const double score = weights[i] * turned[i].reckoned * off[i];

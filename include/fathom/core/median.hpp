@@ -5,12 +5,8 @@
 
 namespace fathom {
 
-/// Medians of |x| of a standard normal, and of the length of two of them.
-inline constexpr double kHalfNormalMedian = 0.674489750196;
-inline constexpr double kRayleighMedian = 1.17741002252;
-
 /// Of an even number the upper one of the two in the middle; 0 of none.
-inline double median(std::vector<double> values) {
+inline double upper_median(std::vector<double> values) {
   if (values.empty()) return 0.0;
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
