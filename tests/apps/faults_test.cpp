@@ -3,6 +3,7 @@
 
 #include "apps/faults.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -76,8 +77,9 @@ TEST_F(Faults, OdometryThatIsASecondLate) {
     rows[0][0] = "0";
     std::copy(rows[2].begin() + 4, rows[2].end(), rows[1].begin() + 4);
   });
-  EXPECT_THAT(first_said(), AllOf(ContainsRegex("odometry0's clock is (0\\.9[89].|1\\.0[012].) ± "),
-                                  ContainsRegex("'time_offset_s: -(0\\.9[89]|1\\.0)")));
+  EXPECT_THAT(first_said(),
+              AllOf(ContainsRegex("odometry0's time stamps are (0\\.9[89].|1\\.0[012].) ± "),
+                    ContainsRegex("'time_offset_s: -(0\\.9[89]|1\\.0)")));
   write("data/mav0/odometry0/sensor.yaml", "time_offset_s: -1\n");
   expect_right();
 }
@@ -117,6 +119,24 @@ TEST_F(Faults, PicturesInReverseOrder) {
     }
   });
   EXPECT_THAT(first_said(), HasSubstr("the pictures are in reverse order"));
+}
+
+TEST_F(Faults, PicturesAfterACounterThatRolledOver) {
+  change("cam0", [](Rows& rows) {
+    Rows shown = rows;
+    std::ranges::rotate(shown, shown.begin() + std::ssize(shown) / 3);
+    for (std::size_t i = 0; i < rows.size(); ++i) rows[i][1] = shown[i][1];
+  });
+  EXPECT_THAT(first_said(), AllOf(HasSubstr("pictures are not in the order"),
+                                  HasSubstr("a counter that rolled over")));
+}
+
+TEST_F(Faults, PicturesThatAreExchanged) {
+  change("cam0", [](Rows& rows) {
+    for (std::size_t i = 4; i + 1 < rows.size(); i += 10) std::swap(rows[i][1], rows[i + 1][1]);
+  });
+  EXPECT_THAT(first_said(), HasSubstr("picture 5 belongs 1 place later, picture 6 belongs 1 place "
+                                      "earlier"));
 }
 
 TEST_F(Faults, AnAltimeterWithSpikes) {

@@ -50,14 +50,22 @@ struct Estimated {
   bool is_off(double expected, double sigmas, double least) const;
 };
 
+/// Pictures from `first` to `last` that belong so many places later.
+struct MovedPictures {
+  std::size_t first = 0;
+  std::size_t last = 0;
+  std::ptrdiff_t places = 0;
+};
+
 /// What registered motions say against dead reckoning (docs/calibration.md).
 struct SetUp {
-  std::size_t motions = 0;   ///< registrations that dead reckoning covers
-  OdometryFormat format;     ///< of dead reckoning that fits pictures taken as they are
-  bool is_reversed = false;  ///< pictures are counted from the end
-  bool is_related = true;    ///< whether the two have anything to do with each other
-  Estimated scale;           ///< registered motions over those of dead reckoning
-  Estimated yaw_rad;         ///< of the camera's mounting
+  std::size_t motions = 0;           ///< registrations that dead reckoning covers
+  OdometryFormat format;             ///< of dead reckoning that fits pictures taken as they are
+  bool is_reversed = false;          ///< pictures are counted from the end
+  std::vector<MovedPictures> moved;  ///< by rising number; all else is of them where they belong
+  bool is_related = true;            ///< whether the two have anything to do with each other
+  Estimated scale;                   ///< registered motions over those of dead reckoning
+  Estimated yaw_rad;                 ///< of the camera's mounting
   Estimated lever_x_m;
   Estimated lever_y_m;
   Estimated time_offset_s;  ///< to be added to the time stamps of dead reckoning

@@ -64,6 +64,7 @@ Calibration calibrate(const CalibrationInput& input) {
           "from the end; turn the file names of cam0/data.csv round",
           found->motions));
     }
+    find_order(input, *found, calibration.findings);
     find_format(input, *found, senses, calibration.findings);
     find_mounting(input, *found, senses.pictures_are_mirrored, calibration.findings);
     if (found->step) {

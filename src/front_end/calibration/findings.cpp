@@ -47,6 +47,54 @@ std::string in_file(const std::string& line, const char* sensor) {
   return fmt::format("'{}' in {}/sensor.yaml", line, sensor);
 }
 
+namespace {
+
+// What makes such an order.
+std::string cause_of(const CalibrationInput& input, const std::vector<MovedPictures>& moved) {
+  const std::size_t last = input.motions.back().to;
+  const MovedPictures& front = moved.front();
+  if (moved.size() == 2 && front.first == 0 && front.places > 0 && moved[1].places < 0 &&
+      moved[1].last == last) {
+    return fmt::format(
+        "; a counter that rolled over makes such an order, and about picture {} is the "
+        "first one",
+        moved[1].first + 1);
+  }
+  if (moved.size() == 1 && front.last == last) {
+    return fmt::format("; about there {}", front.places > 0
+                                               ? "pictures are missing, or rows too many"
+                                               : "rows are missing, or pictures too many");
+  }
+  return "";
+}
+
+}  // namespace
+
+// Pictures count from 1, as rows do.
+void find_order(const CalibrationInput& input, const SetUp& found,
+                std::vector<std::string>& findings) {
+  constexpr std::size_t kNamed = 4;
+  if (found.moved.empty()) return;
+  std::vector<std::string> named;
+  for (const MovedPictures& block : found.moved) {
+    if (named.size() == kNamed) break;
+    const std::string which =
+        block.first == block.last
+            ? fmt::format("picture {} belongs", block.first + 1)
+            : fmt::format("pictures {} to {} belong", block.first + 1, block.last + 1);
+    named.push_back(fmt::format("{} {} {}", which,
+                                counted(static_cast<std::size_t>(std::abs(block.places)), "place"),
+                                block.places > 0 ? "later" : "earlier"));
+  }
+  const std::size_t more = found.moved.size() - named.size();
+  findings.push_back(fmt::format(
+      "pictures are not in the order in which dead reckoning passes what they show, from {} s "
+      "after the first one on: {}{}{}; put their file names into cam0/data.csv in the right order",
+      seconds_after_start(input, input.frame_times_ns[found.moved.front().first]),
+      joined(named, ", "), more > 0 ? fmt::format(", and {} more such", more) : "",
+      cause_of(input, found.moved)));
+}
+
 void find_mounting(const CalibrationInput& input, const SetUp& found, bool is_mirrored,
                    std::vector<std::string>& findings) {
   const CameraModel& camera = input.camera;
@@ -118,8 +166,8 @@ void find_clock(const CalibrationInput& input, const SetUp& found,
   if (!is_late(found)) return;
   const Estimated late{std::abs(found.time_offset_s.value), found.time_offset_s.sigma};
   findings.push_back(
-      fmt::format("odometry0's clock is {} s {} the pictures'; write {}", with_sigma(late),
-                  found.time_offset_s.value < 0.0 ? "late of" : "early of",
+      fmt::format("odometry0's time stamps are {} s {} than the pictures'; write {}",
+                  with_sigma(late), found.time_offset_s.value < 0.0 ? "later" : "earlier",
                   in_file(fmt::format("time_offset_s: {:.3f}",
                                       input.odometry.time_offset_s + found.time_offset_s.value),
                           "odometry0")));

@@ -31,6 +31,9 @@ Senses senses_of(const CalibrationInput& input, const Calibration& calibration);
 /// Each adds what is wrong. Of odometry0's format, and of mirrored pictures.
 void find_format(const CalibrationInput& input, const SetUp& found, const Senses& senses,
                  std::vector<std::string>& findings);
+/// Of pictures that belong elsewhere.
+void find_order(const CalibrationInput& input, const SetUp& found,
+                std::vector<std::string>& findings);
 void find_mounting(const CalibrationInput& input, const SetUp& found, bool is_mirrored,
                    std::vector<std::string>& findings);
 void find_step(const CalibrationInput& input, const SetUp& found,

@@ -7,7 +7,7 @@ namespace fathom {
 
 OdometryTrack::OdometryTrack(const RecordedOdometry& odometry, const OdometryFormat& format,
                              double offset_s) {
-  const auto shift_ns = static_cast<std::int64_t>(std::llround(1e9 * offset_s));
+  const std::int64_t shift_ns = nanoseconds(offset_s);
   std::size_t holes = 0;
   for (const ReckonedRow& row : odometry.rows) {
     times_ns_.push_back(row.time_ns + shift_ns);

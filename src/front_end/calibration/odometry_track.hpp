@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -7,6 +8,11 @@
 #include "fathom/datasets/odometry_rows.hpp"
 
 namespace fathom {
+
+/// The nearest number of nanoseconds.
+inline std::int64_t nanoseconds(double seconds) {
+  return static_cast<std::int64_t>(std::llround(1e9 * seconds));
+}
 
 /// Dead reckoning as a function of time: its rows in some format, at constant velocity between
 /// them.

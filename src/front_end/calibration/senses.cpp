@@ -101,9 +101,10 @@ void find_turns(const Calibration& calibration, const Senses& senses,
     if (is_compass && turn.time_offset_s &&
         turn.time_offset_s->is_off(0.0, kFindingSigmas, kLeastOfCompass_s)) {
       findings.push_back(fmt::format(
-          "compass0's clock is {} s {} dead reckoning's: add {:.2f} to its time_offset_s",
+          "compass0's time stamps are {} s {} than dead reckoning's: add {:.2f} to its "
+          "time_offset_s",
           with_sigma({std::abs(turn.time_offset_s->value), turn.time_offset_s->sigma}, 2),
-          turn.time_offset_s->value < 0.0 ? "late of" : "early of", turn.time_offset_s->value));
+          turn.time_offset_s->value < 0.0 ? "later" : "earlier", turn.time_offset_s->value));
     }
   }
 }

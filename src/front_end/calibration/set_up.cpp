@@ -4,12 +4,11 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <numeric>
 #include <utility>
 
-#include "fathom/core/median.hpp"
+#include "picture_order.hpp"
+#include "scale_step.hpp"
 #include "set_up_fit.hpp"
-#include "student_t.hpp"
 
 namespace fathom {
 namespace {
@@ -54,18 +53,21 @@ std::vector<Reading> readings_of(const OdometryFormat& configured) {
   return readings;
 }
 
-// How likely numbers are that are read so. Headings that are made 57 times smaller have residuals
-// so much smaller, which says nothing for them: the density is of the numbers as they are. Of two
+// Headings that are made 57 times smaller have residuals so much smaller, which says nothing for
+// them: the density is of the numbers as they are.
+double density_of_unit(const OdometryFormat& format, std::size_t motions) {
+  return format.is_in_degrees ? static_cast<double>(motions) * std::log(std::numbers::pi / 180.0)
+                              : 0.0;
+}
+
+// How likely numbers are that are read so. Of two
 // that say the same, such as headings from x and from y with the camera turned, the one with less
 // to be changed counts.
 double evidence_of(const Reading& reading, const SetUpStart& start, const SetUpPrior& prior,
                    std::size_t motions) {
   constexpr double kTurned_rad = 0.1;
   constexpr double kOfTurned = 5.0;
-  double evidence = start.log_density;
-  if (reading.format.is_in_degrees) {
-    evidence += static_cast<double>(motions) * std::log(std::numbers::pi / 180.0);
-  }
+  double evidence = start.log_density + density_of_unit(reading.format, motions);
   const double yaw_rad = wrap_angle(start.value.yaw_rad - prior.mean.yaw_rad);
   if (std::abs(yaw_rad) > kTurned_rad) evidence -= kOfTurned;
   return evidence;
@@ -94,82 +96,32 @@ std::optional<Reading> best_reading(const CalibrationInput& input, const SetUpPr
   return best;
 }
 
-// Of the altitudes before a motion and after it, in the median of some.
-double altitude_factor_at(const CalibrationInput& input, const SeenMotion& motion) {
-  constexpr std::size_t kBeside = 5;
-  std::vector<double> low;
-  std::vector<double> high;
-  for (std::size_t i = motion.from - std::min(motion.from, kBeside); i <= motion.from; ++i) {
-    low.push_back(input.altitudes_m[i]);
-  }
-  for (std::size_t i = motion.to; i < std::min(input.altitudes_m.size(), motion.to + kBeside);
-       ++i) {
-    high.push_back(input.altitudes_m[i]);
-  }
-  return upper_median(high) / upper_median(low);
-}
-
-// A series that has one level up to an index, and another from there on.
-struct TwoLevels {
-  std::size_t split = 0;
-  double before = 0.0;
-  double after = 0.0;
-  double sigma = 0.0;  // of their difference
-};
-
-// By least absolute deviations, with so many on either side.
-TwoLevels two_levels(const std::vector<double>& values, std::size_t fewest) {
-  const auto median_of = [&values](std::size_t begin, std::size_t end) {
-    return upper_median({values.begin() + static_cast<std::ptrdiff_t>(begin),
-                         values.begin() + static_cast<std::ptrdiff_t>(end)});
+// Pictures that belong elsewhere, under the reading that was found, or else under the configured
+// one, which it may have stood in for; `reading` and `fit` are of them in their places then.
+std::vector<MovedPictures> put_right(const CalibrationInput& input, const SetUpPrior& prior,
+                                     Reading& reading, SetUpFit& fit) {
+  const double evidence = evidence_of(input, fit);
+  const auto try_with = [&](const OdometryFormat& format,
+                            const std::vector<SetUpParameters>& starts) {
+    const OdometryTrack track(input.odometry, format);
+    const double of_unit = density_of_unit(reading.format, input.motions.size()) -
+                           density_of_unit(format, input.motions.size());
+    auto moved = find_moved(input, track, prior, starts, evidence + of_unit);
+    const auto fitted =
+        moved.empty() ? std::nullopt : fit_set_up(put_in_place(input, moved), track, prior);
+    if (!fitted) return std::vector<MovedPictures>{};
+    reading = {format, false};
+    fit = *fitted;
+    return moved;
   };
-  TwoLevels best;
-  std::vector<double> least_off;
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t split = fewest; split + fewest <= values.size(); ++split) {
-    const TwoLevels levels{split, median_of(0, split), median_of(split, values.size()), 0.0};
-    std::vector<double> off;
-    off.reserve(values.size());
-    for (std::size_t j = 0; j < values.size(); ++j) {
-      off.push_back(std::abs(values[j] - (j < split ? levels.before : levels.after)));
-    }
-    const double sum = std::accumulate(off.begin(), off.end(), 0.0);
-    if (!(sum < least)) continue;
-    least = sum;
-    best = levels;
-    least_off = std::move(off);
-  }
-  constexpr double kOfMedian = 1.2533;
-  const auto count = static_cast<double>(values.size());
-  const auto first = static_cast<double>(best.split);
-  best.sigma = kOfMedian * upper_median(least_off) / kHalfNormalMedian *
-               std::sqrt(1.0 / first + 1.0 / (count - first));
-  return best;
-}
-
-// The one time at which reckoned over registered lengths change, as least absolute deviations have
-// it; nothing where they do not, by their spread and by 3 %.
-std::optional<SetUp::Step> step_of(const CalibrationInput& input, const SetUpFit& fit) {
-  constexpr std::size_t kFewest = 8;
-  constexpr double kSigmas = 8.0;
-  constexpr double kLeast = 0.05;
-  std::vector<double> log_ratios;
-  std::vector<std::size_t> moved;
-  for (const SetUpFit::Motion& motion : fit.each) {
-    const double length_m = input.motions[motion.index].camera.position().norm();
-    if (motion.length_ratio > 0.0 && length_m > 3.0 * fit.sigma_m) {
-      log_ratios.push_back(std::log(motion.length_ratio));
-      moved.push_back(motion.index);
-    }
-  }
-  if (moved.size() < 2 * kFewest) return std::nullopt;
-  const TwoLevels levels = two_levels(log_ratios, kFewest);
-  const Estimated log_factor{levels.before - levels.after, levels.sigma};
-  if (!log_factor.is_off(0.0, kSigmas, kLeast)) return std::nullopt;
-  const SeenMotion& first = input.motions[moved[levels.split]];
-  const double factor = std::exp(log_factor.value);
-  return SetUp::Step{
-      first.from_ns, {factor, factor * levels.sigma}, altitude_factor_at(input, first)};
+  std::vector<MovedPictures> moved;
+  if (!reading.is_reversed) moved = try_with(reading.format, {fit.value, prior.mean});
+  const OdometryFormat& configured = input.odometry.format;
+  const bool is_configured = !reading.is_reversed &&
+                             reading.format.convention == configured.convention &&
+                             reading.format.is_in_degrees == configured.is_in_degrees;
+  if (moved.empty() && !is_configured) moved = try_with(configured, {prior.mean});
+  return moved;
 }
 
 }  // namespace
@@ -193,16 +145,17 @@ OdometryConvention mirrored(OdometryConvention convention) {
 std::optional<SetUp> find_set_up(const CalibrationInput& input) {
   if (input.motions.empty() || input.odometry.rows.size() < 2) return std::nullopt;
   const SetUpPrior prior = prior_of(input);
-  const auto found = best_reading(input, prior);
+  auto found = best_reading(input, prior);
   if (!found) return std::nullopt;
-  const auto fitted = fit_set_up(found->is_reversed ? reversed(input) : input.motions,
-                                 OdometryTrack(input.odometry, found->format), prior);
+  auto fitted = fit_set_up(found->is_reversed ? reversed(input) : input.motions,
+                           OdometryTrack(input.odometry, found->format), prior);
   if (!fitted) return std::nullopt;
+  SetUp set_up;
+  set_up.moved = put_right(input, prior, *found, *fitted);
   const SetUpFit& fit = *fitted;
   const auto estimated = [&fit](int i) {
     return Estimated{fit.value.vector()(i), std::sqrt(fit.covariance(i, i))};
   };
-  SetUp set_up;
   set_up.motions = fit.motions;
   set_up.format = found->format;
   set_up.is_reversed = found->is_reversed;
@@ -218,7 +171,7 @@ std::optional<SetUp> find_set_up(const CalibrationInput& input) {
   set_up.time_offset_s = estimated(4);
   set_up.sigma_m = fit.sigma_m;
   set_up.sigma_rad = fit.sigma_rad;
-  if (set_up.is_related) set_up.step = step_of(input, fit);
+  if (set_up.is_related) set_up.step = find_step_of_scale(input, fit);
   return set_up;
 }
 

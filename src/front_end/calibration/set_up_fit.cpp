@@ -13,10 +13,6 @@
 namespace fathom {
 namespace {
 
-std::int64_t nanoseconds(double seconds) {
-  return static_cast<std::int64_t>(std::llround(1e9 * seconds));
-}
-
 class Fit {
  public:
   Fit(std::span<const SeenMotion> motions, const OdometryTrack& track, const SetUpPrior& prior)
@@ -205,6 +201,7 @@ class Fit {
     fit.motions = covered.size();
     fit.sigma_m = spread.sigma_m;
     fit.sigma_rad = spread.sigma_rad;
+    fit.log_density = density_of_all(covered, p, spread);
     // Of M-estimates whatever the residuals' distribution (Huber's sandwich), with the prior.
     const Vector5 information = prior_.information();
     const Matrix5 H = normal.curvature + Matrix5(information.asDiagonal());

@@ -32,10 +32,11 @@ struct SetUpParameters {
 struct SetUpFit {
   SetUpParameters value;
   Matrix5 covariance = Matrix5::Zero();
-  std::size_t motions = 0;  ///< that dead reckoning covers
-  double sigma_m = 0.0;     ///< scale of a residual, x or y
-  double sigma_rad = 0.0;   ///< of the heading
-  double median_m = 0.0;    ///< length of a reckoned motion
+  std::size_t motions = 0;   ///< that dead reckoning covers
+  double sigma_m = 0.0;      ///< scale of a residual, x or y
+  double sigma_rad = 0.0;    ///< of the heading
+  double log_density = 0.0;  ///< of all motions, up to a constant
+  double median_m = 0.0;     ///< length of a reckoned motion
   /// By motion covered: which one, and the reckoned length over the registered one.
   struct Motion {
     std::size_t index = 0;
