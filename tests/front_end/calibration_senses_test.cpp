@@ -128,7 +128,8 @@ TEST(Calibration, NamesACompassThatCountsClockwiseAndOneThatIsLate) {
   ASSERT_TRUE(late.turns.front().time_offset_s);
   const Estimated& offset = *late.turns.front().time_offset_s;
   EXPECT_NEAR(offset.value, -1.5, 4.0 * offset.sigma);
-  EXPECT_THAT(late.findings, ElementsAre(AllOf(HasSubstr("compass0's time stamps"), HasSubstr("later"))));
+  EXPECT_THAT(late.findings,
+              ElementsAre(AllOf(HasSubstr("compass0's time stamps"), HasSubstr("later"))));
 }
 
 TEST(Calibration, NamesFixesWhosePathIsMirrored) {
