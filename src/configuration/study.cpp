@@ -186,6 +186,7 @@ Study configure_study(const Settings& settings, const EstimatorRegistry& registr
     study.description.estimators.push_back({estimator.name, estimator.type});
   }
   study.description.metrics = first.study.metrics;
+  study.description.margin = first.study.margin;
   study.description.configuration = configuration_of(study.cells, axes, registry);
   require_same_names(study);
   return study;

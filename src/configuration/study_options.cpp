@@ -75,6 +75,8 @@ void StudyOptions::describe_session(OptionTable& table) {
                 "trials at work at the same time; cost is comparable at 1 alone");
   table.text("report.title", title, "title of the report");
   table.words("report.metrics", metrics, "metrics of the tables, in this order");
+  table.real("report.margin", margin, Range::between(0.0, 1.0), "",
+             "differences from the best up to this share of its mean are none");
 }
 
 void StudyOptions::describe(OptionTable& table) {

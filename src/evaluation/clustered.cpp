@@ -94,15 +94,6 @@ double replicate(const std::vector<SurveyOfCells>& surveys, double shrink, Rando
   return sum;
 }
 
-// By what an interval over so many surveys is too narrow: a bootstrap knows no spread but the
-// sample's own, which is too small by √((n − 1) / n), and that spread is itself uncertain.
-double few_surveys(std::size_t surveys, double probability) {
-  const auto count = static_cast<double>(surveys);
-  const double upper = 0.5 * (1.0 + probability);
-  return student_quantile(upper, count - 1.0) / normal_quantile(upper) *
-         std::sqrt(count / (count - 1.0));
-}
-
 Interval interval_about(double estimate, const std::vector<SurveyOfCells>& surveys,
                         const BootstrapOptions& options) {
   if (options.resamples == 0) throw InputError("a bootstrap interval needs at least 1 resample");
@@ -117,7 +108,7 @@ Interval interval_about(double estimate, const std::vector<SurveyOfCells>& surve
     jackknife.push_back(-survey.deviation * count / (count - 1.0));
   }
   const Interval about = bca_interval(0.0, replicates, jackknife, options.probability);
-  const double widened = few_surveys(surveys.size(), options.probability);
+  const double widened = few_values(surveys.size(), options.probability);
   return {estimate + widened * about.low, estimate + widened * about.high};
 }
 

@@ -77,4 +77,10 @@ std::optional<PairedDifference> difference_over_surveys(const ClusteredValues& d
   return result;
 }
 
+std::optional<SignedRankTest> test_over_surveys(const ClusteredValues& differences) {
+  if (differences.empty()) return std::nullopt;
+  return wilcoxon_signed_rank(differences.size() == 1 ? differences.begin()->second
+                                                      : survey_means(differences));
+}
+
 }  // namespace fathom

@@ -153,7 +153,8 @@ std::optional<Interval> bootstrap_interval(std::span<const double> values,
   }
   const Interval about_mean =
       bca_interval(0.0, resampled_means(deviations, options), jackknife, options.probability);
-  return Interval{mean + about_mean.low, mean + about_mean.high};
+  const double widened = few_values(values.size(), options.probability);
+  return Interval{mean + widened * about_mean.low, mean + widened * about_mean.high};
 }
 
 }  // namespace fathom

@@ -146,7 +146,9 @@ class Runner {
         trial = record_by(by_contender(configuration.estimators[e]));
         judge_by_facts(trial);
       }
-      if (task.baseline && e == task.estimators.front()) add_baseline(task, *trial.recording);
+      // By the log of the first of the list, in whatever order they run.
+      if (task.baseline && e == std::ranges::min(task.estimators))
+        add_baseline(task, *trial.recording);
       add_run(task, e, trial, meter);
     }
     if (task.baseline && task.estimators.empty()) add_baseline(task, *trial.recording);

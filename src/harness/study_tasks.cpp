@@ -4,6 +4,7 @@
 #include <map>
 #include <numeric>
 
+#include "fathom/core/random.hpp"
 #include "fathom/harness/study_run.hpp"
 #include "fathom/harness/survey.hpp"
 #include "fathom/results/run_index.hpp"
@@ -20,6 +21,12 @@ Task task_of(const Study& study, const RunIndex* there, std::size_t cell, const 
     if (!is_there(task.run_of(study.description.estimators[e].name))) {
       task.estimators.push_back(e);
     }
+  }
+  // Whoever runs first finds caches cold: no estimator is that one more often than others.
+  RandomStream order(survey_seed(study.noise_seeds[cell], trial.survey), "order of runs",
+                     trial.trial);
+  for (std::size_t i = task.estimators.size(); i > 1; --i) {
+    std::swap(task.estimators[i - 1], task.estimators[order.index(i)]);
   }
   return task;
 }

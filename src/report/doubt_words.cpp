@@ -51,34 +51,13 @@ std::string words(const FewSurveys& found) {
   return "Only " + std::to_string(found.surveys) + " surveys: others may give another order.";
 }
 
-std::string words(const IntervalAgainstTest& found) {
-  std::vector<std::string> names;
-  names.reserve(found.pairs.size());
-  for (const auto& [estimator, holm_p] : found.pairs) {
-    names.push_back(fmt::format("{} (p = {})", estimator, format_number(holm_p, 2)));
-  }
-  std::string text =
-      "The interval of the difference excludes 0, but the adjusted p is above 0.05: " +
-      listed(names) + ".";
-  if (const auto& limit = found.limit) {
-    text += fmt::format(" With {} and {} no p is below {}.",
-                        counted(limit->count, limit->is_over_surveys ? "survey" : "trial"),
-                        counted(limit->comparisons, "comparison"),
-                        format_number(std::min(1.0, limit->least_p), 2));
-  }
-  return text;
-}
-std::string general(const IntervalAgainstTest&) {
-  return "an interval excludes 0 where the adjusted p is above 0.05";
-}
-
 std::string words(const BaselineAsGood& found) {
-  return "The best is not told apart from dead reckoning, whose difference to it is " +
+  return "The best is not shown to be better than dead reckoning, whose difference to it is " +
          quantity(found.difference.mean, found.difference.interval, described(found.metric).unit) +
          ".";
 }
 std::string general(const BaselineAsGood&) {
-  return "the best is not told apart from dead reckoning";
+  return "the best is not shown to be better than dead reckoning";
 }
 
 std::string words(const WrongConfidence& found) {

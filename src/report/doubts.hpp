@@ -38,23 +38,7 @@ struct OneSurvey {
 struct FewSurveys {
   std::size_t surveys = 0;
 };
-/// The interval of a difference excludes 0 where the adjusted p is not small.
-struct IntervalAgainstTest {
-  struct Pair {
-    std::string estimator;
-    double holm_p = 1.0;
-  };
-  std::vector<Pair> pairs;
-  /// Where so few pairs cannot have a small p.
-  struct Limit {
-    std::size_t count = 0;
-    bool is_over_surveys = false;
-    std::size_t comparisons = 0;
-    double least_p = 1.0;
-  };
-  std::optional<Limit> limit;
-};
-/// The best is not told apart from dead reckoning.
+/// The best is not shown to be better than dead reckoning.
 struct BaselineAsGood {
   PairedDifference difference;  ///< dead reckoning minus the best
   std::string metric;
@@ -101,11 +85,11 @@ struct SeveralMachines {
 
 }  // namespace doubt
 
-using Doubt = std::variant<doubt::SingleTrial, doubt::FewTrials, doubt::OneSurvey,
-                           doubt::FewSurveys, doubt::IntervalAgainstTest, doubt::BaselineAsGood,
-                           doubt::WrongConfidence, doubt::Correlation, doubt::OffTheOptimum,
-                           doubt::WithoutLoops, doubt::FewLoops, doubt::Misfit,
-                           doubt::ContenderSelects, doubt::SeveralJobs, doubt::SeveralMachines>;
+using Doubt =
+    std::variant<doubt::SingleTrial, doubt::FewTrials, doubt::OneSurvey, doubt::FewSurveys,
+                 doubt::BaselineAsGood, doubt::WrongConfidence, doubt::Correlation,
+                 doubt::OffTheOptimum, doubt::WithoutLoops, doubt::FewLoops, doubt::Misfit,
+                 doubt::ContenderSelects, doubt::SeveralJobs, doubt::SeveralMachines>;
 
 /// Of one cell, with its figures: sentences.
 std::string words_of(const Doubt& doubt);

@@ -1,11 +1,12 @@
 #include "ranking.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace fathom {
 namespace {
 
-constexpr double kError = 0.05;  // of all intervals together
+constexpr double kError = 0.05;  // of all claims of a ranking together
 constexpr std::size_t kResamples = 2000;
 
 bool is_ranked(const EstimatorResults& one, const std::string& metric,
@@ -14,21 +15,71 @@ bool is_ranked(const EstimatorResults& one, const std::string& metric,
          (names.empty() || std::ranges::find(names, one.name) != names.end());
 }
 
-// A single trial tests nothing.
-void adjust(std::vector<RankedEstimator>& estimators) {
-  const auto p_of = [](const RankedEstimator& one) {
-    return one.difference && one.difference->count > 1 ? one.difference->signed_rank.p_value
-                                                       : std::nullopt;
+std::vector<const EstimatorResults*> in_order(const CellResults& cell, const Metric& metric,
+                                              const std::vector<std::string>& names) {
+  std::vector<const EstimatorResults*> order;
+  for (const EstimatorResults& one : cell.estimators) {
+    if (is_ranked(one, metric.name, names)) order.push_back(&one);
+  }
+  const auto mean = [&](const EstimatorResults* one) {
+    return one->metrics.at(metric.name).moments.mean;
   };
-  std::vector<double> p_values;
-  for (const RankedEstimator& one : estimators) {
-    if (p_of(one)) p_values.push_back(*p_of(one));
+  std::ranges::stable_sort(order, [&](const auto* a, const auto* b) {
+    return metric.better == Better::lower ? mean(a) < mean(b) : mean(a) > mean(b);
+  });
+  return order;
+}
+
+// Below it a figure means nothing, whatever the mean: no reference knows a position to a
+// micrometre, and no clock a run to a microsecond.
+double digits_of(const std::string& unit) {
+  if (unit == "m" || unit == "rad") return 1e-6;
+  if (unit == "ms" || unit.empty()) return 1e-3;
+  return 0.0;
+}
+
+// Adjusted p of each against the best, which is one of all pairs.
+std::vector<std::optional<double>> p_values(const std::vector<const EstimatorResults*>& order,
+                                            const std::string& metric) {
+  std::vector<double> tested;
+  std::vector<std::optional<std::size_t>> of_best(order.size());
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    for (std::size_t j = i + 1; j < order.size(); ++j) {
+      const auto test = test_between(*order[j], *order[i], metric);
+      // Without a difference nothing is tested, but it counts as a pair.
+      if (i == 0 && test && test->p_value) of_best[j] = tested.size();
+      tested.push_back(test && test->p_value ? *test->p_value : 1.0);
+    }
   }
-  const std::vector<double> adjusted = holm(p_values);
-  auto next = adjusted.begin();
-  for (RankedEstimator& one : estimators) {
-    if (p_of(one)) one.holm_p = *next++;
+  const std::vector<double> adjusted = holm(tested);
+  std::vector<std::optional<double>> values(order.size());
+  for (std::size_t j = 0; j < order.size(); ++j) {
+    if (of_best[j]) values[j] = adjusted[*of_best[j]];
   }
+  return values;
+}
+
+// Of skewed differences mean and ranks may point to opposite sides.
+bool is_on_one_side(const PairedDifference& difference) {
+  const SignedRankTest& test = difference.signed_rank;
+  const auto count = static_cast<double>(test.count);
+  const double half = 0.25 * count * (count + 1.0);
+  return (test.positive_rank_sum > half) == (difference.mean > 0.0);
+}
+
+Standing standing_of(const RankedEstimator& one, double margin) {
+  const auto& difference = one.difference;
+  if (!difference || !difference->interval) return Standing::not_shown;
+  if (difference->interval->low >= -margin && difference->interval->high <= margin) {
+    return Standing::equivalent;
+  }
+  const bool is_beyond = std::abs(difference->mean) > margin && is_on_one_side(*difference);
+  return one.p && *one.p < kError && is_beyond ? Standing::worse : Standing::not_shown;
+}
+
+std::size_t draws_of(const CellResults& cell) {
+  if (cell.repetition == Repetition::surveys && cell.surveys < 2) return 1;
+  return cell.surveys > 1 ? cell.surveys : cell.trials;
 }
 
 }  // namespace
@@ -38,44 +89,49 @@ const RankedEstimator* Ranking::find(const std::string& estimator) const {
   return found == estimators.end() ? nullptr : &*found;
 }
 
-std::vector<const RankedEstimator*> Ranking::told_apart() const {
+std::vector<const RankedEstimator*> Ranking::standing(Standing which) const {
   std::vector<const RankedEstimator*> list;
   for (const RankedEstimator& one : estimators) {
-    if (one.is_told_apart()) list.push_back(&one);
+    if (one.standing == which) list.push_back(&one);
   }
   return list;
 }
 
+std::size_t fewest_draws(std::size_t estimators) {
+  const double pairs =
+      0.5 * static_cast<double>(estimators) * (static_cast<double>(estimators) - 1);
+  // The least p of n differences is 2^(1 − n).
+  std::size_t draws = 2;
+  while (pairs * std::exp2(1.0 - static_cast<double>(draws)) >= kError) ++draws;
+  return draws;
+}
+
 std::optional<Ranking> ranking(const CellResults& cell, const std::string& metric,
-                               const std::vector<std::string>& names) {
-  const Better better = described(metric).better;
-  if (better == Better::neither) return std::nullopt;
-  std::vector<const EstimatorResults*> order;
-  for (const EstimatorResults& one : cell.estimators) {
-    if (is_ranked(one, metric, names)) order.push_back(&one);
-  }
+                               const RankingOptions& options) {
+  const Metric catalogued = described(metric);
+  if (catalogued.better == Better::neither) return std::nullopt;
+  const auto order = in_order(cell, catalogued, options.names);
   if (order.empty()) return std::nullopt;
-  const auto mean = [&](const EstimatorResults* one) {
-    return one->metrics.at(metric).moments.mean;
-  };
-  std::ranges::stable_sort(order, [&](const auto* a, const auto* b) {
-    return better == Better::lower ? mean(a) < mean(b) : mean(a) > mean(b);
-  });
   Ranking result;
   result.metric = metric;
   const std::size_t differences = std::max<std::size_t>(1, order.size() - 1);
   result.level = 1.0 - kError / static_cast<double>(differences);
+  result.margin =
+      std::max(options.margin * std::abs(order.front()->metrics.at(metric).moments.mean),
+               digits_of(catalogued.unit));
+  result.draws = draws_of(cell);
+  result.fewest_draws = fewest_draws(order.size());
   // The ends of a wider interval are in the tail, where more resamples are needed.
-  const BootstrapOptions options{.probability = result.level,
-                                 .resamples = kResamples * std::min<std::size_t>(3, differences)};
-  for (const EstimatorResults* one : order) {
-    RankedEstimator entry{one->name, one->metrics.at(metric), std::nullopt, std::nullopt};
-    if (one != order.front()) {
-      entry.difference = difference_between(*one, *order.front(), metric, options);
-    }
+  const BootstrapOptions bootstrap{.probability = result.level,
+                                   .resamples = kResamples * std::min<std::size_t>(3, differences)};
+  const auto p = p_values(order, metric);
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    RankedEstimator entry{order[i]->name, order[i]->metrics.at(metric), std::nullopt, p[i],
+                          i == 0 ? Standing::best : Standing::not_shown};
+    if (i > 0) entry.difference = difference_between(*order[i], *order.front(), metric, bootstrap);
+    if (i > 0 && result.gives_verdict()) entry.standing = standing_of(entry, result.margin);
     result.estimators.push_back(std::move(entry));
   }
-  adjust(result.estimators);
   return result;
 }
 

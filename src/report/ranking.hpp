@@ -8,6 +8,14 @@
 
 namespace fathom {
 
+/// What the runs show of an estimator beside the best one of its cell.
+enum class Standing {
+  best,
+  equivalent,  ///< the interval of the difference lies within the margin
+  worse,       ///< the adjusted p is below 0.05, and the difference is beyond the margin
+  not_shown    ///< neither; all of them where no verdict is given
+};
+
 /// One estimator beside the best one of a cell.
 struct RankedEstimator {
   std::string name;
@@ -15,34 +23,47 @@ struct RankedEstimator {
   /// It minus the best, with an interval that holds together with those of the others
   /// (`Ranking::level`); nothing of the best itself, and where the two have no trial in common.
   std::optional<PairedDifference> difference;
-  std::optional<double> holm_p;  ///< adjusted over the others of this ranking
-
-  /// Whether the interval excludes 0. False of the best itself and without an interval.
-  bool is_told_apart() const {
-    return difference && difference->interval && !difference->interval->contains(0.0);
-  }
+  /// Of the signed-rank test against the best, adjusted after Holm over all pairs of the ranking:
+  /// which one is the best is not known before.
+  std::optional<double> p;
+  Standing standing = Standing::not_shown;
 };
 
 /// The estimators of a cell by their means of one metric, the best first.
 struct Ranking {
   std::string metric;
   std::vector<RankedEstimator> estimators;  ///< one or more
-  double level = 0.95;  ///< of each interval: 1 − 0.05 / number of differences
+  double level = 0.95;    ///< of each interval: 1 − 0.05 / number of differences
+  double margin = 0.0;    ///< differences up to it mean nothing; in the metric's unit
+  std::size_t draws = 0;  ///< independent ones: surveys, or trials where these are drawn alone
+  std::size_t fewest_draws = 0;  ///< with fewer no p can be below 0.05
 
   const RankedEstimator& best() const { return estimators.front(); }
   const RankedEstimator* find(const std::string& estimator) const;
-  std::vector<const RankedEstimator*> told_apart() const;
+  std::vector<const RankedEstimator*> standing(Standing which) const;
+  /// Else all that is not the best is `not_shown`.
+  bool gives_verdict() const { return draws >= fewest_draws; }
 };
 
-/// Estimators that failed no run and have the metric; of `names` alone, where there are any. Dead
-/// reckoning is none. Nothing where none is left and of a metric that does not say which of its
-/// values is better. The best is the one with the best mean, of equal ones the first of the study.
+struct RankingOptions {
+  std::vector<std::string> names = {};  ///< these alone; empty: all
+  double margin = 0.01;                 ///< as a share of the best mean (`report.margin`)
+};
+
+/// Estimators that failed no run and have the metric. Dead reckoning is none. Nothing where none is
+/// left and of a metric that does not say which of its values is better. The best is the one with
+/// the best mean, of equal ones the first of the study.
 ///
-/// The intervals are Bonferroni's: each of m has the level 1 − 0.05 / m, so that they hold together
-/// with 95 %. The best was chosen by the same runs, which no interval knows of: a difference that
-/// barely excludes 0 is weak evidence.
+/// Of k estimators that are exchangeable in every draw, one or more are called worse in at most 5 %
+/// of studies: the signed-rank test is exact then, and Holm's adjustment over all k (k − 1) / 2
+/// pairs holds whichever is the best. Equivalence is by two one-sided tests: an interval of level
+/// 1 − 0.05 / (k − 1) within ± margin. The margin is at least what a figure of the unit can mean.
+/// Of surveys that are drawn one says nothing of others: its trials give no verdict.
 std::optional<Ranking> ranking(const CellResults& cell, const std::string& metric,
-                               const std::vector<std::string>& names = {});
+                               const RankingOptions& options = {});
+
+/// The number of draws from which on a difference of one of so many estimators can be shown.
+std::size_t fewest_draws(std::size_t estimators);
 
 /// By which estimators are ranked: the first of the study's metrics that is no cost, says which of
 /// its values is better, and that a cell has. Nothing without one.

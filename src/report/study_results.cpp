@@ -152,12 +152,9 @@ CellResults runs_of(const RunIndex& index, std::size_t number, const std::string
   return cell;
 }
 
-}  // namespace
-
-std::optional<PairedDifference> difference_between(const EstimatorResults& one,
-                                                   const EstimatorResults& other,
-                                                   const std::string& metric,
-                                                   const BootstrapOptions& options) {
+// By survey, over the trials that both did and that have the metric.
+ClusteredValues differences_between(const EstimatorResults& one, const EstimatorResults& other,
+                                    const std::string& metric) {
   std::map<TrialKey, double> of_other;
   const std::string* machine = machine_of(one, metric);
   for (const RunRecord& run : other.runs) {
@@ -171,7 +168,22 @@ std::optional<PairedDifference> difference_between(const EstimatorResults& one,
     if (is_failed(run) || !value || found == of_other.end()) continue;
     differences[run.key.survey].push_back(*value - found->second);
   }
-  return difference_over_surveys(differences, options);
+  return differences;
+}
+
+}  // namespace
+
+std::optional<PairedDifference> difference_between(const EstimatorResults& one,
+                                                   const EstimatorResults& other,
+                                                   const std::string& metric,
+                                                   const BootstrapOptions& options) {
+  return difference_over_surveys(differences_between(one, other, metric), options);
+}
+
+std::optional<SignedRankTest> test_between(const EstimatorResults& one,
+                                           const EstimatorResults& other,
+                                           const std::string& metric) {
+  return test_over_surveys(differences_between(one, other, metric));
 }
 
 StudyResults study_results(const ResultStore& store, MetricsOf metrics,

@@ -70,6 +70,11 @@ std::optional<PairedDifference> difference_between(const EstimatorResults& one,
                                                    const std::string& metric,
                                                    const BootstrapOptions& options = {});
 
+/// The test of these differences alone, without their interval.
+std::optional<SignedRankTest> test_between(const EstimatorResults& one,
+                                           const EstimatorResults& other,
+                                           const std::string& metric);
+
 /// What all tables, charts and figures are made from; the intervals are computed once, here.
 struct StudyResults {
   StudyDescription study;

@@ -21,7 +21,7 @@ const EstimatorResults* find(const CellResults& cell, const std::string& name) {
   return found == cell.estimators.end() ? nullptr : &*found;
 }
 
-// "+0.002 mm [-0.02, 0.03]": with its sign, as its interval holds 0.
+// "+0.002 mm [-0.02, 0.03]": with its sign, as its interval may hold 0.
 std::string signed_text(const RankedEstimator& one, const ScaledUnit& scale) {
   const PairedDifference& difference = *one.difference;
   const std::string text = quantity(difference.mean, difference.interval, scale);
@@ -34,42 +34,66 @@ std::string share_text(const RankedEstimator& one, const Ranking& ranking) {
   return " (" + format_number(100.0 * std::abs(one.difference->mean) / best, 2) + " % of the best)";
 }
 
+std::vector<const RankedEstimator*> with_interval(const Ranking& ranking, Standing standing) {
+  std::vector<const RankedEstimator*> list = ranking.standing(standing);
+  std::erase_if(list,
+                [](const auto* one) { return !one->difference || !one->difference->interval; });
+  return list;
+}
+
 // One unit for all differences that a sentence names.
-ScaledUnit scale_of(const Ranking& ranking, const std::string& unit, bool told_apart) {
+ScaledUnit scale_of(const std::vector<const RankedEstimator*>& named, const std::string& unit) {
   double greatest = 0.0;
-  for (const RankedEstimator& one : ranking.estimators) {
-    if (!one.difference || !one.difference->interval || one.is_told_apart() != told_apart) continue;
-    greatest = std::max({greatest, std::abs(one.difference->interval->low),
-                         std::abs(one.difference->interval->high)});
+  for (const RankedEstimator* one : named) {
+    const Interval& interval = *one->difference->interval;
+    greatest = std::max({greatest, std::abs(interval.low), std::abs(interval.high)});
   }
   return reading_unit(unit, greatest);
 }
 
+// Those of one standing, each in words of its own.
+template <typename Words>
+std::string listed_with(const std::vector<const RankedEstimator*>& named, const Words& words) {
+  std::vector<std::string> texts;
+  texts.reserve(named.size());
+  for (const RankedEstimator* one : named) texts.push_back(words(*one));
+  return listed(texts);
+}
+
 void add_others(const Ranking& ranking, const std::string& unit,
                 std::vector<std::string>& sentences) {
-  std::vector<std::string> alike;
-  std::vector<std::string> worse;
-  bool is_small = true;
-  const ScaledUnit scale_alike = scale_of(ranking, unit, false);
-  const ScaledUnit scale_worse = scale_of(ranking, unit, true);
-  for (const RankedEstimator& one : ranking.estimators) {
-    if (!one.difference || !one.difference->interval) continue;
-    if (one.is_told_apart()) {
-      worse.push_back(one.name + " by " + distance_text(one, scale_worse) +
-                      share_text(one, ranking));
-      is_small = is_small && std::abs(one.difference->mean) <
-                                 0.01 * std::abs(ranking.best().summary.moments.mean);
-    } else {
-      alike.push_back(fmt::format("{} ({})", one.name, signed_text(one, scale_alike)));
-    }
-  }
-  if (!alike.empty()) {
+  const std::string& best = ranking.best().name;
+  if (const auto named = with_interval(ranking, Standing::equivalent); !named.empty()) {
+    const ScaledUnit scale = scale_of(named, unit);
     sentences.push_back(
-        fmt::format("Cannot be told apart from {}: {}.", ranking.best().name, listed(alike)));
+        fmt::format("Equivalent to {}, within {}: {}.", best,
+                    quantity(ranking.margin, std::nullopt, reading_unit(unit, ranking.margin)),
+                    listed_with(named, [&](const RankedEstimator& one) {
+                      return fmt::format("{} ({})", one.name, signed_text(one, scale));
+                    })));
   }
-  if (!worse.empty()) {
-    sentences.push_back("Worse: " + listed(worse) + "." +
-                        (is_small ? " That is less than 1 % of the best." : ""));
+  if (const auto named = with_interval(ranking, Standing::not_shown); !named.empty()) {
+    const ScaledUnit scale = scale_of(named, unit);
+    sentences.push_back(
+        (ranking.gives_verdict() ? "Not shown to differ from " : "Differences to ") + best + ": " +
+        listed_with(named,
+                    [&](const RankedEstimator& one) {
+                      const std::string p =
+                          ranking.gives_verdict() && one.p ? ", p " + format_number(*one.p, 2) : "";
+                      return fmt::format("{} ({}{})", one.name, signed_text(one, scale), p);
+                    }) +
+        ".");
+  }
+  if (const auto named = with_interval(ranking, Standing::worse); !named.empty()) {
+    const ScaledUnit scale = scale_of(named, unit);
+    sentences.push_back("Worse: " +
+                        listed_with(named,
+                                    [&](const RankedEstimator& one) {
+                                      return fmt::format(
+                                          "{} by {}{}, p {}", one.name, distance_text(one, scale),
+                                          share_text(one, ranking), format_number(*one.p, 2));
+                                    }) +
+                        ".");
   }
 }
 
@@ -94,6 +118,9 @@ std::vector<std::string> answer_of(const CellResults& cell, const std::optional<
   std::vector<std::string> sentences{
       fmt::format("{}{}: {}", ranking->estimators.size() == 1 ? "Only one is ranked by " : which,
                   metric.label, mean)};
+  if (ranking->estimators.size() > 1 && !ranking->gives_verdict()) {
+    sentences.push_back(no_verdict_text(*ranking, cell));
+  }
   add_others(*ranking, metric.unit, sentences);
   add_means(*ranking, metric.unit, sentences);
   const EstimatorResults* baseline = find(cell, kDeadReckoning);
@@ -109,30 +136,30 @@ std::vector<std::string> answer_of(const CellResults& cell, const std::optional<
 
 // What the estimators that are as good as the best cost.
 std::vector<std::string> cost_of(const CellResults& cell, const Ranking& by_accuracy,
-                                 const std::string& cheapest, const std::string& cost) {
+                                 const std::string& cheapest, const std::string& cost,
+                                 double margin) {
   const Metric metric = described(cost);
   std::vector<std::string> good;
   for (const RankedEstimator& one : by_accuracy.estimators) {
     const auto relative = relative_to_best(cell, *find(cell, one.name), by_accuracy.metric);
     if (relative && *relative <= 1.0 + kAsGoodAsBest) good.push_back(one.name);
   }
-  const auto by_cost = ranking(cell, cost, good);
+  const auto by_cost = ranking(cell, cost, {good, margin});
   if (!by_cost) return {};
   std::string text =
       fmt::format("Cheapest of those within 5 % of the best: {}, {} {}.", cheapest, metric.label,
                   mean_text(find(cell, cheapest)->metrics.at(cost), metric.unit));
-  std::vector<std::string> alike;
-  std::vector<std::string> dearer;
-  for (const RankedEstimator& one : by_cost->estimators) {
-    if (one.name == cheapest) continue;
-    if (one.is_told_apart() || !one.difference || !one.difference->interval) {
-      dearer.push_back(one.name + " " + quantity(one.summary.moments.mean, metric.unit));
-    } else {
-      alike.push_back(one.name);
+  const auto add = [&](Standing standing, const std::string& before, const std::string& after) {
+    std::vector<std::string> named;
+    for (const RankedEstimator* one : by_cost->standing(standing)) {
+      if (one->name == cheapest) continue;
+      named.push_back(one->name + " " + quantity(one->summary.moments.mean, metric.unit));
     }
-  }
-  if (!alike.empty()) text += " In cost " + listed(alike) + " cannot be told apart from it.";
-  if (!dearer.empty()) text += " The others: " + listed(dearer) + ".";
+    if (!named.empty()) text += before + listed(named) + after;
+  };
+  add(Standing::equivalent, " As cheap: ", ".");
+  add(Standing::not_shown, " Not shown to be dearer: ", ".");
+  add(Standing::worse, " Dearer: ", ".");
   return {text};
 }
 
@@ -179,6 +206,13 @@ std::string listed(const std::vector<std::string>& names) {
   return text;
 }
 
+std::string no_verdict_text(const Ranking& ranking, const CellResults& cell) {
+  const bool is_of_surveys = cell.repetition == Repetition::surveys || cell.surveys > 1;
+  return fmt::format("No verdict: with {} no difference between {} can be shown; {} are needed.",
+                     counted(ranking.draws, is_of_surveys ? "survey" : "trial"),
+                     counted(ranking.estimators.size(), "estimator"), ranking.fewest_draws);
+}
+
 std::string distance_text(const RankedEstimator& one, const ScaledUnit& scale) {
   const PairedDifference& difference = *one.difference;
   std::optional<Interval> interval = difference.interval;
@@ -191,7 +225,7 @@ CellVerdict cell_verdict(const CellResults& cell, const StudyDescription& study,
                          const std::optional<std::string>& cost) {
   CellVerdict verdict;
   if (metric) {
-    verdict.ranking = ranking(cell, *metric);
+    verdict.ranking = ranking(cell, *metric, {.margin = study.margin});
     verdict.answer = answer_of(cell, verdict.ranking);
   } else {
     verdict.answer = {"Not ranked: no metric of this study that says which is better has a value."};
@@ -199,7 +233,7 @@ CellVerdict cell_verdict(const CellResults& cell, const StudyDescription& study,
   if (verdict.ranking && cost) {
     verdict.cheapest = cheapest_of_the_best(cell, *metric, *cost);
     if (verdict.cheapest) {
-      verdict.cost = cost_of(cell, *verdict.ranking, *verdict.cheapest, *cost);
+      verdict.cost = cost_of(cell, *verdict.ranking, *verdict.cheapest, *cost, study.margin);
     }
   }
   verdict.failed = failed_of(cell, study);

@@ -25,7 +25,7 @@ struct StudyVerdict {
   std::optional<std::string> metric;  ///< by which estimators are ranked
   std::optional<std::string> cost;
   std::vector<CellVerdict> cells;  ///< as those of the results
-  std::string rule;                ///< when two estimators are told apart
+  std::string rule;                ///< what the words of standing mean
   std::vector<std::string> answer;
   std::vector<std::string> cost_words;
   std::vector<std::string> failed;
@@ -52,6 +52,9 @@ std::vector<Doubt> doubts_of(const CellResults& cell, const CellVerdict& verdict
 
 /// "a, b and c"
 std::string listed(const std::vector<std::string>& names);
+
+/// "No verdict: with 5 surveys no difference between 3 estimators can be shown; 7 are needed."
+std::string no_verdict_text(const Ranking& ranking, const CellResults& cell);
 
 /// "3.5 mm [0.2, 10.4]": how far an estimator is from the best, without a sign.
 std::string distance_text(const RankedEstimator& one, const ScaledUnit& scale);

@@ -8,8 +8,6 @@
 namespace fathom {
 namespace {
 
-constexpr double kSignificant = 0.05;
-
 std::optional<Doubt> few_draws(const CellResults& cell) {
   if (cell.trials < 2) return doubt::SingleTrial{};
   if (cell.repetition == Repetition::logs) {
@@ -20,22 +18,6 @@ std::optional<Doubt> few_draws(const CellResults& cell) {
     return doubt::FewSurveys{cell.surveys};
   }
   return std::nullopt;
-}
-
-// Of few pairs no p can be small.
-std::optional<Doubt> disagreement(const Ranking& ranking) {
-  const std::size_t tests = ranking.estimators.size() - 1;
-  doubt::IntervalAgainstTest found;
-  for (const RankedEstimator& one : ranking.estimators) {
-    if (!one.is_told_apart() || !one.holm_p || *one.holm_p < kSignificant) continue;
-    found.pairs.push_back({one.name, *one.holm_p});
-    const std::size_t count = one.difference->count;
-    const double least = static_cast<double>(tests) * std::exp2(1.0 - static_cast<double>(count));
-    if (least < kSignificant || found.limit) continue;
-    found.limit = {count, one.difference->is_over_surveys, tests, least};
-  }
-  if (found.pairs.empty()) return std::nullopt;
-  return found;
 }
 
 std::optional<Doubt> wrong_confidence(const CellResults& cell, bool is_overconfident) {
@@ -164,10 +146,7 @@ std::vector<Doubt> doubts_of(const CellResults& cell, const CellVerdict& verdict
     if (found) doubts.push_back(*found);
   };
   add(few_draws(cell));
-  if (verdict.ranking) {
-    add(disagreement(*verdict.ranking));
-    add(baseline_as_good(cell, *verdict.ranking));
-  }
+  if (verdict.ranking) add(baseline_as_good(cell, *verdict.ranking));
   add(wrong_confidence(cell, true));
   add(wrong_confidence(cell, false));
   add(correlation(cell));

@@ -10,11 +10,23 @@ using Json = nlohmann::ordered_json;
 // Beside the best; empty where there is no interval.
 const char* standing_text(const RankedEstimator& one) {
   if (!one.difference || !one.difference->interval) return "";
-  return one.is_told_apart() ? "worse" : "alike";
+  switch (one.standing) {
+    case Standing::best:
+      return "best";
+    case Standing::equivalent:
+      return "equivalent";
+    case Standing::worse:
+      return "worse";
+    case Standing::not_shown:
+      break;
+  }
+  return "not_shown";
 }
 
 Json ranking_json(const Ranking& ranking) {
-  Json json{{"best", ranking.best().name}, {"level", page_number(ranking.level)}};
+  Json json{{"best", ranking.best().name},
+            {"level", page_number(ranking.level)},
+            {"margin", page_number(ranking.margin)}};
   json["others"] = Json::array();
   for (const RankedEstimator& one : ranking.estimators) {
     if (&one == &ranking.best()) continue;
@@ -28,7 +40,7 @@ Json ranking_json(const Ranking& ranking) {
         other["high"] = page_number(difference->interval->high);
       }
     }
-    if (one.holm_p) other["holm_p"] = page_number(*one.holm_p);
+    if (one.p) other["p"] = page_number(*one.p);
     json["others"].push_back(other);
   }
   return json;
@@ -56,8 +68,9 @@ void add_verdict(const StudyResults& results, Json& page) {
     cell["verdict"] = cell_json(verdict.cells[i]);
     cell["rankings"] = Json::object();
     for (const std::string& metric : results.study.metrics) {
-      const auto ranked =
-          metric == verdict.metric ? verdict.cells[i].ranking : ranking(results.cells[i], metric);
+      const auto ranked = metric == verdict.metric
+                              ? verdict.cells[i].ranking
+                              : ranking(results.cells[i], metric, {.margin = results.study.margin});
       if (ranked) cell["rankings"][metric] = ranking_json(*ranked);
     }
   }

@@ -32,7 +32,7 @@ void add_worse(const StudyResults& results, StudyVerdict& verdict) {
   for (std::size_t i = 0; i < results.cells.size(); ++i) {
     const auto& ranking = verdict.cells[i].ranking;
     if (!ranking) continue;
-    for (const RankedEstimator* one : ranking->told_apart()) {
+    for (const RankedEstimator* one : ranking->standing(Standing::worse)) {
       const double best = std::abs(ranking->best().summary.moments.mean);
       const double share = best > 0.0 ? std::abs(one->difference->mean) / best : 0.0;
       Worst& entry = worst[one->name];
@@ -57,33 +57,67 @@ void add_worse(const StudyResults& results, StudyVerdict& verdict) {
   }
 }
 
+// In how many cells each is equivalent to another that is the best.
+void add_equivalent(const StudyResults& results, StudyVerdict& verdict) {
+  std::map<std::string, std::size_t> cells;
+  for (const CellVerdict& cell : verdict.cells) {
+    if (!cell.ranking) continue;
+    for (const RankedEstimator* one : cell.ranking->standing(Standing::equivalent)) {
+      ++cells[one->name];
+    }
+  }
+  if (cells.empty()) return;
+  std::vector<std::string> parts;
+  parts.reserve(cells.size());
+  for (const auto& [name, count] : cells) {
+    parts.push_back(name + " in " + of_cells(count, results.cells.size()));
+  }
+  verdict.answer.push_back("Equivalent to the best: " + listed(parts) + ".");
+}
+
 void add_answer(const StudyResults& results, StudyVerdict& verdict) {
   const std::size_t all = results.cells.size();
   if (!verdict.metric) {
     verdict.answer = {"Not ranked: no metric of this study that says which is better has a value."};
     return;
   }
-  std::size_t alike = 0;
   std::size_t compared = 0;
-  for (const CellVerdict& cell : verdict.cells) {
+  std::size_t decided = 0;
+  std::size_t differing = 0;
+  std::size_t most_needed = 0;
+  for (std::size_t i = 0; i < all; ++i) {
+    const auto& ranking = verdict.cells[i].ranking;
     const bool has_interval =
-        cell.ranking && std::ranges::any_of(cell.ranking->estimators, [](const auto& one) {
+        ranking && std::ranges::any_of(ranking->estimators, [](const auto& one) {
           return one.difference && one.difference->interval;
         });
-    compared += has_interval ? 1 : 0;
-    alike += has_interval && cell.ranking->told_apart().empty() ? 1 : 0;
+    if (!has_interval) continue;
+    ++compared;
+    decided += ranking->gives_verdict() ? 1 : 0;
+    differing += ranking->standing(Standing::worse).empty() ? 0 : 1;
+    if (!ranking->gives_verdict()) most_needed = std::max(most_needed, ranking->fewest_draws);
   }
   const std::string label = described(*verdict.metric).label;
   if (compared == 0) {
     verdict.answer.push_back("Estimators are ranked by " + label +
                              ", but no cell has an interval of a difference.");
-  } else if (alike > 0) {
-    verdict.answer.push_back(fmt::format(
-        "In {} no estimator can be told apart from the best by {}.", of_cells(alike, all), label));
-  } else {
-    verdict.answer.push_back(fmt::format("By {} the best is told apart from another in {}.", label,
-                                         of_cells(compared, all)));
+    return;
   }
+  if (decided > 0) {
+    verdict.answer.push_back(differing == 0
+                                 ? fmt::format("In {} no estimator is shown to be worse than the "
+                                               "best by {}.",
+                                               of_cells(decided, all), label)
+                                 : fmt::format("By {} an estimator is worse than the best in {}.",
+                                               label, of_cells(differing, all)));
+  }
+  if (decided < compared) {
+    verdict.answer.push_back(fmt::format(
+        "No verdict in {}: no difference can be shown with so few surveys, or trials of "
+        "drawn measurements; up to {} are needed.",
+        of_cells(compared - decided, all), most_needed));
+  }
+  add_equivalent(results, verdict);
   add_worse(results, verdict);
 }
 
@@ -176,18 +210,16 @@ void add_doubts(StudyVerdict& verdict) {
   }
 }
 
-std::string rule_of(const StudyVerdict& verdict) {
-  std::size_t most = 0;
-  for (const CellVerdict& cell : verdict.cells) {
-    if (cell.ranking) most = std::max(most, cell.ranking->told_apart().size());
-    if (cell.ranking) most = std::max(most, cell.ranking->estimators.size() - 1);
-  }
-  if (most == 0) return "";
-  std::string text =
-      "Told apart: the interval of the paired difference to the best mean excludes 0";
-  if (most == 1) return text + " (95 %).";
-  return text + ". The intervals of " + (verdict.cells.size() > 1 ? "a cell" : "all differences") +
-         " hold together with 95 %.";
+std::string rule_of(const StudyVerdict& verdict, double margin) {
+  const bool is_given = std::ranges::any_of(verdict.cells, [](const CellVerdict& cell) {
+    return cell.ranking && cell.ranking->estimators.size() > 1 && cell.ranking->gives_verdict();
+  });
+  if (!is_given) return "";
+  return fmt::format(
+      "Worse: p of the signed-rank test, adjusted over all pairs of a cell, is below 0.05, and the "
+      "difference is more than {} % of the best (report.margin). Equivalent: its interval lies "
+      "within that. The intervals of a cell hold together with 95 %.",
+      format_number(100.0 * margin, 3));
 }
 
 }  // namespace
@@ -199,7 +231,7 @@ StudyVerdict study_verdict(const StudyResults& results) {
   for (const CellResults& cell : results.cells) {
     verdict.cells.push_back(cell_verdict(cell, results.study, verdict.metric, verdict.cost));
   }
-  verdict.rule = rule_of(verdict);
+  verdict.rule = rule_of(verdict, results.study.margin);
   if (verdict.cells.size() == 1) {
     const CellVerdict& only = verdict.cells.front();
     verdict.answer = only.answer;

@@ -115,6 +115,8 @@ std::string checksum_of(const StudyDescription& study) {
   Hash hash;
   hash.add(study.title).add(study.alignment).add(study.surveys).add(study.trials);
   hash.add(joined(study.metrics, " "));
+  // Stores without a margin have the default.
+  if (study.margin != StudyDescription().margin) hash.add(exact(study.margin));
   for (const StudyAxis& axis : study.axes) {
     hash.add(axis.name).add(axis.key);
     for (const std::string& label : axis.labels) hash.add(label);
@@ -160,6 +162,7 @@ StudyDescription stored_study(SQLite::Database& database) {
   study.alignment = study_word(database, "alignment");
   const std::string metrics = study_word(database, "metrics");
   for (const auto metric : split(metrics, " ")) study.metrics.emplace_back(metric);
+  study.margin = parse_real(study_word(database, "margin")).value_or(study.margin);
   study.surveys = study_count(database, "surveys");
   study.trials = study_count(database, "trials");
   SQLite::Statement axes(database, "SELECT name, key FROM axis ORDER BY axis");
@@ -196,6 +199,7 @@ void create_schema(SQLite::Database& database, const StudyDescription& study) {
                {{"title", study.title},
                 {"alignment", study.alignment},
                 {"metrics", joined(study.metrics, " ")},
+                {"margin", exact(study.margin)},
                 {"surveys", std::to_string(study.surveys)},
                 {"trials", std::to_string(study.trials)},
                 {"checksum", ""}});
@@ -218,6 +222,8 @@ void update_study(SQLite::Database& database, const StudyDescription& study) {
   SQLite::Statement update(database, "UPDATE study SET value = ? WHERE key = ?");
   run_with(update, study.title, std::string("title"));
   run_with(update, joined(study.metrics, " "), std::string("metrics"));
+  SQLite::Statement margin(database, "INSERT OR REPLACE INTO study VALUES ('margin', ?)");
+  run_with(margin, exact(study.margin));
   run_with(update, std::to_string(surveys), std::string("surveys"));
   run_with(update, std::to_string(trials), std::string("trials"));
   update_labels(database, study);

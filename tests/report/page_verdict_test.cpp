@@ -14,12 +14,15 @@ using ::testing::HasSubstr;
 
 // The fixture's first estimator is the best by far; of the last cell one failed and is not ranked.
 TEST(PageVerdict, HasTheVerdictAndTheRankings) {
-  const Json data = data_of({});
+  FixtureOptions options;
+  options.data_set = "simulated_log";
+  options.trials = 8;
+  const Json data = data_of(options);
   EXPECT_EQ(data["verdict"]["metric"], "mean_position_error_m");
   EXPECT_THAT(data["verdict"]["answer"].dump(), HasSubstr("graph is worse in"));
   EXPECT_THAT(
       data["verdict"]["failed"].dump(),
-      HasSubstr("a&b_<c>% failed in 2 of 36 runs, in 1 of 6 cells, where it is not ranked."));
+      HasSubstr("a&b_<c>% failed in 2 of 48 runs, in 1 of 6 cells, where it is not ranked."));
   const Json& rankings = data["cells"][0]["rankings"];
   EXPECT_FALSE(rankings.contains("anees"));
   const Json& ranking = rankings["mean_position_error_m"];
@@ -34,8 +37,12 @@ TEST(PageVerdict, HasTheVerdictAndTheRankings) {
       return entry["metrics"]["mean_position_error_m"]["mean"].get<double>();
     };
     EXPECT_NEAR(other["mean"], mean(one) - mean(estimators[1]), 1e-5);
-    EXPECT_EQ(other["standing"], other["low"] > 0.0 ? "worse" : "alike");
+    EXPECT_EQ(other["standing"], other["p"] < 0.05 ? "worse" : "not_shown");
   }
+  const Json of_one_survey = data_of({});
+  EXPECT_THAT(of_one_survey["verdict"]["answer"].dump(), HasSubstr("No verdict in all 6 cells"));
+  EXPECT_EQ(of_one_survey["cells"][0]["rankings"]["mean_position_error_m"]["others"][1]["standing"],
+            "not_shown");
   EXPECT_EQ(data["cells"][5]["rankings"]["mean_position_error_m"]["others"].size(), 1u);
   EXPECT_THAT(data["cells"][5]["verdict"]["failed"].dump(), HasSubstr("and is not ranked"));
 }

@@ -64,6 +64,7 @@ struct StudyOptions {
   SpoilOptions false_loops;  ///< share 0: none
   MetricOptions evaluation;
   bool newest_covariance = true;
+  double margin = 0.01;  ///< of equivalence, as a share of the best mean
   std::vector<std::string> metrics{"mean_position_error_m",
                                    "ate_rmse_m",
                                    "heading_rmse_rad",

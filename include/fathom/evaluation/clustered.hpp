@@ -30,10 +30,8 @@ double clustered_mean(const ClusteredValues& values);
 /// the replicates have the variance of the surveys' means over their number, or that of the trials
 /// within them where this is more.
 ///
-/// Surveys are few, and a bootstrap over few values is too narrow. Both ends are therefore moved
-/// away from the mean by t / z · √(S / (S − 1)), with the quantiles of Student's t of S − 1 degrees
-/// of freedom and of the normal distribution: of normal means the interval is then Student's
-/// (Hesterberg, *What teachers should know about the bootstrap*, 2015).
+/// Both ends are moved away from the mean as those of `bootstrap_interval`, by the number of
+/// surveys.
 ///
 /// Of a single survey it is `bootstrap_interval` of its trials. Nothing of fewer than two values.
 /// Throws InputError as that function does.

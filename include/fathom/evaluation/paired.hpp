@@ -43,4 +43,7 @@ std::optional<PairedDifference> paired_difference(std::span<const double> a,
 std::optional<PairedDifference> difference_over_surveys(const ClusteredValues& differences,
                                                         const BootstrapOptions& options = {});
 
+/// The signed-rank test of it alone. Nothing without differences.
+std::optional<SignedRankTest> test_over_surveys(const ClusteredValues& differences);
+
 }  // namespace fathom

@@ -7,7 +7,7 @@ const charts = [
     exists: (cell) => cell.estimators.some((one) => one.metrics[state.metric]),
     caption: (cell) => {
       const intervals = cell.n > 1 ? 'Mean with its 95 % interval. ' : 'The values of one trial. ';
-      const marks = cell.n > 1 && cell.rankings[state.metric] ? ' Dashed line: the best. Hollow: told apart from it.' : '';
+      const marks = cell.n > 1 && cell.rankings[state.metric] ? ' Dashed line: the best. Hollow: worse.' : '';
       return `${intervals}${sentence(conditions(cell))}.${marks}`;
     }},
   {id: 'trajectories', title: 'Trajectories', wide: () => !mapIsTall(), plots: trajectoryPlots,

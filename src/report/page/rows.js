@@ -131,7 +131,7 @@ function trajectoryRows(cell) {
   return {...rows, ...markRows(cell)};
 }
 
-// One row an estimator that has the metric; those told apart from the best are said.
+// One row an estimator that has the metric; those that are worse than the best are said.
 function forestRows(cell) {
   const ranking = cell.rankings[state.metric];
   return cell.estimators.filter((one) => one.metrics[state.metric]).map((one) => {
@@ -143,8 +143,8 @@ function forestRows(cell) {
   });
 }
 
-// Beside the best of a cell: 'best', 'alike' where it cannot be told apart, 'worse'; empty where it
-// is not ranked or has no interval.
+// Beside the best of a cell: 'best', 'equivalent', 'worse' or 'not_shown'; empty where it is not
+// ranked or has no interval.
 function standingOf(ranking, name) {
   if (!ranking) return '';
   if (ranking.best === name) return 'best';
