@@ -34,7 +34,7 @@ done
 if [[ $build == yes ]]; then
   [[ -f build/release/build.ninja ]] || cmake --preset release
   cmake --build --preset release --parallel "$(nproc)" --target \
-    fathom back_ends wrong_loops registration_benchmark back_ends_benchmark front_end_benchmark \
+    fathom back_ends wrong_loops study_errors registration_benchmark back_ends_benchmark front_end_benchmark \
     incremental_benchmark long_survey_benchmark shared_errors_benchmark survey_benchmark \
     trajectory_iekf_benchmark
 fi

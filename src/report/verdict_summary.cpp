@@ -113,9 +113,9 @@ void add_answer(const StudyResults& results, StudyVerdict& verdict) {
   }
   if (decided < compared) {
     verdict.answer.push_back(fmt::format(
-        "No verdict in {}: no difference can be shown with so few surveys, or trials of "
+        "No verdict by {} in {}: no difference can be shown with so few surveys, or trials of "
         "drawn measurements; up to {} are needed.",
-        of_cells(compared - decided, all), most_needed));
+        label, of_cells(compared - decided, all), most_needed));
   }
   add_equivalent(results, verdict);
   add_worse(results, verdict);

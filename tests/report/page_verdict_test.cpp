@@ -40,7 +40,8 @@ TEST(PageVerdict, HasTheVerdictAndTheRankings) {
     EXPECT_EQ(other["standing"], other["p"] < 0.05 ? "worse" : "not_shown");
   }
   const Json of_one_survey = data_of({});
-  EXPECT_THAT(of_one_survey["verdict"]["answer"].dump(), HasSubstr("No verdict in all 6 cells"));
+  EXPECT_THAT(of_one_survey["verdict"]["answer"].dump(),
+              HasSubstr("No verdict by mean position error in all 6 cells"));
   EXPECT_EQ(of_one_survey["cells"][0]["rankings"]["mean_position_error_m"]["others"][1]["standing"],
             "not_shown");
   EXPECT_EQ(data["cells"][5]["rankings"]["mean_position_error_m"]["others"].size(), 1u);
