@@ -66,5 +66,5 @@ def quickstart(work):
     end = next(i for i in range(first, len(lines)) if not lines[i].strip())
     verdict = lines.index("Verdict")
     shown = [*lines[:end], "",
-             *(line for line in lines[verdict:] if not line.startswith("Told apart:"))]
+             *(line for line in lines[verdict:] if not line.startswith("Worse: p of"))]
     return fenced("\n".join(line.rstrip() for line in shown).rstrip())

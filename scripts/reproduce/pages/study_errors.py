@@ -5,7 +5,7 @@ from maker import maker
 from markdown import tables_of
 
 PAGE = "docs/studies.md"
-REPEATS = 1000
+REPEATS = 400
 HOW = f"`build/release/study_errors --repeats {REPEATS}`"
 BENCH = dict(programs=("study_errors",))
 
