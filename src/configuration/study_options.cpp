@@ -91,6 +91,11 @@ void StudyOptions::describe(OptionTable& table) {
                 "keyframes held in turn (anchored_anees)");
   table.integer("evaluation.relative_pairs", evaluation.relative_pairs, Range::between(1, 1000), "",
                 "motions over each separation or distance, and keyframes for each anchor, at most");
+  table.real("evaluation.held_out_loops", evaluation.held_out_loops, Range::between(0.0, 0.5), "",
+             "share of the loops left out of a second run of every estimator and compared with its "
+             "estimate; 0: no second run");
+  table.integer("evaluation.held_out_pairs", evaluation.held_out_pairs, Range::between(1, 10000),
+                "", "held-out loops that held_out_nis is over, at most");
   table.boolean("evaluation.newest_covariance", newest_covariance,
                 "ask for the covariance of the newest pose after every keyframe, and time it");
   table.real("evaluation.min_overlap", evaluation.recalled_overlap, Range::between(0.01, 1.0), "",
