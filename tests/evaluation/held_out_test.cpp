@@ -3,13 +3,13 @@
 #include "fathom/evaluation/held_out.hpp"
 
 #include <cmath>
-#include <limits>
 
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 
 #include "evaluation/example_run.hpp"
 #include "fathom/core/input_error.hpp"
+#include "support/numbers.hpp"
 
 namespace fathom {
 namespace {
@@ -77,10 +77,9 @@ TEST(HeldOut, OfSomeLoopsAloneTheNisIsTested) {
 }
 
 TEST(HeldOut, WhatIsNotKnownIsAbsent) {
-  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   EXPECT_FALSE(held_out_errors({}));
   HeldOutLoops held_out = two_loops();
-  held_out.covariances[0](0, 0) = kNaN;
+  held_out.covariances[0](0, 0) = test::kNaN;
   EXPECT_FALSE(held_out_errors(held_out)->mean_nis);
   held_out = two_loops();
   held_out.covariances[0] = -full_covariance(0.03);
@@ -88,7 +87,7 @@ TEST(HeldOut, WhatIsNotKnownIsAbsent) {
   held_out.covariances.pop_back();
   EXPECT_THROW(held_out_errors(held_out), InputError);
   held_out = two_loops();
-  held_out.estimate[0].y = kNaN;
+  held_out.estimate[0].y = test::kNaN;
   EXPECT_FALSE(held_out_errors(held_out));
 }
 

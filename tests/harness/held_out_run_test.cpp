@@ -25,8 +25,6 @@ using test::metrics_of;
 using test::Script;
 using ::testing::ElementsAre;
 
-constexpr MetricOptions kMetrics{};
-
 // The square with full covariances, its loops off by some of their standard deviations, one of them
 // written from its later end, and headings that pass ±π on the way.
 Recording noisy_square() {
@@ -63,7 +61,7 @@ Result held_out_result(const Recording& recording, const std::string& name,
 
 TEST(HeldOutRun, IsLeastSquaresWithoutThem) {
   const Recording recording = noisy_square();
-  const auto loops = held_out_loops(recording, kMetrics)->loops;
+  const auto loops = held_out_loops(recording, MetricOptions())->loops;
   ASSERT_EQ(loops.size(), 2u);
   MeasurementLog rest(recording.log.origin());
   for (std::size_t k = 1; k < recording.log.size(); ++k) {
@@ -126,7 +124,8 @@ TEST(HeldOutRun, DeadReckoningIsHeldAgainstTheSameLoops) {
   }
   const ByHand by_hand(steps);
   double nis = 0.0;
-  for (const RelativePose& z : held_out_loops(recording, kMetrics)->loops) {
+  const auto loops = held_out_loops(recording, MetricOptions())->loops;
+  for (const RelativePose& z : loops) {
     nis += 0.5 * by_hand.nis(z);
   }
   const Metrics metrics = dead_reckoning_metrics(recording, {});

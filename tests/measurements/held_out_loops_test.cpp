@@ -41,6 +41,7 @@ MeasurementLog chain(std::size_t keyframes, std::size_t hole_before = 0) {
 Pairs pairs_of(const std::vector<RelativePose>& loops) {
   Pairs pairs;
   for (const RelativePose& z : loops) pairs.emplace_back(std::minmax(z.from, z.to));
+  std::ranges::sort(pairs);
   return pairs;
 }
 
