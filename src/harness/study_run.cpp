@@ -12,7 +12,6 @@
 #include "fathom/harness/recording.hpp"
 #include "fathom/harness/survey.hpp"
 #include "fathom/results/run_index.hpp"
-#include "held_out_run.hpp"
 #include "recorded_trial.hpp"
 #include "run_record.hpp"
 #include "study_data_sets.hpp"
@@ -125,11 +124,8 @@ class Runner {
     const Configuration& configuration = study_.cells[task.cell];
     std::shared_ptr<const Recorder> recorder = data_sets_.of(task.cell, task.survey);
     const auto record_by = [&](const CandidateReference& reference) {
-      const auto progress = watch_.over_front_end(data_sets_.shared(task.cell, task.survey));
-      Recording recording =
-          recorder->record(configuration, reference, registry_, noise_of(task), progress);
-      hold_out(recording, configuration.study.evaluation, noise_of(task));
-      return RecordedTrial(std::move(recording));
+      return record_trial(*recorder, configuration, reference, registry_, noise_of(task),
+                          watch_.over_front_end(data_sets_.shared(task.cell, task.survey)));
     };
     const auto judge_by_facts = [&](RecordedTrial& trial) {
       if (!task.estimators.empty()) trial.facts = study_facts(*trial.recording, registry_);
