@@ -197,8 +197,7 @@ Configuration configure(const Settings& settings, ConfigurationKind kind,
   check_origin(settings, configuration.origin);
   check_study(settings, configuration.study, entry, *data_set);
   std::vector<IgnoredKey> ignored = ignored_keys(configuration, *data_set);
-  std::ranges::copy(ignored_of_false_loops(settings, configuration.study.false_loops),
-                    std::back_inserter(ignored));
+  std::ranges::copy(ignored_study_keys(settings, configuration.study), std::back_inserter(ignored));
   unused = unused_settings(settings, ignored, table);
   add_unused_references(settings, configuration, unused);
   configure_estimators(configuration, settings, kind, registry);

@@ -64,6 +64,20 @@ void check_repeats(const Settings& settings, const StudyOptions& study,
           study.surveys, study.trials, static_cast<int>(kMostRuns)));
 }
 
+// A share of 0 that is given may be one of several: a sweep begins without false loops and keeps
+// the rest.
+std::vector<IgnoredKey> ignored_of_false_loops(const Settings& settings,
+                                               const SpoilOptions& options) {
+  std::vector<IgnoredKey> ignored;
+  if (settings.find(std::string(kFalseLoops) + ".share") == nullptr) {
+    ignored = {{"kind", "share"}, {"group_size", "share"}, {"reach", "share"}};
+  } else {
+    if (options.kind != FalseLoopKind::grouped) ignored.push_back({"group_size", "kind"});
+    if (options.kind != FalseLoopKind::local) ignored.push_back({"reach", "kind"});
+  }
+  return below(kFalseLoops, ignored);
+}
+
 }  // namespace
 
 void StudyOptions::describe_session(OptionTable& table) {
@@ -93,6 +107,11 @@ void StudyOptions::describe(OptionTable& table) {
                 "keyframes held in turn (anchored_anees)");
   table.integer("evaluation.relative_pairs", evaluation.relative_pairs, Range::between(1, 1000), "",
                 "motions over each separation or distance, and keyframes for each anchor, at most");
+  table.real("evaluation.held_out_loops", evaluation.held_out_loops, Range::between(0.0, 0.5), "",
+             "share of the loops left out of a second run of every estimator and compared with its "
+             "estimate; 0: no second run");
+  table.integer("evaluation.held_out_pairs", evaluation.held_out_pairs, Range::between(1, 10000),
+                "", "held-out loops that held_out_nis is over, at most");
   table.boolean("evaluation.newest_covariance", newest_covariance,
                 "ask for the covariance of the newest pose after every keyframe, and time it");
   table.real("evaluation.min_overlap", evaluation.recalled_overlap, Range::between(0.01, 1.0), "",
@@ -112,18 +131,12 @@ bool is_session_key(const std::string& key) {
   return std::ranges::find(described, key) != described.end();
 }
 
-// A share of 0 that is given may be one of several: a sweep begins without false loops and keeps
-// the rest.
-std::vector<IgnoredKey> ignored_of_false_loops(const Settings& settings,
-                                               const SpoilOptions& options) {
-  std::vector<IgnoredKey> ignored;
-  if (settings.find(std::string(kFalseLoops) + ".share") == nullptr) {
-    ignored = {{"kind", "share"}, {"group_size", "share"}, {"reach", "share"}};
-  } else {
-    if (options.kind != FalseLoopKind::grouped) ignored.push_back({"group_size", "kind"});
-    if (options.kind != FalseLoopKind::local) ignored.push_back({"reach", "kind"});
+std::vector<IgnoredKey> ignored_study_keys(const Settings& settings, const StudyOptions& study) {
+  std::vector<IgnoredKey> ignored = ignored_of_false_loops(settings, study.false_loops);
+  if (study.evaluation.held_out_loops == 0.0) {
+    ignored.push_back({"evaluation.held_out_pairs", "evaluation.held_out_loops"});
   }
-  return below(kFalseLoops, ignored);
+  return ignored;
 }
 
 void check_study(const Settings& settings, const StudyOptions& study, const DataSetEntry& data_set,

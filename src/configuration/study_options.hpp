@@ -14,9 +14,8 @@ bool is_study_key(const std::string& key);
 /// Whether no result depends on it: the number of surveys, trials and jobs, and the report.
 bool is_session_key(const std::string& key);
 
-/// Options of false loops, with their group, that say nothing beside the others.
-std::vector<IgnoredKey> ignored_of_false_loops(const Settings& settings,
-                                               const SpoilOptions& options);
+/// Keys of a comparison that say nothing beside the others.
+std::vector<IgnoredKey> ignored_study_keys(const Settings& settings, const StudyOptions& study);
 
 /// What no single option's bounds can say. Throws InputError.
 void check_study(const Settings& settings, const StudyOptions& study, const DataSetEntry& data_set,

@@ -5,7 +5,8 @@
 namespace fathom {
 
 JudgedRun judge(RunFacts facts) {
-  JudgedRun run{std::move(facts), std::nullopt, std::nullopt, std::nullopt};
+  JudgedRun run{std::move(facts), std::nullopt, std::nullopt, std::nullopt, std::nullopt};
+  if (run.facts.held_out != nullptr) run.held_out = held_out_errors(*run.facts.held_out);
   if (!run.facts.ground_truth) return run;
   const std::span<const Pose> truth = *run.facts.ground_truth;
   run.accuracy = accuracy(run.facts.estimate, truth, run.facts.options.alignment);

@@ -16,17 +16,16 @@ std::vector<double> path_lengths_m(std::span<const Pose> poses) {
   return lengths;
 }
 
-// `count` places at most among 0 … size − 1, both ends among them.
-std::vector<std::size_t> evenly_spaced(std::size_t size, std::size_t count) {
+}  // namespace
+
+std::vector<std::size_t> evenly_spaced(std::size_t count, std::size_t most) {
   std::vector<std::size_t> places;
-  count = std::min(count, size);
-  for (std::size_t i = 0; i < count; ++i) {
-    places.push_back(count == 1 ? 0 : (i * (size - 1) + (count - 1) / 2) / (count - 1));
+  const std::size_t some = std::min(most, count);
+  for (std::size_t i = 0; i < some; ++i) {
+    places.push_back(some == 1 ? 0 : (i * (count - 1) + (some - 1) / 2) / (some - 1));
   }
   return places;
 }
-
-}  // namespace
 
 std::vector<KeyframePair> pairs_over_keyframes(std::size_t keyframes, std::size_t separation) {
   std::vector<KeyframePair> pairs;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "fathom/harness/recording.hpp"
+#include "held_out_run.hpp"
 #include "run_record.hpp"
 
 namespace fathom {
@@ -28,5 +29,15 @@ struct RecordedTrial {
   using Clock = std::chrono::steady_clock;
   Clock::time_point last_ = Clock::now();
 };
+
+/// As of Recorder::record, with the loops that second runs are not given.
+inline RecordedTrial record_trial(const Recorder& recorder, const Configuration& configuration,
+                                  const CandidateReference& reference,
+                                  const EstimatorRegistry& registry, const TrialNoise& noise,
+                                  const FrontEndProgressCallback& progress) {
+  Recording recording = recorder.record(configuration, reference, registry, noise, progress);
+  hold_out(recording, configuration.study.evaluation, noise);
+  return RecordedTrial(std::move(recording));
+}
 
 }  // namespace fathom

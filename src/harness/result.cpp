@@ -6,6 +6,7 @@
 #include "fathom/harness/isolated_replay.hpp"
 #include "fathom/harness/recording_facts.hpp"
 #include "fathom/harness/run_folder.hpp"
+#include "held_out_run.hpp"
 
 namespace fathom {
 namespace {
@@ -50,23 +51,42 @@ RunFacts facts_of(const Recording& recording, const MeasurementLog& log,
   return facts;
 }
 
-// Dead reckoning's steps are independent, so a motion is the composition of those between.
+// The covariance of ⊖X_from ⊕ X_to. Steps are independent, so a motion is the composition of those
+// between.
+Eigen::Matrix3d reckoned_covariance(const MeasurementLog& log, const KeyframePair& pair) {
+  const auto [first, last] = std::minmax(pair.from, pair.to);
+  std::vector<UncertainPose> steps;
+  for (std::size_t k = first + 1; k <= last; ++k) {
+    const RelativePose step = log.arrival(k).step.forward();
+    steps.push_back({step.motion, step.covariance()});
+  }
+  const UncertainPose motion = compose_chain(steps);
+  return pair.from < pair.to ? motion.covariance : inverse(motion).covariance;
+}
+
 std::vector<JudgedMotions> dead_reckoned_motions(const Recording& recording,
                                                  const MetricOptions& options) {
   if (!recording.ground_truth) return {};
   auto groups = motions_to_judge(*recording.ground_truth, options);
   for (JudgedMotions& motions : groups) {
-    for (const auto& [from, to] : motions.pairs) {
-      std::vector<UncertainPose> steps;
-      for (std::size_t k = std::min(from, to) + 1; k <= std::max(from, to); ++k) {
-        const RelativePose step = recording.log.arrival(k).step.forward();
-        steps.push_back({step.motion, step.covariance()});
-      }
-      const UncertainPose motion = compose_chain(steps);
-      motions.covariances.push_back(from < to ? motion.covariance : inverse(motion).covariance);
+    for (const KeyframePair& pair : motions.pairs) {
+      motions.covariances.push_back(reckoned_covariance(recording.log, pair));
     }
   }
   return groups;
+}
+
+// Dead reckoning is made without loops as it is.
+std::optional<HeldOutLoops> reckoned_held_out(const Recording& recording,
+                                              const std::vector<Pose>& odometry,
+                                              const MetricOptions& options) {
+  auto held_out = held_out_loops(recording, options);
+  if (!held_out) return std::nullopt;
+  held_out->estimate = odometry;
+  for (const KeyframePair& pair : tested_pairs(*held_out)) {
+    held_out->covariances.push_back(reckoned_covariance(recording.log, pair));
+  }
+  return held_out;
 }
 
 std::vector<Eigen::Matrix3d> reckoned_covariances(const MeasurementLog& log, UncertainPose pose) {
@@ -99,7 +119,7 @@ EvaluationOptions asked_of(const Recording& recording, const JudgeOptions& judgi
 
 // Metrics, accuracy and consistency of a result that has its replay.
 void judge_replay(Result& result, const Recording& recording, const EstimatorRegistry& registry,
-                  const JudgeOptions& judging) {
+                  const JudgeOptions& judging, const HeldOutLoops* held_out = nullptr) {
   const std::vector<Pose>& estimate = result.run.trajectory;
   const JudgedFrames frames = judged_frames(recording, estimate);
   RunFacts facts = facts_of(recording, recording.log, estimate, frames, judging.metrics);
@@ -115,6 +135,7 @@ void judge_replay(Result& result, const Recording& recording, const EstimatorReg
   facts.motions = result.run.motions;
   facts.run = &result.run;
   if (!recording.is_false_loop.empty()) facts.is_false_loop = &recording.is_false_loop;
+  facts.held_out = held_out;
   JudgedRun judged = judge(std::move(facts));
   result.metrics = metric_values(judged);
   result.accuracy = judged.accuracy;
@@ -149,8 +170,17 @@ Result evaluate(const Recording& recording, const EstimatorConfiguration& estima
   result.estimator = estimator;
   result.mode = options.mode;
   result.options = judging.metrics;
-  result.run = replayed(recording.log, registry.find(estimator.type), estimator.values, asked);
-  judge_replay(result, recording, registry, judging);
+  const EstimatorEntry& entry = registry.find(estimator.type);
+  result.run = replayed(recording.log, entry, estimator.values, asked);
+  std::optional<HeldOutLoops> held_out;
+  // Who fails with all loops is not asked again.
+  if (result.is_done()) {
+    held_out =
+        held_out_run(recording, judging.metrics, options, [&](const auto& log, const auto& of) {
+          return replayed(log, entry, estimator.values, {of, options.isolation});
+        });
+  }
+  judge_replay(result, recording, registry, judging, held_out ? &*held_out : nullptr);
   return result;
 }
 
@@ -181,6 +211,8 @@ DeadReckoning judged_dead_reckoning(const Recording& recording, const MetricOpti
   facts.covariances = from_held;
   const std::vector<JudgedMotions> motions = dead_reckoned_motions(recording, options);
   facts.motions = motions;
+  const auto held_out = reckoned_held_out(recording, odometry, options);
+  if (held_out) facts.held_out = &*held_out;
   const JudgedRun judged = judge(std::move(facts));
   result.metrics = metric_values(judged);
   result.consistency = judged.consistency;

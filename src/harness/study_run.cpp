@@ -124,9 +124,8 @@ class Runner {
     const Configuration& configuration = study_.cells[task.cell];
     std::shared_ptr<const Recorder> recorder = data_sets_.of(task.cell, task.survey);
     const auto record_by = [&](const CandidateReference& reference) {
-      const auto progress = watch_.over_front_end(data_sets_.shared(task.cell, task.survey));
-      return RecordedTrial(
-          recorder->record(configuration, reference, registry_, noise_of(task), progress));
+      return record_trial(*recorder, configuration, reference, registry_, noise_of(task),
+                          watch_.over_front_end(data_sets_.shared(task.cell, task.survey)));
     };
     const auto judge_by_facts = [&](RecordedTrial& trial) {
       if (!task.estimators.empty()) trial.facts = study_facts(*trial.recording, registry_);

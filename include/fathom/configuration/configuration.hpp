@@ -70,6 +70,8 @@ struct StudyOptions {
                                    "heading_rmse_rad",
                                    "anees",
                                    "chi2_gap",
+                                   "held_out_position_error_m",
+                                   "held_out_nis",
                                    "loop_closures",
                                    "update_ms.median",
                                    "update_ms.p95",

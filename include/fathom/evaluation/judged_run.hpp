@@ -9,6 +9,7 @@
 
 #include "fathom/evaluation/accuracy.hpp"
 #include "fathom/evaluation/consistency.hpp"
+#include "fathom/evaluation/held_out.hpp"
 #include "fathom/evaluation/loop_truth.hpp"
 #include "fathom/evaluation/metric_options.hpp"
 #include "fathom/evaluation/relative_consistency.hpp"
@@ -37,6 +38,8 @@ struct RunFacts {
   const Run* run = nullptr;
   /// Of each registration, whether it is false; null where that is not known.
   const std::vector<bool>* is_false_loop = nullptr;
+  /// Of a second run; null where there was none, or it failed.
+  const HeldOutLoops* held_out = nullptr;
   MetricOptions options = {};
 };
 
@@ -47,6 +50,7 @@ struct JudgedRun {
   std::optional<Accuracy> accuracy;  ///< with ground truth alone
   std::optional<Consistency> consistency;
   std::optional<Accuracy> frame_accuracy;  ///< of the frames
+  std::optional<HeldOutErrors> held_out;   ///< with held-out loops alone
 };
 
 JudgedRun judge(RunFacts facts);

@@ -27,7 +27,11 @@ std::vector<KeyframePair> pairs_over_distance(std::span<const Pose> reference, d
 std::vector<KeyframePair> pairs_with_anchors(std::size_t keyframes, std::size_t anchors,
                                              std::size_t most);
 
-/// At most `most` ≥ 1 of them, evenly spaced, the first and, of more than one, the last among them.
+/// At most `most` ≥ 1 of the places 0 … count − 1, evenly spaced, the first and, of more than one,
+/// the last among them.
+std::vector<std::size_t> evenly_spaced(std::size_t count, std::size_t most);
+
+/// At most `most` of them, evenly_spaced.
 std::vector<KeyframePair> thinned(std::span<const KeyframePair> pairs, std::size_t most);
 
 }  // namespace fathom

@@ -15,6 +15,8 @@ struct MetricOptions {
   /// Motions over each of these, and keyframes for each anchor, at most: it keeps the joint
   /// covariances, 3 columns a keyframe, small.
   int relative_pairs = 20;
+  double held_out_loops = 0.1;    ///< share of the loops that a second run of a study is not given
+  int held_out_pairs = 200;       ///< of them, those that held_out_nis is over, at most
   double recalled_overlap = 0.3;  ///< true overlap from which on loop_recall counts a pair
 };
 

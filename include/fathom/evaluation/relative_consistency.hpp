@@ -17,7 +17,8 @@ namespace fathom {
 enum class MotionsOver {
   keyframes,   ///< so many keyframes
   distance_m,  ///< such a distance along the true path
-  anchors      ///< between anchors and all keyframes: so many anchors
+  anchors,     ///< between anchors and all keyframes: so many anchors
+  held_out     ///< of held-out loops (HeldOutLoops): so many
 };
 
 /// Estimated motions that are judged together, with the covariances that the estimator states.

@@ -46,6 +46,8 @@ struct Recording {
   std::vector<std::size_t> asked_covariances;
   /// By registration of the log, in order; empty where none was added, or it is not known.
   std::vector<bool> is_false_loop;
+  /// Likewise, whether a second run is not given it (draw_held_out); empty: there is no second run.
+  std::vector<bool> is_held_out;
   /// Standard deviations that the survey's own loops were asked for.
   std::vector<FoundSigma> found_sigmas;
   std::vector<std::string> remarks;  ///< on its pictures: what is masked, which repeat

@@ -13,6 +13,7 @@ const std::vector<Metric>& named_metrics() {
     std::vector<Metric> all = accuracy_metrics();
     append(all, consistency_metrics());
     append(all, honesty_metrics());
+    append(all, held_out_metrics());
     append(all, optimum_metrics());
     append(all, loop_metrics());
     append(all, absolute_metrics());

@@ -16,6 +16,7 @@ inline void append(std::vector<Metric>& all, const std::vector<Metric>& more) {
 std::vector<Metric> accuracy_metrics();
 std::vector<Metric> consistency_metrics();
 std::vector<Metric> honesty_metrics();
+std::vector<Metric> held_out_metrics();
 std::vector<Metric> loop_metrics();
 std::vector<Metric> absolute_metrics();
 std::vector<Metric> optimum_metrics();
