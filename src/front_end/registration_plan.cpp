@@ -10,22 +10,22 @@ namespace fathom {
 namespace {
 
 // Dead reckoning up to a keyframe: its variances of heading and its lengths add up.
-struct Reckoned {
+struct StepSums {
   double variance = 0.0;
   double way_m = 0.0;
   std::size_t holes = 0;
 };
 
-void add(const FrameInfo& frame, Reckoned& sum) {
+void add_step(const FrameInfo& frame, StepSums& sum) {
   sum.holes += frame.is_hole ? 1 : 0;
   sum.variance += frame.motion->covariance(2, 2);
   sum.way_m += frame.motion->mean.position().norm();
 }
 
 // The earliest candidate of a keyframe without a hole between is the one that it knows worst.
-void widen(const std::vector<Reckoned>& keyframes, const std::vector<std::size_t>& candidates,
+void widen(const std::vector<StepSums>& keyframes, const std::vector<std::size_t>& candidates,
            std::optional<ReckonedLoop>& widest) {
-  const Reckoned& newest = keyframes.back();
+  const StepSums& newest = keyframes.back();
   for (const std::size_t k : candidates) {
     if (keyframes[k].holes != newest.holes || k + 2 > keyframes.size() - 1) continue;
     const double sigma_rad = std::sqrt(newest.variance - keyframes[k].variance);
@@ -48,8 +48,8 @@ RegistrationPlan plan_registrations(const FrameSource& frames, const FrontEndOpt
   RegistrationPlan plan;
   GivenTrajectory trajectory;
   std::vector<Stance> stances;
-  std::vector<Reckoned> reckoned;
-  Reckoned sum;
+  std::vector<StepSums> reckoned;
+  StepSums sum;
   Pose pose;
   std::size_t frame = 0;
   while (const auto next = schedule.frame(trajectory.size())) {
@@ -57,7 +57,7 @@ RegistrationPlan plan_registrations(const FrameSource& frames, const FrontEndOpt
     const std::size_t frame_before = frame;
     for (; frame < *next; ++frame) {
       pose = compose(pose, frames.info(frame + 1).motion->mean);
-      add(frames.info(frame + 1), sum);
+      add_step(frames.info(frame + 1), sum);
     }
     if (trajectory.size() > 0) {
       plan.lengths.steps_m.push_back((pose.position() - before.position()).norm());

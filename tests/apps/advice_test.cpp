@@ -60,7 +60,7 @@ TEST_F(AdviceLine, OfASurveyItGoesByDeadReckoning) {
   EXPECT_THAT(fathom_done({"select", data_path("copr").string()}).out,
               AllOf(StartsWith("for this survey: sparse_gauss_newton, since dead reckoning leaves "
                                "a heading sigma of 0.258 rad over the 109 m between"),
-                    HasSubstr("beyond 0.5 rad")));
+                    HasSubstr("beyond 0.3 rad")));
 }
 
 }  // namespace

@@ -85,7 +85,7 @@ TEST(Advice, OfPoorHeadingsIsWhatFindsTheMinimum) {
     ++wrong;
     EXPECT_EQ(advice.estimator, "sparse_gauss_newton");
     EXPECT_GT(terms.most_turned.misfit_rad(), kMisfitOfWrongMinima_rad);
-    EXPECT_THAT(advice.since, AllOf(HasSubstr("beyond 0.5 rad, where wrong minima begin"),
+    EXPECT_THAT(advice.since, AllOf(HasSubstr("beyond 0.3 rad, where wrong minima begin"),
                                     HasSubstr("filters may end elsewhere")));
   }
   EXPECT_GT(wrong, 0) << "none of these trials shows what the rule is for";
@@ -111,12 +111,12 @@ TEST(Advice, WithoutLoops) {
 TEST(Advice, OfASurveyGoesByDeadReckoningAlone) {
   Outlook outlook;
   EXPECT_FALSE(advise(outlook));
-  outlook.widest = {0.2, 120.0};
+  outlook.widest = {0.1, 120.0};
   EXPECT_EQ(text_of(*advise(outlook), "survey"),
             "for this survey: incremental_smoother, since dead reckoning leaves a heading sigma of "
-            "0.2 rad over the 120 m between the keyframes of a loop; twice that is within 0.5 rad, "
+            "0.1 rad over the 120 m between the keyframes of a loop; twice that is within 0.3 rad, "
             "below which no wrong minimum was met");
-  outlook.widest = {0.3, 120.0};
+  outlook.widest = {0.2, 120.0};
   EXPECT_EQ(advise(outlook)->estimator, "sparse_gauss_newton");
 }
 

@@ -57,7 +57,9 @@ def judged(work, graph, name):
 
 
 def over(ratio):
-    """F over the least: a share below 2, else a factor."""
+    """F over the least: a share below 2, else a factor; infinite: a run that failed."""
+    if math.isinf(ratio):
+        return "failed"
     if ratio < 2:
         return f"+{significant(max(100 * (ratio - 1), 0), 2)} %" if ratio > 1 + 1e-6 else "least"
     return f"× {significant(ratio, 2)}" if ratio < 1e5 else f"× {ratio:.0e}"
@@ -118,7 +120,7 @@ def rule_position(work):
 
 # Drawn logs.
 STUDY = "configs/studies/which_back_end.yaml"
-LIMIT_RAD, LIMIT_SIGMA = 0.5, 1.0  # of include/fathom/harness/advice.hpp
+LIMIT_RAD, LIMIT_SIGMA = 0.3, 1.0  # of include/fathom/harness/advice.hpp
 MISSIONS = [(mission, reach) for mission in ("circuit", "legs", "streets") for reach in (1.2, 4)]
 DRAWN = RECORDED
 FILTERS = RECORDED[2:]
@@ -167,7 +169,7 @@ def rule_drawn(work):
         rows.append([mission, reach, len(logs), sum(_misfit(log) > LIMIT_RAD for log in logs),
                      len(wrong), significant(low), sum(_is_wrong(_picked(log)) for log in logs),
                      over(max((_f(_picked(log)) for log in logs), default=1.0))])
-    return table(["mission", "reach (m)", "logs with loops", "beyond 0.5 rad",
+    return table(["mission", "reach (m)", "logs with loops", "beyond 0.3 rad",
                   "`incremental_smoother` in a wrong minimum", "their least misfit (rad)",
                   "picked one in a wrong minimum", "F of the picked, worst"], rows)
 
