@@ -24,6 +24,10 @@ void print_warnings(const std::vector<std::string>& warnings) {
   for (const std::string& warning : warnings) std::printf("warning: %s\n", warning.c_str());
 }
 
+void print_advice(const std::string& advice) {
+  if (!advice.empty()) std::printf("%s\n", advice.c_str());
+}
+
 void refuse(const std::vector<std::string>& faults) {
   if (faults.empty()) return;
   for (std::size_t i = 0; i < std::min(faults.size(), kMostShown); ++i) {
@@ -47,6 +51,7 @@ void check_graph(const std::string& path, const EstimatorRegistry& registry,
         "  F            %.10g where a batch solve from odometry ends, %s per degree of freedom\n",
         *found.batch_chi2, format_number(found.scale->per_degree_of_freedom, 3).c_str());
   }
+  print_advice(found.advice);
   print_warnings(found.warnings);
 }
 
@@ -59,6 +64,7 @@ void check_folder(const std::string& path, const EstimatorRegistry& registry) {
   refuse(found.folder.faults);
   std::printf("what 'fathom run %s' will find\n", path.c_str());
   for (const std::string& fact : found.expected) std::printf("  %s\n", fact.c_str());
+  print_advice(found.advice);
   print_warnings(found.folder.warnings);
 }
 

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "apps/command.hpp"
+#include "fathom/core/input_error.hpp"
 #include "fathom/workflow/select.hpp"
 
 namespace fathom {
@@ -33,7 +34,24 @@ SelectionQuery query_of(const SelectFlags& flags) {
   return query;
 }
 
+// What is said of a study alone has no use without one.
+void refuse_flags_of_studies(const SelectFlags& flags) {
+  const bool asks = !flags.requirements.empty() || !flags.where.empty() ||
+                    !flags.minimise.empty() || !flags.maximise.empty() || !flags.out.empty() ||
+                    flags.allowed_failures > 0.0;
+  if (!asks) return;
+  throw InputError(flags.results,
+                   "is no study: of a log or a survey, select takes --quiet alone; 'fathom "
+                   "compare' runs a study");
+}
+
 void select(const SelectFlags& flags, Context& context) {
+  if (const auto advice = workflow::advice_for(flags.results)) {
+    refuse_flags_of_studies(flags);
+    context.status = kDone;
+    if (!flags.quiet) std::printf("%s\n", advice->c_str());
+    return;
+  }
   const workflow::SelectOutcome found =
       workflow::select({flags.results, query_of(flags), flags.out}, context.estimators());
   context.status = found.selection.chosen ? kDone : kFailed;
@@ -50,12 +68,15 @@ void select(const SelectFlags& flags, Context& context) {
 void add_select(CLI::App& program, Context& context) {
   auto flags = std::make_shared<SelectFlags>();
   Command command(
-      program, "select", "Name the back end that meets requirements, from a study",
+      program, "select", "Name the back end that meets requirements, or that suits a log",
       "Example: fathom select runs/study --require 'mean_position_error_m<=0.1'\n"
       "         --require 'update_ms.p95<=20' --minimise total_ms\n"
+      "         fathom select intel.g2o\n"
       "Exit status: 0 chosen, and selected.yaml for 'fathom run' written; 1 none meets; 2 bad "
       "input.");
-  command.argument("results", flags->results, "Folder of a study, or its results.sqlite");
+  command.argument(
+      "results", flags->results,
+      "Folder of a study, or its results.sqlite; or a pose graph, a run's folder, a survey");
   command.texts("--require", flags->requirements, "REQUIREMENT",
                 "METRIC <=, <, >= or > NUMBER, met where the 95 % interval of the mean does in "
                 "every cell (repeatable)");

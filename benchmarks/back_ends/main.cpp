@@ -20,6 +20,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 
@@ -73,6 +74,16 @@ Contender variant(const EstimatorRegistry& registry, const std::string& text) {
   return contender;
 }
 
+// A variant with the label of a row stands in its place.
+void put(Contender variant, std::vector<Contender>& contenders) {
+  const auto same = std::ranges::find(contenders, variant.label, &Contender::label);
+  if (same == contenders.end()) {
+    contenders.push_back(std::move(variant));
+  } else {
+    *same = std::move(variant);
+  }
+}
+
 std::vector<Contender> chosen(const EstimatorRegistry& registry, const Settings& settings) {
   std::vector<Contender> contenders;
   const auto add = [&](const EstimatorEntry& entry) {
@@ -84,7 +95,7 @@ std::vector<Contender> chosen(const EstimatorRegistry& registry, const Settings&
       if (!entry.runs_program) add(entry);
     }
   }
-  for (const std::string& text : settings.variants) contenders.push_back(variant(registry, text));
+  for (const std::string& text : settings.variants) put(variant(registry, text), contenders);
   for (const std::string& text : settings.batch_variants) {
     contenders.push_back(variant(registry, text));
     contenders.back().is_for_batch_alone = true;

@@ -15,7 +15,9 @@
 namespace fathom {
 
 struct TrajectoryIekfOptions {
-  int max_iterations = 10;
+  /// Measured (docs/which_back_end.md): with fewer a single long loop stays open, with more several
+  /// loops push each other off.
+  int max_iterations = 5;
   double tolerance = 1e-6;
   bool safeguard = false;
   /// Of the cost of leaving the state alone, or of 1: below it a χ² is good whatever it was. Plain

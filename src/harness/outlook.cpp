@@ -6,7 +6,6 @@
 
 #include "fathom/core/median.hpp"
 #include "fathom/core/text.hpp"
-#include "fathom/front_end/registration_plan.hpp"
 #include "fathom/vision/features.hpp"
 
 namespace fathom {
@@ -30,6 +29,7 @@ void count_candidates(const FrameSource& frames, const FrontEndOptions& options,
   RegistrationPlan plan = plan_registrations(frames, options);
   outlook.keyframes = plan.candidates.size();
   outlook.consecutive_candidates = plan.consecutive;
+  outlook.widest = plan.widest;
   outlook.other_candidates = plan.all_candidates() - plan.consecutive;
   if (outlook.keyframes > 1) {
     outlook.in_metres = in_metres(options, frames.camera(), std::move(plan.lengths));

@@ -47,7 +47,7 @@ std::optional<BatchOptimum> batch_optimum(const MeasurementLog& log,
 }
 
 RecordingFacts run_facts(const Recording& recording) {
-  return {true_overlaps(recording), std::nullopt, std::nullopt, ""};
+  return {true_overlaps(recording), std::nullopt, std::nullopt, std::nullopt, ""};
 }
 
 RecordingFacts study_facts(const Recording& recording, const EstimatorRegistry& registry) {
@@ -59,6 +59,7 @@ RecordingFacts study_facts(const Recording& recording, const EstimatorRegistry& 
     const auto optimum = batch_optimum(recording.log, registry, {}, RegistrationErrors::shared);
     if (optimum) facts.shared_chi2_optimum = optimum->chi2;
   }
+  facts.loop_terms = loop_terms(recording.log);
   facts.log_hash = hash_text(text_of(recording.log));
   return facts;
 }

@@ -129,6 +129,7 @@ void judge_replay(Result& result, const Recording& recording, const EstimatorReg
   }
   const RecordingFacts shared = judging.facts != nullptr ? *judging.facts : run_facts(recording);
   if (shared.true_overlaps) facts.true_overlaps = &*shared.true_overlaps;
+  if (shared.loop_terms) facts.loop_terms = &*shared.loop_terms;
   facts.chi2_optimum = least_known(shared.optimum(result.run.errors, recording.log), recording.log,
                                    estimate, registry, result.run.errors);
   if (result.run.covariances) facts.covariances = *result.run.covariances;

@@ -10,6 +10,7 @@
 #include "fathom/datasets/image_folder.hpp"
 #include "fathom/datasets/picture_folder.hpp"
 #include "fathom/datasets/sensor_summary.hpp"
+#include "fathom/harness/advice.hpp"
 #include "fathom/harness/outlook.hpp"
 #include "fathom/harness/recording.hpp"
 #include "fathom/harness/replay.hpp"
@@ -88,6 +89,7 @@ GraphCheck check_graph(const std::filesystem::path& path, const EstimatorRegistr
   checked.start_chi2 =
       chi2(log, checked.starts_from_odometry ? log.odometry() : connected_guess(log));
   check_information(log, registry, checked);
+  checked.advice = text_of(advise(loop_terms(log)));
   std::ranges::copy(graph_remarks(log), std::back_inserter(checked.warnings));
   if (graph.badly_conditioned > 0) {
     checked.warnings.push_back(counted(graph.badly_conditioned, "edge") +
@@ -123,6 +125,7 @@ SurveyCheck check_survey(const std::filesystem::path& path, const EstimatorRegis
   const FrontEndOptions front_end;
   const Outlook expected = outlook(folder, front_end);
   checked.expected = facts_of(expected);
+  if (const auto advice = advise(expected)) checked.advice = text_of(*advice, "survey");
   const CalibrateOutcome calibrated = calibrate({settings_of(path)}, registry, observer);
   std::ranges::copy(facts_of(calibrated.done.calibration), std::back_inserter(checked.expected));
   checked.folder.warnings.insert(checked.folder.warnings.begin(),

@@ -4,11 +4,16 @@
 
 #include "fathom/core/files.hpp"
 #include "fathom/core/input_error.hpp"
+#include "fathom/datasets/image_folder.hpp"
+#include "fathom/harness/advice.hpp"
+#include "fathom/harness/recording.hpp"
 #include "fathom/report/selection_text.hpp"
 #include "fathom/results/selected_config.hpp"
 
 namespace fathom::workflow {
 namespace {
+
+namespace fs = std::filesystem;
 
 constexpr const char* kConfigName = "selected.yaml";
 
@@ -31,6 +36,16 @@ std::filesystem::path write_config(const SelectRequest& request, const std::stri
     throw InputError(std::string(error.what()) + "; --out DIR says where " + kConfigName +
                      " may be written");
   }
+}
+
+// The pose graph that a path is, or that a run has left in its folder.
+std::optional<fs::path> graph_of(const fs::path& path) {
+  const std::string ending = path.extension().string();
+  const bool is_other = ending == ".sqlite" || ending == ".yaml" || ending == ".yml";
+  if (fs::is_regular_file(path)) return is_other ? std::nullopt : std::optional(path);
+  if (fs::exists(path / kResultsFile)) return std::nullopt;
+  const fs::path log = path / "measurements.g2o";
+  return fs::is_regular_file(log) ? std::optional(log) : std::nullopt;
 }
 
 // The registry has to know what was chosen.
@@ -60,6 +75,17 @@ SelectOutcome select(const SelectRequest& request, KnownEstimators& estimators) 
   }
   outcome.text = selection_text(outcome.selection, request.query, store.study());
   return outcome;
+}
+
+std::optional<std::string> advice_for(const fs::path& path) {
+  if (const auto graph = graph_of(path))
+    return text_of(advise(loop_terms(record_graph(*graph).log)));
+  if (!fs::is_directory(path / "mav0")) return std::nullopt;
+  const auto advice = advise(outlook(ImageFolder(path), FrontEndOptions{}));
+  if (advice) return text_of(*advice, "survey");
+  throw InputError(path.string(),
+                   "dead reckoning says of no loop how well its heading is known; 'fathom run' "
+                   "records a log, and select takes the folder of the run");
 }
 
 }  // namespace fathom::workflow

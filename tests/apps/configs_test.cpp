@@ -67,14 +67,26 @@ TEST_F(Configs, AreAllTestedHere) {
     studies.insert(entry.path().filename());
     fathom_done({"check", entry.path().string()});
   }
-  EXPECT_THAT(
-      studies,
-      ElementsAreArray(
-          {"attitude.yaml", "attitude_mounting.yaml", "compass.yaml", "false_loops_drawn.yaml",
-           "fixes.yaml", "holes.yaml", "long_survey.yaml", "paper_pool.yaml",
-           "paper_separation.yaml", "paper_simulated.yaml", "real_pictures.yaml", "regimes.yaml",
-           "regimes_survey.yaml", "shared_errors_altimeter.yaml", "shared_errors_drawn.yaml",
-           "shared_errors_models.yaml", "shared_errors_tilt.yaml", "wrong_loops.yaml"}));
+  EXPECT_THAT(studies, ElementsAreArray({"attitude.yaml",
+                                         "attitude_mounting.yaml",
+                                         "compass.yaml",
+                                         "false_loops_drawn.yaml",
+                                         "few_loops.yaml",
+                                         "fixes.yaml",
+                                         "holes.yaml",
+                                         "long_survey.yaml",
+                                         "paper_pool.yaml",
+                                         "paper_separation.yaml",
+                                         "paper_simulated.yaml",
+                                         "real_pictures.yaml",
+                                         "regimes.yaml",
+                                         "regimes_survey.yaml",
+                                         "shared_errors_altimeter.yaml",
+                                         "shared_errors_drawn.yaml",
+                                         "shared_errors_models.yaml",
+                                         "shared_errors_tilt.yaml",
+                                         "which_back_end.yaml",
+                                         "wrong_loops.yaml"}));
 }
 
 // Whatever a study sweeps, its camera and front end are those of its first cell.
@@ -171,6 +183,22 @@ TEST_F(Configs, RegimesRun) {
 TEST_F(Configs, RegimesSurveyRun) {
   expect_runs("compare", "studies/regimes_survey.yaml", {"trials=1"}, "ekf/metrics.json");
   EXPECT_EQ(ResultStore::open(path("out")).runs().size(), 24u * 11u);
+}
+
+TEST_F(Configs, TheRuleOfBackEndsRuns) {
+  expect_runs("compare", "studies/which_back_end.yaml",
+              {"trials=1", "dataset.mission.legs=3", "dataset.mission.leg_length_m=8",
+               "dataset.mission.loop_length_m=12", "dataset.mission.loop_overrun_m=3"},
+              "ekf/metrics.json");
+  EXPECT_EQ(ResultStore::open(path("out")).runs().size(), 36u * 8u);
+}
+
+// Too short to have any loop; the log of a study without one has no terms.
+TEST_F(Configs, FewLoopsRun) {
+  fathom_done({"compare", (folder() / "studies/few_loops.yaml").string(), "--set",
+               "dataset.mission.legs=2", "--set", "dataset.mission.leg_length_m=4", "--out", "out",
+               "--quiet"});
+  EXPECT_EQ(ResultStore::open(path("out")).runs().size(), 4u * 5u);
 }
 
 TEST_F(Configs, SharedErrorsOfTheAltimeterRun) {

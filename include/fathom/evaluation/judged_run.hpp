@@ -14,6 +14,7 @@
 #include "fathom/evaluation/metric_options.hpp"
 #include "fathom/evaluation/relative_consistency.hpp"
 #include "fathom/evaluation/run.hpp"
+#include "fathom/measurements/loop_terms.hpp"
 #include "fathom/measurements/measurement_log.hpp"
 
 namespace fathom {
@@ -31,6 +32,7 @@ struct RunFacts {
   const TrueOverlaps* true_overlaps = nullptr;
   /// F at the batch optimum of the log: the least that a batch solve reaches.
   std::optional<double> chi2_optimum = std::nullopt;
+  const LoopTerms* loop_terms = nullptr;  ///< of the log; null: not computed
   std::span<const Pose> estimate = {};
   std::optional<std::span<const Eigen::Matrix3d>> covariances = std::nullopt;  ///< of the estimate
   std::span<const JudgedMotions> motions = {};                                 ///< of the estimate

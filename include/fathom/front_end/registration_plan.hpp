@@ -11,6 +11,12 @@
 
 namespace fathom {
 
+/// Two keyframes that may close a loop, and what dead reckoning says of the heading between them.
+struct ReckonedLoop {
+  double sigma_rad = 0.0;
+  double way_m = 0.0;
+};
+
 /// What the front end will try on a survey, as far as dead reckoning tells before any picture is
 /// registered: with its poses for the estimate, and without covariances.
 struct RegistrationPlan {
@@ -18,6 +24,8 @@ struct RegistrationPlan {
   std::vector<std::size_t> candidates;
   std::size_t consecutive = 0;  ///< of all candidates, those one keyframe before
   KeyframeLengths lengths;
+  /// Of the pairs that are not consecutive, over no hole: the one whose heading is known worst.
+  std::optional<ReckonedLoop> widest;
   /// The pair that will be tried last, if there is one.
   std::optional<std::pair<MeasuredFrame, MeasuredFrame>> last_pair;
 

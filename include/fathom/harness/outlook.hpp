@@ -7,6 +7,7 @@
 
 #include "fathom/core/options.hpp"
 #include "fathom/front_end/front_end.hpp"
+#include "fathom/front_end/registration_plan.hpp"
 
 namespace fathom {
 
@@ -23,6 +24,7 @@ struct Outlook {
   /// others.
   std::size_t consecutive_candidates = 0;
   std::size_t other_candidates = 0;
+  std::optional<ReckonedLoop> widest;  ///< of the others, as RegistrationPlan::widest
   /// Features found in some pictures, by frame: few say that there is little to register.
   std::vector<std::pair<std::size_t, std::size_t>> features;
   std::vector<std::string> remarks;  ///< on what of the pictures is masked, and which repeat

@@ -8,6 +8,7 @@
 #include "fathom/estimation/registry.hpp"
 #include "fathom/evaluation/loop_truth.hpp"
 #include "fathom/harness/recording.hpp"
+#include "fathom/measurements/loop_terms.hpp"
 
 namespace fathom {
 
@@ -17,6 +18,7 @@ struct RecordingFacts {
   /// F at the batch_optimum; of a study alone.
   std::optional<double> chi2_optimum;
   std::optional<double> shared_chi2_optimum;  ///< shared_chi2 at its own
+  std::optional<LoopTerms> loop_terms;        ///< of a study alone
   std::string log_hash;                       ///< of the measurement log as text; of a study alone
 
   /// Of the F with these errors.

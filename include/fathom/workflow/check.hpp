@@ -20,6 +20,7 @@ struct GraphCheck {
   bool starts_from_odometry = true;
   std::optional<double> batch_chi2;  ///< F where a batch solve ends, if that tells of the scale
   std::optional<InformationScale> scale;
+  std::string advice;  ///< which back end suits it, a line
   std::vector<std::string> warnings;
 };
 
@@ -31,6 +32,7 @@ GraphCheck check_graph(const std::filesystem::path& path, const EstimatorRegistr
 struct SurveyCheck {
   FolderSummary folder;               ///< where it has faults, the rest is not known
   std::vector<std::string> expected;  ///< what the front end will find, in words
+  std::string advice;                 ///< which back end suits it, a line; empty: not known
 };
 
 /// Registers pairs of near pictures (calibrate), whose progress the observer hears. Throws

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "fathom/results/selection.hpp"
@@ -24,5 +25,10 @@ struct SelectOutcome {
 /// of it for `run`. Plug-ins that the study names are loaded where they have to be known. Throws
 /// InputError.
 SelectOutcome select(const SelectRequest& request, KnownEstimators& estimators);
+
+/// Without a study: which back end suits a pose graph, the log in a run's folder, or a survey in
+/// the EuRoC/ASL layout, a line (Advice). Nothing where the path is none of these, as a study's
+/// folder and its results are. Throws InputError.
+std::optional<std::string> advice_for(const std::filesystem::path& path);
 
 }  // namespace fathom::workflow

@@ -71,7 +71,8 @@ def holes(work):
 
 # Name in the table, estimator, settings.
 JUDGES = (("ekf_gate", "ekf", ("estimator.gate_probability=0.9999",)),
-          ("iekf_gate", "trajectory_iekf", ("estimator.gate_probability=0.9999",)),
+          ("iekf_gate", "trajectory_iekf",
+           ("estimator.gate_probability=0.9999", "estimator.max_iterations=10")),
           *((loss, GRAPH, (f"estimator.loss={loss}",))
             for loss in ("truncated", "dcs", "geman_mcclure")))
 JUMP_M = 20

@@ -29,6 +29,10 @@ VARIANTS = {
 }
 
 
+# The paper's filter, near convergence.
+TEN = ("--variant", "trajectory_iekf=trajectory_iekf max_iterations=10")
+
+
 def _of_others(work):
     """Arguments of back_ends for those that are built."""
     def built(path):
@@ -53,7 +57,7 @@ def _of_others(work):
 def costs(work, graph):
     """Tables of a graph: batch, incremental."""
     effort = work.size(["--repeats", 3, "--budget", 30], ["--repeats", 1, "--budget", 5])
-    return tables_of(work.output(f"back-ends-{graph}", "back_ends", work.graph(graph), *effort,
+    return tables_of(work.output(f"back-ends-{graph}", "back_ends", work.graph(graph), *effort, *TEN,
                                  *_of_others(work)))
 
 

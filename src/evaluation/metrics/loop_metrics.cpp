@@ -64,6 +64,28 @@ Value recall(const JudgedRun& run) {
                      run.facts.options.recalled_overlap);
 }
 
+// Where the log has a loop to tell it.
+template <class Term>
+auto of_loop_terms(Term term) {
+  return [term](const JudgedRun& run) -> Value {
+    const LoopTerms* terms = run.facts.loop_terms;
+    if (terms == nullptr || terms->loops == 0) return std::nullopt;
+    return term(*terms);
+  };
+}
+
+// What the choice of a back end goes by (docs/which_back_end.md).
+std::vector<Metric> term_metrics() {
+  return {
+      {"loop_misfit_rad", "heading misfit of loops", "rad", Better::neither,
+       "of the log: the most that a loop misses by before its update, against what was known",
+       of_loop_terms([](const LoopTerms& terms) { return terms.most_turned.misfit_rad(); })},
+      {"loop_curvature", "curvature of loops", "sigma", Better::neither,
+       "of the log: what one linearisation leaves of its worst loop",
+       of_loop_terms([](const LoopTerms& terms) { return terms.curvature; })},
+  };
+}
+
 std::vector<Metric> log_metrics() {
   return {
       {"keyframes", "keyframes", "", Better::neither, "of the log",
@@ -100,6 +122,7 @@ std::vector<Metric> false_loop_metrics() {
 
 std::vector<Metric> loop_metrics() {
   std::vector<Metric> all = log_metrics();
+  append(all, term_metrics());
   const std::vector<Metric> uses{
       {"loop_closures", "loop closures", "", Better::neither, "registrations used",
        count_of(LoopFate::used)},
