@@ -1,4 +1,4 @@
-"""Loops of place recognition: which a back end keeps, and what a recorded reference says of them."""
+"""Loops of place recognition: which a back end keeps, what a recorded reference says of them."""
 
 import bisect
 import csv

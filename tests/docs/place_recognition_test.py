@@ -44,7 +44,8 @@ class PlaceRecognition(InAFolder):
     def test_verdicts_by_an_interpolated_reference_of_a_turned_world(self):
         # Along y, heading along y: x of a body is the world's y.
         half = 1.5707963267948966
-        poses = "\n".join(f"{time}, 0, {time * 2 - 1}, {half}" for time in (0.5, 1.0, 1.5, 2.0, 2.5))
+        poses = "\n".join(f"{time}, 0, {time * 2 - 1}, {half}"
+                          for time in (0.5, 1.0, 1.5, 2.0, 2.5))
         reference = self.reference(poses, "0.5\n1.0\n1.25\n2.0\n")
         x, y, heading = reference.pose(2)
         self.assertAlmostEqual(y, 1.5)

@@ -155,7 +155,8 @@ def place_truth(work):
             file = f"B25b/B25b_{least}"
             folder = _run(work, file, back_end)
             kept = place_recognition.kept_loops(folder)
-            said = [reference.verdict(loop) for loop in place_recognition.loops_of(_lines(work, file))
+            loops = place_recognition.loops_of(_lines(work, file))
+            said = [reference.verdict(loop) for loop in loops
                     if (loop.first, loop.second) in kept]
             error = significant(_mean_error(work, folder, reference))
             cells.append(f"{said.count('right')}, {said.count('false')}; {error}")
