@@ -7,6 +7,7 @@ import sys
 
 from layout import fixed, significant, table
 from maker import maker
+from positions import between_fixes, poses_of, scale_and_error
 
 PAGE = "docs/real_surveys.md"
 PHOTOS = "drone_dataset_brighton_beach/images"
@@ -34,22 +35,6 @@ def _run(work, survey, estimator, settings=()):
                     statuses=(0, 1)) / "run"
 
 
-def _poses(file):
-    """x + iy by time stamp."""
-    rows = [line.split() for line in file.read_text("utf-8").splitlines() if line[:1] != "#"]
-    return {row[0]: complex(float(row[1]), float(row[2])) for row in rows}
-
-
-def scale_and_error(estimate, reference):
-    """Of the similarity that brings the estimate nearest to the reference: its scale, and the mean
-    distance that is left."""
-    pairs = [(estimate[t], reference[t]) for t in reference if t in estimate]
-    a_mean, b_mean = (sum(side) / len(pairs) for side in zip(*pairs))
-    pairs = [(a - a_mean, b - b_mean) for a, b in pairs]
-    turn = sum(a.conjugate() * b for a, b in pairs) / sum(abs(a) ** 2 for a, _ in pairs)
-    return abs(turn), sum(abs(turn * a - b) for a, b in pairs) / len(pairs)
-
-
 def _mean_error(work, estimate, reference, alignment):
     text = work.output("error-brighton", "fathom", "evaluate", str(estimate), str(reference),
                        "--align", alignment)
@@ -57,7 +42,7 @@ def _mean_error(work, estimate, reference, alignment):
 
 
 def _cells(work, estimate, survey):
-    scale, left = scale_and_error(_poses(estimate), _poses(survey / "reference.tum"))
+    scale, left = scale_and_error(poses_of(estimate), poses_of(survey / "reference.tum"))
     return [significant(_mean_error(work, estimate, survey / "reference.tum", "se2")),
             fixed(scale, 3), significant(left)]
 
@@ -124,20 +109,6 @@ def _text_of(distances):
             f"{significant(sum(distances) / len(distances))}, {significant(distances[-1])}")
 
 
-def between_fixes(given, held_out):
-    """Distances of held-out places from the straight line between the fixes around them."""
-    times = sorted(given, key=float)
-    found = []
-    for time, place in held_out.items():
-        before = max((t for t in times if float(t) < float(time)), key=float, default=None)
-        after = min((t for t in times if float(t) > float(time)), key=float, default=None)
-        if before is None or after is None:
-            continue
-        share = (float(time) - float(before)) / (float(after) - float(before))
-        found.append(abs(given[before] + share * (given[after] - given[before]) - place))
-    return sorted(found)
-
-
 def _kept(folder):
     with open(folder / "registrations.csv", newline="", encoding="utf-8") as file:
         return sum(row["fate"] == "used" and float(row["weight"]) > 0.5
@@ -149,17 +120,17 @@ def _kept(folder):
 def photos_seneca(work):
     survey = work.run("photos-seneca", sys.executable, "scripts/photo_survey.py",
                       str(work.data / SENECA), "--out", "{out}/survey", *SENECA_SURVEY) / "survey"
-    held_out, every = _poses(survey / "held_out.tum"), _poses(survey / "reference.tum")
+    held_out, every = poses_of(survey / "held_out.tum"), poses_of(survey / "reference.tum")
     given = {time: place for time, place in every.items() if time not in held_out}
     rows = [["straight lines between the fixes", *2 * [_text_of(between_fixes(given, held_out))]]]
     rows += [[name] for name, _ in SOLVERS]
     for more in ((), UNKNOWN):
         run = _run(work, survey, ("type=sparse_gauss_newton",), (*SENECA_SETTINGS, *more))
-        times = list(_poses(run / "trajectory.tum"))  # of the keyframes; a graph has their numbers
+        times = list(poses_of(run / "trajectory.tum"))  # a graph has numbers in their place
         for row, (_, arguments) in zip(rows[1:], SOLVERS):
             done = work.run("solve-seneca", "fathom", "solve", str(run / "measurements.g2o"),
                             *arguments, "--quiet", "--out", "{out}/run", statuses=(0, 1)) / "run"
-            poses = dict(zip(times, _poses(done / "trajectory.tum").values()))
+            poses = dict(zip(times, poses_of(done / "trajectory.tum").values()))
             row.append(f"{_text_of(_distances(poses, held_out))}; {_kept(done)}")
     return table(["median, mean, largest distance (m); loops kept", "default",
                   "σ 50 m and 1.8 rad"], rows)

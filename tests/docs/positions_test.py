@@ -1,4 +1,4 @@
-"""Tests of scripts/reproduce/pages/real_surveys.py: scripts/reproduce.sh --test"""
+"""Tests of scripts/reproduce/positions.py: scripts/reproduce.sh --test"""
 
 import cmath
 import sys
@@ -8,10 +8,10 @@ from pathlib import Path
 TOP = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(TOP / "scripts/reproduce"))
 
-from pages.real_surveys import between_fixes, scale_and_error  # noqa: E402
+from positions import between_fixes, scale_and_error  # noqa: E402
 
 
-class RealSurveys(unittest.TestCase):
+class Positions(unittest.TestCase):
     def test_a_similarity_is_found_again(self):
         estimate = {"0": 0j, "1": 2 + 0j, "2": 2 + 1j, "3": 5 - 1j}
         turn = 0.9 * cmath.exp(0.7j)
