@@ -69,8 +69,9 @@ std::string none_registered(const Recording& recording, const FrontEndOptions& o
   return fmt::format(
       "0 of {} candidate pairs registered: in the best of them {} matches agree, where at least {} "
       "are needed, and more than chance would bring together: look at altitude and focal length, "
-      "at the pictures' texture ('fathom check DIR'), and at a pair that should match ('fathom "
-      "register A B')",
+      "at the pictures' texture ('fathom check DIR'), at whether the camera looks straight down "
+      "(attitude0 takes its tilt) on a flat floor, at front_end.ransac.max_error_px where pictures "
+      "are large, and at a pair that should match ('fathom register A B')",
       recording.registrations_tried, recording.most_refused_inliers,
       options.registration.ransac.min_inliers);
 }
