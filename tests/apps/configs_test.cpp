@@ -16,6 +16,7 @@ namespace fathom::test {
 namespace {
 
 namespace fs = std::filesystem;
+using ::testing::ElementsAre;
 using ::testing::ElementsAreArray;
 
 class Configs : public CommandLine {
@@ -67,14 +68,14 @@ TEST_F(Configs, AreAllTestedHere) {
     studies.insert(entry.path().filename());
     fathom_done({"check", entry.path().string()});
   }
-  EXPECT_THAT(
-      studies,
-      ElementsAreArray(
-          {"attitude.yaml", "attitude_mounting.yaml", "compass.yaml", "false_loops_drawn.yaml",
-           "fixes.yaml", "holes.yaml", "long_survey.yaml", "paper_pool.yaml",
-           "paper_separation.yaml", "paper_simulated.yaml", "real_pictures.yaml", "regimes.yaml",
-           "regimes_survey.yaml", "shared_errors_altimeter.yaml", "shared_errors_drawn.yaml",
-           "shared_errors_models.yaml", "shared_errors_tilt.yaml", "wrong_loops.yaml"}));
+  EXPECT_THAT(studies, ElementsAre("attitude.yaml", "attitude_mounting.yaml", "compass.yaml",
+                                   "false_loops_drawn.yaml", "fixes.yaml", "holes.yaml",
+                                   "long_survey.yaml", "paper_pool.yaml", "paper_registration.yaml",
+                                   "paper_registration_pool.yaml", "paper_separation.yaml",
+                                   "paper_simulated.yaml", "real_pictures.yaml", "regimes.yaml",
+                                   "regimes_survey.yaml", "shared_errors_altimeter.yaml",
+                                   "shared_errors_drawn.yaml", "shared_errors_models.yaml",
+                                   "shared_errors_tilt.yaml", "wrong_loops.yaml"));
 }
 
 // Whatever a study sweeps, its camera and front end are those of its first cell.
@@ -126,6 +127,18 @@ TEST_F(Configs, PaperSimulatedRuns) {
   expect_runs("compare", "studies/paper_simulated.yaml", with_short_legs({"jobs=1"}),
               "ekf/metrics.json", 1.2);
   EXPECT_EQ(ResultStore::open(path("out")).runs().size(), 10u * 6u);
+}
+
+TEST_F(Configs, PaperRegistrationRuns) {
+  expect_runs("compare", "studies/paper_registration.yaml", with_short_legs({}), "ekf/metrics.json",
+              1.2);
+  EXPECT_EQ(ResultStore::open(path("out")).runs().size(), 10u * 5u);
+}
+
+TEST_F(Configs, PaperRegistrationPoolRuns) {
+  expect_runs("compare", "studies/paper_registration_pool.yaml",
+              with_small_camera({"surveys=1", "trials=1"}), "ekf/metrics.json");
+  EXPECT_EQ(ResultStore::open(path("out")).runs().size(), 8u * 5u);
 }
 
 TEST_F(Configs, PaperSeparationRuns) {
