@@ -134,7 +134,8 @@ def paper_registration_pool(work):
                                for e in ("trajectory_iekf", "ekf")),
                              f"{study.mean('trajectory_iekf', 'loop_closures', **cell):.0f}",
                              f"{100 * neighbours:.0f} %",
-                             interval(study.row("trajectory_iekf", "anees", **cell), 2)])
+                             *(interval(study.row("trajectory_iekf", m, **cell), 2)
+                               for m in ("mean_nis_truth", "anees"))])
     return table(["mission", "altitude", "registration", "separation", "dead reckoning (m)",
                   "`trajectory_iekf` (mm)", "`ekf` (mm)", "loops", "neighbours registered",
-                  "ANEES"], rows)
+                  "NIS against truth", "ANEES"], rows)
