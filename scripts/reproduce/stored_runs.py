@@ -5,7 +5,8 @@ import struct
 from contextlib import closing
 
 _SERIES = """
-    SELECT series.name, series.data FROM series JOIN run USING (run) JOIN estimator USING (estimator)
+    SELECT series.name, series.data
+    FROM series JOIN run USING (run) JOIN estimator USING (estimator)
     WHERE cell = ? AND survey = ? AND trial = ? AND estimator.name = ?"""
 _PLACE = """
     SELECT cell FROM cell_value JOIN axis USING (axis) JOIN axis_value USING (axis, place)
