@@ -49,6 +49,19 @@ void OdometryOptions::describe(OptionTable& table) {
              "noise per frame, heading");
   table.reals("covariance", covariance, 6, "",
               "noise per frame [xx, xy, xt, yy, yt, tt] in m^2, m rad, rad^2; []: from the sigmas");
+  table.real("correlated_share", correlated_share, Range::between(0, 1), "",
+             "of this covariance, the part that is correlated along the way, the rest being white; "
+             "what is told is the covariance of single frames all the same");
+  table.real("correlation_length_m", correlation_length_m, Range::positive(), "m",
+             "the way over which that correlation falls to 1/e");
+}
+
+std::vector<IgnoredKey> OdometryOptions::ignored_keys() const {
+  if (source == OdometrySource::kVisualOdometry) {
+    return {{"correlated_share", "source"}, {"correlation_length_m", "source"}};
+  }
+  if (correlated_share == 0.0) return {{"correlation_length_m", "correlated_share"}};
+  return {};
 }
 
 void AddedNoiseOptions::describe(OptionTable& table) {
@@ -96,6 +109,16 @@ Eigen::Vector3d MotionNoise::draw(RandomStream& stream) const {
 Pose MotionNoise::disturb(const Pose& motion, RandomStream& stream) const {
   const Eigen::Vector3d noisy = motion.vector() + draw(stream);
   return {noisy.x(), noisy.y(), wrap_angle(noisy.z())};
+}
+
+GaussMarkovNoise::GaussMarkovNoise(const Eigen::Matrix3d& covariance, double length_m)
+    : noise_(covariance), length_m_(length_m) {}
+
+Eigen::Vector3d GaussMarkovNoise::draw(double way_m, RandomStream& stream) {
+  const Eigen::Vector3d fresh = noise_.draw(stream);
+  const double kept = last_ ? std::exp(-way_m / length_m_) : 0.0;
+  last_ = kept * last_.value_or(Eigen::Vector3d::Zero()) + std::sqrt(1.0 - kept * kept) * fresh;
+  return *last_;
 }
 
 }  // namespace fathom

@@ -16,6 +16,7 @@ namespace fathom::test {
 namespace {
 
 namespace fs = std::filesystem;
+using ::testing::ElementsAre;
 using ::testing::ElementsAreArray;
 
 class Configs : public CommandLine {
@@ -76,6 +77,8 @@ TEST_F(Configs, AreAllTestedHere) {
                                          "holes.yaml",
                                          "long_survey.yaml",
                                          "paper_pool.yaml",
+                                         "paper_registration.yaml",
+                                         "paper_registration_pool.yaml",
                                          "paper_separation.yaml",
                                          "paper_simulated.yaml",
                                          "real_pictures.yaml",
@@ -138,6 +141,18 @@ TEST_F(Configs, PaperSimulatedRuns) {
   expect_runs("compare", "studies/paper_simulated.yaml", with_short_legs({"jobs=1"}),
               "ekf/metrics.json", 1.2);
   EXPECT_EQ(ResultStore::open(path("out")).runs().size(), 10u * 6u);
+}
+
+TEST_F(Configs, PaperRegistrationRuns) {
+  expect_runs("compare", "studies/paper_registration.yaml", with_short_legs({}), "ekf/metrics.json",
+              1.2);
+  EXPECT_EQ(ResultStore::open(path("out")).runs().size(), 10u * 5u);
+}
+
+TEST_F(Configs, PaperRegistrationPoolRuns) {
+  expect_runs("compare", "studies/paper_registration_pool.yaml",
+              with_small_camera({"surveys=1", "trials=1"}), "ekf/metrics.json");
+  EXPECT_EQ(ResultStore::open(path("out")).runs().size(), 8u * 5u);
 }
 
 TEST_F(Configs, PaperSeparationRuns) {

@@ -54,6 +54,18 @@ TEST(Configure, TunedNumbersOfTheRegistrationAreKeys) {
               HasSubstr("window_px: front_end.features.flatten false has no use for it"));
 }
 
+TEST(Configure, RefusesKeysThatTheOdometryIgnores) {
+  EXPECT_THAT(refusal("dataset:\n  odometry: {source: visual_odometry, correlated_share: 0.5}\n"),
+              HasSubstr("config.yaml:2: dataset.odometry.correlated_share: "
+                        "dataset.odometry.source visual_odometry has no use for it"));
+  EXPECT_THAT(refusal("dataset: {odometry: {correlation_length_m: 3}}\n"),
+              HasSubstr("dataset.odometry.correlation_length_m: "
+                        "dataset.odometry.correlated_share 0 has no use for it"));
+  EXPECT_EQ(in_force(configured("dataset: {odometry: {correlated_share: 0.5}}\n"),
+                     "dataset.odometry.correlation_length_m"),
+            "2");
+}
+
 TEST(Configure, RefusesKeysThatTheCandidatesMethodIgnores) {
   const std::vector<std::pair<std::string, std::string>> cases{
       {"{method: distance, max_distance_m: 2, probability: 0.9}",

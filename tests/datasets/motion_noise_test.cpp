@@ -47,6 +47,58 @@ TEST(MotionNoise, OfZeroCovarianceIsZero) {
   EXPECT_EQ(MotionNoise(Eigen::Matrix3d::Zero()).draw(stream), Eigen::Vector3d::Zero().eval());
 }
 
+TEST(GaussMarkovNoise, HasCovarianceAndCorrelationOfTheClosedForm) {
+  Eigen::Matrix3d C;
+  C << 4.0, 1.0, -0.5, 1.0, 2.0, 0.3, -0.5, 0.3, 1.0;
+  constexpr double kLength_m = 2.0;
+  // Steps of unequal length, each process from its own start.
+  const std::vector<double> ways_m{0.7, 0.0, 1.9, 0.4};
+  constexpr int kDraws = 20'000;
+  RandomStream stream(7);
+  std::vector<Eigen::Matrix3d> moments(ways_m.size() + 1, Eigen::Matrix3d::Zero());
+  for (int i = 0; i < kDraws; ++i) {
+    GaussMarkovNoise noise(C, kLength_m);
+    const Eigen::Vector3d first = noise.draw(0.3, stream);
+    moments[0] += first * first.transpose();
+    for (std::size_t j = 0; j < ways_m.size(); ++j) {
+      moments[j + 1] += first * noise.draw(ways_m[j], stream).transpose();
+    }
+  }
+  double way_m = 0.0;
+  for (std::size_t j = 0; j < moments.size(); ++j) {
+    if (j > 0) way_m += ways_m[j - 1];
+    const Eigen::Matrix3d expected = std::exp(-way_m / kLength_m) * C;
+    for (int r = 0; r < 3; ++r) {
+      for (int c = 0; c < 3; ++c) {
+        // Isserlis: the variance of a product of two normal values; four standard deviations.
+        const double variance = C(r, r) * C(c, c) + expected(r, c) * expected(r, c);
+        EXPECT_NEAR(moments[j](r, c) / kDraws, expected(r, c), 4 * std::sqrt(variance / kDraws))
+            << j << ' ' << r << ' ' << c;
+      }
+    }
+  }
+}
+
+TEST(GaussMarkovNoise, StaysStationary) {
+  GaussMarkovNoise noise(Eigen::Matrix3d::Identity(), 1.0);
+  RandomStream stream(3);
+  constexpr int kDraws = 40'000;
+  double squares = 0.0;
+  double products = 0.0;
+  double last = noise.draw(0.0, stream).x();
+  for (int i = 0; i < kDraws; ++i) {
+    const double next = noise.draw(0.5, stream).x();
+    squares += next * next;
+    products += last * next;
+    last = next;
+  }
+  // Correlated draws: fewer count, (1 − ρ²)/(1 + ρ²) of them, and ρ² of a variance is kept.
+  const double kept = std::exp(-0.5);
+  const double deviation = std::sqrt(2.0 * (1 + kept * kept) / (1 - kept * kept) / kDraws);
+  EXPECT_NEAR(squares / kDraws, 1.0, 4 * deviation);
+  EXPECT_NEAR(products / kDraws, kept, 4 * deviation);
+}
+
 TEST(MotionNoise, SigmasAreSquared) {
   OdometryOptions options;
   options.sigma_x_m = 0.1;

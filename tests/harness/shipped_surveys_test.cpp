@@ -85,7 +85,8 @@ TEST_P(ShippedSurveys, NoAltitudeIsAnOutlier) {
 INSTANTIATE_TEST_SUITE_P(
     Configs, ShippedSurveys,
     testing::Values("image_folder.yaml", "quickstart.yaml", "run.yaml", "studies/attitude.yaml",
-                    "studies/paper_pool.yaml", "studies/paper_separation.yaml",
+                    "studies/paper_pool.yaml", "studies/paper_registration.yaml",
+                    "studies/paper_registration_pool.yaml", "studies/paper_separation.yaml",
                     "studies/paper_simulated.yaml", "studies/shared_errors_altimeter.yaml",
                     "studies/shared_errors_tilt.yaml", "studies/wrong_loops.yaml"),
     [](const auto& test_case) { return fs::path(test_case.param).stem().string(); });

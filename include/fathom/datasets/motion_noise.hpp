@@ -1,11 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include "fathom/core/ignored_key.hpp"
 #include "fathom/core/options.hpp"
 #include "fathom/core/random.hpp"
 #include "fathom/geometry/pose.hpp"
@@ -14,15 +16,21 @@ namespace fathom {
 
 enum class OdometrySource { kNoisyMotion, kVisualOdometry };
 
-/// Dead reckoning of a simulation and the noise it is given per frame, in the frame before.
+/// Dead reckoning of a simulation and the noise it is given per frame, in the frame before. What is
+/// told of it is the covariance of one frame's noise, however the noise of frames is correlated.
 struct OdometryOptions {
   OdometrySource source = OdometrySource::kNoisyMotion;
   double sigma_x_m = 0.01;
   double sigma_y_m = 0.01;
   double sigma_theta_rad = 0.005;
   std::vector<double> covariance;  ///< [xx, xy, xt, yy, yt, tt]; empty: from the sigmas
+  /// Of the noise's covariance, what GaussMarkovNoise draws; the rest is white.
+  double correlated_share = 0.0;
+  double correlation_length_m = 2.0;
 
   void describe(OptionTable& table);
+  /// Visual odometry adds white noise alone.
+  std::vector<IgnoredKey> ignored_keys() const;
 
   /// The covariance of the noise of one frame. Throws InputError naming `key_prefix` + the key
   /// that makes it other than positive definite, for it must be inverted later. Visual odometry has
@@ -77,6 +85,24 @@ class MotionNoise {
 
  private:
   Eigen::Matrix3d lower_;  ///< covariance = lower lowerᵀ
+};
+
+/// Draws zero-mean Gaussian noise of (x, y, θ) whose covariance is the same everywhere, and whose
+/// correlation falls exponentially along the way: E e(s) e(s + d)ᵀ = C exp(−d / length), a
+/// first-order Gauss-Markov process. So are the errors of odometry that come from its calibration
+/// and from what it sees: they stay alike for a while.
+class GaussMarkovNoise {
+ public:
+  /// Positive definite, or zero; length > 0.
+  GaussMarkovNoise(const Eigen::Matrix3d& covariance, double length_m);
+
+  /// `way_m` further than the draw before.
+  Eigen::Vector3d draw(double way_m, RandomStream& stream);
+
+ private:
+  MotionNoise noise_;
+  double length_m_;
+  std::optional<Eigen::Vector3d> last_;  ///< none: the first draw is that of the stationary process
 };
 
 }  // namespace fathom

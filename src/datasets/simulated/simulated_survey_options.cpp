@@ -44,6 +44,9 @@ std::string SimulatedSurveyOptions::why_surveys_are_alike() const {
 
 std::vector<IgnoredKey> SimulatedSurveyOptions::ignored_keys() const {
   std::vector<IgnoredKey> ignored = below("mission", mission.ignored_keys());
+  for (IgnoredKey& key : below("odometry", odometry.ignored_keys())) {
+    ignored.push_back(std::move(key));
+  }
   for (IgnoredKey& key : sensors.ignored_keys()) ignored.push_back(std::move(key));
   return ignored;
 }

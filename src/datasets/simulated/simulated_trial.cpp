@@ -26,16 +26,21 @@ SimulatedSurvey SimulatedSurvey::remeasured(const OdometryOptions& odometry,
 void SimulatedSurvey::measure_motions(const OdometryOptions& odometry, std::uint64_t seed,
                                       std::uint64_t trial) {
   const Eigen::Matrix3d covariance = odometry.noise_covariance("dataset.odometry.");
-  const MotionNoise noise(covariance);
+  const double share = odometry.correlated_share;
+  const MotionNoise white((1.0 - share) * covariance);
+  GaussMarkovNoise correlated(share * covariance, odometry.correlation_length_m);
   has_odometry_ = odometry.source == OdometrySource::kNoisyMotion;
   RandomStream dead_reckoning(seed, "dead_reckoning", trial);
+  RandomStream correlated_part(seed, "correlated_dead_reckoning", trial);
   for (std::size_t i = 0; i < infos_.size(); ++i) {
     FrameInfo& info = infos_[i];
     info.motion.reset();
     info.is_hole = false;
     if (!has_odometry_ || i == 0) continue;
     const Pose motion = between(*infos_[i - 1].ground_truth, *info.ground_truth);
-    info.motion = UncertainPose{noise.disturb(motion, dead_reckoning), covariance};
+    Eigen::Vector3d noisy = white.disturb(motion, dead_reckoning).vector();
+    if (share > 0.0) noisy += correlated.draw(motion.position().norm(), correlated_part);
+    info.motion = UncertainPose{Pose{noisy.x(), noisy.y(), wrap_angle(noisy.z())}, covariance};
   }
 }
 
