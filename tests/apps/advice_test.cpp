@@ -1,9 +1,10 @@
-// The line that says which back end suits a log: of check and of select.
+// The line that says which back end suits a log: of check and of select; the studies of its rule.
 
 #include <gmock/gmock.h>
 
 #include "apps/command_line.hpp"
 #include "apps/graphs.hpp"
+#include "fathom/results/result_store.hpp"
 #include "support/data.hpp"
 
 namespace fathom::test {
@@ -61,6 +62,21 @@ TEST_F(AdviceLine, OfASurveyItGoesByDeadReckoning) {
               AllOf(StartsWith("for this survey: sparse_gauss_newton, since dead reckoning leaves "
                                "a heading sigma of 0.258 rad over the 109 m between"),
                     HasSubstr("beyond 0.3 rad")));
+}
+
+// Small. The log of a study has its terms where it has a loop.
+TEST_F(AdviceLine, StudiesOfTheRuleRun) {
+  const std::string studies = std::string(FATHOM_SOURCE_DIR) + "/configs/studies/";
+  fathom_done({"compare", studies + "which_back_end.yaml", "--out", "rule", "--quiet", "--set",
+               "trials=1", "--set", "dataset.mission.legs=3", "--set",
+               "dataset.mission.leg_length_m=8", "--set", "dataset.mission.loop_length_m=12",
+               "--set", "dataset.mission.loop_overrun_m=3"});
+  EXPECT_EQ(ResultStore::open(path("rule")).runs().size(), 36u * 8u);
+  EXPECT_GT(json_of("rule/ekf/metrics.json").at("loop_misfit_rad").get<double>(), 0.0);
+  EXPECT_GT(json_of("rule/ekf/metrics.json").at("loop_curvature").get<double>(), 0.0);
+  fathom_done({"compare", studies + "few_loops.yaml", "--out", "few", "--quiet", "--set",
+               "dataset.mission.legs=2", "--set", "dataset.mission.leg_length_m=4"});
+  EXPECT_EQ(ResultStore::open(path("few")).runs().size(), 4u * 5u);
 }
 
 }  // namespace

@@ -200,22 +200,6 @@ TEST_F(Configs, RegimesSurveyRun) {
   EXPECT_EQ(ResultStore::open(path("out")).runs().size(), 24u * 11u);
 }
 
-TEST_F(Configs, TheRuleOfBackEndsRuns) {
-  expect_runs("compare", "studies/which_back_end.yaml",
-              {"trials=1", "dataset.mission.legs=3", "dataset.mission.leg_length_m=8",
-               "dataset.mission.loop_length_m=12", "dataset.mission.loop_overrun_m=3"},
-              "ekf/metrics.json");
-  EXPECT_EQ(ResultStore::open(path("out")).runs().size(), 36u * 8u);
-}
-
-// Too short to have any loop; the log of a study without one has no terms.
-TEST_F(Configs, FewLoopsRun) {
-  fathom_done({"compare", (folder() / "studies/few_loops.yaml").string(), "--set",
-               "dataset.mission.legs=2", "--set", "dataset.mission.leg_length_m=4", "--out", "out",
-               "--quiet"});
-  EXPECT_EQ(ResultStore::open(path("out")).runs().size(), 4u * 5u);
-}
-
 TEST_F(Configs, SharedErrorsOfTheAltimeterRun) {
   expect_runs("compare", "studies/shared_errors_altimeter.yaml", with_short_legs({}),
               "ekf/metrics.json");

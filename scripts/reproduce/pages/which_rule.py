@@ -13,7 +13,7 @@ NEEDS = tuple(f"pose_graphs/{graph}.g2o" for graph in GRAPHS)
 HOW = ("`fathom solve GRAPH.g2o --estimator NAME --mode incremental`, judged by its optimum, which "
        "is `sparse_gauss_newton` in batch")
 SETTINGS = {f"iekf_{n}": ("--set", f"estimator.max_iterations={n}") for n in (3, 5, 10)}
-# Filters take minutes on each of the others.
+# The others are as large as the last of these, and filters do worse there (docs/cost.md).
 FOR_FILTERS = GRAPHS[:7]
 RECORDED = ("incremental_smoother", "sparse_gauss_newton", "iekf_3", "iekf_5", "iekf_10", "ekf",
             "invariant_ekf")
