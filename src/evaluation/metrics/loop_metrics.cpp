@@ -80,8 +80,8 @@ std::vector<Metric> term_metrics() {
       {"loop_misfit_rad", "heading misfit of loops", "rad", Better::neither,
        "of the log: the most that a loop misses by before its update, against what was known",
        of_loop_terms([](const LoopTerms& terms) { return terms.most_turned.misfit_rad(); })},
-      {"loop_curvature", "curvature of loops", "sigma", Better::neither,
-       "of the log: what one linearisation leaves of its worst loop",
+      {"loop_curvature", "curvature of loops", "", Better::neither,
+       "of the log: what one linearisation leaves of its worst loop, in its sigmas",
        of_loop_terms([](const LoopTerms& terms) { return terms.curvature; })},
   };
 }
