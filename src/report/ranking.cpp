@@ -67,12 +67,39 @@ bool is_on_one_side(const PairedDifference& difference) {
   return (test.positive_rank_sum > half) == (difference.mean > 0.0);
 }
 
-Standing standing_of(const RankedEstimator& one, double margin) {
+// One estimator beside the best, whose mean is known no better than the difference: the margin is a
+// share of it in every draw.
+struct Beside {
+  const EstimatorResults& one;
+  const EstimatorResults& best;
+  const std::string& metric;
+  const BootstrapOptions& bootstrap;
+
+  std::optional<Interval> minus(double times_best) const {
+    const auto difference = difference_between(one, best, metric, bootstrap, times_best);
+    return difference ? difference->interval : std::nullopt;
+  }
+};
+
+// Two one-sided tests, at either end of the margin.
+bool is_equivalent(const Beside& beside, const Interval& difference, double share, double digits) {
+  if (difference.low >= -digits && difference.high <= digits) return true;
+  const double mean = beside.best.metrics.at(beside.metric).moments.mean;
+  if (difference.low > share * std::abs(mean) || difference.high < -share * std::abs(mean)) {
+    return false;
+  }
+  const double sign = mean < 0.0 ? -1.0 : 1.0;
+  const auto above = beside.minus(1.0 + sign * share);
+  const auto below = beside.minus(1.0 - sign * share);
+  return above && below && above->high <= 0.0 && below->low >= 0.0;
+}
+
+Standing standing_of(const RankedEstimator& one, const Beside& beside, double share,
+                     double margin) {
   const auto& difference = one.difference;
   if (!difference || !difference->interval) return Standing::not_shown;
-  if (difference->interval->low >= -margin && difference->interval->high <= margin) {
-    return Standing::equivalent;
-  }
+  const double digits = digits_of(described(beside.metric).unit);
+  if (is_equivalent(beside, *difference->interval, share, digits)) return Standing::equivalent;
   const bool is_beyond = std::abs(difference->mean) > margin && is_on_one_side(*difference);
   return one.p && *one.p < kError && is_beyond ? Standing::worse : Standing::not_shown;
 }
@@ -129,7 +156,10 @@ std::optional<Ranking> ranking(const CellResults& cell, const std::string& metri
     RankedEstimator entry{order[i]->name, order[i]->metrics.at(metric), std::nullopt, p[i],
                           i == 0 ? Standing::best : Standing::not_shown};
     if (i > 0) entry.difference = difference_between(*order[i], *order.front(), metric, bootstrap);
-    if (i > 0 && result.gives_verdict()) entry.standing = standing_of(entry, result.margin);
+    if (i > 0 && result.gives_verdict()) {
+      const Beside beside{*order[i], *order.front(), metric, bootstrap};
+      entry.standing = standing_of(entry, beside, options.margin, result.margin);
+    }
     result.estimators.push_back(std::move(entry));
   }
   return result;

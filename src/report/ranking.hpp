@@ -11,7 +11,7 @@ namespace fathom {
 /// What the runs show of an estimator beside the best one of its cell.
 enum class Standing {
   best,
-  equivalent,  ///< the interval of the difference lies within the margin
+  equivalent,  ///< the difference is within the margin, by two one-sided tests
   worse,       ///< the adjusted p is below 0.05, and the difference is beyond the margin
   not_shown    ///< neither; all of them where no verdict is given
 };
@@ -56,9 +56,10 @@ struct RankingOptions {
 ///
 /// Of k estimators that are exchangeable in every draw, one or more are called worse in at most 5 %
 /// of studies: the signed-rank test is exact then, and Holm's adjustment over all k (k − 1) / 2
-/// pairs holds whichever is the best. Equivalence is by two one-sided tests: an interval of level
-/// 1 − 0.05 / (k − 1) within ± margin. The margin is at least what a figure of the unit can mean.
-/// Of surveys that are drawn one says nothing of others: its trials give no verdict.
+/// pairs holds whichever is the best. Equivalent is what intervals of level
+/// 1 − 0.05 / (k − 1) of its metric less 1 ± margin times that of the best show on either side of
+/// 0. The margin is at least what a figure of the unit can mean. Of surveys that are drawn one says
+/// nothing of others: its trials give no verdict.
 std::optional<Ranking> ranking(const CellResults& cell, const std::string& metric,
                                const RankingOptions& options = {});
 

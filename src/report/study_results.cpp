@@ -154,7 +154,7 @@ CellResults runs_of(const RunIndex& index, std::size_t number, const std::string
 
 // By survey, over the trials that both did and that have the metric.
 ClusteredValues differences_between(const EstimatorResults& one, const EstimatorResults& other,
-                                    const std::string& metric) {
+                                    const std::string& metric, double times) {
   std::map<TrialKey, double> of_other;
   const std::string* machine = machine_of(one, metric);
   for (const RunRecord& run : other.runs) {
@@ -166,7 +166,7 @@ ClusteredValues differences_between(const EstimatorResults& one, const Estimator
     const auto value = metric_of(run, metric, machine);
     const auto found = of_other.find(run.key.trial_key());
     if (is_failed(run) || !value || found == of_other.end()) continue;
-    differences[run.key.survey].push_back(*value - found->second);
+    differences[run.key.survey].push_back(*value - times * found->second);
   }
   return differences;
 }
@@ -176,14 +176,14 @@ ClusteredValues differences_between(const EstimatorResults& one, const Estimator
 std::optional<PairedDifference> difference_between(const EstimatorResults& one,
                                                    const EstimatorResults& other,
                                                    const std::string& metric,
-                                                   const BootstrapOptions& options) {
-  return difference_over_surveys(differences_between(one, other, metric), options);
+                                                   const BootstrapOptions& options, double times) {
+  return difference_over_surveys(differences_between(one, other, metric, times), options);
 }
 
 std::optional<SignedRankTest> test_between(const EstimatorResults& one,
                                            const EstimatorResults& other,
                                            const std::string& metric) {
-  return test_over_surveys(differences_between(one, other, metric));
+  return test_over_surveys(differences_between(one, other, metric, 1.0));
 }
 
 StudyResults study_results(const ResultStore& store, MetricsOf metrics,

@@ -63,12 +63,13 @@ struct CellResults {
   std::vector<PairedResult> paired;          ///< of the study's metrics
 };
 
-/// A metric of one minus that of another, over the trials that both did and that have it; nothing
-/// where there is no such trial.
+/// A metric of one minus that of another, or a multiple of it, over the trials that both did and
+/// that have it; nothing where there is no such trial.
 std::optional<PairedDifference> difference_between(const EstimatorResults& one,
                                                    const EstimatorResults& other,
                                                    const std::string& metric,
-                                                   const BootstrapOptions& options = {});
+                                                   const BootstrapOptions& options = {},
+                                                   double times = 1.0);
 
 /// The test of these differences alone, without their interval.
 std::optional<SignedRankTest> test_between(const EstimatorResults& one,

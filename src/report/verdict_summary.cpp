@@ -217,7 +217,7 @@ std::string rule_of(const StudyVerdict& verdict, double margin) {
   if (!is_given) return "";
   return fmt::format(
       "Worse: p of the signed-rank test, adjusted over all pairs of a cell, is below 0.05, and the "
-      "difference is more than {} % of the best (report.margin). Equivalent: its interval lies "
+      "difference is more than {} % of the best (report.margin). Equivalent: it is shown to lie "
       "within that. The intervals of a cell hold together with 95 %.",
       format_number(100.0 * margin, 3));
 }

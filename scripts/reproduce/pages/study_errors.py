@@ -23,7 +23,7 @@ def worse(work):
     cells = {(row["errors"], row["estimators"], int(row["surveys"])):
              row["one is called worse, %"] if row["verdict given"] == "yes" else "–" for row in rows}
     kinds = dict.fromkeys((row["errors"], row["estimators"]) for row in rows)
-    return table(["errors", "estimators", *(f"{count} surveys" for count in surveys)],
+    return table(["errors", "estimators", *(f"S = {count}" for count in surveys)],
                  [[*kind, *(cells[(*kind, count)] for count in surveys)] for kind in kinds])
 
 
