@@ -55,7 +55,8 @@ inline CellResults cell_of(std::vector<EstimatorResults> estimators) {
 
 inline const std::vector<double> kBest{0.010, 0.012, 0.009, 0.011, 0.010, 0.011, 0.0105, 0.0105};
 inline const std::vector<double> kAlike{0.011, 0.011, 0.008, 0.013, 0.009, 0.0115, 0.0105, 0.0107};
-inline const std::vector<double> kWorse{0.013, 0.0152, 0.0121, 0.0141, 0.0130, 0.0142, 0.0136, 0.0137};
+inline const std::vector<double> kWorse{0.013,  0.0152, 0.0121, 0.0141,
+                                        0.0130, 0.0142, 0.0136, 0.0137};
 
 inline StudyResults study_of(std::vector<CellResults> cells, std::size_t surveys,
                              std::size_t trials) {
@@ -76,7 +77,7 @@ inline CellResults surveyed(std::vector<EstimatorResults> estimators) {
 }
 
 inline EstimatorResults eight(const std::string& name, const std::vector<double>& errors,
-                            double total_ms = 1.0) {
+                              double total_ms = 1.0) {
   return costing(made(name, errors, true), total_ms);
 }
 
