@@ -138,6 +138,8 @@ class Runner {
       recorder.reset();
       data_sets_.trial_done(task.cell, task.survey);
       judge_by_facts(trial);
+      // Before all runs: beside one of them it would be in the caches of that one alone.
+      if (task.baseline) add_baseline(task, *trial.recording);
     }
     for (const std::size_t e : task.estimators) {
       if (is_stopped()) return;
@@ -146,11 +148,11 @@ class Runner {
         judge_by_facts(trial);
       }
       // By the log of the first of the list, in whatever order they run.
-      if (task.baseline && e == std::ranges::min(task.estimators))
+      if (is_own && task.baseline && e == std::ranges::min(task.estimators)) {
         add_baseline(task, *trial.recording);
+      }
       add_run(task, e, trial, meter);
     }
-    if (task.baseline && task.estimators.empty()) add_baseline(task, *trial.recording);
     if (recorder) data_sets_.trial_done(task.cell, task.survey);
     ++done_tasks_;
   }

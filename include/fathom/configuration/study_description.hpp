@@ -49,7 +49,7 @@ struct StudyDescription {
   std::vector<StudyAxis> axes;
   std::vector<StudyEstimator> estimators;
   std::vector<std::string> metrics;  ///< for tables and charts, in this order
-  double margin = 0.01;  ///< of equivalence, as a share of the best mean
+  double margin = 0.01;              ///< of equivalence, as a share of the best mean
   /// Every key that results depend on, with its value; the sweep's too. Not surveys, trials or
   /// jobs.
   std::vector<std::pair<std::string, std::string>> configuration;
