@@ -183,11 +183,7 @@ class Runner {
     store_->add(run);
     watch_.run_done(estimator, trial.lap_s(), !result.is_done());
     const std::lock_guard hold(mutex_);
-    if (is_example(task)) example_[estimator] = {trial.recording, std::move(result)};
-  }
-
-  static bool is_example(const Task& task) {
-    return task.cell == 0 && task.survey == 0 && task.trial == 0;
+    if (task.is_example()) example_[estimator] = {trial.recording, std::move(result)};
   }
 
   // What an earlier session stored of the example is replayed; its cost is that of the stored run.

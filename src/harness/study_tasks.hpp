@@ -20,6 +20,8 @@ struct Task {
   std::vector<std::size_t> estimators;
   bool baseline = false;
 
+  /// The trial whose runs `compare` writes.
+  bool is_example() const { return cell == 0 && survey == 0 && trial == 0; }
   RunKey run_of(const std::string& estimator) const { return {cell, survey, trial, estimator}; }
 };
 

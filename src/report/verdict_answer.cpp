@@ -1,0 +1,123 @@
+#include "verdict_answer.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <map>
+
+#include "fathom/report/table.hpp"
+#include "scaled_unit.hpp"
+
+namespace fathom {
+namespace {
+
+// An estimator in the cell where it is furthest from the best.
+struct Worst {
+  std::size_t cells = 0;
+  const RankedEstimator* one = nullptr;
+  const CellResults* cell = nullptr;
+  double share = 0.0;
+};
+
+void add_worse(const StudyResults& results, StudyVerdict& verdict) {
+  std::map<std::string, Worst> worst;
+  for (std::size_t i = 0; i < results.cells.size(); ++i) {
+    const auto& ranking = verdict.cells[i].ranking;
+    if (!ranking) continue;
+    for (const RankedEstimator* one : ranking->standing(Standing::worse)) {
+      const double best = std::abs(ranking->best().summary.moments.mean);
+      const double share = best > 0.0 ? std::abs(one->difference->mean) / best : 0.0;
+      Worst& entry = worst[one->name];
+      ++entry.cells;
+      if (entry.one == nullptr || share > entry.share) {
+        entry = {entry.cells, one, &results.cells[i], share};
+      }
+    }
+  }
+  // The furthest first.
+  std::vector<std::pair<std::string, Worst>> order(worst.begin(), worst.end());
+  std::ranges::stable_sort(
+      order, [](const auto& a, const auto& b) { return a.second.share > b.second.share; });
+  for (const auto& [name, entry] : order) {
+    const std::string in = of_cells(entry.cells, results.cells.size());
+    const double furthest = std::max(std::abs(entry.one->difference->interval->low),
+                                     std::abs(entry.one->difference->interval->high));
+    const ScaledUnit scale = reading_unit(described(*verdict.metric).unit, furthest);
+    verdict.answer.push_back(fmt::format(
+        "{} is worse in {}, most at {}: by {}, {} % of the best.", name, in, entry.cell->label,
+        distance_text(*entry.one, scale), format_number(100.0 * entry.share, 2)));
+  }
+}
+
+// In how many cells each is equivalent to another that is the best.
+void add_equivalent(const StudyResults& results, StudyVerdict& verdict) {
+  std::map<std::string, std::size_t> cells;
+  for (const CellVerdict& cell : verdict.cells) {
+    if (!cell.ranking) continue;
+    for (const RankedEstimator* one : cell.ranking->standing(Standing::equivalent)) {
+      ++cells[one->name];
+    }
+  }
+  if (cells.empty()) return;
+  std::vector<std::string> parts;
+  parts.reserve(cells.size());
+  for (const auto& [name, count] : cells) {
+    parts.push_back(name + " in " + of_cells(count, results.cells.size()));
+  }
+  verdict.answer.push_back("Equivalent to the best: " + listed(parts) + ".");
+}
+
+}  // namespace
+
+std::string of_cells(std::size_t count, std::size_t all) {
+  return count == all ? "all " + std::to_string(all) + " cells"
+                      : fmt::format("{} of {} cells", count, all);
+}
+
+void add_answer(const StudyResults& results, StudyVerdict& verdict) {
+  const std::size_t all = results.cells.size();
+  if (!verdict.metric) {
+    verdict.answer = {"Not ranked: no metric of this study that says which is better has a value."};
+    return;
+  }
+  std::size_t compared = 0;
+  std::size_t decided = 0;
+  std::size_t differing = 0;
+  std::size_t most_needed = 0;
+  for (std::size_t i = 0; i < all; ++i) {
+    const auto& ranking = verdict.cells[i].ranking;
+    const bool has_interval =
+        ranking && std::ranges::any_of(ranking->estimators, [](const auto& one) {
+          return one.difference && one.difference->interval;
+        });
+    if (!has_interval) continue;
+    ++compared;
+    decided += ranking->gives_verdict() ? 1 : 0;
+    differing += ranking->standing(Standing::worse).empty() ? 0 : 1;
+    if (!ranking->gives_verdict()) most_needed = std::max(most_needed, ranking->fewest_draws);
+  }
+  const std::string label = described(*verdict.metric).label;
+  if (compared == 0) {
+    verdict.answer.push_back("Estimators are ranked by " + label +
+                             ", but no cell has an interval of a difference.");
+    return;
+  }
+  if (decided > 0) {
+    verdict.answer.push_back(differing == 0
+                                 ? fmt::format("In {} no estimator is shown to be worse than the "
+                                               "best by {}.",
+                                               of_cells(decided, all), label)
+                                 : fmt::format("By {} an estimator is worse than the best in {}.",
+                                               label, of_cells(differing, all)));
+  }
+  if (decided < compared) {
+    verdict.answer.push_back(fmt::format(
+        "No verdict by {} in {}: no difference can be shown with so few surveys, or trials of "
+        "drawn measurements; up to {} are needed.",
+        label, of_cells(compared - decided, all), most_needed));
+  }
+  add_equivalent(results, verdict);
+  add_worse(results, verdict);
+}
+
+}  // namespace fathom
