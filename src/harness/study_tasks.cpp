@@ -22,12 +22,14 @@ Task task_of(const Study& study, const RunIndex* there, std::size_t cell, const 
       task.estimators.push_back(e);
     }
   }
-  // Whoever runs first finds caches cold: no estimator is that one more often than others.
-  RandomStream order(survey_seed(study.noise_seeds[cell], trial.survey), "order of runs",
-                     trial.trial);
+  // Whoever runs first finds caches cold. Of two trials that follow each other one has the order of
+  // the other from the end: each estimator runs before each other one as often as after it.
+  const std::uint64_t number = trial.survey + trial.trial;
+  RandomStream order(study.noise_seeds[cell], "order of runs", number / 2);
   for (std::size_t i = task.estimators.size(); i > 1; --i) {
     std::swap(task.estimators[i - 1], task.estimators[order.index(i)]);
   }
+  if (number % 2 == 1) std::ranges::reverse(task.estimators);
   return task;
 }
 
