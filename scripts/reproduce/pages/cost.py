@@ -57,8 +57,8 @@ def _of_others(work):
 def costs(work, graph):
     """Tables of a graph: batch, incremental."""
     effort = work.size(["--repeats", 3, "--budget", 30], ["--repeats", 1, "--budget", 5])
-    return tables_of(work.output(f"back-ends-{graph}", "back_ends", work.graph(graph), *effort, *TEN,
-                                 *_of_others(work)))
+    return tables_of(work.output(f"back-ends-{graph}", "back_ends", work.graph(graph),
+                                 *effort, *TEN, *_of_others(work)))
 
 
 def batch_rows(work, graph):

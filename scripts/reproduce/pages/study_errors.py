@@ -1,4 +1,4 @@
-"""docs/studies.md: the program `study_errors`, error rates of verdicts and coverage of intervals."""
+"""docs/studies.md: the program `study_errors`: error rates of verdicts, coverage of intervals."""
 
 from layout import table
 from maker import maker
@@ -21,7 +21,8 @@ def worse(work):
     rows, _, _ = _tables(work)
     surveys = sorted({int(row["surveys"]) for row in rows})
     cells = {(row["errors"], row["estimators"], int(row["surveys"])):
-             row["one is called worse, %"] if row["verdict given"] == "yes" else "–" for row in rows}
+             row["one is called worse, %"] if row["verdict given"] == "yes" else "–"
+             for row in rows}
     kinds = dict.fromkeys((row["errors"], row["estimators"]) for row in rows)
     return table(["errors", "estimators", *(f"S = {count}" for count in surveys)],
                  [[*kind, *(cells[(*kind, count)] for count in surveys)] for kind in kinds])
