@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <exception>
 #include <string>
 #include <vector>
 
@@ -186,6 +187,9 @@ int run(int argc, const char* const* argv) {
 }  // namespace
 }  // namespace fathom
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   return fathom::run(argc, argv);
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "study_errors: error: %s\n", error.what());
+  return 1;
 }

@@ -124,7 +124,7 @@ TEST_F(Faults, PicturesInReverseOrder) {
 TEST_F(Faults, PicturesAfterACounterThatRolledOver) {
   change("cam0", [](Rows& rows) {
     Rows shown = rows;
-    std::ranges::rotate(shown, shown.begin() + std::ssize(shown) / 3);
+    std::rotate(shown.begin(), shown.begin() + std::ssize(shown) / 3, shown.end());
     for (std::size_t i = 0; i < rows.size(); ++i) rows[i][1] = shown[i][1];
   });
   EXPECT_THAT(first_said(), AllOf(HasSubstr("pictures are not in the order"),
