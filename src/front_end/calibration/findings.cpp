@@ -49,23 +49,26 @@ std::string in_file(const std::string& line, const char* sensor) {
 
 namespace {
 
-// What makes such an order.
-std::string cause_of(const CalibrationInput& input, const std::vector<MovedPictures>& moved) {
+// What makes such an order, and what is to be done.
+std::string remedy_of(const CalibrationInput& input, const std::vector<MovedPictures>& moved) {
   const std::size_t last = input.motions.back().to;
   const MovedPictures& front = moved.front();
   if (moved.size() == 2 && front.first == 0 && front.places > 0 && moved[1].places < 0 &&
       moved[1].last == last) {
     return fmt::format(
-        "; a counter that rolled over makes such an order, and about picture {} is the "
-        "first one",
+        "a counter that rolled over makes such an order: in cam0/data.csv begin with the file name "
+        "of about picture {}",
         moved[1].first + 1);
   }
   if (moved.size() == 1 && front.last == last) {
-    return fmt::format("; about there {}", front.places > 0
-                                               ? "pictures are missing, or rows too many"
-                                               : "rows are missing, or pictures too many");
+    return fmt::format(
+        "about there {}, or the clock of the pictures or of odometry0 jumps: compare the file "
+        "names "
+        "with the time stamps of cam0/data.csv, and correct what is wrong",
+        front.places > 0 ? "pictures are missing or rows too many"
+                         : "rows are missing or pictures too many");
   }
-  return "";
+  return "put their file names into cam0/data.csv in the right order";
 }
 
 }  // namespace
@@ -89,10 +92,10 @@ void find_order(const CalibrationInput& input, const SetUp& found,
   const std::size_t more = found.moved.size() - named.size();
   findings.push_back(fmt::format(
       "pictures are not in the order in which dead reckoning passes what they show, from {} s "
-      "after the first one on: {}{}{}; put their file names into cam0/data.csv in the right order",
+      "after the first one on: {}{}; {}",
       seconds_after_start(input, input.frame_times_ns[found.moved.front().first]),
       joined(named, ", "), more > 0 ? fmt::format(", and {} more such", more) : "",
-      cause_of(input, found.moved)));
+      remedy_of(input, found.moved)));
 }
 
 void find_mounting(const CalibrationInput& input, const SetUp& found, bool is_mirrored,

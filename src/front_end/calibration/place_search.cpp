@@ -48,26 +48,47 @@ class Search {
     spread_ = spread ? *spread : spread_of(as_they_are(), set_up_);
   }
 
-  std::vector<MovedPictures> moved() const {
+  std::vector<MovedPictures> moved() {
+    std::vector<MovedPictures> blocks = settled(searched());
+    if (blocks.size() < 2) return blocks;
+    // Where a way is gone twice, others may have been put on the places of the greatest block.
+    greatest_ = *std::ranges::max_element(
+        blocks, {}, [](const MovedPictures& block) { return block.last - block.first; });
+    return settled(searched());
+  }
+
+ private:
+  static constexpr double kTwice = 3.0;  // the price of a place that is taken twice
+
+  std::vector<MovedPictures> searched() const {
     const std::vector<Arrival> arrivals = arrivals_of(input_.motions);
     std::vector<std::vector<std::size_t>> from;
     std::vector<double> cost(places_.size(), change_);
     cost[Places::of(arrivals.front().frame)] = 0.0;
+    add_taken(arrivals.front().frame, cost);
     for (std::size_t i = 1; i < arrivals.size(); ++i) {
       from.emplace_back();
       cost = arrived(cost, arrivals[i - 1].frame, arrivals[i], from.back());
+      add_taken(arrivals[i].frame, cost);
     }
     auto place = static_cast<std::size_t>(std::ranges::min_element(cost) - cost.begin());
-    std::vector<MovedPictures> moved;
+    std::vector<MovedPictures> blocks;
     for (std::size_t i = arrivals.size(); i-- > 0;) {
-      add(arrivals[i].frame, place, moved);
+      add(arrivals[i].frame, place, blocks);
       if (i > 0) place = from[i - 1][place];
     }
-    std::ranges::reverse(moved);
-    return settled(std::move(moved));
+    std::ranges::reverse(blocks);
+    return blocks;
   }
 
- private:
+  // To the costs of a picture's places, where another picture of the greatest block is.
+  void add_taken(std::size_t frame, std::vector<double>& cost) const {
+    if (!greatest_) return;
+    for (std::size_t f = greatest_->first; f <= greatest_->last; ++f) {
+      if (f != frame) cost[Places::of(f, {*greatest_})] += kTwice;
+    }
+  }
+
   // A change to places near by is held against the motion, one to others is not.
   static constexpr std::ptrdiff_t kNear = 3;
 
@@ -124,21 +145,19 @@ class Search {
     return cost;
   }
 
-  // What a sequence of blocks costs: as the way to it, and for places that are taken twice, which
-  // the search does not see.
+  // What a sequence of blocks costs: as the way to it, and for places that are taken twice.
   double cost_of(const std::vector<MovedPictures>& blocks) const {
-    constexpr double kTwice = 3.0;
     double cost = change_ * static_cast<double>(blocks.size());
     if (blocks.front().places == 0) cost -= change_;
     for (const SeenMotion& motion : input_.motions) {
       cost += misfit(motion, Places::of(motion.from, blocks), Places::of(motion.to, blocks));
     }
-    std::vector<std::size_t> taken(places_.size(), 0);
+    std::vector<bool> is_taken(places_.size(), false);
     for (const MovedPictures& block : blocks) {
       for (std::size_t frame = block.first; frame <= block.last; ++frame) {
-        if (taken[static_cast<std::size_t>(static_cast<std::ptrdiff_t>(Places::of(frame)) +
-                                           block.places)]++ > 0)
-          cost += kTwice;
+        const std::size_t place = Places::of(frame, {block});
+        if (is_taken[place]) cost += kTwice;
+        is_taken[place] = true;
       }
     }
     return cost;
@@ -186,6 +205,7 @@ class Search {
   double change_ = 0.0;
   double median_s_ = 1.0;
   ResidualSpread spread_;
+  std::optional<MovedPictures> greatest_;  // of a first search
 };
 
 }  // namespace
