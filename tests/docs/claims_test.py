@@ -69,7 +69,7 @@ class Claims(unittest.TestCase):
             for index in claims.result_lines(name, page, self.exceptions):
                 for text in claims.uncovered(page.lines[index], fragments):
                     with self.subTest(place=f"{name}:{index + 1}", text=text):
-                        self.fail("neither a claim in tests/docs/claims_of nor a line of its other.txt")
+                        self.fail("neither a claim of claims_of/ nor a line of its other.txt")
 
 
 class Reading(unittest.TestCase):
@@ -83,6 +83,7 @@ class Reading(unittest.TestCase):
         self.assertEqual(len(list(claims.uncovered(line, []))), 2)
         self.assertEqual(len(list(claims.uncovered(line, ["No loop is false"]))), 1)
         self.assertEqual(len(list(claims.uncovered(line, ["loop is false"]))), 2)
+        self.assertEqual(list(claims.uncovered("a [way](page.md#of-no-return)", [])), [])
 
 
 if __name__ == "__main__":
