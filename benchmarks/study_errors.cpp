@@ -2,7 +2,7 @@
 // several exchangeable estimators is called worse, how often one that is off by the margin is
 // called equivalent, and how often a 95 % interval holds the mean. Prints Markdown tables.
 //
-//   study_errors [--repeats N] [--seed S]
+//   study_errors [--repeats N] [--seed S] [--table worse|equivalent|coverage]
 
 #include <cmath>
 #include <cstdio>
@@ -125,7 +125,7 @@ void print_worse(std::size_t repeats, std::uint64_t seed) {
 // one that is never or always reached would test nothing.
 void print_equivalent(std::size_t repeats, std::uint64_t seed) {
   std::printf(
-      "\n| errors | surveys | margin, %% | called equivalent, %% | equivalent where alike, %% |\n");
+      "| errors | surveys | margin, %% | called equivalent, %% | equivalent where alike, %% |\n");
   std::printf("|---|---|---|---|---|\n");
   for (const Shape shape : {Shape::normal, Shape::heavy}) {
     for (const std::size_t surveys : {6, 10, 20}) {
@@ -142,7 +142,7 @@ void print_equivalent(std::size_t repeats, std::uint64_t seed) {
 
 // Of means, which are 1.
 void print_coverage(std::size_t repeats, std::uint64_t seed) {
-  std::printf("\n| errors | surveys | trials of each | the 95 %% interval holds the mean, %% |\n");
+  std::printf("| errors | surveys | trials of each | the 95 %% interval holds the mean, %% |\n");
   std::printf("|---|---|---|---|\n");
   struct Size {
     std::size_t surveys;
@@ -174,13 +174,19 @@ void print_coverage(std::size_t repeats, std::uint64_t seed) {
 int run(int argc, const char* const* argv) {
   std::size_t repeats = 1000;
   std::uint64_t seed = 1;
+  std::string only;
   CLI::App app{"Error rates of verdicts and coverage of intervals, on drawn studies."};
   app.add_option("--repeats", repeats, "studies a row")->check(CLI::PositiveNumber);
   app.add_option("--seed", seed, "of the draws");
+  app.add_option("--table", only, "this one alone")
+      ->check(CLI::IsMember({"worse", "equivalent", "coverage"}));
   CLI11_PARSE(app, argc, argv);
-  print_worse(repeats, seed);
-  print_equivalent(repeats, seed);
-  print_coverage(repeats, seed);
+  const auto is_asked = [&only](const char* table) { return only.empty() || only == table; };
+  if (is_asked("worse")) print_worse(repeats, seed);
+  if (only.empty()) std::printf("\n");
+  if (is_asked("equivalent")) print_equivalent(repeats, seed);
+  if (only.empty()) std::printf("\n");
+  if (is_asked("coverage")) print_coverage(repeats, seed);
   return 0;
 }
 

@@ -6,19 +6,24 @@ from markdown import tables_of
 
 PAGE = "docs/studies.md"
 REPEATS = 400
-HOW = f"`build/release/study_errors --repeats {REPEATS}`"
 BENCH = dict(programs=("study_errors",))
 
 
-def _tables(work):
-    """The program's tables: rows as dicts by column."""
-    text = work.output("study-errors", "study_errors", "--repeats", work.size(REPEATS, 2))
-    return [[dict(zip(header, row)) for row in rows] for header, rows in tables_of(text)]
+def _how(name):
+    return f"`build/release/study_errors --repeats {REPEATS} --table {name}`"
 
 
-@maker(PAGE, "errors-worse", "slow", HOW, 30, **BENCH)
+def _rows(work, name):
+    """Rows of one table of the program, as dicts by column."""
+    text = work.output(f"study-errors-{name}", "study_errors", "--table", name,
+                       "--repeats", work.size(REPEATS, 2))
+    [(header, rows)] = tables_of(text)
+    return [dict(zip(header, row)) for row in rows]
+
+
+@maker(PAGE, "errors-worse", "slow", _how("worse"), 15, **BENCH)
 def worse(work):
-    rows, _, _ = _tables(work)
+    rows = _rows(work, "worse")
     surveys = sorted({int(row["surveys"]) for row in rows})
     cells = {(row["errors"], row["estimators"], int(row["surveys"])):
              row["one is called worse, %"] if row["verdict given"] == "yes" else "–"
@@ -28,16 +33,16 @@ def worse(work):
                  [[*kind, *(cells[(*kind, count)] for count in surveys)] for kind in kinds])
 
 
-@maker(PAGE, "errors-equivalent", "slow", HOW, 30, **BENCH)
+@maker(PAGE, "errors-equivalent", "slow", _how("equivalent"), 15, **BENCH)
 def equivalent(work):
-    _, rows, _ = _tables(work)
+    rows = _rows(work, "equivalent")
     return table(["errors", "surveys", "margin, %", "off by the margin", "alike"],
                  [list(row.values()) for row in rows])
 
 
-@maker(PAGE, "errors-coverage", "slow", HOW, 30, **BENCH)
+@maker(PAGE, "errors-coverage", "slow", _how("coverage"), 15, **BENCH)
 def coverage(work):
-    _, _, rows = _tables(work)
+    rows = _rows(work, "coverage")
     sizes = dict.fromkeys((row["surveys"], row["trials of each"]) for row in rows)
     cells = {(row["errors"], row["surveys"], row["trials of each"]):
              row["the 95 % interval holds the mean, %"] for row in rows}
