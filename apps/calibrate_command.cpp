@@ -1,10 +1,10 @@
 // fathom calibrate: what registrations say against dead reckoning, compass and fixes.
 
-#include <cstdio>
 #include <memory>
 
 #include "apps/command.hpp"
 #include "apps/common.hpp"
+#include "apps/output.hpp"
 #include "apps/terminal.hpp"
 #include "fathom/workflow/calibrate.hpp"
 
@@ -29,18 +29,18 @@ void calibrate(const CalibrateFlags& flags, Context& context) {
   terminal.clear();
   context.status = kDone;
   const SurveyCalibration& done = outcome.done;
-  std::printf("%zu of %zu pairs of near pictures register\n", done.found, done.tried);
-  for (const std::string& fact : facts_of(done.calibration)) std::printf("  %s\n", fact.c_str());
-  if (!done.calibration.untold.empty()) std::printf("not told by this survey\n");
-  for (const std::string& one : done.calibration.untold) std::printf("  %s\n", one.c_str());
+  print("%zu of %zu pairs of near pictures register\n", done.found, done.tried);
+  for (const std::string& fact : facts_of(done.calibration)) print("  %s\n", fact.c_str());
+  if (!done.calibration.untold.empty()) print("not told by this survey\n");
+  for (const std::string& one : done.calibration.untold) print("  %s\n", one.c_str());
   for (const std::string& one : outcome.remarks) terminal.remark(one);
   for (const std::string& one : done.calibration.findings) terminal.remark(one);
   if (done.calibration.findings.empty()) {
     const bool is_compared = done.calibration.set_up || !done.calibration.turns.empty();
-    std::printf(is_compared
-                    ? "nothing is off by more than its standard deviation explains\n"
-                    : "nothing to hold them against: odometry, a compass, fixes or ground truth of "
-                      "a vehicle that turns\n");
+    print(is_compared
+              ? "nothing is off by more than its standard deviation explains\n"
+              : "nothing to hold them against: odometry, a compass, fixes or ground truth of "
+                "a vehicle that turns\n");
   }
   terminal.print_remarks();
 }

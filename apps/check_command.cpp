@@ -1,12 +1,12 @@
 // fathom check: what is in a file or folder, and what is wrong with it.
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 #include <memory>
 
 #include "apps/command.hpp"
 #include "apps/common.hpp"
+#include "apps/output.hpp"
 #include "apps/terminal.hpp"
 #include "fathom/configuration/study.hpp"
 #include "fathom/core/input_error.hpp"
@@ -20,36 +20,34 @@ namespace fathom {
 namespace {
 
 void print_warnings(const std::vector<std::string>& warnings) {
-  if (warnings.empty()) std::printf("nothing looks wrong\n");
-  for (const std::string& warning : warnings) std::printf("warning: %s\n", warning.c_str());
+  if (warnings.empty()) print("nothing looks wrong\n");
+  for (const std::string& warning : warnings) print("warning: %s\n", warning.c_str());
 }
 
 void print_advice(const std::string& advice) {
-  if (!advice.empty()) std::printf("%s\n", advice.c_str());
+  if (!advice.empty()) print("%s\n", advice.c_str());
 }
 
 void refuse(const std::vector<std::string>& faults) {
   if (faults.empty()) return;
   for (std::size_t i = 0; i < std::min(faults.size(), kMostShown); ++i) {
-    std::printf("fault: %s\n", faults[i].c_str());
+    print("fault: %s\n", faults[i].c_str());
   }
-  if (faults.size() > kMostShown) std::printf("and %zu faults more\n", faults.size() - kMostShown);
+  if (faults.size() > kMostShown) print("and %zu faults more\n", faults.size() - kMostShown);
   throw InputError(faults.front() + " (" + counted(faults.size(), "fault") + " in all)");
 }
 
 void check_graph(const std::string& path, const EstimatorRegistry& registry,
                  const GraphOptions& options) {
   const workflow::GraphCheck found = workflow::check_graph(path, registry, options);
-  std::printf("%s", graph_text(found.graph).c_str());
+  print("%s", graph_text(found.graph).c_str());
   refuse(found.graph.faults);
-  if (found.guess_chi2)
-    std::printf("  F            %.10g at the file's guess\n", *found.guess_chi2);
-  std::printf("  F            %.10g at %s\n", found.start_chi2,
-              found.starts_from_odometry ? "odometry" : "what a batch solve starts from");
+  if (found.guess_chi2) print("  F            %.10g at the file's guess\n", *found.guess_chi2);
+  print("  F            %.10g at %s\n", found.start_chi2,
+        found.starts_from_odometry ? "odometry" : "what a batch solve starts from");
   if (found.batch_chi2) {
-    std::printf(
-        "  F            %.10g where a batch solve from odometry ends, %s per degree of freedom\n",
-        *found.batch_chi2, format_number(found.scale->per_degree_of_freedom, 3).c_str());
+    print("  F            %.10g where a batch solve from odometry ends, %s per degree of freedom\n",
+          *found.batch_chi2, format_number(found.scale->per_degree_of_freedom, 3).c_str());
   }
   print_advice(found.advice);
   print_warnings(found.warnings);
@@ -59,18 +57,19 @@ void check_folder(const std::string& path, const EstimatorRegistry& registry) {
   Terminal terminal(false);
   const workflow::SurveyCheck found = workflow::check_survey(path, registry, terminal);
   terminal.clear();
-  std::printf("image folder\n");
-  for (const std::string& fact : found.folder.facts) std::printf("  %s\n", fact.c_str());
+  print("image folder\n");
+  for (const std::string& fact : found.folder.facts) print("  %s\n", fact.c_str());
   refuse(found.folder.faults);
-  std::printf("what 'fathom run %s' will find\n", path.c_str());
-  for (const std::string& fact : found.expected) std::printf("  %s\n", fact.c_str());
+  print("what 'fathom run %s' will find\n", path.c_str());
+  for (const std::string& fact : found.expected) print("  %s\n", fact.c_str());
   print_advice(found.advice);
   print_warnings(found.folder.warnings);
 }
 
-void check_configuration(const std::string& path, workflow::KnownEstimators& estimators) {
+void check_configuration(const std::string& path, const PluginFlags& plugins,
+                         workflow::KnownEstimators& estimators) {
   Settings settings = read_settings(path);
-  estimators.load(settings, {});
+  load_named_code(settings, plugins, workflow::NamedPlugins::left_out, estimators, true);
   const EstimatorRegistry& registry = estimators.registry();
   const bool is_study = kind_of(settings) == ConfigurationKind::comparison;
   Configuration configuration;
@@ -78,23 +77,29 @@ void check_configuration(const std::string& path, workflow::KnownEstimators& est
     const Study study = configure_study(settings, registry);
     configuration = study.cells.front();
     const StudyDescription& described = study.description;
-    std::printf(
-        "study for 'compare': %zu cells, each %s\n", study.cells.size(),
-        repeats_text(described.repetition_of(0), described.surveys, described.trials).c_str());
+    print("study for 'compare': %zu cells, each %s\n", study.cells.size(),
+          repeats_text(described.repetition_of(0), described.surveys, described.trials).c_str());
     for (const StudyAxis& axis : study.description.axes) {
-      std::printf("  swept %s: %zu values\n", axis.key.c_str(), axis.labels.size());
+      print("  swept %s: %zu values\n", axis.key.c_str(), axis.labels.size());
     }
   } else {
     configuration = configure(settings, ConfigurationKind::single, registry);
-    std::printf("configuration for 'run'\n");
+    print("configuration for 'run'\n");
   }
   for (const auto& [key, value] : configuration.in_force) {
-    std::printf("  %s: %s\n", key.c_str(), value.c_str());
+    print("  %s: %s\n", key.c_str(), value.c_str());
   }
   for (const EstimatorConfiguration& estimator : configuration.estimators) {
-    std::printf("  estimator %s: %s\n", estimator.name.c_str(), estimator.type.c_str());
+    print("  estimator %s: %s\n", estimator.name.c_str(), estimator.type.c_str());
   }
-  std::printf("every key is known and every value within its bounds\n");
+  const std::vector<std::string> named = workflow::named_code(settings).plugins;
+  const bool is_whole = plugins.allows_named || named.empty();
+  if (!is_whole) {
+    print("left out: the plug-ins of the configuration, %s; --allow-plugins loads them\n",
+          joined(named, ", ").c_str());
+  }
+  print("every key is known and every value within its bounds%s\n",
+        is_whole ? "" : ", but for those of the plug-ins");
 }
 
 void check_trajectory(const std::string& path) {
@@ -105,37 +110,43 @@ void check_trajectory(const std::string& path) {
   for (std::size_t i = 1; i < poses.size(); ++i) {
     length_m += (poses[i].pose.position_m - poses[i - 1].pose.position_m).norm();
   }
-  std::printf("trajectory\n  format       %s\n  poses        %zu\n  path         %s m\n",
-              title_of(trajectory.format).c_str(), poses.size(),
-              format_number(length_m, 4).c_str());
+  print("trajectory\n  format       %s\n  poses        %zu\n  path         %s m\n",
+        title_of(trajectory.format).c_str(), poses.size(), format_number(length_m, 4).c_str());
 }
 
-void check(const std::string& path, const GraphOptions& options, Context& context) {
+struct CheckFlags {
+  std::string path;
+  GraphOptions graph;
+  PluginFlags plugins;
+};
+
+void check(const CheckFlags& flags, Context& context) {
+  const std::string& path = flags.path;
   const std::string ending = std::filesystem::path(path).extension().string();
   context.status = kDone;
   if (std::filesystem::is_directory(path)) {
     check_folder(path, context.estimators().registry());
   } else if (ending == ".yaml" || ending == ".yml") {
-    check_configuration(path, context.estimators());
+    check_configuration(path, flags.plugins, context.estimators());
   } else if (ending == ".tum" || ending == ".txt" || ending == ".csv") {
     check_trajectory(path);
   } else {
-    check_graph(path, context.estimators().registry(), options);
+    check_graph(path, context.estimators().registry(), flags.graph);
   }
 }
 
 }  // namespace
 
 void add_check(CLI::App& program, Context& context) {
-  auto path = std::make_shared<std::string>();
-  auto options = std::make_shared<GraphOptions>();
+  auto flags = std::make_shared<CheckFlags>();
   Command command(program, "check", "Say what is in a file or folder and what is wrong with it",
                   "Example: fathom check intel.g2o\n"
                   "A folder is an image folder, .yaml a configuration, .tum, .txt and .csv a "
                   "trajectory,\nelse a pose graph.");
-  command.argument("path", *path, "File or folder");
-  add_drop_self_edges_to(command, options->drop_self_edges);
-  command.on_run([path, options, &context] { check(*path, *options, context); });
+  command.argument("path", flags->path, "File or folder");
+  add_drop_self_edges_to(command, flags->graph.drop_self_edges);
+  flags->plugins.add_to(command);
+  command.on_run([flags, &context] { check(*flags, context); });
 }
 
 }  // namespace fathom

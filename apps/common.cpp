@@ -1,14 +1,45 @@
 #include "apps/common.hpp"
 
-#include <cstdio>
-
 #include "apps/command.hpp"
+#include "apps/output.hpp"
+#include "fathom/core/text.hpp"
 #include "fathom/workflow/inputs.hpp"
+#include "fathom/workflow/named_code.hpp"
 
 namespace fathom {
 
 void add_plugins_to(Command& command, std::vector<std::string>& files) {
   command.texts("--plugin", files, "FILE", "Further estimators: a shared object, or a .py file");
+}
+
+void PluginFlags::add_to(Command& command) {
+  add_plugins_to(command, files);
+  command.boolean("--allow-plugins", allows_named,
+                  "Load the plug-ins that a configuration names, too: loading executes their code");
+}
+
+void print_named_code(const std::string& what, const workflow::NamedCode& code) {
+  std::vector<std::string> names = code.plugins;
+  names.insert(names.end(), code.commands.begin(), code.commands.end());
+  if (!names.empty())
+    print_note("the configuration names code, " + what + ": " + joined(names, "; "));
+}
+
+void load_named_code(Settings& settings, const PluginFlags& flags, workflow::NamedPlugins named,
+                     workflow::KnownEstimators& estimators, bool quiet) {
+  using workflow::NamedPlugins;
+  workflow::NamedCode code = workflow::named_code(settings);
+  const bool runs = named == NamedPlugins::loaded;
+  if (flags.allows_named) named = NamedPlugins::loaded;
+  if (!runs) code.commands.clear();
+  if (!quiet) {
+    print_named_code(runs ? "which is executed"
+                     : named == NamedPlugins::loaded
+                         ? "which is loaded"
+                         : "which is left out (--allow-plugins loads it)",
+                     code);
+  }
+  estimators.load(settings, flags.files, named);
 }
 
 void add_drop_self_edges_to(Command& command, bool& field) {
@@ -20,7 +51,7 @@ void CommonFlags::add_settings_to(Command& command, Context& context) {
   context_ = &context;
   command.texts("--set", overrides, "KEY=VALUE",
                 "Override a setting, for example estimator.type=ekf");
-  add_plugins_to(command, plugins);
+  plugins.add_to(command);
   command.integer("--seed", seed, Range::any(), "N", "Base seed of all noise and of RANSAC");
   command.boolean("--quiet", quiet, "No output but errors");
 }
@@ -29,11 +60,11 @@ void CommonFlags::add_out_to(Command& command, const std::string& what) {
   command.text("--out", out, "DIR", what);
 }
 
-Settings CommonFlags::settings(const std::string& path) const {
+Settings CommonFlags::settings(const std::string& path, workflow::NamedPlugins named) const {
   Settings settings = workflow::settings_of(path);
   for (const std::string& text : overrides) settings.put(parse_override(text));
   if (seed) settings.put({"seed", OptionValue::scalar(std::to_string(*seed)), "--seed"});
-  context_->estimators().load(settings, plugins);
+  load_named_code(settings, plugins, named, context_->estimators(), quiet);
   return settings;
 }
 
@@ -49,7 +80,7 @@ std::unique_ptr<RegistrationStore> open_registrations(const std::filesystem::pat
                                                       bool quiet) {
   auto store = std::make_unique<RegistrationStore>(folder);
   if (const std::string problem = store->problem(); !problem.empty() && !quiet) {
-    std::fprintf(stderr, "fathom: note: no registration cache: %s\n", problem.c_str());
+    print_note("no registration cache: " + problem);
   }
   return store;
 }

@@ -10,13 +10,31 @@
 #include "fathom/configuration/config_file.hpp"
 #include "fathom/estimation/registry.hpp"
 #include "fathom/front_end/registration_store.hpp"
+#include "fathom/workflow/known_estimators.hpp"
+#include "fathom/workflow/named_code.hpp"
 
 namespace fathom {
 
 struct Context;
 
+/// What a user lets a command load.
+struct PluginFlags {
+  std::vector<std::string> files;  ///< --plugin FILE
+  bool allows_named = false;       ///< --allow-plugins: those that a configuration names, too
+
+  void add_to(Command& command);
+};
+
 /// --plugin FILE of a command, each use adds one.
 void add_plugins_to(Command& command, std::vector<std::string>& files);
+
+/// A note of the code that a configuration names, and what becomes of it; none of none.
+void print_named_code(const std::string& what, const workflow::NamedCode& code);
+
+/// Loads what the flags and, for `loaded` or by --allow-plugins, the settings name. A note says
+/// what a configuration had loaded, what it will have executed, or what was left out; unless quiet.
+void load_named_code(Settings& settings, const PluginFlags& flags, workflow::NamedPlugins named,
+                     workflow::KnownEstimators& estimators, bool quiet);
 
 /// --drop-self-edges of a command that reads pose graphs.
 void add_drop_self_edges_to(Command& command, bool& field);
@@ -24,7 +42,7 @@ void add_drop_self_edges_to(Command& command, bool& field);
 /// The flags of all commands that read a configuration or run an estimator.
 struct CommonFlags {
   std::vector<std::string> overrides;  ///< --set KEY=VALUE
-  std::vector<std::string> plugins;    ///< --plugin FILE
+  PluginFlags plugins;
   std::optional<int> seed;
   bool quiet = false;
   std::string out;
@@ -33,8 +51,9 @@ struct CommonFlags {
   void add_out_to(Command& command, const std::string& what);
 
   /// The file's settings (none for an empty path; of a folder, that it is the data set), then
-  /// --set, then --seed. Plug-ins that are named there or by --plugin are loaded.
-  Settings settings(const std::string& path) const;
+  /// --set, then --seed; with load_named_code.
+  Settings settings(const std::string& path,
+                    workflow::NamedPlugins named = workflow::NamedPlugins::left_out) const;
   /// Those known now.
   const EstimatorRegistry& estimators() const;
   /// --out, or `runs/` and a name of its own.

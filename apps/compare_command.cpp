@@ -1,12 +1,12 @@
 // fathom compare: a study. A data set, several estimators, surveys, many trials, perhaps a sweep.
 
-#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <optional>
 
 #include "apps/command.hpp"
 #include "apps/common.hpp"
+#include "apps/output.hpp"
 #include "apps/stop_signal.hpp"
 #include "apps/terminal.hpp"
 #include "fathom/workflow/compare.hpp"
@@ -33,7 +33,7 @@ struct CompareFlags {
   bool no_mosaic = false;
 
   Settings settings() const {
-    Settings settings = common.settings(config);
+    Settings settings = common.settings(config, workflow::NamedPlugins::loaded);
     if (surveys) {
       settings.put({"surveys", OptionValue::scalar(std::to_string(*surveys)), "--surveys"});
     }
@@ -59,7 +59,7 @@ void register_only(const CompareFlags& flags, const workflow::CompareRequest& re
       workflow::register_study(request, flags.common.estimators(), this_program(), terminal);
   terminal.clear();
   if (is_finished) return;
-  std::fprintf(stderr, "fathom: stopped; what is registered is kept.\n");
+  print_error("fathom: stopped; what is registered is kept.\n");
   context.status = kStopped;
 }
 
@@ -70,20 +70,19 @@ void run_study(const CompareFlags& flags, const workflow::CompareRequest& reques
   terminal.clear();
   const std::string store = (request.out / kResultsFile).string();
   if (!done.is_finished) {
-    std::fprintf(stderr,
-                 "fathom: stopped; %zu runs are in %s. The same command goes on from there.\n",
-                 done.runs, store.c_str());
+    print_error("fathom: stopped; %zu runs are in %s. The same command goes on from there.\n",
+                done.runs, store.c_str());
     context.status = kStopped;
     return;
   }
   context.status = done.all_usable ? kDone : kFailed;
   if (flags.common.quiet) return;
   if (request.shard) {
-    std::printf("shard %s: %zu runs are in %s\n'fathom merge' makes one study of all shards.\n",
-                text_of(*request.shard).c_str(), done.runs, store.c_str());
+    print("shard %s: %zu runs are in %s\n'fathom merge' makes one study of all shards.\n",
+          text_of(*request.shard).c_str(), done.runs, store.c_str());
     return;
   }
-  std::printf("%s\n", done.table.c_str());
+  print("%s\n", done.table.c_str());
   terminal.print_written();
   terminal.print_remarks();
 }

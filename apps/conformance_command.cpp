@@ -10,6 +10,7 @@
 
 #include "apps/command.hpp"
 #include "apps/common.hpp"
+#include "apps/output.hpp"
 #include "fathom/configuration/isolation.hpp"
 #include "fathom/core/input_error.hpp"
 #include "fathom/core/text.hpp"
@@ -46,7 +47,7 @@ void print_clauses() {
   for (const ConformanceClause& clause : conformance_clauses()) {
     table.add_row({clause.name, clause.rule});
   }
-  std::printf("%s", table.text().c_str());
+  print("%s", table.text().c_str());
 }
 
 // "2 do not apply: no batch mode"; empty where all do.
@@ -82,13 +83,13 @@ bool conforms(const EstimatorEntry& entry) {
       ++kept;
       continue;
     }
-    std::printf("%s: breaks %s: %s\n    rule: %s\n", entry.name.c_str(), clause.name.c_str(),
-                verdict.how.c_str(), clause.rule.c_str());
+    print("%s: breaks %s: %s\n    rule: %s\n", entry.name.c_str(), clause.name.c_str(),
+          verdict.how.c_str(), clause.rule.c_str());
     std::fflush(stdout);
   }
   const std::size_t not_applicable = conformance_clauses().size() - applicable;
-  std::printf("%s: keeps %zu of %zu clauses%s\n", entry.name.c_str(), kept, applicable,
-              without_application(not_applicable, reasons).c_str());
+  print("%s: keeps %zu of %zu clauses%s\n", entry.name.c_str(), kept, applicable,
+        without_application(not_applicable, reasons).c_str());
   std::fflush(stdout);
   return kept == applicable;
 }

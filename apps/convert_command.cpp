@@ -1,12 +1,12 @@
 // fathom convert: trajectories and pose graphs from one format to another.
 
-#include <cstdio>
 #include <filesystem>
 #include <fmt/format.h>
 #include <memory>
 
 #include "apps/command.hpp"
 #include "apps/common.hpp"
+#include "apps/output.hpp"
 #include "apps/trajectories.hpp"
 #include "fathom/core/files.hpp"
 #include "fathom/core/input_error.hpp"
@@ -140,9 +140,9 @@ void convert(const ConvertFlags& flags, Context& context) {
   const Notes notes = to_graph ? convert_graph_file(flags) : convert_trajectory_file(flags);
   context.status = kDone;
   if (flags.quiet) return;
-  for (const std::string& note : notes) std::printf("%s\n", note.c_str());
-  std::printf("wrote %s\n", flags.out.c_str());
-  if (!flags.times_out.empty()) std::printf("      %s\n", flags.times_out.c_str());
+  for (const std::string& note : notes) print("%s\n", note.c_str());
+  print("wrote %s\n", flags.out.c_str());
+  if (!flags.times_out.empty()) print("      %s\n", flags.times_out.c_str());
 }
 
 }  // namespace

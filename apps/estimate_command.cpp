@@ -1,12 +1,12 @@
 // fathom estimate: what a study will take, from a few of its trials.
 
 #include <cmath>
-#include <cstdio>
 #include <fmt/format.h>
 #include <memory>
 
 #include "apps/command.hpp"
 #include "apps/common.hpp"
+#include "apps/output.hpp"
 #include "apps/terminal.hpp"
 #include "fathom/report/table.hpp"
 #include "fathom/workflow/estimate.hpp"
@@ -31,29 +31,29 @@ std::string request_of(const workflow::Demand& demand, int shards) {
                      minutes, mib);
 }
 
-void print(const workflow::Demand& demand, int shards) {
+void print_demand(const workflow::Demand& demand, int shards) {
   Table table({"", "processor hours", "disk (MiB)", "of"});
   table.add_row({"registrations", format_number(demand.registrations_h, 2),
                  format_number(demand.cache_mib, 2), std::to_string(demand.surveys) + " surveys"});
   table.add_row({"runs", format_number(demand.runs_h, 2), format_number(demand.store_mib, 2),
                  fmt::format("{} trials with {} estimators", demand.trials, demand.estimators)});
-  std::printf("%s\n", table.text().c_str());
-  std::printf(
+  print("%s\n", table.text().c_str());
+  print(
       "Memory: %.0f MiB a job. From %zu trial%s run here; other trials register "
       "pairs of their own, and other machines are faster or slower.\n",
       std::ceil(demand.memory_mib), demand.sampled_trials,
       demand.sampled_trials == 1 ? " that was" : "s that were");
-  std::printf("A request of twice that, in %d shard%s, pictures registered before:\n%s", shards,
-              shards == 1 ? "" : "s", request_of(demand, shards).c_str());
+  print("A request of twice that, in %d shard%s, pictures registered before:\n%s", shards,
+        shards == 1 ? "" : "s", request_of(demand, shards).c_str());
 }
 
 void estimate(const EstimateFlags& flags) {
   Terminal terminal(flags.common.quiet);
-  const Settings settings = flags.common.settings(flags.config);
+  const Settings settings = flags.common.settings(flags.config, workflow::NamedPlugins::loaded);
   const workflow::Demand demand = workflow::estimate(
       settings, flags.seconds, flags.common.estimators(), this_program(), terminal);
   terminal.clear();
-  print(demand, flags.shards);
+  print_demand(demand, flags.shards);
 }
 
 }  // namespace

@@ -1,11 +1,11 @@
 // fathom evaluate: a trajectory against a reference.
 
 #include <cmath>
-#include <cstdio>
 #include <fmt/format.h>
 #include <memory>
 
 #include "apps/command.hpp"
+#include "apps/output.hpp"
 #include "apps/trajectories.hpp"
 #include "fathom/core/input_error.hpp"
 #include "fathom/core/text.hpp"
@@ -147,7 +147,7 @@ void evaluate_files(EvaluateFlags flags, Context& context) {
     throw InputError(flags.estimate, "has errors too large for a number");
   }
   const EvaluationHead head{flags.alignment, estimate.poses.size(), by_index};
-  std::printf("%s", evaluation_text(judged, head, {flags.steps, flags.distances_m}).c_str());
+  print("%s", evaluation_text(judged, head, {flags.steps, flags.distances_m}).c_str());
   context.status = kDone;
 }
 

@@ -1,6 +1,5 @@
 // fathom import: a bag, or the poses of another tool, as an image folder.
 
-#include <cstdio>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -8,6 +7,7 @@
 #include "apps/child_process.hpp"
 #include "apps/command.hpp"
 #include "apps/common.hpp"
+#include "apps/output.hpp"
 #include "apps/terminal.hpp"
 #include "fathom/core/files.hpp"
 #include "fathom/datasets/image_folder.hpp"
@@ -30,9 +30,9 @@ struct ImportFlags {
   std::string times;
 };
 
-void print(const ImportReport& report) {
-  for (const std::string& fact : report.facts) std::printf("%s\n", fact.c_str());
-  for (const std::string& line : report.notes) std::printf("note: %s\n", line.c_str());
+void print_import(const ImportReport& report) {
+  for (const std::string& fact : report.facts) print("%s\n", fact.c_str());
+  for (const std::string& line : report.notes) print("note: %s\n", line.c_str());
 }
 
 void import_into(const ImportFlags& flags, ImportKind kind, StagedFolder& folder) {
@@ -51,14 +51,14 @@ void import_into(const ImportFlags& flags, ImportKind kind, StagedFolder& folder
   }
   folder.commit();
   if (flags.quiet) return;
-  print(report);
+  print_import(report);
   const std::string target = folder.target().string();
   if (is_survey) {
-    std::printf("\nwrote %s\nlook at it with: fathom check %s\n",
-                (folder.target() / "mav0").c_str(), target.c_str());
+    print("\nwrote %s\nlook at it with: fathom check %s\n", (folder.target() / "mav0").c_str(),
+          target.c_str());
   } else {
-    std::printf("\nwrote %s\n      %s\n", (folder.target() / "state_groundtruth_estimate0").c_str(),
-                (folder.target() / "reference.tum").c_str());
+    print("\nwrote %s\n      %s\n", (folder.target() / "state_groundtruth_estimate0").c_str(),
+          (folder.target() / "reference.tum").c_str());
   }
 }
 
@@ -94,7 +94,7 @@ void import_source(ImportFlags& flags, Context& context) {
     if (!is_bag) throw InputError("--list: " + flags.source + " is no bag, it has no topics");
     do_safely(kind, flags.source, [&] {
       for (const std::string& line : bag_topic_list(flags.source, flags.bag)) {
-        std::printf("%s\n", line.c_str());
+        print("%s\n", line.c_str());
       }
     });
     return;

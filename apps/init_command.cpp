@@ -1,11 +1,11 @@
 // fathom init: a configuration and a study for a folder of pictures, every line explained.
 
-#include <cstdio>
 #include <filesystem>
 #include <memory>
 
 #include "apps/command.hpp"
 #include "apps/common.hpp"
+#include "apps/output.hpp"
 #include "fathom/workflow/init.hpp"
 #include "fathom/workflow/inputs.hpp"
 
@@ -25,14 +25,13 @@ void init(const InitFlags& flags, Context& context) {
   const workflow::InitOutcome found = workflow::init(request, flags.common.estimators());
   context.status = kDone;
   if (flags.common.quiet) return;
-  for (const std::string& fact : found.facts) std::printf("%s\n", fact.c_str());
-  for (const std::string& one : found.assumed) std::printf("assumed: %s\n", one.c_str());
-  for (const std::string& warning : found.warnings) std::printf("warning: %s\n", warning.c_str());
+  for (const std::string& fact : found.facts) print("%s\n", fact.c_str());
+  for (const std::string& one : found.assumed) print("assumed: %s\n", one.c_str());
+  for (const std::string& warning : found.warnings) print("warning: %s\n", warning.c_str());
   const char* run = found.run.c_str();
   const char* study = found.study.c_str();
-  std::printf(
-      "\nwrote %s\n      %s\nrun them with: fathom run %s\n               fathom compare %s\n", run,
-      study, run, study);
+  print("\nwrote %s\n      %s\nrun them with: fathom run %s\n               fathom compare %s\n",
+        run, study, run, study);
 }
 
 }  // namespace

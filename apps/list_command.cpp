@@ -1,9 +1,9 @@
 // fathom list: what there is to choose from, with every option.
 
-#include <cstdio>
 #include <memory>
 
 #include "apps/command.hpp"
+#include "apps/output.hpp"
 #include "fathom/configuration/configuration.hpp"
 #include "fathom/core/features.hpp"
 #include "fathom/core/input_error.hpp"
@@ -21,11 +21,11 @@ void print_options(const std::string& prefix, const std::vector<OptionDescriptio
     table.add_row(
         {"  " + prefix + option.key, option.default_value, option.unit, allowed, option.help});
   }
-  std::printf("%s\n", table.text().c_str());
+  print("%s\n", table.text().c_str());
 }
 
 void print_heading(const std::string& name, const std::string& help) {
-  std::printf("%s: %s\n", name.c_str(), help.c_str());
+  print("%s: %s\n", name.c_str(), help.c_str());
 }
 
 void print_metrics() {
@@ -37,7 +37,7 @@ void print_metrics() {
     table.add_row(
         {metric.name, metric.unit, better, metric.is_cost ? "yes" : "", metric.description});
   }
-  std::printf("%s", table.text().c_str());
+  print("%s", table.text().c_str());
 }
 
 void print_features() {
@@ -47,7 +47,7 @@ void print_features() {
                    std::string(feature.gives), std::string(feature.packages),
                    feature.is_built ? "" : remedy_for(feature)});
   }
-  std::printf("%s", table.text().c_str());
+  print("%s", table.text().c_str());
 }
 
 void list(const std::string& what, Context& context) {
@@ -61,7 +61,7 @@ void list(const std::string& what, Context& context) {
     }
   } else if (what == "detectors") {
     for (const DetectorEntry& entry : detectors()) print_heading(entry.name, entry.help);
-    std::printf("\n");
+    print("\n");
     FrontEndOptions front_end;
     OptionTable table;
     front_end.describe(table);

@@ -16,6 +16,7 @@
 #include "apps/command.hpp"
 #include "apps/common.hpp"
 #include "apps/out_of_memory.hpp"
+#include "apps/output.hpp"
 #include "fathom/core/options.hpp"
 #include "fathom/core/pin_threads.hpp"
 #include "fathom/core/text.hpp"
@@ -42,7 +43,7 @@ ExitStatus refused(std::string message, ExitStatus status = kBadInput) {
   for (char& letter : message) {
     if (static_cast<unsigned char>(letter) < 0x20) letter = ' ';
   }
-  std::fprintf(stderr, "fathom: error: %s\n", message.c_str());
+  print_error("fathom: error: %s\n", message.c_str());
   return status;
 }
 

@@ -1,10 +1,10 @@
 // fathom merge: one study of its shards, or one cache of registrations of several.
 
-#include <cstdio>
 #include <filesystem>
 #include <memory>
 
 #include "apps/command.hpp"
+#include "apps/output.hpp"
 #include "apps/terminal.hpp"
 #include "fathom/front_end/registration_store.hpp"
 #include "fathom/workflow/merge.hpp"
@@ -27,20 +27,20 @@ void merge_studies(const MergeFlags& flags, Context& context) {
   const workflow::MergeOutcome done = workflow::merge_studies(flags.paths(), flags.out, terminal);
   const MergeSummary& merged = done.merged;
   if (!flags.quiet) {
-    if (!done.table.empty()) std::printf("%s\n", done.table.c_str());
+    if (!done.table.empty()) print("%s\n", done.table.c_str());
     terminal.print_written();
-    std::printf("%zu folders: %zu of %zu runs", merged.sources, merged.runs, merged.of);
-    if (merged.repeated > 0) std::printf(", %zu of them in several, alike", merged.repeated);
+    print("%zu folders: %zu of %zu runs", merged.sources, merged.runs, merged.of);
+    if (merged.repeated > 0) print(", %zu of them in several, alike", merged.repeated);
     if (merged.machines > 1) {
-      std::printf(", from %zu kinds of processor, whose costs are kept apart", merged.machines);
+      print(", from %zu kinds of processor, whose costs are kept apart", merged.machines);
     }
-    std::printf("\n");
+    print("\n");
   }
   if (merged.is_complete()) return;
-  std::fprintf(stderr, "fathom: the study is not finished; missing:\n");
+  print_error("fathom: the study is not finished; missing:\n");
   for (const MissingPart& part : merged.missing) {
-    std::fprintf(stderr, "  %s%s%s\n", part.what.c_str(), part.command.empty() ? "" : ": ",
-                 part.command.c_str());
+    print_error("  %s%s%s\n", part.what.c_str(), part.command.empty() ? "" : ": ",
+                part.command.c_str());
   }
   context.status = kFailed;
 }
@@ -48,8 +48,8 @@ void merge_studies(const MergeFlags& flags, Context& context) {
 void merge_caches(const MergeFlags& flags) {
   const MergedRegistrations merged = merge_registrations(flags.paths(), flags.out);
   if (flags.quiet) return;
-  std::printf("%zu registrations are in %s; %zu were in several, alike\n", merged.count,
-              flags.out.c_str(), merged.repeated);
+  print("%zu registrations are in %s; %zu were in several, alike\n", merged.count,
+        flags.out.c_str(), merged.repeated);
 }
 
 void merge(const MergeFlags& flags, Context& context) {

@@ -1,11 +1,11 @@
 // fathom mosaic: the pictures of a run, laid where a trajectory has them.
 
-#include <cstdio>
 #include <memory>
 #include <optional>
 
 #include "apps/command.hpp"
 #include "apps/common.hpp"
+#include "apps/output.hpp"
 #include "apps/terminal.hpp"
 #include "fathom/workflow/mosaic.hpp"
 
@@ -36,8 +36,8 @@ void make(const MosaicFlags& flags, Context& context) {
   terminal.clear();
   context.status = kDone;
   if (flags.common.quiet) return;
-  std::printf("%zu of %zu frames have a pose; laid: %s\n\n", done.with_pose, done.frames,
-              done.laid.c_str());
+  print("%zu of %zu frames have a pose; laid: %s\n\n", done.with_pose, done.frames,
+        done.laid.c_str());
   terminal.print_written();
 }
 

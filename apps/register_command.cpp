@@ -1,12 +1,12 @@
 // fathom register: two pictures.
 
-#include <cstdio>
 #include <filesystem>
 #include <fmt/format.h>
 #include <memory>
 
 #include "apps/command.hpp"
 #include "apps/common.hpp"
+#include "apps/output.hpp"
 #include "apps/registration_text.hpp"
 #include "fathom/configuration/study.hpp"
 #include "fathom/core/files.hpp"
@@ -92,10 +92,10 @@ void register_pictures(const RegisterFlags& flags, Context& context) {
   folder.commit({"overlay.png"});
   context.status = registration.found ? kDone : kFailed;
   if (flags.common.quiet) return;
-  std::fputs(registration_text(features_a, features_b, options, registration).c_str(), stdout);
-  std::printf("\nwrote %s\n      %s\n", (folder.target() / "matches_raw.png").c_str(),
-              (folder.target() / "matches_accepted.png").c_str());
-  if (registration.found) std::printf("      %s\n", (folder.target() / "overlay.png").c_str());
+  print("%s", registration_text(features_a, features_b, options, registration).c_str());
+  print("\nwrote %s\n      %s\n", (folder.target() / "matches_raw.png").c_str(),
+        (folder.target() / "matches_accepted.png").c_str());
+  if (registration.found) print("      %s\n", (folder.target() / "overlay.png").c_str());
 }
 
 }  // namespace

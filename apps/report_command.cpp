@@ -1,9 +1,9 @@
 // fathom report: the page, tables and figures of a study, from its store alone.
 
-#include <cstdio>
 #include <memory>
 
 #include "apps/command.hpp"
+#include "apps/output.hpp"
 #include "fathom/workflow/report.hpp"
 
 namespace fathom {
@@ -16,7 +16,7 @@ struct ReportFlags {
 
 void report(const ReportFlags& flags) {
   const workflow::ReportOutcome done = workflow::report(flags.study, flags.out);
-  std::printf("%swrote %s\n", done.findings.c_str(), done.page.c_str());
+  print("%swrote %s\n", done.findings.c_str(), done.page.c_str());
 }
 
 }  // namespace

@@ -1,10 +1,10 @@
 // fathom run: a data set, one estimator.
 
-#include <cstdio>
 #include <memory>
 
 #include "apps/command.hpp"
 #include "apps/common.hpp"
+#include "apps/output.hpp"
 #include "apps/terminal.hpp"
 #include "fathom/workflow/inputs.hpp"
 #include "fathom/workflow/result_table.hpp"
@@ -23,37 +23,36 @@ struct RunFlags {
 // Of what a log may have beside steps and registrations.
 void print_absolute(const MeasurementLog& log) {
   if (log.absolute_count() > 0) {
-    std::printf("%zu headings and fixes; keyframe 0 begins at %.3g, %.3g m, %.3g rad%s\n",
-                log.absolute_count(), log.origin().x, log.origin().y, log.origin().theta,
-                log.start().is_fixed() ? ", held" : "");
+    print("%zu headings and fixes; keyframe 0 begins at %.3g, %.3g m, %.3g rad%s\n",
+          log.absolute_count(), log.origin().x, log.origin().y, log.origin().theta,
+          log.start().is_fixed() ? ", held" : "");
   }
   if (log.hole_count() > 0) {
-    std::printf("%zu of %zu steps of dead reckoning are holes\n", log.hole_count(), log.size() - 1);
+    print("%zu of %zu steps of dead reckoning are holes\n", log.hole_count(), log.size() - 1);
   }
 }
 
 void print_front_end(const Recording& recording) {
   if (recording.frames.empty()) {
-    std::printf("%zu poses, %zu loop closures\n", recording.log.size(),
-                recording.log.registration_count());
+    print("%zu poses, %zu loop closures\n", recording.log.size(),
+          recording.log.registration_count());
     print_absolute(recording.log);
     return;
   }
-  std::printf("%zu frames, %zu keyframes, %zu registrations tried, %zu found",
-              recording.frames.size(), recording.log.size(), recording.registrations_tried,
-              recording.log.registration_count());
+  print("%zu frames, %zu keyframes, %zu registrations tried, %zu found", recording.frames.size(),
+        recording.log.size(), recording.registrations_tried, recording.log.registration_count());
   if (recording.registrations_left_out > 0) {
-    std::printf(", %zu left out beyond the budget", recording.registrations_left_out);
+    print(", %zu left out beyond the budget", recording.registrations_left_out);
   }
-  std::printf("\n");
+  print("\n");
   if (recording.visual_odometry) {
-    std::printf(
+    print(
         "dead reckoning by visual odometry, %zu of %zu motions repeated for want of a "
         "match\n",
         recording.visual_odometry_failures, recording.frames.size() - 1);
   }
   for (const FoundSigma& sigma : recording.found_sigmas) {
-    std::printf("%s\n", words(sigma).c_str());
+    print("%s\n", words(sigma).c_str());
   }
   print_absolute(recording.log);
 }
@@ -61,9 +60,9 @@ void print_front_end(const Recording& recording) {
 void print_table(const workflow::RunOutcome& done) {
   std::vector<Result> results{done.result};
   if (done.optimum) results.push_back(*done.optimum);
-  std::printf("\n%s", workflow::result_table(*done.recording, results).c_str());
+  print("\n%s", workflow::result_table(*done.recording, results).c_str());
   if (done.recording->ground_truth) {
-    std::printf(
+    print(
         "errors against ground truth, alignment %s; ANEES 1 is expected; cost on one "
         "thread\n",
         name_of(done.alignment).c_str());
@@ -72,7 +71,7 @@ void print_table(const workflow::RunOutcome& done) {
 
 void run(const RunFlags& flags, Context& context) {
   workflow::RunRequest request;
-  request.settings = flags.common.settings(flags.config);
+  request.settings = flags.common.settings(flags.config, workflow::NamedPlugins::loaded);
   request.inputs = workflow::inputs_of(flags.config, request.settings);
   request.title = workflow::stem_of(flags.config);
   request.out = flags.common.folder_or(request.title);
@@ -89,7 +88,7 @@ void run(const RunFlags& flags, Context& context) {
   if (flags.common.quiet) return;
   print_front_end(*done.recording);
   print_table(done);
-  std::printf("\n");
+  print("\n");
   terminal.print_written();
   terminal.print_remarks();
 }

@@ -1,10 +1,12 @@
 // fathom select: the back end that meets a user's requirements, from the results of a study.
 
-#include <cstdio>
 #include <memory>
 
 #include "apps/command.hpp"
+#include "apps/common.hpp"
+#include "apps/output.hpp"
 #include "fathom/core/input_error.hpp"
+#include "fathom/core/text.hpp"
 #include "fathom/workflow/select.hpp"
 
 namespace fathom {
@@ -49,17 +51,18 @@ void select(const SelectFlags& flags, Context& context) {
   if (const auto advice = workflow::advice_for(flags.results)) {
     refuse_flags_of_studies(flags);
     context.status = kDone;
-    if (!flags.quiet) std::printf("%s\n", advice->c_str());
+    if (!flags.quiet) print("%s\n", advice->c_str());
     return;
   }
-  const workflow::SelectOutcome found =
-      workflow::select({flags.results, query_of(flags), flags.out}, context.estimators());
+  const workflow::SelectOutcome found = workflow::select(
+      {flags.results, query_of(flags), flags.out}, context.estimators().registry());
   context.status = found.selection.chosen ? kDone : kFailed;
   if (flags.quiet) return;
-  std::printf("%s", found.text.c_str());
+  print("%s", found.text.c_str());
   if (found.selection.chosen) {
-    std::printf("\nwrote %s\nrun it with: fathom run %s\n", found.config.c_str(),
-                found.config.c_str());
+    print("\nwrote %s\nrun it with: fathom run %s\n", found.config.c_str(),
+          shell_word(found.config.string()).c_str());
+    print_named_code("which 'fathom run' executes", found.named);
   }
 }
 

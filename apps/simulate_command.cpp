@@ -1,12 +1,12 @@
 // fathom simulate: a simulated survey, written as an image folder.
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 #include <memory>
 
 #include "apps/command.hpp"
 #include "apps/common.hpp"
+#include "apps/output.hpp"
 #include "fathom/configuration/config_text.hpp"
 #include "fathom/configuration/study.hpp"
 #include "fathom/core/files.hpp"
@@ -81,8 +81,8 @@ void simulate(const SimulateFlags& flags, Context& context) {
   folder.commit();
   context.status = kDone;
   if (flags.common.quiet) return;
-  std::printf("wrote %zu frames to %s\nrun them with: fathom run %s\n", survey.frames().size(),
-              (folder.target() / "mav0").c_str(), (folder.target() / "run.yaml").c_str());
+  print("wrote %zu frames to %s\nrun them with: fathom run %s\n", survey.frames().size(),
+        (folder.target() / "mav0").c_str(), (folder.target() / "run.yaml").c_str());
 }
 
 }  // namespace

@@ -1,10 +1,10 @@
 // fathom solve: a pose graph from a g2o file.
 
-#include <cstdio>
 #include <memory>
 
 #include "apps/command.hpp"
 #include "apps/common.hpp"
+#include "apps/output.hpp"
 #include "apps/terminal.hpp"
 #include "fathom/core/text.hpp"
 #include "fathom/report/table.hpp"
@@ -40,35 +40,35 @@ std::string also_text(const MeasurementLog& log) {
   return log.start().is_fixed() ? text : text + ", uncertain start";
 }
 
-void print(const SolveFlags& flags, const Recording& recording, const Result& result) {
+void print_solved(const SolveFlags& flags, const Recording& recording, const Result& result) {
   const MeasurementLog& log = recording.log;
-  std::printf("%s: %zu poses, %zu edges, %zu of them loop closures%s\n", flags.graph.c_str(),
-              log.size(), log.size() - 1 - log.hole_count() + log.registration_count(),
-              log.registration_count(), also_text(log).c_str());
-  std::printf("%s, %s: %s after %d iterations\n", result.estimator.type.c_str(),
-              result.mode == SolveMode::batch ? "batch" : "incremental",
-              name_of(result.run.outcome).c_str(), result.run.iterations);
-  std::printf("chi2 %s, from %s at the start\n", chi2_text(result, "chi2").c_str(),
-              chi2_text(result, "chi2_initial").c_str());
+  print("%s: %zu poses, %zu edges, %zu of them loop closures%s\n", flags.graph.c_str(), log.size(),
+        log.size() - 1 - log.hole_count() + log.registration_count(), log.registration_count(),
+        also_text(log).c_str());
+  print("%s, %s: %s after %d iterations\n", result.estimator.type.c_str(),
+        result.mode == SolveMode::batch ? "batch" : "incremental",
+        name_of(result.run.outcome).c_str(), result.run.iterations);
+  print("chi2 %s, from %s at the start\n", chi2_text(result, "chi2").c_str(),
+        chi2_text(result, "chi2_initial").c_str());
   if (result.run.gradient_norm) {
-    std::printf("gradient %.2g", *result.run.gradient_norm);
+    print("gradient %.2g", *result.run.gradient_norm);
     if (result.run.is_local_minimum) {
-      std::printf(", %s", *result.run.is_local_minimum ? "a local minimum" : "no local minimum");
+      print(", %s", *result.run.is_local_minimum ? "a local minimum" : "no local minimum");
     }
-    std::printf("\n");
+    print("\n");
   }
   if (const auto given = result.metric("absolute_measurements")) {
-    std::printf("absolute measurements: %.0f of %.0f used, %.0f rejected, %.0f lost, chi2 %s\n",
-                result.metrics.at("absolute_used"), *given, result.metrics.at("absolute_rejected"),
-                result.metrics.at("absolute_lost"), chi2_text(result, "absolute_chi2").c_str());
+    print("absolute measurements: %.0f of %.0f used, %.0f rejected, %.0f lost, chi2 %s\n",
+          result.metrics.at("absolute_used"), *given, result.metrics.at("absolute_rejected"),
+          result.metrics.at("absolute_lost"), chi2_text(result, "absolute_chi2").c_str());
   }
   if (const auto false_loops = result.metric("false_loops")) {
-    std::printf("%.0f of %.0f false loops kept, %.0f right ones lost\n",
-                result.metrics.at("false_loops_kept"), *false_loops,
-                result.metrics.at("right_loops_lost"));
+    print("%.0f of %.0f false loops kept, %.0f right ones lost\n",
+          result.metrics.at("false_loops_kept"), *false_loops,
+          result.metrics.at("right_loops_lost"));
   }
-  std::printf("\n");
-  std::printf("%s", workflow::result_table(recording, {result}).c_str());
+  print("\n");
+  print("%s", workflow::result_table(recording, {result}).c_str());
 }
 
 void solve(const SolveFlags& flags, Context& context) {
@@ -90,8 +90,8 @@ void solve(const SolveFlags& flags, Context& context) {
   terminal.clear();
   context.status = done.result.is_done() ? kDone : kFailed;
   if (flags.common.quiet) return;
-  print(flags, done.recording, done.result);
-  std::printf("\n");
+  print_solved(flags, done.recording, done.result);
+  print("\n");
   terminal.print_written();
   terminal.print_remarks();
 }

@@ -1,11 +1,11 @@
 // fathom spoil: a pose graph with false loops, to try back ends on.
 
-#include <cstdio>
 #include <filesystem>
 #include <memory>
 
 #include "apps/command.hpp"
 #include "apps/common.hpp"
+#include "apps/output.hpp"
 #include "fathom/core/files.hpp"
 #include "fathom/harness/false_loops.hpp"
 #include "fathom/measurements/shared_file.hpp"
@@ -61,9 +61,9 @@ void spoil_graph(const SpoilFlags& flags, Context& context) {
   context.status = kDone;
   if (flags.quiet) return;
   const std::size_t all = spoiled.log.registration_count();
-  std::printf("%zu false loops, %s, among %zu\nwrote %s\n      %s\n",
-              all - recording.log.registration_count(), name_of(options.kind).c_str(), all,
-              flags.out.c_str(), list.c_str());
+  print("%zu false loops, %s, among %zu\nwrote %s\n      %s\n",
+        all - recording.log.registration_count(), name_of(options.kind).c_str(), all,
+        flags.out.c_str(), list.c_str());
 }
 
 }  // namespace

@@ -1,12 +1,12 @@
 // fathom status: how far the shards of a study are.
 
-#include <cstdio>
 #include <filesystem>
 #include <fmt/format.h>
 #include <memory>
 #include <optional>
 
 #include "apps/command.hpp"
+#include "apps/output.hpp"
 #include "fathom/core/file_lock.hpp"
 #include "fathom/core/folder_claim.hpp"
 #include "fathom/core/input_error.hpp"
@@ -83,8 +83,7 @@ void print_missing(const std::vector<ShardFolder>& folders) {
   for (const ShardFolder& folder : folders) done += folder.done;
   const std::size_t of = folders.front().of;
   for (const MissingPart& part : missing_parts(folders, of - std::min(of, done))) {
-    std::printf("  %s%s%s\n", part.what.c_str(), part.command.empty() ? "" : ": ",
-                part.command.c_str());
+    print("  %s%s%s\n", part.what.c_str(), part.command.empty() ? "" : ": ", part.command.c_str());
   }
 }
 
@@ -106,13 +105,13 @@ void show_status(const StatusFlags& flags, Context& context) {
       table.add_row({folder, "-", "-", "-", "-", state_of(status)});
     }
   }
-  std::printf("%s", table.text().c_str());
+  print("%s", table.text().c_str());
   if (!found.empty()) {
-    std::printf("\n%s", totals_text(found).c_str());
+    print("\n%s", totals_text(found).c_str());
     print_missing(found);
   }
   for (const std::string& problem : problems) {
-    std::fprintf(stderr, "fathom: error: %s\n", problem.c_str());
+    print_error("fathom: error: %s\n", problem.c_str());
     context.status = kFailed;
   }
 }

@@ -1,7 +1,6 @@
 #include "apps/terminal.hpp"
 
-#include <cstdio>
-
+#include "apps/output.hpp"
 #include "fathom/core/pin_threads.hpp"
 #include "fathom/memory_meter/memory_meter.hpp"
 
@@ -36,12 +35,12 @@ void Terminal::clear() {
 
 void Terminal::print_written() const {
   for (const std::string& line : written_) {
-    std::printf("%s %s\n", &line == &written_.front() ? "wrote" : "     ", line.c_str());
+    print("%s %s\n", &line == &written_.front() ? "wrote" : "     ", line.c_str());
   }
 }
 
 void Terminal::print_remarks() const {
-  for (const std::string& remark : remarks_) std::printf("\nwarning: %s\n", remark.c_str());
+  for (const std::string& remark : remarks_) print("\nwarning: %s\n", remark.c_str());
 }
 
 workflow::Machine this_program() {

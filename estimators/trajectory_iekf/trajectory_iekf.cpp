@@ -10,10 +10,10 @@
 namespace fathom {
 
 void TrajectoryIekfOptions::describe(OptionTable& table) {
-  table.integer(
-      "max_iterations", max_iterations, Range::at_least(1), "",
-      "linearisations of one update at most; 1 is the trajectory EKF, 100 the paper's, until "
-      "it converges");
+  table.integer("max_iterations", max_iterations, Range::at_least(1), "",
+                "linearisations of one update at most; 1 is the trajectory EKF, 1000 with "
+                "divergence_factor 1.0e12 the paper's, until "
+                "it converges");
   table.real("tolerance", tolerance, Range::positive(), "m, rad",
              "an update has converged when no motion of the loop still moves by more");
   table.boolean("safeguard", safeguard,

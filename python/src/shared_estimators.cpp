@@ -54,8 +54,11 @@ void load_plugins(const std::vector<std::string>& files) {
   });
 }
 
+// Those that run a configuration alone ask for this.
 void load_plugins(Settings& settings, const std::vector<std::string>& files) {
-  shared().with([&](workflow::KnownEstimators& known) { known.load(settings, files); });
+  shared().with([&](workflow::KnownEstimators& known) {
+    known.load(settings, files, workflow::NamedPlugins::loaded);
+  });
 }
 
 }  // namespace fathom

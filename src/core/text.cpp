@@ -87,7 +87,7 @@ std::string shell_word(std::string_view word) {
     return std::string(word);
   }
   std::string quoted = "'";
-  for (const char letter : word) quoted += letter == '\'' ? "'\\''" : std::string(1, letter);
+  for (const char letter : word) quoted += letter == '\'' ? "'\"'\"'" : std::string(1, letter);
   return quoted + "'";
 }
 

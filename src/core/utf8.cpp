@@ -1,4 +1,9 @@
-#include "utf8.hpp"
+#include "fathom/core/utf8.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <utility>
 
 namespace fathom {
 namespace {
@@ -12,6 +17,46 @@ std::uint32_t least_of(std::size_t bytes) {
 
 bool is_character(std::uint32_t value) {
   return value <= 0x10FFFF && (value < 0xD800 || value > 0xDFFF);
+}
+
+// First and last of what changes how the text about it is shown: Unicode's controls of direction,
+// and its ends of lines.
+constexpr std::array<std::pair<std::uint32_t, std::uint32_t>, 6> kTurning{{{0x061C, 0x061C},
+                                                                           {0x200E, 0x200F},
+                                                                           {0x2028, 0x202E},
+                                                                           {0x2066, 0x2069},
+                                                                           {0xFEFF, 0xFEFF},
+                                                                           {0xFFF9, 0xFFFB}}};
+
+bool is_shown_as_it_is(std::uint32_t value) {
+  if (value == '\t') return true;
+  if (value < 0x20 || (value >= 0x7F && value < 0xA0)) return false;
+  return std::none_of(kTurning.begin(), kTurning.end(), [value](const auto& range) {
+    return range.first <= value && value <= range.second;
+  });
+}
+
+std::string written_out(const CodePoint& point) {
+  char text[16];
+  std::snprintf(text, sizeof text, point.valid ? "<U+%04X>" : "<0x%02X>", point.value);
+  return text;
+}
+
+std::string printable_line(std::string_view line, std::size_t longest) {
+  std::string shown;
+  for (std::size_t count = 0; !line.empty(); ++count) {
+    if (count == longest) {
+      return shown + "… (" + std::to_string(line.size()) + " bytes more)";
+    }
+    const CodePoint point = first_code_point(line);
+    if (point.valid && is_shown_as_it_is(point.value)) {
+      shown += line.substr(0, point.bytes);
+    } else {
+      shown += written_out(point);
+    }
+    line.remove_prefix(point.bytes);
+  }
+  return shown;
 }
 
 }  // namespace
@@ -46,6 +91,17 @@ std::string drawable_text(std::string_view text) {
     text.remove_prefix(point.bytes);
   }
   return result;
+}
+
+std::string printable(std::string_view text, std::size_t longest_line) {
+  std::string shown;
+  while (true) {
+    const std::size_t end = text.find('\n');
+    shown += printable_line(text.substr(0, end), longest_line);
+    if (end == std::string_view::npos) return shown;
+    shown += '\n';
+    text.remove_prefix(end + 1);
+  }
 }
 
 }  // namespace fathom

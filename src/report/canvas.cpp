@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "text_layout.hpp"
-#include "utf8.hpp"
+#include "fathom/core/utf8.hpp"
 
 namespace fathom {
 namespace {

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "fathom/report/table.hpp"
-#include "utf8.hpp"
+#include "fathom/core/utf8.hpp"
 
 namespace fathom {
 namespace {

@@ -5,6 +5,9 @@
 namespace fathom {
 namespace {
 
+// What a spreadsheet takes for the beginning of a formula, and runs.
+constexpr std::string_view kFormula = "=+-@\t\r";
+
 std::string line_of(const std::vector<std::string>& fields) {
   std::string line;
   for (std::size_t i = 0; i < fields.size(); ++i) line += (i > 0 ? "," : "") + csv_field(fields[i]);
@@ -70,8 +73,12 @@ std::string summary_line(const EstimatorResults& one, const std::string& metric,
 }  // namespace
 
 std::string csv_field(std::string_view text) {
-  if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
-  std::string field = "\"";
+  const bool is_formula =
+      !text.empty() && kFormula.find(text.front()) != std::string_view::npos && !parse_real(text);
+  if (!is_formula && text.find_first_of(",\"\r\n") == std::string_view::npos) {
+    return std::string(text);
+  }
+  std::string field = is_formula ? "\"'" : "\"";
   for (const char letter : text) field += letter == '"' ? "\"\"" : std::string(1, letter);
   return field + "\"";
 }

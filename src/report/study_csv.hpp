@@ -8,7 +8,9 @@
 
 namespace fathom {
 
-/// As RFC 4180 has it: in quotes where it holds a comma, a quote or the end of a line.
+/// As RFC 4180 has it: in quotes where it holds a comma, a quote or the end of a line. What a
+/// spreadsheet would run as a formula, a text that begins with =, +, -, @ or a tab, has an
+/// apostrophe before it; numbers have none.
 std::string csv_field(std::string_view text);
 
 /// One line a run; a metric that a run lacks is an empty field.

@@ -10,7 +10,7 @@
 
 #include "fathom/core/input_error.hpp"
 #include "fathom/core/text.hpp"
-#include "utf8.hpp"
+#include "fathom/core/utf8.hpp"
 
 namespace fathom {
 namespace {

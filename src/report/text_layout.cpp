@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "fathom/core/text.hpp"
-#include "utf8.hpp"
+#include "fathom/core/utf8.hpp"
 
 namespace fathom {
 namespace {

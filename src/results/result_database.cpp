@@ -3,12 +3,17 @@
 #include <fmt/format.h>
 #include <sqlite3.h>
 
+#include "store_guard.hpp"
+
 namespace fathom {
 
 constexpr int kBusyTimeoutMs = 10'000;
 
 ResultStore::Database::Database(const std::filesystem::path& path, int flags) : file(path) {
-  guard([&] { sqlite.emplace(file.string(), flags, kBusyTimeoutMs); });
+  guard([&] {
+    sqlite.emplace(file.string(), flags, kBusyTimeoutMs);
+    distrust(*sqlite);
+  });
 }
 
 bool ResultStore::Database::is_store() const {
@@ -25,6 +30,7 @@ bool ResultStore::Database::is_store() const {
         fmt::format("has schema version {}, this program has {}; use the program that wrote it",
                     version, kResultSchemaVersion));
   }
+  require_own_schema(*sqlite);
   return true;
 }
 

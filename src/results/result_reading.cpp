@@ -65,7 +65,10 @@ Sessions read_sessions(SQLite::Database& database) {
 
 void set_session(RunRecord& run, const Sessions& sessions, std::int64_t number) {
   const auto found = sessions.find(number);
-  if (found == sessions.end()) return;
+  if (found == sessions.end()) {
+    throw DamagedStore("is damaged: it has a run of a session that it has not" +
+                       std::string(kRemedy));
+  }
   run.session = found->second.place;
   run.machine = found->second.machine;
 }

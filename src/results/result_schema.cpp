@@ -4,6 +4,7 @@
 
 #include "fathom/core/hash.hpp"
 #include "fathom/core/text.hpp"
+#include "store_guard.hpp"
 
 namespace fathom {
 namespace {
@@ -193,6 +194,10 @@ StudyDescription stored_study(SQLite::Database& database) {
 
 }  // namespace
 
+const char* result_schema() {
+  return kSchema;
+}
+
 void create_schema(SQLite::Database& database, const StudyDescription& study) {
   database.exec(kSchema);
   insert_words(database, "study",
@@ -238,6 +243,7 @@ StudyDescription read_study(SQLite::Database& database) {
                     "differs)") +
         kRemedy);
   }
+  require_sound(study);
   return study;
 }
 

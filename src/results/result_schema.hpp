@@ -24,6 +24,9 @@ class DamagedStore : public std::runtime_error {
 inline constexpr const char* kRemedy =
     "; take the file from a copy, or remove it and run the study again";
 
+/// What makes the tables of a store.
+const char* result_schema();
+
 /// Makes all tables of an empty file and writes what the study is.
 void create_schema(SQLite::Database& database, const StudyDescription& study);
 

@@ -6,6 +6,7 @@
 #include "result_database.hpp"
 #include "result_rows.hpp"
 #include "result_schema.hpp"
+#include "store_guard.hpp"
 
 namespace fathom {
 namespace {
@@ -17,14 +18,6 @@ std::unique_ptr<FileLock> lock_of(const fs::path& folder) {
                                     folder.string() +
                                         ": another process is at work on this study; wait for it, "
                                         "or use another --out");
-}
-
-// Returns its number.
-std::int64_t insert_session(SQLite::Database& sqlite, const std::string& manifest) {
-  SQLite::Statement session(sqlite, "INSERT INTO session (manifest) VALUES (?)");
-  session.bind(1, manifest);
-  session.exec();
-  return sqlite.getLastInsertRowid();
 }
 
 }  // namespace
@@ -47,6 +40,7 @@ ResultStore ResultStore::open(const fs::path& path) {
   database->guard([&] {
     if (!database->is_store()) throw InputError(file.string(), "holds no study");
     database->study = read_study(*database->sqlite);
+    read_manifests(*database->sqlite);
     read_runs(*database->sqlite, database->study);
   });
   return ResultStore(std::move(database));
@@ -67,6 +61,7 @@ ResultStore ResultStore::write(const fs::path& folder, const StudyDescription& s
     if (is_store) {
       const StudyDescription there = read_study(sqlite);
       require_same(there, study, file);
+      read_manifests(sqlite);
       read_runs(sqlite, there);
     }
     sqlite.exec("PRAGMA journal_mode = WAL");
@@ -91,12 +86,7 @@ const fs::path& ResultStore::file() const {
 }
 
 std::vector<std::string> ResultStore::manifests() const {
-  return database_->guard([&] {
-    std::vector<std::string> all;
-    SQLite::Statement select(*database_->sqlite, "SELECT manifest FROM session ORDER BY session");
-    while (select.executeStep()) all.push_back(select.getColumn(0).getString());
-    return all;
-  });
+  return database_->guard([&] { return read_manifests(*database_->sqlite); });
 }
 
 std::vector<RunRecord> ResultStore::runs() const {

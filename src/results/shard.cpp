@@ -8,7 +8,9 @@
 #include <nlohmann/json.hpp>
 
 #include "fathom/core/input_error.hpp"
+#include "fathom/core/program.hpp"
 #include "fathom/core/text.hpp"
+#include "fathom/core/utf8.hpp"
 
 namespace fathom {
 namespace {
@@ -29,6 +31,22 @@ std::string folder_of(const std::string& folder, const Shard& shard, std::size_t
     number.insert(0, digits.size() - number.size(), '0');
   }
   return folder.substr(0, begin) + number;
+}
+
+// Whether a line that somebody else may have written does what it says and no more.
+bool is_harmless(const std::vector<std::string>& words) {
+  if (words.size() < 2 || words[0] != "fathom" || words[1] != "compare") return false;
+  return std::ranges::none_of(words, [](const std::string& word) {
+    return word.starts_with("--plugin") || word.starts_with("--allow-plugins") ||
+           word.find('\n') != std::string::npos || printable(word) != word;
+  });
+}
+
+std::string line_of(const std::vector<std::string>& words) {
+  std::vector<std::string> quoted;
+  quoted.reserve(words.size());
+  for (const std::string& word : words) quoted.push_back(shell_word(word));
+  return joined(quoted, " ");
 }
 
 }  // namespace
@@ -57,7 +75,7 @@ std::optional<ShardPlan> shard_plan(const std::string& manifest) {
     const auto& shard = json.at("shard");
     return ShardPlan{{shard.at("index").get<std::size_t>(), shard.at("of").get<std::size_t>()},
                      shard.at("runs").get<std::size_t>(),
-                     json.at("command_line").get<std::string>()};
+                     command_line_of(manifest)};
   } catch (const nlohmann::json::exception&) {
     return std::nullopt;
   }
@@ -66,14 +84,18 @@ std::optional<ShardPlan> shard_plan(const std::string& manifest) {
 std::string command_line_of(const std::string& manifest) {
   const auto json = nlohmann::json::parse(manifest, nullptr, false);
   const auto line = json.is_object() ? json.find("command_line") : json.end();
-  return json.is_object() && line != json.end() && line->is_string() ? line->get<std::string>()
-                                                                     : "";
+  if (!json.is_object() || line == json.end() || !line->is_string()) return "";
+  try {
+    const std::vector<std::string> words = words_of_command(line->get<std::string>());
+    return is_harmless(words) ? line_of(words) : "";
+  } catch (const InputError&) {
+    return "";  // a quote that is not closed
+  }
 }
 
 std::string command_of(const ShardPlan& plan, std::size_t index) {
-  if (index == plan.shard.index) return plan.command_line;
-  const auto typed = split(plan.command_line, " ");
-  std::vector<std::string> words(typed.begin(), typed.end());
+  if (index == plan.shard.index || plan.command_line.empty()) return plan.command_line;
+  std::vector<std::string> words = words_of_command(plan.command_line);
   const std::string number = text_of(Shard{index, plan.shard.of});
   for (std::size_t i = 0; i < words.size(); ++i) {
     const bool has_next = i + 1 < words.size();
@@ -84,9 +106,7 @@ std::string command_of(const ShardPlan& plan, std::size_t index) {
       words[i] = "--out=" + folder_of(words[i].substr(6), plan.shard, index);
     }
   }
-  std::string line;
-  for (const std::string& word : words) line += (line.empty() ? "" : " ") + word;
-  return line;
+  return line_of(words);
 }
 
 }  // namespace fathom

@@ -6,6 +6,7 @@
 
 #include "fathom/core/input_error.hpp"
 #include "fathom/estimation/plugin.hpp"
+#include "fathom/workflow/named_code.hpp"
 
 namespace fathom::workflow {
 namespace {
@@ -52,15 +53,19 @@ void KnownEstimators::load_search_path() {
   }
 }
 
-void KnownEstimators::load(Settings& settings, const std::vector<std::string>& files) {
+void KnownEstimators::load(Settings& settings, const std::vector<std::string>& files,
+                           NamedPlugins named) {
   constexpr const char* kKey = "plugins";
   const Setting* const given = settings.find(kKey);
+  const NamedCode code = named_code(settings);
   Setting all{kKey, {{}, true}, "--plugin"};
+  const bool loads = named == NamedPlugins::loaded || code.plugins.empty();
   if (given != nullptr) {
     all = *given;
-    if (!all.value.is_list) refuse(*given, "plugins: expected a list of files, [FILE]");
     try {
-      for (const std::string& file : all.value.items) load(file);
+      for (const std::string& file : all.value.items) {
+        if (loads) load(file);
+      }
     } catch (const InputError& error) {
       refuse(*given, std::string("plugins: ") + error.what());
     }
@@ -73,6 +78,7 @@ void KnownEstimators::load(Settings& settings, const std::vector<std::string>& f
     if (std::ranges::none_of(all.value.items, is_same)) all.value.items.push_back(file);
   }
   if (!all.value.items.empty()) settings.put(all);
+  if (!loads) add_unloaded(settings, code.plugins, registry_);
 }
 
 }  // namespace fathom::workflow

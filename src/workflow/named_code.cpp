@@ -49,10 +49,11 @@ NamedCode named_code(const Settings& settings) {
     if (!is_of_the_command_line(*given)) code.plugins = given->value.items;
   }
   std::set<std::string> commands;
-  for_each_value(settings, [&](const std::string& option, const Setting& from,
-                               const OptionValue& value) {
-    if (option == "command" && !is_of_the_command_line(from)) commands.insert(value.text());
-  });
+  for_each_value(settings,
+                 [&](const std::string& option, const Setting& from, const OptionValue& value) {
+                   if (option == "command" && !is_of_the_command_line(from))
+                     commands.insert(value.text());
+                 });
   code.commands.assign(commands.begin(), commands.end());
   return code;
 }
@@ -62,16 +63,16 @@ void add_unloaded(const Settings& settings, const std::vector<std::string>& plug
   if (plugins.empty()) return;
   std::set<std::string> types;
   std::vector<OptionDescription> options;
-  for_each_value(settings, [&](const std::string& option, const Setting&,
-                               const OptionValue& value) {
-    if (option == "name") return;
-    if (option == "type") {
-      types.insert(value.text());
-    } else if (std::ranges::find(options, option, &OptionDescription::key) == options.end()) {
-      const char* const type = value.is_list ? "list of text" : "text";
-      options.push_back({option, type, "", "", "", "of a plug-in that is not loaded"});
-    }
-  });
+  for_each_value(
+      settings, [&](const std::string& option, const Setting&, const OptionValue& value) {
+        if (option == "name") return;
+        if (option == "type") {
+          types.insert(value.text());
+        } else if (std::ranges::find(options, option, &OptionDescription::key) == options.end()) {
+          const char* const type = value.is_list ? "list of text" : "text";
+          options.push_back({option, type, "", "", "", "of a plug-in that is not loaded"});
+        }
+      });
   for (const std::string& type : types) {
     const auto& known = registry.entries();
     if (std::ranges::find(known, type, &EstimatorEntry::name) != known.end()) continue;
@@ -82,8 +83,8 @@ void add_unloaded(const Settings& settings, const std::vector<std::string>& plug
     entry.options = options;
     entry.plugin = plugins.front();
     entry.check = [](const EstimatorSetup&, const EstimatorValues&) {};
-    entry.create = [type](const EstimatorSetup&, const EstimatorValues&)
-        -> std::unique_ptr<Estimator> {
+    entry.create = [type](const EstimatorSetup&,
+                          const EstimatorValues&) -> std::unique_ptr<Estimator> {
       throw InputError("estimator '" + type +
                        "' is of a plug-in that is not loaded; --allow-plugins loads those that a "
                        "configuration names");

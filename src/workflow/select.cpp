@@ -9,6 +9,7 @@
 #include "fathom/harness/recording.hpp"
 #include "fathom/report/selection_text.hpp"
 #include "fathom/results/selected_config.hpp"
+#include "fathom/workflow/named_code.hpp"
 
 namespace fathom::workflow {
 namespace {
@@ -48,30 +49,35 @@ std::optional<fs::path> graph_of(const fs::path& path) {
   return fs::is_regular_file(log) ? std::optional(log) : std::nullopt;
 }
 
-// The registry has to know what was chosen.
-void load_plugins_for(const StudyEstimator& chosen, const StudyDescription& study,
-                      KnownEstimators& estimators) {
-  const auto& known = estimators.registry().entries();
-  if (std::ranges::find(known, chosen.type, &EstimatorEntry::name) != known.end()) return;
+// A store may be anybody's: what its plug-ins bring is taken as the store has it.
+EstimatorRegistry with_those_of(const StudyDescription& study, EstimatorRegistry registry) {
   Settings settings;
   for (const auto& [key, value] : study.configuration) {
-    if (key == "plugins") settings.put(parse_override(key + "=" + value));
+    if (key != "plugins" && !key.starts_with("estimators.")) continue;
+    settings.put({key, parse_override(key + "=" + value).value, "the store"});
   }
-  estimators.load(settings, {});
+  for (const StudyAxis& axis : study.axes) {
+    settings.put({axis.key, OptionValue::scalar(""), "the store"});
+  }
+  for (std::size_t e = 0; e < study.estimators.size(); ++e) {
+    settings.put({"estimators." + std::to_string(e) + ".type",
+                  OptionValue::scalar(study.estimators[e].type), "the store"});
+  }
+  add_unloaded(settings, named_code(settings).plugins, registry);
+  return registry;
 }
 
 }  // namespace
 
-SelectOutcome select(const SelectRequest& request, KnownEstimators& estimators) {
+SelectOutcome select(const SelectRequest& request, const EstimatorRegistry& registry) {
   const ResultStore store = ResultStore::open(request.results);
   SelectOutcome outcome;
   outcome.selection = select_estimator(store, request.query);
   if (outcome.selection.chosen) {
-    load_plugins_for(store.study().estimators[*outcome.selection.chosen], store.study(),
-                     estimators);
-    outcome.config =
-        write_config(request, selected_configuration(store.study(), outcome.selection,
-                                                     request.query, estimators.registry()));
+    outcome.config = write_config(
+        request, selected_configuration(store.study(), outcome.selection, request.query,
+                                        with_those_of(store.study(), registry)));
+    outcome.named = named_code(read_settings(outcome.config));
   }
   outcome.text = selection_text(outcome.selection, request.query, store.study());
   return outcome;

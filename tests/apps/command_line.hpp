@@ -39,11 +39,11 @@ class CommandLine : public ::testing::Test {
   Ended fathom(const Arguments& arguments,
                const std::function<void(pid_t)>& while_running = {}) const;
 
-  /// As above, and the program must succeed.
+  /// As above, and the program must succeed, with notes alone on standard error.
   Ended fathom_done(const Arguments& arguments) const;
 
   /// The program must refuse its input: status 2, nothing on standard output, one line
-  /// `fathom: error: …` on standard error, and not a file more or less than before. Returns what
+  /// `fathom: error: …` on standard error, behind notes if there are any, and not a file more or less than before. Returns what
   /// stands after `fathom: error: `.
   std::string refusal(const Arguments& arguments) const;
 

@@ -67,7 +67,49 @@ INSTANTIATE_TEST_SUITE_P(
                     "UPDATE study SET value = '99999999999999999999' WHERE key = 'trials'",
                     "UPDATE study SET value = 'x' WHERE key = 'trials'",
                     "UPDATE study SET value = '2' WHERE key = 'surveys'",
-                    "UPDATE configuration SET value = '3' WHERE key = 'seed'"));
+                    "UPDATE configuration SET value = '3' WHERE key = 'seed'",
+                    "UPDATE session SET manifest = '{}' WHERE session = 1",
+                    "UPDATE session SET session = 2 WHERE session = 1"));
+
+// Of somebody who knows the format: not damaged, and not as this program makes a store.
+class ForeignStoreWith : public testing::TestWithParam<const char*> {};
+
+TEST_P(ForeignStoreWith, IsRefusedBeforeItIsRead) {
+  const TemporaryFolder folder;
+  ResultStore::write(folder.path(), description(), "").finish();
+  SQLite::Database((folder / "results.sqlite").string(), SQLite::OPEN_READWRITE).exec(GetParam());
+  const auto is_another = HasSubstr("results.sqlite: is not as this program makes a store: ");
+  EXPECT_THAT(input_error_of([&] { ResultStore::open(folder.path()); }), is_another);
+  EXPECT_THAT(input_error_of([&] { ResultStore::write(folder.path(), description(), ""); }),
+              is_another);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    OneThing, ForeignStoreWith,
+    testing::Values("CREATE TABLE more (x)", "CREATE INDEX faster ON run (cell)",
+                    "DROP VIEW result",
+                    "CREATE TRIGGER t AFTER INSERT ON run BEGIN DELETE FROM value; END",
+                    "DROP TABLE value; CREATE VIEW value AS SELECT 1 AS run, 1 AS metric, "
+                    "2.0 AS value",
+                    "CREATE VIRTUAL TABLE words USING fts5(text)"));
+
+// A name is a folder, too.
+TEST(ForeignStore, WithANameThatLeavesTheFolderIsRefused) {
+  const TemporaryFolder folder;
+  StudyDescription study = description();
+  study.estimators[0].name = "../../elsewhere";
+  EXPECT_THAT(input_error_of([&] { ResultStore::write(folder.path(), study, ""); }),
+              HasSubstr("has an estimator called '../../elsewhere'"));
+}
+
+TEST(ForeignStore, OfMoreTrialsThanAConfigurationMayHaveIsRefused) {
+  const TemporaryFolder folder;
+  StudyDescription study = description();
+  study.trials = 100'000'000;
+  EXPECT_THAT(input_error_of([&] { ResultStore::write(folder.path(), study, ""); }),
+              HasSubstr("is of a study of 6 cells, 1e+08 trials in each; expected at most 1e+05 "
+                        "and 1e+07"));
+}
 
 TEST(DamagedStore, TheRunThatIsDamagedIsNamed) {
   const TemporaryFolder folder;

@@ -37,7 +37,7 @@ std::string joined(const std::vector<std::string>& words, const std::string& sep
 std::string counted(std::size_t count, const std::string& noun);
 
 /// A word as a shell takes it back: in single quotes where it has more than letters, digits and
-/// what names, numbers and settings are written with.
+/// what names, numbers and settings are written with. words_of_command() takes it back, too.
 std::string shell_word(std::string_view word);
 
 /// The whole text as a finite number, or nothing: "1.5x", "nan" and "inf" are nothing.

@@ -25,14 +25,17 @@ std::string text_of(const Shard& shard);
 /// `shard: {index, of, runs}`.
 struct ShardPlan {
   Shard shard;
-  std::size_t runs = 0;  ///< of estimators, in the whole shard
-  std::string command_line;
+  std::size_t runs = 0;      ///< of estimators, in the whole shard
+  std::string command_line;  ///< as command_line_of
 };
 
 /// Nothing where the session was not one of a shard, or the manifest is not one.
 std::optional<ShardPlan> shard_plan(const std::string& manifest);
 
-/// What was typed to begin a session; empty where the manifest does not say.
+/// What was typed to begin a session, fit to be typed again: a manifest may be anybody's, so it is
+/// made anew of the words of a `fathom compare …`, each quoted for a shell. Empty where the manifest
+/// has none, or one of another program, with characters that are not shown as they are, or with
+/// flags that load code.
 std::string command_line_of(const std::string& manifest);
 
 /// The command of another shard: the same with its number, in --out, too, where that ends in it;

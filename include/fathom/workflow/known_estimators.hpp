@@ -12,6 +12,9 @@
 
 namespace fathom::workflow {
 
+/// What becomes of the plug-ins that a configuration names. Loading one executes it.
+enum class NamedPlugins { loaded, left_out };
+
 /// The estimators that a program knows: those that it begins with, and those of plug-ins that it
 /// loads. A value; code that is loaded stays in the process as long as that lives.
 class KnownEstimators {
@@ -27,9 +30,11 @@ class KnownEstimators {
   /// The plug-ins that the environment's FATHOM_PLUGIN_PATH names, files and folders.
   void load_search_path();
 
-  /// The plug-ins that `plugins` in a configuration names, and these, which are put there, too.
-  /// Throws InputError at the setting where it is no list of words.
-  void load(Settings& settings, const std::vector<std::string>& files);
+  /// These plug-ins, which are put under `plugins` of the settings, too, and those that stand
+  /// there: all where the user's own word has it so, else those of --set alone; of the others the
+  /// estimators are known by name (add_unloaded). Throws InputError at the setting where it is no
+  /// list of words.
+  void load(Settings& settings, const std::vector<std::string>& files, NamedPlugins named);
 
  private:
   EstimatorRegistry registry_;

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "fathom/results/selection.hpp"
-#include "fathom/workflow/known_estimators.hpp"
+#include "fathom/workflow/named_code.hpp"
 
 namespace fathom::workflow {
 
@@ -19,12 +19,12 @@ struct SelectOutcome {
   Selection selection;
   std::filesystem::path config;  ///< selected.yaml; empty where none meets
   std::string text;              ///< selection_text
+  NamedCode named;               ///< in selected.yaml, so that `run` executes it
 };
 
 /// Names the back end that meets requirements, from the runs of a study, and writes a configuration
-/// of it for `run`. Plug-ins that the study names are loaded where they have to be known. Throws
-/// InputError.
-SelectOutcome select(const SelectRequest& request, KnownEstimators& estimators);
+/// of it for `run`. Plug-ins that the study names are not loaded. Throws InputError.
+SelectOutcome select(const SelectRequest& request, const EstimatorRegistry& registry);
 
 /// Without a study: which back end suits a pose graph, the log in a run's folder, or a survey in
 /// the EuRoC/ASL layout, a line (Advice). Nothing where the path is none of these, as a study's
