@@ -24,8 +24,10 @@ class KnownEstimators {
   /// where the content of such a file has changed since.
   void load(const std::filesystem::path& file);
 
-  /// The plug-ins that the environment's FATHOM_PLUGIN_PATH names, files and folders.
-  void load_search_path();
+  /// The plug-ins that the environment's FATHOM_PLUGIN_PATH names, files and folders. What cannot
+  /// be loaded is left out: one that another program needs must not stop this one. Returns a line
+  /// for each that is.
+  [[nodiscard]] std::vector<std::string> load_search_path();
 
   /// The plug-ins that `plugins` in a configuration names, and these, which are put there, too.
   /// Throws InputError at the setting where it is no list of words.
