@@ -36,6 +36,8 @@ CALLS = {
     "fork": ["EAGAIN", "ENOMEM"],
     "ftruncate": ["EIO", "ENOSPC"],
 }
+# What the suite has time for.
+SAMPLED = ["write", "pwrite64", "fsync", "rename", "open", "mkdir", "fork"]
 
 
 def complaint_about_end(done, is_whole):
@@ -138,8 +140,8 @@ def main():
         bench = Bench(arguments.program, arguments.faults, pathlib.Path(top))
         if arguments.kills is not None:
             return 1 if kills.kill_at_random(bench, arguments.kills, arguments.seed) else 0
-        calls = CALLS if arguments.all else {call: errors[:1] for call, errors in CALLS.items()}
-        matrix = Matrix(bench, 1 if arguments.all else 37)
+        calls = CALLS if arguments.all else {call: CALLS[call][:1] for call in SAMPLED}
+        matrix = Matrix(bench, 1 if arguments.all else 53)
         matrix.run(arguments.only, calls)
         matrix.print_table()
         complaints = list(matrix.complaints)
