@@ -1,5 +1,7 @@
 #include "apps/command.hpp"
 
+#include <cstdio>
+
 #include "fathom/estimators/builtin.hpp"
 
 namespace fathom {
@@ -9,7 +11,9 @@ workflow::KnownEstimators& Context::estimators() {
     EstimatorRegistry begin = builtin_estimators();
     begin.add(command_entry());
     workflow::KnownEstimators known(std::move(begin));
-    known.load_search_path();
+    for (const std::string& line : known.load_search_path()) {
+      std::fprintf(stderr, "fathom: note: %s\n", line.c_str());
+    }
     estimators_ = std::move(known);
   }
   return *estimators_;

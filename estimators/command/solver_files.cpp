@@ -1,12 +1,15 @@
 #include "estimators/command/solver_files.hpp"
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
 #include <string_view>
 
+#include "fathom/core/environment_error.hpp"
 #include "fathom/core/files.hpp"
 #include "fathom/core/program.hpp"
 #include "fathom/core/system.hpp"
@@ -21,25 +24,39 @@ namespace fs = std::filesystem;
 constexpr std::string_view kFolder = "fathom-command-";
 
 // A process that was killed has left its folder.
-void remove_folders_of_the_dead() {
+void remove_folders_of_the_dead(const fs::path& place) {
   std::error_code ignored;
-  for (const fs::directory_entry& entry :
-       fs::directory_iterator(fs::temp_directory_path(), ignored)) {
+  for (const fs::directory_entry& entry : fs::directory_iterator(place, ignored)) {
     const std::string name = entry.path().filename().string();
     if (!name.starts_with(kFolder)) continue;
-    const auto number =
-        parse_integer(name.substr(kFolder.size(), name.rfind('-') - kFolder.size()));
-    if (number && is_dead_process(static_cast<long>(*number))) fs::remove_all(entry, ignored);
+    const std::size_t end = name.rfind('-');
+    if (end > kFolder.size() && is_mark_of_dead(name.substr(kFolder.size(), end - kFolder.size())))
+      fs::remove_all(entry, ignored);
   }
 }
 
 fs::path new_folder() {
-  remove_folders_of_the_dead();
-  const fs::path folder =
-      fs::temp_directory_path() /
-      (std::string(kFolder) + std::to_string(process_number()) + "-" + unique_word().substr(0, 8));
-  fs::create_directory(folder);
+  std::error_code error;
+  const fs::path place = fs::temp_directory_path(error);
+  if (error) {
+    const char* const given = std::getenv("TMPDIR");
+    throw EnvironmentError(std::string("TMPDIR=") + (given == nullptr ? "" : given),
+                           "is no folder for the program's files: " + error.message());
+  }
+  remove_folders_of_the_dead(place);
+  fs::path folder =
+      place / (std::string(kFolder) + process_mark() + "-" + unique_word().substr(0, 8));
+  fs::create_directory(folder, error);
+  if (error) throw EnvironmentError(folder.string(), "cannot be made: " + error.message());
   return folder;
+}
+
+// Read at once, and then forgotten: it need not be on a disk.
+void put(const fs::path& path, const std::string& text) {
+  std::ofstream file(path, std::ios::binary);
+  file << text;
+  file.close();
+  if (!file) throw EnvironmentError(path.string(), "cannot be written", errno);
 }
 
 void replace_all(std::string& text, std::string_view what, const std::string& by) {
@@ -121,21 +138,29 @@ std::vector<Pose> SolverFiles::call(const ProgramGraph& graph, double& processor
                                     std::int64_t& peak_bytes) {
   const std::string input = (folder_ / "input.g2o").string();
   const std::string output = (folder_ / "output").string();
-  fs::remove(output);
-  write_file(input, to_text(graph));
+  std::error_code is_not_there;
+  fs::remove(output, is_not_there);
+  const std::string text = to_text(graph);
+  put(input, text);
   std::vector<std::string> words = words_;
   for (std::string& word : words) {
     replace_all(word, "{input}", input);
     replace_all(word, "{output}", output);
   }
   Program program(words);
-  program.finish();
-  processor_s = program.processor_s();
-  peak_bytes = program.peak_bytes();
-  if (!fs::is_regular_file(output)) {
-    throw std::runtime_error("'" + words.front() + "' wrote no " + output);
+  try {
+    program.finish();
+    processor_s = program.processor_s();
+    peak_bytes = program.peak_bytes();
+    if (!fs::is_regular_file(output)) {
+      throw std::runtime_error("'" + words.front() + "' wrote no " + output);
+    }
+    return poses_in(read_file(output), graph.poses.size());
+  } catch (const std::runtime_error&) {
+    // Where no more room is left than it found it is not to blame.
+    put(folder_ / "room", text);
+    throw;
   }
-  return poses_in(read_file(output), graph.poses.size());
 }
 
 // What it takes for a graph of two nodes and a step, which leaves nothing to be solved.
@@ -149,6 +174,8 @@ void SolverFiles::measure_start_up(const ProgramGraph& graph) {
   std::int64_t peak_bytes = 0;
   try {
     call(smallest, *start_up_s_, peak_bytes);
+  } catch (const EnvironmentError&) {
+    throw;
   } catch (const std::runtime_error&) {
     // One that refuses so small a graph has its start-up among the rest.
     start_up_s_ = 0.0;

@@ -20,7 +20,8 @@ class SolverFiles {
   SolverFiles& operator=(const SolverFiles&) = delete;
 
   /// The poses of all nodes as the program has them. Throws ProgramFailure where it does not end
-  /// well, std::runtime_error where what it wrote is no such file.
+  /// well, std::runtime_error where what it wrote is no such file, EnvironmentError where the
+  /// folder of temporary files is not there, or has no room for these.
   std::vector<Pose> solve(const ProgramGraph& graph);
 
  private:

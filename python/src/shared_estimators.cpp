@@ -2,6 +2,8 @@
 
 #include <mutex>
 #include <optional>
+#include <pybind11/pybind11.h>
+#include <string>
 #include <utility>
 
 #include "fathom/estimators/builtin.hpp"
@@ -9,6 +11,12 @@
 
 namespace fathom {
 namespace {
+
+// A warning of Python's, whose filters say what becomes of it.
+void warn(const std::string& line) {
+  const pybind11::gil_scoped_acquire lock;
+  if (PyErr_WarnEx(PyExc_UserWarning, line.c_str(), 1) != 0) throw pybind11::error_already_set();
+}
 
 class SharedEstimators {
  public:
@@ -26,7 +34,7 @@ class SharedEstimators {
     registry.add(command_entry());
     known_.emplace(std::move(registry));
     try {
-      known_->load_search_path();
+      for (const std::string& line : known_->load_search_path()) warn(line);
     } catch (...) {
       known_.reset();
       throw;

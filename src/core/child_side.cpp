@@ -14,6 +14,8 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include "fathom/core/environment_error.hpp"
+
 namespace fathom {
 namespace {
 
@@ -25,19 +27,24 @@ std::int64_t address_space_now() {
   return pages * ::sysconf(_SC_PAGESIZE);
 }
 
-void limit(__rlimit_resource what, std::int64_t bytes) {
+// What the system allows of it.
+std::int64_t limit(__rlimit_resource what, std::int64_t bytes) {
   rlimit now{};
   ::getrlimit(what, &now);
   now.rlim_cur = std::min(static_cast<rlim_t>(bytes), now.rlim_max);
   ::setrlimit(what, &now);
+  return static_cast<std::int64_t>(now.rlim_cur);
 }
+
+// With it ends a child that finds no memory.
+int no_memory_status = kNoMemoryStatus;
 
 // So much has to be left, or a crash is taken for what code in C does that finds no memory.
 std::size_t spare_bytes = 0;
 
 void on_crash(int signal) {
   if (::mmap(nullptr, spare_bytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0) == MAP_FAILED) {
-    ::_exit(kNoMemoryStatus);
+    ::_exit(no_memory_status);
   }
   ::signal(signal, SIG_DFL);
   ::raise(signal);
@@ -53,6 +60,11 @@ void tell_no_memory_from_crash(std::int64_t limit_bytes) {
   action.sa_handler = on_crash;
   action.sa_flags = SA_ONSTACK | SA_NODEFER;
   for (const int signal : {SIGSEGV, SIGBUS, SIGABRT}) ::sigaction(signal, &action, nullptr);
+}
+
+[[noreturn]] void fail_by_environment(int messages, const char* what, int error) {
+  MessagePipe(messages).send(kEnvironmentFault, EnvironmentError("isolation", what, error).what());
+  ::_exit(0);
 }
 
 }  // namespace
@@ -85,17 +97,20 @@ void be_child(const ChildSide& side, const ChildLimits& limits,
   const bool has_all = messages >= 0 && printed >= 0 && ::dup2(null, STDIN_FILENO) >= 0 &&
                        ::dup2(printed, STDOUT_FILENO) >= 0 && ::dup2(printed, STDERR_FILENO) >= 0 &&
                        ::dup3(messages, kMessages, O_CLOEXEC) >= 0;
-  if (!has_all) ::_exit(1);
+  if (!has_all) fail_by_environment(side.messages, "a run's process has no streams", errno);
   // The locks and files of the parent are not the child's to keep open.
   ::close_range(kMessages + 1, ~0U, 0);
   limit(RLIMIT_CORE, 0);
   tell_no_memory_from_crash(limits.memory_bytes);
-  limit(RLIMIT_AS, address_space_now() + limits.memory_bytes);
-  std::set_new_handler([] { ::_exit(kNoMemoryStatus); });
+  const std::int64_t wanted = address_space_now() + limits.memory_bytes;
+  if (limit(RLIMIT_AS, wanted) < wanted) no_memory_status = kCutMemoryStatus;
+  std::set_new_handler([] { ::_exit(no_memory_status); });
   try {
     action(MessagePipe(kMessages));
+  } catch (const EnvironmentError& error) {
+    MessagePipe(kMessages).send(kEnvironmentFault, error.what());
   } catch (const std::bad_alloc&) {
-    ::_exit(kNoMemoryStatus);
+    ::_exit(no_memory_status);
   }
   std::fflush(nullptr);
   ::_exit(0);

@@ -1,29 +1,93 @@
 #include "fathom/core/files.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
-#include <fstream>
-#include <signal.h>
-#include <sstream>
+#include <cstdio>
+#include <fcntl.h>
 #include <system_error>
 #include <unistd.h>
 #include <utility>
 
-#include "fathom/core/input_error.hpp"
-#include "fathom/core/text.hpp"
+#include "fathom/core/environment_error.hpp"
+#include "fathom/core/system.hpp"
+#include "partial_files.hpp"
 
 namespace fathom {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+// Of a name that is not final yet; the mark of its process follows.
+constexpr std::string_view kPartial = ".partial-";
+
+// A file of the system's; nothing where it could not be opened.
+class OpenFile {
+ public:
+  OpenFile(const fs::path& path, int flags)
+      : descriptor_(::open(path.c_str(), flags | O_CLOEXEC, 0666)) {}
+  ~OpenFile() { close(); }
+  OpenFile(const OpenFile&) = delete;
+  OpenFile& operator=(const OpenFile&) = delete;
+
+  bool is_open() const { return descriptor_ >= 0; }
+  int descriptor() const { return descriptor_; }
+  /// Some file systems say only now that there was no room. The errno stays.
+  bool close() {
+    const int error = errno;
+    const bool is_closed = descriptor_ < 0 || ::close(std::exchange(descriptor_, -1)) == 0;
+    if (is_closed) errno = error;
+    return is_closed;
+  }
+
+ private:
+  int descriptor_;
+};
+
+// False with the errno of what failed.
+bool put(const fs::path& path, std::string_view content, bool is_awaited_on_disk) {
+  OpenFile file(path, O_WRONLY | O_CREAT | O_TRUNC);
+  if (!file.is_open()) return false;
+  while (!content.empty()) {
+    const ssize_t count = ::write(file.descriptor(), content.data(), content.size());
+    if (count < 0 && errno != EINTR) return false;
+    if (count > 0) content.remove_prefix(static_cast<std::size_t>(count));
+  }
+  if (is_awaited_on_disk && ::fsync(file.descriptor()) != 0) return false;
+  return file.close();
+}
+
+// Whoever commits the folder waits for the disk, once for all files.
+bool is_staged(const fs::path& path) {
+  return std::any_of(path.begin(), path.end(),
+                     [](const fs::path& name) { return name.string().starts_with(kPartial); });
+}
+
+}  // namespace
+
 std::string read_file(const fs::path& path) {
   std::error_code error;
   if (fs::is_directory(path, error)) throw InputError(path.string(), "is a folder, not a file");
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw InputError(path.string(), "cannot be opened; does it exist?");
-  std::ostringstream content;
-  content << file.rdbuf();
-  if (file.bad()) throw InputError(path.string(), "cannot be read to its end");
-  return std::move(content).str();
+  const OpenFile file(path, O_RDONLY);
+  if (!file.is_open()) {
+    if (is_fault_of_environment(errno)) {
+      throw EnvironmentError(path.string(), "cannot be opened", errno);
+    }
+    throw InputError(path.string(), "cannot be opened; does it exist?");
+  }
+  const std::uintmax_t expected = fs::file_size(path, error);
+  std::string content;
+  if (!error) content.reserve(expected);
+  std::array<char, 65536> buffer;
+  for (;;) {
+    const ssize_t got = ::read(file.descriptor(), buffer.data(), buffer.size());
+    if (got == 0) return content;
+    if (got > 0) content.append(buffer.data(), static_cast<std::size_t>(got));
+    if (got < 0 && errno != EINTR) {
+      throw EnvironmentError(path.string(), "cannot be read to its end", errno);
+    }
+  }
 }
 
 std::string read_text(const fs::path& path) {
@@ -48,38 +112,25 @@ void refuse_replacing(const fs::path& output, const std::vector<fs::path>& input
 }
 
 void write_file(const fs::path& path, std::string_view content) {
-  const fs::path partial = path.string() + ".partial-" + std::to_string(::getpid());
-  std::ofstream file(partial, std::ios::binary | std::ios::trunc);
-  file.write(content.data(), static_cast<std::streamsize>(content.size()));
-  file.close();
-  std::error_code error;
-  if (file) {
-    fs::rename(partial, path, error);
-    if (!error) return;
+  const fs::path partial = path.string() + std::string(kPartial) + process_mark();
+  const bool is_awaited = !is_staged(path);
+  if (!put(partial, content, is_awaited) || ::rename(partial.c_str(), path.c_str()) != 0) {
+    const int error = errno;
+    ::unlink(partial.c_str());
+    throw EnvironmentError(path.string(), "cannot be written", error);
   }
-  std::error_code ignored;
-  fs::remove(partial, ignored);
-  throw InputError(path.string(), "cannot be written; is the folder there, writable and not full?");
+  if (is_awaited) sync_to_disk(path.has_parent_path() ? path.parent_path() : ".");
 }
 
-namespace {
-
-const std::string kStagingPrefix = ".partial-";
-
-// What a killed process left in the target.
-void remove_abandoned(const fs::path& target) {
+void remove_abandoned(const fs::path& folder) {
   std::error_code error;
-  for (const fs::directory_entry& entry : fs::directory_iterator(target, error)) {
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
     const std::string name = entry.path().filename().string();
-    if (!name.starts_with(kStagingPrefix)) continue;
-    const auto pid = parse_integer(name.substr(kStagingPrefix.size()));
-    if (!pid || *pid <= 0) continue;
-    const bool alive = ::kill(static_cast<pid_t>(*pid), 0) == 0 || errno == EPERM;
-    if (!alive) fs::remove_all(entry.path(), error);
+    const std::size_t at = name.rfind(kPartial);
+    if (at == std::string::npos || !is_mark_of_dead(name.substr(at + kPartial.size()))) continue;
+    fs::remove_all(entry.path(), error);
   }
 }
-
-}  // namespace
 
 StagedFolder::StagedFolder(const fs::path& target, std::vector<fs::path> inputs)
     : target_(fs::absolute(target).lexically_normal()), inputs_(std::move(inputs)) {
@@ -93,11 +144,11 @@ StagedFolder::StagedFolder(const fs::path& target, std::vector<fs::path> inputs)
     first_created_ = folder;
   }
   remove_abandoned(target_);
-  staging_ = target_ / (kStagingPrefix + std::to_string(::getpid()));
+  staging_ = target_ / (std::string(kPartial) + process_mark());
   fs::create_directories(staging_, error);
   if (error) {
     discard();
-    throw InputError(target_.string(), "cannot be made: " + error.message());
+    throw EnvironmentError(target_.string(), "cannot be made: " + error.message());
   }
 }
 
@@ -115,8 +166,26 @@ StagedFolder::~StagedFolder() {
   if (!committed_) discard();
 }
 
+// All that is in the folder, and the folder.
+void StagedFolder::sync() const {
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(staging_)) {
+    if (!entry.is_symlink()) sync_to_disk(entry.path());
+  }
+  sync_to_disk(staging_);
+}
+
+// The names in the target, and that of every folder that was made for it.
+void StagedFolder::sync_names() const {
+  const fs::path top = first_created_.empty() ? target_ : first_created_.parent_path();
+  for (fs::path folder = target_; sync_to_disk(folder), folder != top;) {
+    folder = folder.parent_path();
+  }
+}
+
 void StagedFolder::commit(const std::vector<std::string>& own) {
   try {
+    const bool is_inner = is_staged(target_);  // the outer one waits for the disk
+    if (!is_inner) sync();
     for (const std::string& name : own) refuse_replacing(target_ / name, inputs_);
     for (const fs::directory_entry& entry : fs::directory_iterator(staging_)) {
       refuse_replacing(target_ / entry.path().filename(), inputs_);
@@ -130,8 +199,9 @@ void StagedFolder::commit(const std::vector<std::string>& own) {
       fs::rename(entry.path(), destination);
     }
     fs::remove(staging_);
+    if (!is_inner) sync_names();
   } catch (const fs::filesystem_error& error) {
-    throw InputError(target_.string(), "cannot be written: " + error.code().message());
+    throw EnvironmentError(target_.string(), "cannot be written: " + error.code().message());
   }
   committed_ = true;
 }

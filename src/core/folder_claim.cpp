@@ -9,6 +9,7 @@
 #include "fathom/core/files.hpp"
 #include "fathom/core/input_error.hpp"
 #include "fathom/core/system.hpp"
+#include "partial_files.hpp"
 
 namespace fathom {
 namespace {
@@ -78,6 +79,7 @@ FolderClaim::FolderClaim(const fs::path& folder, ClaimTimes times)
     // That its number runs says little: it may be another process's by now.
     if (!is_dead(who) && changes_within(file_, there, times_.patience)) throw is_held(file_, who);
   }
+  remove_abandoned(folder);
   write(token_ + " 0\n");
   // Of two that come at once the later one stands in the file.
   std::this_thread::sleep_for(times_.beat / 20);

@@ -9,11 +9,12 @@
 #include <cstring>
 #include <fcntl.h>
 #include <poll.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include "child_side.hpp"
-#include "fathom/core/input_error.hpp"
+#include "fathom/core/environment_error.hpp"
 #include "last_lines.hpp"
 
 namespace fathom {
@@ -27,7 +28,8 @@ struct Pipe {
   std::array<int, 2> ends{-1, -1};
 
   Pipe() {
-    if (::pipe2(ends.data(), O_CLOEXEC) != 0) throw InputError("the system has no pipe left");
+    if (::pipe2(ends.data(), O_CLOEXEC) == 0) return;
+    throw EnvironmentError("isolation", "no pipe can be made for a run's process", errno);
   }
   ~Pipe() {
     close(0);
@@ -159,6 +161,17 @@ ChildEnd watch(Child& child, Pipe& messages, Pipe& printed, const ChildLimits& l
   return end;
 }
 
+// The limit was the system's, and says nothing of what was run.
+EnvironmentError memory_is_cut(const ChildLimits& limits) {
+  rlimit now{};
+  ::getrlimit(RLIMIT_AS, &now);
+  return EnvironmentError(
+      "memory_limit_mib: a run found no memory, as 'ulimit -v' gives this program " +
+      std::to_string(now.rlim_max >> 20) + " MiB, and the run may have " +
+      std::to_string(limits.memory_bytes >> 20) +
+      " MiB beside what the program has; raise the one or lower the other");
+}
+
 }  // namespace
 
 ChildEnd run_child(const std::function<void(const MessagePipe&)>& action, const ChildLimits& limits,
@@ -168,12 +181,22 @@ ChildEnd run_child(const std::function<void(const MessagePipe&)>& action, const 
   std::fflush(nullptr);
   const pid_t parent = ::getpid();
   const pid_t id = ::fork();
-  if (id < 0) throw InputError("the system has no process left for a run");
+  if (id < 0) throw EnvironmentError("isolation", "a run gets no process of its own", errno);
   if (id == 0) be_child({messages.ends[1], printed.ends[1], parent}, limits, action);
   Child child(id);
   messages.close(1);
   printed.close(1);
-  return watch(child, messages, printed, limits, on_message);
+  std::string fault;
+  ChildEnd end = watch(child, messages, printed, limits, [&](char kind, const std::string& text) {
+    if (kind == kEnvironmentFault) {
+      fault = text;
+    } else {
+      on_message(kind, text);
+    }
+  });
+  if (!fault.empty()) throw EnvironmentError(fault);
+  if (end.exit_status == kCutMemoryStatus) throw memory_is_cut(limits);
+  return end;
 }
 
 }  // namespace fathom

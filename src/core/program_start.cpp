@@ -3,14 +3,13 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
-#include <cstring>
 #include <fcntl.h>
 #include <filesystem>
 #include <spawn.h>
 #include <sstream>
 #include <unistd.h>
 
-#include "fathom/core/input_error.hpp"
+#include "fathom/core/environment_error.hpp"
 #include "fathom/core/program.hpp"
 
 namespace fathom {
@@ -67,7 +66,7 @@ std::vector<std::string> words_of_command(std::string_view line) {
 std::string find_program(const std::string& name) {
   if (name.find('/') != std::string::npos) {
     if (is_program(name)) return name;
-    throw InputError("'" + name + "': there is no such program, or it may not be executed");
+    throw EnvironmentError("'" + name + "': there is no such program, or it may not be executed");
   }
   const char* const path = std::getenv("PATH");
   std::istringstream folders(path == nullptr ? "/usr/local/bin:/usr/bin:/bin" : path);
@@ -75,18 +74,19 @@ std::string find_program(const std::string& name) {
     const std::filesystem::path file = std::filesystem::path(folder.empty() ? "." : folder) / name;
     if (is_program(file)) return file.string();
   }
-  throw InputError("'" + name + "': there is no such program in PATH");
+  throw EnvironmentError("'" + name + "': there is no such program in PATH");
 }
 
 ProgramPipes::ProgramPipes() {
   for (auto& pair : pairs_) {
     if (::pipe2(pair.data(), O_CLOEXEC) == 0) continue;
+    const int error = errno;
     for (const auto& opened : pairs_) {
       for (const int end : opened) {
         if (end >= 0) ::close(end);
       }
     }
-    throw InputError("the system has no pipe left");
+    throw EnvironmentError("a program's input and output", "no pipe can be made", error);
   }
 }
 
@@ -119,7 +119,7 @@ int start_program(const std::string& file, std::vector<std::string> words,
   ::posix_spawn_file_actions_destroy(&actions);
   ::posix_spawnattr_destroy(&attributes);
   if (error != 0) {
-    throw InputError("'" + file + "': the system does not start it: " + std::strerror(error));
+    throw EnvironmentError("'" + file + "'", "the system does not start it", error);
   }
   return id;
 }

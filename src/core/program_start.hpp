@@ -11,7 +11,7 @@ namespace fathom {
 /// which go with this object, and those of this process, which are the caller's to close.
 class ProgramPipes {
  public:
-  /// Throws InputError where the system has no pipe left.
+  /// Throws EnvironmentError where the system has no pipe left.
   ProgramPipes();
   ~ProgramPipes();
   ProgramPipes(const ProgramPipes&) = delete;
@@ -26,7 +26,7 @@ class ProgramPipes {
 };
 
 /// Starts a program as a shell does, with no signal blocked or ignored; its process number. Throws
-/// InputError where the system does not.
+/// EnvironmentError where the system does not.
 int start_program(const std::string& file, std::vector<std::string> words,
                   const ProgramPipes& pipes);
 

@@ -10,7 +10,9 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include "fathom/core/input_error.hpp"
+#include "fathom/core/environment_error.hpp"
+#include "fathom/core/hash.hpp"
+#include "fathom/core/text.hpp"
 #include "time_value.hpp"
 
 namespace fathom {
@@ -50,6 +52,19 @@ bool is_dead_process(long number) {
   return ::kill(static_cast<pid_t>(number), 0) != 0 && errno == ESRCH;
 }
 
+std::string process_mark() {
+  return std::to_string(process_number()) + "-" + hash_text(process_space());
+}
+
+bool is_mark_of_dead(std::string_view mark) {
+  const std::size_t end = mark.find('-');
+  if (end == std::string_view::npos || mark.substr(end + 1) != hash_text(process_space())) {
+    return false;
+  }
+  const auto number = parse_integer(mark.substr(0, end));
+  return number && *number > 0 && is_dead_process(static_cast<long>(*number));
+}
+
 unsigned user_number() {
   return ::getuid();
 }
@@ -74,10 +89,12 @@ double peak_memory_mib() {
 
 void sync_to_disk(const std::filesystem::path& file) {
   const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
-  const bool is_synced = descriptor >= 0 && ::fsync(descriptor) == 0;
+  // Some file systems have nothing to wait for, of a folder above all.
+  const bool is_synced =
+      descriptor >= 0 && (::fsync(descriptor) == 0 || errno == EINVAL || errno == ENOTSUP);
   const int error = errno;
   if (descriptor >= 0) ::close(descriptor);
-  if (!is_synced) throw InputError(file.string(), std::strerror(error));
+  if (!is_synced) throw EnvironmentError(file.string(), "cannot be written", error);
 }
 
 void return_free_memory() {

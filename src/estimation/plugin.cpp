@@ -1,9 +1,13 @@
 #include "fathom/estimation/plugin.hpp"
 
 #include <array>
+#include <cstdint>
+#include <cstring>
 #include <dlfcn.h>
 #include <exception>
 #include <fmt/format.h>
+#include <fstream>
+#include <link.h>
 #include <string>
 #include <utility>
 
@@ -21,12 +25,28 @@ std::string linker_error() {
   return text == nullptr ? "unknown error" : text;
 }
 
+// The table of sections lies behind all that is loaded. Of a file that ends before it pages are
+// missing, and who touches one of them is killed, be it long after loading.
+void require_whole(const std::filesystem::path& file) {
+  ElfW(Ehdr) head{};
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream.read(reinterpret_cast<char*>(&head), sizeof head)) return;
+  if (std::memcmp(head.e_ident, ELFMAG, SELFMAG) != 0) return;
+  const std::uintmax_t end = head.e_shoff + std::uintmax_t{head.e_shnum} * head.e_shentsize;
+  const std::uintmax_t size = std::filesystem::file_size(file);
+  if (size >= end) return;
+  throw InputError(file.string(), fmt::format("is cut short: it has {} bytes, expected {}; copy or "
+                                              "build it again",
+                                              size, end));
+}
+
 // A file that is damaged, or half written, crashes whoever loads it.
 void require_loadable(const std::filesystem::path& file) {
   if (!std::filesystem::is_regular_file(file)) {
     throw InputError("'" + file.string() +
                      "': there is no such plug-in; expected a shared object or a .py file");
   }
+  require_whole(file);
   constexpr ChildLimits kLimits{60.0, std::int64_t{4} << 30};
   const auto load = [&](const MessagePipe&) {
     ::dlopen(std::filesystem::absolute(file).c_str(), RTLD_NOW | RTLD_LOCAL);

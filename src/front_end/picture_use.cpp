@@ -8,7 +8,7 @@
 
 #include <opencv2/core/utility.hpp>
 
-#include "fathom/core/input_error.hpp"
+#include "fathom/core/environment_error.hpp"
 #include "fathom/core/text.hpp"
 #include "fathom/vision/features.hpp"
 #include "fathom/vision/static_view.hpp"
@@ -24,6 +24,8 @@ constexpr std::size_t kLooked = 16;
 cv::Mat detail_or_nothing(const FrameSource& frames, std::size_t frame) {
   try {
     return detail_of_view(frames.image(frame));
+  } catch (const EnvironmentError&) {
+    throw;
   } catch (const InputError&) {
     return {};  // who needs the picture is told
   }
@@ -59,6 +61,8 @@ StaticView static_view_of(const FrameSource& frames) {
 std::optional<std::uint64_t> identity(const FrameSource& frames, std::size_t frame) {
   try {
     return frames.picture_id(frame);
+  } catch (const EnvironmentError&) {
+    throw;
   } catch (const InputError&) {
     return std::nullopt;
   }

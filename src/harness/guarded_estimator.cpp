@@ -7,7 +7,7 @@
 #include <new>
 #include <stdexcept>
 
-#include "fathom/core/input_error.hpp"
+#include "fathom/core/environment_error.hpp"
 #include "fathom/core/program.hpp"
 
 namespace fathom {
@@ -72,6 +72,8 @@ void GuardedEstimator::guarded(const char* what, Call call) const {
   try {
     call();
   } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const EnvironmentError&) {
     throw;
   } catch (const ContractViolation& violation) {
     fault_ = at() + ": " + violation.what();

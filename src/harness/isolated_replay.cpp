@@ -7,7 +7,7 @@
 #include <string>
 
 #include "child_failure.hpp"
-#include "fathom/core/input_error.hpp"
+#include "fathom/core/environment_error.hpp"
 #include "run_bytes.hpp"
 
 namespace fathom {
@@ -42,6 +42,8 @@ void replay_in_child(const MessagePipe& parent, const MeasurementLog& log,
   if (options.progress) options.progress = RarelySent(parent);
   try {
     parent.send(kReplay, bytes_of(replay(log, entry, values, options)));
+  } catch (const EnvironmentError&) {
+    throw;
   } catch (const InputError& error) {
     parent.send(kBadInput, error.what());
   }

@@ -74,7 +74,11 @@ std::string misfit_remark(const MapFit& fit, bool set_up_is_wrong) {
 std::vector<std::string> map_remarks(const MapFit& fit, const std::string& estimator,
                                      const std::string& solver, bool set_up_is_wrong) {
   std::vector<std::string> remarks;
-  if (!fit.estimate_fits()) {
+  if (!std::isfinite(fit.chi2)) {
+    remarks.push_back("there is no map of " + estimator + ": its poses are not finite; " + solver +
+                      ", which solves the same log at once, has F " +
+                      short_number(fit.chi2_optimum, 6));
+  } else if (!fit.estimate_fits()) {
     remarks.push_back("the map of " + estimator + " does not fit its own measurements: F is " +
                       short_number(fit.chi2, 6) + ", and " + short_number(fit.chi2_optimum, 6) +
                       " where a batch solve of the same log ends; " + solver + " would do");

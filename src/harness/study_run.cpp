@@ -72,8 +72,6 @@ class Runner {
 
   std::size_t runs() const { return own_.count() * study_.description.estimators.size(); }
 
-  bool is_stopped() const { return failed_ || watch_.is_stopped(); }
-
   // Where the system has no further thread fewer do the same work.
   void start_others(std::vector<std::jthread>& others, std::size_t count) {
     try {
@@ -86,7 +84,7 @@ class Runner {
     try {
       if (options_.on_thread_start) options_.on_thread_start();
       const auto meter = options_.make_meter ? options_.make_meter() : nullptr;
-      for (std::size_t next = next_task_++; next < tasks_.size() && !is_stopped();
+      for (std::size_t next = next_task_++; next < tasks_.size() && !watch_.is_stopped();
            next = next_task_++) {
         if (store_ == nullptr) {
           register_trial(tasks_[next]);
@@ -99,7 +97,7 @@ class Runner {
     } catch (...) {
       const std::lock_guard hold(mutex_);
       if (!failure_) failure_ = std::current_exception();
-      failed_ = true;
+      watch_.end();
     }
   }
 
@@ -108,7 +106,7 @@ class Runner {
     const std::shared_ptr<const Recorder> recorder = data_sets_.of(task.cell, task.survey);
     const bool is_own = configuration.study.association == Association::own;
     for (const std::size_t e : task.estimators) {
-      if (is_stopped()) return;
+      if (watch_.is_stopped()) return;
       recorder->record(configuration,
                        is_own ? by_contender(configuration.estimators[e]) : configuration.reference,
                        registry_, noise_of(task),
@@ -142,7 +140,7 @@ class Runner {
       if (task.baseline) add_baseline(task, *trial.recording);
     }
     for (const std::size_t e : task.estimators) {
-      if (is_stopped()) return;
+      if (watch_.is_stopped()) return;
       if (is_own) {
         trial = record_by(by_contender(configuration.estimators[e]));
         judge_by_facts(trial);
@@ -196,11 +194,15 @@ class Runner {
     for (std::size_t e = 0; e < configuration.estimators.size(); ++e) {
       if (example_.contains(e)) continue;
       if (is_own || !shared) {
-        shared = std::make_shared<const Recording>(data_sets_.of(0, 0)->record(
-            configuration,
-            is_own ? by_contender(configuration.estimators[e]) : configuration.reference, registry_,
-            {study_.noise_seeds.front(), 0}));
+        shared = record_trial(
+                     *data_sets_.of(0, 0), configuration,
+                     is_own ? by_contender(configuration.estimators[e]) : configuration.reference,
+                     registry_, {study_.noise_seeds.front(), 0}, {})
+                     .recording;
       }
+      // Its metrics are stored: nothing is to be run without some of its loops.
+      Recording with_all_loops = *shared;
+      with_all_loops.is_held_out = {};
       const EstimatorConfiguration& estimator = configuration.estimators[e];
       const RunRecord& before = *stored.of(estimator.name, 0).at({0, 0});
       const auto lost = end_of_process(before.outcome);
@@ -209,7 +211,7 @@ class Runner {
       again.isolation = configuration.isolation;
       Result result =
           lost ? evaluate_lost(*shared, estimator, registry_, judging, *lost, before.fault)
-               : evaluate(*shared, estimator, registry_, judging, again);
+               : evaluate(with_all_loops, estimator, registry_, judging, again);
       result.metrics = before.metrics;
       example_[e] = {shared, std::move(result)};
     }
@@ -225,7 +227,6 @@ class Runner {
   std::size_t threads_;
   std::atomic<std::size_t> next_task_ = 0;
   std::atomic<std::size_t> done_tasks_ = 0;
-  std::atomic<bool> failed_ = false;
   StudyWatch watch_;
   std::mutex mutex_;
   std::map<std::size_t, ExampleRun> example_;

@@ -20,7 +20,12 @@ class StudyWatch {
   /// The options must outlive it. `done` runs of `of` were there before.
   StudyWatch(const StudyRunOptions& options, std::size_t done, std::size_t of, StudyPace pace);
 
-  bool is_stopped() const { return options_.stop != nullptr && options_.stop->load(); }
+  bool is_stopped() const {
+    return is_ended_ || (options_.stop != nullptr && options_.stop->load());
+  }
+
+  /// One thread cannot go on, so that the study will not be finished: the others are stopped, too.
+  void end() { is_ended_ = true; }
 
   /// A run that took so long, with what was computed for it alone.
   void run_done(std::size_t estimator, double seconds, bool is_failed);
@@ -39,6 +44,7 @@ class StudyWatch {
   void say();
 
   const StudyRunOptions& options_;
+  std::atomic<bool> is_ended_ = false;
   std::mutex mutex_;
   StudyPace pace_;
   StudyProgress progress_;

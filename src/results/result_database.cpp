@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <sqlite3.h>
 
+#include "fathom/core/environment_error.hpp"
 #include "store_guard.hpp"
 
 namespace fathom {
@@ -34,20 +35,25 @@ bool ResultStore::Database::is_store() const {
   return true;
 }
 
-std::string ResultStore::Database::what_of(const SQLite::Exception& error) {
+void ResultStore::Database::refuse(const SQLite::Exception& error) const {
   switch (error.getErrorCode()) {
     case SQLITE_FULL:
-      return "the disk is full; nothing of the unfinished run was stored. Make room and run the "
-             "same command again";
+      throw EnvironmentError(file.string(),
+                             "the disk is full; nothing of the unfinished run was stored. Make "
+                             "room and run the same command again");
     case SQLITE_NOTADB:
     case SQLITE_CORRUPT:
-      return std::string("is no result store, or a damaged one: ") + error.what();
+      throw InputError(file.string(),
+                       std::string("is no result store, or a damaged one: ") + error.what());
     case SQLITE_READONLY:
     case SQLITE_CANTOPEN:
     case SQLITE_IOERR:
-      return std::string("cannot be read or written: ") + error.what();
+      throw EnvironmentError(file.string(),
+                             std::string("cannot be read or written: ") + error.what());
+    case SQLITE_NOMEM:
+      throw EnvironmentError(file.string(), error.what());
     default:
-      return error.what();
+      throw InputError(file.string(), error.what());
   }
 }
 

@@ -22,13 +22,13 @@ class ResultStore::Database {
   Database(const std::filesystem::path& file, int flags);
 
   /// Runs an action on the file; what SQLite throws, and what the file says wrongly, becomes bad
-  /// input that names the file.
+  /// input that names the file, or a fault of the environment.
   template <class Action>
   std::invoke_result_t<Action> guard(Action action) const {
     try {
       return action();
     } catch (const SQLite::Exception& error) {
-      throw InputError(file.string(), what_of(error));
+      refuse(error);
     } catch (const DamagedStore& damage) {
       throw InputError(file.string(), damage.what());
     }
@@ -46,7 +46,7 @@ class ResultStore::Database {
   std::mutex mutex;
 
  private:
-  static std::string what_of(const SQLite::Exception& error);
+  [[noreturn]] void refuse(const SQLite::Exception& error) const;
 };
 
 }  // namespace fathom

@@ -2,6 +2,7 @@
 
 #include <SQLiteCpp/VariadicBind.h>
 #include <fmt/format.h>
+#include <sqlite3.h>
 
 #include "result_database.hpp"
 #include "result_rows.hpp"
@@ -128,7 +129,12 @@ void ResultStore::finish() {
   const std::lock_guard hold(database_->mutex);
   // Out of WAL: a reader of a read-only folder could not make the files that go with it.
   // Where somebody is reading just now it stays in WAL, which is no fault.
-  database_->guard([&] { database_->sqlite->tryExec("PRAGMA journal_mode = DELETE"); });
+  database_->guard([&] {
+    SQLite::Database& sqlite = *database_->sqlite;
+    const int code = sqlite.tryExec("PRAGMA journal_mode = DELETE");
+    if (code == SQLITE_OK || code == SQLITE_BUSY || code == SQLITE_LOCKED) return;
+    throw SQLite::Exception(sqlite.getHandle(), code);
+  });
 }
 
 }  // namespace fathom

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <system_error>
 
+#include "fathom/core/environment_error.hpp"
 #include "fathom/core/hash.hpp"
-#include "fathom/core/input_error.hpp"
 #include "fathom/core/system.hpp"
 #include "result_schema.hpp"
 
@@ -33,6 +33,8 @@ std::optional<std::size_t> runs_in(const fs::path& folder, const StudyDescriptio
     const bool is_same =
         difference(store.study(), study).empty() && data_difference(store.study(), study).empty();
     return is_same ? std::optional(store.runs().size()) : std::nullopt;
+  } catch (const EnvironmentError&) {
+    throw;  // it may be whole
   } catch (const InputError&) {
     return std::nullopt;
   }

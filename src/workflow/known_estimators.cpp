@@ -39,18 +39,21 @@ void KnownEstimators::load(const fs::path& file) {
   }
 }
 
-void KnownEstimators::load_search_path() {
+std::vector<std::string> KnownEstimators::load_search_path() {
   const char* const places = std::getenv(kSearchPath);
-  if (places == nullptr) return;
-  std::istringstream words(places);
+  std::vector<std::string> left_out;
+  std::istringstream words(places == nullptr ? "" : places);
   for (std::string place; std::getline(words, place, ':');) {
     if (place.empty()) continue;
-    try {
-      for (const fs::path& file : shared_objects_of(place)) load(file);
-    } catch (const InputError& error) {
-      throw InputError(std::string(kSearchPath) + ": " + error.what());
+    for (const fs::path& file : shared_objects_of(place)) {
+      try {
+        load(file);
+      } catch (const InputError& error) {
+        left_out.push_back(std::string(kSearchPath) + ": left out: " + error.what());
+      }
     }
   }
+  return left_out;
 }
 
 void KnownEstimators::load(Settings& settings, const std::vector<std::string>& files,

@@ -1,7 +1,7 @@
 #include "map_files.hpp"
 
+#include "fathom/core/environment_error.hpp"
 #include "fathom/core/files.hpp"
-#include "fathom/core/input_error.hpp"
 #include "fathom/report/footprints.hpp"
 
 namespace fathom::workflow {
@@ -42,6 +42,8 @@ std::optional<std::string> try_map_files(const std::filesystem::path& folder,
                                          const KeyframeMap& map, const EarthFrame* earth) {
   try {
     write_map_files(folder, map, earth);
+  } catch (const EnvironmentError&) {
+    throw;
   } catch (const InputError& error) {
     return std::string("no map of all footprints: ") + error.what();
   }

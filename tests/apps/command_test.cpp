@@ -1,5 +1,8 @@
 // The estimator `command`: other programs, through the real command line.
 
+#include <algorithm>
+#include <cerrno>
+
 #include <gmock/gmock.h>
 
 #include "apps/command_line.hpp"
@@ -141,6 +144,57 @@ TEST_F(CommandProgram, OneThatNeverEndsIsEndedWithAllThatItStarted) {
   const std::string prints = script("prints", "#!/bin/sh\nyes 7653.0625\n");
   EXPECT_EQ(failed(prints, limit).at("outcome"), "timed_out");
   EXPECT_TRUE(none_is_left("7653.0625"));
+}
+
+// Each ends the study with one line that names it, and the same command is done without it.
+TEST_F(CommandProgram, FaultsOfTheEnvironmentAreNobodysResult) {
+  if (std::string(FATHOM_TEST_FAULTS).empty()) GTEST_SKIP() << "not with a sanitizer";
+  const std::string solver =
+      script("echoes", "#!/bin/sh\n[ -e full ] && exit 1\ngrep '^VERTEX_SE2' $1 > $2\n");
+  write("s.yaml",
+        "dataset:\n  type: simulated_log\n"
+        "  mission: {type: sweep, legs: 3, leg_length_m: 8, leg_spacing_m: 1.0}\n"
+        "  loops: {max_distance_m: 1.4}\ntrials: 2\nestimators:\n"
+        "  - {type: ekf}\n  - {type: command, command: '" +
+            solver + " {input} {output}'}\n");
+  struct Kind {
+    const char* call;
+    int error;
+    const char* at;
+    const char* said;
+  };
+  const auto environment = surroundings_.environment;
+  const std::vector<Kind> kinds{
+      {"", 0, "1", "none: is no folder for the program's files"},
+      {"write", ENOSPC, "1", "input.g2o: cannot be written: No space left on device"},
+      {"write", EDQUOT, "2", "room: cannot be written: Disk quota exceeded"},
+      {"mkdir", EROFS, "1", "cannot be made: Read-only file system"},
+      {"open", EMFILE, "1", "input.g2o: cannot be written: Too many open files"},
+      {"fork", EAGAIN, "1", "no process of its own: Resource temporarily unavailable"}};
+  for (const auto& [call, error, at, said] : kinds) {
+    const std::string out = "study of " + std::string(said).substr(0, 5) + call;
+    auto& given = surroundings_.environment;
+    given = environment;
+    if (*call == '\0') {
+      given["TMPDIR"] = path("none").string();
+    } else {
+      given["LD_PRELOAD"] = FATHOM_TEST_FAULTS;
+      given["FATHOM_FAULT_CALL"] = call;
+      given["FATHOM_FAULT_AT"] = at;
+      given["FATHOM_FAULT_COUNT"] = "1000000";
+      given["FATHOM_FAULT_ERROR"] = std::to_string(error);
+      if (std::string(call) != "fork") given["FATHOM_FAULT_PATH"] = "fathom-command-";
+    }
+    if (std::string(at) == "2") write("full", "");
+    const Ended ended = fathom({"compare", "s.yaml", "--out", out});
+    EXPECT_EQ(ended.status, 2) << said;
+    EXPECT_THAT(ended.err, HasSubstr(said));
+    EXPECT_EQ(std::count(ended.err.begin(), ended.err.end(), '\n'), 1) << ended.err;
+    given = environment;
+    fs::remove(path("full"));
+    EXPECT_THAT(fathom_done({"compare", "s.yaml", "--out", out}).out, HasSubstr("2/2 done"))
+        << said;
+  }
 }
 
 // More than a pipe holds goes in while as much comes out, and nobody waits for the other.

@@ -79,6 +79,18 @@ TEST_F(Isolation, MemoryWithoutEndIsEndedAtItsLimit) {
   }
 }
 
+// What the system allows says nothing of the estimator.
+TEST_F(Isolation, ALimitOfTheSystemIsNoResult) {
+  if (!FATHOM_MEASURES_MEMORY) GTEST_SKIP() << "not with a sanitizer";
+  surroundings_.address_space_bytes = std::size_t{3} << 30;
+  write("log.yaml", kLog);
+  EXPECT_THAT(
+      refusal({"run", "log.yaml", "--out", "out", "--plugin", plugin("misbehaving"), "--set",
+               "estimator.type=misbehaving", "--set", "estimator.fault=memory"}),
+      HasSubstr("memory_limit_mib: a run found no memory, as 'ulimit -v' gives this program "
+                "3072 MiB, and the run may have 4096 MiB"));
+}
+
 TEST_F(Isolation, AnExitAndADeathInTheDestructorAreCrashes) {
   EXPECT_EQ(run("exit").at("fault"), "ended its process itself, with status 3");
   EXPECT_THAT(run("destructor").at("fault").get<std::string>(), HasSubstr("signal 6"));

@@ -1,6 +1,7 @@
 // Estimators of other people: plug-ins, and runs in processes of their own, through the real
 // command line.
 
+#include <algorithm>
 #include <fstream>
 
 #include <gmock/gmock.h>
@@ -53,6 +54,34 @@ TEST_F(Plugins, AreRefusedInOneLine) {
   EXPECT_THAT(refused(plugin("throwing")), HasSubstr("adding its estimators threw: no licence"));
   write("c.yaml", std::string(kLog) + "plugins: [missing.so]\nestimator: {type: ekf}\n");
   EXPECT_THAT(refusal({"run", "c.yaml"}), HasSubstr("c.yaml:5: plugins: 'missing.so'"));
+}
+
+// Pages that are missing kill who touches them, which loading may not do.
+TEST_F(Plugins, CutShortAnywhereIsRefused) {
+  const std::string whole = read_file(plugin("plugin_example"));
+  for (const std::size_t cut : {std::size_t{1}, std::size_t{5000}, whole.size() / 3}) {
+    write("cut.so", whole.substr(0, whole.size() - cut));
+    EXPECT_THAT(refusal({"list", "estimators", "--plugin", "cut.so"}),
+                HasSubstr("cut.so: is cut short: it has " + std::to_string(whole.size() - cut) +
+                          " bytes, expected "));
+  }
+}
+
+// All commands have the path, also those that need none of it.
+TEST_F(Plugins, OfThePathWhatCannotBeLoadedIsLeftOutWithANote) {
+  const std::string all =
+      fathom_done({"list", "estimators", "--plugin", plugin("plugin_example")}).out;
+  write("folder/broken.so", "no shared object");
+  surroundings_.environment = {
+      {"FATHOM_PLUGIN_PATH", "missing.so:folder:" + plugin("plugin_example")}};
+  const Ended listed = fathom({"list", "estimators"});
+  EXPECT_EQ(listed.status, 0);
+  EXPECT_EQ(listed.out, all);
+  EXPECT_THAT(listed.err,
+              AllOf(HasSubstr("fathom: note: FATHOM_PLUGIN_PATH: left out: 'missing.so': there is "
+                              "no such plug-in"),
+                    HasSubstr("left out: the plug-in cannot be loaded: ")));
+  EXPECT_EQ(std::ranges::count(listed.err, '\n'), 2);
 }
 
 TEST_F(Plugins, TheirKeysAreCheckedAsThoseOfBuiltInOnes) {

@@ -33,8 +33,15 @@ TEST_F(StudyExample, IsTheRunThatWasStored) {
       const ResultStore store = ResultStore::open(path(out));
       for (const RunRecord& run : store.runs()) {
         if (run.key.cell != 0 || run.key.estimator == "dead_reckoning") continue;
+        const RunRecord reckoned = store.run({0, 0, 0, "dead_reckoning"}).value();
         const nlohmann::json written = json_of(out + "/" + run.key.estimator + "/metrics.json");
         EXPECT_TRUE(run.metrics.contains("chi2_gap"));
+        const nlohmann::json& of_reckoning = written.at("dead_reckoning");
+        EXPECT_TRUE(reckoned.metrics.contains("held_out_loops"));
+        // The values differ where each estimator has a log of its own.
+        for (const auto& [name, value] : reckoned.metrics) {
+          EXPECT_TRUE(of_reckoning.contains(name)) << name << ", session: " << session;
+        }
         for (const auto& [name, value] : run.metrics) {
           EXPECT_EQ(written.at(name).get<double>(), value) << name << ", session: " << session;
         }

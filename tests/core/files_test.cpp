@@ -9,6 +9,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/few_descriptors.hpp"
+#include "fathom/core/environment_error.hpp"
+#include "fathom/core/system.hpp"
 #include "support/input_error.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -103,17 +106,52 @@ TEST_F(Files, WithoutCommitNothingIsLeftNotEvenItsFolders) {
   EXPECT_THAT(entries(folder_.path()), UnorderedElementsAre("kept"));
 }
 
-TEST_F(Files, WhatAKilledProcessLeftIsRemovedAndWhatALiveOneHasIsNot) {
-  // Process numbers end at 2^22 on Linux; process 1 is always there.
-  for (const std::string name : {".partial-99999999", ".partial-1"}) {
-    fs::create_directory(folder_ / name);
-    put(folder_ / name / "half.txt", "h");
-  }
+// Of a process that has ended.
+std::string mark_of_dead() {
+  const std::string own = process_mark();
+  const std::string space = own.substr(own.find('-'));
+  return "99999999" + space;  // process numbers end at 2^22 on Linux
+}
+
+TEST_F(Files, WhatAKilledProcessLeftIsRemoved) {
+  fs::create_directory(folder_ / (".partial-" + mark_of_dead()));
+  put(folder_ / (".partial-" + mark_of_dead()) / "half.txt", "h");
+  put(folder_ / ("table.txt.partial-" + mark_of_dead()), "h");
   StagedFolder staged(folder_.path());
   put(staged.path() / "whole.txt", "w");
   staged.commit();
-  EXPECT_THAT(entries(folder_.path()),
-              UnorderedElementsAre(".partial-1", ".partial-1/half.txt", "whole.txt"));
+  EXPECT_THAT(entries(folder_.path()), UnorderedElementsAre("whole.txt"));
+}
+
+// A live process, or one of another machine or container, whose number says nothing here.
+TEST_F(Files, WhatMayBeAtWorkElsewhereIsLeftAlone) {
+  const std::vector<std::string> kept{
+      ".partial-99999999", ".partial-99999999-0123456789abcdef",
+      ".partial-1" + process_mark().substr(process_mark().find('-')), "notes.partial-final"};
+  for (const std::string& name : kept) fs::create_directory(folder_ / name);
+  StagedFolder(folder_.path()).commit();
+  EXPECT_THAT(entries(folder_.path()), testing::UnorderedElementsAreArray(kept));
+}
+
+TEST_F(Files, WhatTheSystemRefusesIsAFaultOfTheEnvironment) {
+  put(folder_ / "file", "f");
+  EXPECT_THROW(write_file(folder_ / "none/file", "x"), EnvironmentError);
+  EXPECT_THROW(StagedFolder(folder_ / "file/below"), EnvironmentError);
+  const test::FewDescriptors none_left;
+  EXPECT_THAT(input_error_of([&] { write_file(folder_ / "other", "x"); }),
+              HasSubstr("other: cannot be written: Too many open files"));
+  EXPECT_THROW(read_file(folder_ / "file"), EnvironmentError);
+}
+
+// A name that is wrong is not the machine's fault.
+TEST_F(Files, AFileThatIsNotThereIsBadInput) {
+  try {
+    read_file(folder_ / "none");
+    FAIL();
+  } catch (const EnvironmentError& error) {
+    FAIL() << error.what();
+  } catch (const InputError&) {
+  }
 }
 
 TEST_F(Files, ATrailingSlashChangesNothing) {

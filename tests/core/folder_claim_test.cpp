@@ -12,6 +12,7 @@
 
 #include "fathom/core/files.hpp"
 #include "fathom/core/input_error.hpp"
+#include "fathom/core/system.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace fathom {
@@ -54,8 +55,14 @@ TEST(FolderClaim, OfADeadProcessIsTakenOverAtOnce) {
   int status = 0;
   ASSERT_EQ(::waitpid(child, &status, 0), child);
   ASSERT_TRUE(std::filesystem::exists(folder.path() / "results.owner"));
+  // It may have been killed as it wrote.
+  const std::string mark = process_mark();
+  std::ofstream(folder.path() /
+                ("results.owner.partial-" + std::to_string(child) + mark.substr(mark.find('-'))));
   const FolderClaim claim(folder.path(), {20ms, 3'600'000ms});
   claim.require_held();
+  const std::filesystem::directory_iterator left(folder.path());
+  EXPECT_EQ(std::distance(begin(left), end(left)), 1);
 }
 
 // Another machine's claim that no longer changes, whatever its clock says: the file's time is of

@@ -4,7 +4,8 @@
 
 #include <gmock/gmock.h>
 
-#include "fathom/core/input_error.hpp"
+#include "core/few_descriptors.hpp"
+#include "fathom/core/environment_error.hpp"
 #include "fathom/core/system.hpp"
 
 namespace fathom {
@@ -97,6 +98,12 @@ TEST(Program, WhatIsNotThereIsBadInput) {
   EXPECT_THROW(find_program("no-such-program"), InputError);
   EXPECT_THROW(find_program("/etc/passwd"), InputError);
   EXPECT_EQ(find_program("/bin/sh"), "/bin/sh");
+}
+
+TEST(Program, ThatTheSystemDoesNotStartIsAFaultOfTheEnvironment) {
+  EXPECT_THROW(Program({"no-such-program"}), EnvironmentError);
+  const test::FewDescriptors none_left;
+  EXPECT_THROW(Program({"true"}), EnvironmentError);
 }
 
 TEST(ProgramWork, IsApartFromThatOfTheThread) {

@@ -1,5 +1,6 @@
 // Estimators of somebody else's that do what none may: each gets a verdict, and the study goes on.
 
+#include <cerrno>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -9,6 +10,7 @@
 
 #include "configuration/settings_of.hpp"
 #include "fathom/configuration/study.hpp"
+#include "fathom/core/environment_error.hpp"
 #include "fathom/estimators/builtin.hpp"
 #include "fathom/harness/guarded_estimator.hpp"
 #include "fathom/harness/replay.hpp"
@@ -19,6 +21,7 @@
 #include "harness/small_config.hpp"
 #include "harness/square_log.hpp"
 #include "src/harness/run_record.hpp"
+#include "support/input_error.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace fathom {
@@ -149,6 +152,35 @@ TEST(FaultyEstimator, IsJudgedAndWrittenDown) {
     for (const auto& [name, value] : run.metrics) EXPECT_TRUE(std::isfinite(value)) << name;
     const test::TemporaryFolder folder;
     write_run(folder.path(), recording, result, "{}");
+  }
+}
+
+// Nor is it stored: the same study, once the disk has room, has the run.
+TEST(FaultyEstimator, AFaultOfTheEnvironmentIsNobodysResult) {
+  for (const std::string isolation : {"none", "process"}) {
+    bool is_full = true;
+    Script script;
+    script.spoil_report = [&](UpdateReport&) {
+      if (is_full) throw EnvironmentError("/tmp/x", "cannot be written", ENOSPC);
+    };
+    EstimatorRegistry registry;
+    registry.add(scripted(script));
+    registry.add(builtin_estimators().find("ekf"));
+    const Study study = configure_study(
+        test::settings_of("dataset:\n  type: simulated_log\n  mission: {type: single_loop, "
+                          "loop_length_m: 20, loop_width_m: 2}\nestimators: [{type: scripted}, "
+                          "{type: ekf}]\nisolation: " +
+                          isolation + "\n"),
+        registry);
+    const test::TemporaryFolder folder;
+    ResultStore store = ResultStore::write(folder.path(), study.description, "{}");
+    EXPECT_EQ(test::input_error_of([&] { run_study(study, registry, store, {}); }),
+              "/tmp/x: cannot be written: No space left on device");
+    for (const RunRecord& run : store.runs()) EXPECT_NE(run.key.estimator, "scripted");
+    is_full = false;
+    EXPECT_TRUE(run_study(study, registry, store, {}).is_finished);
+    for (const RunRecord& run : store.runs()) EXPECT_THAT(run.fault, IsEmpty());
+    EXPECT_EQ(store.runs().size(), 3u);
   }
 }
 

@@ -2,13 +2,18 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cerrno>
+#include <chrono>
 #include <string>
+#include <thread>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "configuration/settings_of.hpp"
 #include "fathom/configuration/study.hpp"
+#include "fathom/core/environment_error.hpp"
+#include "fathom/core/system.hpp"
 #include "fathom/estimators/builtin.hpp"
 #include "fathom/harness/study_run.hpp"
 #include "harness/scripted_estimator.hpp"
@@ -73,6 +78,34 @@ TEST(StudyStop, LeavesAReplayAtItsNextKeyframe) {
   EXPECT_TRUE(run_study(study, registry, store, options).is_finished);
   EXPECT_GT(added, 10u);
   EXPECT_THAT(store.runs(), SizeIs(3));
+}
+
+// One of two trials meets a fault; the other would take a minute.
+TEST(StudyStop, ComesSoonWhereOneThreadCannotGoOn) {
+  const test::TemporaryFolder folder;
+  Script script;
+  const long here = process_number();
+  script.spoil_report = [&, here](UpdateReport&) {
+    if (process_number() == here) return;  // the batch optimum, which runs in no other process
+    // Of two processes one is the first; it fails once the other is at work.
+    if (!std::filesystem::create_directory(folder / "first")) {
+      std::filesystem::create_directory(folder / "second");
+      std::this_thread::sleep_for(std::chrono::minutes(1));
+    }
+    while (!std::filesystem::exists(folder / "second")) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    throw EnvironmentError("/tmp/x", "cannot be written", ENOSPC);
+  };
+  const EstimatorRegistry registry = registry_of(script);
+  const Study study =
+      study_of(registry, std::string(kLog) + "trials: 2\njobs: 2\nisolation: process\n");
+  ResultStore store = ResultStore::write(folder / "study", study.description, "{}");
+  StudyRunOptions options;
+  options.jobs = 2;
+  const auto start = std::chrono::steady_clock::now();
+  EXPECT_THROW(run_study(study, registry, store, options), EnvironmentError);
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(30));
 }
 
 TEST(StudyStop, LeavesTheFrontEndAtItsNextKeyframe) {

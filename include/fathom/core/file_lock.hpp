@@ -8,8 +8,8 @@ namespace fathom {
 /// process dies, however it dies.
 class FileLock {
  public:
-  /// Makes `file` and holds it. Throws InputError where it cannot be made, or where another holder
-  /// has it: then with `busy` as the message.
+  /// Makes `file` and holds it. Throws EnvironmentError where it cannot be made, InputError with
+  /// `busy` as the message where another holder has it.
   FileLock(const std::filesystem::path& file, const std::string& busy);
   ~FileLock();
 
@@ -20,6 +20,9 @@ class FileLock {
   FileLock& operator=(const FileLock&) = delete;
 
  private:
+  /// Whether what is held is what others find under the name.
+  bool is_at_its_place() const;
+
   std::filesystem::path file_;
   int descriptor_ = -1;
 };

@@ -7,7 +7,8 @@
 
 namespace fathom {
 
-/// The file's bytes; throws InputError naming the file if it cannot be read.
+/// The file's bytes; throws InputError naming the file if it cannot be read, EnvironmentError where
+/// that is the machine's fault.
 std::string read_file(const std::filesystem::path& path);
 
 /// The same for a text: without the UTF-8 byte order mark that some editors put before it.
@@ -18,13 +19,15 @@ std::string read_text(const std::filesystem::path& path);
 void refuse_replacing(const std::filesystem::path& output,
                       const std::vector<std::filesystem::path>& inputs);
 
-/// Writes a whole file or nothing: into a neighbour first, then renamed. Throws InputError.
+/// Writes a whole file or nothing: into a neighbour first, then renamed. It is on its disk when
+/// this returns; below a StagedFolder, when that is committed. Throws EnvironmentError.
 void write_file(const std::filesystem::path& path, std::string_view content);
 
 /// An output folder that appears whole or not at all. Files are written below `path()`; `commit`
 /// moves them to the target, replacing entries of the same name and leaving others alone. Without
-/// commit nothing of them, nor a folder made for them, is left; what a killed process left there is
-/// removed by the next one. Of the `inputs` of the program none is replaced: commit refuses it.
+/// commit nothing of them, nor a folder made for them, is left; what a process of this machine and
+/// boot left that was killed is removed by the next one. Of the `inputs` of the program none is
+/// replaced: commit refuses it. What the system refuses is an EnvironmentError.
 class StagedFolder {
  public:
   explicit StagedFolder(const std::filesystem::path& target,
@@ -35,10 +38,13 @@ class StagedFolder {
 
   const std::filesystem::path& path() const { return staging_; }
   const std::filesystem::path& target() const { return target_; }
-  /// `own`: names that this kind of output may have and not always has; older ones are removed.
+  /// `own`: names that this kind of output may have and not always has; older ones are removed. All
+  /// is on its disk before any of it has its name.
   void commit(const std::vector<std::string>& own = {});
 
  private:
+  void sync() const;
+  void sync_names() const;
   void discard();
 
   std::filesystem::path target_;

@@ -45,8 +45,10 @@ class MessagePipe {
 /// it sends, and is called with kind 0 and no text now and then between messages; what it throws
 /// kills the child and is passed on. The child has an end of its own for every descriptor but
 /// those that it needs, prints to a pipe, and dies with the thread that called; its process group
-/// is killed when it has ended. Throws InputError where the system refuses a process,
-/// DamagedMessage where something else wrote to the pipe.
+/// is killed when it has ended. An EnvironmentError of `action` is thrown here. Throws
+/// EnvironmentError also where the system refuses a process, or where the child found no memory
+/// while a limit of the system (`ulimit -v`) left it less than its own; DamagedMessage where
+/// something else wrote to the pipe.
 ChildEnd run_child(const std::function<void(const MessagePipe&)>& action, const ChildLimits& limits,
                    const std::function<void(char, const std::string&)>& on_message);
 

@@ -20,7 +20,7 @@ struct ProgramFailure : std::runtime_error {
 std::vector<std::string> words_of_command(std::string_view line);
 
 /// The file that a program's name stands for: with a `/` itself, else the first in PATH. Throws
-/// InputError where there is none that may be executed.
+/// EnvironmentError where there is none that may be executed.
 std::string find_program(const std::string& name);
 
 /// Another program, with pipes to its three standard streams. It works with one thread, as far as
@@ -28,7 +28,7 @@ std::string find_program(const std::string& name);
 /// the process group of its caller, and is killed with this object.
 class Program {
  public:
-  /// Starts it. Throws InputError where the system does not.
+  /// Starts it. Throws EnvironmentError where the system does not.
   explicit Program(const std::vector<std::string>& words);
   ~Program();
   Program(const Program&) = delete;

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 namespace fathom {
 
@@ -15,6 +16,13 @@ std::string process_space();
 
 /// Whether no process of this space has a number.
 bool is_dead_process(long number);
+
+/// Marks what this process makes in a folder that others use, too: a word for names of files.
+std::string process_mark();
+
+/// Whether a mark is that of a process of this space which is dead. Of processes elsewhere, and of
+/// those before the last boot, that cannot be known.
+bool is_mark_of_dead(std::string_view mark);
 
 /// Number of the user whose process this is.
 unsigned user_number();
@@ -33,7 +41,8 @@ double peak_memory_mib();
 /// can.
 void return_free_memory();
 
-/// Returns once the content of a file is on its disk. Throws InputError.
+/// Returns once the content of a file, or the entries of a folder, are on their disk. Throws
+/// EnvironmentError.
 void sync_to_disk(const std::filesystem::path& file);
 
 }  // namespace fathom

@@ -27,8 +27,10 @@ class KnownEstimators {
   /// where the content of such a file has changed since.
   void load(const std::filesystem::path& file);
 
-  /// The plug-ins that the environment's FATHOM_PLUGIN_PATH names, files and folders.
-  void load_search_path();
+  /// The plug-ins that the environment's FATHOM_PLUGIN_PATH names, files and folders. What cannot
+  /// be loaded is left out: one that another program needs must not stop this one. Returns a line
+  /// for each that is.
+  [[nodiscard]] std::vector<std::string> load_search_path();
 
   /// These plug-ins, which are put under `plugins` of the settings, too, and those that stand
   /// there: all where the user's own word has it so, else those of --set alone; of the others the

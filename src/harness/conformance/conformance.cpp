@@ -4,7 +4,7 @@
 
 #include "clauses.hpp"
 #include "expectations.hpp"
-#include "fathom/core/input_error.hpp"
+#include "fathom/core/environment_error.hpp"
 
 namespace fathom {
 namespace {
@@ -51,6 +51,8 @@ ConformanceVerdict verdict_of(const Clause& clause, Subject& subject) {
   } catch (const conformance::Broken& how) {
     const std::string fault = subject.fault();
     return broken(fault.empty() ? how.what() : fault);
+  } catch (const EnvironmentError&) {
+    throw;
   } catch (const std::exception& error) {
     return broken(std::string("threw an exception: ") + error.what());
   } catch (...) {

@@ -6,8 +6,8 @@
 
 #include <opencv2/imgcodecs.hpp>
 
+#include "fathom/core/environment_error.hpp"
 #include "fathom/core/files.hpp"
-#include "fathom/core/input_error.hpp"
 #include "fathom/core/text.hpp"
 #include "fathom/datasets/picture_file.hpp"
 #include "fathom/geometry/trajectory.hpp"
@@ -83,6 +83,8 @@ std::optional<Example> read_example(const fs::path& folder, const std::string& n
     Example example{name, std::move(*mosaic), read_tum(folder / "trajectory.tum"), {}};
     example.loops = used_loops(folder / "registrations.csv", example.track.size());
     return example;
+  } catch (const EnvironmentError&) {
+    throw;
   } catch (const InputError&) {
     return std::nullopt;
   }
@@ -134,6 +136,8 @@ cv::Mat read_mask_of(const fs::path& folder) {
   if (!fs::is_regular_file(folder / "mask.png", error)) return {};
   try {
     return read_grey_picture(folder / "mask.png");
+  } catch (const EnvironmentError&) {
+    throw;
   } catch (const InputError&) {
     return {};
   }
