@@ -1,6 +1,7 @@
 // Estimators of other people: plug-ins, and runs in processes of their own, through the real
 // command line.
 
+#include <algorithm>
 #include <fstream>
 
 #include <gmock/gmock.h>
@@ -31,6 +32,12 @@ TEST_F(Plugins, AreListedWithTheirOptionsFromAFlagAndFromThePath) {
   fs::copy(plugin("plugin_example"), path("folder/plugin_example.so"));
   surroundings_.environment = {{"FATHOM_PLUGIN_PATH", "folder"}};
   EXPECT_EQ(fathom_done({"list", "estimators"}).out, by_flag.out);
+}
+
+TEST_F(Plugins, AreHeldAgainstTheContractAloneWhereNoNameIsGiven) {
+  const std::string out = fathom_done({"conformance", "--plugin", plugin("plugin_example")}).out;
+  EXPECT_THAT(out, testing::StartsWith("sparse_least_squares: keeps "));
+  EXPECT_EQ(std::ranges::count(out, '\n'), 1) << out;
 }
 
 TEST_F(Plugins, AreRefusedInOneLine) {
