@@ -9,9 +9,12 @@
 #include <Eigen/QR>
 #include <gtest/gtest.h>
 
+#include "estimators/support/pose_graph/picture_states.hpp"
 #include "fathom/core/random.hpp"
 #include "fathom/estimation/precision.hpp"
+#include "tests/estimators/graph_parts.hpp"
 #include "tests/estimators/logs.hpp"
+#include "tests/measurements/shared_log.hpp"
 
 namespace fathom {
 namespace {
@@ -177,6 +180,50 @@ TEST(InformationScalesAfterwards, MotionsToTheNewestGoOn) {
     ASSERT_TRUE(newest);
     EXPECT_LT((*newest - C).norm(), 1e-6 * C.norm());
     EXPECT_TRUE(estimator->motions_to_newest());
+  }
+}
+
+// With the errors of pictures among the unknowns, too, and not zero.
+TEST(WhitenedRows, GiveTheStepAndTheCostOfTheSums) {
+  const test::SharedWalk walk(12, 4, 5);
+  const test::GraphParts parts = test::parts_of(walk.log);
+  pose_graph::PictureStates states;
+  std::size_t edge = 0;
+  for (std::size_t k = 1; k < walk.log.size(); ++k) {
+    ++edge;
+    for (const RelativePose& z : walk.log.arrival(k).registrations) {
+      if (z.shared) states.add(z, edge);
+      ++edge;
+    }
+  }
+  pose_graph::ExtendedGraph graph = states.extended(parts.edges, parts.nodes);
+  std::vector<pose_graph::Node>& nodes = graph.nodes;
+  ASSERT_GT(nodes.size(), walk.log.size());
+  for (std::size_t n = walk.log.size(); n < nodes.size(); ++n) {
+    nodes[n] = pose_graph::make_errors(0.3, -0.2, 0.1);
+  }
+  const auto symbolic = pose_graph::analyse_graph(graph.edges, static_cast<int>(nodes.size()));
+  pose_graph::NormalEquations sums(symbolic, graph.edges);
+  pose_graph::NormalEquations rows(symbolic, graph.edges);
+  const double F = sums.linearise(nodes, pose_graph::Hessian::gauss_newton);
+  EXPECT_NEAR(pose_graph::whitened_cost(graph.edges, nodes), F, 1e-12 * F);
+  ASSERT_TRUE(sums.factorise());
+  const std::vector<double>& expected = sums.solve_step();
+  const auto promised = rows.solve_rows(nodes);
+  ASSERT_TRUE(promised);
+  EXPECT_NEAR(*promised, sums.predicted_decrease(), 1e-9 * *promised);
+  std::vector<double> solution = sums.gradient();
+  rows.solve(solution.data());
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    EXPECT_NEAR(solution[i], -expected[i], 1e-9) << i;
+  }
+  std::vector<pose_graph::Node> by_sums;
+  std::vector<pose_graph::Node> by_rows;
+  sums.move(nodes, by_sums);
+  rows.move(nodes, by_rows);
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    EXPECT_NEAR(by_rows[k].x, by_sums[k].x, 1e-9) << k;
+    EXPECT_NEAR(by_rows[k].theta, by_sums[k].theta, 1e-9) << k;
   }
 }
 
