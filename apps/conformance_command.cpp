@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <fmt/format.h>
 #include <iterator>
 #include <memory>
@@ -26,15 +27,24 @@ struct ConformanceFlags {
   bool list = false;
 };
 
+// Without names: all, or what plug-ins that are named bring.
+bool is_asked_for(const EstimatorEntry& entry, const std::vector<std::string>& plugins) {
+  if (plugins.empty()) return !entry.runs_program;
+  return std::ranges::any_of(plugins, [&](const std::string& file) {
+    return !entry.is_built_in() && std::filesystem::equivalent(entry.plugin, file);
+  });
+}
+
 // An unknown name is refused before any of the others takes its time.
-std::vector<EstimatorEntry> chosen(const std::vector<std::string>& names,
+std::vector<EstimatorEntry> chosen(const ConformanceFlags& flags,
                                    const EstimatorRegistry& registry) {
   std::vector<EstimatorEntry> entries;
-  if (names.empty()) {
-    std::ranges::copy_if(registry.entries(), std::back_inserter(entries),
-                         [](const EstimatorEntry& entry) { return !entry.runs_program; });
+  if (flags.names.empty()) {
+    std::ranges::copy_if(
+        registry.entries(), std::back_inserter(entries),
+        [&](const EstimatorEntry& entry) { return is_asked_for(entry, flags.plugins); });
   }
-  for (const std::string& name : names) {
+  for (const std::string& name : flags.names) {
     entries.push_back(registry.find(name));
     if (!entries.back().runs_program) continue;
     throw InputError("'" + name + "': what it does is another program's, which its options name");
@@ -101,7 +111,7 @@ void judge(const ConformanceFlags& flags, Context& context) {
     return;
   }
   for (const std::string& file : flags.plugins) context.estimators().load(file);
-  for (const EstimatorEntry& entry : chosen(flags.names, context.estimators().registry())) {
+  for (const EstimatorEntry& entry : chosen(flags, context.estimators().registry())) {
     if (!conforms(entry)) context.status = kFailed;
   }
 }
@@ -115,7 +125,8 @@ void add_conformance(CLI::App& program, Context& context) {
                   "Exit status: 0 every clause that applies is kept, 1 one is broken.\n"
                   "Example: fathom conformance ekf\n"
                   "         fathom conformance --plugin mine.so my_filter");
-  const Flag names = command.optional_arguments("estimator", flags->names, "Estimators; none: all");
+  const Flag names = command.optional_arguments("estimator", flags->names,
+                                                "Estimators; none: those of --plugin, or all");
   add_plugins_to(command, flags->plugins);
   command.boolean("--list", flags->list, "The clauses and their rules").excludes(names);
   command.on_run([flags, &context] { judge(*flags, context); });

@@ -65,6 +65,15 @@ ceres::Solver::Options solver_options(const CeresPoseGraphOptions& options) {
   return solver;
 }
 
+// The damping of a trust region is a share of the columns of the Jacobian, which have the heaviest
+// measurements: it has to be below what the lightest say.
+void solve_with_rows(ceres::Solver::Options& solver) {
+  constexpr double kRadius = 1e30;
+  solver.linear_solver_type = ceres::DENSE_QR;
+  solver.initial_trust_region_radius = kRadius;
+  solver.max_trust_region_radius = kRadius;
+}
+
 Outcome outcome_of(const ceres::Solver::Summary& summary) {
   switch (summary.termination_type) {
     case ceres::CONVERGENCE:
@@ -163,41 +172,34 @@ bool CeresPoseGraph::Graph::is_finite() const {
          std::ranges::all_of(unknowns_.errors, is_block_finite);
 }
 
-// Measurements that are alike in their information always are.
-bool CeresPoseGraph::Graph::is_determined() {
-  if (!spread_.is_wide()) return true;
-  const auto H = hessian();
-  return H && fathom::is_determined(*H);
-}
-
-// Where a step of some directions is known to metres alone, one from the minimum promises rounding,
-// less than nothing as often as more, which Ceres calls an invalid step. It is not known from a
-// factor that fails but here.
-bool CeresPoseGraph::Graph::is_at_minimum() {
-  const auto H = hessian();
-  if (!H) return false;
-  double cost = 0.0;
-  std::vector<double> gradient;
-  problem_.Evaluate(free_blocks(), &cost, nullptr, &gradient, nullptr);
-  const auto left =
-      decrease_of_step(*H, Eigen::Map<const Eigen::VectorXd>(gradient.data(), H->rows()));
-  return left && *left <= options_.tolerance * cost;
-}
-
 UpdateReport CeresPoseGraph::Graph::solve() {
-  UpdateReport report;
   const Unknowns before = unknowns_;
+  UpdateReport report = solve_by(Factors::sums);
+  const auto columns = static_cast<Eigen::Index>(3 * (size() - 1 + unknowns_.errors.size()));
+  if (!is_done(report.outcome) && spread_.is_wide() && columns <= kMostDenseColumns) {
+    restore(before);
+    const int iterations = report.iterations;
+    report = solve_by(Factors::rows);
+    report.iterations += iterations;
+  }
+  if (!is_done(report.outcome)) restore(before);
+  return report;
+}
+
+UpdateReport CeresPoseGraph::Graph::solve_by(Factors factors) {
+  UpdateReport report;
+  ceres::Solver::Options solver = solver_options(options_);
+  if (factors == Factors::rows) solve_with_rows(solver);
   ceres::Solver::Summary summary;
   const BlasMemory memory;  // CHOLMOD's supernodes are products of BLAS
-  ceres::Solve(solver_options(options_), &problem_, &summary);
+  ceres::Solve(solver, &problem_, &summary);
   report.iterations = summary.num_successful_steps + summary.num_unsuccessful_steps;
   report.outcome = outcome_of(summary);
   if (summary.iterations.size() > 1 && !summary.iterations.back().step_is_valid) {
-    report.outcome = is_at_minimum() ? Outcome::converged : Outcome::numerical_failure;
+    report.outcome = is_at_minimum(factors) ? Outcome::converged : Outcome::numerical_failure;
   }
-  if (!is_finite() || !is_determined()) report.outcome = Outcome::numerical_failure;
+  if (!is_finite() || !is_determined(factors)) report.outcome = Outcome::numerical_failure;
   changed();
-  if (!is_done(report.outcome)) restore(before);
   return report;
 }
 

@@ -83,16 +83,20 @@ class CeresPoseGraph::Graph {
   bool is_finite() const;
   double cost();
   void restore(const Unknowns& unknowns);
-  bool is_determined();
+  /// Which factorisation of the Jacobian: Cholesky of the sums JᵀJ, or QR, dense, for measurements
+  /// that those sums do not carry.
+  enum class Factors { sums, rows };
+  UpdateReport solve_by(Factors factors);
+  bool is_determined(Factors factors);
   /// Whether a Gauss-Newton step from here promises no more than the tolerance.
-  bool is_at_minimum();
+  bool is_at_minimum(Factors factors);
   /// All poses but the first, then the errors of pictures. There must be one pose: asked for
   /// nothing, Ceres takes all.
   ceres::Problem::EvaluateOptions free_blocks();
   void changed() { marginals_.reset(); }
   void compute_marginals();
   /// Null where it cannot be evaluated.
-  std::unique_ptr<const Eigen::SparseMatrix<double>> hessian();
+  std::unique_ptr<const Eigen::SparseMatrix<double>> jacobian();
 
   CeresPoseGraphOptions options_;
   bool is_batch_;

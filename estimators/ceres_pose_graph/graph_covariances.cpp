@@ -1,4 +1,5 @@
-// Covariances of poses and motions: of the Ceres problem's Hessian.
+// What the Ceres problem's Jacobian says: covariances of poses and motions, and whether it carries
+// all measurements.
 
 #include <algorithm>
 #include <utility>
@@ -11,6 +12,12 @@
 #include "fathom/geometry/covariance.hpp"
 
 namespace fathom {
+namespace {
+
+// A step that promises less, half of squared sigmas, is one of rounding.
+constexpr double kRoundingCost = 1e-12;
+
+}  // namespace
 
 std::optional<std::vector<Eigen::Matrix3d>> CeresPoseGraph::Graph::predicted_covariances(
     std::span<const RelativePose> forward_loops) {
@@ -33,8 +40,8 @@ std::optional<std::vector<Eigen::Matrix3d>> CeresPoseGraph::Graph::predicted_cov
 void CeresPoseGraph::Graph::compute_marginals() {
   marginals_.emplace();
   if (size() > 1) {
-    const auto H = hessian();
-    const auto blocks = H ? inverse_blocks(*H, size() - 1) : std::nullopt;
+    const auto J = jacobian();
+    const auto blocks = J ? inverse_blocks(*J, size() - 1) : std::nullopt;
     if (!blocks) return;
     *marginals_ = blocks->own;
   }
@@ -52,8 +59,8 @@ std::optional<Eigen::MatrixXd> CeresPoseGraph::Graph::joint_covariance(
   std::vector<std::size_t> blocks = free_keyframes(keyframes);
   if (blocks.empty()) return in_order_of(keyframes, {});
   for (std::size_t& block : blocks) --block;  // of the Hessian, which has none for keyframe 0
-  const auto H = hessian();
-  const auto joint = H ? inverse_between(*H, blocks) : std::nullopt;
+  const auto J = jacobian();
+  const auto joint = J ? inverse_between(*J, blocks) : std::nullopt;
   if (!joint) return std::nullopt;
   return in_order_of(keyframes, *joint);
 }
@@ -66,25 +73,24 @@ ceres::Problem::EvaluateOptions CeresPoseGraph::Graph::free_blocks() {
   return evaluate;
 }
 
-// The Hessian of the free blocks, the loss applied as a weight. Nothing
-// where it is not finite, of which Ceres would print a warning.
-std::unique_ptr<const Eigen::SparseMatrix<double>> CeresPoseGraph::Graph::hessian() {
+// Of the free blocks, the loss applied as a weight. Nothing where it is not finite, of which Ceres
+// would print a warning.
+std::unique_ptr<const Eigen::SparseMatrix<double>> CeresPoseGraph::Graph::jacobian() {
   if (!is_finite()) return nullptr;
   ceres::CRSMatrix J;
   if (!problem_.Evaluate(free_blocks(), nullptr, nullptr, nullptr, &J)) return nullptr;
-  const Eigen::SparseMatrix<double> by_columns =
+  return std::make_unique<const Eigen::SparseMatrix<double>>(
       Eigen::Map<const Eigen::SparseMatrix<double, Eigen::RowMajor>>(
           J.num_rows, J.num_cols, static_cast<Eigen::Index>(J.values.size()), J.rows.data(),
-          J.cols.data(), J.values.data());
-  return std::make_unique<const Eigen::SparseMatrix<double>>(by_columns.transpose() * by_columns);
+          J.cols.data(), J.values.data()));
 }
 
 std::optional<std::vector<UncertainPose>> CeresPoseGraph::Graph::motions_to_newest() {
   std::vector<UncertainPose> motions;
   const std::size_t n = size() - 1;
   if (n == 0) return motions;
-  const auto H = hessian();
-  const auto blocks = H ? inverse_blocks(*H, n) : std::nullopt;
+  const auto J = jacobian();
+  const auto blocks = J ? inverse_blocks(*J, n) : std::nullopt;
   if (!blocks) return std::nullopt;
   PairCovariance pair;
   pair.B = blocks->own[n - 1];
@@ -96,6 +102,29 @@ std::optional<std::vector<UncertainPose>> CeresPoseGraph::Graph::motions_to_newe
     motions.push_back(between(pose(k), pose(n), pair));
   }
   return motions;
+}
+
+// Measurements that are alike in their information always are.
+bool CeresPoseGraph::Graph::is_determined(Factors factors) {
+  if (!spread_.is_wide()) return true;
+  const auto J = jacobian();
+  return J && (factors == Factors::sums ? keeps_digits(*J) : fathom::is_determined(*J));
+}
+
+// Where a step of some directions is known to metres alone, one from the minimum promises rounding,
+// less than nothing as often as more, which Ceres calls an invalid step. It is not known from a
+// factor that fails but here.
+bool CeresPoseGraph::Graph::is_at_minimum(Factors factors) {
+  const auto J = jacobian();
+  if (!J) return false;
+  double cost = 0.0;
+  std::vector<double> all;
+  problem_.Evaluate(free_blocks(), &cost, &all, nullptr, nullptr);
+  const Eigen::Map<const Eigen::VectorXd> residuals(all.data(), J->rows());
+  const auto left =
+      factors == Factors::sums ? decrease_of_step(*J, residuals) : decrease_by_rows(*J, residuals);
+  const double rounding = factors == Factors::sums ? 0.0 : kRoundingCost;
+  return left && *left <= options_.tolerance * cost + rounding;
 }
 
 }  // namespace fathom

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include <Eigen/QR>
 #include <Eigen/SparseCholesky>
 
 #include "fathom/estimation/precision.hpp"
@@ -62,9 +63,35 @@ bool is_definite(const Ldlt& ldlt) {
   return ldlt.info() == Eigen::Success && (ldlt.vectorD().array() > 0.0).all();
 }
 
+Sparse hessian_of(const Sparse& jacobian) {
+  return jacobian.transpose() * jacobian;
+}
+
 bool keeps_digits(const Ldlt& ldlt, const Sparse& hessian) {
+  if (!is_definite(ldlt)) return false;
   const Eigen::VectorXd sums = ldlt.permutationP() * hessian.diagonal();
   return (ldlt.vectorD().array() > kLeastPivotShare * sums.array()).all();
+}
+
+// R of J = Q R, and Qᵀ b in a further column; nothing where a pivot is rounding.
+std::optional<Eigen::MatrixXd> triangle_of(const Sparse& jacobian, const Eigen::VectorXd& b) {
+  const Eigen::Index columns = jacobian.cols();
+  if (columns > kMostDenseColumns || jacobian.rows() < columns) return std::nullopt;
+  Eigen::MatrixXd rows(jacobian.rows(), columns + 1);
+  rows << Eigen::MatrixXd(jacobian), b;
+  const Eigen::VectorXd norms = rows.leftCols(columns).colwise().norm();
+  const Eigen::HouseholderQR<Eigen::Ref<Eigen::MatrixXd>> in_place(rows);
+  const auto pivots = rows.diagonal().head(columns).array().abs();
+  if (!(pivots > kLeastPivotShare * norms.array()).all()) return std::nullopt;
+  return rows.topRows(columns);
+}
+
+std::optional<Eigen::MatrixXd> inverse_by_rows(const Sparse& jacobian) {
+  const auto R = triangle_of(jacobian, Eigen::VectorXd::Zero(jacobian.rows()));
+  if (!R) return std::nullopt;
+  Eigen::MatrixXd inverse = Eigen::MatrixXd::Identity(R->rows(), R->rows());
+  R->leftCols(R->rows()).triangularView<Eigen::Upper>().solveInPlace(inverse);
+  return inverse * inverse.transpose();
 }
 
 // The three columns of the inverse that start with this one.
@@ -76,26 +103,46 @@ Eigen::MatrixX3d columns_of_inverse(const Ldlt& ldlt, Eigen::Index first) {
 
 }  // namespace
 
-bool is_determined(const Sparse& hessian) {
-  const Ldlt ldlt(hessian);
-  return is_definite(ldlt) && keeps_digits(ldlt, hessian);
+bool keeps_digits(const Sparse& jacobian) {
+  const Sparse hessian = hessian_of(jacobian);
+  return keeps_digits(Ldlt(hessian), hessian);
 }
 
-std::optional<double> decrease_of_step(const Sparse& hessian, const Eigen::VectorXd& gradient) {
-  const Ldlt ldlt(hessian);
+bool is_determined(const Sparse& jacobian) {
+  return triangle_of(jacobian, Eigen::VectorXd::Zero(jacobian.rows())).has_value();
+}
+
+std::optional<double> decrease_of_step(const Sparse& jacobian, const Eigen::VectorXd& residuals) {
+  const Ldlt ldlt(hessian_of(jacobian));
   if (!is_definite(ldlt)) return std::nullopt;
+  const Eigen::VectorXd gradient = jacobian.transpose() * residuals;
   return 0.5 * gradient.dot(ldlt.solve(gradient));
 }
 
-std::optional<InverseBlocks> inverse_blocks(const Sparse& hessian, std::size_t count) {
+std::optional<double> decrease_by_rows(const Sparse& jacobian, const Eigen::VectorXd& residuals) {
+  const auto R = triangle_of(jacobian, residuals);
+  if (!R) return std::nullopt;
+  return 0.5 * R->rightCols<1>().squaredNorm();
+}
+
+std::optional<InverseBlocks> inverse_blocks(const Sparse& jacobian, std::size_t count) {
+  const Sparse hessian = hessian_of(jacobian);
   const Ldlt ldlt(hessian);
   const auto size = static_cast<Eigen::Index>(3 * count);
-  if (!is_definite(ldlt) || !keeps_digits(ldlt, hessian)) return std::nullopt;
+  InverseBlocks blocks;
+  if (!keeps_digits(ldlt, hessian)) {
+    const auto inverse = inverse_by_rows(jacobian);
+    if (!inverse) return std::nullopt;
+    for (Eigen::Index k = 0; k < size; k += 3) {
+      blocks.own.push_back(inverse->block<3, 3>(k, k));
+      blocks.with_last.push_back(inverse->block<3, 3>(k, size - 3));
+    }
+    return blocks;
+  }
   const Eigen::MatrixX3d last = columns_of_inverse(ldlt, size - 3);
   const Sparse& L = ldlt.matrixL().nestedExpression();
   const TakahashiInverse inverse(L, ldlt.vectorD());
   const auto& place = ldlt.permutationP().indices();
-  InverseBlocks blocks;
   for (Eigen::Index k = 0; k < size; k += 3) {
     Eigen::Matrix3d own;
     for (Eigen::Index r = 0; r < 3; ++r) {
@@ -107,15 +154,21 @@ std::optional<InverseBlocks> inverse_blocks(const Sparse& hessian, std::size_t c
   return blocks;
 }
 
-std::optional<Eigen::MatrixXd> inverse_between(const Sparse& hessian,
+std::optional<Eigen::MatrixXd> inverse_between(const Sparse& jacobian,
                                                std::span<const std::size_t> blocks) {
+  const Sparse hessian = hessian_of(jacobian);
   const Ldlt ldlt(hessian);
-  if (!is_definite(ldlt) || !keeps_digits(ldlt, hessian)) return std::nullopt;
+  std::optional<Eigen::MatrixXd> dense;
+  if (!keeps_digits(ldlt, hessian)) {
+    dense = inverse_by_rows(jacobian);
+    if (!dense) return std::nullopt;
+  }
   const auto size = static_cast<Eigen::Index>(3 * blocks.size());
   Eigen::MatrixXd result(size, size);
   for (Eigen::Index j = 0; j < size; j += 3) {
-    const Eigen::MatrixX3d columns = columns_of_inverse(
-        ldlt, static_cast<Eigen::Index>(3 * blocks[static_cast<std::size_t>(j / 3)]));
+    const auto first = static_cast<Eigen::Index>(3 * blocks[static_cast<std::size_t>(j / 3)]);
+    const Eigen::MatrixX3d columns =
+        dense ? Eigen::MatrixX3d(dense->middleCols<3>(first)) : columns_of_inverse(ldlt, first);
     for (Eigen::Index i = 0; i < size; i += 3) {
       result.block<3, 3>(i, j) = columns.middleRows<3>(
           static_cast<Eigen::Index>(3 * blocks[static_cast<std::size_t>(i / 3)]));

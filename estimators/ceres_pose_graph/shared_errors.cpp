@@ -57,8 +57,8 @@ ceres::ResidualBlockId CeresPoseGraph::Graph::add_residual(const RelativePose& z
 // unknowns is as its prior says, and uncorrelated.
 std::optional<std::vector<Eigen::Matrix3d>> CeresPoseGraph::Graph::predicted_with_errors(
     std::span<const RelativePose> forward_loops) {
-  const auto H = hessian();
-  if (!H) return std::nullopt;
+  const auto whole = jacobian();
+  if (!whole) return std::nullopt;
   std::vector<Eigen::Matrix3d> predicted;
   for (const RelativePose& z : forward_loops) {
     Eigen::Matrix3d S = Eigen::Matrix3d::Zero();
@@ -83,7 +83,7 @@ std::optional<std::vector<Eigen::Matrix3d>> CeresPoseGraph::Graph::predicted_wit
       add_errors(z.from, z.shared->from.scaled());
       add_errors(z.to, z.shared->to.scaled());
     }
-    const auto joint = inverse_between(*H, blocks);
+    const auto joint = inverse_between(*whole, blocks);
     if (!joint) return std::nullopt;
     Eigen::Matrix3Xd J(3, joint->rows());
     for (std::size_t i = 0; i < jacobians.size(); ++i) {

@@ -20,6 +20,7 @@ void Pictures::set_edge(Told& told, std::vector<Edge>& edges) {
   const Eigen::Matrix3d W = symmetric_inverse(C);
   Edge& edge = edges[at(told.edge)];
   edge.W = {W(0, 0), W(0, 1), W(0, 2), W(1, 1), W(1, 2), W(2, 2)};
+  edge.rows = nullptr;
   edge.shared = told.ends.from.node < 0 && told.ends.to.node < 0 ? nullptr : &told.ends;
 }
 

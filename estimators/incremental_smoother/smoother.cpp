@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "estimators/support/pose_graph/bridge.hpp"
-#include "estimators/support/pose_graph/information.hpp"
+#include "estimators/support/pose_graph/wide.hpp"
 #include "fathom/geometry/covariance.hpp"
 
 namespace fathom::incremental_smoother {
@@ -52,7 +52,7 @@ void Smoother::append_edge(const RelativePose& measurement, bool is_loop) {
   const bool is_robust = is_loop && problem_.loops.is_on();
   const int rank = is_robust ? rank_of(measurement.information) : 3;
   const bool shares = is_loop && has_states(measurement);
-  problem_.add_edge(pose_graph::make_edge(measurement), is_loop, rank,
+  problem_.add_edge(wide_rows_.make_edge(measurement), is_loop, rank,
                     shares ? measurement.shared.get() : nullptr);
   grow_errors();
   spread_.add(measurement);
@@ -94,7 +94,10 @@ SmootherResult Smoother::add_registrations(std::span<const RelativePose> registr
     //    variables that have left their linearisation point.
     result = iterate();
     // 4. Those are linearised again; a matrix that leaves a pose open is a failure.
-    if (!relinearise() || !is_determined()) result.outcome = Outcome::numerical_failure;
+    if (!relinearise() || !keeps_digits()) result.outcome = Outcome::numerical_failure;
+  }
+  if (!is_done(result.outcome) && spread_.is_wide() && !problem_.loops.is_on()) {
+    result = solve_rows();
   }
   // 5. Where any of these failed, the estimate is that of before.
   if (!is_done(result.outcome)) undo(edges_before);
@@ -147,18 +150,23 @@ bool Smoother::relinearise() {
 }
 
 // Measurements that are alike in their information always are.
-bool Smoother::is_determined() {
+bool Smoother::keeps_digits() {
   if (!spread_.is_wide()) return true;
   const pose_graph::ExtendedGraph graph = weighted_graph();
-  return pose_graph::is_determined(graph.edges, graph.nodes);
+  return pose_graph::sums_keep_digits(graph.edges, graph.nodes);
 }
 
-// Linearises everything at the estimate.
-bool Smoother::rebuild() {
+// The next update eliminates all.
+void Smoother::drop_tree() {
   tree_.clear();
   marks_.to_relinearise.clear();
   marks_.touched.clear();
   outside_.first = 1;
+}
+
+// Linearises everything at the estimate.
+bool Smoother::rebuild() {
+  drop_tree();
   return problem_.size() < 2 || refactor();
 }
 

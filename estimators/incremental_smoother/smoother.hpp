@@ -163,8 +163,9 @@ class Smoother {
   void evaluate_all();
   bool refactor();
   bool relinearise();
+  void drop_tree();
   bool rebuild();
-  bool is_determined();
+  bool keeps_digits();
   SmootherResult iterate();
   bool prepare_step(const Progress& progress);
   double negligible_bend() const;
@@ -181,6 +182,8 @@ class Smoother {
   void reevaluate_prior(int keyframe);
   void solve_whole(Progress& progress);
   SmootherResult solve_batch();
+  SmootherResult solve_rows();
+  void place(const pose_graph::ExtendedGraph& solved);
   pose_graph::ExtendedGraph extended(const std::vector<Edge>& edges) const;
   SmootherResult minimise_whole(pose_graph::ExtendedGraph& graph) const;
   void undo(int edges_before);
@@ -202,9 +205,10 @@ class Smoother {
   CliqueTree tree_;
   Gradient gradient_;
   InformationSpread spread_;
-  ByVariable<Node> before_step_;  ///< all nodes, of a step of the whole gradient
-  ByVariable<Vec3> ignored_;      ///< what earlier updates left of it
-  double slack_ = 0.0;            ///< the slack on the cost: by how much F may exceed its optimum
+  pose_graph::WideRows wide_rows_;  ///< of the edges of the problem
+  ByVariable<Node> before_step_;    ///< all nodes, of a step of the whole gradient
+  ByVariable<Vec3> ignored_;        ///< what earlier updates left of it
+  double slack_ = 0.0;              ///< the slack on the cost: by how much F may exceed its optimum
 
   Outside outside_;
   Marks marks_;

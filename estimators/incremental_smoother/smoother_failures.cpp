@@ -1,6 +1,7 @@
 // What a Smoother does where a step or an update fails.
 
 #include "estimators/incremental_smoother/smoother.hpp"
+#include "estimators/support/pose_graph/wide.hpp"
 
 namespace fathom::incremental_smoother {
 
@@ -38,14 +39,33 @@ SmootherResult Smoother::solve_batch() {
   pose_graph::ExtendedGraph graph = extended(problem().edges);
   const SmootherResult solved = minimise_whole(graph);
   if (is_done(solved.outcome)) {
-    for (int k = 1; k < problem_.size(); ++k) problem_.save(k, problem_.nodes[at(k)]);
-    for_each_state([&](int v) { problem_.save(v, problem_.node(v)); });
-    problem_.nodes.assign(graph.nodes.begin(), graph.nodes.begin() + problem_.size());
-    problem_.pictures.keep(graph);
-    evaluate_all();
+    place(graph);
     if (!rebuild()) return {Outcome::numerical_failure, solved.iterations};
   }
   return {solved.outcome, solved.iterations};
+}
+
+// From the estimate before the update, where the sums of the tree do not carry the measurements.
+// There is no tree of them.
+SmootherResult Smoother::solve_rows() {
+  tree_.forget_update();
+  pose_graph::ExtendedGraph graph = extended(problem().edges);
+  const auto solved = pose_graph::solve_wide(graph.edges, graph.nodes, pose_graph::Start::given,
+                                             {limits_.max_iterations, limits_.tolerance});
+  if (is_done(solved.outcome)) {
+    place(graph);
+    drop_tree();
+    outside_.steps.clear();
+  }
+  return {solved.outcome, solved.iterations};
+}
+
+void Smoother::place(const pose_graph::ExtendedGraph& solved) {
+  for (int k = 1; k < problem_.size(); ++k) problem_.save(k, problem_.nodes[at(k)]);
+  for_each_state([&](int v) { problem_.save(v, problem_.node(v)); });
+  problem_.nodes.assign(solved.nodes.begin(), solved.nodes.begin() + problem_.size());
+  problem_.pictures.keep(solved);
+  evaluate_all();
 }
 
 void Smoother::undo(int edges_before) {

@@ -57,7 +57,7 @@ pose_graph::ExtendedGraph Smoother::weighted_graph() {
   if (!problem_.loops.is_on()) return extended(problem_.edges);
   std::vector<Edge> weighted = problem_.edges;
   for (int e = 0; e < problem_.edge_count(); ++e) {
-    for (double& element : weighted[at(e)].W) element *= problem_.loops.present(e);
+    pose_graph::weigh(problem_.loops.present(e), weighted[at(e)]);
   }
   return problem_.pictures.extended(std::move(weighted), problem_.nodes);
 }

@@ -5,6 +5,7 @@
 
 #include "estimators/support/pose_graph/bridge.hpp"
 #include "estimators/support/pose_graph/information.hpp"
+#include "estimators/support/pose_graph/wide.hpp"
 #include "fathom/geometry/covariance.hpp"
 
 namespace fathom::sparse_gauss_newton {
@@ -56,7 +57,7 @@ void Graph::bridge(const Bridge& bridge) {
 }
 
 void Graph::add_edge(const RelativePose& measurement, char is_loop, int rank) {
-  edges_.push_back(make_edge(measurement));
+  edges_.push_back(wide_rows_.make_edge(measurement));
   spread_.add(measurement);
   is_loop_.push_back(is_loop);
   ranks_.push_back(static_cast<char>(rank));
@@ -85,7 +86,7 @@ ExtendedGraph Graph::weighted(const std::vector<double>& weights) const {
   for (std::size_t e = 0; e < graph.edges.size(); ++e) {
     if (weights[e] == 0.0) continue;
     kept.push_back(graph.edges[e]);
-    for (double& element : kept.back().W) element *= weights[e];
+    pose_graph::weigh(weights[e], kept.back());
   }
   graph.own_edges = std::move(kept);
   graph.edges = graph.own_edges;
@@ -93,13 +94,8 @@ ExtendedGraph Graph::weighted(const std::vector<double>& weights) const {
 }
 
 // Keeps the estimate of a solve that is done.
-SolveResult Graph::accept(SolveResult result, const ExtendedGraph& solved,
-                          const std::vector<double>& weights) {
+SolveResult Graph::accept(const SolveResult& result, const ExtendedGraph& solved) {
   changed();
-  if (is_done(result.outcome) && spread_.is_wide() &&
-      !pose_graph::is_determined(weighted(weights).edges, solved.nodes)) {
-    result.outcome = Outcome::numerical_failure;
-  }
   if (is_done(result.outcome)) {
     states_.keep(solved);
     nodes_.assign(solved.nodes.begin(),
@@ -112,7 +108,14 @@ SolveResult Graph::solve(Start start, const SolveLimits& limits) {
   ExtendedGraph graph = states_.extended(edges_, nodes_);
   const SolveResult result =
       pose_graph::solve_batch(graph.edges, graph.nodes, start, limits, workers());
-  return accept(result, graph, weights_);
+  if (!spread_.is_wide()) return accept(result, graph);
+  const bool keeps_digits =
+      is_done(result.outcome) && pose_graph::sums_keep_digits(graph.edges, graph.nodes);
+  if (keeps_digits && result.outcome == Outcome::converged) return accept(result, graph);
+  ExtendedGraph other = states_.extended(edges_, nodes_);
+  const SolveResult wide =
+      pose_graph::solve_wide(other.edges, other.nodes, start, limits, workers());
+  return is_done(wide.outcome) || !keeps_digits ? accept(wide, other) : accept(result, graph);
 }
 
 // With states: of `truncated` the loops are judged as independent measurements, by their total
@@ -149,7 +152,11 @@ SolveResult Graph::solve_robust(const SolveLimits& limits, bool from_scratch) {
   }
   ExtendedGraph graph = states_.extended(edges_, nodes_);
   RobustResult robust = robust_result(graph, limits, known);
-  const SolveResult result = accept(robust.solved, graph, robust.weights);
+  if (is_done(robust.solved.outcome) && spread_.is_wide() &&
+      !pose_graph::sums_keep_digits(weighted(robust.weights).edges, graph.nodes)) {
+    robust.solved.outcome = Outcome::numerical_failure;
+  }
+  const SolveResult result = accept(robust.solved, graph);
   if (is_done(result.outcome)) {
     weights_ = std::move(robust.weights);
     judged_ = edges_.size();

@@ -78,8 +78,7 @@ class Graph {
   ExtendedGraph weighted(const std::vector<double>& weights) const;
   RobustResult robust_result(ExtendedGraph& graph, const SolveLimits& limits,
                              std::span<const double> known);
-  SolveResult accept(SolveResult result, const ExtendedGraph& solved,
-                     const std::vector<double>& weights);
+  SolveResult accept(const SolveResult& result, const ExtendedGraph& solved);
 
   RobustOptions robust_;
   SharedErrorModel shared_errors_;
@@ -89,9 +88,10 @@ class Graph {
   std::unique_ptr<Workers> workers_;
   std::vector<Node> nodes_;
   std::vector<Edge> edges_;
-  std::vector<char> is_loop_;    ///< by edge
-  std::vector<char> ranks_;      ///< by edge, of its information
-  std::vector<double> weights_;  ///< by edge
+  pose_graph::WideRows wide_rows_;  ///< of the edges
+  std::vector<char> is_loop_;       ///< by edge
+  std::vector<char> ranks_;         ///< by edge, of its information
+  std::vector<double> weights_;     ///< by edge
   InformationSpread spread_;
   std::size_t judged_ = 0;  ///< edges of the last robust solve that was done
   /// Of all keyframes; absent: to be computed, empty: could not be.

@@ -176,7 +176,7 @@ class RobustBatch {
     for (std::size_t e = 0; e < graph_.edges.size(); ++e) {
       if (best.weights[e] == 0.0) continue;
       kept.push_back(graph_.edges[e]);
-      for (double& element : kept.back().W) element *= best.weights[e];
+      pose_graph::weigh(best.weights[e], kept.back());
     }
     std::vector<Node> other = nodes;
     const SolveResult solved =

@@ -4,10 +4,18 @@
 #include <cmath>
 #include <numbers>
 
+#include <Eigen/LU>
+
+#include "fathom/geometry/covariance.hpp"
+
 namespace fathom {
 namespace {
 
 constexpr double kWide = 1e8;
+// Whether a matrix is definite is looked at below.
+constexpr double kLeastShareOfAlike = 1e-6;
+// Of a matrix that is definite whatever the units of its rows.
+constexpr double kRounding = 1e-18;
 
 double size_of(const Pose& pose) {
   return std::max(std::abs(pose.x), std::abs(pose.y));
@@ -34,6 +42,15 @@ bool are_resolved(const TrajectoryView& estimate, std::span<const RelativePose> 
   });
 }
 
+// The determinant, and for all axes alike what it would be with this diagonal.
+double own_spread(const Eigen::Matrix3d& information) {
+  const double mean = 0.5 * (information(0, 0) + information(1, 1));
+  const double alike = mean * mean * information(2, 2);
+  const double determinant = information.determinant();
+  if (determinant > alike * kLeastShareOfAlike) return alike / determinant;
+  return is_positive_definite(information) ? alike / std::max(determinant, kRounding * alike) : 1.0;
+}
+
 // What is not measured is not small.
 void InformationSpread::Bounds::add(double value) {
   if (value == 0.0) return;
@@ -49,10 +66,11 @@ void InformationSpread::add(const RelativePose& measurement) {
   if (measurement.is_hole) return;
   position_.add(position_information(measurement));
   heading_.add(measurement.information(2, 2));
+  own_ = std::max(own_, own_spread(measurement.information));
 }
 
 bool InformationSpread::is_wide() const {
-  return position_.is_wide() || heading_.is_wide();
+  return position_.is_wide() || heading_.is_wide() || own_ > kWide;
 }
 
 }  // namespace fathom

@@ -34,6 +34,12 @@ TEST_F(Plugins, AreListedWithTheirOptionsFromAFlagAndFromThePath) {
   EXPECT_EQ(fathom_done({"list", "estimators"}).out, by_flag.out);
 }
 
+TEST_F(Plugins, AreHeldAgainstTheContractAloneWhereNoNameIsGiven) {
+  const std::string out = fathom_done({"conformance", "--plugin", plugin("plugin_example")}).out;
+  EXPECT_THAT(out, testing::StartsWith("sparse_least_squares: keeps "));
+  EXPECT_EQ(std::ranges::count(out, '\n'), 1) << out;
+}
+
 TEST_F(Plugins, AreRefusedInOneLine) {
   const auto refused = [&](const std::string& file) {
     return refusal({"list", "estimators", "--plugin", file});

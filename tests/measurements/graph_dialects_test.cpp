@@ -107,6 +107,15 @@ TEST(GraphDialects, KeysOfGtsam) {
   EXPECT_THAT(graph_remarks(small), ElementsAre());
 }
 
+TEST(GraphRemarks, NameMeasurementsThatASumDoesNotCarry) {
+  const std::string chain =
+      "EDGE_SE2 3 4 1 0 0 1e-6 0 0 1e-6 0 1\nEDGE_SE2 4 5 1 0 0 1 0 0 1 0 1\n";
+  EXPECT_THAT(graph_remarks(parse(chain + "EDGE_SE2 3 5 2 0 0 1e9 0 0 1e9 0 1\n")), ElementsAre());
+  EXPECT_THAT(graph_remarks(parse(chain + "EDGE_SE2 3 5 2 0 0 1e12 0 0 1e12 0 1\n")),
+              ElementsAre(HasSubstr("poses 3 and 5 has position information of 1e+12, 1e+18 times "
+                                    "the 1e-06 of poses 3 and 4")));
+}
+
 TEST(GraphDialects, EquivIsRefusedByName) {
   const std::string text = "EDGE2" + kFirst + kOfToro + "EQUIV 0 1\n";
   EXPECT_THAT(refusal_of(text), AllOf(StartsWith("graph.g2o:2: EQUIV says that two ids are one"),

@@ -4,6 +4,7 @@
 
 #include <Eigen/LU>
 
+#include "fathom/estimation/loop_rows.hpp"
 #include "fathom/estimation/precision.hpp"
 #include "fathom/geometry/covariance.hpp"
 
@@ -21,6 +22,21 @@ Edge make_edge(const RelativePose& measurement) {
   edge.W = {W(0, 0), 0.5 * (W(0, 1) + W(1, 0)), 0.5 * (W(0, 2) + W(2, 0)),
             W(1, 1), 0.5 * (W(1, 2) + W(2, 1)), W(2, 2)};
   return edge;
+}
+
+Edge WideRows::make_edge(const RelativePose& measurement) {
+  constexpr double kTwoDigitsLeft = 1e14;
+  Edge edge = pose_graph::make_edge(measurement);
+  if (!(own_spread(measurement.information) > kTwoDigitsLeft)) return edge;
+  const Eigen::Matrix3d D = planar_rotation(measurement.motion.theta);
+  edge.rows = &rows_.emplace_back(whitening(measurement.information) * D.transpose());
+  return edge;
+}
+
+void weigh(double weight, Edge& edge) {
+  if (weight == 1.0) return;
+  for (double& element : edge.W) element *= weight;
+  edge.rows = nullptr;
 }
 
 Eigen::Matrix3d full(const std::array<double, 6>& upper) {

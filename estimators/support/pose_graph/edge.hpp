@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <deque>
 #include <span>
 #include <vector>
 
@@ -35,11 +36,26 @@ struct Edge {
   double x = 0.0;  ///< of z
   double y = 0.0;
   double theta = 0.0;
-  std::array<double, 6> W{};           ///< xx xy xθ yy yθ θθ, axes of `from`
-  const SharedEnds* shared = nullptr;  ///< then W is that of the registration's own errors
+  std::array<double, 6> W{};              ///< xx xy xθ yy yθ θθ, axes of `from`
+  const SharedEnds* shared = nullptr;     ///< then W is that of the registration's own errors
+  const Eigen::Matrix3d* rows = nullptr;  ///< U of W = Uᵀ U, where W rounds off a weak axis
 };
 
 Edge make_edge(const RelativePose& measurement);
+
+/// The rows of edges whose W rounds off what their weakest axis says: one that is 10¹⁴ times
+/// weaker than the others has two digits left (own_spread).
+class WideRows {
+ public:
+  /// As make_edge, with its rows where it is such an edge; this must outlive it.
+  Edge make_edge(const RelativePose& measurement);
+
+ private:
+  std::deque<Eigen::Matrix3d> rows_;
+};
+
+/// W times a weight.
+void weigh(double weight, Edge& edge);
 
 /// W of an edge, and M of its terms (below), in full.
 Eigen::Matrix3d full(const std::array<double, 6>& upper);

@@ -13,9 +13,7 @@ class Information {
   Information(std::span<const Edge> edges, std::span<const Node> nodes)
       : symbolic_(analyse_graph(edges, static_cast<int>(nodes.size()))),
         equations_(symbolic_, edges) {
-    equations_.linearise(nodes, Hessian::gauss_newton);
-    is_definite_ =
-        equations_.factorise() && equations_.negative_pivots() == 0 && equations_.keeps_digits();
+    is_definite_ = equations_.factorise_at(nodes) || equations_.solve_rows(nodes).has_value();
   }
 
   bool is_definite() const { return is_definite_; }
@@ -47,10 +45,6 @@ class Information {
 };
 
 }  // namespace
-
-bool is_determined(std::span<const Edge> edges, std::span<const Node> nodes) {
-  return Information(edges, nodes).is_definite();
-}
 
 std::optional<std::vector<Eigen::Matrix3d>> marginals(std::span<const Edge> edges,
                                                       std::span<const Node> nodes) {

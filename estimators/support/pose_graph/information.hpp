@@ -12,13 +12,9 @@
 #include "fathom/geometry/trajectory.hpp"
 
 /// Covariances from the factor of the Gauss-Newton matrix at an estimate, keyframe 0 fixed; nothing
-/// where the matrix is not positive definite, or rounding has left nothing of a pivot.
+/// where the matrix is not positive definite, or rounding has left nothing of a pivot, of the rows
+/// themselves too (NormalEquations::solve_rows).
 namespace fathom::pose_graph {
-
-/// Whether there is such a factor. A solve of a graph whose measurements differ widely in their
-/// information (InformationSpread) ends where it is the rounding of the matrix that decides unless
-/// there is.
-bool is_determined(std::span<const Edge> edges, std::span<const Node> nodes);
 
 /// The 3×3 covariance of each keyframe.
 std::optional<std::vector<Eigen::Matrix3d>> marginals(std::span<const Edge> edges,

@@ -164,6 +164,13 @@ void NormalEquations::write_diagonal(double damping) {
   });
 }
 
+bool NormalEquations::factorise_at(std::span<const Node> nodes) {
+  const auto is_wide = [](const Edge& edge) { return edge.rows != nullptr; };
+  if (std::ranges::any_of(edges_, is_wide)) return false;
+  linearise(nodes, Hessian::gauss_newton);
+  return factorise() && negative_pivots() == 0 && keeps_digits();
+}
+
 bool NormalEquations::keeps_digits() const {
   for (std::size_t p = 0; p < diagonal_.size(); ++p) {
     const double* const root = factor_.data() + diagonal_[p].offset;

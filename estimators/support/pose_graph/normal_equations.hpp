@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -39,13 +40,20 @@ class NormalEquations {
 
   bool factorise() { return factor_.factorise(); }
   int negative_pivots() const { return factor_.negative_pivots(); }
-  /// Of the factor of an undamped matrix: whether no pivot is but rounding (kLeastPivotShare).
-  bool keeps_digits() const;
+  /// Factorises the Gauss-Newton matrix at an estimate. Whether it is positive definite and no
+  /// pivot is but rounding (kLeastPivotShare), nor any W (WideRows).
+  bool factorise_at(std::span<const Node> nodes);
 
   /// x ← H⁻¹ x; nodes in the order of elimination.
   void solve(double* x) { factor_.solve(x); }
   /// −H⁻¹ g, with the matrix that was factored last; nodes in the order of elimination.
   const std::vector<double>& solve_step();
+  /// The Gauss-Newton step from the whitened rows of all measurements, without the sums of the
+  /// matrix and the gradient (sparse::eliminate_rows), for graphs that those do not carry; without
+  /// a loss. The factor of Jᵀ W J is left in factor(). Returns by how much F would fall if it were
+  /// quadratic; nothing where a pivot is but rounding.
+  std::optional<double> solve_rows(std::span<const Node> nodes);
+  void halve_step();
   /// gᵀ H⁻¹ g of the last step: by how much F would fall if it were quadratic.
   double predicted_decrease() const;
   /// Largest absolute element of the gradient of F.
@@ -98,6 +106,7 @@ class NormalEquations {
   template <Hessian kHessian, class Part>
   void add_to_begin(const EdgeTerms& t, const Part& part, const Targets& target);
   void write_diagonal(double damping);
+  bool keeps_digits() const;
   Workers* workers() const { return factor_.symbolic().workers; }
 
   std::span<const Edge> edges_;
@@ -111,6 +120,10 @@ class NormalEquations {
   std::vector<double> gradient_;
   std::vector<double> step_;
 };
+
+/// F as cost_of, by the rows of NormalEquations::solve_rows: where W of an edge is wide itself its
+/// rows keep more digits than νᵀ W ν.
+double whitened_cost(std::span<const Edge> edges, std::span<const Node> nodes);
 
 /// A = diag(Rot(θ_from), 1) G: what an error of a picture does to ν, world axes.
 Eigen::Matrix3d in_world(const Eigen::Matrix3d& G, const Node& from);

@@ -47,6 +47,7 @@ ExtendedGraph PictureStates::extended(std::span<const Edge> edges,
     const Eigen::Matrix3d W = symmetric_inverse(own);
     Edge& edge = graph.own_edges[told.edge];
     edge.W = {W(0, 0), W(0, 1), W(0, 2), W(1, 1), W(1, 2), W(2, 2)};
+    edge.rows = nullptr;
     if (ends.from.node < 0 && ends.to.node < 0) continue;
     graph.ends.push_back(ends);
     edge.shared = &graph.ends.back();

@@ -72,6 +72,15 @@ bool BlockCholesky<B>::factorise() {
 }
 
 template <int B>
+void BlockCholesky<B>::take_factor() {
+  const Factorisation<B> run = factorisation(0);
+  for (const Supernode& s : symbolic_->supernodes) {
+    run.invert_diagonal(s, panel(s), s.panel_rows() * B);
+  }
+  negative_pivots_ = 0;
+}
+
+template <int B>
 bool BlockCholesky<B>::factorise_shared() {
   const int threads = symbolic_->workers->size();
   FactorisationProgress progress(symbolic_->cut, threads);
@@ -98,6 +107,13 @@ void BlockCholesky<B>::solve(double* x) {
   if (!symbolic_->cut.is_empty()) return solve_shared(x);
   Substitution<B> run = substitution(x, 0);
   run_for_processor(run);
+}
+
+template <int B>
+void BlockCholesky<B>::solve_transposed(double* x) {
+  const Substitution<B> run = substitution(x, 0);
+  const std::vector<Supernode>& all = symbolic_->supernodes;
+  for (std::size_t i = all.size(); i > 0; --i) run.backward(all[i - 1]);
 }
 
 template <int B>

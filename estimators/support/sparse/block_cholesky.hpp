@@ -41,10 +41,14 @@ class BlockCholesky {
 
   /// False where a pivot is zero or not a number.
   bool factorise();
+  /// L of a positive definite A was written in the place of A.
+  void take_factor();
   int negative_pivots() const { return negative_pivots_; }
 
   /// Solves A x = b in place; B numbers a node, in the order of elimination.
   void solve(double* x);
+  /// Solves Lᵀ x = b in place, of a positive definite A.
+  void solve_transposed(double* x);
 
   const Symbolic& symbolic() const { return *symbolic_; }
   const double* panel(const Supernode& s) const {

@@ -3,6 +3,8 @@
 #include <limits>
 #include <span>
 
+#include <Eigen/Core>
+
 #include "fathom/geometry/trajectory.hpp"
 #include "fathom/measurements/relative_pose.hpp"
 
@@ -25,6 +27,12 @@ bool are_resolved(const TrajectoryView& estimate, std::span<const RelativePose> 
 /// rounding of that element leaves (64 ε: the sum of a few dozen rounded terms), and says nothing.
 inline constexpr double kLeastPivotShare = 64.0 * std::numeric_limits<double>::epsilon();
 
+/// By how many times a measurement says more along one axis than along another: of positions in any
+/// direction, and of the heading that is left with the position known to that without. 1 where all
+/// are alike, about 10¹⁶ where the weakest is the rounding of the matrix; 1 of a semi-definite
+/// matrix, whose weakest axis says nothing.
+double own_spread(const Eigen::Matrix3d& information);
+
 /// How different the information of the measurements of a graph is. Normal equations add them up,
 /// and what one says is lost in the rounding of another that says 10¹⁶ times as much.
 class InformationSpread {
@@ -33,8 +41,9 @@ class InformationSpread {
   void add(const RelativePose& measurement);
 
   /// Whether the pivots of the factor have to be looked at (kLeastPivotShare): whether one
-  /// measurement has 10⁸ times the information of another, half of all digits. Those of a graph
-  /// whose measurements are alike keep enough, and no time is spent on it.
+  /// measurement has 10⁸ times the information of another, or along one axis that along another,
+  /// half of all digits. Those of a graph whose measurements are alike keep enough, and no time is
+  /// spent on it.
   bool is_wide() const;
 
  private:
@@ -48,6 +57,7 @@ class InformationSpread {
 
   Bounds position_;
   Bounds heading_;
+  double own_ = 1.0;
 };
 
 }  // namespace fathom

@@ -18,7 +18,8 @@ std::vector<std::int64_t> stamps_of(const MeasurementLog& log);
 /// CSV with the columns stamp and id, a row a pose.
 std::string ids_csv(const MeasurementLog& log);
 
-/// What a reader of the graph did with it, a sentence each: edges left out, stamps in place of ids.
+/// What a reader of the graph did with it, a sentence each: edges left out, stamps in place of ids;
+/// and which measurements are so different in their information that doubles do not carry the sum.
 std::vector<std::string> graph_remarks(const MeasurementLog& log);
 
 }  // namespace fathom
