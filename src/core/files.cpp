@@ -1,9 +1,9 @@
 #include "fathom/core/files.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <fstream>
 #include <signal.h>
-#include <sstream>
 #include <system_error>
 #include <unistd.h>
 #include <utility>
@@ -15,19 +15,30 @@ namespace fathom {
 
 namespace fs = std::filesystem;
 
-std::string read_file(const fs::path& path) {
+std::string read_file(const fs::path& path, std::size_t most_bytes) {
   std::error_code error;
   if (fs::is_directory(path, error)) throw InputError(path.string(), "is a folder, not a file");
   std::ifstream file(path, std::ios::binary);
   if (!file) throw InputError(path.string(), "cannot be opened; does it exist?");
-  std::ostringstream content;
-  content << file.rdbuf();
+  // Not by the size that the system tells: a device or a pipe has none, and may have no end.
+  constexpr std::size_t kPiece = 1 << 20;
+  std::string content;
+  while (file && content.size() <= most_bytes) {
+    const std::size_t size = content.size();
+    content.resize(size + std::min(kPiece, most_bytes + 1 - size));
+    file.read(content.data() + size, static_cast<std::streamsize>(content.size() - size));
+    content.resize(size + static_cast<std::size_t>(file.gcount()));
+  }
   if (file.bad()) throw InputError(path.string(), "cannot be read to its end");
-  return std::move(content).str();
+  if (content.size() > most_bytes) {
+    throw InputError(path.string(),
+                     "is too large; the limit is " + std::to_string(most_bytes) + " bytes");
+  }
+  return content;
 }
 
-std::string read_text(const fs::path& path) {
-  std::string content = read_file(path);
+std::string read_text(const fs::path& path, std::size_t most_bytes) {
+  std::string content = read_file(path, most_bytes);
   if (content.starts_with("\xEF\xBB\xBF")) content.erase(0, 3);
   return content;
 }
