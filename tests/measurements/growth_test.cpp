@@ -10,6 +10,7 @@
 
 #include "fathom/measurements/connected_guess.hpp"
 #include "fathom/measurements/g2o.hpp"
+#include "fathom/measurements/loop_terms.hpp"
 #include "fathom/measurements/shared_file.hpp"
 
 namespace fathom {
@@ -64,6 +65,15 @@ TEST(GraphGrowth, StretchesArePlacedInTimeByTheirNumber) {
     EXPECT_NEAR(poses[stretches - 2].x, 0.0, 1e-9);
   };
   EXPECT_LT(growth_of(place, 2000), kFarBelowTheSquare);
+}
+
+// A pose that comes with its one measurement: no way leads there before, which is known at once.
+TEST(GraphGrowth, LoopsAreClosedWhereAWayLeads) {
+  const auto close = [](std::size_t poses) {
+    const MeasurementLog log = parse_g2o(graph_of_holes(poses - 1), "holes.g2o");
+    EXPECT_EQ(loop_terms(log).loops, 0U);
+  };
+  EXPECT_LT(growth_of(close, 2000), kFarBelowTheSquare);
 }
 
 // All between one pair of poses, and all alike.
