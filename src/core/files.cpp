@@ -21,11 +21,11 @@ std::string read_file(const fs::path& path, std::size_t most_bytes) {
   std::ifstream file(path, std::ios::binary);
   if (!file) throw InputError(path.string(), "cannot be opened; does it exist?");
   // Not by the size that the system tells: a device or a pipe has none, and may have no end.
-  constexpr std::size_t kPiece = 1 << 20;
+  constexpr std::size_t kFirstPiece = 4096;  // most files are small
   std::string content;
   while (file && content.size() <= most_bytes) {
     const std::size_t size = content.size();
-    content.resize(size + std::min(kPiece, most_bytes + 1 - size));
+    content.resize(size + std::min(std::max(kFirstPiece, size), most_bytes + 1 - size));
     file.read(content.data() + size, static_cast<std::streamsize>(content.size() - size));
     content.resize(size + static_cast<std::size_t>(file.gcount()));
   }
