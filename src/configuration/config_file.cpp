@@ -1,5 +1,6 @@
 #include "fathom/configuration/config_file.hpp"
 
+#include <algorithm>
 #include <set>
 #include <utility>
 
@@ -7,6 +8,7 @@
 
 #include "fathom/core/files.hpp"
 #include "fathom/core/text.hpp"
+#include "fathom/core/yaml_limits.hpp"
 
 namespace fathom {
 namespace {
@@ -22,19 +24,24 @@ std::string at(const Source& source, const YAML::Mark& mark) {
   return source.name + ":" + std::to_string(mark.line + 1);
 }
 
-// An alias may stand inside of what it names; such a value has no end.
-void require_shallow(int depth, const std::string& origin) {
-  constexpr int kDeepest = 32;
-  if (depth > kDeepest) throw InputError(origin + ": is nested too deeply, or in itself");
+void require_within_limits(const std::string& yaml, const Source& source) {
+  if (source.is_file) return require_yaml_within_limits(yaml, source.name);
+  if (const auto excess = yaml_excess(yaml)) throw InputError(source.name, excess->what);
+}
+
+// Messages show keys whole.
+void require_short(const std::string& key, const std::string& origin) {
+  constexpr std::size_t kLongest = 200;
+  if (key.size() <= kLongest) return;
+  throw InputError(origin + ": key " + in_quotes(key) + " has " + std::to_string(key.size()) +
+                   " bytes; the limit is " + std::to_string(kLongest));
 }
 
 // Nested lists are flattened: a list of points is a list of numbers.
-void flatten_list(const YAML::Node& list, const std::string& origin, OptionValue& value,
-                  int depth = 0) {
-  require_shallow(depth, origin);
+void flatten_list(const YAML::Node& list, const std::string& origin, OptionValue& value) {
   for (const YAML::Node& item : list) {
     if (item.IsSequence()) {
-      flatten_list(item, origin, value, depth + 1);
+      flatten_list(item, origin, value);
     } else if (item.IsScalar()) {
       value.items.push_back(item.Scalar());
     } else {
@@ -56,16 +63,15 @@ class Flattener {
  public:
   Flattener(Source file, Settings& settings) : file_(std::move(file)), settings_(settings) {}
 
-  void add(const std::string& key, const YAML::Node& node, int depth = 0) {
+  void add(const std::string& key, const YAML::Node& node) {
     const std::string origin = at(file_, node.Mark());
     const std::string where = origin + ": " + key + ": ";
-    require_shallow(depth, origin);
     if (node.IsMap()) {
-      add_map(key, node, depth);
+      add_map(key, node);
     } else if (is_list_of_maps(node)) {
       for (std::size_t i = 0; i < node.size(); ++i) {
         if (!node[i].IsMap()) throw InputError(where + "expected a list of maps");
-        add_map(key + "." + std::to_string(i), node[i], depth);
+        add_map(key + "." + std::to_string(i), node[i]);
       }
     } else if (node.IsSequence()) {
       OptionValue value;
@@ -97,7 +103,7 @@ class Flattener {
     }
   }
 
-  void add_map(const std::string& prefix, const YAML::Node& map, int depth) {
+  void add_map(const std::string& prefix, const YAML::Node& map) {
     std::set<std::string> seen;
     for (const auto& entry : map) {
       if (!entry.first.IsScalar()) {
@@ -105,6 +111,7 @@ class Flattener {
       }
       const std::string key =
           prefix.empty() ? entry.first.Scalar() : prefix + "." + entry.first.Scalar();
+      require_short(key, at(file_, entry.first.Mark()));
       // The second time may be written as a dotted key elsewhere in the file.
       if (!seen.insert(key).second || settings_.find(key) != nullptr) {
         throw InputError(at(file_, entry.first.Mark()) + ": '" + key + "' is given twice");
@@ -113,7 +120,7 @@ class Flattener {
       if (entry.second.IsNull()) {
         throw InputError(at(file_, entry.first.Mark()) + ": " + key + ": has no value");
       }
-      add(key, entry.second, depth + 1);
+      add(key, entry.second);
     }
   }
 
@@ -126,6 +133,7 @@ Settings settings_of(const std::string& content, const Source& source) {
   if (content.find('\0') != std::string::npos) {
     throw InputError(source.name, "not YAML: holds a zero byte");
   }
+  require_within_limits(content, source);
   Settings settings;
   try {
     const std::vector<YAML::Node> documents = YAML::LoadAll(content);
@@ -147,34 +155,36 @@ Settings settings_of(const std::string& content, const Source& source) {
 }  // namespace
 
 void Settings::put(Setting setting) {
-  for (Setting& existing : settings_) {
-    if (existing.key == setting.key) {
-      existing = std::move(setting);
-      return;
-    }
+  const auto [place, is_new] = places_.emplace(setting.key, settings_.size());
+  if (is_new) {
+    settings_.push_back(std::move(setting));
+  } else {
+    settings_[place->second] = std::move(setting);
   }
-  settings_.push_back(std::move(setting));
 }
 
 const Setting* Settings::find(const std::string& key) const {
-  for (const Setting& setting : settings_) {
-    if (setting.key == key) return &setting;
-  }
-  return nullptr;
+  const auto place = places_.find(key);
+  return place == places_.end() ? nullptr : &settings_[place->second];
 }
 
 Settings Settings::below(const std::string& prefix) const {
+  std::vector<std::size_t> places;
+  for (auto entry = places_.lower_bound(prefix);
+       entry != places_.end() && entry->first.starts_with(prefix); ++entry) {
+    places.push_back(entry->second);
+  }
+  std::sort(places.begin(), places.end());
   Settings part;
-  for (const Setting& setting : settings_) {
-    if (setting.key.starts_with(prefix)) {
-      part.settings_.push_back({setting.key.substr(prefix.size()), setting.value, setting.origin});
-    }
+  for (const std::size_t place : places) {
+    const Setting& setting = settings_[place];
+    part.put({setting.key.substr(prefix.size()), setting.value, setting.origin});
   }
   return part;
 }
 
 Settings read_settings(const std::filesystem::path& path) {
-  return settings_of(read_text(path), {path.string()});
+  return settings_of(read_text(path, kMostYamlBytes), {path.string()});
 }
 
 Settings parse_settings(const std::string& yaml, const std::string& source) {
@@ -183,12 +193,15 @@ Settings parse_settings(const std::string& yaml, const std::string& source) {
 
 Setting parse_override(const std::string& text) {
   const std::size_t equals = text.find('=');
-  const std::string origin = "--set " + text;
+  constexpr std::size_t kShown = 200;
+  const std::string origin = "--set " + (text.size() > kShown ? in_quotes(text) : text);
   if (equals == std::string::npos || equals == 0) {
     throw InputError(origin + ": expected KEY=VALUE, for example seed=7");
   }
   const std::string key(trim(text.substr(0, equals)));
   const std::string value(trim(text.substr(equals + 1)));
+  require_short(key, origin);
+  require_within_limits(value, {origin, false});
   Settings settings;
   try {
     // YAML takes an unquoted word as it is, so that file names and numbers need no quotes.

@@ -6,6 +6,7 @@
 #include "canonical_value.hpp"
 #include "fathom/configuration/study_description.hpp"
 #include "fathom/core/text.hpp"
+#include "list_items.hpp"
 
 namespace fathom {
 namespace {
@@ -38,14 +39,9 @@ void refuse_unused(const Settings& own, const EstimatorEntry& entry, const std::
 
 // No setting of the list may go unread: not one of `estimators.7` where there are three of them.
 void refuse_unused_items(const Settings& settings, std::size_t count) {
-  std::vector<std::string> prefixes;
-  for (std::size_t i = 0; i < count; ++i) {
-    prefixes.push_back("estimators." + std::to_string(i) + ".");
-  }
+  const std::string list = "estimators.";
   for (const Setting& setting : settings.all()) {
-    if (!setting.key.starts_with("estimators.")) continue;
-    const auto is_of = [&](const std::string& prefix) { return setting.key.starts_with(prefix); };
-    if (std::any_of(prefixes.begin(), prefixes.end(), is_of)) continue;
+    if (!setting.key.starts_with(list) || is_item_below(setting.key, list, count)) continue;
     refuse(setting, setting.key +
                         ": expected a list of maps, such as '- {type: ekf}', numbered from 0 "
                         "without a gap");
@@ -132,6 +128,11 @@ std::vector<EstimatorConfiguration> configure_list(const Settings& settings,
     const std::string prefix = "estimators." + std::to_string(i) + ".";
     const Settings own = settings.below(prefix);
     if (own.all().empty()) break;
+    constexpr std::size_t kMost = 1000;
+    if (i == kMost) {
+      refuse(own.all().front(), "estimators: has more than " + std::to_string(kMost) +
+                                    " estimators, the limit of a study");
+    }
     list.push_back(configure_estimator(own, registry, prefix));
     if (!names.insert(list.back().name).second) {
       refuse(own.all().front(),

@@ -5,12 +5,14 @@
 
 #include "fathom/core/text.hpp"
 #include "fathom/evaluation/metrics.hpp"
+#include "list_items.hpp"
 #include "study_options.hpp"
 
 namespace fathom {
 namespace {
 
 constexpr const char* kSweep = "sweep.";
+constexpr std::size_t kMostAxes = 100;
 
 // A list within the values of an axis was kept as text by the reader.
 OptionValue value_of(const std::string& text) {
@@ -118,19 +120,13 @@ Axis axis_of(const Settings& own, const std::string& prefix) {
   return axis;
 }
 
-// A number of an axis is one or two digits here: sweep.0 … sweep.99.
 void refuse_gaps(const Settings& settings, std::size_t count) {
   for (const Setting& setting : settings.all()) {
     if (!is_sweep_key(setting.key)) continue;
-    bool is_of_an_axis = false;
-    for (std::size_t i = 0; i < count; ++i) {
-      is_of_an_axis = is_of_an_axis || setting.key.starts_with(kSweep + std::to_string(i) + ".");
-    }
-    if (!is_of_an_axis) {
-      refuse(setting, setting.key +
-                          ": expected a list of axes, such as '- {key: seed, values: "
-                          "[1, 2]}', numbered from 0 without a gap");
-    }
+    if (is_item_below(setting.key, kSweep, count)) continue;
+    refuse(setting, setting.key +
+                        ": expected a list of axes, such as '- {key: seed, values: "
+                        "[1, 2]}', numbered from 0 without a gap");
   }
 }
 
@@ -146,6 +142,9 @@ std::vector<Axis> axes_of(const Settings& settings) {
     const std::string prefix = kSweep + std::to_string(axes.size()) + ".";
     const Settings own = settings.below(prefix);
     if (own.all().empty()) break;
+    if (axes.size() == kMostAxes) {
+      refuse(own.all().front(), fmt::format("sweep: has more than {} axes, the limit", kMostAxes));
+    }
     axes.push_back(axis_of(own, prefix));
     const StudyAxis& newest = axes.back().described;
     for (std::size_t i = 0; i + 1 < axes.size(); ++i) {

@@ -69,6 +69,13 @@ CsvFile::CsvFile(std::filesystem::path path, std::string columns, const std::str
       named_.insert(fields.size());
       continue;
     }
+    if (fields.size() > kMostCsvColumns || rows_.size() == kMostCsvRows) {
+      throw InputError(path_.string(), line,
+                       fields.size() > kMostCsvColumns
+                           ? "has " + std::to_string(fields.size()) + " columns; the limit is " +
+                                 std::to_string(kMostCsvColumns)
+                           : "has too many rows; the limit is " + std::to_string(kMostCsvRows));
+    }
     rows_.push_back({line, {fields.begin(), fields.end()}});
     require_columns(rows_.back(), text);
   }

@@ -1,7 +1,6 @@
 #include "fathom/core/files.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <cstdio>
 #include <fcntl.h>
@@ -66,7 +65,7 @@ bool is_staged(const fs::path& path) {
 
 }  // namespace
 
-std::string read_file(const fs::path& path) {
+std::string read_file(const fs::path& path, std::size_t most_bytes) {
   std::error_code error;
   if (fs::is_directory(path, error)) throw InputError(path.string(), "is a folder, not a file");
   const OpenFile file(path, O_RDONLY);
@@ -76,22 +75,26 @@ std::string read_file(const fs::path& path) {
     }
     throw InputError(path.string(), "cannot be opened; does it exist?");
   }
-  const std::uintmax_t expected = fs::file_size(path, error);
+  // Not by the size that the system tells: a device or a pipe has none, and may have no end.
+  constexpr std::size_t kFirstPiece = 4096;  // most files are small
   std::string content;
-  if (!error) content.reserve(expected);
-  std::array<char, 65536> buffer;
-  for (;;) {
-    const ssize_t got = ::read(file.descriptor(), buffer.data(), buffer.size());
+  while (content.size() <= most_bytes) {
+    const std::size_t size = content.size();
+    content.resize(size + std::min(std::max(kFirstPiece, size), most_bytes + 1 - size));
+    const ssize_t got = ::read(file.descriptor(), content.data() + size, content.size() - size);
+    const int fault = errno;
+    content.resize(size + static_cast<std::size_t>(std::max<ssize_t>(got, 0)));
     if (got == 0) return content;
-    if (got > 0) content.append(buffer.data(), static_cast<std::size_t>(got));
-    if (got < 0 && errno != EINTR) {
-      throw EnvironmentError(path.string(), "cannot be read to its end", errno);
+    if (got < 0 && fault != EINTR) {
+      throw EnvironmentError(path.string(), "cannot be read to its end", fault);
     }
   }
+  throw InputError(path.string(),
+                   "is too large; the limit is " + std::to_string(most_bytes) + " bytes");
 }
 
-std::string read_text(const fs::path& path) {
-  std::string content = read_file(path);
+std::string read_text(const fs::path& path, std::size_t most_bytes) {
+  std::string content = read_file(path, most_bytes);
   if (content.starts_with("\xEF\xBB\xBF")) content.erase(0, 3);
   return content;
 }

@@ -20,7 +20,7 @@ std::string list_text(const std::vector<double>& values) {
 }
 
 void refuse(const std::string& key, const std::string& expected, const OptionValue& value) {
-  throw InputError(key + ": expected " + expected + ", got '" + value.text() + "'");
+  throw InputError(key + ": expected " + expected + ", got " + in_quotes(value.text()));
 }
 
 double checked_real(const std::string& key, const Range& range, const std::string& unit,

@@ -25,20 +25,28 @@ std::string_view trim(std::string_view text) {
   return text.substr(begin, text.find_last_not_of(" \t\r\n") - begin + 1);
 }
 
-std::vector<TextLine> all_lines_of(std::string_view content) {
+namespace {
+
+std::vector<TextLine> lines_in(std::string_view content, bool with_blank) {
   std::vector<TextLine> lines;
+  std::size_t number = 0;
   for (std::size_t begin = 0; begin < content.size();) {
     const std::size_t end = std::min(content.find('\n', begin), content.size());
-    lines.push_back({lines.size() + 1, trim(content.substr(begin, end - begin))});
+    const TextLine line{++number, trim(content.substr(begin, end - begin))};
+    if (with_blank || !line.text.empty()) lines.push_back(line);
     begin = end + 1;
   }
   return lines;
 }
 
+}  // namespace
+
+std::vector<TextLine> all_lines_of(std::string_view content) {
+  return lines_in(content, true);
+}
+
 std::vector<TextLine> lines_of(std::string_view content) {
-  std::vector<TextLine> lines = all_lines_of(content);
-  std::erase_if(lines, [](const TextLine& line) { return line.text.empty(); });
-  return lines;
+  return lines_in(content, false);
 }
 
 std::string joined(const std::vector<std::string>& words, const std::string& separator) {

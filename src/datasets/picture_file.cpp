@@ -1,6 +1,7 @@
 #include "fathom/datasets/picture_file.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <fmt/format.h>
 #include <string>
 #include <vector>
@@ -10,19 +11,29 @@
 #include "fathom/core/files.hpp"
 #include "fathom/core/input_error.hpp"
 #include "fathom/core/text.hpp"
+#include "picture_header.hpp"
 
 namespace fathom {
 
 namespace {
 
-// OpenCV fills what a cut JPEG lacks with grey and says nothing, and of a cut PNG the decoder
-// prints: both are known by their missing end mark. Zeros may follow it, as padding.
-bool is_cut_short(std::string_view bytes) {
+// OpenCV fills what a cut JPEG lacks with grey and says nothing: it is known by its missing end
+// mark. Zeros may follow it, as padding. Of a damaged PNG the decoder prints, so it gets none.
+std::vector<uchar> sound_bytes(std::string_view bytes) {
   using namespace std::string_view_literals;
   const std::string_view content = bytes.substr(0, bytes.find_last_not_of('\0') + 1);
-  if (bytes.starts_with("\xFF\xD8"sv)) return !content.ends_with("\xFF\xD9"sv);
-  if (bytes.starts_with("\x89PNG"sv)) return content.find("IEND"sv) == std::string_view::npos;
-  return false;
+  if (bytes.starts_with("\xFF\xD8"sv) && !content.ends_with("\xFF\xD9"sv)) return {};
+  if (!bytes.starts_with("\x89PNG"sv)) return {bytes.begin(), bytes.end()};
+  const std::string png = sound_png(bytes).value_or("");
+  return {png.begin(), png.end()};
+}
+
+// Before any of it is decoded: a file of some hundred kilobytes can ask for all memory.
+void require_pixels(std::string_view bytes, const std::filesystem::path& path) {
+  const auto size = size_in_header(bytes);
+  if (!size || size->width <= kMostPicturePixels / std::max<std::uint64_t>(size->height, 1)) return;
+  throw InputError(path.string(), fmt::format("has {} x {} pixels; the limit is {} in all",
+                                              size->width, size->height, kMostPicturePixels));
 }
 
 // Cameras of 10, 12 or 14 bits fill the lower part of 16: the bits that nearly all pixels have are
@@ -47,10 +58,11 @@ cv::Mat read_grey_picture(const std::filesystem::path& path) {
 }
 
 cv::Mat decode_grey_picture(std::string_view bytes, const std::filesystem::path& path) {
+  require_pixels(bytes, path);
   cv::Mat picture;
   try {
-    if (!bytes.empty() && !is_cut_short(bytes)) {
-      const std::vector<uchar> buffer(bytes.begin(), bytes.end());
+    const std::vector<uchar> buffer = sound_bytes(bytes);
+    if (!buffer.empty()) {
       picture = cv::imdecode(
           buffer, cv::IMREAD_GRAYSCALE | cv::IMREAD_ANYDEPTH | cv::IMREAD_IGNORE_ORIENTATION);
     }

@@ -1,7 +1,11 @@
 #include "fathom/measurements/connected_guess.hpp"
 
 #include <cmath>
+#include <functional>
 #include <numeric>
+#include <optional>
+#include <queue>
+#include <utility>
 
 #include <Eigen/LU>
 
@@ -76,13 +80,23 @@ class Stretches {
     }
     is_placed_.assign(members_.size(), 0);
     is_placed_[0] = 1;
+    between_.resize(members_.size());
+    for (std::size_t k = 1; k < log.size(); ++k) {
+      for (const RelativePose& z : log.arrival(k).registrations) {
+        if (of_[z.from] == of_[z.to]) continue;
+        between_[of_[z.from]].push_back(registrations_.size());
+        between_[of_[z.to]].push_back(registrations_.size());
+        registrations_.push_back(&z);
+      }
+    }
   }
 
   void place_all() {
-    for (std::size_t s = 1; s < members_.size();) {
-      place_by_registrations();
-      while (s < members_.size() && is_placed_[s] != 0) ++s;
-      if (s < members_.size()) place_by_the_world(s);
+    place_by_registrations(0);
+    for (std::size_t s = 1; s < members_.size(); ++s) {
+      if (is_placed_[s] != 0) continue;
+      place_by_the_world(s);
+      place_by_registrations(s);
     }
   }
 
@@ -96,27 +110,34 @@ class Stretches {
     is_placed_[stretch] = 1;
   }
 
-  void place_by_registrations() {
-    for (bool any = true; any;) {
-      any = false;
-      for (std::size_t k = 1; k < log_.size(); ++k) {
-        for (const RelativePose& z : log_.arrival(k).registrations) {
-          any = place_by(z.forward()) || any;
-        }
+  // In the order of passes over all registrations until a pass places nothing; each is looked at
+  // only after one of its stretches came to have a place.
+  void place_by_registrations(std::size_t placed) {
+    using Turn = std::pair<std::size_t, std::size_t>;  // the pass, the registration
+    std::priority_queue<Turn, std::vector<Turn>, std::greater<>> turns;
+    for (const std::size_t r : between_[placed]) turns.emplace(0, r);
+    while (!turns.empty()) {
+      const Turn now = turns.top();
+      turns.pop();
+      const auto stretch = place_by(registrations_[now.second]->forward());
+      if (!stretch) continue;
+      for (const std::size_t r : between_[*stretch]) {
+        turns.emplace(r > now.second ? now.first : now.first + 1, r);
       }
     }
   }
 
-  bool place_by(const RelativePose& z) {
+  // The stretch that it gives a place, if it is of one with a place and one without.
+  std::optional<std::size_t> place_by(const RelativePose& z) {
     const std::size_t a = of_[z.from];
     const std::size_t b = of_[z.to];
-    if (is_placed_[a] == is_placed_[b]) return false;
+    if (is_placed_[a] == is_placed_[b]) return std::nullopt;
     if (is_placed_[a] != 0) {
       move(b, z.to, compose(own_[z.from], z.motion));
-    } else {
-      move(a, z.from, compose(own_[z.to], inverse(z.motion)));
+      return b;
     }
-    return true;
+    move(a, z.from, compose(own_[z.to], inverse(z.motion)));
+    return a;
   }
 
   // By the guess over the hole, then nearer to what is measured of it.
@@ -134,6 +155,8 @@ class Stretches {
   std::vector<std::vector<std::size_t>> members_;
   std::vector<std::size_t> of_;  ///< stretch of each keyframe
   std::vector<char> is_placed_;
+  std::vector<const RelativePose*> registrations_;  ///< of two stretches, as they arrive
+  std::vector<std::vector<std::size_t>> between_;   ///< of them, those of each stretch
 };
 
 }  // namespace

@@ -8,15 +8,11 @@
 
 namespace fathom {
 
-void KnownWays::add_keyframe() {
-  lanes_.emplace_back();
-  reached_.emplace_back();
-}
-
 void KnownWays::add(const RelativePose& z) {
   const RelativePose back = z.reversed();
   lanes_[z.from].push_back({z.to, {z.motion, z.covariance()}});
   lanes_[z.to].push_back({z.from, {back.motion, back.covariance()}});
+  joined_.join(z.from, z.to);
 }
 
 KnownWays::Reached& KnownWays::at(std::size_t keyframe) {
@@ -55,7 +51,7 @@ bool KnownWays::search(std::size_t from, std::size_t to) {
 }
 
 std::optional<KnownWay> KnownWays::best(std::size_t from, std::size_t to) {
-  if (!search(from, to)) return std::nullopt;
+  if (joined_.root(from) != joined_.root(to) || !search(from, to)) return std::nullopt;
   std::vector<UncertainPose> motions;
   KnownWay way;
   for (std::size_t k = to; k != from; k = reached_[k].from) {

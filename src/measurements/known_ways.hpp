@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "fathom/core/disjoint_sets.hpp"
 #include "fathom/geometry/covariance.hpp"
 #include "fathom/measurements/relative_pose.hpp"
 
@@ -18,7 +19,9 @@ struct KnownWay {
 /// What is known of the motions between keyframes, as measurements come in.
 class KnownWays {
  public:
-  void add_keyframe();
+  explicit KnownWays(std::size_t keyframes)
+      : lanes_(keyframes), reached_(keyframes), joined_(keyframes) {}
+
   void add(const RelativePose& z);
 
   /// The way with the least variance of heading; nothing where none leads there.
@@ -43,6 +46,7 @@ class KnownWays {
 
   std::vector<std::vector<Lane>> lanes_;
   std::vector<Reached> reached_;
+  DisjointSets joined_;  ///< so that nothing is searched where no way leads
   std::size_t search_ = 0;
 };
 

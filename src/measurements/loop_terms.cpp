@@ -56,11 +56,9 @@ double LoopClosure::nis() const {
 
 std::vector<LoopClosure> loop_closures(const MeasurementLog& log) {
   std::vector<LoopClosure> closures;
-  KnownWays ways;
-  ways.add_keyframe();
+  KnownWays ways(log.size());
   for (std::size_t k = 1; k < log.size(); ++k) {
     const KeyframeMeasurements& arrival = log.arrival(k);
-    ways.add_keyframe();
     if (!arrival.step.is_hole) ways.add(arrival.step);
     for (const RelativePose& z : arrival.registrations) {
       const std::optional<KnownWay> way = ways.best(z.from, z.to);

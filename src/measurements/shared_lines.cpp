@@ -2,10 +2,12 @@
 
 #include <array>
 #include <cstdint>
+#include <deque>
 #include <fmt/format.h>
 #include <map>
 #include <set>
 #include <string_view>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -32,7 +34,7 @@ class SharedScanner {
       : graph_(graph), graph_name_(graph_name), fault_(fault) {
     for (std::size_t e = 0; e < graph.edges.size(); ++e) {
       const G2oFile::Edge& edge = graph.edges[e];
-      edges_[{edge.from, edge.to}].push_back(e);
+      edges_[key_of(edge.from, edge.to, edge.motion)].push_back(e);
     }
   }
 
@@ -62,6 +64,11 @@ class SharedScanner {
     Eigen::Vector3d sigma;
     std::size_t line = 0;
   };
+  using EdgeKey = std::tuple<std::int64_t, std::int64_t, double, double, double>;
+
+  static EdgeKey key_of(std::int64_t from, std::int64_t to, const Pose& motion) {
+    return {from, to, motion.x, motion.y, motion.theta};
+  }
 
   template <class Use>
   void for_lines(const std::string& content, const Use& use) {
@@ -148,11 +155,11 @@ class SharedScanner {
   }
 
   G2oFile::Edge& edge_of(std::int64_t from, std::int64_t to, const Pose& motion) {
-    if (const auto entry = edges_.find({from, to}); entry != edges_.end()) {
-      for (const std::size_t e : entry->second) {
-        G2oFile::Edge& edge = graph_.edges[e];
-        if (edge.motion == motion && !edge.shared) return edge;
-      }
+    const auto entry = edges_.find(key_of(from, to, motion));
+    if (entry != edges_.end() && !entry->second.empty()) {
+      G2oFile::Edge& edge = graph_.edges[entry->second.front()];
+      entry->second.pop_front();
+      return edge;
     }
     fail(
         fmt::format("no edge {} {} with this motion in {}: a file of another log; expected the one "
@@ -174,7 +181,8 @@ class SharedScanner {
   G2oFile& graph_;
   const std::string& graph_name_;
   const G2oFault& fault_;
-  std::map<std::pair<std::int64_t, std::int64_t>, std::vector<std::size_t>> edges_;
+  /// Those that no line has named, in file order.
+  std::map<EdgeKey, std::deque<std::size_t>> edges_;
   std::map<std::int64_t, Picture> pictures_;
   std::set<std::int64_t> used_;
   std::size_t line_ = 0;

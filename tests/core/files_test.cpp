@@ -204,5 +204,18 @@ TEST_F(Files, ARelativeTargetIsInTheWorkingFolder) {
   EXPECT_THAT(entries(folder_.path()), UnorderedElementsAre("here", "here/out", "here/out/file"));
 }
 
+TEST(ReadFile, ReadsNoMoreThanItIsAllowed) {
+  const test::TemporaryFolder folder;
+  const std::string content(3'000'000, 'x');
+  put(folder / "large", content);
+  EXPECT_EQ(read_file(folder / "large"), content);
+  EXPECT_EQ(read_file(folder / "large", content.size()), content);
+  EXPECT_EQ(input_error_of([&] { read_file(folder / "large", content.size() - 1); }),
+            (folder / "large").string() + ": is too large; the limit is 2999999 bytes");
+  // A device has no end.
+  EXPECT_EQ(input_error_of([&] { read_text("/dev/zero", 1000); }),
+            "/dev/zero: is too large; the limit is 1000 bytes");
+}
+
 }  // namespace
 }  // namespace fathom

@@ -6,6 +6,7 @@
 
 #include "bag_fixture.hpp"
 #include "fathom/core/files.hpp"
+#include "fathom/datasets/asl_files.hpp"
 
 namespace fathom {
 namespace {
@@ -175,6 +176,24 @@ TEST_P(BagErrors, CutShort) {
     EXPECT_THAT(why, Not(HasSubstr("nothing thrown"))) << share;
     EXPECT_THAT(why, HasSubstr(bag().string())) << share;
   }
+}
+
+TEST_P(BagErrors, RecordedInAnotherAge) {
+  if (GetParam() == 1) return;  // whose times have an end before the limit
+  EXPECT_THAT(refusal_of({.altitude_from_ns = kMostTimeNs + 1}),
+              HasSubstr("topic /altitude: a message was recorded at 4500000000000000001 ns; the "
+                        "limit is 4500000000000000000 ns"));
+}
+
+TEST_P(BagErrors, ChunkThatWouldFillMemory) {
+  if (GetParam() == 2) return;
+  write({});
+  std::string bytes = read_file(bag());
+  const std::string size = "size=";
+  const std::size_t at = bytes.find(size, bytes.find("compression="));
+  ASSERT_NE(at, std::string::npos);
+  std::ofstream(bag(), std::ios::binary) << bytes.replace(at + size.size(), 4, "\xFF\xFF\xFF\xFF");
+  EXPECT_THAT(refusal(), HasSubstr("has a chunk of 4294967295 bytes; the limit is 1000000000"));
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -29,11 +31,13 @@ class Settings {
 
  private:
   std::vector<Setting> settings_;
+  std::map<std::string, std::size_t, std::less<>> places_;  ///< in settings_, by key
 };
 
 /// Reads a YAML file as settings: maps become dotted keys; the items of a list of maps are keyed by
 /// their place, `estimators.0.type`. Throws InputError with file and line on what is no YAML, more
-/// than one document, a key given twice, or a value that is neither scalar nor list.
+/// than one document, a key given twice, a value that is neither scalar nor list, a key of more
+/// than 200 bytes, or more than core/yaml_limits.hpp allows.
 Settings read_settings(const std::filesystem::path& path);
 
 /// The same of YAML (JSON among it) that is in no file; `source` stands in messages in its place,

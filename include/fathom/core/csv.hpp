@@ -9,6 +9,10 @@
 
 namespace fathom {
 
+/// What a file of comma-separated values may have: rows as of a sensor of 200 Hz over 14 hours.
+inline constexpr std::size_t kMostCsvRows = 10'000'000;
+inline constexpr std::size_t kMostCsvColumns = 1000;
+
 struct CsvRow {
   std::size_t line = 0;  ///< in the file, from 1
   std::vector<std::string> fields;
@@ -16,7 +20,7 @@ struct CsvRow {
 
 /// A file of comma-separated values; lines that begin with # are comments. What is no such file is
 /// refused with the line and what it looks like: fields parted otherwise, decimal commas, UTF-16,
-/// lines that end in CR alone.
+/// lines that end in CR alone; so is what goes beyond the limits.
 class CsvFile {
  public:
   /// A row has the columns named, and may have all of `more` or what a comment line before it

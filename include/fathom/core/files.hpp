@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -7,12 +8,15 @@
 
 namespace fathom {
 
-/// The file's bytes; throws InputError naming the file if it cannot be read, EnvironmentError where
-/// that is the machine's fault.
-std::string read_file(const std::filesystem::path& path);
+/// The largest file that is read: one that fits in memory with what is made of it.
+inline constexpr std::size_t kMostFileBytes = 2'000'000'000;
+
+/// The file's bytes; throws InputError naming the file if it cannot be read or has more than
+/// `most_bytes`, of which no more are read, EnvironmentError where that is the machine's fault.
+std::string read_file(const std::filesystem::path& path, std::size_t most_bytes = kMostFileBytes);
 
 /// The same for a text: without the UTF-8 byte order mark that some editors put before it.
-std::string read_text(const std::filesystem::path& path);
+std::string read_text(const std::filesystem::path& path, std::size_t most_bytes = kMostFileBytes);
 
 /// Throws InputError where writing `output` would replace or remove what is read: one of `inputs`
 /// itself, by whatever path, symbolic or hard link, or a folder that holds one.

@@ -28,6 +28,10 @@ std::string sensor_row(std::int64_t time_ns, std::initializer_list<double> value
 void write_sensor(const std::filesystem::path& folder, const std::string& columns,
                   const std::string& rows, const std::string& yaml);
 
+/// The latest time stamp, and the negative of the earliest: in 2112. Any two, with the offset of a
+/// clock, are less apart than 64 bits can tell.
+inline constexpr std::int64_t kMostTimeNs = 4'500'000'000'000'000'000;
+
 /// Bounds of what `attitude0` may say: no survey of a floor flies more tilted, but degrees taken
 /// for radians are beyond.
 inline constexpr double kMostTiltRad = 1.0;

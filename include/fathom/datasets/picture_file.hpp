@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -9,9 +10,12 @@
 
 namespace fathom {
 
+/// The largest picture, in pixels: more than a camera has, little enough to decode.
+inline constexpr std::uint64_t kMostPicturePixels = 1U << 28U;
+
 /// A picture as 8-bit grey, in the rows and columns of the sensor: a rotation tag is ignored. Of 16
 /// bits the lower part that nearly all pixels use is spread over 8.
-/// Throws InputError naming the file.
+/// Throws InputError naming the file, also on more than kMostPicturePixels, which are not decoded.
 cv::Mat read_grey_picture(const std::filesystem::path& path);
 
 /// The same of a file's bytes; the path is for messages.

@@ -39,8 +39,8 @@ AttitudeSeries::AttitudeSeries(const std::filesystem::path& path, const SensorYa
     tilts_.push_back({tilt, sigma(csv, row)});
     lines_.push_back(row.line);
   }
-  kept_ = yaml.keeps_outliers ? std::vector<bool>(tilts_.size(), true)
-                              : plausible_tilts(times_, tilts_);
+  kept_ = KeptReadings(yaml.keeps_outliers ? std::vector<bool>(tilts_.size(), true)
+                                           : plausible_tilts(times_, tilts_));
 }
 
 std::optional<MeasuredTilt> AttitudeSeries::at(std::int64_t time_ns,
@@ -63,12 +63,12 @@ std::optional<MeasuredTilt> AttitudeSeries::at(std::int64_t time_ns,
 }
 
 std::optional<std::string> AttitudeSeries::remark() const {
-  const auto first = first_left_out(kept_);
+  const auto first = first_left_out(kept_.all());
   if (!first) return std::nullopt;
   const Tilt& left_out = tilts_[*first].tilt;
   const Tilt expected = at(times_.at(*first), 0).value().tilt;
   return left_out_remark(
-      "attitude0", kept_, lines_[*first],
+      "attitude0", kept_.all(), lines_[*first],
       fmt::format("roll and pitch {}, {} rad where its neighbours have {}, {} rad",
                   short_number(left_out.roll_rad), short_number(left_out.pitch_rad),
                   short_number(expected.roll_rad), short_number(expected.pitch_rad)));

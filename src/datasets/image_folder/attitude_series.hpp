@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "fathom/vision/camera.hpp"
+#include "kept_readings.hpp"
 #include "sensor_series.hpp"
 
 namespace fathom {
@@ -30,7 +31,7 @@ class AttitudeSeries {
   TimeLine times_;
   std::vector<MeasuredTilt> tilts_;
   std::vector<std::size_t> lines_;
-  std::vector<bool> kept_;
+  KeptReadings kept_;
 };
 
 }  // namespace fathom

@@ -9,6 +9,7 @@
 #include "fathom/core/input_error.hpp"
 #include "fathom/core/options.hpp"
 #include "fathom/core/text.hpp"
+#include "fathom/core/yaml_limits.hpp"
 #include "fathom/datasets/asl_files.hpp"
 
 namespace fathom {
@@ -19,8 +20,10 @@ const char* const kNoDistortion = "none";
 class CameraReader {
  public:
   explicit CameraReader(const std::filesystem::path& path) : file_(path.string()) {
+    const std::string text = read_text(path, kMostYamlBytes);
+    require_yaml_within_limits(text, file_);
     try {
-      root_ = YAML::Load(read_text(path));
+      root_ = YAML::Load(text);
     } catch (const YAML::Exception& error) {
       throw InputError(file_, line_of(error.mark), "is not valid YAML: " + error.msg);
     }

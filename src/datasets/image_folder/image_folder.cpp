@@ -15,7 +15,6 @@
 #include "fathom/datasets/asl_files.hpp"
 #include "fathom/datasets/picture_file.hpp"
 #include "reading_outliers.hpp"
-#include "sensor_csv.hpp"
 #include "sensor_series.hpp"
 #include "sensor_yaml.hpp"
 
@@ -75,34 +74,6 @@ ImageFolder::ImageFolder(const fs::path& path, const OdometryGaps& gaps) : mav0_
   remark(hidden_pictures_remark(pictures_.front().parent_path()));
   ids_ = std::vector<PictureId>(pictures_.size());
   ImageFolder::image(0);  // refuses what cannot be read before a run starts
-}
-
-void ImageFolder::read_frames() {
-  const SensorCsv csv(mav0_ / "cam0" / "data.csv", "timestamp, filename");
-  for (const SensorRow& row : csv.rows()) {
-    const fs::path picture = mav0_ / "cam0" / "data" / row.fields[1];
-    std::error_code error;
-    if (!fs::is_regular_file(picture, error)) {
-      csv.refuse(row, "picture " + picture.string() + " is missing; add it or remove this row");
-    }
-    FrameInfo info;
-    info.time_ns = row.time_ns;
-    infos_.push_back(info);
-    pictures_.push_back(picture);
-  }
-  refuse_other_units(csv);
-}
-
-// Pictures closer than that are none of a camera's; whole seconds are a nanosecond apart.
-void ImageFolder::refuse_other_units(const SensorCsv& csv) const {
-  constexpr std::int64_t kLeastIntervalNs = 1000;
-  const auto intervals = static_cast<std::int64_t>(infos_.size()) - 1;
-  if (intervals == 0) return;
-  const std::int64_t mean_ns = (infos_.back().time_ns - infos_.front().time_ns) / intervals;
-  if (mean_ns >= kLeastIntervalNs) return;
-  csv.refuse(csv.rows().back(), "pictures are " + std::to_string(mean_ns) +
-                                    " ns apart in the mean; are the time stamps seconds? "
-                                    "expected nanoseconds");
 }
 
 // A clock that is put right leaves pictures at one end without a reading.

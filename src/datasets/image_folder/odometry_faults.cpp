@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <functional>
+#include <utility>
 
 #include "fathom/core/text.hpp"
+#include "kept_readings.hpp"
 #include "sensor_outliers.hpp"
 #include "sensor_series.hpp"
 
@@ -44,6 +47,13 @@ class OdometrySteps {
     std::nth_element(sorted.begin(), ordinary, sorted.end());
     const double least_m_s = std::max(speed_limit_m_s, kTimesFaster * *ordinary);
     for (const double speed_m_s : speeds_m_s) is_fast_.push_back(speed_m_s > least_m_s);
+    std::vector<bool> is_slow = is_fast_;
+    is_slow.flip();
+    is_slow[0] = false;
+    slow_ = KeptReadings(std::move(is_slow));
+    for (const UncertainPose& step : steps) turns_rad_.push_back(std::abs(step.mean.theta));
+    std::ranges::partial_sort(turns_rad_, turns_rad_.begin() + 2, std::greater<>());
+    turns_rad_.resize(2);
   }
 
   /// Whether step r is fast, and the steps around it are not: more in a row are a fast vehicle.
@@ -69,10 +79,9 @@ class OdometrySteps {
       return true;
     }
     const double sigma_rad = std::sqrt(steps_[r].covariance(2, 2));
+    const double other_rad = turn_rad == turns_rad_[0] ? turns_rad_[1] : turns_rad_[0];
     return turn_rad > std::max(kLeast_rad, kStatedSigmas * sigma_rad) &&
-           std::ranges::all_of(steps_, [&](const UncertainPose& step) {
-             return &step == &steps_[r] || kTimesFurther * std::abs(step.mean.theta) < turn_rad;
-           });
+           kTimesFurther * other_rad < turn_rad;
   }
 
  private:
@@ -92,17 +101,10 @@ class OdometrySteps {
 
   // The longest of the two nearest steps on either side that are not fast.
   double near_m(std::size_t r) const {
-    constexpr int kEither = 2;
     double most = 0.0;
-    for (std::size_t i = r, taken = 0; i-- > 1 && taken < kEither;) {
-      if (is_fast_[i]) continue;
-      most = std::max(most, length_m(i));
-      ++taken;
-    }
-    for (std::size_t i = r + 1, taken = 0; i < steps_.size() && taken < kEither; ++i) {
-      if (is_fast_[i]) continue;
-      most = std::max(most, length_m(i));
-      ++taken;
+    for (const std::size_t nth : {0U, 1U}) {
+      if (const auto i = slow_.before(r - 1, nth)) most = std::max(most, length_m(*i));
+      if (const auto i = slow_.after(r + 1, nth)) most = std::max(most, length_m(*i));
     }
     return most;
   }
@@ -110,6 +112,8 @@ class OdometrySteps {
   const std::vector<UncertainPose>& steps_;
   std::vector<Pose> poses_;  ///< in the frame of the first
   std::vector<bool> is_fast_;
+  KeptReadings slow_;              ///< steps that are not fast
+  std::vector<double> turns_rad_;  ///< the two largest of any step
 };
 
 struct OdometryFaults {

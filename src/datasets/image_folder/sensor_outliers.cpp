@@ -16,20 +16,6 @@ constexpr double kAllowedTilt_rad = 0.2;
 // Of a tilt, by its own standard deviations.
 constexpr double kAllowedSigmas = 10.0;
 
-// The nearest kept reading at or before i.
-std::optional<std::size_t> kept_before(const std::vector<bool>& kept, std::size_t i) {
-  for (std::size_t j = i + 1; j-- > 0;) {
-    if (kept[j]) return j;
-  }
-  return std::nullopt;
-}
-
-std::optional<std::size_t> kept_after(const std::vector<bool>& kept, std::size_t i) {
-  const auto found = std::find(kept.begin() + static_cast<std::ptrdiff_t>(i), kept.end(), true);
-  if (found == kept.end()) return std::nullopt;
-  return static_cast<std::size_t>(found - kept.begin());
-}
-
 }  // namespace
 
 std::optional<std::size_t> first_left_out(const std::vector<bool>& kept) {
@@ -79,11 +65,11 @@ std::vector<bool> plausible_tilts(const TimeLine& times, const std::vector<Measu
        }});
 }
 
-Filling filling(const TimeLine& times, const std::vector<bool>& kept, const Bracket& in_all,
+Filling filling(const TimeLine& times, const KeptReadings& kept, const Bracket& in_all,
                 std::int64_t time_ns) {
   if (kept[in_all.before] && kept[in_all.after]) return {in_all, 0.0};
-  const auto before = kept_before(kept, in_all.before);
-  const auto after = kept_after(kept, in_all.after);
+  const auto before = kept.before(in_all.before);
+  const auto after = kept.after(in_all.after);
   if (!before || !after) {
     const std::size_t nearest = before ? *before : after.value();
     const auto intervals =
@@ -96,18 +82,16 @@ Filling filling(const TimeLine& times, const std::vector<bool>& kept, const Brac
           std::sqrt(1.0 + static_cast<double>(*after - *before))};
 }
 
-double spread_around(const Bracket& bracket, const std::vector<bool>& kept,
+double spread_around(const Bracket& bracket, const KeptReadings& kept,
                      const std::function<double(std::size_t)>& value) {
   constexpr std::size_t kEither = 2;
   std::vector<double> near;
-  for (std::size_t i = bracket.before + 1; i-- > 0 && near.size() < kEither;) {
-    if (kept[i]) near.push_back(value(i));
+  for (std::size_t nth = 0; nth < kEither; ++nth) {
+    if (const auto i = kept.before(bracket.before, nth)) near.push_back(value(*i));
   }
   const std::size_t first = std::max(bracket.after, bracket.before + 1);
-  for (std::size_t i = first, taken = 0; i < kept.size() && taken < kEither; ++i) {
-    if (!kept[i]) continue;
-    near.push_back(value(i));
-    ++taken;
+  for (std::size_t nth = 0; nth < kEither; ++nth) {
+    if (const auto i = kept.after(first, nth)) near.push_back(value(*i));
   }
   double mean = 0.0;
   for (const double one : near) mean += one / static_cast<double>(near.size());

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "fathom/vision/camera.hpp"
+#include "kept_readings.hpp"
 #include "sensor_series.hpp"
 
 namespace fathom {
@@ -35,11 +36,11 @@ struct Filling {
 };
 
 /// The kept readings around a time, whose bracket in all of them is known.
-Filling filling(const TimeLine& times, const std::vector<bool>& kept, const Bracket& in_all,
+Filling filling(const TimeLine& times, const KeptReadings& kept, const Bracket& in_all,
                 std::int64_t time_ns);
 
 /// The standard deviation of what the two nearest kept readings on either side say.
-double spread_around(const Bracket& bracket, const std::vector<bool>& kept,
+double spread_around(const Bracket& bracket, const KeptReadings& kept,
                      const std::function<double(std::size_t)>& value);
 
 }  // namespace fathom

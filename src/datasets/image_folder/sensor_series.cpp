@@ -79,8 +79,8 @@ AltitudeSeries::AltitudeSeries(const std::filesystem::path& path, const SensorYa
     const SensorRow& row = *not_above.front();
     csv.refuse(row, "altitude " + row.fields[1] + " is not above the floor; expected metres > 0");
   }
-  kept_ = yaml.keeps_outliers ? std::vector<bool>(count, true)
-                              : plausible_altitudes(times_, altitudes_m_);
+  kept_ = KeptReadings(yaml.keeps_outliers ? std::vector<bool>(count, true)
+                                           : plausible_altitudes(times_, altitudes_m_));
 }
 
 std::optional<AltitudeAt> AltitudeSeries::at(std::int64_t time_ns, std::int64_t max_gap_ns) const {
@@ -100,10 +100,10 @@ std::optional<AltitudeAt> AltitudeSeries::at(std::int64_t time_ns, std::int64_t 
 }
 
 std::optional<std::string> AltitudeSeries::remark() const {
-  const auto first = first_left_out(kept_);
+  const auto first = first_left_out(kept_.all());
   if (!first) return std::nullopt;
   const double expected_m = at(times_.at(*first), 0).value().altitude_m;
-  return left_out_remark("altimeter0", kept_, lines_[*first],
+  return left_out_remark("altimeter0", kept_.all(), lines_[*first],
                          fmt::format("{} m where its neighbours have {} m",
                                      short_number(altitudes_m_[*first]), short_number(expected_m)));
 }

@@ -8,6 +8,7 @@
 
 #include "fathom/datasets/odometry_gaps.hpp"
 #include "fathom/geometry/covariance.hpp"
+#include "kept_readings.hpp"
 #include "sensor_yaml.hpp"
 
 namespace fathom {
@@ -64,7 +65,7 @@ class AltitudeSeries {
   TimeLine times_;
   std::vector<double> altitudes_m_;
   std::vector<std::size_t> lines_;
-  std::vector<bool> kept_;
+  KeptReadings kept_;
 };
 
 /// `odometry0/data.csv`: time, integrated pose in its own frame, the variances of x, y, θ of the

@@ -13,6 +13,7 @@
 #include "fathom/core/input_error.hpp"
 #include "fathom/core/options.hpp"
 #include "fathom/core/text.hpp"
+#include "fathom/core/yaml_limits.hpp"
 
 namespace fathom {
 namespace {
@@ -22,8 +23,10 @@ std::size_t line_of(const YAML::Mark& mark) {
 }
 
 YAML::Node root_of(const std::filesystem::path& path) {
+  const std::string text = read_text(path, kMostYamlBytes);
+  require_yaml_within_limits(text, path.string());
   try {
-    return YAML::Load(read_text(path));
+    return YAML::Load(text);
   } catch (const YAML::Exception& error) {
     throw InputError(path.string(), line_of(error.mark), "is not valid YAML: " + error.msg);
   }

@@ -12,6 +12,8 @@
 namespace fathom {
 namespace {
 
+constexpr std::uint64_t kMostChunkBytes = 1'000'000'000;
+
 class Records {
  public:
   explicit Records(const std::filesystem::path& path)
@@ -35,6 +37,11 @@ class Records {
     position_ += length();
     file_.seekg(static_cast<std::streamoff>(position_));
     return header;
+  }
+
+  [[noreturn]] void refuse_chunk(std::uint64_t bytes) const {
+    throw InputError(path_.string(), "has a chunk of " + std::to_string(bytes) +
+                                         " bytes; the limit is " + std::to_string(kMostChunkBytes));
   }
 
   [[noreturn]] void refuse_cut() const {
@@ -61,10 +68,11 @@ class Records {
   std::uint64_t position_ = 0;
 };
 
-// Of a field `name=` and eight bytes, in a header of fields each after its length.
-std::uint64_t field(std::string_view header, std::string_view name) {
+// Of a field `name=` and its bytes, in a header of fields each after its length.
+template <class Number>
+Number field(std::string_view header, std::string_view name) {
   const std::size_t at = header.find(name);
-  std::uint64_t value = 0;
+  Number value = 0;
   if (at == std::string_view::npos || header.size() - at - name.size() < sizeof value) return 0;
   std::memcpy(&value, header.data() + at + name.size(), sizeof value);
   return value;
@@ -74,8 +82,16 @@ std::uint64_t field(std::string_view header, std::string_view name) {
 
 void check_ros1_records(const std::filesystem::path& path) {
   Records records(path);
-  if (records.is_at_end() || field(records.next(), "index_pos=") == 0) records.refuse_cut();
-  while (!records.is_at_end()) records.next();
+  if (records.is_at_end() || field<std::uint64_t>(records.next(), "index_pos=") == 0)
+    records.refuse_cut();
+  while (!records.is_at_end()) {
+    const std::string header = records.next();
+    constexpr std::uint8_t kChunk = 5;
+    if (field<std::uint8_t>(header, "op=") != kChunk) continue;
+    // What librosbag makes room for, however few bytes it is packed in.
+    const auto bytes = field<std::uint32_t>(header, "size=");
+    if (bytes > kMostChunkBytes) records.refuse_chunk(bytes);
+  }
 }
 
 }  // namespace fathom

@@ -10,6 +10,7 @@
 #include "fathom/core/files.hpp"
 #include "fathom/core/input_error.hpp"
 #include "fathom/core/text.hpp"
+#include "fathom/core/yaml_limits.hpp"
 #include "fathom/datasets/picture_folder.hpp"
 
 namespace fathom {
@@ -28,7 +29,9 @@ std::string word(const YAML::Node& info, const char* key) {
 }
 
 std::vector<fs::path> named_files(const fs::path& folder, const fs::path& metadata) {
-  const YAML::Node root = YAML::Load(read_text(metadata));
+  const std::string text = read_text(metadata, kMostYamlBytes);
+  require_yaml_within_limits(text, metadata.string());
+  const YAML::Node root = YAML::Load(text);
   const YAML::Node info = root.IsMap() ? root["rosbag2_bagfile_information"] : YAML::Node();
   if (!info || !info.IsMap()) {
     throw InputError(metadata.string(), "has no rosbag2_bagfile_information");

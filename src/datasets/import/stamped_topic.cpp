@@ -6,6 +6,7 @@
 
 #include "fathom/core/input_error.hpp"
 #include "fathom/core/text.hpp"
+#include "fathom/datasets/asl_files.hpp"
 
 namespace fathom {
 namespace {
@@ -22,6 +23,10 @@ std::optional<std::int64_t> StampedTopic::next(std::int64_t record_ns,
   if (clock_ == BagClock::record) stamp_ns.reset();
   if (stamp_ns == 0 && record_ns != 0) {
     throw InputError(fmt::format("topic {}: its header has no time stamp (0); {}", name_, kRemedy));
+  }
+  if (record_ns < -kMostTimeNs || record_ns > kMostTimeNs) {
+    throw InputError(fmt::format("topic {}: a message was recorded at {} ns; the limit is {} ns",
+                                 name_, record_ns, kMostTimeNs));
   }
   const Time time{stamp_ns.value_or(record_ns), record_ns - stamp_ns.value_or(record_ns)};
   const auto place = std::ranges::upper_bound(times_, time.time_ns, {}, &Time::time_ns);
