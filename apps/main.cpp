@@ -37,10 +37,8 @@ std::string joined(int argc, char** argv) {
   return line;
 }
 
-// One line that a terminal shows whole, whatever the names in it hold.
+// One line, whatever the names in it hold.
 ExitStatus refused(std::string message, ExitStatus status = kBadInput) {
-  constexpr std::size_t kLongest = 4000;
-  if (message.size() > kLongest) message = message.substr(0, kLongest) + " …";
   while (!message.empty() && message.back() == '\n') message.pop_back();
   for (char& letter : message) {
     if (static_cast<unsigned char>(letter) < 0x20) letter = ' ';

@@ -42,21 +42,33 @@ std::string written_out(const CodePoint& point) {
   return text;
 }
 
-std::string printable_line(std::string_view line, std::size_t longest) {
-  std::string shown;
-  for (std::size_t count = 0; !line.empty(); ++count) {
-    if (count == longest) {
-      return shown + "… (" + std::to_string(line.size()) + " bytes more)";
-    }
-    const CodePoint point = first_code_point(line);
+std::string shown(std::string_view text) {
+  std::string result;
+  while (!text.empty()) {
+    const CodePoint point = first_code_point(text);
     if (point.valid && is_shown_as_it_is(point.value)) {
-      shown += line.substr(0, point.bytes);
+      result += text.substr(0, point.bytes);
     } else {
-      shown += written_out(point);
+      result += written_out(point);
     }
-    line.remove_prefix(point.bytes);
+    text.remove_prefix(point.bytes);
   }
-  return shown;
+  return result;
+}
+
+// The first byte of a character, from here on.
+std::size_t begin_of_character(std::string_view text, std::size_t at) {
+  while (at < text.size() && (static_cast<unsigned char>(text[at]) & 0xC0U) == 0x80) ++at;
+  return at;
+}
+
+// What is wrong stands at the end of many a message, and what it is about at the beginning.
+std::string printable_line(std::string_view line, std::size_t longest) {
+  if (line.size() <= longest) return shown(line);
+  const std::size_t head = begin_of_character(line, longest - longest / 4);
+  const std::size_t tail = std::max(head, begin_of_character(line, line.size() - longest / 4));
+  return shown(line.substr(0, head)) + "… (" + std::to_string(tail - head) + " bytes) …" +
+         shown(line.substr(tail));
 }
 
 }  // namespace
@@ -94,12 +106,12 @@ std::string drawable_text(std::string_view text) {
 }
 
 std::string printable(std::string_view text, std::size_t longest_line) {
-  std::string shown;
+  std::string lines;
   while (true) {
     const std::size_t end = text.find('\n');
-    shown += printable_line(text.substr(0, end), longest_line);
-    if (end == std::string_view::npos) return shown;
-    shown += '\n';
+    lines += printable_line(text.substr(0, end), longest_line);
+    if (end == std::string_view::npos) return lines;
+    lines += '\n';
     text.remove_prefix(end + 1);
   }
 }

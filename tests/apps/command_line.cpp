@@ -66,14 +66,10 @@ Ended CommandLine::fathom(const Arguments& arguments,
           read_file(output / "err")};
 }
 
-namespace {
-
 std::string without_notes(std::string errors) {
   while (errors.starts_with("fathom: note: ")) errors.erase(0, errors.find('\n') + 1);
   return errors;
 }
-
-}  // namespace
 
 Ended CommandLine::fathom_done(const Arguments& arguments) const {
   const Ended ended = fathom(arguments);

@@ -22,6 +22,9 @@ struct Ended {
   std::string err;
 };
 
+/// Standard error behind the notes that it begins with.
+std::string without_notes(std::string errors);
+
 /// What the program finds where it is started.
 struct Surroundings {
   std::map<std::string, std::string> environment;  ///< beside what the test itself has

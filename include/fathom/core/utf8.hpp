@@ -23,7 +23,7 @@ std::string drawable_text(std::string_view text);
 
 /// Text that holds what others wrote, as it may stand on a terminal. Control characters but line
 /// feed and tab, those that turn the direction of writing, and bytes that are no UTF-8 are written
-/// out, `<U+202E>` and `<0x9B>`; of a line longer than this the rest is counted.
+/// out, `<U+202E>` and `<0x9B>`; of a line of more bytes than this the middle is counted.
 std::string printable(std::string_view text, std::size_t longest_line = 4000);
 
 }  // namespace fathom
