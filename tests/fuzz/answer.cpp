@@ -33,6 +33,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::filesystem::path file = folder.write("answer", "END\n" + text);
   command::ProgramGraph graph;
   graph.poses.resize(kNodes);
-  let_fail([&] { return command::Dialogue({"/bin/cat", file.string(), "-"}, 1).solve(graph); });
+  // It ends when it has been told all: three lines at first, then two nodes and two commands.
+  const std::string program = "cat " + file.string() + "; head -n 7 > /dev/null";
+  let_fail([&] { return command::Dialogue({"/bin/sh", "-c", program}, 1).solve(graph); });
   return 0;
 }

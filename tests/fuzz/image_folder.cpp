@@ -1,24 +1,31 @@
 // An image folder of text files, each below a line `==== NAME`, with three pictures of 8×6 pixels
 // that are always there: read, and looked at as `fathom check` does.
+#include "fathom/datasets/image_folder.hpp"
+
 #include <array>
 
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 
 #include "fathom/datasets/folder_summary.hpp"
-#include "fathom/datasets/image_folder.hpp"
 #include "support/fuzz.hpp"
 
 namespace {
 
 using namespace fathom;
 
-constexpr std::array kFiles{"cam0/data.csv",        "cam0/sensor.yaml",
-                            "altimeter0/data.csv",  "altimeter0/sensor.yaml",
-                            "odometry0/data.csv",   "odometry0/sensor.yaml",
-                            "attitude0/data.csv",   "attitude0/sensor.yaml",
-                            "compass0/data.csv",    "compass0/sensor.yaml",
-                            "position0/data.csv",   "position0/sensor.yaml",
+constexpr std::array kFiles{"cam0/data.csv",
+                            "cam0/sensor.yaml",
+                            "altimeter0/data.csv",
+                            "altimeter0/sensor.yaml",
+                            "odometry0/data.csv",
+                            "odometry0/sensor.yaml",
+                            "attitude0/data.csv",
+                            "attitude0/sensor.yaml",
+                            "compass0/data.csv",
+                            "compass0/sensor.yaml",
+                            "position0/data.csv",
+                            "position0/sensor.yaml",
                             "state_groundtruth_estimate0/data.csv"};
 
 class Survey : public fuzz::Folder {

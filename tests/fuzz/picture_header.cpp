@@ -1,5 +1,6 @@
 // The first bytes of a picture, and a PNG without its damaged parts.
 #include "src/datasets/picture_header.hpp"
+
 #include "support/fuzz.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -12,8 +12,7 @@ using namespace fathom;
 std::vector<StampedPose> in_plane(const SpatialTrajectory& trajectory) {
   std::vector<StampedPose> poses;
   for (const auto& [time_ns, pose] : trajectory.poses) {
-    poses.push_back(
-        {time_ns, {pose.position_m.x(), pose.position_m.y(), yaw_of(pose.rotation)}});
+    poses.push_back({time_ns, {pose.position_m.x(), pose.position_m.y(), yaw_of(pose.rotation)}});
   }
   return poses;
 }
