@@ -18,8 +18,8 @@ constexpr std::size_t kMostKeyframes = 24;
 // One life of an estimator, and all that it said as one number.
 class Life {
  public:
-  Life(GuardedEstimator& estimator, const StartPose& start)
-      : estimator_(estimator), start_(start) {}
+  Life(GuardedEstimator& estimator, const EstimatorSetup& setup)
+      : estimator_(estimator), start_(setup.start), mode_(setup.mode) {}
 
   void live(fuzz::Draws& draws) {
     if (!start_.is_fixed()) measure(draws, 0);
@@ -27,7 +27,8 @@ class Life {
       const std::size_t k = estimator_.size();
       const std::uint8_t what = draws.byte();
       RelativePose step = fuzz::drawn_motion(draws, k - 1, k);
-      step.is_hole = what % 8 == 0;
+      // Of a batch solve all must hold together without the holes.
+      step.is_hole = mode_ == SolveMode::incremental && what % 8 == 0;
       has_hole_ = has_hole_ || step.is_hole;
       estimator_.add_keyframe(step);
       if (what & 16) measure(draws, k);
@@ -104,6 +105,7 @@ class Life {
 
   GuardedEstimator& estimator_;
   StartPose start_;
+  SolveMode mode_;
   bool has_hole_ = false;
   Hash said_;
 };
@@ -113,14 +115,14 @@ std::optional<std::uint64_t> said_by_one(fuzz::Draws draws) {
   const EstimatorEntry& entry = entries[draws.below(entries.size())];
   const bool is_batch = entry.can_batch && draws.below(2) == 1;
   const SolveMode mode = is_batch ? SolveMode::batch : SolveMode::incremental;
-  const StartPose start = fuzz::drawn_start(draws, mode);
+  const EstimatorSetup setup{fuzz::drawn_start(draws, mode), mode};
   const EstimatorValues values = fuzz::drawn_values(draws, entry);
   std::optional<GuardedEstimator> estimator;
   // Options that do not go together are refused.
-  if (!fuzz::is_taken([&] { estimator.emplace(entry, EstimatorSetup{start, mode}, values); })) {
+  if (!fuzz::is_taken([&] { estimator.emplace(entry, setup, values); })) {
     return std::nullopt;
   }
-  Life life(*estimator, start);
+  Life life(*estimator, setup);
   life.live(draws);
   return life.said();
 }
