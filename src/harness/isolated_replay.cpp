@@ -51,23 +51,11 @@ void replay_in_child(const MessagePipe& parent, const MeasurementLog& log,
 
 // What a child with a damaged heap sends may be anything.
 Run whole_run(const std::string& bytes, const MeasurementLog& log, const ReplayOptions& options) {
-  Run run;
   try {
-    run = run_of(bytes, options);
+    return run_of(bytes, log, options);
   } catch (const std::exception& error) {
     throw DamagedMessage(error.what());
   }
-  const std::size_t loops = log.registration_count();
-  const std::size_t absolute = log.absolute_count();
-  const bool fits =
-      run.trajectory.size() == log.size() && run.loops.size() == loops &&
-      run.loop_weights.size() == loops && run.absolute.size() == absolute &&
-      run.absolute_weights.size() == absolute &&
-      (!run.covariances || run.covariances->size() == log.size()) &&
-      run.outcome >= Outcome::converged &&
-      run.outcome <= (run.fault.empty() ? Outcome::numerical_failure : Outcome::crashed);
-  if (!fits) throw DamagedMessage("it is not of this log");
-  return run;
 }
 
 }  // namespace

@@ -11,8 +11,8 @@ namespace fathom {
 /// what was asked for is known to both.
 std::string bytes_of(const Run& run);
 
-/// The run of these bytes; `asked` are the options that it was made with. Throws
-/// std::runtime_error where they are not whole.
-Run run_of(std::string_view bytes, const ReplayOptions& asked);
+/// The run of these bytes, which were anybody's: `log` is what was replayed, `asked` the options.
+/// Throws std::runtime_error where they are not whole, or no run of this log.
+Run run_of(std::string_view bytes, const MeasurementLog& log, const ReplayOptions& asked);
 
 }  // namespace fathom

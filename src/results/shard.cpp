@@ -57,8 +57,8 @@ Shard parse_shard(const std::string& text) {
   const auto of = slash == std::string::npos ? std::nullopt : parse_integer(text.substr(slash + 1));
   constexpr std::int64_t kMost = 1'000'000;
   if (!index || !of || *index < 1 || *of < 1 || *index > *of || *of > kMost) {
-    throw InputError("--shard: '" + text +
-                     "' is no part of a study; expected K/N with K from 1 to "
+    throw InputError("--shard: " + in_quotes(text) +
+                     " is no part of a study; expected K/N with K from 1 to "
                      "N, for example 3/7");
   }
   return {static_cast<std::size_t>(*index), static_cast<std::size_t>(*of)};

@@ -1,0 +1,13 @@
+// A bag of ROS 1: a small one that the tests' own writer has written, with some of its bytes
+// replaced.
+#include "support/bags.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace fathom;
+  static const fuzz::Folder folder("ros1");
+  static const std::string sound = fuzz::small_bag(
+      folder.path() / "sound.bag", [](const auto& path) { return test::ros1_bag_writer(path); });
+  if (sound.empty()) return 0;
+  fuzz::import(folder, folder.write("edited.bag", fuzz::edited(sound, fuzz::Draws(data, size))));
+  return 0;
+}
