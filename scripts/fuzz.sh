@@ -42,7 +42,8 @@ cmake -G Ninja -S . -B $build -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_BUILD_TYP
   { cat $build/configure.log >&2 && fail "CMake could not configure $build (above)"; }
 
 mapfile -t known < $build/fuzz_targets.txt
-targets=("${asked[@]:-${known[@]}}")
+targets=("${asked[@]}")
+if [[ ${#targets[@]} -eq 0 ]]; then targets=("${known[@]}"); fi
 for target in "${targets[@]}"; do
   [[ " ${known[*]} " == *" $target "* ]] || fail "no fuzzer '$target'; there are: ${known[*]}"
 done
@@ -56,8 +57,7 @@ stat_of() {
 # Where memory was allocated is told by a few frames, which costs less.
 export ASAN_OPTIONS=malloc_context_size=4:quarantine_size_mb=32
 status=0
-table=$build/fuzzing.txt
-printf '%-20s %12s %10s %12s %9s\n' target executions seconds 'a second' findings > $table
+printf '%-20s %12s %10s %12s %9s\n' target executions seconds 'a second' findings
 for target in "${targets[@]}"; do
   corpus=$build/corpus/$target
   findings=$build/findings/$target
@@ -72,7 +72,6 @@ for target in "${targets[@]}"; do
   nice "$build/fuzz_$target" "${options[@]}" "${inputs[@]}" > "$log" 2>&1 || status=1
   count=$(find "$findings" -type f | wc -l)
   printf '%-20s %12s %10s %12s %9s\n' "$target" "$(stat_of number_of_executed_units "$log")" \
-    "$SECONDS" "$(stat_of average_exec_per_sec "$log")" "$count" | tee -a $table
+    "$SECONDS" "$(stat_of average_exec_per_sec "$log")" "$count"
 done
-cat $table
 exit "$status"

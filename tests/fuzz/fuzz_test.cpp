@@ -54,7 +54,7 @@ TEST_P(FuzzTarget, TakesWhatWasAFinding) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, FuzzTarget, ::testing::ValuesIn(kTargets),
-                         [](const auto& info) { return std::string(info.param.name); });
+                         [](const auto& target) { return std::string(target.param.name); });
 
 }  // namespace
 }  // namespace fathom::fuzz

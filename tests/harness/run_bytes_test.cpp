@@ -40,8 +40,8 @@ std::string refusal_of_run(const std::function<void(Run&)>& spoil) {
 }
 
 TEST(RunBytes, ARunComesBackAsItWas) {
-  const Run run = run_of_log();
-  const Run again = run_of(bytes_of(run), log_with_heading(), {});
+  const fathom::Run run = run_of_log();
+  const fathom::Run again = run_of(bytes_of(run), log_with_heading(), {});
   EXPECT_EQ(again.trajectory, run.trajectory);
   EXPECT_EQ(again.covariances, run.covariances);
   ASSERT_EQ(again.loops.size(), run.loops.size());
@@ -51,7 +51,7 @@ TEST(RunBytes, ARunComesBackAsItWas) {
 }
 
 TEST(RunBytes, AFlagIsZeroOrOne) {
-  const Run run = run_of_log();
+  const fathom::Run run = run_of_log();
   std::string bytes = bytes_of(run);
   // Behind the trajectory: whether there are covariances.
   bytes[sizeof(std::size_t) + run.trajectory.size() * sizeof(Pose)] = 2;
@@ -59,26 +59,29 @@ TEST(RunBytes, AFlagIsZeroOrOne) {
 }
 
 TEST(RunBytes, AWordIsOneOfItsKind) {
-  EXPECT_THAT(refusal_of_run([](Run& run) { run.loops[0].fate = static_cast<LoopFate>(7); }),
-              HasSubstr("word"));
-  EXPECT_THAT(refusal_of_run([](Run& run) { run.outcome = static_cast<Outcome>(-1); }),
+  EXPECT_THAT(
+      refusal_of_run([](fathom::Run& run) { run.loops[0].fate = static_cast<LoopFate>(7); }),
+      HasSubstr("word"));
+  EXPECT_THAT(refusal_of_run([](fathom::Run& run) { run.outcome = static_cast<Outcome>(-1); }),
               HasSubstr("word"));
 }
 
 TEST(RunBytes, ADecisionIsOnAMeasurementOfTheLog) {
-  EXPECT_EQ(refusal_of_run([](Run&) {}), "");
-  EXPECT_EQ(refusal_of_run([](Run& run) { std::swap(run.loops[0].from, run.loops[0].to); }), "");
-  EXPECT_THAT(refusal_of_run([](Run& run) { run.loops[2].from = 1'000'000; }),
+  EXPECT_EQ(refusal_of_run([](fathom::Run&) {}), "");
+  EXPECT_EQ(refusal_of_run([](fathom::Run& run) { std::swap(run.loops[0].from, run.loops[0].to); }),
+            "");
+  EXPECT_THAT(refusal_of_run([](fathom::Run& run) { run.loops[2].from = 1'000'000; }),
               HasSubstr("not of this log"));
-  EXPECT_THAT(refusal_of_run([](Run& run) { run.absolute[0].keyframe = 8; }),
+  EXPECT_THAT(refusal_of_run([](fathom::Run& run) { run.absolute[0].keyframe = 8; }),
               HasSubstr("not of this log"));
-  EXPECT_THAT(refusal_of_run([](Run& run) { run.loops.pop_back(); }), HasSubstr("not of this log"));
+  EXPECT_THAT(refusal_of_run([](fathom::Run& run) { run.loops.pop_back(); }),
+              HasSubstr("not of this log"));
 }
 
 TEST(RunBytes, CovariancesAreOfTheMotionsThatWereAskedFor) {
   ReplayOptions asked;
   asked.motions = {{MotionsOver::anchors, 1.0, {{0, 3}, {0, 4}}, {}}};
-  Run run = run_of_log();
+  fathom::Run run = run_of_log();
   run.motions = asked.motions;
   run.motions[0].covariances.resize(1, Eigen::Matrix3d::Identity());
   EXPECT_ANY_THROW(run_of(bytes_of(run), log_with_heading(), asked));

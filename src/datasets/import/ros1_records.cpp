@@ -37,7 +37,7 @@ std::optional<std::string_view> field(std::string_view header, std::string_view 
 }
 
 template <class Number>
-Number number(std::string_view header, std::string_view name) {
+Number field_number(std::string_view header, std::string_view name) {
   const std::string_view bytes = field(header, name).value_or("");
   Number value = 0;
   if (bytes.size() == sizeof value) std::memcpy(&value, bytes.data(), sizeof value);
@@ -63,7 +63,7 @@ class Records {
   /// its records are the next ones.
   std::string next() {
     std::string header = fields();
-    const auto kind = number<std::uint8_t>(header, "op=");
+    const auto kind = field_number<std::uint8_t>(header, "op=");
     // A connection's data is a header, too.
     if (kind == kConnection) {
       fields();
@@ -123,13 +123,13 @@ class Records {
 
 void check_ros1_records(const std::filesystem::path& path) {
   Records records(path);
-  if (records.is_at_end() || number<std::uint64_t>(records.next(), "index_pos=") == 0)
+  if (records.is_at_end() || field_number<std::uint64_t>(records.next(), "index_pos=") == 0)
     records.refuse_cut();
   while (!records.is_at_end()) {
     const std::string header = records.next();
-    if (number<std::uint8_t>(header, "op=") != kChunk) continue;
+    if (field_number<std::uint8_t>(header, "op=") != kChunk) continue;
     // What librosbag makes room for, however few bytes it is packed in.
-    const auto bytes = number<std::uint32_t>(header, "size=");
+    const auto bytes = field_number<std::uint32_t>(header, "size=");
     if (bytes > kMostChunkBytes) records.refuse_chunk(bytes);
   }
 }
