@@ -6,8 +6,8 @@
 #include <optional>
 #include <utility>
 
-#include "text_layout.hpp"
 #include "fathom/core/utf8.hpp"
+#include "text_layout.hpp"
 
 namespace fathom {
 namespace {

@@ -6,8 +6,8 @@
 #include <cstdio>
 #include <utility>
 
-#include "fathom/report/table.hpp"
 #include "fathom/core/utf8.hpp"
+#include "fathom/report/table.hpp"
 
 namespace fathom {
 namespace {

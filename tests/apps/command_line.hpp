@@ -46,8 +46,8 @@ class CommandLine : public ::testing::Test {
   Ended fathom_done(const Arguments& arguments) const;
 
   /// The program must refuse its input: status 2, nothing on standard output, one line
-  /// `fathom: error: …` on standard error, behind notes if there are any, and not a file more or less than before. Returns what
-  /// stands after `fathom: error: `.
+  /// `fathom: error: …` on standard error, behind notes if there are any, and not a file more or
+  /// less than before. Returns what stands after `fathom: error: `.
   std::string refusal(const Arguments& arguments) const;
 
   /// Writes a file of the folder and returns its name.

@@ -209,19 +209,6 @@ TEST(StudyFiles, ManyCellsHaveATableAMetric) {
 }
 
 // A name of a file has at most 255 bytes.
-// A label is anybody's text, and a spreadsheet runs what begins as a formula does.
-TEST(StudyFiles, NoCellIsAFormula) {
-  FixtureOptions options;
-  options.trials = 2;
-  options.separations = {"=1+1", "-cmd|x", "@a,\"b\"", "-5", "+3"};
-  options.noises.clear();
-  const std::string runs = written(options, "runs.csv");
-  for (const char* const cell :
-       {",\"'=1+1\",", ",\"'-cmd|x\",", ",\"'@a,\"\"b\"\"\",", ",-5,", ",+3,"}) {
-    EXPECT_THAT(runs, HasSubstr(cell));
-  }
-}
-
 TEST(StudyFiles, LongLabelsStandInTheTablesWhole) {
   FixtureOptions options;
   options.trials = 2;
