@@ -85,7 +85,8 @@ TEST_F(Import, FullDiskIsOneLineAndLeavesNothing) {
   write_db3("dive.db3");
   surroundings_.environment = {{"LD_PRELOAD", FATHOM_TEST_PRELOADED},
                                {"FATHOM_DISK_BYTES", "30000"}};
-  EXPECT_THAT(refusal({"import", "dive.db3", "--out", "dive"}), HasSubstr("not full?"));
+  EXPECT_THAT(refusal({"import", "dive.db3", "--out", "dive"}),
+              HasSubstr("cannot be written: No space left on device"));
 }
 
 TEST_F(Import, WhatIsThereIsNotReplaced) {
