@@ -1,7 +1,6 @@
 #include "apps/command.hpp"
 
-#include <cstdio>
-
+#include "apps/output.hpp"
 #include "fathom/estimators/builtin.hpp"
 
 namespace fathom {
@@ -11,9 +10,7 @@ workflow::KnownEstimators& Context::estimators() {
     EstimatorRegistry begin = builtin_estimators();
     begin.add(command_entry());
     workflow::KnownEstimators known(std::move(begin));
-    for (const std::string& line : known.load_search_path()) {
-      std::fprintf(stderr, "fathom: note: %s\n", line.c_str());
-    }
+    for (const std::string& line : known.load_search_path()) print_note(line);
     estimators_ = std::move(known);
   }
   return *estimators_;

@@ -29,15 +29,13 @@ void load_named_code(Settings& settings, const PluginFlags& flags, workflow::Nam
                      workflow::KnownEstimators& estimators, bool quiet) {
   using workflow::NamedPlugins;
   workflow::NamedCode code = workflow::named_code(settings);
-  const bool runs = named == NamedPlugins::loaded;
-  if (flags.allows_named) named = NamedPlugins::loaded;
-  if (!runs) code.commands.clear();
-  if (!quiet) {
-    print_named_code(runs ? "which is executed"
-                     : named == NamedPlugins::loaded
-                         ? "which is loaded"
-                         : "which is left out (--allow-plugins loads it)",
-                     code);
+  if (named == NamedPlugins::loaded) {
+    if (!quiet) print_named_code("which is executed", code);
+  } else if (flags.allows_named) {
+    named = NamedPlugins::loaded;
+  } else if (!quiet) {
+    code.commands.clear();
+    print_named_code("which is left out (--allow-plugins loads it)", code);
   }
   estimators.load(settings, flags.files, named);
 }

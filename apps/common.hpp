@@ -31,8 +31,8 @@ void add_plugins_to(Command& command, std::vector<std::string>& files);
 /// A note of the code that a configuration names, and what becomes of it; none of none.
 void print_named_code(const std::string& what, const workflow::NamedCode& code);
 
-/// Loads what the flags and, for `loaded` or by --allow-plugins, the settings name. A note says
-/// what a configuration had loaded, what it will have executed, or what was left out; unless quiet.
+/// Loads what the flags and, for `loaded` or by --allow-plugins, the settings name. Unless quiet a
+/// note says what the configuration has executed, for `loaded`, or what of it is left out.
 void load_named_code(Settings& settings, const PluginFlags& flags, workflow::NamedPlugins named,
                      workflow::KnownEstimators& estimators, bool quiet);
 

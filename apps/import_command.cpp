@@ -10,6 +10,7 @@
 #include "apps/output.hpp"
 #include "apps/terminal.hpp"
 #include "fathom/core/files.hpp"
+#include "fathom/core/text.hpp"
 #include "fathom/datasets/image_folder.hpp"
 #include "fathom/datasets/import.hpp"
 #include "fathom/workflow/inputs.hpp"
@@ -55,7 +56,7 @@ void import_into(const ImportFlags& flags, ImportKind kind, StagedFolder& folder
   const std::string target = folder.target().string();
   if (is_survey) {
     print("\nwrote %s\nlook at it with: fathom check %s\n", (folder.target() / "mav0").c_str(),
-          target.c_str());
+          shell_word(target).c_str());
   } else {
     print("\nwrote %s\n      %s\n", (folder.target() / "state_groundtruth_estimate0").c_str(),
           (folder.target() / "reference.tum").c_str());

@@ -6,6 +6,7 @@
 #include "apps/command.hpp"
 #include "apps/common.hpp"
 #include "apps/output.hpp"
+#include "fathom/core/text.hpp"
 #include "fathom/workflow/init.hpp"
 #include "fathom/workflow/inputs.hpp"
 
@@ -28,10 +29,9 @@ void init(const InitFlags& flags, Context& context) {
   for (const std::string& fact : found.facts) print("%s\n", fact.c_str());
   for (const std::string& one : found.assumed) print("assumed: %s\n", one.c_str());
   for (const std::string& warning : found.warnings) print("warning: %s\n", warning.c_str());
-  const char* run = found.run.c_str();
-  const char* study = found.study.c_str();
-  print("\nwrote %s\n      %s\nrun them with: fathom run %s\n               fathom compare %s\n",
-        run, study, run, study);
+  print("\nwrote %s\n      %s\n", found.run.c_str(), found.study.c_str());
+  print("run them with: fathom run %s\n               fathom compare %s\n",
+        shell_word(found.run.string()).c_str(), shell_word(found.study.string()).c_str());
 }
 
 }  // namespace

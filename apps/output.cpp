@@ -2,23 +2,25 @@
 
 #include <cstdarg>
 #include <cstdio>
-#include <vector>
 
 #include "fathom/core/utf8.hpp"
 
 namespace fathom {
 namespace {
 
-[[gnu::format(printf, 2, 0)]] void print_to(std::FILE* stream, const char* format,
-                                            std::va_list arguments) {
+[[gnu::format(printf, 1, 0)]] std::string formatted(const char* format, std::va_list arguments) {
   std::va_list again;
   va_copy(again, arguments);
   const int length = std::vsnprintf(nullptr, 0, format, again);
   va_end(again);
-  if (length < 0) return;
-  std::vector<char> text(static_cast<std::size_t>(length) + 1);
-  std::vsnprintf(text.data(), text.size(), format, arguments);
-  const std::string shown = printable({text.data(), static_cast<std::size_t>(length)});
+  if (length < 0) return "";
+  std::string text(static_cast<std::size_t>(length), '\0');
+  std::vsnprintf(text.data(), text.size() + 1, format, arguments);
+  return text;
+}
+
+void write_to(std::FILE* stream, const std::string& text) {
+  const std::string shown = printable(text);
   std::fwrite(shown.data(), 1, shown.size(), stream);
 }
 
@@ -27,15 +29,23 @@ namespace {
 void print(const char* format, ...) {
   std::va_list arguments;
   va_start(arguments, format);
-  print_to(stdout, format, arguments);
+  write_to(stdout, formatted(format, arguments));
   va_end(arguments);
 }
 
 void print_error(const char* format, ...) {
   std::va_list arguments;
   va_start(arguments, format);
-  print_to(stderr, format, arguments);
+  write_to(stderr, formatted(format, arguments));
   va_end(arguments);
+}
+
+std::string printed(const char* format, ...) {
+  std::va_list arguments;
+  va_start(arguments, format);
+  std::string text = formatted(format, arguments);
+  va_end(arguments);
+  return text;
 }
 
 void print_note(const std::string& note) {

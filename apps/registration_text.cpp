@@ -1,22 +1,12 @@
 #include "apps/registration_text.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdarg>
-#include <cstdio>
+
+#include "apps/output.hpp"
 
 namespace fathom {
 namespace {
-
-[[gnu::format(printf, 1, 2)]] std::string printed(const char* format, ...) {
-  std::array<char, 160> text{};
-  std::va_list values;
-  va_start(values, format);
-  std::vsnprintf(text.data(), text.size(), format, values);
-  va_end(values);
-  return text.data();
-}
 
 std::string line(const char* name, const std::string& value) {
   return printed("  %-16s ", name) + value + '\n';

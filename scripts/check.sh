@@ -14,7 +14,7 @@
 # Each stage has a log in build/check, and a line in build/check/record.tsv: stage, result, what was
 # counted, seconds, commit, date. Exit status 1 where one failed.
 set -uo pipefail
-cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/.."
+cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/.." || exit 2
 
 all=(asan tsan clang tidy fuzz faults)
 # Tests of studies with jobs, of pools, locks and what threads share.

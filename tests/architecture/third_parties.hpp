@@ -23,6 +23,7 @@ inline const std::vector<ThirdParty>& third_parties() {
       {"pybind11/", {"python/"}},
       {"Python.h", {"python/bridge/"}},
       {"benchmark/", {"benchmarks/"}},
+      {"boost/crc.hpp", {"src/datasets/picture_header.cpp"}},
       {"boost/math/", {"src/core/chi_squared.cpp", "src/evaluation/distributions.cpp"}},
       {"ceres/", {"estimators/ceres_pose_graph/"}},
       {"SESync/", {"adapters/se_sync/"}},

@@ -35,7 +35,7 @@ std::optional<ShardPlan> shard_plan(const std::string& manifest);
 /// What was typed to begin a session, fit to be typed again: a manifest may be anybody's, so it is
 /// made anew of the words of a `fathom compare …`, each quoted for a shell. Empty where the
 /// manifest has none, or one of another program, with characters that are not shown as they are, or
-/// with flags that load code.
+/// with words that have code executed.
 std::string command_line_of(const std::string& manifest);
 
 /// The command of another shard: the same with its number, in --out, too, where that ends in it;
