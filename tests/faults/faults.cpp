@@ -1,11 +1,13 @@
 // Loaded into the program before all other libraries (LD_PRELOAD): a machine at fault.
 //
-// FATHOM_FAULT_CALL=NAME: write, pwrite64, fsync, rename, open, mkdir, mmap, fork or ftruncate;
-// what does the same by another name counts as that. FATHOM_FAULT_AT=K: from its K-th call on,
-// counted from 1 ... FATHOM_FAULT_COUNT=N: ... N of them (default: 1) ...
+// FATHOM_FAULT_CALL=NAME: write, pwrite64, fsync, rename, renamed, open, mkdir, mmap, fork or
+// ftruncate; what does the same by another name counts as that. `renamed` is a rename that was done
+// and is told as failed, as a network file system does whose answer got lost. FATHOM_FAULT_AT=K:
+// from its K-th call on, counted from 1 ... FATHOM_FAULT_COUNT=N: ... N of them (default: 1) ...
 // FATHOM_FAULT_ERROR=NUMBER: ... fail with this errno.
 // FATHOM_FAULT_PATH=TEXT: of calls with a file, those alone whose path has this in it.
 // FATHOM_FAULT_MET=FILE: is made when the first of them fails.
+// FATHOM_FAULT_CLOCK=SECONDS: apart from all this, added to the time of day.
 //
 // Standard streams, pipes, /proc, /sys and /dev have no faults, nor have other programs than
 // `fathom`. A process has the count of the one that forked it.
@@ -16,6 +18,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <ctime>
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <spawn.h>
@@ -103,7 +106,6 @@ FATHOM_FAULTS(int, fdatasync, (int file), fails_at("fsync", file), -1, (file))
 FATHOM_FAULTS(int, ftruncate, (int file, off_t size), fails_at("ftruncate", file), -1, (file, size))
 FATHOM_FAULTS(int, ftruncate64, (int file, off64_t size), fails_at("ftruncate", file), -1,
               (file, size))
-FATHOM_FAULTS(int, rename, (const char* from, const char* to), fails("rename", to), -1, (from, to))
 FATHOM_FAULTS(int, mkdir, (const char* path, mode_t mode), fails("mkdir", path), -1, (path, mode))
 FATHOM_FAULTS(FILE*, fopen, (const char* path, const char* mode), fails("open", path), nullptr,
               (path, mode))
@@ -120,6 +122,27 @@ FATHOM_FAULTS(int, posix_spawn,
               (pid_t * id, const char* path, const posix_spawn_file_actions_t* actions,
                const posix_spawnattr_t* attributes, char* const* words, char* const* environment),
               fails("fork"), errno, (id, path, actions, attributes, words, environment))
+
+int rename(const char* from, const char* to) {
+  static auto* const real = next<int(const char*, const char*)>("rename");
+  if (fails("rename", to)) return -1;
+  const int result = real(from, to);
+  return result == 0 && fails("renamed", to) ? -1 : result;
+}
+
+int clock_gettime(clockid_t clock, timespec* now) {
+  static auto* const real = next<int(clockid_t, timespec*)>("clock_gettime");
+  const int result = real(clock, now);
+  if (clock == CLOCK_REALTIME) now->tv_sec += number("FATHOM_FAULT_CLOCK", 0);
+  return result;
+}
+
+time_t time(time_t* now) {
+  timespec at{};
+  ::clock_gettime(CLOCK_REALTIME, &at);
+  if (now != nullptr) *now = at.tv_sec;
+  return at.tv_sec;
+}
 
 int open(const char* path, int flags, ...) {
   static auto* const real = next<int(const char*, int, ...)>("open");

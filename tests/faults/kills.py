@@ -1,4 +1,4 @@
-"""Studies that are killed outright, and two processes on one folder."""
+"""Studies that are killed outright, two processes on one folder, and a clock that is set back."""
 
 import random
 import signal
@@ -59,4 +59,32 @@ def two_at_once(bench):
         complaints.append(f"two at once: {contents.differences(whole, folder / 'out')[:2]} "
                           f"{half_made(folder)}")
     print(*complaints, f"two at once: {len(complaints)} wrong", sep="\n")
+    return complaints
+
+
+def clock_set_back(bench):
+    """A study that is killed, and goes on with the clock of a year before."""
+    folder = bench.work()
+    command = ["compare", "../inputs/study.yaml", "--set", "trials=6", "--out", "out"]
+    start = time.monotonic()
+    bench.done(command, folder)
+    took_s = time.monotonic() - start
+    whole = contents.of_folder(folder / "out")
+    folder = bench.work()
+    process = subprocess.Popen([bench.program, *command], cwd=folder, env=bench.environment(),
+                               stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    time.sleep(0.7 * took_s)
+    process.kill()
+    process.wait()
+    year_before = bench.environment(LD_PRELOAD=bench.faults, FATHOM_FAULT_CLOCK=str(-365 * 86400))
+    complaints = []
+    for words in (command, ["status", "out"], ["report", "out", "--out", "page"]):
+        done = subprocess.run([bench.program, *words], cwd=folder, env=year_before, text=True,
+                              capture_output=True, timeout=LIMIT_S, check=False)
+        if done.returncode != 0:
+            complaints.append(f"clock set back: {words[0]}: {done.stderr.strip()[:300]}")
+    differs = contents.differences(whole, folder / "out")
+    if differs or half_made(folder):
+        complaints.append(f"clock set back: {differs[:2]} {half_made(folder)}")
+    print(*complaints, f"clock set back: {len(complaints)} wrong", sep="\n")
     return complaints

@@ -30,6 +30,7 @@ CALLS = {
     "pwrite64": ["ENOSPC", "EIO", "EDQUOT"],
     "fsync": ["EIO", "ENOSPC", "EDQUOT"],
     "rename": ["EIO", "ENOSPC", "EDQUOT"],
+    "renamed": ["EIO", "ENOENT"],
     "open": ["EMFILE", "EROFS", "EIO", "ENOMEM"],
     "mkdir": ["EROFS", "ENOSPC", "EDQUOT"],
     "mmap": ["ENOMEM"],
@@ -37,7 +38,7 @@ CALLS = {
     "ftruncate": ["EIO", "ENOSPC"],
 }
 # What the suite has time for.
-SAMPLED = ["write", "pwrite64", "fsync", "rename", "open", "mkdir", "fork"]
+SAMPLED = ["write", "pwrite64", "fsync", "rename", "renamed", "open", "mkdir", "fork"]
 
 
 def complaint_about_end(done, is_whole):
@@ -67,7 +68,6 @@ class Matrix:
         bench.met.unlink(missing_ok=True)
         command = [*command, "--out", "out"]
         where = f"{name}: call {at} of {call} fails with {error}"
-        row = self.rows[name, call, error]
         environment = bench.environment(
             LD_PRELOAD=bench.faults, FATHOM_FAULT_CALL=call, FATHOM_FAULT_AT=str(at),
             FATHOM_FAULT_ERROR=str(getattr(errno, error)), FATHOM_FAULT_MET=str(bench.met))
@@ -75,10 +75,11 @@ class Matrix:
             done = subprocess.run([bench.program, *command], cwd=folder, env=environment, text=True,
                                   capture_output=True, timeout=LIMIT_S, check=False)
         except subprocess.TimeoutExpired:
-            self.complain(row, where, f"has not ended after {LIMIT_S} s")
+            self.complain(self.rows[name, call, error], where, f"has not ended after {LIMIT_S} s")
             return True
         if not bench.met.exists():
             return False
+        row = self.rows[name, call, error]
         row["refused" if done.returncode else "went on"] += 1
         out = folder / "out"
         differs = contents.differences(whole, out)
@@ -115,15 +116,16 @@ class Matrix:
                     at = 1
                     while self.once(name, command, call, error, at, whole):
                         at += self.every
+            if not any(row for (of, _, _), row in self.rows.items() if of == name):
+                self.complain(self.rows[name, "", ""], name, f"no call met {self.bench.faults}")
 
     def print_table(self):
         print(f"{'command':9} {'call':9} {'error':7} {'faults':>6} {'refused':>7} {'went on':>7} "
               f"{'wrong':>5}")
         for (name, call, error), row in self.rows.items():
             met = row["refused"] + row["went on"]
-            if met or row["wrong"]:
-                print(f"{name:9} {call:9} {error:7} {met:6} {row['refused']:7} {row['went on']:7} "
-                      f"{row['wrong']:5}")
+            print(f"{name:9} {call:9} {error:7} {met:6} {row['refused']:7} {row['went on']:7} "
+                  f"{row['wrong']:5}")
 
 
 def main():
@@ -148,6 +150,7 @@ def main():
         if not arguments.only:
             complaints += kills.kill_at_random(bench, 200 if arguments.all else 10, arguments.seed)
             complaints += kills.two_at_once(bench)
+            complaints += kills.clock_set_back(bench)
     print(f"{len(complaints)} complaints")
     return 1 if complaints else 0
 

@@ -1,5 +1,6 @@
 // Legal calls of a built-in estimator: its options, steps and holes, what is measured of each
 // keyframe, and questions in between. Whatever they are, it keeps its contract.
+#include <algorithm>
 #include <optional>
 
 #include <Eigen/Eigenvalues>
@@ -29,7 +30,7 @@ class Life {
       RelativePose step = fuzz::drawn_motion(draws, k - 1, k);
       // Of a batch solve all must hold together without the holes.
       step.is_hole = mode_ == SolveMode::incremental && what % 8 == 0;
-      has_hole_ = has_hole_ || step.is_hole;
+      if (step.is_hole) holes_.push_back(k);
       estimator_.add_keyframe(step);
       if (what & 16) measure(draws, k);
       if (what & 32) ask(draws);
@@ -83,9 +84,19 @@ class Life {
     const UpdateReport report = estimator_.update({registrations, absolute});
     note(report.outcome);
     require_kept();
-    // A hole that was bridged stays so where the rest of its update fails.
-    if (is_done(report.outcome) || has_hole_) return;
+    if (is_done(report.outcome) || may_bridge(registrations, absolute)) return;
     fuzz::require(poses_of(estimator_) == before, "a failed update leaves all as it was");
+  }
+
+  // Whether an update may bridge a hole, which stays bridged where the rest of it fails.
+  bool may_bridge(const std::vector<RelativePose>& registrations,
+                  const std::vector<AbsolutePose>& absolute) const {
+    if (holes_.empty() || !absolute.empty()) return !holes_.empty();
+    return std::ranges::any_of(registrations, [this](const RelativePose& z) {
+      return std::ranges::any_of(holes_, [&](std::size_t hole) {
+        return std::min(z.from, z.to) < hole && hole <= std::max(z.from, z.to);
+      });
+    });
   }
 
   void ask(fuzz::Draws& draws) {
@@ -106,7 +117,7 @@ class Life {
   GuardedEstimator& estimator_;
   StartPose start_;
   SolveMode mode_;
-  bool has_hole_ = false;
+  std::vector<std::size_t> holes_;  // keyframes after them
   Hash said_;
 };
 

@@ -99,7 +99,8 @@ class Estimate : public TrajectoryView {
 /// - Registrations may be written either way round; measurements of one call form one update.
 /// - The same calls give the same estimate, to the last bit.
 /// - `covariance` and `motions_to_newest` say what their defaults say, of that same estimate.
-/// - Failure is reported, never thrown, and leaves the estimate as it was before the call.
+/// - Failure is reported, never thrown, and leaves the estimate as it was before the call;
+///   but a hole that a measurement of the call has bridged stays bridged.
 class Estimator : public Estimate {
  public:
   /// Appends the next keyframe by its motion from the newest one. Of a hole (RelativePose::is_hole)
