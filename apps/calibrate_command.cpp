@@ -14,14 +14,13 @@ namespace {
 struct CalibrateFlags {
   CommonFlags common;
   std::string survey;
-  std::string cache;
+  CacheFlags cache;
 };
 
 void calibrate(const CalibrateFlags& flags, Context& context) {
   workflow::CalibrateRequest request;
   request.settings = flags.common.settings(flags.survey);
-  const std::unique_ptr<RegistrationStore> cache =
-      flags.cache.empty() ? nullptr : open_registrations(flags.cache, flags.common.quiet);
+  const std::unique_ptr<RegistrationStore> cache = flags.cache.open(flags.common.quiet);
   request.registrations = cache.get();
   Terminal terminal(flags.common.quiet);
   const workflow::CalibrateOutcome outcome =
@@ -57,8 +56,7 @@ void add_calibrate(CLI::App& program, Context& context) {
   command.argument("survey", flags->survey,
                    "Folder of pictures, plain or in the EuRoC/ASL layout, or configuration (YAML)");
   flags->common.add_settings_to(command, context);
-  command.text("--cache", flags->cache, "DIR",
-               "Keep registrations in this folder, as compare does");
+  flags->cache.add_to(command);
   command.on_run([flags, &context] { calibrate(*flags, context); });
 }
 

@@ -53,9 +53,11 @@ void check_graph(const std::string& path, const EstimatorRegistry& registry,
   print_warnings(found.warnings);
 }
 
-void check_folder(const std::string& path, const EstimatorRegistry& registry) {
+void check_folder(const std::string& path, const EstimatorRegistry& registry,
+                  RegistrationCache* registrations) {
   Terminal terminal(false);
-  const workflow::SurveyCheck found = workflow::check_survey(path, registry, terminal);
+  const workflow::SurveyCheck found =
+      workflow::check_survey(path, registry, registrations, terminal);
   terminal.clear();
   print("image folder\n");
   for (const std::string& fact : found.folder.facts) print("  %s\n", fact.c_str());
@@ -118,6 +120,7 @@ struct CheckFlags {
   std::string path;
   GraphOptions graph;
   PluginFlags plugins;
+  CacheFlags cache;
 };
 
 void check(const CheckFlags& flags, Context& context) {
@@ -125,7 +128,7 @@ void check(const CheckFlags& flags, Context& context) {
   const std::string ending = std::filesystem::path(path).extension().string();
   context.status = kDone;
   if (std::filesystem::is_directory(path)) {
-    check_folder(path, context.estimators().registry());
+    check_folder(path, context.estimators().registry(), flags.cache.open(false).get());
   } else if (ending == ".yaml" || ending == ".yml") {
     check_configuration(path, flags.plugins, context.estimators());
   } else if (ending == ".tum" || ending == ".txt" || ending == ".csv") {
@@ -146,6 +149,7 @@ void add_check(CLI::App& program, Context& context) {
   command.argument("path", flags->path, "File or folder");
   add_drop_self_edges_to(command, flags->graph.drop_self_edges);
   flags->plugins.add_to(command);
+  flags->cache.add_to(command);
   command.on_run([flags, &context] { check(*flags, context); });
 }
 

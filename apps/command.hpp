@@ -44,6 +44,7 @@ void add_spoil(CLI::App& program, Context& context);
 void add_merge(CLI::App& program, Context& context);
 void add_estimate(CLI::App& program, Context& context);
 void add_status(CLI::App& program, Context& context);
+void add_cache(CLI::App& program, Context& context);
 void add_conformance(CLI::App& program, Context& context);
 void add_pages(CLI::App& program, Context& context);
 

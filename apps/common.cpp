@@ -74,9 +74,21 @@ std::string CommonFlags::folder_or(const std::string& name) const {
   return out.empty() ? "runs/" + name : out;
 }
 
-std::unique_ptr<RegistrationStore> open_registrations(const std::filesystem::path& folder,
-                                                      bool quiet) {
-  auto store = std::make_unique<RegistrationStore>(folder);
+std::array<Flag, 2> CacheFlags::add_to(Command& command) {
+  const Flag cache = command.text("--cache", folder, "DIR",
+                                  "Folder of the registrations that are kept, so that no pair of "
+                                  "pictures is registered twice (default: $FATHOM_CACHE, or "
+                                  "~/.cache/fathom; 'fathom cache' shows it)");
+  const Flag no_cache =
+      command.boolean("--no-cache", is_off, "Neither read nor write kept registrations");
+  no_cache.excludes(cache);
+  return {cache, no_cache};
+}
+
+std::unique_ptr<RegistrationStore> CacheFlags::open(bool quiet) const {
+  if (is_off) return nullptr;
+  auto store =
+      folder.empty() ? RegistrationStore::usual() : std::make_unique<RegistrationStore>(folder);
   if (const std::string problem = store->problem(); !problem.empty() && !quiet) {
     print_note("no registration cache: " + problem);
   }

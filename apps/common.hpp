@@ -1,6 +1,6 @@
 #pragma once
 
-#include <filesystem>
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -63,9 +63,16 @@ struct CommonFlags {
   Context* context_ = nullptr;
 };
 
-/// The registrations kept in a folder. Where it cannot be used a note says so, unless quiet, and
-/// they are kept in memory only.
-std::unique_ptr<RegistrationStore> open_registrations(const std::filesystem::path& folder,
-                                                      bool quiet);
+/// --cache and --no-cache of a command that registers pictures.
+struct CacheFlags {
+  std::string folder;
+  bool is_off = false;
+
+  /// Both flags, in this order.
+  std::array<Flag, 2> add_to(Command& command);
+  /// The registrations of --cache, or the usual ones; none with --no-cache. Where the folder cannot
+  /// be used a note says so, unless quiet, and they are kept in memory only.
+  std::unique_ptr<RegistrationStore> open(bool quiet) const;
+};
 
 }  // namespace fathom

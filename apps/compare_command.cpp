@@ -24,9 +24,8 @@ struct CompareFlags {
   std::optional<int> surveys;
   std::optional<int> trials;
   std::optional<int> jobs;
-  std::string cache;
+  CacheFlags cache;
   std::string read_only_cache;
-  bool no_cache = false;
   bool only_registrations = false;
   std::string shard;
   std::string scratch;
@@ -44,11 +43,8 @@ struct CompareFlags {
 };
 
 std::unique_ptr<RegistrationStore> open_cache(const CompareFlags& flags) {
-  if (flags.no_cache) return nullptr;
   if (!flags.read_only_cache.empty()) return RegistrationStore::read_only(flags.read_only_cache);
-  auto cache =
-      open_registrations(flags.cache.empty() ? default_cache_folder() : fs::path(flags.cache),
-                         flags.common.quiet || flags.only_registrations);
+  auto cache = flags.cache.open(flags.common.quiet || flags.only_registrations);
   if (flags.only_registrations && !cache->problem().empty()) throw InputError(cache->problem());
   return cache;
 }
@@ -143,13 +139,9 @@ void add_compare(CLI::App& program, Context& context) {
   command.integer("--trials", flags->trials, Range::any(), "N",
                   "Trials in every survey, for a quick look");
   command.integer("--jobs", flags->jobs, Range::any(), "N", "Trials at work at the same time");
-  const Flag cache = command.text("--cache", flags->cache, "DIR",
-                                  "Folder of the registrations that are kept from study to study "
-                                  "(default: $FATHOM_CACHE, or ~/.cache/fathom)");
+  const std::array<Flag, 2> cache = flags->cache.add_to(command);
   const Flag read_only = command.text("--read-only-cache", flags->read_only_cache, "DIR",
-                                      "The same, only read: many machines may do so at once");
-  const Flag no_cache =
-      command.boolean("--no-cache", flags->no_cache, "Neither read nor write kept registrations");
+                                      "As --cache, only read: many machines may do so at once");
   command.text("--shard", flags->shard, "K/N",
                "Do the K-th of N parts of the study; 'fathom merge' makes one of them");
   command.text("--scratch", flags->scratch, "DIR",
@@ -157,8 +149,8 @@ void add_compare(CLI::App& program, Context& context) {
                "(default: $TMPDIR, or /tmp)");
   const Flag only = command.boolean("--only-registrations", flags->only_registrations,
                                     "Register the pictures into the cache, and run nothing");
-  read_only.excludes(cache).excludes(no_cache).excludes(only);
-  no_cache.excludes(cache).excludes(only);
+  read_only.excludes(cache[0]).excludes(cache[1]).excludes(only);
+  only.excludes(cache[1]);
   command.boolean("--no-mosaic", flags->no_mosaic, "No mosaics of the pictures");
   command.on_run([flags, &context] { compare(*flags, context); });
 }

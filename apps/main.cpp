@@ -86,10 +86,10 @@ int main_function(int argc, char** argv) {
   app.require_subcommand(1);
   app.footer("Each command has its own --help. Exit status: 0 done, 1 failed, 2 bad input.");
   for (const auto add :
-       {add_run,      add_compare,     add_solve,  add_register, add_simulate, add_evaluate,
-        add_convert,  add_list,        add_import, add_init,     add_check,    add_calibrate,
-        add_report,   add_select,      add_mosaic, add_spoil,    add_merge,    add_status,
-        add_estimate, add_conformance, add_pages}) {
+       {add_run,      add_compare, add_solve,       add_register, add_simulate, add_evaluate,
+        add_convert,  add_list,    add_import,      add_init,     add_check,    add_calibrate,
+        add_report,   add_select,  add_mosaic,      add_spoil,    add_merge,    add_status,
+        add_estimate, add_cache,   add_conformance, add_pages}) {
     add(app, context);
   }
   try {

@@ -16,7 +16,7 @@ namespace {
 struct RunFlags {
   CommonFlags common;
   std::string config;
-  std::string cache;
+  CacheFlags cache;
   bool no_mosaic = false;
 };
 
@@ -41,6 +41,9 @@ void print_front_end(const Recording& recording) {
   }
   print("%zu frames, %zu keyframes, %zu registrations tried, %zu found", recording.frames.size(),
         recording.log.size(), recording.registrations_tried, recording.log.registration_count());
+  if (recording.registrations_from_cache > 0) {
+    print(", %zu from the cache", recording.registrations_from_cache);
+  }
   if (recording.registrations_left_out > 0) {
     print(", %zu left out beyond the budget", recording.registrations_left_out);
   }
@@ -77,8 +80,7 @@ void run(const RunFlags& flags, Context& context) {
   request.out = flags.common.folder_or(request.title);
   request.made_by = context.command_line;
   request.mosaics = !flags.no_mosaic;
-  const std::unique_ptr<RegistrationStore> cache =
-      flags.cache.empty() ? nullptr : open_registrations(flags.cache, flags.common.quiet);
+  const std::unique_ptr<RegistrationStore> cache = flags.cache.open(flags.common.quiet);
   request.registrations = cache.get();
   Terminal terminal(flags.common.quiet);
   const workflow::RunOutcome done =
@@ -105,9 +107,7 @@ void add_run(CLI::App& program, Context& context) {
       "Configuration (YAML), or a folder of pictures, plain or in the EuRoC/ASL layout");
   flags->common.add_settings_to(command, context);
   flags->common.add_out_to(command, "Output folder (default: runs/CONFIG's name)");
-  command.text("--cache", flags->cache, "DIR",
-               "Keep registrations in this folder, as compare does: a run that was killed makes "
-               "none of them again");
+  flags->cache.add_to(command);
   command.boolean("--no-mosaic", flags->no_mosaic, "No mosaic of the pictures");
   command.on_run([flags, &context] { run(*flags, context); });
 }

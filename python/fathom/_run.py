@@ -66,7 +66,7 @@ def replay(log, estimator, **keywords):
     return solve(log, estimator, mode="incremental", **keywords)
 
 
-def run(config, estimator=None, *, set={}, plugins=(), out=None, cache=None):
+def run(config, estimator=None, *, set={}, plugins=(), out=None, cache=True):
     """Runs the front end and one estimator over a data set, as `fathom run` does.
 
     config: a YAML file, a folder of pictures, or a dict of the same keys.

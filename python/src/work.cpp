@@ -20,8 +20,8 @@ workflow::Machine this_process() {
 
 std::unique_ptr<RegistrationStore> registrations_in(const std::optional<std::string>& folder) {
   if (!folder) return nullptr;
-  return std::make_unique<RegistrationStore>(folder->empty() ? default_cache_folder()
-                                                             : std::filesystem::path(*folder));
+  if (folder->empty()) return RegistrationStore::usual();
+  return std::make_unique<RegistrationStore>(*folder);
 }
 
 }  // namespace fathom

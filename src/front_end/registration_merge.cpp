@@ -11,7 +11,7 @@ namespace fs = std::filesystem;
 
 bool has_registrations(const fs::path& folder) {
   std::error_code error;
-  return fs::is_regular_file(folder / "registrations.sqlite", error);
+  return fs::is_regular_file(folder / kRegistrationsFile, error);
 }
 
 MergedRegistrations merge_registrations(const std::vector<fs::path>& folders, const fs::path& out) {

@@ -2,7 +2,6 @@
 
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <chrono>
-#include <cstdlib>
 #include <exception>
 #include <map>
 #include <mutex>
@@ -18,22 +17,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kFileName = "registrations.sqlite";
 constexpr const char* kSelect =
     "SELECT found, numbers, inliers, checksum FROM registration WHERE key = ?";
 constexpr std::size_t kFlushCount = 200;
 constexpr std::chrono::seconds kFlushInterval{1};
 
-std::string environment(const char* name) {
-  const char* value = std::getenv(name);
-  return value == nullptr ? "" : value;
-}
-
 }  // namespace
 
 class RegistrationStore::File {
  public:
-  explicit File(const fs::path& folder) : path_(folder / kFileName) {
+  File(const fs::path& folder, std::uint64_t most_bytes)
+      : path_(folder / kRegistrationsFile), most_bytes_(most_bytes) {
     if (folder.empty()) {
       problem_ = "no folder for the cache of registrations; set FATHOM_CACHE";
       return;
@@ -46,14 +40,15 @@ class RegistrationStore::File {
       prepare_schema(*sqlite_);
       select_ = std::make_unique<SQLite::Statement>(*sqlite_, kSelect);
       insert_ = std::make_unique<SQLite::Statement>(
-          *sqlite_, "INSERT OR REPLACE INTO registration VALUES (?, ?, ?, ?, ?)");
+          *sqlite_, "INSERT OR REPLACE INTO registration VALUES (?, ?, ?, ?, ?, ?)");
+      use_ = next_use(*sqlite_);
     });
   }
 
   // To read alone.
   static std::unique_ptr<File> read_only(const fs::path& folder) {
     std::unique_ptr<File> file(new File);
-    file->path_ = folder / kFileName;
+    file->path_ = folder / kRegistrationsFile;
     file->guard([&] {
       file->sqlite_ = open_to_read(file->path_);
       file->select_ = std::make_unique<SQLite::Statement>(*file->sqlite_, kSelect);
@@ -66,6 +61,7 @@ class RegistrationStore::File {
     if (const auto found = unwritten_.find(key); found != unwritten_.end()) return found->second;
     std::optional<PairRegistration> value;
     guard([&] { value = select(key); });
+    if (value && insert_ != nullptr) found_.push_back(key);
     return value;
   }
 
@@ -86,6 +82,15 @@ class RegistrationStore::File {
     std::vector<std::pair<RegistrationKey, PairRegistration>> rows;
     guard([&] { rows = intact_rows(*sqlite_); });
     return rows;
+  }
+
+  // What was used is so noted, and what was not goes where there is too much.
+  void close() {
+    flush();
+    const std::lock_guard lock(mutex_);
+    if (insert_ == nullptr) return;
+    guard([&] { note_used(); });
+    if (most_bytes_ > 0) guard([&] { remove_least_used(*sqlite_, most_bytes_, use_); });
   }
 
   void finish() {
@@ -144,6 +149,7 @@ class RegistrationStore::File {
     insert_->bind(3, numbers.data(), sizeof numbers);
     insert_->bind(4, value.inliers);
     insert_->bind(5, checksum(key, value));
+    insert_->bind(6, use_);
     insert_->exec();
     insert_->reset();
   }
@@ -159,7 +165,26 @@ class RegistrationStore::File {
     });
   }
 
+  void note_used() {
+    if (found_.empty()) return;
+    SQLite::Transaction transaction(*sqlite_, SQLite::TransactionBehavior::IMMEDIATE);
+    SQLite::Statement update(*sqlite_,
+                             "UPDATE registration SET used = ? WHERE key = ? AND used < ?");
+    for (const RegistrationKey& key : found_) {
+      const auto words = words_of(key);
+      update.reset();
+      update.bind(1, use_);
+      update.bind(2, words.data(), sizeof words);
+      update.bind(3, use_);
+      update.exec();
+    }
+    transaction.commit();
+  }
+
   fs::path path_;
+  std::uint64_t most_bytes_ = 0;
+  std::int64_t use_ = 0;
+  std::vector<RegistrationKey> found_;  // in the file
   mutable std::mutex mutex_;
   std::string problem_;
   std::map<RegistrationKey, PairRegistration> unwritten_;
@@ -169,25 +194,14 @@ class RegistrationStore::File {
   std::unique_ptr<SQLite::Statement> insert_;
 };
 
-fs::path default_cache_folder() {
-  if (const std::string own = environment("FATHOM_CACHE"); !own.empty()) return own;
-  if (const std::string xdg = environment("XDG_CACHE_HOME"); !xdg.empty()) {
-    return fs::path(xdg) / "fathom";
-  }
-  if (const std::string home = environment("HOME"); !home.empty()) {
-    return fs::path(home) / ".cache" / "fathom";
-  }
-  return {};
-}
-
-RegistrationStore::RegistrationStore(const fs::path& folder)
-    : file_(std::make_unique<File>(folder)) {}
+RegistrationStore::RegistrationStore(const fs::path& folder, std::uint64_t most_bytes)
+    : file_(std::make_unique<File>(folder, most_bytes)) {}
 
 RegistrationStore::RegistrationStore(std::unique_ptr<File> file) : file_(std::move(file)) {}
 
 std::unique_ptr<RegistrationStore> RegistrationStore::read_only(const fs::path& folder) {
   if (!has_registrations(folder)) {
-    throw InputError(folder.string(), std::string("there is no ") + kFileName +
+    throw InputError(folder.string(), std::string("there is no ") + kRegistrationsFile +
                                           "; 'fathom compare --only-registrations' and 'fathom "
                                           "merge' make it");
   }
@@ -197,7 +211,7 @@ std::unique_ptr<RegistrationStore> RegistrationStore::read_only(const fs::path& 
 }
 
 RegistrationStore::~RegistrationStore() {
-  file_->flush();
+  file_->close();
 }
 
 std::optional<PairRegistration> RegistrationStore::find(const RegistrationKey& key) {

@@ -1,6 +1,8 @@
 #include "registration_table.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
@@ -15,7 +17,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kSchemaVersion = 1;
+// Version 1 had no column `used`.
+constexpr int kSchemaVersion = 2;
+constexpr const char* kUse =
+    "CREATE INDEX registration_used ON registration (used); PRAGMA user_version = 2";
 
 // Whatever was there: other versions of this program, or something else that took the name.
 void drop_all(SQLite::Database& sqlite) {
@@ -43,22 +48,57 @@ std::string uri_of(const fs::path& path) {
   return fs::exists(path.string() + "-wal", error) ? uri : uri + "?immutable=1";
 }
 
+int version_of(SQLite::Database& sqlite) {
+  return sqlite.execAndGet("PRAGMA user_version").getInt();
+}
+
 }  // namespace
 
 void prepare_schema(SQLite::Database& sqlite) {
   sqlite.exec("PRAGMA journal_mode = WAL");
   sqlite.exec("PRAGMA synchronous = NORMAL");
-  const auto is_ours = [&] {
-    return sqlite.execAndGet("PRAGMA user_version").getInt() == kSchemaVersion;
-  };
-  if (is_ours()) return;
+  if (version_of(sqlite) == kSchemaVersion) return;
   SQLite::Transaction transaction(sqlite, SQLite::TransactionBehavior::IMMEDIATE);
-  if (is_ours()) return;  // another process was quicker
-  drop_all(sqlite);
-  sqlite.exec(
-      "CREATE TABLE registration (key BLOB PRIMARY KEY, found INTEGER NOT NULL, "
-      "numbers BLOB NOT NULL, inliers INTEGER NOT NULL, checksum INTEGER NOT NULL) WITHOUT ROWID");
-  sqlite.exec("PRAGMA user_version = " + std::to_string(kSchemaVersion));
+  // Another process may have been quicker.
+  const int version = version_of(sqlite);
+  if (version == kSchemaVersion) return;
+  if (version == 1) {
+    sqlite.exec("ALTER TABLE registration ADD COLUMN used INTEGER NOT NULL DEFAULT 0");
+  } else {
+    drop_all(sqlite);
+    sqlite.exec(
+        "CREATE TABLE registration (key BLOB PRIMARY KEY, found INTEGER NOT NULL, numbers BLOB NOT "
+        "NULL, inliers INTEGER NOT NULL, checksum INTEGER NOT NULL, used INTEGER NOT NULL DEFAULT "
+        "0) WITHOUT ROWID");
+  }
+  sqlite.exec(kUse);
+  transaction.commit();
+}
+
+std::int64_t next_use(SQLite::Database& sqlite) {
+  return 1 + sqlite.execAndGet("SELECT COALESCE(MAX(used), 0) FROM registration").getInt64();
+}
+
+std::uint64_t bytes_in(SQLite::Database& sqlite) {
+  const auto pragma = [&](const char* text) {
+    return static_cast<std::uint64_t>(sqlite.execAndGet(text).getInt64());
+  };
+  return (pragma("PRAGMA page_count") - pragma("PRAGMA freelist_count")) *
+         pragma("PRAGMA page_size");
+}
+
+void remove_least_used(SQLite::Database& sqlite, std::uint64_t most_bytes, std::int64_t kept) {
+  if (bytes_in(sqlite) <= most_bytes) return;
+  SQLite::Transaction transaction(sqlite, SQLite::TransactionBehavior::IMMEDIATE);
+  const double bytes = static_cast<double>(bytes_in(sqlite));
+  const double share = 1.0 - 0.9 * static_cast<double>(most_bytes) / bytes;
+  const double count = sqlite.execAndGet("SELECT COUNT(*) FROM registration").getDouble();
+  SQLite::Statement remove(sqlite,
+                           "DELETE FROM registration WHERE key IN (SELECT key FROM registration "
+                           "WHERE used < ? ORDER BY used LIMIT ?)");
+  remove.bind(1, kept);
+  remove.bind(2, static_cast<std::int64_t>(std::ceil(std::max(share, 0.0) * count)));
+  remove.exec();
   transaction.commit();
 }
 
@@ -90,7 +130,7 @@ std::vector<std::pair<RegistrationKey, PairRegistration>> intact_rows(SQLite::Da
 std::unique_ptr<SQLite::Database> open_to_read(const fs::path& file) {
   auto sqlite = std::make_unique<SQLite::Database>(
       uri_of(file), SQLite::OPEN_READONLY | SQLite::OPEN_URI, kRegistrationBusyMs);
-  if (sqlite->execAndGet("PRAGMA user_version").getInt() != kSchemaVersion) {
+  if (const int version = version_of(*sqlite); version != 1 && version != kSchemaVersion) {
     throw InputError("is no cache of registrations of this version");
   }
   return sqlite;

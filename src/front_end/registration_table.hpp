@@ -1,6 +1,7 @@
 #pragma once
 
 #include <SQLiteCpp/SQLiteCpp.h>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -14,8 +15,19 @@ namespace fathom {
 /// Of all waiting for another process.
 inline constexpr int kRegistrationBusyMs = 5'000;
 
-/// Makes the table; empties a file of another version of this program, or that is something else.
+/// Makes the table, or what an earlier version lacks; empties a file of another version of this
+/// program, or that is something else.
 void prepare_schema(SQLite::Database& sqlite);
+
+/// One more than that of any row: rows that are used get it.
+std::int64_t next_use(SQLite::Database& sqlite);
+
+/// Of what is in the file, without the free room in it.
+std::uint64_t bytes_in(SQLite::Database& sqlite);
+
+/// Removes rows in the order of their last use until nine tenths of `most_bytes` are left, but none
+/// of use `kept` or later. Removes none where the file holds no more than `most_bytes`.
+void remove_least_used(SQLite::Database& sqlite, std::uint64_t most_bytes, std::int64_t kept);
 
 /// Opens a file of this version to read alone. Throws SQLite::Exception or InputError.
 std::unique_ptr<SQLite::Database> open_to_read(const std::filesystem::path& file);

@@ -125,6 +125,7 @@ Recording record_with(const EstimatedSigmas& sigmas, Survey& survey,
   take_frames(recording, source, front_end);
   recording.remarks = survey.pictures().remarks();
   recording.mask = survey.pictures().mask();
+  recording.registrations_from_cache = survey.registrar().from_cache();
   recording.visual_odometry = survey.uses_visual_odometry();
   recording.visual_odometry_failures = survey.visual_odometry_failures();
   return recording;

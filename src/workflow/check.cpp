@@ -106,7 +106,7 @@ GraphCheck check_graph(const std::filesystem::path& path, const EstimatorRegistr
 }
 
 SurveyCheck check_survey(const std::filesystem::path& path, const EstimatorRegistry& registry,
-                         Observer& observer) {
+                         RegistrationCache* registrations, Observer& observer) {
   if (is_plain_picture_folder(path)) {
     throw InputError(path.string(),
                      "is a folder of plain pictures, which do not say all; 'fathom init " +
@@ -126,7 +126,8 @@ SurveyCheck check_survey(const std::filesystem::path& path, const EstimatorRegis
   const Outlook expected = outlook(folder, front_end);
   checked.expected = facts_of(expected);
   if (const auto advice = advise(expected)) checked.advice = text_of(*advice, "survey");
-  const CalibrateOutcome calibrated = calibrate({settings_of(path)}, registry, observer);
+  const CalibrateOutcome calibrated =
+      calibrate({settings_of(path), registrations}, registry, observer);
   std::ranges::copy(facts_of(calibrated.done.calibration), std::back_inserter(checked.expected));
   checked.folder.warnings.insert(checked.folder.warnings.begin(),
                                  calibrated.done.calibration.findings.begin(),

@@ -15,6 +15,7 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 TEST_F(Commands, RunWritesItsFolder) {
   write("c.yaml", kSmallSurvey);
@@ -47,6 +48,22 @@ TEST_F(Commands, RunWritesItsFolder) {
   expect_picture("out/trajectory.png");
 }
 
+TEST_F(Commands, AnotherBackEndRegistersNoPairAgain) {
+  write("c.yaml", kSmallSurvey);
+  const Ended first = fathom_done({"run", "c.yaml", "--out", "first"});
+  EXPECT_THAT(first.out, Not(HasSubstr("from the cache")));
+  const auto tried = json_of("first/run.json").at("front_end").at("registrations_tried");
+  ASSERT_GT(tried, 0);
+  const Ended other =
+      fathom_done({"run", "c.yaml", "--out", "other", "--set", "estimator.type=ekf"});
+  EXPECT_THAT(other.out, HasSubstr(", " + tried.dump() + " from the cache"));
+  EXPECT_THAT(fathom_done({"cache"}).out, HasSubstr("  " + tried.dump() + " registrations, "));
+  EXPECT_THAT(fathom_done({"run", "c.yaml", "--out", "anew", "--no-cache"}).out,
+              Not(HasSubstr("from the cache")));
+  EXPECT_THAT(fathom_done({"cache", "--clear"}).out, HasSubstr("  0 registrations, "));
+  EXPECT_THAT(refusal({"run", "c.yaml", "--cache", "x", "--no-cache"}), HasSubstr("--no-cache"));
+}
+
 TEST_F(Commands, RunsFolderHasTheConfigurationsName) {
   write("c.yaml", kSmallSurvey);
   fathom_done({"run", "c.yaml"});
@@ -55,8 +72,8 @@ TEST_F(Commands, RunsFolderHasTheConfigurationsName) {
 
 TEST_F(Commands, TwoRunsAreTheSameByteForByte) {
   write("c.yaml", std::string(kSmallSurvey) + kVisualOdometry);
-  fathom_done({"run", "c.yaml", "--out", "a"});
-  fathom_done({"run", "c.yaml", "--out", "b"});
+  fathom_done({"run", "c.yaml", "--out", "a", "--no-cache"});
+  fathom_done({"run", "c.yaml", "--out", "b", "--no-cache"});
   for (const std::string name : {"trajectory.tum", "frames.tum", "measurements.g2o"}) {
     EXPECT_EQ(bytes_of("a/" + name), bytes_of("b/" + name)) << name;
   }

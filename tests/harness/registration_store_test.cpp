@@ -1,6 +1,5 @@
 #include "fathom/front_end/registration_store.hpp"
 
-#include <cstdlib>
 #include <limits>
 #include <thread>
 
@@ -89,42 +88,6 @@ TEST(RegistrationStore, ManyThreadsAndStoresWriteAtOnce) {
     ASSERT_TRUE(found) << i;
     EXPECT_EQ(found->inliers, static_cast<int>(i));
   }
-}
-
-class Environment {
- public:
-  Environment(const char* name, const char* value) : name_(name) {
-    if (const char* before = std::getenv(name)) before_ = before;
-    if (value != nullptr) {
-      ::setenv(name, value, 1);
-    } else {
-      ::unsetenv(name);
-    }
-  }
-  ~Environment() {
-    if (before_) {
-      ::setenv(name_, before_->c_str(), 1);
-    } else {
-      ::unsetenv(name_);
-    }
-  }
-
- private:
-  const char* name_;
-  std::optional<std::string> before_;
-};
-
-TEST(RegistrationStore, TheFolderIsThatOfTheEnvironment) {
-  const Environment home("HOME", "/h");
-  const Environment own("FATHOM_CACHE", "/own");
-  const Environment xdg("XDG_CACHE_HOME", "/xdg");
-  EXPECT_EQ(default_cache_folder(), "/own");
-  const Environment no_own("FATHOM_CACHE", "");
-  EXPECT_EQ(default_cache_folder(), "/xdg/fathom");
-  const Environment no_xdg("XDG_CACHE_HOME", nullptr);
-  EXPECT_EQ(default_cache_folder(), "/h/.cache/fathom");
-  const Environment no_home("HOME", nullptr);
-  EXPECT_EQ(default_cache_folder(), "");
 }
 
 void expect_same_recording(const std::string& more) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -14,9 +15,14 @@ namespace fathom {
 
 /// $FATHOM_CACHE, else $XDG_CACHE_HOME/fathom, else $HOME/.cache/fathom; empty where none is set.
 std::filesystem::path default_cache_folder();
+/// 10⁶ times $FATHOM_CACHE_MB, else 10⁹: some 900 000 registrations. Throws InputError.
+std::uint64_t default_cache_bytes();
 
-/// Registrations on disk: `registrations.sqlite` in a folder, shared by all studies and by several
-/// processes at once. It is only a cache: a file of another schema version is emptied, and where
+/// The file of a cache, in its folder.
+inline constexpr const char* kRegistrationsFile = "registrations.sqlite";
+
+/// Registrations on disk: a file in a folder, shared by all commands and by several processes at
+/// once. It is only a cache: a file of another schema version is emptied, and where
 /// the file is damaged or cannot be read or written, this goes on in memory alone.
 class RegistrationStore : public RegistrationCache {
  public:
@@ -24,8 +30,13 @@ class RegistrationStore : public RegistrationCache {
   /// at once. What is not in it is kept in memory. Throws InputError where there is none.
   static std::unique_ptr<RegistrationStore> read_only(const std::filesystem::path& folder);
 
-  /// Makes the folder if need be. An empty path: memory alone.
-  explicit RegistrationStore(const std::filesystem::path& folder);
+  /// Of the default folder and size.
+  static std::unique_ptr<RegistrationStore> usual();
+
+  /// Makes the folder if need be. An empty path: memory alone. Where the file holds more than
+  /// `most_bytes` in the end (0: any number), registrations are removed, those first that were
+  /// looked for the longest ago; none of those that this process put or found.
+  explicit RegistrationStore(const std::filesystem::path& folder, std::uint64_t most_bytes = 0);
   /// Writes what is not yet written.
   ~RegistrationStore() override;
 
@@ -50,6 +61,19 @@ class RegistrationStore : public RegistrationCache {
 
   std::unique_ptr<File> file_;
 };
+
+/// What a cache takes.
+struct CacheContent {
+  std::uint64_t registrations = 0;
+  std::uint64_t bytes = 0;  ///< of its files; 0 where there is none
+};
+
+/// Throws InputError where there is a file that is no cache.
+CacheContent cache_content(const std::filesystem::path& folder);
+
+/// Leaves nothing in it, also where other processes use it; removes a file that is damaged. Throws
+/// EnvironmentError.
+void clear_cache(const std::filesystem::path& folder);
 
 /// How many registrations a merge of caches found.
 struct MergedRegistrations {

@@ -38,6 +38,8 @@ struct Recording {
   std::vector<StampedPose> frame_ground_truth;  ///< of the frames that have it
   std::optional<FrontEndInMetres> in_metres;    ///< absent for a graph
   std::size_t registrations_tried = 0;
+  /// Pairs that were not registered anew, as the cache knew them.
+  std::size_t registrations_from_cache = 0;
   /// Of the pairs tried and not found: most matches that agreed in one of them.
   int most_refused_inliers = 0;
   /// Loop candidates beyond what a keyframe may have.

@@ -35,9 +35,10 @@ struct SurveyCheck {
   std::string advice;                 ///< which back end suits it, a line; empty: not known
 };
 
-/// Registers pairs of near pictures (calibrate), whose progress the observer hears. Throws
-/// InputError of a folder of plain pictures, which do not say all.
+/// Registers pairs of near pictures (calibrate), whose progress the observer hears; kept in
+/// `registrations`, which may be null. Throws InputError of a folder of plain pictures, which do
+/// not say all.
 SurveyCheck check_survey(const std::filesystem::path& path, const EstimatorRegistry& registry,
-                         Observer& observer);
+                         RegistrationCache* registrations, Observer& observer);
 
 }  // namespace fathom::workflow

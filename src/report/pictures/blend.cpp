@@ -24,9 +24,9 @@ float bilinear(const cv::Mat& picture, double u, double v) {
   return above + fv * (below - above);
 }
 
-// 1 in the middle of the picture, 0 at its border.
-float tent(double pixel, int count) {
-  return static_cast<float>(1.0 - std::abs(2.0 * (pixel + 0.5) / count - 1.0));
+// 1 in the middle of the picture, 0 at its border, which `place` runs over from 0 to 1.
+float tent(double place) {
+  return static_cast<float>(1.0 - std::abs(2.0 * place - 1.0));
 }
 
 std::vector<Eigen::Vector2d> outline_of(const Camera& camera, const PlacedPicture& place) {
@@ -53,7 +53,8 @@ cv::Rect box_around(const FloorMap& map, const std::vector<Eigen::Vector2d>& out
 struct RowOfBox {
   const Camera& camera;
   const cv::Mat& source;  ///< the picture, perhaps reduced
-  cv::Size full;          ///< the picture's own size
+  double per_width;       ///< 1 over the picture's own size
+  double per_height;
   Stance stance;
   Eigen::Vector2d first;  ///< of the box's first column, in the body frame
   Eigen::Vector2d step;   ///< from column to column
@@ -64,20 +65,44 @@ RowOfBox row_of_box(const Camera& camera, const cv::Mat& source, cv::Size full,
   const Pose body_from_world = inverse(place.pose);
   const Eigen::Vector2d begin = transform(body_from_world, map.point(first.x, first.y));
   const Eigen::Vector2d next = transform(body_from_world, map.point(first.x + 1, first.y));
-  return {camera, source, full, place.stance, begin, next - begin};
+  return {camera, source, 1.0 / full.width, 1.0 / full.height, place.stance, begin, next - begin};
 }
 
-/// Adds a column of a row; `column` counts from the box's first.
-void add_pixel(const RowOfBox& row, int column, float& sum, float& weight) {
-  const Eigen::Vector2d pixel = row.camera.pixel(row.first + column * row.step, row.stance);
+Eigen::Vector2d pixel_at(const RowOfBox& row, int column) {
+  return row.camera.pixel(row.first + column * row.step, row.stance);
+}
+
+void add_pixel(const RowOfBox& row, const Eigen::Vector2d& pixel, float& sum, float& weight) {
+  const double u = (pixel.x() + 0.5) * row.per_width;
+  const double v = (pixel.y() + 0.5) * row.per_height;
   // Never quite zero, so that a picture's border shows where it is alone.
-  const float share = std::max(1e-3F, tent(pixel.x(), row.full.width)) *
-                      std::max(1e-3F, tent(pixel.y(), row.full.height));
-  const double scale_u = row.source.cols / static_cast<double>(row.full.width);
-  const double scale_v = row.source.rows / static_cast<double>(row.full.height);
-  sum += share *
-         bilinear(row.source, scale_u * (pixel.x() + 0.5) - 0.5, scale_v * (pixel.y() + 0.5) - 0.5);
+  const float share = std::max(1e-3F, tent(u)) * std::max(1e-3F, tent(v));
+  sum += share * bilinear(row.source, u * row.source.cols - 0.5, v * row.source.rows - 0.5);
   weight += share;
+}
+
+/// Columns between two that are projected. Lenses and tilts bend so little over them that a line
+/// stands for the projection: less than 0.01 pixels off at 0.2 rad of tilt and 500 pixels of focal
+/// length.
+constexpr int kSpan = 8;
+
+/// Adds columns [begin, end) of a row, all within the span that begins with `span`; columns count
+/// from the box's first, `sum` and `weight` from `begin`. `is_seen` is the mask of the box's row.
+void add_span(const RowOfBox& row, const unsigned char* is_seen, int width, int span, int begin,
+              int end, float* sum, float* weight) {
+  const bool is_whole =
+      span + kSpan < width && std::all_of(is_seen + span, is_seen + span + kSpan + 1,
+                                          [](unsigned char one) { return one != 0; });
+  if (!is_whole) {
+    for (int c = begin; c < end; ++c) {
+      if (is_seen[c] != 0) add_pixel(row, pixel_at(row, c), sum[c - begin], weight[c - begin]);
+    }
+    return;
+  }
+  const Eigen::Vector2d first = pixel_at(row, span);
+  const Eigen::Vector2d step = (pixel_at(row, span + kSpan) - first) / kSpan;
+  for (int c = begin; c < end; ++c)
+    add_pixel(row, first + (c - span) * step, sum[c - begin], weight[c - begin]);
 }
 
 }  // namespace
@@ -118,12 +143,16 @@ void Blend::lay(const cv::Mat& picture, const PlacedPicture& place) {
     for (int v = rows.start; v < rows.end; ++v) {
       const RowOfBox row =
           row_of_box(camera_, source, picture.size(), place, map_, cv::Point(box.x, v));
-      const unsigned char* is_seen = mask.ptr(v - box.y);
-      float* sum = sum_.ptr<float>(v - window_.y);
-      float* weight = weight_.ptr<float>(v - window_.y);
-      for (int u = part.x; u < part.x + part.width; ++u) {
-        if (is_seen[u - box.x] == 0) continue;
-        add_pixel(row, u - box.x, sum[u - window_.x], weight[u - window_.x]);
+      float* sum = sum_.ptr<float>(v - window_.y) + (part.x - window_.x);
+      float* weight = weight_.ptr<float>(v - window_.y) + (part.x - window_.x);
+      const int end = part.x + part.width - box.x;
+      for (int begin = part.x - box.x; begin < end;) {
+        const int span = begin - begin % kSpan;
+        const int next = std::min(span + kSpan, end);
+        add_span(row, mask.ptr(v - box.y), box.width, span, begin, next, sum, weight);
+        sum += next - begin;
+        weight += next - begin;
+        begin = next;
       }
     }
   });

@@ -1,6 +1,7 @@
 #include "flat_field.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <Eigen/QR>
@@ -18,10 +19,16 @@ using Terms = Eigen::Matrix<double, 1, kTerms>;
 
 // x^i y^j with i + j ≤ 4, the constant first; both from −1 to 1 over the picture.
 Terms terms_at(double x, double y) {
+  std::array<double, kDegree + 1> x_to{1.0};
+  std::array<double, kDegree + 1> y_to{1.0};
+  for (std::size_t i = 1; i < x_to.size(); ++i) {
+    x_to[i] = x_to[i - 1] * x;
+    y_to[i] = y_to[i - 1] * y;
+  }
   Terms terms;
   int next = 0;
-  for (int degree = 0; degree <= kDegree; ++degree) {
-    for (int j = 0; j <= degree; ++j) terms(next++) = std::pow(x, degree - j) * std::pow(y, j);
+  for (std::size_t degree = 0; degree < x_to.size(); ++degree) {
+    for (std::size_t j = 0; j <= degree; ++j) terms(next++) = x_to[degree - j] * y_to[j];
   }
   return terms;
 }

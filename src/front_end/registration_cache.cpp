@@ -1,0 +1,95 @@
+// The cache of registrations that all commands share unless told otherwise.
+
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <cstdlib>
+#include <sqlite3.h>
+#include <system_error>
+
+#include "fathom/core/environment_error.hpp"
+#include "fathom/core/input_error.hpp"
+#include "fathom/core/text.hpp"
+#include "fathom/front_end/registration_store.hpp"
+#include "registration_table.hpp"
+
+namespace fathom {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string environment(const char* name) {
+  const char* value = std::getenv(name);
+  return value == nullptr ? "" : value;
+}
+
+}  // namespace
+
+fs::path default_cache_folder() {
+  if (const std::string own = environment("FATHOM_CACHE"); !own.empty()) return own;
+  if (const std::string xdg = environment("XDG_CACHE_HOME"); !xdg.empty()) {
+    return fs::path(xdg) / "fathom";
+  }
+  if (const std::string home = environment("HOME"); !home.empty()) {
+    return fs::path(home) / ".cache" / "fathom";
+  }
+  return {};
+}
+
+std::uint64_t default_cache_bytes() {
+  constexpr double kDefaultMb = 1000.0;
+  const std::string text = environment("FATHOM_CACHE_MB");
+  if (text.empty()) return static_cast<std::uint64_t>(kDefaultMb * 1e6);
+  const std::optional<double> megabytes = parse_real(text);
+  if (!megabytes || !(*megabytes >= 1.0 && *megabytes <= 1e9)) {
+    throw InputError("FATHOM_CACHE_MB: expected megabytes, 1 to 1e9, got '" + text + "'");
+  }
+  return static_cast<std::uint64_t>(*megabytes * 1e6);
+}
+
+CacheContent cache_content(const fs::path& folder) {
+  const fs::path file = folder / kRegistrationsFile;
+  CacheContent content;
+  for (const char* const ending : {"", "-wal"}) {
+    std::error_code error;
+    const std::uintmax_t bytes = fs::file_size(file.string() + ending, error);
+    if (!error) content.bytes += bytes;
+  }
+  if (!has_registrations(folder)) return content;
+  try {
+    content.registrations = static_cast<std::uint64_t>(
+        open_to_read(file)->execAndGet("SELECT COUNT(*) FROM registration").getInt64());
+  } catch (const SQLite::Exception& error) {
+    throw InputError(file.string(),
+                     std::string(error.what()) + "; 'fathom cache --clear' mends it");
+  }
+  return content;
+}
+
+void clear_cache(const fs::path& folder) {
+  if (!has_registrations(folder)) return;
+  const fs::path file = folder / kRegistrationsFile;
+  try {
+    SQLite::Database sqlite(file.string(), SQLite::OPEN_READWRITE, kRegistrationBusyMs);
+    prepare_schema(sqlite);
+    sqlite.exec("DELETE FROM registration");
+    sqlite.exec("VACUUM");
+    sqlite.exec("PRAGMA wal_checkpoint(TRUNCATE)");
+    return;
+  } catch (const SQLite::Exception& error) {
+    const int code = error.getErrorCode();
+    if (code != SQLITE_CORRUPT && code != SQLITE_NOTADB) {
+      throw EnvironmentError(file.string() + ": " + error.what());
+    }
+  }
+  // Nobody can read it.
+  for (const char* const ending : {"", "-wal", "-shm"}) {
+    std::error_code error;
+    fs::remove(file.string() + ending, error);
+    if (error) throw EnvironmentError(file.string() + ending + ": " + error.message());
+  }
+}
+
+std::unique_ptr<RegistrationStore> RegistrationStore::usual() {
+  return std::make_unique<RegistrationStore>(default_cache_folder(), default_cache_bytes());
+}
+
+}  // namespace fathom
