@@ -10,6 +10,8 @@ from mkdocs.structure.nav import Link
 TOP = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 OUTSIDE = re.compile(r"\[([^]]*)\]\(\.\./([\w./-]+)\)")
 
+LONG_CELL = 60  # characters
+
 
 def on_config(config):
     with open(os.path.join(TOP, "CMakeLists.txt"), encoding="utf-8") as lists:
@@ -43,6 +45,15 @@ def on_page_markdown(markdown, page, config, files):
         return f"[{text}]({path})" if files.get_file_from_path(path) else f"`{text}`"
 
     return OUTSIDE.sub(inside, markdown)
+
+
+def on_page_content(html, page, config, files):
+    """Cells of many words are marked, so that a narrow screen leaves them a width to be read at."""
+    def marked(cell):
+        words = re.sub(r"<[^>]*>", "", cell[1])
+        return cell[0] if len(words) < LONG_CELL else f'<td class="long">{cell[1]}</td>'
+
+    return re.sub(r"<td>(.*?)</td>", marked, html, flags=re.DOTALL)
 
 
 def on_nav(nav, config, files):

@@ -5,8 +5,8 @@ holds the output that it shows against what they print.
 
 A block with a title is a file, a block of `sh` is run, a block without a language is what the
 commands before it print. There "…" stands for anything, a line of its own for any lines. Blanks and
-rules do not count, and a number may differ by 30 %, as another processor rounds otherwise; all that is no
-number is the same. --without-python ends at the first file in Python.
+rules do not count, and a number may differ by 30 %, as another processor rounds otherwise; all that
+is no number is the same. --without-python ends at the first file in Python.
 """
 
 import os

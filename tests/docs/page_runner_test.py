@@ -46,9 +46,10 @@ class Following(in_a_folder.InAFolder):
 class Showing(unittest.TestCase):
     def test_numbers_may_differ_a_little_and_words_not(self):
         for shown, printed, is_same in (
-                ("ekf 0.0160 [0.00887, 0.0310] 30/30 done", "ekf  0.0161 [0.009, 0.03]  30/30 done", True),
+                ("ekf 0.0160 [0.00887, 0.0310] 3/3", "ekf  0.0161 [0.009, 0.03]  3/3", True),
                 ("a 1.0", "a 2.0", False), ("a 1.0", "b 1.0", False), ("a -1", "a 1", False),
-                ("a 1e-05", "a 1.1e-05", True), ("a 1", "a –", False), ("p 0.041.", "p 0.04.", True),
+                ("a 1e-05", "a 1.1e-05", True), ("a 1", "a –", False),
+                ("p 0.041.", "p 0.04.", True),
                 ("a … c", "a b c", True), ("a …", "b c", False), ("a 1 …", "a 9 c", False)):
             with self.subTest(shown=shown, printed=printed):
                 self.assertEqual(page_runner.is_shown_by(shown, printed), is_same)

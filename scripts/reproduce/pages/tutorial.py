@@ -27,5 +27,5 @@ def tutorial(work):
                    "{out}/second", "--set", f"dataset.path={pictures / 'pictures'}",
                    "--set", "estimator.type=incremental_smoother")
     work.picture("docs/images/tutorial.png", run / "second/trajectory.png")
-    return ("![Four legs of a survey: dead reckoning drifts by more than a metre, the estimate lies "
-            "on the ground truth](images/tutorial.png)")
+    return ("![Four legs of a survey: dead reckoning drifts by more than a metre, the estimate "
+            "lies on the ground truth](images/tutorial.png)")
