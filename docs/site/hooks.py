@@ -1,5 +1,6 @@
 """What mkdocs.yml cannot say: its own folder is no part of the site, the reference is, and so are
-the examples that pages link to outside docs/."""
+the examples that pages link to outside docs/. KaTeX draws the formulas where it is installed
+(libjs-katex of Debian, or the folder that $FATHOM_KATEX names); else they stay as they are written."""
 
 import os
 import re
@@ -10,13 +11,26 @@ from mkdocs.structure.nav import Link
 TOP = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 OUTSIDE = re.compile(r"\[([^]]*)\]\(\.\./([\w./-]+)\)")
 
+KATEX = os.environ.get("FATHOM_KATEX", "/usr/share/javascript/katex")
 LONG_CELL = 60  # characters
+
+
+def katex_files():
+    """What the site needs of KaTeX, relative to its folder; nothing where it is missing."""
+    needed = ["katex.min.css", "katex.min.js"]
+    if not all(os.path.isfile(os.path.join(KATEX, name)) for name in needed):
+        return []
+    fonts = os.listdir(os.path.join(KATEX, "fonts"))
+    return needed + [f"fonts/{name}" for name in sorted(fonts) if name.endswith(".woff2")]
 
 
 def on_config(config):
     with open(os.path.join(TOP, "CMakeLists.txt"), encoding="utf-8") as lists:
         version = re.search(r"project\(fathom VERSION ([\d.]+)", lists.read()).group(1)
     config["copyright"] = f"Fathom {version}, BSD-3-Clause"
+    if katex_files():
+        config["extra_css"] += ["katex/katex.min.css"]
+        config["extra_javascript"] += ["katex/katex.min.js", "site/formulas.js"]
     return config
 
 
@@ -24,6 +38,9 @@ def on_files(files, config):
     for file in list(files):
         if file.src_path.startswith("site/") and not file.src_path.endswith((".css", ".js")):
             files.remove(file)
+    for name in katex_files():
+        files.append(File(f"katex/{name}", os.path.dirname(KATEX), config["site_dir"],
+                          use_directory_urls=False))
     for file in list(files.documentation_pages()):
         if os.path.dirname(file.src_path):
             continue
