@@ -1,6 +1,6 @@
 """What mkdocs.yml cannot say: its own folder is no part of the site, the reference is, and so are
 the examples that pages link to outside docs/. KaTeX draws the formulas where it is installed
-(libjs-katex of Debian, or the folder that $FATHOM_KATEX names); else they stay as they are written."""
+(libjs-katex of Debian, or the folder that $FATHOM_KATEX names); else their source is shown."""
 
 import os
 import re
