@@ -45,7 +45,7 @@ case "$system" in
 esac
 # clang needs an omp.h of its own to read what g++ compiles with -fopenmp.
 lint=(clang clang-tidy clang-format libomp-dev python3-clang python3-autopep8 flake8)
-docs=(mkdocs mkdocs-material doxygen)
+docs=(mkdocs mkdocs-material libjs-katex doxygen)
 cluster=(slurm-wlm munge)
 cross=(g++-aarch64-linux-gnu)
 

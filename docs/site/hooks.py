@@ -1,5 +1,6 @@
 """What mkdocs.yml cannot say: its own folder is no part of the site, the reference is, and so are
-the examples that pages link to outside docs/."""
+the examples that pages link to outside docs/. KaTeX draws the formulas where it is installed
+(libjs-katex of Debian, or the folder that $FATHOM_KATEX names); else their source is shown."""
 
 import os
 import re
@@ -10,11 +11,26 @@ from mkdocs.structure.nav import Link
 TOP = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 OUTSIDE = re.compile(r"\[([^]]*)\]\(\.\./([\w./-]+)\)")
 
+KATEX = os.environ.get("FATHOM_KATEX", "/usr/share/javascript/katex")
+LONG_CELL = 60  # characters
+
+
+def katex_files():
+    """What the site needs of KaTeX, relative to its folder; nothing where it is missing."""
+    needed = ["katex.min.css", "katex.min.js"]
+    if not all(os.path.isfile(os.path.join(KATEX, name)) for name in needed):
+        return []
+    fonts = os.listdir(os.path.join(KATEX, "fonts"))
+    return needed + [f"fonts/{name}" for name in sorted(fonts) if name.endswith(".woff2")]
+
 
 def on_config(config):
     with open(os.path.join(TOP, "CMakeLists.txt"), encoding="utf-8") as lists:
         version = re.search(r"project\(fathom VERSION ([\d.]+)", lists.read()).group(1)
     config["copyright"] = f"Fathom {version}, BSD-3-Clause"
+    if katex_files():
+        config["extra_css"] += ["katex/katex.min.css"]
+        config["extra_javascript"] += ["katex/katex.min.js", "site/formulas.js"]
     return config
 
 
@@ -22,6 +38,9 @@ def on_files(files, config):
     for file in list(files):
         if file.src_path.startswith("site/") and not file.src_path.endswith((".css", ".js")):
             files.remove(file)
+    for name in katex_files():
+        files.append(File(f"katex/{name}", os.path.dirname(KATEX), config["site_dir"],
+                          use_directory_urls=False))
     for file in list(files.documentation_pages()):
         if os.path.dirname(file.src_path):
             continue
@@ -43,6 +62,15 @@ def on_page_markdown(markdown, page, config, files):
         return f"[{text}]({path})" if files.get_file_from_path(path) else f"`{text}`"
 
     return OUTSIDE.sub(inside, markdown)
+
+
+def on_page_content(html, page, config, files):
+    """Cells of many words are marked, so that a narrow screen leaves them a width to be read at."""
+    def marked(cell):
+        words = re.sub(r"<[^>]*>", "", cell[1])
+        return cell[0] if len(words) < LONG_CELL else f'<td class="long">{cell[1]}</td>'
+
+    return re.sub(r"<td>(.*?)</td>", marked, html, flags=re.DOTALL)
 
 
 def on_nav(nav, config, files):

@@ -50,6 +50,7 @@ TEST_F(Commands, RunWritesItsFolder) {
 
 TEST_F(Commands, AnotherBackEndRegistersNoPairAgain) {
   write("c.yaml", kSmallSurvey);
+  surroundings_.environment["FATHOM_CACHE"] = path("kept").string();
   const Ended first = fathom_done({"run", "c.yaml", "--out", "first"});
   EXPECT_THAT(first.out, Not(HasSubstr("from the cache")));
   const auto tried = json_of("first/run.json").at("front_end").at("registrations_tried");
