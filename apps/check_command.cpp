@@ -53,11 +53,12 @@ void check_graph(const std::string& path, const EstimatorRegistry& registry,
   print_warnings(found.warnings);
 }
 
-void check_folder(const std::string& path, const EstimatorRegistry& registry,
-                  RegistrationCache* registrations) {
-  Terminal terminal(false);
+void check_folder(const std::string& path, const CommonFlags& common, const CacheFlags& cache) {
+  Terminal terminal(common.quiet);
+  const Settings settings = common.settings(path);
+  const auto registrations = cache.open(common.quiet);
   const workflow::SurveyCheck found =
-      workflow::check_survey(path, registry, registrations, terminal);
+      workflow::check_survey(path, settings, common.estimators(), registrations.get(), terminal);
   terminal.clear();
   print("image folder\n");
   for (const std::string& fact : found.folder.facts) print("  %s\n", fact.c_str());
@@ -68,9 +69,10 @@ void check_folder(const std::string& path, const EstimatorRegistry& registry,
   print_warnings(found.folder.warnings);
 }
 
-void check_configuration(const std::string& path, const PluginFlags& plugins,
+void check_configuration(const std::string& path, const CommonFlags& common,
                          workflow::KnownEstimators& estimators) {
-  Settings settings = read_settings(path);
+  const PluginFlags& plugins = common.plugins;
+  Settings settings = common.given(path);
   load_named_code(settings, plugins, workflow::NamedPlugins::left_out, estimators, true);
   const EstimatorRegistry& registry = estimators.registry();
   const bool is_study = kind_of(settings) == ConfigurationKind::comparison;
@@ -119,7 +121,7 @@ void check_trajectory(const std::string& path) {
 struct CheckFlags {
   std::string path;
   GraphOptions graph;
-  PluginFlags plugins;
+  CommonFlags common;
   CacheFlags cache;
 };
 
@@ -127,11 +129,15 @@ void check(const CheckFlags& flags, Context& context) {
   const std::string& path = flags.path;
   const std::string ending = std::filesystem::path(path).extension().string();
   context.status = kDone;
-  if (std::filesystem::is_directory(path)) {
-    check_folder(path, context.estimators().registry(), flags.cache.open(false).get());
-  } else if (ending == ".yaml" || ending == ".yml") {
-    check_configuration(path, flags.plugins, context.estimators());
-  } else if (ending == ".tum" || ending == ".txt" || ending == ".csv") {
+  if (flags.common.quiet) print_nothing();
+  if (std::filesystem::is_directory(path)) return check_folder(path, flags.common, flags.cache);
+  if (ending == ".yaml" || ending == ".yml") {
+    return check_configuration(path, flags.common, context.estimators());
+  }
+  if (!flags.common.overrides.empty()) {
+    throw InputError("--set: goes with a configuration or a folder of pictures");
+  }
+  if (ending == ".tum" || ending == ".txt" || ending == ".csv") {
     check_trajectory(path);
   } else {
     check_graph(path, context.estimators().registry(), flags.graph);
@@ -148,7 +154,7 @@ void add_check(CLI::App& program, Context& context) {
                   "trajectory,\nelse a pose graph.");
   command.argument("path", flags->path, "File or folder");
   add_drop_self_edges_to(command, flags->graph.drop_self_edges);
-  flags->plugins.add_to(command);
+  flags->common.add_settings_to(command, context);
   flags->cache.add_to(command);
   command.on_run([flags, &context] { check(*flags, context); });
 }

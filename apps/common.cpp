@@ -58,10 +58,17 @@ void CommonFlags::add_out_to(Command& command, const std::string& what) {
   command.text("--out", out, "DIR", what);
 }
 
-Settings CommonFlags::settings(const std::string& path, workflow::NamedPlugins named) const {
+Settings CommonFlags::given(const std::string& path) const {
   Settings settings = workflow::settings_of(path);
-  for (const std::string& text : overrides) settings.put(parse_override(text));
+  for (const std::string& text : overrides) {
+    for (const Setting& one : parse_overrides(text)) settings.put(one);
+  }
   if (seed) settings.put({"seed", OptionValue::scalar(std::to_string(*seed)), "--seed"});
+  return settings;
+}
+
+Settings CommonFlags::settings(const std::string& path, workflow::NamedPlugins named) const {
+  Settings settings = given(path);
   load_named_code(settings, plugins, named, context_->estimators(), quiet);
   return settings;
 }

@@ -52,6 +52,9 @@ struct CommonFlags {
 
   /// The file's settings (none for an empty path; of a folder, that it is the data set), then
   /// --set, then --seed; with load_named_code.
+  /// What is in the file or folder, --set and --seed.
+  Settings given(const std::string& path) const;
+  /// The same, with the estimators that go with it loaded.
   Settings settings(const std::string& path,
                     workflow::NamedPlugins named = workflow::NamedPlugins::left_out) const;
   /// Those known now.

@@ -1,5 +1,6 @@
 #include "apps/flags.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -41,6 +42,16 @@ const std::string& word_of(const std::string& name, const std::string& text) {
   return text;
 }
 
+CLI::Validator one_of(const std::string& name, const std::vector<std::string>& choices) {
+  const auto refusal = [name, choices](const std::string& given) -> std::string {
+    if (std::ranges::find(choices, given) != choices.end()) return "";
+    throw InputError(fmt::format("{}: expected one of {}, got {}{} (see --help)", name,
+                                 joined(choices, ", "), in_quotes(given),
+                                 suggestion(given, choices)));
+  };
+  return {refusal, "{" + joined(choices, ",") + "}"};
+}
+
 }  // namespace
 
 const Flag& Flag::required() const {
@@ -79,7 +90,7 @@ Flag Command::argument(const std::string& name, std::string& field, const std::s
 Flag Command::argument(const std::string& name, std::string& field,
                        const std::vector<std::string>& choices, const std::string& help) {
   CLI::Option* option = command_->add_option(name, field, help);
-  return Flag(*option->required()->check(CLI::IsMember(choices))->type_name(""));
+  return Flag(*option->required()->check(one_of(name, choices))->type_name(""));
 }
 
 Flag Command::arguments(const std::string& name, std::vector<std::string>& field,
@@ -114,7 +125,7 @@ Flag Command::choice(const std::string& name, std::string& field,
                      const std::vector<std::string>& choices, const std::string& value_name,
                      const std::string& help) {
   CLI::Option* option = command_->add_option(name, field, help);
-  return Flag(*option->check(CLI::IsMember(choices))->type_name(value_name)->default_str(field));
+  return Flag(*option->check(one_of(name, choices))->type_name(value_name)->default_str(field));
 }
 
 Flag Command::real(const std::string& name, double& field, Range range,
@@ -173,6 +184,14 @@ Flag Command::integers(const std::string& name, std::vector<std::size_t>& field,
 
 Flag Command::boolean(const std::string& name, bool& field, const std::string& help) {
   return Flag(*command_->add_flag(name, field, help));
+}
+
+std::vector<std::string> Command::given() const {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command_->get_options()) {
+    if (option->count() > 0 && !option->get_positional()) names.push_back(option->get_name());
+  }
+  return names;
 }
 
 void Command::hidden() {

@@ -74,6 +74,9 @@ class Command {
                 const std::string& value_name, const std::string& help);
   Flag boolean(const std::string& name, bool& field, const std::string& help);
 
+  /// The flags that were given, by their names.
+  std::vector<std::string> given() const;
+
   /// Not listed by --help of the program.
   void hidden();
 

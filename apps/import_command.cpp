@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <set>
 
 #include "apps/child_process.hpp"
 #include "apps/command.hpp"
@@ -81,7 +82,24 @@ void refuse_existing(const std::filesystem::path& out, bool is_bag) {
                    "is there already; give another --out, or move it out of the way");
 }
 
-void import_source(ImportFlags& flags, Context& context) {
+// Ignored, they would look as if they had been heeded.
+void refuse_flags_of_others(const std::vector<std::string>& given, ImportKind kind, bool is_bag) {
+  static const std::set<std::string> kOfAll{"--out", "--quiet", "--list"};
+  static const std::set<std::string> kOfPoses{"--survey", "--scale", "--times"};
+  for (const std::string& flag : given) {
+    if (kOfAll.contains(flag)) continue;
+    const bool is_of_poses = kOfPoses.contains(flag);
+    if (is_bag == is_of_poses) {
+      throw InputError(flag + ": goes with " + (is_of_poses ? "poses" : "bags") +
+                       ", and the source is " + (is_bag ? "a bag" : "none"));
+    }
+    if (flag == "--times" && kind != ImportKind::kitti) {
+      throw InputError(flag + ": goes with KITTI poses; a COLMAP model names its pictures");
+    }
+  }
+}
+
+void import_source(ImportFlags& flags, const std::vector<std::string>& given, Context& context) {
   flags.bag.camera_yaml = flags.camera;
   flags.bag.clock = flags.clock == "record"   ? BagClock::record
                     : flags.clock == "header" ? BagClock::header
@@ -90,6 +108,7 @@ void import_source(ImportFlags& flags, Context& context) {
   flags.poses.times = flags.times;
   const ImportKind kind = import_kind(flags.source);
   const bool is_bag = kind == ImportKind::ros1_bag || kind == ImportKind::ros2_bag;
+  refuse_flags_of_others(given, kind, is_bag);
   context.status = kDone;
   if (flags.list) {
     if (!is_bag) throw InputError("--list: " + flags.source + " is no bag, it has no topics");
@@ -159,13 +178,13 @@ void add_import(CLI::App& program, Context& context) {
                    "poses");
   command.text("--out", flags->out, "DIR", "Output folder (default: runs/SOURCE's name-data)");
   command.boolean("--list", flags->list, "List the topics of a bag and what they are taken for");
-  command.boolean("--quiet", flags->quiet, "Print nothing but errors");
+  command.boolean("--quiet", flags->quiet, "No output but errors");
   add_topic_flags(command, flags->bag);
   add_value_flags(command, *flags);
   command.text("--survey", flags->survey, "DIR", "Poses: the survey that they are of");
   command.text("--times", flags->times, "FILE", "KITTI poses: seconds, one a line");
   command.real("--scale", flags->poses.scale, Range::positive(), "M", "Poses: metres per unit");
-  command.on_run([flags, &context] { import_source(*flags, context); });
+  command.on_run([flags, command, &context] { import_source(*flags, command.given(), context); });
 }
 
 }  // namespace fathom

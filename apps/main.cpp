@@ -17,6 +17,7 @@
 #include "apps/common.hpp"
 #include "apps/out_of_memory.hpp"
 #include "apps/output.hpp"
+#include "apps/parse_error.hpp"
 #include "fathom/core/options.hpp"
 #include "fathom/core/pin_threads.hpp"
 #include "fathom/core/text.hpp"
@@ -60,21 +61,6 @@ int status_of_output(int status) {
   return std::ferror(stderr) != 0 ? static_cast<int>(kBadInput) : status;
 }
 
-std::string parse_error_text(const CLI::App& app, const CLI::ParseError& error, int argc,
-                             char** argv) {
-  std::vector<std::string> names;
-  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
-  if (argc > 1 && argv[1][0] != '-' && app.get_subcommands().empty()) {
-    return fmt::format("unknown command '{}'{} (fathom --help lists them)", argv[1],
-                       suggestion(argv[1], names));
-  }
-  if (argc > 1 && argv[1][0] == '-' && app.get_subcommands().empty()) {
-    return fmt::format("unknown flag '{}'{} (see --help)", argv[1],
-                       suggestion(argv[1], {"--help", "--version"}));
-  }
-  return std::string(error.what()) + " (see --help)";
-}
-
 int main_function(int argc, char** argv) {
   end_when_out_of_memory();
   pin_threads();
@@ -96,7 +82,7 @@ int main_function(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);
-    return refused(parse_error_text(app, error, argc, argv));
+    return refused(parse_error_text(app, error, argc > 1 ? argv[1] : ""));
   }
   return context.status;
 }

@@ -8,6 +8,8 @@
 namespace fathom {
 namespace {
 
+bool is_silent = false;
+
 [[gnu::format(printf, 1, 0)]] std::string formatted(const char* format, std::va_list arguments) {
   std::va_list again;
   va_copy(again, arguments);
@@ -26,7 +28,12 @@ void write_to(std::FILE* stream, const std::string& text) {
 
 }  // namespace
 
+void print_nothing() {
+  is_silent = true;
+}
+
 void print(const char* format, ...) {
+  if (is_silent) return;
   std::va_list arguments;
   va_start(arguments, format);
   write_to(stdout, formatted(format, arguments));

@@ -9,6 +9,9 @@ namespace fathom {
 [[gnu::format(printf, 1, 2)]] void print(const char* format, ...);
 [[gnu::format(printf, 1, 2)]] void print_error(const char* format, ...);
 
+/// From now on print() says nothing.
+void print_nothing();
+
 /// The same as a text, as it is.
 [[gnu::format(printf, 1, 2)]] std::string printed(const char* format, ...);
 

@@ -220,6 +220,21 @@ Setting parse_override(const std::string& text) {
   return {key, settings.all().front().value, origin};
 }
 
+std::vector<Setting> parse_overrides(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  const std::string value(trim(equals == std::string::npos ? "" : text.substr(equals + 1)));
+  if (!value.starts_with('{')) return {parse_override(text)};
+  Setting map = parse_override(text.substr(0, equals) + "=");
+  map.origin += in_quotes(value);
+  const Settings settings = parse_settings(value, map.origin);
+  std::vector<Setting> all;
+  for (const Setting& one : settings.all()) {
+    all.push_back({map.key + "." + one.key, one.value, map.origin});
+  }
+  if (all.empty()) refuse(map, "the map is empty");
+  return all;
+}
+
 const std::string& word_of(const Setting& setting, std::string_view key) {
   if (setting.value.is_list || setting.value.items.size() != 1) {
     refuse(setting, std::string(key) + ": expected a single word");

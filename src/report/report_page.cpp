@@ -52,7 +52,7 @@ std::string html_text(std::string_view text) {
 }
 
 std::string report_page(const ResultStore& store, const ChartInput& input,
-                        const nlohmann::ordered_json& mosaics) {
+                        const nlohmann::ordered_json& mosaics, const std::string& name) {
   // Bytes that are not UTF-8 become the replacement character: a name may hold any.
   const auto text_of = [](const nlohmann::ordered_json& json) {
     return within_script(
@@ -60,7 +60,7 @@ std::string report_page(const ResultStore& store, const ChartInput& input,
   };
   const std::string& title = input.results.study.title;
   const std::array<std::pair<std::string_view, std::string>, 6> parts{
-      {{"@title@", html_text(title.empty() ? "Study" : title)},
+      {{"@title@", html_text(title.empty() ? name : title)},
        {"@style@", std::string(kPageStyle)},
        {"@data@", text_of(page_data(store, input))},
        {"@mosaics@", text_of(mosaics)},

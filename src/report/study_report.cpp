@@ -51,8 +51,10 @@ void write_study_report(const ResultStore& store, const std::filesystem::path& f
   write_file(out.path() / "summary.csv",
              summary_csv(results, results_of_other_machines(store, results)));
   write_file(out.path() / "tables.tex", latex_tables(results));
+  const std::filesystem::path whole = std::filesystem::absolute(study_folder).lexically_normal();
+  const std::string name = (whole.has_filename() ? whole : whole.parent_path()).filename().string();
   write_file(out.path() / "report.html", report_page(store, {results, series, examples},
-                                                     example_mosaics(results, study_folder)));
+                                                     example_mosaics(results, study_folder), name));
   write_figures({results, series, examples}, out.path() / "figures");
   out.commit();
 }

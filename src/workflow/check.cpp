@@ -14,6 +14,7 @@
 #include "fathom/harness/outlook.hpp"
 #include "fathom/harness/recording.hpp"
 #include "fathom/harness/replay.hpp"
+#include "fathom/harness/survey.hpp"
 #include "fathom/measurements/connected_guess.hpp"
 #include "fathom/measurements/graph_numbers.hpp"
 #include "fathom/report/table.hpp"
@@ -74,6 +75,16 @@ OpenedFolder open_folder(const std::filesystem::path& path) {
   return opened;
 }
 
+void sum_up_folder(const std::filesystem::path& path, FolderSummary& summary) {
+  const OpenedFolder opened = open_folder(path);
+  const ImageFolder& folder = *opened.folder;
+  summary = summarise_frames(folder);
+  sum_up_sensors(folder.sensors(), summary);
+  sum_up_holes(*opened.with_holes, opened.plain.get(), summary);
+  std::ranges::copy(folder.remarks(), std::back_inserter(summary.warnings));
+  if (!opened.refusal.empty()) summary.faults.push_back(opened.refusal);
+}
+
 }  // namespace
 
 // All read the graph by record_graph.
@@ -105,29 +116,19 @@ GraphCheck check_graph(const std::filesystem::path& path, const EstimatorRegistr
   return checked;
 }
 
-SurveyCheck check_survey(const std::filesystem::path& path, const EstimatorRegistry& registry,
-                         RegistrationCache* registrations, Observer& observer) {
-  if (is_plain_picture_folder(path)) {
-    throw InputError(path.string(),
-                     "is a folder of plain pictures, which do not say all; 'fathom init " +
-                         path.string() +
-                         "' says what to expect of them, and asks for what it needs to know");
-  }
-  const OpenedFolder opened = open_folder(path);
-  const ImageFolder& folder = *opened.folder;
+SurveyCheck check_survey(const std::filesystem::path& path, const Settings& settings,
+                         const EstimatorRegistry& registry, RegistrationCache* registrations,
+                         Observer& observer) {
   SurveyCheck checked;
-  checked.folder = summarise_frames(folder);
-  sum_up_sensors(folder.sensors(), checked.folder);
-  sum_up_holes(*opened.with_holes, opened.plain.get(), checked.folder);
-  std::ranges::copy(folder.remarks(), std::back_inserter(checked.folder.warnings));
-  if (!opened.refusal.empty()) checked.folder.faults.push_back(opened.refusal);
+  if (!is_plain_picture_folder(path)) sum_up_folder(path, checked.folder);
   if (!checked.folder.faults.empty()) return checked;
-  const FrontEndOptions front_end;
-  const Outlook expected = outlook(folder, front_end);
+  const Configuration configuration = configure(settings, ConfigurationKind::single, registry);
+  const FrontEndOptions& front_end = configuration.front_end;
+  const std::unique_ptr<const DataSet> data = open_data_set(configuration);
+  const Outlook expected = outlook(*data->frames(), front_end);
   checked.expected = facts_of(expected);
   if (const auto advice = advise(expected)) checked.advice = text_of(*advice, "survey");
-  const CalibrateOutcome calibrated =
-      calibrate({settings_of(path), registrations}, registry, observer);
+  const CalibrateOutcome calibrated = calibrate({settings, registrations}, registry, observer);
   std::ranges::copy(facts_of(calibrated.done.calibration), std::back_inserter(checked.expected));
   checked.folder.warnings.insert(checked.folder.warnings.begin(),
                                  calibrated.done.calibration.findings.begin(),

@@ -150,6 +150,10 @@ class Comparison {
       observer_.remark(remark);
     }
     if (const auto remark = frame_remark(*example.recording)) observer_.remark(*remark);
+    for (const ExampleRun& one : done.example) {
+      const std::string& fault = one.result.run.fault;
+      if (!fault.empty()) observer_.remark(one.result.estimator.name + ": " + fault);
+    }
   }
 
   const CompareRequest& request_;

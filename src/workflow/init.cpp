@@ -2,6 +2,7 @@
 
 #include <map>
 #include <memory>
+#include <set>
 
 #include "fathom/configuration/config_text.hpp"
 #include "fathom/core/files.hpp"
@@ -13,6 +14,15 @@ namespace {
 
 std::string comment_of(const OptionDescription& option) {
   return option.help + (option.unit.empty() ? "" : " (" + option.unit + ")");
+}
+
+// Names of files are relative to the working folder: the configuration is to mean the same from
+// another one.
+std::string as_written(const std::string& key, const std::string& value) {
+  static const std::set<std::string> kFiles{"dataset.altitudes", "dataset.mask",
+                                            "dataset.odometry"};
+  if (value.empty() || !kFiles.contains(key)) return value;
+  return std::filesystem::absolute(value).lexically_normal().string();
 }
 
 // The data set, and what most users will want to change of the front end.
@@ -29,7 +39,7 @@ std::vector<ConfigLine> lines_of(const Configuration& configuration, const Setti
     const bool is_front_end =
         key.starts_with("front_end.") && !key.starts_with("front_end.registration_tuning.");
     if (!is_given && !is_front_end) continue;
-    lines.push_back({key, value, value.starts_with('['), comments[key]});
+    lines.push_back({key, as_written(key, value), value.starts_with('['), comments[key]});
   }
   return lines;
 }

@@ -67,7 +67,11 @@ std::string result_table(const Recording& recording, const std::vector<Result>& 
   for (const Result& result : results) {
     add_row(result.estimator.name, name_of(result.run.outcome), result.metrics);
   }
-  return table.text();
+  std::string text = table.text();
+  for (const Result& result : results) {
+    if (!result.run.fault.empty()) text += result.estimator.name + ": " + result.run.fault + "\n";
+  }
+  return text;
 }
 
 }  // namespace fathom::workflow

@@ -86,7 +86,7 @@ TEST_F(Commands, ConvertRefusesWhatItCannotDo) {
   EXPECT_THAT(refused("t.csv", "kitti", {"--times-out", "out"}), HasSubstr("the same file"));
   EXPECT_THAT(refusal({"convert", "t.csv", "--to", "tum", "--out", "t.csv"}), HasSubstr("t.csv"));
   EXPECT_THAT(refusal({"convert", "t.csv", "--to", "toto", "--out", "o"}), HasSubstr("--to"));
-  EXPECT_THAT(refusal({"convert", "t.csv", "--out", "o"}), HasSubstr("--to is required"));
+  EXPECT_THAT(refusal({"convert", "t.csv", "--out", "o"}), HasSubstr("'--to' is missing: "));
 }
 
 }  // namespace

@@ -152,6 +152,15 @@ TEST_F(Import, KittiPosesBecomeTheReferenceOfASurvey) {
   EXPECT_EQ(tum("simulated/mav0/reference.tum").size(), survey.size());
 }
 
+TEST_F(Import, AFlagOfAnotherKindIsRefused) {
+  write("poses.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n");
+  write_db3("dive.db3");
+  EXPECT_THAT(refusal({"import", "poses.txt", "--images", "/camera", "--out", "x"}),
+              HasSubstr("--images: goes with bags, and the source is none"));
+  EXPECT_THAT(refusal({"import", "dive.db3", "--scale", "2", "--out", "x"}),
+              HasSubstr("--scale: goes with poses, and the source is a bag"));
+}
+
 TEST_F(Import, ListWritesNothing) {
   write_db3("dive.db3");
   const auto before = tree();

@@ -37,12 +37,14 @@ TEST_F(PlainPictures, CloseTheirLoops) {
   EXPECT_THAT(ended.out, HasSubstr("dead reckoning by visual odometry"));
   // Without a configuration what the pictures do not say is asked for.
   EXPECT_THAT(refusal({"run", "pictures"}), HasSubstr("dataset.camera.focal_px"));
-  EXPECT_THAT(refusal({"check", "pictures"}), HasSubstr("fathom init pictures"));
+  EXPECT_THAT(refusal({"check", "pictures"}), HasSubstr("dataset.camera.focal_px"));
   const Arguments given{"--set", "dataset.altitude_m=2.0", "--set", "dataset.camera.focal_px=130"};
   const auto with_given = [&given](Arguments all) {
     all.insert(all.end(), given.begin(), given.end());
     return all;
   };
+  const Ended checked = fathom_done(with_given({"check", "pictures"}));
+  EXPECT_THAT(checked.out, HasSubstr("what 'fathom run pictures' will find"));
   const Arguments smoother{"--set", "estimator.type=incremental_smoother", "--no-mosaic"};
   Arguments run = with_given({"run", "pictures", "--out", "given"});
   run.insert(run.end(), smoother.begin(), smoother.end());

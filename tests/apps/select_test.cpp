@@ -129,7 +129,7 @@ TEST_F(Select, QuietPrintsNothingAndWrites) {
 TEST_F(Select, BadInputIsRefusedWithWhatWouldBeRight) {
   store("study");
   const std::vector<std::pair<Arguments, std::string>> cases{
-      {{"select"}, "results is required"},
+      {{"select"}, "'results' is missing: "},
       {{"select", "nowhere"}, "there are no results; 'fathom compare' writes them"},
       {{"select", "study", "--require", "mean_positon_error_m<=0.1"},
        "did you mean 'mean_position_error_m'?"},

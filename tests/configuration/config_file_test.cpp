@@ -18,6 +18,7 @@ using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
+using ::testing::StartsWith;
 
 std::vector<std::string> items(const Settings& settings, const std::string& key) {
   const Setting* setting = settings.find(key);
@@ -146,6 +147,25 @@ TEST(Override, SaysWhetherAListWasGiven) {
   EXPECT_TRUE(parse_override("a=[]").value.is_list);
   EXPECT_TRUE(parse_override("a=[1]").value.is_list);
   EXPECT_FALSE(parse_override("a=1").value.is_list);
+}
+
+TEST(Override, AMapInBracesIsOneSettingForEachOfItsKeys) {
+  const auto keys_of = [](const std::string& text) {
+    std::vector<std::string> keys;
+    for (const Setting& one : parse_overrides(text)) {
+      EXPECT_THAT(one.origin, StartsWith("--set " + text.substr(0, text.find('=') + 1)));
+      keys.push_back(one.key + "=" + one.value.text());
+    }
+    return keys;
+  };
+  EXPECT_THAT(keys_of("dataset.origin={latitude: 39.5, longitude: 2.5}"),
+              ElementsAre("dataset.origin.latitude=39.5", "dataset.origin.longitude=2.5"));
+  EXPECT_THAT(keys_of("a = {b: {c: 1, d: [2, 3]}}"), ElementsAre("a.b.c=1", "a.b.d=[2, 3]"));
+  EXPECT_THAT(keys_of("seed=7"), ElementsAre("seed=7"));
+  EXPECT_THAT(keys_of("path=a b: c"), ElementsAre("path=a b: c"));
+  for (const std::string text : {"a={}", "a={b}", "a={b: 1", "a={b: 1, b: 2}"}) {
+    EXPECT_THAT(input_error_of([&] { parse_overrides(text); }), HasSubstr("--set a="));
+  }
 }
 
 TEST(Override, RefusesWhatIsNoPair) {

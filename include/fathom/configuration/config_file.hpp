@@ -47,6 +47,10 @@ Settings parse_settings(const std::string& yaml, const std::string& source);
 /// A `KEY=VALUE` of the command line; the value is YAML, so that lists can be given.
 Setting parse_override(const std::string& text);
 
+/// The same, where the value may be a map in braces, `dataset.origin={latitude: 39.5}`: one setting
+/// for each of its keys.
+std::vector<Setting> parse_overrides(const std::string& text);
+
 /// The single word that a setting gives; a list is refused in the name of `key`, the setting's own
 /// key before any prefix was taken off.
 const std::string& word_of(const Setting& setting, std::string_view key);

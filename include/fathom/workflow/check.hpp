@@ -5,8 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "fathom/configuration/config_file.hpp"
 #include "fathom/datasets/folder_summary.hpp"
 #include "fathom/estimation/registry.hpp"
+#include "fathom/front_end/registration_cache.hpp"
 #include "fathom/measurements/graph_check.hpp"
 #include "fathom/workflow/observer.hpp"
 
@@ -35,10 +37,12 @@ struct SurveyCheck {
   std::string advice;                 ///< which back end suits it, a line; empty: not known
 };
 
-/// Registers pairs of near pictures (calibrate), whose progress the observer hears; kept in
-/// `registrations`, which may be null. Throws InputError of a folder of plain pictures, which do
-/// not say all.
-SurveyCheck check_survey(const std::filesystem::path& path, const EstimatorRegistry& registry,
-                         RegistrationCache* registrations, Observer& observer);
+/// `settings`: settings_of(path), and what is to be held instead of its values. Registers pairs of
+/// near pictures (calibrate), whose progress the observer hears; kept in `registrations`, which may
+/// be null. Throws InputError, also of plain pictures where the settings do not say what they do
+/// not.
+SurveyCheck check_survey(const std::filesystem::path& path, const Settings& settings,
+                         const EstimatorRegistry& registry, RegistrationCache* registrations,
+                         Observer& observer);
 
 }  // namespace fathom::workflow
