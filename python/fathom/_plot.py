@@ -114,7 +114,9 @@ def _used(series):
 
 def _draw_loops(ax, poses, loops):
     gap = numpy.full(2, numpy.nan)  # ends a line
-    points = [point for from_, to in loops for point in (poses[from_, :2], poses[to, :2], gap)]
+    # Of a run that failed there may be poses of the first keyframes alone.
+    there = [ends for ends in loops if max(ends) < len(poses)]
+    points = [point for from_, to in there for point in (poses[from_, :2], poses[to, :2], gap)]
     if points:
         _draw_way(ax, numpy.array(points), {"color": "0.8", "linewidth": 0.5, "label": "loops"})
 
@@ -137,8 +139,8 @@ def _draw_against_time(ax, what, series):
 
 
 def _lacks(what):
-    needs = "ground truth" if what == "error" else "ground truth and covariances"
-    return InputError(f"plot '{what}': needs {needs}, which are not known here")
+    needs = "ground truth" if what == "error" else "ground truth, covariances"
+    return InputError(f"plot '{what}': needs {needs} and a run that was done")
 
 
 def _draw_interval(ax, places, draws):

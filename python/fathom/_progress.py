@@ -62,7 +62,11 @@ def _made(stage, of):
         from tqdm.auto import tqdm
     except ImportError:
         return _Line(stage, of)
-    return tqdm(total=of, desc=stage, delay=SHOWN_AFTER_S, leave=False, file=sys.stderr)
+
+    class Bar(tqdm):
+        monitor_interval = 0  # no thread of its own: runs fork
+
+    return Bar(total=of, desc=stage, delay=SHOWN_AFTER_S, leave=False, file=sys.stderr)
 
 
 class _Line:

@@ -1,6 +1,5 @@
 """The results of a study: rows, metrics, series, by name."""
 
-import contextlib
 import itertools
 import os
 import shutil
@@ -38,10 +37,16 @@ class Results:
         self.axes = Named("axis of the sweep", self._store.axes())
         self.cells = [dict(zip(self.axes, each)) for each in itertools.product(*self.axes.values())]
         self._tabled = self._store.metrics()
-        self._failed = self._store.failed()
+        self._by_place = {}  # rows by estimator and cell
+        self._with_failures = set()
+        for row, failed in zip(self.rows, self._store.failed()):
+            place = row["estimator"], row["cell"]
+            self._by_place.setdefault(place, []).append(row)
+            if failed:
+                self._with_failures.add(place)
         self.configuration = Named("key", self._store.configuration())
         self.example = Named("estimator", {one.estimator: one for one in example})
-        self._removal = contextlib.nullcontext
+        self._removal = lambda: None
         if temporary:
             self._removal = weakref.finalize(self, shutil.rmtree, temporary, ignore_errors=True)
 
@@ -134,17 +139,13 @@ class Results:
 
     def _rows_of(self, estimator, cell):
         known("estimator", estimator, self._names())
-        cell = self.cell(cell)
-        return [row for row in self.rows if (row["estimator"], row["cell"]) == (estimator, cell)]
+        return self._by_place.get((estimator, self.cell(cell)), [])
 
     def _mean(self, metric, estimator, cell):
         """None where it is not known, or a run has failed: it would leave out the hardest ones."""
-        failed = any(
-            failed and (row["estimator"], row["cell"]) == (estimator, cell)
-            for row, failed in zip(self.rows, self._failed)
-        )
         values = self.metric(metric, estimator, cell)
-        return None if failed or not len(values) else values.mean()
+        is_known = len(values) > 0 and (estimator, cell) not in self._with_failures
+        return values.mean() if is_known else None
 
     def _series_of(self, estimator, cell, survey, trial) -> dict:
         known("estimator", estimator, self._names())

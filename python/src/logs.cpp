@@ -76,6 +76,11 @@ std::string log_svg(const MeasurementLog& log, const std::string& title) {
   plot.title = title;
   PlotSeries line{"dead reckoning", dead_reckoning_style(), log.odometry(), {}, {}};
   for (const RelativePose& z : registrations_of(log)) line.loops.emplace_back(z.from, z.to);
+  for (std::size_t k = 0; k < log.size(); ++k) {
+    for (const AbsolutePose& z : log.arrival(k).absolute) {
+      line.absolute.push_back(absolute_mark(z, true));
+    }
+  }
   plot.series.push_back(std::move(line));
   return trajectory_svg(plot);
 }
