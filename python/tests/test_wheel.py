@@ -47,6 +47,11 @@ class Wheel(unittest.TestCase):
             python, "-m", "pip", *words, "--no-index", "--no-cache-dir", **environment
         )
 
+    def wheel(self, *words, **environment):
+        """Made in an isolated build, as pip does by default: it needs no index for that."""
+        asked = ("wheel", "--no-deps", "-w", self.folder, *words, TOP)
+        return self.pip(sys.executable, *asked, **environment)
+
     def test_an_environment_of_its_own(self):
         # Its numpy and pip are the system's.
         venv.create(self.folder / "venv", system_site_packages=True)
@@ -64,7 +69,7 @@ class Wheel(unittest.TestCase):
             self.assertEqual((ours / name).read_text(), (theirs / name).read_text())
 
     def test_the_record_is_of_its_files(self):
-        done = self.pip(sys.executable, "wheel", "--no-deps", "-w", self.folder, TOP)
+        done = self.wheel()
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         (path,) = self.folder.glob("*.whl")
         with zipfile.ZipFile(path) as wheel:
@@ -77,8 +82,22 @@ class Wheel(unittest.TestCase):
                 self.assertEqual((digest, size), (f"sha256={found.rstrip('=')}", str(len(content))))
             self.assertFalse([name for name in wheel.namelist() if "__pycache__" in name])
 
+    def test_what_cmake_is_asked_for(self):
+        # In place of CMake: it says how it was called, and fails.
+        cmake = self.folder / "cmake"
+        cmake.write_text('#!/bin/sh\necho "path [$PYTHONPATH] $*"\nexit 1\n')
+        cmake.chmod(0o755)
+        path = f"{self.folder}:{os.environ['PATH']}"
+        done = self.wheel("-v", FATHOM_BUILD_DIR="", PATH=path)
+        said = done.stdout + done.stderr
+        # A path of pip's own would hide the system's numpy from CMake.
+        self.assertIn("path [] --preset release -B ", said)
+        self.assertIn(f"-DPython3_EXECUTABLE={os.path.realpath(sys.executable)}", said)
+        self.assertIn("fathom: error: 'cmake --preset release", said)
+        self.assertNotIn("Traceback", said)
+
     def test_a_build_folder_without_the_module(self):
-        done = self.pip(sys.executable, "wheel", TOP, FATHOM_BUILD_DIR="/nowhere")
+        done = self.wheel(FATHOM_BUILD_DIR="/nowhere")
         self.assertIn("error: FATHOM_BUILD_DIR: expected _fathom", done.stdout + done.stderr)
         self.assertNotIn("Traceback", done.stdout + done.stderr)
 

@@ -27,23 +27,22 @@ def build_sdist(sdist_directory, config_settings=None):
     raise UnsupportedOperation("there is no source distribution: the repository is the source")
 
 
+def prepare_metadata_for_build_wheel(metadata_directory, config_settings=None):
+    """Without it pip compiles to learn a name."""
+    folder = pathlib.Path(metadata_directory, f"fathom-{_version()}.dist-info")
+    folder.mkdir()
+    for name, content in _about().items():
+        (folder / name).write_bytes(content)
+    return folder.name
+
+
 def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
-    about = tomllib.loads((TOP / "pyproject.toml").read_text())["project"]
-    lists = (TOP / "CMakeLists.txt").read_text()
-    version = re.search(r"project\(fathom VERSION ([\d.]+)", lists).group(1)
-    interpreter = f"cp{sys.version_info.major}{sys.version_info.minor}"
-    system = re.sub(r"[-.]", "_", sysconfig.get_platform())
-    tag = f"{interpreter}-{interpreter}-{system}"
-    name = f"fathom-{version}-{tag}.whl"
+    of_wheel = f"fathom-{_version()}.dist-info"
+    name = f"fathom-{_version()}-{_tag()}.whl"
     with tempfile.TemporaryDirectory() as folder:
         package = _installed(pathlib.Path(os.environ.get("FATHOM_BUILD_DIR") or _built()), folder)
         files = {f"fathom/{one.name}": one.read_bytes() for one in sorted(package.iterdir())}
-    of_wheel = f"fathom-{version}.dist-info"
-    files[f"{of_wheel}/METADATA"] = _metadata(about, version).encode()
-    files[f"{of_wheel}/LICENSE"] = (TOP / "LICENSE").read_bytes()
-    files[f"{of_wheel}/WHEEL"] = (
-        f"Wheel-Version: 1.0\nGenerator: fathom_wheel\nRoot-Is-Purelib: false\nTag: {tag}\n"
-    ).encode()
+    files |= {f"{of_wheel}/{one}": content for one, content in _about().items()}
     files[f"{of_wheel}/RECORD"] = _record(files, f"{of_wheel}/RECORD").encode()
     with zipfile.ZipFile(pathlib.Path(wheel_directory, name), "w", zipfile.ZIP_DEFLATED) as wheel:
         for path, content in files.items():
@@ -52,9 +51,32 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     return name
 
 
+def _version():
+    lists = (TOP / "CMakeLists.txt").read_text()
+    return re.search(r"project\(fathom VERSION ([\d.]+)", lists).group(1)
+
+
+def _tag():
+    interpreter = f"cp{sys.version_info.major}{sys.version_info.minor}"
+    system = re.sub(r"[-.]", "_", sysconfig.get_platform())
+    return f"{interpreter}-{interpreter}-{system}"
+
+
+def _about():
+    """What a wheel says of itself, by the name of the file."""
+    wheel = "Wheel-Version: 1.0\nGenerator: fathom_wheel\nRoot-Is-Purelib: false\n"
+    return {
+        "METADATA": _metadata().encode(),
+        "LICENSE": (TOP / "LICENSE").read_bytes(),
+        "WHEEL": f"{wheel}Tag: {_tag()}\n".encode(),
+    }
+
+
 def _run(*command):
     words = [str(word) for word in command]
-    if subprocess.run(words, cwd=TOP).returncode != 0:
+    # There pip puts what hides the system's numpy from an isolated build.
+    environment = {key: value for key, value in os.environ.items() if key != "PYTHONPATH"}
+    if subprocess.run(words, cwd=TOP, env=environment).returncode != 0:
         sys.exit(f"fathom: error: '{' '.join(words)}' failed; what it said is above")
 
 
@@ -82,11 +104,12 @@ def _installed(build, folder):
     return next(pathlib.Path(folder).glob("lib*/python*/*-packages/fathom"))
 
 
-def _metadata(about, version):
+def _metadata():
+    about = tomllib.loads((TOP / "pyproject.toml").read_text())["project"]
     lines = [
         "Metadata-Version: 2.1",
         f"Name: {about['name']}",
-        f"Version: {version}",
+        f"Version: {_version()}",
         f"Summary: {about['description']}",
         f"License: {about['license']['text']}",
         f"Requires-Python: {about['requires-python']}",
