@@ -36,11 +36,16 @@ def of_solution(solution, what="trajectory", ax=None):
     if what != "trajectory":
         return _draw_against_time(_axes(ax), what, {solution.estimator: series})
     ax = _map_axes(ax)
-    _draw_loops(ax, _way_of(series), _used(series))
+    poses = _poses_of(series)
+    _draw_loops(ax, poses, _used(series))
     if solution.ground_truth is not None:
         _draw_way(ax, solution.ground_truth, TRUTH)
-    _draw_way(ax, solution.log.dead_reckoning, ODOMETRY)
-    _draw_way(ax, _way_of(series), {"label": solution.estimator, "linewidth": 1.2})
+    odometry = solution.log.dead_reckoning
+    if len(poses):
+        # As the estimate is moved to the truth.
+        odometry = _moved(odometry, solution.trajectory[0], poses[0])
+    _draw_way(ax, odometry, ODOMETRY)
+    _draw_way(ax, poses, {"label": solution.estimator, "linewidth": 1.2})
     return _with_legend(ax)
 
 
@@ -60,12 +65,12 @@ def of_results(results, what, ax, cell, survey, trial, metric, estimator):
     ax = _map_axes(ax)
     odometry = series.pop(DEAD_RECKONING)
     if "truth_x_m" in odometry:
-        _draw_way(ax, _way_of(odometry, "truth_x_m", "truth_y_m"), TRUTH)
-    _draw_way(ax, _way_of(odometry), ODOMETRY)
+        _draw_way(ax, _poses_of(odometry, "truth_"), TRUTH)
+    _draw_way(ax, _poses_of(odometry), ODOMETRY)
     for place, (one, drawn) in enumerate(series.items()):
         if place == 0:
-            _draw_loops(ax, _way_of(drawn), _used(drawn))
-        _draw_way(ax, _way_of(drawn), {"label": one, "linewidth": 1.2})
+            _draw_loops(ax, _poses_of(drawn), _used(drawn))
+        _draw_way(ax, _poses_of(drawn), {"label": one, "linewidth": 1.2})
     return _with_legend(ax)
 
 
@@ -96,8 +101,15 @@ def _with_legend(ax):
     return ax
 
 
-def _way_of(series, x="x_m", y="y_m"):
-    return numpy.column_stack([series.get(x, []), series.get(y, [])])
+def _poses_of(series, of=""):
+    return numpy.column_stack([series.get(of + name, []) for name in ("x_m", "y_m", "theta_rad")])
+
+
+def _moved(poses, from_, to):
+    """The poses after the motion of the plane that takes one pose to another."""
+    cosine, sine = numpy.cos(to[2] - from_[2]), numpy.sin(to[2] - from_[2])
+    rotation = numpy.array([[cosine, -sine], [sine, cosine]])
+    return (poses[:, :2] - from_[:2]) @ rotation.T + to[:2]
 
 
 def _draw_way(ax, poses, style):

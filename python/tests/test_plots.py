@@ -45,6 +45,14 @@ class Plots(unittest.TestCase):
             self.assertTrue(ax.xaxis_inverted())  # y is to the left
         self.assertEqual(set(self.lines(self.example.log.plot())), {"loops", "dead reckoning"})
 
+    def test_dead_reckoning_is_moved_with_the_estimate(self):
+        start = {"x_m": 5, "y_m": 3, "heading_rad": 1}
+        study = {"dataset": {"type": "simulated_log", "start": start}}
+        with fathom.compare(study, ["ekf"]) as results:
+            of_run = self.lines(results.example["ekf"].plot())
+            for label, line in self.lines(results.plot()).items():
+                numpy.testing.assert_allclose(of_run[label], line, atol=1e-9)
+
     def test_errors(self):
         errors = self.results.series("position_error_m", "ekf", trial=1)
         ax = self.results.plot("error", trial=1)
