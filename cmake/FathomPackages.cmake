@@ -98,7 +98,7 @@ if(TARGET fathom_python)
     "This package has the Python module, and lets the program read estimators that
 are written in Python.")
   # Recommended, it would bring a compiler along.
-  set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS python3-pandas)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-pandas, python3-matplotlib, python3-tqdm")
 endif()
 
 get_property(adapters GLOBAL PROPERTY FATHOM_ADAPTER_NAMES)

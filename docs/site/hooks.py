@@ -1,7 +1,10 @@
 """What mkdocs.yml cannot say: its own folder is no part of the site, the reference is, and so are
-the examples that pages link to outside docs/. KaTeX draws the formulas where it is installed
-(libjs-katex of Debian, or the folder that $FATHOM_KATEX names); else their source is shown."""
+"""What mkdocs.yml cannot say: its own folder is no part of the site, the reference is, and so are
+the examples that pages link to outside docs/, of which the notebook is a page. KaTeX draws the
+formulas where it is installed (libjs-katex of Debian, or the folder that $FATHOM_KATEX names); else
+their source is shown."""
 
+import json
 import os
 import re
 
@@ -9,6 +12,8 @@ from mkdocs.structure.files import File
 from mkdocs.structure.nav import Link
 
 TOP = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+NOTEBOOK = "examples/notebook/study.ipynb"
+NOTEBOOK_PAGE = "notebook.md"
 OUTSIDE = re.compile(r"\[([^]]*)\]\(\.\./([\w./-]+)\)")
 
 KATEX = os.environ.get("FATHOM_KATEX", "/usr/share/javascript/katex")
@@ -46,10 +51,30 @@ def on_files(files, config):
             continue
         with open(file.abs_src_path, encoding="utf-8") as page:
             linked = {path for _, path in OUTSIDE.findall(page.read())}
-        for path in sorted(linked):
+        for path in sorted(linked - {NOTEBOOK}):
             if os.path.isfile(os.path.join(TOP, path)) and not files.get_file_from_path(path):
                 files.append(File(path, TOP, config["site_dir"], use_directory_urls=False))
+    files.append(File(NOTEBOOK_PAGE, TOP, config["site_dir"], use_directory_urls=False))
     return files
+
+
+def on_page_read_source(page, config):
+    if page.file.src_path != NOTEBOOK_PAGE:
+        return None
+    with open(os.path.join(TOP, NOTEBOOK), encoding="utf-8") as file:
+        return "\n\n".join(map(cell_as_markdown, json.load(file)["cells"]))
+
+
+def cell_as_markdown(cell):
+    """The text of a cell, of code with the texts that are stored as its outputs."""
+    text = "".join(cell["source"])
+    if cell["cell_type"] == "markdown":
+        return text
+    outputs = "".join(
+        "".join(one["text"] if "text" in one else one["data"]["text/plain"]).rstrip("\n") + "\n"
+        for one in cell["outputs"]
+    )
+    return f"```python\n{text}\n```" + (f"\n\n```text\n{outputs}```" if outputs else "")
 
 
 def on_page_markdown(markdown, page, config, files):
@@ -59,6 +84,8 @@ def on_page_markdown(markdown, page, config, files):
 
     def inside(link):
         text, path = link.groups()
+        if path == NOTEBOOK:
+            return f"[{text}]({NOTEBOOK_PAGE})"
         return f"[{text}]({path})" if files.get_file_from_path(path) else f"`{text}`"
 
     return OUTSIDE.sub(inside, markdown)

@@ -4,6 +4,7 @@ Poses are (x, y, theta) in metres and radians, x forward, y to port, theta count
 from above. Measurements, residuals and covariances are those of docs/conventions.md.
 """
 
+from . import _methods  # noqa: F401
 from ._estimator import Estimator, Option, UpdateReport
 from ._evaluate import evaluate, read_tum, write_tum
 from ._fathom import (
@@ -29,7 +30,8 @@ from ._fathom import (
 from ._fathom import version as __version__
 from ._register import register
 from ._run import estimators, options, replay, run, solve
-from ._study import Results, compare, open_results
+from ._results import Results, open_results
+from ._study import compare
 
 __all__ = [
     "__version__",

@@ -3,6 +3,7 @@
 import os
 
 from . import _fathom
+from ._names import Named
 
 
 def evaluate(estimate, reference, *, alignment="origin", covariances=None) -> dict:
@@ -13,7 +14,7 @@ def evaluate(estimate, reference, *, alignment="origin", covariances=None) -> di
     covariances: N x 3 x 3 of the estimate's poses, world axes; with them the ANEES is told.
     Returns a dict; what is not known is absent. Raises InputError.
     """
-    return _fathom._evaluate(estimate, reference, alignment, covariances)
+    return Named("metric", _fathom._evaluate(estimate, reference, alignment, covariances))
 
 
 def read_tum(path):

@@ -5,6 +5,7 @@ import os
 from . import _fathom
 from ._estimator import described
 from ._fathom import _Registry
+from ._progress import heard_by
 from ._settings import Asked, files_of, is_estimator, settings_of
 
 
@@ -37,6 +38,7 @@ def solve(
     isolation="automatic",
     time_limit_s=None,
     memory_limit_mib=None,
+    progress=None,
     options=None,
     **values,
 ):
@@ -47,6 +49,8 @@ def solve(
         estimator's option of that name.
     isolation: 'process', 'none', or 'automatic': what is not built in, and every batch solve,
         has a process of its own, which may take time_limit_s and memory_limit_mib.
+    progress: of a solve keyframe by keyframe, as of `compare`; a function is called with a dict of
+        stage, step, steps.
     Other keywords, and the dict `options`, are the estimator's options. Returns a Solution; raises
     InputError.
     """
@@ -58,7 +62,10 @@ def solve(
     given = {key: value for key, value in limits.items() if value is not None}
     how = settings_of({"isolation": isolation, **given}, "solve")
     source = f"the options of {described(estimator)['name'] if is_estimator(estimator) else name}"
-    return _fathom._solve(log, registry, name, settings_of(values, source), mode, start, how)
+    with heard_by(progress) as heard:
+        return _fathom._solve(
+            log, registry, name, settings_of(values, source), mode, start, how, heard
+        )
 
 
 def replay(log, estimator, **keywords):
@@ -66,7 +73,9 @@ def replay(log, estimator, **keywords):
     return solve(log, estimator, mode="incremental", **keywords)
 
 
-def run(config, estimator=None, *, set={}, plugins=(), out=None, cache=True):
+def run(
+    config, estimator=None, *, set={}, plugins=(), out=None, cache=True, progress=None
+):
     """Runs the front end and one estimator over a data set, as `fathom run` does.
 
     config: a YAML file, a folder of pictures, or a dict of the same keys.
@@ -74,6 +83,7 @@ def run(config, estimator=None, *, set={}, plugins=(), out=None, cache=True):
     set: a dict of settings that replace those of the configuration.
     out: folder of the run's files; without one, none are written.
     cache: folder of the registrations that are kept; True: the usual one.
+    progress: as of `solve`.
     Returns a Solution.
     """
     changes = dict(set)
@@ -81,6 +91,6 @@ def run(config, estimator=None, *, set={}, plugins=(), out=None, cache=True):
         changes["estimator.type"] = estimator
     asked = Asked(config, changes, plugins, "the configuration")
     folder = None if not cache else "" if cache is True else os.fspath(cache)
-    return _fathom._run(
-        asked.settings, asked.registry, asked.file, os.fspath(out) if out else "", folder
-    )
+    out = os.fspath(out) if out else ""
+    with heard_by(progress) as heard:
+        return _fathom._run(asked.settings, asked.registry, asked.file, out, folder, heard)

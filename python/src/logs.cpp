@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Cholesky>
@@ -11,6 +12,7 @@
 #include "fathom/core/input_error.hpp"
 #include "fathom/measurements/g2o.hpp"
 #include "fathom/measurements/shared_file.hpp"
+#include "fathom/report/trajectory_plot.hpp"
 #include "python/src/arrays.hpp"
 #include "python/src/bindings.hpp"
 
@@ -69,6 +71,20 @@ double chi2_of(const MeasurementLog& log, const py::object& trajectory) {
   return chi2(log, poses);
 }
 
+std::string log_svg(const MeasurementLog& log, const std::string& title) {
+  TrajectoryPlot plot;
+  plot.title = title;
+  PlotSeries line{"dead reckoning", dead_reckoning_style(), log.odometry(), {}, {}};
+  for (const RelativePose& z : registrations_of(log)) line.loops.emplace_back(z.from, z.to);
+  for (std::size_t k = 0; k < log.size(); ++k) {
+    for (const AbsolutePose& z : log.arrival(k).absolute) {
+      line.absolute.push_back(absolute_mark(z, true));
+    }
+  }
+  plot.series.push_back(std::move(line));
+  return trajectory_svg(plot);
+}
+
 void bind_files(py::module_& module) {
   module.def(
       "read_g2o",
@@ -116,7 +132,8 @@ void bind_logs(py::module_& module) {
           "N x 3: the steps composed.")
       .def("chi2", &chi2_of, py::arg("trajectory"), "F of a trajectory, N x 3; no unit.")
       .def("to_g2o", &to_g2o, py::call_guard<py::gil_scoped_release>(),
-           "The log as text in the g2o format.");
+           "The log as text in the g2o format.")
+      .def("_svg", &log_svg);
   bind_files(module);
 }
 

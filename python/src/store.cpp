@@ -1,7 +1,6 @@
 // The results of a study, out of its folder.
 
-#include <limits>
-#include <memory>
+#include <map>
 #include <optional>
 #include <pybind11/stl.h>
 #include <string>
@@ -9,6 +8,7 @@
 
 #include "fathom/report/study_report.hpp"
 #include "fathom/results/result_store.hpp"
+#include "fathom/results/run_index.hpp"
 #include "python/src/arrays.hpp"
 #include "python/src/bindings.hpp"
 
@@ -45,6 +45,28 @@ std::vector<std::string> estimator_names(const ResultStore& store) {
   return names;
 }
 
+py::dict axes_of(const ResultStore& store) {
+  py::dict axes;
+  for (const StudyAxis& axis : store.study().axes) axes[axis.name.c_str()] = axis.labels;
+  return axes;
+}
+
+// Nothing where there is no such run.
+std::optional<std::map<std::string, py::array_t<double>>> all_series_of(const ResultStore& store,
+                                                                        const RunKey& key) {
+  const std::optional<RunRecord> run = store.run(key);
+  if (!run) return std::nullopt;
+  std::map<std::string, py::array_t<double>> arrays;
+  for (const auto& [name, values] : run->series) arrays.emplace(name, array_of(values));
+  return arrays;
+}
+
+std::vector<bool> failed_runs(const ResultStore& store) {
+  std::vector<bool> failed;
+  for (const RunRecord& run : store.runs()) failed.push_back(is_failed(run));
+  return failed;
+}
+
 }  // namespace
 
 void bind_store(py::module_& module) {
@@ -56,13 +78,17 @@ void bind_store(py::module_& module) {
       .def("title", [](const ResultStore& store) { return store.study().title; })
       .def("configuration", [](const ResultStore& store) { return store.study().configuration; })
       .def("table", [](const ResultStore& store) { return study_table(store); })
+      .def("axes", &axes_of)
+      .def("metrics", [](const ResultStore& store) { return store.study().metrics; })
+      .def("failed", &failed_runs)
       .def("series",
-           [](const ResultStore& store, const std::string& name, const std::string& estimator,
-              std::size_t cell, std::size_t survey,
-              std::size_t trial) -> std::optional<py::array_t<double>> {
-             const auto values = store.series({cell, survey, trial, estimator}, name);
-             if (!values) return std::nullopt;
-             return array_of(*values);
+           [](const ResultStore& store, const std::string& estimator, std::size_t cell,
+              std::size_t survey, std::size_t trial) {
+             return all_series_of(store, {cell, survey, trial, estimator});
+           })
+      .def("independent_draws",
+           [](const ResultStore& store, std::size_t cell, std::size_t surveys, std::size_t trials) {
+             return independent_draws(store.study().repetition_of(cell), surveys, trials);
            });
 }
 

@@ -5,13 +5,16 @@
 
 namespace fathom {
 
-void InterruptibleWork::progress(const std::string& /*work*/, std::size_t /*done*/,
-                                 std::size_t /*of*/) {
+void InterruptibleWork::progress(const std::string& work, std::size_t done, std::size_t of) {
   check_signals();
+  if (heard_.is_none()) return;
+  const pybind11::gil_scoped_acquire lock;
+  heard_(pybind11::dict(pybind11::arg("stage") = work, pybind11::arg("step") = done,
+                        pybind11::arg("steps") = of));
 }
 
-void InterruptibleWork::front_end_progress(const FrontEndProgress& /*at*/) {
-  check_signals();
+void InterruptibleWork::front_end_progress(const FrontEndProgress& at) {
+  progress("front end, picture", at.pictures, at.of_pictures);
 }
 
 workflow::Machine this_process() {

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "fathom/harness/recording.hpp"
+#include "fathom/harness/run_record.hpp"
 #include "held_out_run.hpp"
-#include "run_record.hpp"
 
 namespace fathom {
 

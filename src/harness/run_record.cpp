@@ -1,4 +1,4 @@
-#include "run_record.hpp"
+#include "fathom/harness/run_record.hpp"
 
 #include <algorithm>
 #include <limits>

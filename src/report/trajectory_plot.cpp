@@ -13,6 +13,7 @@ namespace fathom {
 namespace {
 
 constexpr PageSize kPage{640.0, 480.0};
+constexpr PageSize kSmallPage{480.0, 360.0};
 constexpr double kPixelsPerPoint = 2.5;
 constexpr double kTitleSize = 11.0;
 
@@ -56,16 +57,16 @@ std::string full_title(const TrajectoryPlot& plot, double most) {
   return shortened(plot.title, kTitleSize, most - text_width(note, kTitleSize)) + note;
 }
 
-void draw(Canvas& canvas, const TrajectoryPlot& plot) {
+void draw(Canvas& canvas, const TrajectoryPlot& plot, const PageSize& page) {
   constexpr double kMargin = 14.0;
-  const double width = kPage.width - 2.0 * kMargin;
+  const double width = page.width - 2.0 * kMargin;
   const TrajectoryMap map(plot);
   const ChartLegend legend(map.legend(), width);
   canvas.text(full_title(plot, width), {kMargin, kMargin + 7.0}, {.size = kTitleSize});
   constexpr double kLegendTop = kMargin + 15.0;
   legend.draw(canvas, {kMargin, kLegendTop});
   const double top = kLegendTop + legend.height() + 4.0;
-  map.draw(canvas, {kMargin, top, width, std::max(40.0, kPage.height - top - kMargin)});
+  map.draw(canvas, {kMargin, top, width, std::max(40.0, page.height - top - kMargin)});
 }
 
 }  // namespace
@@ -73,7 +74,14 @@ void draw(Canvas& canvas, const TrajectoryPlot& plot) {
 std::string trajectory_png(const TrajectoryPlot& plot) {
   check(plot);
   return render_figure(
-      FigureFormat::png, kPage, [&plot](Canvas& canvas) { draw(canvas, plot); }, kPixelsPerPoint);
+      FigureFormat::png, kPage, [&plot](Canvas& canvas) { draw(canvas, plot, kPage); },
+      kPixelsPerPoint);
+}
+
+std::string trajectory_svg(const TrajectoryPlot& plot) {
+  check(plot);
+  return render_figure(FigureFormat::svg, kSmallPage,
+                       [&plot](Canvas& canvas) { draw(canvas, plot, kSmallPage); });
 }
 
 }  // namespace fathom

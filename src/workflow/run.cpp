@@ -11,9 +11,9 @@
 #include "fathom/harness/map_fit.hpp"
 #include "fathom/harness/run_folder.hpp"
 #include "fathom/workflow/inputs.hpp"
+#include "fathom/workflow/trajectory_picture.hpp"
 #include "map_files.hpp"
 #include "run_mosaics.hpp"
-#include "trajectory_picture.hpp"
 
 namespace fathom::workflow {
 namespace {

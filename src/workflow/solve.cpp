@@ -10,8 +10,8 @@
 #include "fathom/harness/run_folder.hpp"
 #include "fathom/measurements/graph_numbers.hpp"
 #include "fathom/workflow/inputs.hpp"
+#include "fathom/workflow/trajectory_picture.hpp"
 #include "graph_keys.hpp"
-#include "trajectory_picture.hpp"
 
 namespace fathom::workflow {
 namespace {

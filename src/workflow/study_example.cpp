@@ -3,9 +3,9 @@
 #include "fathom/core/files.hpp"
 #include "fathom/harness/manifest.hpp"
 #include "fathom/harness/run_folder.hpp"
+#include "fathom/workflow/trajectory_picture.hpp"
 #include "map_files.hpp"
 #include "run_mosaics.hpp"
-#include "trajectory_picture.hpp"
 
 namespace fathom::workflow {
 

@@ -1,9 +1,8 @@
-#include "trajectory_picture.hpp"
+#include "fathom/workflow/trajectory_picture.hpp"
 
 #include <algorithm>
 
 #include "fathom/core/files.hpp"
-#include "fathom/report/trajectory_plot.hpp"
 
 namespace fathom::workflow {
 namespace {
@@ -56,9 +55,8 @@ std::vector<Pose> truth_in_world(const Recording& recording, const std::vector<R
 
 }  // namespace
 
-void write_trajectory_picture(const std::filesystem::path& path, const std::string& title,
-                              const Recording& recording, const std::vector<Result>& results,
-                              std::size_t first_place) {
+TrajectoryPlot trajectory_plot(const std::string& title, const Recording& recording,
+                               const std::vector<Result>& results, std::size_t first_place) {
   TrajectoryPlot plot;
   plot.title = title;
   const std::vector<Pose> odometry = recording.log.odometry();
@@ -72,7 +70,13 @@ void write_trajectory_picture(const std::filesystem::path& path, const std::stri
         series_of(recording.log, results[place], first_place + place, results.size() == 1));
   }
   if (results.size() > 1) keep_one_set_of_marks(plot.series);
-  write_file(path, trajectory_png(plot));
+  return plot;
+}
+
+void write_trajectory_picture(const std::filesystem::path& path, const std::string& title,
+                              const Recording& recording, const std::vector<Result>& results,
+                              std::size_t first_place) {
+  write_file(path, trajectory_png(trajectory_plot(title, recording, results, first_place)));
 }
 
 }  // namespace fathom::workflow

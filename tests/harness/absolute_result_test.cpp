@@ -8,8 +8,8 @@
 #include "fathom/core/files.hpp"
 #include "fathom/harness/map_fit.hpp"
 #include "fathom/harness/run_folder.hpp"
+#include "fathom/harness/run_record.hpp"
 #include "harness/square_result.hpp"
-#include "src/harness/run_record.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace fathom {

@@ -16,11 +16,11 @@
 #include "fathom/harness/replay.hpp"
 #include "fathom/harness/result.hpp"
 #include "fathom/harness/run_folder.hpp"
+#include "fathom/harness/run_record.hpp"
 #include "fathom/harness/study_run.hpp"
 #include "harness/scripted_estimator.hpp"
 #include "harness/small_config.hpp"
 #include "harness/square_log.hpp"
-#include "src/harness/run_record.hpp"
 #include "support/input_error.hpp"
 #include "support/temporary_folder.hpp"
 

@@ -25,6 +25,7 @@ using test::mean_position;
 using test::same;
 using test::series_of;
 using testing::HasSubstr;
+using testing::Not;
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -44,6 +45,19 @@ cv::Mat render(const TrajectoryPlot& plot) {
 // Below title and legend, and above the labels of the axis.
 cv::Mat map_of(const cv::Mat& picture) {
   return picture.rowRange(125, 1080).clone();
+}
+
+// Texts are glyphs, so that a title is no markup.
+TEST(TrajectoryPlot, AnSvgHasTheSameLinesOnASmallerPage) {
+  const std::string svg =
+      trajectory_svg(plot_of({series_of(0, {{0, 0, 0}, {10, 0, 0}})}, "<script>"));
+  EXPECT_THAT(svg, HasSubstr("<svg "));
+  EXPECT_THAT(svg, HasSubstr("viewBox=\"0 0 480 360\""));
+  EXPECT_THAT(svg, Not(HasSubstr("<script>")));
+  EXPECT_THAT(svg, testing::ContainsRegex("rgb\\(0%, ?44\\.7"));  // its blue
+  TrajectoryPlot broken = plot_of({series_of(0, {{0, 0, 0}})});
+  broken.series[0].loops = {{0, 1}};
+  EXPECT_THAT(input_error_of([&] { trajectory_svg(broken); }), HasSubstr("only 1 poses"));
 }
 
 // Three marks, told apart by the colour of their series: the origin, a point 10 m ahead of it and

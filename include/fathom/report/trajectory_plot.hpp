@@ -61,4 +61,7 @@ void keep_one_set_of_marks(std::vector<PlotSeries>& series);
 /// poses, or a measurement of a pose, that are not there.
 std::string trajectory_png(const TrajectoryPlot& plot);
 
+/// The same map as an SVG of 480 × 360 points, for a page that has text beside it.
+std::string trajectory_svg(const TrajectoryPlot& plot);
+
 }  // namespace fathom

@@ -6,12 +6,17 @@
 
 #include "fathom/harness/recording.hpp"
 #include "fathom/harness/result.hpp"
+#include "fathom/report/trajectory_plot.hpp"
 
 namespace fathom::workflow {
 
-/// The picture of a run or comparison: ground truth and dead reckoning, the estimates, the loops
-/// used and 2σ ellipses (of a single estimate only). All are drawn in the frame of keyframe 0.
+/// What the picture of a run or comparison shows: ground truth and dead reckoning, the estimates,
+/// the loops used and 2σ ellipses (of a single estimate only). All are in the frame of keyframe 0.
 /// `first_place` is that of the first estimate in its study, by which it has its line.
+TrajectoryPlot trajectory_plot(const std::string& title, const Recording& recording,
+                               const std::vector<Result>& results, std::size_t first_place = 0);
+
+/// The same as a PNG.
 void write_trajectory_picture(const std::filesystem::path& path, const std::string& title,
                               const Recording& recording, const std::vector<Result>& results,
                               std::size_t first_place = 0);

@@ -1,0 +1,171 @@
+"""The results of a study: rows, metrics, series, by name."""
+
+import itertools
+import os
+import shutil
+import weakref
+
+import numpy
+
+from . import _display, _fathom, _frames, _plot
+from ._fathom import InputError
+from ._names import DEAD_RECKONING, Named, known, number_or_text, unknown
+
+
+class Results:
+    """The results of a study.
+
+    rows: a dict for every run: cell, the values of the sweep's axes, survey, trial, estimator,
+        outcome, fault, and its metrics (docs/studies.md); what is not known is absent.
+    estimators: their names; dead reckoning has rows beside them.
+    axes: the sweep: by the name of an axis its values, as text.
+    cells: by the number of a cell the value on every axis.
+    folder: where report.html, tables and figures are.
+    example: by estimator the Solution of the first trial, where the study was run here.
+
+    A cell is given by its number, or by a dict of axes and values that fits one cell alone. A name
+    that is not there raises InputError, which is a KeyError, too, with the nearest one. As a
+    context manager, results are closed at its end.
+    """
+
+    def __init__(self, folder, example=(), temporary=None):
+        self._store = _fathom._Store(str(folder))
+        self.folder = str(folder)
+        self.title = self._store.title()
+        self.rows = [Named("key of a row", row) for row in self._store.rows()]
+        self.estimators = self._store.estimators()
+        self.axes = Named("axis of the sweep", self._store.axes())
+        self.cells = [dict(zip(self.axes, each)) for each in itertools.product(*self.axes.values())]
+        self._tabled = self._store.metrics()
+        self._by_place = {}  # rows by estimator and cell
+        self._with_failures = set()
+        for row, failed in zip(self.rows, self._store.failed()):
+            place = row["estimator"], row["cell"]
+            self._by_place.setdefault(place, []).append(row)
+            if failed:
+                self._with_failures.add(place)
+        self.configuration = Named("key", self._store.configuration())
+        self.example = Named("estimator", {one.estimator: one for one in example})
+        self._removal = lambda: None
+        if temporary:
+            self._removal = weakref.finalize(self, shutil.rmtree, temporary, ignore_errors=True)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *error):
+        self.close()
+
+    def close(self):
+        """Lets go of the store, and removes a folder that is a temporary one. Rows and metrics
+        stay; series and tables can no longer be read."""
+        self._store = None
+        self._removal()
+
+    def metric(self, name, estimator, cell=0):
+        """A metric over the runs of a cell that have it, as an array; empty where it is known of
+        none of them."""
+        if _fathom._metric(name) is None:
+            names = dict.fromkeys(_fathom._metric_names())
+            known("metric", name, names | dict.fromkeys(key for row in self.rows for key in row))
+        return numpy.array([row[name] for row in self._rows_of(estimator, cell) if name in row])
+
+    def series(self, name, estimator, cell=0, survey=0, trial=0):
+        """A series of one run (docs/studies.md), or None where only others of the trial have it."""
+        series = self._series_of(estimator, cell, survey, trial)
+        if name in series:
+            return series[name]
+        of_others = {}
+        for other in self._names():
+            of_others.update(self._open().series(other, self.cell(cell), survey, trial) or {})
+        known("series", name, of_others)
+        return None
+
+    def cell(self, cell) -> int:
+        """The number of a cell that is given by its number, or by axes and values."""
+        if not isinstance(cell, dict):
+            if cell not in range(len(self.cells)):
+                raise InputError(f"cell: expected 0 to {len(self.cells) - 1}, got {cell!r}")
+            return int(cell)
+        wanted = {axis: _label(axis, value, self.axes[axis]) for axis, value in cell.items()}
+        found = [i for i, each in enumerate(self.cells) if wanted.items() <= each.items()]
+        if len(found) != 1:
+            missing = ", ".join(axis for axis in self.axes if axis not in cell)
+            raise InputError(f"cell: {len(found)} cells fit; a value is missing of {missing}")
+        return found[0]
+
+    def table(self) -> str:
+        """The table that `fathom compare` prints."""
+        return self._open().table()
+
+    def to_frame(self):
+        """The rows as a data frame of pandas, by cell, the values of the sweep's axes (numbers,
+        where they are), survey, trial and estimator; units in `attrs["units"]`."""
+        return _frames.of_results(self)
+
+    def plot(
+        self,
+        what="trajectory",
+        ax=None,
+        *,
+        cell=0,
+        survey=0,
+        trial=0,
+        metric="mean_position_error_m",
+        estimator=None,
+    ):
+        """Draws by matplotlib, into `ax` or into a new figure, of one trial: 'trajectory', with
+        truth, dead reckoning and the loops of the first estimator; 'error', of positions against
+        time. Of a cell: 'nees', the mean over the trials at every keyframe with its 95 % interval.
+        Of a sweep over two axes: 'regimes', the mean of a metric of an estimator over that of the
+        best one. Returns the axes."""
+        if estimator is None:
+            estimator = self.estimators[0]
+        return _plot.of_results(self, what, ax, cell, survey, trial, metric, estimator)
+
+    def __repr__(self):
+        return _display.text_of_results(self)
+
+    def _repr_html_(self):
+        return _display.html_of_results(self)
+
+    def _open(self):
+        if self._store is None:
+            raise InputError("the results are closed; open them with fathom.open_results(folder)")
+        return self._store
+
+    def _names(self):
+        return [*self.estimators, DEAD_RECKONING]
+
+    def _rows_of(self, estimator, cell):
+        known("estimator", estimator, self._names())
+        return self._by_place.get((estimator, self.cell(cell)), [])
+
+    def _mean(self, metric, estimator, cell):
+        """None where it is not known, or a run has failed: it would leave out the hardest ones."""
+        values = self.metric(metric, estimator, cell)
+        is_known = len(values) > 0 and (estimator, cell) not in self._with_failures
+        return values.mean() if is_known else None
+
+    def _series_of(self, estimator, cell, survey, trial) -> dict:
+        known("estimator", estimator, self._names())
+        number = self.cell(cell)
+        store = self._open()
+        series = store.series(estimator, number, survey, trial) if min(survey, trial) >= 0 else None
+        if series is None:
+            raise InputError(
+                f"{estimator} has no run of trial {trial} of survey {survey} in cell {number}"
+            )
+        return series
+
+
+def open_results(folder) -> Results:
+    """The results in a study's folder."""
+    return Results(os.fspath(folder))
+
+
+def _label(axis, value, labels):
+    for label in labels:
+        if label == str(value) or number_or_text(label) == value:
+            return label
+    raise unknown(f"value of {axis}", value, labels)
