@@ -1,5 +1,4 @@
 """What mkdocs.yml cannot say: its own folder is no part of the site, the reference is, and so are
-"""What mkdocs.yml cannot say: its own folder is no part of the site, the reference is, and so are
 the examples that pages link to outside docs/, of which the notebook is a page. KaTeX draws the
 formulas where it is installed (libjs-katex of Debian, or the folder that $FATHOM_KATEX names); else
 their source is shown."""

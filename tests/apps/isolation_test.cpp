@@ -56,6 +56,23 @@ TEST_F(Isolation, AHangIsEndedAtItsTime) {
   EXPECT_EQ(metrics.at("fault"), "was killed after 0.3 s");
 }
 
+TEST_F(Isolation, WhatItPrintedIsOnTheTerminal) {
+  write("log.yaml", kLog);
+  write("s.yaml", std::string(kLog) +
+                      "trials: 2\nestimators:\n  - {type: ekf}\n  - {type: "
+                      "misbehaving, fault: crash}\n");
+  const Arguments plug_in{"--plugin", plugin("misbehaving")};
+  for (Arguments arguments : {Arguments{"run", "log.yaml", "--set", "estimator.type=misbehaving",
+                                        "--set", "estimator.fault=crash"},
+                              Arguments{"compare", "s.yaml"}}) {
+    arguments.insert(arguments.end(), plug_in.begin(), plug_in.end());
+    const Ended ended = fathom(arguments);
+    EXPECT_THAT(ended.out + ended.err,
+                HasSubstr("misbehaving: was ended by signal 11 (Segmentation fault); it printed "
+                          "last: first line"));
+  }
+}
+
 // The example of a study that is there already is shown again, and ends as it did.
 TEST_F(Isolation, AStudyThatHungIsShownAgain) {
   write("s.yaml", std::string(kLog) + "time_limit_s: 0.2\nplugins: [" + plugin("misbehaving") +
