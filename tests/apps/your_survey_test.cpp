@@ -81,7 +81,8 @@ TEST_F(YourSurvey, WhatTheAltimeterStatesIsUsedAndAMisspeltKeyIsNamed) {
 
 TEST_F(YourSurvey, AFolderThatIsNoneSaysWhatIsExpected) {
   fs::create_directory(path("empty"));
-  EXPECT_THAT(refusal({"run", "empty"}), HasSubstr("expected a folder in the EuRoC/ASL layout"));
+  EXPECT_THAT(refusal({"run", "empty"}),
+              HasSubstr("empty: is empty; expected a folder in the EuRoC/ASL layout"));
   EXPECT_THAT(refusal({"init", "empty"}), HasSubstr("expected a folder in the EuRoC/ASL layout"));
 }
 

@@ -30,10 +30,10 @@ fs::path mav0_of(const fs::path& path) {
   for (const fs::path& candidate : {path / "mav0", path}) {
     if (fs::is_directory(candidate / "cam0", error)) return candidate;
   }
-  if (fs::is_empty(path, error)) throw InputError(path.string(), "is an empty folder");
   throw InputError(path.string(),
-                   "has no mav0/cam0; expected a folder in the EuRoC/ASL layout, or pictures with "
-                   "dataset.type: pictures");
+                   std::string(fs::is_empty(path, error) ? "is empty" : "has no mav0/cam0") +
+                       "; expected a folder in the EuRoC/ASL layout, or pictures with "
+                       "dataset.type: pictures");
 }
 
 // The sensor's data.csv if its folder is there. A folder without one is a mistake, not an absence.
