@@ -84,7 +84,7 @@ TEST_F(Usage, MisuseIsOneLineAndStatusTwo) {
       {{"run", "a.yaml", "b.yaml"}, "'b.yaml' is a word too many (see fathom run --help)"},
       {{"run", "a.yaml", "--ou", "x"}, "unknown flag '--ou'; did you mean '--out'?"},
       {{"run", "--sett", "a=b"}, "unknown flag '--sett'; did you mean '--set'?"},
-      {{"run", "a.yaml", "--sede=3"}, "unknown flag '--sede'; did you mean '--seed'?"},
+      {{"run", "a.yaml", "--sseed=3"}, "unknown flag '--sseed'; did you mean '--seed'?"},
       {{"solve", "g.g2o", "--batch"}, "unknown flag '--batch' (see fathom solve --help)"},
       {{"run", "a.yaml", "--out"}, "--out"},
       {{"run", "a.yaml", "--out", "--no-mosaic"}, "got the flag '--no-mosaic'; a file of this"},
