@@ -59,7 +59,7 @@ function showTheme() {
 }
 
 function makeHead() {
-  document.getElementById('title').textContent = study.title || 'Study';
+  document.getElementById('title').textContent = study.title || document.title;
   const estimators = study.estimators.length - 1;
   const count = (n, noun) => `${n} ${noun}${n === 1 ? '' : 's'}`;
   const alignments = [...new Set(study.cells.map((cell) => cell.alignment))].filter(Boolean);
