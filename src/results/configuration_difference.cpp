@@ -1,10 +1,25 @@
-#include <algorithm>
 #include <map>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "fathom/core/input_error.hpp"
+#include "fathom/core/text.hpp"
 #include "result_schema.hpp"
 
 namespace fathom {
+namespace {
+
+std::string first_of(std::vector<std::string> all, std::size_t most) {
+  if (all.size() > most) {
+    const std::size_t more = all.size() - most;
+    all.resize(most);
+    all.push_back("and " + std::to_string(more) + " more");
+  }
+  return joined(all, "; ");
+}
+
+}  // namespace
 
 std::string data_difference(const StudyDescription& there, const StudyDescription& here) {
   const std::map<std::string, std::string> old(there.data.begin(), there.data.end());
@@ -18,13 +33,7 @@ std::string data_difference(const StudyDescription& there, const StudyDescriptio
   for (const auto& [file, hash] : old) {
     if (!now.contains(file)) changes.push_back(file + " is gone");
   }
-  constexpr std::size_t kShown = 3;
-  std::string text;
-  for (std::size_t i = 0; i < std::min(changes.size(), kShown); ++i) {
-    text += (i > 0 ? "; " : "") + changes[i];
-  }
-  if (changes.size() > kShown) text += "; and " + std::to_string(changes.size() - kShown) + " more";
-  return text;
+  return first_of(std::move(changes), 3);
 }
 
 std::string difference(const StudyDescription& there, const StudyDescription& here) {
@@ -32,23 +41,25 @@ std::string difference(const StudyDescription& there, const StudyDescription& he
                                                there.configuration.end());
   const std::map<std::string, std::string> now(here.configuration.begin(),
                                                here.configuration.end());
-  std::string text;
-  const auto say = [&text](const std::string& key, const std::string& was, const std::string& is) {
-    if (!text.empty()) text += "; ";
-    text.append(key).append(": ").append(was).append(" there, ").append(is).append(" here");
+  // What both have tells most; another data set brings dozens of other keys.
+  std::vector<std::string> changed;
+  std::vector<std::string> others;
+  const auto said = [](const std::string& key, const std::string& was, const std::string& is) {
+    return key + ": " + was + " there, " + is + " here";
   };
   for (const auto& [key, value] : now) {
     const auto found = old.find(key);
     if (found == old.end()) {
-      say(key, "absent", value);
+      others.push_back(said(key, "absent", value));
     } else if (found->second != value) {
-      say(key, found->second, value);
+      changed.push_back(said(key, found->second, value));
     }
   }
   for (const auto& [key, value] : old) {
-    if (!now.contains(key)) say(key, value, "absent");
+    if (!now.contains(key)) others.push_back(said(key, value, "absent"));
   }
-  return text;
+  changed.insert(changed.end(), others.begin(), others.end());
+  return first_of(std::move(changed), 6);
 }
 
 void require_same(const StudyDescription& there, const StudyDescription& here,

@@ -133,8 +133,12 @@ TEST(ResultStore, AChangedConfigurationIsRefusedWithWhatDiffers) {
   StudyDescription other = description();
   other.configuration = {{"association.mode", "own"}, {"seed", "2"}, {"new.key", "x"}};
   EXPECT_THAT(input_error_of([&] { ResultStore::write(folder.path(), other, ""); }),
-              HasSubstr("another configuration (new.key: absent there, x here; seed: 1 there, 2 "
+              HasSubstr("another configuration (seed: 1 there, 2 here; new.key: absent there, x "
                         "here); use another --out"));
+  for (int i = 0; i < 60; ++i) other.configuration.emplace_back("key." + std::to_string(i), "x");
+  EXPECT_THAT(input_error_of([&] { ResultStore::write(folder.path(), other, ""); }),
+              ::testing::AllOf(HasSubstr("(seed: 1 there, 2 here; key.0: "),
+                               HasSubstr("; and 56 more); use another --out")));
 }
 
 TEST(ResultStore, OneProcessWritesAtATime) {
