@@ -60,8 +60,10 @@ TEST(FileLock, HasOneHolderHoweverTheyTakeTurns) {
 TEST(FileLock, OfAFileThatCannotBeMadeIsAFaultOfTheEnvironment) {
   const TemporaryFolder folder;
   EXPECT_THROW(FileLock(folder / "none/lock", "busy"), EnvironmentError);
-  const test::FewDescriptors none_left;
-  EXPECT_THAT(test::input_error_of([&] { FileLock(folder / "lock", "busy"); }),
+  EXPECT_THAT(test::input_error_of([&] {
+                const test::FewDescriptors none_left;
+                FileLock(folder / "lock", "busy");
+              }),
               HasSubstr("cannot be written: Too many open files"));
 }
 

@@ -137,9 +137,12 @@ TEST_F(Files, WhatTheSystemRefusesIsAFaultOfTheEnvironment) {
   put(folder_ / "file", "f");
   EXPECT_THROW(write_file(folder_ / "none/file", "x"), EnvironmentError);
   EXPECT_THROW(StagedFolder(folder_ / "file/below"), EnvironmentError);
-  const test::FewDescriptors none_left;
-  EXPECT_THAT(input_error_of([&] { write_file(folder_ / "other", "x"); }),
+  EXPECT_THAT(input_error_of([&] {
+                const test::FewDescriptors none_left;
+                write_file(folder_ / "other", "x");
+              }),
               HasSubstr("other: cannot be written: Too many open files"));
+  const test::FewDescriptors none_left;
   EXPECT_THROW(read_file(folder_ / "file"), EnvironmentError);
 }
 

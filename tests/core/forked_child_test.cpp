@@ -45,8 +45,14 @@ TEST(ForkedChild, AFaultOfItsEnvironmentIsThrownByItsParent) {
 }
 
 TEST(ForkedChild, WithoutDescriptorsItIsNotBegun) {
-  const test::FewDescriptors none_left;
-  EXPECT_THAT(environment_fault_of([](const MessagePipe&) {}), HasSubstr("Too many open files"));
+  std::string said;
+  try {
+    const test::FewDescriptors none_left;
+    run_child([](const MessagePipe&) {}, kLimits, [](char, const std::string&) {});
+  } catch (const EnvironmentError& error) {
+    said = error.what();
+  }
+  EXPECT_THAT(said, HasSubstr("Too many open files"));
 }
 
 }  // namespace
