@@ -85,4 +85,17 @@ std::unique_ptr<BagWriter> ros1_bag_writer(const std::filesystem::path& path,
 std::unique_ptr<BagWriter> ros2_bag_writer(const std::filesystem::path& path,
                                            bool is_big_endian = false);
 
+/// How messages are put into an MCAP file.
+struct McapLayout {
+  std::string compression{};  ///< of its chunks: "lz4", "zstd"; of another name they are empty
+  bool is_chunked = true;
+  bool has_sums = true;
+  bool has_summary = true;
+  std::size_t messages_in_chunk = 7;
+};
+
+/// The same messages as an `.mcap`.
+std::unique_ptr<BagWriter> mcap_bag_writer(const std::filesystem::path& path,
+                                           const McapLayout& layout = {});
+
 }  // namespace fathom::test
