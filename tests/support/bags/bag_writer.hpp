@@ -52,6 +52,17 @@ struct BodyPose {
   std::array<double, 36> velocity_covariance{};
 };
 
+/// The frame of all headers.
+inline constexpr const char* kBagFrame = "odd length";
+
+/// Of tf: translation, and quaternion x y z w.
+struct FramePlace {
+  std::string parent;
+  std::string child;
+  std::array<double, 3> translation{};
+  std::array<double, 4> rotation{0.0, 0.0, 0.0, 1.0};
+};
+
 /// Writes a bag from the definitions of the messages, independently of what Fathom reads with.
 class BagWriter {
  public:
@@ -71,6 +82,9 @@ class BagWriter {
                                     const BodyPose& pose) = 0;
   virtual void imu(const std::string& topic, Stamps stamps, const std::array<double, 4>& rotation,
                    const std::array<double, 9>& covariance) = 0;
+  /// A tf2_msgs/TFMessage.
+  virtual void transforms(const std::string& topic, Stamps stamps,
+                          const std::vector<FramePlace>& places) = 0;
   /// A type that nobody imports.
   virtual void word(const std::string& topic, Stamps stamps, const std::string& word) = 0;
 };

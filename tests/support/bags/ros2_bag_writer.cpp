@@ -43,10 +43,10 @@ class Cdr {
     for (const double value : values) number(value);
     return *this;
   }
-  Cdr& header(std::int64_t time_ns) {
+  Cdr& header(std::int64_t time_ns, const std::string& frame = kBagFrame) {
     constexpr std::int64_t kSecond = 1'000'000'000;
     number(static_cast<std::int32_t>(time_ns / kSecond));
-    return u32(static_cast<std::uint32_t>(time_ns % kSecond)).text("odd length");
+    return u32(static_cast<std::uint32_t>(time_ns % kSecond)).text(frame);
   }
   const std::vector<std::uint8_t>& bytes() const { return bytes_; }
 
@@ -116,6 +116,16 @@ class Ros2BagWriter : public BagWriter {
     Cdr cdr = headed(stamps);
     cdr.numbers(rotation).numbers(covariance).numbers(std::array<double, 24>{});
     write(topic, "sensor_msgs/msg/Imu", stamps, cdr);
+  }
+  void transforms(const std::string& topic, Stamps stamps,
+                  const std::vector<FramePlace>& places) override {
+    Cdr cdr(is_big_endian_);
+    cdr.u32(static_cast<std::uint32_t>(places.size()));
+    for (const FramePlace& place : places) {
+      cdr.header(stamps.header_ns, place.parent).text(place.child);
+      cdr.numbers(place.translation).numbers(place.rotation);
+    }
+    write(topic, "tf2_msgs/msg/TFMessage", stamps, cdr);
   }
   void word(const std::string& topic, Stamps stamps, const std::string& word) override {
     Cdr cdr(is_big_endian_);
