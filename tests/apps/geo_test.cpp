@@ -143,10 +143,9 @@ TEST_F(OnEarth, AnOlderRunIsPutOnEarthByTheMosaicCommand) {
   write("e.yaml", std::string(kSmallSurvey) + origin(39.5, 2.5, 213));
   fathom_done({"run", "c.yaml", "--out", "c"});
   fathom_done({"run", "e.yaml", "--out", "e"});
-  const Ended ended =
-      fathom_done({"mosaic", "c", "--set", "dataset.origin.latitude=39.5", "--set",
-                   "dataset.origin.longitude=2.5", "--set", "dataset.origin.heading=213", "--blend",
-                   "seams", "--out", "later"});
+  const Ended ended = fathom_done({"mosaic", "c", "--set", "dataset.origin.latitude=39.5", "--set",
+                                   "dataset.origin.longitude=2.5", "--blend", "seams", "--set",
+                                   "dataset.origin.heading=213", "--out", "later"});
   EXPECT_THAT(ended.out, HasSubstr("later/mosaic.tif (WGS 84 / UTM zone 31N)"));
   for (const std::string name :
        {"mosaic.tif", "mosaic.pgw", "mosaic.json", "footprints.csv", "footprints.geojson"}) {
@@ -185,13 +184,11 @@ TEST_F(OnEarth, TilesAndOneFileAreTheSameGeoTiff) {
 TEST_F(Geo, TilesPutTogetherAreTheMosaic) {
   write("c.yaml", kSmallSurvey);
   fathom_done({"run", "c.yaml", "--out", "out"});
-  EXPECT_THAT(
-      fathom_done({"mosaic", "out", "--tile-size", "100", "--blend", "seams", "--out", "tiles"})
-          .out,
-      HasSubstr("in 12 tiles\n"));
+  fathom_done({"mosaic", "out", "--tile-size", "100", "--blend", "seams", "--out", "tiles"});
   const cv::Mat whole = cv::imread(path("out/mosaic.png").string(), cv::IMREAD_UNCHANGED);
   const nlohmann::json index = json_of("tiles/mosaic.json");
   EXPECT_EQ(index.at("tile_px"), 100);
+  EXPECT_EQ(index.at("tiles").size(), 12u);
   EXPECT_EQ(index.at("width_px"), whole.cols);
   cv::Mat joined(whole.size(), CV_8U, cv::Scalar(255));
   for (const std::string name : index.at("tiles")) {
