@@ -174,8 +174,8 @@ void add_import(CLI::App& program, Context& context) {
       "Topics are guessed by their types and named by flags. A COLMAP text model and KITTI poses\n"
       "become state_groundtruth_estimate0 and reference.tum (docs/import.md).");
   command.argument("source", flags->source,
-                   "Bag of ROS 1 (.bag) or ROS 2 (.db3 or folder), COLMAP text model or KITTI "
-                   "poses");
+                   "Bag of ROS 1 (.bag) or ROS 2 (.db3, .mcap or folder), COLMAP text model or "
+                   "KITTI poses");
   command.text("--out", flags->out, "DIR", "Output folder (default: runs/SOURCE's name-data)");
   command.boolean("--list", flags->list, "List the topics of a bag and what they are taken for");
   command.boolean("--quiet", flags->quiet, "No output but errors");

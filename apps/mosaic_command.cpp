@@ -19,6 +19,7 @@ struct MosaicFlags {
   std::optional<double> metres_per_pixel;
   double max_difference_s = 0.01;
   std::optional<int> tile_px;
+  std::string blend = "feather";
 };
 
 void make(const MosaicFlags& flags, Context& context) {
@@ -29,6 +30,7 @@ void make(const MosaicFlags& flags, Context& context) {
   request.metres_per_pixel = flags.metres_per_pixel;
   request.max_difference_s = flags.max_difference_s;
   request.tile_px = flags.tile_px;
+  request.blend = flags.blend == "seams" ? MosaicBlend::seams : MosaicBlend::feather;
   request.out = flags.common.out;
   Terminal terminal(flags.common.quiet);
   const workflow::MosaicOutcome done =
@@ -64,6 +66,10 @@ void add_mosaic(CLI::App& program, Context& context) {
   command.integer("--tile-size", flags->tile_px, Range::between(64, 16384), "PX",
                   "Tiles of so many pixels a side in place of one picture: full resolution and "
                   "little memory, however large the mosaic");
+  command.choice(
+      "--blend", flags->blend, {"feather", "seams"}, "BLEND",
+      "Where pictures overlap: their mean, which shows what is misplaced; or the nearest "
+      "one, at equal exposure");
   flags->common.add_settings_to(command, context);
   flags->common.add_out_to(command, "Output folder (default: runs/RUN's name-TRAJECTORY's name)");
   command.on_run([flags, &context] { make(*flags, context); });

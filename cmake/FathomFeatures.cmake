@@ -135,6 +135,12 @@ find_package(fastcdr QUIET CONFIG)
 fathom_feature(FASTCDR FOUND ${fastcdr_FOUND} GROUP import PACKAGES libfastcdr-dev
   GIVES "bags of ROS 2")
 
+pkg_check_modules(LZ4 QUIET IMPORTED_TARGET liblz4)
+pkg_check_modules(ZSTD QUIET IMPORTED_TARGET libzstd)
+fathom_all_found(found LZ4_FOUND ZSTD_FOUND)
+fathom_feature(COMPRESSION FOUND ${found} GROUP import PACKAGES liblz4-dev libzstd-dev
+  GIVES "bags of ROS 2 as MCAP with compressed chunks")
+
 # Debian's pybind11 and numpy are for Debian's interpreter, which another one may hide.
 if(NOT DEFINED Python3_EXECUTABLE AND EXISTS /usr/bin/python3)
   set(Python3_EXECUTABLE /usr/bin/python3)

@@ -31,10 +31,10 @@ base=(
 )
 # Ubuntu's chromium is no package: the tests that open a page are skipped there.
 [[ $system == ubuntu* ]] || base+=(chromium)
-# librosbag-storage-dev and libfastcdr-dev read bags, the libraries of messages and gdal-bin are for
-# the tests alone: they write bags and read maps independently of Fathom.
+# The first four read bags; the libraries of messages and gdal-bin are for the tests alone: they
+# write bags and read maps independently of Fathom.
 import=(
-  librosbag-storage-dev libfastcdr-dev libgeotiff-dev libproj-dev
+  librosbag-storage-dev libfastcdr-dev liblz4-dev libzstd-dev libgeotiff-dev libproj-dev
   libsensor-msgs-dev libnav-msgs-dev libgeometry-msgs-dev libstd-msgs-dev gdal-bin
 )
 python=(pybind11-dev python3-dev python3-numpy python3-pandas python3-scipy)

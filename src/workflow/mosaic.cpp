@@ -78,7 +78,7 @@ KeyframeMap keyframe_map_of(const std::vector<PlacedPicture>& pictures, const Fr
 std::string lay(const MosaicRequest& request, const fs::path& folder, const FrameSource& frames,
                 const std::vector<PlacedPicture>& pictures, const EarthFrame* earth,
                 Observer& observer) {
-  const AskedMosaic asked{request.metres_per_pixel, earth};
+  const AskedMosaic asked{request.metres_per_pixel, earth, request.blend};
   if (!request.tile_px) return write_mosaic(folder, frames, pictures, asked, observer);
   return write_tiled_mosaic(folder, frames, pictures, asked, *request.tile_px, observer);
 }

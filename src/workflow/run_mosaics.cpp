@@ -121,6 +121,7 @@ std::vector<std::string> write_mosaics(const FrameSource& source,
   // Of solvers that are done: mosaics and the floor of a simulation need memory of their own.
   return_free_memory();
   MosaicOptions options;
+  options.blend = MosaicBlend::seams;
   options.most_pixels /= static_cast<double>(mosaics.size()) * (earth == nullptr ? 1.0 : 2.0);
   std::vector<std::string> lines;
   lines.reserve(mosaics.size());
@@ -137,6 +138,7 @@ std::string write_mosaic(const std::filesystem::path& folder, const FrameSource&
                          Observer& observer) {
   MosaicOptions options;
   options.metres_per_pixel = asked.metres_per_pixel;
+  options.blend = asked.blend;
   if (asked.earth != nullptr) options.most_pixels /= 2.0;
   std::vector<PlannedMosaic> planned{
       {folder, plan_mosaic(source.camera(), pictures, options), false}};
@@ -153,6 +155,7 @@ std::string write_tiled_mosaic(const std::filesystem::path& folder, const FrameS
                                int tile_px, Observer& observer) {
   MosaicOptions options = MosaicOptions::of_tiles();
   options.metres_per_pixel = asked.metres_per_pixel;
+  options.blend = asked.blend;
   const MosaicPlan plan = plan_mosaic(source.camera(), pictures, options);
   MosaicFiles files = files_of(asked.earth);
   files.tile_px = tile_px;

@@ -24,10 +24,10 @@ struct RunMosaic {
 std::vector<PlacedPicture> placed_pictures(const Recording& recording,
                                            const std::vector<Pose>& keyframes);
 
-/// Writes `mosaic.png`, `mosaic.pgw` and `mosaic.json` of each, on Earth also `mosaic.tif`, all
-/// together no larger than one may be. What has no mosaic, such as an estimate gone wild, gets
-/// none: a run is worth keeping without. Returns for each one line of what was written, or why it
-/// was not.
+/// Writes `mosaic.png`, `mosaic.pgw` and `mosaic.json` of each, with seams, on Earth also
+/// `mosaic.tif`, all together no larger than one may be. What has no mosaic, such as an estimate
+/// gone wild, gets none: a run is worth keeping without. Returns for each one line of what was
+/// written, or why it was not.
 std::vector<std::string> write_mosaics(const FrameSource& source,
                                        const std::vector<RunMosaic>& mosaics,
                                        const EarthFrame* earth, Observer& observer);
@@ -36,6 +36,7 @@ std::vector<std::string> write_mosaics(const FrameSource& source,
 struct AskedMosaic {
   std::optional<double> metres_per_pixel;  ///< as in MosaicOptions
   const EarthFrame* earth = nullptr;       ///< on Earth also `mosaic.tif`
+  MosaicBlend blend = MosaicBlend::feather;
 };
 
 /// Writes `mosaic.png`, `mosaic.pgw` and `mosaic.json`. Throws InputError. Returns what was laid.

@@ -65,7 +65,7 @@ TEST_F(Attitude, AMosaicAndVisualOdometryUseIt) {
     return bytes_of("vo" + sigma + "/dead_reckoning.tum");
   };
   EXPECT_NE(odometry("off"), odometry("0"));
-  fathom_done({"mosaic", "seen", "--out", "again"});
+  fathom_done({"mosaic", "seen", "--blend", "seams", "--out", "again"});
   EXPECT_EQ(bytes_of("again/mosaic.png"), bytes_of("seen/mosaic.png"));
   EXPECT_EQ(bytes_of("again/footprints.csv"), bytes_of("seen/footprints.csv"));
   const auto on_truth = [&](const std::string& sigma) {

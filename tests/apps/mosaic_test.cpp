@@ -47,11 +47,16 @@ TEST_F(MosaicCommand, ARunWritesTheMosaicOfItsEstimate) {
   EXPECT_GT(where.at("y_of_top_left_m"), 1.6);
   EXPECT_GT(covered(mosaic), 0.65);
 
-  const Ended again = fathom_done({"mosaic", "out", "--out", "again"});
+  const Ended again = fathom_done({"mosaic", "out", "--blend", "seams", "--out", "again"});
   EXPECT_THAT(again.out,
               AllOf(HasSubstr("33 of 33 frames have a pose"), HasSubstr("again/mosaic.png")));
   EXPECT_EQ(bytes_of("again/mosaic.png"), bytes_of("out/mosaic.png"));
   EXPECT_EQ(bytes_of("again/mosaic.json"), bytes_of("out/mosaic.json"));
+  // For measuring it hides nothing.
+  fathom_done({"mosaic", "out", "--out", "measured"});
+  EXPECT_EQ(where.at("blend"), "seams");
+  EXPECT_EQ(json_of("measured/mosaic.json").at("blend"), "feather");
+  EXPECT_NE(bytes_of("measured/mosaic.png"), bytes_of("out/mosaic.png"));
 }
 
 TEST_F(MosaicCommand, TakesAnotherTrajectoryAndResolution) {
@@ -73,7 +78,8 @@ TEST_F(MosaicCommand, OfARunFromDiskThatHasMoved) {
   fathom_done({"run", "data/run.yaml", "--out", "out"});
   std::filesystem::rename(path("data"), path("moved"));
   EXPECT_THAT(refusal({"mosaic", "out"}), HasSubstr("data"));
-  fathom_done({"mosaic", "out", "--set", "dataset.path=moved", "--out", "again"});
+  fathom_done(
+      {"mosaic", "out", "--set", "dataset.path=moved", "--blend", "seams", "--out", "again"});
   EXPECT_EQ(bytes_of("again/mosaic.png"), bytes_of("out/mosaic.png"));
 }
 
@@ -82,7 +88,7 @@ TEST_F(MosaicCommand, ComparedEstimatorsHaveOneEach) {
   fathom_done({"compare", "c.yaml", "--out", "out"});
   for (const std::string name : {"trajectory_iekf", "ekf", "ceres_pose_graph"}) {
     EXPECT_GT(covered(picture("out/" + name + "/mosaic.png")), 0.65) << name;
-    fathom_done({"mosaic", "out/" + name, "--out", "again"});
+    fathom_done({"mosaic", "out/" + name, "--blend", "seams", "--out", "again"});
     EXPECT_EQ(bytes_of("again/mosaic.png"), bytes_of("out/" + name + "/mosaic.png")) << name;
   }
   fathom_done({"compare", "c.yaml", "--out", "none", "--no-mosaic"});

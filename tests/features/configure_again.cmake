@@ -12,7 +12,7 @@ execute_process(COMMAND ${PKG_CONFIG} --variable pc_path pkg-config OUTPUT_VARIA
 string(REPLACE ":" ";" folders "${folders}")
 foreach(folder IN LISTS folders)
   file(GLOB files ${folder}/*.pc)
-  list(FILTER files EXCLUDE REGEX "/(libexif|proj|libtiff-4)\\.pc$")
+  list(FILTER files EXCLUDE REGEX "/(libexif|proj|libtiff-4|liblz4|libzstd)\\.pc$")
   if(files)
     file(COPY ${files} DESTINATION ${FOLDER}/pkgconfig)
   endif()

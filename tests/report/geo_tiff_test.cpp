@@ -186,6 +186,44 @@ TEST_F(GeoTiffTest, TilesInAnyOrderAreTheWhole) {
   EXPECT_EQ(cv::norm(read, mosaic, cv::NORM_INF), 0.0);
 }
 
+// Odd sides, tiles that are cut, and gaps: unseen pixels leave their neighbours as they are.
+TEST_F(GeoTiffTest, OverviewsAreMeansOfWhatIsSeenByHalves) {
+  const EarthFrame earth({39.5, 2.5, 213.0});
+  MosaicPlan plan;
+  plan.metres_per_pixel = 0.1;
+  plan.size = {1061, 303};
+  cv::Mat level(plan.size, CV_8U);
+  cv::randu(level, 0, 255);
+  cv::Mat gaps(plan.size, CV_8U);
+  cv::randu(gaps, 0, 3);
+  level.setTo(kUnseen, gaps == 0);
+  level({500, 0, 130, 303}).setTo(kUnseen);
+  write_geotiff(path("m.tif"), earth, plan, level);
+  std::vector<cv::Mat> read;
+  ASSERT_TRUE(cv::imreadmulti(path("m.tif").string(), read, cv::IMREAD_UNCHANGED));
+  ASSERT_EQ(read.size(), 4U);
+  const nlohmann::json overviews = gdal_info(path("m.tif")).at("bands").at(0).at("overviews");
+  ASSERT_EQ(overviews.size(), 3U);
+  for (std::size_t i = 0; i < read.size(); ++i) {
+    ASSERT_EQ(read[i].size(), level.size()) << i;
+    EXPECT_EQ(cv::norm(read[i], level, cv::NORM_INF), 0.0) << i;
+    cv::Mat half((level.rows + 1) / 2, (level.cols + 1) / 2, CV_8U, cv::Scalar(kUnseen));
+    for (int v = 0; v < half.rows; ++v) {
+      for (int u = 0; u < half.cols; ++u) {
+        const cv::Mat four = level(cv::Rect(2 * u, 2 * v, 2, 2) & cv::Rect({0, 0}, level.size()));
+        const cv::Mat seen = four != kUnseen;
+        if (cv::countNonZero(seen) == 0) continue;
+        half.at<unsigned char>(v, u) =
+            static_cast<unsigned char>(std::floor(cv::mean(four, seen)[0] + 0.5));
+      }
+    }
+    level = half;
+    if (i < overviews.size()) {
+      EXPECT_EQ(overviews.at(i).at("size").at(0), level.cols);
+    }
+  }
+}
+
 TEST_F(GeoTiffTest, RefusesAFolderThatIsNotThere) {
   const std::vector<PlacedPicture> truth{{0, 20.0, {0, 0, 0}}};
   const MarkedFloor floor({0, 0}, truth);

@@ -71,8 +71,9 @@ TEST(MosaicTiles, PutTogetherAreTheWholeBitForBit) {
     picture.pose = compose(picture.pose, Pose{noise(random), noise(random), noise(random)});
   }
   for (const double metres_per_pixel : {0.0123, 0.05}) {
+    const MosaicBlend blend = metres_per_pixel == 0.05 ? MosaicBlend::seams : MosaicBlend::feather;
     const MosaicPlan plan =
-        plan_mosaic(floor.camera(), wrong, {.metres_per_pixel = metres_per_pixel});
+        plan_mosaic(floor.camera(), wrong, {.metres_per_pixel = metres_per_pixel, .blend = blend});
     const cv::Mat whole = make_mosaics(floor, {&plan, 1}).front();
     for (const int side_px : {1, 37, 64, 5000}) {
       if (side_px == 1 && metres_per_pixel < 0.05) continue;  // half a minute

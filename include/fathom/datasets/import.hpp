@@ -12,8 +12,8 @@ namespace fathom {
 /// What a recording or a model is, by its first bytes or the files of its folder.
 enum class ImportKind { ros1_bag, ros2_bag, colmap, kitti };
 
-/// Throws InputError on what is none of them, and on their variants that are not read (MCAP,
-/// compressed bags, binary COLMAP models), naming the conversion.
+/// Throws InputError on what is none of them, and on their variants that are not read (compressed
+/// bags, binary COLMAP models), naming the conversion.
 ImportKind import_kind(const std::filesystem::path& source);
 
 /// Which time stamps of a bag count: those of the message headers, once they are seen to agree with

@@ -19,7 +19,8 @@ std::vector<PlacedPicture> placed_on_grid(const EarthFrame& earth, const Camera&
                                           std::span<const PlacedPicture> pictures);
 
 /// A mosaic as GeoTIFF, north up: 8-bit grey in square tiles, 255 (kUnseen) is no data, deflate;
-/// BigTIFF from 4 GB uncompressed on. Memory: a tile. The file is whole only after `finish`.
+/// BigTIFF from 4 GB uncompressed on. Overviews by halves to 256 pixels, their pixels means of what
+/// is seen, are further directories. Memory: five tiles. The file is whole only after `finish`.
 class GeoTiff {
  public:
   /// `plan`: of pictures that were placed on the grid. `side_px` of its tiles must be a multiple of
@@ -33,7 +34,8 @@ class GeoTiff {
   /// A tile of the plan's mosaic, of this side, in any order, each once. Throws InputError.
   void write(const MosaicTile& tile);
 
-  /// What was not written is unseen. Throws InputError, on a full disk for example.
+  /// What was not written is unseen. Writes the overviews. Throws InputError, on a full disk for
+  /// example.
   void finish();
 
  private:

@@ -25,6 +25,12 @@ struct PlacedPicture {
   bool is_filler = false;
 };
 
+/// What is shown where pictures overlap.
+enum class MosaicBlend {
+  feather,  ///< their mean, each weighted less towards its border: what is misplaced is seen twice
+  seams     ///< that one whose middle is nearest, of pictures whose exposure is made equal
+};
+
 struct MosaicOptions {
   /// None: the median, over the pictures, of what a pixel covers.
   std::optional<double> metres_per_pixel;
@@ -32,9 +38,10 @@ struct MosaicOptions {
   double most_pixels = 64e6;
   /// The longest side. Some viewers and readers of PNG files end at 2^16.
   double longest_px = 65'000.0;
+  MosaicBlend blend = MosaicBlend::feather;
 
   /// Of a mosaic that is made tile by tile: neither memory nor a reader of pictures bounds it.
-  static MosaicOptions of_tiles() { return {std::nullopt, 1e11, 1e9}; }
+  static MosaicOptions of_tiles() { return {std::nullopt, 1e11, 1e9, MosaicBlend::feather}; }
 };
 
 /// Which pictures a mosaic is made of, and where its pixels lie: x up and y to the left.
@@ -46,6 +53,7 @@ struct MosaicPlan {
   /// origin, so that mosaics of one resolution lie on one grid.
   Eigen::Vector2d top_left_m = Eigen::Vector2d::Zero();
   cv::Size size;
+  MosaicBlend blend = MosaicBlend::feather;
 };
 
 /// Plans the mosaic of pictures that are given in the order of time. From the first one on a
@@ -70,12 +78,14 @@ using MosaicProgress = std::function<void(std::size_t done, std::size_t of)>;
 /// The mosaics, one each: 8-bit, one channel, of the plan's size. Pictures are flat-field
 /// corrected: divided by the illumination that they have in common, as far as they show one, which
 /// leaves their mean as it was. Each is projected by its camera, altitude, roll and pitch where
-/// they are measured, and pose; where several overlap, they are feathered: averaged with weights
-/// that fall to zero towards the border of each. Nothing is selected or aligned: what the
-/// trajectory places wrongly is seen twice, or blurred.
+/// they are measured, and pose; where several overlap, they are blended as the plans say, the same
+/// in all. Feathered, nothing is selected: what the trajectory places wrongly is seen twice, or
+/// blurred. With seams it ends at one; and each picture has been multiplied by the factor that
+/// makes it agree with those it overlaps. Nothing is aligned.
 ///
-/// A picture that several mosaics need is read once, and one picture is held at a time.
-/// `source` must be that of the plans' camera. Throws InputError where a picture cannot be read.
+/// A picture that several mosaics need is read once, with seams twice but for those 256 MiB of them
+/// that are kept. `source` must be that of the plans' camera. Throws InputError where a picture
+/// cannot be read.
 std::vector<cv::Mat> make_mosaics(const FrameSource& source, std::span<const MosaicPlan> plans,
                                   const MosaicProgress& progress = {});
 
@@ -95,8 +105,8 @@ struct TileOptions {
 
 /// The mosaic tile by tile, row by row, the rows to and fro: those tiles alone that a picture may
 /// reach. Put together they are that of make_mosaics bit for bit, whatever their size. Memory: a
-/// tile at 9 bytes a pixel, the cache, and some 200 bytes a picture. Progress counts tiles. Throws
-/// InputError where a picture cannot be read.
+/// tile at 9 bytes a pixel, the cache, and some 200 bytes a picture, with seams 10 KB. Progress
+/// counts tiles. Throws InputError where a picture cannot be read.
 void make_tiles(const FrameSource& source, const MosaicPlan& plan, const TileOptions& options,
                 const std::function<void(const MosaicTile&)>& take,
                 const MosaicProgress& progress = {});

@@ -8,6 +8,7 @@
 
 #include "fathom/configuration/config_file.hpp"
 #include "fathom/estimation/registry.hpp"
+#include "fathom/report/mosaic.hpp"
 #include "fathom/workflow/observer.hpp"
 
 namespace fathom::workflow {
@@ -21,7 +22,8 @@ struct MosaicRequest {
   std::optional<double> metres_per_pixel;  ///< as in MosaicOptions
   double max_difference_s = 0.01;          ///< between the stamps of a pose and its picture
   std::optional<int> tile_px;              ///< tiles in place of one picture
-  std::filesystem::path out;               ///< empty: `runs/` and the names of run and trajectory
+  MosaicBlend blend = MosaicBlend::feather;
+  std::filesystem::path out;  ///< empty: `runs/` and the names of run and trajectory
 };
 
 struct MosaicOutcome {

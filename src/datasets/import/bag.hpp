@@ -12,6 +12,9 @@
 
 namespace fathom {
 
+/// Bytes of a chunk of a bag, packed and unpacked.
+inline constexpr std::uint64_t kMostChunkBytes = 1'000'000'000;
+
 struct BagTopic {
   std::string name;
   std::string type;  ///< "sensor_msgs/Image", in both generations of ROS
@@ -46,7 +49,7 @@ class Bag {
 /// A `.bag`.
 std::unique_ptr<Bag> open_ros1_bag(const std::filesystem::path& path);
 
-/// A `.db3`, or a folder of them with `metadata.yaml`.
+/// A `.db3` or `.mcap`, or a folder of them with `metadata.yaml`.
 std::unique_ptr<Bag> open_ros2_bag(const std::filesystem::path& path);
 
 }  // namespace fathom

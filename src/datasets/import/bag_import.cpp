@@ -8,6 +8,7 @@
 #include "bag_survey.hpp"
 #include "fathom/core/input_error.hpp"
 #include "fathom/datasets/import.hpp"
+#include "frame_tree.hpp"
 #include "survey_coverage.hpp"
 #include "survey_writer.hpp"
 #include "topic_choice.hpp"
@@ -67,7 +68,8 @@ ImportReport import_bag(const fs::path& path, const BagImportOptions& options,
                         const std::function<void(std::size_t, std::size_t)>& progress) {
   const auto bag = open_bag(path);
   const std::vector<BagTopic>& topics = bag->topics();
-  const TopicChoice choice = choose_topics(topics, options, path.string());
+  TopicChoice choice = choose_topics(topics, options, path.string());
+  choice.transforms = transform_topics(topics, options);
   const fs::path mav0 = folder / "mav0";
   const fs::path pictures = mav0 / "cam0" / "data";
   std::error_code error;

@@ -10,12 +10,13 @@
 namespace fathom {
 namespace {
 
-std::int64_t read_header(MessageReader& reader) {
+std::int64_t read_header(MessageReader& reader, std::string* frame = nullptr) {
   constexpr std::int64_t kSecond = 1'000'000'000;
   reader.skip_sequence_number();
   const auto seconds = static_cast<std::int32_t>(reader.u32());
   const std::uint32_t nanoseconds = reader.u32();
-  reader.text();  // frame_id
+  std::string frame_id = reader.text();
+  if (frame != nullptr) *frame = std::move(frame_id);
   return seconds * kSecond + nanoseconds;
 }
 
@@ -42,11 +43,15 @@ Matrix6 read_covariance(MessageReader& reader) {
   return covariance;
 }
 
-std::vector<double> read_sequence(MessageReader& reader) {
+std::uint32_t read_size(MessageReader& reader) {
   constexpr std::uint32_t kMost = 1000;
   const std::uint32_t size = reader.u32();
   if (size > kMost) throw InputError("a message has a list of an impossible length");
-  std::vector<double> numbers(size);
+  return size;
+}
+
+std::vector<double> read_sequence(MessageReader& reader) {
+  std::vector<double> numbers(read_size(reader));
   read_numbers(reader, numbers);
   return numbers;
 }
@@ -55,7 +60,7 @@ std::vector<double> read_sequence(MessageReader& reader) {
 
 ImageMessage read_image(MessageReader& reader) {
   ImageMessage image;
-  image.stamp_ns = read_header(reader);
+  image.stamp_ns = read_header(reader, &image.frame);
   image.height = reader.u32();
   image.width = reader.u32();
   image.encoding = reader.text();
@@ -67,7 +72,7 @@ ImageMessage read_image(MessageReader& reader) {
 
 CompressedImageMessage read_compressed_image(MessageReader& reader) {
   CompressedImageMessage image;
-  image.stamp_ns = read_header(reader);
+  image.stamp_ns = read_header(reader, &image.frame);
   image.format = reader.text();
   image.data = reader.bytes();
   return image;
@@ -116,7 +121,7 @@ ScalarMessage read_scalar(const std::string& type, int axis, MessageReader& read
 PoseMessage read_pose(const std::string& type, MessageReader& reader) {
   PoseMessage pose;
   pose.stamp_ns = read_header(reader);
-  if (type == "nav_msgs/Odometry") reader.text();  // child_frame_id
+  if (type == "nav_msgs/Odometry") pose.child_frame = reader.text();
   pose.position = read_vector(reader);
   pose.rotation = read_rotation(reader);
   if (type == "geometry_msgs/PoseStamped") return pose;
@@ -143,6 +148,17 @@ ImuMessage read_imu(MessageReader& reader) {
   return imu;
 }
 
+std::vector<FrameTransform> read_transforms(MessageReader& reader) {
+  std::vector<FrameTransform> transforms(read_size(reader));
+  for (FrameTransform& transform : transforms) {
+    read_header(reader, &transform.parent);
+    transform.child = reader.text();
+    transform.translation = read_vector(reader);
+    transform.rotation = read_rotation(reader);
+  }
+  return transforms;
+}
+
 std::optional<std::string_view> known_md5(const std::string& type) {
   static const std::map<std::string, std::string_view> sums{
       {"sensor_msgs/Image", "060021388200f6f0f447d0fcd9c64743"},
@@ -155,6 +171,8 @@ std::optional<std::string_view> known_md5(const std::string& type) {
       {"geometry_msgs/PoseWithCovarianceStamped", "953b798c0f514ff060a53a3498ce6246"},
       {"std_msgs/Float32", "73fcbf46b49191e672908e50842a83d4"},
       {"std_msgs/Float64", "fdb28210bfa9d7c91146260178d9a584"},
+      {"tf/tfMessage", "94810edda583a504dfda3829e70d7eec"},
+      {"tf2_msgs/TFMessage", "94810edda583a504dfda3829e70d7eec"},
       {"nav_msgs/Odometry", "cd5e73d190d741a2f92e81eda573aca7"}};
   const auto found = sums.find(type);
   if (found == sums.end()) return std::nullopt;

@@ -22,6 +22,7 @@ using Matrix6 = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
 /// sensor_msgs/Image; `data` refers to the message.
 struct ImageMessage {
   std::int64_t stamp_ns = 0;
+  std::string frame;
   std::uint32_t height = 0;
   std::uint32_t width = 0;
   std::string encoding;
@@ -34,6 +35,7 @@ ImageMessage read_image(MessageReader& reader);
 /// sensor_msgs/CompressedImage; `data` refers to the message.
 struct CompressedImageMessage {
   std::int64_t stamp_ns = 0;
+  std::string frame;
   std::string format;
   std::string_view data;
 };
@@ -70,6 +72,7 @@ ScalarMessage read_scalar(const std::string& type, int axis, MessageReader& read
 /// header's frame, that of the velocity in those of the body.
 struct PoseMessage {
   std::int64_t stamp_ns = 0;
+  std::string child_frame;  ///< of an Odometry: what moves
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
   std::optional<Matrix6> pose_covariance;
@@ -86,6 +89,15 @@ struct ImuMessage {
   bool has_rotation = true;
 };
 ImuMessage read_imu(MessageReader& reader);
+
+/// One of a tf2_msgs/TFMessage or a tf/tfMessage: the pose of a child frame in its parent.
+struct FrameTransform {
+  std::string parent;
+  std::string child;
+  Eigen::Vector3d translation = Eigen::Vector3d::Zero();
+  Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
+};
+std::vector<FrameTransform> read_transforms(MessageReader& reader);
 
 /// The MD5 sum of the type's definition as it is read here; nothing for a type that is not read.
 std::optional<std::string_view> known_md5(const std::string& type);

@@ -16,14 +16,17 @@ std::string size_text(int width, int height) {
   return fmt::format("{} x {} pixels", width, height);
 }
 
-BagPicture picture_in(const BagMessage& message, const BagTopic& topic, std::int64_t& stamp_ns) {
+BagPicture picture_in(const BagMessage& message, const BagTopic& topic, std::int64_t& stamp_ns,
+                      std::string& frame) {
   if (topic.type == "sensor_msgs/Image") {
     const ImageMessage image = read_image(message.reader);
     stamp_ns = image.stamp_ns;
+    frame = image.frame;
     return picture_of(image);
   }
   const CompressedImageMessage image = read_compressed_image(message.reader);
   stamp_ns = image.stamp_ns;
+  frame = image.frame;
   return picture_of(image);
 }
 
@@ -51,6 +54,9 @@ void BagSurvey::take(const BagMessage& message) {
       take_pose(message, topic);
     }
     if (choice_.heading == message.topic || choice_.attitude == message.topic) take_imu(message);
+    if (std::ranges::count(choice_.transforms, message.topic) > 0) {
+      frames.take(read_transforms(message.reader));
+    }
   } catch (const InputError& error) {
     const std::string what = error.what();
     throw InputError(
@@ -67,10 +73,12 @@ std::optional<std::int64_t> BagSurvey::time_of(const BagMessage& message,
 
 void BagSurvey::take_picture(const BagMessage& message, const BagTopic& topic) {
   std::int64_t stamp_ns = 0;
-  const BagPicture picture = picture_in(message, topic, stamp_ns);
+  std::string frame;
+  const BagPicture picture = picture_in(message, topic, stamp_ns, frame);
   const auto time_ns = time_of(message, stamp_ns);
   if (!time_ns) return;
   if (pictures.empty()) {
+    camera_frame = frame;
     width = picture.width;
     height = picture.height;
   }
@@ -100,7 +108,10 @@ void BagSurvey::take_pose(const BagMessage& message, const BagTopic& topic) {
   const auto time_ns = time_of(message, pose.stamp_ns);
   if (!time_ns) return;
   planar_pose(pose);  // refuses what is none
-  if (choice_.odometry == message.topic) odometry.push_back({*time_ns, pose});
+  if (choice_.odometry == message.topic) {
+    if (odometry.empty()) body_frame = pose.child_frame;
+    odometry.push_back({*time_ns, pose});
+  }
   if (choice_.reference == message.topic) reference.push_back({*time_ns, pose});
 }
 

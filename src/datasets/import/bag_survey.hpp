@@ -13,6 +13,7 @@
 #include "bag_camera.hpp"
 #include "bag_messages.hpp"
 #include "fathom/datasets/import.hpp"
+#include "frame_tree.hpp"
 #include "odometry_steps.hpp"
 #include "stamped_topic.hpp"
 #include "topic_choice.hpp"
@@ -58,6 +59,9 @@ class BagSurvey {
   std::vector<OdometryReading> reference;
   std::vector<HeadingReading> headings;
   std::vector<AttitudeReading> attitudes;
+  FrameTree frames;
+  std::string camera_frame;  ///< of the first picture
+  std::string body_frame;    ///< of odometry, what moves; empty where the bag does not say
   std::size_t repeated = 0;  ///< messages with the time of the one before
 
  private:

@@ -5,6 +5,7 @@
 #include "fathom/core/input_error.hpp"
 #include "fathom/core/text.hpp"
 #include "fathom/datasets/import.hpp"
+#include "ros2_file.hpp"
 #include "ros2_metadata.hpp"
 
 namespace fathom {
@@ -14,8 +15,8 @@ namespace fs = std::filesystem;
 namespace {
 
 const char* const kExpected =
-    "expected a bag of ROS 1 (.bag) or ROS 2 (.db3, or its folder), a COLMAP model as text (a "
-    "folder with images.txt) or KITTI poses (12 numbers a line)";
+    "expected a bag of ROS 1 (.bag) or ROS 2 (.db3, .mcap, or its folder), a COLMAP model as text "
+    "(a folder with images.txt) or KITTI poses (12 numbers a line)";
 
 bool has_file_ending(const fs::path& folder, const std::string& ending) {
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
@@ -31,10 +32,10 @@ ImportKind kind_of_folder(const fs::path& folder) {
                      "is a binary COLMAP model; 'colmap model_converter --input_path MODEL "
                      "--output_path TEXT --output_type TXT' makes one of text");
   }
-  if (fs::exists(folder / "metadata.yaml") || has_file_ending(folder, ".db3")) {
+  if (fs::exists(folder / "metadata.yaml") || has_file_ending(folder, ".db3") ||
+      has_file_ending(folder, ".mcap")) {
     return ImportKind::ros2_bag;
   }
-  if (has_file_ending(folder, ".mcap")) refuse_mcap(folder);
   throw InputError(folder.string(), std::string("holds nothing to import; ") + kExpected);
 }
 
@@ -61,7 +62,7 @@ ImportKind import_kind(const fs::path& source) {
   file.read(begin.data(), static_cast<std::streamsize>(begin.size()));
   if (begin.starts_with("#ROSBAG V")) return ImportKind::ros1_bag;
   if (begin.starts_with("SQLite format 3\0"sv)) return ImportKind::ros2_bag;
-  if (begin.starts_with("\x89MCAP"sv)) refuse_mcap(source);
+  if (is_mcap(source)) return ImportKind::ros2_bag;
   if (begin.starts_with("\x28\xB5\x2F\xFD"sv)) refuse_compressed(source);
   if (is_kitti(source)) return ImportKind::kitti;
   throw InputError(source.string(), std::string("is of no kind that is imported; ") + kExpected);

@@ -7,13 +7,12 @@
 #include <string>
 #include <string_view>
 
+#include "bag.hpp"
 #include "fathom/core/input_error.hpp"
 #include "fathom/core/text.hpp"
 
 namespace fathom {
 namespace {
-
-constexpr std::uint64_t kMostChunkBytes = 1'000'000'000;
 
 // The kinds of records that are looked into.
 constexpr std::uint8_t kChunk = 5;

@@ -37,10 +37,10 @@ std::vector<fs::path> named_files(const fs::path& folder, const fs::path& metada
     throw InputError(metadata.string(), "has no rosbag2_bagfile_information");
   }
   const std::string storage = word(info, "storage_identifier");
-  if (storage == "mcap") refuse_mcap(folder);
-  if (storage != "sqlite3") {
+  if (storage != "sqlite3" && storage != "mcap") {
     throw InputError(metadata.string(), "storage_identifier: " + in_quotes(storage) +
-                                            " is not read, expected sqlite3; " + kConversion);
+                                            " is not read, expected sqlite3 or mcap; " +
+                                            kConversion);
   }
   if (!word(info, "compression_format").empty()) refuse_compressed(folder);
   std::vector<fs::path> files;
@@ -59,25 +59,21 @@ std::vector<fs::path> named_files(const fs::path& folder, const fs::path& metada
 std::vector<fs::path> all_files(const fs::path& folder) {
   std::vector<fs::path> files;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-    if (entry.path().extension() == ".db3") files.push_back(entry.path());
+    const fs::path ending = entry.path().extension();
+    if (ending == ".db3" || ending == ".mcap") files.push_back(entry.path());
   }
   // bag_10 comes after bag_9.
   std::ranges::sort(files, [](const fs::path& a, const fs::path& b) {
     return is_before(a.filename().string(), b.filename().string());
   });
-  if (files.empty()) throw InputError(folder.string(), "has no .db3 file of a ROS 2 bag");
+  if (files.empty()) throw InputError(folder.string(), "has no .db3 or .mcap file of a ROS 2 bag");
   return files;
 }
 
 }  // namespace
 
-void refuse_mcap(const fs::path& path) {
-  throw InputError(path.string(),
-                   "is an MCAP bag, for which Debian has no package; " + kConversion);
-}
-
-void refuse_compressed(const fs::path& path) {
-  throw InputError(path.string(), "is a compressed ROS 2 bag; " + kConversion);
+void refuse_compressed(const fs::path& path, const std::string& what) {
+  throw InputError(path.string(), what + "; " + kConversion);
 }
 
 std::vector<fs::path> ros2_files(const fs::path& path) {

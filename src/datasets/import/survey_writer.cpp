@@ -84,13 +84,20 @@ class SurveyWriter {
            " left out: without a calibration or a size");
     }
     CameraModel model = options_.camera_yaml.empty() ? camera_of_bag() : camera_of_file();
+    const auto by_tf =
+        mounting_by_tf(survey_.frames, survey_.camera_frame, survey_.body_frame, report_.notes);
+    if (by_tf) {
+      model.mount_x_m = by_tf->x;
+      model.mount_y_m = by_tf->y;
+      model.mount_yaw_rad = by_tf->theta;
+    }
     model.mount_x_m = options_.mount_x_m.value_or(model.mount_x_m);
     model.mount_y_m = options_.mount_y_m.value_or(model.mount_y_m);
     model.mount_yaw_rad = options_.mount_yaw_rad.value_or(model.mount_yaw_rad);
     write_camera(mav0_, rows, Camera(model).model());
     fact(fmt::format("{} of {} from {}", counted(survey_.pictures.size(), "picture"),
                      size_text(survey_.width, survey_.height), topic(choice_.images).name));
-    if (options_.camera_yaml.empty() && !options_.mount_yaw_rad) {
+    if (options_.camera_yaml.empty() && !options_.mount_yaw_rad && !by_tf) {
       note(
           "the camera is taken to be at the body's origin, the top of its picture forward: "
           "--mount-x, --mount-y and --mount-yaw say where it is");

@@ -227,6 +227,7 @@ std::vector<std::size_t> TopicChoice::all() const {
        {images, camera_info, altitude, odometry, reference, heading, attitude}) {
     if (topic && std::ranges::count(taken, *topic) == 0) taken.push_back(*topic);
   }
+  taken.insert(taken.end(), transforms.begin(), transforms.end());
   return taken;
 }
 

@@ -19,6 +19,7 @@ struct TopicChoice {
   std::optional<std::size_t> reference;
   std::optional<std::size_t> heading;
   std::optional<std::size_t> attitude;
+  std::vector<std::size_t> transforms;  ///< of tf: where the camera is in the body
   /// The attitude was asked for: pictures without it are left out. One that is the heading's topic
   /// for want of a word is left out itself where it does not cover all.
   bool is_attitude_needed = false;

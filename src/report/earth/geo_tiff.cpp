@@ -1,5 +1,7 @@
 #include "fathom/report/geo_tiff.hpp"
 
+#include <algorithm>
+
 #include "fathom/core/features.hpp"
 #include "fathom/core/input_error.hpp"
 
@@ -21,9 +23,36 @@ struct CloseTiff {
   void operator()(TIFF* file) const { XTIFFClose(file); }
 };
 
-// Within 4 GB of offsets also where nothing can be compressed.
+/// The smallest overview has no side above this.
+constexpr int kOverview_px = 256;
+
+// Within 4 GB of offsets also where nothing can be compressed; overviews add a third.
 bool needs_big_tiff(const MosaicPlan& plan) {
-  return static_cast<double>(plan.size.width) * plan.size.height > 3.9e9;
+  return static_cast<double>(plan.size.width) * plan.size.height > 2.9e9;
+}
+
+cv::Size tiles_of(const cv::Size& size, int side_px) {
+  return {(size.width + side_px - 1) / side_px, (size.height + side_px - 1) / side_px};
+}
+
+// Each pixel is the mean of those of four that are seen.
+cv::Mat halved(const cv::Mat& fine) {
+  cv::Mat coarse(fine.rows / 2, fine.cols / 2, CV_8U, cv::Scalar(kUnseen));
+  for (int v = 0; v < coarse.rows; ++v) {
+    const unsigned char* upper = fine.ptr(2 * v);
+    const unsigned char* lower = fine.ptr(2 * v + 1);
+    for (int u = 0; u < coarse.cols; ++u) {
+      int sum = 0;
+      int seen = 0;
+      for (const int grey : {upper[2 * u], upper[2 * u + 1], lower[2 * u], lower[2 * u + 1]}) {
+        if (grey == kUnseen) continue;
+        sum += grey;
+        ++seen;
+      }
+      if (seen > 0) coarse.ptr(v)[u] = static_cast<unsigned char>((sum + seen / 2) / seen);
+    }
+  }
+  return coarse;
 }
 
 void declare_no_data(TIFF* file) {
@@ -34,9 +63,9 @@ void declare_no_data(TIFF* file) {
   TIFFSetField(file, kNoDataTag, std::to_string(kUnseen).c_str());
 }
 
-void set_format(TIFF* file, const MosaicPlan& plan, int side_px) {
-  TIFFSetField(file, TIFFTAG_IMAGEWIDTH, static_cast<std::uint32_t>(plan.size.width));
-  TIFFSetField(file, TIFFTAG_IMAGELENGTH, static_cast<std::uint32_t>(plan.size.height));
+void set_format(TIFF* file, const cv::Size& size, int side_px) {
+  TIFFSetField(file, TIFFTAG_IMAGEWIDTH, static_cast<std::uint32_t>(size.width));
+  TIFFSetField(file, TIFFTAG_IMAGELENGTH, static_cast<std::uint32_t>(size.height));
   TIFFSetField(file, TIFFTAG_TILEWIDTH, static_cast<std::uint32_t>(side_px));
   TIFFSetField(file, TIFFTAG_TILELENGTH, static_cast<std::uint32_t>(side_px));
   TIFFSetField(file, TIFFTAG_BITSPERSAMPLE, 8);
@@ -72,21 +101,64 @@ bool set_place(TIFF* file, const EarthFrame& earth, const MosaicPlan& plan) {
 struct GeoTiff::File {
   std::filesystem::path path;
   std::unique_ptr<TIFF, CloseTiff> tiff;
+  cv::Size size;
   int side_px = 0;
-  int columns = 0;
   std::vector<bool> is_written;  ///< by tile, row by row
 
   [[noreturn]] void fail() const {
     throw InputError(path.string(), "cannot be written; is the disk full?");
   }
 
-  void put(std::size_t tile, const cv::Mat& pixels) {
+  void put(std::size_t tile, const cv::Mat& pixels) const {
     const auto number = static_cast<std::uint32_t>(tile);
     if (TIFFWriteEncodedTile(tiff.get(), number, pixels.data,
                              static_cast<tmsize_t>(pixels.total())) < 0) {
       fail();
     }
-    is_written[tile] = true;
+  }
+
+  void end_directory() const {
+    if (TIFFWriteDirectory(tiff.get()) == 0) fail();
+  }
+
+  // The mosaic by halves, each a directory behind that of the one it is made from, whose tiles are
+  // read again: memory is five tiles.
+  void write_overviews() const {
+    cv::Size fine = size;
+    for (std::uint16_t level = 0; std::max(fine.width, fine.height) > kOverview_px; ++level) {
+      // Without a map of the file in memory.
+      const std::unique_ptr<TIFF, CloseTiff> finer(XTIFFOpen(path.c_str(), "rm"));
+      if (!finer || TIFFSetDirectory(finer.get(), level) == 0) fail();
+      const cv::Size coarse((fine.width + 1) / 2, (fine.height + 1) / 2);
+      set_format(tiff.get(), coarse, side_px);
+      TIFFSetField(tiff.get(), TIFFTAG_SUBFILETYPE, FILETYPE_REDUCEDIMAGE);
+      const cv::Size tiles = tiles_of(coarse, side_px);
+      std::size_t tile = 0;
+      for (int row = 0; row < tiles.height; ++row) {
+        for (int column = 0; column < tiles.width; ++column) {
+          put(tile++, halved(four_tiles(finer.get(), tiles_of(fine, side_px), row, column)));
+        }
+      }
+      end_directory();
+      fine = coarse;
+    }
+  }
+
+ private:
+  // Those that a tile of half the resolution covers; unseen beyond the border.
+  cv::Mat four_tiles(TIFF* finer, const cv::Size& tiles, int row, int column) const {
+    cv::Mat four(2 * side_px, 2 * side_px, CV_8U, cv::Scalar(kUnseen));
+    cv::Mat one(side_px, side_px, CV_8U);
+    for (int r = 0; r < 2 && 2 * row + r < tiles.height; ++r) {
+      for (int c = 0; c < 2 && 2 * column + c < tiles.width; ++c) {
+        const auto number =
+            static_cast<std::uint32_t>((2 * row + r) * tiles.width + 2 * column + c);
+        const auto bytes = static_cast<tmsize_t>(one.total());
+        if (TIFFReadEncodedTile(finer, number, one.data, bytes) != bytes) fail();
+        one.copyTo(four({c * side_px, r * side_px, side_px, side_px}));
+      }
+    }
+    return four;
   }
 };
 
@@ -98,13 +170,13 @@ GeoTiff::GeoTiff(const std::filesystem::path& path, const EarthFrame& earth, con
   TIFFSetWarningHandler(nullptr);
   file_->path = path;
   file_->side_px = side_px;
-  file_->columns = (plan.size.width + side_px - 1) / side_px;
-  const int rows = (plan.size.height + side_px - 1) / side_px;
-  file_->is_written.resize(static_cast<std::size_t>(file_->columns) *
-                           static_cast<std::size_t>(rows));
+  file_->size = plan.size;
+  const cv::Size tiles = tiles_of(plan.size, side_px);
+  file_->is_written.resize(static_cast<std::size_t>(tiles.width) *
+                           static_cast<std::size_t>(tiles.height));
   file_->tiff.reset(XTIFFOpen(path.c_str(), needs_big_tiff(plan) ? "w8" : "w"));
   if (!file_->tiff) file_->fail();
-  set_format(file_->tiff.get(), plan, side_px);
+  set_format(file_->tiff.get(), plan.size, side_px);
   if (!set_place(file_->tiff.get(), earth, plan)) file_->fail();
 }
 
@@ -115,9 +187,12 @@ void GeoTiff::write(const MosaicTile& tile) {
   // Tiles of a TIFF are never cut: what lies beyond the border is not shown.
   cv::Mat whole(side_px, side_px, CV_8U, cv::Scalar(kUnseen));
   tile.picture.copyTo(whole({0, 0, tile.picture.cols, tile.picture.rows}));
-  file_->put(static_cast<std::size_t>(tile.row) * static_cast<std::size_t>(file_->columns) +
-                 static_cast<std::size_t>(tile.column),
-             whole);
+  const int columns = tiles_of(file_->size, side_px).width;
+  const std::size_t number =
+      static_cast<std::size_t>(tile.row) * static_cast<std::size_t>(columns) +
+      static_cast<std::size_t>(tile.column);
+  file_->put(number, whole);
+  file_->is_written[number] = true;
 }
 
 void GeoTiff::finish() {
@@ -126,7 +201,8 @@ void GeoTiff::finish() {
     if (file_->is_written[i]) continue;
     file_->put(i, cv::Mat(file_->side_px, file_->side_px, CV_8U, cv::Scalar(kUnseen)));
   }
-  if (TIFFFlush(file_->tiff.get()) == 0) file_->fail();
+  file_->end_directory();
+  file_->write_overviews();
   file_->tiff.reset();
 }
 #else

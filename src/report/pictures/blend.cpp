@@ -58,26 +58,40 @@ struct RowOfBox {
   Stance stance;
   Eigen::Vector2d first;  ///< of the box's first column, in the body frame
   Eigen::Vector2d step;   ///< from column to column
+  float gain;
+  bool has_seams;
 };
 
 RowOfBox row_of_box(const Camera& camera, const cv::Mat& source, cv::Size full,
-                    const PlacedPicture& place, const FloorMap& map, cv::Point first) {
+                    const PlacedPicture& place, const FloorMap& map, cv::Point first, float gain,
+                    bool has_seams) {
   const Pose body_from_world = inverse(place.pose);
   const Eigen::Vector2d begin = transform(body_from_world, map.point(first.x, first.y));
   const Eigen::Vector2d next = transform(body_from_world, map.point(first.x + 1, first.y));
-  return {camera, source, 1.0 / full.width, 1.0 / full.height, place.stance, begin, next - begin};
+  return {camera,       source, 1.0 / full.width, 1.0 / full.height, place.stance, begin,
+          next - begin, gain,   has_seams};
 }
 
 Eigen::Vector2d pixel_at(const RowOfBox& row, int column) {
   return row.camera.pixel(row.first + column * row.step, row.stance);
 }
 
+// Of the weights of two pictures the larger one counts alone, but where they differ by less than a
+// seventh: the seam. The least is one that a float still holds.
+float seam_weight(float share) {
+  share = std::max(1e-2F, share);
+  for (int i = 0; i < 4; ++i) share *= share;
+  return share;
+}
+
 void add_pixel(const RowOfBox& row, const Eigen::Vector2d& pixel, float& sum, float& weight) {
   const double u = (pixel.x() + 0.5) * row.per_width;
   const double v = (pixel.y() + 0.5) * row.per_height;
   // Never quite zero, so that a picture's border shows where it is alone.
-  const float share = std::max(1e-3F, tent(u)) * std::max(1e-3F, tent(v));
-  sum += share * bilinear(row.source, u * row.source.cols - 0.5, v * row.source.rows - 0.5);
+  float share = std::max(1e-3F, tent(u)) * std::max(1e-3F, tent(v));
+  if (row.has_seams) share = seam_weight(share);
+  sum +=
+      share * row.gain * bilinear(row.source, u * row.source.cols - 0.5, v * row.source.rows - 0.5);
   weight += share;
 }
 
@@ -110,6 +124,7 @@ void add_span(const RowOfBox& row, const unsigned char* is_seen, int width, int 
 Blend::Blend(const Camera& camera, const MosaicPlan& plan, const cv::Rect& window)
     : camera_(camera),
       map_{plan.top_left_m, plan.metres_per_pixel, plan.size},
+      has_seams_(plan.blend == MosaicBlend::seams),
       window_(window),
       sum_(cv::Mat::zeros(window.size(), CV_32F)),
       weight_(cv::Mat::zeros(window.size(), CV_32F)) {}
@@ -131,7 +146,7 @@ cv::Mat Blend::reduced(const cv::Mat& picture, const Stance& stance) const {
   return small;
 }
 
-void Blend::lay(const cv::Mat& picture, const PlacedPicture& place) {
+void Blend::lay(const cv::Mat& picture, const PlacedPicture& place, float gain) {
   const std::vector<Eigen::Vector2d> outline = outline_of(camera_, place);
   const cv::Rect box = box_around(map_, outline);
   const cv::Rect part = box & window_;
@@ -141,8 +156,8 @@ void Blend::lay(const cv::Mat& picture, const PlacedPicture& place) {
   // Rows share nothing, so that the number of threads changes no sum.
   cv::parallel_for_({part.y, part.y + part.height}, [&](const cv::Range& rows) {
     for (int v = rows.start; v < rows.end; ++v) {
-      const RowOfBox row =
-          row_of_box(camera_, source, picture.size(), place, map_, cv::Point(box.x, v));
+      const RowOfBox row = row_of_box(camera_, source, picture.size(), place, map_,
+                                      cv::Point(box.x, v), gain, has_seams_);
       float* sum = sum_.ptr<float>(v - window_.y) + (part.x - window_.x);
       float* weight = weight_.ptr<float>(v - window_.y) + (part.x - window_.x);
       const int end = part.x + part.width - box.x;

@@ -21,8 +21,8 @@ class Blend {
   /// The pixels of the whole mosaic that a picture may cover; empty where it lies outside.
   static cv::Rect box_of(const Camera& camera, const MosaicPlan& plan, const PlacedPicture& place);
 
-  /// Lays a picture; where they overlap, their order counts. CV_32F.
-  void lay(const cv::Mat& picture, const PlacedPicture& place);
+  /// Lays a picture, CV_32F, its grey times `gain`; where they overlap, their order counts.
+  void lay(const cv::Mat& picture, const PlacedPicture& place, float gain = 1.0F);
 
   /// The window, 8-bit. Once; the sums are gone then.
   cv::Mat finish();
@@ -32,6 +32,7 @@ class Blend {
 
   Camera camera_;
   FloorMap map_;
+  bool has_seams_;
   cv::Rect window_;
   cv::Mat sum_;
   cv::Mat weight_;

@@ -1,24 +1,15 @@
 #include "fathom/report/mosaic.hpp"
 
-#include <map>
-#include <utility>
-
 #include "blend.hpp"
+#include "decoded_pictures.hpp"
+#include "exposure.hpp"
 #include "illumination.hpp"
 
 namespace fathom {
-namespace {
-
-struct Use {
-  std::size_t mosaic = 0;
-  const PlacedPicture* place = nullptr;
-};
-
-}  // namespace
 
 std::vector<cv::Mat> make_mosaics(const FrameSource& source, std::span<const MosaicPlan> plans,
                                   const MosaicProgress& progress) {
-  std::map<std::size_t, std::vector<Use>> uses;  // by frame
+  MosaicUses uses;
   std::vector<Blend> blends;
   const MosaicPlan* largest = nullptr;
   for (std::size_t i = 0; i < plans.size(); ++i) {
@@ -32,10 +23,22 @@ std::vector<cv::Mat> make_mosaics(const FrameSource& source, std::span<const Mos
   // The first picture may take long, where a simulated floor is drawn for it.
   if (progress) progress(0, uses.size());
   const cv::Mat gain = learnt_gain(source, largest->pictures);
+  const bool has_seams = largest->blend == MosaicBlend::seams;
+  DecodedPictures decoded(source, has_seams ? TileOptions{}.cache_bytes : 0);
+  const auto evenly_lit = [&](std::size_t frame) {
+    return lit_evenly(decoded.picture(frame), gain);
+  };
+  std::vector<ExposureGains> exposure;
+  if (has_seams) {
+    exposure = exposure_gains(source.camera(), uses, plans, evenly_lit);
+  }
   std::size_t done = 0;
   for (const auto& [frame, mosaics] : uses) {
-    const cv::Mat picture = lit_evenly(source.image(frame), gain);
-    for (const Use& use : mosaics) blends[use.mosaic].lay(picture, *use.place);
+    const cv::Mat picture = evenly_lit(frame);
+    for (const MosaicUse& use : mosaics) {
+      blends[use.mosaic].lay(picture, *use.place,
+                             has_seams ? exposure[use.mosaic].at(frame) : 1.0F);
+    }
     if (progress) progress(++done, uses.size());
   }
   std::vector<cv::Mat> mosaics;

@@ -183,6 +183,7 @@ MosaicPlan plan_mosaic(const Camera& camera, std::span<const PlacedPicture> pict
   require_options(options);
   if (pictures.empty()) throw InputError("a mosaic needs at least one picture with a pose");
   MosaicPlan plan;
+  plan.blend = options.blend;
   std::vector<LaidFootprint> laid;
   for (const std::size_t i : laid_of(camera, pictures)) {
     plan.pictures.push_back(pictures[i]);
@@ -207,6 +208,7 @@ std::string mosaic_json(const MosaicPlan& plan, const MosaicFiles& files) {
   json["width_px"] = plan.size.width;
   json["height_px"] = plan.size.height;
   json["pictures"] = plan.pictures.size();
+  json["blend"] = plan.blend == MosaicBlend::seams ? "seams" : "feather";
   if (files.world_file_epsg) json["world_file_epsg"] = *files.world_file_epsg;
   if (files.tile_px) {
     json["tile_px"] = *files.tile_px;

@@ -1,54 +1,16 @@
 #include <algorithm>
-#include <list>
 #include <map>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
 #include "blend.hpp"
+#include "decoded_pictures.hpp"
+#include "exposure.hpp"
 #include "fathom/core/input_error.hpp"
 #include "illumination.hpp"
 
 namespace fathom {
 namespace {
-
-/// Pictures as they were decoded; those not asked for longest make room.
-class DecodedPictures {
- public:
-  DecodedPictures(const FrameSource& source, std::size_t most_bytes)
-      : source_(source), most_bytes_(most_bytes) {}
-
-  cv::Mat picture(std::size_t frame) {
-    const auto known = places_.find(frame);
-    if (known != places_.end()) {
-      latest_first_.splice(latest_first_.begin(), latest_first_, known->second);
-      return known->second->second;
-    }
-    latest_first_.emplace_front(frame, source_.image(frame));
-    places_[frame] = latest_first_.begin();
-    bytes_ += bytes_of(latest_first_.front().second);
-    while (bytes_ > most_bytes_ && latest_first_.size() > 1) forget_last();
-    return latest_first_.front().second;
-  }
-
- private:
-  using Entry = std::pair<std::size_t, cv::Mat>;
-
-  static std::size_t bytes_of(const cv::Mat& picture) {
-    return picture.total() * picture.elemSize();
-  }
-  void forget_last() {
-    bytes_ -= bytes_of(latest_first_.back().second);
-    places_.erase(latest_first_.back().first);
-    latest_first_.pop_back();
-  }
-
-  const FrameSource& source_;
-  std::size_t most_bytes_;
-  std::size_t bytes_ = 0;
-  std::list<Entry> latest_first_;
-  std::unordered_map<std::size_t, std::list<Entry>::iterator> places_;
-};
 
 using PicturesByColumn = std::map<int, std::vector<const PlacedPicture*>>;
 
@@ -80,25 +42,38 @@ class TileMaker {
         plan_(plan),
         side_px_(options.side_px),
         gain_(learnt_gain(source, plan.pictures)),
-        decoded_(source, options.cache_bytes) {}
+        decoded_(source, options.cache_bytes) {
+    if (plan.blend == MosaicBlend::feather) return;
+    MosaicUses uses;
+    for (const PlacedPicture& place : plan.pictures) uses[place.frame].push_back({0, &place});
+    exposure_ = exposure_gains(source.camera(), uses, {&plan, 1}, [this](std::size_t frame) {
+                  return evenly_lit(frame);
+                }).front();
+  }
 
   MosaicTile tile(int row, int column, const std::vector<const PlacedPicture*>& pictures) {
     MosaicTile tile{row, column, {column * side_px_, row * side_px_, side_px_, side_px_}, {}};
     tile.window &= cv::Rect({0, 0}, plan_.size);
     Blend blend(source_.camera(), plan_, tile.window);
     for (const PlacedPicture* place : pictures) {
-      blend.lay(lit_evenly(decoded_.picture(place->frame), gain_), *place);
+      blend.lay(evenly_lit(place->frame), *place, gain_of(place->frame));
     }
     tile.picture = blend.finish();
     return tile;
   }
 
  private:
+  float gain_of(std::size_t frame) const {
+    return plan_.blend == MosaicBlend::seams ? exposure_.at(frame) : 1.0F;
+  }
+  cv::Mat evenly_lit(std::size_t frame) { return lit_evenly(decoded_.picture(frame), gain_); }
+
   const FrameSource& source_;
   const MosaicPlan& plan_;
   int side_px_;
   cv::Mat gain_;
   DecodedPictures decoded_;
+  ExposureGains exposure_;
 };
 
 }  // namespace

@@ -52,6 +52,17 @@ struct BodyPose {
   std::array<double, 36> velocity_covariance{};
 };
 
+/// The frame of all headers.
+inline constexpr const char* kBagFrame = "odd length";
+
+/// Of tf: translation, and quaternion x y z w.
+struct FramePlace {
+  std::string parent;
+  std::string child;
+  std::array<double, 3> translation{};
+  std::array<double, 4> rotation{0.0, 0.0, 0.0, 1.0};
+};
+
 /// Writes a bag from the definitions of the messages, independently of what Fathom reads with.
 class BagWriter {
  public:
@@ -71,6 +82,9 @@ class BagWriter {
                                     const BodyPose& pose) = 0;
   virtual void imu(const std::string& topic, Stamps stamps, const std::array<double, 4>& rotation,
                    const std::array<double, 9>& covariance) = 0;
+  /// A tf2_msgs/TFMessage.
+  virtual void transforms(const std::string& topic, Stamps stamps,
+                          const std::vector<FramePlace>& places) = 0;
   /// A type that nobody imports.
   virtual void word(const std::string& topic, Stamps stamps, const std::string& word) = 0;
 };
@@ -84,5 +98,18 @@ std::unique_ptr<BagWriter> ros1_bag_writer(const std::filesystem::path& path,
 /// A `.db3` with the tables of rosbag2 and CDR of our own.
 std::unique_ptr<BagWriter> ros2_bag_writer(const std::filesystem::path& path,
                                            bool is_big_endian = false);
+
+/// How messages are put into an MCAP file.
+struct McapLayout {
+  std::string compression{};  ///< of its chunks: "lz4", "zstd"; of another name they are empty
+  bool is_chunked = true;
+  bool has_sums = true;
+  bool has_summary = true;
+  std::size_t messages_in_chunk = 7;
+};
+
+/// The same messages as an `.mcap`.
+std::unique_ptr<BagWriter> mcap_bag_writer(const std::filesystem::path& path,
+                                           const McapLayout& layout = {});
 
 }  // namespace fathom::test

@@ -7,6 +7,7 @@
 #include <geometry_msgs/PointStamped.h>
 #include <geometry_msgs/PoseStamped.h>
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
+#include <geometry_msgs/TransformStamped.h>
 #include <nav_msgs/Odometry.h>
 #include <rosbag/bag.h>
 #include <sensor_msgs/CameraInfo.h>
@@ -16,6 +17,48 @@
 #include <sensor_msgs/Range.h>
 #include <std_msgs/Float64.h>
 #include <std_msgs/String.h>
+
+namespace fathom::test {
+
+/// A tf2_msgs/TFMessage, whose class Debian's libraries of messages do not have.
+struct TransformMessage {
+  std::vector<geometry_msgs::TransformStamped> transforms;
+};
+
+}  // namespace fathom::test
+
+namespace ros {
+namespace message_traits {
+template <>
+struct MD5Sum<fathom::test::TransformMessage> {
+  static const char* value(const fathom::test::TransformMessage& /*message*/) {
+    return "94810edda583a504dfda3829e70d7eec";
+  }
+};
+template <>
+struct DataType<fathom::test::TransformMessage> {
+  static const char* value(const fathom::test::TransformMessage& /*message*/) {
+    return "tf2_msgs/TFMessage";
+  }
+};
+template <>
+struct Definition<fathom::test::TransformMessage> {
+  static const char* value(const fathom::test::TransformMessage& /*message*/) {
+    return "geometry_msgs/TransformStamped[] transforms\n";
+  }
+};
+}  // namespace message_traits
+namespace serialization {
+template <>
+struct Serializer<fathom::test::TransformMessage> {
+  template <class Stream, class Message>
+  static void allInOne(Stream& stream, Message message) {
+    stream.next(message.transforms);
+  }
+  ROS_DECLARE_ALLINONE_SERIALIZER
+};
+}  // namespace serialization
+}  // namespace ros
 
 namespace fathom::test {
 namespace {
@@ -134,6 +177,22 @@ class Ros1BagWriter : public BagWriter {
     copy(covariance, imu.orientation_covariance);
     write(topic, stamps, imu);
   }
+  void transforms(const std::string& topic, Stamps stamps,
+                  const std::vector<FramePlace>& places) override {
+    TransformMessage message;
+    for (const FramePlace& place : places) {
+      geometry_msgs::TransformStamped one;
+      one.header.stamp = time_of(stamps.header_ns);
+      one.header.frame_id = place.parent;
+      one.child_frame_id = place.child;
+      one.transform.translation.x = place.translation[0];
+      one.transform.translation.y = place.translation[1];
+      one.transform.translation.z = place.translation[2];
+      set_rotation(one.transform.rotation, place.rotation);
+      message.transforms.push_back(one);
+    }
+    bag_.write(topic, time_of(stamps.record_ns), message);
+  }
   void word(const std::string& topic, Stamps stamps, const std::string& word) override {
     std_msgs::String message;
     message.data = word;
@@ -145,7 +204,7 @@ class Ros1BagWriter : public BagWriter {
   void write(const std::string& topic, Stamps stamps, Message& message) {
     message.header.seq = ++sequence_;
     message.header.stamp = time_of(stamps.header_ns);
-    message.header.frame_id = "frame";
+    message.header.frame_id = kBagFrame;
     bag_.write(topic, time_of(stamps.record_ns), message);
   }
 

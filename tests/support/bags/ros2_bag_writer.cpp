@@ -1,13 +1,12 @@
 // CDR as OMG's specification has it: four bytes that say the byte order, then each number at a
 // multiple of its size from there on, texts and lists after their length.
 
-#include <SQLiteCpp/SQLiteCpp.h>
 #include <algorithm>
 #include <bit>
 #include <cstring>
-#include <map>
 
 #include "support/bags/bag_writer.hpp"
+#include "support/bags/ros2_sink.hpp"
 
 namespace fathom::test {
 namespace {
@@ -44,10 +43,10 @@ class Cdr {
     for (const double value : values) number(value);
     return *this;
   }
-  Cdr& header(std::int64_t time_ns) {
+  Cdr& header(std::int64_t time_ns, const std::string& frame = kBagFrame) {
     constexpr std::int64_t kSecond = 1'000'000'000;
     number(static_cast<std::int32_t>(time_ns / kSecond));
-    return u32(static_cast<std::uint32_t>(time_ns % kSecond)).text("odd length");
+    return u32(static_cast<std::uint32_t>(time_ns % kSecond)).text(frame);
   }
   const std::vector<std::uint8_t>& bytes() const { return bytes_; }
 
@@ -58,19 +57,8 @@ class Cdr {
 
 class Ros2BagWriter : public BagWriter {
  public:
-  Ros2BagWriter(const std::filesystem::path& path, bool is_big_endian)
-      : is_big_endian_(is_big_endian),
-        bag_(path.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE) {
-    bag_.exec(
-        "CREATE TABLE topics(id INTEGER PRIMARY KEY, name TEXT NOT NULL, type TEXT NOT NULL, "
-        "serialization_format TEXT NOT NULL, offered_qos_profiles TEXT NOT NULL)");
-    bag_.exec(
-        "CREATE TABLE messages(id INTEGER PRIMARY KEY, topic_id INTEGER NOT NULL, timestamp "
-        "INTEGER NOT NULL, data BLOB NOT NULL)");
-    bag_.exec("CREATE INDEX timestamp_idx ON messages (timestamp ASC)");
-    bag_.exec("BEGIN");
-  }
-  ~Ros2BagWriter() override { bag_.exec("COMMIT"); }
+  Ros2BagWriter(std::unique_ptr<Ros2Sink> sink, bool is_big_endian)
+      : is_big_endian_(is_big_endian), sink_(std::move(sink)) {}
 
   void image(const std::string& topic, Stamps stamps, const RawImage& image) override {
     Cdr cdr = headed(stamps);
@@ -129,6 +117,16 @@ class Ros2BagWriter : public BagWriter {
     cdr.numbers(rotation).numbers(covariance).numbers(std::array<double, 24>{});
     write(topic, "sensor_msgs/msg/Imu", stamps, cdr);
   }
+  void transforms(const std::string& topic, Stamps stamps,
+                  const std::vector<FramePlace>& places) override {
+    Cdr cdr(is_big_endian_);
+    cdr.u32(static_cast<std::uint32_t>(places.size()));
+    for (const FramePlace& place : places) {
+      cdr.header(stamps.header_ns, place.parent).text(place.child);
+      cdr.numbers(place.translation).numbers(place.rotation);
+    }
+    write(topic, "tf2_msgs/msg/TFMessage", stamps, cdr);
+  }
   void word(const std::string& topic, Stamps stamps, const std::string& word) override {
     Cdr cdr(is_big_endian_);
     write(topic, "std_msgs/msg/String", stamps, cdr.text(word));
@@ -141,30 +139,22 @@ class Ros2BagWriter : public BagWriter {
   }
 
   void write(const std::string& topic, const std::string& type, Stamps stamps, const Cdr& cdr) {
-    const auto [entry, is_new] = topics_.emplace(topic, topics_.size() + 1);
-    if (is_new) {
-      SQLite::Statement row(bag_, "INSERT INTO topics VALUES(?, ?, ?, 'cdr', '')");
-      row.bind(1, static_cast<std::int64_t>(entry->second));
-      row.bind(2, topic);
-      row.bind(3, type);
-      row.exec();
-    }
-    SQLite::Statement row(bag_, "INSERT INTO messages(topic_id, timestamp, data) VALUES(?, ?, ?)");
-    row.bind(1, static_cast<std::int64_t>(entry->second));
-    row.bind(2, stamps.record_ns);
-    row.bind(3, cdr.bytes().data(), static_cast<int>(cdr.bytes().size()));
-    row.exec();
+    sink_->write(topic, type, stamps.record_ns, cdr.bytes());
   }
 
   bool is_big_endian_;
-  SQLite::Database bag_;
-  std::map<std::string, std::size_t> topics_;
+  std::unique_ptr<Ros2Sink> sink_;
 };
 
 }  // namespace
 
 std::unique_ptr<BagWriter> ros2_bag_writer(const std::filesystem::path& path, bool is_big_endian) {
-  return std::make_unique<Ros2BagWriter>(path, is_big_endian);
+  return std::make_unique<Ros2BagWriter>(sqlite_sink(path), is_big_endian);
+}
+
+std::unique_ptr<BagWriter> mcap_bag_writer(const std::filesystem::path& path,
+                                           const McapLayout& layout) {
+  return std::make_unique<Ros2BagWriter>(mcap_sink(path, layout), false);
 }
 
 }  // namespace fathom::test

@@ -1,0 +1,110 @@
+// Mosaics with seams: pictures at equal exposure, each point of the floor from one of them.
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "fathom/report/mosaic.hpp"
+#include "known_floor.hpp"
+
+namespace fathom {
+namespace {
+
+using test::floor_grey;
+using test::KnownFloor;
+using test::legs;
+
+Camera level_camera() {
+  CameraModel model;
+  model.width = 120;
+  model.height = 90;
+  model.fx = model.fy = 120;
+  model.cx = 59.5;
+  model.cy = 44.5;
+  return Camera(model);
+}
+
+// A camera whose exposure changes from picture to picture.
+class FlickeringFloor : public KnownFloor {
+ public:
+  using KnownFloor::KnownFloor;
+  cv::Mat image(std::size_t i) const override {
+    const double exposure = 1.0 + 0.15 * std::sin(2.3 * static_cast<double>(i));
+    return KnownFloor::image(i) * exposure;
+  }
+};
+
+cv::Mat mosaic_of(const FrameSource& source, const std::vector<PlacedPicture>& placed,
+                  MosaicBlend blend, MosaicPlan& plan) {
+  plan = plan_mosaic(source.camera(), placed, {.metres_per_pixel = 0.02, .blend = blend});
+  return make_mosaics(source, {&plan, 1}).front();
+}
+
+// Of mosaic over floor: the standard deviation of what should be the same everywhere.
+double unevenness(const cv::Mat& mosaic, const MosaicPlan& plan) {
+  double sum = 0.0;
+  double squares = 0.0;
+  double count = 0.0;
+  for (int v = 0; v < mosaic.rows; ++v) {
+    for (int u = 0; u < mosaic.cols; ++u) {
+      if (mosaic.at<unsigned char>(v, u) == kUnseen) continue;
+      const Eigen::Vector2d point(plan.top_left_m.x() - (v + 0.5) * plan.metres_per_pixel,
+                                  plan.top_left_m.y() - (u + 0.5) * plan.metres_per_pixel);
+      const double ratio = mosaic.at<unsigned char>(v, u) / floor_grey(point);
+      sum += ratio;
+      squares += ratio * ratio;
+      ++count;
+    }
+  }
+  const double mean = sum / count;
+  return std::sqrt(squares / count - mean * mean) / mean;
+}
+
+TEST(MosaicSeams, ExposureIsMadeEqual) {
+  const FlickeringFloor floor(level_camera(), legs(5));
+  MosaicPlan plan;
+  const cv::Mat feathered = mosaic_of(floor, floor.truth(), MosaicBlend::feather, plan);
+  EXPECT_GT(unevenness(feathered, plan), 0.03);
+  const cv::Mat with_seams = mosaic_of(floor, floor.truth(), MosaicBlend::seams, plan);
+  EXPECT_LT(unevenness(with_seams, plan), 0.02);
+}
+
+TEST(MosaicSeams, EqualExposureIsLeftAsItIs) {
+  const KnownFloor floor(level_camera(), legs(5));
+  MosaicPlan plan;
+  const cv::Mat mosaic = mosaic_of(floor, floor.truth(), MosaicBlend::seams, plan);
+  EXPECT_LT(unevenness(mosaic, plan), 0.01);
+}
+
+// Two pictures of one place, the second laid 0.4 m beside it.
+TEST(MosaicSeams, EachPointIsOfOnePicture) {
+  const KnownFloor floor(level_camera(), {{0, 2.0, {0, 0, 0}}, {1, 2.0, {0, 0, 0}}});
+  const double off_m = 0.4;
+  const std::vector<PlacedPicture> wrong{{0, 2.0, {0, 0, 0}}, {1, 2.0, {0, off_m, 0}}};
+  const auto share_of_one = [&](MosaicBlend blend) {
+    MosaicPlan plan;
+    const cv::Mat mosaic = mosaic_of(floor, wrong, blend, plan);
+    int of_one = 0;
+    int differing = 0;
+    for (int v = 0; v < mosaic.rows; ++v) {
+      for (int u = 0; u < mosaic.cols; ++u) {
+        const double x = plan.top_left_m.x() - (v + 0.5) * plan.metres_per_pixel;
+        const double y = plan.top_left_m.y() - (u + 0.5) * plan.metres_per_pixel;
+        // Within both, and where they would show a difference.
+        if (std::abs(x) > 0.7 || y > 0.9 || y < off_m - 0.9) continue;
+        const double first = floor_grey({x, y});
+        const double second = floor_grey({x, y - off_m});
+        if (std::abs(first - second) < 12.0) continue;
+        ++differing;
+        const double grey = mosaic.at<unsigned char>(v, u);
+        if (std::min(std::abs(grey - first), std::abs(grey - second)) < 4.0) ++of_one;
+      }
+    }
+    return static_cast<double>(of_one) / differing;
+  };
+  EXPECT_LT(share_of_one(MosaicBlend::feather), 0.6);
+  EXPECT_GT(share_of_one(MosaicBlend::seams), 0.8);
+}
+
+}  // namespace
+}  // namespace fathom
