@@ -83,6 +83,7 @@ makeSwitches();
 makeCellChooser();
 makeAxes();
 drawManifest();
+watchBoxes();
 makeCards();
 makeMetricChooser();
 makeMosaics();

@@ -92,6 +92,22 @@ async function answerTest() {
   return result;
 }
 
+// How much of its box a table takes, and what is seen of it in a box as narrow as a telephone's.
+function tableTest(id) {
+  const box = document.getElementById(id);
+  const share = box.firstChild.offsetWidth / box.clientWidth;
+  const hint = () => getComputedStyle(box, '::before').content;
+  const wide = {hint: hint(), tabIndex: box.tabIndex};
+  box.style.width = '260px';
+  markSideways(box);
+  box.scrollLeft = 60;
+  const name = box.querySelector('tbody td').getBoundingClientRect().left - box.getBoundingClientRect().left;
+  const narrow = {hint: hint(), tabIndex: box.tabIndex, scrolled: box.scrollLeft, name};
+  box.style.width = '';
+  markSideways(box);
+  return {share, wide, narrow};
+}
+
 // The mosaics shown: of each choice the width of the picture once it is loaded, what is drawn over
 // it, and the caption.
 async function mosaicTest() {
@@ -152,6 +168,8 @@ async function selfTest() {
   }
   result.answer = await answerTest();
   result.mosaics = await mosaicTest();
+  document.getElementById('all-metrics').open = true;
+  result.boxes = [tableTest('cells-table'), tableTest('summary-table')];
   document.getElementById('theme').click();
   await drawn();
   result.theme = document.documentElement.dataset.theme;
