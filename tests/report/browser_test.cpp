@@ -74,6 +74,12 @@ TEST_F(Browser, TablesTakeTheWidthAndSayThatTheyScroll) {
   }
 }
 
+TEST_F(Browser, TheSwitchesOfATelephoneAreOneLine) {
+  const Json result = self_test_of({}, {}, 500);
+  EXPECT_LT(result["bar"], 70);  // with a bar to scroll by
+  EXPECT_LE(result["beyond"], 0);
+}
+
 TEST_F(Browser, AnswersFirstAndMarksTheBestOfEveryRow) {
   FixtureOptions options;
   options.size = 0.01;

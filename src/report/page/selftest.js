@@ -167,6 +167,8 @@ async function selfTest() {
     result.cells.push(marksOfAll());
   }
   result.answer = await answerTest();
+  result.bar = document.getElementById('controls').offsetHeight;
+  result.beyond = document.documentElement.scrollWidth - window.innerWidth;
   result.mosaics = await mosaicTest();
   document.getElementById('all-metrics').open = true;
   result.boxes = [tableTest('cells-table'), tableTest('summary-table')];
