@@ -104,7 +104,7 @@ TEST_F(Browser, AxesSwitchAndDeadReckoningLeavesTheScaleThatItHides) {
   const Json answer = self_test_of(options)["answer"];
   const Json usual{{"forest", {"linear"}},
                    {"keyframes", {"linear", "linear", "log"}},
-                   {"updates", {"log"}},
+                   {"updates", {"linear"}},
                    {"pareto", {"linear"}}};
   EXPECT_EQ(answer["usual"], usual);
   for (const auto& [axes, chart] : {std::pair("linear", "linear"), std::pair("log", "log")}) {
@@ -112,6 +112,12 @@ TEST_F(Browser, AxesSwitchAndDeadReckoningLeavesTheScaleThatItHides) {
       for (const Json& type : types) EXPECT_EQ(type, chart) << name;
     }
   }
+  // A logarithmic axis ends near its values, and labels 1, 2 and 5.
+  EXPECT_NEAR(answer["axis"]["below"], 1.1, 0.02);
+  EXPECT_NEAR(answer["axis"]["above"], 1.1, 0.02);
+  EXPECT_GT(answer["axis"]["round"].size(), 3u);
+  EXPECT_THAT(answer["axis"]["labels"].get<std::vector<std::string>>(),
+              ::testing::IsSupersetOf(answer["axis"]["round"].get<std::vector<std::string>>()));
   const std::string note = "Dead reckoning is off the scale: mean position error ";
   EXPECT_THAT(answer["notes"].dump(), ::testing::HasSubstr(note));
   EXPECT_THAT(answer["notes"].dump(), ::testing::HasSubstr("position error up to "));

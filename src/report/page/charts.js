@@ -72,8 +72,11 @@ function sweepPlots(card) {
     const {positions} = study.axes[state.axis];
     if (!positions) return;
     const scale = spec.scales.find((one) => one.name === 'x');
-    Object.assign(scale, {type: 'linear', zero: false, nice: false, padding: 20, domain: {data: 'rows', field: 'x'}});
-    spec.axes[0].values = positions;
+    const type = positions.every((one) => one > 0) && isWide(positions) ? 'log' : 'linear';
+    Object.assign(scale, {type, nice: false, padding: 20, domain: {data: 'rows', field: 'x'}});
+    if (type === 'linear') scale.zero = false;
+    // Labels as they are given, not rounded to the digits of a common step.
+    Object.assign(spec.axes[0], {values: positions, format: '~g', labelOverlap: 'greedy'});
   };
   const plots = [fittedPlot({spec: 'sweep_error', heading: 'Mean over trials and its 2σ band', rows: errors, fields: ['mean', 'low', 'high'],
     unit: unitOf(state.sweepMetric), title: metricTitle(state.sweepMetric), keys: ['x'], signals, adjust})];
@@ -96,21 +99,13 @@ function regimePlots(card) {
   return inRows(card, study.regimes.cheapest ? [...plots, plot('Cheapest of the best', cheapestRows())] : plots, 300);
 }
 
-// 1, 2 and 5 times the powers of ten between the least and the greatest.
-function roundValues(values) {
-  const low = Math.min(...values);
-  const high = Math.max(...values);
-  const decades = Array.from({length: 13}, (_, i) => Number(`1e${i - 6}`));
-  return decades.flatMap((ten) => [ten, 2 * ten, 5 * ten]).filter((value) => value >= low && value <= high);
-}
-
 function neesPlot(rows) {
   const heading = `NEES / 3 and the χ² interval of ${rows.draws} independent draw${rows.draws === 1 ? '' : 's'}`;
   return fittedPlot({spec: 'keyframe_nees', heading, rows: rows.nees, fields: ['value'], unit: '', usual: 'log',
     title: 'NEES / 3, mean over trials', data: {interval: rows.interval},
     adjust: (spec, fit) => {
-      const drawn = [...fit.rows.map((row) => row.value), ...rows.interval.flatMap((row) => [row.low, row.high])];
-      if (fit.logarithmic) spec.axes[1].values = roundValues(drawn);
+      const drawn = [...fit.values, ...rows.interval.flatMap((row) => [row.low, row.high])];
+      if (fit.logarithmic) setLogarithmic(spec.scales.find((scale) => scale.name === 'y'), spec.axes[1], drawn);
     }});
 }
 
@@ -129,7 +124,7 @@ function keyframePlots(card) {
 function updatePlots(card) {
   const rows = updateRows(cellNow());
   if (rows.length === 0) return [];
-  return inRows(card, [fittedPlot({spec: 'update_cost', rows, fields: ['value'], unit: 'ms', usual: 'log', title: 'time of an update'})]);
+  return inRows(card, [fittedPlot({spec: 'update_cost', rows, fields: ['value'], unit: 'ms', usual: 'wide', title: 'time of an update'})]);
 }
 
 function paretoPlots(card) {

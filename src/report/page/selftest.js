@@ -70,6 +70,14 @@ async function answerTest() {
   };
   const scaleTypes = () => Object.fromEntries(['forest', 'keyframes', 'updates', 'pareto']
     .map((id) => [id, (chartViews[id] || []).map((view) => view.scale(id === 'forest' ? 'x' : 'y').type)]));
+  // Of an axis that is logarithmic: how far it goes beyond its values, and what is labelled.
+  const axisOf = (id, name, field) => {
+    const [view] = chartViews[id];
+    const values = view.data('rows').map((row) => row[field]);
+    const [low, high] = view.scale(name).domain();
+    return {below: Math.min(...values) / low, above: high / Math.max(...values), round: roundValues(low, high).map(String),
+      labels: textOf(`#chart-${id} .role-axis-label text`)};
+  };
   const result = {
     words: textOf('#verdict > ul:first-child li'), doubts: textOf('#verdict > ul.doubts li'),
     best: document.querySelectorAll('#cells-table td.best').length, header: textOf('#cells-table th'),
@@ -82,6 +90,7 @@ async function answerTest() {
   for (const axes of ['linear', 'log', 'usual']) {
     await choose('#axes select', axes);
     result[axes] = scaleTypes();
+    if (axes === 'log') result.axis = axisOf('updates', 'y', 'value');
   }
   document.querySelector('#baseline-on-scale input').click();
   await drawn();
