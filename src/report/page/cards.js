@@ -31,7 +31,7 @@ const charts = [
     }},
   {id: 'updates', title: 'Cost of an update', plots: updatePlots,
     exists: (cell) => sum(cell.estimators.map((one) => one.updates.keyframe.length)) > 0,
-    caption: (cell) => `${sentence(conditions(cell))}. Median over trials. ${jobsNote(cell)}`},
+    caption: (cell) => `${sentence(conditions(cell))}. Median over trials. No line crosses keyframes without an update. ${jobsNote(cell)}`},
   {id: 'sweep', title: 'Error against the sweep', wide: true, plots: sweepPlots,
     exists: () => study.axes.some((axis) => axis.labels.length > 1),
     choices: () => [

@@ -94,7 +94,7 @@ function keyframeRows(cell) {
 
 function updateRows(cell) {
   return cell.estimators.flatMap((one) => one.updates.keyframe.map((k, i) => ({
-    estimator: one.name, k, value: one.updates.median_ms[i],
+    estimator: one.name, k, piece: `${one.name} ${one.updates.piece[i]}`, value: one.updates.median_ms[i],
     label: `${labelOf(one.name)}, keyframe ${k}: ${quantity(one.updates.median_ms[i], 'ms')}`,
   }))).filter((row) => row.value > 0);
 }
