@@ -130,6 +130,27 @@ TEST_F(Browser, AxesSwitchAndDeadReckoningLeavesTheScaleThatItHides) {
               ::testing::Not(::testing::HasSubstr("cell")));
 }
 
+// Estimates that agree are one line on which their colours take turns, with how near they are.
+TEST_F(Browser, PathsThatAgreeTakeTurnsAndSayHowNearTheyAre) {
+  FixtureOptions options;
+  options.separations.clear();
+  options.noises.clear();
+  options.size = 1e-4;
+  const Json turns = self_test_of(options)["turns"];
+  EXPECT_THAT(turns[0]["note"].dump(),
+              ::testing::ContainsRegex("iterated, a&b_<c>% and graph lie within .* of each other "
+                                       "and within .* of ground truth"));
+  EXPECT_THAT(turns[1]["note"].dump(), ::testing::HasSubstr("a&b_<c>% and graph lie within"));
+  EXPECT_EQ(turns[0]["lines"][0]["dashes"], "");
+  EXPECT_EQ(turns[0]["lines"][1]["dashes"], "9,18");
+  EXPECT_EQ(turns[0]["lines"][1]["offset"], "-9");
+  EXPECT_EQ(turns[0]["lines"][2]["offset"], "-18");
+  EXPECT_LT(turns[0]["lines"][2]["width"], 3.0);
+  // Without the first one the second is whole.
+  EXPECT_EQ(turns[1]["lines"][1]["dashes"], "");
+  EXPECT_EQ(turns[1]["lines"][2]["dashes"], "9,9");
+}
+
 TEST_F(Browser, TheMapHasEqualAxesXUpYToTheLeftAndZooms) {
   const Json map = self_test_of({})["map"];
   const auto scale = [&map](const char* when) { return map[when]["left"].get<double>(); };

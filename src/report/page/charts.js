@@ -18,8 +18,9 @@ const inRows = (card, plots, least) => {
 // A plot of one set of rows whose values go up. `title` is its axis without the unit.
 function fittedPlot({rows, fields, unit, usual, title, keys = ['k'], adjust, signals = {}, data = {}, ...plot}) {
   const fit = fitted(rows, fields, unit, usual);
+  const same = coincidence(fit, fields[0], keys);
   return {...plot, fit, title, data: {...data, rows: fit.rows}, off: fit.off, refused: fit.refused,
-    same: coincidence(fit, fields[0], keys), signals: {...signals, y_title: titled(title, fit.unit)},
+    same, turns: keys.includes('kind') ? [] : same, signals: {...signals, y_title: titled(title, fit.unit)},
     adjust: (spec) => {
       setScale(spec, 'y', fit);
       if (adjust) adjust(spec, fit);
@@ -38,18 +39,30 @@ function mapIsTall() {
   return x1 - x0 > 1.2 * (y1 - y0);
 }
 
-// Paths that the map draws on one another.
+// How far two paths are apart at most; infinite where one alone has a pose.
+function apart(one, other) {
+  if (one.length !== other.length) return Infinity;
+  return greatestOf(one.map((row, k) =>
+    ((row.x === null) === (other[k].x === null) ? Math.hypot(row.x - other[k].x, row.y - other[k].y) : Infinity)));
+}
+
+// Paths that the map draws on one another, and in words how near they are to each other and to the
+// truth, which the thickness of a line would hide.
 function coincidentPaths(paths, metresPerPixel) {
   const byName = new Map();
-  for (const row of paths.filter((one) => one.estimator !== kTruth)) {
+  for (const row of paths) {
     if (!byName.has(row.estimator)) byName.set(row.estimator, []);
     byName.get(row.estimator).push(row);
   }
-  return groupsOf([...byName.keys()], (a, b) => {
-    const [one, other] = [byName.get(a), byName.get(b)];
-    return one.length === other.length &&
-      one.every((row, k) => (row.x === null) === (other[k].x === null) && Math.hypot(row.x - other[k].x, row.y - other[k].y) <= metresPerPixel);
-  });
+  const estimates = [...byName.keys()].filter((name) => name !== kTruth && isShown(name));
+  const same = groupsOf(estimates, (a, b) => apart(byName.get(a), byName.get(b)) <= metresPerPixel);
+  const spread = same.map((group) => {
+    const most = greatestOf(group.flatMap((a) => group.map((b) => apart(byName.get(a), byName.get(b)))));
+    const truth = byName.has(kTruth) ? greatestOf(group.map((name) => apart(byName.get(name), byName.get(kTruth)))) : Infinity;
+    return `${namesOf(group.map(labelOf))} ${most > 0 ? `lie within ${quantity(most, 'm')} of each other` : 'are the same'}` +
+      `${Number.isFinite(truth) ? ` and within ${quantity(truth, 'm')} of ground truth` : ''}; their colours take turns on one line.`;
+  }).join(' ');
+  return {same, spread};
 }
 
 function trajectoryPlots(card) {
@@ -61,8 +74,9 @@ function trajectoryPlots(card) {
   const around = (middle, pixels) => [middle - (pixels * metresPerPixel) / 2, middle + (pixels * metresPerPixel) / 2];
   const signals = {start_h: around((y0 + y1) / 2, width).reverse(), start_v: around((x0 + x1) / 2, height),
     show_ellipses: state.show_ellipses, show_loops: state.show_loops, show_marks: state.show_marks};
-  return [{spec: 'trajectories', data: rows, width, height, signals, same: coincidentPaths(rows.paths, metresPerPixel), title: 'map',
-    note: beyondNote(rows.fixes, signals.start_h, signals.start_v)}];
+  const {same, spread} = coincidentPaths(rows.paths, metresPerPixel);
+  return [{spec: 'trajectories', data: rows, width, height, signals, same, turns: same, spread, title: 'map',
+    note: [spread, beyondNote(rows.fixes, signals.start_h, signals.start_v)].filter(Boolean).join(' ')}];
 }
 
 function sweepPlots(card) {

@@ -9,10 +9,11 @@ function isWide(values) {
   return positive.length > 0 && Math.max(...positive) >= kWide * Math.min(...positive) * (1 - 1e-9);
 }
 
-// 1, 2 and 5 times the powers of ten between the least and the greatest; of many decades the powers.
+// 1, 2 and 5 times the powers of ten between the least and the greatest; of many decades the powers,
+// of less than one all digits.
 function roundValues(low, high) {
   const decades = Array.from({length: 41}, (_, i) => Number(`1e${i - 20}`));
-  const steps = high < 300 * low ? [1, 2, 5] : [1];
+  const steps = high < 6 * low ? [1, 2, 3, 4, 5, 6, 7, 8, 9] : high < 300 * low ? [1, 2, 5] : [1];
   return decades.flatMap((ten) => steps.map((step) => Number((step * ten).toPrecision(1)))).filter((value) => value >= low && value <= high);
 }
 
@@ -69,7 +70,7 @@ function setScale(spec, name, fit) {
   }
 }
 
-// Names that are the same as the first of their group, "a, b and c; d and e".
+// Names that are the same as the first of their group.
 function groupsOf(names, areSame) {
   const groups = [];
   for (const name of names) {
@@ -77,10 +78,13 @@ function groupsOf(names, areSame) {
     if (group) group.push(name);
     else groups.push([name]);
   }
-  return groups.filter((group) => group.length > 1).map((group) => namesOf(group.map(labelOf))).join('; ');
+  return groups.filter((group) => group.length > 1);
 }
 
-// Estimators whose lines are within a pixel of each other, in words.
+// "a, b and c; d and e"
+const groupsText = (groups) => groups.map((group) => namesOf(group.map(labelOf))).join('; ');
+
+// Estimators whose lines are within a pixel of each other.
 function coincidence(fit, field, keys) {
   const lines = new Map();
   for (const row of fit.rows) {
@@ -100,10 +104,11 @@ function notesOf(plots) {
   const parts = [];
   const off = plots.filter((plot) => plot.off).map((plot) => `${plot.title} ${plot.off}`);
   if (off.length > 0) parts.push(`${sentence(labelOf(kBaseline))} is off the scale: ${namesOf(off)}.`);
-  const alike = plots.filter((plot) => plot.same);
-  const inAll = alike.length === plots.length && new Set(alike.map((plot) => plot.same)).size === 1;
-  if (inAll) parts.push(`On one another, within a pixel: ${alike[0].same}.`);
-  else parts.push(...alike.map((plot) => `On one another (${plot.title}), within a pixel: ${plot.same}.`));
+  const alike = plots.filter((plot) => plot.same && plot.same.length > 0 && !plot.spread)
+    .map((plot) => ({title: plot.title, text: groupsText(plot.same)}));
+  const inAll = alike.length === plots.length && new Set(alike.map((plot) => plot.text)).size === 1;
+  if (inAll) parts.push(`On one another, within a pixel: ${alike[0].text}.`);
+  else parts.push(...alike.map((plot) => `On one another (${plot.title}), within a pixel: ${plot.text}.`));
   if (plots.some((plot) => plot.refused)) parts.push('Some values are not above zero: the axis is linear.');
   parts.push(...plots.map((plot) => plot.note).filter(Boolean));
   return parts.join(' ');

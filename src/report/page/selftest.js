@@ -43,6 +43,27 @@ async function mapTest() {
   return looks;
 }
 
+// How the map draws the path of an estimator.
+function pathOf(name) {
+  const path = [...document.querySelectorAll('#chart-trajectories path')].find(({__data__: item}) =>
+    item && item.mark.marktype === 'line' && item.datum && item.datum.label === labelOf(name));
+  return path && {dashes: path.getAttribute('stroke-dasharray'), offset: path.getAttribute('stroke-dashoffset'), width: Number(path.getAttribute('stroke-width'))};
+}
+
+// The same of all, and without the first one that is compared.
+async function turnsTest() {
+  const names = study.estimators.slice(1).map((one) => one.name);
+  const all = () => names.map(pathOf);
+  const box = document.querySelectorAll('#switches input')[2];
+  const before = {lines: all(), note: textOf('#chart-trajectories .notes')[0]};
+  box.click();
+  await drawn();
+  const without = {lines: all(), note: textOf('#chart-trajectories .notes')[0]};
+  box.click();
+  await drawn();
+  return [before, without];
+}
+
 // What the map shows of absolute measurements: where fixes are (m), the direction of headings on the
 // screen, and of each its tooltip and whether it is red.
 function absoluteTest() {
@@ -73,6 +94,7 @@ async function answerTest() {
   // Of an axis that is logarithmic: how far it goes beyond its values, and what is labelled.
   const axisOf = (id, name, field) => {
     const [view] = chartViews[id];
+    if (!view) return null;
     const values = view.data('rows').map((row) => row[field]);
     const [low, high] = view.scale(name).domain();
     return {below: Math.min(...values) / low, above: high / Math.max(...values), round: roundValues(low, high).map(String),
@@ -178,6 +200,7 @@ async function selfTest() {
   result.answer = await answerTest();
   result.bar = document.getElementById('controls').offsetHeight;
   result.beyond = document.documentElement.scrollWidth - window.innerWidth;
+  result.turns = await turnsTest();
   result.mosaics = await mosaicTest();
   document.getElementById('all-metrics').open = true;
   result.boxes = [tableTest('cells-table'), tableTest('summary-table')];
