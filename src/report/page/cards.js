@@ -73,7 +73,7 @@ const charts = [
   {id: 'registrations', title: 'Registration map', wide: true, plots: registrationPlots,
     exists: (cell) => cell.example.estimators.some((one) => one.loops.length > 0),
     caption: (cell) => `${exampleNote()}; ${conditions(cell)}. ` +
-      `Keyframe by keyframe: filled square used, × rejected by the gate, △ lost with a failed update.`},
+      `Keyframe by keyframe: filled square used, × rejected by the gate, △ lost with a failed update. Estimators with the same outcome share a map.`},
 ];
 
 // Those that stand two in a row; one without a neighbour takes the row.
@@ -130,7 +130,7 @@ function drawChart(chart) {
     const container = element('div');
     const place = element('div', {className: 'plot'}, [
       ...(plot.heading ? [element('h4', {textContent: plot.heading})] : []), container]);
-    if (plot.spec !== 'registrations' && plot.width) place.style.width = `${plot.width}px`;
+    if (plot.width) place.style.width = `${plot.width + (plot.spec === 'registrations' ? 75 : 0)}px`;
     plots.append(place);
     chartViews[chart.id].push(drawPlot(container, plot.spec, plot));
   }

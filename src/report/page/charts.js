@@ -101,6 +101,20 @@ function sweepPlots(card) {
   return inRows(card, plots);
 }
 
+// Estimators with the same picture share one, which has the colour of none. `seen` is what of a row
+// is seen besides its colour.
+function picturesOf(entries, seen) {
+  const groups = new Map();
+  for (const entry of entries) {
+    const picture = JSON.stringify(entry.rows.map(seen));
+    if (!groups.has(picture)) groups.set(picture, []);
+    groups.get(picture).push(entry);
+  }
+  return [...groups.values()].map((group) => ({names: group.map((one) => one.name),
+    rows: group.length === 1 ? group[0].rows
+      : group[0].rows.map((row, i) => ({...row, shared: true, stroke: css('--soft'), tooltip: group.map((one) => one.rows[i].tooltip).join('\n')}))}));
+}
+
 function regimePlots(card) {
   const {across, up} = study.regimes;
   const signals = {x_title: study.axes[across].name, y_title: study.axes[up].name};
@@ -108,8 +122,8 @@ function regimePlots(card) {
   const height = Math.max(110, 30 * domains[1].length + 50);
   const adjust = (spec) => domains.forEach((domain, i) => { spec.scales[i].domain = domain; });
   const plot = (heading, rows) => ({spec: 'regimes', heading, data: {rows}, height, signals, adjust});
-  const plots = study.estimators.filter((one) => one.name !== kBaseline)
-    .map((one) => plot(one.label, regimeRows(one.name)));
+  const plots = picturesOf(study.estimators.filter((one) => one.name !== kBaseline && isShown(one.name))
+    .map(({name}) => ({name, rows: regimeRows(name)})), ({text, fill}) => [text, fill]).map(({names, rows}) => plot(namesOf(names.map(labelOf)), rows));
   return inRows(card, study.regimes.cheapest ? [...plots, plot('Cheapest of the best', cheapestRows())] : plots, 300);
 }
 
@@ -181,15 +195,16 @@ function thinnedNote(one) {
 function registrationPlots(card) {
   const drawn = cellNow().example.estimators.filter((one) => one.loops.length > 0);
   const shown = drawn.filter((one) => isShown(one.name));
+  const pictures = picturesOf(shown.map((one) => ({name: one.name, rows: loopRows(one)})), ({older, newer, fate}) => [older, newer, fate]);
   const ends = drawn.flatMap((one) => one.loops.map(([from, to]) => Math.max(from, to)));
   const most = Math.max(1, Math.min(4, Math.floor(widthOf(card) / 260)));
-  const columns = Math.ceil(shown.length / Math.ceil(shown.length / most));
+  const columns = Math.ceil(pictures.length / Math.ceil(pictures.length / most));
   const side = Math.min(460, Math.floor((widthOf(card) - kGap * (columns - 1)) / columns) - 75);
   const countsText = (one) => Object.entries(one.loops_in_all).filter(([fate, n]) => n > 0 || fate === 'used')
     .map(([fate, n]) => `${n} ${fate}`).join(', ') + thinnedNote(one);
-  return shown.map((one) => ({
-    spec: 'registrations', width: side, height: side, data: {rows: loopRows(one)},
-    heading: `${labelOf(one.name)}: ${countsText(one)}`,
+  return pictures.map(({names, rows}) => ({
+    spec: 'registrations', width: side, height: side, data: {rows},
+    heading: `${namesOf(names.map(labelOf))}: ${countsText(shown.find((one) => one.name === names[0]))}`,
     signals: {last: Math.max(1, ...ends)},
   }));
 }

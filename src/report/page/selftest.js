@@ -55,10 +55,11 @@ async function turnsTest() {
   const names = study.estimators.slice(1).map((one) => one.name);
   const all = () => names.map(pathOf);
   const box = document.querySelectorAll('#switches input')[2];
-  const before = {lines: all(), note: textOf('#chart-trajectories .notes')[0]};
+  const look = () => ({lines: all(), note: textOf('#chart-trajectories .notes')[0], maps: textOf('#chart-registrations h4')});
+  const before = look();
   box.click();
   await drawn();
-  const without = {lines: all(), note: textOf('#chart-trajectories .notes')[0]};
+  const without = look();
   box.click();
   await drawn();
   return [before, without];
