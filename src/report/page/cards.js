@@ -59,7 +59,7 @@ const charts = [
       const meaning = relative ? `${sentence(meanTitle(state.regimeMetric))} over that of the best estimator at the same place: 1 is the best, ten times is dark.`
         : `${sentence(meanTitle(state.regimeMetric))}.`;
       const choice = cheapest ? ` Last map: by ${meanTitle(cheapest.cost)} the cheapest of those whose ` +
-        `${meanTitle(cheapest.metric)} is at most 5 % above the best.` : '';
+        `${meanTitle(cheapest.metric)} is at most 5 % above the best; ?: others of them are not shown to be dearer, as the tooltip says.` : '';
       return `${fixed.join('')}${repeatsOf(regimeCells())} a square. ${meaning} An estimator that failed a trial is in no comparison.${choice}`;
     }},
   {id: 'keyframes', title: 'Error and consistency over keyframes', wide: true, plots: keyframePlots,

@@ -65,8 +65,11 @@ function regimeRows(name) {
 }
 
 function cheapestRows() {
-  return regimeCells().filter((cell) => cell.cheapest).map((cell) => ({...regimeRow(cell), ...cell.cheapest,
-    stroke: styleOf(cell.cheapest.estimator).colour, text: labelOf(cell.cheapest.estimator), tooltip: labelOf(cell.cheapest.estimator)}));
+  return regimeCells().filter((cell) => cell.cheapest).map((cell) => {
+    const {estimator} = cell.cheapest;
+    return {...regimeRow(cell), ...cell.cheapest, stroke: styleOf(estimator).colour,
+      text: (cell.verdict.as_cheap.length > 0 ? '? ' : '') + labelOf(estimator), tooltip: cell.verdict.cost.join('\n') || labelOf(estimator)};
+  });
 }
 
 function keyframeRows(cell) {
