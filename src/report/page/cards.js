@@ -35,10 +35,10 @@ const charts = [
   {id: 'sweep', title: 'Error against the sweep', wide: true, plots: sweepPlots,
     exists: () => study.axes.some((axis) => axis.labels.length > 1),
     choices: () => [
-      {label: 'axis', key: 'axis', values: study.axes.map((axis, i) => [i, axis.name]).filter(([i]) => study.axes[i].labels.length > 1)},
+      {label: 'axis', key: 'axis', values: study.axes.map((axis, i) => [i, axis.title]).filter(([i]) => study.axes[i].labels.length > 1)},
       {label: 'metric', key: 'sweepMetric', values: metricChoices().map((name) => [name, metricTitle(name)])}],
     caption: (cell) => {
-      const fixed = study.axes.map((axis, i) => (i === state.axis ? '' : `${axis.name} ${axis.labels[cell.places[i]]}`));
+      const fixed = study.axes.map((axis, i) => (i === state.axis ? '' : axis.texts[cell.places[i]]));
       const notSwept = (key, value) => (study.axes[state.axis].key === key ? '' : value);
       const association = notSwept('association.mode', cell.association);
       const alignment = notSwept('evaluation.alignment', cell.alignment);
@@ -54,7 +54,7 @@ const charts = [
     choices: () => [{label: 'metric', key: 'regimeMetric', values: metricChoices().map((name) => [name, metricTitle(name)])}],
     caption: (cell) => {
       const {across, up, cheapest} = study.regimes;
-      const fixed = study.axes.map((axis, i) => (i === across || i === up || axis.labels.length < 2 ? '' : `${axis.name} ${axis.labels[cell.places[i]]}, `));
+      const fixed = study.axes.map((axis, i) => (i === across || i === up || axis.labels.length < 2 ? '' : `${axis.texts[cell.places[i]]}, `));
       const relative = regimeIsRelative();
       const meaning = relative ? `${sentence(meanTitle(state.regimeMetric))} over that of the best estimator at the same place: 1 is the best, ten times is dark.`
         : `${sentence(meanTitle(state.regimeMetric))}.`;

@@ -81,7 +81,7 @@ function trajectoryPlots(card) {
 
 function sweepPlots(card) {
   const {errors, bounds} = sweepRows();
-  const signals = {x_title: study.axes[state.axis].name};
+  const signals = {x_title: study.axes[state.axis].title};
   const adjust = (spec) => {
     const {positions} = study.axes[state.axis];
     if (!positions) return;
@@ -117,7 +117,7 @@ function picturesOf(entries, seen) {
 
 function regimePlots(card) {
   const {across, up} = study.regimes;
-  const signals = {x_title: study.axes[across].name, y_title: study.axes[up].name};
+  const signals = {x_title: study.axes[across].title, y_title: study.axes[up].title};
   const domains = [study.axes[across].labels, study.axes[up].labels];
   const height = Math.max(110, 30 * domains[1].length + 50);
   const adjust = (spec) => domains.forEach((domain, i) => { spec.scales[i].domain = domain; });

@@ -12,9 +12,9 @@ function sweepRows() {
   const bounds = [];
   for (const cell of sweepCells()) {
     const place = cell.places[state.axis];
-    const text = study.axes[state.axis].labels[place];
+    const text = study.axes[state.axis].texts[place];
     const {positions} = study.axes[state.axis];
-    const x = positions ? positions[place] : text;
+    const x = positions ? positions[place] : study.axes[state.axis].labels[place];
     for (const one of cell.estimators) {
       const metric = one.metrics[state.sweepMetric];
       const row = {estimator: one.name, x, place};
