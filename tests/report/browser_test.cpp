@@ -174,6 +174,23 @@ TEST_F(Browser, TheMapHasEqualAxesXUpYToTheLeftAndZooms) {
   EXPECT_NEAR(scale("end"), scale("start"), 1e-6);
 }
 
+// In both themes.
+TEST_F(Browser, EveryTextHasContrastAndEveryControlANameAndAPlaceForTheKeyboard) {
+  FixtureOptions options;
+  options.absolute = true;
+  const Json access = self_test_of(options, {"iterated", "graph"})["access"];
+  ASSERT_EQ(access.size(), 2u);
+  for (const Json& theme : access) {
+    EXPECT_EQ(theme["lang"], "en");
+    EXPECT_NE(theme["title"], "");
+    EXPECT_GT(theme["controls"], 20);
+    EXPECT_GT(theme["texts"], 200);
+    for (const char* fault : {"unnamed", "unreachable", "faint"}) {
+      EXPECT_EQ(theme[fault], Json::array()) << fault;
+    }
+  }
+}
+
 TEST_F(Browser, OneTrialWithoutGroundTruthOrLoopsIsNoError) {
   FixtureOptions options;
   options.trials = 1;

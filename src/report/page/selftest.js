@@ -205,8 +205,11 @@ async function selfTest() {
   result.mosaics = await mosaicTest();
   document.getElementById('all-metrics').open = true;
   result.boxes = [tableTest('cells-table'), tableTest('summary-table')];
+  for (const folded of document.querySelectorAll('details')) folded.open = true;
+  result.access = [accessTest()];
   document.getElementById('theme').click();
   await drawn();
+  result.access.push(accessTest());
   result.theme = document.documentElement.dataset.theme;
   for (const part of ['cells-table', 'summary-table', 'paired-table', 'manifest']) {
     result.tables[part] = document.querySelectorAll(`#${part} tr`).length;
