@@ -43,7 +43,7 @@ void add_cost(const StudyResults& results, StudyVerdict& verdict) {
       "Cheapest of those within 5 % of the best: {}; {} {} to {}.", listed(parts), metric.label,
       quantity(least, std::nullopt, unit), quantity(most, std::nullopt, unit))};
   if (unsure == 0) return;
-  verdict.cost_words.push_back(fmt::format("In {} others of them are not shown to be dearer.",
+  verdict.cost_words.push_back(fmt::format("In {} others as good are not shown to be dearer.",
                                            of_cells(unsure, results.cells.size())));
 }
 

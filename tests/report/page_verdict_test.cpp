@@ -65,7 +65,7 @@ TEST(Verdict, TheCheapestIsSaidToBeUnsureWhereOthersAreNotShownToBeDearer) {
   EXPECT_THAT(verdict.cells[0].as_cheap, IsEmpty());
   EXPECT_THAT(verdict.cells[1].as_cheap, ElementsAre("best"));
   ASSERT_EQ(verdict.cost_words.size(), 2u);
-  EXPECT_EQ(verdict.cost_words[1], "In 1 of 2 cells others of them are not shown to be dearer.");
+  EXPECT_EQ(verdict.cost_words[1], "In 1 of 2 cells others as good are not shown to be dearer.");
 }
 
 }  // namespace

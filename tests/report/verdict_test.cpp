@@ -214,7 +214,7 @@ TEST(Verdict, SeveralCellsAreSummedUp) {
                                             "3.11 mm ["));
   EXPECT_THAT(verdict.cost_words,
               ElementsAre(HasSubstr("best in all 2 cells; estimate, time 1.00"),
-                          "In 1 of 2 cells others of them are not shown to be dearer."));
+                          "In 1 of 2 cells others as good are not shown to be dearer."));
   EXPECT_THAT(verdict.failed,
               ElementsAre("other closed no loop in 1 of 16 runs, in 1 of 2 cells."));
   EXPECT_THAT(verdict.doubts,
