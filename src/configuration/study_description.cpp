@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "fathom/configuration/axis_words.hpp"
 #include "fathom/core/text.hpp"
 #include "fathom/datasets/data_set.hpp"
 
@@ -55,7 +56,7 @@ std::string StudyDescription::label_of(std::size_t cell) const {
   std::string label;
   for (std::size_t i = 0; i < axes.size(); ++i) {
     if (i > 0) label += ", ";
-    label += axes[i].name + " " + axes[i].labels[places[i]];
+    label += text_of(axes[i], places[i]);
   }
   return label;
 }

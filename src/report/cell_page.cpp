@@ -59,7 +59,18 @@ Json keyframes_json(const KeyframeStatistics& all, std::size_t most) {
 
 Json updates_json(const UpdateCost& cost, std::size_t most) {
   const std::vector<std::size_t> places = thinned(cost.keyframe.size(), most);
+  // A line goes through keyframes that all had an update, also where some of them are thinned out.
+  Json pieces = Json::array();
+  std::size_t piece = 0;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (i > 0 &&
+        cost.keyframe[places[i]] - cost.keyframe[places[i - 1]] != places[i] - places[i - 1]) {
+      ++piece;
+    }
+    pieces.push_back(piece);
+  }
   return {{"keyframe", picked(cost.keyframe, places)},
+          {"piece", pieces},
           {"n", picked(cost.count, places)},
           {"median_ms", page_numbers(picked(cost.median_ms, places))}};
 }

@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <map>
 
+#include "fathom/configuration/axis_words.hpp"
 #include "regime_map.hpp"
 #include "study_figures.hpp"
 #include "text_layout.hpp"
@@ -92,7 +93,8 @@ std::vector<double> numbers_from_0(std::size_t count) {
 
 // Squares lie about whole numbers.
 ChartAxis square_axis(const StudyAxis& axis) {
-  ChartAxis made = labelled_axis(axis.name, numbers_from_0(axis.labels.size()), axis.labels, 0.0);
+  ChartAxis made =
+      labelled_axis(title_of(axis), numbers_from_0(axis.labels.size()), axis.labels, 0.0);
   made.low = -0.5;
   made.high = static_cast<double>(axis.labels.size()) - 0.5;
   return made;

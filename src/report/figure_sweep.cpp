@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <map>
 
+#include "fathom/configuration/axis_words.hpp"
 #include "study_figures.hpp"
 
 namespace fathom {
@@ -68,7 +69,7 @@ std::vector<SweepLine> lines_of(const ChartInput& input, const Sweep& sweep,
 
 ChartAxis sweep_axis(const Sweep& sweep, const StudyAxis& axis) {
   const bool numeric = numeric_positions(axis.labels).has_value();
-  return labelled_axis(axis.name, sweep.positions, axis.labels, numeric ? 0.04 : 0.2);
+  return labelled_axis(title_of(axis), sweep.positions, axis.labels, numeric ? 0.04 : 0.2);
 }
 
 std::vector<double> heights(const std::vector<SweepLine>& lines,

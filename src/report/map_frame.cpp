@@ -48,12 +48,11 @@ ChartFrame map_frame(const Eigen::Vector2d& low, const Eigen::Vector2d& high, co
     const double metres_per_point =
         kMargin * std::max(extent.x() / axes.height, extent.y() / axes.width);
     const Eigen::Vector2d half = 0.5 * metres_per_point * Eigen::Vector2d(axes.height, axes.width);
-    ChartAxis across =
-        axis_between({"y, to the left", "m"}, centre.y() - half.y(), centre.y() + half.y());
+    ChartAxis across = axis_between({"y", "m"}, centre.y() - half.y(), centre.y() + half.y());
     std::swap(across.low, across.high);
     across.grid = true;
     return ChartFrame(std::move(across),
-                      axis_between({"x, up", "m"}, centre.x() - half.x(), centre.x() + half.x()),
+                      axis_between({"x", "m"}, centre.x() - half.x(), centre.x() + half.x()),
                       outer);
   };
   // The labels decide the box of the axes, which decides the labels: it shrinks until they fit.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "cell_page.hpp"
+#include "fathom/configuration/axis_words.hpp"
 #include "fathom/evaluation/metrics.hpp"
 #include "page_numbers.hpp"
 #include "regime_page.hpp"
@@ -30,9 +31,12 @@ Json study_json(const StudyDescription& study) {
   json["axes"] = Json::array();
   for (const StudyAxis& axis : study.axes) {
     const auto positions = numeric_positions(axis.labels);
-    json["axes"].push_back({{"name", axis.name},
+    Json texts = Json::array();
+    for (std::size_t i = 0; i < axis.labels.size(); ++i) texts.push_back(text_of(axis, i));
+    json["axes"].push_back({{"title", title_of(axis)},
                             {"key", axis.key},
                             {"labels", axis.labels},
+                            {"texts", texts},
                             {"positions", positions ? Json(*positions) : Json()}});
   }
   const auto styles = line_styles(study);

@@ -12,7 +12,6 @@
 namespace fathom {
 namespace {
 
-constexpr PageSize kPage{640.0, 480.0};
 constexpr PageSize kSmallPage{480.0, 360.0};
 constexpr double kPixelsPerPoint = 2.5;
 constexpr double kTitleSize = 11.0;
@@ -69,13 +68,27 @@ void draw(Canvas& canvas, const TrajectoryPlot& plot, const PageSize& page) {
   map.draw(canvas, {kMargin, top, width, std::max(40.0, page.height - top - kMargin)});
 }
 
+// Of the shape of the map, so that a narrow one has no white beside it; room for a legend is left.
+PageSize page_of(const TrajectoryPlot& plot) {
+  constexpr PageSize kLeast{400.0, 320.0};
+  constexpr PageSize kMost{640.0, 640.0};
+  constexpr PageSize kRound{60.0, 85.0};  // what is not map: title, legend, axes
+  const Eigen::AlignedBox2d extent = map_extent(plot.series);
+  if (extent.isEmpty() || !(extent.sizes().maxCoeff() > 0.0)) return kLeast;
+  const Eigen::Vector2d size = extent.sizes();
+  const double scale =
+      std::min((kMost.width - kRound.width) / size.y(), (kMost.height - kRound.height) / size.x());
+  return {std::clamp(kRound.width + scale * size.y(), kLeast.width, kMost.width),
+          std::clamp(kRound.height + scale * size.x(), kLeast.height, kMost.height)};
+}
+
 }  // namespace
 
 std::string trajectory_png(const TrajectoryPlot& plot) {
   check(plot);
+  const PageSize page = page_of(plot);
   return render_figure(
-      FigureFormat::png, kPage, [&plot](Canvas& canvas) { draw(canvas, plot, kPage); },
-      kPixelsPerPoint);
+      FigureFormat::png, page, [&](Canvas& canvas) { draw(canvas, plot, page); }, kPixelsPerPoint);
 }
 
 std::string trajectory_svg(const TrajectoryPlot& plot) {

@@ -134,24 +134,27 @@ std::vector<std::string> answer_of(const CellResults& cell, const std::optional<
   return sentences;
 }
 
-// What the estimators that are as good as the best cost.
-std::vector<std::string> cost_of(const CellResults& cell, const Ranking& by_accuracy,
-                                 const std::string& cheapest, const std::string& cost,
-                                 double margin) {
-  const Metric metric = described(cost);
+// By cost, those that are as good as the best.
+std::optional<Ranking> cost_ranking(const CellResults& cell, const Ranking& by_accuracy,
+                                    const std::string& cost, double margin) {
   std::vector<std::string> good;
   for (const RankedEstimator& one : by_accuracy.estimators) {
     const auto relative = relative_to_best(cell, *find(cell, one.name), by_accuracy.metric);
     if (relative && *relative <= 1.0 + kAsGoodAsBest) good.push_back(one.name);
   }
-  const auto by_cost = ranking(cell, cost, {good, margin});
-  if (!by_cost) return {};
+  return ranking(cell, cost, {good, margin});
+}
+
+std::string cost_text(const CellResults& cell, const Ranking& by_cost,
+                      const std::string& cheapest) {
+  const std::string& cost = by_cost.metric;
+  const Metric metric = described(cost);
   std::string text =
       fmt::format("Cheapest of those within 5 % of the best: {}, {} {}.", cheapest, metric.label,
                   mean_text(find(cell, cheapest)->metrics.at(cost), metric.unit));
   const auto add = [&](Standing standing, const std::string& before, const std::string& after) {
     std::vector<std::string> named;
-    for (const RankedEstimator* one : by_cost->standing(standing)) {
+    for (const RankedEstimator* one : by_cost.standing(standing)) {
       if (one->name == cheapest) continue;
       named.push_back(one->name + " " + quantity(one->summary.moments.mean, metric.unit));
     }
@@ -160,7 +163,7 @@ std::vector<std::string> cost_of(const CellResults& cell, const Ranking& by_accu
   add(Standing::equivalent, " As cheap: ", ".");
   add(Standing::not_shown, " Not shown to be dearer: ", ".");
   add(Standing::worse, " Dearer: ", ".");
-  return {text};
+  return text;
 }
 
 std::string outcomes_text(const EstimatorResults& one) {
@@ -213,13 +216,6 @@ std::string no_verdict_text(const Ranking& ranking, const CellResults& cell) {
                      counted(ranking.estimators.size(), "estimator"), ranking.fewest_draws);
 }
 
-std::string distance_text(const RankedEstimator& one, const ScaledUnit& scale) {
-  const PairedDifference& difference = *one.difference;
-  std::optional<Interval> interval = difference.interval;
-  if (interval && difference.mean < 0.0) interval = Interval{-interval->high, -interval->low};
-  return quantity(std::abs(difference.mean), interval, scale);
-}
-
 CellVerdict cell_verdict(const CellResults& cell, const StudyDescription& study,
                          const std::optional<std::string>& metric,
                          const std::optional<std::string>& cost) {
@@ -232,8 +228,14 @@ CellVerdict cell_verdict(const CellResults& cell, const StudyDescription& study,
   }
   if (verdict.ranking && cost) {
     verdict.cheapest = cheapest_of_the_best(cell, *metric, *cost);
-    if (verdict.cheapest) {
-      verdict.cost = cost_of(cell, *verdict.ranking, *verdict.cheapest, *cost, study.margin);
+    const auto by_cost =
+        verdict.cheapest ? cost_ranking(cell, *verdict.ranking, *cost, study.margin) : std::nullopt;
+    if (by_cost) {
+      verdict.cost = {cost_text(cell, *by_cost, *verdict.cheapest)};
+      for (const RankedEstimator& one : by_cost->estimators) {
+        if (one.name == *verdict.cheapest || one.standing == Standing::worse) continue;
+        verdict.as_cheap.push_back(one.name);
+      }
     }
   }
   verdict.failed = failed_of(cell, study);

@@ -14,6 +14,7 @@ namespace fathom {
 struct CellVerdict {
   std::optional<Ranking> ranking;       ///< by the study's metric; nothing where none is ranked
   std::optional<std::string> cheapest;  ///< of those as good as the best
+  std::vector<std::string> as_cheap;    ///< others of those that are not shown to be dearer
   std::vector<std::string> answer;      ///< which is best, which is worse, by how much
   std::vector<std::string> cost;
   std::vector<std::string> failed;

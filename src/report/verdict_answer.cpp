@@ -69,6 +69,13 @@ void add_equivalent(const StudyResults& results, StudyVerdict& verdict) {
 
 }  // namespace
 
+std::string distance_text(const RankedEstimator& one, const ScaledUnit& scale) {
+  const PairedDifference& difference = *one.difference;
+  std::optional<Interval> interval = difference.interval;
+  if (interval && difference.mean < 0.0) interval = Interval{-interval->high, -interval->low};
+  return quantity(std::abs(difference.mean), interval, scale);
+}
+
 std::string of_cells(std::size_t count, std::size_t all) {
   return count == all ? "all " + std::to_string(all) + " cells"
                       : fmt::format("{} of {} cells", count, all);

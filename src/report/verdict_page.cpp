@@ -47,7 +47,10 @@ Json ranking_json(const Ranking& ranking) {
 }
 
 Json cell_json(const CellVerdict& verdict) {
-  Json json{{"answer", verdict.answer}, {"cost", verdict.cost}, {"failed", verdict.failed}};
+  Json json{{"answer", verdict.answer},
+            {"cost", verdict.cost},
+            {"as_cheap", verdict.as_cheap},
+            {"failed", verdict.failed}};
   json["doubts"] = Json::array();
   for (const Doubt& doubt : verdict.doubts) json["doubts"].push_back(words_of(doubt));
   return json;

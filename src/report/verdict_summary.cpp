@@ -19,10 +19,12 @@ void add_cost(const StudyResults& results, StudyVerdict& verdict) {
   std::map<std::string, std::size_t> cheapest;
   double least = INFINITY;
   double most = 0.0;
+  std::size_t unsure = 0;
   for (std::size_t i = 0; i < results.cells.size(); ++i) {
     const auto& name = verdict.cells[i].cheapest;
     if (!name) continue;
     ++cheapest[*name];
+    unsure += verdict.cells[i].as_cheap.empty() ? 0 : 1;
     for (const EstimatorResults& one : results.cells[i].estimators) {
       if (one.name != *name) continue;
       least = std::min(least, one.metrics.at(*verdict.cost).moments.mean);
@@ -40,6 +42,9 @@ void add_cost(const StudyResults& results, StudyVerdict& verdict) {
   verdict.cost_words = {fmt::format(
       "Cheapest of those within 5 % of the best: {}; {} {} to {}.", listed(parts), metric.label,
       quantity(least, std::nullopt, unit), quantity(most, std::nullopt, unit))};
+  if (unsure == 0) return;
+  verdict.cost_words.push_back(fmt::format("In {} others as good are not shown to be dearer.",
+                                           of_cells(unsure, results.cells.size())));
 }
 
 // Over all cells, with the number of those where it happened.

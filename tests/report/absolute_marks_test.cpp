@@ -18,6 +18,7 @@ namespace fathom {
 namespace {
 
 using test::count;
+using test::map_of;
 using test::mean_position;
 using test::series_of;
 using test::where;
@@ -43,7 +44,7 @@ class Map {
     plot.series[0].absolute = std::move(marks);
     const std::string png = trajectory_png(plot);
     picture_ = cv::imdecode(std::vector<unsigned char>(png.begin(), png.end()), cv::IMREAD_COLOR);
-    picture_ = picture_.rowRange(125, 1080).clone();  // without the legend and the axis below
+    picture_ = map_of(picture_);
     origin_ = mean_position(picture_, palette::blue);
     ahead_ = (mean_position(picture_, palette::green) - origin_) / 10.0;
     to_port_ = (mean_position(picture_, palette::purple) - origin_) / 10.0;
@@ -106,8 +107,7 @@ TEST(AbsoluteMarks, HangOnTheirPose) {
   plot.series[0].absolute = {heading(1, 0.0, false)};
   const std::string png = trajectory_png(plot);
   const cv::Mat picture =
-      cv::imdecode(std::vector<unsigned char>(png.begin(), png.end()), cv::IMREAD_COLOR)
-          .rowRange(125, 1080);
+      map_of(cv::imdecode(std::vector<unsigned char>(png.begin(), png.end()), cv::IMREAD_COLOR));
   EXPECT_LT(mean_position(picture, palette::crimson).x(), 400);
 }
 

@@ -49,20 +49,21 @@ inline std::string without_entities(std::string text) {
 /// page did not get that far. The browser's time is virtual: a busy machine changes nothing but how
 /// long the test takes, and the limit only ends a browser that hangs.
 inline nlohmann::json self_test_of(const FixtureOptions& options,
-                                   const std::vector<std::string>& mosaics = {}) {
+                                   const std::vector<std::string>& mosaics = {}, int width = 1400) {
   const TemporaryFolder folder;
   write_fixture(folder / "study", options);
   for (std::size_t i = 0; i < mosaics.size(); ++i) {
     write_made_mosaic(folder / "study" / mosaics[i], 4.0, 2.0 - static_cast<double>(i));
   }
   write_study_report(ResultStore::open(folder / "study"), folder / "out", folder / "study");
-  const std::string page = output_of(
-      "timeout 800 '" + browser() +
-      "' --headless --no-sandbox --disable-gpu --disable-quic --no-first-run"
-      " --disable-background-networking --disable-component-update --disable-sync"
-      " --disable-dev-shm-usage --window-size=1400,2000 --user-data-dir='" +
-      (folder / "profile").string() + "' --virtual-time-budget=20000 --dump-dom 'file://" +
-      (folder / "out" / "report.html").string() + "#selftest' 2>/dev/null");
+  const std::string page =
+      output_of("timeout 800 '" + browser() +
+                "' --headless --no-sandbox --disable-gpu --disable-quic --no-first-run"
+                " --disable-background-networking --disable-component-update --disable-sync"
+                " --disable-dev-shm-usage --window-size=" +
+                std::to_string(width) + ",2000 --user-data-dir='" + (folder / "profile").string() +
+                "' --virtual-time-budget=20000 --dump-dom 'file://" +
+                (folder / "out" / "report.html").string() + "#selftest' 2>/dev/null");
   const std::string opening = "<pre id=\"selftest\">";
   const std::size_t begin = page.find(opening);
   if (begin == std::string::npos) return nullptr;

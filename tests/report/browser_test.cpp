@@ -22,6 +22,7 @@ TEST_F(Browser, DrawsEveryChartAndTakesAnEstimatorOffAllOfThem) {
   for (const char* name : {"iterated", "a&b_<c>%", "graph"}) {
     const Json& one = result["estimators"].at(name);
     for (const std::string& chart : charts) {
+      if (chart == "registrations") continue;  // they share a map
       EXPECT_GT(one["before"].at(chart), 0) << name << ", " << chart;
       EXPECT_EQ(one["off"].at(chart), 0) << name << ", " << chart;
       EXPECT_EQ(one["again"].at(chart), one["before"].at(chart)) << name << ", " << chart;
@@ -54,6 +55,32 @@ TEST_F(Browser, DrawsEveryCellAndTable) {
   EXPECT_EQ(result["theme"], "dark");
 }
 
+// A table takes the width; in a narrow box it scrolls, says so, and keeps the names of its rows.
+TEST_F(Browser, TablesTakeTheWidthAndSayThatTheyScroll) {
+  FixtureOptions one_cell;
+  one_cell.separations.clear();
+  one_cell.noises.clear();
+  for (const FixtureOptions& options : {FixtureOptions{}, one_cell}) {
+    const Json boxes = self_test_of(options)["boxes"];
+    ASSERT_EQ(boxes.size(), 2u);
+    for (const Json& box : boxes) {
+      EXPECT_NEAR(box["share"], 1.0, 0.01);
+      EXPECT_EQ(box["wide"]["hint"], "none");
+      EXPECT_EQ(box["wide"]["tabIndex"], -1);
+      EXPECT_THAT(box["narrow"]["hint"].dump(), ::testing::HasSubstr("scroll sideways"));
+      EXPECT_EQ(box["narrow"]["tabIndex"], 0);
+      EXPECT_EQ(box["narrow"]["scrolled"], 60);
+      EXPECT_NEAR(box["narrow"]["name"], 0.0, 0.5);
+    }
+  }
+}
+
+TEST_F(Browser, TheSwitchesOfATelephoneAreOneLine) {
+  const Json result = self_test_of({}, {}, 500);
+  EXPECT_LT(result["bar"], 70);  // with a bar to scroll by
+  EXPECT_LE(result["beyond"], 0);
+}
+
 TEST_F(Browser, AnswersFirstAndMarksTheBestOfEveryRow) {
   FixtureOptions options;
   options.size = 0.01;
@@ -78,7 +105,7 @@ TEST_F(Browser, AxesSwitchAndDeadReckoningLeavesTheScaleThatItHides) {
   const Json answer = self_test_of(options)["answer"];
   const Json usual{{"forest", {"linear"}},
                    {"keyframes", {"linear", "linear", "log"}},
-                   {"updates", {"log"}},
+                   {"updates", {"linear"}},
                    {"pareto", {"linear"}}};
   EXPECT_EQ(answer["usual"], usual);
   for (const auto& [axes, chart] : {std::pair("linear", "linear"), std::pair("log", "log")}) {
@@ -86,6 +113,12 @@ TEST_F(Browser, AxesSwitchAndDeadReckoningLeavesTheScaleThatItHides) {
       for (const Json& type : types) EXPECT_EQ(type, chart) << name;
     }
   }
+  // A logarithmic axis ends near its values, and labels 1, 2 and 5.
+  EXPECT_NEAR(answer["axis"]["below"], 1.1, 0.02);
+  EXPECT_NEAR(answer["axis"]["above"], 1.1, 0.02);
+  EXPECT_GT(answer["axis"]["round"].size(), 3u);
+  EXPECT_THAT(answer["axis"]["labels"].get<std::vector<std::string>>(),
+              ::testing::IsSupersetOf(answer["axis"]["round"].get<std::vector<std::string>>()));
   const std::string note = "Dead reckoning is off the scale: mean position error ";
   EXPECT_THAT(answer["notes"].dump(), ::testing::HasSubstr(note));
   EXPECT_THAT(answer["notes"].dump(), ::testing::HasSubstr("position error up to "));
@@ -96,6 +129,30 @@ TEST_F(Browser, AxesSwitchAndDeadReckoningLeavesTheScaleThatItHides) {
   EXPECT_EQ(answer["best"], 1);
   EXPECT_THAT(answer["words"].dump() + answer["doubts"].dump() + answer["header"].dump(),
               ::testing::Not(::testing::HasSubstr("cell")));
+}
+
+// Estimates that agree are one line on which their colours take turns, with how near they are.
+TEST_F(Browser, WhatAgreesIsDrawnOnceAndSaysHowNearItIs) {
+  FixtureOptions options;
+  options.separations.clear();
+  options.noises.clear();
+  options.size = 1e-4;
+  options.baseline = 1e4;
+  const Json turns = self_test_of(options)["turns"];
+  EXPECT_THAT(turns[0]["note"].dump(),
+              ::testing::ContainsRegex("iterated, a&b_<c>% and graph lie within .* of each other "
+                                       "and within .* of ground truth"));
+  EXPECT_THAT(turns[1]["note"].dump(), ::testing::HasSubstr("a&b_<c>% and graph lie within"));
+  EXPECT_EQ(turns[0]["lines"][0]["dashes"], "");
+  EXPECT_EQ(turns[0]["lines"][1]["dashes"], "9,18");
+  EXPECT_EQ(turns[0]["lines"][1]["offset"], "-9");
+  EXPECT_EQ(turns[0]["lines"][2]["offset"], "-18");
+  EXPECT_LT(turns[0]["lines"][2]["width"], 3.0);
+  EXPECT_EQ(turns[0]["maps"], Json({"iterated, a&b_<c>% and graph: 26 used, 3 rejected, 1 lost"}));
+  EXPECT_EQ(turns[1]["maps"], Json({"a&b_<c>% and graph: 26 used, 3 rejected, 1 lost"}));
+  // Without the first one the second is whole.
+  EXPECT_EQ(turns[1]["lines"][1]["dashes"], "");
+  EXPECT_EQ(turns[1]["lines"][2]["dashes"], "9,9");
 }
 
 TEST_F(Browser, TheMapHasEqualAxesXUpYToTheLeftAndZooms) {
@@ -115,6 +172,23 @@ TEST_F(Browser, TheMapHasEqualAxesXUpYToTheLeftAndZooms) {
       map["drag"]["middle"][1].get<double>() - map["wheel"]["middle"][1].get<double>();
   EXPECT_NEAR(up_m, 30.0 / scale("drag"), 1e-6);
   EXPECT_NEAR(scale("end"), scale("start"), 1e-6);
+}
+
+// In both themes.
+TEST_F(Browser, EveryTextHasContrastAndEveryControlANameAndAPlaceForTheKeyboard) {
+  FixtureOptions options;
+  options.absolute = true;
+  const Json access = self_test_of(options, {"iterated", "graph"})["access"];
+  ASSERT_EQ(access.size(), 2u);
+  for (const Json& theme : access) {
+    EXPECT_EQ(theme["lang"], "en");
+    EXPECT_NE(theme["title"], "");
+    EXPECT_GT(theme["controls"], 20);
+    EXPECT_GT(theme["texts"], 200);
+    for (const char* fault : {"unnamed", "unreachable", "faint"}) {
+      EXPECT_EQ(theme[fault], Json::array()) << fault;
+    }
+  }
 }
 
 TEST_F(Browser, OneTrialWithoutGroundTruthOrLoopsIsNoError) {

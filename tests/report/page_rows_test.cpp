@@ -1,6 +1,7 @@
 // The rows of the page against those of the figures.
 
 #include <cmath>
+#include <numeric>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -69,6 +70,57 @@ TEST_F(PageRows, AreThoseOfTheFigures) {
     EXPECT_NEAR(cell["example"]["extent"]["x_m"][1], extent.max().x(), 1e-4);
     EXPECT_NEAR(cell["example"]["extent"]["y_m"][0], extent.min().y(), 1e-4);
   }
+}
+
+// Keyframe 4 and 5 had no update; thinning leaves no gap.
+TEST_F(PageRows, UpdatesAreInPiecesWithoutAGap) {
+  const auto updates_of = [](const std::vector<double>& keyframes) {
+    const TemporaryFolder folder;
+    StudyDescription study;
+    study.estimators = {{"a", "ekf"}};
+    ResultStore store = ResultStore::write(folder.path(), study, "");
+    RunRecord run;
+    run.key = {0, 0, 0, "a"};
+    run.outcome = "converged";
+    run.series["update_keyframe"] = keyframes;
+    run.series["update_ms"].assign(keyframes.size(), 1.0);
+    store.add(run);
+    store.finish();
+    const Json page = data_of_page(page_of(ResultStore::open(folder.path())));
+    return page["cells"][0]["estimators"][0]["updates"];
+  };
+  EXPECT_EQ(updates_of({2, 3, 6, 7, 8, 10})["piece"], Json::parse("[0, 0, 1, 1, 1, 2]"));
+  std::vector<double> many(50000);
+  std::iota(many.begin(), many.end(), 0.0);
+  const Json pieces = updates_of(many)["piece"];
+  EXPECT_LT(pieces.size(), many.size());
+  EXPECT_EQ(pieces, Json(std::vector<int>(pieces.size(), 0)));
+}
+
+// The unit of a swept key stands where neither the name of the axis nor the label says it.
+TEST_F(PageRows, SweptValuesHaveTheirUnit) {
+  const TemporaryFolder folder;
+  StudyDescription study;
+  study.estimators = {{"a", "ekf"}};
+  study.axes = {{"heading noise", "dataset.odometry.sigma_theta_rad", {"0.002"}},
+                {"reach_m", "dataset.loops.max_distance_m", {"4"}},
+                {"interval", "dataset.compass.interval_s", {"off", "10"}},
+                {"sigma", "dataset.compass.sigma_rad", {"1°"}},
+                {"water", "dataset.water.attenuation_per_m", {"0.15"}},
+                {"loops", "dataset.loops.max_per_keyframe", {"2"}}};
+  ResultStore store = ResultStore::write(folder.path(), study, "");
+  RunRecord run;
+  run.key = {1, 0, 0, "a"};
+  run.outcome = "converged";
+  store.add(run);
+  store.finish();
+  const Json page = data_of_page(page_of(ResultStore::open(folder.path())));
+  EXPECT_EQ(page["cells"][0]["label"],
+            "heading noise 0.002 rad, reach_m 4, interval 10 s, sigma 1°, water 0.15 1/m, loops 2");
+  EXPECT_EQ(page["axes"][0]["title"], "heading noise (rad)");
+  EXPECT_EQ(page["axes"][1]["title"], "reach_m");
+  EXPECT_EQ(page["axes"][2]["texts"], Json({"interval off", "interval 10 s"}));
+  EXPECT_EQ(page["axes"][3]["title"], "sigma");
 }
 
 TEST_F(PageRows, SquaresOfTheRegimeMapAreThoseOfTheFigure) {

@@ -4,13 +4,16 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "report/made_cells.hpp"
 #include "report/page_data.hpp"
 
 namespace fathom::test {
 namespace {
 
 using Json = nlohmann::json;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 
 // The fixture's first estimator is the best by far; of the last cell one failed and is not ranked.
 TEST(PageVerdict, HasTheVerdictAndTheRankings) {
@@ -23,6 +26,7 @@ TEST(PageVerdict, HasTheVerdictAndTheRankings) {
   EXPECT_THAT(
       data["verdict"]["failed"].dump(),
       HasSubstr("a&b_<c>% failed in 2 of 48 runs, in 1 of 6 cells, where it is not ranked."));
+  EXPECT_EQ(data["cells"][0]["verdict"]["as_cheap"], Json::array());
   const Json& rankings = data["cells"][0]["rankings"];
   EXPECT_FALSE(rankings.contains("anees"));
   const Json& ranking = rankings["mean_position_error_m"];
@@ -46,6 +50,22 @@ TEST(PageVerdict, HasTheVerdictAndTheRankings) {
             "not_shown");
   EXPECT_EQ(data["cells"][5]["rankings"]["mean_position_error_m"]["others"].size(), 1u);
   EXPECT_THAT(data["cells"][5]["verdict"]["failed"].dump(), HasSubstr("and is not ranked"));
+}
+
+// In the second cell both cost the same in the mean, more or less.
+TEST(Verdict, TheCheapestIsSaidToBeUnsureWhereOthersAreNotShownToBeDearer) {
+  EstimatorResults noisy = eight("alike", kAlike, 0.0035);
+  for (std::size_t i = 0; i < noisy.runs.size(); ++i) {
+    noisy.runs[i].metrics["total_ms"] *= i % 2 == 0 ? 0.5 : 1.6;
+  }
+  const StudyVerdict verdict =
+      study_verdict(study_of({surveyed({eight("best", kBest, 8.0), eight("alike", kAlike, 0.0035)}),
+                              surveyed({eight("best", kBest, 0.0036), noisy})},
+                             6, 1));
+  EXPECT_THAT(verdict.cells[0].as_cheap, IsEmpty());
+  EXPECT_THAT(verdict.cells[1].as_cheap, ElementsAre("best"));
+  ASSERT_EQ(verdict.cost_words.size(), 2u);
+  EXPECT_EQ(verdict.cost_words[1], "In 1 of 2 cells others as good are not shown to be dearer.");
 }
 
 }  // namespace

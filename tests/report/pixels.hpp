@@ -7,6 +7,11 @@
 
 namespace fathom::test {
 
+/// Of a trajectory.png, below title and legend and above the labels of the axis.
+inline cv::Mat map_of(const cv::Mat& picture) {
+  return picture.rowRange(125, picture.rows - 120).clone();
+}
+
 /// Where a picture has exactly this colour.
 inline cv::Mat where(const cv::Mat& picture, Colour colour) {
   const cv::Scalar bgr(colour.blue, colour.green, colour.red);

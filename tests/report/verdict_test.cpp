@@ -213,7 +213,8 @@ TEST(Verdict, SeveralCellsAreSummedUp) {
   EXPECT_THAT(verdict.answer[1], StartsWith("other is worse in 1 of 2 cells, most at noise 2: by "
                                             "3.11 mm ["));
   EXPECT_THAT(verdict.cost_words,
-              ElementsAre(HasSubstr("best in all 2 cells; estimate, time 1.00")));
+              ElementsAre(HasSubstr("best in all 2 cells; estimate, time 1.00"),
+                          "In 1 of 2 cells others as good are not shown to be dearer."));
   EXPECT_THAT(verdict.failed,
               ElementsAre("other closed no loop in 1 of 16 runs, in 1 of 2 cells."));
   EXPECT_THAT(verdict.doubts,

@@ -54,7 +54,8 @@ struct TrajectoryPlot {
 /// measurements the first that left one out keeps them, else the first.
 void keep_one_set_of_marks(std::vector<PlotSeries>& series);
 
-/// A map with x up, y to the left and equal axes: a PNG of 1600 × 1200 pixels.
+/// A map with x up, y to the left and equal axes: a PNG of its shape, 1000 to 1600 pixels wide and
+/// 800 to 1600 high.
 /// Poses that are not finite, or beyond 1e9 m, are left out of the line, which is broken there, and
 /// counted in the title. A series without poses stands in the legend as empty.
 /// Throws InputError on covariances that are neither none nor one per pose, and on a loop between

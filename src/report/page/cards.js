@@ -31,14 +31,14 @@ const charts = [
     }},
   {id: 'updates', title: 'Cost of an update', plots: updatePlots,
     exists: (cell) => sum(cell.estimators.map((one) => one.updates.keyframe.length)) > 0,
-    caption: (cell) => `${sentence(conditions(cell))}. Median over trials. ${jobsNote(cell)}`},
+    caption: (cell) => `${sentence(conditions(cell))}. Median over trials. No line crosses keyframes without an update. ${jobsNote(cell)}`},
   {id: 'sweep', title: 'Error against the sweep', wide: true, plots: sweepPlots,
     exists: () => study.axes.some((axis) => axis.labels.length > 1),
     choices: () => [
-      {label: 'axis', key: 'axis', values: study.axes.map((axis, i) => [i, axis.name]).filter(([i]) => study.axes[i].labels.length > 1)},
+      {label: 'axis', key: 'axis', values: study.axes.map((axis, i) => [i, axis.title]).filter(([i]) => study.axes[i].labels.length > 1)},
       {label: 'metric', key: 'sweepMetric', values: metricChoices().map((name) => [name, metricTitle(name)])}],
     caption: (cell) => {
-      const fixed = study.axes.map((axis, i) => (i === state.axis ? '' : `${axis.name} ${axis.labels[cell.places[i]]}`));
+      const fixed = study.axes.map((axis, i) => (i === state.axis ? '' : axis.texts[cell.places[i]]));
       const notSwept = (key, value) => (study.axes[state.axis].key === key ? '' : value);
       const association = notSwept('association.mode', cell.association);
       const alignment = notSwept('evaluation.alignment', cell.alignment);
@@ -54,12 +54,12 @@ const charts = [
     choices: () => [{label: 'metric', key: 'regimeMetric', values: metricChoices().map((name) => [name, metricTitle(name)])}],
     caption: (cell) => {
       const {across, up, cheapest} = study.regimes;
-      const fixed = study.axes.map((axis, i) => (i === across || i === up || axis.labels.length < 2 ? '' : `${axis.name} ${axis.labels[cell.places[i]]}, `));
+      const fixed = study.axes.map((axis, i) => (i === across || i === up || axis.labels.length < 2 ? '' : `${axis.texts[cell.places[i]]}, `));
       const relative = regimeIsRelative();
       const meaning = relative ? `${sentence(meanTitle(state.regimeMetric))} over that of the best estimator at the same place: 1 is the best, ten times is dark.`
         : `${sentence(meanTitle(state.regimeMetric))}.`;
       const choice = cheapest ? ` Last map: by ${meanTitle(cheapest.cost)} the cheapest of those whose ` +
-        `${meanTitle(cheapest.metric)} is at most 5 % above the best.` : '';
+        `${meanTitle(cheapest.metric)} is at most 5 % above the best; ?: others of them are not shown to be dearer, as the tooltip says.` : '';
       return `${fixed.join('')}${repeatsOf(regimeCells())} a square. ${meaning} An estimator that failed a trial is in no comparison.${choice}`;
     }},
   {id: 'keyframes', title: 'Error and consistency over keyframes', wide: true, plots: keyframePlots,
@@ -73,7 +73,7 @@ const charts = [
   {id: 'registrations', title: 'Registration map', wide: true, plots: registrationPlots,
     exists: (cell) => cell.example.estimators.some((one) => one.loops.length > 0),
     caption: (cell) => `${exampleNote()}; ${conditions(cell)}. ` +
-      `Keyframe by keyframe: filled square used, × rejected by the gate, △ lost with a failed update.`},
+      `Keyframe by keyframe: filled square used, × rejected by the gate, △ lost with a failed update. Estimators with the same outcome share a map.`},
 ];
 
 // Those that stand two in a row; one without a neighbour takes the row.
@@ -130,7 +130,7 @@ function drawChart(chart) {
     const container = element('div');
     const place = element('div', {className: 'plot'}, [
       ...(plot.heading ? [element('h4', {textContent: plot.heading})] : []), container]);
-    if (plot.spec !== 'registrations' && plot.width) place.style.width = `${plot.width}px`;
+    if (plot.width) place.style.width = `${plot.width + (plot.spec === 'registrations' ? 75 : 0)}px`;
     plots.append(place);
     chartViews[chart.id].push(drawPlot(container, plot.spec, plot));
   }

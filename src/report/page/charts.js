@@ -18,8 +18,9 @@ const inRows = (card, plots, least) => {
 // A plot of one set of rows whose values go up. `title` is its axis without the unit.
 function fittedPlot({rows, fields, unit, usual, title, keys = ['k'], adjust, signals = {}, data = {}, ...plot}) {
   const fit = fitted(rows, fields, unit, usual);
+  const same = coincidence(fit, fields[0], keys);
   return {...plot, fit, title, data: {...data, rows: fit.rows}, off: fit.off, refused: fit.refused,
-    same: coincidence(fit, fields[0], keys), signals: {...signals, y_title: titled(title, fit.unit)},
+    same, turns: keys.includes('kind') ? [] : same, signals: {...signals, y_title: titled(title, fit.unit)},
     adjust: (spec) => {
       setScale(spec, 'y', fit);
       if (adjust) adjust(spec, fit);
@@ -38,18 +39,30 @@ function mapIsTall() {
   return x1 - x0 > 1.2 * (y1 - y0);
 }
 
-// Paths that the map draws on one another.
+// How far two paths are apart at most; infinite where one alone has a pose.
+function apart(one, other) {
+  if (one.length !== other.length) return Infinity;
+  return greatestOf(one.map((row, k) =>
+    ((row.x === null) === (other[k].x === null) ? Math.hypot(row.x - other[k].x, row.y - other[k].y) : Infinity)));
+}
+
+// Paths that the map draws on one another, and in words how near they are to each other and to the
+// truth, which the thickness of a line would hide.
 function coincidentPaths(paths, metresPerPixel) {
   const byName = new Map();
-  for (const row of paths.filter((one) => one.estimator !== kTruth)) {
+  for (const row of paths) {
     if (!byName.has(row.estimator)) byName.set(row.estimator, []);
     byName.get(row.estimator).push(row);
   }
-  return groupsOf([...byName.keys()], (a, b) => {
-    const [one, other] = [byName.get(a), byName.get(b)];
-    return one.length === other.length &&
-      one.every((row, k) => (row.x === null) === (other[k].x === null) && Math.hypot(row.x - other[k].x, row.y - other[k].y) <= metresPerPixel);
-  });
+  const estimates = [...byName.keys()].filter((name) => name !== kTruth && isShown(name));
+  const same = groupsOf(estimates, (a, b) => apart(byName.get(a), byName.get(b)) <= metresPerPixel);
+  const spread = same.map((group) => {
+    const most = greatestOf(group.flatMap((a) => group.map((b) => apart(byName.get(a), byName.get(b)))));
+    const truth = byName.has(kTruth) ? greatestOf(group.map((name) => apart(byName.get(name), byName.get(kTruth)))) : Infinity;
+    return `${namesOf(group.map(labelOf))} ${most > 0 ? `lie within ${quantity(most, 'm')} of each other` : 'are the same'}` +
+      `${Number.isFinite(truth) ? ` and within ${quantity(truth, 'm')} of ground truth` : ''}; their colours take turns on one line.`;
+  }).join(' ');
+  return {same, spread};
 }
 
 function trajectoryPlots(card) {
@@ -61,19 +74,23 @@ function trajectoryPlots(card) {
   const around = (middle, pixels) => [middle - (pixels * metresPerPixel) / 2, middle + (pixels * metresPerPixel) / 2];
   const signals = {start_h: around((y0 + y1) / 2, width).reverse(), start_v: around((x0 + x1) / 2, height),
     show_ellipses: state.show_ellipses, show_loops: state.show_loops, show_marks: state.show_marks};
-  return [{spec: 'trajectories', data: rows, width, height, signals, same: coincidentPaths(rows.paths, metresPerPixel), title: 'map',
-    note: beyondNote(rows.fixes, signals.start_h, signals.start_v)}];
+  const {same, spread} = coincidentPaths(rows.paths, metresPerPixel);
+  return [{spec: 'trajectories', data: rows, width, height, signals, same, turns: same, spread, title: 'map',
+    note: [spread, beyondNote(rows.fixes, signals.start_h, signals.start_v)].filter(Boolean).join(' ')}];
 }
 
 function sweepPlots(card) {
   const {errors, bounds} = sweepRows();
-  const signals = {x_title: study.axes[state.axis].name};
+  const signals = {x_title: study.axes[state.axis].title};
   const adjust = (spec) => {
     const {positions} = study.axes[state.axis];
     if (!positions) return;
     const scale = spec.scales.find((one) => one.name === 'x');
-    Object.assign(scale, {type: 'linear', zero: false, nice: false, padding: 20, domain: {data: 'rows', field: 'x'}});
-    spec.axes[0].values = positions;
+    const type = positions.every((one) => one > 0) && isWide(positions) ? 'log' : 'linear';
+    Object.assign(scale, {type, nice: false, padding: 20, domain: {data: 'rows', field: 'x'}});
+    if (type === 'linear') scale.zero = false;
+    // Labels as they are given, not rounded to the digits of a common step.
+    Object.assign(spec.axes[0], {values: positions, format: '~g', labelOverlap: 'greedy'});
   };
   const plots = [fittedPlot({spec: 'sweep_error', heading: 'Mean over trials and its 2σ band', rows: errors, fields: ['mean', 'low', 'high'],
     unit: unitOf(state.sweepMetric), title: metricTitle(state.sweepMetric), keys: ['x'], signals, adjust})];
@@ -84,24 +101,30 @@ function sweepPlots(card) {
   return inRows(card, plots);
 }
 
+// Estimators with the same picture share one, which has the colour of none. `seen` is what of a row
+// is seen besides its colour.
+function picturesOf(entries, seen) {
+  const groups = new Map();
+  for (const entry of entries) {
+    const picture = JSON.stringify(entry.rows.map(seen));
+    if (!groups.has(picture)) groups.set(picture, []);
+    groups.get(picture).push(entry);
+  }
+  return [...groups.values()].map((group) => ({names: group.map((one) => one.name),
+    rows: group.length === 1 ? group[0].rows
+      : group[0].rows.map((row, i) => ({...row, shared: true, stroke: css('--soft'), tooltip: group.map((one) => one.rows[i].tooltip).join('\n')}))}));
+}
+
 function regimePlots(card) {
   const {across, up} = study.regimes;
-  const signals = {x_title: study.axes[across].name, y_title: study.axes[up].name};
+  const signals = {x_title: study.axes[across].title, y_title: study.axes[up].title};
   const domains = [study.axes[across].labels, study.axes[up].labels];
   const height = Math.max(110, 30 * domains[1].length + 50);
   const adjust = (spec) => domains.forEach((domain, i) => { spec.scales[i].domain = domain; });
   const plot = (heading, rows) => ({spec: 'regimes', heading, data: {rows}, height, signals, adjust});
-  const plots = study.estimators.filter((one) => one.name !== kBaseline)
-    .map((one) => plot(one.label, regimeRows(one.name)));
+  const plots = picturesOf(study.estimators.filter((one) => one.name !== kBaseline && isShown(one.name))
+    .map(({name}) => ({name, rows: regimeRows(name)})), ({text, fill}) => [text, fill]).map(({names, rows}) => plot(namesOf(names.map(labelOf)), rows));
   return inRows(card, study.regimes.cheapest ? [...plots, plot('Cheapest of the best', cheapestRows())] : plots, 300);
-}
-
-// 1, 2 and 5 times the powers of ten between the least and the greatest.
-function roundValues(values) {
-  const low = Math.min(...values);
-  const high = Math.max(...values);
-  const decades = Array.from({length: 13}, (_, i) => Number(`1e${i - 6}`));
-  return decades.flatMap((ten) => [ten, 2 * ten, 5 * ten]).filter((value) => value >= low && value <= high);
 }
 
 function neesPlot(rows) {
@@ -109,8 +132,8 @@ function neesPlot(rows) {
   return fittedPlot({spec: 'keyframe_nees', heading, rows: rows.nees, fields: ['value'], unit: '', usual: 'log',
     title: 'NEES / 3, mean over trials', data: {interval: rows.interval},
     adjust: (spec, fit) => {
-      const drawn = [...fit.rows.map((row) => row.value), ...rows.interval.flatMap((row) => [row.low, row.high])];
-      if (fit.logarithmic) spec.axes[1].values = roundValues(drawn);
+      const drawn = [...fit.values, ...rows.interval.flatMap((row) => [row.low, row.high])];
+      if (fit.logarithmic) setLogarithmic(spec.scales.find((scale) => scale.name === 'y'), spec.axes[1], drawn);
     }});
 }
 
@@ -129,7 +152,7 @@ function keyframePlots(card) {
 function updatePlots(card) {
   const rows = updateRows(cellNow());
   if (rows.length === 0) return [];
-  return inRows(card, [fittedPlot({spec: 'update_cost', rows, fields: ['value'], unit: 'ms', usual: 'log', title: 'time of an update'})]);
+  return inRows(card, [fittedPlot({spec: 'update_cost', rows, fields: ['value'], unit: 'ms', usual: 'wide', title: 'time of an update'})]);
 }
 
 function paretoPlots(card) {
@@ -172,15 +195,16 @@ function thinnedNote(one) {
 function registrationPlots(card) {
   const drawn = cellNow().example.estimators.filter((one) => one.loops.length > 0);
   const shown = drawn.filter((one) => isShown(one.name));
+  const pictures = picturesOf(shown.map((one) => ({name: one.name, rows: loopRows(one)})), ({older, newer, fate}) => [older, newer, fate]);
   const ends = drawn.flatMap((one) => one.loops.map(([from, to]) => Math.max(from, to)));
   const most = Math.max(1, Math.min(4, Math.floor(widthOf(card) / 260)));
-  const columns = Math.ceil(shown.length / Math.ceil(shown.length / most));
+  const columns = Math.ceil(pictures.length / Math.ceil(pictures.length / most));
   const side = Math.min(460, Math.floor((widthOf(card) - kGap * (columns - 1)) / columns) - 75);
   const countsText = (one) => Object.entries(one.loops_in_all).filter(([fate, n]) => n > 0 || fate === 'used')
     .map(([fate, n]) => `${n} ${fate}`).join(', ') + thinnedNote(one);
-  return shown.map((one) => ({
-    spec: 'registrations', width: side, height: side, data: {rows: loopRows(one)},
-    heading: `${labelOf(one.name)}: ${countsText(one)}`,
+  return pictures.map(({names, rows}) => ({
+    spec: 'registrations', width: side, height: side, data: {rows},
+    heading: `${namesOf(names.map(labelOf))}: ${countsText(shown.find((one) => one.name === names[0]))}`,
     signals: {last: Math.max(1, ...ends)},
   }));
 }

@@ -2,11 +2,13 @@
 function switchEstimator(name, shown) {
   if (shown) state.hidden.delete(name);
   else state.hidden.add(name);
-  for (const chart of charts) {
-    // The map keeps its zoom.
-    if (chart.id !== 'trajectories') drawChart(chart);
-    else for (const view of chartViews[chart.id]) view.signal('hidden', [...state.hidden]).run();
-  }
+  // The map keeps its zoom.
+  const zooms = chartViews.trajectories.map((view) => ['dom_h', 'dom_v'].map((axis) => [axis, view.signal(axis)]));
+  charts.forEach(drawChart);
+  chartViews.trajectories.forEach((view, i) => {
+    for (const [axis, domain] of zooms[i]) view.signal(axis, domain);
+    view.run();
+  });
 }
 
 function makeSwitches() {
@@ -83,6 +85,7 @@ makeSwitches();
 makeCellChooser();
 makeAxes();
 drawManifest();
+watchBoxes();
 makeCards();
 makeMetricChooser();
 makeMosaics();

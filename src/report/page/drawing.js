@@ -18,31 +18,42 @@ function themeConfig() {
 // The dashes of a line, of points as in print, in pixels.
 const dashesOf = (style) => style.dashes.map((length) => 1.6 * length);
 
-// Lines that lie on one another stay visible: the first estimator's is the broadest and the lowest.
-// Where none do, the step is small.
-const kBroadest = 7.4;
+// Of lines that cross, the first estimator's is a little broader, and the lowest.
+const kBroadest = 4;
 const kThinnest = 1.8;
-function thicknessOf(name, lieOnOneAnother) {
+function thicknessOf(name) {
   const compared = study.estimators.filter((one) => one.name !== kBaseline).map((one) => one.name);
   const place = compared.indexOf(name);
   if (place < 0) return kThinnest;
-  const step = Math.min(lieOnOneAnother ? 2.8 : 0.5, (kBroadest - kThinnest) / Math.max(1, compared.length - 1));
+  const step = Math.min(0.5, (kBroadest - kThinnest) / Math.max(1, compared.length - 1));
   return kThinnest + step * (compared.length - 1 - place);
 }
 
+// Lines that lie on one another are as one line on which their colours take turns: the first is
+// whole, and each other has its turn on top of it.
+const kTurn = 9;
+function turnOf(name, groups) {
+  const group = groups.find((one) => one.includes(name));
+  const place = group ? group.indexOf(name) : 0;
+  if (place === 0) return {dashes: group ? [] : null, offset: 0};
+  return {dashes: [kTurn, kTurn * (group.length - 1)], offset: -kTurn * place};
+}
+
 // The scales by which all charts colour and dash, whatever is shown.
-function sharedScales(lieOnOneAnother) {
+function sharedScales(groups) {
   const names = [kTruth, ...study.estimators.map((one) => one.name)];
+  const turns = study.estimators.map((one) => turnOf(one.name, groups));
   return [
     {name: 'colour', type: 'ordinal', domain: names, range: [css('--ink'), ...study.estimators.map((one) => one.colour)]},
-    {name: 'thickness', type: 'ordinal', domain: names, range: [kBroadest + 1.8, ...study.estimators.map((one) => thicknessOf(one.name, lieOnOneAnother))]},
-    {name: 'dash', type: 'ordinal', domain: names, range: [[], ...study.estimators.map((one) => dashesOf(one))]},
+    {name: 'thickness', type: 'ordinal', domain: names, range: [kBroadest + 1.8, ...study.estimators.map((one, i) => (turns[i].dashes ? kThinnest + 0.6 : thicknessOf(one.name)))]},
+    {name: 'dash', type: 'ordinal', domain: names, range: [[], ...study.estimators.map((one, i) => turns[i].dashes || dashesOf(one))]},
+    {name: 'offset', type: 'ordinal', domain: names, range: [0, ...turns.map((turn) => turn.offset)]},
   ];
 }
 
-function drawPlot(container, specName, {data, width, height, signals = {}, adjust, same}) {
+function drawPlot(container, specName, {data, width, height, signals = {}, adjust, turns = []}) {
   const spec = structuredClone(specs[specName]);
-  spec.scales.push(...sharedScales(Boolean(same)));
+  spec.scales.push(...sharedScales(turns));
   spec.signals.push({name: 'ink', value: css('--ink')}, {name: 'card', value: css('--card')}, {name: 'left_out', value: css('--left-out')});
   for (const set of spec.data) set.values = data[set.name] || [];
   for (const [name, value] of Object.entries({...signals, hidden: [...state.hidden]})) {

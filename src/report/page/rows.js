@@ -12,9 +12,9 @@ function sweepRows() {
   const bounds = [];
   for (const cell of sweepCells()) {
     const place = cell.places[state.axis];
-    const text = study.axes[state.axis].labels[place];
+    const text = study.axes[state.axis].texts[place];
     const {positions} = study.axes[state.axis];
-    const x = positions ? positions[place] : text;
+    const x = positions ? positions[place] : study.axes[state.axis].labels[place];
     for (const one of cell.estimators) {
       const metric = one.metrics[state.sweepMetric];
       const row = {estimator: one.name, x, place};
@@ -65,8 +65,11 @@ function regimeRows(name) {
 }
 
 function cheapestRows() {
-  return regimeCells().filter((cell) => cell.cheapest).map((cell) => ({...regimeRow(cell), ...cell.cheapest,
-    stroke: styleOf(cell.cheapest.estimator).colour, text: labelOf(cell.cheapest.estimator), tooltip: labelOf(cell.cheapest.estimator)}));
+  return regimeCells().filter((cell) => cell.cheapest).map((cell) => {
+    const {estimator} = cell.cheapest;
+    return {...regimeRow(cell), ...cell.cheapest, stroke: styleOf(estimator).colour,
+      text: (cell.verdict.as_cheap.length > 0 ? '? ' : '') + labelOf(estimator), tooltip: cell.verdict.cost.join('\n') || labelOf(estimator)};
+  });
 }
 
 function keyframeRows(cell) {
@@ -94,7 +97,7 @@ function keyframeRows(cell) {
 
 function updateRows(cell) {
   return cell.estimators.flatMap((one) => one.updates.keyframe.map((k, i) => ({
-    estimator: one.name, k, value: one.updates.median_ms[i],
+    estimator: one.name, k, piece: `${one.name} ${one.updates.piece[i]}`, value: one.updates.median_ms[i],
     label: `${labelOf(one.name)}, keyframe ${k}: ${quantity(one.updates.median_ms[i], 'ms')}`,
   }))).filter((row) => row.value > 0);
 }

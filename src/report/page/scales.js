@@ -1,16 +1,42 @@
 // How rows fit an axis: linear or logarithmic, in which unit, and with dead reckoning or without.
+const kWide = 100;  // greatest over least: what spans less is read better on a linear axis
 const kHides = 5;  // times the others: what lies so far above them leaves no scale for the rest
 
 const isOf = (kind, usual) => (state.axes === 'usual' ? usual : state.axes) === kind;
 
+function isWide(values) {
+  const positive = values.filter((value) => value > 0);
+  return positive.length > 0 && Math.max(...positive) >= kWide * Math.min(...positive) * (1 - 1e-9);
+}
+
+// 1, 2 and 5 times the powers of ten between the least and the greatest; of many decades the powers,
+// of less than one all digits.
+function roundValues(low, high) {
+  const decades = Array.from({length: 41}, (_, i) => Number(`1e${i - 20}`));
+  const steps = high < 6 * low ? [1, 2, 3, 4, 5, 6, 7, 8, 9] : high < 300 * low ? [1, 2, 5] : [1];
+  return decades.flatMap((ten) => steps.map((step) => Number((step * ten).toPrecision(1)))).filter((value) => value >= low && value <= high);
+}
+
+// Ends near the values, and all that is labelled is seen.
+function setLogarithmic(scale, axis, values) {
+  const positive = values.filter((value) => value > 0);
+  const [low, high] = [0.9 * Math.min(...positive), 1.1 * Math.max(...positive)];
+  Object.assign(scale, {type: 'log', nice: false, domain: [low, high]});
+  delete scale.zero;
+  delete axis.tickCount;  // by which values that are given are thinned
+  Object.assign(axis, {format: '~g', labelOverlap: 'greedy', values: roundValues(low, high)});
+}
+
 // Rows in the unit of their axis. `fields` are the values along it, the one that counts first;
-// `usual` is what the axis is unless the reader says. `off` is how high dead reckoning is where it
+// `usual` is what the axis is unless the reader says, 'wide' logarithmic where the values span two
+// decades. `off` is how high dead reckoning is where it
 // is left out.
 function fitted(rows, fields, unit, usual = 'linear') {
   const of = (list, names) => list.flatMap((row) => names.map((name) => row[name])).filter((value) => Number.isFinite(value));
   const shown = rows.filter((row) => row.estimator === undefined || isShown(row.estimator));
   const main = fields.slice(0, 1);
-  const logarithmic = isOf('log', usual) && of(shown, main).some((value) => value > 0) &&
+  const wanted = usual !== 'wide' ? usual : isWide(of(shown, main)) ? 'log' : 'linear';
+  const logarithmic = isOf('log', wanted) && of(shown, main).some((value) => value > 0) &&
     !of(shown, main).some((value) => value < 0);
   const baseline = shown.filter((row) => row.estimator === kBaseline);
   const others = shown.filter((row) => row.estimator !== kBaseline);
@@ -26,25 +52,25 @@ function fitted(rows, fields, unit, usual = 'linear') {
   }
   const scale = readingUnit(unit, greatestOf(of(kept, fields)));
   const scaled = (row) => ({...row, ...Object.fromEntries(fields.filter((name) => Number.isFinite(row[name])).map((name) => [name, row[name] * scale.factor]))});
-  return {rows: kept.map(scaled), logarithmic, unit: scale.text, factor: scale.factor,
+  const scaledRows = kept.map(scaled);
+  return {rows: scaledRows, values: of(scaledRows, fields), logarithmic, unit: scale.text, factor: scale.factor,
     off: hides ? `${baseline.length > 1 ? 'up to ' : ''}${quantity(highest, unit)}` : '',
-    refused: isOf('log', usual) && !logarithmic && shown.length > 0};
+    refused: isOf('log', wanted) && !logarithmic && shown.length > 0};
 }
 
 // Makes an axis of a specification as its rows were fitted.
 function setScale(spec, name, fit) {
   const scale = spec.scales.find((one) => one.name === name);
   const axis = spec.axes.find((one) => one.scale === name);
-  scale.type = fit.logarithmic ? 'log' : 'linear';
   if (fit.logarithmic) {
-    delete scale.zero;
-    axis.format = '~g';
+    setLogarithmic(scale, axis, fit.values);
   } else {
+    scale.type = 'linear';
     delete axis.format;
   }
 }
 
-// Names that are the same as the first of their group, "a, b and c; d and e".
+// Names that are the same as the first of their group.
 function groupsOf(names, areSame) {
   const groups = [];
   for (const name of names) {
@@ -52,10 +78,13 @@ function groupsOf(names, areSame) {
     if (group) group.push(name);
     else groups.push([name]);
   }
-  return groups.filter((group) => group.length > 1).map((group) => namesOf(group.map(labelOf))).join('; ');
+  return groups.filter((group) => group.length > 1);
 }
 
-// Estimators whose lines are within a pixel of each other, in words.
+// "a, b and c; d and e"
+const groupsText = (groups) => groups.map((group) => namesOf(group.map(labelOf))).join('; ');
+
+// Estimators whose lines are within a pixel of each other.
 function coincidence(fit, field, keys) {
   const lines = new Map();
   for (const row of fit.rows) {
@@ -75,10 +104,11 @@ function notesOf(plots) {
   const parts = [];
   const off = plots.filter((plot) => plot.off).map((plot) => `${plot.title} ${plot.off}`);
   if (off.length > 0) parts.push(`${sentence(labelOf(kBaseline))} is off the scale: ${namesOf(off)}.`);
-  const alike = plots.filter((plot) => plot.same);
-  const inAll = alike.length === plots.length && new Set(alike.map((plot) => plot.same)).size === 1;
-  if (inAll) parts.push(`On one another, within a pixel: ${alike[0].same}.`);
-  else parts.push(...alike.map((plot) => `On one another (${plot.title}), within a pixel: ${plot.same}.`));
+  const alike = plots.filter((plot) => plot.same && plot.same.length > 0 && !plot.spread)
+    .map((plot) => ({title: plot.title, text: groupsText(plot.same)}));
+  const inAll = alike.length === plots.length && new Set(alike.map((plot) => plot.text)).size === 1;
+  if (inAll) parts.push(`On one another, within a pixel: ${alike[0].text}.`);
+  else parts.push(...alike.map((plot) => `On one another (${plot.title}), within a pixel: ${plot.text}.`));
   if (plots.some((plot) => plot.refused)) parts.push('Some values are not above zero: the axis is linear.');
   parts.push(...plots.map((plot) => plot.note).filter(Boolean));
   return parts.join(' ');

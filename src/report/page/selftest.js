@@ -43,6 +43,28 @@ async function mapTest() {
   return looks;
 }
 
+// How the map draws the path of an estimator.
+function pathOf(name) {
+  const path = [...document.querySelectorAll('#chart-trajectories path')].find(({__data__: item}) =>
+    item && item.mark.marktype === 'line' && item.datum && item.datum.label === labelOf(name));
+  return path && {dashes: path.getAttribute('stroke-dasharray'), offset: path.getAttribute('stroke-dashoffset'), width: Number(path.getAttribute('stroke-width'))};
+}
+
+// The same of all, and without the first one that is compared.
+async function turnsTest() {
+  const names = study.estimators.slice(1).map((one) => one.name);
+  const all = () => names.map(pathOf);
+  const box = document.querySelectorAll('#switches input')[2];
+  const look = () => ({lines: all(), note: textOf('#chart-trajectories .notes')[0], maps: textOf('#chart-registrations h4')});
+  const before = look();
+  box.click();
+  await drawn();
+  const without = look();
+  box.click();
+  await drawn();
+  return [before, without];
+}
+
 // What the map shows of absolute measurements: where fixes are (m), the direction of headings on the
 // screen, and of each its tooltip and whether it is red.
 function absoluteTest() {
@@ -70,6 +92,15 @@ async function answerTest() {
   };
   const scaleTypes = () => Object.fromEntries(['forest', 'keyframes', 'updates', 'pareto']
     .map((id) => [id, (chartViews[id] || []).map((view) => view.scale(id === 'forest' ? 'x' : 'y').type)]));
+  // Of an axis that is logarithmic: how far it goes beyond its values, and what is labelled.
+  const axisOf = (id, name, field) => {
+    const [view] = chartViews[id];
+    if (!view) return null;
+    const values = view.data('rows').map((row) => row[field]);
+    const [low, high] = view.scale(name).domain();
+    return {below: Math.min(...values) / low, above: high / Math.max(...values), round: roundValues(low, high).map(String),
+      labels: textOf(`#chart-${id} .role-axis-label text`)};
+  };
   const result = {
     words: textOf('#verdict > ul:first-child li'), doubts: textOf('#verdict > ul.doubts li'),
     best: document.querySelectorAll('#cells-table td.best').length, header: textOf('#cells-table th'),
@@ -82,6 +113,7 @@ async function answerTest() {
   for (const axes of ['linear', 'log', 'usual']) {
     await choose('#axes select', axes);
     result[axes] = scaleTypes();
+    if (axes === 'log') result.axis = axisOf('updates', 'y', 'value');
   }
   document.querySelector('#baseline-on-scale input').click();
   await drawn();
@@ -90,6 +122,22 @@ async function answerTest() {
   await choose('#cells-metric select', 'total_ms');
   result.other = {title: textOf('#cells-title')[0], header: textOf('#cells-table th'), forest: marksOf('forest')};
   return result;
+}
+
+// How much of its box a table takes, and what is seen of it in a box as narrow as a telephone's.
+function tableTest(id) {
+  const box = document.getElementById(id);
+  const share = box.firstChild.offsetWidth / box.clientWidth;
+  const hint = () => getComputedStyle(box, '::before').content;
+  const wide = {hint: hint(), tabIndex: box.tabIndex};
+  box.style.width = '260px';
+  markSideways(box);
+  box.scrollLeft = 60;
+  const name = box.querySelector('tbody td').getBoundingClientRect().left - box.getBoundingClientRect().left;
+  const narrow = {hint: hint(), tabIndex: box.tabIndex, scrolled: box.scrollLeft, name};
+  box.style.width = '';
+  markSideways(box);
+  return {share, wide, narrow};
 }
 
 // The mosaics shown: of each choice the width of the picture once it is loaded, what is drawn over
@@ -151,9 +199,17 @@ async function selfTest() {
     result.cells.push(marksOfAll());
   }
   result.answer = await answerTest();
+  result.bar = document.getElementById('controls').offsetHeight;
+  result.beyond = document.documentElement.scrollWidth - window.innerWidth;
+  result.turns = await turnsTest();
   result.mosaics = await mosaicTest();
+  document.getElementById('all-metrics').open = true;
+  result.boxes = [tableTest('cells-table'), tableTest('summary-table')];
+  for (const folded of document.querySelectorAll('details')) folded.open = true;
+  result.access = [accessTest()];
   document.getElementById('theme').click();
   await drawn();
+  result.access.push(accessTest());
   result.theme = document.documentElement.dataset.theme;
   for (const part of ['cells-table', 'summary-table', 'paired-table', 'manifest']) {
     result.tables[part] = document.querySelectorAll(`#${part} tr`).length;

@@ -11,6 +11,26 @@ function tableOf(header, rows) {
     element('tbody', {}, rows.map((row) => element('tr', {}, row.map(cellOf('td')))))]);
 }
 
+// A table into its box, which the keyboard reaches and which says so where it scrolls sideways.
+function fillBox(id, table) {
+  const box = document.getElementById(id);
+  box.replaceChildren(table);
+  markSideways(box);
+}
+
+function markSideways(box) {
+  const isSideways = box.scrollWidth > box.clientWidth;
+  box.classList.toggle('sideways', isSideways);
+  if (isSideways) box.tabIndex = 0;
+  else box.removeAttribute('tabindex');
+}
+
+// A box is also measured when it is unfolded or the window changes.
+function watchBoxes() {
+  const observer = new ResizeObserver((entries) => entries.forEach((entry) => markSideways(entry.target)));
+  for (const box of document.querySelectorAll('.scroll')) observer.observe(box);
+}
+
 // The line by which charts draw an estimator.
 function swatch(name) {
   const style = styleOf(name);
@@ -59,7 +79,7 @@ function drawSummary() {
     made.tBodies[0].rows[0].cells[i + 1].className = 'wrapped' + (one.done < one.runs ? ' failed' : '');
   });
   document.getElementById('summary-title').textContent = study.cells.length > 1 ? `All metrics of ${cell.label}` : 'All metrics';
-  document.getElementById('summary-table').replaceChildren(made);
+  fillBox('summary-table', made);
   document.getElementById('summary-words').replaceChildren(...cell.estimators.filter((one) => one.words.length > 0)
     .map((one) => element('li', {textContent: `${labelOf(one.name)}: ${one.words.join(' ')}`})));
   document.getElementById('summary-caption').textContent = `${sentence(conditions(cell))}. ` +
@@ -80,7 +100,7 @@ function drawPaired() {
     [swatch(one.estimator), labelOf(one.estimator)], metricTitle(one.metric), `${one.n} ${one.over}`, withInterval(one, one.metric), digits(one.p), digits(one.holm_p)]);
   const made = tableOf(['estimator', 'metric', 'pairs', 'mean difference', 'p', 'p (Holm)'], rows);
   for (const row of made.rows) row.cells[1].className = 'text';
-  document.getElementById('paired-table').replaceChildren(made);
+  fillBox('paired-table', made);
 }
 
 // Nested objects as dotted keys.

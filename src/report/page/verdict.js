@@ -56,15 +56,14 @@ function drawTable() {
   const several = study.cells.length > 1;
   const standings = study.cells.map((cell) => names.map((name, i) => standingCell(cell, name, units[i])));
   const rows = study.cells.map((cell, i) => [
-    ...(several ? [element('button', {className: 'link', textContent: cell.label, onclick: () => chooseCell(i)})] : []),
+    several ? element('button', {className: 'link', textContent: cell.label, onclick: () => chooseCell(i)}) : metricTitle(state.metric),
     ...standings[i].map((one) => one.parts)]);
-  const header = [...(several ? ['cell'] : []), ...names.map((name, i) => [swatch(name), titled(breakable(labelOf(name)), units[i].text)])];
+  const header = [several ? 'cell' : 'metric', ...names.map((name, i) => [swatch(name), titled(breakable(labelOf(name)), units[i].text)])];
   const made = tableOf(header, rows);
-  const first = several ? 1 : 0;
   standings.forEach((row, i) => {
     const drawnRow = made.tBodies[0].rows[i];
     if (several && i === state.cell) drawnRow.className = 'chosen';
-    row.forEach((one, column) => { drawnRow.cells[column + first].className = one.standing; });
+    row.forEach((one, column) => { drawnRow.cells[column + 1].className = one.standing; });
   });
   document.getElementById('cells-title').textContent = several
     ? `${sentence(metricTitle(state.metric))} in every cell` : sentence(metricTitle(state.metric));
@@ -75,7 +74,7 @@ function drawTable() {
     : `This metric is not ranked${better === 'neither' ? ': no value of it is the better one' : ''}.`;
   document.getElementById('cells-caption').textContent =
     `${study.cells.some((cell) => cell.n > 1) ? 'Means with 95 % intervals' : 'Values of one trial'}, ${repeatsOf(study.cells)}${several ? ' a cell' : ''}. ${marks}`;
-  document.getElementById('cells-table').replaceChildren(made);
+  fillBox('cells-table', made);
 }
 
 // The metric of the first chart and of the table is one choice, with a control at both.

@@ -1,0 +1,51 @@
+#include "fathom/configuration/axis_words.hpp"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+#include <utility>
+
+#include "fathom/core/text.hpp"
+
+namespace fathom {
+namespace {
+
+// How keys end; the longer before what they end with.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 7> kEndings{{
+    {"_per_m", "1/m"},
+    {"_m_s", "m/s"},
+    {"_rad", "rad"},
+    {"_px", "px"},
+    {"_hz", "Hz"},
+    {"_m", "m"},
+    {"_s", "s"},
+}};
+
+bool is_number(const std::string& label) {
+  return parse_real(label).has_value();
+}
+
+}  // namespace
+
+std::string unit_of(const StudyAxis& axis) {
+  if (std::ranges::none_of(axis.labels, is_number)) return "";
+  for (const auto& [ending, unit] : kEndings) {
+    if (!axis.key.ends_with(ending)) continue;
+    return axis.name.ends_with(ending) ? "" : std::string(unit);
+  }
+  return "";
+}
+
+std::string title_of(const StudyAxis& axis) {
+  const std::string unit = unit_of(axis);
+  return unit.empty() ? axis.name : axis.name + " (" + unit + ")";
+}
+
+std::string text_of(const StudyAxis& axis, std::size_t place) {
+  const std::string& label = axis.labels[place];
+  const std::string unit = unit_of(axis);
+  const bool is_bare = !unit.empty() && is_number(label);
+  return axis.name + " " + label + (is_bare ? " " + unit : "");
+}
+
+}  // namespace fathom

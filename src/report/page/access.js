@@ -1,0 +1,42 @@
+// Of the self-test: what keeps readers out in the theme that is on.
+function rgbaOf(text) {
+  const [red, green, blue, alpha = 1] = text.match(/[\d.]+(e-?\d+)?/g).map(Number);
+  return text.startsWith('color') ? [red, green, blue, alpha] : [red / 255, green / 255, blue / 255, alpha];
+}
+
+const over = ([r, g, b, alpha], below) => [r, g, b].map((part, i) => alpha * part + (1 - alpha) * below[i]);
+
+function groundOf(node) {
+  if (!node) return [1, 1, 1];
+  return over(rgbaOf(getComputedStyle(node).backgroundColor), groundOf(node.parentElement));
+}
+
+function luminance(colour) {
+  const [red, green, blue] = colour.map((part) => (part <= 0.04045 ? part / 12.92 : ((part + 0.055) / 1.055) ** 2.4));
+  return 0.2126 * red + 0.7152 * green + 0.0722 * blue;
+}
+
+function contrastOf(node) {
+  const style = getComputedStyle(node);
+  const ground = groundOf(node);
+  const [low, high] = [luminance(ground), luminance(over(rgbaOf(node.closest('svg') ? style.fill : style.color), ground))].sort((a, b) => a - b);
+  return (high + 0.05) / (low + 0.05);
+}
+
+// Texts of marks lie on what a chart draws, which is not their element's ground.
+const isSeen = (node) => node.getClientRects().length > 0 && !node.closest('script, noscript') &&
+  (!node.closest('svg') || node.closest('[class*="role-axis"]'));
+
+function accessTest() {
+  const controls = [...document.querySelectorAll('a[href], button, input, select, summary')].filter(isSeen);
+  const nameOf = (one) => one.getAttribute('aria-label') || [...(one.labels || [])].map((label) => label.textContent.trim()).join('') ||
+    (one.tagName === 'SELECT' ? '' : one.textContent.trim());
+  const walker = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
+  const texts = [];
+  while (walker.nextNode()) if (walker.currentNode.textContent.trim()) texts.push(walker.currentNode.parentElement);
+  return {lang: document.documentElement.lang, title: document.title, controls: controls.length, texts: texts.length,
+    unnamed: controls.filter((one) => !nameOf(one)).map((one) => one.outerHTML.slice(0, 80)),
+    unreachable: controls.filter((one) => one.tabIndex < 0).map((one) => one.outerHTML.slice(0, 80)),
+    // WCAG 2.1, 1.4.3
+    faint: texts.filter((one) => isSeen(one) && contrastOf(one) < 4.5).map((one) => `${one.textContent.slice(0, 40)}: ${contrastOf(one).toFixed(2)}`)};
+}
