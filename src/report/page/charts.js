@@ -46,16 +46,16 @@ function apart(one, other) {
     ((row.x === null) === (other[k].x === null) ? Math.hypot(row.x - other[k].x, row.y - other[k].y) : Infinity)));
 }
 
-// Paths that the map draws on one another, and in words how near they are to each other and to the
+// Paths nearer to each other than a line is thick, and in words how near they are to each other and to the
 // truth, which the thickness of a line would hide.
-function coincidentPaths(paths, metresPerPixel) {
+function coincidentPaths(paths, thickness_m) {
   const byName = new Map();
   for (const row of paths) {
     if (!byName.has(row.estimator)) byName.set(row.estimator, []);
     byName.get(row.estimator).push(row);
   }
   const estimates = [...byName.keys()].filter((name) => name !== kTruth && isShown(name));
-  const same = groupsOf(estimates, (a, b) => apart(byName.get(a), byName.get(b)) <= metresPerPixel);
+  const same = groupsOf(estimates, (a, b) => apart(byName.get(a), byName.get(b)) <= thickness_m);
   const spread = same.map((group) => {
     const most = greatestOf(group.flatMap((a) => group.map((b) => apart(byName.get(a), byName.get(b)))));
     const truth = byName.has(kTruth) ? greatestOf(group.map((name) => apart(byName.get(name), byName.get(kTruth)))) : Infinity;
@@ -74,7 +74,7 @@ function trajectoryPlots(card) {
   const around = (middle, pixels) => [middle - (pixels * metresPerPixel) / 2, middle + (pixels * metresPerPixel) / 2];
   const signals = {start_h: around((y0 + y1) / 2, width).reverse(), start_v: around((x0 + x1) / 2, height),
     show_ellipses: state.show_ellipses, show_loops: state.show_loops, show_marks: state.show_marks};
-  const {same, spread} = coincidentPaths(rows.paths, metresPerPixel);
+  const {same, spread} = coincidentPaths(rows.paths, kShared * metresPerPixel);
   return [{spec: 'trajectories', data: rows, width, height, signals, same, turns: same, spread, title: 'map',
     note: [spread, beyondNote(rows.fixes, signals.start_h, signals.start_v)].filter(Boolean).join(' ')}];
 }

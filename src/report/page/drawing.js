@@ -32,6 +32,7 @@ function thicknessOf(name) {
 // Lines that lie on one another are as one line on which their colours take turns: the first is
 // whole, and each other has its turn on top of it.
 const kTurn = 9;
+const kShared = kThinnest + 0.6;  // thickness
 function turnOf(name, groups) {
   const group = groups.find((one) => one.includes(name));
   const place = group ? group.indexOf(name) : 0;
@@ -45,7 +46,7 @@ function sharedScales(groups) {
   const turns = study.estimators.map((one) => turnOf(one.name, groups));
   return [
     {name: 'colour', type: 'ordinal', domain: names, range: [css('--ink'), ...study.estimators.map((one) => one.colour)]},
-    {name: 'thickness', type: 'ordinal', domain: names, range: [kBroadest + 1.8, ...study.estimators.map((one, i) => (turns[i].dashes ? kThinnest + 0.6 : thicknessOf(one.name)))]},
+    {name: 'thickness', type: 'ordinal', domain: names, range: [kBroadest + 1.8, ...study.estimators.map((one, i) => (turns[i].dashes ? kShared : thicknessOf(one.name)))]},
     {name: 'dash', type: 'ordinal', domain: names, range: [[], ...study.estimators.map((one, i) => turns[i].dashes || dashesOf(one))]},
     {name: 'offset', type: 'ordinal', domain: names, range: [0, ...turns.map((turn) => turn.offset)]},
   ];
