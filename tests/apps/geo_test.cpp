@@ -166,8 +166,6 @@ TEST_F(OnEarth, ComparedEstimatorsHaveOneEach) {
     EXPECT_TRUE(exists("out/" + name + "/footprints.csv"));
   }
   EXPECT_THAT(bytes_of("out/report.html"), HasSubstr("data:image/jpeg;base64,"));
-  // Without a title it has that of its folder.
-  EXPECT_THAT(bytes_of("out/report.html"), HasSubstr("<title>out</title>"));
 }
 
 TEST_F(OnEarth, TilesAndOneFileAreTheSameGeoTiff) {

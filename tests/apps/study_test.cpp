@@ -49,6 +49,8 @@ TEST_F(Studies, TheNumberOfJobsDoesNotMatterNorDoesTheCache) {
   for (const RunRecord& run : ResultStore::open(path("none")).runs()) EXPECT_EQ(run.jobs, 10);
   EXPECT_EQ(content(path("one")), content(path("two")));
   EXPECT_EQ(content(path("one")), content(path("none")));
+  // The page of a study without a title has that of its folder.
+  EXPECT_THAT(read_file(path("one/report.html")), HasSubstr("<title>one</title>"));
 }
 
 // Between any two writes of a database, its own or that of the registrations.
