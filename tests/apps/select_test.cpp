@@ -57,7 +57,7 @@ TEST_F(Select, NamesTheBackEndWithItsEvidenceAndAConfigurationThatRuns) {
               HasSubstr("better than graph (difference of total_ms -20.00 [-20.01, -20.00] "
                         "over 10 runs, Wilcoxon p 0.0020)"));
   EXPECT_THAT(ended.out, ContainsRegex("\nfilter +mean_position_error_m <= 0.1 +meets +0.09200 +"
-                                       "\\[[^]]+\\] +altimeter 0.01\n"));
+                                       "\\[[^]]+\\] +altimeter 0.01 m\n"));
   EXPECT_THAT(ended.out, ContainsRegex("\ndead_reckoning +mean_position_error_m <= 0.1 +fails"));
   EXPECT_THAT(ended.out, ContainsRegex("\ngraph +30.01 +\\[30.00, 30.01\\] +10 +0 +meets all\n"));
   EXPECT_THAT(ended.out, ContainsRegex("\ndead_reckoning +- +- +10 +0 +baseline\n"));
