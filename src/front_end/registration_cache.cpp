@@ -21,6 +21,10 @@ std::string environment(const char* name) {
   return value == nullptr ? "" : value;
 }
 
+bool is_damage(const SQLite::Exception& error) {
+  return error.getErrorCode() == SQLITE_CORRUPT || error.getErrorCode() == SQLITE_NOTADB;
+}
+
 }  // namespace
 
 fs::path default_cache_folder() {
@@ -58,8 +62,12 @@ CacheContent cache_content(const fs::path& folder) {
     content.registrations = static_cast<std::uint64_t>(
         open_to_read(file)->execAndGet("SELECT COUNT(*) FROM registration").getInt64());
   } catch (const SQLite::Exception& error) {
-    throw InputError(file.string(),
-                     std::string(error.what()) + "; 'fathom cache --clear' mends it");
+    if (!is_damage(error)) throw EnvironmentError(file.string() + ": " + error.what());
+    throw InputError(file.string(), std::string("is damaged: ") + error.what() +
+                                        "; 'fathom cache --clear --cache " +
+                                        shell_word(folder.string()) + "' removes it");
+  } catch (const InputError& error) {
+    throw InputError(file.string(), error.what());
   }
   return content;
 }
@@ -75,10 +83,7 @@ void clear_cache(const fs::path& folder) {
     sqlite.exec("PRAGMA wal_checkpoint(TRUNCATE)");
     return;
   } catch (const SQLite::Exception& error) {
-    const int code = error.getErrorCode();
-    if (code != SQLITE_CORRUPT && code != SQLITE_NOTADB) {
-      throw EnvironmentError(file.string() + ": " + error.what());
-    }
+    if (!is_damage(error)) throw EnvironmentError(file.string() + ": " + error.what());
   }
   // Nobody can read it.
   for (const char* const ending : {"", "-wal", "-shm"}) {

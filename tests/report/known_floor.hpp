@@ -21,6 +21,29 @@ inline double floor_grey(const Eigen::Vector2d& point) {
          60 * blob(0.0, 1.5, 0.15);
 }
 
+/// A camera that looks straight down from the origin, without distortion.
+inline CameraModel plain_model() {
+  CameraModel model;
+  model.width = 120;
+  model.height = 90;
+  model.fx = model.fy = 120;
+  model.cx = 59.5;
+  model.cy = 44.5;
+  return model;
+}
+
+/// One with all that a model may have.
+inline CameraModel full_model() {
+  CameraModel model = plain_model();
+  model.fy = 125;
+  model.cx = 55.0;
+  model.distortion = {-0.15, 0.02, 0.002, -0.001, 0.0};
+  model.mount_x_m = 0.3;
+  model.mount_y_m = -0.1;
+  model.mount_yaw_rad = 0.6;
+  return model;
+}
+
 /// Pictures of that floor, each made by looking up the floor point of every pixel.
 class KnownFloor : public FrameSource {
  public:

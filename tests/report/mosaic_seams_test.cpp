@@ -13,16 +13,7 @@ namespace {
 using test::floor_grey;
 using test::KnownFloor;
 using test::legs;
-
-Camera level_camera() {
-  CameraModel model;
-  model.width = 120;
-  model.height = 90;
-  model.fx = model.fy = 120;
-  model.cx = 59.5;
-  model.cy = 44.5;
-  return Camera(model);
-}
+using test::plain_model;
 
 // A camera whose exposure changes from picture to picture.
 class FlickeringFloor : public KnownFloor {
@@ -61,7 +52,7 @@ double unevenness(const cv::Mat& mosaic, const MosaicPlan& plan) {
 }
 
 TEST(MosaicSeams, ExposureIsMadeEqual) {
-  const FlickeringFloor floor(level_camera(), legs(5));
+  const FlickeringFloor floor(Camera(plain_model()), legs(5));
   MosaicPlan plan;
   const cv::Mat feathered = mosaic_of(floor, floor.truth(), MosaicBlend::feather, plan);
   EXPECT_GT(unevenness(feathered, plan), 0.03);
@@ -70,7 +61,7 @@ TEST(MosaicSeams, ExposureIsMadeEqual) {
 }
 
 TEST(MosaicSeams, EqualExposureIsLeftAsItIs) {
-  const KnownFloor floor(level_camera(), legs(5));
+  const KnownFloor floor(Camera(plain_model()), legs(5));
   MosaicPlan plan;
   const cv::Mat mosaic = mosaic_of(floor, floor.truth(), MosaicBlend::seams, plan);
   EXPECT_LT(unevenness(mosaic, plan), 0.01);
@@ -78,7 +69,7 @@ TEST(MosaicSeams, EqualExposureIsLeftAsItIs) {
 
 // Two pictures of one place, the second laid 0.4 m beside it.
 TEST(MosaicSeams, EachPointIsOfOnePicture) {
-  const KnownFloor floor(level_camera(), {{0, 2.0, {0, 0, 0}}, {1, 2.0, {0, 0, 0}}});
+  const KnownFloor floor(Camera(plain_model()), {{0, 2.0, {0, 0, 0}}, {1, 2.0, {0, 0, 0}}});
   const double off_m = 0.4;
   const std::vector<PlacedPicture> wrong{{0, 2.0, {0, 0, 0}}, {1, 2.0, {0, off_m, 0}}};
   const auto share_of_one = [&](MosaicBlend blend) {

@@ -10,29 +10,10 @@ namespace fathom {
 namespace {
 
 using test::floor_grey;
+using test::full_model;
 using test::KnownFloor;
 using test::legs;
-
-CameraModel plain_model() {
-  CameraModel model;
-  model.width = 120;
-  model.height = 90;
-  model.fx = model.fy = 120;
-  model.cx = 59.5;
-  model.cy = 44.5;
-  return model;
-}
-
-CameraModel full_model() {
-  CameraModel model = plain_model();
-  model.fy = 125;
-  model.cx = 55.0;
-  model.distortion = {-0.15, 0.02, 0.002, -0.001, 0.0};
-  model.mount_x_m = 0.3;
-  model.mount_y_m = -0.1;
-  model.mount_yaw_rad = 0.6;
-  return model;
-}
+using test::plain_model;
 
 struct Made {
   MosaicPlan plan;

@@ -11,22 +11,9 @@
 namespace fathom {
 namespace {
 
+using test::full_model;
 using test::KnownFloor;
 using test::legs;
-
-Camera bent_camera() {
-  CameraModel model;
-  model.width = 120;
-  model.height = 90;
-  model.fx = 120;
-  model.fy = 125;
-  model.cx = 55.0;
-  model.cy = 44.5;
-  model.distortion = {-0.15, 0.02, 0.002, -0.001, 0.0};
-  model.mount_x_m = 0.3;
-  model.mount_yaw_rad = 0.6;
-  return Camera(model);
-}
 
 // A floor that counts how often each picture is decoded.
 class CountedFloor : public KnownFloor {
@@ -63,7 +50,7 @@ Joined joined(const FrameSource& source, const MosaicPlan& plan, const TileOptio
 }
 
 TEST(MosaicTiles, PutTogetherAreTheWholeBitForBit) {
-  const KnownFloor floor(bent_camera(), legs(5));
+  const KnownFloor floor(Camera(full_model()), legs(5));
   std::vector<PlacedPicture> wrong = floor.truth();
   std::mt19937 random(7);
   std::normal_distribution<double> noise(0.0, 0.1);
@@ -89,7 +76,7 @@ TEST(MosaicTiles, PutTogetherAreTheWholeBitForBit) {
 }
 
 TEST(MosaicTiles, TheCacheChangesNothingButTheWork) {
-  const CountedFloor floor(bent_camera(), legs(5));
+  const CountedFloor floor(Camera(full_model()), legs(5));
   const MosaicPlan plan = plan_mosaic(floor.camera(), floor.truth(), {});
   const auto work = [&](std::size_t cache_bytes) {
     floor.decoded.clear();
@@ -108,7 +95,7 @@ TEST(MosaicTiles, TheCacheChangesNothingButTheWork) {
 
 TEST(MosaicTiles, WhatIsFarFromAllPicturesIsNeverMade) {
   std::vector<PlacedPicture> far{{0, 2.0, {0, 0, 0}}, {1, 2.0, {20'000, 15'000, 0}}};
-  const KnownFloor floor(bent_camera(), far);
+  const KnownFloor floor(Camera(full_model()), far);
   const MosaicPlan plan = plan_mosaic(floor.camera(), far, MosaicOptions::of_tiles());
   // 1.1 million by 0.9 million pixels are beyond what one file may be; they are made coarser.
   EXPECT_GT(static_cast<double>(plan.size.width) * plan.size.height, 0.9e11);
@@ -120,7 +107,7 @@ TEST(MosaicTiles, WhatIsFarFromAllPicturesIsNeverMade) {
 }
 
 TEST(MosaicTiles, RefusesNone) {
-  const KnownFloor floor(bent_camera(), legs(1));
+  const KnownFloor floor(Camera(full_model()), legs(1));
   const MosaicPlan plan = plan_mosaic(floor.camera(), floor.truth(), {});
   EXPECT_THAT(test::input_error_of(
                   [&] { make_tiles(floor, plan, {.side_px = 0}, [](const MosaicTile&) {}); }),

@@ -15,7 +15,7 @@ namespace fathom {
 
 /// $FATHOM_CACHE, else $XDG_CACHE_HOME/fathom, else $HOME/.cache/fathom; empty where none is set.
 std::filesystem::path default_cache_folder();
-/// 10⁶ times $FATHOM_CACHE_MB, else 10⁹: some 900 000 registrations. Throws InputError.
+/// 10⁶ times $FATHOM_CACHE_MB, else 10⁹: some 800 000 registrations. Throws InputError.
 std::uint64_t default_cache_bytes();
 
 /// The file of a cache, in its folder.
