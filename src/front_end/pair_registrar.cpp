@@ -46,8 +46,10 @@ PairRegistrar::PairRegistrar(const FrameSource& pictures, const FeatureOptions& 
       cache_(cache),
       keys_(pictures.camera().model(), features, registration, use.mask),
       use_(use),
-      features_(pictures, FeatureExtractor(features, registration.tuning.features), feature_bytes,
-                use.mask) {}
+      features_({pictures, FeatureExtractor(features, registration.tuning.features), use.mask,
+                 cache == nullptr ? nullptr : cache->features(),
+                 FeatureKeys(features, registration.tuning.features, use.mask)},
+                feature_bytes) {}
 
 PairRegistrar::FrameKey PairRegistrar::frame_key(const MeasuredFrame& frame) {
   const auto bits = [](double value) { return std::bit_cast<std::uint64_t>(value); };

@@ -8,6 +8,7 @@
 #include "fathom/core/environment_error.hpp"
 #include "fathom/core/input_error.hpp"
 #include "fathom/core/text.hpp"
+#include "fathom/front_end/feature_store.hpp"
 #include "fathom/front_end/registration_store.hpp"
 #include "registration_table.hpp"
 
@@ -23,6 +24,48 @@ std::string environment(const char* name) {
 
 bool is_damage(const SQLite::Exception& error) {
   return error.getErrorCode() == SQLITE_CORRUPT || error.getErrorCode() == SQLITE_NOTADB;
+}
+
+bool has_file(const fs::path& folder, const char* name) {
+  std::error_code error;
+  return fs::is_regular_file(folder / name, error);
+}
+
+template <class Open>
+std::uint64_t count_in(const fs::path& folder, const char* name, const std::string& table,
+                       const Open& open) {
+  const fs::path file = folder / name;
+  try {
+    const auto count = open(file)->execAndGet("SELECT COUNT(*) FROM " + table).getInt64();
+    return static_cast<std::uint64_t>(count);
+  } catch (const SQLite::Exception& error) {
+    if (!is_damage(error)) throw EnvironmentError(file.string() + ": " + error.what());
+    throw InputError(file.string(), std::string("is damaged: ") + error.what() +
+                                        "; 'fathom cache --clear --cache " +
+                                        shell_word(folder.string()) + "' removes it");
+  } catch (const InputError& error) {
+    throw InputError(file.string(), error.what());
+  }
+}
+
+template <class Prepare>
+void clear(const fs::path& file, const std::string& table, const Prepare& prepare) {
+  try {
+    SQLite::Database sqlite(file.string(), SQLite::OPEN_READWRITE, kRegistrationBusyMs);
+    prepare(sqlite);
+    sqlite.exec("DELETE FROM " + table);
+    sqlite.exec("VACUUM");
+    sqlite.exec("PRAGMA wal_checkpoint(TRUNCATE)");
+    return;
+  } catch (const SQLite::Exception& error) {
+    if (!is_damage(error)) throw EnvironmentError(file.string() + ": " + error.what());
+  }
+  // Nobody can read it.
+  for (const char* const ending : {"", "-wal", "-shm"}) {
+    std::error_code error;
+    fs::remove(file.string() + ending, error);
+    if (error) throw EnvironmentError(file.string() + ending + ": " + error.message());
+  }
 }
 
 }  // namespace
@@ -50,51 +93,38 @@ std::uint64_t default_cache_bytes() {
 }
 
 CacheContent cache_content(const fs::path& folder) {
-  const fs::path file = folder / kRegistrationsFile;
   CacheContent content;
-  for (const char* const ending : {"", "-wal"}) {
-    std::error_code error;
-    const std::uintmax_t bytes = fs::file_size(file.string() + ending, error);
-    if (!error) content.bytes += bytes;
+  for (const char* const name : {kRegistrationsFile, kFeaturesFile}) {
+    for (const char* const ending : {"", "-wal"}) {
+      std::error_code error;
+      const std::uintmax_t bytes = fs::file_size((folder / name).string() + ending, error);
+      if (!error) content.bytes += bytes;
+    }
   }
-  if (!has_registrations(folder)) return content;
-  try {
-    content.registrations = static_cast<std::uint64_t>(
-        open_to_read(file)->execAndGet("SELECT COUNT(*) FROM registration").getInt64());
-  } catch (const SQLite::Exception& error) {
-    if (!is_damage(error)) throw EnvironmentError(file.string() + ": " + error.what());
-    throw InputError(file.string(), std::string("is damaged: ") + error.what() +
-                                        "; 'fathom cache --clear --cache " +
-                                        shell_word(folder.string()) + "' removes it");
-  } catch (const InputError& error) {
-    throw InputError(file.string(), error.what());
+  if (has_registrations(folder)) {
+    content.registrations = count_in(folder, kRegistrationsFile, "registration", open_to_read);
+  }
+  if (has_file(folder, kFeaturesFile)) {
+    content.pictures = count_in(folder, kFeaturesFile, "features", open_features_to_read);
   }
   return content;
 }
 
 void clear_cache(const fs::path& folder) {
-  if (!has_registrations(folder)) return;
-  const fs::path file = folder / kRegistrationsFile;
-  try {
-    SQLite::Database sqlite(file.string(), SQLite::OPEN_READWRITE, kRegistrationBusyMs);
-    prepare_schema(sqlite);
-    sqlite.exec("DELETE FROM registration");
-    sqlite.exec("VACUUM");
-    sqlite.exec("PRAGMA wal_checkpoint(TRUNCATE)");
-    return;
-  } catch (const SQLite::Exception& error) {
-    if (!is_damage(error)) throw EnvironmentError(file.string() + ": " + error.what());
+  if (has_registrations(folder)) {
+    clear(folder / kRegistrationsFile, "registration", prepare_schema);
   }
-  // Nobody can read it.
-  for (const char* const ending : {"", "-wal", "-shm"}) {
-    std::error_code error;
-    fs::remove(file.string() + ending, error);
-    if (error) throw EnvironmentError(file.string() + ending + ": " + error.message());
+  if (has_file(folder, kFeaturesFile)) {
+    clear(folder / kFeaturesFile, "features", prepare_feature_schema);
   }
 }
 
 std::unique_ptr<RegistrationStore> RegistrationStore::usual() {
-  return std::make_unique<RegistrationStore>(default_cache_folder(), default_cache_bytes());
+  const fs::path folder = default_cache_folder();
+  const std::uint64_t half = default_cache_bytes() / 2;
+  auto store = std::make_unique<RegistrationStore>(folder, half);
+  store->features_ = std::make_unique<FeatureStore>(folder, half);
+  return store;
 }
 
 }  // namespace fathom

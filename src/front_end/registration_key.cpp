@@ -56,4 +56,20 @@ RegistrationKey RegistrationKeys::of(const SeenPicture& from, const SeenPicture&
   return {finished(first_), finished(second_)};
 }
 
+FeatureKeys::FeatureKeys(FeatureOptions features, FeatureTuning tuning, const cv::Mat& mask)
+    : first_(1), second_(2) {
+  OptionTable table;
+  table.group("features", features);
+  table.group("tuning", tuning);
+  for (Hash* hash : {&first_, &second_}) {
+    hash->add("features").add(kRegistrationVersion).add(cv::getVersionString());
+    for (const std::string& key : table.keys()) hash->add(key).add(table.value(key));
+    add_mask(*hash, mask);
+  }
+}
+
+RegistrationKey FeatureKeys::of(std::uint64_t picture_id) const {
+  return {Hash(first_).add(picture_id).value(), Hash(second_).add(picture_id).value()};
+}
+
 }  // namespace fathom

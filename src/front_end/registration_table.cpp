@@ -19,20 +19,7 @@ namespace fs = std::filesystem;
 
 // Version 1 had no column `used`.
 constexpr int kSchemaVersion = 2;
-constexpr const char* kUse =
-    "CREATE INDEX registration_used ON registration (used); PRAGMA user_version = 2";
-
-// Whatever was there: other versions of this program, or something else that took the name.
-void drop_all(SQLite::Database& sqlite) {
-  std::vector<std::string> objects;
-  SQLite::Statement query(sqlite,
-                          "SELECT type || ' \"' || replace(name, '\"', '\"\"') || '\"' FROM "
-                          "sqlite_master WHERE type IN ('table', 'view') AND name NOT LIKE "
-                          "'sqlite\\_%' ESCAPE '\\'");
-  while (query.executeStep()) objects.push_back(query.getColumn(0).getString());
-  query.reset();
-  for (const std::string& object : objects) sqlite.exec("DROP " + object);
-}
+constexpr int kFeatureSchemaVersion = 1;
 
 // Immutable: without locks, which a file system of several machines may not have. Not so where a
 // process left its log of changes beside the file.
@@ -52,27 +39,62 @@ int version_of(SQLite::Database& sqlite) {
   return sqlite.execAndGet("PRAGMA user_version").getInt();
 }
 
+std::unique_ptr<SQLite::Database> open_immutable(const fs::path& file) {
+  return std::make_unique<SQLite::Database>(uri_of(file), SQLite::OPEN_READONLY | SQLite::OPEN_URI,
+                                            kRegistrationBusyMs);
+}
+
+// Whatever was there: other versions of this program, or something else that took the name.
+void drop_all(SQLite::Database& sqlite) {
+  std::vector<std::string> objects;
+  SQLite::Statement query(sqlite,
+                          "SELECT type || ' \"' || replace(name, '\"', '\"\"') || '\"' FROM "
+                          "sqlite_master WHERE type IN ('table', 'view') AND name NOT LIKE "
+                          "'sqlite\\_%' ESCAPE '\\'");
+  while (query.executeStep()) objects.push_back(query.getColumn(0).getString());
+  query.reset();
+  for (const std::string& object : objects) sqlite.exec("DROP " + object);
+}
+
+// `change` makes a file of this version of one of another; 0: a new one.
+template <class Change>
+void prepare(SQLite::Database& sqlite, int version, const Change& change) {
+  sqlite.exec("PRAGMA journal_mode = WAL");
+  sqlite.exec("PRAGMA synchronous = NORMAL");
+  if (version_of(sqlite) == version) return;
+  SQLite::Transaction transaction(sqlite, SQLite::TransactionBehavior::IMMEDIATE);
+  // Another process may have been quicker.
+  const int before = version_of(sqlite);
+  if (before == version) return;
+  change(before);
+  sqlite.exec("PRAGMA user_version = " + std::to_string(version));
+  transaction.commit();
+}
+
 }  // namespace
 
 void prepare_schema(SQLite::Database& sqlite) {
-  sqlite.exec("PRAGMA journal_mode = WAL");
-  sqlite.exec("PRAGMA synchronous = NORMAL");
-  if (version_of(sqlite) == kSchemaVersion) return;
-  SQLite::Transaction transaction(sqlite, SQLite::TransactionBehavior::IMMEDIATE);
-  // Another process may have been quicker.
-  const int version = version_of(sqlite);
-  if (version == kSchemaVersion) return;
-  if (version == 1) {
-    sqlite.exec("ALTER TABLE registration ADD COLUMN used INTEGER NOT NULL DEFAULT 0");
-  } else {
+  prepare(sqlite, kSchemaVersion, [&](int version) {
+    if (version == 1) {
+      sqlite.exec("ALTER TABLE registration ADD COLUMN used INTEGER NOT NULL DEFAULT 0");
+    } else {
+      drop_all(sqlite);
+      sqlite.exec(
+          "CREATE TABLE registration (key BLOB PRIMARY KEY, found INTEGER NOT NULL, numbers BLOB "
+          "NOT NULL, inliers INTEGER NOT NULL, checksum INTEGER NOT NULL, used INTEGER NOT NULL "
+          "DEFAULT 0) WITHOUT ROWID");
+    }
+    sqlite.exec("CREATE INDEX registration_used ON registration (used)");
+  });
+}
+
+void prepare_feature_schema(SQLite::Database& sqlite) {
+  prepare(sqlite, kFeatureSchemaVersion, [&](int) {
     drop_all(sqlite);
     sqlite.exec(
-        "CREATE TABLE registration (key BLOB PRIMARY KEY, found INTEGER NOT NULL, numbers BLOB NOT "
-        "NULL, inliers INTEGER NOT NULL, checksum INTEGER NOT NULL, used INTEGER NOT NULL DEFAULT "
-        "0) WITHOUT ROWID");
-  }
-  sqlite.exec(kUse);
-  transaction.commit();
+        "CREATE TABLE features (key BLOB NOT NULL UNIQUE, used INTEGER NOT NULL, bytes INTEGER NOT "
+        "NULL, checksum INTEGER NOT NULL, content BLOB NOT NULL)");
+  });
 }
 
 std::int64_t next_use(SQLite::Database& sqlite) {
@@ -128,10 +150,17 @@ std::vector<std::pair<RegistrationKey, PairRegistration>> intact_rows(SQLite::Da
 }
 
 std::unique_ptr<SQLite::Database> open_to_read(const fs::path& file) {
-  auto sqlite = std::make_unique<SQLite::Database>(
-      uri_of(file), SQLite::OPEN_READONLY | SQLite::OPEN_URI, kRegistrationBusyMs);
+  auto sqlite = open_immutable(file);
   if (const int version = version_of(*sqlite); version != 1 && version != kSchemaVersion) {
     throw InputError("is no cache of registrations of this version");
+  }
+  return sqlite;
+}
+
+std::unique_ptr<SQLite::Database> open_features_to_read(const fs::path& file) {
+  auto sqlite = open_immutable(file);
+  if (version_of(*sqlite) != kFeatureSchemaVersion) {
+    throw InputError("is no cache of features of this version");
   }
   return sqlite;
 }

@@ -22,7 +22,7 @@ void SparseInverse::solve_column(Index j) {
     in_column_[static_cast<std::size_t>(row(e))] = e;
     Z_[static_cast<std::size_t>(e)] = 0.0;
   }
-  for (Index e = begin(j); e < end(j); ++e) subtract_column(e);
+  for (Index e = begin(j); e < end(j); ++e) subtract_column(j, e);
   for (Index e = begin(j); e < end(j); ++e) {
     diagonal_[j] -= L_.valuePtr()[e] * Z_[static_cast<std::size_t>(e)];
     in_column_[static_cast<std::size_t>(row(e))] = -1;
@@ -30,16 +30,27 @@ void SparseInverse::solve_column(Index j) {
 }
 
 // What column k of Z, the row of element e of column j, adds to column j: Z is symmetric.
-void SparseInverse::subtract_column(Index e) {
+void SparseInverse::subtract_column(Index j, Index e) {
   const Index k = row(e);
-  const double L_kj = L_.valuePtr()[e];
+  const double* const L = L_.valuePtr();
+  const double L_kj = L[e];
   double sum = diagonal_[k] * L_kj;
+  // Rows of column j beyond k are rows of column k. Where there are as many, they are the same.
+  const Index count = end(k) - begin(k);
+  if (count == end(j) - e - 1) {
+    const double* const Z_k = Z_.data() + begin(k);
+    double* const Z_j = Z_.data() + e + 1;
+    for (Index i = 0; i < count; ++i) Z_j[i] -= Z_k[i] * L_kj;
+    for (Index i = 0; i < count; ++i) sum += Z_k[i] * L[e + 1 + i];
+    Z_[static_cast<std::size_t>(e)] -= sum;
+    return;
+  }
   for (Index f = begin(k); f < end(k); ++f) {
     const Index at = in_column_[static_cast<std::size_t>(row(f))];
     if (at < 0) continue;
     const double Z_ik = Z_[static_cast<std::size_t>(f)];
     Z_[static_cast<std::size_t>(at)] -= Z_ik * L_kj;
-    sum += Z_ik * L_.valuePtr()[at];
+    sum += Z_ik * L[at];
   }
   Z_[static_cast<std::size_t>(e)] -= sum;
 }

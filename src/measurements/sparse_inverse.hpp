@@ -26,7 +26,7 @@ class SparseInverse {
   Index row(Index element) const { return L_.innerIndexPtr()[element]; }
 
   void solve_column(Index j);
-  void subtract_column(Index element);
+  void subtract_column(Index j, Index element);
 
   const Eigen::SparseMatrix<double>& L_;  // without its diagonal of ones
   const SparseFactor& factor_;

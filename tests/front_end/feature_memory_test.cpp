@@ -4,26 +4,19 @@
 #include <gtest/gtest.h>
 
 #include "front_end/floor_survey.hpp"
+#include "front_end/same_features.hpp"
 #include "support/input_error.hpp"
 
 namespace fathom {
 namespace {
 
 using test::bend;
+using test::expect_same;
 using test::FloorSurvey;
 using test::input_error_of;
 using ::testing::HasSubstr;
 
 constexpr std::size_t kPlenty = std::size_t{1} << 30;
-
-void expect_same(const Features& a, const Features& b) {
-  EXPECT_EQ(a.pixels, b.pixels);
-  EXPECT_EQ(a.sizes_px, b.sizes_px);
-  EXPECT_EQ(a.turns_rad, b.turns_rad);
-  ASSERT_EQ(a.descriptors.size(), b.descriptors.size());
-  ASSERT_EQ(a.descriptors.type(), b.descriptors.type());
-  EXPECT_EQ(cv::countNonZero(a.descriptors != b.descriptors), 0);
-}
 
 TEST(PackedFeatures, SiftFitsInBytesWithoutLoss) {
   const FloorSurvey survey(bend(1));
@@ -56,6 +49,30 @@ TEST(PackedFeatures, WhatNoByteHoldsIsKeptAsItIs) {
   }
 }
 
+TEST(PackedFeatures, AsBytesAndBackAreTheSame) {
+  const FloorSurvey survey(bend(1));
+  for (const char* const type : {"sift", "orb"}) {
+    FeatureOptions options;
+    options.type = type;
+    const PackedFeatures packed(FeatureExtractor(options).extract(survey.image(0)));
+    const std::string bytes = packed.to_bytes();
+    const auto again = PackedFeatures::from_bytes(bytes);
+    ASSERT_TRUE(again);
+    expect_same(again->unpacked(), packed.unpacked());
+    EXPECT_FALSE(PackedFeatures::from_bytes(bytes.substr(0, bytes.size() - 1)));
+    EXPECT_FALSE(PackedFeatures::from_bytes(bytes + '0'));
+    EXPECT_FALSE(PackedFeatures::from_bytes(bytes.substr(0, 5)));
+    for (std::size_t i = 0; i < 16; ++i) {
+      std::string wrong = bytes;
+      wrong[i] = static_cast<char>(wrong[i] ^ 0x5a);
+      EXPECT_FALSE(PackedFeatures::from_bytes(wrong)) << "byte " << i << " of the head";
+    }
+  }
+  const auto none = PackedFeatures::from_bytes(PackedFeatures(Features{}).to_bytes());
+  ASSERT_TRUE(none);
+  EXPECT_EQ(none->size(), 0u);
+}
+
 TEST(PackedFeatures, OfABlankPictureAreNone) {
   const PackedFeatures packed{Features{}};
   EXPECT_EQ(packed.size(), 0u);
@@ -64,16 +81,16 @@ TEST(PackedFeatures, OfABlankPictureAreNone) {
 
 TEST(FeatureMemory, GivesTheFeaturesOfTheFrameWithItsOptions) {
   const FloorSurvey survey(bend(3));
-  FeatureMemory memory(survey, FeatureExtractor(), kPlenty);
+  FeatureMemory memory({survey, FeatureExtractor()}, kPlenty);
   expect_same(memory.of(2)->unpacked(), FeatureExtractor().extract(survey.image(2)));
   FeatureOptions options;
   options.max_features = 40;
-  EXPECT_EQ(FeatureMemory(survey, FeatureExtractor(options), kPlenty).of(0)->size(), 40u);
+  EXPECT_EQ(FeatureMemory({survey, FeatureExtractor(options)}, kPlenty).of(0)->size(), 40u);
 }
 
 TEST(FeatureMemory, ExtractsOnceWhatFits) {
   const FloorSurvey survey(bend(8));
-  FeatureMemory memory(survey, FeatureExtractor(), kPlenty);
+  FeatureMemory memory({survey, FeatureExtractor()}, kPlenty);
   for (int pass = 0; pass < 2; ++pass) {
     for (std::size_t i = 0; i < 8; ++i) memory.of(i);
   }
@@ -87,7 +104,7 @@ TEST(FeatureMemory, LetsGoOfThoseUsedLongestAgo) {
     bytes += PackedFeatures(FeatureExtractor().extract(survey.image(i))).bytes();
   }
   const FloorSurvey counted(bend(4));
-  FeatureMemory memory(counted, FeatureExtractor(), bytes);
+  FeatureMemory memory({counted, FeatureExtractor()}, bytes);
   for (const std::size_t frame : {0u, 1u, 2u, 0u}) memory.of(frame);
   memory.of(3);  // of 0, 1, 2 the one used longest ago is 1
   memory.of(0);
@@ -98,7 +115,7 @@ TEST(FeatureMemory, LetsGoOfThoseUsedLongestAgo) {
 
 TEST(FeatureMemory, WithoutRoomHoldsOne) {
   const FloorSurvey survey(bend(2));
-  FeatureMemory memory(survey, FeatureExtractor(), 0);
+  FeatureMemory memory({survey, FeatureExtractor()}, 0);
   for (const std::size_t frame : {0u, 0u, 1u, 0u}) EXPECT_GT(memory.of(frame)->size(), 50u);
   EXPECT_EQ(survey.times_taken(0), 2);
   EXPECT_EQ(survey.times_taken(1), 1);
@@ -106,7 +123,7 @@ TEST(FeatureMemory, WithoutRoomHoldsOne) {
 
 TEST(FeatureMemory, AnAnnouncedFrameIsTheSame) {
   const FloorSurvey survey(bend(3));
-  FeatureMemory memory(survey, FeatureExtractor(), kPlenty);
+  FeatureMemory memory({survey, FeatureExtractor()}, kPlenty);
   memory.announce(2);
   memory.announce(2);
   memory.announce(1);
@@ -122,7 +139,7 @@ TEST(FeatureMemory, AnAnnouncedFrameIsTheSame) {
 TEST(FeatureMemory, AnAnnouncedFrameNeedNotBeAskedFor) {
   const FloorSurvey survey(bend(2));
   {
-    FeatureMemory memory(survey, FeatureExtractor(), kPlenty);
+    FeatureMemory memory({survey, FeatureExtractor()}, kPlenty);
     memory.announce(0);
     memory.announce(1);
   }
@@ -132,7 +149,7 @@ TEST(FeatureMemory, AnAnnouncedFrameNeedNotBeAskedFor) {
 TEST(FeatureMemory, AnUnreadablePictureIsBadInputHoweverItWasAskedFor) {
   FloorSurvey survey(bend(3));
   survey.make_unreadable(1);
-  FeatureMemory memory(survey, FeatureExtractor(), kPlenty);
+  FeatureMemory memory({survey, FeatureExtractor()}, kPlenty);
   const auto message = [&] { return input_error_of([&] { memory.of(1); }); };
   EXPECT_THAT(message(), HasSubstr("frame-1: is no picture"));
   memory.announce(1);

@@ -5,10 +5,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "fathom/datasets/frame_source.hpp"
 #include "fathom/front_end/once_map.hpp"
+#include "fathom/front_end/registration_key.hpp"
 #include "fathom/vision/features.hpp"
 
 namespace fathom {
@@ -46,19 +50,44 @@ class PackedFeatures {
   std::size_t size() const { return packed_.size(); }
   std::size_t bytes() const;
 
+  /// As one machine reads it back.
+  std::string to_bytes() const;
+  /// Of what to_bytes wrote; nothing where the sizes do not fit.
+  static std::optional<PackedFeatures> from_bytes(std::string_view bytes);
+
  private:
+  PackedFeatures() = default;
+
   Features packed_;
   int type_ = 0;  ///< of the descriptors, unpacked
 };
 
-/// The features of frames, in pixels, extracted when first asked for: an LRU cache bounded in
-/// bytes. Each frame's are extracted once as long as they fit. May be used from several threads at
-/// once: who needs features that another thread extracts waits for them.
+/// Features beyond the life of a process. Both calls may be made from several threads at once, and
+/// throw nothing: what a cache cannot do is a miss.
+class FeatureCache {
+ public:
+  virtual ~FeatureCache() = default;
+
+  /// Bit for bit what was put in, or nothing.
+  virtual std::optional<PackedFeatures> find(const RegistrationKey& key) = 0;
+  virtual void put(const RegistrationKey& key, const PackedFeatures& features) = 0;
+};
+
+/// What a FeatureMemory works on.
+struct FeatureSource {
+  const FrameSource& pictures;  ///< outlives it
+  FeatureExtractor extractor;
+  cv::Mat mask = {};              ///< of all pictures, as of FeatureExtractor
+  FeatureCache* cache = nullptr;  ///< outlives it
+  FeatureKeys keys = {};          ///< for the cache
+};
+
+/// The features of frames, in pixels, extracted when first asked for unless the cache has them: an
+/// LRU cache bounded in bytes. Each frame's are extracted once as long as they fit. May be used
+/// from several threads at once: who needs features that another thread extracts waits for them.
 class FeatureMemory {
  public:
-  /// The source must outlive it. `mask`: of all its pictures, as of FeatureExtractor.
-  FeatureMemory(const FrameSource& source, const FeatureExtractor& extractor, std::size_t bytes,
-                cv::Mat mask = {});
+  FeatureMemory(FeatureSource source, std::size_t bytes);
 
   /// Throws InputError where the picture cannot be read, as often as it is asked for.
   std::shared_ptr<const PackedFeatures> of(std::size_t frame);
@@ -77,10 +106,9 @@ class FeatureMemory {
   using Held = std::shared_ptr<const PackedFeatures>;
 
   Held extract(std::size_t frame);
+  Held make(std::size_t frame);
 
-  const FrameSource& source_;
-  FeatureExtractor extractor_;
-  cv::Mat mask_;
+  FeatureSource source_;
   WorkMeter extracted_;
   OnceMap<std::size_t, Held> held_;
 };

@@ -35,6 +35,8 @@ struct RegistrationKey {
   }
 };
 
+class FeatureCache;
+
 /// Registrations beyond the life of a process. Both calls may be made from several threads at once,
 /// and throw nothing: what a cache cannot do is a miss.
 class RegistrationCache {
@@ -44,6 +46,9 @@ class RegistrationCache {
   /// Bit for bit what was put in, or nothing.
   virtual std::optional<PairRegistration> find(const RegistrationKey& key) = 0;
   virtual void put(const RegistrationKey& key, const PairRegistration& value) = 0;
+
+  /// Where the features of pictures are kept, too; null: nowhere.
+  virtual FeatureCache* features() { return nullptr; }
 };
 
 }  // namespace fathom

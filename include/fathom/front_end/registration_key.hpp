@@ -42,4 +42,17 @@ class RegistrationKeys {
   Hash second_;
 };
 
+/// The keys of features with one set of options and tuned numbers, and of OpenCV's version.
+class FeatureKeys {
+ public:
+  FeatureKeys() = default;
+  FeatureKeys(FeatureOptions features, FeatureTuning tuning, const cv::Mat& mask);
+
+  RegistrationKey of(std::uint64_t picture_id) const;
+
+ private:
+  Hash first_;
+  Hash second_;
+};
+
 }  // namespace fathom

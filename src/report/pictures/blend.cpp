@@ -1,6 +1,7 @@
 #include "blend.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <opencv2/core/utility.hpp>
@@ -84,21 +85,37 @@ float seam_weight(float share) {
   return share;
 }
 
-void add_pixel(const RowOfBox& row, const Eigen::Vector2d& pixel, float& sum, float& weight) {
-  const double u = (pixel.x() + 0.5) * row.per_width;
-  const double v = (pixel.y() + 0.5) * row.per_height;
-  // Never quite zero, so that a picture's border shows where it is alone.
-  float share = std::max(1e-3F, tent(u)) * std::max(1e-3F, tent(v));
-  if (row.has_seams) share = seam_weight(share);
-  sum +=
-      share * row.gain * bilinear(row.source, u * row.source.cols - 0.5, v * row.source.rows - 0.5);
-  weight += share;
-}
-
 /// Columns between two that are projected. Lenses and tilts bend so little over them that a line
 /// stands for the projection: less than 0.01 pixels off at 0.2 rad of tilt and 500 pixels of focal
 /// length.
 constexpr int kSpan = 8;
+
+/// Adds columns [begin, end) of a span, whose pixels of the picture begin with `first`; `sum` and
+/// `weight` count from `begin`.
+void add_pixels(const RowOfBox& row, const Eigen::Vector2d& first, const Eigen::Vector2d& step,
+                int begin, int end, float* sum, float* weight) {
+  std::array<float, kSpan> shares;
+  for (int i = 0; i < kSpan; ++i) {
+    const double u = (first.x() + i * step.x() + 0.5) * row.per_width;
+    const double v = (first.y() + i * step.y() + 0.5) * row.per_height;
+    // Never quite zero, so that a picture's border shows where it is alone.
+    shares[i] = std::max(1e-3F, tent(u)) * std::max(1e-3F, tent(v));
+  }
+  if (row.has_seams) {
+    for (float& share : shares) share = seam_weight(share);
+  }
+  const double columns_per_pixel = row.per_width * row.source.cols;
+  const double rows_per_pixel = row.per_height * row.source.rows;
+  for (int i = begin; i < end; ++i, ++sum, ++weight) {
+    const float share = shares[i];
+    // Away from the seams it would not show.
+    if (row.has_seams && share * 512.0F < *weight) continue;
+    const double u = (first.x() + i * step.x() + 0.5) * columns_per_pixel - 0.5;
+    const double v = (first.y() + i * step.y() + 0.5) * rows_per_pixel - 0.5;
+    *sum += share * row.gain * bilinear(row.source, u, v);
+    *weight += share;
+  }
+}
 
 /// Adds columns [begin, end) of a row, all within the span that begins with `span`; columns count
 /// from the box's first, `sum` and `weight` from `begin`. `is_seen` is the mask of the box's row.
@@ -109,14 +126,15 @@ void add_span(const RowOfBox& row, const unsigned char* is_seen, int width, int 
                                           [](unsigned char one) { return one != 0; });
   if (!is_whole) {
     for (int c = begin; c < end; ++c) {
-      if (is_seen[c] != 0) add_pixel(row, pixel_at(row, c), sum[c - begin], weight[c - begin]);
+      if (is_seen[c] == 0) continue;
+      add_pixels(row, pixel_at(row, c), Eigen::Vector2d::Zero(), 0, 1, sum + (c - begin),
+                 weight + (c - begin));
     }
     return;
   }
   const Eigen::Vector2d first = pixel_at(row, span);
   const Eigen::Vector2d step = (pixel_at(row, span + kSpan) - first) / kSpan;
-  for (int c = begin; c < end; ++c)
-    add_pixel(row, first + (c - span) * step, sum[c - begin], weight[c - begin]);
+  add_pixels(row, first, step, begin - span, end - span, sum, weight);
 }
 
 }  // namespace
