@@ -64,8 +64,8 @@ def _row(work, fitted_on, judged_on, settings, pairs):
             f"{100 * inside:.0f} %", significant(_anees(work, judged_on, settings), 2)]
 
 
-@maker("docs/front_end_results.md", "real-covariance-judged", "slow", f"`fathom run {CONFIG}`, on parts of "
-       "the pictures, with settings that `scripts/reproduce/real_pairs.py` fits", 3,
+@maker("docs/front_end_results.md", "real-covariance-judged", "slow",
+       f"`fathom run {CONFIG}`, on parts of the pictures, with settings that `scripts/reproduce/real_pairs.py` fits", 3,
        needs=("copr",))
 def real_covariance_judged(work):
     survey = work.data / "copr"

@@ -1,5 +1,5 @@
-"""docs/shared_errors_results.md: by how much the registrations of a picture are not independent, and
-what estimators gain that know it."""
+"""docs/shared_errors_results.md: by how much the registrations of a picture are not independent,
+and what estimators gain that model it."""
 
 from layout import interval, significant, table
 from maker import maker

@@ -1,4 +1,5 @@
-"""docs/study_statistics.md: the program `study_errors`: error rates of verdicts, coverage of intervals."""
+"""docs/study_statistics.md: the program `study_errors`: error rates of verdicts, coverage of
+intervals."""
 
 from layout import table
 from maker import maker
