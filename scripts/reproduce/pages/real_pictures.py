@@ -65,8 +65,8 @@ def _row(work, fitted_on, judged_on, settings, pairs):
 
 
 @maker("docs/front_end_results.md", "real-covariance-judged", "slow",
-       f"`fathom run {CONFIG}`, on parts of the pictures, with settings that `scripts/reproduce/real_pairs.py` fits", 3,
-       needs=("copr",))
+       f"`fathom run {CONFIG}`, on parts of the pictures, with settings that "
+       "`scripts/reproduce/real_pairs.py` fits", 3, needs=("copr",))
 def real_covariance_judged(work):
     survey = work.data / "copr"
     pairs = real_pairs.pairs_of(_run(work, "copr-pairs", survey, (0, 1e-5), ALL_PAIRS),
