@@ -53,7 +53,7 @@ struct RunRecord {
 /// The name of a study's results in its folder.
 inline constexpr const char* kResultsFile = "results.sqlite";
 
-/// The results of one study: one SQLite file, `results.sqlite` (docs/studies.md has its schema).
+/// The results of one study: one SQLite file, `results.sqlite` (docs/outputs.md has its schema).
 /// Throws InputError on a file that is no such store, is of another schema version, is damaged,
 /// cannot be read or cannot be written (a full disk among them); nothing of a run is ever stored in
 /// part. Each run has a checksum over its key, metrics and series, and the study has one: a store
