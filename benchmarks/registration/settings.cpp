@@ -27,7 +27,7 @@ RegistrationOptions registration_options_for(const test::Condition& condition,
   // What a relief adds to an altitude and to a tilt over the overlap of two pictures: half of its
   // greatest height, and a slope of relief_share.
   RegistrationOptions options;
-  // The figures of docs/registration.md were made with these, whatever the altitude.
+  // The figures of docs/registration_benchmark.md were made with these, whatever the altitude.
   options.ransac.max_error_m = 0.03;
   options.covariance.floor_sigma_m = 1e-5;
   options.covariance.altitude_sigma_m = condition.relief_m() / 2.0;

@@ -71,7 +71,7 @@ def of_log(log, what="steps"):
 
 
 def of_solution(solution, what="keyframes"):
-    """'keyframes': the series of docs/studies.md that have a value a keyframe, poses aligned as
+    """'keyframes': the series of docs/outputs.md that have a value a keyframe, poses aligned as
     their errors are, and the ground truth; 'loops': the decision on every registration. A data
     frame of pandas, its units in `attrs["units"]`."""
     known("frame of a solution", what, ("keyframes", "loops"))

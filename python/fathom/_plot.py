@@ -12,7 +12,7 @@ AGAINST_TIME = {
     "error": ("position_error_m", "position error (m)", 1.0),
     "nees": ("pose_nees", "pose NEES / 3, 1 is expected", 3.0),
 }
-USED = 0  # of `loop_fate` (docs/studies.md)
+USED = 0  # of `loop_fate` (docs/outputs.md)
 TRUTH = {"color": "0.6", "linewidth": 3.0, "label": "ground truth"}
 ODOMETRY = {"color": "0.3", "linestyle": ":", "linewidth": 1.0, "label": "dead reckoning"}
 

@@ -71,7 +71,7 @@ class Results:
         return numpy.array([row[name] for row in self._rows_of(estimator, cell) if name in row])
 
     def series(self, name, estimator, cell=0, survey=0, trial=0):
-        """A series of one run (docs/studies.md), or None where only others of the trial have it."""
+        """A series of one run (docs/outputs.md), or None where only others of the trial have it."""
         series = self._series_of(estimator, cell, survey, trial)
         if name in series:
             return series[name]

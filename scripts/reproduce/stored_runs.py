@@ -1,4 +1,4 @@
-"""Reads series of runs from the results.sqlite of a study (docs/studies.md)."""
+"""Reads series of runs from the results.sqlite of a study (docs/outputs.md)."""
 
 import sqlite3
 import struct

@@ -13,46 +13,37 @@ SparseInverse::SparseInverse(const SparseFactor& factor)
       factor_(factor),
       Z_(static_cast<std::size_t>(L_.nonZeros())),
       diagonal_(factor.vectorD().cwiseInverse()),
-      in_column_(static_cast<std::size_t>(L_.cols()), -1) {
+      L_j_(Eigen::VectorXd::Zero(L_.cols())),
+      Z_j_(Eigen::VectorXd::Zero(L_.cols())) {
   for (Index j = L_.cols(); j-- > 0;) solve_column(j);
 }
 
 void SparseInverse::solve_column(Index j) {
   for (Index e = begin(j); e < end(j); ++e) {
-    in_column_[static_cast<std::size_t>(row(e))] = e;
-    Z_[static_cast<std::size_t>(e)] = 0.0;
+    L_j_[row(e)] = L_.valuePtr()[e];
+    Z_j_[row(e)] = 0.0;
   }
-  for (Index e = begin(j); e < end(j); ++e) subtract_column(j, e);
+  for (Index e = begin(j); e < end(j); ++e) subtract_column(row(e));
   for (Index e = begin(j); e < end(j); ++e) {
-    diagonal_[j] -= L_.valuePtr()[e] * Z_[static_cast<std::size_t>(e)];
-    in_column_[static_cast<std::size_t>(row(e))] = -1;
+    const Index i = row(e);
+    Z_[static_cast<std::size_t>(e)] = Z_j_[i];
+    diagonal_[j] -= L_j_[i] * Z_j_[i];
+    L_j_[i] = 0.0;
   }
 }
 
-// What column k of Z, the row of element e of column j, adds to column j: Z is symmetric.
-void SparseInverse::subtract_column(Index j, Index e) {
-  const Index k = row(e);
-  const double* const L = L_.valuePtr();
-  const double L_kj = L[e];
+// What column k of Z adds to column j: Z is symmetric. Rows that column j does not have get numbers
+// that nobody reads, which costs less than to ask for each.
+void SparseInverse::subtract_column(Index k) {
+  const double L_kj = L_j_[k];
   double sum = diagonal_[k] * L_kj;
-  // Rows of column j beyond k are rows of column k. Where there are as many, they are the same.
-  const Index count = end(k) - begin(k);
-  if (count == end(j) - e - 1) {
-    const double* const Z_k = Z_.data() + begin(k);
-    double* const Z_j = Z_.data() + e + 1;
-    for (Index i = 0; i < count; ++i) Z_j[i] -= Z_k[i] * L_kj;
-    for (Index i = 0; i < count; ++i) sum += Z_k[i] * L[e + 1 + i];
-    Z_[static_cast<std::size_t>(e)] -= sum;
-    return;
-  }
   for (Index f = begin(k); f < end(k); ++f) {
-    const Index at = in_column_[static_cast<std::size_t>(row(f))];
-    if (at < 0) continue;
+    const Index i = row(f);
     const double Z_ik = Z_[static_cast<std::size_t>(f)];
-    Z_[static_cast<std::size_t>(at)] -= Z_ik * L_kj;
-    sum += Z_ik * L[at];
+    Z_j_[i] -= Z_ik * L_kj;
+    sum += Z_ik * L_j_[i];
   }
-  Z_[static_cast<std::size_t>(e)] -= sum;
+  Z_j_[k] -= sum;
 }
 
 double SparseInverse::operator()(Index i, Index j) const {

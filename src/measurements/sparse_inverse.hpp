@@ -26,13 +26,14 @@ class SparseInverse {
   Index row(Index element) const { return L_.innerIndexPtr()[element]; }
 
   void solve_column(Index j);
-  void subtract_column(Index j, Index element);
+  void subtract_column(Index k);
 
   const Eigen::SparseMatrix<double>& L_;  // without its diagonal of ones
   const SparseFactor& factor_;
   std::vector<double> Z_;  // below the diagonal, at the elements of L
   Eigen::VectorXd diagonal_;
-  std::vector<Index> in_column_;  // by row, its element of the column in work
+  Eigen::VectorXd L_j_;  // of the column in work, by row; 0 where it has none
+  Eigen::VectorXd Z_j_;
 };
 
 }  // namespace fathom

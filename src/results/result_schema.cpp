@@ -9,7 +9,7 @@
 namespace fathom {
 namespace {
 
-// docs/formats.md says what each column means.
+// docs/outputs.md says what each column means.
 constexpr const char* kSchema = R"sql(
 CREATE TABLE study (key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;
 CREATE TABLE configuration (key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;

@@ -1,6 +1,6 @@
 // Registration of rendered pictures whose motion is known, a small part of the benchmark
-// fathom_registration_benchmark (docs/registration.md): recall, wrong motions, false acceptances
-// and honesty. Default options throughout, of a level camera.
+// fathom_registration_benchmark (docs/registration_benchmark.md): recall, wrong motions, false
+// acceptances and honesty. Default options throughout, of a level camera.
 
 #include <cmath>
 #include <map>

@@ -33,7 +33,7 @@ struct BootstrapOptions {
 /// needs no normal distribution and may be as skewed as the values are. Both ends are moved away
 /// from the mean by t / z · √(n / (n − 1)), as of few values the bootstrap alone is too narrow (of
 /// 10 normal ones 90 % in place of 95 %). It knows no tail beyond the largest value: of
-/// heavy-tailed ones it remains too narrow (docs/studies.md has the coverage).
+/// heavy-tailed ones it remains too narrow (docs/study_statistics.md has the coverage).
 ///
 /// Nothing of fewer than two values; [v, v] where all are v. Throws InputError on a value that is
 /// not finite and on options outside their bounds.

@@ -12,7 +12,7 @@
 
 namespace fathom {
 
-/// What made a result: the content of run.json (docs/formats.md): versions, compiler and flags,
+/// What made a result: the content of run.json (docs/outputs.md): versions, compiler and flags,
 /// CPU, threads, seed, hashes of the data and of the measurements, and the whole configuration in
 /// force.
 std::string manifest_json(const std::string& command_line,

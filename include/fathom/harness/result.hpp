@@ -76,7 +76,7 @@ DeadReckoning judged_dead_reckoning(const Recording& recording, const MetricOpti
 std::map<std::string, double> dead_reckoning_metrics(const Recording& recording,
                                                      const MetricOptions& options);
 
-/// The content of metrics.json (docs/formats.md). What is not known is absent, never null or zero.
+/// The content of metrics.json (docs/outputs.md). What is not known is absent, never null or zero.
 std::string metrics_json(const Result& result, const Recording& recording);
 
 /// The same of a comparison: a list with an entry an estimator.

@@ -31,7 +31,7 @@ const std::vector<std::string>& optional_run_files();
 /// where it is not that of a run, or where the run was over a pose graph, which has no pictures.
 Settings data_settings_of_run(const std::filesystem::path& folder);
 
-/// Writes the text files of one estimator's run into an existing folder (docs/formats.md):
+/// Writes the text files of one estimator's run into an existing folder (docs/outputs.md):
 /// `trajectory.tum`, `dead_reckoning.tum`, `measurements.g2o`, `metrics.json`, `run.json`, and
 /// `frames.tum` and `ground_truth.tum` where there are frames and truth. Throws InputError.
 void write_run(const std::filesystem::path& folder, const Recording& recording,

@@ -9,7 +9,7 @@
 
 namespace fathom {
 
-/// What a study stores of one estimator's run: its metrics and series (docs/formats.md). `key` and
+/// What a study stores of one estimator's run: its metrics and series (docs/outputs.md). `key` and
 /// `jobs` are for the caller to fill in.
 RunRecord run_record(const Recording& recording, const Result& result, const std::string& log_hash);
 

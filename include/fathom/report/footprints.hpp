@@ -40,7 +40,7 @@ struct Footprint {
 /// square. Throws InputError on an altitude that is not positive or a pose that is not finite.
 std::vector<Footprint> footprints(const Camera& camera, std::span<const KeyframePicture> keyframes);
 
-/// The content of footprints.csv (docs/formats.md).
+/// The content of footprints.csv (docs/outputs.md).
 std::string footprints_csv(std::span<const Footprint> footprints);
 
 }  // namespace fathom

@@ -118,7 +118,7 @@ struct MosaicFiles {
   std::vector<std::string> tiles;      ///< names of the tiles
 };
 
-/// The content of `mosaic.json`: where the pixels of a mosaic lie (docs/formats.md).
+/// The content of `mosaic.json`: where the pixels of a mosaic lie (docs/outputs.md).
 std::string mosaic_json(const MosaicPlan& plan, const MosaicFiles& files = {});
 
 }  // namespace fathom

@@ -46,14 +46,14 @@ struct RunRecord {
   int jobs = 1;             ///< runs that were at work at the same time
   std::size_t session = 0;  ///< place of its manifest in `manifests`; set by the store
   std::string machine;      ///< model of its processor, as that manifest says; set by the store
-  std::map<std::string, double> metrics;              ///< docs/formats.md lists them
+  std::map<std::string, double> metrics;              ///< docs/studies.md lists them
   std::map<std::string, std::vector<double>> series;  ///< likewise
 };
 
 /// The name of a study's results in its folder.
 inline constexpr const char* kResultsFile = "results.sqlite";
 
-/// The results of one study: one SQLite file, `results.sqlite` (docs/formats.md has its schema).
+/// The results of one study: one SQLite file, `results.sqlite` (docs/outputs.md has its schema).
 /// Throws InputError on a file that is no such store, is of another schema version, is damaged,
 /// cannot be read or cannot be written (a full disk among them); nothing of a run is ever stored in
 /// part. Each run has a checksum over its key, metrics and series, and the study has one: a store

@@ -9,7 +9,7 @@
 
 namespace fathom {
 
-/// A series of a run: its name in a store, and what its entries are (docs/studies.md).
+/// A series of a run: its name in a store, and what its entries are (docs/outputs.md).
 template <class Entry>
 struct RunSeries {
   const char* name;

@@ -68,8 +68,9 @@ struct CovarianceTuning {
 };
 
 /// The tuned numbers of a registration, by its steps. Their defaults belong together: the figures
-/// of docs/registration.md hold for all of them as they are. Each says in its description where its
-/// value comes from. All of them are part of a registration's key, so no cache outlives a change.
+/// of docs/registration_benchmark.md hold for all of them as they are. Each says in its description
+/// where its value comes from. All of them are part of a registration's key, so no cache outlives a
+/// change.
 ///
 /// "Benchmark" in a description: calibrated on the rendered pairs of registration_benchmark, four
 /// procedural floors and a picture of a real one under twelve conditions.

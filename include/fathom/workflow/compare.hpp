@@ -46,7 +46,7 @@ struct CompareOutcome {
 /// Throws InputError.
 Study settled_study(const Settings& settings, const EstimatorRegistry& registry);
 
-/// Runs what of a study is not yet in its folder, and writes the folder (docs/formats.md): of a
+/// Runs what of a study is not yet in its folder, and writes the folder (docs/outputs.md): of a
 /// shard its store alone, and the example where it is its own. Throws InputError.
 CompareOutcome compare(const CompareRequest& request, const EstimatorRegistry& registry,
                        const Machine& machine, Observer& observer);

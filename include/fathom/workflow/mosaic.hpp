@@ -32,7 +32,7 @@ struct MosaicOutcome {
   std::string laid;  ///< "57 pictures, 2310 x 1780 pixels of 0.0041 m"
 };
 
-/// Writes the mosaic and the map files beside it (docs/formats.md). Throws InputError.
+/// Writes the mosaic and the map files beside it (docs/outputs.md). Throws InputError.
 MosaicOutcome mosaic(const MosaicRequest& request, const EstimatorRegistry& registry,
                      Observer& observer);
 

@@ -36,7 +36,7 @@ struct RunOutcome {
 };
 
 /// Records the data set, gives the log to the estimator, judges it, and writes the folder of the
-/// run (docs/formats.md). Remarks are also in run.json. Throws InputError.
+/// run (docs/outputs.md). Remarks are also in run.json. Throws InputError.
 RunOutcome run(const RunRequest& request, const EstimatorRegistry& registry, const Machine& machine,
                Observer& observer);
 

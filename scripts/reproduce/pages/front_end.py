@@ -1,4 +1,4 @@
-"""docs/front_end.md, docs/water.md, and the table of the README."""
+"""docs/front_end_results.md, docs/water.md, and the table of the README."""
 
 import json
 
@@ -12,7 +12,7 @@ def _metrics(folder, name):
     return json.loads((folder / "run" / name).read_text("utf-8"))
 
 
-@maker("docs/front_end.md", "sift-contrast", "slow",
+@maker("docs/front_end_results.md", "sift-contrast", "slow",
        "`fathom compare configs/dunes.yaml --set front_end.features.sift_contrast=C "
        "--set front_end.features.flatten=false --set front_end.decision.method=inliers`", 10,
        needs=("worlds/dunes.jpg",))
@@ -36,7 +36,7 @@ SETTINGS = (("tilt 10 mrad", 0.01, 1e-5, 1e-5), ("floor 60 mm, 12 mrad", 0, 0.06
             ("tilt 5 mrad, floor 12 mrad", 0.005, 1e-5, 0.012))
 
 
-@maker("docs/front_end.md", "real-covariance", "slow",
+@maker("docs/front_end_results.md", "real-covariance", "slow",
        "`fathom run configs/image_folder.yaml --set front_end.covariance.…`", 15, needs=("copr",))
 def real_covariance(work):
     rows = []

@@ -41,7 +41,7 @@ def oblique(work):
         text = work.output("oblique", "fathom", "calibrate", str(_survey(work, "Left", pitch)))
         found, tried = re.search(r"(\d+) of (\d+) pairs of near pictures register", text).groups()
         rows.append([fixed(pitch, 1), f"{found} of {tried}"])
-    return table(["pitch told (rad)", "consecutive pairs that register"], rows)
+    return table(["stated pitch (rad)", "consecutive pairs that register"], rows)
 
 
 def _run(work, side, estimator):

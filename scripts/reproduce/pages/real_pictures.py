@@ -1,4 +1,5 @@
-"""docs/front_end.md: configs/image_folder.yaml's covariance, on pictures that did not set it."""
+"""docs/front_end_results.md: the covariance of configs/image_folder.yaml on pictures that did not
+set it."""
 
 import json
 
@@ -63,9 +64,9 @@ def _row(work, fitted_on, judged_on, settings, pairs):
             f"{100 * inside:.0f} %", significant(_anees(work, judged_on, settings), 2)]
 
 
-@maker("docs/front_end.md", "real-covariance-judged", "slow", f"`fathom run {CONFIG}`, on parts of "
-       "the pictures, with settings that `scripts/reproduce/real_pairs.py` fits", 3,
-       needs=("copr",))
+@maker("docs/front_end_results.md", "real-covariance-judged", "slow",
+       f"`fathom run {CONFIG}`, on parts of the pictures, with settings that "
+       "`scripts/reproduce/real_pairs.py` fits", 3, needs=("copr",))
 def real_covariance_judged(work):
     survey = work.data / "copr"
     pairs = real_pairs.pairs_of(_run(work, "copr-pairs", survey, (0, 1e-5), ALL_PAIRS),

@@ -1,4 +1,4 @@
-"""docs/registration.md: `registration_benchmark`; docs/water.md: keypoints of floors."""
+"""docs/registration_benchmark.md, docs/registration.md; docs/water.md: keypoints of floors."""
 
 import json
 import math
@@ -7,7 +7,7 @@ import re
 from layout import fixed, significant, table
 from maker import maker
 
-PAGE = "docs/registration.md"
+PAGE = "docs/registration_benchmark.md"
 FLOORS = ("ripples", "mud", "pebbles", "patches")
 DUNES = "worlds/dunes.jpg"
 CONDITIONS = {"clean": "clean", "contrast": "contrast × 0.4", "haze": "haze",
@@ -107,7 +107,8 @@ def _chance_of(places, mean):
     return 1.0 - total
 
 
-@maker(PAGE, "places-needed", "quick", "P(X ≥ k) ≤ 10⁻⁷, the formula above", 0, programs=())
+@maker("docs/registration.md", "places-needed", "quick",
+       "P(X ≥ k) ≤ 10⁻⁷, the formula above", 0, programs=())
 def places_needed(work):
     rivals = (2, 4, 6, 10, 20)
     needed = [next(k for k in range(1, 1000) if _chance_of(k, r) <= 1e-7) for r in rivals]

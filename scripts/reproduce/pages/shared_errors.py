@@ -1,10 +1,10 @@
-"""docs/studies.md: by how much the registrations of a picture are not independent; and
-docs/shared_errors.md: what estimators gain that know it."""
+"""docs/shared_errors_results.md: by how much the registrations of a picture are not independent,
+and what estimators gain that model it."""
 
 from layout import interval, significant, table
 from maker import maker
 
-PAGE = "docs/studies.md"
+PAGE = "docs/shared_errors_results.md"
 ESTIMATOR = "incremental_smoother"
 
 
@@ -40,7 +40,7 @@ def told_axis(axis):
     return "told_m" if axis == "altimeter_m" else "told"
 
 
-HEADER = ["loops a keyframe", "told", "error (mm)", "ANEES", "anchored ANEES",
+HEADER = ["loops a keyframe", "stated σ", "error (mm)", "ANEES", "anchored ANEES",
           "correlation in a picture", "NIS against truth", "F per degree of freedom",
           *STATES_HEADER]
 
@@ -133,7 +133,7 @@ def _model_row(study, name, **cell):
             else _difference(study, name, "sgn_independent", **cell)]
 
 
-@maker("docs/shared_errors.md", "shared-models", "slow",
+@maker(PAGE, "shared-models", "slow",
        "`fathom compare configs/studies/shared_errors_models.yaml`", 20)
 def shared_models(work):
     study = work.study("shared-models", "configs/studies/shared_errors_models.yaml", jobs=2)
@@ -142,7 +142,7 @@ def shared_models(work):
     return table(["noise level", *MODEL_HEADER], rows)
 
 
-@maker("docs/shared_errors.md", "shared-drawn", "slow",
+@maker(PAGE, "shared-drawn", "slow",
        "`fathom compare configs/studies/shared_errors_drawn.yaml`", 5)
 def shared_drawn(work):
     study = work.study("shared-drawn", "configs/studies/shared_errors_drawn.yaml", jobs=2)

@@ -1,10 +1,11 @@
-"""docs/studies.md: the program `study_errors`: error rates of verdicts, coverage of intervals."""
+"""docs/study_statistics.md: the program `study_errors`: error rates of verdicts, coverage of
+intervals."""
 
 from layout import table
 from maker import maker
 from markdown import tables_of
 
-PAGE = "docs/studies.md"
+PAGE = "docs/study_statistics.md"
 REPEATS = 400
 BENCH = dict(programs=("study_errors",))
 

@@ -21,8 +21,6 @@ def is_near(value, other):
     return abs(value - other) < 1e-9
 
 
-@claim(PAGE, "On the 686 drawn logs that set its limit it ends in no wrong minimum, where the "
-       "smoother alone ends in 11")
 @claim(PAGE, "ends in a wrong minimum in 11 of 686 logs, the picked one in none")
 def wrong_minima_are_of_the_smoother_alone(t):
     def total(column):
@@ -32,8 +30,6 @@ def wrong_minima_are_of_the_smoother_alone(t):
             total("picked one in a wrong minimum")) == (686, 11, 0)
 
 
-@claim(PAGE, "No filter for accuracy.** On each of seven recorded graphs the filter that is "
-       "nearest to the optimum is at least 13 times as far from it as the picked one")
 @claim(PAGE, "No filter is near it by position**: the nearest one of a graph is at least 13 times "
        "as far from the optimum as the picked one")
 def filters_are_far_from_the_optimum(t):
@@ -43,11 +39,6 @@ def filters_are_far_from_the_optimum(t):
     are_same = all(row["RMS to the optimum (m)"] == terms["graph"]
                    for row, terms in zip(rows, t("rule-terms")))
     return are_same and len(rows) == 7 and 13 <= min(ratios) < 14
-
-
-@claim(PAGE, "No recorded graph here is such a log")
-def recorded_graphs_bend(t):
-    return all(row.number("curvature (σ)") > 1 for row in t("rule-terms"))
 
 
 @claim(PAGE, "None of the nine recorded graphs is below 13 σ")

@@ -1,8 +1,8 @@
-"""Claims of docs/front_end.md."""
+"""Claims of docs/front_end_results.md."""
 
 from claims import claim
 
-PAGE = "docs/front_end.md"
+PAGE = "docs/front_end_results.md"
 
 
 @claim(PAGE, "On every half the NIS of translation is 0.3 to 0.7 where 2 is expected, and no "

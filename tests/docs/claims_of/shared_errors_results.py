@@ -1,8 +1,8 @@
-"""What docs/studies.md says of its tables."""
+"""What docs/shared_errors_results.md says of its tables."""
 
 from claims import claim
 
-PAGE = "docs/studies.md"
+PAGE = "docs/shared_errors_results.md"
 
 
 @claim(PAGE, "**Registrations are as good as they say** in all rows: NIS 2.7 to 3.2")
