@@ -114,9 +114,10 @@ class FeatureStore::File {
     };
     if (has_room()) return true;
     // A tenth at once, so that room is seldom looked for.
-    SQLite::Statement remove(*sqlite_,
-                             "DELETE FROM features WHERE rowid IN (SELECT rowid FROM features WHERE "
-                             "used < ? ORDER BY used LIMIT (SELECT 1 + COUNT(*) / 10 FROM features))");
+    SQLite::Statement remove(
+        *sqlite_,
+        "DELETE FROM features WHERE rowid IN (SELECT rowid FROM features WHERE "
+        "used < ? ORDER BY used LIMIT (SELECT 1 + COUNT(*) / 10 FROM features))");
     remove.bind(1, use_);
     remove.exec();
     return has_room();

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "estimators/support/pose_graph/chains.hpp"
 #include "estimators/support/pose_graph/chordal.hpp"
 #include "estimators/support/pose_graph/headings.hpp"
 #include "estimators/support/pose_graph/lifted_headings.hpp"
@@ -49,8 +50,26 @@ class Batch {
   }
 
  private:
+  // Of a graph of long chains, from the minimum of the one without them. Whether that ends the
+  // search.
+  bool run_without_chains() {
+    const ChainGraph chains(edges_, nodes_);
+    if (!chains.is_worthwhile()) return false;
+    std::vector<Node> left = chains.nodes();
+    if (left.size() > 1) {
+      const SolveResult solved = solve_batch(chains.edges(), left, Start::automatic, limits_);
+      if (solved.outcome != Outcome::converged || !solved.is_local_minimum.value_or(false)) {
+        return false;
+      }
+    }
+    std::vector<Node> start = chains.expanded(left);
+    return worst_turn(headings_of(start)) < kTrustedTurnRad &&
+           try_from(std::move(start), Hessian::exact);
+  }
+
   // The headings of LAGO are judged before the positions are computed for them, and with them.
   void run_automatic() {
+    if (run_without_chains()) return;
     const std::vector<double> turned = lago_headings();
     std::vector<Node> first;
     bool is_trusted = worst_turn(turned) < kTrustedTurnRad;
@@ -67,8 +86,8 @@ class Batch {
 
   // Minimises from a start and keeps the result if it is the best so far. Whether it is good
   // enough to end the search.
-  bool try_from(std::vector<Node> nodes) {
-    const SolveResult result = minimise(equations_, nodes, limits_);
+  bool try_from(std::vector<Node> nodes, Hessian first = Hessian::gauss_newton) {
+    const SolveResult result = minimise(equations_, nodes, limits_, {}, first);
     iterations_ += result.iterations;
     const bool is_better = !tried_ || (is_done(result.outcome) &&
                                        (!is_done(best_.outcome) || result.cost < best_.cost));

@@ -10,11 +10,12 @@ namespace {
 class Minimiser {
  public:
   Minimiser(NormalEquations& equations, std::vector<Node>& nodes, const SolveLimits& limits,
-            const SolverTuning& tuning)
+            const SolverTuning& tuning, Hessian first)
       : equations_(equations),
         nodes_(nodes),
         limits_(limits),
         tuning_(tuning),
+        hessian_(first),
         newton_below_(tuning.newton_below) {}
 
   SolveResult run() {
@@ -157,7 +158,7 @@ class Minimiser {
   std::vector<Node> trial_;
   std::vector<Node> chord_;
   std::optional<PositionProblem> positions_;
-  Hessian hessian_ = Hessian::gauss_newton;
+  Hessian hessian_;
   double damping_ = 0.0;
   bool is_indefinite_here_ = false;  ///< the exact Hessian, at the present estimate
   double newton_below_;
@@ -166,8 +167,8 @@ class Minimiser {
 }  // namespace
 
 SolveResult minimise(NormalEquations& equations, std::vector<Node>& nodes,
-                     const SolveLimits& limits, const SolverTuning& tuning) {
-  return Minimiser(equations, nodes, limits, tuning).run();
+                     const SolveLimits& limits, const SolverTuning& tuning, Hessian first) {
+  return Minimiser(equations, nodes, limits, tuning, first).run();
 }
 
 }  // namespace fathom::pose_graph

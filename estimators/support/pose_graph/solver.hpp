@@ -58,7 +58,9 @@ struct SolveResult {
 /// Newton near the end; else Levenberg-Marquardt damping until it does. It has converged when a
 /// step promises to lower F, or moves the poses, by less than the tolerance, as a share: one with
 /// the exact Hessian of the estimate, or of one just before it (SolverTuning::chord_share).
+/// `first`: the Hessian of the first step, exact where the start is known to be near a minimum.
 SolveResult minimise(NormalEquations& equations, std::vector<Node>& nodes,
-                     const SolveLimits& limits, const SolverTuning& tuning = {});
+                     const SolveLimits& limits, const SolverTuning& tuning = {},
+                     Hessian first = Hessian::gauss_newton);
 
 }  // namespace fathom::pose_graph

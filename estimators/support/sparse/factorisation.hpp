@@ -136,9 +136,38 @@ struct Factorisation {
     }
   }
 
+  // update() of a narrow supernode, the same numbers.
+  FATHOM_INLINE void update_narrow(const Update& u, const double* panel, int stride,
+                                   const double* sign, int first, int last) const {
+    const Supernode& t = symbolic.supernodes[at(u.target)];
+    const int t_stride = t.panel_rows() * B;
+    double* target = panels + t.panel * kBlockNumbers<B>;
+    const int* places = symbolic.places.data() + u.places - u.begin;
+    for (int column = u.begin; column < std::min(u.end, last); ++column) {
+      double right[B][B];
+      for (int k = 0; k < B; ++k) {
+        const double* from = panel + at((column + 1) * B + k * stride);
+        for (int b = 0; b < B; ++b) right[k][b] = sign[k] * from[b];
+      }
+      double* to = target + at(places[column] * B) * at(t_stride);
+      for (int row = std::max(column, first); row < last; ++row) {
+        const double* left = panel + at((row + 1) * B);
+        double* block = to + at(places[row] * B);
+        for (int b = 0; b < B; ++b) {
+          for (int a = 0; a < B; ++a) {
+            double sum = left[a] * right[0][b];
+            for (int k = 1; k < B; ++k) sum += left[a + k * stride] * right[k][b];
+            block[a + b * t_stride] -= sum;
+          }
+        }
+      }
+    }
+  }
+
   // Of the source's rows below, those of [first, last).
   FATHOM_INLINE void update(const Supernode& s, const Update& u, const double* panel, int stride,
                             const double* sign, int first, int last) const {
+    if (is_narrow<B>(s)) return update_narrow(u, panel, stride, sign, first, last);
     alignas(32) double out[kTileRows * B];
     constexpr int kTileBlocks = kTileRows / B;
     const Supernode& t = symbolic.supernodes[at(u.target)];

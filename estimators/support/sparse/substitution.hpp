@@ -25,8 +25,25 @@ struct Substitution {
     }
   }
 
+  // solve_own of a narrow one.
+  FATHOM_INLINE void solve_narrow(const Supernode& s, double* products) const {
+    const double* panel = panels + s.panel * kBlockNumbers<B>;
+    const int stride = s.panel_rows() * B;
+    double* own = x + at(s.first * B);
+    solve_diagonal(panel, stride, inverses + at(s.first * B), own);
+    for (int i = 0; i < s.height; ++i) {
+      const double* block = panel + at((i + 1) * B);
+      for (int a = 0; a < B; ++a) {
+        double sum = block[a] * own[0];
+        for (int b = 1; b < B; ++b) sum += block[a + b * stride] * own[b];
+        products[i * B + a] = sum;
+      }
+    }
+  }
+
   // Leaves in `products` what is to be subtracted from the rows below.
   FATHOM_INLINE void solve_own(const Supernode& s, double* products) const {
+    if (is_narrow<B>(s)) return solve_narrow(s, products);
     const double* panel = panels + s.panel * kBlockNumbers<B>;
     const int stride = s.panel_rows() * B;
     const double* inverse = inverses + at(s.first * B);
@@ -61,12 +78,36 @@ struct Substitution {
     }
   }
 
+  // The same numbers as of a wider one, without its loops.
+  FATHOM_INLINE void backward_narrow(const Supernode& s) const {
+    const double* panel = panels + s.panel * kBlockNumbers<B>;
+    const int stride = s.panel_rows() * B;
+    const double* inverse = inverses + at(s.first * B);
+    double* own = x + at(s.first * B);
+    const int* rows = symbolic.rows.data() + s.rows;
+    double sum[B][B] = {};
+    for (int i = 0; i < s.height; ++i) {
+      const double* block = panel + (i + 1) * B;
+      const double* right = x + at(rows[i] * B);
+      for (int b = 0; b < B; ++b) {
+        for (int a = 0; a < B; ++a) sum[b][a] += block[a + b * stride] * right[a];
+      }
+    }
+    for (int b = B - 1; b >= 0; --b) {
+      double value = own[b];
+      for (int a = 0; a < B; ++a) value -= sum[b][a];
+      for (int i = b + 1; i < B; ++i) value -= panel[i + b * stride] * own[i];
+      own[b] = value * inverse[b];
+    }
+  }
+
   FATHOM_INLINE void forward(const Supernode& s) const {
     solve_own(s, gathered);
     subtract(s, gathered, 0, s.height);
   }
 
   FATHOM_INLINE void backward(const Supernode& s) const {
+    if (is_narrow<B>(s)) return backward_narrow(s);
     const double* panel = panels + s.panel * kBlockNumbers<B>;
     const int stride = s.panel_rows() * B;
     const int* rows = symbolic.rows.data() + s.rows;

@@ -98,7 +98,8 @@ void make_supernodes(const Columns& columns, const std::vector<int>& parent, Sym
       const std::size_t blocks = blocks_of(width, next.supernode.height);
       const std::size_t filled = child.filled + next.filled;
       const bool fits = filled == blocks;
-      if (!fits && !is_worth_merging(width, blocks - filled, blocks)) break;
+      const bool are_narrow = is_narrow(child.supernode) && is_narrow(next.supernode);
+      if (!fits && (are_narrow || !is_worth_merging(width, blocks - filled, blocks))) break;
       next.supernode.first = child.supernode.first;
       next.supernode.width = width;
       next.filled = filled;

@@ -27,6 +27,17 @@ struct Supernode {
   int panel_rows() const { return width + height; }
 };
 
+/// A keyframe of a chain: loops for wider ones cost more than its arithmetic.
+inline bool is_narrow(const Supernode& s) {
+  return s.width == 1 && s.height <= 2;
+}
+/// Whether it has loops of its own. Of single numbers a product would be contracted with the
+/// difference that takes it, which the loops for wider ones do not.
+template <int B>
+bool is_narrow(const Supernode& s) {
+  return B > 1 && is_narrow(s);
+}
+
 /// What a supernode subtracts from one later supernode.
 struct Update {
   int target = 0;

@@ -1,0 +1,128 @@
+// Where a batch solve of sparse_gauss_newton spends its time: each stage by itself, on the calling
+// thread, for graphs of several shapes.
+//
+//     batch_benchmark --benchmark_filter=stages
+
+#include <chrono>
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <benchmark/benchmark.h>
+
+#include "benchmarks/back_ends/survey.hpp"
+#include "benchmarks/graph_shapes.hpp"
+#include "estimators/support/pose_graph/batch.hpp"
+#include "estimators/support/pose_graph/headings.hpp"
+#include "fathom/estimators/builtin.hpp"
+
+namespace {
+
+using fathom::MeasurementLog;
+using namespace fathom::pose_graph;
+using Clock = std::chrono::steady_clock;
+
+struct Shape {
+  const char* name;
+  std::function<MeasurementLog()> make;
+};
+
+const std::vector<Shape>& shapes() {
+  namespace b = fathom::benchmarks;
+  static const std::vector<Shape> all{{"chain", [] { return b::drive(4541, 0, 1); }},
+                                      {"drive", [] { return b::drive(4541, 137, 1); }},
+                                      {"short_drive", [] { return b::drive(1591, 2, 2); }},
+                                      {"office", [] { return b::office(1316, 3); }},
+                                      {"circuit", [] { return b::circuit(3000, 4); }},
+                                      {"survey", [] { return b::parallel_tracks(10000, 3333); }},
+                                      {"streets", [] { return b::dense_streets(10000, 5); }}};
+  return all;
+}
+
+class Stages {
+ public:
+  explicit Stages(benchmark::State& state) : state_(state) {}
+
+  template <class Work>
+  void time(const char* name, const Work& work) {
+    const auto start = Clock::now();
+    work();
+    const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    auto& counter = state_.counters[name];
+    counter.value += 1e3 * seconds;
+    counter.flags = benchmark::Counter::kAvgIterations;
+  }
+
+ private:
+  benchmark::State& state_;
+};
+
+// Stages of one solve, and the whole: `finish` is all but the hand-over.
+void stages(benchmark::State& state, const Shape& shape) {
+  const MeasurementLog log = shape.make();
+  std::vector<Edge> edges;
+  std::vector<Node> given{make_node(0.0, 0.0, 0.0)};
+  std::size_t loops = 0;
+  for (std::size_t k = 1; k < log.size(); ++k) {
+    edges.push_back(make_edge(log.arrival(k).step));
+    for (const auto& z : log.arrival(k).registrations) edges.push_back(make_edge(z));
+    loops += log.arrival(k).registrations.size();
+  }
+  std::vector<double> theta;
+  for (const fathom::Pose& pose : log.odometry()) {
+    given.push_back(make_node(pose.x, pose.y, pose.theta));
+    theta.push_back(pose.theta);
+  }
+  given.erase(given.begin());
+  Stages timed(state);
+  int iterations = 0;
+  for ([[maybe_unused]] auto _ : state) {
+    const auto estimator = fathom::builtin_estimators()
+                               .find("sparse_gauss_newton")
+                               .create({log.origin(), fathom::SolveMode::batch}, {});
+    const auto start = Clock::now();
+    timed.time("hand over", [&] {
+      for (std::size_t k = 1; k < log.size(); ++k) {
+        estimator->add_keyframe(log.arrival(k).step);
+        if (!log.arrival(k).registrations.empty()) {
+          estimator->update({log.arrival(k).registrations});
+        }
+      }
+    });
+    timed.time("finish", [&] { iterations = estimator->finish({}).iterations; });
+    state.SetIterationTime(std::chrono::duration<double>(Clock::now() - start).count());
+
+    fathom::sparse::Symbolic symbolic;
+    timed.time("analysis",
+               [&] { symbolic = analyse_graph(edges, static_cast<int>(given.size())); });
+    timed.time("headings", [&] {
+      HeadingProblem headings(symbolic, edges);
+      benchmark::DoNotOptimize(headings.solve(theta));
+    });
+    std::optional<NormalEquations> equations;
+    timed.time("memory", [&] { equations.emplace(symbolic, edges); });
+    timed.time("first linearisation", [&] { equations->linearise(given, Hessian::gauss_newton); });
+    timed.time("linearise", [&] { equations->linearise(given, Hessian::gauss_newton); });
+    timed.time("factorise", [&] { benchmark::DoNotOptimize(equations->factorise()); });
+    timed.time("substitute", [&] { equations->solve_step(); });
+    std::vector<Node> moved;
+    timed.time("move", [&] { equations->move(given, moved); });
+    timed.time("check", [&] { benchmark::DoNotOptimize(equations->differentiate(given)); });
+  }
+  state.counters["keyframes"] = static_cast<double>(log.size());
+  state.counters["loops"] = static_cast<double>(loops);
+  state.counters["linearisations"] = iterations;
+}
+
+const bool is_registered = [] {
+  for (const Shape& shape : shapes()) {
+    benchmark::RegisterBenchmark(("stages/" + std::string(shape.name)).c_str(),
+                                 [&shape](benchmark::State& state) { stages(state, shape); })
+        ->UseManualTime()
+        ->Unit(benchmark::kMillisecond);
+  }
+  return true;
+}();
+
+}  // namespace
