@@ -1,13 +1,12 @@
 // A graph without the keyframes of its chains, against the whole one.
 
-#include "estimators/support/pose_graph/chains.hpp"
-
 #include <numbers>
 
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
 #include "estimators/support/pose_graph/batch.hpp"
+#include "estimators/support/pose_graph/chains.hpp"
 #include "fathom/core/random.hpp"
 #include "tests/estimators/graph_parts.hpp"
 
@@ -22,8 +21,8 @@ struct Loop {
 };
 
 Eigen::Matrix3d correlated(RandomStream& random, double scale) {
-  const Eigen::Matrix3d half = Eigen::Matrix3d::NullaryExpr(
-      [&](Eigen::Index, Eigen::Index) { return random.normal(); });
+  const Eigen::Matrix3d half =
+      Eigen::Matrix3d::NullaryExpr([&](Eigen::Index, Eigen::Index) { return random.normal(); });
   const Eigen::Vector3d sigma{0.03, 0.02, 0.004};
   return scale * scale * sigma.asDiagonal() *
          (half * half.transpose() + 0.3 * Eigen::Matrix3d::Identity()) * sigma.asDiagonal();
@@ -34,8 +33,8 @@ Eigen::Matrix3d correlated(RandomStream& random, double scale) {
 MeasurementLog circled_twice(std::size_t keyframes, const std::vector<Loop>& loops, double share) {
   RandomStream random(7, "chains");
   const auto truth = [&](std::size_t k) {
-    const double at = 4.0 * std::numbers::pi * static_cast<double>(k) /
-                      static_cast<double>(keyframes - 1);
+    const double at =
+        4.0 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(keyframes - 1);
     return Pose{10.0 * std::cos(at), 10.0 * std::sin(at), wrap_angle(at + 0.5 * std::numbers::pi)};
   };
   const auto measured = [&](std::size_t from, std::size_t to, double scale) {
@@ -112,8 +111,7 @@ TEST(ChainGraph, AChainIsWhatIsLeftOfItsStepsWhereTheRestIsEliminated) {
       H.bottomRightCorner<3, 3>() -
       H.bottomLeftCorner(3, inner) *
           H.topLeftCorner(inner, inner).ldlt().solve(H.topRightCorner(inner, 3));
-  const Eigen::MatrixXd composed =
-      dense(std::span(chains.edges()).first(1), chains.nodes()).H;
+  const Eigen::MatrixXd composed = dense(std::span(chains.edges()).first(1), chains.nodes()).H;
   EXPECT_LT((composed - left).norm(), 1e-9 * left.norm());
   EXPECT_LT(residual_of(chains.edges()[0], chains.nodes()[0], chains.nodes()[1]).norm(), 1e-12);
 }
