@@ -75,8 +75,11 @@ class Batch {
     bool is_trusted = worst_turn(turned) < kTrustedTurnRad;
     if (is_trusted) {
       first = from_headings(turned);
-      is_trusted = worst_turn(headings_of(first)) < kTrustedTurnRad;
-      if (is_trusted && try_from(std::move(first))) return;
+      const std::vector<double> corrected = headings_of(first);
+      is_trusted = worst_turn(corrected) < kTrustedTurnRad;
+      const bool is_near = largest_turn(turned, corrected) < kNearRad;
+      const Hessian hessian = is_near ? Hessian::exact : Hessian::gauss_newton;
+      if (is_trusted && try_from(std::move(first), hessian)) return;
     }
     if (try_from(lifted())) return;
     // NOLINTNEXTLINE(bugprone-use-after-move): moved from above only if it is trusted
@@ -136,10 +139,7 @@ class Batch {
   std::vector<double> settled(std::vector<double> theta) {
     for (int i = 0; i < kHeadingSolves; ++i) {
       std::vector<double> next = headings().solve(theta);
-      double moved = 0.0;
-      for (std::size_t k = 0; k < next.size(); ++k) {
-        moved = std::max(moved, std::abs(next[k] - theta[k]));
-      }
+      const double moved = largest_turn(theta, next);
       theta = std::move(next);
       if (moved < kHeadingsSettledRad) break;
     }
@@ -165,6 +165,14 @@ class Batch {
     theta.reserve(keyframes_);
     for (std::size_t k = 0; k < keyframes_; ++k) theta.push_back(nodes[k].theta);
     return theta;
+  }
+
+  static double largest_turn(const std::vector<double>& from, const std::vector<double>& to) {
+    double largest = 0.0;
+    for (std::size_t k = 0; k < to.size(); ++k) {
+      largest = std::max(largest, std::abs(to[k] - from[k]));
+    }
+    return largest;
   }
 
   double worst_turn(const std::vector<double>& theta) const {

@@ -22,6 +22,10 @@ enum class Start {
 /// docs/estimators/sparse_gauss_newton.md it is 0.13 rad at most where the rounding is right, 0.7
 /// rad and more where it is wrong.
 inline constexpr double kTrustedTurnRad = 0.5;
+/// Where the positions turn no heading of LAGO by more, its start is so near the minimum that
+/// Newton's steps serve from the first on. Chosen on the shapes of `batch_benchmark`: up to 0.017
+/// rad they save a linearisation, at 0.050 rad they cost one.
+inline constexpr double kNearRad = 0.03;
 /// Least squares in the headings are solved again until none turns by more, so often at most. The
 /// joint solve that follows corrects what is left.
 inline constexpr double kHeadingsSettledRad = 1e-3;
@@ -30,9 +34,10 @@ inline constexpr int kHeadingSolves = 10;
 /// Minimises F over a whole graph. `nodes` is the given estimate, dead reckoning or a guess, and
 /// becomes the result; on failure it stays as it was.
 ///
-/// `automatic` begins with LAGO, which costs little. Where that leaves every edge's heading close
-/// to what it measured, no multiple of 2π was rounded wrongly, and its minimum is taken. Else it
-/// takes that of `lifted`; if that is none, the least F of these and of the given start.
+/// `automatic` begins, in a graph of long chains, with the minimum of the graph without them
+/// (ChainGraph), and else with LAGO, which costs little. Where that leaves every edge's heading
+/// close to what it measured, no multiple of 2π was rounded wrongly, and its minimum is taken. Else
+/// it takes that of `lifted`; if that is none, the least F of these and of the given start.
 SolveResult solve_batch(std::span<const Edge> edges, std::vector<Node>& nodes, Start start,
                         const SolveLimits& limits, Workers* workers = nullptr);
 
