@@ -153,6 +153,32 @@ def smoother_graphs(work):
                   "median", "95 %", "longest", "F over the optimum"], cells)
 
 
+SHAPES = ("chain", "drive", "short_drive", "office", "circuit", "survey", "streets")
+STAGES = ("hand over", "analysis", "memory", "headings", "linearise", "factorise", "substitute",
+          "move", "check")
+
+
+@maker("docs/cost.md", "cost-stages", "time",
+       "`build/release/batch_benchmark --benchmark_filter=stages`, medians of 30", 1,
+       programs=("batch_benchmark",))
+def cost_stages(work):
+    shapes = work.size(SHAPES, SHAPES[2:3])
+    rows = work.benchmark("batch-stages", "batch_benchmark",
+                          f"--benchmark_filter=stages/({'|'.join(shapes)})/",
+                          f"--benchmark_repetitions={work.size(30, 3)}",
+                          "--benchmark_min_time=0.05", "--benchmark_report_aggregates_only=true")
+    cells = []
+    for shape in shapes:
+        row = row_of(rows, f"stages/{shape}/manual_time_median")
+        cells.append([shape.replace("_", " "), f"{row['keyframes']:.0f}", f"{row['loops']:.0f}",
+                      f"{row['linearisations']:.0f}", significant(row["real_time"]),
+                      *(significant(row[stage]) for stage in STAGES),
+                      significant(row["dense"]), significant(2 * row["clear"])])
+    return table(["graph", "keyframes", "loops", "linearisations", "whole",
+                  *("LAGO" if stage == "headings" else stage for stage in STAGES),
+                  "bound: factorise", "bound: substitute"], cells)
+
+
 SHARED = (("batch", "sparse_gauss_newton"), ("batch", "ceres_pose_graph"),
           ("incremental", "sparse_gauss_newton"), ("incremental", "incremental_smoother"))
 SHARED_GRAPHS = ("intel", "manhattan", "M3500")
