@@ -10,7 +10,7 @@
 namespace fathom::sparse {
 namespace {
 
-constexpr int B = 3;
+constexpr Eigen::Index kBlock = 3;
 
 // The rows of a supernode and of its children's remainders, dense; the last column is the right
 // side.
@@ -23,13 +23,13 @@ class RowElimination {
         own_(symbolic_.supernodes.size()),
         children_(symbolic_.supernodes.size()),
         left_(symbolic_.supernodes.size()),
-        squared_norms_(Eigen::VectorXd::Zero(B * symbolic_.size())) {
+        squared_norms_(Eigen::VectorXd::Zero(kBlock * symbolic_.size())) {
     for (std::size_t r = 0; r < rows.size(); ++r) {
       if (rows[r].blocks.empty()) continue;
       int first = symbolic_.size();
       for (const auto& [position, J] : rows[r].blocks) {
         first = std::min(first, position);
-        squared_norms_.segment<B>(B * position) += J.colwise().squaredNorm().transpose();
+        squared_norms_.segment<kBlock>(kBlock * position) += J.colwise().squaredNorm().transpose();
       }
       own_[at(symbolic_.supernode_of[at(first)])].push_back(r);
     }
@@ -51,23 +51,24 @@ class RowElimination {
  private:
   Eigen::MatrixXd gathered(std::size_t i) {
     const Supernode& s = symbolic_.supernodes[i];
-    Eigen::Index count = B * static_cast<Eigen::Index>(own_[i].size());
+    Eigen::Index count = kBlock * static_cast<Eigen::Index>(own_[i].size());
     for (const std::size_t child : children_[i]) count += left_[child].rows();
-    Eigen::MatrixXd front = Eigen::MatrixXd::Zero(count, B * s.panel_rows() + 1);
+    Eigen::MatrixXd front = Eigen::MatrixXd::Zero(count, kBlock * s.panel_rows() + 1);
     Eigen::Index next = 0;
     for (const std::size_t r : own_[i]) {
       for (const auto& [position, J] : rows_[r].blocks) {
-        front.block<B, B>(next, B * symbolic_.panel_row(position, s)) += J;
+        front.block<kBlock, kBlock>(next, kBlock * symbolic_.panel_row(position, s)) += J;
       }
-      front.rightCols<1>().segment<B>(next) = rows_[r].right;
-      next += B;
+      front.rightCols<1>().segment<kBlock>(next) = rows_[r].right;
+      next += kBlock;
     }
     for (const std::size_t child : children_[i]) {
       const Supernode& c = symbolic_.supernodes[child];
       const Eigen::MatrixXd& left = left_[child];
       for (int j = 0; j < c.height; ++j) {
         const int column = symbolic_.panel_row(symbolic_.rows[at(c.rows + j)], s);
-        front.block(next, B * column, left.rows(), B) = left.middleCols<B>(B * j);
+        front.block(next, kBlock * column, left.rows(), kBlock) =
+            left.middleCols<kBlock>(kBlock * j);
       }
       front.rightCols<1>().segment(next, left.rows()) = left.rightCols<1>();
       next += left.rows();
@@ -88,24 +89,24 @@ class RowElimination {
   }
 
   bool write(const Supernode& s, const Eigen::MatrixXd& front, double least_share, double* y) {
-    const int width = B * s.width;
+    const int width = kBlock * s.width;
     if (front.rows() < width) return false;
-    const int stride = B * s.panel_rows();
-    double* panel = factor_.data() + s.panel * kBlockNumbers<B>;
-    for (int k = 0; k < width; ++k) {
+    const int stride = kBlock * s.panel_rows();
+    double* panel = factor_.data() + s.panel * kBlockNumbers<kBlock>;
+    for (Eigen::Index k = 0; k < width; ++k) {
       const double pivot = front(k, k);
-      const double least = least_share * std::sqrt(squared_norms_(B * s.first + k));
+      const double least = least_share * std::sqrt(squared_norms_(kBlock * s.first + k));
       if (!(std::abs(pivot) > least) || !std::isfinite(pivot)) return false;
       const double sign = pivot > 0.0 ? 1.0 : -1.0;
-      for (int i = k; i < stride; ++i) panel[i + k * stride] = sign * front(k, i);
-      y[B * s.first + k] = sign * front(k, stride);
+      for (Eigen::Index i = k; i < stride; ++i) panel[i + k * stride] = sign * front(k, i);
+      y[kBlock * s.first + k] = sign * front(k, stride);
     }
     return true;
   }
 
   void hand_on(std::size_t i, const Eigen::MatrixXd& front) {
     const Supernode& s = symbolic_.supernodes[i];
-    const Eigen::Index width = B * s.width;
+    const Eigen::Index width = kBlock * s.width;
     const Eigen::Index columns = front.cols() - width;
     const Eigen::Index count = std::min(front.rows() - width, columns);
     left_[i] = front.block(width, width, count, columns).triangularView<Eigen::Upper>();

@@ -87,7 +87,7 @@ struct Substitution {
     const int* rows = symbolic.rows.data() + s.rows;
     double sum[B][B] = {};
     for (int i = 0; i < s.height; ++i) {
-      const double* block = panel + (i + 1) * B;
+      const double* block = panel + at((i + 1) * B);
       const double* right = x + at(rows[i] * B);
       for (int b = 0; b < B; ++b) {
         for (int a = 0; a < B; ++a) sum[b][a] += block[a + b * stride] * right[a];
