@@ -89,9 +89,9 @@ class RowElimination {
   }
 
   bool write(const Supernode& s, const Eigen::MatrixXd& front, double least_share, double* y) {
-    const int width = kBlock * s.width;
+    const Eigen::Index width = kBlock * s.width;
     if (front.rows() < width) return false;
-    const int stride = kBlock * s.panel_rows();
+    const Eigen::Index stride = kBlock * s.panel_rows();
     double* panel = factor_.data() + s.panel * kBlockNumbers<kBlock>;
     for (Eigen::Index k = 0; k < width; ++k) {
       const double pivot = front(k, k);
