@@ -43,9 +43,13 @@ long process_number() {
 }
 
 std::string process_space() {
-  char link[128] = {};
-  const auto length = ::readlink("/proc/self/ns/pid", link, sizeof link - 1);
-  return first_line("/proc/sys/kernel/random/boot_id") + (length > 0 ? link : "");
+  // Once: later there may be no descriptor left to read it by.
+  static const std::string space = [] {
+    char link[128] = {};
+    const auto length = ::readlink("/proc/self/ns/pid", link, sizeof link - 1);
+    return first_line("/proc/sys/kernel/random/boot_id") + (length > 0 ? link : "");
+  }();
+  return space;
 }
 
 bool is_dead_process(long number) {

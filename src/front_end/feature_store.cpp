@@ -59,7 +59,7 @@ class FeatureStore::File {
     const auto words = words_of(key);
     const std::string content = features.to_bytes();
     guard([&] {
-      if (is_full_) return;
+      if (is_full_ || content.size() > most_bytes_) return;
       SQLite::Transaction transaction(*sqlite_, SQLite::TransactionBehavior::IMMEDIATE);
       is_full_ = !make_room_for(content.size());
       if (is_full_) return;
@@ -112,15 +112,17 @@ class FeatureStore::File {
     const auto has_room = [&] {
       return static_cast<std::uint64_t>(number(kHeld)) + bytes <= most_bytes_;
     };
-    if (has_room()) return true;
     // A tenth at once, so that room is seldom looked for.
     SQLite::Statement remove(
         *sqlite_,
         "DELETE FROM features WHERE rowid IN (SELECT rowid FROM features WHERE "
         "used < ? ORDER BY used LIMIT (SELECT 1 + COUNT(*) / 10 FROM features))");
     remove.bind(1, use_);
-    remove.exec();
-    return has_room();
+    while (!has_room()) {
+      if (remove.exec() == 0) return false;
+      remove.reset();
+    }
+    return true;
   }
 
   std::uint64_t most_bytes_;

@@ -26,9 +26,8 @@ bool is_damage(const SQLite::Exception& error) {
   return error.getErrorCode() == SQLITE_CORRUPT || error.getErrorCode() == SQLITE_NOTADB;
 }
 
-bool has_file(const fs::path& folder, const char* name) {
-  std::error_code error;
-  return fs::is_regular_file(folder / name, error);
+std::string how_to_clear(const fs::path& folder) {
+  return "'fathom cache --clear --cache " + shell_word(folder.string()) + "' removes it";
 }
 
 template <class Open>
@@ -40,11 +39,10 @@ std::uint64_t count_in(const fs::path& folder, const char* name, const std::stri
     return static_cast<std::uint64_t>(count);
   } catch (const SQLite::Exception& error) {
     if (!is_damage(error)) throw EnvironmentError(file.string() + ": " + error.what());
-    throw InputError(file.string(), std::string("is damaged: ") + error.what() +
-                                        "; 'fathom cache --clear --cache " +
-                                        shell_word(folder.string()) + "' removes it");
+    throw InputError(file.string(),
+                     std::string("is damaged: ") + error.what() + "; " + how_to_clear(folder));
   } catch (const InputError& error) {
-    throw InputError(file.string(), error.what());
+    throw InputError(file.string(), error.what() + ("; " + how_to_clear(folder)));
   }
 }
 
@@ -104,7 +102,7 @@ CacheContent cache_content(const fs::path& folder) {
   if (has_registrations(folder)) {
     content.registrations = count_in(folder, kRegistrationsFile, "registration", open_to_read);
   }
-  if (has_file(folder, kFeaturesFile)) {
+  if (has_features(folder)) {
     content.pictures = count_in(folder, kFeaturesFile, "features", open_features_to_read);
   }
   return content;
@@ -114,7 +112,7 @@ void clear_cache(const fs::path& folder) {
   if (has_registrations(folder)) {
     clear(folder / kRegistrationsFile, "registration", prepare_schema);
   }
-  if (has_file(folder, kFeaturesFile)) {
+  if (has_features(folder)) {
     clear(folder / kFeaturesFile, "features", prepare_feature_schema);
   }
 }

@@ -9,9 +9,21 @@ namespace fathom {
 
 namespace fs = std::filesystem;
 
-bool has_registrations(const fs::path& folder) {
+namespace {
+
+bool has_file(const fs::path& file) {
   std::error_code error;
-  return fs::is_regular_file(folder / kRegistrationsFile, error);
+  return fs::is_regular_file(file, error);
+}
+
+}  // namespace
+
+bool has_registrations(const fs::path& folder) {
+  return has_file(folder / kRegistrationsFile);
+}
+
+bool has_features(const fs::path& folder) {
+  return has_file(folder / kFeaturesFile);
 }
 
 MergedRegistrations merge_registrations(const std::vector<fs::path>& folders, const fs::path& out) {

@@ -22,15 +22,15 @@ using test::FloorSurvey;
 
 constexpr std::uint64_t kAnySize = 1'000'000'000;
 
-/// Takes some 1170 bytes.
-PackedFeatures numbered(int number) {
+/// Takes some 117 bytes a feature.
+PackedFeatures numbered(int number, int count = 10) {
   Features features;
-  for (int i = 0; i < 10; ++i) {
+  for (int i = 0; i < count; ++i) {
     features.pixels.emplace_back(number, i);
     features.sizes_px.push_back(0.5F * static_cast<float>(i));
     features.turns_rad.push_back(-0.1F * static_cast<float>(number));
   }
-  features.descriptors = cv::Mat(10, 93, CV_8U, cv::Scalar(number % 256));
+  features.descriptors = cv::Mat(count, 93, CV_8U, cv::Scalar(number % 256));
   return PackedFeatures(features);
 }
 
@@ -85,6 +85,20 @@ TEST(FeatureStore, WithoutRoomFurtherOnesAreNotKept) {
   for (int i = 0; i < 100; ++i) store.put(numbered_key(i), numbered(i));
   EXPECT_EQ(kept_of(store, 0, 100), (std::vector<int>{0, 1, 2, 3, 4, 5, 6, 7}));
   EXPECT_LT(std::filesystem::file_size(folder / kFeaturesFile), 60'000U);
+}
+
+TEST(FeatureStore, SmallOnesMakeRoomForALargeOne) {
+  const test::TemporaryFolder folder;
+  {
+    FeatureStore before(folder.path(), 10'000);
+    for (int i = 0; i < 8; ++i) before.put(numbered_key(i), numbered(i));
+  }
+  FeatureStore store(folder.path(), 10'000);
+  store.put(numbered_key(8), numbered(8, 100));
+  EXPECT_EQ(kept_of(store, 0, 9).size(), 8U) << "more than all of it takes none's place";
+  store.put(numbered_key(9), numbered(9, 50));
+  EXPECT_TRUE(store.find(numbered_key(9)));
+  EXPECT_EQ(kept_of(store, 0, 8).size(), 3U);
 }
 
 TEST(FeatureStore, SeveralUseItAtOnce) {

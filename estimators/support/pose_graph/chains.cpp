@@ -115,9 +115,7 @@ bool ChainGraph::find_chains(std::size_t keyframes) {
   const int last = static_cast<int>(keyframes) - 1;
   for (int k = 0; k < last; ++k) {
     if (steps_[at(k)] < 0) return false;
-    if (k == 0 || degree[at(k)] != 2) {
-      chains_.push_back({k, 0, static_cast<int>(chains_.size()), false});
-    }
+    if (k == 0 || degree[at(k)] != 2) chains_.push_back({k, 0, false});
     ++chains_.back().count;
   }
   if (chains_.empty()) return false;
@@ -189,13 +187,14 @@ void ChainGraph::expand(const Chain& chain, const Node& end, std::vector<Node>& 
 
 std::vector<Node> ChainGraph::expanded(std::span<const Node> nodes) const {
   std::vector<Node> all(keyframes_);
-  for (const Chain& chain : chains_) {
-    all[at(chain.begin)] = nodes[at(chain.node)];
+  for (std::size_t i = 0; i < chains_.size(); ++i) {
+    const Chain& chain = chains_[i];
+    all[at(chain.begin)] = nodes[i];
     if (chain.is_open) {
       compose(chain, std::vector<Eigen::Vector3d>(at(chain.count), Eigen::Vector3d::Zero()), all);
       continue;
     }
-    const Node& end = nodes[at(chain.node) + 1];
+    const Node& end = nodes[i + 1];
     if (chain.count > 1) expand(chain, end, all);
     all[at(chain.begin + chain.count)] = end;
   }

@@ -1,8 +1,6 @@
 #pragma once
 
-#include <optional>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -33,11 +31,10 @@ class ChainGraph {
   std::vector<Node> expanded(std::span<const Node> nodes) const;
 
  private:
-  /// Steps first … first + count − 1 lead from keyframe `begin` to `begin` + count.
+  /// `count` steps lead from keyframe `begin`, the chain's own in this graph, to `begin` + count.
   struct Chain {
     int begin = 0;
     int count = 0;
-    int node = 0;          ///< of `begin`, in this graph
     bool is_open = false;  ///< nothing measures its end
   };
 

@@ -92,7 +92,8 @@ struct MergedRegistrations {
 MergedRegistrations merge_registrations(const std::vector<std::filesystem::path>& folders,
                                         const std::filesystem::path& out);
 
-/// Whether a folder has a cache of registrations.
+/// Whether a folder has a cache of registrations, or of features.
 bool has_registrations(const std::filesystem::path& folder);
+bool has_features(const std::filesystem::path& folder);
 
 }  // namespace fathom

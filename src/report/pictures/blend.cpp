@@ -95,14 +95,14 @@ constexpr int kSpan = 8;
 void add_pixels(const RowOfBox& row, const Eigen::Vector2d& first, const Eigen::Vector2d& step,
                 int begin, int end, float* sum, float* weight) {
   std::array<float, kSpan> shares;
-  for (int i = 0; i < kSpan; ++i) {
+  for (int i = begin; i < end; ++i) {
     const double u = (first.x() + i * step.x() + 0.5) * row.per_width;
     const double v = (first.y() + i * step.y() + 0.5) * row.per_height;
     // Never quite zero, so that a picture's border shows where it is alone.
     shares[i] = std::max(1e-3F, tent(u)) * std::max(1e-3F, tent(v));
   }
   if (row.has_seams) {
-    for (float& share : shares) share = seam_weight(share);
+    for (int i = begin; i < end; ++i) shares[i] = seam_weight(shares[i]);
   }
   const double columns_per_pixel = row.per_width * row.source.cols;
   const double rows_per_pixel = row.per_height * row.source.rows;
