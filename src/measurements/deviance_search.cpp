@@ -44,7 +44,7 @@ Eigen::VectorXd DevianceSearch::told() const {
   return at;
 }
 
-DevianceSearch::Optimum DevianceSearch::minimise_from_grid(Eigen::VectorXd at) {
+Eigen::VectorXd DevianceSearch::best_of_grid(Eigen::VectorXd at) {
   double least = likelihood_.deviance(at);
   for (Index j = 0; j < at.size(); ++j) {
     if (is_held(j)) continue;
@@ -56,6 +56,15 @@ DevianceSearch::Optimum DevianceSearch::minimise_from_grid(Eigen::VectorXd at) {
       least = deviance;
       at = trial;
     }
+  }
+  return at;
+}
+
+DevianceSearch::Optimum DevianceSearch::minimise_beyond_zero(Eigen::VectorXd at) {
+  // The box of another log may have been wider.
+  for (Index j = 0; j < at.size(); ++j) {
+    at[j] = is_held(j) ? std::numeric_limits<double>::quiet_NaN()
+                       : std::clamp(at[j], low_[j], high_[j]);
   }
   Optimum best = minimise(at);
   for (bool has_fallen = best.is_finite(); has_fallen;) {

@@ -25,9 +25,11 @@ class DevianceSearch {
     bool is_finite() const { return fit.slope.size() > 0; }
   };
 
-  /// From the best value of a grid along each component, the others as in `at`; and again from
-  /// where one component is 0, as long as that is better: another may explain what it did.
-  Optimum minimise_from_grid(Eigen::VectorXd at);
+  /// The best value of a grid along each component, the others as in `at`.
+  Eigen::VectorXd best_of_grid(Eigen::VectorXd at);
+  /// From `at`, and again from where one component is 0, as long as that is better: another may
+  /// explain what it did.
+  Optimum minimise_beyond_zero(Eigen::VectorXd at);
   /// From `at`, until a step promises less than the tolerance; the components that are `held` stay.
   Optimum minimise(const Eigen::VectorXd& at, const std::vector<bool>& held, double tolerance);
   Optimum minimise(const Eigen::VectorXd& at) { return minimise(at, held_, tolerance_); }

@@ -50,7 +50,8 @@ class Relinearisation {
                   const VarianceOptions& options, const std::vector<bool>& used)
       : log_(log), components_(components), options_(options), used_(used) {}
 
-  VarianceEstimate run(std::span<const Pose> trajectory) {
+  /// From the best σ of the same log with other registrations; none: from a grid.
+  VarianceEstimate run(std::span<const Pose> trajectory, Eigen::VectorXd& log_sigma) {
     VarianceEstimate estimate;
     estimate.outcome = VarianceEstimate::Outcome::iteration_limit;
     estimate.trajectory.assign(trajectory.begin(), trajectory.end());
@@ -60,9 +61,11 @@ class Relinearisation {
       if (!likelihood.rows().is_finite()) return failed(std::move(estimate));
       DevianceSearch search(likelihood, components_, options_.tolerance);
       if (search.has_nothing()) return nothing_told(likelihood, std::move(estimate));
+      if (log_sigma.size() == 0) log_sigma = search.best_of_grid(search.told());
       const DevianceSearch::Optimum best =
-          i == 0 ? search.minimise_from_grid(search.told()) : search.minimise(last.log_sigma);
+          i == 0 ? search.minimise_beyond_zero(log_sigma) : search.minimise(log_sigma);
       if (!best.is_finite()) return failed(std::move(estimate));
+      log_sigma = best.log_sigma;
       const bool is_settled =
           i > 0 && std::abs(best.fit.deviance - last.fit.deviance) < 1000.0 * options_.tolerance;
       const bool is_last = is_settled || i + 1 >= options_.max_linearisations;
@@ -119,8 +122,9 @@ VarianceEstimate estimate_variance(const MeasurementLog& log, std::span<const Po
   if (used.empty()) used.assign(log.registration_count(), true);
   VarianceEstimate estimate;
   estimate.trajectory.assign(trajectory.begin(), trajectory.end());
+  Eigen::VectorXd log_sigma;
   for (bool is_done = false; !is_done;) {
-    estimate = Relinearisation(log, components, options, used).run(estimate.trajectory);
+    estimate = Relinearisation(log, components, options, used).run(estimate.trajectory, log_sigma);
     const std::vector<std::size_t> out =
         contradicted(log, estimate.left_out_chi2, options.contradiction);
     for (const std::size_t registration : out) used[registration] = false;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include <opencv2/core/utility.hpp>
 #include <opencv2/imgproc.hpp>
@@ -117,10 +118,29 @@ void add_pixels(const RowOfBox& row, const Eigen::Vector2d& first, const Eigen::
   }
 }
 
+/// The projections at both ends of a span. The end of one is the begin of the next.
+class Spans {
+ public:
+  explicit Spans(const RowOfBox& row) : row_(row) {}
+
+  /// Of the span that begins with column `span`.
+  std::pair<Eigen::Vector2d, Eigen::Vector2d> ends(int span) {
+    const Eigen::Vector2d first = span == at_ ? last_ : pixel_at(row_, span);
+    at_ = span + kSpan;
+    last_ = pixel_at(row_, at_);
+    return {first, last_};
+  }
+
+ private:
+  const RowOfBox& row_;
+  int at_ = -1;
+  Eigen::Vector2d last_ = Eigen::Vector2d::Zero();
+};
+
 /// Adds columns [begin, end) of a row, all within the span that begins with `span`; columns count
 /// from the box's first, `sum` and `weight` from `begin`. `is_seen` is the mask of the box's row.
-void add_span(const RowOfBox& row, const unsigned char* is_seen, int width, int span, int begin,
-              int end, float* sum, float* weight) {
+void add_span(const RowOfBox& row, Spans& spans, const unsigned char* is_seen, int width, int span,
+              int begin, int end, float* sum, float* weight) {
   const bool is_whole =
       span + kSpan < width && std::all_of(is_seen + span, is_seen + span + kSpan + 1,
                                           [](unsigned char one) { return one != 0; });
@@ -132,9 +152,8 @@ void add_span(const RowOfBox& row, const unsigned char* is_seen, int width, int 
     }
     return;
   }
-  const Eigen::Vector2d first = pixel_at(row, span);
-  const Eigen::Vector2d step = (pixel_at(row, span + kSpan) - first) / kSpan;
-  add_pixels(row, first, step, begin - span, end - span, sum, weight);
+  const auto [first, last] = spans.ends(span);
+  add_pixels(row, first, (last - first) / kSpan, begin - span, end - span, sum, weight);
 }
 
 }  // namespace
@@ -176,13 +195,14 @@ void Blend::lay(const cv::Mat& picture, const PlacedPicture& place, float gain) 
     for (int v = rows.start; v < rows.end; ++v) {
       const RowOfBox row = row_of_box(camera_, source, picture.size(), place, map_,
                                       cv::Point(box.x, v), gain, has_seams_);
+      Spans spans(row);
       float* sum = sum_.ptr<float>(v - window_.y) + (part.x - window_.x);
       float* weight = weight_.ptr<float>(v - window_.y) + (part.x - window_.x);
       const int end = part.x + part.width - box.x;
       for (int begin = part.x - box.x; begin < end;) {
         const int span = begin - begin % kSpan;
         const int next = std::min(span + kSpan, end);
-        add_span(row, mask.ptr(v - box.y), box.width, span, begin, next, sum, weight);
+        add_span(row, spans, mask.ptr(v - box.y), box.width, span, begin, next, sum, weight);
         sum += next - begin;
         weight += next - begin;
         begin = next;
