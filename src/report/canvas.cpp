@@ -83,7 +83,7 @@ void Canvas::stroke(const Pen& pen) {
   set_colour(context_, pen.colour, pen.opacity);
   cairo_set_line_width(context_, pen.width);
   cairo_set_line_join(context_, CAIRO_LINE_JOIN_ROUND);
-  cairo_set_dash(context_, pen.dashes.data(), static_cast<int>(pen.dashes.size()), 0.0);
+  cairo_set_dash(context_, pen.dashes.data(), static_cast<int>(pen.dashes.size()), pen.dash_offset);
   cairo_stroke(context_);
 }
 

@@ -22,6 +22,7 @@ struct Pen {
   double width = 1.0;
   std::vector<double> dashes;  ///< lengths on and off; empty: solid
   double opacity = 1.0;
+  double dash_offset = 0.0;  ///< where in `dashes` a line begins
 };
 
 struct TextStyle {

@@ -5,6 +5,7 @@
 
 #include "absolute_marks.hpp"
 #include "map_frame.hpp"
+#include "map_pens.hpp"
 
 namespace fathom {
 namespace {
@@ -15,25 +16,8 @@ constexpr double kLoopTint = 0.35;
 constexpr double kEllipseTint = 0.75;
 constexpr double kStartRadius = 3.2;
 constexpr double kEndHalf = 2.0;
-constexpr const char* kGroundTruth = "ground truth";
-
-// Where lines lie on each other all are seen: the earlier is the broader. A dashed line lets
-// through what is below it.
-std::vector<Pen> pens_of(const std::vector<PlotSeries>& all) {
-  constexpr double kThinnest = 0.9;
-  constexpr double kBroadest = 2.1;
-  std::vector<Pen> pens(all.size());
-  double width = kThinnest;
-  for (std::size_t i = all.size(); i-- > 0;) {
-    const LineStyle& style = all[i].style;
-    pens[i] = {style.colour, style.dashes.empty() ? width : kThinnest, style.dashes, 1.0};
-    if (all[i].name == kGroundTruth) {
-      pens[i] = {tint(style.colour, 0.45), std::max(2.0, width + 1.0), {}, 1.0};
-    }
-    if (style.dashes.empty()) width = std::min(width + 0.4, kBroadest);
-  }
-  return pens;
-}
+// Nearer than a line is broad, as a share of a map's longer side.
+constexpr double kTogether = 1.0 / 300.0;
 
 Eigen::AlignedBox2d extent_of(const PlotSeries& series) {
   Eigen::AlignedBox2d extent;
@@ -143,6 +127,15 @@ void draw_ends(Canvas& canvas, const ChartFrame& frame, const std::vector<PlotSe
   }
 }
 
+LegendEntry turns_entry() {
+  return {"alternating: they agree", [](Canvas& canvas, const Eigen::Vector2d& centre) {
+            const Eigen::Vector2d half(8.0, 0.0);
+            canvas.line(centre - half, centre + half, {palette::black, 1.4, {}, 1.0});
+            canvas.line(centre - half, centre + half,
+                        {tint(palette::black, kLoopTint), 1.4, {4.0, 4.0}, 1.0});
+          }};
+}
+
 LegendEntry ellipse_entry() {
   return {"2σ ellipse", [](Canvas& canvas, const Eigen::Vector2d& centre) {
             Points polygon = two_sigma_ellipse(Eigen::Vector3d(9.0, 2.0, 1.0).asDiagonal());
@@ -170,11 +163,12 @@ Eigen::AlignedBox2d map_extent(const std::vector<PlotSeries>& all) {
 }
 
 TrajectoryMap::TrajectoryMap(const TrajectoryPlot& plot)
-    : plot_(plot), pens_(pens_of(plot.series)), low_(-1.0, -1.0), high_(1.0, 1.0) {
+    : plot_(plot), pens_(map_pens(plot.series)), drawn_(pens_), low_(-1.0, -1.0), high_(1.0, 1.0) {
   const Eigen::AlignedBox2d extent = map_extent(plot.series);
   if (extent.isEmpty()) return;
   low_ = extent.min();
   high_ = extent.max();
+  do_take_turns_ = take_turns(plot.series, kTogether * extent.sizes().maxCoeff(), drawn_);
 }
 
 bool TrajectoryMap::leaves(const PlotSeries& series) const {
@@ -198,6 +192,7 @@ std::vector<LegendEntry> TrajectoryMap::legend() const {
     any_ellipse = any_ellipse || !series.covariances.empty();
     any_pose = any_pose || !series.poses.empty();
   }
+  if (do_take_turns_) entries.push_back(turns_entry());
   if (any_loop) {
     const Pen pen{tint(palette::black, kLoopTint), 0.4, {}, 1.0};
     entries.push_back(line_entry("loop closure", pen));
@@ -219,7 +214,7 @@ void TrajectoryMap::draw(Canvas& canvas, const Box& outer) const {
   canvas.clipped(frame.box(), [&] {
     for (const PlotSeries& series : plot_.series) draw_loops(canvas, frame, series);
     for (std::size_t i = 0; i < pens_.size(); ++i) {
-      draw_line(canvas, frame, plot_.series[i], pens_[i]);
+      draw_line(canvas, frame, plot_.series[i], drawn_[i]);
     }
     for (const PlotSeries& series : plot_.series) {
       draw_ellipses(canvas, frame, series, plot_.max_ellipses);

@@ -28,6 +28,8 @@ class TrajectoryMap {
 
   const TrajectoryPlot& plot_;
   std::vector<Pen> pens_;
+  std::vector<Pen> drawn_;  ///< `pens_` but where estimates lie on one another
+  bool do_take_turns_ = false;
   Eigen::Vector2d low_;
   Eigen::Vector2d high_;
 };

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "difference_scales.hpp"
 #include "fathom/core/text.hpp"
 #include "fathom/report/table.hpp"
 #include "regime_map.hpp"
@@ -41,16 +42,6 @@ std::vector<const RankedEstimator*> with_interval(const Ranking& ranking, Standi
   return list;
 }
 
-// One unit for all differences that a sentence names.
-ScaledUnit scale_of(const std::vector<const RankedEstimator*>& named, const std::string& unit) {
-  double greatest = 0.0;
-  for (const RankedEstimator* one : named) {
-    const Interval& interval = *one->difference->interval;
-    greatest = std::max({greatest, std::abs(interval.low), std::abs(interval.high)});
-  }
-  return reading_unit(unit, greatest);
-}
-
 // Those of one standing, each in words of its own.
 template <typename Words>
 std::string listed_with(const std::vector<const RankedEstimator*>& named, const Words& words) {
@@ -64,34 +55,36 @@ void add_others(const Ranking& ranking, const std::string& unit,
                 std::vector<std::string>& sentences) {
   const std::string& best = ranking.best().name;
   if (const auto named = with_interval(ranking, Standing::equivalent); !named.empty()) {
-    const ScaledUnit scale = scale_of(named, unit);
+    const DifferenceScales scales(named, unit);
     sentences.push_back(
         fmt::format("Equivalent to {}, within {}: {}.", best,
                     quantity(ranking.margin, std::nullopt, reading_unit(unit, ranking.margin)),
                     listed_with(named, [&](const RankedEstimator& one) {
-                      return fmt::format("{} ({})", one.name, signed_text(one, scale));
+                      return fmt::format("{} ({})", one.name, signed_text(one, scales.of(one)));
                     })));
   }
   if (const auto named = with_interval(ranking, Standing::not_shown); !named.empty()) {
-    const ScaledUnit scale = scale_of(named, unit);
+    const DifferenceScales scales(named, unit);
     sentences.push_back(
         (ranking.gives_verdict() ? "Not shown to differ from " : "Differences to ") + best + ": " +
         listed_with(named,
                     [&](const RankedEstimator& one) {
                       const std::string p =
                           ranking.gives_verdict() && one.p ? ", p " + format_number(*one.p, 2) : "";
-                      return fmt::format("{} ({}{})", one.name, signed_text(one, scale), p);
+                      return fmt::format("{} ({}{})", one.name, signed_text(one, scales.of(one)),
+                                         p);
                     }) +
         ".");
   }
   if (const auto named = with_interval(ranking, Standing::worse); !named.empty()) {
-    const ScaledUnit scale = scale_of(named, unit);
+    const DifferenceScales scales(named, unit);
     sentences.push_back("Worse: " +
                         listed_with(named,
                                     [&](const RankedEstimator& one) {
-                                      return fmt::format(
-                                          "{} by {}{}, p {}", one.name, distance_text(one, scale),
-                                          share_text(one, ranking), format_number(*one.p, 2));
+                                      return fmt::format("{} by {}{}, p {}", one.name,
+                                                         distance_text(one, scales.of(one)),
+                                                         share_text(one, ranking),
+                                                         format_number(*one.p, 2));
                                     }) +
                         ".");
   }

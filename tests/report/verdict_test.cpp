@@ -42,6 +42,18 @@ TEST(Verdict, ADifferenceThatIsSmallBesideTheBestIsNone) {
   EXPECT_THAT(study_verdict(results).answer[1], StartsWith("Worse: close by 0.0104 mm ["));
 }
 
+TEST(Verdict, ADifferenceOfRoundingHasAUnitOfItsOwn) {
+  std::vector<double> close = kBest, same = kBest;
+  for (std::size_t i = 0; i < close.size(); ++i) {
+    close[i] += 1e-5 + 1e-7 * static_cast<double>(i);
+    same[i] += 3e-13 + 1e-14 * static_cast<double>(i);
+  }
+  const CellResults cell =
+      surveyed({eight("best", kBest), eight("close", close), eight("same", same)});
+  EXPECT_THAT(study_verdict(study_of({cell}, 8, 1)).answer[1],
+              AllOf(HasSubstr("+0.0104 mm ["), HasSubstr("same (+0.3"), HasSubstr(" pm [")));
+}
+
 TEST(Verdict, OfFewSurveysThereIsNone) {
   const auto first = [](const std::vector<double>& all) {
     return std::vector<double>(all.begin(), all.begin() + 5);
