@@ -44,6 +44,23 @@ def ceres_optima(work):
     return table(["graph", "poses", "edges", "F at odometry", "optimum", "F reached"], rows)
 
 
+TOLERANCES = ("1e-5", "1e-6", "1e-7")
+
+
+@maker("docs/estimators/incremental_smoother.md", "smoother-tolerance", "quick",
+       "`fathom solve GRAPH.g2o --estimator incremental_smoother --set estimator.tolerance=T`, over "
+       "F of `--estimator sparse_gauss_newton`", 0.3, needs=_graphs("manhattan", "M3500", "intel"))
+def smoother_tolerance(work):
+    rows = []
+    for graph in ("manhattan", "M3500", "intel"):
+        least = work.solve(graph, "--estimator", "sparse_gauss_newton", mode="batch")["chi2"]
+        over = (work.solve(graph, "--estimator", "incremental_smoother", "--set",
+                           f"estimator.tolerance={tolerance}")["chi2"] - least
+                for tolerance in TOLERANCES)
+        rows.append([graph, f"{least:.6g}", *(significant(one, 2) for one in over)])
+    return table(["graph", "F at the optimum", *TOLERANCES], rows)
+
+
 @maker("docs/estimators/ekf.md", "ekf-graphs", "quick",
        "`fathom solve GRAPH.g2o --estimator ekf`", 0.2, needs=_graphs("CSAIL", "ring", "intel"))
 def ekf_graphs(work):
