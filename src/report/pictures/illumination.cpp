@@ -31,16 +31,17 @@ double independent_count(const Camera& camera, const std::vector<PlacedPicture>&
 
 }  // namespace
 
-cv::Mat learnt_gain(const FrameSource& source, const std::vector<PlacedPicture>& pictures) {
+cv::Mat learnt_gain(const Camera& camera, DecodedPictures& decoded,
+                    const std::vector<PlacedPicture>& pictures) {
   std::vector<PlacedPicture> samples;
   const std::size_t count = std::min(pictures.size(), kMostSamples);
   for (std::size_t i = 0; i < count; ++i) {
     samples.push_back(pictures[i * pictures.size() / count]);
   }
-  const CameraModel& model = source.camera().model();
+  const CameraModel& model = camera.model();
   FlatField field(cv::Size(model.width, model.height));
-  for (const PlacedPicture& sample : samples) field.add(source.image(sample.frame));
-  return field.gain(independent_count(source.camera(), samples));
+  for (const PlacedPicture& sample : samples) field.add(decoded.picture(sample.frame));
+  return field.gain(independent_count(camera, samples));
 }
 
 cv::Mat lit_evenly(const cv::Mat& picture, const cv::Mat& gain) {

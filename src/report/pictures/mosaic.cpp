@@ -22,9 +22,9 @@ std::vector<cv::Mat> make_mosaics(const FrameSource& source, std::span<const Mos
   if (largest == nullptr) return {};
   // The first picture may take long, where a simulated floor is drawn for it.
   if (progress) progress(0, uses.size());
-  const cv::Mat gain = learnt_gain(source, largest->pictures);
   const bool has_seams = largest->blend == MosaicBlend::seams;
-  DecodedPictures decoded(source, has_seams ? TileOptions{}.cache_bytes : 0);
+  DecodedPictures decoded(source, TileOptions{}.cache_bytes);
+  const cv::Mat gain = learnt_gain(source.camera(), decoded, largest->pictures);
   const auto evenly_lit = [&](std::size_t frame) {
     return lit_evenly(decoded.picture(frame), gain);
   };

@@ -41,8 +41,8 @@ class TileMaker {
       : source_(source),
         plan_(plan),
         side_px_(options.side_px),
-        gain_(learnt_gain(source, plan.pictures)),
-        decoded_(source, options.cache_bytes) {
+        decoded_(source, options.cache_bytes),
+        gain_(learnt_gain(source.camera(), decoded_, plan.pictures)) {
     if (plan.blend == MosaicBlend::feather) return;
     MosaicUses uses;
     for (const PlacedPicture& place : plan.pictures) uses[place.frame].push_back({0, &place});
@@ -71,8 +71,8 @@ class TileMaker {
   const FrameSource& source_;
   const MosaicPlan& plan_;
   int side_px_;
-  cv::Mat gain_;
   DecodedPictures decoded_;
+  cv::Mat gain_;
   ExposureGains exposure_;
 };
 
