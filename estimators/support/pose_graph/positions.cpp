@@ -3,13 +3,13 @@
 #include <algorithm>
 
 namespace fathom::pose_graph {
-PositionProblem::PositionProblem(const sparse::Symbolic& symbolic, std::span<const Edge> edges,
+PositionProblem::PositionProblem(sparse::BlockCholesky<3>& poses, std::span<const Edge> edges,
                                  const EdgeLoss& loss)
     : edges_(edges),
       loss_(loss),
-      parts_(symbolic, edges),
-      factor_(symbolic),
-      step_(2 * at(symbolic.size())) {}
+      parts_(poses.symbolic(), edges),
+      factor_(poses),
+      step_(2 * at(poses.symbolic().size())) {}
 
 void PositionProblem::add_up(std::span<const Node> nodes) {
   const sparse::Symbolic& symbolic = factor_.symbolic();

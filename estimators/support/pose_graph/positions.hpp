@@ -14,8 +14,10 @@ namespace fathom::pose_graph {
 /// coordinates stretches it; headings first and positions after them follow the arc.
 class PositionProblem {
  public:
-  /// The pattern and the edges must outlive it. Of a loss the weights count, as they are at first.
-  PositionProblem(const sparse::Symbolic& symbolic, std::span<const Edge> edges,
+  /// The factor of the poses lends its pattern and, while a solve lasts, its memory: its numbers
+  /// are lost. It and the edges must outlive this. Of a loss the weights count, as they are at
+  /// first.
+  PositionProblem(sparse::BlockCholesky<3>& poses, std::span<const Edge> edges,
                   const EdgeLoss& loss);
 
   /// Solves for the positions of all keyframes but 0. False where it has no solution; then they

@@ -118,7 +118,7 @@ class Minimiser {
   // A step that failed, again with the positions that suit its headings.
   bool follow_headings(double& cost) {
     if (!positions_) {
-      positions_.emplace(equations_.factor().symbolic(), equations_.edges(), equations_.loss());
+      positions_.emplace(equations_.factor(), equations_.edges(), equations_.loss());
     }
     if (!positions_->solve(trial_)) return false;
     cost = equations_.linearise(trial_, hessian_, damping_);

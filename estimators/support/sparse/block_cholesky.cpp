@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <utility>
 
 #include "estimators/support/sparse/dense_kernel.hpp"
 #include "estimators/support/sparse/shared_factorisation.hpp"
@@ -18,9 +19,18 @@ constexpr std::size_t kClearedAtOnce = std::size_t{1} << 18;
 }  // namespace
 
 template <int B>
+std::size_t BlockCholesky<B>::numbers_of(const Symbolic& symbolic) {
+  return symbolic.panel_blocks * kBlockNumbers<B> + kReadAhead;
+}
+
+template <int B>
 BlockCholesky<B>::BlockCholesky(const Symbolic& symbolic)
+    : BlockCholesky(symbolic, PanelMemory(numbers_of(symbolic), symbolic.workers)) {}
+
+template <int B>
+BlockCholesky<B>::BlockCholesky(const Symbolic& symbolic, PanelMemory panels)
     : symbolic_(&symbolic),
-      panels_(symbolic.panel_blocks * kBlockNumbers<B> + kReadAhead, symbolic.workers),
+      panels_(std::move(panels)),
       signs_(at(symbolic.size()) * B, 1.0),
       inverses_(at(symbolic.size()) * B, 1.0) {
   int widest = 0;

@@ -30,6 +30,13 @@ class BlockCholesky {
  public:
   /// The pattern must outlive it and stay as it is. A holds nothing before the first clear().
   explicit BlockCholesky(const Symbolic& symbolic);
+  /// In the memory of a factor of larger blocks with the same pattern, whose numbers are lost.
+  template <int Larger>
+  explicit BlockCholesky(BlockCholesky<Larger>& lender)
+      : BlockCholesky(lender.symbolic(),
+                      PanelMemory(lender.data(), numbers_of(lender.symbolic()))) {
+    static_assert(Larger > B);
+  }
 
   /// Sets A to zero, before it is added up.
   void clear();
@@ -56,6 +63,9 @@ class BlockCholesky {
   }
 
  private:
+  BlockCholesky(const Symbolic& symbolic, PanelMemory panels);
+  static std::size_t numbers_of(const Symbolic& symbolic);
+
   Factorisation<B> factorisation(int thread);
   Substitution<B> substitution(double* x, int thread);
   bool factorise_shared();

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <mutex>
 #include <numeric>
+#include <suitesparse/cholmod.h>
+#include <utility>
 
 #include <Eigen/OrderingMethods>
 #include <Eigen/SparseCore>
@@ -81,9 +84,52 @@ void eliminate_chains(ShrinkingGraph& graph, std::vector<int>& order) {
   }
 }
 
-using Matrix = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
+// The lower triangle of a symmetric pattern, by column, with its diagonal: AMD leaves a node
+// without one to the end.
+struct Pattern {
+  std::vector<int> start{0};
+  std::vector<int> rows;
 
-void order_rest(const ShrinkingGraph& graph, std::vector<int>& order) {
+  int size() const { return static_cast<int>(start.size()) - 1; }
+};
+
+std::vector<int> minimum_degree_order(const Pattern& lower) {
+  using Matrix = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
+  const std::vector<double> values(lower.rows.size(), 1.0);
+  const Eigen::Map<const Matrix> matrix(lower.size(), lower.size(), lower.start.back(),
+                                        lower.start.data(), lower.rows.data(), values.data());
+  Eigen::AMDOrdering<int>::PermutationType amd;
+  Eigen::AMDOrdering<int>()(Matrix(matrix).selfadjointView<Eigen::Lower>(), amd);
+  return {amd.indices().begin(), amd.indices().end()};
+}
+
+// Empty where CHOLMOD cannot do it.
+std::vector<int> nested_dissection_order(Pattern lower) {
+  // METIS draws by rand(), from a seed that is always the same.
+  static std::mutex mutex;
+  const std::lock_guard lock(mutex);
+  cholmod_common common;
+  cholmod_start(&common);
+  common.print = 0;
+  cholmod_sparse matrix{};
+  matrix.nrow = matrix.ncol = at(lower.size());
+  matrix.nzmax = lower.rows.size();
+  matrix.p = lower.start.data();
+  matrix.i = lower.rows.data();
+  matrix.stype = -1;
+  matrix.itype = CHOLMOD_INT;
+  matrix.xtype = CHOLMOD_PATTERN;
+  matrix.dtype = CHOLMOD_DOUBLE;
+  matrix.sorted = 1;
+  matrix.packed = 1;
+  std::vector<int> order(at(lower.size()));
+  constexpr int kPostorder = 1;
+  if (cholmod_metis(&matrix, nullptr, 0, kPostorder, order.data(), &common) == 0) order.clear();
+  cholmod_finish(&common);
+  return order;
+}
+
+void order_rest(const ShrinkingGraph& graph, Ordering ordering, std::vector<int>& order) {
   std::vector<int> rest;
   std::vector<int> index(at(graph.size()), -1);
   for (int v = 0; v < graph.size(); ++v) {
@@ -92,25 +138,20 @@ void order_rest(const ShrinkingGraph& graph, std::vector<int>& order) {
     rest.push_back(v);
   }
   if (rest.empty()) return;
-  // Half of the pattern, and the diagonal: AMD leaves a node without one to the end.
-  const int size = static_cast<int>(rest.size());
-  std::vector<int> start{0};
-  std::vector<int> rows;
+  Pattern lower;
   for (const int v : rest) {
-    rows.push_back(index[at(v)]);
+    lower.rows.push_back(index[at(v)]);
     for (int j = 0; j < graph.degree(v); ++j) {
       const int w = graph.neighbour(v, j);
-      if (w > v) rows.push_back(index[at(w)]);
+      if (w > v) lower.rows.push_back(index[at(w)]);
     }
-    std::sort(rows.begin() + start.back(), rows.end());
-    start.push_back(static_cast<int>(rows.size()));
+    std::sort(lower.rows.begin() + lower.start.back(), lower.rows.end());
+    lower.start.push_back(static_cast<int>(lower.rows.size()));
   }
-  const std::vector<double> values(rows.size(), 1.0);
-  const Matrix lower =
-      Eigen::Map<const Matrix>(size, size, start.back(), start.data(), rows.data(), values.data());
-  Eigen::AMDOrdering<int>::PermutationType amd;
-  Eigen::AMDOrdering<int>()(lower.selfadjointView<Eigen::Lower>(), amd);
-  for (const int v : amd.indices()) order.push_back(rest[at(v)]);
+  std::vector<int> of_rest;
+  if (ordering == Ordering::nested_dissection) of_rest = nested_dissection_order(lower);
+  if (of_rest.empty()) of_rest = minimum_degree_order(lower);
+  for (const int v : of_rest) order.push_back(rest[at(v)]);
 }
 
 }  // namespace
@@ -145,12 +186,12 @@ Adjacency adjacency_of(int n, const std::vector<Link>& links) {
   return graph;
 }
 
-std::vector<int> elimination_order(Adjacency graph, ChainElimination chains) {
+std::vector<int> elimination_order(Adjacency graph, ChainElimination chains, Ordering ordering) {
   ShrinkingGraph shrinking(std::move(graph));
   std::vector<int> order;
   order.reserve(at(shrinking.size()));
   if (chains == ChainElimination::on) eliminate_chains(shrinking, order);
-  order_rest(shrinking, order);
+  order_rest(shrinking, ordering, order);
   return order;
 }
 

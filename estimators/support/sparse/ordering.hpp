@@ -22,13 +22,19 @@ struct Link {
 /// Links between nodes 0 … n − 1; repeated ones count once.
 Adjacency adjacency_of(int n, const std::vector<Link>& links);
 
-/// Which nodes an ordering may take before it asks AMD.
+/// Which nodes an ordering may take before those with more neighbours.
 enum class ChainElimination { on, off };
+
+/// How the nodes that are no chain are ordered.
+enum class Ordering {
+  minimum_degree,    ///< approximate minimum degree (Amestoy, Davis, Duff 1996)
+  nested_dissection  ///< METIS (Karypis and Kumar 1998); minimum degree where CHOLMOD has it not
+};
 
 /// An order of elimination with little fill. Nodes with one or two neighbours left go first, again
 /// and again: whole chains between loops, then what their removal turns into chains. That makes no
-/// fill but a link between the ends, and costs O(n). What is left goes through approximate minimum
-/// degree (Amestoy, Davis, Duff 1996).
-std::vector<int> elimination_order(Adjacency graph, ChainElimination chains);
+/// fill but a link between the ends, and costs O(n).
+std::vector<int> elimination_order(Adjacency graph, ChainElimination chains,
+                                   Ordering ordering = Ordering::minimum_degree);
 
 }  // namespace fathom::sparse

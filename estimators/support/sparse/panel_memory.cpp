@@ -44,9 +44,10 @@ void PanelMemory::Free::operator()(double* memory) const {
 
 PanelMemory::PanelMemory(std::size_t count, Workers* workers) : count_(count) {
   const std::size_t bytes = rounded_up(count * sizeof(double), kCacheLine);
-  numbers_.reset(static_cast<double*>(std::aligned_alloc(kCacheLine, bytes)));
-  if (!numbers_) throw std::bad_alloc();
-  if (bytes >= kFreshPages) ask_for_pages(numbers_.get(), bytes, workers);
+  own_.reset(static_cast<double*>(std::aligned_alloc(kCacheLine, bytes)));
+  if (!own_) throw std::bad_alloc();
+  numbers_ = own_.get();
+  if (bytes >= kFreshPages) ask_for_pages(numbers_, bytes, workers);
 }
 
 }  // namespace fathom::sparse

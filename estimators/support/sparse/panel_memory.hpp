@@ -14,17 +14,20 @@ namespace fathom::sparse {
 class PanelMemory {
  public:
   explicit PanelMemory(std::size_t count, Workers* workers = nullptr);
+  /// Numbers of somebody else, who keeps them.
+  PanelMemory(double* lent, std::size_t count) : numbers_(lent), count_(count) {}
 
-  double* data() { return numbers_.get(); }
-  const double* data() const { return numbers_.get(); }
-  double* begin() { return numbers_.get(); }
-  double* end() { return numbers_.get() + count_; }
+  double* data() { return numbers_; }
+  const double* data() const { return numbers_; }
+  double* begin() { return numbers_; }
+  double* end() { return numbers_ + count_; }
 
  private:
   struct Free {
     void operator()(double* memory) const;
   };
-  std::unique_ptr<double, Free> numbers_;
+  std::unique_ptr<double, Free> own_;
+  double* numbers_ = nullptr;
   std::size_t count_ = 0;
 };
 

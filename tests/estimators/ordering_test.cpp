@@ -1,0 +1,127 @@
+// Orders of elimination: nested dissection, and where it is taken.
+
+#include <algorithm>
+#include <bitset>
+#include <thread>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "estimators/support/sparse/block_cholesky.hpp"
+
+namespace fathom::sparse {
+namespace {
+
+// All that are side by side in a box of so many nodes along each axis.
+std::vector<Link> box_of(int width, int height, int depth) {
+  std::vector<Link> links;
+  for (int v = 0; v < width * height * depth; ++v) {
+    if (v % width > 0) links.push_back({v - 1, v});
+    if (v / width % height > 0) links.push_back({v - width, v});
+    if (v >= width * height) links.push_back({v - width * height, v});
+  }
+  return links;
+}
+
+// By elimination of one node after the other.
+double multiplications_one_by_one(const Adjacency& graph, const std::vector<int>& order) {
+  using Nodes = std::bitset<4096>;
+  std::vector<Nodes> neighbours(at(graph.size()));
+  for (int v = 0; v < graph.size(); ++v) {
+    for (int p = graph.start[at(v)]; p < graph.start[at(v) + 1]; ++p) {
+      neighbours[at(v)].set(at(graph.neighbours[at(p)]));
+    }
+  }
+  Nodes left;
+  left.set();
+  double sum = 0.0;
+  for (const int v : order) {
+    left.reset(at(v));
+    const Nodes below = neighbours[at(v)] & left;
+    const auto panel = static_cast<double>(below.count() + 1);
+    sum += 0.5 * panel * (panel + 1.0);
+    for (std::size_t a = 0; a < neighbours.size(); ++a) {
+      if (below[a]) (neighbours[a] |= below).reset(a);
+    }
+  }
+  return sum;
+}
+
+std::vector<int> dissected(const Adjacency& graph) {
+  return elimination_order(graph, ChainElimination::on, Ordering::nested_dissection);
+}
+
+TEST(Ordering, DissectionTakesEveryNodeOnceAndIsRepeatable) {
+  const Adjacency graph = adjacency_of(400, box_of(20, 20, 1));
+  const std::vector<int> order = dissected(graph);
+  EXPECT_NE(order, elimination_order(graph, ChainElimination::on));
+  std::vector<std::vector<int>> again(4);
+  std::vector<std::thread> threads;
+  for (auto& one : again) threads.emplace_back([&graph, &one] { one = dissected(graph); });
+  for (std::thread& thread : threads) thread.join();
+  for (const auto& one : again) EXPECT_EQ(one, order);
+  std::vector<int> nodes = order;
+  std::sort(nodes.begin(), nodes.end());
+  for (int v = 0; v < 400; ++v) EXPECT_EQ(nodes[at(v)], v);
+}
+
+TEST(Ordering, DissectionOfAFewNodes) {
+  EXPECT_EQ(dissected(adjacency_of(0, {})).size(), 0U);
+  EXPECT_EQ(dissected(adjacency_of(1, {})).size(), 1U);
+  EXPECT_EQ(dissected(adjacency_of(5, {{0, 4}})).size(), 5U);
+  std::vector<Link> complete;
+  for (int a = 0; a < 6; ++a) {
+    for (int b = 0; b < a; ++b) complete.push_back({b, a});
+  }
+  EXPECT_EQ(dissected(adjacency_of(6, complete)).size(), 6U);
+}
+
+// Loops of a box in three dimensions have large separators, which minimum degree does not find. To
+// sort an order along its tree changes no arithmetic.
+TEST(Ordering, IsDissectedWhereThatSavesArithmetic) {
+  const Adjacency box = adjacency_of(3375, box_of(15, 15, 15));
+  const double taken = multiplications_one_by_one(box, analyse(box).node);
+  EXPECT_EQ(taken, multiplications_one_by_one(box, dissected(box)));
+  EXPECT_LT(taken, multiplications_one_by_one(box, elimination_order(box, ChainElimination::on)));
+}
+
+TEST(Ordering, IsNotDissectedWhereThatCostsMoreThanItSaves) {
+  const Adjacency grid = adjacency_of(1600, box_of(40, 40, 1));
+  const double taken = multiplications_one_by_one(grid, analyse(grid).node);
+  EXPECT_EQ(taken, multiplications_one_by_one(grid, elimination_order(grid, ChainElimination::on)));
+  EXPECT_NE(taken, multiplications_one_by_one(grid, dissected(grid)));
+}
+
+TEST(BlockCholesky, SolvesADissectedGraph) {
+  const std::vector<Link> links = box_of(15, 15, 15);
+  const Symbolic symbolic = analyse(adjacency_of(3375, links));
+  BlockCholesky<3> poses(symbolic);
+  BlockCholesky<1> factor(poses);  // in the memory of the other
+  EXPECT_EQ(factor.data(), poses.data());
+  factor.clear();
+  const auto put = [&](int a, int b, double value) {
+    factor.data()[factor.place(a, b).offset] += value;
+  };
+  std::vector<double> x(3375, 0.0);
+  for (int v = 0; v < 3375; ++v) x[at(symbolic.position[at(v)])] = 1.0 + 0.001 * v;
+  std::vector<double> right(3375, 0.0);
+  for (int v = 0; v < 3375; ++v) {
+    put(v, v, 0.5);
+    right[at(symbolic.position[at(v)])] += 0.5 * x[at(symbolic.position[at(v)])];
+  }
+  for (const auto& [a, b] : links) {
+    put(a, a, 1.0);
+    put(b, b, 1.0);
+    put(a, b, -1.0);
+    const int at_a = symbolic.position[at(a)];
+    const int at_b = symbolic.position[at(b)];
+    right[at(at_a)] += x[at(at_a)] - x[at(at_b)];
+    right[at(at_b)] += x[at(at_b)] - x[at(at_a)];
+  }
+  ASSERT_TRUE(factor.factorise());
+  factor.solve(right.data());
+  for (std::size_t i = 0; i < x.size(); ++i) ASSERT_NEAR(right[i], x[i], 1e-11);
+}
+
+}  // namespace
+}  // namespace fathom::sparse
