@@ -93,6 +93,14 @@ pkg_check_modules(LIBEXIF QUIET IMPORTED_TARGET libexif)
 fathom_feature(EXIF FOUND ${LIBEXIF_FOUND} GROUP base PACKAGES libexif-dev
   GIVES "times and focal lengths that cameras write into pictures")
 
+# Its package has no CMake or pkg-config file.
+find_path(SCOTCH_INCLUDE_DIR scotch.h PATH_SUFFIXES scotch)
+find_library(SCOTCH_LIBRARY scotch)
+mark_as_advanced(SCOTCH_INCLUDE_DIR SCOTCH_LIBRARY)
+fathom_all_found(found SCOTCH_INCLUDE_DIR SCOTCH_LIBRARY)
+fathom_feature(SCOTCH FOUND ${found} GROUP base PACKAGES libscotch-dev
+  GIVES "fewer products in large and in dense pose graphs: nested dissection")
+
 pkg_check_modules(PROJ QUIET IMPORTED_TARGET proj)
 fathom_feature(PROJ FOUND ${PROJ_FOUND} GROUP import PACKAGES libproj-dev
   GIVES "fixes in latitude and longitude")

@@ -74,7 +74,7 @@ fathom_package(program fathom science "${blas}"
 set(headers libeigen3-dev libopencv-dev libceres-dev libsuitesparse-dev libfmt-dev libyaml-cpp-dev
     libsqlitecpp-dev libsqlite3-dev nlohmann-json3-dev libcairo2-dev libopenblas-dev libboost-dev
     pkg-config)
-foreach(pair EXIF:libexif-dev PROJ:libproj-dev GEOTIFF:libgeotiff-dev GEOTIFF:libtiff-dev
+foreach(pair EXIF:libexif-dev SCOTCH:libscotch-dev PROJ:libproj-dev GEOTIFF:libgeotiff-dev GEOTIFF:libtiff-dev
              FASTCDR:libfastcdr-dev COMPRESSION:liblz4-dev COMPRESSION:libzstd-dev)
   string(REPLACE ":" ";" pair ${pair})
   list(GET pair 0 part)

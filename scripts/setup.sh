@@ -26,7 +26,7 @@ base=(
   libeigen3-dev libopencv-dev libceres-dev libsuitesparse-dev libgoogle-glog-dev
   libboost-dev libopenblas-dev libopenblas0-pthread
   libyaml-cpp-dev libsqlitecpp-dev libsqlite3-dev libcli11-dev libfmt-dev nlohmann-json3-dev
-  libcairo2-dev libexif-dev pkg-config libjs-vega
+  libcairo2-dev libexif-dev libscotch-dev pkg-config libjs-vega
   libgtest-dev libgmock-dev libbenchmark-dev python3 man-db
 )
 # Ubuntu's chromium is no package: the tests that open a page are skipped there.

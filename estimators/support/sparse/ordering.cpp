@@ -2,13 +2,17 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <mutex>
+#include <cstdint>
+#include <cstdio>  // of scotch.h, which lacks it
 #include <numeric>
-#include <suitesparse/cholmod.h>
 #include <utility>
 
 #include <Eigen/OrderingMethods>
 #include <Eigen/SparseCore>
+
+#ifdef FATHOM_SCOTCH
+#include <scotch.h>
+#endif
 
 namespace fathom::sparse {
 namespace {
@@ -103,31 +107,50 @@ std::vector<int> minimum_degree_order(const Pattern& lower) {
   return {amd.indices().begin(), amd.indices().end()};
 }
 
-// Empty where CHOLMOD cannot do it.
-std::vector<int> nested_dissection_order(Pattern lower) {
-  // METIS draws by rand(), from a seed that is always the same.
-  static std::mutex mutex;
-  const std::lock_guard lock(mutex);
-  cholmod_common common;
-  cholmod_start(&common);
-  common.print = 0;
-  cholmod_sparse matrix{};
-  matrix.nrow = matrix.ncol = at(lower.size());
-  matrix.nzmax = lower.rows.size();
-  matrix.p = lower.start.data();
-  matrix.i = lower.rows.data();
-  matrix.stype = -1;
-  matrix.itype = CHOLMOD_INT;
-  matrix.xtype = CHOLMOD_PATTERN;
-  matrix.dtype = CHOLMOD_DOUBLE;
-  matrix.sorted = 1;
-  matrix.packed = 1;
-  std::vector<int> order(at(lower.size()));
-  constexpr int kPostorder = 1;
-  if (cholmod_metis(&matrix, nullptr, 0, kPostorder, order.data(), &common) == 0) order.clear();
-  cholmod_finish(&common);
-  return order;
+#ifdef FATHOM_SCOTCH
+// What SCOTCH opens and closes.
+template <class T, int (*open)(T*), void (*close)(T*)>
+struct Opened : T {
+  Opened() : is_open(open(this) == 0) {}
+  Opened(const Opened&) = delete;
+  Opened& operator=(const Opened&) = delete;
+  ~Opened() {
+    if (is_open) close(this);
+  }
+
+  bool is_open;
+};
+
+// On one thread and from the same seed, so that the order is always the same. Empty where SCOTCH
+// fails.
+std::vector<int> nested_dissection_order(const Adjacency& graph) {
+  std::vector<SCOTCH_Num> start(graph.start.begin(), graph.start.end());
+  std::vector<SCOTCH_Num> neighbours(graph.neighbours.begin(), graph.neighbours.end());
+  std::vector<SCOTCH_Num> order(at(graph.size()));
+  Opened<SCOTCH_Context, SCOTCH_contextInit, SCOTCH_contextExit> context;
+  Opened<SCOTCH_Graph, SCOTCH_graphInit, SCOTCH_graphExit> own;
+  Opened<SCOTCH_Graph, SCOTCH_graphInit, SCOTCH_graphExit> bound;
+  Opened<SCOTCH_Strat, SCOTCH_stratInit, SCOTCH_stratExit> strategy;
+  if (!context.is_open || !own.is_open || !bound.is_open || !strategy.is_open) return {};
+  // Draws of its own, not those of the process.
+  if (SCOTCH_contextRandomClone(&context) != 0) return {};
+  SCOTCH_contextRandomSeed(&context, 1);
+  const bool is_done =
+      SCOTCH_contextOptionSetNum(&context, SCOTCH_OPTIONNUMDETERMINISTIC, 1) == 0 &&
+      SCOTCH_contextOptionSetNum(&context, SCOTCH_OPTIONNUMRANDOMFIXEDSEED, 1) == 0 &&
+      SCOTCH_contextThreadSpawn(&context, 1, nullptr) == 0 &&
+      SCOTCH_graphBuild(&own, 0, graph.size(), start.data(), nullptr, nullptr, nullptr,
+                        start[at(graph.size())], neighbours.data(), nullptr) == 0 &&
+      SCOTCH_contextBindGraph(&context, &own, &bound) == 0 &&
+      SCOTCH_graphOrder(&bound, &strategy, nullptr, order.data(), nullptr, nullptr, nullptr) == 0;
+  if (!is_done) return {};
+  return {order.begin(), order.end()};
 }
+#else
+std::vector<int> nested_dissection_order(const Adjacency& /*graph*/) {
+  return {};
+}
+#endif
 
 void order_rest(const ShrinkingGraph& graph, Ordering ordering, std::vector<int>& order) {
   std::vector<int> rest;
@@ -149,12 +172,30 @@ void order_rest(const ShrinkingGraph& graph, Ordering ordering, std::vector<int>
     lower.start.push_back(static_cast<int>(lower.rows.size()));
   }
   std::vector<int> of_rest;
-  if (ordering == Ordering::nested_dissection) of_rest = nested_dissection_order(lower);
+  if (ordering == Ordering::nested_dissection) {
+    Adjacency left;
+    left.start.push_back(0);
+    for (const int v : rest) {
+      for (int j = 0; j < graph.degree(v); ++j) {
+        left.neighbours.push_back(index[at(graph.neighbour(v, j))]);
+      }
+      left.start.push_back(static_cast<int>(left.neighbours.size()));
+    }
+    of_rest = nested_dissection_order(left);
+  }
   if (of_rest.empty()) of_rest = minimum_degree_order(lower);
   for (const int v : of_rest) order.push_back(rest[at(v)]);
 }
 
 }  // namespace
+
+bool has_nested_dissection() {
+#ifdef FATHOM_SCOTCH
+  return true;
+#else
+  return false;
+#endif
+}
 
 Adjacency adjacency_of(int n, const std::vector<Link>& links) {
   Adjacency graph;

@@ -28,8 +28,11 @@ enum class ChainElimination { on, off };
 /// How the nodes that are no chain are ordered.
 enum class Ordering {
   minimum_degree,    ///< approximate minimum degree (Amestoy, Davis, Duff 1996)
-  nested_dissection  ///< METIS (Karypis and Kumar 1998); minimum degree where CHOLMOD has it not
+  nested_dissection  ///< SCOTCH (Pellegrini, Roman and Amestoy 2000), where the build has it
 };
+
+/// Whether the build has it; without it the order is by minimum degree.
+bool has_nested_dissection();
 
 /// An order of elimination with little fill. Nodes with one or two neighbours left go first, again
 /// and again: whole chains between loops, then what their removal turns into chains. That makes no

@@ -170,11 +170,12 @@ Symbolic pattern_of(const Adjacency& graph, const std::vector<int>& order) {
   return result;
 }
 
-// Where a factorisation by minimum degree takes at least twice as long as METIS.
+// Where a factorisation by minimum degree takes at least twice as long as the other order.
 bool is_worth_dissecting(const Symbolic& symbolic, const Adjacency& graph) {
   constexpr double kMultiplicationsPerNeighbour = 740.0;
-  return multiplications_of(symbolic) >
-         kMultiplicationsPerNeighbour * static_cast<double>(graph.neighbours.size());
+  return has_nested_dissection() &&
+         multiplications_of(symbolic) >
+             kMultiplicationsPerNeighbour * static_cast<double>(graph.neighbours.size());
 }
 
 void share_among(Workers* workers, std::size_t least_shared, Symbolic& result) {
