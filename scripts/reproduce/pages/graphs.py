@@ -48,8 +48,9 @@ TOLERANCES = ("1e-5", "1e-6", "1e-7")
 
 
 @maker("docs/estimators/incremental_smoother.md", "smoother-tolerance", "quick",
-       "`fathom solve GRAPH.g2o --estimator incremental_smoother --set estimator.tolerance=T`, over "
-       "F of `--estimator sparse_gauss_newton`", 0.3, needs=_graphs("manhattan", "M3500", "intel"))
+       "`fathom solve GRAPH.g2o --estimator incremental_smoother --set estimator.tolerance=T`, "
+       "over F of `--estimator sparse_gauss_newton`", 0.3,
+       needs=_graphs("manhattan", "M3500", "intel"))
 def smoother_tolerance(work):
     rows = []
     for graph in ("manhattan", "M3500", "intel"):
