@@ -97,6 +97,10 @@ TEST(Ordering, DissectionOfAFewNodes) {
   EXPECT_EQ(dissected(adjacency_of(0, {})).size(), 0U);
   EXPECT_EQ(dissected(adjacency_of(1, {})).size(), 1U);
   EXPECT_EQ(dissected(adjacency_of(5, {{0, 4}})).size(), 5U);
+  EXPECT_EQ(
+      elimination_order(adjacency_of(3, {}), ChainElimination::off, Ordering::nested_dissection)
+          .size(),
+      3U);
   std::vector<Link> complete;
   for (int a = 0; a < 6; ++a) {
     for (int b = 0; b < a; ++b) complete.push_back({b, a});

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>  // of scotch.h, which lacks it
 #include <numeric>
 #include <utility>
 
@@ -11,6 +10,8 @@
 #include <Eigen/SparseCore>
 
 #ifdef FATHOM_SCOTCH
+// scotch.h needs what it does not include.
+#include <cstdio>
 #include <scotch.h>
 #endif
 
@@ -181,7 +182,7 @@ void order_rest(const ShrinkingGraph& graph, Ordering ordering, std::vector<int>
       }
       left.start.push_back(static_cast<int>(left.neighbours.size()));
     }
-    of_rest = nested_dissection_order(left);
+    if (!left.neighbours.empty()) of_rest = nested_dissection_order(left);
   }
   if (of_rest.empty()) of_rest = minimum_degree_order(lower);
   for (const int v : of_rest) order.push_back(rest[at(v)]);

@@ -170,7 +170,8 @@ Symbolic pattern_of(const Adjacency& graph, const std::vector<int>& order) {
   return result;
 }
 
-// Where a factorisation by minimum degree takes at least twice as long as the other order.
+// Where a factorisation by minimum degree takes at least twice as long as SCOTCH. A neighbour costs
+// SCOTCH a microsecond or two, in which a factorisation makes 10⁴ multiply-adds, 27 of a block.
 bool is_worth_dissecting(const Symbolic& symbolic, const Adjacency& graph) {
   constexpr double kMultiplicationsPerNeighbour = 740.0;
   return has_nested_dissection() &&
