@@ -3,6 +3,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <set>
 #include <string>
@@ -40,7 +41,7 @@ class ScriptedEstimator : public Estimator {
  public:
   ScriptedEstimator(const EstimatorSetup& setup, Script& script)
       : script_(script), poses_{setup.start.pose} {
-    script_.calls.push_back(setup.mode == SolveMode::batch ? "create batch" : "create");
+    note(setup.mode == SolveMode::batch ? "create batch" : "create");
     script_.in_every_call();
   }
 
@@ -53,7 +54,7 @@ class ScriptedEstimator : public Estimator {
   MovedPoses moved_since(std::uint64_t /*revision*/) const override { return {1, script_.moved}; }
 
   void add_keyframe(const RelativePose& step) override {
-    script_.calls.push_back("add " + std::to_string(step.to));
+    note("add " + std::to_string(step.to));
     script_.in_every_call();
     poses_.push_back(compose(poses_.back(), step.motion));
   }
@@ -72,13 +73,13 @@ class ScriptedEstimator : public Estimator {
       call += " at " + std::to_string(z.keyframe);
       report.absolute.push_back({z.keyframe, LoopFate::used, 1.5});
     }
-    script_.calls.push_back(call);
+    note(call);
     script_.spoil_report(report);
     return report;
   }
 
   UpdateReport finish(std::span<const Pose> start) override {
-    script_.calls.push_back("finish from " + std::to_string(start.size()));
+    note("finish from " + std::to_string(start.size()));
     script_.in_every_call();
     return script_.finish;
   }
@@ -94,7 +95,7 @@ class ScriptedEstimator : public Estimator {
       std::span<const std::size_t> keyframes) const override {
     std::string call = "covariance";
     for (const std::size_t k : keyframes) call += " " + std::to_string(k);
-    script_.calls.push_back(call);
+    note(call);
     if (asked_++ >= script_.joint_covariances) return std::nullopt;
     const auto size = static_cast<Eigen::Index>(3 * keyframes.size());
     return Eigen::MatrixXd(Eigen::MatrixXd::Identity(size, size));
@@ -104,6 +105,13 @@ class ScriptedEstimator : public Estimator {
   std::vector<double> loop_weights() const override { return script_.loop_weights; }
 
  private:
+  // Trials of a study share a script.
+  void note(const std::string& call) const {
+    const std::scoped_lock lock(noting_);
+    script_.calls.push_back(call);
+  }
+
+  inline static std::mutex noting_;
   Script& script_;
   std::vector<Pose> poses_;
   std::size_t updates_ = 0;
