@@ -46,9 +46,8 @@ bool has_absolute(const MeasurementLog& log) {
 // leaves the restricted likelihood as it is but for a constant. So does keyframe 0, held where
 // nothing says where it is.
 JointRows::JointRows(const MeasurementLog& log, std::span<const Pose> trajectory,
-                     const std::vector<bool>& used, bool with_own)
+                     const std::vector<bool>& used)
     : is_first_held_(log.start().is_fixed() || (log.start().is_free && !has_absolute(log))),
-      with_own_(with_own),
       poses_(3 * static_cast<Index>(log.size() - (is_first_held_ ? 1 : 0))),
       unknowns_(poses_),
       picture_(log.size(), -1),
@@ -89,16 +88,11 @@ void JointRows::add(const RelativePose& z, std::span<const Pose> trajectory) {
     information = symmetric_inverse(transport(back, z.shared->own));
     blocks.push_back({picture_column(z.from, z.shared->from), back * z.shared->from.G});
     blocks.push_back({picture_column(z.to, z.shared->to), back * z.shared->to.G});
-    ++told_;
+    told_.push_back(static_cast<Index>(residuals_.size()));
   }
   const Eigen::LLT<Eigen::Matrix3d> factor(information);
   const Eigen::Matrix3d whiten = factor.matrixU();
   for (Block& block : blocks) block.J = whiten * block.J;
-  if (z.shared && with_own_) {
-    own_.push_back(unknowns_);
-    blocks.push_back({unknowns_, Eigen::Matrix3d::Identity()});
-    unknowns_ += 3;
-  }
   log_own_ -= 2.0 * whiten.diagonal().array().log().sum();
   if (factor.info() != Eigen::Success) log_own_ = std::numeric_limits<double>::quiet_NaN();
   add_rows(whiten * e, blocks, 3);

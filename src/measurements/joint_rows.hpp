@@ -18,17 +18,15 @@ class JointRows {
  public:
   using Index = Eigen::Index;
 
-  /// `used` by registration in order of arrival; empty: all. `with_own`: each told registration has
-  /// three unknowns more, an error of its own in units of its own covariance.
+  /// `used` by registration in order of arrival; empty: all.
   JointRows(const MeasurementLog& log, std::span<const Pose> trajectory,
-            const std::vector<bool>& used, bool with_own);
+            const std::vector<bool>& used);
 
   const Eigen::SparseMatrix<double>& B() const { return B_; }
   const Eigen::VectorXd& c() const { return c_; }
   Index poses() const { return poses_; }  ///< unknowns of the poses, which come first
   Index unknowns() const { return unknowns_; }
   double log_own() const { return log_own_; }  ///< log determinant of what was whitened by
-  std::size_t told() const { return told_; }
   /// Whether all of it is finite; also not where a covariance is not positive definite.
   bool is_finite() const;
 
@@ -36,8 +34,8 @@ class JointRows {
   const std::vector<Index>& registrations() const { return registrations_; }
   /// First row of n of keyframe k's picture, if it has any, and what is told of its σ.
   std::optional<Index> picture(std::size_t k) const;
-  /// First rows of the registrations' own errors.
-  const std::vector<Index>& own() const { return own_; }
+  /// First of three rows of each told registration in use.
+  const std::vector<Index>& told() const { return told_; }
   const Eigen::Vector3d& told_sigma(std::size_t k) const { return sigma_of_[k]; }
 
   /// The trajectory moved by δ.
@@ -56,8 +54,6 @@ class JointRows {
   Index picture_column(std::size_t k, const PictureErrors& errors);
 
   bool is_first_held_ = false;
-  bool with_own_ = false;
-  std::vector<Index> own_;
   Index poses_ = 0;
   Index unknowns_ = 0;
   std::vector<Index> picture_;  // by keyframe, −1: none
@@ -65,7 +61,7 @@ class JointRows {
   std::vector<Eigen::Triplet<double>> elements_;
   std::vector<double> residuals_;
   double log_own_ = 0.0;
-  std::size_t told_ = 0;
+  std::vector<Index> told_;
   std::vector<Index> registrations_;
   Eigen::SparseMatrix<double> B_;
   Eigen::VectorXd c_;

@@ -21,9 +21,11 @@ bool are_same(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
   return true;
 }
 
-bool has_own(std::span<const VarianceComponent> components) {
-  return std::ranges::any_of(components,
-                             [](const VarianceComponent& one) { return !one.is_of_pictures(); });
+// The lower triangle of Bᵀ D B, with the pattern of Bᵀ B whatever the diagonal D is.
+Eigen::SparseMatrix<double> normal_matrix(const Eigen::SparseMatrix<double>& B,
+                                          const Eigen::VectorXd& D) {
+  const Eigen::SparseMatrix<double> square = B.transpose() * (D.asDiagonal() * B);
+  return square.triangularView<Eigen::Lower>();
 }
 
 // ρᵀ Q⁻¹ ρ over the directions that Q has.
@@ -44,27 +46,29 @@ RestrictedLikelihood::RestrictedLikelihood(const MeasurementLog& log,
                                            std::span<const Pose> trajectory,
                                            std::span<const VarianceComponent> components,
                                            const std::vector<bool>& used)
-    : rows_(log, trajectory, used, has_own(components)),
+    : rows_(log, trajectory, used),
+      is_own_row_(Eigen::VectorXd::Zero(rows_.c().size())),
       told_scale_(Eigen::VectorXd::Ones(rows_.unknowns())) {
-  for (const Index row : rows_.own()) told_scale_.segment<3>(row).setZero();
   for (std::size_t k = 0; k < log.size(); ++k) {
     if (const auto row = rows_.picture(k)) told_scale_.segment<3>(*row) = rows_.told_sigma(k);
   }
-  const Eigen::SparseMatrix<double> square = rows_.B().transpose() * rows_.B();
-  A_ = square.triangularView<Eigen::Lower>();
-  gradient_ = rows_.B().transpose() * rows_.c();
-  H_ = A_;
-  factor_.analyzePattern(H_);
   for (const VarianceComponent& component : components) govern(component, log.size());
+  const Eigen::VectorXd is_rest = 1.0 - is_own_row_.array();
+  diagonal_ = rows_.B().cwiseAbs2().transpose() * Eigen::VectorXd::Ones(rows_.c().size());
+  H_ = normal_matrix(rows_.B(), is_rest);
+  const Eigen::SparseMatrix<double> own = normal_matrix(rows_.B(), is_own_row_);
+  A_ = {H_.coeffs(), own.coeffs()};
+  gradient_ = {rows_.B().transpose() * is_rest.cwiseProduct(rows_.c()),
+               rows_.B().transpose() * is_own_row_.cwiseProduct(rows_.c())};
+  factor_.analyzePattern(H_);
 }
 
 void RestrictedLikelihood::govern(const VarianceComponent& component, std::size_t keyframes) {
   const bool is_tilt = component.part == VarianceComponent::Part::tilt;
   std::vector<Governed>& governed = governed_.emplace_back();
   if (!component.is_of_pictures()) {
-    for (const Index first : rows_.own()) {
-      for (Index part = 0; part < 3; ++part) governed.push_back({first + part, 0.0});
-    }
+    own_ = components() - 1;
+    for (const Index first : rows_.told()) is_own_row_.segment<3>(first).setOnes();
     return;
   }
   for (std::size_t k = 0; k < keyframes; ++k) {
@@ -77,18 +81,19 @@ void RestrictedLikelihood::govern(const VarianceComponent& component, std::size_
 }
 
 std::size_t RestrictedLikelihood::pictures(Index component) const {
+  if (component == own_) return rows_.told().size();
   std::vector<Index> pictures;
   for (const Governed& n : governed_[static_cast<std::size_t>(component)]) {
-    if (A_.coeff(n.row, n.row) > 0.0) pictures.push_back((n.row - rows_.poses()) / 3);
+    if (diagonal_[n.row] > 0.0) pictures.push_back((n.row - rows_.poses()) / 3);
   }
   return static_cast<std::size_t>(
       std::distance(pictures.begin(), std::unique(pictures.begin(), pictures.end())));
 }
 
 double RestrictedLikelihood::negligible(Index component) const {
-  double most = 0.0;
+  double most = component == own_ && !rows_.told().empty() ? 1.0 : 0.0;
   for (const Governed& n : governed_[static_cast<std::size_t>(component)]) {
-    most = std::max(most, A_.coeff(n.row, n.row));
+    most = std::max(most, diagonal_[n.row]);
   }
   return 1e-3 / std::sqrt(most);
 }
@@ -106,22 +111,30 @@ double RestrictedLikelihood::degrees_of_freedom() const {
   return static_cast<double>(rows_.c().size() - rows_.poses());
 }
 
-// H = S Bᵀ B S + I on the rows of n, for n in units of σ: regular at σ = 0.
-bool RestrictedLikelihood::factorise(const Eigen::VectorXd& log_sigma) {
+void RestrictedLikelihood::set_scales(const Eigen::VectorXd& log_sigma) {
   scale_ = told_scale_;
+  own_sigma_ = 0.0;
   for (Index j = 0; j < components(); ++j) {
     if (std::isnan(log_sigma[j])) continue;  // as told
     const double sigma = std::exp(log_sigma[j]);
-    for (const Governed& n : governed_[static_cast<std::size_t>(j)]) {
-      scale_[n.row] = sigma;
-    }
+    if (j == own_) own_sigma_ = sigma;
+    for (const Governed& n : governed_[static_cast<std::size_t>(j)]) scale_[n.row] = sigma;
   }
+  own_weight_ = 1.0 / (1.0 + own_sigma_ * own_sigma_);
+  weights_ =
+      (is_own_row_.array() > 0.0).select(own_weight_, Eigen::VectorXd::Ones(is_own_row_.size()));
+}
+
+// H = S Bᵀ W B S + I on the rows of n, for n in units of σ: regular at σ = 0.
+bool RestrictedLikelihood::factorise(const Eigen::VectorXd& log_sigma) {
+  set_scales(log_sigma);
   for (Index column = 0; column < H_.cols(); ++column) {
     const Index end = H_.outerIndexPtr()[column + 1];
     for (Index e = H_.outerIndexPtr()[column]; e < end; ++e) {
       const Index row = H_.innerIndexPtr()[e];
       const double prior = row == column && row >= rows_.poses() ? 1.0 : 0.0;
-      H_.valuePtr()[e] = scale_[row] * A_.valuePtr()[e] * scale_[column] + prior;
+      const double A_e = A_.rest[e] + own_weight_ * A_.own[e];
+      H_.valuePtr()[e] = scale_[row] * A_e * scale_[column] + prior;
     }
   }
   factor_.factorize(H_);
@@ -130,11 +143,27 @@ bool RestrictedLikelihood::factorise(const Eigen::VectorXd& log_sigma) {
   return (factor_.vectorD().array() > kSmallestPivot * diagonal.array()).all();
 }
 
+const SparseInverse& RestrictedLikelihood::inverted() {
+  if (!inverse_) {
+    inverse_.emplace(factor_);
+    if (own_ >= 0) {
+      for (Index column = 0; column < H_.cols(); ++column) {
+        for (Eigen::SparseMatrix<double>::InnerIterator e(H_, column); e; ++e) {
+          own_places_.push_back(inverse_->place(e.row(), column));
+        }
+      }
+    }
+  }
+  inverse_->compute();
+  return *inverse_;
+}
+
 // From the residuals, not from their squares at y = 0, which may be 10¹⁰ times as large.
 void RestrictedLikelihood::minimise() {
-  v_ = -factor_.solve(scale_.cwiseProduct(gradient_));
-  const Eigen::VectorXd residuals = rows_.c() + rows_.B() * scale_.cwiseProduct(v_);
-  chi2_ = residuals.squaredNorm() + v_.tail(rows_.unknowns() - rows_.poses()).squaredNorm();
+  v_ = -factor_.solve(scale_.cwiseProduct(gradient_.rest + own_weight_ * gradient_.own));
+  residuals_ = rows_.c() + rows_.B() * scale_.cwiseProduct(v_);
+  chi2_ = weights_.dot(residuals_.cwiseAbs2()) +
+          v_.tail(rows_.unknowns() - rows_.poses()).squaredNorm();
 }
 
 double RestrictedLikelihood::deviance(const Eigen::VectorXd& log_sigma) {
@@ -143,7 +172,8 @@ double RestrictedLikelihood::deviance(const Eigen::VectorXd& log_sigma) {
   deviance_ = std::numeric_limits<double>::quiet_NaN();
   if (!factorise(log_sigma)) return deviance_;
   minimise();
-  deviance_ = chi2_ + factor_.vectorD().array().log().sum() + rows_.log_own();
+  deviance_ = chi2_ + factor_.vectorD().array().log().sum() - own_count() * std::log(own_weight_) +
+              rows_.log_own();
   return deviance_;
 }
 
@@ -157,11 +187,27 @@ RestrictedFit RestrictedLikelihood::fit(const Eigen::VectorXd& log_sigma) {
   return fit;
 }
 
+// Σ b H⁻¹ bᵀ over the rows b of B S that have own errors.
+double RestrictedLikelihood::own_trace(const SparseInverse& inverse) const {
+  double sum = 0.0;
+  for (Index column = 0; column < H_.cols(); ++column) {
+    const Index end = H_.outerIndexPtr()[column + 1];
+    for (Index e = H_.outerIndexPtr()[column]; e < end; ++e) {
+      const Index row = H_.innerIndexPtr()[e];
+      const double twice = row == column ? 1.0 : 2.0;
+      sum += twice * scale_[row] * A_.own[e] * scale_[column] *
+             inverse.at(own_places_[static_cast<std::size_t>(e)]);
+    }
+  }
+  return sum;
+}
+
 // With u_j the part of v that component j governs:
 //   ∂(−2ℓ)/∂log σ_j = 2 (number − Σ (H⁻¹)_rr − ‖u_j‖²)
-//   average information of j, k = 4 u_jᵀ · (H⁻¹ S A n_k)_j,  n_k = S u_k.
+//   average information of j, k = 4 u_jᵀ · (H⁻¹ S Bᵀ W B n_k)_j,  n_k = S u_k.
+// Own errors are n, too, of one row each: u = −σ w r, with the variance w + σ² w² b H⁻¹ bᵀ.
 void RestrictedLikelihood::add_derivatives(const Eigen::VectorXd& log_sigma, RestrictedFit& fit) {
-  const SparseInverse inverse(factor_);
+  const SparseInverse& inverse = inverted();
   fit.slope = Eigen::VectorXd::Zero(components());
   Eigen::MatrixXd u = Eigen::MatrixXd::Zero(rows_.unknowns(), components());
   for (Index j = 0; j < components(); ++j) {
@@ -171,22 +217,36 @@ void RestrictedLikelihood::add_derivatives(const Eigen::VectorXd& log_sigma, Res
       fit.slope[j] += 2.0 * (1.0 - inverse(n.row, n.row) - v_[n.row] * v_[n.row]);
     }
   }
-  const Eigen::MatrixXd moved = A_.selfadjointView<Eigen::Lower>() * (scale_.asDiagonal() * u);
-  const Eigen::MatrixXd answer = factor_.solve(scale_.asDiagonal() * moved);
+  Eigen::MatrixXd p = rows_.B() * (scale_.asDiagonal() * u);  // what n_k does to the rows
+  Eigen::VectorXd own_u = Eigen::VectorXd::Zero(p.rows());
+  if (own_ >= 0) {
+    const double share = own_sigma_ * own_sigma_ * own_weight_;
+    fit.slope[own_] =
+        2.0 * share * (own_count() - own_weight_ * (own_trace(inverse) + own_squared_norm()));
+    own_u = -own_sigma_ * own_weight_ * is_own_row_.cwiseProduct(residuals_);
+    p.col(own_) = own_sigma_ * own_u;
+  }
+  const Eigen::MatrixXd answer =
+      factor_.solve(scale_.asDiagonal() * (rows_.B().transpose() * (weights_.asDiagonal() * p)));
   fit.information = 4.0 * u.transpose() * answer;
+  if (own_ >= 0) {
+    const Eigen::MatrixXd left = p - rows_.B() * (scale_.asDiagonal() * answer);
+    fit.information.row(own_) = 4.0 * own_sigma_ * own_weight_ * own_u.transpose() * left;
+  }
 }
 
-// A registration's residual ρ = c_r + B_r y has the covariance Q = I − B_r S H⁻¹ S B_rᵀ; predicted
-// by all others it is Q⁻¹ ρ, of covariance Q⁻¹. Where the others say nothing Q and ρ are zero.
+// A registration's residual ρ = √w (c_r + B_r y) has the covariance Q = I − w B_r S H⁻¹ S B_rᵀ;
+// predicted by all others it is Q⁻¹ ρ, of covariance Q⁻¹. Where the others say nothing Q and ρ are
+// zero.
 std::vector<double> RestrictedLikelihood::left_out_chi2(const Eigen::VectorXd& log_sigma) {
   std::vector<double> chi2(rows_.registrations().size(), std::numeric_limits<double>::quiet_NaN());
   if (!std::isfinite(deviance(log_sigma))) return chi2;
-  const SparseInverse inverse(factor_);
+  const SparseInverse& inverse = inverted();
   const Eigen::SparseMatrix<double, Eigen::RowMajor> B = rows_.B();
-  const Eigen::VectorXd residuals = rows_.c() + B * scale_.cwiseProduct(v_);
   for (std::size_t i = 0; i < chi2.size(); ++i) {
     const Index first = rows_.registrations()[i];
     if (first < 0) continue;
+    const double root_w = is_own_row_[first] > 0.0 ? std::sqrt(own_weight_) : 1.0;
     const Index count = B.outerIndexPtr()[first + 1] - B.outerIndexPtr()[first];
     const auto* const columns = B.innerIndexPtr() + B.outerIndexPtr()[first];
     Eigen::MatrixXd J(3, count);
@@ -194,11 +254,11 @@ std::vector<double> RestrictedLikelihood::left_out_chi2(const Eigen::VectorXd& l
     for (Index a = 0; a < count; ++a) {
       for (Index b = 0; b < count; ++b) Z(a, b) = inverse(columns[a], columns[b]);
       for (Index row = 0; row < 3; ++row) {
-        J(row, a) = scale_[columns[a]] * B.valuePtr()[B.outerIndexPtr()[first + row] + a];
+        J(row, a) = root_w * scale_[columns[a]] * B.valuePtr()[B.outerIndexPtr()[first + row] + a];
       }
     }
     const Eigen::Matrix3d Q = Eigen::Matrix3d::Identity() - J * Z * J.transpose();
-    chi2[i] = pseudo_chi2(residuals.segment<3>(first), Q);
+    chi2[i] = pseudo_chi2(root_w * residuals_.segment<3>(first), Q);
   }
   return chi2;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -20,7 +21,8 @@ struct RestrictedFit {
 };
 
 /// −2ℓ of a linearised log as a function of the components' log σ. One symbolic analysis serves all
-/// evaluations. docs/variance_components.md derives the formulas.
+/// evaluations. Registrations' own errors are no unknowns: they scale rows by √w, w = 1/(1 + σ²).
+/// docs/variance_components.md derives the formulas.
 class RestrictedLikelihood {
  public:
   using Index = Eigen::Index;
@@ -48,26 +50,47 @@ class RestrictedLikelihood {
   double degrees_of_freedom() const;  ///< N − p
 
  private:
-  // A row of n that a component governs.
+  // An element of n that a component governs.
   struct Governed {
     Index row;
     double told;
   };
+  // Of all rows, Bᵀ W B = rest + w own, both on the pattern of H_; and Bᵀ W c likewise.
+  struct Parts {
+    Eigen::VectorXd rest;
+    Eigen::VectorXd own;
+  };
 
   void govern(const VarianceComponent& component, std::size_t keyframes);
+  void set_scales(const Eigen::VectorXd& log_sigma);
   bool factorise(const Eigen::VectorXd& log_sigma);
+  const SparseInverse& inverted();  // of the last factorisation
   void minimise();
+  double own_count() const { return is_own_row_.sum(); }
+  double own_squared_norm() const { return is_own_row_.dot(residuals_.cwiseAbs2()); }
+  double own_trace(const SparseInverse& inverse) const;
   void add_derivatives(const Eigen::VectorXd& log_sigma, RestrictedFit& fit);
 
   JointRows rows_;
-  std::vector<std::vector<Governed>> governed_;
+  Index own_ = -1;                               // the component of own errors
+  std::vector<std::vector<Governed>> governed_;  // of own errors none: they are no elements of n
+  Eigen::VectorXd
+      is_own_row_;  // 1 for the three of each told registration, if it has that component
+  double own_sigma_ = 0.0;
+  double own_weight_ = 1.0;     // w = 1 / (1 + σ²)
+  Eigen::VectorXd weights_;     // of rows: w of those, or 1
   Eigen::VectorXd told_scale_;  // of all unknowns: 1, and of n what is told
   Eigen::VectorXd scale_;
-  Eigen::SparseMatrix<double> A_;  // Bᵀ B, lower triangle
-  Eigen::SparseMatrix<double> H_;
-  Eigen::VectorXd gradient_;  // Bᵀ c
+  Eigen::VectorXd diagonal_;  // of Bᵀ B
+  Parts A_;
+  Parts gradient_;
+  Eigen::SparseMatrix<double> H_;  // lower triangle
   SparseFactor factor_;
-  Eigen::VectorXd v_;  // y in units of scale_
+  std::optional<SparseInverse> inverse_;
+  std::vector<Index>
+      own_places_;             // by element of H_, where the inverse has it; if there are own rows
+  Eigen::VectorXd v_;          // y in units of scale_
+  Eigen::VectorXd residuals_;  // c + B y
   double chi2_ = 0.0;
   Eigen::VectorXd at_;  // what was evaluated last, and what came of it
   double deviance_ = 0.0;

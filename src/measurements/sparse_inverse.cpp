@@ -11,10 +11,13 @@ namespace fathom {
 SparseInverse::SparseInverse(const SparseFactor& factor)
     : L_(factor.matrixL().nestedExpression()),
       factor_(factor),
-      Z_(static_cast<std::size_t>(L_.nonZeros())),
-      diagonal_(factor.vectorD().cwiseInverse()),
+      Z_(L_.nonZeros()),
+      diagonal_(L_.cols()),
       L_j_(Eigen::VectorXd::Zero(L_.cols())),
-      Z_j_(Eigen::VectorXd::Zero(L_.cols())) {
+      Z_j_(Eigen::VectorXd::Zero(L_.cols())) {}
+
+void SparseInverse::compute() {
+  diagonal_ = factor_.vectorD().cwiseInverse();
   for (Index j = L_.cols(); j-- > 0;) solve_column(j);
 }
 
@@ -26,7 +29,7 @@ void SparseInverse::solve_column(Index j) {
   for (Index e = begin(j); e < end(j); ++e) subtract_column(row(e));
   for (Index e = begin(j); e < end(j); ++e) {
     const Index i = row(e);
-    Z_[static_cast<std::size_t>(e)] = Z_j_[i];
+    Z_[e] = Z_j_[i];
     diagonal_[j] -= L_j_[i] * Z_j_[i];
     L_j_[i] = 0.0;
   }
@@ -39,22 +42,22 @@ void SparseInverse::subtract_column(Index k) {
   double sum = diagonal_[k] * L_kj;
   for (Index f = begin(k); f < end(k); ++f) {
     const Index i = row(f);
-    const double Z_ik = Z_[static_cast<std::size_t>(f)];
+    const double Z_ik = Z_[f];
     Z_j_[i] -= Z_ik * L_kj;
     sum += Z_ik * L_j_[i];
   }
   Z_j_[k] -= sum;
 }
 
-double SparseInverse::operator()(Index i, Index j) const {
+SparseInverse::Index SparseInverse::place(Index i, Index j) const {
   const auto& order = factor_.permutationP().indices();
   const Index a = order.size() == 0 ? i : order[i];
   const Index b = order.size() == 0 ? j : order[j];
-  if (a == b) return diagonal_[a];
+  if (a == b) return a;
   const auto [column, below] = std::minmax({a, b});
   const auto* const rows = L_.innerIndexPtr();
   const auto* const found = std::lower_bound(rows + begin(column), rows + end(column), below);
-  return Z_[static_cast<std::size_t>(found - rows)];
+  return diagonal_.size() + (found - rows);
 }
 
 }  // namespace fathom

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <vector>
-
 #include <Eigen/SparseCholesky>
 
 namespace fathom {
@@ -10,15 +8,22 @@ using SparseFactor = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::L
 
 /// The elements of A⁻¹ on the pattern of the factor of A, from its last column to its first
 /// (Takahashi, Fagan and Chin 1973). It costs about as much as the factorisation. The factor must
-/// outlive it.
+/// outlive it, and keep its pattern.
 class SparseInverse {
  public:
   using Index = Eigen::Index;
 
   explicit SparseInverse(const SparseFactor& factor);
 
-  /// In the order of A; (i, j) must be in the pattern of A, or on the diagonal.
-  double operator()(Index i, Index j) const;
+  /// Of the factorisation as it is now.
+  void compute();
+
+  /// Where (i, j) is kept, in the order of A; it must be in the pattern of A, or on the diagonal.
+  Index place(Index i, Index j) const;
+  double at(Index place) const {
+    return place < diagonal_.size() ? diagonal_[place] : Z_[place - diagonal_.size()];
+  }
+  double operator()(Index i, Index j) const { return at(place(i, j)); }
 
  private:
   Index begin(Index column) const { return L_.outerIndexPtr()[column]; }
@@ -30,7 +35,7 @@ class SparseInverse {
 
   const Eigen::SparseMatrix<double>& L_;  // without its diagonal of ones
   const SparseFactor& factor_;
-  std::vector<double> Z_;  // below the diagonal, at the elements of L
+  Eigen::VectorXd Z_;  // below the diagonal, at the elements of L
   Eigen::VectorXd diagonal_;
   Eigen::VectorXd L_j_;  // of the column in work, by row; 0 where it has none
   Eigen::VectorXd Z_j_;

@@ -2,13 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <exception>
 #include <limits>
 #include <string>
+#include <thread>
 #include <utility>
 
 #include "contradicted.hpp"
 #include "deviance_search.hpp"
 #include "fathom/core/chi_squared.hpp"
+#include "fathom/core/workers.hpp"
 #include "restricted_likelihood.hpp"
 #include "variance_checks.hpp"
 
@@ -70,7 +74,7 @@ class Relinearisation {
           i > 0 && std::abs(best.fit.deviance - last.fit.deviance) < 1000.0 * options_.tolerance;
       const bool is_last = is_settled || i + 1 >= options_.max_linearisations;
       if (is_settled) estimate.outcome = VarianceEstimate::Outcome::converged;
-      if (is_last) conclude(likelihood, search, best, estimate);
+      if (is_last) conclude(likelihood, best, estimate);
       if (is_last) break;
       estimate.trajectory = likelihood.rows().moved(estimate.trajectory, best.fit.y);
       last = best;
@@ -87,23 +91,44 @@ class Relinearisation {
   static VarianceEstimate nothing_told(const RestrictedLikelihood& likelihood,
                                        VarianceEstimate estimate) {
     estimate.outcome = VarianceEstimate::Outcome::nothing_told;
-    estimate.registrations = likelihood.rows().told();
+    estimate.registrations = likelihood.rows().told().size();
     estimate.components.resize(static_cast<std::size_t>(likelihood.components()));
     return estimate;
   }
 
   // Without intervals where registrations are to be left out.
-  void conclude(RestrictedLikelihood& likelihood, DevianceSearch& search,
-                const DevianceSearch::Optimum& best, VarianceEstimate& estimate) const {
+  void conclude(RestrictedLikelihood& likelihood, const DevianceSearch::Optimum& best,
+                VarianceEstimate& estimate) const {
     estimate.log_likelihood = -0.5 * best.fit.deviance;
     estimate.chi2 = best.fit.chi2;
     estimate.degrees_of_freedom = likelihood.degrees_of_freedom();
-    estimate.registrations = likelihood.rows().told();
+    estimate.registrations = likelihood.rows().told().size();
     estimate.left_out_chi2 = likelihood.left_out_chi2(best.log_sigma);
     if (!contradicted(log_, estimate.left_out_chi2, options_.contradiction).empty()) return;
-    for (Eigen::Index j = 0; j < likelihood.components(); ++j) {
-      estimate.components.push_back(estimate_of(search, likelihood, best, j, options_));
+    estimate.components = estimates(estimate.trajectory, best);
+  }
+
+  // Side by side: each from the optimum, with a likelihood of its own.
+  std::vector<SigmaEstimate> estimates(std::span<const Pose> trajectory,
+                                       const DevianceSearch::Optimum& best) const {
+    std::vector<SigmaEstimate> estimates(components_.size());
+    std::vector<std::exception_ptr> errors(components_.size());
+    const auto processors = std::max(1U, std::thread::hardware_concurrency());
+    Workers workers(static_cast<int>(std::min<std::size_t>(components_.size(), processors)));
+    for_ranges(&workers, components_.size(), 1, [&](std::size_t j, std::size_t /*end*/) {
+      try {
+        RestrictedLikelihood likelihood(log_, trajectory, components_, used_);
+        DevianceSearch search(likelihood, components_, options_.tolerance);
+        estimates[j] =
+            estimate_of(search, likelihood, best, static_cast<Eigen::Index>(j), options_);
+      } catch (...) {
+        errors[j] = std::current_exception();
+      }
+    });
+    for (const std::exception_ptr& error : errors) {
+      if (error) std::rethrow_exception(error);
     }
+    return estimates;
   }
 
   const MeasurementLog& log_;
