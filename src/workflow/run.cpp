@@ -1,6 +1,7 @@
 #include "fathom/workflow/run.hpp"
 
 #include <algorithm>
+#include <future>
 #include <iterator>
 #include <utility>
 
@@ -113,10 +114,14 @@ class OneRun {
       write_file(folder.path() / kBatchOptimum / "trajectory.tum",
                  to_tum(keyframe_trajectory(*recording_, done.optimum->run.trajectory)));
     }
-    write_trajectory_picture(folder.path() / "trajectory.png",
-                             request_.title + ", " + done.result.estimator.name, *recording_,
-                             results);
+    // Beside the mosaics, which wait for pictures.
+    std::future<void> picture = std::async([&] {
+      write_trajectory_picture(folder.path() / "trajectory.png",
+                               request_.title + ", " + done.result.estimator.name, *recording_,
+                               results);
+    });
     const std::vector<std::string> maps = write_maps(recorder.pictures(), results, folder.path());
+    picture.get();
     folder.commit(optional_run_files());
     observer_.wrote((folder.target() / "trajectory.png").string());
     for (const std::string& map : maps) observer_.wrote(map);

@@ -11,19 +11,28 @@
 namespace fathom {
 namespace {
 
-float bilinear(const cv::Mat& picture, double u, double v) {
+/// Between the four pixels around (u, v), whose places are given.
+float bilinear(const float* top, const float* bottom, int left, int right, float fu, float fv) {
+  const float above = top[left] + fu * (top[right] - top[left]);
+  const float below = bottom[left] + fu * (bottom[right] - bottom[left]);
+  return above + fv * (below - above);
+}
+
+float sample_within(const cv::Mat& picture, double u, double v) {
+  const int column = static_cast<int>(u);
+  const int row = static_cast<int>(v);
+  return bilinear(picture.ptr<float>(row), picture.ptr<float>(row + 1), column, column + 1,
+                  static_cast<float>(u - column), static_cast<float>(v - row));
+}
+
+float sample(const cv::Mat& picture, double u, double v) {
   u = std::clamp(u, 0.0, picture.cols - 1.0);
   v = std::clamp(v, 0.0, picture.rows - 1.0);
   const int column = std::max(0, std::min(static_cast<int>(u), picture.cols - 2));
   const int row = std::max(0, std::min(static_cast<int>(v), picture.rows - 2));
-  const int right = std::min(column + 1, picture.cols - 1);
-  const auto fu = static_cast<float>(u - column);
-  const auto fv = static_cast<float>(v - row);
-  const float* top = picture.ptr<float>(row);
-  const float* bottom = picture.ptr<float>(std::min(row + 1, picture.rows - 1));
-  const float above = top[column] + fu * (top[right] - top[column]);
-  const float below = bottom[column] + fu * (bottom[right] - bottom[column]);
-  return above + fv * (below - above);
+  return bilinear(picture.ptr<float>(row), picture.ptr<float>(std::min(row + 1, picture.rows - 1)),
+                  column, std::min(column + 1, picture.cols - 1), static_cast<float>(u - column),
+                  static_cast<float>(v - row));
 }
 
 // 1 in the middle of the picture, 0 at its border, which `place` runs over from 0 to 1.
@@ -82,8 +91,10 @@ Eigen::Vector2d pixel_at(const RowOfBox& row, int column) {
 // seventh: the seam. The least is one that a float still holds.
 float seam_weight(float share) {
   share = std::max(1e-2F, share);
-  for (int i = 0; i < 4; ++i) share *= share;
-  return share;
+  share *= share;  // ²
+  share *= share;  // ⁴
+  share *= share;  // ⁸
+  return share * share;
 }
 
 /// Columns between two that are projected. Lenses and tilts bend so little over them that a line
@@ -91,29 +102,47 @@ float seam_weight(float share) {
 /// length.
 constexpr int kSpan = 8;
 
-/// Adds columns [begin, end) of a span, whose pixels of the picture begin with `first`; `sum` and
-/// `weight` count from `begin`.
-void add_pixels(const RowOfBox& row, const Eigen::Vector2d& first, const Eigen::Vector2d& step,
-                int begin, int end, float* sum, float* weight) {
-  std::array<float, kSpan> shares;
-  for (int i = begin; i < end; ++i) {
+/// The weights of columns of a span, whose pixels of the picture begin with `first`. All of them,
+/// so that the compiler knows how many.
+template <int kCount>
+std::array<float, kCount> shares_of(const RowOfBox& row, const Eigen::Vector2d& first,
+                                    const Eigen::Vector2d& step) {
+  std::array<float, kCount> shares;
+  for (int i = 0; i < kCount; ++i) {
     const double u = (first.x() + i * step.x() + 0.5) * row.per_width;
     const double v = (first.y() + i * step.y() + 0.5) * row.per_height;
     // Never quite zero, so that a picture's border shows where it is alone.
     shares[i] = std::max(1e-3F, tent(u)) * std::max(1e-3F, tent(v));
   }
   if (row.has_seams) {
-    for (int i = begin; i < end; ++i) shares[i] = seam_weight(shares[i]);
+    for (int i = 0; i < kCount; ++i) shares[i] = seam_weight(shares[i]);
   }
+  return shares;
+}
+
+/// Adds columns [begin, end) of kCount; `sum` and `weight` count from `begin`.
+template <int kCount>
+void add_pixels(const RowOfBox& row, const Eigen::Vector2d& first, const Eigen::Vector2d& step,
+                int begin, int end, float* sum, float* weight) {
+  const std::array<float, kCount> shares = shares_of<kCount>(row, first, step);
   const double columns_per_pixel = row.per_width * row.source.cols;
   const double rows_per_pixel = row.per_height * row.source.rows;
+  const auto u_of = [&](int i) {
+    return (first.x() + i * step.x() + 0.5) * columns_per_pixel - 0.5;
+  };
+  const auto v_of = [&](int i) { return (first.y() + i * step.y() + 0.5) * rows_per_pixel - 0.5; };
+  const auto is_within = [&](int i) {
+    return u_of(i) >= 0.0 && u_of(i) < row.source.cols - 1.0 && v_of(i) >= 0.0 &&
+           v_of(i) < row.source.rows - 1.0;
+  };
+  const bool are_within = is_within(begin) && is_within(end - 1);
   for (int i = begin; i < end; ++i, ++sum, ++weight) {
     const float share = shares[i];
     // Away from the seams it would not show.
     if (row.has_seams && share * 512.0F < *weight) continue;
-    const double u = (first.x() + i * step.x() + 0.5) * columns_per_pixel - 0.5;
-    const double v = (first.y() + i * step.y() + 0.5) * rows_per_pixel - 0.5;
-    *sum += share * row.gain * bilinear(row.source, u, v);
+    const float grey = are_within ? sample_within(row.source, u_of(i), v_of(i))
+                                  : sample(row.source, u_of(i), v_of(i));
+    *sum += share * row.gain * grey;
     *weight += share;
   }
 }
@@ -147,13 +176,13 @@ void add_span(const RowOfBox& row, Spans& spans, const unsigned char* is_seen, i
   if (!is_whole) {
     for (int c = begin; c < end; ++c) {
       if (is_seen[c] == 0) continue;
-      add_pixels(row, pixel_at(row, c), Eigen::Vector2d::Zero(), 0, 1, sum + (c - begin),
-                 weight + (c - begin));
+      add_pixels<1>(row, pixel_at(row, c), Eigen::Vector2d::Zero(), 0, 1, sum + (c - begin),
+                    weight + (c - begin));
     }
     return;
   }
   const auto [first, last] = spans.ends(span);
-  add_pixels(row, first, (last - first) / kSpan, begin - span, end - span, sum, weight);
+  add_pixels<kSpan>(row, first, (last - first) / kSpan, begin - span, end - span, sum, weight);
 }
 
 }  // namespace
@@ -213,16 +242,18 @@ void Blend::lay(const cv::Mat& picture, const PlacedPicture& place, float gain) 
 
 cv::Mat Blend::finish() {
   cv::Mat mosaic(window_.size(), CV_8U, cv::Scalar(kUnseen));
-  for (int row = 0; row < mosaic.rows; ++row) {
-    const float* sum = sum_.ptr<float>(row);
-    const float* weight = weight_.ptr<float>(row);
-    unsigned char* grey = mosaic.ptr(row);
-    for (int column = 0; column < mosaic.cols; ++column) {
-      if (!(weight[column] > 0.0F)) continue;
-      const float mean = std::round(sum[column] / weight[column]);
-      grey[column] = static_cast<unsigned char>(std::clamp(mean, 0.0F, kUnseen - 1.0F));
+  cv::parallel_for_({0, mosaic.rows}, [&](const cv::Range& rows) {
+    for (int row = rows.start; row < rows.end; ++row) {
+      const float* sum = sum_.ptr<float>(row);
+      const float* weight = weight_.ptr<float>(row);
+      unsigned char* grey = mosaic.ptr(row);
+      for (int column = 0; column < mosaic.cols; ++column) {
+        if (!(weight[column] > 0.0F)) continue;
+        const float mean = std::clamp(sum[column] / weight[column], 0.0F, kUnseen - 1.0F);
+        grey[column] = static_cast<unsigned char>(mean + 0.5F);
+      }
     }
-  }
+  });
   sum_.release();
   weight_.release();
   return mosaic;

@@ -1,11 +1,15 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <list>
+#include <span>
 #include <unordered_map>
 #include <utility>
+#include <vector>
 
 #include <opencv2/core.hpp>
+#include <opencv2/core/utility.hpp>
 
 #include "fathom/datasets/frame_source.hpp"
 
@@ -17,16 +21,31 @@ class DecodedPictures {
   DecodedPictures(const FrameSource& source, std::size_t most_bytes)
       : source_(source), most_bytes_(most_bytes) {}
 
+  /// Before picture() of these in turn: where the first is not known it is decoded beside the next
+  /// ones, as many as there are threads.
+  void prepare(std::span<const std::size_t> frames) {
+    if (frames.empty() || places_.contains(frames.front())) return;
+    const auto side_by_side = static_cast<std::size_t>(std::max(1, cv::getNumThreads()));
+    std::vector<std::size_t> missing;
+    for (auto at = frames.begin(); at != frames.end() && missing.size() < side_by_side; ++at) {
+      if (!places_.contains(*at)) missing.push_back(*at);
+    }
+    std::vector<cv::Mat> pictures(missing.size());
+    cv::parallel_for_({0, static_cast<int>(missing.size())}, [&](const cv::Range& range) {
+      for (int i = range.start; i < range.end; ++i) {
+        pictures[static_cast<std::size_t>(i)] = source_.image(missing[static_cast<std::size_t>(i)]);
+      }
+    });
+    for (std::size_t i = missing.size(); i-- > 0;) keep(missing[i], pictures[i]);
+  }
+
   cv::Mat picture(std::size_t frame) {
     const auto known = places_.find(frame);
     if (known != places_.end()) {
       latest_first_.splice(latest_first_.begin(), latest_first_, known->second);
       return known->second->second;
     }
-    latest_first_.emplace_front(frame, source_.image(frame));
-    places_[frame] = latest_first_.begin();
-    bytes_ += bytes_of(latest_first_.front().second);
-    while (bytes_ > most_bytes_ && latest_first_.size() > 1) forget_last();
+    keep(frame, source_.image(frame));
     return latest_first_.front().second;
   }
 
@@ -35,6 +54,12 @@ class DecodedPictures {
 
   static std::size_t bytes_of(const cv::Mat& picture) {
     return picture.total() * picture.elemSize();
+  }
+  void keep(std::size_t frame, const cv::Mat& picture) {
+    latest_first_.emplace_front(frame, picture);
+    places_[frame] = latest_first_.begin();
+    bytes_ += bytes_of(picture);
+    while (bytes_ > most_bytes_ && latest_first_.size() > 1) forget_last();
   }
   void forget_last() {
     bytes_ -= bytes_of(latest_first_.back().second);

@@ -3,8 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <numeric>
+#include <vector>
 
 #include <Eigen/QR>
+#include <opencv2/core/utility.hpp>
 #include <opencv2/imgproc.hpp>
 
 namespace fathom {
@@ -31,6 +35,27 @@ Terms terms_at(double x, double y) {
     for (std::size_t j = 0; j <= degree; ++j) terms(next++) = x_to[degree - j] * y_to[j];
   }
   return terms;
+}
+
+// Of a polynomial in x, by power.
+using Powers = std::array<double, kDegree + 1>;
+
+// Of the polynomial in x and y, with y held.
+Powers along_row(const Eigen::VectorXd& monomials, double y) {
+  Powers by_x{};
+  int next = 0;
+  for (std::size_t degree = 0; degree < by_x.size(); ++degree) {
+    double y_to = 1.0;
+    for (std::size_t j = 0; j <= degree; ++j, y_to *= y)
+      by_x[degree - j] += monomials(next++) * y_to;
+  }
+  return by_x;
+}
+
+double value_at(const Powers& by_x, double x) {
+  double value = 0.0;
+  for (std::size_t i = by_x.size(); i-- > 0;) value = value * x + by_x[i];
+  return value;
 }
 
 double centred(int i, int count) {
@@ -93,15 +118,20 @@ cv::Mat FlatField::gain(double independent) const {
   cv::Mat gain(size_, CV_32F, cv::Scalar(1.0));
   if (common.isZero(0.0)) return gain;
   const Eigen::VectorXd monomials = monomials_from_basis_ * common;
-  double sum = 0.0;
-  for (int v = 0; v < size_.height; ++v) {
-    for (int u = 0; u < size_.width; ++u) {
-      const double field =
-          std::exp(terms_at(centred(u, size_.width), centred(v, size_.height)).dot(monomials));
-      sum += field;
-      gain.at<float>(v, u) = static_cast<float>(1.0 / field);
+  std::vector<double> sums(static_cast<std::size_t>(size_.height));
+  cv::parallel_for_({0, size_.height}, [&](const cv::Range& rows) {
+    for (int v = rows.start; v < rows.end; ++v) {
+      const Powers by_x = along_row(monomials, centred(v, size_.height));
+      float* const row = gain.ptr<float>(v);
+      double& sum = sums[static_cast<std::size_t>(v)];
+      for (int u = 0; u < size_.width; ++u) {
+        const double field = std::exp(value_at(by_x, centred(u, size_.width)));
+        sum += field;
+        row[u] = static_cast<float>(1.0 / field);
+      }
     }
-  }
+  });
+  const double sum = std::accumulate(sums.begin(), sums.end(), 0.0);
   gain *= sum / size_.area();
   return gain;
 }

@@ -1,6 +1,8 @@
 #include "illumination.hpp"
 
 #include <algorithm>
+#include <cstddef>
+#include <span>
 
 #include "flat_field.hpp"
 
@@ -34,13 +36,18 @@ double independent_count(const Camera& camera, const std::vector<PlacedPicture>&
 cv::Mat learnt_gain(const Camera& camera, DecodedPictures& decoded,
                     const std::vector<PlacedPicture>& pictures) {
   std::vector<PlacedPicture> samples;
+  std::vector<std::size_t> frames;
   const std::size_t count = std::min(pictures.size(), kMostSamples);
   for (std::size_t i = 0; i < count; ++i) {
     samples.push_back(pictures[i * pictures.size() / count]);
+    frames.push_back(samples.back().frame);
   }
   const CameraModel& model = camera.model();
   FlatField field(cv::Size(model.width, model.height));
-  for (const PlacedPicture& sample : samples) field.add(decoded.picture(sample.frame));
+  for (std::size_t i = 0; i < count; ++i) {
+    decoded.prepare(std::span(frames).subspan(i));
+    field.add(decoded.picture(frames[i]));
+  }
   return field.gain(independent_count(camera, samples));
 }
 

@@ -1,5 +1,8 @@
 #include "fathom/report/mosaic.hpp"
 
+#include <algorithm>
+#include <cstddef>
+
 #include "blend.hpp"
 #include "decoded_pictures.hpp"
 #include "exposure.hpp"
@@ -25,7 +28,10 @@ std::vector<cv::Mat> make_mosaics(const FrameSource& source, std::span<const Mos
   const bool has_seams = largest->blend == MosaicBlend::seams;
   DecodedPictures decoded(source, TileOptions{}.cache_bytes);
   const cv::Mat gain = learnt_gain(source.camera(), decoded, largest->pictures);
+  std::vector<std::size_t> frames;
+  for (const auto& [frame, mosaics] : uses) frames.push_back(frame);
   const auto evenly_lit = [&](std::size_t frame) {
+    decoded.prepare({std::ranges::lower_bound(frames, frame), frames.end()});
     return lit_evenly(decoded.picture(frame), gain);
   };
   std::vector<ExposureGains> exposure;
