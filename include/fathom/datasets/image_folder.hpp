@@ -3,11 +3,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "fathom/datasets/file_ids.hpp"
 #include "fathom/datasets/folder_sensors.hpp"
 #include "fathom/datasets/frame_source.hpp"
 #include "fathom/datasets/odometry_gaps.hpp"
@@ -81,11 +81,6 @@ class ImageFolder : public FrameSource {
   void read_odometry(const OdometryGaps& gaps);
   void read_ground_truth();
 
-  struct PictureId {
-    std::once_flag once;
-    std::uint64_t value = 0;
-  };
-
   std::filesystem::path mav0_;
   Camera camera_;
   std::vector<FrameInfo> infos_;
@@ -94,7 +89,7 @@ class ImageFolder : public FrameSource {
   FolderSensors sensors_;
   RecordedOdometry odometry_;
   std::vector<std::string> remarks_;
-  mutable std::vector<PictureId> ids_;
+  FileIds ids_;
   bool has_odometry_ = false;
   bool has_ground_truth_ = false;
 };

@@ -2,12 +2,12 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "fathom/core/options.hpp"
+#include "fathom/datasets/file_ids.hpp"
 #include "fathom/datasets/frame_source.hpp"
 
 namespace fathom {
@@ -67,11 +67,6 @@ class PictureFolder : public FrameSource {
   const std::vector<std::string>& remarks() const { return remarks_; }
 
  private:
-  struct PictureId {
-    std::once_flag once;
-    std::uint64_t value = 0;
-  };
-
   void find_pictures();
   void set_times(double interval_s);
   void set_altitudes(const PictureFolderOptions& options);
@@ -84,7 +79,7 @@ class PictureFolder : public FrameSource {
   Camera camera_;
   cv::Mat mask_;
   std::vector<std::string> remarks_;
-  mutable std::vector<PictureId> ids_;
+  FileIds ids_;
   bool has_odometry_ = false;
 };
 

@@ -9,8 +9,6 @@
 #include <utility>
 
 #include "attitude_series.hpp"
-#include "fathom/core/files.hpp"
-#include "fathom/core/hash.hpp"
 #include "fathom/core/input_error.hpp"
 #include "fathom/datasets/asl_files.hpp"
 #include "fathom/datasets/picture_file.hpp"
@@ -73,7 +71,7 @@ ImageFolder::ImageFolder(const fs::path& path, const OdometryGaps& gaps) : mav0_
   std::ranges::copy(leave_out_contradicted(sensors_, infos_), std::back_inserter(remarks_));
   std::ranges::copy(unread_sensor_keys(mav0_), std::back_inserter(remarks_));
   remark(hidden_pictures_remark(pictures_.front().parent_path()));
-  ids_ = std::vector<PictureId>(pictures_.size());
+  ids_ = FileIds(pictures_.size());
   ImageFolder::image(0);  // refuses what cannot be read before a run starts
 }
 
@@ -206,11 +204,7 @@ cv::Mat ImageFolder::image(std::size_t i) const {
 }
 
 std::uint64_t ImageFolder::picture_id(std::size_t i) const {
-  PictureId& id = ids_[i];
-  // What throws is tried again by the next one who asks.
-  std::call_once(
-      id.once, [&] { id.value = Hash().add("picture file").add(read_file(pictures_[i])).value(); });
-  return id.value;
+  return ids_.of(i, pictures_[i]);
 }
 
 }  // namespace fathom

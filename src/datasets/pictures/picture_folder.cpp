@@ -6,8 +6,6 @@
 #include <fmt/format.h>
 
 #include "exif.hpp"
-#include "fathom/core/files.hpp"
-#include "fathom/core/hash.hpp"
 #include "fathom/core/input_error.hpp"
 #include "fathom/core/text.hpp"
 #include "fathom/datasets/camera_options.hpp"
@@ -100,7 +98,7 @@ PictureFolder::PictureFolder(const PictureFolderOptions& options) : folder_(opti
     mask_ = read_mask(options.mask, {camera_.model().width, camera_.model().height});
     other_files_.emplace_back(options.mask);
   }
-  ids_ = std::vector<PictureId>(pictures_.size());
+  ids_ = FileIds(pictures_.size());
 }
 
 void PictureFolder::find_pictures() {
@@ -203,11 +201,7 @@ cv::Mat PictureFolder::image(std::size_t i) const {
 }
 
 std::uint64_t PictureFolder::picture_id(std::size_t i) const {
-  PictureId& id = ids_[i];
-  // What throws is tried again by the next one who asks.
-  std::call_once(
-      id.once, [&] { id.value = Hash().add("picture file").add(read_file(pictures_[i])).value(); });
-  return id.value;
+  return ids_.of(i, pictures_[i]);
 }
 
 std::vector<fs::path> PictureFolder::files() const {
