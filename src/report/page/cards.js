@@ -66,11 +66,11 @@ const charts = [
     exists: (cell) => sum(cell.estimators.map((one) => one.keyframes.keyframe.length)) > 0,
     caption: (cell) => `${sentence(conditions(cell))}. NEES / 3 of an honest estimator is 1; ` +
       'the grey band holds 95 % of its means over independent draws at one keyframe. Above: overconfident.'},
-  {id: 'outcomes', title: 'Outcomes', wide: true, plots: outcomePlots,
+  {id: 'outcomes', title: 'Outcomes', plots: outcomePlots,
     exists: (cell) => cell.estimators.some((one) => Object.keys(one.outcomes).length > 0),
     caption: (cell) => `${sentence(conditions(cell))}. ` +
       `Trials by how their run ended. Converged and iteration limit count as done; all means are over those.`},
-  {id: 'registrations', title: 'Registration map', wide: true, plots: registrationPlots,
+  {id: 'registrations', title: 'Registration map', wide: () => registrationPictures().length > 1, plots: registrationPlots,
     exists: (cell) => cell.example.estimators.some((one) => one.loops.length > 0),
     caption: (cell) => `${exampleNote()}; ${conditions(cell)}. ` +
       `Keyframe by keyframe: filled square used, × rejected by the gate, △ lost with a failed update. Estimators with the same outcome share a map.`},

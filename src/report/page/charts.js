@@ -192,10 +192,16 @@ function thinnedNote(one) {
   return one.loops.length < sum(Object.values(one.loops_in_all)) ? `; ${one.loops.length} drawn` : '';
 }
 
+const withLoops = () => cellNow().example.estimators.filter((one) => one.loops.length > 0);
+
+function registrationPictures() {
+  const shown = withLoops().filter((one) => isShown(one.name));
+  return picturesOf(shown.map((one) => ({name: one.name, rows: loopRows(one)})), ({older, newer, fate}) => [older, newer, fate]);
+}
+
 function registrationPlots(card) {
-  const drawn = cellNow().example.estimators.filter((one) => one.loops.length > 0);
-  const shown = drawn.filter((one) => isShown(one.name));
-  const pictures = picturesOf(shown.map((one) => ({name: one.name, rows: loopRows(one)})), ({older, newer, fate}) => [older, newer, fate]);
+  const drawn = withLoops();
+  const pictures = registrationPictures();
   const ends = drawn.flatMap((one) => one.loops.map(([from, to]) => Math.max(from, to)));
   const most = Math.max(1, Math.min(4, Math.floor(widthOf(card) / 260)));
   const columns = Math.ceil(pictures.length / Math.ceil(pictures.length / most));
@@ -204,7 +210,7 @@ function registrationPlots(card) {
     .map(([fate, n]) => `${n} ${fate}`).join(', ') + thinnedNote(one);
   return pictures.map(({names, rows}) => ({
     spec: 'registrations', width: side, height: side, data: {rows},
-    heading: `${namesOf(names.map(labelOf))}: ${countsText(shown.find((one) => one.name === names[0]))}`,
+    heading: `${namesOf(names.map(labelOf))}: ${countsText(drawn.find((one) => one.name === names[0]))}`,
     signals: {last: Math.max(1, ...ends)},
   }));
 }
