@@ -38,7 +38,11 @@ class OneRun {
     std::optional<StagedFolder> folder;
     if (!request_.out.empty()) folder.emplace(request_.out, request_.inputs);
     const Recorder recorder(configuration_, request_.registrations);
+    // While pictures are looked at; not beside the estimator, whose cost is measured.
+    std::future<Fingerprint> data;
+    if (folder) data = std::async([&] { return fingerprint(recorder.data().files()); });
     record(recorder);
+    if (data.valid()) data.wait();
     RunOutcome done{recording_, evaluated(), std::nullopt,
                     configuration_.study.evaluation.alignment};
     // What is wrong with the set-up comes first: it makes what follows.
@@ -49,7 +53,7 @@ class OneRun {
     std::ranges::copy(recording_->remarks, std::back_inserter(remarks));
     judge(done, set_up_is_wrong, remarks);
     if (folder) {
-      write(*folder, recorder, done, remarks);
+      write(*folder, recorder, data.get(), done, remarks);
     }
     for (const std::string& remark : remarks) observer_.remark(remark);
     return done;
@@ -100,13 +104,12 @@ class OneRun {
                             registry_, {.metrics = configuration_.study.evaluation}, options);
   }
 
-  void write(StagedFolder& folder, const Recorder& recorder, const RunOutcome& done,
-             const std::vector<std::string>& remarks) const {
-    const Fingerprint data =
-        with_code(fingerprint(recorder.data().files()), estimators_in({configuration_}), registry_);
+  void write(StagedFolder& folder, const Recorder& recorder, const Fingerprint& data,
+             const RunOutcome& done, const std::vector<std::string>& remarks) const {
     write_run(folder.path(), *recording_, done.result,
-              manifest_json(request_.made_by, configuration_.in_force, data, *recording_,
-                            done.result, registry_, remarks));
+              manifest_json(request_.made_by, configuration_.in_force,
+                            with_code(data, estimators_in({configuration_}), registry_),
+                            *recording_, done.result, registry_, remarks));
     std::vector<Result> results{done.result};
     if (done.optimum) {
       results.push_back(*done.optimum);
