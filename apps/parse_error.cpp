@@ -35,6 +35,17 @@ std::string unknown_flag(const std::string& word, const std::vector<std::string>
                      suggestion(name_in(word), known));
 }
 
+// "--batch" is "--mode batch".
+std::string unknown_flag_of(const DescribedCommand& command, const std::string& word) {
+  const std::string choice = word.substr(word.find_first_not_of('-'));
+  for (const DescribedFlag& flag : command.flags) {
+    if (std::ranges::find(flag.choices, choice) == flag.choices.end()) continue;
+    return fmt::format("unknown flag {}; did you mean {}?", in_quotes(word),
+                       in_quotes(flag.names.back() + " " + choice));
+  }
+  return unknown_flag(word, flag_names_of(command));
+}
+
 // CLI11 begins its text with the name of the argument or flag.
 const DescribedFlag* meant_by(const DescribedCommand& command, const std::string& text) {
   const std::string name = text.substr(0, text.find_first_of(" :"));
@@ -56,7 +67,7 @@ std::string of_command(const CLI::App& app, const CLI::ParseError& error) {
   const std::vector<std::string> left = app.remaining();
   // First of all: a flag that is misspelt leaves its value, or lacks what is required.
   if (const auto flag = std::ranges::find_if(left, is_flag); flag != left.end()) {
-    return unknown_flag(*flag, flag_names_of(command));
+    return unknown_flag_of(command, *flag);
   }
   const DescribedFlag* const meant = meant_by(command, error.what());
   if (dynamic_cast<const CLI::RequiredError*>(&error) != nullptr && meant != nullptr) {

@@ -85,7 +85,7 @@ TEST_F(Usage, MisuseIsOneLineAndStatusTwo) {
       {{"run", "a.yaml", "--ou", "x"}, "unknown flag '--ou'; did you mean '--out'?"},
       {{"run", "--sett", "a=b"}, "unknown flag '--sett'; did you mean '--set'?"},
       {{"run", "a.yaml", "--sseed=3"}, "unknown flag '--sseed'; did you mean '--seed'?"},
-      {{"solve", "g.g2o", "--batch"}, "unknown flag '--batch' (see fathom solve --help)"},
+      {{"solve", "g.g2o", "--batch"}, "unknown flag '--batch'; did you mean '--mode batch'?"},
       {{"run", "a.yaml", "--out"}, "--out"},
       {{"run", "a.yaml", "--out", "--no-mosaic"}, "got the flag '--no-mosaic'; a file of this"},
       {{"run", "a.yaml", "--seed", "x"}, "--seed"},

@@ -1,4 +1,5 @@
 #include <map>
+#include <mutex>
 #include <random>
 
 #include <gmock/gmock.h>
@@ -20,10 +21,14 @@ class CountedFloor : public KnownFloor {
  public:
   using KnownFloor::KnownFloor;
   cv::Mat image(std::size_t i) const override {
+    const std::scoped_lock lock(counting_);
     ++decoded[i];
     return KnownFloor::image(i);
   }
   mutable std::map<std::size_t, int> decoded;
+
+ private:
+  mutable std::mutex counting_;
 };
 
 struct Joined {

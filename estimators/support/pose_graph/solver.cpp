@@ -36,6 +36,7 @@ class Minimiser {
  private:
   // False where the solve has ended.
   bool take_step() {
+    rise_ = 0.0;
     if (!factorise()) return raise_damping();
     equations_.solve_step();
     const double promised = equations_.predicted_decrease();
@@ -60,6 +61,7 @@ class Minimiser {
       lower_damping();
       return true;
     }
+    rise_ = cost - result_.cost;
     return raise_damping();
   }
 
@@ -128,12 +130,18 @@ class Minimiser {
   bool raise_damping() {
     damping_ = std::max(tuning_.first_damping, tuning_.damping_increase * damping_);
     if (damping_ > tuning_.largest_damping) {
-      result_.outcome = Outcome::numerical_failure;
+      result_.outcome = is_at_jump() ? Outcome::iteration_limit : Outcome::numerical_failure;
       return false;
     }
     hessian_ = Hessian::gauss_newton;
     equations_.linearise(nodes_, hessian_, damping_);
     return true;
+  }
+
+  // Where a heading residual passes ±π, full covariances make F jump. The least F may be beside a
+  // jump: then the shortest step makes it rise by far more than rounding does.
+  bool is_at_jump() const {
+    return std::isfinite(rise_) && rise_ > tuning_.jump_share * result_.cost;
   }
 
   void lower_damping() {
@@ -155,6 +163,7 @@ class Minimiser {
   SolveLimits limits_;
   SolverTuning tuning_;
   SolveResult result_;
+  double rise_ = 0.0;  ///< of F by the last step that failed; 0 where there was no step
   std::vector<Node> trial_;
   std::vector<Node> chord_;
   std::optional<PositionProblem> positions_;

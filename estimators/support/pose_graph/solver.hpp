@@ -41,6 +41,8 @@ struct SolverTuning {
   /// agree, F itself is rounding.
   double rounding_share = 1e-11;
   double rounding_chi2 = 1e-12;
+  /// A rise of F by a larger share over a step that is nearly nothing is a jump.
+  double jump_share = 1e-6;
   /// A step that promises less, in squared sigmas, is one of rounding.
   double least_promise_chi2 = 1e-20;
 };
@@ -58,6 +60,8 @@ struct SolveResult {
 /// Newton near the end; else Levenberg-Marquardt damping until it does. It has converged when a
 /// step promises to lower F, or moves the poses, by less than the tolerance, as a share: one with
 /// the exact Hessian of the estimate, or of one just before it (SolverTuning::chord_share).
+/// Where F jumps, as a heading residual passes ±π, and is least beside the jump, no step lowers it:
+/// iteration_limit.
 /// `first`: the Hessian of the first step, exact where the start is known to be near a minimum.
 SolveResult minimise(NormalEquations& equations, std::vector<Node>& nodes,
                      const SolveLimits& limits, const SolverTuning& tuning = {},
