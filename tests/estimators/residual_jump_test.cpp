@@ -19,8 +19,7 @@ MeasurementLog turned_loop(double loop_x) {
                                                  sigma.cwiseAbs2().asDiagonal().toDenseMatrix()));
   Eigen::Matrix3d C = Eigen::Matrix3d::Identity();
   C(0, 2) = C(2, 0) = -0.7;
-  log.add_registration(
-      RelativePose::from_covariance(0, 1, {loop_x, 0.0, std::numbers::pi}, C));
+  log.add_registration(RelativePose::from_covariance(0, 1, {loop_x, 0.0, std::numbers::pi}, C));
   return log;
 }
 
