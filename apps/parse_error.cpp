@@ -37,7 +37,7 @@ std::string unknown_flag(const std::string& word, const std::vector<std::string>
 
 // "--batch" is "--mode batch".
 std::string unknown_flag_of(const DescribedCommand& command, const std::string& word) {
-  const std::string choice = word.substr(word.find_first_not_of('-'));
+  const std::string choice = word.substr(std::min(word.size(), word.find_first_not_of('-')));
   for (const DescribedFlag& flag : command.flags) {
     if (std::ranges::find(flag.choices, choice) == flag.choices.end()) continue;
     return fmt::format("unknown flag {}; did you mean {}?", in_quotes(word),

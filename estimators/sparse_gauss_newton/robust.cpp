@@ -121,7 +121,8 @@ class RobustBatch {
                          SolveResult& best) {
     std::vector<Node> other = plain_solution(start);
     const double reached = robust_cost(nodes, options_.loss);
-    if (is_done(best.outcome) && !(robust_cost(other, options_.loss) < reached)) return;
+    const bool is_settled = best.outcome == Outcome::converged;
+    if (is_settled && !(robust_cost(other, options_.loss) < reached)) return;
     const SolveResult solved = descent(other);
     if (!is_done(solved.outcome)) return;
     if (is_done(best.outcome) && !(solved.cost < best.cost)) return;

@@ -17,9 +17,11 @@ std::string hex(std::uint64_t value) {
 
 }  // namespace
 
-Fingerprint fingerprint(const std::vector<std::filesystem::path>& files) {
+Fingerprint fingerprint(const std::vector<std::filesystem::path>& files,
+                        const std::stop_token& stop) {
   Fingerprint hashes;
   for (const std::filesystem::path& path : files) {
+    if (stop.stop_requested()) break;
     hashes.emplace_back(path.string(), hex(Hash().add("file").add(read_file(path)).value()));
   }
   std::ranges::sort(hashes);

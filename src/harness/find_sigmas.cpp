@@ -4,6 +4,7 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "fathom/front_end/pair_registrar.hpp"
 #include "fathom/harness/recording_facts.hpp"
 
 namespace fathom {
@@ -122,8 +123,10 @@ std::vector<FoundSigma> find_sigmas(const Recording& recording, const FrameSourc
   VarianceEstimate estimate;
   if (recording.log.registration_count() > 0) {
     const auto optimum = batch_optimum(recording.log, registry);
+    VarianceOptions of_pictures;  // the threads that registered them
+    of_pictures.threads = static_cast<int>(PairRegistrar::look_ahead());
     estimate = estimate_variance(recording.log, optimum ? optimum->poses : recording.log.odometry(),
-                                 components);
+                                 components, of_pictures);
   }
   std::vector<FoundSigma> found;
   for (std::size_t i = 0; i < components.size(); ++i) {

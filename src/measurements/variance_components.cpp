@@ -6,7 +6,6 @@
 #include <exception>
 #include <limits>
 #include <string>
-#include <thread>
 #include <utility>
 
 #include "contradicted.hpp"
@@ -113,8 +112,7 @@ class Relinearisation {
                                        const DevianceSearch::Optimum& best) const {
     std::vector<SigmaEstimate> estimates(components_.size());
     std::vector<std::exception_ptr> errors(components_.size());
-    const auto processors = std::max(1U, std::thread::hardware_concurrency());
-    Workers workers(static_cast<int>(std::min<std::size_t>(components_.size(), processors)));
+    Workers workers(std::max(1, std::min(options_.threads, static_cast<int>(components_.size()))));
     for_ranges(&workers, components_.size(), 1, [&](std::size_t j, std::size_t /*end*/) {
       try {
         RestrictedLikelihood likelihood(log_, trajectory, components_, used_);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <future>
 #include <iterator>
+#include <stop_token>
 #include <utility>
 
 #include "fathom/core/files.hpp"
@@ -23,6 +24,13 @@ namespace fs = std::filesystem;
 
 constexpr const char* kBatchOptimum = "batch_optimum";
 
+// Asks to stop when it goes.
+struct Stop {
+  std::stop_source source;
+
+  ~Stop() { source.request_stop(); }
+};
+
 // A run as it comes about.
 class OneRun {
  public:
@@ -38,11 +46,7 @@ class OneRun {
     std::optional<StagedFolder> folder;
     if (!request_.out.empty()) folder.emplace(request_.out, request_.inputs);
     const Recorder recorder(configuration_, request_.registrations);
-    // While pictures are looked at; not beside the estimator, whose cost is measured.
-    std::future<Fingerprint> data;
-    if (folder) data = std::async([&] { return fingerprint(recorder.data().files()); });
-    record(recorder);
-    if (data.valid()) data.wait();
+    const Fingerprint data = record(recorder, folder.has_value());
     RunOutcome done{recording_, evaluated(), std::nullopt,
                     configuration_.study.evaluation.alignment};
     // What is wrong with the set-up comes first: it makes what follows.
@@ -53,7 +57,7 @@ class OneRun {
     std::ranges::copy(recording_->remarks, std::back_inserter(remarks));
     judge(done, set_up_is_wrong, remarks);
     if (folder) {
-      write(*folder, recorder, data.get(), done, remarks);
+      write(*folder, recorder, data, done, remarks);
     }
     for (const std::string& remark : remarks) observer_.remark(remark);
     return done;
@@ -62,10 +66,20 @@ class OneRun {
  private:
   TrialNoise noise() const { return {static_cast<std::uint64_t>(configuration_.seed), 0}; }
 
-  void record(const Recorder& recorder) {
+  // Returns the hashes of the data, if asked for. They are made while pictures are looked at, and
+  // not beside the estimator, whose cost is measured.
+  Fingerprint record(const Recorder& recorder, bool with_hashes) {
+    std::future<Fingerprint> hashes;
+    const Stop stop;  // where recording throws
+    if (with_hashes) {
+      hashes = std::async([&, token = stop.source.get_token()] {
+        return fingerprint(recorder.data().files(), token);
+      });
+    }
     recording_ = std::make_shared<const Recording>(
         recorder.record(configuration_, configuration_.reference, registry_, noise(),
                         [this](const FrontEndProgress& at) { observer_.front_end_progress(at); }));
+    return with_hashes ? hashes.get() : Fingerprint{};
   }
 
   Result evaluated() const {

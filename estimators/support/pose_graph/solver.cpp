@@ -55,13 +55,13 @@ class Minimiser {
       hessian_ = Hessian::exact;
     }
     double cost = equations_.linearise(trial_, hessian_, damping_);
+    rise_ = cost - result_.cost;
     if (is_no_rise(cost) || follow_headings(cost)) {
       nodes_.swap(trial_);
       result_.cost = cost;
       lower_damping();
       return true;
     }
-    rise_ = cost - result_.cost;
     return raise_damping();
   }
 
@@ -141,7 +141,7 @@ class Minimiser {
   // Where a heading residual passes ±π, full covariances make F jump. The least F may be beside a
   // jump: then the shortest step makes it rise by far more than rounding does.
   bool is_at_jump() const {
-    return std::isfinite(rise_) && rise_ > tuning_.jump_share * result_.cost;
+    return std::isfinite(rise_) && rise_ > tuning_.jump_share * result_.cost + tuning_.jump_chi2;
   }
 
   void lower_damping() {

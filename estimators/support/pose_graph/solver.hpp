@@ -41,8 +41,10 @@ struct SolverTuning {
   /// agree, F itself is rounding.
   double rounding_share = 1e-11;
   double rounding_chi2 = 1e-12;
-  /// A rise of F by a larger share over a step that is nearly nothing is a jump.
+  /// A rise of F by more, as a share and in squared sigmas, over a step that is nearly nothing is a
+  /// jump.
   double jump_share = 1e-6;
+  double jump_chi2 = 1e-6;
   /// A step that promises less, in squared sigmas, is one of rounding.
   double least_promise_chi2 = 1e-20;
 };

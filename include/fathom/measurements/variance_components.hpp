@@ -43,6 +43,7 @@ struct VarianceOptions {
   /// Change of the deviance −2ℓ that a step of the search or a new linearisation leaves alone. An
   /// interval ends where it is met to 1000 times this, 1e-3 of 3.84.
   double tolerance = 1e-6;
+  int threads = 1;  ///< at most; no result depends on it
 };
 
 /// What the survey says of one component.

@@ -22,10 +22,15 @@ class DecodedPictures {
       : source_(source), most_bytes_(most_bytes) {}
 
   /// Before picture() of these in turn: where the first is not known it is decoded beside the next
-  /// ones, as many as there are threads.
+  /// ones, as many as there are threads and room for.
   void prepare(std::span<const std::size_t> frames) {
     if (frames.empty() || places_.contains(frames.front())) return;
-    const auto side_by_side = static_cast<std::size_t>(std::max(1, cv::getNumThreads()));
+    // The first picture of all may take every thread: a simulated floor is drawn for it.
+    if (latest_first_.empty()) return;
+    const std::size_t room =
+        most_bytes_ / std::max<std::size_t>(1, bytes_of(latest_first_.front().second));
+    const auto threads = static_cast<std::size_t>(std::max(1, cv::getNumThreads()));
+    const std::size_t side_by_side = std::clamp<std::size_t>(room, 1, threads);
     std::vector<std::size_t> missing;
     for (auto at = frames.begin(); at != frames.end() && missing.size() < side_by_side; ++at) {
       if (!places_.contains(*at)) missing.push_back(*at);
