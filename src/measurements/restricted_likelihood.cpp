@@ -4,8 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include <Eigen/Eigenvalues>
-
 namespace fathom {
 namespace {
 
@@ -26,18 +24,6 @@ Eigen::SparseMatrix<double> normal_matrix(const Eigen::SparseMatrix<double>& B,
                                           const Eigen::VectorXd& D) {
   const Eigen::SparseMatrix<double> square = B.transpose() * (D.asDiagonal() * B);
   return square.triangularView<Eigen::Lower>();
-}
-
-// ρᵀ Q⁻¹ ρ over the directions that Q has.
-double pseudo_chi2(const Eigen::Vector3d& rho, const Eigen::Matrix3d& Q) {
-  constexpr double kSmallest = 1e-10;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(Q);
-  double sum = 0.0;
-  for (int i = 0; i < 3; ++i) {
-    const double along = solver.eigenvectors().col(i).dot(rho);
-    if (solver.eigenvalues()[i] > kSmallest) sum += along * along / solver.eigenvalues()[i];
-  }
-  return sum;
 }
 
 }  // namespace
@@ -233,34 +219,6 @@ void RestrictedLikelihood::add_derivatives(const Eigen::VectorXd& log_sigma, Res
     const Eigen::MatrixXd left = p - rows_.B() * (scale_.asDiagonal() * answer);
     fit.information.row(own_) = 4.0 * own_sigma_ * own_weight_ * own_u.transpose() * left;
   }
-}
-
-// A registration's residual ρ = √w (c_r + B_r y) has the covariance Q = I − w B_r S H⁻¹ S B_rᵀ;
-// predicted by all others it is Q⁻¹ ρ, of covariance Q⁻¹. Where the others say nothing Q and ρ are
-// zero.
-std::vector<double> RestrictedLikelihood::left_out_chi2(const Eigen::VectorXd& log_sigma) {
-  std::vector<double> chi2(rows_.registrations().size(), std::numeric_limits<double>::quiet_NaN());
-  if (!std::isfinite(deviance(log_sigma))) return chi2;
-  const SparseInverse& inverse = inverted();
-  const Eigen::SparseMatrix<double, Eigen::RowMajor> B = rows_.B();
-  for (std::size_t i = 0; i < chi2.size(); ++i) {
-    const Index first = rows_.registrations()[i];
-    if (first < 0) continue;
-    const double root_w = is_own_row_[first] > 0.0 ? std::sqrt(own_weight_) : 1.0;
-    const Index count = B.outerIndexPtr()[first + 1] - B.outerIndexPtr()[first];
-    const auto* const columns = B.innerIndexPtr() + B.outerIndexPtr()[first];
-    Eigen::MatrixXd J(3, count);
-    Eigen::MatrixXd Z(count, count);
-    for (Index a = 0; a < count; ++a) {
-      for (Index b = 0; b < count; ++b) Z(a, b) = inverse(columns[a], columns[b]);
-      for (Index row = 0; row < 3; ++row) {
-        J(row, a) = root_w * scale_[columns[a]] * B.valuePtr()[B.outerIndexPtr()[first + row] + a];
-      }
-    }
-    const Eigen::Matrix3d Q = Eigen::Matrix3d::Identity() - J * Z * J.transpose();
-    chi2[i] = pseudo_chi2(root_w * residuals_.segment<3>(first), Q);
-  }
-  return chi2;
 }
 
 }  // namespace fathom
