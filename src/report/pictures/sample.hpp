@@ -7,7 +7,8 @@
 namespace fathom {
 
 /// Between the four pixels around (u, v), whose places are given.
-inline float bilinear(const float* top, const float* bottom, int left, int right, float fu, float fv) {
+inline float bilinear(const float* top, const float* bottom, int left, int right, float fu,
+                      float fv) {
   const float above = top[left] + fu * (top[right] - top[left]);
   const float below = bottom[left] + fu * (bottom[right] - bottom[left]);
   return above + fv * (below - above);
