@@ -228,7 +228,7 @@ cv::Mat Blend::finish() {
       for (int column = 0; column < mosaic.cols; ++column) {
         if (!(weight[column] > 0.0F)) continue;
         const float mean = std::clamp(sum[column] / weight[column], 0.0F, kUnseen - 1.0F);
-        grey[column] = static_cast<unsigned char>(mean + 0.5F);
+        grey[column] = static_cast<unsigned char>(std::lround(mean));
       }
     }
   });
