@@ -74,8 +74,7 @@ class RestrictedLikelihood {
   JointRows rows_;
   Index own_ = -1;                               // the component of own errors
   std::vector<std::vector<Governed>> governed_;  // of own errors none: they are no elements of n
-  Eigen::VectorXd
-      is_own_row_;  // 1 for the three of each told registration, if it has that component
+  Eigen::VectorXd is_own_row_;                   // 1 where a row has own errors, else 0
   double own_sigma_ = 0.0;
   double own_weight_ = 1.0;     // w = 1 / (1 + σ²)
   Eigen::VectorXd weights_;     // of rows: w of those, or 1
@@ -87,10 +86,9 @@ class RestrictedLikelihood {
   Eigen::SparseMatrix<double> H_;  // lower triangle
   SparseFactor factor_;
   std::optional<SparseInverse> inverse_;
-  std::vector<Index>
-      own_places_;             // by element of H_, where the inverse has it; if there are own rows
-  Eigen::VectorXd v_;          // y in units of scale_
-  Eigen::VectorXd residuals_;  // c + B y
+  std::vector<Index> own_places_;  // by element of H_, its place in the inverse
+  Eigen::VectorXd v_;              // y in units of scale_
+  Eigen::VectorXd residuals_;      // c + B y
   double chi2_ = 0.0;
   Eigen::VectorXd at_;  // what was evaluated last, and what came of it
   double deviance_ = 0.0;

@@ -163,7 +163,7 @@ class Minimiser {
   SolveLimits limits_;
   SolverTuning tuning_;
   SolveResult result_;
-  double rise_ = 0.0;  ///< of F by the last step that failed; 0 where there was no step
+  double rise_ = 0.0;  ///< of F by the last step; 0 where there was none
   std::vector<Node> trial_;
   std::vector<Node> chord_;
   std::optional<PositionProblem> positions_;
