@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <fmt/format.h>
+#include <span>
 
 #include "fathom/front_end/pair_registrar.hpp"
 #include "fathom/harness/recording_facts.hpp"
@@ -46,6 +48,29 @@ double assumed(Part part, const CovarianceOptions& options) {
 // σ of the component as its option has it.
 double in_option(Part part, double sigma) {
   return part == Part::own ? std::hypot(1.0, sigma) : sigma;
+}
+
+void put_in_force(EstimatedSigmas& sigmas, Part part, double value) {
+  switch (part) {
+    case Part::altitude:
+      sigmas.altitude_m = value;
+      break;
+    case Part::tilt:
+      sigmas.tilt_rad = value;
+      break;
+    case Part::own:
+      sigmas.own_factor = value;
+      break;
+  }
+}
+
+EstimatedSigmas in_force(const std::vector<VarianceComponent>& components,
+                         std::span<const double> by_loops) {
+  EstimatedSigmas sigmas;
+  for (std::size_t i = 0; i < components.size(); ++i) {
+    put_in_force(sigmas, components[i].part, in_option(components[i].part, by_loops[i]));
+  }
+  return sigmas;
 }
 
 bool is_done(VarianceEstimate::Outcome outcome) {
@@ -115,9 +140,13 @@ void refuse_implausible(std::vector<FoundSigma>& found, const CovarianceOptions&
 
 }  // namespace
 
+bool are_assumed_too_small(const EstimatedSigmas& sigmas, const CovarianceOptions& options) {
+  return sigmas.own_factor > 1.0 && sigmas.tilt_rad > options.tilt();
+}
+
 std::vector<FoundSigma> find_sigmas(const Recording& recording, const FrameSource& measured,
                                     const CovarianceOptions& options,
-                                    const EstimatorRegistry& registry) {
+                                    const EstimatorRegistry& registry, bool with_intervals) {
   const auto components = unknown_components(recording, measured, options);
   if (components.empty()) return {};
   VarianceEstimate estimate;
@@ -125,6 +154,11 @@ std::vector<FoundSigma> find_sigmas(const Recording& recording, const FrameSourc
     const auto optimum = batch_optimum(recording.log, registry);
     VarianceOptions of_pictures;  // the threads that registered them
     of_pictures.threads = static_cast<int>(PairRegistrar::look_ahead());
+    if (!with_intervals) {
+      of_pictures.wants_intervals = [&](std::span<const double> by_loops) {
+        return !are_assumed_too_small(in_force(components, by_loops), options);
+      };
+    }
     estimate = estimate_variance(recording.log, optimum ? optimum->poses : recording.log.odometry(),
                                  components, of_pictures);
   }
@@ -155,18 +189,7 @@ std::vector<FoundSigma> find_sigmas(const Recording& recording, const FrameSourc
 EstimatedSigmas sigmas_of(const std::vector<FoundSigma>& found) {
   EstimatedSigmas sigmas;
   for (const FoundSigma& sigma : found) {
-    if (!sigma.is_found()) continue;
-    switch (sigma.part) {
-      case Part::altitude:
-        sigmas.altitude_m = sigma.in_force;
-        break;
-      case Part::tilt:
-        sigmas.tilt_rad = sigma.in_force;
-        break;
-      case Part::own:
-        sigmas.own_factor = sigma.in_force;
-        break;
-    }
+    if (sigma.is_found()) put_in_force(sigmas, sigma.part, sigma.in_force);
   }
   return sigmas;
 }

@@ -1,5 +1,8 @@
 #include "fathom/harness/recording.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "candidate_guide.hpp"
 #include "carried_readings.hpp"
 #include "fathom/harness/false_loops.hpp"
@@ -131,24 +134,32 @@ Recording record_with(const EstimatedSigmas& sigmas, Survey& survey,
   return recording;
 }
 
+bool have_intervals(const std::vector<FoundSigma>& found) {
+  return std::ranges::none_of(found, [](const FoundSigma& one) { return std::isnan(one.low); });
+}
+
 // Once with standard deviations as assumed, again as they are found. Pairs are registered once.
 Recording record_survey(Survey& survey, const Configuration& configuration,
                         const CandidateReference& reference, const EstimatorRegistry& registry,
                         const FrontEndProgressCallback& progress) {
   Recording recording = record_with({}, survey, configuration, reference, registry, progress);
   const CovarianceOptions& stated = configuration.front_end.registration.covariance;
-  const auto find = [&] { return find_sigmas(recording, survey.measured(), stated, registry); };
+  const auto find = [&](bool with_intervals) {
+    return find_sigmas(recording, survey.measured(), stated, registry, with_intervals);
+  };
   const auto record_again = [&](const EstimatedSigmas& sigmas) {
     survey.tell(sigmas);
     recording = record_with(sigmas, survey, configuration, reference, registry, {});
   };
-  std::vector<FoundSigma> found = find();
+  std::vector<FoundSigma> found = find(false);
   EstimatedSigmas sigmas = sigmas_of(found);
-  // What tilts do to second order is among a registration's own errors, so far by assumed ones.
-  if (sigmas.own_factor > 1.0 && sigmas.tilt_rad > stated.tilt()) {
+  if (are_assumed_too_small(sigmas, stated)) {
     sigmas.own_factor.reset();
     record_again(sigmas);
-    sigmas = sigmas_of(found = find());
+    sigmas = sigmas_of(found = find(true));
+  } else if (!have_intervals(found)) {
+    // They would be, but are refused.
+    sigmas = sigmas_of(found = find(true));
   }
   if (!sigmas.is_empty()) record_again(sigmas);
   recording.found_sigmas = std::move(found);

@@ -153,33 +153,42 @@ double DevianceSearch::rise(const Optimum& best, Index j, double log_sigma) {
                              : std::numeric_limits<double>::quiet_NaN();
 }
 
-// Steps that double until the profile is above the level, then regula falsi on the root of the
-// rise, which is nearly straight in log σ, halving where that is slow (Illinois).
-std::optional<double> DevianceSearch::end(const Optimum& best, Index j, double level,
-                                          double direction) {
+// √rise − √level.
+double DevianceSearch::beyond(const Optimum& best, Index j, double level, double log_sigma) {
+  return std::sqrt(std::max(0.0, rise(best, j, log_sigma))) - std::sqrt(level);
+}
+
+// Steps that double until the profile is above the level.
+std::optional<DevianceSearch::Bracket> DevianceSearch::bracket(const Optimum& best, Index j,
+                                                               double level, double direction) {
   warm_ = best.log_sigma;
   const double last = direction < 0.0 ? low_[j] : high_[j];
-  const auto beyond = [&](double t) {
-    return std::sqrt(std::max(0.0, rise(best, j, t))) - std::sqrt(level);
-  };
-  double inside = best.log_sigma[j];
-  double f_inside = -std::sqrt(level);
-  double outside = inside;
-  double f_outside = f_inside;
+  Bracket ends{best.log_sigma[j], 0.0, best.log_sigma[j], -std::sqrt(level)};
   double step = std::clamp(std::sqrt(2.0 * level / best.fit.information(j, j)), 0.01, kLongestStep);
-  while (f_outside < 0.0) {
-    if (outside == last) return std::nullopt;
-    inside = outside;
-    f_inside = f_outside;
-    outside = direction * std::min(direction * (outside + direction * step), direction * last);
-    f_outside = beyond(outside);
+  while (ends.f_outside < 0.0) {
+    if (ends.outside == last) return std::nullopt;
+    ends.inside = ends.outside;
+    ends.f_inside = ends.f_outside;
+    ends.outside =
+        direction * std::min(direction * (ends.outside + direction * step), direction * last);
+    ends.f_outside = beyond(best, j, level, ends.outside);
     step *= 2.0;
   }
+  return ends;
+}
+
+// Regula falsi on the root of the rise, which is nearly straight in log σ, halving where that is
+// slow (Illinois).
+std::optional<double> DevianceSearch::end(const Optimum& best, Index j, double level,
+                                          double direction) {
+  const auto found = bracket(best, j, level, direction);
+  if (!found) return std::nullopt;
+  auto [inside, f_inside, outside, f_outside] = *found;
   double middle = outside;
   const double close = 500.0 * tolerance_ / std::sqrt(level);  // 1000 tolerances of the rise
   for (int i = 0; i < kMaxSteps && std::abs(outside - inside) > 1e-6; ++i) {
     middle = inside - f_inside * (outside - inside) / (f_outside - f_inside);
-    const double f = beyond(middle);
+    const double f = beyond(best, j, level, middle);
     if (std::abs(f) < close) break;
     if (f > 0.0) {
       outside = middle;

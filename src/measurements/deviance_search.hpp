@@ -36,6 +36,15 @@ class DevianceSearch {
 
   /// The deviance with component j held at log σ, less that of the best.
   double rise(const Optimum& best, Index j, double log_sigma);
+  /// Two log σ beside the best one, between which the profile rises by `level` in direction ±1, and
+  /// √rise − √level there; none where it does not rise so far within the box.
+  struct Bracket {
+    double inside;
+    double f_inside;
+    double outside;
+    double f_outside;
+  };
+  std::optional<Bracket> bracket(const Optimum& best, Index j, double level, double direction);
   /// The log σ beside the best one where the profile rises by `level`, in direction ±1; none where
   /// it does not within the box.
   std::optional<double> end(const Optimum& best, Index j, double level, double direction);
@@ -48,6 +57,7 @@ class DevianceSearch {
   Eigen::VectorXd told() const;
 
  private:
+  double beyond(const Optimum& best, Index j, double level, double log_sigma);
   Eigen::VectorXd step_of(const Optimum& at, const std::vector<bool>& held) const;
   double slope_along(const Optimum& at, const Eigen::VectorXd& step) const;
 

@@ -30,6 +30,12 @@ void check(const MeasurementLog& log, std::span<const Pose> trajectory,
 // An optimum as good as 0, by so many tolerances of the search, is 0.
 constexpr double kAsGoodAsZero = 100.0;
 
+bool wants_intervals(const DevianceSearch::Optimum& best, const VarianceOptions& options) {
+  const Eigen::VectorXd sigmas = best.log_sigma.array().exp();
+  return !options.wants_intervals ||
+         options.wants_intervals({sigmas.data(), static_cast<std::size_t>(sigmas.size())});
+}
+
 SigmaEstimate estimate_of(DevianceSearch& search, const RestrictedLikelihood& likelihood,
                           const DevianceSearch::Optimum& best, Eigen::Index j,
                           const VarianceOptions& options) {
@@ -37,6 +43,12 @@ SigmaEstimate estimate_of(DevianceSearch& search, const RestrictedLikelihood& li
   estimate.pictures = likelihood.pictures(j);
   if (search.is_held(j)) return estimate;
   const double level = chi_squared_quantile(options.probability, 1.0);
+  if (!wants_intervals(best, options)) {
+    constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+    const auto beyond = search.bracket(best, j, level, 1.0);
+    const double high = beyond ? std::exp(beyond->outside) : estimate.high;
+    return {std::exp(best.log_sigma[j]), kNaN, high, kNaN, kNaN, estimate.pictures};
+  }
   if (const auto low = search.end(best, j, level, -1.0)) estimate.low = std::exp(*low);
   if (const auto high = search.end(best, j, level, 1.0)) estimate.high = std::exp(*high);
   estimate.against_told = search.rise(best, j, std::numeric_limits<double>::quiet_NaN());

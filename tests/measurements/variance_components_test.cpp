@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -177,6 +178,34 @@ TEST(VarianceComponents, TheIntervalEndsWhereTheProfileFallsByHalfOfThreePointEi
   EXPECT_NEAR(fall(tilt.high), 0.5 * 3.8415, 1e-3);
   EXPECT_NEAR(2.0 * fall(0.0), tilt.against_zero, 1e-3 * tilt.against_zero);
   EXPECT_NEAR(2.0 * fall(0.005), tilt.against_told, 1e-6 * tilt.against_told);
+}
+
+// The σ are the same, and which are bounded.
+TEST(VarianceComponents, IntervalsThatAreNotWantedAreLeftOut) {
+  const TiltedSurvey survey({.keyframes = 24, .per_keyframe = 3.0, .tilt_rad = 0.02}, 3);
+  const VarianceEstimate with = estimate_variance(survey.log, survey.log.odometry(), kBoth);
+  std::vector<double> asked;
+  VarianceOptions options;
+  options.wants_intervals = [&](std::span<const double> sigmas) {
+    asked.assign(sigmas.begin(), sigmas.end());
+    return false;
+  };
+  const VarianceEstimate without =
+      estimate_variance(survey.log, survey.log.odometry(), kBoth, options);
+  ASSERT_EQ(without.components.size(), with.components.size());
+  for (std::size_t i = 0; i < with.components.size(); ++i) {
+    EXPECT_EQ(without.components[i].sigma, asked[i]);
+    if (with.components[i].sigma > 0.0) {
+      EXPECT_EQ(without.components[i].sigma, with.components[i].sigma);
+    }
+    EXPECT_EQ(without.components[i].is_determined(), with.components[i].is_determined());
+    EXPECT_TRUE(std::isnan(without.components[i].low));
+  }
+  options.wants_intervals = [](std::span<const double> /*sigmas*/) { return true; };
+  const VarianceEstimate wanted =
+      estimate_variance(survey.log, survey.log.odometry(), kBoth, options);
+  EXPECT_EQ(wanted.components[0].low, with.components[0].low);
+  EXPECT_EQ(wanted.components[0].high, with.components[0].high);
 }
 
 TEST(VarianceComponents, AHoleThatAloneTiesTwoPartsSaysNothing) {

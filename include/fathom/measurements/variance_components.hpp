@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <limits>
 #include <span>
 #include <vector>
@@ -44,6 +45,10 @@ struct VarianceOptions {
   /// interval ends where it is met to 1000 times this, 1e-3 of 3.84.
   double tolerance = 1e-6;
   int threads = 1;  ///< at most; no result depends on it
+  /// Asked with the σ of all components, perhaps by several threads, whether intervals and ratios
+  /// are wanted; none: they are. Without them `sigma` is where the search ended, `low` and the
+  /// ratios are NaN, and `high` says no more than whether the survey bounds σ.
+  std::function<bool(std::span<const double>)> wants_intervals = {};
 };
 
 /// What the survey says of one component.

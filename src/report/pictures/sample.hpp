@@ -14,15 +14,7 @@ inline float bilinear(const float* top, const float* bottom, int left, int right
   return above + fv * (below - above);
 }
 
-/// Of a CV_32F picture at a place that has four pixels around it.
-inline float sample_within(const cv::Mat& picture, double u, double v) {
-  const int column = static_cast<int>(u);
-  const int row = static_cast<int>(v);
-  return bilinear(picture.ptr<float>(row), picture.ptr<float>(row + 1), column, column + 1,
-                  static_cast<float>(u - column), static_cast<float>(v - row));
-}
-
-/// The same anywhere: beyond the outermost pixels' middles as there.
+/// Of a CV_32F picture anywhere: beyond the outermost pixels' middles as there.
 inline float sample(const cv::Mat& picture, double u, double v) {
   u = std::clamp(u, 0.0, picture.cols - 1.0);
   v = std::clamp(v, 0.0, picture.rows - 1.0);
