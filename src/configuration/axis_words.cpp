@@ -25,27 +25,43 @@ bool is_number(const std::string& label) {
   return parse_real(label).has_value();
 }
 
+// A name's ending that is a unit, where its labels are numbers; both empty without one.
+std::pair<std::string_view, std::string_view> ending_of(const StudyAxis& axis) {
+  if (std::ranges::none_of(axis.labels, is_number)) return {};
+  for (const auto& ending : kEndings) {
+    if (axis.name.ends_with(ending.first)) return ending;
+  }
+  return {};
+}
+
+// As words, without the unit.
+std::string words_of(const StudyAxis& axis) {
+  std::string words = axis.name.substr(0, axis.name.size() - ending_of(axis).first.size());
+  std::ranges::replace(words, '_', ' ');
+  return words;
+}
+
 }  // namespace
 
 std::string unit_of(const StudyAxis& axis) {
   if (std::ranges::none_of(axis.labels, is_number)) return "";
+  if (const auto of_name = ending_of(axis).second; !of_name.empty()) return std::string(of_name);
   for (const auto& [ending, unit] : kEndings) {
-    if (!axis.key.ends_with(ending)) continue;
-    return axis.name.ends_with(ending) ? "" : std::string(unit);
+    if (axis.key.ends_with(ending)) return std::string(unit);
   }
   return "";
 }
 
 std::string title_of(const StudyAxis& axis) {
   const std::string unit = unit_of(axis);
-  return unit.empty() ? axis.name : axis.name + " (" + unit + ")";
+  return words_of(axis) + (unit.empty() ? "" : " (" + unit + ")");
 }
 
 std::string text_of(const StudyAxis& axis, std::size_t place) {
   const std::string& label = axis.labels[place];
   const std::string unit = unit_of(axis);
   const bool is_bare = !unit.empty() && is_number(label);
-  return axis.name + " " + label + (is_bare ? " " + unit : "");
+  return words_of(axis) + " " + label + (is_bare ? " " + unit : "");
 }
 
 }  // namespace fathom

@@ -51,7 +51,7 @@ sweep:
   - {key: estimators.0.max_iterations, values: [1, 10]}
 )");
   ASSERT_EQ(study.cells.size(), 12u);
-  EXPECT_EQ(study.description.label_of(9), "separation 10, covariance full, max_iterations 10");
+  EXPECT_EQ(study.description.label_of(9), "separation 10, covariance full, max iterations 10");
   EXPECT_EQ(study.cells[9].front_end.keyframes.separation_frames, 10);
   EXPECT_THAT(options_of<SimulatedSurveyOptions>(study.cells[9].dataset.values).odometry.covariance,
               ElementsAre(2, 0.5, 0, 2, 0, 1));

@@ -116,9 +116,9 @@ TEST_F(PageRows, SweptValuesHaveTheirUnit) {
   store.finish();
   const Json page = data_of_page(page_of(ResultStore::open(folder.path())));
   EXPECT_EQ(page["cells"][0]["label"],
-            "heading noise 0.002 rad, reach_m 4, interval 10 s, sigma 1°, water 0.15 1/m, loops 2");
+            "heading noise 0.002 rad, reach 4 m, interval 10 s, sigma 1°, water 0.15 1/m, loops 2");
   EXPECT_EQ(page["axes"][0]["title"], "heading noise (rad)");
-  EXPECT_EQ(page["axes"][1]["title"], "reach_m");
+  EXPECT_EQ(page["axes"][1]["title"], "reach (m)");
   EXPECT_EQ(page["axes"][2]["texts"], Json({"interval off", "interval 10 s"}));
   EXPECT_EQ(page["axes"][3]["title"], "sigma");
 }

@@ -7,11 +7,11 @@
 
 namespace fathom {
 
-/// The unit of a swept key where neither the name of the axis nor its labels say it: "rad" of
-/// `dataset.odometry.sigma_theta_rad` with the name "heading". Empty without one.
+/// The unit of a swept key, by how the axis' name ends or the key: "rad" of
+/// `dataset.odometry.sigma_theta_rad`. Empty without one, or where no label is a number.
 std::string unit_of(const StudyAxis& axis);
 
-/// "heading (rad)"
+/// "heading (rad)", "sigma theta (rad)" of an axis `sigma_theta_rad`
 std::string title_of(const StudyAxis& axis);
 
 /// "heading 0.01 rad"
