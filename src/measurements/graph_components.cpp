@@ -87,7 +87,11 @@ bool do_hold(const std::vector<Held>& priors) {
 std::set<std::size_t> held_sets(const G2oFile& file, const KeyframeOf& keyframe_of,
                                 DisjointSets& sets) {
   std::set<std::size_t> held_roots;
-  if (file.is_start_fixed()) held_roots.insert(sets.root(0));
+  for (const G2oFile::Fixed& fixed : file.fixed) {
+    const auto keyframe = keyframe_of.find(fixed.id);
+    if (keyframe != keyframe_of.end()) held_roots.insert(sets.root(keyframe->second));
+  }
+  if (file.fixed.empty() && file.is_start_fixed()) held_roots.insert(sets.root(0));
   if (file.priors.empty()) return held_roots;
   const std::vector<Pose> poses = chained_poses(file, keyframe_of);
   std::map<std::size_t, std::vector<Held>> priors_of;
