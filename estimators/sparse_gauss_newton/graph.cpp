@@ -37,8 +37,11 @@ void Graph::set_poses(std::span<const Pose> poses) {
 }
 
 void Graph::add_keyframe(const RelativePose& step) {
-  const Pose next = compose(pose(size() - 1), step.forward().motion);
-  nodes_.push_back(make_node(next.x, next.y, next.theta));
+  const Node& last = nodes_.back();
+  const Pose motion = step.from <= step.to ? step.motion : step.reversed().motion;
+  nodes_.push_back(make_node(last.x + last.c * motion.x - last.s * motion.y,
+                             last.y + last.s * motion.x + last.c * motion.y,
+                             wrap_angle(wrap_angle(last.theta) + motion.theta)));
   if (!is_batch_ || !step.is_hole) add_edge(step, 0, 3);
   changed();
 }

@@ -77,9 +77,12 @@ EstimatorEntry make_entry(std::string name, std::string help, bool can_batch, Ma
   entry.options = table.descriptions();
   const auto options_of = [](const EstimatorSetup& setup, const EstimatorValues& values) {
     Options options;
-    OptionTable bound;
-    options.describe(bound);
-    for (const auto& [key, value] : values) bound.set(key, value);
+    // A table takes as long as a small graph's solve.
+    if (!values.empty()) {
+      OptionTable bound;
+      options.describe(bound);
+      for (const auto& [key, value] : values) bound.set(key, value);
+    }
     if constexpr (requires { options.check(setup); }) options.check(setup);
     return options;
   };
