@@ -1,11 +1,13 @@
 #include "ros1_records.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <fstream>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "bag.hpp"
 #include "fathom/core/input_error.hpp"
@@ -15,8 +17,15 @@ namespace fathom {
 namespace {
 
 // The kinds of records that are looked into.
+constexpr std::uint8_t kMessage = 2;
+constexpr std::uint8_t kIndex = 4;
 constexpr std::uint8_t kChunk = 5;
+constexpr std::uint8_t kChunkInfo = 6;
 constexpr std::uint8_t kConnection = 7;
+
+/// An entry of an index: a time, and where in its chunk the message is.
+constexpr std::uint32_t kEntryBytes = 12;
+constexpr std::uint32_t kTimeBytes = 8;
 
 // The value of a field of a header, `name=` and its bytes, each field after its length; empty where
 // there is none. Nothing of a header whose fields do not fill it.
@@ -59,22 +68,27 @@ class Records {
   bool is_at_end() const { return position_ == size_; }
 
   /// The header of the next record, whose data is passed over; of a chunk that is not compressed
-  /// its records are the next ones.
+  /// its records are the next ones. What an index names must be there.
   std::string next() {
+    const std::uint64_t begin = position_;
     std::string header = fields();
     const auto kind = field_number<std::uint8_t>(header, "op=");
     // A connection's data is a header, too.
     if (kind == kConnection) {
+      if (begin < chunk_end_) connections_.push_back(begin - chunk_begin_);
       fields();
       return header;
     }
+    if (kind == kMessage && begin < chunk_end_) add_message(begin - chunk_begin_);
     const std::uint32_t bytes = length();
-    if (kind == kChunk && field(header, "compression=") == "none") {
-      chunk_end_ = position_ + bytes;
-      return header;
+    if (kind == kChunk) begin_chunk(begin, header, bytes);
+    if (kind == kChunk && is_plain_) return header;
+    if (kind == kIndex) return check_index(header, bytes);
+    if (kind == kChunkInfo &&
+        !std::ranges::binary_search(chunks_, field_number<std::uint64_t>(header, "chunk_pos="))) {
+      refuse_index();
     }
-    position_ += bytes;
-    file_.seekg(static_cast<std::streamoff>(position_));
+    skip(bytes);
     return header;
   }
 
@@ -90,6 +104,47 @@ class Records {
   }
 
  private:
+  [[noreturn]] void refuse_index() const {
+    throw InputError(path_.string(),
+                     "has an index that names what is not there; 'rosbag reindex' makes it anew");
+  }
+
+  void begin_chunk(std::uint64_t begin, const std::string& header, std::uint32_t bytes) {
+    chunks_.push_back(begin);
+    is_plain_ = field(header, "compression=") == "none";
+    chunk_begin_ = position_;
+    if (is_plain_) chunk_end_ = position_ + bytes;
+    messages_.clear();
+    connections_.clear();
+  }
+
+  // librosbag passes over connections that stand before the message.
+  void add_message(std::uint64_t place) {
+    messages_.insert(messages_.end(), connections_.begin(), connections_.end());
+    messages_.push_back(place);
+    connections_.clear();
+  }
+
+  // Of the chunk before it. What is compressed is not looked into.
+  std::string check_index(const std::string& header, std::uint32_t bytes) {
+    std::string entries(bytes, '\0');
+    file_.read(entries.data(), static_cast<std::streamsize>(bytes));
+    position_ += bytes;
+    const std::uint64_t count = field_number<std::uint32_t>(header, "count=");
+    if (count * kEntryBytes != bytes) refuse_index();
+    for (std::size_t at = 0; is_plain_ && at < entries.size(); at += kEntryBytes) {
+      std::uint32_t offset = 0;
+      std::memcpy(&offset, entries.data() + at + kTimeBytes, sizeof offset);
+      if (!std::ranges::binary_search(messages_, offset)) refuse_index();
+    }
+    return header;
+  }
+
+  void skip(std::uint32_t bytes) {
+    position_ += bytes;
+    file_.seekg(static_cast<std::streamoff>(position_));
+  }
+
   // Of what follows, which must be in the file, and of a record of a chunk in that.
   std::uint32_t length() {
     const std::uint64_t end = position_ < chunk_end_ ? chunk_end_ : size_;
@@ -115,7 +170,12 @@ class Records {
   std::ifstream file_;
   std::uint64_t size_;
   std::uint64_t position_ = 0;
-  std::uint64_t chunk_end_ = 0;  ///< of the chunk that was looked into last
+  std::vector<std::uint64_t> chunks_;       ///< where they begin
+  bool is_plain_ = false;                   ///< whether the last chunk is not compressed
+  std::uint64_t chunk_begin_ = 0;           ///< of its data
+  std::uint64_t chunk_end_ = 0;             ///< of the last one that was looked into
+  std::vector<std::uint64_t> messages_;     ///< of the last one, where in its data they may be read
+  std::vector<std::uint64_t> connections_;  ///< after its last message
 };
 
 }  // namespace
