@@ -50,6 +50,11 @@ std::string line_of(const std::vector<std::string>& words) {
   return joined(quoted, " ");
 }
 
+// Throws where it is not a whole number: the conversion of what is none is undefined.
+std::size_t count_of(const nlohmann::json& number) {
+  return number.get_ref<const nlohmann::json::number_unsigned_t&>();
+}
+
 }  // namespace
 
 Shard parse_shard(const std::string& text) {
@@ -74,8 +79,8 @@ std::optional<ShardPlan> shard_plan(const std::string& manifest) {
   if (!json.is_object() || !json.contains("shard")) return std::nullopt;
   try {
     const auto& shard = json.at("shard");
-    return ShardPlan{{shard.at("index").get<std::size_t>(), shard.at("of").get<std::size_t>()},
-                     shard.at("runs").get<std::size_t>(),
+    return ShardPlan{{count_of(shard.at("index")), count_of(shard.at("of"))},
+                     count_of(shard.at("runs")),
                      command_line_of(manifest)};
   } catch (const nlohmann::json::exception&) {
     return std::nullopt;
