@@ -49,6 +49,10 @@ std::optional<MosaicRaster> read_mosaic(const std::filesystem::path& folder) {
   mosaic.metres_per_pixel = number("metres_per_pixel");
   mosaic.top_left_m = {number("x_of_top_left_m"), number("y_of_top_left_m")};
   if (!(mosaic.metres_per_pixel > 0.0) || !mosaic.top_left_m.allFinite()) return std::nullopt;
+  // Further away its pixels would have no numbers.
+  constexpr double kFarthestPixel = 1e8;
+  const double farthest_m = kFarthestPixel * mosaic.metres_per_pixel;
+  if (mosaic.top_left_m.cwiseAbs().maxCoeff() > farthest_m) return std::nullopt;
   mosaic.grey = cv::imread((folder / "mosaic.png").string(), cv::IMREAD_GRAYSCALE);
   const bool fits =
       mosaic.grey.cols == number("width_px") && mosaic.grey.rows == number("height_px");
