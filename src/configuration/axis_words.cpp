@@ -25,18 +25,21 @@ bool is_number(const std::string& label) {
   return parse_real(label).has_value();
 }
 
-// A name's ending that is a unit, where its labels are numbers; both empty without one.
+// How the key ends and the unit that this means; both empty without one, or where no label is a
+// number.
 std::pair<std::string_view, std::string_view> ending_of(const StudyAxis& axis) {
   if (std::ranges::none_of(axis.labels, is_number)) return {};
   for (const auto& ending : kEndings) {
-    if (axis.name.ends_with(ending.first)) return ending;
+    if (axis.key.ends_with(ending.first)) return ending;
   }
   return {};
 }
 
-// As words, without the unit.
+// As words, without the unit of its key.
 std::string words_of(const StudyAxis& axis) {
-  std::string words = axis.name.substr(0, axis.name.size() - ending_of(axis).first.size());
+  std::string words = axis.name;
+  const std::string_view ending = ending_of(axis).first;
+  if (words.ends_with(ending)) words.resize(words.size() - ending.size());
   std::ranges::replace(words, '_', ' ');
   return words;
 }
@@ -44,12 +47,7 @@ std::string words_of(const StudyAxis& axis) {
 }  // namespace
 
 std::string unit_of(const StudyAxis& axis) {
-  if (std::ranges::none_of(axis.labels, is_number)) return "";
-  if (const auto of_name = ending_of(axis).second; !of_name.empty()) return std::string(of_name);
-  for (const auto& [ending, unit] : kEndings) {
-    if (axis.key.ends_with(ending)) return std::string(unit);
-  }
-  return "";
+  return std::string(ending_of(axis).second);
 }
 
 std::string title_of(const StudyAxis& axis) {

@@ -7,8 +7,8 @@
 
 namespace fathom {
 
-/// The unit of a swept key, by how the axis' name ends or the key: "rad" of
-/// `dataset.odometry.sigma_theta_rad`. Empty without one, or where no label is a number.
+/// The unit of a swept key: "rad" of `dataset.odometry.sigma_theta_rad`. Empty without one, or
+/// where no label is a number.
 std::string unit_of(const StudyAxis& axis);
 
 /// "heading (rad)", "sigma theta (rad)" of an axis `sigma_theta_rad`

@@ -77,7 +77,7 @@ EstimatorEntry make_entry(std::string name, std::string help, bool can_batch, Ma
   entry.options = table.descriptions();
   const auto options_of = [](const EstimatorSetup& setup, const EstimatorValues& values) {
     Options options;
-    // A table takes as long as a small graph's solve.
+    // A table takes a few hundredths of a small graph's solve.
     if (!values.empty()) {
       OptionTable bound;
       options.describe(bound);

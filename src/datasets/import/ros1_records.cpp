@@ -127,14 +127,18 @@ class Records {
 
   // Of the chunk before it. What is compressed is not looked into.
   std::string check_index(const std::string& header, std::uint32_t bytes) {
-    std::string entries(bytes, '\0');
-    file_.read(entries.data(), static_cast<std::streamsize>(bytes));
-    position_ += bytes;
     const std::uint64_t count = field_number<std::uint32_t>(header, "count=");
     if (count * kEntryBytes != bytes) refuse_index();
-    for (std::size_t at = 0; is_plain_ && at < entries.size(); at += kEntryBytes) {
+    if (!is_plain_) {
+      skip(bytes);
+      return header;
+    }
+    position_ += bytes;
+    for (std::uint64_t i = 0; i < count; ++i) {
+      char entry[kEntryBytes];
+      if (!file_.read(entry, sizeof entry)) refuse_cut();
       std::uint32_t offset = 0;
-      std::memcpy(&offset, entries.data() + at + kTimeBytes, sizeof offset);
+      std::memcpy(&offset, entry + kTimeBytes, sizeof offset);
       if (!std::ranges::binary_search(messages_, offset)) refuse_index();
     }
     return header;
