@@ -83,16 +83,25 @@ bool do_hold(const std::vector<Held>& priors) {
   return N(2, 2) > least && is_positive_definite(N);
 }
 
-// The sets that a fixed vertex or their priors hold, by their roots.
-std::set<std::size_t> held_sets(const G2oFile& file, const KeyframeOf& keyframe_of,
-                                DisjointSets& sets) {
-  std::set<std::size_t> held_roots;
+// The sets of the vertices that are fixed, by their roots, that of the lowest id first.
+std::vector<std::size_t> fixed_sets(const G2oFile& file, const KeyframeOf& keyframe_of,
+                                    DisjointSets& sets) {
+  std::set<std::size_t> keyframes;
   for (const G2oFile::Fixed& fixed : file.fixed) {
     const auto keyframe = keyframe_of.find(fixed.id);
-    if (keyframe != keyframe_of.end()) held_roots.insert(sets.root(keyframe->second));
+    if (keyframe != keyframe_of.end()) keyframes.insert(keyframe->second);
   }
-  if (file.fixed.empty() && file.is_start_fixed()) held_roots.insert(sets.root(0));
-  if (file.priors.empty()) return held_roots;
+  if (file.fixed.empty() && file.is_start_fixed()) keyframes.insert(0);
+  std::vector<std::size_t> roots;
+  for (const std::size_t k : keyframes) roots.push_back(sets.root(k));
+  return roots;
+}
+
+// The sets that their priors hold, by their roots.
+std::set<std::size_t> placed_sets(const G2oFile& file, const KeyframeOf& keyframe_of,
+                                  DisjointSets& sets) {
+  std::set<std::size_t> roots;
+  if (file.priors.empty()) return roots;
   const std::vector<Pose> poses = chained_poses(file, keyframe_of);
   std::map<std::size_t, std::vector<Held>> priors_of;
   for (const G2oFile::Prior& prior : file.priors) {
@@ -100,9 +109,9 @@ std::set<std::size_t> held_sets(const G2oFile& file, const KeyframeOf& keyframe_
     priors_of[sets.root(k)].push_back(held(prior, poses[k]));
   }
   for (const auto& [root, priors] : priors_of) {
-    if (do_hold(priors)) held_roots.insert(root);
+    if (do_hold(priors)) roots.insert(root);
   }
-  return held_roots;
+  return roots;
 }
 
 // The first few, and how many more there are.
@@ -125,8 +134,18 @@ GraphComponents components_of(const G2oFile& file) {
   for (const G2oFile::Edge& edge : file.edges) {
     sets.join(keyframe_of.at(edge.from), keyframe_of.at(edge.to));
   }
-  const std::set<std::size_t> held_roots = held_sets(file, keyframe_of, sets);
-  for (const std::size_t root : held_roots) sets.join(*held_roots.begin(), root);
+  // A log has one start: the world joins what priors hold to the first vertex that is fixed. The
+  // sets of the others stay by themselves, for each can be taken as a log of its own.
+  const std::vector<std::size_t> fixed = fixed_sets(file, keyframe_of, sets);
+  std::set<std::size_t> joined = placed_sets(file, keyframe_of, sets);
+  if (!fixed.empty()) {
+    for (const std::size_t root : fixed) joined.erase(root);
+    joined.insert(fixed.front());
+  }
+  for (const std::size_t root : joined) sets.join(*joined.begin(), root);
+  std::set<std::size_t> held_roots;
+  for (const std::size_t root : fixed) held_roots.insert(sets.root(root));
+  for (const std::size_t root : joined) held_roots.insert(sets.root(root));
 
   GraphComponents components;
   for (const auto& [id, keyframe] : keyframe_of) components.ids.push_back(id);

@@ -9,8 +9,8 @@
 
 namespace fathom {
 
-/// The keyframes of a file in the sets that its measurements tie together: by edges, and all those
-/// sets by the world that a fixed vertex or priors hold there.
+/// The keyframes of a file in the sets that its measurements tie together: by edges, and by the
+/// world those that priors hold there, with that of the lowest vertex that is fixed.
 struct GraphComponents {
   /// Keyframe indices, rising; by their first.
   std::vector<std::vector<std::size_t>> members;
