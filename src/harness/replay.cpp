@@ -1,53 +1,16 @@
 #include "fathom/harness/replay.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
+#include "call_timer.hpp"
 #include "cost_used.hpp"
-#include "fathom/core/program.hpp"
-#include "fathom/core/workers.hpp"
 #include "fathom/geometry/covariance.hpp"
 #include "fathom/harness/guarded_estimator.hpp"
 #include "fathom/measurements/connected_guess.hpp"
 
 namespace fathom {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double milliseconds_since(Clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
-
-// Wall and CPU time of one call of the estimator, added to the totals. Of what it lets programs do
-// only their processor time counts: pipes and files are not theirs.
-class CallTimer {
- public:
-  explicit CallTimer(Costs& costs) : costs_(costs) {}
-
-  double stop() const {
-    double elapsed_ms = milliseconds_since(start_);
-    double cpu_ms = 1e3 * (thread_processor_seconds() - cpu_start_s_);
-    const ProgramWork& work = program_work();
-    if (work.waited_s != work_.waited_s) {
-      const double by_program_ms = 1e3 * (work.processor_s - work_.processor_s);
-      elapsed_ms += by_program_ms - 1e3 * (work.waited_s - work_.waited_s);
-      cpu_ms += by_program_ms - 1e3 * (work.own_s - work_.own_s);
-      const double start_up_ms = 1e3 * (work.start_up_s - work_.start_up_s);
-      costs_.start_up_ms = costs_.start_up_ms.value_or(0.0) + start_up_ms;
-    }
-    costs_.total_ms += elapsed_ms;
-    costs_.cpu_ms += cpu_ms;
-    return elapsed_ms;
-  }
-
- private:
-  Costs& costs_;
-  ProgramWork work_ = program_work();
-  double cpu_start_s_ = thread_processor_seconds();
-  Clock::time_point start_ = Clock::now();
-};
 
 void note_decisions(const UpdateReport& report, Run& result) {
   const auto append = [](const auto& more, auto& all) {
@@ -90,9 +53,9 @@ class NewestCovariances {
   void ask(const Estimator& estimator) {
     if (!asks_) return;
     if (options_.memory != nullptr) options_.memory->pause();
-    const auto start = Clock::now();
+    const auto start = CallTimer::Clock::now();
     const bool is_known = estimator.newest_covariance().has_value();
-    result_.costs.newest_covariance_ms.push_back(milliseconds_since(start));
+    result_.costs.newest_covariance_ms.push_back(CallTimer::milliseconds_since(start));
     if (options_.memory != nullptr) options_.memory->resume();
     if (is_known) return;
     asks_ = false;
@@ -169,14 +132,14 @@ std::vector<double> weights_of(std::vector<double> weights, const Decisions& dec
 }
 
 void collect_covariances(Estimator& estimator, Run& result) {
-  const auto start = Clock::now();
+  const auto start = CallTimer::Clock::now();
   std::vector<Eigen::Matrix3d> covariances;
   for (std::size_t k = 0; k < estimator.size(); ++k) {
     const auto covariance = estimator.covariance(k);
     if (!covariance) return;
     covariances.push_back(*covariance);
   }
-  result.costs.covariance_ms = milliseconds_since(start);
+  result.costs.covariance_ms = CallTimer::milliseconds_since(start);
   result.covariances = std::move(covariances);
 }
 
