@@ -7,6 +7,8 @@
 #include <chrono>
 #include <cstddef>
 #include <functional>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -15,6 +17,7 @@
 #include "benchmarks/back_ends/survey.hpp"
 #include "benchmarks/graph_shapes.hpp"
 #include "estimators/support/pose_graph/batch.hpp"
+#include "estimators/support/pose_graph/chain_turns.hpp"
 #include "estimators/support/pose_graph/headings.hpp"
 #include "estimators/support/sparse/tree_cut.hpp"
 #include "fathom/estimators/builtin.hpp"
@@ -91,6 +94,17 @@ double dense_rate() {
   return kMultiplyAdds * multiplications_of(symbolic) / least_ms;
 }
 
+template <class Equations>
+void time_step(Equations& equations, const std::vector<Node>& given, Stages& timed) {
+  timed.time("first linearisation", [&] { equations.linearise(given, Hessian::gauss_newton); });
+  timed.time("linearise", [&] { equations.linearise(given, Hessian::gauss_newton); });
+  timed.time("factorise", [&] { benchmark::DoNotOptimize(equations.factorise()); });
+  timed.time("substitute", [&] { equations.solve_step(); });
+  std::vector<Node> moved;
+  timed.time("move", [&] { equations.move(given, moved); });
+  timed.time("check", [&] { benchmark::DoNotOptimize(equations.differentiate(given)); });
+}
+
 // Stages of one solve, and the whole: `finish` is all but the hand-over. `clear` is the bandwidth
 // of this machine over the memory of the factor, `dense` the time of the factorisation's
 // multiply-adds in a dense matrix.
@@ -109,6 +123,7 @@ void stages(benchmark::State& state, const Shape& shape) {
   Stages timed(state);
   int iterations = 0;
   const fathom::sparse::Symbolic pattern = analyse_graph(edges, static_cast<int>(given.size()));
+  fathom::sparse::BlockCholesky<3> factor(pattern);
   static const double rate = dense_rate();
   state.counters["dense"] = kMultiplyAdds * multiplications_of(pattern) / rate;
   state.counters["10^6 multiply-adds"] = 1e-6 * kMultiplyAdds * multiplications_of(pattern);
@@ -129,23 +144,39 @@ void stages(benchmark::State& state, const Shape& shape) {
     timed.time("finish", [&] { iterations = estimator->finish({}).iterations; });
     state.SetIterationTime(std::chrono::duration<double>(Clock::now() - start).count());
 
-    fathom::sparse::Symbolic symbolic;
-    timed.time("analysis",
-               [&] { symbolic = analyse_graph(edges, static_cast<int>(given.size())); });
-    timed.time("headings", [&] {
-      HeadingProblem headings(symbolic, edges);
-      benchmark::DoNotOptimize(headings.solve(theta));
+    std::optional<ChainGraph> chains;
+    bool is_start = false;
+    timed.time("chains", [&] {
+      chains.emplace(edges, given);
+      is_start = chains->measure();
     });
-    std::optional<NormalEquations> equations;
-    timed.time("memory", [&] { equations.emplace(symbolic, edges); });
-    timed.time("first linearisation", [&] { equations->linearise(given, Hessian::gauss_newton); });
-    timed.time("clear", [&] { equations->factor().clear(); });
-    timed.time("linearise", [&] { equations->linearise(given, Hessian::gauss_newton); });
-    timed.time("factorise", [&] { benchmark::DoNotOptimize(equations->factorise()); });
-    timed.time("substitute", [&] { equations->solve_step(); });
-    std::vector<Node> moved;
-    timed.time("move", [&] { equations->move(given, moved); });
-    timed.time("check", [&] { benchmark::DoNotOptimize(equations->differentiate(given)); });
+    if (is_start) {
+      timed.time("expand", [&] { benchmark::DoNotOptimize(chains->expanded(chains->nodes())); });
+    }
+    const bool has_chains = chains->has_chains();
+    const std::span<const Edge> left = has_chains ? chains->edges() : std::span<const Edge>(edges);
+    const std::size_t left_nodes = has_chains ? chains->nodes().size() : given.size();
+    fathom::sparse::Symbolic symbolic;
+    timed.time("analysis", [&] { symbolic = analyse_graph(left, static_cast<int>(left_nodes)); });
+    timed.time("headings", [&] {
+      std::optional<ChainTurns> turns;
+      if (has_chains) turns.emplace(*chains);
+      HeadingProblem headings(symbolic, turns ? turns->edges() : left);
+      benchmark::DoNotOptimize(turns ? turns->expanded(headings.solve(turns->left(theta)))
+                                     : headings.solve(theta));
+    });
+    std::optional<NormalEquations> of_left;
+    std::optional<ChainEquations> of_chains;
+    timed.time("memory", [&] {
+      of_left.emplace(symbolic, left);
+      if (has_chains) of_chains.emplace(*chains, *of_left);
+    });
+    timed.time("clear", [&] { factor.clear(); });
+    if (has_chains) {
+      time_step(*of_chains, given, timed);
+    } else {
+      time_step(*of_left, given, timed);
+    }
   }
   state.counters["keyframes"] = static_cast<double>(log.size());
   state.counters["loops"] = static_cast<double>(loops);

@@ -101,8 +101,11 @@ SolveResult Graph::accept(const SolveResult& result, const ExtendedGraph& solved
   changed();
   if (is_done(result.outcome)) {
     states_.keep(solved);
-    nodes_.assign(solved.nodes.begin(),
-                  solved.nodes.begin() + static_cast<std::ptrdiff_t>(nodes_.size()));
+    // Anew: over thousands of updates the rounding of moved() would add up.
+    for (std::size_t k = 1; k < nodes_.size(); ++k) {
+      const Node& node = solved.nodes[k];
+      nodes_[k] = is_batch_ ? node : make_node(node.x, node.y, node.theta);
+    }
   }
   return result;
 }

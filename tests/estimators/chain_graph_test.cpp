@@ -7,88 +7,21 @@
 
 #include "estimators/support/pose_graph/batch.hpp"
 #include "estimators/support/pose_graph/chains.hpp"
-#include "fathom/core/random.hpp"
-#include "tests/estimators/graph_parts.hpp"
+#include "tests/estimators/chain_logs.hpp"
 
 namespace fathom::pose_graph {
 namespace {
 
+using test::circled_twice;
+using test::dense;
+using test::Derivatives;
 using test::GraphParts;
-
-struct Loop {
-  std::size_t from = 0;
-  std::size_t to = 0;
-};
-
-Eigen::Matrix3d correlated(RandomStream& random, double scale) {
-  const Eigen::Matrix3d half =
-      Eigen::Matrix3d::NullaryExpr([&](Eigen::Index, Eigen::Index) { return random.normal(); });
-  const Eigen::Vector3d sigma{0.03, 0.02, 0.004};
-  return scale * scale * sigma.asDiagonal() *
-         (half * half.transpose() + 0.3 * Eigen::Matrix3d::Identity()) * sigma.asDiagonal();
-}
-
-// Twice round a circle, so that headings pass ±π, with full covariances. `share` of the noise that
-// these state is drawn.
-MeasurementLog circled_twice(std::size_t keyframes, const std::vector<Loop>& loops, double share) {
-  RandomStream random(7, "chains");
-  const auto truth = [&](std::size_t k) {
-    const double at =
-        4.0 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(keyframes - 1);
-    return Pose{10.0 * std::cos(at), 10.0 * std::sin(at), wrap_angle(at + 0.5 * std::numbers::pi)};
-  };
-  const auto measured = [&](std::size_t from, std::size_t to, double scale) {
-    const Eigen::Matrix3d C = correlated(random, scale);
-    const Eigen::Matrix3d L = C.llt().matrixL();
-    const Eigen::Vector3d n =
-        share * L * Eigen::Vector3d(random.normal(), random.normal(), random.normal());
-    Pose z = between(truth(from), truth(to));
-    z = {z.x + n.x(), z.y + n.y(), wrap_angle(z.theta + n.z())};
-    return RelativePose::from_covariance(from, to, z, C);
-  };
-  MeasurementLog log(truth(0));
-  for (std::size_t k = 1; k < keyframes; ++k) {
-    log.add_keyframe(measured(k - 1, k, 1.0));
-    for (const Loop& loop : loops) {
-      if (loop.to == k) log.add_registration(measured(loop.from, k, 2.0));
-    }
-  }
-  return log;
-}
-
-const std::vector<Loop> kLoops{{0, 50}, {12, 61}, {13, 62}, {30, 80}, {31, 80}};
-
-struct Derivatives {
-  Eigen::MatrixXd H;
-  Eigen::VectorXd g;
-};
-
-// ½F's Gauss-Newton matrix and gradient, dense, by the rows of all edges; node 0 is fixed.
-Derivatives dense(std::span<const Edge> edges, std::span<const Node> nodes) {
-  const auto n = static_cast<Eigen::Index>(3 * (nodes.size() - 1));
-  Derivatives d{Eigen::MatrixXd::Zero(n, n), Eigen::VectorXd::Zero(n)};
-  for (const Edge& edge : edges) {
-    const Node& i = nodes[static_cast<std::size_t>(edge.from)];
-    const Node& k = nodes[static_cast<std::size_t>(edge.to)];
-    Eigen::Matrix3d P;
-    P << i.c, i.s, 0.0, -i.s, i.c, 0.0, 0.0, 0.0, 1.0;
-    Eigen::Matrix3d T = Eigen::Matrix3d::Identity();
-    T(0, 2) = -(k.y - i.y);
-    T(1, 2) = k.x - i.x;
-    Eigen::MatrixXd J = Eigen::MatrixXd::Zero(3, n);
-    if (edge.to > 0) J.middleCols<3>(3 * (edge.to - 1)) += P;
-    if (edge.from > 0) J.middleCols<3>(3 * (edge.from - 1)) -= P * T;
-    const Eigen::Matrix3d W = full(edge.W);
-    d.H += J.transpose() * W * J;
-    d.g += J.transpose() * W * residual_of(edge, i, k);
-  }
-  return d;
-}
+using test::kLoops;
 
 TEST(ChainGraph, HasTheKeyframesThatMoreThanTwoStepsMeasure) {
   const GraphParts parts = test::parts_of(circled_twice(100, kLoops, 1.0));
-  const ChainGraph chains(parts.edges, parts.nodes);
-  ASSERT_TRUE(chains.is_worthwhile());
+  ChainGraph chains(parts.edges, parts.nodes);
+  ASSERT_TRUE(chains.measure());
   // 0, both ends of five loops, of which two share one; what follows 80 is left out.
   ASSERT_EQ(chains.nodes().size(), 9u);
   EXPECT_EQ(chains.edges().size(), 8u + 5u);
@@ -101,8 +34,8 @@ TEST(ChainGraph, HasTheKeyframesThatMoreThanTwoStepsMeasure) {
 // At dead reckoning the steps have no residuals, and the elimination of a chain is exact there.
 TEST(ChainGraph, AChainIsWhatIsLeftOfItsStepsWhereTheRestIsEliminated) {
   const GraphParts parts = test::parts_of(circled_twice(9, {{0, 8}}, 1.0));
-  const ChainGraph chains(parts.edges, parts.nodes);
-  ASSERT_TRUE(chains.is_worthwhile());
+  ChainGraph chains(parts.edges, parts.nodes);
+  ASSERT_TRUE(chains.measure());
   ASSERT_EQ(chains.edges().size(), 2u);
   std::vector<Edge> steps(parts.edges.begin(), parts.edges.end() - 1);
   const Eigen::MatrixXd H = dense(steps, parts.nodes).H;
@@ -118,7 +51,8 @@ TEST(ChainGraph, AChainIsWhatIsLeftOfItsStepsWhereTheRestIsEliminated) {
 
 TEST(ChainGraph, ExpandedChainsAreAtTheirMinimumBetweenTheirEnds) {
   const GraphParts parts = test::parts_of(circled_twice(100, kLoops, 1.0));
-  const ChainGraph chains(parts.edges, parts.nodes);
+  ChainGraph chains(parts.edges, parts.nodes);
+  ASSERT_TRUE(chains.measure());
   std::vector<Node> moved = chains.nodes();
   for (std::size_t k = 1; k < moved.size(); ++k) {
     const auto a = static_cast<double>(k);
@@ -148,7 +82,7 @@ double cost_from_truth(const GraphParts& parts, const SolveLimits& limits) {
 TEST(ChainGraph, TheMinimumIsThatOfTheWholeGraph) {
   for (const double share : {0.0, 1.0, 3.0}) {
     const GraphParts parts = test::parts_of(circled_twice(100, kLoops, share));
-    ASSERT_TRUE(ChainGraph(parts.edges, parts.nodes).is_worthwhile());
+    ASSERT_TRUE(ChainGraph(parts.edges, parts.nodes).measure());
     std::vector<Node> nodes = parts.nodes;
     const SolveResult result = solve_batch(parts.edges, nodes, Start::automatic, {100, 1e-10});
     EXPECT_EQ(result.outcome, Outcome::converged);
@@ -160,8 +94,8 @@ TEST(ChainGraph, TheMinimumIsThatOfTheWholeGraph) {
 
 TEST(ChainGraph, AChainWithoutLoopsIsItsDeadReckoning) {
   const GraphParts parts = test::parts_of(circled_twice(40, {}, 1.0));
-  const ChainGraph chains(parts.edges, parts.nodes);
-  ASSERT_TRUE(chains.is_worthwhile());
+  ChainGraph chains(parts.edges, parts.nodes);
+  ASSERT_TRUE(chains.measure());
   EXPECT_EQ(chains.nodes().size(), 1u);
   const std::vector<Node> all = chains.expanded(chains.nodes());
   EXPECT_LT(cost_of(parts.edges, all), 1e-20);
@@ -170,7 +104,7 @@ TEST(ChainGraph, AChainWithoutLoopsIsItsDeadReckoning) {
 TEST(ChainGraph, OfOtherGraphsThereIsNone) {
   const MeasurementLog log = circled_twice(100, kLoops, 1.0);
   const auto is_worthwhile = [](const GraphParts& parts) {
-    return ChainGraph(parts.edges, parts.nodes).is_worthwhile();
+    return ChainGraph(parts.edges, parts.nodes).measure();
   };
   GraphParts parts = test::parts_of(log);
   parts.edges.erase(parts.edges.begin() + 20);
@@ -195,7 +129,7 @@ TEST(ChainGraph, OfOtherGraphsThereIsNone) {
   EXPECT_FALSE(is_worthwhile(parts)) << "loops of every second keyframe";
 
   parts.nodes.resize(1);
-  EXPECT_FALSE(ChainGraph({}, parts.nodes).is_worthwhile()) << "one keyframe";
+  EXPECT_FALSE(ChainGraph({}, parts.nodes).measure()) << "one keyframe";
 }
 
 }  // namespace

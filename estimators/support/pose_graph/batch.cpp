@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <utility>
 
-#include "estimators/support/pose_graph/chains.hpp"
+#include "estimators/support/pose_graph/chain_turns.hpp"
 #include "estimators/support/pose_graph/chordal.hpp"
 #include "estimators/support/pose_graph/headings.hpp"
 #include "estimators/support/pose_graph/lifted_headings.hpp"
@@ -22,9 +23,12 @@ class Batch {
         limits_(limits),
         keyframes_(keyframes_of(nodes)),
         workers_(workers),
-        symbolic_(analyse_graph(edges, static_cast<int>(nodes.size()), workers)),
-        equations_(symbolic_, edges),
-        turns_(edges, std::span<const Node>(nodes).first(keyframes_)) {}
+        chains_(edges, nodes) {
+    if (!chains_.has_chains()) return;
+    left_nodes_ = chains_.nodes();
+    left_ = std::make_unique<Batch>(chains_.edges(), left_nodes_, limits, workers);
+    chain_equations_.emplace(chains_, left_->whole().equations);
+  }
 
   SolveResult run(Start start) {
     switch (start) {
@@ -50,19 +54,31 @@ class Batch {
   }
 
  private:
+  // The pattern and equations of all keyframes.
+  struct Whole {
+    Whole(std::span<const Edge> edges, std::size_t nodes, Workers* workers)
+        : symbolic(analyse_graph(edges, static_cast<int>(nodes), workers)),
+          equations(symbolic, edges) {}
+    sparse::Symbolic symbolic;
+    NormalEquations equations;
+  };
+
+  Whole& whole() {
+    if (!whole_) whole_ = std::make_unique<Whole>(edges_, nodes_.size(), workers_);
+    return *whole_;
+  }
+
   // Of a graph of long chains, from the minimum of the one without them. Whether that ends the
   // search.
   bool run_without_chains() {
-    const ChainGraph chains(edges_, nodes_);
-    if (!chains.is_worthwhile()) return false;
-    std::vector<Node> left = chains.nodes();
-    if (left.size() > 1) {
-      const SolveResult solved = solve_batch(chains.edges(), left, Start::automatic, limits_);
+    if (!chains_.measure()) return false;
+    if (left_nodes_.size() > 1) {
+      const SolveResult solved = left_->run(Start::automatic);
       if (solved.outcome != Outcome::converged || !solved.is_local_minimum.value_or(false)) {
         return false;
       }
     }
-    std::vector<Node> start = chains.expanded(left);
+    std::vector<Node> start = chains_.expanded(left_nodes_);
     return worst_turn(headings_of(start)) < kTrustedTurnRad &&
            try_from(std::move(start), Hessian::exact);
   }
@@ -90,8 +106,7 @@ class Batch {
   // Minimises from a start and keeps the result if it is the best so far. Whether it is good
   // enough to end the search.
   bool try_from(std::vector<Node> nodes, Hessian first = Hessian::gauss_newton) {
-    const SolveResult result = minimise(equations_, nodes, limits_, {}, first);
-    iterations_ += result.iterations;
+    const SolveResult result = minimise_from(nodes, first);
     const bool is_better = !tried_ || (is_done(result.outcome) &&
                                        (!is_done(best_.outcome) || result.cost < best_.cost));
     tried_ = true;
@@ -101,17 +116,48 @@ class Batch {
     return result.outcome == Outcome::converged && result.is_local_minimum.value_or(false);
   }
 
-  HeadingProblem& headings() {
-    if (!headings_) headings_.emplace(turn_pattern(), turns_.edges());
-    return *headings_;
+  // By the elimination of chains; without it where a step does not lower F.
+  SolveResult minimise_from(std::vector<Node>& nodes, Hessian first) {
+    if (chain_equations_) {
+      std::vector<Node> moved = nodes;
+      chains_.follow_open_chain(moved);
+      const SolveResult result = minimise(*chain_equations_, moved, limits_, first);
+      iterations_ += result.iterations;
+      if (is_done(result.outcome)) {
+        nodes = std::move(moved);
+        return result;
+      }
+    }
+    const SolveResult result = minimise(whole().equations, nodes, limits_, {}, first);
+    iterations_ += result.iterations;
+    return result;
+  }
+
+  const TurnGraph& turns() {
+    if (!turns_) turns_.emplace(edges_, std::span<const Node>(nodes_).first(keyframes_));
+    return *turns_;
+  }
+
+  // Least squares in the headings, each turn rounded along `theta`; without the keyframes of
+  // chains where all edges measure their turn.
+  std::vector<double> least_squares(std::span<const double> theta) {
+    const bool has_chains = left_ != nullptr && turns().are_all();
+    if (has_chains && !chain_turns_) chain_turns_.emplace(chains_);
+    if (!headings_ && has_chains) {
+      headings_.emplace(left_->whole().symbolic, chain_turns_->edges());
+    } else if (!headings_) {
+      headings_.emplace(turn_pattern(), turns().edges());
+    }
+    if (!has_chains) return headings_->solve(theta);
+    return chain_turns_->expanded(headings_->solve(chain_turns_->left(theta)));
   }
 
   // Headings know nothing of the errors of pictures.
   const sparse::Symbolic& turn_pattern() {
-    if (keyframes_ == nodes_.size()) return symbolic_;
+    if (keyframes_ == nodes_.size()) return whole().symbolic;
     if (!turn_pattern_) {
-      const std::span<const Edge> turns = turns_.edges();
-      std::vector<Edge> apart(turns.begin(), turns.end());
+      const std::span<const Edge> all = turns().edges();
+      std::vector<Edge> apart(all.begin(), all.end());
       for (Edge& edge : apart) edge.shared = nullptr;
       turn_pattern_ = analyse_graph(apart, static_cast<int>(keyframes_), workers_);
     }
@@ -124,21 +170,22 @@ class Batch {
     for (std::size_t k = 1; k < keyframes_; ++k) {
       theta.push_back(theta.back() + wrap_angle(nodes_[k].theta - nodes_[k - 1].theta));
     }
-    return headings().solve(theta);
+    return least_squares(theta);
   }
 
   std::vector<double> chordal_start() {
-    return chordal_headings(turn_pattern(), turns_.edges(), nodes_[0].theta);
+    return chordal_headings(turn_pattern(), turns().edges(), nodes_[0].theta);
   }
 
   std::vector<Node> lifted() {
-    return from_headings(settled(lifted_headings(turn_pattern(), turns_.edges(), chordal_start())));
+    return from_headings(
+        settled(lifted_headings(turn_pattern(), turns().edges(), chordal_start())));
   }
 
   // Least squares in the headings, rounded again until that changes nothing.
   std::vector<double> settled(std::vector<double> theta) {
     for (int i = 0; i < kHeadingSolves; ++i) {
-      std::vector<double> next = headings().solve(theta);
+      std::vector<double> next = least_squares(theta);
       const double moved = largest_turn(theta, next);
       theta = std::move(next);
       if (moved < kHeadingsSettledRad) break;
@@ -153,10 +200,14 @@ class Batch {
     for (std::size_t k = 1; k < theta.size(); ++k) {
       turned[k] = make_node(nodes_[k].x, nodes_[k].y, theta[k]);
     }
-    equations_.linearise(turned, Hessian::measured);
-    if (!equations_.factorise()) return turned;
-    equations_.solve_step();
-    equations_.move(turned, turned);
+    const auto step = [&](auto& equations) {
+      equations.linearise(turned, Hessian::measured);
+      if (!equations.factorise()) return false;
+      equations.solve_step();
+      equations.move(turned, turned);
+      return true;
+    };
+    if (!chain_equations_ || !step(*chain_equations_)) step(whole().equations);
     return turned;
   }
 
@@ -175,9 +226,9 @@ class Batch {
     return largest;
   }
 
-  double worst_turn(const std::vector<double>& theta) const {
+  double worst_turn(const std::vector<double>& theta) {
     double worst = 0.0;
-    for (const Edge& edge : turns_.edges()) {
+    for (const Edge& edge : turns().edges()) {
       const double turn = theta[at(edge.to)] - theta[at(edge.from)];
       worst = std::max(worst, std::abs(wrap_angle(turn - edge.theta)));
     }
@@ -189,10 +240,14 @@ class Batch {
   SolveLimits limits_;
   std::size_t keyframes_;
   Workers* workers_;
-  sparse::Symbolic symbolic_;
-  NormalEquations equations_;
-  TurnGraph turns_;
+  ChainGraph chains_;
+  std::vector<Node> left_nodes_;
+  std::unique_ptr<Batch> left_;  ///< of the graph without chains
+  std::optional<ChainEquations> chain_equations_;
+  std::unique_ptr<Whole> whole_;
   std::optional<sparse::Symbolic> turn_pattern_;  ///< where it is not that of the graph
+  std::optional<TurnGraph> turns_;
+  std::optional<ChainTurns> chain_turns_;
   std::optional<HeadingProblem> headings_;
   SolveResult best_;
   std::vector<Node> best_nodes_;

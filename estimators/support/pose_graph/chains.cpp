@@ -8,11 +8,10 @@
 namespace fathom::pose_graph {
 namespace {
 
-/// Keyframes that are left, of all, at most: with more the solve of the rest costs too much.
-constexpr double kMostLeft = 0.5;
-
-/// Corrections of a chain: each squares the error of the one before.
-constexpr int kPasses = 2;
+/// Keyframes that are left, of all, at most: with more the elimination of chains saves nothing.
+constexpr double kMostLeft = 0.8;
+/// With more the solve of the rest costs too much.
+constexpr double kMostLeftToStart = 0.5;
 
 /// What an error of a step, in the axes of the keyframe it begins at, does to the end of its chain:
 /// A = [R  (−dy, dx)ᵀ; 0 1], R the turn of the step's begin, (dx, dy) from the step's end to the
@@ -42,6 +41,18 @@ struct StepLever {
   }
 };
 
+// Where a step leads whose measurement is corrected by `error`.
+Eigen::Vector2d place_behind(const Node& from, const Edge& z, const Eigen::Vector3d& error) {
+  const double x = z.x + error.x();
+  const double y = z.y + error.y();
+  return {from.x + from.c * x - from.s * y, from.y + from.s * x + from.c * y};
+}
+Node behind(const Node& from, const Edge& z,
+            const Eigen::Vector3d& error = Eigen::Vector3d::Zero()) {
+  const Eigen::Vector2d place = place_behind(from, z, error);
+  return make_node(place.x(), place.y(), from.theta + z.theta + error.z());
+}
+
 StepLever lever_of(const Node& begin, const Node& end, const Node& last) {
   return {begin.c, begin.s, last.x - end.x, last.y - end.y};
 }
@@ -66,41 +77,73 @@ std::optional<Eigen::Matrix3d> covariance_of_step(const Edge& edge) {
 ChainGraph::ChainGraph(std::span<const Edge> edges, std::span<const Node> nodes)
     : all_(edges), keyframes_(nodes.size()) {
   if (keyframes_of(nodes) != nodes.size() || !find_chains(nodes.size())) return;
-  covariances_.resize(keyframes_);
-  for (const Chain& chain : chains_) {
-    for (int t = 0; t < chain.count; ++t) {
-      const auto C = covariance_of_step(step(chain, t));
-      if (!C) return;
-      covariances_[at(chain.begin + t)] = *C;
-    }
+  for (const Chain& chain : chains_) nodes_.push_back(nodes[at(chain.begin)]);
+  const Chain& last = chains_.back();
+  if (!last.is_open) nodes_.push_back(nodes[at(last.begin + last.count)]);
+  has_chains_ = is_share(nodes_.size(), kMostLeft) && find_edges();
+}
+
+bool ChainGraph::is_share(std::size_t left, double most) const {
+  return static_cast<double>(left) < most * static_cast<double>(keyframes_);
+}
+
+bool ChainGraph::measure() {
+  if (!has_chains_ || !is_share(chains_.size(), kMostLeftToStart) || !find_covariances()) {
+    return false;
+  }
+  paths_.resize(keyframes_ + chains_.size());
+  for (std::size_t i = 0; i < chains_.size(); ++i) {
+    if (!chains_[i].is_open && chains_[i].count > 1) measure(i);
+  }
+  return true;
+}
+
+// False where errors of pictures are unknowns, or a keyframe that is left out is not where its
+// steps lead.
+bool ChainGraph::find_edges() {
+  const Chain& last = chains_.back();
+  for (int t = 0; last.is_open && t < last.count; ++t) {
+    if (!covariance_of_step(step(last, t))) return false;
   }
   std::vector<int> node_of(keyframes_, -1);
-  for (const Chain& chain : chains_) {
-    node_of[at(chain.begin)] = static_cast<int>(nodes_.size());
-    nodes_.push_back(nodes[at(chain.begin)]);
+  for (std::size_t i = 0; i < chains_.size(); ++i) {
+    node_of[at(chains_[i].begin)] = static_cast<int>(i);
   }
-  const Chain& last = chains_.back();
-  if (!last.is_open) {
-    node_of[at(last.begin + last.count)] = static_cast<int>(nodes_.size());
-    nodes_.push_back(nodes[at(last.begin + last.count)]);
-  }
+  if (!last.is_open) node_of[at(last.begin + last.count)] = static_cast<int>(chains_.size());
+  edges_.reserve(chains_.size() + all_.size() - keyframes_ + 1);
   for (const Chain& chain : chains_) {
-    if (!chain.is_open) edges_.push_back(composed(chain));
+    if (chain.is_open) continue;
+    Edge edge = chain.count == 1 ? step(chain, 0) : Edge{};
+    edge.from = chain.begin;
+    edge.to = chain.begin + chain.count;
+    edges_.push_back(edge);
   }
   for (std::size_t e = 0; e < all_.size(); ++e) {
     const Edge& edge = all_[e];
+    if (edge.shared != nullptr) return false;
     if (edge.to == edge.from + 1 && steps_[at(edge.from)] == static_cast<int>(e)) continue;
-    if (edge.shared != nullptr) return;
     edges_.push_back(edge);
   }
   for (Edge& edge : edges_) {
     edge.from = node_of[at(edge.from)];
     edge.to = node_of[at(edge.to)];
   }
-  is_worthwhile_ = true;
+  return true;
 }
 
-// False where there is a keyframe that no step leads to, or few that only steps lead to.
+bool ChainGraph::find_covariances() {
+  covariances_.resize(keyframes_);
+  for (const Chain& chain : chains_) {
+    for (int t = 0; t < chain.count; ++t) {
+      const auto C = covariance_of_step(step(chain, t));
+      if (!C) return false;
+      covariances_[at(chain.begin + t)] = *C;
+    }
+  }
+  return true;
+}
+
+// False where there is a keyframe that no step leads to.
 bool ChainGraph::find_chains(std::size_t keyframes) {
   std::vector<int> degree(keyframes, 0);
   steps_.assign(keyframes, -1);
@@ -120,85 +163,89 @@ bool ChainGraph::find_chains(std::size_t keyframes) {
   }
   if (chains_.empty()) return false;
   chains_.back().is_open = degree[at(last)] == 1;
-  return static_cast<double>(chains_.size()) < kMostLeft * static_cast<double>(keyframes);
+  return true;
 }
 
-Edge ChainGraph::composed(const Chain& chain) const {
-  if (chain.count == 1) return step(chain, 0);
-  std::vector<Node> path(at(chain.count) + 1);
+void ChainGraph::measure(std::size_t i) {
+  const Chain& chain = chains_[i];
+  Node* const path = path_of(i);
+  path[0] = Node{};
+  for (int t = 0; t < chain.count; ++t) path[t + 1] = behind(path[t], step(chain, t));
+  const Node& last = path[chain.count];
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
   for (int t = 0; t < chain.count; ++t) {
-    const Edge& z = step(chain, t);
-    const Node& from = path[at(t)];
-    path[at(t) + 1] = make_node(from.x + from.c * z.x - from.s * z.y,
-                                from.y + from.s * z.x + from.c * z.y, from.theta + z.theta);
-  }
-  for (int t = 0; t < chain.count; ++t) {
-    sum += lever_of(path[at(t)], path[at(t) + 1], path.back())
-               .moved(covariances_[at(chain.begin + t)]);
+    sum += lever_of(path[t], path[t + 1], last).moved(covariances_[at(chain.begin + t)]);
   }
   const Eigen::Matrix3d W = symmetric_inverse(sum);
-  Edge edge;
-  edge.from = chain.begin;
-  edge.to = chain.begin + chain.count;
-  edge.x = path.back().x;
-  edge.y = path.back().y;
-  edge.theta = path.back().theta;
+  Edge& edge = edges_[i];
+  edge.x = last.x;
+  edge.y = last.y;
+  edge.theta = last.theta;
   edge.W = {W(0, 0), W(0, 1), W(0, 2), W(1, 1), W(1, 2), W(2, 2)};
-  return edge;
 }
 
-void ChainGraph::compose(const Chain& chain, std::span<const Eigen::Vector3d> errors,
-                         std::vector<Node>& all) const {
+// ν of the steps: minimise Σ νᵀ W ν so that they end at `end`, in the frame of the begin. With the
+// levers A at a path, ν = C Aᵀ λ, and λ makes Σ A ν what the end lacks of the path that is
+// measured: with the levers of that path first, then with those of the path which that gives.
+void ChainGraph::expand(std::size_t i, const Node& end, Expansion& work,
+                        std::vector<Node>& all) const {
+  const Chain& chain = chains_[i];
+  const Node* const measured = path_of(i);
+  const Eigen::Vector3d lacks = residual_of(edges_[i], all[at(chain.begin)], end);
+  std::vector<Node>& path = work.path;
+  path.assign(measured, measured + chain.count + 1);
+  work.errors.assign(at(chain.count), Eigen::Vector3d::Zero());
+  const auto correct = [&](const Eigen::Vector3d& force) {
+    for (int t = 0; t < chain.count; ++t) {
+      work.errors[at(t)] = covariances_[at(chain.begin + t)] *
+                           lever_of(path[at(t)], path[at(t) + 1], path.back()).back(force);
+    }
+  };
+  correct(full(edges_[i].W) * lacks);
+  double turn = 0.0;
   for (int t = 0; t < chain.count; ++t) {
-    const Edge& z = step(chain, t);
-    const Node& from = all[at(chain.begin + t)];
-    const double x = z.x + errors[at(t)].x();
-    const double y = z.y + errors[at(t)].y();
-    all[at(chain.begin + t) + 1] =
-        make_node(from.x + from.c * x - from.s * y, from.y + from.s * x + from.c * y,
-                  from.theta + z.theta + errors[at(t)].z());
+    const Eigen::Vector3d& error = work.errors[at(t)];
+    const Eigen::Vector2d end_at = place_behind(path[at(t)], step(chain, t), error);
+    turn += error.z();
+    path[at(t) + 1] = moved(measured[t + 1], end_at.x() - measured[t + 1].x,
+                            end_at.y() - measured[t + 1].y, turn);
   }
-}
-
-// ν of the steps: minimise Σ νᵀ W ν so that they end at `end`. With the levers A at the present
-// path, ν = C Aᵀ λ, and λ makes Σ A ν what the end lacks of the path that is measured.
-void ChainGraph::expand(const Chain& chain, const Node& end, std::vector<Node>& all) const {
-  std::vector<Eigen::Vector3d> errors(at(chain.count), Eigen::Vector3d::Zero());
-  std::vector<StepLever> levers(at(chain.count));
-  compose(chain, errors, all);
-  for (int pass = 0; pass < kPasses; ++pass) {
-    const Node& last = all[at(chain.begin + chain.count)];
-    Eigen::Vector3d lacks(end.x - last.x, end.y - last.y, wrap_angle(end.theta - last.theta));
-    Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
-    for (int t = 0; t < chain.count; ++t) {
-      const std::size_t k = at(chain.begin + t);
-      levers[at(t)] = lever_of(all[k], all[k + 1], last);
-      sum += levers[at(t)].moved(covariances_[k]);
-      lacks += levers[at(t)].along(errors[at(t)]);
-    }
-    const Eigen::Vector3d force = symmetric_inverse(sum) * lacks;
-    for (int t = 0; t < chain.count; ++t) {
-      errors[at(t)] = covariances_[at(chain.begin + t)] * levers[at(t)].back(force);
-    }
-    compose(chain, errors, all);
+  const Node& last = measured[chain.count];
+  Eigen::Vector3d still = lacks;
+  still -= Eigen::Vector3d(path.back().x - last.x, path.back().y - last.y, turn);
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+  for (int t = 0; t < chain.count; ++t) {
+    const StepLever lever = lever_of(path[at(t)], path[at(t) + 1], path.back());
+    sum += lever.moved(covariances_[at(chain.begin + t)]);
+    still += lever.along(work.errors[at(t)]);
+  }
+  correct(symmetric_inverse(sum) * still);
+  for (int t = 0; t + 1 < chain.count; ++t) {
+    const std::size_t k = at(chain.begin + t);
+    all[k + 1] = behind(all[k], step(chain, t), work.errors[at(t)]);
   }
 }
 
 std::vector<Node> ChainGraph::expanded(std::span<const Node> nodes) const {
   std::vector<Node> all(keyframes_);
+  Expansion work;
   for (std::size_t i = 0; i < chains_.size(); ++i) {
     const Chain& chain = chains_[i];
     all[at(chain.begin)] = nodes[i];
-    if (chain.is_open) {
-      compose(chain, std::vector<Eigen::Vector3d>(at(chain.count), Eigen::Vector3d::Zero()), all);
-      continue;
-    }
-    const Node& end = nodes[i + 1];
-    if (chain.count > 1) expand(chain, end, all);
-    all[at(chain.begin + chain.count)] = end;
+    if (chain.is_open) continue;
+    if (chain.count > 1) expand(i, nodes[i + 1], work, all);
+    all[at(chain.begin + chain.count)] = nodes[i + 1];
   }
+  follow_open_chain(all);
   return all;
+}
+
+void ChainGraph::follow_open_chain(std::vector<Node>& all) const {
+  const Chain& last = chains_.back();
+  for (int t = 0; last.is_open && t < last.count; ++t) {
+    const std::size_t k = at(last.begin + t);
+    all[k + 1] = behind(all[k], step(last, t));
+  }
 }
 
 }  // namespace fathom::pose_graph

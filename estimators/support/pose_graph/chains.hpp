@@ -16,21 +16,6 @@ namespace fathom::pose_graph {
 /// measured otherwise are left out altogether: their steps are satisfied whatever the rest is.
 class ChainGraph {
  public:
-  /// `edges` must outlive it.
-  ChainGraph(std::span<const Edge> edges, std::span<const Node> nodes);
-
-  /// Whether it is a smaller problem by far, and the same one: of every chain all steps measure all
-  /// three coordinates, and no errors of pictures are unknowns.
-  bool is_worthwhile() const { return is_worthwhile_; }
-
-  std::span<const Edge> edges() const { return edges_; }
-  const std::vector<Node>& nodes() const { return nodes_; }
-
-  /// All keyframes for poses of those of this graph: what a chain's end is off is distributed over
-  /// its steps such that νᵀ W ν is least.
-  std::vector<Node> expanded(std::span<const Node> nodes) const;
-
- private:
   /// `count` steps lead from keyframe `begin`, the chain's own in this graph, to `begin` + count.
   struct Chain {
     int begin = 0;
@@ -38,24 +23,60 @@ class ChainGraph {
     bool is_open = false;  ///< nothing measures its end
   };
 
-  bool find_chains(std::size_t keyframes);
-  Edge composed(const Chain& chain) const;
-  void expand(const Chain& chain, const Node& end, std::vector<Node>& all) const;
-  /// Poses along a chain from its begin, each step's measured motion corrected by `errors`.
-  void compose(const Chain& chain, std::span<const Eigen::Vector3d> errors,
-               std::vector<Node>& all) const;
+  /// `edges` must outlive it.
+  ChainGraph(std::span<const Edge> edges, std::span<const Node> nodes);
+
+  /// Whether it has chains worth their elimination (ChainEquations); no errors of pictures are
+  /// unknowns, and the steps that are left out measure all three coordinates.
+  bool has_chains() const { return has_chains_; }
+  /// Has the edges of the chains state what these measure. False where the graph is not a smaller
+  /// problem by far, or not the same one: all steps of a chain must measure all three coordinates.
+  bool measure();
+
+  /// Those of the chains that are not open in front, one each, then all others.
+  std::span<const Edge> edges() const { return edges_; }
+  const std::vector<Node>& nodes() const { return nodes_; }
+
+  /// All keyframes for poses of those of this graph, where measure() is done: what a chain's end is
+  /// off is distributed over its steps such that νᵀ W ν is least.
+  std::vector<Node> expanded(std::span<const Node> nodes) const;
+
+  /// In the order of the keyframes; one that is open is the last.
+  std::span<const Chain> chains() const { return chains_; }
   const Edge& step(const Chain& chain, int t) const {
     return all_[at(steps_[at(chain.begin + t)])];
   }
+  /// Keyframes that are left out follow their steps from the last one that is not.
+  void follow_open_chain(std::vector<Node>& all) const;
+
+ private:
+  bool find_chains(std::size_t keyframes);
+  bool is_share(std::size_t left, double most) const;
+  bool find_edges();
+  bool find_covariances();
+  /// What the steps of a chain measure, as one edge.
+  void measure(std::size_t chain);
+  /// The measured path of a chain in the frame of its begin, `count` + 1 poses.
+  const Node* path_of(std::size_t chain) const {
+    return paths_.data() + at(chains_[chain].begin) + chain;
+  }
+  Node* path_of(std::size_t chain) { return paths_.data() + at(chains_[chain].begin) + chain; }
+
+  struct Expansion {
+    std::vector<Node> path;
+    std::vector<Eigen::Vector3d> errors;  ///< of the steps
+  };
+  void expand(std::size_t chain, const Node& end, Expansion& work, std::vector<Node>& all) const;
 
   std::span<const Edge> all_;
   std::vector<int> steps_;  ///< by keyframe, the edge to the next one
   std::vector<Eigen::Matrix3d> covariances_;
+  std::vector<Node> paths_;
   std::vector<Chain> chains_;
   std::vector<Edge> edges_;
   std::vector<Node> nodes_;
   std::size_t keyframes_ = 0;
-  bool is_worthwhile_ = false;
+  bool has_chains_ = false;
 };
 
 }  // namespace fathom::pose_graph

@@ -32,20 +32,22 @@ NormalEquations::NormalEquations(const sparse::Symbolic& symbolic, std::span<con
   find_shared(symbolic);
 }
 
-double NormalEquations::linearise(std::span<const Node> nodes, Hessian hessian, double damping) {
+double NormalEquations::linearise(std::span<const Node> nodes, Hessian hessian, double damping,
+                                  std::span<const PairTerms> given) {
   factor_.clear();
   std::fill(gradient_.begin(), gradient_.end(), 0.0);
+  has_begun_step_ = false;
   std::fill(diagonal_sums_.begin(), diagonal_sums_.end(), std::array<double, 6>{});
   double cost = 0.0;
   switch (hessian) {
     case Hessian::gauss_newton:
-      cost = add_edges<Hessian::gauss_newton>(nodes);
+      cost = add_edges<Hessian::gauss_newton>(nodes, given);
       break;
     case Hessian::measured:
-      cost = add_edges<Hessian::measured>(nodes);
+      cost = add_edges<Hessian::measured>(nodes, given);
       break;
     case Hessian::exact:
-      cost = add_edges<Hessian::exact>(nodes);
+      cost = add_edges<Hessian::exact>(nodes, given);
       break;
   }
   if (!is_pose(nodes.back())) cost += add_shared(nodes, hessian);
@@ -54,96 +56,72 @@ double NormalEquations::linearise(std::span<const Node> nodes, Hessian hessian, 
 }
 
 template <Hessian kHessian>
-double NormalEquations::add_edges(std::span<const Node> nodes) {
-  constexpr Lever kLever = kHessian == Hessian::measured ? Lever::measured : Lever::estimated;
+double NormalEquations::add_edges(std::span<const Node> nodes, std::span<const PairTerms> given) {
   return parts_.sum([&](std::size_t e, const auto& part) {
-    if (loss_.leaves_out(e)) return 0.0;
-    const Edge& edge = edges_[e];
-    EdgeTerms t = linearise_edge(edge, nodes, kLever);
-    loss_.apply(e, kHessian == Hessian::exact, t);
     const Targets& target = targets_[e];
-    if (part.has(target.to)) {
-      add_gradient_at_end(t, target.to);
-      add_to_end(t, target.to);
-    }
-    if (part.has(target.from)) add_gradient_at_begin(t, target.from);
-    add_to_begin<kHessian>(t, part, target);
-    return t.cost;
+    const auto add = [&](const PairTerms& t) {
+      add_gradient(t, part, target);
+      add_matrix(t, part, target);
+      return t.cost;
+    };
+    if (e < given.size()) return add(given[e]);
+    if (loss_.leaves_out(e)) return 0.0;
+    EdgeTerms t = linearise_edge(edges_[e], nodes, kLeverOf<kHessian>);
+    loss_.apply(e, kHessian == Hessian::exact, t);
+    return add(pair_terms<kHessian>(t));
   });
 }
 
-double NormalEquations::differentiate(std::span<const Node> nodes) {
+double NormalEquations::differentiate(std::span<const Node> nodes,
+                                      std::span<const PairTerms> given) {
   std::fill(gradient_.begin(), gradient_.end(), 0.0);
+  has_begun_step_ = false;
   const double cost = parts_.sum([&](std::size_t e, const auto& part) {
+    const auto add = [&](const PairTerms& t) {
+      add_gradient(t, part, targets_[e]);
+      return t.cost;
+    };
+    if (e < given.size()) return add(given[e]);
     if (loss_.leaves_out(e)) return 0.0;
     EdgeTerms t = linearise_edge(edges_[e], nodes);
     loss_.apply(e, false, t);
-    const Targets& target = targets_[e];
-    if (part.has(target.to)) add_gradient_at_end(t, target.to);
-    if (part.has(target.from)) add_gradient_at_begin(t, target.from);
-    return t.cost;
+    return add(pair_terms<Hessian::gauss_newton>(t));
   });
   if (is_pose(nodes.back())) return cost;
   add_shared_gradients(nodes);
   return cost + add_priors(nodes, false);
 }
 
-// g_k = m.
-inline void NormalEquations::add_gradient_at_end(const EdgeTerms& t, int position) {
-  double* g = gradient_.data() + 3 * at(position);
-  for (int a = 0; a < 3; ++a) g[a] += t.m[at(a)];
-}
-
-// g_i = −Tᵀ m.
-inline void NormalEquations::add_gradient_at_begin(const EdgeTerms& t, int position) {
-  const auto& m = t.m;
-  double* g = gradient_.data() + 3 * at(position);
-  g[0] -= m[0];
-  g[1] -= m[1];
-  g[2] -= -t.dy * m[0] + t.dx * m[1] + m[2];
-}
-
-// H_kk.
-inline void NormalEquations::add_to_end(const EdgeTerms& t, int position) {
-  auto& H = diagonal_sums_[at(position)];
-  for (std::size_t a = 0; a < 6; ++a) H[a] += t.M[a];
-}
-
-// H_ii, and H_ik where k is free; each where the part has it.
-template <Hessian kHessian, class Part>
-inline void NormalEquations::add_to_begin(const EdgeTerms& t, const Part& part,
+template <class Part>
+inline void NormalEquations::add_gradient(const PairTerms& t, const Part& part,
                                           const Targets& target) {
-  const auto& M = t.M;
-  // Row θ of Tᵀ M, and below element (θ, θ) of Tᵀ M T.
-  const double rx = -t.dy * M[0] + t.dx * M[1] + M[2];
-  const double ry = -t.dy * M[1] + t.dx * M[3] + M[4];
-  const double rt = -t.dy * M[2] + t.dx * M[4] + M[5];
-  const auto& m = t.m;
-  if (part.has(target.from)) {
-    auto& H = diagonal_sums_[at(target.from)];
-    H[0] += M[0];
-    H[1] += M[1];
-    H[2] += rx;
-    H[3] += M[3];
-    H[4] += ry;
-    H[5] += -t.dy * rx + t.dx * ry + rt;
-    if constexpr (kHessian == Hessian::exact) {
-      H[2] += m[1];
-      H[4] -= m[0];
-      H[5] -= m[0] * t.dx + m[1] * t.dy;
-    }
-  }
+  const auto add = [&](const std::array<double, 3>& g, int position) {
+    if (!part.has(position)) return;
+    double* const to = gradient_.data() + 3 * at(position);
+    for (int a = 0; a < 3; ++a) to[a] += g[at(a)];
+  };
+  add(t.g_to, target.to);
+  add(t.g_from, target.from);
+}
+
+// Each where the part has it; H_cross where both ends are free.
+template <class Part>
+inline void NormalEquations::add_matrix(const PairTerms& t, const Part& part,
+                                        const Targets& target) {
+  const auto add = [&](const std::array<double, 6>& H, int position) {
+    if (!part.has(position)) return;
+    auto& to = diagonal_sums_[at(position)];
+    for (std::size_t a = 0; a < 6; ++a) to[a] += H[a];
+  };
+  add(t.H_to, target.to);
+  add(t.H_from, target.from);
   if (!part.has(std::min(target.from, target.to))) return;
-  const double tx = kHessian == Hessian::exact ? -rx - m[1] : -rx;
-  const double ty = kHessian == Hessian::exact ? -ry + m[0] : -ry;
-  // −Tᵀ M has the rows of `from` and the columns of `to`.
-  const std::array<double, 9> block{-M[0], -M[1], -M[2], -M[1], -M[3], -M[4], tx, ty, -rt};
   double* const to = factor_.data() + target.cross.offset;
   const int down = target.from > target.to ? 1 : target.cross.stride;
   const int along = target.from > target.to ? target.cross.stride : 1;
   for (int row = 0; row < 3; ++row) {
     for (int column = 0; column < 3; ++column) {
-      to[row * down + column * along] += block[at(3 * row + column)];
+      to[row * down + column * along] += t.H_cross[at(3 * row + column)];
     }
   }
 }
@@ -185,9 +163,20 @@ bool NormalEquations::keeps_digits() const {
   return true;
 }
 
-const std::vector<double>& NormalEquations::solve_step() {
+bool NormalEquations::factorise(sparse::Inertia inertia) {
+  has_begun_step_ = true;
   for (std::size_t i = 0; i < step_.size(); ++i) step_[i] = -gradient_[i];
-  factor_.solve(step_.data());
+  return factor_.factorise(inertia, step_.data());
+}
+
+const std::vector<double>& NormalEquations::solve_step() {
+  if (has_begun_step_) {
+    factor_.solve_begun(step_.data());
+  } else {
+    for (std::size_t i = 0; i < step_.size(); ++i) step_[i] = -gradient_[i];
+    factor_.solve(step_.data());
+  }
+  has_begun_step_ = false;
   return step_;
 }
 
@@ -211,7 +200,7 @@ void NormalEquations::move(std::span<const Node> from, std::vector<Node>& to) co
     for (std::size_t node = begin; node < end; ++node) {
       const double* d = step_.data() + 3 * at(position[node]);
       const Node& pose = from[node + 1];
-      to[node + 1] = is_pose(pose) ? make_node(pose.x + d[0], pose.y + d[1], pose.theta + d[2])
+      to[node + 1] = is_pose(pose) ? moved(pose, d[0], d[1], d[2])
                                    : make_errors(pose.x + d[0], pose.y + d[1], pose.theta + d[2]);
     }
   });
@@ -219,12 +208,16 @@ void NormalEquations::move(std::span<const Node> from, std::vector<Node>& to) co
 
 bool NormalEquations::step_is_small(std::span<const Node> nodes, double tolerance) const {
   double step = 0.0;
-  double size = 0.0;
   for (const double d : step_) step += d * d;
+  return is_small(step, nodes, tolerance);
+}
+
+bool is_small(double squared_step, std::span<const Node> nodes, double tolerance) {
+  double size = 0.0;
   for (const Node& node : nodes) {
     size += node.x * node.x + node.y * node.y + node.theta * node.theta;
   }
-  return std::sqrt(step) <= tolerance * (std::sqrt(size) + tolerance);
+  return std::sqrt(squared_step) <= tolerance * (std::sqrt(size) + tolerance);
 }
 
 }  // namespace fathom::pose_graph

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "estimators/support/pose_graph/edge_parts.hpp"
+#include "estimators/support/pose_graph/pair_terms.hpp"
 #include "estimators/support/sparse/block_cholesky.hpp"
 
 namespace fathom::pose_graph {
@@ -14,17 +15,15 @@ namespace fathom::pose_graph {
 sparse::Symbolic analyse_graph(std::span<const Edge> edges, int nodes, Workers* workers = nullptr,
                                sparse::ChainElimination chains = sparse::ChainElimination::on);
 
-/// The second derivatives to work with.
-enum class Hessian {
-  gauss_newton,  ///< Jᵀ W J
-  measured,      ///< Jᵀ W J with the levers of the measured motions (Lever::measured)
-  exact          ///< all of them: Jᵀ W J + Σ (W ν)_r ∇² h_r
-};
+/// Whether a step is small beside the estimate.
+bool is_small(double squared_step, std::span<const Node> nodes, double tolerance);
 
 /// The matrix and gradient of ½F at an estimate, and the factor of the matrix. Of the errors of
 /// pictures, nodes behind the keyframes, F has nᵀ n.
 class NormalEquations {
  public:
+  static constexpr bool kTakesDamping = true;
+
   /// The edges must outlive it.
   NormalEquations(const sparse::Symbolic& symbolic, std::span<const Edge> edges);
 
@@ -32,13 +31,15 @@ class NormalEquations {
   void set_loss(const EdgeLoss& loss) { loss_ = loss; }
   const EdgeLoss& loss() const { return loss_; }
 
-  /// Adds both up at the estimate; the diagonal is multiplied by 1 + damping. Returns F.
-  double linearise(std::span<const Node> nodes, Hessian hessian, double damping = 0.0);
+  /// Adds both up at the estimate; the diagonal is multiplied by 1 + damping. Returns F. The first
+  /// edges add what `given` has of them in place of their own terms.
+  double linearise(std::span<const Node> nodes, Hessian hessian, double damping = 0.0,
+                   std::span<const PairTerms> given = {});
 
   /// The gradient alone; the factor stays that of another estimate. Returns F.
-  double differentiate(std::span<const Node> nodes);
+  double differentiate(std::span<const Node> nodes, std::span<const PairTerms> given = {});
 
-  bool factorise() { return factor_.factorise(); }
+  bool factorise(sparse::Inertia inertia = sparse::Inertia::any);
   int negative_pivots() const { return factor_.negative_pivots(); }
   /// Factorises the Gauss-Newton matrix at an estimate. Whether it is positive definite and no
   /// pivot is but rounding (kLeastPivotShare), nor any W (WideRows).
@@ -99,12 +100,11 @@ class NormalEquations {
   double add_priors(std::span<const Node> nodes, bool with_matrix);
   void add_block(sparse::BlockPlace place, int row, int column, const Eigen::Matrix3d& block);
   template <Hessian kHessian>
-  double add_edges(std::span<const Node> nodes);
-  void add_gradient_at_end(const EdgeTerms& t, int position);
-  void add_gradient_at_begin(const EdgeTerms& t, int position);
-  void add_to_end(const EdgeTerms& t, int position);
-  template <Hessian kHessian, class Part>
-  void add_to_begin(const EdgeTerms& t, const Part& part, const Targets& target);
+  double add_edges(std::span<const Node> nodes, std::span<const PairTerms> given);
+  template <class Part>
+  void add_gradient(const PairTerms& t, const Part& part, const Targets& target);
+  template <class Part>
+  void add_matrix(const PairTerms& t, const Part& part, const Targets& target);
   void write_diagonal(double damping);
   bool keeps_digits() const;
   Workers* workers() const { return factor_.symbolic().workers; }
@@ -119,6 +119,7 @@ class NormalEquations {
   std::vector<std::array<double, 6>> diagonal_sums_;
   std::vector<double> gradient_;
   std::vector<double> step_;
+  bool has_begun_step_ = false;  ///< factorise() has, for the gradient as it is
 };
 
 /// F as cost_of, by the rows of NormalEquations::solve_rows: where W of an edge is wide itself its

@@ -7,9 +7,11 @@
 namespace fathom::pose_graph {
 namespace {
 
+// Equations that take no damping end where a step fails.
+template <class Equations>
 class Minimiser {
  public:
-  Minimiser(NormalEquations& equations, std::vector<Node>& nodes, const SolveLimits& limits,
+  Minimiser(Equations& equations, std::vector<Node>& nodes, const SolveLimits& limits,
             const SolverTuning& tuning, Hessian first)
       : equations_(equations),
         nodes_(nodes),
@@ -19,7 +21,7 @@ class Minimiser {
         newton_below_(tuning.newton_below) {}
 
   SolveResult run() {
-    result_.cost = equations_.linearise(nodes_, hessian_);
+    result_.cost = linearise(nodes_);
     result_.outcome = Outcome::iteration_limit;
     if (!std::isfinite(result_.cost)) {
       result_.outcome = Outcome::numerical_failure;
@@ -34,6 +36,14 @@ class Minimiser {
   }
 
  private:
+  double linearise(const std::vector<Node>& nodes) {
+    if constexpr (Equations::kTakesDamping) {
+      return equations_.linearise(nodes, hessian_, damping_);
+    } else {
+      return equations_.linearise(nodes, hessian_);
+    }
+  }
+
   // False where the solve has ended.
   bool take_step() {
     rise_ = 0.0;
@@ -54,7 +64,7 @@ class Minimiser {
     } else if (promised < newton_below_ * result_.cost) {
       hessian_ = Hessian::exact;
     }
-    double cost = equations_.linearise(trial_, hessian_, damping_);
+    double cost = linearise(trial_);
     rise_ = cost - result_.cost;
     if (is_no_rise(cost) || follow_headings(cost)) {
       nodes_.swap(trial_);
@@ -96,12 +106,10 @@ class Minimiser {
 
   // Of an exact Hessian that is not positive definite, its Gauss-Newton part is taken.
   bool factorise() {
-    const bool done = equations_.factorise();
+    const bool done = equations_.factorise(sparse::Inertia::positive);
     is_indefinite_here_ = false;
-    if (hessian_ != Hessian::exact) {
-      return done && equations_.negative_pivots() == 0;
-    }
-    if (done && equations_.negative_pivots() == 0) {
+    if (hessian_ != Hessian::exact) return done;
+    if (done) {
       if (damping_ == 0.0) result_.is_local_minimum = true;
       return true;
     }
@@ -109,8 +117,8 @@ class Minimiser {
     newton_below_ *= tuning_.after_indefinite;
     result_.is_local_minimum = false;
     hessian_ = Hessian::gauss_newton;
-    equations_.linearise(nodes_, hessian_, damping_);
-    return equations_.factorise() && equations_.negative_pivots() == 0;
+    linearise(nodes_);
+    return equations_.factorise(sparse::Inertia::positive);
   }
 
   bool is_no_rise(double cost) const {
@@ -119,22 +127,27 @@ class Minimiser {
 
   // A step that failed, again with the positions that suit its headings.
   bool follow_headings(double& cost) {
-    if (!positions_) {
-      positions_.emplace(equations_.factor(), equations_.edges(), equations_.loss());
+    if constexpr (Equations::kTakesDamping) {
+      if (!positions_) {
+        positions_.emplace(equations_.factor(), equations_.edges(), equations_.loss());
+      }
+      if (!positions_->solve(trial_)) return false;
+    } else {
+      return false;
     }
-    if (!positions_->solve(trial_)) return false;
-    cost = equations_.linearise(trial_, hessian_, damping_);
+    cost = linearise(trial_);
     return is_no_rise(cost);
   }
 
   bool raise_damping() {
     damping_ = std::max(tuning_.first_damping, tuning_.damping_increase * damping_);
-    if (damping_ > tuning_.largest_damping) {
-      result_.outcome = is_at_jump() ? Outcome::iteration_limit : Outcome::numerical_failure;
+    if (!Equations::kTakesDamping || damping_ > tuning_.largest_damping) {
+      result_.outcome = Equations::kTakesDamping && is_at_jump() ? Outcome::iteration_limit
+                                                                 : Outcome::numerical_failure;
       return false;
     }
     hessian_ = Hessian::gauss_newton;
-    equations_.linearise(nodes_, hessian_, damping_);
+    linearise(nodes_);
     return true;
   }
 
@@ -147,7 +160,7 @@ class Minimiser {
   void lower_damping() {
     if (damping_ == 0.0) return;
     damping_ = damping_ > tuning_.least_damping ? tuning_.damping_decrease * damping_ : 0.0;
-    equations_.linearise(nodes_, hessian_, damping_);
+    linearise(nodes_);
   }
 
   void finish() {
@@ -158,7 +171,7 @@ class Minimiser {
     if (!std::isfinite(result_.cost)) result_.outcome = Outcome::numerical_failure;
   }
 
-  NormalEquations& equations_;
+  Equations& equations_;
   std::vector<Node>& nodes_;
   SolveLimits limits_;
   SolverTuning tuning_;
@@ -177,7 +190,12 @@ class Minimiser {
 
 SolveResult minimise(NormalEquations& equations, std::vector<Node>& nodes,
                      const SolveLimits& limits, const SolverTuning& tuning, Hessian first) {
-  return Minimiser(equations, nodes, limits, tuning, first).run();
+  return Minimiser<NormalEquations>(equations, nodes, limits, tuning, first).run();
+}
+
+SolveResult minimise(ChainEquations& equations, std::vector<Node>& nodes, const SolveLimits& limits,
+                     Hessian first) {
+  return Minimiser<ChainEquations>(equations, nodes, limits, {}, first).run();
 }
 
 }  // namespace fathom::pose_graph

@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "estimators/support/pose_graph/chain_equations.hpp"
 #include "estimators/support/pose_graph/normal_equations.hpp"
 #include "fathom/estimation/estimator.hpp"
 
@@ -68,5 +69,9 @@ struct SolveResult {
 SolveResult minimise(NormalEquations& equations, std::vector<Node>& nodes,
                      const SolveLimits& limits, const SolverTuning& tuning = {},
                      Hessian first = Hessian::gauss_newton);
+
+/// The same; numerical_failure where a step makes F rise, for damping is not at hand.
+SolveResult minimise(ChainEquations& equations, std::vector<Node>& nodes, const SolveLimits& limits,
+                     Hessian first);
 
 }  // namespace fathom::pose_graph

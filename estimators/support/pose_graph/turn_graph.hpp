@@ -16,6 +16,8 @@ class TurnGraph {
   /// The edges must outlive it.
   TurnGraph(std::span<const Edge> edges, std::span<const Node> nodes);
 
+  /// Whether they are the edges as they are.
+  bool are_all() const { return own_.empty(); }
   std::span<const Edge> edges() const { return own_.empty() ? all_ : std::span<const Edge>(own_); }
 
  private:

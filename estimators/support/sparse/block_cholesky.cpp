@@ -68,15 +68,18 @@ BlockPlace BlockCholesky<B>::place(int node_a, int node_b) const {
 }
 
 template <int B>
-Factorisation<B> BlockCholesky<B>::factorisation(int thread) {
-  return {*symbolic_, panels_.data(),  signs_.data(), packed_.data() + at(thread) * packed_numbers_,
-          0,          inverses_.data()};
+Factorisation<B> BlockCholesky<B>::factorisation(int thread, Inertia inertia) {
+  return {
+      *symbolic_, panels_.data(),   signs_.data(), packed_.data() + at(thread) * packed_numbers_,
+      0,          inverses_.data(), inertia};
 }
 
 template <int B>
-bool BlockCholesky<B>::factorise() {
-  if (!symbolic_->cut.is_empty()) return factorise_shared();
-  Factorisation<B> run = factorisation(0);
+bool BlockCholesky<B>::factorise(Inertia inertia, double* b) {
+  if (!symbolic_->cut.is_empty()) return factorise_shared(inertia);
+  Factorisation<B> run = factorisation(0, inertia);
+  const Substitution<B> forward = substitution(b, 0);
+  if (b != nullptr) run.forward = &forward;
   const bool done = run_for_processor(run);
   negative_pivots_ = run.negative;
   return done;
@@ -92,15 +95,15 @@ void BlockCholesky<B>::take_factor() {
 }
 
 template <int B>
-bool BlockCholesky<B>::factorise_shared() {
+bool BlockCholesky<B>::factorise_shared(Inertia inertia) {
   const int threads = symbolic_->workers->size();
   FactorisationProgress progress(symbolic_->cut, threads);
   symbolic_->workers->run([&](int thread) {
-    SharedFactorisation<B> part{factorisation(thread), progress, threads};
+    SharedFactorisation<B> part{factorisation(thread, inertia), progress, threads};
     run_for_processor(part);
   });
   negative_pivots_ = progress.negative;
-  return !progress.has_failed();
+  return !progress.has_failed() && (inertia == Inertia::any || progress.negative == 0);
 }
 
 template <int B>
@@ -117,6 +120,14 @@ template <int B>
 void BlockCholesky<B>::solve(double* x) {
   if (!symbolic_->cut.is_empty()) return solve_shared(x);
   Substitution<B> run = substitution(x, 0);
+  run_for_processor(run);
+}
+
+template <int B>
+void BlockCholesky<B>::solve_begun(double* b) {
+  if (!symbolic_->cut.is_empty()) return solve_shared(b);
+  Substitution<B> run = substitution(b, 0);
+  run.is_forward_done = true;
   run_for_processor(run);
 }
 

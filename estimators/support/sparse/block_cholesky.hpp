@@ -46,14 +46,18 @@ class BlockCholesky {
   double* data() { return panels_.data(); }
   const double* data() const { return panels_.data(); }
 
-  /// False where a pivot is zero or not a number.
-  bool factorise();
+  /// False where a pivot is zero or not a number; of Inertia::positive also where one is negative,
+  /// which then need not be counted to the end. `b`: a right side that solve_begun() will solve
+  /// for, begun while the factor is in the cache.
+  bool factorise(Inertia inertia = Inertia::any, double* b = nullptr);
   /// L of a positive definite A was written in the place of A.
   void take_factor();
   int negative_pivots() const { return negative_pivots_; }
 
   /// Solves A x = b in place; B numbers a node, in the order of elimination.
   void solve(double* x);
+  /// The same of the right side that the last factorise() was given.
+  void solve_begun(double* b);
   /// Solves Lᵀ x = b in place, of a positive definite A.
   void solve_transposed(double* x);
 
@@ -66,9 +70,9 @@ class BlockCholesky {
   BlockCholesky(const Symbolic& symbolic, PanelMemory panels);
   static std::size_t numbers_of(const Symbolic& symbolic);
 
-  Factorisation<B> factorisation(int thread);
+  Factorisation<B> factorisation(int thread, Inertia inertia = Inertia::any);
   Substitution<B> substitution(double* x, int thread);
-  bool factorise_shared();
+  bool factorise_shared(Inertia inertia);
   void solve_shared(double* x);
 
   const Symbolic* symbolic_;

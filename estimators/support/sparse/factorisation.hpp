@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "estimators/support/sparse/dense_kernel.hpp"
-#include "estimators/support/sparse/symbolic.hpp"
+#include "estimators/support/sparse/substitution.hpp"
 
 namespace fathom::sparse {
 
@@ -17,6 +16,9 @@ struct Factorisation {
   double* packed;
   int negative = 0;
   double* inverses = nullptr;  ///< 1 / the diagonal of L, for substitutions
+  Inertia inertia = Inertia::any;
+  const Substitution<B>* forward =
+      nullptr;  ///< of a right side, as long as a panel is in the cache
 
   // Row block `row` of columns [0, depth) of a panel, times D, as the right side of a product.
   FATHOM_INLINE void pack(const double* panel, int stride, int row, int depth,
@@ -194,7 +196,9 @@ struct Factorisation {
       const int stride = s.panel_rows() * B;
       double* sign = signs + at(s.first * B);
       if (!factor_panel(s, panel, stride, stride, sign)) return false;
+      if (negative > 0 && inertia == Inertia::positive) return false;
       invert_diagonal(s, panel, stride);
+      if (forward != nullptr) forward->forward(s);
       for (int j = s.updates; j < s.updates + s.update_count; ++j) {
         const Update& u = symbolic.updates[at(j)];
         if (u.target >= end) break;

@@ -15,6 +15,7 @@ struct Substitution {
   const double* inverses;  ///< 1 / the diagonal of L
   double* x;
   double* gathered;
+  bool is_forward_done = false;
 
   // L y = x for the diagonal block, in place.
   FATHOM_INLINE void solve_diagonal(const double* block, int stride, const double* inverse,
@@ -147,7 +148,7 @@ struct Substitution {
 
   FATHOM_INLINE bool run() {
     const std::vector<Supernode>& all = symbolic.supernodes;
-    for (std::size_t i = 0; i < all.size(); ++i) forward(all[i]);
+    for (std::size_t i = 0; !is_forward_done && i < all.size(); ++i) forward(all[i]);
     apply_signs();
     for (std::size_t i = all.size(); i > 0; --i) backward(all[i - 1]);
     return true;

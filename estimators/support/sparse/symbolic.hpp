@@ -71,6 +71,9 @@ struct Symbolic {
   int panel_row(int row, const Supernode& supernode) const;
 };
 
+/// What a matrix may be.
+enum class Inertia { any, positive };
+
 /// How many of the rows below a supernode are columns of supernodes before `end`.
 int rows_inside(const Symbolic& symbolic, const Supernode& s, int end);
 

@@ -5,8 +5,8 @@ from maker import maker
 from pages.performance import row_of
 
 SHAPES = ("chain", "drive", "short_drive", "office", "circuit", "survey", "streets")
-STAGES = ("hand over", "analysis", "memory", "headings", "linearise", "factorise", "substitute",
-          "move", "check")
+STAGES = ("hand over", "chains", "expand", "analysis", "memory", "headings", "linearise",
+          "factorise", "substitute", "move", "check")
 
 
 @maker("docs/cost.md", "cost-stages", "time",
@@ -23,8 +23,8 @@ def cost_stages(work):
         row = row_of(rows, f"stages/{shape}/manual_time_median")
         cells.append([shape.replace("_", " "), f"{row['keyframes']:.0f}", f"{row['loops']:.0f}",
                       f"{row['linearisations']:.0f}", significant(row["real_time"]),
-                      *(significant(row[stage]) for stage in STAGES),
-                      significant(row["dense"]), significant(2 * row["clear"])])
+                      *(significant(row[stage]) if stage in row else "–" for stage in STAGES),
+                      significant(row["dense"]), significant(row["clear"])])
     return table(["graph", "keyframes", "loops", "linearisations", "whole",
                   *("LAGO" if stage == "headings" else stage for stage in STAGES),
                   "bound: factorise", "bound: substitute"], cells)
