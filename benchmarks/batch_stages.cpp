@@ -105,6 +105,44 @@ void time_step(Equations& equations, const std::vector<Node>& given, Stages& tim
   timed.time("check", [&] { benchmark::DoNotOptimize(equations.differentiate(given)); });
 }
 
+// The stages of `finish`, each once.
+void time_stages(const std::vector<Edge>& edges, const std::vector<Node>& given, Stages& timed) {
+  std::vector<double> theta;
+  for (const Node& node : given) theta.push_back(node.theta);
+  std::optional<ChainGraph> chains;
+  bool is_start = false;
+  timed.time("chains", [&] {
+    chains.emplace(edges, given);
+    is_start = chains->measure();
+  });
+  if (is_start) {
+    timed.time("expand", [&] { benchmark::DoNotOptimize(chains->expanded(chains->nodes())); });
+  }
+  const bool has_chains = chains->has_chains();
+  const std::span<const Edge> left = has_chains ? chains->edges() : std::span<const Edge>(edges);
+  const std::size_t left_nodes = has_chains ? chains->nodes().size() : given.size();
+  fathom::sparse::Symbolic symbolic;
+  timed.time("analysis", [&] { symbolic = analyse_graph(left, static_cast<int>(left_nodes)); });
+  timed.time("headings", [&] {
+    std::optional<ChainTurns> turns;
+    if (has_chains) turns.emplace(*chains);
+    HeadingProblem headings(symbolic, turns ? turns->edges() : left);
+    benchmark::DoNotOptimize(turns ? turns->expanded(headings.solve(turns->left(theta)))
+                                   : headings.solve(theta));
+  });
+  std::optional<NormalEquations> of_left;
+  std::optional<ChainEquations> of_chains;
+  timed.time("memory", [&] {
+    of_left.emplace(symbolic, left);
+    if (has_chains) of_chains.emplace(*chains, *of_left);
+  });
+  if (has_chains) {
+    time_step(*of_chains, given, timed);
+  } else {
+    time_step(*of_left, given, timed);
+  }
+}
+
 // Stages of one solve, and the whole: `finish` is all but the hand-over. `clear` is the bandwidth
 // of this machine over the memory of the factor, `dense` the time of the factorisation's
 // multiply-adds in a dense matrix.
@@ -118,8 +156,6 @@ void stages(benchmark::State& state, const Shape& shape) {
     loops += log.arrival(k).registrations.size();
   }
   const std::vector<Node> given = nodes_of(log.odometry());
-  std::vector<double> theta;
-  for (const Node& node : given) theta.push_back(node.theta);
   Stages timed(state);
   int iterations = 0;
   const fathom::sparse::Symbolic pattern = analyse_graph(edges, static_cast<int>(given.size()));
@@ -144,39 +180,8 @@ void stages(benchmark::State& state, const Shape& shape) {
     timed.time("finish", [&] { iterations = estimator->finish({}).iterations; });
     state.SetIterationTime(std::chrono::duration<double>(Clock::now() - start).count());
 
-    std::optional<ChainGraph> chains;
-    bool is_start = false;
-    timed.time("chains", [&] {
-      chains.emplace(edges, given);
-      is_start = chains->measure();
-    });
-    if (is_start) {
-      timed.time("expand", [&] { benchmark::DoNotOptimize(chains->expanded(chains->nodes())); });
-    }
-    const bool has_chains = chains->has_chains();
-    const std::span<const Edge> left = has_chains ? chains->edges() : std::span<const Edge>(edges);
-    const std::size_t left_nodes = has_chains ? chains->nodes().size() : given.size();
-    fathom::sparse::Symbolic symbolic;
-    timed.time("analysis", [&] { symbolic = analyse_graph(left, static_cast<int>(left_nodes)); });
-    timed.time("headings", [&] {
-      std::optional<ChainTurns> turns;
-      if (has_chains) turns.emplace(*chains);
-      HeadingProblem headings(symbolic, turns ? turns->edges() : left);
-      benchmark::DoNotOptimize(turns ? turns->expanded(headings.solve(turns->left(theta)))
-                                     : headings.solve(theta));
-    });
-    std::optional<NormalEquations> of_left;
-    std::optional<ChainEquations> of_chains;
-    timed.time("memory", [&] {
-      of_left.emplace(symbolic, left);
-      if (has_chains) of_chains.emplace(*chains, *of_left);
-    });
     timed.time("clear", [&] { factor.clear(); });
-    if (has_chains) {
-      time_step(*of_chains, given, timed);
-    } else {
-      time_step(*of_left, given, timed);
-    }
+    time_stages(edges, given, timed);
   }
   state.counters["keyframes"] = static_cast<double>(log.size());
   state.counters["loops"] = static_cast<double>(loops);

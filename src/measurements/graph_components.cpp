@@ -93,6 +93,7 @@ std::vector<std::size_t> fixed_sets(const G2oFile& file, const KeyframeOf& keyfr
   }
   if (file.fixed.empty() && file.is_start_fixed()) keyframes.insert(0);
   std::vector<std::size_t> roots;
+  roots.reserve(keyframes.size());
   for (const std::size_t k : keyframes) roots.push_back(sets.root(k));
   return roots;
 }
