@@ -1,7 +1,6 @@
 // How long a file may be. clang-tidy looks after the length of functions (.clang-tidy).
 
 #include <algorithm>
-#include <map>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -12,13 +11,6 @@ namespace fathom::test {
 namespace {
 
 constexpr long kMostLines = 250;
-
-// Files that may be longer, by their path from the top of the checkout, each with the reason.
-const std::map<std::string, std::string>& longer_files() {
-  static const std::map<std::string, std::string> table{
-      {"src/harness/replay.cpp", "one replay, from the first call of the estimator to the last"}};
-  return table;
-}
 
 long lines_of(const std::string& file) {
   const std::string text = content_of(file);
@@ -33,15 +25,7 @@ TEST(FileSize, IsBounded) {
                   R"(.*\.(cpp|hpp|sh|cmake|js|py))");
   ASSERT_GT(files.size(), 300u);
   for (const std::string& file : files) {
-    if (longer_files().contains(file)) continue;
-    EXPECT_LE(lines_of(file), kMostLines) << file << ": split it, or name it with a reason here";
-  }
-}
-
-TEST(FileSize, OnlyLongFilesAreNamedAsLonger) {
-  for (const auto& [file, reason] : longer_files()) {
-    EXPECT_GT(lines_of(file), kMostLines) << file << ": is gone, or no longer needs its entry";
-    EXPECT_FALSE(reason.empty()) << file;
+    EXPECT_LE(lines_of(file), kMostLines) << file << ": split it";
   }
 }
 

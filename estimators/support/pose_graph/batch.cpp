@@ -7,6 +7,7 @@
 
 #include "estimators/support/pose_graph/chain_turns.hpp"
 #include "estimators/support/pose_graph/chordal.hpp"
+#include "estimators/support/pose_graph/graph_equations.hpp"
 #include "estimators/support/pose_graph/headings.hpp"
 #include "estimators/support/pose_graph/lifted_headings.hpp"
 #include "estimators/support/pose_graph/turn_graph.hpp"
@@ -23,11 +24,12 @@ class Batch {
         limits_(limits),
         keyframes_(keyframes_of(nodes)),
         workers_(workers),
+        equations_(edges, nodes.size(), workers),
         chains_(edges, nodes) {
     if (!chains_.has_chains()) return;
     left_nodes_ = chains_.nodes();
     left_ = std::make_unique<Batch>(chains_.edges(), left_nodes_, limits, workers);
-    chain_equations_.emplace(chains_, left_->whole().equations);
+    equations_.eliminate_chains(chains_, left_->equations_);
   }
 
   SolveResult run(Start start) {
@@ -54,20 +56,6 @@ class Batch {
   }
 
  private:
-  // The pattern and equations of all keyframes.
-  struct Whole {
-    Whole(std::span<const Edge> edges, std::size_t nodes, Workers* workers)
-        : symbolic(analyse_graph(edges, static_cast<int>(nodes), workers)),
-          equations(symbolic, edges) {}
-    sparse::Symbolic symbolic;
-    NormalEquations equations;
-  };
-
-  Whole& whole() {
-    if (!whole_) whole_ = std::make_unique<Whole>(edges_, nodes_.size(), workers_);
-    return *whole_;
-  }
-
   // Of a graph of long chains, from the minimum of the one without them. Whether that ends the
   // search.
   bool run_without_chains() {
@@ -106,7 +94,8 @@ class Batch {
   // Minimises from a start and keeps the result if it is the best so far. Whether it is good
   // enough to end the search.
   bool try_from(std::vector<Node> nodes, Hessian first = Hessian::gauss_newton) {
-    const SolveResult result = minimise_from(nodes, first);
+    const SolveResult result = equations_.minimise_from(nodes, limits_, first);
+    iterations_ += result.iterations;
     const bool is_better = !tried_ || (is_done(result.outcome) &&
                                        (!is_done(best_.outcome) || result.cost < best_.cost));
     tried_ = true;
@@ -114,23 +103,6 @@ class Batch {
     best_ = result;
     best_nodes_ = std::move(nodes);
     return result.outcome == Outcome::converged && result.is_local_minimum.value_or(false);
-  }
-
-  // By the elimination of chains; without it where a step does not lower F.
-  SolveResult minimise_from(std::vector<Node>& nodes, Hessian first) {
-    if (chain_equations_) {
-      std::vector<Node> moved = nodes;
-      chains_.follow_open_chain(moved);
-      const SolveResult result = minimise(*chain_equations_, moved, limits_, first);
-      iterations_ += result.iterations;
-      if (is_done(result.outcome)) {
-        nodes = std::move(moved);
-        return result;
-      }
-    }
-    const SolveResult result = minimise(whole().equations, nodes, limits_, {}, first);
-    iterations_ += result.iterations;
-    return result;
   }
 
   const TurnGraph& turns() {
@@ -144,7 +116,7 @@ class Batch {
     const bool has_chains = left_ != nullptr && turns().are_all();
     if (has_chains && !chain_turns_) chain_turns_.emplace(chains_);
     if (!headings_ && has_chains) {
-      headings_.emplace(left_->whole().symbolic, chain_turns_->edges());
+      headings_.emplace(left_->equations_.whole().symbolic, chain_turns_->edges());
     } else if (!headings_) {
       headings_.emplace(turn_pattern(), turns().edges());
     }
@@ -154,7 +126,7 @@ class Batch {
 
   // Headings know nothing of the errors of pictures.
   const sparse::Symbolic& turn_pattern() {
-    if (keyframes_ == nodes_.size()) return whole().symbolic;
+    if (keyframes_ == nodes_.size()) return equations_.whole().symbolic;
     if (!turn_pattern_) {
       const std::span<const Edge> all = turns().edges();
       std::vector<Edge> apart(all.begin(), all.end());
@@ -193,21 +165,12 @@ class Batch {
     return theta;
   }
 
-  // One step that is exact in the positions, whatever they were, and corrects the headings by what
-  // the measured positions say of them.
   std::vector<Node> from_headings(const std::vector<double>& theta) {
     std::vector<Node> turned = nodes_;
     for (std::size_t k = 1; k < theta.size(); ++k) {
       turned[k] = make_node(nodes_[k].x, nodes_[k].y, theta[k]);
     }
-    const auto step = [&](auto& equations) {
-      equations.linearise(turned, Hessian::measured);
-      if (!equations.factorise()) return false;
-      equations.solve_step();
-      equations.move(turned, turned);
-      return true;
-    };
-    if (!chain_equations_ || !step(*chain_equations_)) step(whole().equations);
+    equations_.take_measured_step(turned);
     return turned;
   }
 
@@ -240,11 +203,10 @@ class Batch {
   SolveLimits limits_;
   std::size_t keyframes_;
   Workers* workers_;
+  GraphEquations equations_;
   ChainGraph chains_;
   std::vector<Node> left_nodes_;
-  std::unique_ptr<Batch> left_;  ///< of the graph without chains
-  std::optional<ChainEquations> chain_equations_;
-  std::unique_ptr<Whole> whole_;
+  std::unique_ptr<Batch> left_;                   ///< of the graph without chains
   std::optional<sparse::Symbolic> turn_pattern_;  ///< where it is not that of the graph
   std::optional<TurnGraph> turns_;
   std::optional<ChainTurns> chain_turns_;
