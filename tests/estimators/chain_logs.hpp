@@ -54,7 +54,24 @@ inline MeasurementLog circled_twice(std::size_t keyframes, const std::vector<Loo
   return log;
 }
 
+// Chains of none to seven keyframes, one of many and one that is open; two loops between the ends
+// of one chain, of which one runs backwards.
+inline const std::vector<Loop> kOfAllLengths{{0, 40},  {1, 41},  {3, 42},  {6, 43}, {10, 44},
+                                             {15, 45}, {21, 46}, {28, 47}, {0, 47}};
+
 inline const std::vector<Loop> kLoops{{0, 50}, {12, 61}, {13, 62}, {30, 80}, {31, 80}};
+
+inline GraphParts parts_of_all_lengths(Loop last = {28, 80}) {
+  std::vector<Loop> loops = kOfAllLengths;
+  loops.push_back(last);
+  GraphParts parts = parts_of(circled_twice(100, loops, 1.0));
+  pose_graph::Edge back = parts.edges[40];
+  back.from = 28;
+  back.to = 21;
+  back.x = -3.0;
+  parts.edges.push_back(back);
+  return parts;
+}
 
 struct Derivatives {
   Eigen::MatrixXd H;

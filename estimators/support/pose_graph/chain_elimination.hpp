@@ -8,24 +8,36 @@
 /// The arithmetic of ChainEquations, inlined into functions compiled for the processor at hand.
 namespace fathom::pose_graph {
 
-/// Both sides of a chain on the way to its middle.
-template <Hessian kHessian>
-struct ChainElimination {
+struct OneChain {
   const ChainGraph& graph;
   const ChainGraph::Chain& chain;
   const Node* nodes;  ///< of its keyframes
   EliminatedKeyframe* inside;
   PairTerms& terms;
   ChainSums& sums;
+  double damping;
+};
 
+/// Both sides of a chain on the way to its middle.
+template <Hessian kHessian>
+struct ChainElimination : OneChain {
   ChainFront from_begin = {};
   ChainFront from_end = {};
   Four at_begin[3] = {};
   Four at_end[3] = {};
 
   FATHOM_INLINE PairTerms step(int t) const {
-    return pair_terms<kHessian>(
+    PairTerms of_step = pair_terms<kHessian>(
         linearise_edge(graph.step(chain, t), nodes[t], nodes[t + 1], kLeverOf<kHessian>));
+    if (damping != 0.0) scale_diagonals(1.0 + damping, of_step);
+    return of_step;
+  }
+
+  FATHOM_INLINE static void scale_diagonals(double factor, PairTerms& t) {
+    for (const std::size_t a : {0U, 3U, 5U}) {
+      t.H_from[a] *= factor;
+      t.H_to[a] *= factor;
+    }
   }
 
   FATHOM_INLINE void run() {
@@ -36,6 +48,7 @@ struct ChainElimination {
     if (count == 0) {
       sums.g_to = first.g_to;
       terms = first;
+      undamp();
       return;
     }
     const PairTerms last = step(count);
@@ -54,6 +67,12 @@ struct ChainElimination {
       backward(count - i);
     }
     meet(1 + before);
+    undamp();
+  }
+
+  // The equations that take the terms multiply their diagonal.
+  FATHOM_INLINE void undamp() {
+    if (damping != 0.0) scale_diagonals(1.0 / (1.0 + damping), terms);
   }
 
   // Keyframe k of the side that comes from the begin.
@@ -112,14 +131,7 @@ struct ChainElimination {
 using ChainVector = std::array<double, 3>;
 
 /// The gradient alone, with the factors as they are.
-struct ChainDifferentiation {
-  const ChainGraph& graph;
-  const ChainGraph::Chain& chain;
-  const Node* nodes;  ///< of its keyframes
-  EliminatedKeyframe* inside;
-  PairTerms& terms;
-  ChainSums& sums;
-
+struct ChainDifferentiation : OneChain {
   FATHOM_INLINE PairTerms step(int t) const {
     return pair_terms<Hessian::gauss_newton>(
         linearise_edge(graph.step(chain, t), nodes[t], nodes[t + 1]));

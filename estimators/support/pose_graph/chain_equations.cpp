@@ -19,6 +19,7 @@ struct ChainParts {
   PairTerms* terms;
   ChainSums* sums;
   const Node* nodes;
+  double damping = 0.0;
 };
 
 template <class OfChain>
@@ -30,9 +31,8 @@ struct ChainTask {
   FATHOM_INLINE bool run() const {
     for (std::size_t i = begin; i < end; ++i) {
       const ChainGraph::Chain& chain = parts.chains[i];
-      OfChain{
-          parts.graph,    chain,        parts.nodes + chain.begin, parts.inside + parts.begins[i],
-          parts.terms[i], parts.sums[i]}
+      OfChain{{parts.graph, chain, parts.nodes + chain.begin, parts.inside + parts.begins[i],
+               parts.terms[i], parts.sums[i], parts.damping}}
           .run();
     }
     return true;
@@ -108,9 +108,9 @@ void ChainEquations::add_up() {
   }
 }
 
-double ChainEquations::linearise(std::span<const Node> nodes, Hessian hessian) {
+double ChainEquations::linearise(std::span<const Node> nodes, Hessian hessian, double damping) {
   const ChainParts parts{graph_,        chains_,      begins_.data(), inside_,
-                         terms_.data(), sums_.data(), nodes.data()};
+                         terms_.data(), sums_.data(), nodes.data(),   damping};
   switch (hessian) {
     case Hessian::gauss_newton:
       for_chains<ChainElimination<Hessian::gauss_newton>>(workers(), parts);
@@ -121,9 +121,12 @@ double ChainEquations::linearise(std::span<const Node> nodes, Hessian hessian) {
     case Hessian::exact:
       for_chains<ChainElimination<Hessian::exact>>(workers(), parts);
       break;
+    case Hessian::positions:
+      for_chains<ChainElimination<Hessian::positions>>(workers(), parts);
+      break;
   }
   add_up();
-  return left_.linearise(ends(nodes), hessian, 0.0, terms_);
+  return left_.linearise(ends(nodes), hessian, damping, terms_);
 }
 
 double ChainEquations::differentiate(std::span<const Node> nodes) {
@@ -183,6 +186,14 @@ void ChainEquations::move(std::span<const Node> from, std::vector<Node>& to) con
     move_next(end_steps_[i + 1][0], end_steps_[i + 1][1], end_steps_[i + 1][2]);
   }
   graph_.follow_open_chain(to);
+}
+
+bool ChainEquations::follow_headings(std::vector<Node>& nodes) {
+  linearise(nodes, Hessian::positions);
+  if (!factorise(sparse::Inertia::positive)) return false;
+  solve_step();
+  move(nodes, nodes);
+  return true;
 }
 
 bool ChainEquations::step_is_small(std::span<const Node> nodes, double tolerance) const {

@@ -36,14 +36,12 @@ struct ChainSums {
 /// to the equations of the graph without them.
 class ChainEquations {
  public:
-  static constexpr bool kTakesDamping = false;
-
   /// `left`: equations of chains.edges(). Both must outlive it.
   ChainEquations(const ChainGraph& chains, NormalEquations& left);
 
-  /// As of NormalEquations, without damping. Keyframes that the graph leaves out must be where
-  /// their steps lead; they add nothing.
-  double linearise(std::span<const Node> nodes, Hessian hessian);
+  /// As of NormalEquations. Keyframes that the graph leaves out must be where their steps lead;
+  /// they add nothing.
+  double linearise(std::span<const Node> nodes, Hessian hessian, double damping = 0.0);
   double differentiate(std::span<const Node> nodes);
   bool factorise(sparse::Inertia inertia = sparse::Inertia::any) {
     const bool is_possible = inertia == sparse::Inertia::any || negative_pivots_ == 0;
@@ -57,6 +55,9 @@ class ChainEquations {
   /// Keyframes that the graph leaves out follow.
   void move(std::span<const Node> from, std::vector<Node>& to) const;
   bool step_is_small(std::span<const Node> nodes, double tolerance) const;
+
+  /// As PositionProblem::solve.
+  bool follow_headings(std::vector<Node>& nodes);
 
  private:
   std::span<const Node> ends(std::span<const Node> nodes);

@@ -1,17 +1,14 @@
 #include "estimators/support/pose_graph/graph_equations.hpp"
 
-#include <utility>
-
 namespace fathom::pose_graph {
 namespace {
 
 template <class Equations>
-bool take_step(Equations& equations, std::vector<Node>& nodes) {
+void take_step(Equations& equations, std::vector<Node>& nodes) {
   equations.linearise(nodes, Hessian::measured);
-  if (!equations.factorise()) return false;
+  if (!equations.factorise()) return;
   equations.solve_step();
   equations.move(nodes, nodes);
-  return true;
 }
 
 }  // namespace
@@ -28,25 +25,13 @@ WholeEquations& GraphEquations::whole() {
 
 SolveResult GraphEquations::minimise_from(std::vector<Node>& nodes, const SolveLimits& limits,
                                           Hessian first) {
-  int iterations = 0;
-  if (chains_) {
-    std::vector<Node> moved = nodes;
-    chain_graph_->follow_open_chain(moved);
-    const SolveResult result = minimise(*chains_, moved, limits, first);
-    if (is_done(result.outcome)) {
-      nodes = std::move(moved);
-      return result;
-    }
-    iterations = result.iterations;
-  }
-  SolveResult result = minimise(whole().equations, nodes, limits, {}, first);
-  result.iterations += iterations;
-  return result;
+  if (!chains_) return minimise(whole().equations, nodes, limits, {}, first);
+  chain_graph_->follow_open_chain(nodes);
+  return minimise(*chains_, nodes, limits, first);
 }
 
 void GraphEquations::take_measured_step(std::vector<Node>& nodes) {
-  if (chains_ && take_step(*chains_, nodes)) return;
-  take_step(whole().equations, nodes);
+  chains_ ? take_step(*chains_, nodes) : take_step(whole().equations, nodes);
 }
 
 }  // namespace fathom::pose_graph

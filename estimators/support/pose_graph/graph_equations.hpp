@@ -19,8 +19,8 @@ struct WholeEquations {
   NormalEquations equations;
 };
 
-/// Steps on a graph: by the elimination of its chains where it has any, else, and where such a step
-/// fails, by the equations of all nodes, which are made when they are first asked for.
+/// Steps on a graph: by the elimination of its chains where it has any, else by the equations of
+/// all nodes, which are made when they are first asked for.
 class GraphEquations {
  public:
   /// The edges must outlive it.
@@ -32,7 +32,7 @@ class GraphEquations {
 
   WholeEquations& whole();
 
-  /// minimise; `iterations` are those of all that was tried.
+  /// As minimise.
   SolveResult minimise_from(std::vector<Node>& nodes, const SolveLimits& limits, Hessian first);
 
   /// One step that is exact in the positions, whatever they were, and corrects the headings by what

@@ -49,6 +49,9 @@ double NormalEquations::linearise(std::span<const Node> nodes, Hessian hessian, 
     case Hessian::exact:
       cost = add_edges<Hessian::exact>(nodes, given);
       break;
+    case Hessian::positions:
+      cost = add_edges<Hessian::positions>(nodes, given);
+      break;
   }
   if (!is_pose(nodes.back())) cost += add_shared(nodes, hessian);
   write_diagonal(damping);

@@ -22,8 +22,6 @@ bool is_small(double squared_step, std::span<const Node> nodes, double tolerance
 /// pictures, nodes behind the keyframes, F has nᵀ n.
 class NormalEquations {
  public:
-  static constexpr bool kTakesDamping = true;
-
   /// The edges must outlive it.
   NormalEquations(const sparse::Symbolic& symbolic, std::span<const Edge> edges);
 
@@ -32,7 +30,8 @@ class NormalEquations {
   const EdgeLoss& loss() const { return loss_; }
 
   /// Adds both up at the estimate; the diagonal is multiplied by 1 + damping. Returns F. The first
-  /// edges add what `given` has of them in place of their own terms.
+  /// edges add what `given` has of them in place of their own terms. Hessian::positions is for
+  /// graphs without errors of pictures.
   double linearise(std::span<const Node> nodes, Hessian hessian, double damping = 0.0,
                    std::span<const PairTerms> given = {});
 

@@ -10,7 +10,8 @@ namespace fathom::pose_graph {
 enum class Hessian {
   gauss_newton,  ///< Jᵀ W J
   measured,      ///< Jᵀ W J with the levers of the measured motions (Lever::measured)
-  exact          ///< all of them: Jᵀ W J + Σ (W ν)_r ∇² h_r
+  exact,         ///< all of them: Jᵀ W J + Σ (W ν)_r ∇² h_r
+  positions      ///< Jᵀ W J of the positions; a step turns nothing
 };
 
 /// What an edge, or a chain of them, adds to F and to the matrix and gradient of ½F at its ends.
@@ -47,6 +48,11 @@ template <Hessian kHessian>
     p.H_from[5] -= m[0] * t.dx + m[1] * t.dy;
     p.H_cross[6] -= m[1];
     p.H_cross[7] += m[0];
+  }
+  if constexpr (kHessian == Hessian::positions) {
+    p.H_from = p.H_to = {M[0], M[1], 0.0, M[3], 0.0, 1.0};
+    p.H_cross = {-M[0], -M[1], 0.0, -M[1], -M[3], 0.0, 0.0, 0.0, 0.0};
+    p.g_from[2] = p.g_to[2] = 0.0;
   }
   return p;
 }

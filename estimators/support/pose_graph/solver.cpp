@@ -1,13 +1,13 @@
 #include "estimators/support/pose_graph/solver.hpp"
 
 #include <cmath>
+#include <type_traits>
 
 #include "estimators/support/pose_graph/positions.hpp"
 
 namespace fathom::pose_graph {
 namespace {
 
-// Equations that take no damping end where a step fails.
 template <class Equations>
 class Minimiser {
  public:
@@ -37,11 +37,7 @@ class Minimiser {
 
  private:
   double linearise(const std::vector<Node>& nodes) {
-    if constexpr (Equations::kTakesDamping) {
-      return equations_.linearise(nodes, hessian_, damping_);
-    } else {
-      return equations_.linearise(nodes, hessian_);
-    }
+    return equations_.linearise(nodes, hessian_, damping_);
   }
 
   // False where the solve has ended.
@@ -127,23 +123,26 @@ class Minimiser {
 
   // A step that failed, again with the positions that suit its headings.
   bool follow_headings(double& cost) {
-    if constexpr (Equations::kTakesDamping) {
-      if (!positions_) {
-        positions_.emplace(equations_.factor(), equations_.edges(), equations_.loss());
-      }
-      if (!positions_->solve(trial_)) return false;
-    } else {
-      return false;
-    }
+    if (!find_positions()) return false;
     cost = linearise(trial_);
     return is_no_rise(cost);
   }
 
+  bool find_positions() {
+    if constexpr (std::is_same_v<Equations, NormalEquations>) {
+      if (!positions_) {
+        positions_.emplace(equations_.factor(), equations_.edges(), equations_.loss());
+      }
+      return positions_->solve(trial_);
+    } else {
+      return equations_.follow_headings(trial_);
+    }
+  }
+
   bool raise_damping() {
     damping_ = std::max(tuning_.first_damping, tuning_.damping_increase * damping_);
-    if (!Equations::kTakesDamping || damping_ > tuning_.largest_damping) {
-      result_.outcome = Equations::kTakesDamping && is_at_jump() ? Outcome::iteration_limit
-                                                                 : Outcome::numerical_failure;
+    if (damping_ > tuning_.largest_damping) {
+      result_.outcome = is_at_jump() ? Outcome::iteration_limit : Outcome::numerical_failure;
       return false;
     }
     hessian_ = Hessian::gauss_newton;

@@ -70,7 +70,6 @@ SolveResult minimise(NormalEquations& equations, std::vector<Node>& nodes,
                      const SolveLimits& limits, const SolverTuning& tuning = {},
                      Hessian first = Hessian::gauss_newton);
 
-/// The same; numerical_failure where a step makes F rise, for damping is not at hand.
 SolveResult minimise(ChainEquations& equations, std::vector<Node>& nodes, const SolveLimits& limits,
                      Hessian first);
 
