@@ -127,8 +127,7 @@ void time_stages(const std::vector<Edge>& edges, const std::vector<Node>& given,
     std::optional<ChainTurns> turns;
     if (has_chains) turns.emplace(*chains);
     HeadingProblem headings(symbolic, turns ? turns->edges() : left);
-    benchmark::DoNotOptimize(turns ? turns->expanded(headings.solve(turns->left(theta)))
-                                   : headings.solve(theta));
+    benchmark::DoNotOptimize(turns ? turns->solve(headings, theta) : headings.solve(theta));
   });
   std::optional<NormalEquations> of_left;
   std::optional<ChainEquations> of_chains;

@@ -21,7 +21,8 @@ class CallTimer {
   /// Wall time since it was made, ms.
   double stop() const {
     double elapsed_ms = milliseconds_since(start_);
-    double cpu_ms = std::max(0.0, processor_ms() - processor_ms_of_none());
+    const double measured_ms = processor_ms();
+    double cpu_ms = std::max(0.0, measured_ms - processor_ms_of_none());
     const ProgramWork& work = program_work();
     if (work.waited_s != work_.waited_s) {
       const double by_program_ms = 1e3 * (work.processor_s - work_.processor_s);

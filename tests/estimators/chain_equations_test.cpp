@@ -123,6 +123,32 @@ TEST(ChainEquations, TakeTheTextbookStep) {
   EXPECT_NEAR(both.chains.gradient_norm(), 2.0 * d.g.lpNorm<Eigen::Infinity>(), 1e-9 * d.g.norm());
 }
 
+// Where one keyframe inside of a chain is displaced, or all of them smoothly: the gradient is that
+// before the elimination.
+TEST(ChainEquations, KnowTheGradientInsideOfAChain) {
+  const GraphParts parts = parts_of_all_lengths();
+  BothWays both(parts);
+  const std::vector<Node> minimum = displaced(parts, both.graph, 0.0);
+  both.whole.linearise(minimum, Hessian::gauss_newton);
+  both.chains.linearise(minimum, Hessian::gauss_newton);
+  const auto expect_same_at = [&](const std::vector<Node>& nodes) {
+    both.whole.differentiate(nodes);
+    both.chains.differentiate(nodes);
+    const double norm = both.whole.gradient_norm();
+    EXPECT_NEAR(both.chains.gradient_norm(), norm, 1e-9 * norm);
+  };
+  for (const std::size_t k : {5U, 17U, 18U, 24U, 60U, 64U, 65U}) {
+    std::vector<Node> nodes = minimum;
+    nodes[k].y += 0.1;
+    expect_same_at(nodes);
+  }
+  std::vector<Node> nodes = minimum;
+  for (std::size_t k = 48; k < 80; ++k) {
+    nodes[k].x += 0.1 * std::sin(M_PI * (static_cast<double>(k) - 47.0) / 33.0);
+  }
+  expect_same_at(nodes);
+}
+
 // Sylvester: the negative pivots of both eliminations are the negative eigenvalues of one matrix.
 TEST(ChainEquations, CountNegativeEigenvalues) {
   const GraphParts parts = parts_of_all_lengths();

@@ -26,8 +26,8 @@ TEST(ChainTurns, AreTheHeadingsOfAllKeyframes) {
   }
   ASSERT_GT(theta.back(), 3.0 * M_PI);
   const std::vector<double> expected = HeadingProblem(symbolic, parts.edges).solve(theta);
-  const std::vector<double> solved =
-      turns.expanded(HeadingProblem(left, turns.edges()).solve(turns.left(theta)));
+  HeadingProblem left_problem(left, turns.edges());
+  const std::vector<double> solved = turns.solve(left_problem, theta);
   ASSERT_EQ(solved.size(), expected.size());
   double moved = 0.0;
   for (std::size_t k = 0; k < theta.size(); ++k) {
@@ -35,6 +35,40 @@ TEST(ChainTurns, AreTheHeadingsOfAllKeyframes) {
     moved = std::max(moved, std::abs(expected[k] - theta[k]));
   }
   EXPECT_GT(moved, 1e-3);
+}
+
+// Each step is rounded along the given headings, not their sum: 39 steps that measure 0.1 rad too
+// much add up to more than π.
+TEST(ChainTurns, AreRoundedStepByStep) {
+  test::GraphParts parts;
+  for (int k = 0; k < 39; ++k) {
+    Edge step;
+    step.from = k;
+    step.to = k + 1;
+    step.x = 1.0;
+    step.theta = 0.1;
+    step.W = {1.0, 0.0, 0.0, 1.0, 0.0, 1.0};
+    parts.edges.push_back(step);
+  }
+  Edge loop = parts.edges[0];
+  loop.to = 39;
+  loop.x = 39.0;
+  loop.theta = 0.0;
+  loop.W = {1e4, 0.0, 0.0, 1e4, 0.0, 1e4};
+  parts.edges.push_back(loop);
+  parts.nodes.assign(40, Node{});
+  const ChainGraph graph(parts.edges, parts.nodes);
+  ASSERT_TRUE(graph.has_chains());
+  const ChainTurns turns(graph);
+  const sparse::Symbolic symbolic = parts.analysed();
+  const sparse::Symbolic left =
+      analyse_graph(graph.edges(), static_cast<int>(graph.nodes().size()));
+  const std::vector<double> theta(40, 0.0);
+  const std::vector<double> expected = HeadingProblem(symbolic, parts.edges).solve(theta);
+  HeadingProblem left_problem(left, turns.edges());
+  const std::vector<double> solved = turns.solve(left_problem, theta);
+  for (std::size_t k = 0; k < theta.size(); ++k) EXPECT_NEAR(solved[k], expected[k], 1e-10) << k;
+  EXPECT_NEAR(solved[39], 0.0, 1e-3);
 }
 
 TEST(ChainTurns, MovedPosesKeepTheirCosine) {

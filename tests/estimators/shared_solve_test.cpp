@@ -17,9 +17,10 @@ using pose_graph::Start;
 
 constexpr std::array<int, 3> kThreads{2, 3, 7};
 
-// Tracks there and back, every third keyframe seen from the track before: separators as wide as a
-// track. `false_every`: so many loops, one is wrong.
-MeasurementLog survey(std::size_t tracks, std::size_t along_track, std::size_t false_every = 0) {
+// Tracks there and back, one of `every` keyframes seen from the track before: separators as wide as
+// a track. `false_every`: so many loops, one is wrong.
+MeasurementLog survey(std::size_t tracks, std::size_t along_track, std::size_t false_every = 0,
+                      std::size_t every = 3) {
   const auto truth = [along_track](std::size_t k) {
     const std::size_t track = k / along_track;
     const std::size_t along = k % along_track;
@@ -38,7 +39,7 @@ MeasurementLog survey(std::size_t tracks, std::size_t along_track, std::size_t f
   std::size_t loops = 0;
   for (std::size_t k = 1; k < tracks * along_track; ++k) {
     log.add_keyframe(measured(k - 1, k, {}));
-    if (k < along_track || k % 3 != 0) continue;
+    if (k < along_track || k % every != 0) continue;
     const bool is_false = false_every > 0 && ++loops % false_every == 0;
     const Pose error = is_false ? Pose{3.0, -2.0, 1.0} : Pose{};
     log.add_registration(measured(k - 2 * (k % along_track) - 1, k, error));
@@ -58,35 +59,53 @@ bool same_bits(const std::vector<pose_graph::Node>& a, const std::vector<pose_gr
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(a[0])) == 0;
 }
 
+void expect_bits_of_one_thread(const test::GraphParts& parts, Start start) {
+  pose_graph::SolveResult alone;
+  const auto nodes = solved(parts, start, 1, alone);
+  EXPECT_EQ(alone.outcome, Outcome::converged);
+  for (const int threads : kThreads) {
+    pose_graph::SolveResult shared;
+    EXPECT_TRUE(same_bits(solved(parts, start, threads, shared), nodes)) << threads;
+    EXPECT_EQ(shared.iterations, alone.iterations);
+    EXPECT_EQ(shared.cost, alone.cost);
+    EXPECT_EQ(shared.gradient_norm, alone.gradient_norm);
+    EXPECT_EQ(shared.is_local_minimum, alone.is_local_minimum);
+  }
+}
+
+// Of what is left without chains, which is what is factored.
+std::size_t blocks_left(const test::GraphParts& parts) {
+  const pose_graph::ChainGraph graph(parts.edges, parts.nodes);
+  EXPECT_TRUE(graph.has_chains());
+  return pose_graph::analyse_graph(graph.edges(), static_cast<int>(graph.nodes().size()))
+      .panel_blocks;
+}
+
 TEST(SharedSolve, IsThatOfOneThreadFromEachStart) {
-  const test::GraphParts parts = test::parts_of(survey(60, 70));
-  ASSERT_GT(parts.analysed().panel_blocks, sparse::kLeastSharedBlocks);
+  const test::GraphParts parts = test::parts_of(survey(60, 80));
+  ASSERT_GT(blocks_left(parts), sparse::kLeastSharedBlocks);
   for (const Start start :
        {Start::automatic, Start::given, Start::lago, Start::chordal, Start::lifted}) {
-    pose_graph::SolveResult alone;
-    const auto nodes = solved(parts, start, 1, alone);
-    EXPECT_EQ(alone.outcome, Outcome::converged);
-    for (const int threads : kThreads) {
-      pose_graph::SolveResult shared;
-      EXPECT_TRUE(same_bits(solved(parts, start, threads, shared), nodes)) << threads;
-      EXPECT_EQ(shared.iterations, alone.iterations);
-      EXPECT_EQ(shared.cost, alone.cost);
-      EXPECT_EQ(shared.gradient_norm, alone.gradient_norm);
-      EXPECT_EQ(shared.is_local_minimum, alone.is_local_minimum);
-    }
+    expect_bits_of_one_thread(parts, start);
   }
 }
 
 // Few long tracks: narrow separators, and branches that are long.
 TEST(SharedSolve, IsThatOfOneThreadOnOtherShapes) {
-  for (const auto& [tracks, along] : {std::pair<std::size_t, std::size_t>{3, 4000}, {1, 20000}}) {
-    const test::GraphParts parts = test::parts_of(survey(tracks, along));
-    ASSERT_GT(parts.analysed().panel_blocks, sparse::kLeastSharedBlocks);
-    pose_graph::SolveResult result;
-    const auto nodes = solved(parts, Start::automatic, 1, result);
-    for (const int threads : kThreads) {
-      EXPECT_TRUE(same_bits(solved(parts, Start::automatic, threads, result), nodes)) << threads;
-    }
+  const test::GraphParts parts = test::parts_of(survey(3, 8000));
+  ASSERT_GT(blocks_left(parts), sparse::kLeastSharedBlocks);
+  expect_bits_of_one_thread(parts, Start::automatic);
+}
+
+// Few loops: it is the elimination of the chains that is shared.
+TEST(SharedSolve, EliminatesChainsAsOneThreadDoes) {
+  const test::GraphParts parts = test::parts_of(survey(10, 2000, 0, 40));
+  const pose_graph::ChainGraph graph(parts.edges, parts.nodes);
+  ASSERT_TRUE(graph.has_chains());
+  ASSERT_GT(graph.chains().size(), 600U);
+  ASSERT_GT(parts.nodes.size() - graph.nodes().size(), 10000U);
+  for (const Start start : {Start::automatic, Start::lago, Start::given}) {
+    expect_bits_of_one_thread(parts, start);
   }
 }
 

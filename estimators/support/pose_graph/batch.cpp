@@ -121,12 +121,12 @@ class Batch {
       headings_.emplace(turn_pattern(), turns().edges());
     }
     if (!has_chains) return headings_->solve(theta);
-    return chain_turns_->expanded(headings_->solve(chain_turns_->left(theta)));
+    return chain_turns_->solve(*headings_, theta);
   }
 
   // Headings know nothing of the errors of pictures.
   const sparse::Symbolic& turn_pattern() {
-    if (keyframes_ == nodes_.size()) return equations_.whole().symbolic;
+    if (keyframes_ == nodes_.size() && left_ == nullptr) return equations_.whole().symbolic;
     if (!turn_pattern_) {
       const std::span<const Edge> all = turns().edges();
       std::vector<Edge> apart(all.begin(), all.end());
@@ -207,7 +207,7 @@ class Batch {
   ChainGraph chains_;
   std::vector<Node> left_nodes_;
   std::unique_ptr<Batch> left_;                   ///< of the graph without chains
-  std::optional<sparse::Symbolic> turn_pattern_;  ///< where it is not that of the graph
+  std::optional<sparse::Symbolic> turn_pattern_;  ///< where it is not that of the equations
   std::optional<TurnGraph> turns_;
   std::optional<ChainTurns> chain_turns_;
   std::optional<HeadingProblem> headings_;

@@ -152,12 +152,17 @@ struct ChainDifferentiation : OneChain {
     terms.g_to = sums.g_to = last.g_to;
     ChainVector from_begin = first.g_to;
     ChainVector from_end = last.g_from;
+    // What steps add to the gradients of the keyframes that come next, before the elimination.
+    ChainVector raw_begin = first.g_to;
+    ChainVector raw_end = last.g_from;
     const int before = (count - 1) / 2;
     const int behind = count - 1 - before;
     for (int i = 0; i < behind; ++i) {
       if (i < before) {
         const PairTerms next = step(1 + i);
         terms.cost += next.cost;
+        note(raw_begin, next.g_from);
+        raw_begin = next.g_to;
         add(next.g_from, from_begin);
         ChainVector after = next.g_to;
         substitute(inside[i], from_begin, terms.g_from, after);
@@ -165,13 +170,23 @@ struct ChainDifferentiation : OneChain {
       }
       const PairTerms next = step(count - i - 1);
       terms.cost += next.cost;
+      note(raw_end, next.g_to);
+      raw_end = next.g_from;
       add(next.g_to, from_end);
       ChainVector after = next.g_from;
       substitute(inside[count - i - 1], from_end, terms.g_to, after);
       from_end = after;
     }
+    note(raw_begin, raw_end);
     add(from_end, from_begin);
     substitute(inside[before], from_begin, terms.g_from, terms.g_to);
+  }
+
+  // The gradient of a keyframe, of its two steps.
+  FATHOM_INLINE void note(const ChainVector& one, const ChainVector& other) {
+    for (std::size_t a = 0; a < 3; ++a) {
+      sums.gradient_norm = std::max(sums.gradient_norm, std::abs(one[a] + other[a]));
+    }
   }
 
   FATHOM_INLINE static void add(const ChainVector& more, ChainVector& sum) {
@@ -180,9 +195,6 @@ struct ChainDifferentiation : OneChain {
 
   FATHOM_INLINE void substitute(EliminatedKeyframe& keyframe, const ChainVector& g,
                                 ChainVector& end, ChainVector& next) {
-    for (const double element : g) {
-      sums.gradient_norm = std::max(sums.gradient_norm, std::abs(element));
-    }
     const double y1 = g[1] - keyframe.l10 * g[0];
     const double y[3] = {g[0], y1, g[2] - keyframe.l20 * g[0] - keyframe.l21 * y1};
     for (int k = 0; k < 3; ++k) {

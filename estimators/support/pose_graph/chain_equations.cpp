@@ -10,6 +10,8 @@ namespace {
 
 // Chains that a thread takes at once.
 constexpr std::size_t kChainsAtOnce = 256;
+// With fewer keyframes inside of chains, waking threads costs more than they do.
+constexpr std::size_t kLeastSharedKeyframes = 10000;
 
 struct ChainParts {
   const ChainGraph& graph;
@@ -76,12 +78,15 @@ std::vector<std::size_t> begins_of(std::span<const ChainGraph::Chain> chains) {
 
 }  // namespace
 
-ChainEquations::ChainEquations(const ChainGraph& chains, NormalEquations& left)
+ChainEquations::ChainEquations(const ChainGraph& chains, NormalEquations& left, Workers* workers)
     : graph_(chains),
       left_(left),
       chains_(closed(chains.chains())),
       begins_(begins_of(chains_)),
-      memory_(begins_.back() * sizeof(EliminatedKeyframe) / sizeof(double), workers()),
+      workers_(begins_.back() < kLeastSharedKeyframes ? nullptr : workers),
+      memory_(
+          std::max<std::size_t>(begins_.back(), 1) * sizeof(EliminatedKeyframe) / sizeof(double),
+          workers_),
       inside_(reinterpret_cast<EliminatedKeyframe*>(memory_.data())),
       terms_(chains_.size()),
       sums_(chains_.size()) {}
@@ -97,15 +102,10 @@ std::span<const Node> ChainEquations::ends(std::span<const Node> nodes) {
   return at_ends_;
 }
 
-void ChainEquations::add_up() {
-  decrease_ = 0.0;
-  negative_pivots_ = 0;
-  are_sound_ = true;
-  for (const ChainSums& sums : sums_) {
-    decrease_ += sums.decrease;
-    negative_pivots_ += sums.negative_pivots;
-    are_sound_ = are_sound_ && sums.is_sound;
-  }
+double ChainEquations::decrease() const {
+  double decrease = 0.0;
+  for (const ChainSums& sums : sums_) decrease += sums.decrease;
+  return decrease;
 }
 
 double ChainEquations::linearise(std::span<const Node> nodes, Hessian hessian, double damping) {
@@ -113,29 +113,33 @@ double ChainEquations::linearise(std::span<const Node> nodes, Hessian hessian, d
                          terms_.data(), sums_.data(), nodes.data(),   damping};
   switch (hessian) {
     case Hessian::gauss_newton:
-      for_chains<ChainElimination<Hessian::gauss_newton>>(workers(), parts);
+      for_chains<ChainElimination<Hessian::gauss_newton>>(workers_, parts);
       break;
     case Hessian::measured:
-      for_chains<ChainElimination<Hessian::measured>>(workers(), parts);
+      for_chains<ChainElimination<Hessian::measured>>(workers_, parts);
       break;
     case Hessian::exact:
-      for_chains<ChainElimination<Hessian::exact>>(workers(), parts);
+      for_chains<ChainElimination<Hessian::exact>>(workers_, parts);
       break;
     case Hessian::positions:
-      for_chains<ChainElimination<Hessian::positions>>(workers(), parts);
+      for_chains<ChainElimination<Hessian::positions>>(workers_, parts);
       break;
   }
-  add_up();
+  decrease_ = decrease();
+  negative_pivots_ = 0;
+  are_sound_ = true;
+  for (const ChainSums& sums : sums_) {
+    negative_pivots_ += sums.negative_pivots;
+    are_sound_ = are_sound_ && sums.is_sound;
+  }
   return left_.linearise(ends(nodes), hessian, damping, terms_);
 }
 
 double ChainEquations::differentiate(std::span<const Node> nodes) {
   const ChainParts parts{graph_,        chains_,      begins_.data(), inside_,
                          terms_.data(), sums_.data(), nodes.data()};
-  for_chains<ChainDifferentiation>(workers(), parts);
-  const int negative_pivots = negative_pivots_;
-  add_up();
-  negative_pivots_ = negative_pivots;
+  for_chains<ChainDifferentiation>(workers_, parts);
+  decrease_ = decrease();
   return left_.differentiate(ends(nodes), terms_);
 }
 
@@ -148,7 +152,7 @@ void ChainEquations::solve_step() {
     const double* d = step.data() + 3 * at(p);
     end_steps_.push_back({d[0], d[1], d[2]});
   }
-  for_ranges(workers(), chains_.size(), kChainsAtOnce, [&](std::size_t begin, std::size_t end) {
+  for_ranges(workers_, chains_.size(), kChainsAtOnce, [&](std::size_t begin, std::size_t end) {
     BackSubstitutionTask task{end_steps_, begins_.data(), inside_, begin, end};
     sparse::run_for_processor(task);
   });
@@ -176,15 +180,17 @@ double ChainEquations::gradient_norm() const {
 void ChainEquations::move(std::span<const Node> from, std::vector<Node>& to) const {
   to.resize(from.size());
   to[0] = from[0];
-  for (std::size_t i = 0; i < chains_.size(); ++i) {
-    std::size_t k = at(chains_[i].begin);
-    const auto move_next = [&](double x, double y, double theta) {
-      ++k;
-      to[k] = moved(from[k], x, y, theta);
-    };
-    for (const EliminatedKeyframe& x : inside(i)) move_next(x.E[0][3], x.E[1][3], x.E[2][3]);
-    move_next(end_steps_[i + 1][0], end_steps_[i + 1][1], end_steps_[i + 1][2]);
-  }
+  for_ranges(workers_, chains_.size(), kChainsAtOnce, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      std::size_t k = at(chains_[i].begin);
+      const auto move_next = [&](double x, double y, double theta) {
+        ++k;
+        to[k] = moved(from[k], x, y, theta);
+      };
+      for (const EliminatedKeyframe& x : inside(i)) move_next(x.E[0][3], x.E[1][3], x.E[2][3]);
+      move_next(end_steps_[i + 1][0], end_steps_[i + 1][1], end_steps_[i + 1][2]);
+    }
+  });
   graph_.follow_open_chain(to);
 }
 
@@ -202,7 +208,9 @@ bool ChainEquations::step_is_small(std::span<const Node> nodes, double tolerance
   for (std::size_t i = 0; i < begins_.back(); ++i) {
     for (const auto& row : inside_[i].E) step += row[3] * row[3];
   }
-  return is_small(step, nodes, tolerance);
+  const ChainGraph::Chain& last = graph_.chains().back();
+  const std::size_t moved = last.is_open ? at(last.begin) + 1 : nodes.size();
+  return is_small(step, nodes.first(moved), tolerance);
 }
 
 }  // namespace fathom::pose_graph

@@ -36,8 +36,9 @@ struct ChainSums {
 /// to the equations of the graph without them.
 class ChainEquations {
  public:
-  /// `left`: equations of chains.edges(). Both must outlive it.
-  ChainEquations(const ChainGraph& chains, NormalEquations& left);
+  /// `left`: equations of chains.edges(). Both must outlive it. `workers` eliminate where it is
+  /// worth it; the results are the same.
+  ChainEquations(const ChainGraph& chains, NormalEquations& left, Workers* workers = nullptr);
 
   /// As of NormalEquations. Keyframes that the graph leaves out must be where their steps lead;
   /// they add nothing.
@@ -62,13 +63,13 @@ class ChainEquations {
  private:
   std::span<const Node> ends(std::span<const Node> nodes);
   std::span<const EliminatedKeyframe> inside(std::size_t chain) const;
-  void add_up();
-  Workers* workers() const { return left_.factor().symbolic().workers; }
+  double decrease() const;
 
   const ChainGraph& graph_;
   NormalEquations& left_;
   std::span<const ChainGraph::Chain> chains_;  ///< those that have an end
   std::vector<std::size_t> begins_;            ///< of each, among the keyframes inside
+  Workers* workers_;
   sparse::PanelMemory memory_;
   EliminatedKeyframe* inside_;
   std::vector<PairTerms> terms_;  ///< by chain

@@ -8,40 +8,47 @@ ChainTurns::ChainTurns(const ChainGraph& chains)
     : chains_(chains), edges_(chains.edges().begin(), chains.edges().end()) {
   for (std::size_t i = 0; i < chains.chains().size(); ++i) {
     const ChainGraph::Chain& chain = chains.chains()[i];
-    double turn = 0.0;
     double variance = 0.0;
     for (int t = 0; t < chain.count; ++t) {
-      turn += chains.step(chain, t).theta;
       variance += 1.0 / heading_information(chains.step(chain, t));
     }
     variances_.push_back(variance);
-    if (chain.is_open || chain.count == 1) continue;
-    edges_[i].theta = turn;
-    edges_[i].W = {1.0, 0.0, 0.0, 1.0, 0.0, 1.0 / variance};
+    if (!chain.is_open) edges_[i].W = {1.0, 0.0, 0.0, 1.0, 0.0, 1.0 / variance};
   }
 }
 
-std::vector<double> ChainTurns::left(std::span<const double> theta) const {
-  std::vector<double> left;
-  for (const ChainGraph::Chain& chain : chains_.chains()) left.push_back(theta[at(chain.begin)]);
-  if (left.size() < chains_.nodes().size()) left.push_back(theta.back());
-  return left;
-}
+std::vector<double> ChainTurns::solve(HeadingProblem& left, std::span<const double> theta) const {
+  const auto residual = [&](const ChainGraph::Chain& chain, int t) {
+    const std::size_t k = at(chain.begin + t);
+    return wrap_angle(chains_.step(chain, t).theta - theta[k + 1] + theta[k]);
+  };
+  std::vector<double> at_ends;
+  std::vector<double> residuals;
+  for (const ChainGraph::Chain& chain : chains_.chains()) {
+    at_ends.push_back(theta[at(chain.begin)]);
+    if (chain.is_open) continue;
+    residuals.push_back(0.0);
+    for (int t = 0; t < chain.count; ++t) residuals.back() += residual(chain, t);
+  }
+  if (at_ends.size() < chains_.nodes().size()) at_ends.push_back(theta.back());
+  const std::vector<double> solved = left.solve(at_ends, residuals);
 
-// What the end of a chain lacks is distributed by the variances.
-std::vector<double> ChainTurns::expanded(std::span<const double> theta) const {
-  std::vector<double> all{theta[0]};
+  std::vector<double> all{solved[0]};
   for (std::size_t i = 0; i < chains_.chains().size(); ++i) {
     const ChainGraph::Chain& chain = chains_.chains()[i];
-    double lacks = 0.0;
-    if (!chain.is_open) lacks = wrap_angle(theta[i + 1] - theta[i] - edges_[i].theta);
-    double turned = theta[i];
+    // What is left of the residual of a chain is distributed by the variances.
+    double remains = 0.0;
+    if (!chain.is_open) {
+      remains = residuals[i] - ((solved[i + 1] - solved[i]) - (at_ends[i + 1] - at_ends[i]));
+    }
+    double turned = solved[i];
     for (int t = 0; t < chain.count; ++t) {
-      const Edge& step = chains_.step(chain, t);
-      turned += step.theta + lacks / (variances_[i] * heading_information(step));
+      const std::size_t k = at(chain.begin + t);
+      const double share = 1.0 / (variances_[i] * heading_information(chains_.step(chain, t)));
+      turned += theta[k + 1] - theta[k] + residual(chain, t) - share * remains;
       all.push_back(turned);
     }
-    if (!chain.is_open) all.back() = theta[i + 1];
+    if (!chain.is_open) all.back() = solved[i + 1];
   }
   return all;
 }

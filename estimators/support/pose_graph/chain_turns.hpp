@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "estimators/support/pose_graph/chains.hpp"
+#include "estimators/support/pose_graph/headings.hpp"
 
 namespace fathom::pose_graph {
 
@@ -14,12 +15,13 @@ class ChainTurns {
   /// It must outlive this.
   explicit ChainTurns(const ChainGraph& chains);
 
-  /// Between the keyframes that are left; of a chain only the turn is stated.
+  /// Between the keyframes that are left; of a chain with its information alone, for which turn it
+  /// measures depends on where its steps are rounded.
   std::span<const Edge> edges() const { return edges_; }
-  /// Of all keyframes, the headings of those that are left.
-  std::vector<double> left(std::span<const double> theta) const;
-  /// Of those that are left, the least squares headings of all keyframes.
-  std::vector<double> expanded(std::span<const double> theta) const;
+
+  /// HeadingProblem::solve of all keyframes, by that of edges(): each step is rounded along
+  /// `theta`.
+  std::vector<double> solve(HeadingProblem& left, std::span<const double> theta) const;
 
  private:
   const ChainGraph& chains_;

@@ -15,7 +15,7 @@ void take_step(Equations& equations, std::vector<Node>& nodes) {
 
 void GraphEquations::eliminate_chains(const ChainGraph& chains, GraphEquations& left) {
   chain_graph_ = &chains;
-  chains_.emplace(chains, left.whole().equations);
+  chains_.emplace(chains, left.whole().equations, workers_);
 }
 
 WholeEquations& GraphEquations::whole() {

@@ -22,15 +22,18 @@ HeadingProblem::HeadingProblem(const sparse::Symbolic& symbolic, std::span<const
   is_solvable_ = factor_.factorise();
 }
 
-std::vector<double> HeadingProblem::solve(std::span<const double> theta) {
+std::vector<double> HeadingProblem::solve(std::span<const double> theta,
+                                          std::span<const double> given) {
   std::vector<double> result(theta.begin(), theta.end());
   if (!is_solvable_) return result;
   const sparse::Symbolic& symbolic = factor_.symbolic();
   std::vector<double> turn(theta.size() - 1, 0.0);
   parts_.for_each([&](std::size_t e, const auto& part) {
     const Edge& edge = edges_[e];
-    const double r =
-        weights_[e] * wrap_angle(edge.theta - theta[at(edge.to)] + theta[at(edge.from)]);
+    const double residual =
+        e < given.size() ? given[e]
+                         : wrap_angle(edge.theta - theta[at(edge.to)] + theta[at(edge.from)]);
+    const double r = weights_[e] * residual;
     const int to = position_of(symbolic, edge.to);
     const int from = position_of(symbolic, edge.from);
     if (part.has(to)) turn[at(to)] += r;

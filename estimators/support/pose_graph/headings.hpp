@@ -19,7 +19,8 @@ class HeadingProblem {
   /// Rounds at these headings, solves, and returns the solution; `theta` need not be wrapped.
   /// With headings composed along the odometry it is LAGO with the odometry as spanning tree.
   /// Where the information does not determine the headings they stay as they were.
-  std::vector<double> solve(std::span<const double> theta);
+  /// `given`: residuals of the first edges, rounded elsewhere.
+  std::vector<double> solve(std::span<const double> theta, std::span<const double> given = {});
 
  private:
   std::span<const Edge> edges_;
