@@ -9,6 +9,7 @@
 
 #include "estimators/support/pose_graph/normal_equations.hpp"
 #include "estimators/support/pose_graph/picture_states.hpp"
+#include "fathom/measurements/g2o.hpp"
 #include "src/harness/conformance/naive_least_squares.hpp"
 #include "tests/estimators/cross_estimator.hpp"
 #include "tests/estimators/graph_parts.hpp"
