@@ -54,17 +54,14 @@ struct ChainElimination : OneChain {
     const PairTerms last = step(count);
     sums.g_to = last.g_to;
     terms.cost = first.cost + last.cost;
-    set_rows(first.H_from, first.g_from, at_begin);
-    add(first.H_to, {}, from_begin);
-    set_columns(first.H_cross, first.g_to, from_begin.B);
-    set_rows(last.H_to, last.g_to, at_end);
-    add(last.H_from, {}, from_end);
-    set_rows(last.H_cross, last.g_from, from_end.B);
+    start(reversed(first), from_begin, at_begin);
+    start(last, from_end, at_end);
     const int before = (count - 1) / 2;
     const int behind = count - 1 - before;
     for (int i = 0; i < behind; ++i) {
-      if (i < before) forward(1 + i);
-      backward(count - i);
+      if (i < before) take(step(1 + i), inside[i], from_begin, at_begin);
+      const int k = count - i;
+      take(reversed(step(k - 1)), inside[k - 1], from_end, at_end);
     }
     meet(1 + before);
     undamp();
@@ -75,29 +72,24 @@ struct ChainElimination : OneChain {
     if (damping != 0.0) scale_diagonals(1.0 / (1.0 + damping), terms);
   }
 
-  // Keyframe k of the side that comes from the begin.
-  FATHOM_INLINE void forward(int k) {
-    const PairTerms next = step(k);
-    terms.cost += next.cost;
-    Four E[3] = {};
-    set_rows(next.H_cross, {}, E);
-    add(next.H_from, next.g_from, from_begin);
-    ChainFront after;
-    add(next.H_to, next.g_to, after);
-    eliminate(from_begin, E, inside[k - 1], at_begin, after, sums);
-    from_begin = after;
+  // A side, by the step from its first keyframe to the end of the chain.
+  FATHOM_INLINE static void start(const PairTerms& t, ChainFront& front, Four (&end)[3]) {
+    set_rows(t.H_to, t.g_to, end);
+    add(t.H_from, {}, front);
+    set_rows(t.H_cross, t.g_from, front.B);
   }
 
-  FATHOM_INLINE void backward(int k) {
-    const PairTerms next = step(k - 1);
-    terms.cost += next.cost;
+  // The next keyframe of a side, by its step to the one behind it.
+  FATHOM_INLINE void take(const PairTerms& t, EliminatedKeyframe& keyframe, ChainFront& front,
+                          Four (&end)[3]) {
+    terms.cost += t.cost;
     Four E[3] = {};
-    set_columns(next.H_cross, {}, E);
-    add(next.H_to, next.g_to, from_end);
+    set_rows(t.H_cross, {}, E);
+    add(t.H_from, t.g_from, front);
     ChainFront after;
-    add(next.H_from, next.g_from, after);
-    eliminate(from_end, E, inside[k - 1], at_end, after, sums);
-    from_end = after;
+    add(t.H_to, t.g_to, after);
+    eliminate(front, E, keyframe, end, after, sums);
+    front = after;
   }
 
   // The keyframe in the middle has both ends as neighbours.
@@ -109,11 +101,8 @@ struct ChainElimination : OneChain {
       E[a] = from_end.B[a];
       E[a][3] = 0.0;
     }
-    ChainFront end = {};
-    for (int a = 0; a < 3; ++a) {
-      end.D[a] = at_end[a];
-      end.B[a] = Four{};
-    }
+    ChainFront end;
+    for (int a = 0; a < 3; ++a) end.D[a] = at_end[a];
     eliminate(from_begin, E, inside[k - 1], at_begin, end, sums);
     const auto upper = [](const Four(&rows)[3]) {
       return std::array{rows[0][0], rows[0][1], rows[0][2], rows[1][1], rows[1][2], rows[2][2]};
@@ -150,36 +139,35 @@ struct ChainDifferentiation : OneChain {
     const PairTerms last = step(count);
     terms.cost += last.cost;
     terms.g_to = sums.g_to = last.g_to;
-    ChainVector from_begin = first.g_to;
-    ChainVector from_end = last.g_from;
-    // What steps add to the gradients of the keyframes that come next, before the elimination.
-    ChainVector raw_begin = first.g_to;
-    ChainVector raw_end = last.g_from;
+    Side from_begin{first.g_to, first.g_to};
+    Side from_end{last.g_from, last.g_from};
     const int before = (count - 1) / 2;
     const int behind = count - 1 - before;
     for (int i = 0; i < behind; ++i) {
-      if (i < before) {
-        const PairTerms next = step(1 + i);
-        terms.cost += next.cost;
-        note(raw_begin, next.g_from);
-        raw_begin = next.g_to;
-        add(next.g_from, from_begin);
-        ChainVector after = next.g_to;
-        substitute(inside[i], from_begin, terms.g_from, after);
-        from_begin = after;
-      }
-      const PairTerms next = step(count - i - 1);
-      terms.cost += next.cost;
-      note(raw_end, next.g_to);
-      raw_end = next.g_from;
-      add(next.g_to, from_end);
-      ChainVector after = next.g_from;
-      substitute(inside[count - i - 1], from_end, terms.g_to, after);
-      from_end = after;
+      if (i < before) take(step(1 + i), inside[i], from_begin, terms.g_from);
+      const int k = count - i;
+      take(reversed(step(k - 1)), inside[k - 1], from_end, terms.g_to);
     }
-    note(raw_begin, raw_end);
-    add(from_end, from_begin);
-    substitute(inside[before], from_begin, terms.g_from, terms.g_to);
+    note(from_begin.raw, from_end.raw);
+    add(from_end.g, from_begin.g);
+    substitute(inside[before], from_begin.g, terms.g_from, terms.g_to);
+  }
+
+  // What is known of the gradient of the next keyframe, and what it is before the elimination.
+  struct Side {
+    ChainVector g;
+    ChainVector raw;
+  };
+
+  // As of ChainElimination.
+  FATHOM_INLINE void take(const PairTerms& t, EliminatedKeyframe& keyframe, Side& side,
+                          ChainVector& end) {
+    terms.cost += t.cost;
+    note(side.raw, t.g_from);
+    add(t.g_from, side.g);
+    ChainVector after = t.g_to;
+    substitute(keyframe, side.g, end, after);
+    side = {after, t.g_to};
   }
 
   // The gradient of a keyframe, of its two steps.
@@ -215,9 +203,7 @@ FATHOM_INLINE ChainVector substitute_back(EliminatedKeyframe& keyframe, const Ch
   ChainVector x{};
   for (int k = 0; k < 3; ++k) {
     double sum = -keyframe.B[k][3];
-    for (int a = 0; a < 3; ++a) {
-      sum -= keyframe.B[k][a] * end[at(a)];
-    }
+    for (int a = 0; a < 3; ++a) sum -= keyframe.B[k][a] * end[at(a)];
     for (int a = 0; a < 3; ++a) sum -= keyframe.E[k][a] * next[at(a)];
     x[at(k)] = sum;
   }

@@ -10,7 +10,7 @@ namespace {
 
 // Chains that a thread takes at once.
 constexpr std::size_t kChainsAtOnce = 256;
-// With fewer keyframes inside of chains, waking threads costs more than they do.
+// Fewer keyframes inside of chains are half a millisecond of work.
 constexpr std::size_t kLeastSharedKeyframes = 10000;
 
 struct ChainParts {

@@ -37,11 +37,6 @@ FATHOM_INLINE void set_rows(const std::array<double, 9>& X, const std::array<dou
   for (std::size_t a = 0; a < 3; ++a) rows[a] = Four{X[3 * a], X[3 * a + 1], X[3 * a + 2], last[a]};
 }
 
-FATHOM_INLINE void set_columns(const std::array<double, 9>& X, const std::array<double, 3>& last,
-                               Four (&rows)[3]) {
-  for (std::size_t a = 0; a < 3; ++a) rows[a] = Four{X[a], X[a + 3], X[a + 6], last[a]};
-}
-
 /// Eliminates a keyframe whose block with the next one is E: D − BᵀH⁻¹B, and the gradient's part,
 /// at its end of the chain, D − EᵀH⁻¹E and B − EᵀH⁻¹B at the next keyframe.
 FATHOM_INLINE void eliminate(const ChainFront& front, const Four (&E)[3], EliminatedKeyframe& out,

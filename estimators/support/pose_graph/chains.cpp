@@ -6,7 +6,8 @@
 namespace fathom::pose_graph {
 namespace {
 
-/// Keyframes that are left, of all, at most: with more the elimination of chains saves nothing.
+/// Keyframes that are left, of all, at most. Not tuned: where two thirds are left, the elimination
+/// of chains saves a few percent.
 constexpr double kMostLeft = 0.8;
 /// With more the solve of the rest costs too much.
 constexpr double kMostLeftToStart = 0.5;

@@ -57,6 +57,13 @@ template <Hessian kHessian>
   return p;
 }
 
+/// The same as seen from the other end.
+[[gnu::always_inline]] inline PairTerms reversed(const PairTerms& t) {
+  const auto& X = t.H_cross;
+  return {t.cost, t.H_to,  t.H_from, {X[0], X[3], X[6], X[1], X[4], X[7], X[2], X[5], X[8]},
+          t.g_to, t.g_from};
+}
+
 template <Hessian kHessian>
 inline constexpr Lever kLeverOf =
     kHessian == Hessian::measured ? Lever::measured : Lever::estimated;
