@@ -20,6 +20,7 @@
 #include "apps/parse_error.hpp"
 #include "fathom/core/options.hpp"
 #include "fathom/core/pin_threads.hpp"
+#include "fathom/core/system.hpp"
 #include "fathom/core/text.hpp"
 #include "fathom/core/version.hpp"
 
@@ -64,6 +65,7 @@ int status_of_output(int status) {
 int main_function(int argc, char** argv) {
   end_when_out_of_memory();
   pin_threads();
+  keep_free_memory();
   silence_ceres();
   Context context;
   context.command_line = joined(argc, argv);

@@ -101,6 +101,14 @@ void sync_to_disk(const std::filesystem::path& file) {
   if (!is_synced) throw EnvironmentError(file.string(), "cannot be written", error);
 }
 
+void keep_free_memory() {
+#ifdef __GLIBC__
+  // What is larger is mapped alone, and goes back at once.
+  mallopt(M_MMAP_THRESHOLD, 32 << 20);
+  mallopt(M_TRIM_THRESHOLD, 256 << 20);
+#endif
+}
+
 void return_free_memory() {
 #ifdef __GLIBC__
   malloc_trim(0);

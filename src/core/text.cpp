@@ -197,6 +197,8 @@ std::optional<std::string> nearest(std::string_view word, const std::vector<std:
   // Beyond two letters in five it is another word, not a misspelt one.
   std::size_t best_distance = std::max<std::size_t>(2, word.size() * 2 / 5) + 1;
   for (const std::string& candidate : among) {
+    const auto [shorter, longer] = std::minmax({word.size(), candidate.size()});
+    if (longer - shorter >= best_distance) continue;  // so many letters are added at least
     const std::size_t distance = edit_distance(word, candidate);
     if (distance < best_distance) {
       best_distance = distance;

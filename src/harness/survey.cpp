@@ -86,12 +86,12 @@ const PictureUse& Pictures::use() {
   // A simulator draws the floor alone; its pictures take long.
   const bool is_drawn = find_data_set(configuration_.dataset.type).makes_pictures;
   const MaskUse mask = is_drawn ? MaskUse::off : configuration_.front_end.mask;
-  std::call_once(looked_, [&] { use_ = picture_use(source(), mask); });
+  looked_.call([&] { use_ = picture_use(source(), mask); });
   return use_;
 }
 
 PairRegistrar& Pictures::registrar() {
-  std::call_once(made_, [&] {
+  made_.call([&] {
     with_origin(configuration_, [&] {
       registrar_ = std::make_unique<PairRegistrar>(
           source(), configuration_.front_end.features, configuration_.front_end.registration,

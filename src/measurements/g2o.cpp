@@ -143,7 +143,6 @@ MeasurementLog build_log(const G2oFile& file, const GraphOptions& options) {
 // The component that is asked for, or all of a graph that is one.
 G2oFile wanted_component(G2oFile file, const GraphOptions& options, const std::string& name,
                          const G2oFault& fault) {
-  if (!options.component) check_fixed(file, fault);
   const GraphComponents components = components_of(file);
   const std::size_t count = components.members.size();
   std::size_t index = 0;
@@ -154,11 +153,11 @@ G2oFile wanted_component(G2oFile file, const GraphOptions& options, const std::s
                                          count > 1 ? " to " + std::to_string(count) : ""));
     }
     if (count > 1) file = component_of(file, components, index);
-    check_fixed(file, fault);
   } else if (count > 1) {
     fault(line_about(file, components.ids[components.members[1].front()]),
           several_components(components));
   }
+  check_fixed(file, fault);
   check_held(file, components, index, fault);
   return file;
 }

@@ -37,6 +37,10 @@ double processor_seconds();
 /// The most memory that this process, or one that it has waited for, has had, in MiB.
 double peak_memory_mib();
 
+/// Has the heap keep what is freed, some 256 MiB of it, for what comes next: else pictures and
+/// matrices of a few megabytes go back to the system each time, and come again page by page.
+void keep_free_memory();
+
 /// Gives memory that the heap holds and nobody uses back to the system, where the system's heap
 /// can.
 void return_free_memory();

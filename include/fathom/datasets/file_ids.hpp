@@ -20,8 +20,7 @@ class FileIds {
   std::uint64_t of(std::size_t i, const std::filesystem::path& file) const;
 
  private:
-  // 0: not known. Two threads may read a file at once; what the first one found stays. No
-  // once_flag: an exception within std::call_once hangs under ThreadSanitizer.
+  // 0: not known. Two threads may read a file at once; what the first one found stays.
   mutable std::vector<std::atomic<std::uint64_t>> ids_;
 };
 

@@ -2,11 +2,11 @@
 
 #include <cstdint>
 #include <memory>
-#include <mutex>
 #include <string>
 #include <vector>
 
 #include "fathom/configuration/configuration.hpp"
+#include "fathom/core/once.hpp"
 #include "fathom/datasets/data_set.hpp"
 #include "fathom/datasets/noisy_odometry.hpp"
 #include "fathom/front_end/pair_registrar.hpp"
@@ -43,9 +43,9 @@ class Pictures {
   RegistrationCache* cache_;
   std::size_t survey_;
   std::unique_ptr<const DataSet> data_;
-  std::once_flag looked_;
+  Once looked_;
   PictureUse use_;
-  std::once_flag made_;
+  Once made_;
   std::unique_ptr<PairRegistrar> registrar_;
 };
 

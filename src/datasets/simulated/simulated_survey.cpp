@@ -4,7 +4,6 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
-#include <mutex>
 #include <numbers>
 #include <string>
 #include <utility>
@@ -12,6 +11,7 @@
 #include "checked_options.hpp"
 #include "fathom/core/hash.hpp"
 #include "fathom/core/input_error.hpp"
+#include "fathom/core/once.hpp"
 #include "fathom/core/random.hpp"
 #include "fathom/datasets/mission.hpp"
 #include "seen_floor.hpp"
@@ -89,7 +89,7 @@ class SimulatedSurvey::Floor {
   }
 
   const FloorRenderer& renderer() {
-    std::call_once(once_, [&] {
+    once_.call([&] {
       renderer_ = std::make_unique<const FloorRenderer>(camera_, std::move(rays_), plan_.make());
       plan_.picture.release();
       is_drawn_ = true;
@@ -104,7 +104,7 @@ class SimulatedSurvey::Floor {
   ViewRays rays_;
   WorldPlan plan_;
   std::uint64_t id_ = 0;
-  std::once_flag once_;
+  Once once_;
   std::unique_ptr<const FloorRenderer> renderer_;
   std::atomic<bool> is_drawn_ = false;
 };

@@ -117,8 +117,8 @@ Blend::Blend(const Camera& camera, const MosaicPlan& plan, const cv::Rect& windo
       map_{plan.top_left_m, plan.metres_per_pixel, plan.size},
       has_seams_(plan.blend == MosaicBlend::seams),
       window_(window),
-      sum_(cv::Mat::zeros(window.size(), CV_32F)),
-      weight_(cv::Mat::zeros(window.size(), CV_32F)) {}
+      sums_(window.size()),
+      weights_(window.size()) {}
 
 cv::Rect Blend::box_of(const Camera& camera, const MosaicPlan& plan, const PlacedPicture& place) {
   return box_around({plan.top_left_m, plan.metres_per_pixel, plan.size}, outline_of(camera, place));
@@ -155,8 +155,8 @@ void Blend::lay(const cv::Mat& picture, const PlacedPicture& place, float gain) 
       const int last = std::min(first_row + kSpan, lit.y + lit.height);
       for (int row = std::max(first_row, lit.y); row < last; ++row) {
         const cv::Point at = cv::Point(lit.x, row) + box.tl() - window_.tl();
-        float* sum = sum_.ptr<float>(at.y) + at.x;
-        float* weight = weight_.ptr<float>(at.y) + at.x;
+        float* sum = sums_.row(at.y) + at.x;
+        float* weight = weights_.row(at.y) + at.x;
         const int end = lit.x + lit.width;
         for (int begin = lit.x; begin < end;) {
           const int span = begin - begin % kSpan;
@@ -172,21 +172,22 @@ void Blend::lay(const cv::Mat& picture, const PlacedPicture& place, float gain) 
 }
 
 cv::Mat Blend::finish() {
-  cv::Mat mosaic(window_.size(), CV_8U, cv::Scalar(kUnseen));
+  cv::Mat mosaic(window_.size(), CV_8U);
   cv::parallel_for_({0, mosaic.rows}, [&](const cv::Range& rows) {
     for (int row = rows.start; row < rows.end; ++row) {
-      const float* sum = sum_.ptr<float>(row);
-      const float* weight = weight_.ptr<float>(row);
+      const float* sum = sums_.row(row);
+      const float* weight = weights_.row(row);
       unsigned char* grey = mosaic.ptr(row);
       for (int column = 0; column < mosaic.cols; ++column) {
+        grey[column] = kUnseen;
         if (!(weight[column] > 0.0F)) continue;
         const float mean = std::clamp(sum[column] / weight[column], 0.0F, kUnseen - 1.0F);
         grey[column] = static_cast<unsigned char>(std::lround(mean));
       }
     }
   });
-  sum_.release();
-  weight_.release();
+  sums_.release();
+  weights_.release();
   return mosaic;
 }
 

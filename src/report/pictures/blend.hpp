@@ -7,6 +7,7 @@
 
 #include "fathom/report/mosaic.hpp"
 #include "floor_map.hpp"
+#include "zeroed_pixels.hpp"
 
 namespace fathom {
 
@@ -34,8 +35,8 @@ class Blend {
   FloorMap map_;
   bool has_seams_;
   cv::Rect window_;
-  cv::Mat sum_;
-  cv::Mat weight_;
+  ZeroedPixels sums_;
+  ZeroedPixels weights_;
 };
 
 }  // namespace fathom

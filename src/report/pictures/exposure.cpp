@@ -118,19 +118,25 @@ MosaicPlan coarse_of(const Camera& camera, const MosaicPlan& plan) {
 
 }  // namespace
 
+std::vector<std::size_t> frames_of(const MosaicUses& uses) {
+  std::vector<std::size_t> frames;
+  frames.reserve(uses.size());
+  for (const auto& [frame, places] : uses) frames.push_back(frame);
+  return frames;
+}
+
 std::vector<ExposureGains> exposure_gains(const Camera& camera, const MosaicUses& uses,
                                           std::span<const MosaicPlan> plans,
-                                          const std::function<cv::Mat(std::size_t)>& picture) {
+                                          LitPictures& pictures) {
   std::vector<MosaicPlan> coarse;
   coarse.reserve(plans.size());
   for (const MosaicPlan& plan : plans) coarse.push_back(coarse_of(camera, plan));
   std::vector<CoarseFloor> floors(plans.size());
-  for (const auto& [frame, places] : uses) {
-    const cv::Mat shown = picture(frame);
-    for (const MosaicUse& use : places) {
-      floors[use.mosaic].lay(camera, coarse[use.mosaic], shown, *use.place);
+  pictures.for_each(frames_of(uses), [&](std::size_t frame, const cv::Mat& picture) {
+    for (const MosaicUse& use : uses.at(frame)) {
+      floors[use.mosaic].lay(camera, coarse[use.mosaic], picture, *use.place);
     }
-  }
+  });
   std::vector<ExposureGains> gains;
   gains.reserve(floors.size());
   for (const CoarseFloor& floor : floors) gains.push_back(floor.gains());

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <map>
 #include <span>
 #include <vector>
@@ -9,6 +8,7 @@
 #include <opencv2/core.hpp>
 
 #include "fathom/report/mosaic.hpp"
+#include "illumination.hpp"
 
 namespace fathom {
 
@@ -21,14 +21,15 @@ struct MosaicUse {
 /// By frame.
 using MosaicUses = std::map<std::size_t, std::vector<MosaicUse>>;
 
+/// The frames of them, in order.
+std::vector<std::size_t> frames_of(const MosaicUses& uses);
+
 /// By frame, the factor that makes its picture agree in grey with those that it overlaps.
 using ExposureGains = std::map<std::size_t, float>;
 
 /// Those of each plan: least squares of log grey over the cells of a coarse floor (docs/mosaic.md).
-/// `picture`: of a frame, evenly lit, CV_32F; each is asked for once, in the order of frames.
-/// Memory: some 10 KB for each use.
+/// Each picture is asked for once, in the order of frames. Memory: some 10 KB for each use.
 std::vector<ExposureGains> exposure_gains(const Camera& camera, const MosaicUses& uses,
-                                          std::span<const MosaicPlan> plans,
-                                          const std::function<cv::Mat(std::size_t)>& picture);
+                                          std::span<const MosaicPlan> plans, LitPictures& pictures);
 
 }  // namespace fathom

@@ -81,10 +81,8 @@ FlatField::FlatField(cv::Size size) : size_(size) {
       R.triangularView<Eigen::Upper>().solve(Eigen::MatrixXd::Identity(kTerms, kTerms));
 }
 
-void FlatField::add(const cv::Mat& picture) {
-  if (cells_.empty()) return;
+Eigen::VectorXd FlatField::fitted(const cv::Mat& picture, cv::Mat& exact) const {
   cv::Mat cells;
-  cv::Mat_<float> exact;
   picture.convertTo(exact, CV_32F);
   cv::resize(exact, cells, cells_, 0, 0, cv::INTER_AREA);
   Eigen::VectorXd logarithms(cells_.area());
@@ -92,7 +90,20 @@ void FlatField::add(const cv::Mat& picture) {
     // Black is as dark as a grey level of 1: its logarithm would drown all others.
     logarithms(i) = std::log(std::max(1.0F, cells.at<float>(i / cells_.width, i % cells_.width)));
   }
-  coefficients_.push_back(basis_.rightCols(kTerms - 1).transpose() * logarithms);
+  return basis_.rightCols(kTerms - 1).transpose() * logarithms;
+}
+
+void FlatField::add(std::span<const cv::Mat> pictures) {
+  if (cells_.empty()) return;
+  const std::size_t before = coefficients_.size();
+  coefficients_.resize(before + pictures.size());
+  exact_.resize(std::max(exact_.size(), pictures.size()));
+  cv::parallel_for_({0, static_cast<int>(pictures.size())}, [&](const cv::Range& range) {
+    for (int i = range.start; i < range.end; ++i) {
+      const auto place = static_cast<std::size_t>(i);
+      coefficients_[before + place] = fitted(pictures[place], exact_[place]);
+    }
+  });
 }
 
 Eigen::VectorXd FlatField::common_part(double independent) const {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include <Eigen/Core>
@@ -22,8 +23,8 @@ class FlatField {
   /// Of pictures of this size. Pictures under 16 pixels a side are left as they are.
   explicit FlatField(cv::Size size);
 
-  /// 8-bit, one channel.
-  void add(const cv::Mat& picture);
+  /// 8-bit, one channel; looked at side by side.
+  void add(std::span<const cv::Mat> pictures);
 
   /// The factors mean(F)/F by which pictures are to be multiplied: CV_32F of their size, which
   /// leaves their grey level as it was. `independent`: how many of the pictures show another piece
@@ -31,12 +32,15 @@ class FlatField {
   cv::Mat gain(double independent) const;
 
  private:
+  /// The polynomial of one, without its constant. `exact`: room for it, CV_32F.
+  Eigen::VectorXd fitted(const cv::Mat& picture, cv::Mat& exact) const;
   Eigen::VectorXd common_part(double independent) const;
 
   cv::Size size_;
   cv::Size cells_;
   Eigen::MatrixXd basis_;  ///< orthonormal over the cells; the constant is column 0
   Eigen::MatrixXd monomials_from_basis_;
+  std::vector<cv::Mat> exact_;  ///< kept: new memory costs more than what is done with it
   std::vector<Eigen::VectorXd> coefficients_;  ///< of each picture, without the constant
 };
 

@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <span>
 
+#include <opencv2/core/utility.hpp>
+
 #include "flat_field.hpp"
 
 namespace fathom {
@@ -44,18 +46,39 @@ cv::Mat learnt_gain(const Camera& camera, DecodedPictures& decoded,
   }
   const CameraModel& model = camera.model();
   FlatField field(cv::Size(model.width, model.height));
+  const auto side_by_side = static_cast<std::size_t>(std::max(1, cv::getNumThreads()));
+  std::vector<cv::Mat> some;
   for (std::size_t i = 0; i < count; ++i) {
     decoded.prepare(std::span(frames).subspan(i));
-    field.add(decoded.picture(frames[i]));
+    some.push_back(decoded.picture(frames[i]));
+    if (some.size() < side_by_side && i + 1 < count) continue;
+    field.add(some);
+    some.clear();
   }
   return field.gain(independent_count(camera, samples));
 }
 
-cv::Mat lit_evenly(const cv::Mat& picture, const cv::Mat& gain) {
-  cv::Mat even;
-  picture.convertTo(even, CV_32F);
-  cv::multiply(even, gain, even);
-  return even;
+void LitPictures::for_each(
+    std::span<const std::size_t> frames,
+    const std::function<void(std::size_t frame, const cv::Mat& picture)>& take) {
+  lit_.resize(static_cast<std::size_t>(std::max(1, cv::getNumThreads())));
+  std::vector<cv::Mat> pictures;
+  for (std::size_t i = 0; i < frames.size();) {
+    pictures.clear();
+    while (i + pictures.size() < frames.size() && pictures.size() < lit_.size()) {
+      const auto left = frames.subspan(i + pictures.size());
+      decoded_.prepare(left);
+      pictures.push_back(decoded_.picture(left.front()));
+    }
+    cv::parallel_for_({0, static_cast<int>(pictures.size())}, [&](const cv::Range& range) {
+      for (int k = range.start; k < range.end; ++k) {
+        const auto place = static_cast<std::size_t>(k);
+        cv::multiply(pictures[place], gain_, lit_[place], 1.0, CV_32F);
+      }
+    });
+    for (std::size_t k = 0; k < pictures.size(); ++k) take(frames[i + k], lit_[k]);
+    i += pictures.size();
+  }
 }
 
 }  // namespace fathom

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <functional>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include <opencv2/core.hpp>
@@ -14,7 +17,21 @@ namespace fathom {
 cv::Mat learnt_gain(const Camera& camera, DecodedPictures& decoded,
                     const std::vector<PlacedPicture>& pictures);
 
-/// The picture of a frame, CV_32F, with the illumination taken out.
-cv::Mat lit_evenly(const cv::Mat& picture, const cv::Mat& gain);
+/// Pictures with the illumination taken out, CV_32F.
+class LitPictures {
+ public:
+  /// `decoded` must outlive this.
+  LitPictures(DecodedPictures& decoded, cv::Mat gain) : decoded_(decoded), gain_(std::move(gain)) {}
+
+  /// Of these frames in turn, as many made side by side as there are threads. A picture is gone
+  /// when `take` returns. Throws InputError where one cannot be read.
+  void for_each(std::span<const std::size_t> frames,
+                const std::function<void(std::size_t frame, const cv::Mat& picture)>& take);
+
+ private:
+  DecodedPictures& decoded_;
+  cv::Mat gain_;
+  std::vector<cv::Mat> lit_;  ///< kept: new memory costs more than what is done with it
+};
 
 }  // namespace fathom

@@ -27,26 +27,17 @@ std::vector<cv::Mat> make_mosaics(const FrameSource& source, std::span<const Mos
   if (progress) progress(0, uses.size());
   const bool has_seams = largest->blend == MosaicBlend::seams;
   DecodedPictures decoded(source, TileOptions{}.cache_bytes);
-  const cv::Mat gain = learnt_gain(source.camera(), decoded, largest->pictures);
-  std::vector<std::size_t> frames;
-  for (const auto& [frame, mosaics] : uses) frames.push_back(frame);
-  const auto evenly_lit = [&](std::size_t frame) {
-    decoded.prepare({std::ranges::lower_bound(frames, frame), frames.end()});
-    return lit_evenly(decoded.picture(frame), gain);
-  };
+  LitPictures pictures(decoded, learnt_gain(source.camera(), decoded, largest->pictures));
   std::vector<ExposureGains> exposure;
-  if (has_seams) {
-    exposure = exposure_gains(source.camera(), uses, plans, evenly_lit);
-  }
+  if (has_seams) exposure = exposure_gains(source.camera(), uses, plans, pictures);
   std::size_t done = 0;
-  for (const auto& [frame, mosaics] : uses) {
-    const cv::Mat picture = evenly_lit(frame);
-    for (const MosaicUse& use : mosaics) {
+  pictures.for_each(frames_of(uses), [&](std::size_t frame, const cv::Mat& picture) {
+    for (const MosaicUse& use : uses.at(frame)) {
       blends[use.mosaic].lay(picture, *use.place,
                              has_seams ? exposure[use.mosaic].at(frame) : 1.0F);
     }
     if (progress) progress(++done, uses.size());
-  }
+  });
   std::vector<cv::Mat> mosaics;
   mosaics.reserve(blends.size());
   for (Blend& blend : blends) mosaics.push_back(blend.finish());

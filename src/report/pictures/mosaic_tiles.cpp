@@ -42,22 +42,23 @@ class TileMaker {
         plan_(plan),
         side_px_(options.side_px),
         decoded_(source, options.cache_bytes),
-        gain_(learnt_gain(source.camera(), decoded_, plan.pictures)) {
+        pictures_(decoded_, learnt_gain(source.camera(), decoded_, plan.pictures)) {
     if (plan.blend == MosaicBlend::feather) return;
     MosaicUses uses;
     for (const PlacedPicture& place : plan.pictures) uses[place.frame].push_back({0, &place});
-    exposure_ = exposure_gains(source.camera(), uses, {&plan, 1}, [this](std::size_t frame) {
-                  return evenly_lit(frame);
-                }).front();
+    exposure_ = exposure_gains(source.camera(), uses, {&plan, 1}, pictures_).front();
   }
 
   MosaicTile tile(int row, int column, const std::vector<const PlacedPicture*>& pictures) {
     MosaicTile tile{row, column, {column * side_px_, row * side_px_, side_px_, side_px_}, {}};
     tile.window &= cv::Rect({0, 0}, plan_.size);
     Blend blend(source_.camera(), plan_, tile.window);
-    for (const PlacedPicture* place : pictures) {
-      blend.lay(evenly_lit(place->frame), *place, gain_of(place->frame));
-    }
+    std::vector<std::size_t> frames;
+    for (const PlacedPicture* place : pictures) frames.push_back(place->frame);
+    auto next = pictures.begin();
+    pictures_.for_each(frames, [&](std::size_t frame, const cv::Mat& picture) {
+      blend.lay(picture, **next++, gain_of(frame));
+    });
     tile.picture = blend.finish();
     return tile;
   }
@@ -66,13 +67,12 @@ class TileMaker {
   float gain_of(std::size_t frame) const {
     return plan_.blend == MosaicBlend::seams ? exposure_.at(frame) : 1.0F;
   }
-  cv::Mat evenly_lit(std::size_t frame) { return lit_evenly(decoded_.picture(frame), gain_); }
 
   const FrameSource& source_;
   const MosaicPlan& plan_;
   int side_px_;
   DecodedPictures decoded_;
-  cv::Mat gain_;
+  LitPictures pictures_;
   ExposureGains exposure_;
 };
 
