@@ -79,8 +79,7 @@ TEST(G2oComponents, SeveralAreRefusedWithTheirList) {
                              HasSubstr("borders at 1|2, 3|4, 4|7"), HasSubstr("--component K")));
   EXPECT_EQ(message.find('\n'), std::string::npos);
   // One of each may be fixed: what is wrong is that there are several.
-  EXPECT_THAT(input_error_of([] { parse(kThree + "FIX 0\nFIX 7\n"); }),
-              HasSubstr("3 components"));
+  EXPECT_THAT(input_error_of([] { parse(kThree + "FIX 0\nFIX 7\n"); }), HasSubstr("3 components"));
   std::string many;
   for (int i = 0; i < 1000; ++i) many += edge(2 * i, 2 * i + 1, 1);
   EXPECT_THAT(input_error_of([&] { parse(many); }),
