@@ -24,14 +24,14 @@ void Dialogue::begin(const ProgramGraph& graph) {
   }
 }
 
-std::vector<Pose> Dialogue::query(std::size_t count) {
-  program_->send("QUERY_STATE;\n");
-  while (trim(program_->next_line()) != "BEGIN") {
+std::vector<Pose> answered_poses(const std::function<std::string()>& next_line,
+                                 std::size_t count) {
+  while (trim(next_line()) != "BEGIN") {
   }
   std::vector<Pose> poses(count);
   std::vector<bool> is_there(count, false);
   for (;;) {
-    const std::string line = program_->next_line();
+    const std::string line = next_line();
     const auto words = split(line);
     if (words.size() == 1 && words[0] == "END") break;
     const auto id = words.size() == 5 ? parse_integer(words[1]) : std::nullopt;
@@ -69,8 +69,9 @@ std::vector<Pose> Dialogue::solve(const ProgramGraph& graph) {
   nodes_ = graph.poses.size();
   edges_ = graph.edges.size();
   for (int i = 0; i < solves_; ++i) text += "SOLVE_STATE;\n";
-  program_->send(text);
-  std::vector<Pose> poses = query(graph.poses.size());
+  program_->send(text + "QUERY_STATE;\n");
+  std::vector<Pose> poses =
+      answered_poses([this] { return program_->next_line(); }, graph.poses.size());
   work.add_processor_s(program_->processor_s() - before_s);
   work.note_peak(program_->peak_bytes());
   return poses;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -31,7 +32,6 @@ class Dialogue {
 
  private:
   void begin(const ProgramGraph& graph);
-  std::vector<Pose> query(std::size_t count);
 
   std::vector<std::string> words_;
   int solves_;
@@ -39,5 +39,10 @@ class Dialogue {
   std::size_t nodes_ = 0;  ///< told so far
   std::size_t edges_ = 0;
 };
+
+/// The poses of `count` nodes that a program answers with: what follows BEGIN, up to END.
+/// `next_line` throws where there is none. Throws std::runtime_error where a line is no pose of a
+/// node, or a node has none.
+std::vector<Pose> answered_poses(const std::function<std::string()>& next_line, std::size_t count);
 
 }  // namespace fathom::command
