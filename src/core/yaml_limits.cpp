@@ -24,7 +24,12 @@ struct YamlExtent {
 
 class YamlCounter : public YAML::EventHandler {
  public:
-  void OnDocumentStart(const YAML::Mark& /*mark*/) override { anchored_.clear(); }
+  void OnDocumentStart(const YAML::Mark& mark) override {
+    // Of some texts, as "&x ,", the parser makes empty documents without an end, all at one place.
+    if (mark.pos == last_document_) throw YamlExcess{line_of(mark), "is no YAML from here on"};
+    last_document_ = mark.pos;
+    anchored_.clear();
+  }
   void OnDocumentEnd() override {}
 
   void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override {
@@ -112,6 +117,7 @@ class YamlCounter : public YAML::EventHandler {
     anchored_[anchor] = extent;
   }
 
+  int last_document_ = -1;  ///< where it began
   YamlExtent total_;
   std::vector<Open> open_;
   std::vector<std::optional<YamlExtent>> anchored_;  ///< nothing of one that is open

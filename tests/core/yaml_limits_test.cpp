@@ -55,6 +55,16 @@ TEST(YamlLimits, ALongTextThatAliasesRepeatIsCounted) {
   EXPECT_THAT(excess->what, HasSubstr("the limit is 4000000"));
 }
 
+// yaml-cpp begins one empty document after the other there.
+TEST(YamlLimits, WhatTheParserWouldReadWithoutAnEndIsNoYaml) {
+  for (const std::string text : {"&x ,", "a: 1\n--- &x\n,\n"}) {
+    const auto excess = yaml_excess(text);
+    ASSERT_TRUE(excess) << text;
+    EXPECT_EQ(excess->what, "is no YAML from here on") << text;
+  }
+  EXPECT_FALSE(yaml_excess("--- \n---\n--- a\n...\n---\n"));
+}
+
 TEST(YamlLimits, EveryLimitIsNamed) {
   EXPECT_EQ(yaml_excess(std::string(4'000'001, '#'))->what,
             "has 4000001 bytes; the limit is 4000000");

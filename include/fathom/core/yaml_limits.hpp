@@ -18,7 +18,7 @@ struct YamlExcess {
 };
 
 /// Where a text goes beyond a limit, if it does; nothing is built on the way there. Of a text that
-/// is no YAML: up to its fault, which is the parser's to tell.
+/// is no YAML: up to its fault, which is the parser's to tell unless it would never end there.
 std::optional<YamlExcess> yaml_excess(const std::string& text);
 
 /// Throws InputError with file and line where the text of a file goes beyond a limit.
