@@ -66,7 +66,7 @@ for target in "${targets[@]}"; do
   inputs=("$corpus" tests/fuzz/seeds/"$target")
   if [[ -d tests/fuzz/findings/$target ]]; then inputs+=(tests/fuzz/findings/"$target"); fi
   options=("$limit" -max_len=4096 -timeout=20 -rss_limit_mb=4096 -detect_leaks=0)
-  # Inputs that take long are changed less often, which makes four times as many executions.
+  # Inputs that take long are changed less often, which makes several times as many executions.
   options+=(-entropic=1 -entropic_scale_per_exec_time=1)
   options+=(-print_final_stats=1 -artifact_prefix="$findings"/)
   if [[ -f tests/fuzz/$target.dict ]]; then options+=(-dict=tests/fuzz/"$target".dict); fi

@@ -27,6 +27,7 @@
 #include "fathom/core/input_error.hpp"
 #include "fathom/core/pin_threads.hpp"
 #include "fathom/core/program.hpp"
+#include "fathom/core/system.hpp"
 #include "fathom/estimation/plugin.hpp"
 #include "fathom/estimators/builtin.hpp"
 #include "fathom/measurements/g2o.hpp"
@@ -223,9 +224,7 @@ void add_options(CLI::App& app, Settings& settings) {
   app.add_option("--solve", settings.solve,
                  "one solve of a map of this shape by the first of --estimators, as a line")
       ->check(CLI::IsMember(kShapes));
-  app.add_option("--threads", settings.threads, "of --solve")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
+  app.add_option("--threads", settings.threads, "of --solve; 1")->check(CLI::PositiveNumber);
 }
 
 }  // namespace
@@ -233,6 +232,7 @@ void add_options(CLI::App& app, Settings& settings) {
 
 int main(int argc, char** argv) try {
   fathom::pin_threads();
+  fathom::keep_free_memory();
   fathom::benchmarks::Settings settings;
   settings.map.program = std::filesystem::read_symlink("/proc/self/exe");
   CLI::App app("What the estimators cost on whole pose graphs");

@@ -24,8 +24,7 @@ void Dialogue::begin(const ProgramGraph& graph) {
   }
 }
 
-std::vector<Pose> answered_poses(const std::function<std::string()>& next_line,
-                                 std::size_t count) {
+std::vector<Pose> answered_poses(const std::function<std::string()>& next_line, std::size_t count) {
   while (trim(next_line()) != "BEGIN") {
   }
   std::vector<Pose> poses(count);

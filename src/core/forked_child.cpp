@@ -15,6 +15,7 @@
 
 #include "child_side.hpp"
 #include "fathom/core/environment_error.hpp"
+#include "fathom/core/system.hpp"
 #include "last_lines.hpp"
 
 namespace fathom {
@@ -179,6 +180,8 @@ ChildEnd run_child(const std::function<void(const MessagePipe&)>& action, const 
   Pipe messages;
   Pipe printed;
   std::fflush(nullptr);
+  // What this process keeps for later is neither the child's to use beside its limit, nor to copy.
+  return_free_memory();
   const pid_t parent = ::getpid();
   const pid_t id = ::fork();
   if (id < 0) throw EnvironmentError("isolation", "a run gets no process of its own", errno);

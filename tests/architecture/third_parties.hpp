@@ -78,7 +78,7 @@ inline const std::vector<ThirdParty>& third_parties() {
       {"sys/mman.h",
        {"estimators/support/filter/growing_memory.cpp",
         "estimators/support/sparse/panel_memory.cpp", "src/core/blas_memory.cpp",
-        "src/core/child_side.cpp"}},
+        "src/core/child_side.cpp", "src/report/pictures/zeroed_pixels.cpp"}},
       {"sys/time.h", {"src/core/time_value.hpp"}},
       {"sys/prctl.h", {"src/core/child_side.cpp"}},
       {"poll.h", {"src/core/forked_child.cpp", "src/core/program.cpp"}},

@@ -1,5 +1,7 @@
 #include "fathom/core/once.hpp"
 
+#include <barrier>
+#include <chrono>
 #include <stdexcept>
 #include <thread>
 #include <vector>
@@ -13,10 +15,15 @@ TEST(Once, IsDoneByOneOfTheThreadsThatAsk) {
   Once once;
   int done = 0;  // no atomic: what is done is seen by all
   std::vector<int> seen(8);
+  std::barrier begin(8);
   std::vector<std::thread> threads;
   for (int& one : seen) {
     threads.emplace_back([&] {
-      once.call([&] { ++done; });
+      begin.arrive_and_wait();
+      once.call([&] {
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));  // others ask meanwhile
+        ++done;
+      });
       one = done;
     });
   }

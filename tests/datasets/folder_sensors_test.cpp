@@ -160,6 +160,9 @@ INSTANTIATE_TEST_SUITE_P(
         BadSensor{"FixNaN", kFixes, kWorld + "0,1,nan,4,0,4\n",
                   ":2: 'nan' in column 3 of timestamp, x, y, var_x, cov_xy, var_y is not a finite "
                   "number"},
+        BadSensor{"CovarianceText", kFixes, kWorld + "0,1,2,4,;,4\n",
+                  ":2: ';' in column 5 of timestamp, x, y, var_x, cov_xy, var_y is not a finite "
+                  "number"},
         BadSensor{"NoNames", kFixes, "0,1,2,4,0,4\n",
                   ": does not name its columns; expected a first line #timestamp [ns],x [m],y "
                   "[m],var_x [m^2],cov_xy [m^2],var_y [m^2], or #timestamp [ns],latitude "

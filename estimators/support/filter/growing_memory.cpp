@@ -35,7 +35,11 @@ double* GrowingMemory::take(std::size_t count) {
     auto* memory = static_cast<double*>(std::aligned_alloc(alignment, slab));
     if (memory == nullptr) throw std::bad_alloc();
     slabs_.emplace_back(memory);
-    if (huge) madvise(memory, slab, MADV_HUGEPAGE);
+    if (huge) {
+      // What the heap kept of others may be in small pages: it goes, and comes again in large ones.
+      madvise(memory, slab, MADV_DONTNEED);
+      madvise(memory, slab, MADV_HUGEPAGE);
+    }
     next_ = memory;
     left_ = slab / sizeof(double);
     bytes_ += slab;

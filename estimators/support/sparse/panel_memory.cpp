@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t kCacheLine = 64;
 constexpr std::size_t kPage = 4096;
-// From here on malloc takes pages of their own, which are new each time (its M_MMAP_THRESHOLD).
+// From here on malloc may take pages of their own, which are new.
 constexpr std::size_t kFreshPages = std::size_t{128} * 1024;
 // Bytes that a thread asks for at a time.
 constexpr std::size_t kPagesAtOnce = std::size_t{4} * 1024 * 1024;

@@ -37,8 +37,9 @@ double processor_seconds();
 /// The most memory that this process, or one that it has waited for, has had, in MiB.
 double peak_memory_mib();
 
-/// Has the heap keep what is freed, some 256 MiB of it, for what comes next: else pictures and
-/// matrices of a few megabytes go back to the system each time, and come again page by page.
+/// Has the heap keep what is freed for what comes next, up to 256 MiB of the main thread's and 64
+/// MiB of each other's, in blocks of 32 MiB at most: else pictures and matrices of a few megabytes
+/// go back to the system each time, and come again page by page.
 void keep_free_memory();
 
 /// Gives memory that the heap holds and nobody uses back to the system, where the system's heap

@@ -105,8 +105,8 @@ struct TileOptions {
 
 /// The mosaic tile by tile, row by row, the rows to and fro: those tiles alone that a picture may
 /// reach. Put together they are that of make_mosaics bit for bit, whatever their size. Memory: a
-/// tile at 9 bytes a pixel, the cache, and some 200 bytes a picture, with seams 10 KB. Progress
-/// counts tiles. Throws InputError where a picture cannot be read.
+/// tile at 9 bytes a pixel, the cache, 64 MiB of pictures in work, and some 200 bytes a picture,
+/// with seams 10 KB. Progress counts tiles. Throws InputError where a picture cannot be read.
 void make_tiles(const FrameSource& source, const MosaicPlan& plan, const TileOptions& options,
                 const std::function<void(const MosaicTile&)>& take,
                 const MosaicProgress& progress = {});

@@ -139,8 +139,12 @@ bool is_on_earth(const fs::path& csv) {
 }
 
 Eigen::Matrix2d covariance_of(const SensorCsv& csv, const SensorRow& row) {
+  // Before the initialiser: with assertions, Eigen ends the program where one is left half-way.
+  const double var_x = csv.real(row, 3);
+  const double cov_xy = csv.real(row, 4);
+  const double var_y = csv.real(row, 5);
   Eigen::Matrix2d C;
-  C << csv.real(row, 3), csv.real(row, 4), csv.real(row, 4), csv.real(row, 5);
+  C << var_x, cov_xy, cov_xy, var_y;
   if (C(0, 0) > 0.0 && C(1, 1) > 0.0 && C.determinant() > 0.0) return C;
   csv.refuse(row,
              "the covariance of the fix is not positive definite; expected variances > 0 and a "

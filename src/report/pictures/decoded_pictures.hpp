@@ -33,7 +33,8 @@ class DecodedPictures {
     const std::size_t side_by_side = std::clamp<std::size_t>(room, 1, threads);
     std::vector<std::size_t> missing;
     for (auto at = frames.begin(); at != frames.end() && missing.size() < side_by_side; ++at) {
-      if (!places_.contains(*at)) missing.push_back(*at);
+      const bool is_new = std::ranges::find(missing, *at) == missing.end();
+      if (is_new && !places_.contains(*at)) missing.push_back(*at);
     }
     std::vector<cv::Mat> pictures(missing.size());
     cv::parallel_for_({0, static_cast<int>(missing.size())}, [&](const cv::Range& range) {

@@ -14,6 +14,15 @@ namespace {
 /// Pictures that the illumination is learnt from.
 constexpr std::size_t kMostSamples = 40;
 
+/// Of CV_32F pictures that are made side by side.
+constexpr std::size_t kMostBytes = std::size_t{64} << 20;
+
+std::size_t side_by_side(std::size_t pixels) {
+  const auto threads = static_cast<std::size_t>(std::max(1, cv::getNumThreads()));
+  const std::size_t room = kMostBytes / (sizeof(float) * std::max<std::size_t>(1, pixels));
+  return std::clamp<std::size_t>(room, 1, threads);
+}
+
 // Pictures whose middles lie further apart than the shorter side of a footprint show another piece
 // of floor each.
 double independent_count(const Camera& camera, const std::vector<PlacedPicture>& pictures) {
@@ -46,12 +55,13 @@ cv::Mat learnt_gain(const Camera& camera, DecodedPictures& decoded,
   }
   const CameraModel& model = camera.model();
   FlatField field(cv::Size(model.width, model.height));
-  const auto side_by_side = static_cast<std::size_t>(std::max(1, cv::getNumThreads()));
+  const std::size_t at_once =
+      side_by_side(static_cast<std::size_t>(model.width) * static_cast<std::size_t>(model.height));
   std::vector<cv::Mat> some;
   for (std::size_t i = 0; i < count; ++i) {
     decoded.prepare(std::span(frames).subspan(i));
     some.push_back(decoded.picture(frames[i]));
-    if (some.size() < side_by_side && i + 1 < count) continue;
+    if (some.size() < at_once && i + 1 < count) continue;
     field.add(some);
     some.clear();
   }
@@ -61,7 +71,7 @@ cv::Mat learnt_gain(const Camera& camera, DecodedPictures& decoded,
 void LitPictures::for_each(
     std::span<const std::size_t> frames,
     const std::function<void(std::size_t frame, const cv::Mat& picture)>& take) {
-  lit_.resize(static_cast<std::size_t>(std::max(1, cv::getNumThreads())));
+  lit_.resize(side_by_side(gain_.total()));
   std::vector<cv::Mat> pictures;
   for (std::size_t i = 0; i < frames.size();) {
     pictures.clear();

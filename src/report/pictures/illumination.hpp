@@ -17,14 +17,14 @@ namespace fathom {
 cv::Mat learnt_gain(const Camera& camera, DecodedPictures& decoded,
                     const std::vector<PlacedPicture>& pictures);
 
-/// Pictures with the illumination taken out, CV_32F.
+/// Pictures with the illumination taken out, CV_32F. Memory: one, or 64 MiB of them.
 class LitPictures {
  public:
   /// `decoded` must outlive this.
   LitPictures(DecodedPictures& decoded, cv::Mat gain) : decoded_(decoded), gain_(std::move(gain)) {}
 
-  /// Of these frames in turn, as many made side by side as there are threads. A picture is gone
-  /// when `take` returns. Throws InputError where one cannot be read.
+  /// Of these frames in turn, some made side by side. A picture is gone when `take` returns. Throws
+  /// InputError where one cannot be read.
   void for_each(std::span<const std::size_t> frames,
                 const std::function<void(std::size_t frame, const cv::Mat& picture)>& take);
 
