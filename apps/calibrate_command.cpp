@@ -30,7 +30,7 @@ void calibrate(const CalibrateFlags& flags, Context& context) {
   const SurveyCalibration& done = outcome.done;
   print("%zu of %zu pairs of near pictures register\n", done.found, done.tried);
   for (const std::string& fact : facts_of(done.calibration)) print("  %s\n", fact.c_str());
-  if (!done.calibration.untold.empty()) print("not told by this survey\n");
+  if (!done.calibration.untold.empty()) print("not observable in this survey\n");
   for (const std::string& one : done.calibration.untold) print("  %s\n", one.c_str());
   for (const std::string& one : outcome.remarks) terminal.remark(one);
   for (const std::string& one : done.calibration.findings) terminal.remark(one);

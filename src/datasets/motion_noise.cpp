@@ -51,7 +51,7 @@ void OdometryOptions::describe(OptionTable& table) {
               "noise per frame [xx, xy, xt, yy, yt, tt] in m^2, m rad, rad^2; []: from the sigmas");
   table.real("correlated_share", correlated_share, Range::between(0, 1), "",
              "of this covariance, the part that is correlated along the way, the rest being white; "
-             "what is told is the covariance of single frames all the same");
+             "the stated covariance is that of single frames all the same");
   table.real("correlation_length_m", correlation_length_m, Range::positive(), "m",
              "the way over which that correlation falls to 1/e");
 }

@@ -26,7 +26,7 @@ std::string shared_errors_words(const Honesty& honesty, const std::string& cost,
     text += std::string(honesty.agrees_too_well ? ", and " : "") +
             "those of one picture have errors with correlation " + correlation;
   }
-  if (honesty.estimates_shared_errors) return text + ", more than they are told to.";
+  if (honesty.estimates_shared_errors) return text + ", more than their stated shared errors explain.";
   return text + "; the estimator takes them as independent" +
          (honesty.is_told ? ", shared_errors: states would estimate them." : ".");
 }

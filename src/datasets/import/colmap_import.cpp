@@ -126,7 +126,7 @@ void keep_pictures_of(const Survey& survey, const fs::path& folder, const fs::pa
   std::erase_if(cameras, [&](const NamedCamera& camera) { return !survey.frame(camera.name); });
   if (cameras.empty()) {
     throw InputError(file.string(), "none of its images is a picture of " + folder.string() +
-                                        "; they are told by their names");
+                                        "; pictures are matched by their names");
   }
 }
 

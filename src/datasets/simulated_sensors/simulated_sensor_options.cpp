@@ -28,7 +28,7 @@ void SimulatedFixOptions::describe(OptionTable& table) {
              "not in the covariance: share of fixes that are off by jump_m");
   table.real("jump_m", jump_m, Range::at_least(0), "m", "of jump_share, in any direction");
   table.real("latency_s", latency_s, Range::at_least(0), "s",
-             "not told: a fix says where the antenna was so long before");
+             "not in the data: a fix says where the antenna was so long before");
 }
 
 Eigen::Matrix2d SimulatedFixOptions::noise_covariance(const std::string& prefix) const {
