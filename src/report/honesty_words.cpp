@@ -26,7 +26,8 @@ std::string shared_errors_words(const Honesty& honesty, const std::string& cost,
     text += std::string(honesty.agrees_too_well ? ", and " : "") +
             "those of one picture have errors with correlation " + correlation;
   }
-  if (honesty.estimates_shared_errors) return text + ", more than their stated shared errors explain.";
+  if (honesty.estimates_shared_errors)
+    return text + ", more than their stated shared errors explain.";
   return text + "; the estimator takes them as independent" +
          (honesty.is_told ? ", shared_errors: states would estimate them." : ".");
 }
