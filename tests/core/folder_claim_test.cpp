@@ -57,8 +57,9 @@ TEST(FolderClaim, OfADeadProcessIsTakenOverAtOnce) {
   ASSERT_TRUE(std::filesystem::exists(folder.path() / "results.owner"));
   // It may have been killed as it wrote.
   const std::string mark = process_mark();
-  std::ofstream(folder.path() /
-                ("results.owner.partial-" + std::to_string(child) + mark.substr(mark.find('-'))));
+  const std::string left_by_it =
+      "results.owner.partial-" + std::to_string(child) + mark.substr(mark.find('-'));
+  std::ofstream(folder.path() / left_by_it).flush();
   const FolderClaim claim(folder.path(), {20ms, 3'600'000ms});
   claim.require_held();
   const std::filesystem::directory_iterator left(folder.path());

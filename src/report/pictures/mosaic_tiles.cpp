@@ -54,6 +54,7 @@ class TileMaker {
     tile.window &= cv::Rect({0, 0}, plan_.size);
     Blend blend(source_.camera(), plan_, tile.window);
     std::vector<std::size_t> frames;
+    frames.reserve(pictures.size());
     for (const PlacedPicture* place : pictures) frames.push_back(place->frame);
     auto next = pictures.begin();
     pictures_.for_each(frames, [&](std::size_t frame, const cv::Mat& picture) {
