@@ -26,7 +26,10 @@ class YamlCounter : public YAML::EventHandler {
  public:
   void OnDocumentStart(const YAML::Mark& mark) override {
     // Of some texts, as "&x ,", the parser makes empty documents without an end, all at one place.
-    if (mark.pos == last_document_) throw YamlExcess{line_of(mark), "is no YAML from here on"};
+    if (mark.pos == last_document_) {
+      throw YamlExcess{line_of(mark),
+                       "is no YAML from here on; expected a value, in quotes where it is a text"};
+    }
     last_document_ = mark.pos;
     anchored_.clear();
   }

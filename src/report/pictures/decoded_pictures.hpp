@@ -45,6 +45,16 @@ class DecodedPictures {
     for (std::size_t i = missing.size(); i-- > 0;) keep(missing[i], pictures[i]);
   }
 
+  /// The first of these, at most `count`.
+  std::vector<cv::Mat> first_of(std::span<const std::size_t> frames, std::size_t count) {
+    std::vector<cv::Mat> pictures;
+    for (; !frames.empty() && pictures.size() < count; frames = frames.subspan(1)) {
+      prepare(frames);
+      pictures.push_back(picture(frames.front()));
+    }
+    return pictures;
+  }
+
   cv::Mat picture(std::size_t frame) {
     const auto known = places_.find(frame);
     if (known != places_.end()) {

@@ -57,13 +57,8 @@ cv::Mat learnt_gain(const Camera& camera, DecodedPictures& decoded,
   FlatField field(cv::Size(model.width, model.height));
   const std::size_t at_once =
       side_by_side(static_cast<std::size_t>(model.width) * static_cast<std::size_t>(model.height));
-  std::vector<cv::Mat> some;
-  for (std::size_t i = 0; i < count; ++i) {
-    decoded.prepare(std::span(frames).subspan(i));
-    some.push_back(decoded.picture(frames[i]));
-    if (some.size() < at_once && i + 1 < count) continue;
-    field.add(some);
-    some.clear();
+  for (std::size_t i = 0; i < count; i += at_once) {
+    field.add(decoded.first_of(std::span(frames).subspan(i), at_once));
   }
   return field.gain(independent_count(camera, samples));
 }
@@ -72,14 +67,8 @@ void LitPictures::for_each(
     std::span<const std::size_t> frames,
     const std::function<void(std::size_t frame, const cv::Mat& picture)>& take) {
   lit_.resize(side_by_side(gain_.total()));
-  std::vector<cv::Mat> pictures;
-  for (std::size_t i = 0; i < frames.size();) {
-    pictures.clear();
-    while (i + pictures.size() < frames.size() && pictures.size() < lit_.size()) {
-      const auto left = frames.subspan(i + pictures.size());
-      decoded_.prepare(left);
-      pictures.push_back(decoded_.picture(left.front()));
-    }
+  for (std::size_t i = 0; i < frames.size(); i += lit_.size()) {
+    const std::vector<cv::Mat> pictures = decoded_.first_of(frames.subspan(i), lit_.size());
     cv::parallel_for_({0, static_cast<int>(pictures.size())}, [&](const cv::Range& range) {
       for (int k = range.start; k < range.end; ++k) {
         const auto place = static_cast<std::size_t>(k);
@@ -87,7 +76,6 @@ void LitPictures::for_each(
       }
     });
     for (std::size_t k = 0; k < pictures.size(); ++k) take(frames[i + k], lit_[k]);
-    i += pictures.size();
   }
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 
 #include <opencv2/core.hpp>
 
@@ -13,21 +14,20 @@ class ZeroedPixels {
  public:
   /// Throws std::bad_alloc.
   explicit ZeroedPixels(cv::Size size);
-  ~ZeroedPixels() { release(); }
-  ZeroedPixels(ZeroedPixels&& other) noexcept;
-  ZeroedPixels& operator=(ZeroedPixels&&) = delete;
-  ZeroedPixels(const ZeroedPixels&) = delete;
-  ZeroedPixels& operator=(const ZeroedPixels&) = delete;
 
-  float* row(int v) { return first_ + static_cast<std::size_t>(v) * columns_; }
+  float* row(int v) { return pixels_.get() + static_cast<std::size_t>(v) * columns_; }
 
   /// Gives the memory back; no row is left.
-  void release();
+  void release() { pixels_.reset(); }
 
  private:
-  float* first_ = nullptr;
-  std::size_t columns_ = 0;
-  std::size_t bytes_ = 0;
+  struct Unmap {
+    std::size_t bytes;
+    void operator()(float* pixels) const;
+  };
+
+  std::size_t columns_;
+  std::unique_ptr<float, Unmap> pixels_;
 };
 
 }  // namespace fathom
