@@ -64,3 +64,28 @@ function(fathom_own_target target)
     endif()
   endif()
 endfunction()
+
+# fathom_loaded_module(NAME COMPONENT … SOURCES …): code of the program in a file of its own, NAME.so,
+# which it loads when it needs it.
+function(fathom_loaded_module name)
+  cmake_parse_arguments(arg "" "COMPONENT" "SOURCES" ${ARGN})
+  add_library(${name} MODULE ${arg_SOURCES})
+  fathom_own_target(${name})
+  set_target_properties(${name} PROPERTIES
+    PREFIX "" INSTALL_RPATH "" LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR})
+  install(TARGETS ${name} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/fathom
+          COMPONENT ${arg_COMPONENT})
+endfunction()
+
+# fathom_loads(TARGET SOURCE MODULE): that source of the target loads the module NAME.so
+# (core/module.hpp) from FATHOM_MODULE_INSTALLED, a folder relative to the program's, or from
+# FATHOM_MODULE_BUILT.
+function(fathom_loads target source module)
+  set(built ${PROJECT_BINARY_DIR})
+  if(FATHOM_INSTALLED_ONLY)
+    set(built ${CMAKE_INSTALL_FULL_LIBDIR}/fathom)
+  endif()
+  file(RELATIVE_PATH installed ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR}/fathom)
+  set_source_files_properties(${source} TARGET_DIRECTORY ${target} PROPERTIES COMPILE_DEFINITIONS
+    "FATHOM_MODULE_BUILT=\"${built}/${module}.so\";FATHOM_MODULE_INSTALLED=\"${installed}\"")
+endfunction()

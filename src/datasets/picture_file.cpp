@@ -6,11 +6,10 @@
 #include <string>
 #include <vector>
 
-#include <opencv2/imgcodecs.hpp>
-
 #include "fathom/core/files.hpp"
 #include "fathom/core/input_error.hpp"
 #include "fathom/core/text.hpp"
+#include "fathom/vision/picture_codecs.hpp"
 #include "picture_header.hpp"
 
 namespace fathom {
@@ -18,14 +17,19 @@ namespace fathom {
 namespace {
 
 // OpenCV fills what a cut JPEG lacks with grey and says nothing: it is known by its missing end
-// mark. Zeros may follow it, as padding. Of a damaged PNG the decoder prints, so it gets none.
-std::vector<uchar> sound_bytes(std::string_view bytes) {
+// mark. Zeros may follow it, as padding.
+bool is_cut_jpeg(std::string_view bytes) {
   using namespace std::string_view_literals;
   const std::string_view content = bytes.substr(0, bytes.find_last_not_of('\0') + 1);
-  if (bytes.starts_with("\xFF\xD8"sv) && !content.ends_with("\xFF\xD9"sv)) return {};
-  if (!bytes.starts_with("\x89PNG"sv)) return {bytes.begin(), bytes.end()};
-  const std::string png = sound_png(bytes).value_or("");
-  return {png.begin(), png.end()};
+  return bytes.starts_with("\xFF\xD8"sv) && !content.ends_with("\xFF\xD9"sv);
+}
+
+cv::Mat decode_sound(std::string_view bytes) {
+  constexpr int kFlags = cv::IMREAD_GRAYSCALE | cv::IMREAD_ANYDEPTH | cv::IMREAD_IGNORE_ORIENTATION;
+  if (is_cut_jpeg(bytes)) return {};
+  // Of a damaged PNG the decoder prints, so it gets none.
+  if (bytes.starts_with("\x89PNG")) return decode_picture(sound_png(bytes).value_or(""), kFlags);
+  return decode_picture(bytes, kFlags);
 }
 
 // Before any of it is decoded: a file of some hundred kilobytes can ask for all memory.
@@ -59,16 +63,7 @@ cv::Mat read_grey_picture(const std::filesystem::path& path) {
 
 cv::Mat decode_grey_picture(std::string_view bytes, const std::filesystem::path& path) {
   require_pixels(bytes, path);
-  cv::Mat picture;
-  try {
-    const std::vector<uchar> buffer = sound_bytes(bytes);
-    if (!buffer.empty()) {
-      picture = cv::imdecode(
-          buffer, cv::IMREAD_GRAYSCALE | cv::IMREAD_ANYDEPTH | cv::IMREAD_IGNORE_ORIENTATION);
-    }
-  } catch (const cv::Exception&) {
-    picture.release();
-  }
+  cv::Mat picture = decode_sound(bytes);
   if (picture.type() == CV_16U && !picture.empty()) picture = in_eight_bits(picture);
   if (picture.empty() || picture.type() != CV_8U) {
     throw InputError(path.string(),
@@ -96,11 +91,9 @@ cv::Mat read_mask(const std::filesystem::path& path, cv::Size size) {
 }
 
 void write_png(const std::filesystem::path& path, const cv::Mat& picture) {
-  std::vector<uchar> buffer;
-  if (!cv::imencode(".png", picture, buffer)) {
-    throw InputError(path.string(), "cannot be encoded as PNG");
-  }
-  write_file(path, {reinterpret_cast<const char*>(buffer.data()), buffer.size()});
+  const std::string bytes = encode_picture(".png", picture);
+  if (bytes.empty()) throw InputError(path.string(), "cannot be encoded as PNG");
+  write_file(path, bytes);
 }
 
 std::optional<std::string> hidden_pictures_remark(const std::filesystem::path& folder) {

@@ -1,11 +1,10 @@
 #include "python_plugins.hpp"
 
-#include <dlfcn.h>
 #include <string>
-#include <system_error>
 
 #include "fathom/core/features.hpp"
 #include "fathom/core/input_error.hpp"
+#include "fathom/core/module.hpp"
 
 namespace fathom {
 namespace {
@@ -21,23 +20,16 @@ std::string python_is_missing() {
          "' builds it again";
 }
 
-// The interpreter is in a module of its own: who has no Python needs none. Where it is installed,
-// else where it was built.
+// The interpreter is in a module of its own: who has no Python needs none. Modules of Python that
+// are loaded later look for its symbols there.
 PythonPlugins* start_python(const std::string& plugin) {
-  const fs::path built(FATHOM_PYTHON_MODULE);
-  std::error_code ignored;
-  const fs::path program = fs::read_symlink("/proc/self/exe", ignored);
-  for (const fs::path& module :
-       {program.parent_path() / FATHOM_PYTHON_INSTALLED / built.filename(), built}) {
-    if (!fs::exists(module, ignored)) continue;
-    // Modules of Python that are loaded later look for its symbols there.
-    void* const library = ::dlopen(module.c_str(), RTLD_NOW | RTLD_GLOBAL);
-    if (library == nullptr) throw InputError(plugin, std::string("needs Python: ") + ::dlerror());
-    if (void* const symbol = ::dlsym(library, "fathom_python_plugins")) {
-      return reinterpret_cast<PythonPlugins*>(symbol);
-    }
+  const ModulePlace place{FATHOM_MODULE_BUILT, FATHOM_MODULE_INSTALLED};
+  const LoadedModule module = load_module(place, "fathom_python_plugins", ModuleSymbols::kForAll);
+  if (module.symbol != nullptr) return reinterpret_cast<PythonPlugins*>(module.symbol);
+  if (module.is_missing) {
+    throw InputError(plugin, "is written in Python, and " + python_is_missing());
   }
-  throw InputError(plugin, "is written in Python, and " + python_is_missing());
+  throw InputError(plugin, "needs Python: " + module.problem);
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "report/pixels.hpp"
 #include "support/data.hpp"
 #include "support/gdal.hpp"
+#include "support/pictures.hpp"
 
 namespace fathom::test {
 namespace {
@@ -218,7 +219,7 @@ TEST_F(Commands, ThePictureHasTheTruthWhereTheEstimateIs) {
                "truth.tum", "--out", "out"});
   EXPECT_NEAR(tum("out/dead_reckoning.tum")[0].pose.x, 5.0, 1e-9);
   EXPECT_NEAR(tum("out/trajectory.tum")[0].pose.x, 0.0, 0.01);
-  const cv::Mat whole = cv::imread(path("out/trajectory.png").string());
+  const cv::Mat whole = read_picture(path("out/trajectory.png"));
   const cv::Mat picture = whole.rowRange(125, whole.rows - 110).clone();
   const cv::Mat truth_line = where(picture, tint(palette::black, 0.45));
   cv::Mat beside;

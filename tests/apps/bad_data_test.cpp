@@ -8,6 +8,7 @@
 #include "apps/command_line.hpp"
 #include "apps/graphs.hpp"
 #include "datasets/folder_fixture.hpp"
+#include "support/pictures.hpp"
 
 namespace fathom::test {
 namespace {
@@ -116,7 +117,7 @@ TEST_F(BadFolder, PicturesAreRefusedByName) {
     spoil = [&](const fs::path& mav0) { fs::resize_file(mav0 / "cam0" / "data" / name, 60); };
     EXPECT_THAT(refused(fixture), HasSubstr(name));
     spoil = [&](const fs::path& mav0) {
-      cv::imwrite((mav0 / "cam0" / "data" / name).string(), cv::Mat::zeros(5, 8, CV_8UC1));
+      write_picture(mav0 / "cam0" / "data" / name, cv::Mat::zeros(5, 8, CV_8UC1));
     };
     EXPECT_THAT(refused(fixture), HasSubstr(name));
   }
@@ -143,7 +144,7 @@ TEST_F(BadData, RegisterRefusesWhatIsNoPicture) {
   };
   EXPECT_THAT(refused({"register", "a.png", "a.png"}), HasSubstr("a.png"));
   EXPECT_THAT(refused({"register", "none.png", "a.png"}), HasSubstr("none.png"));
-  cv::imwrite(path("b.png").string(), cv::Mat::zeros(5, 8, CV_8UC1));
+  write_picture(path("b.png"), cv::Mat::zeros(5, 8, CV_8UC1));
   EXPECT_THAT(refused({"register", "b.png", "b.png", "--config", "c.yaml"}),
               HasSubstr("b.png: is 8 x 5 pixels, the camera of --config 8 x 6"));
   EXPECT_THAT(refused({"register", "b.png", "b.png", "--config", "none.yaml"}),

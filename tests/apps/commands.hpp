@@ -5,11 +5,11 @@
 
 #include <gtest/gtest.h>
 #include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
 
 #include "apps/command_line.hpp"
 #include "fathom/core/files.hpp"
 #include "fathom/geometry/trajectory.hpp"
+#include "support/pictures.hpp"
 #include "support/planar.hpp"
 
 namespace fathom::test {
@@ -18,7 +18,7 @@ namespace fathom::test {
 class Commands : public CommandLine {
  protected:
   void expect_picture(const std::string& name) const {
-    const cv::Mat picture = cv::imread(path(name).string());
+    const cv::Mat picture = read_picture(path(name));
     ASSERT_FALSE(picture.empty()) << name;
     cv::Scalar mean;
     cv::Scalar deviation;

@@ -5,13 +5,13 @@
 
 #include <gmock/gmock.h>
 #include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
 
 #include "apps/command_line.hpp"
 #include "fathom/core/files.hpp"
 #include "fathom/core/text.hpp"
 #include "fathom/results/result_store.hpp"
 #include "support/data.hpp"
+#include "support/pictures.hpp"
 
 namespace fathom::test {
 namespace {
@@ -88,7 +88,7 @@ TEST_F(Configs, RegisterTakesEveryOne) {
     if (text.find("type: simulated\n") == std::string::npos) continue;
     cv::Mat noise(150, 200, CV_8UC1);
     cv::RNG(1).fill(noise, cv::RNG::UNIFORM, 0, 255);
-    cv::imwrite(path("a.png").string(), noise);
+    write_picture(path("a.png"), noise);
     Arguments arguments{"register", "a.png", "a.png", "--config", entry.path().string(),
                         "--altitude-a", "2", "--altitude-b", "2", "--out", "out",
                         // A floor of somebody else's need not be there.

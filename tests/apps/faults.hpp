@@ -9,6 +9,7 @@
 
 #include "apps/your_survey.hpp"
 #include "fathom/core/text.hpp"
+#include "support/pictures.hpp"
 
 namespace fathom::test {
 
@@ -53,7 +54,7 @@ class Faults : public YourSurvey {
   void redraw(const std::function<cv::Mat(const cv::Mat&)>& edit) const {
     for (const auto& entry : std::filesystem::directory_iterator(path("data/mav0/cam0/data"))) {
       const std::string file = entry.path().string();
-      cv::imwrite(file, edit(cv::imread(file, cv::IMREAD_GRAYSCALE)));
+      write_picture(file, edit(read_picture(file, cv::IMREAD_GRAYSCALE)));
     }
   }
 

@@ -5,7 +5,6 @@
 #include <sstream>
 
 #include <gmock/gmock.h>
-#include <opencv2/imgcodecs.hpp>
 
 #include "apps/command_line.hpp"
 #include "apps/graphs.hpp"
@@ -13,6 +12,7 @@
 #include "fathom/report/earth_frame.hpp"
 #include "harness/small_config.hpp"
 #include "support/gdal.hpp"
+#include "support/pictures.hpp"
 #include "support/requirements.hpp"
 
 namespace fathom::test {
@@ -185,7 +185,7 @@ TEST_F(Geo, TilesPutTogetherAreTheMosaic) {
   write("c.yaml", kSmallSurvey);
   fathom_done({"run", "c.yaml", "--out", "out"});
   fathom_done({"mosaic", "out", "--tile-size", "100", "--blend", "seams", "--out", "tiles"});
-  const cv::Mat whole = cv::imread(path("out/mosaic.png").string(), cv::IMREAD_UNCHANGED);
+  const cv::Mat whole = read_picture(path("out/mosaic.png"), cv::IMREAD_UNCHANGED);
   const nlohmann::json index = json_of("tiles/mosaic.json");
   EXPECT_EQ(index.at("tile_px"), 100);
   EXPECT_EQ(index.at("tiles").size(), 12u);
@@ -195,7 +195,7 @@ TEST_F(Geo, TilesPutTogetherAreTheMosaic) {
     int row = -1;
     int column = -1;
     ASSERT_EQ(std::sscanf(name.c_str(), "tiles/r%d_c%d.png", &row, &column), 2) << name;
-    const cv::Mat tile = cv::imread(path("tiles/" + name).string(), cv::IMREAD_UNCHANGED);
+    const cv::Mat tile = read_picture(path("tiles/" + name), cv::IMREAD_UNCHANGED);
     tile.copyTo(joined({column * 100, row * 100, tile.cols, tile.rows}));
     // Its world file: the middle of its first pixel, to the right (−y) and up (x).
     std::istringstream world(bytes_of("tiles/" + name.substr(0, name.size() - 4) + ".pgw"));

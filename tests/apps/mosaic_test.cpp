@@ -4,12 +4,12 @@
 
 #include <gmock/gmock.h>
 #include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
 
 #include "apps/command_line.hpp"
 #include "apps/graphs.hpp"
 #include "fathom/core/files.hpp"
 #include "harness/small_config.hpp"
+#include "support/pictures.hpp"
 
 namespace fathom::test {
 namespace {
@@ -20,7 +20,7 @@ using ::testing::HasSubstr;
 class MosaicCommand : public CommandLine {
  protected:
   cv::Mat picture(const std::string& name) const {
-    return cv::imread(path(name).string(), cv::IMREAD_UNCHANGED);
+    return read_picture(path(name), cv::IMREAD_UNCHANGED);
   }
   std::string bytes_of(const std::string& name) const { return read_file(path(name)); }
   bool exists(const std::string& name) const { return std::filesystem::exists(path(name)); }

@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 
 #include "apps/your_survey.hpp"
+#include "support/pictures.hpp"
 
 namespace fathom::test {
 namespace {
@@ -27,8 +28,8 @@ TEST_F(PlainPictures, CloseTheirLoops) {
   const auto time_of = [](const fs::path& file) { return std::stoll(file.stem().string()); };
   std::ranges::sort(taken, {}, time_of);
   for (std::size_t i = 0; i < taken.size(); ++i) {
-    const cv::Mat picture = cv::imread(taken[i].string(), cv::IMREAD_GRAYSCALE);
-    cv::imwrite(path("pictures/shot" + std::to_string(i) + ".jpg").string(), picture);
+    const cv::Mat picture = read_picture(taken[i].string(), cv::IMREAD_GRAYSCALE);
+    write_picture(path("pictures/shot" + std::to_string(i) + ".jpg").string(), picture);
   }
   write("run.yaml",
         "dataset:\n  type: pictures\n  path: pictures\n  altitude_m: 2.0\n"

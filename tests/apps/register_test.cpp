@@ -5,10 +5,10 @@
 
 #include <gmock/gmock.h>
 #include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
 
 #include "apps/commands.hpp"
 #include "harness/small_config.hpp"
+#include "support/pictures.hpp"
 
 namespace fathom::test {
 namespace {
@@ -68,7 +68,7 @@ TEST_F(Commands, RegisterWithoutAMatchIsStatusOne) {
   for (const std::string name : {"a.png", "b.png"}) {
     cv::Mat noise(120, 160, CV_8UC1);
     cv::RNG(name == "a.png" ? 1 : 2).fill(noise, cv::RNG::UNIFORM, 0, 255);
-    cv::imwrite(path(name).string(), noise);
+    write_picture(path(name), noise);
   }
   write("c.yaml", kSmallSurvey);
   const Ended ended = fathom({"register", "a.png", "b.png", "--config", "c.yaml", "--altitude-a",

@@ -3,10 +3,10 @@
 #include <cstdio>
 #include <string>
 
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "apps/commands.hpp"
+#include "support/pictures.hpp"
 
 namespace fathom::test {
 
@@ -47,7 +47,7 @@ class YourSurvey : public Commands {
     }
     cv::Mat grey;
     floor.convertTo(grey, CV_8U);
-    cv::imwrite(path(name).string(), grey);
+    write_picture(path(name), grey);
   }
 
   double number(const std::string& run, const std::string& metric) const {

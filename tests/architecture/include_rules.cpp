@@ -131,9 +131,10 @@ std::string judge_quoted(const Include& include) {
   if (measures) return "";  // the inside of a module or an estimator, too
   if (include.target.starts_with("src/"))
     return "is a module's own; only its folder may include it";
-  const bool sees_a_camera = include.target == "fathom/vision/camera.hpp";
-  if (from == "datasets" && *to == "vision" && !sees_a_camera) {
-    return "datasets may include no more of vision than its camera";
+  const bool reads_pictures = include.target == "fathom/vision/camera.hpp" ||
+                              include.target == "fathom/vision/picture_codecs.hpp";
+  if (from == "datasets" && *to == "vision" && !reads_pictures) {
+    return "datasets may include no more of vision than its camera and codecs";
   }
   const std::string support = support_part_of(include.target);
   if (include.file.starts_with("estimators/support/")) {

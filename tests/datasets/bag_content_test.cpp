@@ -4,10 +4,11 @@
 #include <limits>
 
 #include <gmock/gmock.h>
-#include <opencv2/imgcodecs.hpp>
 
 #include "bag_fixture.hpp"
 #include "fathom/core/files.hpp"
+#include "fathom/vision/picture_codecs.hpp"
+#include "support/pictures.hpp"
 
 namespace fathom {
 namespace {
@@ -49,7 +50,7 @@ class BagContent : public test::BagTest {
  protected:
   cv::Mat first_picture(const std::string& ending = ".png") const {
     const std::string name = std::to_string(kBegin) + ending;
-    return cv::imread((out() / "mav0" / "cam0" / "data" / name).string(), cv::IMREAD_UNCHANGED);
+    return test::read_picture(out() / "mav0" / "cam0" / "data" / name, cv::IMREAD_UNCHANGED);
   }
   void import_one(const test::RawImage& raw) const {
     {
@@ -115,8 +116,8 @@ TEST_P(BagContent, MosaicOfRedInTheCornerBecomesColour) {
 
 TEST_P(BagContent, CompressedPicturesAreCopied) {
   const cv::Mat picture(2, 4, CV_8UC1, cv::Scalar(90));
-  std::vector<std::uint8_t> jpeg;
-  cv::imencode(".jpg", picture, jpeg);
+  const std::string bytes = encode_picture(".jpg", picture);
+  std::vector<std::uint8_t> jpeg(bytes.begin(), bytes.end());
   {
     const auto bag = writer();
     bag->camera_info("/cam/camera_info", at(0), information());

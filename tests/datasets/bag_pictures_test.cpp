@@ -1,10 +1,11 @@
 // Encodings of pictures in bags: mosaics and YUV become colour, compressed ones too.
 
 #include <gmock/gmock.h>
-#include <opencv2/imgcodecs.hpp>
 
 #include "bag_fixture.hpp"
 #include "fathom/core/files.hpp"
+#include "fathom/vision/picture_codecs.hpp"
+#include "support/pictures.hpp"
 
 namespace fathom {
 namespace {
@@ -64,7 +65,7 @@ class BagPictures : public test::BagTest {
   std::string path(const std::string& ending) const {
     return (out() / "mav0" / "cam0" / "data" / (std::to_string(kBegin) + ending)).string();
   }
-  cv::Mat imported() const { return cv::imread(path(".png"), cv::IMREAD_UNCHANGED); }
+  cv::Mat imported() const { return test::read_picture(path(".png"), cv::IMREAD_UNCHANGED); }
 
   cv::Mat after(const test::RawImage& image) const {
     writer_with_camera()->image("/cam/image_raw", {kBegin, kBegin}, image);
@@ -73,7 +74,8 @@ class BagPictures : public test::BagTest {
   }
   void import_compressed(const std::string& format, const std::string& ending,
                          const cv::Mat& picture) {
-    cv::imencode(ending, picture, file_);
+    const std::string bytes = encode_picture(ending, picture);
+    file_.assign(bytes.begin(), bytes.end());
     std::filesystem::remove_all(out());
     writer_with_camera()->compressed_image("/cam/image_raw/compressed", {kBegin, kBegin}, format,
                                            file_);

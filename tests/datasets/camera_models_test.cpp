@@ -3,7 +3,6 @@
 #include <fstream>
 
 #include <gmock/gmock.h>
-#include <opencv2/imgcodecs.hpp>
 
 #include "fathom/core/text.hpp"
 #include "fathom/datasets/asl_files.hpp"
@@ -14,6 +13,7 @@
 #include "fathom/datasets/picture_folder.hpp"
 #include "small_survey.hpp"
 #include "support/input_error.hpp"
+#include "support/pictures.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace fathom {
@@ -114,7 +114,7 @@ TEST_F(CameraModels, OptionsTakeTheNameOfTheModel) {
 }
 
 TEST_F(CameraModels, AFieldOfViewIsThatOfTheFisheye) {
-  cv::imwrite((folder_ / "a.png").string(), cv::Mat(6, 8, CV_8UC1, cv::Scalar(90)));
+  test::write_picture(folder_ / "a.png", cv::Mat(6, 8, CV_8UC1, cv::Scalar(90)));
   PictureFolderOptions options;
   options.path = folder_.path().string();
   options.altitude_m = 2.0;

@@ -6,8 +6,8 @@
 #include <string>
 
 #include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
 
+#include "support/pictures.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace fathom::test {
@@ -39,7 +39,7 @@ class FolderFixture {
     for (const char* name : {"a.png", "b.png", "c.png"}) {
       cv::Mat picture(6, 8, CV_8UC1);
       for (int i = 0; i < 48; ++i) picture.at<uchar>(i / 8, i % 8) = static_cast<uchar>(5 * i);
-      cv::imwrite((mav0() / "cam0" / "data" / name).string(), picture);
+      write_picture(mav0() / "cam0" / "data" / name, picture);
     }
     return root.path();
   }

@@ -7,6 +7,7 @@
 #include "folder_fixture.hpp"
 #include "small_survey.hpp"
 #include "support/data.hpp"
+#include "support/pictures.hpp"
 
 namespace fathom {
 namespace {
@@ -61,7 +62,7 @@ TEST(FolderSummary, WarnsOfWhatLooksWrong) {
       "0,0,0,0,1,1,1\n1000,1,0,0,1,1,1\n2000,1,90,0,1,1,1\n9000,1,90,0,1,1,1\n";
   fixture.files["state_groundtruth_estimate0/data.csv"] = "0,0,0,0,1,0,0,0\n9000,1,0,0,1,0,0,0\n";
   const auto root = fixture.write();
-  cv::imwrite((fixture.mav0() / "cam0/data/c.png").string(), cv::Mat(6, 8, CV_8UC1, cv::Scalar(3)));
+  test::write_picture(fixture.mav0() / "cam0/data/c.png", cv::Mat(6, 8, CV_8UC1, cv::Scalar(3)));
   const FolderSummary summary = summarise_frames(ImageFolder(root));
   EXPECT_THAT(summary.warnings, Contains(HasSubstr("time gaps")));
   EXPECT_THAT(summary.warnings, Contains(HasSubstr("altitude changes by more than half")));

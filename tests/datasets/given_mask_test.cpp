@@ -4,12 +4,12 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <opencv2/imgcodecs.hpp>
 
 #include "fathom/datasets/image_folder.hpp"
 #include "fathom/datasets/picture_folder.hpp"
 #include "folder_fixture.hpp"
 #include "support/input_error.hpp"
+#include "support/pictures.hpp"
 
 namespace fathom {
 namespace {
@@ -36,7 +36,7 @@ TEST(GivenMask, OfAnImageFolderIsReadAndAmongItsFiles) {
   const auto folder = fixture.write();
   EXPECT_TRUE(ImageFolder(folder).given_mask().empty());
   const auto file = fixture.mav0() / "cam0" / "mask.png";
-  cv::imwrite(file.string(), left_half_hidden());
+  test::write_picture(file, left_half_hidden());
   const ImageFolder read(folder);
   expect_left_half_hidden(read.given_mask());
   const auto files = read.files();
@@ -49,10 +49,10 @@ TEST(GivenMask, OfAnotherSizeOrThatHidesAllIsRefusedByName) {
   const FolderFixture fixture;
   const auto folder = fixture.write();
   const std::string file = (fixture.mav0() / "cam0" / "mask.png").string();
-  cv::imwrite(file, cv::Mat(6, 9, CV_8U, cv::Scalar(255)));
+  test::write_picture(file, cv::Mat(6, 9, CV_8U, cv::Scalar(255)));
   EXPECT_THAT(input_error_of([&] { ImageFolder read(folder); }),
               AllOf(HasSubstr("mask.png"), HasSubstr("9 x 6"), HasSubstr("8 x 6")));
-  cv::imwrite(file, cv::Mat::zeros(6, 8, CV_8U));
+  test::write_picture(file, cv::Mat::zeros(6, 8, CV_8U));
   EXPECT_THAT(input_error_of([&] { ImageFolder read(folder); }),
               AllOf(HasSubstr("mask.png"), HasSubstr("hides all")));
 }
@@ -61,9 +61,9 @@ TEST(GivenMask, OfPlainPicturesIsNamedByAKey) {
   const test::TemporaryFolder root;
   std::filesystem::create_directories(root / "photos");
   for (const char* name : {"1.png", "2.png"}) {
-    cv::imwrite((root / "photos" / name).string(), cv::Mat(6, 8, CV_8U, cv::Scalar(90)));
+    test::write_picture(root / "photos" / name, cv::Mat(6, 8, CV_8U, cv::Scalar(90)));
   }
-  cv::imwrite((root / "mask.png").string(), left_half_hidden());
+  test::write_picture(root / "mask.png", left_half_hidden());
   PictureFolderOptions options;
   options.path = (root / "photos").string();
   options.altitude_m = 2.0;

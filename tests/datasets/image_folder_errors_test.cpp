@@ -5,6 +5,7 @@
 #include "fathom/datasets/image_folder.hpp"
 #include "folder_fixture.hpp"
 #include "support/input_error.hpp"
+#include "support/pictures.hpp"
 
 namespace fathom {
 namespace {
@@ -193,7 +194,7 @@ TEST(ImageFolderErrors, UnreadablePicturesAreNamed) {
     EXPECT_EQ(input_error_of([&] { folder.image(2); }).find(picture.string() + ": is no picture"),
               0U);
   }
-  cv::imwrite(picture.string(), cv::Mat(5, 8, CV_8UC1, cv::Scalar(3)));
+  test::write_picture(picture, cv::Mat(5, 8, CV_8UC1, cv::Scalar(3)));
   const ImageFolder folder(root);
   EXPECT_EQ(input_error_of([&] { folder.image(2); }).find(picture.string() + ": has 8 x 5 pixels"),
             0U);
@@ -209,7 +210,7 @@ TEST(ImageFolderErrors, PictureCutShortIsRefused) {
     fixture.files["cam0/data.csv"] = "0,a.png\n1000," + name + "\n";
     const auto picture = fixture.mav0() / "cam0/data" / name;
     std::filesystem::create_directories(picture.parent_path());
-    ASSERT_TRUE(cv::imwrite(picture.string(), cv::Mat(6, 8, CV_8UC1, cv::Scalar(77))));
+    ASSERT_TRUE(test::write_picture(picture, cv::Mat(6, 8, CV_8UC1, cv::Scalar(77))));
     const ImageFolder folder(fixture.write());
     EXPECT_EQ(input_error_of([&] { folder.image(1); }), "(nothing thrown)");
     std::filesystem::resize_file(picture, std::filesystem::file_size(picture) - 20);

@@ -8,6 +8,7 @@
 #include "folder_fixture.hpp"
 #include "small_survey.hpp"
 #include "support/data.hpp"
+#include "support/pictures.hpp"
 #include "support/planar.hpp"
 
 namespace fathom {
@@ -193,8 +194,8 @@ TEST(ImageFolder, GroundTruthIsOptional) {
 TEST(ImageFolder, ColourIsTurnedToGrey) {
   const FolderFixture fixture;
   fixture.write();
-  cv::imwrite((fixture.mav0() / "cam0/data/b.png").string(),
-              cv::Mat(6, 8, CV_8UC3, cv::Scalar(10, 200, 90)));
+  test::write_picture(fixture.mav0() / "cam0/data/b.png",
+                      cv::Mat(6, 8, CV_8UC3, cv::Scalar(10, 200, 90)));
   const cv::Mat picture = ImageFolder(fixture.mav0()).image(1);
   EXPECT_EQ(picture.type(), CV_8UC1);
   // ITU-R BT.601 luma, from blue, green, red.

@@ -8,11 +8,11 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <opencv2/imgcodecs.hpp>
 
 #include "fathom/datasets/asl_files.hpp"
 #include "fathom/datasets/image_folder.hpp"
 #include "fathom/datasets/picture_file.hpp"
+#include "fathom/vision/picture_codecs.hpp"
 #include "folder_fixture.hpp"
 #include "support/input_error.hpp"
 
@@ -26,12 +26,6 @@ using test::input_error_of;
 using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::MatchesRegex;
-
-std::string encoded(const char* extension, const cv::Mat& picture) {
-  std::vector<uchar> bytes;
-  cv::imencode(extension, picture, bytes);
-  return {bytes.begin(), bytes.end()};
-}
 
 std::string refusal_of_picture(const std::string& bytes) {
   testing::internal::CaptureStderr();
@@ -50,14 +44,15 @@ TEST(PictureLimits, AHeaderThatAsksForAllMemoryIsRefusedBeforeDecoding) {
   const std::string large = "p: has 60000 x 60000 pixels; the limit is 268435456 in all";
   const std::string big = {'\0', '\0', '\xEA', '\x60'};
   const std::string little = {'\x60', '\xEA', '\0', '\0'};
-  EXPECT_EQ(refusal_of_picture(with_bytes(encoded(".png", small), 16, big + big)), large);
-  EXPECT_EQ(refusal_of_picture(with_bytes(encoded(".bmp", small), 18, little + little)), large);
+  EXPECT_EQ(refusal_of_picture(with_bytes(encode_picture(".png", small), 16, big + big)), large);
+  EXPECT_EQ(refusal_of_picture(with_bytes(encode_picture(".bmp", small), 18, little + little)),
+            large);
   EXPECT_EQ(refusal_of_picture("P5\n# 1 2\n60000 60000\n255\n"), large);
-  const std::string jpeg = encoded(".jpg", small);
+  const std::string jpeg = encode_picture(".jpg", small);
   const std::size_t frame = jpeg.find("\xFF\xC0");
   ASSERT_NE(frame, std::string::npos);
   EXPECT_EQ(refusal_of_picture(with_bytes(jpeg, frame + 5, big.substr(2) + big.substr(2))), large);
-  std::string tiff = encoded(".tiff", small);
+  std::string tiff = encode_picture(".tiff", small);
   ASSERT_EQ(tiff.substr(0, 4), std::string("II*\0", 4));
   const auto directory =
       static_cast<unsigned char>(tiff[4]) + 256U * static_cast<unsigned char>(tiff[5]);
@@ -67,15 +62,16 @@ TEST(PictureLimits, AHeaderThatAsksForAllMemoryIsRefusedBeforeDecoding) {
     if (is_side) tiff.replace(entry + 8, 2, little.substr(0, 2));
   }
   EXPECT_EQ(refusal_of_picture(tiff), large);
-  EXPECT_EQ(refusal_of_picture(with_bytes(encoded(".png", small), 16, std::string(8, '\xFF'))),
-            "p: has 4294967295 x 4294967295 pixels; the limit is 268435456 in all");
+  EXPECT_EQ(
+      refusal_of_picture(with_bytes(encode_picture(".png", small), 16, std::string(8, '\xFF'))),
+      "p: has 4294967295 x 4294967295 pixels; the limit is 268435456 in all");
 }
 
 TEST(PictureLimits, PicturesOfAllFormatsAreRead) {
   cv::Mat picture(6, 8, CV_8UC1);
   for (int i = 0; i < 48; ++i) picture.at<uchar>(i / 8, i % 8) = static_cast<uchar>(5 * i);
   for (const char* const extension : {".png", ".bmp", ".tiff", ".pgm", ".jpg", ".webp"}) {
-    EXPECT_EQ(decode_grey_picture(encoded(extension, picture), "p").size(), picture.size())
+    EXPECT_EQ(decode_grey_picture(encode_picture(extension, picture), "p").size(), picture.size())
         << extension;
   }
 }
@@ -84,7 +80,7 @@ TEST(PictureLimits, PicturesOfAllFormatsAreRead) {
 TEST(PictureLimits, ADamagedPngIsOneLine) {
   cv::Mat picture(60, 80, CV_8UC1);
   cv::randu(picture, 0, 255);
-  const std::string png = encoded(".png", picture);
+  const std::string png = encode_picture(".png", picture);
   for (const std::size_t at : {std::size_t{23}, std::size_t{45}, png.size() / 2, png.size() - 20}) {
     std::string damaged = png;
     damaged[at] = static_cast<char>(damaged[at] ^ 0x10);
@@ -98,7 +94,7 @@ TEST(PictureLimits, ADamagedPngIsOneLine) {
 // A text in the file is no part of the picture.
 TEST(PictureLimits, ADamagedNoteInAPngIsLeftOut) {
   const cv::Mat picture(6, 8, CV_8UC1, cv::Scalar(90));
-  std::string png = encoded(".png", picture);
+  std::string png = encode_picture(".png", picture);
   png.insert(33, std::string("\0\0\0\5tEXta\0bcd????", 17));
   testing::internal::CaptureStderr();
   const cv::Mat read = decode_grey_picture(png + "behind its end", "p");

@@ -8,10 +8,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
 
 #include "fathom/datasets/picture_file.hpp"
+#include "fathom/vision/picture_codecs.hpp"
 #include "support/input_error.hpp"
+#include "support/pictures.hpp"
 #include "support/requirements.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -32,7 +33,7 @@ class Pictures : public ::testing::Test {
   }
 
   void add(const std::string& name, int grey = 90, cv::Size size = {8, 6}) const {
-    cv::imwrite((root / name).string(), cv::Mat(size, CV_8UC1, cv::Scalar(grey)));
+    test::write_picture(root / name, cv::Mat(size, CV_8UC1, cv::Scalar(grey)));
   }
 
   void write(const std::string& name, const std::string& text) const {
@@ -148,9 +149,7 @@ TEST_F(Pictures, HiddenFilesAreLeftOutAndCounted) {
 // A JPEG with DateTimeOriginal, as a camera writes it: APP1 with one entry, which points to the
 // Exif directory with one entry.
 std::string jpeg_at(const std::string& time) {
-  std::vector<unsigned char> bytes;
-  cv::imencode(".jpg", cv::Mat(6, 8, CV_8UC1, cv::Scalar(90)), bytes);
-  const std::string jpeg(bytes.begin(), bytes.end());
+  const std::string jpeg = encode_picture(".jpg", cv::Mat(6, 8, CV_8UC1, cv::Scalar(90)));
   using namespace std::string_literals;
   const std::string tiff = "II*\0\x08\0\0\0"s +
                            "\x01\0\x69\x87\x04\0\x01\0\0\0\x1A\0\0\0\0\0\0\0"s +
@@ -194,7 +193,7 @@ TEST_F(Pictures, OfSixteenBitUseTheBitsThatTheyHave) {
   cv::Mat ramp(64, 64, CV_16UC1);
   for (int i = 0; i < 4096; ++i) ramp.at<ushort>(i / 64, i % 64) = static_cast<ushort>(i);
   ramp.at<ushort>(0, 0) = 65535;
-  cv::imwrite((root / "ramp.png").string(), ramp);
+  test::write_picture(root / "ramp.png", ramp);
   const cv::Mat grey = read_grey_picture(root / "ramp.png");
   ASSERT_EQ(grey.type(), CV_8U);
   EXPECT_EQ(grey.at<uchar>(0, 0), 255);
@@ -203,7 +202,7 @@ TEST_F(Pictures, OfSixteenBitUseTheBitsThatTheyHave) {
   EXPECT_NEAR(grey.at<uchar>(0, 32), 2, 1);
   cv::Mat colour;
   cv::merge(std::vector<cv::Mat>{ramp, ramp, ramp}, colour);
-  cv::imwrite((root / "colour.tif").string(), colour);
+  test::write_picture(root / "colour.tif", colour);
   EXPECT_LE(cv::norm(read_grey_picture(root / "colour.tif"), grey, cv::NORM_INF), 1.0);
 }
 

@@ -6,7 +6,6 @@
 #include <thread>
 
 #include <gtest/gtest.h>
-#include <opencv2/imgcodecs.hpp>
 
 #include "fathom/datasets/image_folder.hpp"
 #include "folder_fixture.hpp"
@@ -14,6 +13,7 @@
 #include "small_survey.hpp"
 #include "src/datasets/simulated/simulated_survey.hpp"
 #include "support/input_error.hpp"
+#include "support/pictures.hpp"
 
 namespace fathom {
 namespace {
@@ -153,7 +153,7 @@ TEST(PictureId, OverAGivenPictureCountsItsContentAndNotItsName) {
   const auto id = [&](const char* name, const cv::Mat& picture, std::uint64_t seed) {
     SimulatedSurveyOptions options = small_survey();
     options.world.picture = (folder / name).string();
-    EXPECT_TRUE(cv::imwrite(options.world.picture, picture));
+    EXPECT_TRUE(test::write_picture(options.world.picture, picture));
     return SimulatedSurvey(options, seed).picture_id(0);
   };
   EXPECT_EQ(id("a.png", floor, 1), id("b.png", floor, 2));
@@ -164,7 +164,7 @@ TEST(PictureId, OfAFolderIsThatOfTheFilesBytes) {
   const test::FolderFixture fixture;
   const auto folder = fixture.write();
   const auto pictures = fixture.mav0() / "cam0" / "data";
-  cv::imwrite((pictures / "c.png").string(), cv::Mat(6, 8, CV_8UC1, cv::Scalar(7)));
+  test::write_picture(pictures / "c.png", cv::Mat(6, 8, CV_8UC1, cv::Scalar(7)));
   const ImageFolder a(folder);
   // The fixture's pictures are alike.
   EXPECT_EQ(a.picture_id(0), a.picture_id(1));

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include <gtest/gtest.h>
-#include <opencv2/imgcodecs.hpp>
 
 #include "src/datasets/simulated/simulated_survey.hpp"
+#include "support/pictures.hpp"
 #include "support/planar.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -45,7 +45,7 @@ void write_world(const std::filesystem::path& file) {
   }
   cv::Mat grey;
   world.convertTo(grey, CV_8U);
-  ASSERT_TRUE(cv::imwrite(file.string(), grey));
+  ASSERT_TRUE(test::write_picture(file, grey));
 }
 
 Eigen::Vector2d centroid(const cv::Mat& picture, const Eigen::Vector2d& about) {
@@ -141,7 +141,7 @@ TEST(RenderingConvention, AheadIsUpAndPortIsLeft) {
   cv::Mat world(800, 800, CV_8UC1, cv::Scalar(50));
   world(cv::Rect(400 - 80 - 10, 400 - 10, 20, 20)) = 255;  // left of the middle
   world(cv::Rect(400 - 10, 400 - 60 - 10, 20, 20)) = 150;  // above the middle
-  ASSERT_TRUE(cv::imwrite((folder / "w.png").string(), world));
+  ASSERT_TRUE(test::write_picture(folder / "w.png", world));
   SimulatedSurveyOptions o;
   o.world.picture = (folder / "w.png").string();
   o.world.metres_per_pixel = 0.01;
@@ -164,7 +164,7 @@ TEST(RenderingConvention, FineStripesFadeInsteadOfAliasing) {
   const test::TemporaryFolder folder;
   cv::Mat world(2400, 2400, CV_8UC1);
   for (int row = 0; row < world.rows; ++row) world.row(row) = row % 3 == 0 ? 240 : 60;
-  ASSERT_TRUE(cv::imwrite((folder / "w.png").string(), world));
+  ASSERT_TRUE(test::write_picture(folder / "w.png", world));
   SimulatedSurveyOptions o;
   o.world.picture = (folder / "w.png").string();
   o.world.metres_per_pixel = 0.001;

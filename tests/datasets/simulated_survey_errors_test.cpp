@@ -3,10 +3,10 @@
 #include <string>
 
 #include <gtest/gtest.h>
-#include <opencv2/imgcodecs.hpp>
 
 #include "small_survey.hpp"
 #include "support/input_error.hpp"
+#include "support/pictures.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace fathom {
@@ -135,7 +135,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(SimulatedSurveyErrors, FrameBeyondThePictureSaysWhichAndByHowMuch) {
   const test::TemporaryFolder folder;
-  ASSERT_TRUE(cv::imwrite((folder / "w.png").string(), cv::Mat(501, 501, CV_8UC1, cv::Scalar(9))));
+  ASSERT_TRUE(test::write_picture(folder / "w.png", cv::Mat(501, 501, CV_8UC1, cv::Scalar(9))));
   SimulatedSurveyOptions options = test::small_survey();
   options.world.picture = (folder / "w.png").string();
   options.world.metres_per_pixel = 0.01;
@@ -160,11 +160,14 @@ TEST(SimulatedSurveyErrors, PictureThatJustFitsIsTaken) {
   options.world.picture = (folder / "w.png").string();
   options.world.metres_per_pixel = 0.01;
   // 3 m + 2 · 0.923 m up, 2 · 2 m · 32 / 50 = 2.56 m across.
-  ASSERT_TRUE(cv::imwrite(options.world.picture, cv::Mat(486, 258, CV_8UC1, cv::Scalar(9))));
+  ASSERT_TRUE(
+      test::write_picture(options.world.picture, cv::Mat(486, 258, CV_8UC1, cv::Scalar(9))));
   EXPECT_EQ(input_error_of([&] { SimulatedSurvey(options, 1); }), "(nothing thrown)");
-  ASSERT_TRUE(cv::imwrite(options.world.picture, cv::Mat(484, 258, CV_8UC1, cv::Scalar(9))));
+  ASSERT_TRUE(
+      test::write_picture(options.world.picture, cv::Mat(484, 258, CV_8UC1, cv::Scalar(9))));
   EXPECT_NE(input_error_of([&] { SimulatedSurvey(options, 1); }), "(nothing thrown)");
-  ASSERT_TRUE(cv::imwrite(options.world.picture, cv::Mat(486, 256, CV_8UC1, cv::Scalar(9))));
+  ASSERT_TRUE(
+      test::write_picture(options.world.picture, cv::Mat(486, 256, CV_8UC1, cv::Scalar(9))));
   EXPECT_NE(input_error_of([&] { SimulatedSurvey(options, 1); }), "(nothing thrown)");
 }
 

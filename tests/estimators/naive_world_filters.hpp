@@ -14,6 +14,26 @@
 /// by its own residual. They share with the estimators only ⊕, ⊖ and their Jacobians.
 namespace fathom::test {
 
+/// The lower triangle of P, with room for more keyframes: to move all of it for each takes longer
+/// than the filter.
+class NaiveCovariance {
+ public:
+  explicit NaiveCovariance(const Eigen::Matrix3d& start) : room_(start), n_(3) {}
+
+  Eigen::Block<Eigen::MatrixXd> P() { return room_.topLeftCorner(n_, n_); }
+  Eigen::Block<const Eigen::MatrixXd> P() const { return room_.topLeftCorner(n_, n_); }
+  /// By three rows and columns, with anything in them.
+  Eigen::Block<Eigen::MatrixXd> grow() {
+    n_ += 3;
+    if (n_ > room_.rows()) room_.conservativeResize(2 * n_, 2 * n_);
+    return P();
+  }
+
+ private:
+  Eigen::MatrixXd room_;
+  Eigen::Index n_;
+};
+
 /// ν, H and information W of all that is measured at one time. W may be singular: with A = H P Hᵀ
 /// and N = W (I + A W)⁻¹, which is (A + W⁻¹)⁻¹ where that exists, the gain is K = P Hᵀ N and the
 /// posterior P − P Hᵀ N H P.
@@ -30,7 +50,7 @@ struct NaiveStack {
         W(Eigen::MatrixXd::Zero(nu.size(), nu.size())) {}
 
   /// Of P the lower triangle is read.
-  void prepare(const Eigen::MatrixXd& P) {
+  void prepare(const Eigen::Block<Eigen::MatrixXd>& P) {
     PHt = P.selfadjointView<Eigen::Lower>() * H.transpose();
     const Eigen::MatrixXd M = Eigen::MatrixXd::Identity(nu.size(), nu.size()) + H * PHt * W;
     N = M.transpose().partialPivLu().solve(W).transpose();
@@ -38,7 +58,7 @@ struct NaiveStack {
   }
 
   /// The lower triangle of the posterior.
-  void reduce(Eigen::MatrixXd& P) const {
+  void reduce(Eigen::Block<Eigen::MatrixXd> P) const {
     P.triangularView<Eigen::Lower>() -= PHt * N * PHt.transpose();
   }
 };
@@ -66,13 +86,13 @@ class NaiveWorldEkf {
     Eigen::Matrix3d J_pose;
     Eigen::Matrix3d J_motion;
     const Pose next = compose(pose(n / 3 - 1), u.motion, &J_pose, &J_motion);
-    Eigen::MatrixXd cross = P_.bottomRows<3>();
+    Eigen::MatrixXd cross = P_.P().bottomRows<3>();
     cross.rightCols<3>() = last_block();
     cross = (J_pose * cross).eval();
-    P_.conservativeResize(n + 3, n + 3);
-    P_.bottomLeftCorner(3, n) = cross;
-    P_.bottomRightCorner<3, 3>() = cross.rightCols<3>() * J_pose.transpose() +
-                                   J_motion * u.covariance() * J_motion.transpose();
+    Eigen::Block<Eigen::MatrixXd> P = P_.grow();
+    P.bottomLeftCorner(3, n) = cross;
+    P.bottomRightCorner<3, 3>() = cross.rightCols<3>() * J_pose.transpose() +
+                                  J_motion * u.covariance() * J_motion.transpose();
     x_.conservativeResize(n + 3);
     x_.tail<3>() = next.vector();
   }
@@ -97,9 +117,9 @@ class NaiveWorldEkf {
       naive_absolute(z, pose(column / 3), row, column, Eigen::Matrix3d::Identity(), stack);
       row += 3;
     }
-    stack.prepare(P_);
+    stack.prepare(P_.P());
     x_ += stack.PHt * (stack.N * stack.nu);
-    stack.reduce(P_);
+    stack.reduce(P_.P());
   }
 
   std::vector<Pose> trajectory() const {
@@ -111,17 +131,17 @@ class NaiveWorldEkf {
   }
   Eigen::Matrix3d covariance(std::size_t k) const {
     const auto row = static_cast<Eigen::Index>(3 * k);
-    return Eigen::Matrix3d(P_.block<3, 3>(row, row)).selfadjointView<Eigen::Lower>();
+    return Eigen::Matrix3d(P_.P().block<3, 3>(row, row)).selfadjointView<Eigen::Lower>();
   }
 
  private:
   Eigen::Matrix3d last_block() const {
-    return Eigen::Matrix3d(P_.bottomRightCorner<3, 3>()).selfadjointView<Eigen::Lower>();
+    return Eigen::Matrix3d(P_.P().bottomRightCorner<3, 3>()).selfadjointView<Eigen::Lower>();
   }
   Pose pose(Eigen::Index k) const { return Pose::from_vector(x_.segment<3>(3 * k)); }
 
   Eigen::VectorXd x_;
-  Eigen::MatrixXd P_;  ///< its lower triangle
+  NaiveCovariance P_;
 };
 
 /// The paper's trajectory filter, X = [x₁⁰; x₂¹; …] with the start as its first motion.
@@ -135,10 +155,9 @@ class NaiveWorldTrajectoryIekf {
     const Eigen::Index n = x_.size();
     x_.conservativeResize(n + 3);
     x_.tail<3>() = u.motion.vector();
-    P_.conservativeResize(n + 3, n + 3);
-    P_.rightCols<3>().setZero();
-    P_.bottomRows<3>().setZero();
-    P_.bottomRightCorner<3, 3>() = u.covariance();
+    Eigen::Block<Eigen::MatrixXd> P = P_.grow();
+    P.bottomRows<3>().setZero();
+    P.bottomRightCorner<3, 3>() = u.covariance();
   }
 
   void update(const KeyframeMeasurements& arrival) {
@@ -147,12 +166,12 @@ class NaiveWorldTrajectoryIekf {
     Eigen::VectorXd x = x0;
     for (int i = 0; i < n_; ++i) {
       linearise(x, arrival, stack);
-      stack.prepare(P_);
+      stack.prepare(P_.P());
       x = x0 + stack.PHt * (stack.N * (stack.nu - stack.H * (x0 - x)));
     }
     x_ = x;
     for (Eigen::Index i = 2; i < x_.size(); i += 3) x_(i) = wrap_angle(x_(i));
-    stack.reduce(P_);
+    stack.reduce(P_.P());
   }
 
   std::vector<Pose> trajectory() const {
@@ -164,7 +183,8 @@ class NaiveWorldTrajectoryIekf {
   }
   Eigen::Matrix3d covariance(std::size_t k) const {
     const auto [X, J] = chain(x_, 0, k);
-    const Eigen::MatrixXd P = P_.topLeftCorner(J.cols(), J.cols()).selfadjointView<Eigen::Lower>();
+    const Eigen::MatrixXd P =
+        P_.P().topLeftCorner(J.cols(), J.cols()).selfadjointView<Eigen::Lower>();
     return Eigen::MatrixXd(J * P * J.transpose());
   }
 
@@ -208,7 +228,7 @@ class NaiveWorldTrajectoryIekf {
 
   int n_;
   Eigen::VectorXd x_;
-  Eigen::MatrixXd P_;  ///< its lower triangle
+  NaiveCovariance P_;
 };
 
 template <class Filter>

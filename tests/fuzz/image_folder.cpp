@@ -5,10 +5,10 @@
 #include <array>
 
 #include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
 
 #include "fathom/datasets/folder_summary.hpp"
 #include "support/fuzz.hpp"
+#include "support/pictures.hpp"
 
 namespace {
 
@@ -35,7 +35,7 @@ class Survey : public fuzz::Folder {
     cv::Mat picture(6, 8, CV_8UC1);
     for (int i = 0; i < 48; ++i) picture.at<uchar>(i / 8, i % 8) = static_cast<uchar>(5 * i);
     for (const char* name : {"a.png", "b.png", "c.png"}) {
-      cv::imwrite((path() / "mav0" / "cam0" / "data" / name).string(), picture);
+      test::write_picture(path() / "mav0" / "cam0" / "data" / name, picture);
     }
   }
 

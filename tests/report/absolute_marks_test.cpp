@@ -7,9 +7,9 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "fathom/vision/picture_codecs.hpp"
 #include "pixels.hpp"
 #include "report/plot_series.hpp"
 #include "support/input_error.hpp"
@@ -42,9 +42,7 @@ class Map {
     plot.series = {series_of(0, {{0, 0, 0}, {0, 0, 0}}), series_of(2, {{10, 0, 0}, {10, 0, 0}}),
                    series_of(3, {{0, 10, 0}, {0, 10, 0}})};
     plot.series[0].absolute = std::move(marks);
-    const std::string png = trajectory_png(plot);
-    picture_ = cv::imdecode(std::vector<unsigned char>(png.begin(), png.end()), cv::IMREAD_COLOR);
-    picture_ = map_of(picture_);
+    picture_ = map_of(decode_picture(trajectory_png(plot), cv::IMREAD_COLOR));
     origin_ = mean_position(picture_, palette::blue);
     ahead_ = (mean_position(picture_, palette::green) - origin_) / 10.0;
     to_port_ = (mean_position(picture_, palette::purple) - origin_) / 10.0;
@@ -105,9 +103,7 @@ TEST(AbsoluteMarks, HangOnTheirPose) {
   TrajectoryPlot plot;
   plot.series = {series_of(0, {{0, 0, 0}, {0, 10, 0}})};
   plot.series[0].absolute = {heading(1, 0.0, false)};
-  const std::string png = trajectory_png(plot);
-  const cv::Mat picture =
-      map_of(cv::imdecode(std::vector<unsigned char>(png.begin(), png.end()), cv::IMREAD_COLOR));
+  const cv::Mat picture = map_of(decode_picture(trajectory_png(plot), cv::IMREAD_COLOR));
   EXPECT_LT(mean_position(picture, palette::crimson).x(), 400);
 }
 

@@ -61,7 +61,7 @@ TEST_F(Browser, TablesTakeTheWidthAndSayThatTheyScroll) {
   one_cell.separations.clear();
   one_cell.noises.clear();
   for (const FixtureOptions& options : {FixtureOptions{}, one_cell}) {
-    const Json boxes = self_test_of(options)["boxes"];
+    const Json boxes = self_test_of({options})["boxes"];
     ASSERT_EQ(boxes.size(), 2u);
     for (const Json& box : boxes) {
       EXPECT_NEAR(box["share"], 1.0, 0.01);
@@ -76,7 +76,7 @@ TEST_F(Browser, TablesTakeTheWidthAndSayThatTheyScroll) {
 }
 
 TEST_F(Browser, TheSwitchesOfATelephoneAreOneLine) {
-  const Json result = self_test_of({}, {}, 500);
+  const Json result = self_test_of({.width = 500});
   EXPECT_LT(result["bar"], 70);  // with a bar to scroll by
   EXPECT_LE(result["beyond"], 0);
 }
@@ -84,7 +84,7 @@ TEST_F(Browser, TheSwitchesOfATelephoneAreOneLine) {
 TEST_F(Browser, AnswersFirstAndMarksTheBestOfEveryRow) {
   FixtureOptions options;
   options.size = 0.01;
-  const Json answer = self_test_of(options)["answer"];
+  const Json answer = self_test_of({options})["answer"];
   ASSERT_FALSE(answer["words"].empty());
   EXPECT_THAT(answer["words"].dump(), ::testing::HasSubstr("mean position error"));
   EXPECT_THAT(answer["doubts"].dump(), ::testing::HasSubstr("One survey: intervals"));
@@ -102,7 +102,7 @@ TEST_F(Browser, AxesSwitchAndDeadReckoningLeavesTheScaleThatItHides) {
   options.separations.clear();
   options.noises.clear();
   options.baseline = 10.0;
-  const Json answer = self_test_of(options)["answer"];
+  const Json answer = self_test_of({options})["answer"];
   const Json usual{{"forest", {"linear"}},
                    {"keyframes", {"linear", "linear", "log"}},
                    {"updates", {"linear"}},
@@ -138,7 +138,7 @@ TEST_F(Browser, WhatAgreesIsDrawnOnceAndSaysHowNearItIs) {
   options.noises.clear();
   options.size = 1e-4;
   options.baseline = 1e4;
-  const Json turns = self_test_of(options)["turns"];
+  const Json turns = self_test_of({options})["turns"];
   EXPECT_THAT(turns[0]["note"].dump(),
               ::testing::ContainsRegex("iterated, a&b_<c>% and graph lie within .* of each other "
                                        "and within .* of ground truth"));
@@ -178,7 +178,7 @@ TEST_F(Browser, TheMapHasEqualAxesXUpYToTheLeftAndZooms) {
 TEST_F(Browser, EveryTextHasContrastAndEveryControlANameAndAPlaceForTheKeyboard) {
   FixtureOptions options;
   options.absolute = true;
-  const Json access = self_test_of(options, {"iterated", "graph"})["access"];
+  const Json access = self_test_of({options, {"iterated", "graph"}})["access"];
   ASSERT_EQ(access.size(), 2u);
   for (const Json& theme : access) {
     EXPECT_EQ(theme["lang"], "en");
@@ -198,7 +198,7 @@ TEST_F(Browser, OneTrialWithoutGroundTruthOrLoopsIsNoError) {
   options.noises.clear();
   options.ground_truth = false;
   options.loops = false;
-  const Json result = self_test_of(options);
+  const Json result = self_test_of({options});
   ASSERT_FALSE(result.is_null());
   EXPECT_EQ(result["errors"], Json::array());
   EXPECT_GT(result["marks"].at("trajectories"), 0);
@@ -210,8 +210,8 @@ TEST_F(Browser, ShowsTheMosaicsWithTheirEstimatesAndWhereTheyDiffer) {
   FixtureOptions options;
   options.separations.clear();
   options.noises.clear();
-  EXPECT_EQ(self_test_of(options)["mosaics"]["hidden"], true);
-  const Json result = self_test_of(options, {"iterated", "a&b_<c>%", "graph"});
+  EXPECT_EQ(self_test_of({options})["mosaics"]["hidden"], true);
+  const Json result = self_test_of({options, {"iterated", "a&b_<c>%", "graph"}});
   EXPECT_EQ(result["errors"], Json::array());
   const Json& mosaics = result["mosaics"];
   EXPECT_EQ(mosaics["hidden"], false);

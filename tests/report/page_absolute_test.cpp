@@ -110,7 +110,7 @@ const Json* with_tooltip(const Json& marks, const std::string& begin) {
 // The fixture's: of keyframe 20 a fix at (2, 2.6), which two estimators leave out; headings of 0 on
 // the first line; of keyframe 12 one of 3 + π/2, which they leave out, too.
 TEST_F(Browser, TheMapShowsFixesAndHeadingsAndWhatWasLeftOut) {
-  const Json result = self_test_of(with_absolute());
+  const Json result = self_test_of({with_absolute()});
   ASSERT_FALSE(result.is_null());
   EXPECT_EQ(result["errors"], Json::array());
   const Json& absolute = result["absolute"];
@@ -155,7 +155,7 @@ TEST_F(Browser, TheMapShowsFixesAndHeadingsAndWhatWasLeftOut) {
 }
 
 TEST_F(Browser, AMapWithoutAbsoluteMeasurementsSaysNothingOfThem) {
-  const Json result = self_test_of(with_absolute(true));
+  const Json result = self_test_of({with_absolute(true)});
   ASSERT_FALSE(result.is_null());
   EXPECT_EQ(result["errors"], Json::array());
   EXPECT_EQ(result["layers"].size(), 3u);

@@ -6,10 +6,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
-#include <opencv2/imgcodecs.hpp>
 
 #include "fathom/core/files.hpp"
 #include "fathom/report/study_report.hpp"
+#include "fathom/vision/picture_codecs.hpp"
 #include "report/made_mosaic.hpp"
 #include "report/study_fixture.hpp"
 #include "support/temporary_folder.hpp"
@@ -20,8 +20,8 @@ namespace {
 using Json = nlohmann::json;
 namespace fs = std::filesystem;
 
-std::vector<unsigned char> bytes_of_base64(const std::string& text) {
-  std::vector<unsigned char> bytes;
+std::string bytes_of_base64(const std::string& text) {
+  std::string bytes;
   unsigned int group = 0;
   int bits = 0;
   for (const char letter : text) {
@@ -42,7 +42,7 @@ cv::Mat picture_of(const Json& one) {
   const std::string address = one.at("picture");
   const std::string start = "data:image/jpeg;base64,";
   EXPECT_TRUE(address.starts_with(start));
-  return cv::imdecode(bytes_of_base64(address.substr(start.size())), cv::IMREAD_UNCHANGED);
+  return decode_picture(bytes_of_base64(address.substr(start.size())));
 }
 
 class PageMosaics : public ::testing::Test {

@@ -29,6 +29,8 @@ struct FixtureOptions {
   int jobs = 2;
   double size = 1.0;      ///< of all errors
   double baseline = 1.0;  ///< of dead reckoning's, times `size`
+
+  bool operator==(const FixtureOptions&) const = default;
 };
 
 StudyDescription fixture_study(const FixtureOptions& options = {});

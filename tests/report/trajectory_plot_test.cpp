@@ -8,11 +8,11 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "fathom/core/random.hpp"
 #include "fathom/report/picture.hpp"
+#include "fathom/vision/picture_codecs.hpp"
 #include "pixels.hpp"
 #include "report/plot_series.hpp"
 #include "support/input_error.hpp"
@@ -41,8 +41,7 @@ TrajectoryPlot plot_of(std::vector<PlotSeries> series, const std::string& title 
 }
 
 cv::Mat render(const TrajectoryPlot& plot) {
-  const std::string png = trajectory_png(plot);
-  return cv::imdecode(std::vector<unsigned char>(png.begin(), png.end()), cv::IMREAD_UNCHANGED);
+  return decode_picture(trajectory_png(plot));
 }
 
 // Texts are glyphs, so that a title is no markup.
@@ -228,8 +227,7 @@ TEST(EncodePng, DecodesToTheSamePicture) {
   const cv::Mat picture = render(plot_of({series_of(1, {{0, 0, 0}, {1, 1, 0}})}));
   const std::string png = encode_png(picture);
   EXPECT_EQ(png.substr(1, 3), "PNG");
-  const std::vector<unsigned char> bytes(png.begin(), png.end());
-  EXPECT_TRUE(same(cv::imdecode(bytes, cv::IMREAD_UNCHANGED), picture));
+  EXPECT_TRUE(same(decode_picture(png), picture));
   EXPECT_THAT(input_error_of([] { encode_png({}); }), HasSubstr("empty"));
   EXPECT_THAT(input_error_of([] { encode_png(cv::Mat(2, 2, CV_32FC3)); }),
               HasSubstr("got 32 bits and 3 channels"));

@@ -23,7 +23,6 @@
 #include <vector>
 
 #include <gtest/gtest.h>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "fathom/core/files.hpp"
@@ -33,6 +32,7 @@
 #include "fathom/vision/registration.hpp"
 #include "fathom/vision/static_view.hpp"
 #include "support/data.hpp"
+#include "support/pictures.hpp"
 
 namespace fathom {
 namespace {
@@ -75,10 +75,9 @@ class Survey : public ::testing::Test {
       const fs::path file = root / "cam0" / "data" / names[i][1];
       const auto& row = poses[i];
       const double yaw = 2.0 * std::atan2(std::stod(row[7]), std::stod(row[4]));
-      pictures_.push_back(
-          {on_floor(extractor.extract(cv::imread(file.string(), cv::IMREAD_GRAYSCALE)), camera,
-                    std::stod(altitudes[i][1])),
-           {std::stod(row[1]), std::stod(row[2]), wrap_angle(yaw)}});
+      pictures_.push_back({on_floor(extractor.extract(test::read_picture(file, cv::IMREAD_GRAYSCALE)),
+                                    camera, std::stod(altitudes[i][1])),
+                           {std::stod(row[1]), std::stod(row[2]), wrap_angle(yaw)}});
     }
   }
   static void TearDownTestSuite() { pictures_.clear(); }
@@ -102,7 +101,7 @@ TEST_F(Survey, NothingStaysInPlaceUnlessItIsDrawnIn) {
   std::vector<cv::Mat> clean;
   std::vector<cv::Mat> with_text;
   for (const auto& row : csv_rows(root / "cam0" / "data.csv")) {
-    cv::Mat picture = cv::imread((root / "cam0" / "data" / row[1]).string(), cv::IMREAD_GRAYSCALE);
+    cv::Mat picture = test::read_picture(root / "cam0" / "data" / row[1], cv::IMREAD_GRAYSCALE);
     clean.push_back(detail_of_view(picture));
     cv::putText(picture, "ROV 12  DIVE 0042", {20, 690}, cv::FONT_HERSHEY_SIMPLEX, 0.8,
                 cv::Scalar(250), 2, cv::LINE_AA);

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include <gtest/gtest.h>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "fathom/vision/picture_codecs.hpp"
 #include "vision/textured_floor.hpp"
 
 namespace fathom {
@@ -145,9 +145,8 @@ TEST(StaticView, NeitherVignettingNorALampStays) {
 
 TEST(StaticView, NeitherJpegBlocksNorAFaintFloorStay) {
   const auto compress = [](cv::Mat& picture, int quality) {
-    std::vector<unsigned char> bytes;
-    cv::imencode(".jpg", picture, bytes, {cv::IMWRITE_JPEG_QUALITY, quality});
-    picture = cv::imdecode(bytes, cv::IMREAD_GRAYSCALE);
+    picture = decode_picture(encode_picture(".jpg", picture, {cv::IMWRITE_JPEG_QUALITY, quality}),
+                             cv::IMREAD_GRAYSCALE);
   };
   expect_nothing(view_of_changed([&](cv::Mat& picture, int) { compress(picture, 10); }));
   for (const int quality : {10, 50}) {

@@ -7,12 +7,12 @@
 #include <string_view>
 #include <vector>
 
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "fathom/core/input_error.hpp"
 #include "fathom/core/text.hpp"
 #include "fathom/datasets/picture_file.hpp"
+#include "fathom/vision/picture_codecs.hpp"
 
 namespace fathom {
 namespace {
@@ -69,9 +69,9 @@ void swap_bytes(cv::Mat& picture) {
 BagPicture png_of(const cv::Mat& seen, int conversion) {
   cv::Mat picture = seen;
   if (conversion != kAsItIs) cv::cvtColor(seen, picture, conversion);
-  std::vector<uchar> png;
-  if (!cv::imencode(".png", picture, png)) throw InputError("a picture cannot be encoded as PNG");
-  return {".png", {png.begin(), png.end()}, picture.cols, picture.rows};
+  std::string png = encode_picture(".png", picture);
+  if (png.empty()) throw InputError("a picture cannot be encoded as PNG");
+  return {".png", std::move(png), picture.cols, picture.rows};
 }
 
 // What was compressed as a Bayer mosaic, by a format such as "bayer_rggb8; png compressed"; what
@@ -123,8 +123,7 @@ BagPicture picture_of(const CompressedImageMessage& message) {
   }
   const cv::Mat picture = decode_grey_picture(message.data, "a compressed picture");
   if (const std::string mosaic = mosaic_of(message.format); !mosaic.empty()) {
-    const std::vector<uchar> bytes(message.data.begin(), message.data.end());
-    const cv::Mat seen = cv::imdecode(bytes, cv::IMREAD_UNCHANGED);
+    const cv::Mat seen = decode_picture(message.data);
     if (seen.channels() == 1) return png_of(seen, encoding_of(mosaic).conversion);
   }
   return {is_jpeg ? ".jpg" : ".png", std::string(message.data), picture.cols, picture.rows};

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <dlfcn.h>
 #include <fmt/format.h>
 #include <map>
 #include <memory>
@@ -10,44 +9,30 @@
 #include "bag.hpp"
 #include "fathom/core/features.hpp"
 #include "fathom/core/input_error.hpp"
+#include "fathom/core/module.hpp"
 #include "ros1_recording.hpp"
 #include "ros1_records.hpp"
 
 namespace fathom {
 namespace {
 
-// Where it is installed, else where it was built.
-OpenRos1Recording* load_module(const std::filesystem::path& bag) {
-  const std::string module = FATHOM_ROS1_MODULE;
-  if (module.empty()) {
+OpenRos1Recording* open_recording(const std::filesystem::path& bag) {
+  if (!feature("rosbag").is_built) {
     throw InputError(bag.string(), "is a bag of ROS 1; " + refusal_without("rosbag"));
   }
-  const std::filesystem::path built(module);
-  std::error_code ignored;
-  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", ignored);
-  const std::filesystem::path installed =
-      program.parent_path() / FATHOM_ROS1_INSTALLED / built.filename();
-  std::string problem;
-  for (const std::filesystem::path& candidate : {installed, built}) {
-    std::error_code error;
-    if (!std::filesystem::exists(candidate, error)) continue;
-    // It stays: what it opens needs its code.
-    if (void* library = ::dlopen(candidate.c_str(), RTLD_NOW | RTLD_LOCAL)) {
-      if (void* open = ::dlsym(library, kOpenRos1Recording)) {
-        return reinterpret_cast<OpenRos1Recording*>(open);
-      }
-    }
-    problem = ::dlerror();
+  const LoadedModule module =
+      load_module({FATHOM_MODULE_BUILT, FATHOM_MODULE_INSTALLED}, kOpenRos1Recording);
+  if (module.symbol == nullptr) {
+    throw InputError(bag.string(), fmt::format("is a bag of ROS 1; {}; '{}' builds it again",
+                                               module.problem, remedy_for(feature("rosbag"))));
   }
-  throw InputError(bag.string(), fmt::format("is a bag of ROS 1; {}; '{}' builds it again",
-                                             problem.empty() ? module + " is missing" : problem,
-                                             remedy_for(feature("rosbag"))));
+  return reinterpret_cast<OpenRos1Recording*>(module.symbol);
 }
 
 class Ros1Bag : public Bag {
  public:
   explicit Ros1Bag(const std::filesystem::path& path) : path_(path.string()) {
-    OpenRos1Recording* open = load_module(path);
+    OpenRos1Recording* open = open_recording(path);
     check_ros1_records(path);
     guarded([&] {
       recording_.reset(open(path_.c_str()));

@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include <nlohmann/json.hpp>
-#include <opencv2/imgcodecs.hpp>
 
 #include "fathom/core/files.hpp"
 #include "fathom/report/mosaic.hpp"
+#include "fathom/vision/picture_codecs.hpp"
 
 namespace fathom {
 namespace {
@@ -39,7 +39,9 @@ cv::Vec3b colour_of(unsigned char a, unsigned char b) {
 
 std::optional<MosaicRaster> read_mosaic(const std::filesystem::path& folder) {
   std::error_code ignored;
-  if (!std::filesystem::exists(folder / "mosaic.json", ignored)) return std::nullopt;
+  for (const char* name : {"mosaic.json", "mosaic.png"}) {
+    if (!std::filesystem::exists(folder / name, ignored)) return std::nullopt;
+  }
   const auto json = nlohmann::json::parse(read_file(folder / "mosaic.json"), nullptr, false);
   const auto number = [&json](const char* key) -> double {
     return json.is_object() && json.contains(key) && json[key].is_number() ? json[key].get<double>()
@@ -53,7 +55,7 @@ std::optional<MosaicRaster> read_mosaic(const std::filesystem::path& folder) {
   constexpr double kFarthestPixel = 1e8;
   const double farthest_m = kFarthestPixel * mosaic.metres_per_pixel;
   if (mosaic.top_left_m.cwiseAbs().maxCoeff() > farthest_m) return std::nullopt;
-  mosaic.grey = cv::imread((folder / "mosaic.png").string(), cv::IMREAD_GRAYSCALE);
+  mosaic.grey = decode_picture(read_file(folder / "mosaic.png"), cv::IMREAD_GRAYSCALE);
   const bool fits =
       mosaic.grey.cols == number("width_px") && mosaic.grey.rows == number("height_px");
   if (mosaic.grey.empty() || !fits) return std::nullopt;

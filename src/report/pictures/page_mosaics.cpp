@@ -4,13 +4,12 @@
 #include <cmath>
 #include <map>
 
-#include <opencv2/imgcodecs.hpp>
-
 #include "fathom/core/environment_error.hpp"
 #include "fathom/core/files.hpp"
 #include "fathom/core/text.hpp"
 #include "fathom/datasets/picture_file.hpp"
 #include "fathom/geometry/trajectory.hpp"
+#include "fathom/vision/picture_codecs.hpp"
 #include "fathom/vision/static_view.hpp"
 #include "mosaic_raster.hpp"
 
@@ -33,7 +32,7 @@ struct Example {
   std::vector<std::pair<std::size_t, std::size_t>> loops;  ///< used; keyframes
 };
 
-std::string base64(const std::vector<unsigned char>& bytes) {
+std::string base64(const std::string& bytes) {
   static constexpr char kLetters[] =
       "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string text;
@@ -41,7 +40,9 @@ std::string base64(const std::vector<unsigned char>& bytes) {
   for (std::size_t i = 0; i < bytes.size(); i += 3) {
     const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
     std::uint32_t group = 0;
-    for (std::size_t k = 0; k < 3; ++k) group = group << 8 | (k < count ? bytes[i + k] : 0U);
+    for (std::size_t k = 0; k < 3; ++k) {
+      group = group << 8 | (k < count ? static_cast<unsigned char>(bytes[i + k]) : 0U);
+    }
     for (std::size_t k = 0; k < 4; ++k) {
       text += k <= count ? kLetters[group >> (18 - 6 * k) & 63U] : '=';
     }
@@ -50,9 +51,8 @@ std::string base64(const std::vector<unsigned char>& bytes) {
 }
 
 std::string data_address(const cv::Mat& picture) {
-  std::vector<unsigned char> bytes;
-  cv::imencode(".jpg", picture, bytes, {cv::IMWRITE_JPEG_QUALITY, 82});
-  return "data:image/jpeg;base64," + base64(bytes);
+  const std::vector<int> quality{cv::IMWRITE_JPEG_QUALITY, 82};
+  return "data:image/jpeg;base64," + base64(encode_picture(".jpg", picture, quality));
 }
 
 // Used registrations of registrations.csv; what it does not say in its first three columns is

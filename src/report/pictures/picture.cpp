@@ -1,13 +1,12 @@
 #include "fathom/report/picture.hpp"
 
 #include <fmt/format.h>
-#include <vector>
 
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "bgr.hpp"
 #include "fathom/core/input_error.hpp"
+#include "fathom/vision/picture_codecs.hpp"
 
 namespace fathom {
 namespace {
@@ -33,9 +32,12 @@ cv::Mat as_bgr(const cv::Mat& picture) {
 
 std::string encode_png(const cv::Mat& picture) {
   require_usable(picture);
-  std::vector<unsigned char> bytes;
-  cv::imencode(".png", picture, bytes);
-  return {bytes.begin(), bytes.end()};
+  std::string bytes = encode_picture(".png", picture);
+  if (bytes.empty()) {
+    throw InputError(fmt::format("a picture of {} x {} pixels cannot be encoded as PNG",
+                                 picture.cols, picture.rows));
+  }
+  return bytes;
 }
 
 }  // namespace fathom

@@ -1,5 +1,5 @@
 // Four keyframes round a square and a loop back to the first, given to every estimator that is
-// registered; prints the last pose of each.
+// registered; prints the last pose of each. A picture goes into a file's bytes and back.
 
 #include <cmath>
 #include <cstdio>
@@ -8,6 +8,7 @@
 #include "fathom/estimators/builtin.hpp"
 #include "fathom/harness/replay.hpp"
 #include "fathom/report/table.hpp"
+#include "fathom/vision/picture_codecs.hpp"
 
 namespace {
 
@@ -25,12 +26,18 @@ fathom::MeasurementLog square() {
   return log;
 }
 
+bool pictures_are_coded() {
+  const cv::Mat picture(2, 3, CV_8U, cv::Scalar(7));
+  const cv::Mat decoded = fathom::decode_picture(fathom::encode_picture(".png", picture));
+  return decoded.size() == picture.size() && decoded.at<unsigned char>(1, 2) == 7;
+}
+
 }  // namespace
 
 int main() {
   const fathom::MeasurementLog log = square();
   fathom::Table table({"estimator", "x (m)", "y (m)", "heading (rad)"});
-  bool right = true;
+  bool right = pictures_are_coded();
   for (const fathom::EstimatorEntry& entry : fathom::builtin_estimators().entries()) {
     const fathom::Run replay = fathom::replay(log, entry, {}, {});
     const fathom::Pose last = replay.trajectory.back();

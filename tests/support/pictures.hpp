@@ -1,0 +1,27 @@
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include "fathom/vision/picture_codecs.hpp"
+
+namespace fathom::test {
+
+/// Whether it was written, in the format of its ending.
+inline bool write_picture(const std::filesystem::path& file, const cv::Mat& picture) {
+  const std::string bytes = encode_picture(file.extension().string(), picture);
+  std::ofstream out(file, std::ios::binary);
+  out << bytes;
+  return !bytes.empty() && out.good();
+}
+
+/// Empty where there is none.
+inline cv::Mat read_picture(const std::filesystem::path& file, int flags = cv::IMREAD_COLOR) {
+  std::ifstream in(file, std::ios::binary);
+  const std::string bytes(std::istreambuf_iterator<char>(in), {});
+  return decode_picture(bytes, flags);
+}
+
+}  // namespace fathom::test
