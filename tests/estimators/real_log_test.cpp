@@ -91,8 +91,8 @@ bool is_positive_definite(const Covariance& P) {
   return P.full().llt().info() == Eigen::Success;
 }
 
-// All of intel: 785 loops. An update through a general solve loses definiteness after about 130, and
-// it does not come back.
+// All of intel: 785 loops. An update through a general solve loses definiteness after about 130,
+// and it does not come back.
 TEST(FiltersOnIntel, StayPositiveDefiniteAndEndNearTheOptimum) {
   FATHOM_REQUIRE_DATA(graph("intel"));
   const MeasurementLog log = read("intel");

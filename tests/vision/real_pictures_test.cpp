@@ -75,9 +75,10 @@ class Survey : public ::testing::Test {
       const fs::path file = root / "cam0" / "data" / names[i][1];
       const auto& row = poses[i];
       const double yaw = 2.0 * std::atan2(std::stod(row[7]), std::stod(row[4]));
-      pictures_.push_back({on_floor(extractor.extract(test::read_picture(file, cv::IMREAD_GRAYSCALE)),
-                                    camera, std::stod(altitudes[i][1])),
-                           {std::stod(row[1]), std::stod(row[2]), wrap_angle(yaw)}});
+      pictures_.push_back(
+          {on_floor(extractor.extract(test::read_picture(file, cv::IMREAD_GRAYSCALE)), camera,
+                    std::stod(altitudes[i][1])),
+           {std::stod(row[1]), std::stod(row[2]), wrap_angle(yaw)}});
     }
   }
   static void TearDownTestSuite() { pictures_.clear(); }
