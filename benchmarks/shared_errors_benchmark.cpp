@@ -1,5 +1,6 @@
 // What the states of shared errors cost: pose graphs whose registrations tell what their pictures
-// share, with shared_errors: states and independent, in batch and keyframe by keyframe.
+// share, with shared_errors: states and independent, in batch and keyframe by keyframe. And what
+// the estimate of the standard deviations of what they share costs (variance/…), from the odometry.
 //
 //     FATHOM_POSE_GRAPHS=FOLDER shared_errors_benchmark [--benchmark_filter=/intel/]
 //
@@ -13,11 +14,13 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <benchmark/benchmark.h>
 
 #include "fathom/estimators/builtin.hpp"
 #include "fathom/measurements/g2o.hpp"
+#include "fathom/measurements/variance_components.hpp"
 
 namespace {
 
@@ -67,6 +70,17 @@ void solve(benchmark::State& state, const MeasurementLog& log, const std::string
   }
 }
 
+void estimate_variance(benchmark::State& state, const MeasurementLog& log) {
+  using Part = fathom::VarianceComponent::Part;
+  const std::vector<fathom::VarianceComponent> components{{Part::altitude}, {Part::tilt}};
+  const std::vector<fathom::Pose> start = log.odometry();
+  for ([[maybe_unused]] auto _ : state) {
+    const double begin = thread_s();
+    benchmark::DoNotOptimize(fathom::estimate_variance(log, start, components));
+    state.SetIterationTime(thread_s() - begin);
+  }
+}
+
 void add(const std::string& graph, const std::shared_ptr<MeasurementLog>& log) {
   struct Case {
     const char* estimator;
@@ -87,6 +101,10 @@ void add(const std::string& graph, const std::shared_ptr<MeasurementLog>& log) {
           ->Unit(benchmark::kMillisecond);
     }
   }
+  benchmark::RegisterBenchmark(("variance/" + graph).c_str(),
+                               [log](benchmark::State& state) { estimate_variance(state, *log); })
+      ->UseManualTime()
+      ->Unit(benchmark::kMillisecond);
 }
 
 [[maybe_unused]] const bool registered = [] {

@@ -30,7 +30,7 @@ double pseudo_chi2(const Eigen::Vector3d& rho, const Eigen::Matrix3d& Q) {
 std::vector<double> RestrictedLikelihood::left_out_chi2(const Eigen::VectorXd& log_sigma) {
   std::vector<double> chi2(rows_.registrations().size(), std::numeric_limits<double>::quiet_NaN());
   if (!std::isfinite(deviance(log_sigma))) return chi2;
-  const SparseInverse& inverse = inverted();
+  factor_.invert();
   const Eigen::SparseMatrix<double, Eigen::RowMajor> B = rows_.B();
   for (std::size_t i = 0; i < chi2.size(); ++i) {
     const Index first = rows_.registrations()[i];
@@ -40,8 +40,12 @@ std::vector<double> RestrictedLikelihood::left_out_chi2(const Eigen::VectorXd& l
     const auto* const columns = B.innerIndexPtr() + B.outerIndexPtr()[first];
     Eigen::MatrixXd J(3, count);
     Eigen::MatrixXd Z(count, count);
+    for (Index a = 0; a < count; a += 3) {
+      for (Index b = 0; b < count; b += 3) {
+        Z.block<3, 3>(a, b) = factor_.inverse(columns[a] / 3, columns[b] / 3);
+      }
+    }
     for (Index a = 0; a < count; ++a) {
-      for (Index b = 0; b < count; ++b) Z(a, b) = inverse(columns[a], columns[b]);
       for (Index row = 0; row < 3; ++row) {
         J(row, a) = root_w * scale_[columns[a]] * B.valuePtr()[B.outerIndexPtr()[first + row] + a];
       }

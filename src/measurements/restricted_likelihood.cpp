@@ -7,9 +7,6 @@
 namespace fathom {
 namespace {
 
-// Of a pivot, as a part of its diagonal element: below it holds rounding alone.
-constexpr double kSmallestPivot = 64.0 * std::numeric_limits<double>::epsilon();
-
 // NaN, as told, is the same as NaN.
 bool are_same(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
   if (a.size() != b.size()) return false;
@@ -19,11 +16,12 @@ bool are_same(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
   return true;
 }
 
-// The lower triangle of Bᵀ D B, with the pattern of Bᵀ B whatever the diagonal D is.
-Eigen::SparseMatrix<double> normal_matrix(const Eigen::SparseMatrix<double>& B,
-                                          const Eigen::VectorXd& D) {
-  const Eigen::SparseMatrix<double> square = B.transpose() * (D.asDiagonal() * B);
-  return square.triangularView<Eigen::Lower>();
+Eigen::VectorXd own_rows(const JointRows& rows, std::span<const VarianceComponent> components) {
+  Eigen::VectorXd own = Eigen::VectorXd::Zero(rows.c().size());
+  const auto is_of_pictures = [](const VarianceComponent& one) { return one.is_of_pictures(); };
+  if (std::ranges::all_of(components, is_of_pictures)) return own;
+  for (const Eigen::Index first : rows.told()) own.segment<3>(first).setOnes();
+  return own;
 }
 
 }  // namespace
@@ -33,20 +31,17 @@ RestrictedLikelihood::RestrictedLikelihood(const MeasurementLog& log,
                                            std::span<const VarianceComponent> components,
                                            const std::vector<bool>& used)
     : rows_(log, trajectory, used),
-      is_own_row_(Eigen::VectorXd::Zero(rows_.c().size())),
-      told_scale_(Eigen::VectorXd::Ones(rows_.unknowns())) {
+      is_own_row_(own_rows(rows_, components)),
+      told_scale_(Eigen::VectorXd::Ones(rows_.unknowns())),
+      factor_(rows_.B(), is_own_row_) {
   for (std::size_t k = 0; k < log.size(); ++k) {
     if (const auto row = rows_.picture(k)) told_scale_.segment<3>(*row) = rows_.told_sigma(k);
   }
   for (const VarianceComponent& component : components) govern(component, log.size());
   const Eigen::VectorXd is_rest = 1.0 - is_own_row_.array();
   diagonal_ = rows_.B().cwiseAbs2().transpose() * Eigen::VectorXd::Ones(rows_.c().size());
-  H_ = normal_matrix(rows_.B(), is_rest);
-  const Eigen::SparseMatrix<double> own = normal_matrix(rows_.B(), is_own_row_);
-  A_ = {H_.coeffs(), own.coeffs()};
   gradient_ = {rows_.B().transpose() * is_rest.cwiseProduct(rows_.c()),
                rows_.B().transpose() * is_own_row_.cwiseProduct(rows_.c())};
-  factor_.analyzePattern(H_);
 }
 
 void RestrictedLikelihood::govern(const VarianceComponent& component, std::size_t keyframes) {
@@ -54,7 +49,6 @@ void RestrictedLikelihood::govern(const VarianceComponent& component, std::size_
   std::vector<Governed>& governed = governed_.emplace_back();
   if (!component.is_of_pictures()) {
     own_ = components() - 1;
-    for (const Index first : rows_.told()) is_own_row_.segment<3>(first).setOnes();
     return;
   }
   for (std::size_t k = 0; k < keyframes; ++k) {
@@ -111,37 +105,10 @@ void RestrictedLikelihood::set_scales(const Eigen::VectorXd& log_sigma) {
       (is_own_row_.array() > 0.0).select(own_weight_, Eigen::VectorXd::Ones(is_own_row_.size()));
 }
 
-// H = S Bᵀ W B S + I on the rows of n, for n in units of σ: regular at σ = 0.
+// In units of σ, that is, with a prior of 1 on the rows of n: regular at σ = 0.
 bool RestrictedLikelihood::factorise(const Eigen::VectorXd& log_sigma) {
   set_scales(log_sigma);
-  for (Index column = 0; column < H_.cols(); ++column) {
-    const Index end = H_.outerIndexPtr()[column + 1];
-    for (Index e = H_.outerIndexPtr()[column]; e < end; ++e) {
-      const Index row = H_.innerIndexPtr()[e];
-      const double prior = row == column && row >= rows_.poses() ? 1.0 : 0.0;
-      const double A_e = A_.rest[e] + own_weight_ * A_.own[e];
-      H_.valuePtr()[e] = scale_[row] * A_e * scale_[column] + prior;
-    }
-  }
-  factor_.factorize(H_);
-  if (factor_.info() != Eigen::Success) return false;
-  const Eigen::VectorXd diagonal = factor_.permutationP() * Eigen::VectorXd(H_.diagonal());
-  return (factor_.vectorD().array() > kSmallestPivot * diagonal.array()).all();
-}
-
-const SparseInverse& RestrictedLikelihood::inverted() {
-  if (!inverse_) {
-    inverse_.emplace(factor_);
-    if (own_ >= 0) {
-      for (Index column = 0; column < H_.cols(); ++column) {
-        for (Eigen::SparseMatrix<double>::InnerIterator e(H_, column); e; ++e) {
-          own_places_.push_back(inverse_->place(e.row(), column));
-        }
-      }
-    }
-  }
-  inverse_->compute();
-  return *inverse_;
+  return factor_.factorise(scale_, own_weight_, rows_.poses());
 }
 
 // From the residuals, not from their squares at y = 0, which may be 10¹⁰ times as large.
@@ -158,8 +125,8 @@ double RestrictedLikelihood::deviance(const Eigen::VectorXd& log_sigma) {
   deviance_ = std::numeric_limits<double>::quiet_NaN();
   if (!factorise(log_sigma)) return deviance_;
   minimise();
-  deviance_ = chi2_ + factor_.vectorD().array().log().sum() - own_count() * std::log(own_weight_) +
-              rows_.log_own();
+  deviance_ =
+      chi2_ + factor_.log_determinant() - own_count() * std::log(own_weight_) + rows_.log_own();
   return deviance_;
 }
 
@@ -173,34 +140,19 @@ RestrictedFit RestrictedLikelihood::fit(const Eigen::VectorXd& log_sigma) {
   return fit;
 }
 
-// Σ b H⁻¹ bᵀ over the rows b of B S that have own errors.
-double RestrictedLikelihood::own_trace(const SparseInverse& inverse) const {
-  double sum = 0.0;
-  for (Index column = 0; column < H_.cols(); ++column) {
-    const Index end = H_.outerIndexPtr()[column + 1];
-    for (Index e = H_.outerIndexPtr()[column]; e < end; ++e) {
-      const Index row = H_.innerIndexPtr()[e];
-      const double twice = row == column ? 1.0 : 2.0;
-      sum += twice * scale_[row] * A_.own[e] * scale_[column] *
-             inverse.at(own_places_[static_cast<std::size_t>(e)]);
-    }
-  }
-  return sum;
-}
-
 // With u_j the part of v that component j governs:
 //   ∂(−2ℓ)/∂log σ_j = 2 (number − Σ (H⁻¹)_rr − ‖u_j‖²)
 //   average information of j, k = 4 u_jᵀ · (H⁻¹ S Bᵀ W B n_k)_j,  n_k = S u_k.
 // Own errors are n, too, of one row each: u = −σ w r, with the variance w + σ² w² b H⁻¹ bᵀ.
 void RestrictedLikelihood::add_derivatives(const Eigen::VectorXd& log_sigma, RestrictedFit& fit) {
-  const SparseInverse& inverse = inverted();
+  factor_.invert();
   fit.slope = Eigen::VectorXd::Zero(components());
   Eigen::MatrixXd u = Eigen::MatrixXd::Zero(rows_.unknowns(), components());
   for (Index j = 0; j < components(); ++j) {
     if (std::isnan(log_sigma[j])) continue;
     for (const Governed& n : governed_[static_cast<std::size_t>(j)]) {
       u(n.row, j) = v_[n.row];
-      fit.slope[j] += 2.0 * (1.0 - inverse(n.row, n.row) - v_[n.row] * v_[n.row]);
+      fit.slope[j] += 2.0 * (1.0 - factor_.variance(n.row) - v_[n.row] * v_[n.row]);
     }
   }
   Eigen::MatrixXd p = rows_.B() * (scale_.asDiagonal() * u);  // what n_k does to the rows
@@ -208,7 +160,8 @@ void RestrictedLikelihood::add_derivatives(const Eigen::VectorXd& log_sigma, Res
   if (own_ >= 0) {
     const double share = own_sigma_ * own_sigma_ * own_weight_;
     fit.slope[own_] =
-        2.0 * share * (own_count() - own_weight_ * (own_trace(inverse) + own_squared_norm()));
+        2.0 * share *
+        (own_count() - own_weight_ * (factor_.own_trace(scale_) + own_squared_norm()));
     own_u = -own_sigma_ * own_weight_ * is_own_row_.cwiseProduct(residuals_);
     p.col(own_) = own_sigma_ * own_u;
   }

@@ -1,13 +1,12 @@
 #pragma once
 
 #include <cstddef>
-#include <optional>
 #include <span>
 #include <vector>
 
 #include "fathom/measurements/variance_components.hpp"
 #include "joint_rows.hpp"
-#include "sparse_inverse.hpp"
+#include "normal_factor.hpp"
 
 namespace fathom {
 
@@ -55,7 +54,7 @@ class RestrictedLikelihood {
     Index row;
     double told;
   };
-  // Of all rows, Bᵀ W B = rest + w own, both on the pattern of H_; and Bᵀ W c likewise.
+  // Of all rows, Bᵀ W c = rest + w own.
   struct Parts {
     Eigen::VectorXd rest;
     Eigen::VectorXd own;
@@ -64,11 +63,9 @@ class RestrictedLikelihood {
   void govern(const VarianceComponent& component, std::size_t keyframes);
   void set_scales(const Eigen::VectorXd& log_sigma);
   bool factorise(const Eigen::VectorXd& log_sigma);
-  const SparseInverse& inverted();  // of the last factorisation
   void minimise();
   double own_count() const { return is_own_row_.sum(); }
   double own_squared_norm() const { return is_own_row_.dot(residuals_.cwiseAbs2()); }
-  double own_trace(const SparseInverse& inverse) const;
   void add_derivatives(const Eigen::VectorXd& log_sigma, RestrictedFit& fit);
 
   JointRows rows_;
@@ -81,14 +78,10 @@ class RestrictedLikelihood {
   Eigen::VectorXd told_scale_;  // of all unknowns: 1, and of n what is told
   Eigen::VectorXd scale_;
   Eigen::VectorXd diagonal_;  // of Bᵀ B
-  Parts A_;
   Parts gradient_;
-  Eigen::SparseMatrix<double> H_;  // lower triangle
-  SparseFactor factor_;
-  std::optional<SparseInverse> inverse_;
-  std::vector<Index> own_places_;  // by element of H_, its place in the inverse
-  Eigen::VectorXd v_;              // y in units of scale_
-  Eigen::VectorXd residuals_;      // c + B y
+  NormalFactor factor_;
+  Eigen::VectorXd v_;          // y in units of scale_
+  Eigen::VectorXd residuals_;  // c + B y
   double chi2_ = 0.0;
   Eigen::VectorXd at_;  // what was evaluated last, and what came of it
   double deviance_ = 0.0;

@@ -104,6 +104,8 @@ TEST(IncludeRules, RefuseWhatTheTableDoesNotAllow) {
        "harness may not include estimators"},
       {"src/harness/a.cpp", "\"apps/common.hpp\"", "harness may not include apps"},
       {"src/datasets/a.cpp", "\"fathom/vision/ransac.hpp\"", "no more of vision"},
+      {"src/measurements/a.cpp", "\"estimators/support/filter/a.hpp\"", "measurements may not"},
+      {"src/geometry/a.cpp", "\"estimators/support/sparse/a.hpp\"", "geometry may not"},
       {"estimators/ekf/ekf.cpp", "\"fathom/vision/camera.hpp\"", "estimators may not"},
       {"estimators/ekf/ekf.cpp", "\"fathom/evaluation/accuracy.hpp\"", "estimators may not"},
       {"estimators/ekf/ekf.cpp", "\"estimators/ceres_pose_graph/graph.hpp\"", "estimator's own"},
@@ -192,6 +194,7 @@ TEST(IncludeRules, JudgeLinks) {
   EXPECT_THAT(complaint_about_link("fathom_vision", "fathom_measurements"), IsEmpty());
   EXPECT_THAT(complaint_about_link("fathom_vision", "opencv_core"), IsEmpty());
   EXPECT_THAT(complaint_about_link("fathom_estimators", "fathom_ekf"), IsEmpty());
+  EXPECT_THAT(complaint_about_link("fathom_measurements", "fathom_support_sparse"), IsEmpty());
   EXPECT_THAT(complaint_about_link("fathom_incremental_smoother", "fathom_sparse_gauss_newton"),
               HasSubstr("another"));
   EXPECT_THAT(complaint_about_link("fathom_ekf", "fathom_support_filter"), IsEmpty());

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <iterator>
 #include <utility>
 
 #include "estimators/support/sparse/dense_kernel.hpp"
@@ -92,6 +93,11 @@ void BlockCholesky<B>::take_factor() {
     run.invert_diagonal(s, panel(s), s.panel_rows() * B);
   }
   negative_pivots_ = 0;
+}
+
+template <int B>
+Eigen::ArrayXd BlockCholesky<B>::diagonal() const {
+  return Eigen::Map<const Eigen::ArrayXd>(inverses_.data(), std::ssize(inverses_)).inverse();
 }
 
 template <int B>

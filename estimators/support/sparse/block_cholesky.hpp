@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include "estimators/support/sparse/panel_memory.hpp"
 #include "estimators/support/sparse/symbolic.hpp"
 
@@ -53,6 +55,8 @@ class BlockCholesky {
   /// L of a positive definite A was written in the place of A.
   void take_factor();
   int negative_pivots() const { return negative_pivots_; }
+  /// Of L, a number a scalar column, in the order of elimination.
+  Eigen::ArrayXd diagonal() const;
 
   /// Solves A x = b in place; B numbers a node, in the order of elimination.
   void solve(double* x);
