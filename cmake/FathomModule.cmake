@@ -72,7 +72,7 @@ function(fathom_loaded_module name)
   add_library(${name} MODULE ${arg_SOURCES})
   fathom_own_target(${name})
   set_target_properties(${name} PROPERTIES
-    PREFIX "" INSTALL_RPATH "" LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR})
+    PREFIX "" INSTALL_RPATH "" LIBRARY_OUTPUT_DIRECTORY $<1:${PROJECT_BINARY_DIR}>)
   install(TARGETS ${name} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/fathom
           COMPONENT ${arg_COMPONENT})
 endfunction()

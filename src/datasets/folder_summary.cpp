@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <numbers>
 
+#include "fathom/core/environment_error.hpp"
 #include "fathom/core/input_error.hpp"
 #include "fathom/core/median.hpp"
 #include "fathom/core/text.hpp"
@@ -188,6 +189,8 @@ void look_at_pictures(const FrameSource& source, FolderSummary& summary) {
       cv::Scalar deviation;
       cv::meanStdDev(source.image(i), mean, deviation);
       if (deviation[0] < kFlat) flat.push_back(i);
+    } catch (const EnvironmentError&) {
+      throw;  // of no picture
     } catch (const InputError& error) {
       summary.faults.emplace_back(error.what());
     }

@@ -30,7 +30,6 @@ double pseudo_chi2(const Eigen::Vector3d& rho, const Eigen::Matrix3d& Q) {
 std::vector<double> RestrictedLikelihood::left_out_chi2(const Eigen::VectorXd& log_sigma) {
   std::vector<double> chi2(rows_.registrations().size(), std::numeric_limits<double>::quiet_NaN());
   if (!std::isfinite(deviance(log_sigma))) return chi2;
-  factor_.invert();
   const Eigen::SparseMatrix<double, Eigen::RowMajor> B = rows_.B();
   for (std::size_t i = 0; i < chi2.size(); ++i) {
     const Index first = rows_.registrations()[i];

@@ -77,6 +77,8 @@ sparse::Symbolic NormalFactor::pattern_of(int triples, const std::vector<Block>&
 
 // The factor is of H with the rows in the order of elimination.
 bool NormalFactor::factorise(const Eigen::VectorXd& scale, double own_weight, Index first_prior) {
+  inverse_.reset();
+  scale_ = scale;
   factor_.clear();
   Eigen::VectorXd diagonal(scale.size());
   for (const Block& block : blocks_) {
@@ -113,16 +115,17 @@ Eigen::MatrixXd NormalFactor::solve(const Eigen::MatrixXd& b) {
   return x;
 }
 
-Eigen::Matrix3d NormalFactor::inverse(Index a, Index b) const {
+Eigen::Matrix3d NormalFactor::inverse(Index a, Index b) {
+  if (!inverse_) inverse_.emplace(factor_);
   if (a == b) return inverse_->block(static_cast<int>(a));
   return inverse_->block(static_cast<int>(a), static_cast<int>(b));
 }
 
-double NormalFactor::own_trace(const Eigen::VectorXd& scale) const {
+double NormalFactor::own_trace() {
   double sum = 0.0;
   for (const Block& block : blocks_) {
-    const Eigen::Matrix3d own = scale.segment<3>(3 * block.row).asDiagonal() * block.own *
-                                scale.segment<3>(3 * block.column).asDiagonal();
+    const Eigen::Matrix3d own = scale_.segment<3>(3 * block.row).asDiagonal() * block.own *
+                                scale_.segment<3>(3 * block.column).asDiagonal();
     const double times = block.row == block.column ? 1.0 : 2.0;
     sum += times * own.cwiseProduct(inverse(block.row, block.column)).sum();
   }

@@ -30,14 +30,12 @@ class NormalFactor {
   /// H⁻¹ b, of each column of b.
   Eigen::MatrixXd solve(const Eigen::MatrixXd& b);
 
-  /// Of the last factorisation, what follows.
-  void invert() { inverse_.emplace(factor_); }
   /// The block of H⁻¹ of triples a and b, which are the same or have a row of B in common.
-  Eigen::Matrix3d inverse(Index a, Index b) const;
-  /// The element of a row and column.
-  double variance(Index row) const { return inverse(row / 3, row / 3)(row % 3, row % 3); }
+  Eigen::Matrix3d inverse(Index a, Index b);
+  /// An element of its diagonal.
+  double variance(Index row) { return inverse(row / 3, row / 3)(row % 3, row % 3); }
   /// Σ b H⁻¹ bᵀ over the rows b of B S that have own errors.
-  double own_trace(const Eigen::VectorXd& scale) const;
+  double own_trace();
 
  private:
   // A block of Bᵀ W B = rest + w own, in the rows of the triple that is eliminated later.
@@ -56,7 +54,8 @@ class NormalFactor {
   std::vector<Block> blocks_;
   sparse::Symbolic symbolic_;
   sparse::BlockCholesky<3> factor_;
-  std::optional<sparse::SelectedInverse> inverse_;
+  std::optional<sparse::SelectedInverse> inverse_;  // where it was asked for
+  Eigen::VectorXd scale_;
 };
 
 }  // namespace fathom

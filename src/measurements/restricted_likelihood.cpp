@@ -145,7 +145,6 @@ RestrictedFit RestrictedLikelihood::fit(const Eigen::VectorXd& log_sigma) {
 //   average information of j, k = 4 u_jᵀ · (H⁻¹ S Bᵀ W B n_k)_j,  n_k = S u_k.
 // Own errors are n, too, of one row each: u = −σ w r, with the variance w + σ² w² b H⁻¹ bᵀ.
 void RestrictedLikelihood::add_derivatives(const Eigen::VectorXd& log_sigma, RestrictedFit& fit) {
-  factor_.invert();
   fit.slope = Eigen::VectorXd::Zero(components());
   Eigen::MatrixXd u = Eigen::MatrixXd::Zero(rows_.unknowns(), components());
   for (Index j = 0; j < components(); ++j) {
@@ -160,8 +159,7 @@ void RestrictedLikelihood::add_derivatives(const Eigen::VectorXd& log_sigma, Res
   if (own_ >= 0) {
     const double share = own_sigma_ * own_sigma_ * own_weight_;
     fit.slope[own_] =
-        2.0 * share *
-        (own_count() - own_weight_ * (factor_.own_trace(scale_) + own_squared_norm()));
+        2.0 * share * (own_count() - own_weight_ * (factor_.own_trace() + own_squared_norm()));
     own_u = -own_sigma_ * own_weight_ * is_own_row_.cwiseProduct(residuals_);
     p.col(own_) = own_sigma_ * own_u;
   }

@@ -42,7 +42,7 @@ namespace fs = std::filesystem;
   bound(RLIMIT_AS, surroundings.address_space_bytes);
   bound(RLIMIT_CPU, surroundings.processor_s);
   if (::chdir(folder.c_str()) == 0 && ::dup2(out_file, 1) == 1 && ::dup2(err_file, 2) == 2) {
-    ::execv(FATHOM_BINARY, argv.data());
+    ::execv(surroundings.program.c_str(), argv.data());
   }
   ::_exit(127);
 }

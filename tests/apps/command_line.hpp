@@ -27,6 +27,7 @@ std::string without_notes(std::string errors);
 
 /// What the program finds where it is started.
 struct Surroundings {
+  std::filesystem::path program = FATHOM_BINARY;
   std::map<std::string, std::string> environment;  ///< beside what the test itself has
   std::string standard_output;                     ///< a file in place of what `Ended` holds
   std::size_t address_space_bytes = 0;             ///< at most; 0: no bound

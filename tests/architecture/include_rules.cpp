@@ -100,8 +100,8 @@ bool support_may_use(const std::string& part, const std::string& to) {
 }
 
 // Linear algebra that knows no poses: what is below the estimators may stand on it, too.
-bool may_use_support(const std::string& module, const std::string& part) {
-  return module == "estimators" || (module == "measurements" && part == "sparse");
+bool is_linear_algebra_of(const std::string& module, const std::string& support) {
+  return module == "measurements" && support == "sparse";
 }
 
 // `to` is a module, or a part of the support.
@@ -133,7 +133,7 @@ std::string judge_quoted(const Include& include) {
   }
   if (!module_rows().contains(*to)) return "is of no module that the design names";
   const std::string support = support_part_of(include.target);
-  if (from == "measurements" && may_use_support(from, support)) return "";
+  if (is_linear_algebra_of(from, support)) return "";
   if (!may_use(from, *to)) return from + " may not include " + *to;
   if (measures) return "";  // the inside of a module or an estimator, too
   if (include.target.starts_with("src/"))
@@ -153,7 +153,7 @@ std::string judge_quoted(const Include& include) {
                : "is another adapter's";
   }
   if (!include.target.starts_with("estimators/")) return "";
-  if (!support.empty() && may_use_support(from, support)) return "";
+  if (from == "estimators" && !support.empty()) return "";
   const bool is_own = folder_of(include.file) == folder_of(include.target);
   return is_own ? "" : "is an estimator's own; only its folder may include it";
 }
@@ -203,7 +203,7 @@ std::string complaint_about_link(const std::string& target, const std::string& l
         complaint_about_support(target.substr(kSupport.size()), support.empty() ? to : support);
     return complaint.empty() ? "" : target + " may not link " + linked;
   }
-  if (from == "measurements" && may_use_support(from, support)) return "";
+  if (is_linear_algebra_of(from, support)) return "";
   if (from == "estimators" && to == "estimators") {
     const bool is_allowed = target == "fathom_estimators" || !support.empty();
     return is_allowed ? "" : target + " links another estimator, " + linked;

@@ -12,9 +12,10 @@ namespace fathom::test {
 /// Whether it was written, in the format of its ending.
 inline bool write_picture(const std::filesystem::path& file, const cv::Mat& picture) {
   const std::string bytes = encode_picture(file.extension().string(), picture);
+  if (bytes.empty()) return false;
   std::ofstream out(file, std::ios::binary);
-  out << bytes;
-  return !bytes.empty() && out.good();
+  out << bytes << std::flush;
+  return out.good();
 }
 
 /// Empty where there is none.

@@ -16,6 +16,14 @@ TEST(PictureCodecs, DecodeWhatTheyEncoded) {
   }
 }
 
+// Red, green and blue of a file written by hand, in OpenCV's order.
+TEST(PictureCodecs, KeepTheOrderOfColours) {
+  const cv::Mat pixel = decode_picture("P6\n1 1\n255\n\x01\x02\x03");
+  ASSERT_EQ(pixel.type(), CV_8UC3);
+  EXPECT_EQ(pixel.at<cv::Vec3b>(0, 0), cv::Vec3b(3, 2, 1));
+  EXPECT_EQ(encode_picture(".ppm", pixel).substr(11), "\x01\x02\x03");
+}
+
 TEST(PictureCodecs, GiveNothingOfWhatIsNoPicture) {
   EXPECT_TRUE(decode_picture("").empty());
   EXPECT_TRUE(decode_picture("no picture").empty());

@@ -55,7 +55,8 @@ class BlockCholesky {
   /// L of a positive definite A was written in the place of A.
   void take_factor();
   int negative_pivots() const { return negative_pivots_; }
-  /// Of L, a number a scalar column, in the order of elimination.
+  /// Of the last factor L, if A is positive definite: a number a scalar column, in the order of
+  /// elimination.
   Eigen::ArrayXd diagonal() const;
 
   /// Solves A x = b in place; B numbers a node, in the order of elimination.

@@ -22,7 +22,8 @@ struct LoadedModule {
   bool is_missing = false;  ///< the file is at neither place
 };
 
-/// The symbol of a module, from where it is installed, else where it was built. It stays loaded.
+/// The symbol of a module, from where it is installed, else, where nothing is, from where it was
+/// built. It stays loaded.
 LoadedModule load_module(const ModulePlace& place, const char* symbol,
                          ModuleSymbols symbols = ModuleSymbols::kOwn);
 

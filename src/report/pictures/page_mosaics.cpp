@@ -52,7 +52,9 @@ std::string base64(const std::string& bytes) {
 
 std::string data_address(const cv::Mat& picture) {
   const std::vector<int> quality{cv::IMWRITE_JPEG_QUALITY, 82};
-  return "data:image/jpeg;base64," + base64(encode_picture(".jpg", picture, quality));
+  const std::string bytes = encode_picture(".jpg", picture, quality);
+  if (bytes.empty()) throw InputError("a mosaic cannot be encoded as JPEG");
+  return "data:image/jpeg;base64," + base64(bytes);
 }
 
 // Used registrations of registrations.csv; what it does not say in its first three columns is

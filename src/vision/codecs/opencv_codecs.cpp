@@ -1,17 +1,11 @@
-#pragma once
-
+// Of libraries that link the codecs, and of the module that is loaded.
 #include <limits>
 #include <new>
-#include <string>
-#include <string_view>
-#include <vector>
 
-#include <opencv2/imgcodecs.hpp>
+#include "fathom/vision/picture_codecs.hpp"
 
-// What stands behind picture_codecs.hpp, in the library that links the codecs and in the module
-// that is loaded. It throws std::bad_alloc alone.
-
-namespace fathom::opencv_codecs {
+namespace fathom {
+namespace {
 
 template <class Result, class Action>
 Result or_nothing(Action action) {
@@ -23,7 +17,9 @@ Result or_nothing(Action action) {
   }
 }
 
-inline cv::Mat decode(std::string_view bytes, int flags) {
+}  // namespace
+
+cv::Mat decode_picture(std::string_view bytes, int flags) {
   if (bytes.empty() || bytes.size() > std::numeric_limits<int>::max()) return {};
   return or_nothing<cv::Mat>([&] {
     // OpenCV has no row of constant bytes; it does not change these.
@@ -32,9 +28,8 @@ inline cv::Mat decode(std::string_view bytes, int flags) {
   });
 }
 
-/// Empty where there is no such format, or it cannot hold the picture.
-inline std::string encode(const std::string& ending, const cv::Mat& picture,
-                          const std::vector<int>& parameters) {
+std::string encode_picture(const std::string& ending, const cv::Mat& picture,
+                           const std::vector<int>& parameters) {
   return or_nothing<std::string>([&] {
     std::vector<uchar> bytes;
     if (!cv::imencode(ending, picture, bytes, parameters)) bytes.clear();
@@ -42,4 +37,4 @@ inline std::string encode(const std::string& ending, const cv::Mat& picture,
   });
 }
 
-}  // namespace fathom::opencv_codecs
+}  // namespace fathom
