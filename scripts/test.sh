@@ -12,6 +12,7 @@ cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/.."
 preset=${1:-release}
 scripts/build.sh --preset "$preset" import python adapters docs
 status=0
-ctest --preset "$preset" --parallel "$(nproc)" "${@:2}" || status=$?
+# One more than there are processors: some tests wait, for a cluster, a browser or a limit of time.
+ctest --preset "$preset" --parallel "$(($(nproc) + 1))" "${@:2}" || status=$?
 scripts/skipped_tests.py "build/$preset/Testing/Temporary/LastTest.log"
 exit "$status"

@@ -122,7 +122,17 @@ TEST(FiltersOnIntel, StayPositiveDefiniteAndEndNearTheOptimum) {
   EXPECT_NEAR(chi2(log, poses_of(iekf)), 45.0047, 2.0);
 }
 
-// Every keyframe of intel in the textbook filters takes a minute: the cheaper one goes all the way.
+MeasurementLog first_of(const MeasurementLog& log, std::size_t keyframes) {
+  MeasurementLog first(log.origin());
+  for (std::size_t k = 1; k < keyframes; ++k) {
+    first.add_keyframe(log.arrival(k).step);
+    for (const RelativePose& z : log.arrival(k).registrations) first.add_registration(z);
+  }
+  return first;
+}
+
+// Every keyframe of intel in the textbook filters takes a minute: the cheaper one goes all the way,
+// the other one well beyond the loops after which a wrong one blows up.
 TEST(FiltersOnIntel, EkfEqualsTheTextbookFilter) {
   FATHOM_REQUIRE_DATA(graph("intel"));
   const MeasurementLog log = read("intel");
@@ -132,7 +142,8 @@ TEST(FiltersOnIntel, EkfEqualsTheTextbookFilter) {
 
 TEST(FiltersOnIntel, TrajectoryIekfEqualsTheTextbookFilter) {
   FATHOM_REQUIRE_DATA(graph("intel"));
-  const MeasurementLog log = read("intel");
+  const MeasurementLog log = first_of(read("intel"), 800);
+  ASSERT_GT(log.registration_count(), 300U);
   const auto iekf = solved("trajectory_iekf", log, test::values({{"max_iterations", "1"}}));
   EXPECT_LT(
       largest_distance(poses_of(*iekf), test::run_naive(test::NaiveTrajectoryIekf(log, 1), log)),

@@ -143,7 +143,7 @@ def main():
         if arguments.kills is not None:
             return 1 if kills.kill_at_random(bench, arguments.kills, arguments.seed) else 0
         calls = CALLS if arguments.all else {call: CALLS[call][:1] for call in SAMPLED}
-        matrix = Matrix(bench, 1 if arguments.all else 97)
+        matrix = Matrix(bench, 1 if arguments.all else 193)
         matrix.run(arguments.only, calls)
         matrix.print_table()
         complaints = list(matrix.complaints)
