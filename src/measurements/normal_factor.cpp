@@ -23,6 +23,10 @@ std::size_t at(Eigen::Index i) {
   return static_cast<std::size_t>(i);
 }
 
+Eigen::Index first_of(int triple) {
+  return 3 * static_cast<Eigen::Index>(triple);
+}
+
 }  // namespace
 
 NormalFactor::NormalFactor(const Eigen::SparseMatrix<double>& B, const Eigen::VectorXd& is_own_row)
@@ -82,12 +86,12 @@ bool NormalFactor::factorise(const Eigen::VectorXd& scale, double own_weight, In
   factor_.clear();
   Eigen::VectorXd diagonal(scale.size());
   for (const Block& block : blocks_) {
-    Eigen::Matrix3d H = scale.segment<3>(3 * block.row).asDiagonal() *
+    Eigen::Matrix3d H = scale.segment<3>(first_of(block.row)).asDiagonal() *
                         (block.rest + own_weight * block.own) *
-                        scale.segment<3>(3 * block.column).asDiagonal();
+                        scale.segment<3>(first_of(block.column)).asDiagonal();
     if (block.row == block.column) {
-      if (3 * block.row >= first_prior) H += Eigen::Matrix3d::Identity();
-      diagonal.segment<3>(3 * symbolic_.position[at(block.row)]) = H.diagonal();
+      if (first_of(block.row) >= first_prior) H += Eigen::Matrix3d::Identity();
+      diagonal.segment<3>(first_of(symbolic_.position[at(block.row)])) = H.diagonal();
     }
     Eigen::Map<Eigen::Matrix3d, 0, Eigen::OuterStride<>>(
         factor_.data() + block.place.offset, Eigen::OuterStride<>(block.place.stride)) = H;
@@ -105,11 +109,13 @@ Eigen::MatrixXd NormalFactor::solve(const Eigen::MatrixXd& b) {
   Eigen::VectorXd ordered(b.rows());
   for (Index column = 0; column < b.cols(); ++column) {
     for (int i = 0; i < symbolic_.size(); ++i) {
-      ordered.segment<3>(3 * symbolic_.position[at(i)]) = b.col(column).segment<3>(3 * i);
+      ordered.segment<3>(first_of(symbolic_.position[at(i)])) =
+          b.col(column).segment<3>(first_of(i));
     }
     factor_.solve(ordered.data());
     for (int i = 0; i < symbolic_.size(); ++i) {
-      x.col(column).segment<3>(3 * i) = ordered.segment<3>(3 * symbolic_.position[at(i)]);
+      x.col(column).segment<3>(first_of(i)) =
+          ordered.segment<3>(first_of(symbolic_.position[at(i)]));
     }
   }
   return x;
@@ -124,8 +130,8 @@ Eigen::Matrix3d NormalFactor::inverse(Index a, Index b) {
 double NormalFactor::own_trace() {
   double sum = 0.0;
   for (const Block& block : blocks_) {
-    const Eigen::Matrix3d own = scale_.segment<3>(3 * block.row).asDiagonal() * block.own *
-                                scale_.segment<3>(3 * block.column).asDiagonal();
+    const Eigen::Matrix3d own = scale_.segment<3>(first_of(block.row)).asDiagonal() * block.own *
+                                scale_.segment<3>(first_of(block.column)).asDiagonal();
     const double times = block.row == block.column ? 1.0 : 2.0;
     sum += times * own.cwiseProduct(inverse(block.row, block.column)).sum();
   }
