@@ -18,11 +18,10 @@ class BrokenCodecs : public CommandLine {
   void SetUp() override {
     fs::create_directories(path("prefix/bin"));
     fs::copy_file(FATHOM_BINARY, path("prefix/bin/fathom"));
-    const fs::path module = fs::path(FATHOM_MODULE_INSTALLED) / "fathom_codecs.so";
-    const fs::path installed = path("prefix/bin") / module;
-    fs::create_directories(installed.lexically_normal().parent_path());
-    write("no_library", "no library");
-    fs::copy_file(path("no_library"), installed.lexically_normal());
+    const fs::path module = "prefix/bin" / fs::path(FATHOM_MODULE_INSTALLED) / "fathom_codecs.so";
+    const std::string installed = module.lexically_normal().string();
+    fs::create_directories(path(installed).parent_path());
+    write(installed, "no library");
     surroundings_.program = path("prefix/bin/fathom");
   }
 };
@@ -33,6 +32,7 @@ TEST_F(BrokenCodecs, AreNamedWhereAPictureIsRead) {
       refusal({"register", "a.png", "a.png", "--altitude-a", "2", "--altitude-b", "2"});
   EXPECT_THAT(said, HasSubstr("pictures are neither read nor written: "));
   EXPECT_THAT(said, HasSubstr("fathom_codecs.so"));
+  EXPECT_THAT(said, HasSubstr("'scripts/build.sh' or the package fathom puts it right"));
 }
 
 TEST_F(BrokenCodecs, AreNotMissedWhereNoneIs) {

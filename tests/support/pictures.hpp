@@ -2,9 +2,9 @@
 
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <string>
 
+#include "fathom/core/files.hpp"
 #include "fathom/vision/picture_codecs.hpp"
 
 namespace fathom::test {
@@ -20,9 +20,8 @@ inline bool write_picture(const std::filesystem::path& file, const cv::Mat& pict
 
 /// Empty where there is none.
 inline cv::Mat read_picture(const std::filesystem::path& file, int flags = cv::IMREAD_COLOR) {
-  std::ifstream in(file, std::ios::binary);
-  const std::string bytes(std::istreambuf_iterator<char>(in), {});
-  return decode_picture(bytes, flags);
+  if (!std::filesystem::exists(file)) return {};
+  return decode_picture(read_file(file), flags);
 }
 
 }  // namespace fathom::test

@@ -10,7 +10,9 @@ const PictureCodecs& load_codecs() {
   const LoadedModule module =
       load_module({FATHOM_MODULE_BUILT, FATHOM_MODULE_INSTALLED}, kPictureCodecs);
   if (module.symbol == nullptr) {
-    throw EnvironmentError("pictures are neither read nor written: " + module.problem);
+    throw EnvironmentError("pictures are neither read nor written: " + module.problem +
+                           "; if it is missing or damaged, or lacks a library, 'scripts/build.sh' "
+                           "or the package fathom puts it right");
   }
   return *static_cast<const PictureCodecs*>(module.symbol);
 }
