@@ -10,6 +10,8 @@ import sys
 
 # What CTest writes before the output of a test.
 TEST = re.compile(r"^\d+/\d+ Testing: (.*)$", re.MULTILINE)
+# What GoogleTest writes before the output of one of a suite.
+CASE = re.compile(r"^\[ RUN      \] (\S+)$", re.MULTILINE)
 # How GoogleTest, a script of ours, and unittest say why.
 REASONS = (
     re.compile(r"^\S+:\d+: Skipped\n(.+)$", re.MULTILINE),
@@ -23,10 +25,11 @@ def reasons_of(log):
     skipped = collections.defaultdict(list)
     _, *parts = TEST.split(log)
     for name, record in zip(parts[::2], parts[1::2]):
-        output = record.partition("<end of output>")[0]
-        found = [reason for pattern in REASONS for reason in pattern.findall(output)]
-        for reason in dict.fromkeys(found):
-            skipped[reason].append(name.split("  # GetParam()")[0])
+        cases = CASE.split("\n" + record.partition("<end of output>")[0])
+        for case, output in zip([name, *cases[1::2]], cases[::2]):
+            found = [reason for pattern in REASONS for reason in pattern.findall(output)]
+            for reason in dict.fromkeys(found):
+                skipped[reason].append(case)
     return skipped
 
 

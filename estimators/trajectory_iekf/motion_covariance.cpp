@@ -205,7 +205,7 @@ Eigen::MatrixXd MotionCovariance::full() const {
     P.block<3, 3>(row, row) = later_[i];
   }
   for (const filter::DowndateFactor& factor : factors_.factors()) {
-    P.block(factor.first_row, factor.first_row, factor.V.rows(), factor.V.rows()) -=
+    P.block(factor.first_row, factor.first_row, factor.V.rows(), factor.V.rows()).noalias() -=
         factor.V * factor.V.transpose();
   }
   return P;
