@@ -32,9 +32,9 @@ class Failures : public CommandLine {
   }
 };
 
-// The libraries alone take some 250 MB of addresses, another number on every machine. With little
-// more, something fails on one of the threads; one that waited for another would keep the program
-// for ever.
+// The libraries alone take more than 100 MB of addresses, another number on every machine. With
+// little more, something fails on one of the threads; one that waited for another would keep the
+// program for ever.
 TEST_F(Failures, TooLittleMemoryEndsTheProgram) {
   if (std::string(FATHOM_TEST_PRELOADED).empty()) GTEST_SKIP() << "a sanitizer takes terabytes";
   write("c.yaml", kSmallSurvey);
