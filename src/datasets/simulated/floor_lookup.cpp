@@ -21,6 +21,9 @@ std::size_t level_for(double floor_pixels_per_pixel, std::size_t levels) {
   return static_cast<std::size_t>(std::clamp(level, 0.0, static_cast<double>(levels - 1)));
 }
 
+constexpr int kAcross = FloorRenderer::kSamplesAcross;
+constexpr float kStep = 1.0F / kAcross;
+
 }  // namespace
 
 std::vector<cv::Mat> area_pyramid(const cv::Mat& picture) {
@@ -53,56 +56,126 @@ FloorLookup::FloorLookup(const std::vector<cv::Mat>& levels, const Eigen::Vector
             static_cast<std::ptrdiff_t>(origin.x());
 }
 
-float FloorLookup::mean(const Corners& corners) const {
-  Eigen::Vector2f least = corners[0];
-  Eigen::Vector2f most = corners[0];
-  for (const Eigen::Vector2f& corner : corners) {
-    least = least.cwiseMin(corner);
-    most = most.cwiseMax(corner);
+/// Corners of pixels side by side; where there are fewer, the last pixel is repeated. Loops over
+/// them have a length that the compiler knows, so that it uses vectors.
+struct FloorLookup::Block {
+  /// Along one axis.
+  struct Corners {
+    Values upper_left, upper_right, lower_left, lower_right;
+
+    Corners(const std::vector<float>& upper, const std::vector<float>& lower, std::size_t first) {
+      const std::size_t last = upper.size() - 2;
+      for (std::size_t p = 0; p < kBlock; ++p) {
+        const std::size_t left = std::min(first + p, last);
+        upper_left[p] = upper[left];
+        upper_right[p] = upper[left + 1];
+        lower_left[p] = lower[left];
+        lower_right[p] = lower[left + 1];
+      }
+    }
+  };
+
+  /// A row of samples in each pixel.
+  struct Line {
+    Values left, step;
+
+    Line(const Corners& corners, float down) {
+      for (std::size_t p = 0; p < kBlock; ++p) {
+        left[p] = corners.upper_left[p] + down * (corners.lower_left[p] - corners.upper_left[p]);
+        const float right =
+            corners.upper_right[p] + down * (corners.lower_right[p] - corners.upper_right[p]);
+        step[p] = kStep * (right - left[p]);
+      }
+    }
+
+    Values at(float along) const {
+      Values values;
+      for (std::size_t p = 0; p < kBlock; ++p) values[p] = left[p] + along * step[p];
+      return values;
+    }
+  };
+
+  Corners x;
+  Corners y;
+};
+
+void FloorLookup::means(const Places& upper, const Places& lower, float* out) const {
+  const std::size_t pixels = upper.x.size() - 1;
+  for (std::size_t first = 0; first < pixels; first += kBlock) {
+    const std::size_t count = std::min(kBlock, pixels - first);
+    const Block block{{upper.x, lower.x, first}, {upper.y, lower.y, first}};
+    Values means;
+    if (are_inside(upper, first, count + 1) && are_inside(lower, first, count + 1)) {
+      mean_of_samples<false>(block, means);
+    } else {
+      mean_of_samples<true>(block, means);
+    }
+    std::copy_n(means.begin(), count, out + first);
   }
-  // A whole pixel of room: the last one has none to its right, and rounding may step over.
-  const bool is_inside = (least.array() >= first_.array() + 1.0F).all() &&
-                         (most.array() <= last_.array() - 1.0F).all();
-  return is_inside ? mean_of_samples<false>(corners) : mean_of_samples<true>(corners);
+}
+
+// A whole pixel of room: the last one has none to its right, and rounding may step over.
+bool FloorLookup::are_inside(const Places& places, std::size_t first, std::size_t count) const {
+  const Eigen::Vector2f low = first_.array() + 1.0F;
+  const Eigen::Vector2f high = last_.array() - 1.0F;
+  bool are_inside = true;
+  for (std::size_t i = first; i < first + count; ++i) {
+    const float x = places.x[i];
+    const float y = places.y[i];
+    are_inside &= x >= low.x() && x <= high.x() && y >= low.y() && y <= high.y();
+  }
+  return are_inside;
 }
 
 template <bool kNearBorder>
-float FloorLookup::mean_of_samples(const Corners& corners) const {
-  constexpr int kAcross = FloorRenderer::kSamplesAcross;
-  constexpr float kStep = 1.0F / kAcross;
-  float sum = 0.0F;
+void FloorLookup::mean_of_samples(const Block& block, Values& means) const {
+  means.fill(0.0F);
   for (int j = 0; j < kAcross; ++j) {
     const float down = kStep * (static_cast<float>(j) + 0.5F);
-    const Eigen::Vector2f left = corners[0] + down * (corners[2] - corners[0]);
-    const Eigen::Vector2f right = corners[1] + down * (corners[3] - corners[1]);
-    const Eigen::Vector2f step = kStep * (right - left);
+    const Block::Line x(block.x, down);
+    const Block::Line y(block.y, down);
     for (int i = 0; i < kAcross; ++i) {
-      sum += at<kNearBorder>(left + (static_cast<float>(i) + 0.5F) * step);
+      const float along = static_cast<float>(i) + 0.5F;
+      add_samples<kNearBorder>(x.at(along), y.at(along), means);
     }
   }
-  return sum * (kStep * kStep);
+  for (float& mean : means) mean *= kStep * kStep;
 }
 
 // Bilinear.
 template <bool kNearBorder>
-float FloorLookup::at(Eigen::Vector2f place) const {
-  if (kNearBorder) place = place.cwiseMax(first_).cwiseMin(last_);
-  const int column = floor_of(place.x());
-  const int row = floor_of(place.y());
-  const float across = place.x() - static_cast<float>(column);
-  const float down = place.y() - static_cast<float>(row);
-  std::ptrdiff_t right = 1;
-  std::ptrdiff_t below = row_bytes_;
-  if (kNearBorder) {
-    if (static_cast<float>(column) >= last_.x()) right = 0;
-    if (static_cast<float>(row) >= last_.y()) below = 0;
+void FloorLookup::add_samples(Values x, Values y, Values& sums) const {
+  std::array<int, kBlock> columns;
+  std::array<int, kBlock> rows;
+  for (std::size_t p = 0; p < kBlock; ++p) {
+    if (kNearBorder) {
+      x[p] = std::min(std::max(x[p], first_.x()), last_.x());
+      y[p] = std::min(std::max(y[p], first_.y()), last_.y());
+    }
+    columns[p] = floor_of(x[p]);
+    rows[p] = floor_of(y[p]);
+    x[p] -= static_cast<float>(columns[p]);
+    y[p] -= static_cast<float>(rows[p]);
   }
-  const uchar* pixel = level_.data + (offset_ + row * row_bytes_ + column);
-  const auto upper_left = static_cast<float>(pixel[0]);
-  const auto lower_left = static_cast<float>(pixel[below]);
-  const float upper = upper_left + across * (static_cast<float>(pixel[right]) - upper_left);
-  const float lower = lower_left + across * (static_cast<float>(pixel[below + right]) - lower_left);
-  return upper + down * (lower - upper);
+  std::array<std::array<uchar, kBlock>, 4> grey;
+  for (std::size_t p = 0; p < kBlock; ++p) {
+    const uchar* pixel = level_.data + (offset_ + rows[p] * row_bytes_ + columns[p]);
+    const bool is_last_column = kNearBorder && static_cast<float>(columns[p]) >= last_.x();
+    const bool is_last_row = kNearBorder && static_cast<float>(rows[p]) >= last_.y();
+    const std::ptrdiff_t right = is_last_column ? 0 : 1;
+    const std::ptrdiff_t below = is_last_row ? 0 : row_bytes_;
+    grey[0][p] = pixel[0];
+    grey[1][p] = pixel[right];
+    grey[2][p] = pixel[below];
+    grey[3][p] = pixel[below + right];
+  }
+  for (std::size_t p = 0; p < kBlock; ++p) {
+    const auto upper_left = static_cast<float>(grey[0][p]);
+    const auto lower_left = static_cast<float>(grey[2][p]);
+    const float upper = upper_left + x[p] * (static_cast<float>(grey[1][p]) - upper_left);
+    const float lower = lower_left + x[p] * (static_cast<float>(grey[3][p]) - lower_left);
+    sums[p] += upper + y[p] * (lower - upper);
+  }
 }
 
 }  // namespace fathom

@@ -17,9 +17,13 @@ std::vector<cv::Mat> area_pyramid(const cv::Mat& picture);
 /// levels share, is at −1/2.
 class FloorLookup {
  public:
-  /// Corners of a pixel of the view as places in the level: upper left, upper right, lower left,
-  /// lower right.
-  using Corners = std::array<Eigen::Vector2f, 4>;
+  /// A row of corners of the view's pixels, as places in the level.
+  struct Places {
+    explicit Places(std::size_t corners) : x(corners), y(corners) {}
+
+    std::vector<float> x;
+    std::vector<float> y;
+  };
 
   /// A point p of the view is the pixel `base` + `A` p of level 0, and a pixel of the view about
   /// `floor_pixels_per_pixel` of them wide.
@@ -30,14 +34,20 @@ class FloorLookup {
   /// floats are fine enough.
   Eigen::Vector2f place(const Eigen::Vector2f& point) const { return base_ + A_ * point; }
 
-  /// Mean grey over a pixel of the view; beyond the floor its border repeats.
-  float mean(const Corners& corners) const;
+  /// Mean grey over each pixel of a row of the view, between its upper and its lower corners, one
+  /// more of each than there are pixels. Beyond the floor its border repeats.
+  void means(const Places& upper, const Places& lower, float* out) const;
 
  private:
+  static constexpr std::size_t kBlock = 32;
+  using Values = std::array<float, kBlock>;
+  struct Block;
+
+  bool are_inside(const Places& places, std::size_t first, std::size_t count) const;
   template <bool kNearBorder>
-  float mean_of_samples(const Corners& corners) const;
+  void mean_of_samples(const Block& block, Values& means) const;
   template <bool kNearBorder>
-  float at(Eigen::Vector2f place) const;
+  void add_samples(Values x, Values y, Values& sums) const;
 
   cv::Mat level_;
   Eigen::Vector2f base_;

@@ -79,26 +79,28 @@ class Haze {
   float backscatter_;
 };
 
-// What a corner of the picture's pixels sees.
-struct SeenCorner {
-  Eigen::Vector3f hit;  // from the camera, in altitudes: ahead, to port, down
-  Eigen::Vector2f place;
-};
+// What a row of corners of the picture's pixels sees.
+struct SeenRow {
+  explicit SeenRow(std::size_t corners) : hits(corners), places(corners) {}
 
-using SeenRow = std::vector<SeenCorner>;
+  std::vector<Eigen::Vector3f> hits;  ///< from the camera, in altitudes: ahead, to port, down
+  FloorLookup::Places places;
+};
 
 // Follows a row of rays; returns where the next row begins.
 const Eigen::Vector2f* see_row(const Way& way, const FloorLookup& floor,
                                const Eigen::Vector2f* level_ray, SeenRow& row) {
-  for (SeenCorner& corner : row) {
+  for (std::size_t i = 0; i < row.hits.size(); ++i) {
     Eigen::Vector2f ray = *level_ray++;
     float depth = 1.0F;
     if (!way.is_straight()) {
       ray = way.tilted(ray);
       depth = way.depth(ray);
     }
-    corner.hit << depth * ray, depth;
-    corner.place = floor.place(depth * ray);
+    row.hits[i] << depth * ray, depth;
+    const Eigen::Vector2f place = floor.place(depth * ray);
+    row.places.x[i] = place.x();
+    row.places.y[i] = place.y();
   }
   return level_ray;
 }
@@ -182,16 +184,13 @@ cv::Mat_<float> FloorRenderer::trace(const View& view, const PictureEffects& eff
     std::swap(upper, lower);
     rays = see_row(way, floor, rays, lower);
     float* out = light[v];
+    floor.means(upper.places, lower.places, out);
+    if (is_plain) continue;
     for (std::size_t u = 0; u < width; ++u) {
-      float grey =
-          floor.mean({upper[u].place, upper[u + 1].place, lower[u].place, lower[u + 1].place});
-      if (!is_plain) {
-        const Eigen::Vector3f middle =
-            0.25F * (upper[u].hit + upper[u + 1].hit + lower[u].hit + lower[u + 1].hit);
-        if (!caustics.are_off()) grey *= caustics.gain(way.point(middle.head<2>()));
-        if (!haze.is_clear()) grey = haze.seen(grey, middle.norm());
-      }
-      out[u] = grey;
+      const Eigen::Vector3f middle =
+          0.25F * (upper.hits[u] + upper.hits[u + 1] + lower.hits[u] + lower.hits[u + 1]);
+      if (!caustics.are_off()) out[u] *= caustics.gain(way.point(middle.head<2>()));
+      if (!haze.is_clear()) out[u] = haze.seen(out[u], middle.norm());
     }
   }
   return light;

@@ -24,7 +24,13 @@ NoiseField::NoiseField(cv::Size size, double cell_px, RandomStream& stream)
   constexpr double kAxisVariance = 151.0 / 315.0;
   const double half_width = std::sqrt(3.0) / kAxisVariance;
   for (float& value : grid_) value = static_cast<float>(stream.uniform(-half_width, half_width));
-  for (int column = 0; column < size.width; ++column) columns_.push_back(place(column));
+  for (auto& weights : weights_) weights.reserve(static_cast<std::size_t>(size.width));
+  for (int column = 0; column < size.width; ++column) {
+    const Place at = place(column);
+    if (cells_.empty() || cells_.back().first != at.first) cells_.push_back({at.first, column});
+    cells_.back().end = column + 1;
+    for (std::size_t k = 0; k < 4; ++k) weights_[k].push_back(at.weights[k]);
+  }
 }
 
 NoiseField::Place NoiseField::place(int pixel) const {
@@ -41,11 +47,29 @@ void NoiseField::add_row(int row, float gain, float* out) const {
     const float weight = gain * vertical.weights[k];
     for (int i = 0; i < grid_.cols; ++i) blended[static_cast<std::size_t>(i)] += weight * source[i];
   }
-  for (const Place& column : columns_) {
-    const float* at = blended.data() + column.first;
-    const auto& w = column.weights;
-    *out++ += w[0] * at[0] + w[1] * at[1] + w[2] * at[2] + w[3] * at[3];
+  int column = 0;
+  for (const Cell& cell : cells_) {
+    add_cell(blended.data() + cell.first, column, cell.end, out);
+    column = cell.end;
   }
+}
+
+void NoiseField::add_cell(const float* points, int begin, int end, float* __restrict out) const {
+  const float a = points[0];
+  const float b = points[1];
+  const float c = points[2];
+  const float d = points[3];
+  const float* w0 = weights_[0].data();
+  const float* w1 = weights_[1].data();
+  const float* w2 = weights_[2].data();
+  const float* w3 = weights_[3].data();
+  const auto add = [&](int i) { out[i] += w0[i] * a + w1[i] * b + w2[i] * c + w3[i] * d; };
+  constexpr int kLanes = 4;
+  int i = begin;
+  for (; i + kLanes <= end; i += kLanes) {
+    for (int k = 0; k < kLanes; ++k) add(i + k);
+  }
+  for (; i < end; ++i) add(i);
 }
 
 Relief::Relief(cv::Size size, double metres_per_pixel, std::initializer_list<Octave> octaves,

@@ -28,9 +28,19 @@ class NoiseField {
   };
   Place place(int pixel) const;
 
+  /// Columns of one cell, from the end of the one before.
+  struct Cell {
+    int first;  ///< as of Place
+    int end;
+  };
+
+  void add_cell(const float* points, int begin, int end, float* __restrict out) const;
+
   double cell_px_;
   cv::Mat_<float> grid_;
-  std::vector<Place> columns_;  ///< of every column: the same in all rows
+  // The same in all rows.
+  std::vector<Cell> cells_;
+  std::array<std::vector<float>, 4> weights_;  ///< by point, of every column
 };
 
 struct Octave {
