@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <opencv2/core/utility.hpp>
+
 #include "fathom/core/files.hpp"
 #include "fathom/core/input_error.hpp"
 #include "fathom/core/system.hpp"
@@ -34,12 +36,14 @@ MosaicFiles files_of(const EarthFrame* earth) {
   return files;
 }
 
-void write(const PlannedMosaic& planned, const cv::Mat& mosaic, const EarthFrame* earth) {
+// `png`: the mosaic, encoded, unless it is north up.
+void write(const PlannedMosaic& planned, const cv::Mat& mosaic, const std::string& png,
+           const EarthFrame* earth) {
   if (planned.is_north_up) {
     write_geotiff(planned.folder / "mosaic.tif", *earth, planned.plan, mosaic);
   } else {
     const MosaicPlan& plan = planned.plan;
-    write_file(planned.folder / "mosaic.png", encode_png(mosaic));
+    write_file(planned.folder / "mosaic.png", png);
     write_file(planned.folder / "mosaic.pgw",
                world_file_of(plan, cv::Rect({0, 0}, plan.size), earth));
     write_file(planned.folder / "mosaic.json", mosaic_json(plan, files_of(earth)));
@@ -80,7 +84,14 @@ void make_and_write(const FrameSource& source, const std::vector<PlannedMosaic>&
   for (const PlannedMosaic& one : planned) plans.push_back(one.plan);
   const std::vector<cv::Mat> made =
       make_mosaics(source, plans, observer.progress_of("mosaic, picture"));
-  for (std::size_t i = 0; i < made.size(); ++i) write(planned[i], made[i], earth);
+  std::vector<std::string> pngs(made.size());
+  cv::parallel_for_({0, static_cast<int>(made.size())}, [&](const cv::Range& range) {
+    for (int k = range.start; k < range.end; ++k) {
+      const auto i = static_cast<std::size_t>(k);
+      if (!planned[i].is_north_up) pngs[i] = encode_png(made[i]);
+    }
+  });
+  for (std::size_t i = 0; i < made.size(); ++i) write(planned[i], made[i], pngs[i], earth);
 }
 
 // The mosaic of a run, and north up on Earth; returns a line that says what they are.

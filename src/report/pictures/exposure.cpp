@@ -30,22 +30,31 @@ struct Seen {
   float log_grey = 0.0F;
 };
 
+/// A picture on a coarse floor, of which it covers a box.
+struct CoarsePicture {
+  cv::Point corner;
+  cv::Mat grey;
+};
+
+CoarsePicture coarse_picture(const Camera& camera, const MosaicPlan& plan, const cv::Mat& picture,
+                             const PlacedPicture& place) {
+  const cv::Rect box = Blend::box_of(camera, plan, place);
+  if (box.empty()) return {};
+  Blend alone(camera, plan, box);
+  alone.lay(picture, place);
+  return {box.tl(), alone.finish()};
+}
+
 /// The pictures on a coarse floor.
 class CoarseFloor {
  public:
-  void lay(const Camera& camera, const MosaicPlan& plan, const cv::Mat& picture,
-           const PlacedPicture& place) {
-    std::vector<Seen>& seen = seen_[place.frame];
-    const cv::Rect box = Blend::box_of(camera, plan, place);
-    if (box.empty()) return;
-    Blend alone(camera, plan, box);
-    alone.lay(picture, place);
-    const cv::Mat grey = alone.finish();
-    for (int v = 0; v < grey.rows; ++v) {
-      for (int u = 0; u < grey.cols; ++u) {
-        const unsigned char one = grey.ptr(v)[u];
+  void add(std::size_t frame, const CoarsePicture& picture) {
+    std::vector<Seen>& seen = seen_[frame];
+    for (int v = 0; v < picture.grey.rows; ++v) {
+      for (int u = 0; u < picture.grey.cols; ++u) {
+        const unsigned char one = picture.grey.ptr(v)[u];
         if (one == kUnseen) continue;
-        const std::uint32_t cell = cell_at(box.y + v, box.x + u);
+        const std::uint32_t cell = cell_at(picture.corner.y + v, picture.corner.x + u);
         ++count_[cell];
         seen.push_back({cell, std::log(std::max(1.0F, static_cast<float>(one)))});
       }
@@ -132,11 +141,24 @@ std::vector<ExposureGains> exposure_gains(const Camera& camera, const MosaicUses
   coarse.reserve(plans.size());
   for (const MosaicPlan& plan : plans) coarse.push_back(coarse_of(camera, plan));
   std::vector<CoarseFloor> floors(plans.size());
-  pictures.for_each(frames_of(uses), [&](std::size_t frame, const cv::Mat& picture) {
-    for (const MosaicUse& use : uses.at(frame)) {
-      floors[use.mosaic].lay(camera, coarse[use.mosaic], picture, *use.place);
+  // By frame and use; those of a frame are gone when they have been added.
+  std::map<std::size_t, std::vector<CoarsePicture>> laid;
+  for (const auto& [frame, places] : uses) laid[frame].resize(places.size());
+  const auto lay = [&](std::size_t frame, const cv::Mat& picture) {
+    const std::vector<MosaicUse>& places = uses.at(frame);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      laid.at(frame)[i] =
+          coarse_picture(camera, coarse[places[i].mosaic], picture, *places[i].place);
     }
-  });
+  };
+  const auto add = [&](std::size_t frame, const cv::Mat& /*picture*/) {
+    const std::vector<MosaicUse>& places = uses.at(frame);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      floors[places[i].mosaic].add(frame, laid.at(frame)[i]);
+    }
+    laid.at(frame).clear();
+  };
+  pictures.for_each(frames_of(uses), add, lay);
   std::vector<ExposureGains> gains;
   gains.reserve(floors.size());
   for (const CoarseFloor& floor : floors) gains.push_back(floor.gains());

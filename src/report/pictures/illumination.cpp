@@ -63,9 +63,8 @@ cv::Mat learnt_gain(const Camera& camera, DecodedPictures& decoded,
   return field.gain(independent_count(camera, samples));
 }
 
-void LitPictures::for_each(
-    std::span<const std::size_t> frames,
-    const std::function<void(std::size_t frame, const cv::Mat& picture)>& take) {
+void LitPictures::for_each(std::span<const std::size_t> frames, const Use& take,
+                           const Use& beside) {
   lit_.resize(side_by_side(gain_.total()));
   for (std::size_t i = 0; i < frames.size(); i += lit_.size()) {
     const std::vector<cv::Mat> pictures = decoded_.first_of(frames.subspan(i), lit_.size());
@@ -73,6 +72,7 @@ void LitPictures::for_each(
       for (int k = range.start; k < range.end; ++k) {
         const auto place = static_cast<std::size_t>(k);
         cv::multiply(pictures[place], gain_, lit_[place], 1.0, CV_32F);
+        if (beside) beside(frames[i + place], lit_[place]);
       }
     });
     for (std::size_t k = 0; k < pictures.size(); ++k) take(frames[i + k], lit_[k]);

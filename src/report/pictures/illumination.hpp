@@ -23,10 +23,12 @@ class LitPictures {
   /// `decoded` must outlive this.
   LitPictures(DecodedPictures& decoded, cv::Mat gain) : decoded_(decoded), gain_(std::move(gain)) {}
 
-  /// Of these frames in turn, some made side by side. A picture is gone when `take` returns. Throws
-  /// InputError where one cannot be read.
-  void for_each(std::span<const std::size_t> frames,
-                const std::function<void(std::size_t frame, const cv::Mat& picture)>& take);
+  using Use = std::function<void(std::size_t frame, const cv::Mat& picture)>;
+
+  /// Of these frames in turn, some made side by side, and `beside` called for each on the thread
+  /// that made it. A picture is gone when `take` returns. Throws InputError where one cannot be
+  /// read.
+  void for_each(std::span<const std::size_t> frames, const Use& take, const Use& beside = {});
 
  private:
   DecodedPictures& decoded_;
