@@ -17,7 +17,8 @@ void Floor(benchmark::State& state) {
   cv::setNumThreads(1);
   const auto& [name, kind] = floor_kinds()[static_cast<std::size_t>(state.range(0))];
   state.SetLabel(name);
-  for (auto _ : state) benchmark::DoNotOptimize(draw_sea_floor(kFloorPx, kMetresPerPixel, 1, kind));
+  for ([[maybe_unused]] auto _ : state)
+    benchmark::DoNotOptimize(draw_sea_floor(kFloorPx, kMetresPerPixel, 1, kind));
 }
 BENCHMARK(Floor)->DenseRange(0, 4)->Unit(benchmark::kMillisecond);
 
@@ -35,7 +36,7 @@ void Rendering(benchmark::State& state) {
   world.picture = draw_sea_floor(cv::Size(2000, 2000), kMetresPerPixel, 1, FloorKind::mixed);
   const FloorRenderer renderer(camera, ViewRays(camera), world);
   const View view{{0.0, 0.0, 0.3}, 2.0};
-  for (auto _ : state) benchmark::DoNotOptimize(renderer.render(view));
+  for ([[maybe_unused]] auto _ : state) benchmark::DoNotOptimize(renderer.render(view));
 }
 BENCHMARK(Rendering)->Unit(benchmark::kMillisecond);
 
