@@ -48,10 +48,10 @@ class Minimiser {
     const double promised = equations_.predicted_decrease();
     if (!std::isfinite(promised)) return raise_damping();
     equations_.move(nodes_, trial_);
-    if (is_small(promised) && damping_ == 0.0) {
+    const bool is_last = is_small(promised) && damping_ == 0.0;
+    if (is_last) {
       if (hessian_ == Hessian::exact || is_indefinite_here_) {
-        result_.outcome = Outcome::converged;
-        nodes_.swap(trial_);
+        end_with(trial_);
         return false;
       }
       hessian_ = Hessian::exact;
@@ -62,7 +62,8 @@ class Minimiser {
     }
     double cost = linearise(trial_);
     rise_ = cost - result_.cost;
-    if (is_no_rise(cost) || follow_headings(cost)) {
+    // What a step of less than the tolerance gains may be less than the rounding of F.
+    if (is_no_rise(cost, is_last ? limits_.tolerance : 0.0) || follow_headings(cost)) {
       nodes_.swap(trial_);
       result_.cost = cost;
       lower_damping();
@@ -83,7 +84,9 @@ class Minimiser {
     if (promised > tuning_.chord_below * result_.cost) return false;
     if (result_.iterations == limits_.max_iterations) return false;
     const double enough = tuning_.chord_share * limits_.tolerance * result_.cost;
-    while (is_no_rise(equations_.differentiate(trial_))) {
+    while (true) {
+      const double cost = equations_.differentiate(trial_);
+      if (!is_no_rise(cost)) return false;
       equations_.solve_step();
       const double left = equations_.predicted_decrease();
       if (!(left <= tuning_.chord_contraction * promised)) return false;
@@ -91,13 +94,20 @@ class Minimiser {
       trial_.swap(chord_);
       if (left <= std::max(enough, tuning_.least_promise_chi2)) {
         ++result_.iterations;
-        result_.outcome = Outcome::converged;
-        nodes_.swap(trial_);
+        nodes_.swap(chord_);
+        result_.cost = cost;
+        end_with(trial_);
         return true;
       }
       promised = left;
     }
-    return false;
+  }
+
+  // At the end of the last step; the estimate before it stays at hand.
+  void end_with(std::vector<Node>& last) {
+    result_.outcome = Outcome::converged;
+    nodes_.swap(last);
+    before_last_ = &last;
   }
 
   // Of an exact Hessian that is not positive definite, its Gauss-Newton part is taken.
@@ -117,8 +127,9 @@ class Minimiser {
     return equations_.factorise(sparse::Inertia::positive);
   }
 
-  bool is_no_rise(double cost) const {
-    return cost <= result_.cost * (1.0 + tuning_.rounding_share) + tuning_.rounding_chi2;
+  bool is_no_rise(double cost, double share = 0.0) const {
+    return cost <=
+           result_.cost * (1.0 + std::max(share, tuning_.rounding_share)) + tuning_.rounding_chi2;
   }
 
   // A step that failed, again with the positions that suit its headings.
@@ -163,7 +174,15 @@ class Minimiser {
   }
 
   void finish() {
-    result_.cost = equations_.differentiate(nodes_);
+    const double cost = equations_.differentiate(nodes_);
+    // A step that promises next to nothing may be long, along what weak measurements leave open:
+    // strong ones then notice its second order.
+    if (before_last_ != nullptr && !is_no_rise(cost, limits_.tolerance)) {
+      nodes_.swap(*before_last_);
+      result_.cost = equations_.differentiate(nodes_);
+    } else {
+      result_.cost = cost;
+    }
     result_.gradient_norm = equations_.gradient_norm();
     // What was found on the way says nothing of where it stopped.
     if (result_.outcome != Outcome::converged) result_.is_local_minimum.reset();
@@ -178,6 +197,7 @@ class Minimiser {
   double rise_ = 0.0;  ///< of F by the last step; 0 where there was none
   std::vector<Node> trial_;
   std::vector<Node> chord_;
+  std::vector<Node>* before_last_ = nullptr;  ///< of a solve that has converged
   std::optional<PositionProblem> positions_;
   Hessian hessian_;
   double damping_ = 0.0;

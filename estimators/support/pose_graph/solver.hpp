@@ -62,7 +62,8 @@ struct SolveResult {
 /// Minimises F from `nodes` on, in place. Undamped steps as long as F falls, Gauss-Newton first,
 /// Newton near the end; else Levenberg-Marquardt damping until it does. It has converged when a
 /// step promises to lower F, or moves the poses, by less than the tolerance, as a share: one with
-/// the exact Hessian of the estimate, or of one just before it (SolverTuning::chord_share).
+/// the exact Hessian of the estimate, or of one just before it (SolverTuning::chord_share). Where F
+/// is higher by more than the tolerance after that step, the estimate before it is kept.
 /// Where F jumps, as a heading residual passes ±π, and is least beside the jump, no step lowers it:
 /// iteration_limit.
 /// `first`: the Hessian of the first step, exact where the start is known to be near a minimum.
