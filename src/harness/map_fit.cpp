@@ -15,8 +15,9 @@ bool MapFit::estimate_fits() const {
 }
 
 std::optional<MapFit> map_fit(const MeasurementLog& log, std::span<const Pose> estimate,
-                              const BatchOptimum& optimum) {
+                              const BatchOptimum& optimum, std::optional<double> chi2_used) {
   MapFit fit;
+  fit.chi2_used = chi2_used;
   fit.degrees_of_freedom = degrees_of_freedom(log);
   if (log.registration_count() == 0 || !(fit.degrees_of_freedom > 0.0)) return std::nullopt;
   fit.chi2 = chi2(log, estimate, optimum.errors);
@@ -78,6 +79,12 @@ std::vector<std::string> map_remarks(const MapFit& fit, const std::string& estim
     remarks.push_back("there is no map of " + estimator + ": its poses are not finite; " + solver +
                       ", which solves the same log at once, has F " +
                       short_number(fit.chi2_optimum, 6));
+  } else if (fit.leaves_out_most()) {
+    remarks.push_back(estimator + " left out or weighed down what most of F is of: F is " +
+                      short_number(fit.chi2, 6) + " with all loops, and " +
+                      short_number(*fit.chi2_used, 6) +
+                      " with those that it used; a batch solve of all loops is no measure of it");
+    return remarks;
   } else if (!fit.estimate_fits()) {
     remarks.push_back("the map of " + estimator + " does not fit its own measurements: F is " +
                       short_number(fit.chi2, 6) + ", and " + short_number(fit.chi2_optimum, 6) +

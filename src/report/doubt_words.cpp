@@ -73,8 +73,8 @@ std::string general(const WrongConfidence& found) {
 std::string words(const Correlation& found) {
   return "Registrations of one picture share errors (correlation " +
          quantity(found.correlation.moments.mean, found.correlation.interval, "") + "), which " +
-         listed(found.estimators) + (found.estimators.size() == 1 ? " takes" : " take") +
-         " as independent" + (found.is_told ? "; shared_errors: states would estimate them." : ".");
+         listed(found.estimators) + (found.estimators.size() == 1 ? " does" : " do") +
+         " not estimate" + (found.is_told ? "; shared_errors: states would estimate them." : ".");
 }
 std::string general(const Correlation&) {
   return "registrations of one picture share errors";
@@ -89,7 +89,8 @@ std::string general(const OffTheOptimum&) {
 
 std::string words(const WithoutLoops& found) {
   return fmt::format(
-      "The means of {} hold runs without loop closures, which are no better than dead reckoning{}.",
+      "The means of {} hold runs without loop closures, which are dead reckoning and absolute "
+      "measurements, if there are any{}.",
       listed(found.estimators), front_end_words(found.front_end));
 }
 std::string general(const WithoutLoops&) {

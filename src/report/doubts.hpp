@@ -51,7 +51,7 @@ struct WrongConfidence {
 /// Registrations of one picture share errors.
 struct Correlation {
   MetricSummary correlation;
-  std::vector<std::string> estimators;  ///< that take them as independent
+  std::vector<std::string> estimators;  ///< that do not estimate them
   bool is_told = false;                 ///< whether they could estimate them
 };
 /// F lies above the optimum of the measurements.

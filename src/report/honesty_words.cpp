@@ -28,7 +28,7 @@ std::string shared_errors_words(const Honesty& honesty, const std::string& cost,
   }
   if (honesty.estimates_shared_errors)
     return text + ", more than their stated shared errors explain.";
-  return text + "; the estimator takes them as independent" +
+  return text + "; the estimator does not estimate them" +
          (honesty.is_told ? ", shared_errors: states would estimate them." : ".");
 }
 

@@ -112,8 +112,11 @@ std::optional<Doubt> misfit(const CellResults& cell) {
   for (const EstimatorResults& one : cell.estimators) {
     const auto optimum = finite_mean_of(one, "chi2_optimum");
     const auto registrations = finite_mean_of(one, "registrations");
-    if (one.name == kDeadReckoning || !optimum || !registrations || *registrations <= 0.0) continue;
-    const double per_degree = *optimum / (3.0 * *registrations);
+    if (one.name == kDeadReckoning || !optimum || !registrations) continue;
+    // Stores of older versions have no degrees of freedom.
+    const double degrees = finite_mean_of(one, "degrees_of_freedom").value_or(3.0 * *registrations);
+    if (!(degrees > 0.0)) continue;
+    const double per_degree = *optimum / degrees;
     if (per_degree <= kTooMuch) return std::nullopt;
     return doubt::Misfit{per_degree};
   }

@@ -99,7 +99,9 @@ class OneRun {
                       std::back_inserter(remarks));
     if (auto remark = frame_remark(*recording_)) remarks.push_back(std::move(*remark));
     const auto optimum = batch_optimum(recording_->log, registry_, {}, done.result.run.errors);
-    const auto fit = optimum ? map_fit(recording_->log, estimate, *optimum) : std::nullopt;
+    const auto fit = optimum
+                         ? map_fit(recording_->log, estimate, *optimum, done.result.run.chi2_used)
+                         : std::nullopt;
     if (!fit) return;
     const EstimatorConfiguration& estimator = done.result.estimator;
     std::ranges::copy(map_remarks(*fit, estimator.name, optimum->solver, set_up_is_wrong),
@@ -111,7 +113,7 @@ class OneRun {
     if (is_sharing && recording_->log.tells_shared_errors()) {
       if (auto remark = sharing_remark(*fit, estimator.name)) remarks.push_back(std::move(*remark));
     }
-    if (fit->estimate_fits()) return;
+    if (fit->estimate_fits() || fit->leaves_out_most()) return;
     EvaluationOptions options;
     options.mode = SolveMode::batch;
     done.optimum = evaluate(*recording_, {kBatchOptimum, optimum->solver, optimum->values},

@@ -12,6 +12,7 @@ namespace fathom {
 namespace {
 
 using ::testing::AllOf;
+using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -71,6 +72,19 @@ TEST(MapFit, MeasurementsThatDoNotFitEachOtherAreBlamedByTheirShare) {
   EXPECT_THAT(map_remarks(fit, "ekf", "solver"), ElementsAre(HasSubstr("loops are wrong")));
   fit.absolute_at_optimum = 600.0;
   EXPECT_THAT(map_remarks(fit, "ekf", "solver"), ElementsAre(HasSubstr("absolute measurements")));
+}
+
+// False loops, rejected: the batch optimum takes them, and folds its map for them.
+TEST(MapFit, WhatLeavesLoopsOutIsNotHeldAgainstAnOptimumOfAllLoops) {
+  MapFit fit{.chi2 = 1e7, .chi2_optimum = 4e4, .degrees_of_freedom = 3e3, .unknowns = 3e3};
+  fit.chi2_used = 2.9e3;
+  EXPECT_TRUE(fit.leaves_out_most());
+  EXPECT_THAT(map_remarks(fit, "robust", "solver"),
+              ElementsAre(AllOf(HasSubstr("robust left out or weighed down"), HasSubstr("2900"),
+                                Not(HasSubstr("would do")))));
+  fit.chi2_used = 9e6;
+  EXPECT_FALSE(fit.leaves_out_most());
+  EXPECT_THAT(map_remarks(fit, "gated", "solver"), Contains(HasSubstr("solver would do")));
 }
 
 TEST(MapFit, RegistrationsThatAgreeTooWellShareErrors) {

@@ -167,7 +167,7 @@ TEST(Verdict, ErrorsThatRegistrationsShareAreADoubt) {
   const EstimatorResults other = eight("other", kAlike);
   EXPECT_THAT(doubts_of_one(surveyed({one, other})),
               ElementsAre("Registrations of one picture share errors (correlation 0.260 [0.200, "
-                          "0.310]), which one takes as independent."));
+                          "0.310]), which one does not estimate."));
   correlation.interval = Interval{-0.01, 0.31};
   EXPECT_THAT(doubts_of_one(surveyed({one, other})), IsEmpty());
 }
@@ -210,6 +210,10 @@ TEST(Verdict, MeasurementsThatDoNotFitEachOtherAreADoubt) {
   };
   EXPECT_THAT(with(9000.0), Contains(HasSubstr("F per degree of freedom is 30.0 at its best")));
   EXPECT_THAT(with(899.0), Not(Contains(HasSubstr("do not fit"))));
+  // Of absolute measurements, too, less those of holes.
+  for (RunRecord& run : one.runs) run.metrics["degrees_of_freedom"] = 1200.0;
+  EXPECT_THAT(with(3500.0), Not(Contains(HasSubstr("do not fit"))));
+  EXPECT_THAT(with(6000.0), Contains(HasSubstr("F per degree of freedom is 5.00 at its best")));
 }
 
 TEST(Verdict, SeveralCellsAreSummedUp) {

@@ -12,12 +12,13 @@ namespace fathom {
 
 /// How the measurements of a log agree with each other, and an estimate with them.
 struct MapFit {
-  double chi2 = 0.0;                 ///< F of the estimate
-  double chi2_optimum = 0.0;         ///< F of the batch optimum
-  double steps_at_optimum = 0.0;     ///< the part of it that is of dead reckoning
-  double absolute_at_optimum = 0.0;  ///< the part that is of absolute measurements
-  double degrees_of_freedom = 0.0;   ///< of the optimum (degrees_of_freedom)
-  double unknowns = 0.0;             ///< three a keyframe but the first, if it is fixed
+  double chi2 = 0.0;                     ///< F of the estimate
+  std::optional<double> chi2_used = {};  ///< of the measurements that it used (Run::chi2_used)
+  double chi2_optimum = 0.0;             ///< F of the batch optimum
+  double steps_at_optimum = 0.0;         ///< the part of it that is of dead reckoning
+  double absolute_at_optimum = 0.0;      ///< the part that is of absolute measurements
+  double degrees_of_freedom = 0.0;       ///< of the optimum (degrees_of_freedom)
+  double unknowns = 0.0;                 ///< three a keyframe but the first, if it is fixed
   /// Of registrations at the optimum: root mean squares of their residuals, and of what their
   /// covariances say.
   double registration_rms_m = 0.0;
@@ -32,11 +33,16 @@ struct MapFit {
   /// posterior would: F − F* is χ² with as many degrees of freedom as there are unknowns. Where F
   /// per degree of freedom is above 1 already, all covariances are taken to be so much larger.
   bool estimate_fits() const;
+
+  /// Whether most of F is of loops that the estimator rejected or weighed down. Then neither F nor
+  /// its optimum, which has all loops, says anything of its map.
+  bool leaves_out_most() const { return chi2_used && *chi2_used < 0.5 * chi2; }
 };
 
 /// Nothing without registrations, or with more holes than they fill.
 std::optional<MapFit> map_fit(const MeasurementLog& log, std::span<const Pose> estimate,
-                              const BatchOptimum& optimum);
+                              const BatchOptimum& optimum,
+                              std::optional<double> chi2_used = std::nullopt);
 
 /// What of a map looks wrong: an estimate that does not fit its measurements, or measurements that
 /// do not fit each other: for covariances that are too small or wrong loops, unless the set-up is
