@@ -80,18 +80,20 @@ std::vector<std::string> map_remarks(const MapFit& fit, const std::string& estim
                       ", which solves the same log at once, has F " +
                       short_number(fit.chi2_optimum, 6));
   } else if (fit.leaves_out_most()) {
-    remarks.push_back(estimator + " left out or weighed down what most of F is of: F is " +
-                      short_number(fit.chi2, 6) + " with all loops, and " +
-                      short_number(*fit.chi2_used, 6) +
-                      " with those that it used; a batch solve of all loops is no measure of it");
+    remarks.push_back(
+        estimator + " rejected or weighed down loops of which most of F is: F is " +
+        short_number(fit.chi2, 6) + " with all loops, " + short_number(*fit.chi2_used, 6) +
+        " with what it used. Either these loops are false, or it lost right ones; a "
+        "batch solve of all loops cannot tell, as it does not fit them either (F per "
+        "degree of freedom " +
+        short_number(fit.per_degree_of_freedom()) + "). Compare back ends with a robust loss");
     return remarks;
   } else if (!fit.estimate_fits()) {
     remarks.push_back("the map of " + estimator + " does not fit its own measurements: F is " +
                       short_number(fit.chi2, 6) + ", and " + short_number(fit.chi2_optimum, 6) +
                       " where a batch solve of the same log ends; " + solver + " would do");
   }
-  constexpr double kTooMuch = 3.0;
-  if (fit.per_degree_of_freedom() > kTooMuch) {
+  if (fit.measurements_disagree()) {
     remarks.push_back(misfit_remark(fit, set_up_is_wrong));
   }
   return remarks;

@@ -34,9 +34,15 @@ struct MapFit {
   /// per degree of freedom is above 1 already, all covariances are taken to be so much larger.
   bool estimate_fits() const;
 
-  /// Whether most of F is of loops that the estimator rejected or weighed down. Then neither F nor
-  /// its optimum, which has all loops, says anything of its map.
-  bool leaves_out_most() const { return chi2_used && *chi2_used < 0.5 * chi2; }
+  /// Whether measurements do not fit each other, far beyond chance.
+  bool measurements_disagree() const { return per_degree_of_freedom() > 3.0; }
+
+  /// Whether most of F is of loops that the estimator rejected or weighed down, and its optimum,
+  /// which has all loops, does not fit them either: then that optimum says nothing of the map.
+  /// Where it fits, the loops are right and the estimator lost them.
+  bool leaves_out_most() const {
+    return chi2_used && *chi2_used < 0.5 * chi2 && measurements_disagree();
+  }
 };
 
 /// Nothing without registrations, or with more holes than they fill.
