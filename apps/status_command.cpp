@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <memory>
 #include <optional>
+#include <set>
 
 #include "apps/command.hpp"
 #include "apps/output.hpp"
@@ -62,27 +63,23 @@ std::string state_of(const FolderStatus& status) {
   if (!status.problem.empty()) return "damaged";
   if (!status.at_work.empty()) return "running: " + status.at_work;
   if (!status.content) return "nothing yet";
-  return status.content->done < status.content->own() ? "stopped" : "done";
+  return status.content->done.size() < status.content->own() ? "stopped" : "done";
 }
 
-std::string totals_text(const std::vector<ShardFolder>& folders) {
-  std::size_t done = 0;
-  std::size_t failed = 0;
+// Of all folders together, each run once.
+void print_totals(const std::vector<ShardFolder>& folders) {
+  std::set<RunKey> done;
+  std::set<RunKey> failed;
   std::size_t of = 0;
   for (const ShardFolder& folder : folders) {
-    done += folder.done;
-    failed += folder.failed;
+    done.insert(folder.done.begin(), folder.done.end());
+    failed.insert(folder.failed.begin(), folder.failed.end());
     of = std::max(of, folder.of);
   }
-  return fmt::format("{} of {} runs are done, {} of them failed; {} are left\n", done, of, failed,
-                     of - std::min(of, done));
-}
-
-void print_missing(const std::vector<ShardFolder>& folders) {
-  std::size_t done = 0;
-  for (const ShardFolder& folder : folders) done += folder.done;
-  const std::size_t of = folders.front().of;
-  for (const MissingPart& part : missing_parts(folders, of - std::min(of, done))) {
+  const std::size_t left = of - std::min(of, done.size());
+  print("\n%zu of %zu runs are done, %zu of them failed; %zu are left\n", done.size(), of,
+        failed.size(), left);
+  for (const MissingPart& part : missing_parts(folders, left)) {
     print("  %s%s%s\n", part.what.c_str(), part.command.empty() ? "" : ": ", part.command.c_str());
   }
 }
@@ -97,8 +94,8 @@ void show_status(const StatusFlags& flags, Context& context) {
     if (!status.problem.empty()) problems.push_back(status.problem);
     if (status.content) {
       const ShardFolder& content = *status.content;
-      table.add_row({folder, shards_text(content), std::to_string(content.done),
-                     std::to_string(content.own()), std::to_string(content.failed),
+      table.add_row({folder, shards_text(content), std::to_string(content.done.size()),
+                     std::to_string(content.own()), std::to_string(content.failed.size()),
                      state_of(status)});
       found.push_back(content);
     } else {
@@ -106,10 +103,7 @@ void show_status(const StatusFlags& flags, Context& context) {
     }
   }
   print("%s", table.text().c_str());
-  if (!found.empty()) {
-    print("\n%s", totals_text(found).c_str());
-    print_missing(found);
-  }
+  if (!found.empty()) print_totals(found);
   for (const std::string& problem : problems) {
     print_error("fathom: error: %s\n", problem.c_str());
     context.status = kFailed;

@@ -165,6 +165,7 @@ SolveResult Graph::solve_robust(const SolveLimits& limits, bool from_scratch) {
   const SolveResult result = accept(robust.solved, graph);
   if (is_done(result.outcome)) {
     weights_ = std::move(robust.weights);
+    squared_scales_ = robust.squared_scales;
     judged_ = edges_.size();
   }
   return result;

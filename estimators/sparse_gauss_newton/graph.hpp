@@ -50,6 +50,9 @@ class Graph {
   /// What each registration weighs since the last solve, in the order they were added.
   std::vector<double> registration_weights() const;
 
+  /// Of loss `truncated`, as the last solve adapted them; nothing before one, and of other losses.
+  const std::optional<SquaredScales>& squared_scales() const { return squared_scales_; }
+
   /// The marginal covariance of a keyframe from the Gauss-Newton matrix at the estimate, a
   /// loss applied as a weight; of all at once, at the first call after a change.
   std::optional<Eigen::Matrix3d> marginal(std::size_t k);
@@ -92,6 +95,7 @@ class Graph {
   std::vector<char> is_loop_;       ///< by edge
   std::vector<char> ranks_;         ///< by edge, of its information
   std::vector<double> weights_;     ///< by edge
+  std::optional<SquaredScales> squared_scales_;
   InformationSpread spread_;
   std::size_t judged_ = 0;  ///< edges of the last robust solve that was done
   /// Of all keyframes; absent: to be computed, empty: could not be.

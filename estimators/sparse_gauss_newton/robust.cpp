@@ -33,7 +33,7 @@ class RobustBatch {
   RobustResult agree(std::vector<Node>& nodes, std::span<const double> known) {
     if (!known.empty()) {
       Consensus consensus = consensus_from({known.begin(), known.end()}, nodes);
-      return {consensus.solved, std::move(consensus.weights)};
+      return {consensus.solved, std::move(consensus.weights), consensus.squared_scales};
     }
     const std::vector<Node> start = nodes;
     Consensus best = attempt(nodes, {});
@@ -41,7 +41,7 @@ class RobustBatch {
     try_plain_attempt(start, nodes, best);
     try_free_start(nodes, best);
     best.solved.iterations += iterations_;
-    return {best.solved, std::move(best.weights)};
+    return {best.solved, std::move(best.weights), best.squared_scales};
   }
 
  private:

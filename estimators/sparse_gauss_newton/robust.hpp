@@ -30,6 +30,7 @@ struct RobustOptions {
 struct RobustResult {
   SolveResult solved;
   std::vector<double> weights;  ///< by edge, of the last linearisation
+  std::optional<SquaredScales> squared_scales = std::nullopt;  ///< of `truncated`
 };
 
 /// Minimises Σ ρ(νᵀ W ν), the loss on loops alone, from `nodes` on, which become the result.

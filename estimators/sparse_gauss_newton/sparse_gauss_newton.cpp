@@ -131,6 +131,11 @@ SolveResult SparseGaussNewton::solve(Start start) {
   return graph_->solve_robust(limits, mode_ == SolveMode::batch);
 }
 
+double SparseGaussNewton::loss(double chi2, int rank) const {
+  const auto& adapted = graph_->squared_scales();
+  return adapted ? std::min(chi2, adapted->of_rank(rank)) : loss_.of_rank(rank).at(chi2).rho;
+}
+
 std::vector<double> SparseGaussNewton::loop_weights() const {
   return used_loops_.weights(graph_->registration_weights());
 }

@@ -53,7 +53,7 @@ class SparseGaussNewton final : public RelativeEstimator {
   std::optional<std::vector<UncertainPose>> motions_to_newest() const override;
   std::size_t size() const override;
   Pose pose(std::size_t k) const override;
-  double loss(double chi2, int rank) const override { return loss_.of_rank(rank).at(chi2).rho; }
+  double loss(double chi2, int rank) const override;
   std::vector<double> loop_weights() const override;
   bool estimates_shared_errors() const override {
     return options_.shared.model == SharedErrorModel::states;

@@ -24,6 +24,18 @@ Level level_of(const MetricSummary& summary, double expected, const Interval& ch
   return Level::expected;
 }
 
+// 0 where they are not known.
+double degrees_of_freedom(const std::map<std::string, MetricSummary>& figures) {
+  const auto mean = [&figures](const char* metric) {
+    const auto found = figures.find(metric);
+    return found == figures.end() ? 0.0 : found->second.moments.mean;
+  };
+  // Where the metric is not there, it is three times the registrations.
+  const double degrees = figures.contains("degrees_of_freedom") ? mean("degrees_of_freedom")
+                                                                : 3.0 * mean("registrations");
+  return std::max(0.0, degrees);
+}
+
 class Figures {
  public:
   Figures(const std::map<std::string, MetricSummary>& figures, std::size_t draws)
@@ -50,12 +62,8 @@ class Figures {
 
   Level level_of_cost() const {
     const MetricSummary* summary = find("chi2_per_dof");
-    const MetricSummary* registrations = find("registrations");
-    const MetricSummary* degrees = find("degrees_of_freedom");
-    if (summary == nullptr || registrations == nullptr || draws_ == 0) return Level::unknown;
-    const auto dof = static_cast<std::size_t>(std::max(
-        0.0, degrees != nullptr ? degrees->moments.mean : 3.0 * registrations->moments.mean));
-    if (dof == 0) return Level::unknown;
+    const auto dof = static_cast<std::size_t>(degrees_of_freedom(figures_));
+    if (summary == nullptr || dof == 0 || draws_ == 0) return Level::unknown;
     return level_of(*summary, 1.0, anees_interval(draws_, dof, kProbability));
   }
 
@@ -103,14 +111,32 @@ bool is_of_honesty(const std::string& metric) {
                                              "chi2_per_dof",
                                              "registrations",
                                              "chi2_gap",
+                                             "chi2_optimum",
                                              "degrees_of_freedom",
                                              "estimates_shared_errors"};
   return metrics.contains(metric) || metric.starts_with(kRelative);
 }
 
+std::optional<double> optimum_per_degree(const std::map<std::string, MetricSummary>& figures) {
+  const auto optimum = figures.find("chi2_optimum");
+  const double degrees = degrees_of_freedom(figures);
+  if (optimum == figures.end() || !(degrees > 0.0)) return std::nullopt;
+  return optimum->second.moments.mean / degrees;
+}
+
+std::optional<double> optimum_per_degree(const CellResults& cell) {
+  std::optional<double> least;
+  for (const EstimatorResults& one : cell.estimators) {
+    const auto own = optimum_per_degree(one.consistency);
+    if (own && !(least && *least <= *own)) least = own;
+  }
+  return least;
+}
+
 // A true error of one pose has a χ² of 3 degrees of freedom. Beyond that, whatever the draws, the
 // estimate is not where the measurements put it.
 bool is_off_the_optimum(const std::map<std::string, MetricSummary>& figures) {
+  if (is_misfit(optimum_per_degree(figures))) return false;
   const auto found = figures.find("chi2_gap");
   const double most = chi_squared_quantile(0.5 * (1.0 + kProbability), 3.0);
   return found != figures.end() && found->second.interval && found->second.interval->low > most;

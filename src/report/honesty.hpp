@@ -7,6 +7,7 @@
 
 namespace fathom {
 
+struct CellResults;
 struct MetricSummary;
 
 /// Why covariances do not fit the errors, by the figure that says most.
@@ -37,8 +38,22 @@ struct Honesty {
 /// Whether honesty_of looks at a metric.
 bool is_of_honesty(const std::string& metric);
 
+/// F per degree of freedom at the optimum, of the log alone; nothing where it is not known.
+std::optional<double> optimum_per_degree(const std::map<std::string, MetricSummary>& figures);
+
+/// The least of its estimators: one that estimates what registrations share has an F of its own.
+std::optional<double> optimum_per_degree(const CellResults& cell);
+
+/// Whether measurements with so much F per degree of freedom at their optimum do not fit each
+/// other, far beyond chance: then that optimum holds false loops, or covariances that are too
+/// small, and says nothing of an estimate.
+inline bool is_misfit(std::optional<double> per_degree) {
+  return per_degree.value_or(0.0) > 3.0;
+}
+
 /// Whether an estimate lies so far above the optimum of the measurements that no honest one would.
-/// F above it has an interval above the 97.5 % quantile of χ² of 3 degrees of freedom.
+/// F above it has an interval above the 97.5 % quantile of χ² of 3 degrees of freedom. No, where
+/// the measurements disagree.
 bool is_off_the_optimum(const std::map<std::string, MetricSummary>& figures);
 
 /// Whether the consistency of an estimator on a cell is other than expected; nothing where it is as

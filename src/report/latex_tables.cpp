@@ -20,6 +20,9 @@ std::string latex_value(const EstimatorResults& one, const std::string& metric) 
     text += " {\\scriptsize [" + latex_number(interval->low, kLatexDigits) + ", " +
             latex_number(interval->high, kLatexDigits) + "]}";
   }
+  if (found->second.moments.count < one.done) {
+    text += " {\\scriptsize $n = " + std::to_string(found->second.moments.count) + "$}";
+  }
   return text;
 }
 
@@ -41,7 +44,9 @@ std::string table_of(const std::string& caption, const std::string& label,
 
 std::string run_counts(const EstimatorResults& one) {
   if (one.name == kDeadReckoning) return "--";
-  return std::to_string(one.done) + "/" + std::to_string(one.runs.size());
+  const std::size_t without = runs_without_loops(one);
+  return std::to_string(one.done) + "/" + std::to_string(one.runs.size()) +
+         (without > 0 ? ", " + std::to_string(without) + " without loops" : "");
 }
 
 std::string title_of(const StudyDescription& study) {
@@ -113,16 +118,16 @@ std::string metric_table(const std::string& metric, std::size_t number,
   std::vector<std::string> header{"cell"};
   for (const std::string& name : names) header.push_back(latex_text(display_name(name)));
   std::vector<std::vector<std::string>> rows;
-  bool fails = false;
+  bool is_counted = false;
   for (const CellResults& cell : results.cells) {
     rows.push_back({latex_text(cell.label)});
     for (const std::string& name : names) {
       const auto one = std::find_if(cell.estimators.begin(), cell.estimators.end(),
                                     [&](const auto& known) { return known.name == name; });
       std::string text = one == cell.estimators.end() ? "--" : latex_value(*one, metric);
-      if (one != cell.estimators.end() && one->failures() > 0) {
+      if (one != cell.estimators.end() && (one->failures() > 0 || runs_without_loops(*one) > 0)) {
         text += " (" + run_counts(*one) + ")";
-        fails = true;
+        is_counted = true;
       }
       rows.back().push_back(text);
     }
@@ -130,7 +135,8 @@ std::string metric_table(const std::string& metric, std::size_t number,
   const std::string caption =
       title_of(results.study) + latex_text(described(metric).label_with_unit()) + ": " +
       joint_caption(results) + "." + meaning_of(results) +
-      (fails ? " In parentheses how many of the trials were done, where not all." : "");
+      (is_counted ? " In parentheses how many of the trials were done, where not all with loops."
+                  : "");
   return table_of(caption, "tab:fathom-metric-" + std::to_string(number), header, rows);
 }
 

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fathom/report/table.hpp"
+#include "honesty.hpp"
+
 namespace fathom {
 namespace {
 
@@ -109,6 +112,17 @@ std::size_t draws_of(const CellResults& cell) {
   return cell.surveys > 1 ? cell.surveys : cell.trials;
 }
 
+// Whether F of an estimator is a distance to the optimum that all are to reach.
+bool is_of_optimum(const std::string& metric) {
+  return metric == "chi2" || metric == "chi2_gap";
+}
+
+// Whether the log tells what registrations share, and one does not estimate it.
+bool has_other_cost(const EstimatorResults& one) {
+  const auto found = one.consistency.find("estimates_shared_errors");
+  return found != one.consistency.end() && found->second.moments.mean < 1.0;
+}
+
 }  // namespace
 
 const RankedEstimator* Ranking::find(const std::string& estimator) const {
@@ -133,10 +147,25 @@ std::size_t fewest_draws(std::size_t estimators) {
   return draws;
 }
 
+std::string no_ranking_text(const CellResults& cell, const std::string& metric) {
+  if (!is_of_optimum(metric)) return "";
+  const auto per_degree = optimum_per_degree(cell);
+  if (is_misfit(per_degree)) {
+    return "where measurements do not fit each other (F per degree of freedom " +
+           format_number(*per_degree, 3) +
+           " at its best), F is least of an estimator that keeps all loops, false ones too";
+  }
+  if (std::ranges::any_of(cell.estimators, has_other_cost)) {
+    return "registrations share errors, and F with them is not what all estimators minimise";
+  }
+  return "";
+}
+
 std::optional<Ranking> ranking(const CellResults& cell, const std::string& metric,
                                const RankingOptions& options) {
   const Metric catalogued = described(metric);
   if (catalogued.better == Better::neither) return std::nullopt;
+  if (!no_ranking_text(cell, metric).empty()) return std::nullopt;
   const auto order = in_order(cell, catalogued, options.names);
   if (order.empty()) return std::nullopt;
   Ranking result;
@@ -165,16 +194,25 @@ std::optional<Ranking> ranking(const CellResults& cell, const std::string& metri
   return result;
 }
 
-std::optional<std::string> ranking_metric(const StudyResults& results) {
+RankingMetric ranking_metric(const StudyResults& results) {
+  RankingMetric found;
   for (const std::string& name : results.study.metrics) {
     const Metric metric = described(name);
     if (metric.is_cost || metric.better == Better::neither) continue;
+    bool occurs = false;
+    std::string against;
     for (const CellResults& cell : results.cells) {
       const auto has = [&](const auto& one) { return is_ranked(one, name, {}); };
-      if (std::ranges::any_of(cell.estimators, has)) return name;
+      occurs = occurs || std::ranges::any_of(cell.estimators, has);
+      if (against.empty()) against = no_ranking_text(cell, name);
     }
+    if (occurs && against.empty()) {
+      found.name = name;
+      return found;
+    }
+    if (occurs) found.passed_over.push_back("Not ranked by " + metric.label + ": " + against + ".");
   }
-  return std::nullopt;
+  return found;
 }
 
 }  // namespace fathom

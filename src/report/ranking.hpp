@@ -51,8 +51,8 @@ struct RankingOptions {
 };
 
 /// Estimators that failed no run and have the metric. Dead reckoning is none. Nothing where none is
-/// left and of a metric that does not say which of its values is better. The best is the one with
-/// the best mean, of equal ones the first of the study.
+/// left, of a metric that does not say which of its values is better, and with a no_ranking_text.
+/// The best is the one with the best mean, of equal ones the first of the study.
 ///
 /// Of k estimators that are exchangeable in every draw, one or more are called worse in at most 5 %
 /// of studies: the signed-rank test is exact then, and Holm's adjustment over all k (k − 1) / 2
@@ -66,8 +66,18 @@ std::optional<Ranking> ranking(const CellResults& cell, const std::string& metri
 /// The number of draws from which on a difference of one of so many estimators can be shown.
 std::size_t fewest_draws(std::size_t estimators);
 
+/// Why estimators of a cell are not ranked by a metric, without a full stop; empty where they may
+/// be. F and what it is above its optimum say something of an estimator where all measurements fit
+/// each other and all estimators minimise the same F, and else rank those best that keep false
+/// loops.
+std::string no_ranking_text(const CellResults& cell, const std::string& metric);
+
 /// By which estimators are ranked: the first of the study's metrics that is no cost, says which of
-/// its values is better, and that a cell has. Nothing without one.
-std::optional<std::string> ranking_metric(const StudyResults& results);
+/// its values is better, that a cell has, and by which each may be ranked.
+struct RankingMetric {
+  std::optional<std::string> name;
+  std::vector<std::string> passed_over;  ///< a sentence for each before it, with the reason
+};
+RankingMetric ranking_metric(const StudyResults& results);
 
 }  // namespace fathom

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <map>
 
+#include "ranking.hpp"
+
 namespace fathom {
 namespace {
 
@@ -16,7 +18,8 @@ std::optional<double> mean_of(const EstimatorResults& one, const std::string& me
 }
 
 std::optional<double> best_of(const CellResults& cell, const std::string& metric) {
-  if (described(metric).better != Better::lower) return {};
+  if (described(metric).better != Better::lower || !no_ranking_text(cell, metric).empty())
+    return {};
   std::optional<double> best;
   for (const EstimatorResults& one : cell.estimators) {
     const auto mean = mean_of(one, metric);

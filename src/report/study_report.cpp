@@ -28,7 +28,7 @@ nlohmann::ordered_json example_mosaics(const StudyResults& results,
                                        const std::filesystem::path& study_folder) {
   std::vector<std::string> names;
   for (const auto& [name, type] : results.study.estimators) names.push_back(name);
-  const auto metric = ranking_metric(results);
+  const auto metric = ranking_metric(results).name;
   const auto ranked = metric ? ranking(results.cells.front(), *metric) : std::nullopt;
   return page_mosaics(study_folder, names,
                       ranked ? std::optional(ranked->best().name) : std::nullopt);

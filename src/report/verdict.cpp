@@ -202,6 +202,11 @@ std::string listed(const std::vector<std::string>& names) {
   return text;
 }
 
+std::vector<std::string> before_ranking(const RankingMetric& by) {
+  if (by.name || !by.passed_over.empty()) return by.passed_over;
+  return {"Not ranked: no metric of this study that says which is better has a value."};
+}
+
 std::string no_verdict_text(const Ranking& ranking, const CellResults& cell) {
   const bool is_of_surveys = cell.repetition == Repetition::surveys || cell.surveys > 1;
   return fmt::format("No verdict: with {} no difference between {} can be shown; {} are needed.",
@@ -210,17 +215,16 @@ std::string no_verdict_text(const Ranking& ranking, const CellResults& cell) {
 }
 
 CellVerdict cell_verdict(const CellResults& cell, const StudyDescription& study,
-                         const std::optional<std::string>& metric,
-                         const std::optional<std::string>& cost) {
+                         const RankingMetric& by, const std::optional<std::string>& cost) {
   CellVerdict verdict;
-  if (metric) {
-    verdict.ranking = ranking(cell, *metric, {.margin = study.margin});
-    verdict.answer = answer_of(cell, verdict.ranking);
-  } else {
-    verdict.answer = {"Not ranked: no metric of this study that says which is better has a value."};
+  verdict.answer = before_ranking(by);
+  if (by.name) {
+    verdict.ranking = ranking(cell, *by.name, {.margin = study.margin});
+    const std::vector<std::string> answer = answer_of(cell, verdict.ranking);
+    verdict.answer.insert(verdict.answer.end(), answer.begin(), answer.end());
   }
   if (verdict.ranking && cost) {
-    verdict.cheapest = cheapest_of_the_best(cell, *metric, *cost);
+    verdict.cheapest = cheapest_of_the_best(cell, *by.name, *cost);
     const auto by_cost =
         verdict.cheapest ? cost_ranking(cell, *verdict.ranking, *cost, study.margin) : std::nullopt;
     if (by_cost) {

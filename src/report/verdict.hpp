@@ -43,10 +43,12 @@ StudyVerdict study_verdict(const StudyResults& results);
 std::string verdict_text(const StudyVerdict& verdict);
 
 // Its parts.
-/// Of one cell. `metric` ranks; nothing is said of cost without `cost`.
+/// Of one cell. `by` ranks; nothing is said of cost without `cost`.
 CellVerdict cell_verdict(const CellResults& cell, const StudyDescription& study,
-                         const std::optional<std::string>& metric,
-                         const std::optional<std::string>& cost);
+                         const RankingMetric& by, const std::optional<std::string>& cost);
+
+/// What is said before any ranking: which metrics were passed over, and where none is left.
+std::vector<std::string> before_ranking(const RankingMetric& by);
 
 /// What makes the answer of a cell doubtful.
 std::vector<Doubt> doubts_of(const CellResults& cell, const CellVerdict& verdict);

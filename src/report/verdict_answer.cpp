@@ -83,10 +83,7 @@ std::string of_cells(std::size_t count, std::size_t all) {
 
 void add_answer(const StudyResults& results, StudyVerdict& verdict) {
   const std::size_t all = results.cells.size();
-  if (!verdict.metric) {
-    verdict.answer = {"Not ranked: no metric of this study that says which is better has a value."};
-    return;
-  }
+  if (!verdict.metric) return;
   std::size_t compared = 0;
   std::size_t decided = 0;
   std::size_t differing = 0;

@@ -106,21 +106,10 @@ std::optional<Doubt> few_loops(const CellResults& cell) {
   return doubt::FewLoops{*recall, front_end_of(cell)};
 }
 
-// Of a recording, so that that of one estimator stands for all.
 std::optional<Doubt> misfit(const CellResults& cell) {
-  constexpr double kTooMuch = 3.0;
-  for (const EstimatorResults& one : cell.estimators) {
-    const auto optimum = finite_mean_of(one, "chi2_optimum");
-    const auto registrations = finite_mean_of(one, "registrations");
-    if (one.name == kDeadReckoning || !optimum || !registrations) continue;
-    // Stores of older versions have no degrees of freedom.
-    const double degrees = finite_mean_of(one, "degrees_of_freedom").value_or(3.0 * *registrations);
-    if (!(degrees > 0.0)) continue;
-    const double per_degree = *optimum / degrees;
-    if (per_degree <= kTooMuch) return std::nullopt;
-    return doubt::Misfit{per_degree};
-  }
-  return std::nullopt;
+  const auto per_degree = optimum_per_degree(cell);
+  if (!is_misfit(per_degree)) return std::nullopt;
+  return doubt::Misfit{*per_degree};
 }
 
 // Over the trials that both did.

@@ -125,10 +125,11 @@ std::string rule_of(const StudyVerdict& verdict, double margin) {
 
 StudyVerdict study_verdict(const StudyResults& results) {
   StudyVerdict verdict;
-  verdict.metric = ranking_metric(results);
+  const RankingMetric by = ranking_metric(results);
+  verdict.metric = by.name;
   verdict.cost = first_metric(results, true);
   for (const CellResults& cell : results.cells) {
-    verdict.cells.push_back(cell_verdict(cell, results.study, verdict.metric, verdict.cost));
+    verdict.cells.push_back(cell_verdict(cell, results.study, by, verdict.cost));
   }
   verdict.rule = rule_of(verdict, results.study.margin);
   if (verdict.cells.size() == 1) {
@@ -139,6 +140,7 @@ StudyVerdict study_verdict(const StudyResults& results) {
     for (const Doubt& doubt : only.doubts) verdict.doubts.push_back(words_of(doubt));
     return verdict;
   }
+  verdict.answer = before_ranking(by);
   add_answer(results, verdict);
   add_cost(results, verdict);
   add_failed(results, verdict);

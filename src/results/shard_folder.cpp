@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <map>
 #include <numeric>
 #include <optional>
 #include <set>
@@ -60,13 +61,12 @@ ShardFolder shard_folder(const std::filesystem::path& folder, const ResultStore&
   if (!manifests.empty()) found.command_line = command_line_of(manifests.back());
   for (const RunRecord& run : store.runs()) {
     if (run.key.estimator == kDeadReckoning) continue;
-    const std::size_t failed = is_failed(run) ? 1 : 0;
-    ++found.done;
-    found.failed += failed;
+    found.done.insert(run.key);
+    if (is_failed(run)) found.failed.insert(run.key);
     if (run.session >= number_of_session.size() || !number_of_session[run.session]) continue;
     ShardProgress& shard = shards[*number_of_session[run.session]];
     ++shard.done;
-    shard.failed += failed;
+    shard.failed += is_failed(run) ? 1 : 0;
   }
   for (auto& [number, shard] : shards) found.shards.push_back(std::move(shard));
   return found;
@@ -94,9 +94,9 @@ std::vector<MissingPart> missing_parts(const std::vector<ShardFolder>& folders,
     }
   }
   for (const ShardFolder& folder : folders) {
-    if (!folder.shards.empty() || folder.done >= folder.of) continue;
-    missing.push_back(
-        {folder.folder.string() + ": " + count_text(folder.done, folder.of), folder.command_line});
+    if (!folder.shards.empty() || folder.done.size() >= folder.of) continue;
+    missing.push_back({folder.folder.string() + ": " + count_text(folder.done.size(), folder.of),
+                       folder.command_line});
   }
   if (missing.empty()) {
     missing.push_back({std::to_string(missing_runs) + " runs",

@@ -100,6 +100,10 @@ TEST_F(Shards, WhatIsMissingIsListedWithTheCommandThatDoesIt) {
   fathom_done({"merge", folder(2, 3), "--out", "merged"});
   EXPECT_THAT(fathom_done({"status", "merged"}).out,
               AllOf(HasSubstr("1/3 2/3 3/3"), HasSubstr(" 0 are left")));
+  // What two folders have is one run.
+  const std::string once = fathom_done({"status", "merged"}).out;
+  const std::string twice = fathom_done({"status", folder(1, 3), folder(3, 3), "merged"}).out;
+  EXPECT_EQ(twice.substr(twice.find("\n\n")), once.substr(once.find("\n\n")));
 }
 
 TEST_F(Shards, CostsOfOtherProcessorsAreKeptApart) {

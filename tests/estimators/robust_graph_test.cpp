@@ -106,6 +106,39 @@ TEST(RobustGraph, FindsPreciseLoopsAfterALongDrift) {
   }
 }
 
+// Loops without any error set the least scale; what is left out costs that, and not the default.
+TEST(RobustGraph, TheLossIsThatOfTheAdaptedScale) {
+  const std::vector<Pose> truth = test::circle(100);
+  const Eigen::Matrix3d covariance = 1e-4 * Eigen::Matrix3d::Identity();
+  MeasurementLog log;
+  for (std::size_t k = 1; k < truth.size(); ++k) {
+    log.add_keyframe(
+        RelativePose::from_covariance(k - 1, k, between(truth[k - 1], truth[k]), covariance));
+    if (k < 50) continue;
+    Pose motion = between(truth[k - 50], truth[k]);
+    if (k == 70) motion.x += 1.0;
+    log.add_registration(RelativePose::from_covariance(k - 50, k, motion, covariance));
+  }
+  const double by_default = std::pow(default_scale(LossKind::truncated), 2);
+  for (const bool is_given : {false, true}) {
+    EstimatorValues values = loss("truncated");
+    if (is_given) values["loss_scale"] = OptionValue::scalar("3");
+    const auto estimator = builtin_estimators()
+                               .find("sparse_gauss_newton")
+                               .create({log.origin(), SolveMode::batch}, values);
+    EXPECT_NEAR(estimator->loss(1e6, 3), is_given ? 9.0 : by_default, 1e-9);
+    test::feed(*estimator, log);
+    const double scale = is_given ? 9.0 : 0.01 * by_default;
+    EXPECT_NEAR(estimator->loss(1e6, 3), scale, 1e-9);
+    EXPECT_EQ(estimator->loss(0.5 * scale, 3), 0.5 * scale);
+    // Of other measurements the default, whatever registrations agree on.
+    const double partial = is_given ? 9.0 : by_default;
+    EXPECT_NEAR(estimator->loss(1e6, 2), partial * squared_scale_share(LossKind::truncated, 2),
+                1e-9);
+    EXPECT_EQ(estimator->loop_weights()[20], 0.0);
+  }
+}
+
 TEST(RobustGraph, FindsTheRightLoopsAmongFalseOnes) {
   const MeasurementLog log = circle_of(200);
   const std::vector<Pose> clean = solve(log, {}).poses;

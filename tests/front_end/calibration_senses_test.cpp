@@ -1,3 +1,4 @@
+#include <cmath>
 #include <numbers>
 
 #include <gmock/gmock.h>
@@ -5,6 +6,8 @@
 
 #include "fathom/front_end/calibration.hpp"
 #include "front_end/turning_survey.hpp"
+#include "src/front_end/calibration/odometry_track.hpp"
+#include "src/front_end/calibration/set_up.hpp"
 
 namespace fathom::test {
 namespace {
@@ -130,6 +133,36 @@ TEST(Calibration, NamesACompassThatCountsClockwiseAndOneThatIsLate) {
   EXPECT_NEAR(offset.value, -1.5, 4.0 * offset.sigma);
   EXPECT_THAT(late.findings,
               ElementsAre(AllOf(HasSubstr("compass0's time stamps"), HasSubstr("later"))));
+}
+
+// Lanes, whose few turns say it all: 0.3 rad/s for 5 s and 10 s straight, 45 s in all.
+TEST(Calibration, TheSigmaOfATurnIsThatOfItsScatter) {
+  constexpr int kDraws = 300;
+  const auto heading = [](double t_s) {
+    const double within_s = std::fmod(t_s, 15.0);
+    const double turned = 1.5 * std::min(1.0, within_s / 5.0);
+    const int lane = static_cast<int>(t_s / 15.0);
+    return lane % 2 == 0 ? turned : 1.5 - turned;
+  };
+  double squares = 0.0;
+  int count = 0;
+  for (int draw = 0; draw < kDraws; ++draw) {
+    RandomStream stream(static_cast<std::uint64_t>(draw), "lanes");
+    CalibrationInput input;
+    double drift_rad = 0.0;
+    for (double t = 0.0; t <= 45.0; t += 0.25) {
+      drift_rad += 0.01 * stream.normal();
+      const std::int64_t time_ns = TurningSurvey::nanoseconds(t);
+      input.odometry.rows.push_back({time_ns, 0.5 * t, 0.0, heading(t) + drift_rad, false});
+      input.references.push_back({time_ns, {0.5 * t, 0.0, wrap_angle(heading(t))}});
+    }
+    const auto turns = compare_turns(input, OdometryTrack(input.odometry, {}));
+    if (turns.empty()) continue;
+    ++count;
+    squares += std::pow((turns.front().slope.value - 1.0) / turns.front().slope.sigma, 2);
+  }
+  EXPECT_GT(count, 0.95 * kDraws);
+  EXPECT_NEAR(std::sqrt(squares / count), 1.05, 0.2);
 }
 
 TEST(Calibration, NamesFixesWhosePathIsMirrored) {

@@ -82,6 +82,29 @@ TEST(HonestyWords, AnEstimateThatIsNotAtTheOptimum) {
   EXPECT_THAT(words_of_figures(figures, kDraws)[1], HasSubstr("share errors"));
 }
 
+// What considers shared errors minimises no F, and is above each without any linearisation.
+TEST(HonestyWords, GainsThatConsiderSharedErrorsAreNamed) {
+  Figures figures = honest(4.0);
+  figures["chi2_gap"] = figure(12.0, 2.6);
+  EXPECT_THAT(words_of_figures(figures, kDraws)[1], Not(HasSubstr("consider")));
+  figures["estimates_shared_errors"] = figure(0.0, 0.0);
+  EXPECT_THAT(words_of_figures(figures, kDraws)[1],
+              HasSubstr("by gains that consider shared errors (shared_errors: consider), its "
+                        "linearisation or a wrong minimum."));
+  figures["estimates_shared_errors"] = figure(1.0, 0.0);
+  EXPECT_THAT(words_of_figures(figures, kDraws)[1], Not(HasSubstr("consider")));
+}
+
+// An optimum with false loops is none to be held to.
+TEST(HonestyWords, AnOptimumThatDoesNotFitIsNoCause) {
+  Figures figures = honest(4.0);
+  figures["chi2_gap"] = figure(1200.0, 260.0);
+  figures["chi2_optimum"] = figure(901.0, 20.0);
+  EXPECT_THAT(words_of_figures(figures, kDraws)[1], Not(HasSubstr("not at the optimum")));
+  figures["chi2_optimum"] = figure(899.0, 20.0);
+  EXPECT_THAT(words_of_figures(figures, kDraws)[1], HasSubstr("not at the optimum"));
+}
+
 TEST(HonestyWords, ABadFirstPicture) {
   Figures figures = honest(4.9);
   figures["anchored_anees"] = figure(1.1, 0.2);

@@ -201,14 +201,14 @@ TEST(Verdict, FewLoopsAmongTheOverlappingPairsAreADoubt) {
 
 TEST(Verdict, MeasurementsThatDoNotFitEachOtherAreADoubt) {
   EstimatorResults one = eight("best", kBest);
-  for (RunRecord& run : one.runs) run.metrics["registrations"] = 100.0;
+  one.consistency["registrations"].moments.mean = 100.0;
   const auto with = [&](double chi2_optimum) {
-    for (RunRecord& run : one.runs) run.metrics["chi2_optimum"] = chi2_optimum;
+    one.consistency["chi2_optimum"].moments.mean = chi2_optimum;
     return doubts_of_one(surveyed({one}));
   };
   EXPECT_THAT(with(9000.0), Contains(HasSubstr("F per degree of freedom is 30.0 at its best")));
   EXPECT_THAT(with(899.0), Not(Contains(HasSubstr("do not fit"))));
-  for (RunRecord& run : one.runs) run.metrics["degrees_of_freedom"] = 1200.0;
+  one.consistency["degrees_of_freedom"].moments.mean = 1200.0;
   EXPECT_THAT(with(6000.0), Contains(HasSubstr("F per degree of freedom is 5.00 at its best")));
 }
 

@@ -7,6 +7,8 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "fathom/geometry/covariance.hpp"
+
 namespace fathom::pose_graph {
 namespace {
 
@@ -20,13 +22,19 @@ double largest_information(const Edge& edge) {
   return std::max({edge.W[0], edge.W[3], edge.W[5]});
 }
 
+// Along axes of its own: in those of the keyframe a fix of one turned axis has next to nothing.
+double least_information(const Edge& edge) {
+  const InformationRows rows = rows_of(full(edge.W));
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < rows.rank; ++i) {
+    least = std::min(least, rows.rows.row(i).squaredNorm() / rows.variances(i));
+  }
+  return least;
+}
+
 std::vector<Edge> cut_down(std::span<const Edge> edges) {
   double least = std::numeric_limits<double>::infinity();
-  for (const Edge& edge : edges) {
-    for (const std::size_t a : {0U, 3U, 5U}) {
-      if (edge.W[a] > 0.0) least = std::min(least, edge.W[a]);
-    }
-  }
+  for (const Edge& edge : edges) least = std::min(least, least_information(edge));
   std::vector<Edge> cut(edges.begin(), edges.end());
   for (Edge& edge : cut) {
     if (largest_information(edge) <= kStartSpread * least) continue;

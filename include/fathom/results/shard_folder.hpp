@@ -2,7 +2,7 @@
 
 #include <cstddef>
 #include <filesystem>
-#include <map>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -24,8 +24,8 @@ struct ShardProgress {
 struct ShardFolder {
   std::filesystem::path folder;
   std::string title;
-  std::size_t done = 0;
-  std::size_t failed = 0;
+  std::set<RunKey> done;
+  std::set<RunKey> failed;            ///< of these
   std::size_t of = 0;                 ///< runs of the whole study
   std::vector<ShardProgress> shards;  ///< in order; empty of a study that was not divided
   std::string command_line;           ///< of the last session

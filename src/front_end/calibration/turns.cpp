@@ -15,6 +15,25 @@ struct Turned {
   double said = 0.0;
 };
 
+// Of the slope, the larger of two: that of equal noise, and the sandwich, each residual as if left
+// out (HC3), since of few turns each bends the slope towards itself.
+double slope_sigma(const std::vector<Turned>& turned, const std::vector<double>& weights,
+                   double slope, double xx) {
+  double scores = 0.0;
+  double squares = 0.0;
+  double sum = -1.0;
+  for (std::size_t i = 0; i < turned.size(); ++i) {
+    const double x = turned[i].reckoned;
+    const double off = turned[i].said - slope * x;
+    const double others = 1.0 - weights[i] * x * x / xx;
+    const double score = weights[i] * x * off / std::max(1e-9, others);
+    scores += score * score;
+    squares += weights[i] * off * off;
+    sum += weights[i];
+  }
+  return std::sqrt(std::max(scores / xx, squares / sum) / xx);
+}
+
 // Said over reckoned, through zero; wild ones weigh less. Nothing where dead reckoning turns too
 // little against what is left.
 std::optional<Estimated> slope_of(const std::vector<Turned>& turned) {
@@ -37,14 +56,11 @@ std::optional<Estimated> slope_of(const std::vector<Turned>& turned) {
     off.reserve(turned.size());
     for (const Turned& one : turned) off.push_back(std::abs(one.said - slope.value * one.reckoned));
     const double sigma = std::max(1e-9, upper_median(off) / kHalfNormalMedian);
-    double scores = 0.0;
+    slope.sigma = slope_sigma(turned, weights, slope.value, xx);
     for (std::size_t i = 0; i < turned.size(); ++i) {
-      const double score = weights[i] * turned[i].reckoned * off[i];
-      scores += score * score;
       const double in_sigmas = off[i] / (3.0 * sigma);
       weights[i] = 1.0 / (1.0 + in_sigmas * in_sigmas);
     }
-    slope.sigma = std::sqrt(scores) / xx;
   }
   if (!(std::abs(slope.value) > kSigmas * slope.sigma)) return std::nullopt;
   return slope;
