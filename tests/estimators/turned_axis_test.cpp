@@ -42,9 +42,8 @@ UpdateReport solved_with_axis_at(double turned_rad) {
   const Eigen::Vector3d axis(-std::sin(turned_rad), std::cos(turned_rad), 0.0);
   fix.information = 100.0 * axis * axis.transpose();
   log.add_absolute(fix);
-  const auto estimator = builtin_estimators()
-                             .find("sparse_gauss_newton")
-                             .create({log.start(), SolveMode::batch}, {});
+  const auto estimator =
+      builtin_estimators().find("sparse_gauss_newton").create({log.start(), SolveMode::batch}, {});
   for (std::size_t k = 0; k < log.size(); ++k) {
     if (k > 0) estimator->add_keyframe(log.arrival(k).step);
     test::give(*estimator, log.arrival(k));
