@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <malloc.h>
+#include <sys/mman.h>
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define FATHOM_OWN_MALLOC 0
@@ -35,9 +36,25 @@ namespace {
 thread_local std::int64_t held_bytes = 0;
 thread_local std::int64_t peak_bytes = 0;
 
+constexpr std::size_t kPage = 4096;
+// Two pages of 2 MiB.
+constexpr std::size_t kHugeFrom = std::size_t{4} * 1024 * 1024;
+
+// A hint. A large array is met page by page, which costs the system more than most work on it, and
+// is gone through in strides, which then miss the table of pages.
+void ask_for_huge_pages(void* block, std::size_t bytes) {
+  const int error = errno;
+  const std::size_t before = reinterpret_cast<std::uintptr_t>(block) % kPage;
+  const std::size_t skipped = before == 0 ? 0 : kPage - before;
+  madvise(static_cast<char*>(block) + skipped, (bytes - skipped) / kPage * kPage, MADV_HUGEPAGE);
+  errno = error;
+}
+
 void note_allocation(void* block) {
   if (block == nullptr) return;
-  held_bytes += static_cast<std::int64_t>(malloc_usable_size(block));
+  const std::size_t bytes = malloc_usable_size(block);
+  if (bytes >= kHugeFrom) ask_for_huge_pages(block, bytes);
+  held_bytes += static_cast<std::int64_t>(bytes);
   peak_bytes = std::max(peak_bytes, held_bytes);
 }
 

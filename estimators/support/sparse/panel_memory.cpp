@@ -10,6 +10,8 @@ namespace {
 
 constexpr std::size_t kCacheLine = 64;
 constexpr std::size_t kPage = 4096;
+constexpr std::size_t kHugePage = std::size_t{2} * 1024 * 1024;
+constexpr std::size_t kHugeFrom = 4 * kHugePage;
 // From here on malloc may take pages of their own, which are new.
 constexpr std::size_t kFreshPages = std::size_t{128} * 1024;
 // Bytes that a thread asks for at a time.
@@ -43,10 +45,13 @@ void PanelMemory::Free::operator()(double* memory) const {
 }
 
 PanelMemory::PanelMemory(std::size_t count, Workers* workers) : count_(count) {
-  const std::size_t bytes = rounded_up(count * sizeof(double), kCacheLine);
-  own_.reset(static_cast<double*>(std::aligned_alloc(kCacheLine, bytes)));
+  const std::size_t alignment = count * sizeof(double) >= kHugeFrom ? kHugePage : kCacheLine;
+  const std::size_t bytes = rounded_up(count * sizeof(double), alignment);
+  own_.reset(static_cast<double*>(std::aligned_alloc(alignment, bytes)));
   if (!own_) throw std::bad_alloc();
   numbers_ = own_.get();
+  // A factor is gone through in long strides, each of which else misses the table of pages.
+  if (alignment == kHugePage) madvise(numbers_, bytes, MADV_HUGEPAGE);
   if (bytes >= kFreshPages) ask_for_pages(numbers_, bytes, workers);
 }
 
