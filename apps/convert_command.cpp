@@ -12,6 +12,7 @@
 #include "fathom/core/input_error.hpp"
 #include "fathom/core/text.hpp"
 #include "fathom/measurements/graph_conversion.hpp"
+#include "fathom/measurements/shared_file.hpp"
 #include "fathom/report/projection_text.hpp"
 
 namespace fathom {
@@ -65,6 +66,10 @@ Notes convert_graph_file(const ConvertFlags& flags) {
   }
   for (const auto& [tag, count] : graph.landmarks) {
     notes.push_back(fmt::format("left out: {} {}, of landmarks", counted(count, "line"), tag));
+  }
+  if (std::error_code ignored; std::filesystem::exists(shared_file_of(flags.input), ignored)) {
+    notes.push_back("left out: " + shared_file_of(flags.input).string() +
+                    ", the errors that registrations share; without it they are independent");
   }
   if (graph.self_edges > 0) {
     notes.push_back("left out: " + counted(graph.self_edges, "edge") + " from a pose to itself");

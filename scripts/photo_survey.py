@@ -17,7 +17,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 SIZES = {1: 1, 2: 1, 3: 2, 4: 4, 5: 8, 7: 1, 9: 4, 10: 8}  # bytes of a value of each EXIF type
-FORMATS = {3: "H", 4: "I", 9: "i"}
+FORMATS = {1: "B", 3: "H", 4: "I", 9: "i"}
 EXIF_FOLDER, GPS_FOLDER, TIME = 0x8769, 0x8825, 0x9003
 # DJI writes height over the place of take-off and the camera's heading into the XMP.
 DJI = re.compile(rb'drone-dji:(RelativeAltitude|GimbalYawDegree)="([^"]*)"')
@@ -87,9 +87,12 @@ def read_photo(path):
         time_ns = _time_ns(exif[TIME])
     except (KeyError, ValueError, struct.error) as error:
         raise BadPhoto(f"{path}: its EXIF has no time or no position") from error
+    altitude_m = gps.get(6, [None])[0]
+    if altitude_m is not None and gps.get(5, [0])[0] == 1:  # below sea level
+        altitude_m = -altitude_m
     dji = {name.decode(): float(value) for name, value in DJI.findall(content)}
     yaw = dji.get("GimbalYawDegree")
-    return Photo(path, time_ns, latitude, longitude, gps.get(6, [None])[0],
+    return Photo(path, time_ns, latitude, longitude, altitude_m,
                  dji.get("RelativeAltitude"), None if yaw is None else math.radians(yaw))
 
 
@@ -108,6 +111,8 @@ def height_of(photo, options):
     if options.altitude_m is not None:
         return options.altitude_m
     if options.ground_m is not None:
+        if photo.altitude_m is None:
+            raise BadPhoto(f"{photo.path}: has no altitude by GPS; give --altitude-m")
         return photo.altitude_m - options.ground_m
     if photo.height_m is None:
         raise BadPhoto(f"{photo.path}: says no height over take-off; "

@@ -68,7 +68,10 @@ void replace_all(std::string& text, std::string_view what, const std::string& by
 // id x y θ behind the word of a vertex.
 void take_vertex(const std::vector<std::string_view>& words, std::vector<Pose>& poses,
                  std::vector<bool>& is_there) {
-  const auto id = words.size() == 5 ? parse_integer(words[1]) : std::nullopt;
+  if (words.size() != 5) {
+    throw std::runtime_error("its output has a vertex that is no four numbers");
+  }
+  const auto id = parse_integer(words[1]);
   if (!id || *id < 0 || static_cast<std::size_t>(*id) >= poses.size()) {
     throw std::runtime_error("its output names vertices that it was not given");
   }
@@ -88,6 +91,11 @@ Pose of_tum(const std::vector<std::string_view>& words) {
     const auto number = parse_real(words[i]);
     if (!number) throw std::runtime_error("its output is neither g2o nor TUM");
     values[i] = *number;
+  }
+  const Eigen::Quaterniond q(values[7], values[4], values[5], values[6]);
+  // As of a trajectory file: few digits are no fault.
+  if (!(q.squaredNorm() > 0.5 && q.squaredNorm() < 2.0)) {
+    throw std::runtime_error("its output has a quaternion whose length is not 1");
   }
   return {values[1], values[2], yaw_of({values[7], values[4], values[5], values[6]})};
 }

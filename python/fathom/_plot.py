@@ -41,7 +41,7 @@ def of_solution(solution, what="trajectory", ax=None):
     if solution.ground_truth is not None:
         _draw_way(ax, solution.ground_truth, TRUTH)
     odometry = solution.log.dead_reckoning
-    if len(poses):
+    if len(poses) and numpy.isfinite(poses[0]).all():
         # As the estimate is moved to the truth.
         odometry = _moved(odometry, solution.trajectory[0], poses[0])
     _draw_way(ax, odometry, ODOMETRY)

@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "fathom/core/input_error.hpp"
+#include "fathom/geometry/pose.hpp"
 
 namespace fathom {
 namespace {
@@ -102,8 +103,9 @@ Pose pose_of(const py::handle& value, const std::string& what) {
 }
 
 Pose finite_pose_of(const py::handle& value, const std::string& what) {
-  const Pose pose = pose_of(value, what);
+  Pose pose = pose_of(value, what);
   if (!is_finite(pose)) throw InputError(what + ": expected finite numbers");
+  pose.theta = wrap_angle(pose.theta);
   return pose;
 }
 

@@ -10,6 +10,7 @@
 #include "fathom/core/input_error.hpp"
 #include "fathom/estimation/estimator.hpp"
 #include "fathom/estimation/registry.hpp"
+#include "fathom/geometry/covariance.hpp"
 #include "python/src/arrays.hpp"
 #include "python/src/bindings.hpp"
 #include "python/src/given_measurements.hpp"
@@ -72,8 +73,12 @@ void bind_relative(py::module_& module) {
       "A measured motion between two keyframes: the pose of `to` in the frame of `from_`.")
       .def(py::init([](std::size_t from, std::size_t to, const py::object& motion,
                        const py::object& covariance) {
+             const Eigen::Matrix3d given = symmetric_of(covariance, "covariance");
+             if (!is_positive_definite(given)) {
+               throw InputError("covariance: expected a positive definite matrix");
+             }
              return RelativePose::from_covariance(from, to, finite_pose_of(motion, "motion"),
-                                                  symmetric_of(covariance, "covariance"));
+                                                  given);
            }),
            py::arg("from_"), py::arg("to"), py::arg("motion"), py::arg("covariance"),
            "`covariance`: 3 x 3 of nu = z - h(x), in the frame of `from_`, positive definite.")

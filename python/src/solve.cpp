@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "fathom/configuration/config_file.hpp"
+#include "fathom/measurements/graph_numbers.hpp"
 #include "python/src/arrays.hpp"
 #include "python/src/bindings.hpp"
 #include "python/src/one_thread.hpp"
@@ -25,6 +26,7 @@ struct HowToSolve {
   std::string mode = "auto";
   std::vector<Pose> start;
   IsolationOptions isolation;
+  Settings limits;  ///< what was asked of isolation
 };
 
 SolveMode mode_of(const HowToSolve& asked, const EstimatorEntry& entry) {
@@ -64,6 +66,11 @@ Solution solve(const MeasurementLog& log, const EstimatorRegistry& registry,
   if (request.mode == SolveMode::batch && request.isolation.isolation == Isolation::automatic) {
     request.isolation.isolation = Isolation::process;
   }
+  if (!request.isolation.is_isolated(entry)) {
+    for (const Setting& one : asked.limits.all()) {
+      if (one.key != "isolation") throw InputError(workflow::ignored_limit_text(one.key, entry));
+    }
+  }
   request.estimator = {name, name,
                        estimator_values(options, entry, {log.start(), request.mode}, "")};
   auto recording =
@@ -71,7 +78,8 @@ Solution solve(const MeasurementLog& log, const EstimatorRegistry& registry,
   InterruptibleWork work(progress);
   const OneThread pinned;
   Result result = workflow::solve(*recording, request, registry, this_process(), work);
-  return {std::move(recording), std::move(result)};
+  std::vector<std::string> remarks = graph_remarks(recording->log);
+  return {std::move(recording), std::move(result), std::move(remarks)};
 }
 
 }  // namespace
@@ -86,7 +94,7 @@ void bind_solve(py::module_& module) {
              [](const MeasurementLog& log, const EstimatorRegistry& registry,
                 const std::string& name, const Settings& options, const std::string& mode,
                 const py::object& start, const Settings& isolation, const py::object& progress) {
-               HowToSolve how{mode, {}, isolation_of(isolation)};
+               HowToSolve how{mode, {}, isolation_of(isolation), isolation};
                if (!start.is_none()) how.start = poses_of(start, "start");
                const py::gil_scoped_release unlocked;
                return solve(log, registry, name, options, how, progress);

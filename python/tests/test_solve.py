@@ -31,6 +31,37 @@ class Solve(unittest.TestCase):
         self.assertAlmostEqual(one.chi2, other.chi2, places=6)
         numpy.testing.assert_allclose(one.trajectory, other.trajectory, atol=1e-4)
 
+    def test_what_looks_wrong_is_said(self):
+        log = fathom.MeasurementLog()
+        for information in (1e3, 1e22, 1e3):
+            log.add_keyframe((1, 0, 0), numpy.eye(3) / information)
+        log.add_registration(fathom.RelativePose(0, 3, (3, 0, 0), 1e-3 * numpy.eye(3)))
+        self.assertTrue(any("times" in one for one in fathom.solve(log).remarks))
+        self.assertEqual(fathom.solve(fathom.read_g2o(self.path)).remarks, [])
+
+    def test_limits_that_nothing_would_hold_are_refused(self):
+        log = fathom.read_g2o(self.path)
+        for limits in ({"time_limit_s": 1.0}, {"memory_limit_mib": 100}):
+            with self.assertRaisesRegex(fathom.InputError, "would be ignored"):
+                fathom.replay(log, "ekf", **limits)
+            with self.assertRaisesRegex(fathom.InputError, "would be ignored"):
+                fathom.solve(log, isolation="none", **limits)
+        limited = fathom.replay(log, "ekf", isolation="process", time_limit_s=60.0)
+        self.assertEqual(limited.outcome, "converged")
+
+    def test_headings_are_wrapped(self):
+        log = fathom.MeasurementLog((0, 0, 7.0))
+        log.add_keyframe((1, 0, -6.0), 0.01 * numpy.eye(3))
+        start, newest = log.dead_reckoning
+        self.assertAlmostEqual(start[2], 7.0 - 2 * numpy.pi)
+        self.assertAlmostEqual(newest[2], 1.0)
+        self.assertEqual(fathom.replay(log, "ekf").trajectory[0, 2], start[2])
+
+    def test_a_covariance_is_positive_definite(self):
+        for covariance in (-numpy.eye(3), numpy.zeros((3, 3))):
+            with self.assertRaisesRegex(fathom.InputError, "positive definite"):
+                fathom.RelativePose(0, 1, (0, 0, 0), covariance)
+
     def test_written_log_reads_back(self):
         log = fathom.read_g2o(self.path)
         fathom.write_g2o(log, self.path)

@@ -35,10 +35,12 @@ std::vector<KeyframePair> pairs_over_keyframes(std::size_t keyframes, std::size_
 
 std::vector<KeyframePair> pairs_over_distance(std::span<const Pose> reference, double distance_m) {
   const std::vector<double> lengths = path_lengths_m(reference);
+  // The sum of four steps of 1.25 m may be a little less than 5 m.
+  const double rounding_m = lengths.empty() ? 0.0 : 1e-9 * lengths.back();
   std::vector<KeyframePair> pairs;
   for (std::size_t from = 0; from < lengths.size(); ++from) {
     const auto reached =
-        std::lower_bound(lengths.begin(), lengths.end(), lengths[from] + distance_m);
+        std::lower_bound(lengths.begin(), lengths.end(), lengths[from] + distance_m - rounding_m);
     if (reached == lengths.end()) break;
     pairs.push_back({from, static_cast<std::size_t>(reached - lengths.begin())});
   }

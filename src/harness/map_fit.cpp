@@ -15,9 +15,12 @@ bool MapFit::estimate_fits() const {
 }
 
 std::optional<MapFit> map_fit(const MeasurementLog& log, std::span<const Pose> estimate,
-                              const BatchOptimum& optimum, std::optional<double> chi2_used) {
+                              const BatchOptimum& optimum, const Run* run) {
   MapFit fit;
-  fit.chi2_used = chi2_used;
+  if (run != nullptr) {
+    fit.chi2_used = run->chi2_used;
+    fit.absolute_left_out = absolute_chi2(log, estimate) - run->absolute_chi2_used;
+  }
   fit.degrees_of_freedom = degrees_of_freedom(log);
   if (log.registration_count() == 0 || !(fit.degrees_of_freedom > 0.0)) return std::nullopt;
   fit.chi2 = chi2(log, estimate, optimum.errors);
@@ -70,6 +73,19 @@ std::string misfit_remark(const MapFit& fit, bool set_up_is_wrong) {
                     short_number(fit.registration_sigma_rad, 2) + " rad");
 }
 
+std::string left_out_remark(const MapFit& fit, const std::string& estimator) {
+  const bool is_absolute = fit.absolute_left_out > 0.5 * (fit.chi2 - *fit.chi2_used);
+  const std::string what = is_absolute ? "headings and fixes" : "loops";
+  return estimator + " rejected or weighed down " + what + " of which most of F is: F is " +
+         short_number(fit.chi2, 6) + " with all " + what + ", " + short_number(*fit.chi2_used, 6) +
+         " with what it used. Either these are false, or it lost right ones; a batch solve of all "
+         "cannot tell, as it does not fit them either (F per degree of freedom " +
+         short_number(fit.per_degree_of_freedom()) + "). " +
+         (is_absolute ? "See whether headings and fixes are in the same axes, and compare back "
+                        "ends with and without them"
+                      : "Compare back ends with a robust loss");
+}
+
 }  // namespace
 
 std::vector<std::string> map_remarks(const MapFit& fit, const std::string& estimator,
@@ -80,13 +96,7 @@ std::vector<std::string> map_remarks(const MapFit& fit, const std::string& estim
                       ", which solves the same log at once, has F " +
                       short_number(fit.chi2_optimum, 6));
   } else if (fit.leaves_out_most()) {
-    remarks.push_back(
-        estimator + " rejected or weighed down loops of which most of F is: F is " +
-        short_number(fit.chi2, 6) + " with all loops, " + short_number(*fit.chi2_used, 6) +
-        " with what it used. Either these loops are false, or it lost right ones; a "
-        "batch solve of all loops cannot tell, as it does not fit them either (F per "
-        "degree of freedom " +
-        short_number(fit.per_degree_of_freedom()) + "). Compare back ends with a robust loss");
+    remarks.push_back(left_out_remark(fit, estimator));
     return remarks;
   } else if (!fit.estimate_fits()) {
     remarks.push_back("the map of " + estimator + " does not fit its own measurements: F is " +

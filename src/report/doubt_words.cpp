@@ -60,10 +60,24 @@ std::string general(const BaselineAsGood&) {
   return "the best is not shown to be better than dead reckoning";
 }
 
+// One for all of them, or that of each by its name.
+std::string causes_of(const WrongConfidence& found) {
+  const std::string& first = found.causes.front();
+  if (std::ranges::all_of(found.causes, [&](const auto& cause) { return cause == first; })) {
+    return first.empty() ? "" : " " + first;
+  }
+  std::string text;
+  for (std::size_t i = 0; i < found.causes.size(); ++i) {
+    if (found.causes[i].empty()) continue;
+    text += " " + found.anees[i].estimator + ": " + found.causes[i];
+  }
+  return text;
+}
+
 std::string words(const WrongConfidence& found) {
-  return fmt::format(
-      "{}, where 1 is expected: {}.{}", found.is_overconfident ? "Overconfident" : "Underconfident",
-      listed_figures(found.anees, " (ANEES ", ")"), found.cause.empty() ? "" : " " + found.cause);
+  return fmt::format("{}, where 1 is expected: {}.{}",
+                     found.is_overconfident ? "Overconfident" : "Underconfident",
+                     listed_figures(found.anees, " (ANEES ", ")"), causes_of(found));
 }
 std::string general(const WrongConfidence& found) {
   return std::string("estimators are ") +
@@ -74,7 +88,8 @@ std::string words(const Correlation& found) {
   return "Registrations of one picture share errors (correlation " +
          quantity(found.correlation.moments.mean, found.correlation.interval, "") + "), which " +
          listed(found.estimators) + (found.estimators.size() == 1 ? " does" : " do") +
-         " not estimate" + (found.is_told ? "; shared_errors: states would estimate them." : ".");
+         " not estimate" +
+         (found.is_told ? "; shared_errors: states estimates them, of those that have it." : ".");
 }
 std::string general(const Correlation&) {
   return "registrations of one picture share errors";

@@ -46,7 +46,7 @@ struct BaselineAsGood {
 struct WrongConfidence {
   bool is_overconfident = true;
   std::vector<Figure> anees;
-  std::string cause;  ///< cause_words of the first that has a cause
+  std::vector<std::string> causes;  ///< cause_words of each
 };
 /// Registrations of one picture share errors.
 struct Correlation {

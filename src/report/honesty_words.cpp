@@ -29,7 +29,7 @@ std::string shared_errors_words(const Honesty& honesty, const std::string& cost,
   if (honesty.estimates_shared_errors)
     return text + ", more than their stated shared errors explain.";
   return text + "; the estimator does not estimate them" +
-         (honesty.is_told ? ", shared_errors: states would estimate them." : ".");
+         (honesty.is_told ? ", shared_errors: states does, where it has it." : ".");
 }
 
 }  // namespace
@@ -42,11 +42,10 @@ std::string cause_words(const EstimatorResults& one) {
   switch (one.honesty ? one.honesty->cause : HonestyCause::unknown) {
     case HonestyCause::off_the_optimum:
       return "The estimate is not at the optimum of the measurements: its F is above it by " +
-             figure("chi2_gap") + ", by " +
+             figure("chi2_gap") + ", by its linearisation" +
              (one.honesty->is_told && !one.honesty->estimates_shared_errors
-                  ? "gains that consider shared errors (shared_errors: consider), its "
-                  : "its ") +
-             "linearisation or a wrong minimum.";
+                  ? ", a wrong minimum, or its gains where it has shared_errors: consider."
+                  : " or a wrong minimum.");
     case HonestyCause::first_picture:
       return "With other keyframes held it is " + figure("anchored_anees") +
              ": what is wrong is the first picture, from which every pose is measured.";

@@ -21,12 +21,12 @@ std::optional<Doubt> few_draws(const CellResults& cell) {
 }
 
 std::optional<Doubt> wrong_confidence(const CellResults& cell, bool is_overconfident) {
-  doubt::WrongConfidence found{is_overconfident, {}, ""};
+  doubt::WrongConfidence found{is_overconfident, {}, {}};
   for (const EstimatorResults& one : cell.estimators) {
     if (one.name == kDeadReckoning || !one.honesty) continue;
     if (one.honesty->is_overconfident != is_overconfident) continue;
     found.anees.push_back({one.name, one.consistency.at("anees")});
-    if (found.cause.empty()) found.cause = cause_words(one);
+    found.causes.push_back(cause_words(one));
   }
   if (found.anees.empty()) return std::nullopt;
   return found;

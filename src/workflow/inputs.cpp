@@ -54,6 +54,19 @@ std::string stem_of(const fs::path& path) {
   return stem.empty() ? "run" : stem;
 }
 
+// Of one name and several contents, as of two builds of a program, by order of content: each has a
+// name of its own, wherever they lie.
+Fingerprint with_numbers(Fingerprint sorted) {
+  std::string before;
+  int number = 1;
+  for (auto& [name, hash] : sorted) {
+    number = name == before ? number + 1 : 1;
+    before = name;
+    if (number > 1) name += " (" + std::to_string(number) + ")";
+  }
+  return sorted;
+}
+
 Fingerprint with_code(Fingerprint data, const std::vector<EstimatorConfiguration>& all,
                       const EstimatorRegistry& registry) {
   std::set<fs::path> plugins;
@@ -75,7 +88,8 @@ Fingerprint with_code(Fingerprint data, const std::vector<EstimatorConfiguration
   add("program ", programs);
   for (const auto& [name, hash] : code) data.emplace_back("plug-in " + name, hash);
   std::sort(data.begin(), data.end());
-  return data;
+  data.erase(std::unique(data.begin(), data.end()), data.end());
+  return with_numbers(std::move(data));
 }
 
 std::vector<EstimatorConfiguration> estimators_in(const std::vector<Configuration>& cells) {

@@ -99,9 +99,8 @@ class OneRun {
                       std::back_inserter(remarks));
     if (auto remark = frame_remark(*recording_)) remarks.push_back(std::move(*remark));
     const auto optimum = batch_optimum(recording_->log, registry_, {}, done.result.run.errors);
-    const auto fit = optimum
-                         ? map_fit(recording_->log, estimate, *optimum, done.result.run.chi2_used)
-                         : std::nullopt;
+    const auto fit =
+        optimum ? map_fit(recording_->log, estimate, *optimum, &done.result.run) : std::nullopt;
     if (!fit) return;
     const EstimatorConfiguration& estimator = done.result.estimator;
     std::ranges::copy(map_remarks(*fit, estimator.name, optimum->solver, set_up_is_wrong),

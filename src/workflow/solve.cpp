@@ -93,9 +93,7 @@ IsolationOptions isolation_of(const Settings& settings, const EstimatorEntry& en
   if (options.is_isolated(entry)) return options;
   for (const Setting& setting : settings.all()) {
     if (!is_isolation_key(setting.key) || setting.key == "isolation") continue;
-    refuse(setting, setting.key + ": " + entry.name +
-                        " runs in no process of its own, and it would be ignored; isolation: "
-                        "process gives it one");
+    refuse(setting, ignored_limit_text(setting.key, entry));
   }
   return options;
 }
@@ -156,6 +154,11 @@ Result solve(const Recording& recording, const SolveRequest& request,
   options.memory = meter.get();
   options.progress = observer.progress_of(request.estimator.type + ", keyframe");
   return evaluate(recording, request.estimator, registry, {}, options);
+}
+
+std::string ignored_limit_text(const std::string& key, const EstimatorEntry& entry) {
+  return key + ": " + entry.name +
+         " runs in no process of its own, and it would be ignored; isolation: process gives it one";
 }
 
 SolveOutcome solve_graph(const SolveGraphRequest& request, const EstimatorRegistry& registry,

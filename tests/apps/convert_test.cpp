@@ -61,6 +61,14 @@ TEST_F(Commands, ConvertWritesGraphsThatSolveAlike) {
   EXPECT_EQ(bytes_of("g.g2o.out/trajectory.tum"), bytes_of("back.g2o.out/trajectory.tum"));
 }
 
+TEST_F(Commands, ConvertSaysThatWhatRegistrationsShareIsLost) {
+  write("g.g2o", "FIX 0\n" + square_graph(40, 3));
+  const Arguments convert{"convert", "g.g2o", "--to", "g2o", "--out", "back.g2o"};
+  EXPECT_THAT(fathom_done(convert).out, Not(HasSubstr("share")));
+  write("g.shared", "");
+  EXPECT_THAT(fathom_done(convert).out, HasSubstr("left out: g.shared, the errors that"));
+}
+
 TEST_F(Commands, ConvertRefusesWhatItCannotDo) {
   write("t.csv", kEuroc);
   write("g.g2o", square_graph(40, 3));

@@ -53,6 +53,32 @@ TEST(FolderSensors, AreReadAsTheyAre) {
   EXPECT_EQ(readings.lever_m, Eigen::Vector2d(0.3, -0.1));
 }
 
+// A clock that is put right leaves pictures out at one end, and with them the fixes there.
+TEST(FolderSensors, FixesOfPicturesThatAreLeftOutAreLeftOut) {
+  FolderFixture fixture;
+  fixture.files["odometry0/sensor.yaml"] = "time_offset_s: 5.0e-7\n";
+  fixture.files[kFixes] = kWorld + "100,1,2,4,0,4\n1500,3,4,4,0,4\n";
+  const ImageFolder folder(fixture.write());
+  EXPECT_EQ(folder.size(), 2u);
+  ASSERT_EQ(folder.sensors().fixes->in_world.size(), 1u);
+  EXPECT_EQ(folder.sensors().fixes->in_world[0].time_ns, 1500);
+  fixture.files[kFixes] += "2001,3,4,4,0,4\n";
+  EXPECT_THAT(input_error_of([&] { ImageFolder again(fixture.write()); }),
+              HasSubstr("outside the time of the pictures, 0 to 2000 ns"));
+}
+
+TEST(FolderSensors, GroundTruthHasAClockToo) {
+  FolderFixture fixture;
+  fixture.files["state_groundtruth_estimate0/sensor.yaml"] = "time_offset_s: 1.0e-6\n";
+  fixture.files["state_groundtruth_estimate0/data.csv"] =
+      "#t,px,py,pz,qw,qx,qy,qz\n-1000,7,0,9,1,0,0,0\n0,8,0,9,1,0,0,0\n1000,9,2,9,1,0,0,0\n";
+  const ImageFolder folder(fixture.write());
+  EXPECT_TRUE(folder.has_ground_truth());
+  EXPECT_EQ(folder.info(0).ground_truth->x, 7.0);
+  EXPECT_EQ(folder.info(2).ground_truth->x, 9.0);
+  EXPECT_THAT(folder.remarks(), IsEmpty());
+}
+
 // A compass turned to port by 0.2 rad on the body. East is a quarter turn clockwise from north.
 TEST(FolderSensors, HeadingsFromNorthBecomeThoseOfTheWorld) {
   FolderFixture fixture;

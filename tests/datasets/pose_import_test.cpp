@@ -10,6 +10,7 @@
 #include "bag_fixture.hpp"
 #include "fathom/core/text.hpp"
 #include "fathom/geometry/trajectory.hpp"
+#include "folder_fixture.hpp"
 #include "support/planar.hpp"
 
 namespace fathom {
@@ -136,6 +137,23 @@ TEST_F(PoseImport, ColmapTakesTimesMountingAndScaleOfTheSurvey) {
   expect_same_motions(reference(), truth);
   EXPECT_EQ(reference().back().time_ns, survey.info(survey.size() - 1).time_ns);
   EXPECT_THAT(report.notes, Contains(HasSubstr("by the odometry of the survey one unit is")));
+}
+
+// The camera goes another way than the body where the vehicle turns: here it stays in its place.
+TEST_F(PoseImport, ColmapScaleIsOfTheCamerasWay) {
+  test::FolderFixture fixture;
+  fixture.files["cam0/sensor.yaml"] += "mounting: {x: 1, y: 0, yaw: 0}\n";
+  fixture.files["odometry0/data.csv"] =
+      "#t,x,y,theta,vx,vy,vt\n0,0,0,0,0,0,0\n1000,1,1,-1.5707963267948966,1,1,1\n"
+      "2000,3,1,-1.5707963267948966,1,1,1\n";
+  PoseImportOptions options;
+  options.survey = fixture.write();
+  const auto turn = Eigen::Quaterniond::Identity();
+  write("model/images.txt", image_line(1, {0, 0, 0}, turn, 1.0, "a.png") +
+                                image_line(2, {0, 0, 0}, turn, 1.0, "b.png") +
+                                image_line(3, {0.5, 0, 0}, turn, 1.0, "c.png"));
+  const ImportReport report = import_colmap(folder_ / "model", options, folder_.path());
+  EXPECT_THAT(report.notes, Contains(HasSubstr("by the odometry of the survey one unit is 4 m")));
 }
 
 TEST_F(PoseImport, ColmapErrorsAreOneLine) {

@@ -34,6 +34,18 @@ TEST(KeyframePairs, OverADistanceTakeTheFirstThatReachesIt) {
   EXPECT_THAT(pairs_over_distance(path, 3.1), IsEmpty());
 }
 
+// Four steps of 1.25 m are 5 m, whatever the last bit of their sum.
+TEST(KeyframePairs, OverADistanceRoundingDoesNotDecide) {
+  std::vector<Pose> path;
+  for (int k = 0; k < 60; ++k) {
+    const double way_m = 1.25 * k;
+    path.push_back({way_m * std::cos(0.3), way_m * std::sin(0.3), 0.3});
+  }
+  for (const KeyframePair& pair : pairs_over_distance(path, 5.0)) {
+    EXPECT_EQ(pair.to - pair.from, 4u) << pair.from;
+  }
+}
+
 TEST(KeyframePairs, AnchorsStandInTheMiddleOfEqualParts) {
   EXPECT_THAT(pairs_with_anchors(10, 2, 3),
               ElementsAre(KeyframePair{2, 0}, KeyframePair{2, 5}, KeyframePair{2, 9},

@@ -42,6 +42,7 @@ struct TurningSurvey {
 
   CalibrationInput input(std::uint64_t seed) const {
     CalibrationInput input;
+    input.files.are_sensor_yaml = true;
     RandomStream stream(seed, "turning_survey");
     const double last_s = picture_interval_s * static_cast<double>(pictures - 1);
     // Beyond the pictures on both sides, for the clock.

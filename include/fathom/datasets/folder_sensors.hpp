@@ -53,10 +53,19 @@ struct FolderSensors {
   std::optional<FolderFixes> fixes;
 };
 
-/// Of `mav0`, whose pictures are from `first_ns` to `last_ns`. A fix at another time is refused, a
-/// heading left out. Throws InputError with file and line.
-FolderSensors read_folder_sensors(const std::filesystem::path& mav0, std::int64_t first_ns,
-                                  std::int64_t last_ns);
+/// Both ends are of it.
+struct TimeSpan {
+  std::int64_t first_ns = 0;
+  std::int64_t last_ns = 0;
+
+  bool holds(std::int64_t time_ns) const { return time_ns >= first_ns && time_ns <= last_ns; }
+};
+
+/// Of `mav0`, whose pictures are those of `survey`, of all that were `recorded`. A fix outside the
+/// latter is refused; what else is outside the survey is left out. Throws InputError with file and
+/// line.
+FolderSensors read_folder_sensors(const std::filesystem::path& mav0, const TimeSpan& survey,
+                                  const TimeSpan& recorded);
 
 /// Headings of the body and fixes in the world, whose x axis points where `origin` says; without
 /// one to the north, if the compass says where that is. Throws InputError where fixes are on Earth

@@ -39,6 +39,12 @@ struct FrameInfo {
   Stance stance() const { return {altitude_m, tilt}; }
 };
 
+/// Where the set-up of its sensors is written, for those who advise what to write.
+struct SetUpFiles {
+  bool are_sensor_yaml = false;  ///< a sensor.yaml beside each sensor; else keys of the data set
+  double altimeter_scale = 1.0;  ///< that altitudes have been multiplied by
+};
+
 /// A recorded or simulated survey: frames in the order of time.
 class FrameSource {
  public:
@@ -75,6 +81,8 @@ class FrameSource {
   /// Dead reckoning as its sensor gives it; by default the frames' motions, composed. Asks for all
   /// of them. Without rows where there is no odometry.
   virtual RecordedOdometry recorded_odometry() const;
+
+  virtual SetUpFiles set_up_files() const { return {}; }
 
   /// Whether a frame's motion is the registration of its picture with the one before.
   virtual bool is_visual_odometry() const { return false; }

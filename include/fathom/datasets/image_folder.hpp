@@ -59,6 +59,7 @@ class ImageFolder : public FrameSource {
   bool has_odometry() const override { return has_odometry_; }
   /// At the sensor's own rate, beyond the frames as well.
   RecordedOdometry recorded_odometry() const override { return odometry_; }
+  SetUpFiles set_up_files() const override { return {true, altimeter_scale_}; }
   /// What was made of sensors' readings that cannot be, of pictures without any, and keys of their
   /// `sensor.yaml` that nobody reads, a line each.
   const std::vector<std::string>& remarks() const { return remarks_; }
@@ -87,6 +88,7 @@ class ImageFolder : public FrameSource {
   std::vector<std::filesystem::path> pictures_;
   cv::Mat mask_;
   FolderSensors sensors_;
+  double altimeter_scale_ = 1.0;
   RecordedOdometry odometry_;
   std::vector<std::string> remarks_;
   FileIds ids_;

@@ -34,6 +34,7 @@ struct CalibrationInput {
   std::vector<std::int64_t> frame_times_ns;
   std::vector<double> altitudes_m;  ///< of the frames
   CameraModel camera;
+  SetUpFiles files;                     ///< where what is found is to be written
   AbsoluteReadings readings;            ///< headings and fixes as a run has them
   std::vector<StampedPose> references;  ///< ground truth, where there is some
 };
@@ -62,6 +63,7 @@ struct SetUp {
   std::size_t motions = 0;           ///< registrations that dead reckoning covers
   OdometryFormat format;             ///< of dead reckoning that fits pictures taken as they are
   bool is_reversed = false;          ///< pictures are counted from the end
+  bool is_mirrored = false;          ///< and of mirrored pictures, which no format stands for
   std::vector<MovedPictures> moved;  ///< by rising number; all else is of them where they belong
   bool is_related = true;            ///< whether the two have anything to do with each other
   Estimated scale;                   ///< registered motions over those of dead reckoning
@@ -88,10 +90,18 @@ struct TurnComparison {
   std::optional<Estimated> time_offset_s;  ///< of a compass: to be added to its time stamps
 };
 
+/// Where a source says that the vehicle goes, against where dead reckoning says, seen from the
+/// vehicle: 0, or the angle between their axes.
+struct DirectionComparison {
+  std::string source;  ///< "ground truth", or "position0" with the headings of compass0
+  Estimated turned_rad;
+};
+
 /// Everything that can be told of a survey's set-up. Lines have no final full stop.
 struct Calibration {
   std::optional<SetUp> set_up;  ///< without dead reckoning of its own: nothing
   std::vector<TurnComparison> turns;
+  std::vector<DirectionComparison> directions;
   std::vector<std::string> findings;  ///< what is wrong, with its number and the line to write
   std::vector<std::string> untold;    ///< what the survey cannot tell
 };

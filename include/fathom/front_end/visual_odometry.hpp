@@ -38,6 +38,7 @@ class VisualOdometry : public FrameSource {
   std::uint64_t picture_id(std::size_t i) const override { return source_.picture_id(i); }
   bool has_odometry() const override { return true; }
   bool has_ground_truth() const override { return source_.has_ground_truth(); }
+  SetUpFiles set_up_files() const override { return source_.set_up_files(); }
   bool is_visual_odometry() const override { return true; }
 
   /// Frames so far that did not register with the one before.

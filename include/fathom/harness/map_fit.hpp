@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "fathom/evaluation/run.hpp"
 #include "fathom/harness/recording_facts.hpp"
 #include "fathom/measurements/measurement_log.hpp"
 
@@ -14,6 +15,7 @@ namespace fathom {
 struct MapFit {
   double chi2 = 0.0;                     ///< F of the estimate
   std::optional<double> chi2_used = {};  ///< of the measurements that it used (Run::chi2_used)
+  double absolute_left_out = 0.0;        ///< of the rest, what is of absolute measurements
   double chi2_optimum = 0.0;             ///< F of the batch optimum
   double steps_at_optimum = 0.0;         ///< the part of it that is of dead reckoning
   double absolute_at_optimum = 0.0;      ///< the part that is of absolute measurements
@@ -37,9 +39,9 @@ struct MapFit {
   /// Whether measurements do not fit each other, far beyond chance.
   bool measurements_disagree() const { return per_degree_of_freedom() > 3.0; }
 
-  /// Whether most of F is of loops that the estimator rejected or weighed down, and its optimum,
-  /// which has all loops, does not fit them either: then that optimum says nothing of the map.
-  /// Where it fits, the loops are right and the estimator lost them.
+  /// Whether most of F is of measurements that the estimator rejected or weighed down, and its optimum,
+  /// which has all of them, does not fit them either: then that optimum says nothing of the map.
+  /// Where it fits, they are right and the estimator lost them.
   bool leaves_out_most() const {
     return chi2_used && *chi2_used < 0.5 * chi2 && measurements_disagree();
   }
@@ -47,8 +49,7 @@ struct MapFit {
 
 /// Nothing without registrations, or with more holes than they fill.
 std::optional<MapFit> map_fit(const MeasurementLog& log, std::span<const Pose> estimate,
-                              const BatchOptimum& optimum,
-                              std::optional<double> chi2_used = std::nullopt);
+                              const BatchOptimum& optimum, const Run* run = nullptr);
 
 /// What of a map looks wrong: an estimate that does not fit its measurements, or measurements that
 /// do not fit each other: for covariances that are too small or wrong loops, unless the set-up is

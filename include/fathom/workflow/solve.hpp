@@ -29,6 +29,9 @@ struct SolveRequest {
 /// can. Throws InputError where it cannot.
 SolveMode solve_mode(const std::string& word, const EstimatorEntry& entry);
 
+/// Why a limit of a process is refused where the estimator has none of its own.
+std::string ignored_limit_text(const std::string& key, const EstimatorEntry& entry);
+
 /// A log of another source as a recording: keyframes are a second apart. Keyframe by keyframe it
 /// needs a start, which its priors give; `source` names it in errors. Throws InputError.
 Recording recording_of(MeasurementLog log, SolveMode mode, const std::string& source);

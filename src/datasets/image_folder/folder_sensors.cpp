@@ -31,13 +31,9 @@ bool is_there(const fs::path& path) {
   return fs::exists(path, error);
 }
 
-struct Span {
-  std::int64_t first_ns = 0;
-  std::int64_t last_ns = 0;
-
-  bool holds(std::int64_t time_ns) const { return time_ns >= first_ns && time_ns <= last_ns; }
-  std::string text() const { return fmt::format("{} to {} ns", first_ns, last_ns); }
-};
+std::string text_of(const TimeSpan& span) {
+  return fmt::format("{} to {} ns", span.first_ns, span.last_ns);
+}
 
 struct CommentLine {
   std::size_t line = 0;
@@ -76,7 +72,7 @@ MeasuredHeading heading_of(const SensorCsv& csv, const SensorRow& row) {
   return reading;
 }
 
-FolderCompass read_compass(const fs::path& folder, const Span& survey) {
+FolderCompass read_compass(const fs::path& folder, const TimeSpan& survey) {
   const fs::path path = folder / "data.csv";
   const SensorYaml yaml = read_sensor_yaml(folder / "sensor.yaml");
   refuse_variances(path);
@@ -94,7 +90,7 @@ FolderCompass read_compass(const fs::path& folder, const Span& survey) {
   if (compass.readings.empty()) {
     throw InputError(path.string(), "none of " + std::to_string(compass.left_out) +
                                         " headings is at the time of the pictures, " +
-                                        survey.text() + "; do both have the same clock?");
+                                        text_of(survey) + "; do both have the same clock?");
   }
   return compass;
 }
@@ -161,7 +157,7 @@ EarthFix earth_fix(const SensorCsv& csv, const SensorRow& row) {
   return fix;
 }
 
-FolderFixes read_fixes(const fs::path& folder, const Span& survey) {
+FolderFixes read_fixes(const fs::path& folder, const TimeSpan& survey, const TimeSpan& recorded) {
   FolderFixes fixes;
   fixes.csv = folder / "data.csv";
   const SensorYaml yaml = read_sensor_yaml(folder / "sensor.yaml");
@@ -174,6 +170,12 @@ FolderFixes read_fixes(const fs::path& folder, const Span& survey) {
                                : "timestamp, x, y, var_x, cov_xy, var_y",
                       "", yaml.time_offset_ns);
   for (const SensorRow& row : csv.rows()) {
+    if (!survey.holds(row.time_ns)) {
+      if (recorded.holds(row.time_ns)) continue;
+      csv.refuse(row, fmt::format("a fix at {} ns is outside the time of the pictures, {}; remove "
+                                  "its row, or see whether both have the same clock",
+                                  row.time_ns, text_of(recorded)));
+    }
     fixes.lines.push_back(row.line);
     if (on_earth) {
       fixes.on_earth.push_back(earth_fix(csv, row));
@@ -181,22 +183,18 @@ FolderFixes read_fixes(const fs::path& folder, const Span& survey) {
       fixes.in_world.push_back(
           {row.time_ns, {csv.real(row, 1), csv.real(row, 2)}, covariance_of(csv, row)});
     }
-    if (survey.holds(row.time_ns)) continue;
-    csv.refuse(row, fmt::format("a fix at {} ns is outside the time of the pictures, {}; remove "
-                                "its row, or see whether both have the same clock",
-                                row.time_ns, survey.text()));
   }
   return fixes;
 }
 
 }  // namespace
 
-FolderSensors read_folder_sensors(const fs::path& mav0, std::int64_t first_ns,
-                                  std::int64_t last_ns) {
-  const Span survey{first_ns, last_ns};
+FolderSensors read_folder_sensors(const fs::path& mav0, const TimeSpan& survey,
+                                  const TimeSpan& recorded) {
   FolderSensors sensors;
   if (is_there(mav0 / "compass0")) sensors.compass = read_compass(mav0 / "compass0", survey);
-  if (is_there(mav0 / "position0")) sensors.fixes = read_fixes(mav0 / "position0", survey);
+  if (is_there(mav0 / "position0"))
+    sensors.fixes = read_fixes(mav0 / "position0", survey, recorded);
   if (is_there(mav0 / "position1")) {
     throw InputError((mav0 / "position1").string(),
                      "is a second positioning system; expected position0 alone, in one frame");

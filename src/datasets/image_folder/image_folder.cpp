@@ -63,11 +63,12 @@ ImageFolder::ImageFolder(const fs::path& path, const OdometryGaps& gaps) : mav0_
     mask_ = read_mask(mask, {camera_.model().width, camera_.model().height});
   }
   read_frames();
+  const TimeSpan recorded{infos_.front().time_ns, infos_.back().time_ns};
   read_altitudes();
   read_attitude();
   read_odometry(gaps);
   read_ground_truth();
-  sensors_ = read_folder_sensors(mav0_, infos_.front().time_ns, infos_.back().time_ns);
+  sensors_ = read_folder_sensors(mav0_, {infos_.front().time_ns, infos_.back().time_ns}, recorded);
   std::ranges::copy(leave_out_contradicted(sensors_, infos_), std::back_inserter(remarks_));
   std::ranges::copy(unread_sensor_keys(mav0_), std::back_inserter(remarks_));
   remark(hidden_pictures_remark(pictures_.front().parent_path()));
@@ -112,6 +113,7 @@ void ImageFolder::read_altitudes() {
   }
   const SensorYaml yaml = yaml_beside(*csv);
   const AltitudeSeries altimeter(*csv, yaml);
+  altimeter_scale_ = yaml.scale;
   leave_out_uncovered(altimeter.times(), *csv);
   remark(altimeter.remark());
   for (FrameInfo& info : infos_) {
@@ -169,7 +171,7 @@ void ImageFolder::read_odometry(const OdometryGaps& gaps) {
 void ImageFolder::read_ground_truth() {
   const auto csv = sensor_csv(mav0_, "state_groundtruth_estimate0");
   if (!csv) return;
-  const PoseSeries truth(*csv);
+  const PoseSeries truth(*csv, yaml_beside(*csv).time_offset_ns);
   for (FrameInfo& info : infos_) {
     info.ground_truth = truth.at(info.time_ns, kMaxInterpolationGapNs);
   }

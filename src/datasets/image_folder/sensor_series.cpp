@@ -211,8 +211,8 @@ UncertainPose OdometrySeries::motion(std::int64_t from_ns, std::int64_t to_ns) c
   return compose_chain(parts);
 }
 
-PoseSeries::PoseSeries(const std::filesystem::path& path) {
-  const SensorCsv csv(path, "timestamp, p_x, p_y, p_z, q_w, q_x, q_y, q_z");
+PoseSeries::PoseSeries(const std::filesystem::path& path, std::int64_t time_offset_ns) {
+  const SensorCsv csv(path, "timestamp, p_x, p_y, p_z, q_w, q_x, q_y, q_z", "", time_offset_ns);
   for (const SensorRow& row : csv.rows()) {
     times_.add(row.time_ns);
     poses_.push_back(planar_pose(csv, row));

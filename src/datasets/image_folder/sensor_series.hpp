@@ -110,7 +110,7 @@ class OdometrySeries {
 /// columns are ignored.
 class PoseSeries {
  public:
-  explicit PoseSeries(const std::filesystem::path& csv);
+  PoseSeries(const std::filesystem::path& csv, std::int64_t time_offset_ns);
   std::optional<Pose> at(std::int64_t time_ns, std::int64_t max_gap_ns) const;
 
  private:

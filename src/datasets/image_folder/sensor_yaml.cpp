@@ -99,7 +99,8 @@ const std::map<std::string, std::vector<std::string>>& keys_by_sensor() {
       {"attitude0", {"outliers", "time_offset_s"}},
       {"compass0", {"convention", "mounting", "outliers", "time_offset_s"}},
       {"odometry0", {"convention", "heading_unit", "outliers", "scale", "time_offset_s"}},
-      {"position0", {"mounting", "outliers", "time_offset_s"}}};
+      {"position0", {"mounting", "outliers", "time_offset_s"}},
+      {"state_groundtruth_estimate0", {"time_offset_s"}}};
   return keys;
 }
 

@@ -100,16 +100,23 @@ class Survey {
   std::map<std::string, std::size_t> frames_;
 };
 
-// Metres of odometry per unit of the model, over motions between consecutive frames.
+Pose mounting_of(const ImageFolder& folder) {
+  const CameraModel& camera = folder.camera().model();
+  return {camera.mount_x_m, camera.mount_y_m, camera.mount_yaw_rad};
+}
+
+// Metres of odometry per unit of the model, over motions of the camera between consecutive frames.
 std::optional<double> scale_by_odometry(const ImageFolder& folder,
                                         const std::map<std::size_t, Pose>& poses) {
   if (!folder.has_odometry()) return std::nullopt;
+  const Pose mount = mounting_of(folder);
   double metres = 0.0;
   double units = 0.0;
   for (const auto& [frame, pose] : poses) {
     const auto next = poses.find(frame + 1);
     if (next == poses.end()) continue;
-    metres += folder.info(frame + 1).motion->mean.position().norm();
+    const Pose& of_body = folder.info(frame + 1).motion->mean;
+    metres += compose(inverse(mount), compose(of_body, mount)).position().norm();
     units += (next->second.position() - pose.position()).norm();
   }
   if (!(metres > 0.0 && units > 0.0)) return std::nullopt;
@@ -156,9 +163,8 @@ std::vector<StampedPose> reference_of(const std::map<std::size_t, Pose>& by_fram
   for (const auto& [frame, in_model] : by_frame) {
     const Pose pose{in_model.x * scale, in_model.y * scale, in_model.theta};
     if (survey) {
-      const CameraModel& camera = survey->folder().camera().model();
-      const Pose mount{camera.mount_x_m, camera.mount_y_m, camera.mount_yaw_rad};
-      reference.push_back({survey->folder().info(frame).time_ns, compose(pose, inverse(mount))});
+      reference.push_back({survey->folder().info(frame).time_ns,
+                           compose(pose, inverse(mounting_of(survey->folder())))});
     } else {
       reference.push_back({static_cast<std::int64_t>(frame) * kSecond, pose});
     }

@@ -47,16 +47,19 @@ Calibration calibrate(const CalibrationInput& input) {
   }
   if (input.odometry.rows.size() > 1) {
     const double offset_s = found && is_late(*found) ? found->time_offset_s.value : 0.0;
-    calibration.turns = compare_turns(
-        input,
-        OdometryTrack(input.odometry, found ? found->format : input.odometry.format, offset_s));
+    const OdometryTrack track(input.odometry, found ? found->format : input.odometry.format,
+                              offset_s);
+    calibration.turns = compare_turns(input, track);
+    calibration.directions = compare_directions(input, track, calibration.turns);
   }
   const Senses senses = senses_of(input, calibration);
   if (senses.pictures_are_mirrored) {
-    calibration.findings.push_back(fmt::format(
-        "the pictures are mirrored: what they show turns the other way than {}; write {}",
-        joined(senses.by, " and "), in_file("mirrored: true", "cam0")));
+    calibration.findings.push_back(
+        fmt::format("the pictures are {}: what they show turns the other way than {}; {}",
+                    input.camera.is_mirrored ? "not mirrored, as is configured" : "mirrored",
+                    joined(senses.by, " and "), mirror_remedy(input)));
   }
+  const bool axes_are_turned = find_directions(calibration, calibration.findings);
   if (found) {
     if (found->is_reversed) {
       calibration.findings.push_back(fmt::format(
@@ -65,17 +68,20 @@ Calibration calibrate(const CalibrationInput& input) {
           found->motions));
     }
     find_order(input, *found, calibration.findings);
-    find_format(input, *found, senses, calibration.findings);
-    find_mounting(input, *found, senses.pictures_are_mirrored, calibration.findings);
+    // Axes that are turned look like another convention and mounting.
+    if (!axes_are_turned) {
+      find_format(input, *found, senses, calibration.findings);
+      find_mounting(input, *found, senses.pictures_are_mirrored, calibration.findings);
+    }
     if (found->step) {
       find_step(input, *found, calibration.findings);
     } else {
-      find_scale(*found, calibration.findings);
+      find_scale(input, *found, calibration.findings);
     }
     find_clock(input, *found, calibration.findings);
     find_untold(*found, senses, calibration.untold);
   }
-  find_turns(calibration, senses, calibration.findings);
+  find_turns(input, calibration, senses, calibration.findings);
   return calibration;
 }
 
@@ -99,6 +105,11 @@ std::vector<std::string> facts_of(const Calibration& calibration) {
         turn.time_offset_s
             ? fmt::format(", {} s to add to its time stamps", with_sigma(*turn.time_offset_s, 2))
             : ""));
+  }
+  for (const DirectionComparison& one : calibration.directions) {
+    facts.push_back(fmt::format("{}: goes {} rad from where dead reckoning says{}", one.source,
+                                with_sigma(one.turned_rad),
+                                one.source == "position0" ? ", by the headings of compass0" : ""));
   }
   return facts;
 }

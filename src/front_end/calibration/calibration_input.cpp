@@ -17,6 +17,7 @@ CalibrationInput calibration_input(const FrameSource& frames, const AbsoluteRead
   input.odometry = frames.recorded_odometry();
   input.is_visual_odometry = frames.is_visual_odometry();
   input.camera = frames.camera().model();
+  input.files = frames.set_up_files();
   input.readings = readings;
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const FrameInfo& info = frames.info(i);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <numbers>
+#include <string_view>
+#include <utility>
 
 #include "fathom/core/text.hpp"
 
@@ -22,17 +24,13 @@ std::string seconds_after_start(const CalibrationInput& input, std::int64_t time
 
 // Factors that have a name.
 std::string named(double factor) {
-  struct Named {
-    double factor;
-    const char* what;
-  };
-  for (const Named& one : {Named{3.2808, "feet are taken for metres"},
-                           Named{1.333, "as a camera calibrated in air has behind a flat port"},
-                           Named{100.0, "centimetres are taken for metres"},
-                           Named{1000.0, "millimetres are taken for metres"}}) {
-    for (const double named : {one.factor, 1.0 / one.factor}) {
-      if (std::abs(std::log(factor / named)) < 0.02) return fmt::format("; {}", one.what);
-    }
+  const auto is_near = [factor](double named) { return std::abs(std::log(factor / named)) < 0.02; };
+  // Behind a flat port a picture shows less, as with a longer focal length; never more.
+  if (is_near(1.333)) return "; as a camera calibrated in air has behind a flat port";
+  for (const auto& [named, what] : {std::pair(3.2808, "; feet are taken for metres"),
+                                    std::pair(100.0, "; centimetres are taken for metres"),
+                                    std::pair(1000.0, "; millimetres are taken for metres")}) {
+    if (is_near(named) || is_near(1.0 / named)) return what;
   }
   return "";
 }
@@ -43,8 +41,16 @@ std::string with_sigma(const Estimated& one, int digits) {
   return fmt::format("{:.{}f} ± {}", one.value, digits, short_number(one.sigma, 2));
 }
 
-std::string in_file(const std::string& line, const char* sensor) {
-  return fmt::format("'{}' in {}/sensor.yaml", line, sensor);
+std::string in_file(const CalibrationInput& input, const std::string& line, const char* sensor) {
+  if (input.files.are_sensor_yaml) return fmt::format("'{}' in {}/sensor.yaml", line, sensor);
+  if (std::string_view(sensor) == "cam0") return fmt::format("'dataset.camera.{}'", line);
+  return fmt::format("the readings of {} anew, as '{}' would say of an image folder", sensor, line);
+}
+
+std::string mirror_remedy(const CalibrationInput& input) {
+  if (!input.camera.is_mirrored) return "write " + in_file(input, "mirrored: true", "cam0");
+  return input.files.are_sensor_yaml ? "take 'mirrored: true' out of cam0/sensor.yaml"
+                                     : "take 'dataset.camera.mirrored: true' out";
 }
 
 namespace {
@@ -101,7 +107,7 @@ void find_order(const CalibrationInput& input, const SetUp& found,
 void find_mounting(const CalibrationInput& input, const SetUp& found, bool is_mirrored,
                    std::vector<std::string>& findings) {
   const CameraModel& camera = input.camera;
-  const double sense = is_mirrored ? -1.0 : 1.0;
+  const double sense = is_mirrored && !found.is_mirrored ? -1.0 : 1.0;
   const Estimated yaw{sense * found.yaw_rad.value, found.yaw_rad.sigma};
   const Estimated y_m{sense * found.lever_y_m.value, found.lever_y_m.sigma};
   const Estimated off{wrap_angle(yaw.value - camera.mount_yaw_rad), yaw.sigma};
@@ -125,12 +131,19 @@ void find_mounting(const CalibrationInput& input, const SetUp& found, bool is_mi
   const double square_rad = kQuarter_rad * std::round(yaw.value / kQuarter_rad);
   const double written_rad =
       std::abs(yaw.value - square_rad) < kBeside_rad ? square_rad : yaw.value;
-  findings.push_back(text + "; write " +
-                     in_file(fmt::format("mounting: {{x: {:.3f}, y: {:.3f}, yaw: {:.3f}}}",
-                                         x_is_off ? found.lever_x_m.value : camera.mount_x_m,
-                                         y_is_off ? y_m.value : camera.mount_y_m,
-                                         is_turned ? written_rad : camera.mount_yaw_rad),
-                             "cam0"));
+  const double x_m = x_is_off ? found.lever_x_m.value : camera.mount_x_m;
+  const double mount_y_m = y_is_off ? y_m.value : camera.mount_y_m;
+  const double yaw_rad = is_turned ? written_rad : camera.mount_yaw_rad;
+  const std::string line =
+      input.files.are_sensor_yaml
+          ? in_file(input,
+                    fmt::format("mounting: {{x: {:.3f}, y: {:.3f}, yaw: {:.3f}}}", x_m, mount_y_m,
+                                yaw_rad),
+                    "cam0")
+          : fmt::format(
+                "'dataset.camera: {{mount_x_m: {:.3f}, mount_y_m: {:.3f}, mount_yaw_rad: {:.3f}}}'",
+                x_m, mount_y_m, yaw_rad);
+  findings.push_back(text + "; write " + line);
 }
 
 void find_step(const CalibrationInput& input, const SetUp& found,
@@ -148,16 +161,28 @@ void find_step(const CalibrationInput& input, const SetUp& found,
                    : "altimeter0 does not step there, so odometry0's scale does"));
 }
 
-void find_scale(const SetUp& found, std::vector<std::string>& findings) {
+void find_scale(const CalibrationInput& input, const SetUp& found,
+                std::vector<std::string>& findings) {
   if (!found.scale.is_off(1.0, kFindingSigmas, kLeastScale)) return;
   const double factor = found.scale.value;
+  const std::string remedy =
+      input.files.are_sensor_yaml
+          ? fmt::format(
+                "write {}, fx and fy times {:.3f} in cam0/sensor.yaml, or {}",
+                in_file(input, fmt::format("scale: {:.4g}", input.files.altimeter_scale / factor),
+                        "altimeter0"),
+                factor,
+                in_file(input, fmt::format("scale: {:.4g}", input.odometry.format.scale * factor),
+                        "odometry0"))
+          : fmt::format(
+                "write altitudes times {:.4g}, 'dataset.camera.focal_px' times {:.3f}, or dead "
+                "reckoning times {:.4g}",
+                1.0 / factor, factor, factor);
   findings.push_back(fmt::format(
       "registered motions are {} times as long as dead reckoning has them: altitudes are {:.3f} "
       "times what they should be, or the focal length {:.3f} times, or dead reckoning {:.3f} "
-      "times{}; write {}, fx and fy times {:.3f} in cam0/sensor.yaml, or {}",
-      with_sigma(found.scale), factor, 1.0 / factor, 1.0 / factor, named(factor),
-      in_file(fmt::format("scale: {:.4f}", 1.0 / factor), "altimeter0"), factor,
-      in_file(fmt::format("scale: {:.4f}", factor), "odometry0")));
+      "times{}; {}",
+      with_sigma(found.scale), factor, 1.0 / factor, 1.0 / factor, named(factor), remedy));
 }
 
 bool is_late(const SetUp& found) {
@@ -171,7 +196,8 @@ void find_clock(const CalibrationInput& input, const SetUp& found,
   findings.push_back(
       fmt::format("odometry0's time stamps are {} s {} than the pictures'; write {}",
                   with_sigma(late), found.time_offset_s.value < 0.0 ? "later" : "earlier",
-                  in_file(fmt::format("time_offset_s: {:.3f}",
+                  in_file(input,
+                          fmt::format("time_offset_s: {:.3f}",
                                       input.odometry.time_offset_s + found.time_offset_s.value),
                           "odometry0")));
 }

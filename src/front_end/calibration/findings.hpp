@@ -14,8 +14,11 @@ inline constexpr double kFindingSigmas = 4.0;
 /// "1.571 ± 0.0031".
 std::string with_sigma(const Estimated& one, int digits = 3);
 
-/// "'LINE' in SENSOR/sensor.yaml".
-std::string in_file(const std::string& line, const char* sensor);
+/// "'LINE' in SENSOR/sensor.yaml"; of plain pictures what there is in its place.
+std::string in_file(const CalibrationInput& input, const std::string& line, const char* sensor);
+
+/// "write 'mirrored: true' in …", or to take it out where it stands.
+std::string mirror_remedy(const CalibrationInput& input);
 
 /// How sources turn against the pictures.
 struct Senses {
@@ -36,15 +39,19 @@ void find_order(const CalibrationInput& input, const SetUp& found,
                 std::vector<std::string>& findings);
 void find_mounting(const CalibrationInput& input, const SetUp& found, bool is_mirrored,
                    std::vector<std::string>& findings);
+/// Of dead reckoning whose axes are turned against those of ground truth, or of fixes whose are
+/// against those of the compass. Whether the former is.
+bool find_directions(const Calibration& calibration, std::vector<std::string>& findings);
 void find_step(const CalibrationInput& input, const SetUp& found,
                std::vector<std::string>& findings);
-void find_scale(const SetUp& found, std::vector<std::string>& findings);
+void find_scale(const CalibrationInput& input, const SetUp& found,
+                std::vector<std::string>& findings);
 /// Whether dead reckoning's clock is off.
 bool is_late(const SetUp& found);
 void find_clock(const CalibrationInput& input, const SetUp& found,
                 std::vector<std::string>& findings);
 /// Of compass and fixes.
-void find_turns(const Calibration& calibration, const Senses& senses,
+void find_turns(const CalibrationInput& input, const Calibration& calibration, const Senses& senses,
                 std::vector<std::string>& findings);
 /// Of pictures that have another size than the calibration's.
 void find_size(const CameraModel& camera, std::vector<std::string>& findings);

@@ -13,6 +13,14 @@
 namespace fathom {
 namespace {
 
+// As a camera sees it whose pictures are mirrored.
+std::vector<SeenMotion> mirrored(std::vector<SeenMotion> motions) {
+  for (SeenMotion& motion : motions) {
+    motion.camera = {motion.camera.x, -motion.camera.y, -motion.camera.theta};
+  }
+  return motions;
+}
+
 // Of pictures counted from the end.
 std::vector<SeenMotion> reversed(const CalibrationInput& input) {
   std::vector<SeenMotion> motions = input.motions;
@@ -35,18 +43,28 @@ SetUpPrior prior_of(const CalibrationInput& input) {
 struct Reading {
   OdometryFormat format;
   bool is_reversed = false;
+  bool is_mirrored = false;
 };
+
+std::vector<SeenMotion> motions_of(const CalibrationInput& input, const Reading& reading) {
+  std::vector<SeenMotion> motions = reading.is_reversed ? reversed(input) : input.motions;
+  return reading.is_mirrored ? mirrored(std::move(motions)) : motions;
+}
 
 // All ways to read the same numbers.
 std::vector<Reading> readings_of(const OdometryFormat& configured) {
-  std::vector<Reading> readings{{configured, false}};
+  std::vector<Reading> readings{{configured, false, false}};
+  // Of each other convention the mirror image is one, too.
+  if (mirrored(configured.convention) == configured.convention) {
+    readings.push_back({configured, false, true});
+  }
   for (const bool is_reversed : {false, true}) {
     for (const bool is_in_degrees : {false, true}) {
       for (const auto& named : odometry_conventions()) {
         const bool is_configured = !is_reversed && is_in_degrees == configured.is_in_degrees &&
                                    named.second == configured.convention;
         if (is_configured) continue;
-        readings.push_back({{named.second, is_in_degrees, configured.scale}, is_reversed});
+        readings.push_back({{named.second, is_in_degrees, configured.scale}, is_reversed, false});
       }
     }
   }
@@ -64,12 +82,15 @@ double density_of_unit(const OdometryFormat& format, std::size_t motions) {
 // that say the same, such as headings from x and from y with the camera turned, the one with less
 // to be changed counts.
 double evidence_of(const Reading& reading, const SetUpStart& start, const SetUpPrior& prior,
-                   std::size_t motions) {
+                   const CalibrationInput& input) {
   constexpr double kTurned_rad = 0.1;
   constexpr double kOfTurned = 5.0;
+  constexpr double kOfConvention = 1.0;
+  const std::size_t motions = input.motions.size();
   double evidence = start.log_density + density_of_unit(reading.format, motions);
   const double yaw_rad = wrap_angle(start.value.yaw_rad - prior.mean.yaw_rad);
   if (std::abs(yaw_rad) > kTurned_rad) evidence -= kOfTurned;
+  if (reading.format.convention != input.odometry.format.convention) evidence -= kOfConvention;
   return evidence;
 }
 
@@ -78,15 +99,14 @@ double evidence_of(const Reading& reading, const SetUpStart& start, const SetUpP
 std::optional<Reading> best_reading(const CalibrationInput& input, const SetUpPrior& prior) {
   constexpr double kOfAll = 20.0;
   constexpr double kOfEach = 0.1;
-  const std::vector<SeenMotion> from_the_end = reversed(input);
   std::optional<Reading> best;
   double most = -std::numeric_limits<double>::infinity();
   double margin = kOfAll + kOfEach * static_cast<double>(input.motions.size());
   for (const Reading& reading : readings_of(input.odometry.format)) {
-    const auto start = start_set_up(reading.is_reversed ? from_the_end : input.motions,
+    const auto start = start_set_up(motions_of(input, reading),
                                     OdometryTrack(input.odometry, reading.format), prior);
     if (!start) continue;
-    double evidence = evidence_of(reading, *start, prior, input.motions.size());
+    double evidence = evidence_of(reading, *start, prior, input);
     // The first one is what is configured.
     if (!best) evidence += std::exchange(margin, 0.0);
     if (best && !(evidence > most)) continue;
@@ -110,15 +130,15 @@ std::vector<MovedPictures> put_right(const CalibrationInput& input, const SetUpP
     const auto fitted =
         moved.empty() ? std::nullopt : fit_set_up(put_in_place(input, moved), track, prior);
     if (!fitted) return std::vector<MovedPictures>{};
-    reading = {format, false};
+    reading = {format, false, false};
     fit = *fitted;
     return moved;
   };
   std::vector<MovedPictures> moved;
-  if (!reading.is_reversed) moved = try_with(reading.format, {fit.value, prior.mean});
+  const bool is_as_taken = !reading.is_reversed && !reading.is_mirrored;
+  if (is_as_taken) moved = try_with(reading.format, {fit.value, prior.mean});
   const OdometryFormat& configured = input.odometry.format;
-  const bool is_configured = !reading.is_reversed &&
-                             reading.format.convention == configured.convention &&
+  const bool is_configured = is_as_taken && reading.format.convention == configured.convention &&
                              reading.format.is_in_degrees == configured.is_in_degrees;
   if (moved.empty() && !is_configured) moved = try_with(configured, {prior.mean});
   return moved;
@@ -147,8 +167,8 @@ std::optional<SetUp> find_set_up(const CalibrationInput& input) {
   const SetUpPrior prior = prior_of(input);
   auto found = best_reading(input, prior);
   if (!found) return std::nullopt;
-  auto fitted = fit_set_up(found->is_reversed ? reversed(input) : input.motions,
-                           OdometryTrack(input.odometry, found->format), prior);
+  auto fitted =
+      fit_set_up(motions_of(input, *found), OdometryTrack(input.odometry, found->format), prior);
   if (!fitted) return std::nullopt;
   SetUp set_up;
   set_up.moved = put_right(input, prior, *found, *fitted);
@@ -159,6 +179,7 @@ std::optional<SetUp> find_set_up(const CalibrationInput& input) {
   set_up.motions = fit.motions;
   set_up.format = found->format;
   set_up.is_reversed = found->is_reversed;
+  set_up.is_mirrored = found->is_mirrored;
   // A residual that is as long as the motion leaves nothing that the two have in common.
   constexpr double kUnrelated = 0.5;
   set_up.is_related = fit.sigma_m < kUnrelated * fit.median_m;

@@ -19,4 +19,9 @@ OdometryConvention mirrored(OdometryConvention convention);
 std::vector<TurnComparison> compare_turns(const CalibrationInput& input,
                                           const OdometryTrack& track);
 
+/// By source, whose turns are known, how its ways are turned against those of dead reckoning.
+std::vector<DirectionComparison> compare_directions(const CalibrationInput& input,
+                                                    const OdometryTrack& track,
+                                                    const std::vector<TurnComparison>& turns);
+
 }  // namespace fathom
