@@ -39,9 +39,9 @@ struct MapFit {
   /// Whether measurements do not fit each other, far beyond chance.
   bool measurements_disagree() const { return per_degree_of_freedom() > 3.0; }
 
-  /// Whether most of F is of measurements that the estimator rejected or weighed down, and its optimum,
-  /// which has all of them, does not fit them either: then that optimum says nothing of the map.
-  /// Where it fits, they are right and the estimator lost them.
+  /// Whether most of F is of measurements that the estimator rejected or weighed down, and its
+  /// optimum, which has all of them, does not fit them either: then that optimum says nothing of
+  /// the map. Where it fits, they are right and the estimator lost them.
   bool leaves_out_most() const {
     return chi2_used && *chi2_used < 0.5 * chi2 && measurements_disagree();
   }
