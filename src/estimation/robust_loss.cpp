@@ -22,10 +22,7 @@ void LossOptions::describe(OptionTable& table, bool has_truncated) {
       "loss", kind, kinds,
       "robust loss on registrations and absolute measurements; dead reckoning has "
       "none");
-  const std::string of_truncated =
-      has_truncated ? "; of truncated the root of the 99.98 % quantile, and less where "
-                      "registrations agree better than they say"
-                    : "";
+  const std::string of_truncated = has_truncated ? " (truncated: 99.98 %, or less)" : "";
   table.real_or_off("loss_scale", scale, Range::positive(), "sigma",
                     "whitened residual at which the loss sets in; off: that which makes a right "
                     "registration at the 99 % quantile weigh one half" +

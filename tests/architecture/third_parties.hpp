@@ -74,7 +74,7 @@ inline const std::vector<ThirdParty>& third_parties() {
         "src/core/forked_child.cpp", "src/core/program.cpp", "src/core/program_start.cpp",
         "src/core/system.cpp"}},
       {"sys/mman.h",
-       {"estimators/support/filter/growing_memory.cpp",
+       {"src/memory_meter/", "estimators/support/filter/growing_memory.cpp",
         "estimators/support/sparse/panel_memory.cpp", "src/core/blas_memory.cpp",
         "src/core/child_side.cpp", "src/report/pictures/zeroed_pixels.cpp"}},
       {"sys/time.h", {"src/core/time_value.hpp"}},
