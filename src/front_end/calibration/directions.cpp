@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include <Eigen/Geometry>
 
@@ -70,16 +71,23 @@ std::vector<Ways> ways_of_truth(const std::vector<StampedPose>& truth, const Odo
   return ways;
 }
 
-// The compass's heading at a time: its nearest reading, brought there by dead reckoning.
+// The compass's heading at a time, of readings by rising time: the nearest one, brought there by
+// dead reckoning.
 std::optional<double> heading_at(std::int64_t time_ns, double sense,
                                  const std::vector<MeasuredHeading>& headings,
                                  const OdometryTrack& track) {
   constexpr std::int64_t kFar_ns = 2'000'000'000;
+  if (headings.empty()) return std::nullopt;
   const auto distance = [time_ns](const MeasuredHeading& reading) {
     return std::abs(reading.time_ns - time_ns);
   };
-  const auto nearest = std::ranges::min_element(headings, {}, distance);
-  if (nearest == headings.end() || distance(*nearest) > kFar_ns) return std::nullopt;
+  auto nearest = std::ranges::lower_bound(headings, time_ns, {}, &MeasuredHeading::time_ns);
+  const bool is_after_all = nearest == headings.end();
+  if (is_after_all ||
+      (nearest != headings.begin() && distance(*std::prev(nearest)) < distance(*nearest))) {
+    --nearest;
+  }
+  if (distance(*nearest) > kFar_ns) return std::nullopt;
   const auto motion = track.motion(nearest->time_ns, time_ns);
   if (!motion) return std::nullopt;
   return sense * nearest->heading_rad + motion->theta;
