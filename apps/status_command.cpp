@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <fmt/format.h>
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
@@ -11,6 +12,7 @@
 #include "fathom/core/file_lock.hpp"
 #include "fathom/core/folder_claim.hpp"
 #include "fathom/core/input_error.hpp"
+#include "fathom/core/text.hpp"
 #include "fathom/report/table.hpp"
 #include "fathom/results/result_store.hpp"
 #include "fathom/results/shard_folder.hpp"
@@ -66,21 +68,31 @@ std::string state_of(const FolderStatus& status) {
   return status.content->done.size() < status.content->own() ? "stopped" : "done";
 }
 
-// Of all folders together, each run once.
+// Of all folders of one study together, each run once.
 void print_totals(const std::vector<ShardFolder>& folders) {
   std::set<RunKey> done;
   std::set<RunKey> failed;
-  std::size_t of = 0;
   for (const ShardFolder& folder : folders) {
     done.insert(folder.done.begin(), folder.done.end());
     failed.insert(folder.failed.begin(), folder.failed.end());
-    of = std::max(of, folder.of);
   }
+  const std::size_t of = folders.front().of;
   const std::size_t left = of - std::min(of, done.size());
-  print("\n%zu of %zu runs are done, %zu of them failed; %zu are left\n", done.size(), of,
+  print("%zu of %zu runs are done, %zu of them failed; %zu are left\n", done.size(), of,
         failed.size(), left);
   for (const MissingPart& part : missing_parts(folders, left)) {
     print("  %s%s%s\n", part.what.c_str(), part.command.empty() ? "" : ": ", part.command.c_str());
+  }
+}
+
+// Studies have no name but what they are called and how large they are.
+void print_totals_by_study(const std::vector<ShardFolder>& all) {
+  std::map<std::pair<std::string, std::size_t>, std::vector<ShardFolder>> studies;
+  for (const ShardFolder& folder : all) studies[{folder.title, folder.of}].push_back(folder);
+  for (const auto& [study, folders] : studies) {
+    print("\n");
+    if (studies.size() > 1) print("%s: ", in_quotes(study.first).c_str());
+    print_totals(folders);
   }
 }
 
@@ -103,7 +115,7 @@ void show_status(const StatusFlags& flags, Context& context) {
     }
   }
   print("%s", table.text().c_str());
-  if (!found.empty()) print_totals(found);
+  print_totals_by_study(found);
   for (const std::string& problem : problems) {
     print_error("fathom: error: %s\n", problem.c_str());
     context.status = kFailed;

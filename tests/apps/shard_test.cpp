@@ -104,6 +104,12 @@ TEST_F(Shards, WhatIsMissingIsListedWithTheCommandThatDoesIt) {
   const std::string once = fathom_done({"status", "merged"}).out;
   const std::string twice = fathom_done({"status", folder(1, 3), folder(3, 3), "merged"}).out;
   EXPECT_EQ(twice.substr(twice.find("\n\n")), once.substr(once.find("\n\n")));
+  // Another study is none of its runs.
+  fathom_done({"compare", "s.yaml", "--set", "trials=1", "--out", "other", "--no-mosaic"});
+  const std::string both = fathom_done({"status", "merged", "other"}).out;
+  EXPECT_THAT(both, HasSubstr(once.substr(once.find("\n\n") + 2)));
+  const std::size_t first = both.find("runs are done");
+  EXPECT_NE(both.find("runs are done", first + 1), std::string::npos);
 }
 
 TEST_F(Shards, CostsOfOtherProcessorsAreKeptApart) {

@@ -68,8 +68,8 @@ Calibration calibrate(const CalibrationInput& input) {
           found->motions));
     }
     find_order(input, *found, calibration.findings);
-    // Axes that are turned look like another convention and mounting.
-    if (!axes_are_turned) {
+    // Axes of odometry that are turned look like another convention and mounting.
+    if (!axes_are_turned || found->format.convention == input.odometry.format.convention) {
       find_format(input, *found, senses, calibration.findings);
       find_mounting(input, *found, senses.pictures_are_mirrored, calibration.findings);
     }

@@ -44,7 +44,8 @@ std::string with_sigma(const Estimated& one, int digits) {
 std::string in_file(const CalibrationInput& input, const std::string& line, const char* sensor) {
   if (input.files.are_sensor_yaml) return fmt::format("'{}' in {}/sensor.yaml", line, sensor);
   if (std::string_view(sensor) == "cam0") return fmt::format("'dataset.camera.{}'", line);
-  return fmt::format("the readings of {} anew, as '{}' would say of an image folder", sensor, line);
+  return fmt::format("the rows of {} anew, which are as '{}' says in an image folder", sensor,
+                     line);
 }
 
 std::string mirror_remedy(const CalibrationInput& input) {

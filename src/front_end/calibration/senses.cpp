@@ -85,7 +85,7 @@ void find_format(const CalibrationInput& input, const SetUp& found, const Senses
   if (found.is_mirrored && senses.is_told && !senses.pictures_are_mirrored) {
     findings.push_back(
         fmt::format("headings of odometry0 count the other way than {} says: {} fit mirrored "
-                    "pictures, which these are not",
+                    "pictures, which these are not; correct them, or name their convention",
                     name_of(configured.convention), of));
   }
   if (found.is_mirrored && !senses.is_told) {
@@ -97,7 +97,7 @@ void find_format(const CalibrationInput& input, const SetUp& found, const Senses
   }
   if (!is_another) return;
   const std::string senses_of_odometry = format_remedy(input, found.format);
-  if (found.is_mirrored || !senses.odometry_is_opposite) {
+  if (!senses.odometry_is_opposite) {
     findings.push_back(
         fmt::format("odometry0 is read in another convention than it is written: {} "
                     "fit it as {}; write {}",
