@@ -39,6 +39,12 @@ std::string words(const SingleTrial&) {
   return "A single trial: there is no interval, and the order may be chance.";
 }
 
+std::string words(const OneResult& found) {
+  return fmt::format(
+      "The {} trials have the same measurements: nothing is drawn, and they say no more than one.",
+      found.trials);
+}
+
 std::string words(const FewTrials& found) {
   return "Only " + std::to_string(found.trials) + " trials.";
 }

@@ -28,6 +28,10 @@ struct FrontEnd {
 };
 
 struct SingleTrial {};
+/// All trials have the same measurements and figures.
+struct OneResult {
+  std::size_t trials = 0;
+};
 struct FewTrials {
   std::size_t trials = 0;
 };
@@ -85,11 +89,11 @@ struct SeveralMachines {
 
 }  // namespace doubt
 
-using Doubt =
-    std::variant<doubt::SingleTrial, doubt::FewTrials, doubt::OneSurvey, doubt::FewSurveys,
-                 doubt::BaselineAsGood, doubt::WrongConfidence, doubt::Correlation,
-                 doubt::OffTheOptimum, doubt::WithoutLoops, doubt::FewLoops, doubt::Misfit,
-                 doubt::ContenderSelects, doubt::SeveralJobs, doubt::SeveralMachines>;
+using Doubt = std::variant<doubt::SingleTrial, doubt::OneResult, doubt::FewTrials, doubt::OneSurvey,
+                           doubt::FewSurveys, doubt::BaselineAsGood, doubt::WrongConfidence,
+                           doubt::Correlation, doubt::OffTheOptimum, doubt::WithoutLoops,
+                           doubt::FewLoops, doubt::Misfit, doubt::ContenderSelects,
+                           doubt::SeveralJobs, doubt::SeveralMachines>;
 
 /// Of one cell, with its figures: sentences.
 std::string words_of(const Doubt& doubt);

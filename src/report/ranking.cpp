@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contenders.hpp"
 #include "fathom/report/table.hpp"
 #include "honesty.hpp"
 
@@ -11,27 +12,6 @@ namespace {
 
 constexpr double kError = 0.05;  // of all claims of a ranking together
 constexpr std::size_t kResamples = 2000;
-
-bool is_ranked(const EstimatorResults& one, const std::string& metric,
-               const std::vector<std::string>& names) {
-  return one.name != kDeadReckoning && one.failures() == 0 && one.metrics.contains(metric) &&
-         (names.empty() || std::ranges::find(names, one.name) != names.end());
-}
-
-std::vector<const EstimatorResults*> in_order(const CellResults& cell, const Metric& metric,
-                                              const std::vector<std::string>& names) {
-  std::vector<const EstimatorResults*> order;
-  for (const EstimatorResults& one : cell.estimators) {
-    if (is_ranked(one, metric.name, names)) order.push_back(&one);
-  }
-  const auto mean = [&](const EstimatorResults* one) {
-    return one->metrics.at(metric.name).moments.mean;
-  };
-  std::ranges::stable_sort(order, [&](const auto* a, const auto* b) {
-    return metric.better == Better::lower ? mean(a) < mean(b) : mean(a) > mean(b);
-  });
-  return order;
-}
 
 // Below it a figure means nothing, whatever the mean: no reference knows a position to a
 // micrometre, and no clock a run to a microsecond.
@@ -42,13 +22,13 @@ double digits_of(const std::string& unit) {
 }
 
 // Adjusted p of each against the best, which is one of all pairs.
-std::vector<std::optional<double>> p_values(const std::vector<const EstimatorResults*>& order,
+std::vector<std::optional<double>> p_values(const std::vector<Contender>& order,
                                             const std::string& metric) {
   std::vector<double> tested;
   std::vector<std::optional<std::size_t>> of_best(order.size());
   for (std::size_t i = 0; i < order.size(); ++i) {
     for (std::size_t j = i + 1; j < order.size(); ++j) {
-      const auto test = test_between(*order[j], *order[i], metric);
+      const auto test = test_between(*order[j].one, *order[i].one, metric);
       // Without a difference nothing is tested, but it counts as a pair.
       if (i == 0 && test && test->p_value) of_best[j] = tested.size();
       tested.push_back(test && test->p_value ? *test->p_value : 1.0);
@@ -75,6 +55,7 @@ bool is_on_one_side(const PairedDifference& difference) {
 struct Beside {
   const EstimatorResults& one;
   const EstimatorResults& best;
+  double mean_of_best;
   const std::string& metric;
   const BootstrapOptions& bootstrap;
 
@@ -87,7 +68,7 @@ struct Beside {
 // Two one-sided tests, at either end of the margin.
 bool is_equivalent(const Beside& beside, const Interval& difference, double share, double digits) {
   if (difference.low >= -digits && difference.high <= digits) return true;
-  const double mean = beside.best.metrics.at(beside.metric).moments.mean;
+  const double mean = beside.mean_of_best;
   if (difference.low > share * std::abs(mean) || difference.high < -share * std::abs(mean)) {
     return false;
   }
@@ -101,9 +82,12 @@ Standing standing_of(const RankedEstimator& one, const Beside& beside, double sh
                      double margin) {
   const auto& difference = one.difference;
   if (!difference || !difference->interval) return Standing::not_shown;
-  const double digits = digits_of(described(beside.metric).unit);
-  if (is_equivalent(beside, *difference->interval, share, digits)) return Standing::equivalent;
-  const bool is_beyond = std::abs(difference->mean) > margin && is_on_one_side(*difference);
+  const Metric metric = described(beside.metric);
+  if (is_equivalent(beside, *difference->interval, share, digits_of(metric.unit))) {
+    return Standing::equivalent;
+  }
+  const double worse_by = metric.better == Better::lower ? difference->mean : -difference->mean;
+  const bool is_beyond = worse_by > margin && is_on_one_side(*difference);
   return one.p && *one.p < kError && is_beyond ? Standing::worse : Standing::not_shown;
 }
 
@@ -166,30 +150,34 @@ std::optional<Ranking> ranking(const CellResults& cell, const std::string& metri
   const Metric catalogued = described(metric);
   if (catalogued.better == Better::neither) return std::nullopt;
   if (!no_ranking_text(cell, metric).empty()) return std::nullopt;
-  const auto order = in_order(cell, catalogued, options.names);
-  if (order.empty()) return std::nullopt;
   Ranking result;
+  const auto order = contenders_of(cell, catalogued, options.names, result.left_out);
+  if (order.empty()) return std::nullopt;
   result.metric = metric;
   const std::size_t differences = std::max<std::size_t>(1, order.size() - 1);
   result.level = 1.0 - kError / static_cast<double>(differences);
   result.margin =
-      std::max(options.margin * std::abs(order.front()->metrics.at(metric).moments.mean),
-               digits_of(catalogued.unit));
+      std::max(options.margin * std::abs(order.front().mean()), digits_of(catalogued.unit));
   result.draws = draws_of(cell);
   result.fewest_draws = fewest_draws(order.size());
   // The ends of a wider interval are in the tail, where more resamples are needed.
   const BootstrapOptions bootstrap{.probability = result.level,
                                    .resamples = kResamples * std::min<std::size_t>(3, differences)};
   const auto p = p_values(order, metric);
+  const EstimatorResults& best = *order.front().one;
+  std::size_t most_draws = 1;
   for (std::size_t i = 0; i < order.size(); ++i) {
-    RankedEstimator entry{order[i]->name, order[i]->metrics.at(metric), std::nullopt, p[i],
+    RankedEstimator entry{order[i].one->name, order[i].summary, std::nullopt, p[i],
                           i == 0 ? Standing::best : Standing::not_shown};
-    if (i > 0) entry.difference = difference_between(*order[i], *order.front(), metric, bootstrap);
-    if (i > 0 && result.gives_verdict()) {
-      const Beside beside{*order[i], *order.front(), metric, bootstrap};
-      entry.standing = standing_of(entry, beside, options.margin, result.margin);
-    }
+    if (i > 0) entry.difference = difference_between(*order[i].one, best, metric, bootstrap);
+    if (entry.difference) most_draws = std::max(most_draws, entry.difference->count);
     result.estimators.push_back(std::move(entry));
+  }
+  if (order.size() > 1) result.draws = std::min(result.draws, most_draws);
+  for (std::size_t i = 1; i < order.size() && result.gives_verdict(); ++i) {
+    const Beside beside{*order[i].one, best, order.front().mean(), metric, bootstrap};
+    RankedEstimator& entry = result.estimators[i];
+    entry.standing = standing_of(entry, beside, options.margin, result.margin);
   }
   return result;
 }
@@ -202,7 +190,7 @@ RankingMetric ranking_metric(const StudyResults& results) {
     bool occurs = false;
     std::string against;
     for (const CellResults& cell : results.cells) {
-      const auto has = [&](const auto& one) { return is_ranked(one, name, {}); };
+      const auto has = [&](const auto& one) { return is_ranked(one, name); };
       occurs = occurs || std::ranges::any_of(cell.estimators, has);
       if (against.empty()) against = no_ranking_text(cell, name);
     }

@@ -29,10 +29,18 @@ struct RankedEstimator {
   Standing standing = Standing::not_shown;
 };
 
+/// An estimator without a metric in some trials in which others have it: its mean is of others.
+struct PartlyMeasured {
+  std::string name;
+  std::size_t without = 0;  ///< of the trials
+  std::size_t trials = 0;
+};
+
 /// The estimators of a cell by their means of one metric, the best first.
 struct Ranking {
   std::string metric;
   std::vector<RankedEstimator> estimators;  ///< one or more
+  std::vector<PartlyMeasured> left_out;
   double level = 0.95;    ///< of each interval: 1 − 0.05 / number of differences
   double margin = 0.0;    ///< differences up to it mean nothing; in the metric's unit
   std::size_t draws = 0;  ///< independent ones: surveys, or trials where these are drawn alone
@@ -50,9 +58,11 @@ struct RankingOptions {
   double margin = 0.01;                 ///< as a share of the best mean (`report.margin`)
 };
 
-/// Estimators that failed no run and have the metric. Dead reckoning is none. Nothing where none is
-/// left, of a metric that does not say which of its values is better, and with a no_ranking_text.
-/// The best is the one with the best mean, of equal ones the first of the study.
+/// Estimators that failed no run and have the metric in every trial that all have run and one has
+/// it in; of a cost over the trials in which all have it. Means are over these trials. Dead
+/// reckoning is none. Nothing where none is left, of a metric that does not say which of its values
+/// is better, and with a no_ranking_text. The best is the one with the best mean, of equal ones the
+/// first of the study.
 ///
 /// Of k estimators that are exchangeable in every draw, one or more are called worse in at most 5 %
 /// of studies: the signed-rank test is exact then, and Holm's adjustment over all k (k − 1) / 2

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cctype>
 #include <fmt/format.h>
+#include <set>
 
 #include "fathom/core/text.hpp"
 #include "fathom/results/run_index.hpp"
@@ -10,6 +11,16 @@ namespace fathom {
 std::string worded(std::string name) {
   for (char& letter : name) letter = letter == '_' ? ' ' : letter;
   return name;
+}
+
+bool repeats_one_result(const EstimatorResults& estimator) {
+  std::set<std::pair<std::string, std::map<std::string, double>>> results;
+  for (const RunRecord& run : estimator.runs) {
+    auto metrics = run.metrics;
+    std::erase_if(metrics, [](const auto& metric) { return is_cost_metric(metric.first); });
+    results.emplace(run.log_hash, std::move(metrics));
+  }
+  return results.size() == 1 && !results.begin()->first.empty();
 }
 
 std::size_t runs_without_loops(const EstimatorResults& estimator) {

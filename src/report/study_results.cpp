@@ -4,13 +4,14 @@
 #include <cmath>
 
 #include "fathom/core/input_error.hpp"
+#include "fathom/results/distinct_values.hpp"
 #include "fathom/results/run_index.hpp"
 #include "honesty.hpp"
 
 namespace fathom {
 namespace {
 
-// Nothing of a run that is not asked for: costs of other machines are no part of a figure.
+// Costs of other machines are no part of a figure.
 std::optional<double> metric_of(const RunRecord& run, const std::string& metric,
                                 const std::string* machine) {
   if (machine != nullptr && run.machine != *machine) return std::nullopt;
@@ -24,20 +25,29 @@ const std::string* machine_of(const EstimatorResults& estimator, const std::stri
   return is_cost_metric(metric) ? &estimator.cost_machine : nullptr;
 }
 
-ClusteredValues values_of(const EstimatorResults& estimator, const std::string& metric) {
+// Every repeat of a cost is a measurement.
+std::string log_of(const RunRecord& run, const std::string& metric) {
+  return is_cost_metric(metric) ? "" : run.log_hash;
+}
+
+// Of all trials, or of these alone; nothing where none of them has the metric.
+std::optional<MetricSummary> summary_of(const EstimatorResults& estimator,
+                                        const std::string& metric,
+                                        const std::set<TrialKey>* trials = nullptr) {
   ClusteredValues values;
+  DistinctValues distinct;
+  std::vector<double> all;
   const std::string* machine = machine_of(estimator, metric);
   for (const RunRecord& run : estimator.runs) {
     const auto value = metric_of(run, metric, machine);
-    if (!is_failed(run) && value) values[run.key.survey].push_back(*value);
+    if (is_failed(run) || !value) continue;
+    if (trials != nullptr && !trials->contains(run.key.trial_key())) continue;
+    values[run.key.survey].push_back(*value);
+    distinct.add(run.key.survey, log_of(run, metric), *value);
+    all.push_back(*value);
   }
-  return values;
-}
-
-MetricSummary summary_of(const ClusteredValues& values) {
-  std::vector<double> all;
-  for (const auto& [survey, own] : values) all.insert(all.end(), own.begin(), own.end());
-  MetricSummary summary{*moments(all), values.size(), hierarchical_interval(values)};
+  if (values.empty()) return std::nullopt;
+  MetricSummary summary{*moments(all), values.size(), hierarchical_interval(distinct.values())};
   if (values.size() > 1) summary.moments.mean = clustered_mean(values);
   return summary;
 }
@@ -46,8 +56,7 @@ std::map<std::string, MetricSummary> summaries(const EstimatorResults& estimator
                                                const std::vector<std::string>& metrics) {
   std::map<std::string, MetricSummary> all;
   for (const std::string& metric : metrics) {
-    const ClusteredValues values = values_of(estimator, metric);
-    if (!values.empty()) all[metric] = summary_of(values);
+    if (const auto summary = summary_of(estimator, metric)) all[metric] = *summary;
   }
   return all;
 }
@@ -60,13 +69,11 @@ void sum_up(EstimatorResults& estimator, const std::vector<std::string>& metrics
   }
   estimator.metrics = summaries(estimator, metrics);
   std::set<std::string> of_honesty;
+  std::set<std::size_t> surveys;
   for (const RunRecord& run : estimator.runs) {
     for (const auto& [metric, value] : run.metrics) {
       if (is_of_honesty(metric)) of_honesty.insert(metric);
     }
-  }
-  std::set<std::size_t> surveys;
-  for (const RunRecord& run : estimator.runs) {
     if (!is_failed(run)) surveys.insert(run.key.survey);
   }
   estimator.consistency = summaries(estimator, {of_honesty.begin(), of_honesty.end()});
@@ -147,6 +154,7 @@ CellResults runs_of(const RunIndex& index, std::size_t number, const std::string
   std::set<std::size_t> surveys;
   for (const TrialKey& trial : trials) surveys.insert(trial.survey);
   cell.surveys = surveys.size();
+  cell.repeats_one_result = std::ranges::all_of(cell.estimators, repeats_one_result);
   cell.repetition = study.repetition_of(number);
   cell.repeats = repeats_text(cell.repetition, {trials.begin(), trials.end()});
   return cell;
@@ -155,23 +163,38 @@ CellResults runs_of(const RunIndex& index, std::size_t number, const std::string
 // By survey, over the trials that both did and that have the metric.
 ClusteredValues differences_between(const EstimatorResults& one, const EstimatorResults& other,
                                     const std::string& metric, double times) {
-  std::map<TrialKey, double> of_other;
+  std::map<TrialKey, const RunRecord*> of_other;
   const std::string* machine = machine_of(one, metric);
   for (const RunRecord& run : other.runs) {
-    const auto value = metric_of(run, metric, machine);
-    if (!is_failed(run) && value) of_other[run.key.trial_key()] = *value;
+    if (!is_failed(run) && metric_of(run, metric, machine)) of_other[run.key.trial_key()] = &run;
   }
-  ClusteredValues differences;
+  DistinctValues differences;
   for (const RunRecord& run : one.runs) {
     const auto value = metric_of(run, metric, machine);
     const auto found = of_other.find(run.key.trial_key());
     if (is_failed(run) || !value || found == of_other.end()) continue;
-    differences[run.key.survey].push_back(*value - times * found->second);
+    differences.add(run.key.survey, log_of(run, metric) + log_of(*found->second, metric),
+                    *value - times * *metric_of(*found->second, metric, machine));
   }
-  return differences;
+  return differences.values();
 }
 
 }  // namespace
+
+std::set<TrialKey> trials_with(const EstimatorResults& one, const std::string& metric) {
+  std::set<TrialKey> trials;
+  const std::string* machine = machine_of(one, metric);
+  for (const RunRecord& run : one.runs) {
+    if (!is_failed(run) && metric_of(run, metric, machine)) trials.insert(run.key.trial_key());
+  }
+  return trials;
+}
+
+MetricSummary summary_over(const EstimatorResults& one, const std::string& metric,
+                           const std::set<TrialKey>& trials) {
+  const MetricSummary& own = one.metrics.at(metric);
+  return own.moments.count == trials.size() ? own : summary_of(one, metric, &trials).value();
+}
 
 std::optional<PairedDifference> difference_between(const EstimatorResults& one,
                                                    const EstimatorResults& other,

@@ -56,12 +56,20 @@ struct CellResults {
   std::set<int> jobs;
   std::string machines;  ///< machines_text of the study
   Repetition repetition = Repetition::surveys;
-  std::size_t surveys = 0;                   ///< that have any run
-  std::size_t trials = 0;                    ///< likewise, of all surveys
-  std::string repeats;                       ///< "10 surveys × 10 trials"
+  std::size_t surveys = 0;          ///< that have any run
+  std::size_t trials = 0;           ///< likewise, of all surveys
+  bool repeats_one_result = false;  ///< each estimator's trials do, of one log; but for costs
+  std::string repeats;              ///< "10 surveys × 10 trials"
   std::vector<EstimatorResults> estimators;  ///< dead reckoning first, then as in the study
   std::vector<PairedResult> paired;          ///< of the study's metrics
 };
+
+/// The trials of an estimator that are done and have a metric.
+std::set<TrialKey> trials_with(const EstimatorResults& one, const std::string& metric);
+
+/// A metric that an estimator has over some of these trials.
+MetricSummary summary_over(const EstimatorResults& one, const std::string& metric,
+                           const std::set<TrialKey>& trials);
 
 /// A metric of one minus that of another, or a multiple of it, over the trials that both did and
 /// that have it; nothing where there is no such trial.
@@ -133,6 +141,9 @@ std::string example_text(const CellResults& cell, const TrialKey& trial);
 
 /// "; failed: ekf 2/30", what a mean over the cell leaves out; empty where nothing failed.
 std::string failures_text(const CellResults& cell);
+
+/// Whether all of its trials have the same measurements and the same figures, but for costs.
+bool repeats_one_result(const EstimatorResults& estimator);
 
 /// Runs that are done and closed no loop; dead reckoning has none to lack.
 std::size_t runs_without_loops(const EstimatorResults& estimator);

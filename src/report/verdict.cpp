@@ -4,6 +4,7 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "contenders.hpp"
 #include "difference_scales.hpp"
 #include "fathom/core/text.hpp"
 #include "fathom/report/table.hpp"
@@ -102,8 +103,17 @@ void add_means(const Ranking& ranking, const std::string& unit,
   if (!others.empty()) sentences.push_back("Not compared by an interval: " + listed(others) + ".");
 }
 
-std::vector<std::string> answer_of(const CellResults& cell, const std::optional<Ranking>& ranking) {
-  if (!ranking) return {"No estimator is ranked: none did all its runs."};
+void add_left_out(const Ranking& ranking, const std::string& label,
+                  std::vector<std::string>& sentences) {
+  for (const PartlyMeasured& one : ranking.left_out) {
+    sentences.push_back(fmt::format("{} has no {} in {} of {} and is not ranked by it.", one.name,
+                                    label, one.without, counted(one.trials, "trial")));
+  }
+}
+
+std::vector<std::string> answer_of(const CellResults& cell, const std::optional<Ranking>& ranking,
+                                   const std::string& by) {
+  if (!ranking) return {nobody_is_ranked_text(cell, by)};
   const Metric metric = described(ranking->metric);
   const RankedEstimator& best = ranking->best();
   const std::string mean = fmt::format("{}, {}.", best.name, mean_text(best.summary, metric.unit));
@@ -116,6 +126,7 @@ std::vector<std::string> answer_of(const CellResults& cell, const std::optional<
   }
   add_others(*ranking, metric.unit, sentences);
   add_means(*ranking, metric.unit, sentences);
+  add_left_out(*ranking, metric.label, sentences);
   const EstimatorResults* baseline = find(cell, kDeadReckoning);
   if (baseline == nullptr || !baseline->metrics.contains(metric.name)) return sentences;
   const double of_baseline = baseline->metrics.at(metric.name).moments.mean;
@@ -207,20 +218,13 @@ std::vector<std::string> before_ranking(const RankingMetric& by) {
   return {"Not ranked: no metric of this study that says which is better has a value."};
 }
 
-std::string no_verdict_text(const Ranking& ranking, const CellResults& cell) {
-  const bool is_of_surveys = cell.repetition == Repetition::surveys || cell.surveys > 1;
-  return fmt::format("No verdict: with {} no difference between {} can be shown; {} are needed.",
-                     counted(ranking.draws, is_of_surveys ? "survey" : "trial"),
-                     counted(ranking.estimators.size(), "estimator"), ranking.fewest_draws);
-}
-
 CellVerdict cell_verdict(const CellResults& cell, const StudyDescription& study,
                          const RankingMetric& by, const std::optional<std::string>& cost) {
   CellVerdict verdict;
   verdict.answer = before_ranking(by);
   if (by.name) {
     verdict.ranking = ranking(cell, *by.name, {.margin = study.margin});
-    const std::vector<std::string> answer = answer_of(cell, verdict.ranking);
+    const std::vector<std::string> answer = answer_of(cell, verdict.ranking, *by.name);
     verdict.answer.insert(verdict.answer.end(), answer.begin(), answer.end());
   }
   if (verdict.ranking && cost) {

@@ -76,6 +76,17 @@ std::string distance_text(const RankedEstimator& one, const ScaledUnit& scale) {
   return quantity(std::abs(difference.mean), interval, scale);
 }
 
+std::string no_verdict_text(const Ranking& ranking, const CellResults& cell) {
+  if (cell.repeats_one_result && cell.trials > ranking.draws) {
+    return fmt::format("No verdict: the {} have the same measurements and are one result.",
+                       counted(cell.trials, "trial"));
+  }
+  const bool is_of_surveys = cell.repetition == Repetition::surveys || cell.surveys > 1;
+  return fmt::format("No verdict: with {} no difference between {} can be shown; {} are needed.",
+                     counted(ranking.draws, is_of_surveys ? "survey" : "trial"),
+                     counted(ranking.estimators.size(), "estimator"), ranking.fewest_draws);
+}
+
 std::string of_cells(std::size_t count, std::size_t all) {
   return count == all ? "all " + std::to_string(all) + " cells"
                       : fmt::format("{} of {} cells", count, all);

@@ -10,6 +10,7 @@ namespace {
 
 std::optional<Doubt> few_draws(const CellResults& cell) {
   if (cell.trials < 2) return doubt::SingleTrial{};
+  if (cell.repeats_one_result) return doubt::OneResult{cell.trials};
   if (cell.repetition == Repetition::logs) {
     if (cell.trials < kFewSurveys) return doubt::FewTrials{cell.trials};
   } else if (cell.surveys == 1) {

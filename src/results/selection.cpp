@@ -25,25 +25,36 @@ std::vector<std::size_t> ranked(const std::vector<EstimatorEvidence>& all, bool 
   return order;
 }
 
-Lead lead_over(const Compared& compared, const SelectionQuery& query, const std::string& chosen,
-               const std::string& other) {
-  ClusteredValues differences;
-  for (std::size_t c = 0; c < compared.cells.size(); ++c) {
-    for (const TrialKey& trial : compared.trials[c]) {
-      const RunRecord* a = done_run(compared, chosen, c, trial);
-      const RunRecord* b = done_run(compared, other, c, trial);
-      if (a == nullptr || b == nullptr) continue;
-      differences[trial.survey].push_back(a->metrics.at(query.objective) -
-                                          b->metrics.at(query.objective));
-    }
+// Those that meet all are compared over the trials in which all of them have the objective: where
+// some failed the hard ones, their own means would be of easier trials.
+std::vector<std::vector<TrialKey>> share_trials(Selection& selection, const Compared& compared,
+                                                const std::string& objective) {
+  std::vector<EstimatorEvidence*> candidates;
+  std::vector<std::string> names;
+  for (EstimatorEvidence& one : selection.estimators) {
+    if (!one.meets_all || !one.objective) continue;
+    candidates.push_back(&one);
+    names.push_back(one.name);
   }
+  auto trials = trials_of_all(compared, names, objective);
+  if (names.size() < 2) return trials;
+  for (EstimatorEvidence* one : candidates) {
+    one->objective = mean_over(compared, one->name, objective, trials);
+  }
+  for (std::size_t c = 0; c < trials.size(); ++c) {
+    selection.trials_left_out += compared.trials[c].size() - trials[c].size();
+  }
+  return trials;
+}
+
+Lead lead_over(const PairedDifference& difference, bool maximise) {
   Lead lead;
-  lead.difference = difference_over_surveys(differences);
-  if (!lead.difference || !lead.difference->interval) return lead;
-  const Interval& interval = *lead.difference->interval;
+  lead.difference = difference;
+  if (!difference.interval) return lead;
   constexpr double kLevel = 0.05;
-  lead.is_significant = (query.maximise ? interval.low > 0.0 : interval.high < 0.0) &&
-                        lead.difference->signed_rank.p_value.value_or(1.0) <= kLevel;
+  lead.is_significant =
+      (maximise ? difference.interval->low > 0.0 : difference.interval->high < 0.0) &&
+      difference.signed_rank.p_value.value_or(1.0) <= kLevel;
   return lead;
 }
 
@@ -79,6 +90,7 @@ std::vector<std::size_t> requirements_met_by_none(const Selection& selection, st
 }
 
 void choose(Selection& selection, const Compared& compared, const SelectionQuery& query) {
+  const auto trials = share_trials(selection, compared, query.objective);
   const std::vector<std::size_t> order = ranked(selection.estimators, query.maximise);
   selection.met_by_none = requirements_met_by_none(selection, query.requirements.size());
   if (order.empty()) {
@@ -88,8 +100,10 @@ void choose(Selection& selection, const Compared& compared, const SelectionQuery
   selection.chosen = order.front();
   selection.nearest = order.front();
   if (order.size() < 2) return;
-  selection.lead = lead_over(compared, query, selection.estimators[order[0]].name,
-                             selection.estimators[order[1]].name);
+  const auto difference =
+      difference_over(compared, selection.estimators[order[0]].name,
+                      selection.estimators[order[1]].name, query.objective, trials);
+  selection.lead = difference ? lead_over(*difference, query.maximise) : Lead{};
   selection.lead->runner_up = order[1];
 }
 

@@ -1,31 +1,42 @@
 #include "selection_evidence.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "cell_means.hpp"
 #include "fathom/core/input_error.hpp"
 #include "fathom/evaluation/metrics.hpp"
+#include "fathom/results/distinct_values.hpp"
 
 namespace fathom {
 namespace {
 
+bool is_of_other_machine(const Compared& compared, const RunRecord& run,
+                         const std::string& metric) {
+  return is_cost_metric(metric) && run.machine != compared.runs.cost_machine();
+}
+
+// Every repeat of a cost is a measurement.
+std::string log_of(const RunRecord& run, const std::string& metric) {
+  return is_cost_metric(metric) ? "" : run.log_hash;
+}
+
 // The values of one metric in a cell; nothing where a run that is done has none, or where no run is
 // done.
 std::optional<ClusteredValues> values_in(const Compared& compared, const std::string& estimator,
-                                         std::size_t c, const std::string& metric) {
-  ClusteredValues values;
-  const bool is_cost = is_cost_metric(metric);
-  for (const TrialKey& trial : compared.trials[c]) {
+                                         std::size_t c, const std::vector<TrialKey>& trials,
+                                         const std::string& metric) {
+  DistinctValues values;
+  for (const TrialKey& trial : trials) {
     const RunRecord* run = done_run(compared, estimator, c, trial);
-    if (run == nullptr) continue;
-    if (is_cost && run->machine != compared.runs.cost_machine()) continue;
-    const auto value = run->metrics.find(metric);
-    if (value == run->metrics.end()) return std::nullopt;
-    values[trial.survey].push_back(value->second);
+    if (run == nullptr || is_of_other_machine(compared, *run, metric)) continue;
+    const auto value = value_of(compared, *run, metric);
+    if (!value) return std::nullopt;
+    values.add(trial.survey, log_of(*run, metric), *value);
   }
-  if (values.empty()) return std::nullopt;
-  return values;
+  if (values.values().empty()) return std::nullopt;
+  return values.values();
 }
 
 Verdict verdict_of(const Requirement& requirement, const TrialMean& value) {
@@ -38,7 +49,8 @@ Judgement judge(const Compared& compared, const std::string& estimator,
   std::optional<Judgement> worst;
   for (std::size_t c = 0; c < compared.cells.size(); ++c) {
     Judgement judgement{Verdict::not_measured, compared.cells[c], std::nullopt};
-    if (const auto values = values_in(compared, estimator, c, requirement.metric)) {
+    if (const auto values =
+            values_in(compared, estimator, c, compared.trials[c], requirement.metric)) {
       judgement.value = mean_over_cells({*values});
       judgement.verdict = verdict_of(requirement, *judgement.value);
     }
@@ -54,11 +66,24 @@ std::optional<TrialMean> objective_of(const Compared& compared, const std::strin
                                       const std::string& metric) {
   std::vector<ClusteredValues> cells;
   for (std::size_t c = 0; c < compared.cells.size(); ++c) {
-    auto values = values_in(compared, estimator, c, metric);
+    auto values = values_in(compared, estimator, c, compared.trials[c], metric);
     if (!values) return std::nullopt;
     cells.push_back(std::move(*values));
   }
   return mean_over_cells(cells);
+}
+
+// What is tested. Of several surveys each has one value, its mean over the cells, as these count
+// the same however many trials they have.
+ClusteredValues by_survey(const std::vector<ClusteredValues>& cells, ClusteredValues pooled) {
+  if (pooled.size() < 2) return pooled;
+  ClusteredValues means;
+  for (const ClusteredValues& cell : cells) {
+    const std::vector<double> of_cell = survey_means(cell);
+    auto mean = of_cell.begin();
+    for (const auto& [survey, values] : cell) means[survey].push_back(*mean++);
+  }
+  return means;
 }
 
 }  // namespace
@@ -84,6 +109,69 @@ const RunRecord* done_run(const Compared& compared, const std::string& estimator
   const RunIndex::Trials& trials = compared.runs.of(estimator, compared.cells[c]);
   const auto run = trials.find(trial);
   return run == trials.end() || is_failed(*run->second) ? nullptr : run->second;
+}
+
+std::optional<double> value_of(const Compared& compared, const RunRecord& run,
+                               const std::string& metric) {
+  const auto found = run.metrics.find(metric);
+  if (found == run.metrics.end() || is_of_other_machine(compared, run, metric)) return std::nullopt;
+  return found->second;
+}
+
+std::vector<std::vector<TrialKey>> trials_of_all(const Compared& compared,
+                                                 const std::vector<std::string>& estimators,
+                                                 const std::string& metric) {
+  std::vector<std::vector<TrialKey>> all = compared.trials;
+  for (std::size_t c = 0; c < all.size(); ++c) {
+    std::erase_if(all[c], [&](const TrialKey& trial) {
+      return std::ranges::any_of(estimators, [&](const std::string& estimator) {
+        const RunRecord* run = done_run(compared, estimator, c, trial);
+        return run == nullptr || !value_of(compared, *run, metric);
+      });
+    });
+  }
+  return all;
+}
+
+std::optional<TrialMean> mean_over(const Compared& compared, const std::string& estimator,
+                                   const std::string& metric,
+                                   const std::vector<std::vector<TrialKey>>& trials) {
+  std::vector<ClusteredValues> cells;
+  for (std::size_t c = 0; c < trials.size(); ++c) {
+    auto values = values_in(compared, estimator, c, trials[c], metric);
+    if (values) cells.push_back(std::move(*values));
+  }
+  if (cells.empty()) return std::nullopt;
+  return mean_over_cells(cells);
+}
+
+std::optional<PairedDifference> difference_over(const Compared& compared, const std::string& one,
+                                                const std::string& other, const std::string& metric,
+                                                const std::vector<std::vector<TrialKey>>& trials) {
+  std::vector<ClusteredValues> cells;
+  DistinctValues pooled;
+  PairedDifference difference;
+  for (std::size_t c = 0; c < trials.size(); ++c) {
+    DistinctValues values;
+    for (const TrialKey& trial : trials[c]) {
+      const RunRecord& a = *done_run(compared, one, c, trial);
+      const RunRecord& b = *done_run(compared, other, c, trial);
+      const std::string log = log_of(a, metric) + log_of(b, metric);
+      const double value = *value_of(compared, a, metric) - *value_of(compared, b, metric);
+      values.add(trial.survey, log, value);
+      pooled.add(trial.survey, log, value);
+    }
+    difference.trials += trials[c].size();
+    if (!values.values().empty()) cells.push_back(values.values());
+  }
+  if (cells.empty()) return std::nullopt;
+  const TrialMean mean = mean_over_cells(cells);
+  difference.mean = mean.mean;
+  difference.interval = mean.interval;
+  difference.is_over_surveys = pooled.values().size() > 1;
+  difference.signed_rank = *test_over_surveys(by_survey(cells, pooled.values()));
+  difference.count = difference.signed_rank.count;
+  return difference;
 }
 
 double excess(const Requirement& requirement, const Judgement& judgement) {

@@ -24,6 +24,27 @@ Compared compared_runs(const RunIndex& runs, const std::vector<std::size_t>& ask
 const RunRecord* done_run(const Compared& compared, const std::string& estimator, std::size_t c,
                           const TrialKey& trial);
 
+/// A metric of a run that is done; nothing where it has none, or has it as a cost of another
+/// processor than that of cost_machine().
+std::optional<double> value_of(const Compared& compared, const RunRecord& run,
+                               const std::string& metric);
+
+/// The trials of each cell in which all of these estimators have a metric.
+std::vector<std::vector<TrialKey>> trials_of_all(const Compared& compared,
+                                                 const std::vector<std::string>& estimators,
+                                                 const std::string& metric);
+
+/// The mean of a metric over the cells, of these trials of each; cells without one are left out.
+/// Nothing where none is left.
+std::optional<TrialMean> mean_over(const Compared& compared, const std::string& estimator,
+                                   const std::string& metric,
+                                   const std::vector<std::vector<TrialKey>>& trials);
+
+/// The same of what one estimator has more than another, both in all of these trials.
+std::optional<PairedDifference> difference_over(const Compared& compared, const std::string& one,
+                                                const std::string& other, const std::string& metric,
+                                                const std::vector<std::vector<TrialKey>>& trials);
+
 EstimatorEvidence evidence_of(const Compared& compared, const std::string& estimator,
                               const SelectionQuery& query);
 

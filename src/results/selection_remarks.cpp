@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <set>
 
+#include "fathom/core/text.hpp"
 #include "fathom/evaluation/metrics.hpp"
 #include "selection_evidence.hpp"
 
@@ -43,6 +44,45 @@ std::string one_survey_remark(const Compared& compared, const Selection& selecti
   return remarks.empty() ? "" : *remarks.begin();
 }
 
+// Why one without an objective is passed over.
+std::string unmeasured_text(const Compared& compared, const EstimatorEvidence& evidence,
+                            const std::string& objective) {
+  if (evidence.objective) return "";
+  std::size_t done = 0;
+  std::size_t without = 0;
+  for (std::size_t c = 0; c < compared.cells.size(); ++c) {
+    for (const TrialKey& trial : compared.trials[c]) {
+      const RunRecord* run = done_run(compared, evidence.name, c, trial);
+      if (run == nullptr) continue;
+      ++done;
+      without += value_of(compared, *run, objective) ? 0 : 1;
+    }
+  }
+  if (done == 0) return "";
+  return fmt::format("{}: {} was not measured in {} of {}, so it cannot be chosen", evidence.name,
+                     objective, without, counted(done, "run"));
+}
+
+// Cells whose trials all have the same measurements. Loops that are held out are drawn even there.
+std::string repeats_remark(const Compared& compared) {
+  std::size_t cells = 0;
+  for (std::size_t c = 0; c < compared.cells.size(); ++c) {
+    bool is_one = compared.trials[c].size() > 1;
+    for (const StudyEstimator& estimator : compared.runs.study().estimators) {
+      std::set<std::string> logs;
+      for (const auto& [trial, run] : compared.runs.of(estimator.name, compared.cells[c])) {
+        logs.insert(run->log_hash);
+      }
+      is_one = is_one && logs.size() == 1 && !logs.contains("");
+    }
+    cells += is_one ? 1 : 0;
+  }
+  if (cells == 0) return "";
+  return fmt::format(
+      "the trials of {} have the same measurements: what they say alike is one result",
+      counted(cells, "cell"));
+}
+
 }  // namespace
 
 std::vector<std::string> remarks_on(const Compared& compared, const Selection& selection,
@@ -69,6 +109,18 @@ std::vector<std::string> remarks_on(const Compared& compared, const Selection& s
     remarks.push_back(fmt::format("{}: {} of {} runs failed and are left out of its means{}",
                                   evidence.name, evidence.failed, evidence.runs,
                                   evidence.has_too_many_failures ? "; it is out for that" : ""));
+  }
+  if (selection.trials_left_out > 0) {
+    remarks.push_back(
+        fmt::format("{} is compared without {}, which not all that meet the requirements have",
+                    query.objective, counted(selection.trials_left_out, "trial")));
+  }
+  for (const EstimatorEvidence& evidence : selection.estimators) {
+    const std::string unmeasured = unmeasured_text(compared, evidence, query.objective);
+    if (!unmeasured.empty()) remarks.push_back(unmeasured);
+  }
+  if (const std::string repeated = repeats_remark(compared); !repeated.empty()) {
+    remarks.push_back(repeated);
   }
   const auto is_aligned = [](const Metric& metric) { return metric.is_aligned; };
   const std::string alignments = alignments_remark(compared.runs.study(), selection.cells);

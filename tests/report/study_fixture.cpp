@@ -144,7 +144,8 @@ void add_metrics(RunRecord& run, const Character& character, std::mt19937& rando
 RunRecord fixture_run(const RunKey& key, const FixtureOptions& options, std::size_t cells) {
   RunRecord run;
   run.key = key;
-  run.log_hash = "00ff";
+  run.log_hash =
+      std::to_string(key.cell) + "-" + std::to_string(key.survey) + "-" + std::to_string(key.trial);
   run.jobs = options.jobs;
   run.metrics["keyframes"] = static_cast<double>(options.keyframes);
   const bool baseline = key.estimator == kDeadReckoning;

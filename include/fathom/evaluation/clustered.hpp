@@ -45,4 +45,11 @@ std::optional<Interval> hierarchical_interval(const ClusteredValues& values,
 std::optional<Interval> interval_over_cells(std::span<const ClusteredValues> cells,
                                             const BootstrapOptions& options = {});
 
+/// The same of cells whose values are independent draws: those of each cell are resampled by
+/// themselves (a stratified bootstrap, BCa). Both ends are moved as those of `bootstrap_interval`,
+/// with the degrees of freedom of a sum of variances (Satterthwaite 1946). Nothing where a cell has
+/// fewer than two values.
+std::optional<Interval> stratified_interval(std::span<const std::vector<double>> cells,
+                                            const BootstrapOptions& options = {});
+
 }  // namespace fathom

@@ -62,10 +62,12 @@ struct Judgement {
 /// The evidence of one estimator.
 struct EstimatorEvidence {
   std::string name;
-  std::vector<Judgement> judgements;   ///< one per requirement
-  std::optional<TrialMean> objective;  ///< mean over the cells of the cells' means
-  std::size_t runs = 0;                ///< in the cells looked at
-  std::size_t failed = 0;              ///< of these; never part of a mean
+  std::vector<Judgement> judgements;  ///< one per requirement
+  /// Mean over the cells of the cells' means; of those that meet all over the trials in which all
+  /// of these have it.
+  std::optional<TrialMean> objective;
+  std::size_t runs = 0;    ///< in the cells looked at
+  std::size_t failed = 0;  ///< of these; never part of a mean
   bool has_too_many_failures = false;
   bool meets_all = false;  ///< the requirements, and not too many failures
 };
@@ -85,7 +87,10 @@ struct Selection {
   std::size_t fewest_trials = 0;  ///< that all estimators have, of all surveys, over the cells
   std::size_t most_trials = 0;
   std::size_t surveys = 0;  ///< that these trials are of
-  std::string repeats;      ///< what they are, in words: "10 surveys × 10 trials"
+  /// Of these trials, over the cells, that some who meets all failed: the objective is without
+  /// them.
+  std::size_t trials_left_out = 0;
+  std::string repeats;  ///< what they are, in words: "10 surveys × 10 trials"
   std::vector<EstimatorEvidence> estimators;  ///< as in the study
   std::optional<EstimatorEvidence> baseline;  ///< dead reckoning; never chosen
   std::optional<std::size_t> chosen;          ///< place in `estimators`
@@ -98,6 +103,7 @@ struct Selection {
 /// Chooses among the estimators of a study. In each cell the trials count that all estimators have
 /// a run of; cells without such a trial are left out with a remark. A requirement is met where the
 /// 95 % interval of the mean (of a single trial: the value) lies on its right side in every cell.
+/// Trials that repeat one measurement log are one result (DistinctValues).
 /// Throws InputError on a metric or axis that the study does not have, with the nearest that it
 /// has, and on a study without a trial that all estimators have.
 Selection select_estimator(const ResultStore& store, const SelectionQuery& query);
