@@ -173,7 +173,10 @@ std::optional<Ranking> ranking(const CellResults& cell, const std::string& metri
     if (entry.difference) most_draws = std::max(most_draws, entry.difference->count);
     result.estimators.push_back(std::move(entry));
   }
-  if (order.size() > 1) result.draws = std::min(result.draws, most_draws);
+  if (order.size() > 1) {
+    result.repeats_one_result = cell.trials > 1 && cell.surveys < 2 && most_draws == 1;
+    result.draws = std::min(result.draws, most_draws);
+  }
   for (std::size_t i = 1; i < order.size() && result.gives_verdict(); ++i) {
     const Beside beside{*order[i].one, best, order.front().mean(), metric, bootstrap};
     RankedEstimator& entry = result.estimators[i];

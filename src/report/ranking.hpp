@@ -44,7 +44,8 @@ struct Ranking {
   double level = 0.95;    ///< of each interval: 1 − 0.05 / number of differences
   double margin = 0.0;    ///< differences up to it mean nothing; in the metric's unit
   std::size_t draws = 0;  ///< independent ones: surveys, or trials where these are drawn alone
-  std::size_t fewest_draws = 0;  ///< with fewer no p can be below 0.05
+  std::size_t fewest_draws = 0;     ///< with fewer no p can be below 0.05
+  bool repeats_one_result = false;  ///< several trials, of one log, in which all differ by the same
 
   const RankedEstimator& best() const { return estimators.front(); }
   const RankedEstimator* find(const std::string& estimator) const;

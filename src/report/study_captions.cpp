@@ -13,16 +13,6 @@ std::string worded(std::string name) {
   return name;
 }
 
-bool repeats_one_result(const EstimatorResults& estimator) {
-  std::set<std::pair<std::string, std::map<std::string, double>>> results;
-  for (const RunRecord& run : estimator.runs) {
-    auto metrics = run.metrics;
-    std::erase_if(metrics, [](const auto& metric) { return is_cost_metric(metric.first); });
-    results.emplace(run.log_hash, std::move(metrics));
-  }
-  return results.size() == 1 && !results.begin()->first.empty();
-}
-
 std::size_t runs_without_loops(const EstimatorResults& estimator) {
   if (estimator.name == kDeadReckoning) return 0;
   return static_cast<std::size_t>(std::ranges::count_if(estimator.runs, [](const RunRecord& run) {

@@ -154,7 +154,6 @@ CellResults runs_of(const RunIndex& index, std::size_t number, const std::string
   std::set<std::size_t> surveys;
   for (const TrialKey& trial : trials) surveys.insert(trial.survey);
   cell.surveys = surveys.size();
-  cell.repeats_one_result = std::ranges::all_of(cell.estimators, repeats_one_result);
   cell.repetition = study.repetition_of(number);
   cell.repeats = repeats_text(cell.repetition, {trials.begin(), trials.end()});
   return cell;

@@ -56,10 +56,9 @@ struct CellResults {
   std::set<int> jobs;
   std::string machines;  ///< machines_text of the study
   Repetition repetition = Repetition::surveys;
-  std::size_t surveys = 0;          ///< that have any run
-  std::size_t trials = 0;           ///< likewise, of all surveys
-  bool repeats_one_result = false;  ///< each estimator's trials do, of one log; but for costs
-  std::string repeats;              ///< "10 surveys × 10 trials"
+  std::size_t surveys = 0;                   ///< that have any run
+  std::size_t trials = 0;                    ///< likewise, of all surveys
+  std::string repeats;                       ///< "10 surveys × 10 trials"
   std::vector<EstimatorResults> estimators;  ///< dead reckoning first, then as in the study
   std::vector<PairedResult> paired;          ///< of the study's metrics
 };
@@ -141,9 +140,6 @@ std::string example_text(const CellResults& cell, const TrialKey& trial);
 
 /// "; failed: ekf 2/30", what a mean over the cell leaves out; empty where nothing failed.
 std::string failures_text(const CellResults& cell);
-
-/// Whether all of its trials have the same measurements and the same figures, but for costs.
-bool repeats_one_result(const EstimatorResults& estimator);
 
 /// Runs that are done and closed no loop; dead reckoning has none to lack.
 std::size_t runs_without_loops(const EstimatorResults& estimator);

@@ -10,6 +10,7 @@
 #include "fathom/report/table.hpp"
 #include "regime_map.hpp"
 #include "scaled_unit.hpp"
+#include "verdict_answer.hpp"
 
 namespace fathom {
 namespace {
@@ -63,6 +64,7 @@ void add_others(const Ranking& ranking, const std::string& unit,
                     listed_with(named, [&](const RankedEstimator& one) {
                       return fmt::format("{} ({})", one.name, signed_text(one, scales.of(one)));
                     })));
+    sentences.push_back(rare_text(ranking));
   }
   if (const auto named = with_interval(ranking, Standing::not_shown); !named.empty()) {
     const DifferenceScales scales(named, unit);

@@ -77,7 +77,7 @@ std::string distance_text(const RankedEstimator& one, const ScaledUnit& scale) {
 }
 
 std::string no_verdict_text(const Ranking& ranking, const CellResults& cell) {
-  if (cell.repeats_one_result && cell.trials > ranking.draws) {
+  if (ranking.repeats_one_result) {
     return fmt::format("No verdict: the {} have the same measurements and are one result.",
                        counted(cell.trials, "trial"));
   }
@@ -85,6 +85,12 @@ std::string no_verdict_text(const Ranking& ranking, const CellResults& cell) {
   return fmt::format("No verdict: with {} no difference between {} can be shown; {} are needed.",
                      counted(ranking.draws, is_of_surveys ? "survey" : "trial"),
                      counted(ranking.estimators.size(), "estimator"), ranking.fewest_draws);
+}
+
+std::string rare_text(const Ranking& ranking) {
+  // What has a probability of 3 / n occurs in none of n draws with one of 5 %.
+  return fmt::format("{} draws need not show what goes wrong in one of {}.", ranking.draws,
+                     format_number(static_cast<double>(ranking.draws) / 3.0, 2));
 }
 
 std::string of_cells(std::size_t count, std::size_t all) {

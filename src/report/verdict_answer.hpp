@@ -14,4 +14,7 @@ std::string of_cells(std::size_t count, std::size_t all);
 /// verdict.
 void add_answer(const StudyResults& results, StudyVerdict& verdict);
 
+/// What so few draws do not exclude, of estimators that are called equivalent: a sentence.
+std::string rare_text(const Ranking& ranking);
+
 }  // namespace fathom

@@ -8,9 +8,9 @@
 namespace fathom {
 namespace {
 
-std::optional<Doubt> few_draws(const CellResults& cell) {
+std::optional<Doubt> few_draws(const CellResults& cell, const CellVerdict& verdict) {
   if (cell.trials < 2) return doubt::SingleTrial{};
-  if (cell.repeats_one_result) return doubt::OneResult{cell.trials};
+  if (verdict.ranking && verdict.ranking->repeats_one_result) return doubt::OneResult{cell.trials};
   if (cell.repetition == Repetition::logs) {
     if (cell.trials < kFewSurveys) return doubt::FewTrials{cell.trials};
   } else if (cell.surveys == 1) {
@@ -138,7 +138,7 @@ std::vector<Doubt> doubts_of(const CellResults& cell, const CellVerdict& verdict
   const auto add = [&doubts](const std::optional<Doubt>& found) {
     if (found) doubts.push_back(*found);
   };
-  add(few_draws(cell));
+  add(few_draws(cell, verdict));
   if (verdict.ranking) add(baseline_as_good(cell, *verdict.ranking));
   add(wrong_confidence(cell, true));
   add(wrong_confidence(cell, false));

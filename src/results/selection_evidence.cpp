@@ -169,8 +169,9 @@ std::optional<PairedDifference> difference_over(const Compared& compared, const 
   difference.mean = mean.mean;
   difference.interval = mean.interval;
   difference.is_over_surveys = pooled.values().size() > 1;
-  difference.signed_rank = *test_over_surveys(by_survey(cells, pooled.values()));
-  difference.count = difference.signed_rank.count;
+  const ClusteredValues tested = by_survey(cells, pooled.values());
+  difference.signed_rank = *test_over_surveys(tested);
+  difference.count = difference.is_over_surveys ? tested.size() : tested.begin()->second.size();
   return difference;
 }
 

@@ -117,6 +117,7 @@ TEST(Ranking, RepeatsOfOneResultAreOneDraw) {
   }
   const auto ranked = ranking(cell, kError);
   EXPECT_EQ(ranked->draws, 1u);
+  EXPECT_TRUE(ranked->repeats_one_result);
   EXPECT_FALSE(ranked->gives_verdict());
   EXPECT_FALSE(ranked->find("b")->difference->interval);
 }

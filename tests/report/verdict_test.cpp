@@ -38,6 +38,8 @@ TEST(Verdict, ADifferenceThatIsSmallBesideTheBestIsNone) {
   StudyResults results = study_of({surveyed({eight("best", kBest), eight("close", close)})}, 8, 1);
   EXPECT_THAT(study_verdict(results).answer[1],
               StartsWith("Equivalent to best, within 0.105 mm: close (+0.0104 mm ["));
+  EXPECT_EQ(study_verdict(results).answer[2],
+            "8 draws need not show what goes wrong in one of 2.7.");
   results.study.margin = 0.0005;
   EXPECT_THAT(study_verdict(results).answer[1], StartsWith("Worse: close by 0.0104 mm ["));
 }

@@ -41,6 +41,14 @@ def equivalent(work):
                  [list(row.values()) for row in rows])
 
 
+@maker(PAGE, "errors-rare", "slow", _how("rare"), 5, **BENCH)
+def rare(work):
+    rows = _rows(work, "rare")
+    return table(["trials", "its error there, times", "true difference, %", "called equivalent, %"],
+                 [[row["trials"], row["its error, times"], row["true difference, %"],
+                   row["called equivalent, %"]] for row in rows])
+
+
 @maker(PAGE, "errors-coverage", "slow", _how("coverage"), 15, **BENCH)
 def coverage(work):
     rows = _rows(work, "coverage")
@@ -50,3 +58,14 @@ def coverage(work):
     shapes = dict.fromkeys(row["errors"] for row in rows)
     return table(["surveys", "trials of each", *shapes],
                  [[*size, *(cells[(shape, *size)] for shape in shapes)] for size in sizes])
+
+
+@maker(PAGE, "errors-cells", "slow", _how("cells"), 15, **BENCH)
+def cells(work):
+    rows = _rows(work, "cells")
+    sizes = dict.fromkeys((row["cells"], row["trials of each"]) for row in rows)
+    held = {(row["errors"], row["cells"], row["trials of each"]):
+            row["the 95 % interval holds the mean, %"] for row in rows}
+    shapes = dict.fromkeys(row["errors"] for row in rows)
+    return table(["cells", "trials of each", *shapes],
+                 [[*size, *(held[(shape, *size)] for shape in shapes)] for size in sizes])

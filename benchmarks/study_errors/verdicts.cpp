@@ -1,47 +1,19 @@
-// How often a study's statistics are wrong, on drawn studies whose truth is known: how often one of
-// several exchangeable estimators is called worse, how often one that is off by the margin is
-// called equivalent, and how often a 95 % interval holds the mean. Prints Markdown tables.
-//
-//   study_errors [--repeats N] [--seed S] [--table worse|equivalent|coverage]
+// How often verdicts are wrong.
 
-#include <cmath>
 #include <cstdio>
-#include <exception>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include <CLI/CLI.hpp>
-
-#include "fathom/core/random.hpp"
+#include "draws.hpp"
 #include "fathom/evaluation/clustered.hpp"
 #include "src/report/ranking.hpp"
 
-namespace fathom {
+namespace fathom::study_errors {
 namespace {
 
 constexpr const char* kMetric = "mean_position_error_m";
 constexpr std::size_t kTrials = 5;
-
-// Of mean 1: normal with a deviation of 0.3, or log-normal.
-enum class Shape { normal, skewed, heavy };
-
-const char* name_of(Shape shape) {
-  switch (shape) {
-    case Shape::normal:
-      return "normal";
-    case Shape::skewed:
-      return "log-normal, 0.5";
-    case Shape::heavy:
-      break;
-  }
-  return "log-normal, 1";
-}
-
-double drawn(Shape shape, RandomStream& random) {
-  if (shape == Shape::normal) return 1.0 + 0.3 * random.normal();
-  const double sigma = shape == Shape::skewed ? 0.5 : 1.0;
-  return std::exp(sigma * random.normal() - 0.5 * sigma * sigma);
-}
 
 // An error has a part of the survey, one of the estimator on it, and one of the trial.
 struct DrawnStudy {
@@ -101,9 +73,36 @@ Counts counted(const DrawnStudy& study, double margin, std::size_t repeats, std:
   return counts;
 }
 
-double percent(std::size_t part, std::size_t all) {
-  return 100.0 * static_cast<double>(part) / static_cast<double>(all);
+// Trials of drawn logs. Two estimators are alike but for a wrong minimum of the second, with such a
+// chance in each trial, which multiplies its error.
+CellResults cell_of_rare(std::size_t trials, double chance, double times, RandomStream& random) {
+  CellResults cell;
+  cell.surveys = 1;
+  cell.trials = trials;
+  cell.repetition = Repetition::logs;
+  cell.estimators.resize(2);
+  for (std::size_t e = 0; e < 2; ++e) cell.estimators[e].name = e == 0 ? "sound" : "rarely wrong";
+  for (std::size_t t = 0; t < trials; ++t) {
+    const double error = drawn(Shape::normal, random);
+    const bool is_wrong = random.uniform(0.0, 1.0) < chance;
+    for (std::size_t e = 0; e < 2; ++e) {
+      RunRecord run;
+      run.key = {0, 0, t, cell.estimators[e].name};
+      run.outcome = "converged";
+      run.metrics[kMetric] = error * (e == 1 && is_wrong ? times : 1.0);
+      cell.estimators[e].runs.push_back(std::move(run));
+    }
+  }
+  for (EstimatorResults& one : cell.estimators) {
+    one.done = trials;
+    std::vector<double> values;
+    for (const RunRecord& run : one.runs) values.push_back(run.metrics.at(kMetric));
+    one.metrics[kMetric].moments = *moments(values);
+  }
+  return cell;
 }
+
+}  // namespace
 
 // Of estimators that are alike.
 void print_worse(std::size_t repeats, std::uint64_t seed) {
@@ -140,62 +139,26 @@ void print_equivalent(std::size_t repeats, std::uint64_t seed) {
   }
 }
 
-// Of means, which are 1.
-void print_coverage(std::size_t repeats, std::uint64_t seed) {
-  std::printf("| errors | surveys | trials of each | the 95 %% interval holds the mean, %% |\n");
-  std::printf("|---|---|---|---|\n");
-  struct Size {
-    std::size_t surveys;
-    std::size_t trials;
-  };
-  for (const Shape shape : {Shape::normal, Shape::skewed, Shape::heavy}) {
-    for (const auto& [surveys, trials] :
-         {Size{1, 5}, Size{1, 10}, Size{1, 20}, Size{1, 50}, Size{1, 200}, Size{3, 5}, Size{5, 5},
-          Size{10, 5}, Size{20, 5}}) {
-      RandomStream random(seed, "coverage");
-      std::size_t held = 0;
+void print_rare(std::size_t repeats, std::uint64_t seed) {
+  std::printf(
+      "| trials | chance of a wrong minimum, %% | its error, times | true difference, %% | called "
+      "equivalent, %% |\n");
+  std::printf("|---|---|---|---|---|\n");
+  constexpr double kChance = 0.02;
+  constexpr double kMargin = 0.01;
+  for (const std::size_t trials : {20, 50, 150, 500}) {
+    for (const double times : {1.5, 11.0}) {
+      RandomStream random(seed, "rare errors");
+      std::size_t equivalent = 0;
       for (std::size_t i = 0; i < repeats; ++i) {
-        ClusteredValues values;
-        for (std::size_t s = 0; s < surveys; ++s) {
-          // The only survey is the one that is asked about.
-          const double of_survey = surveys > 1 ? drawn(shape, random) : 1.0;
-          for (std::size_t t = 0; t < trials; ++t) {
-            values[s].push_back(of_survey * drawn(shape, random));
-          }
-        }
-        held += hierarchical_interval(values)->contains(1.0) ? 1 : 0;
+        const auto ranked =
+            ranking(cell_of_rare(trials, kChance, times, random), kMetric, {.margin = kMargin});
+        equivalent += ranked->standing(Standing::equivalent).empty() ? 0 : 1;
       }
-      std::printf("| %s | %zu | %zu | %.1f |\n", name_of(shape), surveys, trials,
-                  percent(held, repeats));
+      std::printf("| %zu | %.0f | %.1f | %.0f | %.2f |\n", trials, 100.0 * kChance, times,
+                  100.0 * kChance * (times - 1.0), percent(equivalent, repeats));
     }
   }
 }
 
-int run(int argc, const char* const* argv) {
-  std::size_t repeats = 1000;
-  std::uint64_t seed = 1;
-  std::string only;
-  CLI::App app{"Error rates of verdicts and coverage of intervals, on drawn studies."};
-  app.add_option("--repeats", repeats, "studies a row")->check(CLI::PositiveNumber);
-  app.add_option("--seed", seed, "of the draws");
-  app.add_option("--table", only, "this one alone")
-      ->check(CLI::IsMember({"worse", "equivalent", "coverage"}));
-  CLI11_PARSE(app, argc, argv);
-  const auto is_asked = [&only](const char* table) { return only.empty() || only == table; };
-  if (is_asked("worse")) print_worse(repeats, seed);
-  if (only.empty()) std::printf("\n");
-  if (is_asked("equivalent")) print_equivalent(repeats, seed);
-  if (only.empty()) std::printf("\n");
-  if (is_asked("coverage")) print_coverage(repeats, seed);
-  return 0;
-}
-
-}  // namespace
-}  // namespace fathom
-
-int main(int argc, char** argv) try {
-  return fathom::run(argc, argv);
-} catch (const std::exception& error) {
-  std::fprintf(stderr, "study_errors: error: %s\n", error.what());
-  return 1;
-}
+}  // namespace fathom::study_errors
