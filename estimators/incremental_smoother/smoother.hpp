@@ -196,8 +196,11 @@ class Smoother {
     std::vector<CliqueTree::Response> responses{};
   };
   MotionInTree motion_in_tree(int from, int to);
-  Eigen::Matrix3d motion_covariance(int from);
-  Eigen::Matrix3d shared_covariance(const RelativePose& z);
+  /// The newest keyframe that `variance` knows.
+  int last_inside() const { return has_tree() ? outside_.first - 1 : problem_.size() - 1; }
+  std::optional<Eigen::Matrix3d> variance(const std::vector<CliqueTree::Response>& responses);
+  std::optional<Eigen::Matrix3d> motion_covariance(int from);
+  std::optional<Eigen::Matrix3d> shared_covariance(const RelativePose& z);
 
   SmootherLimits limits_;
   ErrorStates error_states_;

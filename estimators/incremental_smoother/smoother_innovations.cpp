@@ -1,18 +1,20 @@
-// What a Smoother's tree says of uncertainty.
+// What a Smoother's tree says of uncertainty, or the whole graph where there is no tree.
 
 #include <algorithm>
 
 #include "estimators/incremental_smoother/smoother.hpp"
+#include "estimators/support/pose_graph/information.hpp"
 
 namespace fathom::incremental_smoother {
 
 std::optional<std::vector<Eigen::Matrix3d>> Smoother::predicted_covariances(
     std::span<const RelativePose> forward_loops) {
-  if (!has_tree()) return std::nullopt;
   std::vector<Eigen::Matrix3d> result;
   for (const RelativePose& z : forward_loops) {
-    result.push_back(has_states(z) ? shared_covariance(z)
-                                   : motion_covariance(static_cast<int>(z.from)));
+    const auto S =
+        has_states(z) ? shared_covariance(z) : motion_covariance(static_cast<int>(z.from));
+    if (!S) return std::nullopt;
+    result.push_back(*S);
   }
   return result;
 }
@@ -20,16 +22,37 @@ std::optional<std::vector<Eigen::Matrix3d>> Smoother::predicted_covariances(
 // The origin is exact, so the motion from it is all that is uncertain.
 std::optional<Eigen::Matrix3d> Smoother::newest_covariance() {
   if (!has_tree()) return std::nullopt;
-  return transport(planar_rotation(problem_.nodes[0].theta), motion_covariance(0));
+  return transport(planar_rotation(problem_.nodes[0].theta), *motion_covariance(0));
+}
+
+// Poses of the graph are in world axes.
+std::optional<Eigen::Matrix3d> Smoother::variance(
+    const std::vector<CliqueTree::Response>& responses) {
+  if (has_tree()) return tree_.variance(responses);
+  const pose_graph::ExtendedGraph graph = weighted_graph();
+  std::vector<std::size_t> nodes;
+  Eigen::Matrix3Xd J(3, static_cast<Eigen::Index>(3 * responses.size()));
+  for (const CliqueTree::Response& response : responses) {
+    const int keyframe = keyframe_of(response.variable);
+    const bool is_pose = !is_errors(response.variable);
+    J.middleCols<3>(static_cast<Eigen::Index>(3 * nodes.size())) =
+        is_pose ? response.J * planar_rotation(-problem_.nodes[at(keyframe)].theta) : response.J;
+    nodes.push_back(at(is_pose ? keyframe : graph.node_of[at(keyframe)]));
+  }
+  const auto joint = pose_graph::joint_covariance(graph.edges, graph.nodes, nodes);
+  if (!joint) return std::nullopt;
+  return J * *joint * J.transpose();
 }
 
 // Of the motion from a keyframe to the newest: by the tree as far as it goes, then step by step.
-Eigen::Matrix3d Smoother::motion_covariance(int from) {
-  const int last = outside_.first - 1;
+std::optional<Eigen::Matrix3d> Smoother::motion_covariance(int from) {
+  const int last = last_inside();
   UncertainPose motion{{}, Eigen::Matrix3d::Zero()};
   if (from < last) {
     const MotionInTree in_tree = motion_in_tree(from, last);
-    motion = {in_tree.mean, tree_.variance(in_tree.responses)};
+    const auto known = variance(in_tree.responses);
+    if (!known) return std::nullopt;
+    motion = {in_tree.mean, *known};
   }
   for (int k = std::max(from, last); k + 1 < problem_.size(); ++k) {
     motion = compose(motion, outside_.steps[at(k - last)]);
@@ -49,9 +72,9 @@ Smoother::MotionInTree Smoother::motion_in_tree(int from, int to) {
 
 // Of h(x) + G_from n_from + G_to n_to. n that is not in the tree is as its prior says, and as the
 // edge does that it is folded into.
-Eigen::Matrix3d Smoother::shared_covariance(const RelativePose& z) {
+std::optional<Eigen::Matrix3d> Smoother::shared_covariance(const RelativePose& z) {
   const int from = static_cast<int>(z.from);
-  const int last = outside_.first - 1;
+  const int last = last_inside();
   UncertainPose outside{{}, Eigen::Matrix3d::Zero()};
   for (int k = std::max(from, last); k + 1 < problem_.size(); ++k) {
     outside = compose(outside, outside_.steps[at(k - last)]);
@@ -86,7 +109,9 @@ Eigen::Matrix3d Smoother::shared_covariance(const RelativePose& z) {
       if (end->node >= 0) motion.responses.push_back({errors_of(end->node), -XW * end->G});
     }
   }
-  return S + tree_.variance(motion.responses);
+  const auto known = variance(motion.responses);
+  if (!known) return std::nullopt;
+  return S + *known;
 }
 
 }  // namespace fathom::incremental_smoother

@@ -177,5 +177,23 @@ TEST(IncrementalSmoother, SolvesTheWholeGraphWhereItsStepsFail) {
   EXPECT_NEAR(chi2(log, poses_of(*ours)), optimum, 1e-8 * optimum);
 }
 
+// Of a loop that the sums of the tree do not carry there is no tree, and the gate asks the graph.
+TEST(IncrementalSmoother, GatesAfterALoopBeyondItsTree) {
+  const MeasurementLog log = test::with_precise_loop(7, 1e20);
+  const EstimatorValues gate = test::values({{"gate_probability", "0.9999"}});
+  const auto ours = make("incremental_smoother", log.origin(), gate);
+  const auto whole = make("sparse_gauss_newton", log.origin(), gate);
+  std::vector<LoopDecision> loops;
+  std::vector<LoopDecision> expected;
+  EXPECT_EQ(test::feed(*ours, log, &loops), Outcome::converged);
+  EXPECT_EQ(test::feed(*whole, log, &expected), Outcome::converged);
+  ASSERT_EQ(loops.size(), expected.size());
+  for (std::size_t j = 0; j < loops.size(); ++j) {
+    EXPECT_EQ(loops[j].fate, LoopFate::used) << j;
+    EXPECT_NEAR(*loops[j].nis, *expected[j].nis, 1e-3 * *expected[j].nis) << j;
+  }
+  EXPECT_LT(test::largest_distance(poses_of(*ours), poses_of(*whole)), 1e-5);
+}
+
 }  // namespace
 }  // namespace fathom

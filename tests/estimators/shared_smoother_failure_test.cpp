@@ -136,5 +136,39 @@ TEST(SharedSmoother, GatesTestWhatIsLeftOfTheSharedErrors) {
   for (const int per_keyframe : {1, 2, 4}) expect_nis(per_keyframe);
 }
 
+// After a loop that the sums of the tree do not carry there is none, and the graph is asked.
+void expect_nis_without_tree(int per_keyframe) {
+  const MeasurementLog log = SharedWalk(17, per_keyframe, 3).log;
+  EstimatorValues values = test::exactly();
+  values["gate_probability"] = OptionValue::scalar("0.999999999");
+  const auto ours = test::make("incremental_smoother", log.start(), values);
+  const auto whole = test::make("sparse_gauss_newton", log.start(), values);
+  std::size_t judged = 0;
+  for (std::size_t k = 1; k < log.size(); ++k) {
+    std::vector<RelativePose> registrations = log.arrival(k).registrations;
+    if (k == 4) {
+      const Pose motion = between(ours->pose(1), ours->pose(3));
+      registrations = {{1, 4, compose(motion, log.arrival(4).step.forward().motion),
+                        1e20 * Eigen::Matrix3d::Identity(), std::nullopt}};
+    }
+    ours->add_keyframe(log.arrival(k).step);
+    whole->add_keyframe(log.arrival(k).step);
+    if (k % 3 == 2) continue;
+    const UpdateReport report = ours->update({registrations});
+    const UpdateReport expected = whole->update({registrations});
+    ASSERT_EQ(report.outcome, Outcome::converged) << k;
+    for (std::size_t j = 0; j < report.loops.size(); ++j) {
+      const double nis = *expected.loops[j].nis;
+      EXPECT_NEAR(*report.loops[j].nis, nis, 1e-4 * nis + 1e-6) << k;
+      judged += k > 4 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(judged, 0u);
+}
+
+TEST(SharedSmoother, GatesTestWithoutATree) {
+  for (const int per_keyframe : {1, 2, 4}) expect_nis_without_tree(per_keyframe);
+}
+
 }  // namespace
 }  // namespace fathom
