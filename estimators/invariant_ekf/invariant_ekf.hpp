@@ -6,8 +6,8 @@ namespace fathom {
 
 /// The delayed-state EKF with a right-invariant error (Barrau and Bonnabel, *The Invariant Extended
 /// Kalman Filter as a Stable Observer*, IEEE Transactions on Automatic Control 62(4), 2017): with
-/// X_k in SE(2), X_k = exp(ξ_k) X̂_k, ξ = (ξ_x, ξ_y, ξ_θ) a twist in world axes. A motion of the
-/// whole map is the same ξ of every pose, wherever the estimate is.
+/// X_k in SE(2), X_k = exp(ξ_k) X̂_k, ξ = (ξ_x, ξ_y, ξ_θ) a twist about node 0 in world axes. A
+/// motion of the whole map is the same ξ of every pose, wherever the estimate is.
 /// docs/estimators/invariant_ekf.md.
 class InvariantEkf final : public filter::DelayedStateFilter {
  public:

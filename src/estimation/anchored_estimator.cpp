@@ -1,6 +1,8 @@
 #include <algorithm>
+#include <optional>
 #include <utility>
 
+#include "fathom/estimation/precision.hpp"
 #include "fathom/estimation/relative_estimator.hpp"
 #include "fathom/geometry/covariance.hpp"
 
@@ -17,6 +19,12 @@ RelativePose step_to_keyframe_0(const StartPose& start) {
   return step;
 }
 
+EstimatorSetup at_zero(EstimatorSetup setup) {
+  setup.start.pose.x = 0.0;
+  setup.start.pose.y = 0.0;
+  return setup;
+}
+
 }  // namespace
 
 bool is_open_hole(const RelativePose& step) {
@@ -25,7 +33,9 @@ bool is_open_hole(const RelativePose& step) {
 }
 
 AnchoredEstimator::AnchoredEstimator(const EstimatorSetup& setup, const MakeRelative& make)
-    : relative_(make(setup)), node_0_(setup.start.pose), is_batch_(setup.mode == SolveMode::batch) {
+    : relative_(make(at_zero(setup))),
+      node_0_(setup.start.pose),
+      is_batch_(setup.mode == SolveMode::batch) {
   stretches_.add_node(false);
   if (setup.start.is_fixed()) return;
   stretches_.add_node(false);
@@ -114,13 +124,39 @@ UpdateReport AnchoredEstimator::close_loops(std::span<const RelativePose> loops)
   return report;
 }
 
-UpdateReport AnchoredEstimator::update(const Measurements& measurements) {
-  for (std::size_t j = 0; j < measurements.registrations.size(); ++j) {
-    given_.push_back(Kind::registration);
+bool AnchoredEstimator::are_resolved_in_world(const Measurements& measurements) const {
+  return are_resolved(*this, measurements.registrations) &&
+         std::ranges::all_of(measurements.absolute, [&](const AbsolutePose& z) {
+           return !says_something(z) || is_resolved(from_node_0(z), node_0_, pose(z.keyframe));
+         });
+}
+
+void AnchoredEstimator::note_given(const Measurements& measurements, bool are_refused) {
+  std::optional<double> weight;
+  if (are_refused) weight = 0.0;
+  given_.insert(given_.end(), measurements.registrations.size(), {false, weight});
+  for (const AbsolutePose& z : measurements.absolute) {
+    given_.push_back({true, says_something(z) ? weight : 1.0});
+  }
+}
+
+UpdateReport AnchoredEstimator::refused(const Measurements& measurements) const {
+  UpdateReport report;
+  report.outcome = Outcome::numerical_failure;
+  for (const RelativePose& z : measurements.registrations) {
+    report.loops.push_back({z.from, z.to, LoopFate::lost, std::nullopt});
   }
   for (const AbsolutePose& z : measurements.absolute) {
-    given_.push_back(says_something(z) ? Kind::absolute : Kind::without_effect);
+    const LoopFate fate = says_something(z) ? LoopFate::lost : LoopFate::used;
+    report.absolute.push_back({z.keyframe, fate, std::nullopt});
   }
+  return report;
+}
+
+UpdateReport AnchoredEstimator::update(const Measurements& measurements) {
+  const bool are_refused = !are_resolved_in_world(measurements);
+  note_given(measurements, are_refused);
+  if (are_refused) return refused(measurements);
   // The usual case: nothing to write anew.
   if (shift_ == 0 && measurements.absolute.empty()) {
     return close_loops(measurements.registrations);
@@ -151,9 +187,10 @@ UpdateReport AnchoredEstimator::passed_on(const Measurements& measurements) {
 }
 
 UpdateReport AnchoredEstimator::finish(std::span<const Pose> start) {
-  if (shift_ == 0 || start.empty()) return relative_->finish(start);
-  std::vector<Pose> nodes{node_0_};
-  nodes.insert(nodes.end(), start.begin(), start.end());
+  if (start.empty()) return relative_->finish();
+  std::vector<Pose> nodes;
+  if (shift_ > 0) nodes.push_back({0.0, 0.0, node_0_.theta});
+  for (const Pose& X : start) nodes.push_back({X.x - node_0_.x, X.y - node_0_.y, X.theta});
   return relative_->finish(nodes);
 }
 
@@ -179,15 +216,15 @@ std::optional<Eigen::MatrixXd> AnchoredEstimator::joint_covariance(
   return relative_->joint_covariance(nodes);
 }
 
-// The relative estimator has one weight for each loop that it was given.
+// The relative estimator has one weight for each loop that it was passed.
 std::vector<double> AnchoredEstimator::weights_of(bool absolute) const {
   const std::vector<double> all = relative_->loop_weights();
   if (all.empty()) return {};
   std::vector<double> weights;
   std::size_t next = 0;
-  for (const Kind kind : given_) {
-    const double weight = kind == Kind::without_effect ? 1.0 : all.at(next++);
-    if ((kind != Kind::registration) == absolute) weights.push_back(weight);
+  for (const Given& given : given_) {
+    const double weight = given.weight ? *given.weight : all.at(next++);
+    if (given.is_absolute == absolute) weights.push_back(weight);
   }
   return weights;
 }

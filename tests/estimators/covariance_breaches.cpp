@@ -124,6 +124,9 @@ std::vector<Breach> absolute_breaches() {
                     z.information = transport(planar_rotation(z.pose.theta), z.information);
                   }
                 }}},
+          {"far_absolute",
+           "pose 0 is off by",
+           {.pose = [](auto& pose) { pose.y = static_cast<float>(pose.y); }}},
           {"repeatable_absolute", "at most 0 allowed", {.pose = drift}},
           {"gate_refuses_fix",
            "of keyframe 20, which jumps, is used, expected rejected",

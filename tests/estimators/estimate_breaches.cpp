@@ -70,6 +70,9 @@ std::vector<Breach> estimate_breaches() {
       {"rotated_world",
        "pose 0 is off by 2.8 rad, at most 1e-07 allowed",
        {.setup = [](auto& setup, auto&) { setup.start.pose.theta = 0.0; }}},
+      {"far_world",
+       "pose 0 is off by",
+       {.pose = [](auto& pose) { pose.y = static_cast<float>(pose.y); }}},
       {"headings_near_pi",
        "expected above -pi and at most pi",
        {.pose =

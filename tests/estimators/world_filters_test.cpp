@@ -1,4 +1,7 @@
-// The filters with absolute measurements and an uncertain start against naive dense ones.
+// The filters with absolute measurements and an uncertain start against naive dense ones, and all
+// estimators where the world's coordinates are large.
+
+#include <algorithm>
 
 #include <gtest/gtest.h>
 
@@ -49,6 +52,23 @@ TEST(WorldFilters, TrajectoryIekfIsTheNaiveOne) {
       expect_same(*solved("trajectory_iekf", log, values_of), run_naive_in_world(naive, log), 1e-9);
     }
   }
+}
+
+// Its cost would be that of rounded coordinates, though the axes of keyframe 0 carry it.
+TEST(FarWorld, LosesWhatItsCoordinatesDoNotResolve) {
+  const MeasurementLog far = moved(with_precise_loop(7, 1e18), kFarWorld);
+  for (const EstimatorEntry& entry : builtin_estimators().entries()) {
+    SCOPED_TRACE(entry.name);
+    std::vector<LoopDecision> decisions;
+    const auto estimator = entry.create({far.start()}, {});
+    EXPECT_EQ(feed(*estimator, far, &decisions), Outcome::numerical_failure);
+    const auto is_lost = [](const LoopDecision& loop) { return loop.fate == LoopFate::lost; };
+    EXPECT_EQ(std::ranges::count_if(decisions, is_lost), 1);
+  }
+  const std::vector<double> weights =
+      solved("sparse_gauss_newton", far, values({{"loss", "huber"}}))->loop_weights();
+  ASSERT_EQ(weights.size(), far.registration_count());
+  EXPECT_EQ(std::ranges::count(weights, 0.0), 1);
 }
 
 }  // namespace

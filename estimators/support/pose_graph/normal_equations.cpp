@@ -215,6 +215,7 @@ bool NormalEquations::step_is_small(std::span<const Node> nodes, double toleranc
   return is_small(step, nodes, tolerance);
 }
 
+// A share of coordinates whose origin is node 0 (AnchoredEstimator).
 bool is_small(double squared_step, std::span<const Node> nodes, double tolerance) {
   double size = 0.0;
   for (const Node& node : nodes) {

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -16,7 +17,7 @@ namespace fathom {
 struct Bridge {
   std::size_t node = 0;              ///< the hole is the step to it
   std::optional<RelativePose> loop;  ///< forward, of full rank; one end of it moves
-  Pose motion;                       ///< of the nodes that move, in the world
+  Pose motion;                       ///< of the nodes that move, in the axes of their poses
   std::vector<bool> moves;           ///< of every node, whether the hole alone holds it to node 0
   /// All steps that are holes, by the node after each; this one is among them.
   std::span<const std::size_t> holes;
@@ -28,7 +29,8 @@ bool is_open_hole(const RelativePose& step);
 
 /// An estimator that knows motions between nodes alone, node 0 fixed: what a pose graph or a filter
 /// on motions is by itself. AnchoredEstimator makes it a whole one, so that absolute measurements
-/// and an uncertain start need no code of its own.
+/// and an uncertain start need no code of its own. Its axes are those of the world with their
+/// origin at node 0, so that no digit and no tolerance is spent on where the map lies.
 ///
 /// As of Estimator, with nodes for keyframes, and
 /// - Loops from node 0 may have information that is positive semi-definite (rows_of): all that is
@@ -60,15 +62,19 @@ class RelativeEstimator : public Estimate {
   }
 };
 
-/// Makes a RelativeEstimator whose node 0 is at `origin`.
+/// Makes a RelativeEstimator whose node 0 is at the start's pose.
 using MakeRelative = std::function<std::unique_ptr<RelativeEstimator>(const EstimatorSetup&)>;
 
-/// A RelativeEstimator in the world (docs/absolute_measurements.md).
+/// A RelativeEstimator in the world (docs/absolute_measurements.md), shifted there from (0, 0),
+/// where its node 0 is.
 ///
 /// With a fixed start node k is keyframe k. An absolute measurement A of keyframe k is a loop from
 /// node 0 with Z = X_0⁻¹ A and the same Ω: the residual is the same. With an uncertain start node 0
 /// is a frame at the start's pose, known exactly, from which a step of no motion with the start's
 /// covariance leads to node 1, keyframe 0; with a free start that step is a hole.
+///
+/// A measurement that the coordinates in the world do not resolve is lost (precision.hpp): its
+/// cost, which is that of these, would be rounding.
 ///
 /// The first loop over an open hole says where the map goes on: the hole is bridged by it. Other
 /// holes are steps like others.
@@ -81,7 +87,10 @@ class AnchoredEstimator final : public Estimator {
   UpdateReport finish(std::span<const Pose> start) override;
 
   std::size_t size() const override { return relative_->size() - shift_; }
-  Pose pose(std::size_t k) const override { return relative_->pose(k + shift_); }
+  Pose pose(std::size_t k) const override {
+    const Pose X = relative_->pose(k + shift_);
+    return {X.x + node_0_.x, X.y + node_0_.y, X.theta};
+  }
   MovedPoses moved_since(std::uint64_t revision) const override;
   std::optional<std::vector<UncertainPose>> motions_to_newest() const override;
   std::optional<Eigen::Matrix3d> covariance(std::size_t k) const override {
@@ -100,12 +109,18 @@ class AnchoredEstimator final : public Estimator {
   const RelativeEstimator& relative() const { return *relative_; }
 
  private:
-  /// What became of a measurement that was given.
-  enum class Kind : char { registration, absolute, without_effect };
+  /// A measurement, and what it weighs where it was not passed on.
+  struct Given {
+    bool is_absolute = false;
+    std::optional<double> weight;
+  };
 
   bool says_something(const AbsolutePose& z) const;
   RelativePose shifted(RelativePose z) const;
   RelativePose from_node_0(const AbsolutePose& z) const;
+  bool are_resolved_in_world(const Measurements& measurements) const;
+  void note_given(const Measurements& measurements, bool are_refused);
+  UpdateReport refused(const Measurements& measurements) const;
   UpdateReport passed_on(const Measurements& measurements);
   UpdateReport close_loops(std::span<const RelativePose> loops);
   std::optional<LoopDecision> bridge_by(const RelativePose& loop);
@@ -118,7 +133,7 @@ class AnchoredEstimator final : public Estimator {
   std::size_t shift_ = 0;
   Stretches stretches_;             ///< of nodes; not in batch
   std::vector<std::size_t> holes_;  ///< nodes after holes, rising; not in batch
-  std::vector<Kind> given_;         ///< every measurement, in the order given
+  std::vector<Given> given_;        ///< every measurement, in the order given
 };
 
 /// As of make_entry, for a RelativeEstimator: `make` takes (const EstimatorSetup&, const Options&).

@@ -101,4 +101,14 @@ std::string numbered(const std::string& what, std::size_t k) {
   return what + " " + std::to_string(k);
 }
 
+void expect_moved(const Estimate& found, const Estimate& plain, const Pose& world, double most,
+                  double share) {
+  for (std::size_t k = 0; k < plain.size(); ++k) {
+    expect_near(numbered("pose", k), found.pose(k), compose(world, plain.pose(k)), most);
+    expect_covariance(numbered("covariance of keyframe", k), covariance_of(found, k),
+                      transport(planar_rotation(world.theta), covariance_of(plain, k)), share,
+                      1e-15);
+  }
+}
+
 }  // namespace fathom::conformance

@@ -39,6 +39,11 @@ void expect_same_bits(const TrajectoryView& found, std::span<const Pose> expecte
 void expect_covariance(const std::string& what, const Eigen::MatrixXd& found,
                        const Eigen::MatrixXd& expected, double share, double floor = 0.0);
 
+/// Poses to `most` metres and radians and covariances to this share: those of an estimate in axes
+/// that stand at `world`.
+void expect_moved(const Estimate& found, const Estimate& plain, const Pose& world, double most,
+                  double share);
+
 /// That there is one, of the right size.
 Eigen::Matrix3d covariance_of(const Estimate& estimate, std::size_t k);
 Eigen::Matrix3d newest_covariance_of(const Estimate& estimate);

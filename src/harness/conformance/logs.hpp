@@ -60,6 +60,9 @@ MeasurementLog with_holes(const MeasurementLog& log, const std::vector<std::size
 /// The log in a world that is turned and shifted, `world` being the old axes in the new ones.
 MeasurementLog moved(const MeasurementLog& log, const Pose& world);
 
+/// Axes as maps of UTM have them, in millions of metres.
+inline constexpr Pose kFarWorld{512345.678, 5987654.321, 0.0};
+
 /// Largest distance between poses of the same keyframe, m, and likewise of headings, rad.
 double largest_distance(std::span<const Pose> a, std::span<const Pose> b);
 double largest_turn(std::span<const Pose> a, std::span<const Pose> b);

@@ -72,7 +72,7 @@ void Subject::need(const std::string& option) const {
 }
 
 void Subject::need_batch() const {
-  if (!entry_.can_batch) throw NotApplicable("no batch mode");
+  if (!can_batch()) throw NotApplicable("no batch mode");
 }
 
 EstimatorValues Subject::to_the_optimum(const std::string& tolerance) const {

@@ -30,6 +30,7 @@ class Subject {
   GuardedEstimator& solved_in_batch(const MeasurementLog& log, const EstimatorValues& values);
 
   bool has(const std::string& option) const;
+  bool can_batch() const { return entry_.can_batch; }
   /// NotApplicable where the estimator has no such option, or no batch mode.
   void need(const std::string& option) const;
   void need_batch() const;
