@@ -31,7 +31,8 @@ class UpdateReport:
     iterations: linearisations made.
     loops: of an update, a decision for each registration given, in the order given: 'used',
         'rejected' or 'lost', or a tuple of one of these and the normalised innovation squared.
-        None: all used, or all lost where the outcome is a failure. Of a solve, None.
+        None: all used, or all lost where the outcome is a failure. Of a failure none is used, and
+        else none is lost. Of a solve, None.
     absolute: the same for each absolute measurement.
     """
 

@@ -31,6 +31,13 @@ Eigen::Matrix3d matrix_at(const double* data) {
   return Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(data);
 }
 
+void require_symmetric(const Eigen::Matrix3d& matrix, const std::string& what) {
+  constexpr double kRounding = 1e-9;
+  const double difference = (matrix - matrix.transpose()).norm();
+  if (difference <= kRounding * matrix.norm()) return;
+  throw InputError(what + ": expected a symmetric matrix of finite numbers");
+}
+
 void copy(const Eigen::Matrix3d& matrix, double* data) {
   Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> copied(data);
   copied = matrix;
@@ -124,19 +131,19 @@ Eigen::Matrix3d matrix_of(const py::handle& value, const std::string& what) {
 }
 
 Eigen::Matrix3d symmetric_of(const py::handle& value, const std::string& what) {
-  constexpr double kRounding = 1e-9;
   const Eigen::Matrix3d matrix = matrix_of(value, what);
-  const double difference = (matrix - matrix.transpose()).norm();
-  if (!(difference <= kRounding * matrix.norm())) {
-    throw InputError(what + ": expected a symmetric matrix of finite numbers");
-  }
+  require_symmetric(matrix, what);
   return matrix;
 }
 
-std::vector<Eigen::Matrix3d> matrices_of(const py::handle& value, const std::string& what) {
+std::vector<Eigen::Matrix3d> symmetric_matrices_of(const py::handle& value,
+                                                   const std::string& what) {
   const Array array = checked_array(value, {-1, 3, 3}, what);
   std::vector<Eigen::Matrix3d> matrices;
-  for (py::ssize_t k = 0; k < array.shape(0); ++k) matrices.push_back(matrix_at(array.data(k)));
+  for (py::ssize_t k = 0; k < array.shape(0); ++k) {
+    matrices.push_back(matrix_at(array.data(k)));
+    require_symmetric(matrices.back(), what + "[" + std::to_string(k) + "]");
+  }
   return matrices;
 }
 

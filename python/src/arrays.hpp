@@ -36,7 +36,8 @@ Eigen::Matrix3d matrix_of(const pybind11::handle& value, const std::string& what
 /// Symmetric but by rounding.
 Eigen::Matrix3d symmetric_of(const pybind11::handle& value, const std::string& what);
 /// N x 3 x 3.
-std::vector<Eigen::Matrix3d> matrices_of(const pybind11::handle& value, const std::string& what);
+std::vector<Eigen::Matrix3d> symmetric_matrices_of(const pybind11::handle& value,
+                                                   const std::string& what);
 std::vector<double> values_of(const pybind11::handle& value, const std::string& what);
 
 }  // namespace fathom

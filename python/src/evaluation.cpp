@@ -1,5 +1,6 @@
 // Accuracy, consistency, statistics over trials.
 
+#include <fmt/format.h>
 #include <optional>
 #include <pybind11/stl.h>
 #include <string>
@@ -51,7 +52,8 @@ py::dict evaluate_poses(const py::object& estimate, const py::object& reference,
     row["motion_reference_estimate"] = array_of(judged->motion_reference_estimate);
   }
   if (covariances.is_none()) return row;
-  const auto honest = consistency(ours, theirs, matrices_of(covariances, "covariances"), how);
+  const auto honest =
+      consistency(ours, theirs, symmetric_matrices_of(covariances, "covariances"), how);
   if (!honest) return row;
   row["anees"] = honest->anees;
   row["position_anees"] = honest->position_anees;
@@ -128,6 +130,17 @@ void bind_statistics(py::module_& module) {
       "(low, high) of a proportion (Wilson 1927).");
 }
 
+// What read_tum would refuse.
+void require_readable(const std::vector<std::int64_t>& times_ns, const std::vector<Pose>& poses,
+                      std::size_t k) {
+  if (!is_finite(poses[k])) {
+    throw InputError(fmt::format("trajectory[{}]: expected finite numbers", k));
+  }
+  if (k == 0 || times_ns[k] > times_ns[k - 1]) return;
+  throw InputError(fmt::format("times_ns[{}]: expected more than the {} ns before it, got {} ns", k,
+                               times_ns[k - 1], times_ns[k]));
+}
+
 }  // namespace
 
 void bind_evaluation(py::module_& module) {
@@ -147,7 +160,10 @@ void bind_evaluation(py::module_& module) {
     const std::vector<Pose> poses = poses_of(trajectory, "trajectory");
     if (times.size() != poses.size()) throw InputError("times_ns: as many as poses are needed");
     std::vector<StampedPose> stamped;
-    for (std::size_t k = 0; k < poses.size(); ++k) stamped.push_back({times[k], poses[k]});
+    for (std::size_t k = 0; k < poses.size(); ++k) {
+      require_readable(times, poses, k);
+      stamped.push_back({times[k], poses[k]});
+    }
     unlocked([&] { write_file(path, to_tum(stamped)); });
   });
 }

@@ -48,24 +48,39 @@ void decide(const py::handle& given, Decision& decision) {
 
 // `decisions`: None, all as the outcome says, or a list in the order given.
 template <class Decision>
-void decide_all(const py::object& given, std::vector<Decision>& decisions) {
+void decide_all(const py::object& given, Outcome outcome, std::vector<Decision>& decisions) {
   if (given.is_none()) return;
   const auto list = py::list(given);
   if (list.size() != decisions.size()) {
     throw InputError(
         fmt::format("a report has {} decisions, expected {}", list.size(), decisions.size()));
   }
-  for (std::size_t i = 0; i < decisions.size(); ++i) decide(list[i], decisions[i]);
+  const LoopFate impossible = is_done(outcome) ? LoopFate::lost : LoopFate::used;
+  for (std::size_t i = 0; i < decisions.size(); ++i) {
+    decide(list[i], decisions[i]);
+    if (decisions[i].fate != impossible) continue;
+    throw InputError(fmt::format("a report of {} has a decision '{}', expected {}",
+                                 name_of(outcome), name_of(impossible),
+                                 is_done(outcome) ? "used or rejected" : "lost or rejected"));
+  }
+}
+
+UpdateReport report_without_decisions(const py::object& given) {
+  UpdateReport report;
+  report.outcome = outcome_of(given.attr("outcome"));
+  report.iterations = given.attr("iterations").cast<int>();
+  if (report.iterations < 0) {
+    throw InputError(
+        fmt::format("a report has {} iterations, expected 0 or more", report.iterations));
+  }
+  return report;
 }
 
 }  // namespace
 
 UpdateReport report_of(const py::object& given, const Measurements& measurements) {
   UpdateReport report;
-  if (!given.is_none()) {
-    report.outcome = outcome_of(given.attr("outcome"));
-    report.iterations = given.attr("iterations").cast<int>();
-  }
+  if (!given.is_none()) report = report_without_decisions(given);
   const LoopFate fate = is_done(report.outcome) ? LoopFate::used : LoopFate::lost;
   for (const RelativePose& z : measurements.registrations) {
     report.loops.push_back({z.from, z.to, fate, std::nullopt});
@@ -74,16 +89,14 @@ UpdateReport report_of(const py::object& given, const Measurements& measurements
     report.absolute.push_back({z.keyframe, fate, std::nullopt});
   }
   if (given.is_none()) return report;
-  decide_all(given.attr("loops"), report.loops);
-  decide_all(given.attr("absolute"), report.absolute);
+  decide_all(given.attr("loops"), report.outcome, report.loops);
+  decide_all(given.attr("absolute"), report.outcome, report.absolute);
   return report;
 }
 
 UpdateReport report_of_solve(const py::object& given) {
-  UpdateReport report;
-  if (given.is_none()) return report;
-  report.outcome = outcome_of(given.attr("outcome"));
-  report.iterations = given.attr("iterations").cast<int>();
+  if (given.is_none()) return {};
+  const UpdateReport report = report_without_decisions(given);
   if (!given.attr("loops").is_none() || !given.attr("absolute").is_none()) {
     throw InputError("the report of a solve has decisions, which are those of the updates");
   }

@@ -65,6 +65,22 @@ class TooManyDecisions(Follows):
         return fathom.UpdateReport(loops=["used"] * 7)
 
 
+class LosesWhatIsDone(Follows):
+    def update(self, measurements):
+        return fathom.UpdateReport(loops=["lost"] * len(measurements.registrations))
+
+
+class UsesWhatFailed(Follows):
+    def update(self, measurements):
+        used = ["used"] * len(measurements.registrations)
+        return fathom.UpdateReport("numerical_failure", loops=used)
+
+
+class CountsBackwards(Follows):
+    def update(self, measurements):
+        return fathom.UpdateReport(iterations=-1)
+
+
 class ReportsNothingKnown(Follows):
     def update(self, measurements):
         return 3

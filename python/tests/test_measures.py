@@ -1,6 +1,8 @@
 """Registration of two pictures, evaluation, statistics, against closed forms."""
 
 import math
+import os
+import tempfile
 import unittest
 
 import fathom
@@ -80,6 +82,23 @@ class Evaluation(unittest.TestCase):
             fathom.evaluate(estimate, reference, alignment="scale")
         with self.assertRaisesRegex(fathom.InputError, "expected shape"):
             fathom.evaluate(estimate[:, :2], reference)
+        covariances[1, 0, 2] = 0.01
+        with self.assertRaisesRegex(fathom.InputError, r"covariances\[1\]: expected a symmetric"):
+            fathom.evaluate(moved, reference, covariances=covariances)
+
+    def test_what_read_tum_refuses_is_not_written(self):
+        poses = numpy.array([[0, 0, 0], [1, 0, 0.0]])
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "trajectory.tum")
+            for times, expected in (
+                ([10**9, 10**9], r"times_ns\[1\]: expected more than the 1000000000 ns before it"),
+                ([2 * 10**9, 10**9], r"times_ns\[1\]: .*got 1000000000 ns"),
+            ):
+                with self.assertRaisesRegex(fathom.InputError, expected):
+                    fathom.write_tum(path, times, poses)
+            with self.assertRaisesRegex(fathom.InputError, r"trajectory\[0\]: expected finite"):
+                fathom.write_tum(path, [0, 10**9], poses + [[math.nan, 0, 0], [0, 0, 0]])
+            self.assertFalse(os.path.exists(path))
 
     def test_statistics(self):
         values = [1.0, 2.0, 3.0, 10.0]
