@@ -23,6 +23,16 @@ const EstimatorEntry& find_entry(const EstimatorRegistry& registry, const Settin
   }
 }
 
+// Names of what every object of JavaScript has: the charts of a report keep what is drawn by name.
+bool is_word_of_javascript(const std::string& name) {
+  static const std::set<std::string> words{
+      "__defineGetter__", "__defineSetter__", "__lookupGetter__",
+      "__lookupSetter__", "__proto__",        "constructor",
+      "hasOwnProperty",   "isPrototypeOf",    "propertyIsEnumerable",
+      "toLocaleString",   "toString",         "valueOf"};
+  return words.contains(name);
+}
+
 bool is_plain_word(const std::string& name) {
   constexpr const char* kAllowed =
       "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_";
@@ -101,16 +111,21 @@ EstimatorConfiguration configure_estimator(const Settings& settings,
     if (setting.key == "name") estimator.name = word_of(setting, prefix + "name");
     if (setting.key != "name" && setting.key != "type") own.put(setting);
   }
+  const Setting* named = settings.find("name");
+  const auto refuse_name = [&](const std::string& why) {
+    refuse(named == nullptr ? *settings.find("type") : *named, prefix + "name: " + why);
+  };
   if (!is_plain_word(estimator.name)) {
-    refuse(*settings.find("name"),
-           prefix + "name: it names a folder too: letters, digits, - and _");
+    refuse_name("it names a folder too: letters, digits, - and _");
   }
   if (estimator.name == kDeadReckoning) {
-    refuse(*settings.find("name"), prefix + "name: dead_reckoning is the baseline of every table");
+    refuse_name("dead_reckoning is the baseline of every table");
   }
   if (estimator.name == kGroundTruth || estimator.name == kAutomatic) {
-    refuse(*settings.find("name"),
-           prefix + "name: " + estimator.name + " is a word of association.reference");
+    refuse_name(estimator.name + " is a word of association.reference");
+  }
+  if (is_word_of_javascript(estimator.name)) {
+    refuse_name(estimator.name + " means something to the page of a report; give another one");
   }
   if (prefix != "estimator.") refuse_unused(own, entry, prefix);
   estimator.values = estimator_values(own, entry, {}, prefix);

@@ -179,7 +179,10 @@ TEST(ConfigureStudy, RefusesWhatIsNoSweep) {
       {"association: {mode: own, reference: ekf}\n",
        "config.yaml:1: association.reference: nobody's estimate but each one's own picks the loop "
        "candidates"},
-      {"estimators: [{type: ekf, name: dead_reckoning}]\n", "is the baseline of every table"}};
+      {"estimators: [{type: ekf, name: dead_reckoning}]\n", "is the baseline of every table"},
+      {"estimators: [{type: ekf, name: __proto__}]\n",
+       "estimators.0.name: __proto__ means something to the page of a report"},
+      {"estimators: [{type: ekf, name: constructor}]\n", "give another one"}};
   for (const auto& [text, message] : cases)
     EXPECT_THAT(refusal_of_study(text), HasSubstr(message)) << text;
 }
