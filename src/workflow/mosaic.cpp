@@ -1,5 +1,6 @@
 #include "fathom/workflow/mosaic.hpp"
 
+#include <algorithm>
 #include <set>
 
 #include "fathom/core/files.hpp"
@@ -63,6 +64,30 @@ void mark_fillers(std::vector<PlacedPicture>& pictures, const FrameSource& frame
   }
 }
 
+bool is_own_estimate(const MosaicRequest& request) {
+  std::error_code error;
+  const auto is = [&](const char* name) {
+    return fs::equivalent(request.trajectory, request.run / name, error);
+  };
+  return request.trajectory.empty() || is("frames.tum") || is("trajectory.tum");
+}
+
+// Into the run's own folder goes a mosaic of its own estimate alone: maps of another one would
+// stand beside figures that are not of it. Returns whether it goes there.
+bool goes_to_its_run(const MosaicRequest& request, const fs::path& out) {
+  std::error_code error;
+  if (!fs::exists(out / "run.json", error)) return false;
+  const bool is_placed_anew = std::ranges::any_of(request.settings.all(), [](const auto& setting) {
+    return setting.key.starts_with("dataset.origin");
+  });
+  if (fs::equivalent(out, request.run, error) && is_own_estimate(request) && !is_placed_anew) {
+    return true;
+  }
+  throw InputError(out.string(),
+                   "is the folder of a run, whose maps are those of its estimate; --out takes "
+                   "another place");
+}
+
 // What the mosaic shows of the keyframes, or of every pose of a trajectory that is given.
 KeyframeMap keyframe_map_of(const std::vector<PlacedPicture>& pictures, const FrameSource& frames) {
   KeyframeMap map{frames.camera(), {}, {}};
@@ -99,11 +124,17 @@ MosaicOutcome mosaic(const MosaicRequest& request, const EstimatorRegistry& regi
   if (request.trajectory.empty()) mark_fillers(pictures, frames, request.run / "trajectory.tum");
   std::vector<fs::path> inputs = inputs_of(request.run / "run.json", settings);
   inputs.push_back(trajectory);
-  StagedFolder folder(request.out.empty() ? default_folder(request, trajectory) : request.out,
-                      inputs);
+  const fs::path out = request.out.empty() ? default_folder(request, trajectory) : request.out;
+  const bool is_in_its_run = goes_to_its_run(request, out);
+  StagedFolder folder(out, inputs);
   const std::string laid = lay(request, folder.path(), frames, pictures, on_earth, observer);
-  write_map_files(folder.path(), keyframe_map_of(pictures, frames), on_earth);
-  folder.commit(mosaic_file_names());
+  std::vector<std::string> own = mosaic_file_names();
+  // The run's own map files are there, and say more: the spread of each pose, and loops.
+  if (!is_in_its_run) {
+    write_map_files(folder.path(), keyframe_map_of(pictures, frames), on_earth);
+    own.insert(own.end(), map_file_names().begin(), map_file_names().end());
+  }
+  folder.commit(own);
   observer.wrote((folder.target() / (request.tile_px ? "tiles" : "mosaic.png")).string());
   if (earth) {
     observer.wrote((folder.target() / "mosaic.tif").string() + " (" + earth->name() + ")");

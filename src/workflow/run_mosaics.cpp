@@ -181,9 +181,7 @@ std::string write_tiled_mosaic(const std::filesystem::path& folder, const FrameS
 }
 
 std::vector<std::string> mosaic_file_names() {
-  std::vector<std::string> names = map_file_names();
-  names.insert(names.end(), {"mosaic.json", "mosaic.pgw", "mosaic.png", "mosaic.tif", "tiles"});
-  return names;
+  return {"mosaic.json", "mosaic.pgw", "mosaic.png", "mosaic.tif", "tiles"};
 }
 
 std::string mosaic_text(const MosaicPlan& plan) {

@@ -50,7 +50,7 @@ std::string write_tiled_mosaic(const std::filesystem::path& folder, const FrameS
                                const std::vector<PlacedPicture>& pictures, const AskedMosaic& asked,
                                int tile_px, Observer& observer);
 
-/// All names that a mosaic and the map files beside it may have.
+/// All names that a mosaic may have.
 std::vector<std::string> mosaic_file_names();
 
 /// "57 pictures, 2310 x 1780 pixels of 0.0041 m", and why they are coarser than wanted.

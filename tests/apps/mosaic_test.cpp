@@ -72,6 +72,22 @@ TEST_F(MosaicCommand, TakesAnotherTrajectoryAndResolution) {
   EXPECT_GT(covered(picture("other/mosaic.png")), 0.6);
 }
 
+// The run's own map files hold its loops and the spread of its poses.
+TEST_F(MosaicCommand, IntoTheFolderOfItsRunGoesAMosaicOfItsEstimateAlone) {
+  write("c.yaml", kSmallSurvey);
+  fathom_done({"run", "c.yaml", "--out", "out"});
+  write("out/loops.geojson", "of the run");
+  const std::string footprints = bytes_of("out/footprints.csv");
+  fathom_done({"mosaic", "out", "--resolution", "0.05", "--out", "out"});
+  EXPECT_EQ(json_of("out/mosaic.json").at("metres_per_pixel"), 0.05);
+  EXPECT_EQ(bytes_of("out/loops.geojson"), "of the run");
+  EXPECT_EQ(bytes_of("out/footprints.csv"), footprints);
+  const std::string mosaic = bytes_of("out/mosaic.png");
+  EXPECT_THAT(refusal({"mosaic", "out", "--trajectory", "out/dead_reckoning.tum", "--out", "out"}),
+              HasSubstr("out: is the folder of a run"));
+  EXPECT_EQ(bytes_of("out/mosaic.png"), mosaic);
+}
+
 TEST_F(MosaicCommand, OfARunFromDiskThatHasMoved) {
   write("c.yaml", kSmallSurvey);
   fathom_done({"simulate", "c.yaml", "--out", "data"});

@@ -23,7 +23,9 @@ struct MosaicRequest {
   double max_difference_s = 0.01;          ///< between the stamps of a pose and its picture
   std::optional<int> tile_px;              ///< tiles in place of one picture
   MosaicBlend blend = MosaicBlend::feather;
-  std::filesystem::path out;  ///< empty: `runs/` and the names of run and trajectory
+  /// Empty: `runs/` and the names of run and trajectory. A run's folder takes a mosaic of its own
+  /// estimate alone, and keeps its map files.
+  std::filesystem::path out;
 };
 
 struct MosaicOutcome {
