@@ -1,7 +1,10 @@
 #include "cell_page.hpp"
 
+#include <cmath>
+
 #include "honesty_words.hpp"
 #include "page_numbers.hpp"
+#include "ranking.hpp"
 
 namespace fathom {
 namespace {
@@ -10,12 +13,11 @@ using Json = nlohmann::ordered_json;
 
 Json metric_json(const MetricSummary& summary) {
   const Moments& moments = summary.moments;
-  Json json{
-      {"surveys", summary.surveys}, {"n", moments.count}, {"mean", page_number(moments.mean)}};
-  if (moments.standard_deviation) json["sd"] = page_number(*moments.standard_deviation);
+  Json json{{"surveys", summary.surveys}, {"n", moments.count}, {"mean", page_value(moments.mean)}};
+  if (moments.standard_deviation) json["sd"] = page_value(*moments.standard_deviation);
   if (summary.interval) {
-    json["low"] = page_number(summary.interval->low);
-    json["high"] = page_number(summary.interval->high);
+    json["low"] = page_value(summary.interval->low);
+    json["high"] = page_value(summary.interval->high);
   }
   const BandedMean band = banded(moments.mean, moments.standard_deviation);
   json["band"] = {page_number(band.low), page_number(band.high)};
@@ -44,10 +46,10 @@ Json keyframes_json(const KeyframeStatistics& all, std::size_t most) {
   json["mean_m"] = page_numbers(picked(all.mean_m, places));
   json["low_m"] = json["high_m"] = Json::array();
   for (const std::size_t k : places) {
-    const auto band =
-        all.mean_m[k] ? std::optional(banded(*all.mean_m[k], all.sd_m[k])) : std::nullopt;
-    json["low_m"].push_back(band ? page_number(band->low) : Json());
-    json["high_m"].push_back(band ? page_number(band->high) : Json());
+    const auto& mean = all.mean_m[k];
+    const BandedMean band = mean ? banded(*mean, all.sd_m[k]) : BandedMean{NAN, NAN, NAN};
+    json["low_m"].push_back(page_number(band.low));
+    json["high_m"].push_back(page_number(band.high));
   }
   json["empirical_m"] = page_numbers(picked(all.empirical_m, places));
   json["estimated_m"] = page_numbers(picked(all.estimated_m, places));
@@ -85,8 +87,8 @@ Json estimator_json(const EstimatorResults& one, const EstimatorSeries& series,
   for (const auto& [metric, summary] : one.metrics) json["metrics"][metric] = metric_json(summary);
   json["keyframes"] = keyframes_json(series.keyframes, most);
   if (series.bounds) {
-    json["bounds"] = {{"empirical_m", page_number(series.bounds->empirical_m)},
-                      {"estimated_m", page_number(series.bounds->estimated_m)}};
+    json["bounds"] = {{"empirical_m", page_value(series.bounds->empirical_m)},
+                      {"estimated_m", page_value(series.bounds->estimated_m)}};
   }
   json["updates"] = updates_json(series.updates, most);
   return json;
@@ -98,14 +100,14 @@ Json paired_json(const PairedResult& paired) {
             {"metric", paired.metric},
             {"n", difference.count},
             {"over", difference.is_over_surveys ? "surveys" : "trials"},
-            {"mean", page_number(difference.mean)}};
+            {"mean", page_value(difference.mean)}};
   if (difference.interval) {
-    json["low"] = page_number(difference.interval->low);
-    json["high"] = page_number(difference.interval->high);
+    json["low"] = page_value(difference.interval->low);
+    json["high"] = page_value(difference.interval->high);
   }
   if (paired.holm_p) {
-    json["p"] = page_number(*difference.signed_rank.p_value);
-    json["holm_p"] = page_number(*paired.holm_p);
+    json["p"] = page_value(*difference.signed_rank.p_value);
+    json["holm_p"] = page_value(*paired.holm_p);
   }
   return json;
 }
@@ -133,7 +135,10 @@ Json cell_json(const ChartInput& input, std::size_t place, const ExampleLimits& 
     json["estimators"].push_back(
         estimator_json(cell.estimators[i], series[i], study, limits.keyframes));
   }
+  json["unranked"] = Json::object();
   for (const std::string& metric : input.results.metrics) {
+    const std::string against = no_ranking_text(cell, metric);
+    if (!against.empty()) json["unranked"][metric] = against;
     const auto ranks = ranks_of(cell, metric);
     for (Json& one : json["estimators"]) {
       const auto rank = ranks.find(one["name"].get_ref<const std::string&>());

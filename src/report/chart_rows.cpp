@@ -7,6 +7,7 @@
 #include "fathom/core/text.hpp"
 #include "fathom/evaluation/consistency.hpp"
 #include "fathom/measurements/decision.hpp"
+#include "ranking.hpp"
 
 namespace fathom {
 namespace {
@@ -48,6 +49,7 @@ std::optional<std::vector<double>> numeric_positions(const std::vector<std::stri
 std::vector<CostPoint> cost_points(const CellResults& cell, const std::string& accuracy,
                                    const std::string& cost) {
   std::vector<CostPoint> points;
+  const bool is_ranked_by = no_ranking_text(cell, accuracy).empty();
   for (const EstimatorResults& one : cell.estimators) {
     const auto error = one.metrics.find(accuracy);
     const auto costs = one.metrics.find(cost);
@@ -56,8 +58,8 @@ std::vector<CostPoint> cost_points(const CellResults& cell, const std::string& a
     if (!(mean > 0.0)) continue;
     Interval interval = interval_or_point(costs->second);
     if (!(interval.low > 0.0)) interval.low = mean;
-    points.push_back(
-        {one.name, mean, error->second.moments.mean, interval, interval_or_point(error->second)});
+    points.push_back({one.name, mean, error->second.moments.mean, interval,
+                      interval_or_point(error->second), is_ranked_by && one.failures() == 0});
   }
   return points;
 }
@@ -69,13 +71,12 @@ std::vector<CostPoint> pareto_front(const std::vector<CostPoint>& points, Better
     const double of_b = badness(b.error, better);
     const double cost_a = six_digits(a.cost);
     const double cost_b = six_digits(b.cost);
-    return cost_a <= cost_b && of_a <= of_b && (cost_a < cost_b || of_a < of_b);
+    return a.is_compared && cost_a <= cost_b && of_a <= of_b && (cost_a < cost_b || of_a < of_b);
   };
   std::vector<CostPoint> front;
   for (const CostPoint& point : points) {
-    if (std::ranges::none_of(points, [&](const auto& other) { return beats(other, point); })) {
-      front.push_back(point);
-    }
+    const auto beats_it = [&](const auto& other) { return beats(other, point); };
+    if (point.is_compared && std::ranges::none_of(points, beats_it)) front.push_back(point);
   }
   std::ranges::stable_sort(front, {}, &CostPoint::cost);
   return front;
@@ -84,11 +85,11 @@ std::vector<CostPoint> pareto_front(const std::vector<CostPoint>& points, Better
 std::map<std::string, std::size_t> ranks_of(const CellResults& cell, const std::string& metric) {
   std::map<std::string, std::size_t> ranks;
   const Better better = described(metric).better;
-  if (better == Better::neither) return ranks;
+  if (better == Better::neither || !no_ranking_text(cell, metric).empty()) return ranks;
   std::vector<std::pair<double, std::string>> order;
   for (const EstimatorResults& one : cell.estimators) {
     const auto found = one.metrics.find(metric);
-    if (found == one.metrics.end()) continue;
+    if (found == one.metrics.end() || one.failures() > 0) continue;
     order.emplace_back(badness(found->second.moments.mean, better), one.name);
   }
   std::ranges::sort(order);

@@ -49,18 +49,20 @@ struct CostPoint {
   double error = 0.0;
   Interval costs;  ///< 95 %, or the mean alone; from the mean on where it reaches zero
   Interval errors;
+  bool is_compared = true;  ///< it failed no run, and the accuracy ranks the cell's estimators
 };
 
 /// Those of a cell that have both, and a cost above zero, which a logarithmic axis needs.
 std::vector<CostPoint> cost_points(const CellResults& cell, const std::string& accuracy,
                                    const std::string& cost);
 
-/// The points that none beats: as good in both to six digits, and better in one. By rising cost;
-/// empty for a metric of which neither direction is better.
+/// The points that are compared and that none of these beats: as good in both to six digits, and
+/// better in one. By rising cost; empty for a metric of which neither direction is better.
 std::vector<CostPoint> pareto_front(const std::vector<CostPoint>& points, Better better);
 
-/// By estimator of the cell that has the metric: how many have a mean that is better to six digits.
-/// Empty where neither direction is better.
+/// By estimator of the cell that has the metric and failed no run: how many of these have a mean
+/// that is better to six digits. Empty where neither direction is better, and with a
+/// no_ranking_text.
 std::map<std::string, std::size_t> ranks_of(const CellResults& cell, const std::string& metric);
 
 /// NEES / 3 by keyframe (x), those above zero, and the χ² interval of its mean.

@@ -1,5 +1,6 @@
 #include <map>
 
+#include "ranking.hpp"
 #include "study_figures.hpp"
 
 namespace fathom {
@@ -63,15 +64,16 @@ void draw_cost(Canvas& canvas, const std::vector<CostPoint>& points,
 
 void add_cost_figures(const ChartInput& input, std::vector<StudyFigure>& figures) {
   const StudyResults& results = input.results;
-  const auto accuracy = first_metric(results, false);
+  const auto accuracy = accuracy_shown(results);
   const auto cost = first_metric(results, true);
   if (!accuracy || !cost) return;
   const auto styles = line_styles(results.study);
   for (const CellResults& cell : results.cells) {
     const std::vector<CostPoint> points = cost_points(cell, *accuracy, *cost);
     if (points.empty()) continue;
-    const std::string conditions =
-        cell_caption(cell) + failures_text(cell) + "; means, 95 % intervals";
+    std::string conditions = cell_caption(cell) + failures_text(cell) + "; means, 95 % intervals";
+    const std::string against = no_ranking_text(cell, *accuracy);
+    if (!against.empty()) conditions += "; no Pareto front: " + against;
     const std::vector<CostPoint> front = pareto_front(points, described(*accuracy).better);
     const FigureLayout layout({170.0}, legend_of(points, styles, !front.empty()), conditions);
     const ChartFrame frame = frame_of(points, *accuracy, *cost, layout.chart(0));

@@ -3,7 +3,9 @@
 #include <map>
 
 #include "fathom/configuration/axis_words.hpp"
+#include "ranking.hpp"
 #include "regime_map.hpp"
+#include "scaled_unit.hpp"
 #include "study_figures.hpp"
 #include "text_layout.hpp"
 
@@ -39,12 +41,14 @@ std::string relative_text(double relative) {
   return text;
 }
 
-Square relative_square(const CellResults& cell, const EstimatorResults& one,
-                       const std::string& metric) {
+Square drawn_square(const CellResults& cell, const EstimatorResults& one, const std::string& metric,
+                    const SquareScale& scale) {
   if (one.failures() > 0) return {shade_of_none(), std::to_string(one.failures()) + " failed"};
-  const auto square = regime_square(cell, one, metric, {});
-  if (!square || !square->relative) return {};
-  return {square->shade, relative_text(*square->relative)};
+  const auto square = regime_square(cell, one, metric, scale);
+  if (!square) return {};
+  if (square->relative) return {square->shade, relative_text(*square->relative)};
+  if (scale.is_relative) return {};
+  return {square->shade, quantity(one.metrics.at(metric).moments.mean, described(metric).unit)};
 }
 
 Square choice_square(const CellResults& cell, const std::string& metric, const std::string& cost,
@@ -70,11 +74,12 @@ std::vector<DrawnMap> drawn_maps(const ChartInput& input, const RegimeMap& map,
                                  const std::string& metric, const std::optional<std::string>& cost,
                                  const std::map<std::string, LineStyle>& styles) {
   std::vector<DrawnMap> list;
+  const SquareScale scale = scale_over(input.results, map, metric).value_or(SquareScale{});
   for (const auto& [name, type] : input.results.study.estimators) {
     list.push_back(drawn_map(map, name, [&, of = name](const CellResults& cell) {
       const auto one = std::find_if(cell.estimators.begin(), cell.estimators.end(),
                                     [&](const EstimatorResults& e) { return e.name == of; });
-      return one == cell.estimators.end() ? Square{} : relative_square(cell, *one, metric);
+      return one == cell.estimators.end() ? Square{} : drawn_square(cell, *one, metric, scale);
     }));
   }
   if (cost) {
@@ -131,9 +136,11 @@ std::string trials_text(const RegimeMap& map) {
   return repeats_of(cells);
 }
 
-std::string conditions_of(const RegimeMap& map, const std::string& metric,
-                          const std::optional<std::string>& cost) {
-  std::string text = described(metric).label + ", mean over trials, over the best estimator's";
+std::string conditions_of(const StudyResults& results, const RegimeMap& map,
+                          const std::string& metric, const std::optional<std::string>& cost) {
+  const std::string against = no_ranking_text(results, metric);
+  std::string text = described(metric).label + ", mean over trials";
+  text += against.empty() ? ", over the best estimator's" : "; no best one is shown: " + against;
   if (cost) text += "; cheapest by " + described(*cost).label + ", mean over trials";
   return text + "; " + trials_text(map) + " a square";
 }
@@ -151,11 +158,14 @@ std::vector<LegendEntry> legend_of(const StudyDescription& study,
 StudyFigure regime_figure(const ChartInput& input, const RegimeMap& map,
                           const std::string& metric) {
   const StudyDescription& study = input.results.study;
-  const auto cost = first_metric(input.results, true);
+  // Without a metric that ranks no choice is among the best.
+  const bool is_ranked_by = no_ranking_text(input.results, metric).empty();
+  const auto cost = is_ranked_by ? first_metric(input.results, true) : std::nullopt;
   const auto styles = line_styles(study);
   const std::vector<DrawnMap> maps = drawn_maps(input, map, metric, cost, styles);
   const FigureLayout layout(std::vector<double>((maps.size() + 1) / 2, kMapHeight + kHeading),
-                            legend_of(study, styles), conditions_of(map, metric, cost));
+                            legend_of(study, styles),
+                            conditions_of(input.results, map, metric, cost));
   std::vector<ChartFrame> frames;
   std::vector<Box> boxes;
   for (std::size_t i = 0; i < maps.size(); ++i) {
@@ -178,7 +188,7 @@ StudyFigure regime_figure(const ChartInput& input, const RegimeMap& map,
 }  // namespace
 
 void add_regime_figures(const ChartInput& input, std::vector<StudyFigure>& figures) {
-  const auto metric = first_metric(input.results, false);
+  const auto metric = accuracy_shown(input.results);
   if (!metric || described(*metric).better != Better::lower) return;
   const std::vector<RegimeMap> maps = regime_maps(input.results);
   for (const RegimeMap& map : maps) {

@@ -230,7 +230,7 @@ std::string name_of_others(const Sweep& sweep, const StudyResults& results) {
 }  // namespace
 
 void add_sweep_figures(const ChartInput& input, std::vector<StudyFigure>& figures) {
-  const auto metric = first_metric(input.results, false);
+  const auto metric = accuracy_shown(input.results);
   if (!metric) return;
   for (std::size_t axis = 0; axis < input.results.study.axes.size(); ++axis) {
     for (const Sweep& sweep : sweeps_along(axis, input.results)) {

@@ -57,7 +57,8 @@ Json study_json(const StudyDescription& study) {
 // What charts show first: the study's own metric, or the first that occurs of some, or of all.
 std::string metric_shown_first(const StudyResults& results, bool cost,
                                const std::vector<std::string>& others) {
-  if (const auto own = first_metric(results, cost)) return *own;
+  const auto own = cost ? first_metric(results, true) : accuracy_shown(results);
+  if (own) return *own;
   for (const std::string& name : others) {
     if (std::ranges::find(results.metrics, name) != results.metrics.end()) return name;
   }
@@ -97,11 +98,14 @@ Json manifest_of(const std::string& text) {
 }  // namespace
 
 Json page_number(double value) {
+  return page_value(six_digits(value));
+}
+
+Json page_value(double value) {
   if (!std::isfinite(value)) return {};
-  const double rounded = six_digits(value);
   // Whole numbers without ".0".
-  const bool whole = std::abs(rounded) < 1e6 && rounded == std::floor(rounded);
-  return whole ? Json(static_cast<int>(rounded)) : Json(rounded);
+  const bool whole = std::abs(value) < 1e6 && value == std::floor(value);
+  return whole ? Json(static_cast<int>(value)) : Json(value);
 }
 
 Json page_data(const ResultStore& store, const ChartInput& input) {

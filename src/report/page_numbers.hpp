@@ -7,8 +7,15 @@
 
 namespace fathom {
 
-/// With 6 digits; null where it is not finite.
+/// With 6 digits, of what is drawn; null where it is not finite.
 nlohmann::ordered_json page_number(double value);
+
+/// With all digits, of what is printed: it is rounded once, as in tables.
+nlohmann::ordered_json page_value(double value);
+
+inline nlohmann::ordered_json page_value(const std::optional<double>& value) {
+  return value ? page_value(*value) : nlohmann::ordered_json();
+}
 
 inline nlohmann::ordered_json page_number(const std::optional<double>& value) {
   return value ? page_number(*value) : nlohmann::ordered_json();

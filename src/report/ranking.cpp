@@ -96,11 +96,6 @@ std::size_t draws_of(const CellResults& cell) {
   return cell.surveys > 1 ? cell.surveys : cell.trials;
 }
 
-// Whether F of an estimator is a distance to the optimum that all are to reach.
-bool is_of_optimum(const std::string& metric) {
-  return metric == "chi2" || metric == "chi2_gap";
-}
-
 // Whether the log tells what registrations share, and one does not estimate it.
 bool has_other_cost(const EstimatorResults& one) {
   const auto found = one.consistency.find("estimates_shared_errors");
@@ -131,6 +126,10 @@ std::size_t fewest_draws(std::size_t estimators) {
   return draws;
 }
 
+bool is_of_optimum(const std::string& metric) {
+  return metric == "chi2" || metric == "chi2_gap";
+}
+
 std::string no_ranking_text(const CellResults& cell, const std::string& metric) {
   if (!is_of_optimum(metric)) return "";
   const auto per_degree = optimum_per_degree(cell);
@@ -141,6 +140,13 @@ std::string no_ranking_text(const CellResults& cell, const std::string& metric) 
   }
   if (std::ranges::any_of(cell.estimators, has_other_cost)) {
     return "registrations share errors, and F with them is not what all estimators minimise";
+  }
+  return "";
+}
+
+std::string no_ranking_text(const StudyResults& results, const std::string& metric) {
+  for (const CellResults& cell : results.cells) {
+    if (std::string text = no_ranking_text(cell, metric); !text.empty()) return text;
   }
   return "";
 }
@@ -190,13 +196,11 @@ RankingMetric ranking_metric(const StudyResults& results) {
   for (const std::string& name : results.study.metrics) {
     const Metric metric = described(name);
     if (metric.is_cost || metric.better == Better::neither) continue;
-    bool occurs = false;
-    std::string against;
-    for (const CellResults& cell : results.cells) {
-      const auto has = [&](const auto& one) { return is_ranked(one, name); };
-      occurs = occurs || std::ranges::any_of(cell.estimators, has);
-      if (against.empty()) against = no_ranking_text(cell, name);
-    }
+    const bool occurs = std::ranges::any_of(results.cells, [&](const CellResults& cell) {
+      return std::ranges::any_of(cell.estimators,
+                                 [&](const auto& one) { return is_ranked(one, name); });
+    });
+    const std::string against = no_ranking_text(results, name);
     if (occurs && against.empty()) {
       found.name = name;
       return found;

@@ -77,11 +77,17 @@ std::optional<Ranking> ranking(const CellResults& cell, const std::string& metri
 /// The number of draws from which on a difference of one of so many estimators can be shown.
 std::size_t fewest_draws(std::size_t estimators);
 
+/// Whether a metric is F, or what it is above its optimum.
+bool is_of_optimum(const std::string& metric);
+
 /// Why estimators of a cell are not ranked by a metric, without a full stop; empty where they may
 /// be. F and what it is above its optimum say something of an estimator where all measurements fit
 /// each other and all estimators minimise the same F, and else rank those best that keep false
 /// loops.
 std::string no_ranking_text(const CellResults& cell, const std::string& metric);
+
+/// The same of the first cell that has a reason.
+std::string no_ranking_text(const StudyResults& results, const std::string& metric);
 
 /// By which estimators are ranked: the first of the study's metrics that is no cost, says which of
 /// its values is better, that a cell has, and by which each may be ranked.

@@ -84,33 +84,38 @@ Shade shade_of_choice(Colour colour) {
   return {tint(colour, 0.55), palette::black};
 }
 
-std::optional<MeanRange> range_over(const RegimeMap& map, const std::string& metric) {
-  std::optional<MeanRange> range;
+std::optional<SquareScale> scale_over(const StudyResults& results, const RegimeMap& map,
+                                      const std::string& metric) {
+  std::optional<SquareScale> scale;
+  const bool is_relative =
+      described(metric).better == Better::lower && no_ranking_text(results, metric).empty();
   for (const auto& column : map.cells) {
     for (const CellResults* cell : column) {
       if (cell == nullptr) continue;
       for (const EstimatorResults& one : cell->estimators) {
         const auto mean = mean_of(one, metric);
         if (!mean) continue;
-        if (!range) range = MeanRange{*mean, *mean};
-        range = MeanRange{std::min(range->least, *mean), std::max(range->most, *mean)};
+        if (!scale) scale = SquareScale{is_relative, *mean, *mean};
+        scale->least = std::min(scale->least, *mean);
+        scale->most = std::max(scale->most, *mean);
       }
     }
   }
-  return range;
+  return scale;
 }
 
 std::optional<RegimeSquare> regime_square(const CellResults& cell,
                                           const EstimatorResults& estimator,
-                                          const std::string& metric, const MeanRange& range) {
+                                          const std::string& metric, const SquareScale& scale) {
   const auto mean = mean_of(estimator, metric);
   if (!mean) return std::nullopt;
-  const auto relative = relative_to_best(cell, estimator, metric);
+  std::optional<double> relative;
+  if (scale.is_relative) relative = relative_to_best(cell, estimator, metric);
   double share = 0.0;
   if (relative) {
     share = std::clamp(std::log(*relative) / std::log(kDarkest), 0.0, 1.0);
-  } else if (range.most > range.least) {
-    share = (*mean - range.least) / (range.most - range.least);
+  } else if (scale.most > scale.least) {
+    share = (*mean - scale.least) / (scale.most - scale.least);
   }
   return RegimeSquare{relative, shade_of(share)};
 }

@@ -40,23 +40,28 @@ struct Shade {
 Shade shade_of_none();
 Shade shade_of_choice(Colour colour);
 
-/// The means of a metric that a map compares.
-struct MeanRange {
-  double least = 0.0;
+/// By what the squares of a map are shaded.
+struct SquareScale {
+  bool is_relative = true;  ///< to the best of each place: of a metric that ranks, less is better
+  double least = 0.0;       ///< mean of the map
   double most = 0.0;
 };
-std::optional<MeanRange> range_over(const RegimeMap& map, const std::string& metric);
+
+/// Nothing where no estimator that is compared has the metric. All cells of a study are ranked by a
+/// metric, or none.
+std::optional<SquareScale> scale_over(const StudyResults& results, const RegimeMap& map,
+                                      const std::string& metric);
 
 struct RegimeSquare {
-  std::optional<double> relative;  ///< as `relative_to_best`
+  std::optional<double> relative;  ///< as `relative_to_best`, of a scale that is
   Shade shade;  ///< the best nearly white, ten times its mean dark; else dark is the most of the
-                ///< range
+                ///< scale
 };
 
 /// Nothing of an estimator that is in no comparison.
 std::optional<RegimeSquare> regime_square(const CellResults& cell,
                                           const EstimatorResults& estimator,
-                                          const std::string& metric, const MeanRange& range);
+                                          const std::string& metric, const SquareScale& scale);
 
 /// The estimator with the least mean cost of those as good as the best one; nothing where none
 /// has done all its trials, or the metric has no best.

@@ -1,6 +1,7 @@
 #include "regime_page.hpp"
 
 #include "page_numbers.hpp"
+#include "ranking.hpp"
 #include "regime_map.hpp"
 #include "study_figures.hpp"
 
@@ -12,19 +13,19 @@ using Json = nlohmann::ordered_json;
 // The squares of one map, of every metric: into the metrics of its cells.
 void add_squares(const StudyResults& results, const RegimeMap& map, Json& cells) {
   for (const std::string& metric : results.metrics) {
-    const auto range = range_over(map, metric);
-    if (!range) continue;
+    const auto scale = scale_over(results, map, metric);
+    if (!scale) continue;
     for (const auto& column : map.cells) {
       for (const CellResults* cell : column) {
         if (cell == nullptr) continue;
         Json& estimators =
             cells[static_cast<std::size_t>(cell - results.cells.data())]["estimators"];
         for (std::size_t i = 0; i < cell->estimators.size(); ++i) {
-          const auto square = regime_square(*cell, cell->estimators[i], metric, *range);
+          const auto square = regime_square(*cell, cell->estimators[i], metric, *scale);
           if (!square) continue;
           const bool is_dark = square->shade.ink == palette::white;
           estimators[i]["metrics"][metric]["square"] = {hex(square->shade.fill), is_dark,
-                                                        page_number(square->relative)};
+                                                        page_value(square->relative)};
         }
       }
     }
@@ -44,7 +45,7 @@ void add_regimes(const StudyResults& results, Json& page) {
                      {"up", maps.front().up},
                      {"none", hex(shade_of_none().fill)}};
   for (const RegimeMap& map : maps) add_squares(results, map, page["cells"]);
-  const auto metric = first_metric(results, false);
+  const auto metric = ranking_metric(results).name;
   const auto cost = first_metric(results, true);
   if (!metric || !cost) return;
   page["regimes"]["cheapest"] = {{"metric", *metric}, {"cost", *cost}};

@@ -90,6 +90,12 @@ std::string example_text(const CellResults& cell, const TrialKey& trial) {
   return fmt::format("survey {}, {}", trial.survey, text);
 }
 
+std::string repeats_there(const StudyDescription& study, const CellResults& cell) {
+  const std::string text = repeats_text(cell.repetition, study.surveys, study.trials);
+  const std::size_t all = study.surveys * study.trials;
+  return cell.trials < all ? fmt::format("{} ({} of {})", text, cell.trials, all) : text;
+}
+
 std::string repeats_of(const std::vector<const CellResults*>& cells) {
   std::vector<std::string> all;
   for (const CellResults* cell : cells) {

@@ -5,6 +5,7 @@
 
 #include "fathom/evaluation/metrics.hpp"
 #include "file_names.hpp"
+#include "ranking.hpp"
 #include "text_layout.hpp"
 
 namespace fathom {
@@ -57,12 +58,19 @@ AxisTitle axis_title(const std::string& metric) {
 }
 
 std::optional<std::string> first_metric(const StudyResults& results, bool cost) {
-  const auto& wanted = results.study.metrics;
-  const auto found = std::find_if(wanted.begin(), wanted.end(), [&](const std::string& name) {
-    return is_cost_metric(name) == cost &&
-           std::find(results.metrics.begin(), results.metrics.end(), name) != results.metrics.end();
-  });
-  return found == wanted.end() ? std::nullopt : std::optional(*found);
+  for (const std::string& name : results.study.metrics) {
+    if (is_cost_metric(name) != cost) continue;
+    for (const CellResults& cell : results.cells) {
+      const auto has = [&](const EstimatorResults& one) { return one.metrics.contains(name); };
+      if (std::ranges::any_of(cell.estimators, has)) return name;
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> accuracy_shown(const StudyResults& results) {
+  auto ranking = ranking_metric(results).name;
+  return ranking ? ranking : first_metric(results, false);
 }
 
 std::vector<StudyFigure> study_figures(const ChartInput& input) {

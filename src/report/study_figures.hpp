@@ -25,19 +25,19 @@ inline constexpr double kFigureWidth = 252.0;
 std::vector<StudyFigure> study_figures(const ChartInput& input);
 
 // Its parts. Each appends.
-/// `error_by_AXIS`, one for each place on the other axes: mean of the first accuracy metric with
+/// `error_by_AXIS`, one for each place on the other axes: mean of the accuracy metric shown with
 /// its 2σ band over trials, empirical and estimated 2σ of the position below.
 void add_sweep_figures(const ChartInput& input, std::vector<StudyFigure>& figures);
-/// `regime_map`, one for each place on the axes after the first two: the first accuracy metric, of
+/// `regime_map`, one for each place on the axes after the first two: the accuracy metric shown, of
 /// which less must be better, relative to the best estimator over two axes, a map an estimator; and
-/// which is the cheapest of the best.
+/// which is the cheapest of the best. Where nothing ranks, the means themselves.
 void add_regime_figures(const ChartInput& input, std::vector<StudyFigure>& figures);
 /// `nees_CELL`: NEES / 3 over keyframes, mean over trials, with its χ² interval.
 void add_nees_figures(const ChartInput& input, std::vector<StudyFigure>& figures);
 /// `trajectories_CELL`: those of the lowest trial, with the loops of the first estimator used,
 /// and the absolute measurements of the first that left one out.
 void add_trajectory_figures(const ChartInput& input, std::vector<StudyFigure>& figures);
-/// `accuracy_against_cost_CELL`: the first metric of each kind.
+/// `accuracy_against_cost_CELL`: the accuracy metric shown and the first cost.
 void add_cost_figures(const ChartInput& input, std::vector<StudyFigure>& figures);
 
 /// What the name of a figure's file is made from: "trajectories" in a study of one cell, else
@@ -66,7 +66,11 @@ class FigureLayout {
 /// A metric as the title of an axis.
 AxisTitle axis_title(const std::string& metric);
 
-/// The study's first metric that is a cost or is none; nothing without one.
+/// The study's first metric that is a cost or is none, and of which an estimator has a value;
+/// nothing without one.
 std::optional<std::string> first_metric(const StudyResults& results, bool cost);
+
+/// The accuracy metric that charts show: the one that ranks, else the first.
+std::optional<std::string> accuracy_shown(const StudyResults& results);
 
 }  // namespace fathom

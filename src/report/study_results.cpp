@@ -61,12 +61,15 @@ std::map<std::string, MetricSummary> summaries(const EstimatorResults& estimator
   return all;
 }
 
-void sum_up(EstimatorResults& estimator, const std::vector<std::string>& metrics,
-            Repetition repetition) {
+void count_outcomes(EstimatorResults& estimator) {
   for (const RunRecord& run : estimator.runs) {
     estimator.done += is_failed(run) ? 0 : 1;
     if (!run.outcome.empty()) ++estimator.outcomes[run.outcome];
   }
+}
+
+void sum_up(EstimatorResults& estimator, const std::vector<std::string>& metrics,
+            Repetition repetition) {
   estimator.metrics = summaries(estimator, metrics);
   std::set<std::string> of_honesty;
   std::set<std::size_t> surveys;
@@ -155,7 +158,7 @@ CellResults runs_of(const RunIndex& index, std::size_t number, const std::string
   for (const TrialKey& trial : trials) surveys.insert(trial.survey);
   cell.surveys = surveys.size();
   cell.repetition = study.repetition_of(number);
-  cell.repeats = repeats_text(cell.repetition, {trials.begin(), trials.end()});
+  cell.repeats = repeats_there(study, cell);
   return cell;
 }
 
@@ -216,16 +219,18 @@ StudyResults study_results(const ResultStore& store, MetricsOf metrics,
   results.study = index.study();
   results.machines = index.machines();
   results.cost_machine = machine.value_or(index.cost_machine());
-  results.metrics = metrics == MetricsOf::study ? results.study.metrics : all_metrics(index);
+  results.metrics = metrics == MetricsOf::runs ? all_metrics(index) : results.study.metrics;
   const std::string machines = machines_text(results);
   for (std::size_t number = 0; number < results.study.cell_count(); ++number) {
     CellResults cell = runs_of(index, number, results.cost_machine);
+    if (cell.estimators.empty()) results.empty_cells.push_back(cell.label);
     if (cell.estimators.empty()) continue;
     cell.machines = machines;
     for (EstimatorResults& one : cell.estimators) {
-      sum_up(one, results.metrics, cell.repetition);
+      count_outcomes(one);
+      if (metrics != MetricsOf::none) sum_up(one, results.metrics, cell.repetition);
     }
-    compare(cell, results.study);
+    if (metrics != MetricsOf::none) compare(cell, results.study);
     results.cells.push_back(std::move(cell));
   }
   return results;

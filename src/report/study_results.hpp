@@ -58,7 +58,7 @@ struct CellResults {
   Repetition repetition = Repetition::surveys;
   std::size_t surveys = 0;                   ///< that have any run
   std::size_t trials = 0;                    ///< likewise, of all surveys
-  std::string repeats;                       ///< "10 surveys × 10 trials"
+  std::string repeats;                       ///< repeats_there
   std::vector<EstimatorResults> estimators;  ///< dead reckoning first, then as in the study
   std::vector<PairedResult> paired;          ///< of the study's metrics
 };
@@ -89,6 +89,7 @@ struct StudyResults {
   std::map<std::string, std::size_t> machines;  ///< runs by kind of processor
   std::string cost_machine;                     ///< the one whose runs figures of cost are over
   std::vector<CellResults> cells;               ///< those with runs
+  std::vector<std::string> empty_cells;         ///< labels of the others
   std::vector<std::string> metrics;  ///< all that occur: the study's in its order, then by name
 };
 
@@ -96,8 +97,9 @@ struct StudyResults {
 /// its name for a label.
 Metric described(const std::string& metric);
 
-/// Which metrics are worked up: their intervals are what takes time.
-enum class MetricsOf { study, runs };
+/// Which metrics are worked up: their intervals are what takes time. With none there are the runs
+/// and how they ended.
+enum class MetricsOf { none, study, runs };
 
 /// Figures of cost are over the runs of `machine`; without it, of the one that has most. Throws
 /// InputError on a store without runs.
@@ -121,6 +123,11 @@ std::string counts_text(const std::set<int>& jobs);
 /// "separation 5: association own, alignment origin, 10 surveys × 10 trials, jobs 2"; what is
 /// unknown is left out.
 std::string cell_caption(const CellResults& cell);
+
+/// The repeats that a study wants of a cell: "10 surveys × 10 trials", and where some are yet to
+/// run
+/// "(37 of 100)".
+std::string repeats_there(const StudyDescription& study, const CellResults& cell);
 
 /// The repeats of some cells, "1 survey × 10 trials"; all that occur where they differ.
 std::string repeats_of(const std::vector<const CellResults*>& cells);

@@ -11,6 +11,7 @@
 #include "regime_map.hpp"
 #include "scaled_unit.hpp"
 #include "verdict_answer.hpp"
+#include "verdict_failures.hpp"
 
 namespace fathom {
 namespace {
@@ -155,14 +156,21 @@ std::string cost_text(const CellResults& cell, const Ranking& by_cost,
                       const std::string& cheapest) {
   const std::string& cost = by_cost.metric;
   const Metric metric = described(cost);
-  std::string text =
-      fmt::format("Cheapest of those within 5 % of the best: {}, {} {}.", cheapest, metric.label,
-                  mean_text(find(cell, cheapest)->metrics.at(cost), metric.unit));
+  const MetricSummary& least = find(cell, cheapest)->metrics.at(cost);
+  // One unit for the sentence, as it compares.
+  double most =
+      least.interval ? std::max(least.moments.mean, least.interval->high) : least.moments.mean;
+  for (const RankedEstimator& one : by_cost.estimators) {
+    most = std::max(most, one.summary.moments.mean);
+  }
+  const ScaledUnit unit = reading_unit(metric.unit, most);
+  std::string text = fmt::format("Cheapest of those within 5 % of the best: {}, {} {}.", cheapest,
+                                 metric.label, quantity(least.moments.mean, least.interval, unit));
   const auto add = [&](Standing standing, const std::string& before, const std::string& after) {
     std::vector<std::string> named;
     for (const RankedEstimator* one : by_cost.standing(standing)) {
       if (one->name == cheapest) continue;
-      named.push_back(one->name + " " + quantity(one->summary.moments.mean, metric.unit));
+      named.push_back(one->name + " " + quantity(one->summary.moments.mean, std::nullopt, unit));
     }
     if (!named.empty()) text += before + listed(named) + after;
   };
@@ -170,38 +178,6 @@ std::string cost_text(const CellResults& cell, const Ranking& by_cost,
   add(Standing::not_shown, " Not shown to be dearer: ", ".");
   add(Standing::worse, " Dearer: ", ".");
   return text;
-}
-
-std::string outcomes_text(const EstimatorResults& one) {
-  std::vector<std::string> parts;
-  for (const auto& [outcome, count] : one.outcomes) {
-    if (outcome == "converged" || outcome == "iteration_limit") continue;
-    parts.push_back(std::to_string(count) + " " + worded(outcome));
-  }
-  return parts.empty() ? "" : " (" + listed(parts) + ")";
-}
-
-std::vector<std::string> failed_of(const CellResults& cell, const StudyDescription& study) {
-  std::vector<std::string> sentences;
-  const std::size_t wanted = study.surveys * study.trials;
-  for (const EstimatorResults& one : cell.estimators) {
-    if (one.name == kDeadReckoning) continue;
-    const std::string of_runs = " of " + counted(one.runs.size(), "run");
-    const auto add = [&](std::size_t count, const std::string& verb, const std::string& end) {
-      if (count == 0) return;
-      sentences.push_back(one.name + " " + verb + " in " + std::to_string(count) + of_runs + end);
-    };
-    add(one.failures(), "failed", outcomes_text(one) + " and is not ranked.");
-    const auto limit = one.outcomes.find("iteration_limit");
-    add(limit == one.outcomes.end() ? 0 : limit->second, "stopped at its iteration limit",
-        "; these count as done.");
-    add(runs_without_loops(one), "closed no loop", ".");
-    if (one.runs.size() < wanted) {
-      sentences.push_back(fmt::format("{}: {} of {} are missing.", one.name,
-                                      wanted - one.runs.size(), counted(wanted, "run")));
-    }
-  }
-  return sentences;
 }
 
 }  // namespace
@@ -241,7 +217,7 @@ CellVerdict cell_verdict(const CellResults& cell, const StudyDescription& study,
       }
     }
   }
-  verdict.failed = failed_of(cell, study);
+  verdict.failed = failures_of(cell, study);
   verdict.doubts = doubts_of(cell, verdict);
   return verdict;
 }

@@ -25,8 +25,8 @@ const char* standing_text(const RankedEstimator& one) {
 
 Json ranking_json(const Ranking& ranking) {
   Json json{{"best", ranking.best().name},
-            {"level", page_number(ranking.level)},
-            {"margin", page_number(ranking.margin)}};
+            {"level", page_value(ranking.level)},
+            {"margin", page_value(ranking.margin)}};
   json["others"] = Json::array();
   for (const RankedEstimator& one : ranking.estimators) {
     if (&one == &ranking.best()) continue;
@@ -34,13 +34,13 @@ Json ranking_json(const Ranking& ranking) {
     if (const auto& difference = one.difference) {
       other["n"] = difference->count;
       other["over"] = difference->is_over_surveys ? "surveys" : "trials";
-      other["mean"] = page_number(difference->mean);
+      other["mean"] = page_value(difference->mean);
       if (difference->interval) {
-        other["low"] = page_number(difference->interval->low);
-        other["high"] = page_number(difference->interval->high);
+        other["low"] = page_value(difference->interval->low);
+        other["high"] = page_value(difference->interval->high);
       }
     }
-    if (one.p) other["p"] = page_number(*one.p);
+    if (one.p) other["p"] = page_value(*one.p);
     json["others"].push_back(other);
   }
   return json;

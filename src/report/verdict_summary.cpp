@@ -11,6 +11,7 @@
 #include "study_figures.hpp"
 #include "verdict.hpp"
 #include "verdict_answer.hpp"
+#include "verdict_failures.hpp"
 
 namespace fathom {
 namespace {
@@ -45,43 +46,6 @@ void add_cost(const StudyResults& results, StudyVerdict& verdict) {
   if (unsure == 0) return;
   verdict.cost_words.push_back(fmt::format("In {} others as good are not shown to be dearer.",
                                            of_cells(unsure, results.cells.size())));
-}
-
-// Over all cells, with the number of those where it happened.
-void add_failed(const StudyResults& results, StudyVerdict& verdict) {
-  struct Count {
-    std::size_t failed = 0;
-    std::size_t without_loops = 0;
-    std::size_t runs = 0;
-    std::size_t cells_failed = 0;
-    std::size_t cells_without = 0;
-  };
-  std::map<std::string, Count> counts;
-  std::vector<std::string> order;
-  for (const CellResults& cell : results.cells) {
-    for (const EstimatorResults& one : cell.estimators) {
-      if (one.name == kDeadReckoning) continue;
-      if (!counts.contains(one.name)) order.push_back(one.name);
-      Count& count = counts[one.name];
-      count.failed += one.failures();
-      count.without_loops += runs_without_loops(one);
-      count.runs += one.runs.size();
-      count.cells_failed += one.failures() > 0 ? 1 : 0;
-      count.cells_without += runs_without_loops(one) > 0 ? 1 : 0;
-    }
-  }
-  for (const std::string& name : order) {
-    const Count& count = counts[name];
-    const auto add = [&](std::size_t runs, std::size_t cells, const std::string& verb,
-                         const std::string& end) {
-      if (runs == 0) return;
-      verdict.failed.push_back(fmt::format("{} {} in {} of {}, in {}{}", name, verb, runs,
-                                           counted(count.runs, "run"),
-                                           of_cells(cells, results.cells.size()), end));
-    };
-    add(count.failed, count.cells_failed, "failed", ", where it is not ranked.");
-    add(count.without_loops, count.cells_without, "closed no loop", ".");
-  }
 }
 
 void add_doubts(StudyVerdict& verdict) {
@@ -138,12 +102,13 @@ StudyVerdict study_verdict(const StudyResults& results) {
     verdict.cost_words = only.cost;
     verdict.failed = only.failed;
     for (const Doubt& doubt : only.doubts) verdict.doubts.push_back(words_of(doubt));
+    add_empty_cells(results, verdict.failed);
     return verdict;
   }
   verdict.answer = before_ranking(by);
   add_answer(results, verdict);
   add_cost(results, verdict);
-  add_failed(results, verdict);
+  verdict.failed = failures_of(results);
   add_doubts(verdict);
   return verdict;
 }

@@ -49,7 +49,7 @@ inline std::string without_entities(std::string text) {
 /// A page of a made-up study.
 struct SeenPage {
   FixtureOptions options{};
-  std::vector<std::string> mosaics{};  ///< estimators that have one
+  std::vector<std::string> mosaics{};  ///< estimators that have one; every second with seams
   int width = 1400;
 
   bool operator==(const SeenPage&) const = default;
@@ -62,7 +62,8 @@ inline nlohmann::json open_page(const SeenPage& seen) {
   const TemporaryFolder folder;
   write_fixture(folder / "study", seen.options);
   for (std::size_t i = 0; i < seen.mosaics.size(); ++i) {
-    write_made_mosaic(folder / "study" / seen.mosaics[i], 4.0, 2.0 - static_cast<double>(i));
+    write_made_mosaic(folder / "study" / seen.mosaics[i], 4.0, 2.0 - static_cast<double>(i), 0.01,
+                      i % 2 == 0 ? MosaicBlend::feather : MosaicBlend::seams);
   }
   write_study_report(ResultStore::open(folder / "study"), folder / "out", folder / "study");
   const std::string page = output_of(

@@ -89,6 +89,27 @@ TEST(ChartRows, OptimaThatDifferInTheTenthDigitTie) {
   EXPECT_THAT(ranks_of(cell, "anees"), IsEmpty());
 }
 
+// A mean that leaves out the trials that failed flatters, and F ranks where measurements fit alone.
+TEST(ChartRows, WhatIsNotRankedIsOnNoFrontAndBeatsNobody) {
+  CellResults cell;
+  cell.estimators = {estimator("failed", 0.5, 0.5), estimator("good", 1.0, 1.0)};
+  cell.estimators[0].runs.resize(3);
+  cell.estimators[0].done = 2;
+  const auto points = cost_points(cell, "ate_rmse_m", "total_ms");
+  EXPECT_EQ(points.size(), 2u);
+  const auto front = pareto_front(points, Better::lower);
+  ASSERT_EQ(front.size(), 1u);
+  EXPECT_EQ(front[0].estimator, "good");
+  EXPECT_THAT(ranks_of(cell, "ate_rmse_m"), ElementsAre(Pair("good", 0)));
+  for (EstimatorResults& one : cell.estimators) {
+    one.metrics["chi2"].moments.mean = 1000.0;
+    one.consistency["chi2_optimum"].moments.mean = 900.0;
+    one.consistency["degrees_of_freedom"].moments.mean = 90.0;
+  }
+  EXPECT_THAT(ranks_of(cell, "chi2"), IsEmpty());
+  EXPECT_THAT(pareto_front(cost_points(cell, "chi2", "total_ms"), Better::lower), IsEmpty());
+}
+
 // The interval of a few surveys' mean may reach zero; the estimator is drawn nevertheless.
 TEST(ChartRows, ACostWhoseIntervalReachesZeroIsDrawnFromItsMeanOn) {
   CellResults cell;

@@ -13,8 +13,10 @@ namespace fathom::test {
 /// −3 to 3, grey 100 with a bright square of 1 m at (x, y). No picture shows x below 0. The track
 /// goes by (0, 0), (4, 0) and (4, 2); of three loops one is used, one rejected, one of no keyframe.
 inline void write_made_mosaic(const std::filesystem::path& folder, double x, double y,
-                              double metres_per_pixel = 0.01) {
+                              double metres_per_pixel = 0.01,
+                              MosaicBlend blend = MosaicBlend::feather) {
   MosaicPlan plan;
+  plan.blend = blend;
   plan.metres_per_pixel = metres_per_pixel;
   plan.top_left_m = {7.0, 3.0};
   plan.size = cv::Size(static_cast<int>(std::lround(6.0 / metres_per_pixel)),

@@ -11,6 +11,7 @@ namespace fathom::test {
 namespace {
 
 using Json = nlohmann::json;
+using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -50,6 +51,69 @@ TEST(PageVerdict, HasTheVerdictAndTheRankings) {
             "not_shown");
   EXPECT_EQ(data["cells"][5]["rankings"]["mean_position_error_m"]["others"].size(), 1u);
   EXPECT_THAT(data["cells"][5]["verdict"]["failed"].dump(), HasSubstr("and is not ranked"));
+}
+
+// Of one cell F ranks none, and then of no cell; the first metric that ranks is shown first.
+TEST(PageVerdict, ChartsRankByNothingThatTheVerdictRefuses) {
+  FixtureOptions options;
+  options.misfit = true;
+  const Json data = data_of(options);
+  EXPECT_EQ(data["verdict"]["metric"], "mean_position_error_m");
+  EXPECT_EQ(data["first"]["accuracy"], "mean_position_error_m");
+  EXPECT_EQ(data["regimes"]["cheapest"]["metric"], "mean_position_error_m");
+  EXPECT_THAT(data["cells"][0]["unranked"]["chi2"].get<std::string>(), HasSubstr("do not fit"));
+  EXPECT_EQ(data["cells"][1]["unranked"], Json::object());
+  for (std::size_t c = 0; c < 2; ++c) {
+    const Json& metrics = data["cells"][c]["estimators"][1]["metrics"];
+    EXPECT_EQ(metrics["chi2"].contains("rank"), c == 1);
+    EXPECT_TRUE(metrics["chi2"]["square"][2].is_null());
+    EXPECT_TRUE(metrics["mean_position_error_m"].contains("rank"));
+    EXPECT_FALSE(metrics["mean_position_error_m"]["square"][2].is_null());
+  }
+  // Without ground truth nothing else ranks.
+  options.ground_truth = false;
+  const Json without = data_of(options);
+  EXPECT_EQ(without["first"]["accuracy"], "chi2");
+  EXPECT_FALSE(without["regimes"].contains("cheapest"));
+}
+
+// The page counts metrics that occur, the terminal those of the study.
+TEST(Verdict, TheCostIsTheFirstThatHasAValue) {
+  StudyResults results =
+      study_of({surveyed({eight("best", kBest, 8.0), eight("alike", kAlike, 2.0)})}, 8, 1);
+  results.study.metrics = {kError, "update_ms.median", "total_ms"};
+  for (const auto& occurring : {results.study.metrics, {kError, "total_ms"}}) {
+    results.metrics = occurring;
+    EXPECT_EQ(study_verdict(results).cost, "total_ms");
+    EXPECT_FALSE(study_verdict(results).cost_words.empty());
+  }
+}
+
+TEST(Verdict, WhatIsMissingOfAStudyOfSeveralCellsIsSaid) {
+  StudyResults results = study_of(
+      {surveyed({eight("best", kBest), eight("alike", kAlike)}), surveyed({eight("best", kBest)})},
+      8, 1);
+  results.study.estimators = {{"best", "ekf"}, {"alike", "ekf"}, {"never", "ekf"}};
+  for (const char* label : {"a", "b", "c", "d", "e"}) results.empty_cells.emplace_back(label);
+  const StudyVerdict verdict = study_verdict(results);
+  EXPECT_THAT(verdict.failed,
+              ElementsAre("best: 40 of 56 runs are missing.", "alike: 48 of 56 runs are missing.",
+                          "never: 56 of 56 runs are missing.",
+                          "No run yet in 5 of 7 cells: a; b; c; and 2 more."));
+  EXPECT_THAT(verdict.cells[1].failed,
+              ElementsAre("alike: 8 of 8 runs are missing.", "never: 8 of 8 runs are missing."));
+  // One cell alone has runs.
+  results.cells.pop_back();
+  results.empty_cells = {"a"};
+  EXPECT_THAT(study_verdict(results).failed,
+              ElementsAre("never: 8 of 8 runs are missing.", "No run yet in 1 of 2 cells: a."));
+}
+
+TEST(Verdict, ASentenceOfCostsHasOneUnit) {
+  const StudyVerdict verdict = study_verdict(
+      study_of({surveyed({eight("best", kBest, 8.0), eight("alike", kAlike, 0.0035)})}, 8, 1));
+  EXPECT_THAT(verdict.cost_words, ElementsAre(AllOf(HasSubstr("alike, "), HasSubstr(" 0.00350 ms."),
+                                                    HasSubstr("Dearer: best 8.00 ms."))));
 }
 
 // In the second cell both cost the same in the mean, more or less.

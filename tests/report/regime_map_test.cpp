@@ -3,13 +3,18 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "report/placed_texts.hpp"
 #include "report/study_fixture.hpp"
+#include "src/report/study_figures.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace fathom::test {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::DoubleEq;
+using ::testing::HasSubstr;
+using ::testing::Not;
 using ::testing::Optional;
 
 EstimatorResults with_means(const std::string& name, double error_m, double total_ms,
@@ -92,6 +97,46 @@ TEST(RegimeMap, OneAxisHasNone) {
   FixtureOptions options;
   options.noises.clear();
   EXPECT_TRUE(regime_maps(results_of(folder, options)).empty());
+}
+
+// Its words one after the other; lines are broken where they must be.
+std::string text_of_figure(const ChartInput& input, const std::string& name) {
+  std::string text;
+  for (const StudyFigure& figure : study_figures(input)) {
+    if (!figure.name.starts_with(name)) continue;
+    for (const PlacedText& one : texts_of({kFigureWidth, figure.height}, figure.draw)) {
+      text += one.text + " ";
+    }
+  }
+  return text;
+}
+
+// Of the first cell F ranks none: a map that all cells share has then the means of all.
+TEST(RegimeMap, FiguresRankByNothingThatTheVerdictRefuses) {
+  for (const bool has_truth : {true, false}) {
+    const TemporaryFolder folder;
+    FixtureOptions options;
+    options.misfit = true;
+    options.ground_truth = has_truth;
+    const StudyResults results = results_of(folder, options);
+    const ResultStore store = ResultStore::open(folder / "study");
+    const auto series = study_series(store, results);
+    const auto examples = example_trials(store, results);
+    const ChartInput input{results, series, examples};
+    const auto scale = scale_over(results, regime_maps(results).front(), "chi2");
+    ASSERT_TRUE(scale);
+    EXPECT_FALSE(scale->is_relative);
+    const std::string map = text_of_figure(input, "regime_map");
+    const std::string cost = text_of_figure(input, "accuracy_against_cost_separation_5");
+    if (has_truth) {
+      EXPECT_THAT(map, AllOf(HasSubstr("mean position error"), HasSubstr("cheapest within 5 %")));
+      EXPECT_THAT(cost, HasSubstr("Pareto front"));
+    } else {
+      EXPECT_THAT(map, AllOf(HasSubstr("no best one is shown: where measurements"),
+                             Not(HasSubstr("cheapest"))));
+      EXPECT_THAT(cost, HasSubstr("no Pareto front: where measurements"));
+    }
+  }
 }
 
 }  // namespace

@@ -171,6 +171,11 @@ RunRecord fixture_run(const RunKey& key, const FixtureOptions& options, std::siz
     run.series["truth_theta_rad"] = truth.theta;
   }
   add_metrics(run, character, random);
+  if (options.misfit && key.cell == 0 && !baseline) {
+    run.metrics["degrees_of_freedom"] = 90.0;
+    run.metrics["chi2_optimum"] = 4.0 * 90.0;
+    run.metrics["chi2"] += 4.0 * 90.0;
+  }
   return run;
 }
 
@@ -187,7 +192,7 @@ StudyDescription fixture_study(const FixtureOptions& options) {
         {"separation", "front_end.keyframes.separation_frames", options.separations});
   }
   if (!options.noises.empty()) {
-    study.axes.push_back({"noise, \"odometry\"", "dataset.odometry.covariance", options.noises});
+    study.axes.push_back({options.noise_name, "dataset.odometry.covariance", options.noises});
   }
   if (!options.alignments.empty()) {
     study.axes.push_back({"aligned by", "evaluation.alignment", options.alignments});
@@ -195,6 +200,7 @@ StudyDescription fixture_study(const FixtureOptions& options) {
   study.estimators = {
       {"iterated", "trajectory_iekf"}, {"a&b_<c>%", "ekf"}, {"graph", "ceres_pose_graph"}};
   study.metrics = {"mean_position_error_m", "rpe_10_keyframes_m", "anees", "total_ms"};
+  if (options.misfit) study.metrics.insert(study.metrics.begin(), "chi2");
   study.configuration = {{"association.mode", "shared"},
                          {"seed", "1"},
                          {"dataset.path", "a,b \"c\" <d>"},

@@ -17,6 +17,7 @@ struct FixtureOptions {
   std::size_t keyframes = 40;
   std::vector<std::string> separations{"5", "10", "20"};
   std::vector<std::string> noises{"low", "high & <b>50%</b>"};
+  std::string noise_name = "noise, \"odometry\"";
   std::vector<std::string> alignments{};  ///< of the last axis; empty: "origin" alone
   bool ground_truth = true;               ///< else no accuracy, consistency, or truth
   bool loops = true;
@@ -26,6 +27,8 @@ struct FixtureOptions {
   /// of 0.1, the other one uses them.
   bool absolute = false;
   bool absolute_is_old = false;  ///< stored without what was measured
+  /// In the first cell measurements do not fit each other; F (`chi2`) is the study's first metric.
+  bool misfit = false;
   int jobs = 2;
   double size = 1.0;      ///< of all errors
   double baseline = 1.0;  ///< of dead reckoning's, times `size`

@@ -50,7 +50,7 @@ ResultStore small_store(const TemporaryFolder& folder) {
 TEST(StudyTable, SaysWhatWasNotDoneAndKeepsItOutOfTheMeans) {
   const TemporaryFolder folder;
   const std::string table = study_table(small_store(folder));
-  EXPECT_THAT(table, HasSubstr("all: alignment se2, 1 survey × 3 trials, jobs 1\n"));
+  EXPECT_THAT(table, HasSubstr("all: alignment se2, 1 survey × 4 trials (3 of 4), jobs 1\n"));
   EXPECT_THAT(table, ContainsRegex("first +3/3 done, 1 at iteration limit, 1 not run +2.00 \\["));
   EXPECT_THAT(table, ContainsRegex("second +2/3 done, 1 diverged, 1 not run +3.00 \\["));
   EXPECT_THAT(table, Not(HasSubstr("900")));

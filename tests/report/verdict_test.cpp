@@ -77,7 +77,7 @@ TEST(Verdict, TheCheapestIsOneOfTheGoodOnes) {
   EXPECT_EQ(verdict.cells[0].cheapest, "alike");
   EXPECT_THAT(
       verdict.cost_words,
-      ElementsAre("Cheapest of those within 5 % of the best: alike, estimate, time 3.50 µs. "
+      ElementsAre("Cheapest of those within 5 % of the best: alike, estimate, time 0.00350 ms. "
                   "Dearer: best 8.00 ms."));
 }
 

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
+#include <map>
 #include <string>
+#include <vector>
 
 #include "fathom/results/result_store.hpp"
 
@@ -19,6 +22,22 @@ namespace fathom {
 /// fit a line.
 enum class StudyTable { full, brief };
 std::string study_table(const ResultStore& store, StudyTable extent = StudyTable::full);
+
+/// The means of an estimator, or of dead reckoning, on one cell, as the table has them: over the
+/// runs that were done, of several surveys over the surveys' means, of costs over the runs of one
+/// kind of processor. Of all metrics.
+struct StudyMeans {
+  std::size_t cell = 0;
+  std::string estimator;
+  std::size_t runs = 0;
+  std::size_t done = 0;
+  std::map<std::string, double> means;
+};
+std::vector<StudyMeans> study_means(const ResultStore& store);
+
+/// Why a study's estimators are not ranked by a metric, without a full stop; empty where they may
+/// be (docs/report.md).
+std::string not_ranked_text(const ResultStore& store, const std::string& metric);
 
 /// What the consistency of the estimators means, a line each under its cell where it is not as
 /// expected; then the verdict.

@@ -19,14 +19,18 @@ const charts = [
       (cell.example.estimators.some(thinnedNote) ? 'Loops are thinned evenly. ' : '') + marksCaption(cell) +
       'Wheel: zoom, drag: move, double click: all.'},
   {id: 'pareto', title: 'Accuracy against cost', plots: paretoPlots,
-    exists: () => Object.values(study.metrics).some((metric) => metric.cost),
+    exists: (cell) => cell.estimators.some(({metrics}) => [true, false].every((cost) =>
+      Object.keys(metrics).some((name) => study.metrics[name].cost === cost && (!cost || metrics[name].mean > 0)))),
     choices: () => [
       {label: 'accuracy', key: 'accuracy', values: metricChoices(false).map((name) => [name, metricTitle(name)])},
       {label: 'cost', key: 'cost', values: metricChoices(true).map((name) => [name, metricTitle(name)])}],
     caption: (cell) => {
+      if (paretoRows(cell).rows.length === 0) return 'No estimator of this cell has a value of both.';
       const {better} = study.metrics[state.accuracy];
+      const against = unrankedIn(cell, state.accuracy);
       const front = better === 'neither' ? 'No value of this metric is the better one, so none is ringed.'
-        : `Ringed, on the dashed line: no other is both better (${better}) and cheaper.`;
+        : against ? `None is ringed: ${against}.`
+        : `Ringed, on the dashed line: no other that did all its runs is both better (${better}) and cheaper.`;
       return `${sentence(conditions(cell))}. Means with 95 % intervals. ${front} Grey line: dead reckoning. ${jobsNote(cell)}`;
     }},
   {id: 'updates', title: 'Cost of an update', plots: updatePlots,
@@ -57,7 +61,7 @@ const charts = [
       const fixed = study.axes.map((axis, i) => (i === across || i === up || axis.labels.length < 2 ? '' : `${axis.texts[cell.places[i]]}, `));
       const relative = regimeIsRelative();
       const meaning = relative ? `${sentence(meanTitle(state.regimeMetric))} over that of the best estimator at the same place: 1 is the best, ten times is dark.`
-        : `${sentence(meanTitle(state.regimeMetric))}.`;
+        : `${sentence(meanTitle(state.regimeMetric))}.` + (unranked(state.regimeMetric) ? ` No best one is shown: ${unranked(state.regimeMetric)}.` : '');
       const choice = cheapest ? ` Last map: by ${meanTitle(cheapest.cost)} the cheapest of those whose ` +
         `${meanTitle(cheapest.metric)} is at most 5 % above the best; ?: others of them are not shown to be dearer, as the tooltip says.` : '';
       return `${fixed.join('')}${repeatsOf(regimeCells())} a square. ${meaning} An estimator that failed a trial is in no comparison.${choice}`;

@@ -119,7 +119,7 @@ function regimePlots(card) {
   const {across, up} = study.regimes;
   const signals = {x_title: study.axes[across].title, y_title: study.axes[up].title};
   const domains = [study.axes[across].labels, study.axes[up].labels];
-  const height = Math.max(110, 30 * domains[1].length + 50);
+  const height = Math.max(110, 30 * domains[1].length + 50, 7 * signals.y_title.length + 60);  // of the whole title
   const adjust = (spec) => domains.forEach((domain, i) => { spec.scales[i].domain = domain; });
   const plot = (heading, rows) => ({spec: 'regimes', heading, data: {rows}, height, signals, adjust});
   const plots = picturesOf(study.estimators.filter((one) => one.name !== kBaseline && isShown(one.name))

@@ -64,7 +64,9 @@ function drawEstimateMosaic() {
   showMosaic(document.getElementById('mosaic-estimate'), mosaic, layers,
     `${sentence(study.cells[0].example.text)}: the pictures at the poses of ${labelOf(mosaic.estimator)}, ` +
     `${lengthText(mosaic.metres_per_pixel)} a pixel, x up and y to the left. Thick: its trajectory from the dot on; ` +
-    `white: loops used${thinned}. Where a stone is there twice, or blurred, the trajectory is wrong.`);
+    `white: loops used${thinned}. ` + (mosaic.blend === 'seams'
+      ? 'Every place is of one picture: where an outline breaks at a seam, the trajectory is wrong, and seams hide the rest of what is misplaced.'
+      : 'Where a stone is there twice, or blurred, the trajectory is wrong.'));
 }
 
 function drawMosaicDifference() {

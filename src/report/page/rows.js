@@ -41,7 +41,7 @@ function regimeCells() {
   return study.cells.filter((cell) => cell.places.every((place, axis) => [study.regimes.across, study.regimes.up].includes(axis) || place === here[axis]));
 }
 
-const regimeIsRelative = () => study.metrics[state.regimeMetric].better === 'lower';
+const regimeIsRelative = () => study.metrics[state.regimeMetric].better === 'lower' && !unranked(state.regimeMetric);
 
 function regimeRow(cell) {
   const {across, up} = study.regimes;
@@ -175,7 +175,8 @@ function paretoRows(cell) {
     }
   }
   // On the front are those of the shown ones that none of these beats: as pareto_front in C++, which
-  // knows nothing of what the reader hides.
+  // knows nothing of what the reader hides. Without a rank are those that failed, and all where the
+  // metric does not rank.
   const shown = rows.filter((row) => !state.hidden.has(row.estimator));
   const beats = (a, b) => a.ranks.every((rank, i) => rank <= b.ranks[i]) && a.ranks.some((rank, i) => rank < b.ranks[i]);
   for (const row of shown) row.front = !row.ranks.includes(undefined) && !shown.some((other) => beats(other, row));

@@ -15,6 +15,24 @@ function marksOfAll(colour) {
 // Vega takes events and draws in later turns, which its views tell the end of.
 const drawn = () => Promise.all(Object.values(chartViews).flat().map((view) => view.runAsync()));
 
+// Numbers as the page writes them, by what JavaScript takes them for: ties, and numbers that have a
+// digit more once they are rounded.
+function digitsTest() {
+  const numbers = [0.125, 0.375, 2.5, 1.125, 1.375, 100.5, 101.5, 1234.5, 1235.5, 0.00009996, 0.0001, 9.9951, 9.9949, 999.5, 998.5, 0.5, 1e6, 9999999, -1.125, 1.005];
+  return numbers.map((value) => [value, digits(value)]);
+}
+
+const captionsOfAll = () => Object.fromEntries(charts.filter((chart) => !document.getElementById('chart-' + chart.id).hidden)
+  .map((chart) => [chart.id, textOf(`#chart-${chart.id} .caption`)[0]]));
+
+// Titles of axes that leave their chart.
+function cutTest() {
+  return [...document.querySelectorAll('#charts .role-axis-title text')].filter((text) => {
+    const [own, chart] = [text, text.closest('svg')].map((one) => one.getBoundingClientRect());
+    return own.top < chart.top - 1 || own.bottom > chart.bottom + 1 || own.left < chart.left - 1 || own.right > chart.right + 1;
+  }).map((text) => text.textContent);
+}
+
 // Whether the map's axes are equal, x goes up and y to the left, before and after the wheel was
 // turned, the map dragged, and clicked twice.
 async function mapTest() {
@@ -170,7 +188,7 @@ async function mosaicTest() {
 
 async function selfTest() {
   await drawn();
-  const result = {marks: marksOfAll(), absolute: absoluteTest(), estimators: {}, cells: [], tables: {}};
+  const result = {marks: marksOfAll(), absolute: absoluteTest(), estimators: {}, cells: [], tables: {}, digits: digitsTest(), captions: captionsOfAll(), cut: cutTest()};
   for (const box of document.querySelectorAll('#switches input')) {
     const style = styleOf(box.dataset.estimator);
     if (!style) continue;

@@ -27,6 +27,9 @@ const styleOf = (name) => study.estimators.find((one) => one.name === name);
 const labelOf = (name) => (styleOf(name) ? styleOf(name).label : name);
 const unitOf = (name) => (study.metrics[name] ? study.metrics[name].unit : '');
 const metricTitle = (name) => (study.metrics[name] ? study.metrics[name].title : name);
+// Why estimators of a cell, or of any, are not ranked by a metric; empty where they are.
+const unrankedIn = (cell, name) => cell.unranked[name] || '';
+const unranked = (name) => study.cells.map((cell) => unrankedIn(cell, name)).find(Boolean) || '';
 const namesOf = (names) => (names.length < 2 ? names.join('') : `${names.slice(0, -1).join(', ')} and ${names[names.length - 1]}`);
 
 function element(tag, properties = {}, children = []) {

@@ -46,9 +46,12 @@ function swatch(name) {
   return mark;
 }
 
-// A mean in the unit of its column, and below it its interval and its n where that is not all.
-function valueParts(value, scale, one) {
-  const parts = [element('span', {textContent: numberIn(value.mean, scale)})];
+// A mean in the unit that it shares, or with its own, and below it its interval and its n where that
+// is not all.
+function valueParts(metric, shared, one) {
+  const value = one.metrics[metric];
+  const scale = shared || unitWithInterval(value, metric);
+  const parts = [element('span', {textContent: followedBy(numberIn(value.mean, scale), shared ? '' : scale.text)})];
   if (value.low !== undefined) {
     parts.push(element('span', {className: 'interval', textContent: `[${numberIn(value.low, scale)}, ${numberIn(value.high, scale)}]`}));
   }
@@ -59,19 +62,19 @@ function valueParts(value, scale, one) {
 function drawSummary() {
   const cell = cellNow();
   const metrics = study.study_metrics.filter((name) => cell.estimators.some((one) => one.metrics[name]));
-  const scaleOf = (metric, isBaseline) => readingUnit(unitOf(metric), greatestOf(cell.estimators
-    .filter((one) => one.metrics[metric] && (one.name === kBaseline) === isBaseline).map((one) => one.metrics[metric].mean)));
+  const scaleOf = (metric, isBaseline) => sharedUnit(unitOf(metric), cell.estimators
+    .filter((one) => one.metrics[metric] && (one.name === kBaseline) === isBaseline).map((one) => one.metrics[metric].mean));
   // Dead reckoning may be of another size.
   const cellOf = (one, metric, scale) => {
     if (!one.metrics[metric]) return '–';
-    const own = one.name === kBaseline ? scaleOf(metric, true) : scale;
-    const parts = valueParts(one.metrics[metric], own, one);
-    if (own.text !== scale.text) parts[0].textContent += ` ${own.text || '× 1'}`;
+    const own = scale && one.name === kBaseline ? scaleOf(metric, true) : scale;
+    const parts = valueParts(metric, own, one);
+    if (own && own.text !== scale.text) parts[0].textContent += ` ${own.text || '× 1'}`;
     return parts;
   };
   const rows = metrics.map((metric) => {
     const scale = scaleOf(metric, false);
-    return [titled(metricTitle(metric), scale.text), ...cell.estimators.map((one) => cellOf(one, metric, scale))];
+    return [titled(metricTitle(metric), scale ? scale.text : ''), ...cell.estimators.map((one) => cellOf(one, metric, scale))];
   });
   const outcomes = cell.estimators.map((one) => (one.name === kBaseline ? '–' : one.outcome_text));
   const made = tableOf(['', ...cell.estimators.map((one) => [swatch(one.name), labelOf(one.name)])], [['outcome', ...outcomes], ...rows]);

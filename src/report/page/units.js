@@ -12,17 +12,29 @@ function readingUnit(unit, value) {
   return {text, factor};
 }
 
-// A number with three digits.
+// What is rounded to so many letters of an exact number: of two that are as near the one whose last
+// digit is even, where JavaScript takes the greater.
+function evenly(rounded, exact, letters) {
+  const kept = exact.slice(0, letters);
+  return /^\.?50*$/.test(exact.slice(letters)) && /[02468]$/.test(kept) ? kept : rounded;
+}
+
+// A number with three digits, the same ones as format_number in C++ gives it.
+const kExact = 100;  // decimals: a number that lies between two has no more
+const isPlain = (exponent) => exponent >= -4 && exponent < 7;
 function digits(value, count = 3) {
   if (value === null || value === undefined) return '–';
   if (value === 0) return '0';
   const size = Math.abs(value);
-  if (size >= 1e7 || size < 1e-4) {
-    const [mantissa, exponent] = value.toExponential(count - 1).split('e');
-    return `${mantissa} × ${powerOfTen(Number(exponent))}`;
+  const sign = value < 0 ? '-' : '';
+  // The exponent after rounding: 9.9996 with four digits is 10.00.
+  const [mantissa, exponent] = size.toExponential(count - 1).split('e');
+  if (!isPlain(Number(exponent))) {
+    return `${sign}${evenly(mantissa, size.toExponential(kExact).split('e')[0], mantissa.length)} × ${powerOfTen(Number(exponent))}`;
   }
-  const whole = Math.floor(Math.log10(size)) + 1;
-  return value.toFixed(Math.min(8, Math.max(0, count - whole)));
+  const decimals = Math.max(0, count - 1 - Number(exponent));
+  const exact = size.toFixed(kExact);
+  return sign + evenly(size.toFixed(decimals), exact, exact.length - kExact + (decimals > 0 ? decimals : -1));
 }
 
 const numberIn = (value, scale) => (value === null || value === undefined ? '–' : digits(value * scale.factor));
@@ -39,9 +51,19 @@ function quantity(value, unit) {
 
 const greatestOf = (values) => values.reduce((most, value) => Math.max(most, Math.abs(value || 0)), 0);
 
+// The unit of a row or a column of values, in which the typical one reads best; null where another
+// one would be a power of ten in it, and each has a unit of its own.
+function sharedUnit(unit, values, typical = greatestOf(values)) {
+  const scale = readingUnit(unit, typical);
+  const isLong = (value) => value !== 0 && !isPlain(Number((value * scale.factor).toExponential(2).split('e')[1]));
+  return values.some(isLong) ? null : scale;
+}
+
+const unitWithInterval = (one, metric) => readingUnit(unitOf(metric), greatestOf([one.mean, one.low, one.high]));
+
 // "17.4 mm [16.1, 18.4]" of a mean of a metric.
 function withInterval(one, metric) {
-  const scale = readingUnit(unitOf(metric), greatestOf([one.mean, one.low, one.high]));
+  const scale = unitWithInterval(one, metric);
   const interval = one.low === undefined ? '' : ` [${numberIn(one.low, scale)}, ${numberIn(one.high, scale)}]`;
   return followedBy(numberIn(one.mean, scale), scale.text) + interval;
 }

@@ -27,8 +27,9 @@ function columnUnits(names) {
   const unit = unitOf(state.metric);
   // The middle one: cells may be of very different sizes.
   const middleOf = (values) => values.map(Math.abs).sort((a, b) => a - b)[Math.floor(values.length / 2)] || 0;
-  const estimators = readingUnit(unit, middleOf(meansOf((name) => name !== kBaseline)));
-  const baseline = readingUnit(unit, middleOf(meansOf((name) => name === kBaseline)));
+  const unitFor = (values) => sharedUnit(unit, values, middleOf(values));
+  const estimators = unitFor(meansOf((name) => name !== kBaseline));
+  const baseline = unitFor(meansOf((name) => name === kBaseline));
   return names.map((name) => (name === kBaseline ? baseline : estimators));
 }
 
@@ -37,7 +38,7 @@ function standingCell(cell, name, scale) {
   const one = cell.estimators.find((other) => other.name === name);
   const metric = one && one.metrics[state.metric];
   const failed = one ? one.runs - one.done : 0;
-  const parts = metric ? valueParts(metric, scale, one) : ['–'];
+  const parts = metric ? valueParts(state.metric, scale, one) : ['–'];
   const standing = standingOf(cell.rankings[state.metric], name);
   if (standing === 'best') parts.unshift(element('span', {className: 'mark', title: 'the best', textContent: '★ '}));
   if (standing === 'equivalent') parts.unshift(element('span', {className: 'mark', title: 'equivalent to the best', textContent: '≈ '}));
@@ -58,7 +59,7 @@ function drawTable() {
   const rows = study.cells.map((cell, i) => [
     several ? element('button', {className: 'link', textContent: cell.label, onclick: () => chooseCell(i)}) : metricTitle(state.metric),
     ...standings[i].map((one) => one.parts)]);
-  const header = [several ? 'cell' : 'metric', ...names.map((name, i) => [swatch(name), titled(breakable(labelOf(name)), units[i].text)])];
+  const header = [several ? 'cell' : 'metric', ...names.map((name, i) => [swatch(name), titled(breakable(labelOf(name)), units[i] ? units[i].text : '')])];
   const made = tableOf(header, rows);
   standings.forEach((row, i) => {
     const drawnRow = made.tBodies[0].rows[i];
@@ -71,7 +72,7 @@ function drawTable() {
   const {better} = study.metrics[state.metric] || {};
   const marks = ranked ? `★ best mean${several ? ' of the row' : ''} (${better} is better), ≈ equivalent to it, − worse; the others are not shown to differ. ` +
     'An estimator that failed a run is not ranked.'
-    : `This metric is not ranked${better === 'neither' ? ': no value of it is the better one' : ''}.`;
+    : `This metric is not ranked${better === 'neither' ? ': no value of it is the better one' : unranked(state.metric) && `: ${unranked(state.metric)}`}.`;
   document.getElementById('cells-caption').textContent =
     `${study.cells.some((cell) => cell.n > 1) ? 'Means with 95 % intervals' : 'Values of one trial'}, ${repeatsOf(study.cells)}${several ? ' a cell' : ''}. ${marks}`;
   fillBox('cells-table', made);

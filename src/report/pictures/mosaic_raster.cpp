@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 
 #include "fathom/core/files.hpp"
-#include "fathom/report/mosaic.hpp"
 #include "fathom/vision/picture_codecs.hpp"
 
 namespace fathom {
@@ -59,6 +58,7 @@ std::optional<MosaicRaster> read_mosaic(const std::filesystem::path& folder) {
   const bool fits =
       mosaic.grey.cols == number("width_px") && mosaic.grey.rows == number("height_px");
   if (mosaic.grey.empty() || !fits) return std::nullopt;
+  if (json.contains("blend") && json["blend"] == "seams") mosaic.blend = MosaicBlend::seams;
   return mosaic;
 }
 

@@ -6,6 +6,8 @@
 #include <Eigen/Core>
 #include <opencv2/core.hpp>
 
+#include "fathom/report/mosaic.hpp"
+
 namespace fathom {
 
 /// A mosaic as a file has it: x up and y to the left.
@@ -13,6 +15,7 @@ struct MosaicRaster {
   cv::Mat grey;  ///< 8-bit; kUnseen where no picture shows a point
   double metres_per_pixel = 1.0;
   Eigen::Vector2d top_left_m = Eigen::Vector2d::Zero();  ///< the outer corner of the first pixel
+  MosaicBlend blend = MosaicBlend::feather;
 
   /// A point of the map, (column, row) with 0 at the outer corner of the first pixel.
   Eigen::Vector2d pixel(const Eigen::Vector2d& map) const {

@@ -119,6 +119,7 @@ Json example_json(const Example& example, double most_pixels) {
             {"width", small.grey.cols},
             {"height", small.grey.rows},
             {"metres_per_pixel", small.metres_per_pixel},
+            {"blend", example.mosaic.blend == MosaicBlend::seams ? "seams" : "feather"},
             {"loops_in_all", example.loops.size()}};
   json["path"] = Json::array();
   for (const StampedPose& pose : thinned(example.track)) {

@@ -1,0 +1,49 @@
+// What the page in a real browser says and writes: numbers, captions, titles.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "fathom/report/table.hpp"
+#include "report/browser_page.hpp"
+
+namespace fathom::test {
+namespace {
+
+using Json = nlohmann::json;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+TEST_F(Browser, NumbersAreRoundedAsInTables) {
+  const Json numbers = self_test_of({})["digits"];
+  ASSERT_GT(numbers.size(), 15u);
+  for (const Json& one : numbers) {
+    const double value = one[0];
+    std::string text = format_number(value, 3);
+    if (text == "1.00e+07") text = "1.00 × 10⁷";
+    EXPECT_EQ(one[1], text) << value;
+  }
+}
+
+// In the first cell measurements do not fit each other.
+TEST_F(Browser, RingsNobodyByWhatDoesNotRank) {
+  FixtureOptions options;
+  options.misfit = true;
+  const Json by_error = self_test_of({options})["captions"];
+  EXPECT_THAT(by_error["pareto"].dump(), HasSubstr("Ringed, on the dashed line"));
+  EXPECT_THAT(by_error["regimes"].dump(), HasSubstr("Mean position error over that of the best"));
+  options.ground_truth = false;
+  const Json by_f = self_test_of({options})["captions"];
+  EXPECT_THAT(by_f["pareto"].dump(), HasSubstr("None is ringed: where measurements do not fit"));
+  EXPECT_THAT(by_f["regimes"].dump(), HasSubstr("No best one is shown: where measurements"));
+  EXPECT_THAT(by_f["regimes"].dump(), Not(HasSubstr("over that of the best")));
+}
+
+// The axis upwards has two places.
+TEST_F(Browser, TitlesOfAxesAreWhole) {
+  FixtureOptions options;
+  options.noise_name = "standard deviation of the heading of odometry";
+  EXPECT_EQ(self_test_of({options})["cut"], Json::array());
+}
+
+}  // namespace
+}  // namespace fathom::test
