@@ -144,14 +144,15 @@ def html_of_results(results) -> str:
     for number, cell in enumerate(results.cells):
         label = ", ".join(f"{axis} {value}" for axis, value in cell.items()) or "all"
         for estimator in (DEAD_RECKONING, *results.estimators):
-            values = [results.metric(one, estimator, number) for one in metrics]
-            means = [f"{one.mean():.4g}" if len(one) else "-" for one in values]
-            rows.append((label, estimator, *means))
-    table = _table(rows, ("cell", "estimator", *map(_label, metrics)))
+            runs, done, means = results._means_of(estimator, number)
+            texts = [f"{means[one]:.4g}" if one in means else "-" for one in metrics]
+            rows.append((label, estimator, f"{done}/{runs}", *texts))
+    table = _table(rows, ("cell", "estimator", "done", *map(_label, metrics)))
     # Of the first cell: the example.
     figures = sorted(pathlib.Path(results.folder, "figures").glob("trajectories*.svg"))[:1]
     pictures = [_picture(figure.read_text(encoding="utf-8"), figure.stem) for figure in figures]
-    title = html.escape(": ".join(filter(None, (results.title, "means over the runs"))))
+    words = filter(None, (results.title, "means over the runs that were done"))
+    title = html.escape(": ".join(words))
     return f"<p>{title}</p>{table}{''.join(pictures)}"
 
 

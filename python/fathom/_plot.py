@@ -165,18 +165,19 @@ def _draw_interval(ax, places, draws):
 
 
 def _draw_mean_nees(ax, results, cell):
-    """The mean over the trials of a cell at every keyframe that all of them have."""
+    """The mean over the trials of a cell that were done at every keyframe that all of them have."""
     draws = 0
     for estimator in results.estimators:
         runs = []
-        for row in results._rows_of(estimator, cell):
+        for row in results._done_by_place.get((estimator, cell), []):
             series = results._series_of(estimator, cell, row["survey"], row["trial"])
             if "pose_nees" in series:
                 runs.append((row["survey"], series["pose_nees"]))
         if not runs:
             continue
         count = min(len(nees) for _, nees in runs)
-        mean = numpy.mean([nees[:count] for _, nees in runs], axis=0)
+        values = numpy.ma.masked_invalid([nees[:count] for _, nees in runs])
+        mean = values.mean(axis=0).filled(numpy.nan)
         ax.plot(numpy.arange(1, count + 1), mean / 3.0, label=estimator)
         surveys = {survey for survey, _ in runs}
         here = results._open().independent_draws(cell, len(surveys), len(runs))
@@ -198,6 +199,8 @@ def _draw_regimes(ax, results, metric, estimator):
         raise InputError("plot 'regimes': needs a sweep over two axes of several values")
     known("estimator", estimator, results.estimators)
     label = _lower_is_better(metric)
+    if reason := results._open().not_ranked(metric):
+        raise InputError(f"plot 'regimes': {metric} does not rank: {reason}")
     across, up = (results.axes[axis] for axis in swept[:2])
     squares = numpy.full((len(up), len(across)), numpy.nan)
     for number, cell in enumerate(results.cells):

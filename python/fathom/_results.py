@@ -38,12 +38,14 @@ class Results:
         self.cells = [dict(zip(self.axes, each)) for each in itertools.product(*self.axes.values())]
         self._tabled = self._store.metrics()
         self._by_place = {}  # rows by estimator and cell
-        self._with_failures = set()
+        self._done_by_place = {}  # those that did not fail
         for row, failed in zip(self.rows, self._store.failed()):
             place = row["estimator"], row["cell"]
             self._by_place.setdefault(place, []).append(row)
-            if failed:
-                self._with_failures.add(place)
+            if not failed:
+                self._done_by_place.setdefault(place, []).append(row)
+        # As the table has them, by estimator and cell: runs, those done, and their means.
+        self._means = {(name, cell): means for name, cell, *means in self._store.means()}
         self.configuration = Named("key", self._store.configuration())
         self.example = Named("estimator", {one.estimator: one for one in example})
         self._removal = lambda: None
@@ -141,11 +143,14 @@ class Results:
         known("estimator", estimator, self._names())
         return self._by_place.get((estimator, self.cell(cell)), [])
 
+    def _means_of(self, estimator, cell):
+        """Of the number of a cell: runs, how many of them were done, and the means of these."""
+        return self._means.get((estimator, cell), (0, 0, {}))
+
     def _mean(self, metric, estimator, cell):
         """None where it is not known, or a run has failed: it would leave out the hardest ones."""
-        values = self.metric(metric, estimator, cell)
-        is_known = len(values) > 0 and (estimator, cell) not in self._with_failures
-        return values.mean() if is_known else None
+        runs, done, means = self._means_of(estimator, cell)
+        return means.get(metric) if done == runs else None
 
     def _series_of(self, estimator, cell, survey, trial) -> dict:
         known("estimator", estimator, self._names())

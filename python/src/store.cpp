@@ -67,6 +67,15 @@ std::vector<bool> failed_runs(const ResultStore& store) {
   return failed;
 }
 
+py::list all_means(const ResultStore& store) {
+  py::list list;
+  if (store.runs().empty()) return list;
+  for (const StudyMeans& one : study_means(store)) {
+    list.append(py::make_tuple(one.estimator, one.cell, one.runs, one.done, one.means));
+  }
+  return list;
+}
+
 }  // namespace
 
 void bind_store(py::module_& module) {
@@ -81,6 +90,8 @@ void bind_store(py::module_& module) {
       .def("axes", &axes_of)
       .def("metrics", [](const ResultStore& store) { return store.study().metrics; })
       .def("failed", &failed_runs)
+      .def("means", &all_means)
+      .def("not_ranked", &not_ranked_text)
       .def("series",
            [](const ResultStore& store, const std::string& estimator, std::size_t cell,
               std::size_t survey, std::size_t trial) {

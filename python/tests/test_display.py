@@ -8,7 +8,7 @@ import xml.etree.ElementTree
 
 import fathom
 import numpy
-from small_study import STUDY
+from small_study import FAILING, STUDY
 
 
 class Parsed(html.parser.HTMLParser):
@@ -106,9 +106,18 @@ class Html(unittest.TestCase):
         self.assertIn("drawn &lt;b&gt;logs&lt;/b&gt;: means over the runs", text)
         self.assertIn("<th>mean position error (m)</th>", text)
         mean = results.metric("mean_position_error_m", "ekf", 3).mean()
-        row = rf"<td>noise 0.02, loops 0.01</td><td>ekf</td><td>{mean:.4g}</td>"
+        row = rf"<td>noise 0.02, loops 0.01</td><td>ekf</td><td>2/2</td><td>{mean:.4g}</td>"
         self.assertTrue(re.search(row, text), text[:2000])
         self.assertEqual(self.parsed(results).pictures, [])  # the folder is gone
+
+    def test_means_are_over_the_runs_that_were_done(self):
+        with fathom.compare(FAILING) as results:
+            text = results._repr_html_()
+        outcomes = [row["outcome"] for row in results.rows if row["estimator"] == "ekf"]
+        self.assertEqual(outcomes, ["diverged", "converged", "converged"])
+        errors = results.metric("mean_position_error_m", "ekf")
+        self.assertEqual(len(errors), 3)
+        self.assertIn(f"<td>ekf</td><td>2/3</td><td>{errors[1:].mean():.4g}</td>", text)
 
     def test_what_an_estimator_says_is_escaped(self):
         class Raises(fathom.Estimator):

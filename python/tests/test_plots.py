@@ -7,7 +7,7 @@ import unittest.mock
 
 import fathom
 import numpy
-from small_study import STUDY
+from small_study import FAILING, STUDY
 
 HAS_MATPLOTLIB = importlib.util.find_spec("matplotlib") is not None
 
@@ -93,6 +93,41 @@ class Plots(unittest.TestCase):
         ax = matplotlib.figure.Figure().subplots()
         self.assertIs(self.example.plot("error", ax), ax)
         self.assertIs(self.results.plot("nees", ax), ax)
+
+
+class Axes:
+    """As much of matplotlib's as keeps what is drawn."""
+
+    def __init__(self):
+        self.lines = {}
+        self.bounds = None
+
+    def plot(self, x, y, label):
+        self.lines[label] = y
+
+    def fill_between(self, x, low, high, **style):
+        self.bounds = low[0], high[0]
+
+    def __getattr__(self, name):
+        return lambda *arguments, **names: None
+
+
+class Means(unittest.TestCase):
+    def test_nees_is_of_the_runs_that_were_done(self):
+        with fathom.compare(FAILING) as results:
+            axes = results.plot("nees", Axes())
+            done = [results.series("pose_nees", "ekf", trial=trial) for trial in (1, 2)]
+        numpy.testing.assert_allclose(axes.lines["ekf"], sum(done) / 6)
+        # Of the estimator that was done three times.
+        numpy.testing.assert_allclose(axes.bounds, fathom.anees_interval(3))
+
+    def test_regimes_of_what_does_not_rank_are_refused(self):
+        poor = {**STUDY, "association.false_loops.share": 0.3, "report.metrics": ["chi2"]}
+        with fathom.compare(poor) as results:
+            with self.assertRaisesRegex(
+                fathom.InputError, "chi2 does not rank: where measurements do not fit each other"
+            ):
+                results.plot("regimes", Axes(), metric="chi2")
 
 
 class Without(unittest.TestCase):
