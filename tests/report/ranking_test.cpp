@@ -10,8 +10,6 @@ namespace fathom::test {
 namespace {
 
 using ::testing::DoubleNear;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 using ::testing::Optional;
 
 // As many surveys of one trial.
@@ -75,65 +73,6 @@ TEST(Ranking, DifferencesBelowWhatTheUnitCanMeanAreNone) {
     EXPECT_NEAR(ranked->margin, 1e-6, 1e-18);
     EXPECT_EQ(ranked->find("b")->standing, Standing::equivalent) << best;
   }
-}
-
-// What one mean is of hard trials and another is not says nothing: who lacks the metric where
-// others have it is not ranked.
-TEST(Ranking, WhoLacksTheMetricInATrialIsLeftOut) {
-  EstimatorResults partly = made("partly", kEight, true);
-  for (std::size_t s = 5; s < 8; ++s) partly.runs[s].metrics.erase(kError);
-  partly.metrics[kError].moments = *moments(std::vector<double>{1.0, 1.2, 0.9, 1.1, 1.0});
-  const auto ranked =
-      ranking(surveyed({partly, made("all", moved(kEight, 1.0, 0.1), true)}), kError);
-  ASSERT_EQ(ranked->estimators.size(), 1u);
-  EXPECT_EQ(ranked->best().name, "all");
-  ASSERT_EQ(ranked->left_out.size(), 1u);
-  EXPECT_EQ(ranked->left_out[0].name, "partly");
-  EXPECT_EQ(ranked->left_out[0].without, 3u);
-  EXPECT_EQ(ranked->left_out[0].trials, 8u);
-}
-
-// Of a study that is not finished, means are over the trials that all have run.
-TEST(Ranking, MeansAreOverTheTrialsThatAllHaveRun) {
-  std::vector<double> hard_end = kEight;
-  hard_end.insert(hard_end.end(), 4, 50.0);
-  const auto ranked = ranking(
-      surveyed({made("longer", hard_end, true), made("shorter", moved(kEight, 1.0, 0.1), true)}),
-      kError);
-  ASSERT_EQ(ranked->estimators.size(), 2u);
-  EXPECT_EQ(ranked->best().name, "longer");
-  EXPECT_NEAR(ranked->best().summary.moments.mean, 1.05, 1e-12);
-  EXPECT_EQ(ranked->find("shorter")->standing, Standing::worse);
-}
-
-// Trials of one measurement log repeat one result.
-TEST(Ranking, RepeatsOfOneResultAreOneDraw) {
-  CellResults cell =
-      cell_of({made("a", std::vector<double>(10, 1.0)), made("b", std::vector<double>(10, 1.2))});
-  cell.repetition = Repetition::logs;
-  EXPECT_EQ(ranking(cell, kError)->find("b")->standing, Standing::worse);
-  for (EstimatorResults& one : cell.estimators) {
-    for (RunRecord& run : one.runs) run.log_hash = "the same";
-  }
-  const auto ranked = ranking(cell, kError);
-  EXPECT_EQ(ranked->draws, 1u);
-  EXPECT_TRUE(ranked->repeats_one_result);
-  EXPECT_FALSE(ranked->gives_verdict());
-  EXPECT_FALSE(ranked->find("b")->difference->interval);
-}
-
-TEST(Ranking, SaysWhyNobodyIsRanked) {
-  const RankingMetric by{kError, {}};
-  const auto answer = [&](EstimatorResults one) {
-    return cell_verdict(cell_of({std::move(one)}), {}, by, std::nullopt).answer;
-  };
-  EstimatorResults failed = made("a", kEight);
-  failed.done = 7;
-  EXPECT_THAT(answer(failed), ElementsAre(HasSubstr("none did all its runs")));
-  EstimatorResults without = made("a", kEight);
-  without.metrics.clear();
-  for (RunRecord& run : without.runs) run.metrics.clear();
-  EXPECT_THAT(answer(without), ElementsAre(HasSubstr("no run here has a mean position error")));
 }
 
 // Six surveys cannot tell three apart: with three pairs the least p is 3 · 2⁻⁵.
