@@ -33,25 +33,16 @@ AbsolutePose absolute(const G2oFile::Prior& prior, std::size_t keyframe) {
   return {keyframe, prior.pose, prior.information};
 }
 
-using DeclaredHoles = std::map<std::pair<std::int64_t, std::int64_t>, const G2oFile::Edge*>;
-
-// By their ids; of several the first.
-DeclaredHoles declared_holes(const G2oFile& file) {
-  DeclaredHoles holes;
-  for (const G2oFile::Edge& hole : file.holes) holes.emplace(std::pair(hole.from, hole.to), &hole);
-  return holes;
-}
-
 // A step that no edge measures: as a comment declares it, else by the file's vertices.
-RelativePose hole(const G2oFile& file, const DeclaredHoles& holes, std::size_t k,
-                  const std::vector<std::int64_t>& ids, const GraphOptions& options) {
+RelativePose hole(const G2oFile& file, std::size_t k, const std::vector<std::int64_t>& ids,
+                  const GraphOptions& options) {
   RelativePose step;
   step.from = k - 1;
   step.to = k;
   step.is_hole = true;
-  if (const auto declared = holes.find({ids[k - 1], ids[k]}); declared != holes.end()) {
-    step.motion = declared->second->motion;
-    step.information = declared->second->information;
+  if (const auto declared = file.holes.find({ids[k - 1], ids[k]}); declared != file.holes.end()) {
+    step.motion = declared->second.motion;
+    step.information = declared->second.information;
     return step;
   }
   if (!file.vertices.empty()) {
@@ -110,7 +101,6 @@ struct Arrivals {
 
 MeasurementLog build_log(const G2oFile& file, const GraphOptions& options) {
   const Arrivals arrivals(file);
-  const DeclaredHoles holes = declared_holes(file);
   const G2oFile::Prior* own_start = start_prior(file, arrivals.keyframe_of.begin()->first);
   MeasurementLog log(start_of(file, own_start));
   for (const auto& [id, keyframe] : arrivals.keyframe_of) log.ids.push_back(id);
@@ -124,7 +114,7 @@ MeasurementLog build_log(const G2oFile& file, const GraphOptions& options) {
   for (std::size_t k = 1; k < log.ids.size(); ++k) {
     const auto step = find_step(file, arrivals.edges[k], k, log.ids);
     log.add_keyframe(step ? measurement(file.edges[*step], arrivals.keyframe_of)
-                          : hole(file, holes, k, log.ids, options));
+                          : hole(file, k, log.ids, options));
     for (const std::size_t e : arrivals.edges[k]) {
       if (step && e == *step) continue;
       RelativePose z = measurement(file.edges[e], arrivals.keyframe_of);

@@ -153,7 +153,8 @@ class Scanner {
       const bool is_count = count && *count >= 0 && *count < 1'000'000'000;
       if (is_count) pending_inliers_ = static_cast<int>(*count);
     } else if (words[0] == "hole") {
-      if (const auto hole = hole_of(words)) file_.holes.push_back(*hole);
+      if (const auto hole = hole_of(words))
+        file_.holes.emplace(std::pair(hole->from, hole->to), *hole);
     } else if (words[0] == "start") {
       pending_start_ = start_covariance_of(words);
     }

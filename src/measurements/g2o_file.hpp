@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -46,7 +47,9 @@ struct G2oFile {
   std::map<std::int64_t, Vertex> vertices;
   std::vector<Edge> edges;
   std::vector<Prior> priors;
-  std::vector<Edge> holes;  ///< `# hole`: what was declared of a step that was not measured
+  /// `# hole`: what was declared of a step that was not measured, by its two ids; of several lines
+  /// the first.
+  std::map<std::pair<std::int64_t, std::int64_t>, Edge> holes;
   std::vector<Fixed> fixed;
   std::size_t self_edges = 0;  ///< from a pose to itself: left out
   std::size_t lines = 0;
@@ -72,7 +75,8 @@ void check_references(const G2oFile& file, const G2oFault& fault);
 void check_fixed(const G2oFile& file, const G2oFault& fault);
 
 /// Index of the edge that is the dead reckoning of keyframe k ≥ 1, out of `edges`, the indices
-/// of the edges whose later keyframe it is; nothing if there is none. `ids` of all keyframes.
+/// of the edges whose later keyframe it is; nothing if there is none, or if the file declares the
+/// step a hole: then the edges between its ends are registrations. `ids` of all keyframes.
 std::optional<std::size_t> find_step(const G2oFile& file, const std::vector<std::size_t>& edges,
                                      std::size_t k, const std::vector<std::int64_t>& ids);
 

@@ -65,6 +65,7 @@ void check_fixed(const G2oFile& file, const G2oFault& fault) {
 
 std::optional<std::size_t> find_step(const G2oFile& file, const std::vector<std::size_t>& edges,
                                      std::size_t k, const std::vector<std::int64_t>& ids) {
+  if (file.holes.contains({ids[k - 1], ids[k]})) return std::nullopt;
   const auto joins = [&](std::int64_t from, std::int64_t to) {
     return std::find_if(edges.begin(), edges.end(), [&](std::size_t e) {
       return file.edges[e].from == from && file.edges[e].to == to;

@@ -47,10 +47,12 @@ class Spoiler {
  private:
   // Loops of neighbours with neighbours, drawn again until all of them are false enough.
   std::vector<RelativePose> draw_group(std::size_t count) {
+    bool has_fitted = false;
     for (int tries = 0; tries < kMostDraws; ++tries) {
       const RelativePose first = draw_one();
       if (first.from == first.to || first.from + count > first.to) continue;
       if (first.to + count > reference_.size()) continue;
+      has_fitted = true;
       std::vector<RelativePose> group{first};
       while (group.size() < count) group.push_back(neighbour(first, group.size()));
       if (std::all_of(group.begin(), group.end(),
@@ -58,9 +60,22 @@ class Spoiler {
         return group;
       }
     }
+    if (!has_fitted) refuse_place(count);
     throw InputError(fmt::format(
         "the keyframes lie so close together that no false loop could be off by {:f} m or {:f} rad",
         options_.min_offset_m, options_.min_offset_rad));
+  }
+
+  [[noreturn]] void refuse_place(std::size_t count) const {
+    const std::size_t n = reference_.size();
+    if (count == 1) {
+      throw InputError(fmt::format(
+          "local false loops join keyframes that are two apart or more, and the log has {}", n));
+    }
+    throw InputError(
+        fmt::format("groups of {} false loops do not fit into a log of {} keyframes, "
+                    "or hardly anywhere; expected a group size of at most {}",
+                    count, n, std::max<std::size_t>(1, n / 4)));
   }
 
   RelativePose draw_one() {
@@ -69,7 +84,8 @@ class Spoiler {
     const std::size_t a = random_.index(n);
     std::size_t b = random_.index(n);
     if (options_.kind == FalseLoopKind::local) {
-      b = a + 2 + random_.index(static_cast<std::uint64_t>(options_.reach) - 1);
+      const std::size_t reach = std::min(static_cast<std::size_t>(options_.reach), n - 1);
+      b = reach < 2 ? n : a + 2 + random_.index(reach - 1);
       if (b >= n) b = a;  // drawn again
     }
     z.from = std::min(a, b);
@@ -134,7 +150,13 @@ Spoiled spoil(const MeasurementLog& log, std::span<const Pose> reference,
       static_cast<std::size_t>(std::llround(options.share / (1.0 - options.share) * right));
   Spoiler spoiler(log, reference, options, RandomStream(seed, "false_loops", trial));
   std::vector<std::vector<RelativePose>> false_loops(log.size());
-  for (const RelativePose& z : spoiler.draw(count)) false_loops[z.to].push_back(z);
+  for (const RelativePose& z : spoiler.draw(count)) {
+    const RelativePose& step = log.arrival(z.to).step;
+    // A reader of g2o takes the first edge from k − 1 to k for the step, before one from k to k
+    // − 1.
+    const bool is_along_reversed_step = z.from == step.to && z.to == step.from;
+    false_loops[z.to].push_back(is_along_reversed_step ? z.reversed() : z);
+  }
   Spoiled spoiled{MeasurementLog(log.start()), {}};
   for (std::size_t k = 0; k < log.size(); ++k) {
     const KeyframeMeasurements& arrival = log.arrival(k);

@@ -1,6 +1,7 @@
 // Graphs without an odometry edge here or there, and graphs in several components.
 
 #include <string>
+#include <utility>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -61,12 +62,33 @@ TEST(G2oHole, AsDeclaredInTheFile) {
   const RelativePose step = parse(text + edge(0, 2, 2)).arrival(2).step;
   EXPECT_EQ(step.motion, (Pose{3, 4, 0.5}));
   EXPECT_EQ(step.information(0, 0), 0.25);
-  // With an edge there is no hole; a comment that is no declaration is a comment.
-  EXPECT_EQ(parse(text + edge(1, 2, 1)).hole_count(), 0U);
+  // A comment that is no declaration is a comment.
   for (const char* comment :
        {"# hole\n", "# hole 1 2 3 4 0.5 0.25 0 0 0.25 0\n", "# hole 1 2 nan 4 0.5 1 0 0 1 0 1\n",
         "# hole 1 2 3 4 0.5 1 0 0 1 0 -1\n", "# hole in one\n"}) {
     EXPECT_EQ(parse(comment + edge(0, 1, 1) + edge(0, 2, 2)).arrival(2).step.motion, Pose{});
+  }
+}
+
+// A loop over a declared hole, as a log has it whose registrations or false loops join its ends.
+TEST(G2oHole, StaysOneWhereARegistrationJoinsItsEnds) {
+  const std::string hole = "# hole 1 2 3 4 0.5 0.25 0 0 0.25 0 0.5\n";
+  for (const auto& [from, to] : {std::pair{1, 2}, std::pair{2, 1}}) {
+    const std::string text = edge(0, 1, 1) + hole + edge(from, to, 7) + edge(2, 3, 1);
+    const MeasurementLog log = parse(text);
+    EXPECT_EQ(log.hole_count(), 1U);
+    EXPECT_EQ(log.arrival(2).step.motion, (Pose{3, 4, 0.5}));
+    ASSERT_EQ(log.arrival(2).registrations.size(), 1U);
+    EXPECT_EQ(log.arrival(2).registrations[0].motion.x, 7.0);
+    const MeasurementLog again = parse(to_g2o(log));
+    EXPECT_EQ(again.hole_count(), 1U);
+    EXPECT_EQ(again.registration_count(), 1U);
+    const test::TemporaryFolder folder;
+    write_file(folder / "g.g2o", text);
+    const GraphSummary graph = summarise_graph(folder / "g.g2o");
+    EXPECT_EQ(graph.holes, 1U);
+    EXPECT_EQ(graph.odometry_edges, 2U);
+    EXPECT_EQ(graph.loops, 1U);
   }
 }
 

@@ -124,7 +124,12 @@ TEST(SharedFile, WhatStandsOfAStepIsLeftAside) {
   across.shared = std::make_shared<const SharedErrors>(SharedErrors{{}, {}, across.covariance()});
   log.add_registration(across);
   const SharedText shared{to_shared(log), "graph.shared"};
-  const MeasurementLog read = parse_g2o(to_g2o(log), "graph.g2o", {}, &shared);
+  const MeasurementLog over_hole = parse_g2o(to_g2o(log), "graph.g2o", {}, &shared);
+  EXPECT_EQ(over_hole.hole_count(), 1U);
+  EXPECT_TRUE(over_hole.tells_shared_errors());
+  MeasurementLog step;
+  step.add_keyframe(across);
+  const MeasurementLog read = parse_g2o(to_g2o(step), "graph.g2o", {}, &shared);
   EXPECT_EQ(read.registration_count(), 0U);
   EXPECT_EQ(read.arrival(1).step.shared, nullptr);
   EXPECT_FALSE(read.tells_shared_errors());

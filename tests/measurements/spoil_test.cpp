@@ -5,9 +5,12 @@
 #include <cmath>
 #include <set>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "estimators/logs.hpp"
+#include "fathom/measurements/g2o.hpp"
+#include "support/input_error.hpp"
 
 namespace fathom {
 namespace {
@@ -125,6 +128,71 @@ TEST(Spoil, IsReproducible) {
   EXPECT_EQ(motions(1, 0), motions(1, 0));
   EXPECT_NE(motions(1, 0), motions(2, 0));
   EXPECT_NE(motions(1, 0), motions(1, 1));
+}
+
+// Written and read again, steps and loops are the same: also over holes and reversed steps.
+TEST(Spoil, NoFalseLoopIsReadAsAStep) {
+  const auto [log, truth] = circle_case(12);
+  MeasurementLog mixed;
+  for (std::size_t k = 1; k < log.size(); ++k) {
+    RelativePose step = k % 3 == 0 ? log.arrival(k).step.reversed() : log.arrival(k).step;
+    step.is_hole = k % 3 == 1;
+    mixed.add_keyframe(step);
+    for (const RelativePose& z : log.arrival(k).registrations) mixed.add_registration(z);
+  }
+  std::size_t along_steps = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const Spoiled spoiled = spoil(mixed, truth, {.share = 0.8}, seed);
+    for (const RelativePose& z : false_ones(spoiled)) {
+      along_steps += z.from + 1 == z.to || z.to + 1 == z.from ? 1 : 0;
+    }
+    const MeasurementLog read = parse_g2o(to_g2o(spoiled.log), "spoilt.g2o");
+    EXPECT_EQ(read.hole_count(), mixed.hole_count());
+    ASSERT_EQ(read.registration_count(), spoiled.log.registration_count());
+    for (std::size_t k = 1; k < mixed.size(); ++k) {
+      EXPECT_EQ(read.arrival(k).step.motion, mixed.arrival(k).step.motion) << k;
+      const auto& loops = spoiled.log.arrival(k).registrations;
+      for (std::size_t i = 0; i < loops.size(); ++i) {
+        EXPECT_EQ(read.arrival(k).registrations[i].motion, loops[i].motion) << k;
+      }
+    }
+  }
+  EXPECT_GT(along_steps, 20u);
+}
+
+TEST(Spoil, AReachBeyondTheLogIsTheWholeLog) {
+  const LogAndTruth circle = circle_case(40);
+  SpoilOptions options{.share = 0.5, .kind = FalseLoopKind::local, .reach = 1'000'000};
+  const auto spans = [&] {
+    std::vector<std::size_t> all;
+    for (const RelativePose& z : false_ones(spoil(circle.log, circle.truth, options, 1))) {
+      all.push_back(z.to - z.from);
+    }
+    return all;
+  };
+  const std::vector<std::size_t> far = spans();
+  EXPECT_FALSE(far.empty());
+  options.reach = 39;
+  EXPECT_EQ(far, spans());
+}
+
+TEST(Spoil, SaysThatTheLogIsTooShort) {
+  const LogAndTruth circle = circle_case(30);
+  const auto refusal = [&](const SpoilOptions& options) {
+    return test::input_error_of([&] { spoil(circle.log, circle.truth, options, 1); });
+  };
+  SpoilOptions options{.share = 0.9, .kind = FalseLoopKind::grouped, .group_size = 16};
+  EXPECT_THAT(refusal(options), testing::HasSubstr("groups of 16 false loops do not fit into a log "
+                                                   "of 30 keyframes, or hardly anywhere; expected "
+                                                   "a group size of at most 7"));
+  options.group_size = 14;
+  EXPECT_NO_THROW(spoil(circle.log, circle.truth, options, 1));
+  MeasurementLog two;
+  two.add_keyframe(circle.log.arrival(1).step);
+  two.add_registration(circle.log.arrival(1).step);
+  options = {.share = 0.5, .kind = FalseLoopKind::local};
+  EXPECT_THAT(test::input_error_of([&] { spoil(two, two.odometry(), options, 1); }),
+              testing::HasSubstr("two apart or more, and the log has 2"));
 }
 
 TEST(Spoil, RefusesWhereNothingCanBeFalse) {
