@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include <Eigen/Core>
 #include <opencv2/imgproc.hpp>
 
 #include "fathom/core/random.hpp"
@@ -84,13 +85,20 @@ cv::Mat_<float> line_kernel(double length_px, double along_u, double along_v) {
   return kernel;
 }
 
-void motion_blur(cv::Mat_<float>& light, const CameraModel& camera, double motion_rad,
-                 double length_px) {
-  // The way of a body direction in the picture: ahead is up, port is left.
-  const double in_mount = motion_rad - camera.mount_yaw_rad;
+// The direction in which the floor passes through the middle of the picture; of unit length.
+Eigen::Vector2d way_in_picture(const Camera& camera, const View& view) {
+  const Stance stance{view.altitude_m, view.tilt};
+  const Eigen::Vector2d middle = camera.floor_point({camera.model().cx, camera.model().cy}, stance);
+  // So little that neither lens nor tilt bends it, and far more than rounding.
+  const double step_m = 1e-4 * view.altitude_m;
+  const Eigen::Vector2d ahead(std::cos(view.motion_rad), std::sin(view.motion_rad));
+  return (camera.pixel(middle + step_m * ahead, stance) - camera.pixel(middle, stance))
+      .normalized();
+}
+
+void motion_blur(cv::Mat_<float>& light, const Eigen::Vector2d& way, double length_px) {
   cv::Mat_<float> blurred;
-  cv::filter2D(light, blurred, CV_32F,
-               line_kernel(length_px, -std::sin(in_mount), -std::cos(in_mount)), {-1, -1}, 0.0,
+  cv::filter2D(light, blurred, CV_32F, line_kernel(length_px, way.x(), way.y()), {-1, -1}, 0.0,
                cv::BORDER_REPLICATE);
   light = blurred;
 }
@@ -110,10 +118,10 @@ void colour_cast(cv::Mat_<float>& light, const std::vector<double>& gains) {
 
 }  // namespace
 
-cv::Mat_<float> seen_by_camera(cv::Mat_<float> light, const CameraModel& camera, const View& view,
+cv::Mat_<float> seen_by_camera(cv::Mat_<float> light, const Camera& camera, const View& view,
                                const PictureEffects& effects) {
   const CameraEffects& own = effects.camera;
-  if (own.corner_light < 1.0) light_cone(light, camera, own.corner_light);
+  if (own.corner_light < 1.0) light_cone(light, camera.model(), own.corner_light);
   if (effects.water.particles > 0) {
     strew_particles(light, effects.water.particles, RandomStream(view.seed, "particles"));
   }
@@ -121,7 +129,9 @@ cv::Mat_<float> seen_by_camera(cv::Mat_<float> light, const CameraModel& camera,
     const double mean = cv::mean(light)[0];
     light = own.contrast * light + (1.0 - own.contrast) * mean;
   }
-  if (own.motion_blur_px > 0.0) motion_blur(light, camera, view.motion_rad, own.motion_blur_px);
+  if (own.motion_blur_px > 0.0) {
+    motion_blur(light, way_in_picture(camera, view), own.motion_blur_px);
+  }
   if (!own.colour_cast.empty()) colour_cast(light, own.colour_cast);
   if (own.noise_sigma > 0.0) {
     RandomStream stream(view.seed, "sensor_noise");

@@ -145,7 +145,7 @@ double finest_pixel_m(const CameraModel& camera, double altitude_m) {
 }
 
 FloorRenderer::FloorRenderer(const Camera& camera, ViewRays rays, World world)
-    : camera_(camera.model()),
+    : camera_(camera),
       rays_(std::move(rays)),
       world_(std::move(world)),
       levels_(area_pyramid(world_.picture)) {}
@@ -160,27 +160,28 @@ cv::Mat FloorRenderer::render(const View& view, const PictureEffects& effects) c
 
 // What light of the floor, and of the water before it, comes to each pixel; grey levels.
 cv::Mat_<float> FloorRenderer::trace(const View& view, const PictureEffects& effects) const {
+  const CameraModel& camera = camera_.model();
   const Pose body = compose(world_.mission, view.pose);
   // Pixels of the world are affine in the ray: pixel = world.pixel(camera) + A ray.
   const Eigen::Vector2d camera_m =
-      transform(body, Eigen::Vector2d(camera_.mount_x_m, camera_.mount_y_m));
+      transform(body, Eigen::Vector2d(camera.mount_x_m, camera.mount_y_m));
   const Eigen::Matrix2d R = rotation(body.theta) * (view.altitude_m / world_.metres_per_pixel);
   Eigen::Matrix2d A;
   A.row(0) = -R.row(1);
   A.row(1) = -R.row(0);
   const FloorLookup floor(levels_, world_.pixel(camera_m), A,
-                          finest_pixel_m(camera_, view.altitude_m) / world_.metres_per_pixel);
+                          finest_pixel_m(camera, view.altitude_m) / world_.metres_per_pixel);
   const Way way(view, world_.relief, camera_m, body.theta);
   const Haze haze(effects.water, view.altitude_m);
   const Caustics caustics(effects.water.caustics, view.seed);
   const bool is_plain = caustics.are_off() && haze.is_clear();
-  const auto width = static_cast<std::size_t>(camera_.width);
+  const auto width = static_cast<std::size_t>(camera.width);
   SeenRow upper(width + 1);
   SeenRow lower(width + 1);
   const Eigen::Vector2f* rays = rays_.corners().data();
   rays = see_row(way, floor, rays, lower);
-  cv::Mat_<float> light(camera_.height, camera_.width);
-  for (int v = 0; v < camera_.height; ++v) {
+  cv::Mat_<float> light(camera.height, camera.width);
+  for (int v = 0; v < camera.height; ++v) {
     std::swap(upper, lower);
     rays = see_row(way, floor, rays, lower);
     float* out = light[v];

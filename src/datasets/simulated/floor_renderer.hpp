@@ -77,7 +77,7 @@ class FloorRenderer {
  private:
   cv::Mat_<float> trace(const View& view, const PictureEffects& effects) const;
 
-  CameraModel camera_;
+  Camera camera_;
   ViewRays rays_;
   World world_;
   std::vector<cv::Mat> levels_;

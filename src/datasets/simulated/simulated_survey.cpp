@@ -188,7 +188,7 @@ std::uint64_t SimulatedSurvey::picture_id(std::size_t i) const {
   if (effects_.any()) {
     effects_.add_to(hash.add("effects"));
     if (effects_.is_random()) hash.add(view.seed);
-    if (effects_.camera.motion_blur_px > 0.0) hash.add(view.motion_rad);
+    if (effects_.camera.motion_blur_px > 0.0) hash.add("way in the picture").add(view.motion_rad);
   }
   return hash.value();
 }
