@@ -1,6 +1,8 @@
 // Where keyframe 0 is by the first readings.
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -8,7 +10,9 @@
 
 #include "datasets/reckoned_frames.hpp"
 #include "fathom/core/random.hpp"
+#include "fathom/datasets/data_set.hpp"
 #include "fathom/datasets/reading_carrier.hpp"
+#include "fathom/datasets/simulated_sensors.hpp"
 #include "support/input_error.hpp"
 #include "support/planar.hpp"
 
@@ -110,6 +114,47 @@ TEST(StartOf, RefusesWhatDoesNotDetermineIt) {
               start_of({1.0, 1.0, std::nullopt, 0.0, 0.1}, {}, over(frames));
             }),
             "dataset.start.sigma_rad: is of no heading; expected heading_rad with it");
+}
+
+// 400 draws about what is given; none of what is held, to the last bit.
+TEST(DrawnStart, HasTheErrorsThatItsSigmasTell) {
+  const StartOptions given{3.0, -2.0, 3.1, 0.5, 0.1};
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+  for (std::uint64_t trial = 0; trial < 400; ++trial) {
+    const StartOptions told = draw_start(given, 7, trial);
+    EXPECT_EQ(told.sigma_m, 0.5);
+    EXPECT_EQ(told.sigma_rad, 0.1);
+    const Eigen::Vector3d e((*told.x_m - 3.0) / 0.5, (*told.y_m + 2.0) / 0.5,
+                            wrap_angle(*told.heading_rad - 3.1) / 0.1);
+    sum += e / 400.0;
+    squares += e * e.transpose() / 400.0;
+    const StartOptions held = draw_start({3.0, -2.0, 3.1, 0.0, 0.0}, 7, trial);
+    EXPECT_EQ(held.x_m, 3.0);
+    EXPECT_EQ(held.heading_rad, 3.1);
+    // The size of one error changes no other draw.
+    EXPECT_EQ(draw_start({3.0, -2.0, 3.1, 0.0, 0.1}, 7, trial).heading_rad, told.heading_rad);
+  }
+  EXPECT_LT(sum.cwiseAbs().maxCoeff(), 3.0 / std::sqrt(400.0));
+  EXPECT_LT((squares - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff(),
+            3.0 * std::sqrt(2.0 / 400.0));
+  EXPECT_FALSE(draw_start({}, 7, 0).x_m);
+}
+
+// Of both data sets that draw, about the truth: the origin.
+TEST(DrawnStart, IsThatOfEachTrial) {
+  const DataSetValues values{{"start.x_m", OptionValue::scalar("0")},
+                             {"start.y_m", OptionValue::scalar("0")},
+                             {"start.heading_rad", OptionValue::scalar("0")},
+                             {"start.sigma_m", OptionValue::scalar("0.5")},
+                             {"start.sigma_rad", OptionValue::scalar("0.1")}};
+  const StartOptions told = draw_start({0.0, 0.0, 0.0, 0.5, 0.1}, 7, 3);
+  const auto survey = find_data_set("simulated").open(values, 1);
+  EXPECT_EQ(survey->trial(values, {7, 3}).start.x_m, told.x_m);
+  EXPECT_NE(survey->trial(values, {7, 4}).start.x_m, told.x_m);
+  const Trial log = find_data_set("simulated_log").open(values, 1)->trial(values, {7, 3});
+  EXPECT_EQ(log.graph->log.origin(), (Pose{*told.x_m, *told.y_m, *told.heading_rad}));
+  EXPECT_EQ(log.graph->ground_truth.front().pose, Pose{});
 }
 
 }  // namespace

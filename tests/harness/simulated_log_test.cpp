@@ -144,7 +144,7 @@ std::map<std::string, double> honesty_of(const std::vector<std::string>& overrid
     const Recording recording = trial_of(recorder, configuration, trial);
     const Result result = evaluate(recording, {"sparse_gauss_newton", "sparse_gauss_newton", {}},
                                    builtin_estimators(), {}, {});
-    for (const char* name : {"mean_nis_truth", "picture_error_correlation", "chi2_per_dof",
+    for (const char* name : {"mean_nis_truth", "picture_error_correlation", "chi2_per_dof", "anees",
                              "anchored_anees", "relative_anees_1_keyframes"}) {
       means[name] += result.metric(name).value() / kTrials;
     }
@@ -160,6 +160,14 @@ TEST(SimulatedLogHonesty, OfTheModelItself) {
   EXPECT_NEAR(honest.at("chi2_per_dof"), 1.0, 0.03);
   EXPECT_NEAR(honest.at("anchored_anees"), 1.0, 0.15);
   EXPECT_NEAR(honest.at("relative_anees_1_keyframes"), 1.0, 0.15);
+}
+
+// The error of the start is in every pose, so that a trial has three that are independent.
+TEST(SimulatedLogHonesty, OfAnUncertainStart) {
+  const auto honest =
+      honesty_of({"dataset.start.x_m=0", "dataset.start.y_m=0", "dataset.start.heading_rad=0",
+                  "dataset.start.sigma_m=0.5", "dataset.start.sigma_rad=0.05"});
+  EXPECT_NEAR(honest.at("anees"), 1.0, 3.0 * std::sqrt(2.0 / (3.0 * 40.0)));
 }
 
 // 200 trials; the keyframes of one share the errors before them.

@@ -11,6 +11,7 @@
 #include "fathom/core/options.hpp"
 #include "fathom/datasets/absolute_readings.hpp"
 #include "fathom/datasets/gap_options.hpp"
+#include "fathom/datasets/start_options.hpp"
 #include "fathom/geometry/trajectory.hpp"
 
 namespace fathom {
@@ -78,6 +79,10 @@ AbsoluteReadings draw_readings(const SimulatedSensorOptions& options,
 std::vector<bool> draw_holes(const SimulatedHoleOptions& options,
                              std::span<const std::int64_t> times_ns, std::uint64_t seed,
                              std::uint64_t trial, const std::string& prefix);
+
+/// The start as it is told: what is given, with a draw of its sigmas added, of the stream `start`.
+/// The true start stays where it is, and all readings with it. As given where the sigmas are 0.
+StartOptions draw_start(const StartOptions& given, std::uint64_t seed, std::uint64_t trial);
 
 /// What is declared of the motion to each frame that is in a hole: its share, by time, of that of
 /// its whole hole. Of the others nothing.

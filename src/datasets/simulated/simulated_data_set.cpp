@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "fathom/datasets/data_set.hpp"
+#include "fathom/datasets/simulated_sensors.hpp"
 #include "simulated_survey.hpp"
 
 namespace fathom {
@@ -22,7 +23,7 @@ class SimulatedDataSet : public DataSet {
     auto survey = std::make_unique<SimulatedSurvey>(
         survey_.remeasured(options.odometry, options.sensors, noise.seed, noise.trial));
     trial.absolute = survey->readings();
-    trial.start = options.start;
+    trial.start = draw_start(options.start, noise.seed, noise.trial);
     trial.frames = std::move(survey);
     if (!trial.frames->has_odometry()) {
       trial.added_noise = options.odometry.noise_covariance("dataset.odometry.");

@@ -152,7 +152,8 @@ MeasurementLog draw_log(const FlownKeyframes& keyframes, const SimulatedLogOptio
       draw_readings(options.sensors, keyframes.frames, seed, trial, "dataset.");
   Registrations registrations(keyframes, options.loops,
                               options.loops.noise.noise_covariance("dataset.loops."), seed, trial);
-  MeasurementLog log(start_of(options.start, readings, reckoning));
+  const StartOptions start = draw_start(options.start, seed, trial);
+  MeasurementLog log(start_of(start, readings, reckoning));
   ReadingCarrier carrier(readings, reckoning, log.start());
   const std::size_t separation = keyframes.separation;
   for (std::size_t k = 0; k < keyframes.size(); ++k) {

@@ -64,7 +64,8 @@ struct FlownKeyframes {
 /// - scale: the translation of z times 1 + `scale_error`;
 /// - heavy tails: ν times `tail_factor` with probability `tail_share`.
 ///
-/// Compass, fixes and holes (draw_readings, draw_holes) are of the frames; readings are carried to
+/// Compass, fixes, holes and the start that is told (draw_readings, draw_holes, draw_start) are of
+/// the frames; readings are carried to
 /// keyframes (ReadingCarrier), and a step is a hole if one of its frames is in one.
 ///
 /// Every draw is from a stream of its own (`dead_reckoning`, `loops`, `loop_noise`,

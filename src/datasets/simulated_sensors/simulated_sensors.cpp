@@ -149,6 +149,22 @@ std::vector<bool> draw_holes(const SimulatedHoleOptions& options,
   return is_hole;
 }
 
+StartOptions draw_start(const StartOptions& given, std::uint64_t seed, std::uint64_t trial) {
+  RandomStream noise(seed, "start", trial);
+  const double x = noise.normal();
+  const double y = noise.normal();
+  const double theta = noise.normal();
+  StartOptions told = given;
+  if (given.sigma_m > 0.0) {
+    if (given.x_m) *told.x_m += given.sigma_m * x;
+    if (given.y_m) *told.y_m += given.sigma_m * y;
+  }
+  if (given.sigma_rad > 0.0 && given.heading_rad) {
+    told.heading_rad = wrap_angle(*given.heading_rad + given.sigma_rad * theta);
+  }
+  return told;
+}
+
 std::vector<std::optional<UncertainPose>> hole_motions(const std::vector<bool>& is_hole,
                                                        std::span<const std::int64_t> times_ns,
                                                        const GapOptions& gaps) {
