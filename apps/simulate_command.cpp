@@ -2,7 +2,11 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <memory>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "apps/command.hpp"
 #include "apps/common.hpp"
@@ -10,7 +14,9 @@
 #include "fathom/configuration/config_text.hpp"
 #include "fathom/configuration/study.hpp"
 #include "fathom/core/files.hpp"
+#include "fathom/core/text.hpp"
 #include "fathom/datasets/image_folder.hpp"
+#include "fathom/datasets/start_options.hpp"
 #include "fathom/harness/survey.hpp"
 #include "fathom/workflow/inputs.hpp"
 
@@ -23,30 +29,49 @@ struct SimulateFlags {
 };
 
 // Whether a key of a simulation has the same meaning for the folder that it makes.
-bool is_of_folder(const std::string& key) {
-  static const std::vector<std::string> kKeys{"seed",
-                                              "evaluation.alignment",
-                                              "dataset.compass.interval_s",
-                                              "dataset.fixes.interval_s",
-                                              "dataset.gap_sigma_m",
-                                              "dataset.gap_sigma_rad",
-                                              "dataset.speed_limit_m_s"};
+bool is_of_folder(const std::string& key, const std::string& value) {
+  static const std::vector<std::string> kKeys{"seed", "evaluation.alignment", "dataset.gap_sigma_m",
+                                              "dataset.gap_sigma_rad", "dataset.speed_limit_m_s"};
+  static const std::vector<std::string> kIntervals{"dataset.compass.interval_s",
+                                                   "dataset.fixes.interval_s"};
+  // Off is no sensor: the folder has no readings of it.
+  if (std::ranges::find(kIntervals, key) != kIntervals.end()) return value != "off";
   return std::ranges::find(kKeys, key) != kKeys.end() || key.starts_with("front_end.") ||
          key.starts_with("dataset.origin.") || key.starts_with("dataset.start.");
 }
 
+// The start as it was drawn.
+std::string told_start(const std::string& key, const std::string& given,
+                       const StartOptions& start) {
+  const std::map<std::string, std::optional<double>> told{
+      {"dataset.start.x_m", start.x_m},
+      {"dataset.start.y_m", start.y_m},
+      {"dataset.start.heading_rad", start.heading_rad}};
+  const auto found = told.find(key);
+  return found != told.end() && found->second ? exact(*found->second) : given;
+}
+
 // A configuration that runs the folder as the simulation would have been: same front end and seed,
 // with the keys that were given.
-std::string folder_configuration(const Configuration& configuration, const std::string& folder) {
+std::string folder_configuration(const Configuration& configuration, const Survey& survey,
+                                 const std::string& folder) {
+  static const std::string kNoise = "dataset.odometry.";
   std::vector<ConfigLine> lines{{"dataset.type", "image_folder", false, ""},
                                 {"dataset.path", folder, false, ""}};
+  const auto add = [&lines](const std::string& key, const std::string& value) {
+    lines.push_back({key, value, value.starts_with('['), ""});
+  };
   for (const auto& [key, value] : configuration.in_force) {
-    if (key != "seed" && !configuration.origins.contains(key)) continue;
-    if (is_of_folder(key)) lines.push_back({key, value, value.starts_with('['), ""});
-    // No row of odometry is left out but over holes.
-    if (key == "dataset.holes.count" && value != "0") {
-      lines.push_back({"dataset.gap_intervals", "1.5", false, ""});
+    // Also where it is the default, which is none for a folder.
+    const bool is_noise =
+        key.starts_with(kNoise + "sigma_") || (key == kNoise + "covariance" && value != "[]");
+    if (survey.uses_visual_odometry() && is_noise) {
+      add("dataset.added_noise." + key.substr(kNoise.size()), value);
     }
+    if (key != "seed" && !configuration.origins.contains(key)) continue;
+    if (is_of_folder(key, value)) add(key, told_start(key, value, survey.start()));
+    // No row of odometry is left out but over holes.
+    if (key == "dataset.holes.count" && value != "0") add("dataset.gap_intervals", "1.5");
   }
   // Of a comparison, the contender that selects the loop candidates, if one does, or the first.
   const CandidateReference& reference = configuration.reference;
@@ -75,13 +100,15 @@ void simulate(const SimulateFlags& flags, Context& context) {
   }
   const Survey survey(configuration);
   StagedFolder folder(out);
-  const std::string run = folder_configuration(configuration, folder.target().string());
-  write_image_folder(survey.frames(), folder.path(), survey.readings());
+  const std::string run = folder_configuration(configuration, survey, folder.target().string());
+  // Visual odometry is made again from the pictures: its covariances follow from what a run
+  // estimates of them.
+  write_image_folder(survey.measured(), folder.path(), survey.readings());
   write_file(folder.path() / "run.yaml", run);
   folder.commit();
   context.status = kDone;
   if (flags.common.quiet) return;
-  print("wrote %zu frames to %s\nrun them with: fathom run %s\n", survey.frames().size(),
+  print("wrote %zu frames to %s\nrun them with: fathom run %s\n", survey.measured().size(),
         (folder.target() / "mav0").c_str(), (folder.target() / "run.yaml").c_str());
 }
 

@@ -1,6 +1,8 @@
 // Compass, fixes and holes through the command line: simulate, check, run.
 
+#include <filesystem>
 #include <fstream>
+#include <string>
 
 #include <gmock/gmock.h>
 
@@ -14,19 +16,20 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-constexpr const char* kSurvey = R"(dataset:
+const std::string kPlain = R"(dataset:
   type: simulated
   world: {metres_per_pixel: 0.01}
   mission: {type: single_loop, loop_length_m: 2.4, loop_width_m: 1.6, loop_overrun_m: 0.8,
             turn_radius_m: 0.4}
   camera: {width: 160, height: 120, fx: 130, fy: 131}
-  compass: {interval_s: 1, sigma_rad: 0.0175}
-  fixes: {interval_s: 4, sigma_m: 0.1}
-  holes: {count: 1, length_s: 4}
 front_end:
   keyframes: {separation_frames: 3}
   candidates: {max_distance_m: 1.6}
   ransac: {max_error_m: 0.05}
+)";
+const std::string kSurvey = kPlain + R"(dataset.compass: {interval_s: 1, sigma_rad: 0.0175}
+dataset.fixes: {interval_s: 4, sigma_m: 0.1}
+dataset.holes: {count: 1, length_s: 4}
 )";
 
 class Sensors : public CommandLine {
@@ -35,6 +38,18 @@ class Sensors : public CommandLine {
   void simulate() const {
     write("c.yaml", kSurvey);
     fathom_done({"simulate", "c.yaml", "--out", "data"});
+  }
+  /// A survey, written out to `data`, runs as it does by itself.
+  void expect_same_run(const std::string& survey) const {
+    write("c.yaml", survey);
+    fathom_done({"simulate", "c.yaml", "--out", "data"});
+    fathom_done({"run", "c.yaml", "--out", "direct"});
+    fathom_done({"run", "data/run.yaml", "--out", "read"});
+    for (const char* metric : {"chi2", "anees", "mean_position_error_m", "registrations"}) {
+      const double expected = json_of("direct/metrics.json").at(metric).get<double>();
+      EXPECT_NEAR(json_of("read/metrics.json").at(metric).get<double>(), expected, 1e-6 * expected)
+          << metric;
+    }
   }
   std::string rows(const std::string& name) const { return read_text(path("data/mav0/" + name)); }
 };
@@ -55,6 +70,33 @@ TEST_F(Sensors, SimulateWritesThemAndTheFolderRunsAsTheSimulation) {
   EXPECT_EQ(first_lines(read), first_lines(direct));
   EXPECT_NEAR(json_of("read/metrics.json").at("mean_position_error_m").get<double>(),
               json_of("direct/metrics.json").at("mean_position_error_m").get<double>(), 1e-6);
+}
+
+// Its motions know what a run estimates of the pictures, so that they are made again.
+TEST_F(Sensors, VisualOdometryOfTheFolderIsThatOfTheSimulation) {
+  expect_same_run(kPlain +
+                  "dataset.odometry: {source: visual_odometry, sigma_x_m: 0.002, sigma_y_m: 0.002, "
+                  "sigma_theta_rad: 0.001}\n");
+  EXPECT_FALSE(std::filesystem::exists(path("data/mav0/odometry0")));
+  EXPECT_TRUE(json_of("read/run.json").at("front_end").at("visual_odometry"));
+}
+
+TEST_F(Sensors, JumpsAreInTheFolderToo) {
+  expect_same_run(kPlain +
+                  "dataset.compass: {interval_s: 1}\n"
+                  "dataset.fixes: {interval_s: 1, sigma_m: 0.1, jump_share: 0.2}\n");
+  EXPECT_THAT(rows("position0/sensor.yaml"), HasSubstr("outliers: keep\n"));
+}
+
+TEST_F(Sensors, WhatIsOffIsNoKeyOfTheFolder) {
+  expect_same_run(kPlain + "dataset.compass.interval_s: off\ndataset.fixes.interval_s: off\n");
+}
+
+TEST_F(Sensors, TheFolderIsToldTheStartThatWasDrawn) {
+  expect_same_run(kPlain +
+                  "evaluation.alignment: none\n"
+                  "dataset.start: {x_m: 1, y_m: 2, heading_rad: 0.5, sigma_m: 0.3, "
+                  "sigma_rad: 0.1}\n");
 }
 
 TEST_F(Sensors, CheckSaysWhatThereIs) {
@@ -100,6 +142,12 @@ TEST_F(Sensors, KeysOfWhatIsNotThereAreRefused) {
        {"compass.sigma_rad", "fixes.jump_share", "holes.length_s", "gap_sigma_rad"}) {
     write("c.yaml", "dataset." + key + ": 0.5\n");
     EXPECT_THAT(refusal({"run", "c.yaml", "--out", "r"}), HasSubstr("has no use for it")) << key;
+  }
+  for (const std::string key : {"holes.count", "gap_sigma_m", "speed_limit_m_s"}) {
+    write("c.yaml", "dataset.odometry.source: visual_odometry\ndataset." + key + ": 2\n");
+    EXPECT_THAT(refusal({"run", "c.yaml", "--out", "r"}),
+                HasSubstr("dataset." + key +
+                          ": dataset.odometry.source visual_odometry has no use for it"));
   }
 }
 

@@ -47,6 +47,13 @@ std::vector<IgnoredKey> SimulatedSurveyOptions::ignored_keys() const {
   for (IgnoredKey& key : below("odometry", odometry.ignored_keys())) {
     ignored.push_back(std::move(key));
   }
+  if (odometry.source == OdometrySource::kVisualOdometry) {
+    // Its motions are of all pictures.
+    for (const char* key :
+         {"holes.count", "holes.length_s", "gap_sigma_m", "gap_sigma_rad", "speed_limit_m_s"}) {
+      ignored.push_back({key, "odometry.source"});
+    }
+  }
   for (IgnoredKey& key : sensors.ignored_keys()) ignored.push_back(std::move(key));
   return ignored;
 }
