@@ -1,9 +1,14 @@
+#include <SQLiteCpp/SQLiteCpp.h>
 #include <set>
+#include <sqlite3.h>
+#include <string>
 #include <system_error>
 
+#include "fathom/core/environment_error.hpp"
 #include "fathom/core/files.hpp"
 #include "fathom/core/input_error.hpp"
 #include "fathom/front_end/registration_store.hpp"
+#include "registration_table.hpp"
 
 namespace fathom {
 
@@ -14,6 +19,25 @@ namespace {
 bool has_file(const fs::path& file) {
   std::error_code error;
   return fs::is_regular_file(file, error);
+}
+
+// What a process that was killed left in SQLite's log comes into the file, and no log stays, which
+// SQLite would apply to the file that takes its place. One that is damaged is left to its reader.
+void settle(const fs::path& file) {
+  const auto log = [&file](const char* ending) { return fs::path(file.string() + ending); };
+  try {
+    if (has_file(file) && (has_file(log("-wal")) || has_file(log("-journal")))) {
+      SQLite::Database sqlite(file.string(), SQLite::OPEN_READWRITE, kRegistrationBusyMs);
+      sqlite.execAndGet("SELECT count(*) FROM sqlite_master");
+      sqlite.execAndGet("PRAGMA journal_mode = DELETE");
+    }
+  } catch (const SQLite::Exception& error) {
+    if (error.getErrorCode() != SQLITE_BUSY) return;
+    throw EnvironmentError(
+        file.string(), "is in use by another process; wait for it, or merge into another --out");
+  }
+  std::error_code ignored;
+  for (const char* ending : {"-wal", "-shm", "-journal"}) fs::remove(log(ending), ignored);
 }
 
 }  // namespace
@@ -27,6 +51,7 @@ bool has_features(const fs::path& folder) {
 }
 
 MergedRegistrations merge_registrations(const std::vector<fs::path>& folders, const fs::path& out) {
+  settle(out / kRegistrationsFile);
   std::vector<fs::path> sources = folders;
   if (has_registrations(out)) sources.push_back(out);
   StagedFolder staged(out);

@@ -1,6 +1,7 @@
 #include "fathom/results/merge.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <map>
 #include <set>
@@ -14,6 +15,7 @@
 #include "fathom/results/result_store.hpp"
 #include "fathom/results/shard_folder.hpp"
 #include "result_schema.hpp"
+#include "settled_store.hpp"
 
 namespace fathom {
 namespace {
@@ -79,6 +81,14 @@ bool is_cost_series(const std::string& name) {
   return name == "update_ms";
 }
 
+bool are_alike(double one, double other) {
+  return one == other || (std::isnan(one) && std::isnan(other));
+}
+
+bool are_alike(const std::vector<double>& one, const std::vector<double>& other) {
+  return std::ranges::equal(one, other, [](double a, double b) { return are_alike(a, b); });
+}
+
 // The first name under which two maps differ, but for those of cost; empty where none does.
 template <class Map, class IsCost>
 std::string first_difference(const Map& one, const Map& other, const IsCost& is_cost) {
@@ -89,7 +99,7 @@ std::string first_difference(const Map& one, const Map& other, const IsCost& is_
     if (is_cost(name)) continue;
     const auto a = one.find(name);
     const auto b = other.find(name);
-    if (a == one.end() || b == other.end() || a->second != b->second) return name;
+    if (a == one.end() || b == other.end() || !are_alike(a->second, b->second)) return name;
   }
   return "";
 }
@@ -195,6 +205,7 @@ std::set<std::string> machines_of(const std::vector<Source>& sources) {
 MergeSummary merge_stores(const std::vector<fs::path>& folders, const fs::path& out) {
   if (folders.empty()) throw InputError("merge: no folder of a shard was given");
   StagedFolder staged(out);
+  settle_store(staged.target());
   const FileLock lock(staged.target() / "results.lock",
                       out.string() + ": another process is at work on it; use another --out");
   const std::vector<Source> sources = open_sources(folders, out);

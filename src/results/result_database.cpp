@@ -8,8 +8,6 @@
 
 namespace fathom {
 
-constexpr int kBusyTimeoutMs = 10'000;
-
 ResultStore::Database::Database(const std::filesystem::path& path, int flags) : file(path) {
   guard([&] {
     sqlite.emplace(file.string(), flags, kBusyTimeoutMs);

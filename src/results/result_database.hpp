@@ -15,6 +15,9 @@
 
 namespace fathom {
 
+/// Of waiting for another process.
+inline constexpr int kBusyTimeoutMs = 10'000;
+
 /// The open file of a store.
 class ResultStore::Database {
  public:

@@ -7,6 +7,7 @@
 #include "fathom/core/hash.hpp"
 #include "fathom/core/system.hpp"
 #include "result_schema.hpp"
+#include "settled_store.hpp"
 
 namespace fathom {
 namespace {
@@ -63,6 +64,9 @@ ScratchStore::ScratchStore(const fs::path& folder, const fs::path& scratch,
 }
 
 void ScratchStore::open(const StudyDescription& study, const std::string& manifest) {
+  // Of a process that was killed, here or by a study that was not divided there.
+  settle_store(folder_);
+  settle_store(scratch_);
   const bool is_published = fs::exists(folder_ / kResultsFile);
   if (is_published) {
     // Says what is wrong with it, by its own name.
@@ -110,6 +114,7 @@ void ScratchStore::publish() {
                      "cannot be written, or its disk is full; what is done is in " +
                          scratch_.string() + ": make room and run the same command again");
   }
+  settle_store(folder_);
   fs::rename(part, folder_ / kResultsFile, error);
   if (error) throw InputError(folder_.string(), "cannot be written: " + error.message());
   published_ = Clock::now();

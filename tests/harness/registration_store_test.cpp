@@ -1,5 +1,6 @@
 #include "fathom/front_end/registration_store.hpp"
 
+#include <filesystem>
 #include <limits>
 #include <thread>
 
@@ -11,6 +12,7 @@
 #include "fathom/measurements/g2o.hpp"
 #include "harness/registration_values.hpp"
 #include "harness/small_config.hpp"
+#include "support/killed_process.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace fathom {
@@ -59,6 +61,35 @@ TEST(RegistrationStore, TwoOnOneFileSeeWhatTheOtherWrote) {
   b.flush();
   EXPECT_TRUE(a.find(key(2)));
   EXPECT_THAT(a.problem() + b.problem(), IsEmpty());
+}
+
+// SQLite's log of a process that was killed in the folder is no part of the cache that takes its
+// place.
+TEST(RegistrationStore, AMergeIntoTheCacheOfAKilledProcessHasAll) {
+  const test::TemporaryFolder folder;
+  const auto put = [](RegistrationStore& store, std::uint64_t from, std::uint64_t to) {
+    for (std::uint64_t i = from; i < to; ++i) {
+      PairRegistration value;
+      value.inliers = static_cast<int>(i);
+      store.put(key(i), value);
+    }
+    store.flush();
+  };
+  test::in_killed_process([&] { put(*new RegistrationStore(folder / "all"), 0, 300); });
+  ASSERT_TRUE(std::filesystem::exists(folder / "all" / "registrations.sqlite-wal"));
+  {
+    RegistrationStore store(folder / "one");
+    put(store, 200, 800);
+  }
+  EXPECT_EQ(merge_registrations({folder / "one"}, folder / "all").count, 800u);
+  EXPECT_FALSE(std::filesystem::exists(folder / "all" / "registrations.sqlite-wal"));
+  EXPECT_EQ(RegistrationStore::read_only(folder / "all")->all().size(), 800u);
+  EXPECT_EQ(cache_content(folder / "all").registrations, 800u);
+  // One that is in use is left as it is.
+  RegistrationStore in_use(folder / "all");
+  EXPECT_THROW(merge_registrations({folder / "one"}, folder / "all"), InputError);
+  put(in_use, 800, 900);
+  EXPECT_EQ(cache_content(folder / "all").registrations, 900u);
 }
 
 TEST(RegistrationStore, ManyThreadsAndStoresWriteAtOnce) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -13,7 +14,9 @@
 #include "fathom/core/input_error.hpp"
 #include "fathom/results/result_store.hpp"
 #include "fathom/results/run_index.hpp"
+#include "results/shard_manifest.hpp"
 #include "results/stored_runs.hpp"
+#include "support/killed_process.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace fathom {
@@ -21,19 +24,12 @@ namespace {
 
 namespace fs = std::filesystem;
 using test::description;
+using test::manifest;
 using test::record;
 using test::TemporaryFolder;
 using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-
-std::string manifest(std::size_t index, std::size_t of, std::size_t runs,
-                     const std::string& cpu = "one kind") {
-  return R"({"command_line": "fathom compare s.yaml --shard )" + std::to_string(index) + "/" +
-         std::to_string(of) + " --out shard-" + std::to_string(index) +
-         R"(", "machine": {"cpu": ")" + cpu + R"("}, "shard": {"index": )" + std::to_string(index) +
-         R"(, "of": )" + std::to_string(of) + R"(, "runs": )" + std::to_string(runs) + "}}\n";
-}
 
 // All runs of two cells' worth of estimators, dead reckoning beside them.
 std::vector<RunRecord> runs_of_trial(std::size_t trial) {
@@ -97,10 +93,9 @@ class Merging : public ::testing::Test {
 };
 
 TEST_F(Merging, GivesTheContentOfAnUndividedStudyInAnyOrder) {
-  const auto whole = write("whole", {}, manifest(1, 1, 24));
   std::vector<RunRecord> all = runs_of_trial(0);
   for (const RunRecord& run : runs_of_trial(1)) all.push_back(run);
-  write("whole", all, manifest(1, 1, 24));
+  const auto whole = write("whole", all, manifest(1, 1, 24));
   std::vector<fs::path> shards;
   for (std::size_t k = 0; k < 4; ++k) {
     std::vector<RunRecord> own;
@@ -137,6 +132,37 @@ TEST_F(Merging, OfRunsThatSeveralHaveKeepsOneWhateverTheOrder) {
   for (const RunRecord& run : ResultStore::open(path("ab")).runs()) {
     EXPECT_EQ(run.metrics.at("total_ms"), run.machine == "fast" ? 3.5 : 9.0);
   }
+}
+
+// SQLite's log of a process that was killed in the folder is no part of the store that takes its
+// place.
+TEST_F(Merging, IntoAFolderOfAKilledRunHasItsRunsToo) {
+  test::in_killed_process([&] {
+    auto* store = new ResultStore(ResultStore::write(path("merged"), description(), "{}"));
+    for (const RunRecord& run : runs_of_trial(0)) store->add(run);
+  });
+  ASSERT_TRUE(fs::exists(path("merged") / "results.sqlite-wal"));
+  const auto a = write("a", runs_of_trial(1), manifest(1, 2, 12));
+  EXPECT_EQ(merge_stores({a}, path("merged")).runs, 24u);
+  EXPECT_FALSE(fs::exists(path("merged") / "results.sqlite-wal"));
+  EXPECT_EQ(ResultStore::open(path("merged")).runs().size(), 36u);
+  // Nor is one beside a store that is not there.
+  fs::create_directory(path("other"));
+  std::ofstream(path("other") / "results.sqlite-wal") << "of another store";
+  merge_stores({a}, path("other"));
+  EXPECT_FALSE(fs::exists(path("other") / "results.sqlite-wal"));
+}
+
+TEST_F(Merging, ARunWithNumbersThatAreNoneIsAlikeToItself) {
+  std::vector<RunRecord> runs = runs_of_trial(0);
+  runs[4].series["x"][1] = std::numeric_limits<double>::quiet_NaN();
+  const auto a = write("a", runs, manifest(1, 2, 12));
+  EXPECT_EQ(merge_stores({a}, path("merged")).repeated, 0u);
+  EXPECT_EQ(merge_stores({a}, path("merged")).repeated, 18u);
+  runs[4].series["x"][1] = 1.0;
+  const auto b = write("b", runs, manifest(2, 2, 12));
+  EXPECT_THAT([&] { merge_stores({b}, path("merged")); },
+              ::testing::ThrowsMessage<InputError>(HasSubstr("series x")));
 }
 
 TEST_F(Merging, RefusesAnotherResultOfTheSameRun) {
@@ -190,8 +216,12 @@ TEST_F(Merging, NamesAShardThatIsTornOrMissing) {
 }
 
 TEST_F(Merging, ListsWhatIsMissingWithItsCommand) {
-  std::vector<RunRecord> some = runs_of_trial(0);
-  some.resize(9);  // three trials: six runs of estimators
+  std::vector<RunRecord> some;  // three trials of the first shard's four: six runs of estimators
+  for (const std::size_t trial : {0u, 1u}) {
+    for (const RunRecord& run : runs_of_trial(trial)) {
+      if (run.key.cell + trial < 2) some.push_back(run);
+    }
+  }
   const auto a = write("a", some, manifest(1, 3, 8));
   const auto b = write("b", {}, manifest(3, 3, 8));
   const MergeSummary summary = merge_stores({a, b}, path("merged"));
@@ -214,30 +244,6 @@ TEST_F(Merging, OfAStoreThatWasNotDividedSaysItsCommand) {
   ASSERT_EQ(summary.missing.size(), 1u);
   EXPECT_EQ(summary.missing[0].what, a.string() + ": 12 of 24 runs");
   EXPECT_EQ(summary.missing[0].command, "fathom compare s.yaml");
-}
-
-TEST(Shards, AreReadStrictly) {
-  EXPECT_EQ(parse_shard("3/7"), (Shard{3, 7}));
-  EXPECT_EQ(parse_shard("1/1"), (Shard{1, 1}));
-  for (const char* wrong :
-       {"", "3", "0/3", "4/3", "-1/3", "a/3", "1/", "/3", "1/3/5", "1.5/3", "1/0", "1/1000001"}) {
-    EXPECT_THROW(parse_shard(wrong), InputError) << wrong;
-  }
-}
-
-TEST(Shards, HaveCommandsOfTheirOwn) {
-  const auto command = [](const std::string& line, std::size_t index, std::size_t of,
-                          std::size_t other) {
-    return command_of({{index, of}, 0, line}, other);
-  };
-  EXPECT_EQ(command("fathom compare s --shard 3/12 --out r/s-03", 3, 12, 11),
-            "fathom compare s --shard 11/12 --out r/s-11");
-  EXPECT_EQ(command("fathom compare s --shard=3/12 --out=r/3/", 3, 12, 4),
-            "fathom compare s --shard=4/12 --out=r/4");
-  EXPECT_EQ(command("fathom compare s --shard 1/2 --out runs/one", 1, 2, 2),
-            "fathom compare s --shard 2/2 --out runs/one-2");
-  EXPECT_EQ(command("fathom compare s --shard 1/2 --out runs/one", 1, 2, 1),
-            "fathom compare s --shard 1/2 --out runs/one");
 }
 
 }  // namespace

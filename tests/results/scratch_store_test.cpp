@@ -2,9 +2,9 @@
 
 #include "fathom/results/scratch_store.hpp"
 
+#include <SQLiteCpp/SQLiteCpp.h>
 #include <cstdlib>
 #include <memory>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <gmock/gmock.h>
@@ -12,6 +12,7 @@
 #include "fathom/core/files.hpp"
 #include "fathom/core/input_error.hpp"
 #include "results/stored_runs.hpp"
+#include "support/killed_process.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace fathom {
@@ -20,6 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 using std::chrono_literals::operator""ms;
 using test::description;
+using test::in_killed_process;
 using test::record;
 using test::TemporaryFolder;
 using ::testing::HasSubstr;
@@ -69,18 +71,59 @@ TEST_F(Scratch, GoesOnFromWhatWasPublishedOnAnotherMachine) {
 // Killed before it could publish: on the same machine nothing of it is lost.
 TEST_F(Scratch, GoesOnFromWhatAKilledProcessLeftOnTheDisk) {
   { open()->store().add(record(0, 0, "plain")); }
-  const pid_t child = ::fork();
-  if (child == 0) {
+  in_killed_process([&] {
     auto scratch = open();
     scratch->store().add(record(0, 1, "plain"));
     scratch->store().add(record(1, 0, "plain"));
-    ::_exit(0);  // without a destructor
-  }
-  int status = 0;
-  ASSERT_EQ(::waitpid(child, &status, 0), child);
+    scratch.release();
+  });
   EXPECT_EQ(published(), 1u);
   { const auto scratch = open(); }
   EXPECT_EQ(published(), 3u);
+}
+
+// Killed as it left WAL: SQLite has a change to take back, which a reader may not.
+TEST_F(Scratch, GoesOnFromAStoreThatWasBeingFinished) {
+  in_killed_process([&] {
+    auto scratch = open();
+    scratch->store().add(record(0, 0, "plain"));
+    scratch->store().finish();
+    SQLite::Database sqlite(scratch->store().file().string(), SQLite::OPEN_READWRITE);
+    sqlite.exec("PRAGMA synchronous = OFF; BEGIN; UPDATE study SET value = 'x'");
+    ::_exit(0);
+  });
+  std::size_t journals = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(disk())) {
+    journals += entry.path().filename() == "results.sqlite-journal" ? 1 : 0;
+  }
+  ASSERT_EQ(journals, 1u);
+  { const auto scratch = open(); }
+  EXPECT_EQ(published(), 1u);
+}
+
+// A run that was not divided, killed in the same folder: what stands in its log is gone on from,
+// and is applied to no store that is published in its place.
+TEST_F(Scratch, GoesOnFromWhatAKilledUndividedRunLeftInTheFolder) {
+  in_killed_process([&] {
+    auto* store = new ResultStore(ResultStore::write(out(), description(), "{}"));
+    for (std::size_t cell = 0; cell < 6; ++cell) store->add(record(cell, 0, "plain"));
+  });
+  ASSERT_TRUE(fs::exists(out() / "results.sqlite-wal"));
+  {
+    const auto scratch = open();
+    EXPECT_EQ(scratch->store().runs().size(), 6u);
+    scratch->store().add(record(0, 1, "plain"));
+  }
+  EXPECT_FALSE(fs::exists(out() / "results.sqlite-wal"));
+  EXPECT_EQ(published(), 7u);
+}
+
+TEST_F(Scratch, IsRefusedWhereAnUndividedRunIsAtWork) {
+  ResultStore store = ResultStore::write(out(), description(), "{}");
+  store.add(record(0, 0, "plain"));
+  EXPECT_THROW(open(), InputError);
+  store.add(record(0, 1, "plain"));
+  EXPECT_EQ(published(), 2u);
 }
 
 TEST_F(Scratch, OfAnotherStudyOnTheDiskIsNotTaken) {
