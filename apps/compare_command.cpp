@@ -76,6 +76,7 @@ void run_study(const CompareFlags& flags, const workflow::CompareRequest& reques
   if (request.shard) {
     print("shard %s: %zu runs are in %s\n'fathom merge' makes one study of all shards.\n",
           text_of(*request.shard).c_str(), done.runs, store.c_str());
+    terminal.print_remarks();
     return;
   }
   print("%s\n", done.table.c_str());

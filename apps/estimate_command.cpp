@@ -1,6 +1,8 @@
 // fathom estimate: what a study will take, from a few of its trials.
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <fmt/format.h>
 #include <memory>
 
@@ -22,9 +24,10 @@ struct EstimateFlags {
 };
 
 // For a job's request: twice what was found, as trials differ.
-std::string request_of(const workflow::Demand& demand, int shards) {
+std::string request_of(const workflow::Demand& demand, std::size_t shards) {
   constexpr double kMargin = 2.0;
-  const double hours = demand.runs_h / shards;
+  const double hours =
+      std::max(demand.runs_h / static_cast<double>(shards), demand.longest_trial_h);
   const auto minutes = static_cast<long>(std::ceil(kMargin * 60.0 * hours)) + 1;
   const auto mib = 256 * static_cast<long>(std::ceil(kMargin * demand.memory_mib / 256.0));
   return fmt::format("#SBATCH --array=1-{} --cpus-per-task=1 --time={} --mem={}M\n", shards,
@@ -43,8 +46,10 @@ void print_demand(const workflow::Demand& demand, int shards) {
       "pairs of their own, and other machines are faster or slower.\n",
       std::ceil(demand.memory_mib), demand.sampled_trials,
       demand.sampled_trials == 1 ? " that was" : "s that were");
-  print("A request of twice that, in %d shard%s, pictures registered before:\n%s", shards,
-        shards == 1 ? "" : "s", request_of(demand, shards).c_str());
+  const std::size_t cut = std::min(static_cast<std::size_t>(shards), demand.trials);
+  print("A request of twice that, in %zu shard%s%s, pictures registered before:\n%s", cut,
+        cut == 1 ? "" : "s", cut == demand.trials ? ", one for each trial" : "",
+        request_of(demand, cut).c_str());
 }
 
 void estimate(const EstimateFlags& flags) {

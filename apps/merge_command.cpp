@@ -35,7 +35,9 @@ void merge_studies(const MergeFlags& flags, Context& context) {
       print(", from %zu kinds of processor, whose costs are kept apart", merged.machines);
     }
     print("\n");
+    terminal.print_remarks();
   }
+  if (!done.all_usable) context.status = kFailed;
   if (merged.is_complete()) return;
   print_error("fathom: the study is not finished; missing:\n");
   for (const MissingPart& part : merged.missing) {

@@ -1,11 +1,12 @@
 // fathom status: how far the shards of a study are.
 
+#include <algorithm>
 #include <filesystem>
 #include <fmt/format.h>
-#include <map>
 #include <memory>
 #include <optional>
 #include <set>
+#include <utility>
 
 #include "apps/command.hpp"
 #include "apps/output.hpp"
@@ -42,8 +43,29 @@ std::string worker_of(const fs::path& folder) {
   return FileLock::is_held(folder / "results.lock") ? "a process of this machine" : "";
 }
 
-FolderStatus status_of(const std::string& folder) {
-  FolderStatus status{folder, std::nullopt, "", worker_of(folder)};
+// Of a shard, which may have begun nothing; or the store in it.
+std::string folder_of(const std::string& given) {
+  const fs::path path(given);
+  if (fs::is_directory(path) || !fs::exists(path)) return given;
+  if (path.filename() != kResultsFile) {
+    throw InputError(given, std::string("is a file; expected the folder of a shard or of a study, "
+                                        "or its ") +
+                                kResultsFile);
+  }
+  return path.has_parent_path() ? path.parent_path().string() : ".";
+}
+
+// A shard that has not begun has no folder, but then another one of its study has.
+void require_any(const std::vector<std::string>& folders) {
+  if (std::ranges::any_of(folders, [](const std::string& folder) { return fs::exists(folder); })) {
+    return;
+  }
+  throw InputError(folders.front(), "is not there; expected the folder of a shard or of a study");
+}
+
+FolderStatus status_of(const std::string& given) {
+  const std::string folder = folder_of(given);
+  FolderStatus status{given, std::nullopt, "", worker_of(folder)};
   if (!fs::exists(fs::path(folder) / kResultsFile)) return status;
   try {
     status.content = shard_folder(folder, ResultStore::open(folder));
@@ -64,8 +86,9 @@ std::string shards_text(const ShardFolder& content) {
 std::string state_of(const FolderStatus& status) {
   if (!status.problem.empty()) return "damaged";
   if (!status.at_work.empty()) return "running: " + status.at_work;
+  if (!fs::exists(status.folder)) return "no such folder";
   if (!status.content) return "nothing yet";
-  return status.content->done.size() < status.content->own() ? "stopped" : "done";
+  return status.content->own_done() < status.content->own() ? "stopped" : "done";
 }
 
 // Of all folders of one study together, each run once.
@@ -76,7 +99,7 @@ void print_totals(const std::vector<ShardFolder>& folders) {
     done.insert(folder.done.begin(), folder.done.end());
     failed.insert(folder.failed.begin(), folder.failed.end());
   }
-  const std::size_t of = folders.front().of;
+  const std::size_t of = runs_asked(folders);
   const std::size_t left = of - std::min(of, done.size());
   print("%zu of %zu runs are done, %zu of them failed; %zu are left\n", done.size(), of,
         failed.size(), left);
@@ -85,19 +108,24 @@ void print_totals(const std::vector<ShardFolder>& folders) {
   }
 }
 
-// Studies have no name but what they are called and how large they are.
-void print_totals_by_study(const std::vector<ShardFolder>& all) {
-  std::map<std::pair<std::string, std::size_t>, std::vector<ShardFolder>> studies;
-  for (const ShardFolder& folder : all) studies[{folder.title, folder.of}].push_back(folder);
-  for (const auto& [study, folders] : studies) {
+// Titles may be the same: the first folder tells which study is meant.
+void print_totals_by_study(std::vector<ShardFolder> all) {
+  const auto studies = by_study(std::move(all));
+  for (const std::vector<ShardFolder>& folders : studies) {
+    const ShardFolder& first = folders.front();
     print("\n");
-    if (studies.size() > 1) print("%s: ", in_quotes(study.first).c_str());
+    if (studies.size() > 1) {
+      const std::string title =
+          first.study.title.empty() ? "" : in_quotes(first.study.title) + " of ";
+      print("%s%s: ", title.c_str(), in_quotes(first.folder.string()).c_str());
+    }
     print_totals(folders);
   }
 }
 
 void show_status(const StatusFlags& flags, Context& context) {
   context.status = kDone;
+  require_any(flags.folders);
   Table table({"folder", "shard", "done", "of", "failed", "state"});
   std::vector<ShardFolder> found;
   std::vector<std::string> problems;
@@ -106,8 +134,8 @@ void show_status(const StatusFlags& flags, Context& context) {
     if (!status.problem.empty()) problems.push_back(status.problem);
     if (status.content) {
       const ShardFolder& content = *status.content;
-      table.add_row({folder, shards_text(content), std::to_string(content.done.size()),
-                     std::to_string(content.own()), std::to_string(content.failed.size()),
+      table.add_row({folder, shards_text(content), std::to_string(content.own_done()),
+                     std::to_string(content.own()), std::to_string(content.own_failed()),
                      state_of(status)});
       found.push_back(content);
     } else {
@@ -115,7 +143,7 @@ void show_status(const StatusFlags& flags, Context& context) {
     }
   }
   print("%s", table.text().c_str());
-  print_totals_by_study(found);
+  print_totals_by_study(std::move(found));
   for (const std::string& problem : problems) {
     print_error("fathom: error: %s\n", problem.c_str());
     context.status = kFailed;

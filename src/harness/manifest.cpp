@@ -75,7 +75,10 @@ std::string session_json(const std::string& command_line, int jobs) {
 
 std::string session_json(const ShardPlan& plan, int jobs) {
   Json json = session(plan.command_line, jobs);
-  json["shard"] = {{"index", plan.shard.index}, {"of", plan.shard.of}, {"runs", plan.runs}};
+  json["shard"] = {{"index", plan.shard.index},   {"of", plan.shard.of},
+                   {"runs", plan.runs},           {"surveys", plan.range.surveys},
+                   {"trials", plan.range.trials}, {"places", plan.range.places},
+                   {"first", plan.range.first},   {"count", plan.range.count}};
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

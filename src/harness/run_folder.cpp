@@ -4,6 +4,7 @@
 
 #include "fathom/core/files.hpp"
 #include "fathom/core/text.hpp"
+#include "fathom/core/utf8.hpp"
 #include "fathom/datasets/picture_file.hpp"
 #include "fathom/geometry/covariance.hpp"
 #include "fathom/measurements/graph_numbers.hpp"
@@ -88,6 +89,18 @@ std::vector<StampedPose> frame_trajectory(const Recording& recording,
         {place.time_ns, compose(keyframes[place.keyframe], place.motion_since_keyframe)});
   }
   return trajectory;
+}
+
+std::vector<std::string> remarks_of_run(const std::filesystem::path& folder) {
+  if (!std::filesystem::exists(folder / "run.json")) return {};
+  const auto json = nlohmann::json::parse(read_file(folder / "run.json"), nullptr, false);
+  const auto remarks = json.is_object() ? json.find("remarks") : json.end();
+  if (!json.is_object() || remarks == json.end() || !remarks->is_array()) return {};
+  std::vector<std::string> sentences;
+  for (const auto& remark : *remarks) {
+    if (remark.is_string()) sentences.push_back(printable(remark.get<std::string>()));
+  }
+  return sentences;
 }
 
 Settings data_settings_of_run(const std::filesystem::path& folder) {

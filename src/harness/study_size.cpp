@@ -23,9 +23,10 @@ std::size_t trials_in_all(const Study& study) {
   return study.cells.size() * study.description.surveys * study.description.trials;
 }
 
-std::size_t runs_of(const Study& study, const Shard& shard) {
+ShardPlan plan_of(const Study& study, const Shard& shard, const std::string& command_line) {
   const StudyDataSets data_sets(study, nullptr);
-  return ShardTrials(study, data_sets, shard).count() * study.description.estimators.size();
+  const ShardTrials own(study, data_sets, shard);
+  return {shard, own.count() * study.description.estimators.size(), command_line, own.range()};
 }
 
 int jobs_of(const Study& study) {

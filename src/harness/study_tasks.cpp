@@ -68,48 +68,49 @@ std::vector<double> costs_of(const Study& study) {
   return costs;
 }
 
+// Cells in their own order.
+ShardRange all_of(const Study& study) {
+  ShardRange all{study.description.surveys, study.description.trials, {}, 0, trials_in_all(study)};
+  all.places.resize(study.cells.size());
+  std::iota(all.places.begin(), all.places.end(), std::size_t{0});
+  return all;
+}
+
 }  // namespace
 
 ShardTrials::ShardTrials(const Study& study, const StudyDataSets& data_sets, const Shard& shard)
-    : surveys_(study.description.surveys),
-      trials_(study.description.trials),
-      is_own_(trials_in_all(study), shard.is_whole()) {
-  count_ = shard.is_whole() ? is_own_.size() : 0;
-  if (shard.is_whole()) return;
+    : range_(all_of(study)) {
   const std::vector<std::size_t> cells = cells_in_order(study, data_sets);
+  for (std::size_t i = 0; i < cells.size(); ++i) range_.places[cells[i]] = i;
+  if (shard.is_whole()) return;
   const std::vector<double> costs = costs_of(study);
   // The same operations in the same order on every machine.
   const double of_a_survey =
-      std::accumulate(costs.begin(), costs.end(), 0.0) * static_cast<double>(trials_);
-  const double share = of_a_survey * static_cast<double>(surveys_) / static_cast<double>(shard.of);
+      std::accumulate(costs.begin(), costs.end(), 0.0) * static_cast<double>(range_.trials);
+  const double share =
+      of_a_survey * static_cast<double>(range_.surveys) / static_cast<double>(shard.of);
+  range_.count = 0;
   double before = 0.0;
-  for (std::size_t survey = 0; survey < surveys_; ++survey) {
+  std::size_t place = 0;
+  for (std::size_t survey = 0; survey < range_.surveys; ++survey) {
     for (const std::size_t cell : cells) {
-      for (std::size_t trial = 0; trial < trials_; ++trial, before += costs[cell]) {
+      for (std::size_t trial = 0; trial < range_.trials; ++trial, ++place, before += costs[cell]) {
         // A trial belongs where its middle lies.
         const auto index = static_cast<std::size_t>((before + 0.5 * costs[cell]) / share);
         if (std::min(index, shard.of - 1) + 1 != shard.index) continue;
-        is_own_[place_of(cell, {survey, trial})] = true;
-        ++count_;
+        if (range_.count++ == 0) range_.first = place;
       }
     }
   }
 }
 
-ShardTrials::ShardTrials(const Study& study, std::size_t cell)
-    : surveys_(study.description.surveys),
-      trials_(study.description.trials),
-      count_(1),
-      is_own_(trials_in_all(study)) {
-  is_own_[place_of(cell, {0, 0})] = true;
-}
-
-std::size_t ShardTrials::place_of(std::size_t cell, const TrialKey& trial) const {
-  return (cell * surveys_ + trial.survey) * trials_ + trial.trial;
+ShardTrials::ShardTrials(const Study& study, std::size_t cell) : range_(all_of(study)) {
+  range_.first = cell * range_.trials;
+  range_.count = 1;
 }
 
 bool ShardTrials::has(std::size_t cell, const TrialKey& trial) const {
-  return is_own_[place_of(cell, trial)];
+  return range_.has({cell, trial.survey, trial.trial, ""});
 }
 
 std::vector<Task> tasks_of(const Study& study, const RunIndex* there,

@@ -37,15 +37,11 @@ class ShardTrials {
   ShardTrials(const Study& study, std::size_t cell);
 
   bool has(std::size_t cell, const TrialKey& trial) const;
-  std::size_t count() const { return count_; }
+  std::size_t count() const { return range_.count; }
+  const ShardRange& range() const { return range_; }
 
  private:
-  std::size_t place_of(std::size_t cell, const TrialKey& trial) const;
-
-  std::size_t surveys_;
-  std::size_t trials_;
-  std::size_t count_ = 0;
-  std::vector<bool> is_own_;  ///< by cell, survey and trial
+  ShardRange range_;
 };
 
 /// What of a shard is not in its store; all of it where there is none. As many surveys take turns

@@ -50,6 +50,8 @@ std::string line_of(const std::vector<std::string>& words) {
   return joined(quoted, " ");
 }
 
+constexpr std::int64_t kMostShards = 1'000'000;
+
 // Throws where it is not a whole number: the conversion of what is none is undefined.
 std::size_t count_of(const nlohmann::json& number) {
   return number.get_ref<const nlohmann::json::number_unsigned_t&>();
@@ -57,12 +59,17 @@ std::size_t count_of(const nlohmann::json& number) {
 
 }  // namespace
 
+bool ShardRange::has(const RunKey& run) const {
+  if (run.cell >= places.size() || run.survey >= surveys || run.trial >= trials) return false;
+  const std::size_t at = (run.survey * places.size() + places[run.cell]) * trials + run.trial;
+  return at >= first && at - first < count;
+}
+
 Shard parse_shard(const std::string& text) {
   const std::size_t slash = text.find('/');
   const auto index = parse_integer(text.substr(0, slash));
   const auto of = slash == std::string::npos ? std::nullopt : parse_integer(text.substr(slash + 1));
-  constexpr std::int64_t kMost = 1'000'000;
-  if (!index || !of || *index < 1 || *of < 1 || *index > *of || *of > kMost) {
+  if (!index || !of || *index < 1 || *of < 1 || *index > *of || *of > kMostShards) {
     throw InputError("--shard: " + in_quotes(text) +
                      " is no part of a study; expected K/N with K from 1 to "
                      "N, for example 3/7");
@@ -79,9 +86,18 @@ std::optional<ShardPlan> shard_plan(const std::string& manifest) {
   if (!json.is_object() || !json.contains("shard")) return std::nullopt;
   try {
     const auto& shard = json.at("shard");
-    return ShardPlan{{count_of(shard.at("index")), count_of(shard.at("of"))},
-                     count_of(shard.at("runs")),
-                     command_line_of(manifest)};
+    ShardPlan plan{{count_of(shard.at("index")), count_of(shard.at("of"))},
+                   count_of(shard.at("runs")),
+                   command_line_of(manifest)};
+    if (plan.shard.index < 1 || plan.shard.index > plan.shard.of || plan.shard.of > kMostShards) {
+      return std::nullopt;
+    }
+    plan.range.surveys = count_of(shard.at("surveys"));
+    plan.range.trials = count_of(shard.at("trials"));
+    plan.range.first = count_of(shard.at("first"));
+    plan.range.count = count_of(shard.at("count"));
+    for (const auto& place : shard.at("places")) plan.range.places.push_back(count_of(place));
+    return plan;
   } catch (const nlohmann::json::exception&) {
     return std::nullopt;
   }

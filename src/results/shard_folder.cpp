@@ -4,10 +4,10 @@
 #include <fmt/format.h>
 #include <map>
 #include <numeric>
-#include <optional>
 #include <set>
 
 #include "fathom/results/run_index.hpp"
+#include "result_schema.hpp"
 
 namespace fathom {
 namespace {
@@ -19,82 +19,170 @@ ShardNumber number_of(const ShardPlan& plan) {
   return {plan.shard.of, plan.shard.index};
 }
 
-std::string count_text(std::size_t done, std::size_t of) {
-  return fmt::format("{} of {} runs", of - done, of);
+// How far a study is asked for, which sessions extend.
+struct Extent {
+  std::size_t surveys = 0;
+  std::size_t trials = 0;
+  bool operator==(const Extent&) const = default;
+};
+
+Extent extent_of(const ShardPlan& plan) {
+  return {plan.range.surveys, plan.range.trials};
 }
 
-// The most that any folder has of each shard.
-std::map<ShardNumber, ShardProgress> all_shards(const std::vector<ShardFolder>& folders) {
-  std::map<ShardNumber, ShardProgress> all;
+Extent extent_of(const ShardFolder& folder) {
+  return {folder.study.surveys, folder.study.trials};
+}
+
+Extent extent_of(const std::vector<ShardFolder>& folders) {
+  Extent most;
   for (const ShardFolder& folder : folders) {
+    most.surveys = std::max(most.surveys, folder.study.surveys);
+    most.trials = std::max(most.trials, folder.study.trials);
+  }
+  return most;
+}
+
+std::string count_text(std::size_t done, std::size_t of) {
+  return fmt::format("{} of {} runs", of - std::min(done, of), of);
+}
+
+template <class Count>
+std::size_t sum_of(const std::vector<ShardProgress>& shards, const Count& count) {
+  return std::accumulate(
+      shards.begin(), shards.end(), std::size_t{0},
+      [&](std::size_t sum, const ShardProgress& shard) { return sum + count(shard); });
+}
+
+// The shards of a study as far as it is asked for, with what all folders together have of each.
+struct AllShards {
+  std::map<ShardNumber, ShardProgress> known;
+  std::size_t others_done = 0;  // runs of shards that no folder knows of
+};
+
+AllShards all_shards(const std::vector<ShardFolder>& folders) {
+  const Extent extent = extent_of(folders);
+  AllShards all;
+  std::set<RunKey> done;
+  for (const ShardFolder& folder : folders) {
+    done.insert(folder.done.begin(), folder.done.end());
+    if (extent_of(folder) != extent) continue;
     for (const ShardProgress& shard : folder.shards) {
-      const auto [there, is_new] = all.emplace(number_of(shard.plan), shard);
-      if (!is_new && shard.done > there->second.done) there->second = shard;
+      all.known.try_emplace(number_of(shard.plan), ShardProgress{shard.plan});
     }
+  }
+  for (const RunKey& run : done) {
+    bool is_known = false;
+    for (auto& [number, shard] : all.known) {
+      if (!shard.plan.range.has(run)) continue;
+      ++shard.done;
+      is_known = true;
+    }
+    if (!is_known) ++all.others_done;
   }
   return all;
 }
 
+// Of one division the shards that no folder knows of.
+void add_unknown(const AllShards& all, std::vector<MissingPart>& missing) {
+  const auto& shards = all.known;
+  if (shards.empty() || shards.begin()->first.first != shards.rbegin()->first.first) return;
+  const std::string what = all.others_done == 0 ? ": all runs" : ": what is missing of it";
+  const ShardPlan& known = shards.begin()->second.plan;
+  for (std::size_t index = 1; index <= known.shard.of; ++index) {
+    if (shards.contains({known.shard.of, index})) continue;
+    missing.push_back(
+        {"shard " + text_of(Shard{index, known.shard.of}) + what, command_of(known, index)});
+  }
+}
+
 }  // namespace
 
+bool ShardFolder::is_whole() const {
+  return shards.empty() || done.size() == of;
+}
+
 std::size_t ShardFolder::own() const {
-  if (shards.empty()) return of;
-  return std::accumulate(
-      shards.begin(), shards.end(), std::size_t{0},
-      [](std::size_t sum, const ShardProgress& shard) { return sum + shard.plan.runs; });
+  return is_whole() ? of : sum_of(shards, [](const ShardProgress& one) { return one.plan.runs; });
+}
+
+std::size_t ShardFolder::own_done() const {
+  return is_whole() ? done.size()
+                    : sum_of(shards, [](const ShardProgress& one) { return one.done; });
+}
+
+std::size_t ShardFolder::own_failed() const {
+  return is_whole() ? failed.size()
+                    : sum_of(shards, [](const ShardProgress& one) { return one.failed; });
 }
 
 ShardFolder shard_folder(const std::filesystem::path& folder, const ResultStore& store) {
-  const StudyDescription& study = store.study();
   ShardFolder found;
   found.folder = folder;
-  found.title = study.title;
-  found.of = study.cell_count() * study.surveys * study.trials * study.estimators.size();
+  found.study = store.study();
+  found.of = runs_asked({found});
   const std::vector<std::string> manifests = store.manifests();
-  std::vector<std::optional<ShardNumber>> number_of_session;
   std::map<ShardNumber, ShardProgress> shards;
   for (const std::string& manifest : manifests) {
     const auto plan = shard_plan(manifest);
-    number_of_session.push_back(plan ? std::optional(number_of(*plan)) : std::nullopt);
-    if (plan) shards[number_of(*plan)].plan = *plan;
+    if (plan && extent_of(*plan) == extent_of(found)) shards[number_of(*plan)].plan = *plan;
   }
   if (!manifests.empty()) found.command_line = command_line_of(manifests.back());
+  for (auto& [number, shard] : shards) found.shards.push_back(std::move(shard));
   for (const RunRecord& run : store.runs()) {
     if (run.key.estimator == kDeadReckoning) continue;
     found.done.insert(run.key);
     if (is_failed(run)) found.failed.insert(run.key);
-    if (run.session >= number_of_session.size() || !number_of_session[run.session]) continue;
-    ShardProgress& shard = shards[*number_of_session[run.session]];
-    ++shard.done;
-    shard.failed += is_failed(run) ? 1 : 0;
+    // Whichever session made it: where a study is extended its shards are cut anew.
+    for (ShardProgress& shard : found.shards) {
+      if (!shard.plan.range.has(run.key)) continue;
+      ++shard.done;
+      shard.failed += is_failed(run) ? 1 : 0;
+    }
   }
-  for (auto& [number, shard] : shards) found.shards.push_back(std::move(shard));
   return found;
+}
+
+std::vector<std::vector<ShardFolder>> by_study(std::vector<ShardFolder> folders) {
+  std::vector<std::vector<ShardFolder>> studies;
+  for (ShardFolder& folder : folders) {
+    const auto study = std::ranges::find_if(studies, [&folder](const auto& others) {
+      const StudyDescription& there = others.front().study;
+      return difference(there, folder.study).empty() &&
+             data_difference(there, folder.study).empty();
+    });
+    if (study == studies.end()) {
+      studies.emplace_back();
+      studies.back().push_back(std::move(folder));
+    } else {
+      study->push_back(std::move(folder));
+    }
+  }
+  return studies;
+}
+
+std::size_t runs_asked(const std::vector<ShardFolder>& folders) {
+  if (folders.empty()) return 0;
+  const Extent extent = extent_of(folders);
+  const StudyDescription& study = folders.front().study;
+  return study.cell_count() * extent.surveys * extent.trials * study.estimators.size();
 }
 
 std::vector<MissingPart> missing_parts(const std::vector<ShardFolder>& folders,
                                        std::size_t missing_runs) {
   if (missing_runs == 0) return {};
   std::vector<MissingPart> missing;
-  const auto shards = all_shards(folders);
-  for (const auto& [number, shard] : shards) {
+  const AllShards all = all_shards(folders);
+  for (const auto& [number, shard] : all.known) {
     if (shard.done >= shard.plan.runs) continue;
     missing.push_back({fmt::format("shard {}: {}", text_of(shard.plan.shard),
                                    count_text(shard.done, shard.plan.runs)),
                        shard.plan.command_line});
   }
-  const bool is_one_division =
-      !shards.empty() && shards.begin()->first.first == shards.rbegin()->first.first;
-  if (is_one_division) {
-    const ShardPlan& known = shards.begin()->second.plan;
-    for (std::size_t index = 1; index <= known.shard.of; ++index) {
-      if (shards.contains({known.shard.of, index})) continue;
-      missing.push_back({"shard " + text_of(Shard{index, known.shard.of}) + ": all runs",
-                         command_of(known, index)});
-    }
-  }
+  add_unknown(all, missing);
   for (const ShardFolder& folder : folders) {
-    if (!folder.shards.empty() || folder.done.size() >= folder.of) continue;
+    const bool is_current = extent_of(folder) == extent_of(folders);
+    if (!is_current || !folder.shards.empty() || folder.done.size() >= folder.of) continue;
     missing.push_back({folder.folder.string() + ": " + count_text(folder.done.size(), folder.of),
                        folder.command_line});
   }

@@ -1,7 +1,6 @@
 #include "fathom/workflow/compare.hpp"
 
 #include <algorithm>
-#include <set>
 
 #include <opencv2/core/utility.hpp>
 
@@ -9,7 +8,6 @@
 #include "fathom/harness/ground_truth.hpp"
 #include "fathom/harness/loop_remarks.hpp"
 #include "fathom/harness/manifest.hpp"
-#include "fathom/results/run_index.hpp"
 #include "fathom/results/scratch_store.hpp"
 #include "fathom/results/store_folder.hpp"
 #include "fathom/workflow/inputs.hpp"
@@ -21,13 +19,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// An estimator that no trial of any cell could use has failed.
-bool all_usable(const ResultStore& store) {
-  std::set<std::string> usable;
-  for (const RunRecord& run : store.runs()) {
-    if (run.key.estimator != kDeadReckoning && !is_failed(run)) usable.insert(run.key.estimator);
-  }
-  return usable.size() == store.study().estimators.size();
+// Of estimators, as progress and `fathom status` count them.
+std::size_t runs_stored(const ResultStore& store) {
+  return static_cast<std::size_t>(std::ranges::count_if(
+      store.runs(), [](const RunRecord& run) { return run.key.estimator != kDeadReckoning; }));
 }
 
 StudyRunOptions options_of(const CompareRequest& request, const Study& study,
@@ -74,19 +69,20 @@ class Comparison {
                        session_json(request_.made_by, options_.jobs));
     ResultStore& store = folder.store();
     StudyRun done = run_study(study_, registry_, store, options_);
-    CompareOutcome outcome{done.is_finished, store.runs().size(), false, {}, {}};
+    CompareOutcome outcome{done.is_finished, runs_stored(store), false, {}, {}};
     if (!done.is_finished) return outcome;
     store.finish();
-    write_example_of(done);
+    const std::vector<std::string> remarks = remarks_on(done);
+    write_example_of(done, remarks);
     outcome.table = write_study_files(store, request_.out, observer_);
-    say_remarks(done);
+    say(remarks);
     outcome.all_usable = all_usable(store);
     outcome.example = std::move(done.example);
     return outcome;
   }
 
   CompareOutcome shard() {
-    const ShardPlan plan{*request_.shard, runs_of(study_, *request_.shard), request_.made_by};
+    const ShardPlan plan = plan_of(study_, *request_.shard, request_.made_by);
     ScratchStore store(request_.out,
                        request_.scratch.empty() ? fs::temp_directory_path() : request_.scratch,
                        study_.description, session_json(plan, options_.jobs));
@@ -97,8 +93,12 @@ class Comparison {
     };
     StudyRun done = run_study(study_, registry_, store.store(), options_);
     store.publish();
-    if (!done.is_finished) return {false, store.store().runs().size(), true, {}, {}};
-    if (!done.example.empty()) write_example_of(done);
+    if (!done.is_finished) return {false, runs_stored(store.store()), true, {}, {}};
+    if (!done.example.empty()) {
+      const std::vector<std::string> remarks = remarks_on(done);
+      write_example_of(done, remarks);
+      say(remarks);
+    }
     return {true, plan.runs, true, std::move(done.example), {}};
   }
 
@@ -123,37 +123,37 @@ class Comparison {
     return settled_study(request_.settings, registry_);
   }
 
-  void write_example_of(const StudyRun& done) const {
+  void write_example_of(const StudyRun& done, const std::vector<std::string>& remarks) const {
     const std::string& title = study_.description.title;
     write_example({request_.out, title.empty() ? request_.title : title, request_.made_by,
-                   request_.mosaics ? data_set_.pictures() : nullptr},
+                   request_.mosaics ? data_set_.pictures() : nullptr, remarks},
                   study_, done.example, registry_, observer_);
   }
 
   // What looks wrong with set-up and loops of the trial that is drawn; the page says what its
   // figures show.
-  void say_remarks(const StudyRun& done) const {
-    if (!done.example.empty()) {
-      const TrialNoise noise{study_.noise_seeds.front(), 0};
-      const Recording& recording = *done.example.front().recording;
-      for (const std::string& finding :
-           data_set_.calibration_of(recording, study_.cells.front(), noise).findings) {
-        observer_.remark(finding);
-      }
-    }
-    for (const std::string& remark : data_set_.data().remarks()) observer_.remark(remark);
-    if (done.example.empty()) return;
+  std::vector<std::string> remarks_on(const StudyRun& done) const {
     const ExampleRun& example = done.example.front();
-    for (const std::string& remark : example.recording->remarks) observer_.remark(remark);
-    for (const std::string& remark : loop_remarks(
-             *example.recording, study_.cells.front().front_end, example.result.run.trajectory)) {
-      observer_.remark(remark);
-    }
-    if (const auto remark = frame_remark(*example.recording)) observer_.remark(*remark);
+    const Recording& recording = *example.recording;
+    const Configuration& cell = study_.cells.front();
+    const TrialNoise noise{study_.noise_seeds.front(), 0};
+    std::vector<std::string> remarks = data_set_.calibration_of(recording, cell, noise).findings;
+    const auto add = [&remarks](const std::vector<std::string>& more) {
+      remarks.insert(remarks.end(), more.begin(), more.end());
+    };
+    add(data_set_.data().remarks());
+    add(recording.remarks);
+    add(loop_remarks(recording, cell.front_end, example.result.run.trajectory));
+    if (const auto remark = frame_remark(recording)) add({*remark});
     for (const ExampleRun& one : done.example) {
       const std::string& fault = one.result.run.fault;
-      if (!fault.empty()) observer_.remark(one.result.estimator.name + ": " + fault);
+      if (!fault.empty()) add({one.result.estimator.name + ": " + fault});
     }
+    return remarks;
+  }
+
+  void say(const std::vector<std::string>& remarks) const {
+    for (const std::string& remark : remarks) observer_.remark(remark);
   }
 
   const CompareRequest& request_;

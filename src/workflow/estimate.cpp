@@ -1,5 +1,6 @@
 #include "fathom/workflow/estimate.hpp"
 
+#include <algorithm>
 #include <numeric>
 #include <vector>
 
@@ -24,6 +25,11 @@ Demand demand_of(const Study& study, const StudySample& measured) {
     trials_s.push_back(mean_of(group.trials_s));
   }
   Demand demand;
+  for (const SampledPictures& group : measured.groups) {
+    for (const double trial : group.trials_s) {
+      demand.longest_trial_h = std::max(demand.longest_trial_h, trial / 3600.0);
+    }
+  }
   for (const SampledPictures& group : measured.groups) {
     const bool is_measured = !group.trials_s.empty();
     const double registration = is_measured ? group.registrations_s : mean_of(registrations_s);

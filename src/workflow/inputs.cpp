@@ -42,7 +42,7 @@ Settings settings_of(const fs::path& path) {
 
 std::vector<fs::path> inputs_of(const fs::path& path, const Settings& settings) {
   std::vector<fs::path> inputs{path};
-  for (const char* key : {"dataset.path", "dataset.world.picture"}) {
+  for (const char* key : {"dataset.path", "dataset.world.picture", "dataset.mask"}) {
     const Setting* setting = settings.find(key);
     if (setting != nullptr) inputs.emplace_back(word_of(*setting, key));
   }

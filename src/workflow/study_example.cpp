@@ -27,7 +27,7 @@ void write_example(const ExamplePlace& place, const Study& study,
     fs::create_directory(own);
     write_run(own, *recording, result,
               manifest_json(place.made_by, configuration.in_force, study.description.data,
-                            *recording, result, registry));
+                            *recording, result, registry, place.remarks));
     write_trajectory_picture(own / "trajectory.png", place.title + ", " + result.estimator.name,
                              *recording, {result}, e);
     if (recording->camera) try_map_files(own, keyframe_map(*recording, result), on_earth);

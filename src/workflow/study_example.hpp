@@ -18,6 +18,7 @@ struct ExamplePlace {
   std::string title;
   std::string made_by;                    ///< the command line, for the manifests
   const FrameSource* pictures = nullptr;  ///< of mosaics; null: there are none
+  std::vector<std::string> remarks;       ///< what looks wrong with it, for the manifests
 };
 
 /// Writes the example of a study: a folder an estimator as `run` writes it, `trajectories.png`,

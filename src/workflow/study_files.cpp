@@ -1,21 +1,34 @@
 #include "study_files.hpp"
 
+#include <set>
+
 #include "fathom/core/files.hpp"
+#include "fathom/harness/run_folder.hpp"
 #include "fathom/report/study_report.hpp"
 #include "fathom/results/result_store.hpp"
+#include "fathom/results/run_index.hpp"
 
 namespace fathom::workflow {
 
 void require_separate(const std::filesystem::path& out, const Study& study,
                       const std::vector<std::filesystem::path>& inputs) {
-  std::vector<std::string> names{kResultsFile,         "report.html",      "runs.csv",
-                                 "summary.csv",        "tables.tex",       "figures",
-                                 "trajectories.png",   "metrics.json",     "table.txt",
-                                 "dead_reckoning.tum", "measurements.g2o", "ground_truth.tum"};
+  std::vector<std::string> names{kResultsFile,         "report.html",     "runs.csv",
+                                 "summary.csv",        "tables.tex",      "figures",
+                                 "trajectories.png",   "metrics.json",    "table.txt",
+                                 "dead_reckoning.tum", "measurements.g2o"};
+  names.insert(names.end(), optional_run_files().begin(), optional_run_files().end());
   for (const EstimatorConfiguration& one : study.cells.front().estimators) {
     names.push_back(one.name);
   }
   for (const std::string& name : names) refuse_replacing(out / name, inputs);
+}
+
+bool all_usable(const ResultStore& store) {
+  std::set<std::string> usable;
+  for (const RunRecord& run : store.runs()) {
+    if (run.key.estimator != kDeadReckoning && !is_failed(run)) usable.insert(run.key.estimator);
+  }
+  return usable.size() == store.study().estimators.size();
 }
 
 std::string write_study_files(const ResultStore& store, const std::filesystem::path& out,

@@ -15,6 +15,10 @@ namespace fathom::workflow {
 void require_separate(const std::filesystem::path& out, const Study& study,
                       const std::vector<std::filesystem::path>& inputs);
 
+/// Whether each estimator has a run that can be used: one that no trial of any cell could use has
+/// failed.
+bool all_usable(const ResultStore& store);
+
 /// Writes the page, tables and figures of a study with runs, and table.txt. Returns the table, of
 /// many cells in brief: all of it would scroll away.
 std::string write_study_files(const ResultStore& store, const std::filesystem::path& out,

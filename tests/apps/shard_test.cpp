@@ -94,7 +94,7 @@ TEST_F(Shards, WhatIsMissingIsListedWithTheCommandThatDoesIt) {
                                    "of-3/2 --scratch disk --cache cache --no-mosaic\n"));
   EXPECT_THAT(ended.out, HasSubstr("not run"));
   const std::string status = fathom_done({"status", folder(1, 3), folder(2, 3), folder(3, 3)}).out;
-  EXPECT_THAT(status, AllOf(HasSubstr("1/3"), HasSubstr("nothing yet"), HasSubstr("done"),
+  EXPECT_THAT(status, AllOf(HasSubstr("1/3"), HasSubstr("no such folder"), HasSubstr("done"),
                             HasSubstr("shard 2/3: all runs: fathom compare")));
   fathom_done(shard(2, 3));
   fathom_done({"merge", folder(2, 3), "--out", "merged"});
@@ -104,10 +104,11 @@ TEST_F(Shards, WhatIsMissingIsListedWithTheCommandThatDoesIt) {
   const std::string once = fathom_done({"status", "merged"}).out;
   const std::string twice = fathom_done({"status", folder(1, 3), folder(3, 3), "merged"}).out;
   EXPECT_EQ(twice.substr(twice.find("\n\n")), once.substr(once.find("\n\n")));
-  // Another study is none of its runs.
-  fathom_done({"compare", "s.yaml", "--set", "trials=1", "--out", "other", "--no-mosaic"});
-  const std::string both = fathom_done({"status", "merged", "other"}).out;
-  EXPECT_THAT(both, HasSubstr(once.substr(once.find("\n\n") + 2)));
+  // Another study is none of its runs, though it has the same title and as many.
+  fathom_done({"compare", "s.yaml", "--seed", "9", "--out", "other", "--no-mosaic"});
+  const std::string both = fathom_done({"status", "merged/results.sqlite", "other"}).out;
+  EXPECT_THAT(both, AllOf(HasSubstr("\n'merged': " + once.substr(once.find("\n\n") + 2)),
+                          HasSubstr("\n'other': ")));
   const std::size_t first = both.find("runs are done");
   EXPECT_NE(both.find("runs are done", first + 1), std::string::npos);
 }
@@ -218,6 +219,9 @@ TEST_F(Shards, WhatAStudyTakesIsEstimatedFromAFewTrials) {
                             std::to_string(builtin_estimators().entries().size()) + " estimators"),
                   HasSubstr("From 2 trials that were run here"),
                   HasSubstr("#SBATCH --array=1-4 --cpus-per-task=1 --time=")));
+  // A trial is not cut.
+  EXPECT_THAT(fathom_done({"estimate", "s.yaml", "--shards", "64"}).out,
+              AllOf(HasSubstr("in 10 shards, one for each trial"), HasSubstr("--array=1-10 ")));
   // One trial at the least, whatever the time.
   EXPECT_THAT(fathom_done({"estimate", "s.yaml", "--seconds", "0"}).out,
               HasSubstr("From 1 trial that was run here"));

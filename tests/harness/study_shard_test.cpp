@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "fathom/harness/manifest.hpp"
 #include "fathom/harness/study_run.hpp"
 #include "harness/small_study.hpp"
 #include "support/temporary_folder.hpp"
@@ -39,13 +40,19 @@ std::set<RunKey> runs_of_shard(const Study& study, const Shard& shard) {
   options.shard = shard;
   const StudyRun done = run_study(study, builtin_estimators(), store, options);
   EXPECT_TRUE(done.is_finished);
+  // What its manifest says of it.
+  const auto plan =
+      shard_plan(session_json(plan_of(study, shard, "fathom compare s.yaml"), 1)).value();
+  EXPECT_EQ(plan.command_line, "fathom compare s.yaml");
   std::set<RunKey> keys;
   std::size_t estimators = 0;
   for (const RunRecord& run : store.runs()) {
     keys.insert(run.key);
+    EXPECT_TRUE(plan.range.has(run.key)) << text_of(shard);
     if (run.key.estimator != kDeadReckoning) ++estimators;
   }
-  EXPECT_EQ(estimators, runs_of(study, shard));
+  EXPECT_EQ(estimators, plan.runs);
+  EXPECT_EQ(plan.range.count, plan.runs);  // there is one estimator
   // The example is that of the first trial of all, which one shard has.
   EXPECT_EQ(!done.example.empty(), keys.contains({0, 0, 0, "ekf"}));
   return keys;
@@ -75,7 +82,7 @@ TEST(StudyShard, AreOfLikeCost) {
   // has its half of the cost, to within one trial of the dearest.
   std::vector<double> costs;
   for (const std::size_t index : {1u, 2u, 3u}) {
-    costs.push_back(static_cast<double>(runs_of(many, {index, 3})));
+    costs.push_back(static_cast<double>(plan_of(many, {index, 3}, "").runs));
   }
   EXPECT_EQ(costs[0] + costs[1] + costs[2], 900.0);
   // The order is cell by cell: 300 of the cheap, 300 of the middle, 300 of the dear. These have

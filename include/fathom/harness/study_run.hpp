@@ -62,8 +62,8 @@ Fingerprint data_of(const Study& study);
 /// Trials of all cells and surveys.
 std::size_t trials_in_all(const Study& study);
 
-/// Runs of estimators that are a shard's, done or not.
-std::size_t runs_of(const Study& study, const Shard& shard);
+/// What is a shard's, done or not.
+ShardPlan plan_of(const Study& study, const Shard& shard, const std::string& command_line);
 
 /// Jobs that can be at work: no more than there are trials.
 int jobs_of(const Study& study);

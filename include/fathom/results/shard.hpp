@@ -3,6 +3,9 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <vector>
+
+#include "fathom/results/result_store.hpp"
 
 namespace fathom {
 
@@ -21,15 +24,29 @@ Shard parse_shard(const std::string& text);
 /// "3/7".
 std::string text_of(const Shard& shard);
 
+/// Which trials of a study are a shard's: so many of the order in which shards are cut, survey by
+/// survey, in each the cells by their places, and trial by trial.
+struct ShardRange {
+  std::size_t surveys = 0;          ///< of the study that was cut
+  std::size_t trials = 0;           ///< likewise, of a survey
+  std::vector<std::size_t> places;  ///< by cell
+  std::size_t first = 0;
+  std::size_t count = 0;
+
+  bool has(const RunKey& run) const;
+};
+
 /// What a session of a study was to do, as its manifest says: `command_line` and
-/// `shard: {index, of, runs}`.
+/// `shard: {index, of, runs, surveys, trials, places, first, count}`.
 struct ShardPlan {
   Shard shard;
   std::size_t runs = 0;      ///< of estimators, in the whole shard
   std::string command_line;  ///< as command_line_of
+  ShardRange range = {};
 };
 
-/// Nothing where the session was not one of a shard, or the manifest is not one.
+/// Nothing where the session was not one of a shard, or the manifest is not one: of no such part,
+/// as parse_shard has it.
 std::optional<ShardPlan> shard_plan(const std::string& manifest);
 
 /// What was typed to begin a session, fit to be typed again: a manifest may be anybody's, so it is

@@ -35,7 +35,7 @@ struct CompareRequest {
 
 struct CompareOutcome {
   bool is_finished = false;  ///< false where it was stopped before the end
-  std::size_t runs = 0;      ///< that are stored
+  std::size_t runs = 0;      ///< of estimators that are stored; of a finished shard its own
   /// Whether each estimator has a run that can be used.
   bool all_usable = false;
   std::vector<ExampleRun> example;  ///< as in StudyRun

@@ -10,6 +10,7 @@ namespace fathom::workflow {
 struct Demand {
   double registrations_h = 0.0;  ///< processor hours
   double runs_h = 0.0;           ///< likewise
+  double longest_trial_h = 0.0;  ///< of the trials that were run: no shard has less than one
   double store_mib = 0.0;
   double cache_mib = 0.0;
   double memory_mib = 0.0;         ///< of a job

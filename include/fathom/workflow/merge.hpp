@@ -11,10 +11,12 @@ namespace fathom::workflow {
 
 struct MergeOutcome {
   MergeSummary merged;
-  std::string table;  ///< of the study's estimators; empty where there are no runs
+  std::string table;        ///< of the study's estimators; empty where there are no runs
+  bool all_usable = false;  ///< whether each estimator has a run that can be used
 };
 
-/// Makes one study of its shards, with page and files, in the folder `out`. Throws InputError.
+/// Makes one study of its shards, with page and files, in the folder `out`, and says what looks
+/// wrong with its example. Throws InputError.
 MergeOutcome merge_studies(const std::vector<std::filesystem::path>& folders,
                            const std::filesystem::path& out, Observer& observer);
 
