@@ -73,6 +73,20 @@ TEST_F(Inputs, CompareKeepsItsConfigurationAndSaysSoAtOnce) {
   }
 }
 
+// A study of pictures with a mask has none of its own in its folder, and removes older ones.
+TEST_F(Inputs, CompareKeepsItsMask) {
+  write("c.yaml", kSmallSurvey);
+  fathom_done({"simulate", "c.yaml", "--out", "data"});
+  fs::create_directory(path("out"));
+  fs::copy(path("data/mav0/cam0/data/0.png"), path("out/mask.png"));
+  write("p.yaml", R"(
+dataset: {type: pictures, path: data/mav0/cam0/data, mask: out/mask.png, altitude_m: 2,
+          camera: {focal_px: 150}}
+estimators: [{type: ekf}]
+)");
+  expect_kept("out/mask.png", {"compare", "p.yaml", "--out", "out", "--no-cache"});
+}
+
 TEST_F(Inputs, RegisterKeepsItsPictures) {
   write("c.yaml", kSmallSurvey);
   fathom_done({"simulate", "c.yaml", "--out", "data"});

@@ -209,6 +209,10 @@ TEST_F(Shards, TwoOnOneFolderAreRefused) {
   });
   EXPECT_EQ(first.status, 130) << first.err;
   EXPECT_TRUE(is_tried);
+  // Both count runs of estimators.
+  const std::size_t at = first.err.find("stopped; ") + 9;
+  const std::string count = first.err.substr(at, first.err.find(" runs are in ", at) - at);
+  EXPECT_THAT(fathom_done({"status", folder(1, 1)}).out, HasSubstr("\n" + count + " of "));
 }
 
 TEST_F(Shards, WhatAStudyTakesIsEstimatedFromAFewTrials) {
