@@ -35,7 +35,8 @@ bool is_open_hole(const RelativePose& step) {
 AnchoredEstimator::AnchoredEstimator(const EstimatorSetup& setup, const MakeRelative& make)
     : relative_(make(at_zero(setup))),
       node_0_(setup.start.pose),
-      is_batch_(setup.mode == SolveMode::batch) {
+      is_batch_(setup.mode == SolveMode::batch),
+      is_frame_placed_(!is_batch_ || !setup.start.is_free) {
   stretches_.add_node(false);
   if (setup.start.is_fixed()) return;
   stretches_.add_node(false);
@@ -124,6 +125,17 @@ UpdateReport AnchoredEstimator::close_loops(std::span<const RelativePose> loops)
   return report;
 }
 
+// Nothing that was passed on says yet where it is.
+void AnchoredEstimator::place_frame(std::span<const AbsolutePose> absolute) {
+  for (const AbsolutePose& z : absolute) {
+    if (is_frame_placed_) return;
+    if (z.information.topLeftCorner<2, 2>().isZero(0.0) || !is_finite(z.pose)) continue;
+    node_0_.x = z.pose.x;
+    node_0_.y = z.pose.y;
+    is_frame_placed_ = true;
+  }
+}
+
 bool AnchoredEstimator::are_resolved_in_world(const Measurements& measurements) const {
   return are_resolved(*this, measurements.registrations) &&
          std::ranges::all_of(measurements.absolute, [&](const AbsolutePose& z) {
@@ -154,6 +166,7 @@ UpdateReport AnchoredEstimator::refused(const Measurements& measurements) const 
 }
 
 UpdateReport AnchoredEstimator::update(const Measurements& measurements) {
+  place_frame(measurements.absolute);
   const bool are_refused = !are_resolved_in_world(measurements);
   note_given(measurements, are_refused);
   if (are_refused) return refused(measurements);

@@ -71,7 +71,8 @@ using MakeRelative = std::function<std::unique_ptr<RelativeEstimator>(const Esti
 /// With a fixed start node k is keyframe k. An absolute measurement A of keyframe k is a loop from
 /// node 0 with Z = X_0⁻¹ A and the same Ω: the residual is the same. With an uncertain start node 0
 /// is a frame at the start's pose, known exactly, from which a step of no motion with the start's
-/// covariance leads to node 1, keyframe 0; with a free start that step is a hole.
+/// covariance leads to node 1, keyframe 0; with a free start that step is a hole, and in batch mode
+/// the frame is at the first position that is measured, which may be far from the start's pose.
 ///
 /// A measurement that the coordinates in the world do not resolve is lost (precision.hpp): its
 /// cost, which is that of these, would be rounding.
@@ -118,6 +119,7 @@ class AnchoredEstimator final : public Estimator {
   bool says_something(const AbsolutePose& z) const;
   RelativePose shifted(RelativePose z) const;
   RelativePose from_node_0(const AbsolutePose& z) const;
+  void place_frame(std::span<const AbsolutePose> absolute);
   bool are_resolved_in_world(const Measurements& measurements) const;
   void note_given(const Measurements& measurements, bool are_refused);
   UpdateReport refused(const Measurements& measurements) const;
@@ -130,6 +132,7 @@ class AnchoredEstimator final : public Estimator {
   std::unique_ptr<RelativeEstimator> relative_;
   Pose node_0_;
   bool is_batch_;
+  bool is_frame_placed_;  ///< where node 0 is in the world stays
   std::size_t shift_ = 0;
   Stretches stretches_;             ///< of nodes; not in batch
   std::vector<std::size_t> holes_;  ///< nodes after holes, rising; not in batch

@@ -72,6 +72,10 @@ void free_start(Subject& subject) {
         least_squares(log, 20, circle(log.size(), options.start.pose));
     expect_poses(estimator, expected.poses, 1e-6);
     expect_covariance("covariance(0)", covariance_of(estimator, 0), expected.marginal(0), 1e-4);
+    MeasurementLog far = moved(log, kFarWorld);
+    far.set_start(start);
+    expect_moved(subject.solved_in_batch(far, {}), subject.solved_in_batch(log, {}), kFarWorld,
+                 1e-6, 1e-5);
   }
 }
 
