@@ -8,7 +8,10 @@
 namespace fathom::test {
 namespace {
 
+using ::testing::Contains;
 using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 EstimatorResults overconfident(const std::string& name, HonestyCause cause, double figure) {
   EstimatorResults one = eight(name, kBest);
@@ -36,6 +39,19 @@ TEST(VerdictCauses, OneThatAllShareIsGivenOnce) {
               ElementsAre("Overconfident, where 1 is expected: a (ANEES 5.00) and b (ANEES 5.00). "
                           "F per degree of freedom is 2.0: covariances of the log are too small, "
                           "or loops are false."));
+}
+
+TEST(VerdictCauses, MeasurementsThatDoNotFitEachOtherAreADoubt) {
+  EstimatorResults one = eight("best", kBest);
+  one.consistency["registrations"].moments.mean = 100.0;
+  const auto with = [&](double chi2_optimum) {
+    one.consistency["chi2_optimum"].moments.mean = chi2_optimum;
+    return doubts_of_one(surveyed({one}));
+  };
+  EXPECT_THAT(with(9000.0), Contains(HasSubstr("F per degree of freedom is 30.0 at its best")));
+  EXPECT_THAT(with(899.0), Not(Contains(HasSubstr("do not fit"))));
+  one.consistency["degrees_of_freedom"].moments.mean = 1200.0;
+  EXPECT_THAT(with(6000.0), Contains(HasSubstr("F per degree of freedom is 5.00 at its best")));
 }
 
 }  // namespace

@@ -201,19 +201,6 @@ TEST(Verdict, FewLoopsAmongTheOverlappingPairsAreADoubt) {
   EXPECT_THAT(with(0.21, 3.0), Not(Contains(HasSubstr("overlap well"))));
 }
 
-TEST(Verdict, MeasurementsThatDoNotFitEachOtherAreADoubt) {
-  EstimatorResults one = eight("best", kBest);
-  one.consistency["registrations"].moments.mean = 100.0;
-  const auto with = [&](double chi2_optimum) {
-    one.consistency["chi2_optimum"].moments.mean = chi2_optimum;
-    return doubts_of_one(surveyed({one}));
-  };
-  EXPECT_THAT(with(9000.0), Contains(HasSubstr("F per degree of freedom is 30.0 at its best")));
-  EXPECT_THAT(with(899.0), Not(Contains(HasSubstr("do not fit"))));
-  one.consistency["degrees_of_freedom"].moments.mean = 1200.0;
-  EXPECT_THAT(with(6000.0), Contains(HasSubstr("F per degree of freedom is 5.00 at its best")));
-}
-
 TEST(Verdict, SeveralCellsAreSummedUp) {
   CellResults alike = surveyed({eight("best", kBest), eight("other", kAlike)});
   CellResults apart = surveyed({eight("best", kBest), eight("other", kWorse)});
