@@ -25,17 +25,12 @@ const std::string* machine_of(const EstimatorResults& estimator, const std::stri
   return is_cost_metric(metric) ? &estimator.cost_machine : nullptr;
 }
 
-// Every repeat of a cost is a measurement.
-std::string log_of(const RunRecord& run, const std::string& metric) {
-  return is_cost_metric(metric) ? "" : run.log_hash;
-}
-
 // Of all trials, or of these alone; nothing where none of them has the metric.
 std::optional<MetricSummary> summary_of(const EstimatorResults& estimator,
                                         const std::string& metric,
                                         const std::set<TrialKey>* trials = nullptr) {
   ClusteredValues values;
-  DistinctValues distinct;
+  DistinctValues distinct(metric);
   std::vector<double> all;
   const std::string* machine = machine_of(estimator, metric);
   for (const RunRecord& run : estimator.runs) {
@@ -43,7 +38,7 @@ std::optional<MetricSummary> summary_of(const EstimatorResults& estimator,
     if (is_failed(run) || !value) continue;
     if (trials != nullptr && !trials->contains(run.key.trial_key())) continue;
     values[run.key.survey].push_back(*value);
-    distinct.add(run.key.survey, log_of(run, metric), *value);
+    distinct.add(run, *value);
     all.push_back(*value);
   }
   if (values.empty()) return std::nullopt;
@@ -170,12 +165,12 @@ ClusteredValues differences_between(const EstimatorResults& one, const Estimator
   for (const RunRecord& run : other.runs) {
     if (!is_failed(run) && metric_of(run, metric, machine)) of_other[run.key.trial_key()] = &run;
   }
-  DistinctValues differences;
+  DistinctValues differences(metric);
   for (const RunRecord& run : one.runs) {
     const auto value = metric_of(run, metric, machine);
     const auto found = of_other.find(run.key.trial_key());
     if (is_failed(run) || !value || found == of_other.end()) continue;
-    differences.add(run.key.survey, log_of(run, metric) + log_of(*found->second, metric),
+    differences.add(run, *found->second,
                     *value - times * *metric_of(*found->second, metric, machine));
   }
   return differences.values();

@@ -17,23 +17,18 @@ bool is_of_other_machine(const Compared& compared, const RunRecord& run,
   return is_cost_metric(metric) && run.machine != compared.runs.cost_machine();
 }
 
-// Every repeat of a cost is a measurement.
-std::string log_of(const RunRecord& run, const std::string& metric) {
-  return is_cost_metric(metric) ? "" : run.log_hash;
-}
-
 // The values of one metric in a cell; nothing where a run that is done has none, or where no run is
 // done.
 std::optional<ClusteredValues> values_in(const Compared& compared, const std::string& estimator,
                                          std::size_t c, const std::vector<TrialKey>& trials,
                                          const std::string& metric) {
-  DistinctValues values;
+  DistinctValues values(metric);
   for (const TrialKey& trial : trials) {
     const RunRecord* run = done_run(compared, estimator, c, trial);
     if (run == nullptr || is_of_other_machine(compared, *run, metric)) continue;
     const auto value = value_of(compared, *run, metric);
     if (!value) return std::nullopt;
-    values.add(trial.survey, log_of(*run, metric), *value);
+    values.add(*run, *value);
   }
   if (values.values().empty()) return std::nullopt;
   return values.values();
@@ -149,17 +144,16 @@ std::optional<PairedDifference> difference_over(const Compared& compared, const 
                                                 const std::string& other, const std::string& metric,
                                                 const std::vector<std::vector<TrialKey>>& trials) {
   std::vector<ClusteredValues> cells;
-  DistinctValues pooled;
+  DistinctValues pooled(metric);
   PairedDifference difference;
   for (std::size_t c = 0; c < trials.size(); ++c) {
-    DistinctValues values;
+    DistinctValues values(metric);
     for (const TrialKey& trial : trials[c]) {
       const RunRecord& a = *done_run(compared, one, c, trial);
       const RunRecord& b = *done_run(compared, other, c, trial);
-      const std::string log = log_of(a, metric) + log_of(b, metric);
       const double value = *value_of(compared, a, metric) - *value_of(compared, b, metric);
-      values.add(trial.survey, log, value);
-      pooled.add(trial.survey, log, value);
+      values.add(a, b, value);
+      pooled.add(a, b, value);
     }
     difference.trials += trials[c].size();
     if (!values.values().empty()) cells.push_back(values.values());

@@ -49,23 +49,22 @@ def rare(work):
                    row["called equivalent, %"]] for row in rows])
 
 
+def _held(work, name, *sizes):
+    """How often an interval holds the mean: a row for each size, a column for each shape."""
+    rows = _rows(work, name)
+    held = {(row["errors"], *(row[size] for size in sizes)):
+            row["the 95 % interval holds the mean, %"] for row in rows}
+    kinds = dict.fromkeys(tuple(row[size] for size in sizes) for row in rows)
+    shapes = dict.fromkeys(row["errors"] for row in rows)
+    return table([*sizes, *shapes],
+                 [[*kind, *(held[(shape, *kind)] for shape in shapes)] for kind in kinds])
+
+
 @maker(PAGE, "errors-coverage", "slow", _how("coverage"), 15, **BENCH)
 def coverage(work):
-    rows = _rows(work, "coverage")
-    sizes = dict.fromkeys((row["surveys"], row["trials of each"]) for row in rows)
-    cells = {(row["errors"], row["surveys"], row["trials of each"]):
-             row["the 95 % interval holds the mean, %"] for row in rows}
-    shapes = dict.fromkeys(row["errors"] for row in rows)
-    return table(["surveys", "trials of each", *shapes],
-                 [[*size, *(cells[(shape, *size)] for shape in shapes)] for size in sizes])
+    return _held(work, "coverage", "surveys", "trials of each")
 
 
 @maker(PAGE, "errors-cells", "slow", _how("cells"), 15, **BENCH)
 def cells(work):
-    rows = _rows(work, "cells")
-    sizes = dict.fromkeys((row["cells"], row["trials of each"]) for row in rows)
-    held = {(row["errors"], row["cells"], row["trials of each"]):
-            row["the 95 % interval holds the mean, %"] for row in rows}
-    shapes = dict.fromkeys(row["errors"] for row in rows)
-    return table(["cells", "trials of each", *shapes],
-                 [[*size, *(held[(shape, *size)] for shape in shapes)] for size in sizes])
+    return _held(work, "cells", "cells", "trials of each")
