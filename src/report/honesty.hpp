@@ -16,7 +16,7 @@ enum class HonestyCause {
   off_the_optimum,      ///< the estimate is not where the measurements put it
   first_picture,        ///< with other keyframes held it is honest
   shared_errors,        ///< of registrations, which the estimator does not estimate
-  small_registrations,  ///< covariances of registrations are too small
+  small_registrations,  ///< covariances of registrations are too small, or loops are false
   linearisation,        ///< they are right, the estimator's own are too small
   misfit,               ///< covariances of the log are too small, or loops are false
   large_registrations   ///< covariances of registrations are too large

@@ -53,7 +53,8 @@ std::string cause_words(const EstimatorResults& one) {
       return shared_errors_words(*one.honesty, figure("chi2_per_dof"),
                                  figure("picture_error_correlation"));
     case HonestyCause::small_registrations:
-      return "The covariances of the registrations are too small: their mean NIS against truth "
+      return "The covariances of the registrations are too small, or some are wrong: their mean "
+             "NIS against truth "
              "is " +
              figure("mean_nis_truth") + ", where 3 is expected.";
     case HonestyCause::linearisation:

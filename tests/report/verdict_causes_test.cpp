@@ -29,7 +29,8 @@ TEST(VerdictCauses, EachIsThatOfItsEstimator) {
               ElementsAre("Overconfident, where 1 is expected: a (ANEES 5.00), b (ANEES 5.00) and "
                           "c (ANEES 5.00). a: F per degree of freedom is 2.0: covariances of the "
                           "log are too small, or loops are false. c: The covariances of the "
-                          "registrations are too small: their mean NIS against truth is 9.0, where "
+                          "registrations are too small, or some are wrong: their mean NIS against "
+                          "truth is 9.0, where "
                           "3 is expected."));
 }
 
