@@ -62,6 +62,18 @@ void tell_no_memory_from_crash(std::int64_t limit_bytes) {
   for (const int signal : {SIGSEGV, SIGBUS, SIGABRT}) ::sigaction(signal, &action, nullptr);
 }
 
+// The pipes may be anywhere, even where the standard descriptors belong. False with the errno of
+// what failed.
+bool has_streams(const ChildSide& side) {
+  const int messages = ::fcntl(side.messages, F_DUPFD, kMessages + 1);
+  if (messages < 0) return false;
+  const int printed = ::fcntl(side.printed, F_DUPFD, kMessages + 1);
+  if (printed < 0) return false;
+  const int null = ::open("/dev/null", O_RDONLY | O_CLOEXEC);
+  return null >= 0 && ::dup2(null, STDIN_FILENO) >= 0 && ::dup2(printed, STDOUT_FILENO) >= 0 &&
+         ::dup2(printed, STDERR_FILENO) >= 0 && ::dup3(messages, kMessages, O_CLOEXEC) >= 0;
+}
+
 [[noreturn]] void fail_by_environment(int messages, const char* what, int error) {
   MessagePipe(messages).send(kEnvironmentFault, EnvironmentError("isolation", what, error).what());
   ::_exit(0);
@@ -89,15 +101,11 @@ void be_child(const ChildSide& side, const ChildLimits& limits,
   sigset_t none;
   ::sigemptyset(&none);
   ::pthread_sigmask(SIG_SETMASK, &none, nullptr);
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, SIG_DFL);
-  // The pipes may be anywhere, even where the standard descriptors belong.
-  const int messages = ::fcntl(side.messages, F_DUPFD, kMessages + 1);
-  const int printed = ::fcntl(side.printed, F_DUPFD, kMessages + 1);
-  const int null = ::open("/dev/null", O_RDONLY);
-  const bool has_all = messages >= 0 && printed >= 0 && ::dup2(null, STDIN_FILENO) >= 0 &&
-                       ::dup2(printed, STDOUT_FILENO) >= 0 && ::dup2(printed, STDERR_FILENO) >= 0 &&
-                       ::dup3(messages, kMessages, O_CLOEXEC) >= 0;
-  if (!has_all) fail_by_environment(side.messages, "a run's process has no streams", errno);
+  // Whoever ends all processes of a job means the parent, which ends this one in its own time.
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, SIG_IGN);
+  if (!has_streams(side)) {
+    fail_by_environment(side.messages, "a run's process has no streams", errno);
+  }
   // The locks and files of the parent are not the child's to keep open.
   ::close_range(kMessages + 1, ~0U, 0);
   limit(RLIMIT_CORE, 0);

@@ -17,6 +17,8 @@
 #include "fathom/core/environment_error.hpp"
 #include "fathom/core/system.hpp"
 #include "last_lines.hpp"
+#include "processor_limit.hpp"
+#include "time_value.hpp"
 
 namespace fathom {
 namespace {
@@ -24,6 +26,24 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 36;
+
+// The time that this process was awake: what passes while it and the child are suspended is not the
+// child's, and a child that is not suspended with it may wait for it to take its result.
+class TimeAwake {
+ public:
+  // To be called more often than every 100 ms.
+  double seconds() {
+    constexpr std::chrono::duration<double> kLongestStep{0.1};
+    const auto now = Clock::now();
+    awake_ += std::min<std::chrono::duration<double>>(now - last_, kLongestStep);
+    last_ = now;
+    return awake_.count();
+  }
+
+ private:
+  Clock::time_point last_ = Clock::now();
+  std::chrono::duration<double> awake_{0.0};
+};
 
 struct Pipe {
   std::array<int, 2> ends{-1, -1};
@@ -94,18 +114,24 @@ class Child {
 
   ChildEnd reap() {
     int status = 0;
-    while (::waitpid(id_, &status, 0) < 0 && errno == EINTR) {
+    rusage used{};
+    while (::wait4(id_, &status, 0, &used) < 0 && errno == EINTR) {
     }
     is_reaped_ = true;
+    processor_s_ = seconds(used.ru_utime) + seconds(used.ru_stime);
     ChildEnd end;
     if (WIFEXITED(status)) end.exit_status = WEXITSTATUS(status);
     if (WIFSIGNALED(status)) end.signal = WTERMSIG(status);
     return end;
   }
 
+  /// After its end.
+  double processor_s() const { return processor_s_; }
+
  private:
   pid_t id_;
   bool is_reaped_ = false;
+  double processor_s_ = 0.0;
 };
 
 // Reads what has come; false at the end of the pipe.
@@ -121,7 +147,7 @@ bool read_some(int descriptor, Take take) {
 ChildEnd watch(Child& child, Pipe& messages, Pipe& printed, const ChildLimits& limits,
                const std::function<void(char, const std::string&)>& on_message) {
   constexpr int kLook_ms = 20;
-  const auto deadline = Clock::now() + std::chrono::duration<double>(limits.time_s);
+  TimeAwake awake;
   MessageReader reader(on_message);
   std::string kept;
   const auto keep = [&kept](const char* bytes, std::size_t count) {
@@ -145,7 +171,7 @@ ChildEnd watch(Child& child, Pipe& messages, Pipe& printed, const ChildLimits& l
     look_at = Clock::now() + std::chrono::milliseconds(kLook_ms);
     on_message(0, "");
     if (child.has_ended()) break;
-    if (Clock::now() < deadline) continue;
+    if (awake.seconds() < limits.time_s) continue;
     is_late = true;
     child.kill_group();
     while (!child.has_ended()) ::poll(nullptr, 0, 1);
@@ -199,6 +225,7 @@ ChildEnd run_child(const std::function<void(const MessagePipe&)>& action, const 
   });
   if (!fault.empty()) throw EnvironmentError(fault);
   if (end.exit_status == kCutMemoryStatus) throw memory_is_cut(limits);
+  if (!end.is_late) refuse_processor_limit(end.signal, child.processor_s());
   return end;
 }
 

@@ -15,6 +15,7 @@
 #include <unistd.h>
 
 #include "last_lines.hpp"
+#include "processor_limit.hpp"
 #include "program_start.hpp"
 #include "time_value.hpp"
 
@@ -122,7 +123,10 @@ bool Program::wait_ready(bool to_write) {
 
 void Program::send(std::string_view text) {
   while (!text.empty()) {
-    if (!wait_ready(true)) continue;
+    if (!wait_ready(true)) {
+      refuse_ended();
+      continue;
+    }
     const ssize_t count = write_without_signal(ends_[input], text);
     if (count < 0 && errno != EAGAIN && errno != EINTR) fail("reads no more");
     if (count > 0) text.remove_prefix(static_cast<std::size_t>(count));
@@ -140,8 +144,13 @@ std::string Program::next_line() {
     }
     if (output_.size() - read_ > kLongest) fail("prints a line without end");
     if (ends_[output] < 0) fail("ended, or closed its output");
-    wait_ready(false);
+    if (!wait_ready(false)) refuse_ended();
   }
+}
+
+void Program::refuse_ended() {
+  // What it has left running may hold its streams open.
+  if (has_ended() && !wait_ready(false)) fail("ended");
 }
 
 void Program::reap() {
@@ -189,6 +198,7 @@ void Program::fail(const std::string& why) {
   if (!is_reaped_) await_end();
   std::string text = "'" + name_ + "' " + why;
   if (is_reaped_ && WIFSIGNALED(status_)) {
+    refuse_processor_limit(WTERMSIG(status_), processor_s_);
     text += ": signal " + std::to_string(WTERMSIG(status_)) + " (" +
             ::strsignal(WTERMSIG(status_)) + ")";
   } else if (is_reaped_ && WEXITSTATUS(status_) != 0) {

@@ -168,15 +168,15 @@ class Runner {
 
   void add_run(const Task& task, std::size_t estimator, RecordedTrial& trial, MemoryMeter* meter) {
     const Configuration& configuration = study_.cells[task.cell];
-    EvaluationOptions asked =
-        evaluation_options(configuration, configuration.estimators[estimator]);
+    const EstimatorConfiguration& own = configuration.estimators[estimator];
+    EvaluationOptions asked = evaluation_options(configuration, own);
     asked.memory = meter;
-    asked.progress = watch_.over_run(configuration.estimators[estimator].name + " at keyframe");
-    Result result =
-        evaluate(*trial.recording, configuration.estimators[estimator], registry_,
-                 {.metrics = configuration.study.evaluation, .facts = &trial.facts}, asked);
+    asked.progress = watch_.over_run(own.name + " at keyframe");
+    const JudgeOptions judging{.metrics = configuration.study.evaluation, .facts = &trial.facts};
+    Result result = evaluate(*trial.recording, own, registry_, judging, asked);
+    watch_.require_own_end(result);
     RunRecord run = run_record(*trial.recording, result, trial.facts.log_hash);
-    run.key = task.run_of(configuration.estimators[estimator].name);
+    run.key = task.run_of(own.name);
     run.jobs = static_cast<int>(threads_);
     store_->add(run);
     watch_.run_done(estimator, trial.lap_s(), !result.is_done());

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "fathom/harness/isolated_replay.hpp"
+
 namespace fathom {
 
 StudyWatch::StudyWatch(const StudyRunOptions& options, std::size_t done, std::size_t of,
@@ -23,6 +25,10 @@ void StudyWatch::say() {
   progress_.left_s = left ? std::optional(left->seconds) : std::nullopt;
   progress_.left_is_least = left && left->is_least;
   if (options_.progress) options_.progress(progress_);
+}
+
+void StudyWatch::require_own_end(const Result& result) const {
+  if (is_stopped() && end_of_process(name_of(result.run.outcome))) throw Stopped{};
 }
 
 void StudyWatch::run_done(std::size_t estimator, double seconds, bool is_failed) {

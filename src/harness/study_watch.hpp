@@ -5,6 +5,7 @@
 #include <mutex>
 #include <string>
 
+#include "fathom/harness/result.hpp"
 #include "fathom/harness/study_run.hpp"
 #include "study_pace.hpp"
 
@@ -26,6 +27,10 @@ class StudyWatch {
 
   /// One thread cannot go on, so that the study will not be finished: the others are stopped, too.
   void end() { is_ended_ = true; }
+
+  /// To be asked before a run is stored. Throws Stopped where its process, or the program that it
+  /// called, was lost once a stop was asked for: the same signal may have ended it.
+  void require_own_end(const Result& result) const;
 
   /// A run that took so long, with what was computed for it alone.
   void run_done(std::size_t estimator, double seconds, bool is_failed);

@@ -88,7 +88,7 @@ inline const std::vector<ThirdParty>& third_parties() {
         "src/core/program.cpp"}},
       {"sys/resource.h",
        {"benchmarks/", "src/core/child_side.cpp", "src/core/forked_child.cpp",
-        "src/core/program.cpp", "src/core/system.cpp"}},
+        "src/core/processor_limit.hpp", "src/core/program.cpp", "src/core/system.cpp"}},
       {"unistd.h",
        {"benchmarks/", "src/core/child_side.cpp", "src/core/files.cpp", "src/core/file_lock.cpp",
         "src/core/forked_child.cpp", "src/core/program.cpp", "src/core/program_start.cpp",

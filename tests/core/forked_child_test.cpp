@@ -1,6 +1,13 @@
 #include "fathom/core/forked_child.hpp"
 
+#include <chrono>
+#include <csignal>
+#include <fcntl.h>
 #include <string>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <thread>
+#include <unistd.h>
 
 #include <gmock/gmock.h>
 
@@ -53,6 +60,76 @@ TEST(ForkedChild, WithoutDescriptorsItIsNotBegun) {
     said = error.what();
   }
   EXPECT_THAT(said, HasSubstr("Too many open files"));
+}
+
+TEST(ForkedChild, WithoutADescriptorForItsStreamsItSaysSo) {
+  const int next = ::fcntl(0, F_DUPFD, 3);
+  ::close(next);
+  std::string said;
+  {
+    const test::FewDescriptors two_pipes(static_cast<rlim_t>(next) + 4);
+    said = environment_fault_of([](const MessagePipe&) {});
+  }
+  EXPECT_THAT(said, HasSubstr("no streams: Too many open files"));
+}
+
+// Whoever signals all processes of a job means the one that waits.
+TEST(ForkedChild, LeavesARequestToStopToItsParent) {
+  std::string heard;
+  const auto be_asked = [](const MessagePipe& parent) {
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) ::kill(::getpid(), signal);
+    parent.send('a', "goes on");
+  };
+  EXPECT_EQ(environment_fault_of(be_asked, &heard), "none");
+  EXPECT_EQ(heard, "goes on");
+}
+
+// In a process of its own.
+template <class Action>
+pid_t forked(const Action& action) {
+  const pid_t id = ::fork();
+  if (id == 0) ::_exit(action());
+  return id;
+}
+
+int status_of(pid_t id) {
+  int status = 0;
+  ::waitpid(id, &status, 0);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+// As Ctrl-Z stops it: the child works on, and waits for it to take what it sends.
+TEST(ForkedChild, IsNotLateWhereItsParentWasSuspended) {
+  using namespace std::chrono_literals;
+  const pid_t parent = forked([] {
+    std::size_t heard = 0;
+    const ChildEnd end = run_child(
+        [](const MessagePipe& to) {
+          std::this_thread::sleep_for(300ms);
+          to.send('a', std::string(1 << 20, 'x'));
+        },
+        {1.0, std::int64_t{1} << 32},
+        [&heard](char, const std::string& text) { heard += text.size(); });
+    return end.is_late || heard != 1 << 20 ? 1 : 0;
+  });
+  std::this_thread::sleep_for(100ms);
+  ::kill(parent, SIGSTOP);
+  std::this_thread::sleep_for(1500ms);
+  ::kill(parent, SIGCONT);
+  EXPECT_EQ(status_of(parent), 0);
+}
+
+// The limit was the system's.
+TEST(ForkedChild, AtTheSystemsLimitOfProcessorTimeItIsNoResult) {
+  const pid_t parent = forked([] {
+    const rlimit second{1, 1};
+    ::setrlimit(RLIMIT_CPU, &second);
+    const std::string fault = environment_fault_of([](const MessagePipe&) {
+      for (volatile int turns = 0; true;) turns = turns ^ 1;
+    });
+    return fault.find("'ulimit -t' gives a process 1 s") == std::string::npos ? 1 : 0;
+  });
+  EXPECT_EQ(status_of(parent), 0);
 }
 
 }  // namespace

@@ -58,6 +58,19 @@ TEST(Program, SaysHowItEndedAndWhatItPrintedLast) {
               HasSubstr("a line without end"));
 }
 
+// The end is its own, whatever it has left running.
+TEST(Program, ThatLeavesAnotherWithItsStreamsHasEnded) {
+  EXPECT_THAT(failure_of([] {
+                Program({"sh", "-c", "sleep 30 & exit 3"}).next_line();
+              }),
+              HasSubstr("ended: status 3"));
+  EXPECT_THAT(failure_of([] {
+                Program program({"sh", "-c", "exec 3<&0; sleep 30 <&3 & exit 3"});
+                for (int i = 0; i < 10; ++i) program.send(std::string(100'000, 'x'));
+              }),
+              HasSubstr("ended: status 3"));
+}
+
 // Without a signal to this process.
 TEST(Program, OneThatReadsNoMoreIsAFailure) {
   EXPECT_THAT(failure_of([] {

@@ -13,6 +13,7 @@
 #include "configuration/settings_of.hpp"
 #include "fathom/configuration/study.hpp"
 #include "fathom/core/environment_error.hpp"
+#include "fathom/core/program.hpp"
 #include "fathom/core/system.hpp"
 #include "fathom/estimators/builtin.hpp"
 #include "fathom/harness/study_run.hpp"
@@ -78,6 +79,25 @@ TEST(StudyStop, LeavesAReplayAtItsNextKeyframe) {
   EXPECT_TRUE(run_study(study, registry, store, options).is_finished);
   EXPECT_GT(added, 10u);
   EXPECT_THAT(store.runs(), SizeIs(3));
+}
+
+// A signal to all processes of a job ends the program of an estimator, too.
+TEST(StudyStop, ARunThatIsLostByItIsNotStored) {
+  Script script;
+  std::atomic<bool> stop = false;
+  script.spoil_report = [&](UpdateReport&) {
+    if (!is_estimating(script)) return;
+    stop = true;
+    throw ProgramFailure("'solver' ended: signal 15 (Terminated)");
+  };
+  const EstimatorRegistry registry = registry_of(script);
+  const Study study = study_of(registry, kLog);
+  const test::TemporaryFolder folder;
+  ResultStore store = ResultStore::write(folder.path(), study.description, "{}");
+  StudyRunOptions options;
+  options.stop = &stop;
+  EXPECT_FALSE(run_study(study, registry, store, options).is_finished);
+  EXPECT_THAT(store.runs(), SizeIs(2));  // dead reckoning and the filter
 }
 
 // One of two trials meets a fault; the other would take a minute.

@@ -60,6 +60,8 @@ class Program {
   void take(Stream stream);
   /// It has ended; its status is not taken.
   bool has_ended() const;
+  /// Fails where it has ended and nothing more comes.
+  void refuse_ended();
   /// Where it may be about to end, and to say why: reads on, and takes its status if it comes soon.
   void await_end();
   [[noreturn]] void fail(const std::string& why);
