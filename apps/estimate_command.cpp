@@ -58,7 +58,7 @@ void estimate(const EstimateFlags& flags) {
   const workflow::Demand demand = workflow::estimate(
       settings, flags.seconds, flags.common.estimators(), this_program(), terminal);
   terminal.clear();
-  print_demand(demand, flags.shards);
+  if (!flags.common.quiet) print_demand(demand, flags.shards);
 }
 
 }  // namespace

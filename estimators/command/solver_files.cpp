@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
-#include <cstdlib>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
@@ -12,7 +11,6 @@
 #include "fathom/core/environment_error.hpp"
 #include "fathom/core/files.hpp"
 #include "fathom/core/program.hpp"
-#include "fathom/core/system.hpp"
 #include "fathom/core/text.hpp"
 #include "fathom/geometry/trajectory_file.hpp"
 
@@ -20,36 +18,6 @@ namespace fathom::command {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr std::string_view kFolder = "fathom-command-";
-
-// A process that was killed has left its folder.
-void remove_folders_of_the_dead(const fs::path& place) {
-  std::error_code ignored;
-  for (const fs::directory_entry& entry : fs::directory_iterator(place, ignored)) {
-    const std::string name = entry.path().filename().string();
-    if (!name.starts_with(kFolder)) continue;
-    const std::size_t end = name.rfind('-');
-    if (end > kFolder.size() && is_mark_of_dead(name.substr(kFolder.size(), end - kFolder.size())))
-      fs::remove_all(entry, ignored);
-  }
-}
-
-fs::path new_folder() {
-  std::error_code error;
-  const fs::path place = fs::temp_directory_path(error);
-  if (error) {
-    const char* const given = std::getenv("TMPDIR");
-    throw EnvironmentError(std::string("TMPDIR=") + (given == nullptr ? "" : given),
-                           "is no folder for the program's files: " + error.message());
-  }
-  remove_folders_of_the_dead(place);
-  fs::path folder =
-      place / (std::string(kFolder) + process_mark() + "-" + unique_word().substr(0, 8));
-  fs::create_directory(folder, error);
-  if (error) throw EnvironmentError(folder.string(), "cannot be made: " + error.message());
-  return folder;
-}
 
 // Read at once, and then forgotten: it need not be on a disk.
 void put(const fs::path& path, const std::string& text) {
@@ -137,15 +105,10 @@ std::vector<Pose> poses_in(const std::string& text, std::size_t count) {
   return is_g2o ? vertices : lines;
 }
 
-SolverFiles::~SolverFiles() {
-  std::error_code ignored;
-  if (!folder_.empty()) fs::remove_all(folder_, ignored);
-}
-
 std::vector<Pose> SolverFiles::call(const ProgramGraph& graph, double& processor_s,
                                     std::int64_t& peak_bytes) {
-  const std::string input = (folder_ / "input.g2o").string();
-  const std::string output = (folder_ / "output").string();
+  const std::string input = (folder_->path() / "input.g2o").string();
+  const std::string output = (folder_->path() / "output").string();
   std::error_code is_not_there;
   fs::remove(output, is_not_there);
   const std::string text = to_text(graph);
@@ -166,7 +129,7 @@ std::vector<Pose> SolverFiles::call(const ProgramGraph& graph, double& processor
     return poses_in(read_file(output), graph.poses.size());
   } catch (const std::runtime_error&) {
     // Where no more room is left than it found it is not to blame.
-    put(folder_ / "room", text);
+    put(folder_->path() / "room", text);
     throw;
   }
 }
@@ -192,7 +155,7 @@ void SolverFiles::measure_start_up(const ProgramGraph& graph) {
 
 std::vector<Pose> SolverFiles::solve(const ProgramGraph& graph) {
   ForProgram work;
-  if (folder_.empty()) folder_ = new_folder();
+  if (!folder_) folder_.emplace("fathom-command");
   measure_start_up(graph);
   double processor_s = 0.0;
   std::int64_t peak_bytes = 0;

@@ -1,11 +1,11 @@
 #pragma once
 
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "estimators/command/program_graph.hpp"
+#include "fathom/core/work_folder.hpp"
 
 namespace fathom::command {
 
@@ -15,9 +15,6 @@ class SolverFiles {
  public:
   /// Words of the command; `{input}` and `{output}` in them stand for the files.
   explicit SolverFiles(std::vector<std::string> words) : words_(std::move(words)) {}
-  ~SolverFiles();
-  SolverFiles(const SolverFiles&) = delete;
-  SolverFiles& operator=(const SolverFiles&) = delete;
 
   /// The poses of all nodes as the program has them. Throws ProgramFailure where it does not end
   /// well, std::runtime_error where what it wrote is no such file, EnvironmentError where the
@@ -29,7 +26,7 @@ class SolverFiles {
   void measure_start_up(const ProgramGraph& graph);
 
   std::vector<std::string> words_;
-  std::filesystem::path folder_;
+  std::optional<WorkFolder> folder_;
   std::optional<double> start_up_s_;
 };
 

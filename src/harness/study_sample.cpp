@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "fathom/core/system.hpp"
+#include "fathom/core/work_folder.hpp"
 #include "fathom/front_end/registration_store.hpp"
 #include "fathom/harness/study_run.hpp"
 #include "fathom/harness/survey.hpp"
@@ -23,26 +24,6 @@ double mib_of(const fs::path& file) {
   const auto size = fs::file_size(file, error);
   return error ? 0.0 : static_cast<double>(size) / 1048576.0;
 }
-
-/// A folder that is there as long as this is.
-class TemporaryFolder {
- public:
-  TemporaryFolder()
-      : path_(fs::temp_directory_path() / ("fathom-estimate-" + std::to_string(process_number()))) {
-    fs::create_directories(path_);
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
 
 std::vector<SampledPictures> groups_of(const Study& study) {
   std::map<std::string, std::size_t> places;
@@ -102,7 +83,7 @@ class Sampler {
 
   const Study& study_;
   const EstimatorRegistry& registry_;
-  TemporaryFolder folder_;
+  WorkFolder folder_{"fathom-estimate"};
   RegistrationStore cache_;
   ResultStore store_;
   StudyRunOptions options_;

@@ -4,6 +4,7 @@
 
 #include <opencv2/core/utility.hpp>
 
+#include "fathom/core/work_folder.hpp"
 #include "fathom/harness/frame_remarks.hpp"
 #include "fathom/harness/ground_truth.hpp"
 #include "fathom/harness/loop_remarks.hpp"
@@ -84,7 +85,7 @@ class Comparison {
   CompareOutcome shard() {
     const ShardPlan plan = plan_of(study_, *request_.shard, request_.made_by);
     ScratchStore store(request_.out,
-                       request_.scratch.empty() ? fs::temp_directory_path() : request_.scratch,
+                       request_.scratch.empty() ? temporary_place() : request_.scratch,
                        study_.description, session_json(plan, options_.jobs));
     const auto heard = options_.progress;
     options_.progress = [&store, &heard](const StudyProgress& at) {

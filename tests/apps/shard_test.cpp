@@ -229,7 +229,12 @@ TEST_F(Shards, WhatAStudyTakesIsEstimatedFromAFewTrials) {
   // One trial at the least, whatever the time.
   EXPECT_THAT(fathom_done({"estimate", "s.yaml", "--seconds", "0"}).out,
               HasSubstr("From 1 trial that was run here"));
+  EXPECT_EQ(fathom_done({"estimate", "s.yaml", "--seconds", "0", "--quiet"}).out, "");
   EXPECT_EQ(tree(), std::set<std::string>{"s.yaml"});
+  // No folder for temporary files is a fault that has a name.
+  surroundings_.environment["TMPDIR"] = "/nonexistent";
+  EXPECT_THAT(refusal({"compare", "s.yaml", "--shard", "1/2", "--out", "part"}),
+              StartsWith("shard 1/2: TMPDIR=/nonexistent: is no folder"));
 }
 
 }  // namespace
