@@ -65,7 +65,22 @@ bool changes_within(const fs::path& file, const std::string& content,
   return false;
 }
 
-InputError is_held(const fs::path& file, const Claimant& who) {
+// That its number runs says little: it may be another process's by now.
+bool is_alive(const fs::path& file, const std::string& content, std::chrono::milliseconds wait) {
+  return !content.empty() && !is_dead(claimant_of(content)) && changes_within(file, content, wait);
+}
+
+// So long a claim is looked at that is not to be taken over.
+std::chrono::milliseconds look_of(const ClaimTimes& times) {
+  return times.beat + times.beat / 2;
+}
+
+InputError is_held(const fs::path& file, const std::string& content) {
+  const Claimant who = claimant_of(content);
+  if (content.empty()) {
+    return InputError(file.parent_path().string() +
+                      ": another process has taken it over, and ended; run the same command again");
+  }
   return InputError(file.parent_path().string() + ": process " + std::to_string(who.process) +
                     " on " + who.host + " is at work on it; wait for it, or use another --out");
 }
@@ -74,11 +89,8 @@ InputError is_held(const fs::path& file, const Claimant& who) {
 
 FolderClaim::FolderClaim(const fs::path& folder, ClaimTimes times)
     : file_(folder / kFile), times_(times), token_(new_token()) {
-  if (const std::string there = content_of(file_); !there.empty()) {
-    const Claimant who = claimant_of(there);
-    // That its number runs says little: it may be another process's by now.
-    if (!is_dead(who) && changes_within(file_, there, times_.patience)) throw is_held(file_, who);
-  }
+  const std::string there = content_of(file_);
+  if (is_alive(file_, there, times_.patience)) throw is_held(file_, there);
   remove_abandoned(folder);
   write(token_ + " 0\n");
   // Of two that come at once the later one stands in the file.
@@ -101,7 +113,7 @@ FolderClaim::~FolderClaim() {
 void FolderClaim::require_held() const {
   const std::string there = content_of(file_);
   if (there.starts_with(token_)) return;
-  throw is_held(file_, claimant_of(there));
+  throw is_held(file_, there);
 }
 
 void FolderClaim::beat() {
@@ -124,10 +136,14 @@ void FolderClaim::write(const std::string& text) const {
 ClaimHolder FolderClaim::holder_of(const fs::path& folder, ClaimTimes times) {
   const fs::path file = folder / kFile;
   const std::string there = content_of(file);
-  if (there.empty()) return {};
   const Claimant who = claimant_of(there);
-  const bool is_alive = !is_dead(who) && changes_within(file, there, times.beat + times.beat / 2);
-  return {who.host, who.process, is_alive};
+  return {who.host, who.process, is_alive(file, there, look_of(times))};
+}
+
+void FolderClaim::require_free(const fs::path& folder, ClaimTimes times) {
+  const fs::path file = folder / kFile;
+  const std::string there = content_of(file);
+  if (is_alive(file, there, look_of(times))) throw is_held(file, there);
 }
 
 }  // namespace fathom

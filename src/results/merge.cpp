@@ -9,6 +9,7 @@
 
 #include "fathom/core/file_lock.hpp"
 #include "fathom/core/files.hpp"
+#include "fathom/core/folder_claim.hpp"
 #include "fathom/core/input_error.hpp"
 #include "fathom/core/text.hpp"
 #include "fathom/evaluation/metrics.hpp"
@@ -205,6 +206,7 @@ std::set<std::string> machines_of(const std::vector<Source>& sources) {
 MergeSummary merge_stores(const std::vector<fs::path>& folders, const fs::path& out) {
   if (folders.empty()) throw InputError("merge: no folder of a shard was given");
   StagedFolder staged(out);
+  const FolderClaim claim(staged.target());
   settle_store(staged.target());
   const FileLock lock(staged.target() / "results.lock",
                       out.string() + ": another process is at work on it; use another --out");

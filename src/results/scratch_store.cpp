@@ -48,6 +48,29 @@ void remove_store(const fs::path& folder) {
   }
 }
 
+// A copy of a store that has its place yet to take, or goes.
+class PartOfStore {
+ public:
+  explicit PartOfStore(const fs::path& folder)
+      : file_(folder / (std::string(kResultsFile) + ".part")) {
+    remove();
+  }
+  ~PartOfStore() { remove(); }
+  PartOfStore(const PartOfStore&) = delete;
+  PartOfStore& operator=(const PartOfStore&) = delete;
+
+  const fs::path& file() const { return file_; }
+
+ private:
+  void remove() const {
+    std::error_code ignored;
+    fs::remove(file_, ignored);
+    fs::remove(file_.string() + "-journal", ignored);
+  }
+
+  fs::path file_;
+};
+
 }  // namespace
 
 ScratchStore::ScratchStore(const fs::path& folder, const fs::path& scratch,
@@ -101,21 +124,18 @@ ScratchStore::~ScratchStore() {
 void ScratchStore::publish() {
   const auto start = Clock::now();
   claim_.require_held();
-  const fs::path part = folder_ / (std::string(kResultsFile) + ".part");
+  const PartOfStore part(folder_);
   std::error_code error;
-  fs::remove(part, error);
   try {
-    store_->copy_to(part);
-    sync_to_disk(part);
+    store_->copy_to(part.file());
+    sync_to_disk(part.file());
   } catch (const InputError&) {
-    fs::remove(part, error);
-    fs::remove(part.string() + "-journal", error);
     throw InputError(folder_.string(),
                      "cannot be written, or its disk is full; what is done is in " +
                          scratch_.string() + ": make room and run the same command again");
   }
   settle_store(folder_);
-  fs::rename(part, folder_ / kResultsFile, error);
+  fs::rename(part.file(), folder_ / kResultsFile, error);
   if (error) throw InputError(folder_.string(), "cannot be written: " + error.message());
   published_ = Clock::now();
   took_ = published_ - start;

@@ -2,14 +2,25 @@
 
 #include <system_error>
 
+#include "fathom/core/folder_claim.hpp"
 #include "fathom/core/input_error.hpp"
 
 namespace fathom {
 namespace fs = std::filesystem;
 
+namespace {
+
+// A shard has no lock in its folder, but a claim.
+const fs::path& unclaimed(const fs::path& folder) {
+  FolderClaim::require_free(folder);
+  return folder;
+}
+
+}  // namespace
+
 StoreFolder::StoreFolder(const fs::path& folder, const StudyDescription& study,
                          const std::string& manifest)
-    : folder_(folder),
+    : folder_(unclaimed(folder)),
       is_new_folder_(!fs::exists(folder)),
       is_new_(!fs::exists(folder / kResultsFile)),
       store_(ResultStore::write(folder, study, manifest)) {}

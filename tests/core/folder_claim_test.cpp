@@ -96,6 +96,10 @@ TEST(FolderClaim, OfALivingMachineIsRefused) {
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(), HasSubstr("process 1 on elsewhere is at work on it"));
   }
+  EXPECT_THROW(FolderClaim::require_free(folder.path(), kQuick), InputError);
+  beats.request_stop();
+  beats.join();
+  FolderClaim::require_free(folder.path(), kQuick);
 }
 
 // One that slept while another took over must not write there any more.
@@ -106,6 +110,14 @@ TEST(FolderClaim, SaysWhenItIsLost) {
   EXPECT_THROW(claim.require_held(), InputError);
   std::this_thread::sleep_for(60ms);
   EXPECT_THAT(read_file(folder.path() / "results.owner"), HasSubstr("elsewhere"));
+  // The other has ended.
+  std::filesystem::remove(folder.path() / "results.owner");
+  try {
+    claim.require_held();
+    FAIL() << "held";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("another process has taken it over, and ended"));
+  }
 }
 
 }  // namespace

@@ -12,6 +12,8 @@
 
 #include "fathom/core/files.hpp"
 #include "fathom/core/input_error.hpp"
+#include "fathom/results/merge.hpp"
+#include "fathom/results/store_folder.hpp"
 #include "results/stored_runs.hpp"
 #include "support/killed_process.hpp"
 #include "support/temporary_folder.hpp"
@@ -146,6 +148,29 @@ TEST_F(Scratch, OfAnotherStudyOnTheDiskIsNotTaken) {
 TEST_F(Scratch, TwoOnOneFolderAreRefused) {
   const auto one = open();
   EXPECT_THROW(open(), InputError);
+}
+
+TEST_F(Scratch, KeepsOutWhoeverWouldWriteThereInAnotherWay) {
+  { open()->store().add(record(0, 0, "plain")); }
+  const auto shard = open();
+  const auto expect_refusal = [](const auto& action) {
+    try {
+      action();
+      FAIL() << "not refused";
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), HasSubstr("process " + std::to_string(::getpid()) + " on "));
+    }
+  };
+  expect_refusal([&] { merge_stores({out()}, out()); });
+  expect_refusal([&] { const StoreFolder undivided(out(), description(), "{}"); });
+}
+
+// One that came in spite of the claim.
+TEST_F(Scratch, LeavesNoPartWhereAnUndividedRunIsInItsWay) {
+  auto scratch = open();
+  const ResultStore undivided = ResultStore::write(out(), description(), "{}");
+  EXPECT_THROW(scratch->publish(), InputError);
+  EXPECT_FALSE(fs::exists(out() / "results.sqlite.part"));
 }
 
 TEST_F(Scratch, WritesNothingMoreWhereAnotherMachineTookOver) {

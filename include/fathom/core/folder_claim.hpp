@@ -43,6 +43,10 @@ class FolderClaim {
   /// see whether it lives.
   static ClaimHolder holder_of(const std::filesystem::path& folder, ClaimTimes times = {});
 
+  /// For one that keeps others out in another way. Throws InputError where somebody who lives holds
+  /// the folder.
+  static void require_free(const std::filesystem::path& folder, ClaimTimes times = {});
+
  private:
   void beat();
   void write(const std::string& text) const;
