@@ -58,7 +58,7 @@ Notes convert_graph_file(const ConvertFlags& flags) {
   refuse_flags_of_trajectories(flags);
   const GraphFormat to = flags.to == "g2o" ? GraphFormat::g2o : GraphFormat::toro;
   const ConvertedGraph graph = convert_graph(read_text(flags.input), flags.input, to, flags.graph);
-  write_file(flags.out, graph.text);
+  write_file(output_file(flags.out), graph.text);
   Notes notes{fmt::format("{} vertices, {} edges", graph.vertices, graph.edges)};
   for (const auto& [tag, count] : graph.left_out) {
     notes.push_back(
@@ -120,15 +120,18 @@ Notes convert_trajectory_file(const ConvertFlags& flags) {
                           title_of(trajectory.format), title_of(to))};
   add_what_is_lost(flags, trajectory, to, notes);
   if (!flags.trajectory.plane.empty()) flatten(trajectory, flags.trajectory.plane, notes);
-  write_file(flags.out, to_text(trajectory.poses, to));
-  if (!flags.times_out.empty()) write_file(flags.times_out, times_text(trajectory.poses));
+  write_file(output_file(flags.out), to_text(trajectory.poses, to));
+  if (!flags.times_out.empty()) {
+    write_file(output_file(flags.times_out), times_text(trajectory.poses));
+  }
   return notes;
 }
 
 void convert(const ConvertFlags& flags, Context& context) {
   const bool to_graph = flags.to == "g2o" || flags.to == "toro";
   for (const std::string& output : {flags.out, flags.times_out}) {
-    if (!output.empty()) refuse_replacing(output, {flags.input, flags.trajectory.times});
+    if (output.empty()) continue;
+    refuse_replacing(output_file(output), {flags.input, flags.trajectory.times});
   }
   const auto whole = [](const std::string& path) {
     std::error_code ignored;

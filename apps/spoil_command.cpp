@@ -45,7 +45,7 @@ void spoil_graph(const SpoilFlags& flags, Context& context) {
   const std::string list =
       std::filesystem::path(flags.out).replace_extension(".false_loops.csv").string();
   for (const std::string& output : {flags.out, list}) {
-    refuse_replacing(output, {flags.graph, flags.ground_truth});
+    refuse_replacing(output_file(output), {flags.graph, flags.ground_truth});
   }
   Recording recording = record_graph(flags.graph, flags.reading);
   if (options.share > 0.0 && recording.log.registration_count() == 0) {
@@ -56,8 +56,8 @@ void spoil_graph(const SpoilFlags& flags, Context& context) {
   const std::vector<Pose> reference = reference_poses(recording, context.estimators().registry());
   const Spoiled spoiled =
       spoil(recording.log, reference, options, static_cast<std::uint64_t>(flags.seed));
-  write_graph(flags.out, spoiled.log);
-  write_file(list, false_loops_csv(spoiled));
+  write_graph(output_file(flags.out), spoiled.log);
+  write_file(output_file(list), false_loops_csv(spoiled));
   context.status = kDone;
   if (flags.quiet) return;
   const std::size_t all = spoiled.log.registration_count();

@@ -63,6 +63,12 @@ bool is_staged(const fs::path& path) {
                      [](const fs::path& name) { return name.string().starts_with(kPartial); });
 }
 
+// A folder is refused by the system.
+void refuse_device(const fs::path& path, const fs::file_status& there) {
+  if (!fs::is_other(there)) return;
+  throw InputError(path.string(), "is a device or a pipe, not a file");
+}
+
 }  // namespace
 
 std::string read_file(const fs::path& path, std::size_t most_bytes) {
@@ -114,13 +120,21 @@ void refuse_replacing(const fs::path& output, const std::vector<fs::path>& input
   }
 }
 
+fs::path output_file(const fs::path& path) {
+  std::error_code error;
+  refuse_device(path, fs::status(path, error));
+  return fs::is_symlink(fs::symlink_status(path, error)) ? fs::weakly_canonical(path) : path;
+}
+
 void write_file(const fs::path& path, std::string_view content) {
+  std::error_code error;
+  refuse_device(path, fs::symlink_status(path, error));
   const fs::path partial = path.string() + std::string(kPartial) + process_mark();
   const bool is_awaited = !is_staged(path);
   if (!put(partial, content, is_awaited) || ::rename(partial.c_str(), path.c_str()) != 0) {
-    const int error = errno;
+    const int fault = errno;
     ::unlink(partial.c_str());
-    throw EnvironmentError(path.string(), "cannot be written", error);
+    throw EnvironmentError(path.string(), "cannot be written", fault);
   }
   if (is_awaited) sync_to_disk(path.has_parent_path() ? path.parent_path() : ".");
 }

@@ -1,5 +1,7 @@
 // convert: trajectories and graphs in another format.
 
+#include <sys/stat.h>
+
 #include <gmock/gmock.h>
 
 #include "apps/commands.hpp"
@@ -93,6 +95,9 @@ TEST_F(Commands, ConvertRefusesWhatItCannotDo) {
   EXPECT_THAT(refused("t.csv", "tum", {"--times", "k.txt"}), HasSubstr("has times of its own"));
   EXPECT_THAT(refused("t.csv", "kitti", {"--times-out", "out"}), HasSubstr("the same file"));
   EXPECT_THAT(refusal({"convert", "t.csv", "--to", "tum", "--out", "t.csv"}), HasSubstr("t.csv"));
+  ASSERT_EQ(::mkfifo(path("pipe").c_str(), 0600), 0);
+  EXPECT_THAT(refusal({"convert", "t.csv", "--to", "tum", "--out", "pipe"}),
+              HasSubstr("pipe: is a device or a pipe, not a file"));
   EXPECT_THAT(refusal({"convert", "t.csv", "--to", "toto", "--out", "o"}), HasSubstr("--to"));
   EXPECT_THAT(refusal({"convert", "t.csv", "--out", "o"}), HasSubstr("'--to' is missing: "));
 }

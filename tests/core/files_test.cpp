@@ -4,6 +4,7 @@
 #include <fstream>
 #include <iterator>
 #include <string>
+#include <sys/stat.h>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -74,6 +75,29 @@ TEST_F(Files, AFailedWriteLeavesNothingAndNamesTheFile) {
   EXPECT_THAT(input_error_of([&] { write_file(folder_ / "taken", "x"); }),
               HasSubstr("taken: cannot be written"));
   EXPECT_THAT(entries(folder_.path()), UnorderedElementsAre("taken", "taken/by a folder"));
+}
+
+TEST_F(Files, WhatIsNoFileIsNotReplacedByOne) {
+  const fs::path pipe = folder_ / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_THAT(input_error_of([&] { write_file(pipe, "x"); }), HasSubstr("a device or a pipe"));
+  EXPECT_TRUE(fs::is_fifo(pipe));
+  const fs::path link = folder_ / "link";
+  fs::create_symlink("pipe", link);
+  EXPECT_THAT(input_error_of([&] { output_file(link); }), HasSubstr("link: is a device or a pipe"));
+  EXPECT_EQ(output_file(folder_ / "new"), folder_ / "new");
+}
+
+// The name may be given on purpose; one that lies in a folder of results is nobody's wish.
+TEST_F(Files, ALinkThatIsNamedStays) {
+  put(folder_ / "file", "before");
+  fs::create_symlink("file", folder_ / "link");
+  write_file(output_file(folder_ / "link"), "after");
+  EXPECT_TRUE(fs::is_symlink(folder_ / "link"));
+  EXPECT_EQ(content_of(folder_ / "file"), "after");
+  write_file(folder_ / "link", "itself");
+  EXPECT_FALSE(fs::is_symlink(folder_ / "link"));
+  EXPECT_EQ(content_of(folder_ / "file"), "after");
 }
 
 TEST_F(Files, StagedFolderAppearsOnCommit) {

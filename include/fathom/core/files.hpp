@@ -23,8 +23,13 @@ std::string read_text(const std::filesystem::path& path, std::size_t most_bytes 
 void refuse_replacing(const std::filesystem::path& output,
                       const std::vector<std::filesystem::path>& inputs);
 
-/// Writes a whole file or nothing: into a neighbour first, then renamed. It is on its disk when
-/// this returns; below a StagedFolder, when that is committed. Throws EnvironmentError.
+/// The file to write for an output that a person named: what a symbolic link leads to, so that the
+/// link stays. Throws InputError where it is a device or a pipe.
+std::filesystem::path output_file(const std::filesystem::path& path);
+
+/// Writes a whole file or nothing: into a neighbour first, then renamed, so that a symbolic link of
+/// the name is replaced. It is on its disk when this returns; below a StagedFolder, when that is
+/// committed. Throws EnvironmentError, and InputError where a device or a pipe has the name.
 void write_file(const std::filesystem::path& path, std::string_view content);
 
 /// An output folder that appears whole or not at all. Files are written below `path()`; `commit`
