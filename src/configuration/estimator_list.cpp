@@ -124,6 +124,9 @@ EstimatorConfiguration configure_estimator(const Settings& settings,
   if (estimator.name == kGroundTruth || estimator.name == kAutomatic) {
     refuse_name(estimator.name + " is a word of association.reference");
   }
+  if (estimator.name == "figures" || estimator.name == "batch_optimum") {
+    refuse_name(estimator.name + " is a folder of a report or of a run; give another one");
+  }
   if (is_word_of_javascript(estimator.name)) {
     refuse_name(estimator.name + " means something to the page of a report; give another one");
   }

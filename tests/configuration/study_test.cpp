@@ -182,7 +182,9 @@ TEST(ConfigureStudy, RefusesWhatIsNoSweep) {
       {"estimators: [{type: ekf, name: dead_reckoning}]\n", "is the baseline of every table"},
       {"estimators: [{type: ekf, name: __proto__}]\n",
        "estimators.0.name: __proto__ means something to the page of a report"},
-      {"estimators: [{type: ekf, name: constructor}]\n", "give another one"}};
+      {"estimators: [{type: ekf, name: constructor}]\n", "give another one"},
+      {"estimators: [{type: ekf, name: figures}]\n", "figures is a folder of a report"},
+      {"estimators: [{type: ekf, name: batch_optimum}]\n", "batch_optimum is a folder of"}};
   for (const auto& [text, message] : cases)
     EXPECT_THAT(refusal_of_study(text), HasSubstr(message)) << text;
 }
