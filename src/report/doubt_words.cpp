@@ -145,6 +145,17 @@ std::string words(const SeveralJobs& found) {
          " jobs at a time; they are comparable at 1 alone.";
 }
 
+std::string words(const BusyMachine& found) {
+  return fmt::format(
+      "Of the time of {} {}{} % was processor time: the machine was busy with something else; "
+      "times are comparable where nothing else runs.",
+      listed(found.estimators), found.estimators.size() == 1 ? "" : "as little as ",
+      format_number(100.0 * found.share, 2));
+}
+std::string general(const BusyMachine&) {
+  return "the machine was busy with something else, and times are not comparable";
+}
+
 std::string words(const SeveralMachines& found) {
   return found.machines;
 }

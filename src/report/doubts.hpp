@@ -83,6 +83,11 @@ struct ContenderSelects {
 struct SeveralJobs {
   std::set<int> jobs;
 };
+/// Much of the time of estimators was none of a processor.
+struct BusyMachine {
+  double share = 1.0;  ///< of processor time, the least of them
+  std::vector<std::string> estimators;
+};
 struct SeveralMachines {
   std::string machines;  ///< machines_text
 };
@@ -93,7 +98,7 @@ using Doubt = std::variant<doubt::SingleTrial, doubt::OneResult, doubt::FewTrial
                            doubt::FewSurveys, doubt::BaselineAsGood, doubt::WrongConfidence,
                            doubt::Correlation, doubt::OffTheOptimum, doubt::WithoutLoops,
                            doubt::FewLoops, doubt::Misfit, doubt::ContenderSelects,
-                           doubt::SeveralJobs, doubt::SeveralMachines>;
+                           doubt::SeveralJobs, doubt::BusyMachine, doubt::SeveralMachines>;
 
 /// Of one cell, with its figures: sentences.
 std::string words_of(const Doubt& doubt);

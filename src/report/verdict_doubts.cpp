@@ -113,6 +113,21 @@ std::optional<Doubt> misfit(const CellResults& cell) {
   return doubt::Misfit{*per_degree};
 }
 
+// An estimator waits for nothing but a processor.
+std::optional<Doubt> busy_machine(const CellResults& cell) {
+  constexpr double kLeastShare = 0.8;
+  doubt::BusyMachine found;
+  for (const EstimatorResults& one : cell.estimators) {
+    const auto processor_ms = finite_mean_of(one, "cpu_ms");
+    const auto total_ms = finite_mean_of(one, "total_ms");
+    if (!processor_ms || !total_ms || *processor_ms >= kLeastShare * *total_ms) continue;
+    found.share = std::min(found.share, *processor_ms / *total_ms);
+    found.estimators.push_back(one.name);
+  }
+  if (found.estimators.empty()) return std::nullopt;
+  return found;
+}
+
 // Over the trials that both did.
 std::optional<Doubt> baseline_as_good(const CellResults& cell, const Ranking& ranking) {
   const auto of = [&cell](const std::string& name) {
@@ -150,6 +165,7 @@ std::vector<Doubt> doubts_of(const CellResults& cell, const CellVerdict& verdict
   if (cell.contender_selects) add(doubt::ContenderSelects{cell.selected_by});
   if (!verdict.cost.empty()) {
     if (!cell.jobs.empty() && *cell.jobs.rbegin() > 1) add(doubt::SeveralJobs{cell.jobs});
+    add(busy_machine(cell));
     if (!cell.machines.empty()) add(doubt::SeveralMachines{cell.machines});
   }
   return doubts;

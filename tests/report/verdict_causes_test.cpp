@@ -1,4 +1,4 @@
-// Why estimators are overconfident, where several are.
+// Doubts by figures of runs, and why estimators are overconfident, where several are.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,6 +11,7 @@ namespace {
 using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 using ::testing::Not;
 
 EstimatorResults overconfident(const std::string& name, HonestyCause cause, double figure) {
@@ -53,6 +54,17 @@ TEST(VerdictCauses, MeasurementsThatDoNotFitEachOtherAreADoubt) {
   EXPECT_THAT(with(899.0), Not(Contains(HasSubstr("do not fit"))));
   one.consistency["degrees_of_freedom"].moments.mean = 1200.0;
   EXPECT_THAT(with(6000.0), Contains(HasSubstr("F per degree of freedom is 5.00 at its best")));
+}
+
+TEST(VerdictCauses, TimeThatIsNotOfAProcessorIsADoubt) {
+  EstimatorResults busy = eight("busy", kBest, 8.0);
+  EstimatorResults idle = eight("idle", kAlike, 4.0);
+  for (RunRecord& run : busy.runs) run.metrics["cpu_ms"] = 0.5 * run.metrics.at("total_ms");
+  for (RunRecord& run : idle.runs) run.metrics["cpu_ms"] = 0.9 * run.metrics.at("total_ms");
+  EXPECT_THAT(doubts_of_one(surveyed({busy, idle})),
+              ElementsAre("Of the time of busy 50 % was processor time: the machine was busy with "
+                          "something else; times are comparable where nothing else runs."));
+  EXPECT_THAT(doubts_of_one(surveyed({idle, eight("best", kBest, 8.0)})), IsEmpty());
 }
 
 }  // namespace
