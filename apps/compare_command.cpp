@@ -66,8 +66,12 @@ void run_study(const CompareFlags& flags, const workflow::CompareRequest& reques
   terminal.clear();
   const std::string store = (request.out / kResultsFile).string();
   if (!done.is_finished) {
-    print_error("fathom: stopped; %zu runs are in %s. The same command goes on from there.\n",
-                done.runs, store.c_str());
+    if (done.runs == 0) {
+      print_error("fathom: stopped before a run was stored.\n");
+    } else {
+      print_error("fathom: stopped; %zu runs are in %s. The same command goes on from there.\n",
+                  done.runs, store.c_str());
+    }
     context.status = kStopped;
     return;
   }

@@ -1,5 +1,6 @@
 // The command line. Every command is a file of its own; input errors become one line and status 2.
 
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -64,6 +65,8 @@ int status_of_output(int status) {
 
 int main_function(int argc, char** argv) {
   end_when_out_of_memory();
+  // A file that may not grow further is an error of the write, as a full disk is.
+  std::signal(SIGXFSZ, SIG_IGN);
   pin_threads();
   keep_free_memory();
   silence_ceres();

@@ -67,8 +67,9 @@ MergedRegistrations merge_registrations(const std::vector<fs::path>& folders, co
           if (!(*there == value)) {
             throw InputError(folder.string(),
                              "has another registration of a pair of pictures than the caches "
-                             "before it; the same pair gives the same registration: find out "
-                             "which one is wrong and make it again");
+                             "before it; the same pair gives the same registration on "
+                             "processors of one kind: find out which one is wrong, or made by "
+                             "another kind, and make it again");
           }
           ++merged.repeated;
           continue;

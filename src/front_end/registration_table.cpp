@@ -24,7 +24,8 @@ constexpr int kFeatureSchemaVersion = 1;
 // Immutable: without locks, which a file system of several machines may not have. Not so where a
 // process left its log of changes beside the file.
 std::string uri_of(const fs::path& path) {
-  std::string uri = "file:";
+  // Behind two slashes a host would be expected.
+  std::string uri = path.string().starts_with("//") ? "file://" : "file:";
   for (const char letter : path.string()) {
     char code[4];
     std::snprintf(code, sizeof code, "%%%02X", static_cast<unsigned char>(letter));

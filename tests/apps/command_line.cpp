@@ -41,6 +41,7 @@ namespace fs = std::filesystem;
   };
   bound(RLIMIT_AS, surroundings.address_space_bytes);
   bound(RLIMIT_CPU, surroundings.processor_s);
+  bound(RLIMIT_FSIZE, surroundings.file_bytes);
   if (::chdir(folder.c_str()) == 0 && ::dup2(out_file, 1) == 1 && ::dup2(err_file, 2) == 2) {
     ::execv(surroundings.program.c_str(), argv.data());
   }

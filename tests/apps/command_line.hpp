@@ -32,6 +32,7 @@ struct Surroundings {
   std::string standard_output;                     ///< a file in place of what `Ended` holds
   std::size_t address_space_bytes = 0;             ///< at most; 0: no bound
   unsigned processor_s = 0;                        ///< likewise
+  std::size_t file_bytes = 0;                      ///< of a file, likewise
 };
 
 /// Runs the real program in a new folder of the test's own.

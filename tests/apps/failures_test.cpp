@@ -1,5 +1,7 @@
 // Whatever fails, the program ends, with one line and another status than 0.
 
+#include <csignal>
+
 #include <gmock/gmock.h>
 
 #include "apps/command_line.hpp"
@@ -73,6 +75,31 @@ TEST_F(Failures, LostOutputIsNoSuccess) {
     EXPECT_EQ(ended.status, 2) << command[0];
     expect_one_line(ended);
   }
+}
+
+// `ulimit -f`: the write fails, and no signal ends the program with its lock in place.
+TEST_F(Failures, AFileThatMayNotGrowIsAFailedWrite) {
+  write("log.yaml",
+        "dataset: {type: simulated_log, mission: {legs: 2}}\nestimators: [{type: ekf}]\n"
+        "trials: 20\n");
+  surroundings_.file_bytes = std::size_t{128} << 10U;
+  const Ended ended = fathom({"compare", "log.yaml", "--out", "out"});
+  EXPECT_EQ(ended.status, 2);
+  expect_one_line(ended);
+  EXPECT_FALSE(tree().contains("out/results.lock"));
+}
+
+TEST_F(Failures, AStudyThatIsStoppedBeforeItsFirstRunNamesNoStore) {
+  write("s.yaml", std::string(kSmallSurvey) + "estimators: [{type: ekf}]\n");
+  bool is_asked = false;
+  const Ended ended = fathom({"compare", "s.yaml", "--out", "out"}, [&](pid_t id) {
+    if (is_asked || !tree().contains("out/results.sqlite")) return;
+    is_asked = true;
+    ::kill(id, SIGTERM);
+  });
+  EXPECT_EQ(ended.status, 130);
+  EXPECT_THAT(ended.err, ::testing::EndsWith("fathom: stopped before a run was stored.\n"));
+  EXPECT_EQ(tree(), std::set<std::string>{"s.yaml"});
 }
 
 TEST_F(Failures, AnEmptyNameIsNoDefault) {

@@ -84,6 +84,7 @@ TEST(RegistrationStore, AMergeIntoTheCacheOfAKilledProcessHasAll) {
   EXPECT_EQ(merge_registrations({folder / "one"}, folder / "all").count, 800u);
   EXPECT_FALSE(std::filesystem::exists(folder / "all" / "registrations.sqlite-wal"));
   EXPECT_EQ(RegistrationStore::read_only(folder / "all")->all().size(), 800u);
+  EXPECT_EQ(RegistrationStore::read_only("/" + (folder / "all").string())->all().size(), 800u);
   EXPECT_EQ(cache_content(folder / "all").registrations, 800u);
   // One that is in use is left as it is.
   RegistrationStore in_use(folder / "all");
