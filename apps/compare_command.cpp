@@ -66,11 +66,11 @@ void run_study(const CompareFlags& flags, const workflow::CompareRequest& reques
   terminal.clear();
   const std::string store = (request.out / kResultsFile).string();
   if (!done.is_finished) {
-    if (done.runs == 0) {
-      print_error("fathom: stopped before a run was stored.\n");
-    } else {
+    if (fs::exists(store)) {
       print_error("fathom: stopped; %zu runs are in %s. The same command goes on from there.\n",
                   done.runs, store.c_str());
+    } else {
+      print_error("fathom: stopped before a run was stored.\n");
     }
     context.status = kStopped;
     return;
