@@ -43,7 +43,7 @@ std::optional<MapFit> map_fit(const MeasurementLog& log, std::span<const Pose> e
   fit.registration_sigma_m = std::sqrt((variances.x() + variances.y()) / count);
   fit.registration_sigma_rad = std::sqrt(variances.z() / count);
   fit.absolute_at_optimum = absolute_chi2(log, optimum.poses);
-  fit.unknowns = 3.0 * static_cast<double>(log.size() - (log.start().is_fixed() ? 1 : 0));
+  fit.unknowns = determined_unknowns(log);
   return fit;
 }
 

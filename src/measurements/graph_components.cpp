@@ -1,12 +1,11 @@
 #include "graph_components.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <fmt/format.h>
 #include <set>
 
 #include "fathom/core/disjoint_sets.hpp"
-#include "fathom/geometry/covariance.hpp"
+#include "rigid_rank.hpp"
 
 namespace fathom {
 namespace {
@@ -46,43 +45,6 @@ std::vector<Pose> chained_poses(const G2oFile& file, const KeyframeOf& keyframe_
   return poses;
 }
 
-// A prior and the place of its keyframe in its set.
-struct Held {
-  Eigen::Vector2d at;
-  Eigen::Matrix3d information;  ///< world axes
-};
-
-Held held(const G2oFile::Prior& prior, const Pose& at) {
-  return {at.position(), transport(planar_rotation(prior.pose.theta), prior.information)};
-}
-
-// Whether priors leave no motion of a rigid set open. A turn by φ about their middle c moves a pose
-// at p by φ J (p − c), so that N = Σ Gᵀ Ω G with G = [I  J (p − c); 0 1] must have full rank.
-bool do_hold(const std::vector<Held>& priors) {
-  double weights = 0.0;
-  Eigen::Vector2d middle = Eigen::Vector2d::Zero();
-  double reach_m = 0.0;
-  for (const Held& prior : priors) {
-    const double weight = prior.information.topLeftCorner<2, 2>().trace();
-    weights += weight;
-    middle += weight * prior.at;
-    reach_m = std::max(reach_m, prior.at.norm());
-  }
-  if (!(weights > 0.0)) return false;
-  middle /= weights;
-  Eigen::Matrix3d N = Eigen::Matrix3d::Zero();
-  for (const Held& prior : priors) {
-    const Eigen::Vector2d arm = prior.at - middle;
-    Eigen::Matrix3d G = Eigen::Matrix3d::Identity();
-    G.topRightCorner<2, 1>() = Eigen::Vector2d(-arm.y(), arm.x());
-    N += transport(G.transpose(), prior.information);
-  }
-  // What the rounding of positions alone would make.
-  constexpr double kRounding = 1e-12;
-  const double least = kRounding * kRounding * weights * reach_m * reach_m;
-  return N(2, 2) > least && is_positive_definite(N);
-}
-
 // The sets of the vertices that are fixed, by their roots, that of the lowest id first.
 std::vector<std::size_t> fixed_sets(const G2oFile& file, const KeyframeOf& keyframe_of,
                                     DisjointSets& sets) {
@@ -104,13 +66,13 @@ std::set<std::size_t> placed_sets(const G2oFile& file, const KeyframeOf& keyfram
   std::set<std::size_t> roots;
   if (file.priors.empty()) return roots;
   const std::vector<Pose> poses = chained_poses(file, keyframe_of);
-  std::map<std::size_t, std::vector<Held>> priors_of;
+  std::map<std::size_t, std::vector<HeldPose>> held;
   for (const G2oFile::Prior& prior : file.priors) {
     const std::size_t k = keyframe_of.at(prior.id);
-    priors_of[sets.root(k)].push_back(held(prior, poses[k]));
+    held[sets.root(k)].emplace_back(AbsolutePose{k, prior.pose, prior.information}, poses[k]);
   }
-  for (const auto& [root, priors] : priors_of) {
-    if (do_hold(priors)) roots.insert(root);
+  for (const auto& [root, poses_of_set] : held) {
+    if (rank_of_motions(poses_of_set) == 3) roots.insert(root);
   }
   return roots;
 }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cassert>
 
-#include "fathom/geometry/covariance.hpp"
 #include "fathom/geometry/trajectory.hpp"
 
 namespace fathom {
@@ -79,17 +78,6 @@ double chi2(const MeasurementLog& log, std::span<const Pose> trajectory) {
     }
   }
   return sum;
-}
-
-// Keyframes take three each, a measured step gives them back, as an uncertain start does.
-double degrees_of_freedom(const MeasurementLog& log) {
-  double degrees = 3.0 * static_cast<double>(log.registration_count());
-  degrees -= 3.0 * static_cast<double>(log.hole_count());
-  if (log.start().is_free) degrees -= 3.0;
-  for (std::size_t k = 0; k < log.size(); ++k) {
-    for (const AbsolutePose& z : log.arrival(k).absolute) degrees += rows_of(z.information).rank;
-  }
-  return degrees;
 }
 
 double absolute_chi2(const MeasurementLog& log, std::span<const Pose> trajectory) {

@@ -20,7 +20,7 @@ struct MapFit {
   double steps_at_optimum = 0.0;         ///< the part of it that is of dead reckoning
   double absolute_at_optimum = 0.0;      ///< the part that is of absolute measurements
   double degrees_of_freedom = 0.0;       ///< of the optimum (degrees_of_freedom)
-  double unknowns = 0.0;                 ///< three a keyframe but the first, if it is fixed
+  double unknowns = 0.0;                 ///< that are determined (determined_unknowns)
   /// Of registrations at the optimum: root mean squares of their residuals, and of what their
   /// covariances say.
   double registration_rms_m = 0.0;
@@ -47,7 +47,7 @@ struct MapFit {
   }
 };
 
-/// Nothing without registrations, or with more holes than they fill.
+/// Nothing without registrations, or where nothing contradicts anything.
 std::optional<MapFit> map_fit(const MeasurementLog& log, std::span<const Pose> estimate,
                               const BatchOptimum& optimum, const Run* run = nullptr);
 

@@ -97,9 +97,8 @@ std::vector<Metric> honesty_metrics() {
        "of it the estimator estimates; 0 expected",
        picture_error_correlation},
       {"chi2_per_dof", "F per degree of freedom", "", Better::neither,
-       "F over its degrees of freedom, three a registration, the rank of each absolute "
-       "measurement, less three a hole and a free start; 1 expected at the optimum, below: "
-       "covariances are too large, or errors are shared and cancel",
+       "F over its degrees of freedom, the rows of its residual less the rank of their Jacobian; 1 "
+       "expected at the optimum, below: covariances are too large, or errors are shared and cancel",
        chi2_per_dof},
   };
 }
