@@ -175,8 +175,8 @@ void sum_up_ground_truth(const FrameSource& source, FolderSummary& summary) {
       (known == 0 ? "none" : fmt::format("{} of {} frames", known, source.size())));
   if (known > 0 && known < source.size()) {
     summary.warnings.emplace_back(
-        "ground truth does not cover every frame, so no accuracy is "
-        "computed from it");
+        "ground truth does not cover every frame: accuracy is computed from it "
+        "only where every keyframe has it");
   }
 }
 

@@ -1,7 +1,10 @@
 #include "fathom/harness/frame_remarks.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <fmt/format.h>
+#include <iterator>
+#include <vector>
 
 #include "fathom/core/text.hpp"
 #include "fathom/vision/camera.hpp"
@@ -41,6 +44,22 @@ std::optional<std::string> frame_remark(const Recording& recording) {
       "{}, t = {} s): dead reckoning alone says where they are; more keyframes would correct them "
       "(front_end.keyframes), or an altitude that is right",
       count, recording.frames.size(), first, seconds_text(recording.frames[first].time_ns));
+}
+
+std::optional<std::string> truth_remark(const Recording& recording) {
+  const std::vector<StampedPose>& truth = recording.frame_ground_truth;
+  if (recording.ground_truth || truth.empty()) return std::nullopt;
+  std::vector<std::int64_t> without;
+  std::ranges::copy_if(
+      recording.keyframe_times_ns, std::back_inserter(without), [&truth](std::int64_t time_ns) {
+        return !std::ranges::binary_search(truth, time_ns, {}, &StampedPose::time_ns);
+      });
+  if (without.empty()) return std::nullopt;
+  return fmt::format(
+      "ground truth is missing at {} of {} keyframes (the first at t = {} s), so no error is "
+      "computed; 'fathom evaluate trajectory.tum ground_truth.tum' in a run's folder compares the "
+      "others",
+      without.size(), recording.keyframe_times_ns.size(), seconds_text(without.front()));
 }
 
 }  // namespace fathom

@@ -146,6 +146,7 @@ class Comparison {
     add(recording.remarks);
     add(loop_remarks(recording, cell.front_end, example.result.run.trajectory));
     if (const auto remark = frame_remark(recording)) add({*remark});
+    if (const auto remark = truth_remark(recording)) add({*remark});
     for (const ExampleRun& one : done.example) {
       const std::string& fault = one.result.run.fault;
       if (!fault.empty()) add({one.result.estimator.name + ": " + fault});

@@ -1,6 +1,7 @@
 #include "fathom/workflow/result_table.hpp"
 
 #include <cmath>
+#include <fmt/format.h>
 #include <map>
 
 #include "fathom/report/table.hpp"
@@ -35,6 +36,13 @@ constexpr Column kColumns[] = {
     {"total (ms)", "total_ms", 4},
     {"memory (KiB)", "memory_bytes", 0}};
 
+// Of all frames only where all have ground truth.
+std::string heading_of(const Column& column, const Recording& recording) {
+  const std::size_t known = recording.frame_ground_truth.size();
+  if (!column.needs_frames || known == recording.frames.size()) return column.heading;
+  return fmt::format("of {} of {} frames (m)", known, recording.frames.size());
+}
+
 std::string cell_of(const Column& column, const std::map<std::string, double>& metrics) {
   const auto found = metrics.find(column.metric);
   if (found == metrics.end()) return "-";
@@ -54,7 +62,7 @@ std::string result_table(const Recording& recording, const std::vector<Result>& 
     columns.push_back(column);
   }
   std::vector<std::string> header{"", "outcome"};
-  for (const Column& column : columns) header.emplace_back(column.heading);
+  for (const Column& column : columns) header.push_back(heading_of(column, recording));
   Table table(header);
   const auto add_row = [&](const std::string& name, const std::string& outcome,
                            const std::map<std::string, double>& metrics) {

@@ -98,6 +98,7 @@ class OneRun {
     std::ranges::copy(loop_remarks(*recording_, configuration_.front_end, estimate),
                       std::back_inserter(remarks));
     if (auto remark = frame_remark(*recording_)) remarks.push_back(std::move(*remark));
+    if (auto remark = truth_remark(*recording_)) remarks.push_back(std::move(*remark));
     const auto optimum = batch_optimum(recording_->log, registry_, {}, done.result.run.errors);
     const auto fit =
         optimum ? map_fit(recording_->log, estimate, *optimum, &done.result.run) : std::nullopt;

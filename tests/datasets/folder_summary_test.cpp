@@ -86,7 +86,7 @@ TEST(FolderSummary, WithoutOdometryOrTruth) {
   const FolderSummary summary = summarise_frames(ImageFolder(fixture.write()));
   EXPECT_THAT(summary.facts, Contains("odometry: none"));
   EXPECT_THAT(summary.facts, Contains("ground truth: 2 of 3 frames"));
-  EXPECT_THAT(summary.warnings, Contains(HasSubstr("ground truth does not cover every frame")));
+  EXPECT_THAT(summary.warnings, Contains(HasSubstr("only where every keyframe has it")));
 }
 
 TEST(FolderSummary, RealPicturesRaiseNoWarning) {

@@ -42,6 +42,20 @@ TEST(FrameRemarks, BehindTheLastKeyframeAndBetweenTwo) {
   EXPECT_THAT(frame_remark(ahead(7, {0, 6})).value(), HasSubstr("3 of 7 frames"));
 }
 
+TEST(FrameRemarks, KeyframesWithoutGroundTruth) {
+  Recording recording = ahead(10, {0, 3, 6});
+  for (const std::size_t frame : {0U, 3U, 6U}) {
+    recording.keyframe_times_ns.push_back(recording.frames[frame].time_ns);
+  }
+  EXPECT_FALSE(truth_remark(recording));
+  recording.frame_ground_truth = {{0, {}}, {500'000'000, {}}, {3'000'000'000, {}}};
+  EXPECT_THAT(truth_remark(recording).value(),
+              AllOf(HasSubstr("missing at 1 of 3 keyframes (the first at t = 1.5"),
+                    HasSubstr("no error is computed")));
+  recording.ground_truth = std::vector<Pose>(3);
+  EXPECT_FALSE(truth_remark(recording));
+}
+
 // From 50 m up keyframe 1 would see all of them.
 TEST(FrameRemarks, ALargeAltitudeDoesNotReachFurther) {
   Recording recording = ahead(10, {0, 3});

@@ -12,4 +12,7 @@ namespace fathom {
 /// are. Nothing where there are none, or no pictures.
 std::optional<std::string> frame_remark(const Recording& recording);
 
+/// How many keyframes have no ground truth, where some frames have: no error is computed then.
+std::optional<std::string> truth_remark(const Recording& recording);
+
 }  // namespace fathom
