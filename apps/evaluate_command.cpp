@@ -99,6 +99,7 @@ std::vector<StampedPose> stamps_of(const SpatialTrajectory& trajectory) {
 struct Paired {
   std::vector<StampedSpatialPose> estimate;
   std::vector<StampedSpatialPose> reference;
+  std::vector<std::size_t> indices;  ///< in the estimate
 };
 
 Paired paired(const EvaluateFlags& flags, const SpatialTrajectory& estimate,
@@ -109,6 +110,7 @@ Paired paired(const EvaluateFlags& flags, const SpatialTrajectory& estimate,
   for (const auto& [e, r] : pairs) {
     result.estimate.push_back(estimate.poses[e]);
     result.reference.push_back(reference.poses[r]);
+    result.indices.push_back(e);
   }
   return result;
 }
@@ -146,7 +148,7 @@ void evaluate_files(EvaluateFlags flags, Context& context) {
   if (leaves_an_error(pairs.estimate.size(), on_plane(alignment)) && !judged.accuracy) {
     throw InputError(flags.estimate, "has errors too large for a number");
   }
-  const EvaluationHead head{flags.alignment, estimate.poses.size(), by_index};
+  const EvaluationHead head{flags.alignment, estimate.poses.size(), by_index, pairs.indices};
   print("%s", evaluation_text(judged, head, {flags.steps, flags.distances_m}).c_str());
   context.status = kDone;
 }

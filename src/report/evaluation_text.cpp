@@ -40,6 +40,32 @@ Table relative_table(const AssociatedPoses& poses, const RelativeLengths& length
   return table;
 }
 
+// Relative errors run over the poses with a reference, past what has none.
+std::string gaps_text(const std::vector<std::size_t>& paired, const RelativeLengths& lengths) {
+  std::string text;
+  const auto longer = [&paired](std::size_t step) {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i + step < paired.size(); ++i) {
+      count += paired[i + step] - paired[i] > step ? 1 : 0;
+    }
+    return count;
+  };
+  for (const std::size_t step : lengths.steps) {
+    const std::size_t count = longer(step);
+    if (count == 0) continue;
+    text += fmt::format(
+        "warning: {} of {} pairs over {} lie further apart in the estimate, with poses between "
+        "them that have no reference: their errors are of longer ways\n",
+        count, paired.size() - step, counted(step, "pose"));
+  }
+  if (!lengths.distances_m.empty() && longer(1) > 0) {
+    text +=
+        "warning: the reference has gaps, which relative errors over a distance take as straight: "
+        "their ways are longer\n";
+  }
+  return text;
+}
+
 Table absolute_table(const SpatialAccuracy& judged) {
   const Accuracy& accuracy = *judged.accuracy;
   const auto position = error_statistics(judged.position_errors_m);
@@ -126,6 +152,7 @@ std::string evaluation_text(const SpatialAccuracy& judged, const EvaluationHead&
           : fmt::format("no error can be given: alignment {} lays a single pose on its reference\n",
                         head.alignment);
   text += "\n" + relative_table(judged.poses, lengths).text();
+  text += gaps_text(head.paired, lengths);
   if (!is_planar(judged)) text += losses_text(judged, head.alignment);
   return text + warnings_text(judged);
 }

@@ -43,6 +43,25 @@ TEST_F(Commands, EvaluateSaysOfASinglePoseThatItHasNoError) {
                                 std::regex(R"(mean position error \(m\) +5\.0)")));
 }
 
+// The second and third pose have no reference.
+TEST_F(Commands, EvaluateCountsThePairsThatSpanAGap) {
+  std::string estimate;
+  std::string reference;
+  for (int i = 0; i < 6; ++i) {
+    const std::string line = std::to_string(i) + " " + std::to_string(i) + " 0 0 0 0 0 1\n";
+    estimate += line;
+    if (i != 1 && i != 2) reference += line;
+  }
+  write("e.tum", estimate);
+  write("r.tum", reference);
+  const auto printed = [](const std::string& of) {
+    return fathom_done({"evaluate", "e.tum", of, "--step", "1", "--distance", "2"}).out;
+  };
+  EXPECT_THAT(printed("r.tum"), AllOf(HasSubstr("warning: 1 of 3 pairs over 1 pose lie further"),
+                                      HasSubstr("warning: the reference has gaps")));
+  EXPECT_THAT(printed("e.tum"), Not(HasSubstr("warning")));
+}
+
 std::string recorded(const std::string& name) {
   return std::string(FATHOM_SOURCE_DIR) + "/tests/evaluation/evo/" + name;
 }

@@ -13,6 +13,8 @@ struct EvaluationHead {
   std::string alignment;
   std::size_t estimate_size = 0;  ///< poses of the estimate, with and without a partner
   bool is_paired_by_index = false;
+  /// Of every pose with a partner its index in the estimate, rising.
+  std::vector<std::size_t> paired = {};
 };
 
 /// What relative errors are over.
