@@ -24,7 +24,12 @@ Run lost_run(const MeasurementLog& log, const ReplayOptions& options, Outcome ou
   result.absolute_weights.assign(result.absolute.size(), 0.0);
   result.motions = options.motions;
   for (JudgedMotions& motions : result.motions) motions.covariances.clear();
-  result.chi2_initial = chi2(log, options.start.empty() ? log.odometry() : options.start);
+  // Which F it would have minimised was not said.
+  if (log.tells_shared_errors()) {
+    result.chi2_initial = kUnknown;
+  } else {
+    result.chi2_initial = chi2(log, options.start.empty() ? log.odometry() : options.start);
+  }
   result.chi2_used = result.absolute_chi2_used = kUnknown;
   return result;
 }

@@ -113,6 +113,7 @@ bool is_of_honesty(const std::string& metric) {
                                              "chi2_gap",
                                              "chi2_optimum",
                                              "degrees_of_freedom",
+                                             "holes",
                                              "estimates_shared_errors"};
   return metrics.contains(metric) || metric.starts_with(kRelative);
 }
@@ -157,6 +158,8 @@ std::optional<Honesty> honesty_of(const std::map<std::string, MetricSummary>& fi
     explain_high(known, honesty);
   } else if (known.level("mean_nis_truth", 3.0) == Level::low) {
     honesty.cause = HonestyCause::large_registrations;
+  } else if (known.find("holes") != nullptr) {
+    honesty.cause = HonestyCause::holes;
   }
   return honesty;
 }

@@ -19,7 +19,8 @@ enum class HonestyCause {
   small_registrations,  ///< covariances of registrations are too small, or loops are false
   linearisation,        ///< they are right, the estimator's own are too small
   misfit,               ///< covariances of the log are too small, or loops are false
-  large_registrations   ///< covariances of registrations are too large
+  large_registrations,  ///< covariances of registrations are too large
+  holes                 ///< the declared covariances of guesses may be part of it
 };
 
 /// An estimator whose covariances do not fit its errors.

@@ -68,6 +68,9 @@ std::string cause_words(const EstimatorResults& one) {
       return "The covariances of the registrations are too large: their mean NIS against truth "
              "is " +
              figure("mean_nis_truth") + ", where 3 is expected.";
+    case HonestyCause::holes:
+      return "The log has holes: keyframes behind one that no measurement bridges have the "
+             "covariance that is declared for its guess, which is wide.";
     case HonestyCause::unknown:
       break;
   }

@@ -164,6 +164,8 @@ TEST(HonestyWords, Underconfident) {
   figures["anees"] = figure(0.2, 0.05);
   EXPECT_THAT(words_of_figures(figures, kDraws),
               ElementsAre("Underconfident: ANEES is 0.20 [0.15, 0.25], where 1 is expected."));
+  figures["holes"] = figure(2.0, 0.0);
+  EXPECT_THAT(words_of_figures(figures, kDraws)[1], HasSubstr("no measurement bridges"));
   figures["mean_nis_truth"] = figure(0.5, 0.1);
   EXPECT_THAT(words_of_figures(figures, kDraws)[1], HasSubstr("registrations are too large"));
 }
