@@ -54,7 +54,7 @@ TEST_F(Commands, EvaluateCountsThePairsThatSpanAGap) {
   }
   write("e.tum", estimate);
   write("r.tum", reference);
-  const auto printed = [](const std::string& of) {
+  const auto printed = [&](const std::string& of) {
     return fathom_done({"evaluate", "e.tum", of, "--step", "1", "--distance", "2"}).out;
   };
   EXPECT_THAT(printed("r.tum"), AllOf(HasSubstr("warning: 1 of 3 pairs over 1 pose lie further"),
