@@ -91,12 +91,12 @@ double shared_chi2_used(const MeasurementLog& log, std::span<const Pose> traject
 /// chi2 or shared_chi2.
 double chi2(const MeasurementLog& log, std::span<const Pose> trajectory, RegistrationErrors errors);
 
-/// How many unknowns the measurements determine: the rank of the Jacobian of their residuals. Three a
-/// keyframe but the first, if it is fixed, where neither a hole nor a free start leaves any open.
+/// How many unknowns the measurements determine: the rank of the Jacobian of their residuals. Three
+/// a keyframe but the first, if it is fixed, where neither holes nor a free start leave any open.
 double determined_unknowns(const MeasurementLog& log);
 
-/// What F is on average at its minimum if every covariance is right: the rows of the residual, three
-/// an edge and an uncertain start, the rank of the information an absolute measurement, less
+/// What F is on average at its minimum if every covariance is right: the rows of the residual,
+/// three an edge and an uncertain start, the rank of the information an absolute measurement, less
 /// determined_unknowns. The same with shared errors, each of which has a prior. Zero: nothing
 /// contradicts anything.
 double degrees_of_freedom(const MeasurementLog& log);
