@@ -60,7 +60,7 @@ class Registering {
       const PairRegistration found = registrar.of(measured(from), measured(to));
       ++counts.tried;
       if (found.found) {
-        motions.push_back(seen_motion(frames, from, to, found.motion));
+        motions.push_back(seen_motion(frames, from, to, {found.motion, found.covariance}));
         append(frames.info(from).time_ns, frames.info(to).time_ns, found.motion);
       }
       if (progress_) progress_(i + 1, pairs.size());
@@ -105,7 +105,7 @@ std::vector<SeenMotion> motions_of(const Recording& recording, const FrameSource
   std::vector<SeenMotion> motions;
   const auto add = [&](const RelativePose& z) {
     motions.push_back(seen_motion(frames, recording.keyframe_frames[z.from],
-                                  recording.keyframe_frames[z.to], z.motion));
+                                  recording.keyframe_frames[z.to], {z.motion, z.covariance()}));
   };
   for (std::size_t k = 1; k < recording.log.size(); ++k) {
     const KeyframeMeasurements& arrival = recording.log.arrival(k);

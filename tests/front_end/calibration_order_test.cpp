@@ -93,6 +93,23 @@ TEST(PictureOrder, NamesWherePicturesAreMissing) {
   }
 }
 
+// A way that is the same from its end: the right clock lies between the offsets that are tried
+// first, the one of the pictures in reverse order is 0.
+TEST(PictureOrder, ALateClockIsNoReverseOrder) {
+  TurningSurvey survey;
+  survey.speed_change = 0.0;
+  for (const double late_s : {0.2, 0.7}) {
+    survey.clock_late_s = late_s;
+    survey.even_about_s = 0.5 * (0.5 * static_cast<double>(survey.pictures - 1) - late_s);
+    for (std::uint64_t seed = 0; seed < kOrders; ++seed) {
+      const Calibration found = calibrate(survey.input(seed));
+      ASSERT_TRUE(found.set_up);
+      EXPECT_FALSE(found.set_up->is_reversed) << late_s << " s, seed " << seed;
+      EXPECT_NEAR(found.set_up->time_offset_s.value, -late_s, 0.03);
+    }
+  }
+}
+
 // Neither registrations that are wrong nor a clock that is far off, nor a camera that is turned,
 // is an order.
 TEST(PictureOrder, NothingElseIsOne) {

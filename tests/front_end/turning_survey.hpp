@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "fathom/core/random.hpp"
@@ -23,6 +24,9 @@ struct TurningSurvey {
   Pose mount;                 ///< of the camera in the body
   double scale = 1.0;         ///< of registered motions
   double clock_late_s = 0.0;  ///< of odometry
+  /// Headings are the same as long before as after: a way like that of a mower of an odd number of
+  /// legs, which is the same from its end with a camera that is turned by π.
+  std::optional<double> even_about_s;
 
   // The heading and speed are sums of sines, so the way is smooth; integrated finely.
   Pose truth(double t_s) const {
@@ -37,7 +41,8 @@ struct TurningSurvey {
     return pose;
   }
   double heading(double t_s) const {
-    return turning_rad * (std::sin(0.35 * t_s) + 0.3 * std::sin(0.83 * t_s + 1.0));
+    const double t = even_about_s ? std::abs(t_s - *even_about_s) : t_s;
+    return turning_rad * (std::sin(0.35 * t) + 0.3 * std::sin(0.83 * t + 1.0));
   }
 
   CalibrationInput input(std::uint64_t seed) const {
@@ -75,8 +80,8 @@ struct TurningSurvey {
       Pose seen = between(cameras[i - 1], cameras[i]);
       seen.x = scale * seen.x + registration_noise_m * stream.normal();
       seen.y = scale * seen.y + registration_noise_m * stream.normal();
-      input.motions.push_back(
-          {i - 1, i, input.frame_times_ns[i - 1], input.frame_times_ns[i], seen});
+      input.motions.push_back({i - 1, i, input.frame_times_ns[i - 1], input.frame_times_ns[i], seen,
+                               2.0 * registration_noise_m * registration_noise_m});
     }
     return input;
   }

@@ -9,6 +9,7 @@
 
 #include "fathom/datasets/absolute_readings.hpp"
 #include "fathom/datasets/frame_source.hpp"
+#include "fathom/geometry/covariance.hpp"
 #include "fathom/geometry/trajectory.hpp"
 
 namespace fathom {
@@ -20,11 +21,12 @@ struct SeenMotion {
   std::int64_t from_ns = 0;
   std::int64_t to_ns = 0;
   Pose camera;  ///< of the camera at `to` in that at `from`: x to the top of the picture, y left
+  double variance_m2 = 0.0;  ///< of its x and y together, as the registration tells it
 };
 
 /// Of a registration, a motion of the body with the camera mounted as its model says.
 SeenMotion seen_motion(const FrameSource& frames, std::size_t from, std::size_t to,
-                       const Pose& registered);
+                       const UncertainPose& registered);
 
 /// What calibration looks at.
 struct CalibrationInput {

@@ -13,12 +13,18 @@ namespace {
 
 void find_untold(const SetUp& found, const Senses& senses, std::vector<std::string>& untold) {
   constexpr double kWideLever_m = 0.3;
+  constexpr double kWideScale = 0.1;
   constexpr double kWideClock_s = 1.0;
   const double lever_m = std::max(found.lever_x_m.sigma, found.lever_y_m.sigma);
   if (lever_m > kWideLever_m) {
     untold.push_back(
         fmt::format("where the camera is mounted: the vehicle turns too little (σ {} m)",
                     short_number(lever_m, 2)));
+  }
+  if (found.scale.sigma > kWideScale * found.scale.value) {
+    untold.push_back(
+        fmt::format("the scale: registrations are too uncertain for motions so short (σ {})",
+                    short_number(found.scale.sigma, 2)));
   }
   if (found.time_offset_s.sigma > kWideClock_s) {
     untold.push_back(fmt::format("dead reckoning's clock: the motion is too even (σ {} s)",

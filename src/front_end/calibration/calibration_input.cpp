@@ -5,11 +5,16 @@
 namespace fathom {
 
 SeenMotion seen_motion(const FrameSource& frames, std::size_t from, std::size_t to,
-                       const Pose& registered) {
+                       const UncertainPose& registered) {
   const CameraModel& camera = frames.camera().model();
-  const Pose mount{camera.mount_x_m, camera.mount_y_m, camera.mount_yaw_rad};
-  return {from, to, frames.info(from).time_ns, frames.info(to).time_ns,
-          compose(inverse(mount), compose(registered, mount))};
+  const UncertainPose mount{{camera.mount_x_m, camera.mount_y_m, camera.mount_yaw_rad}};
+  const UncertainPose seen = compose(inverse(mount), compose(registered, mount));
+  return {from,
+          to,
+          frames.info(from).time_ns,
+          frames.info(to).time_ns,
+          seen.mean,
+          seen.covariance.topLeftCorner<2, 2>().trace()};
 }
 
 CalibrationInput calibration_input(const FrameSource& frames, const AbsoluteReadings& readings) {

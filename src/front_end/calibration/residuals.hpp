@@ -18,6 +18,7 @@ struct Beside {
   Eigen::Vector3d change = Eigen::Vector3d::Zero();  ///< of `seen`, a second
   double noise =
       1.0;  ///< of dead reckoning: the root of the motion's time, of that of a median one
+  double seen_variance = 0.0;  ///< SeenMotion::variance_m2
 };
 
 /// What a motion takes.

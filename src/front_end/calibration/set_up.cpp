@@ -6,7 +6,9 @@
 #include <numbers>
 #include <utility>
 
+#include "fathom/core/median.hpp"
 #include "picture_order.hpp"
+#include "residuals.hpp"
 #include "scale_step.hpp"
 #include "set_up_fit.hpp"
 
@@ -81,36 +83,57 @@ double density_of_unit(const OdometryFormat& format, std::size_t motions) {
 // How likely numbers are that are read so. Of two
 // that say the same, such as headings from x and from y with the camera turned, the one with less
 // to be changed counts.
-double evidence_of(const Reading& reading, const SetUpStart& start, const SetUpPrior& prior,
+double evidence_of(const Reading& reading, const SetUpFit& fit, const SetUpPrior& prior,
                    const CalibrationInput& input) {
   constexpr double kTurned_rad = 0.1;
   constexpr double kOfTurned = 5.0;
   constexpr double kOfConvention = 1.0;
   const std::size_t motions = input.motions.size();
-  double evidence = start.log_density + density_of_unit(reading.format, motions);
-  const double yaw_rad = wrap_angle(start.value.yaw_rad - prior.mean.yaw_rad);
+  double evidence = fit.most_log_density + density_of_unit(reading.format, motions);
+  const double yaw_rad = wrap_angle(fit.value.yaw_rad - prior.mean.yaw_rad);
   if (std::abs(yaw_rad) > kTurned_rad) evidence -= kOfTurned;
   if (reading.format.convention != input.odometry.format.convention) evidence -= kOfConvention;
   return evidence;
 }
 
+// By how much a motion is likelier whose clock lies between two rows, at most: interpolation
+// averages noise there, of variance K − ½ for K rows a motion.
+double gain_of_interpolation(const CalibrationInput& input) {
+  std::vector<double> motions_s;
+  for (const SeenMotion& motion : input.motions) motions_s.push_back(seconds_of(motion));
+  std::vector<double> rows_s;
+  const auto& rows = input.odometry.rows;
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    rows_s.push_back(1e-9 * static_cast<double>(rows[i].time_ns - rows[i - 1].time_ns));
+  }
+  const double rows_each = std::max(1.0, upper_median(motions_s) / upper_median(rows_s));
+  return -1.5 * std::log1p(-0.5 / rows_each);
+}
+
+struct FittedReading {
+  Reading reading;
+  SetUpFit fit;
+};
+
 // What is configured, unless another reading is far more likely: so much, of each motion and of
-// all, that neither one wild motion nor the search among twenty makes it.
-std::optional<Reading> best_reading(const CalibrationInput& input, const SetUpPrior& prior) {
+// all, that neither one wild motion nor the search among twenty makes it. Each with its own clock:
+// one that lay beside it would lose to a wrong reading of an even motion.
+std::optional<FittedReading> best_reading(const CalibrationInput& input, const SetUpPrior& prior) {
   constexpr double kOfAll = 20.0;
   constexpr double kOfEach = 0.1;
-  std::optional<Reading> best;
+  std::optional<FittedReading> best;
   double most = -std::numeric_limits<double>::infinity();
-  double margin = kOfAll + kOfEach * static_cast<double>(input.motions.size());
+  double margin =
+      kOfAll + (kOfEach + gain_of_interpolation(input)) * static_cast<double>(input.motions.size());
   for (const Reading& reading : readings_of(input.odometry.format)) {
-    const auto start = start_set_up(motions_of(input, reading),
-                                    OdometryTrack(input.odometry, reading.format), prior);
-    if (!start) continue;
-    double evidence = evidence_of(reading, *start, prior, input);
+    const auto fit = fit_set_up(motions_of(input, reading),
+                                OdometryTrack(input.odometry, reading.format), prior);
+    if (!fit) continue;
+    double evidence = evidence_of(reading, *fit, prior, input);
     // The first one is what is configured.
     if (!best) evidence += std::exchange(margin, 0.0);
     if (best && !(evidence > most)) continue;
-    best = reading;
+    best = FittedReading{reading, *fit};
     most = evidence;
   }
   return best;
@@ -165,21 +188,19 @@ OdometryConvention mirrored(OdometryConvention convention) {
 std::optional<SetUp> find_set_up(const CalibrationInput& input) {
   if (input.motions.empty() || input.odometry.rows.size() < 2) return std::nullopt;
   const SetUpPrior prior = prior_of(input);
-  auto found = best_reading(input, prior);
-  if (!found) return std::nullopt;
-  auto fitted =
-      fit_set_up(motions_of(input, *found), OdometryTrack(input.odometry, found->format), prior);
-  if (!fitted) return std::nullopt;
+  auto best = best_reading(input, prior);
+  if (!best) return std::nullopt;
   SetUp set_up;
-  set_up.moved = put_right(input, prior, *found, *fitted);
-  const SetUpFit& fit = *fitted;
+  set_up.moved = put_right(input, prior, best->reading, best->fit);
+  const Reading& found = best->reading;
+  const SetUpFit& fit = best->fit;
   const auto estimated = [&fit](int i) {
     return Estimated{fit.value.vector()(i), std::sqrt(fit.covariance(i, i))};
   };
   set_up.motions = fit.motions;
-  set_up.format = found->format;
-  set_up.is_reversed = found->is_reversed;
-  set_up.is_mirrored = found->is_mirrored;
+  set_up.format = found.format;
+  set_up.is_reversed = found.is_reversed;
+  set_up.is_mirrored = found.is_mirrored;
   // A residual that is as long as the motion leaves nothing that the two have in common.
   constexpr double kUnrelated = 0.5;
   set_up.is_related = fit.sigma_m < kUnrelated * fit.median_m;

@@ -9,9 +9,16 @@
 
 #include "fathom/core/median.hpp"
 #include "residuals.hpp"
+#include "set_up_normal.hpp"
 
 namespace fathom {
 namespace {
+
+// A first estimate, and how likely the motions are with it.
+struct Start {
+  SetUpParameters value;
+  double log_density = 0.0;
+};
 
 class Fit {
  public:
@@ -22,25 +29,10 @@ class Fit {
     median_s_ = upper_median(times_s);
   }
 
-  // The likeliest of time offsets so far apart, with the rest by linear least squares. The clocks
-  // agree, unless another offset is far more likely than none.
-  std::optional<SetUpStart> start(double step_s) const {
-    constexpr double kGain = 10.0;
-    auto best = start_at(prior_.mean.time_offset_s);
-    double least = best ? best->log_density + kGain : -std::numeric_limits<double>::infinity();
-    const int steps = static_cast<int>(std::lround(kMostOffset_s / step_s));
-    for (int step = -steps; step <= steps; ++step) {
-      const auto one = start_at(step_s * step);
-      if (!one || !(one->log_density > least)) continue;
-      best = one;
-      least = one->log_density;
-    }
-    return best;
-  }
-
   std::optional<SetUpFit> fitted() const {
-    const auto best = start(kOffsetStep_s);
+    const auto best = start();
     auto fit = best ? refined(best->value) : std::nullopt;
+    if (fit) fit->most_log_density = std::max(best->log_density, fit->log_density);
     if (fit && !tells_clock(fit->value)) {
       fit->covariance(4, 4) = prior_.sigma_time_s * prior_.sigma_time_s;
     }
@@ -51,6 +43,22 @@ class Fit {
   static constexpr double kMostOffset_s = 5.0;
   static constexpr double kOffsetStep_s = 0.25;
   static constexpr std::size_t kFewest = 8;
+
+  // The likeliest of time offsets so far apart, with the rest by linear least squares. The clocks
+  // agree, unless another offset is far more likely than none.
+  std::optional<Start> start() const {
+    constexpr double kGain = 10.0;
+    auto best = start_at(prior_.mean.time_offset_s);
+    double least = best ? best->log_density + kGain : -std::numeric_limits<double>::infinity();
+    const int steps = static_cast<int>(std::lround(kMostOffset_s / kOffsetStep_s));
+    for (int step = -steps; step <= steps; ++step) {
+      const auto one = start_at(kOffsetStep_s * step);
+      if (!one || !(one->log_density > least)) continue;
+      best = one;
+      least = one->log_density;
+    }
+    return best;
+  }
 
   std::optional<Pose> reckoned(const SeenMotion& motion, double offset_s) const {
     const std::int64_t shift_ns = nanoseconds(offset_s);
@@ -64,7 +72,7 @@ class Fit {
       const auto at = reckoned(motions_[i], offset_s);
       if (!at) continue;
       covered.push_back({i, motions_[i].camera, *at, change_of(motions_, i),
-                         std::sqrt(seconds_of(motions_[i]) / median_s_)});
+                         std::sqrt(seconds_of(motions_[i]) / median_s_), motions_[i].variance_m2});
     }
     constexpr double kMost = 0.7;
     const bool are_enough =
@@ -113,7 +121,7 @@ class Fit {
             offset_s};
   }
 
-  std::optional<SetUpStart> start_at(double offset_s) const {
+  std::optional<Start> start_at(double offset_s) const {
     const std::vector<Beside> covered = beside(offset_s);
     if (covered.empty()) return std::nullopt;
     SetUpParameters p = linear(covered, std::vector<double>(covered.size(), 1.0), offset_s, 1.0);
@@ -123,7 +131,7 @@ class Fit {
       p = linear(covered, weights_of(covered, p, spread), offset_s, spread.sigma_m);
       spread = spread_of(covered, p);
     }
-    return SetUpStart{p, density_of_all(covered, p, spread)};
+    return Start{p, density_of_all(covered, p, spread)};
   }
 
   // Whether a clock a second off would be less likely by much. In an even motion noise alone passes
@@ -134,41 +142,10 @@ class Fit {
     const auto here = start_at(p.time_offset_s);
     const auto before = start_at(p.time_offset_s - kOff_s);
     const auto after = start_at(p.time_offset_s + kOff_s);
-    const auto is_lower = [&](const std::optional<SetUpStart>& there) {
+    const auto is_lower = [&](const std::optional<Start>& there) {
       return !there || there->log_density < here->log_density - kLoss;
     };
     return here && is_lower(before) && is_lower(after);
-  }
-
-  struct Normal {
-    Matrix5 H = Matrix5::Zero();
-    Matrix5 curvature = Matrix5::Zero();
-    Matrix5 scores = Matrix5::Zero();
-    Vector5 g = Vector5::Zero();
-  };
-
-  Normal normal(const std::vector<Beside>& beside, const SetUpParameters& p,
-                const std::vector<double>& weights, const ResidualSpread& spread) const {
-    Normal normal;
-    const Eigen::Vector3d of_residual =
-        Eigen::Vector3d(spread.sigma_m, spread.sigma_m, spread.sigma_rad).cwiseInverse();
-    for (std::size_t i = 0; i < beside.size(); ++i) {
-      const Beside& one = beside[i];
-      const Eigen::Vector2d seen = turned(one, p);
-      Eigen::Matrix<double, 3, 5> J = Eigen::Matrix<double, 3, 5>::Zero();
-      J.topLeftCorner<2, 1>() = -seen;
-      J.block<2, 1>(0, 1) << seen.y(), -seen.x();
-      J.block<2, 2>(0, 2) = -arm_of(one);
-      J.col(4) = shifted(one, p);
-      J = of_residual.asDiagonal() * J / one.noise;
-      const Eigen::Vector3d e = of_residual.cwiseProduct(residual_of(one, p));
-      const Vector5 score = weights[i] * J.transpose() * e;
-      normal.H += weights[i] * J.transpose() * J;
-      normal.curvature += spread.curvature(residual_of(one, p)) * J.transpose() * J;
-      normal.scores += score * score.transpose();
-      normal.g += score;
-    }
-    return normal;
   }
 
   std::optional<SetUpFit> refined(SetUpParameters p) const {
@@ -178,7 +155,7 @@ class Fit {
       const std::vector<Beside> covered = beside(p.time_offset_s);
       if (covered.empty()) return std::nullopt;
       const ResidualSpread spread = spread_of(covered, p);
-      Normal normal = this->normal(covered, p, weights_of(covered, p, spread), spread);
+      SetUpNormal normal = normal_of(covered, p, spread);
       normal.H += information.asDiagonal();
       normal.g += information.cwiseProduct(p.vector() - prior_.mean.vector());
       Vector5 step = -normal.H.ldlt().solve(normal.g);
@@ -194,8 +171,7 @@ class Fit {
     const std::vector<Beside> covered = beside(p.time_offset_s);
     if (covered.empty()) return std::nullopt;
     const ResidualSpread spread = spread_of(covered, p);
-    const std::vector<double> weights = weights_of(covered, p, spread);
-    const Normal normal = this->normal(covered, p, weights, spread);
+    const SetUpNormal normal = normal_of(covered, p, spread);
     SetUpFit fit;
     fit.value = p;
     fit.motions = covered.size();
@@ -210,6 +186,8 @@ class Fit {
         count / (count - 5.0) * normal.scores + Matrix5(information.asDiagonal());
     const Matrix5 inverse = H.ldlt().solve(Matrix5::Identity());
     fit.covariance = inverse * scores * inverse.transpose();
+    // Registrations know their covariance to a half.
+    fit.covariance(0, 0) += 0.25 * normal.noise_bias * normal.noise_bias;
     std::vector<double> lengths_m;
     for (std::size_t i = 0; i < covered.size(); ++i) {
       const Beside& one = covered[i];
@@ -231,13 +209,6 @@ class Fit {
 };
 
 }  // namespace
-
-std::optional<SetUpStart> start_set_up(std::span<const SeenMotion> motions,
-                                       const OdometryTrack& track, const SetUpPrior& prior) {
-  constexpr double kStep_s = 0.5;
-  if (motions.empty() || track.is_empty()) return std::nullopt;
-  return Fit(motions, track, prior).start(kStep_s);
-}
 
 std::optional<SetUpFit> fit_set_up(std::span<const SeenMotion> motions, const OdometryTrack& track,
                                    const SetUpPrior& prior) {

@@ -36,7 +36,9 @@ struct SetUpFit {
   double sigma_m = 0.0;      ///< scale of a residual, x or y
   double sigma_rad = 0.0;    ///< of the heading
   double log_density = 0.0;  ///< of all motions, up to a constant
-  double median_m = 0.0;     ///< length of a reckoned motion
+  /// The same where it was highest on the way: a clock that the motions do not tell drifts off.
+  double most_log_density = 0.0;
+  double median_m = 0.0;  ///< length of a reckoned motion
   /// By motion covered: which one, and the reckoned length over the registered one.
   struct Motion {
     std::size_t index = 0;
@@ -58,16 +60,6 @@ struct SetUpPrior {
     return {kNone, kNone, of_lever, of_lever, 1.0 / (sigma_time_s * sigma_time_s)};
   }
 };
-
-/// A first estimate, and how likely the motions are with it.
-struct SetUpStart {
-  SetUpParameters value;
-  double log_density = 0.0;  ///< of all motions, up to a constant
-};
-
-/// The likeliest of time offsets half a second apart; what fit_set_up goes on from has finer ones.
-std::optional<SetUpStart> start_set_up(std::span<const SeenMotion> motions,
-                                       const OdometryTrack& track, const SetUpPrior& prior);
 
 /// Most likely with residuals of Student's t (docs/calibration.md): iteratively reweighted least
 /// squares from the best of several time offsets. Nothing where dead reckoning covers too few of
