@@ -94,7 +94,8 @@ TEST(Calibration, FindsNothingWhereNothingIsWrong) {
 // Noise of what is regressed on makes it longer than it is: by 5 % here, and 20 % in shorter
 // motions.
 TEST(Calibration, TheNoiseOfRegistrationsIsNoScale) {
-  for (const auto& [noise_m, interval_s] : {std::pair{0.02, 0.5}, {0.04, 0.5}, {0.04, 0.25}}) {
+  for (const auto& [noise_m, interval_s] :
+       {std::pair{0.02, 0.5}, std::pair{0.04, 0.5}, std::pair{0.04, 0.25}}) {
     TurningSurvey survey;
     survey.registration_noise_m = noise_m;
     survey.picture_interval_s = interval_s;
