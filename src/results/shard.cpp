@@ -92,6 +92,7 @@ std::optional<ShardPlan> shard_plan(const std::string& manifest) {
     if (plan.shard.index < 1 || plan.shard.index > plan.shard.of || plan.shard.of > kMostShards) {
       return std::nullopt;
     }
+    if (!shard.contains("places")) return plan;
     plan.range.surveys = count_of(shard.at("surveys"));
     plan.range.trials = count_of(shard.at("trials"));
     plan.range.first = count_of(shard.at("first"));
@@ -113,6 +114,17 @@ std::string command_line_of(const std::string& manifest) {
   } catch (const InputError&) {
     return "";  // a quote that is not closed
   }
+}
+
+std::string undivided(const std::string& command_line) {
+  if (command_line.empty()) return "";
+  std::vector<std::string> words = words_of_command(command_line);
+  if (const auto flag = std::ranges::find(words, "--shard");
+      flag != words.end() && flag + 1 != words.end()) {
+    words.erase(flag, flag + 2);
+  }
+  std::erase_if(words, [](const std::string& word) { return word.starts_with("--shard="); });
+  return line_of(words);
 }
 
 std::string command_of(const ShardPlan& plan, std::size_t index) {

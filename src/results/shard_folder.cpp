@@ -6,6 +6,7 @@
 #include <numeric>
 #include <set>
 
+#include "fathom/core/text.hpp"
 #include "fathom/results/run_index.hpp"
 #include "result_schema.hpp"
 
@@ -26,12 +27,15 @@ struct Extent {
   bool operator==(const Extent&) const = default;
 };
 
-Extent extent_of(const ShardPlan& plan) {
-  return {plan.range.surveys, plan.range.trials};
-}
-
 Extent extent_of(const ShardFolder& folder) {
   return {folder.study.surveys, folder.study.trials};
+}
+
+// Whether a shard is of a study as far as it is asked for now: where that is extended, its shards
+// are cut anew. A plan that does not say its trials is taken for one.
+bool is_of(const ShardPlan& plan, const ShardFolder& folder) {
+  return plan.range.places.empty() ||
+         Extent{plan.range.surveys, plan.range.trials} == extent_of(folder);
 }
 
 Extent extent_of(const std::vector<ShardFolder>& folders) {
@@ -68,13 +72,15 @@ AllShards all_shards(const std::vector<ShardFolder>& folders) {
     done.insert(folder.done.begin(), folder.done.end());
     if (extent_of(folder) != extent) continue;
     for (const ShardProgress& shard : folder.shards) {
-      all.known.try_emplace(number_of(shard.plan), ShardProgress{shard.plan});
+      ShardProgress& known =
+          all.known.try_emplace(number_of(shard.plan), ShardProgress{shard.plan}).first->second;
+      known.made.insert(shard.made.begin(), shard.made.end());
     }
   }
   for (const RunKey& run : done) {
     bool is_known = false;
     for (auto& [number, shard] : all.known) {
-      if (!shard.plan.range.has(run)) continue;
+      if (!shard.has(run)) continue;
       ++shard.done;
       is_known = true;
     }
@@ -83,20 +89,41 @@ AllShards all_shards(const std::vector<ShardFolder>& folders) {
   return all;
 }
 
-// Of one division the shards that no folder knows of.
-void add_unknown(const AllShards& all, std::vector<MissingPart>& missing) {
-  const auto& shards = all.known;
-  if (shards.empty() || shards.begin()->first.first != shards.rbegin()->first.first) return;
+// Of shards of one division, those that no folder knows of, too.
+std::vector<MissingPart> missing_shards(const AllShards& all) {
+  std::vector<MissingPart> missing;
+  for (const auto& [number, shard] : all.known) {
+    if (shard.done >= shard.plan.runs) continue;
+    missing.push_back({fmt::format("shard {}: {}", text_of(shard.plan.shard),
+                                   count_text(shard.done, shard.plan.runs)),
+                       shard.plan.command_line});
+  }
   const std::string what = all.others_done == 0 ? ": all runs" : ": what is missing of it";
-  const ShardPlan& known = shards.begin()->second.plan;
+  const ShardPlan& known = all.known.begin()->second.plan;
   for (std::size_t index = 1; index <= known.shard.of; ++index) {
-    if (shards.contains({known.shard.of, index})) continue;
+    if (all.known.contains({known.shard.of, index})) continue;
     missing.push_back(
         {"shard " + text_of(Shard{index, known.shard.of}) + what, command_of(known, index)});
   }
+  return missing;
+}
+
+std::vector<MissingPart> missing_of_undivided(const std::vector<ShardFolder>& folders) {
+  std::vector<MissingPart> missing;
+  for (const ShardFolder& folder : folders) {
+    const bool is_current = extent_of(folder) == extent_of(folders);
+    if (!is_current || !folder.shards.empty() || folder.done.size() >= folder.of) continue;
+    missing.push_back({folder.folder.string() + ": " + count_text(folder.done.size(), folder.of),
+                       folder.command_line});
+  }
+  return missing;
 }
 
 }  // namespace
+
+bool ShardProgress::has(const RunKey& run) const {
+  return plan.range.places.empty() ? made.contains(run) : plan.range.has(run);
+}
 
 bool ShardFolder::is_whole() const {
   return shards.empty() || done.size() == of;
@@ -123,23 +150,26 @@ ShardFolder shard_folder(const std::filesystem::path& folder, const ResultStore&
   found.of = runs_asked({found});
   const std::vector<std::string> manifests = store.manifests();
   std::map<ShardNumber, ShardProgress> shards;
+  std::vector<ShardProgress*> of_session;
   for (const std::string& manifest : manifests) {
     const auto plan = shard_plan(manifest);
-    if (plan && extent_of(*plan) == extent_of(found)) shards[number_of(*plan)].plan = *plan;
+    of_session.push_back(plan && is_of(*plan, found) ? &shards[number_of(*plan)] : nullptr);
+    if (of_session.back() != nullptr) of_session.back()->plan = *plan;
   }
   if (!manifests.empty()) found.command_line = command_line_of(manifests.back());
-  for (auto& [number, shard] : shards) found.shards.push_back(std::move(shard));
   for (const RunRecord& run : store.runs()) {
     if (run.key.estimator == kDeadReckoning) continue;
     found.done.insert(run.key);
     if (is_failed(run)) found.failed.insert(run.key);
-    // Whichever session made it: where a study is extended its shards are cut anew.
-    for (ShardProgress& shard : found.shards) {
-      if (!shard.plan.range.has(run.key)) continue;
+    const bool is_of_shard = run.session < of_session.size() && of_session[run.session] != nullptr;
+    if (is_of_shard) of_session[run.session]->made.insert(run.key);
+    for (auto& [number, shard] : shards) {
+      if (!shard.has(run.key)) continue;
       ++shard.done;
       shard.failed += is_failed(run) ? 1 : 0;
     }
   }
+  for (auto& [number, shard] : shards) found.shards.push_back(std::move(shard));
   return found;
 }
 
@@ -171,24 +201,19 @@ std::size_t runs_asked(const std::vector<ShardFolder>& folders) {
 std::vector<MissingPart> missing_parts(const std::vector<ShardFolder>& folders,
                                        std::size_t missing_runs) {
   if (missing_runs == 0) return {};
-  std::vector<MissingPart> missing;
   const AllShards all = all_shards(folders);
-  for (const auto& [number, shard] : all.known) {
-    if (shard.done >= shard.plan.runs) continue;
-    missing.push_back({fmt::format("shard {}: {}", text_of(shard.plan.shard),
-                                   count_text(shard.done, shard.plan.runs)),
-                       shard.plan.command_line});
+  std::vector<MissingPart> missing;
+  if (all.known.empty()) {
+    missing = missing_of_undivided(folders);
+  } else if (all.known.begin()->first.first == all.known.rbegin()->first.first) {
+    missing = missing_shards(all);
   }
-  add_unknown(all, missing);
-  for (const ShardFolder& folder : folders) {
-    const bool is_current = extent_of(folder) == extent_of(folders);
-    if (!is_current || !folder.shards.empty() || folder.done.size() >= folder.of) continue;
-    missing.push_back({folder.folder.string() + ": " + count_text(folder.done.size(), folder.of),
-                       folder.command_line});
-  }
-  if (missing.empty()) {
-    missing.push_back({std::to_string(missing_runs) + " runs",
-                       folders.empty() ? "" : folders.front().command_line});
+  if (missing.empty() && !folders.empty()) {
+    // No shard of several divisions has what is missing of all: the study itself does it, in the
+    // folder that has most.
+    const auto fullest = std::ranges::max_element(
+        folders, {}, [](const ShardFolder& folder) { return folder.done.size(); });
+    missing.push_back({counted(missing_runs, "run"), undivided(fullest->command_line)});
   }
   return missing;
 }

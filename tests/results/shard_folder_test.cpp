@@ -89,8 +89,55 @@ TEST_F(ShardFolders, ARunThatIsInAnotherFolderIsNotMissing) {
   run("one", 1, 4, 0, 1);
   run("other", 2, 4, 1, 4);
   EXPECT_EQ(of("other").own_done(), 4u);
-  EXPECT_THAT(missing({of("one"), of("other")}), ElementsAre("1 runs | " + of("one").command_line));
+  EXPECT_THAT(missing({of("one"), of("other")}),
+              ElementsAre("1 run | fathom compare s.yaml --out shard-2"));
   EXPECT_THAT(missing_parts({of("one"), of("other")}, 0), IsEmpty());
+}
+
+// Version 0.2.0 wrote no trials into a manifest: what its sessions made is the shard's.
+TEST_F(ShardFolders, WithoutTrialsInTheManifestAreCountedBySession) {
+  const auto run_old = [&](std::size_t k, std::size_t from, std::size_t to) {
+    const std::string name = "old-" + std::to_string(k);
+    ResultStore store = ResultStore::write(
+        folder_ / name, one_cell(4),
+        R"({"command_line": "fathom compare s.yaml --shard )" + std::to_string(k) + "/2 --out " +
+            name + R"(", "shard": {"index": )" + std::to_string(k) + R"(, "of": 2, "runs": 4}})");
+    for (std::size_t trial = from; trial < to; ++trial) {
+      for (const char* estimator : {"iterated", "plain"}) {
+        store.add(test::record(0, trial, estimator));
+      }
+    }
+  };
+  run_old(1, 0, 2);
+  EXPECT_EQ(of("old-1").own(), 4u);
+  EXPECT_EQ(of("old-1").own_done(), 4u);
+  EXPECT_THAT(missing({of("old-1")}),
+              ElementsAre("shard 2/2: all runs | fathom compare s.yaml --shard 2/2 --out old-2"));
+  run_old(2, 2, 3);
+  EXPECT_THAT(
+      missing({of("old-1"), of("old-2")}),
+      ElementsAre("shard 2/2: 2 of 4 runs | fathom compare s.yaml --shard 2/2 --out old-2"));
+}
+
+// No command of a shard that is named does what both divisions lack.
+TEST_F(ShardFolders, OfTwoDivisionsTheStudyItselfIsNamed) {
+  run("half", 1, 4, 0, 2);
+  ResultStore::write(folder_ / "of fifty", one_cell(4), test::manifest(1, 50, 0, "one", 4, "[0]"))
+      .finish();
+  EXPECT_THAT(missing({of("of fifty"), of("half")}),
+              ElementsAre("1 run | fathom compare s.yaml --out shard-1"));
+}
+
+// A folder of the whole study beside shards: what is missing is said once.
+TEST_F(ShardFolders, BesideAWholeStudyTheShardsAreNamedAlone) {
+  run("two", 2, 4, 2, 4);
+  ResultStore store = ResultStore::write(folder_ / "whole", one_cell(4),
+                                         R"({"command_line": "fathom compare s.yaml"})");
+  store.add(test::record(0, 0, "plain"));
+  store.finish();
+  EXPECT_THAT(missing({of("whole"), of("two")}),
+              ElementsAre("shard 1/2: what is missing of it | fathom compare s.yaml --shard 1/2 "
+                          "--out shard-1"));
 }
 
 TEST_F(ShardFolders, AreOfOneStudyByConfigurationAndData) {
@@ -115,7 +162,8 @@ TEST(Shards, OfNoPartOfAStudyAreNone) {
   EXPECT_FALSE(shard_plan(test::manifest(1, 1'000'001, 12)));
   EXPECT_FALSE(shard_plan(test::manifest(1, 1'000'000'000'000, 12)));
   EXPECT_FALSE(shard_plan(test::manifest(8, 7, 12)));
-  EXPECT_FALSE(shard_plan(R"({"shard": {"index": 1, "of": 2, "runs": 12}})"));
+  EXPECT_FALSE(shard_plan(R"({"shard": {"index": 1, "of": 2, "runs": 12, "places": [0]}})"));
+  EXPECT_FALSE(shard_plan(R"({"shard": {"index": 1, "of": 2}})"));
 }
 
 TEST(Shards, AreReadStrictly) {

@@ -37,12 +37,13 @@ struct ShardRange {
 };
 
 /// What a session of a study was to do, as its manifest says: `command_line` and
-/// `shard: {index, of, runs, surveys, trials, places, first, count}`.
+/// `shard: {index, of, runs, surveys, trials, places, first, count}`; of version 0.2.0 the first
+/// three alone.
 struct ShardPlan {
   Shard shard;
   std::size_t runs = 0;      ///< of estimators, in the whole shard
   std::string command_line;  ///< as command_line_of
-  ShardRange range = {};
+  ShardRange range = {};     ///< without places where the manifest does not say it
 };
 
 /// Nothing where the session was not one of a shard, or the manifest is not one: of no such part,
@@ -54,6 +55,9 @@ std::optional<ShardPlan> shard_plan(const std::string& manifest);
 /// manifest has none, or one of another program, with characters that are not shown as they are, or
 /// with words that have code executed.
 std::string command_line_of(const std::string& manifest);
+
+/// The command of the whole study, into the same folder.
+std::string undivided(const std::string& command_line);
 
 /// The command of another shard: the same with its number, in --out, too, where that ends in it;
 /// else --out has the number added.

@@ -16,8 +16,13 @@ namespace fathom {
 /// How much of a shard a folder has.
 struct ShardProgress {
   ShardPlan plan;
-  std::size_t done = 0;    ///< runs of estimators
-  std::size_t failed = 0;  ///< of these
+  std::set<RunKey> made = {};  ///< by its sessions
+  std::size_t done = 0;        ///< runs of estimators
+  std::size_t failed = 0;      ///< of these
+
+  /// Whether a run is its: whichever session made it, and where the plan does not say which trials
+  /// are its, of its sessions.
+  bool has(const RunKey& run) const;
 };
 
 /// What a folder with a store has, without dead reckoning's runs.
