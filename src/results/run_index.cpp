@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <set>
+#include <tuple>
 
 #include "fathom/estimation/estimator.hpp"
 
@@ -39,9 +40,25 @@ std::vector<TrialKey> missing_of(const RunIndex::Trials& there, const StudyDescr
   return missing;
 }
 
+// Dead reckoning is stored without a log: it is of that of its trial, which tells what repeats it.
+// Runs are ordered: those of a trial lie together, dead reckoning first.
+void tell_logs_of_dead_reckoning(std::vector<RunRecord>& runs) {
+  const auto place = [](const RunRecord& run) {
+    return std::tuple(run.key.cell, run.key.survey, run.key.trial);
+  };
+  for (auto run = runs.begin(); run != runs.end(); ++run) {
+    if (run->key.estimator != kDeadReckoning) continue;
+    const auto of_log = std::find_if(run, runs.end(), [&](const RunRecord& other) {
+      return place(other) != place(*run) || !other.log_hash.empty();
+    });
+    if (of_log != runs.end() && place(*of_log) == place(*run)) run->log_hash = of_log->log_hash;
+  }
+}
+
 }  // namespace
 
 RunIndex::RunIndex(const ResultStore& store) : study_(store.study()), runs_(store.runs()) {
+  tell_logs_of_dead_reckoning(runs_);
   for (const RunRecord& run : runs_) {
     by_estimator_[run.key.estimator][run.key.cell][run.key.trial_key()] = &run;
     if (run.key.estimator != kDeadReckoning) ++machines_[run.machine];

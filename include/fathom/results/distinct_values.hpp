@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <set>
 #include <string>
-#include <tuple>
+#include <utility>
+#include <vector>
 
 #include "fathom/evaluation/clustered.hpp"
 #include "fathom/evaluation/metrics.hpp"
@@ -11,9 +13,10 @@
 
 namespace fathom {
 
-/// A metric of runs by survey, each draw once: what repeats of one measurement log say alike is one
-/// result, however often it is repeated. Runs without the hash of a log are apart, and of a cost
-/// every repeat is a measurement.
+/// A metric of runs by survey, each draw once: repeats of one measurement log that all say the same
+/// are one result, however often it is repeated. Where one of them says another thing something
+/// was drawn, and each is a draw. Runs without the hash of a log are apart, and of a cost every
+/// repeat is a measurement.
 class DistinctValues {
  public:
   explicit DistinctValues(const std::string& metric) : is_cost_(is_cost_metric(metric)) {}
@@ -24,17 +27,35 @@ class DistinctValues {
     add(one.key.survey, one.log_hash + other.log_hash, difference);
   }
 
-  const ClusteredValues& values() const { return values_; }
+  /// In the order in which they were added.
+  ClusteredValues values() const {
+    ClusteredValues values;
+    std::set<Log> seen;
+    for (const auto& [log, value] : all_) {
+      const bool is_repeat = !seen.insert(log).second;
+      if (!is_repeat || !logs_.at(log).is_one_result) values[log.first].push_back(value);
+    }
+    return values;
+  }
 
  private:
-  void add(std::size_t survey, const std::string& log, double value) {
-    const bool is_new = is_cost_ || log.empty() || seen_.emplace(survey, log, value).second;
-    if (is_new) values_[survey].push_back(value);
+  using Log = std::pair<std::size_t, std::string>;  // survey and hash
+  struct Repeats {
+    double first = 0.0;
+    bool is_one_result = true;
+  };
+
+  void add(std::size_t survey, const std::string& hash, double value) {
+    const Log log{survey, hash};
+    Repeats& repeats =
+        logs_.try_emplace(log, Repeats{value, !is_cost_ && !hash.empty()}).first->second;
+    repeats.is_one_result = repeats.is_one_result && value == repeats.first;
+    all_.emplace_back(log, value);
   }
 
   bool is_cost_;
-  ClusteredValues values_;
-  std::set<std::tuple<std::size_t, std::string, double>> seen_;
+  std::vector<std::pair<Log, double>> all_;
+  std::map<Log, Repeats> logs_;
 };
 
 }  // namespace fathom

@@ -19,7 +19,8 @@ class RunIndex {
   RunIndex& operator=(const RunIndex&) = delete;
 
   const StudyDescription& study() const { return study_; }
-  /// In the order of cell, survey, trial and estimator.
+  /// In the order of cell, survey, trial and estimator; dead reckoning's with the hash of a log of
+  /// its trial.
   const std::vector<RunRecord>& runs() const { return runs_; }
   /// Whether a run is there, so that it need not be made again; it may have failed.
   bool has(const RunKey& key) const;
