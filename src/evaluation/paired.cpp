@@ -25,6 +25,12 @@ std::optional<PairedDifference> difference_over(const std::vector<double>& diffe
 
 }  // namespace
 
+bool PairedDifference::is_on_one_side() const {
+  const auto tested = static_cast<double>(signed_rank.count);
+  const double half = 0.25 * tested * (tested + 1.0);
+  return (signed_rank.positive_rank_sum > half) == (mean > 0.0);
+}
+
 std::vector<double> holm(std::span<const double> p_values) {
   for (const double p : p_values) {
     if (!(p >= 0.0 && p <= 1.0)) {

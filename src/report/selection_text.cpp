@@ -25,15 +25,18 @@ std::string mean_text(const std::optional<TrialMean>& value) {
   return value ? format_number(value->mean, kSelectionDigits) : "-";
 }
 
-// "in all 10 cells", and of which there is nothing to say.
-std::string cells_text(const Selection& selection) {
+// "in all 10 cells", of what is judged together "over all 10 cells together", and of which there is
+// nothing to say.
+std::string cells_text(const Selection& selection, bool is_together) {
+  const std::string in = is_together ? "over" : "in";
+  const std::string together = is_together ? " together" : "";
   if (selection.cells.size() < selection.cells_asked) {
-    return fmt::format("in {} of {}, the others without runs", selection.cells.size(),
-                       counted(selection.cells_asked, "cell"));
+    return fmt::format("{} {} of {}{}, the others without runs", in, selection.cells.size(),
+                       counted(selection.cells_asked, "cell"), together);
   }
   return selection.cells.size() == 1
              ? "in the one cell"
-             : "in all " + std::to_string(selection.cells.size()) + " cells";
+             : fmt::format("{} all {} cells{}", in, selection.cells.size(), together);
 }
 
 std::string requirements_text(std::size_t count) {
@@ -48,7 +51,8 @@ std::string chosen_text(const Selection& selection, const SelectionQuery& query)
   const EstimatorEvidence& chosen = selection.estimators[*selection.chosen];
   const std::size_t count = query.requirements.size();
   return chosen.name + (count == 0 ? " is best " : " meets " + requirements_text(count) + " ") +
-         cells_text(selection) + "; " + objective_text(query) + ": " + mean_text(chosen.objective) +
+         cells_text(selection, count == 0) + "; " + objective_text(query) + ": " +
+         mean_text(chosen.objective) +
          (chosen.objective->interval ? " " + interval_text(chosen.objective) : "");
 }
 
@@ -76,8 +80,9 @@ std::string obstacle_text(const Selection& selection, const SelectionQuery& quer
 std::string none_text(const Selection& selection, const SelectionQuery& query) {
   const std::size_t count = query.requirements.size();
   return fmt::format("no back end {}: {}; nearest is {}",
-                     count == 0 ? "can be chosen"
-                                : "meets " + requirements_text(count) + " " + cells_text(selection),
+                     count == 0
+                         ? "can be chosen"
+                         : "meets " + requirements_text(count) + " " + cells_text(selection, false),
                      obstacle_text(selection, query), selection.estimators[selection.nearest].name);
 }
 
@@ -106,6 +111,7 @@ std::string standing_of(const Selection& selection, const EstimatorEvidence& evi
   if (&evidence == (selection.baseline ? &*selection.baseline : nullptr)) return "baseline";
   if (selection.chosen && &evidence == &selection.estimators[*selection.chosen]) return "chosen";
   if (evidence.has_too_many_failures) return "out: failed runs";
+  if (evidence.shares_nothing_in) return "out: no common trial";
   return evidence.meets_all ? "meets all" : "out";
 }
 
@@ -134,6 +140,9 @@ std::string lead_text(const Selection& selection, const SelectionQuery& query) {
         " over " + counted(difference->count, difference->is_over_surveys ? "survey" : "run");
     if (difference->signed_rank.p_value) {
       numbers += ", Wilcoxon p " + format_number(*difference->signed_rank.p_value, 2);
+      if (difference->mean != 0.0 && !difference->is_on_one_side()) {
+        numbers += " of ranks that favour " + other;
+      }
     }
     numbers += ")";
   }

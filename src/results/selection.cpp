@@ -16,7 +16,7 @@ namespace {
 std::vector<std::size_t> ranked(const std::vector<EstimatorEvidence>& all, bool maximise) {
   std::vector<std::size_t> order;
   for (std::size_t e = 0; e < all.size(); ++e) {
-    if (all[e].meets_all && all[e].objective) order.push_back(e);
+    if (all[e].meets_all && all[e].objective && !all[e].shares_nothing_in) order.push_back(e);
   }
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     const double difference = all[a].objective->mean - all[b].objective->mean;
@@ -25,24 +25,60 @@ std::vector<std::size_t> ranked(const std::vector<EstimatorEvidence>& all, bool 
   return order;
 }
 
+// Whether the trial counts against nobody: one of them failed it, or has no objective there. Costs
+// of another processor are no such thing.
+bool is_lost(const Compared& compared, const std::vector<EstimatorEvidence*>& candidates,
+             std::size_t c, const TrialKey& trial, const std::string& objective) {
+  return std::ranges::any_of(candidates, [&](const EstimatorEvidence* one) {
+    const RunRecord* run = done_run(compared, one->name, c, trial);
+    return run == nullptr || !run->metrics.contains(objective);
+  });
+}
+
+// Of candidates that share no trial of a cell the one with the fewest trials there; of equal ones
+// the one that failed more, and then the last of the study.
+EstimatorEvidence* poorest_in(const Compared& compared, std::size_t c,
+                              const std::vector<EstimatorEvidence*>& candidates,
+                              const std::string& objective) {
+  const auto evidence = [&](const EstimatorEvidence* one) {
+    const std::size_t trials = trials_of_all(compared, {one->name}, objective)[c].size();
+    return std::pair(trials, std::numeric_limits<std::size_t>::max() - one->failed);
+  };
+  return *std::min_element(candidates.rbegin(), candidates.rend(),
+                           [&](auto* a, auto* b) { return evidence(a) < evidence(b); });
+}
+
 // Those that meet all are compared over the trials in which all of them have the objective: where
-// some failed the hard ones, their own means would be of easier trials.
+// some failed the hard ones, their own means would be of easier trials. Who leaves a cell without
+// such a trial is out, and not the cell.
 std::vector<std::vector<TrialKey>> share_trials(Selection& selection, const Compared& compared,
                                                 const std::string& objective) {
   std::vector<EstimatorEvidence*> candidates;
-  std::vector<std::string> names;
   for (EstimatorEvidence& one : selection.estimators) {
-    if (!one.meets_all || !one.objective) continue;
-    candidates.push_back(&one);
-    names.push_back(one.name);
+    if (one.meets_all && one.objective) candidates.push_back(&one);
   }
-  auto trials = trials_of_all(compared, names, objective);
-  if (names.size() < 2) return trials;
+  std::vector<std::vector<TrialKey>> trials;
+  for (;;) {
+    std::vector<std::string> names;
+    for (const EstimatorEvidence* one : candidates) names.push_back(one->name);
+    trials = trials_of_all(compared, names, objective);
+    const auto empty = std::ranges::find_if(trials, [](const auto& some) { return some.empty(); });
+    if (names.size() < 2 || empty == trials.end()) break;
+    const auto c = static_cast<std::size_t>(empty - trials.begin());
+    EstimatorEvidence* out = poorest_in(compared, c, candidates, objective);
+    out->shares_nothing_in = compared.cells[c];
+    std::erase(candidates, out);
+  }
+  if (candidates.size() < 2) return trials;
+  selection.fewest_shared = trials.front().size();
+  for (std::size_t c = 0; c < trials.size(); ++c) {
+    selection.fewest_shared = std::min(selection.fewest_shared, trials[c].size());
+    selection.trials_left_out += static_cast<std::size_t>(std::ranges::count_if(
+        compared.trials[c],
+        [&](const TrialKey& trial) { return is_lost(compared, candidates, c, trial, objective); }));
+  }
   for (EstimatorEvidence* one : candidates) {
     one->objective = mean_over(compared, one->name, objective, trials);
-  }
-  for (std::size_t c = 0; c < trials.size(); ++c) {
-    selection.trials_left_out += compared.trials[c].size() - trials[c].size();
   }
   return trials;
 }
@@ -54,7 +90,7 @@ Lead lead_over(const PairedDifference& difference, bool maximise) {
   constexpr double kLevel = 0.05;
   lead.is_significant =
       (maximise ? difference.interval->low > 0.0 : difference.interval->high < 0.0) &&
-      difference.signed_rank.p_value.value_or(1.0) <= kLevel;
+      difference.signed_rank.p_value.value_or(1.0) <= kLevel && difference.is_on_one_side();
   return lead;
 }
 
@@ -154,6 +190,7 @@ Selection select_estimator(const ResultStore& store, const SelectionQuery& query
   selection.cells = compared.cells;
   selection.cells_asked = asked.size();
   count_trials(selection, compared);
+  selection.fewest_shared = selection.fewest_trials;
   for (const StudyEstimator& estimator : runs.study().estimators) {
     selection.estimators.push_back(evidence_of(compared, estimator.name, query));
   }

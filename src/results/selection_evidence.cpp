@@ -57,17 +57,6 @@ Judgement judge(const Compared& compared, const std::string& estimator,
   return *worst;
 }
 
-std::optional<TrialMean> objective_of(const Compared& compared, const std::string& estimator,
-                                      const std::string& metric) {
-  std::vector<ClusteredValues> cells;
-  for (std::size_t c = 0; c < compared.cells.size(); ++c) {
-    auto values = values_in(compared, estimator, c, compared.trials[c], metric);
-    if (!values) return std::nullopt;
-    cells.push_back(std::move(*values));
-  }
-  return mean_over_cells(cells);
-}
-
 // What is tested. Of several surveys each has one value, its mean over the cells, as these count
 // the same however many trials they have.
 ClusteredValues by_survey(const std::vector<ClusteredValues>& cells, ClusteredValues pooled) {
@@ -134,9 +123,9 @@ std::optional<TrialMean> mean_over(const Compared& compared, const std::string& 
   std::vector<ClusteredValues> cells;
   for (std::size_t c = 0; c < trials.size(); ++c) {
     auto values = values_in(compared, estimator, c, trials[c], metric);
-    if (values) cells.push_back(std::move(*values));
+    if (!values) return std::nullopt;
+    cells.push_back(std::move(*values));
   }
-  if (cells.empty()) return std::nullopt;
   return mean_over_cells(cells);
 }
 
@@ -156,9 +145,9 @@ std::optional<PairedDifference> difference_over(const Compared& compared, const 
       pooled.add(a, b, value);
     }
     difference.trials += trials[c].size();
-    if (!values.values().empty()) cells.push_back(values.values());
+    if (values.values().empty()) return std::nullopt;
+    cells.push_back(values.values());
   }
-  if (cells.empty()) return std::nullopt;
   const TrialMean mean = mean_over_cells(cells);
   difference.mean = mean.mean;
   difference.interval = mean.interval;
@@ -185,7 +174,7 @@ EstimatorEvidence evidence_of(const Compared& compared, const std::string& estim
     evidence.judgements.push_back(judge(compared, estimator, requirement));
     evidence.meets_all = evidence.meets_all && evidence.judgements.back().verdict == Verdict::meets;
   }
-  evidence.objective = objective_of(compared, estimator, query.objective);
+  evidence.objective = mean_over(compared, estimator, query.objective, compared.trials);
   // A failure counts even in a trial that other estimators have yet to run.
   for (const std::size_t cell : compared.asked) {
     for (const auto& [trial, run] : compared.runs.of(estimator, cell)) {

@@ -34,13 +34,14 @@ std::vector<std::vector<TrialKey>> trials_of_all(const Compared& compared,
                                                  const std::vector<std::string>& estimators,
                                                  const std::string& metric);
 
-/// The mean of a metric over the cells, of these trials of each; cells without one are left out.
-/// Nothing where none is left.
+/// The mean of a metric over the cells, of these trials of each. Nothing where a cell has no value,
+/// or a run that is done has none.
 std::optional<TrialMean> mean_over(const Compared& compared, const std::string& estimator,
                                    const std::string& metric,
                                    const std::vector<std::vector<TrialKey>>& trials);
 
-/// The same of what one estimator has more than another, both in all of these trials.
+/// The same of what one estimator has more than another, both in all of these trials. Nothing where
+/// a cell has none.
 std::optional<PairedDifference> difference_over(const Compared& compared, const std::string& one,
                                                 const std::string& other, const std::string& metric,
                                                 const std::vector<std::vector<TrialKey>>& trials);

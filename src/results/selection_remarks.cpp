@@ -44,23 +44,71 @@ std::string one_survey_remark(const Compared& compared, const Selection& selecti
   return remarks.empty() ? "" : *remarks.begin();
 }
 
-// Why one without an objective is passed over.
-std::string unmeasured_text(const Compared& compared, const EstimatorEvidence& evidence,
-                            const std::string& objective) {
-  if (evidence.objective) return "";
+// Of the c-th compared cell: the runs of an estimator that are done, and of these those that lack a
+// metric, and those whose value counts.
+struct Measured {
   std::size_t done = 0;
   std::size_t without = 0;
+  std::size_t with = 0;
+};
+
+Measured measured(const Compared& compared, const std::string& estimator, std::size_t c,
+                  const std::string& metric) {
+  Measured count;
+  for (const TrialKey& trial : compared.trials[c]) {
+    const RunRecord* run = done_run(compared, estimator, c, trial);
+    if (run == nullptr) continue;
+    ++count.done;
+    count.without += run->metrics.contains(metric) ? 0 : 1;
+    count.with += value_of(compared, *run, metric) ? 1 : 0;
+  }
+  return count;
+}
+
+// Why one without an objective, or without trials that the others have, is passed over.
+std::string passed_over_text(const Compared& compared, const EstimatorEvidence& evidence,
+                             const std::string& objective) {
+  const StudyDescription& study = compared.runs.study();
+  if (evidence.shares_nothing_in) {
+    return fmt::format(
+        "{}: in {} it has {} in no trial that the others have it in, so it cannot be "
+        "chosen",
+        evidence.name, study.label_of(*evidence.shares_nothing_in), objective);
+  }
+  if (evidence.objective) return "";
+  Measured all;
+  std::string bare;
   for (std::size_t c = 0; c < compared.cells.size(); ++c) {
-    for (const TrialKey& trial : compared.trials[c]) {
-      const RunRecord* run = done_run(compared, evidence.name, c, trial);
-      if (run == nullptr) continue;
-      ++done;
-      without += value_of(compared, *run, objective) ? 0 : 1;
+    const Measured one = measured(compared, evidence.name, c, objective);
+    all.done += one.done;
+    all.without += one.without;
+    if (one.with == 0 && bare.empty()) bare = study.label_of(compared.cells[c]);
+  }
+  if (all.without > 0) {
+    return fmt::format("{}: {} was not measured in {} of {}, so it cannot be chosen", evidence.name,
+                       objective, all.without, counted(all.done, "run"));
+  }
+  if (evidence.has_too_many_failures) return "";
+  return fmt::format("{}: in {} no run that is done has a {} to compare, so it cannot be chosen",
+                     evidence.name, bare, objective);
+}
+
+// Of several trials one is left to judge by: where its other runs of a cell failed.
+std::string single_run_text(const Compared& compared, const EstimatorEvidence& evidence,
+                            const SelectionQuery& query) {
+  std::vector<std::string> metrics{query.objective};
+  for (const Requirement& needed : query.requirements) metrics.push_back(needed.metric);
+  for (std::size_t c = 0; c < compared.cells.size(); ++c) {
+    if (compared.trials[c].size() < 2) continue;
+    for (const std::string& metric : metrics) {
+      if (measured(compared, evidence.name, c, metric).with != 1) continue;
+      return fmt::format(
+          "{}: one run of {} is left, which is no evidence: its value itself was "
+          "compared",
+          evidence.name, compared.runs.study().label_of(compared.cells[c]));
     }
   }
-  if (done == 0) return "";
-  return fmt::format("{}: {} was not measured in {} of {}, so it cannot be chosen", evidence.name,
-                     objective, without, counted(done, "run"));
+  return "";
 }
 
 // Cells whose trials all have the same measurements. Loops that are held out are drawn even there.
@@ -97,7 +145,7 @@ std::vector<std::string> remarks_on(const Compared& compared, const Selection& s
         "{} of {} cells have no trial that all estimators have run: nothing is said of them",
         asked.size() - selection.cells.size(), asked.size()));
   }
-  if (selection.fewest_trials == 1) {
+  if (selection.fewest_shared == 1) {
     remarks.emplace_back(
         "one trial is no evidence: a cell with one has no interval, its value itself was compared");
   }
@@ -109,6 +157,8 @@ std::vector<std::string> remarks_on(const Compared& compared, const Selection& s
     remarks.push_back(fmt::format("{}: {} of {} runs failed and are left out of its means{}",
                                   evidence.name, evidence.failed, evidence.runs,
                                   evidence.has_too_many_failures ? "; it is out for that" : ""));
+    const std::string single = single_run_text(compared, evidence, query);
+    if (!evidence.has_too_many_failures && !single.empty()) remarks.push_back(single);
   }
   if (selection.trials_left_out > 0) {
     remarks.push_back(
@@ -116,8 +166,8 @@ std::vector<std::string> remarks_on(const Compared& compared, const Selection& s
                     query.objective, counted(selection.trials_left_out, "trial")));
   }
   for (const EstimatorEvidence& evidence : selection.estimators) {
-    const std::string unmeasured = unmeasured_text(compared, evidence, query.objective);
-    if (!unmeasured.empty()) remarks.push_back(unmeasured);
+    const std::string passed = passed_over_text(compared, evidence, query.objective);
+    if (!passed.empty()) remarks.push_back(passed);
   }
   if (const std::string repeated = repeats_remark(compared); !repeated.empty()) {
     remarks.push_back(repeated);

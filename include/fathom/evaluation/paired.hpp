@@ -26,6 +26,9 @@ struct PairedDifference {
   double mean = 0.0;                 ///< of a − b
   std::optional<Interval> interval;  ///< of that mean, by bootstrap; nothing of a single trial
   SignedRankTest signed_rank;        ///< of the differences
+
+  /// Of skewed differences mean and ranks may point to opposite sides: then p is not of the mean's.
+  bool is_on_one_side() const;
 };
 
 /// `a[i]` and `b[i]` are of trial i. Nothing without trials. A trial that failed has no figure: the

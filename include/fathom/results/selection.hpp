@@ -70,14 +70,17 @@ struct EstimatorEvidence {
   std::size_t failed = 0;  ///< of these; never part of a mean
   bool has_too_many_failures = false;
   bool meets_all = false;  ///< the requirements, and not too many failures
+  /// A cell of which no trial is left that it and the others that meet all have the objective in:
+  /// then it is in no comparison.
+  std::optional<std::size_t> shares_nothing_in;
 };
 
 /// The chosen estimator against the second best of those that meet all requirements.
 struct Lead {
   std::size_t runner_up = 0;                   ///< place in `Selection::estimators`
   std::optional<PairedDifference> difference;  ///< of the objective, chosen − runner-up
-  /// The interval of the difference leaves 0 out and Wilcoxon's p is at most 0.05; of several
-  /// surveys both are over the surveys.
+  /// The interval of the difference leaves 0 out, Wilcoxon's p is at most 0.05, and ranks favour
+  /// the same one; of several surveys all are over the surveys.
   bool is_significant = false;
 };
 
@@ -87,10 +90,11 @@ struct Selection {
   std::size_t fewest_trials = 0;  ///< that all estimators have, of all surveys, over the cells
   std::size_t most_trials = 0;
   std::size_t surveys = 0;  ///< that these trials are of
-  /// Of these trials, over the cells, that some who meets all failed: the objective is without
-  /// them.
+  /// Of these trials, over the cells, that one of those compared failed or has no objective in: the
+  /// objective is without them.
   std::size_t trials_left_out = 0;
-  std::string repeats;  ///< what they are, in words: "10 surveys × 10 trials"
+  std::size_t fewest_shared = 0;  ///< trials of a cell that the objective is over
+  std::string repeats;            ///< what they are, in words: "10 surveys × 10 trials"
   std::vector<EstimatorEvidence> estimators;  ///< as in the study
   std::optional<EstimatorEvidence> baseline;  ///< dead reckoning; never chosen
   std::optional<std::size_t> chosen;          ///< place in `estimators`
