@@ -203,14 +203,12 @@ def _draw_regimes(ax, results, metric, estimator):
         raise InputError(f"plot 'regimes': {metric} does not rank: {reason}")
     across, up = (results.axes[axis] for axis in swept[:2])
     squares = numpy.full((len(up), len(across)), numpy.nan)
+    over_best = results._open().means_over_best(metric)
     for number, cell in enumerate(results.cells):
         if any(cell[axis] != results.axes[axis][0] for axis in swept[2:]):
             continue
-        means = {one: results._mean(metric, one, number) for one in results.estimators}
-        best = min((mean for mean in means.values() if mean is not None), default=None)
-        if best and means[estimator] is not None:
-            place = up.index(cell[swept[1]]), across.index(cell[swept[0]])
-            squares[place] = means[estimator] / best
+        place = up.index(cell[swept[1]]), across.index(cell[swept[0]])
+        squares[place] = over_best.get(number, {}).get(estimator, numpy.nan)
     ax = _axes(ax)
     image = ax.imshow(squares, origin="lower", cmap="Blues", vmin=1.0, vmax=10.0)
     for (row, column), value in numpy.ndenumerate(squares):

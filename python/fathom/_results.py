@@ -147,11 +147,6 @@ class Results:
         """Of the number of a cell: runs, how many of them were done, and the means of these."""
         return self._means.get((estimator, cell), (0, 0, {}))
 
-    def _mean(self, metric, estimator, cell):
-        """None where it is not known, or a run has failed: it would leave out the hardest ones."""
-        runs, done, means = self._means_of(estimator, cell)
-        return means.get(metric) if done == runs else None
-
     def _series_of(self, estimator, cell, survey, trial) -> dict:
         known("estimator", estimator, self._names())
         number = self.cell(cell)

@@ -92,6 +92,7 @@ void bind_store(py::module_& module) {
       .def("failed", &failed_runs)
       .def("means", &all_means)
       .def("not_ranked", &not_ranked_text)
+      .def("means_over_best", &means_over_best)
       .def("series",
            [](const ResultStore& store, const std::string& estimator, std::size_t cell,
               std::size_t survey, std::size_t trial) {

@@ -2,9 +2,9 @@
 
 #include <cmath>
 
+#include "contenders.hpp"
 #include "honesty_words.hpp"
 #include "page_numbers.hpp"
-#include "ranking.hpp"
 
 namespace fathom {
 namespace {
@@ -22,6 +22,22 @@ Json metric_json(const MetricSummary& summary) {
   const BandedMean band = banded(moments.mean, moments.standard_deviation);
   json["band"] = {page_number(band.low), page_number(band.high)};
   return json;
+}
+
+// Ranks of a metric, and where they are of other trials than an estimator's own mean that over
+// these.
+void add_ranks(const CellResults& cell, const std::string& metric, Json& estimators) {
+  const auto ranks = ranks_of(cell, metric);
+  const std::set<TrialKey> trials = contenders_of(cell, metric).trials;
+  for (std::size_t i = 0; i < cell.estimators.size(); ++i) {
+    const auto rank = ranks.find(cell.estimators[i].name);
+    if (rank == ranks.end()) continue;
+    Json& json = estimators[i]["metrics"][metric];
+    json["rank"] = rank->second;
+    if (json["n"] != trials.size()) {
+      json["ranked"] = metric_json(summary_over(cell.estimators[i], metric, trials));
+    }
+  }
 }
 
 // Of the estimator with the most independent draws.
@@ -139,11 +155,7 @@ Json cell_json(const ChartInput& input, std::size_t place, const ExampleLimits& 
   for (const std::string& metric : input.results.metrics) {
     const std::string against = no_ranking_text(cell, metric);
     if (!against.empty()) json["unranked"][metric] = against;
-    const auto ranks = ranks_of(cell, metric);
-    for (Json& one : json["estimators"]) {
-      const auto rank = ranks.find(one["name"].get_ref<const std::string&>());
-      if (rank != ranks.end()) one["metrics"][metric]["rank"] = rank->second;
-    }
+    add_ranks(cell, metric, json["estimators"]);
   }
   json["nees_interval"] = nees_interval_json(nees_chart(cell, series), limits.keyframes);
   json["paired"] = Json::array();

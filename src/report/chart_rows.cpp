@@ -4,10 +4,10 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "contenders.hpp"
 #include "fathom/core/text.hpp"
 #include "fathom/evaluation/consistency.hpp"
 #include "fathom/measurements/decision.hpp"
-#include "ranking.hpp"
 
 namespace fathom {
 namespace {
@@ -49,17 +49,23 @@ std::optional<std::vector<double>> numeric_positions(const std::vector<std::stri
 std::vector<CostPoint> cost_points(const CellResults& cell, const std::string& accuracy,
                                    const std::string& cost) {
   std::vector<CostPoint> points;
-  const bool is_ranked_by = no_ranking_text(cell, accuracy).empty();
+  const Contenders by_accuracy = contenders_of(cell, accuracy);
+  const Contenders by_cost = contenders_of(cell, cost);
   for (const EstimatorResults& one : cell.estimators) {
     const auto error = one.metrics.find(accuracy);
     const auto costs = one.metrics.find(cost);
     if (error == one.metrics.end() || costs == one.metrics.end()) continue;
-    const double mean = costs->second.moments.mean;
+    const bool is_compared = by_accuracy.find(one.name) && by_cost.find(one.name);
+    const MetricSummary errors =
+        is_compared ? summary_over(one, accuracy, by_accuracy.trials) : error->second;
+    const MetricSummary spent =
+        is_compared ? summary_over(one, cost, by_cost.trials) : costs->second;
+    const double mean = spent.moments.mean;
     if (!(mean > 0.0)) continue;
-    Interval interval = interval_or_point(costs->second);
+    Interval interval = interval_or_point(spent);
     if (!(interval.low > 0.0)) interval.low = mean;
-    points.push_back({one.name, mean, error->second.moments.mean, interval,
-                      interval_or_point(error->second), is_ranked_by && one.failures() == 0});
+    points.push_back(
+        {one.name, mean, errors.moments.mean, interval, interval_or_point(errors), is_compared});
   }
   return points;
 }
@@ -84,18 +90,12 @@ std::vector<CostPoint> pareto_front(const std::vector<CostPoint>& points, Better
 
 std::map<std::string, std::size_t> ranks_of(const CellResults& cell, const std::string& metric) {
   std::map<std::string, std::size_t> ranks;
-  const Better better = described(metric).better;
-  if (better == Better::neither || !no_ranking_text(cell, metric).empty()) return ranks;
-  std::vector<std::pair<double, std::string>> order;
-  for (const EstimatorResults& one : cell.estimators) {
-    const auto found = one.metrics.find(metric);
-    if (found == one.metrics.end() || one.failures() > 0) continue;
-    order.emplace_back(badness(found->second.moments.mean, better), one.name);
-  }
-  std::ranges::sort(order);
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    const bool is_tied = i > 0 && order[i].first == order[i - 1].first;
-    ranks[order[i].second] = is_tied ? ranks[order[i - 1].second] : i;
+  const Contenders compared = contenders_of(cell, metric);
+  std::size_t rank = 0;
+  for (std::size_t i = 0; i < compared.order.size(); ++i) {
+    const double mean = six_digits(compared.order[i].mean);
+    if (i > 0 && mean != six_digits(compared.order[i - 1].mean)) rank = i;
+    ranks[compared.order[i].one->name] = rank;
   }
   return ranks;
 }

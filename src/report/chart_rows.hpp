@@ -42,14 +42,15 @@ BandedMean banded(double mean, const std::optional<double>& standard_deviation);
 /// Where the labels of a swept axis lie: numbers where they are; nothing where a label is none.
 std::optional<std::vector<double>> numeric_positions(const std::vector<std::string>& labels);
 
-/// An estimator's means of an accuracy metric and of a cost.
+/// An estimator's means of an accuracy metric and of a cost; of those that are compared over the
+/// trials that they are ranked by.
 struct CostPoint {
   std::string estimator;
   double cost = 0.0;
   double error = 0.0;
   Interval costs;  ///< 95 %, or the mean alone; from the mean on where it reaches zero
   Interval errors;
-  bool is_compared = true;  ///< it failed no run, and the accuracy ranks the cell's estimators
+  bool is_compared = true;  ///< it is ranked by both
 };
 
 /// Those of a cell that have both, and a cost above zero, which a logarithmic axis needs.
@@ -60,9 +61,7 @@ std::vector<CostPoint> cost_points(const CellResults& cell, const std::string& a
 /// better in one. By rising cost; empty for a metric of which neither direction is better.
 std::vector<CostPoint> pareto_front(const std::vector<CostPoint>& points, Better better);
 
-/// By estimator of the cell that has the metric and failed no run: how many of these have a mean
-/// that is better to six digits. Empty where neither direction is better, and with a
-/// no_ranking_text.
+/// By estimator that is ranked: how many have a mean that is better to six digits.
 std::map<std::string, std::size_t> ranks_of(const CellResults& cell, const std::string& metric);
 
 /// NEES / 3 by keyframe (x), those above zero, and the χ² interval of its mean.

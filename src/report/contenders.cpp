@@ -26,36 +26,43 @@ Trials trials_of(const std::vector<const EstimatorResults*>& all, const Metric& 
 
 }  // namespace
 
+const Contender* Contenders::find(const std::string& estimator) const {
+  const auto found = std::ranges::find_if(
+      order, [&](const Contender& entry) { return entry.one->name == estimator; });
+  return found == order.end() ? nullptr : &*found;
+}
+
 bool is_ranked(const EstimatorResults& one, const std::string& metric,
                const std::vector<std::string>& names) {
-  return one.name != kDeadReckoning && one.failures() == 0 && one.metrics.contains(metric) &&
+  return one.name != kDeadReckoning && one.failures() == 0 && !trials_with(one, metric).empty() &&
          (names.empty() || std::ranges::find(names, one.name) != names.end());
 }
 
-std::vector<Contender> contenders_of(const CellResults& cell, const Metric& metric,
-                                     const std::vector<std::string>& names,
-                                     std::vector<PartlyMeasured>& left_out) {
+Contenders contenders_of(const CellResults& cell, const std::string& metric,
+                         const std::vector<std::string>& names) {
+  const Metric catalogued = described(metric);
+  if (catalogued.better == Better::neither || !no_ranking_text(cell, metric).empty()) return {};
   std::vector<const EstimatorResults*> all;
   for (const EstimatorResults& one : cell.estimators) {
-    if (is_ranked(one, metric.name, names)) all.push_back(&one);
+    if (is_ranked(one, metric, names)) all.push_back(&one);
   }
-  const Trials trials = trials_of(all, metric);
-  std::vector<Contender> order;
+  Contenders found;
+  found.trials = trials_of(all, catalogued);
+  if (found.trials.empty()) return found;
   for (const EstimatorResults* one : all) {
-    Trials without = trials;
-    const Trials own = trials_with(*one, metric.name);
-    std::erase_if(without, [&](const TrialKey& trial) { return own.contains(trial); });
-    if (trials.empty()) continue;
-    if (without.empty()) {
-      order.push_back({one, summary_over(*one, metric.name, trials)});
+    const Trials own = trials_with(*one, metric);
+    const auto without = static_cast<std::size_t>(std::ranges::count_if(
+        found.trials, [&](const TrialKey& trial) { return !own.contains(trial); }));
+    if (without == 0) {
+      found.order.push_back({one, mean_over(*one, metric, found.trials)});
     } else {
-      left_out.push_back({one->name, without.size(), trials.size()});
+      found.left_out.push_back({one->name, without, found.trials.size()});
     }
   }
-  std::ranges::stable_sort(order, [&](const Contender& a, const Contender& b) {
-    return metric.better == Better::lower ? a.mean() < b.mean() : a.mean() > b.mean();
+  std::ranges::stable_sort(found.order, [&](const Contender& a, const Contender& b) {
+    return catalogued.better == Better::lower ? a.mean < b.mean : a.mean > b.mean;
   });
-  return order;
+  return found;
 }
 
 std::string nobody_is_ranked_text(const CellResults& cell, const std::string& metric) {
@@ -64,7 +71,7 @@ std::string nobody_is_ranked_text(const CellResults& cell, const std::string& me
   for (const EstimatorResults& one : cell.estimators) {
     if (one.name == kDeadReckoning || one.failures() > 0) continue;
     is_any_sound = true;
-    has_any = has_any || one.metrics.contains(metric);
+    has_any = has_any || !trials_with(one, metric).empty();
   }
   if (!is_any_sound) return "No estimator is ranked: none did all its runs.";
   const std::string label = described(metric).label;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -10,9 +11,17 @@ namespace fathom {
 /// An estimator that is ranked.
 struct Contender {
   const EstimatorResults* one = nullptr;
-  MetricSummary summary;  ///< over the trials to rank by, the same of all
+  double mean = 0.0;  ///< over the trials to rank by
+};
 
-  double mean() const { return summary.moments.mean; }
+/// Those of a cell that are ranked by a metric, and over what. All that says which is better rests
+/// on these: verdict, ranks, Pareto front, regime map and choice of the cheapest.
+struct Contenders {
+  std::vector<Contender> order;          ///< the best first, of equal ones as in the study
+  std::vector<PartlyMeasured> left_out;  ///< who lacks the metric in some of the trials
+  std::set<TrialKey> trials;             ///< to rank by, the same of all
+
+  const Contender* find(const std::string& estimator) const;
 };
 
 /// Whether an estimator that failed no run has a metric; dead reckoning is none. `names`: these
@@ -20,11 +29,9 @@ struct Contender {
 bool is_ranked(const EstimatorResults& one, const std::string& metric,
                const std::vector<std::string>& names = {});
 
-/// Those of a cell, the best first. Who lacks the metric in some of the trials to rank by is added
-/// to `left_out` instead.
-std::vector<Contender> contenders_of(const CellResults& cell, const Metric& metric,
-                                     const std::vector<std::string>& names,
-                                     std::vector<PartlyMeasured>& left_out);
+/// Nothing of a metric that does not say which of its values is better, and with a no_ranking_text.
+Contenders contenders_of(const CellResults& cell, const std::string& metric,
+                         const std::vector<std::string>& names = {});
 
 /// Why a cell has none, a sentence.
 std::string nobody_is_ranked_text(const CellResults& cell, const std::string& metric);

@@ -41,14 +41,12 @@ std::string relative_text(double relative) {
   return text;
 }
 
-Square drawn_square(const CellResults& cell, const EstimatorResults& one, const std::string& metric,
-                    const SquareScale& scale) {
+Square drawn_square(const EstimatorResults& one, const std::optional<RegimeSquare>& square,
+                    const std::string& unit) {
   if (one.failures() > 0) return {shade_of_none(), std::to_string(one.failures()) + " failed"};
-  const auto square = regime_square(cell, one, metric, scale);
-  if (!square) return {};
-  if (square->relative) return {square->shade, relative_text(*square->relative)};
-  if (scale.is_relative) return {};
-  return {square->shade, quantity(one.metrics.at(metric).moments.mean, described(metric).unit)};
+  if (!square) return {shade_of_none(), "–"};
+  return {square->shade,
+          square->relative ? relative_text(*square->relative) : quantity(square->mean, unit)};
 }
 
 Square choice_square(const CellResults& cell, const std::string& metric, const std::string& cost,
@@ -77,9 +75,11 @@ std::vector<DrawnMap> drawn_maps(const ChartInput& input, const RegimeMap& map,
   const SquareScale scale = scale_over(input.results, map, metric).value_or(SquareScale{});
   for (const auto& [name, type] : input.results.study.estimators) {
     list.push_back(drawn_map(map, name, [&, of = name](const CellResults& cell) {
-      const auto one = std::find_if(cell.estimators.begin(), cell.estimators.end(),
-                                    [&](const EstimatorResults& e) { return e.name == of; });
-      return one == cell.estimators.end() ? Square{} : drawn_square(cell, *one, metric, scale);
+      const auto one = std::ranges::find(cell.estimators, of, &EstimatorResults::name);
+      if (one == cell.estimators.end()) return Square{};
+      const auto squares = regime_squares(cell, metric, scale);
+      const auto place = static_cast<std::size_t>(one - cell.estimators.begin());
+      return drawn_square(*one, squares[place], described(metric).unit);
     }));
   }
   if (cost) {

@@ -42,14 +42,6 @@ std::vector<std::optional<double>> p_values(const std::vector<Contender>& order,
   return values;
 }
 
-// Of skewed differences mean and ranks may point to opposite sides.
-bool is_on_one_side(const PairedDifference& difference) {
-  const SignedRankTest& test = difference.signed_rank;
-  const auto count = static_cast<double>(test.count);
-  const double half = 0.25 * count * (count + 1.0);
-  return (test.positive_rank_sum > half) == (difference.mean > 0.0);
-}
-
 // One estimator beside the best, whose mean is known no better than the difference: the margin is a
 // share of it in every draw.
 struct Beside {
@@ -87,13 +79,25 @@ Standing standing_of(const RankedEstimator& one, const Beside& beside, double sh
     return Standing::equivalent;
   }
   const double worse_by = metric.better == Better::lower ? difference->mean : -difference->mean;
-  const bool is_beyond = worse_by > margin && is_on_one_side(*difference);
+  const bool is_beyond = worse_by > margin && difference->is_on_one_side();
   return one.p && *one.p < kError && is_beyond ? Standing::worse : Standing::not_shown;
 }
 
 std::size_t draws_of(const CellResults& cell) {
   if (cell.repetition == Repetition::surveys && cell.surveys < 2) return 1;
   return cell.surveys > 1 ? cell.surveys : cell.trials;
+}
+
+// Whether the trials, of one survey, repeat one log of each estimator.
+bool repeats_one_log(const Contenders& compared) {
+  if (compared.trials.size() < 2) return false;
+  return std::ranges::all_of(compared.order, [&](const Contender& entry) {
+    std::set<std::pair<std::size_t, std::string>> logs;
+    for (const RunRecord& run : entry.one->runs) {
+      if (compared.trials.contains(run.key.trial_key())) logs.emplace(run.key.survey, run.log_hash);
+    }
+    return logs.size() == 1 && !logs.begin()->second.empty();
+  });
 }
 
 // Whether the log tells what registrations share, and one does not estimate it.
@@ -153,17 +157,17 @@ std::string no_ranking_text(const StudyResults& results, const std::string& metr
 
 std::optional<Ranking> ranking(const CellResults& cell, const std::string& metric,
                                const RankingOptions& options) {
-  const Metric catalogued = described(metric);
-  if (catalogued.better == Better::neither) return std::nullopt;
-  if (!no_ranking_text(cell, metric).empty()) return std::nullopt;
-  Ranking result;
-  const auto order = contenders_of(cell, catalogued, options.names, result.left_out);
+  const Contenders compared = contenders_of(cell, metric, options.names);
+  const std::vector<Contender>& order = compared.order;
   if (order.empty()) return std::nullopt;
+  Ranking result;
   result.metric = metric;
+  result.left_out = compared.left_out;
+  result.trials = compared.trials;
   const std::size_t differences = std::max<std::size_t>(1, order.size() - 1);
   result.level = 1.0 - kError / static_cast<double>(differences);
   result.margin =
-      std::max(options.margin * std::abs(order.front().mean()), digits_of(catalogued.unit));
+      std::max(options.margin * std::abs(order.front().mean), digits_of(described(metric).unit));
   result.draws = draws_of(cell);
   result.fewest_draws = fewest_draws(order.size());
   // The ends of a wider interval are in the tail, where more resamples are needed.
@@ -173,18 +177,18 @@ std::optional<Ranking> ranking(const CellResults& cell, const std::string& metri
   const EstimatorResults& best = *order.front().one;
   std::size_t most_draws = 1;
   for (std::size_t i = 0; i < order.size(); ++i) {
-    RankedEstimator entry{order[i].one->name, order[i].summary, std::nullopt, p[i],
-                          i == 0 ? Standing::best : Standing::not_shown};
+    RankedEstimator entry{order[i].one->name, summary_over(*order[i].one, metric, result.trials),
+                          std::nullopt, p[i], i == 0 ? Standing::best : Standing::not_shown};
     if (i > 0) entry.difference = difference_between(*order[i].one, best, metric, bootstrap);
     if (entry.difference) most_draws = std::max(most_draws, entry.difference->count);
     result.estimators.push_back(std::move(entry));
   }
   if (order.size() > 1) {
-    result.repeats_one_result = cell.trials > 1 && cell.surveys < 2 && most_draws == 1;
+    result.repeats_one_result = most_draws == 1 && repeats_one_log(compared);
     result.draws = std::min(result.draws, most_draws);
   }
   for (std::size_t i = 1; i < order.size() && result.gives_verdict(); ++i) {
-    const Beside beside{*order[i].one, best, order.front().mean(), metric, bootstrap};
+    const Beside beside{*order[i].one, best, order.front().mean, metric, bootstrap};
     RankedEstimator& entry = result.estimators[i];
     entry.standing = standing_of(entry, beside, options.margin, result.margin);
   }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -41,11 +42,12 @@ struct Ranking {
   std::string metric;
   std::vector<RankedEstimator> estimators;  ///< one or more
   std::vector<PartlyMeasured> left_out;
-  double level = 0.95;    ///< of each interval: 1 − 0.05 / number of differences
-  double margin = 0.0;    ///< differences up to it mean nothing; in the metric's unit
-  std::size_t draws = 0;  ///< independent ones: surveys, or trials where these are drawn alone
+  std::set<TrialKey> trials;  ///< that the means are over
+  double level = 0.95;        ///< of each interval: 1 − 0.05 / number of differences
+  double margin = 0.0;        ///< differences up to it mean nothing; in the metric's unit
+  std::size_t draws = 0;      ///< independent ones: surveys, or trials where these are drawn alone
   std::size_t fewest_draws = 0;     ///< with fewer no p can be below 0.05
-  bool repeats_one_result = false;  ///< several trials, of one log, in which all differ by the same
+  bool repeats_one_result = false;  ///< several trials, of one log, in which all say the same
 
   const RankedEstimator& best() const { return estimators.front(); }
   const RankedEstimator* find(const std::string& estimator) const;

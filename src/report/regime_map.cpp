@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "contenders.hpp"
 #include "ranking.hpp"
 
 namespace fathom {
@@ -15,17 +16,6 @@ std::optional<double> mean_of(const EstimatorResults& one, const std::string& me
   const auto found = one.metrics.find(metric);
   if (one.name == kDeadReckoning || one.failures() > 0 || found == one.metrics.end()) return {};
   return found->second.moments.mean;
-}
-
-std::optional<double> best_of(const CellResults& cell, const std::string& metric) {
-  if (described(metric).better != Better::lower || !no_ranking_text(cell, metric).empty())
-    return {};
-  std::optional<double> best;
-  for (const EstimatorResults& one : cell.estimators) {
-    const auto mean = mean_of(one, metric);
-    if (mean && (!best || *mean < *best)) best = mean;
-  }
-  return best;
 }
 
 constexpr double kDarkest = 10.0;  // as many times the best mean, and more
@@ -68,12 +58,23 @@ std::vector<RegimeMap> regime_maps(const StudyResults& results) {
   return list;
 }
 
-std::optional<double> relative_to_best(const CellResults& cell, const EstimatorResults& estimator,
-                                       const std::string& metric) {
-  const auto best = best_of(cell, metric);
-  const auto mean = mean_of(estimator, metric);
-  if (!best || !mean || !(*best > 0.0)) return {};
-  return *mean / *best;
+std::map<std::string, double> relative_to_best(const CellResults& cell, const std::string& metric) {
+  std::map<std::string, double> relative;
+  if (described(metric).better != Better::lower) return relative;
+  const Contenders compared = contenders_of(cell, metric);
+  if (compared.order.empty() || !(compared.order.front().mean > 0.0)) return relative;
+  for (const Contender& entry : compared.order) {
+    relative[entry.one->name] = entry.mean / compared.order.front().mean;
+  }
+  return relative;
+}
+
+std::vector<std::string> as_good_as_best(const CellResults& cell, const std::string& metric) {
+  std::vector<std::string> names;
+  for (const auto& [name, relative] : relative_to_best(cell, metric)) {
+    if (relative <= 1.0 + kAsGoodAsBest) names.push_back(name);
+  }
+  return names;
 }
 
 Shade shade_of_none() {
@@ -104,31 +105,39 @@ std::optional<SquareScale> scale_over(const StudyResults& results, const RegimeM
   return scale;
 }
 
-std::optional<RegimeSquare> regime_square(const CellResults& cell,
-                                          const EstimatorResults& estimator,
-                                          const std::string& metric, const SquareScale& scale) {
-  const auto mean = mean_of(estimator, metric);
-  if (!mean) return std::nullopt;
-  std::optional<double> relative;
-  if (scale.is_relative) relative = relative_to_best(cell, estimator, metric);
-  double share = 0.0;
-  if (relative) {
-    share = std::clamp(std::log(*relative) / std::log(kDarkest), 0.0, 1.0);
-  } else if (scale.most > scale.least) {
-    share = (*mean - scale.least) / (scale.most - scale.least);
+std::vector<std::optional<RegimeSquare>> regime_squares(const CellResults& cell,
+                                                        const std::string& metric,
+                                                        const SquareScale& scale) {
+  std::vector<std::optional<RegimeSquare>> squares;
+  const Contenders compared = scale.is_relative ? contenders_of(cell, metric) : Contenders{};
+  const double best = compared.order.empty() ? 0.0 : compared.order.front().mean;
+  for (const EstimatorResults& one : cell.estimators) {
+    auto mean = mean_of(one, metric);
+    if (scale.is_relative) {
+      const Contender* contender = compared.find(one.name);
+      mean = contender ? std::optional(contender->mean) : std::nullopt;
+    }
+    auto& square = squares.emplace_back();
+    if (!mean) continue;
+    square = RegimeSquare{*mean, std::nullopt, {}};
+    double share = 0.0;
+    if (best > 0.0) {
+      square->relative = *mean / best;
+      share = std::clamp(std::log(*square->relative) / std::log(kDarkest), 0.0, 1.0);
+    } else if (scale.most > scale.least) {
+      share = std::clamp((*mean - scale.least) / (scale.most - scale.least), 0.0, 1.0);
+    }
+    square->shade = shade_of(share);
   }
-  return RegimeSquare{relative, shade_of(share)};
+  return squares;
 }
 
 std::optional<std::string> cheapest_of_the_best(const CellResults& cell, const std::string& metric,
                                                 const std::string& cost) {
-  const EstimatorResults* cheapest = nullptr;
-  for (const EstimatorResults& one : cell.estimators) {
-    const auto relative = relative_to_best(cell, one, metric);
-    if (!relative || *relative > 1.0 + kAsGoodAsBest || !mean_of(one, cost)) continue;
-    if (cheapest == nullptr || *mean_of(one, cost) < *mean_of(*cheapest, cost)) cheapest = &one;
-  }
-  return cheapest == nullptr ? std::nullopt : std::optional(cheapest->name);
+  const std::vector<std::string> good = as_good_as_best(cell, metric);
+  if (good.empty()) return std::nullopt;
+  const Contenders by_cost = contenders_of(cell, cost, good);
+  return by_cost.order.empty() ? std::nullopt : std::optional(by_cost.order.front().one->name);
 }
 
 }  // namespace fathom

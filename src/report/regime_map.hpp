@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,10 +26,12 @@ std::vector<RegimeMap> regime_maps(const StudyResults& results);
 /// What an estimator is called as good as the best one by: a mean that is worse by this share.
 inline constexpr double kAsGoodAsBest = 0.05;
 
-/// A mean over the best estimator's of the cell: 1 is the best, 2 twice as large. Of metrics of
-/// which less is better, estimators that have failed no trial, and a best mean above zero.
-std::optional<double> relative_to_best(const CellResults& cell, const EstimatorResults& estimator,
-                                       const std::string& metric);
+/// By estimator that is ranked its mean over the best one's, both over the same trials: 1 is the
+/// best, 2 twice as large. Of metrics of which less is better, and a best mean above zero.
+std::map<std::string, double> relative_to_best(const CellResults& cell, const std::string& metric);
+
+/// Those whose mean is at most kAsGoodAsBest above the best.
+std::vector<std::string> as_good_as_best(const CellResults& cell, const std::string& metric);
 
 /// How a square is drawn, and the text in it.
 struct Shade {
@@ -36,7 +39,7 @@ struct Shade {
   Colour ink = palette::black;
 };
 
-/// Of an estimator that failed a trial or lacks the metric, and of the choice of one with a colour.
+/// Of an estimator that is in no comparison, and of the choice of one with a colour.
 Shade shade_of_none();
 Shade shade_of_choice(Colour colour);
 
@@ -53,18 +56,19 @@ std::optional<SquareScale> scale_over(const StudyResults& results, const RegimeM
                                       const std::string& metric);
 
 struct RegimeSquare {
+  double mean = 0.0;               ///< of a relative scale over the trials to rank by
   std::optional<double> relative;  ///< as `relative_to_best`, of a scale that is
   Shade shade;  ///< the best nearly white, ten times its mean dark; else dark is the most of the
                 ///< scale
 };
 
-/// Nothing of an estimator that is in no comparison.
-std::optional<RegimeSquare> regime_square(const CellResults& cell,
-                                          const EstimatorResults& estimator,
-                                          const std::string& metric, const SquareScale& scale);
+/// By estimator of the cell; nothing of one that is in no comparison.
+std::vector<std::optional<RegimeSquare>> regime_squares(const CellResults& cell,
+                                                        const std::string& metric,
+                                                        const SquareScale& scale);
 
-/// The estimator with the least mean cost of those as good as the best one; nothing where none
-/// has done all its trials, or the metric has no best.
+/// The estimator with the least mean cost of those as good as the best one, over the trials in
+/// which all of these have it; nothing where there is none, or the metric has no best.
 std::optional<std::string> cheapest_of_the_best(const CellResults& cell, const std::string& metric,
                                                 const std::string& cost);
 

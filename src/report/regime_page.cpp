@@ -20,8 +20,9 @@ void add_squares(const StudyResults& results, const RegimeMap& map, Json& cells)
         if (cell == nullptr) continue;
         Json& estimators =
             cells[static_cast<std::size_t>(cell - results.cells.data())]["estimators"];
-        for (std::size_t i = 0; i < cell->estimators.size(); ++i) {
-          const auto square = regime_square(*cell, cell->estimators[i], metric, *scale);
+        const auto squares = regime_squares(*cell, metric, *scale);
+        for (std::size_t i = 0; i < squares.size(); ++i) {
+          const auto& square = squares[i];
           if (!square) continue;
           const bool is_dark = square->shade.ink == palette::white;
           estimators[i]["metrics"][metric]["square"] = {hex(square->shade.fill), is_dark,

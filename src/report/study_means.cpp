@@ -1,21 +1,11 @@
-#include "fathom/evaluation/clustered.hpp"
 #include "fathom/report/study_report.hpp"
+#include "fathom/results/distinct_values.hpp"
 #include "ranking.hpp"
+#include "regime_map.hpp"
 #include "study_results.hpp"
 
 namespace fathom {
 namespace {
-
-double mean_over(const EstimatorResults& one, const std::string& metric,
-                 const std::set<TrialKey>& trials) {
-  ClusteredValues values;
-  for (const RunRecord& run : one.runs) {
-    if (trials.contains(run.key.trial_key())) {
-      values[run.key.survey].push_back(run.metrics.at(metric));
-    }
-  }
-  return clustered_mean(values);
-}
 
 StudyMeans means_of(const EstimatorResults& one, std::size_t cell) {
   StudyMeans means{cell, one.name, one.runs.size(), one.done, {}};
@@ -32,6 +22,15 @@ StudyMeans means_of(const EstimatorResults& one, std::size_t cell) {
 
 }  // namespace
 
+double mean_over(const EstimatorResults& one, const std::string& metric,
+                 const std::set<TrialKey>& trials) {
+  DistinctValues values(metric);
+  for (const RunRecord& run : one.runs) {
+    if (trials.contains(run.key.trial_key())) values.add(run, run.metrics.at(metric));
+  }
+  return clustered_mean(values.values());
+}
+
 std::vector<StudyMeans> study_means(const ResultStore& store) {
   std::vector<StudyMeans> list;
   const StudyResults results = study_results(store, MetricsOf::none);
@@ -44,6 +43,16 @@ std::vector<StudyMeans> study_means(const ResultStore& store) {
 std::string not_ranked_text(const ResultStore& store, const std::string& metric) {
   if (!is_of_optimum(metric)) return "";
   return no_ranking_text(study_results(store, MetricsOf::study), metric);
+}
+
+RelativeMeans means_over_best(const ResultStore& store, const std::string& metric) {
+  RelativeMeans all;
+  const auto what = is_of_optimum(metric) ? MetricsOf::study : MetricsOf::none;
+  const StudyResults results = study_results(store, what);
+  for (const CellResults& cell : results.cells) {
+    all[cell.cell] = relative_to_best(cell, metric);
+  }
+  return all;
 }
 
 }  // namespace fathom

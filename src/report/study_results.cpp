@@ -29,7 +29,6 @@ const std::string* machine_of(const EstimatorResults& estimator, const std::stri
 std::optional<MetricSummary> summary_of(const EstimatorResults& estimator,
                                         const std::string& metric,
                                         const std::set<TrialKey>* trials = nullptr) {
-  ClusteredValues values;
   DistinctValues distinct(metric);
   std::vector<double> all;
   const std::string* machine = machine_of(estimator, metric);
@@ -37,13 +36,13 @@ std::optional<MetricSummary> summary_of(const EstimatorResults& estimator,
     const auto value = metric_of(run, metric, machine);
     if (is_failed(run) || !value) continue;
     if (trials != nullptr && !trials->contains(run.key.trial_key())) continue;
-    values[run.key.survey].push_back(*value);
     distinct.add(run, *value);
     all.push_back(*value);
   }
-  if (values.empty()) return std::nullopt;
-  MetricSummary summary{*moments(all), values.size(), hierarchical_interval(distinct.values())};
-  if (values.size() > 1) summary.moments.mean = clustered_mean(values);
+  if (all.empty()) return std::nullopt;
+  const ClusteredValues values = distinct.values();
+  MetricSummary summary{*moments(all), values.size(), hierarchical_interval(values)};
+  summary.moments.mean = clustered_mean(values);
   return summary;
 }
 
@@ -189,8 +188,9 @@ std::set<TrialKey> trials_with(const EstimatorResults& one, const std::string& m
 
 MetricSummary summary_over(const EstimatorResults& one, const std::string& metric,
                            const std::set<TrialKey>& trials) {
-  const MetricSummary& own = one.metrics.at(metric);
-  return own.moments.count == trials.size() ? own : summary_of(one, metric, &trials).value();
+  const auto own = one.metrics.find(metric);
+  const bool is_own = own != one.metrics.end() && own->second.moments.count == trials.size();
+  return is_own ? own->second : summary_of(one, metric, &trials).value();
 }
 
 std::optional<PairedDifference> difference_between(const EstimatorResults& one,

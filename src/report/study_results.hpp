@@ -17,8 +17,9 @@ namespace fathom {
 
 /// A metric over the trials of one cell that were done and have it.
 struct MetricSummary {
-  Moments moments;  ///< of the trials; of several surveys the mean is that of the surveys' means
-  std::size_t surveys = 0;           ///< that these trials are of
+  Moments moments;          ///< of the trials, but for the mean: that of the surveys' means, of
+                            ///< DistinctValues
+  std::size_t surveys = 0;  ///< that these trials are of
   std::optional<Interval> interval;  ///< 95 %, of the mean; nothing of a single trial
 };
 
@@ -66,7 +67,9 @@ struct CellResults {
 /// The trials of an estimator that are done and have a metric.
 std::set<TrialKey> trials_with(const EstimatorResults& one, const std::string& metric);
 
-/// A metric that an estimator has over some of these trials.
+/// A metric that an estimator has in all of these trials, one or more.
+double mean_over(const EstimatorResults& one, const std::string& metric,
+                 const std::set<TrialKey>& trials);
 MetricSummary summary_over(const EstimatorResults& one, const std::string& metric,
                            const std::set<TrialKey>& trials);
 

@@ -20,11 +20,6 @@ std::string mean_text(const MetricSummary& summary, const std::string& unit) {
   return quantity(summary.moments.mean, summary.interval, unit);
 }
 
-const EstimatorResults* find(const CellResults& cell, const std::string& name) {
-  const auto found = std::ranges::find(cell.estimators, name, &EstimatorResults::name);
-  return found == cell.estimators.end() ? nullptr : &*found;
-}
-
 // "+0.002 mm [-0.02, 0.03]": with its sign, as its interval may hold 0.
 std::string signed_text(const RankedEstimator& one, const ScaledUnit& scale) {
   const PairedDifference& difference = *one.difference;
@@ -65,7 +60,7 @@ void add_others(const Ranking& ranking, const std::string& unit,
                     listed_with(named, [&](const RankedEstimator& one) {
                       return fmt::format("{} ({})", one.name, signed_text(one, scales.of(one)));
                     })));
-    sentences.push_back(rare_text(ranking));
+    sentences.push_back(rare_text(ranking.draws));
   }
   if (const auto named = with_interval(ranking, Standing::not_shown); !named.empty()) {
     const DifferenceScales scales(named, unit);
@@ -114,6 +109,23 @@ void add_left_out(const Ranking& ranking, const std::string& label,
   }
 }
 
+// Over the trials that are ranked.
+std::string baseline_text(const CellResults& cell, const Ranking& ranking) {
+  const auto baseline = std::ranges::find(cell.estimators, kDeadReckoning, &EstimatorResults::name);
+  if (baseline == cell.estimators.end()) return "";
+  std::set<TrialKey> trials = trials_with(*baseline, ranking.metric);
+  std::erase_if(trials, [&](const TrialKey& trial) { return !ranking.trials.contains(trial); });
+  if (trials.empty()) return "";
+  const Metric metric = described(ranking.metric);
+  const double mean = mean_over(*baseline, metric.name, trials);
+  const double best = ranking.best().summary.moments.mean;
+  std::string text = "Dead reckoning: " + quantity(mean, metric.unit);
+  if (metric.better == Better::lower && best > 0.0 && trials == ranking.trials) {
+    text += ", " + format_number(mean / best, 2) + " times the lowest";
+  }
+  return text + ".";
+}
+
 std::vector<std::string> answer_of(const CellResults& cell, const std::optional<Ranking>& ranking,
                                    const std::string& by) {
   if (!ranking) return {nobody_is_ranked_text(cell, by)};
@@ -130,33 +142,13 @@ std::vector<std::string> answer_of(const CellResults& cell, const std::optional<
   add_others(*ranking, metric.unit, sentences);
   add_means(*ranking, metric.unit, sentences);
   add_left_out(*ranking, metric.label, sentences);
-  const EstimatorResults* baseline = find(cell, kDeadReckoning);
-  if (baseline == nullptr || !baseline->metrics.contains(metric.name)) return sentences;
-  const double of_baseline = baseline->metrics.at(metric.name).moments.mean;
-  std::string text = "Dead reckoning: " + quantity(of_baseline, metric.unit);
-  if (metric.better == Better::lower && best.summary.moments.mean > 0.0) {
-    text += ", " + format_number(of_baseline / best.summary.moments.mean, 2) + " times the lowest";
-  }
-  sentences.push_back(text + ".");
+  if (const auto text = baseline_text(cell, *ranking); !text.empty()) sentences.push_back(text);
   return sentences;
 }
 
-// By cost, those that are as good as the best.
-std::optional<Ranking> cost_ranking(const CellResults& cell, const Ranking& by_accuracy,
-                                    const std::string& cost, double margin) {
-  std::vector<std::string> good;
-  for (const RankedEstimator& one : by_accuracy.estimators) {
-    const auto relative = relative_to_best(cell, *find(cell, one.name), by_accuracy.metric);
-    if (relative && *relative <= 1.0 + kAsGoodAsBest) good.push_back(one.name);
-  }
-  return ranking(cell, cost, {good, margin});
-}
-
-std::string cost_text(const CellResults& cell, const Ranking& by_cost,
-                      const std::string& cheapest) {
-  const std::string& cost = by_cost.metric;
-  const Metric metric = described(cost);
-  const MetricSummary& least = find(cell, cheapest)->metrics.at(cost);
+std::string cost_text(const Ranking& by_cost) {
+  const Metric metric = described(by_cost.metric);
+  const MetricSummary& least = by_cost.best().summary;
   // One unit for the sentence, as it compares.
   double most =
       least.interval ? std::max(least.moments.mean, least.interval->high) : least.moments.mean;
@@ -164,12 +156,12 @@ std::string cost_text(const CellResults& cell, const Ranking& by_cost,
     most = std::max(most, one.summary.moments.mean);
   }
   const ScaledUnit unit = reading_unit(metric.unit, most);
-  std::string text = fmt::format("Cheapest of those within 5 % of the best: {}, {} {}.", cheapest,
-                                 metric.label, quantity(least.moments.mean, least.interval, unit));
+  std::string text =
+      fmt::format("Cheapest of those within 5 % of the best: {}, {} {}.", by_cost.best().name,
+                  metric.label, quantity(least.moments.mean, least.interval, unit));
   const auto add = [&](Standing standing, const std::string& before, const std::string& after) {
     std::vector<std::string> named;
     for (const RankedEstimator* one : by_cost.standing(standing)) {
-      if (one->name == cheapest) continue;
       named.push_back(one->name + " " + quantity(one->summary.moments.mean, std::nullopt, unit));
     }
     if (!named.empty()) text += before + listed(named) + after;
@@ -206,15 +198,14 @@ CellVerdict cell_verdict(const CellResults& cell, const StudyDescription& study,
     verdict.answer.insert(verdict.answer.end(), answer.begin(), answer.end());
   }
   if (verdict.ranking && cost) {
-    verdict.cheapest = cheapest_of_the_best(cell, *by.name, *cost);
-    const auto by_cost =
-        verdict.cheapest ? cost_ranking(cell, *verdict.ranking, *cost, study.margin) : std::nullopt;
-    if (by_cost) {
-      verdict.cost = {cost_text(cell, *by_cost, *verdict.cheapest)};
-      for (const RankedEstimator& one : by_cost->estimators) {
-        if (one.name == *verdict.cheapest || one.standing == Standing::worse) continue;
-        verdict.as_cheap.push_back(one.name);
-      }
+    const std::vector<std::string> good = as_good_as_best(cell, *by.name);
+    if (!good.empty()) verdict.by_cost = ranking(cell, *cost, {good, study.margin});
+  }
+  if (verdict.by_cost) {
+    verdict.cost = {cost_text(*verdict.by_cost)};
+    for (const RankedEstimator& one : verdict.by_cost->estimators) {
+      const bool is_dearer = one.standing == Standing::worse;
+      if (&one != &verdict.by_cost->best() && !is_dearer) verdict.as_cheap.push_back(one.name);
     }
   }
   verdict.failed = failures_of(cell, study);

@@ -12,10 +12,10 @@ namespace fathom {
 
 /// The answer of one cell, in sentences.
 struct CellVerdict {
-  std::optional<Ranking> ranking;       ///< by the study's metric; nothing where none is ranked
-  std::optional<std::string> cheapest;  ///< of those as good as the best
-  std::vector<std::string> as_cheap;    ///< others of those that are not shown to be dearer
-  std::vector<std::string> answer;      ///< which is best, which is worse, by how much
+  std::optional<Ranking> ranking;     ///< by the study's metric; nothing where none is ranked
+  std::optional<Ranking> by_cost;     ///< of those as good as the best
+  std::vector<std::string> as_cheap;  ///< of these that are not shown to be dearer than the first
+  std::vector<std::string> answer;    ///< which is best, which is worse, by how much
   std::vector<std::string> cost;
   std::vector<std::string> failed;
   std::vector<Doubt> doubts;

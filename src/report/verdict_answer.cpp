@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 #include <map>
 
 #include "fathom/report/table.hpp"
@@ -52,10 +53,12 @@ void add_worse(const StudyResults& results, StudyVerdict& verdict) {
 // In how many cells each is equivalent to another that is the best.
 void add_equivalent(const StudyResults& results, StudyVerdict& verdict) {
   std::map<std::string, std::size_t> cells;
+  std::size_t fewest_draws = std::numeric_limits<std::size_t>::max();
   for (const CellVerdict& cell : verdict.cells) {
     if (!cell.ranking) continue;
     for (const RankedEstimator* one : cell.ranking->standing(Standing::equivalent)) {
       ++cells[one->name];
+      fewest_draws = std::min(fewest_draws, cell.ranking->draws);
     }
   }
   if (cells.empty()) return;
@@ -65,6 +68,21 @@ void add_equivalent(const StudyResults& results, StudyVerdict& verdict) {
     parts.push_back(name + " in " + of_cells(count, results.cells.size()));
   }
   verdict.answer.push_back("Equivalent to the best: " + listed(parts) + ".");
+  verdict.answer.push_back(rare_text(fewest_draws));
+}
+
+// Who lacks the metric in trials in which others have it.
+void add_partly_measured(const StudyResults& results, StudyVerdict& verdict) {
+  std::map<std::string, std::size_t> cells;
+  for (const CellVerdict& cell : verdict.cells) {
+    if (!cell.ranking) continue;
+    for (const PartlyMeasured& one : cell.ranking->left_out) ++cells[one.name];
+  }
+  for (const auto& [name, count] : cells) {
+    verdict.answer.push_back(
+        fmt::format("{} has no {} in some trials of {}, where it is not ranked by it.", name,
+                    described(*verdict.metric).label, of_cells(count, results.cells.size())));
+  }
 }
 
 }  // namespace
@@ -79,7 +97,7 @@ std::string distance_text(const RankedEstimator& one, const ScaledUnit& scale) {
 std::string no_verdict_text(const Ranking& ranking, const CellResults& cell) {
   if (ranking.repeats_one_result) {
     return fmt::format("No verdict: the {} have the same measurements and are one result.",
-                       counted(cell.trials, "trial"));
+                       counted(ranking.trials.size(), "trial"));
   }
   const bool is_of_surveys = cell.repetition == Repetition::surveys || cell.surveys > 1;
   return fmt::format("No verdict: with {} no difference between {} can be shown; {} are needed.",
@@ -87,10 +105,10 @@ std::string no_verdict_text(const Ranking& ranking, const CellResults& cell) {
                      counted(ranking.estimators.size(), "estimator"), ranking.fewest_draws);
 }
 
-std::string rare_text(const Ranking& ranking) {
+std::string rare_text(std::size_t draws) {
   // What has a probability of 3 / n occurs in none of n draws with one of 5 %.
-  return fmt::format("{} draws need not show what goes wrong in one of {}.", ranking.draws,
-                     format_number(static_cast<double>(ranking.draws) / 3.0, 2));
+  return fmt::format("{} draws need not show what goes wrong in one of {}.", draws,
+                     format_number(static_cast<double>(draws) / 3.0, 2));
 }
 
 std::string of_cells(std::size_t count, std::size_t all) {
@@ -121,7 +139,6 @@ void add_answer(const StudyResults& results, StudyVerdict& verdict) {
   if (compared == 0) {
     verdict.answer.push_back("Estimators are ranked by " + label +
                              ", but no cell has an interval of a difference.");
-    return;
   }
   if (decided > 0) {
     verdict.answer.push_back(differing == 0
@@ -139,6 +156,7 @@ void add_answer(const StudyResults& results, StudyVerdict& verdict) {
   }
   add_equivalent(results, verdict);
   add_worse(results, verdict);
+  add_partly_measured(results, verdict);
 }
 
 }  // namespace fathom

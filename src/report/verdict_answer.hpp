@@ -15,6 +15,6 @@ std::string of_cells(std::size_t count, std::size_t all);
 void add_answer(const StudyResults& results, StudyVerdict& verdict);
 
 /// What so few draws do not exclude, of estimators that are called equivalent: a sentence.
-std::string rare_text(const Ranking& ranking);
+std::string rare_text(std::size_t draws);
 
 }  // namespace fathom

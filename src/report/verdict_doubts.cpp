@@ -8,15 +8,22 @@
 namespace fathom {
 namespace {
 
+// Of the trials that are ranked.
 std::optional<Doubt> few_draws(const CellResults& cell, const CellVerdict& verdict) {
-  if (cell.trials < 2) return doubt::SingleTrial{};
-  if (verdict.ranking && verdict.ranking->repeats_one_result) return doubt::OneResult{cell.trials};
+  std::size_t trials = cell.trials;
+  std::size_t surveys = cell.surveys;
+  if (verdict.ranking) {
+    trials = verdict.ranking->trials.size();
+    surveys = verdict.ranking->best().summary.surveys;
+  }
+  if (trials < 2) return doubt::SingleTrial{};
+  if (verdict.ranking && verdict.ranking->repeats_one_result) return doubt::OneResult{trials};
   if (cell.repetition == Repetition::logs) {
-    if (cell.trials < kFewSurveys) return doubt::FewTrials{cell.trials};
-  } else if (cell.surveys == 1) {
+    if (trials < kFewSurveys) return doubt::FewTrials{trials};
+  } else if (surveys == 1) {
     return doubt::OneSurvey{limits_text(cell)};
-  } else if (cell.surveys < kFewSurveys) {
-    return doubt::FewSurveys{cell.surveys};
+  } else if (surveys < kFewSurveys) {
+    return doubt::FewSurveys{surveys};
   }
   return std::nullopt;
 }

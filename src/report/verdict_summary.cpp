@@ -21,16 +21,13 @@ void add_cost(const StudyResults& results, StudyVerdict& verdict) {
   double least = INFINITY;
   double most = 0.0;
   std::size_t unsure = 0;
-  for (std::size_t i = 0; i < results.cells.size(); ++i) {
-    const auto& name = verdict.cells[i].cheapest;
-    if (!name) continue;
-    ++cheapest[*name];
-    unsure += verdict.cells[i].as_cheap.empty() ? 0 : 1;
-    for (const EstimatorResults& one : results.cells[i].estimators) {
-      if (one.name != *name) continue;
-      least = std::min(least, one.metrics.at(*verdict.cost).moments.mean);
-      most = std::max(most, one.metrics.at(*verdict.cost).moments.mean);
-    }
+  for (const CellVerdict& cell : verdict.cells) {
+    if (!cell.by_cost) continue;
+    ++cheapest[cell.by_cost->best().name];
+    unsure += cell.as_cheap.empty() ? 0 : 1;
+    const double mean = cell.by_cost->best().summary.moments.mean;
+    least = std::min(least, mean);
+    most = std::max(most, mean);
   }
   if (cheapest.empty()) return;
   std::vector<std::string> parts;

@@ -38,7 +38,9 @@ inline EstimatorResults made(const std::string& name, const std::vector<double>&
 /// A cost that is the same in all its runs.
 inline EstimatorResults costing(EstimatorResults one, double total_ms) {
   for (RunRecord& run : one.runs) run.metrics["total_ms"] = total_ms;
-  one.metrics["total_ms"].moments.mean = total_ms;
+  Moments& cost = one.metrics["total_ms"].moments;
+  cost.count = one.runs.size();
+  cost.mean = total_ms;
   return one;
 }
 

@@ -130,9 +130,10 @@ TEST_F(PageRows, SquaresOfTheRegimeMapAreThoseOfTheFigure) {
   const std::string metric = "mean_position_error_m";
   for (std::size_t c = 0; c < results_.cells.size(); ++c) {
     const CellResults& cell = results_.cells[c];
+    const auto squares = regime_squares(cell, metric, {});
     for (std::size_t e = 0; e < cell.estimators.size(); ++e) {
       const Json& drawn = page_["cells"][c]["estimators"][e]["metrics"][metric];
-      const auto square = regime_square(cell, cell.estimators[e], metric, {});
+      const auto& square = squares[e];
       ASSERT_EQ(drawn.contains("square"), square.has_value()) << c << " " << e;
       if (!square) continue;
       EXPECT_EQ(drawn["square"][0], hex(square->shade.fill));

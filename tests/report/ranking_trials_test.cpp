@@ -9,8 +9,10 @@
 namespace fathom::test {
 namespace {
 
+using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::StartsWith;
 
 const std::vector<double> kErrors{1.0, 1.2, 0.9, 1.1, 1.0, 1.1, 1.3, 0.8};
 
@@ -49,6 +51,40 @@ TEST(RankingTrials, MeansAreOverTheTrialsThatAllHaveRun) {
   EXPECT_EQ(ranked->find("shorter")->standing, Standing::worse);
 }
 
+TEST(RankingTrials, OverSeveralCellsItIsSaidToo) {
+  EstimatorResults partly = made("partly", kErrors, true);
+  partly.runs[5].metrics.erase(kError);
+  const auto verdict = study_verdict(
+      study_of({surveyed({partly, made("all", worse(), true)}),
+                surveyed({made("partly", kErrors, true), made("all", worse(), true)})},
+               8, 1));
+  EXPECT_THAT(verdict.answer,
+              Contains("partly has no mean position error in some trials of 1 of 2 cells, where it "
+                       "is not ranked by it."));
+}
+
+// One trial in common is no repetition of one result.
+TEST(RankingTrials, OneTrialInCommonIsASingleTrial) {
+  CellResults cell = cell_of({made("a", kErrors), made("b", {2.0})});
+  for (EstimatorResults& one : cell.estimators) {
+    for (RunRecord& run : one.runs) run.log_hash = "log " + std::to_string(run.key.trial);
+  }
+  const auto ranked = ranking(cell, kError);
+  EXPECT_FALSE(ranked->repeats_one_result);
+  EXPECT_EQ(ranked->draws, 1u);
+  const auto verdict = study_verdict(study_of({cell}, 1, 8));
+  EXPECT_THAT(verdict.answer, Contains(StartsWith("No verdict: with 1 survey no")));
+  EXPECT_THAT(verdict.doubts, ElementsAre(StartsWith("A single trial")));
+}
+
+// Beside the lowest, over the same trials.
+TEST(RankingTrials, DeadReckoningIsOfTheTrialsThatAreRanked) {
+  const CellResults cell =
+      cell_of({made(kDeadReckoning, {4.0, 40.0}), made("a", {1.0, 1.0}), made("b", {2.0})});
+  EXPECT_THAT(study_verdict(study_of({cell}, 1, 2)).answer,
+              Contains("Dead reckoning: 4.00 m, 4.0 times the lowest."));
+}
+
 // Trials of one measurement log repeat one result.
 TEST(RankingTrials, RepeatsOfOneResultAreOneDraw) {
   CellResults cell =
@@ -63,6 +99,21 @@ TEST(RankingTrials, RepeatsOfOneResultAreOneDraw) {
   EXPECT_TRUE(ranked->repeats_one_result);
   EXPECT_FALSE(ranked->gives_verdict());
   EXPECT_FALSE(ranked->find("b")->difference->interval);
+}
+
+// An estimator that draws says something else of the same log: then each trial is a draw.
+TEST(RankingTrials, WhatAnEstimatorDrawsOnOneLogIsNoRepeat) {
+  std::vector<double> drawn(9, 0.1);
+  drawn.push_back(1.0);
+  CellResults cell = cell_of({made("a", drawn), made("b", std::vector<double>(10, 0.3))});
+  for (EstimatorResults& one : cell.estimators) {
+    for (RunRecord& run : one.runs) run.log_hash = "the same";
+  }
+  const auto ranked = ranking(cell, kError);
+  EXPECT_NEAR(ranked->best().summary.moments.mean, 0.19, 1e-12);
+  EXPECT_FALSE(ranked->repeats_one_result);
+  EXPECT_EQ(ranked->find("b")->difference->count, 10u);
+  EXPECT_NEAR(ranked->find("b")->difference->mean, 0.11, 1e-12);
 }
 
 TEST(RankingTrials, SaysWhyNobodyIsRanked) {

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "report/made_cells.hpp"
 #include "report/placed_texts.hpp"
 #include "report/study_fixture.hpp"
 #include "src/report/study_figures.hpp"
@@ -12,57 +13,73 @@ namespace fathom::test {
 namespace {
 
 using ::testing::AllOf;
+using ::testing::Contains;
 using ::testing::DoubleEq;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 using ::testing::Not;
-using ::testing::Optional;
+using ::testing::Pair;
 
 EstimatorResults with_means(const std::string& name, double error_m, double total_ms,
                             std::size_t failures = 0) {
-  EstimatorResults one;
-  one.name = name;
-  one.runs.resize(10);
+  EstimatorResults one = costing(made(name, std::vector<double>(10, error_m)), total_ms);
+  for (RunRecord& run : one.runs) run.metrics["anees"] = 1.0;
   one.done = 10 - failures;
-  one.metrics["mean_position_error_m"].moments.mean = error_m;
-  one.metrics["total_ms"].moments.mean = total_ms;
   one.metrics["anees"].moments.mean = 1.0;
   return one;
 }
 
-CellResults bare_cell(std::vector<EstimatorResults> estimators) {
-  CellResults cell;
-  cell.estimators = std::move(estimators);
-  return cell;
-}
-
 TEST(RegimeMap, TheCheapestIsOneOfThoseAsGoodAsTheBest) {
   const CellResults cell =
-      bare_cell({with_means("best", 1.0, 5.0), with_means("as_good", 1.04, 2.0),
-                 with_means("dearer", 1.01, 3.0), with_means("worse", 1.06, 1.0)});
-  EXPECT_EQ(cheapest_of_the_best(cell, "mean_position_error_m", "total_ms"), "as_good");
-  EXPECT_THAT(relative_to_best(cell, cell.estimators[3], "mean_position_error_m"),
-              Optional(DoubleEq(1.06)));
+      cell_of({with_means("best", 1.0, 5.0), with_means("as_good", 1.04, 2.0),
+               with_means("dearer", 1.01, 3.0), with_means("worse", 1.06, 1.0)});
+  EXPECT_EQ(cheapest_of_the_best(cell, kError, "total_ms"), "as_good");
+  EXPECT_THAT(relative_to_best(cell, kError), Contains(Pair("worse", DoubleEq(1.06))));
 }
 
 // Dead reckoning is no choice; a mean that leaves out the trials that failed flatters.
 TEST(RegimeMap, DeadReckoningAndEstimatorsThatFailedAreInNoComparison) {
   const CellResults cell =
-      bare_cell({with_means(kDeadReckoning, 0.1, 0.1), with_means("failed", 0.5, 0.5, 1),
-                 with_means("good", 1.0, 5.0)});
-  EXPECT_EQ(cheapest_of_the_best(cell, "mean_position_error_m", "total_ms"), "good");
-  EXPECT_EQ(relative_to_best(cell, cell.estimators[0], "mean_position_error_m"), std::nullopt);
-  EXPECT_EQ(relative_to_best(cell, cell.estimators[1], "mean_position_error_m"), std::nullopt);
-  EXPECT_THAT(relative_to_best(cell, cell.estimators[2], "mean_position_error_m"),
-              Optional(DoubleEq(1.0)));
-  const CellResults none = bare_cell({with_means("failed", 0.5, 0.5, 10)});
-  EXPECT_EQ(cheapest_of_the_best(none, "mean_position_error_m", "total_ms"), std::nullopt);
+      cell_of({with_means(kDeadReckoning, 0.1, 0.1), with_means("failed", 0.5, 0.5, 1),
+               with_means("good", 1.0, 5.0)});
+  EXPECT_EQ(cheapest_of_the_best(cell, kError, "total_ms"), "good");
+  EXPECT_THAT(relative_to_best(cell, kError), ElementsAre(Pair("good", 1.0)));
+  const CellResults none = cell_of({with_means("failed", 0.5, 0.5, 10)});
+  EXPECT_EQ(cheapest_of_the_best(none, kError, "total_ms"), std::nullopt);
+}
+
+// The means of one that lacks the metric in the hard trials would be the least.
+TEST(RegimeMap, WhoLacksTheMetricInATrialIsInNoComparison) {
+  EstimatorResults all = with_means("all", 1.0, 5.0);
+  EstimatorResults partly = with_means("partly", 1.5, 1.0);
+  for (std::size_t trial = 7; trial < 10; ++trial) {
+    all.runs[trial].metrics[kError] = 10.0;
+    partly.runs[trial].metrics.erase(kError);
+  }
+  all.metrics[kError].moments.mean = 3.7;
+  const CellResults cell = cell_of({all, partly});
+  EXPECT_EQ(cheapest_of_the_best(cell, kError, "total_ms"), "all");
+  EXPECT_THAT(relative_to_best(cell, kError), ElementsAre(Pair("all", 1.0)));
+  const auto squares = regime_squares(cell, kError, {});
+  EXPECT_EQ(squares[0]->relative, 1.0);
+  EXPECT_FALSE(squares[1]);
+}
+
+// Of a study that is not finished, over the trials that all have run.
+TEST(RegimeMap, MeansAreOverTheSameTrials) {
+  const CellResults cell =
+      cell_of({costing(made("longer", {1.0, 50.0}), 2.0), costing(made("shorter", {2.0}), 1.0)});
+  EXPECT_THAT(relative_to_best(cell, kError),
+              ElementsAre(Pair("longer", 1.0), Pair("shorter", 2.0)));
+  EXPECT_EQ(regime_squares(cell, kError, {})[0]->mean, 1.0);
 }
 
 // ANEES has no best: 1 is honest, and less is not better.
 TEST(RegimeMap, AMetricWithoutABestHasNoChoice) {
-  const CellResults cell = bare_cell({with_means("a", 1.0, 5.0), with_means("b", 2.0, 2.0)});
+  const CellResults cell = cell_of({with_means("a", 1.0, 5.0), with_means("b", 2.0, 2.0)});
   EXPECT_EQ(cheapest_of_the_best(cell, "anees", "total_ms"), std::nullopt);
-  EXPECT_EQ(relative_to_best(cell, cell.estimators[0], "anees"), std::nullopt);
+  EXPECT_THAT(relative_to_best(cell, "anees"), IsEmpty());
 }
 
 StudyResults results_of(const TemporaryFolder& folder, const FixtureOptions& options) {

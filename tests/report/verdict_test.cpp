@@ -74,7 +74,7 @@ TEST(Verdict, TheCheapestIsOneOfTheGoodOnes) {
       study_verdict(study_of({surveyed({eight("best", kBest, 8.0), eight("alike", kAlike, 0.0035),
                                         eight("worse", kWorse, 0.001)})},
                              6, 1));
-  EXPECT_EQ(verdict.cells[0].cheapest, "alike");
+  EXPECT_EQ(verdict.cells[0].by_cost->best().name, "alike");
   EXPECT_THAT(
       verdict.cost_words,
       ElementsAre("Cheapest of those within 5 % of the best: alike, estimate, time 0.00350 ms. "

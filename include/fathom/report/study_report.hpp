@@ -35,6 +35,11 @@ struct StudyMeans {
 };
 std::vector<StudyMeans> study_means(const ResultStore& store);
 
+/// By cell and estimator its mean of a metric over that of the cell's best, as the regime map has
+/// them (docs/report.md): of the estimators that are ranked, over the same trials.
+using RelativeMeans = std::map<std::size_t, std::map<std::string, double>>;
+RelativeMeans means_over_best(const ResultStore& store, const std::string& metric);
+
 /// Why a study's estimators are not ranked by a metric, without a full stop; empty where they may
 /// be (docs/report.md).
 std::string not_ranked_text(const ResultStore& store, const std::string& metric);

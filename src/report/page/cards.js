@@ -30,7 +30,7 @@ const charts = [
       const against = unrankedIn(cell, state.accuracy);
       const front = better === 'neither' ? 'No value of this metric is the better one, so none is ringed.'
         : against ? `None is ringed: ${against}.`
-        : `Ringed, on the dashed line: no other that did all its runs is both better (${better}) and cheaper.`;
+        : `Ringed, on the dashed line: no other that is compared is both better (${better}) and cheaper.`;
       return `${sentence(conditions(cell))}. Means with 95 % intervals. ${front} Grey line: dead reckoning. ${jobsNote(cell)}`;
     }},
   {id: 'updates', title: 'Cost of an update', plots: updatePlots,
@@ -64,7 +64,7 @@ const charts = [
         : `${sentence(meanTitle(state.regimeMetric))}.` + (unranked(state.regimeMetric) ? ` No best one is shown: ${unranked(state.regimeMetric)}.` : '');
       const choice = cheapest ? ` Last map: by ${meanTitle(cheapest.cost)} the cheapest of those whose ` +
         `${meanTitle(cheapest.metric)} is at most 5 % above the best; ?: others of them are not shown to be dearer, as the tooltip says.` : '';
-      return `${fixed.join('')}${repeatsOf(regimeCells())} a square. ${meaning} An estimator that failed a trial is in no comparison.${choice}`;
+      return `${fixed.join('')}${repeatsOf(regimeCells())} a square. ${meaning} An estimator that failed a trial, or has no value where others have one, is in no comparison.${choice}`;
     }},
   {id: 'keyframes', title: 'Error and consistency over keyframes', wide: true, plots: keyframePlots,
     exists: (cell) => sum(cell.estimators.map((one) => one.keyframes.keyframe.length)) > 0,

@@ -41,6 +41,9 @@ function regimeCells() {
   return study.cells.filter((cell) => cell.places.every((place, axis) => [study.regimes.across, study.regimes.up].includes(axis) || place === here[axis]));
 }
 
+// A mean beside others: over the trials that estimators are ranked by, where it is.
+const rankedOf = (metric) => (metric && metric.ranked) || metric;
+
 const regimeIsRelative = () => study.metrics[state.regimeMetric].better === 'lower' && !unranked(state.regimeMetric);
 
 function regimeRow(cell) {
@@ -52,13 +55,14 @@ function regimeRows(name) {
   return regimeCells().map((cell) => {
     const row = {...regimeRow(cell), estimator: name, stroke: styleOf(name).colour};
     const one = cell.estimators.find((other) => other.name === name);
-    const metric = one && one.metrics[state.regimeMetric];
-    if (!metric || !metric.square) {
+    const own = one && one.metrics[state.regimeMetric];
+    if (!own || !own.square) {
       const failed = one ? one.runs - one.done : 0;
       return {...row, fill: study.regimes.none, text: failed > 0 ? `${failed} failed` : '–',
-        tooltip: `${labelOf(name)}: ${failed > 0 ? `${failed} of ${one.runs} trials failed` : 'no value'}`};
+        tooltip: `${labelOf(name)}: ${failed > 0 ? `${failed} of ${one.runs} trials failed` : own ? 'no value in trials where others have one, so in no comparison' : 'no value'}`};
     }
-    const [fill, dark, relative] = metric.square;
+    const [fill, dark, relative] = own.square;
+    const metric = regimeIsRelative() ? rankedOf(own) : own;
     return {...row, fill, dark, text: relative === null ? quantity(metric.mean, unitOf(state.regimeMetric)) : digits(relative),
       tooltip: `${labelOf(name)}: ${metricTitle(state.regimeMetric)} ${withInterval(metric, state.regimeMetric)}`};
   });
@@ -138,7 +142,7 @@ function trajectoryRows(cell) {
 function forestRows(cell) {
   const ranking = cell.rankings[state.metric];
   return cell.estimators.filter((one) => one.metrics[state.metric]).map((one) => {
-    const metric = one.metrics[state.metric];
+    const metric = rankedOf(one.metrics[state.metric]);
     const {mean, low = mean, high = mean} = metric;
     return {estimator: one.name, label: labelOf(one.name), mean, low, high, text: quantity(mean, unitOf(state.metric)),
       open: standingOf(ranking, one.name) === 'worse',
@@ -159,13 +163,13 @@ function paretoRows(cell) {
   const rows = [];
   const baseline = [];
   for (const one of cell.estimators) {
-    const error = one.metrics[state.accuracy];
-    const cost = one.metrics[state.cost];
+    const ranks = [state.accuracy, state.cost].map((name) => one.metrics[name] && one.metrics[name].rank);
+    const [error, cost] = [state.accuracy, state.cost].map((name) => (ranks.includes(undefined) ? one.metrics[name] : rankedOf(one.metrics[name])));
     if (!error) continue;
     const low = error.low === undefined ? error.mean : error.low;
     const high = error.high === undefined ? error.mean : error.high;
     if (cost && cost.mean > 0) {
-      rows.push({estimator: one.name, cost: cost.mean, mean: error.mean, low, high, front: false, ranks: [error.rank, cost.rank],
+      rows.push({estimator: one.name, cost: cost.mean, mean: error.mean, low, high, front: false, ranks,
         x_low: cost.low > 0 ? cost.low : cost.mean, x_high: cost.high > 0 ? cost.high : cost.mean,
         tooltip: `${labelOf(one.name)}: ${metricTitle(state.accuracy)} ${withInterval(error, state.accuracy)}, ` +
           `${metricTitle(state.cost)} ${withInterval(cost, state.cost)}`});
@@ -175,8 +179,7 @@ function paretoRows(cell) {
     }
   }
   // On the front are those of the shown ones that none of these beats: as pareto_front in C++, which
-  // knows nothing of what the reader hides. Without a rank are those that failed, and all where the
-  // metric does not rank.
+  // knows nothing of what the reader hides. Without a rank are those that are in no comparison.
   const shown = rows.filter((row) => !state.hidden.has(row.estimator));
   const beats = (a, b) => a.ranks.every((rank, i) => rank <= b.ranks[i]) && a.ranks.some((rank, i) => rank < b.ranks[i]);
   for (const row of shown) row.front = !row.ranks.includes(undefined) && !shown.some((other) => beats(other, row));

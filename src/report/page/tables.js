@@ -48,8 +48,7 @@ function swatch(name) {
 
 // A mean in the unit that it shares, or with its own, and below it its interval and its n where that
 // is not all.
-function valueParts(metric, shared, one) {
-  const value = one.metrics[metric];
+function valueParts(metric, shared, one, value = one.metrics[metric]) {
   const scale = shared || unitWithInterval(value, metric);
   const parts = [element('span', {textContent: followedBy(numberIn(value.mean, scale), shared ? '' : scale.text)})];
   if (value.low !== undefined) {

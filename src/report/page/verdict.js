@@ -38,7 +38,7 @@ function standingCell(cell, name, scale) {
   const one = cell.estimators.find((other) => other.name === name);
   const metric = one && one.metrics[state.metric];
   const failed = one ? one.runs - one.done : 0;
-  const parts = metric ? valueParts(state.metric, scale, one) : ['–'];
+  const parts = metric ? valueParts(state.metric, scale, one, rankedOf(metric)) : ['–'];
   const standing = standingOf(cell.rankings[state.metric], name);
   if (standing === 'best') parts.unshift(element('span', {className: 'mark', title: 'the best', textContent: '★ '}));
   if (standing === 'equivalent') parts.unshift(element('span', {className: 'mark', title: 'equivalent to the best', textContent: '≈ '}));
@@ -71,7 +71,7 @@ function drawTable() {
   const ranked = study.cells.some((cell) => cell.rankings[state.metric]);
   const {better} = study.metrics[state.metric] || {};
   const marks = ranked ? `★ best mean${several ? ' of the row' : ''} (${better} is better), ≈ equivalent to it, − worse; the others are not shown to differ. ` +
-    'An estimator that failed a run is not ranked.'
+    'An estimator that failed a run, or has no value where others have one, is not ranked.'
     : `This metric is not ranked${better === 'neither' ? ': no value of it is the better one' : unranked(state.metric) && `: ${unranked(state.metric)}`}.`;
   document.getElementById('cells-caption').textContent =
     `${study.cells.some((cell) => cell.n > 1) ? 'Means with 95 % intervals' : 'Values of one trial'}, ${repeatsOf(study.cells)}${several ? ' a cell' : ''}. ${marks}`;
