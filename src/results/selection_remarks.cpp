@@ -65,15 +65,19 @@ Measured measured(const Compared& compared, const std::string& estimator, std::s
   return count;
 }
 
+// "in noise 2 m "; of a study of one cell empty.
+std::string in_cell(const Compared& compared, std::size_t cell) {
+  const StudyDescription& study = compared.runs.study();
+  return study.cell_count() == 1 ? "" : "in " + study.label_of(cell) + " ";
+}
+
 // Why one without an objective, or without trials that the others have, is passed over.
 std::string passed_over_text(const Compared& compared, const EstimatorEvidence& evidence,
                              const std::string& objective) {
-  const StudyDescription& study = compared.runs.study();
   if (evidence.shares_nothing_in) {
     return fmt::format(
-        "{}: in {} it has {} in no trial that the others have it in, so it cannot be "
-        "chosen",
-        evidence.name, study.label_of(*evidence.shares_nothing_in), objective);
+        "{}: {}it has {} in no trial that the others have it in, so it cannot be chosen",
+        evidence.name, in_cell(compared, *evidence.shares_nothing_in), objective);
   }
   if (evidence.objective) return "";
   Measured all;
@@ -82,14 +86,14 @@ std::string passed_over_text(const Compared& compared, const EstimatorEvidence& 
     const Measured one = measured(compared, evidence.name, c, objective);
     all.done += one.done;
     all.without += one.without;
-    if (one.with == 0 && bare.empty()) bare = study.label_of(compared.cells[c]);
+    if (one.with == 0 && bare.empty()) bare = in_cell(compared, compared.cells[c]);
   }
   if (all.without > 0) {
     return fmt::format("{}: {} was not measured in {} of {}, so it cannot be chosen", evidence.name,
                        objective, all.without, counted(all.done, "run"));
   }
   if (evidence.has_too_many_failures) return "";
-  return fmt::format("{}: in {} no run that is done has a {} to compare, so it cannot be chosen",
+  return fmt::format("{}: {}no run that is done has a {} to compare, so it cannot be chosen",
                      evidence.name, bare, objective);
 }
 
@@ -103,9 +107,8 @@ std::string single_run_text(const Compared& compared, const EstimatorEvidence& e
     for (const std::string& metric : metrics) {
       if (measured(compared, evidence.name, c, metric).with != 1) continue;
       return fmt::format(
-          "{}: one run of {} is left, which is no evidence: its value itself was "
-          "compared",
-          evidence.name, compared.runs.study().label_of(compared.cells[c]));
+          "{}: {}one run is left, which is no evidence: its value itself was compared",
+          evidence.name, in_cell(compared, compared.cells[c]));
     }
   }
   return "";

@@ -143,6 +143,39 @@ TEST_F(PageRows, SquaresOfTheRegimeMapAreThoseOfTheFigure) {
   }
 }
 
+// Of a study that is not finished: ranks are over the trials that all have run, and means over
+// these stand beside the estimators' own.
+TEST(PageOfAStudy, RanksAreOfTheSameTrials) {
+  const TemporaryFolder folder;
+  StudyDescription study;
+  study.estimators = {{"longer", "ekf"}, {"shorter", "ekf"}};
+  study.metrics = {"mean_position_error_m"};
+  study.trials = 2;
+  ResultStore store = ResultStore::write(folder.path(), study, "{}");
+  const auto add = [&store](const std::string& name, std::size_t trial, double error_m) {
+    RunRecord run;
+    run.key = {0, 0, trial, name};
+    run.outcome = "converged";
+    run.metrics["mean_position_error_m"] = error_m;
+    store.add(run);
+  };
+  add("longer", 0, 1.0);
+  add("longer", 1, 50.0);
+  add("shorter", 0, 2.0);
+  store.finish();
+  const Json data = data_of_page(page_of(ResultStore::open(folder.path())));
+  const auto of = [&data](std::size_t estimator) -> const Json& {
+    const auto place = data["cells"][0]["estimators"].size() - 2 + estimator;
+    return data["cells"][0]["estimators"][place]["metrics"]["mean_position_error_m"];
+  };
+  EXPECT_EQ(of(0)["mean"], 25.5);
+  EXPECT_EQ(of(0)["rank"], 0);
+  EXPECT_EQ(of(0)["ranked"]["mean"], 1.0);
+  EXPECT_EQ(of(0)["ranked"]["n"], 1);
+  EXPECT_EQ(of(1)["rank"], 1);
+  EXPECT_FALSE(of(1).contains("ranked"));
+}
+
 // A pose that no map can show breaks the line, and does not decide what is shown.
 TEST(PageOfARun, APoseThatIsNotFiniteIsNullOnThePage) {
   const TemporaryFolder folder;

@@ -60,7 +60,7 @@ TEST(SelectionTrials, WhoSharesNoTrialOfACellIsOutAndNotTheCell) {
   EXPECT_THAT(selection.remarks,
               Contains("graph: in noise high it has mean_position_error_m in no trial that the "
                        "others have it in, so it cannot be chosen"));
-  EXPECT_THAT(selection.remarks, Contains("graph: one run of noise high is left, which is no "
+  EXPECT_THAT(selection.remarks, Contains("graph: in noise high one run is left, which is no "
                                           "evidence: its value itself was compared"));
 }
 
