@@ -54,19 +54,42 @@ std::string separator_of(std::string_view text) {
   return {};
 }
 
+std::string name_of_column(std::string_view field) {
+  const auto end = std::min(field.find_first_of(" [("), field.size());
+  const std::string_view unit = trim(field.substr(end));
+  if (!unit.empty() && unit.front() != '[' && unit.front() != '(') return {};
+  std::string name;
+  for (const std::string_view part : split(field.substr(0, end), "_")) {
+    const bool is_frame = std::ranges::all_of(part, [](char c) { return c >= 'A' && c <= 'Z'; });
+    if (is_frame && !name.empty()) continue;
+    name += (name.empty() ? "" : "_") + std::string(part);
+  }
+  std::ranges::transform(name, name.begin(), [](char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  });
+  return name;
+}
+
 }  // namespace
+
+std::vector<std::string> names_of_columns(std::string_view columns) {
+  std::vector<std::string> names;
+  for (const std::string_view field : split_csv(columns)) names.push_back(name_of_column(field));
+  return names;
+}
 
 CsvFile::CsvFile(std::filesystem::path path, std::string columns, const std::string& more)
     : path_(std::move(path)),
       columns_(std::move(columns)),
       least_(split_csv(columns_).size()),
-      with_more_(least_ + (more.empty() ? 0 : split_csv(more).size())) {
+      with_more_(least_ + (more.empty() ? 0 : split_csv(more).size())),
+      names_(names_of_columns(more.empty() ? columns_ : columns_ + "," + more)) {
   const std::string content = read_text(path_);
   require_text(path_, content);
   for (const auto& [line, text] : lines_of(content)) {
     const auto fields = split_csv(text);
     if (text.front() == '#') {
-      named_.insert(fields.size());
+      take_header(line, text);
       continue;
     }
     if (fields.size() > kMostCsvColumns || rows_.size() == kMostCsvRows) {
@@ -81,11 +104,29 @@ CsvFile::CsvFile(std::filesystem::path path, std::string columns, const std::str
   }
 }
 
+void CsvFile::take_header(std::size_t line, std::string_view text) {
+  text.remove_prefix(std::min(text.find_first_not_of('#'), text.size()));
+  const std::vector<std::string> given = names_of_columns(text);
+  Header& header = headers_[given.size()];
+  for (std::size_t i = 0; i < names_.size() && header.misplaced.empty(); ++i) {
+    const auto found = std::ranges::find(given, names_[i]);
+    if (found == given.end() || (i < given.size() && given[i] == names_[i])) continue;
+    header = {line, names_[i] + " is column " + std::to_string(found - given.begin() + 1)};
+  }
+}
+
 void CsvFile::require_columns(const CsvRow& row, std::string_view text) const {
   const std::size_t count = row.fields.size();
+  const auto header = headers_.find(count);
+  const bool is_named = header != headers_.end();
   const bool is_as_expected =
-      count == least_ || count == with_more_ || (count > least_ && named_.contains(count));
-  if (is_as_expected && !has_semicolons(text, least_)) return;
+      count == least_ || count == with_more_ || (count > least_ && is_named);
+  if (is_as_expected && !has_semicolons(text, least_)) {
+    if (!is_named || header->second.misplaced.empty()) return;
+    throw InputError(path_.string(), header->second.line,
+                     "names the columns, and " + header->second.misplaced +
+                         "; expected the order " + joined(names_, ", "));
+  }
   std::string what = "expected " + counted(least_, "column") + " " + columns_;
   if (with_more_ > least_) what += ", or " + std::to_string(with_more_);
   what += ", got " + std::to_string(count);

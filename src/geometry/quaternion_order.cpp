@@ -1,4 +1,4 @@
-#include "quaternion_order.hpp"
+#include "fathom/geometry/quaternion_order.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -8,7 +8,7 @@
 #include "fathom/core/input_error.hpp"
 #include "fathom/core/text.hpp"
 #include "fathom/geometry/pose.hpp"
-#include "quaternion_order.hpp"
+#include "fathom/geometry/quaternion_order.hpp"
 #include "trajectory_lines.hpp"
 #include "trajectory_times.hpp"
 

@@ -64,6 +64,22 @@ TEST_F(Csv, MoreColumnsNeedTheirNames) {
   EXPECT_THAT(refusal("1,2.5,7.25\n", "range, gain"), HasSubstr("altitude, or 4, got 3"));
 }
 
+TEST_F(Csv, ColumnsThatAHeaderNamesMustBeInPlace) {
+  EXPECT_THAT(
+      refusal("#time,quality,Altitude [m]\n1,97,2.5\n"),
+      EndsWith("data.csv:1: names the columns, and altitude is column 3; expected the order "
+               "time, altitude"));
+  EXPECT_THAT(refusal("#altitude,time\n2.5,1\n"), HasSubstr(":1: names the columns, and time"));
+  EXPECT_THAT(refusal("#time,range,gain\n1,2.5,3\n", "range"), HasSubstr("and range is column"));
+  EXPECT_THAT(refusal("#time,range,altitude\n1,2.5,3\n", "range"), HasSubstr("and altitude is"));
+  // EuRoC's names have frames; names may be others; prose names nothing.
+  for (const std::string header : {"#time [ns], altitude_RS_R [m]", "#t,z [m]", "# 2.5,time",
+                                   "# altitude by hand, time of day", "#range,time,altitude"}) {
+    const bool is_right = header != "# 2.5,time";
+    EXPECT_EQ(refusal(header + "\n1,2.5\n") == "(nothing thrown)", is_right) << header;
+  }
+}
+
 TEST_F(Csv, SaysWhatItLooksLike) {
   EXPECT_THAT(refusal("1,1,62\n"), AllOf(HasSubstr("got 3: decimal commas? expected points;"),
                                          HasSubstr("names all columns"), EndsWith(": '1,1,62'")));

@@ -8,6 +8,7 @@
 #include "folder_fixture.hpp"
 #include "small_survey.hpp"
 #include "support/data.hpp"
+#include "support/input_error.hpp"
 #include "support/pictures.hpp"
 #include "support/planar.hpp"
 
@@ -180,7 +181,26 @@ TEST(ImageFolder, KeysOfASensorThatNobodyReadsAreNamed) {
   EXPECT_TRUE(
       remarks[1].ends_with("odometry0/sensor.yaml:2: 'sigma' is not read; of odometry0 known are "
                            "convention, heading_unit, outliers, scale, time_offset_s"))
-      << remarks[1];
+      << remarks[3];
+  fixture.files["cam0/sensor.yaml"] += "mounting: {x: 0.5}\n";
+  EXPECT_EQ(ImageFolder(fixture.write()).remarks().size(), 3U);
+}
+
+// Honest rows of another order, without a header that says so.
+TEST(ImageFolder, GroundTruthOfAnotherQuaternionOrderIsRefused) {
+  FolderFixture fixture;
+  std::string rows;
+  for (int i = 0; i < 10; ++i) {
+    const double half_rad = 0.2 * i;
+    rows += std::to_string(250 * i) + "," + std::to_string(std::cos(half_rad)) + "," +
+            std::to_string(std::sin(half_rad)) + ",0,0,0," + std::to_string(std::sin(half_rad)) +
+            "," + std::to_string(std::cos(half_rad)) + "\n";
+  }
+  fixture.files["state_groundtruth_estimate0/data.csv"] = rows;
+  const std::string refusal =
+      test::input_error_of([&] { const ImageFolder folder(fixture.write()); });
+  EXPECT_NE(refusal.find("data.csv: its quaternions look like qx qy qz qw"), std::string::npos)
+      << refusal;
 }
 
 TEST(ImageFolder, GroundTruthIsOptional) {

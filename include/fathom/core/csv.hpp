@@ -2,7 +2,7 @@
 
 #include <cstddef>
 #include <filesystem>
-#include <set>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,9 +18,15 @@ struct CsvRow {
   std::vector<std::string> fields;
 };
 
+/// The names in a list of columns that commas part: "p_x" of "P_x [m]" and of EuRoC's
+/// "p_RS_R_x [m]"; empty for prose.
+std::vector<std::string> names_of_columns(std::string_view columns);
+
 /// A file of comma-separated values; lines that begin with # are comments. What is no such file is
 /// refused with the line and what it looks like: fields parted otherwise, decimal commas, UTF-16,
-/// lines that end in CR alone; so is what goes beyond the limits.
+/// lines that end in CR alone; so is what goes beyond the limits. A comment line before a row, of
+/// as many fields, names its columns: where it has a name of the expected ones elsewhere, the file
+/// is refused, too. Units and the frames of EuRoC's names (p_RS_R_x) do not count.
 class CsvFile {
  public:
   /// A row has the columns named, and may have all of `more` or what a comment line before it
@@ -37,13 +43,19 @@ class CsvFile {
   [[noreturn]] void refuse(const CsvRow& row, const std::string& what) const;
 
  private:
+  void take_header(std::size_t line, std::string_view text);
   void require_columns(const CsvRow& row, std::string_view text) const;
 
   std::filesystem::path path_;
   std::string columns_;
   std::size_t least_;
   std::size_t with_more_;
-  std::set<std::size_t> named_;  ///< as many as comment lines so far name
+  std::vector<std::string> names_;  ///< of the columns expected, `more` included
+  struct Header {
+    std::size_t line = 0;
+    std::string misplaced;  ///< the first name that is elsewhere; empty: none
+  };
+  std::map<std::size_t, Header> headers_;  ///< of the comment lines so far, by their fields
   std::vector<CsvRow> rows_;
 };
 

@@ -8,6 +8,7 @@
 
 #include <Eigen/LU>
 
+#include "fathom/core/csv.hpp"
 #include "fathom/core/files.hpp"
 #include "fathom/core/input_error.hpp"
 #include "fathom/core/text.hpp"
@@ -95,20 +96,12 @@ FolderCompass read_compass(const fs::path& folder, const TimeSpan& survey) {
   return compass;
 }
 
-// The name of a column, without its unit.
-std::string name_of_column(std::string_view field) {
-  return std::string(field.substr(0, field.find_first_of(" [")));
-}
-
 // Whether the file's columns are those on Earth.
 bool is_on_earth(const fs::path& csv) {
   std::optional<bool> on_earth;
   for (const CommentLine& comment : comments_of(csv)) {
-    const auto fields = split_csv(comment.text);
-    if (fields.size() < 3) continue;
-    std::vector<std::string> names;
-    names.reserve(fields.size());
-    for (const std::string_view field : fields) names.push_back(name_of_column(field));
+    const std::vector<std::string> names = names_of_columns(comment.text);
+    if (names.size() < 3) continue;
     const auto has = [&names](const char* name) {
       return std::ranges::find(names, name) != names.end();
     };

@@ -7,6 +7,8 @@
 
 #include "fathom/core/text.hpp"
 #include "fathom/datasets/series_outliers.hpp"
+#include "fathom/geometry/quaternion_order.hpp"
+#include "fathom/geometry/trajectory_file.hpp"
 #include "sensor_csv.hpp"
 #include "sensor_outliers.hpp"
 
@@ -20,18 +22,16 @@ Pose scaled(const Pose& motion, double share) {
   return {motion.x * share, motion.y * share, motion.theta * share};
 }
 
-Pose planar_pose(const SensorCsv& csv, const SensorRow& row) {
-  const double qw = csv.real(row, 4);
-  const double qx = csv.real(row, 5);
-  const double qy = csv.real(row, 6);
-  const double qz = csv.real(row, 7);
-  const double norm_squared = qw * qw + qx * qx + qy * qy + qz * qz;
-  if (std::abs(norm_squared - 1.0) > 0.02) {
+SpatialPose spatial_pose(const SensorCsv& csv, const SensorRow& row) {
+  // Height is not used, and need be none.
+  const double z_m = parse_real(row.fields[3]).value_or(0.0);
+  const Eigen::Vector3d position_m(csv.real(row, 1), csv.real(row, 2), z_m);
+  const Eigen::Quaterniond rotation(csv.real(row, 4), csv.real(row, 5), csv.real(row, 6),
+                                    csv.real(row, 7));
+  if (std::abs(rotation.squaredNorm() - 1.0) > 0.02) {
     csv.refuse(row, "the quaternion has not length one; its order is q_w, q_x, q_y, q_z");
   }
-  const double yaw =
-      std::atan2(2.0 * (qw * qz + qx * qy), norm_squared - 2.0 * (qy * qy + qz * qz));
-  return {csv.real(row, 1), csv.real(row, 2), wrap_angle(yaw)};
+  return {position_m, rotation};
 }
 
 Eigen::Matrix3d step_covariance(const SensorCsv& csv, const SensorRow& row) {
@@ -215,15 +215,19 @@ PoseSeries::PoseSeries(const std::filesystem::path& path, std::int64_t time_offs
   const SensorCsv csv(path, "timestamp, p_x, p_y, p_z, q_w, q_x, q_y, q_z", "", time_offset_ns);
   for (const SensorRow& row : csv.rows()) {
     times_.add(row.time_ns);
-    poses_.push_back(planar_pose(csv, row));
+    poses_.push_back({pose.position_m.x(), pose.position_m.y(), yaw_of(pose.rotation)});
   }
 }
 
 std::optional<Pose> PoseSeries::at(std::int64_t time_ns, std::int64_t max_gap_ns) const {
+  std::vector<StampedSpatialPose> in_space;
   const auto bracket = times_.around(time_ns, max_gap_ns);
+    in_space.push_back({row.time_ns, spatial_pose(csv, row)});
+    const SpatialPose& pose = in_space.back().pose;
   if (!bracket) return std::nullopt;
   const Pose& before = poses_[bracket->before];
   if (bracket->share == 0.0) return before;
+  require_order(in_space, TrajectoryFormat::euroc, path.string());
   return compose(before, scaled(between(before, poses_[bracket->after]), bracket->share));
 }
 
