@@ -10,7 +10,9 @@
 #include "apps/common.hpp"
 #include "apps/output.hpp"
 #include "apps/terminal.hpp"
+#include "fathom/core/environment_error.hpp"
 #include "fathom/core/files.hpp"
+#include "fathom/core/input_error.hpp"
 #include "fathom/core/text.hpp"
 #include "fathom/datasets/image_folder.hpp"
 #include "fathom/datasets/import.hpp"
@@ -37,6 +39,22 @@ void print_import(const ImportReport& report) {
   for (const std::string& line : report.notes) print("note: %s\n", line.c_str());
 }
 
+// What a run would refuse is refused here, by the bag's name: the files are not kept.
+void require_readable(const std::string& source, const std::filesystem::path& folder) {
+  try {
+    const ImageFolder readable(folder);
+  } catch (const EnvironmentError&) {
+    throw;
+  } catch (const InputError& error) {
+    const std::string here = folder.string() + "/";
+    std::string what = error.what();
+    for (std::size_t at = what.find(here); at != std::string::npos; at = what.find(here)) {
+      what.erase(at, here.size());
+    }
+    throw InputError(source, "what is imported from it is no survey: " + what);
+  }
+}
+
 void import_into(const ImportFlags& flags, ImportKind kind, StagedFolder& folder) {
   ImportReport report;
   bool is_survey = false;
@@ -47,8 +65,7 @@ void import_into(const ImportFlags& flags, ImportKind kind, StagedFolder& folder
   } else {
     Terminal terminal(flags.quiet);
     report = import_bag(flags.source, flags.bag, folder.path(), terminal.progress_of("import"));
-    // What a run would refuse is refused here.
-    const ImageFolder readable(folder.path());
+    require_readable(flags.source, folder.path());
     is_survey = true;
   }
   folder.commit();

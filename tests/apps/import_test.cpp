@@ -57,6 +57,18 @@ TEST_F(Import, BagIsCheckedAndRunAsTheSurveyItself) {
   for (std::size_t i = 0; i < a.size(); ++i) EXPECT_LT(distance(a[i].pose, b[i].pose), 1e-6) << i;
 }
 
+// The folder it would have been in is gone by then.
+TEST_F(Import, WhatARunWouldRefuseIsRefusedByTheBagsName) {
+  write_db3("dive.db3", {.imu_roll_rad = 0.95});
+  write("wide.yaml",
+        "resolution: [160, 120]\nintrinsics: [40, 40, 79.5, 59.5]\ndistortion_model: none\n");
+  const std::string refused =
+      refusal({"import", "dive.db3", "--camera", "wide.yaml", "--out", "dive"});
+  EXPECT_THAT(refused, HasSubstr("dive.db3: what is imported from it is no survey: "
+                                 "mav0/attitude0/data.csv: at the picture's time"));
+  EXPECT_THAT(refused, ::testing::Not(HasSubstr("partial")));
+}
+
 TEST_F(Import, BothGenerationsOfRosGiveTheSameFolder) {
   if (ros1_bag_writer(path("probe.bag")) == nullptr) {
     GTEST_SKIP() << kNoRos1Writer;

@@ -39,10 +39,6 @@ AttitudeReading attitude_of(std::int64_t time_ns, const ImuMessage& imu) {
 AttitudeRows attitude_rows(const std::vector<AttitudeReading>& readings, double sigma_rad,
                            bool all) {
   AttitudeRows result;
-  if (readings.empty()) {
-    result.why_not = "no message has an orientation";
-    return result;
-  }
   const std::string what = fmt::format("roll {}, pitch {}", span_text(readings, &Tilt::roll_rad),
                                        span_text(readings, &Tilt::pitch_rad));
   result.fact = what;

@@ -28,8 +28,8 @@ struct AttitudeRows {
   std::string why_not;      ///< empty: there are rows
 };
 
-/// `sigma_rad`: of readings without variance, or of `all`. No rows where a reading is beyond what
-/// an image folder takes: the axes are not the body's then.
+/// `readings`: not empty. `sigma_rad`: of readings without variance, or of `all`. No rows where a
+/// reading is beyond what an image folder takes: the axes are not the body's then.
 AttitudeRows attitude_rows(const std::vector<AttitudeReading>& readings, double sigma_rad,
                            bool all);
 

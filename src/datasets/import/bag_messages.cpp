@@ -142,6 +142,8 @@ ImuMessage read_imu(MessageReader& reader) {
   // By the definition, -1 in the first place says that there is no orientation. Many drivers leave
   // the quaternion at zero in place of that.
   imu.has_rotation = covariance.front() != -1.0 && imu.rotation.norm() > 0.0;
+  imu.is_default = imu.rotation.coeffs() == Eigen::Vector4d(0.0, 0.0, 0.0, 1.0) &&
+                   std::ranges::count(covariance, 0.0) == std::ssize(covariance);
   imu.yaw_variance = covariance.back();
   const auto [less, more] = std::minmax(covariance[0], covariance[4]);
   if (less > 0.0 && std::isfinite(more)) imu.tilt_variance = more;

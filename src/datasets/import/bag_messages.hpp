@@ -87,6 +87,7 @@ struct ImuMessage {
   double yaw_variance = 0.0;   ///< rad²; 0: unknown
   double tilt_variance = 0.0;  ///< rad², the larger one of roll and pitch; 0: unknown
   bool has_rotation = true;
+  bool is_default = false;  ///< the identity without covariance, which a message has unless set
 };
 ImuMessage read_imu(MessageReader& reader);
 

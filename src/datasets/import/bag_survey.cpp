@@ -122,6 +122,7 @@ void BagSurvey::take_imu(const BagMessage& message) {
   PoseMessage pose;
   pose.rotation = imu.rotation;
   const double yaw_rad = planar_pose(pose).theta;  // refuses what is no orientation
+  if (!imu.is_default) oriented_.insert(message.topic);
   if (choice_.heading == message.topic) {
     headings.push_back({*time_ns, yaw_rad, imu.yaw_variance});
   }
@@ -129,6 +130,8 @@ void BagSurvey::take_imu(const BagMessage& message) {
 }
 
 void BagSurvey::finish() {
+  if (choice_.heading && !oriented_.contains(*choice_.heading)) headings.clear();
+  if (choice_.attitude && !oriented_.contains(*choice_.attitude)) attitudes.clear();
   std::ranges::sort(pictures, {}, &WrittenPicture::time_ns);
   std::ranges::sort(altitudes);
   std::ranges::sort(odometry, {}, &OdometryReading::time_ns);

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -79,6 +80,8 @@ class BagSurvey {
   const BagImportOptions& options_;
   std::filesystem::path folder_;
   std::vector<StampedTopic> stamps_;  ///< of every topic
+  /// Topics of an Imu that has an orientation: other than the default in one of its messages.
+  std::set<std::size_t> oriented_;
 };
 
 }  // namespace fathom

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <map>
+#include <memory>
 #include <numbers>
 #include <optional>
 #include <set>
@@ -14,8 +15,8 @@
 #include "fathom/core/files.hpp"
 #include "fathom/core/input_error.hpp"
 #include "fathom/core/text.hpp"
-#include "fathom/datasets/image_folder.hpp"
 #include "fathom/datasets/import.hpp"
+#include "fathom/datasets/picture_folder.hpp"
 #include "pose_table.hpp"
 
 namespace fathom {
@@ -59,7 +60,7 @@ NamedCamera parse_image(const std::string& file, std::size_t line, std::string_v
   return camera;
 }
 
-// In the order of their names, which is that of the recording as a rule.
+// In the order of their names, as plain pictures are, which is that of the recording as a rule.
 std::vector<NamedCamera> read_images(const fs::path& path) {
   std::istringstream lines(read_text(path));
   std::vector<NamedCamera> cameras;
@@ -74,20 +75,20 @@ std::vector<NamedCamera> read_images(const fs::path& path) {
     ++number;
   }
   if (cameras.empty()) throw InputError(path.string(), "has no images");
-  std::ranges::sort(cameras, {}, &NamedCamera::name);
+  std::ranges::sort(cameras, [](const NamedCamera& a, const NamedCamera& b) {
+    return is_before(a.name, b.name);
+  });
   return cameras;
 }
 
 /// The pictures of a survey by their names.
 class Survey {
  public:
-  explicit Survey(const fs::path& path) : folder_(path) {
-    for (std::size_t i = 0; i < folder_.size(); ++i) {
-      frames_[folder_.picture(i).filename().string()] = i;
-    }
+  explicit Survey(const fs::path& path) : folder_(open_pictures_of(path)) {
+    for (std::size_t i = 0; i < folder_->size(); ++i) frames_[folder_->picture_name(i)] = i;
   }
 
-  const ImageFolder& folder() const { return folder_; }
+  const FrameSource& folder() const { return *folder_; }
 
   std::optional<std::size_t> frame(const std::string& name) const {
     const auto found = frames_.find(fs::path(name).filename().string());
@@ -96,17 +97,17 @@ class Survey {
   }
 
  private:
-  ImageFolder folder_;
+  std::unique_ptr<const FrameSource> folder_;
   std::map<std::string, std::size_t> frames_;
 };
 
-Pose mounting_of(const ImageFolder& folder) {
+Pose mounting_of(const FrameSource& folder) {
   const CameraModel& camera = folder.camera().model();
   return {camera.mount_x_m, camera.mount_y_m, camera.mount_yaw_rad};
 }
 
 // Metres of odometry per unit of the model, over motions of the camera between consecutive frames.
-std::optional<double> scale_by_odometry(const ImageFolder& folder,
+std::optional<double> scale_by_odometry(const FrameSource& folder,
                                         const std::map<std::size_t, Pose>& poses) {
   if (!folder.has_odometry()) return std::nullopt;
   const Pose mount = mounting_of(folder);

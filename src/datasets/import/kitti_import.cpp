@@ -5,7 +5,6 @@
 
 #include "fathom/core/input_error.hpp"
 #include "fathom/core/text.hpp"
-#include "fathom/datasets/image_folder.hpp"
 #include "fathom/datasets/import.hpp"
 #include "fathom/geometry/trajectory_file.hpp"
 #include "pose_table.hpp"
@@ -29,9 +28,9 @@ std::vector<std::int64_t> times_of(const fs::path& poses, const PoseImportOption
                      "KITTI poses have no times; --times FILE has them in seconds, one a line, or "
                      "--survey DIR has the pictures that they are of, in their order");
   }
-  const ImageFolder survey(options.survey);
+  const auto survey = open_pictures_of(options.survey);
   std::vector<std::int64_t> times;
-  for (std::size_t i = 0; i < survey.size(); ++i) times.push_back(survey.info(i).time_ns);
+  for (std::size_t i = 0; i < survey->size(); ++i) times.push_back(survey->info(i).time_ns);
   return times;
 }
 

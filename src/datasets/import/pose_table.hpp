@@ -2,10 +2,12 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include "fathom/datasets/frame_source.hpp"
 #include "fathom/geometry/trajectory.hpp"
 
 namespace fathom {
@@ -30,6 +32,10 @@ struct PlanarCameras {
 /// `cameras` is not empty. The plane's upper side is the one that the cameras lie on, looking down,
 /// so that no map is mirrored. A camera's forward is the top of its picture.
 PlanarCameras project_to_plane(const std::vector<CameraPose>& cameras);
+
+/// The survey that poses are of: an image folder, or plain pictures. Of the latter nothing but
+/// names and times is known: those of EXIF, or a second apart.
+std::unique_ptr<const FrameSource> open_pictures_of(const std::filesystem::path& survey);
 
 /// Writes `folder`/state_groundtruth_estimate0 and `folder`/reference.tum. Throws InputError.
 void write_reference_poses(const std::vector<StampedPose>& poses,

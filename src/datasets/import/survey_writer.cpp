@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <fmt/format.h>
+#include <numbers>
 #include <utility>
 
 #include "bag_camera.hpp"
@@ -16,6 +17,9 @@ namespace fathom {
 namespace fs = std::filesystem;
 
 namespace {
+
+constexpr const char* kNoOrientation =
+    " says that it has no orientation, or leaves it at its default in all messages";
 
 class SurveyWriter {
  public:
@@ -174,13 +178,14 @@ class SurveyWriter {
     std::string rows;
     std::size_t unknown = 0;
     for (const HeadingReading& heading : survey_.headings) {
-      const bool is_known = heading.variance > 0.0 && std::isfinite(heading.variance);
+      // Beyond half a turn it says nothing; some drivers write 1e6 for that.
+      const double stated_rad = std::sqrt(heading.variance);
+      const bool is_known = stated_rad > 0.0 && stated_rad <= std::numbers::pi;
       unknown += is_known ? 0 : 1;
-      rows += sensor_row(heading.time_ns,
-                         {heading.yaw_rad, is_known ? std::sqrt(heading.variance) : sigma_rad});
+      rows += sensor_row(heading.time_ns, {heading.yaw_rad, is_known ? stated_rad : sigma_rad});
     }
     const std::string& name = topic(choice_.heading).name;
-    if (rows.empty()) return note("no heading: " + name + " says that it has no orientation");
+    if (rows.empty()) return note("no heading: " + name + kNoOrientation);
     write_compass(mav0_, rows);
     fact(fmt::format("{} from {}, in compass0", counted(survey_.headings.size(), "heading"), name));
     note(
@@ -196,6 +201,7 @@ class SurveyWriter {
     const std::string& name = topic(choice_.attitude).name;
     const double sigma_rad =
         options_.attitude_sigma_rad.value_or(options_.default_attitude_sigma_rad);
+    if (survey_.attitudes.empty()) return note("no attitude: " + name + kNoOrientation);
     const AttitudeRows attitude =
         attitude_rows(survey_.attitudes, sigma_rad, options_.attitude_sigma_rad.has_value());
     if (!attitude.why_not.empty()) return note("no attitude of " + name + ": " + attitude.why_not);

@@ -1,7 +1,6 @@
 #include "topic_choice.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <fmt/format.h>
 #include <functional>
 
@@ -9,32 +8,15 @@
 #include "fathom/core/input_error.hpp"
 #include "fathom/core/options.hpp"
 #include "fathom/core/text.hpp"
+#include "topic_words.hpp"
 
 namespace fathom {
 namespace {
 
-using Words = std::vector<std::string>;
 using Topics = std::vector<std::size_t>;
-
-bool has_word(std::string name, const Words& words) {
-  std::ranges::transform(name, name.begin(),
-                         [](unsigned char letter) { return std::tolower(letter); });
-  return std::ranges::any_of(
-      words, [&](const std::string& word) { return name.find(word) != std::string::npos; });
-}
 
 std::string parent_of(const std::string& name) {
   return name.substr(0, name.rfind('/'));
-}
-
-const Words& truth_words() {
-  static const Words words{"truth", "/gt", "reference", "mocap", "vicon", "optitrack"};
-  return words;
-}
-
-const Words& altitude_words() {
-  static const Words words{"alti", "height", "range", "dvl"};
-  return words;
 }
 
 class Chooser {
@@ -136,7 +118,8 @@ class Chooser {
       const Topics ranges = of_types({"sensor_msgs/Range"});
       const Topics named = with(of_types(altitude_types()), altitude_words());
       if (ranges.size() == 1) return ranges;
-      return with(named, {"alti"}).size() == 1 ? with(named, {"alti"}) : named;
+      const Topics altimeters = with(named, altimeter_words());
+      return altimeters.size() == 1 ? altimeters : named;
     });
     if (!choice_.altitude) {
       throw InputError(file_,
