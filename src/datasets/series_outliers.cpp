@@ -103,4 +103,24 @@ std::vector<bool> kept_values(std::span<const std::int64_t> times_ns,
       limits);
 }
 
+std::vector<bool> plausible_altitudes(std::span<const std::int64_t> times_ns,
+                                      std::span<const double> altitudes_m) {
+  // Of the logarithm: 43 % more or 30 % less than a neighbour. Relief of a fifth stays, half and
+  // double do not.
+  constexpr double kAllowed = 0.36;
+  std::vector<std::size_t> above_floor;
+  std::vector<std::int64_t> their_times_ns;
+  std::vector<double> logarithms;
+  for (std::size_t i = 0; i < altitudes_m.size(); ++i) {
+    if (!(altitudes_m[i] > 0.0)) continue;
+    above_floor.push_back(i);
+    their_times_ns.push_back(times_ns[i]);
+    logarithms.push_back(std::log(altitudes_m[i]));
+  }
+  const std::vector<bool> kept_above = kept_values(their_times_ns, logarithms, kAllowed);
+  std::vector<bool> kept(altitudes_m.size(), false);
+  for (std::size_t i = 0; i < above_floor.size(); ++i) kept[above_floor[i]] = kept_above[i];
+  return kept;
+}
+
 }  // namespace fathom

@@ -21,10 +21,6 @@ class Faults : public YourSurvey {
   void SetUp() override {
     YourSurvey::SetUp();
     simulate("data");
-    // A simulation says that all of its readings are to be kept; a recording does not.
-    for (const std::string sensor : {"altimeter0", "odometry0"}) {
-      write("data/mav0/" + sensor + "/sensor.yaml", "");
-    }
   }
 
   void change(const std::string& sensor, const std::function<void(Rows&)>& edit) const {

@@ -54,7 +54,10 @@ TEST(AltimeterOutliers, AnEchoOfFiftyMetresIsLeftOut) {
   const ImageFolder kept = with_altitudes(readings, "outliers: keep\n");
   EXPECT_EQ(kept.info(1).altitude_m, 50.0);
   EXPECT_EQ(kept.info(1).altitude_sigma_m, 0.0);
-  EXPECT_THAT(kept.remarks(), IsEmpty());
+  EXPECT_THAT(kept.remarks(),
+              ElementsAre("altimeter0: 1 of 11 readings contradict their neighbours (first: line "
+                          "7, 50 m where its neighbours have 2 m); 'outliers: keep' in its "
+                          "sensor.yaml keeps them"));
 }
 
 TEST(AltimeterOutliers, SigmaGrowsWithTheGapAndWithWhatNeighboursDifferBy) {
@@ -137,7 +140,9 @@ TEST(AttitudeOutliers, ARollThatJumpsOutAndBackIsLeftOut) {
               ElementsAre(HasSubstr("attitude0: 1 of 11 readings left out (first: line 7, roll and "
                                     "pitch 0.9, -0.01 rad where its neighbours have 0.02, ")));
   fixture.files["attitude0/sensor.yaml"] = "outliers: keep\n";
-  EXPECT_EQ(ImageFolder(fixture.write()).info(1).tilt->tilt.roll_rad, 0.9);
+  const ImageFolder kept(fixture.write());
+  EXPECT_EQ(kept.info(1).tilt->tilt.roll_rad, 0.9);
+  EXPECT_THAT(kept.remarks(), ElementsAre(HasSubstr("attitude0: 1 of 11 readings contradict")));
 }
 
 // Odometry turns by a right angle from picture to picture and so does the compass; north of it is
@@ -157,7 +162,9 @@ TEST(CompassOutliers, AreThoseThatDeadReckoningContradictsToo) {
       folder.remarks(),
       ElementsAre(HasSubstr("compass0: 1 of 11 readings left out (first: line 5, 3.01 rad")));
   fixture.files["compass0/sensor.yaml"] = "outliers: keep\n";
-  EXPECT_EQ(ImageFolder(fixture.write()).sensors().compass->readings.size(), 11U);
+  const ImageFolder kept(fixture.write());
+  EXPECT_EQ(kept.sensors().compass->readings.size(), 11U);
+  EXPECT_THAT(kept.remarks(), ElementsAre(HasSubstr("compass0: 1 of 11 readings contradict")));
 }
 
 // A hundred metres from picture to picture: a fix that stays behind is as wrong as one far off.
@@ -174,7 +181,9 @@ TEST(FixOutliers, AreThoseThatMoveOtherwiseThanDeadReckoning) {
   EXPECT_THAT(folder.remarks(),
               ElementsAre(HasSubstr("position0: 1 of 11 readings left out (first: line 7, 40 m")));
   fixture.files["position0/sensor.yaml"] = "outliers: keep\n";
-  EXPECT_EQ(ImageFolder(fixture.write()).sensors().fixes->in_world.size(), 11U);
+  const ImageFolder kept(fixture.write());
+  EXPECT_EQ(kept.sensors().fixes->in_world.size(), 11U);
+  EXPECT_THAT(kept.remarks(), ElementsAre(HasSubstr("position0: 1 of 11 readings contradict")));
 }
 
 // A degree of latitude is 111.2 km; these are 1.1 m apart, and one is 111 m away.

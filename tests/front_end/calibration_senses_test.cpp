@@ -165,6 +165,22 @@ TEST(Calibration, TheSigmaOfATurnIsThatOfItsScatter) {
   EXPECT_NEAR(std::sqrt(squares / count), 1.05, 0.2);
 }
 
+TEST(Calibration, NamesACompassThatStaysWhileTheVehicleTurns) {
+  CalibrationInput input = TurningSurvey().input(11);
+  for (const std::int64_t time_ns : input.frame_times_ns) {
+    input.readings.headings.push_back({time_ns, 0.0, 0.05});
+  }
+  EXPECT_THAT(calibrate(input).findings,
+              ElementsAre(HasSubstr("compass0 says 0 rad in each of its 150 headings while "
+                                    "odometry0 turns by ")));
+  TurningSurvey straight;
+  straight.turning_rad = 0.0;
+  const auto headings = input.readings.headings;
+  input = straight.input(11);
+  input.readings.headings = headings;
+  EXPECT_THAT(calibrate(input).findings, IsEmpty());
+}
+
 TEST(Calibration, NamesFixesWhosePathIsMirrored) {
   const TurningSurvey survey;
   CalibrationInput input = survey.input(11);

@@ -198,6 +198,19 @@ TEST(Calibration, AStraightLegTellsNoLeverArmAndAnEvenOneNoClock) {
                                         HasSubstr("the scale of dead reckoning itself")));
 }
 
+// Each spike makes motions too long, some seconds before and after odometry has them so.
+TEST(Calibration, AltitudesThatContradictOneAnotherTellNoClock) {
+  TurningSurvey survey;
+  survey.clock_late_s = 0.37;
+  CalibrationInput input = survey.input(8);
+  ASSERT_THAT(calibrate(input).findings, ElementsAre(HasSubstr("time_offset_s: -0.3")));
+  for (std::size_t i = 5; i < input.altitudes_m.size(); i += 20) input.altitudes_m[i] *= 25.0;
+  const Calibration found = calibrate(input);
+  EXPECT_THAT(found.findings, IsEmpty());
+  EXPECT_THAT(found.untold, Contains("dead reckoning's clock: altitudes contradict one another"));
+  EXPECT_THAT(facts_of(found), Not(Contains(HasSubstr("clock"))));
+}
+
 TEST(Calibration, SaysThatOdometryIsOfAnotherSurvey) {
   CalibrationInput input = TurningSurvey().input(9);
   RandomStream stream(2, "other");

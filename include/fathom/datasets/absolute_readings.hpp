@@ -29,6 +29,7 @@ struct AbsoluteReadings {
   std::vector<MeasuredHeading> headings;
   std::vector<PositionFix> fixes;
   Eigen::Vector2d lever_m = Eigen::Vector2d::Zero();  ///< the antenna in the body frame
+  bool has_jumps = false;                             ///< of fixes, on purpose: a simulation's
 
   bool is_empty() const { return headings.empty() && fixes.empty(); }
 };

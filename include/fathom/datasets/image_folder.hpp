@@ -99,7 +99,8 @@ class ImageFolder : public FrameSource {
 /// Writes a survey as an image folder: PNG pictures named by their time stamps, numbers with 17
 /// digits, `odometry0` with the covariances xy, xt, yt after the variances. ImageFolder reads back
 /// the same frames and bit-identical pictures; over a hole `odometry0` has no rows. Headings and
-/// fixes go to `compass0` and `position0`. All readings are to be kept (`outliers: keep`).
+/// fixes go to `compass0` and `position0`. Fixes that jump on purpose
+/// are to be kept (`outliers: keep`).
 /// `folder/mav0` is written whole or not at all; an older
 /// one is replaced. Throws InputError.
 void write_image_folder(const FrameSource& source, const std::filesystem::path& folder,

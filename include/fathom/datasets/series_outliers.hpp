@@ -44,4 +44,8 @@ std::vector<bool> kept_values(std::span<const std::int64_t> times_ns,
                               std::span<const double> values, double allowed,
                               const OutlierLimits& limits = {});
 
+/// Which of the altitudes are plausible: those above zero that their neighbours do not contradict.
+std::vector<bool> plausible_altitudes(std::span<const std::int64_t> times_ns,
+                                      std::span<const double> altitudes_m);
+
 }  // namespace fathom

@@ -72,8 +72,9 @@ struct SetUp {
   Estimated yaw_rad;                 ///< of the camera's mounting
   Estimated lever_x_m;
   Estimated lever_y_m;
-  Estimated time_offset_s;  ///< to be added to the time stamps of dead reckoning
-  double sigma_m = 0.0;     ///< of what is left, a motion
+  Estimated time_offset_s;    ///< to be added to the time stamps of dead reckoning
+  bool is_clock_told = true;  ///< false: altitudes that contradict one another look like a clock
+  double sigma_m = 0.0;       ///< of what is left, a motion
   double sigma_rad = 0.0;
   /// Where the scale changes, once: the time, and by which factor it grows.
   struct Step {

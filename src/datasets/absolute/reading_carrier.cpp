@@ -78,7 +78,8 @@ void ReadingCarrier::take_fix(const Stretch& stretch, std::size_t i) {
 // Those between frame i and `end_ns`, which is not included.
 void ReadingCarrier::take_until(const Stretch& stretch, std::size_t i, std::int64_t end_ns) {
   constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
-  const auto& [headings, fixes, lever] = readings_;
+  const std::vector<MeasuredHeading>& headings = readings_.headings;
+  const std::vector<PositionFix>& fixes = readings_.fixes;
   while (true) {
     const std::int64_t heading_ns =
         next_heading_ < headings.size() ? headings[next_heading_].time_ns : kNever;

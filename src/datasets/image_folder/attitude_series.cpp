@@ -39,15 +39,20 @@ AttitudeSeries::AttitudeSeries(const std::filesystem::path& path, const SensorYa
     tilts_.push_back({tilt, sigma(csv, row)});
     lines_.push_back(row.line);
   }
-  kept_ = KeptReadings(yaml.keeps_outliers ? std::vector<bool>(tilts_.size(), true)
-                                           : plausible_tilts(times_, tilts_));
+  plausible_ = KeptReadings(plausible_tilts(times_, tilts_));
+  used_ = yaml.keeps_outliers ? KeptReadings(std::vector<bool>(tilts_.size(), true)) : plausible_;
 }
 
 std::optional<MeasuredTilt> AttitudeSeries::at(std::int64_t time_ns,
                                                std::int64_t max_gap_ns) const {
+  return at(time_ns, max_gap_ns, used_);
+}
+
+std::optional<MeasuredTilt> AttitudeSeries::at(std::int64_t time_ns, std::int64_t max_gap_ns,
+                                               const KeptReadings& of) const {
   const auto in_all = times_.around(time_ns, max_gap_ns);
   if (!in_all) return std::nullopt;
-  const auto [bracket, growth] = filling(times_, kept_, *in_all, time_ns);
+  const auto [bracket, growth] = filling(times_, of, *in_all, time_ns);
   const MeasuredTilt& before = tilts_[bracket.before];
   const MeasuredTilt& after = tilts_[bracket.after];
   const double share = bracket.share;
@@ -56,22 +61,23 @@ std::optional<MeasuredTilt> AttitudeSeries::at(std::int64_t time_ns,
                      std::lerp(before.sigma_rad, after.sigma_rad, share)};
   if (growth == 0.0) return found;
   const double spread_rad =
-      std::max(spread_around(bracket, kept_, [this](auto i) { return tilts_[i].tilt.roll_rad; }),
-               spread_around(bracket, kept_, [this](auto i) { return tilts_[i].tilt.pitch_rad; }));
+      std::max(spread_around(bracket, of, [this](auto i) { return tilts_[i].tilt.roll_rad; }),
+               spread_around(bracket, of, [this](auto i) { return tilts_[i].tilt.pitch_rad; }));
   found.sigma_rad = std::min(growth * std::max(found.sigma_rad, spread_rad), kMostTiltSigmaRad);
   return found;
 }
 
 std::optional<std::string> AttitudeSeries::remark() const {
-  const auto first = first_left_out(kept_.all());
+  const auto first = first_outlier(plausible_.all());
   if (!first) return std::nullopt;
-  const Tilt& left_out = tilts_[*first].tilt;
-  const Tilt expected = at(times_.at(*first), 0).value().tilt;
-  return left_out_remark(
-      "attitude0", kept_.all(), lines_[*first],
+  const Tilt& outlier = tilts_[*first].tilt;
+  const Tilt expected = at(times_.at(*first), 0, plausible_).value().tilt;
+  return outlier_remark(
+      "attitude0", plausible_.all(), lines_[*first],
       fmt::format("roll and pitch {}, {} rad where its neighbours have {}, {} rad",
-                  short_number(left_out.roll_rad), short_number(left_out.pitch_rad),
-                  short_number(expected.roll_rad), short_number(expected.pitch_rad)));
+                  short_number(outlier.roll_rad), short_number(outlier.pitch_rad),
+                  short_number(expected.roll_rad), short_number(expected.pitch_rad)),
+      used_[*first]);
 }
 
 }  // namespace fathom

@@ -24,14 +24,18 @@ class AttitudeSeries {
   /// contradict, sigma is wider: by what readings around differ by, growing with the time without.
   std::optional<MeasuredTilt> at(std::int64_t time_ns, std::int64_t max_gap_ns) const;
   const TimeLine& times() const { return times_; }
-  /// What was left out, if anything was.
+  /// What was left out, or kept against its neighbours, if anything was.
   std::optional<std::string> remark() const;
 
  private:
+  std::optional<MeasuredTilt> at(std::int64_t time_ns, std::int64_t max_gap_ns,
+                                 const KeptReadings& of) const;
+
   TimeLine times_;
   std::vector<MeasuredTilt> tilts_;
   std::vector<std::size_t> lines_;
-  KeptReadings kept_;
+  KeptReadings plausible_;
+  KeptReadings used_;
 };
 
 }  // namespace fathom

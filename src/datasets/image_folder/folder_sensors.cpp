@@ -211,7 +211,8 @@ void write_folder_sensors(const AbsoluteReadings& readings, const fs::path& mav0
   }
   write_sensor(mav0 / "position0", kWorldColumns, rows,
                "sensor_type: position\nmounting: {x: " + exact(readings.lever_m.x()) + ", y: " +
-                   exact(readings.lever_m.y()) + "} # of the antenna in the body frame; m\n");
+                   exact(readings.lever_m.y()) + "} # of the antenna in the body frame; m\n" +
+                   (readings.has_jumps ? "outliers: keep\n" : ""));
 }
 
 }  // namespace fathom

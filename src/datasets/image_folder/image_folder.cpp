@@ -149,12 +149,9 @@ void ImageFolder::read_attitude() {
 void ImageFolder::read_odometry(const OdometryGaps& gaps) {
   const auto csv = sensor_csv(mav0_, "odometry0");
   if (!csv) return;
-  const SensorYaml yaml = yaml_beside(*csv);
-  OdometrySeries odometry(*csv, yaml);
+  OdometrySeries odometry(*csv, yaml_beside(*csv));
   leave_out_uncovered(odometry.times(), *csv);
-  if (!yaml.keeps_outliers) {
-    std::ranges::copy(odometry.mend(gaps.declared.speed_limit_m_s), std::back_inserter(remarks_));
-  }
+  std::ranges::copy(odometry.mend(gaps.declared.speed_limit_m_s), std::back_inserter(remarks_));
   odometry.make_holes(gaps, infos_.front().time_ns, infos_.back().time_ns);
   for (std::size_t i = 0; i < infos_.size(); ++i) {
     if (!odometry.covers(infos_[i].time_ns, kMaxInterpolationGapNs)) {

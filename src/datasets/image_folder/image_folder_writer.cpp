@@ -2,7 +2,6 @@
 #include <string>
 #include <system_error>
 
-#include "fathom/core/files.hpp"
 #include "fathom/core/input_error.hpp"
 #include "fathom/datasets/asl_files.hpp"
 #include "fathom/datasets/image_folder.hpp"
@@ -78,15 +77,6 @@ std::string reference_rows(const FrameSource& source) {
   return rows;
 }
 
-// What a reader would take for a fault of a sensor is part of the survey that is written.
-void keep_outliers(const fs::path& mav0) {
-  for (const char* sensor : {"altimeter0", "attitude0", "compass0", "odometry0", "position0"}) {
-    const fs::path yaml = mav0 / sensor / "sensor.yaml";
-    std::error_code error;
-    if (fs::exists(yaml, error)) write_file(yaml, read_text(yaml) + "outliers: keep\n");
-  }
-}
-
 }  // namespace
 
 void write_image_folder(const FrameSource& source, const fs::path& folder,
@@ -101,7 +91,6 @@ void write_image_folder(const FrameSource& source, const fs::path& folder,
   write_folder_sensors(readings, mav0);
   const std::string reference = reference_rows(source);
   if (!reference.empty()) write_reference(mav0 / "state_groundtruth_estimate0", reference);
-  keep_outliers(mav0);
   staged.commit();
 }
 

@@ -147,11 +147,13 @@ std::vector<std::string> OdometrySeries::mend(double speed_limit_m_s) {
     for (const std::size_t r : faults.spikes) kept[r] = false;
     const std::size_t first = faults.spikes.front();
     remarks.push_back(
-        left_out_remark("odometry0", kept, lines_[first],
-                        fmt::format("{} m from the row before, and back",
-                                    short_number(steps_[first].mean.position().norm()))));
+        outlier_remark("odometry0", kept, lines_[first],
+                       fmt::format("{} m from the row before, and back",
+                                   short_number(steps_[first].mean.position().norm())),
+                       keeps_outliers_));
   }
   for (const std::size_t r : faults.spikes) {
+    if (keeps_outliers_) break;
     const Pose over = compose(steps_[r].mean, steps_[r + 1].mean);
     const double share = static_cast<double>(times_.at(r) - times_.at(r - 1)) /
                          static_cast<double>(times_.at(r + 1) - times_.at(r - 1));

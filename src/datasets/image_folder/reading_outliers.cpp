@@ -103,12 +103,13 @@ std::optional<std::string> leave_out_headings(FolderCompass& compass,
     const std::vector<bool> kept_carried = kept_readings({judged.times_ns, carried, allowed});
     for (std::size_t i = 0; i < kept.size(); ++i) kept[i] = kept[i] || kept_carried[i];
   }
-  const auto first = first_left_out(kept);
+  const auto first = first_outlier(kept);
   if (!first) return std::nullopt;
   const double off_rad = alone(kept_neighbour(kept, *first), *first);
-  std::string remark = left_out_remark("compass0", kept, compass.lines[*first],
-                                       short_number(off_rad) + " rad from the heading beside it");
-  keep_only(compass.readings, kept);
+  std::string remark = outlier_remark("compass0", kept, compass.lines[*first],
+                                      short_number(off_rad) + " rad from the heading beside it",
+                                      compass.keeps_outliers);
+  if (!compass.keeps_outliers) keep_only(compass.readings, kept);
   return remark;
 }
 
@@ -145,13 +146,14 @@ std::optional<std::string> leave_out_fixes(FolderFixes& of, std::vector<Fix>& fi
     return std::max(kAllowedFix_m, kAllowedReadingSigmas * std::sqrt(variance));
   };
   const std::vector<bool> kept = kept_readings({judged.times_ns, apart, allowed});
-  const auto first = first_left_out(kept);
+  const auto first = first_outlier(kept);
   if (!first) return std::nullopt;
   const std::size_t beside = kept_neighbour(kept, *first);
-  std::string remark = left_out_remark(
+  std::string remark = outlier_remark(
       "position0", kept, of.lines[*first],
-      short_number(motion_of(fixes[beside], fixes[*first]).norm()) + " m from the fix beside it");
-  keep_only(fixes, kept);
+      short_number(motion_of(fixes[beside], fixes[*first]).norm()) + " m from the fix beside it",
+      of.keeps_outliers);
+  if (!of.keeps_outliers) keep_only(fixes, kept);
   return remark;
 }
 
@@ -163,10 +165,8 @@ std::vector<std::string> leave_out_contradicted(FolderSensors& sensors,
   const auto add = [&remarks](std::optional<std::string> remark) {
     if (remark) remarks.push_back(std::move(*remark));
   };
-  if (sensors.compass && !sensors.compass->keeps_outliers) {
-    add(leave_out_headings(*sensors.compass, frames));
-  }
-  if (sensors.fixes && !sensors.fixes->keeps_outliers) {
+  if (sensors.compass) add(leave_out_headings(*sensors.compass, frames));
+  if (sensors.fixes) {
     add(leave_out_fixes(*sensors.fixes, sensors.fixes->in_world, frames));
     add(leave_out_fixes(*sensors.fixes, sensors.fixes->on_earth, frames));
   }

@@ -9,44 +9,25 @@
 namespace fathom {
 namespace {
 
-// Of the logarithm: 43 % more or 30 % less than a neighbour. Relief of a fifth stays, half and
-// double do not.
-constexpr double kAllowedAltitude = 0.36;
 constexpr double kAllowedTilt_rad = 0.2;
 // Of a tilt, by its own standard deviations.
 constexpr double kAllowedSigmas = 10.0;
 
 }  // namespace
 
-std::optional<std::size_t> first_left_out(const std::vector<bool>& kept) {
-  const auto found = std::find(kept.begin(), kept.end(), false);
-  if (found == kept.end()) return std::nullopt;
-  return static_cast<std::size_t>(found - kept.begin());
+std::optional<std::size_t> first_outlier(const std::vector<bool>& plausible) {
+  const auto found = std::find(plausible.begin(), plausible.end(), false);
+  if (found == plausible.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - plausible.begin());
 }
 
-std::string left_out_remark(const std::string& sensor, const std::vector<bool>& kept,
-                            std::size_t line_of_first, const std::string& detail) {
+std::string outlier_remark(const std::string& sensor, const std::vector<bool>& plausible,
+                           std::size_t line_of_first, const std::string& detail, bool are_kept) {
   return fmt::format(
-      "{}: {} of {} readings left out (first: line {}, {}); 'outliers: keep' in its sensor.yaml "
-      "keeps them",
-      sensor, std::count(kept.begin(), kept.end(), false), kept.size(), line_of_first, detail);
-}
-
-std::vector<bool> plausible_altitudes(const TimeLine& times,
-                                      const std::vector<double>& altitudes_m) {
-  std::vector<std::size_t> above_floor;
-  std::vector<std::int64_t> times_ns;
-  std::vector<double> logarithms;
-  for (std::size_t i = 0; i < altitudes_m.size(); ++i) {
-    if (!(altitudes_m[i] > 0.0)) continue;
-    above_floor.push_back(i);
-    times_ns.push_back(times.at(i));
-    logarithms.push_back(std::log(altitudes_m[i]));
-  }
-  const std::vector<bool> kept_above = kept_values(times_ns, logarithms, kAllowedAltitude);
-  std::vector<bool> kept(altitudes_m.size(), false);
-  for (std::size_t i = 0; i < above_floor.size(); ++i) kept[above_floor[i]] = kept_above[i];
-  return kept;
+      "{}: {} of {} readings {} (first: line {}, {}); 'outliers: keep' in its sensor.yaml keeps "
+      "them",
+      sensor, std::count(plausible.begin(), plausible.end(), false), plausible.size(),
+      are_kept ? "contradict their neighbours" : "left out", line_of_first, detail);
 }
 
 std::vector<bool> plausible_tilts(const TimeLine& times, const std::vector<MeasuredTilt>& tilts) {

@@ -13,19 +13,16 @@
 
 namespace fathom {
 
-/// The sensor's share of a remark on readings that were left out: "altimeter0: 11 of 113 readings
-/// left out (first: line 14, DETAIL; …)".
-std::string left_out_remark(const std::string& sensor, const std::vector<bool>& kept,
-                            std::size_t line_of_first, const std::string& detail);
+/// The sensor's share of a remark on readings that are not `plausible`: "altimeter0: 11 of 113
+/// readings left out (first: line 14, DETAIL; …)", or that they contradict their neighbours and
+/// `are_kept`.
+std::string outlier_remark(const std::string& sensor, const std::vector<bool>& plausible,
+                           std::size_t line_of_first, const std::string& detail, bool are_kept);
 
-/// The index of the first reading that is left out; nothing where none is.
-std::optional<std::size_t> first_left_out(const std::vector<bool>& kept);
+/// The index of the first reading that is not plausible; nothing where all are.
+std::optional<std::size_t> first_outlier(const std::vector<bool>& plausible);
 
-/// Which of the altitudes are kept: those above zero that their neighbours do not contradict.
-std::vector<bool> plausible_altitudes(const TimeLine& times,
-                                      const std::vector<double>& altitudes_m);
-
-/// Likewise of attitudes: by either angle.
+/// Which of the attitudes are plausible: those that their neighbours contradict by neither angle.
 std::vector<bool> plausible_tilts(const TimeLine& times, const std::vector<MeasuredTilt>& tilts);
 
 /// What stands in for a reading that is left out.

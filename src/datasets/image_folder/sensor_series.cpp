@@ -79,14 +79,19 @@ AltitudeSeries::AltitudeSeries(const std::filesystem::path& path, const SensorYa
     const SensorRow& row = *not_above.front();
     csv.refuse(row, "altitude " + row.fields[1] + " is not above the floor; expected metres > 0");
   }
-  kept_ = KeptReadings(yaml.keeps_outliers ? std::vector<bool>(count, true)
-                                           : plausible_altitudes(times_, altitudes_m_));
+  plausible_ = KeptReadings(plausible_altitudes(times_.all(), altitudes_m_));
+  used_ = yaml.keeps_outliers ? KeptReadings(std::vector<bool>(count, true)) : plausible_;
 }
 
 std::optional<AltitudeAt> AltitudeSeries::at(std::int64_t time_ns, std::int64_t max_gap_ns) const {
+  return at(time_ns, max_gap_ns, used_);
+}
+
+std::optional<AltitudeAt> AltitudeSeries::at(std::int64_t time_ns, std::int64_t max_gap_ns,
+                                             const KeptReadings& of) const {
   const auto in_all = times_.around(time_ns, max_gap_ns);
   if (!in_all) return std::nullopt;
-  const auto [bracket, growth] = filling(times_, kept_, *in_all, time_ns);
+  const auto [bracket, growth] = filling(times_, of, *in_all, time_ns);
   AltitudeAt found;
   found.altitude_m =
       std::lerp(altitudes_m_[bracket.before], altitudes_m_[bracket.after], bracket.share);
@@ -94,23 +99,25 @@ std::optional<AltitudeAt> AltitudeSeries::at(std::int64_t time_ns, std::int64_t 
   // Relief between readings is seldom less.
   constexpr double kLeastShare = 0.01;
   const double spread_m =
-      spread_around(bracket, kept_, [this](std::size_t i) { return altitudes_m_[i]; });
+      spread_around(bracket, of, [this](std::size_t i) { return altitudes_m_[i]; });
   found.sigma_m = growth * std::max(spread_m, kLeastShare * found.altitude_m);
   return found;
 }
 
 std::optional<std::string> AltitudeSeries::remark() const {
-  const auto first = first_left_out(kept_.all());
+  const auto first = first_outlier(plausible_.all());
   if (!first) return std::nullopt;
-  const double expected_m = at(times_.at(*first), 0).value().altitude_m;
-  return left_out_remark("altimeter0", kept_.all(), lines_[*first],
-                         fmt::format("{} m where its neighbours have {} m",
-                                     short_number(altitudes_m_[*first]), short_number(expected_m)));
+  const double expected_m = at(times_.at(*first), 0, plausible_).value().altitude_m;
+  return outlier_remark("altimeter0", plausible_.all(), lines_[*first],
+                        fmt::format("{} m where its neighbours have {} m",
+                                    short_number(altitudes_m_[*first]), short_number(expected_m)),
+                        used_[*first]);
 }
 
 OdometrySeries::OdometrySeries(const std::filesystem::path& path, const SensorYaml& yaml) {
   const SensorCsv csv(path, "timestamp, p_x, p_y, theta, step_var_x, step_var_y, step_var_theta",
                       "step_cov_xy, step_cov_xt, step_cov_yt", yaml.time_offset_ns);
+  keeps_outliers_ = yaml.keeps_outliers;
   recorded_.format = yaml.odometry;
   recorded_.time_offset_s = 1e-9 * static_cast<double>(yaml.time_offset_ns);
   Pose last;
@@ -213,21 +220,21 @@ UncertainPose OdometrySeries::motion(std::int64_t from_ns, std::int64_t to_ns) c
 
 PoseSeries::PoseSeries(const std::filesystem::path& path, std::int64_t time_offset_ns) {
   const SensorCsv csv(path, "timestamp, p_x, p_y, p_z, q_w, q_x, q_y, q_z", "", time_offset_ns);
+  std::vector<StampedSpatialPose> in_space;
   for (const SensorRow& row : csv.rows()) {
+    in_space.push_back({row.time_ns, spatial_pose(csv, row)});
+    const SpatialPose& pose = in_space.back().pose;
     times_.add(row.time_ns);
     poses_.push_back({pose.position_m.x(), pose.position_m.y(), yaw_of(pose.rotation)});
   }
+  require_order(in_space, TrajectoryFormat::euroc, path.string());
 }
 
 std::optional<Pose> PoseSeries::at(std::int64_t time_ns, std::int64_t max_gap_ns) const {
-  std::vector<StampedSpatialPose> in_space;
   const auto bracket = times_.around(time_ns, max_gap_ns);
-    in_space.push_back({row.time_ns, spatial_pose(csv, row)});
-    const SpatialPose& pose = in_space.back().pose;
   if (!bracket) return std::nullopt;
   const Pose& before = poses_[bracket->before];
   if (bracket->share == 0.0) return before;
-  require_order(in_space, TrajectoryFormat::euroc, path.string());
   return compose(before, scaled(between(before, poses_[bracket->after]), bracket->share));
 }
 

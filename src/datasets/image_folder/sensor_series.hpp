@@ -27,6 +27,7 @@ class TimeLine {
   void add(std::int64_t time_ns) { times_ns_.push_back(time_ns); }
   std::int64_t at(std::size_t i) const { return times_ns_[i]; }
   std::size_t size() const { return times_ns_.size(); }
+  const std::vector<std::int64_t>& all() const { return times_ns_; }
   void insert_first(std::int64_t time_ns) { times_ns_.insert(times_ns_.begin(), time_ns); }
 
   /// Nothing where the time is not covered: before the first, after the last, or in a gap wider
@@ -58,14 +59,18 @@ class AltitudeSeries {
   /// `max_gap_ns` between readings, those that are left out among them.
   std::optional<AltitudeAt> at(std::int64_t time_ns, std::int64_t max_gap_ns) const;
   const TimeLine& times() const { return times_; }
-  /// What was left out, if anything was.
+  /// What was left out, or kept against its neighbours, if anything was.
   std::optional<std::string> remark() const;
 
  private:
+  std::optional<AltitudeAt> at(std::int64_t time_ns, std::int64_t max_gap_ns,
+                               const KeptReadings& of) const;
+
   TimeLine times_;
   std::vector<double> altitudes_m_;
   std::vector<std::size_t> lines_;
-  KeptReadings kept_;
+  KeptReadings plausible_;
+  KeptReadings used_;
 };
 
 /// `odometry0/data.csv`: time, integrated pose in its own frame, the variances of x, y, θ of the
@@ -76,7 +81,8 @@ class OdometrySeries {
   /// to no motion and is not looked at.
   OdometrySeries(const std::filesystem::path& csv, const SensorYaml& yaml);
 
-  /// Single rows that jump out and back are moved to where the rows around them have them; a step
+  /// Single rows that jump out and back are moved to where the rows around them have them, or kept
+  /// where the sensor's outliers are; a step
   /// to where odometry starts again, at the pose of the first row or by a jump faster than
   /// `speed_limit_m_s` and far faster than other steps, is marked as a hole. Nothing where there
   /// are many jumps. Says what it found; to be called before make_holes.
@@ -103,7 +109,8 @@ class OdometrySeries {
   std::vector<UncertainPose> steps_;  ///< since the row before; the first is empty
   std::vector<bool> is_hole_;         ///< of each step; empty: none is
   RecordedOdometry recorded_;         ///< without its holes
-  std::vector<std::size_t> lines_;    ///< of the rows
+  bool keeps_outliers_ = false;
+  std::vector<std::size_t> lines_;  ///< of the rows
 };
 
 /// `state_groundtruth_estimate0/data.csv` of EuRoC: time, position, quaternion w x y z; further

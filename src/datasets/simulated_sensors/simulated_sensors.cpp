@@ -113,6 +113,7 @@ AbsoluteReadings draw_readings(const SimulatedSensorOptions& options,
     require_interval(*options.fixes.interval_s, prefix + "fixes.interval_s");
     readings.lever_m = {options.fixes.lever_x_m, options.fixes.lever_y_m};
     const Eigen::Matrix2d covariance = options.fixes.noise_covariance(prefix + "fixes.");
+    readings.has_jumps = options.fixes.jump_share > 0.0;
     readings.fixes = draw_fixes(options.fixes, covariance, way, seed, trial);
   }
   return readings;

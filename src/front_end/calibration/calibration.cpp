@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "fathom/core/text.hpp"
+#include "fathom/datasets/series_outliers.hpp"
 #include "findings.hpp"
 #include "set_up.hpp"
 
@@ -26,7 +27,9 @@ void find_untold(const SetUp& found, const Senses& senses, std::vector<std::stri
         fmt::format("the scale: registrations are too uncertain for motions so short (σ {})",
                     short_number(found.scale.sigma, 2)));
   }
-  if (found.time_offset_s.sigma > kWideClock_s) {
+  if (!found.is_clock_told) {
+    untold.emplace_back("dead reckoning's clock: altitudes contradict one another");
+  } else if (found.time_offset_s.sigma > kWideClock_s) {
     untold.push_back(fmt::format("dead reckoning's clock: the motion is too even (σ {} s)",
                                  short_number(found.time_offset_s.sigma, 2)));
   }
@@ -44,6 +47,10 @@ Calibration calibrate(const CalibrationInput& input) {
   if (!calibration.findings.empty()) return calibration;
   if (!input.is_visual_odometry) calibration.set_up = find_set_up(input);
   std::optional<SetUp>& found = calibration.set_up;
+  if (found) {
+    const auto plausible = plausible_altitudes(input.frame_times_ns, input.altitudes_m);
+    found->is_clock_told = std::ranges::count(plausible, false) == 0;
+  }
   if (found && !found->is_related) {
     calibration.findings.push_back(fmt::format(
         "{} registered motions have nothing to do with those of odometry0, in no order, sense, "
@@ -57,6 +64,7 @@ Calibration calibrate(const CalibrationInput& input) {
                               offset_s);
     calibration.turns = compare_turns(input, track);
     calibration.directions = compare_directions(input, track, calibration.turns);
+    find_still_compass(input, track, calibration.findings);
   }
   const Senses senses = senses_of(input, calibration);
   if (senses.pictures_are_mirrored) {
@@ -99,8 +107,10 @@ std::vector<std::string> facts_of(const Calibration& calibration) {
                     with_sigma(found->scale)));
     facts.push_back(fmt::format("mounting: yaw {} rad, x {} m, y {} m", with_sigma(found->yaw_rad),
                                 with_sigma(found->lever_x_m), with_sigma(found->lever_y_m)));
-    facts.push_back(fmt::format("clock: {} s to add to dead reckoning's time stamps",
-                                with_sigma(found->time_offset_s)));
+    if (found->is_clock_told) {
+      facts.push_back(fmt::format("clock: {} s to add to dead reckoning's time stamps",
+                                  with_sigma(found->time_offset_s)));
+    }
     facts.push_back(fmt::format("left over: {} m and {} rad a motion, of {} motions",
                                 short_number(found->sigma_m, 2), short_number(found->sigma_rad, 2),
                                 found->motions));

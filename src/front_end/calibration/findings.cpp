@@ -187,7 +187,7 @@ void find_scale(const CalibrationInput& input, const SetUp& found,
 }
 
 bool is_late(const SetUp& found) {
-  return found.time_offset_s.is_off(0.0, kFindingSigmas, kLeastClock_s);
+  return found.is_clock_told && found.time_offset_s.is_off(0.0, kFindingSigmas, kLeastClock_s);
 }
 
 void find_clock(const CalibrationInput& input, const SetUp& found,

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "fathom/front_end/calibration.hpp"
+#include "odometry_track.hpp"
 
 namespace fathom {
 
@@ -53,6 +54,9 @@ void find_clock(const CalibrationInput& input, const SetUp& found,
 /// Of compass and fixes.
 void find_turns(const CalibrationInput& input, const Calibration& calibration, const Senses& senses,
                 std::vector<std::string>& findings);
+/// Of a compass whose headings are one and the same while dead reckoning turns.
+void find_still_compass(const CalibrationInput& input, const OdometryTrack& track,
+                        std::vector<std::string>& findings);
 /// Of pictures that have another size than the calibration's.
 void find_size(const CameraModel& camera, std::vector<std::string>& findings);
 

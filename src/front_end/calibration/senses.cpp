@@ -176,4 +176,24 @@ void find_turns(const CalibrationInput& input, const Calibration& calibration, c
   }
 }
 
+void find_still_compass(const CalibrationInput& input, const OdometryTrack& track,
+                        std::vector<std::string>& findings) {
+  constexpr double kStill_rad = 1e-3;  // less than the noise of any compass
+  constexpr double kTurned_rad = 0.5;
+  const std::vector<MeasuredHeading>& headings = input.readings.headings;
+  double turned_rad = 0.0;
+  for (const MeasuredHeading& heading : headings) {
+    const MeasuredHeading& first = headings.front();
+    if (std::abs(wrap_angle(heading.heading_rad - first.heading_rad)) > kStill_rad) return;
+    const auto motion = track.motion(first.time_ns, heading.time_ns);
+    if (motion) turned_rad = std::max(turned_rad, std::abs(motion->theta));
+  }
+  if (turned_rad < kTurned_rad) return;
+  findings.push_back(fmt::format(
+      "compass0 says {} rad in each of its {} headings while odometry0 turns by {} rad: "
+      "it measures nothing; remove its folder, or write "
+      "'dataset.compass.use: false'",
+      short_number(headings.front().heading_rad), headings.size(), short_number(turned_rad)));
+}
+
 }  // namespace fathom
