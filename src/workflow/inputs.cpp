@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 #include <string>
+#include <system_error>
 #include <utility>
 
 #include "fathom/configuration/config_file.hpp"
@@ -50,8 +51,13 @@ std::vector<fs::path> inputs_of(const fs::path& path, const Settings& settings) 
 }
 
 std::string stem_of(const fs::path& path) {
-  const std::string stem = (path.has_filename() ? path : path.parent_path()).stem().string();
-  return stem.empty() ? "run" : stem;
+  std::error_code error;
+  if (!fs::is_directory(path, error)) return path.stem().empty() ? "run" : path.stem().string();
+  fs::path folder = fs::absolute(path).lexically_normal();
+  if (!folder.has_filename()) folder = folder.parent_path();
+  // All recordings in the EuRoC/ASL layout have a folder of that name.
+  if (folder.filename() == "mav0") folder = folder.parent_path();
+  return folder.filename().empty() ? "run" : folder.filename().string();
 }
 
 // Of one name and several contents, as of two builds of a program, by order of content: each has a

@@ -1,5 +1,7 @@
 // No command writes over what it reads, by whatever path.
 
+#include "fathom/workflow/inputs.hpp"
+
 #include <gmock/gmock.h>
 
 #include "apps/command_line.hpp"
@@ -25,6 +27,19 @@ class Inputs : public CommandLine {
 };
 
 const std::string kTruth = "0 0 0 0 0 0 0 1\n1 1 0 0 0 0 0 1\n";
+
+TEST_F(Inputs, FoldersThatDifferHaveRunsOfOtherNames) {
+  for (const char* folder : {"dive.1", "dive.2", "a/mav0", "b/mav0"}) {
+    std::filesystem::create_directories(path(folder));
+  }
+  const auto name = [this](const std::string& of) { return workflow::stem_of(path(of)); };
+  EXPECT_EQ(name("dive.1"), "dive.1");
+  EXPECT_EQ(name("dive.2/"), "dive.2");
+  EXPECT_EQ(name("a/mav0"), "a");
+  EXPECT_EQ(name("b/mav0/"), "b");
+  EXPECT_EQ(name("study.1.yaml"), "study.1");
+  EXPECT_EQ(workflow::stem_of(""), "run");
+}
 
 TEST_F(Inputs, SpoilKeepsItsGraph) {
   write("g.g2o", square_graph(200, 10));

@@ -20,7 +20,8 @@ Settings settings_of(const std::filesystem::path& path);
 std::vector<std::filesystem::path> inputs_of(const std::filesystem::path& path,
                                              const Settings& settings);
 
-/// What a run of this file or folder is called: its name without ending.
+/// What a run of it is called: the name of a file without its ending, that of a folder as it is, or
+/// that of the folder around a mav0.
 std::string stem_of(const std::filesystem::path& path);
 
 /// The hashes of data, and of the plug-ins and programs that do the work of these estimators.
