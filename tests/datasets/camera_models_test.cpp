@@ -128,6 +128,30 @@ TEST_F(CameraModels, AFieldOfViewIsThatOfTheFisheye) {
               HasSubstr("dataset.camera.distortion: expected the 4 numbers"));
 }
 
+TEST_F(CameraModels, AFieldOfViewIsThatOfADistortedLensToo) {
+  test::write_picture(folder_ / "a.png", cv::Mat(48, 64, CV_8UC1, cv::Scalar(90)));
+  PictureFolderOptions options;
+  options.path = folder_.path().string();
+  options.altitude_m = 2.0;
+  options.field_of_view_rad = 1.2;
+  const auto covered_rad = [&] {
+    const Camera camera = PictureFolder(options).camera();
+    return std::atan(camera.floor_point({-0.5, 23.5}, 1.0).y()) -
+           std::atan(camera.floor_point({63.5, 23.5}, 1.0).y());
+  };
+  options.distortion = {-0.2, 0.0, 0.0, 0.0, 0.0};
+  EXPECT_NEAR(covered_rad(), 1.2, 1e-9);
+  options.distortion_model = DistortionModel::rational_polynomial;
+  options.distortion = {0.06, 0.01, 0.0, 0.0, 0.0, 0.3, 0.0, 0.0};
+  EXPECT_NEAR(covered_rad(), 1.2, 1e-9);
+  // 0.68 focal lengths from the axis this lens shows what is nearer to it as well.
+  options.distortion_model = DistortionModel::radial_tangential;
+  options.distortion = {-1.0, 0.0, 0.0, 0.0, 0.0};
+  EXPECT_THAT(test::input_error_of([&] { PictureFolder folder(options); }),
+              HasSubstr("dataset.camera.field_of_view_rad: the lens of dataset.camera.distortion "
+                        "shows no such angle"));
+}
+
 class ColmapCamera : public CameraModels {
  protected:
   ImportReport import(const std::string& cameras, const std::string& second_camera = "7") const {

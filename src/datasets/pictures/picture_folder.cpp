@@ -43,28 +43,38 @@ std::string missing_focal_length(const fs::path& picture, int width) {
   return text;
 }
 
-// Focal lengths from the centre at which a fisheye shows what is at an angle from its axis.
-double equidistant_radius(const std::vector<double>& coefficients, double angle_rad) {
-  double radius = 0.0;
-  double power = angle_rad;
-  for (const double coefficient : coefficients) {
-    radius += coefficient * (power *= angle_rad * angle_rad);
+// Half the width, in focal lengths, of a picture that the lens fills up to so many radians from its
+// axis on either side.
+double half_width_at(const CameraModel& lens, double angle_rad) {
+  CameraModel small;
+  small.width = small.height = 1;
+  small.fx = small.fy = 1000.0;
+  small.cx = small.cy = 0.0;
+  small.distortion_model = lens.distortion_model;
+  small.distortion = lens.distortion;
+  const Camera camera(small);
+  const double side = std::tan(angle_rad);
+  const Eigen::Vector2d left = camera.pixel({0.0, side}, 1.0);
+  const Eigen::Vector2d right = camera.pixel({0.0, -side}, 1.0);
+  constexpr double kRounded = 1e-6;
+  // Elsewhere the lens shows the same place of the picture twice.
+  if (std::abs(camera.floor_point(left, 1.0).y() - side) < kRounded * side) {
+    return 0.5 * (right.x() - left.x()) / small.fx;
   }
-  return angle_rad + radius;
+  throw InputError(
+      "dataset.camera.field_of_view_rad: the lens of dataset.camera.distortion shows no "
+      "such angle; expected a smaller one, or focal_px");
 }
 
-double focal_length(const PictureFolderOptions& options, const fs::path& picture, int width) {
+double focal_length(const PictureFolderOptions& options, const CameraModel& lens,
+                    const fs::path& picture) {
   if (options.focal_px && options.field_of_view_rad) {
     throw InputError(
         "dataset.camera.field_of_view_rad: there is a focal_px, too; expected one of them");
   }
   if (options.focal_px) return *options.focal_px;
-  if (!options.field_of_view_rad) throw InputError(missing_focal_length(picture, width));
-  const double half_rad = 0.5 * *options.field_of_view_rad;
-  if (options.distortion_model == DistortionModel::equidistant) {
-    return 0.5 * width / equidistant_radius(options.distortion, half_rad);
-  }
-  return 0.5 * width / std::tan(half_rad);
+  if (!options.field_of_view_rad) throw InputError(missing_focal_length(picture, lens.width));
+  return 0.5 * lens.width / half_width_at(lens, 0.5 * *options.field_of_view_rad);
 }
 
 Camera camera_of(const PictureFolderOptions& options, const fs::path& picture) {
@@ -74,7 +84,7 @@ Camera camera_of(const PictureFolderOptions& options, const fs::path& picture) {
   model.height = first.rows;
   model.distortion_model = options.distortion_model;
   set_distortion(model, options.distortion, "dataset.camera.distortion");
-  model.fx = focal_length(options, picture, first.cols);
+  model.fx = focal_length(options, model, picture);
   model.fy = options.focal_y_px.value_or(model.fx);
   model.cx = options.cx.value_or((model.width - 1) / 2.0);
   model.cy = options.cy.value_or((model.height - 1) / 2.0);
