@@ -9,9 +9,11 @@
 #include "apps/output.hpp"
 #include "apps/terminal.hpp"
 #include "fathom/configuration/study.hpp"
+#include "fathom/core/files.hpp"
 #include "fathom/core/input_error.hpp"
 #include "fathom/core/text.hpp"
 #include "fathom/geometry/trajectory_file.hpp"
+#include "fathom/measurements/graph_conversion.hpp"
 #include "fathom/report/graph_text.hpp"
 #include "fathom/report/table.hpp"
 #include "fathom/workflow/check.hpp"
@@ -137,7 +139,11 @@ void check(const CheckFlags& flags, Context& context) {
   if (!flags.common.overrides.empty()) {
     throw InputError("--set: goes with a configuration or a folder of pictures");
   }
-  if (ending == ".tum" || ending == ".txt" || ending == ".csv") {
+  if (ending == ".bag" || ending == ".db3" || ending == ".mcap") {
+    throw InputError(path, "is a bag; fathom import makes a folder of it that can be checked");
+  }
+  const bool may_be_trajectory = ending == ".tum" || ending == ".txt" || ending == ".csv";
+  if (may_be_trajectory && !is_graph(read_text(path))) {
     check_trajectory(path);
   } else {
     check_graph(path, context.estimators().registry(), flags.graph);
@@ -151,7 +157,7 @@ void add_check(CLI::App& program, Context& context) {
   Command command(program, "check", "Say what is in a file or folder and what is wrong with it",
                   "Example: fathom check intel.g2o\n"
                   "A folder is an image folder, .yaml a configuration, .tum, .txt and .csv a "
-                  "trajectory,\nelse a pose graph.");
+                  "trajectory\nif it holds none of a graph's lines, else a pose graph.");
   command.argument("path", flags->path, "File or folder");
   add_drop_self_edges_to(command, flags->graph.drop_self_edges);
   flags->common.add_settings_to(command, context);

@@ -18,6 +18,8 @@
 namespace fathom {
 namespace {
 
+namespace fs = std::filesystem;
+
 struct ConvertFlags {
   std::string input;
   std::string to;
@@ -31,19 +33,6 @@ struct ConvertFlags {
 // What is said once all is written.
 using Notes = std::vector<std::string>;
 
-// A line of a graph opens with its tag, one of a trajectory with a number.
-bool is_graph(const std::string& path) {
-  const std::string content = read_text(path);
-  for (const TextLine& line : lines_of(content)) {
-    const std::string_view text = trim(line.text.substr(0, line.text.find('#')));
-    if (text.empty()) continue;
-    const auto opens_with = [&](std::string_view tag) { return text.starts_with(tag); };
-    return opens_with("VERTEX") || opens_with("EDGE") || opens_with("FIX") || opens_with("EQUIV") ||
-           opens_with("PARAMS");
-  }
-  return false;
-}
-
 void refuse_flags_of_trajectories(const ConvertFlags& flags) {
   const std::pair<const char*, const std::string*> all[]{{"--from", &flags.trajectory.format},
                                                          {"--plane", &flags.trajectory.plane},
@@ -54,10 +43,23 @@ void refuse_flags_of_trajectories(const ConvertFlags& flags) {
   }
 }
 
+fs::path whole(const fs::path& path) {
+  std::error_code ignored;
+  return fs::weakly_canonical(fs::absolute(path), ignored);
+}
+
 Notes convert_graph_file(const ConvertFlags& flags) {
   refuse_flags_of_trajectories(flags);
   const GraphFormat to = flags.to == "g2o" ? GraphFormat::g2o : GraphFormat::toro;
   const ConvertedGraph graph = convert_graph(read_text(flags.input), flags.input, to, flags.graph);
+  const fs::path its_own = shared_file_of(flags.input);
+  const fs::path beside = shared_file_of(flags.out);
+  std::error_code ignored;
+  const bool is_its_own = whole(beside) == whole(its_own);
+  if (!is_its_own && fs::exists(beside, ignored)) {
+    throw InputError(beside.string(), "is of another graph and would be read with " + flags.out +
+                                          "; remove it, or give another --out");
+  }
   write_file(output_file(flags.out), graph.text);
   Notes notes{fmt::format("{} vertices, {} edges", graph.vertices, graph.edges)};
   for (const auto& [tag, count] : graph.left_out) {
@@ -67,8 +69,8 @@ Notes convert_graph_file(const ConvertFlags& flags) {
   for (const auto& [tag, count] : graph.landmarks) {
     notes.push_back(fmt::format("left out: {} {}, of landmarks", counted(count, "line"), tag));
   }
-  if (std::error_code ignored; std::filesystem::exists(shared_file_of(flags.input), ignored)) {
-    notes.push_back("left out: " + shared_file_of(flags.input).string() +
+  if (!is_its_own && fs::exists(its_own, ignored)) {
+    notes.push_back("left out: " + its_own.string() +
                     ", the errors that registrations share; without it they are independent");
   }
   if (graph.self_edges > 0) {
@@ -133,14 +135,10 @@ void convert(const ConvertFlags& flags, Context& context) {
     if (output.empty()) continue;
     refuse_replacing(output_file(output), {flags.input, flags.trajectory.times});
   }
-  const auto whole = [](const std::string& path) {
-    std::error_code ignored;
-    return std::filesystem::weakly_canonical(std::filesystem::absolute(path), ignored);
-  };
   if (!flags.times_out.empty() && whole(flags.out) == whole(flags.times_out)) {
     throw InputError("--times-out: is the same file as --out");
   }
-  if (is_graph(flags.input) != to_graph) {
+  if (is_graph(read_text(flags.input)) != to_graph) {
     throw InputError(flags.input, to_graph ? "is no pose graph; --to takes tum, kitti or euroc"
                                            : "is a pose graph; --to takes g2o or toro, and fathom "
                                              "solve writes its trajectory");

@@ -110,6 +110,17 @@ class Converter {
 
 }  // namespace
 
+bool is_graph(const std::string& content) {
+  for (const TextLine& line : lines_of(content)) {
+    const std::string_view text = trim(line.text.substr(0, line.text.find('#')));
+    if (text.empty()) continue;
+    const auto opens_with = [&](std::string_view tag) { return text.starts_with(tag); };
+    return opens_with("VERTEX") || opens_with("EDGE") || opens_with("FIX") || opens_with("EQUIV") ||
+           opens_with("PARAMS");
+  }
+  return false;
+}
+
 ConvertedGraph convert_graph(const std::string& content, const std::string& name, GraphFormat to,
                              const ConversionOptions& options) {
   Converter converter(to, options);

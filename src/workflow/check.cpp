@@ -5,6 +5,7 @@
 #include <iterator>
 #include <memory>
 
+#include "fathom/configuration/config_file.hpp"
 #include "fathom/core/input_error.hpp"
 #include "fathom/core/text.hpp"
 #include "fathom/datasets/image_folder.hpp"
@@ -75,11 +76,33 @@ OpenedFolder open_folder(const std::filesystem::path& path) {
   return opened;
 }
 
-void sum_up_folder(const std::filesystem::path& path, FolderSummary& summary) {
+bool is_off(const Settings& settings, const char* key) {
+  const Setting* given = settings.find(key);
+  return given != nullptr && word_of(*given, key) == "false";
+}
+
+// What a run of fixes needs and the settings do not give. Without an origin the rest is looked at
+// without them.
+void ask_for_fixes(const FolderSensors& sensors, Settings& settings, FolderSummary& summary) {
+  if (!sensors.fixes || is_off(settings, "dataset.fixes.use")) return;
+  const bool has_compass = sensors.compass && !is_off(settings, "dataset.compass.use");
+  if (!has_compass && settings.find("dataset.start.heading_rad") == nullptr) {
+    summary.warnings.emplace_back(
+        "fixes without a compass: a run needs dataset.start.heading_rad with its sigma_rad");
+  }
+  if (sensors.fixes->on_earth.empty()) return;
+  if (settings.find("dataset.origin.latitude") != nullptr) return;
+  summary.warnings.emplace_back(
+      "fixes in latitude and longitude: a run needs dataset.origin (latitude, longitude, heading)");
+  settings.put({"dataset.fixes.use", OptionValue::scalar("false"), "check"});
+}
+
+void sum_up_folder(const std::filesystem::path& path, Settings& settings, FolderSummary& summary) {
   const OpenedFolder opened = open_folder(path);
   const ImageFolder& folder = *opened.folder;
   summary = summarise_frames(folder);
   sum_up_sensors(folder.sensors(), summary);
+  ask_for_fixes(folder.sensors(), settings, summary);
   sum_up_holes(*opened.with_holes, opened.plain.get(), summary);
   std::ranges::copy(folder.remarks(), std::back_inserter(summary.warnings));
   if (!opened.refusal.empty()) summary.faults.push_back(opened.refusal);
@@ -116,15 +139,22 @@ GraphCheck check_graph(const std::filesystem::path& path, const EstimatorRegistr
   return checked;
 }
 
-SurveyCheck check_survey(const std::filesystem::path& path, const Settings& settings,
+SurveyCheck check_survey(const std::filesystem::path& path, const Settings& given,
                          const EstimatorRegistry& registry, RegistrationCache* registrations,
                          Observer& observer) {
   SurveyCheck checked;
-  if (!is_plain_picture_folder(path)) sum_up_folder(path, checked.folder);
+  Settings settings = given;
+  const bool is_plain = is_plain_picture_folder(path);
+  if (!is_plain) sum_up_folder(path, settings, checked.folder);
   if (!checked.folder.faults.empty()) return checked;
   const Configuration configuration = configure(settings, ConfigurationKind::single, registry);
   const FrontEndOptions& front_end = configuration.front_end;
   const std::unique_ptr<const DataSet> data = open_data_set(configuration);
+  if (is_plain) {
+    checked.folder = summarise_frames(*data->frames());
+    std::ranges::copy(data->remarks(), std::back_inserter(checked.folder.warnings));
+    if (!checked.folder.faults.empty()) return checked;
+  }
   const Outlook expected = outlook(*data->frames(), front_end);
   checked.expected = facts_of(expected);
   if (const auto advice = advise(expected)) checked.advice = text_of(*advice, "survey");

@@ -100,6 +100,13 @@ TEST_F(Check, WarnsOfInformationThatLooksWrong) {
               HasSubstr("warning: F per degree of freedom is "));
 }
 
+TEST_F(Check, KnowsAGraphByItsLinesAndABagByItsEnding) {
+  write("square.txt", square_graph(40, 3));
+  EXPECT_THAT(fathom_done({"check", "square.txt"}).out, HasSubstr("pose graph"));
+  write("dive.db3", "SQLite format 3");
+  EXPECT_THAT(refusal({"check", "dive.db3"}), HasSubstr("is a bag; fathom import"));
+}
+
 TEST_F(Check, SaysWhatIsInATrajectoryOrConfiguration) {
   write("a.tum", "0 0 0 0 0 0 0 1\n1 3 4 0 0 0 0 1\n");
   EXPECT_THAT(fathom_done({"check", "a.tum"}).out,

@@ -69,6 +69,11 @@ TEST_F(Commands, ConvertSaysThatWhatRegistrationsShareIsLost) {
   EXPECT_THAT(fathom_done(convert).out, Not(HasSubstr("share")));
   write("g.shared", "");
   EXPECT_THAT(fathom_done(convert).out, HasSubstr("left out: g.shared, the errors that"));
+  // Another graph's would be read with it; its own may stay.
+  write("back.shared", "");
+  EXPECT_THAT(refusal(convert), HasSubstr("back.shared: is of another graph"));
+  EXPECT_THAT(fathom_done({"convert", "g.g2o", "--to", "toro", "--out", "g.graph"}).out,
+              Not(HasSubstr("share")));
 }
 
 TEST_F(Commands, ConvertRefusesWhatItCannotDo) {

@@ -13,6 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 using PlainPictures = YourSurvey;
@@ -45,7 +46,18 @@ TEST_F(PlainPictures, CloseTheirLoops) {
     return all;
   };
   const Ended checked = fathom_done(with_given({"check", "pictures"}));
-  EXPECT_THAT(checked.out, HasSubstr("what 'fathom run pictures' will find"));
+  EXPECT_THAT(checked.out, AllOf(HasSubstr("what 'fathom run pictures' will find"),
+                                 HasSubstr("frames: "), HasSubstr("160 x 120 pixels, f 130")));
+  // What is wrong with them is said as of an image folder.
+  std::string altitudes;
+  for (std::size_t i = 0; i < taken.size(); ++i) {
+    altitudes += "shot" + std::to_string(i) + (i == 3 ? ".jpg,20\n" : ".jpg,2\n");
+  }
+  write("altitudes.csv", altitudes);
+  EXPECT_THAT(fathom_done({"check", "pictures", "--set", "dataset.altitudes=altitudes.csv", "--set",
+                           "dataset.camera.focal_px=130"})
+                  .out,
+              HasSubstr("warning: altitude changes by more than half from the frame before: 2"));
   const Arguments smoother{"--set", "estimator.type=incremental_smoother", "--no-mosaic"};
   Arguments run = with_given({"run", "pictures", "--out", "given"});
   run.insert(run.end(), smoother.begin(), smoother.end());

@@ -137,6 +137,23 @@ TEST_F(Sensors, LatitudeWithoutAnOriginIsRefusedAndTakenWithOne) {
   EXPECT_EQ(ended.status, 0) << ended.err;
 }
 
+TEST_F(Sensors, CheckSaysWhatARunOfFixesNeeds) {
+  write("c.yaml", kPlain);
+  fathom_done({"simulate", "c.yaml", "--out", "data"});
+  std::filesystem::create_directory(path("data/mav0/position0"));
+  std::ofstream(path("data/mav0/position0/data.csv"))
+      << "#timestamp [ns],latitude [deg],longitude [deg],var_north [m^2],cov_north_east [m^2],"
+         "var_east [m^2]\n0,40,3,0.01,0,0.01\n";
+  EXPECT_THAT(fathom_done({"check", "data"}).out,
+              AllOf(HasSubstr("fixes: 1 in latitude and longitude"),
+                    HasSubstr("warning: fixes in latitude and longitude: a run needs "
+                              "dataset.origin"),
+                    HasSubstr("warning: fixes without a compass: a run needs "
+                              "dataset.start.heading_rad")));
+  EXPECT_THAT(fathom_done({"check", "data", "--set", "dataset.fixes.use=false"}).out,
+              ::testing::Not(HasSubstr("a run needs")));
+}
+
 TEST_F(Sensors, KeysOfWhatIsNotThereAreRefused) {
   for (const std::string key :
        {"compass.sigma_rad", "fixes.jump_share", "holes.length_s", "gap_sigma_rad"}) {

@@ -24,6 +24,10 @@ struct ConvertedGraph {
   std::size_t self_edges = 0;                                  ///< left out
 };
 
+/// Whether a text is a pose graph and no trajectory: a line of the former opens with its tag, one
+/// of the latter with a number.
+bool is_graph(const std::string& content);
+
 /// What is left out of a graph, where it would be refused.
 struct ConversionOptions {
   bool drop_landmarks = false;

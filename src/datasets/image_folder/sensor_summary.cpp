@@ -71,15 +71,6 @@ void sum_up_sensors(const FolderSensors& sensors, FolderSummary& summary) {
   const FolderFixes& fixes = *sensors.fixes;
   sum_up_fixes(fixes.in_world, "x and y", fixes.lever_m, summary);
   sum_up_fixes(fixes.on_earth, "latitude and longitude", fixes.lever_m, summary);
-  if (!fixes.on_earth.empty()) {
-    summary.facts.emplace_back(
-        "fixes in latitude and longitude: a run needs dataset.origin (latitude, longitude, "
-        "heading)");
-  }
-  if (!sensors.compass) {
-    summary.facts.emplace_back(
-        "fixes without a compass: a run needs dataset.start.heading_rad with its sigma_rad");
-  }
 }
 
 void sum_up_holes(const FrameSource& source, const FrameSource* plain, FolderSummary& summary) {
