@@ -36,7 +36,7 @@ inline const std::vector<ThirdParty>& third_parties() {
       {"yaml-cpp/",
        {"src/configuration/", "src/core/yaml_limits.cpp",
         "src/datasets/image_folder/camera_yaml.cpp", "src/datasets/image_folder/sensor_yaml.cpp",
-        "src/datasets/import/ros2_metadata.cpp"}},
+        "src/datasets/image_folder/yaml_root.", "src/datasets/import/ros2_metadata.cpp"}},
       {"immintrin.h", {"include/fathom/core/cpu.hpp"}},
       {"geo_normalize.h", {"src/report/earth/geo_tiff.cpp"}},
       {"geodesic.h",

@@ -171,15 +171,23 @@ TEST(ImageFolder, KeysOfASensorThatNobodyReadsAreNamed) {
       "sensor_type: altimeter\ncomment: none\nrate_hz: 10\nT_BS: {rows: 4}\n"
       "sigma_realtive: 0.02\n";
   fixture.files["odometry0/sensor.yaml"] = "# none\nsigma: 1\n";
+  // EuRoC says of its own cameras where they are.
+  fixture.files["cam0/sensor.yaml"] +=
+      "T_BS: {cols: 4, rows: 4, data: [1, 0, 0, 0.5, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]}\n"
+      "mirored: true\n";
   const std::vector<std::string> remarks = ImageFolder(fixture.write()).remarks();
-  ASSERT_EQ(remarks.size(), 2U);
+  ASSERT_EQ(remarks.size(), 4U);
+  EXPECT_NE(remarks[1].find("cam0/sensor.yaml:6: T_BS is not read: the camera is taken to be at"),
+            std::string::npos)
+      << remarks[1];
+  EXPECT_TRUE(remarks[2].ends_with("did you mean 'mirrored'?")) << remarks[2];
   EXPECT_TRUE(remarks[0].ends_with(
       "altimeter0/sensor.yaml:5: 'sigma_realtive' is not read; of altimeter0 known are "
       "outliers, scale, sigma_absolute, sigma_relative, time_offset_s; did you mean "
       "'sigma_relative'?"))
       << remarks[0];
   EXPECT_TRUE(
-      remarks[1].ends_with("odometry0/sensor.yaml:2: 'sigma' is not read; of odometry0 known are "
+      remarks[3].ends_with("odometry0/sensor.yaml:2: 'sigma' is not read; of odometry0 known are "
                            "convention, heading_unit, outliers, scale, time_offset_s"))
       << remarks[3];
   fixture.files["cam0/sensor.yaml"] += "mounting: {x: 0.5}\n";

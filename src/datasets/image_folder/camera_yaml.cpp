@@ -5,12 +5,11 @@
 
 #include <yaml-cpp/yaml.h>
 
-#include "fathom/core/files.hpp"
 #include "fathom/core/input_error.hpp"
 #include "fathom/core/options.hpp"
 #include "fathom/core/text.hpp"
-#include "fathom/core/yaml_limits.hpp"
 #include "fathom/datasets/asl_files.hpp"
+#include "yaml_root.hpp"
 
 namespace fathom {
 namespace {
@@ -20,13 +19,7 @@ const char* const kNoDistortion = "none";
 class CameraReader {
  public:
   explicit CameraReader(const std::filesystem::path& path) : file_(path.string()) {
-    const std::string text = read_text(path, kMostYamlBytes);
-    require_yaml_within_limits(text, file_);
-    try {
-      root_ = YAML::Load(text);
-    } catch (const YAML::Exception& error) {
-      throw InputError(file_, line_of(error.mark), "is not valid YAML: " + error.msg);
-    }
+    root_ = yaml_root(path);
     if (!root_.IsMap()) throw InputError(file_, "expected the keys of a camera's sensor.yaml");
   }
 
@@ -54,10 +47,6 @@ class CameraReader {
   }
 
  private:
-  static std::size_t line_of(const YAML::Mark& mark) {
-    return mark.is_null() ? 1 : static_cast<std::size_t>(mark.line) + 1;
-  }
-
   [[noreturn]] void refuse(const YAML::Node& node, const std::string& what) const {
     throw InputError(file_, line_of(node.Mark()), what);
   }

@@ -7,30 +7,13 @@
 #include <system_error>
 #include <utility>
 
-#include <yaml-cpp/yaml.h>
-
-#include "fathom/core/files.hpp"
 #include "fathom/core/input_error.hpp"
 #include "fathom/core/options.hpp"
 #include "fathom/core/text.hpp"
-#include "fathom/core/yaml_limits.hpp"
+#include "yaml_root.hpp"
 
 namespace fathom {
 namespace {
-
-std::size_t line_of(const YAML::Mark& mark) {
-  return mark.is_null() ? 1 : static_cast<std::size_t>(mark.line) + 1;
-}
-
-YAML::Node root_of(const std::filesystem::path& path) {
-  const std::string text = read_text(path, kMostYamlBytes);
-  require_yaml_within_limits(text, path.string());
-  try {
-    return YAML::Load(text);
-  } catch (const YAML::Exception& error) {
-    throw InputError(path.string(), line_of(error.mark), "is not valid YAML: " + error.msg);
-  }
-}
 
 void read_mounting(const std::string& file, const YAML::Node& mounting, SensorYaml& sensor) {
   const auto refuse = [&file](const YAML::Node& node, const std::string& what) {
@@ -96,12 +79,27 @@ void read_odometry(const std::string& file, const YAML::Node& root, SensorYaml& 
 const std::map<std::string, std::vector<std::string>>& keys_by_sensor() {
   static const std::map<std::string, std::vector<std::string>> keys{
       {"altimeter0", {"outliers", "scale", "sigma_absolute", "sigma_relative", "time_offset_s"}},
+      {"cam0",
+       {"camera_model", "distortion_coefficients", "distortion_model", "intrinsics", "mirrored",
+        "mounting", "resolution"}},
       {"attitude0", {"outliers", "time_offset_s"}},
       {"compass0", {"convention", "mounting", "outliers", "time_offset_s"}},
       {"odometry0", {"convention", "heading_unit", "outliers", "scale", "time_offset_s"}},
       {"position0", {"mounting", "outliers", "time_offset_s"}},
       {"state_groundtruth_estimate0", {"time_offset_s"}}};
   return keys;
+}
+
+// EuRoC's 4 x 4 matrix, {cols: , rows: , data: [...]}, or the numbers alone.
+bool is_identity(const YAML::Node& matrix) {
+  const YAML::Node data = matrix.IsMap() ? matrix["data"] : matrix;
+  if (!data || !data.IsSequence()) return false;
+  constexpr std::size_t kRow = 5;  // from one place of the diagonal to the next
+  for (std::size_t i = 0; i < data.size(); ++i) {
+    const auto number = data[i].IsScalar() ? parse_real(data[i].Scalar()) : std::optional<double>();
+    if (number != std::optional(i % kRow == 0 ? 1.0 : 0.0)) return false;
+  }
+  return true;
 }
 
 std::string unread_text(const std::string& sensor, const std::string& key) {
@@ -116,7 +114,7 @@ SensorYaml read_sensor_yaml(const std::filesystem::path& path) {
   SensorYaml sensor;
   std::error_code error;
   if (!std::filesystem::exists(path, error)) return sensor;
-  const YAML::Node root = root_of(path);
+  const YAML::Node root = yaml_root(path);
   if (root.IsNull()) return sensor;
   if (!root.IsMap()) throw InputError(path.string(), "expected the keys of a sensor.yaml");
   if (const YAML::Node mounting = root["mounting"]) read_mounting(path.string(), mounting, sensor);
@@ -158,14 +156,22 @@ std::vector<std::string> unread_sensor_keys(const std::filesystem::path& mav0) {
     const std::filesystem::path path = mav0 / sensor / "sensor.yaml";
     std::error_code error;
     if (!std::filesystem::is_regular_file(path, error)) continue;
-    const YAML::Node root = root_of(path);
+    const YAML::Node root = yaml_root(path);
     if (!root.IsMap()) continue;
     for (const auto& entry : root) {
       const std::string key = entry.first.IsScalar() ? entry.first.Scalar() : "";
       const auto has = [&key](const auto& keys) {
         return std::ranges::find(keys, key) != keys.end();
       };
-      if (has(kEuRoC) || has(known)) continue;
+      if (has(kEuRoC) || has(known)) {
+        if (sensor == "cam0" && key == "T_BS" && !root["mounting"] && !is_identity(entry.second)) {
+          lines.push_back(
+              fmt::format("{}:{}: T_BS is not read: the camera is taken to be at the "
+                          "body's origin; mounting: {{x: , y: , yaw: }} says where it is",
+                          path.string(), line_of(entry.first.Mark())));
+        }
+        continue;
+      }
       lines.push_back(fmt::format("{}:{}: {}", path.string(), line_of(entry.first.Mark()),
                                   unread_text(sensor, key)));
     }

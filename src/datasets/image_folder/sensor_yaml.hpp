@@ -30,8 +30,9 @@ struct SensorYaml {
 /// with file and line.
 SensorYaml read_sensor_yaml(const std::filesystem::path& path);
 
-/// Of the sensors in `mav0` that are no camera: keys of their `sensor.yaml` that nobody reads, one
-/// line each with file, line and what is read of this sensor. EuRoC's own are not among them.
+/// Of the sensors in `mav0`: keys of their `sensor.yaml` that nobody reads, one line each with
+/// file, line and what is read of this sensor. EuRoC's own are not among them, but for a camera's
+/// T_BS that is not the identity, where there is no `mounting`.
 std::vector<std::string> unread_sensor_keys(const std::filesystem::path& mav0);
 
 }  // namespace fathom
