@@ -56,7 +56,8 @@ void spoil_graph(const SpoilFlags& flags, Context& context) {
   const std::vector<Pose> reference = reference_poses(recording, context.estimators().registry());
   const Spoiled spoiled =
       spoil(recording.log, reference, options, static_cast<std::uint64_t>(flags.seed));
-  write_graph(output_file(flags.out), spoiled.log);
+  // A start of the file's own is a start of the spoilt one, too.
+  write_graph(output_file(flags.out), spoiled.log, spoiled.log.guess);
   write_file(output_file(list), false_loops_csv(spoiled));
   context.status = kDone;
   if (flags.quiet) return;

@@ -131,8 +131,8 @@ void bind_logs(py::module_& module) {
           "dead_reckoning", [](const MeasurementLog& log) { return array_of(log.odometry()); },
           "N x 3: the steps composed.")
       .def("chi2", &chi2_of, py::arg("trajectory"), "F of a trajectory, N x 3; no unit.")
-      .def("to_g2o", &to_g2o, py::call_guard<py::gil_scoped_release>(),
-           "The log as text in the g2o format.")
+      .def("to_g2o", py::overload_cast<const MeasurementLog&>(&to_g2o),
+           py::call_guard<py::gil_scoped_release>(), "The log as text in the g2o format.")
       .def("_svg", &log_svg);
   bind_files(module);
 }

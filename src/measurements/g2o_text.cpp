@@ -55,13 +55,16 @@ std::string start_lines(const StartPose& start, const std::vector<std::int64_t>&
 }  // namespace
 
 std::string to_g2o(const MeasurementLog& log) {
+  return to_g2o(log, log.odometry());
+}
+
+std::string to_g2o(const MeasurementLog& log, std::span<const Pose> vertices) {
   std::vector<std::int64_t> ids = log.ids;
   for (std::size_t k = ids.size(); k < log.size(); ++k) ids.push_back(static_cast<std::int64_t>(k));
-  const std::vector<Pose> poses = log.odometry();
   std::string text;
   for (std::size_t k = 0; k < log.size(); ++k) {
     const KeyframeMeasurements& arrival = log.arrival(k);
-    text += vertex_line(ids[k], poses[k]);
+    text += vertex_line(ids[k], vertices[k]);
     text += k == 0 ? start_lines(log.start(), ids)
                    : edge_line(arrival.step.is_hole ? arrival.step.forward() : arrival.step, ids);
     for (const RelativePose& z : arrival.registrations) text += edge_line(z, ids);

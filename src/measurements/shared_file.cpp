@@ -61,8 +61,9 @@ std::string to_shared(const MeasurementLog& log) {
   return text + registrations;
 }
 
-void write_graph(const std::filesystem::path& graph, const MeasurementLog& log) {
-  write_file(graph, to_g2o(log));
+void write_graph(const std::filesystem::path& graph, const MeasurementLog& log,
+                 const std::optional<std::vector<Pose>>& vertices) {
+  write_file(graph, vertices ? to_g2o(log, *vertices) : to_g2o(log));
   const std::filesystem::path shared = shared_file_of(graph);
   if (const std::string text = to_shared(log); !text.empty()) {
     write_file(shared, text);

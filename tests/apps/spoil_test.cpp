@@ -47,6 +47,17 @@ TEST_F(Commands, SpoilAddsFalseLoopsThatSolveIsJudgedBy) {
   EXPECT_THAT(fathom_done(plain).out, HasSubstr("7 of 7 false loops kept"));
 }
 
+// A solve from the file's own start is one of the spoilt file, too.
+TEST_F(Commands, SpoilKeepsTheGuessOfTheFile) {
+  write("g.g2o",
+        "VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 1.5 0.25 0\nVERTEX_SE2 2 0.5 1 2\n"
+        "EDGE_SE2 0 1 1 0 1.5 1 0 0 1 0 1\nEDGE_SE2 1 2 1 0 1.5 1 0 0 1 0 1\n"
+        "EDGE_SE2 0 2 1 1 3 1 0 0 1 0 1\n");
+  fathom_done({"spoil", "g.g2o", "--share", "0", "--out", "o.g2o"});
+  EXPECT_THAT(bytes_of("o.g2o"),
+              AllOf(HasSubstr("VERTEX_SE2 1 1.5 0.25 0\n"), HasSubstr("VERTEX_SE2 2 0.5 1 2\n")));
+}
+
 TEST_F(Commands, SpoilRefusesWhatItWouldIgnore) {
   write("g.g2o", square_graph(160, 3));
   EXPECT_THAT(refusal({"spoil", "g.g2o", "--reach", "5", "--out", "a.g2o"}),

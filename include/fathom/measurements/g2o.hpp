@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <numbers>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "fathom/core/options.hpp"
@@ -61,6 +62,8 @@ MeasurementLog parse_g2o(const std::string& content, const std::string& name,
 /// is a prior. A hole has no edge. Reads back to the same bits: inliers, what is declared of a hole
 /// and the covariance of the start stand in comments.
 std::string to_g2o(const MeasurementLog& log);
+/// The same with these poses, one a keyframe, in place of dead reckoning's.
+std::string to_g2o(const MeasurementLog& log, std::span<const Pose> vertices);
 
 /// A free start made known by the priors of keyframe 0, as keyframe by keyframe it is needed: those
 /// that together determine it and could all be met are the start, so that F is the same; the others

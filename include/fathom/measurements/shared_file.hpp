@@ -20,8 +20,10 @@ std::optional<SharedText> shared_beside(const std::filesystem::path& graph);
 std::string to_shared(const MeasurementLog& log);
 
 /// Writes a log and, where something is told, the file beside it; a file of that name from before
-/// is removed where nothing is. Throws InputError.
-void write_graph(const std::filesystem::path& graph, const MeasurementLog& log);
+/// is removed where nothing is. `vertices` stand in place of the dead-reckoned poses. Throws
+/// InputError.
+void write_graph(const std::filesystem::path& graph, const MeasurementLog& log,
+                 const std::optional<std::vector<Pose>>& vertices = {});
 
 /// to_g2o and to_shared in one: all that estimators are given, for whoever hashes it.
 std::string text_of(const MeasurementLog& log);
