@@ -39,6 +39,7 @@ ResultStore ResultStore::open(const fs::path& path) {
   }
   auto database = std::make_unique<Database>(file, SQLite::OPEN_READONLY);
   database->guard([&] {
+    const SQLite::Transaction snapshot(*database->sqlite);
     if (!database->is_store()) throw InputError(file.string(), "holds no study");
     database->study = read_study(*database->sqlite);
     read_manifests(*database->sqlite);
@@ -91,7 +92,12 @@ std::vector<std::string> ResultStore::manifests() const {
 }
 
 std::vector<RunRecord> ResultStore::runs() const {
-  return database_->guard([&] { return read_runs(*database_->sqlite, database_->study); });
+  const std::lock_guard hold(database_->mutex);
+  return database_->guard([&] {
+    // Of several statements: what another process stores between them is not half there.
+    const SQLite::Transaction snapshot(*database_->sqlite);
+    return read_runs(*database_->sqlite, database_->study);
+  });
 }
 
 std::optional<std::vector<double>> ResultStore::series(const RunKey& key,

@@ -1,6 +1,8 @@
 // A store that is not what was written: bits flipped on disk, or somebody's edits.
 
 #include <SQLiteCpp/SQLiteCpp.h>
+#include <atomic>
+#include <thread>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -157,6 +159,29 @@ TEST(DamagedStore, NoFlippedBitGivesAnotherNumber) {
     }
   }
   EXPECT_GT(refused, 0u);
+}
+
+TEST(DamagedStore, IsNotOneThatAnotherProcessWritesJustNow) {
+  const TemporaryFolder folder;
+  StudyDescription study = description();
+  study.trials = 400;
+  ResultStore writer = ResultStore::write(folder.path(), study, "");
+  std::atomic<bool> is_done = false;
+  std::thread writing([&] {
+    for (std::size_t trial = 0; trial < study.trials; ++trial) {
+      for (std::size_t cell = 0; cell < 6; ++cell) writer.add(record(cell, trial, "plain"));
+    }
+    is_done = true;
+  });
+  std::size_t before = 0;
+  while (!is_done && !HasFailure()) {
+    EXPECT_NO_THROW({
+      const std::size_t count = ResultStore::open(folder.path()).runs().size();
+      EXPECT_GE(count, before);
+      before = count;
+    });
+  }
+  writing.join();
 }
 
 }  // namespace
