@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "chart_frame.hpp"
+#include "study_styles.hpp"
 #include "text_layout.hpp"
 
 namespace fathom {
@@ -25,6 +26,12 @@ LegendEntry line_entry(const std::string& text, const Pen& pen) {
 LegendEntry disc_entry(const std::string& text, Colour colour) {
   return {text, [colour](Canvas& canvas, const Eigen::Vector2d& centre) {
             canvas.disc(centre, 3.0, colour);
+          }};
+}
+
+LegendEntry mark_entry(const std::string& text, const LineStyle& style) {
+  return {text, [style](Canvas& canvas, const Eigen::Vector2d& centre) {
+            draw_mark(canvas, centre, style);
           }};
 }
 

@@ -14,9 +14,10 @@ struct LegendEntry {
   std::function<void(Canvas&, const Eigen::Vector2d& centre)> sample;
 };
 
-/// A line, and a disc.
+/// A line, a disc, and the mark of a style.
 LegendEntry line_entry(const std::string& text, const Pen& pen);
 LegendEntry disc_entry(const std::string& text, Colour colour);
+LegendEntry mark_entry(const std::string& text, const LineStyle& style);
 
 /// Entries side by side from the left, in as many rows as they need within a width. One that is
 /// wider than that is shortened.

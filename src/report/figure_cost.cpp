@@ -30,7 +30,7 @@ std::vector<LegendEntry> legend_of(const std::vector<CostPoint>& points,
   std::vector<LegendEntry> legend;
   legend.reserve(points.size() + 1);
   for (const CostPoint& point : points) {
-    legend.push_back(disc_entry(display_name(point.estimator), styles.at(point.estimator).colour));
+    legend.push_back(mark_entry(display_name(point.estimator), styles.at(point.estimator)));
   }
   if (front) legend.push_back(line_entry("Pareto front", front_pen()));
   return legend;
@@ -48,12 +48,13 @@ void draw_cost(Canvas& canvas, const std::vector<CostPoint>& points,
   }
   canvas.line(steps, front_pen());
   for (const CostPoint& point : points) {
-    const Pen pen{styles.at(point.estimator).colour, 1.0, {}, 1.0};
+    const LineStyle& style = styles.at(point.estimator);
+    const Pen pen{style.colour, 1.0, {}, 1.0};
     canvas.line(frame.at(point.costs.low, point.error), frame.at(point.costs.high, point.error),
                 pen);
     canvas.line(frame.at(point.cost, point.errors.low), frame.at(point.cost, point.errors.high),
                 pen);
-    canvas.disc(frame.at(point.cost, point.error), 3.0, pen.colour);
+    draw_mark(canvas, frame.at(point.cost, point.error), style);
   }
   for (const CostPoint& point : front) {
     canvas.ring(frame.at(point.cost, point.error), 3.6, {palette::black, 0.8, {}, 1.0});

@@ -21,6 +21,7 @@ constexpr double kLeastText = 14.0;  // a shorter one is shown whole or not at a
 struct Square {
   Shade shade;
   std::string text;
+  bool is_number = false;  ///< of an estimator, which the legend has too
 };
 
 // A map by place across, then up.
@@ -49,11 +50,21 @@ Square drawn_square(const EstimatorResults& one, const std::optional<RegimeSquar
           square->relative ? relative_text(*square->relative) : quantity(square->mean, unit)};
 }
 
+// From 1 on, where the colours alone do not tell the estimators apart; else empty.
+std::string number_of(const StudyDescription& study, const std::string& estimator) {
+  if (study.estimators.size() <= kEstimatorColours) return "";
+  const auto found = std::ranges::find(study.estimators, estimator, &StudyEstimator::name);
+  return std::to_string(found - study.estimators.begin() + 1);
+}
+
 Square choice_square(const CellResults& cell, const std::string& metric, const std::string& cost,
+                     const StudyDescription& study,
                      const std::map<std::string, LineStyle>& styles) {
   const auto choice = cheapest_of_the_best(cell, metric, cost);
   if (!choice) return {};
-  return {shade_of_choice(styles.at(*choice).colour), *choice};
+  const std::string number = number_of(study, *choice);
+  return {shade_of_choice(styles.at(*choice).colour), number.empty() ? *choice : number,
+          !number.empty()};
 }
 
 template <class SquareOf>
@@ -84,7 +95,7 @@ std::vector<DrawnMap> drawn_maps(const ChartInput& input, const RegimeMap& map,
   }
   if (cost) {
     list.push_back(drawn_map(map, "cheapest within 5 %", [&](const CellResults& cell) {
-      return choice_square(cell, metric, *cost, styles);
+      return choice_square(cell, metric, *cost, input.results.study, styles);
     }));
   }
   return list;
@@ -105,6 +116,21 @@ ChartAxis square_axis(const StudyAxis& axis) {
   return made;
 }
 
+void draw_square_text(Canvas& canvas, const Square& square, const Eigen::Vector2d& middle,
+                      const Eigen::Vector2d& extent) {
+  const double needed = text_width(square.text, kCellText);
+  double size = kCellText;
+  if (square.is_number) {
+    size *= std::min({1.0, extent.x() / needed, extent.y() / kCellText});
+  } else if (extent.x() < std::min(kLeastText, needed) || extent.y() < kCellText) {
+    return;  // the colour says it alone
+  }
+  const std::string text =
+      square.is_number ? square.text : shortened(square.text, kCellText, extent.x());
+  canvas.text(text, middle + Eigen::Vector2d(0.0, 0.35 * size),
+              {size, square.shade.ink, TextAlign::centre});
+}
+
 void draw_map(Canvas& canvas, const DrawnMap& map, const ChartFrame& frame, const Box& outer) {
   canvas.text(shortened(map.heading, kFontSize, outer.width - 4.0), {outer.left, outer.top - 2.0},
               {kFontSize});
@@ -118,14 +144,9 @@ void draw_map(Canvas& canvas, const DrawnMap& map, const ChartFrame& frame, cons
           {{x - 0.5, y - 0.5}, {x + 0.5, y - 0.5}, {x + 0.5, y + 0.5}, {x - 0.5, y + 0.5}});
       canvas.area(corners, square.shade.fill);
       canvas.outline(corners, {palette::white, 0.6, {}, 1.0});
-      const double width = corners[1].x() - corners[0].x() - 1.0;
-      const double height = corners[0].y() - corners[2].y() - 1.0;
-      if (width < std::min(kLeastText, text_width(square.text, kCellText)) || height < kCellText) {
-        continue;  // the colour says it alone
-      }
-      const Eigen::Vector2d middle = frame.at(x, y) + Eigen::Vector2d(0.0, 0.35 * kCellText);
-      canvas.text(shortened(square.text, kCellText, width), middle,
-                  {kCellText, square.shade.ink, TextAlign::centre});
+      draw_square_text(
+          canvas, square, frame.at(x, y),
+          {corners[1].x() - corners[0].x() - 1.0, corners[0].y() - corners[2].y() - 1.0});
     }
   }
 }
@@ -150,7 +171,9 @@ std::vector<LegendEntry> legend_of(const StudyDescription& study,
   std::vector<LegendEntry> legend;
   legend.reserve(study.estimators.size());
   for (const auto& [name, type] : study.estimators) {
-    legend.push_back(disc_entry(name, shade_of_choice(styles.at(name).colour).fill));
+    const std::string number = number_of(study, name);
+    legend.push_back(disc_entry(number.empty() ? name : number + " " + name,
+                                shade_of_choice(styles.at(name).colour).fill));
   }
   return legend;
 }

@@ -7,12 +7,14 @@
 namespace fathom {
 
 LineStyle estimator_style(std::size_t place) {
-  static constexpr std::array kColours{palette::blue,   palette::vermillion, palette::green,
-                                       palette::purple, palette::orange,     palette::sky_blue,
-                                       palette::sienna, palette::violet};
+  static constexpr std::array<Colour, kEstimatorColours> kColours{
+      palette::blue,   palette::vermillion, palette::green,  palette::purple,
+      palette::orange, palette::sky_blue,   palette::sienna, palette::violet};
   static const std::array<std::vector<double>, 4> kPatterns{
       {{}, {4.0, 2.0}, {7.0, 2.0, 1.5, 2.0}, {9.0, 3.0}}};
-  return {kColours[place % kColours.size()], kPatterns[place / kColours.size() % kPatterns.size()]};
+  static constexpr std::array kMarks{Mark::disc, Mark::square, Mark::diamond, Mark::triangle};
+  const std::size_t round = place / kColours.size() % kPatterns.size();
+  return {kColours[place % kColours.size()], kPatterns[round], kMarks[round]};
 }
 
 LineStyle ground_truth_style() {

@@ -14,4 +14,7 @@ std::map<std::string, LineStyle> line_styles(const StudyDescription& study);
 
 Pen pen_of(const LineStyle& style, double width);
 
+/// A point of a style: as large as a disc of 3 points.
+void draw_mark(Canvas& canvas, const Eigen::Vector2d& centre, const LineStyle& style);
+
 }  // namespace fathom

@@ -16,22 +16,25 @@
 namespace fathom {
 namespace {
 
-constexpr std::size_t kColours = 8;
+constexpr std::size_t kColours = kEstimatorColours;
 
-TEST(Palette, EachPlaceHasALineOfItsOwn) {
+TEST(Palette, EachPlaceHasALineAndAPointOfItsOwn) {
   std::set<std::string> colours;
   std::set<std::pair<std::string, std::vector<double>>> lines;
+  std::set<std::pair<std::string, Mark>> points;
   for (std::size_t place = 0; place < 32; ++place) {
     const LineStyle style = estimator_style(place);
     EXPECT_EQ(style.dashes.empty(), place < kColours) << place;
     if (place < kColours) colours.insert(hex(style.colour));
     lines.insert({hex(style.colour), style.dashes});
+    points.insert({hex(style.colour), style.mark});
     EXPECT_EQ(style, estimator_style(place));
     EXPECT_FALSE(style == ground_truth_style());
     EXPECT_FALSE(style == dead_reckoning_style());
   }
   EXPECT_EQ(colours.size(), kColours);
   EXPECT_EQ(lines.size(), 32U);
+  EXPECT_EQ(points.size(), 32U);
   EXPECT_EQ(estimator_style(32), estimator_style(0));
   EXPECT_EQ(hex(estimator_style(0).colour), "#0072b2");
 }

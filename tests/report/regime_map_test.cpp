@@ -128,6 +128,23 @@ std::string text_of_figure(const ChartInput& input, const std::string& name) {
   return text;
 }
 
+// A choice is told by its colour and, where colours repeat, by a number in square and legend.
+TEST(RegimeMap, ChoicesOfManyEstimatorsHaveNumbers) {
+  const TemporaryFolder folder;
+  StudyResults results = results_of(folder, {});
+  const ResultStore store = ResultStore::open(folder / "study");
+  const auto series = study_series(store, results);
+  const auto examples = example_trials(store, results);
+  const ChartInput input{results, series, examples};
+  const std::string few = text_of_figure(input, "regime_map");
+  EXPECT_THAT(few, AllOf(HasSubstr(" iterated a&b_<c>% graph "), Not(HasSubstr(" 1 iterated"))));
+  for (std::size_t i = 0; i < kEstimatorColours; ++i) {
+    results.study.estimators.insert(results.study.estimators.begin(), {"idle", "ekf"});
+  }
+  const std::string many = text_of_figure(input, "regime_map");
+  EXPECT_THAT(many, AllOf(HasSubstr(" 9 iterated 10 a&b_<c>% 11 graph "), HasSubstr(" 9 9 ")));
+}
+
 // Of the first cell F ranks none: a map that all cells share has then the means of all.
 TEST(RegimeMap, FiguresRankByNothingThatTheVerdictRefuses) {
   for (const bool has_truth : {true, false}) {

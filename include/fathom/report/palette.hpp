@@ -32,17 +32,25 @@ inline constexpr Colour grey{0x8A, 0x8A, 0x8A};
 inline constexpr Colour white{0xFF, 0xFF, 0xFF};
 }  // namespace palette
 
+/// The shape of a point in a chart.
+enum class Mark { disc, square, diamond, triangle };
+
 /// How the line of a trajectory or of an estimator's results is drawn, the same in every picture,
 /// figure and page.
 struct LineStyle {
   Colour colour;
   std::vector<double> dashes;  ///< lengths on and off in points (1/72 inch); empty: solid
+  Mark mark = Mark::disc;      ///< of a result that is a point and no line
 
   bool operator==(const LineStyle&) const = default;
 };
 
-/// By the place of an estimator in its study, from 0: eight colours, solid; then the same colours
-/// in three patterns of dashes. What comes after these 32 repeats them.
+/// Estimators of a study beyond so many share colours.
+inline constexpr std::size_t kEstimatorColours = 8;
+
+/// By the place of an estimator in its study, from 0: eight colours, solid, with discs; then the
+/// same colours in three patterns of dashes with other marks. What comes after these 32 repeats
+/// them.
 LineStyle estimator_style(std::size_t place);
 
 LineStyle ground_truth_style();
