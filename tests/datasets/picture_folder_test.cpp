@@ -115,6 +115,21 @@ TEST_F(Pictures, AltitudesAndOdometryAreByName) {
   EXPECT_EQ(folder.files().size(), 5u);
 }
 
+// Headings of another unit or sense are found in what was written, not in what it was read as.
+TEST_F(Pictures, OdometryIsKnownAsItIsWritten) {
+  for (const char* name : {"a.png", "b.png"}) add(name);
+  EXPECT_TRUE(PictureFolder(options).recorded_odometry().rows.empty());
+  options.odometry = (root / "odometry.csv").string();
+  write("odometry.csv", "a.png,5,5,350,0,0,0\nb.png,5,7,260,0.01,0.02,0.003\n");
+  const PictureFolder folder(options);
+  const std::vector<ReckonedRow> rows = folder.recorded_odometry().rows;
+  ASSERT_EQ(rows.size(), 2u);
+  EXPECT_EQ(rows[0].heading_rad, 350.0);
+  EXPECT_EQ(rows[1].heading_rad, 260.0);
+  EXPECT_EQ(rows[1].y_m, 7.0);
+  EXPECT_EQ(rows[1].time_ns, folder.info(1).time_ns);
+}
+
 TEST_F(Pictures, TablesThatDoNotFitAreRefusedByTheirLine) {
   for (const char* name : {"a.png", "b.png"}) add(name);
   options.altitude_m.reset();

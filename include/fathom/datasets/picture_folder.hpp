@@ -59,8 +59,9 @@ class PictureFolder : public FrameSource {
   std::string picture_name(std::size_t i) const override {
     return pictures_[i].filename().string();
   }
-  bool has_odometry() const override { return has_odometry_; }
+  bool has_odometry() const override { return !odometry_.rows.empty(); }
   bool has_ground_truth() const override { return false; }
+  RecordedOdometry recorded_odometry() const override { return odometry_; }
   /// The pictures, the CSV files, and the mask.
   std::vector<std::filesystem::path> files() const;
   /// What was left out, for the user.
@@ -80,7 +81,7 @@ class PictureFolder : public FrameSource {
   cv::Mat mask_;
   std::vector<std::string> remarks_;
   FileIds ids_;
-  bool has_odometry_ = false;
+  RecordedOdometry odometry_;  ///< as it is in its file; without rows where there is none
 };
 
 /// Whether a folder has pictures in it, and none of the EuRoC/ASL layout.

@@ -180,7 +180,10 @@ void PictureFolder::read_odometry(const fs::path& csv) {
   other_files_.push_back(csv);
   Pose last;
   for (std::size_t i = 0; i < infos_.size(); ++i) {
-    const Pose pose{table.real(i, 1), table.real(i, 2), wrap_angle(table.real(i, 3))};
+    const ReckonedRow row{infos_[i].time_ns, table.real(i, 1), table.real(i, 2), table.real(i, 3),
+                          false};
+    const Pose pose = odometry_.format.pose(row);
+    odometry_.rows.push_back(row);
     Eigen::Matrix3d C =
         Eigen::Vector3d(table.real(i, 4), table.real(i, 5), table.real(i, 6)).asDiagonal();
     if (table.columns(i) >= 10) {
@@ -196,7 +199,6 @@ void PictureFolder::read_odometry(const fs::path& csv) {
     }
     last = pose;
   }
-  has_odometry_ = true;
 }
 
 cv::Mat PictureFolder::image(std::size_t i) const {
