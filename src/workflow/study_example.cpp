@@ -36,7 +36,8 @@ void write_example(const ExamplePlace& place, const Study& study,
   }
   if (place.pictures != nullptr) write_mosaics(*place.pictures, mosaics, on_earth, observer);
   const Recording& last = *example.back().recording;
-  write_trajectory_picture(folder.path() / "trajectories.png", place.title, last, results);
+  write_trajectory_picture(folder.path() / "trajectories.png", place.title, last, results, 0,
+                           results.size() == 1);
   write_file(folder.path() / "metrics.json", comparison_json(results, last));
   if (configuration.study.association != Association::own) write_recording(folder.path(), last);
   folder.commit(optional_run_files());

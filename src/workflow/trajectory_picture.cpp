@@ -56,7 +56,8 @@ std::vector<Pose> truth_in_world(const Recording& recording, const std::vector<R
 }  // namespace
 
 TrajectoryPlot trajectory_plot(const std::string& title, const Recording& recording,
-                               const std::vector<Result>& results, std::size_t first_place) {
+                               const std::vector<Result>& results, std::size_t first_place,
+                               bool with_details) {
   TrajectoryPlot plot;
   plot.title = title;
   const std::vector<Pose> odometry = recording.log.odometry();
@@ -67,7 +68,7 @@ TrajectoryPlot trajectory_plot(const std::string& title, const Recording& record
   plot.series.push_back({"dead reckoning", dead_reckoning_style(), odometry, {}, {}, true});
   for (std::size_t place = 0; place < results.size(); ++place) {
     plot.series.push_back(
-        series_of(recording.log, results[place], first_place + place, results.size() == 1));
+        series_of(recording.log, results[place], first_place + place, with_details && place == 0));
   }
   if (results.size() > 1) keep_one_set_of_marks(plot.series);
   return plot;
@@ -75,8 +76,9 @@ TrajectoryPlot trajectory_plot(const std::string& title, const Recording& record
 
 void write_trajectory_picture(const std::filesystem::path& path, const std::string& title,
                               const Recording& recording, const std::vector<Result>& results,
-                              std::size_t first_place) {
-  write_file(path, trajectory_png(trajectory_plot(title, recording, results, first_place)));
+                              std::size_t first_place, bool with_details) {
+  write_file(path, trajectory_png(
+                       trajectory_plot(title, recording, results, first_place, with_details)));
 }
 
 }  // namespace fathom::workflow
