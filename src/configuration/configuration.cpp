@@ -200,6 +200,7 @@ Configuration configure(const Settings& settings, ConfigurationKind kind,
   std::ranges::copy(ignored_study_keys(settings, configuration.study), std::back_inserter(ignored));
   unused = unused_settings(settings, ignored, table);
   add_unused_references(settings, configuration, unused);
+  add_unused_trials(settings, configuration.study, entry, unused);
   configure_estimators(configuration, settings, kind, registry);
   add_unused_limits(settings, configuration, registry, unused);
   for (const OptionDescription& option : table.descriptions()) {

@@ -51,10 +51,6 @@ void check_repeats(const Settings& settings, const StudyOptions& study,
                    const DataSetEntry& data_set, const DataSetOptions& options) {
   const std::string one = study.surveys > 1 ? why_one_survey(data_set, options) : "";
   if (!one.empty()) refuse(*settings.find("surveys"), "surveys: " + one + "; expected 1");
-  if (!data_set.draws_trials() && study.trials > 1 && study.false_loops.share == 0.0) {
-    refuse(*settings.find("trials"),
-           "trials: a pose graph without false loops has nothing to draw; expected 1");
-  }
   const double runs = static_cast<double>(study.surveys) * static_cast<double>(study.trials);
   if (runs <= kMostRuns) return;
   refuse(
@@ -137,6 +133,14 @@ std::vector<IgnoredKey> ignored_study_keys(const Settings& settings, const Study
     ignored.push_back({"evaluation.held_out_pairs", "evaluation.held_out_loops"});
   }
   return ignored;
+}
+
+void add_unused_trials(const Settings& settings, const StudyOptions& study,
+                       const DataSetEntry& data_set, std::vector<UnusedSetting>& unused) {
+  if (data_set.draws_trials() || study.trials == 1 || study.false_loops.share > 0.0) return;
+  unused.push_back({"trials", settings.find("trials")->origin +
+                                  ": trials: a pose graph without false loops has nothing to "
+                                  "draw; expected 1"});
 }
 
 void check_study(const Settings& settings, const StudyOptions& study, const DataSetEntry& data_set,

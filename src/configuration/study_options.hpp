@@ -17,6 +17,10 @@ bool is_session_key(const std::string& key);
 /// Keys of a comparison that say nothing beside the others.
 std::vector<IgnoredKey> ignored_study_keys(const Settings& settings, const StudyOptions& study);
 
+/// Several trials of a cell that draws nothing.
+void add_unused_trials(const Settings& settings, const StudyOptions& study,
+                       const DataSetEntry& data_set, std::vector<UnusedSetting>& unused);
+
 /// What no single option's bounds can say. Throws InputError.
 void check_study(const Settings& settings, const StudyOptions& study, const DataSetEntry& data_set,
                  const DataSetOptions& options);

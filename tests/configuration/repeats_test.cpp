@@ -57,6 +57,16 @@ TEST(Repeats, RefusesSurveysWhereNothingIsDrawnForThem) {
               HasSubstr("surveys: simulated_log draws everything"));
 }
 
+// A sweep of false loops begins without any; its other cells draw them.
+TEST(Repeats, TrialsOfAGraphAreForAnyCellWithFalseLoops) {
+  const std::string swept =
+      "trials: 8\ndataset: {type: g2o, path: a}\n"
+      "sweep: [{key: association.false_loops.share, values: ";
+  EXPECT_EQ(study_of(swept + "[0, 0.3]}]\n").description.trials, 8u);
+  EXPECT_THAT(refusal_of_study(swept + "[0]}]\n"),
+              HasSubstr(":1: trials: a pose graph without false loops has nothing to draw"));
+}
+
 TEST(Repeats, RefusesMoreRunsThanAStudyCanHave) {
   EXPECT_THAT(refusal_of_study("surveys: 0\n"), HasSubstr("surveys: expected a whole number >= 1"));
   EXPECT_THAT(
