@@ -24,7 +24,8 @@ class KnownWays {
 
   void add(const RelativePose& z);
 
-  /// The way with the least variance of heading; nothing where none leads there.
+  /// The way with the least variance of heading, of several the first one found; nothing where none
+  /// leads there.
   std::optional<KnownWay> best(std::size_t from, std::size_t to);
 
  private:
