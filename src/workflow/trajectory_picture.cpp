@@ -77,8 +77,8 @@ TrajectoryPlot trajectory_plot(const std::string& title, const Recording& record
 void write_trajectory_picture(const std::filesystem::path& path, const std::string& title,
                               const Recording& recording, const std::vector<Result>& results,
                               std::size_t first_place, bool with_details) {
-  write_file(path, trajectory_png(
-                       trajectory_plot(title, recording, results, first_place, with_details)));
+  write_file(path,
+             trajectory_png(trajectory_plot(title, recording, results, first_place, with_details)));
 }
 
 }  // namespace fathom::workflow
