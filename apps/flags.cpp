@@ -55,7 +55,7 @@ CLI::Validator one_of(const std::string& name, const std::vector<std::string>& c
 }  // namespace
 
 const Flag& Flag::required() const {
-  option_->required();
+  option_->required()->default_str("");  // what must be given has none
   return *this;
 }
 

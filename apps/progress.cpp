@@ -71,23 +71,20 @@ void ProgressLine::show(std::size_t done, std::size_t of) {
   std::fprintf(stderr, "\r\033[K%s: %zu of %zu%s", what_.c_str(), done, of, left.c_str());
 }
 
-StudyProgressLine::StudyProgressLine(bool quiet)
-    : quiet_(quiet), is_terminal_(is_error_terminal()) {}
+StudyProgressLine::StudyProgressLine(bool quiet) : enabled_(!quiet && is_error_terminal()) {}
 
 StudyProgressLine::~StudyProgressLine() {
-  if (shown_ && is_terminal_) std::fprintf(stderr, "\r\033[K");
+  if (shown_) std::fprintf(stderr, "\r\033[K");
 }
 
 void StudyProgressLine::show(const StudyProgress& progress) {
   const auto now = Clock::now();
   const double since_s = std::chrono::duration<double>(now - last_).count();
-  const double wait_s = is_terminal_ ? (shown_ ? 0.2 : 0.0) : 30.0;
-  if (quiet_ || since_s < wait_s) return;
+  if (!enabled_ || (shown_ && since_s < 0.2)) return;
   last_ = now;
   shown_ = true;
-  std::fprintf(stderr, "%s%zu of %zu runs, %zu failed%s%s%s", is_terminal_ ? "\r\033[K" : "",
-               progress.done, progress.of, progress.failed, left(progress).c_str(),
-               stage(progress).c_str(), is_terminal_ ? "" : "\n");
+  std::fprintf(stderr, "\r\033[K%zu of %zu runs, %zu failed%s%s", progress.done, progress.of,
+               progress.failed, left(progress).c_str(), stage(progress).c_str());
 }
 
 std::string StudyProgressLine::stage(const StudyProgress& progress) {

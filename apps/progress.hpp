@@ -40,7 +40,7 @@ class ProgressLine {
   Clock::time_point last_ = Clock::now();
 };
 
-/// How far a study has come: on the terminal one line that changes, elsewhere a line now and then.
+/// How far a study has come, in one line that changes; silent as ProgressLine is.
 class StudyProgressLine {
  public:
   explicit StudyProgressLine(bool quiet);
@@ -56,8 +56,7 @@ class StudyProgressLine {
   static std::string stage(const StudyProgress& progress);
   static std::string left(const StudyProgress& progress);
 
-  bool quiet_;
-  bool is_terminal_;
+  bool enabled_;
   bool shown_ = false;
   Clock::time_point last_ = Clock::now();
 };

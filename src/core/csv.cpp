@@ -119,6 +119,12 @@ void CsvFile::require_columns(const CsvRow& row, std::string_view text) const {
   const std::size_t count = row.fields.size();
   const auto header = headers_.find(count);
   const bool is_named = header != headers_.end();
+  const auto is_number = [](const std::string& field) { return parse_real(field).has_value(); };
+  const bool has_names = std::ranges::none_of(row.fields, is_number) && count > 1;
+  if (rows_.size() == 1 && has_names && separator_of(text).empty()) {
+    refuse(row, "has no number: " + in_quotes(text) + "; a line of names begins with #, expected " +
+                    columns_);
+  }
   const bool is_as_expected =
       count == least_ || count == with_more_ || (count > least_ && is_named);
   if (is_as_expected && !has_semicolons(text, least_)) {
@@ -129,7 +135,7 @@ void CsvFile::require_columns(const CsvRow& row, std::string_view text) const {
   }
   std::string what = "expected " + counted(least_, "column") + " " + columns_;
   if (with_more_ > least_) what += ", or " + std::to_string(with_more_);
-  what += ", got " + std::to_string(count);
+  if (!is_as_expected) what += ", got " + std::to_string(count);
   if (count < least_ || has_semicolons(text, least_)) {
     const std::string separator = separator_of(text);
     if (!separator.empty()) what += ": parted by " + separator + "? expected commas";

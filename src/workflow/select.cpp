@@ -5,6 +5,7 @@
 #include "fathom/core/files.hpp"
 #include "fathom/core/input_error.hpp"
 #include "fathom/datasets/image_folder.hpp"
+#include "fathom/datasets/picture_folder.hpp"
 #include "fathom/harness/advice.hpp"
 #include "fathom/harness/recording.hpp"
 #include "fathom/report/selection_text.hpp"
@@ -70,6 +71,12 @@ EstimatorRegistry with_those_of(const StudyDescription& study, EstimatorRegistry
 }  // namespace
 
 SelectOutcome select(const SelectRequest& request, const EstimatorRegistry& registry) {
+  // A study's folder has pictures of its own.
+  if (!fs::exists(request.results / kResultsFile) && is_plain_picture_folder(request.results)) {
+    throw InputError(request.results.string(),
+                     "has plain pictures, which do not say of what survey they are; expected the "
+                     "folder of a run ('fathom init' writes its configuration) or of a study");
+  }
   const ResultStore store = ResultStore::open(request.results);
   SelectOutcome outcome;
   outcome.selection = select_estimator(store, request.query);

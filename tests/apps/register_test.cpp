@@ -43,6 +43,11 @@ TEST_F(Commands, RegisterFindsTheMotionOfTwoFrames) {
   expect_picture("out/overlay.png");
 }
 
+TEST_F(Commands, HelpGivesWhatMustBeGivenNoDefault) {
+  const std::string help = fathom_done({"register", "--help"}).out;
+  EXPECT_THAT(help, AllOf(HasSubstr("--altitude-a"), Not(HasSubstr("M=0"))));
+}
+
 TEST_F(Commands, RegisterSaysThatAltitudesMayBeWrong) {
   write("c.yaml", kSmallSurvey);
   fathom_done({"simulate", "c.yaml", "--out", "data"});

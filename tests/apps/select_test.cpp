@@ -130,9 +130,11 @@ TEST_F(Select, QuietPrintsNothingAndWrites) {
 
 TEST_F(Select, BadInputIsRefusedWithWhatWouldBeRight) {
   store("study");
+  write("photos/1.png", "");
   const std::vector<std::pair<Arguments, std::string>> cases{
       {{"select"}, "'results' is missing: "},
       {{"select", "nowhere"}, "there are no results; 'fathom compare' writes them"},
+      {{"select", "photos"}, "has plain pictures"},
       {{"select", "study", "--require", "mean_positon_error_m<=0.1"},
        "did you mean 'mean_position_error_m'?"},
       {{"select", "study", "--require", "total_ms=3"},

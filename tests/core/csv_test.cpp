@@ -19,6 +19,7 @@ using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::EndsWith;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 class Csv : public testing::Test {
  protected:
@@ -85,6 +86,9 @@ TEST_F(Csv, SaysWhatItLooksLike) {
                                          HasSubstr("names all columns"), EndsWith(": '1,1,62'")));
   EXPECT_THAT(refusal("1;1,62\n"), HasSubstr("parted by semicolons? expected commas"));
   EXPECT_THAT(refusal("1;1.62\n"), HasSubstr("got 1: parted by semicolons?"));
+  EXPECT_THAT(refusal("1;1,62\n"), Not(HasSubstr("got 2")));
+  EXPECT_THAT(refusal("t,altitude\n1,2.5\n"),
+              HasSubstr(":1: has no number: 't,altitude'; a line of names begins with #"));
   EXPECT_EQ(read("1;b.png,2\n").rows().size(), 1u);
   EXPECT_THAT(refusal("1\t1.62\n"), HasSubstr("parted by tabs?"));
   EXPECT_THAT(refusal("1 1.62\n"), HasSubstr("parted by blanks?"));

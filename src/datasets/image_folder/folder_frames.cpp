@@ -50,8 +50,8 @@ void ImageFolder::refuse_other_units(const SensorCsv& csv) const {
   const std::int64_t mean_ns = (infos_.back().time_ns - infos_.front().time_ns) / intervals;
   if (mean_ns >= kLeastIntervalNs) return;
   csv.refuse(csv.rows().back(), "pictures are " + std::to_string(mean_ns) +
-                                    " ns apart in the mean; are the time stamps seconds? "
-                                    "expected nanoseconds");
+                                    " ns apart in the mean; are the time stamps seconds "
+                                    "or milliseconds? expected nanoseconds");
 }
 
 }  // namespace fathom
