@@ -164,6 +164,7 @@ std::vector<LegendEntry> legend_of(const std::vector<SweepLine>& lines,
   std::vector<LegendEntry> legend;
   legend.reserve(lines.size() + 1);
   for (const SweepLine& line : lines) {
+    if (line.mean.empty() && line.empirical.empty()) continue;
     legend.push_back(
         line_entry(display_name(line.estimator), pen_of(styles.at(line.estimator), 1.3)));
   }

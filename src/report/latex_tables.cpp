@@ -4,6 +4,7 @@
 #include <set>
 
 #include "fathom/core/text.hpp"
+#include "fathom/measurements/decision.hpp"
 #include "latex_text.hpp"
 
 namespace fathom {
@@ -45,7 +46,11 @@ std::string table_of(const std::string& caption, const std::string& label,
 std::string run_counts(const EstimatorResults& one) {
   if (one.name == kDeadReckoning) return "--";
   const std::size_t without = runs_without_loops(one);
+  const auto limited = one.outcomes.find(name_of(Outcome::iteration_limit));
   return std::to_string(one.done) + "/" + std::to_string(one.runs.size()) +
+         (limited == one.outcomes.end()
+              ? ""
+              : ", " + std::to_string(limited->second) + " at iteration limit") +
          (without > 0 ? ", " + std::to_string(without) + " without loops" : "");
 }
 

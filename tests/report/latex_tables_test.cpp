@@ -29,6 +29,14 @@ TEST(LatexTables, ACellSaysOverHowManyRunsAMeanIs) {
   EXPECT_THAT(tex, Not(HasSubstr("$n = 8$")));
 }
 
+// Done, and not what it would be when it had converged: the terminal says so too.
+TEST(LatexTables, ACellSaysHowManyRunsStoppedAtTheirLimit) {
+  CellResults cell = with_gaps();
+  cell.estimators[1].outcomes = {{"converged", 6}, {"iteration_limit", 2}};
+  EXPECT_THAT(latex_tables(study_of({cell}, 8, 1)),
+              HasSubstr("gaps & 8/8, 2 at iteration limit, 3 without loops & "));
+}
+
 TEST(LatexTables, AMetricOfManyCellsLikewise) {
   const std::vector<CellResults> cells(7, with_gaps());
   StudyResults results = study_of(cells, 8, 1);

@@ -145,6 +145,25 @@ TEST(RegimeMap, ChoicesOfManyEstimatorsHaveNumbers) {
   EXPECT_THAT(many, AllOf(HasSubstr(" 9 iterated 10 a&b_<c>% 11 graph "), HasSubstr(" 9 9 ")));
 }
 
+// Dead reckoning has no F above the optimum: what is not drawn is in no legend.
+TEST(RegimeMap, FiguresOfASweepNameThoseThatTheyDraw) {
+  const TemporaryFolder folder;
+  StudyResults results = results_of(folder, {});
+  const ResultStore store = ResultStore::open(folder / "study");
+  auto series = study_series(store, results);
+  const auto examples = example_trials(store, results);
+  const ChartInput input{results, series, examples};
+  EXPECT_THAT(text_of_figure(input, "error_by_separation"), HasSubstr("dead reckoning"));
+  for (std::size_t c = 0; c < results.cells.size(); ++c) {
+    for (std::size_t i = 0; i < results.cells[c].estimators.size(); ++i) {
+      if (results.cells[c].estimators[i].name != kDeadReckoning) continue;
+      results.cells[c].estimators[i].metrics.clear();
+      series[c][i].bounds.reset();
+    }
+  }
+  EXPECT_THAT(text_of_figure(input, "error_by_separation"), Not(HasSubstr("dead reckoning")));
+}
+
 // Of the first cell F ranks none: a map that all cells share has then the means of all.
 TEST(RegimeMap, FiguresRankByNothingThatTheVerdictRefuses) {
   for (const bool has_truth : {true, false}) {
