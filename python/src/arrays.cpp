@@ -5,6 +5,7 @@
 
 #include "fathom/core/input_error.hpp"
 #include "fathom/geometry/pose.hpp"
+#include "fathom/geometry/symmetry.hpp"
 
 namespace fathom {
 namespace {
@@ -32,9 +33,7 @@ Eigen::Matrix3d matrix_at(const double* data) {
 }
 
 void require_symmetric(const Eigen::Matrix3d& matrix, const std::string& what) {
-  constexpr double kRounding = 1e-9;
-  const double difference = (matrix - matrix.transpose()).norm();
-  if (difference <= kRounding * matrix.norm()) return;
+  if (is_symmetric(matrix)) return;
   throw InputError(what + ": expected a symmetric matrix of finite numbers");
 }
 

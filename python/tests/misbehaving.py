@@ -40,6 +40,26 @@ class WrongShape(Follows):
         return np.eye(3 * len(keyframes) + 1)
 
 
+class UpperTriangle(Follows):
+    def joint_covariance(self, keyframes):
+        return np.triu(np.ones((3 * len(keyframes), 3 * len(keyframes))))
+
+
+class NegativeVariances(Follows):
+    def joint_covariance(self, keyframes):
+        return -np.eye(3 * len(keyframes))
+
+
+class NegativeNis(Follows):
+    def update(self, measurements):
+        return fathom.UpdateReport(loops=[("used", -2.75)] * len(measurements.registrations))
+
+
+class NegativeWeights(Follows):
+    def loop_weights(self):
+        return [-7.0] * 3
+
+
 class NotANumber(Follows):
     def pose(self, k):
         return (np.nan, 0, 0) if k == 2 else self.x[k]
@@ -122,6 +142,14 @@ class Forks(Follows):
     def update(self, measurements):
         if os.fork() == 0:
             signal.pause()
+
+
+class ForksAndExits(Follows):
+    def update(self, measurements):
+        child = os.fork()
+        if child == 0:
+            sys.exit(0)
+        os.waitpid(child, 0)
 
 
 class DiesInDestructor(Follows):

@@ -1,12 +1,11 @@
 #include "fathom/harness/guarded_estimator.hpp"
 
-#include <cmath>
 #include <exception>
 #include <fmt/format.h>
 #include <limits>
 #include <new>
-#include <stdexcept>
 
+#include "estimator_contract.hpp"
 #include "fathom/core/environment_error.hpp"
 #include "fathom/core/program.hpp"
 
@@ -14,26 +13,6 @@ namespace fathom {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-
-// How an estimator broke its contract; the text stands behind the name of the call.
-struct ContractViolation : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
-
-bool is_of(const LoopDecision& loop, const RelativePose& z) {
-  return (loop.from == z.from && loop.to == z.to) || (loop.from == z.to && loop.to == z.from);
-}
-
-void require_count(std::size_t count, std::size_t expected, const char* of_what) {
-  if (count == expected) return;
-  throw ContractViolation(fmt::format("has {} {}, expected {}", count, of_what, expected));
-}
-
-// The others are outcomes of a process.
-void require_outcome(Outcome outcome) {
-  if (outcome >= Outcome::converged && outcome <= Outcome::numerical_failure) return;
-  throw ContractViolation("its outcome is none of an update");
-}
 
 UpdateReport failed(const Measurements& measurements) {
   UpdateReport report;
@@ -136,26 +115,13 @@ void GuardedEstimator::add_keyframe(const RelativePose& step) {
 }
 
 UpdateReport GuardedEstimator::update(const Measurements& measurements) {
-  const std::span<const RelativePose> registrations = measurements.registrations;
-  const std::span<const AbsolutePose> absolute = measurements.absolute;
-  registrations_ += registrations.size();
-  absolute_ += absolute.size();
+  registrations_ += measurements.registrations.size();
+  absolute_ += measurements.absolute.size();
   UpdateReport report;
   guarded("update", [&] {
     report = estimator_->update(measurements);
     require_outcome(report.outcome);
-    require_count(report.loops.size(), registrations.size(), "decisions on registrations");
-    for (std::size_t j = 0; j < registrations.size(); ++j) {
-      if (is_of(report.loops[j], registrations[j])) continue;
-      throw ContractViolation(
-          fmt::format("decision {0} is on other keyframes than registration {0}", j));
-    }
-    require_count(report.absolute.size(), absolute.size(), "decisions on absolute measurements");
-    for (std::size_t j = 0; j < absolute.size(); ++j) {
-      if (report.absolute[j].keyframe == absolute[j].keyframe) continue;
-      throw ContractViolation(
-          fmt::format("decision {0} is on another keyframe than absolute measurement {0}", j));
-    }
+    require_decisions(report, measurements);
   });
   check_size("update");
   if (!fault_.empty()) report = failed(measurements);
@@ -178,9 +144,9 @@ std::optional<Eigen::Matrix3d> GuardedEstimator::covariance(std::size_t k) const
   std::optional<Eigen::Matrix3d> covariance;
   guarded("covariance", [&] {
     covariance = estimator_->covariance(k);
-    if (covariance && !covariance->allFinite()) {
-      throw ContractViolation("that of keyframe " + std::to_string(k) + " is not finite");
-    }
+    if (!covariance) return;
+    const char* const flaw = flaw_of(*covariance);
+    if (flaw != nullptr) throw ContractViolation(fmt::format("that of keyframe {} {}", k, flaw));
   });
   if (!fault_.empty()) covariance.reset();
   return covariance;
@@ -190,7 +156,9 @@ std::optional<Eigen::Matrix3d> GuardedEstimator::newest_covariance() const {
   std::optional<Eigen::Matrix3d> covariance;
   guarded("newest_covariance", [&] {
     covariance = estimator_->newest_covariance();
-    if (covariance && !covariance->allFinite()) throw ContractViolation("it is not finite");
+    if (!covariance) return;
+    const char* const flaw = flaw_of(*covariance);
+    if (flaw != nullptr) throw ContractViolation(fmt::format("it {}", flaw));
   });
   if (!fault_.empty()) covariance.reset();
   return covariance;
@@ -204,7 +172,8 @@ std::optional<Eigen::MatrixXd> GuardedEstimator::joint_covariance(
     if (!covariance) return;
     require_count(static_cast<std::size_t>(covariance->rows()), 3 * keyframes.size(), "rows");
     require_count(static_cast<std::size_t>(covariance->cols()), 3 * keyframes.size(), "columns");
-    if (!covariance->allFinite()) throw ContractViolation("it is not finite");
+    const char* const flaw = flaw_of(*covariance);
+    if (flaw != nullptr) throw ContractViolation(fmt::format("it {}", flaw));
   });
   if (!fault_.empty()) covariance.reset();
   return covariance;
@@ -228,9 +197,7 @@ std::vector<double> GuardedEstimator::weights(const char* what, std::size_t coun
   guarded(what, [&] {
     weights = ask();
     if (!weights.empty()) require_count(weights.size(), count, "weights");
-    for (const double weight : weights) {
-      if (!std::isfinite(weight)) throw ContractViolation("a weight is not finite");
-    }
+    require_weights(weights);
   });
   if (!fault_.empty()) weights.clear();
   return weights;

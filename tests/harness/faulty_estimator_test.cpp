@@ -73,7 +73,7 @@ std::vector<Fault> faults() {
          s.loop_weights = {1, 1, 1, kNaN};
        }},
       {"covariance at keyframe 7: that of keyframe 2 is not finite",
-       [](Script& s) { s.nan_covariance = 2; }},
+       [](Script& s) { s.covariances[2] = Eigen::Matrix3d::Constant(kNaN); }},
       {"loss at keyframe 7 threw an exception: no loss",
        [](Script& s) { s.loss = [](double) -> double { throw std::logic_error("no loss"); }; }},
   };

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <limits>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -26,9 +27,10 @@ struct Script {
   std::function<void(UpdateReport&)> spoil_report = [](UpdateReport&) {};
   std::size_t size_error = 0;  ///< what size() says beyond the truth
   std::vector<double> loop_weights;
-  std::optional<std::size_t> nan_covariance;
+  std::map<std::size_t, Eigen::Matrix3d> covariances;  ///< of these keyframes, in place of k·I
   /// So many calls of joint_covariance have an answer, the identity; each is among `calls`.
   std::size_t joint_covariances = 0;
+  double joint_covariance_factor = 1.0;  ///< on that identity
 
   /// What moved_since names.
   std::optional<std::vector<std::size_t>> moved;
@@ -86,8 +88,9 @@ class ScriptedEstimator : public Estimator {
 
   std::optional<Eigen::Matrix3d> covariance(std::size_t k) const override {
     if (script_.without_covariance == k) return std::nullopt;
-    constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-    if (script_.nan_covariance == k) return Eigen::Matrix3d(Eigen::Matrix3d::Constant(kNaN));
+    if (const auto given = script_.covariances.find(k); given != script_.covariances.end()) {
+      return given->second;
+    }
     return Eigen::Matrix3d(Eigen::Matrix3d::Identity() * static_cast<double>(k));
   }
 
@@ -98,7 +101,7 @@ class ScriptedEstimator : public Estimator {
     note(call);
     if (asked_++ >= script_.joint_covariances) return std::nullopt;
     const auto size = static_cast<Eigen::Index>(3 * keyframes.size());
-    return Eigen::MatrixXd(Eigen::MatrixXd::Identity(size, size));
+    return Eigen::MatrixXd(script_.joint_covariance_factor * Eigen::MatrixXd::Identity(size, size));
   }
 
   double loss(double chi2, int /*rank*/) const override { return script_.loss(chi2); }

@@ -9,9 +9,10 @@
 namespace fathom {
 
 /// A decorator that checks an estimator against its contract. A fault is a call that throws, a size
-/// or a report that does not fit what was given, or a pose or covariance that is not finite. After
-/// the first fault nothing is passed on: updates report `numerical_failure`, poses are NaN. Memory
-/// that runs out is no fault of an estimator: std::bad_alloc passes.
+/// or a report that does not fit what was given, a pose that is not finite, a matrix that can be no
+/// covariance (not finite, not symmetric, a negative variance), a negative NIS, or a weight outside
+/// [0, 1]. After the first fault nothing is passed on: updates report `numerical_failure`, poses
+/// are NaN. Memory that runs out is no fault of an estimator: std::bad_alloc passes.
 class GuardedEstimator : public Estimator {
  public:
   /// Makes an estimator. Throws InputError on an unknown key or a bad value.
