@@ -81,7 +81,10 @@ bool has_streams(const ChildSide& side) {
 
 }  // namespace
 
+MessagePipe::MessagePipe(int descriptor) : descriptor_(descriptor), process_(::getpid()) {}
+
 void MessagePipe::send(char kind, const std::string& text) const {
+  if (::getpid() != process_) ::_exit(1);
   std::string message(kMessageHead, kind);
   const std::uint64_t size = text.size();
   std::memcpy(message.data() + 1, &size, sizeof size);
@@ -113,10 +116,11 @@ void be_child(const ChildSide& side, const ChildLimits& limits,
   const std::int64_t wanted = address_space_now() + limits.memory_bytes;
   if (limit(RLIMIT_AS, wanted) < wanted) no_memory_status = kCutMemoryStatus;
   std::set_new_handler([] { ::_exit(no_memory_status); });
+  const MessagePipe pipe(kMessages);
   try {
-    action(MessagePipe(kMessages));
+    action(pipe);
   } catch (const EnvironmentError& error) {
-    MessagePipe(kMessages).send(kEnvironmentFault, error.what());
+    pipe.send(kEnvironmentFault, error.what());
   } catch (const std::bad_alloc&) {
     ::_exit(no_memory_status);
   }

@@ -40,6 +40,18 @@ TEST(ForkedChild, SaysWhatItIsToSay) {
   EXPECT_EQ(heard, "well");
 }
 
+// What it forks may go on with its work, and be the first to have a result.
+TEST(ForkedChild, HasTheWordAlone) {
+  std::string heard;
+  const auto speak_twice = [](const MessagePipe& parent) {
+    const pid_t other = ::fork();
+    if (other > 0) ::waitpid(other, nullptr, 0);
+    parent.send('a', other > 0 ? "mine" : "another's");
+  };
+  EXPECT_EQ(environment_fault_of(speak_twice, &heard), "none");
+  EXPECT_EQ(heard, "mine");
+}
+
 TEST(ForkedChild, AFaultOfItsEnvironmentIsThrownByItsParent) {
   std::string heard;
   const auto find_no_room = [](const MessagePipe& parent) {

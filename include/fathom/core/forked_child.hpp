@@ -32,13 +32,16 @@ inline constexpr int kNoMemoryStatus = 86;
 /// Where a child writes what the parent is to know, in messages of any size.
 class MessagePipe {
  public:
-  explicit MessagePipe(int descriptor) : descriptor_(descriptor) {}
+  /// Of the process that makes it.
+  explicit MessagePipe(int descriptor);
 
-  /// `kind` is a letter. Blocks until the parent has taken it.
+  /// `kind` is a letter. Blocks until the parent has taken it. Another process, which the child
+  /// forked and which went on with its work, ends here: the result is the child's own.
   void send(char kind, const std::string& text) const;
 
  private:
   int descriptor_;
+  int process_;
 };
 
 /// Forks a child that does `action` and nothing else, and waits for its end. `on_message` gets what
