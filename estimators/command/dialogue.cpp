@@ -38,10 +38,13 @@ std::vector<Pose> answered_poses(const std::function<std::string()>& next_line, 
                            static_cast<std::size_t>(*id) < count && parse_real(words[2]) &&
                            parse_real(words[3]) && parse_real(words[4]);
     if (!is_vertex) {
-      throw std::runtime_error("expected 'VERTEX_XYT id x y theta' of a node, got '" +
-                               in_quotes(line.substr(0, 80)) + "'");
+      throw std::runtime_error("expected 'VERTEX_XYT id x y theta' of a node, got " +
+                               in_quotes(line.substr(0, 80)));
     }
     const auto node = static_cast<std::size_t>(*id);
+    if (is_there[node]) {
+      throw std::runtime_error("the answer has vertex " + std::to_string(node) + " twice");
+    }
     poses[node] = {*parse_real(words[2]), *parse_real(words[3]), *parse_real(words[4])};
     is_there[node] = true;
   }

@@ -42,7 +42,7 @@ class Dialogue {
 
 /// The poses of `count` nodes that a program answers with: what follows BEGIN, up to END.
 /// `next_line` throws where there is none. Throws std::runtime_error where a line is no pose of a
-/// node, or a node has none.
+/// node, or a node has none or two.
 std::vector<Pose> answered_poses(const std::function<std::string()>& next_line, std::size_t count);
 
 }  // namespace fathom::command

@@ -1,9 +1,11 @@
 #include "estimators/command/solver_files.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cmath>
 #include <fstream>
+#include <limits>
 #include <sstream>
 #include <stdexcept>
 #include <string_view>
@@ -33,6 +35,10 @@ void replace_all(std::string& text, std::string_view what, const std::string& by
   }
 }
 
+bool is_vertex(const std::vector<std::string_view>& words) {
+  return words[0] == "VERTEX_SE2" || words[0] == "VERTEX2";
+}
+
 // id x y θ behind the word of a vertex.
 void take_vertex(const std::vector<std::string_view>& words, std::vector<Pose>& poses,
                  std::vector<bool>& is_there) {
@@ -43,17 +49,26 @@ void take_vertex(const std::vector<std::string_view>& words, std::vector<Pose>& 
   if (!id || *id < 0 || static_cast<std::size_t>(*id) >= poses.size()) {
     throw std::runtime_error("its output names vertices that it was not given");
   }
-  Pose& pose = poses[static_cast<std::size_t>(*id)];
+  const auto node = static_cast<std::size_t>(*id);
+  if (is_there[node]) {
+    throw std::runtime_error("its output has vertex " + std::to_string(node) + " twice");
+  }
+  Pose& pose = poses[node];
   double* const fields[] = {&pose.x, &pose.y, &pose.theta};
   for (std::size_t i = 0; i < 3; ++i) {
     const auto number = parse_real(words[i + 2]);
     if (!number) throw std::runtime_error("its output has a vertex that is no four numbers");
     *fields[i] = *number;
   }
-  is_there[static_cast<std::size_t>(*id)] = true;
+  is_there[node] = true;
 }
 
-Pose of_tum(const std::vector<std::string_view>& words) {
+struct PoseAtTime {
+  double time = 0.0;
+  Pose pose;
+};
+
+PoseAtTime of_tum(const std::vector<std::string_view>& words) {
   double values[8];
   for (std::size_t i = 0; i < 8; ++i) {
     const auto number = parse_real(words[i]);
@@ -65,7 +80,32 @@ Pose of_tum(const std::vector<std::string_view>& words) {
   if (!(q.squaredNorm() > 0.5 && q.squaredNorm() < 2.0)) {
     throw std::runtime_error("its output has a quaternion whose length is not 1");
   }
-  return {values[1], values[2], yaw_of({values[7], values[4], values[5], values[6]})};
+  const double yaw = yaw_of({values[7], values[4], values[5], values[6]});
+  return {values[0], {values[1], values[2], yaw}};
+}
+
+// Words of each line that is no comment.
+template <class Take>
+void for_each_line(const std::string& text, Take take) {
+  std::istringstream all(text);
+  for (std::string line; std::getline(all, line);) {
+    const auto words = split(line);
+    if (!words.empty() && words[0].front() != '#') take(words);
+  }
+}
+
+// In the order of the nodes, which times that do not rise would contradict.
+std::vector<Pose> poses_of_tum(const std::string& text) {
+  std::vector<Pose> poses;
+  double last = -std::numeric_limits<double>::infinity();
+  for_each_line(text, [&](const std::vector<std::string_view>& words) {
+    if (words.size() != 8) return;
+    const auto [time, pose] = of_tum(words);
+    if (!(time > last)) throw std::runtime_error("its output has times that do not rise");
+    last = time;
+    poses.push_back(pose);
+  });
+  return poses;
 }
 
 }  // namespace
@@ -81,28 +121,22 @@ std::string to_text(const ProgramGraph& graph) {
 }
 
 std::vector<Pose> poses_in(const std::string& text, std::size_t count) {
-  std::vector<Pose> vertices(count);
+  std::vector<Pose> poses(count);
   std::vector<bool> is_there(count, false);
-  std::vector<Pose> lines;
   bool is_g2o = false;
-  std::istringstream all(text);
-  for (std::string line; std::getline(all, line);) {
-    const auto words = split(line);
-    if (words.empty() || words[0].front() == '#') continue;
-    if (words[0] == "VERTEX_SE2" || words[0] == "VERTEX2") {
-      is_g2o = true;
-      take_vertex(words, vertices, is_there);
-    } else if (!is_g2o && words.size() == 8) {
-      lines.push_back(of_tum(words));
-    }
-  }
+  for_each_line(text, [&](const std::vector<std::string_view>& words) {
+    if (!is_vertex(words)) return;
+    is_g2o = true;
+    take_vertex(words, poses, is_there);
+  });
+  if (!is_g2o) poses = poses_of_tum(text);
   const auto found =
-      is_g2o ? static_cast<std::size_t>(std::ranges::count(is_there, true)) : lines.size();
+      is_g2o ? static_cast<std::size_t>(std::ranges::count(is_there, true)) : poses.size();
   if (found != count) {
     throw std::runtime_error("its output has " + std::to_string(found) + " poses, expected " +
                              std::to_string(count));
   }
-  return is_g2o ? vertices : lines;
+  return poses;
 }
 
 std::vector<Pose> SolverFiles::call(const ProgramGraph& graph, double& processor_s,
@@ -134,7 +168,8 @@ std::vector<Pose> SolverFiles::call(const ProgramGraph& graph, double& processor
   }
 }
 
-// What it takes for a graph of two nodes and a step, which leaves nothing to be solved.
+// What it takes for a graph of two nodes and a step, which leaves nothing to be solved: the median,
+// as one call alone may be delayed by what else the machine does.
 void SolverFiles::measure_start_up(const ProgramGraph& graph) {
   if (start_up_s_ || graph.edges.empty()) return;
   start_up_s_ = 0.0;
@@ -143,14 +178,17 @@ void SolverFiles::measure_start_up(const ProgramGraph& graph) {
   step.to = 1;
   const ProgramGraph smallest{{graph.poses[0], compose(graph.poses[0], step.motion)}, {step}};
   std::int64_t peak_bytes = 0;
+  std::array<double, 3> start_ups{};
   try {
-    call(smallest, *start_up_s_, peak_bytes);
+    for (double& start_up_s : start_ups) call(smallest, start_up_s, peak_bytes);
   } catch (const EnvironmentError&) {
     throw;
   } catch (const std::runtime_error&) {
     // One that refuses so small a graph has its start-up among the rest.
-    start_up_s_ = 0.0;
+    return;
   }
+  std::ranges::sort(start_ups);
+  start_up_s_ = start_ups[1];
 }
 
 std::vector<Pose> SolverFiles::solve(const ProgramGraph& graph) {

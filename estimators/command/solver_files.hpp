@@ -33,8 +33,8 @@ class SolverFiles {
 /// The graph as g2o text: VERTEX_SE2, FIX 0, EDGE_SE2.
 std::string to_text(const ProgramGraph& graph);
 
-/// The poses of `count` nodes in a text, g2o (VERTEX_SE2, any order, other lines ignored) or TUM
-/// (in the order of the nodes). Throws std::runtime_error.
+/// The poses of `count` nodes in a text, g2o (VERTEX_SE2, each once, in any order, other lines
+/// ignored) or TUM (in the order of the nodes, with times that rise). Throws std::runtime_error.
 std::vector<Pose> poses_in(const std::string& text, std::size_t count);
 
 }  // namespace fathom::command
