@@ -17,6 +17,7 @@ OF_KEYFRAMES = (
     *("time_s", "x_m", "y_m", "theta_rad"), *COVARIANCE,
     *("position_error_m", "heading_error_rad", "pose_nees", "position_nees")
 )
+OF_LOOPS = ("from_", "to", "fate", "nis")
 UNITS = ("m", "rad", "s", "ms", "bytes")  # that end a name
 
 
@@ -76,7 +77,8 @@ def of_solution(solution, what="keyframes"):
     frame of pandas, its units in `attrs["units"]`."""
     known("frame of a solution", what, ("keyframes", "loops"))
     if what == "loops":
-        return _framed(solution.loops, "registration")
+        loops = solution.loops
+        return _framed({name: [one[name] for one in loops] for name in OF_LOOPS}, "registration")
     count = len(solution.trajectory)
     series = solution._series()
     columns = {}
@@ -92,10 +94,15 @@ def of_solution(solution, what="keyframes"):
     return _framed(columns, "keyframe")
 
 
-def of_results(results):
+def of_results(results, failed):
     index = list(dict.fromkeys(["cell", *results.axes, "survey", "trial", "estimator"]))
-    rows = [
-        {key: number_or_text(row[key]) if key in results.axes else row[key] for key in row}
-        for row in results.rows
-    ]
+    said = [*index, "outcome", "fault"]
+    rows = []
+    for row, has_failed in zip(results.rows, results._failed):
+        names = said if has_failed and not failed else row
+        rows.append({key: _of_axis(results, key, row[key]) for key in names})
     return _framed(rows, index)
+
+
+def _of_axis(results, key, value):
+    return number_or_text(value) if key in results.axes else value

@@ -10,13 +10,15 @@ import numpy
 from . import _display, _fathom, _frames, _plot
 from ._fathom import InputError
 from ._names import DEAD_RECKONING, Named, known, number_or_text, unknown
+from ._settings import as_written
 
 
 class Results:
     """The results of a study.
 
-    rows: a dict for every run: cell, the values of the sweep's axes, survey, trial, estimator,
-        outcome, fault, and its metrics (docs/studies.md); what is not known is absent.
+    rows: a dict for every run, failed ones too: cell, the values of the sweep's axes, survey,
+        trial, estimator, outcome, fault, and its metrics (docs/studies.md); what is not known is
+        absent.
     estimators: their names; dead reckoning has rows beside them.
     axes: the sweep: by the name of an axis its values, as text.
     cells: by the number of a cell the value on every axis.
@@ -39,7 +41,8 @@ class Results:
         self._tabled = self._store.metrics()
         self._by_place = {}  # rows by estimator and cell
         self._done_by_place = {}  # those that did not fail
-        for row, failed in zip(self.rows, self._store.failed()):
+        self._failed = self._store.failed()
+        for row, failed in zip(self.rows, self._failed):
             place = row["estimator"], row["cell"]
             self._by_place.setdefault(place, []).append(row)
             if not failed:
@@ -50,7 +53,7 @@ class Results:
         self.example = Named("estimator", {one.estimator: one for one in example})
         self._removal = lambda: None
         if temporary:
-            self._removal = weakref.finalize(self, shutil.rmtree, temporary, ignore_errors=True)
+            self._removal = weakref.finalize(self, _remove, temporary, os.getpid())
 
     def __enter__(self):
         return self
@@ -60,17 +63,37 @@ class Results:
 
     def close(self):
         """Lets go of the store, and removes a folder that is a temporary one. Rows and metrics
-        stay; series and tables can no longer be read."""
+        stay; series, tables, intervals and differences can no longer be read."""
         self._store = None
         self._removal()
 
-    def metric(self, name, estimator, cell=0):
-        """A metric over the runs of a cell that have it, as an array; empty where it is known of
-        none of them."""
-        if _fathom._metric(name) is None:
-            names = dict.fromkeys(_fathom._metric_names())
-            known("metric", name, names | dict.fromkeys(key for row in self.rows for key in row))
-        return numpy.array([row[name] for row in self._rows_of(estimator, cell) if name in row])
+    def metric(self, name, estimator, cell=0, *, failed=False):
+        """A metric over the runs of a cell that have it, as an array, by survey and trial; empty
+        where it is known of none of them. Runs that failed have no part in it, as in the table,
+        unless `failed`: what they say of themselves is no estimate. Arrays of two estimators may
+        be of other trials: `difference` pairs them."""
+        self._require_metric(name)
+        rows = self._rows_of(estimator, cell)
+        if not failed:
+            rows = self._done_by_place.get((estimator, self.cell(cell)), [])
+        return numpy.array([row[name] for row in rows if name in row])
+
+    def interval(self, metric, estimator, cell=0):
+        """(low, high), 95 %, of the mean of a metric, as the table has it: over the runs that were
+        done, of several surveys over the surveys. None of fewer than two draws."""
+        self._require_metric(metric)
+        known("estimator", estimator, self._names())
+        return self._open().interval(metric, estimator, self.cell(cell))
+
+    def difference(self, metric, a, b, cell=0):
+        """Of a metric of estimator a minus that of b, as the table has it: over the trials that
+        both did, of several surveys over the surveys' mean differences. A dict: count and over
+        ('surveys' or 'trials': what is tested), trials, mean, interval (95 %), p_value (Wilcoxon's
+        signed-rank test, not adjusted) and exact. None without a common trial."""
+        self._require_metric(metric)
+        for estimator in (a, b):
+            known("estimator", estimator, self._names())
+        return self._open().difference(metric, a, b, self.cell(cell))
 
     def series(self, name, estimator, cell=0, survey=0, trial=0):
         """A series of one run (docs/outputs.md), or None where only others of the trial have it."""
@@ -100,10 +123,11 @@ class Results:
         """The table that `fathom compare` prints."""
         return self._open().table()
 
-    def to_frame(self):
+    def to_frame(self, *, failed=False):
         """The rows as a data frame of pandas, by cell, the values of the sweep's axes (numbers,
-        where they are), survey, trial and estimator; units in `attrs["units"]`."""
-        return _frames.of_results(self)
+        where they are), survey, trial and estimator; units in `attrs["units"]`. Runs that failed
+        have an outcome and no metrics, unless `failed`."""
+        return _frames.of_results(self, failed)
 
     def plot(
         self,
@@ -139,6 +163,11 @@ class Results:
     def _names(self):
         return [*self.estimators, DEAD_RECKONING]
 
+    def _require_metric(self, name):
+        if _fathom._metric(name) is None:
+            names = dict.fromkeys(_fathom._metric_names())
+            known("metric", name, names | dict.fromkeys(key for row in self.rows for key in row))
+
     def _rows_of(self, estimator, cell):
         known("estimator", estimator, self._names())
         return self._by_place.get((estimator, self.cell(cell)), [])
@@ -164,8 +193,17 @@ def open_results(folder) -> Results:
     return Results(os.fspath(folder))
 
 
+def _remove(folder, owner):
+    """Not by a process that was forked, whose end is not that of the results."""
+    if os.getpid() == owner:
+        shutil.rmtree(folder, ignore_errors=True)
+
+
 def _label(axis, value, labels):
+    value = as_written(value, axis)
+    is_word = isinstance(value, bool)
+    text = str(value).lower() if is_word else str(value)
     for label in labels:
-        if label == str(value) or number_or_text(label) == value:
+        if label == text or (not is_word and number_or_text(label) == value):
             return label
-    raise unknown(f"value of {axis}", value, labels)
+    raise unknown(f"value of {axis}", text, labels)

@@ -17,6 +17,7 @@
 #include "fathom/geometry/trajectory.hpp"
 #include "python/src/arrays.hpp"
 #include "python/src/bindings.hpp"
+#include "python/src/statistics.hpp"
 
 namespace fathom {
 namespace {
@@ -30,11 +31,6 @@ Alignment alignment_of(const std::string& name) {
     known += (known.empty() ? "" : ", ") + word;
   }
   throw InputError("alignment: expected " + known + ", got '" + name + "'");
-}
-
-py::object pair_of(const std::optional<Interval>& interval) {
-  if (!interval) return py::none();
-  return py::make_tuple(interval->low, interval->high);
 }
 
 py::dict evaluate_poses(const py::object& estimate, const py::object& reference,
@@ -52,8 +48,10 @@ py::dict evaluate_poses(const py::object& estimate, const py::object& reference,
     row["motion_reference_estimate"] = array_of(judged->motion_reference_estimate);
   }
   if (covariances.is_none()) return row;
+  // An alignment to the reference would take away part of what the covariances speak of.
+  const Alignment of_start = how == Alignment::se2 ? Alignment::origin : how;
   const auto honest =
-      consistency(ours, theirs, symmetric_matrices_of(covariances, "covariances"), how);
+      consistency(ours, theirs, symmetric_matrices_of(covariances, "covariances"), of_start);
   if (!honest) return row;
   row["anees"] = honest->anees;
   row["position_anees"] = honest->position_anees;
@@ -85,12 +83,7 @@ py::object difference_of(const py::object& a, const py::object& b, double probab
   options.seed = seed;
   const std::vector<double> values_a = values_of(a, "a");
   const std::vector<double> values_b = values_of(b, "b");
-  const auto found = unlocked([&] { return paired_difference(values_a, values_b, options); });
-  if (!found) return py::none();
-  return py::dict(py::arg("count") = found->count, py::arg("mean") = found->mean,
-                  py::arg("interval") = pair_of(found->interval),
-                  py::arg("p_value") = found->signed_rank.p_value,
-                  py::arg("exact") = found->signed_rank.exact);
+  return dict_of(unlocked([&] { return paired_difference(values_a, values_b, options); }));
 }
 
 void bind_statistics(py::module_& module) {
@@ -106,11 +99,13 @@ void bind_statistics(py::module_& module) {
       },
       py::arg("values"), py::arg("probability") = 0.95, py::arg("resamples") = 2000,
       py::arg("seed") = 1,
-      "(low, high) of the mean of independent values, BCa (Efron 1987); None of fewer than two.");
+      "(low, high) of the mean of independent values, BCa (Efron 1987); None of fewer than two. "
+      "Of a study Results.interval knows the surveys.");
   module.def("paired_difference", &difference_of, py::arg("a"), py::arg("b"),
              py::arg("probability") = 0.95, py::arg("seed") = 1,
-             "Of a - b over the same trials: count, mean, its bootstrap interval, and the p-value "
-             "of Wilcoxon's signed-rank test.");
+             "Of a - b over the same trials, which are independent draws: count, mean, its "
+             "bootstrap interval, and the p-value of Wilcoxon's signed-rank test. Of a study "
+             "Results.difference knows the surveys.");
   module.def(
       "holm", [](const py::object& p) { return array_of(holm(values_of(p, "p_values"))); },
       py::arg("p_values"), "Holm's step-down adjustment (1979) of a family of p-values.");
@@ -130,6 +125,16 @@ void bind_statistics(py::module_& module) {
       "(low, high) of a proportion (Wilson 1927).");
 }
 
+// Seconds would be as good as none.
+std::vector<std::int64_t> times_of(const py::object& given) {
+  const py::array array = py::array::ensure(given);
+  if (!array) PyErr_Clear();
+  const bool is_whole =
+      array && array.ndim() == 1 && (array.size() == 0 || array.dtype().kind() == 'i');
+  if (!is_whole) throw InputError("times_ns: expected whole nanoseconds, an array of int64");
+  return given.cast<std::vector<std::int64_t>>();
+}
+
 // What read_tum would refuse.
 void require_readable(const std::vector<std::int64_t>& times_ns, const std::vector<Pose>& poses,
                       std::size_t k) {
@@ -143,6 +148,19 @@ void require_readable(const std::vector<std::int64_t>& times_ns, const std::vect
 
 }  // namespace
 
+py::object pair_of(const std::optional<Interval>& interval) {
+  if (!interval) return py::none();
+  return py::make_tuple(interval->low, interval->high);
+}
+
+py::object dict_of(const std::optional<PairedDifference>& difference) {
+  if (!difference) return py::none();
+  return py::dict(py::arg("count") = difference->count, py::arg("mean") = difference->mean,
+                  py::arg("interval") = pair_of(difference->interval),
+                  py::arg("p_value") = difference->signed_rank.p_value,
+                  py::arg("exact") = difference->signed_rank.exact);
+}
+
 void bind_evaluation(py::module_& module) {
   module.def("_evaluate", &evaluate_poses);
   bind_statistics(module);
@@ -155,17 +173,19 @@ void bind_evaluation(py::module_& module) {
     }
     return py::make_tuple(array_of(times), array_of(poses));
   });
-  module.def("_write_tum", [](const std::string& path, const std::vector<std::int64_t>& times,
-                              const py::object& trajectory) {
-    const std::vector<Pose> poses = poses_of(trajectory, "trajectory");
-    if (times.size() != poses.size()) throw InputError("times_ns: as many as poses are needed");
-    std::vector<StampedPose> stamped;
-    for (std::size_t k = 0; k < poses.size(); ++k) {
-      require_readable(times, poses, k);
-      stamped.push_back({times[k], poses[k]});
-    }
-    unlocked([&] { write_file(path, to_tum(stamped)); });
-  });
+  module.def("_write_tum",
+             [](const std::string& path, const py::object& times_ns, const py::object& trajectory) {
+               const std::vector<std::int64_t> times = times_of(times_ns);
+               const std::vector<Pose> poses = poses_of(trajectory, "trajectory");
+               if (times.size() != poses.size())
+                 throw InputError("times_ns: as many as poses are needed");
+               std::vector<StampedPose> stamped;
+               for (std::size_t k = 0; k < poses.size(); ++k) {
+                 require_readable(times, poses, k);
+                 stamped.push_back({times[k], poses[k]});
+               }
+               unlocked([&] { write_file(path, to_tum(stamped)); });
+             });
 }
 
 }  // namespace fathom

@@ -7,10 +7,12 @@
 #include <vector>
 
 #include "fathom/report/study_report.hpp"
+#include "fathom/report/study_statistics.hpp"
 #include "fathom/results/result_store.hpp"
 #include "fathom/results/run_index.hpp"
 #include "python/src/arrays.hpp"
 #include "python/src/bindings.hpp"
+#include "python/src/statistics.hpp"
 
 namespace fathom {
 namespace {
@@ -76,6 +78,17 @@ py::list all_means(const ResultStore& store) {
   return list;
 }
 
+py::object difference_of_two(const ResultStore& store, const std::string& metric,
+                             const std::string& one, const std::string& other, std::size_t cell) {
+  const auto found = study_difference(store, metric, one, other, cell);
+  py::object told = dict_of(found);
+  if (found) {
+    told["trials"] = found->trials;
+    told["over"] = found->is_over_surveys ? "surveys" : "trials";
+  }
+  return told;
+}
+
 }  // namespace
 
 void bind_store(py::module_& module) {
@@ -98,6 +111,10 @@ void bind_store(py::module_& module) {
               std::size_t survey, std::size_t trial) {
              return all_series_of(store, {cell, survey, trial, estimator});
            })
+      .def("interval",
+           [](const ResultStore& store, const std::string& metric, const std::string& estimator,
+              std::size_t cell) { return pair_of(study_interval(store, metric, estimator, cell)); })
+      .def("difference", &difference_of_two)
       .def("independent_draws",
            [](const ResultStore& store, std::size_t cell, std::size_t surveys, std::size_t trials) {
              return independent_draws(store.study().repetition_of(cell), surveys, trials);

@@ -60,6 +60,9 @@ class Frames(unittest.TestCase):
         self.assertEqual(frame.attrs["units"]["heading_error_rad"], "rad")
         fates = [loop["fate"] for loop in self.example.loops]
         self.assertEqual(list(self.example.to_frame("loops").fate), fates)
+        without_loops = fathom.solve(fathom.MeasurementLog()).to_frame("loops")
+        self.assertEqual(list(without_loops), list(self.example.loops[0]))
+        self.assertEqual(len(without_loops), 0)
         without_truth = fathom.solve(self.example.log).to_frame()
         self.assertNotIn("position_error_m", without_truth)
 
