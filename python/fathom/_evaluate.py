@@ -11,7 +11,9 @@ def evaluate(estimate, reference, *, alignment="origin", covariances=None) -> di
 
     estimate, reference: N x 3 poses that belong together one by one, m and rad.
     alignment: 'none', 'origin' or 'se2'; never scale.
-    covariances: N x 3 x 3 of the estimate's poses, world axes; with them the ANEES is told.
+    covariances: N x 3 x 3 of the estimate's poses, world axes; with them the ANEES is told, of
+        'none' or 'origin': in place of 'se2', which would take away errors that the covariances
+        speak of, it is of 'origin', as in studies.
     Returns a dict; what is not known is absent. Raises InputError.
     """
     return Named("metric", _fathom._evaluate(estimate, reference, alignment, covariances))

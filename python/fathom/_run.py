@@ -80,7 +80,8 @@ def run(
 
     config: a YAML file, a folder of pictures, or a dict of the same keys.
     estimator: a name or a subclass of fathom.Estimator in place of the configuration's.
-    set: a dict of settings that replace those of the configuration.
+    set: a dict of settings that replace those of the configuration; a list replaces a list as a
+        whole.
     out: folder of the run's files; without one, none are written.
     cache: folder of the registrations that are kept; True: the usual one.
     progress: as of `solve`.

@@ -10,7 +10,7 @@ from ._fathom import InputError, _Registry, _Settings
 
 def as_yaml(values: dict) -> str:
     """A dict as JSON, which is YAML. None is written as `off`."""
-    return json.dumps(_plain(values, ""), ensure_ascii=False)
+    return json.dumps(as_written(values, ""), ensure_ascii=False)
 
 
 def settings_of(values: dict, source: str) -> _Settings:
@@ -31,6 +31,8 @@ class Asked:
         else:
             self.file = os.fspath(config)
             self.settings = _Settings.read(self.file)
+        for key in _lists_in(changes):
+            self.settings.drop_below(f"{key}.")
         self.put(changes)
         self.settings.load_plugins(files_of(plugins))
         self.registry = _Registry()
@@ -81,7 +83,17 @@ def _classes_in(value) -> list:
     return []
 
 
-def _plain(value, key):
+def _lists_in(values, key=""):
+    """The keys of lists, which replace a list as a whole: its items have keys of their own."""
+    if isinstance(values, dict):
+        for name, value in values.items():
+            yield from _lists_in(value, f"{key}.{name}".lstrip("."))
+    elif isinstance(values, (list, tuple)):
+        yield key
+
+
+def as_written(value, key):
+    """A value of a key as files have it: of None `off`, of an estimator its name."""
     if value is None:
         return "off"
     if isinstance(value, (bool, int, str)):
@@ -91,11 +103,12 @@ def _plain(value, key):
     if is_estimator(value):
         return described(value)["name"]
     if isinstance(value, dict):
-        return {str(name): _plain(one, f"{key}.{name}".lstrip(".")) for name, one in value.items()}
+        inner = {str(name): one for name, one in value.items()}
+        return {name: as_written(one, f"{key}.{name}".lstrip(".")) for name, one in inner.items()}
     if hasattr(value, "tolist"):  # of numpy
-        return _plain(value.tolist(), key)
+        return as_written(value.tolist(), key)
     if isinstance(value, (list, tuple)):
-        return [_plain(one, key) for one in value]
+        return [as_written(one, key) for one in value]
     if isinstance(value, os.PathLike):
         return os.fspath(value)
     raise InputError(f"{key}: cannot use a value of type {type(value).__name__}")

@@ -30,7 +30,7 @@ def compare(
     estimators: names, subclasses of fathom.Estimator, or dicts of type, name and options, that
         stand beside those of the study. A study without a list has these; where all are classes,
         it has the known ones, too.
-    set: a dict of settings that replace those of the study.
+    set: a dict of settings that replace those of the study; a list replaces a list as a whole.
     out: its folder; without one, a temporary folder that goes with the results.
     cache: folder of the registrations that are kept; True: the usual one, None: none.
     progress: True: a bar (of tqdm, where it is there); False: none; None: one where somebody looks,

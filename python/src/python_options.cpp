@@ -57,6 +57,20 @@ void set_default(PythonOption& option, const py::handle& value) {
   }
 }
 
+// A limit that its type does not have would not be held.
+void require_limits_to_fit(const PythonOption& option) {
+  const bool is_text = std::holds_alternative<std::string>(option.value);
+  const bool is_number = std::holds_alternative<int>(option.value) ||
+                         std::holds_alternative<double>(option.value) ||
+                         std::holds_alternative<std::optional<double>>(option.value);
+  if (!is_number && option.range.text() != Range::any().text()) {
+    throw InputError("option '" + option.key + "': at_least and at_most are of numbers");
+  }
+  if (!is_text && !option.choices.empty()) {
+    throw InputError("option '" + option.key + "': choices are of text");
+  }
+}
+
 double bound(const py::handle& option, const char* name, double none) {
   const py::object value = option.attr(name);
   return value.is_none() ? none : value.cast<double>();
@@ -83,10 +97,7 @@ PythonOptions options_of(const py::handle& options) {
       throw InputError("option " + py::repr(key).cast<std::string>() + ": " + field +
                        ": is of another type than that of fathom.Option, or too large");
     }
-    const bool is_bounded = option.range.text() != Range::any().text();
-    if (is_bounded && std::holds_alternative<std::vector<double>>(option.value)) {
-      throw InputError("option '" + option.key + "': a list has no bounds");
-    }
+    require_limits_to_fit(option);
     all.push_back(std::move(option));
   }
   EstimatorValues values;

@@ -78,17 +78,22 @@ Registration registration_of(const View& a, const View& b, const Camera& camera,
   return register_pair(features(a), features(b), registration, pair_seed(seed, 0, 1));
 }
 
+template <class Value>
+py::object if_found(const Registration& registration, const Value& value) {
+  return registration.found ? py::object(array_of(value)) : py::object(py::none());
+}
+
 void bind_result(py::module_& module) {
   py::class_<Registration>(module, "Registration",
                            "The motion between two pictures, or why there is none.")
       .def_readonly("found", &Registration::found)
       .def("__bool__", [](const Registration& r) { return r.found; })
       .def_property_readonly(
-          "motion", [](const Registration& r) { return array_of(r.motion); },
-          "(3,): the pose of the second in the frame of the first, m and rad.")
+          "motion", [](const Registration& r) { return if_found(r, r.motion); },
+          "(3,): the pose of the second in the frame of the first, m and rad; None of not found.")
       .def_property_readonly(
-          "covariance", [](const Registration& r) { return array_of(r.covariance); },
-          "3 x 3 of (x, y, theta), axes of the first.")
+          "covariance", [](const Registration& r) { return if_found(r, r.covariance); },
+          "3 x 3 of (x, y, theta), axes of the first; None of not found.")
       .def_property_readonly(
           "inliers", [](const Registration& r) { return r.inliers.size(); },
           "Matches that agree with the motion.")

@@ -2,6 +2,8 @@
 
 #include <pybind11/stl.h>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "fathom/configuration/config_file.hpp"
 #include "fathom/workflow/inputs.hpp"
@@ -25,6 +27,14 @@ void bind_settings(py::module_& module) {
              const Settings given = parse_settings(yaml, source);
              for (const Setting& one : given.all()) settings.put(one);
            })
+      .def("drop_below",
+           [](Settings& settings, const std::string& prefix) {
+             Settings kept;
+             for (const Setting& one : settings.all()) {
+               if (!one.key.starts_with(prefix)) kept.put(one);
+             }
+             settings = std::move(kept);
+           })
       .def("estimator_count",
            [](const Settings& settings) {
              std::size_t count = 0;
@@ -38,7 +48,7 @@ void bind_settings(py::module_& module) {
           [](Settings& settings, const std::vector<std::string>& files) {
             load_plugins(settings, files);
           },
-          "Loads those that it names, and these.");
+          py::call_guard<py::gil_scoped_release>(), "Loads those that it names, and these.");
 }
 
 }  // namespace fathom

@@ -151,6 +151,21 @@ class Code(unittest.TestCase):
         )
         self.assertEqual(run(code, FATHOM_PLUGIN_PATH=str(file)).stdout.strip(), "[True, True]")
 
+    def test_two_studies_may_read_a_plugin_at_the_same_time(self):
+        file = plugin(self.top / "a")
+        file.write_text("import time; time.sleep(0.3)\n" + file.read_text())
+        code = (
+            "import threading, fathom\n"
+            "study = {'dataset': {'type': 'simulated_log'}, 'estimators': [{'type': 'mine'}]}\n"
+            "found = []\n"
+            f"more = dict(plugins=[{str(file)!r}])\n"
+            "ask = lambda: found.extend(fathom.compare(study, **more).estimators)\n"
+            "threads = [threading.Thread(target=ask) for _ in range(2)]\n"
+            "[t.start() for t in threads]; [t.join() for t in threads]\n"
+            "print(found)\n"
+        )
+        self.assertEqual(run(code).stdout.strip(), "['mine', 'mine']")
+
     def test_an_interrupt_that_an_estimator_raises_is_a_failure(self):
         file = plugin(self.top / "a", update="raise KeyboardInterrupt")
         done = compare("compare", self.study, "--plugin", file, "--out", self.top / "out")
@@ -190,8 +205,6 @@ class Inputs(unittest.TestCase):
         for given in ({"n": 2**40}, {"n": fathom.Option(1, help=None)}, {5: 1}):
             self.refused("option .*type", lambda: fathom.options(with_options(given)))
         self.refused("expected a dict", lambda: fathom.options(with_options(None)))
-        bounded = {"n": fathom.Option([1.0], at_least=3)}
-        self.refused("no bounds", lambda: fathom.options(with_options(bounded)))
         self.refused("a list of files", lambda: fathom.estimators(plugins="mine.py"))
 
     def test_an_option_of_the_name_of_a_keyword(self):

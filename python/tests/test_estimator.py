@@ -45,6 +45,10 @@ class Faults(unittest.TestCase):
     CASES = [
         ("Raises", "numerical_failure", "KeyError: 'no such loop' (misbehaving.py:"),
         ("WrongShape", "numerical_failure", "joint_covariance: expected shape (3, 3), got (4, 4)"),
+        ("UpperTriangle", "numerical_failure", "is not symmetric"),
+        ("NegativeVariances", "numerical_failure", "has a negative variance"),
+        ("NegativeNis", "numerical_failure", "has the NIS -2.75, expected 0 or more"),
+        ("NegativeWeights", "numerical_failure", "a weight is -7, expected 0 to 1"),
         ("NotANumber", "numerical_failure", "pose"),
         ("TooFewPoses", "numerical_failure", "pose: expected shape (3,), got (2,)"),
         ("WordForPose", "numerical_failure", "pose: expected numbers of shape (3,), got str"),
@@ -74,7 +78,7 @@ class Faults(unittest.TestCase):
                 self.assertEqual(children(), [])
 
     def test_what_is_no_fault(self):
-        for kind in (misbehaving.Prints, misbehaving.Forks):
+        for kind in (misbehaving.Prints, misbehaving.Forks, misbehaving.ForksAndExits):
             self.assertEqual(fathom.replay(small_log(), kind).outcome, "converged")
             self.assertEqual(children(), [])
 
@@ -218,6 +222,17 @@ class Options(unittest.TestCase):
         for wrong in ({"flag": 2}, {"count": 0}, {"share": "x"}, {"word": "c"}, {"list": 1}):
             with self.assertRaises(fathom.InputError):
                 fathom.replay(small_log(), Many, **wrong)
+
+    def test_limits_that_a_type_does_not_have_are_refused(self):
+        for option, expected in (
+            (fathom.Option(1, choices=("1", "2")), "'limited': choices are of text"),
+            (fathom.Option(True, at_least=0), "'limited': at_least and at_most are of numbers"),
+            (fathom.Option("x", at_most=3), "'limited': at_least and at_most are of numbers"),
+            (fathom.Option([1.0], at_least=0), "'limited': at_least and at_most are of numbers"),
+        ):
+            kind = type("Limited", (misbehaving.Follows,), {"options": {"limited": option}})
+            with self.assertRaisesRegex(fathom.InputError, expected):
+                fathom.options(kind)
 
     def test_a_name_that_is_taken_or_no_word(self):
         for name in ("ekf", "Two Words"):

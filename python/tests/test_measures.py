@@ -47,6 +47,8 @@ class Registration(unittest.TestCase):
         found = fathom.register(self.picture(0, 0), self.picture(600, 500), 2.0, 2.0, CAMERA)
         self.assertFalse(found)
         self.assertTrue(found.reason)
+        self.assertIsNone(found.motion)
+        self.assertIsNone(found.covariance)
 
     def test_refusals(self):
         a = self.picture(0, 0)
@@ -76,6 +78,9 @@ class Evaluation(unittest.TestCase):
         moved = reference + [[0, 0, 0], [0, 0.3, 0], [0, 0.3, 0]]
         judged = fathom.evaluate(moved, reference, covariances=covariances)
         self.assertAlmostEqual(judged["anees"], 1 / 3)
+        aligned = fathom.evaluate(moved, reference, alignment="se2", covariances=covariances)
+        self.assertLess(aligned["ate_rmse_m"], judged["ate_rmse_m"])
+        self.assertEqual(aligned["anees"], judged["anees"])
         with self.assertRaises(fathom.InputError):
             fathom.evaluate(estimate, reference[:2])
         with self.assertRaisesRegex(fathom.InputError, "expected none, origin, se2"):
@@ -93,6 +98,8 @@ class Evaluation(unittest.TestCase):
             for times, expected in (
                 ([10**9, 10**9], r"times_ns\[1\]: expected more than the 1000000000 ns before it"),
                 ([2 * 10**9, 10**9], r"times_ns\[1\]: .*got 1000000000 ns"),
+                ([0.0, 1e9], "times_ns: expected whole nanoseconds, an array of int64"),
+                ("ab", "times_ns: expected whole nanoseconds, an array of int64"),
             ):
                 with self.assertRaisesRegex(fathom.InputError, expected):
                     fathom.write_tum(path, times, poses)

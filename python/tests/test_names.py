@@ -78,6 +78,16 @@ class Names(unittest.TestCase):
         self.assertIn("3 cells fit", text)
         self.assertIn("loops", text)
 
+    def test_a_cell_by_values_that_are_words_in_files(self):
+        for key, values in (
+            ("estimators.0.gate_probability", [None, 0.9]),
+            ("dataset.loops.shared_is_told", [True, False]),
+        ):
+            axis = {"key": key, "name": "axis", "values": values}
+            changes = {"dataset.loops.shared_sigma_m": 0.01, "sweep": [axis], "trials": 1}
+            with fathom.compare(STUDY, set=changes) as results:
+                self.assertEqual([results.cell({"axis": value}) for value in values], [0, 1])
+
     def test_a_dict_of_names_is_one_still(self):
         row = self.results.rows[0]
         self.assertIsNone(row.get("trail"))
@@ -97,6 +107,15 @@ class Closing(unittest.TestCase):
             with self.assertRaisesRegex(fathom.InputError, "are closed; open them with"):
                 action()
         results.close()
+
+    def test_it_stays_at_the_end_of_a_process_that_was_forked(self):
+        with fathom.compare({**STUDY, "trials": 1}) as results:
+            child = os.fork()
+            if child == 0:
+                results.close()
+                os._exit(0)
+            os.waitpid(child, 0)
+            self.assertTrue(os.path.exists(results.folder))
 
     def test_a_folder_of_the_users_stays(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -39,6 +39,23 @@ class Dicts(unittest.TestCase):
         self.assertIn("trials", self.refusal({**simple, "trials": None}))
         self.assertNotIn(":1:", self.refusal({**simple, "trails": 3}))
 
+    def test_a_list_that_is_set_replaces_the_whole_list(self):
+        changes = {
+            "estimators": [{"type": "incremental_smoother"}],
+            "sweep": [{"key": "seed", "name": "seed", "values": [5]}],
+        }
+        gated = [{"type": "ekf", "gate_probability": 0.5}, {"type": "ekf", "name": "two"}]
+        study = {**STUDY, "estimators": gated}
+        with fathom.compare(study, set=changes, trials=1) as results:
+            self.assertEqual(results.estimators, ["incremental_smoother"])
+            self.assertNotEqual(results.configuration["estimators.0.gate_probability"], "0.5")
+            self.assertEqual(results.axes, {"seed": ["5"]})
+        # Their items by their places.
+        changes = {"estimators.1": {"max_iterations": 1}}
+        with fathom.compare(STUDY, set=changes, trials=1) as results:
+            self.assertEqual(results.configuration["estimators.1.max_iterations"], "1")
+            self.assertEqual(results.estimators, ["ekf", "trajectory_iekf"])
+
     def test_a_class_needs_the_base(self):
         with self.assertRaises(fathom.InputError):
             fathom.compare({"dataset": {"type": "simulated_log"}}, estimators=[int])
