@@ -14,7 +14,7 @@ namespace {
 
 // Of 3 surveys of 4 trials: "near" is 0.1 from its survey's error, and "far" 0.1 beyond that, but
 // in the last survey as near. Trials 0 of "near" and 1 of "far" diverged.
-ResultStore surveyed(const TemporaryFolder& folder) {
+ResultStore stored_surveys(const TemporaryFolder& folder) {
   StudyDescription study;
   study.surveys = 3;
   study.trials = 4;
@@ -41,7 +41,7 @@ ResultStore surveyed(const TemporaryFolder& folder) {
 
 TEST(StudyStatistics, ADifferenceIsOverSurveysAndCommonTrials) {
   const TemporaryFolder folder;
-  const auto found = study_difference(surveyed(folder), "ate_rmse_m", "far", "near", 0);
+  const auto found = study_difference(stored_surveys(folder), "ate_rmse_m", "far", "near", 0);
   ASSERT_TRUE(found);
   EXPECT_TRUE(found->is_over_surveys);
   EXPECT_EQ(found->count, 3u);
@@ -53,7 +53,7 @@ TEST(StudyStatistics, ADifferenceIsOverSurveysAndCommonTrials) {
 
 TEST(StudyStatistics, AnIntervalIsOverSurveys) {
   const TemporaryFolder folder;
-  const auto found = study_interval(surveyed(folder), "ate_rmse_m", "near", 0);
+  const auto found = study_interval(stored_surveys(folder), "ate_rmse_m", "near", 0);
   const ClusteredValues done{{0, {-0.1, 0.1, -0.1}}, {1, {0.9, 1.1, 0.9}}, {2, {1.9, 2.1, 1.9}}};
   const auto expected = hierarchical_interval(done);
   ASSERT_TRUE(found && expected);
@@ -63,7 +63,7 @@ TEST(StudyStatistics, AnIntervalIsOverSurveys) {
 
 TEST(StudyStatistics, WhatIsNotThereIsNothing) {
   const TemporaryFolder folder;
-  const ResultStore store = surveyed(folder);
+  const ResultStore store = stored_surveys(folder);
   EXPECT_FALSE(study_interval(store, "anees", "near", 0));
   EXPECT_FALSE(study_interval(store, "ate_rmse_m", "other", 0));
   EXPECT_FALSE(study_difference(store, "anees", "near", "far", 0));
