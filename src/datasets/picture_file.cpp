@@ -50,7 +50,8 @@ cv::Mat in_eight_bits(const cv::Mat& picture) {
   double range = 256.0;
   while (range <= greys[static_cast<std::size_t>(rank)]) range *= 2.0;
   cv::Mat eight;
-  picture.convertTo(eight, CV_8U, 256.0 / range, -0.5);
+  // Rounded it is cut off, and halfway between two greys, where rounding is to even, there is none.
+  picture.convertTo(eight, CV_8U, 256.0 / range, 128.0 / range - 0.5);
   return eight;
 }
 

@@ -221,5 +221,23 @@ TEST_F(Pictures, OfSixteenBitUseTheBitsThatTheyHave) {
   EXPECT_LE(cv::norm(read_grey_picture(root / "colour.tif"), grey, cv::NORM_INF), 1.0);
 }
 
+// The upper eight of 8, 9, 10, … bits in 16, of each number.
+TEST_F(Pictures, OfSixteenBitLoseOnlyTheirLowestBits) {
+  for (int bits = 8; bits <= 16; ++bits) {
+    const int side = 1 << (bits / 2);
+    cv::Mat ramp((1 << bits) / side, side, CV_16UC1);
+    for (int i = 0; i < 1 << bits; ++i) {
+      ramp.at<ushort>(i / side, i % side) = static_cast<ushort>(i);
+    }
+    test::write_picture(root / "ramp.png", ramp);
+    const cv::Mat grey = read_grey_picture(root / "ramp.png");
+    int others = 0;
+    for (int i = 0; i < 1 << bits; ++i) {
+      others += grey.at<uchar>(i / side, i % side) == i >> (bits - 8) ? 0 : 1;
+    }
+    EXPECT_EQ(others, 0) << bits;
+  }
+}
+
 }  // namespace
 }  // namespace fathom
