@@ -64,8 +64,9 @@ bool CandidateSearch::by_overlap() const {
 // to each other they may, by little.
 double CandidateSearch::reach_m(const Stance& from, const Stance& newest) const {
   if (!by_overlap()) return *options_.max_distance_m;
-  return (1.0 - options_.min_overlap) * 0.5 * side_per_metre_ *
-             (from.altitude_m + newest.altitude_m) +
+  const double lower_m = std::min(from.altitude_m, newest.altitude_m);
+  return side_per_metre_ *
+             (0.5 * (from.altitude_m + newest.altitude_m) - options_.min_overlap * lower_m) +
          2.0 * mount_m_ + aside_m(from) + aside_m(newest);
 }
 

@@ -15,6 +15,7 @@ using test::candidates;
 using test::Estimate;
 using test::wide_camera;
 using ::testing::ElementsAre;
+using ::testing::IsEmpty;
 
 // Pictures of 2 m × 3 m that lie alike reach 0.9 · 3 m. The first is 5 m off: 2.3 m beyond, which
 // 3.035 sigmas of 0.758 m cover and of 0.757 m do not. Between reach and overlap, 2.1 m ahead, no
@@ -31,6 +32,21 @@ TEST(Candidates, ByPossibleOverlapAreThoseThatMaySeeTheSameFloor) {
   options.min_overlap = 0.5;  // reach 1.5 m: 3.5 m are left, 3.035 sigmas of 1.154 m
   EXPECT_THAT(found(1.153), ElementsAre(2));
   EXPECT_THAT(found(1.154), ElementsAre(0, 2));
+}
+
+// From 1 m and from 2 m, sides of 3 m and of 6 m: they share half of the lower one's at 3 m. The
+// first keyframe is 5 m off: 2 m are left, 3.035 sigmas of 0.659 m.
+TEST(Candidates, ByPossibleOverlapShareTheSmallerFootprint) {
+  CandidateOptions options = by(CandidateMethod::possible_overlap);
+  options.min_overlap = 0.5;
+  for (const bool is_first_higher : {false, true}) {
+    const std::vector<Stance> stances{is_first_higher ? 2.0 : 1.0, is_first_higher ? 1.0 : 2.0};
+    const auto found = [&](double sigma_m) {
+      return candidates(options, Estimate({{0, -5, 0}, {0, 0, 0}}, {sigma_m}), stances).keyframes;
+    };
+    EXPECT_THAT(found(0.658), IsEmpty());
+    EXPECT_THAT(found(0.660), ElementsAre(0));
+  }
 }
 
 TEST(Candidates, ByPossibleOverlapScaleWithTheAltitude) {
