@@ -1,8 +1,11 @@
 // fathom register: two pictures.
 
+#include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
+#include <limits>
 #include <memory>
+#include <utility>
 
 #include "apps/command.hpp"
 #include "apps/common.hpp"
@@ -10,6 +13,7 @@
 #include "apps/registration_text.hpp"
 #include "fathom/configuration/study.hpp"
 #include "fathom/core/files.hpp"
+#include "fathom/datasets/frame_source.hpp"
 #include "fathom/datasets/picture_file.hpp"
 #include "fathom/front_end/pair_seed.hpp"
 #include "fathom/harness/survey.hpp"
@@ -38,6 +42,26 @@ cv::Mat picture_for(const Camera& camera, const std::string& path) {
                                        picture.cols, picture.rows, model.width, model.height));
   }
   return picture;
+}
+
+// What the altimeter of the survey states: that of the frame whose altitude is nearest.
+double stated_sigma_m(const FrameSource& survey, double altitude_m) {
+  double nearest_m = std::numeric_limits<double>::infinity();
+  double sigma_m = 0.0;
+  for (std::size_t i = 0; i < survey.size(); ++i) {
+    const FrameInfo& frame = survey.info(i);
+    const double apart_m = std::abs(frame.altitude_m - altitude_m);
+    if (apart_m >= nearest_m) continue;
+    nearest_m = apart_m;
+    sigma_m = frame.altitude_sigma_m;
+  }
+  return sigma_m;
+}
+
+FloorFeatures on_floor_of(const FrameSource& survey, Features features, double altitude_m) {
+  FloorFeatures seen = on_floor(std::move(features), survey.camera(), altitude_m);
+  seen.viewpoint.altitude_sigma_m = stated_sigma_m(survey, altitude_m);
+  return seen;
 }
 
 std::vector<PixelPair> in_pixels(const std::vector<Match>& matches, const FloorFeatures& a,
@@ -80,8 +104,10 @@ void register_pictures(const RegisterFlags& flags, Context& context) {
   const RegistrationOptions& options = configuration.front_end.registration;
   const FeatureExtractor extractor(configuration.front_end.features, options.tuning.features);
   const cv::Mat mask = pictures.mask();
-  const FloorFeatures features_a = on_floor(extractor.extract(a, mask), camera, flags.altitude_a_m);
-  const FloorFeatures features_b = on_floor(extractor.extract(b, mask), camera, flags.altitude_b_m);
+  const FloorFeatures features_a =
+      on_floor_of(pictures.source(), extractor.extract(a, mask), flags.altitude_a_m);
+  const FloorFeatures features_b =
+      on_floor_of(pictures.source(), extractor.extract(b, mask), flags.altitude_b_m);
   const Registration registration =
       register_pair(features_a, features_b, options,
                     pair_seed(static_cast<std::uint64_t>(configuration.seed), 0, 1));

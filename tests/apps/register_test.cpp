@@ -58,6 +58,33 @@ TEST_F(Commands, RegisterSaysThatAltitudesMayBeWrong) {
   EXPECT_THAT(ended.out, HasSubstr(", not applied: the altitudes may be wrong\n"));
 }
 
+// The sigma of x, in metres.
+double sigma_of_x(const Ended& ended) {
+  std::smatch found;
+  const bool is_there =
+      std::regex_search(ended.out, found, std::regex(R"(\n  x +-?[0-9.]+ m +\+- ([0-9.]+))"));
+  EXPECT_TRUE(is_there) << ended.out;
+  return is_there ? std::stod(found[1]) : 0.0;
+}
+
+TEST_F(Commands, RegisterKnowsWhatTheAltimeterStates) {
+  write("c.yaml", kSmallSurvey);
+  fathom_done({"simulate", "c.yaml", "--out", "data"});
+  write("folder.yaml",
+        "dataset: {type: image_folder, path: data}\n"
+        "front_end.covariance.tilt_sigma_rad: 0\n");
+  const auto found = [&](const std::string& sensor) {
+    write("data/mav0/altimeter0/sensor.yaml", sensor);
+    const std::string pictures = "data/mav0/cam0/data/";
+    return sigma_of_x(
+        fathom_done({"register", pictures + "0.png", pictures + "500000000.png", "--config",
+                     "folder.yaml", "--altitude-a", "2", "--altitude-b", "2.03", "--out", "out"}));
+  };
+  const double without_m = found("scale: 1\n");
+  EXPECT_GT(found("sigma_absolute: 0.05\n"), 2.0 * without_m);
+  EXPECT_GT(found("sigma_relative: 0.05\n"), 3.0 * without_m);
+}
+
 TEST_F(Commands, RegisterByInliersSaysHowManyAreNeeded) {
   write("c.yaml", std::string(kSmallSurvey) + "front_end.decision.method: inliers\n");
   fathom_done({"simulate", "c.yaml", "--out", "data"});
