@@ -16,29 +16,37 @@ double poisson_tail(int count, double mean) {
   return count <= 0 ? 1.0 : chi_squared_cdf(2.0 * mean, 2.0 * count);
 }
 
-Evidence weigh_at(double error_m, const Hypothesis& best, int rival_places, const MatchSet& nearest,
-                  const RegistrationOptions& options) {
+Evidence weigh_at(double error_m, const Hypothesis& best, const Rivals& rivals,
+                  const MatchSet& nearest, const RegistrationOptions& options) {
   // Two matches make a motion, so any motion has two.
   constexpr int kAlways = 2;
-  const std::vector<int> inliers = nearest.pairs().inliers(*best.motion, error_m);
+  const DecisionTuning& tuning = options.tuning.decision;
   Evidence evidence;
+  evidence.rival_places = kAlways;
+  for (const Pose& rival : rivals.motions) {
+    const PointPairs& pairs = rivals.matches.pairs();
+    evidence.rival_places =
+        std::max(evidence.rival_places,
+                 pairs.count_places(pairs.inliers(rival, error_m), error_m, tuning.most_places));
+  }
+  const std::vector<int> inliers = nearest.pairs().inliers(*best.motion, error_m);
   evidence.support = static_cast<int>(inliers.size());
-  evidence.places =
-      nearest.pairs().count_places(inliers, error_m, options.tuning.decision.most_places);
-  evidence.rival_places = std::max(
-      {kAlways, rival_places, most_places_elsewhere(*best.motion, nearest, error_m, options)});
+  // As many as decide.
+  const double outweigh = std::min(evidence.rival_places / tuning.rival_share, 1e6);
+  evidence.places = nearest.pairs().count_places(
+      inliers, error_m, std::max(tuning.most_places, static_cast<int>(outweigh) + 1));
   evidence.false_alarms = poisson_tail(evidence.places, evidence.rival_places);
   return evidence;
 }
 
 }  // namespace
 
-Evidence weigh(const Hypothesis& best, const Hypothesis& rival, const MatchSet& nearest,
+Evidence weigh(const Hypothesis& best, const Rivals& rivals, const MatchSet& nearest,
                const RegistrationOptions& options) {
   const double coarse_m = *options.ransac.max_error_m;
   const double fine_m = coarse_m / options.tuning.decision.fine_divisor;
-  const Evidence coarse = weigh_at(coarse_m, best, rival.places, nearest, options);
-  const Evidence fine = weigh_at(fine_m, best, 0, nearest, options);
+  const Evidence coarse = weigh_at(coarse_m, best, rivals, nearest, options);
+  const Evidence fine = weigh_at(fine_m, best, rivals, nearest, options);
   return fine.false_alarms < coarse.false_alarms ? fine : coarse;
 }
 
@@ -59,6 +67,13 @@ std::string reason_to_refuse(const Evidence& evidence, const RegistrationOptions
                   "; another motion has %d: by chance %.1g, above %.1g", evidence.rival_places,
                   evidence.false_alarms, most);
     return places + chance.data();
+  }
+  // By chance a motion would hardly have so many more; by a floor that repeats itself it may: which
+  // of its equals a thing is taken for, its neighbours are taken for, too.
+  const double most_share = options.tuning.decision.rival_share;
+  if (evidence.rival_places > most_share * evidence.places) {
+    return fmt::format("{}; another motion has {}, more than {:g} of them: a floor that repeats",
+                       places, evidence.rival_places, most_share);
   }
   return {};
 }

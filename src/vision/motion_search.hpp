@@ -22,15 +22,17 @@ struct Hypothesis {
 Hypothesis find_hypothesis(const MatchSet& putative, const MatchSet& nearest,
                            const RegistrationOptions& options, std::uint64_t seed);
 
-/// The motion with the second most support, found likewise among the matches that do not agree
-/// with the best one, not even nearly.
-Hypothesis find_rival(const Hypothesis& best, const MatchSet& putative, const MatchSet& nearest,
-                      const RegistrationOptions& options, std::uint64_t seed);
+/// Other motions than the best one, and the matches that bear witness for them: those of the
+/// nearest that do not agree with the best one, not even nearly.
+struct Rivals {
+  MatchSet matches;
+  std::vector<Pose> motions;
+};
 
-/// The most places of nearest pairs that a motion with the heading of `best` brings together within
-/// `error_m`, over a grid of translations about it that spares those within `rival_distance`. On a
-/// floor that repeats itself it is large: the motion that is a ripple further has many.
-int most_places_elsewhere(const Pose& best, const MatchSet& nearest, double error_m,
-                          const RegistrationOptions& options);
+/// The two strongest, each fitted to its matches: one found as the best motion was, and of those
+/// with the heading of the best and another translation, however far, the one with the most places.
+/// On a floor that repeats itself the latter are many: the motion that is a ripple further.
+Rivals find_rivals(const Hypothesis& best, const MatchSet& putative, const MatchSet& nearest,
+                   const RegistrationOptions& options, std::uint64_t seed);
 
 }  // namespace fathom

@@ -143,8 +143,8 @@ std::optional<Registration> refused_at_first(const Pair& pair) {
   const Hypothesis best = find_hypothesis(putative, nearest, pair.options, pair.seed);
   const std::string of = "of the " + std::to_string(count) + " strongest features ";
   if (!best.motion) return refused(std::move(result), of + "no two matches agree");
-  const Hypothesis rival = find_rival(best, putative, nearest, pair.options, pair.seed);
-  result.evidence = weigh(best, rival, nearest, pair.options);
+  const Rivals rivals = find_rivals(best, putative, nearest, pair.options, pair.seed);
+  result.evidence = weigh(best, rivals, nearest, pair.options);
   constexpr int kFewest = 3;  // two make any motion
   if (result.evidence.places >= kFewest &&
       result.evidence.false_alarms <= decision.first_max_false_alarms) {
@@ -167,8 +167,8 @@ Registration by_false_alarms(const Pair& pair, const NearestRows& neighbours) {
   result.putative = putative.matches();
   const Hypothesis best = find_hypothesis(putative, nearest, options, pair.seed);
   if (!best.motion) return refused(std::move(result), no_hypothesis(putative.size(), options));
-  const Hypothesis rival = find_rival(best, putative, nearest, options, pair.seed);
-  result.evidence = weigh(best, rival, nearest, options);
+  const Rivals rivals = find_rivals(best, putative, nearest, options, pair.seed);
+  result.evidence = weigh(best, rivals, nearest, options);
   const std::string reason = reason_to_refuse(result.evidence, options);
   if (!reason.empty()) {
     result.inliers = picked(nearest, best.support);

@@ -63,11 +63,13 @@ void DecisionTuning::describe(OptionTable& table) {
   table.real("grid_spacing", grid_spacing, Range::between(1.0, 10.0), "errors",
              "rivals with the heading of the best: their grid; discs of the error cover the plane "
              "up to 1.41");
-  table.integer("grid_steps", grid_steps, Range::between(0, 200), "",
-                "and its steps to either side: 24 errors reach the next ripple");
   table.real("fine_divisor", fine_divisor, Range{1.0, 1e3}, "",
              "support is counted at max_error_m and at this part of it; chance brings together "
              "its square less");
+  table.real(
+      "rival_share", rival_share, Range{0.0, 1.0}, "places",
+      "a rival has at most this share of the best motion's: right pairs of simulated ripples "
+      "reach 0.20, wrong ones of a tiled floor begin at 0.24");
 }
 
 void FitTuning::describe(OptionTable& table) {

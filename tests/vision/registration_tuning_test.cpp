@@ -135,7 +135,7 @@ std::string changed(const std::string& key, const std::string& value) {
                                                       {"decision.most_places", "3"},
                                                       {"decision.rival_distance", "20"},
                                                       {"decision.grid_spacing", "10"},
-                                                      {"decision.grid_steps", "0"},
+                                                      {"decision.rival_share", "0.001"},
                                                       {"fit.gate", "3"},
                                                       {"fit.rounds", "1"},
                                                       {"covariance.least_clusters", "1000"}};

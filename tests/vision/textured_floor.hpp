@@ -1,5 +1,6 @@
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include <opencv2/core.hpp>
@@ -26,6 +27,10 @@ class TexturedFloor {
     }
     cv::normalize(sum, picture_, 0.0, 255.0, cv::NORM_MINMAX, CV_8U);
   }
+
+  /// One of a picture.
+  TexturedFloor(cv::Mat picture, double metres_per_pixel)
+      : metres_per_pixel_(metres_per_pixel), picture_(std::move(picture)) {}
 
   /// What a camera at `pose` sees.
   cv::Mat seen(const Camera& camera, const Pose& pose, double altitude_m) const {

@@ -45,8 +45,8 @@ struct DecisionTuning {
   int most_places = 200;
   double rival_distance = 3.0;
   double grid_spacing = 1.5;
-  int grid_steps = 16;
   double fine_divisor = 3.0;
+  double rival_share = 0.2;
 
   void describe(OptionTable& table);
 };
