@@ -50,7 +50,15 @@ std::string why_not(const Consensus& consensus, std::size_t matches, const Ransa
                      options.min_places);
 }
 
-std::string no_hypothesis(std::size_t putative, const RegistrationOptions& options) {
+// `matched`: before those of unlike size were left out. Of matches by chance alone some half are.
+std::string no_hypothesis(std::size_t matched, std::size_t putative,
+                          const RegistrationOptions& options) {
+  constexpr std::size_t kFew = 10;
+  if (static_cast<int>(matched) >= options.ransac.min_inliers && kFew * putative < matched) {
+    return fmt::format(
+        "the altitudes disagree with the sizes of keypoints: {} of {} matches remain", putative,
+        matched);
+  }
   return static_cast<int>(putative) < options.ransac.min_inliers
              ? too_few(putative, options.ransac)
              : "no two of " + std::to_string(putative) + " matches agree";
@@ -77,7 +85,8 @@ Registration refused(Registration result, std::string reason) {
 Registration accepted(Registration result, const Pair& pair, const MotionFit& fit,
                       const MatchSet& matches) {
   result.inliers = picked(matches, fit.inliers);
-  std::string stays = reason_of_what_stays(pair.from.features, pair.to.features, result.inliers);
+  std::string stays =
+      reason_of_what_stays(pair.from.features, pair.to.features, result.inliers, result.putative);
   if (!stays.empty()) return refused(std::move(result), std::move(stays));
   result.found = true;
   result.motion = fit.motion;
@@ -135,14 +144,17 @@ std::optional<Registration> refused_at_first(const Pair& pair) {
   const FloorFeatures to = strongest(pair.to, count);
   const Pair first{from, to, pair.options, pair.seed};
   const NearestRows neighbours = find_nearest(from.features, to.features);
-  const MatchSet putative =
-      first.set(match(neighbours, pair.options.matching), MatchSet::Use::sizes);
+  const std::vector<Match> matched = match(neighbours, pair.options.matching);
+  const MatchSet putative = first.set(matched, MatchSet::Use::sizes);
   const MatchSet nearest = first.set(all_nearest(neighbours), MatchSet::Use::sizes);
   Registration result;
   result.putative = putative.matches();
   const Hypothesis best = find_hypothesis(putative, nearest, pair.options, pair.seed);
-  const std::string of = "of the " + std::to_string(count) + " strongest features ";
-  if (!best.motion) return refused(std::move(result), of + "no two matches agree");
+  const std::string of = "of the " + std::to_string(count) + " strongest features: ";
+  if (!best.motion) {
+    return refused(std::move(result),
+                   of + no_hypothesis(matched.size(), putative.size(), pair.options));
+  }
   const Rivals rivals = find_rivals(best, putative, nearest, pair.options, pair.seed);
   result.evidence = weigh(best, rivals, nearest, pair.options);
   constexpr int kFewest = 3;  // two make any motion
@@ -161,12 +173,15 @@ std::optional<Registration> refused_at_first(const Pair& pair) {
 // a weighted fit to all matches that are nearest one way at least follows.
 Registration by_false_alarms(const Pair& pair, const NearestRows& neighbours) {
   const RegistrationOptions& options = pair.options;
-  const MatchSet putative = pair.set(match(neighbours, options.matching), MatchSet::Use::sizes);
+  const std::vector<Match> matched = match(neighbours, options.matching);
+  const MatchSet putative = pair.set(matched, MatchSet::Use::sizes);
   const MatchSet nearest = pair.set(all_nearest(neighbours), MatchSet::Use::sizes);
   Registration result;
   result.putative = putative.matches();
   const Hypothesis best = find_hypothesis(putative, nearest, options, pair.seed);
-  if (!best.motion) return refused(std::move(result), no_hypothesis(putative.size(), options));
+  if (!best.motion) {
+    return refused(std::move(result), no_hypothesis(matched.size(), putative.size(), options));
+  }
   const Rivals rivals = find_rivals(best, putative, nearest, options, pair.seed);
   result.evidence = weigh(best, rivals, nearest, options);
   const std::string reason = reason_to_refuse(result.evidence, options);

@@ -29,30 +29,39 @@ std::size_t cell_of(const Eigen::Vector2d& pixel, const Box& box, int cells) {
          index(pixel.x(), box.low.x(), box.high.x());
 }
 
-bool stay(const Features& from, const Features& to, const std::vector<Match>& matches,
+bool stays(const Features& from, const Features& to, const Match& match,
+           const StationaryRule& rule) {
+  return (from.pixels[static_cast<std::size_t>(match.from)] -
+          to.pixels[static_cast<std::size_t>(match.to)])
+             .norm() <= rule.most_motion_px;
+}
+
+bool stay(const Features& from, const Features& to, const std::vector<Match>& inliers,
           const StationaryRule& rule) {
-  const auto count = std::ranges::count_if(matches, [&](const Match& match) {
-    return (from.pixels[static_cast<std::size_t>(match.from)] -
-            to.pixels[static_cast<std::size_t>(match.to)])
-               .norm() <= rule.most_motion_px;
-  });
-  return static_cast<double>(count) >= rule.share_of_matches * static_cast<double>(matches.size());
+  const auto count = std::ranges::count_if(
+      inliers, [&](const Match& match) { return stays(from, to, match, rule); });
+  return static_cast<double>(count) >= rule.share_of_matches * static_cast<double>(inliers.size());
 }
 
 }  // namespace
 
 std::string reason_of_what_stays(const Features& from, const Features& to,
+                                 const std::vector<Match>& inliers,
                                  const std::vector<Match>& matches, const StationaryRule& rule) {
   // Points that come without pixels are no pictures.
-  if (matches.empty() || from.pixels.empty() || to.pixels.empty()) return {};
-  if (!stay(from, to, matches, rule)) return {};
+  if (inliers.empty() || from.pixels.empty() || to.pixels.empty()) return {};
+  if (!stay(from, to, inliers, rule)) return {};
   const Box box = box_of(from.pixels);
   const auto all = static_cast<std::size_t>(rule.cells * rule.cells);
   std::vector<int> features(all);
   std::vector<int> matched(all);
   for (const Eigen::Vector2d& pixel : from.pixels) ++features[cell_of(pixel, box, rule.cells)];
-  for (const Match& match : matches) {
+  const auto count = [&](const Match& match) {
     ++matched[cell_of(from.pixels[static_cast<std::size_t>(match.from)], box, rule.cells)];
+  };
+  std::ranges::for_each(inliers, count);
+  for (const Match& match : matches) {
+    if (stays(from, to, match, rule)) count(match);
   }
   int cells = 0;
   int agreeing = 0;
@@ -65,7 +74,7 @@ std::string reason_of_what_stays(const Features& from, const Features& to,
   return fmt::format(
       "{} matches agree that nothing moves, in {} of {} parts of the picture: something in view "
       "that moves with the camera, half are needed of a vehicle at rest",
-      matches.size(), agreeing, cells);
+      inliers.size(), agreeing, cells);
 }
 
 }  // namespace fathom

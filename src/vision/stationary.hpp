@@ -21,10 +21,12 @@ struct StationaryRule {
 
 /// Two pictures in which the same pixels agree are of a vehicle at rest, or of something in view
 /// that moves with the camera: its frame, burnt-in text. At rest most of the picture agrees. So
-/// where all matches stay within a pixel, at least half of the cells of a grid over the picture in
-/// which `from` has features must have some of the matches. The reason if they have not; empty:
-/// the matches move, or the vehicle is at rest.
+/// where all inliers stay within a pixel, at least half of the cells of a grid over the picture in
+/// which `from` has features must have some of them, or of the other matches that stay: where an
+/// altitude is wrong, the inliers of a vehicle at rest are those about the middle of the picture.
+/// The reason if they have not; empty: the inliers move, or the vehicle is at rest.
 std::string reason_of_what_stays(const Features& from, const Features& to,
+                                 const std::vector<Match>& inliers,
                                  const std::vector<Match>& matches,
                                  const StationaryRule& rule = {});
 

@@ -19,6 +19,14 @@ RegistrationOptions first(std::optional<int> features) {
   return options;
 }
 
+FloorFeatures seen_thrice_as_high() {
+  FloorFeatures features = seen_at({});
+  for (Eigen::Vector2d& point : features.points) point *= 3.0;
+  for (double& size_m : features.sizes_m) size_m *= 3.0;
+  features.viewpoint.metres_per_pixel *= 3.0;
+  return features;
+}
+
 TEST(FirstFeatures, APairThatPassesIsRegisteredAsIfTheyWereNot) {
   const FloorFeatures a = seen_at({});
   for (const Pose& pose : {Pose{0.1, 0.2, 0.3}, Pose{-0.5, 0.3, 2.0}, Pose{0.6, -0.6, -1.0}}) {
@@ -46,6 +54,16 @@ TEST(FirstFeatures, APairWithoutOverlapIsToldByThem) {
                 Not(HasSubstr("strongest features")));
   }
   EXPECT_GE(told, 8);
+}
+
+// The same floor, by an altitude that is three times the other.
+TEST(FirstFeatures, AltitudesThatDisagreeWithTheSizesOfKeypointsAreNamed) {
+  for (const std::optional<int> features : {std::optional(150), std::optional<int>()}) {
+    const Registration refused =
+        register_pair(seen_at({}), seen_thrice_as_high(), first(features), 1);
+    EXPECT_FALSE(refused.found);
+    EXPECT_THAT(refused.reason, HasSubstr("the altitudes disagree with the sizes of keypoints: "));
+  }
 }
 
 // Where few features would be left out there is nothing to gain.

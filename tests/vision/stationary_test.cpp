@@ -1,5 +1,6 @@
 // Registrations in which nothing moves: a vehicle at rest, or something in view of the camera.
 
+#include <Eigen/Cholesky>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <opencv2/imgproc.hpp>
@@ -47,8 +48,9 @@ cv::Mat with_skid(cv::Mat picture) {
   return picture;
 }
 
-FloorFeatures still_features(const cv::Mat& picture, const cv::Mat& mask = {}) {
-  return on_floor(FeatureExtractor().extract(picture, mask), still_camera(), 1.2);
+FloorFeatures still_features(const cv::Mat& picture, const cv::Mat& mask = {},
+                             double altitude_m = 1.2) {
+  return on_floor(FeatureExtractor().extract(picture, mask), still_camera(), altitude_m);
 }
 
 TEST(Stationary, AVehicleAtRestIsFound) {
@@ -57,6 +59,22 @@ TEST(Stationary, AVehicleAtRestIsFound) {
                                              still_features(noisy_picture({}, sigma, 2)), {}, 1);
     EXPECT_TRUE(found.found) << found.reason;
     EXPECT_NEAR(found.motion.position().norm(), 0.0, 1e-3);
+  }
+}
+
+// With the scale of one of them, the matches that agree are those about the middle of the picture.
+TEST(Stationary, AVehicleAtRestIsFoundWhereAnAltitudeIsWrong) {
+  RegistrationOptions options;
+  for (const double wrong : {1.04, 1.05, 1.08}) {
+    options.covariance.altitude_sigma_m = (wrong - 1.0) * 1.2;
+    const Registration found =
+        register_pair(still_features(noisy_picture({}, 3.0, 1)),
+                      still_features(noisy_picture({}, 3.0, 2), {}, wrong * 1.2), options, 1);
+    ASSERT_TRUE(found.found) << wrong << ": " << found.reason;
+    EXPECT_NEAR(found.evidence.scale, 1.0 / wrong, 0.02);
+    // The middle of the matches that agree is theirs, so an altitude is an error of place.
+    const Eigen::Vector3d error = found.motion.vector();
+    EXPECT_LT(error.dot(found.covariance.ldlt().solve(error)), 14.2);  // 3 degrees, 0.997
   }
 }
 
