@@ -21,7 +21,7 @@ namespace fathom::benchmarks {
 namespace {
 
 void add_options(CLI::App& app, Settings& settings) {
-  app.add_option("--floors", settings.floors, "kinds of sea floor; 'none': only --world")
+  app.add_option("--floors", settings.floors, "kinds of sea floor, and tiles; 'none': only --world")
       ->delimiter(',')
       ->capture_default_str();
   app.add_option("--world", settings.worlds, "a picture of a floor, FILE:METRES_PER_PIXEL");

@@ -108,10 +108,11 @@ def _chance_of(places, mean):
 
 
 @maker("docs/registration.md", "places-needed", "quick",
-       "P(X ≥ k) ≤ 10⁻⁷, the formula above", 0, programs=())
+       "P(X ≥ k) ≤ 10⁻⁷ and r ≤ 0.2 k, the formulas above", 0, programs=())
 def places_needed(work):
     rivals = (2, 4, 6, 10, 20)
-    needed = [next(k for k in range(1, 1000) if _chance_of(k, r) <= 1e-7) for r in rivals]
+    needed = [next(k for k in range(1, 1000) if _chance_of(k, r) <= 1e-7 and 5 * r <= k)
+              for r in rivals]
     return table(["rival places", *map(str, rivals)], [["places needed", *needed]])
 
 
