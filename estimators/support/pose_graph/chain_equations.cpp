@@ -108,7 +108,7 @@ double ChainEquations::decrease() const {
   return decrease;
 }
 
-double ChainEquations::linearise(std::span<const Node> nodes, Hessian hessian, double damping) {
+void ChainEquations::eliminate(std::span<const Node> nodes, Hessian hessian, double damping) {
   const ChainParts parts{graph_,        chains_,      begins_.data(), inside_,
                          terms_.data(), sums_.data(), nodes.data(),   damping};
   switch (hessian) {
@@ -132,6 +132,10 @@ double ChainEquations::linearise(std::span<const Node> nodes, Hessian hessian, d
     negative_pivots_ += sums.negative_pivots;
     are_sound_ = are_sound_ && sums.is_sound;
   }
+}
+
+double ChainEquations::linearise(std::span<const Node> nodes, Hessian hessian, double damping) {
+  eliminate(nodes, hessian, damping);
   return left_.linearise(ends(nodes), hessian, damping, terms_);
 }
 
@@ -143,9 +147,20 @@ double ChainEquations::differentiate(std::span<const Node> nodes) {
   return left_.differentiate(ends(nodes), terms_);
 }
 
-// A chain's begin is the end of the one before it.
 void ChainEquations::solve_step() {
-  const std::vector<double>& step = left_.solve_step();
+  substitute_back_from(left_.solve_step());
+}
+
+std::optional<double> ChainEquations::solve_near(std::span<const Node> nodes, int most_iterations) {
+  eliminate(nodes, Hessian::gauss_newton, 0.0);
+  if (!are_sound_ || negative_pivots_ > 0) return {};
+  const std::optional<double> cost = left_.solve_near(ends(nodes), most_iterations, terms_);
+  if (cost) substitute_back_from(left_.step());
+  return cost;
+}
+
+// A chain's begin is the end of the one before it.
+void ChainEquations::substitute_back_from(const std::vector<double>& step) {
   const std::vector<int>& position = left_.factor().symbolic().position;
   end_steps_.assign(1, ChainVector{});
   for (const int p : position) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -50,6 +51,9 @@ class ChainEquations {
   }
   int negative_pivots() const { return negative_pivots_ + left_.negative_pivots(); }
   void solve_step();
+  /// As of NormalEquations; the keyframes of chains are eliminated at the estimate itself.
+  int iterations_worth_a_factor() const { return left_.iterations_worth_a_factor(); }
+  std::optional<double> solve_near(std::span<const Node> nodes, int most_iterations);
   double predicted_decrease() const { return decrease_ + left_.predicted_decrease(); }
   /// At the estimate of the last differentiate().
   double gradient_norm() const;
@@ -62,6 +66,8 @@ class ChainEquations {
 
  private:
   std::span<const Node> ends(std::span<const Node> nodes);
+  void eliminate(std::span<const Node> nodes, Hessian hessian, double damping);
+  void substitute_back_from(const std::vector<double>& left_step);
   std::span<const EliminatedKeyframe> inside(std::size_t chain) const;
   double decrease() const;
 

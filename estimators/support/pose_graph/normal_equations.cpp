@@ -35,6 +35,7 @@ NormalEquations::NormalEquations(const sparse::Symbolic& symbolic, std::span<con
 double NormalEquations::linearise(std::span<const Node> nodes, Hessian hessian, double damping,
                                   std::span<const PairTerms> given) {
   factor_.clear();
+  has_factor_ = false;
   std::fill(gradient_.begin(), gradient_.end(), 0.0);
   has_begun_step_ = false;
   std::fill(diagonal_sums_.begin(), diagonal_sums_.end(), std::array<double, 6>{});
@@ -169,7 +170,9 @@ bool NormalEquations::keeps_digits() const {
 bool NormalEquations::factorise(sparse::Inertia inertia) {
   has_begun_step_ = true;
   for (std::size_t i = 0; i < step_.size(); ++i) step_[i] = -gradient_[i];
-  return factor_.factorise(inertia, step_.data());
+  const bool is_done = factor_.factorise(inertia, step_.data());
+  has_factor_ = is_done && factor_.negative_pivots() == 0;
+  return is_done;
 }
 
 const std::vector<double>& NormalEquations::solve_step() {

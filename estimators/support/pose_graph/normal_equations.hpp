@@ -48,6 +48,14 @@ class NormalEquations {
   void solve(double* x) { factor_.solve(x); }
   /// −H⁻¹ g, with the matrix that was factored last; nodes in the order of elimination.
   const std::vector<double>& solve_step();
+  /// Iterations of solve_near that cost as much as a factorisation; 0: there is no factor, or the
+  /// graph has errors of pictures.
+  int iterations_worth_a_factor() const;
+  /// The Gauss-Newton step at an estimate by conjugate gradients (Hestenes and Stiefel 1952), with
+  /// the factor at hand, which is of another estimate, as the preconditioner. Returns F at the
+  /// estimate; nothing where the step has not settled in so many iterations.
+  std::optional<double> solve_near(std::span<const Node> nodes, int most_iterations,
+                                   std::span<const PairTerms> given = {});
   /// The Gauss-Newton step from the whitened rows of all measurements, without the sums of the
   /// matrix and the gradient (sparse::eliminate_rows), for graphs that those do not carry; without
   /// a loss. The factor of Jᵀ W J is left in factor(). Returns by how much F would fall if it were
@@ -68,6 +76,8 @@ class NormalEquations {
   sparse::BlockCholesky<3>& factor() { return factor_; }
   /// ½ ∂F/∂x; nodes in the order of elimination.
   const std::vector<double>& gradient() const { return gradient_; }
+  /// The last step, in the same order.
+  const std::vector<double>& step() const { return step_; }
 
  private:
   /// Where an edge's terms go.
@@ -105,6 +115,9 @@ class NormalEquations {
   template <class Part>
   void add_matrix(const PairTerms& t, const Part& part, const Targets& target);
   void write_diagonal(double damping);
+  // to = Jᵀ W J v.
+  void multiply(std::span<const Node> nodes, std::span<const PairTerms> given,
+                const std::vector<double>& v, std::vector<double>& to) const;
   bool keeps_digits() const;
   Workers* workers() const { return factor_.symbolic().workers; }
 
@@ -118,6 +131,7 @@ class NormalEquations {
   std::vector<std::array<double, 6>> diagonal_sums_;
   std::vector<double> gradient_;
   std::vector<double> step_;
+  bool has_factor_ = false;      ///< of a positive definite matrix
   bool has_begun_step_ = false;  ///< factorise() has, for the gradient as it is
 };
 

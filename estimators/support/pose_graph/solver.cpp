@@ -1,6 +1,7 @@
 #include "estimators/support/pose_graph/solver.hpp"
 
 #include <cmath>
+#include <optional>
 #include <type_traits>
 
 #include "estimators/support/pose_graph/positions.hpp"
@@ -205,16 +206,45 @@ class Minimiser {
   double newton_below_;
 };
 
+// The first step of a large graph by conjugate gradients, where an estimate nearby has been
+// factored. F may rise over it, so what follows counts if it ends in a minimum below.
+template <class Equations>
+SolveResult minimise_by(Equations& equations, std::vector<Node>& nodes, const SolveLimits& limits,
+                        const SolverTuning& tuning, Hessian first) {
+  const auto run = [&](std::vector<Node>& start, int max_iterations, Hessian hessian) {
+    const SolveLimits left{max_iterations, limits.tolerance};
+    return Minimiser<Equations>(equations, start, left, tuning, hessian).run();
+  };
+  const bool is_worth_it = first == Hessian::gauss_newton && limits.max_iterations > 1 &&
+                           equations.iterations_worth_a_factor() >= tuning.least_near_iterations;
+  std::optional<double> cost;
+  if (is_worth_it) cost = equations.solve_near(nodes, equations.iterations_worth_a_factor());
+  if (cost) {
+    const bool is_near = equations.predicted_decrease() < tuning.newton_below * *cost;
+    std::vector<Node> moved;
+    equations.move(nodes, moved);
+    SolveResult result =
+        run(moved, limits.max_iterations - 1, is_near ? Hessian::exact : Hessian::gauss_newton);
+    ++result.iterations;
+    const bool is_minimum = result.outcome == Outcome::converged && result.is_local_minimum == true;
+    if (is_minimum && result.cost <= *cost) {
+      nodes.swap(moved);
+      return result;
+    }
+  }
+  return run(nodes, limits.max_iterations, first);
+}
+
 }  // namespace
 
 SolveResult minimise(NormalEquations& equations, std::vector<Node>& nodes,
                      const SolveLimits& limits, const SolverTuning& tuning, Hessian first) {
-  return Minimiser<NormalEquations>(equations, nodes, limits, tuning, first).run();
+  return minimise_by(equations, nodes, limits, tuning, first);
 }
 
 SolveResult minimise(ChainEquations& equations, std::vector<Node>& nodes, const SolveLimits& limits,
                      Hessian first) {
-  return Minimiser<ChainEquations>(equations, nodes, limits, {}, first).run();
+  return minimise_by(equations, nodes, limits, {}, first);
 }
 
 }  // namespace fathom::pose_graph

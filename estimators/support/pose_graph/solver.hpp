@@ -30,6 +30,9 @@ struct SolverTuning {
   double chord_below = 1e-3;
   double chord_contraction = 1e-2;
   double chord_share = 5e-2;
+  /// A first step is left to conjugate gradients where a factorisation costs as much as so many of
+  /// their iterations (NormalEquations::solve_near), from some 200 000 keyframes on.
+  int least_near_iterations = 5;
   /// Levenberg-Marquardt damping after a step that failed; then more after each that
   /// fails and less after each that does not (Marquardt 1963). Below the least there is none;
   /// beyond the largest no step is left in 16 digits.
