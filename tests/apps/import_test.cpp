@@ -59,7 +59,7 @@ TEST_F(Import, BagIsCheckedAndRunAsTheSurveyItself) {
 
 // The folder it would have been in is gone by then.
 TEST_F(Import, WhatARunWouldRefuseIsRefusedByTheBagsName) {
-  write_db3("dive.db3", {.imu_roll_rad = 0.95});
+  write_db3("dive.db3", {.imu_roll_rad = 0.8});
   write("wide.yaml",
         "resolution: [160, 120]\nintrinsics: [40, 40, 79.5, 59.5]\ndistortion_model: none\n");
   const std::string refused =
