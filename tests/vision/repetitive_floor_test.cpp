@@ -21,7 +21,7 @@ using test::labelled;
 using test::Points;
 using ::testing::HasSubstr;
 
-constexpr double kAltitudeM = 1.5;
+constexpr double kTilesAltitudeM = 1.5;
 constexpr double kFloorPixelM = 0.004;
 constexpr int kSidePx = 1600;
 
@@ -51,8 +51,8 @@ TexturedFloor tiles(int side_px, double grain) {
 }
 
 FloorFeatures seen_from(const TexturedFloor& floor, const Pose& pose) {
-  return on_floor(FeatureExtractor().extract(floor.seen(tile_camera(), pose, kAltitudeM)),
-                  tile_camera(), kAltitudeM);
+  return on_floor(FeatureExtractor().extract(floor.seen(tile_camera(), pose, kTilesAltitudeM)),
+                  tile_camera(), kTilesAltitudeM);
 }
 
 // From places that share nothing; a pixel is 4.3 mm there and the largest error 32 mm.
