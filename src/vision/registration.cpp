@@ -180,7 +180,12 @@ Registration by_false_alarms(const Pair& pair, const NearestRows& neighbours) {
   result.putative = putative.matches();
   const Hypothesis best = find_hypothesis(putative, nearest, options, pair.seed);
   if (!best.motion) {
-    return refused(std::move(result), no_hypothesis(matched.size(), putative.size(), options));
+    const auto is_placed = [&pair](const Match& match) {
+      return pair.from.points[static_cast<std::size_t>(match.from)].allFinite() &&
+             pair.to.points[static_cast<std::size_t>(match.to)].allFinite();
+    };
+    const auto placed = static_cast<std::size_t>(std::ranges::count_if(matched, is_placed));
+    return refused(std::move(result), no_hypothesis(placed, putative.size(), options));
   }
   const Rivals rivals = find_rivals(best, putative, nearest, options, pair.seed);
   result.evidence = weigh(best, rivals, nearest, options);
