@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <tuple>
 #include <utility>
 
 #include "pair_ransac.hpp"
@@ -55,7 +55,8 @@ class ShiftGrid {
   }
 
   std::vector<Cell> by_falling_size() {
-    std::ranges::sort(near_);
+    std::ranges::sort(
+        near_, {}, [](const Near& near) { return std::tuple(near.row, near.column, near.pair); });
     std::vector<Cell> cells;
     for (std::size_t i = 0; i < near_.size(); ++i) {
       const Near& near = near_[i];
@@ -74,8 +75,6 @@ class ShiftGrid {
     std::int64_t row;
     std::int64_t column;
     int pair;
-
-    auto operator<=>(const Near&) const = default;
   };
 
   Eigen::Vector2d shift(std::int64_t row, std::int64_t column) const {
