@@ -11,6 +11,7 @@ double mean_of(const std::vector<double>& values) {
 
 std::vector<std::vector<double>> trials_of(const std::vector<ClusteredValues>& cells) {
   std::vector<std::vector<double>> trials;
+  trials.reserve(cells.size());
   for (const ClusteredValues& cell : cells) trials.push_back(cell.begin()->second);
   return trials;
 }
