@@ -72,8 +72,10 @@ std::string reason_to_refuse(const Evidence& evidence, const RegistrationOptions
   // of its equals a thing is taken for, its neighbours are taken for, too.
   const double most_share = options.tuning.decision.rival_share;
   if (evidence.rival_places > most_share * evidence.places) {
-    return fmt::format("{}; another motion has {}, more than {:g} of them: a floor that repeats",
-                       places, evidence.rival_places, most_share);
+    return fmt::format(
+        "{}; another motion has {}, more than {:g} of them: the floor repeats, or something in "
+        "view moves otherwise",
+        places, evidence.rival_places, most_share);
   }
   return {};
 }

@@ -74,6 +74,14 @@ struct Pair {
   MatchSet set(std::vector<Match> matches, MatchSet::Use use) const {
     return {std::move(matches), from, to, use, options.tuning.matching};
   }
+
+  // A part of the vehicle in view is no rival: that it stays says nothing of the floor.
+  Rivals rivals(const Hypothesis& best, const MatchSet& putative, const MatchSet& nearest) const {
+    const auto moving = [this](const MatchSet& all) {
+      return all.without(staying(from.features, to.features, all.matches()));
+    };
+    return find_rivals(best, moving(putative), moving(nearest), options, seed);
+  }
 };
 
 Registration refused(Registration result, std::string reason) {
@@ -155,7 +163,7 @@ std::optional<Registration> refused_at_first(const Pair& pair) {
     return refused(std::move(result),
                    of + no_hypothesis(matched.size(), putative.size(), pair.options));
   }
-  const Rivals rivals = find_rivals(best, putative, nearest, pair.options, pair.seed);
+  const Rivals rivals = pair.rivals(best, putative, nearest);
   result.evidence = weigh(best, rivals, nearest, pair.options);
   constexpr int kFewest = 3;  // two make any motion
   if (result.evidence.places >= kFewest &&
@@ -187,7 +195,7 @@ Registration by_false_alarms(const Pair& pair, const NearestRows& neighbours) {
     const auto placed = static_cast<std::size_t>(std::ranges::count_if(matched, is_placed));
     return refused(std::move(result), no_hypothesis(placed, putative.size(), options));
   }
-  const Rivals rivals = find_rivals(best, putative, nearest, options, pair.seed);
+  const Rivals rivals = pair.rivals(best, putative, nearest);
   result.evidence = weigh(best, rivals, nearest, options);
   const std::string reason = reason_to_refuse(result.evidence, options);
   if (!reason.empty()) {

@@ -45,6 +45,16 @@ bool stay(const Features& from, const Features& to, const std::vector<Match>& in
 
 }  // namespace
 
+std::vector<int> staying(const Features& from, const Features& to,
+                         const std::vector<Match>& matches, const StationaryRule& rule) {
+  std::vector<int> indices;
+  if (from.pixels.empty() || to.pixels.empty()) return indices;
+  for (std::size_t i = 0; i < matches.size(); ++i) {
+    if (stays(from, to, matches[i], rule)) indices.push_back(static_cast<int>(i));
+  }
+  return indices;
+}
+
 std::string reason_of_what_stays(const Features& from, const Features& to,
                                  const std::vector<Match>& inliers,
                                  const std::vector<Match>& matches, const StationaryRule& rule) {

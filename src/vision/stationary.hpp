@@ -19,6 +19,11 @@ struct StationaryRule {
   double least_cells = 0.5;        ///< of these, that have one
 };
 
+/// Which of the matches stay within `most_motion_px` in the picture. They say nothing of the floor
+/// where it moves. None of points that come without pixels.
+std::vector<int> staying(const Features& from, const Features& to,
+                         const std::vector<Match>& matches, const StationaryRule& rule = {});
+
 /// Two pictures in which the same pixels agree are of a vehicle at rest, or of something in view
 /// that moves with the camera: its frame, burnt-in text. At rest most of the picture agrees. So
 /// where all inliers stay within a pixel, at least half of the cells of a grid over the picture in

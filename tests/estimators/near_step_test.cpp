@@ -112,6 +112,7 @@ TEST(NearStep, LeadsToTheSameMinimum) {
   ASSERT_TRUE(equations.factorise());
   EXPECT_GE(equations.iterations_worth_a_factor(), SolverTuning{}.least_near_iterations);
   std::vector<Node> nodes = displaced_by(0.1, parts.nodes);
+  ASSERT_TRUE(equations.solve_near(nodes, equations.iterations_worth_a_factor()));
   const SolveResult with = minimise(equations, nodes, {});
   EXPECT_EQ(with.outcome, Outcome::converged);
   EXPECT_EQ(with.is_local_minimum, true);
@@ -119,7 +120,7 @@ TEST(NearStep, LeadsToTheSameMinimum) {
   EXPECT_LT(norm_of(nodes, expected), 1e-6);
 }
 
-// A factor that is far from the matrix: too many iterations, and the step is factored.
+// The factor is far from the matrix, so the step is factored.
 TEST(NearStep, ThatDoesNotSettleIsFactored) {
   const GraphParts parts = all_pairs(220);
   const sparse::Symbolic symbolic = parts.analysed();

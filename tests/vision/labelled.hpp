@@ -19,7 +19,9 @@ inline const Pose kTrueMotion{0.3, -0.2, 0.7};
 inline FloorFeatures labelled(const std::vector<Eigen::Vector2d>& points) {
   FloorFeatures picture;
   picture.points = points;
-  picture.features.pixels = points;
+  for (const Eigen::Vector2d& point : points) {
+    picture.features.pixels.push_back(point / kMetresPerPixel);
+  }
   const int rows = static_cast<int>(points.size());
   picture.features.descriptors = cv::Mat::eye(rows, rows, CV_32F) * 200.0;
   picture.viewpoint = {{0.0, 0.0}, 2.0, kMetresPerPixel};

@@ -13,6 +13,7 @@
 #include "src/vision/rigid_motion.hpp"
 #include "vision/labelled.hpp"
 #include "vision/sea_floor.hpp"
+#include "vision/small_model.hpp"
 
 namespace fathom {
 namespace {
@@ -23,12 +24,7 @@ using ::testing::HasSubstr;
 
 // Forty centimetres of mounting offset and a yaw: a wrong sign anywhere shows.
 CameraModel mounted() {
-  CameraModel model;
-  model.width = 400;
-  model.height = 300;
-  model.fx = model.fy = 350.0;
-  model.cx = 199.5;
-  model.cy = 149.5;
+  CameraModel model = test::small_model();
   model.mount_x_m = 0.4;
   model.mount_yaw_rad = 0.6;
   return model;

@@ -6,6 +6,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "vision/sea_floor.hpp"
+#include "vision/small_model.hpp"
 
 namespace fathom {
 namespace {
@@ -13,15 +14,7 @@ namespace {
 using testing::HasSubstr;
 
 const Camera& still_camera() {
-  static const Camera made = [] {
-    CameraModel model;
-    model.width = 400;
-    model.height = 300;
-    model.fx = model.fy = 350.0;
-    model.cx = 199.5;
-    model.cy = 149.5;
-    return Camera(model);
-  }();
+  static const Camera made(test::small_model());
   return made;
 }
 
@@ -76,6 +69,15 @@ TEST(Stationary, AVehicleAtRestIsFoundWhereAnAltitudeIsWrong) {
     const Eigen::Vector3d error = found.motion.vector();
     EXPECT_LT(error.dot(found.covariance.ldlt().solve(error)), 14.2);  // 3 degrees, 0.997
   }
+}
+
+TEST(Stationary, APartOfTheVehicleIsNoRival) {
+  const Pose motion{0.3, 0.1, 0.2};
+  const FloorFeatures from = still_features(with_skid(noisy_picture({}, 2.0, 1)));
+  const FloorFeatures to = still_features(with_skid(noisy_picture(motion, 2.0, 2)));
+  const Registration found = register_pair(from, to, {}, 1);
+  ASSERT_TRUE(found.found) << found.reason;
+  EXPECT_NEAR((found.motion.position() - motion.position()).norm(), 0.0, 5e-3);
 }
 
 // No floor in common: what agrees is the skid alone.
