@@ -29,7 +29,7 @@ void show_or_clear(const CacheCommandFlags& flags, Context& context) {
                                 ? fmt::format(" of at most {:.0f} MB ($FATHOM_CACHE_MB)",
                                               1e-6 * static_cast<double>(default_cache_bytes()))
                                 : "";
-  print("%s\n  %s, features of %s, %.1f MB%s\n", folder.c_str(),
+  print("%s\n  %s, %s or their features, %.1f MB%s\n", folder.c_str(),
         counted(content.registrations, "registration").c_str(),
         counted(content.pictures, "picture").c_str(), 1e-6 * static_cast<double>(content.bytes),
         bound.c_str());
@@ -40,7 +40,8 @@ void show_or_clear(const CacheCommandFlags& flags, Context& context) {
 
 void add_cache(CLI::App& program, Context& context) {
   auto flags = std::make_shared<CacheCommandFlags>();
-  Command command(program, "cache", "Show or clear the registrations and features that are kept",
+  Command command(program, "cache",
+                  "Show or clear the registrations, pictures and features that are kept",
                   "Example: fathom cache --clear\n"
                   "It may be cleared at any time, also while other commands run: they make "
                   "anew what they need.");

@@ -108,11 +108,13 @@ FeatureMemory::Held FeatureMemory::extract(std::size_t frame) {
 FeatureMemory::Held FeatureMemory::make(std::size_t frame) {
   if (source_.cache == nullptr) return extract(frame);
   const RegistrationKey key = source_.keys.of(source_.pictures.picture_id(frame));
-  if (auto kept = source_.cache->find(key)) {
-    return std::make_shared<const PackedFeatures>(*std::move(kept));
+  if (const auto bytes = source_.cache->find(key)) {
+    if (auto kept = PackedFeatures::from_bytes(*bytes)) {
+      return std::make_shared<const PackedFeatures>(*std::move(kept));
+    }
   }
   Held made = extract(frame);
-  source_.cache->put(key, *made);
+  source_.cache->put(key, made->to_bytes());
   return made;
 }
 

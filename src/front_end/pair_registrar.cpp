@@ -47,7 +47,7 @@ PairRegistrar::PairRegistrar(const FrameSource& pictures, const FeatureOptions& 
       keys_(pictures.camera().model(), features, registration, use.mask),
       use_(use),
       features_({pictures, FeatureExtractor(features, registration.tuning.features), use.mask,
-                 cache == nullptr ? nullptr : cache->features(),
+                 cache == nullptr ? nullptr : cache->pictures(),
                  FeatureKeys(features, registration.tuning.features, use.mask)},
                 feature_bytes) {}
 

@@ -8,7 +8,7 @@
 #include "fathom/core/environment_error.hpp"
 #include "fathom/core/input_error.hpp"
 #include "fathom/core/text.hpp"
-#include "fathom/front_end/feature_store.hpp"
+#include "fathom/front_end/picture_store.hpp"
 #include "fathom/front_end/registration_store.hpp"
 #include "registration_table.hpp"
 
@@ -92,7 +92,7 @@ std::uint64_t default_cache_bytes() {
 
 CacheContent cache_content(const fs::path& folder) {
   CacheContent content;
-  for (const char* const name : {kRegistrationsFile, kFeaturesFile}) {
+  for (const char* const name : {kRegistrationsFile, kPicturesFile}) {
     for (const char* const ending : {"", "-wal"}) {
       std::error_code error;
       const std::uintmax_t bytes = fs::file_size((folder / name).string() + ending, error);
@@ -102,8 +102,8 @@ CacheContent cache_content(const fs::path& folder) {
   if (has_registrations(folder)) {
     content.registrations = count_in(folder, kRegistrationsFile, "registration", open_to_read);
   }
-  if (has_features(folder)) {
-    content.pictures = count_in(folder, kFeaturesFile, "features", open_features_to_read);
+  if (has_pictures(folder)) {
+    content.pictures = count_in(folder, kPicturesFile, "features", open_pictures_to_read);
   }
   return content;
 }
@@ -112,8 +112,8 @@ void clear_cache(const fs::path& folder) {
   if (has_registrations(folder)) {
     clear(folder / kRegistrationsFile, "registration", prepare_schema);
   }
-  if (has_features(folder)) {
-    clear(folder / kFeaturesFile, "features", prepare_feature_schema);
+  if (has_pictures(folder)) {
+    clear(folder / kPicturesFile, "features", prepare_picture_schema);
   }
 }
 
@@ -121,7 +121,7 @@ std::unique_ptr<RegistrationStore> RegistrationStore::usual() {
   const fs::path folder = default_cache_folder();
   const std::uint64_t half = default_cache_bytes() / 2;
   auto store = std::make_unique<RegistrationStore>(folder, half);
-  store->features_ = std::make_unique<FeatureStore>(folder, half);
+  store->pictures_ = std::make_unique<PictureStore>(folder, half);
   return store;
 }
 

@@ -46,8 +46,8 @@ bool has_registrations(const fs::path& folder) {
   return has_file(folder / kRegistrationsFile);
 }
 
-bool has_features(const fs::path& folder) {
-  return has_file(folder / kFeaturesFile);
+bool has_pictures(const fs::path& folder) {
+  return has_file(folder / kPicturesFile);
 }
 
 MergedRegistrations merge_registrations(const std::vector<fs::path>& folders, const fs::path& out) {

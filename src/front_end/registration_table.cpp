@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 // Version 1 had no column `used`.
 constexpr int kSchemaVersion = 2;
-constexpr int kFeatureSchemaVersion = 1;
+constexpr int kPictureSchemaVersion = 1;
 
 // Immutable: without locks, which a file system of several machines may not have. Not so where a
 // process left its log of changes beside the file.
@@ -89,8 +89,8 @@ void prepare_schema(SQLite::Database& sqlite) {
   });
 }
 
-void prepare_feature_schema(SQLite::Database& sqlite) {
-  prepare(sqlite, kFeatureSchemaVersion, [&](int) {
+void prepare_picture_schema(SQLite::Database& sqlite) {
+  prepare(sqlite, kPictureSchemaVersion, [&](int) {
     drop_all(sqlite);
     sqlite.exec(
         "CREATE TABLE features (key BLOB NOT NULL UNIQUE, used INTEGER NOT NULL, bytes INTEGER NOT "
@@ -158,10 +158,10 @@ std::unique_ptr<SQLite::Database> open_to_read(const fs::path& file) {
   return sqlite;
 }
 
-std::unique_ptr<SQLite::Database> open_features_to_read(const fs::path& file) {
+std::unique_ptr<SQLite::Database> open_pictures_to_read(const fs::path& file) {
   auto sqlite = open_immutable(file);
-  if (version_of(*sqlite) != kFeatureSchemaVersion) {
-    throw InputError("is no cache of features of this version");
+  if (version_of(*sqlite) != kPictureSchemaVersion) {
+    throw InputError("is no cache of pictures of this version");
   }
   return sqlite;
 }

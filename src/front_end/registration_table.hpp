@@ -19,8 +19,8 @@ inline constexpr int kRegistrationBusyMs = 5'000;
 /// program, or that is something else.
 void prepare_schema(SQLite::Database& sqlite);
 
-/// The same of a file of features.
-void prepare_feature_schema(SQLite::Database& sqlite);
+/// The same of a file of pictures and features.
+void prepare_picture_schema(SQLite::Database& sqlite);
 
 /// One more than that of any row: rows that are used get it.
 std::int64_t next_use(SQLite::Database& sqlite);
@@ -34,7 +34,7 @@ void remove_least_used(SQLite::Database& sqlite, std::uint64_t most_bytes, std::
 
 /// Opens a file of this version to read alone. Throws SQLite::Exception or InputError.
 std::unique_ptr<SQLite::Database> open_to_read(const std::filesystem::path& file);
-std::unique_ptr<SQLite::Database> open_features_to_read(const std::filesystem::path& file);
+std::unique_ptr<SQLite::Database> open_pictures_to_read(const std::filesystem::path& file);
 
 /// The columns found, numbers, inliers and checksum of a row; nothing where they are not what was
 /// stored.

@@ -80,6 +80,9 @@ Pictures::Pictures(const Configuration& configuration, RegistrationCache* cache,
     : configuration_(configuration), cache_(cache), survey_(survey) {
   with_origin(configuration, [&] { require_pictures(configuration); });
   data_ = open_data_set(configuration, survey);
+  const bool is_drawn = find_data_set(configuration.dataset.type).makes_pictures;
+  if (!is_drawn || survey > 0 || cache == nullptr || cache->pictures() == nullptr) return;
+  rendered_ = std::make_unique<RenderedPictures>(*data_->frames(), *cache->pictures());
 }
 
 const PictureUse& Pictures::use() {

@@ -62,9 +62,9 @@ std::string reason_of_what_stays(const Features& from, const Features& to,
   if (inliers.empty() || from.pixels.empty() || to.pixels.empty()) return {};
   if (!stay(from, to, inliers, rule)) return {};
   const Box box = box_of(from.pixels);
-  const auto all = static_cast<std::size_t>(rule.cells * rule.cells);
-  std::vector<int> features(all);
-  std::vector<int> matched(all);
+  const auto side = static_cast<std::size_t>(rule.cells);
+  std::vector<int> features(side * side);
+  std::vector<int> matched(side * side);
   for (const Eigen::Vector2d& pixel : from.pixels) ++features[cell_of(pixel, box, rule.cells)];
   const auto count = [&](const Match& match) {
     ++matched[cell_of(from.pixels[static_cast<std::size_t>(match.from)], box, rule.cells)];

@@ -62,23 +62,12 @@ class PackedFeatures {
   int type_ = 0;  ///< of the descriptors, unpacked
 };
 
-/// Features beyond the life of a process. Both calls may be made from several threads at once, and
-/// throw nothing: what a cache cannot do is a miss.
-class FeatureCache {
- public:
-  virtual ~FeatureCache() = default;
-
-  /// Bit for bit what was put in, or nothing.
-  virtual std::optional<PackedFeatures> find(const RegistrationKey& key) = 0;
-  virtual void put(const RegistrationKey& key, const PackedFeatures& features) = 0;
-};
-
 /// What a FeatureMemory works on.
 struct FeatureSource {
   const FrameSource& pictures;  ///< outlives it
   FeatureExtractor extractor;
   cv::Mat mask = {};              ///< of all pictures, as of FeatureExtractor
-  FeatureCache* cache = nullptr;  ///< outlives it
+  PictureCache* cache = nullptr;  ///< outlives it
   FeatureKeys keys = {};          ///< for the cache
 };
 

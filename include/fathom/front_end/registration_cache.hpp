@@ -2,6 +2,8 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
+#include <string_view>
 #include <utility>
 
 #include <Eigen/Core>
@@ -35,7 +37,17 @@ struct RegistrationKey {
   }
 };
 
-class FeatureCache;
+/// What is made of one picture each, beyond the life of a process: its features, or itself where it
+/// was rendered. Both calls may be made from several threads at once, and throw nothing: what a
+/// cache cannot do is a miss.
+class PictureCache {
+ public:
+  virtual ~PictureCache() = default;
+
+  /// Byte for byte what was put in, or nothing.
+  virtual std::optional<std::string> find(const RegistrationKey& key) = 0;
+  virtual void put(const RegistrationKey& key, std::string_view bytes) = 0;
+};
 
 /// Registrations beyond the life of a process. Both calls may be made from several threads at once,
 /// and throw nothing: what a cache cannot do is a miss.
@@ -47,8 +59,8 @@ class RegistrationCache {
   virtual std::optional<PairRegistration> find(const RegistrationKey& key) = 0;
   virtual void put(const RegistrationKey& key, const PairRegistration& value) = 0;
 
-  /// Where the features of pictures are kept, too; null: nowhere.
-  virtual FeatureCache* features() { return nullptr; }
+  /// Where the features of pictures, and rendered pictures, are kept, too; null: nowhere.
+  virtual PictureCache* pictures() { return nullptr; }
 };
 
 }  // namespace fathom

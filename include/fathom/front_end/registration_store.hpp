@@ -16,7 +16,7 @@ namespace fathom {
 /// $FATHOM_CACHE, else $XDG_CACHE_HOME/fathom, else $HOME/.cache/fathom; empty where none is set.
 std::filesystem::path default_cache_folder();
 /// 10⁶ times $FATHOM_CACHE_MB, else 10⁹: some 400 000 registrations and the features of
-/// some 1600 pictures. Throws InputError.
+/// some 1600 pictures, or fewer with rendered pictures. Throws InputError.
 std::uint64_t default_cache_bytes();
 
 /// The file of a cache, in its folder.
@@ -31,8 +31,8 @@ class RegistrationStore : public RegistrationCache {
   /// at once. What is not in it is kept in memory. Throws InputError where there is none.
   static std::unique_ptr<RegistrationStore> read_only(const std::filesystem::path& folder);
 
-  /// Of the default folder and size; features of pictures are kept beside the registrations, half
-  /// of the size each.
+  /// Of the default folder and size; features of pictures, and rendered pictures, are kept
+  /// beside the registrations, half of the size for either.
   static std::unique_ptr<RegistrationStore> usual();
 
   /// Makes the folder if need be. An empty path: memory alone. Where the file holds more than
@@ -45,7 +45,7 @@ class RegistrationStore : public RegistrationCache {
   std::optional<PairRegistration> find(const RegistrationKey& key) override;
   /// Written to the file with others, every second or every 200.
   void put(const RegistrationKey& key, const PairRegistration& value) override;
-  FeatureCache* features() override { return features_.get(); }
+  PictureCache* pictures() override { return pictures_.get(); }
 
   /// Writes what is not yet written.
   void flush();
@@ -63,13 +63,13 @@ class RegistrationStore : public RegistrationCache {
   explicit RegistrationStore(std::unique_ptr<File> file);
 
   std::unique_ptr<File> file_;
-  std::unique_ptr<FeatureCache> features_;
+  std::unique_ptr<PictureCache> pictures_;
 };
 
 /// What a cache takes.
 struct CacheContent {
   std::uint64_t registrations = 0;
-  std::uint64_t pictures = 0;  ///< whose features it has
+  std::uint64_t pictures = 0;  ///< and sets of features
   std::uint64_t bytes = 0;     ///< of its files; 0 where there is none
 };
 
@@ -92,8 +92,8 @@ struct MergedRegistrations {
 MergedRegistrations merge_registrations(const std::vector<std::filesystem::path>& folders,
                                         const std::filesystem::path& out);
 
-/// Whether a folder has a cache of registrations, or of features.
+/// Whether a folder has a cache of registrations, or of pictures and their features.
 bool has_registrations(const std::filesystem::path& folder);
-bool has_features(const std::filesystem::path& folder);
+bool has_pictures(const std::filesystem::path& folder);
 
 }  // namespace fathom

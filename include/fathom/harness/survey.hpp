@@ -10,6 +10,7 @@
 #include "fathom/datasets/data_set.hpp"
 #include "fathom/datasets/noisy_odometry.hpp"
 #include "fathom/front_end/pair_registrar.hpp"
+#include "fathom/front_end/rendered_pictures.hpp"
 #include "fathom/front_end/visual_odometry.hpp"
 
 namespace fathom {
@@ -28,7 +29,8 @@ class Pictures {
                     std::size_t survey = 0);
 
   const DataSet& data() const { return *data_; }
-  const FrameSource& source() const { return *data_->frames(); }
+  /// Rendered pictures of the first survey, of which mosaics are made, are kept in the cache, too.
+  const FrameSource& source() const { return rendered_ ? *rendered_ : *data_->frames(); }
   /// Made when first asked for, as some pictures are looked at for what stays in place in them.
   PairRegistrar& registrar();
   /// What is to be said of them: what is masked, which repeat the one before.
@@ -43,6 +45,7 @@ class Pictures {
   RegistrationCache* cache_;
   std::size_t survey_;
   std::unique_ptr<const DataSet> data_;
+  std::unique_ptr<RenderedPictures> rendered_;
   Once looked_;
   PictureUse use_;
   Once made_;

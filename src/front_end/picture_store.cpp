@@ -1,4 +1,4 @@
-#include "fathom/front_end/feature_store.hpp"
+#include "fathom/front_end/picture_store.hpp"
 
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <exception>
@@ -23,24 +23,24 @@ std::int64_t checksum(const RegistrationKey& key, std::string_view content) {
 
 }  // namespace
 
-class FeatureStore::File {
+class PictureStore::File {
  public:
   File(const fs::path& folder, std::uint64_t most_bytes) : most_bytes_(most_bytes) {
     if (folder.empty()) return;
     is_open_ = true;
     guard([&] {
       fs::create_directories(folder);
-      sqlite_ = std::make_unique<SQLite::Database>((folder / kFeaturesFile).string(),
+      sqlite_ = std::make_unique<SQLite::Database>((folder / kPicturesFile).string(),
                                                    SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE,
                                                    kRegistrationBusyMs);
-      prepare_feature_schema(*sqlite_);
+      prepare_picture_schema(*sqlite_);
       use_ = 1 + number("SELECT COALESCE(MAX(used), 0) FROM features");
     });
   }
 
-  std::optional<PackedFeatures> find(const RegistrationKey& key) {
+  std::optional<std::string> find(const RegistrationKey& key) {
     const auto words = words_of(key);
-    std::optional<PackedFeatures> features;
+    std::optional<std::string> found;
     guard([&] {
       SQLite::Statement select(*sqlite_, "SELECT checksum, content FROM features WHERE key = ?");
       select.bind(1, words.data(), sizeof words);
@@ -49,15 +49,14 @@ class FeatureStore::File {
       const std::string_view content(static_cast<const char*>(blob.getBlob()),
                                      static_cast<std::size_t>(blob.getBytes()));
       if (checksum(key, content) != select.getColumn(0).getInt64()) return;
-      features = PackedFeatures::from_bytes(content);
+      found.emplace(content);
       found_.push_back(key);
     });
-    return features;
+    return found;
   }
 
-  void put(const RegistrationKey& key, const PackedFeatures& features) {
+  void put(const RegistrationKey& key, std::string_view content) {
     const auto words = words_of(key);
-    const std::string content = features.to_bytes();
     guard([&] {
       if (is_full_ || content.size() > most_bytes_) return;
       SQLite::Transaction transaction(*sqlite_, SQLite::TransactionBehavior::IMMEDIATE);
@@ -134,19 +133,19 @@ class FeatureStore::File {
   std::unique_ptr<SQLite::Database> sqlite_;
 };
 
-FeatureStore::FeatureStore(const fs::path& folder, std::uint64_t most_bytes)
+PictureStore::PictureStore(const fs::path& folder, std::uint64_t most_bytes)
     : file_(std::make_unique<File>(folder, most_bytes)) {}
 
-FeatureStore::~FeatureStore() {
+PictureStore::~PictureStore() {
   file_->close();
 }
 
-std::optional<PackedFeatures> FeatureStore::find(const RegistrationKey& key) {
+std::optional<std::string> PictureStore::find(const RegistrationKey& key) {
   return file_->find(key);
 }
 
-void FeatureStore::put(const RegistrationKey& key, const PackedFeatures& features) {
-  file_->put(key, features);
+void PictureStore::put(const RegistrationKey& key, std::string_view bytes) {
+  file_->put(key, bytes);
 }
 
 }  // namespace fathom
