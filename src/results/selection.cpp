@@ -60,6 +60,7 @@ std::vector<std::vector<TrialKey>> share_trials(Selection& selection, const Comp
   std::vector<std::vector<TrialKey>> trials;
   for (;;) {
     std::vector<std::string> names;
+    names.reserve(candidates.size());
     for (const EstimatorEvidence* one : candidates) names.push_back(one->name);
     trials = trials_of_all(compared, names, objective);
     const auto empty = std::ranges::find_if(trials, [](const auto& some) { return some.empty(); });

@@ -44,7 +44,8 @@ cv::Mat halved(const cv::Mat& fine) {
     for (int u = 0; u < coarse.cols; ++u) {
       int sum = 0;
       int seen = 0;
-      for (const int grey : {upper[2 * u], upper[2 * u + 1], lower[2 * u], lower[2 * u + 1]}) {
+      const int left = 2 * u;
+      for (const int grey : {upper[left], upper[left + 1], lower[left], lower[left + 1]}) {
         if (grey == kUnseen) continue;
         sum += grey;
         ++seen;
