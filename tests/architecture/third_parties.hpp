@@ -27,7 +27,7 @@ inline const std::vector<ThirdParty>& third_parties() {
        {"src/datasets/import/mcap_records.cpp", "src/datasets/picture_header.cpp"}},
       {"boost/math/", {"src/core/chi_squared.cpp", "src/evaluation/distributions.cpp"}},
       {"ceres/", {"estimators/ceres_pose_graph/"}},
-      {"scotch.h", {"estimators/support/sparse/ordering.cpp"}},
+      {"scotch.h", {"estimators/support/sparse/nested_dissection.cpp"}},
       {"SESync/", {"adapters/se_sync/"}},
       {"g2o/", {"adapters/g2o/"}},
       {"gtsam/", {"adapters/gtsam/"}},

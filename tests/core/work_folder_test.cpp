@@ -22,10 +22,11 @@ using ::testing::HasSubstr;
 
 // TMPDIR is the test's own.
 class WorkFolders : public ::testing::Test {
- protected:
+ public:
   WorkFolders() { ::setenv("TMPDIR", place_.path().c_str(), 1); }
   ~WorkFolders() override { ::unsetenv("TMPDIR"); }
 
+ protected:
   TemporaryFolder place_;
 };
 

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "estimators/support/sparse/block_cholesky.hpp"
+#include "estimators/support/sparse/nested_dissection.hpp"
 #include "fathom/core/random.hpp"
 
 namespace fathom::sparse {
@@ -91,6 +92,31 @@ TEST(Ordering, DissectionTakesEveryNodeOnceAndIsRepeatable) {
   std::vector<int> nodes = order;
   std::sort(nodes.begin(), nodes.end());
   for (int v = 0; v < 400; ++v) EXPECT_EQ(nodes[at(v)], v);
+}
+
+// Grids beside each other, a ring without a grid, and a node alone: what dissects into more parts
+// or fewer.
+TEST(Ordering, WorkersDissectInTheSameOrder) {
+  if (!has_nested_dissection()) GTEST_SKIP() << kWithout;
+  std::vector<Link> links = box_of(60, 45, 1);
+  int nodes = 2700;
+  for (const Link& link : box_of(40, 20, 1)) links.push_back({nodes + link.a, nodes + link.b});
+  nodes += 800;
+  for (int v = 0; v < 300; ++v) links.push_back({nodes + v, nodes + (v + 1) % 300});
+  nodes += 301;
+  const Adjacency graph = adjacency_of(nodes, links);
+  const std::vector<int> order = nested_dissection_order(graph, nullptr);
+  for (const int threads : {2, 3, 7}) {
+    Workers workers(threads);
+    EXPECT_EQ(nested_dissection_order(graph, &workers), order) << threads;
+  }
+  std::vector<int> sorted = order;
+  std::sort(sorted.begin(), sorted.end());
+  ASSERT_EQ(sorted.size(), at(nodes));
+  for (int v = 0; v < nodes; ++v) EXPECT_EQ(sorted[at(v)], v);
+  EXPECT_LT(
+      multiplications_one_by_one(graph, order),
+      1.1 * multiplications_one_by_one(graph, elimination_order(graph, ChainElimination::on)));
 }
 
 TEST(Ordering, DissectionOfAFewNodes) {

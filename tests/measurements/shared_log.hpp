@@ -3,6 +3,8 @@
 #include <cmath>
 #include <memory>
 
+#include <Eigen/Cholesky>
+
 #include "fathom/core/random.hpp"
 #include "fathom/geometry/covariance.hpp"
 #include "fathom/measurements/measurement_log.hpp"

@@ -78,7 +78,7 @@ TEST_F(Scratch, GoesOnFromWhatAKilledProcessLeftOnTheDisk) {
     auto scratch = open();
     scratch->store().add(record(0, 1, "plain"));
     scratch->store().add(record(1, 0, "plain"));
-    scratch.release();
+    static_cast<void>(scratch.release());
   });
   EXPECT_EQ(published(), 1u);
   { const auto scratch = open(); }

@@ -2,18 +2,13 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdint>
 #include <numeric>
 #include <utility>
 
 #include <Eigen/OrderingMethods>
 #include <Eigen/SparseCore>
 
-#ifdef FATHOM_SCOTCH
-// scotch.h needs what it does not include.
-#include <cstdio>
-#include <scotch.h>
-#endif
+#include "estimators/support/sparse/nested_dissection.hpp"
 
 namespace fathom::sparse {
 namespace {
@@ -108,61 +103,8 @@ std::vector<int> minimum_degree_order(const Pattern& lower) {
   return {amd.indices().begin(), amd.indices().end()};
 }
 
-#ifdef FATHOM_SCOTCH
-// What SCOTCH opens and closes.
-template <class T, int (*open)(T*), void (*close)(T*)>
-struct Opened : T {
-  Opened() : is_open(open(this) == 0) {}
-  Opened(const Opened&) = delete;
-  Opened& operator=(const Opened&) = delete;
-  ~Opened() {
-    if (is_open) close(this);
-  }
-
-  bool is_open;
-};
-
-// Nested dissection by multilevel separators, Fiduccia and Mattheyses' refinement at each level,
-// down to 120 nodes, which are ordered by minimum degree. Blocks are left to make_supernodes, where
-// SCOTCH's own strategy merges columns (cmin). The numbers were chosen on the survey of `back_ends`
-// with 10⁵ to 10⁶ keyframes: docs/cost.md has what they change on other graphs.
-constexpr const char* kStrategy =
-    "n{sep=/(vert>120)?m{rat=0.8,vert=100,low=h{pass=10}f{bal=0.6},asc=f{bal=0.6,move=120}};,"
-    "ole=d{cmin=0,cmax=100000,frat=0.0},ose=g}";
-
-// On one thread and from the same seed, so that the order is always the same. Empty where SCOTCH
-// fails.
-std::vector<int> nested_dissection_order(const Adjacency& graph) {
-  std::vector<SCOTCH_Num> start(graph.start.begin(), graph.start.end());
-  std::vector<SCOTCH_Num> neighbours(graph.neighbours.begin(), graph.neighbours.end());
-  std::vector<SCOTCH_Num> order(at(graph.size()));
-  Opened<SCOTCH_Context, SCOTCH_contextInit, SCOTCH_contextExit> context;
-  Opened<SCOTCH_Graph, SCOTCH_graphInit, SCOTCH_graphExit> own;
-  Opened<SCOTCH_Graph, SCOTCH_graphInit, SCOTCH_graphExit> bound;
-  Opened<SCOTCH_Strat, SCOTCH_stratInit, SCOTCH_stratExit> strategy;
-  if (!context.is_open || !own.is_open || !bound.is_open || !strategy.is_open) return {};
-  // Draws of its own, not those of the process.
-  if (SCOTCH_contextRandomClone(&context) != 0) return {};
-  SCOTCH_contextRandomSeed(&context, 1);
-  const bool is_done =
-      SCOTCH_contextOptionSetNum(&context, SCOTCH_OPTIONNUMDETERMINISTIC, 1) == 0 &&
-      SCOTCH_contextOptionSetNum(&context, SCOTCH_OPTIONNUMRANDOMFIXEDSEED, 1) == 0 &&
-      SCOTCH_contextThreadSpawn(&context, 1, nullptr) == 0 &&
-      SCOTCH_graphBuild(&own, 0, graph.size(), start.data(), nullptr, nullptr, nullptr,
-                        start[at(graph.size())], neighbours.data(), nullptr) == 0 &&
-      SCOTCH_contextBindGraph(&context, &own, &bound) == 0 &&
-      SCOTCH_stratGraphOrder(&strategy, kStrategy) == 0 &&
-      SCOTCH_graphOrder(&bound, &strategy, nullptr, order.data(), nullptr, nullptr, nullptr) == 0;
-  if (!is_done) return {};
-  return {order.begin(), order.end()};
-}
-#else
-std::vector<int> nested_dissection_order(const Adjacency& /*graph*/) {
-  return {};
-}
-#endif
-
-void order_rest(const ShrinkingGraph& graph, Ordering ordering, std::vector<int>& order) {
+void order_rest(const ShrinkingGraph& graph, Ordering ordering, Workers* workers,
+                std::vector<int>& order) {
   std::vector<int> rest;
   std::vector<int> index(at(graph.size()), -1);
   for (int v = 0; v < graph.size(); ++v) {
@@ -191,21 +133,13 @@ void order_rest(const ShrinkingGraph& graph, Ordering ordering, std::vector<int>
       }
       left.start.push_back(static_cast<int>(left.neighbours.size()));
     }
-    if (!left.neighbours.empty()) of_rest = nested_dissection_order(left);
+    if (!left.neighbours.empty()) of_rest = nested_dissection_order(left, workers);
   }
   if (of_rest.empty()) of_rest = minimum_degree_order(lower);
   for (const int v : of_rest) order.push_back(rest[at(v)]);
 }
 
 }  // namespace
-
-bool has_nested_dissection() {
-#ifdef FATHOM_SCOTCH
-  return true;
-#else
-  return false;
-#endif
-}
 
 Adjacency adjacency_of(int n, const std::vector<Link>& links) {
   Adjacency graph;
@@ -237,12 +171,13 @@ Adjacency adjacency_of(int n, const std::vector<Link>& links) {
   return graph;
 }
 
-std::vector<int> elimination_order(Adjacency graph, ChainElimination chains, Ordering ordering) {
+std::vector<int> elimination_order(Adjacency graph, ChainElimination chains, Ordering ordering,
+                                   Workers* workers) {
   ShrinkingGraph shrinking(std::move(graph));
   std::vector<int> order;
   order.reserve(at(shrinking.size()));
   if (chains == ChainElimination::on) eliminate_chains(shrinking, order);
-  order_rest(shrinking, ordering, order);
+  order_rest(shrinking, ordering, workers, order);
   return order;
 }
 

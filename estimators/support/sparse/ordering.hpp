@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "estimators/support/sparse/index.hpp"
+#include "fathom/core/workers.hpp"
 
 namespace fathom::sparse {
 
@@ -31,13 +32,11 @@ enum class Ordering {
   nested_dissection  ///< SCOTCH (Pellegrini, Roman and Amestoy 2000), where the build has it
 };
 
-/// Whether the build has it; without it the order is by minimum degree.
-bool has_nested_dissection();
-
 /// An order of elimination with little fill. Nodes with one or two neighbours left go first, again
 /// and again: whole chains between loops, then what their removal turns into chains. That makes no
-/// fill but a link between the ends, and costs O(n).
+/// fill but a link between the ends, and costs O(n). `workers` dissect; the order is the same.
 std::vector<int> elimination_order(Adjacency graph, ChainElimination chains,
-                                   Ordering ordering = Ordering::minimum_degree);
+                                   Ordering ordering = Ordering::minimum_degree,
+                                   Workers* workers = nullptr);
 
 }  // namespace fathom::sparse

@@ -5,6 +5,7 @@
 
 #include "estimators/support/sparse/dense_kernel.hpp"
 #include "estimators/support/sparse/elimination_tree.hpp"
+#include "estimators/support/sparse/nested_dissection.hpp"
 
 namespace fathom::sparse {
 namespace {
@@ -205,7 +206,7 @@ Symbolic analyse(const Adjacency& graph, ChainElimination chains, Workers* worke
   Symbolic result = pattern_of(graph, elimination_order(graph, chains));
   if (is_worth_dissecting(result, graph)) {
     Symbolic dissected =
-        pattern_of(graph, elimination_order(graph, chains, Ordering::nested_dissection));
+        pattern_of(graph, elimination_order(graph, chains, Ordering::nested_dissection, workers));
     if (multiplications_of(dissected) < multiplications_of(result)) result = std::move(dissected);
   }
   place_updates(result);
