@@ -13,14 +13,6 @@ namespace {
 constexpr double kError = 0.05;  // of all claims of a ranking together
 constexpr std::size_t kResamples = 2000;
 
-// Below it a figure means nothing, whatever the mean: no reference knows a position to a
-// micrometre, and no clock a run to a microsecond.
-double digits_of(const std::string& unit) {
-  if (unit == "m" || unit == "rad") return 1e-6;
-  if (unit == "ms" || unit.empty()) return 1e-3;
-  return 0.0;
-}
-
 // Adjusted p of each against the best, which is one of all pairs.
 std::vector<std::optional<double>> p_values(const std::vector<Contender>& order,
                                             const std::string& metric) {
@@ -75,7 +67,7 @@ Standing standing_of(const RankedEstimator& one, const Beside& beside, double sh
   const auto& difference = one.difference;
   if (!difference || !difference->interval) return Standing::not_shown;
   const Metric metric = described(beside.metric);
-  if (is_equivalent(beside, *difference->interval, share, digits_of(metric.unit))) {
+  if (is_equivalent(beside, *difference->interval, share, least_difference(beside.metric))) {
     return Standing::equivalent;
   }
   const double worse_by = metric.better == Better::lower ? difference->mean : -difference->mean;
@@ -107,6 +99,13 @@ bool has_other_cost(const EstimatorResults& one) {
 }
 
 }  // namespace
+
+double least_difference(const std::string& metric) {
+  const std::string unit = described(metric).unit;
+  if (unit == "m" || unit == "rad") return 1e-6;
+  if (unit == "ms" || unit.empty()) return 1e-3;
+  return 0.0;
+}
 
 const RankedEstimator* Ranking::find(const std::string& estimator) const {
   const auto found = std::ranges::find(estimators, estimator, &RankedEstimator::name);
@@ -166,8 +165,7 @@ std::optional<Ranking> ranking(const CellResults& cell, const std::string& metri
   result.trials = compared.trials;
   const std::size_t differences = std::max<std::size_t>(1, order.size() - 1);
   result.level = 1.0 - kError / static_cast<double>(differences);
-  result.margin =
-      std::max(options.margin * std::abs(order.front().mean), digits_of(described(metric).unit));
+  result.margin = std::max(options.margin * std::abs(order.front().mean), least_difference(metric));
   result.draws = draws_of(cell);
   result.fewest_draws = fewest_draws(order.size());
   // The ends of a wider interval are in the tail, where more resamples are needed.

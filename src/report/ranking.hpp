@@ -76,6 +76,10 @@ struct RankingOptions {
 std::optional<Ranking> ranking(const CellResults& cell, const std::string& metric,
                                const RankingOptions& options = {});
 
+/// Below it a difference means nothing, whatever the means: no reference knows a position to a
+/// micrometre, and no clock a run to a microsecond. In the metric's unit.
+double least_difference(const std::string& metric);
+
 /// The number of draws from which on a difference of one of so many estimators can be shown.
 std::size_t fewest_draws(std::size_t estimators);
 

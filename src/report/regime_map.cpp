@@ -71,8 +71,14 @@ std::map<std::string, double> relative_to_best(const CellResults& cell, const st
 
 std::vector<std::string> as_good_as_best(const CellResults& cell, const std::string& metric) {
   std::vector<std::string> names;
-  for (const auto& [name, relative] : relative_to_best(cell, metric)) {
-    if (relative <= 1.0 + kAsGoodAsBest) names.push_back(name);
+  if (described(metric).better != Better::lower) return names;
+  const Contenders compared = contenders_of(cell, metric);
+  if (compared.order.empty()) return names;
+  const double best = compared.order.front().mean;
+  // The best may be 0, as F above its optimum.
+  const double most = best + std::max(kAsGoodAsBest * std::abs(best), least_difference(metric));
+  for (const Contender& entry : compared.order) {
+    if (entry.mean <= most) names.push_back(entry.one->name);
   }
   return names;
 }

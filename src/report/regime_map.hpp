@@ -30,7 +30,8 @@ inline constexpr double kAsGoodAsBest = 0.05;
 /// best, 2 twice as large. Of metrics of which less is better, and a best mean above zero.
 std::map<std::string, double> relative_to_best(const CellResults& cell, const std::string& metric);
 
-/// Those whose mean is at most kAsGoodAsBest above the best.
+/// Those whose mean is above the best one by kAsGoodAsBest of it, or by what means nothing
+/// (`least_difference`), at most.
 std::vector<std::string> as_good_as_best(const CellResults& cell, const std::string& metric);
 
 /// How a square is drawn, and the text in it.

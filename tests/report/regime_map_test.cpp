@@ -38,6 +38,14 @@ TEST(RegimeMap, TheCheapestIsOneOfThoseAsGoodAsTheBest) {
   EXPECT_THAT(relative_to_best(cell, kError), Contains(Pair("worse", DoubleEq(1.06))));
 }
 
+// As F above its optimum: a share of nothing is nothing.
+TEST(RegimeMap, WhereTheBestIsZeroRoundingIsAsGood) {
+  const CellResults cell = cell_of({with_means("best", 0.0, 5.0), with_means("rounded", 9e-7, 2.0),
+                                    with_means("worse", 2e-6, 1.0)});
+  EXPECT_THAT(as_good_as_best(cell, kError), ElementsAre("best", "rounded"));
+  EXPECT_EQ(cheapest_of_the_best(cell, kError, "total_ms"), "rounded");
+}
+
 // Dead reckoning is no choice; a mean that leaves out the trials that failed flatters.
 TEST(RegimeMap, DeadReckoningAndEstimatorsThatFailedAreInNoComparison) {
   const CellResults cell =

@@ -9,6 +9,7 @@
 namespace fathom::pose_graph {
 
 using sparse::Four;
+using sparse::FourAnywhere;
 
 /// A keyframe before its elimination.
 struct ChainFront {
@@ -68,8 +69,8 @@ FATHOM_INLINE void eliminate(const ChainFront& front, const Four (&E)[3], Elimin
   for (int k = 0; k < 3; ++k) {
     const Four of_B = out.inverse[k] * B[k];
     const Four of_E = out.inverse[k] * Y[k];
-    *reinterpret_cast<Four*>(out.B[k]) = of_B;
-    *reinterpret_cast<Four*>(out.E[k]) = of_E;
+    *reinterpret_cast<FourAnywhere*>(out.B[k]) = of_B;
+    *reinterpret_cast<FourAnywhere*>(out.E[k]) = of_E;
     sums.decrease += B[k][3] * of_B[3];
     for (int a = 0; a < 3; ++a) {
       end[a] -= B[k][a] * of_B;

@@ -9,8 +9,11 @@ namespace fathom::sparse {
 
 #define FATHOM_INLINE [[gnu::always_inline]] inline
 
-/// Four numbers at any address; the compiler splits them where the processor takes fewer.
-using Four [[gnu::vector_size(32), gnu::aligned(8), gnu::may_alias]] = double;
+/// Four numbers; the compiler splits them where the processor takes fewer.
+using Four [[gnu::vector_size(32)]] = double;
+/// The same at any address, behind a pointer alone: clang takes a member or an array of it for
+/// aligned like Four, and lays it out for 8 bytes.
+using FourAnywhere [[gnu::vector_size(32), gnu::aligned(8), gnu::may_alias]] = double;
 
 inline constexpr int kTileRows = 12;
 /// A tile reads up to so many numbers past the rows that it is asked for.
@@ -22,14 +25,16 @@ FATHOM_INLINE void multiply_tile(const double* A, int stride, const double* b, i
                                  double* out) {
   Four sum[V][B] = {};
   for (int k = 0; k < depth; ++k) {
-    const Four* column = reinterpret_cast<const Four*>(A + static_cast<std::size_t>(k) * stride);
+    const FourAnywhere* column =
+        reinterpret_cast<const FourAnywhere*>(A + static_cast<std::size_t>(k) * stride);
     for (int v = 0; v < V; ++v) {
       for (int j = 0; j < B; ++j) sum[v][j] += column[v] * b[k * B + j];
     }
   }
   for (int j = 0; j < B; ++j) {
     for (int v = 0; v < V; ++v) {
-      *reinterpret_cast<Four*>(out + static_cast<std::size_t>(j * kTileRows + 4 * v)) = sum[v][j];
+      *reinterpret_cast<FourAnywhere*>(out + static_cast<std::size_t>(j * kTileRows + 4 * v)) =
+          sum[v][j];
     }
   }
 }

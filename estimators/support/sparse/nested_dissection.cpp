@@ -30,8 +30,7 @@ struct Opened : T {
 // down to 120 nodes, which are ordered by minimum degree. Blocks are left to make_supernodes, where
 // SCOTCH's own strategy merges columns (cmin). The numbers were chosen on the survey of `back_ends`
 // with 10⁵ to 10⁶ keyframes: docs/cost.md has what they change on other graphs.
-#define FATHOM_SEPARATORS \
-  "m{rat=0.8,vert=100,low=h{pass=10}f{bal=0.6},asc=f{bal=0.6,move=120}}"
+#define FATHOM_SEPARATORS "m{rat=0.8,vert=100,low=h{pass=10}f{bal=0.6},asc=f{bal=0.6,move=120}}"
 constexpr const char* kWhole =
     "n{sep=/(vert>120)?" FATHOM_SEPARATORS ";,ole=d{cmin=0,cmax=100000,frat=0.0},ose=g}";
 // The separators of the first two levels alone.

@@ -79,12 +79,24 @@ function trajectoryPlots(card) {
     note: [spread, beyondNote(rows.fixes, signals.start_h, signals.start_v)].filter(Boolean).join(' ')}];
 }
 
+// Between words there is nothing: points with bars, and no line from one graph to another.
+function takeApart(spec) {
+  const [group] = spec.marks;
+  const point = group.marks.at(-1);
+  const band = group.marks.find((mark) => mark.type === 'area');
+  const x = {scale: 'x', field: 'x', offset: {field: 'beside'}};
+  const bars = band ? [{type: 'rule', from: {data: 'line'}, interactive: false, encode: {update: {x, y: band.encode.update.y, y2: band.encode.update.y2,
+    stroke: band.encode.update.fill, strokeWidth: {value: 1.4}}}}] : [];
+  Object.assign(point.encode.update, {x});
+  group.marks = [...bars, point];
+}
+
 function sweepPlots(card) {
   const {errors, bounds} = sweepRows();
   const signals = {x_title: study.axes[state.axis].title};
+  const {positions} = study.axes[state.axis];
   const adjust = (spec) => {
-    const {positions} = study.axes[state.axis];
-    if (!positions) return;
+    if (!positions) return takeApart(spec);
     const scale = spec.scales.find((one) => one.name === 'x');
     const type = positions.every((one) => one > 0) && isWide(positions) ? 'log' : 'linear';
     Object.assign(scale, {type, nice: false, padding: 20, domain: {data: 'rows', field: 'x'}});
@@ -92,10 +104,10 @@ function sweepPlots(card) {
     // Labels as they are given, not rounded to the digits of a common step.
     Object.assign(spec.axes[0], {values: positions, format: '~g', labelOverlap: 'greedy'});
   };
-  const plots = [fittedPlot({spec: 'sweep_error', heading: 'Mean over trials and its 2σ band', rows: errors, fields: ['mean', 'low', 'high'],
+  const plots = [fittedPlot({spec: 'sweep_error', heading: `Mean over trials and its 2σ ${positions ? 'band' : 'bar'}`, rows: errors, fields: ['mean', 'low', 'high'],
     unit: unitOf(state.sweepMetric), title: metricTitle(state.sweepMetric), keys: ['x'], signals, adjust})];
   if (bounds.length > 0) {
-    plots.push(fittedPlot({spec: 'sweep_bounds', heading: 'Empirical (solid) and estimated (dashed) 2σ', rows: bounds, fields: ['value'],
+    plots.push(fittedPlot({spec: 'sweep_bounds', heading: positions ? 'Empirical (solid) and estimated (dashed) 2σ' : 'Empirical (full) and estimated (empty) 2σ', rows: bounds, fields: ['value'],
       unit: 'm', title: '2σ of position', keys: ['x', 'kind'], signals, adjust}));
   }
   return inRows(card, plots);

@@ -7,6 +7,9 @@ function sweepCells() {
     cell.places.every((place, axis) => axis === state.axis || place === here[axis]));
 }
 
+// Pixels beside the place of a word, so that the bars of estimators do not hide each other.
+const besides = (i, count) => Math.min(9, 60 / count) * (i - (count - 1) / 2);
+
 function sweepRows() {
   const errors = [];
   const bounds = [];
@@ -15,9 +18,9 @@ function sweepRows() {
     const text = study.axes[state.axis].texts[place];
     const {positions} = study.axes[state.axis];
     const x = positions ? positions[place] : study.axes[state.axis].labels[place];
-    for (const one of cell.estimators) {
+    cell.estimators.forEach((one, i) => {
       const metric = one.metrics[state.sweepMetric];
-      const row = {estimator: one.name, x, place};
+      const row = {estimator: one.name, x, place, beside: positions ? 0 : besides(i, cell.estimators.length)};
       if (metric) {
         const [low, high] = metric.band;
         errors.push({...row, mean: metric.mean, low, high,
@@ -29,7 +32,7 @@ function sweepRows() {
         if (value === undefined || value === null || value === false) continue;
         bounds.push({...row, kind, value, tooltip: `${labelOf(one.name)}, ${text}: ${kind} ${quantity(value, 'm')}`});
       }
-    }
+    });
   }
   const byPlace = (a, b) => a.place - b.place;
   return {errors: errors.sort(byPlace), bounds: bounds.sort(byPlace)};
