@@ -52,7 +52,9 @@ class Study:
         """Its 2σ over all keyframes: a dict of `empirical_m` and `estimated_m` (docs/report.md)."""
         page = (self.folder / "report.html").read_text("utf-8")
         data = json.loads(re.search(r'id="data">(.*?)</script>', page, re.DOTALL).group(1))
-        axes = [(axis["name"], axis["labels"]) for axis in data["axes"]]
+        # The page has their titles; their names are columns of runs.csv, behind the cell's.
+        names = list(self.runs[0])[1:1 + len(data["axes"])]
+        axes = list(zip(names, (axis["labels"] for axis in data["axes"])))
         for one in data["cells"]:
             labels = {name: values[place] for (name, values), place in zip(axes, one["places"])}
             if all(same(labels[axis], label) for axis, label in cell.items()):
