@@ -26,6 +26,21 @@ constexpr std::size_t kLoopsInAll = 20000;
 constexpr std::size_t kAbsoluteInAll = 10000;
 constexpr std::size_t kFewestKeyframes = 120;
 
+// As Vega calls it.
+const char* shape_of(Mark mark) {
+  switch (mark) {
+    case Mark::disc:
+      return "circle";
+    case Mark::square:
+      return "square";
+    case Mark::diamond:
+      return "diamond";
+    case Mark::triangle:
+      return "triangle-up";
+  }
+  return "circle";
+}
+
 Json study_json(const StudyDescription& study) {
   Json json{{"title", study.title}, {"surveys", study.surveys}, {"trials", study.trials}};
   json["axes"] = Json::array();
@@ -42,11 +57,9 @@ Json study_json(const StudyDescription& study) {
   const auto styles = line_styles(study);
   const auto entry = [&styles](const std::string& name, const std::string& type) {
     const LineStyle& style = styles.at(name);
-    return Json{{"name", name},
-                {"label", display_name(name)},
-                {"type", type},
-                {"colour", hex(style.colour)},
-                {"dashes", style.dashes}};
+    return Json{{"name", name},           {"label", display_name(name)},
+                {"type", type},           {"colour", hex(style.colour)},
+                {"dashes", style.dashes}, {"mark", shape_of(style.mark)}};
   };
   json["estimators"] = Json::array({entry(kDeadReckoning, "")});
   for (const auto& [name, type] : study.estimators) json["estimators"].push_back(entry(name, type));

@@ -131,6 +131,21 @@ TEST_F(Browser, AxesSwitchAndDeadReckoningLeavesTheScaleThatItHides) {
               ::testing::Not(::testing::HasSubstr("cell")));
 }
 
+// Between numbers there is a line, between words a bar at each.
+TEST_F(Browser, NoLineJoinsWhatHasNothingInBetween) {
+  FixtureOptions numbers;
+  numbers.noises.clear();
+  FixtureOptions words;
+  words.separations.clear();
+  const Json joined = self_test_of({numbers})["answer"]["sweep"];
+  const Json apart = self_test_of({words})["answer"]["sweep"];
+  EXPECT_GT(joined[0], 0);
+  EXPECT_EQ(joined[1], 0);
+  EXPECT_EQ(apart[0], 0);
+  EXPECT_GT(apart[1], 0);
+  EXPECT_GT(apart[2], 0);
+}
+
 // Estimates that agree are one line on which their colours take turns, with how near they are.
 TEST_F(Browser, WhatAgreesIsDrawnOnceAndSaysHowNearItIs) {
   FixtureOptions options;

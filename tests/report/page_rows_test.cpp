@@ -44,6 +44,7 @@ TEST_F(PageRows, AreThoseOfTheFigures) {
   make(options);
   EXPECT_EQ(page_["axes"][0]["positions"], Json::parse("[5, 10, 20]"));
   EXPECT_TRUE(page_["axes"][1]["positions"].is_null());
+  EXPECT_EQ(page_["estimators"][1]["mark"], "circle");
   for (std::size_t c = 0; c < results_.cells.size(); ++c) {
     const Json& cell = page_["cells"][c];
     const NeesChart nees = nees_chart(results_.cells[c], series_[c]);

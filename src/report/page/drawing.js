@@ -40,7 +40,7 @@ function turnOf(name, groups) {
   return {dashes: [kTurn, kTurn * (group.length - 1)], offset: -kTurn * place};
 }
 
-// The scales by which all charts colour and dash, whatever is shown.
+// The scales by which all charts colour, dash and mark, whatever is shown.
 function sharedScales(groups) {
   const names = [kTruth, ...study.estimators.map((one) => one.name)];
   const turns = study.estimators.map((one) => turnOf(one.name, groups));
@@ -48,6 +48,7 @@ function sharedScales(groups) {
     {name: 'colour', type: 'ordinal', domain: names, range: [css('--ink'), ...study.estimators.map((one) => one.colour)]},
     {name: 'thickness', type: 'ordinal', domain: names, range: [kBroadest + 1.8, ...study.estimators.map((one, i) => (turns[i].dashes ? kShared : thicknessOf(one.name)))]},
     {name: 'dash', type: 'ordinal', domain: names, range: [[], ...study.estimators.map((one, i) => turns[i].dashes || dashesOf(one))]},
+    {name: 'shape', type: 'ordinal', domain: names, range: ['circle', ...study.estimators.map((one) => one.mark)]},
     {name: 'offset', type: 'ordinal', domain: names, range: [0, ...turns.map((turn) => turn.offset)]},
   ];
 }

@@ -122,6 +122,7 @@ async function answerTest() {
   const result = {
     words: textOf('#verdict > ul:first-child li'), doubts: textOf('#verdict > ul.doubts li'),
     best: document.querySelectorAll('#cells-table td.best').length, header: textOf('#cells-table th'),
+    sweep: ['line', 'rule', 'symbol'].map((mark) => document.querySelectorAll(`#chart-sweep .mark-${mark}.role-mark > *`).length),
     first: textOf('#cells-table tbody tr:first-child td'), notes: textOf('.notes'), usual: scaleTypes(),
     overflow: ['cells-table', 'summary-table'].filter((id) => {
       const box = document.getElementById(id);
