@@ -53,6 +53,10 @@ void draw_line(Canvas& canvas, const Points& points, const LineStyle& style,
   const double radius = 1.8 * size;
   if (are_joined) canvas.line(points, pen_of(style, width));
   for (const Eigen::Vector2d& point : points) {
+    if (!are_joined && !is_estimated) {
+      draw_mark(canvas, point, style);
+      continue;
+    }
     canvas.disc(point, radius, is_estimated ? palette::white : style.colour);
     if (is_estimated) canvas.ring(point, radius, {style.colour, width, {}, 1.0});
   }
@@ -116,13 +120,15 @@ LegendEntry sample_entry(const std::string& text, bool is_estimated) {
 }
 
 std::vector<LegendEntry> legend_of(const std::vector<SweepLine>& lines,
-                                   const std::map<std::string, LineStyle>& styles, bool bounds) {
+                                   const std::map<std::string, LineStyle>& styles, bool bounds,
+                                   bool are_joined) {
   std::vector<LegendEntry> legend;
   legend.reserve(lines.size() + 1);
   for (const SweepLine& line : lines) {
     if (line.mean.empty() && line.empirical.empty()) continue;
-    legend.push_back(
-        line_entry(display_name(line.estimator), pen_of(styles.at(line.estimator), 1.3)));
+    const LineStyle& style = styles.at(line.estimator);
+    legend.push_back(are_joined ? line_entry(display_name(line.estimator), pen_of(style, 1.3))
+                                : mark_entry(display_name(line.estimator), style));
   }
   if (bounds) {
     legend.push_back(sample_entry("empirical", false));
@@ -137,7 +143,7 @@ StudyFigure sweep_figure(const ChartInput& input, const Sweep& sweep, const std:
   const auto bounds = heights(lines, {&SweepLine::empirical, &SweepLine::estimated});
   const std::vector<double> charts =
       bounds.empty() ? std::vector{160.0} : std::vector{140.0, 120.0};
-  const FigureLayout layout(charts, legend_of(lines, styles, !bounds.empty()),
+  const FigureLayout layout(charts, legend_of(lines, styles, !bounds.empty(), sweep.is_numeric),
                             conditions_of(input, sweep));
   const ChartAxis x = sweep_axis(sweep, input.results.study.axes[sweep.axis]);
   const ChartAxis errors = axis_of(axis_title(metric), heights(lines, {&SweepLine::mean}),
