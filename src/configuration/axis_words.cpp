@@ -55,6 +55,17 @@ std::string title_of(const StudyAxis& axis) {
   return words_of(axis) + (unit.empty() ? "" : " (" + unit + ")");
 }
 
+std::vector<std::string> ticks_of(const StudyAxis& axis) {
+  std::vector<std::string> names;
+  names.reserve(axis.labels.size());
+  for (const std::string& label : axis.labels) {
+    const std::string name = label.substr(label.rfind('/') + 1);
+    if (name.empty() || std::ranges::find(names, name) != names.end()) return axis.labels;
+    names.push_back(name);
+  }
+  return names;
+}
+
 std::string text_of(const StudyAxis& axis, std::size_t place) {
   const std::string& label = axis.labels[place];
   const std::string unit = unit_of(axis);

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <map>
 
+#include "fathom/configuration/axis_words.hpp"
 #include "study_figures.hpp"
 #include "sweep_lines.hpp"
 
@@ -9,7 +10,8 @@ namespace fathom {
 namespace {
 
 ChartAxis sweep_axis(const Sweep& sweep, const StudyAxis& axis) {
-  return labelled_axis(title_of(axis), sweep.positions, axis.labels, sweep.is_numeric ? 0.04 : 0.2);
+  return labelled_axis(title_of(axis), sweep.positions, ticks_of(axis),
+                       sweep.is_numeric ? 0.04 : 0.2);
 }
 
 std::vector<double> heights(const std::vector<SweepLine>& lines,

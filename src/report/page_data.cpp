@@ -52,6 +52,7 @@ Json study_json(const StudyDescription& study) {
                             {"key", axis.key},
                             {"labels", axis.labels},
                             {"texts", texts},
+                            {"ticks", ticks_of(axis)},
                             {"positions", positions ? Json(*positions) : Json()}});
   }
   const auto styles = line_styles(study);

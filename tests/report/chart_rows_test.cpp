@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "fathom/configuration/axis_words.hpp"
 #include "report/made_cells.hpp"
 #include "src/report/map_frame.hpp"
 #include "src/report/scaled_unit.hpp"
@@ -41,6 +42,16 @@ EstimatorResults estimator(const std::string& name, double error, double cost) {
 }
 
 // By the definition, over whole numbers that tie often.
+TEST(ChartRows, FilesStandByTheirNamesWhereTheseDiffer) {
+  const auto ticks = [](const std::vector<std::string>& labels) {
+    return ticks_of({.name = "graph", .key = "dataset.path", .labels = labels});
+  };
+  EXPECT_THAT(ticks({"/a/intel.g2o", "b/ring.g2o"}), ElementsAre("intel.g2o", "ring.g2o"));
+  EXPECT_THAT(ticks({"/a/log.g2o", "/b/log.g2o"}), ElementsAre("/a/log.g2o", "/b/log.g2o"));
+  EXPECT_THAT(ticks({"a/", "b"}), ElementsAre("a/", "b"));
+  EXPECT_THAT(ticks({"sift", "orb"}), ElementsAre("sift", "orb"));
+}
+
 TEST(ChartRows, NoneIsBeatenOnTheFrontAndAllOthersAre) {
   std::mt19937 random(3);
   std::uniform_int_distribution<int> draw(1, 6);

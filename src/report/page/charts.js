@@ -88,6 +88,10 @@ function takeApart(spec) {
   const bars = band ? [{type: 'rule', from: {data: 'line'}, interactive: false, encode: {update: {x, y: band.encode.update.y, y2: band.encode.update.y2,
     stroke: band.encode.update.fill, strokeWidth: {value: 1.4}}}}] : [];
   Object.assign(point.encode.update, {x});
+  const {labels, ticks} = study.axes[state.axis];
+  const names = Object.fromEntries(labels.map((label, i) => [label, ticks[i]]));
+  spec.signals.push({name: 'ticks', value: names});
+  spec.axes[0].encode = {labels: {update: {text: {signal: 'ticks[datum.value]'}}}};
   group.marks = [...bars, point];
 }
 
