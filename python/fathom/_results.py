@@ -89,7 +89,8 @@ class Results:
         """Of a metric of estimator a minus that of b, as the table has it: over the trials that
         both did, of several surveys over the surveys' mean differences. A dict: count and over
         ('surveys' or 'trials': what is tested), trials, mean, interval (95 %), p_value (Wilcoxon's
-        signed-rank test, not adjusted) and exact. None without a common trial."""
+        signed-rank test, not adjusted; None of a single draw) and exact. None without a
+        common trial."""
         self._require_metric(metric)
         for estimator in (a, b):
             known("estimator", estimator, self._names())

@@ -62,6 +62,25 @@ void tell_no_memory_from_crash(std::int64_t limit_bytes) {
   for (const int signal : {SIGSEGV, SIGBUS, SIGABRT}) ::sigaction(signal, &action, nullptr);
 }
 
+pid_t own_process = 0;
+
+// A handler, as what is ignored would be so in the programs that a plug-in starts, too. A process
+// that it forks ends.
+void stay_or_end(int signal) {
+  if (::getpid() == own_process) return;
+  ::signal(signal, SIG_DFL);
+  ::raise(signal);
+}
+
+// Whoever ends all processes of a job means the parent, which ends this one in its own time.
+void leave_ending_to_parent() {
+  own_process = ::getpid();
+  struct sigaction action {};
+  action.sa_handler = stay_or_end;
+  action.sa_flags = SA_RESTART | SA_NODEFER;
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) ::sigaction(signal, &action, nullptr);
+}
+
 // The pipes may be anywhere, even where the standard descriptors belong. False with the errno of
 // what failed.
 bool has_streams(const ChildSide& side) {
@@ -104,8 +123,7 @@ void be_child(const ChildSide& side, const ChildLimits& limits,
   sigset_t none;
   ::sigemptyset(&none);
   ::pthread_sigmask(SIG_SETMASK, &none, nullptr);
-  // Whoever ends all processes of a job means the parent, which ends this one in its own time.
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, SIG_IGN);
+  leave_ending_to_parent();
   if (!has_streams(side)) {
     fail_by_environment(side.messages, "a run's process has no streams", errno);
   }

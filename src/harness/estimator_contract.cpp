@@ -13,10 +13,14 @@ bool is_of(const LoopDecision& loop, const RelativePose& z) {
   return (loop.from == z.from && loop.to == z.to) || (loop.from == z.to && loop.to == z.from);
 }
 
+// What rounding may leave beyond the ends of a figure of the order of 1: of single precision, or of
+// a difference of two large ones.
+constexpr double kRounded = 1e-6;
+
 template <class Decisions>
 void require_nis(const Decisions& decisions, const char* on_what) {
   for (std::size_t j = 0; j < decisions.size(); ++j) {
-    if (!(decisions[j].nis && *decisions[j].nis < 0.0)) continue;
+    if (!(decisions[j].nis && *decisions[j].nis < -kRounded)) continue;
     throw ContractViolation(fmt::format("decision {} on {} has the NIS {:.3g}, expected 0 or more",
                                         j, on_what, *decisions[j].nis));
   }
@@ -54,10 +58,9 @@ void require_decisions(const UpdateReport& report, const Measurements& measureme
 }
 
 void require_weights(const std::vector<double>& weights) {
-  constexpr double kMost = 1.0 + 1e-9;
   for (const double weight : weights) {
     if (!std::isfinite(weight)) throw ContractViolation("a weight is not finite");
-    if (weight >= 0.0 && weight <= kMost) continue;
+    if (weight >= -kRounded && weight <= 1.0 + kRounded) continue;
     throw ContractViolation(fmt::format("a weight is {:.3g}, expected 0 to 1", weight));
   }
 }

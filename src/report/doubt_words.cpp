@@ -147,8 +147,8 @@ std::string words(const SeveralJobs& found) {
 
 std::string words(const BusyMachine& found) {
   return fmt::format(
-      "Of the time of {} {}{} % was processor time: the machine was busy with something else; "
-      "times are comparable where nothing else runs.",
+      "Of the time of {} {}{} % was processor time: the machine was busy with something else, or "
+      "they wait for another process or a device; times are comparable where nothing else runs.",
       listed(found.estimators), found.estimators.size() == 1 ? "" : "as little as ",
       format_number(100.0 * found.share, 2));
 }

@@ -14,13 +14,13 @@ constexpr double kError = 0.05;  // of all claims of a ranking together
 constexpr std::size_t kResamples = 2000;
 
 // Adjusted p of each against the best, which is one of all pairs.
-std::vector<std::optional<double>> p_values(const std::vector<Contender>& order,
-                                            const std::string& metric) {
+std::vector<std::optional<double>> p_values(const Contenders& compared, const std::string& metric) {
+  const std::vector<Contender>& order = compared.order;
   std::vector<double> tested;
   std::vector<std::optional<std::size_t>> of_best(order.size());
   for (std::size_t i = 0; i < order.size(); ++i) {
     for (std::size_t j = i + 1; j < order.size(); ++j) {
-      const auto test = test_between(*order[j].one, *order[i].one, metric);
+      const auto test = test_between(*order[j].one, *order[i].one, metric, &compared.trials);
       // Without a difference nothing is tested, but it counts as a pair.
       if (i == 0 && test && test->p_value) of_best[j] = tested.size();
       tested.push_back(test && test->p_value ? *test->p_value : 1.0);
@@ -42,9 +42,10 @@ struct Beside {
   double mean_of_best;
   const std::string& metric;
   const BootstrapOptions& bootstrap;
+  const std::set<TrialKey>& trials;
 
   std::optional<Interval> minus(double times_best) const {
-    const auto difference = difference_between(one, best, metric, bootstrap, times_best);
+    const auto difference = difference_between(one, best, metric, bootstrap, times_best, &trials);
     return difference ? difference->interval : std::nullopt;
   }
 };
@@ -75,9 +76,11 @@ Standing standing_of(const RankedEstimator& one, const Beside& beside, double sh
   return one.p && *one.p < kError && is_beyond ? Standing::worse : Standing::not_shown;
 }
 
-std::size_t draws_of(const CellResults& cell) {
-  if (cell.repetition == Repetition::surveys && cell.surveys < 2) return 1;
-  return cell.surveys > 1 ? cell.surveys : cell.trials;
+std::size_t draws_of(const CellResults& cell, const std::set<TrialKey>& trials) {
+  std::set<std::size_t> surveys;
+  for (const TrialKey& trial : trials) surveys.insert(trial.survey);
+  if (cell.repetition == Repetition::surveys && surveys.size() < 2) return 1;
+  return surveys.size() > 1 ? surveys.size() : trials.size();
 }
 
 // Whether the trials, of one survey, repeat one log of each estimator.
@@ -166,18 +169,20 @@ std::optional<Ranking> ranking(const CellResults& cell, const std::string& metri
   const std::size_t differences = std::max<std::size_t>(1, order.size() - 1);
   result.level = 1.0 - kError / static_cast<double>(differences);
   result.margin = std::max(options.margin * std::abs(order.front().mean), least_difference(metric));
-  result.draws = draws_of(cell);
+  result.draws = draws_of(cell, compared.trials);
   result.fewest_draws = fewest_draws(order.size());
   // The ends of a wider interval are in the tail, where more resamples are needed.
   const BootstrapOptions bootstrap{.probability = result.level,
                                    .resamples = kResamples * std::min<std::size_t>(3, differences)};
-  const auto p = p_values(order, metric);
+  const auto p = p_values(compared, metric);
   const EstimatorResults& best = *order.front().one;
   std::size_t most_draws = 1;
   for (std::size_t i = 0; i < order.size(); ++i) {
     RankedEstimator entry{order[i].one->name, summary_over(*order[i].one, metric, result.trials),
                           std::nullopt, p[i], i == 0 ? Standing::best : Standing::not_shown};
-    if (i > 0) entry.difference = difference_between(*order[i].one, best, metric, bootstrap);
+    if (i > 0)
+      entry.difference =
+          difference_between(*order[i].one, best, metric, bootstrap, 1.0, &compared.trials);
     if (entry.difference) most_draws = std::max(most_draws, entry.difference->count);
     result.estimators.push_back(std::move(entry));
   }
@@ -186,7 +191,8 @@ std::optional<Ranking> ranking(const CellResults& cell, const std::string& metri
     result.draws = std::min(result.draws, most_draws);
   }
   for (std::size_t i = 1; i < order.size() && result.gives_verdict(); ++i) {
-    const Beside beside{*order[i].one, best, order.front().mean, metric, bootstrap};
+    const Beside beside{*order[i].one, best,      order.front().mean,
+                        metric,        bootstrap, compared.trials};
     RankedEstimator& entry = result.estimators[i];
     entry.standing = standing_of(entry, beside, options.margin, result.margin);
   }

@@ -158,7 +158,8 @@ CellResults runs_of(const RunIndex& index, std::size_t number, const std::string
 
 // By survey, over the trials that both did and that have the metric.
 ClusteredValues differences_between(const EstimatorResults& one, const EstimatorResults& other,
-                                    const std::string& metric, double times) {
+                                    const std::string& metric, double times,
+                                    const std::set<TrialKey>* trials) {
   std::map<TrialKey, const RunRecord*> of_other;
   const std::string* machine = machine_of(one, metric);
   for (const RunRecord& run : other.runs) {
@@ -169,8 +170,9 @@ ClusteredValues differences_between(const EstimatorResults& one, const Estimator
     const auto value = metric_of(run, metric, machine);
     const auto found = of_other.find(run.key.trial_key());
     if (is_failed(run) || !value || found == of_other.end()) continue;
-    differences.add(run, *found->second,
-                    *value - times * *metric_of(*found->second, metric, machine));
+    if (trials != nullptr && !trials->contains(run.key.trial_key())) continue;
+    differences.add(run, *found->second, *value,
+                    times * *metric_of(*found->second, metric, machine));
   }
   return differences.values();
 }
@@ -196,14 +198,15 @@ MetricSummary summary_over(const EstimatorResults& one, const std::string& metri
 std::optional<PairedDifference> difference_between(const EstimatorResults& one,
                                                    const EstimatorResults& other,
                                                    const std::string& metric,
-                                                   const BootstrapOptions& options, double times) {
-  return difference_over_surveys(differences_between(one, other, metric, times), options);
+                                                   const BootstrapOptions& options, double times,
+                                                   const std::set<TrialKey>* trials) {
+  return difference_over_surveys(differences_between(one, other, metric, times, trials), options);
 }
 
 std::optional<SignedRankTest> test_between(const EstimatorResults& one,
-                                           const EstimatorResults& other,
-                                           const std::string& metric) {
-  return test_over_surveys(differences_between(one, other, metric, 1.0));
+                                           const EstimatorResults& other, const std::string& metric,
+                                           const std::set<TrialKey>* trials) {
+  return test_over_surveys(differences_between(one, other, metric, 1.0, trials));
 }
 
 StudyResults study_results(const ResultStore& store, MetricsOf metrics,

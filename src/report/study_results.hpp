@@ -74,17 +74,18 @@ MetricSummary summary_over(const EstimatorResults& one, const std::string& metri
                            const std::set<TrialKey>& trials);
 
 /// A metric of one minus that of another, or a multiple of it, over the trials that both did and
-/// that have it; nothing where there is no such trial.
+/// that have it, of `trials` alone where given; nothing where there is no such trial.
 std::optional<PairedDifference> difference_between(const EstimatorResults& one,
                                                    const EstimatorResults& other,
                                                    const std::string& metric,
                                                    const BootstrapOptions& options = {},
-                                                   double times = 1.0);
+                                                   double times = 1.0,
+                                                   const std::set<TrialKey>* trials = nullptr);
 
 /// The test of these differences alone, without their interval.
 std::optional<SignedRankTest> test_between(const EstimatorResults& one,
-                                           const EstimatorResults& other,
-                                           const std::string& metric);
+                                           const EstimatorResults& other, const std::string& metric,
+                                           const std::set<TrialKey>* trials = nullptr);
 
 /// What all tables, charts and figures are made from; the intervals are computed once, here.
 struct StudyResults {

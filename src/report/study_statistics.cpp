@@ -36,7 +36,10 @@ std::optional<PairedDifference> study_difference(const ResultStore& store,
   const EstimatorResults* const ours = runs_in_cell(results, one, cell);
   const EstimatorResults* const theirs = runs_in_cell(results, other, cell);
   if (ours == nullptr || theirs == nullptr) return std::nullopt;
-  return difference_between(*ours, *theirs, metric);
+  auto difference = difference_between(*ours, *theirs, metric);
+  // Of one draw the tables test nothing.
+  if (difference && difference->count < 2) difference->signed_rank = {};
+  return difference;
 }
 
 }  // namespace fathom

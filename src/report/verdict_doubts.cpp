@@ -144,7 +144,8 @@ std::optional<Doubt> baseline_as_good(const CellResults& cell, const Ranking& ra
   if (baseline == cell.estimators.end() || !baseline->metrics.contains(ranking.metric)) {
     return std::nullopt;
   }
-  const auto difference = difference_between(*baseline, *of(ranking.best().name), ranking.metric);
+  const auto difference = difference_between(*baseline, *of(ranking.best().name), ranking.metric,
+                                             {}, 1.0, &ranking.trials);
   if (!difference || !difference->interval) return std::nullopt;
   const bool is_lower = described(ranking.metric).better == Better::lower;
   if (is_lower ? difference->interval->low > 0.0 : difference->interval->high < 0.0) {

@@ -217,7 +217,8 @@ MergeSummary merge_stores(const std::vector<fs::path>& folders, const fs::path& 
   MergeSummary summary;
   summary.sources = sources.size();
   for (const auto& [key, own] : copies) {
-    if (key.estimator != kDeadReckoning) ++summary.runs;
+    if (key.estimator == kDeadReckoning) continue;
+    ++summary.runs;
     if (own.size() > 1) ++summary.repeated;
   }
   summary.of = study.cell_count() * study.surveys * study.trials * study.estimators.size();

@@ -140,9 +140,10 @@ std::optional<PairedDifference> difference_over(const Compared& compared, const 
     for (const TrialKey& trial : trials[c]) {
       const RunRecord& a = *done_run(compared, one, c, trial);
       const RunRecord& b = *done_run(compared, other, c, trial);
-      const double value = *value_of(compared, a, metric) - *value_of(compared, b, metric);
-      values.add(a, b, value);
-      pooled.add(a, b, value);
+      const double of_a = *value_of(compared, a, metric);
+      const double of_b = *value_of(compared, b, metric);
+      values.add(a, b, of_a, of_b);
+      pooled.add(a, b, of_a, of_b);
     }
     difference.trials += trials[c].size();
     if (values.values().empty()) return std::nullopt;

@@ -110,6 +110,21 @@ int status_of(pid_t id) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
+// As a plug-in ends a helper of its own, another program or a copy of its process.
+TEST(ForkedChild, WhatItStartsEndsByASignal) {
+  const auto end_helpers = [](const MessagePipe& parent) {
+    const pid_t copy = forked([] { return ::pause(); });
+    const pid_t program = forked([] { return ::execlp("sleep", "sleep", "1000", nullptr); });
+    for (const pid_t id : {copy, program}) {
+      ::kill(id, SIGTERM);
+      parent.send('a', std::to_string(status_of(id)) + " ");
+    }
+  };
+  std::string heard;
+  EXPECT_EQ(environment_fault_of(end_helpers, &heard), "none");
+  EXPECT_EQ(heard, "143 143 ");
+}
+
 // As Ctrl-Z stops it: the child works on, and waits for it to take what it sends.
 TEST(ForkedChild, IsNotLateWhereItsParentWasSuspended) {
   using namespace std::chrono_literals;

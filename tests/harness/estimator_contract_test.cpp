@@ -74,13 +74,17 @@ TEST(EstimatorContract, ANisIsNotNegative) {
             "update at keyframe 4: decision 0 on registrations has the NIS -2.5, expected 0 or "
             "more");
   EXPECT_THAT(fault_of_nis(0.0), IsEmpty());
+  EXPECT_THAT(fault_of_nis(-1e-12), IsEmpty());
+  EXPECT_FALSE(fault_of_nis(-1e-5).empty());
   EXPECT_THAT(fault_of_nis(HUGE_VAL), IsEmpty());
 }
 
 TEST(EstimatorContract, AWeightIsFrom0To1) {
   EXPECT_EQ(fault_of_weight(-7), "loop_weights at keyframe 7: a weight is -7, expected 0 to 1");
   EXPECT_EQ(fault_of_weight(1.5), "loop_weights at keyframe 7: a weight is 1.5, expected 0 to 1");
-  EXPECT_THAT(fault_of_weight(1.0 + 1e-15), IsEmpty());
+  EXPECT_THAT(fault_of_weight(1.0 + 1.2e-7), IsEmpty());  // of single precision
+  EXPECT_THAT(fault_of_weight(-1e-12), IsEmpty());
+  EXPECT_FALSE(fault_of_weight(-1e-5).empty());
 }
 
 }  // namespace

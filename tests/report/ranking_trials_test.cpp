@@ -51,6 +51,42 @@ TEST(RankingTrials, MeansAreOverTheTrialsThatAllHaveRun) {
   EXPECT_EQ(ranked->find("shorter")->standing, Standing::worse);
 }
 
+// So are differences, and what counts as draws.
+TEST(RankingTrials, DifferencesAreOverTheSameTrialsAsMeans) {
+  std::vector<double> best = kErrors;
+  std::vector<double> second = worse();
+  best.insert(best.end(), 4, 1.0);
+  second.insert(second.end(), 4, 50.0);
+  const auto ranked = ranking(surveyed({made("best", best, true), made("second", second, true),
+                                        made("late", worse(), true)}),
+                              kError);
+  for (const char* const name : {"second", "late"}) {
+    const RankedEstimator* const one = ranked->find(name);
+    EXPECT_NEAR(one->difference->mean,
+                one->summary.moments.mean - ranked->best().summary.moments.mean, 1e-12)
+        << name;
+    EXPECT_EQ(one->difference->count, 8u) << name;
+  }
+  EXPECT_EQ(ranked->draws, 8u);
+}
+
+// Of a program that sums in any order.
+TEST(RankingTrials, RepeatsThatDifferByRoundingAreOneResult) {
+  std::vector<double> a;
+  std::vector<double> b;
+  for (int i = 0; i < 8; ++i) {
+    a.push_back(907947.0 * (1.0 + 1e-13 * i));
+    b.push_back(2e-9 * (1.0 + 1e-12 * (i % 3)));
+  }
+  CellResults cell = cell_of({made("a", a), made("b", b)});
+  for (EstimatorResults& one : cell.estimators) {
+    for (RunRecord& run : one.runs) run.log_hash = "one log";
+  }
+  const auto ranked = ranking(cell, kError);
+  EXPECT_TRUE(ranked->repeats_one_result);
+  EXPECT_EQ(ranked->draws, 1u);
+}
+
 TEST(RankingTrials, OverSeveralCellsItIsSaidToo) {
   EstimatorResults partly = made("partly", kErrors, true);
   partly.runs[5].metrics.erase(kError);

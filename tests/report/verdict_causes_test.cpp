@@ -63,7 +63,8 @@ TEST(VerdictCauses, TimeThatIsNotOfAProcessorIsADoubt) {
   for (RunRecord& run : idle.runs) run.metrics["cpu_ms"] = 0.9 * run.metrics.at("total_ms");
   EXPECT_THAT(doubts_of_one(surveyed({busy, idle})),
               ElementsAre("Of the time of busy 50 % was processor time: the machine was busy with "
-                          "something else; times are comparable where nothing else runs."));
+                          "something else, or they wait for another process or a device; times are "
+                          "comparable where nothing else runs."));
   EXPECT_THAT(doubts_of_one(surveyed({idle, eight("best", kBest, 8.0)})), IsEmpty());
 }
 

@@ -17,7 +17,8 @@ namespace fathom {
 std::optional<Interval> study_interval(const ResultStore& store, const std::string& metric,
                                        const std::string& estimator, std::size_t cell);
 
-/// One estimator minus another, over the trials that both did; its p-value is not adjusted.
+/// One estimator minus another, over the trials that both did; its p-value is not adjusted, and
+/// absent of a single draw.
 std::optional<PairedDifference> study_difference(const ResultStore& store,
                                                  const std::string& metric, const std::string& one,
                                                  const std::string& other, std::size_t cell);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <map>
 #include <set>
@@ -13,18 +15,20 @@
 
 namespace fathom {
 
-/// A metric of runs by survey, each draw once: repeats of one measurement log that all say the same
-/// are one result, however often it is repeated. Where one of them says another thing something
-/// was drawn, and each is a draw. Runs without the hash of a log are apart, and of a cost every
-/// repeat is a measurement.
+/// A metric of runs by survey, each draw once: repeats of one measurement log that all say the
+/// same, but for rounding, are one result, however often it is repeated. Where one of them says
+/// another thing something was drawn, and each is a draw. Runs without the hash of a log are apart,
+/// and of a cost every repeat is a measurement.
 class DistinctValues {
  public:
   explicit DistinctValues(const std::string& metric) : is_cost_(is_cost_metric(metric)) {}
 
-  void add(const RunRecord& run, double value) { add(run.key.survey, run.log_hash, value); }
-  /// What two runs of one trial differ by.
-  void add(const RunRecord& one, const RunRecord& other, double difference) {
-    add(one.key.survey, one.log_hash + other.log_hash, difference);
+  void add(const RunRecord& run, double value) {
+    add(run.key.survey, run.log_hash, value, std::abs(value));
+  }
+  /// What two runs of one trial differ by: `a` − `b`.
+  void add(const RunRecord& one, const RunRecord& other, double a, double b) {
+    add(one.key.survey, one.log_hash + other.log_hash, a - b, std::max(std::abs(a), std::abs(b)));
   }
 
   /// In the order in which they were added.
@@ -45,11 +49,15 @@ class DistinctValues {
     bool is_one_result = true;
   };
 
-  void add(std::size_t survey, const std::string& hash, double value) {
+  void add(std::size_t survey, const std::string& hash, double value, double size) {
     const Log log{survey, hash};
     Repeats& repeats =
         logs_.try_emplace(log, Repeats{value, !is_cost_ && !hash.empty()}).first->second;
-    repeats.is_one_result = repeats.is_one_result && value == repeats.first;
+    // Programs that sum in any order repeat themselves to some digits.
+    constexpr double kRounding = 1e-9;
+    const bool is_same =
+        value == repeats.first || std::abs(value - repeats.first) <= kRounding * size;
+    repeats.is_one_result = repeats.is_one_result && is_same;
     all_.emplace_back(log, value);
   }
 
