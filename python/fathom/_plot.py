@@ -216,10 +216,11 @@ def _draw_regimes(ax, results, metric, estimator):
         ax.text(column, row, text, ha="center", va="center", color="w" if value > 5 else "k")
     ax.set_xticks(range(len(across)), across)
     ax.set_yticks(range(len(up)), up)
-    ax.set_xlabel(swept[0])
-    ax.set_ylabel(swept[1])
+    titles = results._open().axis_titles()
+    ax.set_xlabel(titles[swept[0]])
+    ax.set_ylabel(titles[swept[1]])
     ax.set_title(estimator)
-    ax.figure.colorbar(image, ax=ax, label=f"mean {label} over the best estimator's")
+    ax.figure.colorbar(image, ax=ax, label=f"{label} over the best estimator's")
     return ax
 
 

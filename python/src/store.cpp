@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "fathom/configuration/axis_words.hpp"
 #include "fathom/report/study_report.hpp"
 #include "fathom/report/study_statistics.hpp"
 #include "fathom/results/result_store.hpp"
@@ -51,6 +52,13 @@ py::dict axes_of(const ResultStore& store) {
   py::dict axes;
   for (const StudyAxis& axis : store.study().axes) axes[axis.name.c_str()] = axis.labels;
   return axes;
+}
+
+// As they stand at a drawn axis, with their unit.
+py::dict axis_titles(const ResultStore& store) {
+  py::dict titles;
+  for (const StudyAxis& axis : store.study().axes) titles[axis.name.c_str()] = title_of(axis);
+  return titles;
 }
 
 // Nothing where there is no such run.
@@ -101,6 +109,7 @@ void bind_store(py::module_& module) {
       .def("configuration", [](const ResultStore& store) { return store.study().configuration; })
       .def("table", [](const ResultStore& store) { return study_table(store); })
       .def("axes", &axes_of)
+      .def("axis_titles", &axis_titles)
       .def("metrics", [](const ResultStore& store) { return store.study().metrics; })
       .def("failed", &failed_runs)
       .def("means", &all_means)

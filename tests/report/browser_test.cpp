@@ -200,6 +200,7 @@ TEST_F(Browser, EveryTextHasContrastAndEveryControlANameAndAPlaceForTheKeyboard)
     EXPECT_NE(theme["title"], "");
     EXPECT_GT(theme["controls"], 20);
     EXPECT_GT(theme["texts"], 200);
+    EXPECT_GT(theme["bars"], 2);
     for (const char* fault : {"unnamed", "unreachable", "faint"}) {
       EXPECT_EQ(theme[fault], Json::array()) << fault;
     }

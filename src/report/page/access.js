@@ -16,14 +16,24 @@ function luminance(colour) {
   return 0.2126 * red + 0.7152 * green + 0.0722 * blue;
 }
 
-function contrastOf(node) {
+function contrastOf(node, ground = groundOf(node)) {
   const style = getComputedStyle(node);
-  const ground = groundOf(node);
   const [low, high] = [luminance(ground), luminance(over(rgbaOf(node.closest('svg') ? style.fill : style.color), ground))].sort((a, b) => a - b);
   return (high + 0.05) / (low + 0.05);
 }
 
-// Texts of marks lie on what a chart draws, which is not their element's ground.
+// Texts in bars, each with its bar.
+function textsInBars() {
+  const marks = (kind) => [...document.querySelectorAll(`#chart-outcomes .mark-${kind}.role-mark > *`)];
+  const bars = marks('rect');
+  return marks('text').filter((one) => one.textContent.trim()).map((text) => {
+    const style = getComputedStyle(bars[marks('text').indexOf(text)]);
+    const colour = [...rgbaOf(style.fill).slice(0, 3), Number(style.fillOpacity)];
+    return {text, contrast: contrastOf(text, over(colour, groundOf(text.closest('svg'))))};
+  });
+}
+
+// Texts of other marks lie on what a chart draws, which is not their element's ground.
 const isSeen = (node) => node.getClientRects().length > 0 && !node.closest('script, noscript') &&
   (!node.closest('svg') || node.closest('[class*="role-axis"]'));
 
@@ -38,5 +48,7 @@ function accessTest() {
     unnamed: controls.filter((one) => !nameOf(one)).map((one) => one.outerHTML.slice(0, 80)),
     unreachable: controls.filter((one) => one.tabIndex < 0).map((one) => one.outerHTML.slice(0, 80)),
     // WCAG 2.1, 1.4.3
-    faint: texts.filter((one) => isSeen(one) && contrastOf(one) < 4.5).map((one) => `${one.textContent.slice(0, 40)}: ${contrastOf(one).toFixed(2)}`)};
+    bars: textsInBars().length,
+    faint: [...texts.filter(isSeen).map((text) => ({text, contrast: contrastOf(text)})), ...textsInBars()]
+      .filter(({contrast}) => contrast < 4.5).map(({text, contrast}) => `${text.textContent.slice(0, 40)}: ${contrast.toFixed(2)}`)};
 }

@@ -175,7 +175,7 @@ function paretoPlots(card) {
   const {rows, baseline} = paretoRows(cellNow());
   if (rows.length === 0) return [];
   const y = fitted([...rows, ...baseline], ['mean', 'low', 'high'], unitOf(state.accuracy));
-  const x = fitted(y.rows.filter((row) => row.cost !== undefined), ['cost', 'x_low', 'x_high'], unitOf(state.cost), 'log');
+  const x = fitted(y.rows.filter((row) => row.cost !== undefined), ['cost', 'x_low', 'x_high'], unitOf(state.cost), 'wide');
   const data = {rows: x.rows, baseline: y.rows.filter((row) => row.cost === undefined),
     front: x.rows.filter((row) => row.front).sort((a, b) => a.cost - b.cost)};
   const signals = {x_title: titled(metricTitle(state.cost), x.unit), y_title: titled(metricTitle(state.accuracy), y.unit)};
