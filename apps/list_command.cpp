@@ -93,7 +93,7 @@ void add_list(CLI::App& program, Context& context) {
                   "Example: fathom list estimators\n"
                   "         fathom list estimators --plugin mine.so");
   command.argument("what", *what, {"estimators", "detectors", "datasets", "metrics", "features"},
-                   "estimators, detectors, datasets, metrics, or features of this build");
+                   "what of this build");
   add_plugins_to(command, *plugins);
   command.on_run([what, plugins, &context] {
     for (const std::string& file : *plugins) context.estimators().load(file);
