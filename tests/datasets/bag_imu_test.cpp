@@ -70,8 +70,16 @@ TEST_P(BagImu, AnOrientationThatChangesOrHasAVarianceIsOne) {
 }
 
 // 1e6 is what some drivers write for it.
-TEST_P(BagImu, AVarianceBeyondHalfATurnIsUnknown) {
-  const ImportReport report = import_with({{0, 0, 0, 1}, {0, 0, 0, 1}}, 1e6);
+TEST_P(BagImu, AHeadingThatMayBeAnyIsNoCompass) {
+  for (const double variance : {1e6, -2.0, std::nan("")}) {
+    const ImportReport report = import_with({{0, 0, 0.1, 1}, {0, 0, 0, 1}}, variance);
+    EXPECT_FALSE(has("compass0")) << variance;
+    EXPECT_THAT(report.notes, Contains(HasSubstr("2 headings left out: by a variance that is not "
+                                                 "within 0 to pi^2 /imu/data_raw says")));
+    std::filesystem::remove_all(out());
+    std::filesystem::remove(bag());
+  }
+  const ImportReport report = import_with({{0, 0, 0.1, 1}, {0, 0, 0, 1}}, 0.0);
   EXPECT_THAT(read_text(out() / "mav0" / "compass0" / "data.csv"), HasSubstr(",0.05000"));
   EXPECT_THAT(report.notes, Contains(HasSubstr("2 headings without variance in the bag: taken for "
                                                "good to 0.05 rad")));

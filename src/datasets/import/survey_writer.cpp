@@ -177,23 +177,33 @@ class SurveyWriter {
     const double sigma_rad = options_.default_heading_sigma_rad;
     std::string rows;
     std::size_t unknown = 0;
+    std::size_t unstated = 0;
     for (const HeadingReading& heading : survey_.headings) {
-      // Beyond half a turn it says nothing; some drivers write 1e6 for that.
       const double stated_rad = std::sqrt(heading.variance);
-      const bool is_known = stated_rad > 0.0 && stated_rad <= std::numbers::pi;
+      // Some drivers write 1e6 for that.
+      const bool is_known = stated_rad <= std::numbers::pi;
       unknown += is_known ? 0 : 1;
-      rows += sensor_row(heading.time_ns, {heading.yaw_rad, is_known ? stated_rad : sigma_rad});
+      if (!is_known) continue;
+      unstated += stated_rad > 0.0 ? 0 : 1;
+      rows +=
+          sensor_row(heading.time_ns, {heading.yaw_rad, stated_rad > 0.0 ? stated_rad : sigma_rad});
     }
     const std::string& name = topic(choice_.heading).name;
-    if (rows.empty()) return note("no heading: " + name + kNoOrientation);
+    if (survey_.headings.empty()) return note("no heading: " + name + kNoOrientation);
+    if (unknown > 0) {
+      note(counted(unknown, "heading") + " left out: by a variance that is not within 0 to pi^2 " +
+           name + " says that it does not know");
+    }
+    if (rows.empty()) return;
     write_compass(mav0_, rows);
-    fact(fmt::format("{} from {}, in compass0", counted(survey_.headings.size(), "heading"), name));
+    fact(fmt::format("{} from {}, in compass0",
+                     counted(survey_.headings.size() - unknown, "heading"), name));
     note(
         "a run takes them for headings in the world: right of a compass or an AHRS; of a yaw "
         "that drifts dataset.compass.use: false leaves them out");
-    if (unknown > 0) {
+    if (unstated > 0) {
       note(fmt::format("{} without variance in the bag: taken for good to {} rad",
-                       counted(unknown, "heading"), short_number(sigma_rad)));
+                       counted(unstated, "heading"), short_number(sigma_rad)));
     }
   }
 
