@@ -27,7 +27,8 @@ TEST(TopicChoice, AnEstimateIsNoGroundTruthForItsLetters) {
   EXPECT_EQ(choice.reference, std::nullopt);
   EXPECT_EQ(choice.odometry, 3U);
   for (const char* name : {"/gt/odometry", "/auv_gt_pose", "/groundTruth0", "/ground_truth/odom",
-                           "/VICON/rov", "/auv/groundtruth"}) {
+                           "/VICON/rov", "/auv/groundtruth", "/gtpose", "/GTPose", "/GTpose",
+                           "/groundtruthpose", "/groundtruths", "/auv/GTOdometry", "/viconpose"}) {
     const TopicChoice truth = choice_of({kAltitude, {name, "nav_msgs/Odometry", "", 9}});
     EXPECT_EQ(truth.reference, 3U) << name;
     EXPECT_EQ(truth.odometry, std::nullopt) << name;
@@ -38,8 +39,15 @@ TEST(TopicChoice, ARealtimeFactorIsNoAltitude) {
   const BagTopic factor{"/sim/realtime_factor", "std_msgs/Float64", "", 9};
   EXPECT_THAT(test::input_error_of([&] { choice_of({factor}); }),
               HasSubstr("has no altitude that could be guessed"));
-  for (const char* name : {"/dvl/altitude", "/altimeter0", "/bottomAltitude", "/dvl_2/data"}) {
+  for (const char* name : {"/dvl/altitude", "/altimeter0", "/bottomAltitude", "/dvl_2/data",
+                           "/DVLRange", "/altimeters", "/DVLAltitude"}) {
     EXPECT_EQ(choice_of({factor, {name, "std_msgs/Float64", "", 9}}).altitude, 3U) << name;
+  }
+}
+
+TEST(TopicChoice, DepthAndMasksAreNoPictures) {
+  for (const char* name : {"/depthcam/image", "/depthImage", "/masks/image", "/RGBDepth/image"}) {
+    EXPECT_EQ(choice_of({kAltitude, {name, "sensor_msgs/Image", "", 9}}).images, 0U) << name;
   }
 }
 

@@ -86,7 +86,7 @@ class Chooser {
 
   // Pictures as they are before those compressed from them; depth is no picture.
   Topics image_guess() const {
-    const Words no_pictures{"depth", "mask", "theora", "disparity"};
+    const Words no_pictures{"depth*", "mask*", "theora*", "disparity*"};
     const Topics raw = without(of_types({"sensor_msgs/Image"}), no_pictures);
     return raw.empty() ? without(of_types({"sensor_msgs/CompressedImage"}), no_pictures) : raw;
   }

@@ -7,8 +7,9 @@ namespace fathom {
 
 using Words = std::vector<std::string>;
 
-/// Whether one of the words of a topic's name is among `words`, which are in lower case. Words are
-/// runs of letters; a capital behind a small letter begins one, too.
+/// Whether one of the words of a topic's name is among `words`, which are in lower case; "alti*"
+/// are all that begin with "alti". Words are runs of letters; a capital behind a small letter
+/// begins one, too, and the last of several capitals may.
 bool has_word(const std::string& name, const Words& words);
 
 /// What names a topic of ground truth, of an altimeter, of any altitude.
