@@ -1,6 +1,8 @@
 #include "fathom/core/csv.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <utility>
 
 #include "fathom/core/files.hpp"
@@ -54,20 +56,52 @@ std::string separator_of(std::string_view text) {
   return {};
 }
 
-std::string name_of_column(std::string_view field) {
-  const auto end = std::min(field.find_first_of(" [("), field.size());
-  const std::string_view unit = trim(field.substr(end));
-  if (!unit.empty() && unit.front() != '[' && unit.front() != '(') return {};
-  std::string name;
-  for (const std::string_view part : split(field.substr(0, end), "_")) {
-    const bool is_frame = std::ranges::all_of(part, [](char c) { return c >= 'A' && c <= 'Z'; });
-    if (is_frame && !name.empty()) continue;
-    name += (name.empty() ? "" : "_") + std::string(part);
-  }
-  std::ranges::transform(name, name.begin(), [](char c) {
-    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+bool is_capital(char c) {
+  return c >= 'A' && c <= 'Z';
+}
+
+std::string in_small_letters(std::string_view text) {
+  std::string small(text);
+  std::ranges::transform(small, small.begin(), [](char c) {
+    return is_capital(c) ? static_cast<char>(c - 'A' + 'a') : c;
   });
-  return name;
+  return small;
+}
+
+bool is_unit(std::string_view word) {
+  static constexpr std::array<std::string_view, 12> kUnits{
+      "ns", "us", "ms", "s", "m", "mm", "cm", "rad", "deg", "m^2", "rad^2", "m*rad"};
+  return std::ranges::find(kUnits, in_small_letters(word)) != kUnits.end();
+}
+
+// Of the parts of a name, those before the last. In a name that has no small letters they are
+// short: "RS" and "R" of "P_RS_R_X", but not "VAR" of "STEP_VAR_X".
+bool is_frame(std::string_view part, bool has_small) {
+  return std::ranges::all_of(part, is_capital) && (has_small || part.size() <= 2);
+}
+
+std::string name_of_column(std::string_view field) {
+  std::string plain(field);
+  std::erase_if(plain, [](char c) { return c == '"' || c == '\''; });
+  field = trim(plain);
+  const auto end = std::min(field.find_first_of(" \t[(/"), field.size());
+  const std::string_view unit = trim(field.substr(end));
+  if (!unit.empty() && std::string_view("[(/").find(unit.front()) == std::string_view::npos &&
+      !is_unit(unit)) {
+    return {};
+  }
+  auto parts = split(field.substr(0, end), "_");
+  if (parts.size() > 1 && is_unit(parts.back())) parts.pop_back();
+  const bool has_small = std::ranges::any_of(parts, [](std::string_view part) {
+    return std::ranges::any_of(part, [](char c) { return c >= 'a' && c <= 'z'; });
+  });
+  std::string name;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const bool is_between = i > 0 && i + 1 < parts.size();
+    if (is_between && is_frame(parts[i], has_small)) continue;
+    name += (i == 0 ? "" : "_") + std::string(parts[i]);
+  }
+  return in_small_letters(name);
 }
 
 }  // namespace

@@ -81,6 +81,21 @@ TEST_F(Csv, ColumnsThatAHeaderNamesMustBeInPlace) {
   }
 }
 
+TEST_F(Csv, NamesAreFoundHoweverTheyAreWritten) {
+  for (const char* header :
+       {"timestamp,p_x,p_y,step_var_x", "TIMESTAMP [ns],P_X,P_Y,STEP_VAR_X [m^2]",
+        "\"timestamp\", \"p_x [m]\",'p_y' [m], step_var_x (m^2)",
+        "timestamp/ns,p_x/m,p_y / m,step_var_x/m^2", "timestamp ns,p_x m,P_Y M,step_var_x m^2",
+        "timestamp_ns,p_x_m,p_RS_R_y_m,step_var_x", "timestamp,P_RS_R_X,p_WORLD_y,step_var_x"}) {
+    EXPECT_THAT(names_of_columns(header), ElementsAre("timestamp", "p_x", "p_y", "step_var_x"))
+        << header;
+  }
+  EXPECT_THAT(names_of_columns("altitude by hand,time sync,x"), ElementsAre("", "", "x"));
+  EXPECT_THAT(refusal("#ALTITUDE,TIME\n2.5,1\n"), HasSubstr("and time is column 2"));
+  EXPECT_THAT(refusal("#\"altitude\",\"time\"\n2.5,1\n"), HasSubstr("and time is column 2"));
+  EXPECT_THAT(refusal("#altitude/m,time/s\n2.5,1\n"), HasSubstr("and time is column 2"));
+}
+
 TEST_F(Csv, SaysWhatItLooksLike) {
   EXPECT_THAT(refusal("1,1,62\n"), AllOf(HasSubstr("got 3: decimal commas? expected points;"),
                                          HasSubstr("names all columns"), EndsWith(": '1,1,62'")));
