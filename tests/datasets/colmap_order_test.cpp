@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "fathom/core/files.hpp"
@@ -13,6 +14,9 @@
 
 namespace fathom {
 namespace {
+
+using ::testing::Contains;
+using ::testing::HasSubstr;
 
 class ColmapOrder : public testing::Test {
  protected:
@@ -56,6 +60,8 @@ TEST_F(ColmapOrder, TimesAreThoseOfPlainPictures) {
   ASSERT_EQ(poses.size(), 2U);
   EXPECT_EQ(poses[1].time_ns, 2'000'000'000);
   EXPECT_NEAR(poses[1].pose.x, 2.0, 1e-9);
+  const ImportReport report = import_colmap(folder_ / "model", options, folder_ / "again");
+  EXPECT_THAT(report.notes, Contains(HasSubstr("the reference is for dataset.interval_s 1")));
 }
 
 }  // namespace

@@ -183,9 +183,11 @@ TEST_F(Pictures, HaveTheTimesOfTheirExifIfTheseRise) {
   EXPECT_EQ(folder.info(1).time_ns - folder.info(0).time_ns, 3'000'000'000);
   EXPECT_EQ(folder.info(2).time_ns - folder.info(1).time_ns, 60'000'000'000);
   EXPECT_TRUE(folder.remarks().empty());
+  EXPECT_TRUE(folder.has_own_times());
   write("c.jpg", jpeg_at("2024:05:17 10:31:04"));
   const PictureFolder rolled(options);
   EXPECT_EQ(rolled.info(2).time_ns, 2'000'000'000);
+  EXPECT_FALSE(rolled.has_own_times());
   EXPECT_THAT(rolled.remarks(), ElementsAre(HasSubstr("c.jpg: by its EXIF before the picture")));
 }
 

@@ -64,6 +64,8 @@ class PictureFolder : public FrameSource {
   RecordedOdometry recorded_odometry() const override { return odometry_; }
   /// The pictures, the CSV files, and the mask.
   std::vector<std::filesystem::path> files() const;
+  /// Whether the times of the pictures are those of EXIF.
+  bool has_own_times() const { return has_own_times_; }
   /// What was left out, for the user.
   const std::vector<std::string>& remarks() const { return remarks_; }
 
@@ -77,6 +79,7 @@ class PictureFolder : public FrameSource {
   std::vector<std::filesystem::path> pictures_;
   std::vector<std::filesystem::path> other_files_;
   std::vector<FrameInfo> infos_;
+  bool has_own_times_ = false;
   Camera camera_;
   cv::Mat mask_;
   std::vector<std::string> remarks_;

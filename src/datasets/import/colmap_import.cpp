@@ -84,7 +84,8 @@ std::vector<NamedCamera> read_images(const fs::path& path) {
 /// The pictures of a survey by their names.
 class Survey {
  public:
-  explicit Survey(const fs::path& path) : folder_(open_pictures_of(path)) {
+  Survey(const fs::path& path, std::vector<std::string>& notes)
+      : folder_(open_pictures_of(path, notes)) {
     for (std::size_t i = 0; i < folder_->size(); ++i) frames_[folder_->picture_name(i)] = i;
   }
 
@@ -195,9 +196,10 @@ ImportReport import_colmap(const fs::path& model, const PoseImportOptions& optio
   const fs::path file = model / "images.txt";
   std::vector<NamedCamera> cameras = read_images(file);
   const std::size_t images = cameras.size();
+  ImportReport report;
   std::optional<Survey> survey;
   if (!options.survey.empty()) {
-    survey.emplace(options.survey);
+    survey.emplace(options.survey, report.notes);
     keep_pictures_of(*survey, options.survey, file, cameras);
   }
   std::vector<CameraPose> poses;
@@ -208,7 +210,6 @@ ImportReport import_colmap(const fs::path& model, const PoseImportOptions& optio
   const std::vector<StampedPose> reference = reference_of(by_frame, options.scale, survey);
   write_reference_poses(reference, folder);
 
-  ImportReport report;
   report.facts.push_back(fmt::format("{} poses of {} images", reference.size(), images));
   say_geometry(planar, options.scale, report);
   std::set<std::int64_t> used;

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include <Eigen/Core>
@@ -34,8 +35,10 @@ struct PlanarCameras {
 PlanarCameras project_to_plane(const std::vector<CameraPose>& cameras);
 
 /// The survey that poses are of: an image folder, or plain pictures. Of the latter nothing but
-/// names and times is known: those of EXIF, or a second apart.
-std::unique_ptr<const FrameSource> open_pictures_of(const std::filesystem::path& survey);
+/// names and times is known: those of EXIF, or those of a run with the default interval_s, which
+/// a note says.
+std::unique_ptr<const FrameSource> open_pictures_of(const std::filesystem::path& survey,
+                                                    std::vector<std::string>& notes);
 
 /// Writes `folder`/state_groundtruth_estimate0 and `folder`/reference.tum. Throws InputError.
 void write_reference_poses(const std::vector<StampedPose>& poses,

@@ -148,6 +148,7 @@ void PictureFolder::set_times(double interval_s) {
     times_ns.push_back(*time_ns);
   }
   for (std::size_t i = 0; i < infos_.size(); ++i) infos_[i].time_ns = times_ns[i];
+  has_own_times_ = true;
 }
 
 void PictureFolder::set_altitudes(const PictureFolderOptions& options) {
