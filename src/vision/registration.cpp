@@ -163,13 +163,15 @@ std::optional<Registration> refused_at_first(const Pair& pair) {
     return refused(std::move(result),
                    of + no_hypothesis(matched.size(), putative.size(), pair.options));
   }
+  // By the pixels of all features, of which the strongest are the first.
   const Rivals rivals = pair.rivals(best, putative, nearest);
   result.evidence = weigh(best, rivals, nearest, pair.options);
   constexpr int kFewest = 3;  // two make any motion
-  if (result.evidence.places >= kFewest &&
-      result.evidence.false_alarms <= decision.first_max_false_alarms) {
-    return std::nullopt;
-  }
+  const bool is_better = result.evidence.places >= kFewest &&
+                         result.evidence.false_alarms <= decision.first_max_false_alarms;
+  // More matches in fewer places, as a part of the vehicle has them, hide the motion of the floor.
+  const bool is_outdone = result.evidence.rival_places > result.evidence.places;
+  if (is_better || is_outdone) return std::nullopt;
   result.inliers = picked(nearest, best.support);
   const std::string reason =
       fmt::format("{}{} matches agree, in {} places; another motion has {}", of,

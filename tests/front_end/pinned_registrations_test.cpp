@@ -24,7 +24,7 @@
 namespace fathom {
 namespace {
 
-constexpr int kPinnedVersion = 9;
+constexpr int kPinnedVersion = 10;
 constexpr double kOfPictures = 2e-4;
 constexpr double kOfPoints = 1e-9;
 

@@ -3,7 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "fathom/core/random.hpp"
 #include "fathom/vision/registration.hpp"
+#include "vision/labelled.hpp"
+#include "vision/points.hpp"
 #include "vision/sea_floor.hpp"
 
 namespace fathom {
@@ -64,6 +67,23 @@ TEST(FirstFeatures, AltitudesThatDisagreeWithTheSizesOfKeypointsAreNamed) {
     EXPECT_FALSE(refused.found);
     EXPECT_THAT(refused.reason, HasSubstr("the altitudes disagree with the sizes of keypoints: "));
   }
+}
+
+// Of the strongest, a part of the vehicle: 30 matches that crowd in few places, and 25 of the
+// floor.
+TEST(FirstFeatures, RefuseNoPairWhoseOtherMotionHasMorePlaces) {
+  RandomStream random(4);
+  test::Points p, q;
+  for (int i = 0; i < 155; ++i) {
+    const bool is_vehicle = i < 30;
+    const double reach_m = is_vehicle ? 0.06 : 1.0;
+    q.emplace_back(random.uniform(-reach_m, reach_m), random.uniform(-reach_m, reach_m));
+    p.push_back(is_vehicle ? q.back() : transform(test::kTrueMotion, q.back()));
+  }
+  const Registration with = register_pair(test::labelled(p), test::labelled(q), first(55), 1);
+  EXPECT_TRUE(with.found) << with.reason;
+  EXPECT_LT(with.evidence.rival_places, 15);
+  EXPECT_LT((with.motion.position() - test::kTrueMotion.position()).norm(), 1e-3);
 }
 
 // Where few features would be left out there is nothing to gain.

@@ -16,7 +16,7 @@ namespace fathom {
 /// registrations in caches. Values of options and of
 /// RegistrationTuning need no raise, they are in the key; pinned_registrations_test.cpp tells of
 /// the rest.
-inline constexpr int kRegistrationVersion = 9;
+inline constexpr int kRegistrationVersion = 10;
 
 /// A picture as a registration sees it.
 struct SeenPicture {
