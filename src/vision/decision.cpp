@@ -26,8 +26,7 @@ Evidence weigh_at(double error_m, const Hypothesis& best, const Rivals& rivals,
   for (const Pose& rival : rivals.motions) {
     const PointPairs& pairs = rivals.matches.pairs();
     evidence.rival_places =
-        std::max(evidence.rival_places,
-                 pairs.count_places(pairs.inliers(rival, error_m), error_m, tuning.most_places));
+        std::max(evidence.rival_places, pairs.count_places(pairs.inliers(rival, error_m), error_m));
   }
   const std::vector<int> inliers = nearest.pairs().inliers(*best.motion, error_m);
   evidence.support = static_cast<int>(inliers.size());

@@ -109,7 +109,6 @@ Hypothesis settled(const Pose& start, const MatchSet& nearest, const Registratio
     found.support = std::move(support);
     if (is_same) break;
   }
-  found.places = nearest.pairs().count_places(found.support, max_error_m, tuning.most_places);
   return found;
 }
 
@@ -127,7 +126,7 @@ std::optional<Pose> strongest_shift(const Pose& best, const MatchSet& apart,
   int most = 0;
   for (const ShiftGrid::Cell& cell : grid.by_falling_size()) {
     if (static_cast<int>(cell.pairs.size()) <= most) break;
-    const int places = pairs.count_places(cell.pairs, error_m, options.tuning.decision.most_places);
+    const int places = pairs.count_places(cell.pairs, error_m);
     if (places <= most) continue;
     most = places;
     strongest = Pose{best.x + cell.shift_m.x(), best.y + cell.shift_m.y(), best.theta};

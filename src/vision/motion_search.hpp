@@ -14,7 +14,6 @@ namespace fathom {
 struct Hypothesis {
   std::optional<Pose> motion;  ///< nothing: no two matches agree
   std::vector<int> support;    ///< rising indices of the nearest matches that are its inliers
-  int places = 0;              ///< in which these lie
 };
 
 /// The motion that most matches agree on, by RANSAC (the paper's figure 2) over the putative ones,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -41,7 +42,8 @@ class PointPairs {
   /// In how many places the pairs lie, counted up to `enough`: greedily, in their order, a pair is
   /// a new place if both its p and its q are further than `radius_m` from those of all places so
   /// far.
-  int count_places(const std::vector<int>& indices, double radius_m, int enough) const;
+  int count_places(const std::vector<int>& indices, double radius_m,
+                   int enough = std::numeric_limits<int>::max()) const;
 
  private:
   std::vector<double> px_, py_, qx_, qy_;

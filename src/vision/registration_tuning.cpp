@@ -55,8 +55,10 @@ void RansacTuning::describe(OptionTable& table) {
 void DecisionTuning::describe(OptionTable& table) {
   table.integer("support_rounds", support_rounds, Range::between(0, 1e6), "",
                 "a motion is fitted to its support again so often at most; a few suffice");
-  table.integer("most_places", most_places, Range::between(1, 1e6), "places",
-                "places are counted up to here; more decide nothing and bound the time");
+  table.integer(
+      "most_places", most_places, Range::between(1, 1e6), "places",
+      "places of the best motion are counted up to here, or as far as its rival's need; more "
+      "decide nothing");
   table.real("rival_distance", rival_distance, Range{1.0, 1e6}, "max_error_m",
              "a rival is another motion by at least this; nearer ones share the support of the "
              "best");

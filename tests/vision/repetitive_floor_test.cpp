@@ -1,6 +1,7 @@
 // Floors that repeat themselves: what agrees may be the next tile.
 
 #include <array>
+#include <utility>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -104,6 +105,27 @@ TEST(RepetitiveFloor, ARivalWithALargeShareOfThePlacesIsARepetition) {
     if (elsewhere == 16) {
       EXPECT_THAT(result.reason, HasSubstr("the floor repeats"));
     }
+  }
+}
+
+// However many places the best motion has, and however few of them are counted at least.
+TEST(RepetitiveFloor, ARivalIsCountedAsFarAsTheBestMotion) {
+  for (const auto& [most_places, scale] : {std::pair(200, 10), std::pair(3, 1)}) {
+    RandomStream random(9);
+    Points p, q;
+    for (int i = 0; i < 180 * scale; ++i) {
+      const double x = random.uniform(-1.3, 1.3);
+      q.emplace_back(x, random.uniform(-1.0, 1.0));
+      const Eigen::Vector2d shift(i < 120 * scale ? 0.0 : 0.8, 0.0);
+      p.push_back(transform(kTrueMotion, q.back() + shift));
+    }
+    RegistrationOptions options;
+    options.ransac.max_error_m = 0.004;
+    options.tuning.decision.most_places = most_places;
+    const Registration refused = register_pair(labelled(p), labelled(q), options, 1);
+    EXPECT_FALSE(refused.found) << scale;
+    EXPECT_GT(refused.evidence.rival_places, 50 * scale);
+    EXPECT_THAT(refused.reason, HasSubstr("the floor repeats"));
   }
 }
 
