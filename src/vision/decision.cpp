@@ -68,12 +68,13 @@ std::string reason_to_refuse(const Evidence& evidence, const RegistrationOptions
     return places + chance.data();
   }
   // By chance a motion would hardly have so many more; by a floor that repeats itself it may: which
-  // of its equals a thing is taken for, its neighbours are taken for, too.
+  // of its equals a thing is taken for, its neighbours are taken for, too. What is nearer to the
+  // camera than its altitude says agrees on another motion, too.
   const double most_share = options.tuning.decision.rival_share;
   if (evidence.rival_places > most_share * evidence.places) {
     return fmt::format(
-        "{}; another motion has {}, more than {:g} of them: the floor repeats, or something in "
-        "view moves otherwise",
+        "{}; another motion has {}, more than {:g} of them: the floor repeats or has relief, an "
+        "altitude is wrong, or something in view moves otherwise",
         places, evidence.rival_places, most_share);
   }
   return {};

@@ -70,8 +70,8 @@ void DecisionTuning::describe(OptionTable& table) {
              "its square less");
   table.real(
       "rival_share", rival_share, Range{0.0, 1.0}, "places",
-      "a rival has at most this share of the best motion's: right pairs of simulated ripples "
-      "reach 0.20, wrong ones of a tiled floor begin at 0.24");
+      "a rival (repetition, relief, a wrong altitude) has at most this share of the best motion's: "
+      "right pairs of simulated ripples reach 0.20, wrong ones of a tiled floor begin at 0.24");
 }
 
 void FitTuning::describe(OptionTable& table) {
