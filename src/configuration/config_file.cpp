@@ -104,22 +104,23 @@ class Flattener {
   }
 
   void add_map(const std::string& prefix, const YAML::Node& map) {
+    // Nothing would be put, and nobody would ask whether there is such a key.
+    if (map.size() == 0 && !prefix.empty()) {
+      throw InputError(at(file_, map.Mark()) + ": " + prefix + ": the map is empty");
+    }
     std::set<std::string> seen;
     for (const auto& entry : map) {
-      if (!entry.first.IsScalar()) {
-        throw InputError(at(file_, entry.first.Mark()) + ": a key must be a word");
-      }
+      const std::string origin = at(file_, entry.first.Mark());
+      if (!entry.first.IsScalar()) throw InputError(origin + ": a key must be a word");
       const std::string key =
           prefix.empty() ? entry.first.Scalar() : prefix + "." + entry.first.Scalar();
-      require_short(key, at(file_, entry.first.Mark()));
+      require_short(key, origin);
       // The second time may be written as a dotted key elsewhere in the file.
       if (!seen.insert(key).second || settings_.find(key) != nullptr) {
-        throw InputError(at(file_, entry.first.Mark()) + ": '" + key + "' is given twice");
+        throw InputError(origin + ": '" + key + "' is given twice");
       }
       // A null has no mark of its own; the key's is as good.
-      if (entry.second.IsNull()) {
-        throw InputError(at(file_, entry.first.Mark()) + ": " + key + ": has no value");
-      }
+      if (entry.second.IsNull()) throw InputError(origin + ": " + key + ": has no value");
       add(key, entry.second);
     }
   }
@@ -209,7 +210,7 @@ Setting parse_override(const std::string& text) {
     if (!node.IsScalar() && !node.IsSequence()) {
       return {key, OptionValue::scalar(value), origin};
     }
-    Flattener({origin}, settings).add(key, node);
+    Flattener({origin, false}, settings).add(key, node);
   } catch (const YAML::Exception&) {
     return {key, OptionValue::scalar(value), origin};
   }

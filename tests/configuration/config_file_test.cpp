@@ -66,6 +66,7 @@ TEST(ReadSettings, TakesQuotesAliasesAndEmptyFiles) {
   EXPECT_THAT(items(settings_of("a: &x [1, 2]\nb: *x\n"), "b"), ElementsAre("1", "2"));
   EXPECT_THAT(settings_of("").all(), IsEmpty());
   EXPECT_THAT(settings_of("# nothing\n").all(), IsEmpty());
+  EXPECT_THAT(settings_of("{}\n").all(), IsEmpty());
   EXPECT_THAT(settings_of("---\nseed: 1\n").all(), Not(IsEmpty()));
 }
 
@@ -80,6 +81,9 @@ TEST(ReadSettings, RefusesWithFileAndLine) {
       {"a: 1\n b: 2\n", "config.yaml:2: not YAML: "},
       {"a: 1\nb:\nc: 2\n", "config.yaml:2: b: has no value"},
       {"a: 1\nb: ~\n", "config.yaml:2: b: has no value"},
+      {"a: 1\nb: {}\n", "config.yaml:2: b: the map is empty"},
+      {"a: 1\nb: {c: {}}\n", "config.yaml:2: b.c: the map is empty"},
+      {"a: 1\nb: [{}]\n", "config.yaml:2: b.0: the map is empty"},
       {"a: 1\nb: [1, null]\n", "config.yaml:2: a list holds scalars or lists"},
       {"a: 1\nb: [1, {c: 2}]\n", "config.yaml:2: a list holds scalars or lists"},
       {"a: 1\nb: [{c: 2}, 1]\n", "config.yaml:2: b: expected a list of maps"},
@@ -174,10 +178,12 @@ TEST(Override, RefusesWhatIsNoPair) {
                 HasSubstr("--set " + text + ": expected KEY=VALUE, for example seed=7"));
   }
   for (const std::string text :
-       {"estimators=[{type: ekf}]", "estimators=[{}]", "estimators=[{type: ekf}, {type: ekf}]"}) {
+       {"estimators=[{type: ekf}]", "estimators=[{type: ekf}, {type: ekf}]"}) {
     EXPECT_THAT(input_error_of([&] { parse_override(text); }),
                 HasSubstr("for example estimators.0.type=ekf"));
   }
+  EXPECT_EQ(input_error_of([&] { parse_override("a=[{}]"); }),
+            "--set a=[{}]: a.0: the map is empty");
 }
 
 TEST(Settings, ALaterOneReplacesAnEarlierOneInItsPlace) {
