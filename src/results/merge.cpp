@@ -4,8 +4,10 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <map>
+#include <optional>
 #include <set>
 #include <tuple>
+#include <utility>
 
 #include "fathom/core/file_lock.hpp"
 #include "fathom/core/files.hpp"
@@ -156,9 +158,17 @@ Copies copies_of(const std::vector<Source>& sources) {
   return copies;
 }
 
+RunRecord run_of(const Source& source, const RunKey& key) {
+  std::optional<RunRecord> run = source.store.run(key);
+  if (run) return std::move(*run);
+  throw InputError(source.store.file().string(),
+                   fmt::format("is damaged: {}, {}, is in its list of runs and is not found{}",
+                               key.estimator, text_of(key.trial_key()), kRemedy));
+}
+
 void require_alike(const RunKey& key, const RunRecord& kept, const Source& of_kept,
                    const Source& source, const StudyDescription& study) {
-  const RunRecord other = source.store.run(key).value();
+  const RunRecord other = run_of(source, key);
   const std::string differs = difference_of(kept, other);
   if (differs.empty()) return;
   throw InputError(
@@ -183,7 +193,7 @@ void write_merged(const fs::path& folder, const StudyDescription& study, const C
     if (session != sessions.begin()) merged.begin_session(session->first);
     for (const RunKey& key : session->second) {
       const std::vector<Copy>& own = copies.at(key);
-      const RunRecord kept = own.front().source->store.run(key).value();
+      const RunRecord kept = run_of(*own.front().source, key);
       for (auto other = own.begin() + 1; other != own.end(); ++other) {
         require_alike(key, kept, *own.front().source, *other->source, study);
       }

@@ -30,6 +30,7 @@ bool ResultStore::Database::is_store() const {
                     version, kResultSchemaVersion));
   }
   require_own_schema(*sqlite);
+  require_own_types(*sqlite);
   return true;
 }
 

@@ -85,6 +85,27 @@ void require_own_schema(SQLite::Database& database) {
   }
 }
 
+void require_own_types(SQLite::Database& database) {
+  // By table: which column of a row, if any, holds another type than it says.
+  std::map<std::string, std::string> wrong;
+  SQLite::Statement columns(database,
+                            "SELECT t.name, c.name, lower(c.type) FROM sqlite_master AS t, "
+                            "pragma_table_info(t.name) AS c WHERE t.type = 'table'");
+  while (columns.executeStep()) {
+    const std::string column = columns.getColumn(1).getString();
+    wrong[columns.getColumn(0).getString()] += " WHEN typeof(" + column + ") <> '" +
+                                               columns.getColumn(2).getString() + "' THEN '" +
+                                               column + "'";
+  }
+  for (const auto& [table, cases] : wrong) {
+    SQLite::Statement row(database, "SELECT CASE" + cases + " END AS wrong FROM " + table +
+                                        " WHERE wrong IS NOT NULL LIMIT 1");
+    if (!row.executeStep()) continue;
+    throw DamagedStore("is damaged: its table " + table + " has a " + row.getColumn(0).getString() +
+                       " of another type" + kRemedy);
+  }
+}
+
 void require_sound(const StudyDescription& study) {
   for (const StudyEstimator& estimator : study.estimators) {
     if (names_a_folder(estimator.name)) continue;

@@ -14,6 +14,10 @@ void distrust(SQLite::Database& database);
 /// one that is written otherwise.
 void require_own_schema(SQLite::Database& database);
 
+/// Throws DamagedStore where a value is not of the type of its column, which SQLite keeps as it is
+/// and converts, 'abc' to 0, when it is read. Of a file with the schema of a store.
+void require_own_types(SQLite::Database& database);
+
 /// Throws DamagedStore where names could leave the study's folder, or sizes are none that a
 /// configuration may have.
 void require_sound(const StudyDescription& study);
