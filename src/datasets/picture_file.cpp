@@ -40,6 +40,16 @@ void require_pixels(std::string_view bytes, const std::filesystem::path& path) {
                                               size->width, size->height, kMostPicturePixels));
 }
 
+void require_size(HeaderSize there, cv::Size size, const std::filesystem::path& path,
+                  const std::string& expected) {
+  if (there.width == static_cast<std::uint64_t>(size.width) &&
+      there.height == static_cast<std::uint64_t>(size.height)) {
+    return;
+  }
+  throw InputError(path.string(),
+                   fmt::format("has {} x {} pixels, {}", there.width, there.height, expected));
+}
+
 // Cameras of 10, 12 or 14 bits fill the lower part of 16: the bits that nearly all pixels have are
 // spread over 8, the few above are cut off.
 cv::Mat in_eight_bits(const cv::Mat& picture) {
@@ -62,6 +72,16 @@ cv::Mat read_grey_picture(const std::filesystem::path& path) {
   return decode_grey_picture(read_file(path), path);
 }
 
+cv::Mat read_grey_picture(const std::filesystem::path& path, cv::Size size,
+                          const std::string& expected) {
+  const std::string bytes = read_file(path);
+  if (const auto told = size_in_header(bytes)) require_size(*told, size, path, expected);
+  cv::Mat picture = decode_grey_picture(bytes, path);
+  require_size({static_cast<std::uint64_t>(picture.cols), static_cast<std::uint64_t>(picture.rows)},
+               size, path, expected);
+  return picture;
+}
+
 cv::Mat decode_grey_picture(std::string_view bytes, const std::filesystem::path& path) {
   require_pixels(bytes, path);
   cv::Mat picture = decode_sound(bytes);
@@ -75,13 +95,11 @@ cv::Mat decode_grey_picture(std::string_view bytes, const std::filesystem::path&
 }
 
 cv::Mat read_mask(const std::filesystem::path& path, cv::Size size) {
-  const cv::Mat grey = read_grey_picture(path);
-  if (grey.size() != size) {
-    throw InputError(path.string(),
-                     fmt::format("has {} x {} pixels, the pictures {} x {}; expected a mask of "
-                                 "their size, 0 where they are never of the floor",
-                                 grey.cols, grey.rows, size.width, size.height));
-  }
+  const cv::Mat grey = read_grey_picture(
+      path, size,
+      fmt::format("the pictures {} x {}; expected a mask of their size, 0 where they are never of "
+                  "the floor",
+                  size.width, size.height));
   const cv::Mat mask = grey != 0;
   if (cv::countNonZero(mask) == 0) {
     throw InputError(path.string(),

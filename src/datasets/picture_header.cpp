@@ -111,6 +111,25 @@ std::uint32_t checksum(std::string_view bytes) {
   return sum.checksum();
 }
 
+// Whether libpng decodes what an IHDR asks for; it prints why not.
+bool is_possible_png(std::string_view header) {
+  constexpr std::uint64_t kLongestSide = 1'000'000;  // libpng's own limit
+  constexpr std::size_t kBytes = 13;
+  if (header.size() != kBytes) return false;
+  const auto is_side = [&](std::size_t at) {
+    const std::uint64_t side = unsigned_at(header, at, 4, true).value_or(0);
+    return side > 0 && side <= kLongestSide;
+  };
+  // By colour type: the bits that a sample may have.
+  constexpr std::array<std::string_view, 7> kDepths{
+      "\1\2\4\10\20"sv, ""sv, "\10\20"sv, "\1\2\4\10"sv, "\10\20"sv, ""sv, "\10\20"sv};
+  const auto type = static_cast<unsigned char>(header[9]);
+  const bool has_depth = type < kDepths.size() && kDepths.at(type).find(header[8]) != header.npos;
+  // Compression, filter and interlace.
+  return is_side(0) && is_side(4) && has_depth && header[10] == 0 && header[11] == 0 &&
+         (header[12] == 0 || header[12] == 1);
+}
+
 }  // namespace
 
 std::optional<HeaderSize> size_in_header(std::string_view bytes) {
@@ -135,6 +154,9 @@ std::optional<std::string> sound_png(std::string_view bytes) {
         unsigned_at(bytes, at + 8 + length, 4, true) == checksum(bytes.substr(at + 4, 4 + length));
     const bool is_needed = name[0] >= 'A' && name[0] <= 'Z';
     if (!is_intact && is_needed) return std::nullopt;
+    const bool is_first = at == kPngStart.size();
+    if (is_first != (name == "IHDR"sv)) return std::nullopt;
+    if (is_first && !is_possible_png(bytes.substr(at + 8, length))) return std::nullopt;
     if (is_intact) sound += bytes.substr(at, kAround + length);
     if (name == "IEND"sv) return sound;
     at += kAround + length;

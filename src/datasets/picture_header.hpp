@@ -18,7 +18,8 @@ struct HeaderSize {
 std::optional<HeaderSize> size_in_header(std::string_view bytes);
 
 /// A PNG file without what its checksums show to be damaged and a decoder would warn of and pass
-/// over. Nothing where a part that the picture needs is damaged or missing.
+/// over. Nothing where a part that the picture needs is damaged or missing, or its header asks for
+/// what no PNG is.
 std::optional<std::string> sound_png(std::string_view bytes);
 
 }  // namespace fathom

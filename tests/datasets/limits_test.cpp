@@ -1,9 +1,11 @@
 // Image folders and pictures that would fill memory, or have other files read.
 
+#include <boost/crc.hpp>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -91,6 +93,32 @@ TEST(PictureLimits, ADamagedPngIsOneLine) {
   EXPECT_THAT(refusal_of_picture(png.substr(0, 20)), HasSubstr("is no picture"));
 }
 
+// Its checksum agrees: only what it says is wrong.
+TEST(PictureLimits, APngWithAnImpossibleHeaderIsOneLine) {
+  const std::string png = encode_picture(".png", cv::Mat(6, 8, CV_8UC1, cv::Scalar(90)));
+  const auto with_header = [&](std::size_t at, const std::string& other) {
+    std::string bytes = with_bytes(png, at, other);
+    boost::crc_32_type sum;
+    sum.process_bytes(bytes.data() + 12, 17);
+    for (std::size_t i = 0; i < 4; ++i) {
+      bytes[29 + i] = static_cast<char>(sum.checksum() >> (24 - 8 * i) & 0xFFU);
+    }
+    return bytes;
+  };
+  for (const auto& [at, other] : std::vector<std::pair<std::size_t, std::string>>{
+           {16, std::string(8, '\0')},          // no column, no row
+           {16, std::string("\0\0\0\0", 4)},    // no column
+           {16, std::string("\0\x20\0\0", 4)},  // more columns than libpng has
+           {24, "\x03"},                        // bits of a sample
+           {25, "\x01"},                        // colour type
+           {26, "\x01"},                        // compression
+           {27, "\x01"},                        // filter
+           {28, "\x02"}}) {                     // interlace
+    EXPECT_THAT(refusal_of_picture(with_header(at, other)), HasSubstr("is no picture that can be"))
+        << at;
+  }
+}
+
 // A text in the file is no part of the picture.
 TEST(PictureLimits, ADamagedNoteInAPngIsLeftOut) {
   const cv::Mat picture(6, 8, CV_8UC1, cv::Scalar(90));
@@ -100,6 +128,22 @@ TEST(PictureLimits, ADamagedNoteInAPngIsLeftOut) {
   const cv::Mat read = decode_grey_picture(png + "behind its end", "p");
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
   EXPECT_EQ(read.at<uchar>(0, 0), 90);
+}
+
+// By its header, which is all that is whole of it.
+TEST(FolderLimits, APictureOfAnotherSizeIsNotDecoded) {
+  const std::string small = encode_picture(".png", cv::Mat(6, 8, CV_8UC1, cv::Scalar(90)));
+  FolderFixture fixture;
+  const fs::path mask = fixture.write() / "mask.png";
+  std::ofstream(mask) << with_bytes(small, 16, std::string("\0\0\x40\0\0\0\x40\0", 8));
+  EXPECT_THAT(input_error_of([&] {
+                read_grey_picture(mask, {8, 6}, "expected 8 x 6");
+              }),
+              EndsWith("mask.png: has 16384 x 16384 pixels, expected 8 x 6"));
+  EXPECT_THAT(input_error_of([&] {
+                read_mask(mask, {8, 6});
+              }),
+              HasSubstr("has 16384 x 16384 pixels, the pictures 8 x 6; expected a mask of"));
 }
 
 std::string refusal_of_folder(const std::string& file, const std::string& content) {

@@ -18,6 +18,11 @@ inline constexpr std::uint64_t kMostPicturePixels = 1U << 28U;
 /// Throws InputError naming the file, also on more than kMostPicturePixels, which are not decoded.
 cv::Mat read_grey_picture(const std::filesystem::path& path);
 
+/// The same where the size is known. A picture of another is refused by its header, before it is
+/// decoded, as "FILE: has W x H pixels, " and `expected`.
+cv::Mat read_grey_picture(const std::filesystem::path& path, cv::Size size,
+                          const std::string& expected);
+
 /// The same of a file's bytes; the path is for messages.
 cv::Mat decode_grey_picture(std::string_view bytes, const std::filesystem::path& path);
 

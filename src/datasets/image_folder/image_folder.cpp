@@ -190,16 +190,10 @@ std::vector<fs::path> ImageFolder::files() const {
 }
 
 cv::Mat ImageFolder::image(std::size_t i) const {
-  cv::Mat picture = read_grey_picture(pictures_[i]);
   const CameraModel& model = camera_.model();
-  if (picture.cols != model.width || picture.rows != model.height) {
-    const auto size = [](int width, int height) { return fmt::format("{} x {}", width, height); };
-    throw InputError(
-        pictures_[i].string(),
-        fmt::format("has {} pixels, expected the resolution of sensor.yaml, {}",
-                    size(picture.cols, picture.rows), size(model.width, model.height)));
-  }
-  return picture;
+  return read_grey_picture(
+      pictures_[i], {model.width, model.height},
+      fmt::format("expected the resolution of sensor.yaml, {} x {}", model.width, model.height));
 }
 
 std::uint64_t ImageFolder::picture_id(std::size_t i) const {

@@ -203,14 +203,10 @@ void PictureFolder::read_odometry(const fs::path& csv) {
 }
 
 cv::Mat PictureFolder::image(std::size_t i) const {
-  cv::Mat picture = read_grey_picture(pictures_[i]);
   const CameraModel& model = camera_.model();
-  if (picture.cols == model.width && picture.rows == model.height) return picture;
-  const auto size = [](int width, int height) { return fmt::format("{} x {}", width, height); };
-  throw InputError(
-      pictures_[i].string(),
-      fmt::format("has {} pixels, the first picture {}; expected pictures of one camera",
-                  size(picture.cols, picture.rows), size(model.width, model.height)));
+  return read_grey_picture(pictures_[i], {model.width, model.height},
+                           fmt::format("the first picture {} x {}; expected pictures of one camera",
+                                       model.width, model.height));
 }
 
 std::uint64_t PictureFolder::picture_id(std::size_t i) const {
