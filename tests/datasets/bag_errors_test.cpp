@@ -193,7 +193,7 @@ TEST_P(BagErrors, ChunkThatWouldFillMemory) {
   const std::size_t at = bytes.find(size, bytes.find("compression="));
   ASSERT_NE(at, std::string::npos);
   std::ofstream(bag(), std::ios::binary) << bytes.replace(at + size.size(), 4, "\xFF\xFF\xFF\xFF");
-  EXPECT_THAT(refusal(), HasSubstr("has a chunk of 4294967295 bytes; the limit is 1000000000"));
+  EXPECT_THAT(refusal(), HasSubstr("has a chunk of 4294967295 bytes; the limit is 128000000"));
 }
 
 }  // namespace

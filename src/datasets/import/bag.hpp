@@ -13,7 +13,7 @@
 namespace fathom {
 
 /// Bytes of a chunk of a bag, packed and unpacked.
-inline constexpr std::uint64_t kMostChunkBytes = 1'000'000'000;
+inline constexpr std::uint64_t kMostChunkBytes = 128'000'000;
 
 struct BagTopic {
   std::string name;
