@@ -40,6 +40,8 @@ void ResultStore::Database::refuse(const SQLite::Exception& error) const {
       throw EnvironmentError(file.string(),
                              "the disk is full; nothing of the unfinished run was stored. Make "
                              "room and run the same command again");
+    case SQLITE_TOOBIG:
+      throw InputError(file.string(), "holds a value that is longer than any that is stored");
     case SQLITE_NOTADB:
     case SQLITE_CORRUPT:
       throw InputError(file.string(),

@@ -16,6 +16,8 @@ namespace fathom {
 namespace {
 
 constexpr int kLongestValue = 256 << 20;  // bytes
+// A manifest is a configuration and a description of the machine.
+constexpr int kLongestManifest = 16 << 20;  // bytes
 // As of configurations, with room.
 constexpr double kMostCells = 1e5;
 constexpr double kMostRepeats = 1e7;
@@ -46,6 +48,21 @@ bool names_a_folder(const std::string& name) {
   return !name.empty() && name.front() != '.' && name.find('/') == std::string::npos &&
          printable(name) == name;
 }
+
+/// No value is longer while this lives; SQLite refuses those that are.
+class LengthLimit {
+ public:
+  LengthLimit(SQLite::Database& database, int bytes)
+      : handle_(database.getHandle()),
+        before_(::sqlite3_limit(handle_, SQLITE_LIMIT_LENGTH, bytes)) {}
+  ~LengthLimit() { ::sqlite3_limit(handle_, SQLITE_LIMIT_LENGTH, before_); }
+  LengthLimit(const LengthLimit&) = delete;
+  LengthLimit& operator=(const LengthLimit&) = delete;
+
+ private:
+  ::sqlite3* handle_;
+  int before_;
+};
 
 // In the table `study`, so that stores with and without it have one schema.
 std::string checksum_key(std::int64_t session) {
@@ -133,6 +150,8 @@ std::int64_t insert_session(SQLite::Database& database, const std::string& manif
 }
 
 std::vector<std::string> read_manifests(SQLite::Database& database) {
+  // Told without reading it: the row's size is known before its content.
+  const LengthLimit limit(database, kLongestManifest);
   std::map<std::string, std::string> words;
   SQLite::Statement study(database, "SELECT key, value FROM study");
   while (study.executeStep()) {

@@ -7,7 +7,7 @@
 namespace fathom {
 
 /// A store may be anybody's. SQLite is told so: no trigger, view or function of the file's schema
-/// runs, no value is longer than 256 MiB.
+/// runs, no value is longer than 256 MiB, no manifest than 16 MiB.
 void distrust(SQLite::Database& database);
 
 /// Throws DamagedStore where the file has a table, index, view or trigger that a store has not, or

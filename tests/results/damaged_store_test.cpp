@@ -117,6 +117,14 @@ TEST(ForeignStore, OfMoreTrialsThanAConfigurationMayHaveIsRefused) {
                         "and 1e+07"));
 }
 
+TEST(ForeignStore, WithAManifestLongerThanAnyIsRefused) {
+  const TemporaryFolder folder;
+  ResultStore::write(folder.path(), description(), "{}").finish();
+  damage(folder.path(), "UPDATE session SET manifest = printf('%.*c', 17000000, 'x')");
+  EXPECT_THAT(input_error_of([&] { ResultStore::open(folder.path()); }),
+              HasSubstr("results.sqlite: holds a value that is longer than any that is stored"));
+}
+
 TEST(DamagedStore, TheRunThatIsDamagedIsNamed) {
   const TemporaryFolder folder;
   {
