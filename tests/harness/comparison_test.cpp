@@ -65,7 +65,7 @@ TEST(ConfigureComparison, RefusesWhatIsNoListOfEstimators) {
       {"estimators: {type: ekf}\n", "estimators.type: expected a list of maps"},
       {"estimators.0: ekf\n", "estimators.0: expected a list of maps"},
       {"estimators.1.type: ekf\n", "numbered from 0 without a gap"},
-      {"estimators: [{}, {type: ekf}]\n", "numbered from 0 without a gap"},
+      {"estimators: [{}, {type: ekf}]\n", "estimators.0: the map is empty"},
       {"estimators: [{type: ekf}]\nestimators.00.name: x\n", "config.yaml:2: estimators.00.name"},
       {"estimators: [{type: ekf}, {type: ekf}]\n", "two estimators are called 'ekf'"},
       {"estimators: [{type: ekf, name: ceres_pose_graph}, {type: ceres_pose_graph}]\n",
