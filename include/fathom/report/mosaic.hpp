@@ -28,13 +28,14 @@ struct PlacedPicture {
 /// What is shown where pictures overlap.
 enum class MosaicBlend {
   feather,  ///< their mean, each weighted less towards its border: what is misplaced is seen twice
-  seams     ///< that one whose middle is nearest, of pictures whose exposure is made equal
+  seams     ///< details of that one whose middle is nearest, over light that fades from each to the
+            ///< next, of pictures whose exposure is made equal
 };
 
 struct MosaicOptions {
   /// None: the median, over the pictures, of what a pixel covers.
   std::optional<double> metres_per_pixel;
-  /// The largest mosaic. It takes 9 bytes a pixel while it is made.
+  /// The largest mosaic. It takes 9 bytes a pixel while it is made, with seams 17.
   double most_pixels = 64e6;
   /// The longest side. Some viewers and readers of PNG files end at 2^16.
   double longest_px = 65'000.0;
@@ -80,8 +81,8 @@ using MosaicProgress = std::function<void(std::size_t done, std::size_t of)>;
 /// leaves their mean as it was. Each is projected by its camera, altitude, roll and pitch where
 /// they are measured, and pose; where several overlap, they are blended as the plans say, the same
 /// in all. Feathered, nothing is selected: what the trajectory places wrongly is seen twice, or
-/// blurred. With seams it ends at one; and each picture has been multiplied by the factor that
-/// makes it agree with those it overlaps. Nothing is aligned.
+/// blurred. With seams its details end at one; each picture has been multiplied by the factor that
+/// makes it agree with those it overlaps, and what light still differs fades. Nothing is aligned.
 ///
 /// A picture that several mosaics need is read once, with seams twice but for those 256 MiB of them
 /// that are kept. `source` must be that of the plans' camera. Throws InputError where a picture
@@ -105,8 +106,9 @@ struct TileOptions {
 
 /// The mosaic tile by tile, row by row, the rows to and fro: those tiles alone that a picture may
 /// reach. Put together they are that of make_mosaics bit for bit, whatever their size. Memory: a
-/// tile at 9 bytes a pixel, the cache, 64 MiB of pictures in work, and some 200 bytes a picture,
-/// with seams 10 KB. Progress counts tiles. Throws InputError where a picture cannot be read.
+/// tile at 9 bytes a pixel, with seams 17, the cache, 64 MiB of pictures in work, and some 200
+/// bytes a picture, with seams 10 KB. Progress counts tiles. Throws InputError where a picture
+/// cannot be read.
 void make_tiles(const FrameSource& source, const MosaicPlan& plan, const TileOptions& options,
                 const std::function<void(const MosaicTile&)>& take,
                 const MosaicProgress& progress = {});

@@ -79,6 +79,15 @@ function trajectoryPlots(card) {
     note: [spread, beyondNote(rows.fixes, signals.start_h, signals.start_v)].filter(Boolean).join(' ')}];
 }
 
+// Labels that would not fit side by side stand on end, so that none is left out. `places` say where
+// they are along the axis.
+function standOnEnd(spec, labels, places) {
+  const order = places.map((place, i) => ({place, half: 3.6 * labels[i].length})).sort((a, b) => a.place - b.place);
+  const perPlace = (spec.width - 110) / Math.max(1e-300, order.at(-1).place - order[0].place);
+  const isTight = order.slice(1).some((one, i) => (one.place - order[i].place) * perPlace < one.half + order[i].half + 8);
+  if (isTight) Object.assign(spec.axes[0], {labelAngle: -90, labelAlign: 'right', labelBaseline: 'middle'});
+}
+
 // Between words there is nothing: points with bars, and no line from one graph to another.
 function takeApart(spec) {
   const [group] = spec.marks;
@@ -92,6 +101,7 @@ function takeApart(spec) {
   const names = Object.fromEntries(labels.map((label, i) => [label, ticks[i]]));
   spec.signals.push({name: 'ticks', value: names});
   spec.axes[0].encode = {labels: {update: {text: {signal: 'ticks[datum.value]'}}}};
+  standOnEnd(spec, ticks, ticks.map((_, i) => i));
   group.marks = [...bars, point];
 }
 
@@ -107,6 +117,7 @@ function sweepPlots(card) {
     if (type === 'linear') scale.zero = false;
     // Labels as they are given, not rounded to the digits of a common step.
     Object.assign(spec.axes[0], {values: positions, format: '~g', labelOverlap: 'greedy'});
+    standOnEnd(spec, positions.map(String), type === 'log' ? positions.map(Math.log) : positions);
   };
   const plots = [fittedPlot({spec: 'sweep_error', heading: `Mean over trials and its 2σ ${positions ? 'band' : 'bar'}`, rows: errors, fields: ['mean', 'low', 'high'],
     unit: unitOf(state.sweepMetric), title: metricTitle(state.sweepMetric), keys: ['x'], signals, adjust})];

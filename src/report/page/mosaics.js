@@ -65,7 +65,7 @@ function drawEstimateMosaic() {
     `${sentence(study.cells[0].example.text)}: the pictures at the poses of ${labelOf(mosaic.estimator)}, ` +
     `${lengthText(mosaic.metres_per_pixel)} a pixel, x up and y to the left. Thick: its trajectory from the dot on; ` +
     `white: loops used${thinned}. ` + (mosaic.blend === 'seams'
-      ? 'Every place is of one picture: where an outline breaks at a seam, the trajectory is wrong, and seams hide the rest of what is misplaced.'
+      ? 'Every detail is of one picture: where an outline breaks at a seam, the trajectory is wrong, and seams hide the rest of what is misplaced.'
       : 'Where a stone is there twice, or blurred, the trajectory is wrong.'));
 }
 

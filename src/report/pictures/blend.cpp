@@ -33,17 +33,38 @@ cv::Rect box_around(const FloorMap& map, const std::vector<Eigen::Vector2d>& out
   return cv::Rect(first, last + cv::Point(1, 1)) & cv::Rect({0, 0}, map.size);
 }
 
-LaidPicture laid_picture(const Camera& camera, const cv::Mat& source, cv::Size full,
-                         const PlacedPicture& place, const FloorMap& map, cv::Point first,
-                         float gain, bool has_seams) {
+LaidPicture laid_picture(const Camera& camera, const cv::Mat& source, const cv::Mat& broad,
+                         cv::Size full, const PlacedPicture& place, const FloorMap& map,
+                         cv::Point first, float gain) {
   const Pose body_from_world = inverse(place.pose);
   const auto at = [&](int column, int row) {
     return transform(body_from_world, map.point(first.x + column, first.y + row));
   };
   const Eigen::Vector2d corner = at(0, 0);
-  return {camera,       source,   1.0 / full.width,  1.0 / full.height,
-          place.stance, corner,   at(1, 0) - corner, at(0, 1) - corner,
-          gain,         has_seams};
+  return {camera,
+          source,
+          broad,
+          1.0 / full.width,
+          1.0 / full.height,
+          place.stance,
+          corner,
+          at(1, 0) - corner,
+          at(0, 1) - corner,
+          gain};
+}
+
+/// Cells of the broad band over the shorter side of a picture: enough for light, and too few for
+/// most of what lies on the floor, which would be seen twice where it is misplaced.
+constexpr double kBroadCells = 6.0;
+
+/// The means of square cells.
+cv::Mat broad_band(const cv::Mat& source) {
+  const double side = std::min(source.cols, source.rows) / kBroadCells;
+  if (side <= 1.0) return source;
+  const auto cells = [side](int pixels) { return static_cast<int>(std::lround(pixels / side)); };
+  cv::Mat broad;
+  cv::resize(source, broad, {cells(source.cols), cells(source.rows)}, 0, 0, cv::INTER_AREA);
+  return broad;
 }
 
 /// Columns, and rows, between two that are projected. Lenses and tilts bend so little over them
@@ -52,10 +73,10 @@ LaidPicture laid_picture(const Camera& camera, const cv::Mat& source, cv::Size f
 constexpr int kSpan = 8;
 
 /// kSpan rows of a box, whose projections are lines between those of every kSpan-th pixel.
-class Band {
+class Strip {
  public:
   /// `mask`: of the box, what the picture covers.
-  Band(const LaidPicture& laid, const cv::Mat& mask, int first_row)
+  Strip(const LaidPicture& laid, const cv::Mat& mask, int first_row)
       : laid_(laid),
         mask_(mask),
         first_row_(first_row),
@@ -89,10 +110,10 @@ class Band {
   std::vector<Node> nodes_;
 };
 
-/// Adds columns [begin, end) of a row, all within the span that begins with `span`; `sum` and
-/// `weight` count from `begin`.
-void add_span(const LaidPicture& laid, Band& band, const cv::Mat& mask, int row, int span,
-              int begin, int end, float* sum, float* weight) {
+/// Adds columns [begin, end) of a row, all within the span that begins with `span`; the sums count
+/// from `begin`.
+void add_span(const LaidPicture& laid, Strip& strip, const cv::Mat& mask, int row, int span,
+              int begin, int end, const BandSums& sums) {
   const unsigned char* is_seen = mask.ptr(row);
   const bool is_whole =
       span + kSpan < mask.cols && std::all_of(is_seen + span, is_seen + span + kSpan + 1,
@@ -100,14 +121,14 @@ void add_span(const LaidPicture& laid, Band& band, const cv::Mat& mask, int row,
   if (!is_whole) {
     for (int c = begin; c < end; ++c) {
       if (is_seen[c] == 0) continue;
-      add_pixels<1>(laid, laid.pixel_at(row, c), Eigen::Vector2d::Zero(), 0, 1, sum + (c - begin),
-                    weight + (c - begin));
+      add_pixels<1>(laid, laid.pixel_at(row, c), Eigen::Vector2d::Zero(), 0, 1,
+                    sums.from(c - begin));
     }
     return;
   }
-  const Eigen::Vector2d first = band.pixel_at(row, span);
-  const Eigen::Vector2d last = band.pixel_at(row, span + kSpan);
-  add_pixels<kSpan>(laid, first, (last - first) / kSpan, begin - span, end - span, sum, weight);
+  const Eigen::Vector2d first = strip.pixel_at(row, span);
+  const Eigen::Vector2d last = strip.pixel_at(row, span + kSpan);
+  add_pixels<kSpan>(laid, first, (last - first) / kSpan, begin - span, end - span, sums);
 }
 
 }  // namespace
@@ -115,10 +136,10 @@ void add_span(const LaidPicture& laid, Band& band, const cv::Mat& mask, int row,
 Blend::Blend(const Camera& camera, const MosaicPlan& plan, const cv::Rect& window)
     : camera_(camera),
       map_{plan.top_left_m, plan.metres_per_pixel, plan.size},
-      has_seams_(plan.blend == MosaicBlend::seams),
       window_(window),
-      sums_(window.size()),
-      weights_(window.size()) {}
+      fine_(window.size()) {
+  if (plan.blend == MosaicBlend::seams) broad_.emplace(window.size());
+}
 
 cv::Rect Blend::box_of(const Camera& camera, const MosaicPlan& plan, const PlacedPicture& place) {
   return box_around({plan.top_left_m, plan.metres_per_pixel, plan.size}, outline_of(camera, place));
@@ -144,26 +165,24 @@ void Blend::lay(const cv::Mat& picture, const PlacedPicture& place, float gain) 
   if (part.empty()) return;
   const cv::Mat mask = mask_of(map_, outline, box);
   const cv::Mat source = reduced(picture, place.stance);
+  const cv::Mat broad = broad_ ? broad_band(source) : cv::Mat();
   const LaidPicture laid =
-      laid_picture(camera_, source, picture.size(), place, map_, box.tl(), gain, has_seams_);
+      laid_picture(camera_, source, broad, picture.size(), place, map_, box.tl(), gain);
   // Rows share nothing, so that the number of threads changes no sum. Rows and columns count from
   // the box's first, whatever the window.
   const cv::Rect lit = part - box.tl();
   cv::parallel_for_({lit.y / kSpan, (lit.y + lit.height - 1) / kSpan + 1}, [&](const cv::Range& r) {
     for (int first_row = r.start * kSpan; first_row < r.end * kSpan; first_row += kSpan) {
-      Band band(laid, mask, first_row);
+      Strip strip(laid, mask, first_row);
       const int last = std::min(first_row + kSpan, lit.y + lit.height);
       for (int row = std::max(first_row, lit.y); row < last; ++row) {
         const cv::Point at = cv::Point(lit.x, row) + box.tl() - window_.tl();
-        float* sum = sums_.row(at.y) + at.x;
-        float* weight = weights_.row(at.y) + at.x;
+        const BandSums sums{fine_.from(at), broad_ ? broad_->from(at) : WeightedSums{}};
         const int end = lit.x + lit.width;
         for (int begin = lit.x; begin < end;) {
           const int span = begin - begin % kSpan;
           const int next = std::min(span + kSpan, end);
-          add_span(laid, band, mask, row, span, begin, next, sum, weight);
-          sum += next - begin;
-          weight += next - begin;
+          add_span(laid, strip, mask, row, span, begin, next, sums.from(begin - lit.x));
           begin = next;
         }
       }
@@ -175,19 +194,21 @@ cv::Mat Blend::finish() {
   cv::Mat mosaic(window_.size(), CV_8U);
   cv::parallel_for_({0, mosaic.rows}, [&](const cv::Range& rows) {
     for (int row = rows.start; row < rows.end; ++row) {
-      const float* sum = sums_.row(row);
-      const float* weight = weights_.row(row);
+      const WeightedSums fine = fine_.from({0, row});
+      const WeightedSums broad = broad_ ? broad_->from({0, row}) : WeightedSums{};
       unsigned char* grey = mosaic.ptr(row);
       for (int column = 0; column < mosaic.cols; ++column) {
         grey[column] = kUnseen;
-        if (!(weight[column] > 0.0F)) continue;
-        const float mean = std::clamp(sum[column] / weight[column], 0.0F, kUnseen - 1.0F);
-        grey[column] = static_cast<unsigned char>(std::lround(mean));
+        if (!(fine.weight[column] > 0.0F)) continue;
+        float mean = fine.sum[column] / fine.weight[column];
+        if (broad_) mean += broad.sum[column] / broad.weight[column];
+        grey[column] =
+            static_cast<unsigned char>(std::lround(std::clamp(mean, 0.0F, kUnseen - 1.0F)));
       }
     }
   });
-  sums_.release();
-  weights_.release();
+  fine_.release();
+  broad_.reset();
   return mosaic;
 }
 

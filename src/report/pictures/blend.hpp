@@ -1,19 +1,22 @@
 #pragma once
 
-#include <vector>
+#include <optional>
 
 #include <Eigen/Core>
 #include <opencv2/core.hpp>
 
 #include "fathom/report/mosaic.hpp"
 #include "floor_map.hpp"
+#include "laid_picture.hpp"
 #include "zeroed_pixels.hpp"
 
 namespace fathom {
 
 /// A mosaic, or a window of it, as it accumulates: weighted sums of grey levels, 8 bytes a pixel.
-/// A pixel of a window has the same bits as of the whole: nothing is computed from where the window
-/// begins.
+/// With seams there are two bands (Burt and Adelson, A multiresolution spline with application to
+/// image mosaics, 1983), 16 bytes: what is broader than a sixth of a picture's shorter side is
+/// feathered, what is finer ends at the seam. A pixel of a window has the same bits as of the
+/// whole: nothing is computed from where the window begins.
 class Blend {
  public:
   /// `window`: pixels of the plan's mosaic, within it.
@@ -31,12 +34,26 @@ class Blend {
  private:
   cv::Mat reduced(const cv::Mat& picture, const Stance& stance) const;
 
+  struct Band {
+    explicit Band(cv::Size size) : sums(size), weights(size) {}
+
+    WeightedSums from(cv::Point pixel) {
+      return {sums.row(pixel.y) + pixel.x, weights.row(pixel.y) + pixel.x};
+    }
+    void release() {
+      sums.release();
+      weights.release();
+    }
+
+    ZeroedPixels sums;
+    ZeroedPixels weights;
+  };
+
   Camera camera_;
   FloorMap map_;
-  bool has_seams_;
   cv::Rect window_;
-  ZeroedPixels sums_;
-  ZeroedPixels weights_;
+  Band fine_;                  ///< feathered, the only one
+  std::optional<Band> broad_;  ///< with seams
 };
 
 }  // namespace fathom

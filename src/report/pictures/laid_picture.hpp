@@ -16,6 +16,7 @@ namespace fathom {
 struct LaidPicture {
   const Camera& camera;
   const cv::Mat& source;  ///< the picture, perhaps reduced
+  const cv::Mat& broad;   ///< its broad band, in cells; empty without seams
   double per_width;       ///< 1 over the picture's own size
   double per_height;
   Stance stance;
@@ -23,7 +24,8 @@ struct LaidPicture {
   Eigen::Vector2d per_column;
   Eigen::Vector2d per_row;
   float gain;
-  bool has_seams;
+
+  bool has_seams() const { return !broad.empty(); }
 
   /// Of the picture's own size.
   Eigen::Vector2d pixel_at(int row, int column) const {
@@ -58,9 +60,6 @@ std::array<float, kCount> shares_of(const LaidPicture& laid, const Eigen::Vector
     // Never quite zero, so that a picture's border shows where it is alone.
     shares[i] = std::max(1e-3F, tent(u)) * std::max(1e-3F, tent(v));
   }
-  if (laid.has_seams) {
-    for (int i = 0; i < kCount; ++i) shares[i] = seam_weight(shares[i]);
-  }
   return shares;
 }
 
@@ -71,15 +70,21 @@ struct Places {
   std::array<double, kCount> v;
 };
 
+/// Where a pixel of the picture's own size lies in `source`, the same in other pixels.
+inline Eigen::Vector2d place_in(const cv::Mat& source, const LaidPicture& laid,
+                                const Eigen::Vector2d& pixel) {
+  return {(pixel.x() + 0.5) * (laid.per_width * source.cols) - 0.5,
+          (pixel.y() + 0.5) * (laid.per_height * source.rows) - 0.5};
+}
+
 template <int kCount>
 Places<kCount> places_of(const LaidPicture& laid, const Eigen::Vector2d& first,
                          const Eigen::Vector2d& step) {
-  const double columns_per_pixel = laid.per_width * laid.source.cols;
-  const double rows_per_pixel = laid.per_height * laid.source.rows;
   Places<kCount> at;
   for (int i = 0; i < kCount; ++i) {
-    at.u[i] = (first.x() + i * step.x() + 0.5) * columns_per_pixel - 0.5;
-    at.v[i] = (first.y() + i * step.y() + 0.5) * rows_per_pixel - 0.5;
+    const Eigen::Vector2d place = place_in(laid.source, laid, first + i * step);
+    at.u[i] = place.x();
+    at.v[i] = place.y();
   }
   return at;
 }
@@ -106,36 +111,94 @@ std::array<float, kCount> greys_within(const cv::Mat& source, const Places<kCoun
   return greys;
 }
 
-/// Adds columns [begin, end) of kCount; `sum` and `weight` count from `begin`.
+/// Grey levels of columns [begin, end).
 template <int kCount>
-void add_pixels(const LaidPicture& laid, const Eigen::Vector2d& first, const Eigen::Vector2d& step,
-                int begin, int end, float* sum, float* weight) {
-  std::array<float, kCount> shares = shares_of<kCount>(laid, first, step);
-  bool are_nothing = laid.has_seams;
-  if (laid.has_seams) {
-    for (int i = begin; i < end; ++i) {
-      // Away from the seams it would not show.
-      if (shares[i] * 512.0F < weight[i - begin]) shares[i] = 0.0F;
-      are_nothing = are_nothing && shares[i] == 0.0F;
-    }
-  }
-  if (are_nothing) return;
+std::array<float, kCount> greys_of(const LaidPicture& laid, const Eigen::Vector2d& first,
+                                   const Eigen::Vector2d& step, int begin, int end) {
   const Places<kCount> at = places_of<kCount>(laid, first, step);
   const auto is_within = [&](int i) {
     return at.u[i] >= 0.0 && at.u[i] < laid.source.cols - 1.0 && at.v[i] >= 0.0 &&
            at.v[i] < laid.source.rows - 1.0;
   };
   // A span lies on a line.
-  const bool are_within = is_within(0) && is_within(kCount - 1);
-  std::array<float, kCount> greys;
-  if (are_within) {
-    greys = greys_within<kCount>(laid.source, at);
-  } else {
-    for (int i = begin; i < end; ++i) greys[i] = sample(laid.source, at.u[i], at.v[i]);
+  if (is_within(0) && is_within(kCount - 1)) return greys_within<kCount>(laid.source, at);
+  std::array<float, kCount> greys{};
+  for (int i = begin; i < end; ++i) greys[i] = sample(laid.source, at.u[i], at.v[i]);
+  return greys;
+}
+
+/// Sums of grey, each weighted, and of the weights; from a pixel on.
+struct WeightedSums {
+  float* sum = nullptr;
+  float* weight = nullptr;
+};
+
+/// `broad` with seams alone.
+struct BandSums {
+  WeightedSums fine;
+  WeightedSums broad;
+
+  BandSums from(int column) const {
+    BandSums later{{fine.sum + column, fine.weight + column}, {}};
+    if (broad.sum != nullptr) later.broad = {broad.sum + column, broad.weight + column};
+    return later;
   }
+};
+
+/// Adds columns [begin, end) of kCount.
+template <int kCount>
+void add_feathered(const LaidPicture& laid, const Eigen::Vector2d& first,
+                   const Eigen::Vector2d& step, int begin, int end, const WeightedSums& sums) {
+  const std::array<float, kCount> shares = shares_of<kCount>(laid, first, step);
+  const std::array<float, kCount> greys = greys_of<kCount>(laid, first, step, begin, end);
   for (int i = begin; i < end; ++i) {
-    sum[i - begin] += shares[i] * laid.gain * greys[i];
-    weight[i - begin] += shares[i];
+    sums.sum[i - begin] += shares[i] * laid.gain * greys[i];
+    sums.weight[i - begin] += shares[i];
+  }
+}
+
+/// The same in two bands: the broad one feathered, what is left of the picture with weights that
+/// make seams.
+template <int kCount>
+void add_bands(const LaidPicture& laid, const Eigen::Vector2d& first, const Eigen::Vector2d& step,
+               int begin, int end, const BandSums& sums) {
+  const std::array<float, kCount> shares = shares_of<kCount>(laid, first, step);
+  const auto broad_at = [&](const Eigen::Vector2d& pixel) {
+    const Eigen::Vector2d place = place_in(laid.broad, laid, pixel);
+    return laid.gain * sample(laid.broad, place.x(), place.y());
+  };
+  // The band is smooth, so that a line over the span will do: what it leaves out is in the other.
+  const float first_grey = broad_at(first);
+  const float per_column = (broad_at(first + kCount * step) - first_grey) / kCount;
+  std::array<float, kCount> broad;
+  std::array<float, kCount> at_seam;
+  for (int i = 0; i < kCount; ++i) {
+    broad[i] = first_grey + static_cast<float>(i) * per_column;
+    at_seam[i] = seam_weight(shares[i]);
+  }
+  bool is_shown = false;
+  for (int i = begin; i < end; ++i) {
+    sums.broad.sum[i - begin] += shares[i] * broad[i];
+    sums.broad.weight[i - begin] += shares[i];
+    // Away from the seams it would not show.
+    if (at_seam[i] * 512.0F < sums.fine.weight[i - begin]) at_seam[i] = 0.0F;
+    is_shown = is_shown || at_seam[i] > 0.0F;
+  }
+  if (!is_shown) return;
+  const std::array<float, kCount> greys = greys_of<kCount>(laid, first, step, begin, end);
+  for (int i = begin; i < end; ++i) {
+    sums.fine.sum[i - begin] += at_seam[i] * (laid.gain * greys[i] - broad[i]);
+    sums.fine.weight[i - begin] += at_seam[i];
+  }
+}
+
+template <int kCount>
+void add_pixels(const LaidPicture& laid, const Eigen::Vector2d& first, const Eigen::Vector2d& step,
+                int begin, int end, const BandSums& sums) {
+  if (laid.has_seams()) {
+    add_bands<kCount>(laid, first, step, begin, end, sums);
+  } else {
+    add_feathered<kCount>(laid, first, step, begin, end, sums.fine);
   }
 }
 
