@@ -45,5 +45,21 @@ TEST_F(Browser, TitlesOfAxesAreWhole) {
   EXPECT_EQ(self_test_of({options})["cut"], Json::array());
 }
 
+// Of a sweep, numbers or words, on a phone.
+TEST_F(Browser, NoPlaceOfASweepIsWithoutItsLabel) {
+  FixtureOptions numbers;
+  numbers.separations = {"10", "20", "30", "40", "50", "60", "70", "80", "90", "100"};
+  numbers.noises.clear();
+  FixtureOptions words;
+  words.separations.clear();
+  words.noises = {"independent", "altimeter_scale", "altimeter_offset", "tilt", "tilt_and_scale"};
+  for (const FixtureOptions& options : {numbers, words}) {
+    const Json ticks = self_test_of({options, {}, 420})["answer"]["ticks"];
+    ASSERT_FALSE(ticks.empty());
+    const auto& labels = options.noises.empty() ? options.separations : options.noises;
+    for (const Json& plot : ticks) EXPECT_EQ(plot, Json(labels));
+  }
+}
+
 }  // namespace
 }  // namespace fathom::test

@@ -79,10 +79,13 @@ function trajectoryPlots(card) {
     note: [spread, beyondNote(rows.fixes, signals.start_h, signals.start_v)].filter(Boolean).join(' ')}];
 }
 
-// Labels that would not fit side by side stand on end, so that none is left out. `places` say where
-// they are along the axis.
-function standOnEnd(spec, labels, places) {
-  const order = places.map((place, i) => ({place, half: 3.6 * labels[i].length})).sort((a, b) => a.place - b.place);
+// The axis of a sweep has the labels that were given, at `values`. Where they would not fit side by side, as
+// far apart as `places` are, they stand on end, so that none is left out.
+function labelSweep(spec, values, places) {
+  const {ticks} = study.axes[state.axis];
+  spec.signals.push({name: 'ticks', value: Object.fromEntries(values.map((value, i) => [value, ticks[i]]))});
+  Object.assign(spec.axes[0], {labelOverlap: 'greedy', encode: {labels: {update: {text: {signal: 'ticks[datum.value]'}}}}});
+  const order = places.map((place, i) => ({place, half: 3.6 * ticks[i].length})).sort((a, b) => a.place - b.place);
   const perPlace = (spec.width - 110) / Math.max(1e-300, order.at(-1).place - order[0].place);
   const isTight = order.slice(1).some((one, i) => (one.place - order[i].place) * perPlace < one.half + order[i].half + 8);
   if (isTight) Object.assign(spec.axes[0], {labelAngle: -90, labelAlign: 'right', labelBaseline: 'middle'});
@@ -97,11 +100,8 @@ function takeApart(spec) {
   const bars = band ? [{type: 'rule', from: {data: 'line'}, interactive: false, encode: {update: {x, y: band.encode.update.y, y2: band.encode.update.y2,
     stroke: band.encode.update.fill, strokeWidth: {value: 1.4}}}}] : [];
   Object.assign(point.encode.update, {x});
-  const {labels, ticks} = study.axes[state.axis];
-  const names = Object.fromEntries(labels.map((label, i) => [label, ticks[i]]));
-  spec.signals.push({name: 'ticks', value: names});
-  spec.axes[0].encode = {labels: {update: {text: {signal: 'ticks[datum.value]'}}}};
-  standOnEnd(spec, ticks, ticks.map((_, i) => i));
+  const {labels} = study.axes[state.axis];
+  labelSweep(spec, labels, labels.map((_, i) => i));
   group.marks = [...bars, point];
 }
 
@@ -115,9 +115,8 @@ function sweepPlots(card) {
     const type = positions.every((one) => one > 0) && isWide(positions) ? 'log' : 'linear';
     Object.assign(scale, {type, nice: false, padding: 20, domain: {data: 'rows', field: 'x'}});
     if (type === 'linear') scale.zero = false;
-    // Labels as they are given, not rounded to the digits of a common step.
-    Object.assign(spec.axes[0], {values: positions, format: '~g', labelOverlap: 'greedy'});
-    standOnEnd(spec, positions.map(String), type === 'log' ? positions.map(Math.log) : positions);
+    spec.axes[0].values = positions;
+    labelSweep(spec, positions, type === 'log' ? positions.map(Math.log) : positions);
   };
   const plots = [fittedPlot({spec: 'sweep_error', heading: `Mean over trials and its 2σ ${positions ? 'band' : 'bar'}`, rows: errors, fields: ['mean', 'low', 'high'],
     unit: unitOf(state.sweepMetric), title: metricTitle(state.sweepMetric), keys: ['x'], signals, adjust})];

@@ -99,6 +99,8 @@ function absoluteTest() {
 }
 
 const textOf = (selector) => [...document.querySelectorAll(selector)].map((one) => one.textContent);
+// Vega leaves labels that would overlap others in the page, unseen.
+const seenLabels = (axis) => [...axis.querySelectorAll('.role-axis-label text')].filter((one) => one.getAttribute('opacity') !== '0').map((one) => one.textContent);
 
 // What the page says first, what its table marks, and what the axes become.
 async function answerTest() {
@@ -123,6 +125,7 @@ async function answerTest() {
     words: textOf('#verdict > ul:first-child li'), doubts: textOf('#verdict > ul.doubts li'),
     best: document.querySelectorAll('#cells-table td.best').length, header: textOf('#cells-table th'),
     sweep: ['line', 'rule', 'symbol'].map((mark) => document.querySelectorAll(`#chart-sweep .mark-${mark}.role-mark > *`).length),
+    ticks: [...document.querySelectorAll('#chart-sweep svg')].map((one) => seenLabels(one.querySelector('.role-axis'))),
     first: textOf('#cells-table tbody tr:first-child td'), notes: textOf('.notes'), usual: scaleTypes(),
     overflow: ['cells-table', 'summary-table'].filter((id) => {
       const box = document.getElementById(id);
