@@ -101,10 +101,12 @@ void add_run(CLI::App& program, Context& context) {
   auto flags = std::make_shared<RunFlags>();
   Command command(program, "run", "Run one estimator over one data set",
                   "Example: fathom run configs/run.yaml --set estimator.type=ekf --out runs/ekf\n"
-                  "         fathom run my_survey");
+                  "         fathom run my_survey\n"
+                  "         fathom run intel.g2o");
   command.argument(
       "config", flags->config,
-      "Configuration (YAML), or a folder of pictures, plain or in the EuRoC/ASL layout");
+      "Configuration (YAML), a folder of pictures, plain or in the EuRoC/ASL layout, or a pose "
+      "graph (.g2o, .graph)");
   flags->common.add_settings_to(command, context);
   flags->common.add_out_to(command, "Output folder (default: runs/CONFIG's name)");
   flags->cache.add_to(command);

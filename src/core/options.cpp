@@ -149,7 +149,8 @@ void OptionTable::add_choice(const std::string& key, const std::string& current,
             return;
           }
         }
-        refuse(full, "one of " + joined(choices, ", "), value);
+        throw InputError(full + ": expected one of " + joined(choices, ", ") + ", got " +
+                         in_quotes(value.text()) + suggestion(value.text(), choices));
       },
       [present] { return *present; });
 }

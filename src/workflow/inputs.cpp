@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "fathom/configuration/config_file.hpp"
+#include "fathom/core/input_error.hpp"
 #include "fathom/core/program.hpp"
 #include "fathom/datasets/picture_folder.hpp"
 
@@ -33,9 +34,15 @@ std::set<fs::path> files_of_command(const EstimatorConfiguration& estimator) {
 
 Settings settings_of(const fs::path& path) {
   if (path.empty()) return {};
-  if (!fs::is_directory(path)) return read_settings(path);
+  const bool is_graph = path.extension() == ".g2o" || path.extension() == ".graph";
+  if (!is_graph && !fs::is_directory(path)) return read_settings(path);
+  if (fs::exists(path / "metrics.json") && fs::exists(path / "measurements.g2o")) {
+    throw InputError(path.string(), "is the folder of a run or a study, no survey");
+  }
+  const std::string type = is_graph                        ? "g2o"
+                           : is_plain_picture_folder(path) ? "pictures"
+                                                           : "image_folder";
   Settings settings;
-  const std::string type = is_plain_picture_folder(path) ? "pictures" : "image_folder";
   settings.put({"dataset.type", OptionValue::scalar(type), path.string()});
   settings.put({"dataset.path", OptionValue::scalar(path.string()), path.string()});
   return settings;

@@ -88,6 +88,15 @@ TEST_F(Check, RefusesAFolderWithAPictureThatARunRefuses) {
               HasSubstr("1000000000.png: has 96 x 60 pixels, expected"));
 }
 
+// There are pictures in it, which are no survey's.
+TEST_F(Check, AFolderOfARunIsNoSurvey) {
+  write("square.g2o", square_graph(40, 3));
+  fathom_done({"run", "square.g2o", "--out", "out"});
+  for (const char* command : {"check", "run"}) {
+    EXPECT_EQ(refusal({command, "out"}), "out: is the folder of a run or a study, no survey\n");
+  }
+}
+
 TEST_F(Check, WarnsOfInformationThatLooksWrong) {
   write("thin.g2o",
         "EDGE_SE2 0 1 1 0 0 1 0 0 1 0 1\nEDGE_SE2 1 2 1 0 0 1e12 0 0 1 0 1\n"

@@ -147,6 +147,8 @@ TEST_F(OptionsTest, EveryRefusalSaysWhatWouldBeRight) {
   EXPECT_EQ(error_of("mutual", "yes"), "mutual: expected true or false, got 'yes'");
   EXPECT_EQ(error_of("score", "best"), "score: expected one of paper, inliers, got 'best'");
   EXPECT_EQ(error_of("type", "SIFT"), "type: expected one of sift, orb, got 'SIFT'");
+  EXPECT_EQ(error_of("score", "papr"),
+            "score: expected one of paper, inliers, got 'papr'; did you mean 'paper'?");
   EXPECT_EQ(error_of("gate", "0.4"), "gate: expected a number >= 0.5, <= 0.999 or off, got '0.4'");
   EXPECT_EQ(error_of("gate", "none"),
             "gate: expected a number >= 0.5, <= 0.999 or off, got 'none'");

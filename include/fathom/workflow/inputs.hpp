@@ -12,7 +12,8 @@
 namespace fathom::workflow {
 
 /// Of a configuration (YAML) its settings; of a folder of pictures, in the EuRoC/ASL layout or
-/// plain, that it is the data set; of an empty path none. Throws InputError.
+/// plain, and of a pose graph (.g2o, .graph) that it is the data set; of an empty path none. Throws
+/// InputError.
 Settings settings_of(const std::filesystem::path& path);
 
 /// What a configuration from `path` has read: itself, its data set, its floor. No output may

@@ -50,7 +50,7 @@ const charts = [
       const parts = [...fixed, alignment && `alignment ${alignment}`,
         association && `association ${association}`, `${repeatsOf(sweepCells())} a point`];
       return sentence(parts.filter(Boolean).join(', ')) + failuresOf(sweepCells()) +
-        '. Band: mean ± 2 standard deviations over trials. Right: twice the root mean square position error, ' +
+        '. Band: mean ± 2 standard deviations over trials. Second plot: twice the root mean square position error, ' +
         'and the mean of 2·√(Pxx + Pyy) that the estimator states; an honest one has them equal.' + jobs;
     }},
   {id: 'regimes', title: 'Regime map', wide: true, plots: regimePlots,
