@@ -67,8 +67,7 @@ class Batch {
       }
     }
     std::vector<Node> start = chains_.expanded(left_nodes_);
-    return worst_turn(headings_of(start)) < kTrustedTurnRad &&
-           try_from(std::move(start), Hessian::exact);
+    return are_trusted(headings_of(start)) && try_from(std::move(start), Hessian::exact);
   }
 
   // The headings of LAGO are judged before the positions are computed for them, and with them.
@@ -76,19 +75,29 @@ class Batch {
     if (run_without_chains()) return;
     const std::vector<double> turned = lago_headings();
     std::vector<Node> first;
-    bool is_trusted = worst_turn(turned) < kTrustedTurnRad;
+    bool is_trusted = are_trusted(turned);
     if (is_trusted) {
       first = from_headings(turned);
       const std::vector<double> corrected = headings_of(first);
-      is_trusted = worst_turn(corrected) < kTrustedTurnRad;
+      is_trusted = are_trusted(corrected);
       const bool is_near = largest_turn(turned, corrected) < kNearRad;
       const Hessian hessian = is_near ? Hessian::exact : Hessian::gauss_newton;
       if (is_trusted && try_from(std::move(first), hessian)) return;
     }
+    if (run_chordal()) return;
     if (try_from(lifted())) return;
     // NOLINTNEXTLINE(bugprone-use-after-move): moved from above only if it is trusted
     if (!is_trusted) try_from(first.empty() ? from_headings(turned) : std::move(first));
     try_from(nodes_);
+  }
+
+  // From chordal headings where these leave every edge's heading close to what it measured, before
+  // the positions are computed for them and after.
+  bool run_chordal() {
+    const std::vector<double> theta = settled(chordal_start());
+    if (!are_trusted(theta)) return false;
+    std::vector<Node> start = from_headings(theta);
+    return are_trusted(headings_of(start)) && try_from(std::move(start));
   }
 
   // Minimises from a start and keeps the result if it is the best so far. Whether it is good
@@ -113,15 +122,20 @@ class Batch {
   // Least squares in the headings, each turn rounded along `theta`; without the keyframes of
   // chains where all edges measure their turn.
   std::vector<double> least_squares(std::span<const double> theta) {
-    const bool has_chains = left_ != nullptr && turns().are_all();
-    if (has_chains && !chain_turns_) chain_turns_.emplace(chains_);
-    if (!headings_ && has_chains) {
-      headings_.emplace(left_->equations_.whole().symbolic, chain_turns_->edges());
+    const ChainTurns* const chains = chain_turns();
+    if (!headings_ && chains != nullptr) {
+      headings_.emplace(left_->equations_.whole().symbolic, chains->edges());
     } else if (!headings_) {
       headings_.emplace(turn_pattern(), turns().edges());
     }
-    if (!has_chains) return headings_->solve(theta);
-    return chain_turns_->solve(*headings_, theta);
+    return chains == nullptr ? headings_->solve(theta) : chains->solve(*headings_, theta);
+  }
+
+  // Null where there are no chains, or where an edge does not measure its turn.
+  const ChainTurns* chain_turns() {
+    if (left_ == nullptr || !turns().are_all()) return nullptr;
+    if (!chain_turns_) chain_turns_.emplace(chains_);
+    return &*chain_turns_;
   }
 
   // Headings know nothing of the errors of pictures.
@@ -145,13 +159,25 @@ class Batch {
     return least_squares(theta);
   }
 
+  // What `relax` makes of a pattern and its edges, of the graph without chains where it can.
+  template <class Relax>
+  std::vector<double> relaxed(const Relax& relax) {
+    const ChainTurns* const chains = chain_turns();
+    if (chains == nullptr) return relax(turn_pattern(), turns().edges());
+    return chains->between(relax(left_->equations_.whole().symbolic, chains->edges()));
+  }
+
   std::vector<double> chordal_start() {
-    return chordal_headings(turn_pattern(), turns().edges(), nodes_[0].theta);
+    return relaxed([this](const sparse::Symbolic& symbolic, std::span<const Edge> edges) {
+      return chordal_headings(symbolic, edges, nodes_[0].theta);
+    });
   }
 
   std::vector<Node> lifted() {
-    return from_headings(
-        settled(lifted_headings(turn_pattern(), turns().edges(), chordal_start())));
+    return from_headings(settled(relaxed([this](const sparse::Symbolic& symbolic,
+                                                std::span<const Edge> edges) {
+      return lifted_headings(symbolic, edges, chordal_headings(symbolic, edges, nodes_[0].theta));
+    })));
   }
 
   // Least squares in the headings, rounded again until that changes nothing.
@@ -189,13 +215,10 @@ class Batch {
     return largest;
   }
 
-  double worst_turn(const std::vector<double>& theta) {
-    double worst = 0.0;
-    for (const Edge& edge : turns().edges()) {
-      const double turn = theta[at(edge.to)] - theta[at(edge.from)];
-      worst = std::max(worst, std::abs(wrap_angle(turn - edge.theta)));
-    }
-    return worst;
+  // Whether no multiple of 2π was rounded wrongly.
+  bool are_trusted(const std::vector<double>& theta) {
+    if (turns().worst_turn(theta) >= kTrustedTurnRad) return false;
+    return chain_turns() == nullptr || chain_turns_->worst_turn(theta) < kTrustedChainRad;
   }
 
   std::span<const Edge> edges_;

@@ -15,13 +15,20 @@ class ChainTurns {
   /// It must outlive this.
   explicit ChainTurns(const ChainGraph& chains);
 
-  /// Between the keyframes that are left; of a chain with its information alone, for which turn it
-  /// measures depends on where its steps are rounded.
+  /// Between the keyframes that are left; of a chain the sum of the turns of its steps. Which
+  /// multiple of 2π that is depends on where they are rounded.
   std::span<const Edge> edges() const { return edges_; }
 
   /// HeadingProblem::solve of all keyframes, by that of edges(): each step is rounded along
   /// `theta`.
   std::vector<double> solve(HeadingProblem& left, std::span<const double> theta) const;
+
+  /// By how much a chain keeps its turn at worst, if each step is rounded along `theta`.
+  double worst_turn(std::span<const double> theta) const;
+
+  /// Headings of all keyframes for those that are left: what a chain's end is off, within ±π, is
+  /// distributed by the variances of its steps.
+  std::vector<double> between(std::span<const double> left) const;
 
  private:
   const ChainGraph& chains_;

@@ -1,8 +1,8 @@
 #include "estimators/support/pose_graph/turn_graph.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
-#include <cstdlib>
 
 #include "fathom/core/disjoint_sets.hpp"
 
@@ -41,6 +41,15 @@ TurnGraph::TurnGraph(std::span<const Edge> edges, std::span<const Node> nodes) :
     turn.W = {1.0, 0.0, 0.0, 1.0, 0.0, 1.0};
     own_.push_back(turn);
   }
+}
+
+double TurnGraph::worst_turn(std::span<const double> theta) const {
+  double worst = 0.0;
+  for (const Edge& edge : edges()) {
+    const double turn = theta[at(edge.to)] - theta[at(edge.from)];
+    worst = std::max(worst, std::abs(wrap_angle(turn - edge.theta)));
+  }
+  return worst;
 }
 
 }  // namespace fathom::pose_graph

@@ -19,6 +19,8 @@ class TurnGraph {
   /// Whether they are the edges as they are.
   bool are_all() const { return own_.empty(); }
   std::span<const Edge> edges() const { return own_.empty() ? all_ : std::span<const Edge>(own_); }
+  /// How far the turn of an edge is from what it measured at worst.
+  double worst_turn(std::span<const double> theta) const;
 
  private:
   std::span<const Edge> all_;
