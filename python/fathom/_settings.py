@@ -7,6 +7,8 @@ import pathlib
 from ._estimator import Estimator, described
 from ._fathom import InputError, _Registry, _Settings
 
+_DEEPEST = 32
+
 
 def as_yaml(values: dict) -> str:
     """A dict as JSON, which is YAML. None is written as `off`."""
@@ -31,12 +33,14 @@ class Asked:
         else:
             self.file = os.fspath(config)
             self.settings = _Settings.read(self.file)
-        for key in _lists_in(changes):
-            self.settings.drop_below(f"{key}.")
+        for key, value in _inside(changes):
+            if isinstance(value, (list, tuple)):  # replaces a list as a whole
+                self.settings.drop_below(f"{key}.")
         self.put(changes)
         self.settings.load_plugins(files_of(plugins))
         self.registry = _Registry()
-        for one in dict.fromkeys(_classes_in([config, changes, list(added)])):
+        parts = [_inside(part) for part in (config, changes, *added)]
+        for one in dict.fromkeys(one for part in parts for _, one in part if is_estimator(one)):
             self.registry.add(one)
         self._add(added)
 
@@ -73,27 +77,30 @@ def is_estimator(value) -> bool:
     return isinstance(value, type) and issubclass(value, Estimator)
 
 
-def _classes_in(value) -> list:
-    if is_estimator(value):
-        return [value]
+def _inside(value, key="", depth=0):
+    """Key and value of it and of all that it holds; items of a list have the list's key."""
+    _require_depth(depth, key)
+    yield key, value
     if isinstance(value, dict):
-        return [one for inner in value.values() for one in _classes_in(inner)]
-    if isinstance(value, (list, tuple)):
-        return [one for inner in value for one in _classes_in(inner)]
-    return []
+        for name, one in value.items():
+            yield from _inside(one, f"{key}.{name}".lstrip("."), depth + 1)
+    elif isinstance(value, (list, tuple)):
+        for one in value:
+            yield from _inside(one, key, depth + 1)
 
 
-def _lists_in(values, key=""):
-    """The keys of lists, which replace a list as a whole: its items have keys of their own."""
-    if isinstance(values, dict):
-        for name, value in values.items():
-            yield from _lists_in(value, f"{key}.{name}".lstrip("."))
-    elif isinstance(values, (list, tuple)):
-        yield key
+def _require_depth(depth, key):
+    """As of a file (core/yaml_limits.hpp). What holds itself has no end."""
+    if depth > _DEEPEST:
+        raise InputError(
+            f"{key}: is nested too deeply, or in itself; the limit of lists and dicts in each "
+            f"other is {_DEEPEST}"
+        )
 
 
-def as_written(value, key):
+def as_written(value, key, depth=0):
     """A value of a key as files have it: of None `off`, of an estimator its name."""
+    _require_depth(depth, key)
     if value is None:
         return "off"
     if isinstance(value, (bool, int, str)):
@@ -104,11 +111,14 @@ def as_written(value, key):
         return described(value)["name"]
     if isinstance(value, dict):
         inner = {str(name): one for name, one in value.items()}
-        return {name: as_written(one, f"{key}.{name}".lstrip(".")) for name, one in inner.items()}
+        return {
+            name: as_written(one, f"{key}.{name}".lstrip("."), depth + 1)
+            for name, one in inner.items()
+        }
     if hasattr(value, "tolist"):  # of numpy
-        return as_written(value.tolist(), key)
+        return as_written(value.tolist(), key, depth + 1)
     if isinstance(value, (list, tuple)):
-        return [as_written(one, key) for one in value]
+        return [as_written(one, key, depth + 1) for one in value]
     if isinstance(value, os.PathLike):
         return os.fspath(value)
     raise InputError(f"{key}: cannot use a value of type {type(value).__name__}")

@@ -39,6 +39,22 @@ class Dicts(unittest.TestCase):
         self.assertIn("trials", self.refusal({**simple, "trials": None}))
         self.assertNotIn(":1:", self.refusal({**simple, "trails": 3}))
 
+    def test_what_is_nested_too_deeply_or_in_itself(self):
+        deep, loop, ring = {}, {}, []
+        for _ in range(500):
+            deep = {"a": deep}
+        loop["dataset"] = loop
+        ring.append(ring)
+        for wrong in (deep, loop, {"sweep": ring}):
+            estimator = {"type": "ekf", "gate": wrong}
+            for text in (
+                self.refusal(wrong),
+                self.refusal(STUDY, set=wrong),
+                self.refusal(STUDY, estimators=[estimator]),
+            ):
+                self.assertIn("is nested too deeply, or in itself", text)
+                self.assertNotIn("\n", text)
+
     def test_a_list_that_is_set_replaces_the_whole_list(self):
         changes = {
             "estimators": [{"type": "incremental_smoother"}],
