@@ -148,9 +148,11 @@ std::vector<Axis> axes_of(const Settings& settings) {
     axes.push_back(axis_of(own, prefix));
     const StudyAxis& newest = axes.back().described;
     for (std::size_t i = 0; i + 1 < axes.size(); ++i) {
-      if (axes[i].described.key == newest.key || axes[i].described.name == newest.name) {
-        refuse(own.all().front(), fmt::format("{}key: two axes are '{}'", prefix, newest.name));
-      }
+      const bool is_one_key = axes[i].described.key == newest.key;
+      if (!is_one_key && axes[i].described.name != newest.name) continue;
+      const char* const same = is_one_key ? "key" : "name";
+      refuse(own.all().front(), fmt::format("{0}{1}: two axes have the {1} '{2}'", prefix, same,
+                                            is_one_key ? newest.key : newest.name));
     }
     if (const Setting* fixed = settings.find(newest.key)) {
       refuse(*fixed, newest.key + ": is swept, so this value would go unread; change " + prefix +
