@@ -70,12 +70,15 @@ TEST_P(BagImu, AnOrientationThatChangesOrHasAVarianceIsOne) {
 }
 
 // 1e6 is what some drivers write for it.
-TEST_P(BagImu, AHeadingThatMayBeAnyIsNoCompass) {
+TEST_P(BagImu, AnOrientationThatMayBeAnyIsNoCompassAndNoLevel) {
   for (const double variance : {1e6, -2.0, std::nan("")}) {
     const ImportReport report = import_with({{0, 0, 0.1, 1}, {0, 0, 0, 1}}, variance);
     EXPECT_FALSE(has("compass0")) << variance;
     EXPECT_THAT(report.notes, Contains(HasSubstr("2 headings left out: by a variance that is not "
                                                  "within 0 to pi^2 /imu/data_raw says")));
+    EXPECT_FALSE(has("attitude0")) << variance;
+    EXPECT_THAT(report.notes, Contains(HasSubstr("2 attitudes left out: by a variance that is not "
+                                                 "within 0 to 0.25 /imu/data_raw says")));
     std::filesystem::remove_all(out());
     std::filesystem::remove(bag());
   }

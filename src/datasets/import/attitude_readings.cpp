@@ -50,10 +50,10 @@ AttitudeRows attitude_rows(const std::vector<AttitudeReading>& readings, double 
       result.rows.clear();
       return result;
     }
-    const bool is_known = !all && stated_rad > 0.0 && stated_rad <= kMostTiltSigmaRad;
-    result.unknown += is_known || all ? 0 : 1;
+    const bool is_stated = !all && stated_rad > 0.0;
+    result.unstated += is_stated || all ? 0 : 1;
     result.rows += sensor_row(reading.time_ns,
-                              {tilt.roll_rad, tilt.pitch_rad, is_known ? stated_rad : sigma_rad});
+                              {tilt.roll_rad, tilt.pitch_rad, is_stated ? stated_rad : sigma_rad});
   }
   return result;
 }

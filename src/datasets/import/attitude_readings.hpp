@@ -13,7 +13,7 @@ namespace fathom {
 struct AttitudeReading {
   std::int64_t time_ns = 0;
   Tilt tilt;
-  double variance = 0.0;  ///< of either, rad²; 0: unknown
+  double variance = 0.0;  ///< of either, rad²; 0: not stated
 };
 
 /// Roll and pitch of an orientation Rot_z(yaw) Rot_y(pitch) Rot_x(roll), which ROS's axes of the
@@ -23,9 +23,9 @@ AttitudeReading attitude_of(std::int64_t time_ns, const ImuMessage& imu);
 /// The rows of `attitude0`, or why there are none.
 struct AttitudeRows {
   std::string rows;
-  std::string fact;         ///< what they are, in degrees
-  std::size_t unknown = 0;  ///< readings that the bag has no variance of
-  std::string why_not;      ///< empty: there are rows
+  std::string fact;          ///< what they are, in degrees
+  std::size_t unstated = 0;  ///< readings that the bag has no variance of
+  std::string why_not;       ///< empty: there are rows
 };
 
 /// `readings`: not empty. `sigma_rad`: of readings without variance, or of `all`. No rows where a

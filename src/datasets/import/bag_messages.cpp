@@ -146,7 +146,7 @@ ImuMessage read_imu(MessageReader& reader) {
                    std::ranges::count(covariance, 0.0) == std::ssize(covariance);
   imu.yaw_variance = covariance.back();
   const auto [less, more] = std::minmax(covariance[0], covariance[4]);
-  if (less > 0.0 && std::isfinite(more)) imu.tilt_variance = more;
+  imu.tilt_variance = less > 0.0 ? more : less;
   return imu;
 }
 

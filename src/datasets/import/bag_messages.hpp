@@ -84,8 +84,8 @@ PoseMessage read_pose(const std::string& type, MessageReader& reader);
 struct ImuMessage {
   std::int64_t stamp_ns = 0;
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
-  double yaw_variance = 0.0;   ///< rad²; 0: unknown
-  double tilt_variance = 0.0;  ///< rad², the larger one of roll and pitch; 0: unknown
+  double yaw_variance = 0.0;   ///< rad²; 0: not stated
+  double tilt_variance = 0.0;  ///< rad², the larger one of roll and pitch; 0: not stated
   bool has_rotation = true;
   bool is_default = false;  ///< the identity without covariance, which a message has unless set
 };

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <numbers>
 
 #include "bag_picture.hpp"
 #include "fathom/core/files.hpp"
 #include "fathom/core/input_error.hpp"
 #include "fathom/core/text.hpp"
+#include "fathom/datasets/asl_files.hpp"
 
 namespace fathom {
 namespace {
@@ -132,6 +134,14 @@ void BagSurvey::take_imu(const BagMessage& message) {
 void BagSurvey::finish() {
   if (choice_.heading && !oriented_.contains(*choice_.heading)) headings.clear();
   if (choice_.attitude && !oriented_.contains(*choice_.attitude)) attitudes.clear();
+  // Some drivers write a variance of 1e6 for what they do not know.
+  const auto drop_unknown = [](auto& readings, double most_sigma_rad) {
+    return std::erase_if(readings, [=](const auto& reading) {
+      return !(std::sqrt(reading.variance) <= most_sigma_rad);
+    });
+  };
+  unknown_headings = drop_unknown(headings, std::numbers::pi);
+  if (!options_.attitude_sigma_rad) unknown_attitudes = drop_unknown(attitudes, kMostTiltSigmaRad);
   std::ranges::sort(pictures, {}, &WrittenPicture::time_ns);
   std::ranges::sort(altitudes);
   std::ranges::sort(odometry, {}, &OdometryReading::time_ns);

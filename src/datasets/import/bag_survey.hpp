@@ -30,7 +30,7 @@ struct WrittenPicture {
 struct HeadingReading {
   std::int64_t time_ns = 0;
   double yaw_rad = 0.0;
-  double variance = 0.0;  ///< rad²; 0: unknown
+  double variance = 0.0;  ///< rad²; 0: not stated
 };
 
 /// What is taken from a bag as its messages arrive: pictures are written at once, the rest is held.
@@ -60,6 +60,8 @@ class BagSurvey {
   std::vector<OdometryReading> reference;
   std::vector<HeadingReading> headings;
   std::vector<AttitudeReading> attitudes;
+  std::size_t unknown_headings = 0;  ///< left out, by their variance
+  std::size_t unknown_attitudes = 0;
   FrameTree frames;
   std::string camera_frame;  ///< of the first picture
   std::string body_frame;    ///< of odometry, what moves; empty where the bag does not say

@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <fmt/format.h>
-#include <numbers>
 #include <utility>
 
 #include "bag_camera.hpp"
@@ -173,31 +172,29 @@ class SurveyWriter {
     }
   }
 
+  void note_unknown(std::size_t count, const char* what, const std::string& most_variance,
+                    const std::string& name) {
+    if (count == 0) return;
+    note(counted(count, what) + " left out: by a variance that is not within 0 to " +
+         most_variance + " " + name + " says that it does not know");
+  }
+
   void write_headings() {
     const double sigma_rad = options_.default_heading_sigma_rad;
     std::string rows;
-    std::size_t unknown = 0;
     std::size_t unstated = 0;
     for (const HeadingReading& heading : survey_.headings) {
       const double stated_rad = std::sqrt(heading.variance);
-      // Some drivers write 1e6 for that.
-      const bool is_known = stated_rad <= std::numbers::pi;
-      unknown += is_known ? 0 : 1;
-      if (!is_known) continue;
       unstated += stated_rad > 0.0 ? 0 : 1;
       rows +=
           sensor_row(heading.time_ns, {heading.yaw_rad, stated_rad > 0.0 ? stated_rad : sigma_rad});
     }
     const std::string& name = topic(choice_.heading).name;
-    if (survey_.headings.empty()) return note("no heading: " + name + kNoOrientation);
-    if (unknown > 0) {
-      note(counted(unknown, "heading") + " left out: by a variance that is not within 0 to pi^2 " +
-           name + " says that it does not know");
-    }
+    note_unknown(survey_.unknown_headings, "heading", "pi^2", name);
+    if (rows.empty() && survey_.unknown_headings == 0) note("no heading: " + name + kNoOrientation);
     if (rows.empty()) return;
     write_compass(mav0_, rows);
-    fact(fmt::format("{} from {}, in compass0",
-                     counted(survey_.headings.size() - unknown, "heading"), name));
+    fact(fmt::format("{} from {}, in compass0", counted(survey_.headings.size(), "heading"), name));
     note(
         "a run takes them for headings in the world: right of a compass or an AHRS; of a yaw "
         "that drifts dataset.compass.use: false leaves them out");
@@ -211,7 +208,10 @@ class SurveyWriter {
     const std::string& name = topic(choice_.attitude).name;
     const double sigma_rad =
         options_.attitude_sigma_rad.value_or(options_.default_attitude_sigma_rad);
-    if (survey_.attitudes.empty()) return note("no attitude: " + name + kNoOrientation);
+    const std::size_t unknown = survey_.unknown_attitudes;
+    note_unknown(unknown, "attitude", short_number(kMostTiltSigmaRad * kMostTiltSigmaRad), name);
+    if (survey_.attitudes.empty() && unknown == 0) note("no attitude: " + name + kNoOrientation);
+    if (survey_.attitudes.empty()) return;
     const AttitudeRows attitude =
         attitude_rows(survey_.attitudes, sigma_rad, options_.attitude_sigma_rad.has_value());
     if (!attitude.why_not.empty()) return note("no attitude of " + name + ": " + attitude.why_not);
@@ -223,9 +223,9 @@ class SurveyWriter {
     write_attitude(mav0_, attitude.rows);
     fact(counted(survey_.attitudes.size(), "attitude") + " from " + name + ": " + attitude.fact);
     note("roll and pitch are taken to be those of the body; --attitude none takes it for level");
-    if (attitude.unknown > 0) {
+    if (attitude.unstated > 0) {
       note(fmt::format("{} without variance in the bag: taken for good to {} rad",
-                       counted(attitude.unknown, "attitude"), short_number(sigma_rad)));
+                       counted(attitude.unstated, "attitude"), short_number(sigma_rad)));
     }
   }
 
