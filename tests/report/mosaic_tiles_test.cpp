@@ -111,6 +111,29 @@ TEST(MosaicTiles, WhatIsFarFromAllPicturesIsNeverMade) {
   EXPECT_GE(tiles, 2u);
 }
 
+TEST(MosaicTiles, APictureTakesLittleMemoryWhateverTheResolution) {
+  // The second, from high above, covers ten thousand times as many pixels as the first.
+  const Camera camera(full_model());
+  MosaicOptions options = MosaicOptions::of_tiles();
+  for (const double altitude_m : {2.0, 200.0}) {
+    options.metres_per_pixel = altitude_m > 2.0 ? 2e-3 : 1e-7;
+    const MosaicPlan plan =
+        plan_mosaic(camera, std::vector<PlacedPicture>{{0, 2.0, {}}, {1, altitude_m, {}}}, options);
+    // That of the second, in which the first lies.
+    EXPECT_NEAR(plan.size.area(), 64e6, 0.1e6);
+  }
+}
+
+TEST(MosaicTiles, RefusesTooMany) {
+  const KnownFloor floor(Camera(full_model()), legs(1));
+  MosaicOptions options = MosaicOptions::of_tiles();
+  options.metres_per_pixel = 1e-3;
+  const MosaicPlan plan = plan_mosaic(floor.camera(), floor.truth(), options);
+  EXPECT_THAT(test::input_error_of(
+                  [&] { make_tiles(floor, plan, {.side_px = 1}, [](const MosaicTile&) {}); }),
+              testing::HasSubstr("more than 400000 tiles of 1 pixels a side"));
+}
+
 TEST(MosaicTiles, RefusesNone) {
   const KnownFloor floor(Camera(full_model()), legs(1));
   const MosaicPlan plan = plan_mosaic(floor.camera(), floor.truth(), {});

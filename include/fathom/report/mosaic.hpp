@@ -63,7 +63,8 @@ struct MosaicPlan {
 /// leaves less than a fifth of overlap. Fillers are laid by the same rule, but only where it is a
 /// leap from the last one laid to the next that is no filler. So what can be covered is, the work
 /// follows the way and not the frame rate, and a place is seen by a few pictures a leg, few enough
-/// for a ghost to be seen. Where the mosaic would be larger than it may, its pixels are coarser.
+/// for a ghost to be seen. Where the mosaic would be larger than it may, its pixels are coarser; so
+/// they are where a picture would cover more than 64 megapixels and four times its own.
 ///
 /// Throws InputError without a picture, on a resolution or altitude that is not positive, on a pose
 /// that is not finite, and where poses lie so far apart that the pictures would be specks.
@@ -108,7 +109,7 @@ struct TileOptions {
 /// reach. Put together they are that of make_mosaics bit for bit, whatever their size. Memory: a
 /// tile at 9 bytes a pixel, with seams 17, the cache, 64 MiB of pictures in work, and some 200
 /// bytes a picture, with seams 10 KB. Progress counts tiles. Throws InputError where a picture
-/// cannot be read.
+/// cannot be read, and on more than 400 000 tiles or 4 000 000 pictures in them together.
 void make_tiles(const FrameSource& source, const MosaicPlan& plan, const TileOptions& options,
                 const std::function<void(const MosaicTile&)>& take,
                 const MosaicProgress& progress = {});

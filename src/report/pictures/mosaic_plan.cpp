@@ -117,18 +117,31 @@ double median_of(const std::vector<LaidFootprint>& footprints, Member member) {
 struct FloorBox {
   Eigen::Vector2d low = Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity());
   Eigen::Vector2d high = -low;
+  double largest_picture_m2 = 0.0;  ///< of the box of one of its pictures
+
+  void add(const FloorBox& other) {
+    low = low.cwiseMin(other.low);
+    high = high.cwiseMax(other.high);
+    largest_picture_m2 = std::max(largest_picture_m2, (other.high - other.low).prod());
+  }
 };
 
 FloorBox box_of(const Camera& camera, const std::vector<PlacedPicture>& pictures) {
   FloorBox box;
   for (const PlacedPicture& picture : pictures) {
+    FloorBox one;
     for (const Eigen::Vector2d& point : seen_outline(camera, picture.stance)) {
       const Eigen::Vector2d world = transform(picture.pose, point);
-      box.low = box.low.cwiseMin(world);
-      box.high = box.high.cwiseMax(world);
+      one.add({world, world});
     }
+    box.add(one);
   }
   return box;
+}
+
+// Of the box of a picture, for which a mask is made. A box on the slant is twice the picture.
+double most_picture_pixels(const CameraModel& model) {
+  return std::max(64e6, 4.0 * model.width * model.height);
 }
 
 // Width and height on the grid of whole pixels, not yet as integers: they may be beyond those.
@@ -140,7 +153,9 @@ Eigen::Vector2d size_px(const FloorBox& box, double metres_per_pixel) {
 }
 
 double fitting_resolution(const FloorBox& box, double metres_per_pixel,
-                          const MosaicOptions& options) {
+                          const MosaicOptions& options, const CameraModel& model) {
+  metres_per_pixel =
+      std::max(metres_per_pixel, std::sqrt(box.largest_picture_m2 / most_picture_pixels(model)));
   while (true) {
     const Eigen::Vector2d size = size_px(box, metres_per_pixel);
     const double excess =
@@ -192,7 +207,8 @@ MosaicPlan plan_mosaic(const Camera& camera, std::span<const PlacedPicture> pict
   const FloorBox box = box_of(camera, plan.pictures);
   plan.wanted_metres_per_pixel =
       options.metres_per_pixel.value_or(median_of(laid, &LaidFootprint::metres_per_pixel));
-  plan.metres_per_pixel = fitting_resolution(box, plan.wanted_metres_per_pixel, options);
+  plan.metres_per_pixel =
+      fitting_resolution(box, plan.wanted_metres_per_pixel, options, camera.model());
   require_no_specks(box, plan, median_of(laid, &LaidFootprint::shorter_side_m));
   const Eigen::Vector2d size = size_px(box, plan.metres_per_pixel);
   plan.size = cv::Size(static_cast<int>(size.x()), static_cast<int>(size.y()));

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <fmt/format.h>
 #include <map>
 #include <utility>
 #include <vector>
@@ -12,7 +13,19 @@
 namespace fathom {
 namespace {
 
+/// Some 150 bytes each, with their names in mosaic.json.
+constexpr std::size_t kMostTiles = 400'000;
+/// Over all tiles, the pictures in them.
+constexpr std::size_t kMostUses = 4'000'000;
+
 using PicturesByColumn = std::map<int, std::vector<const PlacedPicture*>>;
+
+[[noreturn]] void throw_too_many(int side_px) {
+  throw InputError(
+      fmt::format("more than {} tiles of {} pixels a side, or {} pictures in them together; larger "
+                  "tiles or pixels are fewer",
+                  kMostTiles, side_px, kMostUses));
+}
 
 // Which pictures each tile needs, by row and column of tiles: tiles without one take no room.
 std::map<int, PicturesByColumn> pictures_by_tile(const Camera& camera, const MosaicPlan& plan,
@@ -22,12 +35,17 @@ std::map<int, PicturesByColumn> pictures_by_tile(const Camera& camera, const Mos
   for (const PlacedPicture& place : plan.pictures) in_order.push_back(&place);
   std::ranges::stable_sort(in_order, {}, &PlacedPicture::frame);
   std::map<int, PicturesByColumn> tiles;
+  std::size_t count = 0;
+  std::size_t uses = 0;
   for (const PlacedPicture* place : in_order) {
     const cv::Rect box = Blend::box_of(camera, plan, *place);
     if (box.empty()) continue;
     for (int row = box.y / side_px; row <= (box.y + box.height - 1) / side_px; ++row) {
       for (int column = box.x / side_px; column <= (box.x + box.width - 1) / side_px; ++column) {
-        tiles[row][column].push_back(place);
+        std::vector<const PlacedPicture*>& tile = tiles[row][column];
+        tile.push_back(place);
+        if (tile.size() == 1) ++count;
+        if (count > kMostTiles || ++uses > kMostUses) throw_too_many(side_px);
       }
     }
   }
