@@ -25,28 +25,22 @@ std::string_view trim(std::string_view text) {
   return text.substr(begin, text.find_last_not_of(" \t\r\n") - begin + 1);
 }
 
-namespace {
-
-std::vector<TextLine> lines_in(std::string_view content, bool with_blank) {
-  std::vector<TextLine> lines;
-  std::size_t number = 0;
-  for (std::size_t begin = 0; begin < content.size();) {
-    const std::size_t end = std::min(content.find('\n', begin), content.size());
-    const TextLine line{++number, trim(content.substr(begin, end - begin))};
-    if (with_blank || !line.text.empty()) lines.push_back(line);
-    begin = end + 1;
-  }
-  return lines;
+TextLines::Iterator& TextLines::Iterator::operator++() {
+  do {
+    is_end_ = rest_.empty();
+    const std::size_t end = std::min(rest_.find('\n'), rest_.size());
+    line_ = {line_.number + 1, trim(rest_.substr(0, end))};
+    rest_.remove_prefix(std::min(end + 1, rest_.size()));
+  } while (!is_end_ && !with_blank_ && line_.text.empty());
+  return *this;
 }
 
-}  // namespace
-
-std::vector<TextLine> all_lines_of(std::string_view content) {
-  return lines_in(content, true);
+TextLines all_lines_of(std::string_view content) {
+  return {content, true};
 }
 
-std::vector<TextLine> lines_of(std::string_view content) {
-  return lines_in(content, false);
+TextLines lines_of(std::string_view content) {
+  return {content, false};
 }
 
 std::string joined(const std::vector<std::string>& words, const std::string& separator) {

@@ -96,7 +96,9 @@ std::vector<LineOfFile> trajectory_lines(std::string_view content, const std::st
   std::vector<LineOfFile> lines;
   for (const auto& [number, whole] : lines_of(content)) {
     const std::string_view text = trim(whole.substr(0, whole.find('#')));
-    if (!text.empty()) lines.emplace_back(name, number, text);
+    if (text.empty()) continue;
+    lines.emplace_back(name, number, text);
+    if (text.size() > kLongestRow) lines.back().refuse(kTooLongRow);
   }
   return lines;
 }

@@ -61,11 +61,7 @@ std::vector<bool> read_false_loops(const std::filesystem::path& path, const Meas
   const std::vector<RelativePose> all = registrations_of(log);
   std::vector<bool> is_false(all.size(), false);
   const std::string content = read_text(path);
-  std::size_t line = 0;
-  for (const std::string_view raw : split(content, "\n")) {
-    ++line;
-    const std::string row(trim(raw));
-    if (row.empty()) continue;
+  for (const auto& [line, row] : lines_of(content)) {
     if (line == 1) {
       if (row != kHeader) {
         throw InputError(path.string(), line, std::string("expected the header ") + kHeader);
@@ -76,7 +72,7 @@ std::vector<bool> read_false_loops(const std::filesystem::path& path, const Meas
     const bool is_there = place && *place >= 0 && static_cast<std::size_t>(*place) < all.size();
     if (!is_there || row_of(static_cast<std::size_t>(*place), all[static_cast<std::size_t>(*place)],
                             log) != row) {
-      throw InputError(path.string(), line, "'" + row + "' is no registration of this graph");
+      throw InputError(path.string(), line, in_quotes(row) + " is no registration of this graph");
     }
     is_false[static_cast<std::size_t>(*place)] = true;
   }

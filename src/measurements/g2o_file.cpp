@@ -101,6 +101,7 @@ class Scanner {
 
  private:
   void read_line(std::string_view line) {
+    if (line.size() > kLongestRow) fail(kTooLongRow);
     const std::size_t comment = line.find('#');
     if (comment != std::string_view::npos) {
       read_comment(split(line.substr(comment + 1)));
@@ -149,9 +150,8 @@ class Scanner {
   void read_comment(const Fields& words) {
     if (words.empty()) return;
     if (words[0] == "inliers" && words.size() == 2) {
-      const auto count = parse_integer(words[1]);
-      const bool is_count = count && *count >= 0 && *count < 1'000'000'000;
-      if (is_count) pending_inliers_ = static_cast<int>(*count);
+      const std::int64_t count = parse_integer(words[1]).value_or(-1);
+      if (count >= 0 && count < 1'000'000'000) pending_inliers_ = static_cast<int>(count);
     } else if (words[0] == "hole") {
       if (const auto hole = hole_of(words))
         file_.holes.emplace(std::pair(hole->from, hole->to), *hole);

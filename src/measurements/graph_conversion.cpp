@@ -124,7 +124,10 @@ bool is_graph(const std::string& content) {
 ConvertedGraph convert_graph(const std::string& content, const std::string& name, GraphFormat to,
                              const ConversionOptions& options) {
   Converter converter(to, options);
-  for (const TextLine& line : all_lines_of(content)) converter.read(line.text);
+  for (const TextLine& line : all_lines_of(content)) {
+    if (line.text.size() > kLongestRow) throw InputError(name, line.number, kTooLongRow);
+    converter.read(line.text);
+  }
   const G2oFault fault = [&name](std::size_t line, const std::string& what) {
     throw InputError(name, line, what);
   };

@@ -74,6 +74,7 @@ class SharedScanner {
   void for_lines(const std::string& content, const Use& use) {
     for (const auto& [number, text] : lines_of(content)) {
       line_ = number;
+      if (text.size() > kLongestRow) fail(kTooLongRow);
       const Fields fields = split(text.substr(0, text.find('#')));
       if (!fields.empty()) use(fields);
     }

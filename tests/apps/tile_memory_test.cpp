@@ -1,4 +1,4 @@
-// What a mosaic takes in memory, whole and by tiles.
+// What a mosaic takes in memory, whole and by tiles, and what a file of comments does.
 
 #include <fstream>
 
@@ -43,6 +43,19 @@ TEST_F(TileMemory, OfTilesDoesNotGrowWithTheMosaic) {
   EXPECT_LT(tiles, 0.4 * whole);
   RecordProperty("whole_MiB", static_cast<int>(whole));
   RecordProperty("tiles_MiB", static_cast<int>(tiles));
+}
+
+using ReaderMemory = TileMemory;
+
+TEST_F(ReaderMemory, KeepsNoComments) {
+  if (!FATHOM_MEASURES_MEMORY) GTEST_SKIP() << "a sanitizer takes memory of its own";
+  std::string comments;
+  for (int i = 0; i < 5'000'000; ++i) comments += "#\n";
+  write("graph.g2o", "EDGE_SE2 0 1 1 0 0 1 0 0 1 0 1\n" + comments);
+  write("trajectory.tum", "0 0 0 0 0 0 0 1\n1 1 0 0 0 0 0 1\n" + comments);
+  for (const char* const file : {"graph.g2o", "trajectory.tum"}) {
+    EXPECT_LT(peak_MiB({"check", file}), 120.0) << file;
+  }
 }
 
 }  // namespace

@@ -5,6 +5,8 @@
 #include <cstdlib>
 #include <limits>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -35,6 +37,25 @@ TEST(Trim, TakesBlanksOffBothEnds) {
   EXPECT_EQ(trim(" \t a b\r\n"), "a b");
   EXPECT_EQ(trim(" \n"), "");
   EXPECT_EQ(trim(""), "");
+}
+
+using NumberedLines = std::vector<std::pair<std::size_t, std::string>>;
+
+NumberedLines numbered(TextLines lines) {
+  NumberedLines all;
+  for (const auto& [number, text] : lines) all.emplace_back(number, text);
+  return all;
+}
+
+TEST(Lines, HaveTheirNumbersAndNoBlanksAround) {
+  const NumberedLines all{{1, ""}, {2, "a b"}, {3, ""}, {4, "c"}};
+  for (const char* const text : {"\n a b\r\n \t\nc", "\n a b\r\n \t\nc\n"}) {
+    EXPECT_EQ(numbered(all_lines_of(text)), all);
+    EXPECT_EQ(numbered(lines_of(text)), (NumberedLines{{2, "a b"}, {4, "c"}}));
+  }
+  EXPECT_THAT(numbered(all_lines_of("")), IsEmpty());
+  EXPECT_THAT(numbered(lines_of("\n\n")), IsEmpty());
+  EXPECT_THAT(numbered(all_lines_of("\n\n")), testing::SizeIs(2));
 }
 
 TEST(Joined, EmptyWordsCount) {

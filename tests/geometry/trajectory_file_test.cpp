@@ -115,6 +115,7 @@ TEST_F(TrajectoryFile, RefusesWithFileAndLine) {
       {tum + kitti, "expected 't x y z qx qy qz qw', got 12 fields"},
       {tum + "1403636579763555527 0 0 0 0 0 0 1", "it seems, nanoseconds"},
       {tum + "0 0 0 0 0 0 0 1", "time stamps must rise"},
+      {tum + "0" + std::string(2 << 20, ' ') + "1", "has more than a mebibyte"},
       {euroc + "5000000000,0,0,0,1,0,0", "got 7 fields"},
       {euroc + tum, "got 1 fields"},
       {euroc + "5000000000,0,0,,1,0,0,0", "'' is not a finite number"},

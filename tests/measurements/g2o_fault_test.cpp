@@ -54,6 +54,8 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"three_dimensional", kGood + "VERTEX_SE3:QUAT 0 0 0 0 0 0 0 1",
               "4: ", "unknown tag 'VERTEX_SE3:QUAT'; a 2-D graph has VERTEX_SE2"},
         Fault{"lower_case", kGood + "edge_se2 0 1 1 0 0 1 0 0 1 0 1", "4: ", "'edge_se2'"},
+        Fault{"long_row", kGood + "EDGE_SE2" + std::string(2 << 20, ' ') + "0 1 1 0 0 1 0 0 1 0 1",
+              "4: ", "has more than a mebibyte"},
         Fault{"long_tag", kGood + std::string(100'000, 'x'), "4: ", "unknown tag 'xxxx"},
         Fault{"control_bytes", kGood + "\x1b[2J\x07", "4: ", "unknown tag '?[2J?'"},
         Fault{"nan_vertex", kGood + "VERTEX_SE2 2 nan 0 0", "4: ", "'nan' is not a finite number"},

@@ -70,6 +70,8 @@ TEST(GraphConversion, RefusesWithFileAndLine) {
   EXPECT_THAT(error_of(kG2o + "VERTEX_SE2 9 0 nan 0\n"), HasSubstr("'nan'"));
   EXPECT_THAT(error_of(kG2o + "EDGE_SE2 0 9 0 0 0 1 0 0 1 0 1\n"), HasSubstr("vertex 9"));
   EXPECT_THAT(error_of("EDGE_SE2 0 1 0 0 0 1 2 0 1 0 1\n"), HasSubstr("not positive definite"));
+  EXPECT_THAT(error_of(kG2o + "FIX" + std::string(2 << 20, ' ') + "0\n"),
+              HasSubstr("graph:7: has more than a mebibyte"));
   EXPECT_THAT(error_of("FIX 0\n"), HasSubstr("holds no pose graph"));
   EXPECT_THAT(error_of(""), HasSubstr("holds no pose graph"));
 }

@@ -167,6 +167,7 @@ TEST(SharedFile, FaultsAreNamedWithFileAndLine) {
       {kGoodShared + "PICTURE 2 1 1 1\n", {":4: ", "on line 2 already"}},
       {"PICTURE 0 -1 0 0\n", {":1: ", "expected 0 or more"}},
       {"PICTURE 0 nan 0 0\n", {":1: ", "'nan' is not a finite number"}},
+      {"PICTURE" + std::string(2 << 20, ' ') + "0 1 1 1\n", {":1: ", "more than a mebibyte"}},
       {"PICTURE 0 1 1\n", {":1: ", "an id and three standard deviations"}},
       {"PICTURE -1 1 1 1\n", {":1: ", "'-1' is not an id"}},
       {"PRIOR 0 1\n", {":1: ", "expected PICTURE or REGISTRATION"}},

@@ -3,6 +3,7 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -26,9 +27,46 @@ struct TextLine {
   std::size_t number = 0;  ///< from 1
   std::string_view text;   ///< trimmed
 };
-std::vector<TextLine> all_lines_of(std::string_view content);
+
+/// The lines of a text, each found as a loop comes to it: a list of them would take twelve times a
+/// text of short ones. Refers to the text.
+class TextLines {
+ public:
+  TextLines(std::string_view content, bool with_blank)
+      : content_(content), with_blank_(with_blank) {}
+
+  class Iterator {
+   public:
+    Iterator(std::string_view rest, bool with_blank) : rest_(rest), with_blank_(with_blank) {
+      ++*this;
+    }
+    const TextLine& operator*() const { return line_; }
+    Iterator& operator++();
+    bool operator==(std::default_sentinel_t) const { return is_end_; }
+
+   private:
+    std::string_view rest_;
+    bool with_blank_;
+    bool is_end_ = false;
+    TextLine line_;
+  };
+
+  Iterator begin() const { return {content_, with_blank_}; }
+  std::default_sentinel_t end() const { return {}; }
+
+ private:
+  std::string_view content_;
+  bool with_blank_;
+};
+
+TextLines all_lines_of(std::string_view content);
 /// The lines that are not blank.
-std::vector<TextLine> lines_of(std::string_view content);
+TextLines lines_of(std::string_view content);
+
+/// Readers refuse rows that are longer: a list of their fields would take sixteen times a row of
+/// short ones.
+inline constexpr std::size_t kLongestRow = 1 << 20;
+inline constexpr const char* kTooLongRow = "has more than a mebibyte; expected a row of a table";
 
 /// The words with the separator between them.
 std::string joined(const std::vector<std::string>& words, const std::string& separator);

@@ -36,28 +36,23 @@ std::string text_of(const TimeSpan& span) {
   return fmt::format("{} to {} ns", span.first_ns, span.last_ns);
 }
 
-struct CommentLine {
-  std::size_t line = 0;
-  std::string text;
-};
-
-std::vector<CommentLine> comments_of(const fs::path& path) {
-  std::vector<CommentLine> comments;
+// Takes what is behind the #, of each line that begins with one, as far as a row may reach.
+template <class Take>
+void for_comments(const fs::path& path, const Take& take) {
   const std::string content = read_text(path);
   for (const auto& [line, text] : lines_of(content)) {
-    if (text.starts_with('#')) comments.push_back({line, std::string(text.substr(1))});
+    if (text.starts_with('#')) take(TextLine{line, text.substr(1, kLongestRow)});
   }
-  return comments;
 }
 
 // Older imports wrote the square.
 void refuse_variances(const fs::path& csv) {
-  for (const CommentLine& comment : comments_of(csv)) {
-    if (comment.text.find("variance") == std::string::npos) continue;
-    throw InputError(csv.string(), comment.line,
+  for_comments(csv, [&](const TextLine& comment) {
+    if (comment.text.find("variance") == comment.text.npos) return;
+    throw InputError(csv.string(), comment.number,
                      "the third column is a variance; expected timestamp, heading [rad], sigma "
                      "[rad]: import the bag again, or write square roots");
-  }
+  });
 }
 
 MeasuredHeading heading_of(const SensorCsv& csv, const SensorRow& row) {
@@ -99,28 +94,28 @@ FolderCompass read_compass(const fs::path& folder, const TimeSpan& survey) {
 // Whether the file's columns are those on Earth.
 bool is_on_earth(const fs::path& csv) {
   std::optional<bool> on_earth;
-  for (const CommentLine& comment : comments_of(csv)) {
+  for_comments(csv, [&](const TextLine& comment) {
     const std::vector<std::string> names = names_of_columns(comment.text);
-    if (names.size() < 3) continue;
+    if (names.size() < 3) return;
     const auto has = [&names](const char* name) {
       return std::ranges::find(names, name) != names.end();
     };
     const bool world = has("x") || has("y");
     const bool earth = has("latitude") || has("longitude");
-    if (!world && !earth) continue;
+    if (!world && !earth) return;
     if ((world && earth) || (on_earth && *on_earth != earth)) {
-      throw InputError(csv.string(), comment.line,
+      throw InputError(csv.string(), comment.number,
                        "fixes in two frames, x, y and latitude, longitude; expected one of them");
     }
     const bool is_in_order = earth ? names[1] == "latitude" && names[2] == "longitude"
                                    : names[1] == "x" && names[2] == "y";
     if (!is_in_order) {
       throw InputError(
-          csv.string(), comment.line,
+          csv.string(), comment.number,
           std::string("expected the columns ") + (earth ? kEarthColumns : kWorldColumns));
     }
     on_earth = earth;
-  }
+  });
   if (on_earth) return *on_earth;
   throw InputError(csv.string(),
                    fmt::format("does not name its columns; expected a first line #{}, or #{}",

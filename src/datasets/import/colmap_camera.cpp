@@ -45,7 +45,7 @@ struct ColmapLine {
 
 // CAMERA_ID, MODEL, WIDTH, HEIGHT, PARAMS[]
 ColmapLine parse_camera(const std::string& file, const TextLine& line) {
-  const auto words = split(line.text);
+  const auto words = split(line.text.substr(0, kLongestRow));
   ColmapLine camera;
   const auto id = words.empty() ? std::nullopt : parse_integer(words[0]);
   bool is_camera = words.size() > 4 && id;

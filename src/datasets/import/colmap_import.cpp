@@ -36,7 +36,7 @@ struct NamedCamera {
 NamedCamera parse_image(const std::string& file, std::size_t line, std::string_view text) {
   constexpr std::size_t kNumbers = 9;
   constexpr double kMostOff = 0.02;
-  const auto words = split(text);
+  const auto words = split(text.substr(0, kLongestRow));
   std::array<double, kNumbers> numbers{};
   bool is_image = words.size() > kNumbers;
   for (std::size_t i = 0; is_image && i < kNumbers; ++i) {

@@ -42,9 +42,10 @@ ImportKind kind_of_folder(const fs::path& folder) {
 bool is_kitti(const fs::path& path) {
   constexpr std::size_t kNumbers = 12;
   std::ifstream file(path);
-  std::string line;
-  std::getline(file, line);
-  const auto words = split(line);
+  // Twelve numbers take a few hundred: it may be a large file of one line.
+  std::string line(4096, '\0');
+  file.getline(line.data(), static_cast<std::streamsize>(line.size()));
+  const auto words = split(std::string_view(line.c_str()));
   return words.size() == kNumbers && parse_real(words.front()) && parse_real(words.back());
 }
 

@@ -63,8 +63,8 @@ std::vector<std::pair<std::size_t, std::size_t>> used_loops(const fs::path& file
                                                             std::size_t keyframes) {
   std::vector<std::pair<std::size_t, std::size_t>> loops;
   const std::string content = read_text(file);
-  for (const std::string_view line : split(content, "\n")) {
-    const auto fields = split_csv(line);
+  for (const TextLine& line : lines_of(content)) {
+    const auto fields = split_csv(line.text.substr(0, kLongestRow));
     if (fields.size() < 3 || fields[2] != "used") continue;
     const auto from = parse_integer(fields[0]);
     const auto to = parse_integer(fields[1]);
