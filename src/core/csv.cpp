@@ -27,6 +27,16 @@ void require_text(const std::filesystem::path& path, std::string_view content) {
   }
 }
 
+// Before any row is held: each takes more than a hundred bytes, however short it is.
+void require_rows(const std::filesystem::path& path, std::string_view content) {
+  std::size_t rows = 0;
+  for (const auto& [line, text] : lines_of(content)) {
+    if (text.front() == '#' || ++rows <= kMostCsvRows) continue;
+    throw InputError(path.string(), line,
+                     "has too many rows; the limit is " + std::to_string(kMostCsvRows));
+  }
+}
+
 bool is_whole(std::string_view field) {
   if (field.starts_with('-') || field.starts_with('+')) field.remove_prefix(1);
   return !field.empty() && field.find_first_not_of("0123456789") == std::string_view::npos;
@@ -120,6 +130,7 @@ CsvFile::CsvFile(std::filesystem::path path, std::string columns, const std::str
       names_(names_of_columns(more.empty() ? columns_ : columns_ + "," + more)) {
   const std::string content = read_text(path_);
   require_text(path_, content);
+  require_rows(path_, content);
   for (const auto& [line, text] : lines_of(content)) {
     // Told before they are split: each field takes sixteen bytes, however short it is.
     const auto columns_here = static_cast<std::size_t>(std::ranges::count(text, ',')) + 1;
@@ -128,12 +139,10 @@ CsvFile::CsvFile(std::filesystem::path path, std::string columns, const std::str
       if (!is_too_wide) take_header(line, text);
       continue;
     }
-    if (is_too_wide || rows_.size() == kMostCsvRows) {
+    if (is_too_wide) {
       throw InputError(path_.string(), line,
-                       is_too_wide
-                           ? "has " + std::to_string(columns_here) + " columns; the limit is " +
-                                 std::to_string(kMostCsvColumns)
-                           : "has too many rows; the limit is " + std::to_string(kMostCsvRows));
+                       "has " + std::to_string(columns_here) + " columns; the limit is " +
+                           std::to_string(kMostCsvColumns));
     }
     const auto fields = split_csv(text);
     rows_.push_back({line, {fields.begin(), fields.end()}});

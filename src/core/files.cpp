@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdint>
 #include <cstdio>
 #include <fcntl.h>
 #include <system_error>
@@ -81,10 +82,12 @@ std::string read_file(const fs::path& path, std::size_t most_bytes) {
     }
     throw InputError(path.string(), "cannot be opened; does it exist?");
   }
-  // Not by the size that the system tells: a device or a pipe has none, and may have no end.
   constexpr std::size_t kFirstPiece = 4096;  // most files are small
   std::string content;
-  while (content.size() <= most_bytes) {
+  // A device or a pipe has no size that the system tells, and may have no end.
+  const std::uintmax_t told = fs::file_size(path, error);
+  const bool is_too_large = !error && told > most_bytes;
+  while (!is_too_large && content.size() <= most_bytes) {
     const std::size_t size = content.size();
     content.resize(size + std::min(std::max(kFirstPiece, size), most_bytes + 1 - size));
     const ssize_t got = ::read(file.descriptor(), content.data() + size, content.size() - size);

@@ -1,10 +1,12 @@
-// What a mosaic takes in memory, whole and by tiles, and what a file of comments does.
+// What a mosaic takes in memory, whole and by tiles, and what files of others do.
 
+#include <filesystem>
 #include <fstream>
 
 #include <gmock/gmock.h>
 
 #include "apps/command_line.hpp"
+#include "fathom/core/csv.hpp"
 #include "harness/small_config.hpp"
 
 namespace fathom::test {
@@ -13,15 +15,15 @@ namespace {
 class TileMemory : public CommandLine {
  protected:
   // The most that the program ever held, MiB.
-  double peak_MiB(const Arguments& arguments) const {
+  double peak_MiB(const Arguments& arguments, int status = 0) const {
     double peak = 0.0;
     const Ended ended = fathom(arguments, [&](pid_t process) {
-      std::ifstream status("/proc/" + std::to_string(process) + "/status");
-      for (std::string line; std::getline(status, line);) {
+      std::ifstream lines("/proc/" + std::to_string(process) + "/status");
+      for (std::string line; std::getline(lines, line);) {
         if (line.starts_with("VmHWM:")) peak = std::stod(line.substr(6)) / 1024.0;
       }
     });
-    EXPECT_EQ(ended.status, 0) << ended.err;
+    EXPECT_EQ(ended.status, status) << ended.err;
     return peak;
   }
 };
@@ -56,6 +58,20 @@ TEST_F(ReaderMemory, KeepsNoComments) {
   for (const char* const file : {"graph.g2o", "trajectory.tum"}) {
     EXPECT_LT(peak_MiB({"check", file}), 120.0) << file;
   }
+}
+
+// A file that is one hole, and rows of which each would take a hundred bytes.
+TEST_F(ReaderMemory, WhatIsTooLargeIsNotHeld) {
+  if (!FATHOM_MEASURES_MEMORY) GTEST_SKIP() << "a sanitizer takes memory of its own";
+  write("graph.g2o", "");
+  std::filesystem::resize_file(path("graph.g2o"), 3'000'000'000);
+  EXPECT_LT(peak_MiB({"check", "graph.g2o"}, 2), 120.0);
+  write("c.yaml", kSmallSurvey);
+  fathom_done({"simulate", "c.yaml", "--out", "folder"});
+  std::string rows;
+  for (std::size_t i = 0; i <= kMostCsvRows; ++i) rows += "1,2\n";
+  write("folder/mav0/altimeter0/data.csv", rows);
+  EXPECT_LT(peak_MiB({"check", "folder"}, 2), 200.0);
 }
 
 }  // namespace
