@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <utility>
 
 #include "fathom/core/files.hpp"
 #include "fathom/core/input_error.hpp"
+#include "fathom/core/limits.hpp"
 #include "fathom/core/text.hpp"
 
 namespace fathom {
@@ -29,11 +31,10 @@ void require_text(const std::filesystem::path& path, std::string_view content) {
 
 // Before any row is held: each takes more than a hundred bytes, however short it is.
 void require_rows(const std::filesystem::path& path, std::string_view content) {
-  std::size_t rows = 0;
+  std::uint64_t left = value_of(Limit::csv_rows);
   for (const auto& [line, text] : lines_of(content)) {
-    if (text.front() == '#' || ++rows <= kMostCsvRows) continue;
-    throw InputError(path.string(), line,
-                     "has too many rows; the limit is " + std::to_string(kMostCsvRows));
+    if (text.front() == '#' || left-- > 0) continue;
+    throw InputError(path.string(), line, "has too many rows; " + limit_text(Limit::csv_rows));
   }
 }
 

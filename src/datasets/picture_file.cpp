@@ -8,6 +8,7 @@
 
 #include "fathom/core/files.hpp"
 #include "fathom/core/input_error.hpp"
+#include "fathom/core/limits.hpp"
 #include "fathom/core/text.hpp"
 #include "fathom/vision/picture_codecs.hpp"
 #include "picture_header.hpp"
@@ -35,9 +36,10 @@ cv::Mat decode_sound(std::string_view bytes) {
 // Before any of it is decoded: a file of some hundred kilobytes can ask for all memory.
 void require_pixels(std::string_view bytes, const std::filesystem::path& path) {
   const auto size = size_in_header(bytes);
-  if (!size || size->width <= kMostPicturePixels / std::max<std::uint64_t>(size->height, 1)) return;
-  throw InputError(path.string(), fmt::format("has {} x {} pixels; the limit is {} in all",
-                                              size->width, size->height, kMostPicturePixels));
+  const std::uint64_t most = value_of(Limit::picture_pixels);
+  if (!size || size->width <= most / std::max<std::uint64_t>(size->height, 1)) return;
+  throw InputError(path.string(), fmt::format("has {} x {} pixels in all; {}", size->width,
+                                              size->height, limit_text(Limit::picture_pixels)));
 }
 
 void require_size(HeaderSize there, cv::Size size, const std::filesystem::path& path,

@@ -106,6 +106,22 @@ TEST_F(BadFolder, TextsAreRefusedAtTheirLine) {
   }
 }
 
+TEST_F(BadFolder, LimitsAreThoseOfTheEnvironment) {
+  const FolderFixture fixture;
+  const auto refused_with = [&](const std::string& limits) {
+    surroundings_.environment = {{"FATHOM_LIMITS", limits}};
+    return refused(fixture);
+  };
+  EXPECT_THAT(refused_with("csv_rows=2"),
+              HasSubstr("cam0/data.csv:4: has too many rows; the limit is 2; FATHOM_LIMITS=csv_rows"
+                        "=N sets another"));
+  EXPECT_THAT(refused_with("csv_rows=3,picture_pixels=47"),
+              HasSubstr("a.png: has 8 x 6 pixels in all; the limit is 47; "));
+  for (const char* const wrong : {"csv_row=2", "csv_rows", "csv_rows=0", "csv_rows=1e6", "=2"}) {
+    EXPECT_THAT(refused_with(wrong), HasSubstr("FATHOM_LIMITS: expected csv_rows=N, ")) << wrong;
+  }
+}
+
 TEST_F(BadFolder, PicturesAreRefusedByName) {
   const FolderFixture fixture;
   // The last picture is read in the background.

@@ -1,12 +1,13 @@
 // What a mosaic takes in memory, whole and by tiles, and what files of others do.
 
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 
 #include <gmock/gmock.h>
 
 #include "apps/command_line.hpp"
-#include "fathom/core/csv.hpp"
+#include "fathom/core/limits.hpp"
 #include "harness/small_config.hpp"
 
 namespace fathom::test {
@@ -69,7 +70,7 @@ TEST_F(ReaderMemory, WhatIsTooLargeIsNotHeld) {
   write("c.yaml", kSmallSurvey);
   fathom_done({"simulate", "c.yaml", "--out", "folder"});
   std::string rows;
-  for (std::size_t i = 0; i <= kMostCsvRows; ++i) rows += "1,2\n";
+  for (std::uint64_t i = 0; i <= value_of(Limit::csv_rows); ++i) rows += "1,2\n";
   write("folder/mav0/altimeter0/data.csv", rows);
   EXPECT_LT(peak_MiB({"check", "folder"}, 2), 200.0);
 }

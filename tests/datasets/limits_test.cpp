@@ -1,5 +1,7 @@
 // Image folders and pictures that would fill memory, or have other files read.
 
+#include "fathom/core/limits.hpp"
+
 #include <boost/crc.hpp>
 #include <cstdint>
 #include <filesystem>
@@ -43,7 +45,8 @@ std::string with_bytes(std::string bytes, std::size_t at, const std::string& oth
 
 TEST(PictureLimits, AHeaderThatAsksForAllMemoryIsRefusedBeforeDecoding) {
   const cv::Mat small(6, 8, CV_8UC1, cv::Scalar(90));
-  const std::string large = "p: has 60000 x 60000 pixels; the limit is 268435456 in all";
+  const std::string large =
+      "p: has 60000 x 60000 pixels in all; " + limit_text(Limit::picture_pixels);
   const std::string big = {'\0', '\0', '\xEA', '\x60'};
   const std::string little = {'\x60', '\xEA', '\0', '\0'};
   EXPECT_EQ(refusal_of_picture(with_bytes(encode_picture(".png", small), 16, big + big)), large);
@@ -66,7 +69,7 @@ TEST(PictureLimits, AHeaderThatAsksForAllMemoryIsRefusedBeforeDecoding) {
   EXPECT_EQ(refusal_of_picture(tiff), large);
   EXPECT_EQ(
       refusal_of_picture(with_bytes(encode_picture(".png", small), 16, std::string(8, '\xFF'))),
-      "p: has 4294967295 x 4294967295 pixels; the limit is 268435456 in all");
+      "p: has 4294967295 x 4294967295 pixels in all; " + limit_text(Limit::picture_pixels));
 }
 
 TEST(PictureLimits, PicturesOfAllFormatsAreRead) {

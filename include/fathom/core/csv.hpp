@@ -9,8 +9,6 @@
 
 namespace fathom {
 
-/// What a file of comma-separated values may have: rows as of a sensor of 200 Hz over 14 hours.
-inline constexpr std::size_t kMostCsvRows = 10'000'000;
 inline constexpr std::size_t kMostCsvColumns = 1000;
 
 struct CsvRow {

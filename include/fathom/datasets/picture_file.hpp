@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -10,12 +9,10 @@
 
 namespace fathom {
 
-/// The largest picture, in pixels: more than a camera has, little enough to decode.
-inline constexpr std::uint64_t kMostPicturePixels = 1U << 28U;
-
 /// A picture as 8-bit grey, in the rows and columns of the sensor: a rotation tag is ignored. Of 16
 /// bits the lower part that nearly all pixels use is spread over 8.
-/// Throws InputError naming the file, also on more than kMostPicturePixels, which are not decoded.
+/// Throws InputError naming the file, also on more than Limit::picture_pixels, which are not
+/// decoded.
 cv::Mat read_grey_picture(const std::filesystem::path& path);
 
 /// The same where the size is known. A picture of another is refused by its header, before it is

@@ -12,9 +12,6 @@
 
 namespace fathom {
 
-/// Bytes of a chunk of a bag, packed and unpacked.
-inline constexpr std::uint64_t kMostChunkBytes = 128'000'000;
-
 struct BagTopic {
   std::string name;
   std::string type;  ///< "sensor_msgs/Image", in both generations of ROS

@@ -9,6 +9,7 @@
 
 #include "bag.hpp"
 #include "fathom/core/input_error.hpp"
+#include "fathom/core/limits.hpp"
 #include "mcap_chunk.hpp"
 #include "ros2_file.hpp"
 
@@ -177,9 +178,9 @@ class McapReader {
   }
 
   void require_size(const char* what, std::uint64_t bytes) const {
-    if (bytes <= kMostChunkBytes) return;
+    if (bytes <= value_of(Limit::chunk_bytes)) return;
     throw InputError(place_.file, std::string("has a ") + what + " of " + std::to_string(bytes) +
-                                      " bytes; the limit is " + std::to_string(kMostChunkBytes));
+                                      " bytes; " + limit_text(Limit::chunk_bytes));
   }
 
   [[noreturn]] void refuse_cut() const {

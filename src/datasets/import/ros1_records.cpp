@@ -11,6 +11,7 @@
 
 #include "bag.hpp"
 #include "fathom/core/input_error.hpp"
+#include "fathom/core/limits.hpp"
 #include "fathom/core/text.hpp"
 
 namespace fathom {
@@ -93,8 +94,8 @@ class Records {
   }
 
   [[noreturn]] void refuse_chunk(std::uint64_t bytes) const {
-    throw InputError(path_.string(), "has a chunk of " + std::to_string(bytes) +
-                                         " bytes; the limit is " + std::to_string(kMostChunkBytes));
+    throw InputError(path_.string(), "has a chunk of " + std::to_string(bytes) + " bytes; " +
+                                         limit_text(Limit::chunk_bytes));
   }
 
   [[noreturn]] void refuse_cut() const {
@@ -193,7 +194,7 @@ void check_ros1_records(const std::filesystem::path& path) {
     if (field_number<std::uint8_t>(header, "op=") != kChunk) continue;
     // What librosbag makes room for, however few bytes it is packed in.
     const auto bytes = field_number<std::uint32_t>(header, "size=");
-    if (bytes > kMostChunkBytes) records.refuse_chunk(bytes);
+    if (bytes > value_of(Limit::chunk_bytes)) records.refuse_chunk(bytes);
   }
 }
 
