@@ -4,6 +4,8 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "fathom/core/text.hpp"
+#include "fathom/evaluation/metrics.hpp"
 #include "fathom/measurements/spoil.hpp"
 
 namespace fathom {
@@ -29,6 +31,17 @@ void require_each(const Settings& settings, const std::string& key,
                   bool (*is_right)(double)) {
   if (!std::ranges::all_of(values, is_right)) {
     refuse(*settings.find(key), key + ": expected " + expected);
+  }
+}
+
+void require_known_metrics(const Settings& settings, const std::vector<std::string>& metrics) {
+  for (const std::string& name : metrics) {
+    if (find_metric(name)) continue;
+    std::vector<std::string> all;
+    for (const Metric& metric : metric_catalogue()) all.push_back(metric.name);
+    refuse(*settings.find("report.metrics"),
+           fmt::format("report.metrics: unknown metric {}{} ('fathom list metrics' has all)",
+                       in_quotes(name), suggestion(name, all)));
   }
 }
 
@@ -146,6 +159,7 @@ void add_unused_trials(const Settings& settings, const StudyOptions& study,
 void check_study(const Settings& settings, const StudyOptions& study, const DataSetEntry& data_set,
                  const DataSetOptions& options) {
   check_repeats(settings, study, data_set, options);
+  require_known_metrics(settings, study.metrics);
   if (data_set.is_graph && study.association == Association::own) {
     refuse(*settings.find("association.mode"),
            "association.mode: a pose graph has its loops; expected shared");

@@ -1,9 +1,12 @@
 #include "fathom/workflow/compare.hpp"
 
 #include <algorithm>
+#include <fmt/format.h>
+#include <map>
 
 #include <opencv2/core/utility.hpp>
 
+#include "fathom/core/text.hpp"
 #include "fathom/core/work_folder.hpp"
 #include "fathom/harness/frame_remarks.hpp"
 #include "fathom/harness/ground_truth.hpp"
@@ -77,6 +80,7 @@ class Comparison {
     write_example_of(done, remarks);
     outcome.table = write_study_files(store, request_.out, observer_);
     say(remarks);
+    say(faults_beside(done, store));
     outcome.all_usable = all_usable(store);
     outcome.example = std::move(done.example);
     return outcome;
@@ -150,6 +154,24 @@ class Comparison {
     for (const ExampleRun& one : done.example) {
       const std::string& fault = one.result.run.fault;
       if (!fault.empty()) add({one.result.estimator.name + ": " + fault});
+    }
+    return remarks;
+  }
+
+  // How estimators broke their contract in other runs than the one that is drawn, whose remarks
+  // have its own.
+  static std::vector<std::string> faults_beside(const StudyRun& done, const ResultStore& store) {
+    std::map<std::string, std::vector<std::string>> faults;
+    for (const RunRecord& run : store.runs()) {
+      if (!run.fault.empty()) faults[run.key.estimator].push_back(run.fault);
+    }
+    for (const ExampleRun& one : done.example) {
+      if (!one.result.run.fault.empty()) faults.erase(one.result.estimator.name);
+    }
+    std::vector<std::string> remarks;
+    for (const auto& [estimator, own] : faults) {
+      remarks.push_back(fmt::format("{}: {} ended by a fault, the first: {}", estimator,
+                                    counted(own.size(), "run"), own.front()));
     }
     return remarks;
   }

@@ -16,6 +16,7 @@
 #include "fathom/workflow/trajectory_picture.hpp"
 #include "map_files.hpp"
 #include "run_mosaics.hpp"
+#include "study_files.hpp"
 
 namespace fathom::workflow {
 namespace {
@@ -44,7 +45,10 @@ class OneRun {
 
   RunOutcome outcome() {
     std::optional<StagedFolder> folder;
-    if (!request_.out.empty()) folder.emplace(request_.out, request_.inputs);
+    if (!request_.out.empty()) {
+      require_no_study(request_.out);
+      folder.emplace(request_.out, request_.inputs);
+    }
     const Recorder recorder(configuration_, request_.registrations);
     const Fingerprint data = record(recorder, folder.has_value());
     RunOutcome done{recording_, evaluated(), std::nullopt,

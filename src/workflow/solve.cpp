@@ -12,6 +12,7 @@
 #include "fathom/workflow/inputs.hpp"
 #include "fathom/workflow/trajectory_picture.hpp"
 #include "graph_keys.hpp"
+#include "study_files.hpp"
 
 namespace fathom::workflow {
 namespace {
@@ -180,9 +181,10 @@ SolveOutcome solve_graph(const SolveGraphRequest& request, const EstimatorRegist
     asked.start = *recording.log.guess;
   }
   const std::string name = stem_of(request.graph);
-  StagedFolder folder(
-      request.out.empty() ? std::filesystem::path("runs") / (name + "-" + entry.name) : request.out,
-      {request.graph, request.ground_truth, request.false_loops});
+  const std::filesystem::path out =
+      request.out.empty() ? std::filesystem::path("runs") / (name + "-" + entry.name) : request.out;
+  require_no_study(out);
+  StagedFolder folder(out, {request.graph, request.ground_truth, request.false_loops});
   SolveOutcome done{std::move(recording), {}};
   done.result = solve(done.recording, asked, registry, machine, observer);
   write_run(folder.path(), done.recording, done.result,

@@ -3,6 +3,7 @@
 #include <set>
 
 #include "fathom/core/files.hpp"
+#include "fathom/core/input_error.hpp"
 #include "fathom/harness/run_folder.hpp"
 #include "fathom/report/study_report.hpp"
 #include "fathom/results/result_store.hpp"
@@ -10,8 +11,16 @@
 
 namespace fathom::workflow {
 
+void require_no_study(const std::filesystem::path& out) {
+  if (!std::filesystem::exists(out / kResultsFile)) return;
+  throw InputError(out.string(), "holds a study; a run needs a folder of its own (--out)");
+}
+
 void require_separate(const std::filesystem::path& out, const Study& study,
                       const std::vector<std::filesystem::path>& inputs) {
+  if (std::filesystem::exists(out / "run.json")) {
+    throw InputError(out.string(), "holds a run; a study needs a folder of its own (--out)");
+  }
   std::vector<std::string> names{kResultsFile,         "report.html",     "runs.csv",
                                  "summary.csv",        "tables.tex",      "figures",
                                  "trajectories.png",   "metrics.json",    "table.txt",

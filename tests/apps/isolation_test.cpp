@@ -87,6 +87,15 @@ TEST_F(Isolation, AStudyThatHungIsShownAgain) {
   EXPECT_EQ(metrics.at(1).at("fault"), "was killed after 0.2 s");
 }
 
+// What is drawn is the first cell, where it does nothing wrong.
+TEST_F(Isolation, AFaultInAnotherRunThanTheOneThatIsDrawnIsSaid) {
+  write("s.yaml", std::string(kLog) + "plugins: [" + plugin("misbehaving") +
+                      "]\nestimators:\n  - {type: misbehaving}\n"
+                      "sweep: [{key: estimators.0.fault, name: kind, values: [none, exit]}]\n");
+  const Ended ended = fathom({"compare", "s.yaml", "--out", "study"});
+  EXPECT_THAT(ended.out + ended.err, HasSubstr("misbehaving: 1 run ended by a fault, the first: "));
+}
+
 TEST_F(Isolation, MemoryWithoutEndIsEndedAtItsLimit) {
   if (!FATHOM_MEASURES_MEMORY) GTEST_SKIP() << "not with a sanitizer";
   for (const char* const fault : {"memory", "c_memory"}) {

@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 
 #include "apps/command_line.hpp"
+#include "apps/graphs.hpp"
 #include "apps/study_content.hpp"
 #include "fathom/core/files.hpp"
 #include "fathom/core/input_error.hpp"
@@ -94,6 +95,24 @@ TEST_F(Studies, InterruptedItSaysHowToGoOn) {
   EXPECT_EQ(ended.status, 130);
   EXPECT_THAT(ended.err, HasSubstr("The same command goes on from there."));
   EXPECT_FALSE(fs::exists(path("out/report.html")));
+}
+
+// Their files have names in common.
+TEST_F(Studies, ARunAndAStudyKeepApart) {
+  write("log.yaml", "dataset: {type: simulated_log}\nestimator: {type: ekf}\n");
+  write("s.yaml", "dataset: {type: simulated_log}\nestimators: [{type: ekf}]\n");
+  write("square.g2o", square_graph(40, 3));
+  fathom_done({"run", "log.yaml", "--out", "run"});
+  fathom_done({"compare", "s.yaml", "--out", "study"});
+  const std::string metrics = read_file(path("study/metrics.json"));
+  const std::string holds_study =
+      "fathom: error: study: holds a study; a run needs a folder of its own (--out)\n";
+  EXPECT_EQ(fathom({"run", "log.yaml", "--out", "study"}).err, holds_study);
+  EXPECT_EQ(fathom({"solve", "square.g2o", "--out", "study"}).err, holds_study);
+  EXPECT_EQ(read_file(path("study/metrics.json")), metrics);
+  EXPECT_EQ(fathom({"compare", "s.yaml", "--out", "run"}).err,
+            "fathom: error: run: holds a run; a study needs a folder of its own (--out)\n");
+  EXPECT_FALSE(fs::exists(path("run/results.sqlite")));
 }
 
 // Old and new data never meet in one mean.

@@ -194,6 +194,13 @@ TEST(ConfigureStudy, RefusesWhatIsNoSweep) {
     EXPECT_THAT(refusal_of_study(text), HasSubstr(message)) << text;
 }
 
+TEST(ConfigureStudy, RefusesAMetricThatIsNone) {
+  EXPECT_THAT(refusal_of_study("report: {metrics: [anees, mean_postion_error_m]}\n"),
+              HasSubstr("report.metrics: unknown metric 'mean_postion_error_m'; did you mean "
+                        "'mean_position_error_m'?"));
+  EXPECT_NO_THROW(study_of("report: {metrics: [rpe_7_keyframes_m, relative_anees_2.5_m]}\n"));
+}
+
 TEST(ConfigureStudy, AGraphHasNoNoiseToDraw) {
   const std::string graph = "dataset: {type: g2o, path: a.g2o}\n";
   EXPECT_THAT(refusal_of_study(graph + "trials: 2\n"),
