@@ -67,7 +67,8 @@ class Batch {
       }
     }
     std::vector<Node> start = chains_.expanded(left_nodes_);
-    return are_trusted(headings_of(start)) && try_from(std::move(start), Hessian::exact);
+    return turns().worst_turn(headings_of(start)) < kTrustedTurnRad &&
+           try_from(std::move(start), Hessian::exact);
   }
 
   // The headings of LAGO are judged before the positions are computed for them, and with them.
@@ -169,15 +170,16 @@ class Batch {
 
   std::vector<double> chordal_start() {
     return relaxed([this](const sparse::Symbolic& symbolic, std::span<const Edge> edges) {
-      return chordal_headings(symbolic, edges, nodes_[0].theta);
+      return chordal_ = chordal_headings(symbolic, edges, nodes_[0].theta);
     });
   }
 
   std::vector<Node> lifted() {
-    return from_headings(settled(relaxed([this](const sparse::Symbolic& symbolic,
-                                                std::span<const Edge> edges) {
-      return lifted_headings(symbolic, edges, chordal_headings(symbolic, edges, nodes_[0].theta));
-    })));
+    if (chordal_.empty()) chordal_start();
+    return from_headings(
+        settled(relaxed([this](const sparse::Symbolic& symbolic, std::span<const Edge> edges) {
+          return lifted_headings(symbolic, edges, chordal_);
+        })));
   }
 
   // Least squares in the headings, rounded again until that changes nothing.
@@ -207,14 +209,6 @@ class Batch {
     return theta;
   }
 
-  static double largest_turn(const std::vector<double>& from, const std::vector<double>& to) {
-    double largest = 0.0;
-    for (std::size_t k = 0; k < to.size(); ++k) {
-      largest = std::max(largest, std::abs(to[k] - from[k]));
-    }
-    return largest;
-  }
-
   // Whether no multiple of 2π was rounded wrongly.
   bool are_trusted(const std::vector<double>& theta) {
     if (turns().worst_turn(theta) >= kTrustedTurnRad) return false;
@@ -233,6 +227,7 @@ class Batch {
   std::optional<sparse::Symbolic> turn_pattern_;  ///< where it is not that of the equations
   std::optional<TurnGraph> turns_;
   std::optional<ChainTurns> chain_turns_;
+  std::vector<double> chordal_;  ///< of the graph that is relaxed
   std::optional<HeadingProblem> headings_;
   SolveResult best_;
   std::vector<Node> best_nodes_;

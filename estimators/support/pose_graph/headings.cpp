@@ -1,6 +1,7 @@
 #include "estimators/support/pose_graph/headings.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace fathom::pose_graph {
 HeadingProblem::HeadingProblem(const sparse::Symbolic& symbolic, std::span<const Edge> edges)
@@ -42,6 +43,14 @@ std::vector<double> HeadingProblem::solve(std::span<const double> theta,
   factor_.solve(turn.data());
   for (std::size_t k = 1; k < result.size(); ++k) result[k] += turn[at(symbolic.position[k - 1])];
   return result;
+}
+
+double largest_turn(std::span<const double> from, std::span<const double> to) {
+  double largest = 0.0;
+  for (std::size_t k = 0; k < to.size(); ++k) {
+    largest = std::max(largest, std::abs(to[k] - from[k]));
+  }
+  return largest;
 }
 
 }  // namespace fathom::pose_graph

@@ -30,4 +30,7 @@ class HeadingProblem {
   bool is_solvable_ = false;
 };
 
+/// By how much a heading differs at most.
+double largest_turn(std::span<const double> from, std::span<const double> to);
+
 }  // namespace fathom::pose_graph
