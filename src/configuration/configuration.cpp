@@ -47,14 +47,18 @@ bool is_estimator_key(const std::string& key) {
          is_reference_key(key);
 }
 
-void set(OptionTable& table, const Setting& setting, const std::vector<std::string>& known) {
-  if (!table.has(setting.key)) {
-    for (const std::string& key : known) {
-      if (!key.starts_with(setting.key + ".")) continue;
-      refuse(setting, fmt::format("{}: expected a map of keys, such as '{}'", setting.key, key));
-    }
-    refuse(setting, fmt::format("unknown key '{}'{}", setting.key, suggestion(setting.key, known)));
+[[noreturn]] void refuse_unknown(const OptionTable& table, const Setting& setting) {
+  std::vector<std::string> known = table.keys();
+  known.insert(known.end(), {"estimator.type", "estimators", "association.reference"});
+  for (const std::string& key : known) {
+    if (!key.starts_with(setting.key + ".")) continue;
+    refuse(setting, fmt::format("{}: expected a map of keys, such as '{}'", setting.key, key));
   }
+  refuse(setting, fmt::format("unknown key '{}'{}", setting.key, suggestion(setting.key, known)));
+}
+
+void set(OptionTable& table, const Setting& setting) {
+  if (!table.has(setting.key)) refuse_unknown(table, setting);
   try {
     table.set(setting.key, setting.value);
   } catch (const InputError& error) {
@@ -179,17 +183,15 @@ Configuration configure(const Settings& settings, ConfigurationKind kind,
   OptionTable table;
   bind(configuration, table);
   // The type of the data set says which other keys there are, so it comes first.
-  if (const Setting* type = settings.find("dataset.type")) set(table, *type, table.keys());
+  if (const Setting* type = settings.find("dataset.type")) set(table, *type);
   const DataSetEntry& entry = find_data_set(configuration.dataset.type);
   const std::unique_ptr<DataSetOptions> data_set = entry.make_options();
   table.group(kDataSet, *data_set);
   bind_origin(configuration.dataset.type, configuration.origin, table);
   if (kind == ConfigurationKind::comparison) configuration.study.describe(table);
   refuse_keys_of_other_kind(settings, kind);
-  std::vector<std::string> known = table.keys();
-  known.insert(known.end(), {"estimator.type", "estimators", "association.reference"});
   for (const Setting& setting : settings.all()) {
-    if (!is_estimator_key(setting.key)) set(table, setting, known);
+    if (!is_estimator_key(setting.key)) set(table, setting);
     configuration.origins[setting.key] = setting.origin;
   }
   configuration.dataset.values = given_values(settings, entry);
@@ -203,13 +205,14 @@ Configuration configure(const Settings& settings, ConfigurationKind kind,
   add_unused_trials(settings, configuration.study, entry, unused);
   configure_estimators(configuration, settings, kind, registry);
   add_unused_limits(settings, configuration, registry, unused);
-  for (const OptionDescription& option : table.descriptions()) {
+  for (std::size_t place = 0; place < table.descriptions().size(); ++place) {
+    const OptionDescription& option = table.descriptions()[place];
     configuration.types[option.key] = option.type;
     // A survey that is nowhere on Earth has no such keys.
     if (is_origin_key(option.key) && !configuration.origin.is_given()) continue;
     if (is_among(ignored, option.key)) continue;
     if (is_run_key_without_effect(option.key, configuration, registry)) continue;
-    configuration.in_force.emplace_back(option.key, table.value(option.key));
+    configuration.in_force.emplace_back(option.key, table.value_at(place));
   }
   return configuration;
 }

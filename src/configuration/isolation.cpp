@@ -23,10 +23,13 @@ bool IsolationOptions::is_isolated(const EstimatorEntry& entry) const {
 }
 
 bool is_isolation_key(const std::string& key) {
-  IsolationOptions options;
-  OptionTable table;
-  options.describe(table);
-  return table.has(key);
+  static const std::vector<std::string> keys = [] {
+    IsolationOptions options;
+    OptionTable table;
+    options.describe(table);
+    return table.keys();
+  }();
+  return std::ranges::find(keys, key) != keys.end();
 }
 
 }  // namespace fathom

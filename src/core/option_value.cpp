@@ -23,23 +23,30 @@ void refuse(const std::string& key, const std::string& expected, const OptionVal
   throw InputError(key + ": expected " + expected + ", got " + in_quotes(value.text()));
 }
 
-double checked_real(const std::string& key, const Range& range, const std::string& unit,
-                    const OptionValue& value, const std::string& alternative) {
-  const std::string what = "a number" + (unit.empty() ? "" : " in " + unit) +
-                           (range.text().empty() ? "" : " " + range.text()) + alternative;
-  if (value.is_list || value.items.size() != 1) refuse(key, what, value);
-  const auto number = parse_real(value.items.front());
-  if (!number || !range.contains(*number)) refuse(key, what, value);
-  return *number;
+bool is_word(const OptionValue& value, const std::string& word) {
+  return !value.is_list && value.items.size() == 1 && value.items.front() == word;
 }
 
-int checked_integer(const std::string& key, const Range& range, const OptionValue& value,
+double checked_real(const OptionDescription& option, const Range& range, const OptionValue& value,
+                    const std::string& alternative) {
+  const auto number =
+      value.is_list || value.items.size() != 1 ? std::nullopt : parse_real(value.items.front());
+  if (number && range.contains(*number)) return *number;
+  const std::string bounds = range.text();
+  refuse(option.key,
+         "a number" + (option.unit.empty() ? "" : " in " + option.unit) +
+             (bounds.empty() ? "" : " " + bounds) + alternative,
+         value);
+}
+
+int checked_integer(const OptionDescription& option, const Range& range, const OptionValue& value,
                     const std::string& alternative) {
   const auto number =
       value.is_list || value.items.size() != 1 ? std::nullopt : parse_integer(value.items.front());
   if (!number || !range.contains(static_cast<double>(*number)) ||
       *number > std::numeric_limits<int>::max() || *number < std::numeric_limits<int>::min()) {
-    refuse(key, "a whole number" + (range.text().empty() ? "" : " " + range.text()) + alternative,
+    const std::string bounds = range.text();
+    refuse(option.key, "a whole number" + (bounds.empty() ? "" : " " + bounds) + alternative,
            value);
   }
   return static_cast<int>(*number);

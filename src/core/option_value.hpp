@@ -14,13 +14,16 @@ std::string list_text(const std::vector<double>& values);
 [[noreturn]] void refuse(const std::string& key, const std::string& expected,
                          const OptionValue& value);
 
+/// Whether the value is this word alone.
+bool is_word(const OptionValue& value, const std::string& word);
+
 /// The value as one number within the range. Else refuses it, with `alternative`, such as " or
 /// off", behind what was expected.
-double checked_real(const std::string& key, const Range& range, const std::string& unit,
-                    const OptionValue& value, const std::string& alternative = "");
+double checked_real(const OptionDescription& option, const Range& range, const OptionValue& value,
+                    const std::string& alternative = "");
 
 /// Likewise a whole number that an int can hold.
-int checked_integer(const std::string& key, const Range& range, const OptionValue& value,
+int checked_integer(const OptionDescription& option, const Range& range, const OptionValue& value,
                     const std::string& alternative = "");
 
 }  // namespace fathom

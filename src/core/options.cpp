@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <utility>
 
 #include "fathom/core/text.hpp"
 #include "option_value.hpp"
@@ -28,12 +29,11 @@ bool Range::contains(double value) const {
 }
 
 std::string Range::text() const {
-  std::vector<std::string> bounds;
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  if (minimum > -kInfinity)
-    bounds.push_back((minimum_excluded ? "> " : ">= ") + bound_text(minimum));
-  if (maximum < kInfinity) bounds.push_back("<= " + bound_text(maximum));
-  return joined(bounds, ", ");
+  std::string text;
+  if (minimum > -kInfinity) text = (minimum_excluded ? "> " : ">= ") + bound_text(minimum);
+  if (maximum < kInfinity) text += (text.empty() ? "<= " : ", <= ") + bound_text(maximum);
+  return text;
 }
 
 std::string suggestion(const std::string& word, const std::vector<std::string>& among) {
@@ -41,149 +41,142 @@ std::string suggestion(const std::string& word, const std::vector<std::string>& 
   return near ? "; did you mean '" + *near + "'?" : "";
 }
 
-std::string OptionTable::add(const std::string& key, OptionDescription description, Setter setter,
-                             Getter getter) {
+void OptionTable::add(const std::string& key, OptionDescription description, Setter setter,
+                      Getter getter) {
   description.key = prefix_ + key;
   description.default_value = getter();
   descriptions_.push_back(std::move(description));
   setters_.push_back(std::move(setter));
   getters_.push_back(std::move(getter));
-  return descriptions_.back().key;
 }
 
-void OptionTable::boolean(const std::string& key, bool& field, const std::string& help) {
-  const std::string full = prefix_ + key;
+void OptionTable::boolean(const std::string& key, bool& field, std::string help) {
   add(
-      key, {"", "boolean", "", "", "true or false", help},
-      [&field, full](const OptionValue& value) {
+      key, {"", "boolean", "", "", "true or false", std::move(help)},
+      [&field](const OptionDescription& option, const OptionValue& value) {
         const std::string given = value.items.size() == 1 ? value.items.front() : "";
         if (value.is_list || (given != "true" && given != "false")) {
-          refuse(full, "true or false", value);
+          refuse(option.key, option.range, value);
         }
         field = given == "true";
       },
       [&field] { return std::string(field ? "true" : "false"); });
 }
 
-void OptionTable::integer(const std::string& key, int& field, Range range, const std::string& unit,
-                          const std::string& help) {
-  const std::string full = prefix_ + key;
+void OptionTable::integer(const std::string& key, int& field, Range range, std::string unit,
+                          std::string help) {
   add(
-      key, {"", "integer", unit, "", range.text(), help},
-      [&field, full, range](const OptionValue& value) {
-        field = checked_integer(full, range, value);
+      key, {"", "integer", std::move(unit), "", range.text(), std::move(help)},
+      [&field, range](const OptionDescription& option, const OptionValue& value) {
+        field = checked_integer(option, range, value);
       },
       [&field] { return std::to_string(field); });
 }
 
 void OptionTable::integer_or_off(const std::string& key, std::optional<int>& field, Range range,
-                                 const std::string& unit, const std::string& help) {
-  const std::string full = prefix_ + key;
+                                 std::string unit, std::string help) {
   add(
-      key, {"", "integer or off", unit, "", range.text() + " or off", help},
-      [&field, full, range](const OptionValue& value) {
-        if (!value.is_list && value.items.size() == 1 && value.items.front() == "off") {
+      key, {"", "integer or off", std::move(unit), "", range.text() + " or off", std::move(help)},
+      [&field, range](const OptionDescription& option, const OptionValue& value) {
+        if (is_word(value, "off")) {
           field.reset();
         } else {
-          field = checked_integer(full, range, value, " or off");
+          field = checked_integer(option, range, value, " or off");
         }
       },
       [&field] { return field ? std::to_string(*field) : std::string("off"); });
 }
 
-void OptionTable::real(const std::string& key, double& field, Range range, const std::string& unit,
-                       const std::string& help) {
-  const std::string full = prefix_ + key;
+void OptionTable::real(const std::string& key, double& field, Range range, std::string unit,
+                       std::string help) {
   add(
-      key, {"", "real", unit, "", range.text(), help},
-      [&field, full, range, unit](const OptionValue& value) {
-        field = checked_real(full, range, unit, value);
+      key, {"", "real", std::move(unit), "", range.text(), std::move(help)},
+      [&field, range](const OptionDescription& option, const OptionValue& value) {
+        field = checked_real(option, range, value);
       },
       [&field] { return number_text(field); });
 }
 
 void OptionTable::real_or(const std::string& key, const std::string& word,
-                          std::optional<double>& field, Range range, const std::string& unit,
-                          const std::string& help) {
-  const std::string full = prefix_ + key;
+                          std::optional<double>& field, Range range, std::string unit,
+                          std::string help) {
   add(
-      key, {"", "real or " + word, unit, "", range.text() + " or " + word, help},
-      [&field, full, word, range, unit](const OptionValue& value) {
-        if (!value.is_list && value.items.size() == 1 && value.items.front() == word) {
+      key,
+      {"", "real or " + word, std::move(unit), "", range.text() + " or " + word, std::move(help)},
+      [&field, word, range](const OptionDescription& option, const OptionValue& value) {
+        if (is_word(value, word)) {
           field.reset();
         } else {
-          field = checked_real(full, range, unit, value, " or " + word);
+          field = checked_real(option, range, value, " or " + word);
         }
       },
       [&field, word] { return field ? number_text(*field) : word; });
 }
 
-void OptionTable::text(const std::string& key, std::string& field, const std::string& help) {
-  const std::string full = prefix_ + key;
+void OptionTable::text(const std::string& key, std::string& field, std::string help) {
   add(
-      key, {"", "text", "", "", "", help},
-      [&field, full](const OptionValue& value) {
-        if (value.is_list || value.items.size() != 1) refuse(full, "a text", value);
+      key, {"", "text", "", "", "", std::move(help)},
+      [&field](const OptionDescription& option, const OptionValue& value) {
+        if (value.is_list || value.items.size() != 1) refuse(option.key, "a text", value);
         field = value.items.front();
       },
       [&field] { return field; });
 }
 
 void OptionTable::choice(const std::string& key, std::string& field,
-                         const std::vector<std::string>& choices, const std::string& help) {
-  add_choice(key, field, choices, help, [&field](const std::string& given) { field = given; });
+                         std::vector<std::string> choices, std::string help) {
+  add_choice(key, field, std::move(choices), std::move(help),
+             [&field](std::size_t /*place*/, const std::string& given) { field = given; });
 }
 
-void OptionTable::add_choice(const std::string& key, const std::string& current,
-                             const std::vector<std::string>& choices, const std::string& help,
-                             std::function<void(const std::string&)> assign) {
-  const std::string full = prefix_ + key;
-  auto present = std::make_shared<std::string>(current);
+void OptionTable::add_choice(const std::string& key, std::string current,
+                             std::vector<std::string> choices, std::string help,
+                             std::function<void(std::size_t, const std::string&)> assign) {
+  auto present = std::make_shared<std::string>(std::move(current));
+  std::string range = joined(choices, " | ");
   add(
-      key, {"", "text", "", "", joined(choices, " | "), help},
-      [full, choices, present, assign = std::move(assign)](const OptionValue& value) {
-        for (const std::string& name : choices) {
-          if (!value.is_list && value.items.size() == 1 && value.items.front() == name) {
-            *present = name;
-            assign(name);
-            return;
-          }
+      key, {"", "text", "", "", std::move(range), std::move(help)},
+      [choices = std::move(choices), present, assign = std::move(assign)](
+          const OptionDescription& option, const OptionValue& value) {
+        for (std::size_t place = 0; place < choices.size(); ++place) {
+          if (!is_word(value, choices[place])) continue;
+          *present = choices[place];
+          assign(place, choices[place]);
+          return;
         }
-        throw InputError(full + ": expected one of " + joined(choices, ", ") + ", got " +
+        throw InputError(option.key + ": expected one of " + joined(choices, ", ") + ", got " +
                          in_quotes(value.text()) + suggestion(value.text(), choices));
       },
       [present] { return *present; });
 }
 
 void OptionTable::reals(const std::string& key, std::vector<double>& field, std::size_t multiple_of,
-                        const std::string& unit, const std::string& help) {
-  const std::string full = prefix_ + key;
-  const std::string length =
+                        std::string unit, std::string help) {
+  std::string length =
       multiple_of > 1 ? "a multiple of " + std::to_string(multiple_of) + " numbers" : "";
   add(
-      key, {"", "list of real", unit, "", length, help},
-      [&field, full, multiple_of, length](const OptionValue& value) {
+      key, {"", "list of real", std::move(unit), "", std::move(length), std::move(help)},
+      [&field, multiple_of](const OptionDescription& option, const OptionValue& value) {
         std::vector<double> numbers;
         for (const std::string& item : value.items) {
           const auto number = parse_real(item);
-          if (!number) refuse(full, "a list of numbers", value);
+          if (!number) refuse(option.key, "a list of numbers", value);
           numbers.push_back(*number);
         }
         if (!value.is_list || numbers.size() % multiple_of != 0) {
-          refuse(full, "a list of " + (length.empty() ? std::string("numbers") : length), value);
+          refuse(option.key, "a list of " + (option.range.empty() ? "numbers" : option.range),
+                 value);
         }
         field = std::move(numbers);
       },
       [&field] { return list_text(field); });
 }
 
-void OptionTable::words(const std::string& key, std::vector<std::string>& field,
-                        const std::string& help) {
-  const std::string full = prefix_ + key;
+void OptionTable::words(const std::string& key, std::vector<std::string>& field, std::string help) {
   add(
-      key, {"", "list of words", "", "", "", help},
-      [&field, full](const OptionValue& value) {
-        if (!value.is_list) refuse(full, "a list of words", value);
+      key, {"", "list of words", "", "", "", std::move(help)},
+      [&field](const OptionDescription& option, const OptionValue& value) {
+        if (!value.is_list) refuse(option.key, "a list of words", value);
         field = value.items;
       },
       [&field] { return "[" + joined(field, ", ") + "]"; });
@@ -208,11 +201,12 @@ bool OptionTable::has(const std::string& key) const {
 }
 
 void OptionTable::set(const std::string& key, const OptionValue& value) {
-  setters_[index_of(key)](value);
+  const std::size_t place = index_of(key);
+  setters_[place](descriptions_[place], value);
 }
 
 std::string OptionTable::value(const std::string& key) const {
-  return getters_[index_of(key)]();
+  return value_at(index_of(key));
 }
 
 }  // namespace fathom

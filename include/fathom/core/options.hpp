@@ -53,47 +53,45 @@ struct OptionValue {
 /// The table refers to the fields: it must not outlive them.
 class OptionTable {
  public:
-  void boolean(const std::string& key, bool& field, const std::string& help);
-  void integer(const std::string& key, int& field, Range range, const std::string& unit,
-               const std::string& help);
+  void boolean(const std::string& key, bool& field, std::string help);
+  void integer(const std::string& key, int& field, Range range, std::string unit, std::string help);
   /// A whole number or the word `off`.
   void integer_or_off(const std::string& key, std::optional<int>& field, Range range,
-                      const std::string& unit, const std::string& help);
-  void real(const std::string& key, double& field, Range range, const std::string& unit,
-            const std::string& help);
+                      std::string unit, std::string help);
+  void real(const std::string& key, double& field, Range range, std::string unit, std::string help);
   /// A number or the word `off`.
   void real_or_off(const std::string& key, std::optional<double>& field, Range range,
-                   const std::string& unit, const std::string& help) {
-    real_or(key, "off", field, range, unit, help);
+                   std::string unit, std::string help) {
+    real_or(key, "off", field, range, std::move(unit), std::move(help));
   }
   /// A number or the word, which leaves the field empty.
   void real_or(const std::string& key, const std::string& word, std::optional<double>& field,
-               Range range, const std::string& unit, const std::string& help);
-  void text(const std::string& key, std::string& field, const std::string& help);
-  void choice(const std::string& key, std::string& field, const std::vector<std::string>& choices,
-              const std::string& help);
+               Range range, std::string unit, std::string help);
+  void text(const std::string& key, std::string& field, std::string help);
+  void choice(const std::string& key, std::string& field, std::vector<std::string> choices,
+              std::string help);
   /// A list of numbers, `[a, b, c]`; nested lists are read as one.
   void reals(const std::string& key, std::vector<double>& field, std::size_t multiple_of,
-             const std::string& unit, const std::string& help);
+             std::string unit, std::string help);
 
   /// A list of words, `[a, b]`.
-  void words(const std::string& key, std::vector<std::string>& field, const std::string& help);
+  void words(const std::string& key, std::vector<std::string>& field, std::string help);
 
   template <class Enum>
   void enumeration(const std::string& key, Enum& field,
-                   const std::vector<std::pair<std::string, Enum>>& names,
-                   const std::string& help) {
+                   const std::vector<std::pair<std::string, Enum>>& names, std::string help) {
     std::vector<std::string> choices;
+    std::vector<Enum> values;
     std::string current;
     for (const auto& [name, value] : names) {
       choices.push_back(name);
+      values.push_back(value);
       if (value == field) current = name;
     }
-    add_choice(key, current, choices, help, [&field, names](const std::string& given) {
-      for (const auto& [name, value] : names) {
-        if (name == given) field = value;
-      }
-    });
+    add_choice(key, std::move(current), std::move(choices), std::move(help),
+               [&field, values = std::move(values)](std::size_t place, const std::string&) {
+                 field = values[place];
+               });
   }
 
   /// The options of a part, under `name.`.
@@ -114,16 +112,18 @@ class OptionTable {
   bool has(const std::string& key) const;
   /// The field's present value, as text. Throws InputError on an unknown key.
   std::string value(const std::string& key) const;
+  /// The same by its place in descriptions().
+  std::string value_at(std::size_t place) const { return getters_[place](); }
 
  private:
-  using Setter = std::function<void(const OptionValue&)>;
+  // Given the option's own description, so that none keeps a copy of it.
+  using Setter = std::function<void(const OptionDescription&, const OptionValue&)>;
   using Getter = std::function<std::string()>;
 
-  std::string add(const std::string& key, OptionDescription description, Setter setter,
-                  Getter getter);
-  void add_choice(const std::string& key, const std::string& current,
-                  const std::vector<std::string>& choices, const std::string& help,
-                  std::function<void(const std::string&)> assign);
+  void add(const std::string& key, OptionDescription description, Setter setter, Getter getter);
+  /// `assign` is given the place of the choice and its word.
+  void add_choice(const std::string& key, std::string current, std::vector<std::string> choices,
+                  std::string help, std::function<void(std::size_t, const std::string&)> assign);
   std::size_t index_of(const std::string& key) const;
 
   std::string prefix_;
