@@ -1,6 +1,7 @@
 #include "fathom/core/text.hpp"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
@@ -178,10 +179,19 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
     for (std::size_t j = 1; j <= b.size(); ++j) {
       const std::size_t substituted = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
       diagonal = row[j];
-      row[j] = std::min({substituted, row[j] + 1, row[j - 1] + 1});
+      row[j] = std::min(substituted, std::min(row[j], row[j - 1]) + 1);
     }
   }
   return row[b.size()];
+}
+
+// At most the edit distance, in one pass: what the two do not share is changed, added or left out.
+std::size_t least_edit_distance(std::string_view a, std::string_view b) {
+  std::array<int, 256> counts{};
+  for (const char letter : a) ++counts[static_cast<unsigned char>(letter)];
+  std::size_t shared = 0;
+  for (const char letter : b) shared += counts[static_cast<unsigned char>(letter)]-- > 0 ? 1 : 0;
+  return std::max(a.size(), b.size()) - shared;
 }
 
 }  // namespace
@@ -191,8 +201,7 @@ std::optional<std::string> nearest(std::string_view word, const std::vector<std:
   // Beyond two letters in five it is another word, not a misspelt one.
   std::size_t best_distance = std::max<std::size_t>(2, word.size() * 2 / 5) + 1;
   for (const std::string& candidate : among) {
-    const auto [shorter, longer] = std::minmax({word.size(), candidate.size()});
-    if (longer - shorter >= best_distance) continue;  // so many letters are added at least
+    if (least_edit_distance(word, candidate) >= best_distance) continue;
     const std::size_t distance = edit_distance(word, candidate);
     if (distance < best_distance) {
       best_distance = distance;
