@@ -43,6 +43,12 @@ std::set<SchemaObject> schema_of(SQLite::Database& database) {
   return schema;
 }
 
+std::set<SchemaObject> own_schema() {
+  SQLite::Database own(":memory:", SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+  own.exec(result_schema());
+  return schema_of(own);
+}
+
 // Whether an estimator's files may lie below a folder of this name.
 bool names_a_folder(const std::string& name) {
   return !name.empty() && name.front() != '.' && name.find('/') == std::string::npos &&
@@ -87,9 +93,7 @@ void distrust(SQLite::Database& database) {
 }
 
 void require_own_schema(SQLite::Database& database) {
-  SQLite::Database own(":memory:", SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
-  own.exec(result_schema());
-  const std::set<SchemaObject> expected = schema_of(own);
+  static const std::set<SchemaObject> expected = own_schema();
   const std::set<SchemaObject> there = schema_of(database);
   for (const SchemaObject& object : there) {
     if (expected.contains(object)) continue;
