@@ -51,6 +51,7 @@ void add_products(const std::array<double, 6>& H, const std::array<double, 9>& X
 int NormalEquations::iterations_worth_a_factor() const {
   if (!has_factor_ || !shared_.empty()) return 0;
   const sparse::Symbolic& symbolic = factor_.symbolic();
+  if (symbolic.panel_blocks == 0) return 0;  // chains are all there is
   return static_cast<int>(sparse::multiplications_of(symbolic) /
                           (kProductsPerBlock * static_cast<double>(symbolic.panel_blocks)));
 }
