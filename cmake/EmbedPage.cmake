@@ -7,7 +7,7 @@ set(vega_modules util canvas time format loader dataflow statistics scale sceneg
     event-selector selection functions parser runtime view transforms encode view-transforms)
 set(charts trajectories sweep_error sweep_bounds keyframe_error keyframe_bounds keyframe_nees
     update_cost pareto registrations outcomes regimes forest)
-set(page_scripts state units rows marks scales drawing charts cards tables verdict mosaics controls access selftest)
+set(page_scripts state units rows marks scales drawing charts sweep cards tables verdict mosaics controls access selftest)
 
 # A raw string of a file; adjacent ones are joined by the compiler.
 function(literal_of path variable)

@@ -138,13 +138,37 @@ ChartAxis logarithmic_axis_over(const AxisTitle& title, const std::vector<double
   return axis;
 }
 
+bool are_geometric(std::vector<double> values) {
+  std::ranges::sort(values);
+  if (values.empty() || values.front() <= 0.0) return false;
+  if (values.back() < 10.0 * values.front() * (1.0 - 1e-9)) return false;
+  std::vector<double> differences;
+  std::vector<double> quotients;
+  for (std::size_t i = 1; i < values.size(); ++i) {
+    differences.push_back(values[i] - values[i - 1]);
+    quotients.push_back(std::log(values[i] / values[i - 1]));
+  }
+  const auto least_share = [](const std::vector<double>& steps) {
+    return std::ranges::min(steps) / std::ranges::max(steps);
+  };
+  return least_share(quotients) >= least_share(differences);
+}
+
 ChartAxis labelled_axis(const std::string& title, const std::vector<double>& positions,
                         const std::vector<std::string>& texts, double margin_share) {
   ChartAxis axis = axis_over({title, ""}, positions, false);
   axis.title = title;
-  const double margin = margin_share * (axis.high - axis.low);
-  axis.low -= margin;
-  axis.high += margin;
+  axis.keeps_labels = true;
+  axis.logarithmic = are_geometric(positions);
+  if (axis.logarithmic) {
+    const double margin = std::pow(axis.high / axis.low, margin_share);
+    axis.low /= margin;
+    axis.high *= margin;
+  } else {
+    const double margin = margin_share * (axis.high - axis.low);
+    axis.low -= margin;
+    axis.high += margin;
+  }
   axis.ticks.clear();
   for (std::size_t i = 0; i < positions.size(); ++i)
     axis.ticks.emplace_back(positions[i], texts[i]);

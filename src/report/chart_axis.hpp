@@ -19,6 +19,7 @@ struct ChartAxis {
   double high = 1.0;
   bool logarithmic = false;
   bool grid = false;
+  bool keeps_labels = false;  ///< all of them: smaller or turned rather than left out
   std::vector<std::pair<double, std::string>> ticks;
 
   /// 0 at `low` to 1 at `high`.
@@ -34,7 +35,11 @@ ChartAxis axis_between(const AxisTitle& title, double low, double high);
 /// A logarithmic one encloses the values above zero, to the next 1, 2 or 5.
 ChartAxis logarithmic_axis_over(const AxisTitle& title, const std::vector<double>& values);
 
-/// One tick for each text, at its position.
+/// Whether values read best on a logarithmic axis: all are above zero, they span a decade or more,
+/// and their quotients differ no more than their differences do.
+bool are_geometric(std::vector<double> values);
+
+/// One tick for each text, at its position; logarithmic where positions are geometric.
 ChartAxis labelled_axis(const std::string& title, const std::vector<double>& positions,
                         const std::vector<std::string>& texts, double margin_share);
 

@@ -12,8 +12,10 @@ constexpr Colour kGrid{0xE4, 0xE6, 0xE8};
 constexpr double kTick = 3.0;
 constexpr double kLine = 1.25 * kFontSize;  // of text, with its descenders
 constexpr double kGap = 3.0;                // between texts
-constexpr double kRise = 0.35 * kFontSize;  // from the middle of a digit to its baseline
+constexpr double kRise = 0.35;  // times its size, from the middle of a digit to its baseline
 constexpr double kWidestLabel = 90.0;
+
+constexpr double kTallestLabel = 45.0;  // of one that stands on end
 
 double widest_of(const ChartAxis& axis) {
   double widest = 0.0;
@@ -41,13 +43,20 @@ FittedTitle fitted(const std::string& title, double most) {
 ChartFrame::ChartFrame(ChartAxis x, ChartAxis y, const Box& outer)
     : x_(std::move(x)), y_(std::move(y)), outer_(outer) {
   const double left = kLine + kGap + widest_of(y_) + kTick + 1.0;
-  const double below = kTick + 2.0 * kLine + 1.0;
   const double above = 0.5 * kFontSize;
   // The last label of x stands half beyond its tick.
   const double last = x_.ticks.empty() ? 0.0 : 0.5 * text_width(x_.ticks.back().second, kFontSize);
   const double right = std::clamp(last, 2.0, 12.0);
-  box_ = {outer.left + left, outer.top + above, std::max(1.0, outer.width - left - right),
-          std::max(1.0, outer.height - above - below)};
+  const auto set_box = [&] {
+    const double below = kTick + label_height_ + kLine + 0.25 * kFontSize + 1.0;
+    box_ = {outer.left + left, outer.top + above, std::max(1.0, outer.width - left - right),
+            std::max(1.0, outer.height - above - below)};
+  };
+  set_box();
+  is_turned_ = x_.keeps_labels && x_labels().size() < x_.ticks.size();
+  if (!is_turned_) return;
+  label_height_ = std::min(widest_of(x_), kTallestLabel) + 2.0;
+  set_box();
 }
 
 ChartFrame ChartFrame::with_box(const Box& box) const {
@@ -65,6 +74,28 @@ std::vector<Eigen::Vector2d> ChartFrame::at(const std::vector<Eigen::Vector2d>& 
   points.reserve(values.size());
   for (const Eigen::Vector2d& value : values) points.push_back(at(value.x(), value.y()));
   return points;
+}
+
+// A line of text apart, which is as small as their number asks for; moved from their ticks no more
+// than that needs.
+std::vector<ChartFrame::Label> ChartFrame::turned_labels() const {
+  constexpr double kPitch = 1.1;
+  const auto count = static_cast<double>(x_.ticks.size());
+  const double pitch = std::min(kPitch * kFontSize, box_.width / count);
+  std::vector<Label> labels;
+  for (const auto& [value, text] : x_.ticks) {
+    labels.push_back({box_.left + x_.share(value) * box_.width,
+                      shortened(text, pitch / kPitch, kTallestLabel), pitch / kPitch});
+  }
+  std::ranges::sort(labels, {}, &Label::at);
+  for (std::size_t i = 1; i < labels.size(); ++i) {
+    labels[i].at = std::max(labels[i].at, labels[i - 1].at + pitch);
+  }
+  double most = box_.right();
+  for (std::size_t i = labels.size(); i-- > 0; most = labels[i].at - pitch) {
+    labels[i].at = std::min(labels[i].at, most);
+  }
+  return labels;
 }
 
 // Kept on the page, and left out where a label would run into the one before. One that is wider
@@ -96,11 +127,15 @@ std::vector<ChartFrame::Label> ChartFrame::y_labels() const {
     from_below.push_back(
         {box_.bottom() - y_.share(value) * box_.height, shortened(text, kFontSize, kWidestLabel)});
   }
-  std::sort(from_below.begin(), from_below.end(),
-            [](const Label& a, const Label& b) { return a.at > b.at; });
+  std::ranges::sort(from_below, std::ranges::greater(), &Label::at);
+  double size = kFontSize;
+  for (std::size_t i = 1; y_.keeps_labels && i < from_below.size(); ++i) {
+    size = std::min(size, from_below[i - 1].at - from_below[i].at);
+  }
   std::vector<Label> labels;
   for (Label& label : from_below) {
-    if (!labels.empty() && label.at > labels.back().at - kFontSize) continue;
+    if (!labels.empty() && label.at > labels.back().at - size) continue;
+    label.size = size;
     labels.push_back(std::move(label));
   }
   return labels;
@@ -112,9 +147,14 @@ void ChartFrame::draw_x(Canvas& canvas) const {
     if (x_.grid) canvas.line({x, box_.top}, {x, box_.bottom()}, {kGrid, 0.5, {}, 1.0});
     canvas.line({x, box_.bottom()}, {x, box_.bottom() + kTick}, {kSoftInk, 0.7, {}, 1.0});
   }
-  const double baseline = box_.bottom() + kTick + kFontSize;
-  for (const Label& label : x_labels()) {
-    canvas.text(label.text, {label.at, baseline}, {kFontSize, kSoftInk, TextAlign::centre});
+  const double baseline = box_.bottom() + kTick + label_height_;
+  for (const Label& label : is_turned_ ? turned_labels() : x_labels()) {
+    if (is_turned_) {
+      canvas.text(label.text, {label.at + kRise * label.size, box_.bottom() + kTick + 1.0},
+                  {label.size, kSoftInk, TextAlign::right, true});
+    } else {
+      canvas.text(label.text, {label.at, baseline}, {label.size, kSoftInk, TextAlign::centre});
+    }
   }
   const FittedTitle title = fitted(x_.title, outer_.width);
   const double half = 0.5 * text_width(title.text, title.size);
@@ -129,8 +169,8 @@ void ChartFrame::draw_y(Canvas& canvas) const {
     canvas.line({box_.left, y}, {box_.right(), y}, {kGrid, 0.5, {}, 1.0});
   }
   for (const Label& label : y_labels()) {
-    canvas.text(label.text, {box_.left - kTick, label.at + kRise},
-                {kFontSize, kSoftInk, TextAlign::right});
+    canvas.text(label.text, {box_.left - kTick, label.at + kRise * label.size},
+                {label.size, kSoftInk, TextAlign::right});
   }
   const FittedTitle title = fitted(y_.title, outer_.height);
   const double half = 0.5 * text_width(title.text, title.size);

@@ -9,7 +9,8 @@ inline constexpr double kFontSize = 7.5;
 inline constexpr Colour kSoftInk{0x55, 0x5B, 0x61};
 
 /// The axes of a chart with its grid, and the way from values to points of the page. Its texts are
-/// measured: no label runs into another one or into a title, and none leaves the outer box.
+/// measured: no label runs into another one or into a title, and none leaves the outer box. Those
+/// of x that are to be kept stand on end where they have no room side by side.
 class ChartFrame {
  public:
   /// Axes, labels and titles together fill `outer`.
@@ -27,8 +28,10 @@ class ChartFrame {
   struct Label {
     double at = 0.0;
     std::string text;
+    double size = kFontSize;
   };
   std::vector<Label> x_labels() const;
+  std::vector<Label> turned_labels() const;
   std::vector<Label> y_labels() const;
   void draw_x(Canvas& canvas) const;
   void draw_y(Canvas& canvas) const;
@@ -37,6 +40,8 @@ class ChartFrame {
   ChartAxis y_;
   Box outer_;
   Box box_;
+  bool is_turned_ = false;  ///< whether labels of x stand on end
+  double label_height_ = kFontSize;
 };
 
 }  // namespace fathom

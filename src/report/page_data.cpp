@@ -53,7 +53,8 @@ Json study_json(const StudyDescription& study) {
                             {"labels", axis.labels},
                             {"texts", texts},
                             {"ticks", ticks_of(axis)},
-                            {"positions", positions ? Json(*positions) : Json()}});
+                            {"positions", positions ? Json(*positions) : Json()},
+                            {"logarithmic", positions && are_geometric(*positions)}});
   }
   const auto styles = line_styles(study);
   const auto entry = [&styles](const std::string& name, const std::string& type) {

@@ -50,12 +50,20 @@ TEST_F(Browser, NoPlaceOfASweepIsWithoutItsLabel) {
   FixtureOptions numbers;
   numbers.separations = {"10", "20", "30", "40", "50", "60", "70", "80", "90", "100"};
   numbers.noises.clear();
+  FixtureOptions crowded = numbers;  // near zero, where two labels have no room for a third
+  crowded.separations = {"0", "0.002", "0.005", "0.01", "0.02", "0.05", "0.1"};
+  FixtureOptions geometric = crowded;
+  geometric.separations.erase(geometric.separations.begin());
   FixtureOptions words;
   words.separations.clear();
   words.noises = {"independent", "altimeter_scale", "altimeter_offset", "tilt", "tilt_and_scale"};
-  for (const FixtureOptions& options : {numbers, words}) {
-    const Json ticks = self_test_of({options, {}, 420})["answer"]["ticks"];
+  for (const FixtureOptions& options : {numbers, crowded, geometric, words}) {
+    const Json answer = self_test_of({options, {}, 420})["answer"];
+    const Json ticks = answer["ticks"];
     ASSERT_FALSE(ticks.empty());
+    EXPECT_EQ(answer["crossed"], Json::array());
+    const char* scale = options == geometric ? "log" : options == words ? "point" : "linear";
+    for (const Json& one : answer["sweepScales"]) EXPECT_EQ(one, scale);
     const auto& labels = options.noises.empty() ? options.separations : options.noises;
     for (const Json& plot : ticks) EXPECT_EQ(plot, Json(labels));
   }

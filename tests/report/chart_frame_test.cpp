@@ -65,6 +65,41 @@ TEST(ChartFrame, LongLabelsAreShortenedRatherThanLeftOut) {
   for (const char letter : {'a', 'b', 'c', 'd'}) EXPECT_TRUE(starts.contains(letter)) << letter;
 }
 
+// Of a sweep, and of squares of a narrow map: on end or smaller.
+TEST(ChartFrame, NoLabelOfAPlaceIsLeftOut) {
+  const std::vector<std::string> names{"0",     "0.002", "0.005", "0.01", "0.02",
+                                       "0.05",  "0.1",   "0.15",  "0.2",  "0.25",
+                                       "0.251", "0.252", "0.253", "0.254"};
+  std::vector<double> values;
+  std::vector<double> places;
+  for (const std::string& name : names) {
+    places.push_back(static_cast<double>(values.size()));
+    values.push_back(std::stod(name));
+  }
+  for (const auto& positions : {values, places}) {
+    const ChartAxis axis = labelled_axis("axis", positions, names, 0.04);
+    const ChartAxis up = labelled_axis("up", places, names, 0.04);
+    const std::vector<PlacedText> texts = drawn(axis, up);
+    expect_tidy(texts, kPage);
+    for (const std::string& name : names) {
+      EXPECT_EQ(std::ranges::count(texts, name, &PlacedText::text), 2) << name;
+    }
+  }
+}
+
+TEST(ChartAxis, OfAGeometricSweepIsLogarithmic) {
+  EXPECT_TRUE(are_geometric({0.1, 0.002, 0.005, 0.01, 0.02, 0.05}));
+  EXPECT_TRUE(are_geometric({0.1, 1.0}));
+  EXPECT_FALSE(are_geometric({5.0, 10.0, 20.0}));  // less than a decade
+  EXPECT_FALSE(are_geometric({1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0, 10.0}));
+  EXPECT_FALSE(are_geometric({0.0, 0.1, 1.0, 10.0}));
+  EXPECT_FALSE(are_geometric({1.0, 50.0, 100.0}));
+  EXPECT_FALSE(are_geometric({}));
+  const ChartAxis axis = labelled_axis("noise", {0.01, 0.1, 1.0}, {"a", "b", "c"}, 0.1);
+  EXPECT_NEAR(axis.share(0.1), 0.5, 1e-12);
+  EXPECT_NEAR(axis.share(0.01), 0.1 / 1.2, 1e-12);
+}
+
 TEST(ChartAxis, TakesAPrefixThatMakesTheTicksEasyToRead) {
   const ChartAxis small = axis_over({"error", "m"}, {0.00008}, true);
   EXPECT_EQ(small.title, "error (µm)");

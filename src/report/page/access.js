@@ -52,3 +52,20 @@ function accessTest() {
     faint: [...texts.filter(isSeen).map((text) => ({text, contrast: contrastOf(text)})), ...textsInBars()]
       .filter(({contrast}) => contrast < 4.5).map(({text, contrast}) => `${text.textContent.slice(0, 40)}: ${contrast.toFixed(2)}`)};
 }
+
+// Titles of axes that leave their chart.
+function cutTest() {
+  return [...document.querySelectorAll('#charts .role-axis-title text')].filter((text) => {
+    const [own, chart] = [text, text.closest('svg')].map((one) => one.getBoundingClientRect());
+    return own.top < chart.top - 1 || own.bottom > chart.bottom + 1 || own.left < chart.left - 1 || own.right > chart.right + 1;
+  }).map((text) => text.textContent);
+}
+
+// Labels below a chart that run into another one.
+function crossedLabels(id) {
+  const cross = ([a, b]) => a.left < b.right - 1 && b.left < a.right - 1 && a.top < b.bottom - 1 && b.top < a.bottom - 1;
+  return [...document.querySelectorAll(`#chart-${id} svg`)].flatMap((svg) => {
+    const boxes = [...svg.querySelector('.role-axis-label').children].map((one) => one.getBoundingClientRect());
+    return boxes.flatMap((a, i) => boxes.slice(0, i).map((b) => [a, b])).filter(cross);
+  });
+}

@@ -79,54 +79,6 @@ function trajectoryPlots(card) {
     note: [spread, beyondNote(rows.fixes, signals.start_h, signals.start_v)].filter(Boolean).join(' ')}];
 }
 
-// The axis of a sweep has the labels that were given, at `values`. Where they would not fit side by side, as
-// far apart as `places` are, they stand on end, so that none is left out.
-function labelSweep(spec, values, places) {
-  const {ticks} = study.axes[state.axis];
-  spec.signals.push({name: 'ticks', value: Object.fromEntries(values.map((value, i) => [value, ticks[i]]))});
-  Object.assign(spec.axes[0], {labelOverlap: 'greedy', encode: {labels: {update: {text: {signal: 'ticks[datum.value]'}}}}});
-  const order = places.map((place, i) => ({place, half: 3.6 * ticks[i].length})).sort((a, b) => a.place - b.place);
-  const perPlace = (spec.width - 110) / Math.max(1e-300, order.at(-1).place - order[0].place);
-  const isTight = order.slice(1).some((one, i) => (one.place - order[i].place) * perPlace < one.half + order[i].half + 8);
-  if (isTight) Object.assign(spec.axes[0], {labelAngle: -90, labelAlign: 'right', labelBaseline: 'middle'});
-}
-
-// Between words there is nothing: points with bars, and no line from one graph to another.
-function takeApart(spec) {
-  const [group] = spec.marks;
-  const point = group.marks.at(-1);
-  const band = group.marks.find((mark) => mark.type === 'area');
-  const x = {scale: 'x', field: 'x', offset: {field: 'beside'}};
-  const bars = band ? [{type: 'rule', from: {data: 'line'}, interactive: false, encode: {update: {x, y: band.encode.update.y, y2: band.encode.update.y2,
-    stroke: band.encode.update.fill, strokeWidth: {value: 1.4}}}}] : [];
-  Object.assign(point.encode.update, {x});
-  const {labels} = study.axes[state.axis];
-  labelSweep(spec, labels, labels.map((_, i) => i));
-  group.marks = [...bars, point];
-}
-
-function sweepPlots(card) {
-  const {errors, bounds} = sweepRows();
-  const signals = {x_title: study.axes[state.axis].title};
-  const {positions} = study.axes[state.axis];
-  const adjust = (spec) => {
-    if (!positions) return takeApart(spec);
-    const scale = spec.scales.find((one) => one.name === 'x');
-    const type = positions.every((one) => one > 0) && isWide(positions) ? 'log' : 'linear';
-    Object.assign(scale, {type, nice: false, padding: 20, domain: {data: 'rows', field: 'x'}});
-    if (type === 'linear') scale.zero = false;
-    spec.axes[0].values = positions;
-    labelSweep(spec, positions, type === 'log' ? positions.map(Math.log) : positions);
-  };
-  const plots = [fittedPlot({spec: 'sweep_error', heading: `Mean over trials and its 2σ ${positions ? 'band' : 'bar'}`, rows: errors, fields: ['mean', 'low', 'high'],
-    unit: unitOf(state.sweepMetric), title: metricTitle(state.sweepMetric), keys: ['x'], signals, adjust})];
-  if (bounds.length > 0) {
-    plots.push(fittedPlot({spec: 'sweep_bounds', heading: positions ? 'Empirical (solid) and estimated (dashed) 2σ' : 'Empirical (full) and estimated (empty) 2σ', rows: bounds, fields: ['value'],
-      unit: 'm', title: '2σ of position', keys: ['x', 'kind'], signals, adjust}));
-  }
-  return inRows(card, plots);
-}
-
 // Estimators with the same picture share one, which has the colour of none. `seen` is what of a row
 // is seen besides its colour.
 function picturesOf(entries, seen) {

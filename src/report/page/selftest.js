@@ -25,14 +25,6 @@ function digitsTest() {
 const captionsOfAll = () => Object.fromEntries(charts.filter((chart) => !document.getElementById('chart-' + chart.id).hidden)
   .map((chart) => [chart.id, textOf(`#chart-${chart.id} .caption`)[0]]));
 
-// Titles of axes that leave their chart.
-function cutTest() {
-  return [...document.querySelectorAll('#charts .role-axis-title text')].filter((text) => {
-    const [own, chart] = [text, text.closest('svg')].map((one) => one.getBoundingClientRect());
-    return own.top < chart.top - 1 || own.bottom > chart.bottom + 1 || own.left < chart.left - 1 || own.right > chart.right + 1;
-  }).map((text) => text.textContent);
-}
-
 // Whether the map's axes are equal, x goes up and y to the left, before and after the wheel was
 // turned, the map dragged, and clicked twice.
 async function mapTest() {
@@ -126,7 +118,7 @@ async function answerTest() {
     best: document.querySelectorAll('#cells-table td.best').length, header: textOf('#cells-table th'),
     sweep: ['line', 'rule', 'symbol'].map((mark) => document.querySelectorAll(`#chart-sweep .mark-${mark}.role-mark > *`).length),
     ticks: [...document.querySelectorAll('#chart-sweep svg')].map((one) => seenLabels(one.querySelector('.role-axis'))),
-    first: textOf('#cells-table tbody tr:first-child td'), notes: textOf('.notes'), usual: scaleTypes(),
+    crossed: crossedLabels('sweep'), sweepScales: (chartViews.sweep || []).map((view) => view.scale('x').type), first: textOf('#cells-table tbody tr:first-child td'), notes: textOf('.notes'), usual: scaleTypes(),
     overflow: ['cells-table', 'summary-table'].filter((id) => {
       const box = document.getElementById(id);
       return box.scrollWidth > box.clientWidth;
