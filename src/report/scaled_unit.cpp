@@ -111,11 +111,13 @@ std::string quantity(double value, const std::optional<Interval>& interval,
 std::string quantity(double value, const std::optional<Interval>& interval,
                      const ScaledUnit& scale) {
   constexpr int kDigits = 3;
-  std::string text = format_number(value * scale.factor, kDigits);
-  if (!scale.text.empty()) text += " " + scale.text;
-  if (!interval) return text;
-  return text + " [" + format_number(interval->low * scale.factor, kDigits) + ", " +
-         format_number(interval->high * scale.factor, kDigits) + "]";
+  const std::string number = format_number(value * scale.factor, kDigits);
+  const std::string unit = scale.text.empty() ? "" : " " + scale.text;
+  if (!interval) return number + unit;
+  const std::string range = " [" + format_number(interval->low * scale.factor, kDigits) + ", " +
+                            format_number(interval->high * scale.factor, kDigits) + "]";
+  // A unit is understood of the ends, a power of ten is not.
+  return scale.text.starts_with("×") ? "(" + number + range + ")" + unit : number + unit + range;
 }
 
 }  // namespace fathom

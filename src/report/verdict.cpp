@@ -23,8 +23,9 @@ std::string mean_text(const MetricSummary& summary, const std::string& unit) {
 // "+0.002 mm [-0.02, 0.03]": with its sign, as its interval may hold 0.
 std::string signed_text(const RankedEstimator& one, const ScaledUnit& scale) {
   const PairedDifference& difference = *one.difference;
-  const std::string text = quantity(difference.mean, difference.interval, scale);
-  return difference.mean > 0.0 ? "+" + text : text;
+  std::string text = quantity(difference.mean, difference.interval, scale);
+  if (difference.mean > 0.0) text.insert(text.starts_with("(") ? 1 : 0, "+");
+  return text;
 }
 
 std::string share_text(const RankedEstimator& one, const Ranking& ranking) {

@@ -24,6 +24,12 @@ TEST_F(Browser, NumbersAreRoundedAsInTables) {
   }
 }
 
+TEST_F(Browser, APowerOfTenIsSaidOfAnIntervalToo) {
+  const Json interval = self_test_of({})["interval"];
+  EXPECT_EQ(interval["text"], "(1.70 [-0.0487, 9.17]) × 10⁶");
+  EXPECT_EQ(interval["parts"], Json({"1.70 × 10⁶", "[-0.0487, 9.17] × 10⁶"}));
+}
+
 // In the first cell measurements do not fit each other.
 TEST_F(Browser, RingsNobodyByWhatDoesNotRank) {
   FixtureOptions options;

@@ -24,6 +24,7 @@ TEST(ScaledUnit, AValueReadsWithoutAnExponent) {
 TEST(ScaledUnit, AnIntervalHasTheUnitOfTheGreatest) {
   EXPECT_EQ(quantity(2.26e-6, Interval{-2.31e-5, 3.32e-5}, "m"), "0.00226 mm [-0.0231, 0.0332]");
   EXPECT_EQ(quantity(0.745, Interval{0.438, 1.0}, "m"), "0.745 m [0.438, 1.00]");
+  EXPECT_EQ(quantity(1.7e6, Interval{-4.87e4, 9.17e6}, ""), "(1.70 [-0.0487, 9.17]) × 10⁶");
 }
 
 }  // namespace

@@ -22,6 +22,10 @@ function digitsTest() {
   return numbers.map((value) => [value, digits(value)]);
 }
 
+// Of a number without a unit.
+const intervalTest = () => ({text: withInterval({mean: 1.7e6, low: -4.87e4, high: 9.17e6}, ''),
+  parts: valueParts('', null, {done: 2}, {value: {mean: 1.7e6, low: -4.87e4, high: 9.17e6, n: 2}}).map((one) => one.textContent)});
+
 const captionsOfAll = () => Object.fromEntries(charts.filter((chart) => !document.getElementById('chart-' + chart.id).hidden)
   .map((chart) => [chart.id, textOf(`#chart-${chart.id} .caption`)[0]]));
 
@@ -184,7 +188,7 @@ async function mosaicTest() {
 
 async function selfTest() {
   await drawn();
-  const result = {marks: marksOfAll(), absolute: absoluteTest(), estimators: {}, cells: [], tables: {}, digits: digitsTest(), captions: captionsOfAll(), cut: cutTest()};
+  const result = {marks: marksOfAll(), absolute: absoluteTest(), estimators: {}, cells: [], tables: {}, digits: digitsTest(), interval: intervalTest(), captions: captionsOfAll(), cut: cutTest()};
   for (const box of document.querySelectorAll('#switches input')) {
     const style = styleOf(box.dataset.estimator);
     if (!style) continue;

@@ -46,13 +46,14 @@ function swatch(name) {
   return mark;
 }
 
-// A mean in the unit that it shares, or with its own, and below it its interval and its n where that
-// is not all.
-function valueParts(metric, shared, one, value = one.metrics[metric]) {
+// A mean in the unit that it shares, or with its own, which is said where it is not the header's, and
+// below it its interval and its n where that is not all.
+function valueParts(metric, shared, one, {value = one.metrics[metric], header = shared} = {}) {
   const scale = shared || unitWithInterval(value, metric);
-  const parts = [element('span', {textContent: followedBy(numberIn(value.mean, scale), shared ? '' : scale.text)})];
+  const said = !header ? scale.text : header.text === scale.text ? '' : scale.text || '× 1';
+  const parts = [element('span', {textContent: followedBy(numberIn(value.mean, scale), said)})];
   if (value.low !== undefined) {
-    parts.push(element('span', {className: 'interval', textContent: `[${numberIn(value.low, scale)}, ${numberIn(value.high, scale)}]`}));
+    parts.push(element('span', {className: 'interval', textContent: followedBy(rangeOf(value, scale), isPower(said) ? said : '')}));
   }
   if (value.n < one.done) parts.push(element('span', {className: 'interval', textContent: `n = ${value.n}`}));
   return parts;
@@ -66,10 +67,7 @@ function drawSummary() {
   // Dead reckoning may be of another size.
   const cellOf = (one, metric, scale) => {
     if (!one.metrics[metric]) return '–';
-    const own = scale && one.name === kBaseline ? scaleOf(metric, true) : scale;
-    const parts = valueParts(metric, own, one);
-    if (own && own.text !== scale.text) parts[0].textContent += ` ${own.text || '× 1'}`;
-    return parts;
+    return valueParts(metric, scale && one.name === kBaseline ? scaleOf(metric, true) : scale, one, {header: scale});
   };
   const rows = metrics.map((metric) => {
     const scale = scaleOf(metric, false);

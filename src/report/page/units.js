@@ -61,9 +61,14 @@ function sharedUnit(unit, values, typical = greatestOf(values)) {
 
 const unitWithInterval = (one, metric) => readingUnit(unitOf(metric), greatestOf([one.mean, one.low, one.high]));
 
-// "17.4 mm [16.1, 18.4]" of a mean of a metric.
+// A unit is understood of the ends of an interval, a power of ten is not.
+const isPower = (text) => text.startsWith('×');
+const rangeOf = (one, scale) => `[${numberIn(one.low, scale)}, ${numberIn(one.high, scale)}]`;
+
+// "17.4 mm [16.1, 18.4]" of a mean of a metric, or "(1.70 [0.48, 9.17]) × 10⁶".
 function withInterval(one, metric) {
   const scale = unitWithInterval(one, metric);
-  const interval = one.low === undefined ? '' : ` [${numberIn(one.low, scale)}, ${numberIn(one.high, scale)}]`;
-  return followedBy(numberIn(one.mean, scale), scale.text) + interval;
+  const mean = numberIn(one.mean, scale);
+  if (one.low === undefined) return followedBy(mean, scale.text);
+  return isPower(scale.text) ? `(${mean} ${rangeOf(one, scale)}) ${scale.text}` : `${followedBy(mean, scale.text)} ${rangeOf(one, scale)}`;
 }

@@ -38,7 +38,7 @@ function standingCell(cell, name, scale) {
   const one = cell.estimators.find((other) => other.name === name);
   const metric = one && one.metrics[state.metric];
   const failed = one ? one.runs - one.done : 0;
-  const parts = metric ? valueParts(state.metric, scale, one, rankedOf(metric)) : ['–'];
+  const parts = metric ? valueParts(state.metric, scale, one, {value: rankedOf(metric)}) : ['–'];
   const standing = standingOf(cell.rankings[state.metric], name);
   if (standing === 'best') parts.unshift(element('span', {className: 'mark', title: 'the best', textContent: '★ '}));
   if (standing === 'equivalent') parts.unshift(element('span', {className: 'mark', title: 'equivalent to the best', textContent: '≈ '}));
