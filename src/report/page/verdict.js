@@ -42,7 +42,7 @@ function standingCell(cell, name, scale) {
   const standing = standingOf(cell.rankings[state.metric], name);
   if (standing === 'best') parts.unshift(element('span', {className: 'mark', title: 'the best', textContent: '★ '}));
   if (standing === 'equivalent') parts.unshift(element('span', {className: 'mark', title: 'equivalent to the best', textContent: '≈ '}));
-  if (standing === 'worse') parts.unshift(element('span', {className: 'mark', title: 'worse than the best', textContent: '− '}));
+  if (standing === 'worse') parts.unshift(element('span', {className: 'mark', title: 'worse than the best', textContent: '▽ '}));
   if (failed > 0) parts.push(element('span', {className: 'interval failed', textContent: `${failed} failed`}));
   return {parts, standing};
 }
@@ -70,7 +70,7 @@ function drawTable() {
     ? `${sentence(metricTitle(state.metric))} in every cell` : sentence(metricTitle(state.metric));
   const ranked = study.cells.some((cell) => cell.rankings[state.metric]);
   const {better} = study.metrics[state.metric] || {};
-  const marks = ranked ? `★ best mean${several ? ' of the row' : ''} (${better} is better), ≈ equivalent to it, − worse; the others are not shown to differ. ` +
+  const marks = ranked ? `★ best mean${several ? ' of the row' : ''} (${better} is better), ≈ equivalent to it, ▽ worse; the others are not shown to differ. ` +
     'An estimator that failed a run, or has no value where others have one, is not ranked.'
     : `This metric is not ranked${better === 'neither' ? ': no value of it is the better one' : unranked(state.metric) && `: ${unranked(state.metric)}`}.`;
   document.getElementById('cells-caption').textContent =
