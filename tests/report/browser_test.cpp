@@ -55,32 +55,6 @@ TEST_F(Browser, DrawsEveryCellAndTable) {
   EXPECT_EQ(result["theme"], "dark");
 }
 
-// A table takes the width; in a narrow box it scrolls, says so, and keeps the names of its rows.
-TEST_F(Browser, TablesTakeTheWidthAndSayThatTheyScroll) {
-  FixtureOptions one_cell;
-  one_cell.separations.clear();
-  one_cell.noises.clear();
-  for (const FixtureOptions& options : {FixtureOptions{}, one_cell}) {
-    const Json boxes = self_test_of({options})["boxes"];
-    ASSERT_EQ(boxes.size(), 2u);
-    for (const Json& box : boxes) {
-      EXPECT_NEAR(box["share"], 1.0, 0.01);
-      EXPECT_EQ(box["wide"]["hint"], "none");
-      EXPECT_EQ(box["wide"]["tabIndex"], -1);
-      EXPECT_THAT(box["narrow"]["hint"].dump(), ::testing::HasSubstr("scroll sideways"));
-      EXPECT_EQ(box["narrow"]["tabIndex"], 0);
-      EXPECT_EQ(box["narrow"]["scrolled"], 60);
-      EXPECT_NEAR(box["narrow"]["name"], 0.0, 0.5);
-    }
-  }
-}
-
-TEST_F(Browser, TheSwitchesOfATelephoneAreOneLine) {
-  const Json result = self_test_of({.width = 500});
-  EXPECT_LT(result["bar"], 70);  // with a bar to scroll by
-  EXPECT_LE(result["beyond"], 0);
-}
-
 TEST_F(Browser, AnswersFirstAndMarksTheBestOfEveryRow) {
   FixtureOptions options;
   options.size = 0.01;

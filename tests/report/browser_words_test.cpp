@@ -1,4 +1,4 @@
-// What the page in a real browser says and writes: numbers, captions, titles.
+// What the page in a real browser says and writes: numbers, captions, titles, tables.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -73,6 +73,35 @@ TEST_F(Browser, NoPlaceOfASweepIsWithoutItsLabel) {
     const auto& labels = options.noises.empty() ? options.separations : options.noises;
     for (const Json& plot : ticks) EXPECT_EQ(plot, Json(labels));
   }
+}
+
+// A table takes the width; in a narrow box it scrolls, says so, and keeps the names of its rows.
+TEST_F(Browser, TablesTakeTheWidthAndSayThatTheyScroll) {
+  FixtureOptions one_cell;
+  one_cell.separations.clear();
+  one_cell.noises.clear();
+  for (const FixtureOptions& options : {FixtureOptions{}, one_cell}) {
+    const Json boxes = self_test_of({options})["boxes"];
+    ASSERT_EQ(boxes.size(), 2u);
+    for (const Json& box : boxes) {
+      EXPECT_NEAR(box["share"], 1.0, 0.01);
+      EXPECT_EQ(box["wide"]["hint"], "none");
+      EXPECT_EQ(box["wide"]["tabIndex"], -1);
+      EXPECT_THAT(box["narrow"]["hint"].dump(), HasSubstr("scroll sideways"));
+      EXPECT_EQ(box["narrow"]["tabIndex"], 0);
+      EXPECT_GT(box["narrow"]["scrolled"], 0);
+      EXPECT_EQ(box["narrow"]["cut"], 0);
+      EXPECT_NEAR(box["narrow"]["name"], 0.0, 0.5);
+    }
+  }
+}
+
+TEST_F(Browser, OnATelephoneTheSwitchesAreAllSeenAndScrollAway) {
+  const Json result = self_test_of({.width = 500});
+  EXPECT_LE(result["bar"]["cut"], 0);
+  EXPECT_EQ(result["bar"]["position"], "static");
+  EXPECT_LE(result["beyond"], 0);
+  EXPECT_EQ(self_test_of({})["bar"]["position"], "sticky");
 }
 
 }  // namespace

@@ -149,12 +149,16 @@ function tableTest(id) {
   const hint = () => getComputedStyle(box, '::before').content;
   const wide = {hint: hint(), tabIndex: box.tabIndex};
   box.style.width = '260px';
-  markSideways(box);
-  box.scrollLeft = 60;
+  markScrolling(box);
+  box.scrollLeft = box.clientWidth;
   const name = box.querySelector('tbody td').getBoundingClientRect().left - box.getBoundingClientRect().left;
-  const narrow = {hint: hint(), tabIndex: box.tabIndex, scrolled: box.scrollLeft, name};
+  const cut = [...box.querySelectorAll('tbody tr:first-child td:not(:first-child)')].filter((cell) => {
+    const [own, outer] = [cell, box].map((one) => one.getBoundingClientRect());
+    return own.left < outer.right - 1 && own.right > outer.right + 1;
+  }).length;
+  const narrow = {hint: hint(), tabIndex: box.tabIndex, scrolled: box.scrollLeft, name, cut};
   box.style.width = '';
-  markSideways(box);
+  markScrolling(box);
   return {share, wide, narrow};
 }
 
@@ -217,7 +221,8 @@ async function selfTest() {
     result.cells.push(marksOfAll());
   }
   result.answer = await answerTest();
-  result.bar = document.getElementById('controls').offsetHeight;
+  const bar = document.getElementById('controls');
+  result.bar = {cut: bar.scrollWidth - bar.clientWidth, position: getComputedStyle(bar).position};
   result.beyond = document.documentElement.scrollWidth - window.innerWidth;
   result.turns = await turnsTest();
   result.mosaics = await mosaicTest();

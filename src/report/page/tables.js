@@ -15,21 +15,36 @@ function tableOf(header, rows) {
 function fillBox(id, table) {
   const box = document.getElementById(id);
   box.replaceChildren(table);
-  markSideways(box);
+  markScrolling(box);
 }
 
-function markSideways(box) {
+function markScrolling(box) {
+  for (const name of ['--first', '--column']) box.style.removeProperty(name);
   const isSideways = box.scrollWidth > box.clientWidth;
   box.classList.toggle('sideways', isSideways);
+  if (isSideways && box.classList.contains('alike')) showWholeColumns(box);
   if (isSideways) box.tabIndex = 0;
   else box.removeAttribute('tabindex');
 }
 
+// As many columns beside the names of rows as fit have all the room, so that none is cut.
+function showWholeColumns(box) {
+  const [first, ...others] = [...box.querySelector('tr').cells].map((cell) => cell.offsetWidth);
+  const room = box.clientWidth - first;
+  const widest = Math.max(1, ...others);
+  const column = Math.max(widest, Math.floor(room / Math.max(1, Math.floor(room / widest))));
+  for (const [name, width] of [['--first', first], ['--column', column]]) box.style.setProperty(name, `${width}px`);
+}
+
 // A box is also measured when it is unfolded or the window changes.
 function watchBoxes() {
-  const observer = new ResizeObserver((entries) => entries.forEach((entry) => markSideways(entry.target)));
+  // In the next frame: what is marked changes the size of the box.
+  const observer = new ResizeObserver((entries) => requestAnimationFrame(() => entries.forEach((entry) => markScrolling(entry.target))));
   for (const box of document.querySelectorAll('.scroll')) observer.observe(box);
 }
+
+// A zero-width space behind each underscore.
+const breakable = (name) => name.replaceAll('_', '_\u200b');
 
 // The line by which charts draw an estimator.
 function swatch(name) {
@@ -59,8 +74,12 @@ function valueParts(metric, shared, one, {value = one.metrics[metric], header = 
   return parts;
 }
 
+// Of a narrow window the first columns are seen.
+const baselineLast = (estimators) => [...estimators.filter((one) => one.name !== kBaseline), ...estimators.filter((one) => one.name === kBaseline)];
+
 function drawSummary() {
   const cell = cellNow();
+  const estimators = baselineLast(cell.estimators);
   const metrics = study.study_metrics.filter((name) => cell.estimators.some((one) => one.metrics[name]));
   const scaleOf = (metric, isBaseline) => sharedUnit(unitOf(metric), cell.estimators
     .filter((one) => one.metrics[metric] && (one.name === kBaseline) === isBaseline).map((one) => one.metrics[metric].mean));
@@ -71,11 +90,11 @@ function drawSummary() {
   };
   const rows = metrics.map((metric) => {
     const scale = scaleOf(metric, false);
-    return [titled(metricTitle(metric), scale ? scale.text : ''), ...cell.estimators.map((one) => cellOf(one, metric, scale))];
+    return [titled(metricTitle(metric), scale ? scale.text : ''), ...estimators.map((one) => cellOf(one, metric, scale))];
   });
-  const outcomes = cell.estimators.map((one) => (one.name === kBaseline ? '–' : one.outcome_text));
-  const made = tableOf(['', ...cell.estimators.map((one) => [swatch(one.name), labelOf(one.name)])], [['outcome', ...outcomes], ...rows]);
-  cell.estimators.forEach((one, i) => {
+  const outcomes = estimators.map((one) => (one.name === kBaseline ? '–' : one.outcome_text));
+  const made = tableOf(['', ...estimators.map((one) => [swatch(one.name), breakable(labelOf(one.name))])], [['outcome', ...outcomes], ...rows]);
+  estimators.forEach((one, i) => {
     made.tBodies[0].rows[0].cells[i + 1].className = 'wrapped' + (one.done < one.runs ? ' failed' : '');
   });
   document.getElementById('summary-title').textContent = study.cells.length > 1 ? `All metrics of ${cell.label}` : 'All metrics';
@@ -97,8 +116,9 @@ function drawPaired() {
     'mean with its 95 % interval, Wilcoxon’s signed-rank test, and its p-value adjusted after Holm over the tests of this table.' +
     (cellNow().limits ? ` ${cellNow().limits}` : '');
   const rows = tests.map((one) => [
-    [swatch(one.estimator), labelOf(one.estimator)], metricTitle(one.metric), `${one.n} ${one.over}`, withInterval(one, one.metric), digits(one.p), digits(one.holm_p)]);
-  const made = tableOf(['estimator', 'metric', 'pairs', 'mean difference', 'p', 'p (Holm)'], rows);
+    [swatch(one.estimator), breakable(labelOf(one.estimator))], metricTitle(one.metric),
+    valueParts(one.metric, null, {done: one.n}, {value: one}), digits(one.p), digits(one.holm_p), `${one.n} ${one.over}`]);
+  const made = tableOf(['estimator', 'metric', 'mean difference', 'p', 'p (Holm)', 'pairs'], rows);
   for (const row of made.rows) row.cells[1].className = 'text';
   fillBox('paired-table', made);
 }

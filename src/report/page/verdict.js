@@ -47,11 +47,8 @@ function standingCell(cell, name, scale) {
   return {parts, standing};
 }
 
-// A zero-width space behind each underscore.
-const breakable = (name) => name.replaceAll('_', '_\u200b');
-
 function drawTable() {
-  const names = study.estimators.map((one) => one.name)
+  const names = baselineLast(study.estimators).map((one) => one.name)
     .filter((name) => study.cells.some((cell) => cell.estimators.some((one) => one.name === name && one.metrics[state.metric])));
   const units = columnUnits(names);
   const several = study.cells.length > 1;
