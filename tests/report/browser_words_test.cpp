@@ -92,6 +92,8 @@ TEST_F(Browser, TablesTakeTheWidthAndSayThatTheyScroll) {
       EXPECT_GT(box["narrow"]["scrolled"], 0);
       EXPECT_EQ(box["narrow"]["cut"], 0);
       EXPECT_NEAR(box["narrow"]["name"], 0.0, 0.5);
+      EXPECT_THAT(box["low"]["hint"].dump(), HasSubstr("scroll down"));
+      EXPECT_EQ(box["low"]["tabIndex"], 0);
     }
   }
 }

@@ -157,9 +157,12 @@ function tableTest(id) {
     return own.left < outer.right - 1 && own.right > outer.right + 1;
   }).length;
   const narrow = {hint: hint(), tabIndex: box.tabIndex, scrolled: box.scrollLeft, name, cut};
-  box.style.width = '';
+  Object.assign(box.style, {width: '', height: '60px', overflowY: 'auto'});
   markScrolling(box);
-  return {share, wide, narrow};
+  const low = {hint: getComputedStyle(box, '::after').content, tabIndex: box.tabIndex};
+  Object.assign(box.style, {height: '', overflowY: ''});
+  markScrolling(box);
+  return {share, wide, narrow, low};
 }
 
 // The mosaics shown: of each choice the width of the picture once it is loaded, what is drawn over

@@ -11,7 +11,7 @@ function tableOf(header, rows) {
     element('tbody', {}, rows.map((row) => element('tr', {}, row.map(cellOf('td')))))]);
 }
 
-// A table into its box, which the keyboard reaches and which says so where it scrolls sideways.
+// A table into its box, which the keyboard reaches and which says so where it scrolls.
 function fillBox(id, table) {
   const box = document.getElementById(id);
   box.replaceChildren(table);
@@ -23,7 +23,9 @@ function markScrolling(box) {
   const isSideways = box.scrollWidth > box.clientWidth;
   box.classList.toggle('sideways', isSideways);
   if (isSideways && box.classList.contains('alike')) showWholeColumns(box);
-  if (isSideways) box.tabIndex = 0;
+  const isDownwards = box.scrollHeight > box.clientHeight;
+  box.classList.toggle('downwards', isDownwards);
+  if (isSideways || isDownwards) box.tabIndex = 0;
   else box.removeAttribute('tabindex');
 }
 
