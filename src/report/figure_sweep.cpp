@@ -1,8 +1,8 @@
 #include <algorithm>
-#include <fmt/format.h>
 #include <map>
 
 #include "fathom/configuration/axis_words.hpp"
+#include "fathom/core/text.hpp"
 #include "study_figures.hpp"
 #include "sweep_lines.hpp"
 
@@ -100,15 +100,34 @@ void draw_lines(Canvas& canvas, const std::vector<SweepLine>& lines,
   }
 }
 
-std::string conditions_of(const ChartInput& input, const Sweep& sweep) {
+// What all points have in common: the place on the other axes, and the conditions that are not
+// swept.
+std::string common_conditions(const ChartInput& input, const Sweep& sweep) {
+  const StudyDescription& study = input.results.study;
   const CellResults& first = input.results.cells[sweep.cells.front()];
-  std::string text = fmt::format("first of {} points: {}", sweep.cells.size(), cell_caption(first));
+  const auto places = study.places_of(first.cell);
+  std::vector<std::string> parts;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const StudyAxis& axis = study.axes[i];
+    if (i != sweep.axis && axis.labels.size() > 1) parts.push_back(text_of(axis, places[i]));
+  }
+  std::vector<std::string> conditions = caption_parts(first);
+  std::vector<const CellResults*> cells;
   std::size_t failures = 0;
   for (const std::size_t place : sweep.cells) {
-    for (const EstimatorResults& one : input.results.cells[place].estimators) {
-      failures += one.failures();
-    }
+    const CellResults& cell = *cells.emplace_back(&input.results.cells[place]);
+    std::erase_if(conditions, [own = caption_parts(cell)](const std::string& one) {
+      return std::ranges::find(own, one) == own.end();
+    });
+    for (const EstimatorResults& one : cell.estimators) failures += one.failures();
   }
+  if (std::ranges::find(conditions, first.repeats) == conditions.end()) {
+    conditions.push_back(repeats_of(cells));
+  }
+  parts.insert(parts.end(), conditions.begin(), conditions.end());
+  parts.push_back(std::string(sweep.is_numeric ? "band" : "bar") +
+                  ": mean ± 2 standard deviations over trials");
+  std::string text = joined(parts, ", ");
   if (failures > 0) text += "; " + std::to_string(failures) + " failed runs left out";
   return text;
 }
@@ -146,7 +165,7 @@ StudyFigure sweep_figure(const ChartInput& input, const Sweep& sweep, const std:
   const std::vector<double> charts =
       bounds.empty() ? std::vector{160.0} : std::vector{140.0, 120.0};
   const FigureLayout layout(charts, legend_of(lines, styles, !bounds.empty(), sweep.is_numeric),
-                            conditions_of(input, sweep));
+                            common_conditions(input, sweep));
   const ChartAxis x = sweep_axis(sweep, input.results.study.axes[sweep.axis]);
   const ChartAxis errors = axis_of(axis_title(metric), heights(lines, {&SweepLine::mean}),
                                    heights(lines, {&SweepLine::low, &SweepLine::high}));

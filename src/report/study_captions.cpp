@@ -66,14 +66,18 @@ std::string failures_text(const CellResults& cell) {
   return text;
 }
 
+std::vector<std::string> caption_parts(const CellResults& cell) {
+  std::vector<std::string> parts;
+  if (!cell.association.empty()) parts.push_back("association " + cell.association);
+  if (!cell.selected_by.empty()) parts.push_back("loops selected by " + cell.selected_by);
+  if (!cell.alignment.empty()) parts.push_back("alignment " + cell.alignment);
+  parts.push_back(cell.repeats);
+  if (!cell.jobs.empty()) parts.push_back("jobs " + counts_text(cell.jobs));
+  return parts;
+}
+
 std::string cell_caption(const CellResults& cell) {
-  std::string text = cell.label + ": ";
-  if (!cell.association.empty()) text += "association " + cell.association + ", ";
-  if (!cell.selected_by.empty()) text += "loops selected by " + cell.selected_by + ", ";
-  if (!cell.alignment.empty()) text += "alignment " + cell.alignment + ", ";
-  text += cell.repeats;
-  if (!cell.jobs.empty()) text += ", jobs " + counts_text(cell.jobs);
-  return text;
+  return cell.label + ": " + joined(caption_parts(cell), ", ");
 }
 
 TrialKey first_trial(const CellResults& cell) {

@@ -128,6 +128,9 @@ std::string counts_text(const std::set<int>& jobs);
 /// unknown is left out.
 std::string cell_caption(const CellResults& cell);
 
+/// Its parts without the label.
+std::vector<std::string> caption_parts(const CellResults& cell);
+
 /// The repeats that a study wants of a cell: "10 surveys × 10 trials", and where some are yet to
 /// run
 /// "(37 of 100)".

@@ -173,7 +173,7 @@ TEST(StudyFigures, SayTheAlignmentOfTheirCell) {
   EXPECT_EQ(found, 3u);
 }
 
-std::string legend_of(const FixtureOptions& options) {
+std::string texts_in(const std::string& name, const FixtureOptions& options) {
   const TemporaryFolder folder;
   write_fixture(folder / "study", options);
   const ResultStore store = ResultStore::open(folder / "study");
@@ -182,7 +182,7 @@ std::string legend_of(const FixtureOptions& options) {
   const auto examples = example_trials(store, results);
   std::string all;
   for (const StudyFigure& figure : study_figures({results, series, examples})) {
-    if (figure.name != "trajectories") continue;
+    if (figure.name != name) continue;
     const PageSize page{kFigureWidth, figure.height};
     const auto texts = texts_of(page, figure.draw);
     expect_tidy(texts, page);
@@ -194,12 +194,23 @@ std::string legend_of(const FixtureOptions& options) {
 // "iterated" is the first that left some out.
 TEST(StudyFigures, TheMapHasWhatWasMeasuredAndLeftOut) {
   FixtureOptions options = one_cell();
-  EXPECT_THAT(legend_of(options), ::testing::Not(HasSubstr("fix")));
+  EXPECT_THAT(texts_in("trajectories", options), ::testing::Not(HasSubstr("fix")));
   options.absolute = true;
-  EXPECT_THAT(legend_of(options), HasSubstr("; fix; fix left out by iterated; measured heading; "
-                                            "heading left out by iterated; "));
+  EXPECT_THAT(texts_in("trajectories", options),
+              HasSubstr("; fix; fix left out by iterated; measured heading; "
+                        "heading left out by iterated; "));
   options.absolute_is_old = true;
-  EXPECT_THAT(legend_of(options), ::testing::Not(HasSubstr("fix")));
+  EXPECT_THAT(texts_in("trajectories", options), ::testing::Not(HasSubstr("fix")));
+}
+
+TEST(StudyFigures, TheCaptionOfASweepIsOfAllPoints) {
+  FixtureOptions options;
+  options.alignments = {"origin", "se2"};
+  options.noises.clear();
+  const std::string words = texts_in("error_by_separation_aligned_by_se2", options);
+  EXPECT_THAT(words, HasSubstr("alignment se2"));
+  EXPECT_THAT(words, ::testing::Not(HasSubstr("5:")));
+  EXPECT_THAT(words, HasSubstr("band: mean"));
 }
 
 bool has_front(const ChartInput& input) {
