@@ -216,6 +216,8 @@ TEST_F(Browser, ShowsTheMosaicsWithTheirEstimatesAndWhereTheyDiffer) {
   EXPECT_THAT(mosaics["estimate"][1]["caption"].dump(), ::testing::HasSubstr("breaks at a seam"));
   ASSERT_EQ(mosaics["difference"].size(), 2u);
   EXPECT_THAT(mosaics["difference"][0]["caption"].dump(),
+              ::testing::HasSubstr("iterated in warm tones"));
+  EXPECT_THAT(mosaics["difference"][0]["caption"].dump(),
               ::testing::HasSubstr("4.8 % of the 42 m² that both show differ by more than 16"));
 }
 

@@ -73,7 +73,7 @@ function drawMosaicDifference() {
   const pair = mosaics.differences[mosaicChoice.pair];
   const share = 100 * pair.share_differs;
   const words = [
-    `${labelOf(pair.a)} in orange, ${labelOf(pair.b)} in blue, grey where both show the same, pale where one alone shows the floor; ` +
+    `${labelOf(pair.a)} in warm tones and ${labelOf(pair.b)} in cold ones, not the colours of their lines; grey where both show the same, pale where one alone shows the floor; ` +
     `${lengthText(pair.metres_per_pixel)} a pixel.`,
     pair.common_m2 > 0 ? `${share < 0.1 ? 'Under 0.1' : Number(share.toPrecision(2))} % of the ${Number(pair.common_m2.toPrecision(3))} m² that both show ` +
       `differ by more than ${pair.grey_levels} of 254 grey levels.` : 'They have no place in common.',
