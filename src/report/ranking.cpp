@@ -95,6 +95,17 @@ bool repeats_one_log(const Contenders& compared) {
   });
 }
 
+// Nobody is the best by rounding: of those that are as good the first of the study, whose
+// estimators lie one behind the other.
+void put_first_of_equals_first(std::vector<Contender>& order, const std::string& metric) {
+  const double most = least_difference(metric);
+  const auto end = std::ranges::find_if(order, [&, best = order.front().mean](const auto& one) {
+    return std::abs(one.mean - best) > most;
+  });
+  const auto first = std::ranges::min_element(order.begin(), end, {}, &Contender::one);
+  std::rotate(order.begin(), first, first + 1);
+}
+
 // Whether the log tells what registrations share, and one does not estimate it.
 bool has_other_cost(const EstimatorResults& one) {
   const auto found = one.consistency.find("estimates_shared_errors");
@@ -159,9 +170,10 @@ std::string no_ranking_text(const StudyResults& results, const std::string& metr
 
 std::optional<Ranking> ranking(const CellResults& cell, const std::string& metric,
                                const RankingOptions& options) {
-  const Contenders compared = contenders_of(cell, metric, options.names);
+  Contenders compared = contenders_of(cell, metric, options.names);
   const std::vector<Contender>& order = compared.order;
   if (order.empty()) return std::nullopt;
+  if (!described(metric).is_cost) put_first_of_equals_first(compared.order, metric);
   Ranking result;
   result.metric = metric;
   result.left_out = compared.left_out;

@@ -64,8 +64,8 @@ struct RankingOptions {
 /// Estimators that failed no run and have the metric in every trial that all have run and one has
 /// it in; of a cost over the trials in which all have it. Means are over these trials. Dead
 /// reckoning is none. Nothing where none is left, of a metric that does not say which of its values
-/// is better, and with a no_ranking_text. The best is the one with the best mean, of equal ones the
-/// first of the study.
+/// is better, and with a no_ranking_text. The best is the one with the best mean, of those that are
+/// nearer to it than `least_difference` the first of the study (of a cost of equal ones alone).
 ///
 /// Of k estimators that are exchangeable in every draw, one or more are called worse in at most 5 %
 /// of studies: the signed-rank test is exact then, and Holm's adjustment over all k (k − 1) / 2

@@ -20,9 +20,15 @@ std::string mean_text(const MetricSummary& summary, const std::string& unit) {
   return quantity(summary.moments.mean, summary.interval, unit);
 }
 
-// "+0.002 mm [-0.02, 0.03]": with its sign, as its interval may hold 0.
-std::string signed_text(const RankedEstimator& one, const ScaledUnit& scale) {
+// "+0.002 mm [-0.02, 0.03]": with its sign, as its interval may hold 0. What means nothing has no
+// digits.
+std::string signed_text(const RankedEstimator& one, const ScaledUnit& scale,
+                        const std::string& metric) {
   const PairedDifference& difference = *one.difference;
+  const double least = least_difference(metric);
+  if (difference.interval->low >= -least && difference.interval->high <= least) {
+    return "less than " + quantity(least, described(metric).unit);
+  }
   std::string text = quantity(difference.mean, difference.interval, scale);
   if (difference.mean > 0.0) text.insert(text.starts_with("(") ? 1 : 0, "+");
   return text;
@@ -55,12 +61,12 @@ void add_others(const Ranking& ranking, const std::string& unit,
   const std::string& best = ranking.best().name;
   if (const auto named = with_interval(ranking, Standing::equivalent); !named.empty()) {
     const DifferenceScales scales(named, unit);
-    sentences.push_back(
-        fmt::format("Equivalent to {}, within {}: {}.", best,
-                    quantity(ranking.margin, std::nullopt, reading_unit(unit, ranking.margin)),
-                    listed_with(named, [&](const RankedEstimator& one) {
-                      return fmt::format("{} ({})", one.name, signed_text(one, scales.of(one)));
-                    })));
+    sentences.push_back(fmt::format(
+        "Equivalent to {}, within {}: {}.", best,
+        quantity(ranking.margin, std::nullopt, reading_unit(unit, ranking.margin)),
+        listed_with(named, [&](const RankedEstimator& one) {
+          return fmt::format("{} ({})", one.name, signed_text(one, scales.of(one), ranking.metric));
+        })));
     sentences.push_back(rare_text(ranking.draws));
   }
   if (const auto named = with_interval(ranking, Standing::not_shown); !named.empty()) {
@@ -71,8 +77,8 @@ void add_others(const Ranking& ranking, const std::string& unit,
                     [&](const RankedEstimator& one) {
                       const std::string p =
                           ranking.gives_verdict() && one.p ? ", p " + format_number(*one.p, 2) : "";
-                      return fmt::format("{} ({}{})", one.name, signed_text(one, scales.of(one)),
-                                         p);
+                      return fmt::format("{} ({}{})", one.name,
+                                         signed_text(one, scales.of(one), ranking.metric), p);
                     }) +
         ".");
   }

@@ -75,6 +75,20 @@ TEST(Ranking, DifferencesBelowWhatTheUnitCanMeanAreNone) {
   }
 }
 
+// Nor does one of them make a best.
+TEST(Ranking, NobodyWinsByRounding) {
+  const CellResults cell = of_surveys({{"far", std::vector<double>(8, 0.1)},
+                                       {"a", std::vector<double>(8, 0.01 + 9e-7)},
+                                       {"b", std::vector<double>(8, 0.01)},
+                                       {"worse", std::vector<double>(8, 0.01 + 2e-6)}});
+  const auto ranked = ranking(cell, kError, {.margin = 0.0});
+  EXPECT_EQ(ranked->best().name, "a");
+  EXPECT_EQ(ranked->find("b")->standing, Standing::equivalent);
+  EXPECT_EQ(ranked->find("worse")->standing, Standing::worse);
+  const auto answer = study_verdict(study_of({cell}, 8, 1)).answer;
+  EXPECT_THAT(answer, ::testing::Contains(::testing::HasSubstr("b (less than 1.00 µm)")));
+}
+
 // Six surveys cannot tell three apart: with three pairs the least p is 3 · 2⁻⁵.
 TEST(Ranking, GivesNoVerdictWhereNoPCanBeSmall) {
   EXPECT_EQ(fewest_draws(2), 6u);
