@@ -53,8 +53,8 @@ inline bool is_misfit(std::optional<double> per_degree) {
 }
 
 /// Whether an estimate lies so far above the optimum of the measurements that no honest one would.
-/// F above it has an interval above the 97.5 % quantile of χ² of 3 degrees of freedom. No, where
-/// the measurements disagree.
+/// F above it has an interval or a median above the 97.5 % quantile of χ² of 3 degrees of freedom.
+/// No of a single trial, and where the measurements disagree.
 bool is_off_the_optimum(const std::map<std::string, MetricSummary>& figures);
 
 /// Whether the consistency of an estimator on a cell is other than expected; nothing where it is as

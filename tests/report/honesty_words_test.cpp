@@ -82,6 +82,21 @@ TEST(HonestyWords, AnEstimateThatIsNotAtTheOptimum) {
   EXPECT_THAT(words_of_figures(figures, kDraws)[1], HasSubstr("share errors"));
 }
 
+// Of gaps of many sizes the interval of the mean goes below zero.
+TEST(HonestyWords, AMedianAboveTheThresholdIsOffTheOptimumToo) {
+  const auto is_off = [](double median) {
+    Figures figures{{"chi2_gap", figure(1.7e6, 7e6)}};
+    figures["chi2_gap"].moments.median = median;
+    return is_off_the_optimum(figures);
+  };
+  EXPECT_TRUE(is_off(9.4));
+  EXPECT_FALSE(is_off(9.3));  // a few runs alone
+  Figures single{{"chi2_gap", figure(1.7e6, 0.0)}};
+  single["chi2_gap"].interval.reset();
+  single["chi2_gap"].moments.median = 1.7e6;
+  EXPECT_FALSE(is_off_the_optimum(single));
+}
+
 // What considers shared errors minimises no F, and is above each without any linearisation.
 TEST(HonestyWords, GainsThatConsiderSharedErrorsAreNamed) {
   Figures figures = honest(4.0);
