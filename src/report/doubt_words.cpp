@@ -98,7 +98,7 @@ std::string words(const Correlation& found) {
          (found.is_told ? "; shared_errors: states estimates them, of those that have it." : ".");
 }
 std::string general(const Correlation&) {
-  return "registrations of one picture share errors";
+  return "registrations of one picture share errors that are not estimated";
 }
 
 std::string words(const OffTheOptimum& found) {
@@ -165,6 +165,22 @@ std::string words(const SeveralMachines& found) {
 
 std::string words_of(const Doubt& doubt) {
   return std::visit([](const auto& found) { return doubt::words(found); }, doubt);
+}
+
+std::vector<std::string> estimators_of(const Doubt& doubt) {
+  const auto named = [](const std::vector<doubt::Figure>& figures) {
+    std::vector<std::string> names;
+    for (const doubt::Figure& figure : figures) names.push_back(figure.estimator);
+    return names;
+  };
+  return std::visit(
+      [&named](const auto& found) -> std::vector<std::string> {
+        if constexpr (requires { found.estimators; }) return found.estimators;
+        if constexpr (requires { found.anees; }) return named(found.anees);
+        if constexpr (requires { found.gaps; }) return named(found.gaps);
+        return {};
+      },
+      doubt);
 }
 
 std::string words_in_general(const Doubt& doubt) {

@@ -106,4 +106,7 @@ std::string words_of(const Doubt& doubt);
 /// Of several cells, without figures: a sentence, or what may follow "in 2 of 3 cells".
 std::string words_in_general(const Doubt& doubt);
 
+/// The estimators that it is about; empty where it is about all of a cell.
+std::vector<std::string> estimators_of(const Doubt& doubt);
+
 }  // namespace fathom

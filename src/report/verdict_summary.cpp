@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <map>
 #include <optional>
+#include <set>
 
 #include "fathom/core/text.hpp"
 #include "fathom/report/table.hpp"
@@ -45,28 +46,50 @@ void add_cost(const StudyResults& results, StudyVerdict& verdict) {
                                            of_cells(unsure, results.cells.size())));
 }
 
+// In how many cells a doubt is raised, and of whom.
+struct DoubtCount {
+  std::size_t cells = 0;
+  std::map<std::string, std::size_t> estimators;
+};
+
+// ": ekf in 4 and smoother in 2", or ": ekf and smoother" where both are in all of them.
+std::string named_in(const DoubtCount& count) {
+  const bool is_in_all = std::ranges::all_of(
+      count.estimators, [&](const auto& one) { return one.second == count.cells; });
+  std::vector<std::string> names;
+  for (const auto& [name, cells] : count.estimators) {
+    names.push_back(is_in_all ? name : fmt::format("{} in {}", name, cells));
+  }
+  return names.empty() ? "" : ": " + listed(names);
+}
+
 void add_doubts(StudyVerdict& verdict) {
   std::vector<std::string> order;
-  std::map<std::string, std::size_t> cells;
+  std::map<std::string, DoubtCount> counts;
   for (const CellVerdict& cell : verdict.cells) {
-    std::vector<std::string> own;
+    std::map<std::string, std::set<std::string>> own;
     for (const Doubt& doubt : cell.doubts) {
       const std::string text = words_in_general(doubt);
-      if (std::ranges::find(own, text) == own.end()) own.push_back(text);
+      if (!counts.contains(text)) order.push_back(text);
+      counts[text];
+      const std::vector<std::string> names = estimators_of(doubt);
+      own[text].insert(names.begin(), names.end());
     }
-    for (const std::string& text : own) {
-      if (++cells[text] == 1) order.push_back(text);
+    for (const auto& [text, names] : own) {
+      ++counts[text].cells;
+      for (const std::string& name : names) ++counts[text].estimators[name];
     }
   }
   for (std::string text : order) {
-    const std::size_t count = cells[text];
-    if (text.ends_with('.') && count == verdict.cells.size()) {
+    const DoubtCount& count = counts.at(text);
+    if (text.ends_with('.') && count.cells == verdict.cells.size()) {
       verdict.doubts.push_back(text);
       continue;
     }
     if (text.ends_with('.')) text.pop_back();
     const char* between = std::isupper(static_cast<unsigned char>(text.front())) ? ": " : " ";
-    verdict.doubts.push_back("In " + of_cells(count, verdict.cells.size()) + between + text + ".");
+    verdict.doubts.push_back("In " + of_cells(count.cells, verdict.cells.size()) + between + text +
+                             named_in(count) + ".");
   }
 }
 

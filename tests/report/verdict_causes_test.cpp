@@ -43,6 +43,19 @@ TEST(VerdictCauses, OneThatAllShareIsGivenOnce) {
                           "or loops are false."));
 }
 
+// Each by its own number of cells, where that is not all of those.
+TEST(VerdictCauses, OfSeveralCellsEstimatorsAreNamed) {
+  const auto doubts_of_two = [](const EstimatorResults& of_second) {
+    const CellResults first = surveyed({overconfident("a", HonestyCause::misfit, 2.0), of_second});
+    const CellResults second = surveyed({eight("a", kBest), of_second});
+    return study_verdict(study_of({first, second}, 8, 1)).doubts;
+  };
+  EXPECT_THAT(doubts_of_two(overconfident("b", HonestyCause::misfit, 2.0)),
+              ElementsAre("In all 2 cells estimators are overconfident: a in 1 and b in 2."));
+  EXPECT_THAT(doubts_of_two(eight("b", kBest)),
+              ElementsAre("In 1 of 2 cells estimators are overconfident: a."));
+}
+
 TEST(VerdictCauses, MeasurementsThatDoNotFitEachOtherAreADoubt) {
   EstimatorResults one = eight("best", kBest);
   one.consistency["registrations"].moments.mean = 100.0;

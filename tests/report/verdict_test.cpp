@@ -219,7 +219,7 @@ TEST(Verdict, SeveralCellsAreSummedUp) {
   EXPECT_THAT(verdict.failed,
               ElementsAre("other closed no loop in 1 of 16 runs, in 1 of 2 cells."));
   EXPECT_THAT(verdict.doubts,
-              ElementsAre("In 1 of 2 cells means hold runs without loop closures."));
+              ElementsAre("In 1 of 2 cells means hold runs without loop closures: other."));
   EXPECT_THAT(verdict_text(verdict), AllOf(StartsWith("Verdict\nBy mean position error"),
                                            HasSubstr("\nDoubt: In 1 of 2 cells means")));
 }
